@@ -44,7 +44,7 @@ extern "C" {
 
 typedef enum gg_status {
   GG_OK = 0,
-  GG_FAILED = 1,       /* the run failed or fell short of what was asked; out of memory */
+  GG_FAILED = 1,       /* the run failed or did not reach its stopping criteria; out of memory */
   GG_BAD_INPUT = 2,    /* the scene or an argument is wrong */
   GG_BAD_FILE = 3,     /* a file could not be read or written */
   GG_INTERRUPTED = 130 /* stopped by the caller */

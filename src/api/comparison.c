@@ -79,9 +79,9 @@ gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_er
   gg_engine_kind kind;
   GG_TRY(gg_api_engine_find(result->engine, &kind, err));
   if (comparison->document)
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_take: a comparison from a file is what it was");
+    return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_take: a comparison read from a file cannot be changed");
   if (!same_scene(&comparison->scene, result->scene))
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_take: the result is of another scene than the comparison");
+    return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_take: the result belongs to another scene than the comparison");
   gg_result_free(comparison->by_engine[kind]);
   comparison->by_engine[kind] = result;
   return GG_OK;
@@ -208,9 +208,9 @@ gg_status gg_comparison_theory_cooling(const gg_comparison *comparison, const ch
   GG_TRY(find_theory(comparison, theory, &i, err));
   const double rate = comparison->theory[i].answer.value[GG_Q_COOLING_RATE];
   if (!gg_flow_cools(m->flow) || m->rule != GG_SMOOTH || m->n_species > 1 || m->law.name)
-    return gg_base_fail(err, GG_BAD_INPUT, "Haff's law is of equal smooth grains that cool freely, with a constant e");
+    return gg_base_fail(err, GG_BAD_INPUT, "Haff's law holds for equal smooth grains that cool freely with a constant e");
   if (!comparison->theory[i].applies || !isfinite(rate))
-    return gg_base_fail(err, GG_BAD_INPUT, "%s says no rate of cooling here", theory);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s gives no cooling rate for this scene", theory);
   if (!(time >= 0)) return gg_base_fail(err, GG_BAD_INPUT, "%s: the time %g is before the start", theory, time);
   const double T0 = m->temperature0;
   *temperature = gg_theory_haff_temperature(T0, rate * gg_common_model_nu0(m, T0), time);
@@ -249,7 +249,7 @@ gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_rem
   gg_theory_remark theories[GG_MOST_THEORIES];
   const size_t causes = (size_t)gg_run_disagreement_causes(comparison, cause, MOST_CAUSES);
   const size_t n = causes + (size_t)gg_run_theory_remarks(comparison, theories);
-  if (i >= n) return gg_base_fail(err, GG_BAD_INPUT, "there are %zu remarks on this comparison", n);
+  if (i >= n) return gg_base_fail(err, GG_BAD_INPUT, "this comparison has %zu remarks", n);
   if (i < causes) {
     *remark = (gg_remark){.deviation = NAN, .cause = cause[i]};
   } else {

@@ -23,7 +23,7 @@ static gg_status check_name(const char *what, const char *name, gg_error *err)
   bool good = is_letter(*name) && strlen(name) <= MOST_LETTERS;
   for (const char *c = name; *c; c++) good &= is_letter(*c) || (*c >= '0' && *c <= '9') || *c == '_';
   if (good) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT, "%s: '%.60s' is no name: a letter, then letters, digits and _, at most %d",
+  return gg_base_fail(err, GG_BAD_INPUT, "%s: '%.60s' is not a valid name: use a letter, then letters, digits and _, at most %d",
                       what, name, MOST_LETTERS);
 }
 
@@ -84,7 +84,7 @@ static bool is_word_of_measure(const char *name)
 
 static gg_status check_observable(const gg_extension *x, const gg_observable_definition *o, gg_error *err)
 {
-  if (!o) return gg_base_fail(err, GG_BAD_INPUT, "observable: there is no definition");
+  if (!o) return gg_base_fail(err, GG_BAD_INPUT, "observable: the definition is missing");
   GG_TRY(check_name("observable", o->name, err));
   GG_TRY(check_text(o->name, o->doc, MOST_TEXT, err));
   bool taken = is_word_of_measure(o->name);
@@ -93,9 +93,9 @@ static gg_status check_observable(const gg_extension *x, const gg_observable_def
   if (taken) return gg_base_fail(err, GG_BAD_INPUT, "observable: the name '%s' is taken", o->name);
   if (!o->sample) return gg_base_fail(err, GG_BAD_INPUT, "%s: the callback `sample` is missing", o->name);
   if (!o->quantities || o->n_quantities < 1)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: an observable has at least one quantity", o->name);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: an observable needs at least one quantity", o->name);
   if (o->n_quantities > GG_MOST_OWN_QUANTITIES - gg_common_extension_quantities(x))
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a scene has at most %d quantities of its own", o->name,
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: a scene can have at most %d user-defined quantities", o->name,
                         GG_MOST_OWN_QUANTITIES);
   if (o->state_size > 1u << 24) return gg_base_fail(err, GG_BAD_INPUT, "%s: state_size is above 16 MiB", o->name);
   for (int k = 0; k < o->n_quantities; k++) GG_TRY(check_quantity(x, o, k, err));
@@ -119,7 +119,7 @@ gg_status gg_scene_add_observable(gg_scene *scene, const gg_observable_definitio
 
 static gg_status check_theory(const gg_extension *x, const gg_theory_definition *t, gg_error *err)
 {
-  if (!t) return gg_base_fail(err, GG_BAD_INPUT, "theory: there is no definition");
+  if (!t) return gg_base_fail(err, GG_BAD_INPUT, "theory: the definition is missing");
   GG_TRY(check_name("theory", t->name, err));
   const char *const texts[] = {t->title, t->citation, t->assumptions};
   for (int k = 0; k < 3; k++) GG_TRY(check_text(t->name, texts[k], MOST_TEXT, err));
@@ -128,11 +128,11 @@ static gg_status check_theory(const gg_extension *x, const gg_theory_definition 
     taken |= strcmp(gg_common_extension_theory(x, k)->name, t->name) == 0;
   if (taken) return gg_base_fail(err, GG_BAD_INPUT, "theory: the name '%s' is taken", t->name);
   if (gg_common_extension_theories(x) == GG_MOST_OWN_THEORIES)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a scene has at most %d theories of its own", t->name,
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: a scene can have at most %d user-defined theories", t->name,
                         GG_MOST_OWN_THEORIES);
   if (!t->evaluate) return gg_base_fail(err, GG_BAD_INPUT, "%s: the callback `evaluate` is missing", t->name);
   if (!t->quantities || t->n_quantities < 1 || t->n_quantities > GG_MOST_QUANTITIES)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a theory answers for at least one quantity", t->name);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: a theory needs at least one quantity", t->name);
   for (int k = 0; k < t->n_quantities; k++) {
     const char *q = t->quantities[k];
     if (!q || !(is_shared(q) || is_user_defined(x, q)))
@@ -151,7 +151,7 @@ gg_status gg_scene_add_theory(gg_scene *scene, const gg_theory_definition *t, gg
 gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitution *e, void *context, gg_error *err)
 {
   const gg_restitution_law law = {.name = e ? name : "", .e = e, .context = context};
-  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "restitution law: there is no scene");
+  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "restitution law: the scene is missing");
   if (e) {
     GG_TRY(check_name("restitution law", name, err));
     GG_TRY(gg_common_law_check(&law, scene->n_species, err));
@@ -162,7 +162,7 @@ gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitu
 gg_status gg_scene_set_restitution_table(gg_scene *scene, const char *name, size_t n, const double *speed,
                                          const double *e, gg_error *err)
 {
-  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "restitution law: there is no scene");
+  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "restitution law: the scene is missing");
   GG_TRY(check_name("restitution law", name, err));
   if (n < 1 || n > 1u << 20 || !speed || !e)
     return gg_base_fail(err, GG_BAD_INPUT, "restitution law '%s': a table has 1 to %u speeds, and as many e", name,

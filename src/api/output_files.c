@@ -91,7 +91,7 @@ static gg_status check_ending(const char *output, gg_error *err)
     if (strcasecmp(ending, pictures[i]) == 0)
       return gg_base_fail(
           err, GG_BAD_INPUT,
-          "%s: is called like a picture, and a result is HDF5: choose FILE.h5 for the output; pictures are "
+          "%s: has the name of a picture, and results are HDF5: choose FILE.h5 for the output; pictures are "
           "drawn by `compare --picture` and `graingas plot`",
           output);
   return GG_OK;
@@ -106,7 +106,7 @@ gg_status gg_api_picture_check(const gg_run_call *r, gg_error *err)
   gg_output_path place;
   GG_TRY(gg_plot_paper_choose(&paper, o->picture, NULL, o->picture_width, err));
   if (!o->output)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from an output file: name one", o->picture);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from an output file: set --output FILE.h5", o->picture);
   GG_TRY(gg_base_output_path_find(&place, o->output, err));
   bool stream = place.stream;
   gg_base_output_path_clear(&place);
@@ -127,7 +127,7 @@ gg_status gg_api_files_check(const gg_run_call *r, gg_error *err)
                       {o->checkpoint, "the checkpoint", "checkpoint"},
                       {second, "the checkpoint before", "checkpoint"},
                       {frames, "the frames beside the checkpoint", "checkpoint"},
-                      {o->resume, "the checkpoint that is gone on from", NULL},
+                      {o->resume, "the checkpoint to resume from", NULL},
                       {third, "the checkpoint before it", NULL},
                       {o->input, "the scene", NULL},
                       {NULL, NULL, NULL}};

@@ -66,7 +66,7 @@ static gg_status write_parts(const char *path, const char *page, const char *sce
 {
   const char *at = strstr(page, marker), *rest = at ? at + strlen(marker) : NULL;
   gg_atomic_file file = GG_ATOMIC_NONE;
-  if (!at) return gg_base_fail(err, GG_BAD_FILE, "%s: is not a page that takes a scene; build it anew", GG_PAGE_BUILT);
+  if (!at) return gg_base_fail(err, GG_BAD_FILE, "%s: is an outdated page: build it again", GG_PAGE_BUILT);
   GG_TRY(gg_base_atomic_open(&file, path, err));
   gg_status status = gg_base_atomic_write(&file, page, (size_t)(at - page), err);
   if (status == GG_OK) status = gg_base_atomic_write(&file, scene, strlen(scene), err);

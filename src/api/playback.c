@@ -96,7 +96,7 @@ static gg_status tell(const gg_trajectory *t, const gg_frame *f, const double ed
   for (int a = 0; a < 3; a++) {
     state->box[a] = edges[4 * a];
     if (!(state->box[a] > 0 && state->box[a] < INFINITY && fabs(edges[3]) <= edges[0]))
-      return gg_base_fail(err, GG_BAD_FILE, "%s: the box of a frame of its trajectory is none", t->stored.path);
+      return gg_base_fail(err, GG_BAD_FILE, "%s: a frame of its trajectory has an invalid box", t->stored.path);
   }
   state->image_offset = edges[3] < 0 ? edges[3] + edges[0] : edges[3];
   return GG_OK;
@@ -137,6 +137,6 @@ gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int species
                                     gg_error *err)
 {
   GG_NEED(trajectory, state);
-  if (!trajectory->last.model) return gg_base_fail(err, GG_BAD_INPUT, "no frame of the trajectory was read yet");
+  if (!trajectory->last.model) return gg_base_fail(err, GG_BAD_INPUT, "read a frame of the trajectory first");
   return gg_api_moments_species(&trajectory->last, species, 1, state, err);
 }

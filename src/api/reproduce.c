@@ -143,7 +143,7 @@ static gg_status reproduce_all(const gg_reproduce_options *options, gg_error *er
     failed += status == GG_FAILED;
     if (status != GG_OK && status != GG_FAILED) return gg_base_fail(err, status, "%s", why.message);
   }
-  return failed ? gg_base_fail(err, GG_FAILED, "%d figures fell short of what was asked", failed) : GG_OK;
+  return failed ? gg_base_fail(err, GG_FAILED, "%d figures did not reach the accuracy asked for", failed) : GG_OK;
 }
 
 gg_status gg_reproduce(const char *figure, const gg_reproduce_options *options, gg_error *err)

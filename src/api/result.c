@@ -165,7 +165,7 @@ gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg
   const gg_curve *c = curve_at(result, i, err);
   if (!c) return GG_BAD_INPUT;
   if (k >= (size_t)c->n_numbers)
-    return gg_base_fail(err, GG_BAD_INPUT, "%d numbers were read off the curve %s", c->n_numbers, c->name);
+    return gg_base_fail(err, GG_BAD_INPUT, "%d numbers were derived from the curve %s", c->n_numbers, c->name);
   const gg_curve_number *p = &c->number[k];
   *number = (gg_measurement){.name = p->name,
                              .mean = p->value,
@@ -173,7 +173,7 @@ gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg
                              .correlation_time = NAN,
                              .samples = c->samples,
                              .unit = p->unit,
-                             .reason = isnan(p->value) ? "it cannot be read off this curve" : NULL,
+                             .reason = isnan(p->value) ? "it cannot be derived from this curve" : NULL,
                              .correlation_time_unit = result->correlation_time_unit};
   return GG_OK;
 }
@@ -184,7 +184,7 @@ gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_er
   const gg_frame *f = &result->final;
   if (!f->velocity) return gg_base_fail(err, GG_BAD_INPUT, "this result holds no grains");
   if (into->position && !f->position)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s keeps no positions: its grains stand for one point of the flow",
+    return gg_base_fail(err, GG_BAD_INPUT, "%s is spatially homogeneous: it has no positions",
                         result->engine);
   for (size_t i = 0; i < f->n; i++) {
     size_t place = f->id ? (size_t)f->id[i] : i;
@@ -259,7 +259,7 @@ gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
   const char *slash = strrchr(prefix, '/'), *name = slash ? slash + 1 : prefix;
   if (!*name) return gg_base_fail(err, GG_BAD_INPUT, "'%s': the files need a prefix to their names", prefix);
   if (!(parts & GG_EXPORT_ALL) || parts & ~(unsigned)GG_EXPORT_ALL)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: %u is no set of parts to export; allowed: sums of GG_EXPORT_...",
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: %u is not a set of parts to export; allowed: sums of GG_EXPORT_...",
                         result_file, parts);
   gg_stored_result stored;
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));

@@ -51,7 +51,7 @@ static gg_status read_resume(gg_run_call *r, gg_error *err)
   gg_status status = gg_files_checkpoint_read(path, r->options.accept_version, &r->resume, &older, err);
   r->resume_lost = status != GG_OK;
   if (status != GG_OK) return status;
-  snprintf(text, sizeof text, "%s cannot be read; going on from the one before, %s.1", path, path);
+  snprintf(text, sizeof text, "%s cannot be read; resuming from the earlier one, %s.1", path, path);
   if (older && r->options.warn) r->options.warn(r->options.context, text);
   return GG_OK;
 }

@@ -91,7 +91,7 @@ static gg_status open_earlier(gg_run_call *r, gg_frame_log *earlier, gg_error *e
   return gg_base_fail(
       err, status,
       "%s. It belongs to the checkpoint, with the %llu frames of the trajectory before it; without it the "
-      "run can go on with output.trajectory_every: 0",
+      "run can be resumed with output.trajectory_every: 0",
       why.message, (unsigned long long)mark.frames);
 }
 
@@ -210,7 +210,7 @@ static gg_status move_to_result(void *context, const gg_frame *frame, gg_error *
 gg_status gg_api_trajectory_finish(gg_run_call *r, gg_result *result, gg_error *err)
 {
   if (r->frames_missing)
-    gg_run_result_warn(result, "the trajectory begins where the run was resumed: it was not asked for before");
+    gg_run_result_warn(result, "the trajectory begins where the run was resumed: the run before kept none");
   return r->log.fd >= 0 ? gg_files_frame_log_replay(&r->log, move_to_result, r, err) : GG_OK;
 }
 

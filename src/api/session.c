@@ -76,7 +76,7 @@ gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_
   GG_NEED(session);
   gg_session *s = session;
   if (!(seconds > 0))
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_session_advance: cannot go on for %g seconds", seconds);
+    return gg_base_fail(err, GG_BAD_INPUT, "gg_session_advance: cannot advance for %g seconds", seconds);
   if (!s->over) {
     s->until = gg_base_clock_wall() + seconds;
     int stopped = GG_STOP_REQUESTED;

@@ -100,7 +100,7 @@ static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most,
   if (status != GG_OK) return status;
   if (happened >= pile)
     return gg_base_fail(err, GG_FAILED,
-                        "%s: collisions accumulate without end (inelastic collapse) near time %g; give "
+                        "%s: inelastic collapse near time %g: collisions accumulate without end; give "
                         "md.contact_time a larger value",
                         s->engine->ops->name, s->clock.time);
   return rescale_if_cold(s, gg_api_simulation_temperature(s), err);

@@ -36,7 +36,7 @@ static gg_status stored_scene(const gg_archive *a, const char *path, gg_scene *s
   const gg_item *yaml = gg_base_archive_find(a, "simulation/scene");
   if (!yaml)
     return gg_base_fail(err, GG_BAD_INPUT,
-                        "%s: is not a saved simulation (a run goes on from a checkpoint: "
+                        "%s: is not a saved simulation (a run resumes from a checkpoint: "
                         "gg_run_options.resume)",
                         path);
   *scene = gg_scene_defaults();
@@ -77,7 +77,7 @@ gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_simulat
   bool older = false;
   gg_status status = gg_files_checkpoint_read(path, false, &archive, &older, err);
   if (status == GG_OK && older)
-    status = gg_base_fail(err, GG_BAD_FILE, "%s: is damaged or missing; the one before it is whole: %s.1", path, path);
+    status = gg_base_fail(err, GG_BAD_FILE, "%s: is damaged or missing; the earlier one is intact: %s.1", path, path);
   if (status == GG_OK) status = load(&archive, path, scene, simulation, err);
   gg_base_archive_clear(&archive);
   return status;

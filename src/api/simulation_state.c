@@ -79,7 +79,7 @@ gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_gra
   GG_NEED(simulation, into);
   const gg_model *model = &simulation->model;
   if (into->position && model->homogeneous)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s keeps no positions: its grains stand for one point of the flow",
+    return gg_base_fail(err, GG_BAD_INPUT, "%s is spatially homogeneous: it has no positions",
                         simulation->engine->ops->name);
   copying c = {.into = into, .velocity_unit = gg_api_simulation_unit(simulation)};
   for (int i = 0; i < GG_MAX_SPECIES; i++)

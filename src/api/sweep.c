@@ -68,7 +68,7 @@ gg_status gg_sweep_parse(const char *yaml, const char *name, gg_sweep **sweep, g
 static gg_status check_open(const gg_sweep *sweep, gg_error *err)
 {
   return sweep->n
-             ? gg_base_fail(err, GG_BAD_INPUT, "%s: the sweep was checked, and does not change any more", sweep->name)
+             ? gg_base_fail(err, GG_BAD_INPUT, "%s: the sweep was checked already and cannot be changed", sweep->name)
              : GG_OK;
 }
 
@@ -77,7 +77,7 @@ gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_e
   GG_NEED(sweep, key, value);
   GG_TRY(check_open(sweep, err));
   if (gg_sweep_varies(sweep, key))
-    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied: every point has its own", key);
+    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied: each point sets its own value", key);
   GG_C_LOCALE;
   return strncmp(key, "sweep.", 6) == 0 ? gg_sweep_settings_set(&sweep->settings, key, value, err)
                                         : gg_scene_override(&sweep->base, key, value, err);
@@ -122,7 +122,7 @@ const char *gg_sweep_does(const gg_sweep *sweep)
 static gg_status check_point(const gg_sweep *sweep, size_t i, gg_error *err)
 {
   if (!sweep->n)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: the sweep was not checked yet: gg_sweep_check", sweep->name);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: call gg_sweep_check first", sweep->name);
   if (i >= sweep->n)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1,
                         sweep->n);

@@ -341,7 +341,7 @@ static gg_status sum_up(const sweep_run *all, gg_error *err)
     return gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted; go on with the same command", all->folder);
   if (!failed && !fell_short) return GG_OK;
   return gg_base_fail(err, GG_FAILED,
-                      "%s: of %zu points %zu failed, and %zu ended short of what was asked (*.short.h5)", all->folder,
+                      "%s: of %zu points %zu failed, and %zu did not reach the accuracy asked for (*.short.h5)", all->folder,
                       all->n + all->done_before, failed, fell_short);
 }
 
@@ -418,7 +418,7 @@ static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t e
   if (all.options.threads < 1) all.options.threads = 1;
   if (sweep->settings.does == GG_DOES_THEORY) all.options.workers = NULL; /* who share replicas */
   if (!all.options.command) all.options.command = "the graingas library";
-  GG_TRY(gg_sweep_folder_prepare(folder, "results of a sweep are a folder with a file a point", err));
+  GG_TRY(gg_sweep_folder_prepare(folder, "the results of a sweep are a folder with a file for each point", err));
   gg_sweep_folder_tidy(folder);
   pthread_mutex_init(&all.lock, NULL);
   gg_base_condition_init(&all.changed);

@@ -49,7 +49,7 @@ gg_status gg_base_archive_get(const gg_archive *a, const char *name, gg_item_typ
   const gg_item *item = gg_base_archive_find(a, name);
   if (!item)
     return gg_base_fail(err, GG_BAD_FILE,
-                        "the checkpoint lacks '%s': another version wrote it, or it is of another kind", name);
+                        "the checkpoint lacks '%s': another version wrote it, or it belongs to another kind of run", name);
   if (item->type != type)
     return gg_base_fail(err, GG_BAD_FILE, "the checkpoint's '%s' holds numbers of another type than is needed", name);
   if (item->count != count)

@@ -35,7 +35,7 @@ static gg_status in_use(int fd, const char *path, gg_error *err)
   char who[160] = "";
   ssize_t length = pread(fd, who, sizeof who - 1, 0);
   who[length > 0 ? strcspn(who, "\n") : 0] = '\0';
-  return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written: another run is writing it (%s)", path,
+  return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written: another process is writing it (%s)", path,
                       *who ? who : "it has just begun");
 }
 
@@ -223,7 +223,7 @@ gg_status gg_base_atomic_write(gg_atomic_file *f, const void *data, size_t size,
   const char *from = data;
   while (size > 0) {
     if (f->place.stream && !wait_for_reader(f))
-      return gg_base_path_write_error(f->path, "its reader takes nothing, and the run was told to stop", err);
+      return gg_base_path_write_error(f->path, "its reader stalled, and the run was interrupted", err);
     ssize_t done = f->place.stream ? write_calmly(f->fd, from, size) : write(f->fd, from, size);
     if (done < 0 && (errno == EINTR || (errno == EAGAIN && f->place.stream))) continue;
     if (done < 0) return cannot(f, errno, err);

@@ -92,7 +92,7 @@ static gg_status check_file(const gg_output_path *place, const char *path, gg_er
   if (fd < 0) return gg_base_path_write_error(path, strerror(errno), err);
   close(fd);
   if (is_pinned(place->target, &place->about))
-    return gg_base_path_write_error(path, "it is another user's, in a folder where only they may replace it", err);
+    return gg_base_path_write_error(path, "it belongs to another user, and only they may replace it", err);
   return GG_OK;
 }
 

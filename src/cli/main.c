@@ -30,7 +30,7 @@ static void print_help(void)
   }
   printf("\n");
   gg_cli_print_wrapped(stdout, "",
-                       "graingas COMMAND --help tells more. Begin with: graingas compare examples/usf.yaml");
+                       "See graingas COMMAND --help. Begin with: graingas compare examples/usf.yaml");
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -51,9 +51,9 @@ static int unknown(const char *word)
   for (int i = 0; gg_cli_commands[i].name && i < 13; i++) known[i + 2] = gg_cli_commands[i].name;
   const char *nearest = gg_nearest_word(word, known);
   if (ends_with(word, ".yaml") || ends_with(word, ".yml"))
-    return gg_cli_fail(GG_BAD_INPUT, "'%s' is no command; for this scene, e.g. graingas compare %s", word, word);
+    return gg_cli_fail(GG_BAD_INPUT, "'%s' is not a command; for this scene, e.g. graingas compare %s", word, word);
   if (ends_with(word, ".h5"))
-    return gg_cli_fail(GG_BAD_INPUT, "'%s' is no command; for this result, e.g. graingas info %s", word, word);
+    return gg_cli_fail(GG_BAD_INPUT, "'%s' is not a command; for this result, e.g. graingas info %s", word, word);
   for (int i = 0; i < 2; i++)
     if (has_value(word, known[i])) return gg_cli_fail(GG_BAD_INPUT, "option '%s' takes no value", known[i]);
   for (const gg_option *o = gg_cli_options_table; o->flag; o++)

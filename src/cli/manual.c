@@ -99,13 +99,13 @@ static void print_files(void)
        "scene (YAML), document (the JSON of --json), seed, version, command, machine, date, verdict, warnings, window, "
        "averaging and total effort."},
       {"RESULT.csv, RESULT_numbers.csv, RESULT_OBSERVABLE_CURVE.csv, RESULT.xyz", NULL,
-       "What export writes: quantities, numbers read off the curves, curves, grains as extended XYZ."},
+       "What export writes: quantities, numbers derived from the curves, curves, grains as extended XYZ."},
       {"RESULT.checkpoint.h5", NULL,
        "The latest checkpoint; RESULT.checkpoint.h5.1 is the one before it, and is taken where the first is missing or "
        "damaged. All are removed when a run is done and its result in place."},
       {"RESULT.checkpoint.frames", NULL,
        "The trajectory up to the checkpoint, which goes into RESULT.h5 at the end. It belongs to the checkpoint: move "
-       "both. Where it is lost, the run can go on without a trajectory, with --set output.trajectory_every=0."},
+       "both. Where it is lost, the run can be resumed without a trajectory, with --set output.trajectory_every=0."},
       {"RESULT.h5.graingas-lock, RESULT.h5.graingas-tmp", NULL,
        "Who is writing the file, and the file that is to become it. What a dead process left of them is in nobody's "
        "way, "
@@ -162,8 +162,8 @@ void gg_cli_print_manual(void)
   print_files();
   printf(".SH EXIT STATUS\n");
   item("0", NULL, "Done.");
-  item("1", NULL, "The run failed or fell short of what was asked.");
-  item("2", NULL, "The command line or the scene is wrong.");
+  item("1", NULL, "The run failed or did not reach its stopping criteria.");
+  item("2", NULL, "The command line or the scene is invalid.");
   item("3", NULL, "A file could not be read or written.");
   item("130", NULL, "Interrupted; with a checkpoint if one was asked for.");
   printf(".SH EXAMPLES\n.EX\ngraingas compare examples/usf.yaml\n"

@@ -42,7 +42,7 @@ const gg_option gg_cli_options_table[] = {
     {GG_OPT_RESUME, "accept-version", NULL, "resume a checkpoint of another build, whose numbers may differ"},
     {GG_OPT_ALL, "all", NULL, "show every quantity, not only the main ones"},
     {GG_OPT_JSON, "json", NULL, "results as one JSON document on standard output, and nothing else there"},
-    {GG_OPT_QUICK, "quick", NULL, "shorter: fewer sizes, fewer repeats"},
+    {GG_OPT_QUICK, "quick", NULL, "fewer sizes and fewer repeats"},
     {GG_OPT_QUIET, "quiet", NULL, "no progress"},
     {0},
 };
@@ -239,10 +239,10 @@ static int check_words(const gg_command *c, const gg_options *o)
   if (o->surplus)
     return gg_cli_fail(GG_BAD_INPUT, "%s takes one %s; '%s' is one too many", c->name, c->arguments, o->surplus);
   if (o->output && strcmp(o->output, "-") == 0)
-    return gg_cli_fail(GG_BAD_INPUT, "option '--output': '-' is no file to write%s",
+    return gg_cli_fail(GG_BAD_INPUT, "option '--output': '-' is not a file to write%s",
                        c->options & GG_OPT_JSON ? "; --json prints to standard output" : "");
   if (o->input && !*o->input)
-    return gg_cli_fail(GG_BAD_INPUT, "%s: the name given is empty; see graingas %s --help", c->name, c->name);
+    return gg_cli_fail(GG_BAD_INPUT, "%s: the file name is empty; see graingas %s --help", c->name, c->name);
   if (o->input || c->arguments[0] == '[') return GG_CLI_GO_ON;
   return gg_cli_fail(GG_BAD_INPUT, "%s needs %s; see graingas %s --help", c->name, c->arguments, c->name);
 }

@@ -184,7 +184,7 @@ static void print_causes(const gg_comparison *c, bool all)
   printf("\n");
   gg_cli_print_wrapped(
       stdout,
-      "!: ", "md differs from Enskog's equation by more than is expected here. Causes that apply to this scene:");
+      "!: ", "md deviates from Enskog's equation more than expected. Causes that apply to this scene:");
   for (size_t i = 0; gg_comparison_remark(c, i, &r, NULL) == GG_OK; i++)
     if (!r.theory) gg_cli_print_wrapped(stdout, "  - ", r.cause);
 }
@@ -199,7 +199,7 @@ static void print_remarks(const gg_comparison *c)
     if (!r.theory) continue;
     if (!any) printf("\n");
     if (!any)
-      gg_cli_print_wrapped(stdout, "", "Theories further off than is expected of solutions of one problem, and why:");
+      gg_cli_print_wrapped(stdout, "", "Theories that deviate more than expected, and why:");
     any = true;
     snprintf(text, sizeof text, "%s, %s %+.1f %%: %s", r.theory, r.quantity, 100 * r.deviation, r.cause);
     gg_cli_print_wrapped(stdout, "  - ", text);

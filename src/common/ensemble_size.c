@@ -63,6 +63,6 @@ void gg_common_ensemble_size_reason(const gg_scene *s, char *text, size_t size)
     snprintf(text, size, "chosen: means lie at most %.2g %% off (1/N), a quarter of the asked error %.3g %% or less",
              100 * bias, 100 * error);
   else
-    snprintf(text, size, "chosen: the most there are; means lie up to %.2g %% off (1/N), asked is an error of %.3g %%",
+    snprintf(text, size, "chosen: maximum size: means lie up to %.2g %% off (1/N), asked is an error of %.3g %%",
              100 * bias, 100 * error);
 }

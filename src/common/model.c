@@ -189,7 +189,7 @@ static gg_status check_unequal(const char *key, double least, double greatest, d
   double ratio = greatest / least;
   if (ratio <= most) return GG_OK;
   return gg_base_fail(err, GG_BAD_INPUT,
-                      "species: values of %s as unequal as 1 : %g are not allowed; allowed: up to 1 : %g", key, ratio,
+                      "species: values of %s in a ratio of 1 : %g are not allowed; allowed: up to 1 : %g", key, ratio,
                       most);
 }
 
@@ -197,7 +197,7 @@ static gg_status check_scales(const gg_scene *s, gg_error *err)
 {
   if (s->phi > 0 && s->phi < LEAST_PHI)
     return gg_base_fail(err, GG_BAD_INPUT,
-                        "phi: %g is too small a solid fraction; allowed: from %g to 0.6, or 0, the Boltzmann limit",
+                        "phi: %g is too small a solid fraction; allowed: from %g to 0.6, or 0 for the Boltzmann limit",
                         s->phi, LEAST_PHI);
   double mass[2] = {INFINITY, 0}, diameter[2] = {INFINITY, 0};
   for (int i = 0; i < s->n_species; i++) {

@@ -7,13 +7,13 @@
 /* X(FLAG, word, description). rheology stays first: it tells when a run is steady. */
 #define GG_OBSERVABLES(X)                                                                                              \
   X(RHEOLOGY, rheology, "temperatures, spin, stress, collision rate, free path, velocity moments")                     \
-  X(VELOCITY_DISTRIBUTIONS, velocity_distributions, "of the components of C and Omega, with their tails")              \
+  X(VELOCITY_DISTRIBUTIONS, velocity_distributions, "distributions of the components of C and Omega, with their tails")              \
   X(LOCAL_DISTRIBUTIONS, local_distributions, "distributions of C_x and Omega_z by the local density")                 \
   X(ORIENTATION, orientation, "angle between peculiar velocity and spin")                                              \
   X(SONINE, sonine, "deviation of speeds from a Maxwellian")                                                           \
   X(PAIR_CORRELATION, pair_correlation, "g(r) from contact outwards")                                                  \
-  X(VELOCITY_CORRELATIONS, velocity_correlations, "between grains, over their distance")                               \
-  X(LOCAL_VELOCITY_CORRELATIONS, local_velocity_correlations, "the same, of velocities about means of cells")          \
+  X(VELOCITY_CORRELATIONS, velocity_correlations, "velocity correlations of pairs over their distance")                               \
+  X(LOCAL_VELOCITY_CORRELATIONS, local_velocity_correlations, "velocity correlations of pairs, velocities relative to cell means")          \
   X(STRUCTURE, structure, "structure factor and velocity spectra")                                                     \
   X(CELLS, cells, "local density, shear rate, temperatures and spin")                                                  \
   X(PROFILES, profiles, "density, flow, temperatures and spin across the gap between walls")                           \

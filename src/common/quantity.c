@@ -186,7 +186,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
     const char *reason;
   } rules[] = {
       {GG_NEEDS_SPINS, smooth, "smooth grains do not spin"},
-      {GG_NEEDS_MEAN_SPIN, m->walled, "between walls it goes with the height; see profile_spin_z"},
+      {GG_NEEDS_MEAN_SPIN, m->walled, "between walls it depends on y; see profile_spin_z"},
       {GG_NEEDS_MEAN_SPIN, m->shear_rate == 0, "without shear there is no mean spin"},
       {GG_NEEDS_MEAN_SPIN, m->boltzmann,
        "in the Boltzmann limit the mean spin, a share of thermal ones, is infinite in units of the shear rate"},
@@ -198,7 +198,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
       {GG_NEEDS_LOSS, m->elastic, "collisions conserve energy"},
       {GG_NEEDS_BOX, m->homogeneous, "the Monte Carlo ensemble has no box"},
       {GG_NEEDS_COOLING, !cools && !heated, "only in cooling and heated flows"},
-      {GG_NEEDS_COOLING, heated && !smooth, "the loss of rough grains is not of one temperature"},
+      {GG_NEEDS_COOLING, heated && !smooth, "the energy loss of rough grains does not depend on one temperature alone"},
       {GG_NEEDS_NO_SHEAR, m->shear_rate != 0, "see the kurtosis in sheared flows"},
       {GG_NEEDS_ONE_SPECIES, m->n_species > 1, "see c_1 and c_2 for mixtures"},
       {GG_NEEDS_LINEAR_RESPONSE, !m->linear_response, "needs the linear response: flow: small_shear"},

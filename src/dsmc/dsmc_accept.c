@@ -14,7 +14,7 @@ gg_status gg_dsmc_accepts(const gg_model *m, gg_error *err)
     if (m->n_of[i] < (m->n_species == 1 ? 2 : 1))
       return gg_base_fail(err, GG_BAD_INPUT, "dsmc.particles: at least 2 are needed, for collisions");
 #ifdef GG_DOUBLE_ALONE
-  if (m->single) return gg_base_fail(err, GG_BAD_INPUT, "dsmc.precision: this build of graingas has double alone");
+  if (m->single) return gg_base_fail(err, GG_BAD_INPUT, "dsmc.precision: this build of graingas has double precision only");
 #endif
   if (m->n > UINT32_MAX / 2) return gg_base_fail(err, GG_BAD_INPUT, "dsmc.particles: at most %u", UINT32_MAX / 2);
   if (m->time_step == 0 || m->time_step > 10)

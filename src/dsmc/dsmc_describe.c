@@ -18,9 +18,9 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
   snprintf(text, sizeof text, "in %d segments, which threads share", segments);
   line(context, segments > 1 ? text : "not enough for threads to share");
   line(context, rules[m->rule]);
-  if (m->law.e) line(context, "a law of restitution: collisions one by one, the block kernels are left out");
+  if (m->law.e) line(context, "a restitution law: collisions one by one, without the block kernels");
   if (m->law.name && !m->law.e) line(context, "e follows from the speed of each collision, by a table");
-  line(context, m->boltzmann ? "Boltzmann limit: no contact value, no collisional stress, nothing of them computed"
+  line(context, m->boltzmann ? "Boltzmann limit: no contact value, no collisional stress, neither is computed"
                              : "Enskog: contact value and collisional stress");
   if (m->shear_rate == 0)
     line(context, "no shear: no streaming");

@@ -34,7 +34,7 @@ static gg_status check_temperature(const gg_dsmc *d, gg_error *err)
   const double largest = d->model.single ? 0x1p60 : 0x1p900; /* temperature whose squares are numbers, too */
   if (d->now.temperature > 1 / largest && d->now.temperature < largest) return GG_OK;
   return gg_base_fail(err, GG_FAILED,
-                      "the temperature has left the range of numbers (%g) after %.3g collisions a grain",
+                      "the temperature left the range of double precision (%g) after %.3g collisions per grain",
                       d->now.temperature, 2 * (double)d->now.collisions / (double)d->model.n);
 }
 

@@ -335,7 +335,7 @@ static json_t *row_json(const gg_comparison *c, const gg_quantity_row *named, js
   if (!isfinite(row.mean[GG_MD]) && !isfinite(row.mean[GG_DSMC])) return NULL;
   json_t *json = json_pack("{s:s, s:s, s:o, s:b}", "quantity", row.name, "unit", row.unit, "md_dsmc_z",
                            json_number(row.z), "beyond_expected", row.beyond);
-  if (!isfinite(row.z)) add_reason(warnings, "md_dsmc_z", row.name, "the mean or error of an engine is not known");
+  if (!isfinite(row.z)) add_reason(warnings, "md_dsmc_z", row.name, "the mean or error of an engine is unknown");
   for (int k = 0; k < 2; k++)
     if (isfinite(row.mean[k])) put_deviations(json, c, k, named, warnings);
   for (int k = 0; k < 2; k++) put_enskog_deviation(json, (gg_engine_kind)k, &row.departure[k]);
@@ -358,10 +358,10 @@ static void warn_deviations(const gg_comparison *c, json_t *warnings)
   const int n_causes = gg_run_disagreement_causes(c, cause, 8), n = gg_run_theory_remarks(c, r);
   for (int i = 0; i < n_causes; i++)
     json_array_append_new(warnings,
-                          json_sprintf("md differs from Enskog's equation beyond what is expected: %s", cause[i]));
+                          json_sprintf("md deviates from Enskog's equation more than expected: %s", cause[i]));
   for (int i = 0; i < n; i++)
     json_array_append_new(warnings,
-                          json_sprintf("%s is off by %+.1f %% in %s: %s", r[i].theory->name, 100 * r[i].deviation,
+                          json_sprintf("%s deviates by %+.1f %% in %s: %s", r[i].theory->name, 100 * r[i].deviation,
                                        gg_run_rows_at(&c->rows, r[i].quantity)->name, r[i].cause));
 }
 

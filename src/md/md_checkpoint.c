@@ -110,7 +110,7 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   gg_md_queue_reset(&e->queue, b.bucket_width);
   const unsigned before = gg_base_memory_failures();
   const char *wrong = gg_md_wrong_grains(e);
-  if (gg_base_memory_failures() != before) return gg_base_out_of_memory_for(err, "a look at the checkpoint of md");
+  if (gg_base_memory_failures() != before) return gg_base_out_of_memory_for(err, "reading the checkpoint of md");
   if (wrong) return refuse(wrong, err);
   if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
   e->queue.current = b.current_bucket;

@@ -19,11 +19,11 @@ static void tell_search(const gg_model *m, void (*line)(void *, const char *), v
   char text[160];
   const gg_md_search_kind kind = gg_md_search_select(m, &radius, n);
   const char *const why[] = {
-      [GG_MD_PLAIN_CELLS] = m->walled ? "as between walls" : "as neither dilute nor dense, or in a small box",
-      [GG_MD_NEIGHBOUR_LISTS] = "as dense: they are seldom updated",
-      [GG_MD_OVERLAPPING_CELLS] = "as dilute: few crossings, each into one cell",
-      [GG_MD_OVERLAPPING_ROWS] = "as dilute: few crossings, each into one cell",
-      [GG_MD_COMOVING_ROWS] = "as sheared: the flow carries nobody through them",
+      [GG_MD_PLAIN_CELLS] = m->walled ? "as between walls" : "for intermediate densities and small boxes",
+      [GG_MD_NEIGHBOUR_LISTS] = "for dense gases: few updates",
+      [GG_MD_OVERLAPPING_CELLS] = "for dilute gases: few crossings, each into one cell",
+      [GG_MD_OVERLAPPING_ROWS] = "for dilute gases: few crossings, each into one cell",
+      [GG_MD_COMOVING_ROWS] = "for shear: cells move with the flow",
   };
   const char *const what[] = {[GG_MD_PLAIN_CELLS] = "cells",
                               [GG_MD_NEIGHBOUR_LISTS] = "neighbour lists",

@@ -134,12 +134,12 @@ static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
   bool ended = !gg_md_check_numbers(e) || run_legs(e);
   if (e->out_of_memory) return gg_base_out_of_memory_for(err, "a cell of the grid");
   if (e->no_number)
-    return gg_base_fail(err, GG_FAILED, "md: what a grain does is no number any more, after %.3g collisions a grain",
+    return gg_base_fail(err, GG_FAILED, "md: a velocity or position became NaN or infinite after %.3g collisions per grain",
                         2 * (double)e->k.collisions / e->n);
   if (e->stands_still)
     return gg_base_fail(
         err, GG_FAILED,
-        "md: contacts with a wall accumulate without end near time %g: a grain comes to rest there; give "
+        "md: contacts with a wall accumulate without end near time %g, as a grain comes to rest there; give "
         "md.contact_time a value above 0",
         gg_md_time(e));
   bool whole = ended && e->k.collisions_left && e->k.stop < INFINITY;

@@ -31,7 +31,7 @@ typedef struct impact_speed {
 
 static const char *refuses(const gg_model *m)
 {
-  if (m->linear_response) return "its temperature goes up and down";
+  if (m->linear_response) return "its temperature rises and falls";
   return gg_measure_needs_homogeneity(m);
 }
 

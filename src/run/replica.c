@@ -177,7 +177,7 @@ static double temperature_now(const gg_replica *r)
 static gg_status check_numbers(const gg_replica *r, gg_error *err)
 {
   if (isfinite(r->clock.temperature)) return GG_OK;
-  return gg_base_fail(err, GG_FAILED, "%s: the temperature is no number any more near time %g", r->engine->ops->name,
+  return gg_base_fail(err, GG_FAILED, "%s: the temperature became NaN or infinite near time %g", r->engine->ops->name,
                       r->clock.time);
 }
 

@@ -211,7 +211,7 @@ gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const 
   gg_status status = open_tasks(all, threads, err);
   if (status == GG_OK) status = create_or_restore(all, resume, err);
   if (status == GG_INTERRUPTED && all->stopped == GG_OUT_OF_TIME)
-    status = gg_base_fail(err, GG_FAILED, "%s: the time limit struck before the start was done",
+    status = gg_base_fail(err, GG_FAILED, "%s: time limit reached before the start was done",
                           gg_run_engine_ops_of(scene->engine)->name);
   if (status != GG_OK) gg_run_replicas_clear(all);
   return status;

@@ -13,7 +13,7 @@
 /* Why a quantity is not there: the scene has none of it, or nothing that was asked for measures it. */
 static const char *why_missing(const gg_replicas *all, gg_quantity q)
 {
-  if (q >= GG_N_QUANTITIES && all->state.averaging) return "its observable returned something that is no number";
+  if (q >= GG_N_QUANTITIES && all->state.averaging) return "its observable returned NaN or infinite values";
   if (!all->state.averaging) return "nothing was averaged: the run ended in its warm-up";
   if (all->replica[0].n_observables == 0) return "nothing is measured in this scene";
   if (all->model.linear_response && (gg_common_quantity_mask(q) & GG_NEEDS_LINEAR_RESPONSE))
@@ -41,7 +41,7 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
     *e = (gg_estimate){.mean = NAN, .error = NAN, .correlation_time = NAN};
     if (!all->model.steady && !(gg_common_quantity_mask(q) & GG_KEPT_HEATING)) {
       snprintf(e->reason, sizeof e->reason,
-               all->model.linear_response ? "its temperature goes up and down"
+               all->model.linear_response ? "its temperature rises and falls"
                                           : "no steady state: the gas heats up; see the history");
       continue;
     }

@@ -42,10 +42,10 @@ static gg_status check_error(const gg_replicas *all, const char *engine, gg_erro
         err, GG_FAILED,
         "%s: %s after %.0f collisions a grain of averaging, too few to know whether the asked relative error %g is "
         "reached",
-        engine, out_of_time(all) ? "the time limit struck" : "run.collisions ended the run",
+        engine, out_of_time(all) ? "time limit reached" : "run.collisions ended the run",
         collisions_a_grain(all, true), criteria->relative_error);
   if (c->relative_error <= criteria->relative_error) return GG_OK;
-  const char *why = out_of_time(all) ? "the time limit struck; " : "";
+  const char *why = out_of_time(all) ? "time limit reached; " : "";
   if (isnan(c->relative_error))
     return gg_base_fail(err, GG_FAILED, "%s: %stoo short a run to know the error of %s", engine, why,
                         gg_common_quantity_name(c->worst));
@@ -59,7 +59,7 @@ static gg_status check_goal(const gg_replicas *all, const char *engine, gg_error
   const gg_stopping_criteria *criteria = &all->criteria;
   const bool by_error = criteria->relative_error > 0;
   if (!all->state.averaging || (!by_error && criteria->most && window_of(all) < criteria->most))
-    return gg_base_fail(err, GG_FAILED, "%s: the time limit struck after %.0f collisions a grain%s", engine,
+    return gg_base_fail(err, GG_FAILED, "%s: time limit reached after %.0f collisions a grain%s", engine,
                         collisions_a_grain(all, false),
                         all->state.averaging ? " and short of run.collisions" : ", in the warm-up");
   return by_error ? check_error(all, engine, err) : GG_OK;

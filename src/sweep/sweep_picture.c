@@ -180,11 +180,11 @@ static gg_status choose_key(drawing *d, const char *over, gg_error *err)
       const axis_key a = {f, k};
       bool meant = over ? strcmp(over, s->varied[f].key[k]) == 0 : s->varied[f].n > most && has_numbers(s, a);
       if (meant && over && !has_numbers(s, a))
-        return gg_base_fail(err, GG_BAD_INPUT, "'%.60s' has values that are no numbers, and cannot be an axis", over);
+        return gg_base_fail(err, GG_BAD_INPUT, "'%.60s' has values that are not numbers and cannot be an axis", over);
       if (meant) most = s->varied[f].n, d->over = a;
       if (meant && over) return GG_OK;
     }
-  if (over) return gg_base_fail(err, GG_BAD_INPUT, "'%.60s' is none of the keys that this sweep varies", over);
+  if (over) return gg_base_fail(err, GG_BAD_INPUT, "'%.60s' is not a key that this sweep varies", over);
   return most > 0
              ? GG_OK
              : gg_base_fail(err, GG_FAILED,

@@ -226,8 +226,8 @@ static void sweeps(void **state)
   assert_missing(gg_sweep_vary(s, NULL, "1", &err));
   assert_missing(gg_sweep_vary(s, "phi", NULL, &err));
   assert_missing(gg_sweep_check(NULL, &err));
-  assert_refused(gg_sweep_at(s, 0, &point, &err), "was not checked yet");
-  assert_refused(gg_sweep_to_json(s, "x", &text, &err), "was not checked yet");
+  assert_refused(gg_sweep_at(s, 0, &point, &err), "call gg_sweep_check first");
+  assert_refused(gg_sweep_to_json(s, "x", &text, &err), "call gg_sweep_check first");
   assert_ok(gg_sweep_check(s, &err));
   assert_missing(gg_sweep_at(NULL, 0, &point, &err));
   assert_missing(gg_sweep_at(s, 0, NULL, &err));
@@ -327,8 +327,8 @@ static void unknown_names(void **state)
   gg_result_free(r);
   assert_refused(gg_plot("same.svg", "same.svg", NULL, NULL, NULL, NULL, &err),
                  "would be both the result and its picture");
-  assert_refused(gg_export("x.h5", "x", 0, NULL, NULL, &err), "0 is no set of parts to export");
-  assert_refused(gg_export("x.h5", "x", ~0u, NULL, NULL, &err), "is no set of parts to export");
+  assert_refused(gg_export("x.h5", "x", 0, NULL, NULL, &err), "0 is not a set of parts to export");
+  assert_refused(gg_export("x.h5", "x", ~0u, NULL, NULL, &err), "is not a set of parts to export");
   assert_refused(gg_export("x.h5", "folder/", GG_EXPORT_ALL, NULL, NULL, &err), "need a prefix to their names");
   gg_scene_free(s);
 }

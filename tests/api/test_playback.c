@@ -33,7 +33,7 @@ static void frames_and_grains(void **state)
   gg_species_state kind[2];
   run_to(MIXTURE, "t_mixture.h5");
   assert_ok(gg_trajectory_open("t_mixture.h5", &t, &err));
-  assert_refused(gg_trajectory_get_species(t, 0, &kind[0], &err), "no frame of the trajectory was read yet");
+  assert_refused(gg_trajectory_get_species(t, 0, &kind[0], &err), "read a frame of the trajectory first");
   const size_t frames = gg_trajectory_frames(t);
   assert_true(frames >= 5 && frames < 20);
   for (size_t k = 0; k < frames; k++) {
@@ -179,7 +179,7 @@ static void cooling(void **state)
   assert_refused(gg_comparison_theory_cooling(c, "grade", 1, &T, &err), "there is no theory called 'grade' here");
   assert_refused(gg_comparison_theory_cooling(c, "haff1983", -1, &T, &err), "before the start");
   assert_refused(gg_comparison_theory_cooling(c, "goldhirsch_zanetti1993", 1, &T, &err),
-                 "says no rate of cooling here");
+                 "gives no cooling rate for this scene");
   assert_refused(gg_comparison_theory_cooling(NULL, "haff1983", 1, &T, &err), "is missing (NULL)");
   assert_refused(gg_comparison_theory_cooling(c, NULL, 1, &T, &err), "is missing (NULL)");
   assert_refused(gg_comparison_theory_cooling(c, "haff1983", 1, NULL, &err), "is missing (NULL)");
@@ -188,7 +188,7 @@ static void cooling(void **state)
                                 "{flow: hcs, phi: 0.1, collision: {law: viscoelastic}}"};
   for (int i = 0; i < 3; i++) {
     c = theories_of(others[i]);
-    assert_refused(gg_comparison_theory_cooling(c, "enskog", 1, &T, &err), "Haff's law is of equal smooth grains");
+    assert_refused(gg_comparison_theory_cooling(c, "enskog", 1, &T, &err), "Haff's law holds for equal smooth grains");
     gg_comparison_free(c);
   }
 }

@@ -318,7 +318,7 @@ static void starts(void **state)
   }
   assert_true(x[0] != x[1]);
   gg_grains into = {position, NULL, NULL, NULL};
-  assert_refused(gg_simulation_get_grains(m[0], &into, &err), "keeps no positions");
+  assert_refused(gg_simulation_get_grains(m[0], &into, &err), "it has no positions");
   assert_refused(gg_simulation_advance(m[0], -1, &err), "cannot advance by -1");
   assert_refused(gg_simulation_advance(m[0], NAN, &err), "cannot advance");
   for (int k = 0; k < 2; k++) gg_simulation_free(m[k]);

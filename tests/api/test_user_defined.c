@@ -82,7 +82,7 @@ static void read_back(void **state)
     assert_ok(gg_result_find(gg_comparison_result(c[k], "dsmc"), "my_T", &dsmc, &err));
     assert_true(dsmc.mean != md[k].mean);
     assert_ok(gg_result_find(r, "nothing", &none, &err));
-    assert_non_null(strstr(none.reason, "no number"));
+    assert_non_null(strstr(none.reason, "NaN or infinite"));
     assert_ok(gg_comparison_agreement(c[k], "my_T", &z[k], NULL, &err));
     assert_true(z[k] == z[0] && !isnan(z[0]));
     assert_ok(gg_comparison_theory_value(c[k], "mine", "my_T", &value, &deviation[k], &err));
@@ -330,17 +330,17 @@ static void observables_refused(void **state)
     const char *said;
   } bad[] = {{{NULL, NULL, 1, same, 0, sample_T, NULL, NULL}, "observable: a name is missing"},
              {{"", NULL, 1, same, 0, sample_T, NULL, NULL}, "observable: a name is missing"},
-             {{"1st", NULL, 1, same, 0, sample_T, NULL, NULL}, "'1st' is no name"},
-             {{"[x", NULL, 1, same, 0, sample_T, NULL, NULL}, "'[x' is no name"},
-             {{"a-b", NULL, 1, same, 0, sample_T, NULL, NULL}, "'a-b' is no name"},
-             {{"a:b", NULL, 1, same, 0, sample_T, NULL, NULL}, "'a:b' is no name"},
-             {{"a{b", NULL, 1, same, 0, sample_T, NULL, NULL}, "'a{b' is no name"},
+             {{"1st", NULL, 1, same, 0, sample_T, NULL, NULL}, "'1st' is not a valid name"},
+             {{"[x", NULL, 1, same, 0, sample_T, NULL, NULL}, "'[x' is not a valid name"},
+             {{"a-b", NULL, 1, same, 0, sample_T, NULL, NULL}, "'a-b' is not a valid name"},
+             {{"a:b", NULL, 1, same, 0, sample_T, NULL, NULL}, "'a:b' is not a valid name"},
+             {{"a{b", NULL, 1, same, 0, sample_T, NULL, NULL}, "'a{b' is not a valid name"},
              {{long_name, NULL, 1, same, 0, sample_T, NULL, NULL}, "at most 40"},
              {{"x", long_text, 1, same, 0, sample_T, NULL, NULL}, "at most 500 bytes"},
              {{"x", NULL, 1, same, 0, NULL, NULL, NULL}, "`sample` is missing"},
              {{"x", NULL, 0, same, 0, sample_T, NULL, NULL}, "at least one quantity"},
              {{"x", NULL, 1, NULL, 0, sample_T, NULL, NULL}, "at least one quantity"},
-             {{"x", NULL, 1000, same, 0, sample_T, NULL, NULL}, "quantities of its own"},
+             {{"x", NULL, 1000, same, 0, sample_T, NULL, NULL}, "user-defined quantities"},
              {{"x", NULL, 1, same, (1u << 24) + 1, sample_T, NULL, NULL}, "16 MiB"},
              {{"x", NULL, 2, same, 0, sample_T, NULL, NULL}, "quantity: the name 'x' is taken"},
              {{"x", NULL, 1, &shared, 0, sample_T, NULL, NULL}, "quantity: the name 'N1' is taken"},
@@ -362,7 +362,7 @@ static void observables_refused(void **state)
     status = gg_scene_add_observable(s, &o, &err);
     if (status == GG_OK) assert_refused(gg_scene_add_observable(s, &o, &err), "observable: the name");
   }
-  assert_true(n >= 8 && strstr(err.message, "quantities of its own"));
+  assert_true(n >= 8 && strstr(err.message, "user-defined quantities"));
   gg_scene_free(s);
 }
 
@@ -392,7 +392,7 @@ static void laws_refused(void **state)
   assert_refused(gg_scene_set_restitution_table(s, "soft", 2, NULL, speed, &err), "a table has 1 to");
   assert_refused(gg_scene_set_restitution_table(s, "soft", 2, speed, NULL, &err), "a table has 1 to");
   assert_refused(gg_scene_set_restitution(NULL, "soft", softening, NULL, &err), "no scene");
-  assert_refused(gg_scene_set_restitution(s, "so ft", softening, NULL, &err), "is no name");
+  assert_refused(gg_scene_set_restitution(s, "so ft", softening, NULL, &err), "is not a valid name");
   /* Taken away again, collision.e is in force: the bits of a scene that never had one. */
   gg_simulation *m[2] = {NULL};
   gg_simulation_state now[2];

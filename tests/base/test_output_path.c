@@ -100,7 +100,7 @@ static void one_writer_at_a_time(void **state)
   char own[60];
   assert_int_equal(gg_base_atomic_open(&one, "file", &err), GG_OK);
   assert_int_equal(symlink("file", "link"), 0);
-  snprintf(own, sizeof own, "another run is writing it (process %ld on ", (long)getpid());
+  snprintf(own, sizeof own, "another process is writing it (process %ld on ", (long)getpid());
   assert_int_equal(gg_base_atomic_open(&two, "link", &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, own));
   gg_base_atomic_abandon(&one);

@@ -127,7 +127,7 @@ def test_command_line():
     refused("unknown command 'comparr'; did you mean 'compare'?", 2, "comparr")
     refused("unknown option '--outptu'; did you mean '--output'?", 2, "run", "scene.yaml", "--outptu", "x.h5")
     refused("option '--output' needs a value", 2, "run", "--output")
-    refused("'-' is no file to write", 2, "run", "scene.yaml", "--output", "-", scene="flow: usf\nphi: 0.1\n")
+    refused("'-' is not a file to write", 2, "run", "scene.yaml", "--output", "-", scene="flow: usf\nphi: 0.1\n")
     refused("run needs SCENE.yaml", 2, "run")
     refused("nofolder/x.svg: cannot be written", 3, "bench", "error", "--picture", "nofolder/x.svg", timeout=20)
     refused("one too many", 2, "run", "a.yaml", "b.yaml")

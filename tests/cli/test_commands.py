@@ -312,7 +312,7 @@ def test_time_limit_before_errors_are_known():
     """The means are as exact as was asked, it seems, but the window is too short to say so: no success."""
     done = run("run", "scene.yaml", "--quiet", "--output", "none.h5", "--set", "run.time_limit=3", "--set",
                "run.relative_error=0.05", scene="{flow: usf, engine: dsmc, phi: 0.3, dsmc: {particles: 1000000}}")
-    check(done.code == 1 and "the time limit struck" in done.err, done.code, done.err)
+    check(done.code == 1 and "time limit reached" in done.err, done.code, done.err)
 
 
 if __name__ == "__main__":

@@ -347,7 +347,7 @@ def test_refused():
     refused("export needs RESULT.h5", 2)
     refused("did you mean trajectory", 2, "r.h5", "--only", "trajectry")
     refused("allowed: results, curves, trajectory", 2, "r.h5", "--only", "")
-    refused("'-' is no file to write", 2, "r.h5", "--output", "-")
+    refused("'-' is not a file to write", 2, "r.h5", "--output", "-")
     refused("need a prefix", 2, "r.h5", "--output", "")
     refused("need a prefix", 2, "r.h5", "--output", "there/")
     os.mkdir("there")
@@ -386,7 +386,7 @@ def test_refused():
         refused("tables and trajectories are files", 3, "r.h5", "--output", "x")
         os.remove(name)
     os.symlink("x.csv", "x.xyz")  # to where nothing stands yet, and then to a file
-    refused("x.xyz: cannot be written: another run is writing it", 3, "r.h5", "--output", "x")
+    refused("x.xyz: cannot be written: another process is writing it", 3, "r.h5", "--output", "x")
     open("x.csv", "w").close()
     refused("x.xyz: would be the same file as x.csv", 2, "r.h5", "--output", "x")
     os.remove("x.xyz")

@@ -81,7 +81,7 @@ def test_ways_to_ask():
     for command in COMMANDS:
         check("option '--help' takes no value" in run(command, "--help=1").err, command)
         done = run(command, "")
-        check(done.code == 2 and f"{command}: the name given is empty" in done.err, command, done.err)
+        check(done.code == 2 and f"{command}: the file name is empty" in done.err, command, done.err)
     every = run("info")
     check(every.code == 0 and "dsmc.precision" in every.out and "default" not in every.out.split("\n")[0], every.err)
 

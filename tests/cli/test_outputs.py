@@ -265,7 +265,7 @@ def test_pictures_beside_a_picture():
                 "--set", "output.checkpoint_every=1", command="compare")
         os.remove("p_snapshot.svg")
     os.symlink("gone.h5", "p_snapshot.svg")
-    refused("would be both the checkpoint that is gone on from and a picture beside p.svg", 2, "--picture", "p.svg",
+    refused("would be both the checkpoint to resume from and a picture beside p.svg", 2, "--picture", "p.svg",
             "--output", "q.h5", "--resume", "gone.h5", command="compare")
     os.remove("p_snapshot.svg")
     os.chmod("p_dsmc_velocity_distributions.svg", 0o444)
@@ -297,7 +297,7 @@ def test_results_called_like_pictures():
     scenes()
     for command in "run", "compare":
         for output in "q.pdf", "o.svg", "o.png", "o.PNG":
-            untouched(f"{output}: is called like a picture, and a result is HDF5", 2, command, "long.yaml", "--output",
+            untouched(f"{output}: has the name of a picture, and results are HDF5", 2, command, "long.yaml", "--output",
                       output, *(("--picture", "none") if command == "compare" else ()))
 
 
@@ -417,7 +417,7 @@ def test_two_runs_at_once():
     wait_for("one.h5.graingas-lock")
     os.symlink("one.h5", "link.h5")
     for output in "one.h5", "link.h5":
-        refused(f"{output}: cannot be written: another run is writing it (process {first.pid} on ", 3, "--output", output)
+        refused(f"{output}: cannot be written: another process is writing it (process {first.pid} on ", 3, "--output", output)
     refused("is writing it", 3, "--output", "one.h5", command="compare")
     ended(first, signal.SIGKILL)
     check("one.h5.graingas-tmp" in os.listdir("."), os.listdir("."))
@@ -453,7 +453,7 @@ def test_one_checkpoint_for_two():
     while f"process {first.pid} " not in open("long.h5.graingas-lock").read() and time.monotonic() < deadline:
         time.sleep(0.01)  # until then it is the dead one's
     done = run("run", "long.yaml", "--quiet", *resume, timeout=20)
-    check(done.code == 3 and f"another run is writing it (process {first.pid} on " in done.err, done.code, done.err)
+    check(done.code == 3 and f"another process is writing it (process {first.pid} on " in done.err, done.code, done.err)
     ended(first, signal.SIGTERM)
     check(first.returncode == 130, first.returncode)
     left = [name for name in os.listdir(".") if "graingas" in name]

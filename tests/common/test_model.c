@@ -286,7 +286,7 @@ static void scales(void **state)
   s.temperature = GG_AUTO, s.n_species = 2;
   s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
   s.species[1].mass = 2e12;
-  refused(&s, "values of mass as unequal as 1 : 2e+12");
+  refused(&s, "values of mass in a ratio of 1 : 2e+12");
   s.species[1].mass = 1, s.species[1].diameter = 1e-7;
   refused(&s, "values of diameter");
 }

@@ -121,7 +121,7 @@ static void checkpoint_of_another_build(void **state)
   snprintf(
       expected, sizeof expected,
       "c.h5: cannot be read: graingas %s (build %s, layout %d) wrote it, and this is graingas %s (build %s, layout "
-      "%d): numbers may differ; --accept-version resumes it all the same",
+      "%d): numbers may differ; --accept-version resumes it anyway",
       gg_base_build_version, other, GG_CHECKPOINT_LAYOUT, gg_base_build_version, gg_base_build_identity,
       GG_CHECKPOINT_LAYOUT);
   assert_string_equal(err.message, expected);
@@ -163,7 +163,7 @@ static void checkpoint_of_another_layout(void **state)
     snprintf(
         expected, sizeof expected,
         "c.h5: cannot be read: graingas %s (build %s, layout %d) wrote it, and this is graingas %s (build %s, layout "
-        "%d): only the same layout can be resumed",
+        "%d): only a checkpoint of the same layout can be resumed",
         gg_base_build_version, gg_base_build_identity, cases[k].layout, gg_base_build_version, gg_base_build_identity,
         GG_CHECKPOINT_LAYOUT);
     assert_string_equal(err.message, expected);

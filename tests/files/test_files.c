@@ -222,7 +222,7 @@ static void *write_and_read(void *number)
     wrong += !read || !gg_files_stored_series_find(&s.engine[GG_MD], "temperature");
     if (read) gg_files_stored_result_clear(&s);
     gg_status status = gg_result_write(r, "one.h5", &err);
-    wrong += status != GG_OK && !(status == GG_BAD_FILE && strstr(err.message, "another run is writing it"));
+    wrong += status != GG_OK && !(status == GG_BAD_FILE && strstr(err.message, "another process is writing it"));
   }
   gg_result_free(r);
   return (void *)wrong;

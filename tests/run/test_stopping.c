@@ -70,7 +70,7 @@ static gg_result *in_pieces(const gg_scene *s, int threads, caller *c)
   gg_archive from = {0};
   gg_error err;
   while (gg_run_scene(s, from.n_items ? &from : NULL, threads, &callbacks, &r, &err) == GG_INTERRUPTED) {
-    if (!r) continue; /* stopped while grains were placed */
+    if (!r) continue; /* interrupted while grains were placed */
     gg_result_free(r);
     r = NULL;
     gg_base_archive_clear(&from);

@@ -24,7 +24,7 @@ static const corner corners[] = {
      .quick = true},
     {.name = "masses 1 : 1e13",
      .scene = TWO("usf", "0.1", "300", "e: 0.9", "mass: 1e13"),
-     .refused = "as unequal as",
+     .refused = "in a ratio of",
      .quick = true},
     {.name = "diameters 1 : 10, sheared", .scene = TWO("usf", "0.1", "600", "e: 0.9", LARGE), .quick = true},
     {.name = "diameters 1 : 10 at phi 0.49", .scene = TWO("equilibrium", "0.49", "600", "e: 1", LARGE), .quick = true},

@@ -21,7 +21,7 @@ static gg_status check_room(const gg_model *m, gg_error *err)
   if (room == m->box[1] || room >= 2 * widest) return GG_OK; /* of flat walls the box alone decides */
   return gg_base_fail(
       err, GG_BAD_INPUT,
-      "walls: what stands on them leaves %.3g of the %.3g diameters between them free; at least %.3g are "
+      "walls: their grains or ridges leave %.3g of the %.3g diameters between them free; at least %.3g are "
       "needed",
       room, m->box[1], 2 * widest);
 }

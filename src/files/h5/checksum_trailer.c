@@ -57,7 +57,7 @@ static int sum_up(int fd, off_t size, unsigned char *trailer, unsigned char **bl
       sum = crc32(sum, *block + from, (uInt)got);
       at += got;
     } else if (got == 0 || errno != EINTR) {
-      if (got == 0) errno = EIO; /* it became shorter while it was read */
+      if (got == 0) errno = EIO; /* it was shortened while graingas read it */
       break;
     }
   }
@@ -84,7 +84,7 @@ static const char *broken(int fd, uint64_t *size_of, unsigned char **block)
     return "it is not an HDF5 file, or a damaged one";
   off_t size = about.st_size - GG_TRAILER_SIZE;
   if (size < 0 || pread(fd, there, sizeof there, size) != sizeof there || memcmp(there, mark, sizeof mark) != 0)
-    return "it does not end with its checksum: it is cut off or damaged, or another program has changed it (the manual "
+    return "its checksum is missing: it is cut off or damaged, or another program changed it (the manual "
            "page says how to vouch for a changed one)";
   if (sum_up(fd, size, wanted, block) != 0) return strerror(errno);
   *size_of = (uint64_t)size;

@@ -43,7 +43,7 @@ static bool read_at(gg_h5_in *in, uint64_t at, unsigned char *to, uint64_t n)
     ssize_t got = pread(in->fd, to, n, (off_t)at);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return gg_h5_in_failed(in, strerror(errno)), false;
-    if (got == 0) return gg_h5_in_failed(in, "it became shorter while it was read"), false;
+    if (got == 0) return gg_h5_in_failed(in, "it was shortened while graingas read it"), false;
     to += got, at += (uint64_t)got, n -= (uint64_t)got;
   }
   return true;
@@ -53,7 +53,7 @@ bool gg_h5_bytes(gg_h5_in *in, uint64_t at, void *to, uint64_t n)
 {
   if (in->failed) return false;
   if (n > in->size || at > in->size - n) {
-    gg_h5_in_failed(in, "it is damaged: something in it lies beyond its end");
+    gg_h5_in_failed(in, "it is damaged: an address in it lies beyond its end");
     return false;
   }
   if (in->whole) return memcpy(to, in->whole + at, n), true;

@@ -316,7 +316,7 @@ void gg_h5_read_initials(gg_h5_in *in, const char *object, const char *name, cha
   const attribute a = read_it(in, object, name);
   const bool good = !in->failed && a.type.kind == GG_H5_TEXT && a.space.n == n;
   for (size_t i = 0; good && i < n; i++) letters[i] = (char)a.value[i * a.type.size];
-  if (!good) gg_h5_refuse(in, name, "are not the texts that they should be");
+  if (!good) gg_h5_refuse(in, name, "are not valid texts");
   free(a.value);
 }
 

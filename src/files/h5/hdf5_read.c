@@ -56,7 +56,7 @@ static void *read_row(gg_h5_in *in, const char *path, const uint64_t *k, gg_item
   if (in->failed || !gg_h5_array_at(in, path, &a)) return NULL;
   const uint64_t rows = a.space.rank ? a.space.dims[0] : 0;
   if (rows == 0 || (k && *k >= rows) || gg_h5_row_size(&a.space) != items)
-    return gg_h5_refuse(in, path, "has not the rows that are needed"), NULL;
+    return gg_h5_refuse(in, path, "does not have the number of rows expected"), NULL;
   return read_rows(in, path, &a, k ? *k : rows - 1, 1, type);
 }
 
@@ -396,7 +396,7 @@ bool gg_h5_rows_of(gg_h5_in *in, const char *path, const gg_h5_array_in *a, uint
 {
   const uint64_t row = gg_h5_row_size(&a->space) * a->type.size, rows = a->space.rank ? a->space.dims[0] : 1;
   if (n == 0 || row == 0) return !in->failed;
-  if (from > rows || n > rows - from) return gg_h5_refuse(in, path, "has fewer rows than are needed");
+  if (from > rows || n > rows - from) return gg_h5_refuse(in, path, "has fewer rows than expected");
   if (a->chunked) return read_chunks(in, a, from, n, to) ? true : gg_h5_refuse(in, path, "is damaged");
   if (a->at > in->size) return gg_h5_refuse(in, path, "is damaged");
   return gg_h5_bytes(in, a->at + from * row, to, n * row);

@@ -27,8 +27,8 @@ void gg_files_checkpoint_check_version(struct gg_h5_in *h, bool any_build)
            "graingas %.40s (build %.20s, layout %lld) wrote it, and this is graingas %s (build %s, layout %d): %s",
            version, identity ? identity : "unknown", (long long)layout, gg_base_build_version, gg_base_build_identity,
            GG_CHECKPOINT_LAYOUT,
-           layout != GG_CHECKPOINT_LAYOUT ? "only the same layout can be resumed"
-                                          : "numbers may differ; --accept-version resumes it all the same");
+           layout != GG_CHECKPOINT_LAYOUT ? "only a checkpoint of the same layout can be resumed"
+                                          : "numbers may differ; --accept-version resumes it anyway");
   if (layout != GG_CHECKPOINT_LAYOUT || (!same && !any_build)) gg_h5_in_failed(h, why);
   free(identity);
   free(version);
@@ -121,7 +121,7 @@ static void read_last_frame(gg_h5_in *h, gg_stored_result *s)
   f->velocity = read_last_rows(h, "velocity", f->n);
   f->spin = read_last_rows(h, "spin", f->n);
   f->species = gg_h5_read_array(h, "/particles/grains/species", GG_ITEM_U8, &kinds);
-  if (!h->failed && kinds != f->n) gg_h5_in_failed(h, "its grains are not all of a known species");
+  if (!h->failed && kinds != f->n) gg_h5_in_failed(h, "some of its grains are of an unknown species");
 }
 
 void gg_files_stored_scene_update_words(char *scene)
@@ -146,7 +146,7 @@ gg_status gg_files_stored_result_read(gg_stored_result *s, const char *path, gg_
   const bool checkpoint = !h.failed && gg_h5_exists(&h, "/checkpoint");
   if (checkpoint) gg_files_checkpoint_check_version(&h, true);
   if (checkpoint && !h.failed)
-    gg_h5_in_failed(&h, "it is a checkpoint: go on from it with graingas run SCENE.yaml --resume FILE");
+    gg_h5_in_failed(&h, "it is a checkpoint: resume it with graingas run SCENE.yaml --resume FILE");
   if (!h.failed && gg_h5_exists(&h, "/graingas/table"))
     gg_h5_in_failed(&h, "it is the table of a sweep, for h5py; the results are the files in the sweep's folder");
   if (!h.failed && gg_h5_exists(&h, "/figure"))
@@ -214,7 +214,7 @@ static void *read_of_each(gg_stored_trajectory *t, const char *path, gg_item_typ
 {
   size_t n = 0;
   void *data = gg_h5_read_array(&t->h, path, type, &n);
-  if (data && n != t->n) gg_h5_in_failed(&t->h, "what its grains are is not known of all");
+  if (data && n != t->n) gg_h5_in_failed(&t->h, "the species of some grains is unknown");
   return data;
 }
 

@@ -18,7 +18,7 @@ static void sample_nothing(void *context, void *state, const gg_sample *sample, 
 static const char *evaluate_nothing(void *context, const gg_facts *facts, double *values)
 {
   (void)context, (void)facts, (void)values;
-  return "belongs to the program that wrote the file";
+  return "is defined by the program that wrote the file";
 }
 
 static gg_status add_quantities(const json_t *results, gg_extension **x, gg_error *err)

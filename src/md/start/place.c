@@ -107,7 +107,7 @@ static gg_status sweep_once(gg_md_packing *p, double margin, bool pushing, bool 
   else
     sweep_small(&s);
   *free = s.overlaps == 0;
-  if (s.status == GG_INTERRUPTED) return gg_base_fail(err, GG_INTERRUPTED, "md: stopped while grains were placed");
+  if (s.status == GG_INTERRUPTED) return gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
   if (s.status == GG_FAILED) return gg_base_out_of_memory_for(err, "the grid of cells");
   return GG_OK;
 }

@@ -74,5 +74,5 @@ gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t n, const gg
   bool whole = sort(room, room + n, n, stop, &sorted);
   for (uint32_t i = 0; whole && i < n; i++) r[i] = sorted[i].r;
   free(room);
-  return whole ? GG_OK : gg_base_fail(err, GG_INTERRUPTED, "md: stopped while grains were placed");
+  return whole ? GG_OK : gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
 }

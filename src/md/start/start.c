@@ -34,7 +34,7 @@ static gg_status relax(const gg_md *e, gg_md_packing *p, gg_rng *rng, gg_error *
   if (free) return GG_OK;
   return gg_base_fail(
       err, GG_FAILED,
-      "phi: no start without overlaps was found at phi = %g with particles = %u; try a lower phi or another "
+      "phi: no initial state without overlaps was found at phi = %g with particles = %u; try a lower phi or another "
       "number of particles",
       e->model.phi, e->n);
 }
