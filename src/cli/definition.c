@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "cli/print.h"
-#include "cli/report.h"
 
 /* The order in which a word is looked up; the last two are keys of `measure` and `flow`. */
 static const gg_catalogue lists[] = {GG_CATALOGUE_QUANTITIES, GG_CATALOGUE_KEYS,  GG_CATALOGUE_SPECIES_KEYS,
@@ -19,6 +18,15 @@ static void line(const char *head, const char *text)
   char lead[24];
   snprintf(lead, sizeof lead, "  %-12s ", head);
   if (text && *text) gg_cli_print_wrapped(stdout, lead, text);
+}
+
+bool gg_cli_quantity_is_minor(const char *name)
+{
+  static const char *const minor[] = {"_kinetic", "_collisional", "P_yx",       "kurtosis",
+                                      "skewness", "knudsen",      "dissipation"};
+  bool is = false;
+  for (size_t i = 0; i < sizeof minor / sizeof *minor; i++) is |= strstr(name, minor[i]) != NULL;
+  return is && strcmp(name, "viscosity_reduced_kinetic") != 0;
 }
 
 bool gg_cli_theory_answers(const gg_entry *theory, const char *quantity)

@@ -9,6 +9,8 @@ bool gg_cli_is_word(const char *input);
 /* Print the definition, five lines; or an error with the nearest word. Returns the exit code. */
 int gg_cli_define(const char *word);
 
+/* A quantity that is left to --all: parts and components. */
+bool gg_cli_quantity_is_minor(const char *name);
 bool gg_cli_theory_answers(const gg_entry *theory, const char *quantity);
 /* The theories that may answer a quantity, with commas; returns how many. */
 size_t gg_cli_theories_of(const char *quantity, char *text, size_t size);

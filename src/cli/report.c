@@ -16,13 +16,6 @@ static bool has_part(const char *name, const char *const *parts)
   return false;
 }
 
-bool gg_cli_quantity_is_minor(const char *name)
-{
-  static const char *const minor[] = {"_kinetic", "_collisional", "P_yx",        "kurtosis",
-                                      "skewness", "knudsen",      "dissipation", NULL};
-  return strcmp(name, "viscosity_reduced_kinetic") != 0 && has_part(name, minor);
-}
-
 void gg_cli_print_head(const gg_scene *scene)
 {
   char title[240] = "";

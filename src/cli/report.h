@@ -17,7 +17,5 @@ void gg_cli_print_head(const gg_scene *scene);
 void gg_cli_print_effort(const gg_result *result);
 void gg_cli_print_warnings(const gg_result *result, const char *reported);
 void gg_cli_print_numbers(const gg_result *one, const gg_result *two, bool all);
-/* A quantity that is left to --all: parts and components. */
-bool gg_cli_quantity_is_minor(const char *name);
 
 #endif

@@ -15,16 +15,6 @@ static bool fill_lists(gg_md *e)
   return true;
 }
 
-void gg_md_set_skins(gg_md *e, double radius)
-{
-  const gg_model *m = &e->model;
-  e->search.lists.radius = radius;
-  for (int i = 0; i < m->n_species; i++)
-    for (int j = 0; j < m->n_species; j++)
-      e->search.lists.reach[gg_md_pair(&e->contacts, i, j)] = m->sigma[gg_pair(i, j)] + 2 * radius;
-  e->search.lists.shrinkage = 0.25 * m->shear_rate * (gg_md_reach(m) + 2 * radius) * (1 + 1e-9);
-}
-
 void gg_md_build_lists(gg_md *e)
 {
   for (uint32_t i = 0; i < e->n; i++) gg_md_new_skin(e, i);

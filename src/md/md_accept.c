@@ -39,8 +39,8 @@ gg_status gg_md_accepts(const gg_model *m, gg_error *err)
   if (m->boltzmann)
     return gg_base_fail(err, GG_BAD_INPUT, "phi: event-driven dynamics needs phi > 0; phi = 0 is for engine: dsmc");
   if (m->phi > 0.6)
-    return gg_base_fail(err, GG_BAD_INPUT, "phi: %g is too dense for an initial state without overlaps; allowed: up to 0.6",
-                        m->phi);
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "phi: %g is too dense for an initial state without overlaps; allowed: up to 0.6", m->phi);
   if (m->n < 2) return gg_base_fail(err, GG_BAD_INPUT, "particles: %lld; at least 2 are needed", (long long)m->n);
   if (m->n > INT32_MAX / 4)
     return gg_base_fail(err, GG_BAD_INPUT, "particles: %lld; at most %d", (long long)m->n, INT32_MAX / 4);

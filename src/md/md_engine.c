@@ -134,7 +134,8 @@ static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
   bool ended = !gg_md_check_numbers(e) || run_legs(e);
   if (e->out_of_memory) return gg_base_out_of_memory_for(err, "a cell of the grid");
   if (e->no_number)
-    return gg_base_fail(err, GG_FAILED, "md: a velocity or position became NaN or infinite after %.3g collisions per grain",
+    return gg_base_fail(err, GG_FAILED,
+                        "md: a velocity or position became NaN or infinite after %.3g collisions per grain",
                         2 * (double)e->k.collisions / e->n);
   if (e->stands_still)
     return gg_base_fail(

@@ -177,6 +177,7 @@ double gg_md_crossings_per_collision(const gg_model *model);
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
 /* Neighbour lists with skins of this radius, if the box is wide enough for them; else nothing. */
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
+void gg_md_set_skins(gg_md *e, double radius);
 /* grid.c: the cells that the grains' positions lie in; the cells filled with them (false: out of memory). */
 void gg_md_enter_grid(gg_md *e);
 bool gg_md_fill_grid(gg_md *e);
@@ -197,7 +198,6 @@ int32_t gg_md_cell_in_row(const gg_md *e, int32_t y, double x);
 
 /* lists.c: every grain's skin and list anew at the present time; the skins get smaller where lists overflow. */
 void gg_md_build_lists(gg_md *e);
-void gg_md_set_skins(gg_md *e, double radius);
 
 /* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the calendar re-tuned.
  * False if nothing will ever happen again. */
@@ -205,7 +205,7 @@ bool gg_md_next_epoch(gg_md *e);
 /* verify.c: look at all grains, if that is due; false: a place, velocity or spin is no number, and e->no_number.
  */
 bool gg_md_check_numbers(gg_md *e);
-/* epoch.c: take off the velocity of the centre of mass, relative to the imposed shear; all grains at the same
+/* md_thermostat.c: take off the velocity of the centre of mass, relative to the imposed shear; all grains at the same
  * time. */
 void gg_md_follow_centre_of_mass(gg_md *e);
 /* contact_time.c: a sheared gas that begins in the cold does not stay there; the contact time at the start, and

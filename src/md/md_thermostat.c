@@ -43,6 +43,25 @@ void gg_md_thermostat_fold(gg_md *e)
   k->stop = k->mark + (k->asked - k->outer) * k->scale;
 }
 
+/* Rounding of the mean peculiar velocity must not take over. A gas that cools forever cools below it; under shear, that
+ * along y drives the one along x for ever (dP_x/dt = -rate P_y). The frame follows it: relative motion, and so every
+ * predicted collision, stays as it is. */
+void gg_md_follow_centre_of_mass(gg_md *e)
+{
+  const double rate = e->model.shear_rate, middle = 0.5 * e->box.edge[1];
+  gg_vec momentum = {0, 0, 0};
+  double mass = 0;
+  for (uint32_t i = 0; i < e->n; i++) {
+    const gg_md_grain *g = &e->grain[i];
+    double m = e->model.mass[gg_md_species_of(g)];
+    gg_vec c = g->v;
+    if (rate != 0) c.x -= rate * (g->r.y - middle);
+    momentum = gg_axpy(m, c, momentum);
+    mass += m;
+  }
+  for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
+}
+
 /* Each kick brings what the time to the next one takes. No two intervals are alike: between equal ones T falls by some
  * percent, and a run whose samples keep in step with them would see the same part of that again and again (e = 0: means
  * off by up to 1 %). */

@@ -10,24 +10,6 @@
 
 #include "base/memory.h"
 
-bool gg_scene_entry_next(const gg_scene_reader *r, const yaml_node_t *map, gg_scene_entry *e)
-{
-  e->pair = e->pair ? e->pair + 1 : map->data.mapping.pairs.start;
-  if (e->pair >= map->data.mapping.pairs.top) return false;
-  e->name = yaml_document_get_node(r->document, e->pair->key);
-  e->value = yaml_document_get_node(r->document, e->pair->value);
-  e->word = gg_scene_scalar(e->name);
-  return true;
-}
-
-gg_status gg_scene_entry_key(const gg_scene_reader *r, const gg_scene_entry *e, const char *section, const char *of,
-                             char key[GG_SCENE_KEY])
-{
-  if (!e->word) return gg_scene_reject(r, e->name, of, "a key must be a word");
-  snprintf(key, GG_SCENE_KEY, "%.30s%s%.60s", section, *section ? "." : "", e->word);
-  return GG_OK;
-}
-
 static bool is_for_others(const gg_scene_reader *r, const char *key)
 {
   for (const char *const *other = r->others; key && other && *other; other++)

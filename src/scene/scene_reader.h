@@ -42,6 +42,8 @@ gg_status gg_scene_with_value(gg_scene_reader *r, const char *key, const char *v
 /* A whole scene; `key` is "". */
 gg_status gg_scene_read_root(gg_scene_reader *r, const char *key, const yaml_node_t *root);
 
+/* yaml_value.c */
+
 /* Entries of a map, one after another: start with {0}; false after the last. */
 typedef struct gg_scene_entry {
   const yaml_node_t *name, *value;
@@ -54,8 +56,6 @@ enum { GG_SCENE_KEY = 96 };
 gg_status gg_scene_entry_key(const gg_scene_reader *r, const gg_scene_entry *entry, const char *section, const char *of,
                              char key[GG_SCENE_KEY]);
 const char *gg_scene_scalar(const yaml_node_t *node); /* its text; NULL: it is a list or a map */
-
-/* yaml_value.c */
 
 /* The node's value into the member of `base` that the field names. */
 gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *field, const char *key, const yaml_node_t *node,

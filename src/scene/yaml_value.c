@@ -51,6 +51,24 @@ gg_status gg_scene_reject_text(const gg_scene_reader *r, size_t line, const char
   return gg_base_fail(r->err, GG_BAD_INPUT, "%s:%zu: %s", r->name, line, text);
 }
 
+bool gg_scene_entry_next(const gg_scene_reader *r, const yaml_node_t *map, gg_scene_entry *e)
+{
+  e->pair = e->pair ? e->pair + 1 : map->data.mapping.pairs.start;
+  if (e->pair >= map->data.mapping.pairs.top) return false;
+  e->name = yaml_document_get_node(r->document, e->pair->key);
+  e->value = yaml_document_get_node(r->document, e->pair->value);
+  e->word = gg_scene_scalar(e->name);
+  return true;
+}
+
+gg_status gg_scene_entry_key(const gg_scene_reader *r, const gg_scene_entry *e, const char *section, const char *of,
+                             char key[GG_SCENE_KEY])
+{
+  if (!e->word) return gg_scene_reject(r, e->name, of, "a key must be a word");
+  snprintf(key, GG_SCENE_KEY, "%.30s%s%.60s", section, *section ? "." : "", e->word);
+  return GG_OK;
+}
+
 /* Is the word one of those, separated by blanks? */
 static bool is_among(const char *words, const char *word)
 {
