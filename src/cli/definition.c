@@ -1,6 +1,7 @@
 /* graingas info WORD: what a scene key, a quantity, a theory or an observable is, in five lines. */
 #include "cli/definition.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -176,8 +177,8 @@ int gg_cli_define(const char *word)
   if (nearest)
     return gg_cli_fail(GG_BAD_INPUT, "'%s' is no file, scene key, quantity, theory or observable; did you mean '%s'?",
                        word, nearest);
-  return gg_cli_fail(GG_BAD_INPUT, "'%s' is no file, scene key, quantity, theory or observable; see graingas info",
-                     word);
+  return gg_cli_fail(GG_BAD_INPUT, "'%s' is no file, scene key, quantity, theory or observable; see %s info", word,
+                     program_invocation_name);
 }
 
 void gg_cli_print_headline(const gg_scene *scene)

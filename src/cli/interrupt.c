@@ -71,9 +71,8 @@ void gg_cli_catch_interrupts(void)
   stdout = with_timeout(stdout, STDOUT_FILENO, isatty(STDOUT_FILENO) ? _IOLBF : _IOFBF);
   stderr = with_timeout(stderr, STDERR_FILENO, _IONBF);
 #endif
+  static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
   struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART}, before;
-  sigaction(SIGINT, &action, NULL);
-  sigaction(SIGTERM, &action, NULL);
-  if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) /* else: nohup */
-    sigaction(SIGHUP, &action, NULL);
+  for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) /* what the parent ignores stays ignored: nohup, & */
+    if (sigaction(signals[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(signals[i], &action, NULL);
 }

@@ -1,4 +1,5 @@
 /* graingas: dispatch to the subcommands. */
+#include <errno.h>
 #include <fcntl.h>
 #include <hdf5.h>
 #include <poll.h>
@@ -29,8 +30,7 @@ static void print_help(void)
     gg_cli_print_wrapped(stdout, lead, c->summary);
   }
   printf("\n");
-  gg_cli_print_wrapped(stdout, "",
-                       "See graingas COMMAND --help. Begin with: graingas compare examples/usf.yaml");
+  gg_cli_print_wrapped(stdout, "", "See graingas COMMAND --help. Begin with: graingas compare examples/usf.yaml");
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -51,16 +51,19 @@ static int unknown(const char *word)
   for (int i = 0; gg_cli_commands[i].name && i < 13; i++) known[i + 2] = gg_cli_commands[i].name;
   const char *nearest = gg_nearest_word(word, known);
   if (ends_with(word, ".yaml") || ends_with(word, ".yml"))
-    return gg_cli_fail(GG_BAD_INPUT, "'%s' is not a command; for this scene, e.g. graingas compare %s", word, word);
+    return gg_cli_fail(GG_BAD_INPUT, "'%s' is not a command; for this scene, e.g. %s compare %s", word,
+                       program_invocation_name, word);
   if (ends_with(word, ".h5"))
-    return gg_cli_fail(GG_BAD_INPUT, "'%s' is not a command; for this result, e.g. graingas info %s", word, word);
+    return gg_cli_fail(GG_BAD_INPUT, "'%s' is not a command; for this result, e.g. %s info %s", word,
+                       program_invocation_name, word);
   for (int i = 0; i < 2; i++)
     if (has_value(word, known[i])) return gg_cli_fail(GG_BAD_INPUT, "option '%s' takes no value", known[i]);
   for (const gg_option *o = gg_cli_options_table; o->flag; o++)
     if (strncmp(word, "--", 2) == 0 && strcmp(o->name, word + 2) == 0)
-      return gg_cli_fail(GG_BAD_INPUT, "options come after the command: graingas COMMAND %s ...", word);
+      return gg_cli_fail(GG_BAD_INPUT, "options come after the command: %s COMMAND %s ...", program_invocation_name,
+                         word);
   if (nearest) return gg_cli_fail(GG_BAD_INPUT, "unknown command '%s'; did you mean '%s'?", word, nearest);
-  return gg_cli_fail(GG_BAD_INPUT, "unknown command '%s'; see graingas --help", word);
+  return gg_cli_fail(GG_BAD_INPUT, "unknown command '%s'; see %s --help", word, program_invocation_name);
 }
 
 /* A pipe whose reader has gone ("graingas info FILE | head"). */

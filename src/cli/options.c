@@ -1,5 +1,6 @@
 #include "cli/options.h"
 
+#include <errno.h>
 #include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -96,7 +97,7 @@ static int refuse_option(const gg_command *c, const char *typed)
   known[n] = "help";
   const char *nearest = gg_nearest_word(name, known);
   if (nearest) return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; did you mean '--%s'?", word, nearest);
-  return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; see graingas %s --help", word, c->name);
+  return gg_cli_fail(GG_BAD_INPUT, "unknown option '%s'; see %s %s --help", word, program_invocation_name, c->name);
 }
 
 /* "--seed 7" is "--set run.seed=7", "--engine md" is "--set engine=md". */
@@ -242,16 +243,18 @@ static int check_words(const gg_command *c, const gg_options *o)
     return gg_cli_fail(GG_BAD_INPUT, "option '--output': '-' is not a file to write%s",
                        c->options & GG_OPT_JSON ? "; --json prints to standard output" : "");
   if (o->input && !*o->input)
-    return gg_cli_fail(GG_BAD_INPUT, "%s: the file name is empty; see graingas %s --help", c->name, c->name);
+    return gg_cli_fail(GG_BAD_INPUT, "%s: the file name is empty; see %s %s --help", c->name, program_invocation_name,
+                       c->name);
   if (o->input || c->arguments[0] == '[') return GG_CLI_GO_ON;
-  return gg_cli_fail(GG_BAD_INPUT, "%s needs %s; see graingas %s --help", c->name, c->arguments, c->name);
+  return gg_cli_fail(GG_BAD_INPUT, "%s needs %s; see %s %s --help", c->name, c->arguments, program_invocation_name,
+                     c->name);
 }
 
 int gg_cli_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
 {
   struct option known[sizeof gg_cli_options_table / sizeof *gg_cli_options_table + 1] = {{0}};
   *o = (gg_options){.threads = gg_cli_default_threads(), .words = {argc, argv, argc}};
-  o->command_line = gg_cli_command_line_quote(&o->words, "");
+  o->command_line = gg_cli_command_line_quote("graingas", &o->words, "");
   list_known(c, known);
   int code = take_words(c, known, o);
   if (code == GG_CLI_GO_ON) code = check_words(c, o);

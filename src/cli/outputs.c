@@ -90,13 +90,13 @@ char *gg_cli_shell_quote(const char *text)
   return taken(out, whole, &quoted);
 }
 
-char *gg_cli_command_line_quote(const gg_command_line *line, const char *added)
+char *gg_cli_command_line_quote(const char *program, const gg_command_line *line, const char *added)
 {
   char *text = NULL;
   size_t size;
   FILE *out = open_memstream(&text, &size);
   if (!out) return NULL;
-  bool whole = put(out, "graingas");
+  bool whole = put_quoted(out, program);
   for (int i = 0; i < line->n; i++) {
     if (i == line->options_end) whole &= put(out, added);
     if (line->word[i]) whole &= put(out, " ") && put_quoted(out, line->word[i]);

@@ -17,9 +17,10 @@ bool gg_cli_file_is_device(const char *path);
 /* `path` with another ending, or with one where it had none; to be freed. */
 char *gg_cli_path_with_suffix(const char *path, const char *suffix);
 
-/* As a shell reads it back: all words, with `added`, which is quoted already ("": none), where options end. To be
- * freed; NULL: out of memory. */
-char *gg_cli_command_line_quote(const gg_command_line *line, const char *added);
+/* As a shell reads it back: the program and all words, with `added`, which is quoted already ("": none), where options
+ * end. The program: "graingas" for the record, program_invocation_name to be typed again. To be freed; NULL: out of
+ * memory. */
+char *gg_cli_command_line_quote(const char *program, const gg_command_line *line, const char *added);
 /* One argument as a shell reads it back; to be freed. */
 char *gg_cli_shell_quote(const char *text);
 

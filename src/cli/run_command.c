@@ -1,5 +1,6 @@
 #include "cli/run_command.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -139,36 +140,56 @@ static bool has_means(const gg_result *result)
   return false;
 }
 
+static double time_limit(const gg_run_command *r)
+{
+  char text[40] = "0"; /* also where it has none, "none" */
+  gg_scene_get(r->scene, "run.time_limit", text, sizeof text, NULL);
+  return strtod(text, NULL);
+}
+
+static bool is_out_of_time(const gg_run_command *r, const gg_result *result)
+{
+  gg_result_info info;
+  const double limit = time_limit(r);
+  return limit > 0 && result && gg_result_get_info(result, &info, NULL) == GG_OK && info.wall_seconds >= limit;
+}
+
 bool gg_cli_run_has_output(gg_run_command *r, const gg_result *md, const gg_result *dsmc)
 {
   const bool interrupted = r->status == GG_INTERRUPTED;
   gg_cli_progress_end(&r->progress);
+  r->out_of_time = is_out_of_time(r, md) || is_out_of_time(r, dsmc);
   r->has_output = interrupted ? has_means(md) || has_means(dsmc) : md || dsmc;
   if (interrupted && r->has_output && !r->options.json) puts("\ninterrupted: the results so far");
   return r->has_output;
 }
 
-/* How to resume: with a command that can be typed as it stands, if there is room for it. */
-static void report_checkpoint(gg_run_command *r)
+/* The command that resumes, as it can be typed: with twice the limit, if that ended the run. NULL: out of memory. */
+static char *command_to_resume(const gg_run_command *r)
 {
-  const size_t size = sizeof r->err.message;
-  char *file = gg_cli_shell_quote(r->checkpoint), *resume = NULL, *again = NULL;
-  if (file && asprintf(&resume, " --resume %s", file) < 0) resume = NULL;
-  if (resume && !r->options.resume) again = gg_cli_command_line_quote(&r->options.words, resume);
-  if (!again || snprintf(r->err.message, size, "interrupted; go on with: %s", again) >= (int)size)
-    snprintf(r->err.message, size, "interrupted; go on with the same command and%s", resume ? resume : " --resume");
+  const char *given = r->options.resume;
+  const bool named = given && strcmp(given, r->checkpoint) == 0;
+  char limit[64] = "", *file = gg_cli_shell_quote(r->checkpoint), *added = NULL, *again = NULL;
+  if (r->out_of_time) snprintf(limit, sizeof limit, " --set run.time_limit=%g", 2 * time_limit(r));
+  if (file && asprintf(&added, "%s%s%s", named ? "" : " --resume ", named ? "" : file, limit) < 0) added = NULL;
+  if (added) again = gg_cli_command_line_quote(program_invocation_name, &r->options.words, added);
   free(file);
-  free(resume);
+  free(added);
+  return again;
+}
+
+static void report_checkpoint(const gg_run_command *r)
+{
+  char *again = command_to_resume(r);
+  fprintf(stderr, "go on with: %s\n", again ? again : "the same command and --resume");
   free(again);
 }
 
 static void report_interruption(gg_run_command *r)
 {
   const char *hint = r->keeps_checkpoints ? "" : " (output.checkpoint_every above 0 keeps a checkpoint)";
-  if (r->stored)
-    report_checkpoint(r);
-  else
-    snprintf(r->err.message, sizeof r->err.message, "interrupted; nothing was stored%s", hint);
+  snprintf(r->err.message, sizeof r->err.message, "interrupted; %s%s",
+           r->stored ? "a checkpoint is stored" : "nothing was stored", r->stored ? "" : hint);
 }
 
 typedef struct drawing {
@@ -208,6 +229,7 @@ int gg_cli_run_end(gg_run_command *r)
     code = r->status == GG_BAD_INPUT ? gg_cli_report_of(gg_cli_options_name(&r->options), &r->err)
                                      : gg_cli_report(&r->err);
   if (drawn != GG_OK) gg_cli_report(&why);
+  if (r->stored && (r->status == GG_INTERRUPTED || (r->status == GG_FAILED && r->out_of_time))) report_checkpoint(r);
   clear(r);
   return code != GG_OK ? code : (int)drawn;
 }

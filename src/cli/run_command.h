@@ -18,6 +18,7 @@ typedef struct gg_run_command {
   char *output, *checkpoint, *picture; /* picture: NULL if none is drawn */
   bool keeps_checkpoints;              /* the scene asks for them */
   bool stored;                         /* at least one in this run */
+  bool out_of_time;                    /* its time limit ended it */
   bool replaced;                       /* the output takes the place of an older file */
   char *reported;                      /* warnings given before the run, a line each; NULL: none */
   gg_cli_progress progress;

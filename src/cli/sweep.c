@@ -108,7 +108,7 @@ static int print_slurm(const sweep_command *c)
 {
   size_t n = gg_sweep_points(c->sweep), tasks = n < MOST_TASKS ? n : MOST_TASKS;
   long h = hours(c, tasks);
-  char *command = gg_cli_command_line_quote(&c->options->words,
+  char *command = gg_cli_command_line_quote(program_invocation_name, &c->options->words,
                                             " --point \"$point\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet");
   if (!command) return gg_cli_fail(GG_FAILED, "out of memory");
   printf("#!/bin/bash\n"

@@ -2,6 +2,7 @@
  * read back. It is told no file name: in its language names can be commands. */
 #include <errno.h>
 #include <limits.h>
+#include <pthread.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdbool.h>
@@ -9,9 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/atomic_file.h"
+#include "base/clock.h"
 #include "base/memory.h"
 #include "plot/plot.h"
 
@@ -52,12 +55,62 @@ static gg_status spawn(int in, int out, int complaints, pid_t *child, gg_error *
   return failed ? gg_base_fail(err, GG_FAILED, "gnuplot cannot be started: %s", strerror(failed)) : GG_OK;
 }
 
-/* Its complaint is the last line that says something. Where nobody may wait for children the picture will tell. */
+enum { LONGEST = 60 /* s: a page takes some seconds at most */ };
+
+/* Those that would end this process or are caught, not those that are ignored. */
+static void choose_signals(sigset_t *ends)
+{
+  static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
+  struct sigaction now;
+  sigemptyset(ends);
+  for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
+    if (sigaction(signals[i], NULL, &now) == 0 && now.sa_handler != SIG_IGN) sigaddset(ends, signals[i]);
+}
+
+/* Until it ends, a signal comes, or it has had all its time. *ended, or the signal; 0: neither. Where nobody may wait
+ * for children it ends at once, and the picture will tell. */
+static int wait_for(pid_t child, const sigset_t *ends, double seconds, bool *ended, int *status)
+{
+  const double start = gg_base_clock_wall();
+  for (long pause = 1; !*ended && gg_base_clock_wall() - start < seconds; pause += pause < 50) {
+    const int number = sigtimedwait(ends, NULL, &(struct timespec){0, pause * 1000 * 1000});
+    if (number > 0) return number;
+    const pid_t got = waitpid(child, status, WNOHANG);
+    *ended = got == child || (got < 0 && errno != EINTR);
+  }
+  return 0;
+}
+
+/* One that hangs is ended: by the signal that this process gets meanwhile, which then takes its usual course, or for
+ * lack of progress. */
+static gg_status await(pid_t child, int *status, gg_error *err)
+{
+  sigset_t ends, before;
+  bool ended = false;
+  choose_signals(&ends);
+  pthread_sigmask(SIG_BLOCK, &ends, &before);
+  const int number = wait_for(child, &ends, LONGEST, &ended, status);
+  if (!ended) {
+    kill(child, number ? number : SIGTERM);
+    sigset_t none;
+    sigemptyset(&none);
+    wait_for(child, &none, 1, &ended, status);
+    if (!ended) kill(child, SIGKILL), waitpid(child, status, 0);
+    ended = false;
+  }
+  if (number) raise(number);
+  pthread_sigmask(SIG_SETMASK, &before, NULL);
+  if (number) return gg_base_fail(err, GG_INTERRUPTED, "interrupted while gnuplot drew a picture");
+  return ended ? GG_OK
+               : gg_base_fail(err, GG_FAILED, "gnuplot was ended, as it took more than %d s for a picture", LONGEST);
+}
+
+/* Its complaint is the last line that says something. */
 static gg_status outcome(pid_t child, FILE *complaints, gg_error *err)
 {
   char line[256], last[256] = "no picture came out";
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
+  GG_TRY(await(child, &status, err));
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return GG_OK;
   rewind(complaints);
   while (fgets(line, sizeof line, complaints)) {

@@ -1,5 +1,6 @@
 """A few lines of TAP around functions named test_*, and the graingas command run in a folder of its own."""
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -47,6 +48,8 @@ def check(condition, *what):
 
 
 def main(module):
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:  # of a shell in the background; graingas would keep it so
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     tests = [(n[5:], f) for n, f in vars(module).items() if n.startswith("test_") and callable(f)]
     print(f"1..{len(tests)}")
     failed = 0

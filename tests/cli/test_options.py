@@ -5,7 +5,7 @@ import os
 import re
 import sys
 
-from tap import check, main, run
+from tap import GRAINGAS, check, main, run
 
 SCENE = ("flow: usf\nphi: 0.1\nparticles: 200\ncollision: {e: 0.9, beta: 0}\ndsmc: {particles: 500}\n"
          "measure: [rheology, velocity_distributions, orientation]\nrun: {collisions: 60, warmup: 10}\n")
@@ -60,12 +60,12 @@ def test_ways_to_ask():
             done = run(*args)
             check(done.code == 0 and done.out == text.out, args)
     for args, words in ((("help", "rum"), "unknown command 'rum'; did you mean 'run'?"),
-                        (("scene.yaml",), "for this scene, e.g. graingas compare scene.yaml"),
-                        (("r.h5",), "for this result, e.g. graingas info r.h5"),
-                        (("--json", "run"), "options come after the command: graingas COMMAND --json"),
-                        (("--verison",), "did you mean '--version'?"), (("simulate",), "see graingas --help"),
+                        (("scene.yaml",), f"for this scene, e.g. {GRAINGAS} compare scene.yaml"),
+                        (("r.h5",), f"for this result, e.g. {GRAINGAS} info r.h5"),
+                        (("--json", "run"), f"options come after the command: {GRAINGAS} COMMAND --json"),
+                        (("--verison",), "did you mean '--version'?"), (("simulate",), f"see {GRAINGAS} --help"),
                         (("run", "--out-put", "x"), "did you mean '--output'?"),
-                        (("run", "--verbose"), "see graingas run --help"),
+                        (("run", "--verbose"), f"see {GRAINGAS} run --help"),
                         (("run", "--quick", "x"), "run has no option '--quick', which is for reproduce, bench"),
                         (("run", "scene.yaml", "-json"), "unknown option '-json'; did you mean '--json'?"),
                         (("run", "-seed", "7", "scene.yaml"), "unknown option '-seed'; did you mean '--seed'?"),

@@ -3,6 +3,7 @@ minutes, a million grains. The bound is far above what it takes, and far below w
 import fcntl
 import json
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -66,12 +67,13 @@ def test_comparison():
         check(code == 130 and "interrupted" in err, code, err)
 
 
-def test_nohup():
-    """Who ignores SIGHUP goes on."""
+def test_ignored():
+    """What the parent ignores (nohup, background jobs of scripts) stays ignored."""
     with open("scene.yaml", "w") as f:
         f.write("{flow: usf, phi: 0.1, engine: dsmc, run: {collisions: 1e9, time_limit: 1}}")
-    code, err = stop(("run", "scene.yaml"), 0.3, signal.SIGHUP, ignore=True)
-    check(code == 1 and "time limit" in err, code, err)
+    for sig in signal.SIGHUP, signal.SIGINT:
+        code, err = stop(("run", "scene.yaml"), 0.3, sig, ignore=True)
+        check(code == 1 and "time limit" in err, sig, code, err)
 
 
 def test_time_limit():
@@ -92,6 +94,9 @@ def test_time_limit_before_a_checkpoint():
     there = 2 * json.loads(done.out)["total"]["collisions"] / 4000
     told = float(run("info", "scene.checkpoint.h5").out.split("after ")[1].split()[0])
     check(abs(told - there) < 3 + 0.04 * there, told, there)
+    again = shlex.split(done.err.split("\ngo on with: ")[1])
+    check(again == [GRAINGAS, "run", "scene.yaml", "--json", "--quiet", "--resume", "scene.checkpoint.h5", "--set",
+                    "run.time_limit=%g" % (3 * PATIENCE)], again)
     done = run("run", "scene.yaml", "--json", "--quiet", "--resume", "scene.checkpoint.h5")
     check(done.code == 1 and "counts from the run's first start" in done.err, done.code, done.err)
 
@@ -109,6 +114,43 @@ def test_stopped_within_an_interval():
     check(code == 130, code, err)
     done = run(*args, "--resume", "scene.checkpoint.h5")
     check(json.loads(done.out)["results"] == whole["results"], done.err)
+
+
+def hanging_gnuplot():
+    """A graingas that draws, with a gnuplot that never ends."""
+    os.mkdir("bin")
+    with open("bin/gnuplot", "w") as f:
+        f.write(f"#!/bin/sh\necho $$ > {os.getcwd()}/drawing\nexec sleep 1000\n")
+    os.chmod("bin/gnuplot", 0o755)
+    with open("scene.yaml", "w") as f:
+        f.write("{flow: usf, phi: 0.1, particles: 100, run: {collisions: 20}, output: {checkpoint_every: 0}}")
+    child = subprocess.Popen([GRAINGAS, "compare", "scene.yaml", "--quiet"], stdout=subprocess.DEVNULL,
+                             stderr=subprocess.PIPE, text=True,
+                             env=dict(os.environ, PATH=os.path.abspath("bin") + ":" + os.environ["PATH"]))
+    until = time.time() + BOUND
+    while time.time() < until and not (os.path.exists("drawing") and open("drawing").read().strip()):
+        time.sleep(0.01)
+    return child, int(open("drawing").read())
+
+
+def is_there(process):
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def test_gnuplot_that_hangs():
+    """A signal reaches it; without one it has a minute."""
+    child, gnuplot = hanging_gnuplot()
+    check(stopped(child, 0.1) == 130, child.returncode)
+    check("interrupted while gnuplot drew" in child.stderr.read() and not is_there(gnuplot))
+    os.remove("drawing")
+    os.system("rm -r bin")
+    child, gnuplot = hanging_gnuplot()
+    err = child.communicate(timeout=60 + BOUND)[1]
+    check(child.returncode == 0 and "gnuplot was ended" in err and not is_there(gnuplot), child.returncode, err)
 
 
 PIPE_SIZE = 1031  # F_SETPIPE_SZ, of Linux
