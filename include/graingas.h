@@ -1255,6 +1255,8 @@ typedef struct gg_sweep_options {
   void (*ended)(void *context, size_t i, gg_status status, const char *file, const char *message);
   void (*warn)(void *context, const char *message); /* keys without effect; once, however many points say so */
   gg_workers *workers; /* other processes that take part in the points done here; NULL: none */
+  int accept_version;  /* not 0: keep points and checkpoints of a build with other sources, whose numbers may differ;
+                        * 0: their points run again, and their files stay as NAME.old.h5 */
 } gg_sweep_options;
 
 /**
@@ -1397,6 +1399,7 @@ typedef struct gg_reproduce_options {
   void (*warn)(void *context, const char *figure, const char *message);
   void (*written)(void *context, const char *file);
   void (*number)(void *context, const gg_figure_number *number);
+  int accept_version; /* as for gg_sweep_options */
 } gg_reproduce_options;
 
 /**

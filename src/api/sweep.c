@@ -121,8 +121,7 @@ const char *gg_sweep_does(const gg_sweep *sweep)
 
 static gg_status check_point(const gg_sweep *sweep, size_t i, gg_error *err)
 {
-  if (!sweep->n)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: call gg_sweep_check first", sweep->name);
+  if (!sweep->n) return gg_base_fail(err, GG_BAD_INPUT, "%s: call gg_sweep_check first", sweep->name);
   if (i >= sweep->n)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1,
                         sweep->n);
@@ -192,6 +191,17 @@ static void report_file(const collecting *c, const char *file)
   if (c->written) c->written(c->context, file);
 }
 
+static void warn_of_builds(const collecting *c)
+{
+  char text[200];
+  if (!c->table.n_other_builds || !c->options.warn) return;
+  snprintf(text, sizeof text,
+           "%zu of %zu points are by another build of graingas, whose numbers may differ: see the column `build`; the "
+           "sweep runs them again",
+           c->table.n_other_builds, c->table.n_documents);
+  c->options.warn(c->context, text);
+}
+
 /* Better known before than after. */
 static gg_status check_places(const collecting *c, gg_error *err)
 {
@@ -215,6 +225,7 @@ static gg_status write_all(collecting *c, const char *folder, gg_error *err)
   const char *command = c->options.command ? c->options.command : "the graingas library";
   GG_TRY(check_places(c, err));
   GG_TRY(gg_sweep_point_table_read(&c->table, c->sweep, folder, err));
+  warn_of_builds(c);
   GG_TRY(gg_sweep_point_table_write_csv(&c->table, c->sweep, c->csv, err));
   report_file(c, c->csv);
   GG_TRY(gg_sweep_point_table_write_h5(&c->table, c->sweep, c->h5, command, err));

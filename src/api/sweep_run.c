@@ -160,6 +160,7 @@ static gg_status do_point(controller *c, gg_error *err)
                             .command = all->options.command,
                             .input = all->options.input,
                             .workers = all->options.workers,
+                            .accept_version = all->options.accept_version,
                             .context = c,
                             .progress = note_progress,
                             .stop = is_stopped,
@@ -341,8 +342,8 @@ static gg_status sum_up(const sweep_run *all, gg_error *err)
     return gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted; go on with the same command", all->folder);
   if (!failed && !fell_short) return GG_OK;
   return gg_base_fail(err, GG_FAILED,
-                      "%s: of %zu points %zu failed, and %zu did not reach the accuracy asked for (*.short.h5)", all->folder,
-                      all->n + all->done_before, failed, fell_short);
+                      "%s: of %zu points %zu failed, and %zu did not reach the accuracy asked for (*.short.h5)",
+                      all->folder, all->n + all->done_before, failed, fell_short);
 }
 
 /* Longest first, so that none is left over at the end; as they are listed where they take as long. */
@@ -365,10 +366,22 @@ static int by_id(const void *a, const void *b)
   return one->i < two->i ? -1 : 1;
 }
 
+static void report_aside(const sweep_run *all, size_t other, size_t damaged)
+{
+  char text[400];
+  if (!all->options.warn || other + damaged == 0) return;
+  snprintf(text, sizeof text,
+           "%zu points are by another build of graingas, %zu are damaged: they run again, and their files stay as "
+           "*.old.h5%s",
+           other, damaged, other ? "; --accept-version keeps points of other builds" : "");
+  all->options.warn(all->options.context, text);
+}
+
 /* Points that are the same scene are one: the first of them. */
 static gg_status list_missing(sweep_run *all, size_t first, size_t end, gg_error *err)
 {
   const gg_sweep *sweep = all->sweep;
+  size_t aside[3] = {0}; /* by gg_point_file */
   known *ids = gg_base_array_new(end - first, sizeof *ids, err);
   all->item = gg_base_array_new(end - first, sizeof *all->item, err);
   if (!ids || !all->item) return free(ids), GG_FAILED;
@@ -376,6 +389,7 @@ static gg_status list_missing(sweep_run *all, size_t first, size_t end, gg_error
   qsort(ids, end - first, sizeof *ids, by_id);
   for (size_t k = 0; k < end - first; k++) {
     if (k && ids[k].id == ids[k - 1].id) continue;
+    aside[gg_sweep_point_set_aside(all->folder, ids[k].id, all->options.accept_version)]++;
     gg_point_state state = gg_sweep_point_status(all->folder, ids[k].id);
     all->done_before += state != GG_POINT_MISSING;
     all->short_before += state == GG_POINT_SHORT;
@@ -383,6 +397,7 @@ static gg_status list_missing(sweep_run *all, size_t first, size_t end, gg_error
       all->item[all->n++] = (item){.i = ids[k].i, .checked = sweep->point[ids[k].i].seconds};
   }
   free(ids);
+  report_aside(all, aside[GG_POINT_FILE_OTHER_BUILD], aside[GG_POINT_FILE_DAMAGED]);
   qsort(all->item, all->n, sizeof *all->item, by_length);
   return GG_OK;
 }

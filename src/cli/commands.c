@@ -9,13 +9,13 @@ const gg_command gg_cli_commands[] = {
      "Runs event-driven molecular dynamics (md) and Enskog Monte Carlo (dsmc) on the scene, evaluates every theory "
      "that applies, and prints all of them side by side. Writes an HDF5 result file and a picture. Checkpoints and "
      "--resume work as for run.",
-     SIMULATES | GG_OPT_PICTURE | GG_OPT_RESUME, gg_cli_compare_main},
+     SIMULATES | GG_OPT_PICTURE | GG_OPT_RESUME | GG_OPT_ACCEPT, gg_cli_compare_main},
     {"run", "SCENE.yaml", "One engine: the scene's, or the one of --engine",
      "With output.checkpoint_every above 0 in the scene, the run keeps a checkpoint beside the result "
      "(usf.checkpoint.h5 for usf.h5) and removes it at the end. --resume continues from it with bit-identical "
      "results.\nmpirun -n 4 graingas run SCENE.yaml distributes the replicas over four processes with bit-identical "
      "results; so does compare.",
-     SIMULATES | GG_OPT_ENGINE | GG_OPT_RESUME, gg_cli_run_main},
+     SIMULATES | GG_OPT_ENGINE | GG_OPT_RESUME | GG_OPT_ACCEPT, gg_cli_run_main},
     {"theory", "SCENE.yaml", "Theories without simulation",
      "Evaluates every theory that applies to the scene and prints the answers side by side; theories that do not apply "
      "are listed with the reason.",
@@ -27,7 +27,8 @@ const gg_command gg_cli_commands[] = {
      "with --vary.\nThe results folder holds one file for each finished point; its name is a hash of the scene. The "
      "same command continues an interrupted sweep, and several processes may share the folder. With "
      "output.checkpoint_every, unfinished points resume from their checkpoints.",
-     GG_OPT_SWEEP | GG_OPT_SET | GG_OPT_PICTURE | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_JSON | GG_OPT_QUIET,
+     GG_OPT_SWEEP | GG_OPT_ACCEPT | GG_OPT_SET | GG_OPT_PICTURE | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_JSON |
+         GG_OPT_QUIET,
      gg_cli_sweep_main},
     {"reproduce", "FIGURE|list|all", "A figure of the papers: data, theory lines, picture",
      "Reproduces figures of Gayen's thesis and of Montanero's review: \"thesis 3.5\", \"review 3\"; 3.5 alone works "
@@ -35,7 +36,7 @@ const gg_command gg_cli_commands[] = {
      "published numbers beside the simulated ones. list prints all figures with their needs, run time and "
      "verdict.\nThe runs are stored in figures.sweep and shared by the figures. The same command continues an "
      "interrupted figure. Two processes need two folders (--output). docs/appendix/reproduction.md has the results.",
-     GG_OPT_QUICK | GG_OPT_FOLDER | GG_OPT_JSON | GG_OPT_THREADS | GG_OPT_QUIET, gg_cli_reproduce_main},
+     GG_OPT_ACCEPT | GG_OPT_QUICK | GG_OPT_FOLDER | GG_OPT_JSON | GG_OPT_THREADS | GG_OPT_QUIET, gg_cli_reproduce_main},
     {"plot", "RESULT.h5", "Pictures of a result file",
      "Draws the relaxation of the temperatures with the averaging window; for a comparison also md, dsmc and the "
      "theories side by side. Draws a snapshot if the file has positions, and one picture for each observable with "

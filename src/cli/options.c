@@ -40,7 +40,8 @@ const gg_option gg_cli_options_table[] = {
      "width of the picture on paper, e.g. 86mm: mm, cm, in or pt (default: as for a screen)"},
     {GG_OPT_FORMAT, "format", "svg|png|pdf", "format of the picture (default: from the output's name, else svg)"},
     {GG_OPT_RESUME, "resume", "FILE", "resume from this checkpoint"},
-    {GG_OPT_RESUME, "accept-version", NULL, "resume a checkpoint of another build, whose numbers may differ"},
+    {GG_OPT_ACCEPT, "accept-version", NULL,
+     "use checkpoints and points of sweeps of another build, whose numbers may differ"},
     {GG_OPT_ALL, "all", NULL, "show every quantity, not only the main ones"},
     {GG_OPT_JSON, "json", NULL, "results as one JSON document on standard output, and nothing else there"},
     {GG_OPT_QUICK, "quick", NULL, "fewer sizes and fewer repeats"},
@@ -176,10 +177,8 @@ static int take(gg_options *o, unsigned flag, const char *name, const char *valu
   case GG_OPT_PICTURE | GG_OPT_FORMAT: o->width = value; break;
   case GG_OPT_PICTURE: o->picture = value; break;
   case GG_OPT_FORMAT: o->format = value; break;
-  case GG_OPT_RESUME:
-    if (value) o->resume = value;
-    o->accept_version |= !value;
-    break;
+  case GG_OPT_RESUME: o->resume = value; break;
+  case GG_OPT_ACCEPT: o->accept_version = true; break;
   case GG_OPT_ALL: o->all = true; break;
   case GG_OPT_JSON: o->json = true; break;
   case GG_OPT_QUICK: o->quick = true; break;

@@ -22,6 +22,7 @@ enum {
   GG_OPT_SWEEP = 1u << 14, /* all that only sweeps have */
   GG_OPT_FOLDER = 1u << 15,
   GG_OPT_COLLISIONS = 1u << 16,
+  GG_OPT_ACCEPT = 1u << 17,
 };
 
 typedef struct gg_option {

@@ -162,6 +162,7 @@ static int reproduce(const gg_options *o)
   gg_reproduce_options options = {.quick = o->quick,
                                   .threads = o->threads,
                                   .folder = o->output,
+                                  .accept_version = o->accept_version,
                                   .command = o->command_line,
                                   .context = &t,
                                   .progress = show,

@@ -218,6 +218,7 @@ static int work(sweep_command *c)
                                     .workers = gg_cli_workers(o->threads),
                                     .command = o->command_line,
                                     .input = o->input,
+                                    .accept_version = o->accept_version,
                                     .context = c,
                                     .progress = show_progress,
                                     .stop = is_interrupted,

@@ -171,12 +171,20 @@ static void ended(void *context, size_t i, gg_status status, const char *file, c
   if (status != GG_OK && t->options->warn) t->options->warn(t->options->context, t->figure, message);
 }
 
+static void warn(void *context, const char *message)
+{
+  const teller *t = context;
+  if (t->options->warn) t->options->warn(t->options->context, t->figure, message);
+}
+
 static gg_status run_all(const gg_figure_entry *entry, gg_sweep **sweeps, const char *folder,
                          const gg_reproduce_options *options, gg_error *err)
 {
   teller t = {options, entry->figure};
   gg_sweep_options o = {.threads = options->threads,
                         .command = options->command,
+                        .accept_version = options->accept_version,
+                        .warn = warn,
                         .context = &t,
                         .progress = progress,
                         .stop = stop,

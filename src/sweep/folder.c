@@ -11,8 +11,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/build.h"
 #include "base/memory.h"
 #include "base/output_path.h"
+#include "files/h5/hdf5_reader.h"
 
 void gg_sweep_point_name(uint64_t id, char name[GG_POINT_NAME])
 {
@@ -48,6 +50,45 @@ gg_point_state gg_sweep_point_status(const char *folder, uint64_t id)
   return is_there(folder, id, ".h5")         ? GG_POINT_DONE
          : is_there(folder, id, ".short.h5") ? GG_POINT_SHORT
                                              : GG_POINT_MISSING;
+}
+
+static gg_point_file check_file(const char *path, bool any_build)
+{
+  gg_h5_in h;
+  gg_point_file found = GG_POINT_FILE_GOOD;
+  const unsigned before = gg_base_memory_failures();
+  gg_h5_open(&h, path);
+  char *build = !h.failed && gg_h5_exists(&h, "/graingas/build") ? gg_h5_read_text(&h, "/graingas/build") : NULL;
+  if (h.failed)
+    found = GG_POINT_FILE_DAMAGED;
+  else if (!any_build && (!build || strcmp(build, gg_base_build_identity) != 0))
+    found = GG_POINT_FILE_OTHER_BUILD;
+  gg_h5_in_close(&h);
+  free(build);
+  return gg_base_memory_failures() == before ? found : GG_POINT_FILE_GOOD;
+}
+
+/* Under the point's lock the file is checked again: another process may have put a new one there. */
+static gg_point_file set_aside(const char *folder, uint64_t id, const char *ending, bool any_build)
+{
+  gg_file_lock lock;
+  char path[PATH_MAX], result[PATH_MAX], aside[PATH_MAX];
+  gg_sweep_point_path(folder, id, ending, path);
+  gg_sweep_point_path(folder, id, ".h5", result);
+  gg_sweep_point_path(folder, id, ".old.h5", aside);
+  if (!is_there(folder, id, ending) || check_file(path, any_build) == GG_POINT_FILE_GOOD) return GG_POINT_FILE_GOOD;
+  if (gg_base_file_lock_take(&lock, result, result, NULL) != GG_OK) return GG_POINT_FILE_GOOD;
+  gg_point_file found = is_there(folder, id, ending) ? check_file(path, any_build) : GG_POINT_FILE_GOOD;
+  if (found != GG_POINT_FILE_GOOD && rename(path, aside) != 0) found = GG_POINT_FILE_GOOD;
+  gg_base_file_lock_release(&lock);
+  return found;
+}
+
+gg_point_file gg_sweep_point_set_aside(const char *folder, uint64_t id, bool any_build)
+{
+  const gg_point_file whole = set_aside(folder, id, ".h5", any_build),
+                      shorter = set_aside(folder, id, ".short.h5", any_build);
+  return whole > shorter ? whole : shorter;
 }
 
 gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_error *err)

@@ -17,6 +17,10 @@ gg_point_state gg_sweep_point_status(const char *folder, uint64_t id);
 /* Make it if it is not there (not what it stands in), and see that files can be made in it. `holds` ends the message
  * where something else has its name. */
 gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_error *err);
+/* Is the file of the point of this build (any_build: of any), and whole? Where it is not it becomes NAME.old.h5, and
+ * the point is missing. Not where another process is at the point, or for lack of memory. */
+typedef enum gg_point_file { GG_POINT_FILE_GOOD, GG_POINT_FILE_OTHER_BUILD, GG_POINT_FILE_DAMAGED } gg_point_file;
+gg_point_file gg_sweep_point_set_aside(const char *folder, uint64_t id, bool any_build);
 /* Remove the temporary files of a killed process beside points that are done: checkpoints, locks, partial results. */
 void gg_sweep_folder_tidy(const char *folder);
 /* Take the place of a point, so that no other process does it at the same time: GG_OK with lock->fd -1 says that one

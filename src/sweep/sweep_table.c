@@ -118,6 +118,9 @@ static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char 
     status = gg_sweep_point_check(&scene, sweep->settings.does, json_object_get(document, "scene"), path, err);
   if (status != GG_OK) return json_decref(document), status;
   t->document[t->n_documents++] = document;
+  row.version = json_string_value(json_object_get(document, "graingas"));
+  row.build = json_string_value(json_object_get(document, "build"));
+  t->n_other_builds += !row.build || strcmp(row.build, gg_base_build_identity) != 0;
   return add_document(t, row, document, err);
 }
 
@@ -150,6 +153,8 @@ static const struct {
     {"short", TRUTH, offsetof(gg_cli_table_row, fell_short), true},
     {"seconds", NUMBER, offsetof(gg_cli_table_row, seconds), false},
     {"file", NAME, offsetof(gg_cli_table_row, file), false},
+    {"version", TEXT, offsetof(gg_cli_table_row, version), false},
+    {"build", TEXT, offsetof(gg_cli_table_row, build), false},
 };
 enum { COLUMNS = sizeof columns / sizeof *columns };
 

@@ -10,7 +10,8 @@ typedef struct gg_cli_table_row {
   char file[GG_POINT_NAME]; /* of the point */
   const char *method;       /* "md", "dsmc", or a theory's name */
   const char *quantity, *unit;
-  double mean, error; /* NaN: cannot be had; of theories mostly none */
+  const char *version, *build; /* of graingas, that the point was run with; build: its identity */
+  double mean, error;          /* NaN: cannot be had; of theories mostly none */
   bool theory;
   bool steady, fell_short;
   double seconds; /* of processor time, of the method's whole run; NaN: a theory */
@@ -20,6 +21,7 @@ typedef struct gg_cli_table_row {
 typedef struct gg_point_table {
   size_t n, room;
   gg_cli_table_row *row; /* in the order of points, methods, quantities */
+  size_t n_other_builds; /* points that a build of another identity ran */
   size_t n_documents;    /* one for each point that has a file */
   json_t **document;     /* texts of the rows belong to them */
 } gg_point_table;
@@ -29,7 +31,8 @@ gg_status gg_sweep_point_table_read(gg_point_table *table, const gg_sweep *sweep
 void gg_sweep_point_table_clear(gg_point_table *table);
 
 /* Whole or not at all; columns: the point's number, a column a varied key, then method, quantity, mean, error, unit,
- * seed, steady, short, seconds, file. In HDF5 each is an array under /graingas/table, texts without length. */
+ * seed, steady, short, seconds, file, version, build. In HDF5 each is an array under /graingas/table, texts without
+ * length. */
 gg_status gg_sweep_point_table_write_csv(const gg_point_table *table, const gg_sweep *sweep, const char *path,
                                          gg_error *err);
 gg_status gg_sweep_point_table_write_h5(const gg_point_table *table, const gg_sweep *sweep, const char *path,

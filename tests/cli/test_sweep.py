@@ -8,9 +8,11 @@ import random
 import re
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
+import zlib
 
 from tap import GRAINGAS, PATIENCE, check, main, run
 
@@ -234,6 +236,42 @@ def test_interrupted():
     err = child.communicate(timeout=20 * PATIENCE)[1]
     check(child.returncode == 130 and "interrupted; go on with the same command" in err, err)
     check(os.listdir("s.sweep") == [], os.listdir("s.sweep"))
+
+
+def by_another_build(path):
+    """A point as another build would have left it, with a temperature that is wrong; whole by its checksum."""
+    with open(path, "rb") as f:
+        body = f.read()
+    body = body[:body.rindex(b"gg-crc32")]
+    build = json.loads(run("info", path, "--json").out)["build"].encode()
+    check(body.count(build) > 1, build)
+    body = body.replace(build, b"0" * len(build))
+    with open(path, "wb") as f:
+        f.write(body + b"gg-crc32" + struct.pack("<QI", len(body), zlib.crc32(body)))
+
+
+def test_other_builds():
+    """Points of another build and damaged ones run again, and are kept; --accept-version keeps the former in place."""
+    write()
+    check(run("sweep", "s.yaml").code == 0)
+    table, files = collected("s.sweep"), sorted(os.listdir("s.sweep"))
+    check(all(row["build"] and row["version"].startswith("0.1.0") for row in table), table[0])
+    points = [f for f in files if len(f) == 19]
+    for name in points[:2]:
+        by_another_build("s.sweep/" + name)
+    done = run("sweep", "s.yaml", "--collect", "--picture", "none")
+    check(done.code == 0 and "warning: 2 of 6 points are by another build" in done.err, done.err)
+    check(sum(row["build"][0:4] == "0000" for row in rows("s.sweep.csv")) == len(table) // 3)
+    done = run("sweep", "s.yaml", "--accept-version")
+    check(done.code == 0 and "warning" not in done.err and sorted(os.listdir("s.sweep")) == files, done.err)
+    with open("s.sweep/" + points[2], "r+b") as f:
+        f.seek(3000)
+        f.write(b"damage")
+    done = run("sweep", "s.yaml")
+    check(done.code == 0 and "warning: 2 points are by another build of graingas, 1 are damaged" in done.err, done.err)
+    check(collected("s.sweep") == table)
+    aside = [p[:-3] + ".old.h5" for p in points[:3]]
+    check(sorted(os.listdir("s.sweep")) == sorted(files + aside), os.listdir("s.sweep"))
 
 
 def test_failing_point():
