@@ -127,7 +127,7 @@ def test_collect():
     check(done.code == 3 and "table of a sweep" in done.err, done.code, done.err)
     done = run("sweep", "s.yaml", "--collect", "--json")
     check(done.code == 0 and len(json.loads(done.out)["points"]) == 6, done.out, done.err)
-    for args, words in (("--over", "engine"), "none of the keys"), (("--show", "colour"), "no point has"):
+    for args, words in (("--over", "engine"), "is not a key that this sweep varies"), (("--show", "colour"), "no point has"):
         done = run("sweep", "s.yaml", "--collect", *args)
         check(done.code == 2 and words in done.err, done.err)
     of = {r["point"]: "s.sweep/" + r["file"] + ".h5" for r in table}

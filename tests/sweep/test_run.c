@@ -132,7 +132,7 @@ static void rest_goes_on(void **state)
                              "run.collisions: [20, 1e9, 1e6]}]");
   const gg_sweep_options options = {.threads = 2, .context = &t, .ended = hear_end, .progress = hear_progress};
   assert_int_equal(gg_sweep_run(sweep, "rest", &options, &err), GG_FAILED);
-  if (!strstr(err.message, "of 3 points 1 failed, and 1 ended short")) fail_msg("%s", err.message);
+  if (!strstr(err.message, "of 3 points 1 failed, and 1 did not reach")) fail_msg("%s", err.message);
   assert_int_equal(t.ended[0], 1);
   assert_int_equal(t.ended[1], 2);
   assert_int_equal(t.ended[2], 3);
