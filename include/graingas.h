@@ -186,6 +186,7 @@ typedef struct gg_scene_needs {
   double collisions_per_grain;     /* warm-up included */
   double cpu_seconds;
   double observables; /* share of the run's time that its observables add, over the run without them */
+  double file;        /* bytes of the result file, with its trajectory */
 } gg_scene_needs;
 
 /**
@@ -1341,13 +1342,26 @@ enum {                        /* what gg_export writes */
  * @param prefix beginning of the file names
  * @param parts a sum of GG_EXPORT_...
  * @param written called with each file name; may be NULL
- * @param context passed to the callback
+ * @param progress called after each frame of a trajectory with the share of it that is written; may be NULL
+ * @param context passed to the callbacks
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT if a file is the result, or the prefix is a device or pipe; GG_FAILED if
  *   the result has none of the parts
  */
 GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
-                           void (*written)(void *context, const char *file), void *context, gg_error *err);
+                           void (*written)(void *context, const char *file),
+                           void (*progress)(void *context, double share), void *context, gg_error *err);
+
+/**
+ * Ask what is unusual about a result file that can be read all the same: another program has changed it, or a newer
+ * graingas wrote it.
+ * @param result_file file name of a result
+ * @param text receives one line, cut to size bytes; empty: nothing is unusual
+ * @param size size of the buffer in bytes
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE if the file cannot be read
+ */
+GG_API gg_status gg_result_file_notice(const char *result_file, char *text, size_t size, gg_error *err);
 
 /* ---- Figures: those of two papers, simulated anew ----
  * Gayen's thesis (2008) and Montanero's review (2003). A figure is a small entry of validation/figures that the library
@@ -1486,6 +1500,13 @@ GG_API void gg_format_estimate(double mean, double error, char *text, size_t siz
  * @return the word; NULL if none is near
  */
 GG_API const char *gg_nearest_word(const char *word, const char *const *known);
+
+/**
+ * Make a text safe to show: control characters, marks of writing direction and bytes that are not UTF-8 become '?'.
+ * Messages of this library are safe already; names of files and other foreign texts may not be.
+ * @param text the text, changed in place; may be NULL
+ */
+GG_API void gg_text_make_printable(char *text);
 
 /* ---- Extension ----
  * Observables, theories and a restitution law of one's own, registered with a scene. What is run, compared or evaluated

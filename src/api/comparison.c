@@ -34,15 +34,14 @@ static gg_status keep_one(gg_comparison *c, const char *theory, gg_error *err)
   return gg_base_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s'", theory);
 }
 
-static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *theory, gg_error *err)
+static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *theory, gg_model *model, gg_error *err)
 {
-  gg_model model;
   gg_scene finished;
   GG_TRY(gg_api_scene_finish(scene, &finished, err));
   c->scene = finished;
   gg_common_extension_hold(c->scene.extension);
-  GG_TRY(gg_common_model_make(&c->scene, GG_MD, &model, err));
-  GG_TRY(gg_run_compare_theories(&model, c, err));
+  GG_TRY(gg_common_model_make(&c->scene, GG_MD, model, err));
+  GG_TRY(gg_run_compare_theories(model, c, err));
   const unsigned before = gg_base_memory_failures();
   gg_scene_ineffective_keys(&finished, GG_USE_THEORY, &c->warnings);
   GG_TRY(gg_base_memory_check(before, GG_OK, err));
@@ -53,8 +52,9 @@ gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, gg_com
 {
   GG_NEED(scene, comparison);
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
-  if (!c) return GG_FAILED;
-  gg_status status = evaluate(c, scene, theory, err);
+  gg_model *model = c ? gg_base_array_new(1, sizeof *model, err) : NULL;
+  gg_status status = model ? evaluate(c, scene, theory, model, err) : GG_FAILED;
+  free(model);
   if (status == GG_OK)
     *comparison = c;
   else

@@ -4,54 +4,28 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "common/scene.h"
 #include "scene/fields.h"
 #include "theory/theory.h"
 
 enum { MOST_LETTERS = 40, MOST_TEXT = 500 };
 
-/* In any locale. */
-static bool is_letter(char c)
-{
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
 /* `what` is "observable" ... */
 static gg_status check_name(const char *what, const char *name, gg_error *err)
 {
   if (!name || !*name) return gg_base_fail(err, GG_BAD_INPUT, "%s: a name is missing", what);
-  bool good = is_letter(*name) && strlen(name) <= MOST_LETTERS;
-  for (const char *c = name; *c; c++) good &= is_letter(*c) || (*c >= '0' && *c <= '9') || *c == '_';
-  if (good) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT, "%s: '%.60s' is not a valid name: use a letter, then letters, digits and _, at most %d",
-                      what, name, MOST_LETTERS);
-}
-
-/* Bytes of the UTF-8 character that begins here, 0 if none does. */
-static size_t character(const unsigned char *c)
-{
-  size_t n = *c < 0x80                 ? 1
-             : *c >= 0xc2 && *c < 0xe0 ? 2
-             : *c >= 0xe0 && *c < 0xf0 ? 3
-             : *c >= 0xf0 && *c < 0xf5 ? 4
-                                       : 0;
-  for (size_t k = 1; k < n; k++)
-    if ((c[k] & 0xc0) != 0x80) return 0;
-  bool overlong = (c[0] == 0xe0 && c[1] < 0xa0) || (c[0] == 0xf0 && c[1] < 0x90);
-  bool beyond = (c[0] == 0xed && c[1] > 0x9f) || (c[0] == 0xf4 && c[1] > 0x8f);
-  return overlong || beyond ? 0 : n;
+  if (gg_base_text_is_name(name, MOST_LETTERS)) return GG_OK;
+  return gg_base_fail(err, GG_BAD_INPUT,
+                      "%s: '%.60s' is not a valid name: use a letter, then letters, digits and _, at most %d", what,
+                      name, MOST_LETTERS);
 }
 
 /* Texts go into files, documents and tables: short, of one line, in UTF-8, and may be missing. */
 static gg_status check_text(const char *name, const char *text, size_t most, gg_error *err)
 {
-  if (!text) return GG_OK;
-  bool good = strlen(text) <= most;
-  for (const unsigned char *c = (const unsigned char *)text; good && *c; c += character(c))
-    good = character(c) > 0 && *c >= ' ' && *c != 0x7f;
-  return good
-             ? GG_OK
-             : gg_base_fail(err, GG_BAD_INPUT, "%s: a text must be one line of UTF-8 of at most %zu bytes", name, most);
+  if (!text || (strlen(text) <= most && gg_base_text_is_printable(text))) return GG_OK;
+  return gg_base_fail(err, GG_BAD_INPUT, "%s: a text must be one line of UTF-8 of at most %zu bytes", name, most);
 }
 
 static bool is_shared(const char *quantity)

@@ -1,8 +1,12 @@
 /* The teaching page with a scene in it: a copy of the file that `ninja page` built. */
 #include <errno.h>
+#include <limits.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "api/api.h"
 #include "api/page_places.h"
@@ -12,12 +16,41 @@
 /* Where the page says which scene it begins with; NULL as JSON: its own. */
 static const char *const marker = "\"@given@\"";
 
-static FILE *open_page(void)
+/* The build folder that the running program stands in, ".../src/cli/graingas" below it; "": it was installed, or
+ * belongs to somebody else. No binary holds a path of the sources. */
+static void find_build_folder(char folder[PATH_MAX])
 {
-  const char *const places[] = {GG_PAGE_BUILT, GG_PAGE_INSTALLED};
-  FILE *in = NULL;
-  for (int k = 0; k < 2 && !in; k++) in = fopen(places[k], "rb");
-  return in;
+  char ninja[PATH_MAX + 16];
+  const ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);
+  folder[length > 0 ? length : 0] = '\0';
+  for (int up = 0; up < 3 && *folder; up++) *strrchr(folder, '/') = '\0';
+  snprintf(ninja, sizeof ninja, "%s/build.ninja", folder);
+  if (*folder && access(ninja, F_OK) != 0) *folder = '\0';
+}
+
+/* Whoever can write there can put a page of their own in its place. */
+static bool is_safe(const char *path)
+{
+  struct stat about;
+  return stat(path, &about) == 0 && (about.st_uid == geteuid() || about.st_uid == 0) && !(about.st_mode & 022);
+}
+
+/* The installed program hands out the installed page alone; one that was only built, the page of its build folder. */
+static gg_status find_page(char page[PATH_MAX + 16], gg_error *err)
+{
+  char folder[PATH_MAX];
+  find_build_folder(folder);
+  snprintf(page, PATH_MAX + 16, "%s%s", folder, *folder ? "/page.html" : GG_PAGE_INSTALLED);
+  if (access(page, R_OK) != 0)
+    return gg_base_fail(err, GG_BAD_FILE,
+                        "the page was not built: there is no %s; in the sources of graingas ./check-page "
+                        "builds it (ninja -C build page, where emscripten is installed)",
+                        page);
+  if (!*folder || (is_safe(folder) && is_safe(page))) return GG_OK;
+  return gg_base_fail(err, GG_BAD_FILE,
+                      "%s: others can write there, and could put another page in its place; "
+                      "chmod go-w its folder and the file",
+                      page);
 }
 
 static gg_status read_all(FILE *in, char **text, gg_error *err)
@@ -34,13 +67,10 @@ static gg_status read_all(FILE *in, char **text, gg_error *err)
 
 static gg_status read_page(char **text, gg_error *err)
 {
-  FILE *in = open_page();
-  if (!in)
-    return gg_base_fail(
-        err, GG_BAD_FILE,
-        "the page was not built: it is neither %s nor %s; in the sources of graingas ./check-page builds it "
-        "(ninja -C build page, where emscripten is installed)",
-        GG_PAGE_BUILT, GG_PAGE_INSTALLED);
+  char path[PATH_MAX + 16];
+  GG_TRY(find_page(path, err));
+  FILE *in = fopen(path, "rb");
+  if (!in) return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
   gg_status status = read_all(in, text, err);
   fclose(in);
   return status;
@@ -66,7 +96,7 @@ static gg_status write_parts(const char *path, const char *page, const char *sce
 {
   const char *at = strstr(page, marker), *rest = at ? at + strlen(marker) : NULL;
   gg_atomic_file file = GG_ATOMIC_NONE;
-  if (!at) return gg_base_fail(err, GG_BAD_FILE, "%s: is an outdated page: build it again", GG_PAGE_BUILT);
+  if (!at) return gg_base_fail(err, GG_BAD_FILE, "the page that was built is outdated: build it again");
   GG_TRY(gg_base_atomic_open(&file, path, err));
   gg_status status = gg_base_atomic_write(&file, page, (size_t)(at - page), err);
   if (status == GG_OK) status = gg_base_atomic_write(&file, scene, strlen(scene), err);

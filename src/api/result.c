@@ -252,8 +252,16 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
   return gg_base_memory_check(before, status, err); /* a picture that lacks its title */
 }
 
+gg_status gg_result_file_notice(const char *result_file, char *text, size_t size, gg_error *err)
+{
+  GG_NEED(result_file, text);
+  if (!size) return gg_base_fail(err, GG_BAD_INPUT, "gg_result_file_notice: there is no room for a text");
+  return gg_files_stored_result_notice(result_file, text, size, err);
+}
+
 gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
-                    void (*written)(void *context, const char *file), void *context, gg_error *err)
+                    void (*written)(void *context, const char *file), void (*progress)(void *context, double share),
+                    void *context, gg_error *err)
 {
   GG_NEED(result_file, prefix);
   const char *slash = strrchr(prefix, '/'), *name = slash ? slash + 1 : prefix;
@@ -263,7 +271,7 @@ gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                         result_file, parts);
   gg_stored_result stored;
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
-  gg_status status = gg_files_export_result(&stored, result_file, prefix, parts, written, context, err);
+  gg_status status = gg_files_export_result(&stored, result_file, prefix, parts, written, progress, context, err);
   gg_files_stored_result_clear(&stored);
   return status;
 }

@@ -95,7 +95,9 @@ static gg_status begin_checkpoints(gg_run_call *r, gg_error *err)
 static gg_status begin(gg_run_call *r, const gg_scene *scene, const gg_run_options *options, bool comparison,
                        gg_error *err)
 {
-  *r = (gg_run_call){.file = {.file = GG_ATOMIC_NONE}, .lock = GG_FILE_LOCK_NONE, .log.fd = -1};
+  r->file.file = GG_ATOMIC_NONE;
+  r->lock = GG_FILE_LOCK_NONE;
+  r->log.fd = -1;
   r->comparison = comparison;
   if (options) r->options = *options;
   if (r->options.threads < 1) r->options.threads = 1;
@@ -198,32 +200,41 @@ static gg_status status_of(gg_status run, gg_status written, const gg_error *why
   return gg_base_fail(err, written, "%.500s; and %.500s", message, err ? err->message : "");
 }
 
-gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const gg_run_options *options,
-                              bool comparison, gg_comparison **made, gg_error *err)
+static gg_status simulate(gg_run_call *r, gg_point_call *point, const gg_scene *scene, const gg_run_options *options,
+                          bool comparison, gg_comparison **made, gg_error *err)
 {
-  gg_run_call r;
   gg_error why = {0};
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   if (!c) return GG_FAILED;
   const unsigned before = gg_base_memory_failures();
-  gg_status status = begin(&r, scene, options, comparison, err);
-  r.callbacks.scheduler = point ? point->scheduler : NULL;
+  gg_status status = begin(r, scene, options, comparison, err);
+  r->callbacks.scheduler = point ? point->scheduler : NULL;
   if (status == GG_OK) {
-    warn_of_keys(&r);
-    status = run_engines(&r, c, err);
+    warn_of_keys(r);
+    status = run_engines(r, c, err);
   }
   bool some = c->by_engine[GG_MD] || c->by_engine[GG_DSMC] || (comparison && status == GG_OK);
   if (gg_base_memory_failures() != before && status == GG_OK) { /* it lacks a warning, or worse */
     status = gg_base_out_of_memory(err);
     some = false;
   }
-  gg_status written = finish(&r, point, status, some ? c : NULL, &why);
-  end(&r);
+  gg_status written = finish(r, point, status, some ? c : NULL, &why);
+  end(r);
   if (some)
     *made = c;
   else
     gg_comparison_free(c);
   return status_of(status, written, &why, err);
+}
+
+gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const gg_run_options *options,
+                              bool comparison, gg_comparison **made, gg_error *err)
+{
+  gg_run_call *r = gg_base_array_new(1, sizeof *r, err); /* too large for small stacks */
+  if (!r) return GG_FAILED;
+  gg_status status = simulate(r, point, scene, options, comparison, made, err);
+  free(r);
+  return status;
 }
 
 gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err)

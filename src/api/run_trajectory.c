@@ -26,6 +26,7 @@ enum { NAME = 256 };
 static gg_status store_in_result(void *context, const gg_frame *frame, gg_error *err)
 {
   gg_run_call *r = context;
+  r->file.scene = &r->scene;
   return gg_files_result_file_frame(&r->file, &r->model, frame, err);
 }
 

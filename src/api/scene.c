@@ -137,7 +137,7 @@ gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene
   gg_engine_kind kind;
   GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
   const gg_cost_estimate f = gg_run_cost_estimate(&finished, &model, kind);
-  *needs = (gg_scene_needs){f.bytes, gg_base_memory_available(), f.collisions, f.seconds, 0};
+  *needs = (gg_scene_needs){f.bytes, gg_base_memory_available(), f.collisions, f.seconds, 0, f.file};
   for (int i = 0; i < f.n_costs; i++) needs->observables += f.cost[i].percent / 100;
   return GG_OK;
 }

@@ -57,3 +57,8 @@ const char *gg_nearest_word(const char *word, const char *const *known)
   for (; *known; known++) gg_base_spelling_try(&nearest, *known);
   return nearest.best;
 }
+
+void gg_text_make_printable(char *text)
+{
+  if (text) gg_base_text_make_printable(text);
+}

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
+
 enum { LONGEST = 8192, HEAD = 300 }; /* a path may have 4096, a reason a thousand */
 static const char between[] = " ... ";
 
@@ -13,9 +15,11 @@ static bool begins_letter(char c)
   return ((unsigned char)c & 0xC0) != 0x80; /* UTF-8 */
 }
 
-/* What a message has no room for is left out in the middle: it begins with a name and ends with the reason. */
-static void put(gg_error *err, const char *whole)
+/* What a message has no room for is left out in the middle: it begins with a name and ends with the reason. Names of
+ * files and keys may hold anything: what a terminal would act on is replaced here, for all messages. */
+static void put(gg_error *err, char *whole)
 {
+  gg_base_text_make_printable(whole);
   const size_t room = sizeof err->message - 1, length = strlen(whole);
   if (length <= room) {
     memcpy(err->message, whole, length + 1);

@@ -52,15 +52,25 @@ static void begin_cell(gg_csv *csv)
   if (csv->column++) gg_base_file_writer_put(csv->out, ",");
 }
 
+/* A spreadsheet would compute what begins so. Numbers that stand as text ("-1" of a varied key) are numbers. */
+static bool is_formula(const char *text)
+{
+  char *end;
+  return *text && strchr("=+-@", *text) && (strtod(text, &end), end == text || *end);
+}
+
 void gg_base_csv_text(gg_csv *csv, const char *text)
 {
   begin_cell(csv);
   if (!text) return;
+  const char *before = is_formula(text) ? "'" : "";
   if (!strpbrk(text, ",\"\r\n")) {
+    gg_base_file_writer_put(csv->out, before);
     gg_base_file_writer_put(csv->out, text);
     return;
   }
   gg_base_file_writer_put(csv->out, "\"");
+  gg_base_file_writer_put(csv->out, before);
   for (; *text; text++) gg_base_file_writer_put(csv->out, *text == '"' ? "\"\"" : (char[]){*text, '\0'});
   gg_base_file_writer_put(csv->out, "\"");
 }

@@ -34,7 +34,8 @@ typedef struct gg_csv {
   int column;
 } gg_csv;
 
-void gg_base_csv_text(gg_csv *csv, const char *text); /* NULL: an empty cell */
+/* NULL: an empty cell. A text that begins like a formula gets an apostrophe before it: spreadsheets show it as text. */
+void gg_base_csv_text(gg_csv *csv, const char *text);
 /* "NAME [UNIT]", of a number without one "NAME". */
 void gg_base_csv_head(gg_csv *csv, const char *name, const char *unit);
 /* A number, text or truth of a document; empty if it is null or not there. */

@@ -41,6 +41,9 @@ int gg_cli_fail(gg_status status, const char *format, ...) GG_CLI_PRINTF(2, 3);
 /* A message of the command line's own, to be told later; returns `status`. */
 gg_status gg_cli_refuse(gg_error *err, gg_status status, const char *format, ...) GG_CLI_PRINTF(3, 4);
 
+/* A warning on standard error where there is something unusual about a result file (gg_result_file_notice). */
+void gg_cli_print_notice(const char *result_file);
+
 /* A text of the library's on standard output; frees it. */
 void gg_cli_print_text(char *text);
 

@@ -48,7 +48,7 @@ const gg_command gg_cli_commands[] = {
      "standard error, and the reference law if there is one; for a comparison the file name has the engine before the "
      "observable. PREFIX_numbers.csv: exponents, coefficients and other numbers derived from the curves.\nPREFIX.xyz: "
      "the grains of each frame for OVITO and ASE, with the (under shear: tilted) cell of that instant, peculiar "
-     "velocity, spin (omega), radius, mass and number. The first species is named H, the second He, and so on. Needs "
+     "velocity, spin (omega), radius, mass, momentum and number. The first species is named H, the second He, and so on. Needs "
      "positions, which only md has; without output.trajectory_every in the scene it is the last state.",
      GG_OPT_PREFIX | GG_OPT_ONLY | GG_OPT_QUIET, gg_cli_export_main},
     {"info", "[FILE|WORD]", "What a result or a checkpoint holds, what a scene means, or what a word means",

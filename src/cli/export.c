@@ -1,4 +1,5 @@
 /* graingas export: what a result file holds as tables and trajectories for other programs. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +8,8 @@
 
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "cli/print.h"
+#include "cli/progress.h"
 
 static const char *const words[] = {"results", "curves", "trajectory", NULL};
 static const unsigned part[] = {GG_EXPORT_RESULTS, GG_EXPORT_CURVES, GG_EXPORT_TRAJECTORY};
@@ -55,10 +58,25 @@ static int check_output(const char *output)
                      slash);
 }
 
+typedef struct export_command {
+  bool quiet;
+  gg_cli_line line;
+} export_command;
+
 /* The files go to standard output, for scripts. */
-static void tell(void *context, const char *file)
+static void print_file(void *context, const char *file)
 {
-  if (!*(const bool *)context) printf("%s\n", file);
+  export_command *c = context;
+  gg_cli_line_clear(&c->line);
+  if (!c->quiet) gg_cli_print_name(stdout, "", file, "\n");
+}
+
+/* A trajectory may take minutes. */
+static void show_progress(void *context, double share)
+{
+  char text[40];
+  snprintf(text, sizeof text, "trajectory %.0f %%", floor(100 * share));
+  gg_cli_line_show(&((export_command *)context)->line, text, false);
 }
 
 /* All files are open at once, with a lock each: a mixture of sixteen species has more curves than the usual limit. */
@@ -74,14 +92,18 @@ static int export_parts(const gg_options *o)
 {
   gg_error err;
   unsigned parts;
-  bool quiet = o->quiet;
+  export_command c = {.quiet = o->quiet};
   int code = take_parts(o->only, &parts);
   if (code == GG_CLI_GO_ON) code = check_output(o->output);
   if (code != GG_CLI_GO_ON) return code;
   char *prefix = prefix_of(o);
   if (!prefix) return gg_cli_fail(GG_FAILED, "out of memory");
   allow_many_files();
-  code = gg_export(o->input, prefix, parts, tell, &quiet, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
+  gg_cli_print_notice(o->input);
+  gg_cli_line_start(&c.line, o->quiet);
+  gg_status status = gg_export(o->input, prefix, parts, print_file, show_progress, &c, &err);
+  gg_cli_line_clear(&c.line);
+  code = status == GG_OK ? GG_OK : gg_cli_report(&err);
   free(prefix);
   return code;
 }

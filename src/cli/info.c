@@ -183,7 +183,8 @@ static void print_file(const gg_options *o, const gg_comparison *c)
     return;
   }
   gg_scene_to_yaml(gg_comparison_scene(c), &scene, NULL);
-  printf("%s: %s by graingas %s\ncommand: %s\ndate:    %s\nmachine: %s\n\nscene:\n%s", o->input,
+  gg_cli_print_name(stdout, "", o->input, ": ");
+  printf("%s by graingas %s\ncommand: %s\ndate:    %s\nmachine: %s\n\nscene:\n%s",
          comparison ? "a comparison" : "a run", about.version, about.command, about.date, about.machine,
          scene ? scene : "");
   free(scene);
@@ -201,7 +202,8 @@ static bool print_checkpoint(const gg_options *o)
   char *yaml = NULL;
   if (gg_checkpoint_about(o->input, &about, &scene, NULL) != GG_OK) return false;
   const char *what = strcmp(about.kind, "simulation") == 0 ? "a saved" : "a checkpoint of a";
-  printf("%s%s: %s %s, graingas %s\n\n", o->input, about.older ? ".1" : "", what, about.kind, gg_version());
+  gg_cli_print_name(stdout, "", o->input, about.older ? ".1: " : ": ");
+  printf("%s %s, graingas %s\n\n", what, about.kind, gg_version());
   for (int k = 0; k < 2; k++) {
     const gg_checkpoint_part *p = &about.part[k];
     if (!p->engine) continue;
@@ -225,6 +227,7 @@ static int inform_result(const gg_options *o)
   gg_comparison *c = NULL;
   gg_status status = gg_comparison_read(o->input, &c, &err);
   if (status != GG_OK && !o->json && print_checkpoint(o)) return GG_OK;
+  if (status == GG_OK) gg_cli_print_notice(o->input);
   if (status == GG_OK && o->json) status = gg_comparison_to_json(c, &text, &err);
   if (status == GG_OK && o->json) gg_cli_print_text(text);
   if (status == GG_OK && !o->json) print_file(o, c);

@@ -112,8 +112,8 @@ static void print_files(void)
        "and the next run removes it."},
       {"Checksum", NULL,
        "Results and checkpoints end with \"gg-crc32\", the size of the HDF5 file (8 bytes) and its CRC-32 (4 bytes), "
-       "lowest byte first, and are read only if they are right. To vouch for a result that another program has "
-       "changed, "
+       "lowest byte first. A result without them is one that another program has changed: it is read with a warning. "
+       "To vouch for it, "
        "in Python: data = open(FILE, \"rb\").read(); open(FILE, \"ab\").write(struct.pack(\"<8sQI\", b\"gg-crc32\", "
        "len(data), zlib.crc32(data)))"},
   };

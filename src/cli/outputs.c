@@ -7,6 +7,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "cli/print.h"
+
 /* ".h5" is an ending, the ".1" of "phi_0.1" none. */
 char *gg_cli_path_with_suffix(const char *path, const char *suffix)
 {
@@ -53,7 +55,9 @@ bool gg_cli_file_is_device(const char *path)
 void gg_cli_report_written(const gg_options *o, const char *what, const char *path, bool replaced)
 {
   fflush(stdout);
-  if (!o->quiet) fprintf(stderr, "%s: %s%s\n", what, path, replaced ? " (in place of an older one)" : "");
+  if (o->quiet) return;
+  fprintf(stderr, "%s: ", what);
+  gg_cli_print_name(stderr, "", path, replaced ? " (in place of an older one)\n" : "\n");
 }
 
 /* False: there was no room. (A text in memory leaves out what it has no room for, and its closing does not tell.) */

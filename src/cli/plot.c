@@ -5,11 +5,12 @@
 
 #include "cli/options.h"
 #include "cli/outputs.h"
+#include "cli/print.h"
 
 /* The pictures go to standard output, for scripts. */
 static void tell(void *context, const char *picture)
 {
-  if (!*(const bool *)context) printf("%s\n", picture);
+  if (!*(const bool *)context) gg_cli_print_name(stdout, "", picture, "\n");
 }
 
 static int draw(const gg_options *o)
@@ -20,6 +21,7 @@ static int draw(const gg_options *o)
   snprintf(suffix, sizeof suffix, ".%s", o->format ? o->format : "svg");
   char *picture = gg_cli_options_output(o, suffix, &err);
   if (!picture) return gg_cli_report(&err);
+  gg_cli_print_notice(o->input);
   int code = gg_plot(o->input, picture, o->format, o->width, tell, &quiet, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
   free(picture);
   return code;

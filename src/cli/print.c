@@ -191,11 +191,22 @@ void gg_cli_format_duration(double seconds, char *text, size_t size)
 
 /* What the command says: texts on standard output, errors on standard error. */
 
+/* Names and words that a message quotes may hold what a terminal acts on. */
 int gg_cli_report(const gg_error *err)
 {
+  gg_error shown = *err;
+  gg_text_make_printable(shown.message);
   fflush(stdout);
-  fprintf(stderr, "graingas: %s\n", err->message);
+  fprintf(stderr, "graingas: %s\n", shown.message);
   return err->status;
+}
+
+void gg_cli_print_name(FILE *out, const char *before, const char *name, const char *after)
+{
+  char *shown = strdup(name);
+  if (shown && (out != stdout || isatty(STDOUT_FILENO))) gg_text_make_printable(shown);
+  fprintf(out, "%s%s%s", before, shown ? shown : "", after);
+  free(shown);
 }
 
 int gg_cli_report_of(const char *prefix, const gg_error *err)
@@ -220,6 +231,15 @@ gg_status gg_cli_refuse(gg_error *err, gg_status status, const char *format, ...
   vsnprintf(err->message, sizeof err->message, format, args);
   va_end(args);
   return err->status = status;
+}
+
+void gg_cli_print_notice(const char *result_file)
+{
+  char text[400];
+  if (gg_result_file_notice(result_file, text, sizeof text, NULL) != GG_OK || !*text) return;
+  fflush(stdout);
+  gg_cli_print_name(stderr, "warning: ", result_file, ": ");
+  fprintf(stderr, "%s\n", text);
 }
 
 void gg_cli_print_text(char *text)

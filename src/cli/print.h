@@ -15,6 +15,9 @@ void gg_cli_print_wrapped(FILE *out, const char *lead, const char *text);
  * first with those of the text. */
 void gg_cli_print_paragraph(FILE *out, int indent, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
+/* The name of a file. A terminal acts on nothing in it; a script that reads standard output gets the name as it is. */
+void gg_cli_print_name(FILE *out, const char *before, const char *name, const char *after);
+
 /* A table of text: columns as wide as what they hold. */
 enum { GG_TABLE_COLUMNS = 24, GG_TABLE_ROWS = 96, GG_TABLE_CELL = 64 };
 

@@ -135,7 +135,7 @@ static void print_file(void *context, const char *file)
 {
   report *t = context;
   gg_cli_line_clear(&t->progress);
-  if (!t->quiet && !t->json) printf("%s\n", file);
+  if (!t->quiet && !t->json) gg_cli_print_name(stdout, "", file, "\n");
 }
 
 static void print_engine(const char *name, double mean, double error, double z)

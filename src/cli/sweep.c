@@ -232,7 +232,7 @@ static int work(sweep_command *c)
                               : gg_sweep_run(c->sweep, c->folder, &options, &err);
   gg_cli_line_clear(&c->line);
   if (status == GG_OK && !o->quiet)
-    fprintf(stderr, "results: %s; --collect makes one table and a picture of them\n", c->folder);
+    gg_cli_print_name(stderr, "results: ", c->folder, "; --collect makes one table and a picture of them\n");
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 
@@ -240,7 +240,7 @@ static int work(sweep_command *c)
 static void print_file(void *context, const char *file)
 {
   const gg_options *o = ((const sweep_command *)context)->options;
-  if (!o->quiet && !o->json) printf("%s\n", file);
+  if (!o->quiet && !o->json) gg_cli_print_name(stdout, "", file, "\n");
 }
 
 /* Beside the folder, and by its name: a run of the same scene has files that are named by the scene. */

@@ -13,6 +13,8 @@
 
 typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
 typedef enum gg_precision { GG_DOUBLE, GG_SINGLE } gg_precision;
+typedef enum gg_frames_after { GG_AFTER_START, GG_AFTER_WARMUP } gg_frames_after;
+enum { GG_FIELDS_POSITION = 1, GG_FIELDS_VELOCITY = 2, GG_FIELDS_SPIN = 4, GG_FIELDS_ALL = 7 };
 typedef enum gg_top { GG_CLOSED_TOP, GG_OPEN_TOP } gg_top;
 typedef enum gg_contact_value { GG_CARNAHAN_STARLING, GG_LUN_SAVAGE, GG_KOLAFA } gg_contact_value;
 
@@ -71,6 +73,9 @@ struct gg_scene {
   struct {
     double checkpoint_every; /* seconds, 0: none */
     double trajectory_every; /* collisions per particle, 0: none */
+    gg_frames_after after;   /* which of these are stored */
+    unsigned fields;         /* GG_FIELDS_..., of every frame */
+    gg_precision precision;  /* of them in the file */
   } output;
   gg_extension *extension; /* what the user's program adds; NULL: nothing. The scene of the interface holds it, copies
                               of its values borrow it */

@@ -51,7 +51,7 @@ static void put_head(gg_file_writer *out, const gg_stored_trajectory *t, const g
   put_numbers(out, edges, 9, "Lattice=\"");
   gg_base_file_writer_put(out, "\" Properties=species:S:1:pos:R:3:velo:R:3");
   if (f->spin) gg_base_file_writer_put(out, ":omega:R:3");
-  gg_base_file_writer_put(out, ":radius:R:1:mass:R:1:id:I:1");
+  gg_base_file_writer_put(out, ":radius:R:1:mass:R:1:momenta:R:3:masses:R:1:id:I:1");
   snprintf(text, sizeof text, "%s %s %s", t->periodic[0] ? "T" : "F", t->periodic[1] ? "T" : "F",
            t->periodic[2] ? "T" : "F");
   put_word(out, "pbc", text);
@@ -79,12 +79,14 @@ void gg_files_xyz_frame(gg_file_writer *out, const gg_stored_trajectory *t, cons
   for (size_t i = 0; i < f->n && out->status == GG_OK; i++) {
     char id[24];
     const double *r = f->position + 3 * i, place[3] = {into_cell(r[0], r[1], edges), r[1], r[2]};
-    const double radius_mass[2] = {0.5 * t->diameter[i], t->mass[i]};
+    const double *v = f->velocity + 3 * i, m = t->mass[i], radius_mass[2] = {0.5 * t->diameter[i], m};
+    const double momentum_mass[4] = {m * v[0], m * v[1], m * v[2], m};
     gg_base_file_writer_put(out, elements[t->species[i] < GG_MAX_SPECIES ? t->species[i] : 0]);
     put_numbers(out, place, 3, " ");
-    put_numbers(out, f->velocity + 3 * i, 3, " ");
+    put_numbers(out, v, 3, " ");
     if (f->spin) put_numbers(out, f->spin + 3 * i, 3, " ");
     put_numbers(out, radius_mass, 2, " ");
+    put_numbers(out, momentum_mass, 4, " "); /* the names that ASE looks for; OVITO: velo and mass */
     snprintf(id, sizeof id, " %zu\n", i);
     gg_base_file_writer_put(out, id);
   }
@@ -283,6 +285,8 @@ typedef struct job {
   gg_stored_trajectory trajectory;
   size_t n;
   bool failed; /* out of memory */
+  void (*progress)(void *context, double share);
+  void *context;
   target target[MOST_TARGETS];
 } job;
 
@@ -389,14 +393,16 @@ static gg_status open_all(job *j, const char *path, gg_error *err)
   return GG_OK;
 }
 
-static gg_status write_trajectory(gg_stored_trajectory *t, gg_file_writer *out, gg_error *err)
+static gg_status write_trajectory(job *j, gg_file_writer *out, gg_error *err)
 {
+  gg_stored_trajectory *t = &j->trajectory;
   double edges[9];
   gg_frame frame;
   for (size_t k = 0; k < t->n_frames && out->status == GG_OK; k++) {
     GG_TRY(gg_files_stored_trajectory_frame(t, k, &frame, edges, err));
     gg_files_xyz_frame(out, t, &frame, edges);
     gg_run_frame_free(&frame);
+    if (j->progress) j->progress(j->context, (double)(k + 1) / (double)t->n_frames);
   }
   return GG_OK;
 }
@@ -410,7 +416,7 @@ static gg_status write_target(job *j, target *t, gg_error *err)
   if (t->content == NUMBERS) put_curve_numbers(&out, j->stored);
   if (t->content == RESULTS && j->stored->comparison) put_comparison(&out, j->stored);
   if (t->content == RESULTS && !j->stored->comparison) put_results(&out, j->stored);
-  if (t->content == TRAJECTORY) status = write_trajectory(&j->trajectory, &out, err);
+  if (t->content == TRAJECTORY) status = write_trajectory(j, &out, err);
   return status == GG_OK ? gg_base_file_writer_end(&out) : status;
 }
 
@@ -436,11 +442,12 @@ static void clear(job *j)
 }
 
 gg_status gg_files_export_result(const gg_stored_result *stored, const char *path, const char *prefix, unsigned parts,
-                           void (*written)(void *context, const char *file), void *context, gg_error *err)
+                                 void (*written)(void *context, const char *file),
+                                 void (*progress)(void *context, double share), void *context, gg_error *err)
 {
   job *j = gg_base_array_new(1, sizeof *j, err);
   if (!j) return GG_FAILED;
-  j->stored = stored, j->prefix = prefix;
+  j->stored = stored, j->prefix = prefix, j->progress = progress, j->context = context;
   gg_status status = check_prefix(prefix, err);
   if (status == GG_OK) status = plan(j, path, parts, err);
   if (status == GG_OK) status = open_all(j, path, err);

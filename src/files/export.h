@@ -7,9 +7,11 @@
 
 /* The files that the result of this path comes to, all of them or none: PREFIX.csv, one of each curve,
  * PREFIX_numbers.csv and PREFIX.xyz; `parts` (GG_EXPORT_...) says which. GG_FAILED if the result has nothing of what
- * was asked for. `written` (may be NULL) is called with the name of each. */
+ * was asked for. `written` (may be NULL) is called with the name of each, `progress` (may be NULL) with the share of
+ * the trajectory that is written. */
 gg_status gg_files_export_result(const gg_stored_result *stored, const char *path, const char *prefix, unsigned parts,
-                           void (*written)(void *context, const char *file), void *context, gg_error *err);
+                                 void (*written)(void *context, const char *file),
+                                 void (*progress)(void *context, double share), void *context, gg_error *err);
 
 /* One frame of extended XYZ, the text format of OVITO and ASE: how many grains, a line on cell, columns, time and
  * units, a line a grain. Each frame has the cell of its instant. Under shear its second edge leans, and the images of
@@ -17,7 +19,7 @@ gg_status gg_files_export_result(const gg_stored_result *stored, const char *pat
  * file.
  *
  * Species are called by the chemical elements of their numbers (H is species 1, He 2 ...), since ASE reads no other
- * names. The C locale is in force. */
+ * names. ASE takes momenta and masses, OVITO velo and mass. The C locale is in force. */
 void gg_files_xyz_frame(gg_file_writer *out, const gg_stored_trajectory *t, const gg_frame *frame,
                         const double edges[9]);
 

@@ -8,6 +8,7 @@
 #include "base/build.h"
 #include "base/checked_json.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "files/curve_table.h"
 #include "run/z_scores.h"
 #include "scene/fields.h"
@@ -388,4 +389,63 @@ json_t *gg_files_comparison_document(const gg_comparison *c)
 {
   const unsigned before = gg_base_memory_failures();
   return gg_base_json_end(before, comparison_document(c));
+}
+
+enum { LONGEST_NAME = 63 };
+
+/* Keys of scenes, numbers of curves and the like: "gamma_2_4.5", "1-10". */
+static bool is_word(const char *key)
+{
+  static const char plain[] = ".-ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
+  return *key && *key != '.' && *key != '-' && !key[strspn(key, plain)];
+}
+
+/* Of what is registered: quantities, curves, theories. */
+static bool holds_names(const char *key)
+{
+  static const char *const all[] = {"results", "curves", "theory", "theories", GG_THEORY_CURVES};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+    if (strcmp(all[i], key) == 0) return true;
+  return false;
+}
+
+static bool make_text_printable(json_t *value)
+{
+  if (gg_base_text_is_printable(json_string_value(value))) return true;
+  char *copy = strdup(json_string_value(value));
+  if (copy) gg_base_text_make_printable(copy);
+  const bool good = copy && json_string_set(value, copy) == 0;
+  free(copy);
+  if (!good) gg_base_memory_lacked();
+  return good;
+}
+
+/* What is wrong with a value of that key, or with what is in it; NULL: nothing. */
+static const char *check_value(const char *key, json_t *value)
+{
+  const char *name, *wrong = NULL;
+  json_t *one;
+  size_t i;
+  if (json_is_string(value) && !make_text_printable(value)) return "out of memory";
+  if (json_is_string(value) && strcmp(key, "group") == 0 &&
+      !gg_base_text_is_name(json_string_value(value), LONGEST_NAME))
+    return "the observable of a curve in it has a name that is not allowed";
+  json_array_foreach(value, i, one) if (!wrong) wrong = check_value("", one);
+  json_object_foreach(value, name, one)
+  {
+    const bool good = holds_names(key) ? gg_base_text_is_name(name, LONGEST_NAME) : is_word(name);
+    if (!wrong)
+      wrong = good ? check_value(name, one) : "a quantity, curve or theory in it has a name that is not allowed";
+  }
+  return wrong;
+}
+
+json_t *gg_files_document_read(const char *text, const char **why)
+{
+  json_t *document = gg_base_json_read(text, why);
+  const char *wrong = document ? check_value("", document) : NULL;
+  if (!wrong) return document;
+  *why = wrong;
+  json_decref(document);
+  return NULL;
 }

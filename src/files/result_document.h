@@ -14,6 +14,10 @@ json_t *gg_files_theory_document(const gg_scene *scene, const gg_comparison *the
 /* Indented text, 17 digits; to be freed. */
 char *gg_files_document_text(const json_t *document);
 
+/* A stored document, which may be anybody's. Names in it are as when they were registered, so that files can be named
+ * by them, and texts are printable. NULL with the reason in *why. */
+json_t *gg_files_document_read(const char *text, const char **why);
+
 /* Is there anything to say about this quantity: a mean, or a reason why there is none? */
 bool gg_files_quantity_is_measured(const gg_estimate *estimate);
 

@@ -1,6 +1,7 @@
 #include "reproduce/node.h"
 #include "scene/fields.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -91,8 +92,10 @@ gg_status gg_reproduce_entry_number(const gg_entry_reader *r, const yaml_node_t 
   const char *text = scalar(node);
   char *end = NULL;
   if (!node) return GG_OK;
+  errno = 0;
   double value = text ? strtod(text, &end) : NAN;
-  if (!text || !*text || *end || !isfinite(value)) return gg_reproduce_entry_refuse(r, node, key, "is a number");
+  if (!text || !*text || *end || errno != 0 || !isfinite(value))
+    return gg_reproduce_entry_refuse(r, node, key, "is a number");
   *number = value;
   return GG_OK;
 }

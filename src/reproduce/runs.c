@@ -134,6 +134,8 @@ static gg_status read_point(gg_sweep *sweep, const char *name, const char *folde
     p->n_varied++;
   }
   GG_TRY(gg_files_stored_result_read(&p->stored, path, err));
+  if (p->stored.changed)
+    return gg_base_fail(err, GG_BAD_FILE, "%s: another program has changed it; remove it, and it is made anew", path);
   return gg_sweep_point_check(&p->scene, sweep->settings.does, json_object_get(p->stored.document, "scene"), path, err);
 }
 

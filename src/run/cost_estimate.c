@@ -171,6 +171,20 @@ static double bytes_of_series(const gg_cost_estimate *f, const gg_model *m)
   return rows * 8 * (m->rule == GG_SMOOTH ? 120 : 200);
 }
 
+/* Means, series and the document, and frames: three numbers each for positions, velocities and spins. */
+static void plan_file(gg_cost_estimate *f, const gg_scene *scene, const gg_model *m)
+{
+  const unsigned there =
+      GG_FIELDS_VELOCITY | (m->homogeneous ? 0 : GG_FIELDS_POSITION) | (m->rule == GG_SMOOTH ? 0 : GG_FIELDS_SPIN);
+  const double every = scene->output.trajectory_every, item = scene->output.precision == GG_SINGLE ? 4 : 8;
+  const double warmup = (double)gg_run_criteria_of(scene, m).warmup * GG_SAMPLING_INTERVAL;
+  const double followed = f->collisions - (scene->output.after == GG_AFTER_WARMUP ? warmup : 0);
+  const double rows = fmin(f->collisions / GG_SAMPLING_INTERVAL, GG_SERIES_ROWS);
+  f->frames = 1 + (every > 0 ? floor(followed / fmax(every, GG_SAMPLING_INTERVAL)) : 0);
+  f->file = 2e5 + 8 * rows * (m->rule == GG_SMOOTH ? 12 : 16) + 25 * (double)m->n +
+            f->frames * (3 * item * __builtin_popcount(there & scene->output.fields) * (double)m->n + 200);
+}
+
 gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
 {
   gg_cost_estimate f = {.engine = gg_run_engine_ops_of(engine)->bytes(m),
@@ -182,6 +196,7 @@ gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, 
   double replicas = (double)scene->run.replicas, each = f.engine + f.observables + f.series;
   f.writing = 3.5 * frame; /* the grains, the file's image as it grows, and the whole of it */
   f.bytes = PROGRAM + fmax(replicas * each + frame, f.writing + f.observables);
+  plan_file(&f, scene, m);
   return f;
 }
 
@@ -250,6 +265,10 @@ void gg_run_cost_report(const gg_cost_estimate *f, int64_t replicas, void (*line
   snprintf(text, sizeof text, "time: about %s of one processor, within a factor of %s, for %.3g collisions a grain%s%s",
            all, f->to_an_error ? "three" : "two", f->collisions, replicas > 1 ? " and replica" : "",
            f->to_an_error ? " (until the error asked for)" : "");
+  line(context, text);
+  put_bytes(f->file, all);
+  snprintf(text, sizeof text, "result file: about %s, with %.4g frame%s of the grains", all, f->frames,
+           f->frames > 1 ? "s" : "");
   line(context, text);
   describe_costs(f, line, context);
 }

@@ -12,6 +12,7 @@ typedef struct gg_cost_estimate {
   double engine, observables, series; /* bytes of one replica */
   double writing;                     /* bytes for the grains at the end, and the file made of them */
   double bytes;                       /* at most at a time, all replicas and the program included */
+  double frames, file;                /* how many are stored, and bytes of the result file with them */
   double collisions;                  /* a grain, warm-up included */
   double ns;                          /* of processor time a collision, observables apart */
   double seconds;                     /* of processor time in all */

@@ -2,15 +2,25 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/clock.h"
 #include "common/linear_response.h"
 #include "common/rng.h"
 
+/* Without a warm-up the window is open from the start. */
+static bool leaves_out_warmup(const gg_scene *scene)
+{
+  return scene->output.after == GG_AFTER_WARMUP && scene->run.warmup != 0;
+}
+
 gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err)
 {
-  *r = (gg_replica){.model = *model, .clock.temperature = model->temperature0};
+  memset(r, 0, sizeof *r);
+  r->model = *model;
+  r->clock.temperature = model->temperature0;
   r->trajectory_every = r->clock.frame_every = index == 0 ? scene->output.trajectory_every : 0;
+  r->frames_of_window = leaves_out_warmup(scene);
   r->clock.velocity_factor = 1;
   const gg_engine_ops *ops = gg_run_engine_ops_of(scene->engine);
   uint64_t stream = (uint64_t)index * GG_STREAMS_PER_REPLICA;
@@ -32,7 +42,7 @@ void gg_run_replica_clear(gg_replica *r)
   if (r->engine) r->engine->ops->destroy(r->engine);
   gg_statistics_series_clear(&r->series);
   free(r->row);
-  *r = (gg_replica){0};
+  memset(r, 0, sizeof *r);
 }
 
 static uint64_t collisions(const gg_replica *r)
@@ -150,6 +160,7 @@ static double next_frame(const gg_replica *r)
 static gg_status emit_frame(gg_replica *r, const gg_run_callbacks *callbacks, gg_error *err)
 {
   if (!(r->trajectory_every > 0) || gg_run_replica_collisions_per_grain(r) < r->clock.next_frame) return GG_OK;
+  if (r->frames_of_window && !r->clock.window_collisions) return GG_OK; /* no window was opened yet */
   r->clock.next_frame = next_frame(r);
   if (!callbacks || !callbacks->frame) return GG_OK;
   gg_frame frame;
@@ -293,7 +304,10 @@ static gg_status check_clock(const gg_replica *r, gg_error *err)
 gg_status gg_run_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene *scene, const gg_model *model,
                                  int index, gg_error *err)
 {
-  *r = (gg_replica){.model = *model, .trajectory_every = index == 0 ? scene->output.trajectory_every : 0};
+  memset(r, 0, sizeof *r);
+  r->model = *model;
+  r->trajectory_every = index == 0 ? scene->output.trajectory_every : 0;
+  r->frames_of_window = leaves_out_warmup(scene);
   gg_status status = gg_run_replica_setup_observables(r, scene, err);
   if (status == GG_OK) status = gg_run_engine_ops_of(scene->engine)->restore(model, a, &r->engine, err);
   if (status == GG_OK) status = gg_statistics_series_restore(&r->series, a, err);

@@ -32,6 +32,7 @@ typedef struct gg_replica {
   gg_series series;
   double *row;
   double trajectory_every;  /* collisions per grain between frames; 0: none */
+  bool frames_of_window;    /* none of the warm-up */
   struct gg_replica_clock { /* plain data: saved as bytes */
     uint64_t samples;       /* taken so far */
     double interval;        /* between samples, engine's time */

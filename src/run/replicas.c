@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/clock.h"
 #include "base/memory.h"
@@ -193,7 +194,10 @@ static gg_status create_or_restore(gg_replicas *all, const gg_archive *resume, g
 gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
                                  const gg_run_callbacks *callbacks, gg_error *err)
 {
-  *all = (gg_replicas){.scene = *scene, .n = (int)scene->run.replicas, .callbacks = callbacks};
+  memset(all, 0, sizeof *all);
+  all->scene = *scene;
+  all->n = (int)scene->run.replicas;
+  all->callbacks = callbacks;
   all->started = all->last_checkpoint = gg_base_clock_wall();
   all->last.relative_error = NAN; /* nothing is estimated yet */
   if (resume) GG_TRY(gg_scene_resumption_settle(&all->scene, resume, err));

@@ -25,20 +25,30 @@ static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
   return gg_run_replicas_check_end(all, err);
 }
 
+static gg_status run_replicas(gg_replicas *all, gg_result **out, gg_error *err)
+{
+  gg_status status = gg_run_replicas_run(all, err);
+  if (status == GG_OK) status = report(all, out, err);
+  bool cut_short = status == GG_INTERRUPTED || status == GG_BAD_FILE; /* a checkpoint that cannot be written */
+  if (cut_short) report(all, out, NULL);
+  if (status == GG_INTERRUPTED && *out) gg_run_result_warn(*out, "interrupted: these are the results so far");
+  return status;
+}
+
+/* Models are large (50 kB), and callers' threads may have small stacks: they lie on the heap here and below. */
 gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_run_callbacks *callbacks,
                        gg_result **out, gg_error *err)
 {
-  gg_replicas all;
+  gg_replicas *all = gg_base_array_new(1, sizeof *all, err);
   *out = NULL;
+  if (!all) return GG_FAILED;
   const unsigned before = gg_base_memory_failures();
-  gg_status status = gg_run_replicas_create(&all, scene, resume, threads, callbacks, err);
-  if (status != GG_OK) return gg_base_memory_check(before, status, err);
-  status = gg_run_replicas_run(&all, err);
-  if (status == GG_OK) status = report(&all, out, err);
-  bool cut_short = status == GG_INTERRUPTED || status == GG_BAD_FILE; /* a checkpoint that cannot be written */
-  if (cut_short) report(&all, out, NULL);
-  if (status == GG_INTERRUPTED && *out) gg_run_result_warn(*out, "interrupted: these are the results so far");
-  gg_run_replicas_clear(&all);
+  gg_status status = gg_run_replicas_create(all, scene, resume, threads, callbacks, err);
+  const bool created = status == GG_OK;
+  if (created) status = run_replicas(all, out, err);
+  if (created) gg_run_replicas_clear(all);
+  free(all);
+  if (!created) return gg_base_memory_check(before, status, err);
   if (gg_base_memory_failures() == before || status != GG_OK) return status;
   gg_result_free(*out); /* it lacks a warning, or worse */
   *out = NULL;
@@ -54,30 +64,41 @@ static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
   if (!c->theory[i].applies) return GG_OK;
   const unsigned before = gg_base_memory_failures();
   gg_status status = gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &why);
-  if (gg_base_memory_failures() != before) return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
+  if (gg_base_memory_failures() != before)
+    return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
   if (status == GG_FAILED) gg_base_string_list_add(&c->warnings, "%s: no curves: %s", theory->name, why.message);
   return GG_OK;
 }
 
-gg_status gg_run_compare_theories(const gg_model *model, gg_comparison *c, gg_error *err)
+/* `start`: facts tell how engines start; theories of ours find their own temperature. */
+static gg_status compare_theories(const gg_model *model, gg_model *start, gg_comparison *c, gg_error *err)
 {
-  c->model = *model;
-  gg_run_rows_make(&c->model, &c->rows);
-  c->n_theories = 0;
-  gg_model start = *model; /* facts tell how engines start; theories of ours find their own temperature */
-  if (c->scene.temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(&start, err));
   const gg_theory *theory;
+  if (c->scene.temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(start, err));
   for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)); i++) {
     gg_error why = {0};
     const unsigned before = gg_base_memory_failures();
-    gg_status status = gg_theory_evaluate(theory, theory->own ? &start : model, &c->theory[i].answer, &why);
-    if (gg_base_memory_failures() != before) return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
+    gg_status status = gg_theory_evaluate(theory, theory->own ? start : model, &c->theory[i].answer, &why);
+    if (gg_base_memory_failures() != before)
+      return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
     c->theory[i].theory = theory;
     c->theory[i].applies = status == GG_OK;
     snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", why.message);
     GG_TRY(draw_curves(c, c->n_theories++, err));
   }
   return GG_OK;
+}
+
+gg_status gg_run_compare_theories(const gg_model *model, gg_comparison *c, gg_error *err)
+{
+  gg_model *start = gg_base_array_new(1, sizeof *start, err);
+  if (!start) return GG_FAILED;
+  c->model = *start = *model;
+  gg_run_rows_make(&c->model, &c->rows);
+  c->n_theories = 0;
+  gg_status status = compare_theories(model, start, c, err);
+  free(start);
+  return status;
 }
 
 /* One engine's part, run beside or after the other's; one thread at a time calls a callback. */
@@ -225,12 +246,9 @@ static gg_status make_model(const gg_scene *scene, gg_engine_kind kind, const gg
   return GG_OK;
 }
 
-gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads,
-                               const gg_run_callbacks *callbacks, gg_comparison *c, gg_error *err)
+static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, int threads,
+                               const gg_run_callbacks *callbacks, gg_model model[2], gg_comparison *c, gg_error *err)
 {
-  *c = (gg_comparison){.scene = *scene};
-  gg_common_extension_hold(c->scene.extension);
-  gg_model model[2];
   GG_TRY(make_model(scene, GG_MD, callbacks, &model[GG_MD], err));
   const bool dsmc = make_model(scene, GG_DSMC, callbacks, &model[GG_DSMC], NULL) == GG_OK;
   GG_TRY(gg_run_compare_theories(&model[GG_MD], c, err));
@@ -259,6 +277,18 @@ gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, 
   if (status == GG_OK) status = close_parts(parts, c, err);
   for (int k = 0; k < 2; k++) gg_base_archive_clear(&parts[k].resume), gg_base_archive_clear(&latest[k]);
   pthread_mutex_destroy(&lock);
+  return status;
+}
+
+gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads,
+                               const gg_run_callbacks *callbacks, gg_comparison *c, gg_error *err)
+{
+  gg_model *model = gg_base_array_new(2, sizeof *model, err);
+  memset(c, 0, sizeof *c);
+  c->scene = *scene;
+  gg_common_extension_hold(c->scene.extension);
+  gg_status status = model ? compare_scene(scene, resume, threads, callbacks, model, c, err) : GG_FAILED;
+  free(model);
   return status;
 }
 

@@ -1,6 +1,7 @@
 #include "run/run.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "base/memory.h"
 #include "common/linear_response.h"
@@ -14,18 +15,15 @@ static void start_of_sweep(gg_model *model)
   model->temperature0 = speed * speed;
 }
 
-/* Theories know constant coefficients alone: for a law, its value at the mean impact speed. */
-static gg_status start_at_theory(gg_model *model, gg_error *err)
+static gg_status try_theories(gg_model *model, gg_model *constant, gg_error *err)
 {
   const char *const best_first[] = {"gaussian_closure", "lun1991"};
   for (int i = 0; i < 2; i++) {
     const gg_theory *theory = gg_theory_find(best_first[i]);
     gg_theory_answer answer;
-    gg_model constant = *model;
-    constant.law = (gg_restitution_law){0};
     gg_error why;
     const unsigned before = gg_base_memory_failures();
-    gg_status status = theory ? gg_theory_evaluate(theory, &constant, &answer, &why) : GG_BAD_INPUT;
+    gg_status status = theory ? gg_theory_evaluate(theory, constant, &answer, &why) : GG_BAD_INPUT;
     if (gg_base_memory_failures() != before) return gg_base_out_of_memory_for(err, "%s", best_first[i]);
     if (status != GG_OK) continue;
     double T = answer.value[GG_Q_TEMPERATURE], ratio = answer.value[GG_Q_TEMPERATURE_RATIO];
@@ -35,6 +33,18 @@ static gg_status start_at_theory(gg_model *model, gg_error *err)
     return GG_OK;
   }
   return GG_OK;
+}
+
+/* Theories know constant coefficients alone: for a law, its value at the mean impact speed. */
+static gg_status start_at_theory(gg_model *model, gg_error *err)
+{
+  gg_model *constant = gg_base_array_new(1, sizeof *constant, err);
+  if (!constant) return GG_FAILED;
+  *constant = *model;
+  constant->law = (gg_restitution_law){0};
+  gg_status status = try_theories(model, constant, err);
+  free(constant);
+  return status;
 }
 
 /* With a law, temperature and mean impact speed depend on each other: a few iterations. */

@@ -130,6 +130,9 @@ gg_status gg_scene_finish(gg_scene *s, gg_error *err)
   if (fabs(total - 1) > 1e-9)
     return gg_base_fail(err, GG_BAD_INPUT,
                         "key 'species': the fractions sum to %.10g; they must sum to 1 (within 1e-9)", total);
+  if (!(s->output.fields & GG_FIELDS_VELOCITY))
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "key 'output.fields': velocity is missing, which frames always hold; add it to the list");
   gg_scene_fill_in(s);
   GG_TRY(check_friction(s, err));
   return check_flow(s, err);
@@ -199,6 +202,7 @@ static const struct {
     {GG_IF_FRICTION, "while collision.mu is 0: smooth grains", NULL, "", "collision.mu is not 0"},
     {GG_IF_WALL_BETA, "while walls.beta is -1: smooth walls", NULL, "", "walls.beta is not -1"},
     {GG_IF_WALL_FRICTION, "while walls.mu is 0: smooth walls", NULL, "", "walls.mu is not 0"},
+    {GG_IF_FRAMES, "while output.trajectory_every is 0", NULL, "", "output.trajectory_every is not 0"},
 };
 enum { CONDITIONS = sizeof conditions / sizeof *conditions };
 
@@ -237,6 +241,7 @@ static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
   case GG_IF_FRICTION: return traits_of(s).friction;
   case GG_IF_WALL_BETA: return s->walls.beta != -1;
   case GG_IF_WALL_FRICTION: return s->walls.mu != 0;
+  case GG_IF_FRAMES: return s->output.trajectory_every > 0;
   default: return true;
   }
 }

@@ -30,6 +30,16 @@ static const gg_word precisions[] = {
     {"double", GG_DOUBLE, "relative precision 1e-16"},
     {"single", GG_SINGLE, "relative precision 1e-7, half the memory, up to 1.5 times as fast"},
     {0}};
+static const gg_word stored_precisions[] = {{"double", GG_DOUBLE, "relative precision 1e-16"},
+                                            {"single", GG_SINGLE, "relative precision 1e-7, half the size"},
+                                            {0}};
+static const gg_word frames_after[] = {{"start", GG_AFTER_START, "from the start of the run"},
+                                       {"warmup", GG_AFTER_WARMUP, "from where averaging begins first"},
+                                       {0}};
+static const gg_word stored_fields[] = {{"position", GG_FIELDS_POSITION, "positions, which md has"},
+                                        {"velocity", GG_FIELDS_VELOCITY, "velocities; always stored"},
+                                        {"spin", GG_FIELDS_SPIN, "angular velocities of rough grains"},
+                                        {0}};
 #define WORD(FLAG, word, description) {#word, GG_LAW_##FLAG, description},
 static const gg_word laws[] = {{"constant", GG_LAW_CONSTANT, "e is constant"}, GG_LAWS(WORD){0}};
 #undef WORD
@@ -130,6 +140,13 @@ const gg_field gg_scene_fields[] = {
      .doc = "wall-clock time between checkpoints; 0: none", .may_change = true},
     {"output.trajectory_every", GG_FIELD_NUMBER, AT(output.trajectory_every), 0, 1e15, .unit = "collisions per grain",
      .doc = "interval between stored frames; 0: only the last state", .when = GG_IF_ONE_ENGINE, .also = "dump",
+     .may_change = true},
+    {"output.after", GG_FIELD_CHOICE, AT(output.after), .words = frames_after, .doc = "first frame that is stored",
+     .when = GG_IF_ONE_ENGINE | GG_IF_FRAMES, .may_change = true},
+    {"output.fields", GG_FIELD_SET, AT(output.fields), .words = stored_fields, .by_default = GG_FIELDS_ALL,
+     .doc = "what frames in the result file hold of every grain; velocity is always among it", .may_change = true},
+    {"output.precision", GG_FIELD_CHOICE, AT(output.precision), .words = stored_precisions,
+     .doc = "precision of the frames in the result file; means, curves and checkpoints are always double",
      .may_change = true},
     {0},
 };

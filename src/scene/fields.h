@@ -47,7 +47,8 @@ enum {
   GG_IF_BETA = 1u << 14,
   GG_IF_FRICTION = 1u << 15,
   GG_IF_WALL_BETA = 1u << 16,
-  GG_IF_WALL_FRICTION = 1u << 17
+  GG_IF_WALL_FRICTION = 1u << 17,
+  GG_IF_FRAMES = 1u << 18
 };
 
 typedef struct gg_field {

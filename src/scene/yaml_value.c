@@ -1,5 +1,6 @@
 /* The value of one key from a YAML node, and validation errors: file, line, key, and what is allowed there. */
 #include <errno.h>
+#include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -24,8 +25,7 @@ void gg_scene_quote(const char *word, char *text, size_t size)
   unsigned char lead = tail < length ? (unsigned char)text[length - 1 - tail] : 0;
   size_t wanted = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : lead >= 0xC0 ? 1 : 0;
   if (wanted > tail) text[length - 1 - tail] = '\0';
-  for (; *text; text++)
-    if ((unsigned char)*text < ' ' || *text == 0x7F) *text = '?';
+  gg_base_text_make_printable(text);
 }
 
 gg_status gg_scene_reject(const gg_scene_reader *r, const yaml_node_t *node, const char *key, const char *format, ...)
@@ -193,6 +193,13 @@ static bool has_decimal_comma(const char *text)
          strchr(text, ',');
 }
 
+/* A number that is too small for a double: "1e-400". */
+static bool underflows(const char *text)
+{
+  return text && !text[strspn(text, "0123456789+-.eE")] && fabs(strtod(text, NULL)) < DBL_MIN &&
+         strcspn(text, "123456789") < strcspn(text, "eE");
+}
+
 static gg_status reject_value(const input *in)
 {
   char shown[64], allowed[256], hint[64] = "";
@@ -200,6 +207,7 @@ static gg_status reject_value(const input *in)
   show(in->node, shown, sizeof shown);
   gg_scene_field_allowed(in->f, allowed, sizeof allowed);
   if (has_decimal_comma(text)) likely = "a decimal point";
+  if (underflows(text) && in->f->min <= 0 && !in->f->above_min) likely = "0";
   if (likely) snprintf(hint, sizeof hint, " (did you mean %s?)", likely);
   return gg_scene_reject(in->r, in->node, in->key, "%s is not allowed%s; allowed: %s", shown, hint, allowed);
 }
@@ -211,8 +219,9 @@ static bool parse_number(const char *text, double *value)
     if (strcmp(text, infinities[i]) == 0) return *value = INFINITY, true;
   char *end;
   if (!*text || text[strspn(text, "0123456789+-.eE")]) return false;
+  errno = 0; /* too large or too small for a double: neither infinity nor 0 was meant */
   *value = strtod(text, &end);
-  return *end == '\0' && isfinite(*value);
+  return *end == '\0' && errno == 0;
 }
 
 static gg_status read_number(const input *in, double *value)

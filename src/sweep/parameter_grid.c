@@ -1,4 +1,5 @@
 /* The keys that a sweep varies: their values as they are written, and the rows that these make. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,8 +47,9 @@ static bool is_number(const char *text, size_t length, double *value)
   memcpy(word, text, length);
   word[length] = '\0';
   if (word[strspn(word, "0123456789+-.eE")]) return false;
+  errno = 0; /* neither infinity nor 0 is meant by what is too large or too small for a double */
   *value = strtod(word, &end);
-  return !*end && isfinite(*value);
+  return !*end && errno == 0;
 }
 
 /* Steps are added up in decimal digits, as people write them: 0.1 + 2*0.1 is 0.3, the number of a list. Whole numbers

@@ -17,6 +17,7 @@
 #include "files/h5/hdf5_reader.h"
 #include "files/h5/hdf5_writer.h"
 #include "files/h5/result_file.h"
+#include "files/result_document.h"
 
 void gg_sweep_point_table_clear(gg_point_table *t)
 {
@@ -94,7 +95,7 @@ static gg_status read_document(const char *path, json_t **document, gg_error *er
   gg_h5_open(&h, path);
   char *text = h.failed ? NULL : gg_h5_read_text(&h, "/graingas/document");
   const char *why = "out of memory";
-  *document = text ? gg_base_json_read(text, &why) : NULL;
+  *document = text ? gg_files_document_read(text, &why) : NULL;
   free(text);
   if (!*document && !h.failed) gg_h5_in_failed(&h, why);
   gg_h5_in_close(&h);

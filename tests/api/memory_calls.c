@@ -181,7 +181,7 @@ static gg_status play(things *t, gg_error *err)
 
 static gg_status export(things *t, gg_error *err)
 {
-  return gg_export("there.h5", "new", GG_EXPORT_ALL, tell_file, t, err);
+  return gg_export("there.h5", "new", GG_EXPORT_ALL, tell_file, NULL, t, err);
 }
 
 static gg_status plot(things *t, gg_error *err)

@@ -176,8 +176,8 @@ static void comparisons(void **state)
   assert_missing(gg_comparison_read("x", NULL, &err));
   assert_missing(gg_plot(NULL, "x.svg", NULL, NULL, NULL, NULL, &err));
   assert_missing(gg_plot("x", NULL, NULL, NULL, NULL, NULL, &err));
-  assert_missing(gg_export(NULL, "x", GG_EXPORT_ALL, NULL, NULL, &err));
-  assert_missing(gg_export("x", NULL, GG_EXPORT_ALL, NULL, NULL, &err));
+  assert_missing(gg_export(NULL, "x", GG_EXPORT_ALL, NULL, NULL, NULL, &err));
+  assert_missing(gg_export("x", NULL, GG_EXPORT_ALL, NULL, NULL, NULL, &err));
   assert_null(other);
   gg_comparison_free(c);
   gg_comparison_free(NULL);
@@ -327,9 +327,9 @@ static void unknown_names(void **state)
   gg_result_free(r);
   assert_refused(gg_plot("same.svg", "same.svg", NULL, NULL, NULL, NULL, &err),
                  "would be both the result and its picture");
-  assert_refused(gg_export("x.h5", "x", 0, NULL, NULL, &err), "0 is not a set of parts to export");
-  assert_refused(gg_export("x.h5", "x", ~0u, NULL, NULL, &err), "is not a set of parts to export");
-  assert_refused(gg_export("x.h5", "folder/", GG_EXPORT_ALL, NULL, NULL, &err), "need a prefix to their names");
+  assert_refused(gg_export("x.h5", "x", 0, NULL, NULL, NULL, &err), "0 is not a set of parts to export");
+  assert_refused(gg_export("x.h5", "x", ~0u, NULL, NULL, NULL, &err), "is not a set of parts to export");
+  assert_refused(gg_export("x.h5", "folder/", GG_EXPORT_ALL, NULL, NULL, NULL, &err), "need a prefix to their names");
   gg_scene_free(s);
 }
 

@@ -22,6 +22,13 @@ static const char *say(void *context, const gg_facts *facts, double *values)
   return NULL;
 }
 
+/* In Latin-1, and with what a terminal acts on. */
+static const char *say_in_latin1(void *context, const gg_facts *facts, double *values)
+{
+  (void)context, (void)facts, (void)values;
+  return "ist nicht f\xfcr \x1b[31mdas";
+}
+
 static const char *say_nothing(void *context, const gg_facts *facts, double *values)
 {
   (void)context, (void)facts, (void)values;
@@ -283,6 +290,30 @@ static void listed(void **state)
   gg_scene_free(s);
 }
 
+/* A reason that is no UTF-8 is made harmless: documents and files are written all the same. */
+static void reason_in_latin1(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_comparison *c;
+  gg_theory_info t = {0};
+  char *text;
+  const char *const names[] = {"pressure"};
+  const gg_theory_definition theory = {"mine", NULL, NULL, NULL, 1, names, say_in_latin1, NULL};
+  gg_scene *s = scene_of("{flow: usf, phi: 0.1}");
+  assert_ok(gg_scene_add_theory(s, &theory, &err));
+  assert_ok(gg_theories_evaluate(s, NULL, &c, &err));
+  for (size_t i = 0; gg_comparison_theory(c, i, &t, NULL) == GG_OK && strcmp(t.name, "mine") != 0;) i++;
+  assert_string_equal(t.reason, "mine ist nicht f?r ?[31mdas");
+  assert_ok(gg_comparison_to_json(c, &text, &err));
+  assert_non_null(strstr(text, "mine ist nicht f?r"));
+  assert_ok(gg_comparison_write(c, "latin1.h5", &err));
+  unlink("latin1.h5");
+  free(text);
+  gg_comparison_free(c);
+  gg_scene_free(s);
+}
+
 /* A theory that is not whole is refused by what it lacks; so is the ninth. */
 static void theories_refused(void **state)
 {
@@ -414,7 +445,7 @@ int main(void)
       cmocka_unit_test(read_back),    cmocka_unit_test(read_back_run),    cmocka_unit_test(theories_under_a_law),
       cmocka_unit_test(cooling),      cmocka_unit_test(spoiling),         cmocka_unit_test(law_noted),
       cmocka_unit_test(listed),       cmocka_unit_test(theories_refused), cmocka_unit_test(observables_refused),
-      cmocka_unit_test(laws_refused),
+      cmocka_unit_test(laws_refused), cmocka_unit_test(reason_in_latin1),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/text.h"
 
 static void fill(char *name, size_t length, const char *letter)
 {
@@ -65,11 +66,33 @@ static void usual(void **state)
   assert_int_equal(gg_base_fail(NULL, GG_FAILED, "why"), GG_FAILED);
 }
 
+/* Names of files may hold whatever a terminal acts on, and bytes that are no text. */
+static void foreign_texts(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_base_fail(&err, GG_FAILED, "%s: \xc3\xbc \xf0\x9f\x98\x80",
+               "a\x1b[31m\n\x7f \xc2\x9b \xe2\x80\xae \xe2\x81\xa6 \xd8\x9c \xef\xbb\xbf \xfc \xc3");
+  assert_string_equal(err.message, "a?[31m?? ? ? ? ? ? ? ?: \xc3\xbc \xf0\x9f\x98\x80");
+  gg_base_error_prefix(&err, GG_FAILED, "%s", "b\rc");
+  assert_true(strncmp(err.message, "b?c: a?", 7) == 0);
+}
+
+static void names(void **state)
+{
+  (void)state;
+  assert_true(gg_base_text_is_name("N1", 40) && gg_base_text_is_name("my_T", 4));
+  static const char *const bad[] = {"", "1N", "_x", "a/b", "..", "a.b", "a b", "\xc3\xbc", "my_T5"};
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) assert_false(gg_base_text_is_name(bad[k], 4));
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(long_names),
       cmocka_unit_test(usual),
+      cmocka_unit_test(foreign_texts),
+      cmocka_unit_test(names),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

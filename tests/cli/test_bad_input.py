@@ -1,9 +1,11 @@
 """Every mistake a user can make: the message says what is wrong and what to do, the exit code says whose fault it is,
 and no partial file is left."""
 import os
+import shutil
+import subprocess
 import sys
 
-from tap import check, main, run
+from tap import GRAINGAS, check, main, run
 
 GOOD = "flow: usf\nphi: 0.2\nparticles: 100\nrun: {collisions: 200, warmup: 20}\n"
 
@@ -133,11 +135,59 @@ def test_command_line():
     refused("one too many", 2, "run", "a.yaml", "b.yaml")
 
 
+def test_foreign_characters():
+    """Names and options reach no terminal as they are: neither line ends, nor escapes, nor marks of writing direction,
+    nor bytes that are no UTF-8."""
+    bad = b"x\x1b[31m\n\xe2\x80\xae\xfc"
+    calls = [[b"run", bad + b".yaml"], [b"run", b"scene.yaml", b"--" + bad], [bad], [b"run", b"scene.yaml", b"--engine", bad],
+             [b"run", b"scene.yaml", b"--set", bad + b"=1"], [b"info", bad + b".h5"], [b"export", bad + b".h5"],
+             [b"compare", b"scene.yaml", b"--threads", bad], [b"sweep", b"scene.yaml", b"--vary", bad],
+             [b"run", b"scene.yaml", b"--resume", bad], [b"plot", bad], [b"reproduce", bad], [b"info", bad],
+             [b"export", b"scene.yaml", b"--only", bad]]
+    with open("scene.yaml", "w") as f:
+        f.write(GOOD)
+    for call in calls:
+        done = subprocess.run([GRAINGAS.encode(), *call], capture_output=True)
+        text = done.stdout + done.stderr
+        check(done.returncode in (2, 3) and b"x?[31m???" in text, call, done)
+        check(text.count(b"\n") == 1 and not any(c in text for c in (b"\x1b", b"\xe2\x80\xae", b"\xfc")), call, text)
+    done = subprocess.run([GRAINGAS.encode(), b"run", b"scene.yaml", b"--output", bad + b".h5"], capture_output=True)
+    check(done.returncode == 0 and b"results: x?[31m???.h5" in done.stderr, done)
+    done = subprocess.run([GRAINGAS.encode(), b"info", bad + b".h5"], capture_output=True)
+    check(done.returncode == 0 and b"\xe2\x80\xae" not in done.stderr, done.stderr)
+    done = subprocess.run([GRAINGAS.encode(), b"export", bad + b".h5", b"--only", b"results"], capture_output=True)
+    check(done.stdout == bad + b".csv\n", "scripts get names as they are", done)
+
+
 def test_page_without_a_scene():
     """What is asked of a scene that is not there is not passed over."""
     for option in (("--set", "phi=3"), ("--seed", "7")):
         done = run("page", *option, "--output", "page.html")
         check(done.code == 2 and "are for a scene" in done.err and not done.new, done.err)
+
+
+def test_page_of_the_build_folder():
+    """A build hands out the page in its own folder, if nobody else can write there; an installed command does not look
+    beside itself."""
+    page = '<html>"@given@"</html>'
+    os.makedirs("build/src/cli")
+    shutil.copy(GRAINGAS, "build/src/cli/graingas")
+    with open("build/page.html", "w") as f:
+        f.write(page)
+
+    def asked():
+        return subprocess.run(["build/src/cli/graingas", "page", "--output", "o.html"], capture_output=True, text=True)
+
+    done = asked()
+    check(done.returncode == 3 or open("o.html").read() != page.replace('"@given@"', "null"), done)  # no build folder
+    open("build/build.ninja", "w").close()
+    for path in "build", "build/page.html":
+        os.chmod(path, 0o777)
+        done = asked()
+        check(done.returncode == 3 and "others can write there" in done.stderr, path, done)
+        os.chmod(path, 0o755)
+    done = asked()
+    check(done.returncode == 0 and open("o.html").read() == page.replace('"@given@"', "null"), done)
 
 
 def test_flow_of_another_engine():

@@ -315,5 +315,25 @@ def test_time_limit_before_errors_are_known():
     check(done.code == 1 and "time limit reached" in done.err, done.code, done.err)
 
 
+def test_small_stack():
+    """200 kB are enough, for the main thread and for those that it starts: library callers bring threads of their own."""
+    if SANITIZERS != "none":
+        raise Skip("sanitizers need more")
+    common = "phi: 0.2\nparticles: 100\ndsmc: {particles: 200}\nrun: {collisions: 40, warmup: 5, replicas: 2}\n"
+    mixture = "species: [{fraction: 0.3}, {fraction: 0.3, diameter: 1.3, mass: 2}, {fraction: 0.4, mass: 3}]\n"
+    scenes = [f"flow: {flow}\n" + common + more for flow in ("usf", "hcs", "small_shear") for more in ("", mixture)]
+    scenes += ["flow: usf\ncollision: {e: 0.8, beta: 0}\n" + common, "flow: usf\ncollision: {e: 0.8, beta: 0, mu: 0.3}\n" + common,
+               "flow: couette\ncollision: {e: 0.9, beta: 0}\nmeasure: [rheology, profiles, cells]\n" + common,
+               "flow: usf\ncollision: {law: viscoelastic}\nmeasure: [rheology, velocity_distributions, local_distributions, "
+               "pair_correlation, velocity_correlations, structure, cells, diffusion, viscosity, collisions]\n" + common]
+    for k, scene in enumerate(scenes):
+        with open("s.yaml", "w") as f:
+            f.write(scene)
+        for command in ("run", "--engine", "md"), ("run", "--engine", "dsmc"), ("compare", "--picture", "none"), ("theory",), ("info",):
+            done = subprocess.run([GRAINGAS, command[0], "s.yaml", *command[1:], "--threads", "2"][:-2 if command[0] in ("theory", "info") else None],
+                                  capture_output=True, text=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_STACK, (200 << 10, 200 << 10)))
+            check(done.returncode in (0, 1, 2), k, command, done.returncode, done.stderr)
+
+
 if __name__ == "__main__":
     main(sys.modules[__name__])

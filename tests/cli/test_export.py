@@ -297,8 +297,98 @@ def test_other_readers():
     for k, atoms in enumerate(found):
         check(atoms.cell.tolist() == whole["edges"][k].tolist() and atoms.pbc.all())
         check(atoms.arrays["velo"].tolist() == whole["velocity"][k].tolist())
+        check(abs(atoms.get_velocities() - whole["velocity"][k]).max() < 1e-12)
         check(set(atoms.arrays["radius"]) == {0.5} and set(atoms.get_atomic_numbers()) == {1})
         check(atoms.info["Time"] == whole["time"][k])
+
+
+def test_ase_takes_masses():
+    """Velocities and masses of a mixture are those of the file, not of the elements that species are called by."""
+    try:
+        from ase.io import read
+    except ImportError as why:
+        raise Skip(why)
+    simulated(MIXTURE)
+    exported("r.h5", "--only", "trajectory")
+    whole, atoms = stored("r.h5"), read("r.xyz", format="extxyz")
+    check(atoms.get_masses().tolist() == whole["mass"].tolist() and set(whole["mass"]) == {1, 2}, atoms.get_masses())
+    check(abs(atoms.get_velocities() - whole["velocity"][0]).max() < 1e-12)
+    energy = (whole["mass"][:, None] * whole["velocity"][0] ** 2).sum() / 2
+    check(abs(atoms.get_kinetic_energy() - energy) < 1e-9 * energy)
+
+
+def forged(path, change):
+    """The result with another document, and a checksum that is right."""
+    import struct
+    import zlib
+
+    import numpy
+
+    with h5py.File(path, "r+") as f:
+        document = json.loads(f["graingas/document"][()])
+        change(document, f)
+        if "document" in f["graingas"]:
+            del f["graingas/document"]
+        f["graingas"].create_dataset("document", data=numpy.bytes_(json.dumps(document)))
+    with open(path, "r+b") as f:
+        data = f.read()
+        f.write(struct.pack("<8sQI", b"gg-crc32", len(data), zlib.crc32(data)))
+
+
+def test_names_of_a_forged_file():
+    """Names that would lead elsewhere are refused, by all that read the file; nothing is written."""
+    if not h5py:
+        raise Skip("no h5py")
+
+    def group(d, f):
+        next(iter(d["curves"].values()))["group"] = "/../../outside"
+
+    def curve(d, f):
+        d["curves"]["../../outside"] = d["curves"].pop(next(iter(d["curves"])))
+
+    def number(d, f):
+        next(iter(d["curves"].values()))["numbers"]["../x"] = {"mean": 1, "stderr": 1, "unit": "1"}
+
+    def quantity(d, f):
+        d["results"]["a\x1b[31m"] = d["results"]["temperature"]
+
+    simulated(SHEARED, "--engine", "dsmc", output="whole.h5")
+    os.makedirs("a/b/p_")
+    for change in group, curve, number, quantity:
+        shutil.copy("whole.h5", "a/b/p.h5")
+        forged("a/b/p.h5", change)
+        for args in ("export", "p.h5", "--output", "p"), ("plot", "p.h5"), ("info", "p.h5"):
+            os.chdir("a/b")
+            done = run(*args)
+            os.chdir("../..")
+            check(done.code == 3 and "has a name that is not allowed" in done.err and not done.out, change, args, done.err)
+        check(sorted(os.listdir(".")) == ["a", "scene.yaml", "whole.h5"] and sorted(os.listdir("a/b")) == ["p.h5", "p_"])
+    os.rmdir("a/b/p_")
+
+
+def test_texts_of_a_forged_file():
+    """What a terminal or a spreadsheet would act on comes out as text."""
+    if not h5py:
+        raise Skip("no h5py")
+    import numpy
+
+    def change(d, f):
+        d["results"]["temperature"].update(unit="=HYPERLINK(1)", reason="+1+1")
+        d["results"]["pressure"].update(unit="@SUM(1)", reason="a\x1b]0;x\x07\u202eb\nc")
+        for name in "version", "command", "machine", "date":
+            del f["graingas"][name]
+            f["graingas"].create_dataset(name, data=numpy.bytes_(b"q\x1b[31m\n\xfc"))
+
+    simulated(SHEARED, "--engine", "dsmc")
+    forged("r.h5", change)
+    done = run("info", "r.h5")
+    check(done.code == 0 and "q?[31m??" in done.out, done.err)
+    check("\x1b" not in done.out + done.err and "\u202e" not in done.out, done.out)
+    exported("r.h5", "--only", "results")
+    table = {line["quantity"]: line for line in rows("r.csv")[1]}
+    check(table["temperature"]["unit"] == "'=HYPERLINK(1)" and table["temperature"]["reason"] == "'+1+1", table)
+    check(table["pressure"]["unit"] == "'@SUM(1)" and table["pressure"]["reason"] == "a?]0;x??b?c", table["pressure"])
+    check(float(table["P_xy"]["mean"]) < 0, "numbers stay numbers")
 
 
 def test_parts_and_prefix():

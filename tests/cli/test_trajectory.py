@@ -3,6 +3,7 @@ there, the result holds every frame of the run that was left alone, bit for bit.
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -280,6 +281,79 @@ def test_killed_between_first_checkpoint_and_its_frames():
             check(how in (1, 3) or gone(), how, os.listdir("."))
             os.chdir("..")
             shutil.rmtree("now")
+
+
+STORED = ("flow: usf\nphi: 0.2\nparticles: 500\ncollision: {e: 0.9, beta: 0}\nrun: {collisions: 200, warmup: 60}\n"
+          "output: {trajectory_every: 10}\n")
+
+
+def grains_of(path):
+    if not h5py:
+        raise Skip("no h5py")
+    with h5py.File(path) as f:
+        g, window = f["particles/grains"], f["graingas/window"][()]
+        return {name: (g[name]["value"].dtype, g[name]["value"][()]) for name in ("position", "velocity", "spin")
+                if name in g}, g["velocity/time"][()], window
+
+
+def test_what_is_stored():
+    """Columns, precision and the part of the run are chosen; the others are those of the whole file. What `info` says of
+    the file's size holds within a tenth."""
+    run("run", "scene.yaml", "--quiet", "--output", "whole.h5", scene=STORED)
+    whole, times, window = grains_of("whole.h5")
+    check(len(whole) == 3 and all(dtype == "f8" for dtype, _ in whole.values()) and times[0] < window[0] / 2, times)
+    for args, fields, dtype, after in (
+            ("--set=output.fields=[velocity, position]",), ("position", "velocity"), "f8", False), (
+            ("--set=output.precision=single",), ("position", "velocity", "spin"), "f4", False), (
+            ("--set=output.after=warmup", "--set=output.fields=[velocity]"), ("velocity",), "f8", True), (
+            ("--set=output={after: warmup, precision: single, fields: [spin, velocity], trajectory_every: 10}",),
+            ("velocity", "spin"), "f4", True):
+        done = run("run", "scene.yaml", "--quiet", "--output", "r.h5", *args)
+        check(done.code == 0 and not done.err, done.err)
+        found, t, _ = grains_of("r.h5")
+        check(sorted(found) == sorted(fields), args, sorted(found))
+        kept = [k for k in range(len(times)) if times[k] in t]
+        check(len(kept) == len(t) and (len(t) < len(times)) == after and (not after or t[0] >= window[0]), args, t, window)
+        for name, (kind, values) in found.items():
+            check(kind == dtype and (values == whole[name][1][kept].astype(dtype)).all(), args, name)
+        said = re.search(r"result file: about ([\d.]+) (kB|MB), with ([\d.]+) frames", run("info", "scene.yaml", *args).out)
+        size = float(said[1]) * {"kB": 1e3, "MB": 1e6}[said[2]]
+        check(abs(size - os.path.getsize("r.h5")) < 0.3 * size, args, said[0], os.path.getsize("r.h5"))
+        check(abs(float(said[3]) - len(t)) <= 2, args, said[0], len(t))
+        check(run("info", "r.h5").code == 0)
+        done = run("export", "r.h5", "--quiet")
+        check(done.code == 0 and ("r.xyz" in os.listdir(".")) == ("position" in fields), args, done.err)
+        if "position" in fields:
+            os.remove("r.xyz")
+    done = run("run", "scene.yaml", "--set", "output.fields=[position]")
+    check(done.code == 2 and "key 'output.fields': velocity is missing" in done.err, done.err)
+    done = run("run", "scene.yaml", "--quiet", "--set", "output={after: warmup}", "--output", "r.h5")
+    check("output.after has no effect while output.trajectory_every is 0" in done.err, done.err)
+
+
+def test_resumed_after_warmup():
+    """Frames of the window alone, whole and in single precision, also where the run was cut in its warm-up or after."""
+    scene = STORED + "  # cut\n"
+    more = ("--set", "output={after: warmup, precision: single, trajectory_every: 10, checkpoint_every: 100}")
+    run("run", "scene.yaml", "--quiet", "--output", "whole.h5", *more, scene=scene)
+    whole = particles("whole.h5")
+    for limit in 0.005, 0.03, 0.06:
+        run("run", "scene.yaml", "--quiet", *more, "--set", f"run.time_limit={limit}")
+        if not os.path.exists("scene.checkpoint.h5"):
+            continue  # it was over before
+        done = run("run", "scene.yaml", "--quiet", *more, "--resume", "scene.checkpoint.h5")
+        check(done.code == 0, done.err)
+        same("scene.h5", whole, limit)
+
+
+def test_chunks_fit():
+    """A frame of many grains fills its chunks: the file is as large as its data."""
+    run("run", "scene.yaml", "--quiet", scene=STORED.replace("500", "50000").replace("200", "4").replace("60", "1"))
+    found, _, _ = grains_of("scene.h5")
+    with h5py.File("scene.h5") as f:
+        stored = [f[f"particles/grains/{name}/value"].id.get_storage_size() for name in found]
+    for size, (_, values) in zip(stored, found.values()):
+        check(values.nbytes <= size < 1.001 * values.nbytes, size, values.nbytes)
 
 
 if __name__ == "__main__":

@@ -56,7 +56,8 @@ static void close_and_seal(hid_t file)
 }
 
 /* An array of so many dimensions whose elements are counted up; chunk NULL: in one piece. */
-static void put(hid_t file, const char *name, hid_t type, int rank, const hsize_t *dims, const hsize_t *chunk)
+static void put_filtered(hid_t file, const char *name, hid_t type, int rank, const hsize_t *dims, const hsize_t *chunk,
+                         const char *filters)
 {
   double x[10000];
   hsize_t n = 1;
@@ -65,11 +66,21 @@ static void put(hid_t file, const char *name, hid_t type, int rank, const hsize_
   hsize_t most[3] = {H5S_UNLIMITED, dims[rank > 1], dims[rank > 2 ? 2 : 0]};
   hid_t space = H5Screate_simple(rank, dims, chunk ? most : NULL), how = H5Pcreate(H5P_DATASET_CREATE);
   if (chunk) H5Pset_chunk(how, rank, chunk);
+  for (; *filters; filters++) {
+    if (*filters == 'g') H5Pset_deflate(how, 6);
+    if (*filters == 's') H5Pset_shuffle(how);
+    if (*filters == 'f') H5Pset_fletcher32(how);
+  }
   hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, how, H5P_DEFAULT);
   assert_true(set >= 0 && H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, x) >= 0);
   H5Dclose(set);
   H5Pclose(how);
   H5Sclose(space);
+}
+
+static void put(hid_t file, const char *name, hid_t type, int rank, const hsize_t *dims, const hsize_t *chunk)
+{
+  put_filtered(file, name, type, rank, dims, chunk, "");
 }
 
 static void check(gg_h5_in *in, const char *name, size_t n)
@@ -116,6 +127,51 @@ static void chunks(void **state)
       free(one);
     }
     assert_null(gg_h5_read_row(&in, "/x", cases[k].dims[0], GG_ITEM_F64, row));
+    gg_h5_in_close(&in);
+  }
+}
+
+/* What other programs compress, whole and row by row; in either order, and chunks that gzip makes no smaller. */
+static void filters(void **state)
+{
+  (void)state;
+  static const char *const all[] = {"g", "s", "f", "sg", "gs", "sgf", "fsg"};
+  const hsize_t dims[] = {20, 50, 3}, chunk[] = {3, 17, 3}, tiny[] = {1, 1, 1};
+  for (size_t k = 0; k < 2 * sizeof all / sizeof *all; k++) {
+    hid_t file = create();
+    put_filtered(file, "x", k % 2 ? H5T_NATIVE_DOUBLE : H5T_NATIVE_FLOAT, 3, dims, k % 3 ? chunk : tiny, all[k / 2]);
+    close_and_seal(file);
+    gg_h5_in in;
+    gg_h5_open(&in, "f.h5");
+    check(&in, "/x", 3000);
+    double *row = gg_h5_read_row(&in, "/x", 7, GG_ITEM_F64, 150);
+    for (int i = 0; i < 150; i++) assert_true(row[i] == 7 * 150 + i);
+    free(row);
+    gg_h5_in_close(&in);
+  }
+}
+
+/* Without its checksum a file is one that another program has changed, if it is as long as it says. */
+static void bare_files(void **state)
+{
+  (void)state;
+  hid_t file = create();
+  put(file, "x", H5T_NATIVE_DOUBLE, 1, &(hsize_t){100}, NULL);
+  H5Fclose(file);
+  struct stat about;
+  gg_h5_in in;
+  gg_h5_open(&in, "f.h5");
+  assert_true(in.failed && strstr(in.why, "checksum is missing"));
+  gg_h5_in_close(&in);
+  gg_h5_open_any(&in, "f.h5");
+  assert_true(in.changed);
+  check(&in, "/x", 100);
+  gg_h5_in_close(&in);
+  stat("f.h5", &about);
+  for (int k = -1; k <= 1; k += 2) {
+    assert_int_equal(truncate("f.h5", about.st_size + k), 0);
+    gg_h5_open_any(&in, "f.h5");
+    assert_true(in.failed && strstr(in.why, "cut off or damaged"));
     gg_h5_in_close(&in);
   }
 }
@@ -249,7 +305,7 @@ static void refusals(void **state)
   const hsize_t dims = 1000, chunk = 100;
   hid_t file = create(), space = H5Screate_simple(1, &dims, NULL), how = H5Pcreate(H5P_DATASET_CREATE);
   H5Pset_chunk(how, 1, &chunk);
-  H5Pset_deflate(how, 6);
+  H5Pset_scaleoffset(how, H5Z_SO_FLOAT_DSCALE, 2);
   double x[1000] = {0};
   hid_t set = H5Dcreate2(file, "/small", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, how, H5P_DEFAULT);
   H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, x);
@@ -268,7 +324,7 @@ static void refusals(void **state)
   H5Sclose(space);
   H5Tclose(text);
   close_and_seal(file);
-  expect_refusal("/small", "/small: is compressed, which graingas does not read");
+  expect_refusal("/small", "/small: is compressed by another filter than gzip");
   expect_refusal("/never", "/never: is larger than its file");
   expect_refusal("/soft", "/soft: is not there");
   expect_refusal("/far/away", "/far/away: is not there");
@@ -319,7 +375,8 @@ static void words(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(chunks),     cmocka_unit_test(names),    cmocka_unit_test(types),
-                                     cmocka_unit_test(attributes), cmocka_unit_test(refusals), cmocka_unit_test(words)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(chunks),     cmocka_unit_test(names),     cmocka_unit_test(types),
+                                     cmocka_unit_test(attributes), cmocka_unit_test(refusals),  cmocka_unit_test(words),
+                                     cmocka_unit_test(filters),    cmocka_unit_test(bare_files)};
   return cmocka_run_group_tests(tests, enter, leave);
 }

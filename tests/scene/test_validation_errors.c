@@ -44,6 +44,16 @@ static void refusals(void **state)
                  "s.yaml:2: key 'phi': value '0.7' is not allowed; allowed: a number from 0 to 0.6");
   assert_refused("flow: usf\nphi: -0.1\n", "s.yaml:2: key 'phi'");
   assert_refused("flow: usf\nphi: nan\n", "value 'nan'");
+  assert_refused(
+      "flow: usf\nphi: 1e-400\n",
+      "s.yaml:2: key 'phi': value '1e-400' is not allowed (did you mean 0?); allowed: a number from 0 to 0.6");
+  assert_refused("flow: usf\nphi: -0.0001e-400\n", "s.yaml:2: key 'phi': value '-0.0001e-400'");
+  assert_refused("flow: usf\nphi: 0.3\ncollision: {e: 1e-400}\n", "key 'collision.e': value '1e-400'");
+  assert_refused("flow: usf\nphi: 0.3\ncollision: {beta: {11: 1e-999}}\n", "key 'collision.beta': value '1e-999'");
+  assert_refused("flow: usf\nphi: 0.3\ncollision: {mu: 1e999}\n", "key 'collision.mu': value '1e999'");
+  assert_refused("flow: couette\nphi: 0.3\ngravity: [0, 1e-400, 0]\n", "key 'gravity': value '1e-400'");
+  assert_refused("flow: usf\nphi: 0.3\nrun: {seed: 1e-400}\n", "key 'run.seed': value '1e-400'");
+  assert_taken("flow: usf\nphi: 0e-400\n");
   assert_refused("flow: usf\nphi: 0x1p-2\n", "value '0x1p-2'");
   assert_refused("flow: usf\nphi: '0.3'\n", "text '0.3' is not allowed; allowed: a number");
   assert_refused("flow: usf\nphi:\n", "nothing is not allowed");
@@ -183,6 +193,7 @@ static void quoting(void **state)
   assert_refused("flow: xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx\u00e9\n",
                  "value 'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx\u00e9' is");
   assert_refused("\"a\\tb\": 1\n", "key 'a?b': no such key");
+  assert_refused("flow: \"a\\u202eb\\u0085c\"\n", "text 'a?b?c' is not allowed");
   assert_refused("flow:\n\tusf\n", "s.yaml:2: is not YAML: a tab cannot indent; use blanks");
 }
 

@@ -74,7 +74,13 @@ int gg_files_checksum_trailer_of_file(int fd, unsigned char trailer[GG_TRAILER_S
   return failed;
 }
 
-static const char *broken(int fd, uint64_t *size_of, unsigned char **block)
+static bool has_trailer(int fd, off_t size, unsigned char there[GG_TRAILER_SIZE])
+{
+  return size >= 0 && pread(fd, there, GG_TRAILER_SIZE, size) == GG_TRAILER_SIZE &&
+         memcmp(there, mark, sizeof mark) == 0;
+}
+
+static const char *broken(int fd, uint64_t *size_of, unsigned char **block, bool *bare)
 {
   struct stat about;
   unsigned char there[GG_TRAILER_SIZE], wanted[GG_TRAILER_SIZE], start[sizeof hdf5];
@@ -83,22 +89,21 @@ static const char *broken(int fd, uint64_t *size_of, unsigned char **block)
   if (pread(fd, start, sizeof start, 0) != sizeof start || memcmp(start, hdf5, sizeof start) != 0)
     return "it is not an HDF5 file, or a damaged one";
   off_t size = about.st_size - GG_TRAILER_SIZE;
-  if (size < 0 || pread(fd, there, sizeof there, size) != sizeof there || memcmp(there, mark, sizeof mark) != 0)
-    return "its checksum is missing: it is cut off or damaged, or another program changed it (the manual "
-           "page says how to vouch for a changed one)";
+  *bare = !has_trailer(fd, size, there);
+  if (*bare) size = about.st_size;
   if (sum_up(fd, size, wanted, block) != 0) return strerror(errno);
   *size_of = (uint64_t)size;
-  return memcmp(there, wanted, sizeof there) == 0 ? NULL : "its checksum does not match: it is damaged";
+  return *bare || memcmp(there, wanted, sizeof there) == 0 ? NULL : "its checksum does not match: it is damaged";
 }
 
-const char *gg_files_checksum_trailer_open(const char *path, int *fd, uint64_t *size, unsigned char **whole)
+const char *gg_files_checksum_trailer_open(const char *path, int *fd, uint64_t *size, unsigned char **whole, bool *bare)
 {
   unsigned char *block = NULL;
   *whole = NULL;
   if (!*path) return "the name is empty";
   int opened = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (opened < 0) return strerror(errno);
-  const char *why = broken(opened, size, &block);
+  const char *why = broken(opened, size, &block, bare);
   if (why)
     close(opened);
   else

@@ -5,6 +5,7 @@
 #ifndef GG_CHECKSUM_TRAILER_H
 #define GG_CHECKSUM_TRAILER_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -18,9 +19,10 @@ void gg_files_checksum_trailer_of(const void *data, size_t size, unsigned char t
 gg_status gg_files_checksum_trailer_write(gg_atomic_file *file, const void *data, size_t size, gg_error *err);
 /* Of a whole file that can be read; errno tells on -1. One pass over it. */
 int gg_files_checksum_trailer_of_file(int fd, unsigned char trailer[GG_TRAILER_SIZE]);
-/* NULL: the file is what was written; it is open, and *size says where its checksum begins. Of one of up to
- * GG_TRAILER_SMALL bytes *whole has those before its checksum, as they were summed, to be freed; of a larger one it is
- * NULL. Otherwise why it cannot be read. */
-const char *gg_files_checksum_trailer_open(const char *path, int *fd, uint64_t *size, unsigned char **whole);
+/* NULL: the file is what was written, or *bare: it ends without a checksum. It is open, and *size says where its
+ * checksum begins. Of one of up to GG_TRAILER_SMALL bytes *whole has those before its checksum, as they were summed, to
+ * be freed; of a larger one it is NULL. Otherwise why it cannot be read. */
+const char *gg_files_checksum_trailer_open(const char *path, int *fd, uint64_t *size, unsigned char **whole,
+                                           bool *bare);
 
 #endif

@@ -68,6 +68,9 @@ bool gg_h5_bytes(gg_h5_in *in, uint64_t at, void *to, uint64_t n)
   return true;
 }
 
+static const char cut_off[] = "its checksum is missing: it is cut off or damaged, or another program changed it (the "
+                              "manual page says how to vouch for a changed one)";
+
 /* Version 0, and 1, which says one number more; of both the addresses and lengths that everybody has. */
 static void read_superblock(gg_h5_in *in)
 {
@@ -81,18 +84,30 @@ static void read_superblock(gg_h5_in *in)
   if (s[8] > 1 || s[13] != 8 || s[14] != 8 || gg_h5_word(s + 24 + more, 8) != 0)
     gg_h5_in_failed(in, "it is of a form of HDF5 that graingas does not write");
   in->root = gg_h5_word(s + 64 + more, 8);
+  if (in->changed && gg_h5_word(s + 40 + more, 8) != in->size) gg_h5_in_failed(in, cut_off);
 }
 
-void gg_h5_open(gg_h5_in *in, const char *path)
+static void open_file(gg_h5_in *in, const char *path, bool any)
 {
   memset(in, 0, sizeof *in);
   in->fd = -1;
   errno = 0;
-  const char *broken = gg_files_checksum_trailer_open(path, &in->fd, &in->size, &in->whole);
+  const char *broken = gg_files_checksum_trailer_open(path, &in->fd, &in->size, &in->whole, &in->changed);
+  if (!broken && in->changed && !any) broken = cut_off;
   if (broken)
     gg_h5_in_failed(in, broken);
   else
     read_superblock(in);
+}
+
+void gg_h5_open(gg_h5_in *in, const char *path)
+{
+  open_file(in, path, false);
+}
+
+void gg_h5_open_any(gg_h5_in *in, const char *path)
+{
+  open_file(in, path, true);
 }
 
 void gg_h5_in_close(gg_h5_in *in)

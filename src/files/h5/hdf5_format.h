@@ -49,6 +49,9 @@ typedef struct gg_h5_space {
 bool gg_h5_type_of(const unsigned char *data, size_t size, gg_h5_type *type);
 bool gg_h5_space_of(const unsigned char *data, size_t size, gg_h5_space *space);
 
+/* What chunks went through on their way into the file, in this order; 1 to 3 as HDF5 numbers them. */
+enum { GG_H5_GZIP = 1, GG_H5_SHUFFLE = 2, GG_H5_FLETCHER32 = 3, GG_H5_MOST_FILTERS = 4 };
+
 /* An array, and elements of it. */
 typedef struct gg_h5_array_in {
   gg_h5_type type;
@@ -56,12 +59,21 @@ typedef struct gg_h5_array_in {
   bool chunked;
   uint64_t at, bytes; /* of the data, or of the tree of chunks */
   uint64_t chunk[GG_H5_MOST_RANK];
+  int n_filters;
+  unsigned filter[GG_H5_MOST_FILTERS];
 } gg_h5_array_in;
 bool gg_h5_array_at(gg_h5_in *in, const char *path, gg_h5_array_in *array);
 /* Rows `from` .. `from` + `n` - 1 as they stand in the file, into room of their size. Of a scalar: row 0. */
 bool gg_h5_rows_of(gg_h5_in *in, const char *path, const gg_h5_array_in *array, uint64_t from, uint64_t n, void *to);
 /* Elements of a row; 0 where there is none. */
 uint64_t gg_h5_row_size(const gg_h5_space *space);
+
+/* hdf5_filters.c: what is wrong with the message of an array's filters; NULL: they are known. */
+const char *gg_h5_filters_of(const unsigned char *data, size_t size, gg_h5_array_in *array);
+/* A stored chunk back to its `bytes` bytes; bits of `skipped` are filters that were left out. False: it is damaged, or
+ * there is no memory. */
+bool gg_h5_filters_undo(const gg_h5_array_in *array, unsigned skipped, const unsigned char *stored, size_t n,
+                        unsigned char *chunk, size_t bytes);
 
 /* n numbers of a file in another type. False: these are no numbers. */
 bool gg_h5_convert(const gg_h5_type *from, const void *data, gg_item_type type, void *to, size_t n);

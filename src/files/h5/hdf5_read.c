@@ -236,24 +236,28 @@ static void read_layout(gg_h5_array_in *a, const unsigned char *d, unsigned size
 static bool look(gg_h5_in *in, const gg_h5_message *m, void *context)
 {
   parts *p = context;
+  const char *unknown = NULL;
   const bool shared = m->flags & 2;
   (void)in;
   switch (m->kind) {
   case GG_H5_TYPE: p->type = !shared && gg_h5_type_of(m->data, m->size, &p->array->type); break;
   case GG_H5_SPACE: p->space = !shared && gg_h5_space_of(m->data, m->size, &p->array->space); break;
   case GG_H5_LAYOUT: read_layout(p->array, m->data, m->size, p); break;
-  case GG_H5_FILTER: p->wrong = "is compressed, which graingas does not read (h5repack -f NONE undoes it)"; break;
+  case GG_H5_FILTER: unknown = shared ? "is damaged" : gg_h5_filters_of(m->data, m->size, p->array); break;
   case GG_H5_EXTERNAL: p->wrong = "is stored in another file"; break;
   default: break;
   }
+  if (unknown) p->wrong = unknown;
   return false;
 }
 
-/* Nothing that a file claims to hold is larger than the file. */
+/* Nothing that a file claims to hold is larger than the file; what is compressed well, by a limit. */
 static const char *check(const gg_h5_in *in, const gg_h5_array_in *a)
 {
-  uint64_t bytes;
-  if (__builtin_mul_overflow(a->space.n, a->type.size, &bytes) || bytes > in->size) return "is larger than its file";
+  enum { MOST_RATIO = 32, MOST_SMALL = 64 << 20 };
+  uint64_t bytes, most = in->size;
+  if (a->n_filters) most = MOST_RATIO * most < MOST_SMALL ? MOST_SMALL : MOST_RATIO * most;
+  if (__builtin_mul_overflow(a->space.n, a->type.size, &bytes) || bytes > most) return "is larger than its file";
   if (!a->chunked) return bytes == 0 || a->bytes >= bytes ? NULL : "is damaged";
   if (a->bytes != a->type.size || a->space.rank == 0) return "is damaged";
   uint64_t chunk = a->type.size;
@@ -262,7 +266,7 @@ static const char *check(const gg_h5_in *in, const gg_h5_array_in *a)
     if (used != (a->chunk[i] > 0) || (used && (wide || __builtin_mul_overflow(chunk, a->chunk[i], &chunk))))
       return "is damaged";
   }
-  return chunk <= in->size || bytes == 0 ? NULL : "is larger than its file";
+  return chunk <= most || bytes == 0 ? NULL : "is larger than its file";
 }
 
 bool gg_h5_array_at(gg_h5_in *in, const char *path, gg_h5_array_in *array)
@@ -320,8 +324,13 @@ static bool choose_child(gg_h5_in *in, const gg_h5_array_in *a, const uint64_t *
   return gg_h5_bytes(in, keys + each * low, key, each);
 }
 
-/* Where the chunk that begins at this place is, of `bytes` bytes. */
-static bool find_chunk(gg_h5_in *in, const gg_h5_array_in *a, const uint64_t *place, uint64_t bytes, uint64_t *found)
+typedef struct stored_chunk {
+  uint64_t at, bytes; /* in the file */
+  unsigned skipped;   /* filters, a bit each */
+} stored_chunk;
+
+/* The chunk that begins at this place. */
+static bool find_chunk(gg_h5_in *in, const gg_h5_array_in *a, const uint64_t *place, stored_chunk *found)
 {
   uint64_t at = a->at;
   for (int level = -1;;) {
@@ -335,8 +344,8 @@ static bool find_chunk(gg_h5_in *in, const gg_h5_array_in *a, const uint64_t *pl
     if (!choose_child(in, a, place, at + TREE, n, key)) return false;
     at = gg_h5_word(key + 8 + 8 * (a->space.rank + 1), 8);
     if (level > 0) continue;
-    *found = at;
-    return is_at(a, place, key) && gg_h5_word(key, 4) == bytes && gg_h5_word(key + 4, 4) == 0;
+    *found = (stored_chunk){at, gg_h5_word(key, 4), (unsigned)gg_h5_word(key + 4, 4)};
+    return is_at(a, place, key);
   }
 }
 
@@ -378,14 +387,27 @@ static bool next_place(const gg_h5_array_in *a, uint64_t end, uint64_t *place)
   return false;
 }
 
+/* Without filters it is stored as it is. */
+static bool read_chunk(gg_h5_in *in, const gg_h5_array_in *a, const stored_chunk *s, unsigned char *chunk,
+                       uint64_t bytes)
+{
+  if (!a->n_filters) return s->bytes == bytes && s->skipped == 0 && gg_h5_bytes(in, s->at, chunk, bytes);
+  unsigned char *stored = s->bytes <= in->size ? malloc(s->bytes + 1) : NULL;
+  const bool good = stored && gg_h5_bytes(in, s->at, stored, s->bytes) &&
+                    gg_h5_filters_undo(a, s->skipped, stored, s->bytes, chunk, bytes);
+  free(stored);
+  return good;
+}
+
 static bool read_chunks(gg_h5_in *in, const gg_h5_array_in *a, uint64_t from, uint64_t n, unsigned char *to)
 {
-  uint64_t place[GG_H5_MOST_RANK] = {from / a->chunk[0] * a->chunk[0]}, bytes = a->type.size, at;
+  uint64_t place[GG_H5_MOST_RANK] = {from / a->chunk[0] * a->chunk[0]}, bytes = a->type.size;
+  stored_chunk s;
   for (int i = 0; i < a->space.rank; i++) bytes *= a->chunk[i];
   unsigned char *chunk = malloc(bytes);
   bool good = chunk != NULL;
   do {
-    good = good && find_chunk(in, a, place, bytes, &at) && gg_h5_bytes(in, at, chunk, bytes);
+    good = good && find_chunk(in, a, place, &s) && read_chunk(in, a, &s, chunk, bytes);
     if (good) copy_chunk(a, place, chunk, from, n, to);
   } while (good && next_place(a, from + n, place));
   free(chunk);

@@ -1,9 +1,10 @@
 /* Result files and checkpoints, read. HDF5 itself is not safe from files that somebody made to harm: they are read here
  * instead, and HDF5 never sees one. What graingas writes is a small part of HDF5's format, and that is read, checked
  * word by word: version 0 of the superblock, old groups and object headers, arrays in one piece or in chunks, numbers
- * and texts of fixed length. What else a file holds is left alone, and what is asked for and is of another kind
- * (compressed, of variable length, in a newer format) is refused by name. Nothing takes more memory than the file has
- * bytes.
+ * and texts of fixed length. Other programs repack files: chunks may be compressed by gzip, shuffled and have
+ * checksums. What else a file holds is left alone, and what is asked for and is of another kind (of variable length, in
+ * a newer format, compressed otherwise) is refused by name. Nothing takes more memory than the file has bytes; what is
+ * compressed, 32 times as many or 64 MB.
  *
  * The first failure sticks: later calls do nothing, and gg_h5_in_status reports it. */
 #ifndef GG_H5_READER_H
@@ -29,8 +30,8 @@ typedef struct gg_h5_trail {
 
 typedef struct gg_h5_in {
   int fd;
-  uint64_t size, root; /* of the HDF5 file; the header of its root group */
-  bool failed;
+  uint64_t size, root;  /* of the HDF5 file; the header of its root group */
+  bool failed, changed; /* changed: another program wrote it, so that it has no checksum */
   char why[256];
   unsigned char *whole; /* all of it; NULL: it is too large for that */
   uint64_t window_at;   /* what was read last of what is small */
@@ -41,6 +42,8 @@ typedef struct gg_h5_in {
 
 /* The file's checksum is looked at first (checksum_trailer.h). To be closed, also after a failure. */
 void gg_h5_open(gg_h5_in *in, const char *path);
+/* Also a file that ends without one: another program has changed it, if it is as long as its superblock says. */
+void gg_h5_open_any(gg_h5_in *in, const char *path);
 void gg_h5_in_close(gg_h5_in *in);
 /* GG_BAD_FILE "path: cannot be read: why" if anything failed. */
 gg_status gg_h5_in_status(const gg_h5_in *in, const char *path, gg_error *err);

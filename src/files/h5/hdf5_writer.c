@@ -266,13 +266,14 @@ void gg_h5_ints_attribute(gg_h5 *h, const char *object, const char *name, const 
   gg_h5_attribute(h, object, name, H5T_NATIVE_INT, values, n);
 }
 
-/* A megabyte a chunk, at most one row; small rows are gathered. */
+/* A megabyte a chunk at most, and at most one row, which is divided evenly: a chunk is stored whole, also where the row
+ * ends within it. Small rows are gathered. */
 static void chunk_of(const gg_h5_rows *rows, hsize_t *chunk)
 {
   hsize_t item = H5Tget_size(rows->type), width = rows->row_rank > 1 ? rows->row[1] : 1;
-  hsize_t room = (1 << 20) / (item * width);
+  hsize_t room = (1 << 20) / (item * width), parts = (rows->row[0] + room - 1) / room;
   chunk[0] = rows->row_rank ? 1 : 1024;
-  chunk[1] = rows->row[0] < room ? rows->row[0] : room;
+  chunk[1] = parts ? (rows->row[0] + parts - 1) / parts : 1;
   chunk[2] = width;
 }
 

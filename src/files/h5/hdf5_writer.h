@@ -52,7 +52,7 @@ void gg_h5_attribute(gg_h5 *h, const char *object, const char *name, hid_t type,
 /* An array that grows by one row of `row_rank` dimensions at a time. */
 typedef struct gg_h5_rows {
   hid_t dataset;
-  hid_t type;
+  hid_t type; /* of the numbers in memory */
   int row_rank;
   hsize_t row[2], n;
 } gg_h5_rows;

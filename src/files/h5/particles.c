@@ -46,46 +46,53 @@ static void write_kinds(gg_h5 *h, const gg_model *model, const gg_frame *frame, 
 
 /* Readers look for units at the arrays, and MDAnalysis refuses a file if it finds one there that it does not know,
  * among which are all of ours: of position, velocity and time they stand at the groups. */
-static void write_units(gg_h5 *h, const gg_model *model, const gg_frame *frame)
+static void write_units(gg_h5 *h, bool boxed, const gg_model *model, const gg_frame *frame)
 {
   const char *velocity = gg_measure_curve_unit(model, "velocity"), *length = gg_measure_curve_unit(model, "length");
   const char *spin = model->boltzmann ? velocity : gg_measure_curve_unit(model, "spin");
   gg_h5_text_attribute(h, GRAINS, "time_unit", gg_measure_curve_unit(model, "time"));
   gg_h5_text_attribute(h, GRAINS "/velocity", "unit", velocity);
   if (frame->position) gg_h5_text_attribute(h, GRAINS "/position", "unit", length);
-  if (frame->position) gg_h5_text_attribute(h, GRAINS "/box/edges", "unit", length);
+  if (boxed) gg_h5_text_attribute(h, GRAINS "/box/edges", "unit", length);
   if (!frame->spin) return;
   gg_h5_text_attribute(h, GRAINS "/spin", "unit", spin);
   gg_h5_text_attribute(h, GRAINS "/spin/value", "unit", spin);
   gg_h5_text_attribute(h, GRAINS "/spin", "doc", model->boltzmann ? "surface velocity (d/2) omega" : "omega");
 }
 
-static void write_frame_of_reference(gg_h5 *h, const gg_model *model, const gg_frame *frame)
+static void write_frame_of_reference(gg_h5 *h, bool boxed, const gg_model *model)
 {
   const char *text =
       model->shear_rate == 0 ? "laboratory: no flow is imposed"
-      : frame->position
-          ? "peculiar: relative to the imposed flow; in the laboratory x has shear_rate (y - L_y/2) more, "
-            "y the position and L_y = box/edges/value[1][1]"
-          : "peculiar: relative to the flow at the one point that the ensemble stands for";
+      : boxed ? "peculiar: relative to the imposed flow; in the laboratory x has shear_rate (y - L_y/2) more, "
+                "y the position and L_y = box/edges/value[1][1]"
+              : "peculiar: relative to the flow at the one point that the ensemble stands for";
   gg_h5_text_attribute(h, GRAINS "/velocity", "frame", text);
   gg_h5_attribute(h, GRAINS "/velocity", "shear_rate", H5T_NATIVE_DOUBLE, &model->shear_rate, 0);
 }
 
 /* What does not change in time, and what the numbers mean: units, frame of reference. */
-static void write_grains(gg_h5 *h, const gg_model *model, const gg_frame *frame, const size_t *order)
+static void write_grains(gg_h5 *h, bool boxed, const gg_model *model, const gg_frame *frame, const size_t *order)
 {
   write_kinds(h, model, frame, order);
-  write_units(h, model, frame);
-  write_frame_of_reference(h, model, frame);
+  write_units(h, boxed, model, frame);
+  write_frame_of_reference(h, boxed, model);
+}
+
+/* The numbers in memory are doubles all the same. */
+static void create_vectors(gg_h5 *h, const gg_h5_particles *p, gg_h5_rows *rows, const char *name)
+{
+  const hsize_t row[2] = {p->n, 3};
+  gg_h5_rows_create(h, rows, gg_h5_path(h, GRAINS "/%s/value", name), p->single ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE,
+                    2, row);
+  rows->type = H5T_NATIVE_DOUBLE;
 }
 
 static void start_vectors(gg_h5 *h, gg_h5_particles *p, gg_h5_rows *rows, const char *name, const double *data)
 {
   rows->dataset = -1;
   if (!data) return;
-  const hsize_t row[2] = {p->n, 3};
-  gg_h5_rows_create(h, rows, gg_h5_path(h, GRAINS "/%s/value", name), H5T_NATIVE_DOUBLE, 2, row);
+  create_vectors(h, p, rows, name);
   gg_h5_link(h, GRAINS "/velocity/step", gg_h5_path(h, GRAINS "/%s/step", name));
   gg_h5_link(h, GRAINS "/velocity/time", gg_h5_path(h, GRAINS "/%s/time", name));
 }
@@ -108,16 +115,15 @@ static void start_box(gg_h5 *h, gg_h5_particles *p, const gg_model *model)
 
 static void start(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame, const size_t *order)
 {
-  *p = (gg_h5_particles){.started = true, .boxed = frame->position != NULL, .n = frame->n};
+  p->started = true, p->n = frame->n;
   p->edges.dataset = -1;
   gg_h5_rows_create(h, &p->step, GRAINS "/velocity/step", H5T_NATIVE_UINT64, 0, NULL);
   gg_h5_rows_create(h, &p->time, GRAINS "/velocity/time", H5T_NATIVE_DOUBLE, 0, NULL);
-  const hsize_t row[2] = {p->n, 3};
-  gg_h5_rows_create(h, &p->velocity, GRAINS "/velocity/value", H5T_NATIVE_DOUBLE, 2, row);
+  create_vectors(h, p, &p->velocity, "velocity");
   start_vectors(h, p, &p->position, "position", frame->position);
   start_vectors(h, p, &p->spin, "spin", frame->spin);
   start_box(h, p, model);
-  write_grains(h, model, frame, order);
+  write_grains(h, p->boxed, model, frame, order);
 }
 
 /* Under shear the image above has slid by rate L_y t (Lees & Edwards 1972): the second edge leans by as much, counted
@@ -136,15 +142,26 @@ static void append_vectors(gg_h5 *h, gg_h5_rows *rows, const double *data, const
   gg_h5_rows_append(h, rows, sorted);
 }
 
-void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame)
+/* A view of it: the arrays stay the caller's. */
+static gg_frame stored_part(const gg_h5_particles *p, const gg_frame *frame)
+{
+  gg_frame part = *frame;
+  if (p->left_out & GG_FIELDS_POSITION) part.position = NULL;
+  if (p->left_out & GG_FIELDS_SPIN) part.spin = NULL;
+  return part;
+}
+
+void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *whole)
 {
   if (h->failed) return;
+  const gg_frame part = stored_part(p, whole), *frame = &part;
   gg_error err = {.message = "out of memory for a frame"};
   size_t *order = gg_run_frame_order(frame, &err);
   double *sorted = malloc(3 * frame->n * sizeof *sorted);
   if (!order || !sorted) {
     gg_h5_failed(h, err.message);
   } else {
+    p->boxed = whole->position != NULL;
     if (!p->started) start(h, p, model, frame, order);
     const double tilt = tilt_at(model, frame->time);
     const double edges[9] = {model->box[0], 0, 0, tilt, model->box[1], 0, 0, 0, model->box[2]};

@@ -7,6 +7,8 @@
 
 typedef struct gg_h5_particles {
   bool started, boxed;
+  bool single;       /* positions, velocities and spins as float; set before the first frame */
+  unsigned left_out; /* GG_FIELDS_... that are not stored; likewise */
   size_t n;
   uint64_t last_step;
   gg_h5_rows step, time, edges, position, velocity, spin;

@@ -267,6 +267,8 @@ static gg_status create(gg_result_file *f, bool streaming, gg_error *err)
     return GG_FAILED;
   }
   w->streaming = streaming;
+  w->particles.single = f->scene && f->scene->output.precision == GG_SINGLE;
+  w->particles.left_out = f->scene ? GG_FIELDS_ALL & ~f->scene->output.fields : 0;
   if (streaming)
     gg_h5_create(&w->h, f->file.temporary);
   else
@@ -341,6 +343,7 @@ static void write_last_frame(gg_result_file *f, const gg_result *r)
 
 gg_status gg_files_result_file_finish_run(gg_result_file *f, const gg_result *result, gg_error *err)
 {
+  f->scene = &result->scene;
   GG_TRY(create(f, false, err));
   locale_t before = gg_base_c_locale_enter();
   write_document(f, &result->scene, gg_files_run_document(result));
@@ -354,6 +357,7 @@ gg_status gg_files_result_file_finish_run(gg_result_file *f, const gg_result *re
 gg_status gg_files_result_file_finish_comparison(gg_result_file *f, const gg_comparison *c, gg_error *err)
 {
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
+  f->scene = &c->scene;
   GG_TRY(create(f, false, err));
   locale_t before = gg_base_c_locale_enter();
   write_document(f, &c->scene, gg_files_comparison_document(c));

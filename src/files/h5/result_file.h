@@ -20,6 +20,7 @@
 typedef struct gg_result_file {
   gg_atomic_file file;
   const char *command;          /* the command line, for the record */
+  const gg_scene *scene;        /* whose `output` says what of frames is stored; NULL: all of it */
   struct gg_result_writer *now; /* what was begun of the file (result_file.c); NULL: nothing */
 } gg_result_file;
 

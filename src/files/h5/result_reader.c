@@ -8,8 +8,10 @@
 #include "base/build.h"
 #include "base/checked_json.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "files/h5/checkpoint_file.h"
 #include "files/h5/hdf5_reader.h"
+#include "files/result_document.h"
 
 /* States are saved as they stand in memory: those of another layout cannot be read. Those of another identity can, but
  * the run would go on with other physics, or have another trajectory. */
@@ -138,11 +140,19 @@ void gg_files_stored_scene_update_words(char *scene)
   memcpy(scene, now, sizeof now - 1);
 }
 
+/* It is shown to people. */
+static char *read_line(gg_h5_in *h, const char *path)
+{
+  char *text = gg_h5_read_text(h, path);
+  if (text) gg_base_text_make_printable(text);
+  return text;
+}
+
 gg_status gg_files_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
 {
   gg_h5_in h;
   *s = (gg_stored_result){0};
-  gg_h5_open(&h, path);
+  gg_h5_open_any(&h, path);
   const bool checkpoint = !h.failed && gg_h5_exists(&h, "/checkpoint");
   if (checkpoint) gg_files_checkpoint_check_version(&h, true);
   if (checkpoint && !h.failed)
@@ -153,14 +163,15 @@ gg_status gg_files_stored_result_read(gg_stored_result *s, const char *path, gg_
     gg_h5_in_failed(&h, "it is a reproduced figure, for h5py; its curves are in the .csv beside it, too");
   if (!h.failed && !gg_h5_exists(&h, "/graingas/document")) gg_h5_in_failed(&h, "it holds no result of graingas");
   char *text = gg_h5_read_text(&h, "/graingas/document");
-  s->version = gg_h5_read_text(&h, "/graingas/version");
-  s->command = gg_h5_read_text(&h, "/graingas/command");
-  s->machine = gg_h5_read_text(&h, "/graingas/machine");
-  s->date = gg_h5_read_text(&h, "/graingas/date");
+  s->changed = h.changed;
+  s->version = read_line(&h, "/graingas/version");
+  s->command = read_line(&h, "/graingas/command");
+  s->machine = read_line(&h, "/graingas/machine");
+  s->date = read_line(&h, "/graingas/date");
   s->scene = gg_h5_read_text(&h, "/graingas/scene");
   gg_files_stored_scene_update_words(s->scene);
   const char *why = "out of memory";
-  s->document = text ? gg_base_json_read(text, &why) : NULL;
+  s->document = text ? gg_files_document_read(text, &why) : NULL;
   free(text);
   if (!s->document) gg_h5_in_failed(&h, why);
   if (!h.failed) {
@@ -200,6 +211,32 @@ const gg_stored_series *gg_files_stored_series_find(const gg_stored_engine *e, c
   return NULL;
 }
 
+/* Is the version that wrote it newer: "0.2.0+g123" than "0.1.0"? */
+static bool is_newer(const char *version)
+{
+  int there[3] = {0}, here[3] = {0};
+  sscanf(version, "%d.%d.%d", &there[0], &there[1], &there[2]);
+  sscanf(gg_base_build_version, "%d.%d.%d", &here[0], &here[1], &here[2]);
+  for (int i = 0; i < 3; i++)
+    if (there[i] != here[i]) return there[i] > here[i];
+  return false;
+}
+
+gg_status gg_files_stored_result_notice(const char *path, char *text, size_t size, gg_error *err)
+{
+  gg_h5_in h;
+  gg_h5_open_any(&h, path);
+  char *version = gg_h5_exists(&h, "/graingas/version") ? read_line(&h, "/graingas/version") : NULL;
+  *text = '\0';
+  if (h.changed) gg_base_text_append(text, size, "another program has changed it since graingas wrote it");
+  if (version && is_newer(version))
+    gg_base_text_append(text, size, "%sgraingas %.40s wrote it, and this is %s: what is newer in it is not shown",
+                        *text ? "; " : "", version, gg_base_build_version);
+  free(version);
+  gg_h5_in_close(&h);
+  return gg_h5_in_status(&h, path, err);
+}
+
 #define GRAINS "/particles/grains"
 
 /* Three texts: "periodic" or "none". */
@@ -236,7 +273,7 @@ gg_status gg_files_stored_trajectory_open(gg_stored_trajectory *t, const char *p
 {
   *t = (gg_stored_trajectory){.path = strdup(path)};
   if (!t->path) return gg_base_out_of_memory(err);
-  gg_h5_open(&t->h, path);
+  gg_h5_open_any(&t->h, path);
   if (gg_h5_exists(&t->h, GRAINS "/position/value")) {
     t->n_frames = gg_h5_count_of(&t->h, GRAINS "/velocity/step");
     read_kinds(t);

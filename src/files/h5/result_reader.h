@@ -26,7 +26,7 @@ typedef struct gg_stored_engine {
 } gg_stored_engine;
 
 typedef struct gg_stored_result {
-  bool comparison;
+  bool comparison, changed;                         /* changed: by another program, since it was written */
   char *version, *command, *machine, *date, *scene; /* scene: YAML */
   json_t *document;
   gg_stored_engine engine[2]; /* by gg_engine_kind */
@@ -40,6 +40,8 @@ typedef struct gg_stored_result {
 void gg_files_stored_scene_update_words(char *yaml);
 
 gg_status gg_files_stored_result_read(gg_stored_result *stored, const char *path, gg_error *err);
+/* One line on what is unusual about it; "" if nothing is. */
+gg_status gg_files_stored_result_notice(const char *path, char *text, size_t size, gg_error *err);
 void gg_files_stored_result_clear(gg_stored_result *stored);
 /* The series of that name, or NULL. */
 const gg_stored_series *gg_files_stored_series_find(const gg_stored_engine *engine, const char *name);
