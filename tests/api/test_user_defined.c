@@ -257,7 +257,7 @@ static void spoiling(void **state)
   o.name = "diffusion";
   assert_refused(gg_scene_add_observable(s, &o, &err), "taken");
   o.name = "\xe9tat";
-  assert_refused(gg_scene_add_observable(s, &o, &err), "no name");
+  assert_refused(gg_scene_add_observable(s, &o, &err), "not a valid name");
   o.name = "mine";
   q.unit = "\xc2\xb5m \xe2\x82\xac \xf0\x9f\x8c\xbe";
   assert_ok(gg_scene_add_observable(s, &o, &err));
@@ -323,7 +323,7 @@ static void theories_refused(void **state)
   const char *const good[] = {"N1"}, *const unknown[] = {"N1", "warmth"}, *const none[] = {NULL};
   gg_scene *s = scene_of("{flow: usf, phi: 0.1}");
   gg_theory_definition t = {"mine", NULL, NULL, NULL, 1, good, say_nothing, NULL};
-  assert_refused(gg_scene_add_theory(s, NULL, &err), "no definition");
+  assert_refused(gg_scene_add_theory(s, NULL, &err), "the definition is missing");
   t.n_quantities = 0;
   assert_refused(gg_scene_add_theory(s, &t, &err), "at least one quantity");
   t.n_quantities = 2, t.quantities = unknown;
@@ -379,11 +379,11 @@ static void observables_refused(void **state)
              {{"x", NULL, 1, &long_unit, 0, sample_T, NULL, NULL}, "at most 40 bytes"},
              {{"x", NULL, 1, &long_doc, 0, sample_T, NULL, NULL}, "at most 500 bytes"}};
   gg_scene *s = scene_of("{flow: usf, phi: 0.1}");
-  assert_refused(gg_scene_add_observable(s, NULL, &err), "no definition");
+  assert_refused(gg_scene_add_observable(s, NULL, &err), "the definition is missing");
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
     assert_refused(gg_scene_add_observable(s, &bad[k].o, &err), bad[k].said);
-  assert_refused(gg_scene_add_observable(NULL, &bad[9].o, &err), "no scene");
-  assert_refused(gg_scene_add_theory(NULL, NULL, &err), "no scene");
+  assert_refused(gg_scene_add_observable(NULL, &bad[9].o, &err), "the scene is missing");
+  assert_refused(gg_scene_add_theory(NULL, NULL, &err), "the scene is missing");
   /* Once there is one, its names are taken; and there is room for so many quantities. */
   gg_quantity_definition q = {name, NULL, NULL};
   gg_observable_definition o = {name, NULL, 1, &q, 0, sample_T, NULL, NULL};
@@ -416,13 +416,13 @@ static void laws_refused(void **state)
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++)
     assert_refused(gg_scene_set_restitution_table(s, "soft", 2, bad[k].speed, bad[k].e, &err), bad[k].said);
   const double *speed = bad[0].speed;
-  assert_refused(gg_scene_set_restitution_table(NULL, "soft", 2, speed, speed, &err), "no scene");
+  assert_refused(gg_scene_set_restitution_table(NULL, "soft", 2, speed, speed, &err), "the scene is missing");
   assert_refused(gg_scene_set_restitution_table(s, NULL, 2, speed, speed, &err), "a name is missing");
   assert_refused(gg_scene_set_restitution_table(s, "soft", 0, speed, speed, &err), "a table has 1 to");
   assert_refused(gg_scene_set_restitution_table(s, "soft", (1u << 20) + 1, speed, speed, &err), "a table has 1 to");
   assert_refused(gg_scene_set_restitution_table(s, "soft", 2, NULL, speed, &err), "a table has 1 to");
   assert_refused(gg_scene_set_restitution_table(s, "soft", 2, speed, NULL, &err), "a table has 1 to");
-  assert_refused(gg_scene_set_restitution(NULL, "soft", softening, NULL, &err), "no scene");
+  assert_refused(gg_scene_set_restitution(NULL, "soft", softening, NULL, &err), "the scene is missing");
   assert_refused(gg_scene_set_restitution(s, "so ft", softening, NULL, &err), "is not a valid name");
   /* Taken away again, collision.e is in force: the bits of a scene that never had one. */
   gg_simulation *m[2] = {NULL};

@@ -150,11 +150,11 @@ static void a_frame(void **state)
   gg_files_xyz_frame(&p->out, &t, &f, edges);
   assert_string_equal(written(p),
                       "2\nLattice=\"10 0 0 3 4 0 0 0 8\" "
-                      "Properties=species:S:1:pos:R:3:velo:R:3:omega:R:3:radius:R:1:mass:R:1:id:I:1 pbc=\"T F T\" "
+                      "Properties=species:S:1:pos:R:3:velo:R:3:omega:R:3:radius:R:1:mass:R:1:momenta:R:3:masses:R:1:id:I:1 pbc=\"T F T\" "
                       "Time=0.75 collisions=12 shear_rate=1 length_unit=\"d\" velocity_unit=\"d gamma\" "
                       "omega_unit=\"gamma\" time_unit=\"1/gamma\"\n"
-                      "H 11 2 3 1 2 3 0 0 0.5 0.5 1 0\n"
-                      "He 9 0 1 -1 -2 -3 0 0 -0.5 0.75 2 1\n");
+                      "H 11 2 3 1 2 3 0 0 0.5 0.5 1 1 2 3 1 0\n"
+                      "He 9 0 1 -1 -2 -3 0 0 -0.5 0.75 2 -2 -4 -6 2 1\n");
 }
 
 int main(void)
