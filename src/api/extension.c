@@ -86,7 +86,7 @@ static gg_status replace(gg_scene *scene, gg_extension *x)
 
 gg_status gg_scene_add_observable(gg_scene *scene, const gg_observable_definition *o, gg_error *err)
 {
-  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "observable: there is no scene");
+  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "observable: the scene is missing");
   GG_TRY(check_observable(scene->extension, o, err));
   return replace(scene, gg_common_extension_with_observable(scene->extension, o, err));
 }
@@ -117,7 +117,7 @@ static gg_status check_theory(const gg_extension *x, const gg_theory_definition 
 
 gg_status gg_scene_add_theory(gg_scene *scene, const gg_theory_definition *t, gg_error *err)
 {
-  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "theory: there is no scene");
+  if (!scene) return gg_base_fail(err, GG_BAD_INPUT, "theory: the scene is missing");
   GG_TRY(check_theory(scene->extension, t, err));
   return gg_theory_user_theory_add(&scene->extension, t, err);
 }

@@ -160,8 +160,8 @@ static double next_frame(const gg_replica *r)
 static gg_status emit_frame(gg_replica *r, const gg_run_callbacks *callbacks, gg_error *err)
 {
   if (!(r->trajectory_every > 0) || gg_run_replica_collisions_per_grain(r) < r->clock.next_frame) return GG_OK;
-  if (r->frames_of_window && !r->clock.window_collisions) return GG_OK; /* no window was opened yet */
   r->clock.next_frame = next_frame(r);
+  if (r->frames_of_window && !r->clock.window_collisions) return GG_OK; /* no window was opened yet */
   if (!callbacks || !callbacks->frame) return GG_OK;
   gg_frame frame;
   GG_TRY(gg_run_frame_take(r->engine, &r->model, &frame, err));
