@@ -178,6 +178,11 @@ static void comparisons(void **state)
   assert_missing(gg_plot("x", NULL, NULL, NULL, NULL, NULL, &err));
   assert_missing(gg_export(NULL, "x", GG_EXPORT_ALL, NULL, NULL, NULL, &err));
   assert_missing(gg_export("x", NULL, GG_EXPORT_ALL, NULL, NULL, NULL, &err));
+  char notice[8];
+  assert_missing(gg_result_file_notice(NULL, notice, sizeof notice, &err));
+  assert_missing(gg_result_file_notice("x", NULL, 8, &err));
+  assert_refused(gg_result_file_notice("x", notice, 0, &err), "no room");
+  gg_text_make_printable(NULL);
   assert_null(other);
   gg_comparison_free(c);
   gg_comparison_free(NULL);

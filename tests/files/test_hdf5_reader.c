@@ -151,6 +151,38 @@ static void filters(void **state)
   }
 }
 
+/* A compressed array, every byte of its file in turn another: it is read or refused, and nothing else happens. */
+static void damaged_filters(void **state)
+{
+  (void)state;
+  const hsize_t dims[] = {20, 50, 3}, chunk[] = {7, 17, 3};
+  hid_t file = create();
+  put_filtered(file, "x", H5T_NATIVE_DOUBLE, 3, dims, chunk, "sgf");
+  H5Fclose(file);
+  struct stat about;
+  const int fd = open("f.h5", O_RDWR);
+  assert_int_equal(fstat(fd, &about), 0);
+  const size_t size = (size_t)about.st_size;
+  unsigned char *all = malloc(size + GG_TRAILER_SIZE);
+  assert_int_equal(pread(fd, all, size, 0), size);
+  int refused = 0;
+  for (size_t at = 8; at < size; at++) {
+    gg_h5_in in;
+    size_t n;
+    all[at] ^= (unsigned char)(1u << at % 8);
+    gg_files_checksum_trailer_of(all, size, all + size);
+    assert_int_equal(pwrite(fd, all, size + GG_TRAILER_SIZE, 0), size + GG_TRAILER_SIZE);
+    gg_h5_open(&in, "f.h5");
+    free(gg_h5_read_array(&in, "/x", GG_ITEM_F64, &n));
+    refused += in.failed;
+    gg_h5_in_close(&in);
+    all[at] ^= (unsigned char)(1u << at % 8);
+  }
+  assert_true(refused > 100);
+  free(all);
+  close(fd);
+}
+
 /* Without its checksum a file is one that another program has changed, if it is as long as it says. */
 static void bare_files(void **state)
 {
@@ -375,8 +407,9 @@ static void words(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(chunks),     cmocka_unit_test(names),     cmocka_unit_test(types),
-                                     cmocka_unit_test(attributes), cmocka_unit_test(refusals),  cmocka_unit_test(words),
-                                     cmocka_unit_test(filters),    cmocka_unit_test(bare_files)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(chunks),     cmocka_unit_test(names),           cmocka_unit_test(types),
+      cmocka_unit_test(attributes), cmocka_unit_test(refusals),        cmocka_unit_test(words),
+      cmocka_unit_test(filters),    cmocka_unit_test(damaged_filters), cmocka_unit_test(bare_files)};
   return cmocka_run_group_tests(tests, enter, leave);
 }
