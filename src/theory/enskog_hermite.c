@@ -75,7 +75,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
   bool noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE;
   double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
   for (int degree = FIRST_DEGREE; degree <= LAST_DEGREE; degree += 2) {
-    if (degree > GOOD_DEGREE && gg_hermite_convergence_error(&rungs, GG_Q_COOLING_RATE) < good) break;
+    if (degree > GOOD_DEGREE && gg_hermite_convergence_change(&rungs, GG_Q_COOLING_RATE) < good) break;
     gg_hermite_isotropic h;
     gg_error why;
     gg_status status = gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, noise, &why);

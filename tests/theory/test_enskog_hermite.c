@@ -73,7 +73,7 @@ static void errors_are_honest(void **state)
 {
   (void)state;
   const double phi[] = {0, 0, 0.1, 0.3, 0.5}, e[] = {0.9, 0.5, 0.7, 0.6, 0.4};
-  const double most[] = {5e-5, 4e-3, 1e-4, 3e-5, 1e-4};
+  const double most[] = {5e-5, 4e-3, 1.5e-4, 5e-5, 1.5e-4}; /* the last three changes count */
   for (int i = 0; i < 5; i++) {
     gg_model m = model_for(GG_USF, phi[i], e[i], -1);
     gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &m);
@@ -85,6 +85,7 @@ static void errors_are_honest(void **state)
     gg_hermite_second_moments(&h.op.basis, h.state, M);
     gg_hermite_shear_end(&h);
     double better = (M[0][0] + M[1][1] + M[2][2]) / 3, error = a.error[GG_Q_TEMPERATURE];
+    print_message("# phi %g e %g: error %.1e, off %.1e\n", phi[i], e[i], error / T, T / better - 1);
     if (!(fabs(T - better) <= error)) fail_msg("phi %g e %g: %.8g +- %.1g, not %.8g", phi[i], e[i], T, error, better);
     assert_true(error <= most[i] * T);
   }

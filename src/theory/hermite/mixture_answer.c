@@ -118,7 +118,7 @@ gg_status gg_hermite_mixture_answer(const gg_model *m, gg_theory_answer *a, gg_e
   gg_hermite_mixture x = {.noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE};
   gg_error why;
   for (int l = FIRST; l <= LAST; l++) {
-    if (l > LAST_VISCOSITY && gg_hermite_convergence_error(&rungs, GG_Q_COOLING_RATE) < good) break;
+    if (l > LAST_VISCOSITY && gg_hermite_convergence_change(&rungs, GG_Q_COOLING_RATE) < good) break;
     gg_status status = gg_hermite_mixture_solve(&x, m, l, &why);
     if (status == GG_OK) answer_mixture(m, &x, gg_hermite_convergence_next(&rungs));
     if (status == GG_OK && l <= LAST_VISCOSITY && m->n_species <= MOST_VISCOUS)

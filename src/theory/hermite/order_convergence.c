@@ -1,6 +1,7 @@
 #include "theory/hermite/order_convergence.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "theory/answer.h"
 
@@ -8,24 +9,39 @@ static const double poor = 0.01;
 
 gg_theory_answer *gg_hermite_convergence_next(gg_rungs *r)
 {
-  r->answer[2] = r->answer[1];
-  r->answer[1] = r->answer[0];
+  memmove(r->answer + 1, r->answer, 3 * sizeof *r->answer);
   r->n++;
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) r->answer[0].value[q] = r->answer[0].error[q] = NAN;
   return &r->answer[0];
 }
 
-/* Series fall in pairs of degrees, now on one side of the limit, now on the other: the last step, or a tenth of the
- * last two, whichever is more. */
-double gg_hermite_convergence_error_of(const gg_rungs *r, gg_quantity q)
+static double step(const gg_rungs *r, gg_quantity q, int k)
 {
-  double last = fabs(r->answer[0].value[q] - r->answer[1].value[q]);
-  return r->n < 3 ? last : fmax(last, fabs(r->answer[0].value[q] - r->answer[2].value[q]) / 10);
+  return k + 1 < r->n ? r->answer[k].value[q] - r->answer[k + 1].value[q] : 0;
 }
 
-double gg_hermite_convergence_error(const gg_rungs *r, gg_quantity q)
+static double last_change(const gg_rungs *r, gg_quantity q)
 {
-  return r->n < 2 ? INFINITY : gg_hermite_convergence_error_of(r, q) / fabs(r->answer[0].value[q]);
+  return fmax(fabs(step(r, q, 0)), fabs(step(r, q, 0) + step(r, q, 1)) / 10);
+}
+
+/* Degrees of sheared gases fall in pairs: multiples of four change much, those between them little, and any one step
+ * may vanish by chance. So the last three count together. Weights: of 90 sheared mixtures of two species (phi up to
+ * 0.1, e from 0.2 to 0.9) degree 14 lies at most 1.6 such errors from degrees 10 and 12 in every quantity. */
+static double paired_error(const gg_rungs *r, gg_quantity q)
+{
+  const bool much = r->n % 2; /* from degree 4 on */
+  return hypot(hypot(step(r, q, 0), (much ? 0.8 : 0.2) * step(r, q, 1)), (much ? 0.08 : 0.06) * step(r, q, 2));
+}
+
+double gg_hermite_convergence_error_of(const gg_rungs *r, gg_quantity q)
+{
+  return r->paired ? paired_error(r, q) : last_change(r, q);
+}
+
+double gg_hermite_convergence_change(const gg_rungs *r, gg_quantity q)
+{
+  return r->n < 2 ? INFINITY : last_change(r, q) / fabs(r->answer[0].value[q]);
 }
 
 void gg_hermite_convergence_take(const gg_rungs *r, gg_quantity q, gg_theory_answer *a)

@@ -4,17 +4,19 @@
 
 #include "theory/theory.h"
 
-/* Only the last three count. */
+/* Only the last four count. */
 typedef struct gg_rungs {
-  gg_theory_answer answer[3]; /* the last first */
+  gg_theory_answer answer[4]; /* the last first */
   int n;
+  bool paired; /* degrees 4, 6, 8, ... of a sheared gas */
 } gg_rungs;
 
 /* Room for the next answer, all of it NaN. */
 gg_theory_answer *gg_hermite_convergence_next(gg_rungs *rungs);
 
 double gg_hermite_convergence_error_of(const gg_rungs *rungs, gg_quantity q);
-double gg_hermite_convergence_error(const gg_rungs *rungs, gg_quantity q); /* relative; INFINITY of the first */
+/* What the last degree changed, relative: says when to stop, not how far the limit is. INFINITY of the first. */
+double gg_hermite_convergence_change(const gg_rungs *rungs, gg_quantity q);
 
 /* One quantity of the last answer, with its error. */
 void gg_hermite_convergence_take(const gg_rungs *rungs, gg_quantity q, gg_theory_answer *answer);

@@ -111,7 +111,7 @@ static gg_status refuse(const gg_model *m, const char *why, gg_error *err)
 static gg_status climb(gg_hermite_shear *h, gg_rungs *rungs, gg_rungs *slow, gg_error *err)
 {
   for (int degree = FIRST_DEGREE; degree <= last_degree[h->gas.n_species]; degree += 2) {
-    if (degree > GOOD_DEGREE && gg_hermite_convergence_error(rungs, GG_Q_TEMPERATURE) < good) break;
+    if (degree > GOOD_DEGREE && gg_hermite_convergence_change(rungs, GG_Q_TEMPERATURE) < good) break;
     gg_error why;
     if (gg_hermite_shear_solve(h, degree, &why) != GG_OK) return refuse(h->model, why.message, err);
     answer(h, gg_hermite_convergence_next(rungs));
@@ -123,7 +123,7 @@ static gg_status climb(gg_hermite_shear *h, gg_rungs *rungs, gg_rungs *slow, gg_
 gg_status gg_hermite_shear_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_hermite_shear h;
-  gg_rungs rungs = {.n = 0}, slow = {.n = 0};
+  gg_rungs rungs = {.paired = true}, slow = {.n = 0};
   GG_TRY(gg_theory_require_steady_shear(m, name, err));
   gg_error why;
   if (m->n_species > MOST_SPECIES)
