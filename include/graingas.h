@@ -489,7 +489,8 @@ typedef struct gg_run_options {
   const char *output;     /* result file to write, with the trajectory if the scene has output.trajectory_every; another
                            * file than the two below. A device or pipe is written to, made up in memory */
   const char *checkpoint; /* file to keep checkpoints in: every output.checkpoint_every seconds of the scene (0: never),
-                           * and whenever the run is stopped or runs out of time; the one before is kept as FILE.1. The
+                           * and whenever the run is stopped or runs out of time; the one before is kept as FILE.1. One of
+                           * another run there, or a link, is GG_BAD_FILE. The
                            * trajectory until then is kept beside it (x.frames for x.h5), for the output at the end. All
                            * are removed when all is done (GG_OK) and the output written */
   const char *resume;     /* checkpoint to go on from, bit for bit, the trajectory included; FILE.1 is taken where it is

@@ -69,6 +69,40 @@ static gg_status lock_checkpoint(gg_run_call *r, gg_error *err)
   return status;
 }
 
+/* Checkpoints and frames take each other's place and go at the end: what links lead to may be anybody's. */
+static gg_status check_links(const gg_run_call *r, gg_error *err)
+{
+  struct stat about;
+  char *frames = gg_files_frame_log_path(r->options.checkpoint), *before = NULL, *fresh = NULL;
+  if (!frames || asprintf(&before, "%s.1", r->options.checkpoint) < 0) before = NULL;
+  if (frames) fresh = gg_files_frame_log_new_path(frames);
+  const char *all[] = {r->options.checkpoint, before, frames, fresh};
+  gg_status status = before && fresh ? GG_OK : gg_base_out_of_memory(err);
+  for (size_t i = 0; i < sizeof all / sizeof *all && status == GG_OK; i++)
+    if (lstat(all[i], &about) == 0 && S_ISLNK(about.st_mode))
+      status = gg_base_path_write_error(
+          all[i], "it is a link, and checkpoints are removed at the end: remove it, or choose another output", err);
+  free(frames);
+  free(before);
+  free(fresh);
+  return status;
+}
+
+/* What an interrupted run has left took its time: nobody but the run that goes on from it replaces or removes it. */
+static gg_status check_earlier(const gg_run_call *r, gg_error *err)
+{
+  const char *path = r->options.checkpoint;
+  char *before = gg_files_checkpoint_before(path);
+  if (!before) return gg_base_out_of_memory(err);
+  const bool there = access(path, F_OK) == 0 || access(before, F_OK) == 0;
+  free(before);
+  if (!there || r->resumes_in_place || r->replaces) return GG_OK;
+  return gg_base_fail(err, GG_BAD_FILE,
+                      "%s: holds a run that is not finished: resume it (--resume %s), remove it, or choose another "
+                      "output",
+                      path, path);
+}
+
 /* Before the run: at its end, with the results in place, there may be no memory for a name. */
 static gg_status name_temporaries(gg_run_call *r, gg_error *err)
 {
@@ -86,19 +120,22 @@ static gg_status name_temporaries(gg_run_call *r, gg_error *err)
 static gg_status begin_checkpoints(gg_run_call *r, gg_error *err)
 {
   const gg_run_options *o = &r->options;
+  if (o->checkpoint) GG_TRY(check_links(r, err));
   if (o->checkpoint) GG_TRY(lock_checkpoint(r, err));
   if (o->resume) GG_TRY(read_resume(r, err));
   r->resumes_in_place = o->checkpoint && r->resume.n_items > 0 && gg_files_checkpoint_is_of(o->resume, o->checkpoint);
+  if (o->checkpoint) GG_TRY(check_earlier(r, err));
   return o->checkpoint ? name_temporaries(r, err) : GG_OK;
 }
 
 static gg_status begin(gg_run_call *r, const gg_scene *scene, const gg_run_options *options, bool comparison,
-                       gg_error *err)
+                       bool replaces, gg_error *err)
 {
   r->file.file = GG_ATOMIC_NONE;
   r->lock = GG_FILE_LOCK_NONE;
   r->log.fd = -1;
   r->comparison = comparison;
+  r->replaces = replaces;
   if (options) r->options = *options;
   if (r->options.threads < 1) r->options.threads = 1;
   if (!r->options.command) r->options.command = "the graingas library";
@@ -207,7 +244,7 @@ static gg_status simulate(gg_run_call *r, gg_point_call *point, const gg_scene *
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   if (!c) return GG_FAILED;
   const unsigned before = gg_base_memory_failures();
-  gg_status status = begin(r, scene, options, comparison, err);
+  gg_status status = begin(r, scene, options, comparison, point, err);
   r->callbacks.scheduler = point ? point->scheduler : NULL;
   if (status == GG_OK) {
     warn_of_keys(r);

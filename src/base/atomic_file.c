@@ -271,10 +271,24 @@ static bool let_go(gg_atomic_file *f)
   return close(fd) == 0;
 }
 
+/* It may be the only copy of what took hours. Under a name that the next writer leaves alone, where it can have one. */
+static gg_status keep(gg_atomic_file *f, int number, gg_error *err)
+{
+  char *name = NULL;
+  if (asprintf(&name, "%s" GG_KEPT_SUFFIX, f->place.target) < 0) name = NULL;
+  const bool named = name && rename(f->temporary, name) == 0;
+  gg_status status = gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written: %s; what was written is kept in %s",
+                                  f->path, strerror(number), named ? name : f->temporary);
+  free(name);
+  free(f->temporary);
+  f->temporary = NULL;
+  return status;
+}
+
 gg_status gg_base_atomic_commit(gg_atomic_file *f, gg_error *err)
 {
   bool done = f->place.stream ? let_go(f) : put_in_place(f);
-  gg_status status = done ? GG_OK : cannot(f, errno, err);
+  gg_status status = done ? GG_OK : f->temporary ? keep(f, errno, err) : cannot(f, errno, err);
   gg_base_atomic_abandon(f);
   return status;
 }

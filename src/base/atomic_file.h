@@ -23,6 +23,7 @@ typedef struct gg_file_lock {
 #define GG_FILE_LOCK_NONE ((gg_file_lock){.fd = -1})
 
 #define GG_TEMPORARY_SUFFIX ".graingas-tmp"
+#define GG_KEPT_SUFFIX ".graingas-kept" /* a temporary file whole but for its name */
 
 /* `target` is locked, `path` stands in messages. GG_BAD_FILE if another run holds it, or if its folder takes no files.
  * The temporary file that a dead run left beside it is removed, unless the file system has no locks: it may be that of
@@ -47,8 +48,8 @@ gg_status gg_base_atomic_open(gg_atomic_file *file, const char *path, gg_error *
 gg_status gg_base_atomic_open_locked(gg_atomic_file *file, const char *path, gg_error *err);
 /* Append to it. */
 gg_status gg_base_atomic_write(gg_atomic_file *file, const void *data, size_t size, gg_error *err);
-/* Flush, rename, and free; on failure nothing is left. A file that is replaced leaves its mode, and its owner where the
- * system allows it. */
+/* Flush, rename, and free; on failure the temporary file stays, and the message names it. A file that is replaced
+ * leaves its mode, and its owner where the system allows it. */
 gg_status gg_base_atomic_commit(gg_atomic_file *file, gg_error *err);
 /* Remove the temporary file and free; harmless after a commit. */
 void gg_base_atomic_abandon(gg_atomic_file *file);

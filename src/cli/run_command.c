@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "cli/outputs.h"
+#include "cli/print.h"
 #include "cli/processes.h"
 
 int gg_cli_scene_begin(const gg_command *command, int argc, char **argv, gg_options *o, gg_scene **scene)
@@ -31,20 +32,21 @@ int gg_cli_scene_end(gg_options *o, gg_scene *scene, gg_status status, const gg_
 
 /* usf.h5 -> usf.checkpoint.h5; beside a device there is no place for it: then by the scene's name, as without --output.
  */
-static char *checkpoint_path(const gg_options *o, const char *output)
+static char *checkpoint_path(const gg_options *o, const char *output, bool comparison)
 {
   char *path = NULL;
-  if (gg_cli_file_is_device(output)) return gg_cli_options_beside(o, ".checkpoint.h5");
+  if (gg_cli_file_is_device(output))
+    return gg_cli_options_beside(o, comparison ? ".compare.checkpoint.h5" : ".checkpoint.h5");
   size_t length = strlen(output);
   if (length > 3 && strcmp(output + length - 3, ".h5") == 0) length -= 3;
   return asprintf(&path, "%.*s.checkpoint.h5", (int)length, output) < 0 ? NULL : path;
 }
 
-/* Of a command that draws one: where. NULL: it does not, or there is no file to draw it from. */
-static char *picture_path(const gg_run_command *r, bool draws)
+/* Of a comparison: where. NULL: none is drawn, or there is no file to draw it from. */
+static char *picture_path(const gg_run_command *r, bool comparison)
 {
   const char *chosen = r->options.picture;
-  if (!draws || (chosen && strcmp(chosen, "none") == 0)) return NULL;
+  if (!comparison || (chosen && strcmp(chosen, "none") == 0)) return NULL;
   if (chosen) return strdup(chosen);
   return gg_cli_file_is_device(r->output) ? NULL : gg_cli_path_with_suffix(r->output, ".svg");
 }
@@ -77,17 +79,45 @@ static void warn(void *context, const char *message)
   r->reported = reported;
 }
 
-static gg_status choose_files(gg_run_command *r, bool draws)
+static void add_effort(const gg_result *result, gg_result_info *sum)
+{
+  gg_result_info info;
+  if (!result || gg_result_get_info(result, &info, NULL) != GG_OK) return;
+  if (isfinite(info.total_cpu_seconds)) sum->total_cpu_seconds += info.total_cpu_seconds;
+  sum->date = info.date;
+}
+
+/* Whoever has repeated a command by mistake can stop it in time. */
+static void warn_of_replacing(const char *output)
+{
+  enum { WORTH_IT = 60 /* s of processor time */ };
+  char time[24];
+  gg_result_info sum = {0};
+  gg_result *run = NULL;
+  gg_comparison *both = NULL;
+  if (gg_result_read(output, &run, NULL) != GG_OK) gg_comparison_read(output, &both, NULL);
+  add_effort(run, &sum);
+  if (both) add_effort(gg_comparison_result(both, "md"), &sum), add_effort(gg_comparison_result(both, "dsmc"), &sum);
+  gg_cli_format_duration(sum.total_cpu_seconds, time, sizeof time);
+  if (sum.total_cpu_seconds > WORTH_IT)
+    fprintf(stderr, "warning: %s holds a %s of %s of processor time from %s, and will be replaced\n", output,
+            run ? "run" : "comparison", time, sum.date ? sum.date : "an unknown date");
+  gg_result_free(run);
+  gg_comparison_free(both);
+}
+
+static gg_status choose_files(gg_run_command *r, bool comparison)
 {
   char every[40] = "0";
   gg_scene_get(r->scene, "output.checkpoint_every", every, sizeof every, NULL);
   r->keeps_checkpoints = strtod(every, NULL) > 0;
-  r->output = gg_cli_options_output(&r->options, ".h5", &r->err);
+  r->output = gg_cli_options_output(&r->options, comparison ? ".compare.h5" : ".h5", &r->err);
   if (!r->output) return r->err.status;
-  r->checkpoint = checkpoint_path(&r->options, r->output);
+  r->checkpoint = checkpoint_path(&r->options, r->output, comparison);
   if (!r->checkpoint) return gg_cli_refuse(&r->err, GG_FAILED, "out of memory");
-  r->picture = picture_path(r, draws);
+  r->picture = picture_path(r, comparison);
   r->replaced = gg_cli_file_exists(r->output) && !gg_cli_file_is_device(r->output);
+  if (r->replaced) warn_of_replacing(r->output);
   return GG_OK;
 }
 

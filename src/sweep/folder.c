@@ -168,7 +168,6 @@ gg_status gg_sweep_point_publish(const char *folder, uint64_t id, bool fell_shor
   gg_sweep_point_path(folder, id, ".work.h5", from);
   gg_sweep_point_path(folder, id, fell_short ? ".short.h5" : ".h5", to);
   if (rename(from, to) == 0) return GG_OK;
-  gg_status status = gg_base_path_write_error(to, strerror(errno), err);
-  unlink(from); /* the point's checkpoint goes on from near its end */
-  return status;
+  return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written: %s; what was written is kept in %s", to,
+                      strerror(errno), from);
 }

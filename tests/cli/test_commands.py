@@ -159,7 +159,7 @@ def test_page():
 def test_compare():
     done = run("compare", "scene.yaml", "--json", scene=ROUGH)
     d = loads(done)
-    check(done.new == ["scene.h5", "scene.svg", "scene_snapshot.svg"], done.new)
+    check(done.new == ["scene.compare.h5", "scene.compare.svg", "scene.compare_snapshot.svg"], done.new)
     check(d["md"]["engine"] == "md" and d["dsmc"]["engine"] == "dsmc")
     rows = {row["quantity"]: row for row in d["comparison"]}
     md, dsmc = (d[e]["results"]["temperature"] for e in ("md", "dsmc"))
@@ -167,7 +167,7 @@ def test_compare():
     check(abs(rows["temperature"]["md_dsmc_z"] - z) < 1e-9)
     lun = d["theory"]["lun1991"]["temperature"]["mean"]
     check(abs(rows["temperature"]["md_theory_deviation"]["lun1991"] - (lun / md["mean"] - 1)) < 1e-12)
-    check(open("scene.svg").read().rstrip().endswith("</svg>"))
+    check(open("scene.compare.svg").read().rstrip().endswith("</svg>"))
 
 
 def test_compare_table():
@@ -180,7 +180,7 @@ def test_compare_table():
         check(column in head.split(), column)
     row = next(line for line in lines if line.startswith("temperature "))
     check("d^2 gamma^2" in row and "(" in row)
-    check(done.new == ["scene.h5"], done.new)
+    check(done.new == ["scene.compare.h5"], done.new)
     check("results:" not in done.err, done.err)
 
 
@@ -292,7 +292,7 @@ def test_pictures_of_many_species():
                    scene="flow: usf\nphi: 0.05\nparticles: 200\ndsmc: {particles: 200}\nrun: {warmup: 5}\n"
                          f"measure: [rheology, velocity_distributions]\nspecies: [{', '.join(['{}'] * n)}]\n")
         check(done.code == 0, done.err)
-        check((">viscosity<" in open("scene.svg").read()) == wordy, n)
+        check((">viscosity<" in open("scene.compare.svg").read()) == wordy, n)
         page = open("scene_dsmc_velocity_distributions.svg").read()
         told = f"the first {shown} of {3 * n} curves" in page
         check(told == (3 * n > shown) and ("the first" in page) == told, n)
@@ -305,7 +305,7 @@ def test_plot_without_gnuplot():
         done = run("compare", "scene.yaml", scene=ROUGH)
     finally:
         os.environ["PATH"] = path
-    check(done.code == 0 and "gnuplot is not installed" in done.err and done.new == ["scene.h5"], done.code, done.err)
+    check(done.code == 0 and "gnuplot is not installed" in done.err and done.new == ["scene.compare.h5"], done.code, done.err)
 
 
 def test_time_limit_before_errors_are_known():

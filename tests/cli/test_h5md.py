@@ -98,7 +98,7 @@ def test_grains_say_what_they_are():
 def test_h5py_opens_a_comparison():
     (h5py,) = modules("h5py")
     d = json.loads(run("compare", "scene.yaml", "--json", "--picture", "none", scene=SCENE).out)
-    with h5py.File("scene.h5") as f:
+    with h5py.File("scene.compare.h5") as f:
         for engine in "md", "dsmc":
             check(f["graingas"][engine]["results/pressure/mean"][()] == d[engine]["results"]["pressure"]["mean"])
             check(len(f[f"observables/{engine}_pressure/value"]) > 10)
@@ -126,7 +126,7 @@ def test_h5py_opens_curves():
 def test_mdanalysis():
     (mda, h5py) = modules("MDAnalysis", "h5py")
     for command in "run", "compare":
-        run(command, "scene.yaml", scene=SCENE)
+        run(command, "scene.yaml", "--output", "scene.h5", scene=SCENE)
         u = mda.Universe.empty(200, trajectory=False)
         u.load_new("scene.h5", format="H5MD", convert_units=False)
         check(u.trajectory.n_frames >= 5 if command == "run" else u.trajectory.n_frames == 1)

@@ -392,7 +392,7 @@ def test_picture_that_fails():
         done = subprocess.run([GRAINGAS, "compare", "scene.yaml", "--quiet", *asked], env=environment,
                               capture_output=True, text=True)
         check(done.returncode == code and "gnuplot is not installed" in done.stderr, done.returncode, done.stderr)
-        readable("scene.h5")
+        readable("scene.compare.h5")
 
 
 def wait_for(path):
@@ -462,20 +462,43 @@ def test_one_checkpoint_for_two():
     check(not left, left)
 
 
+def of_hours(path):
+    """The same result, said to have taken longer than it did."""
+    with open(path, "rb") as f:
+        body = f.read()
+    body = re.sub(rb'("cpu_seconds": ?)([0-9.e-]{6,})', lambda m: m[1] + b"9000.".ljust(len(m[2]), b"0"),
+                  body[:body.rindex(b"gg-crc32")])
+    with open(path, "wb") as f:
+        f.write(sealed(body))
+
+
+def test_what_took_long_is_named():
+    """A result that is replaced, before it is; and a comparison does not replace a run."""
+    scenes()
+    for command, result, what in ("run", "scene.h5", "run"), ("compare", "scene.compare.h5", "comparison"):
+        again = (command, "scene.yaml", "--quiet", "--set", "output.checkpoint_every=0")
+        done = run(*again)
+        check(done.code == 0 and result in done.new and "scene.h5" in os.listdir("."), done.err, done.new)
+        check("replaced" not in run(*again).err)
+        of_hours(result)
+        said = run(*again).err
+        check(f"warning: {result} holds a {what} of " in said and " h of processor time from 2" in said, said)
+
+
 def test_checkpoints_go_when_all_is_done():
     """Also the one that was gone on from; not of a run that was interrupted or fell short."""
     scenes()
     keep = ("--set", "output.checkpoint_every=0.001")
-    there = ["scene.checkpoint.h5", "scene.checkpoint.h5.1"]
-    for command in "run", "compare":
+    for command, result in ("run", "scene"), ("compare", "scene.compare"):
+        there = [result + ".checkpoint.h5", result + ".checkpoint.h5.1"]
         short = ("--set", "run.collisions=1e9", "--set", "run.time_limit=0.5")
         done = run(command, "scene.yaml", "--quiet", *keep, *short)
         check(done.code == 1, done.code, done.err)
         check([name for name in there if os.path.exists(name)] == there, os.listdir("."))
         done = run(command, "scene.yaml", "--quiet", "--set", "run.collisions=20", "--resume", there[command == "run"],
-                   "--set", "output.checkpoint_every=1000", "--output", "scene.h5")
+                   "--set", "output.checkpoint_every=1000", "--output", result + ".h5")
         check(done.code == 0, done.code, done.err)
-        check(os.path.exists("scene.h5") and not any(os.path.exists(name) for name in there), os.listdir("."))
+        check(os.path.exists(result + ".h5") and not any(os.path.exists(name) for name in there), os.listdir("."))
 
 
 if __name__ == "__main__":

@@ -195,92 +195,45 @@ def left_by_another():
     return whole
 
 
+def content(name):
+    with open(name, "rb") as f:
+        return f.read()
+
+
 def goes_on(whole, *args, resume=LEFT, output="scene.h5"):
     done = run("run", "scene.yaml", "--quiet", "--resume", resume, "--output", output, *args)
     check(done.code == 0, done.err)
     same(output, whole)
 
 
-def gone():
-    return not [name for name in os.listdir(".") if "frames" in name or "checkpoint" in name]
-
-
-def test_frames_of_another_run_killed_before_its_first_checkpoint():
-    """Also of one that goes on from elsewhere; and what the dead leave is cleaned up."""
+def test_another_run_beside_what_is_left():
+    """It is refused before it touches anything, goes it on from elsewhere or not; the earlier run goes on."""
     whole = left_by_another()
-    shutil.copytree(".", "elsewhere")
-    endless = ["--set", "run.collisions=1e9"]
-    for args in [*ANOTHER, *endless], [*endless, "--output", "scene.h5", "--resume", "other.checkpoint.h5"]:
-        done = run("run", "scene.yaml", "--quiet", "--output", "other.h5", "--set", "run.time_limit=0.03",
-                   "--set", "output.trajectory_every=5")
-        check(done.code == 1, done.err)
-        check(not cut([*args, "--set", "output.trajectory_every=5"], 0.4, signal.SIGKILL))
-        left = os.listdir(".")
-        goes_on(whole)
-        check("scene.checkpoint.frames.new" in left, left)
-        check(not [name for name in os.listdir(".") if name.startswith("scene.checkpoint")], os.listdir("."))
-        for name in LEFT, "scene.checkpoint.frames":
-            shutil.copy(os.path.join("elsewhere", name), name)
-
-
-def test_frames_of_another_run_that_ends_before_its_first_checkpoint():
-    whole = left_by_another()
-    done = run("run", "scene.yaml", "--quiet", *ANOTHER, "--set", "run.collisions=500")
-    check(done.code == 0 and done.new == [] and os.path.exists(LEFT), done.err, done.new)
+    before = {name: content(name) for name in os.listdir(".")}
+    done = run("run", "scene.yaml", "--quiet", "--output", "other.h5", "--set", "run.time_limit=0.03")
+    check(done.code == 1, done.err)
+    for args in ANOTHER, [], ["--output", "scene.h5", "--resume", "other.checkpoint.h5"]:
+        done = run("run", "scene.yaml", "--quiet", *args)
+        check(done.code == 3 and "holds a run that is not finished: resume it (--resume scene.checkpoint.h5), remove it, "
+              "or choose another output" in done.err, done.code, done.err)
+        check(all(content(name) == was for name, was in before.items()) and done.new == [], done.new)
+    os.rename(LEFT, LEFT + ".1")
+    check("holds a run that is not finished" in run("run", "scene.yaml", "--quiet", *ANOTHER).err)
     goes_on(whole)
-    check(gone(), os.listdir("."))
+    check(not [name for name in os.listdir(".") if name.startswith("scene.checkpoint")], os.listdir("."))
 
 
-def another_whole():
-    done = run("run", "scene.yaml", "--quiet", *ANOTHER, "--output", "another.h5", "--set", "output.checkpoint_every=0")
-    check(done.code == 0, done.err)
-    return particles("another.h5")
-
-
-def test_frames_and_first_checkpoint_of_another_run():
-    """What can be gone on from then has its frames."""
-    left_by_another()
-    another = another_whole()
-    done = run("run", "scene.yaml", "--quiet", *ANOTHER, "--set", "run.time_limit=0.1")
-    check(done.code == 1, done.code, done.err)
-    check(not os.path.exists(LEFT + ".1") and not os.path.exists("scene.checkpoint.frames.new"), os.listdir("."))
-    goes_on(another, *ANOTHER)
-    check(gone(), os.listdir("."))
-
-
-def test_killed_between_first_checkpoint_and_its_frames():
-    """Both runs can be gone on from, at every step, here and from elsewhere, and after one more run was killed."""
-    log = "scene.checkpoint.frames"
-    whole = left_by_another()
-    another = another_whole()
-    os.mkdir("step")
-    os.rename(LEFT, "step/%s.1" % LEFT)
-    os.rename(log, "step/" + log)
-    done = run("run", "scene.yaml", "--quiet", *ANOTHER, "--set", "run.time_limit=0.1")
-    check(done.code == 1, done.code, done.err)
-    os.rename(LEFT, "step/" + LEFT)
-    os.rename(log, "step/%s.new" % log)
-    shutil.copy("scene.yaml", "step/scene.yaml")
-    for older in True, False:
-        if not older:
-            os.remove("step/%s.1" % LEFT)
-        for how in range(5 if older else 3):
-            shutil.copytree("step", "now")
-            os.chdir("now")
-            if how == 0:
-                goes_on(another, *ANOTHER)
-            elif how == 1:
-                goes_on(another, *ANOTHER, output="b.h5")
-            elif how == 2:
-                check(not cut(["--set", "run.seed=11", "--set", "run.collisions=1e9"], 0.3, signal.SIGKILL))
-                goes_on(another, *ANOTHER)
-            elif how == 3:
-                goes_on(whole, resume=LEFT + ".1", output="b.h5")
-            else:
-                goes_on(whole, resume=LEFT + ".1")
-            check(how in (1, 3) or gone(), how, os.listdir("."))
-            os.chdir("..")
-            shutil.rmtree("now")
+def test_links():
+    """What they lead to is neither replaced nor removed."""
+    os.mkdir("far")
+    for name in LEFT, LEFT + ".1", "scene.checkpoint.frames", "scene.checkpoint.frames.new":
+        with open("far/precious", "w") as f:
+            f.write("mine")
+        os.symlink("far/precious", name)
+        done = run("run", "scene.yaml", "--quiet", scene=SCENE % ("md", 60, 1, 0.001))
+        check(done.code == 3 and name + ": cannot be written: it is a link" in done.err, done.code, done.err)
+        check(content("far/precious") == b"mine" and os.path.islink(name))
+        os.remove(name)
 
 
 STORED = ("flow: usf\nphi: 0.2\nparticles: 500\ncollision: {e: 0.9, beta: 0}\nrun: {collisions: 200, warmup: 60}\n"

@@ -1,5 +1,5 @@
 """A call that changes a file fails, for every such call of a command in turn: the exit code and the message say so, what
-was there before is whole, and nothing half-written or temporary is left. Writes that take less than they were given are
+was there before is whole, and nothing half-written or temporary is left but what the message names. Writes that take less than they were given are
 gone on with. EVERY_KIND=1 tries all kinds of failure at every call, and prints a table (validation/interruption)."""
 import errno
 import os
@@ -57,7 +57,7 @@ def content(path):
 def of_target(what):
     """The file that a temporary one or a lock stands for, as messages name it; of "pwrite /x/usf.h5.graingas-tmp"."""
     name = os.path.basename(what.split(" ", 1)[1])
-    for ending in (".graingas-tmp", ".graingas-lock", ".new", ".1"):
+    for ending in (".graingas-tmp", ".graingas-lock", ".graingas-kept", ".new", ".1"):
         name = name.removesuffix(ending)
     return name
 
@@ -126,10 +126,12 @@ class Case:
         named = of_target(self.page.what) in told or (last and ": cannot be written: " in told)
         check(os.strerror(number) in told and named, self.page.what, told)
         now = files()
-        kept = {f for f in now | set(self.before) if ".checkpoint." in f}
+        left = {f for f in now if f.endswith((".graingas-kept", ".graingas-tmp", ".work.h5"))
+                and "kept in" in told and os.path.basename(f) in told}  # the only copy, and named
+        kept = {f for f in now | set(self.before) if ".checkpoint." in f} - left
         ends = {f for f in now if f in self.expected and f not in self.before}  # whole files of a set, as of a sweep
-        check(now - kept - ends == set(self.before) - kept, self.page.what, now ^ set(self.before))
-        for f in now - kept:
+        check(now - kept - ends - left == set(self.before) - kept, self.page.what, now ^ set(self.before))
+        for f in now - kept - left:
             was = content(f) == self.before.get(f)
             check(was or self.whole(f), self.page.what, f, "is neither the old nor the new")
         heads = {f[:f.index(".checkpoint.")] + ".checkpoint.h5" for f in kept if f in now}
@@ -184,6 +186,30 @@ def of(name):
         os.chdir("..")
 
     return test
+
+
+def test_only_copy():
+    """A result that could not be renamed, or not be flushed, is kept under a name of its own, and named."""
+    with open("scene.yaml", "w") as f:
+        f.write(SCENE)
+    page, names = Page("page"), {}
+    for at in range(1, 200):
+        page.clear()
+        done = subprocess.run([GRAINGAS, "run", "scene.yaml", "--quiet", "--set", "output.trajectory_every=0"],
+                              env=environment(page, at, "EIO"), capture_output=True, text=True)
+        page.read()
+        if not page.faults:
+            break
+        call, path = page.what.split(" ", 1)
+        if call == "rename" or (call == "fsync" and path.endswith(".h5.graingas-tmp")):
+            kept = "scene.h5.graingas-kept"
+            check(done.returncode == 3 and done.stderr.strip().endswith("kept in " + kept), page.what, done.stderr)
+            check(bits(kept).keys(), kept)
+            names[call] = kept
+        for name in "scene.h5", "scene.h5.graingas-kept":
+            if os.path.exists(name):
+                os.remove(name)
+    check(sorted(names) == ["fsync", "rename"], names)
 
 
 def test_standard_output():
