@@ -25,20 +25,29 @@ void gg_cli_print_head(const gg_scene *scene)
   printf("\n");
 }
 
-/* "md    1000 grains, 2.1 M collisions averaged over in 3.2 s (0.65 M/s); no trend over ..." */
-void gg_cli_print_effort(const gg_result *r)
+/* "; 2.1 M collisions averaged over in 3.2 s of processor time (0.65 M/s)"; nothing of a run that ended before. */
+static void describe_averaging(const gg_result_info *a, char *text, size_t size)
 {
   char collisions[24], rate[24], seconds[24], pace[40] = "";
+  *text = '\0';
+  if (a->collisions == 0) return;
+  gg_cli_format_count((double)a->collisions, collisions, sizeof collisions);
+  gg_cli_format_count((double)a->collisions / a->cpu_seconds, rate, sizeof rate);
+  gg_cli_format_duration(a->cpu_seconds, seconds, sizeof seconds);
+  if (a->cpu_seconds > 0) snprintf(pace, sizeof pace, " (%s/s)", rate);
+  snprintf(text, size, "; %s collisions averaged over in %s of processor time%s", collisions, seconds, pace);
+}
+
+/* "md    1000 grains; 2.1 M collisions averaged over in ...", and the verdict */
+void gg_cli_print_effort(const gg_result *r)
+{
+  char averaged[160];
   gg_result_info a;
   if (gg_result_get_info(r, &a, NULL) != GG_OK) return;
-  gg_cli_format_count((double)a.collisions, collisions, sizeof collisions);
-  gg_cli_format_count((double)a.collisions / a.cpu_seconds, rate, sizeof rate);
-  gg_cli_format_duration(a.cpu_seconds, seconds, sizeof seconds);
-  if (a.cpu_seconds > 0) snprintf(pace, sizeof pace, " (%s/s)", rate);
-  gg_cli_print_paragraph(stdout, 6,
-                         "%-5s %ld grains%s%s; %s collisions averaged over in %s of processor time%s\n%s: %s", a.engine,
-                         (long)a.grains, a.grains_chosen ? ", " : "", a.grains_chosen ? a.grains_chosen : "",
-                         collisions, seconds, pace, a.steady ? "steady" : "not steady", a.verdict);
+  describe_averaging(&a, averaged, sizeof averaged);
+  gg_cli_print_paragraph(stdout, 6, "%-5s %ld grains%s%s%s\n%s: %s", a.engine, (long)a.grains,
+                         a.grains_chosen ? ", " : "", a.grains_chosen ? a.grains_chosen : "", averaged,
+                         a.steady ? "steady" : "not steady", a.verdict);
 }
 
 void gg_cli_print_warnings(const gg_result *r, const char *reported)
@@ -153,9 +162,11 @@ void gg_cli_print_run(const gg_result *r, const char *reported, bool all)
   gg_table *t = tabulate(r, all);
   if (!t) return;
   gg_cli_print_head(gg_result_scene(r));
-  gg_cli_table_print(t, stdout, 1);
+  if (t->n_rows) {
+    gg_cli_table_print(t, stdout, 1);
+    gg_cli_print_headline(gg_result_scene(r));
+  }
   free(t);
-  gg_cli_print_headline(gg_result_scene(r));
   gg_cli_print_numbers(r, NULL, all);
   printf("\n");
   gg_cli_print_effort(r);

@@ -105,8 +105,10 @@ static void report_effort(const gg_replicas *all, gg_result *result)
     sum->collisions += s.collisions, sum->events += s.events;
     sum->treated += s.treated, sum->wall_treated += s.wall_treated, sum->overflows += s.overflows;
     sum->worst_overlap = fmax(sum->worst_overlap, s.worst_overlap);
-    result->averaging.collisions += s.collisions - r->clock.window_collisions;
-    result->averaging.cpu_seconds += r->clock.cpu - r->clock.window_cpu;
+    if (all->state.averaging) {
+      result->averaging.collisions += s.collisions - r->clock.window_collisions;
+      result->averaging.cpu_seconds += r->clock.cpu - r->clock.window_cpu;
+    }
     result->total.cpu_seconds += r->clock.cpu;
   }
   result->total.collisions = sum->collisions;

@@ -84,6 +84,17 @@ def test_time_limit():
         check(done.code == 1 and "time limit reached" in done.err, name, done.code, done.err)
 
 
+def test_time_limit_in_the_warmup():
+    """A run that ended in its warm-up averaged over nothing: no collisions averaged over, no table without rows."""
+    with open("scene.yaml", "w") as f:
+        f.write("{flow: usf, phi: 0.3, particles: 2000, run: {warmup: 1.0e7, time_limit: %g}}" % PATIENCE)
+    done = run("run", "scene.yaml", "--output", "cut.h5")
+    check(done.code == 1 and "ended in its warm-up" in done.out, done.code, done.out, done.err)
+    check("averaged over" not in done.out and "samples" not in done.out, done.out)
+    done = run("info", "cut.h5", "--json")
+    check('"collisions": 0' in done.out, done.out)
+
+
 def test_time_limit_before_a_checkpoint():
     """The limit counts from the first start, and says so; how far the run is are the collisions that there were."""
     with open("scene.yaml", "w") as f:
