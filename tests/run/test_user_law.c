@@ -141,7 +141,7 @@ static void test_bad_laws(void **state)
   gg_scene *scene = scene_of(sheared);
   refused(gg_scene_set_restitution(NULL, "x", constant, &e, &err), &err, "scene");
   refused(gg_scene_set_restitution(scene, NULL, constant, &e, &err), &err, "missing");
-  refused(gg_scene_set_restitution(scene, "x y", constant, &e, &err), &err, "no name");
+  refused(gg_scene_set_restitution(scene, "x y", constant, &e, &err), &err, "not a valid name");
   refused(gg_scene_set_restitution(scene, "x", constant, &nan, &err), &err, "from 0 to 1");
   refused(gg_scene_set_restitution(scene, "x", above_one, NULL, &err), &err, "1.5");
   refused(gg_scene_set_restitution_table(scene, "x", 0, speed, good, &err), &err, "table");

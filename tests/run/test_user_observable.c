@@ -90,9 +90,10 @@ static void test_bad_observables(void **state)
   const struct {
     const char *name, *quantity, *word;
     int n;
-  } cases[] = {{NULL, "x", "missing", 1},        {"two words", "x", "no name", 1},   {"o", "1x", "no name", 1},
-               {"o", NULL, "missing", 1},        {"o", "temperature", "taken", 1},   {"o", "x", "at least one", 0},
-               {"thermometer", "x", "taken", 1}, {"o", "my_temperature", "taken", 1}};
+  } cases[] = {{NULL, "x", "missing", 1},          {"two words", "x", "not a valid name", 1},
+               {"o", "1x", "not a valid name", 1}, {"o", NULL, "missing", 1},
+               {"o", "temperature", "taken", 1},   {"o", "x", "at least one", 0},
+               {"thermometer", "x", "taken", 1},   {"o", "my_temperature", "taken", 1}};
   add(scene, &thermometer);
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     const gg_quantity_definition q = {cases[k].quantity, NULL, NULL};
