@@ -79,10 +79,10 @@ def test_unwritable_file():
 
 
 def test_disk_full():
-    for command in "run", "compare":
+    for command, output in ("run", "scene.h5"), ("compare", "scene.compare.h5"):
         done = run(command, "scene.yaml", "--quiet", scene=GOOD, limit=8192)
         check(done.code == 3, "exit", done.code, done.err)
-        check("scene.h5: cannot be written: File too large" in done.err, done.err)
+        check(f"{output}: cannot be written: File too large" in done.err, done.err)
         check(not done.new, done.new)
 
 
