@@ -249,7 +249,7 @@ def test_keys_without_effect():
             check(plain.err.count(line) == known, args, line, plain.err)
             check(document.err.count(line) == known, args, line, document.err)
             check(sum(line in w for w in loads(document)["warnings"]) == known, args, line)
-    check(json.loads(run("info", "scene.h5", "--json").out)["warnings"][0].startswith(flow))
+    check(json.loads(run("info", "scene.compare.h5", "--json").out)["warnings"][0].startswith(flow))
     about = run("info", "scene.yaml", columns=200)
     check(about.code == 0 and "without effect:\n  " + flow in about.out and "contact_time has no" not in about.out)
 
@@ -293,7 +293,7 @@ def test_pictures_of_many_species():
                          f"measure: [rheology, velocity_distributions]\nspecies: [{', '.join(['{}'] * n)}]\n")
         check(done.code == 0, done.err)
         check((">viscosity<" in open("scene.compare.svg").read()) == wordy, n)
-        page = open("scene_dsmc_velocity_distributions.svg").read()
+        page = open("scene.compare_dsmc_velocity_distributions.svg").read()
         told = f"the first {shown} of {3 * n} curves" in page
         check(told == (3 * n > shown) and ("the first" in page) == told, n)
 
