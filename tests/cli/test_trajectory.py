@@ -1,5 +1,6 @@
 """A trajectory goes on where a run does: cut by kill -9, SIGTERM or the time limit, resumed once or often, here or
 there, the result holds every frame of the run that was left alone, bit for bit."""
+import glob
 import json
 import os
 import random
@@ -77,13 +78,15 @@ def at_random_moments(engine, replicas, seed):
     while not over:
         args = ["--output", names[at]]
         kept = "%s.checkpoint.h5" % names[at][:3]
-        if os.path.exists(kept):
-            older = kept + ".1"
+        older = kept + ".1"
+        if os.path.exists(kept) or os.path.exists(older):
             use = older if os.path.exists(older) and draw.random() < 0.3 else kept
             args += ["--resume", use]
-            if draw.random() < 0.3:  # go on under another name
+            if draw.random() < 0.3:  # under another name, where nothing is in the way
                 at = 1 - at
                 args[1] = names[at]
+                for left in glob.glob("%s.checkpoint*" % names[at][:3]):
+                    os.remove(left)
         patience = 60 if time.monotonic() > begun + 4 else draw.uniform(0.03, 0.4)
         over = cut([*args, "--threads", str(draw.choice([1, 2]))], patience, draw.choice([signal.SIGKILL, signal.SIGTERM]))
         cuts += not over
