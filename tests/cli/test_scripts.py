@@ -51,7 +51,7 @@ def test_what_is_there_is_not_asked_for():
         check(word not in done.stderr.split(), word, done.stderr)
 
 
-TOOLS = ("gcc", "clang", "cc", "meson", "ninja", "pkg-config", "gnuplot", "python3", "man")
+TOOLS = ("gcc", "clang", "cc", "meson", "ninja", "pkg-config", "gnuplot", "python3", "man", "h5repack")
 
 
 def test_the_page_is_built_where_it_can_be():
