@@ -40,7 +40,7 @@ COMMANDS = {
                                        ["run", "scene.yaml", "--engine", "md", "--threads", "2"]),
     "run, md, trajectory": (FRAMES, ["run", "scene.yaml", "--engine", "md"]),
     "run, dsmc, trajectory": (FRAMES, ["run", "scene.yaml", "--engine", "dsmc"]),
-    "compare": (PLAIN.replace("500,", "250,"), ["compare", "scene.yaml", "--picture", "none"]),
+    "compare": (PLAIN.replace("500,", "250,"), ["compare", "scene.yaml", "--output", "scene.h5", "--picture", "none"]),
     "sweep": (PLAIN.replace("500,", "170,"), ["sweep", "scene.yaml", "--vary", "phi=0.1,0.2,0.3"]),
     "sweep, trajectories": (FRAMES.replace("500,", "170,"), ["sweep", "scene.yaml", "--vary", "phi=0.1,0.2,0.3"]),
 }
