@@ -288,7 +288,7 @@ static gg_status keep(gg_atomic_file *f, int number, gg_error *err)
 gg_status gg_base_atomic_commit(gg_atomic_file *f, gg_error *err)
 {
   bool done = f->place.stream ? let_go(f) : put_in_place(f);
-  gg_status status = done ? GG_OK : f->temporary ? keep(f, errno, err) : cannot(f, errno, err);
+  gg_status status = done ? GG_OK : f->temporary && !f->repeated ? keep(f, errno, err) : cannot(f, errno, err);
   gg_base_atomic_abandon(f);
   return status;
 }

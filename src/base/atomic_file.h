@@ -39,6 +39,7 @@ typedef struct gg_atomic_file {
   int fd;            /* of the temporary file, which others may open by name and write, too; or of the device or pipe */
   gg_stop stop;      /* of a device or pipe: whoever is told to stop waits no longer for a reader who takes nothing */
   gg_file_lock lock; /* of the place, held until the end; not of a device or pipe */
+  bool repeated;     /* an earlier or a later one is as good: not kept where it cannot be put in place */
 } gg_atomic_file;
 
 /* GG_BAD_FILE says why the file could not be written there, or which run is writing it. What a dead run left beside it
@@ -48,8 +49,8 @@ gg_status gg_base_atomic_open(gg_atomic_file *file, const char *path, gg_error *
 gg_status gg_base_atomic_open_locked(gg_atomic_file *file, const char *path, gg_error *err);
 /* Append to it. */
 gg_status gg_base_atomic_write(gg_atomic_file *file, const void *data, size_t size, gg_error *err);
-/* Flush, rename, and free; on failure the temporary file stays, and the message names it. A file that is replaced
- * leaves its mode, and its owner where the system allows it. */
+/* Flush, rename, and free; on failure the temporary file stays, unless `repeated`, and the message names it. A file
+ * that is replaced leaves its mode, and its owner where the system allows it. */
 gg_status gg_base_atomic_commit(gg_atomic_file *file, gg_error *err);
 /* Remove the temporary file and free; harmless after a commit. */
 void gg_base_atomic_abandon(gg_atomic_file *file);

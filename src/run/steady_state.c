@@ -39,6 +39,8 @@ void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_converge
     snprintf(text, size, "nobody can tell: nothing is measured, rheology would say");
   } else if (c->trending) {
     describe_trend(c, happened, text, size);
+  } else if (window == 0) {
+    snprintf(text, size, "too short to tell: no sample was averaged over");
   } else if (window < all->criteria.least) {
     snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
              happened, (double)all->criteria.least * happened / (double)window);

@@ -128,8 +128,6 @@ class Case:
         now = files()
         left = {f for f in now if f.endswith((".graingas-kept", ".graingas-tmp", ".work.h5"))
                 and "kept in" in told and os.path.basename(f) in told}  # the only copy, and named
-        # Where no file can be renamed any more, a checkpoint's stays as it is; the next run there removes it.
-        left |= {f for f in now if last and f.endswith(".checkpoint.h5.graingas-tmp")}
         kept = {f for f in now | set(self.before) if ".checkpoint." in f} - left
         ends = {f for f in now if f in self.expected and f not in self.before}  # whole files of a set, as of a sweep
         check(now - kept - ends - left == set(self.before) - kept, self.page.what, now ^ set(self.before))

@@ -90,6 +90,7 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
   gg_atomic_file file;
   size_t size = 0;
   GG_TRY(locked ? gg_base_atomic_open_locked(&file, path, err) : gg_base_atomic_open(&file, path, err));
+  file.repeated = locked;
   void *image = make_image(path, a, scene, &size, err);
   gg_status status = image ? GG_OK : GG_BAD_FILE;
   if (image && file.place.stream)
