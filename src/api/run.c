@@ -88,7 +88,7 @@ static gg_status check_links(const gg_run_call *r, gg_error *err)
   return status;
 }
 
-/* What an interrupted run has left took its time: nobody but the run that goes on from it replaces or removes it. */
+/* What an interrupted run has left took its time: only the run that resumes it replaces or removes it. */
 static gg_status check_earlier(const gg_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
@@ -244,7 +244,7 @@ static gg_status simulate(gg_run_call *r, gg_point_call *point, const gg_scene *
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   if (!c) return GG_FAILED;
   const unsigned before = gg_base_memory_failures();
-  gg_status status = begin(r, scene, options, comparison, point, err);
+  gg_status status = begin(r, scene, options, comparison, point != NULL, err);
   r->callbacks.scheduler = point ? point->scheduler : NULL;
   if (status == GG_OK) {
     warn_of_keys(r);

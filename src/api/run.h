@@ -26,7 +26,7 @@ typedef struct gg_run_call {
   bool started;                    /* all before the run itself went well */
   bool resume_lost;                /* the checkpoint to resume from, or its frames, are damaged */
   bool resumes_in_place;           /* from what is beside its own checkpoint */
-  bool replaces;                   /* a checkpoint that cannot be gone on from: a point of a sweep */
+  bool replaces;                   /* a checkpoint that cannot be resumed: a point of a sweep */
   char *temporary[GG_TEMPORARIES]; /* of a run that keeps checkpoints */
   gg_string_list warnings;         /* keys without effect */
   atomic_bool stopped;

@@ -176,7 +176,7 @@ static gg_status do_point(controller *c, gg_error *err)
   return is_begun(c) ? resume(c, &scene, &options, err) : simulate(c, &scene, &options, &lost, err);
 }
 
-/* Without the lock: the point is this controller's for now. */
+/* Without the lock: until it is done the point belongs to this controller. */
 static void do_item(controller *c)
 {
   gg_error err = {0};

@@ -99,9 +99,11 @@ static void warn_of_replacing(const char *output)
   add_effort(run, &sum);
   if (both) add_effort(gg_comparison_result(both, "md"), &sum), add_effort(gg_comparison_result(both, "dsmc"), &sum);
   gg_cli_format_duration(sum.total_cpu_seconds, time, sizeof time);
-  if (sum.total_cpu_seconds > WORTH_IT)
-    fprintf(stderr, "warning: %s holds a %s of %s of processor time from %s, and will be replaced\n", output,
-            run ? "run" : "comparison", time, sum.date ? sum.date : "an unknown date");
+  if (sum.total_cpu_seconds > WORTH_IT) {
+    gg_cli_print_name(stderr, "warning: ", output, " holds ");
+    fprintf(stderr, "a %s of %s of processor time from %s, and will be replaced\n", run ? "run" : "comparison", time,
+            sum.date ? sum.date : "an unknown date");
+  }
   gg_result_free(run);
   gg_comparison_free(both);
 }
