@@ -176,11 +176,10 @@ _Static_assert(sizeof gg_scene_fields / sizeof *gg_scene_fields <= GG_MAX_FIELDS
 static void set_default(const gg_field *f, void *base)
 {
   void *at = (char *)base + f->offset;
-  const int word = (int)f->by_default;
   switch (f->type) {
   case GG_FIELD_INTEGER: *(int64_t *)at = (int64_t)f->by_default; return;
   case GG_FIELD_CHOICE:
-  case GG_FIELD_SET: memcpy(at, &word, sizeof word); return;
+  case GG_FIELD_SET: memcpy(at, &(int){(int)f->by_default}, sizeof(int)); return; /* of numbers it may be infinite */
   case GG_FIELD_SPECIES: return;
   default:
     for (size_t i = 0; i < gg_scene_field_count(f); i++) ((double *)at)[i] = f->by_default;
