@@ -57,12 +57,12 @@ typedef struct gg_engine_state {
 enum { GG_CHUNK = 1024 };
 typedef struct gg_chunk {
   size_t n;
-  const double *r[3];       /* positions in the box, all at the present time; only if asked for */
-  const double *c[3];       /* peculiar velocities */
-  const double *s[3];       /* spins; NULL for smooth grains */
-  const double *whole_s[3]; /* the same with their local mean, where s is about that; NULL elsewhere */
-  const uint8_t *species;   /* NULL for one species */
-  const int64_t *id;        /* the grain's number, constant through a run; only if positions are asked for */
+  const double *r[3];                    /* positions in the box, all at the present time; only if asked for */
+  const double *c[3];                    /* peculiar velocities */
+  const double *s[3];                    /* spins; NULL for smooth grains */
+  const double *whole_c[3], *whole_s[3]; /* the same with their local mean, where c and s are about that; else NULL */
+  const uint8_t *species;                /* NULL for one species */
+  const int64_t *id; /* the grain's number, constant through a run; only if positions are asked for */
 } gg_chunk;
 typedef void gg_visit(void *context, const gg_chunk *chunk);
 

@@ -23,6 +23,8 @@ enum {
   GG_NEEDS_SCALE = 1u << 12,       /* a temperature that lasts */
   GG_NEEDS_SCALE_SHOWN = 1u << 13, /* likewise, and the history says how it decays */
   GG_NEEDS_THEORY = 1u << 14,      /* no mean of anything */
+  GG_NEEDS_WORK = 1u << 21,        /* something that does work on the grains: shear, or walls */
+  GG_NEEDS_WALLS = 1u << 22,
 
   GG_KEPT_HEATING = 1u << 15,      /* free of the temperature's scale: has a meaning as a mean in a gas that heats up */
   GG_MONITORED = 1u << 16,         /* relaxes slowly: a run is not steady while it has a trend */
@@ -138,8 +140,13 @@ enum {
   ONE(DISSIPATION, "dissipation", "D", "", POWER, GG_NEEDS_LOSS | GG_NEEDS_SCALE,                                      \
       "sum of -Delta E/(V t): energy lost in collisions, per volume and time",                                         \
       "D = \\frac{1}{V t}\\sum_{\\mathrm{coll}}(-\\Delta E)")                                                          \
-  ONE(ENERGY_BALANCE, "energy_balance", "-P_{xy}γ/D", "", NONE, GG_NEEDS_SHEAR | GG_NEEDS_LOSS,                        \
-      "-P_xy gamma/D: work of shear over dissipation; 1 in a steady state without heating", "-P_{xy}\\dot\\gamma/D")   \
+  ONE(WALL_DISSIPATION, "wall_dissipation", "D_w", "", POWER, GG_NEEDS_WALLS | GG_NEEDS_SCALE,                         \
+      "sum of -Delta E_wall/(V t): energy lost in contacts with walls, per volume and time",                           \
+      "D_w = \\frac{1}{V t}\\sum_{\\mathrm{wall}}(-\\Delta E)")                                                        \
+  ONE(ENERGY_BALANCE, "energy_balance", "(W-dE/dt)/D", "", NONE, GG_NEEDS_WORK | GG_NEEDS_LOSS,                        \
+      "(W - dE/dt)/(D + D_w): work of shear, walls and gravity less the growth of the grains' energy, over "           \
+      "dissipation; 1 without a heat bath",                                                                            \
+      "(W - \\dot E)/(D + D_w)")                                                                                       \
   ONE(COOLING_RATE, "cooling_rate", "ζ*", "cooling", NONE, GG_NEEDS_LOSS | GG_NEEDS_COOLING | GG_DRAWN_AS_RATIO,       \
       "zeta/nu_0: rate of energy loss over the reference collision rate nu_0", "\\zeta^* = \\zeta/\\nu_0")             \
   ONE(A2, "a2", "a_2", "", NONE, GG_CUMULANT | GG_NEEDS_ONE_SPECIES | GG_MONITORED | GG_FOLLOWED | GG_DRAWN,           \

@@ -190,7 +190,7 @@ static void shift_chunk(void *context, const gg_chunk *chunk)
     if (chunk->s[0]) put(to_w, i, gg_measure_local_frame_spin(s->frame, y, at(chunk->s, i), species_of(chunk, i)));
   }
   for (int a = 0; a < 3; a++) {
-    local.c[a] = c[a], local.whole_s[a] = chunk->s[a];
+    local.c[a] = c[a], local.whole_c[a] = chunk->c[a], local.whole_s[a] = chunk->s[a];
     if (chunk->s[a]) local.s[a] = w[a];
   }
   s->visit(s->context, &local);

@@ -14,6 +14,7 @@ typedef struct memory {
   double last_temperature; /* at the previous sample, engine's scale */
   double log2_scale;       /* engine's velocities are 2^this times those of the start: beyond all numbers at last */
   double mean_spin[GG_MAX_SPECIES][3];
+  double energy, momentum[2]; /* of all grains; m c_x and m c_y, between walls */
 } memory;
 
 typedef struct rheology {
@@ -21,6 +22,7 @@ typedef struct rheology {
   gg_velocity_moments moments[GG_MAX_SPECIES];
   bool quick;
   memory memory;
+  double energy, momentum[2]; /* of this sample's grains as they are, where moments are about a local flow */
   gg_species_scratch scratch;
 } rheology;
 
@@ -51,6 +53,7 @@ static void begin(void *self)
 {
   rheology *r = self;
   const double T = r->memory.last_temperature;
+  r->energy = r->momentum[0] = r->momentum[1] = 0;
   r->quick = T > 0x1p-60 && T < 0x1p60; /* squares of velocities will be far from what single precision cannot hold */
   for (int i = 0; i < r->model.n_species; i++) {
     r->moments[i] = (gg_velocity_moments){0};
@@ -58,9 +61,38 @@ static void begin(void *self)
   }
 }
 
+/* Between walls: the energy of the grains as they are, their flow included. */
+static void add_whole(rheology *r, const gg_chunk *chunk)
+{
+  const gg_model *m = &r->model;
+  for (size_t k = 0; k < chunk->n; k++) {
+    int i = chunk->species ? chunk->species[k] : 0;
+    double cc = 0, ss = 0;
+    for (int a = 0; a < 3; a++) cc += chunk->whole_c[a][k] * chunk->whole_c[a][k];
+    for (int a = 0; a < 3 && chunk->whole_s[0]; a++) ss += chunk->whole_s[a][k] * chunk->whole_s[a][k];
+    r->energy += 0.5 * m->mass[i] * (cc + m->inertia[i] * ss);
+    for (int a = 0; a < 2; a++) r->momentum[a] += m->mass[i] * chunk->whole_c[a][k];
+  }
+}
+
+/* Elsewhere moments have it, spins about their mean. */
+static double energy_of_moments(const rheology *r)
+{
+  double energy = 0;
+  for (int i = 0; i < r->model.n_species; i++) {
+    const gg_velocity_moments *m = &r->moments[i];
+    double squares = 0;
+    for (int a = 0; a < 3; a++)
+      squares += m->cc[a] + r->model.inertia[i] * (m->ww[a] + m->n * m->mean_spin[a] * m->mean_spin[a]);
+    energy += 0.5 * r->model.mass[i] * squares;
+  }
+  return energy;
+}
+
 static void add_chunk(void *self, const gg_chunk *chunk)
 {
   rheology *r = self;
+  if (chunk->whole_c[0]) add_whole(r, chunk);
   for (int i = 0; i < r->model.n_species; i++) {
     gg_species_view v = gg_measure_species_chunk(chunk, i, &r->scratch);
     gg_velocity_moment_view grains = {
@@ -151,6 +183,27 @@ static double speed_during(const rheology *r, double T0, double T1, double dt)
   return haff_integrals(T0, T1, dt).root / (dt * sqrt(T1));
 }
 
+/* What goes into the grains and out of them, between this sample and the one before. The work of gravity by the
+ * trapezoidal rule: momenta change little from sample to sample. */
+static void put_energy(rheology *r, const gg_interval *in, double *row)
+{
+  const gg_model *m = &r->model;
+  const double g[2] = {m->gravity[0], m->gravity[1]};
+  double energy = m->walled ? r->energy : energy_of_moments(r), f = in->velocity_factor, work = 0, loss = 0;
+  if (in->elapsed > 0) {
+    double unit = m->stress_unit / (m->volume * in->elapsed);
+    for (int w = 0; w < m->n_surfaces; w++) {
+      loss += in->transfer->surface[w].loss;
+      work -= in->transfer->surface[w].impulse[0] * m->surface[w].velocity.x;
+    }
+    for (int a = 0; a < 2; a++) work += 0.5 * g[a] * (r->momentum[a] + f * r->memory.momentum[a]) * in->elapsed;
+    row[CH_GROWTH] = (energy - f * f * r->memory.energy) * unit;
+    row[CH_WALL_LOSS] = loss * unit, row[CH_WALL_WORK] = work * unit;
+  }
+  r->memory.energy = energy;
+  memcpy(r->memory.momentum, r->momentum, sizeof r->memory.momentum);
+}
+
 static void finish(void *self, const gg_interval *in, double *row)
 {
   rheology *r = self;
@@ -162,6 +215,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   double T = temperature(r), T0 = r->memory.last_temperature * in->velocity_factor * in->velocity_factor;
   r->memory.last_temperature = T;
   r->memory.log2_scale += log2(in->velocity_factor);
+  put_energy(r, in, row);
   if (!(in->elapsed > 0)) return;
   row[CH_LN_T] = log(T) - 2 * M_LN2 * r->memory.log2_scale;
   haff h = cooling ? haff_integrals(T0, T, in->elapsed) : (haff){in->elapsed, in->elapsed, 0};

@@ -15,9 +15,12 @@ enum {
   CH_PC_YY,
   CH_PC_ZZ,
   CH_PC_XY,
-  CH_PC_YX,  /* collisional stress, stress units */
-  CH_T2,     /* square of the temperature of the sample */
-  CH_SPECIES /* where the moments of species 1 begin; those of species 2 follow */
+  CH_PC_YX,     /* collisional stress, stress units */
+  CH_T2,        /* square of the temperature of the sample */
+  CH_GROWTH,    /* of the energy of all grains, dE/dt, per volume */
+  CH_WALL_LOSS, /* as CH_LOSS, in contacts with walls */
+  CH_WALL_WORK, /* of moving walls and of gravity between walls, per volume and time */
+  CH_SPECIES    /* where the moments of species 1 begin; those of species 2 follow */
 };
 enum {
   CH_C2X,

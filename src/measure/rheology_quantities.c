@@ -119,9 +119,13 @@ static double knudsen(const double *a, const gg_model *m)
   return mean_free_path(a, m) / cbrt(m->volume);
 }
 COLLISIONAL(dissipation, CH_LOSS)
+COLLISIONAL(wall_dissipation, CH_WALL_LOSS)
+/* The energy of the grains changes from one end of a run to the other: with that change taken off, the balance holds at
+ * every moment, and what is left of its scatter is that of P_xy between samples. */
 static double energy_balance(const double *a, const gg_model *m)
 {
-  return -total_xy(a, m) * m->shear_rate / a[CH_LOSS];
+  double work = m->walled ? a[CH_WALL_WORK] : -total_xy(a, m) * m->shear_rate;
+  return (work - a[CH_GROWTH]) / (a[CH_LOSS] + a[CH_WALL_LOSS]);
 }
 
 static double cooling_rate(const double *a, const gg_model *m)
@@ -233,6 +237,7 @@ const gg_derived gg_measure_rheology_derived[] = {
     {GG_Q_KURTOSIS_WZ, .of = kurtosis_wz},
     {GG_Q_SKEWNESS_WZ, .of = skewness_wz},
     {GG_Q_DISSIPATION, .of = dissipation},
+    {GG_Q_WALL_DISSIPATION, .of = wall_dissipation},
     {GG_Q_ENERGY_BALANCE, .of = energy_balance},
     {GG_Q_COOLING_RATE, .of = cooling_rate},
     {GG_Q_A2, .of = a2},
