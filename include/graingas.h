@@ -478,7 +478,8 @@ typedef struct gg_progress { /* where a run stands */
   uint64_t collisions;       /* so far, of all replicas */
   double rate;               /* collisions per second of processor time */
   double relative_error;     /* of the worst headline quantity; NaN: not known yet */
-  double time_left;          /* seconds, of this engine's run; NaN: not known yet */
+  double time_left;          /* seconds until this engine has what was asked; NaN: not known yet */
+  double limit_in;           /* seconds until run.time_limit ends the run; INFINITY: there is none */
   int64_t replicas;
   const char *next; /* a comparison: the engine that comes after this one; NULL: none */
 } gg_progress;

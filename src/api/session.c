@@ -43,6 +43,7 @@ static gg_status make(gg_session *s, const gg_scene *scene, gg_error *err)
                               .phase = "warm-up",
                               .relative_error = NAN,
                               .time_left = NAN,
+                              .limit_in = INFINITY,
                               .replicas = 1};
   s->until = INFINITY;
   return gg_run_replicas_create(&s->all, &s->scene, NULL, 1, &s->callbacks, err);

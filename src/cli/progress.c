@@ -60,10 +60,21 @@ void gg_cli_progress_start(gg_cli_progress *p, bool quiet)
   gg_cli_line_start(&p->line, quiet);
 }
 
-/* "md averaging 43 %, 1.2 M collisions, 0.9 M/s, error 1.2 %, 0:20 left" */
+/* ", 20 s left"; ", limit in 36 s, the error asked for needs about 9 min": where the limit ends the run. */
+static int describe_end(const gg_progress *g, char *text, size_t size)
+{
+  char left[24], limit[24];
+  gg_cli_format_duration(g->limit_in, limit, sizeof limit);
+  gg_cli_format_duration(g->time_left, left, sizeof left);
+  if (isnan(g->time_left)) return isfinite(g->limit_in) ? snprintf(text, size, ", limit in %s", limit) : 0;
+  if (g->time_left <= g->limit_in) return snprintf(text, size, ", %s left", left);
+  return snprintf(text, size, ", limit in %s (what is asked needs about %s)", limit, left);
+}
+
+/* "md averaging 43 %, 1.2 M collisions, 0.9 M/s, error 1.2 %, 20 s left" */
 static void describe(const gg_progress *g, bool brief, char *text, size_t size)
 {
-  char collisions[24], rate[24], left[24] = "";
+  char collisions[24], rate[24];
   gg_cli_format_count((double)g->collisions, collisions, sizeof collisions);
   gg_cli_format_count(g->rate, rate, sizeof rate);
   int used = snprintf(text, size, "%s %s %.0f %%", g->engine, g->phase, floor(100 * g->fraction));
@@ -72,10 +83,7 @@ static void describe(const gg_progress *g, bool brief, char *text, size_t size)
   used += snprintf(text + used, size - (size_t)used, ", %s%s, %s/s", collisions, brief ? "" : " collisions", rate);
   if (g->relative_error > 0 && isfinite(g->relative_error))
     used += snprintf(text + used, size - (size_t)used, ", error %.2g %%", 100 * g->relative_error);
-  if (isfinite(g->time_left)) {
-    gg_cli_format_duration(g->time_left, left, sizeof left);
-    used += snprintf(text + used, size - (size_t)used, ", %s left", left);
-  }
+  used += describe_end(g, text + used, size - (size_t)used);
   if (g->next) snprintf(text + used, size - (size_t)used, ", then %s", g->next);
 }
 
@@ -123,7 +131,7 @@ void gg_cli_progress_end(gg_cli_progress *p)
   gg_cli_line_clear(&p->line);
   for (int k = 0; k < 2; k++) {
     if (!p->unreported[k]) continue;
-    p->last[k].time_left = NAN; /* it is over */
+    p->last[k].time_left = NAN, p->last[k].limit_in = INFINITY; /* it is over */
     show_plain(p, k);
   }
 }

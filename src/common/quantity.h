@@ -143,6 +143,9 @@ enum {
   ONE(WALL_DISSIPATION, "wall_dissipation", "D_w", "", POWER, GG_NEEDS_WALLS | GG_NEEDS_SCALE,                         \
       "sum of -Delta E_wall/(V t): energy lost in contacts with walls, per volume and time",                           \
       "D_w = \\frac{1}{V t}\\sum_{\\mathrm{wall}}(-\\Delta E)")                                                        \
+  ONE(WALL_FRICTION, "wall_friction", "F_x/F_y", "", NONE, GG_NEEDS_WALLS,                                             \
+      "F_x/F_y: force of the gas along the walls over that across them; walls.mu where every contact slides",          \
+      "F_x/F_y")                                                                                                       \
   ONE(ENERGY_BALANCE, "energy_balance", "(W-dE/dt)/D", "", NONE, GG_NEEDS_WORK | GG_NEEDS_LOSS,                        \
       "(W - dE/dt)/(D + D_w): work of shear, walls and gravity less the growth of the grains' energy, over "           \
       "dissipation; 1 without a heat bath",                                                                            \

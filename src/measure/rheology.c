@@ -183,22 +183,35 @@ static double speed_during(const rheology *r, double T0, double T1, double dt)
   return haff_integrals(T0, T1, dt).root / (dt * sqrt(T1));
 }
 
+/* The way along x that the gas pulls a wall: walls that move lag behind, walls at rest hold back what gravity drives.
+ */
+static double drag_of(const gg_model *m, const gg_surface *wall)
+{
+  double ahead = wall->velocity.x != 0 ? -wall->velocity.x : m->gravity[0];
+  return ahead > 0 ? 1 : -1;
+}
+
 /* What goes into the grains and out of them, between this sample and the one before. The work of gravity by the
  * trapezoidal rule: momenta change little from sample to sample. */
 static void put_energy(rheology *r, const gg_interval *in, double *row)
 {
   const gg_model *m = &r->model;
   const double g[2] = {m->gravity[0], m->gravity[1]};
-  double energy = m->walled ? r->energy : energy_of_moments(r), f = in->velocity_factor, work = 0, loss = 0;
+  double energy = m->walled ? r->energy : energy_of_moments(r), f = in->velocity_factor;
+  double work = 0, loss = 0, drag = 0, push = 0;
   if (in->elapsed > 0) {
     double unit = m->stress_unit / (m->volume * in->elapsed);
     for (int w = 0; w < m->n_surfaces; w++) {
-      loss += in->transfer->surface[w].loss;
-      work -= in->transfer->surface[w].impulse[0] * m->surface[w].velocity.x;
+      const gg_surface *wall = &m->surface[w];
+      const gg_surface_sums *sums = &in->transfer->surface[w];
+      loss += sums->loss;
+      work -= sums->impulse[0] * wall->velocity.x;
+      drag += drag_of(m, wall) * sums->impulse[0], push += wall->side * sums->impulse[wall->axis];
     }
     for (int a = 0; a < 2; a++) work += 0.5 * g[a] * (r->momentum[a] + f * r->memory.momentum[a]) * in->elapsed;
     row[CH_GROWTH] = (energy - f * f * r->memory.energy) * unit;
     row[CH_WALL_LOSS] = loss * unit, row[CH_WALL_WORK] = work * unit;
+    row[CH_WALL_DRAG] = drag * unit, row[CH_WALL_PUSH] = push * unit;
   }
   r->memory.energy = energy;
   memcpy(r->memory.momentum, r->momentum, sizeof r->memory.momentum);

@@ -19,6 +19,8 @@ enum {
   CH_T2,        /* square of the temperature of the sample */
   CH_GROWTH,    /* of the energy of all grains, dE/dt, per volume */
   CH_WALL_LOSS, /* as CH_LOSS, in contacts with walls */
+  CH_WALL_DRAG, /* force along the walls, the way they pull or hold, and across: sums over walls, per volume */
+  CH_WALL_PUSH,
   CH_WALL_WORK, /* of moving walls and of gravity between walls, per volume and time */
   CH_SPECIES    /* where the moments of species 1 begin; those of species 2 follow */
 };

@@ -120,6 +120,11 @@ static double knudsen(const double *a, const gg_model *m)
 }
 COLLISIONAL(dissipation, CH_LOSS)
 COLLISIONAL(wall_dissipation, CH_WALL_LOSS)
+static double wall_friction(const double *a, const gg_model *m)
+{
+  (void)m;
+  return a[CH_WALL_DRAG] / a[CH_WALL_PUSH];
+}
 /* The energy of the grains changes from one end of a run to the other: with that change taken off, the balance holds at
  * every moment, and what is left of its scatter is that of P_xy between samples. */
 static double energy_balance(const double *a, const gg_model *m)
@@ -238,6 +243,7 @@ const gg_derived gg_measure_rheology_derived[] = {
     {GG_Q_SKEWNESS_WZ, .of = skewness_wz},
     {GG_Q_DISSIPATION, .of = dissipation},
     {GG_Q_WALL_DISSIPATION, .of = wall_dissipation},
+    {GG_Q_WALL_FRICTION, .of = wall_friction},
     {GG_Q_ENERGY_BALANCE, .of = energy_balance},
     {GG_Q_COOLING_RATE, .of = cooling_rate},
     {GG_Q_A2, .of = a2},

@@ -144,6 +144,7 @@ static void plan_time(gg_cost_estimate *f, const gg_scene *scene, const gg_model
     window = p.most ? fmin(window, needed) : needed;
     f->to_an_error = true;
   }
+  f->limit = p.time_limit;
   double added = 0;
   for (int i = 0; i < f->n_costs; i++) added += f->cost[i].percent / 100;
   f->collisions = (double)p.warmup * GG_SAMPLING_INTERVAL + window;
@@ -266,6 +267,12 @@ void gg_run_cost_report(const gg_cost_estimate *f, int64_t replicas, void (*line
            all, f->to_an_error ? "three" : "two", f->collisions, replicas > 1 ? " and replica" : "",
            f->to_an_error ? " (until the error asked for)" : "");
   line(context, text);
+  if (f->limit > 0) {
+    put_time(f->limit, all);
+    snprintf(text, sizeof text, "time limit: %s of wall clock%s", all,
+             f->seconds > f->limit ? ", less than one processor is expected to need" : "");
+    line(context, text);
+  }
   put_bytes(f->file, all);
   snprintf(text, sizeof text, "result file: about %s, with %.4g frame%s of the grains", all, f->frames,
            f->frames > 1 ? "s" : "");

@@ -16,6 +16,7 @@ typedef struct gg_cost_estimate {
   double collisions;                  /* a grain, warm-up included */
   double ns;                          /* of processor time a collision, observables apart */
   double seconds;                     /* of processor time in all */
+  double limit;                       /* run.time_limit, seconds; 0: none */
   bool to_an_error;                   /* it goes on until an error that is asked for */
   int n_costs;
   struct {

@@ -187,12 +187,13 @@ static double usual_end(const gg_replicas *all)
   return fmax(begins + window, 1.25 * (double)all->state.goal);
 }
 
-/* NaN: not known. What a sample takes where curves are measured is known only after some of the averaging. */
-static double time_left(const gg_replicas *all, double due, gg_expected_end end, double limit_in)
+/* Until what was asked is reached, whatever the limit; NaN: not known. What a sample takes where curves are measured is
+ * known only after some of the averaging. */
+static double time_left(const gg_replicas *all, double due, gg_expected_end end)
 {
   double left = (end.at - due) * gg_run_progress_pace(&all->progress);
   bool alike = all->state.averaging || all->replica[0].n_observables <= 1;
-  return isfinite(left) && end.known && alike ? fmin(left, limit_in) : NAN;
+  return isfinite(left) && end.known && alike ? left : NAN;
 }
 
 void gg_run_replicas_report_progress(gg_replicas *all, bool over)
@@ -220,7 +221,8 @@ void gg_run_replicas_report_progress(gg_replicas *all, bool over)
       .collisions = (uint64_t)collisions,
       .rate = cpu > 0 ? collisions / cpu : 0,
       .relative_error = window >= (double)all->criteria.least ? all->last.relative_error : NAN,
-      .time_left = over ? 0 : time_left(all, due, end, limit > 0 ? fmax(limit - used, 0) : INFINITY),
+      .time_left = over ? 0 : time_left(all, due, end),
+      .limit_in = limit > 0 ? fmax(limit - used, 0) : INFINITY,
       .replicas = all->n,
   };
   pthread_mutex_lock(&all->lock); /* tasks may just now call the callback that stops the run */

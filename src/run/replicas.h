@@ -8,6 +8,7 @@
 
 typedef struct gg_stopping_criteria { /* what is asked, settled before the run; in samples of each replica */
   uint64_t warmup, least, most; /* warm-up; shortest window that can be tested; asked length, 0: until the error */
+  uint64_t least_steady;        /* a shorter window is not called steady */
   uint64_t longest;             /* window after which the asked error counts as out of reach */
   double relative_error;        /* 0: not asked */
   double time_limit;            /* seconds, 0: none */

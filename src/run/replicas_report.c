@@ -149,6 +149,25 @@ static void warn_if_narrow(gg_result *result)
       narrowest / widest);
 }
 
+/* Where every contact slides, the force along a wall is mu times that across it whatever the gas does: a flow that
+ * loses more than this feeds dies, and a faster wall does not help. */
+#define ALL_SLIDE 0.97
+
+static void warn_if_walls_slip(gg_result *result)
+{
+  const gg_model *m = &result->model;
+  const double mu = m->n_surfaces ? m->surface[0].contact[0].mu : INFINITY,
+               ratio = result->value[GG_Q_WALL_FRICTION].mean;
+  if (!m->walled || !(mu > 0 && isfinite(mu)) || !(ratio > ALL_SLIDE * mu)) return;
+  gg_run_result_warn(result,
+                     "%s: friction is at its limit in nearly all contacts (force along over force across %.3g, "
+                     "walls.mu %.3g)%s",
+                     m->n_surfaces > 1 ? "both walls slip" : "the wall slips", ratio, mu,
+                     result->steadiness == GG_STEADY
+                         ? ""
+                         : "; a flow that loses more energy than walls bring in so dies: give walls.mu a larger value");
+}
+
 static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_result *result)
 {
   const gg_engine_state *s = &result->engine_state;
@@ -168,6 +187,7 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
                        (double)s->wall_treated);
   warn_if_structured(result);
   warn_if_narrow(result);
+  warn_if_walls_slip(result);
   if (s->overflows > 1e-3 * (double)s->collisions)
     gg_run_result_warn(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
                        100 * (double)s->overflows / (double)s->collisions);

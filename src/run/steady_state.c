@@ -41,9 +41,9 @@ void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_converge
     describe_trend(c, happened, text, size);
   } else if (window == 0) {
     snprintf(text, size, "too short to tell: no sample was averaged over");
-  } else if (window < all->criteria.least) {
+  } else if (window < all->criteria.least_steady) {
     snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
-             happened, (double)all->criteria.least * happened / (double)window);
+             happened, (double)all->criteria.least_steady * happened / (double)window);
   } else if (all->model.linear_response) {
     result->steadiness = GG_STEADY;
     gg_linear_response s = gg_common_linear_response_of(&all->model);

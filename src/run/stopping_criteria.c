@@ -36,11 +36,14 @@ static void plan_linear_response(gg_stopping_criteria *p, const gg_scene *scene,
   double length = sweep_length(m);
   if (scene->run.warmup == GG_AUTO) p->warmup = samples_for(gg_common_linear_response_of(m).cools ? 10 : 40);
   p->least = samples_for(LEAST_SWEEPS * length);
+  p->least_steady = p->least;
   p->longest = p->least * MOST_WINDOWS;
 }
 
-/* Collisions a grain. An ensemble collides so fast that it can afford to know its errors better: where windows were as
- * short as those of md, deviations were a fifth larger than the errors claimed. */
+/* Collisions a grain: no shorter window is called steady. */
+enum { SHORTEST_STEADY = 300 };
+/* No shorter one ends by its error. An ensemble collides so fast that it can afford to know its errors better: where
+ * windows were as short as those of md, deviations were a fifth larger than the errors claimed. */
 static double shortest_window(const gg_model *m)
 {
   return m->homogeneous ? 1000 : 300;
@@ -64,7 +67,9 @@ gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *m
   double slowest = gg_common_model_relaxation(model), gap = gg_common_model_gap_relaxation(model);
   double warmup = fmax(fmax(40, WARMUP_TIMES * slowest), WARMUP_GAP_TIMES * gap);
   p.warmup = samples_for(scene->run.warmup == GG_AUTO ? warmup : scene->run.warmup);
-  p.least = samples_for(fmax(fmax(shortest_window(model), WINDOW_TIMES * slowest), WINDOW_GAP_TIMES * gap));
+  double relaxed = fmax(WINDOW_TIMES * slowest, WINDOW_GAP_TIMES * gap);
+  p.least = samples_for(fmax(shortest_window(model), relaxed));
+  p.least_steady = samples_for(fmax(SHORTEST_STEADY, relaxed));
   p.longest = p.least * MOST_WINDOWS;
   if (scene->run.collisions != GG_AUTO) p.most = samples_for(scene->run.collisions);
   p.relative_error = gg_common_ensemble_requested_error(scene);

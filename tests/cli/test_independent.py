@@ -228,6 +228,9 @@ def expected(store, flow, kind, replicas):
     if kind != "frictional":
         out["dissipation"] = mean(lost / (V * dt)) * STRESS
     if walled:
+        force = store.sums[:, 12:].reshape(-1, 2, 3)  # on the lower and the upper wall
+        drag = force[:, 0, 0] + (-1 if flow == "couette" else 1) * force[:, 1, 0]
+        out["wall_friction"] = mean(drag / dt) / mean((force[:, 1, 1] - force[:, 0, 1]) / dt)
         out["energy"] = mean(work_between_walls(store, flow) / (V * dt)) * STRESS - growth_rate
     elif flow == "usf" and kind != "frictional":
         out["energy_balance"] = (-P[0, 1] - growth_rate) / out["dissipation"]
@@ -266,7 +269,7 @@ def hold_numbers(results, right, flow, where):
         r = results[name]
         if r["mean"] is None:
             check(flow == "hcs" and value != value or name in NOT_COOLING or name.startswith("P_"), where, name, r)
-        elif not walled or name in ("collision_rate", "dissipation", "wall_dissipation", "energy_balance") or name.endswith("_collisional"):
+        elif not walled or name.startswith("wall_") or name in ("collision_rate", "dissipation", "energy_balance") or name.endswith("_collisional"):
             close(r["mean"], value, where, name, within=LOOSE.get(name, 1e-9))
         else:
             within = 4 * r["stderr"] if name.startswith(("kurt", "skew", "cos2", "c_")) else 0.01 * abs(value) + 0.3 * r["stderr"]

@@ -177,7 +177,7 @@ def test_message_in_parts():
 
 SWEEP = """{flow: usf, phi: 0.1, particles: 100, run: {collisions: 150, warmup: 20, replicas: 2},
 vary: {collision.e: [0.7, 0.8, 0.9], engine: [md, dsmc]}}"""
-LONGER = "--set", "run.collisions=1000"
+LONGER = "--set", "run.collisions=2500"  # some seconds: a process is killed on the way
 
 
 def table_of(folder, *args):

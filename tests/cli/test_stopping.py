@@ -84,6 +84,32 @@ def test_time_limit():
         check(done.code == 1 and "time limit reached" in done.err, name, done.code, done.err)
 
 
+def test_limit_is_named():
+    """Before the start and on the way: what ends the run, and what was asked needs."""
+    with open("scene.yaml", "w") as f:
+        f.write("{flow: usf, phi: 0.1, engine: dsmc, dsmc: {particles: 2000}, run: {relative_error: 2.0e-5, time_limit: %g}}"
+                % (2 * PATIENCE))
+    told = run("info", "scene.yaml").out
+    check("less than one processor is expected to need" in told, told)
+    done = run("run", "scene.yaml")
+    last = [line for line in done.err.splitlines() if "averaging" in line][0]
+    check("limit in " in last and " left" not in last, done.err)
+    check("time limit" not in run("info", "scene.yaml", "--set", "run.time_limit=none").out)
+
+
+def test_walls_that_slip():
+    """A flow that dies because friction at its walls is at its limit says so."""
+    scene = ("{flow: couette, phi: 0.3, particles: 200, collision: {e: 0.8, beta: 0.3, mu: 0.2}, walls: {mu: %s}, "
+             "run: {collisions: 300, warmup: 200}}")
+    for mu in "0.3", "inf":
+        done = run("run", "-", "--json", "--quiet", "--output", "slip.h5", typed=scene % mu)
+        found = json.loads(done.out)
+        check(abs(found["results"]["wall_friction"]["mean"] - 0.3) < 0.005 or mu == "inf", found["results"]["wall_friction"])
+        said = [w for w in found["warnings"] if "both walls slip" in w]
+        check(len(said) == (mu == "0.3"), mu, found["warnings"])
+        check(not said or "walls.mu a larger value" in said[0], said)
+
+
 def test_time_limit_in_the_warmup():
     """A run that ended in its warm-up averaged over nothing: no collisions averaged over, no table without rows."""
     with open("scene.yaml", "w") as f:

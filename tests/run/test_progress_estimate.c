@@ -146,7 +146,7 @@ static void pace(void **state)
 
 typedef struct watcher {
   double fraction, left;
-  int calls, known, falls, early;
+  int calls, known, falls, early, cut; /* cut: times that the limit was told to end the run first */
 } watcher;
 
 static void watch(void *context, const gg_progress *p)
@@ -155,6 +155,7 @@ static void watch(void *context, const gg_progress *p)
   if (w->fraction == 1) w->early++; /* told to be over, and here it is again */
   if (p->fraction < w->fraction) w->falls++;
   assert_true(p->fraction >= 0 && p->fraction <= 1 && !(p->time_left < 0));
+  if (isfinite(p->limit_in) && isfinite(p->time_left) && p->fraction < 1) w->cut += p->time_left > p->limit_in;
   w->fraction = p->fraction, w->left = p->time_left;
   w->known += isfinite(p->time_left);
   w->calls++;
@@ -183,6 +184,7 @@ static void every_run(void **state)
     if (w.falls || w.early || w.fraction != 1 || w.left != 0 || w.calls < 5 || w.known < (k == TIME ? 1 : 3))
       fail_msg("%d: fell %d, early %d, ended %g %g, known %d of %d", k, w.falls, w.early, w.fraction, w.left, w.known,
                w.calls);
+    assert_int_equal(w.cut > 0, k == TIME);
     gg_result_free(r);
   }
 }
