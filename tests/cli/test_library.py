@@ -43,6 +43,18 @@ def test_installed_files():
         check(done.returncode == 0 and not done.stderr, done.stderr)
 
 
+def test_hardened():
+    """Command and library: copies are checked, stacks guarded, functions bound before anything is read."""
+    if SANITIZERS != "none" or not shutil.which("readelf"):
+        raise Skip("sanitizers do it, or there is no readelf")
+    found = install()
+    for name in "bin/graingas", "libgraingas.so.0":
+        check("NOW" in sh("readelf", "-dW", found(name)), name)
+        symbols = sh("readelf", "-sW", found(name))
+        check("__stack_chk_fail" in symbols and "_chk@" in symbols, name)
+    check("PIE" in sh("readelf", "-dW", found("bin/graingas")))
+
+
 def test_examples_build_against_it():
     found = install()
     pc = os.path.dirname(found("graingas.pc"))
