@@ -14,8 +14,10 @@ enum { MOST_ENSEMBLE = 1000000 };
 
 double gg_common_ensemble_requested_error(const gg_scene *s)
 {
-  if (s->run.relative_error != GG_AUTO) return s->run.relative_error;
-  return s->run.collisions != GG_AUTO ? 0 : 0.01;
+  double least = s->run.relative_error != GG_AUTO ? s->run.relative_error : INFINITY;
+  for (int q = 0; q < GG_MAX_UNTIL; q++)
+    if (s->run.until[q] > 0) least = fmin(least, s->run.until[q]);
+  return isfinite(least) ? least : s->run.collisions != GG_AUTO ? 0 : 0.01;
 }
 
 double gg_common_ensemble_size_error(const gg_scene *s)

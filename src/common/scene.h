@@ -31,6 +31,9 @@ typedef struct gg_species {
   double fraction, diameter, mass, inertia; /* mole fraction; user's units; K = 4I/(m d^2) */
 } gg_species;
 
+/* At least GG_N_QUANTITIES, which only quantity.h knows. */
+enum { GG_MAX_UNTIL = 96 };
+
 struct gg_scene {
   gg_flow flow;
   gg_engine_kind engine;
@@ -55,6 +58,7 @@ struct gg_scene {
   double gravity[3];
   struct {
     double relative_error, collisions, time_limit; /* GG_AUTO: not asked for; neither of the first two: 0.01 */
+    double until[GG_MAX_UNTIL];                    /* of gg_quantity: its own relative error; 0: not asked for */
     double warmup;                                 /* collisions per particle, or GG_AUTO */
     int64_t replicas;
     uint64_t seed;

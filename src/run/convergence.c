@@ -42,20 +42,41 @@ gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *m
   return status;
 }
 
-/* What must not have a trend: the headline quantities first, then those that relax slowly. Returns how many. */
-static int monitored(const gg_replicas *all, gg_quantity *list)
+/* At the end of the list, unless it is there, or not measured. */
+static int append(const gg_replicas *all, gg_quantity q, gg_quantity *list, int n)
 {
   gg_function f;
-  int n = gg_run_headline_quantities(&all->model, list);
-  if (all->model.linear_response) return n; /* the shear rate goes up and down: nothing else is steady */
-  int headline = n;
-  for (gg_quantity q = gg_common_quantity_next(-1, GG_MONITORED); q < GG_N_QUANTITIES;
-       q = gg_common_quantity_next(q, GG_MONITORED)) {
-    bool listed = false;
-    for (int h = 0; h < headline; h++) listed |= list[h] == q;
-    if (!listed && find_function(all, q, &f) >= 0) list[n++] = q;
-  }
+  for (int i = 0; i < n; i++)
+    if (list[i] == q) return n;
+  if (find_function(all, q, &f) >= 0) list[n++] = q;
   return n;
+}
+
+/* What must not have a trend: the headline quantities and others whose error is asked for first (*asked of them), then
+ * those that relax slowly. Returns how many. */
+static int monitored(const gg_replicas *all, gg_quantity *list, int *asked)
+{
+  int n = gg_run_headline_quantities(&all->model, list);
+  for (gg_quantity q = 0; q < GG_N_QUANTITIES; q++)
+    if (all->scene.run.until[q] > 0) n = append(all, q, list, n);
+  *asked = n;
+  if (all->model.linear_response) return n; /* the shear rate goes up and down: nothing else is steady */
+  for (gg_quantity q = gg_common_quantity_next(-1, GG_MONITORED); q < GG_N_QUANTITIES;
+       q = gg_common_quantity_next(q, GG_MONITORED))
+    n = append(all, q, list, n);
+  return n;
+}
+
+static void note_error(const gg_replicas *all, gg_quantity q, const gg_mean *m, gg_convergence *c)
+{
+  const double per_row = (double)all->replica[0].series.per_row, row = m->correlation_rows * per_row / all->n;
+  const double asked = gg_run_criteria_error_of(&all->scene, &all->model, q);
+  const double in_proportion = all->criteria.relative_error > 0 ? all->criteria.relative_error / asked : 1;
+  if (isinf(asked)) return;
+  const double relative = m->error / fabs(m->mean) * in_proportion;
+  if (!(relative <= c->relative_error)) c->relative_error = relative, c->worst = q;
+  c->sure_at = fmax(c->sure_at, 10 * GG_MAX_BLOCKS * row);
+  if (!m->trusted) c->trusted = false, c->untrusted = fmax(c->untrusted, row);
 }
 
 static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *trend, gg_error *err)
@@ -92,18 +113,13 @@ gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_er
 {
   *c = (gg_convergence){.relative_error = 0, .trusted = true};
   gg_quantity list[GG_N_QUANTITIES];
-  int headline = gg_run_headline_quantities(&all->model, list), n = monitored(all, list);
+  int asked, n = monitored(all, list, &asked);
   double per_row = (double)all->replica[0].series.per_row;
   for (int i = 0; i < n; i++) {
     gg_mean m;
     GG_TRY(gg_run_replicas_mean(all, list[i], &m, err));
     c->slowest = fmax(c->slowest, m.correlation_rows * per_row);
-    if (i < headline) {
-      double relative = m.error / fabs(m.mean);
-      if (!(relative <= c->relative_error)) c->relative_error = relative, c->worst = list[i];
-      c->sure_at = fmax(c->sure_at, 10 * GG_MAX_BLOCKS * m.correlation_rows * per_row / all->n);
-      if (!m.trusted) c->trusted = false, c->untrusted = fmax(c->untrusted, m.correlation_rows * per_row / all->n);
-    }
+    if (i < asked) note_error(all, list[i], &m, c);
     if (all->model.linear_response) continue;
     gg_trend t;
     GG_TRY(test_trend(all, list[i], &t, err));

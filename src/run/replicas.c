@@ -191,6 +191,20 @@ static gg_status create_or_restore(gg_replicas *all, const gg_archive *resume, g
   return GG_OK;
 }
 
+/* A quantity whose error is asked for has a mean in this scene, by an observable that it measures. */
+static gg_status check_until(const gg_replicas *all, gg_error *err)
+{
+  for (gg_quantity q = 0; q < GG_N_QUANTITIES; q++) {
+    if (!(all->scene.run.until[q] > 0)) continue;
+    const char *why = gg_common_quantity_missing(&all->model, q);
+    if (!why && !(all->scene.measure & GG_MEASURE_RHEOLOGY)) why = "measure has no rheology";
+    if (why)
+      return gg_base_fail(err, GG_BAD_INPUT, "run.until: %s has no mean in this scene: %s", gg_common_quantity_name(q),
+                          why);
+  }
+  return GG_OK;
+}
+
 gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
                                  const gg_run_callbacks *callbacks, gg_error *err)
 {
@@ -204,6 +218,7 @@ gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const 
   scene = &all->scene;
   GG_TRY(gg_run_start_make(scene, callbacks && !resume ? callbacks->model : NULL, &all->model, err));
   GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(&all->model, err));
+  GG_TRY(check_until(all, err));
   all->criteria = gg_run_criteria_of(scene, &all->model);
   const gg_cost_estimate cost = gg_run_cost_estimate(scene, &all->model, scene->engine);
   GG_TRY(gg_run_cost_check_memory(&cost, gg_run_engine_ops_of(scene->engine)->name, scene->run.replicas, err));

@@ -10,7 +10,7 @@ typedef struct gg_stopping_criteria { /* what is asked, settled before the run; 
   uint64_t warmup, least, most; /* warm-up; shortest window that can be tested; asked length, 0: until the error */
   uint64_t least_steady;        /* a shorter window is not called steady */
   uint64_t longest;             /* window after which the asked error counts as out of reach */
-  double relative_error;        /* 0: not asked */
+  double relative_error;        /* 0: not asked; the smallest where quantities have their own */
   double time_limit;            /* seconds, 0: none */
   bool find_steady;             /* give up windows that show a trend */
 } gg_stopping_criteria;
@@ -19,7 +19,8 @@ typedef struct gg_stopping_criteria { /* what is asked, settled before the run; 
 enum { GG_LEAST_CORRELATION_TIMES = 20 };
 
 typedef struct gg_convergence { /* of the present averaging window */
-  double relative_error;        /* of the worst headline quantity; NaN: not known */
+  double relative_error;        /* of the worst quantity whose error is asked for, in proportion to what is asked of it:
+                                 * equal to gg_stopping_criteria.relative_error where it just has that; NaN: not known */
   gg_quantity worst;
   bool trusted;     /* every headline error rests on long enough blocks */
   double untrusted; /* longest correlation time of those that do not, in samples, over the number of replicas */
@@ -67,6 +68,8 @@ typedef struct gg_replicas {
 enum { GG_NOT_STOPPED, GG_OUT_OF_TIME, GG_STOP_REQUESTED }; /* why a run is stopped */
 
 gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *model);
+/* The relative error asked of a quantity; INFINITY: none. */
+double gg_run_criteria_error_of(const gg_scene *scene, const gg_model *model, gg_quantity q);
 /* Is a window with a trend given up, after so many that were? */
 bool gg_run_criteria_restart(const gg_stopping_criteria *criteria, uint64_t restarts);
 /* Does a window of this length end the run, whatever its errors are? */

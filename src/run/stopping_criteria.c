@@ -61,6 +61,26 @@ static bool has_headline(const gg_model *m)
   return gg_run_headline_quantities(m, list) > 0;
 }
 
+static bool asks_for_quantities(const gg_scene *scene)
+{
+  for (int q = 0; q < GG_N_QUANTITIES; q++)
+    if (scene->run.until[q] > 0) return true;
+  return false;
+}
+
+double gg_run_criteria_error_of(const gg_scene *scene, const gg_model *model, gg_quantity q)
+{
+  gg_quantity headline[GG_N_QUANTITIES];
+  const int n = gg_run_headline_quantities(model, headline);
+  if (scene->run.until[q] > 0) return scene->run.until[q];
+  if (scene->run.relative_error == GG_AUTO && asks_for_quantities(scene)) return INFINITY;
+  for (int i = 0; i < n; i++)
+    if (headline[i] == q)
+      return scene->run.relative_error != GG_AUTO ? scene->run.relative_error
+                                                  : gg_common_ensemble_requested_error(scene);
+  return INFINITY;
+}
+
 gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *model)
 {
   gg_stopping_criteria p = {.find_steady = scene->run.warmup == GG_AUTO && model->steady};
@@ -79,7 +99,8 @@ gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *m
   } else if (never_the_same(model)) { /* nothing to wait for; follow it for as long as asked, or for a while */
     p.relative_error = 0;
     if (!p.most) p.most = samples_for(model->steady ? GG_COLLISIONS_FOLLOWED : 1000);
-  } else if (!has_headline(model)) { /* nothing whose error could be asked for: the shortest window */
+  } else if (!has_headline(model) &&
+             !asks_for_quantities(scene)) { /* nothing whose error could be asked for: the shortest window */
     p.relative_error = 0;
     if (!p.most) p.most = p.least;
   }

@@ -42,15 +42,16 @@ static gg_status check_error(const gg_replicas *all, const char *engine, gg_erro
         err, GG_FAILED,
         "%s: %s after %.0f collisions a grain of averaging, too few to know whether the asked relative error %g is "
         "reached",
-        engine, out_of_time(all) ? "time limit reached" : "run.collisions ended the run",
-        collisions_a_grain(all, true), criteria->relative_error);
+        engine, out_of_time(all) ? "time limit reached" : "run.collisions ended the run", collisions_a_grain(all, true),
+        criteria->relative_error);
   if (c->relative_error <= criteria->relative_error) return GG_OK;
   const char *why = out_of_time(all) ? "time limit reached; " : "";
   if (isnan(c->relative_error))
     return gg_base_fail(err, GG_FAILED, "%s: %stoo short a run to know the error of %s", engine, why,
                         gg_common_quantity_name(c->worst));
+  const double asked = gg_run_criteria_error_of(&all->scene, &all->model, c->worst);
   return gg_base_fail(err, GG_FAILED, "%s: %sthe asked relative error %g was not reached: %s has %.3g", engine, why,
-                      criteria->relative_error, gg_common_quantity_name(c->worst), c->relative_error);
+                      asked, gg_common_quantity_name(c->worst), c->relative_error * asked / criteria->relative_error);
 }
 
 /* An error that was asked for counts even where run.collisions ended the run first. */

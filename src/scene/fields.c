@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "common/quantity.h"
 
 static gg_word flow_word(int i)
 {
@@ -108,8 +109,12 @@ const gg_field gg_scene_fields[] = {
      .doc = "body force per mass; poiseuille and chute have defaults of their own", .when = GG_IF_WALLED, .also = "g"},
     {"run.relative_error", GG_FIELD_NUMBER, AT(run.relative_error), 0, 1, true, AUTO,
      .doc = "stop when every headline quantity has this relative standard error; auto: 0.01, or no such test if "
-            "run.collisions is given",
+            "run.collisions or run.until is given",
      .when = GG_IF_ERROR, .also = "error tolerance accuracy", .may_change = true},
+    {"run.until", GG_FIELD_ERRORS, AT(run.until), 0, 1, true, .special = "none",
+     .doc = "stop when each of these quantities has its relative standard error: {N1: 0.01, temperature: 0.002}; "
+            "headline quantities that are not named keep run.relative_error, if it is given",
+     .also = "target targets", .may_change = true},
     {"run.collisions", GG_FIELD_NUMBER, AT(run.collisions), 0, 1e15, true, NONE, .unit = "collisions per grain",
      .doc = "stop after this length of averaging; a gas cooling with a restitution law has 400 by default",
      .also = "steps", .may_change = true},
@@ -170,6 +175,7 @@ const gg_word gg_scene_former_keys[] = {
     {0},
 };
 
+_Static_assert((int)GG_MAX_UNTIL >= (int)GG_N_QUANTITIES, "run.until has room for every quantity");
 _Static_assert(sizeof gg_scene_fields / sizeof *gg_scene_fields <= GG_MAX_FIELDS + 1 && GG_MAX_FIELDS <= 64,
                "a bit for every key");
 
@@ -199,7 +205,12 @@ gg_scene gg_scene_defaults(void)
 
 size_t gg_scene_field_count(const gg_field *f)
 {
-  return f->type == GG_FIELD_PAIRS ? GG_PAIRS : f->type == GG_FIELD_VECTOR ? 3 : 1;
+  switch (f->type) {
+  case GG_FIELD_PAIRS: return GG_PAIRS;
+  case GG_FIELD_ERRORS: return GG_MAX_UNTIL;
+  case GG_FIELD_VECTOR: return 3;
+  default: return 1;
+  }
 }
 
 static int find(const gg_field *fields, const char *key)
@@ -223,18 +234,21 @@ static int find_of_species(const char *member_key, int number, gg_field *member)
   return gg_scene_field_find("species");
 }
 
-static int find_of_pair(const char *key, gg_field *member)
+/* "collision.e.12", "run.until.N1": a number of those that a map has. */
+static int find_of_map(const char *key, gg_field *member)
 {
   char base[64];
   const char *dot = strrchr(key, '.');
-  const int pair = dot ? gg_common_pair_find(dot + 1) : -1;
-  if (pair < 0 || strlen(key) >= sizeof base) return -1;
+  if (!dot || strlen(key) >= sizeof base) return -1;
   snprintf(base, sizeof base, "%.*s", (int)(dot - key), key);
   const int id = gg_scene_field_find(base);
-  if (id < 0 || gg_scene_fields[id].type != GG_FIELD_PAIRS) return -1;
+  const gg_field_type type = id < 0 ? GG_FIELD_NUMBER : gg_scene_fields[id].type;
+  if (type != GG_FIELD_PAIRS && type != GG_FIELD_ERRORS) return -1;
+  const int at = type == GG_FIELD_PAIRS ? gg_common_pair_find(dot + 1) : (int)gg_common_quantity_find(dot + 1);
+  if (at < 0 || at >= (int)gg_scene_field_count(&gg_scene_fields[id])) return -1;
   *member = gg_scene_fields[id];
   member->type = GG_FIELD_NUMBER;
-  member->offset += (size_t)pair * sizeof(double);
+  member->offset += (size_t)at * sizeof(double);
   return id;
 }
 
@@ -243,7 +257,7 @@ int gg_scene_key_find(const char *key, int n_species, gg_field *member)
   int number, used = 0;
   const int id = gg_scene_field_find(key);
   if (id >= 0) return *member = gg_scene_fields[id], id;
-  if (sscanf(key, "species.%d.%n", &number, &used) != 1 || !used) return find_of_pair(key, member);
+  if (sscanf(key, "species.%d.%n", &number, &used) != 1 || !used) return find_of_map(key, member);
   return number >= 1 && number <= n_species ? find_of_species(key + used, number, member) : -1;
 }
 
@@ -329,6 +343,7 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
     number_allowed(f, "a number", text, size);
     gg_base_text_append(text, size, ", or a map of them by pair of species: {11: , 12: , other: }");
     return;
+  case GG_FIELD_ERRORS: snprintf(text, size, "a map of quantities: {N1: 0.01}, or none"); return;
   case GG_FIELD_CHOICE:
   case GG_FIELD_SET:
     snprintf(text, size, f->type == GG_FIELD_SET ? "a list of " : "one of ");

@@ -15,6 +15,7 @@ static const struct {
     [GG_FIELD_CHOICE] = {GG_ITEM_U8, sizeof(int)},
     [GG_FIELD_SET] = {GG_ITEM_U8, sizeof(unsigned)},
     [GG_FIELD_PAIRS] = {GG_ITEM_F64, GG_PAIRS},
+    [GG_FIELD_ERRORS] = {GG_ITEM_F64, GG_MAX_UNTIL},
     [GG_FIELD_VECTOR] = {GG_ITEM_F64, 3},
     [GG_FIELD_SPECIES] = {GG_ITEM_F64, GG_MAX_SPECIES *(sizeof(gg_species) / sizeof(double))},
 };

@@ -7,6 +7,7 @@
 #include "base/checked_json.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "common/quantity.h"
 
 static json_t *number_json(const gg_field *f, double value)
 {
@@ -71,6 +72,16 @@ static json_t *pairs_json(const gg_field *f, const double *x, const gg_scene *sc
   return number_json(f, x[GG_11]);
 }
 
+static json_t *errors_json(const gg_field *f, const double *x)
+{
+  json_t *map = json_object();
+  for (gg_quantity q = 0; q < GG_N_QUANTITIES; q++)
+    if (x[q] > 0) json_object_set_new(map, gg_common_quantity_name(q), json_real(x[q]));
+  if (json_object_size(map) > 0) return map;
+  json_decref(map);
+  return json_string(f->special);
+}
+
 static json_t *vector_json(const gg_field *f, const double *x)
 {
   return json_pack("[o, o, o]", number_json(f, x[0]), number_json(f, x[1]), number_json(f, x[2]));
@@ -97,6 +108,7 @@ static json_t *value_json(const gg_field *f, const void *base, const gg_scene *s
   case GG_FIELD_CHOICE: return choice_json(f, at);
   case GG_FIELD_SET: return set_json(f, *(const unsigned *)at);
   case GG_FIELD_PAIRS: return pairs_json(f, at, scene);
+  case GG_FIELD_ERRORS: return errors_json(f, at);
   case GG_FIELD_VECTOR: return vector_json(f, at);
   case GG_FIELD_SPECIES: return species_json(scene);
   }

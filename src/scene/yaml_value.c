@@ -9,6 +9,7 @@
 #include <strings.h>
 
 #include "base/spelling.h"
+#include "common/quantity.h"
 #include "scene/scene_reader.h"
 
 const char *gg_scene_scalar(const yaml_node_t *node)
@@ -278,6 +279,36 @@ static gg_status read_set(const input *in, unsigned *value)
   return *value = set, GG_OK;
 }
 
+static gg_status reject_quantity(const input *in, const gg_scene_entry *e)
+{
+  char word[61];
+  gg_nearest nearest = {.word = e->word ? e->word : ""};
+  for (gg_quantity q = 0; q < GG_N_QUANTITIES; q++) gg_base_spelling_try(&nearest, gg_common_quantity_name(q));
+  gg_scene_quote(nearest.word, word, sizeof word);
+  if (nearest.best)
+    return gg_scene_reject(in->r, e->name, in->key, "no quantity '%s'; did you mean '%s'?", word, nearest.best);
+  return gg_scene_reject(in->r, e->name, in->key, "no quantity '%s'; `graingas info SCENE.yaml` lists them", word);
+}
+
+/* What the map leaves out is not asked for. */
+static gg_status read_errors(const input *in, double *value)
+{
+  const char *text = gg_scene_scalar(in->node);
+  double asked[GG_MAX_UNTIL] = {0};
+  gg_field number = *in->f;
+  number.type = GG_FIELD_NUMBER, number.special = NULL;
+  const bool none = text && strcmp(text, in->f->special) == 0;
+  if (!none && in->node->type != YAML_MAPPING_NODE) return reject_value(in);
+  for (gg_scene_entry e = {0}; !none && gg_scene_entry_next(in->r, in->node, &e);) {
+    const gg_quantity q = e.word ? gg_common_quantity_find(e.word) : GG_N_QUANTITIES;
+    if (q >= GG_N_QUANTITIES) return reject_quantity(in, &e);
+    if (asked[q] > 0) return gg_scene_reject(in->r, e.name, in->key, "names %s twice", e.word);
+    GG_TRY(read_number(&(input){in->r, &number, in->key, e.value}, &asked[q]));
+  }
+  memcpy(value, asked, sizeof asked);
+  return GG_OK;
+}
+
 static gg_status read_vector(const input *in, double *value)
 {
   if (length_of(in->node) != 3) return reject_value(in);
@@ -390,6 +421,7 @@ gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *f, const
   case GG_FIELD_CHOICE: return read_choice(&in, value);
   case GG_FIELD_SET: return read_set(&in, value);
   case GG_FIELD_PAIRS: return read_pairs(&in, value);
+  case GG_FIELD_ERRORS: return read_errors(&in, value);
   case GG_FIELD_VECTOR: return read_vector(&in, value);
   case GG_FIELD_SPECIES: return read_species(&in);
   }

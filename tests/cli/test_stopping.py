@@ -84,6 +84,31 @@ def test_time_limit():
         check(done.code == 1 and "time limit reached" in done.err, name, done.code, done.err)
 
 
+def test_until():
+    """Quantities with errors of their own: those and no others end the run; headline ones keep theirs where it is given."""
+    with open("scene.yaml", "w") as f:
+        f.write("{flow: usf, phi: 0.1, particles: 300}")
+
+    def errors(*sets, code=0):
+        done = run("run", "scene.yaml", "--json", "--quiet", *(w for s in sets for w in ("--set", s)))
+        check(done.code == code, done.err)
+        found = json.loads(done.out)["results"]
+        return {q: found[q]["stderr"] / abs(found[q]["mean"]) for q in ("temperature", "N1", "shear_viscosity")}, done.err
+
+    alone, _ = errors("run.until={N1: 0.01}")
+    check(0.003 < alone["N1"] <= 0.01, alone)
+    both, _ = errors("run.until={N1: 0.05, temperature: 0.01}", "run.relative_error=0.03")
+    check(both["temperature"] <= 0.01 and 0.01 < both["shear_viscosity"] <= 0.03, both)
+    member, _ = errors("run.until.N1=0.01")
+    check(member == alone, member, alone)
+    _, said = errors("run.until={N1: 0.001}", "run.collisions=3000", code=1)
+    check("relative error 0.001 was not reached: N1 has 0.0" in said, said)
+    for value, text in ("{n1: 0.1}", "did you mean 'N1'"), ("{N1: 2}", "a number above 0, at most 1"), ("0.1", "a map of quantities"), \
+                       ("{a2: 0.1}", "a2 has no mean in this scene"), ("{N1: 0.1, N1: 0.2}", "twice"):
+        done = run("run", "scene.yaml", "--set", "run.until=" + value)
+        check(done.code == 2 and text in done.err, value, done.code, done.err)
+
+
 def test_limit_is_named():
     """Before the start and on the way: what ends the run, and what was asked needs."""
     with open("scene.yaml", "w") as f:
