@@ -156,7 +156,7 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   if (model.homogeneous) gg_common_ensemble_size_reason(&finished, chosen, sizeof chosen);
   if (*chosen) {
     char text[240];
-    snprintf(text, sizeof text, "so many velocities are %s", chosen);
+    snprintf(text, sizeof text, "size of the ensemble: %s", chosen);
     line(context, text);
   }
   gg_cost_estimate cost = gg_run_cost_estimate(&finished, &model, kind);

@@ -49,6 +49,7 @@ typedef struct gg_engine_state {
   double worst_overlap;  /* md: largest overlap seen at a collision, in d; 0 otherwise */
   double time_step; /* dsmc: the present step, that of one sweep over all pairs of species; model units; 0 for md */
   double time_step_bias; /* dsmc: estimated relative bias of the step; 0 for md */
+  double particles_bias; /* dsmc: means lie off by up to this share, as 1/N; of a result, 0 of an engine */
   double others_cpu;     /* seconds of processor time of threads of the engine's own, so far in this process */
 } gg_engine_state;
 

@@ -25,6 +25,14 @@ double gg_common_ensemble_size_error(const gg_scene *s)
   return s->dsmc.chosen_for != GG_AUTO ? s->dsmc.chosen_for : gg_common_ensemble_requested_error(s);
 }
 
+double gg_common_ensemble_bias(const gg_model *m)
+{
+  int64_t least = m->n;
+  for (int i = 0; i < m->n_species; i++)
+    if (m->n_of[i] > 0 && m->n_of[i] < least) least = m->n_of[i];
+  return bias_times_n / (double)least;
+}
+
 static double scarcest(const gg_scene *s)
 {
   double least = 1, sum = 0;
@@ -60,11 +68,12 @@ void gg_common_ensemble_size_reason(const gg_scene *s, char *text, size_t size)
   *text = 0;
   if (is_given(s)) return;
   if (!(error > 0))
-    snprintf(text, size, "chosen: with so few means lie some %.2g %% off (1/N)", 100 * bias);
+    snprintf(text, size, "automatic: finite-size bias up to %.2g %%", 100 * bias);
   else if (bias <= 1.001 * share * error)
-    snprintf(text, size, "chosen: means lie at most %.2g %% off (1/N), a quarter of the asked error %.3g %% or less",
+    snprintf(text, size,
+             "automatic: finite-size bias below %.2g %%, at most a quarter of the requested error of %.3g %%",
              100 * bias, 100 * error);
   else
-    snprintf(text, size, "chosen: maximum size: means lie up to %.2g %% off (1/N), asked is an error of %.3g %%",
+    snprintf(text, size, "automatic, the most there are: finite-size bias up to %.2g %%, requested error %.3g %%",
              100 * bias, 100 * error);
 }

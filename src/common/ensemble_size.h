@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "common/scene.h"
+#include "common/model.h"
 
 /* The relative error that ends a run; 0 where only collisions do. */
 double gg_common_ensemble_requested_error(const gg_scene *scene);
@@ -12,6 +12,8 @@ double gg_common_ensemble_requested_error(const gg_scene *scene);
 /* That by which the size is chosen. */
 double gg_common_ensemble_size_error(const gg_scene *scene);
 int64_t gg_common_ensemble_size(const gg_scene *scene);
+/* Means of an ensemble of this model lie off by up to this share, as 1/N. */
+double gg_common_ensemble_bias(const gg_model *model);
 /* Why so many, as a sentence's second half: "chosen: ..."; "" where the scene gives the number. */
 void gg_common_ensemble_size_reason(const gg_scene *scene, char *text, size_t size);
 

@@ -235,9 +235,10 @@ static gg_status set_law(gg_model *m, const gg_scene *s, gg_error *err)
   m->law.name = gg_common_law_name(m->law.kind);
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) {
     const double e = s->collision.e[p];
-    if (e < GG_LAW_LEAST_E)
-      return gg_base_fail(err, GG_BAD_INPUT, "key 'collision.e': %g with collision.law %s; allowed: from %g to 1", e,
-                          m->law.name, GG_LAW_LEAST_E);
+    if (e < GG_LAW_LEAST_E || (e > GG_LAW_MOST_E && e < 1))
+      return gg_base_fail(err, GG_BAD_INPUT,
+                          "key 'collision.e': %.10g with collision.law %s; allowed: from %g to %g, or 1", e,
+                          m->law.name, GG_LAW_LEAST_E, GG_LAW_MOST_E);
     m->law.scale[p] = gg_common_law_speed_of(m->law.kind, 1 - e);
   }
   return GG_OK;

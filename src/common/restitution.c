@@ -85,7 +85,7 @@ gg_status gg_common_loss_table_new(gg_law_kind kind, gg_loss_table **table, gg_e
   for (int k = 0; k < GG_LOSS_NODES; k++) {
     const int octave = k >> GG_LOSS_BITS, part = k & ((1 << GG_LOSS_BITS) - 1);
     const double u = ldexp(1 + ldexp(part, -GG_LOSS_BITS), GG_LOSS_FIRST + octave);
-    t->loss[k] = gg_common_law_loss(kind, u);
+    t->loss[k] = k > 0 ? gg_common_law_loss(kind, u) : 0; /* where pairs of e = 1 are, whose scale is 0 */
     t->single[k] = (float)t->loss[k];
   }
   *table = t;

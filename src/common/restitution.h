@@ -24,8 +24,10 @@ const char *gg_common_law_name(gg_law_kind kind);
 double gg_common_law_loss(gg_law_kind kind, double u);
 double gg_common_law_speed_of(gg_law_kind kind, double loss);
 
-/* A built-in law takes collision.e from here to 1. */
+/* A built-in law takes collision.e from here to there, or 1: nearer to 1 the speeds of a gas would lie below the table of
+ * losses (laws/loss_table.h), which has no smaller loss. */
 #define GG_LAW_LEAST_E 0.01
+#define GG_LAW_MOST_E 0.99999
 
 /* A law read off a table of ascending speeds: the `gg_restitution` of a `context` that is one of these. */
 typedef struct gg_law_table {

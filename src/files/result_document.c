@@ -188,6 +188,7 @@ static json_t *engine_state_json(const gg_result *r)
     json_object_set_new(state, "majorant_overflows", json_integer((json_int_t)s->overflows));
     json_object_set_new(state, "time_step", json_number(s->time_step));
     json_object_set_new(state, "time_step_bias", json_number(s->time_step_bias));
+    json_object_set_new(state, "particles_bias", json_number(s->particles_bias));
   }
   return state;
 }

@@ -190,6 +190,22 @@ static void put_errors(gg_curves *full, const gg_jackknife *j, double memory)
   }
 }
 
+#define SURE_OF_DIVISOR 3
+
+static bool is_divided_by_zero(const gg_curve *c)
+{
+  for (int i = 0; c->divisor && i < c->n_numbers; i++)
+    if (strcmp(c->number[i].name, c->divisor) == 0)
+      return !(fabs(c->number[i].value) > SURE_OF_DIVISOR * c->number[i].error);
+  return false;
+}
+
+static void withhold(gg_curves *full)
+{
+  for (gg_curve *c = full->curve; c < full->curve + full->n; c++)
+    for (size_t i = 0; i < c->n && is_divided_by_zero(c); i++) c->value[i] = c->error[i] = NAN;
+}
+
 /* Move the curves of one list to the end of another. */
 static bool append(gg_curves *to, gg_curves *from)
 {
@@ -219,7 +235,7 @@ gg_status gg_measure_curves_estimate(const gg_bins *const *bins, size_t n_runs, 
   bool whole = gg_statistics_jackknife_init(&j, shape(&full), err) == GG_OK && !full.failed &&
                leave_one_out(&p, of, self, &full, &j);
   for (int k = 0; k < full.n; k++) whole = whole && !full.curve[k].law_lost;
-  if (whole) put_errors(&full, &j, memory / (double)p.per_block);
+  if (whole) put_errors(&full, &j, memory / (double)p.per_block), withhold(&full);
   gg_base_gsl_leave();
   if (gg_base_memory_failures() != before) whole = false;
   whole = whole && (full.n == 0 || append(list, &full));

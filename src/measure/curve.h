@@ -26,8 +26,10 @@ typedef struct gg_curve {
   double *x, *value, *error; /* NaN: cannot be had, unknown */
   double *reference;         /* a law to see the curve beside, NULL if there is none; under what name */
   char reference_label[32];
-  bool law_lost;            /* there was no memory for it */
-  bool folded;              /* the mean of the flow and its image under the symmetry of the walls */
+  bool law_lost;       /* there was no memory for it */
+  const char *divisor; /* the number of this curve that its values are divided by, or NULL: where that is zero within
+                        * three errors, the curve has no values */
+  bool folded;         /* the mean of the flow and its image under the symmetry of the walls */
   double block_correlation; /* between neighbouring blocks, on average over the points: errors allow for it */
   uint64_t samples;         /* snapshots behind each point, all replicas */
   int n_numbers;

@@ -31,13 +31,20 @@ static double temperature(const double *a, const gg_model *m)
 {
   return (mean_over(a, m, CH_C2X, true) + mean_over(a, m, CH_C2Y, true) + mean_over(a, m, CH_C2Z, true)) / 3;
 }
+/* Spins are about the mean of their species at that instant, which takes 1/N_i of their variance away; velocities about
+ * that of all grains, 1/N. theta and T lose the same share: what of the former is missing is given back. */
+static double given_back(const gg_model *m, int i)
+{
+  const double n = (double)m->n, n_i = (double)m->n_of[i];
+  return n_i > 1 ? (1 - 1 / n) / (1 - 1 / n_i) : 1;
+}
 /* theta = sum x_i I_i <Omega.Omega>_i/3 with I Omega^2 = K m s^2 for surface velocities s. */
 static double rotational_temperature(const double *a, const gg_model *m)
 {
   double sum = 0;
   for (int i = 0; i < m->n_species; i++) {
     double w2 = of(a, m, i, CH_W2X) + of(a, m, i, CH_W2Y) + of(a, m, i, CH_W2Z);
-    sum += share(m, i) * m->inertia[i] * m->mass[i] * w2 / 3;
+    sum += share(m, i) * m->inertia[i] * m->mass[i] * w2 * given_back(m, i) / 3;
   }
   return sum;
 }

@@ -64,6 +64,8 @@ void gg_measure_sonine_curves_put(gg_curves *list, const gg_model *m, int k, con
   gg_curve *delta = add(list, m, k, "sonine_deviation", "Δ(v*)", NULL, "Δ");
   gg_measure_curve_put_number(excess, "c", cumulant, "1");
   gg_measure_curve_put_number(excess, "a3", a3, "1");
+  gg_measure_curve_put_number(delta, "c", cumulant, "1");
+  delta->divisor = "c";
   for (size_t i = 0; i < excess->n && i < delta->n; i++) {
     double from = (double)i * width, expected = maxwellian_below(from + width) - maxwellian_below(from);
     excess->x[i] = delta->x[i] = (from + width / 2) * unit;

@@ -100,6 +100,7 @@ static void report_effort(const gg_replicas *all, gg_result *result)
     r->engine->ops->state(r->engine, &s);
     if (i == 0) { /* in units of the start, whatever the engine's velocities have been multiplied by since */
       sum->time = r->clock.time, sum->time_step_bias = s.time_step_bias;
+      sum->particles_bias = all->model.homogeneous ? gg_common_ensemble_bias(&all->model) : 0;
       sum->time_step = ldexp(s.time_step, (int)r->clock.power);
     }
     sum->collisions += s.collisions, sum->events += s.events;
@@ -114,6 +115,17 @@ static void report_effort(const gg_replicas *all, gg_result *result)
   result->total.collisions = sum->collisions;
   result->total.wall_seconds = all->state.wall + gg_base_clock_wall() - all->started;
   result->averaging.wall_seconds = NAN;
+}
+
+/* Of an ensemble whose size is given: one that is chosen keeps this below a quarter of the error asked for. */
+static void warn_if_few(const gg_replicas *all, gg_result *result)
+{
+  const double bias = result->engine_state.particles_bias, asked = all->criteria.relative_error;
+  if (!(asked > 0 && bias > 0.2501 * asked)) return;
+  gg_run_result_warn(result,
+                     "the ensemble of %lld grains biases means by up to %.2g %% (1/N), more than a quarter of the "
+                     "requested error: give dsmc.particles %.2g or more, or auto",
+                     (long long)all->model.n, 100 * bias, bias / (0.25 * asked) * (double)all->model.n);
 }
 
 /* At rest or cooling, a homogeneous gas has equal normal stresses. Free cooling breaks up into vortices and clusters in
@@ -195,6 +207,7 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
     gg_run_result_warn(result,
                        "the Monte Carlo time step may bias results by %.2g %%, more than a fifth of the asked error",
                        100 * s->time_step_bias);
+  warn_if_few(all, result);
 }
 
 #define STRONG 0.6

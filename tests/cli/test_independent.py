@@ -214,7 +214,8 @@ def expected(store, flow, kind, replicas):
             out[f"c_{i + 1}"] = 2 * (c4 / fluctuation * (3 * N - 1) / (3 * N - 3) - 1)
     if rough:
         inertia = K * m * d * d / 4
-        theta = species_mean((omega * omega).sum(2), 2, inertia) / 3
+        whole = [(1 - 1 / N) / (1 - 1 / w.sum()) for w in who]  # means of spins are those of a species
+        theta = species_mean((omega * omega).sum(2), 2, inertia * whole) / 3
         out["rotational_temperature"], out["temperature_ratio"] = theta, theta / out["temperature"]
         for i in range(3):
             out["kurtosis_W" + "xyz"[i]] = species_mean(omega[..., i] ** 4, 4) / species_mean(omega[..., i] ** 2, 2) ** 2

@@ -109,6 +109,19 @@ def test_until():
         check(done.code == 2 and text in done.err, value, done.code, done.err)
 
 
+def test_few_grains():
+    """A Monte Carlo ensemble whose 1/N is no longer small beside the error asked for says so; one that is chosen is large
+    enough."""
+    with open("scene.yaml", "w") as f:
+        f.write("{flow: hss, phi: 0.1, engine: dsmc, collision: {e: 0.8}, run: {relative_error: 0.01}}")
+    for more, told in (("dsmc.particles=300",), True), (("dsmc.particles=900",), False), ((), False):
+        done = run("run", "scene.yaml", "--json", "--quiet", *(w for m in more for w in ("--set", m)))
+        found = json.loads(done.out)
+        bias = found["engine_state"]["particles_bias"]
+        check(abs(bias * found["particles"] - 2) < 1e-9, found["engine_state"])
+        check(any("1/N" in w for w in found["warnings"]) == told, more, found["warnings"])
+
+
 def test_limit_is_named():
     """Before the start and on the way: what ends the run, and what was asked needs."""
     with open("scene.yaml", "w") as f:

@@ -48,7 +48,7 @@ static void what_is_given(void **state)
   char text[200];
   gg_scene s = scene_at(1e-4);
   gg_common_ensemble_size_reason(&s, text, sizeof text);
-  assert_non_null(strstr(text, "0.0025 % off (1/N), a quarter of the asked error 0.01 %"));
+  assert_non_null(strstr(text, "bias below 0.0025 %, at most a quarter of the requested error of 0.01 %"));
   assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
   assert_int_equal(m.n, s.particles);
   assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, NULL), GG_OK);

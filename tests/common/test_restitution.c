@@ -95,11 +95,11 @@ static void tables(void **state)
     gg_error err;
     assert_int_equal(gg_common_loss_table_new(kind, &t, &err), GG_OK);
     for (int i = 0; i < 200000; i++) {
-      double u = exp2(-100 + 128 * gg_rng_uniform(&rng)), loss = gg_common_law_loss(kind, u);
+      double u = exp2(-99.99 + 127.99 * gg_rng_uniform(&rng)), loss = gg_common_law_loss(kind, u);
       assert_true(loss > 0 && loss < 1 && gg_common_law_loss(kind, 1.01 * u) > loss);
       assert_true(fabs(gg_loss_at(t->loss, u) - loss) < 2e-7);
     }
-    assert_true(gg_loss_at(t->loss, 0) == t->loss[0] && gg_loss_at(t->loss, 1e-300) == t->loss[0]);
+    assert_true(gg_loss_at(t->loss, 0) == 0 && gg_loss_at(t->loss, 1e-300) == 0);
     assert_true(gg_loss_at(t->loss, 1e300) == gg_common_law_loss(kind, GG_LOSS_HIGHEST));
     free(t);
   }
@@ -161,6 +161,9 @@ static void refusals(void **state)
   s.collision.e[0] = 0;
   assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
   assert_non_null(strstr(err.message, "collision.e"));
+  s.collision.e[0] = 1 - 1e-7; /* the table of losses has none that small */
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_non_null(strstr(err.message, "from 0.01 to 0.99999, or 1"));
 }
 
 int main(void)

@@ -85,6 +85,10 @@ static void mixture(void **state)
   p = ct_number(ct_find(&list, "sonine_excess_2"), "c");
   ct_expect("c_2", p.value, p.error, 0, 0.02);
   /* m_1 <C.C>_1/3 = 1, m_2 <C.C>_2/3 = 3 x 0.16; x_1 = 0.6: T = 0.792; mu_21 = 3/4, mu_12 = 1/4 */
+  /* the second has no c to divide by */
+  const gg_curve *with = ct_find(&list, "sonine_deviation_1"), *without = ct_find(&list, "sonine_deviation_2");
+  assert_true(isfinite(with->value[20]) && isfinite(with->error[20]));
+  for (size_t i = 0; i < without->n; i++) assert_true(isnan(without->value[i]) && isnan(without->error[i]));
   const gg_curve *one = ct_find(&list, "sonine_excess_1"), *two = ct_find(&list, "sonine_excess_2");
   assert_true(fabs(one->x[20] / (1.025 * sqrt(1 / 0.792 * 0.75)) - 1) < 0.005);
   assert_true(fabs(two->x[20] / (1.025 * sqrt(0.48 / 0.792 * 0.25)) - 1) < 0.005);

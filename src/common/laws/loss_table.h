@@ -1,6 +1,6 @@
 /* A built-in law as a table of 1 - e, linear between nodes that are 1/256 of an octave of speed apart: within 1e-7 of
  * the law, and as fast for one law as for another. Speeds are in the law's units; beyond the table they count as its
- * ends, 10^-30 and 3 10^8. */
+ * ends: below 10^-30 nothing is lost, above 3 10^8 as much as there. */
 #ifndef GG_LOSS_TABLE_H
 #define GG_LOSS_TABLE_H
 

@@ -178,6 +178,8 @@ static void restore_effort(gg_result *r, const json_t *document)
   if (json_object_get(state, "time_step")) r->engine_state.time_step = gg_base_json_number(state, "time_step");
   if (json_object_get(state, "time_step_bias"))
     r->engine_state.time_step_bias = gg_base_json_number(state, "time_step_bias");
+  if (json_object_get(state, "particles_bias"))
+    r->engine_state.particles_bias = gg_base_json_number(state, "particles_bias");
 }
 
 static gg_status restore_origin(gg_result *r, const gg_stored_result *s, const json_t *document, gg_error *err)
