@@ -1099,7 +1099,7 @@ typedef struct gg_sweep gg_sweep;
 
 /**
  * Read a sweep: a scene that may have the maps `vary` and `sweep`.
- * @param path file name; "-" is standard input
+ * @param path file name; "-" is standard input; a sweep's folder, which holds the sweep that was run last there
  * @param sweep receives the sweep, to be freed by gg_sweep_free()
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT; GG_BAD_FILE

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "api/api.h"
 #include "base/atomic_file.h"
@@ -51,8 +52,9 @@ static gg_status read_text(const char *yaml, size_t length, const char *name, gg
 gg_status gg_sweep_load(const char *path, gg_sweep **sweep, gg_error *err)
 {
   GG_NEED(path, sweep);
-  char *text;
+  char *text, inside[PATH_MAX];
   size_t length;
+  if (gg_sweep_folder_text_path(path, inside) && access(inside, R_OK) == 0) path = inside;
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
   gg_status status = read_text(text, length, gg_scene_file_name(path), sweep, err);
   free(text);

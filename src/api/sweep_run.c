@@ -434,6 +434,7 @@ static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t e
   if (sweep->settings.does == GG_DOES_THEORY) all.options.workers = NULL; /* who share replicas */
   if (!all.options.command) all.options.command = "the graingas library";
   GG_TRY(gg_sweep_folder_prepare(folder, "the results of a sweep are a folder with a file for each point", err));
+  GG_TRY(gg_sweep_folder_note(sweep, folder, err));
   gg_sweep_folder_tidy(folder);
   pthread_mutex_init(&all.lock, NULL);
   gg_base_condition_init(&all.changed);

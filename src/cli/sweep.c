@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/options.h"
 #include "cli/outputs.h"
@@ -312,7 +313,9 @@ static int sweep_points(sweep_command *c)
   const gg_options *o = c->options;
   int code = check_varied(c);
   if (code != GG_CLI_GO_ON) return code;
-  c->folder = gg_cli_options_output(o, ".sweep", &err);
+  struct stat about; /* a sweep's folder knows its sweep */
+  const bool is_folder = !o->output && stat(o->input, &about) == 0 && S_ISDIR(about.st_mode);
+  c->folder = is_folder ? strdup(o->input) : gg_cli_options_output(o, ".sweep", &err);
   if (!c->folder) return gg_cli_report(&err);
   for (size_t n = strlen(c->folder); n > 1 && c->folder[n - 1] == '/'; n--)
     c->folder[n - 1] = '\0'; /* shells add it when they complete a name */

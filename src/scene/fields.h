@@ -118,6 +118,8 @@ json_t *gg_scene_key_json(const gg_scene *scene, const char *key);
 void gg_scene_flow_style_text(const json_t *value, char *text, size_t size);
 /* The scene as YAML text, to be freed; NULL if out of memory. */
 char *gg_scene_yaml(const gg_scene *scene);
+/* JSON of a scene, or of a part of its keys, as YAML. */
+void gg_scene_yaml_print(FILE *out, const json_t *scene);
 
 /* checks.c: what concerns several keys. */
 

@@ -203,7 +203,7 @@ static void print_line(FILE *out, const char *indent, const char *key, const jso
   fputc('\n', out);
 }
 
-static void print_yaml(FILE *out, const json_t *root)
+void gg_scene_yaml_print(FILE *out, const json_t *root)
 {
   const char *key;
   json_t *value;
@@ -225,7 +225,7 @@ char *gg_scene_yaml(const gg_scene *scene)
   FILE *out = gg_base_memory_stream_open(&text);
   if (!out) return NULL;
   json_t *root = gg_scene_json(scene);
-  if (root) print_yaml(out, root);
+  if (root) gg_scene_yaml_print(out, root);
   bool whole = root && !ferror(out);
   json_decref(root);
   if (gg_base_memory_stream_close(out, &text) && whole) return text;

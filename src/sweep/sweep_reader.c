@@ -65,6 +65,18 @@ gg_status gg_sweep_settings_set(gg_sweep_settings *settings, const char *key, co
   return GG_OK;
 }
 
+void gg_sweep_settings_print(FILE *out, const gg_sweep_settings *settings)
+{
+  fputs("sweep:\n", out);
+  for (const gg_field *f = settings_fields; f->key; f++) {
+    char text[64];
+    json_t *value = gg_scene_field_json(f, settings, NULL);
+    gg_scene_flow_style_text(value, text, sizeof text);
+    fprintf(out, "  %s: %s\n", strchr(f->key, '.') + 1, text);
+    json_decref(value);
+  }
+}
+
 /* One map of `vary` as it is read: the values of each key. */
 typedef struct value_lists {
   size_t n;

@@ -26,6 +26,11 @@ vary:
 """
 
 
+def points_in(folder):
+    """What is there beside the text of the sweep."""
+    return [f for f in os.listdir(folder) if f != "sweep.yaml"]
+
+
 def write(text=SWEEP, name="s.yaml"):
     with open(name, "w") as f:
         f.write(text)
@@ -201,11 +206,11 @@ def test_killed():
     kills = kill_and_go_on("a.sweep", "2", rng)
     check(kills > 1, kills)
     check(collected("a.sweep") == whole)
-    check(all(name.endswith(".h5") and len(name) == 19 for name in os.listdir("a.sweep")), os.listdir("a.sweep"))
+    check(all(name.endswith(".h5") and len(name) == 19 for name in points_in("a.sweep")), points_in("a.sweep"))
     kill_and_go_on("b.sweep", "1", rng, ("--set", "output.checkpoint_every=0.05"))
     check(collected("b.sweep") == whole)
-    check(all(len(name) == 19 for name in os.listdir("b.sweep")), os.listdir("b.sweep"))
-    before = {f: os.stat(f).st_mtime_ns for f in glob.glob("a.sweep/*")}
+    check(all(len(name) == 19 for name in points_in("b.sweep")), points_in("b.sweep"))
+    before = {f: os.stat(f).st_mtime_ns for f in glob.glob("a.sweep/*")}  # sweep.yaml, too
     check(run("sweep", "s.yaml", "--output", "a.sweep").code == 0)
     check(before == {f: os.stat(f).st_mtime_ns for f in glob.glob("a.sweep/*")}, "a point that is done was done again")
 
@@ -221,7 +226,7 @@ def test_shared_folder():
     for p, (text, err) in list(zip(some, out))[:2]:
         check(p.returncode == 0, err)
         check([q["state"] for q in json.loads(text)["points"]] == 6 * ["done"], text)
-    check(all(len(name) == 19 for name in os.listdir("s.sweep")), os.listdir("s.sweep"))
+    check(all(len(name) == 19 for name in points_in("s.sweep")), points_in("s.sweep"))
     table = collected("s.sweep")
     check(run("sweep", "s.yaml", "--output", "alone.sweep").code == 0)
     check(table == collected("alone.sweep"))
@@ -235,7 +240,7 @@ def test_interrupted():
     child.send_signal(signal.SIGTERM)
     err = child.communicate(timeout=20 * PATIENCE)[1]
     check(child.returncode == 130 and "interrupted; go on with the same command" in err, err)
-    check(os.listdir("s.sweep") == [], os.listdir("s.sweep"))
+    check(points_in("s.sweep") == [], points_in("s.sweep"))
 
 
 def by_another_build(path):
@@ -254,7 +259,7 @@ def test_other_builds():
     """Points of another build and damaged ones run again, and are kept; --accept-version keeps the former in place."""
     write()
     check(run("sweep", "s.yaml").code == 0)
-    table, files = collected("s.sweep"), sorted(os.listdir("s.sweep"))
+    table, files = collected("s.sweep"), sorted(points_in("s.sweep"))
     check(all(row["build"] and row["version"].startswith("0.1.0") for row in table), table[0])
     points = [f for f in files if len(f) == 19]
     for name in points[:2]:
@@ -263,7 +268,7 @@ def test_other_builds():
     check(done.code == 0 and "warning: 2 of 6 points are by another build" in done.err, done.err)
     check(sum(row["build"][0:4] == "0000" for row in rows("s.sweep.csv")) == len(table) // 3)
     done = run("sweep", "s.yaml", "--accept-version")
-    check(done.code == 0 and "warning" not in done.err and sorted(os.listdir("s.sweep")) == files, done.err)
+    check(done.code == 0 and "warning" not in done.err and sorted(points_in("s.sweep")) == files, done.err)
     with open("s.sweep/" + points[2], "r+b") as f:
         f.seek(3000)
         f.write(b"damage")
@@ -271,7 +276,7 @@ def test_other_builds():
     check(done.code == 0 and "warning: 2 points are by another build of graingas, 1 are damaged" in done.err, done.err)
     check(collected("s.sweep") == table)
     aside = [p[:-3] + ".old.h5" for p in points[:3]]
-    check(sorted(os.listdir("s.sweep")) == sorted(files + aside), os.listdir("s.sweep"))
+    check(sorted(points_in("s.sweep")) == sorted(files + aside), points_in("s.sweep"))
 
 
 def test_failing_point():
@@ -279,7 +284,7 @@ def test_failing_point():
           "vary: [{collision.e: [0.9, 0.1, 0.95], run.collisions: [20, 1e6, 20]}]\n")
     done = run("sweep", "s.yaml")
     check(done.code == 1 and "point 2 (collision.e 0.1, run.collisions 1e6) failed: md: " in done.err, done.err)
-    check("of 3 points 1 failed" in done.err and len(os.listdir("s.sweep")) == 2, done.err)
+    check("of 3 points 1 failed" in done.err and len(points_in("s.sweep")) == 2, done.err)
     check({r["collision.e"] for r in collected("s.sweep")} == {"0.9", "0.95"})
 
 
@@ -293,9 +298,9 @@ def test_slurm():
     for task in range(2, 5):
         done = subprocess.run(["bash", "array.sh"], capture_output=True, text=True,
                               env=dict(os.environ, SLURM_ARRAY_TASK_ID=str(task), SLURM_CPUS_PER_TASK="2"))
-        check(done.returncode == 0 and len(os.listdir("my runs")) == task - 1, done.stderr)
+        check(done.returncode == 0 and len(points_in("my runs")) == task - 1, done.stderr)
     done = subprocess.run(["bash", "array.sh"], capture_output=True, text=True)
-    check(done.returncode == 0 and len(os.listdir("my runs")) == 4, done.stderr)
+    check(done.returncode == 0 and len(points_in("my runs")) == 4, done.stderr)
 
 
 def test_slurm_typed_otherwise():
@@ -308,7 +313,7 @@ def test_slurm_typed_otherwise():
         check(script.code == 0, script.err)
         done = subprocess.run(["bash", "-c", script.out], capture_output=True, text=True,
                               env=dict(os.environ, SLURM_ARRAY_TASK_ID="2"))
-        check(done.returncode == 0 and len(os.listdir("out%d" % i)) == 1 and not os.path.exists("harm"), done.stderr)
+        check(done.returncode == 0 and len(points_in("out%d" % i)) == 1 and not os.path.exists("harm"), done.stderr)
 
 
 def test_whole_numbers():
@@ -333,9 +338,30 @@ def test_short_points():
     for _ in range(2):
         started = time.monotonic()
         check(run(*args).code == 1 and time.monotonic() - started > PATIENCE / 4)
-        left = os.listdir("s.sweep")
+        left = points_in("s.sweep")
         check([f.split(".", 1)[1] for f in left] == ["short.h5"], left)
         os.remove("s.sweep/" + left[0])
+
+
+def test_folder_knows_its_sweep():
+    """sweep FOLDER: the same points, with nothing else at hand; rows that change together, words, settings, keys given."""
+    with open("s.yaml", "w") as f:
+        f.write("""{flow: usf, phi: 0.1, particles: 200, run: {collisions: 40, warmup: 10, replicas: 2},
+                  vary: [{collision.e: [0.7, 0.9], phi: [0.1, 0.2]}, {measure: [[rheology], [rheology, orientation]], collision.beta: [0, 0.5]}],
+                  sweep: {seeds: common}}""")
+    os.makedirs("deep")
+    done = run("sweep", "s.yaml", "--quiet", "--set", "collision.mu=0.4", "--output", "deep/x.sweep")
+    check(done.code == 0, done.err)
+    again = ("--set", "collision.mu=0.4", "--output", "deep/x.sweep")
+    one, two = run("sweep", "s.yaml", "--list", *again).out, run("sweep", "deep/x.sweep", "--list").out
+    check(one == two and "4 are done" in two, one, two)
+    os.remove("s.yaml")
+    done = run("sweep", "deep/x.sweep/", "--collect", "--picture", "none")
+    check(done.code == 0 and os.path.exists("deep/x.sweep.csv"), done.err)
+    check(run("sweep", "deep/x.sweep", "--point", "2", "--quiet").code == 0)
+    os.makedirs("empty")
+    done = run("sweep", "empty", "--list")
+    check(done.code == 3 and "is a folder" in done.err, done)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,90 @@
+/* A sweep as the text that it can be read from again: the scene's keys that were given, `vary` and `sweep`. */
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/file_writer.h"
+#include "base/memory.h"
+#include "sweep/folder.h"
+
+/* Defaults stay defaults: what is given has consequences of its own. */
+static json_t *given_json(const gg_scene *base)
+{
+  json_t *root = gg_scene_json(base);
+  for (const gg_field *f = gg_scene_fields; root && f->key; f++) {
+    const char *dot = strchr(f->key, '.');
+    char section[32];
+    snprintf(section, sizeof section, "%.*s", dot ? (int)(dot - f->key) : 0, f->key);
+    json_t *in = dot ? json_object_get(root, section) : root;
+    if (!gg_scene_is_given(base, f->key)) json_object_del(in, dot ? dot + 1 : f->key);
+    if (dot && json_object_size(in) == 0) json_object_del(root, section);
+  }
+  return root;
+}
+
+/* Rows of keys that change together. */
+static void print_varied(FILE *out, const gg_varied *v)
+{
+  for (size_t k = 0; k < v->n_keys; k++) {
+    fprintf(out, "  %s %s: [", k ? " " : "-", v->key[k]);
+    for (size_t i = 0; i < v->n; i++) fprintf(out, "%s%s", i ? ", " : "", v->value[i * v->n_keys + k]);
+    fputs("]\n", out);
+  }
+}
+
+static char *text_of(const gg_sweep *sweep)
+{
+  char *text = NULL;
+  FILE *out = gg_base_memory_stream_open(&text);
+  json_t *given = given_json(&sweep->base);
+  if (out && given) {
+    fputs("# Written by graingas sweep: graingas sweep FOLDER reads it.\n", out);
+    gg_scene_yaml_print(out, given);
+    fprintf(out, "vary:\n");
+    for (size_t f = 0; f < sweep->n_varied; f++) print_varied(out, &sweep->varied[f]);
+    gg_sweep_settings_print(out, &sweep->settings);
+  }
+  bool whole = given != NULL;
+  json_decref(given);
+  if (gg_base_memory_stream_close(out, &text) && whole) return text;
+  free(text);
+  return NULL;
+}
+
+/* Is that what the file holds? Tasks of a cluster begin together, and write it once. */
+static bool holds(const char *path, const char *text)
+{
+  FILE *in = fopen(path, "r");
+  const size_t length = strlen(text);
+  char *found = in ? malloc(length + 2) : NULL;
+  bool same = found && fread(found, 1, length + 2, in) == length && memcmp(found, text, length) == 0;
+  free(found);
+  if (in) fclose(in);
+  return same;
+}
+
+gg_status gg_sweep_folder_note(const gg_sweep *sweep, const char *folder, gg_error *err)
+{
+  char path[PATH_MAX];
+  gg_atomic_file file = GG_ATOMIC_NONE;
+  if (!gg_sweep_folder_text_path(folder, path)) return GG_OK;
+  char *text = text_of(sweep);
+  if (!text) return gg_base_out_of_memory(err);
+  gg_status status = GG_OK;
+  if (!holds(path, text)) {
+    status = gg_base_atomic_open(&file, path, err);
+    file.repeated = true;
+    if (status == GG_OK) status = gg_base_atomic_write(&file, text, strlen(text), err);
+    if (status == GG_OK) status = gg_base_atomic_commit(&file, err);
+    gg_base_atomic_abandon(&file);
+  }
+  free(text);
+  return status;
+}
+
+bool gg_sweep_folder_text_path(const char *folder, char *path)
+{
+  return snprintf(path, PATH_MAX, "%s/sweep.yaml", folder) < PATH_MAX;
+}
