@@ -393,6 +393,42 @@ static gg_status open_all(job *j, const char *path, gg_error *err)
   return GG_OK;
 }
 
+/* One line of a file, from 0; false where it has not so many. */
+static bool read_line(const char *path, int line, char **text)
+{
+  FILE *in = path ? fopen(path, "r") : NULL;
+  size_t room = 0;
+  bool there = in != NULL;
+  for (int k = 0; k <= line && there; k++) there = getline(text, &room, in) > 0;
+  if (in) fclose(in);
+  return there;
+}
+
+/* What stands there is an earlier export, or empty: its head is that of what is to replace it; of a trajectory the
+ * second line says what it is. */
+static bool is_export(const target *t)
+{
+  char *there = NULL, *now = NULL;
+  const int line = t->content == TRAJECTORY;
+  const bool ours =
+      !read_line(t->path, 0, &there) || (read_line(t->path, line, &there) && read_line(t->file.temporary, line, &now) &&
+                                         (line ? strncmp(there, "Lattice=", 8) == 0 : strcmp(there, now) == 0));
+  free(there);
+  free(now);
+  return ours;
+}
+
+static gg_status check_replaced(const job *j, gg_error *err)
+{
+  for (const target *t = j->target; t < j->target + j->n; t++)
+    if (t->inode && !is_export(t))
+      return gg_base_fail(err, GG_BAD_FILE,
+                          "%s: is there and was not made by an export like this; nothing was replaced: give --output "
+                          "another name, or remove it",
+                          t->path);
+  return GG_OK;
+}
+
 static gg_status write_trajectory(job *j, gg_file_writer *out, gg_error *err)
 {
   gg_stored_trajectory *t = &j->trajectory;
@@ -427,6 +463,7 @@ static gg_status write_all(job *j, gg_error *err)
   locale_t before = gg_base_c_locale_enter();
   for (size_t i = 0; i < j->n && status == GG_OK; i++) status = write_target(j, &j->target[i], err);
   gg_base_c_locale_leave(before);
+  if (status == GG_OK) status = check_replaced(j, err);
   for (size_t i = 0; i < j->n && status == GG_OK; i++) status = gg_base_atomic_commit(&j->target[i].file, err);
   return status;
 }

@@ -535,5 +535,27 @@ def test_cools_for_ever():
         check(done.code == 0 and os.path.getsize("r.svg") > 1000, done.err)
 
 
+def test_nobody_elses_file_is_replaced():
+    """A table of the user's own under the name of an export stays, and so do all others; an earlier export is replaced."""
+    with open("u.yaml", "w") as f:
+        f.write("{flow: couette, phi: 0.2, particles: 100, measure: [rheology, profiles], run: {collisions: 40, warmup: 10}, "
+                "output: {trajectory_every: 10}}")
+    check(run("run", "u.yaml", "--quiet").code == 0)
+    names = run("export", "u.h5").out.split()
+    check(len(names) > 4 and run("export", "u.h5").code == 0, names)
+    for name, text in ("u.csv", "day,rain\n1,2\n"), ("u_numbers.csv", "my notes\n"), ("u.xyz", "3\nwater\nO 0 0 0\n"):
+        kept = {n: open(n, "rb").read() for n in names}
+        with open(name, "w") as f:
+            f.write(text)
+        done = run("export", "u.h5")
+        check(done.code == 3 and name in done.err and "--output" in done.err, done.code, done.err)
+        check(open(name).read() == text and all(open(n, "rb").read() == kept[n] for n in names if n != name), name)
+        check(sorted(os.listdir(".")) == sorted([*names, "u.yaml", "u.h5"]), os.listdir("."))
+        os.remove(name)
+        check(run("export", "u.h5").code == 0)
+    open("u.csv", "w").close()  # empty, as mktemp makes them
+    check(run("export", "u.h5").code == 0 and os.path.getsize("u.csv") > 100)
+
+
 if __name__ == "__main__":
     main(sys.modules[__name__])
