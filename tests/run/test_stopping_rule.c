@@ -1,6 +1,7 @@
-/* Proves: where a run stops by its errors, on series whose true mean and correlation time are known, the mean square of
- * deviations over stated errors is 1 (before the estimate's own doubt and its being picked were allowed for: 1.2), for
- * errors that take 40, 80 and 160 correlation times; and such a run is not much longer than that takes. */
+/* Proves: where a run stops by an error, the mean square of deviations over stated errors is 1, for errors that take 40,
+ * 80 and 160 correlation times (before the estimate's own doubt and its being picked were allowed for: 1.2); and such a
+ * run is not much longer than that takes. The runs are whole ones, of the product's own loop, on an engine whose mean
+ * and correlation time are known. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -8,54 +9,44 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "common/rng.h"
-#include "run/replicas.h"
+#include "fake_engine.h"
+#include "run/run.h"
 
-enum { RUNS = 1000, T = 4, LONGEST = 160, MOST = 16 * LONGEST * T };
-static double x[MOST];
+enum { RUNS = 700, MEMORY = 10 }; /* decay time of the noise, collisions a grain */
 
-static void autoregressive(gg_rng *r)
+/* One run: its deviation in errors, squared; its averaging, in collisions a grain. */
+static double run_of(const gg_scene *scene, double *length)
 {
-  double rho = (2.0 * T - 1) / (2 * T + 1), at = gg_common_rng_normal(r);
-  for (size_t i = 0; i < MOST; i++) x[i] = at = rho * at + sqrt(1 - rho * rho) * gg_common_rng_normal(r);
-}
-
-/* As averaging.c goes from test to test; returns the length of the window at the end. */
-static uint64_t stop(const gg_stopping_criteria *criteria, gg_mean *m)
-{
-  bool before = false;
-  for (uint64_t window = gg_run_criteria_next_test(criteria, 0, NULL);;) {
-    assert_true(window <= MOST);
-    assert_int_equal(gg_statistics_estimate_scalar(x, window, 1, m, NULL), GG_OK);
-    m->error *= gg_run_criteria_margin(criteria, m->correlation_rows, (double)window);
-    gg_window_test t = {.window = window, .ratio = m->error / criteria->relative_error};
-    t.exact = m->trusted && t.ratio <= 1;
-    t.sure = m->trusted && (double)window >= 10 * GG_MAX_BLOCKS * m->correlation_rows;
-    if (gg_run_criteria_are_met(&t, before)) return window;
-    before = t.exact;
-    window = gg_run_criteria_next_test(criteria, 0, &t);
-  }
+  gg_result *r = NULL;
+  gg_error err;
+  if (gg_run_scene(scene, NULL, 1, NULL, &r, &err) != GG_OK) fail_msg("%s", err.message);
+  const gg_estimate *T = &r->value[GG_Q_TEMPERATURE];
+  double z = (T->mean - fake.T) / T->error;
+  assert_true(T->error <= scene->run.until[GG_Q_TEMPERATURE] * T->mean);
+  *length += 2 * (double)r->averaging.collisions / (double)scene->particles;
+  gg_result_free(r);
+  return z * z;
 }
 
 static void errors_at_the_end(void **state)
 {
   (void)state;
   double all = 0;
-  for (int need = 40; need <= LONGEST; need *= 2) {
-    gg_stopping_criteria criteria = {.least = 150, .longest = 75000, .relative_error = sqrt(2.0 / need)};
-    gg_rng r = gg_common_rng_seed(21, (uint64_t)need);
+  for (int need = 40; need <= 160; need *= 2) {
+    gg_scene s = planted_scene(-1);
+    s.particles = 8;
+    s.run.until[GG_Q_TEMPERATURE] = fake.noise * sqrt(2.0 / need);
     double z2 = 0, length = 0;
     for (int k = 0; k < RUNS; k++) {
-      gg_mean m;
-      autoregressive(&r);
-      length += (double)stop(&criteria, &m) / (need * T * RUNS);
-      z2 += m.mean * m.mean / (m.error * m.error) / RUNS;
+      s.run.seed = 1000 * (uint64_t)need + (uint64_t)k;
+      z2 += run_of(&s, &length) / RUNS;
     }
+    length /= (double)need * MEMORY * RUNS;
     print_message("# %d correlation times needed: z^2 %.3f, %.2f times as long\n", need, z2, length);
     assert_true(need < 80 || length < 2.6);
     all += z2 / 3;
   }
-  assert_true(fabs(all - 1) < 0.05 + 4 * sqrt(2.0 / (3 * RUNS)));
+  assert_true(fabs(all - 1) < 0.1); /* three standard errors of so many runs */
 }
 
 int main(void)
