@@ -140,6 +140,7 @@ static gg_status memory_of_parts(const rows *a, const double *mean, const double
   size_t total = a->n * a->n_runs, loudest = 0, parts = 0;
   double most = 0;
   for (size_t k = 0; k < a->channels; k++) {
+    if (df[k] == 0) continue;
     memset(y, 0, total * sizeof *y);
     add_response(a, k, mean, df, y);
     double squares = gsl_stats_tss_m(y, 1, total, 0);
