@@ -12,8 +12,13 @@
  *
  * Threads: there is no global state. One thread at a time may use a handle, many may where it is `const`. Simulations
  * and runs in different threads do not know of each other. Where HDF5 was not built to be thread-safe (Debian's is),
- * one thread at a time may read or write files. Callbacks come on the calling thread, unless it is said otherwise, and
- * must not use the handle that they are called for. One thing is of the process: while the library is loaded, jansson
+ * one thread at a time may read or write files. Callbacks come on the calling thread, unless it is said otherwise.
+ *
+ * Handles in use: while a call uses a simulation, session, trajectory or sweep, another call from its callback or from
+ * a second thread returns GG_BAD_INPUT, and the call in progress is not affected. From a callback of a simulation,
+ * gg_simulation_on_collision() and gg_simulation_on_stop() are allowed and take effect at once. A handle that is freed
+ * while a call uses it lives until that call returns; advances return as soon as they can, with GG_INTERRUPTED. One
+ * thing is of the process: while the library is loaded, jansson
  * asks malloc through it, so that what JSON lacks is noted; a program that gave jansson other functions keeps them.
  *
  * Units are those of results (gg_catalogue_entry tells them): lengths in the diameter d and masses in the mass m of
@@ -385,7 +390,8 @@ typedef void gg_on_collision(void *context, const gg_collision_event *event);
 
 /**
  * Set a function that is called at every collision between grains during advances. It costs time; Monte Carlo leaves
- * its fast path and has another trajectory.
+ * its fast path and has another trajectory. A callback may remove or replace itself: no further collision reaches it,
+ * and Monte Carlo returns to its fast path within 20 mean free times.
  * @param simulation the simulation
  * @param callback called with each collision; NULL: none
  * @param context passed to the callback

@@ -5,12 +5,14 @@
 
 #include "api/api.h"
 #include "api/simulation.h"
+#include "base/busy.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/h5/result_reader.h"
 #include "files/h5/result_restore.h"
 
 struct gg_trajectory {
+  gg_busy busy;
   gg_stored_trajectory stored;
   gg_scene scene; /* as it was run */
   gg_model model;
@@ -38,11 +40,19 @@ static gg_status open_file(gg_trajectory *t, const char *path, gg_error *err)
   return GG_OK;
 }
 
+static void destroy(void *trajectory)
+{
+  gg_trajectory *t = trajectory;
+  gg_files_stored_trajectory_close(&t->stored);
+  free(t);
+}
+
 gg_status gg_trajectory_open(const char *path, gg_trajectory **trajectory, gg_error *err)
 {
   GG_NEED(path, trajectory);
   gg_trajectory *t = gg_base_array_new(1, sizeof *t, err);
   if (!t) return GG_FAILED;
+  gg_base_busy_init(&t->busy, "trajectory", destroy, t);
   gg_status status = open_file(t, path, err);
   if (status == GG_OK)
     *trajectory = t;
@@ -53,9 +63,7 @@ gg_status gg_trajectory_open(const char *path, gg_trajectory **trajectory, gg_er
 
 void gg_trajectory_free(gg_trajectory *trajectory)
 {
-  if (!trajectory) return;
-  gg_files_stored_trajectory_close(&trajectory->stored);
-  free(trajectory);
+  if (trajectory) gg_base_busy_free(&trajectory->busy);
 }
 
 const gg_scene *gg_trajectory_scene(const gg_trajectory *trajectory)
@@ -116,6 +124,7 @@ gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation
                               gg_error *err)
 {
   GG_NEED(trajectory);
+  GG_USE_ALONE(trajectory);
   gg_trajectory *t = trajectory;
   gg_frame f;
   double edges[9] = {0};
@@ -137,6 +146,7 @@ gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int species
                                     gg_error *err)
 {
   GG_NEED(trajectory, state);
+  GG_USE_READING(trajectory);
   if (!trajectory->last.model) return gg_base_fail(err, GG_BAD_INPUT, "read a frame of the trajectory first");
   return gg_api_moments_species(&trajectory->last, species, 1, state, err);
 }

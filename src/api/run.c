@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "common/engine.h"
+#include "common/extension.h"
 #include "files/h5/checkpoint_file.h"
 #include "run/scheduler.h"
 #include "scene/fields.h"
@@ -269,7 +270,9 @@ gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const
 {
   gg_run_call *r = gg_base_array_new(1, sizeof *r, err); /* too large for small stacks */
   if (!r) return GG_FAILED;
+  gg_extension *held = gg_common_extension_hold(scene->extension); /* the scene may be freed during the run */
   gg_status status = simulate(r, point, scene, options, comparison, made, err);
+  gg_common_extension_release(held);
   free(r);
   return status;
 }

@@ -151,6 +151,7 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   gg_model model;
   gg_engine_kind kind;
   GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
+  gg_extension *held = gg_common_extension_hold(finished.extension); /* `line` may free the scene */
   gg_run_engine_ops_of(kind)->describe(&model, line, context);
   char chosen[200] = "";
   if (model.homogeneous) gg_common_ensemble_size_reason(&finished, chosen, sizeof chosen);
@@ -161,6 +162,7 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   }
   gg_cost_estimate cost = gg_run_cost_estimate(&finished, &model, kind);
   gg_run_cost_report(&cost, finished.run.replicas, line, context);
+  gg_common_extension_release(held);
   return GG_OK;
 }
 

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "api/api.h"
+#include "base/busy.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "common/engine.h"
@@ -10,6 +11,7 @@
 #include "run/replicas.h"
 
 struct gg_session {
+  gg_busy busy;
   gg_scene scene; /* finished */
   gg_replicas all;
   gg_run_callbacks callbacks;
@@ -23,7 +25,7 @@ struct gg_session {
 static bool time_is_up(void *context)
 {
   const gg_session *s = context;
-  return gg_base_clock_wall() >= s->until;
+  return gg_base_busy_is_freed(&s->busy) || gg_base_clock_wall() >= s->until;
 }
 
 static void note_progress(void *context, const gg_progress *progress)
@@ -49,11 +51,20 @@ static gg_status make(gg_session *s, const gg_scene *scene, gg_error *err)
   return gg_run_replicas_create(&s->all, &s->scene, NULL, 1, &s->callbacks, err);
 }
 
+static void destroy(void *session)
+{
+  gg_session *s = session;
+  gg_run_replicas_clear(&s->all);
+  gg_common_extension_release(s->scene.extension);
+  free(s);
+}
+
 gg_status gg_session_new(const gg_scene *scene, gg_session **session, gg_error *err)
 {
   GG_NEED(scene, session);
   gg_session *s = gg_base_array_new(1, sizeof *s, err);
   if (!s) return GG_FAILED;
+  gg_base_busy_init(&s->busy, "session", destroy, s);
   gg_status status = make(s, scene, err);
   if (status != GG_OK) {
     free(s);
@@ -66,10 +77,7 @@ gg_status gg_session_new(const gg_scene *scene, gg_session **session, gg_error *
 
 void gg_session_free(gg_session *s)
 {
-  if (!s) return;
-  gg_run_replicas_clear(&s->all);
-  gg_common_extension_release(s->scene.extension);
-  free(s);
+  if (s) gg_base_busy_free(&s->busy);
 }
 
 gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_error *err)
@@ -78,6 +86,7 @@ gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_
   gg_session *s = session;
   if (!(seconds > 0))
     return gg_base_fail(err, GG_BAD_INPUT, "gg_session_advance: cannot advance for %g seconds", seconds);
+  GG_USE_ALONE(session);
   if (!s->over) {
     s->until = gg_base_clock_wall() + seconds;
     int stopped = GG_STOP_REQUESTED;
@@ -95,6 +104,7 @@ gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_
 gg_status gg_session_get_progress(const gg_session *session, gg_progress *progress, gg_error *err)
 {
   GG_NEED(session, progress);
+  GG_USE_READING(session);
   *progress = session->progress;
   return GG_OK;
 }
@@ -102,6 +112,7 @@ gg_status gg_session_get_progress(const gg_session *session, gg_progress *progre
 gg_status gg_session_result(gg_session *session, gg_result **result, gg_error *err)
 {
   GG_NEED(session, result);
+  GG_USE_ALONE(session);
   gg_result *made = gg_base_array_new(1, sizeof *made, err);
   if (!made) return GG_FAILED;
   if (session->over) gg_run_replicas_level(&session->all);

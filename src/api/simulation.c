@@ -12,13 +12,27 @@
 static bool is_stopped(void *context)
 {
   const gg_simulation *s = context;
-  return s->asks && s->asks(s->asks_context);
+  return gg_base_busy_is_freed(&s->busy) || (s->asks && s->asks(s->asks_context));
+}
+
+static void destroy(void *simulation)
+{
+  gg_simulation *s = simulation;
+  if (s->engine) s->engine->ops->destroy(s->engine);
+  gg_common_extension_release(s->scene.extension);
+  free(s);
+}
+
+void gg_simulation_free(gg_simulation *s)
+{
+  if (s) gg_base_busy_free(&s->busy);
 }
 
 gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simulation, gg_error *err)
 {
   gg_simulation *s = gg_base_array_new(1, sizeof *s, err);
   if (!s) return GG_FAILED;
+  gg_base_busy_init(&s->busy, "simulation", destroy, s);
   gg_status status = gg_api_scene_finish(scene, &s->scene, err);
   if (status == GG_OK) status = gg_common_model_make(&s->scene, s->scene.engine, &s->model, err);
   if (status == GG_OK) status = gg_run_engine_ops_of(s->scene.engine)->accepts(&s->model, err);
@@ -53,14 +67,6 @@ gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulatio
   return GG_OK;
 }
 
-void gg_simulation_free(gg_simulation *s)
-{
-  if (!s) return;
-  if (s->engine) s->engine->ops->destroy(s->engine);
-  gg_common_extension_release(s->scene.extension);
-  free(s);
-}
-
 static uint64_t collisions(const gg_simulation *s)
 {
   gg_engine_state state;
@@ -75,6 +81,18 @@ static gg_status rescale_if_cold(gg_simulation *s, double T, gg_error *err)
   gg_api_simulation_collect(s);
   GG_TRY(s->engine->ops->rescale(s->engine, 2, err));
   s->clock.power += 2;
+  return GG_OK;
+}
+
+static void show(void *context, const gg_collision_record *collision);
+
+/* A callback may have set or removed the collision callback: the engine follows between two stretches. */
+static gg_status settle_callback(gg_simulation *s, gg_error *err)
+{
+  const bool observed = s->callback != NULL;
+  if (observed == s->observed) return GG_OK;
+  GG_TRY(s->engine->ops->set_callback(s->engine, observed ? show : NULL, s, err));
+  s->observed = observed;
   return GG_OK;
 }
 
@@ -97,6 +115,7 @@ static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most,
   s->clock.time += gone / unit;
   *time = gone >= *time * unit ? 0 : *time - gone / unit;
   *most = happened < *most ? *most - happened : 0;
+  if (status == GG_OK) status = settle_callback(s, err);
   if (status != GG_OK) return status;
   if (happened >= pile)
     return gg_base_fail(err, GG_FAILED,
@@ -107,8 +126,9 @@ static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most,
 }
 
 /* Asked before the first stretch, too: with small systems an advance ends before the engine looks. */
-static gg_status look(const gg_simulation *s, gg_error *err)
+static gg_status look(gg_simulation *s, gg_error *err)
 {
+  GG_TRY(settle_callback(s, err)); /* of an advance that was stopped */
   return gg_stop_asked(s->model.stop) ? gg_base_fail(err, GG_INTERRUPTED, "stopped by its caller") : GG_OK;
 }
 
@@ -117,6 +137,7 @@ gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error
   GG_NEED(simulation);
   if (!(time >= 0 && time < INFINITY))
     return gg_base_fail(err, GG_BAD_INPUT, "gg_simulation_advance: cannot advance by %g", time);
+  GG_USE_ALONE(simulation);
   for (uint64_t most = UINT64_MAX; time > 0;) {
     GG_TRY(look(simulation, err));
     GG_TRY(advance_stretch(simulation, &time, &most, err));
@@ -130,6 +151,7 @@ enum { MOST_EMPTY_STRETCHES = 100 };
 gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions_more, gg_error *err)
 {
   GG_NEED(simulation);
+  GG_USE_ALONE(simulation);
   double time = INFINITY;
   for (int empty = 0; collisions_more > 0; empty++) {
     uint64_t before = collisions_more;
@@ -145,12 +167,19 @@ gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions_m
   return GG_OK;
 }
 
+static void set_stop(gg_simulation *s, int (*stop)(void *context), void *context)
+{
+  s->asks = stop;
+  s->asks_context = context;
+}
+
+/* A callback may replace itself, and the other one: the call in progress is of its own thread. */
 gg_status gg_simulation_on_stop(gg_simulation *simulation, int (*stop)(void *context), void *context, gg_error *err)
 {
   GG_NEED(simulation);
-  simulation->asks = stop;
-  simulation->asks_context = context;
-  return GG_OK;
+  if (gg_base_busy_is_inside(&simulation->busy)) return set_stop(simulation, stop, context), GG_OK;
+  GG_USE_ALONE(simulation);
+  return set_stop(simulation, stop, context), GG_OK;
 }
 
 static void put(double to[3], gg_vec v, double factor)
@@ -161,6 +190,7 @@ static void put(double to[3], gg_vec v, double factor)
 static void show(void *context, const gg_collision_record *collision)
 {
   const gg_simulation *s = context;
+  if (!s->callback || gg_base_busy_is_freed(&s->busy)) return;
   double unit = gg_api_simulation_unit(s);
   gg_engine_state engine;
   s->engine->ops->state(s->engine, &engine);
@@ -177,8 +207,16 @@ static void show(void *context, const gg_collision_record *collision)
 gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision *callback, void *context, gg_error *err)
 {
   GG_NEED(simulation);
-  GG_TRY(simulation->engine->ops->set_callback(simulation->engine, callback ? show : NULL, simulation, err));
-  simulation->callback = callback;
-  simulation->context = context;
+  gg_simulation *s = simulation;
+  if (gg_base_busy_is_inside(&s->busy)) {
+    s->callback = callback;
+    s->context = context;
+    return GG_OK;
+  }
+  GG_USE_ALONE(simulation);
+  GG_TRY(s->engine->ops->set_callback(s->engine, callback ? show : NULL, s, err));
+  s->callback = callback;
+  s->context = context;
+  s->observed = callback != NULL;
   return GG_OK;
 }

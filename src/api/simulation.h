@@ -3,6 +3,7 @@
 #define GG_API_SIMULATION_H
 
 #include "api/api.h"
+#include "base/busy.h"
 #include "common/engine.h"
 
 /* Free cooling goes on over decades: as runs do, the engine's velocities are brought back by exact powers of two, and
@@ -16,8 +17,10 @@ struct gg_simulation {
     int64_t power;             /* the engine's velocities are 2^power times those of the start */
     gg_simulation_sums sums;   /* what was taken from the engine before its last rescaling; stress and energy as sums */
   } clock;
-  gg_on_collision *callback;
+  gg_busy busy;
+  gg_on_collision *callback; /* NULL: none */
   void *context;
+  bool observed;              /* the engine shows its collisions; settled after a stretch */
   int (*asks)(void *context); /* whether to stop; NULL: nobody does */
   void *asks_context;
   gg_stop stop;        /* what the model's points to */

@@ -22,6 +22,7 @@ static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)
 gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, gg_error *err)
 {
   GG_NEED(simulation, path);
+  GG_USE_READING(simulation);
   gg_archive archive = {0};
   locale_t before = gg_base_c_locale_enter();
   gg_status status = put_all(simulation, &archive, err);

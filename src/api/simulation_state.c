@@ -33,6 +33,7 @@ gg_status gg_simulation_get_species(const gg_simulation *simulation, int species
                                     gg_error *err)
 {
   GG_NEED(simulation, state);
+  GG_USE_READING(simulation);
   const gg_moments m = sum_up(simulation);
   return gg_api_moments_species(&m, species, gg_api_simulation_unit(simulation), state, err);
 }
@@ -40,6 +41,7 @@ gg_status gg_simulation_get_species(const gg_simulation *simulation, int species
 gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err)
 {
   GG_NEED(simulation, state);
+  GG_USE_READING(simulation);
   const gg_model *model = &simulation->model;
   const gg_moments m = sum_up(simulation);
   gg_engine_state engine;
@@ -77,6 +79,7 @@ static void copy(void *context, const gg_chunk *chunk)
 gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err)
 {
   GG_NEED(simulation, into);
+  GG_USE_READING(simulation);
   const gg_model *model = &simulation->model;
   if (into->position && model->homogeneous)
     return gg_base_fail(err, GG_BAD_INPUT, "%s is spatially homogeneous: it has no positions",
@@ -117,6 +120,7 @@ void gg_api_simulation_collect(gg_simulation *s)
 gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err)
 {
   GG_NEED(simulation, sums);
+  GG_USE_ALONE(simulation);
   gg_api_simulation_collect(simulation);
   struct gg_simulation_clock *clock = &simulation->clock;
   *sums = clock->sums;
@@ -165,6 +169,7 @@ static uint64_t hash_of(const gg_simulation_state *state, const gg_grains *grain
 gg_status gg_simulation_hash(const gg_simulation *simulation, uint64_t *hash, gg_error *err)
 {
   GG_NEED(simulation, hash);
+  GG_USE_READING(simulation);
   gg_simulation_state state;
   GG_TRY(gg_simulation_get_state(simulation, &state, err));
   double *numbers = gg_base_array_new(9 * state.grains, sizeof *numbers, err);

@@ -14,10 +14,21 @@
 #include "scene/scene_reader.h"
 #include "sweep/sweep_table.h"
 
+static void destroy(void *handle)
+{
+  gg_sweep *sweep = handle;
+  for (size_t f = 0; f < sweep->n_varied; f++) gg_sweep_varied_clear(&sweep->varied[f]);
+  gg_common_extension_release(sweep->base.extension);
+  free(sweep->point);
+  free(sweep->name);
+  free(sweep);
+}
+
 static gg_sweep *new_sweep(const char *name, gg_error *err)
 {
   gg_sweep *sweep = gg_base_array_new(1, sizeof *sweep, err);
   if (!sweep) return NULL;
+  gg_base_busy_init(&sweep->busy, "sweep", destroy, sweep);
   sweep->base = gg_scene_defaults();
   sweep->settings = gg_sweep_settings_defaults();
   sweep->name = strdup(name);
@@ -28,12 +39,7 @@ static gg_sweep *new_sweep(const char *name, gg_error *err)
 
 void gg_sweep_free(gg_sweep *sweep)
 {
-  if (!sweep) return;
-  for (size_t f = 0; f < sweep->n_varied; f++) gg_sweep_varied_clear(&sweep->varied[f]);
-  gg_common_extension_release(sweep->base.extension);
-  free(sweep->point);
-  free(sweep->name);
-  free(sweep);
+  if (sweep) gg_base_busy_free(&sweep->busy);
 }
 
 static gg_status read_text(const char *yaml, size_t length, const char *name, gg_sweep **sweep, gg_error *err)
@@ -77,6 +83,7 @@ static gg_status check_open(const gg_sweep *sweep, gg_error *err)
 gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_error *err)
 {
   GG_NEED(sweep, key, value);
+  GG_USE_ALONE(sweep);
   GG_TRY(check_open(sweep, err));
   if (gg_sweep_varies(sweep, key))
     return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied: each point sets its own value", key);
@@ -88,6 +95,7 @@ gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_e
 gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg_error *err)
 {
   GG_NEED(sweep, key, values);
+  GG_USE_ALONE(sweep);
   gg_values list = {0};
   snprintf(list.key, sizeof list.key, "%s", key);
   GG_TRY(check_open(sweep, err));
@@ -107,6 +115,7 @@ gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg
 gg_status gg_sweep_check(gg_sweep *sweep, gg_error *err)
 {
   GG_NEED(sweep);
+  GG_USE_ALONE(sweep);
   GG_C_LOCALE;
   return gg_sweep_check_points(sweep, err);
 }
@@ -140,6 +149,7 @@ static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_er
 gg_status gg_sweep_at(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg_error *err)
 {
   GG_NEED(sweep, point);
+  GG_USE_READING(sweep);
   gg_scene scene;
   GG_TRY(resolve(sweep, i, &scene, err));
   *point =
@@ -151,6 +161,7 @@ gg_status gg_sweep_at(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg
 gg_status gg_sweep_scene(const gg_sweep *sweep, size_t i, gg_scene **scene, gg_error *err)
 {
   GG_NEED(sweep, scene);
+  GG_USE_READING(sweep);
   gg_scene made;
   GG_TRY(resolve(sweep, i, &made, err));
   return gg_scene_copy(&made, scene, err);
@@ -160,6 +171,7 @@ gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_
                         gg_error *err)
 {
   GG_NEED(sweep, folder, state);
+  GG_USE_READING(sweep);
   GG_TRY(check_point(sweep, i, err));
   *state = gg_sweep_point_status(folder, sweep->point[i].id);
   if (!file) return GG_OK;
@@ -171,6 +183,7 @@ gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_
 gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **text, gg_error *err)
 {
   GG_NEED(sweep, folder, text);
+  GG_USE_READING(sweep);
   GG_TRY(check_point(sweep, 0, err));
   GG_C_LOCALE;
   return gg_api_text_copy(gg_sweep_document(sweep, folder), text, err);
@@ -252,6 +265,7 @@ gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *pref
 {
   GG_NEED(sweep, folder, prefix);
   GG_TRY(gg_sweep_check(sweep, err));
+  GG_USE_READING(sweep);
   collecting c = {.sweep = sweep, .written = written, .context = context};
   if (options) c.options = *options;
   GG_TRY(name_tables(&c, prefix, err));

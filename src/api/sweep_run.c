@@ -453,6 +453,7 @@ gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_sweep_optio
 {
   GG_NEED(sweep, folder);
   GG_TRY(gg_sweep_check(sweep, err));
+  GG_USE_READING(sweep);
   return run(sweep, folder, 0, sweep->n, options, err);
 }
 
@@ -461,6 +462,7 @@ gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, cons
 {
   GG_NEED(sweep, folder);
   GG_TRY(gg_sweep_check(sweep, err));
+  GG_USE_READING(sweep);
   if (i >= sweep->n)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1,
                         sweep->n);

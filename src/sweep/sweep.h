@@ -3,6 +3,7 @@
 #ifndef GG_SWEEP_H
 #define GG_SWEEP_H
 
+#include "base/busy.h"
 #include "common/rng.h"
 #include "scene/fields.h"
 
@@ -33,6 +34,7 @@ typedef struct gg_point {
 enum { GG_MOST_POINTS = 100000, GG_MOST_VARIED = 32 };
 
 struct gg_sweep {
+  gg_busy busy;
   char *name;    /* of its file, for messages */
   gg_scene base; /* holds its extension */
   gg_sweep_settings settings;
