@@ -1,10 +1,12 @@
 /* Comparisons: theories alone, rows and remarks, to and from files and documents. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "api/api.h"
 #include "base/memory.h"
+#include "base/spelling.h"
 #include "base/text.h"
 #include "common/extension.h"
 #include "files/h5/result_file.h"
@@ -20,18 +22,25 @@ void gg_comparison_free(gg_comparison *c)
   free(c);
 }
 
-/* Leave only the theory of that name. */
-static gg_status keep_one(gg_comparison *c, const char *theory, gg_error *err)
+/* "lun1991", or several with commas. */
+static gg_status choose(const gg_model *model, const char *names, bool wanted[GG_MOST_THEORIES], gg_error *err)
 {
-  for (int i = 0; i < c->n_theories; i++)
-    if (strcmp(c->theory[i].theory->name, theory) == 0) {
-      for (int k = 0; k < c->n_theories; k++)
-        if (k != i) gg_measure_curves_clear(&c->theory[k].curves);
-      c->theory[0] = c->theory[i];
-      c->n_theories = 1;
-      return GG_OK;
-    }
-  return gg_base_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s'", theory);
+  for (const char *at = names; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+    at += strspn(at, " ");
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ", "), at);
+    const gg_theory *theory;
+    gg_nearest nearest = {.word = name};
+    int i = 0;
+    while (i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)) && strcmp(theory->name, name) != 0)
+      gg_base_spelling_try(&nearest, theory->name), i++;
+    if (i == GG_MOST_THEORIES || !theory)
+      return gg_base_fail(err, GG_BAD_INPUT, "there is no theory called '%s'%s%s%s", name,
+                          nearest.best ? "; did you mean '" : "", nearest.best ? nearest.best : "",
+                          nearest.best ? "'?" : "");
+    wanted[i] = true;
+  }
+  return GG_OK;
 }
 
 static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *theory, gg_model *model, gg_error *err)
@@ -41,11 +50,12 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   c->scene = finished;
   gg_common_extension_hold(c->scene.extension);
   GG_TRY(gg_common_model_make(&c->scene, GG_MD, model, err));
-  GG_TRY(gg_run_compare_theories(model, c, err));
+  bool wanted[GG_MOST_THEORIES] = {false};
+  if (theory) GG_TRY(choose(model, theory, wanted, err));
+  GG_TRY(gg_run_compare_theories(model, theory ? wanted : NULL, c, err));
   const unsigned before = gg_base_memory_failures();
   gg_scene_ineffective_keys(&finished, GG_USE_THEORY, &c->warnings);
-  GG_TRY(gg_base_memory_check(before, GG_OK, err));
-  return theory ? keep_one(c, theory, err) : GG_OK;
+  return gg_base_memory_check(before, GG_OK, err);
 }
 
 gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, gg_comparison **comparison, gg_error *err)
@@ -81,7 +91,8 @@ gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_er
   if (comparison->document)
     return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_take: a comparison read from a file cannot be changed");
   if (!same_scene(&comparison->scene, result->scene))
-    return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_take: the result belongs to another scene than the comparison");
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "gg_comparison_take: the result belongs to another scene than the comparison");
   gg_result_free(comparison->by_engine[kind]);
   comparison->by_engine[kind] = result;
   return GG_OK;
@@ -208,7 +219,8 @@ gg_status gg_comparison_theory_cooling(const gg_comparison *comparison, const ch
   GG_TRY(find_theory(comparison, theory, &i, err));
   const double rate = comparison->theory[i].answer.value[GG_Q_COOLING_RATE];
   if (!gg_flow_cools(m->flow) || m->rule != GG_SMOOTH || m->n_species > 1 || m->law.name)
-    return gg_base_fail(err, GG_BAD_INPUT, "Haff's law holds for equal smooth grains that cool freely with a constant e");
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "Haff's law holds for equal smooth grains that cool freely with a constant e");
   if (!comparison->theory[i].applies || !isfinite(rate))
     return gg_base_fail(err, GG_BAD_INPUT, "%s gives no cooling rate for this scene", theory);
   if (!(time >= 0)) return gg_base_fail(err, GG_BAD_INPUT, "%s: the time %g is before the start", theory, time);

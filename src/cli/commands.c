@@ -18,8 +18,8 @@ const gg_command gg_cli_commands[] = {
      SIMULATES | GG_OPT_ENGINE | GG_OPT_RESUME | GG_OPT_ACCEPT, gg_cli_run_main},
     {"theory", "SCENE.yaml", "Theories without simulation",
      "Evaluates every theory that applies to the scene and prints the answers side by side; theories that do not apply "
-     "are listed with the reason.",
-     GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL | GG_OPT_QUIET, gg_cli_theory_main},
+     "are listed with the reason. --theory names those to evaluate, and saves the time of the others.",
+     GG_OPT_SET | GG_OPT_THEORY | GG_OPT_JSON | GG_OPT_ALL | GG_OPT_QUIET, gg_cli_theory_main},
     {"sweep", "SWEEP.yaml", "A grid of scenes: run, compare or theory at every point",
      "The file is a scene with two more maps. vary gives the values of keys: {phi: 0.1:0.5:0.1, collision.e: [0.7, "
      "0.9]} is every combination. In a list of maps, the keys of one map change together. {random: {points: 100}, phi: "

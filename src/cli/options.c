@@ -13,6 +13,7 @@
 const gg_option gg_cli_options_table[] = {
     {GG_OPT_ENGINE, "engine", "md|dsmc", "engine to run instead of the scene's"},
     {GG_OPT_SET, "set", "KEY=VALUE", "override a key of the scene, e.g. collision.e=0.8; repeatable"},
+    {GG_OPT_THEORY, "theory", "NAME", "evaluate this theory only, or several: NAME,NAME; repeatable"},
     {GG_OPT_COLLISIONS, "collisions", "N", "number of collisions between grains to simulate (default: 100000)"},
     {GG_OPT_SEED, "seed", "N", "seed of the random streams (run.seed)"},
     {GG_OPT_THREADS, "threads", "N",
@@ -148,6 +149,16 @@ static int take_vary(gg_options *o, const char *value)
   return GG_CLI_GO_ON;
 }
 
+static int take_theory(gg_options *o, const char *value)
+{
+  char *all = NULL;
+  if (asprintf(&all, "%s%s%s", o->theories ? o->theories : "", o->theories ? "," : "", value) < 0)
+    return gg_cli_fail(GG_FAILED, "out of memory");
+  free(o->theories);
+  o->theories = all;
+  return GG_CLI_GO_ON;
+}
+
 /* Options of sweeps alone, by name. */
 static int take_sweep(gg_options *o, const char *name, const char *value)
 {
@@ -171,6 +182,7 @@ static int take(gg_options *o, unsigned flag, const char *name, const char *valu
   case GG_OPT_ENGINE: return add_override(o, "engine", value);
   case GG_OPT_THREADS: return take_threads(o, value);
   case GG_OPT_COLLISIONS: return take_collisions(o, value);
+  case GG_OPT_THEORY: return take_theory(o, value);
   case GG_OPT_OUTPUT:
   case GG_OPT_FOLDER:
   case GG_OPT_PREFIX: o->output = value; break;
@@ -266,6 +278,7 @@ int gg_cli_options_parse(const gg_command *c, int argc, char **argv, gg_options 
 void gg_cli_options_clear(gg_options *o)
 {
   free(o->command_line);
+  free(o->theories);
   for (int i = 0; i < o->n_overrides; i++) free(o->owned[i]);
   *o = (gg_options){0};
 }

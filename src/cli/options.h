@@ -23,6 +23,7 @@ enum {
   GG_OPT_FOLDER = 1u << 15,
   GG_OPT_COLLISIONS = 1u << 16,
   GG_OPT_ACCEPT = 1u << 17,
+  GG_OPT_THEORY = 1u << 18,
 };
 
 typedef struct gg_option {
@@ -46,6 +47,7 @@ typedef struct gg_options {
   const char *output, *resume, *format, *picture, *width, *only;
   const char *does;        /* what a sweep does at its points; NULL: what its file says */
   const char *over, *show; /* of the picture of a sweep: key along x, quantities; NULL: chosen */
+  char *theories;          /* with commas, owned; NULL: all */
   const char *point;       /* the one of a sweep to do; NULL: all */
   bool json, quiet, all, quick, accept_version;
   bool list, collect, slurm; /* what else to do with a sweep */

@@ -71,32 +71,39 @@ static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
 }
 
 /* `start`: facts tell how engines start; theories of ours find their own temperature. */
-static gg_status compare_theories(const gg_model *model, gg_model *start, gg_comparison *c, gg_error *err)
+static gg_status compare_theories(const gg_model *model, const bool *wanted, gg_model *start, gg_comparison *c,
+                                  gg_error *err)
 {
   const gg_theory *theory;
-  if (c->scene.temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(start, err));
+  bool started = c->scene.temperature != GG_AUTO;
   for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)); i++) {
     gg_error why = {0};
+    if (wanted && !wanted[i]) continue;
+    if (theory->own && !started) {
+      GG_TRY(gg_run_start_near_steady(start, err));
+      started = true;
+    }
+    const int n = c->n_theories;
     const unsigned before = gg_base_memory_failures();
-    gg_status status = gg_theory_evaluate(theory, theory->own ? start : model, &c->theory[i].answer, &why);
+    gg_status status = gg_theory_evaluate(theory, theory->own ? start : model, &c->theory[n].answer, &why);
     if (gg_base_memory_failures() != before)
       return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
-    c->theory[i].theory = theory;
-    c->theory[i].applies = status == GG_OK;
-    snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%.250s", why.message);
+    c->theory[n].theory = theory;
+    c->theory[n].applies = status == GG_OK;
+    snprintf(c->theory[n].reason, sizeof c->theory[n].reason, "%.250s", why.message);
     GG_TRY(draw_curves(c, c->n_theories++, err));
   }
   return GG_OK;
 }
 
-gg_status gg_run_compare_theories(const gg_model *model, gg_comparison *c, gg_error *err)
+gg_status gg_run_compare_theories(const gg_model *model, const bool *wanted, gg_comparison *c, gg_error *err)
 {
   gg_model *start = gg_base_array_new(1, sizeof *start, err);
   if (!start) return GG_FAILED;
   c->model = *start = *model;
   gg_run_rows_make(&c->model, &c->rows);
   c->n_theories = 0;
-  gg_status status = compare_theories(model, start, c, err);
+  gg_status status = compare_theories(model, wanted, start, c, err);
   free(start);
   return status;
 }
@@ -251,7 +258,7 @@ static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, 
 {
   GG_TRY(make_model(scene, GG_MD, callbacks, &model[GG_MD], err));
   const bool dsmc = make_model(scene, GG_DSMC, callbacks, &model[GG_DSMC], NULL) == GG_OK;
-  GG_TRY(gg_run_compare_theories(&model[GG_MD], c, err));
+  GG_TRY(gg_run_compare_theories(&model[GG_MD], NULL, c, err));
 
   pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
   gg_archive latest[2] = {{0}, {0}};

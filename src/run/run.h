@@ -69,7 +69,7 @@ gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, 
 void gg_run_comparison_clear(gg_comparison *comparison);
 
 /* Evaluate the theories for the comparison's scene: fills only model and theory[], which borrow from it, and warns of
- * curves that cannot be had. */
-gg_status gg_run_compare_theories(const gg_model *model, gg_comparison *comparison, gg_error *err);
+ * curves that cannot be had. `wanted`: those to evaluate, by the index of gg_theory_of; NULL: all. */
+gg_status gg_run_compare_theories(const gg_model *model, const bool *wanted, gg_comparison *comparison, gg_error *err);
 
 #endif

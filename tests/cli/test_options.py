@@ -14,7 +14,7 @@ TAKEN = {"set": "compare run theory info", "output": "compare run plot", "json":
          "seed": "compare run bench", "threads": "compare run bench", "quiet": " ".join(COMMANDS),
          "resume": "compare run", "accept-version": "compare run sweep reproduce", "all": "compare run theory", "engine": "run", "format": "plot", "picture": "compare bench",
          "width": "compare plot bench",
-         "quick": "bench", "help": " ".join(COMMANDS)}
+         "quick": "bench", "theory": "theory", "help": " ".join(COMMANDS)}
 
 
 def test_options_of_commands():
@@ -26,6 +26,15 @@ def test_options_of_commands():
         for name in set(TAKEN) - has:
             done = run(command, "x", f"--{name}")
             check(done.code == 2 and f"{command} has no option '--{name}', which is for" in done.err, done.err)
+
+
+def test_theories_by_name():
+    """--theory, repeated or with commas, evaluates these and no others."""
+    both = json.loads(run("theory", "scene.yaml", "--json", "--theory", "grad,lun1991", scene=SCENE).out)
+    check(set(both["theory"]) | set(both["theories"]) == {"grad", "lun1991"}, both)
+    check(json.loads(run("theory", "scene.yaml", "--json", "--theory", "grad", "--theory", "lun1991").out) == both)
+    done = run("theory", "scene.yaml", "--theory", "lun1992")
+    check(done.code == 2 and "did you mean 'lun1991'?" in done.err, done.err)
 
 
 def test_order():

@@ -253,7 +253,7 @@ static gg_status restore_theories(gg_comparison *c, const json_t *document, gg_e
   const json_t *all = json_object_get(document, "theory");
   const gg_theory *theory;
   if (!json_is_object(all)) { /* a run's file: no theory was asked */
-    return gg_run_compare_theories(&c->model, c, err);
+    return gg_run_compare_theories(&c->model, NULL, c, err);
   }
   const json_t *curves = json_object_get(document, GG_THEORY_CURVES);
   c->n_theories = 0;
