@@ -337,6 +337,43 @@ typedef struct gg_grains {
 GG_API gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err);
 
 /**
+ * Start a simulation from grains of the caller's: a crystal, a cluster, two temperatures, the state of another program.
+ * Members that are NULL have the scene's own start. The mean velocity is taken off where no walls hold it. Where the
+ * scene gives no number of grains (particles, dsmc.particles), it is n. Under shear, image_offset starts at 0.
+ * @param scene the scene; its phi and n make the box (gg_simulation_get_state() of any simulation of it)
+ * @param grains what gg_simulation_get_grains() copies, in units of results; only read. Monte Carlo takes no positions,
+ *   and numbers its grains species by species. With several species, `species` is needed, by md also `position`
+ * @param n number of grains
+ * @param stream number of the random stream, as for gg_simulation_new()
+ * @param simulation receives the simulation, to be freed by gg_simulation_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT names two grains that overlap, a number that is not finite, a place outside the box, a
+ *   count that is not the scene's; GG_FAILED if memory is insufficient
+ */
+GG_API gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grains, size_t n, uint64_t stream,
+                                           gg_simulation **simulation, gg_error *err);
+
+/**
+ * Replace the grains of a simulation. Members that are NULL keep what they are. Time, counts and random stream go on.
+ * The simulation is unchanged on failure.
+ * @param simulation the simulation
+ * @param grains as for gg_simulation_from_grains()
+ * @param n number of grains, that of the simulation
+ * @param err receives the message on failure; may be NULL
+ * @return as gg_simulation_from_grains()
+ */
+GG_API gg_status gg_simulation_set_grains(gg_simulation *simulation, const gg_grains *grains, size_t n, gg_error *err);
+
+/**
+ * Copy a simulation. Both go on with the same bits. Callbacks are not copied.
+ * @param simulation the simulation
+ * @param copy receives the copy, to be freed by gg_simulation_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_FAILED if memory is insufficient
+ */
+GG_API gg_status gg_simulation_copy(const gg_simulation *simulation, gg_simulation **copy, gg_error *err);
+
+/**
  * Hash of the state: the number of collisions and everything that gg_simulation_get_grains() copies, to the last bit.
  * Scene, seed and number of collisions give the same hash on every processor and in a browser.
  * @param simulation the simulation

@@ -51,6 +51,21 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simul
   return status;
 }
 
+gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err)
+{
+  gg_simulation *s = gg_base_array_new(1, sizeof *s, err);
+  if (!s) return NULL;
+  s->scene = other->scene;
+  s->model = other->model;
+  s->clock = other->clock;
+  s->stretch_from = other->stretch_from;
+  gg_base_busy_init(&s->busy, "simulation", destroy, s);
+  gg_common_extension_hold(s->scene.extension);
+  s->stop = (gg_stop){is_stopped, s};
+  s->model.stop = &s->stop;
+  return s;
+}
+
 gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulation **simulation, gg_error *err)
 {
   GG_NEED(scene, simulation);
@@ -202,6 +217,11 @@ static void show(void *context, const gg_collision_record *collision)
   put(event.velocity, collision->c12, unit);
   put(event.impulse, collision->J, unit);
   s->callback(s->context, &event);
+}
+
+gg_status gg_api_simulation_watch(gg_simulation *s, gg_engine *engine, gg_error *err)
+{
+  return s->observed ? engine->ops->set_callback(engine, show, s, err) : GG_OK;
 }
 
 gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision *callback, void *context, gg_error *err)

@@ -37,6 +37,14 @@ void gg_api_simulation_collect(gg_simulation *s);
 /* An empty one for a finished scene, without an engine yet. */
 gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simulation, gg_error *err);
 
+/* simulation.c: one with the scene, model and clock of another, without engine and callbacks; NULL: out of memory. */
+gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err);
+/* Show the collisions of an engine that is to take the place of the simulation's, as the present one does. */
+gg_status gg_api_simulation_watch(gg_simulation *s, gg_engine *engine, gg_error *err);
+/* simulation_grains.c: go on with another engine, of this model; with these grains, or what they are now where they are
+ * NULL. On failure all stays as it was. */
+gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, const gg_grains *grains, gg_error *err);
+
 /* moments.c: what a state of the grains tells of itself, whether an engine has them or a file. */
 
 /* Sums over grains, mass by mass; zero but for the model to begin with. */

@@ -91,6 +91,15 @@ typedef struct gg_collision_record {
 } gg_collision_record;
 typedef void gg_collision_callback(void *context, const gg_collision_record *collision);
 
+/* Grains from outside, in model units: 3 numbers a grain, in the order of their numbers; NULL: the engine's own start.
+ * They are numbers, and there are as many of each species as the model has. */
+typedef struct gg_grain_arrays {
+  const double *r;    /* in the box; NULL where the engine has no positions */
+  const double *c;    /* peculiar velocities */
+  const double *s;    /* spins */
+  const int *species; /* NULL for one species */
+} gg_grain_arrays;
+
 typedef struct gg_engine gg_engine;
 
 typedef struct gg_engine_ops {
@@ -102,6 +111,11 @@ typedef struct gg_engine_ops {
   double (*bytes)(const gg_model *model);
   /* A new engine at a fresh initial state; it keeps its own copy of the model. */
   gg_status (*create)(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err);
+  /* A new engine of this model with these grains, without overlaps. `before` (NULL: none) is an engine with as many of
+   * them, whose clock, counts and random streams it takes over, not its callback and sums; then seed and stream are of
+   * no account. GG_BAD_INPUT names two grains that overlap. */
+  gg_status (*create_with)(const gg_model *model, uint64_t seed, uint64_t stream, const gg_grain_arrays *grains,
+                           const gg_engine *before, gg_engine **engine, gg_error *err);
   void (*destroy)(gg_engine *engine);
   /* Go on for `dt`, or until `max_collisions` more have happened, whichever is first; *elapsed is the time gone. dsmc
    * may end its last step past either limit. Deterministic: cutting a run into advances never changes a trajectory in

@@ -23,6 +23,7 @@ typedef struct gg_dsmc_state {
   double unsynchronised;      /* time since the ensemble was last synchronised */
   gg_vec centre;              /* velocity of the centre of mass then */
   gg_dsmc_time_step step;
+  double kept; /* energy of centres that a Gaussian thermostat keeps, where it is not that of collisions */
   double lost; /* energy destroyed that the Gaussian thermostat has not given back */
   gg_dsmc_majorant majorant[GG_PAIRS];
   gg_collision_sums transfer;

@@ -68,7 +68,7 @@ static bool is_majorant(const gg_dsmc_majorant *m, double remainder, double most
 static bool is_state(const gg_dsmc *d)
 {
   const gg_dsmc_state *s = &d->now;
-  const double plain[] = {s->time, s->unsynchronised, s->centre.x, s->centre.y, s->centre.z, s->lost, s->gone};
+  const double plain[] = {s->time, s->unsynchronised, s->centre.x, s->centre.y, s->centre.z, s->lost, s->gone, s->kept};
   bool good = is_between(s->temperature, 1e-200, 1e200) && is_between(s->fastest, 0, 1e200) && fabs(s->strain) <= 1e3 &&
               is_between(s->power, -1e9, 1e9) && is_step(d, &s->step) && s->asked >= 0; /* without end, too */
   for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) good = good && isfinite(plain[i]);

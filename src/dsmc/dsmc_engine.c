@@ -75,7 +75,67 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   gg_dsmc_rng_lanes_seed(&d->now.lanes, seed, stream + GG_STREAM_LANES);
   gg_dsmc_synchronise(d);
   gg_dsmc_start_majorants(d);
+  d->now.kept = 1.5 * (double)model->n * model->temperature0;
   *engine = &d->base;
+  return GG_OK;
+}
+
+/* Of every species its grains, in the order of their numbers. */
+static void take_grains(gg_dsmc_ensemble *e, const gg_grain_arrays *grains, int64_t n)
+{
+  uint32_t next[GG_MAX_SPECIES] = {0};
+  for (size_t i = 0; i < (size_t)n; i++) {
+    const int species = grains->species ? grains->species[i] : 0;
+    gg_dsmc_population *p = &e->of[species];
+    const uint32_t at = next[species]++;
+    const double *c = grains->c ? grains->c + 3 * i : NULL, *s = grains->s ? grains->s + 3 * i : NULL;
+    if (c) gg_dsmc_block_set(p, p->c, at, (gg_vec){c[0], c[1], c[2]});
+    if (s && p->s) gg_dsmc_block_set(p, p->s, at, (gg_vec){s[0], s[1], s[2]});
+  }
+}
+
+static void take_over(gg_dsmc *d, const gg_dsmc *before)
+{
+  const gg_dsmc_state *b = &before->now;
+  gg_dsmc_state *s = &d->now;
+  s->rng = b->rng;
+  s->lanes = b->lanes;
+  s->time = b->time;
+  s->collisions = b->collisions;
+  s->candidates = b->candidates;
+  s->overflows = b->overflows;
+  s->power = b->power;
+  if (d->schedule && before->schedule) memcpy(d->schedule, before->schedule, gg_dsmc_schedule_size(d->model.n_species));
+}
+
+/* Synchronising measures the temperature, by which bounds are scaled the next time, and the velocity of the centre of
+ * mass, which is taken off then, but for rounding: velocities that were read from a run stay as they are. */
+static void measure(gg_dsmc *d)
+{
+  const gg_vec none = {0, 0, 0};
+  d->now.temperature = 0;
+  d->now.centre = none;
+  gg_dsmc_synchronise(d);
+  if (gg_dot(d->now.centre, d->now.centre) <= 1e-18 * d->now.temperature) d->now.centre = none;
+  gg_dsmc_synchronise(d);
+}
+
+static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stream, const gg_grain_arrays *grains,
+                             const gg_engine *before, gg_engine **engine, gg_error *err)
+{
+  GG_TRY(create(model, seed, stream, engine, err));
+  gg_dsmc *d = dsmc_of(*engine);
+  take_grains(&d->ensemble, grains, model->n);
+  measure(d);
+  if (before) take_over(d, const_dsmc_of(before));
+  const gg_status status = check_temperature(d, err);
+  if (status != GG_OK) {
+    gg_dsmc_destroy(*engine);
+    *engine = NULL;
+    return gg_base_fail(err, GG_BAD_INPUT, "dsmc: grains at rest, or too fast to compute with");
+  }
+  gg_dsmc_start_majorants(d);
+  d->now.kept = 1.5 * (double)model->n * d->now.temperature;
   return GG_OK;
 }
 
@@ -208,6 +268,7 @@ const gg_engine_ops gg_dsmc_ops = {
     .accepts = gg_dsmc_accepts,
     .bytes = gg_dsmc_bytes,
     .create = create,
+    .create_with = create_with,
     .destroy = gg_dsmc_destroy,
     .advance = advance,
     .keep_sums = keep_sums,

@@ -19,7 +19,7 @@ void gg_dsmc_synchronise(gg_dsmc *d)
 static double kept_by_centres(const gg_dsmc *d)
 {
   const gg_model *m = &d->model;
-  return m->rule != GG_SMOOTH && m->shear_rate == 0 ? 1.5 * (double)m->n * m->temperature0 : 0;
+  return m->rule != GG_SMOOTH && m->shear_rate == 0 ? d->now.kept : 0;
 }
 
 static void heat(gg_dsmc *d, double dt, double strain, double half)

@@ -12,8 +12,7 @@ static gg_vec peculiar(const gg_md *e, const gg_md_grain *g)
   return c;
 }
 
-/* T about the mean velocity, relative to the imposed shear; all grains at the same time. */
-static double temperature_of(const gg_md *e)
+double gg_md_temperature(const gg_md *e)
 {
   gg_vec momentum = {0, 0, 0};
   double mass = 0, energy = 0;
@@ -47,15 +46,16 @@ static double unit_of(const gg_md *e, double free_time, double T)
   return mass * g * e->box.edge[1] < LIGHT * T && free_time < fall ? free_time : fall;
 }
 
-void gg_md_begin_contact_time(gg_md *e)
+void gg_md_begin_contact_time(gg_md *e, double T)
 {
-  e->k.contact_time = e->model.contact_time * unit_of(e, e->k.mean_free_time, e->model.temperature0);
+  e->k.contact_time = e->model.contact_time * unit_of(e, e->k.mean_free_time, T);
 }
 
 void gg_md_follow_contact_time(gg_md *e)
 {
   if (!(e->model.contact_time > 0)) return;
-  const double T = temperature_of(e), rate = gg_common_model_collision_rate(&e->model, gg_md_early_temperature(e, T));
+  const double T = gg_md_temperature(e),
+               rate = gg_common_model_collision_rate(&e->model, gg_md_early_temperature(e, T));
   const double free_time = fmax(e->k.mean_free_time, rate > 0 ? 0.5 / rate : 0);
   e->k.contact_time = e->model.contact_time * unit_of(e, free_time, T);
 }

@@ -35,7 +35,7 @@ static gg_status predict_all(gg_md *e, gg_error *err)
 }
 
 /* From places and velocities to a run that can go on. */
-gg_status gg_md_begin(gg_md *e, gg_error *err)
+gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
 {
   if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
   if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) {
@@ -44,9 +44,9 @@ gg_status gg_md_begin(gg_md *e, gg_error *err)
     gg_md_enter_grid(e);
     if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
   }
-  const double early = gg_md_early_temperature(e, e->model.temperature0); /* to guess by */
+  const double early = gg_md_early_temperature(e, T); /* to guess by */
   e->k.mean_free_time = 1 / fmax(gg_common_model_collision_rate(&e->model, early), 1e-300);
-  gg_md_begin_contact_time(e);
+  gg_md_begin_contact_time(e, T);
   if (e->last)
     for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
   gg_md_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e, soon_temperature(e, early))));
@@ -59,23 +59,14 @@ gg_status gg_md_begin(gg_md *e, gg_error *err)
   return predict_all(e, err);
 }
 
+gg_status gg_md_begin(gg_md *e, gg_error *err)
+{
+  return gg_md_begin_at(e, e->model.temperature0, err);
+}
+
 static void destroy(gg_engine *engine)
 {
   gg_md_free((gg_md *)engine);
-}
-
-static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
-{
-  gg_md *e;
-  GG_TRY(gg_md_accepts(model, err));
-  GG_TRY(gg_md_allocate(model, &e, err));
-  gg_status status = gg_md_start(e, seed, stream, err);
-  if (status == GG_OK) status = gg_md_begin(e, err);
-  if (status == GG_OK)
-    *engine = &e->base;
-  else
-    gg_md_free(e);
-  return status;
 }
 
 /* Outside time since the present advance began. */
@@ -88,6 +79,60 @@ static double outer_now(const gg_md *e)
 double gg_md_time(const gg_md *e)
 {
   return e->thermostat == GG_GAUSSIAN ? e->k.outer_time + outer_now(e) : e->k.epoch_start + e->k.now;
+}
+
+/* Clock, counts and random stream of another engine; its images, too, stand where they stood. */
+static void take_over(gg_md *e, const gg_md *before)
+{
+  gg_md_counts *k = &e->k;
+  *(e->thermostat == GG_GAUSSIAN ? &k->outer_time : &k->epoch_start) = gg_md_time(before);
+  k->collisions = k->epoch_collisions = before->k.collisions;
+  k->events = k->epoch_events = e->check_at = before->k.events;
+  k->treated = before->k.treated;
+  k->wall_treated = before->k.wall_treated;
+  k->worst_overlap = before->k.worst_overlap;
+  k->power = before->k.power;
+  k->rng = before->k.rng;
+}
+
+static gg_status begin_with(gg_md *e, uint64_t seed, uint64_t stream, const gg_grain_arrays *grains,
+                            const gg_md *before, gg_error *err)
+{
+  if (before) e->box.offset0 = gg_md_offset(&before->box, before->k.now);
+  GG_TRY(gg_md_start(e, seed, stream, grains, err));
+  if (before) take_over(e, before);
+  if (gg_flow_of(e->model.flow)->frame != GG_LABORATORY && grains->c && gg_md_has_drift(e))
+    gg_md_follow_centre_of_mass(e);
+  const double T = gg_md_temperature(e);
+  return gg_md_begin_at(e, T > 0 ? T : e->model.temperature0, err);
+}
+
+static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stream, const gg_grain_arrays *grains,
+                             const gg_engine *before, gg_engine **engine, gg_error *err)
+{
+  gg_md *e;
+  GG_TRY(gg_md_accepts(model, err));
+  GG_TRY(gg_md_allocate(model, &e, err));
+  gg_status status = begin_with(e, seed, stream, grains, (const gg_md *)before, err);
+  if (status == GG_OK)
+    *engine = &e->base;
+  else
+    gg_md_free(e);
+  return status;
+}
+
+static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
+{
+  gg_md *e;
+  GG_TRY(gg_md_accepts(model, err));
+  GG_TRY(gg_md_allocate(model, &e, err));
+  gg_status status = gg_md_start(e, seed, stream, NULL, err);
+  if (status == GG_OK) status = gg_md_begin(e, err);
+  if (status == GG_OK)
+    *engine = &e->base;
+  else
+    gg_md_free(e);
+  return status;
 }
 
 /* Between looks at whether to stop: some milliseconds. */
@@ -224,6 +269,7 @@ const gg_engine_ops gg_md_ops = {
     .accepts = gg_md_accepts,
     .bytes = gg_md_bytes,
     .create = create,
+    .create_with = create_with,
     .destroy = destroy,
     .advance = advance,
     .keep_sums = keep_sums,

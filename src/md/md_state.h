@@ -159,10 +159,12 @@ gg_status gg_md_allocate_lists(gg_md *e, gg_error *err);
 gg_status gg_md_allocate_last(gg_md *e, gg_error *err);
 void gg_md_free(gg_md *e);
 
-/* start.c: a fresh initial state: places, velocities, spins. */
-gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, gg_error *err);
-/* md_engine.c: make grains with places, velocities and spins ready to run; keeps a grid that is there already. */
-gg_status gg_md_begin(gg_md *e, gg_error *err);
+/* start.c: a fresh initial state: places, velocities, spins; those that are given (NULL: none) are taken. */
+gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, const gg_grain_arrays *given, gg_error *err);
+/* md_engine.c: make grains with places, velocities and spins ready to run; keeps a grid that is there already. `T`: of
+ * about which temperature they are. */
+gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err);
+gg_status gg_md_begin(gg_md *e, gg_error *err); /* at the model's */
 
 /* select_search.c: the largest distance at which two grains touch. */
 double gg_md_reach(const gg_model *model);
@@ -208,10 +210,14 @@ bool gg_md_check_numbers(gg_md *e);
 /* md_thermostat.c: take off the velocity of the centre of mass, relative to the imposed shear; all grains at the same
  * time. */
 void gg_md_follow_centre_of_mass(gg_md *e);
+/* Is that velocity more than rounding? */
+bool gg_md_has_drift(const gg_md *e);
 /* contact_time.c: a sheared gas that begins in the cold does not stay there; the contact time at the start, and
  * at the start of an epoch, all grains at the same time. */
 double gg_md_early_temperature(const gg_md *e, double T);
-void gg_md_begin_contact_time(gg_md *e);
+void gg_md_begin_contact_time(gg_md *e, double T);
+/* T about the mean velocity, relative to the imposed shear; all grains at the same time. */
+double gg_md_temperature(const gg_md *e);
 void gg_md_follow_contact_time(gg_md *e);
 /* Width of a calendar's bucket that suits a rate of events. */
 double gg_md_bucket_width(double events_per_time);

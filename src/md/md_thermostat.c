@@ -43,14 +43,12 @@ void gg_md_thermostat_fold(gg_md *e)
   k->stop = k->mark + (k->asked - k->outer) * k->scale;
 }
 
-/* Rounding of the mean peculiar velocity must not take over. A gas that cools forever cools below it; under shear, that
- * along y drives the one along x for ever (dP_x/dt = -rate P_y). The frame follows it: relative motion, and so every
- * predicted collision, stays as it is. */
-void gg_md_follow_centre_of_mass(gg_md *e)
+/* Relative to the imposed shear; all grains at the same time. */
+static gg_vec momentum_of(const gg_md *e, double *total_mass, double *energy_twice)
 {
   const double rate = e->model.shear_rate, middle = 0.5 * e->box.edge[1];
   gg_vec momentum = {0, 0, 0};
-  double mass = 0;
+  double mass = 0, energy = 0;
   for (uint32_t i = 0; i < e->n; i++) {
     const gg_md_grain *g = &e->grain[i];
     double m = e->model.mass[gg_md_species_of(g)];
@@ -58,7 +56,28 @@ void gg_md_follow_centre_of_mass(gg_md *e)
     if (rate != 0) c.x -= rate * (g->r.y - middle);
     momentum = gg_axpy(m, c, momentum);
     mass += m;
+    energy += m * gg_dot(c, c);
   }
+  *total_mass = mass;
+  *energy_twice = energy;
+  return momentum;
+}
+
+/* Velocities that were read from a run have a mean of rounding, and are to stay as they are. */
+bool gg_md_has_drift(const gg_md *e)
+{
+  double mass, energy;
+  const gg_vec momentum = momentum_of(e, &mass, &energy);
+  return gg_dot(momentum, momentum) > 1e-18 * mass * energy;
+}
+
+/* Rounding of the mean peculiar velocity must not take over. A gas that cools forever cools below it; under shear, that
+ * along y drives the one along x for ever (dP_x/dt = -rate P_y). The frame follows it: relative motion, and so every
+ * predicted collision, stays as it is. */
+void gg_md_follow_centre_of_mass(gg_md *e)
+{
+  double mass, energy;
+  const gg_vec momentum = momentum_of(e, &mass, &energy);
   for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
 }
 

@@ -30,7 +30,7 @@ static gg_status make_reference(const gg_model *model, uint64_t seed, gg_md **en
   int32_t n[3];
   gg_md_cells_count(&e->box, fmax(gg_md_reach(model), cbrt(model->volume / e->n)), n);
   e->plain = true;
-  gg_status status = gg_md_start(e, seed, 0, err);
+  gg_status status = gg_md_start(e, seed, 0, NULL, err);
   if (status == GG_OK) status = gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(model), err);
   if (status == GG_OK) status = gg_md_note_surfaces(e, err);
   if (status == GG_OK) status = gg_md_begin(e, err);

@@ -15,20 +15,27 @@ enum { BETWEEN_LOOKS = 1 << 13 }; /* grains: some milliseconds */
 typedef struct sweep {
   gg_md_packing *p;
   double margin;
-  bool pushing;
+  bool pushing, checking; /* checking: places from outside, as they are */
   uint64_t overlaps;
   gg_status status;
+  uint32_t pair[2]; /* the first that overlap */
+  double distance;  /* of their centres */
 } sweep;
+
+/* Of what overlaps by less, nothing is known but rounding. Fresh places leave as much free. */
+#define TOUCHING 1e-9
 
 static void try_pair(sweep *s, uint32_t i, uint32_t j)
 {
   gg_md_packing *p = s->p;
   gg_vec dr = gg_sub(p->r[j], p->r[i]), unused = {0, 0, 0};
-  gg_md_nearest_image(&p->box, 0, 0, &dr, &unused);
+  gg_md_nearest_image(&p->box, p->box.offset0 != 0, 0, &dr, &unused);
   double sigma = 0.5 * (p->diameter[i] + p->diameter[j]), wanted = sigma * (1 + s->margin), r2 = gg_dot(dr, dr);
   if (r2 >= wanted * wanted) return;
   double distance = sqrt(r2);
-  if (distance < sigma * (1 + 1e-9)) s->overlaps++;
+  if (s->checking && distance < sigma * (1 - TOUCHING) && !s->overlaps++)
+    s->pair[0] = i, s->pair[1] = j, s->distance = distance;
+  if (!s->checking && distance < sigma * (1 + TOUCHING)) s->overlaps++;
   if (!s->pushing) return;
   if (distance == 0) dr = (gg_vec){1e-3, 0, 0}, distance = 1e-3;
   double push = 0.5 * (wanted - distance) / distance;
@@ -57,6 +64,17 @@ static void cell_of(const gg_md_cells *c, gg_vec r, int32_t at[3])
   }
 }
 
+/* The column of cells along x that is beside a place in the layer above or below: images there may be displaced. */
+static int32_t column_of(const gg_md_packing *p, gg_vec r, const int32_t at[3], int32_t layer)
+{
+  const int32_t y = at[1] + layer;
+  if (p->box.offset0 == 0 || (y >= 0 && y < p->cells.n[1])) return at[0];
+  int32_t to[3];
+  const double x = r.x - (y < 0 ? -1 : 1) * p->box.offset0;
+  cell_of(&p->cells, (gg_vec){gg_wrap(x, p->box.edge[0], p->box.inverse[0]), r.y, r.z}, to);
+  return to[0];
+}
+
 static void sweep_cells(sweep *s)
 {
   gg_md_packing *p = s->p;
@@ -68,7 +86,7 @@ static void sweep_cells(sweep *s)
     for (int32_t q = 0; q < 27; q++) {
       int32_t step[3] = {q % 3 - 1, q / 3 % 3 - 1, q / 9 - 1};
       for (int a = 0; a < 3; a++) {
-        to[a] = at[a] + step[a];
+        to[a] = (a == 0 ? column_of(p, p->r[i], at, step[1]) : at[a]) + step[a];
         to[a] += to[a] < 0 ? c->n[a] : to[a] >= c->n[a] ? -c->n[a] : 0;
       }
       const uint32_t *cell = gg_md_cell_at(c, to);
@@ -98,18 +116,42 @@ static void into_box(const gg_md_packing *p, uint32_t i)
     gg_surface_put_outside(&p->model->surface[w], 0.5 * p->diameter[i], &p->r[i]);
 }
 
+static gg_status sweep_all(sweep *s, gg_error *err)
+{
+  if (s->p->cells.cell)
+    sweep_cells(s);
+  else
+    sweep_small(s);
+  if (s->status == GG_INTERRUPTED) return gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
+  if (s->status == GG_FAILED) return gg_base_out_of_memory_for(err, "the grid of cells");
+  return GG_OK;
+}
+
 static gg_status sweep_once(gg_md_packing *p, double margin, bool pushing, bool *free, gg_error *err)
 {
-  sweep s = {p, margin, pushing, 0, GG_OK};
+  sweep s = {.p = p, .margin = margin, .pushing = pushing};
   for (uint32_t i = 0; i < p->n; i++) into_box(p, i);
-  if (p->cells.cell)
-    sweep_cells(&s);
-  else
-    sweep_small(&s);
+  gg_status status = sweep_all(&s, err);
   *free = s.overlaps == 0;
-  if (s.status == GG_INTERRUPTED) return gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
-  if (s.status == GG_FAILED) return gg_base_out_of_memory_for(err, "the grid of cells");
-  return GG_OK;
+  return status;
+}
+
+gg_status gg_md_place_check(gg_md_packing *p, const uint32_t *id, gg_error *err)
+{
+  sweep s = {.p = p, .checking = true};
+  for (uint32_t i = 0; i < p->n; i++)
+    for (int w = 0; w < p->model->n_surfaces; w++) {
+      const double inside = -gg_surface_clearance(&p->model->surface[w], &p->r[i], 0.5 * p->diameter[i]);
+      if (inside > TOUCHING)
+        return gg_base_fail(err, GG_BAD_INPUT, "grain %u overlaps the %s wall by %g d", id[i],
+                            p->model->surface[w].word, inside);
+    }
+  GG_TRY(sweep_all(&s, err));
+  if (!s.overlaps) return GG_OK;
+  const uint32_t one = id[s.pair[0]], other = id[s.pair[1]];
+  return gg_base_fail(err, GG_BAD_INPUT, "grains %u and %u overlap: their centres are %.9g d apart, %.9g d is contact",
+                      one < other ? one : other, one < other ? other : one, s.distance,
+                      0.5 * (p->diameter[s.pair[0]] + p->diameter[s.pair[1]]));
 }
 
 /* Denser systems leave less room to aim for than touching. */

@@ -21,11 +21,14 @@ typedef struct gg_md_packing {
   uint64_t tried; /* grains, over all sweeps */
 } gg_md_packing;
 
-/* Order points along a space-filling curve. */
-gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t n, const gg_stop *stop, gg_error *err);
+/* Order points along a space-filling curve; `id` (may be NULL) receives which one each was. */
+gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t *id, uint32_t n, const gg_stop *stop,
+                           gg_error *err);
 /* n of the sites of a face-centred lattice that fills the box. */
 void gg_md_place_lattice(const gg_md_box *box, uint32_t n, gg_rng *rng, gg_vec *r);
 /* Push overlapping grains apart, *free: no overlap is left after so many sweeps. Positions end in the box. */
 gg_status gg_md_place_relax(gg_md_packing *p, double phi, int most_sweeps, bool *free, gg_error *err);
+/* GG_BAD_INPUT names two grains, or a grain and a wall, that overlap by more than rounding. */
+gg_status gg_md_place_check(gg_md_packing *p, const uint32_t *id, gg_error *err);
 
 #endif

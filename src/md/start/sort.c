@@ -19,6 +19,7 @@ static uint64_t spread(uint64_t x)
 typedef struct keyed {
   uint64_t key;
   gg_vec r;
+  uint32_t id;
 } keyed;
 
 static int by_key(const void *a, const void *b)
@@ -60,7 +61,8 @@ static bool sort(keyed *a, keyed *b, uint32_t n, const gg_stop *stop, const keye
   return true;
 }
 
-gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t n, const gg_stop *stop, gg_error *err)
+gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t *id, uint32_t n, const gg_stop *stop,
+                           gg_error *err)
 {
   keyed *room = gg_base_array_new(2 * (size_t)n, sizeof *room, err);
   const keyed *sorted;
@@ -69,10 +71,13 @@ gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t n, const gg
   for (uint32_t i = 0; i < n; i++) {
     uint64_t key = 0;
     for (int a = 0; a < 3; a++) key |= spread((uint64_t)(gg_along(&r[i], a) * scale)) << a;
-    room[i] = (keyed){key, r[i]};
+    room[i] = (keyed){key, r[i], i};
   }
   bool whole = sort(room, room + n, n, stop, &sorted);
-  for (uint32_t i = 0; whole && i < n; i++) r[i] = sorted[i].r;
+  for (uint32_t i = 0; whole && i < n; i++) {
+    r[i] = sorted[i].r;
+    if (id) id[i] = sorted[i].id;
+  }
   free(room);
   return whole ? GG_OK : gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
 }

@@ -1,0 +1,238 @@
+/* Simulations of grains from outside: started from them, given others, copied. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "api/simulation.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "common/extension.h"
+#include "common/rng.h"
+#include "scene/fields.h"
+#include "scene/scene_reader.h"
+
+/* In the engine's units and the order of numbers: one block, of which `grains` has the parts. */
+typedef struct arrays {
+  double *number;
+  int *species;
+  gg_grain_arrays grains;
+} arrays;
+
+static void clear(arrays *a)
+{
+  free(a->number);
+  free(a->species);
+}
+
+static gg_status make(arrays *a, size_t n, gg_error *err)
+{
+  a->number = gg_base_array_new(9 * n, sizeof *a->number, err);
+  a->species = gg_base_array_new(n, sizeof *a->species, err);
+  return a->number && a->species ? GG_OK : GG_FAILED;
+}
+
+/* Beyond, squares of squares are no numbers. */
+#define LARGEST 1e75
+
+static gg_status check_numbers(const char *what, const double *x, size_t n, gg_error *err)
+{
+  for (size_t i = 0; x && i < 3 * n; i++)
+    if (!(fabs(x[i]) < LARGEST))
+      return gg_base_fail(err, GG_BAD_INPUT, "%s of grain %zu: %g along %c; allowed: numbers below %g", what, i / 3,
+                          x[i], "xyz"[i % 3], LARGEST);
+  return GG_OK;
+}
+
+static gg_status check_places(const gg_model *m, const double *r, size_t n, gg_error *err)
+{
+  const bool open = gg_common_surface_is_open_above(m);
+  for (size_t i = 0; r && i < 3 * n; i++) {
+    const size_t a = i % 3;
+    if (r[i] >= 0 && (r[i] <= m->box[a] || (open && a == 1))) continue;
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "position of grain %zu: %.9g along %c is outside the box; allowed: 0 to %.9g", i / 3, r[i],
+                        "xyz"[a], m -> box[a]);
+  }
+  return GG_OK;
+}
+
+static gg_status check_species(const gg_model *m, const int *species, gg_error *err)
+{
+  int64_t of[GG_MAX_SPECIES] = {0};
+  for (int64_t i = 0; i < m->n; i++) {
+    if (species[i] < 0 || species[i] >= m->n_species)
+      return gg_base_fail(err, GG_BAD_INPUT, "species of grain %lld: %d; allowed: 0 to %d", (long long)i, species[i],
+                          m->n_species - 1);
+    of[species[i]]++;
+  }
+  for (int k = 0; k < m->n_species; k++)
+    if (of[k] != m->n_of[k])
+      return gg_base_fail(err, GG_BAD_INPUT, "species %d has %lld grains; the scene's fractions make it %lld", k,
+                          (long long)of[k], (long long)m->n_of[k]);
+  return GG_OK;
+}
+
+static gg_status check_spins(const gg_model *m, const double *spin, size_t n, gg_error *err)
+{
+  for (size_t i = 0; spin && m->rule == GG_SMOOTH && i < 3 * n; i++)
+    if (spin[i] != 0)
+      return gg_base_fail(err, GG_BAD_INPUT, "spin of grain %zu: %g; smooth grains do not rotate: give 0, or NULL",
+                          i / 3, spin[i]);
+  return GG_OK;
+}
+
+static gg_status check(const gg_model *m, const gg_grains *g, size_t n, gg_error *err)
+{
+  if (n != (size_t)m->n) return gg_base_fail(err, GG_BAD_INPUT, "%zu grains; the scene has %lld", n, (long long)m->n);
+  if (g->position && m->homogeneous)
+    return gg_base_fail(err, GG_BAD_INPUT, "dsmc is spatially homogeneous: it takes no positions");
+  GG_TRY(check_numbers("position", g->position, n, err));
+  GG_TRY(check_numbers("velocity", g->velocity, n, err));
+  GG_TRY(check_numbers("spin", g->spin, n, err));
+  GG_TRY(check_places(m, g->position, n, err));
+  GG_TRY(check_spins(m, g->spin, n, err));
+  return g->species ? check_species(m, g->species, err) : GG_OK;
+}
+
+/* What is given, into the engine's units. The upper end of a periodic edge is its lower one. */
+static void take(const gg_model *m, const gg_grains *g, double unit, arrays *a)
+{
+  const size_t n = (size_t)m->n;
+  double *r = a->number, *c = r + 3 * n, *s = c + 3 * n;
+  for (size_t i = 0; g->species && i < n; i++) a->species[i] = g->species[i];
+  for (size_t i = 0; i < 3 * n; i++) {
+    const bool end = g->position && g->position[i] == m->box[i % 3] && !gg_common_surface_is_closed(m, (int)(i % 3));
+    if (g->position) r[i] = end ? 0 : g->position[i];
+    if (g->velocity) c[i] = g->velocity[i] / unit;
+    if (g->spin) s[i] = g->spin[i] / (unit * (m->boltzmann ? 1 : 2 / m->diameter[a->species[i / 3]]));
+  }
+}
+
+static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uint64_t stream, gg_error *err)
+{
+  const gg_model *m = &s->model;
+  const gg_engine_ops *ops = gg_run_engine_ops_of(s->scene.engine);
+  GG_TRY(check(m, grains, n, err));
+  if (m->n_species > 1 && !grains->species)
+    return gg_base_fail(err, GG_BAD_INPUT, "the scene has %d species: give the species of each grain", m->n_species);
+  if (m->n_species > 1 && !m->homogeneous && !grains->position)
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "grains of several species need positions: the start would part the species");
+  arrays a = {0};
+  gg_status status = make(&a, n, err);
+  if (status == GG_OK) {
+    take(m, grains, 1, &a);
+    a.grains = (gg_grain_arrays){.r = grains->position ? a.number : NULL,
+                                 .c = grains->velocity ? a.number + 3 * n : NULL,
+                                 .s = grains->spin ? a.number + 6 * n : NULL,
+                                 .species = a.species};
+    status = ops->create_with(m, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &a.grains, NULL, &s->engine, err);
+  }
+  clear(&a);
+  if (status == GG_OK) ops->keep_sums(s->engine, true);
+  return status;
+}
+
+/* The scene may leave the number open. */
+static gg_status with_number(const gg_scene *scene, size_t n, gg_scene *counted, gg_error *err)
+{
+  char number[24];
+  const char *key = scene->engine == GG_DSMC ? "dsmc.particles" : "particles";
+  *counted = *scene;
+  if (gg_scene_is_given(scene, key) || gg_scene_is_given(scene, "particles")) return GG_OK;
+  snprintf(number, sizeof number, "%zu", n);
+  GG_C_LOCALE;
+  return gg_scene_override(counted, key, number, err);
+}
+
+gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grains, size_t n, uint64_t stream,
+                                    gg_simulation **simulation, gg_error *err)
+{
+  GG_NEED(scene, grains, simulation);
+  gg_simulation *s;
+  gg_scene counted;
+  GG_TRY(with_number(scene, n, &counted, err));
+  GG_TRY(gg_api_simulation_prepare(&counted, &s, err));
+  gg_status status = create(s, grains, n, stream, err);
+  if (status == GG_OK)
+    *simulation = s;
+  else
+    gg_simulation_free(s);
+  return status;
+}
+
+/* A gg_visit: the engine's own grains into the arrays. */
+typedef struct reading {
+  arrays *to;
+  size_t n, at;
+} reading;
+
+static void read_chunk(void *context, const gg_chunk *chunk)
+{
+  reading *w = context;
+  double *r = w->to->number, *c = r + 3 * w->n, *s = c + 3 * w->n;
+  for (size_t i = 0; i < chunk->n; i++, w->at++) {
+    const size_t place = chunk->id ? (size_t)chunk->id[i] : w->at;
+    w->to->species[place] = chunk->species ? chunk->species[i] : 0;
+    for (size_t a = 0; a < 3; a++) {
+      if (chunk->r[a]) r[3 * place + a] = chunk->r[a][i];
+      c[3 * place + a] = chunk->c[a][i];
+      if (chunk->s[0]) s[3 * place + a] = chunk->s[a][i];
+    }
+  }
+}
+
+gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, const gg_grains *grains, gg_error *err)
+{
+  const size_t n = (size_t)model->n;
+  const gg_engine_ops *ops = s->engine->ops;
+  gg_engine *engine = NULL;
+  arrays a = {0};
+  gg_status status = make(&a, n, err);
+  if (status == GG_OK) {
+    reading w = {.to = &a, .n = n};
+    ops->snapshot(s->engine, !model->homogeneous, read_chunk, &w);
+    if (grains) take(model, grains, gg_api_simulation_unit(s), &a);
+    a.grains = (gg_grain_arrays){
+        .r = model->homogeneous ? NULL : a.number, .c = a.number + 3 * n, .s = a.number + 6 * n, .species = a.species};
+    status = ops->create_with(model, 0, 0, &a.grains, s->engine, &engine, err);
+  }
+  clear(&a);
+  GG_TRY(status);
+  status = gg_api_simulation_watch(s, engine, err);
+  if (status != GG_OK) {
+    ops->destroy(engine);
+    return status;
+  }
+  gg_api_simulation_collect(s);
+  ops->destroy(s->engine);
+  ops->keep_sums(engine, true);
+  s->engine = engine;
+  return GG_OK;
+}
+
+gg_status gg_simulation_set_grains(gg_simulation *simulation, const gg_grains *grains, size_t n, gg_error *err)
+{
+  GG_NEED(simulation, grains);
+  GG_USE_ALONE(simulation);
+  GG_TRY(check(&simulation->model, grains, n, err));
+  return gg_api_simulation_continue(simulation, &simulation->model, grains, err);
+}
+
+gg_status gg_simulation_copy(const gg_simulation *simulation, gg_simulation **copy, gg_error *err)
+{
+  GG_NEED(simulation, copy);
+  GG_USE_READING(simulation);
+  gg_archive archive = {0};
+  gg_simulation *s = gg_api_simulation_like(simulation, err);
+  if (!s) return GG_FAILED;
+  const gg_engine_ops *ops = simulation->engine->ops;
+  gg_status status = ops->save(simulation->engine, &archive, err);
+  if (status == GG_OK) status = ops->restore(&s->model, &archive, &s->engine, err);
+  gg_base_archive_clear(&archive);
+  if (status == GG_OK)
+    *copy = s;
+  else
+    gg_simulation_free(s);
+  return status;
+}
