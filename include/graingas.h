@@ -28,7 +28,10 @@
  * <C.C>/3, C the velocity relative to the imposed flow; of mixtures m<C.C>/3, m in that of species 1. Where phi = 0,
  * n d^2 = 1 sets the length.
  *
- * Structs grow at their end only; those that the caller fills in are to be zeroed first. */
+ * Structs grow at their end only; those that the caller fills in are to be zeroed first. Functions get the size that the
+ * caller's compiler knows ("Sizes" below), so that a program that was built with an older header works or is refused.
+ * Arrays of the caller's, and structs in structs, do not grow: gg_error, gg_quantity_definition, gg_departure,
+ * gg_checkpoint_part, gg_figure_needs. */
 #ifndef GRAINGAS_H
 #define GRAINGAS_H
 
@@ -38,6 +41,13 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* The version of this header; gg_version() is that of the library. While MAJOR is 0, versions of another MINOR are not
+ * compatible, and the loader rejects them (libgraingas.so.0.MINOR). */
+#define GRAINGAS_VERSION_MAJOR 0
+#define GRAINGAS_VERSION_MINOR 1
+#define GRAINGAS_VERSION_PATCH 0
+#define GRAINGAS_VERSION "0.1.0"
 
 #if defined(__GNUC__)
 #define GG_API __attribute__((visibility("default")))
@@ -1699,6 +1709,123 @@ GG_API gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_
  */
 GG_API gg_status gg_scene_set_restitution_table(gg_scene *scene, const char *name, size_t n, const double *speed,
                                                 const double *e, gg_error *err);
+
+/* ---- Sizes ----
+ * Structs grow at their end from version to version. So every function that takes one of the caller's structs also gets
+ * the size that the caller's compiler knows: the names above become the functions below. A program that was built with
+ * an older header goes on to work with a newer library; one that was built with a newer header than the library's gets
+ * GG_BAD_INPUT. Through a pointer, or from a language without this header, call these: the functions above exist, too,
+ * for structs as they are in the library's own version. */
+
+GG_API gg_status gg_scene_get_needs_sized(const gg_scene *scene, const char *engine, gg_scene_needs *needs,
+                                          gg_error *err, size_t needs_size);
+GG_API gg_status gg_simulation_get_state_sized(const gg_simulation *simulation, gg_simulation_state *state,
+                                               gg_error *err, size_t state_size);
+GG_API gg_status gg_simulation_get_species_sized(const gg_simulation *simulation, int species, gg_species_state *state,
+                                                 gg_error *err, size_t state_size);
+GG_API gg_status gg_simulation_get_grains_sized(const gg_simulation *simulation, const gg_grains *into, gg_error *err,
+                                                size_t into_size);
+GG_API gg_status gg_simulation_from_grains_sized(const gg_scene *scene, const gg_grains *grains, size_t n,
+                                                 uint64_t stream, gg_simulation **simulation, gg_error *err,
+                                                 size_t grains_size);
+GG_API gg_status gg_simulation_set_grains_sized(gg_simulation *simulation, const gg_grains *grains, size_t n,
+                                                gg_error *err, size_t grains_size);
+GG_API gg_status gg_simulation_take_sums_sized(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err,
+                                               size_t sums_size);
+GG_API gg_status gg_workers_new_sized(const gg_messages *messages, int threads, gg_workers **workers, gg_error *err,
+                                      size_t messages_size);
+GG_API gg_status gg_worker_run_sized(const gg_messages *messages, gg_error *err, size_t messages_size);
+GG_API gg_status gg_run_sized(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err,
+                              size_t options_size);
+GG_API gg_status gg_session_get_progress_sized(const gg_session *session, gg_progress *progress, gg_error *err,
+                                               size_t progress_size);
+GG_API gg_status gg_checkpoint_about_sized(const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err,
+                                           size_t info_size);
+GG_API gg_status gg_result_find_sized(const gg_result *result, const char *quantity, gg_measurement *found,
+                                      gg_error *err, size_t found_size);
+GG_API gg_status gg_result_at_sized(const gg_result *result, size_t i, gg_measurement *found, gg_error *err,
+                                    size_t found_size);
+GG_API gg_status gg_result_get_info_sized(const gg_result *result, gg_result_info *info, gg_error *err,
+                                          size_t info_size);
+GG_API gg_status gg_result_curve_sized(const gg_result *result, size_t i, gg_curve_data *curve, gg_error *err,
+                                       size_t curve_size);
+GG_API gg_status gg_result_curve_number_sized(const gg_result *result, size_t i, size_t k, gg_measurement *number,
+                                              gg_error *err, size_t number_size);
+GG_API gg_status gg_result_grains_sized(const gg_result *result, const gg_grains *into, gg_error *err,
+                                        size_t into_size);
+GG_API gg_status gg_trajectory_frame_sized(gg_trajectory *trajectory, size_t k, gg_simulation_state *state,
+                                           const gg_grains *into, gg_error *err, size_t state_size, size_t into_size);
+GG_API gg_status gg_trajectory_get_species_sized(const gg_trajectory *trajectory, int species, gg_species_state *state,
+                                                 gg_error *err, size_t state_size);
+GG_API gg_status gg_compare_sized(const gg_scene *scene, const gg_run_options *options, gg_comparison **comparison,
+                                  gg_error *err, size_t options_size);
+GG_API gg_status gg_comparison_departure_sized(const gg_comparison *comparison, const char *engine,
+                                               const char *quantity, gg_departure *departure, gg_error *err,
+                                               size_t departure_size);
+GG_API gg_status gg_comparison_at_sized(const gg_comparison *comparison, size_t i, gg_comparison_row *row,
+                                        gg_error *err, size_t row_size);
+GG_API gg_status gg_comparison_theory_sized(const gg_comparison *comparison, size_t i, gg_theory_info *theory,
+                                            gg_error *err, size_t theory_size);
+GG_API gg_status gg_comparison_theory_curve_sized(const gg_comparison *comparison, const char *theory, size_t i,
+                                                  gg_curve_data *curve, gg_error *err, size_t curve_size);
+GG_API gg_status gg_comparison_remark_sized(const gg_comparison *comparison, size_t i, gg_remark *remark, gg_error *err,
+                                            size_t remark_size);
+GG_API gg_status gg_sweep_at_sized(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg_error *err,
+                                   size_t point_size);
+GG_API gg_status gg_sweep_run_sized(gg_sweep *sweep, const char *folder, const gg_sweep_options *options, gg_error *err,
+                                    size_t options_size);
+GG_API gg_status gg_sweep_run_point_sized(gg_sweep *sweep, const char *folder, size_t i,
+                                          const gg_sweep_options *options, gg_error *err, size_t options_size);
+GG_API gg_status gg_sweep_collect_sized(gg_sweep *sweep, const char *folder, const char *prefix,
+                                        const gg_collecting *options, void (*written)(void *context, const char *file),
+                                        void *context, gg_error *err, size_t options_size);
+GG_API gg_status gg_reproduce_sized(const char *figure, const gg_reproduce_options *options, gg_error *err,
+                                    size_t options_size);
+GG_API gg_status gg_catalogue_entry_sized(gg_catalogue list, size_t i, const gg_scene *scene, gg_entry *entry,
+                                          gg_error *err, size_t entry_size);
+GG_API gg_status gg_catalogue_word_sized(const char *key, size_t i, gg_entry *entry, gg_error *err, size_t entry_size);
+GG_API gg_status gg_scene_add_observable_sized(gg_scene *scene, const gg_observable_definition *definition,
+                                               gg_error *err, size_t definition_size);
+GG_API gg_status gg_scene_add_theory_sized(gg_scene *scene, const gg_theory_definition *definition, gg_error *err,
+                                           size_t definition_size);
+
+#ifndef GG_WITHOUT_SIZES /* the library itself */
+#define gg_scene_get_needs(...) gg_scene_get_needs_sized(__VA_ARGS__, sizeof(gg_scene_needs))
+#define gg_simulation_get_state(...) gg_simulation_get_state_sized(__VA_ARGS__, sizeof(gg_simulation_state))
+#define gg_simulation_get_species(...) gg_simulation_get_species_sized(__VA_ARGS__, sizeof(gg_species_state))
+#define gg_simulation_get_grains(...) gg_simulation_get_grains_sized(__VA_ARGS__, sizeof(gg_grains))
+#define gg_simulation_from_grains(...) gg_simulation_from_grains_sized(__VA_ARGS__, sizeof(gg_grains))
+#define gg_simulation_set_grains(...) gg_simulation_set_grains_sized(__VA_ARGS__, sizeof(gg_grains))
+#define gg_simulation_take_sums(...) gg_simulation_take_sums_sized(__VA_ARGS__, sizeof(gg_simulation_sums))
+#define gg_workers_new(...) gg_workers_new_sized(__VA_ARGS__, sizeof(gg_messages))
+#define gg_worker_run(...) gg_worker_run_sized(__VA_ARGS__, sizeof(gg_messages))
+#define gg_run(...) gg_run_sized(__VA_ARGS__, sizeof(gg_run_options))
+#define gg_session_get_progress(...) gg_session_get_progress_sized(__VA_ARGS__, sizeof(gg_progress))
+#define gg_checkpoint_about(...) gg_checkpoint_about_sized(__VA_ARGS__, sizeof(gg_checkpoint_info))
+#define gg_result_find(...) gg_result_find_sized(__VA_ARGS__, sizeof(gg_measurement))
+#define gg_result_at(...) gg_result_at_sized(__VA_ARGS__, sizeof(gg_measurement))
+#define gg_result_get_info(...) gg_result_get_info_sized(__VA_ARGS__, sizeof(gg_result_info))
+#define gg_result_curve(...) gg_result_curve_sized(__VA_ARGS__, sizeof(gg_curve_data))
+#define gg_result_curve_number(...) gg_result_curve_number_sized(__VA_ARGS__, sizeof(gg_measurement))
+#define gg_result_grains(...) gg_result_grains_sized(__VA_ARGS__, sizeof(gg_grains))
+#define gg_trajectory_frame(...) gg_trajectory_frame_sized(__VA_ARGS__, sizeof(gg_simulation_state), sizeof(gg_grains))
+#define gg_trajectory_get_species(...) gg_trajectory_get_species_sized(__VA_ARGS__, sizeof(gg_species_state))
+#define gg_compare(...) gg_compare_sized(__VA_ARGS__, sizeof(gg_run_options))
+#define gg_comparison_departure(...) gg_comparison_departure_sized(__VA_ARGS__, sizeof(gg_departure))
+#define gg_comparison_at(...) gg_comparison_at_sized(__VA_ARGS__, sizeof(gg_comparison_row))
+#define gg_comparison_theory(...) gg_comparison_theory_sized(__VA_ARGS__, sizeof(gg_theory_info))
+#define gg_comparison_theory_curve(...) gg_comparison_theory_curve_sized(__VA_ARGS__, sizeof(gg_curve_data))
+#define gg_comparison_remark(...) gg_comparison_remark_sized(__VA_ARGS__, sizeof(gg_remark))
+#define gg_sweep_at(...) gg_sweep_at_sized(__VA_ARGS__, sizeof(gg_sweep_point))
+#define gg_sweep_run(...) gg_sweep_run_sized(__VA_ARGS__, sizeof(gg_sweep_options))
+#define gg_sweep_run_point(...) gg_sweep_run_point_sized(__VA_ARGS__, sizeof(gg_sweep_options))
+#define gg_sweep_collect(...) gg_sweep_collect_sized(__VA_ARGS__, sizeof(gg_collecting))
+#define gg_reproduce(...) gg_reproduce_sized(__VA_ARGS__, sizeof(gg_reproduce_options))
+#define gg_catalogue_entry(...) gg_catalogue_entry_sized(__VA_ARGS__, sizeof(gg_entry))
+#define gg_catalogue_word(...) gg_catalogue_word_sized(__VA_ARGS__, sizeof(gg_entry))
+#define gg_scene_add_observable(...) gg_scene_add_observable_sized(__VA_ARGS__, sizeof(gg_observable_definition))
+#define gg_scene_add_theory(...) gg_scene_add_theory_sized(__VA_ARGS__, sizeof(gg_theory_definition))
+#endif
 
 #ifdef __cplusplus
 }

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "api/api.h"
+#include "api/sized.h"
 #include "base/build.h"
 #include "base/memory.h"
 #include "base/spelling.h"
@@ -24,6 +25,15 @@ gg_status gg_api_arguments_check(const char *function, const char *names, const 
       return gg_base_fail(err, GG_BAD_INPUT, "%s: argument '%.*s' is missing (NULL)", function,
                           (int)strcspn(names, ","), names);
   return GG_OK;
+}
+
+gg_status gg_api_size_check(const char *function, const char *type, size_t size, size_t own, gg_error *err)
+{
+  if (size > 0 && size <= own) return GG_OK;
+  return gg_base_fail(err, GG_BAD_INPUT,
+                      "%s: %s has %zu bytes in the calling program and %zu in this library (graingas %s): build the "
+                      "program with the header of this version",
+                      function, type, size, own, gg_base_build_version);
 }
 
 gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *err)

@@ -1,5 +1,5 @@
 /* Theories by name: those that are named are evaluated, and no other, with the numbers that they have among all. */
-#include "api_test.h"
+#include "../api/api_test.h"
 
 #include "theory/theory.h"
 
