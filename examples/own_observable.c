@@ -21,7 +21,7 @@ static void sample(void *context, void *state, const gg_sample *s, double *value
   double x = 0, y = 0;
   (void)context;
   for (size_t i = 0; i < s->n; i++)
-    x += s->velocity[i][0] * s->velocity[i][0], y += s->velocity[i][1] * s->velocity[i][1];
+    x += s->velocity[3 * i] * s->velocity[3 * i], y += s->velocity[3 * i + 1] * s->velocity[3 * i + 1];
   values[0] = x / y;
   values[1] = sums->count > 0 ? sums->sum / sums->count : 0;
   sums->sum = sums->count = 0;

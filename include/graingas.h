@@ -449,6 +449,38 @@ GG_API gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_col
                                             gg_error *err);
 
 /**
+ * Store the collisions of later advances in an array of the caller's, without a callback for each. Where the array is
+ * full, further collisions are not stored, and Monte Carlo returns to its fast path within 20 mean free times.
+ * @param simulation the simulation
+ * @param events array of `capacity` events; NULL: stop storing
+ * @param capacity number of events that the array holds
+ * @param n set to 0 now, and to the number of stored events by advances; both have to stay while events are stored
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
+GG_API gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_event *events, size_t capacity, size_t *n,
+                                      gg_error *err);
+
+/**
+ * Change a key on the way: collision.*, thermostat, md.contact_time, dsmc.time_step, walls.e, walls.beta, walls.mu,
+ * gravity. Grains, time, counts and random stream go on; units stay. Other keys set units, box or grains and are
+ * rejected, as are values that would let smooth grains rotate. The simulation is unchanged on failure.
+ * @param simulation the simulation
+ * @param key as for gg_scene_set(), "collision.e"
+ * @param value YAML in units of the scene
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT with what is allowed
+ */
+GG_API gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const char *value, gg_error *err);
+
+/**
+ * Scene of a simulation, with the keys that gg_simulation_set() has changed.
+ * @param simulation the simulation
+ * @return the scene, until the simulation is changed or freed; NULL without a simulation. Borrowed; do not free.
+ */
+GG_API const gg_scene *gg_simulation_scene(const gg_simulation *simulation);
+
+/**
  * Write everything needed to continue with bit-identical results. The file appears whole or not at all; the file
  * before is kept as path.1.
  * @param simulation the simulation
@@ -535,6 +567,7 @@ typedef struct gg_progress { /* where a run stands */
   double limit_in;           /* seconds until run.time_limit ends the run; INFINITY: there is none */
   int64_t replicas;
   const char *next; /* a comparison: the engine that comes after this one; NULL: none */
+  double overall;   /* of all that the call does, 0..1: of a comparison the mean over its engines; never falls */
 } gg_progress;
 
 /* All zero: one thread, nobody told, nothing written. Results do not depend on any of it. */
@@ -1590,9 +1623,9 @@ typedef struct gg_sample {
   double elapsed; /* length of the interval */
   size_t n;       /* grains; in md always in the same order */
   int n_species;
-  const double (*position)[3];             /* in the box, 0 to its edges; NULL where there are no positions (dsmc) */
-  const double (*velocity)[3];             /* peculiar: less the imposed flow; between walls less the local mean */
-  const double (*spin)[3];                 /* angular velocity (Boltzmann limit: times d/2); NULL for smooth grains */
+  const double *position;                  /* 3 a grain: x y z x y z ...; 0 to box[i]; NULL without positions (dsmc) */
+  const double *velocity;                  /* 3 a grain; less the imposed flow, between walls less the local mean */
+  const double *spin;                      /* 3 a grain: angular velocity (phi = 0: times d/2); NULL for smooth grains */
   const unsigned char *species;            /* of each grain, from 0 */
   const double *mass, *diameter, *inertia; /* of each species; inertia: 4I/(m d^2) */
   double box[3], volume;
@@ -1656,7 +1689,7 @@ typedef struct gg_facts {
   const gg_pair_facts *pairs; /* of species i and j: pairs[n_species*i + j] */
 } gg_facts;
 
-/* `evaluate` sets one number for each of `quantities`, names of shared quantities or of the scene's own observables
+/* The reason is one line for people; bytes that are not UTF-8 become '?'. `evaluate` sets one number for each of `quantities`, names of shared quantities or of the scene's own observables
  * (NaN, as which all are preset: no answer), and returns NULL; or the reason why the theory does not apply. */
 typedef struct gg_theory_definition {
   const char *name;
@@ -1788,6 +1821,8 @@ GG_API gg_status gg_scene_add_observable_sized(gg_scene *scene, const gg_observa
                                                gg_error *err, size_t definition_size);
 GG_API gg_status gg_scene_add_theory_sized(gg_scene *scene, const gg_theory_definition *definition, gg_error *err,
                                            size_t definition_size);
+GG_API gg_status gg_simulation_record_sized(gg_simulation *simulation, gg_collision_event *events, size_t capacity,
+                                            size_t *n, gg_error *err, size_t event_size);
 
 #ifndef GG_WITHOUT_SIZES /* the library itself */
 #define gg_scene_get_needs(...) gg_scene_get_needs_sized(__VA_ARGS__, sizeof(gg_scene_needs))
@@ -1825,6 +1860,7 @@ GG_API gg_status gg_scene_add_theory_sized(gg_scene *scene, const gg_theory_defi
 #define gg_catalogue_word(...) gg_catalogue_word_sized(__VA_ARGS__, sizeof(gg_entry))
 #define gg_scene_add_observable(...) gg_scene_add_observable_sized(__VA_ARGS__, sizeof(gg_observable_definition))
 #define gg_scene_add_theory(...) gg_scene_add_theory_sized(__VA_ARGS__, sizeof(gg_theory_definition))
+#define gg_simulation_record(...) gg_simulation_record_sized(__VA_ARGS__, sizeof(gg_collision_event))
 #endif
 
 #ifdef __cplusplus

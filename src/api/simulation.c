@@ -3,7 +3,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include "api/sized.h"
 #include "base/memory.h"
 #include "common/extension.h"
 #include "common/rng.h"
@@ -101,10 +103,15 @@ static gg_status rescale_if_cold(gg_simulation *s, double T, gg_error *err)
 
 static void show(void *context, const gg_collision_record *collision);
 
+static bool is_observed(const gg_simulation *s)
+{
+  return s->callback || (s->record.events && *s->record.n < s->record.capacity);
+}
+
 /* A callback may have set or removed the collision callback: the engine follows between two stretches. */
 static gg_status settle_callback(gg_simulation *s, gg_error *err)
 {
-  const bool observed = s->callback != NULL;
+  const bool observed = is_observed(s);
   if (observed == s->observed) return GG_OK;
   GG_TRY(s->engine->ops->set_callback(s->engine, observed ? show : NULL, s, err));
   s->observed = observed;
@@ -204,8 +211,8 @@ static void put(double to[3], gg_vec v, double factor)
 
 static void show(void *context, const gg_collision_record *collision)
 {
-  const gg_simulation *s = context;
-  if (!s->callback || gg_base_busy_is_freed(&s->busy)) return;
+  gg_simulation *s = context;
+  if (!is_observed(s) || gg_base_busy_is_freed(&s->busy)) return;
   double unit = gg_api_simulation_unit(s);
   gg_engine_state engine;
   s->engine->ops->state(s->engine, &engine);
@@ -216,7 +223,9 @@ static void show(void *context, const gg_collision_record *collision)
   put(event.k, collision->k, 1);
   put(event.velocity, collision->c12, unit);
   put(event.impulse, collision->J, unit);
-  s->callback(s->context, &event);
+  if (s->record.events && *s->record.n < s->record.capacity)
+    memcpy(s->record.events + (*s->record.n)++ * s->record.size, &event, s->record.size);
+  if (s->callback) s->callback(s->context, &event);
 }
 
 gg_status gg_api_simulation_watch(gg_simulation *s, gg_engine *engine, gg_error *err)
@@ -234,9 +243,41 @@ gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision 
     return GG_OK;
   }
   GG_USE_ALONE(simulation);
-  GG_TRY(s->engine->ops->set_callback(s->engine, callback ? show : NULL, s, err));
+  gg_on_collision *const before = s->callback;
   s->callback = callback;
-  s->context = context;
-  s->observed = callback != NULL;
-  return GG_OK;
+  s->observed = !is_observed(s); /* the engine is to know in any case: one that was loaded may still have its records */
+  gg_status status = settle_callback(s, err);
+  if (status == GG_OK)
+    s->context = context;
+  else
+    s->callback = before;
+  return status;
+}
+
+gg_status gg_simulation_record_sized(gg_simulation *simulation, gg_collision_event *events, size_t capacity, size_t *n,
+                                     gg_error *err, size_t event_size)
+{
+  GG_NEED(simulation);
+  GG_SIZE(gg_collision_event, event_size);
+  if (events && !n) return gg_base_fail(err, GG_BAD_INPUT, "gg_simulation_record: argument 'n' is missing (NULL)");
+  GG_USE_ALONE(simulation);
+  simulation->record.events = (char *)events;
+  simulation->record.size = event_size;
+  simulation->record.capacity = capacity;
+  simulation->record.n = n;
+  if (n) *n = 0;
+  gg_status status = settle_callback(simulation, err);
+  if (status != GG_OK) simulation->record.events = NULL;
+  return status;
+}
+
+gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_event *events, size_t capacity, size_t *n,
+                               gg_error *err)
+{
+  return gg_simulation_record_sized(simulation, events, capacity, n, err, sizeof *events);
+}
+
+const gg_scene *gg_simulation_scene(const gg_simulation *simulation)
+{
+  return simulation ? &simulation->scene : NULL;
 }

@@ -21,6 +21,10 @@ struct gg_simulation {
   gg_on_collision *callback; /* NULL: none */
   void *context;
   bool observed;              /* the engine shows its collisions; settled after a stretch */
+  struct {
+    char *events; /* gg_collision_event, `size` bytes each as the caller knows them; NULL: none */
+    size_t size, capacity, *n;
+  } record;
   int (*asks)(void *context); /* whether to stop; NULL: nobody does */
   void *asks_context;
   gg_stop stop;        /* what the model's points to */

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "api/simulation.h"
 #include "base/memory.h"
@@ -234,5 +235,60 @@ gg_status gg_simulation_copy(const gg_simulation *simulation, gg_simulation **co
     *copy = s;
   else
     gg_simulation_free(s);
+  return status;
+}
+
+/* Keys that change neither units nor box nor grains. */
+static bool may_change(const char *key)
+{
+  const char *const keys[] = {"thermostat", "md.contact_time", "dsmc.time_step", "walls.e",
+                              "walls.beta", "walls.mu",        "gravity"};
+  bool may = strncmp(key, "collision.", 10) == 0;
+  for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) may |= strcmp(key, keys[i]) == 0;
+  return may;
+}
+
+/* The same grains in the same box and units. */
+static bool is_same_gas(const gg_model *a, const gg_model *b)
+{
+  bool same = a->flow == b->flow && a->n == b->n && a->n_species == b->n_species && a->boltzmann == b->boltzmann &&
+              (a->rule == GG_SMOOTH) == (b->rule == GG_SMOOTH) && a->shear_rate == b->shear_rate &&
+              a->stress_unit == b->stress_unit && a->volume == b->volume;
+  for (int k = 0; same && k < a->n_species; k++)
+    same = a->n_of[k] == b->n_of[k] && a->mass[k] == b->mass[k] && a->diameter[k] == b->diameter[k] &&
+           a->inertia[k] == b->inertia[k];
+  for (int k = 0; same && k < 3; k++) same = a->box[k] == b->box[k];
+  return same;
+}
+
+static gg_status change(gg_simulation *s, gg_simulation *next, const char *key, gg_error *err)
+{
+  if (!is_same_gas(&s->model, &next->model))
+    return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': this value needs other grains, another box or other units",
+                        key);
+  next->model.stop = &s->stop;
+  GG_TRY(gg_api_simulation_continue(s, &next->model, NULL, err));
+  s->model = next->model;
+  s->scene = next->scene; /* both hold the same extension */
+  return GG_OK;
+}
+
+gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const char *value, gg_error *err)
+{
+  GG_NEED(simulation, key, value);
+  if (!may_change(key))
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "key '%.60s': cannot be changed on the way; allowed: collision.*, thermostat, md.contact_time, "
+                        "dsmc.time_step, walls.e, walls.beta, walls.mu, gravity",
+                        key);
+  GG_USE_ALONE(simulation);
+  gg_scene changed = simulation->scene;
+  gg_simulation *next = NULL;
+  locale_t before = gg_base_c_locale_enter();
+  gg_status status = gg_scene_override(&changed, key, value, err);
+  gg_base_c_locale_leave(before);
+  if (status == GG_OK) status = gg_api_simulation_prepare(&changed, &next, err);
+  if (status == GG_OK) status = change(simulation, next, key, err);
+  gg_simulation_free(next);
   return status;
 }

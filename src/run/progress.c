@@ -218,6 +218,7 @@ void gg_run_replicas_report_progress(gg_replicas *all, bool over)
       .engine = all->replica[0].engine->ops->name,
       .phase = all->state.averaging ? "averaging" : "warm-up",
       .fraction = over ? 1 : done,
+      .overall = over ? 1 : done,
       .collisions = (uint64_t)collisions,
       .rate = cpu > 0 ? collisions / cpu : 0,
       .relative_error = window >= (double)all->criteria.least ? all->last.relative_error : NAN,

@@ -122,6 +122,7 @@ typedef struct part {
   gg_archive *latest; /* both engines' last checkpoints, by kind */
   bool *broken;       /* a checkpoint could not be stored: the comparison is over, for both engines */
   const char *next;   /* the engine that has to wait for this one; NULL: none */
+  double *fraction;   /* of both engines, by kind */
   gg_status status;
   gg_error err;
 } part;
@@ -132,6 +133,8 @@ static void locked_progress(void *context, const gg_progress *progress)
   gg_progress now = *progress;
   now.next = p->next;
   pthread_mutex_lock(p->lock);
+  p->fraction[p->kind] = fmax(p->fraction[p->kind], now.fraction);
+  now.overall = 0.5 * (p->fraction[GG_MD] + p->fraction[GG_DSMC]);
   p->callbacks->progress(p->callbacks->context, &now);
   pthread_mutex_unlock(p->lock);
 }
@@ -179,6 +182,9 @@ static void run_part(part *p)
   p->scene.engine = p->kind;
   p->status = gg_run_scene(&p->scene, p->resume.n_items ? &p->resume : NULL, p->threads, &callbacks,
                            &p->comparison->by_engine[p->kind], &p->err);
+  pthread_mutex_lock(p->lock);
+  p->fraction[p->kind] = 1; /* also of one that cannot run the scene */
+  pthread_mutex_unlock(p->lock);
 }
 
 /* A scene that an engine cannot run leaves that column empty with the reason; anything else ends the comparison. */
@@ -263,6 +269,7 @@ static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, 
   pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
   gg_archive latest[2] = {{0}, {0}};
   part parts[2];
+  double fraction[2] = {0, 0};
   bool beside = threads > 1 || (callbacks && callbacks->workers), broken = false;
   gg_status status = GG_OK;
   for (int k = 0; k < 2; k++) {
@@ -271,6 +278,7 @@ static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, 
     parts[k].threads = beside ? (threads + 1) / 2 : 1;
     parts[k].latest = latest;
     parts[k].broken = &broken;
+    parts[k].fraction = fraction;
     const gg_engine_ops *ops = gg_run_engine_ops_of((gg_engine_kind)k);
     const char *name = ops->name;
     if (k == GG_MD || dsmc) parts[k].model = &model[k];

@@ -346,12 +346,98 @@ static void across_the_sheared_edge(void **state)
   gg_simulation_free(m);
 }
 
+static gg_collision_event seen[5000], recorded[5000];
+static size_t n_seen;
+static void keep(void *context, const gg_collision_event *event)
+{
+  (void)context;
+  if (n_seen < 5000) seen[n_seen++] = *event;
+}
+
+/* The buffer holds what a callback is shown, up to its end; beside a callback, too. */
+static void events_in_bulk(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 8; k += 7) { /* md, dsmc */
+    gg_error err;
+    gg_simulation *m = simulation_of(gases[k].yaml), *other = NULL;
+    size_t n = 1;
+    assert_ok(gg_simulation_copy(m, &other, &err));
+    n_seen = 0;
+    memset(seen, 0, sizeof seen);
+    memset(recorded, 0, sizeof recorded);
+    assert_ok(gg_simulation_on_collision(m, keep, NULL, &err));
+    assert_ok(gg_simulation_record(other, recorded, 3000, &n, &err));
+    assert_int_equal(n, 0);
+    for (int i = 0; i < 2; i++) {
+      assert_ok(gg_simulation_collide(m, 1000, &err));
+      assert_ok(gg_simulation_collide(other, 1000, &err));
+      assert_true(n == n_seen && n >= 1000);
+    }
+    assert_memory_equal(seen, recorded, n * sizeof *seen);
+    assert_ok(gg_simulation_record(m, recorded, 3, &n, &err));
+    n_seen = 0;
+    assert_ok(gg_simulation_collide(m, 1000, &err));
+    assert_true(n == 3 && n_seen >= 1000);
+    assert_memory_equal(seen, recorded, 3 * sizeof *seen);
+    assert_ok(gg_simulation_record(m, NULL, 0, NULL, &err));
+    assert_refused(gg_simulation_record(m, recorded, 3, NULL, &err), "argument 'n' is missing");
+    gg_simulation_free(m);
+    gg_simulation_free(other);
+  }
+}
+
+/* Elastic from now on: the energy stays; then it falls again. What belongs to units, box and grains is refused. */
+static void changed_on_the_way(void **state)
+{
+  (void)state;
+  const char *const engines[] = {"{flow: hcs, phi: 0.1, particles: 300, collision: {e: 0.8}}",
+                                 "{flow: hcs, phi: 0.1, engine: dsmc, dsmc: {particles: 300}, collision: {e: 0.8}}"};
+  for (int k = 0; k < 2; k++) {
+    gg_error err;
+    char text[40];
+    gg_simulation *m = simulation_of(engines[k]);
+    assert_ok(gg_simulation_collide(m, 1000, &err));
+    const gg_simulation_state before = state_of(m);
+    assert_true(before.temperature < 0.4);
+    assert_ok(gg_simulation_set(m, "collision.e", "1", &err));
+    assert_ok(gg_simulation_collide(m, 1000, &err));
+    assert_true(fabs(state_of(m).temperature / before.temperature - 1) < 1e-9);
+    assert_true(state_of(m).time > before.time && state_of(m).collisions >= 2000);
+    assert_ok(gg_scene_get(gg_simulation_scene(m), "collision.e", text, sizeof text, &err));
+    assert_string_equal(text, "1");
+    assert_ok(gg_simulation_set(m, "collision.e", "0.7", &err));
+    const uint64_t there = hash_of(m);
+    assert_refused(gg_simulation_set(m, "collision.e", "1.5", &err), "1.5");
+    assert_refused(gg_simulation_set(m, "collision.beta", "0.5", &err), "needs other grains");
+    assert_refused(gg_simulation_set(m, "phi", "0.2", &err), "cannot be changed on the way");
+    assert_true(hash_of(m) == there);
+    gg_simulation *loaded = NULL;
+    assert_ok(gg_simulation_save(m, "t_changed.h5", &err));
+    assert_ok(gg_simulation_load("t_changed.h5", NULL, &loaded, &err));
+    assert_ok(gg_simulation_collide(m, 1000, &err));
+    assert_ok(gg_simulation_collide(loaded, 1000, &err));
+    assert_true(hash_of(m) == hash_of(loaded));
+    assert_true(state_of(m).temperature < 0.6 * before.temperature);
+    gg_simulation_free(m);
+    gg_simulation_free(loaded);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(read_back),        cmocka_unit_test(copies),   cmocka_unit_test(stream_goes_on),
-      cmocka_unit_test(two_temperatures), cmocka_unit_test(cluster),  cmocka_unit_test(crystal),
-      cmocka_unit_test(mean_velocity),    cmocka_unit_test(refusals), cmocka_unit_test(across_the_sheared_edge),
+      cmocka_unit_test(read_back),
+      cmocka_unit_test(copies),
+      cmocka_unit_test(stream_goes_on),
+      cmocka_unit_test(two_temperatures),
+      cmocka_unit_test(cluster),
+      cmocka_unit_test(crystal),
+      cmocka_unit_test(mean_velocity),
+      cmocka_unit_test(refusals),
+      cmocka_unit_test(events_in_bulk),
+      cmocka_unit_test(changed_on_the_way),
+      cmocka_unit_test(across_the_sheared_edge),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -8,8 +8,7 @@ static void sample_T(void *context, void *state, const gg_sample *s, double *val
 {
   double sum = 0;
   (void)context, (void)state;
-  for (size_t i = 0; i < s->n; i++)
-    for (int a = 0; a < 3; a++) sum += s->velocity[i][a] * s->velocity[i][a];
+  for (size_t i = 0; i < 3 * s->n; i++) sum += s->velocity[i] * s->velocity[i];
   values[0] = sum / (3 * (double)s->n);
   values[1] = NAN;
 }

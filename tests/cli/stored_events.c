@@ -56,8 +56,8 @@ static void sample(void *context, void *state, const gg_sample *s, double *value
   const double head[] = {k, s->time, s->elapsed, (double)s->collisions, s->dissipation};
   put(r->samples, head, sizeof head / sizeof *head);
   put(r->samples, &s->stress[0][0], 9);
-  put(r->samples, &s->velocity[0][0], 3 * s->n);
-  if (s->spin) put(r->samples, &s->spin[0][0], 3 * s->n);
+  put(r->samples, s->velocity, 3 * s->n);
+  if (s->spin) put(r->samples, s->spin, 3 * s->n);
   *values = s->time;
 }
 

@@ -34,8 +34,7 @@ static void sample_temperature(void *context, void *state, const gg_sample *s, d
 {
   double sum = 0, *samples = state;
   (void)context;
-  for (size_t i = 0; i < s->n; i++)
-    for (int a = 0; a < 3; a++) sum += s->velocity[i][a] * s->velocity[i][a];
+  for (size_t i = 0; i < 3 * s->n; i++) sum += s->velocity[i] * s->velocity[i];
   values[0] = sum / (3 * (double)s->n);
   values[1] = -s->stress[0][1];
   values[2] = ++*samples;
