@@ -12,6 +12,15 @@ static int count_progress(void *context, const gg_progress *now)
   return context && now->phase[0] == 'a' && now->fraction > *(double *)context;
 }
 
+/* Of a comparison: whichever engine it is told of, it never falls. */
+static int follow_overall(void *context, const gg_progress *now)
+{
+  double *last = context;
+  assert_true(now->overall >= *last && now->overall <= 1 && now->overall >= 0.5 * now->fraction);
+  *last = now->overall;
+  return count_progress(NULL, now);
+}
+
 static double mean_of(const gg_result *r, const char *name)
 {
   gg_error err;
@@ -279,9 +288,11 @@ static void comparisons(void **state)
   gg_error err;
   gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 200, collision: {e: 0.8}, run: {collisions: 300}}");
   gg_comparison *c = NULL, *back = NULL;
-  gg_run_options options = {.threads = 2, .output = "t_compare.h5", .progress = count_progress};
+  double overall = 0;
+  gg_run_options options = {.threads = 2, .output = "t_compare.h5", .progress = follow_overall, .context = &overall};
   gg_status status = gg_compare(s, &options, &c, &err);
   assert_true(status == GG_OK || status == GG_FAILED);
+  assert_true(overall == 1);
   assert_ok(gg_comparison_read("t_compare.h5", &back, &err));
   const gg_comparison *both[] = {c, back};
   double z[2], value[2], deviation[2], md = mean_of(gg_comparison_result(c, "md"), "temperature");
