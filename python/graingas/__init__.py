@@ -1,0 +1,22 @@
+"""Granular gases of hard spheres: molecular dynamics, Enskog Monte Carlo and kinetic theories of one scene.
+
+    import graingas as gg
+    scene = gg.Scene("usf.yaml", e=0.8)
+    c = gg.compare(scene)
+    c["temperature"].md, c["temperature"].theory["lun1991"]
+
+Numbers have the units of results (c["temperature"].unit): lengths in the diameter d and masses in the mass m of species
+1; sheared flows in units of the shear rate gamma, others of the initial thermal speed v_0. Scenes have their own units.
+"""
+from . import _c
+from . import catalogue
+from .comparison import Comparison, Theory
+from .curves import Curve
+from .errors import BadFile, BadInput, Busy, GraingasError, NotFound, PartialResult, RunFailed, text
+from .estimate import Estimate
+from .grains import Grains
+from .result import Result
+from .run import compare, read, run
+from .scene import Scene
+
+__version__ = text(_c.lib.gg_version())

@@ -1,0 +1,99 @@
+"""Long calls: without Python's lock, in a thread, interruptible.
+
+The main thread waits on an Event, never in Thread.join: before Python 3.12 an interrupted join takes the thread for
+dead. Ctrl-C sets an integer that the library reads several times a second without Python."""
+import threading
+
+from . import _c
+
+ffi, lib = _c.ffi, _c.lib
+
+PERIOD = 0.1  # seconds between two reports of progress
+
+
+class Call:
+    """What the callbacks of one call share; its `c` is their context."""
+
+    def __init__(self):
+        self.c = ffi.new("ggpy_call *")
+        self._handle = ffi.new_handle(self)
+        self.c.self = self._handle
+        self.error = None  # the first exception of a callback
+        self.interrupted = False
+        self.progress = {}  # of each engine, the last report
+        self.warnings = []
+        self.events = []
+
+    def stop(self):
+        self.c.stop = 1
+
+    def fail(self, error):
+        """An exception of a callback: the call ends, and raises it."""
+        if self.error is None:
+            self.error = error
+        self.stop()
+
+    def interrupt(self):
+        self.interrupted = True
+        self.stop()
+
+
+def of(context):
+    """The Call behind the context of a callback."""
+    return ffi.from_handle(ffi.cast("ggpy_call *", context).self)
+
+
+class _Task:
+    def __init__(self, function):
+        self.function, self.done = function, threading.Event()
+        self.value = self.error = None
+
+    def work(self):
+        try:
+            self.value = self.function()
+        except BaseException as error:
+            self.error = error
+        finally:
+            self.done.set()
+
+
+def interruptible(function, call, poll=None):
+    """function() in a thread. Meanwhile poll(call) ten times a second. Returns its value; raises what a callback or
+    poll raised. Ctrl-C stops the call; call.interrupted says so."""
+    task = _Task(function)
+    thread = threading.Thread(target=task.work, daemon=True, name="graingas")
+    started = False
+    while not task.done.is_set():
+        try:
+            if not started:
+                started = True
+                thread.start()
+            if not task.done.wait(PERIOD) and poll:
+                poll(call)
+        except KeyboardInterrupt:
+            call.interrupt()
+            if thread.ident is None:
+                raise
+        except BaseException as error:
+            call.fail(error)
+            if thread.ident is None:
+                raise
+    return _outcome(task, call)
+
+
+def _outcome(task, call):
+    if call.error is not None:
+        raise call.error
+    if task.error is not None:
+        raise task.error
+    return task.value
+
+
+@ffi.def_extern(onerror=lambda *_: None)
+def ggpy_warn(context, message):
+    of(context).warnings.append(ffi.string(message).decode("utf-8", "replace"))
+
+
+@ffi.def_extern(onerror=lambda *_: None)
+def ggpy_line(context, message):
+    ffi.from_handle(context).append(ffi.string(message).decode("utf-8", "replace"))

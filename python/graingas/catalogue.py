@@ -1,0 +1,49 @@
+"""Tables of the library: keys of scenes, flows, engines, observables, quantities, theories."""
+from . import _c
+from .errors import lib, new_error, encode
+from .structs import Record, new, values
+
+ffi = _c.ffi
+
+
+def _entries(get):
+    i, entry, error = 0, new("gg_entry"), new_error()
+    while get(i, entry, error) == lib.GG_OK:
+        yield Record(**values(entry))
+        i += 1
+
+
+def table(which, scene=ffi.NULL):
+    """All entries of a table, by name."""
+    return {entry.name: entry for entry in _entries(lambda i, e, err: lib.gg_catalogue_entry(which, i, scene, e, err))}
+
+
+def words(key):
+    """The words that a key of type choice or set takes, by name."""
+    text = encode(key, "key")
+    return {entry.name: entry for entry in _entries(lambda i, e, err: lib.gg_catalogue_word(text, i, e, err))}
+
+
+def keys():
+    """Keys of scenes: name, type, unit, doc, allowed, value (the default), when they have an effect."""
+    return table(lib.GG_CATALOGUE_KEYS)
+
+
+def flows():
+    """Flows: name, doc."""
+    return table(lib.GG_CATALOGUE_FLOWS)
+
+
+def observables():
+    """Words of the key `measure`: name, doc."""
+    return table(lib.GG_CATALOGUE_OBSERVABLES)
+
+
+def quantities():
+    """Quantities of results: name, unit, doc, symbol, formula (LaTeX), when they have a mean."""
+    return table(lib.GG_CATALOGUE_QUANTITIES)
+
+
+def theories():
+    """Theories: name, doc, citation, assumptions, answers (names of quantities), when they apply."""
+    return table(lib.GG_CATALOGUE_THEORIES)

@@ -1,0 +1,64 @@
+"""Curves of results: distributions, profiles, correlation functions, spectra."""
+from . import _c
+from .errors import lib, new_error
+from .estimate import Estimate
+from .structs import array, new, value
+
+ffi = _c.ffi
+
+
+class Curve:
+    """A curve with its errors.
+
+    x, value, error   (n,) numbers, NaN: no value, unknown error
+    law, law_label    (n,) a curve to compare with, or None
+    numbers           numbers derived from the curve: Estimate by name
+    """
+
+    def __init__(self, data, numbers=()):
+        for name in "name", "observable", "panel", "label", "x_name", "x_unit", "y_name", "unit", "law_label":
+            setattr(self, name, value(getattr(data, name)))
+        self.log_x, self.log_y, self.samples = bool(data.log_x), bool(data.log_y), data.samples
+        for name in "x", "value", "error", "law":
+            setattr(self, name, array(getattr(data, name), data.n))
+        self.numbers = {number.name: number for number in numbers}
+
+    def __len__(self):
+        return len(self.x)
+
+    def __repr__(self):
+        return f"<curve {self.name}: {self.y_name} over {self.x_name}, {len(self)} points>"
+
+    def to_dataframe(self):
+        """x, value, error (and law) as a pandas.DataFrame."""
+        import pandas
+        columns = {"x": self.x, "value": self.value, "error": self.error}
+        if self.law is not None:
+            columns["law"] = self.law
+        return pandas.DataFrame(columns)
+
+    def plot(self, ax=None, **style):
+        """Draws the curve with matplotlib; returns the axes."""
+        from .plot import plot_curve
+        return plot_curve(self, ax, **style)
+
+
+def _numbers(result, i):
+    k, found, error = 0, new("gg_measurement"), new_error()
+    while lib.gg_result_curve_number(result, i, k, found, error) == lib.GG_OK:
+        yield Estimate._of(found)
+        k += 1
+
+
+def curves_of(get, numbers_of=lambda i: ()):
+    """All curves by name, from gg_result_curve and its like."""
+    found, i, error, data = {}, 0, new_error(), new("gg_curve_data")
+    while get(i, data, error) == lib.GG_OK:
+        curve = Curve(data, numbers_of(i))
+        found[curve.name] = curve
+        i += 1
+    return found
+
+
+def result_curves(result):
+    return curves_of(lambda i, data, error: lib.gg_result_curve(result, i, data, error), lambda i: _numbers(result, i))

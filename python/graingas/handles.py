@@ -1,0 +1,41 @@
+"""Handles of the library: freed once, not used after that, by one call at a time."""
+import threading
+from contextlib import contextmanager
+
+from . import _c
+from .errors import BadInput, Busy
+
+ffi = _c.ffi
+
+
+class Handle:
+    """Owns a pointer. `held` gives it to one thread at a time."""
+
+    def __init__(self, pointer, free, what):
+        self._pointer, self._what = ffi.gc(pointer, free), what
+        self._lock = threading.Lock()
+
+    @contextmanager
+    def held(self, patience=0):
+        """The pointer, for the duration of a call. patience: seconds to wait for another thread."""
+        if not (self._lock.acquire(timeout=patience) if patience else self._lock.acquire(blocking=False)):
+            raise Busy(f"this {self._what} is in use by another thread, or by the call whose callback uses it; "
+                       f"use it after that call, or use another one")
+        try:
+            if self._pointer is None:
+                raise BadInput(f"this {self._what} is closed")
+            yield self._pointer
+        finally:
+            self._lock.release()
+
+    def close(self):
+        """Frees the memory. Later calls raise BadInput; closing twice does nothing."""
+        if self._pointer is None:
+            return
+        with self.held() as pointer:
+            self._pointer = None
+            ffi.release(pointer)
+
+    @property
+    def closed(self):
+        return self._pointer is None

@@ -1,0 +1,185 @@
+"""Results of one engine's run."""
+import math
+import os
+import tempfile
+from collections import namedtuple
+from collections.abc import Mapping
+
+from . import _c, tables
+from .curves import result_curves
+from .errors import check, encode, lib, look_up, new_error, owned_text, text
+from .estimate import Estimate
+from .grains import copy_grains
+from .scene import Scene
+from .structs import Record, array, new, values
+
+ffi = _c.ffi
+
+History = namedtuple("History", "time value")
+
+
+class Result(Mapping):
+    """Means with standard errors of a run: result["temperature"] is an Estimate.
+
+    A mapping over the quantities that have a mean. `partial` says why the run ended before its stopping criteria; None
+    if it did not.
+    """
+
+    def __init__(self, pointer, owner=None, scene=None):
+        self._pointer = pointer if owner is not None else ffi.gc(pointer, lib.gg_result_free)
+        self._owner, self._scene, self.partial = owner, scene, None
+
+    def find(self, quantity):
+        """Everything known about a quantity, also if it has no mean. Raises NotFound for an unknown name."""
+        found = new("gg_measurement")
+        look_up(lib.gg_result_find, self._pointer, encode(quantity, "quantity"), found)
+        return Estimate._of(found, self)
+
+    def __getitem__(self, quantity):
+        return self.find(quantity)
+
+    def _all(self):
+        i, found, error = 0, new("gg_measurement"), new_error()
+        while lib.gg_result_at(self._pointer, i, found, error) == lib.GG_OK:
+            yield Estimate._of(found, self)
+            i += 1
+
+    def __iter__(self):
+        return (estimate.name for estimate in self._all() if not math.isnan(estimate.mean))
+
+    def __len__(self):
+        return sum(1 for _ in self)
+
+    def __contains__(self, quantity):
+        return quantity in list(self)
+
+    def _ipython_key_completions_(self):
+        return list(self)
+
+    def _covariance(self, a, b):
+        """Of two means; NaN: unknown."""
+        get = getattr(lib, "gg_result_covariance", None)
+        if get is None:
+            return math.nan
+        found = ffi.new("double *")
+        return found[0] if get(self._pointer, a.encode(), b.encode(), found, ffi.NULL) == lib.GG_OK else math.nan
+
+    @property
+    def info(self):
+        """Engine, verdict on the steady state, window, collisions, processor time, origin of the file."""
+        info = new("gg_result_info")
+        check(lib.gg_result_get_info, self._pointer, info)
+        return Record(**values(info))
+
+    @property
+    def engine(self):
+        return self.info.engine
+
+    @property
+    def is_steady(self):
+        """Whether the steady state was reached."""
+        return bool(lib.gg_result_is_steady(self._pointer))
+
+    @property
+    def scene(self):
+        """The scene as it was run."""
+        return self._scene or Scene._copy_of(lib.gg_result_scene(self._pointer))
+
+    @property
+    def warnings(self):
+        return list(iter_texts(lambda i: lib.gg_result_warning(self._pointer, i)))
+
+    def history(self, quantity):
+        """Time series from the start of the run, first replica: (time, value), each (n,). It exists for temperature,
+        rotational_temperature, temperature_ratio, pressure, P_xy, spin_z, collision_rate, a2, cos2_psi."""
+        n, time, series = ffi.new("size_t *"), ffi.new("const double **"), ffi.new("const double **")
+        check(lib.gg_result_history, self._pointer, encode(quantity, "quantity"), n, time, series)
+        return History(array(time[0], n[0]), array(series[0], n[0]))
+
+    @property
+    def curves(self):
+        """Curves by name."""
+        return result_curves(self._pointer)
+
+    @property
+    def grains(self):
+        """The last state of the grains, first replica."""
+        info = self.info
+        return copy_grains(lib.gg_result_grains, self._pointer, info.grains, info.engine == "md")
+
+    def to_json(self):
+        """The document of `graingas run --json`, as text."""
+        made = ffi.new("char **")
+        check(lib.gg_result_to_json, self._pointer, made)
+        return owned_text(made)
+
+    def write(self, path):
+        """Writes the HDF5 (H5MD) file; it appears whole or not at all."""
+        check(lib.gg_result_write, self._pointer, encode(path, "file name"))
+
+    def to_dataframe(self):
+        """A row for each quantity: mean, error, unit, tau, samples."""
+        import pandas
+        rows = [[e.mean, e.error, e.unit, e.tau, e.samples] for e in self.values()]
+        return pandas.DataFrame(rows, index=pandas.Index(list(self), name="quantity"),
+                                columns=["mean", "error", "unit", "tau", "samples"])
+
+    def plot(self, quantity="temperature", ax=None, **style):
+        """Draws the history of a quantity with matplotlib; returns the axes."""
+        from .plot import plot_history
+        return plot_history(self, quantity, ax, **style)
+
+    def _table(self):
+        return ["quantity", "unit", self.engine], [[e.name, e.unit, str(e)] for e in self.values()]
+
+    def __repr__(self):
+        return self.scene.title + "\n\n" + tables.as_text(*self._table())
+
+    def _repr_html_(self):
+        return tables.as_html(self.scene.title, *self._table(), [self.partial] if self.partial else [])
+
+    def __reduce__(self):
+        return _result_from_bytes, (file_bytes(self.write), self.partial)
+
+    __hash__ = object.__hash__
+
+    def __eq__(self, other):
+        return self is other
+
+
+def iter_texts(get):
+    """Texts until NULL."""
+    i = 0
+    while get(i) != ffi.NULL:
+        yield text(get(i))
+        i += 1
+
+
+def file_bytes(write):
+    """What write(path) writes, as bytes."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "x.h5")
+        write(path)
+        with open(path, "rb") as file:
+            return file.read()
+
+
+def from_bytes(read, content):
+    """read(path) of a file with this content."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "x.h5")
+        with open(path, "wb") as file:
+            file.write(content)
+        return read(path)
+
+
+def read_result(path):
+    made = ffi.new("gg_result **")
+    check(lib.gg_result_read, encode(path, "file name"), made)
+    return Result(made[0])
+
+
+def _result_from_bytes(content, partial):
+    result = from_bytes(read_result, content)
+    result.partial = partial
+    return result

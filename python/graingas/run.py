@@ -1,0 +1,122 @@
+"""Runs and comparisons: to the end that the scene asks for."""
+import warnings
+from contextlib import contextmanager
+
+from . import _c, calls
+from .comparison import Comparison, read_comparison
+from .errors import BadInput, PartialResult, encode, exception, lib, new_error
+from .progress import reporter
+from .result import Result, read_result
+from .scene import as_scene
+from .structs import new
+
+ffi = _c.ffi
+
+
+@contextmanager
+def serving(scene, call):
+    """The callbacks of a scene's observables, theories and law report their exceptions to this call."""
+    for extension in scene._extensions:
+        extension.calls.append(call)
+    try:
+        yield
+    finally:
+        for extension in scene._extensions:
+            extension.calls.remove(call)
+
+
+@contextmanager
+def reporting(progress, engines=1, describe=None):
+    report = reporter(progress, engines, describe)
+    try:
+        yield report
+    finally:
+        if report is not None:
+            report.close()
+
+
+def thread_count(threads):
+    """A number of threads; None: all processors."""
+    if threads is None:
+        return lib.gg_processors()
+    if isinstance(threads, bool) or int(threads) != threads or not 1 <= threads <= 10000:
+        raise BadInput(f"threads: {threads!r} is not allowed; allowed: a whole number from 1 to 10000, or None for all")
+    return int(threads)
+
+
+def _options(call, threads, files):
+    """The struct, and what has to outlive it."""
+    options = new("gg_run_options")
+    options.threads = thread_count(threads)
+    options.context, options.stop = call.c, ffi.addressof(lib, "ggpy_stop")
+    options.progress, options.warn = lib.ggpy_progress, lib.ggpy_warn
+    keep = [ffi.new("char[]", b"graingas (Python)")]
+    options.command = keep[0]
+    for name, path in files.items():
+        if path is not None:
+            keep.append(ffi.new("char[]", encode(path, name)))
+            setattr(options, name, keep[-1])
+    return options, keep
+
+
+def _finish(call, status, error, made):
+    """The result of a run, whole or partial; or the exception."""
+    for line in call.warnings:
+        warnings.warn(line, stacklevel=4)
+    failure = None if status == lib.GG_OK else exception(status, error)
+    if made is None:
+        raise KeyboardInterrupt(str(failure)) if call.interrupted else failure
+    if failure is None:
+        return made
+    made.partial = str(failure)
+    if status not in (lib.GG_FAILED, lib.GG_INTERRUPTED):
+        failure.result = made
+        raise failure
+    warnings.warn(made.partial, PartialResult, stacklevel=4)
+    return made
+
+
+def _long_run(function, kind, engines, scene, threads, progress, files):
+    scene = as_scene(scene).copy()
+    call, error = calls.Call(), new_error()
+    options, keep = _options(call, threads, files)
+    made = ffi.new(kind + " **")
+    with serving(scene, call), reporting(progress, engines) as report:
+        with scene.held() as pointer:
+            status = calls.interruptible(lambda: function(pointer, options, made, error), call, report)
+    del keep
+    wrap = Comparison if engines == 2 else Result
+    return _finish(call, status, error, wrap(made[0], scene=scene) if made[0] != ffi.NULL else None)
+
+
+def run(scene, threads=1, output=None, checkpoint=None, resume=None, progress=None):
+    """Runs the scene's engine until its stopping criteria are met; returns a Result.
+
+    scene        a Scene, a file name, YAML text, or a dict
+    threads      for replicas and large Monte Carlo ensembles; None: all processors. Results do not depend on it.
+    output       result file to write (HDF5)
+    checkpoint   file to keep checkpoints in; the run writes one when it is interrupted
+    resume       checkpoint to continue from, bit for bit
+    progress     True, False, None (a bar where a person sees it), or a function of a report
+
+    Ctrl-C ends the run within 0.1 s and returns what there is, with a warning PartialResult and `partial` set; a run
+    that ends before its criteria likewise. Raises BadInput, BadFile, RunFailed, and what a callback raised.
+    """
+    return _long_run(lib.gg_run, "gg_result", 1, scene, threads, progress,
+                     {"output": output, "checkpoint": checkpoint, "resume": resume})
+
+
+def compare(scene, threads=1, output=None, checkpoint=None, resume=None, progress=None):
+    """Runs both engines and evaluates every theory; returns a Comparison. Parameters and errors are those of run()."""
+    return _long_run(lib.gg_compare, "gg_comparison", 2, scene, threads, progress,
+                     {"output": output, "checkpoint": checkpoint, "resume": resume})
+
+
+def read(path):
+    """A result file: a Result of one engine's run, or a Comparison. Raises BadFile."""
+    try:
+        return read_result(path)
+    except BadInput as error:
+        if "gg_comparison_read" not in str(error):
+            raise
+    return read_comparison(path)

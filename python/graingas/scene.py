@@ -1,0 +1,299 @@
+"""Scenes: what to simulate."""
+from . import _c, catalogue, yaml
+from .errors import BadInput, check, encode, lib, owned_text, text
+from .handles import Handle
+from .structs import Record, new, values
+
+ffi = _c.ffi
+
+KEYS = catalogue.keys()
+GROUPS = sorted({key.partition(".")[0] for key in KEYS if "." in key})
+PATIENCE = 10  # seconds that a thread waits for another one that uses the same scene
+
+
+def _short_names():
+    """seed -> run.seed: last words that only one key has. Of e, beta and mu those of `collision`, not of `walls`."""
+    last = {}
+    for key in KEYS:
+        last.setdefault(key.rpartition(".")[2], []).append(key)
+    short = {word: keys[0] for word, keys in last.items() if len(keys) == 1 and "." in keys[0] and word not in GROUPS}
+    return {**short, **{word: f"collision.{word}" for word in ("e", "beta", "mu")}}
+
+
+SHORT = _short_names()
+
+
+def _documentation(key):
+    entry = KEYS[key]
+    lines = [f"{key}: {entry.doc}", f"Allowed: {entry.allowed}."]
+    if entry.unit:
+        lines.append(f"Unit: {entry.unit}, in the units of the scene.")
+    if entry.value:
+        lines.append(f"Default: {entry.value}.")
+    if entry.when:
+        lines.append(f"Has an effect when: {entry.when}.")
+    return "\n".join(lines)
+
+
+class _Member:
+    """A key of a scene as an attribute, with the documentation of the key."""
+
+    def __init__(self, key):
+        self.key, self.__doc__ = key, _documentation(key)
+
+    def __get__(self, owner, kind=None):
+        return self if owner is None else owner[self.key]
+
+    def __set__(self, owner, value):
+        owner[self.key] = value
+
+
+class Group:
+    """The keys of a scene that begin with one word: scene.collision.e is scene["collision.e"]."""
+
+    __slots__ = ("_scene", "_name")
+
+    def __init__(self, scene, name):
+        object.__setattr__(self, "_scene", scene)
+        object.__setattr__(self, "_name", name)
+
+    def __dir__(self):
+        return [key.partition(".")[2] for key in KEYS if key.startswith(self._name + ".")]
+
+    def __getattr__(self, name):
+        try:
+            return self._scene[f"{self._name}.{name}"]
+        except BadInput as error:
+            raise AttributeError(str(error)) from None
+
+    def __setattr__(self, name, value):
+        self._scene[f"{self._name}.{name}"] = value
+
+    def __repr__(self):
+        return "\n".join(f"{self._name}.{name}: {getattr(self, name)}" for name in dir(self))
+
+
+class Scene:
+    """What to simulate: a YAML file or YAML text, and keys.
+
+    Scene("usf.yaml", e=0.8)
+    Scene("flow: usf\\nphi: 0.1")
+    Scene(flow="usf", phi=0.1, collision={"e": 0.9, "beta": 0})
+
+    Keys are items and attributes: s["collision.e.12"] = 0.8, s.collision.beta = 0, s.phi. Short
+    names: e, beta and mu of collisions, and last words that only one key has (s.seed). Values are numbers, texts, lists, dicts for
+    pairs of species ({12: 0.8}), and None for `none`, in the units of the scene. `Scene.phi.__doc__` and
+    `s.help("phi")` explain a key. Raises BadInput with the allowed values, BadFile.
+    """
+
+    def __init__(self, source=None, **keys):
+        changes = _flatten(keys)
+        pointer = _load(source, changes)
+        self._adopt(pointer, [])
+        for key, value in changes.items():
+            self[key] = value
+
+    def _adopt(self, pointer, extensions):
+        object.__setattr__(self, "_handle", Handle(pointer, lib.gg_scene_free, "scene"))
+        object.__setattr__(self, "_extensions", list(extensions))
+
+    @classmethod
+    def _from_pointer(cls, pointer, extensions=()):
+        made = cls.__new__(cls)
+        made._adopt(pointer, extensions)
+        return made
+
+    @classmethod
+    def _copy_of(cls, pointer, extensions=()):
+        """A scene that the library lends."""
+        copy = ffi.new("gg_scene **")
+        check(lib.gg_scene_copy, pointer, copy)
+        return cls._from_pointer(copy[0], extensions)
+
+    def held(self):
+        return self._handle.held(PATIENCE)
+
+    def __getitem__(self, key):
+        key = SHORT.get(key, key)
+        if key in GROUPS:
+            return Group(self, key)
+        value = yaml.read(self.text_of(key))
+        if value == "none" and getattr(KEYS.get(key), "type", None) in ("number", "integer"):
+            return None
+        return value
+
+    def text_of(self, key):
+        """Value of a key in force, as YAML of one line."""
+        buffer = ffi.new("char[]", 65536)
+        with self.held() as scene:
+            check(lib.gg_scene_get, scene, encode(key, "key"), buffer, len(buffer))
+        return text(buffer)
+
+    def __setitem__(self, key, value):
+        if not isinstance(key, str):
+            raise TypeError(f"a key of a scene is a text, not {type(key).__name__}")
+        key = SHORT.get(key, key)
+        if key in GROUPS and isinstance(value, dict):
+            for name, part in value.items():
+                self[f"{key}.{name}"] = part
+            return
+        with self.held() as scene:
+            check(lib.gg_scene_set, scene, encode(key, "key"), encode(yaml.write(value), key))
+
+    def __getattr__(self, name):
+        if name.startswith("_"):
+            raise AttributeError(name)
+        try:
+            return self[name]
+        except BadInput as error:
+            raise AttributeError(str(error)) from None
+
+    def __setattr__(self, name, value):
+        if name in ("_handle", "_extensions"):
+            raise AttributeError(f"{name} cannot be set")
+        self[name] = value
+
+    def __dir__(self):
+        return sorted({*object.__dir__(self), *(key for key in KEYS if "." not in key), *GROUPS, *SHORT})
+
+    def _ipython_key_completions_(self):
+        return list(KEYS)
+
+    def keys(self):
+        """Names of all keys."""
+        return list(KEYS)
+
+    def given(self):
+        """Keys that were given, with their values; all others have their defaults."""
+        return {key: self[key] for key in self._given_names()}
+
+    def _given_names(self):
+        with self.held() as scene:
+            return [key for key, entry in catalogue.table(lib.GG_CATALOGUE_KEYS, scene).items() if entry.given]
+
+    def to_yaml(self, all=False):
+        """YAML of the keys that were given; all=True: of every key with the value in force."""
+        if not all:
+            return yaml.nested({key: self.text_of(key) for key in self._given_names()})
+        made = ffi.new("char **")
+        with self.held() as scene:
+            check(lib.gg_scene_to_yaml, scene, made)
+        return owned_text(made)
+
+    def check(self):
+        """Raises BadInput, with the reason, if the keys do not go together."""
+        with self.held() as scene:
+            check(lib.gg_scene_check, scene)
+
+    def copy(self, **keys):
+        """A copy with some keys changed, and with the observables, theories and law of the scene."""
+        with self.held() as scene:
+            copy = Scene._copy_of(scene, self._extensions)
+        for key, value in _flatten(keys).items():
+            copy[key] = value
+        return copy
+
+    @property
+    def title(self):
+        """One line: "Uniform shear flow, phi 0.3, e 0.9, smooth"."""
+        buffer = ffi.new("char[]", 512)
+        with self.held() as scene:
+            check(lib.gg_scene_title, scene, buffer, len(buffer))
+        return text(buffer)
+
+    def needs(self, engine=None):
+        """What a run takes on an engine: memory (bytes), cpu_seconds, collisions_per_grain, file (bytes)."""
+        needs = new("gg_scene_needs")
+        with self.held() as scene:
+            check(lib.gg_scene_get_needs, scene, encode(engine or yaml.read(_get(scene, "engine")), "engine"), needs)
+        return Record(**values(needs))
+
+    def _lines(self, function, word):
+        lines = []
+        handle = ffi.new_handle(lines)
+        with self.held() as scene:
+            check(function, scene, encode(word), lib.ggpy_line, handle)
+        return lines
+
+    def warnings(self, use="theory"):
+        """Keys that the scene gives and that have no effect: "md", "dsmc", "compare" or "theory"."""
+        return self._lines(lib.gg_scene_warnings, use)
+
+    def describe(self, engine):
+        """What an engine switches on and off for the scene, line by line."""
+        return self._lines(lib.gg_scene_describe, engine)
+
+    def help(self, key):
+        """Prints what a key means, its unit, allowed values, default and value."""
+        key = SHORT.get(key, key)
+        if key in KEYS:
+            print(_documentation(key))
+        print(f"Value: {self.text_of(key)}")
+
+    def __reduce__(self):
+        if self._extensions:
+            raise TypeError("a scene with observables, theories or a law from Python functions cannot be pickled")
+        return Scene, (self.to_yaml(),)
+
+    def __eq__(self, other):
+        return isinstance(other, Scene) and self.to_yaml(all=True) == other.to_yaml(all=True)
+
+    __hash__ = None
+
+    def __repr__(self):
+        return f"<graingas.Scene: {self.title}>"
+
+
+def _get(scene, key):
+    buffer = ffi.new("char[]", 256)
+    check(lib.gg_scene_get, scene, encode(key), buffer, len(buffer))
+    return text(buffer)
+
+
+def _flatten(keys):
+    """{"collision": {"e": 1}, "beta": 0} -> {"collision.e": 1, "collision.beta": 0}; flow first."""
+    flat = {}
+    for key, value in keys.items():
+        key = SHORT.get(key, key)
+        if key in GROUPS and isinstance(value, dict):
+            flat.update({f"{key}.{name}": part for name, part in value.items()})
+        else:
+            flat[key] = value
+    return flat
+
+
+def _load(source, changes):
+    """The C scene of a file, a text, or of the keys alone, which it takes out of `changes`."""
+    made = ffi.new("gg_scene **")
+    if source is None:
+        keys = {key: yaml.write(value) for key, value in changes.items() if key in KEYS}
+        for key in keys:
+            del changes[key]
+        check(lib.gg_scene_parse, encode(yaml.nested(keys), "scene"), b"scene", made)
+    elif isinstance(source, Scene):
+        with source.held() as scene:
+            check(lib.gg_scene_copy, scene, made)
+    elif isinstance(source, dict):
+        check(lib.gg_scene_parse, encode(yaml.nested({k: yaml.write(v) for k, v in _flatten(source).items()})), b"scene", made)
+    elif isinstance(source, str) and (":" in source or "\n" in source):
+        check(lib.gg_scene_parse, encode(source, "scene"), b"scene", made)
+    else:
+        check(lib.gg_scene_load, encode(source, "file name"), made)
+    return made[0]
+
+
+def as_scene(source):
+    """A scene as it is; a file name, text or dict as a new one."""
+    if isinstance(source, Scene):
+        return source
+    if source is None:
+        raise BadInput("a scene is missing")
+    return Scene(source)
+
+
+for _key in KEYS:
+    if "." not in _key:
+        setattr(Scene, _key, _Member(_key))
+for _word, _key in SHORT.items():
+    if not hasattr(Scene, _word):
+        setattr(Scene, _word, _Member(_key))

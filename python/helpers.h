@@ -1,0 +1,83 @@
+/* The C side of graingas._c: what callbacks need without Python's lock. Comments that begin with `cffi:` are
+ * declarations for binding.py. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "graingas.h"
+
+/* cffi:
+typedef struct ggpy_call { int stop; void *self; } ggpy_call;
+int ggpy_stop(void *context);
+extern "Python" int ggpy_progress(void *context, const gg_progress *progress);
+extern "Python" void ggpy_warn(void *context, const char *message);
+extern "Python" void ggpy_line(void *context, const char *text);
+extern "Python" void ggpy_sweep_progress(void *context, const gg_sweep_progress *progress);
+extern "Python" void ggpy_sweep_ended(void *context, size_t i, gg_status status, const char *file, const char *message);
+*/
+
+/* One call into the library, the context of its callbacks. */
+typedef struct ggpy_call {
+  int stop;   /* not 0: the call ends soon */
+  void *self; /* the object of Python */
+} ggpy_call;
+
+static int ggpy_stop(void *context)
+{
+  return __atomic_load_n(&((ggpy_call *)context)->stop, __ATOMIC_RELAXED);
+}
+
+/* cffi:
+typedef struct ggpy_watch { int watching; void *self; size_t n, capacity; gg_collision_event *events; ...; } ggpy_watch;
+void ggpy_show(void *context, const gg_collision_event *event);
+void ggpy_record(void *context, const gg_collision_event *event);
+extern "Python" void ggpy_collision(void *context, const gg_collision_event *event);
+*/
+
+/* Who watches the collisions of a simulation: a function of Python, or a buffer. */
+typedef struct ggpy_watch {
+  int watching;
+  void *self;
+  size_t n, capacity;
+  gg_collision_event *events;
+} ggpy_watch;
+
+static void ggpy_collision(void *context, const gg_collision_event *event);
+
+/* A watcher that has had enough costs no more than this. */
+static void ggpy_show(void *context, const gg_collision_event *event)
+{
+  if (((ggpy_watch *)context)->watching) ggpy_collision(((ggpy_watch *)context)->self, event);
+}
+
+static void ggpy_record(void *context, const gg_collision_event *event)
+{
+  ggpy_watch *watch = context;
+  if (watch->n < watch->capacity) watch->events[watch->n++] = *event;
+}
+
+/* cffi:
+const double *ggpy_sample_position(const gg_sample *sample);
+const double *ggpy_sample_velocity(const gg_sample *sample);
+const double *ggpy_sample_spin(const gg_sample *sample);
+extern "Python" void ggpy_sample(void *context, void *state, const gg_sample *sample, double *values);
+extern "Python" void ggpy_view(void *context, void *state, const gg_collision_view *collision);
+extern "Python" const char *ggpy_evaluate(void *context, const gg_facts *facts, double *values);
+extern "Python" double ggpy_law(void *context, double normal_speed, int species_1, int species_2);
+*/
+
+static const double *ggpy_sample_position(const gg_sample *sample)
+{
+  return (const double *)sample->position;
+}
+
+static const double *ggpy_sample_velocity(const gg_sample *sample)
+{
+  return (const double *)sample->velocity;
+}
+
+static const double *ggpy_sample_spin(const gg_sample *sample)
+{
+  return (const double *)sample->spin;
+}
+
+/* cffi: void free(void *block); */
