@@ -14,9 +14,12 @@ from .comparison import Comparison, Theory
 from .curves import Curve
 from .errors import BadFile, BadInput, Busy, GraingasError, NotFound, PartialResult, RunFailed, text
 from .estimate import Estimate
+from .extension import DoesNotApply, define_law, define_observable, define_theory
 from .grains import Grains
 from .result import Result
 from .run import compare, read, run
 from .scene import Scene
+from .simulation import Simulation
+from .theory import Grid, scan, theories, theory
 
 __version__ = text(_c.lib.gg_version())

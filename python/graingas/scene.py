@@ -1,5 +1,5 @@
 """Scenes: what to simulate."""
-from . import _c, catalogue, yaml
+from . import _c, calls, catalogue, yaml
 from .errors import BadInput, check, encode, lib, owned_text, text
 from .handles import Handle
 from .structs import Record, new, values
@@ -89,7 +89,7 @@ class Scene:
     def __init__(self, source=None, **keys):
         changes = _flatten(keys)
         pointer = _load(source, changes)
-        self._adopt(pointer, [])
+        self._adopt(pointer, source._extensions if isinstance(source, Scene) else ())
         for key, value in changes.items():
             self[key] = value
 
@@ -192,6 +192,30 @@ class Scene:
         for key, value in _flatten(keys).items():
             copy[key] = value
         return copy
+
+    def add(self, *extensions):
+        """Registers observables, theories and a law of define_observable(), define_theory(), define_law(); returns the
+        scene."""
+        for extension in extensions:
+            if not hasattr(extension, "add_to"):
+                raise TypeError(f"add: expected what define_observable(), define_theory() or define_law() returns, not "
+                                f"{type(extension).__name__}")
+            call = calls.Call()
+            extension.calls.append(call)
+            try:
+                with self.held() as scene:
+                    self._register(extension, scene, call)
+            finally:
+                extension.calls.remove(call)
+        return self
+
+    def _register(self, extension, scene, call):
+        try:
+            extension.add_to(scene)
+        finally:
+            self._extensions.append(extension)  # the library may hold it from now on
+        if call.error is not None:
+            raise call.error
 
     @property
     def title(self):

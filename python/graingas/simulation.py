@@ -1,0 +1,320 @@
+"""Simulations, step by step."""
+from __future__ import annotations
+
+import os
+import tempfile
+from typing import Any, Callable, Iterator, Optional
+
+import numpy as np
+
+from . import _c, calls
+from .errors import BadInput, check, encode, exception, lib, new_error, text
+from .grains import Grains, copy_grains
+from .handles import Handle
+from .result import file_bytes, from_bytes
+from .run import serving
+from .scene import Scene, as_scene
+from .structs import Record, dtype, new, values
+
+ffi = _c.ffi
+
+EVENT = dtype("gg_collision_event")
+CAPACITY = 1 << 20  # events that one call of the library records; more take more calls
+
+
+class Event:
+    """A collision of two grains, in units of results.
+
+    grain (2) places in the arrays of `grains`; species (2) from 0; k (3) unit vector from the first to the second;
+    velocity (3) of the first relative to the second, before; normal_speed, > 0; impulse (3) on the second; time
+    """
+
+    __slots__ = ("_bytes",)
+
+    def __init__(self, content):
+        self._bytes = content
+
+    def __getattr__(self, name):
+        if name not in EVENT.names:
+            raise AttributeError(name)
+        return np.frombuffer(self._bytes, EVENT)[0][name]
+
+    def __dir__(self):
+        return list(EVENT.names)
+
+    def __repr__(self):
+        return f"<collision of {self.grain[0]} and {self.grain[1]} at time {self.time:g}>"
+
+
+class _Watcher:
+    """Who is shown the collisions, and the call that they happen in."""
+
+    def __init__(self):
+        self.function = self.call = None
+        self.installed = ffi.NULL
+        self.c = ffi.new("ggpy_watch *")
+        self._handle = ffi.new_handle(self)
+        self.c.self = self._handle
+
+    def set(self, function):
+        self.function = function
+        self.c.watching = function is not None
+
+    def install(self, simulation, wanted):
+        if wanted != self.installed:
+            check(lib.gg_simulation_on_collision, simulation, wanted, self.c)
+            self.installed = wanted
+
+
+@ffi.def_extern(onerror=lambda *_: None)
+def ggpy_collision(context, event):
+    watcher = ffi.from_handle(context)
+    try:
+        watcher.function(Event(bytes(ffi.buffer(event, EVENT.itemsize))))
+    except BaseException as error:
+        watcher.set(None)
+        watcher.call.fail(error)
+
+
+class Simulation:
+    """The grains of a scene, advanced step by step. Nothing is averaged: run() does that.
+
+    Simulation(scene, stream=0)      the scene's engine and seed; other streams are independent copies
+    Simulation(scene, positions=x, velocities=v, spins=w, species=k)
+                                     grains from outside, arrays of shape (n, 3) and (n,); dsmc has no positions
+
+    The same scene, seed and stream give the same trajectory, bit for bit. Numbers have the units of results. One thread
+    at a time may use a simulation: other uses, also from its own callback, raise Busy. Ctrl-C ends an advance within
+    0.1 s and raises KeyboardInterrupt; the simulation can be advanced further.
+    """
+
+    def __init__(self, scene, stream: int = 0, *, positions=None, velocities=None, spins=None, species=None):
+        scene = as_scene(scene).copy()
+        made = ffi.new("gg_simulation **")
+        given = (positions, velocities, spins, species)
+        with scene.held() as pointer:
+            if all(array is None for array in given):
+                check(lib.gg_simulation_new, pointer, _stream(stream), made)
+            else:
+                _from_grains(pointer, _stream(stream), given, made)
+        self._adopt(made[0], scene)
+
+    def _adopt(self, pointer, scene):
+        self._scene = scene
+        self._handle = Handle(pointer, lib.gg_simulation_free, "simulation")
+        self._watcher, self._stop = _Watcher(), ffi.new("ggpy_call *")
+        check(lib.gg_simulation_on_stop, pointer, ffi.addressof(lib, "ggpy_stop"), self._stop)
+
+    @classmethod
+    def _from_pointer(cls, pointer, scene):
+        made = cls.__new__(cls)
+        made._adopt(pointer, scene)
+        return made
+
+    def _advance(self, function, amount):
+        call, error = calls.Call(), new_error()
+        with self._handle.held() as pointer, serving(self._scene, call):
+            self._watcher.install(pointer, self._wanted())
+            self._stop.stop, call.c, self._watcher.call = 0, self._stop, call
+            status = calls.interruptible(lambda: function(pointer, amount, error), call)
+            if not self._watcher.c.watching:
+                self._watcher.install(pointer, ffi.NULL)
+        if call.interrupted:
+            raise KeyboardInterrupt("the simulation can be advanced further")
+        if status != lib.GG_OK:
+            raise exception(status, error)
+
+    def _wanted(self):
+        return ffi.addressof(lib, "ggpy_show") if self._watcher.c.watching else ffi.NULL
+
+    def advance(self, time: float) -> Simulation:
+        """Advances by a time. Monte Carlo ends at the first end of a step beyond. Raises RunFailed: inelastic collapse."""
+        self._advance(lib.gg_simulation_advance, float(time))
+        return self
+
+    def collide(self, collisions: int) -> Simulation:
+        """Advances by a number of collisions between grains; each counts once."""
+        self._advance(lib.gg_simulation_collide, _count(collisions, "collisions"))
+        return self
+
+    def frames(self, every: float, n: Optional[int] = None) -> Iterator[Simulation]:
+        """Advances by `every`, n times (None: without end): for sim in sim.frames(0.1, 50)."""
+        k = 0
+        while n is None or k < n:
+            yield self.advance(every)
+            k += 1
+
+    def on_collision(self, function: Optional[Callable[[Any], None]]):
+        """Calls function(event) at every collision between grains, with grain, species, k, velocity, normal_speed,
+        impulse, time. None: no more, also from within the function. It costs time, and Monte Carlo has another
+        trajectory meanwhile. An exception of the function ends the advance and comes out of it."""
+        if function is not None and not callable(function):
+            raise TypeError("on_collision: expected a function or None")
+        self._watcher.set(function)
+        return function
+
+    def events(self, collisions: int) -> np.ndarray:
+        """Advances by a number of collisions and returns them: a record array of shape (n,) with grain (2), species (2),
+        k (3), velocity (3), normal_speed, impulse (3), time. Monte Carlo records its whole last step."""
+        left, parts = _count(collisions, "collisions"), [np.zeros(0, EVENT)]
+        while left > 0:
+            parts.append(self._record(min(left, CAPACITY)))
+            left -= min(left, len(parts[-1]))
+        return np.concatenate(parts).view(np.recarray)
+
+    def _record(self, n):
+        buffer = np.zeros(n + CAPACITY, EVENT) if self._scene["engine"] == "dsmc" else np.zeros(n, EVENT)
+        watch, function = self._watcher.c, self._watcher.function
+        watch.events, watch.capacity, watch.n = ffi.cast("void *", ffi.from_buffer(buffer)), len(buffer), 0
+        self._watcher.set(None)
+        with self._handle.held() as pointer:
+            self._watcher.install(pointer, ffi.addressof(lib, "ggpy_record"))
+        try:
+            self._collide_recording(n)
+        finally:
+            with self._handle.held() as pointer:
+                self._watcher.install(pointer, ffi.NULL)
+            self._watcher.set(function)
+        return buffer[:watch.n]
+
+    def _collide_recording(self, n):
+        wanted, self._wanted = self._wanted, lambda: ffi.addressof(lib, "ggpy_record")
+        try:
+            self._advance(lib.gg_simulation_collide, n)
+        finally:
+            del self._wanted
+
+    @property
+    def scene(self) -> Scene:
+        """A copy of the scene."""
+        return self._scene.copy()
+
+    @property
+    def state(self) -> Record:
+        """time, collisions, collisions_per_grain, grains, temperature, rotational_temperature, kinetic_stress (3, 3),
+        strain, image_offset, box (3; 0 without positions)."""
+        state = new("gg_simulation_state")
+        with self._handle.held() as pointer:
+            check(lib.gg_simulation_get_state, pointer, state)
+        return Record(**values(state))
+
+    @property
+    def time(self) -> float:
+        return self.state.time
+
+    @property
+    def temperature(self) -> float:
+        return self.state.temperature
+
+    @property
+    def species(self) -> list:
+        """Of each species: grains, diameter, mass, inertia (4I/(m d^2)), temperature, rotational_temperature."""
+        with self._handle.held() as pointer:
+            return species_of(lib.gg_simulation_get_species, pointer, lib.gg_simulation_species(pointer))
+
+    @property
+    def grains(self) -> Grains:
+        """A copy of positions, velocities, spins and species. In md the order of grains never changes."""
+        state = self.state
+        with self._handle.held() as pointer:
+            return copy_grains(lib.gg_simulation_get_grains, pointer, state.grains, state.box[0] > 0)
+
+    @property
+    def hash(self) -> int:
+        """Hash of the state, to the last bit."""
+        found = ffi.new("uint64_t *")
+        with self._handle.held() as pointer:
+            check(lib.gg_simulation_hash, pointer, found)
+        return found[0]
+
+    @property
+    def walls(self) -> list:
+        """Names of the walls."""
+        with self._handle.held() as pointer:
+            names = (lib.gg_simulation_wall(pointer, i) for i in range(lib.GG_WALLS))
+            return [text(name) for name in names if name != ffi.NULL]
+
+    def take_sums(self) -> Record:
+        """Collision sums since the last call or the start, and resets them: time, collisions, wall_collisions,
+        collisional_stress (3, 3), dissipation, wall_impulse, wall_loss."""
+        sums = new("gg_simulation_sums")
+        with self._handle.held() as pointer:
+            check(lib.gg_simulation_take_sums, pointer, sums)
+        return Record(**values(sums))
+
+    def save(self, path) -> None:
+        """Writes everything needed to continue with bit-identical results."""
+        with self._handle.held() as pointer:
+            check(lib.gg_simulation_save, pointer, encode(path, "file name"))
+
+    @classmethod
+    def load(cls, path, scene=None) -> Simulation:
+        """A saved simulation, without its callbacks. scene: the scene that was saved; None: the stored one."""
+        made, stored = ffi.new("gg_simulation **"), ffi.new("gg_scene **")
+        name = encode(path, "file name")
+        if scene is None:
+            check(lib.gg_checkpoint_about, name, new("gg_checkpoint_info"), stored)
+            scene = Scene._from_pointer(stored[0])
+            check(lib.gg_simulation_load, name, ffi.NULL, made)
+            return cls._from_pointer(made[0], scene)
+        scene = as_scene(scene).copy()
+        with scene.held() as pointer:
+            check(lib.gg_simulation_load, name, pointer, made)
+        return cls._from_pointer(made[0], scene)
+
+    def copy(self) -> Simulation:
+        """A copy that continues with the same bits, without the callback."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "x.h5")
+            self.save(path)
+            return Simulation.load(path, self._scene)
+
+    def __reduce__(self):
+        return _from_file, (file_bytes(self.save), self._scene)
+
+    def close(self) -> None:
+        """Frees the memory; later uses raise BadInput."""
+        self._handle.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def __repr__(self):
+        if self._handle.closed:
+            return "<graingas.Simulation: closed>"
+        try:
+            state = self.state
+        except BadInput as error:
+            return f"<graingas.Simulation: {error}>"
+        return (f"<graingas.Simulation: {self._scene.title}; {state.grains} grains, time {state.time:g}, "
+                f"{state.collisions} collisions>")
+
+
+def _from_file(content, scene):
+    return from_bytes(lambda path: Simulation.load(path, scene), content)
+
+
+def species_of(function, pointer, n):
+    found = []
+    for i in range(n):
+        state = new("gg_species_state")
+        check(function, pointer, i, state)
+        found.append(Record(**values(state)))
+    return found
+
+
+def _count(value, what):
+    if isinstance(value, bool) or int(value) != value or not 0 <= value < 2**63:
+        raise BadInput(f"{what}: {value!r} is not allowed; allowed: a whole number of at least 0")
+    return int(value)
+
+
+def _stream(stream):
+    return _count(stream, "stream")
+
+
+def _from_grains(scene, stream, given, made):
+    raise BadInput("this version of the library takes no grains from outside")

@@ -1,0 +1,142 @@
+"""Theories without simulation: of one scene, and over a grid of scenes."""
+from __future__ import annotations
+
+import itertools
+import math
+
+import numpy as np
+
+from . import _c, calls, yaml
+from .comparison import Comparison, Theory
+from .errors import BadInput, NotFound, check, encode, lib
+from .run import serving
+from .scene import SHORT, Scene, as_scene
+
+ffi = _c.ffi
+
+
+def _evaluate(scene, name):
+    call, made = calls.Call(), ffi.new("gg_comparison **")
+    word = ffi.NULL if name is None else encode(name, "theory")
+    with serving(scene, call), scene.held() as pointer:
+        calls.interruptible(lambda: check(lib.gg_theories_evaluate, pointer, word, made), call)
+    if call.interrupted:
+        raise KeyboardInterrupt
+    return Comparison(made[0], scene=scene)
+
+
+def theories(scene) -> Comparison:
+    """Answers of all theories, as a Comparison without simulations."""
+    return _evaluate(as_scene(scene).copy(), None)
+
+
+def theory(scene, name) -> Theory:
+    """Answers of one theory: theory(s, "lun1991")["shear_viscosity"] is a number in units of results.
+
+    name   of a theory, or one of define_theory(), which need not be added to the scene
+    Raises NotFound for an unknown theory. One that does not apply has no answers and a `reason`.
+    """
+    scene = as_scene(scene).copy()
+    if hasattr(name, "add_to"):
+        if name not in scene._extensions:
+            scene.add(name)
+        name = name.name
+    try:
+        found = _evaluate(scene, name).theories
+    except BadInput as error:
+        if "theory" in str(error):
+            raise NotFound(str(error)) from None
+        raise
+    return found[name]
+
+
+class Grid:
+    """Numbers over a grid: dims (names), coords (values by dim), values (arrays by name, in the order of dims)."""
+
+    def __init__(self, dims, coords, values, units=None):
+        self.dims, self.coords, self.values, self.units = tuple(dims), coords, values, units or {}
+
+    def __getitem__(self, name):
+        return self.values[name]
+
+    def to_xarray(self):
+        import xarray
+        variables = {name: (self.dims, array, {"units": self.units.get(name, "1")}) for name, array in self.values.items()}
+        return xarray.Dataset(variables, coords={name: _coordinate(values) for name, values in self.coords.items()})
+
+    def __repr__(self):
+        sizes = ", ".join(f"{dim}: {len(self.coords[dim])}" for dim in self.dims)
+        return f"<grid over {sizes}; {', '.join(self.values)}>"
+
+
+def _coordinate(values):
+    """Numbers as numbers, all else as text."""
+    if all(isinstance(value, (int, float)) for value in values):
+        return np.array(values)
+    return [value if isinstance(value, str) else yaml.write(value) for value in values]
+
+
+def as_xarray(grid):
+    """An xarray.Dataset; the Grid itself where xarray is missing."""
+    try:
+        return grid.to_xarray()
+    except ImportError:
+        return grid
+
+
+def grid_keys(vary, short):
+    """Full names of the varied keys with their values as lists of Python."""
+    keys = {**(vary or {}), **short}
+    found = {}
+    for key, values in keys.items():
+        if isinstance(values, (str, bytes, dict)) or not np.iterable(values):
+            raise BadInput(f"key '{key}': expected a list of values to vary over, not {values!r}")
+        values = values.tolist() if isinstance(values, np.ndarray) else list(values)
+        if not values:
+            raise BadInput(f"key '{key}': the list of values is empty")
+        found[SHORT.get(key, key)] = values
+    return found
+
+
+def scan(scene, vary=None, *, theories=None, quantities=None, **keys):
+    """Theories over a grid of scenes: scan(s, e=np.linspace(.5, 1, 51), theories=["lun1991", mine]).
+
+    vary, keys   values of each key; {"collision.e.12": [...]} for keys with dots
+    theories     names, or theories of define_theory(); None: all
+    quantities   names; None: all that have an answer
+    Returns an xarray.Dataset with a dimension for each key and one for the theories, a variable for each quantity; a
+    Grid where xarray is missing. NaN: no answer.
+    """
+    scene, axes = as_scene(scene).copy(), grid_keys(vary, keys)
+    if not axes:
+        raise BadInput("scan: give at least one key to vary, e.g. e=[0.5, 0.7, 0.9]")
+    for extra in theories or ():
+        if hasattr(extra, "add_to") and extra not in scene._extensions:
+            scene.add(extra)
+    names = [getattr(entry, "name", entry) for entry in theories] if theories is not None else None
+    points = [_answers(scene.copy(), dict(zip(axes, point)), names) for point in itertools.product(*axes.values())]
+    names = names or list(dict.fromkeys(name for answers, _ in points for name in answers))
+    return as_xarray(_grid(axes, names, points, quantities))
+
+
+def _answers(scene, point, names):
+    """Numbers by theory and quantity at one point, and the units."""
+    for key, value in point.items():
+        scene[key] = value
+    found, units = {}, {}
+    for name in names or [None]:
+        comparison = _evaluate(scene, name)
+        units.update({row.name: row.unit for row in comparison.values()})
+        found.update({key: dict(theory) for key, theory in comparison.theories.items() if name in (None, key)})
+    return {name: answers for name, answers in found.items() if answers or names}, units
+
+
+def _grid(axes, names, points, quantities):
+    shape = (*map(len, axes.values()), len(names))
+    units = {name: unit for _, some in points for name, unit in some.items()}
+    wanted = quantities or [name for name in units if any(name in a for answers, _ in points for a in answers.values())]
+    arrays = {}
+    for quantity in wanted:
+        numbers = [answers.get(name, {}).get(quantity, math.nan) for answers, _ in points for name in names]
+        arrays[quantity] = np.array(numbers, float).reshape(shape)
+    return Grid([*axes, "theory"], {**axes, "theory": list(names)}, arrays, units)
