@@ -20,6 +20,8 @@ from .result import Result
 from .run import compare, read, run
 from .scene import Scene
 from .simulation import Simulation
+from .sweep import Sweep, sweep
 from .theory import Grid, scan, theories, theory
+from .trajectory import Trajectory, trajectory
 
 __version__ = text(_c.lib.gg_version())

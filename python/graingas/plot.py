@@ -1,0 +1,182 @@
+"""Pictures with matplotlib, in one style. Every function returns the axes; axes.figure.savefig("x.pdf") writes them."""
+from __future__ import annotations
+
+import functools
+import itertools
+import re
+
+import numpy as np
+
+# Okabe and Ito's colours, told apart by the colour-blind: md, dsmc, then the theories.
+COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
+MARKERS = "os^vD<>"
+DASHES = ["-", "--", "-.", ":"]
+STYLE = {"axes.spines.top": False, "axes.spines.right": False, "axes.labelsize": 9, "xtick.labelsize": 8,
+         "ytick.labelsize": 8, "legend.fontsize": 8, "legend.frameon": False, "font.size": 9, "lines.linewidth": 1,
+         "lines.markersize": 4, "errorbar.capsize": 2, "pdf.fonttype": 42, "svg.fonttype": "none",
+         "savefig.bbox": "tight"}
+
+
+def styled(function):
+    """Draws in the style, which changes nothing outside."""
+    @functools.wraps(function)
+    def draw(*arguments, **options):
+        import matplotlib
+        with matplotlib.rc_context(STYLE):
+            return function(*arguments, **options)
+    return draw
+
+
+def new_axes(ax=None):
+    """The axes given, or new ones."""
+    if ax is not None:
+        return ax
+    from matplotlib import pyplot
+    figure, ax = pyplot.subplots(figsize=(3.4, 2.6), dpi=120, layout="constrained")
+    ax.set_prop_cycle(color=COLOURS)
+    return ax
+
+
+def legend(ax):
+    """Inside the axes; beside them where it is long."""
+    entries = len(ax.get_legend_handles_labels()[1])
+    if entries <= 4:
+        ax.legend()
+        return
+    ax.legend(loc="upper left", bbox_to_anchor=(1.02, 1), borderaxespad=0)
+    ax.figure.set_size_inches(5.4, max(2.6, 0.4 + 0.2 * entries))
+
+
+def unit_text(unit):
+    """d^2 gamma^2 as mathematics."""
+    greek = re.sub(r"\b(gamma|rho)(?=\b|_)", r"\\\1", unit)
+    return f"${greek}$" if re.fullmatch(r"[\w^\\ /()]+", greek) else unit
+
+
+def label(name, unit=None):
+    return name if unit in (None, "", "1") else f"{name} [{unit_text(unit)}]"
+
+
+def errors(values):
+    """Error bars; none where the error is unknown."""
+    return np.nan_to_num(np.asarray(values, float), posinf=0)
+
+
+@styled
+def plot_history(result, quantity, ax=None, **style):
+    ax = new_axes(ax)
+    time, values = result.history(quantity)
+    ax.plot(time, values, **{"label": result.engine, "linewidth": 0.8, **style})
+    ax.set(xlabel="time", ylabel=label(quantity, result.find(quantity).unit))
+    return ax
+
+
+def _scales(curve, ax):
+    positive = np.nanmin(curve.value) > 0 if len(curve) else False
+    ax.set(xlabel=label(curve.x_name, curve.x_unit), ylabel=label(curve.y_name, curve.unit),
+           xscale="log" if curve.log_x and np.nanmin(curve.x) > 0 else "linear",
+           yscale="log" if curve.log_y and positive else "linear")
+
+
+@styled
+def plot_curve(curve, ax=None, **style):
+    ax = new_axes(ax)
+    ax.errorbar(curve.x, curve.value, errors(curve.error), **{"fmt": ".", "label": curve.label or curve.name, **style})
+    if curve.law is not None:
+        ax.plot(curve.x, curve.law, color="grey", linewidth=0.8, label=curve.law_label)
+    _scales(curve, ax)
+    legend(ax)
+    return ax
+
+
+@styled
+def plot_curve_set(curves, ax=None):
+    ax = new_axes(ax)
+    for i, (source, curve) in enumerate(curves.items()):
+        if source in ("md", "dsmc"):
+            ax.errorbar(curve.x, curve.value, errors(curve.error), fmt=MARKERS[i], mfc="none", label=source, color=COLOURS[i])
+        else:
+            ax.plot(curve.x, curve.value, DASHES[i % 4], label=source, color=COLOURS[i % 7])
+    _scales(curve, ax)
+    legend(ax)
+    return ax
+
+
+def _main_quantities(comparison):
+    return [name for name, row in comparison.items() if any(d.headline for d in row.departure.values())] or \
+        [name for name in comparison if not np.isnan(_reference(comparison[name]).mean)][:10]
+
+
+def _reference(row):
+    return row.dsmc if np.isnan(row.md.mean) else row.md
+
+
+@styled
+def plot_comparison(comparison, quantities=None, ax=None):
+    """Each solver over md (or dsmc), quantity by quantity."""
+    ax = new_axes(ax)
+    names = quantities or _main_quantities(comparison)
+    reference = [_reference(comparison[name]).mean for name in names]
+    x = np.arange(len(names))
+    for i, engine in enumerate(("md", "dsmc")):
+        if getattr(comparison, engine) is not None:
+            rows = [getattr(comparison[name], engine) for name in names]
+            ax.errorbar(x, [r.mean / m for r, m in zip(rows, reference)], errors([r.error / abs(m) for r, m in zip(rows, reference)]),
+                        fmt=MARKERS[i], mfc="none", color=COLOURS[i], label=engine)
+    theories = [theory for theory in comparison.theories.values() if any(name in theory for name in names)]
+    for i, theory in enumerate(theories, 2):
+        ratios = [theory[name] / m if name in theory else np.nan for name, m in zip(names, reference)]
+        ax.plot(x, ratios, "_", markersize=9, color=COLOURS[i % 7], label=theory.name)
+    ax.axhline(1, color="grey", linewidth=0.5)
+    ax.set_xticks(x, names, rotation=60, ha="right")
+    ax.set(ylabel="ratio to md" if comparison.md is not None else "ratio to dsmc")
+    legend(ax)
+    return ax
+
+
+def _lines(grid, over):
+    """Every combination of solver and of the keys that are not along x: its label, and where it is in the arrays."""
+    others = [dim for dim in grid.dims if dim != over]
+    for places in itertools.product(*(range(len(grid.coords[dim])) for dim in others)):
+        at = dict(zip(others, places))
+        solver = grid.coords["solver"][at["solver"]]
+        keys = ", ".join(f"{dim} {grid.coords[dim][i]}" for dim, i in at.items() if dim != "solver")
+        yield solver, keys, tuple(slice(None) if dim == over else at[dim] for dim in grid.dims)
+
+
+def _longest(grid):
+    keys = [dim for dim in grid.dims if dim != "solver"]
+    return max(keys, key=lambda dim: len(grid.coords[dim]))
+
+
+def _relative(grid, quantity, solver):
+    """Means and errors, divided by those of a solver if one is named."""
+    mean, error = grid[quantity], grid[quantity + "_error"]
+    if solver is None:
+        return mean, error
+    solvers = grid.coords["solver"]
+    if solver not in solvers:
+        from .errors import NotFound
+        raise NotFound(f"relative_to: there is no solver {solver!r}; there are {', '.join(solvers)}")
+    base = np.take(mean, [solvers.index(solver)], -1)
+    return mean / base, error / abs(base)
+
+
+@styled
+def plot_sweep(grid, quantity, over=None, relative_to=None, ax=None):
+    ax = new_axes(ax)
+    over = over or _longest(grid)
+    mean, error = _relative(grid, quantity, relative_to)
+    solvers = grid.coords["solver"]
+    combinations = []
+    for solver, keys, at in _lines(grid, over):
+        if np.all(np.isnan(mean[at])):
+            continue
+        combinations += [keys] if keys not in combinations else []
+        colour, form = solvers.index(solver), combinations.index(keys)
+        style = dict(fmt=MARKERS[form % 7], mfc="none") if solver in ("md", "dsmc") else dict(fmt=DASHES[form % 4])
+        ax.errorbar(grid.coords[over], mean[at], errors(error[at]), color=COLOURS[colour % 7],
+                    label=f"{solver}, {keys}" if keys else solver, **style)
+    ax.set(xlabel=over, ylabel=f"{quantity} / {relative_to}" if relative_to else label(quantity, grid.units[quantity]))
+    legend(ax)
+    return ax

@@ -1,0 +1,205 @@
+"""Sweeps: a scene at every point of a grid, in a folder that can be resumed."""
+from __future__ import annotations
+
+import math
+import tempfile
+import warnings
+
+import numpy as np
+
+from . import _c, calls, yaml
+from .errors import BadInput, NotFound, PartialResult, check, encode, exception, lib, new_error, text
+from .handles import Handle
+from .progress import reporter
+from .result import Result
+from .run import read, reporting, thread_count
+from .scene import Scene, as_scene
+from .structs import Record, new, values
+from .theory import Grid, as_xarray, grid_keys
+
+ffi = _c.ffi
+
+STATES = {lib.GG_POINT_MISSING: "missing", lib.GG_POINT_DONE: "done", lib.GG_POINT_SHORT: "short"}
+
+
+class Point:
+    """One point of a sweep.
+
+    values   its varied keys
+    name     of its file, a hash
+    state    "missing", "done", or "short": done, but short of what was asked
+    file     its result file; None while it is missing
+    """
+
+    def __init__(self, keys, name, state, file, seed):
+        self.values, self.name, self.state, self.file, self.seed = keys, name, state, file, seed
+
+    def read(self):
+        """Its Result or Comparison. Raises NotFound while it is missing."""
+        if self.state == "missing":
+            raise NotFound(f"the point {self.values} has no result yet: repeat the sweep")
+        return read(self.file)
+
+    def __repr__(self):
+        return f"<point {', '.join(f'{key} {value}' for key, value in self.values.items())}: {self.state}>"
+
+
+class Sweep:
+    """Results of a sweep: a sequence of Points, in the order of the grid; the last key changes fastest.
+
+    axes      varied keys with their values
+    folder    a result file for each point
+    partial   why it ended early; None if it did not
+    """
+
+    def __init__(self, pointer, axes, folder):
+        self._handle, self.axes = Handle(pointer, lib.gg_sweep_free, "sweep"), axes
+        self._temporary = tempfile.TemporaryDirectory(prefix="graingas-sweep-") if folder is None else None
+        self.folder = self._temporary.name if folder is None else str(folder)
+        self.partial = None
+
+    def _run(self, threads, progress):
+        call, error, options = calls.Call(), new_error(), new("gg_sweep_options")
+        options.threads, options.context = thread_count(threads), call.c
+        command = ffi.new("char[]", b"graingas (Python)")
+        options.command, options.stop = command, ffi.addressof(lib, "ggpy_stop")
+        options.progress, options.ended, options.warn = lib.ggpy_sweep_progress, lib.ggpy_sweep_ended, lib.ggpy_warn
+        folder = encode(self.folder, "folder")
+        with self._handle.held() as pointer, reporting(progress, 1, _describe) as report:
+            check(lib.gg_sweep_check, pointer)
+            status = calls.interruptible(lambda: lib.gg_sweep_run(pointer, folder, options, error), call, report)
+        for line in call.warnings:
+            warnings.warn(line, stacklevel=4)
+        if status not in (lib.GG_OK, lib.GG_FAILED, lib.GG_INTERRUPTED):
+            raise exception(status, error)
+        if status != lib.GG_OK:
+            self.partial = "\n".join([text(error.message), *call.events])
+            warnings.warn(self.partial, PartialResult, stacklevel=4)
+
+    def __len__(self):
+        with self._handle.held() as pointer:
+            return lib.gg_sweep_points(pointer)
+
+    def __getitem__(self, i):
+        if isinstance(i, slice):
+            return [self[k] for k in range(*i.indices(len(self)))]
+        n = len(self)
+        if not -n <= i < n:
+            raise IndexError(f"point {i}: the sweep has {n} points")
+        with self._handle.held() as pointer:
+            return _point(pointer, self.folder, i % n, list(self.axes))
+
+    def to_dataframe(self):
+        """A row for each point, solver ("md", "dsmc", a theory) and quantity: the keys, mean, error, unit."""
+        import pandas
+        rows = [{**point.values, **row} for point in self if point.state != "missing" for row in _rows(point.read())]
+        return pandas.DataFrame(rows)
+
+    def grid(self) -> Grid:
+        """Means and errors over the grid: dims are the keys and "solver"; NaN where a point is missing."""
+        found = [(i, list(_rows(point.read()))) for i, point in enumerate(self) if point.state != "missing"]
+        solvers = list(dict.fromkeys(row["solver"] for _, rows in found for row in rows))
+        shape = tuple(map(len, self.axes.values()))
+        arrays, units = {}, {}
+        for i, rows in found:
+            for row in rows:
+                at = (*np.unravel_index(i, shape), solvers.index(row["solver"]))
+                units[row["quantity"]] = units[row["quantity"] + "_error"] = row["unit"]
+                for name, number in (row["quantity"], row["mean"]), (row["quantity"] + "_error", row["error"]):
+                    arrays.setdefault(name, np.full((*shape, len(solvers)), math.nan))[at] = number
+        return Grid([*self.axes, "solver"], {**self.axes, "solver": solvers}, arrays, units)
+
+    def to_xarray(self):
+        """The grid as an xarray.Dataset: variables QUANTITY and QUANTITY_error."""
+        return self.grid().to_xarray()
+
+    def plot(self, quantity="temperature", over=None, relative_to=None, ax=None):
+        """Draws a quantity over a key, a line for each solver and combination of the other keys; returns the axes.
+        relative_to: a solver that all others are divided by."""
+        from .plot import plot_sweep
+        return plot_sweep(self.grid(), quantity, over, relative_to, ax)
+
+    def __repr__(self):
+        states = [point.state for point in self]
+        return f"<sweep of {len(states)} points over {', '.join(self.axes)}: {states.count('missing')} missing>"
+
+
+def _point(pointer, folder, i, keys):
+    point, state, file = new("gg_sweep_point"), ffi.new("gg_point_state *"), ffi.new("char **")
+    check(lib.gg_sweep_at, pointer, i, point)
+    check(lib.gg_sweep_find, pointer, encode(folder), i, state, file)
+    path = text(file[0])
+    if file[0] != ffi.NULL:
+        lib.free(file[0])
+    names = [text(lib.gg_sweep_key(pointer, k)) for k in range(len(keys))]
+    found = {name: yaml.read(text(lib.gg_sweep_value(pointer, i, k))) for k, name in enumerate(names)}
+    return Point(found, text(point.name), STATES[state[0]], path, point.seed)
+
+
+def _rows(result):
+    """Solver, quantity, mean, error and unit of everything in a result."""
+    if isinstance(result, Result):
+        yield from (_row(result.engine, e) for e in result.values())
+        return
+    for engine in (result.md, result.dsmc):
+        if engine is not None:
+            yield from (_row(engine.engine, e) for e in engine.values())
+    for theory in result.theories.values():
+        for name in theory:
+            yield {"solver": theory.name, "quantity": name, "mean": theory[name], "error": theory.error(name),
+                   "unit": result[name].unit}
+
+
+def _row(solver, estimate):
+    return {"solver": solver, "quantity": estimate.name, "mean": estimate.mean, "error": estimate.error,
+            "unit": estimate.unit}
+
+
+def _describe(call, engines):
+    report = call.progress.get("sweep")
+    if report is None:
+        return 0.0, "start"
+    return report.done / max(report.points, 1), f"{report.done} of {report.points} points"
+
+
+@ffi.def_extern(onerror=lambda *_: None)
+def ggpy_sweep_progress(context, progress):
+    calls.of(context).progress["sweep"] = Record(**values(progress))
+
+
+@ffi.def_extern(onerror=lambda *_: None)
+def ggpy_sweep_ended(context, i, status, file, message):
+    if status != lib.GG_OK:
+        calls.of(context).events.append(f"point {i}: {text(message)}")
+
+
+def _yaml(scene, axes, does, seeds):
+    """The sweep as a file: a scene with the maps `vary` and `sweep`."""
+    lists = ", ".join(f"{key}: [{', '.join(map(yaml.write, axis))}]" for key, axis in axes.items())
+    kept = {key: scene.text_of(key) for key in scene.given() if key not in axes}
+    return f"{yaml.nested(kept)}vary: {{{lists}}}\nsweep: {{does: {does}, seeds: {seeds}}}\n"
+
+
+def sweep(scene, vary=None, *, does="run", folder=None, threads=1, seeds="independent", progress=None, **keys) -> Sweep:
+    """Runs, compares, or evaluates theories at every point of a grid: sweep(s, e=[0.7, 0.9], does="compare").
+
+    vary, keys   values of each key; {"collision.e.12": [...]} for keys with dots
+    does         "run", "compare" or "theory"
+    folder       a result file for each point. Repeated with the same folder, only unfinished points run. None: a
+                 temporary folder, removed with the Sweep
+    seeds        "independent", or "common": run.seed of the scene for all points
+    threads      for points and replicas; None: all processors
+
+    Ctrl-C returns what there is, with a warning PartialResult and `partial` set; so do points that ended before their
+    stopping criteria. Raises BadInput, which names the first point that cannot be simulated; BadFile.
+    """
+    scene, axes = as_scene(scene), grid_keys(vary, keys)
+    if not axes:
+        raise BadInput("sweep: give at least one key to vary, e.g. e=[0.5, 0.7, 0.9]")
+    if scene._extensions:
+        raise BadInput("sweep: its points are files, which hold no Python functions; use scan(), or run() in a loop")
+    made = ffi.new("gg_sweep **")
+    check(lib.gg_sweep_parse, encode(_yaml(scene, axes, encode(does, "does").decode(), seeds)), b"sweep", made)
+    found = Sweep(made[0], axes, folder)
+    found._run(threads, progress)
+    return found
