@@ -72,7 +72,10 @@ def encode(value, what="text"):
     if hasattr(value, "__fspath__"):
         value = value.__fspath__()
     if isinstance(value, str):
-        value = value.encode("utf-8", "surrogateescape")
+        try:
+            value = value.encode("utf-8", "surrogateescape")
+        except UnicodeEncodeError as error:
+            raise BadInput(f"{what}: is no valid text: {error.reason}") from None
     if not isinstance(value, bytes):
         raise TypeError(f"{what}: expected a text, not {type(value).__name__}")
     if b"\0" in value:

@@ -10,7 +10,7 @@ from collections import deque
 import numpy as np
 
 from . import _c
-from .errors import BadInput, check, encode, lib, text
+from .errors import BadInput, check, encode, lib
 from .structs import Record, array, copy_of, dtype, new, value, values
 
 ffi = _c.ffi
@@ -91,15 +91,11 @@ class Sample:
         if name == "species":
             return array(pointer.species, self.n, kind="u1")
         if name == "stress":
-            return _stress(pointer.stress)
+            return np.array(value(pointer.stress))
         return array(getattr(pointer, name), self.n_species)
 
     def close(self):
         self._pointer = None
-
-
-def _stress(member):
-    return np.array(value(member))
 
 
 class Observable(Extension):
@@ -178,6 +174,9 @@ def define_observable(name, quantities=None, *, doc=None, state=0, collision=Non
     if quantities is None:
         quantities = [name]
     quantities = dict(quantities) if isinstance(quantities, dict) else {quantity: "1" for quantity in quantities}
+
+    if isinstance(state, bool) or int(state) != state or not 0 <= state < 2**20:
+        raise BadInput(f"state: {state!r} is not allowed; allowed: a whole number from 0 to 1048575")
 
     def make(function):
         _need_function(function, "define_observable")

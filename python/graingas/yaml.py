@@ -21,8 +21,10 @@ def write(value):
         return value
     if isinstance(value, dict):
         return "{" + ", ".join(f"{write(key)}: {write(part)}" for key, part in value.items()) + "}"
-    if isinstance(value, (list, tuple, np.ndarray, set, frozenset)):
-        return "[" + ", ".join(map(write, value)) + "]" if np.ndim(value) else write(value.item())
+    if isinstance(value, np.ndarray):
+        return write(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(write, value)) + "]"
     if hasattr(value, "mean") and hasattr(value, "error"):
         return _number(float(value.mean))
     raise TypeError(f"a {type(value).__name__} is no value of a scene key")

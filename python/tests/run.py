@@ -1,0 +1,12 @@
+"""pytest on one file: run.py FILE. Exit code 77 (skipped) without pytest."""
+import sys
+
+try:
+    import pytest
+except ImportError:
+    print("skipped: pytest is not installed (Debian: python3-pytest)")
+    sys.exit(77)
+
+if __name__ == "__main__":  # processes that tests start import this file
+    sys.exit(pytest.main(["-q", "-p", "no:cacheprovider", "-p", "no:anyio", "-W", "error::pytest.PytestUnhandledThreadExceptionWarning",
+                          *sys.argv[1:]]))

@@ -1,0 +1,155 @@
+"""Own observables, theories and laws: their numbers, their exceptions, and the same runs from tables and functions."""
+import numpy as np
+import pytest
+
+import graingas as gg
+
+
+@gg.define_observable("second")
+def second(sample):
+    """Mean square velocity over 3."""
+    return (sample.velocity**2).sum() / 3 / sample.n
+
+
+def test_observable_measures_what_the_library_does(short):
+    result = gg.run(short.add(second))
+    assert result["second"].mean == pytest.approx(result["temperature"].mean, rel=1e-9)
+    assert result["second"].error == pytest.approx(result["temperature"].error, rel=1e-6)
+    assert result["second"].unit == "1"
+
+
+@pytest.mark.parametrize("engine", ["md", "dsmc"])
+def test_state_and_collisions(short, engine):
+    """A state for each replica: collisions counted in an interval, as the sample counts them."""
+    def count(view, state):
+        assert np.allclose((view.normal**2).sum(), 1)
+        state[0] += 1
+
+    @gg.define_observable("counting", {"seen": "1", "counted": "1"}, state=2, collision=count)
+    def counting(sample, state):
+        seen, state[0] = state[0], 0
+        return {"seen": seen, "counted": sample.collisions}
+    short.engine = engine
+    if engine == "dsmc":
+        short = gg.Scene(flow="usf", phi=0.1, engine="dsmc", dsmc={"particles": 500}, run={"collisions": 100, "warmup": 50})
+    result = gg.run(short.copy(**{"run.replicas": 2}).add(counting), threads=2)
+    assert result["seen"].mean == pytest.approx(result["counted"].mean, rel=0.02) and result["seen"].mean > 100
+
+
+def test_sample_has_everything(short):
+    seen = []
+
+    @gg.define_observable("looking")
+    def looking(sample):
+        if not seen:
+            seen.append((sample.position, sample.velocity, sample.spin, sample.species, sample.mass, sample.box, sample.stress))
+        return 0
+    gg.run(short.add(looking))
+    position, velocity, spin, species, mass, box, stress = seen[0]
+    assert position.shape == velocity.shape == spin.shape == (200, 3) and species.shape == (200,) and mass.shape == (1,)
+    assert np.all(position >= 0) and np.all(position <= box) and stress.shape == (3, 3)
+
+
+def test_theory_beside_the_others(short):
+    @gg.define_theory("mine", ["temperature", "N1"], title="A theory")
+    def mine(facts):
+        return {"temperature": facts.phi * facts.pairs[0][0].e, "N1": facts.species[0].mass}
+    found = gg.theory(short, mine)
+    assert found["temperature"] == pytest.approx(0.09) and found["N1"] == 1 and found.title == "A theory"
+    comparison = gg.compare(short.copy().add(mine))
+    assert comparison["temperature"].theory["mine"] == pytest.approx(0.09)
+    comparison.write("c.h5")
+    assert gg.read("c.h5")["temperature"].theory["mine"] == pytest.approx(0.09)
+
+
+@pytest.mark.parametrize("answer, reason", [("only for é", "only for é"), (gg.DoesNotApply("not here"), "not here")])
+def test_reason_of_a_theory(short, answer, reason):
+    @gg.define_theory("mine", "temperature")
+    def mine(facts):
+        if isinstance(answer, Exception):
+            raise answer
+        return answer
+    assert reason in gg.theory(short, mine).reason
+
+
+def test_own_theory_over_a_grid(short):
+    pytest.importorskip("xarray")
+    mine = gg.define_theory("mine", "temperature")(lambda facts: facts.pairs[0][0].e * 2)
+    found = gg.scan(short, e=[0.5, 0.75], theories=[mine, "lun1991"], quantities=["temperature"])
+    assert list(found["temperature"].sel(theory="mine").values) == [1.0, 1.5]
+
+
+def test_law_as_table_function_and_constant(short):
+    """A constant law is collision.e, up to the path of the engine; a table is the function that it samples."""
+    expected = gg.run(short)["temperature"]
+    constant = gg.run(short.copy(e=0.5).add(gg.define_law(lambda g: 0.9)))["temperature"]
+    assert constant.mean == pytest.approx(expected.mean, rel=1e-9)
+    table = gg.run(short.copy().add(gg.define_law(([1.0], [0.7]))))["temperature"]
+    function = gg.run(short.copy().add(gg.define_law(lambda g, i, j: 0.7)))["temperature"]
+    assert table.mean == pytest.approx(function.mean, rel=1e-9) != expected.mean
+
+
+def test_compiled_law(short):
+    numba = pytest.importorskip("numba")
+
+    @numba.cfunc("float64(voidptr, float64, int32, int32)")
+    def law(context, speed, first, second):
+        return 0.7
+    compiled = gg.run(short.copy().add(gg.define_law(law)))["temperature"]
+    assert compiled.mean == gg.run(short.copy().add(gg.define_law(lambda g: 0.7)))["temperature"].mean
+
+
+def test_law_in_a_simulation(short):
+    sim = gg.Simulation(short.copy().add(gg.define_law(lambda g: 0.6)))
+    events = sim.events(200)
+    assert np.allclose((events.impulse * events.k).sum(1), 0.5 * 1.6 * events.normal_speed)
+
+
+class Ours(Exception):
+    pass
+
+
+def raises(*_):
+    raise Ours("from the function")
+
+
+def turns_bad(calls):
+    """A law that works when it is tried, and raises later."""
+    def law(g):
+        calls.append(g)
+        if len(calls) > 3000:
+            raise Ours("from the law")
+        return 0.9
+    return law
+
+
+@pytest.mark.parametrize("make", [
+    lambda s: gg.run(s.add(gg.define_observable("a")(raises))),
+    lambda s: gg.compare(s.add(gg.define_observable("a")(raises)), threads=2),
+    lambda s: gg.run(s.add(gg.define_observable("a", collision=raises)(lambda sample: 0))),
+    lambda s: gg.theory(s, gg.define_theory("a", "N1")(raises)),
+    lambda s: gg.compare(s.add(gg.define_theory("a", "N1")(raises))),
+    lambda s: gg.scan(s, e=[0.5], theories=[gg.define_theory("a", "N1")(raises)]),
+    lambda s: s.add(gg.define_law(raises)),
+    lambda s: gg.run(s.copy(collisions=1e9).add(gg.define_law(turns_bad([])))),
+    lambda s: gg.Simulation(s.add(gg.define_law(turns_bad([])))).collide(10**9)])
+def test_exceptions_come_out_of_the_call(short, make):
+    with pytest.raises(Ours):
+        make(short)
+
+
+@pytest.mark.parametrize("function, words", [
+    (lambda sample: [1, 2], "returned 2 numbers"), (lambda sample: {"b": 1}, "no quantity 'b'")])
+def test_wrong_answers(short, function, words):
+    with pytest.raises(gg.BadInput, match=words):
+        gg.run(short.add(gg.define_observable("a")(function)))
+
+
+@pytest.mark.parametrize("wrong", [
+    lambda s: s.add(gg.define_observable("two words")(lambda sample: 0)), lambda s: s.add(gg.define_observable("temperature")(lambda s: 0)),
+    lambda s: s.add(gg.define_theory("lun1991", "N1")(lambda f: 0)), lambda s: s.add(gg.define_theory("a", "nothing")(lambda f: 0)),
+    lambda s: s.add(gg.define_law(lambda g: 2)), lambda s: s.add(gg.define_law(([1, 0], [0.5, 0.5]))),
+    lambda s: gg.define_law(([1, 2], [0.5])), lambda s: s.add(second).add(second)])
+def test_definitions_are_checked(short, wrong):
+    with pytest.raises(gg.BadInput):
+        wrong(short)

@@ -1,0 +1,131 @@
+"""Results and comparisons: the numbers of the library's own document and file, tables, arithmetic, pickles, pictures."""
+import json
+import math
+import pickle
+
+import numpy as np
+import pytest
+
+import graingas as gg
+
+
+def test_numbers_are_those_of_the_document(comparison):
+    document = json.loads(comparison.md.to_json())["results"]
+    for name, estimate in comparison.md.items():
+        assert estimate.mean == pytest.approx(document[name]["mean"], rel=1e-14), name
+    assert comparison["temperature"].md.mean == comparison.md["temperature"].mean
+    assert comparison["temperature"].unit == "d^2 gamma^2"
+
+
+def test_z_is_the_difference_over_the_error(comparison):
+    row = comparison["temperature"]
+    assert row.z == pytest.approx((row.md.mean - row.dsmc.mean) / math.hypot(row.md.error, row.dsmc.error))
+    difference = row.md - row.dsmc
+    assert difference.mean / difference.error == pytest.approx(row.z)
+
+
+def test_theories(comparison):
+    lun = comparison.theories["lun1991"]
+    assert comparison["temperature"].theory["lun1991"] == lun["temperature"]
+    assert lun.deviation("temperature") == pytest.approx(lun["temperature"] / comparison.md["temperature"].mean - 1)
+    assert comparison.theories["haff1983"].reason and len(comparison.theories["haff1983"]) == 0
+    assert "cooling" not in comparison and "temperature" in lun
+
+
+def test_unknown_names(comparison):
+    for wrong in (lambda: comparison["heat"], lambda: comparison.md["heat"], lambda: comparison.theories["lun1991"]["heat"]):
+        with pytest.raises(gg.NotFound, match="heat"):
+            wrong()
+    assert comparison.get("heat") is None and isinstance(gg.NotFound("x"), KeyError)
+
+
+def test_file_and_pickle_keep_everything(comparison):
+    comparison.write("c.h5")
+    for other in (gg.read("c.h5"), pickle.loads(pickle.dumps(comparison))):
+        assert list(other) == list(comparison) and isinstance(other, gg.Comparison)
+        assert other["temperature"].md.mean == comparison["temperature"].md.mean
+        assert other.scene == comparison.scene
+    comparison.md.write("r.h5")
+    for other in (gg.read("r.h5"), pickle.loads(pickle.dumps(comparison.md))):
+        assert isinstance(other, gg.Result) and other["N1"].mean == comparison.md["N1"].mean
+
+
+def test_file_is_the_librarys(comparison):
+    h5py = pytest.importorskip("h5py")
+    comparison.write("c.h5")
+    with h5py.File("c.h5") as file:
+        assert file["graingas/md/results/temperature/mean"][()] == comparison.md["temperature"].mean
+        curve = file["graingas/md/curves/velocity_distribution_Cx/value"][:]
+    assert np.array_equal(curve, comparison.md.curves["velocity_distribution_Cx"].value, equal_nan=True)
+
+
+def test_curves_and_history(comparison):
+    curves = comparison.curves["velocity_distribution_Cx"]
+    assert {"md", "dsmc"} <= set(curves)
+    curve = curves["md"]
+    assert curve.x.shape == curve.value.shape == curve.error.shape == (len(curve),)
+    time, T = comparison.md.history("temperature")
+    assert time.shape == T.shape and np.all(np.diff(time) > 0) and T[-1] > 0
+    with pytest.raises(gg.BadInput):
+        comparison.md.history("N1")
+
+
+def test_grains(comparison):
+    g = comparison.md.grains
+    assert g.position.shape == g.velocity.shape == g.spin.shape == (200, 3) and g.species.shape == (200,)
+    assert comparison.dsmc.grains.position is None
+    g.position[:] = 0  # a copy: the result keeps its own
+    assert comparison.md.grains.position.max() > 1
+
+
+def test_tables(comparison):
+    pandas = pytest.importorskip("pandas")
+    table = comparison.to_dataframe()
+    assert isinstance(table, pandas.DataFrame)
+    assert table.loc["temperature", "md"] == comparison.md["temperature"].mean
+    assert table.loc["temperature", "lun1991"] == comparison.theories["lun1991"]["temperature"]
+    assert comparison.md.to_dataframe().loc["N1", "error"] == comparison.md["N1"].error
+    html = comparison._repr_html_()
+    assert str(comparison["temperature"].md) in html and html.count("<tr>") == len(comparison) + 1
+    assert str(comparison["temperature"].md) in repr(comparison)
+
+
+def test_pictures(comparison):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    before = dict(matplotlib.rcParams)
+    for i, ax in enumerate([comparison.plot(), comparison.md.plot("temperature"),
+                            comparison.curves["velocity_distribution_Cx"].plot(),
+                            comparison.md.curves["velocity_distribution_Cx"].plot()]):
+        assert isinstance(ax, matplotlib.axes.Axes) and ax.get_ylabel()
+        ax.figure.savefig(f"{i}.pdf")
+    assert dict(matplotlib.rcParams) == before
+    ax = matplotlib.pyplot.figure().add_subplot()
+    assert comparison.plot(["temperature", "N1"], ax=ax) is ax and len(ax.get_xticks()) == 2
+
+
+def test_estimates_by_hand():
+    a, b = gg.Estimate(2.0, 0.3), gg.Estimate(5.0, 0.4)
+    assert ((a + b).mean, (a + b).error) == (7, pytest.approx(0.5))
+    assert (a * b).error == pytest.approx(math.hypot(5 * 0.3, 2 * 0.4))
+    assert (a / b).error == pytest.approx(0.4 * math.hypot(0.3 / 2, 0.4 / 5))
+    assert (a - a).error == 0 and (a / a).error == 0 and (2 * a).error == pytest.approx(0.6)
+    assert (a**2).error == pytest.approx(2 * 2 * 0.3) and (1 / a).error == pytest.approx(0.3 / 4)
+    assert (-a).mean == -2 and abs(-a).mean == 2 and (3 - a).mean == 1
+    assert str(gg.Estimate(1.234, 0.0041)) == "1.2340(41)" and f"{a:.2f}" == "2.00"
+
+
+def test_estimates_of_one_run_are_correlated(comparison):
+    """Their covariance enters; unknown, the error is NaN and never that of independent numbers."""
+    md = comparison.md
+    sum_of_parts = md["P_xx_kinetic"] + md["P_xx_collisional"]
+    independent = math.hypot(md["P_xx_kinetic"].error, md["P_xx_collisional"].error)
+    assert sum_of_parts.mean == pytest.approx(md["P_xx"].mean)
+    assert math.isnan(sum_of_parts.error) or abs(sum_of_parts.error / md["P_xx"].error - 1) < 0.2 != independent
+
+
+def test_uncertainties(comparison):
+    uncertainties = pytest.importorskip("uncertainties")
+    u = comparison["temperature"].md.u
+    assert (u.n, u.s) == (comparison.md["temperature"].mean, comparison.md["temperature"].error)
+    assert isinstance(u, uncertainties.core.AffineScalarFunc)

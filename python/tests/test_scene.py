@@ -1,0 +1,114 @@
+"""Scenes: keys by every way to write them, their help, errors with the library's words, copies and pickles."""
+import math
+import os
+import pickle
+
+import numpy as np
+import pytest
+
+import graingas as gg
+from graingas import yaml
+from graingas.scene import KEYS, SHORT
+
+
+def test_sources_are_equal(examples):
+    path = os.path.join(examples, "usf.yaml")
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    keys = gg.Scene(flow="usf", phi=0.01, particles=1000, e=0.9, beta=0, relative_error=0.005)
+    assert gg.Scene(path) == gg.Scene(text) == keys == gg.Scene({"flow": "usf", "phi": 0.01, "particles": 1000,
+                                                                "collision": {"e": 0.9, "beta": 0},
+                                                                "run.relative_error": 0.005})
+
+
+def test_ways_to_a_key():
+    s = gg.Scene(flow="usf", phi=0.1)
+    s.e = 0.8
+    assert s["collision.e"] == s.collision.e == s.e == 0.8
+    s.collision.beta = -0.5
+    assert s["collision.beta"] == s.beta == -0.5
+    s["phi"] = 0.3
+    assert s.phi == 0.3
+    s["run"] = {"seed": 7}
+    assert s.run.seed == s.seed == 7
+
+
+@pytest.mark.parametrize("key, value", [
+    ("phi", 1 / 3), ("particles", 12345), ("flow", "hcs"), ("measure", ["rheology", "orientation"]),
+    ("aspect", [1, 2, 0.5]), ("collision.mu", math.inf), ("run.time_limit", None), ("thermostat", "none"),
+    ("phi", np.float64(0.1)), ("aspect", np.array([1.0, 2.0, 3.0])), ("particles", np.int64(500))])
+def test_values_return(key, value):
+    s = gg.Scene(flow="usf", phi=0.1)
+    s[key] = value
+    assert s[key] == (value.tolist() if isinstance(value, np.ndarray) else value)
+
+
+def test_pairs_of_species():
+    s = gg.Scene(flow="usf", phi=0.1, species=[{"fraction": 0.5}, {"fraction": 0.5, "diameter": 2}],
+                 collision={"e": {12: 0.8, "other": 0.5}})
+    assert s["collision.e.12"] == 0.8 and s["collision.e.22"] == 0.5
+    assert s.e[12] == 0.8 and s.species[1]["diameter"] == 2
+    assert pickle.loads(pickle.dumps(s)) == s
+
+
+def test_completion_and_help(capsys):
+    s = gg.Scene(flow="usf", phi=0.1)
+    assert {"phi", "collision", "e", "seed"} <= set(dir(s)) and "beta" in dir(s.collision)
+    assert set(s._ipython_key_completions_()) == set(KEYS)
+    for key in KEYS:
+        assert KEYS[key].doc in (gg.scene._documentation(key)) and KEYS[key].allowed
+    assert "restitution" in gg.Scene.e.__doc__ and "a number from 0 to 1" in gg.Scene.e.__doc__
+    s.help("e")
+    assert "Value: 0.9" in capsys.readouterr().out
+    assert all(SHORT[word].endswith("." + word) for word in SHORT)
+
+
+@pytest.mark.parametrize("wrong, words", [
+    (lambda s: setattr(s, "phy", 1), "did you mean 'phi'"), (lambda s: setattr(s, "e", 3), "from 0 to 1"),
+    (lambda s: s.__setitem__("collision.e", "x"), "collision.e"), (lambda s: s["nothing"], "nothing"),
+    (lambda s: gg.Scene("flow: usf\nphi: 2"), "scene:2"), (lambda s: gg.Scene("flow: usf").check(), "phi is missing")])
+def test_errors_are_the_librarys(wrong, words):
+    with pytest.raises(gg.BadInput, match=words):
+        wrong(gg.Scene(flow="usf", phi=0.1))
+
+
+def test_missing_file_and_attribute():
+    with pytest.raises(gg.BadFile, match="nowhere.yaml"):
+        gg.Scene("nowhere.yaml")
+    assert issubclass(gg.BadFile, OSError) and issubclass(gg.BadInput, ValueError)
+    assert not hasattr(gg.Scene(flow="usf", phi=0.1), "shape")
+
+
+def test_failed_change_leaves_the_scene():
+    s = gg.Scene(flow="usf", phi=0.1)
+    before = s.to_yaml(all=True)
+    with pytest.raises(gg.BadInput):
+        s.phi = 7
+    assert s.to_yaml(all=True) == before
+
+
+def test_copy_is_independent():
+    s = gg.Scene(flow="usf", phi=0.1)
+    t = s.copy(phi=0.2, e=0.7)
+    assert (s.phi, t.phi, t.e) == (0.1, 0.2, 0.7)
+
+
+def test_pickle_keeps_what_is_given(examples):
+    for name in sorted(os.listdir(examples)):
+        if name.endswith(".yaml"):
+            s = gg.Scene(os.path.join(examples, name))
+            t = pickle.loads(pickle.dumps(s))
+            assert t == s and t.given() == s.given(), name
+
+
+def test_words_about_a_scene():
+    s = gg.Scene(flow="usf", phi=0.1, walls={"speed": 2})
+    assert "Uniform shear" in s.title and "Uniform shear" in repr(s)
+    assert any("walls.speed" in line for line in s.warnings("md"))
+    assert s.describe("md") and s.needs("md").memory > 0
+    assert "usf" in gg.catalogue.words("flow") and "temperature" in gg.catalogue.quantities()
+
+
+@pytest.mark.parametrize("value", [1, -2.5, 1e-300, [1, [2, 3]], {"a": 1, 12: [0.5, "x"]}, "word", [], {}])
+def test_yaml_reads_what_it_writes(value):
+    assert yaml.read(yaml.write(value)) == value

@@ -1,0 +1,180 @@
+"""Simulations: conservation, the same bits from copies, collisions by callback and in bulk, Ctrl-C, trajectories."""
+import os
+import pickle
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import graingas as gg
+
+
+@pytest.fixture(params=["md", "dsmc"])
+def either(request, short):
+    return gg.Simulation(short.copy(engine=request.param))
+
+
+@pytest.fixture
+def sim(short):
+    return gg.Simulation(short)
+
+
+def test_state_is_that_of_the_grains(either):
+    either.advance(2)
+    g, state = either.grains, either.state
+    assert state.temperature == pytest.approx((g.velocity**2).sum() / 3 / len(g))
+    assert state.collisions > 0 and either.species[0].grains == len(g) == state.grains
+    assert (g.position is None) == (state.box[0] == 0)
+
+
+def test_elastic_grains_keep_their_energy():
+    sim = gg.Simulation(gg.Scene(flow="equilibrium", phi=0.2, particles=300, e=1))
+    before = sim.temperature
+    sim.collide(20000)
+    assert sim.temperature == pytest.approx(before, rel=1e-12)
+    assert np.allclose(sim.grains.velocity.sum(axis=0), 0, atol=1e-9)
+
+
+def test_grains_do_not_overlap(sim):
+    sim.collide(2000)
+    g, (Lx, Ly, Lz), offset = sim.grains, sim.state.box, sim.state.image_offset
+    d = g.position[:, None] - g.position[None]
+    rows = np.round(d[..., 1] / Ly)
+    d[..., 1] -= rows * Ly
+    d[..., 0] -= rows * offset
+    d[..., 0] -= np.round(d[..., 0] / Lx) * Lx
+    d[..., 2] -= np.round(d[..., 2] / Lz) * Lz
+    distance = np.sqrt((d**2).sum(-1))[np.triu_indices(len(g), 1)]
+    assert distance.min() > 1 - 1e-9
+
+
+def test_copies_continue_with_the_same_bits(either):
+    either.collide(1000)
+    either.save("s.h5")
+    others = [either.copy(), pickle.loads(pickle.dumps(either)), gg.Simulation.load("s.h5"),
+              gg.Simulation.load("s.h5", either.scene)]
+    for other in others:
+        assert other.hash == either.hash and other.scene == either.scene
+    for one in [either, *others]:
+        one.collide(2000)
+    assert {other.hash for other in others} == {either.hash}
+
+
+def test_streams(short):
+    assert gg.Simulation(short).hash == gg.Simulation(short).hash != gg.Simulation(short, stream=1).hash
+
+
+def test_events_are_exact_collisions(sim):
+    other = sim.copy()
+    events = sim.events(5000)
+    other.collide(5000)
+    assert len(events) == 5000 and sim.hash == other.hash
+    assert np.all(np.diff(events.time) >= 0) and np.all(events.normal_speed > 0)
+    assert np.allclose((events.k**2).sum(1), 1)
+    assert np.allclose((events.k * events.velocity).sum(1), -events.normal_speed) or \
+        np.allclose((events.k * events.velocity).sum(1), events.normal_speed)
+    normal = (events.impulse * events.k).sum(1)  # m/2 (1 + e) g along k
+    assert np.allclose(normal, 0.5 * 1.9 * events.normal_speed)
+
+
+def test_callback_sees_what_events_record(sim):
+    other, seen = sim.copy(), []
+    sim.on_collision(seen.append)
+    sim.collide(300)
+    events = other.events(300)
+    assert len(seen) == 300
+    for name in "grain", "k", "normal_speed", "time", "impulse":
+        assert np.array_equal([getattr(event, name) for event in seen], events[name]), name
+
+
+def test_callback_stops_itself(either):
+    seen = []
+
+    def watch(event):
+        seen.append(event.time)
+        if len(seen) == 10:
+            either.on_collision(None)
+    either.on_collision(watch)
+    either.collide(2000)
+    assert len(seen) == 10
+    either.collide(100)
+    assert len(seen) == 10
+
+
+def test_callback_replaces_itself(either):
+    first, second = [], []
+    either.on_collision(lambda event: (first.append(event), either.on_collision(second.append)))
+    either.collide(1000)
+    assert len(first) == 1 and len(second) >= 900
+
+
+def test_exception_of_the_callback_comes_out(either):
+    def fail(event):
+        raise ArithmeticError("from inside")
+    either.on_collision(fail)
+    with pytest.raises(ArithmeticError, match="from inside"):
+        either.collide(10**9)
+    either.collide(100)  # it watches no more, and goes on
+    assert either.state.collisions >= 100
+
+
+def test_interrupted(sim):
+    def interrupt():
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+    sent = []
+    threading.Timer(0.5, interrupt).start()
+    with pytest.raises(KeyboardInterrupt):
+        sim.advance(1e9)
+    assert time.monotonic() - sent[0] < 0.5  # 0.01 s on an idle machine
+    before = sim.time
+    sim.advance(1)
+    assert sim.time == pytest.approx(before + 1)
+
+
+def test_two_simulations_in_two_threads(short):
+    expected = [gg.Simulation(short, stream).collide(30000).hash for stream in (0, 1)]
+    sims = [gg.Simulation(short, stream) for stream in (0, 1)]
+    threads = [threading.Thread(target=sim.collide, args=(30000,)) for sim in sims]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert [sim.hash for sim in sims] == expected
+
+
+def test_sums_and_frames(sim):
+    sim.collide(500)
+    assert sim.take_sums().collisions == 500 and sim.take_sums().collisions == 0
+    times = [s.time for s in sim.frames(0.25, 4)]
+    assert np.allclose(np.diff(times), 0.25)
+
+
+def test_walls():
+    sim = gg.Simulation(gg.Scene(flow="couette", phi=0.1, particles=200))
+    assert sim.walls[:2] == ["lower", "upper"]
+
+
+@pytest.fixture
+def stored(short):
+    short["output.trajectory_every"] = 30
+    gg.run(short, output="t.h5")
+    return gg.trajectory("t.h5")
+
+
+def test_trajectory(stored):
+    result = gg.read("t.h5")
+    assert len(stored) == result.info.frames > 3 and stored.scene == result.scene
+    assert np.array_equal(stored[-1].grains.velocity, result.grains.velocity)
+    assert [frame.time for frame in stored] == sorted(frame.time for frame in stored[:])
+    with pytest.raises(IndexError):
+        stored[len(stored)]
+
+
+def test_ase(stored):
+    pytest.importorskip("ase")
+    for frame, atoms in zip(stored, stored.to_ase()):
+        assert 2 * atoms.get_kinetic_energy() / 3 / len(atoms) == pytest.approx(frame.state.temperature)
+        assert atoms.get_all_distances(mic=True)[np.triu_indices(len(atoms), 1)].min() > 1 - 1e-9

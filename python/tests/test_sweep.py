@@ -1,0 +1,80 @@
+"""Sweeps: every point is the run it says, tables and cubes, resumed folders."""
+import os
+
+import pytest
+
+import graingas as gg
+
+
+@pytest.fixture
+def swept(short):
+    return gg.sweep(short, {"collision.e": [0.7, 0.9]}, phi=[0.05, 0.1], folder="u", threads=2)
+
+
+def test_points_are_runs(swept, short):
+    assert len(swept) == 4 and [p.values["phi"] for p in swept] == [0.05, 0.1, 0.05, 0.1]
+    for point in swept:
+        alone = gg.run(short.copy(e=point.values["collision.e"], phi=point.values["phi"], seed=point.seed))
+        assert point.read()["temperature"].mean == alone["temperature"].mean
+
+
+def test_tables(swept):
+    pytest.importorskip("xarray")
+    table, cube = swept.to_dataframe(), swept.to_xarray()
+    assert cube["temperature"].dims == ("collision.e", "phi", "solver")
+    for _, row in table[table.quantity == "temperature"].iterrows():
+        at = {"collision.e": row["collision.e"], "phi": row["phi"], "solver": row["solver"]}
+        assert float(cube["temperature"].sel(at)) == row["mean"]
+        assert float(cube["temperature_error"].sel(at)) == row["error"]
+    assert swept[2].values == {"collision.e": 0.9, "phi": 0.05}
+    assert float(cube["temperature"].sel({"collision.e": 0.9, "phi": 0.05, "solver": "md"})) == \
+        swept[2].read()["temperature"].mean
+
+
+def test_folder_is_resumed(swept, short):
+    removed = swept[1].file
+    kept = os.stat(swept[0].file).st_mtime_ns
+    os.remove(removed)
+    again = gg.sweep(short, {"collision.e": [0.7, 0.9]}, phi=[0.05, 0.1], folder="u")
+    assert os.path.exists(removed) and os.stat(swept[0].file).st_mtime_ns == kept
+    assert all(point.state == "done" for point in again)
+
+
+def test_comparisons_theories_and_pictures(short):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    compared = gg.sweep(short, e=[0.8, 0.9], does="compare")
+    assert {"md", "dsmc", "lun1991"} <= set(compared.grid().coords["solver"])
+    ax = compared.plot("temperature", relative_to="enskog_hermite")
+    assert "enskog_hermite" in ax.get_ylabel() and ax.get_xlabel() == "collision.e"
+    with pytest.raises(gg.NotFound):
+        compared.plot(relative_to="nobody")
+    theories = gg.sweep(short, e=[0.8, 0.9], does="theory")
+    assert "md" not in theories.grid().coords["solver"]
+    assert theories[0].read().theories["lun1991"]["temperature"] == compared[0].read().theories["lun1991"]["temperature"]
+
+
+def test_temporary_folder_goes_with_the_sweep(short):
+    found = gg.sweep(short, e=[0.9])
+    folder = found.folder
+    assert os.path.isdir(folder)
+    del found
+    __import__("gc").collect()
+    assert not os.path.exists(folder)
+
+
+def test_short_points_are_named():
+    s = gg.Scene(flow="usf", phi=0.1, particles=200, run={"relative_error": 1e-5, "time_limit": 0.2})
+    with pytest.warns(gg.PartialResult, match="point 0"):
+        found = gg.sweep(s, e=[0.9])
+    assert found.partial and found[0].state == "short" and "time limit" in found.partial
+    assert found[0].read().info.engine == "md"
+
+
+@pytest.mark.parametrize("wrong", [
+    lambda s: gg.sweep(s), lambda s: gg.sweep(s, e=0.9), lambda s: gg.sweep(s, e=[0.9, 9]), lambda s: gg.sweep(s, nothing=[1]),
+    lambda s: gg.sweep(s, e=[0.9], does="dance"), lambda s: gg.sweep(s, e=[0.9], threads=-1),
+    lambda s: gg.sweep(s.add(gg.define_law(lambda g: 0.9)), e=[0.9])])
+def test_wrong_sweeps(short, wrong):
+    with pytest.raises(gg.BadInput):
+        wrong(short)

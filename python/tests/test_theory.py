@@ -1,0 +1,74 @@
+"""Theories alone: numbers in closed form, grids, and what does not apply."""
+import math
+
+import numpy as np
+import pytest
+
+import graingas as gg
+
+
+@pytest.fixture
+def shear():
+    return gg.Scene(flow="usf", phi=0.1, e=0.9, beta=0)
+
+
+def test_lun_in_closed_form(shear):
+    """theta/T = K (1 + beta)/(1 + 2 K - beta), K = 4I/(m d^2) = 2/5."""
+    for beta in -0.5, 0, 0.7:
+        K = 0.4
+        found = gg.theory(shear.copy(beta=beta), "lun1991")["temperature_ratio"]
+        assert found == pytest.approx(K * (1 + beta) / (1 + 2 * K - beta), rel=1e-6)
+
+
+def test_one_theory_has_the_numbers_of_all(shear):
+    alone, together = gg.theory(shear, "lun1991"), gg.theories(shear).theories["lun1991"]
+    assert dict(alone) == dict(together) and len(alone) > 3
+
+
+def test_theories_that_do_not_apply(shear):
+    haff = gg.theory(shear, "haff1983")
+    assert "cooling" in haff.reason and list(haff) == []
+    with pytest.raises(gg.NotFound, match="haff1983"):
+        haff["temperature"]
+    with pytest.raises(gg.NotFound, match="lun19"):
+        gg.theory(shear, "lun19")
+
+
+def test_haffs_law():
+    """T(t) = T_0/(1 + zeta t/2)^2, T_0 = 1/2."""
+    haff = gg.theory(gg.Scene(flow="hcs", phi=0.1, e=0.9), "haff1983")
+    n = 6 * 0.1 / math.pi
+    nu = 16 / 5 * math.sqrt(math.pi) * n * math.sqrt(0.5)
+    t = np.array([0.0, 1.0, 10.0, 1000.0])
+    expected = 0.5 / (1 + haff["cooling_rate"] * nu * t / 2) ** 2
+    assert np.allclose(haff.temperature(t), expected, rtol=1e-9)
+    assert haff.temperature(0) == pytest.approx(0.5)
+
+
+def test_scan(shear):
+    xarray = pytest.importorskip("xarray")
+    es = np.linspace(0.5, 0.9, 3)
+    found = gg.scan(shear, e=es, phi=[0.1, 0.2], theories=["lun1991", "lun1991_lun_savage"])
+    assert isinstance(found, xarray.Dataset) and found["temperature"].shape == (3, 2, 2)
+    at = found["temperature"].sel({"collision.e": es[1], "phi": 0.2, "theory": "lun1991_lun_savage"})
+    assert float(at) == gg.theory(shear.copy(e=es[1], phi=0.2), "lun1991_lun_savage")["temperature"]
+    assert found["temperature"].attrs["units"] == "d^2 gamma^2"
+
+
+def test_scan_without_xarray(shear, monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "xarray", None)
+    found = gg.scan(shear, {"collision.e": [0.5, 0.9]}, theories=["lun1991"], quantities=["temperature"])
+    assert isinstance(found, gg.Grid) and found.dims == ("collision.e", "theory") and found["temperature"].shape == (2, 1)
+
+
+def test_scan_of_words_and_pairs(shear):
+    pytest.importorskip("xarray")
+    found = gg.scan(shear, contact_value=["carnahan_starling", "lun_savage"], theories=["lun1991"])
+    assert list(found["contact_value"].values) == ["carnahan_starling", "lun_savage"]
+    assert float(found["temperature"][0, 0]) != float(found["temperature"][1, 0])
+
+
+@pytest.mark.parametrize("wrong", [dict(), dict(e=0.5), dict(e=[]), dict(e=[2]), dict(nothing=[1]), dict(e="abc")])
+def test_wrong_grids(shear, wrong):
+    with pytest.raises(gg.BadInput):
+        gg.scan(shear, theories=["lun1991"], **wrong)
