@@ -9,7 +9,7 @@ Numbers have the units of results (c["temperature"].unit): lengths in the diamet
 1; sheared flows in units of the shear rate gamma, others of the initial thermal speed v_0. Scenes have their own units.
 """
 from . import _c
-from . import catalogue
+from . import catalogue, plot
 from .comparison import Comparison, Theory
 from .curves import Curve
 from .errors import BadFile, BadInput, Busy, GraingasError, NotFound, PartialResult, RunFailed, text

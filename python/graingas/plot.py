@@ -27,8 +27,9 @@ def styled(function):
     return draw
 
 
+@styled
 def new_axes(ax=None):
-    """The axes given, or new ones."""
+    """The axes given, or new ones of the width of a column."""
     if ax is not None:
         return ax
     from matplotlib import pyplot

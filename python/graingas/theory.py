@@ -123,11 +123,9 @@ def _answers(scene, point, names):
     """Numbers by theory and quantity at one point, and the units."""
     for key, value in point.items():
         scene[key] = value
-    found, units = {}, {}
-    for name in names or [None]:
-        comparison = _evaluate(scene, name)
-        units.update({row.name: row.unit for row in comparison.values()})
-        found.update({key: dict(theory) for key, theory in comparison.theories.items() if name in (None, key)})
+    comparison = _evaluate(scene, ",".join(names) if names else None)
+    found = {name: dict(theory) for name, theory in comparison.theories.items()}
+    units = {row.name: row.unit for row in comparison.values()}
     return {name: answers for name, answers in found.items() if answers or names}, units
 
 

@@ -1,1 +1,85 @@
-"""Placeholder replaced below."""
+"""The notebooks and the page docs/howto/python.md run as they are, and find what they say."""
+import glob
+import json
+import math
+import os
+import re
+
+import numpy as np
+import pytest
+
+import graingas as gg
+from conftest import SOURCE
+
+NOTEBOOKS = {os.path.basename(path)[:-6]: path for path in glob.glob(os.path.join(SOURCE, "python", "notebooks", "*.ipynb"))}
+
+
+def cells(name):
+    with open(NOTEBOOKS[name], encoding="utf-8") as file:
+        book = json.load(file)
+    code = [cell for cell in book["cells"] if cell["cell_type"] == "code"]
+    assert all(not cell["outputs"] for cell in code), "clear the outputs before a commit"
+    return ["".join(cell["source"]) for cell in code]
+
+
+def execute(parts):
+    """The names that all parts leave; the last expression of a part is shown, as a notebook does."""
+    matplotlib = pytest.importorskip("matplotlib")
+    pytest.importorskip("xarray")
+    pytest.importorskip("pandas")
+    matplotlib.use("Agg")
+    names = {}
+    for i, part in enumerate(parts):
+        exec(compile(part, f"cell {i}", "exec"), names)
+        last = part.strip().splitlines()[-1]
+        if re.fullmatch(r"[\w.]+", last):
+            value = names[last] if last in names else eval(last, names)
+            assert getattr(value, "_repr_html_", value.__repr__)()
+    return names
+
+
+def test_every_notebook_is_tried():
+    assert sorted(NOTEBOOKS) == ["haffs_law", "own_theory", "three_questions"]
+
+
+def test_haffs_law():
+    names = execute(cells("haffs_law"))
+    assert names["temperatures"][-1] < 0.03 * names["temperatures"][0]
+    assert np.allclose(names["temperatures"], names["predicted"], rtol=0.15)
+    assert abs(names["slope"] / names["expected"] - 1) < 0.05
+
+
+def test_own_theory():
+    names = execute(cells("own_theory"))
+    excess = names["excess"].sel({"collision.e": 0.5})
+    assert float(abs(excess).max()) < 0.05 and float(excess.std()) < 1e-6
+    measured, mine = names["measured"], names["theories"]["maxwellian"]
+    assert mine == pytest.approx(5 / 12 * (1 - 0.05) / (1 - 0.1) ** 3 * 0.75)
+    assert abs(measured.mean / names["theories"]["garzo_dufty1999"] - 1) < 0.02
+
+
+def test_three_questions():
+    names = execute(cells("three_questions"))
+    assert names["ratio"].sel(solver="md").values[0] < 0.1 < 0.5 < names["ratio"].sel(solver="md").values[-1]
+    z = [point.read()["temperature_ratio"].z for point in names["dense"]]
+    assert abs(z[0]) < 8 and z[-1] > 10
+    assert names["a2"].values[0] > 0.03 and names["a2"].values[-1] < 0
+    assert np.allclose(names["a2"], names["theory"], atol=0.03)
+
+
+def page():
+    with open(os.path.join(SOURCE, "docs", "howto", "python.md"), encoding="utf-8") as file:
+        return file.read()
+
+
+def test_page():
+    """Its blocks in order, in one session; every output that it shows is printed."""
+    os.symlink(os.path.join(SOURCE, "examples"), "examples")
+    names = execute(re.findall(r"^```python\n(.*?)^```", page(), re.MULTILINE | re.DOTALL))
+    assert isinstance(names["c"], gg.Comparison) and math.isfinite(names["c"]["temperature"].z)
+
+
+def test_page_names_what_there_is():
+    public = {name for name in dir(gg) if not name.startswith("_")}
+    for name in re.findall(r"\bgg\.(\w+)", page()):
+        assert name in public, name
