@@ -1,4 +1,6 @@
 """Tables of the library: keys of scenes, flows, engines, observables, quantities, theories."""
+from __future__ import annotations
+
 from . import _c
 from .errors import lib, new_error, encode
 from .structs import Record, new, values

@@ -1,6 +1,9 @@
 """Comparisons: both engines and the theories on one scene."""
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
+from typing import Optional
 
 from . import _c, tables
 from .curves import curves_of
@@ -32,19 +35,19 @@ class Theory(Mapping):
         look_up(function, self._comparison._pointer, encode(self.name), encode(quantity, "quantity"), found, *more)
         return found[0]
 
-    def __getitem__(self, quantity):
+    def __getitem__(self, quantity: str) -> float:
         found = self._value(quantity, lib.gg_comparison_theory_value, ffi.NULL)
         if math.isnan(found):
             raise NotFound(f"{self.name} gives no {quantity}: {self.reason or 'it does not answer it in this scene'}")
         return found
 
-    def deviation(self, quantity):
+    def deviation(self, quantity: str) -> float:
         """theory/simulation - 1, against md, or dsmc without md; NaN without a simulation."""
         ratio = ffi.new("double *")
         self._value(quantity, lib.gg_comparison_theory_value, ratio)
         return ratio[0]
 
-    def error(self, quantity):
+    def error(self, quantity: str) -> float:
         """Numerical error of an answer; NaN: it is exact."""
         return self._value(quantity, lib.gg_comparison_theory_error)
 
@@ -111,11 +114,11 @@ class Row:
         return Estimate(row.mean[i], row.error[i], self.unit, self.name, reason=self._comparison.refusals.get(engine))
 
     @property
-    def theory(self):
+    def theory(self) -> dict[str, float]:
         return {name: theory[self.name] for name, theory in self._comparison.theories.items() if self.name in theory}
 
     @property
-    def deviation(self):
+    def deviation(self) -> dict[str, float]:
         return {name: theory.deviation(self.name) for name, theory in self._comparison.theories.items()
                 if self.name in theory}
 
@@ -141,11 +144,11 @@ class Comparison(Mapping):
         return None if pointer == ffi.NULL else Result(pointer, owner=self, scene=self._scene)
 
     @property
-    def md(self):
+    def md(self) -> Optional[Result]:
         return self._results[0]
 
     @property
-    def dsmc(self):
+    def dsmc(self) -> Optional[Result]:
         return self._results[1]
 
     @property
@@ -155,7 +158,7 @@ class Comparison(Mapping):
         return self._both
 
     @property
-    def refusals(self):
+    def refusals(self) -> dict[str, str]:
         """Why there is no result, by engine."""
         found = {engine: text(lib.gg_comparison_refusal(self._pointer, engine.encode())) for engine in ENGINES}
         return {engine: reason for engine, reason in found.items() if reason is not None}
@@ -172,7 +175,7 @@ class Comparison(Mapping):
     def _quantities(self):
         return list(self._table_rows())
 
-    def __getitem__(self, quantity):
+    def __getitem__(self, quantity: str) -> Row:
         rows = self._table_rows()
         if quantity not in rows:
             look_up(lib.gg_comparison_agreement, self._pointer, encode(quantity, "quantity"), ffi.NULL, ffi.NULL)
@@ -189,7 +192,7 @@ class Comparison(Mapping):
         return list(self)
 
     @property
-    def theories(self):
+    def theories(self) -> dict[str, Theory]:
         """All theories by name; those that do not apply have a `reason`."""
         found, info, error = {}, new("gg_theory_info"), new_error()
         while lib.gg_comparison_theory(self._pointer, len(found), info, error) == lib.GG_OK:
@@ -198,7 +201,7 @@ class Comparison(Mapping):
         return found
 
     @property
-    def curves(self):
+    def curves(self) -> dict[str, CurveSet]:
         """Curves by name; each a dict of Curve by "md", "dsmc" and name of theory."""
         sources = {"md": self.md, "dsmc": self.dsmc, **self.theories}
         found = {}
@@ -208,7 +211,7 @@ class Comparison(Mapping):
         return found
 
     @property
-    def remarks(self):
+    def remarks(self) -> list:
         """Causes of differences larger than expected: theory, quantity, deviation, cause."""
         found, remark, error = [], new("gg_remark"), new_error()
         while lib.gg_comparison_remark(self._pointer, len(found), remark, error) == lib.GG_OK:
@@ -216,21 +219,21 @@ class Comparison(Mapping):
         return found
 
     @property
-    def warnings(self):
+    def warnings(self) -> list[str]:
         """Keys that have no effect on any part of the comparison."""
         return list(iter_texts(lambda i: lib.gg_comparison_warning(self._pointer, i)))
 
     @property
-    def scene(self):
+    def scene(self) -> Scene:
         return self._scene or Scene._copy_of(lib.gg_comparison_scene(self._pointer))
 
-    def to_json(self):
+    def to_json(self) -> str:
         """The document of `graingas compare --json`, as text."""
         made = ffi.new("char **")
         check(lib.gg_comparison_to_json, self._pointer, made)
         return owned_text(made)
 
-    def write(self, path):
+    def write(self, path) -> None:
         """Writes the HDF5 file; it appears whole or not at all."""
         check(lib.gg_comparison_write, self._pointer, encode(path, "file name"))
 

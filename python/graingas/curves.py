@@ -1,4 +1,6 @@
 """Curves of results: distributions, profiles, correlation functions, spectra."""
+from __future__ import annotations
+
 from . import _c
 from .errors import lib, new_error
 from .estimate import Estimate

@@ -1,9 +1,11 @@
 """Means with their standard errors."""
+from __future__ import annotations
+
 import math
 
 from . import _c
 from .errors import text
-from .structs import new, value
+from .structs import value
 
 ffi, lib = _c.ffi, _c.lib
 

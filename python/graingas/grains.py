@@ -1,8 +1,10 @@
 """Positions, velocities, spins and species of grains, as numpy arrays."""
+from __future__ import annotations
+
 import numpy as np
 
 from . import _c
-from .errors import check
+from .errors import BadInput, check
 from .structs import address
 
 ffi = _c.ffi
@@ -35,6 +37,36 @@ class Grains:
             setattr(into, name, address(getattr(self, name), "double *"))
         into.species = address(self.species, "int *")
         return into
+
+
+SHAPES = {"position": (3,), "velocity": (3,), "spin": (3,), "species": ()}
+
+
+def grains_from(n, **arrays):
+    """A gg_grains of the caller's arrays, checked and converted, and the arrays that have to outlive it. None: NULL.
+    n: number of grains; None: that of the arrays."""
+    into, kept = ffi.new("gg_grains *"), []
+    for name, values in arrays.items():
+        if values is None:
+            continue
+        kept.append(_checked(name, values, n))
+        n = len(kept[-1])
+        setattr(into, name, address(kept[-1], "int *" if name == "species" else "double *"))
+    return into, kept, n or 0
+
+
+def _checked(name, values, n):
+    kind = "i4" if name == "species" else "f8"
+    try:
+        found = np.ascontiguousarray(values, kind)
+    except (TypeError, ValueError, OverflowError):
+        raise BadInput(f"{name}: expected an array of {'whole ' if kind == 'i4' else ''}numbers") from None
+    if kind == "i4" and not np.array_equal(found, np.asarray(values)):
+        raise BadInput(f"{name}: expected an array of whole numbers")
+    if found.ndim != 1 + len(SHAPES[name]) or found.shape[1:] != SHAPES[name] or n not in (None, len(found)):
+        shape = ", ".join(["n" if n is None else str(n), *map(str, SHAPES[name])])
+        raise BadInput(f"{name}: has the shape {found.shape}; expected ({shape}{',' if not SHAPES[name] else ''})")
+    return found
 
 
 def copy_grains(function, handle, n, positions, *before):

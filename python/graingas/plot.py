@@ -122,8 +122,8 @@ def plot_comparison(comparison, quantities=None, ax=None):
     for i, engine in enumerate(("md", "dsmc")):
         if getattr(comparison, engine) is not None:
             rows = [getattr(comparison[name], engine) for name in names]
-            ax.errorbar(x, [r.mean / m for r, m in zip(rows, reference)], errors([r.error / abs(m) for r, m in zip(rows, reference)]),
-                        fmt=MARKERS[i], mfc="none", color=COLOURS[i], label=engine)
+            mean, error = np.array([[r.mean, r.error] for r in rows]).T / np.array(reference)
+            ax.errorbar(x, mean, errors(abs(error)), fmt=MARKERS[i], mfc="none", color=COLOURS[i], label=engine)
     theories = [theory for theory in comparison.theories.values() if any(name in theory for name in names)]
     for i, theory in enumerate(theories, 2):
         ratios = [theory[name] / m if name in theory else np.nan for name, m in zip(names, reference)]

@@ -1,4 +1,6 @@
 """Results of one engine's run."""
+from __future__ import annotations
+
 import math
 import os
 import tempfile
@@ -6,10 +8,10 @@ from collections import namedtuple
 from collections.abc import Mapping
 
 from . import _c, tables
-from .curves import result_curves
+from .curves import Curve, result_curves
 from .errors import check, encode, lib, look_up, new_error, owned_text, text
 from .estimate import Estimate
-from .grains import copy_grains
+from .grains import Grains, copy_grains
 from .scene import Scene
 from .structs import Record, array, new, values
 
@@ -29,13 +31,13 @@ class Result(Mapping):
         self._pointer = pointer if owner is not None else ffi.gc(pointer, lib.gg_result_free)
         self._owner, self._scene, self.partial = owner, scene, None
 
-    def find(self, quantity):
+    def find(self, quantity: str) -> Estimate:
         """Everything known about a quantity, also if it has no mean. Raises NotFound for an unknown name."""
         found = new("gg_measurement")
         look_up(lib.gg_result_find, self._pointer, encode(quantity, "quantity"), found)
         return Estimate._of(found, self)
 
-    def __getitem__(self, quantity):
+    def __getitem__(self, quantity: str) -> Estimate:
         return self.find(quantity)
 
     def _all(self):
@@ -65,31 +67,31 @@ class Result(Mapping):
         return found[0] if get(self._pointer, a.encode(), b.encode(), found, ffi.NULL) == lib.GG_OK else math.nan
 
     @property
-    def info(self):
+    def info(self) -> Record:
         """Engine, verdict on the steady state, window, collisions, processor time, origin of the file."""
         info = new("gg_result_info")
         check(lib.gg_result_get_info, self._pointer, info)
         return Record(**values(info))
 
     @property
-    def engine(self):
+    def engine(self) -> str:
         return self.info.engine
 
     @property
-    def is_steady(self):
+    def is_steady(self) -> bool:
         """Whether the steady state was reached."""
         return bool(lib.gg_result_is_steady(self._pointer))
 
     @property
-    def scene(self):
+    def scene(self) -> Scene:
         """The scene as it was run."""
         return self._scene or Scene._copy_of(lib.gg_result_scene(self._pointer))
 
     @property
-    def warnings(self):
+    def warnings(self) -> list[str]:
         return list(iter_texts(lambda i: lib.gg_result_warning(self._pointer, i)))
 
-    def history(self, quantity):
+    def history(self, quantity: str) -> History:
         """Time series from the start of the run, first replica: (time, value), each (n,). It exists for temperature,
         rotational_temperature, temperature_ratio, pressure, P_xy, spin_z, collision_rate, a2, cos2_psi."""
         n, time, series = ffi.new("size_t *"), ffi.new("const double **"), ffi.new("const double **")
@@ -97,23 +99,23 @@ class Result(Mapping):
         return History(array(time[0], n[0]), array(series[0], n[0]))
 
     @property
-    def curves(self):
+    def curves(self) -> dict[str, Curve]:
         """Curves by name."""
         return result_curves(self._pointer)
 
     @property
-    def grains(self):
+    def grains(self) -> Grains:
         """The last state of the grains, first replica."""
         info = self.info
         return copy_grains(lib.gg_result_grains, self._pointer, info.grains, info.engine == "md")
 
-    def to_json(self):
+    def to_json(self) -> str:
         """The document of `graingas run --json`, as text."""
         made = ffi.new("char **")
         check(lib.gg_result_to_json, self._pointer, made)
         return owned_text(made)
 
-    def write(self, path):
+    def write(self, path) -> None:
         """Writes the HDF5 (H5MD) file; it appears whole or not at all."""
         check(lib.gg_result_write, self._pointer, encode(path, "file name"))
 

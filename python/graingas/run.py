@@ -1,6 +1,9 @@
 """Runs and comparisons: to the end that the scene asks for."""
+from __future__ import annotations
+
 import warnings
 from contextlib import contextmanager
+from typing import Callable, Optional, Union
 
 from . import _c, calls
 from .comparison import Comparison, read_comparison
@@ -89,7 +92,8 @@ def _long_run(function, kind, engines, scene, threads, progress, files):
     return _finish(call, status, error, wrap(made[0], scene=scene) if made[0] != ffi.NULL else None)
 
 
-def run(scene, threads=1, output=None, checkpoint=None, resume=None, progress=None):
+def run(scene, threads: Optional[int] = 1, output=None, checkpoint=None, resume=None,
+        progress: Union[bool, None, Callable] = None) -> Result:
     """Runs the scene's engine until its stopping criteria are met; returns a Result.
 
     scene        a Scene, a file name, YAML text, or a dict
@@ -106,13 +110,14 @@ def run(scene, threads=1, output=None, checkpoint=None, resume=None, progress=No
                      {"output": output, "checkpoint": checkpoint, "resume": resume})
 
 
-def compare(scene, threads=1, output=None, checkpoint=None, resume=None, progress=None):
+def compare(scene, threads: Optional[int] = 1, output=None, checkpoint=None, resume=None,
+            progress: Union[bool, None, Callable] = None) -> Comparison:
     """Runs both engines and evaluates every theory; returns a Comparison. Parameters and errors are those of run()."""
     return _long_run(lib.gg_compare, "gg_comparison", 2, scene, threads, progress,
                      {"output": output, "checkpoint": checkpoint, "resume": resume})
 
 
-def read(path):
+def read(path) -> Union[Result, Comparison]:
     """A result file: a Result of one engine's run, or a Comparison. Raises BadFile."""
     try:
         return read_result(path)

@@ -1,4 +1,8 @@
 """Scenes: what to simulate."""
+from __future__ import annotations
+
+from typing import Any
+
 from . import _c, calls, catalogue, yaml
 from .errors import BadInput, check, encode, lib, owned_text, text
 from .handles import Handle
@@ -80,10 +84,10 @@ class Scene:
     Scene("flow: usf\\nphi: 0.1")
     Scene(flow="usf", phi=0.1, collision={"e": 0.9, "beta": 0})
 
-    Keys are items and attributes: s["collision.e.12"] = 0.8, s.collision.beta = 0, s.phi. Short
-    names: e, beta and mu of collisions, and last words that only one key has (s.seed). Values are numbers, texts, lists, dicts for
-    pairs of species ({12: 0.8}), and None for `none`, in the units of the scene. `Scene.phi.__doc__` and
-    `s.help("phi")` explain a key. Raises BadInput with the allowed values, BadFile.
+    Keys are items and attributes: s["collision.e.12"] = 0.8, s.collision.beta = 0, s.phi. Short names: e, beta and mu
+    of collisions, and last words that only one key has (s.seed). Values are numbers, texts, lists, dicts for pairs of
+    species ({12: 0.8}), and None for `none`, in the units of the scene. `Scene.phi.__doc__` and `s.help("phi")` explain
+    a key. Raises BadInput with the allowed values, BadFile.
     """
 
     def __init__(self, source=None, **keys):
@@ -122,7 +126,7 @@ class Scene:
             return None
         return value
 
-    def text_of(self, key):
+    def text_of(self, key: str) -> str:
         """Value of a key in force, as YAML of one line."""
         buffer = ffi.new("char[]", 65536)
         with self.held() as scene:
@@ -140,7 +144,7 @@ class Scene:
         with self.held() as scene:
             check(lib.gg_scene_set, scene, encode(key, "key"), encode(yaml.write(value), key))
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
         try:
@@ -159,11 +163,11 @@ class Scene:
     def _ipython_key_completions_(self):
         return list(KEYS)
 
-    def keys(self):
+    def keys(self) -> list[str]:
         """Names of all keys."""
         return list(KEYS)
 
-    def given(self):
+    def given(self) -> dict:
         """Keys that were given, with their values; all others have their defaults."""
         return {key: self[key] for key in self._given_names()}
 
@@ -171,7 +175,7 @@ class Scene:
         with self.held() as scene:
             return [key for key, entry in catalogue.table(lib.GG_CATALOGUE_KEYS, scene).items() if entry.given]
 
-    def to_yaml(self, all=False):
+    def to_yaml(self, all: bool = False) -> str:
         """YAML of the keys that were given; all=True: of every key with the value in force."""
         if not all:
             return yaml.nested({key: self.text_of(key) for key in self._given_names()})
@@ -180,12 +184,12 @@ class Scene:
             check(lib.gg_scene_to_yaml, scene, made)
         return owned_text(made)
 
-    def check(self):
+    def check(self) -> None:
         """Raises BadInput, with the reason, if the keys do not go together."""
         with self.held() as scene:
             check(lib.gg_scene_check, scene)
 
-    def copy(self, **keys):
+    def copy(self, **keys) -> Scene:
         """A copy with some keys changed, and with the observables, theories and law of the scene."""
         with self.held() as scene:
             copy = Scene._copy_of(scene, self._extensions)
@@ -193,7 +197,7 @@ class Scene:
             copy[key] = value
         return copy
 
-    def add(self, *extensions):
+    def add(self, *extensions) -> Scene:
         """Registers observables, theories and a law of define_observable(), define_theory(), define_law(); returns the
         scene."""
         for extension in extensions:
@@ -218,14 +222,14 @@ class Scene:
             raise call.error
 
     @property
-    def title(self):
+    def title(self) -> str:
         """One line: "Uniform shear flow, phi 0.3, e 0.9, smooth"."""
         buffer = ffi.new("char[]", 512)
         with self.held() as scene:
             check(lib.gg_scene_title, scene, buffer, len(buffer))
         return text(buffer)
 
-    def needs(self, engine=None):
+    def needs(self, engine: str | None = None) -> Record:
         """What a run takes on an engine: memory (bytes), cpu_seconds, collisions_per_grain, file (bytes)."""
         needs = new("gg_scene_needs")
         with self.held() as scene:
@@ -239,15 +243,15 @@ class Scene:
             check(function, scene, encode(word), lib.ggpy_line, handle)
         return lines
 
-    def warnings(self, use="theory"):
+    def warnings(self, use: str = "theory") -> list[str]:
         """Keys that the scene gives and that have no effect: "md", "dsmc", "compare" or "theory"."""
         return self._lines(lib.gg_scene_warnings, use)
 
-    def describe(self, engine):
+    def describe(self, engine: str) -> list[str]:
         """What an engine switches on and off for the scene, line by line."""
         return self._lines(lib.gg_scene_describe, engine)
 
-    def help(self, key):
+    def help(self, key: str) -> None:
         """Prints what a key means, its unit, allowed values, default and value."""
         key = SHORT.get(key, key)
         if key in KEYS:

@@ -1,15 +1,13 @@
 """Simulations, step by step."""
 from __future__ import annotations
 
-import os
-import tempfile
 from typing import Any, Callable, Iterator, Optional
 
 import numpy as np
 
 from . import _c, calls
 from .errors import BadInput, check, encode, exception, lib, new_error, text
-from .grains import Grains, copy_grains
+from .grains import Grains, copy_grains, grains_from
 from .handles import Handle
 from .result import file_bytes, from_bytes
 from .run import serving
@@ -81,7 +79,8 @@ class Simulation:
 
     Simulation(scene, stream=0)      the scene's engine and seed; other streams are independent copies
     Simulation(scene, positions=x, velocities=v, spins=w, species=k)
-                                     grains from outside, arrays of shape (n, 3) and (n,); dsmc has no positions
+                                     grains from outside, arrays of shape (n, 3) and (n,) as of `grains`; dsmc has no
+                                     positions. Raises BadInput, which names two grains that overlap
 
     The same scene, seed and stream give the same trajectory, bit for bit. Numbers have the units of results. One thread
     at a time may use a simulation: other uses, also from its own callback, raise Busy. Ctrl-C ends an advance within
@@ -91,12 +90,12 @@ class Simulation:
     def __init__(self, scene, stream: int = 0, *, positions=None, velocities=None, spins=None, species=None):
         scene = as_scene(scene).copy()
         made = ffi.new("gg_simulation **")
-        given = (positions, velocities, spins, species)
+        grains, kept, n = grains_from(None, position=positions, velocity=velocities, spin=spins, species=species)
         with scene.held() as pointer:
-            if all(array is None for array in given):
-                check(lib.gg_simulation_new, pointer, _stream(stream), made)
+            if kept:
+                check(lib.gg_simulation_from_grains, pointer, grains, n, _stream(stream), made)
             else:
-                _from_grains(pointer, _stream(stream), given, made)
+                check(lib.gg_simulation_new, pointer, _stream(stream), made)
         self._adopt(made[0], scene)
 
     def _adopt(self, pointer, scene):
@@ -219,6 +218,15 @@ class Simulation:
         with self._handle.held() as pointer:
             return copy_grains(lib.gg_simulation_get_grains, pointer, state.grains, state.box[0] > 0)
 
+    def set_grains(self, positions=None, velocities=None, spins=None, species=None) -> None:
+        """Replaces positions, velocities, spins or species; what is None stays. Time, counts and random stream go on.
+        The simulation is unchanged if this raises BadInput: a wrong shape, overlapping grains."""
+        n = self.state.grains
+        grains, kept, _ = grains_from(n, position=positions, velocity=velocities, spin=spins, species=species)
+        with self._handle.held() as pointer:
+            check(lib.gg_simulation_set_grains, pointer, grains, n)
+        del kept
+
     @property
     def hash(self) -> int:
         """Hash of the state, to the last bit."""
@@ -264,10 +272,10 @@ class Simulation:
 
     def copy(self) -> Simulation:
         """A copy that continues with the same bits, without the callback."""
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "x.h5")
-            self.save(path)
-            return Simulation.load(path, self._scene)
+        made = ffi.new("gg_simulation **")
+        with self._handle.held() as pointer:
+            check(lib.gg_simulation_copy, pointer, made)
+        return Simulation._from_pointer(made[0], self._scene)
 
     def __reduce__(self):
         return _from_file, (file_bytes(self.save), self._scene)
@@ -314,7 +322,3 @@ def _count(value, what):
 
 def _stream(stream):
     return _count(stream, "stream")
-
-
-def _from_grains(scene, stream, given, made):
-    raise BadInput("this version of the library takes no grains from outside")

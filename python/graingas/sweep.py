@@ -10,12 +10,11 @@ import numpy as np
 from . import _c, calls, yaml
 from .errors import BadInput, NotFound, PartialResult, check, encode, exception, lib, new_error, text
 from .handles import Handle
-from .progress import reporter
 from .result import Result
 from .run import read, reporting, thread_count
-from .scene import Scene, as_scene
+from .scene import as_scene
 from .structs import Record, new, values
-from .theory import Grid, as_xarray, grid_keys
+from .theory import Grid, grid_keys
 
 ffi = _c.ffi
 

@@ -10,7 +10,7 @@ from . import _c, calls, yaml
 from .comparison import Comparison, Theory
 from .errors import BadInput, NotFound, check, encode, lib
 from .run import serving
-from .scene import SHORT, Scene, as_scene
+from .scene import SHORT, as_scene
 
 ffi = _c.ffi
 

@@ -8,5 +8,5 @@ except ImportError:
     sys.exit(77)
 
 if __name__ == "__main__":  # processes that tests start import this file
-    sys.exit(pytest.main(["-q", "-p", "no:cacheprovider", "-p", "no:anyio", "-W", "error::pytest.PytestUnhandledThreadExceptionWarning",
-                          *sys.argv[1:]]))
+    strict = "error::pytest.PytestUnhandledThreadExceptionWarning"
+    sys.exit(pytest.main(["-q", "-p", "no:cacheprovider", "-W", strict, *sys.argv[1:]]))

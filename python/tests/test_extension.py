@@ -146,8 +146,10 @@ def test_wrong_answers(short, function, words):
 
 
 @pytest.mark.parametrize("wrong", [
-    lambda s: s.add(gg.define_observable("two words")(lambda sample: 0)), lambda s: s.add(gg.define_observable("temperature")(lambda s: 0)),
-    lambda s: s.add(gg.define_theory("lun1991", "N1")(lambda f: 0)), lambda s: s.add(gg.define_theory("a", "nothing")(lambda f: 0)),
+    lambda s: s.add(gg.define_observable("two words")(lambda sample: 0)),
+    lambda s: s.add(gg.define_observable("temperature")(lambda s: 0)),
+    lambda s: s.add(gg.define_theory("lun1991", "N1")(lambda f: 0)),
+    lambda s: s.add(gg.define_theory("a", "nothing")(lambda f: 0)),
     lambda s: s.add(gg.define_law(lambda g: 2)), lambda s: s.add(gg.define_law(([1, 0], [0.5, 0.5]))),
     lambda s: gg.define_law(([1, 2], [0.5])), lambda s: s.add(second).add(second)])
 def test_definitions_are_checked(short, wrong):

@@ -39,27 +39,45 @@ def closed_trajectory():
 
 
 TYPES = [
-    (lambda: gg.Scene(3), TypeError), (lambda: gg.Scene(b"flow: usf\0"), gg.BadInput), (lambda: gg.Scene(object()), TypeError),
+    (lambda: gg.Scene(3), TypeError), (lambda: gg.Scene(b"flow: usf\0"), gg.BadInput),
+    (lambda: gg.Scene(object()), TypeError),
     (lambda: gg.Scene("flow: [usf"), gg.BadInput), (lambda: gg.Scene("a: {b: " * 10000), gg.BadInput),
     (lambda: gg.Scene(""), gg.BadFile), (lambda: gg.Scene("\ud800: 1"), gg.BadInput),
     (lambda: scene()[3], TypeError), (lambda: scene()[None], TypeError), (lambda: scene().__setitem__(3, 1), TypeError),
-    (lambda: scene().__setitem__("phi", object()), TypeError), (lambda: scene().__setitem__("phi", np.zeros((2, 2))), gg.BadInput),
-    (lambda: scene().__setitem__("phi", "1\n2"), gg.BadInput), (lambda: scene().__setitem__("x" * 100000, 1), gg.BadInput),
+    (lambda: scene().__setitem__("phi", object()), TypeError),
+    (lambda: scene().__setitem__("phi", np.zeros((2, 2))), gg.BadInput),
+    (lambda: scene().__setitem__("phi", "1\n2"), gg.BadInput),
+    (lambda: scene().__setitem__("x" * 100000, 1), gg.BadInput),
     (lambda: scene().__setitem__("phi", float("nan")), gg.BadInput), (lambda: scene().add(3), TypeError),
-    (lambda: gg.run(None), gg.BadInput), (lambda: gg.run(3), TypeError), (lambda: gg.run(scene(), threads=0), gg.BadInput),
-    (lambda: gg.run(scene(), threads=2**40), gg.BadInput), (lambda: gg.run(scene(), threads="two"), (ValueError, TypeError)),
+    (lambda: gg.run(None), gg.BadInput), (lambda: gg.run(3), TypeError),
+    (lambda: gg.run(scene(), threads=0), gg.BadInput),
+    (lambda: gg.run(scene(), threads=2**40), gg.BadInput),
+    (lambda: gg.run(scene(), threads="two"), (ValueError, TypeError)),
     (lambda: gg.run(scene(), output=3), TypeError), (lambda: gg.run(scene(), resume="nowhere.h5"), gg.BadFile),
     (lambda: gg.run(scene(), output="/dev/full"), gg.BadFile), (lambda: gg.read(3), TypeError),
     (lambda: gg.run(scene())[3], TypeError), (lambda: gg.run(scene()).find(None), TypeError),
     (lambda: gg.Simulation(None), gg.BadInput), (lambda: gg.Simulation(scene(), stream=-1), gg.BadInput),
-    (lambda: gg.Simulation(scene(), stream=1.5), gg.BadInput), (lambda: gg.Simulation(scene(), stream=2**70), gg.BadInput),
+    (lambda: gg.Simulation(scene(), stream=1.5), gg.BadInput),
+    (lambda: gg.Simulation(scene(), stream=2**70), gg.BadInput),
     (lambda: simulation().advance(-1), gg.BadInput), (lambda: simulation().advance(float("nan")), gg.BadInput),
     (lambda: simulation().advance(float("inf")), gg.BadInput), (lambda: simulation().advance("x"), ValueError),
     (lambda: simulation().advance(None), TypeError), (lambda: simulation().collide(-1), gg.BadInput),
     (lambda: simulation().collide(1.5), gg.BadInput), (lambda: simulation().collide(2**64), gg.BadInput),
     (lambda: simulation().on_collision(3), TypeError), (lambda: simulation().events(-1), gg.BadInput),
-    (lambda: simulation().save("no/such/folder.h5"), gg.BadFile), (lambda: gg.Simulation.load("nowhere.h5"), gg.BadFile),
+    (lambda: simulation().save("no/such/folder.h5"), gg.BadFile),
+    (lambda: gg.Simulation.load("nowhere.h5"), gg.BadFile),
     (lambda: gg.Simulation.load(__file__), gg.BadFile), (lambda: gg.trajectory(__file__), gg.BadFile),
+    (lambda: gg.Simulation(scene(), positions=np.zeros((3, 3))), gg.BadInput),
+    (lambda: gg.Simulation(scene(), positions=np.zeros(300)), gg.BadInput),
+    (lambda: gg.Simulation(scene(), velocities="abc"), gg.BadInput),
+    (lambda: gg.Simulation(scene(), velocities=np.zeros((0, 3))), gg.BadInput),
+    (lambda: gg.Simulation(scene(), positions=np.full((100, 3), np.nan), velocities=np.zeros((100, 3))), gg.BadInput),
+    (lambda: simulation().set_grains(velocities=np.zeros((99, 3))), gg.BadInput),
+    (lambda: simulation().set_grains(positions=np.zeros((100, 3))), gg.BadInput),
+    (lambda: simulation().set_grains(velocities=np.full((100, 3), np.inf)), gg.BadInput),
+    (lambda: simulation().set_grains(species=np.full(100, 7)), gg.BadInput),
+    (lambda: simulation().set_grains(species=[0.5] * 100), gg.BadInput),
+    (lambda: simulation("dsmc").set_grains(positions=np.zeros((5000, 3))), gg.BadInput),
     (lambda: gg.theory(scene(), 3), TypeError), (lambda: gg.theory(scene(), "\0"), gg.BadInput),
     (lambda: gg.define_observable("a")(3), TypeError), (lambda: gg.define_theory("a", "N1")(None), TypeError),
     (lambda: gg.define_law(3), TypeError), (lambda: gg.define_law("abc"), TypeError),
@@ -72,15 +90,20 @@ TYPES = [
     (lambda: gg.run(scene().add(gg.define_observable("a", state=-1)(lambda s: 0))), gg.BadInput),
     (lambda: gg.run(scene().add(gg.define_observable("a" * 1000)(lambda s: 0))), gg.BadInput),
     (lambda: gg.theory(scene(), gg.define_theory("a", "N1")(lambda f: "x" * 10**6)).reason.nothing, AttributeError),
-    (lambda: gg.sweep(scene(), e=[0.9], folder="\0"), gg.BadInput), (lambda: gg.sweep(scene(), e=[object()]), TypeError),
+    (lambda: gg.sweep(scene(), e=[0.9], folder="\0"), gg.BadInput),
+    (lambda: gg.sweep(scene(), e=[object()]), TypeError),
     (lambda: pickle.dumps(scene().add(gg.define_law(lambda g: 0.9))), TypeError),
 ]
 
 CLOSED = [
-    (lambda: closed().advance(1), gg.BadInput), (lambda: closed().collide(1), gg.BadInput), (lambda: closed().state, gg.BadInput),
-    (lambda: closed().grains, gg.BadInput), (lambda: closed().events(3), gg.BadInput), (lambda: closed().save("s.h5"), gg.BadInput),
-    (lambda: closed().copy(), gg.BadInput), (lambda: closed().species, gg.BadInput), (lambda: closed().walls, gg.BadInput),
-    (lambda: closed().hash, gg.BadInput), (lambda: closed().take_sums(), gg.BadInput), (lambda: pickle.dumps(closed()), gg.BadInput),
+    (lambda: closed().advance(1), gg.BadInput), (lambda: closed().collide(1), gg.BadInput),
+    (lambda: closed().state, gg.BadInput),
+    (lambda: closed().grains, gg.BadInput), (lambda: closed().events(3), gg.BadInput),
+    (lambda: closed().save("s.h5"), gg.BadInput),
+    (lambda: closed().copy(), gg.BadInput), (lambda: closed().set_grains(), gg.BadInput),
+    (lambda: closed().species, gg.BadInput), (lambda: closed().walls, gg.BadInput),
+    (lambda: closed().hash, gg.BadInput), (lambda: closed().take_sums(), gg.BadInput),
+    (lambda: pickle.dumps(closed()), gg.BadInput),
     (lambda: closed_trajectory()[0], gg.BadInput), (lambda: len(closed_trajectory()), gg.BadInput),
 ]
 
@@ -103,7 +126,9 @@ INSIDE = {
     "advance": lambda sim: sim.advance(1), "collide": lambda sim: sim.collide(1), "events": lambda sim: sim.events(1),
     "state": lambda sim: sim.state, "grains": lambda sim: sim.grains, "species": lambda sim: sim.species,
     "hash": lambda sim: sim.hash, "sums": lambda sim: sim.take_sums(), "save": lambda sim: sim.save("s.h5"),
-    "copy": lambda sim: sim.copy(), "close": lambda sim: sim.close(), "pickle": lambda sim: pickle.dumps(sim)}
+    "copy": lambda sim: sim.copy(),
+    "set_grains": lambda sim: sim.set_grains(velocities=np.zeros((100, 3))),
+    "close": lambda sim: sim.close(), "pickle": lambda sim: pickle.dumps(sim)}
 
 
 @pytest.mark.parametrize("engine", ["md", "dsmc"])
@@ -168,7 +193,8 @@ def test_one_simulation_in_two_threads(engine):
                 worked.append(1)
             except gg.Busy:
                 refused.append(1)
-    uses = [lambda: sim.collide(100), lambda: sim.advance(0.1), lambda: sim.grains, lambda: sim.take_sums(), lambda: sim.events(10)]
+    uses = [lambda: sim.collide(100), lambda: sim.advance(0.1), lambda: sim.grains, lambda: sim.take_sums(),
+            lambda: sim.events(10)]
     threads = [threading.Thread(target=work, args=(use,)) for use in uses]
     for thread in threads:
         thread.start()

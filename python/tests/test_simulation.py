@@ -62,6 +62,41 @@ def test_copies_continue_with_the_same_bits(either):
     assert {other.hash for other in others} == {either.hash}
 
 
+def test_grains_from_outside(either):
+    """Set and read back; the same grains have the same energy; overlaps are refused, the pair named."""
+    g = either.grains
+    arrays = {"velocities": g.velocity, "spins": g.spin, "species": g.species}
+    if g.position is not None:
+        arrays["positions"] = g.position
+    made = gg.Simulation(either.scene, **arrays)
+    assert np.allclose(made.grains.velocity, g.velocity, atol=1e-12) and made.time == 0
+    assert made.temperature == pytest.approx(either.temperature, rel=1e-12)
+    either.collide(500)
+    g = either.grains
+    either.set_grains(velocities=2 * g.velocity)
+    assert np.allclose(either.grains.velocity, 2 * g.velocity, atol=1e-12) and either.time > 0
+    either.collide(100)
+
+
+def test_overlaps_are_named(sim):
+    g = sim.grains
+    g.position[7] = g.position[3]
+    with pytest.raises(gg.BadInput, match="3 and 7|7 and 3|4 and 8|8 and 4"):
+        gg.Simulation(sim.scene, positions=g.position, velocities=g.velocity)
+
+
+def test_two_temperatures_relax():
+    """Elastic grains, half of them hot: both halves end at the mean."""
+    start = gg.Simulation(gg.Scene(flow="equilibrium", phi=0.1, particles=400, e=1))
+    g = start.grains
+    g.velocity[:200] *= 3
+    sim = gg.Simulation(start.scene, positions=g.position, velocities=g.velocity)
+    hot = (sim.grains.velocity[:200] ** 2).sum(1).mean() / (sim.grains.velocity[200:] ** 2).sum(1).mean()
+    sim.collide(20000)
+    mixed = (sim.grains.velocity[:200] ** 2).sum(1).mean() / (sim.grains.velocity[200:] ** 2).sum(1).mean()
+    assert hot > 8 and abs(mixed - 1) < 0.35
+
+
 def test_streams(short):
     assert gg.Simulation(short).hash == gg.Simulation(short).hash != gg.Simulation(short, stream=1).hash
 
