@@ -1,6 +1,7 @@
 """Scenes: what to simulate."""
 from __future__ import annotations
 
+import os
 from typing import Any
 
 from . import _c, calls, catalogue, yaml
@@ -303,11 +304,18 @@ def _load(source, changes):
             check(lib.gg_scene_copy, scene, made)
     elif isinstance(source, dict):
         check(lib.gg_scene_parse, encode(yaml.nested({k: yaml.write(v) for k, v in _flatten(source).items()})), b"scene", made)
-    elif isinstance(source, str) and (":" in source or "\n" in source):
+    elif isinstance(source, str) and (":" in source or "\n" in source) and not _is_file(source):
         check(lib.gg_scene_parse, encode(source, "scene"), b"scene", made)
     else:
         check(lib.gg_scene_load, encode(source, "file name"), made)
     return made[0]
+
+
+def _is_file(name):
+    try:
+        return os.path.exists(name)
+    except ValueError:
+        return False
 
 
 def as_scene(source):

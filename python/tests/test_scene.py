@@ -72,6 +72,12 @@ def test_errors_are_the_librarys(wrong, words):
         wrong(gg.Scene(flow="usf", phi=0.1))
 
 
+def test_file_name_with_a_colon():
+    with open("a: b.yaml", "w", encoding="utf-8") as file:
+        file.write("flow: usf\nphi: 0.2\n")
+    assert gg.Scene("a: b.yaml").phi == 0.2
+
+
 def test_missing_file_and_attribute():
     with pytest.raises(gg.BadFile, match="nowhere.yaml"):
         gg.Scene("nowhere.yaml")
