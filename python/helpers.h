@@ -27,18 +27,20 @@ static int ggpy_stop(void *context)
 }
 
 /* cffi:
-typedef struct ggpy_watch { int watching; void *self; size_t n, capacity; gg_collision_event *events; ...; } ggpy_watch;
+typedef struct ggpy_watch { int watching; void *self; size_t n; gg_collision_event *events; int lost; ...; } ggpy_watch;
 void ggpy_show(void *context, const gg_collision_event *event);
 void ggpy_record(void *context, const gg_collision_event *event);
+void ggpy_forget(ggpy_watch *watch);
 extern "Python" void ggpy_collision(void *context, const gg_collision_event *event);
 */
 
-/* Who watches the collisions of a simulation: a function of Python, or a buffer. */
+/* Who watches the collisions of a simulation: a function of Python, or a buffer that grows. */
 typedef struct ggpy_watch {
   int watching;
   void *self;
   size_t n, capacity;
-  gg_collision_event *events;
+  gg_collision_event *events; /* from malloc */
+  int lost;                   /* there was no memory for all */
 } ggpy_watch;
 
 static void ggpy_collision(void *context, const gg_collision_event *event);
@@ -49,10 +51,26 @@ static void ggpy_show(void *context, const gg_collision_event *event)
   if (((ggpy_watch *)context)->watching) ggpy_collision(((ggpy_watch *)context)->self, event);
 }
 
+static void ggpy_forget(ggpy_watch *watch)
+{
+  free(watch->events);
+  watch->events = NULL;
+  watch->n = watch->capacity = 0;
+  watch->lost = 0;
+}
+
 static void ggpy_record(void *context, const gg_collision_event *event)
 {
   ggpy_watch *watch = context;
-  if (watch->n < watch->capacity) watch->events[watch->n++] = *event;
+  if (watch->n == watch->capacity) {
+    size_t more = watch->capacity ? 2 * watch->capacity : 1024;
+    void *grown = realloc(watch->events, more * sizeof *event);
+    watch->lost |= !grown;
+    if (!grown) return;
+    watch->events = grown;
+    watch->capacity = more;
+  }
+  watch->events[watch->n++] = *event;
 }
 
 /* cffi:

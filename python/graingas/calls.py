@@ -23,6 +23,7 @@ class Call:
         self.progress = {}  # of each engine, the last report
         self.warnings = []
         self.events = []
+        self.keep = []  # texts and arrays that the library reads during the call
 
     def stop(self):
         self.c.stop = 1
@@ -44,8 +45,9 @@ def of(context):
 
 
 class _Task:
-    def __init__(self, function):
+    def __init__(self, function, call):
         self.function, self.done = function, threading.Event()
+        self.call = call  # lives as long as the thread
         self.value = self.error = None
 
     def work(self):
@@ -60,7 +62,7 @@ class _Task:
 def interruptible(function, call, poll=None):
     """function() in a thread. Meanwhile poll(call) ten times a second. Returns its value; raises what a callback or
     poll raised. Ctrl-C stops the call; call.interrupted says so."""
-    task = _Task(function)
+    task = _Task(function, call)
     thread = threading.Thread(target=task.work, daemon=True, name="graingas")
     started = False
     while not task.done.is_set():

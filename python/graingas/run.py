@@ -48,18 +48,18 @@ def thread_count(threads):
 
 
 def _options(call, threads, files):
-    """The struct, and what has to outlive it."""
+    """The struct; call.keep has what has to outlive it."""
     options = new("gg_run_options")
     options.threads = thread_count(threads)
     options.context, options.stop = call.c, ffi.addressof(lib, "ggpy_stop")
     options.progress, options.warn = lib.ggpy_progress, lib.ggpy_warn
-    keep = [ffi.new("char[]", b"graingas (Python)")]
-    options.command = keep[0]
+    call.keep.append(ffi.new("char[]", b"graingas (Python)"))
+    options.command = call.keep[-1]
     for name, path in files.items():
         if path is not None:
-            keep.append(ffi.new("char[]", encode(path, name)))
-            setattr(options, name, keep[-1])
-    return options, keep
+            call.keep.append(ffi.new("char[]", encode(path, name)))
+            setattr(options, name, call.keep[-1])
+    return options
 
 
 def _finish(call, status, error, made):
@@ -82,12 +82,11 @@ def _finish(call, status, error, made):
 def _long_run(function, kind, engines, scene, threads, progress, files):
     scene = as_scene(scene).copy()
     call, error = calls.Call(), new_error()
-    options, keep = _options(call, threads, files)
+    options = _options(call, threads, files)
     made = ffi.new(kind + " **")
     with serving(scene, call), reporting(progress, engines) as report:
         with scene.held() as pointer:
             status = calls.interruptible(lambda: function(pointer, options, made, error), call, report)
-    del keep
     wrap = Comparison if engines == 2 else Result
     return _finish(call, status, error, wrap(made[0], scene=scene) if made[0] != ffi.NULL else None)
 

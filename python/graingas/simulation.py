@@ -12,12 +12,11 @@ from .handles import Handle
 from .result import file_bytes, from_bytes
 from .run import serving
 from .scene import Scene, as_scene
-from .structs import Record, dtype, new, values
+from .structs import Record, array, dtype, new, values
 
 ffi = _c.ffi
 
 EVENT = dtype("gg_collision_event")
-CAPACITY = 1 << 20  # events that one call of the library records; more take more calls
 
 
 class Event:
@@ -49,7 +48,6 @@ class _Watcher:
 
     def __init__(self):
         self.function = self.call = None
-        self.installed = ffi.NULL
         self.c = ffi.new("ggpy_watch *")
         self._handle = ffi.new_handle(self)
         self.c.self = self._handle
@@ -58,10 +56,32 @@ class _Watcher:
         self.function = function
         self.c.watching = function is not None
 
-    def install(self, simulation, wanted):
-        if wanted != self.installed:
-            check(lib.gg_simulation_on_collision, simulation, wanted, self.c)
-            self.installed = wanted
+    def install(self, simulation):
+        if self.c.watching:
+            check(lib.gg_simulation_on_collision, simulation, ffi.addressof(lib, "ggpy_show"), self.c)
+
+    def finished(self):
+        """After a call: does it watch no more?"""
+        return not self.c.watching
+
+
+class _Recorder:
+    """Records the collisions of one call, in place of the watcher."""
+
+    def __init__(self):
+        self.call, self.c = None, ffi.gc(ffi.new("ggpy_watch *"), lib.ggpy_forget)
+
+    def install(self, simulation):
+        check(lib.gg_simulation_on_collision, simulation, ffi.addressof(lib, "ggpy_record"), self.c)
+
+    def finished(self):
+        return True
+
+    def events(self):
+        if self.c.lost:
+            raise MemoryError("events: no memory for all collisions; record fewer at a time")
+        found = array(self.c.events, self.c.n, kind=EVENT)
+        return (np.zeros(0, EVENT) if found is None else found).view(np.recarray)
 
 
 @ffi.def_extern(onerror=lambda *_: None)
@@ -110,21 +130,20 @@ class Simulation:
         made._adopt(pointer, scene)
         return made
 
-    def _advance(self, function, amount):
-        call, error = calls.Call(), new_error()
+    def _advance(self, function, amount, recorder=None):
+        call, error, watcher = calls.Call(), new_error(), recorder or self._watcher
         with self._handle.held() as pointer, serving(self._scene, call):
-            self._watcher.install(pointer, self._wanted())
-            self._stop.stop, call.c, self._watcher.call = 0, self._stop, call
-            status = calls.interruptible(lambda: function(pointer, amount, error), call)
-            if not self._watcher.c.watching:
-                self._watcher.install(pointer, ffi.NULL)
+            watcher.install(pointer)
+            self._stop.stop, call.c, watcher.call = 0, self._stop, call
+            try:
+                status = calls.interruptible(lambda: function(pointer, amount, error), call)
+            finally:
+                if watcher.finished():
+                    check(lib.gg_simulation_on_collision, pointer, ffi.NULL, ffi.NULL)
         if call.interrupted:
             raise KeyboardInterrupt("the simulation can be advanced further")
         if status != lib.GG_OK:
             raise exception(status, error)
-
-    def _wanted(self):
-        return ffi.addressof(lib, "ggpy_show") if self._watcher.c.watching else ffi.NULL
 
     def advance(self, time: float) -> Simulation:
         """Advances by a time. Monte Carlo ends at the first end of a step beyond. Raises RunFailed: inelastic collapse."""
@@ -155,33 +174,9 @@ class Simulation:
     def events(self, collisions: int) -> np.ndarray:
         """Advances by a number of collisions and returns them: a record array of shape (n,) with grain (2), species (2),
         k (3), velocity (3), normal_speed, impulse (3), time. Monte Carlo records its whole last step."""
-        left, parts = _count(collisions, "collisions"), [np.zeros(0, EVENT)]
-        while left > 0:
-            parts.append(self._record(min(left, CAPACITY)))
-            left -= min(left, len(parts[-1]))
-        return np.concatenate(parts).view(np.recarray)
-
-    def _record(self, n):
-        buffer = np.zeros(n + CAPACITY, EVENT) if self._scene["engine"] == "dsmc" else np.zeros(n, EVENT)
-        watch, function = self._watcher.c, self._watcher.function
-        watch.events, watch.capacity, watch.n = ffi.cast("void *", ffi.from_buffer(buffer)), len(buffer), 0
-        self._watcher.set(None)
-        with self._handle.held() as pointer:
-            self._watcher.install(pointer, ffi.addressof(lib, "ggpy_record"))
-        try:
-            self._collide_recording(n)
-        finally:
-            with self._handle.held() as pointer:
-                self._watcher.install(pointer, ffi.NULL)
-            self._watcher.set(function)
-        return buffer[:watch.n]
-
-    def _collide_recording(self, n):
-        wanted, self._wanted = self._wanted, lambda: ffi.addressof(lib, "ggpy_record")
-        try:
-            self._advance(lib.gg_simulation_collide, n)
-        finally:
-            del self._wanted
+        recorder = _Recorder()
+        self._advance(lib.gg_simulation_collide, _count(collisions, "collisions"), recorder)
+        return recorder.events()
 
     @property
     def scene(self) -> Scene:

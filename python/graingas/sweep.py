@@ -60,8 +60,8 @@ class Sweep:
     def _run(self, threads, progress):
         call, error, options = calls.Call(), new_error(), new("gg_sweep_options")
         options.threads, options.context = thread_count(threads), call.c
-        command = ffi.new("char[]", b"graingas (Python)")
-        options.command, options.stop = command, ffi.addressof(lib, "ggpy_stop")
+        call.keep.append(ffi.new("char[]", b"graingas (Python)"))
+        options.command, options.stop = call.keep[-1], ffi.addressof(lib, "ggpy_stop")
         options.progress, options.ended, options.warn = lib.ggpy_sweep_progress, lib.ggpy_sweep_ended, lib.ggpy_warn
         folder = encode(self.folder, "folder")
         with self._handle.held() as pointer, reporting(progress, 1, _describe) as report:
