@@ -106,12 +106,12 @@ class Observable(Extension):
         self.quantities, self.state, self.collision, self._doc = quantities, int(state), collision, doc
 
     def add_to(self, scene):
-        units = [ffi.new("gg_quantity_definition *", {"name": self.text(name), "unit": self.text(unit)})[0]
-                 for name, unit in self.quantities.items()]
-        table = ffi.new("gg_quantity_definition[]", units)
+        table = ffi.new("gg_quantity_definition[]", len(self.quantities))
+        for entry, (name, unit) in zip(table, self.quantities.items()):
+            entry.name, entry.unit = self.text(name), self.text(unit)
         definition = new("gg_observable_definition")
         definition.name, definition.doc = self.text(self.name), self.text(self._doc)
-        definition.n_quantities, definition.quantities = len(units), table
+        definition.n_quantities, definition.quantities = len(table), table
         definition.state_size, definition.context = 8 * self.state, self._handle
         definition.sample = lib.ggpy_sample
         if self.collision is not None:

@@ -5,7 +5,7 @@ import numpy as np
 
 from . import _c
 from .errors import BadInput, check
-from .structs import address
+from .structs import address, new
 
 ffi = _c.ffi
 
@@ -32,7 +32,7 @@ class Grains:
         return f"<{len(self)} grains{'' if self.position is not None else ', without positions'}>"
 
     def _struct(self):
-        into = ffi.new("gg_grains *")
+        into = new("gg_grains")
         for name in ("position", "velocity", "spin"):
             setattr(into, name, address(getattr(self, name), "double *"))
         into.species = address(self.species, "int *")
@@ -45,7 +45,7 @@ SHAPES = {"position": (3,), "velocity": (3,), "spin": (3,), "species": ()}
 def grains_from(n, **arrays):
     """A gg_grains of the caller's arrays, checked and converted, and the arrays that have to outlive it. None: NULL.
     n: number of grains; None: that of the arrays."""
-    into, kept = ffi.new("gg_grains *"), []
+    into, kept = new("gg_grains"), []
     for name, values in arrays.items():
         if values is None:
             continue

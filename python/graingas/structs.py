@@ -10,12 +10,8 @@ SCALARS = {"double": "f8", "int": "i4", "uint64_t": "u8", "int64_t": "i8", "size
 
 
 def new(name):
-    """A zeroed struct. Structs that carry their size have it as their first member."""
-    made = ffi.new(name + " *")
-    fields = ffi.typeof(name).fields
-    if fields and fields[0][0] == "size":
-        made.size = ffi.sizeof(name)
-    return made
+    """A zeroed struct."""
+    return ffi.new(name + " *")
 
 
 def _field_format(kind):
@@ -29,7 +25,7 @@ def dtype(name):
     """The numpy type of a struct of numbers, for copies of whole structs."""
     names, formats, offsets = [], [], []
     for field, description in ffi.typeof(name).fields:
-        if description.type.kind == "pointer" or field == "size":
+        if description.type.kind == "pointer":
             continue
         names.append(field)
         formats.append(_field_format(description.type))
@@ -74,7 +70,7 @@ def value(member):
 def values(struct, *leave_out):
     """All members of a struct by name."""
     names = (name for name, _ in ffi.typeof(struct).item.fields)
-    return {name: value(getattr(struct, name)) for name in names if name != "size" and name not in leave_out}
+    return {name: value(getattr(struct, name)) for name in names if name not in leave_out}
 
 
 class Record:
