@@ -29,19 +29,26 @@ static bool about_zero(gg_quantity q, const gg_estimate *solution)
   return gg_common_quantity_mask(q) & (GG_DRAWN | GG_STRESS_DIFFERENCE) || fabs(solution->mean) <= 3 * solution->error;
 }
 
+gg_departure gg_run_reference_deviation(gg_quantity q, const gg_estimate *mean, const gg_estimate *reference)
+{
+  const double error = hypot(isfinite(mean->error) ? mean->error : 0, reference->error),
+               scale = about_zero(q, reference) ? NAN : reference->mean, difference = mean->mean - reference->mean;
+  return (gg_departure){.difference = difference,
+                        .error = error,
+                        .z = isfinite(mean->error) && error > 0 ? difference / error : NAN,
+                        .deviation = difference / scale,
+                        .deviation_error = error / fabs(scale),
+                        .headline = gg_common_quantity_mask(q) & (GG_DRAWN | GG_DRAWN_AS_RATIO) ? 1 : 0};
+}
+
 bool gg_run_enskog_deviation(const gg_comparison *c, gg_engine_kind kind, gg_quantity q, gg_departure *d)
 {
   gg_estimate solution;
   const gg_result *r = c->by_engine[kind];
   if (!r || !isfinite(r->value[q].mean) || !enskog_solution(c, q, &solution)) return false;
-  double error = hypot(r->value[q].error, solution.error), scale = about_zero(q, &solution) ? NAN : solution.mean;
-  if (!(isfinite(error) && error > 0)) return false;
-  *d = (gg_departure){.difference = r->value[q].mean - solution.mean,
-                      .error = error,
-                      .headline = gg_common_quantity_mask(q) & (GG_DRAWN | GG_DRAWN_AS_RATIO) ? 1 : 0};
-  d->z = d->difference / error;
-  d->deviation = d->difference / scale;
-  d->deviation_error = error / fabs(scale);
+  const gg_departure found = gg_run_reference_deviation(q, &r->value[q], &solution);
+  if (!isfinite(found.z)) return false;
+  *d = found;
   return true;
 }
 
@@ -62,6 +69,30 @@ static double expected_deviation(const gg_model *m, gg_quantity q)
   return m->phi <= 0.3 && !dissipative ? 0.03 : 0.10;
 }
 
+bool gg_run_is_beyond(const gg_model *m, gg_quantity q, const gg_estimate *mean, const gg_estimate *reference)
+{
+  const double difference = fabs(mean->mean - reference->mean), scale = is_difference(q) ? 1 : fabs(reference->mean),
+               error = hypot(isfinite(mean->error) ? mean->error : 0, reference->error);
+  return difference > 4 * error && difference > expected_deviation(m, q) * scale;
+}
+
+/* A user-defined quantity may have another number in a result that was read from a file. */
+static const gg_estimate *estimate_of(const gg_result *r, const gg_quantity_row *row)
+{
+  const gg_quantity_row *own = r ? gg_run_rows_find(&r->rows, row->name) : NULL;
+  return own ? &r->value[own->quantity] : NULL;
+}
+
+bool gg_run_reference_find(const gg_comparison *c, const gg_quantity_row *row, gg_reference *reference)
+{
+  const gg_estimate *dsmc = estimate_of(c->by_engine[GG_DSMC], row);
+  reference->method = gg_theory_enskog_hermite.name;
+  if (enskog_solution(c, row->quantity, &reference->value)) return true;
+  if (!dsmc || !isfinite(dsmc->mean) || !isfinite(dsmc->error)) return false;
+  *reference = (gg_reference){c->by_engine[GG_DSMC]->engine, *dsmc};
+  return true;
+}
+
 bool gg_run_results_disagree(const gg_comparison *c, gg_quantity q)
 {
   gg_estimate enskog;
@@ -71,8 +102,7 @@ bool gg_run_results_disagree(const gg_comparison *c, gg_quantity q)
     enskog = c->by_engine[GG_DSMC]->value[q];
   }
   const gg_estimate *md = &c->by_engine[GG_MD]->value[q];
-  double difference = fabs(md->mean - enskog.mean), scale = is_difference(q) ? 1 : fabs(enskog.mean);
-  return fabs(gg_run_z_score(md, &enskog)) > 4 && difference > expected_deviation(&c->model, q) * scale;
+  return md->error > 0 && gg_run_is_beyond(&c->model, q, md, &enskog);
 }
 
 static bool denser_than_enskog(const gg_model *m)
@@ -140,6 +170,14 @@ static double unexpected(const gg_comparison *c, const gg_estimate *e, gg_quanti
   return known && fabs(off) > expected_deviation(&c->model, q) ? off : NAN;
 }
 
+static const char no_cause[] = "no cause known: within the range that the theory was made for";
+
+const char *gg_run_theory_cause(const gg_theory *theory, const gg_model *model)
+{
+  const char *beyond = gg_theory_beyond(theory, model);
+  return beyond ? beyond : no_cause;
+}
+
 /* Enskog's equation itself may be off: then a theory of it is as near to the Monte Carlo engine as may be. */
 static const char *cause_of(const gg_comparison *c, const gg_theory_remark *r, double value)
 {
@@ -153,7 +191,7 @@ static const char *cause_of(const gg_comparison *c, const gg_theory_remark *r, d
   const gg_estimate *e = dsmc ? &dsmc->value[r->quantity] : NULL;
   if (md && e && isfinite(e->mean) && isnan(unexpected(c, e, r->quantity, value)))
     return "agrees with dsmc: md differs from Enskog's equation (correlations, clustering or the number of grains)";
-  return "no cause known: within the range that the theory was made for";
+  return no_cause;
 }
 
 int gg_run_theory_remarks(const gg_comparison *c, gg_theory_remark remarks[GG_MOST_THEORIES])
@@ -173,13 +211,6 @@ int gg_run_theory_remarks(const gg_comparison *c, gg_theory_remark remarks[GG_MO
     remarks[n++] = r;
   }
   return n;
-}
-
-/* A user-defined quantity may have another number in a result that was read from a file. */
-static const gg_estimate *estimate_of(const gg_result *r, const gg_quantity_row *row)
-{
-  const gg_quantity_row *own = r ? gg_run_rows_find(&r->rows, row->name) : NULL;
-  return own ? &r->value[own->quantity] : NULL;
 }
 
 void gg_run_comparison_row(const gg_comparison *c, const gg_quantity_row *named, gg_comparison_row *row)

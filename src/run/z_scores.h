@@ -12,9 +12,27 @@ double gg_run_z_score(const gg_estimate *a, const gg_estimate *b);
 bool gg_run_enskog_deviation(const gg_comparison *comparison, gg_engine_kind engine, gg_quantity q,
                              gg_departure *departure);
 
+/* What a quantity is compared with: Enskog's noise-free solution where it answers, else the mean of dsmc. False: there
+ * is neither. */
+typedef struct gg_reference {
+  const char *method; /* "enskog_hermite", "dsmc" */
+  gg_estimate value;
+} gg_reference;
+bool gg_run_reference_find(const gg_comparison *comparison, const gg_quantity_row *row, gg_reference *reference);
+
+/* How far a mean is off a reference. Its error may be NaN, as of a theory in closed form: then z is NaN, too, and the
+ * errors are those of the reference. */
+gg_departure gg_run_reference_deviation(gg_quantity q, const gg_estimate *mean, const gg_estimate *reference);
+
+/* Off the reference by more than four standard errors and by more than is expected of md and dsmc? */
+bool gg_run_is_beyond(const gg_model *model, gg_quantity q, const gg_estimate *mean, const gg_estimate *reference);
+
 /* Does md differ from Enskog's equation by more than four standard errors and more than expected? From its solution,
  * else from dsmc with the errors of both. */
 bool gg_run_results_disagree(const gg_comparison *comparison, gg_quantity q);
+
+/* Why a theory is off where it is beyond what is expected; returns text that lasts. */
+const char *gg_run_theory_cause(const gg_theory *theory, const gg_model *model);
 
 /* Where any quantity is marked so: causes that apply to this scene, a sentence each; returns how many. */
 int gg_run_disagreement_causes(const gg_comparison *comparison, const char **causes, int most);

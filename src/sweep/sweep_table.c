@@ -18,12 +18,14 @@
 #include "files/h5/hdf5_writer.h"
 #include "files/h5/result_file.h"
 #include "files/result_document.h"
+#include "sweep/point_deviations.h"
 
 void gg_sweep_point_table_clear(gg_point_table *t)
 {
   for (size_t i = 0; i < t->n_documents; i++) json_decref(t->document[i]);
   free(t->document);
   free(t->row);
+  gg_base_string_list_clear(&t->texts);
   *t = (gg_point_table){0};
 }
 
@@ -89,7 +91,7 @@ static gg_status add_document(gg_point_table *t, gg_cli_table_row row, json_t *d
   return GG_OK;
 }
 
-static gg_status read_document(const char *path, json_t **document, gg_error *err)
+static gg_status read_document(const char *path, json_t **document, char **scene, gg_error *err)
 {
   gg_h5_in h;
   gg_h5_open(&h, path);
@@ -98,8 +100,19 @@ static gg_status read_document(const char *path, json_t **document, gg_error *er
   *document = text ? gg_files_document_read(text, &why) : NULL;
   free(text);
   if (!*document && !h.failed) gg_h5_in_failed(&h, why);
+  *scene = h.failed ? NULL : gg_h5_read_text(&h, "/graingas/scene");
   gg_h5_in_close(&h);
   return gg_h5_in_status(&h, path, err);
+}
+
+static gg_status add_read_point(gg_point_table *t, gg_cli_table_row row, json_t *document, char *scene, gg_error *err)
+{
+  const size_t first = t->n;
+  row.version = json_string_value(json_object_get(document, "graingas"));
+  row.build = json_string_value(json_object_get(document, "build"));
+  t->n_other_builds += !row.build || strcmp(row.build, gg_base_build_identity) != 0;
+  GG_TRY(add_document(t, row, document, err));
+  return gg_sweep_point_deviations(t, first, document, scene, err);
 }
 
 static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char *folder, size_t i, gg_error *err)
@@ -111,18 +124,20 @@ static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char 
   GG_TRY(gg_sweep_resolve(sweep, i, &scene, err));
   gg_cli_table_row row = {.point = i, .seed = scene.run.seed, .fell_short = state == GG_POINT_SHORT};
   gg_sweep_point_name(id, row.file);
-  char path[PATH_MAX];
+  char path[PATH_MAX], *yaml = NULL;
   json_t *document = NULL;
   gg_sweep_point_path(folder, id, row.fell_short ? ".short.h5" : ".h5", path);
-  gg_status status = read_document(path, &document, err);
+  gg_status status = read_document(path, &document, &yaml, err);
   if (status == GG_OK)
     status = gg_sweep_point_check(&scene, sweep->settings.does, json_object_get(document, "scene"), path, err);
-  if (status != GG_OK) return json_decref(document), status;
-  t->document[t->n_documents++] = document;
-  row.version = json_string_value(json_object_get(document, "graingas"));
-  row.build = json_string_value(json_object_get(document, "build"));
-  t->n_other_builds += !row.build || strcmp(row.build, gg_base_build_identity) != 0;
-  return add_document(t, row, document, err);
+  if (status == GG_OK) {
+    t->document[t->n_documents++] = document;
+    status = add_read_point(t, row, document, yaml, err);
+  } else {
+    json_decref(document);
+  }
+  free(yaml);
+  return status;
 }
 
 gg_status gg_sweep_point_table_read(gg_point_table *t, const gg_sweep *sweep, const char *folder, gg_error *err)
@@ -136,47 +151,47 @@ gg_status gg_sweep_point_table_read(gg_point_table *t, const gg_sweep *sweep, co
   return GG_OK;
 }
 
-/* Columns behind those of the point and its keys. Of theories those of a run are empty. */
+/* Columns behind those of the point and its keys. Whole numbers and truths have a value in every row, so that readers
+ * find them of one type: seed and `short` are of the point, theories are of the steady state. */
 typedef enum kind { NUMBER, WHOLE, TRUTH, TEXT, NAME } kind;
 static const struct {
   const char *name;
   kind kind;
   size_t offset;
-  bool of_run;
 } columns[] = {
-    {"method", TEXT, offsetof(gg_cli_table_row, method), false},
-    {"quantity", TEXT, offsetof(gg_cli_table_row, quantity), false},
-    {"mean", NUMBER, offsetof(gg_cli_table_row, mean), false},
-    {"error", NUMBER, offsetof(gg_cli_table_row, error), false},
-    {"unit", TEXT, offsetof(gg_cli_table_row, unit), false},
-    {"seed", WHOLE, offsetof(gg_cli_table_row, seed), true},
-    {"steady", TRUTH, offsetof(gg_cli_table_row, steady), true},
-    {"short", TRUTH, offsetof(gg_cli_table_row, fell_short), true},
-    {"seconds", NUMBER, offsetof(gg_cli_table_row, seconds), false},
-    {"file", NAME, offsetof(gg_cli_table_row, file), false},
-    {"version", TEXT, offsetof(gg_cli_table_row, version), false},
-    {"build", TEXT, offsetof(gg_cli_table_row, build), false},
+    {"method", TEXT, offsetof(gg_cli_table_row, method)},
+    {"quantity", TEXT, offsetof(gg_cli_table_row, quantity)},
+    {"mean", NUMBER, offsetof(gg_cli_table_row, mean)},
+    {"error", NUMBER, offsetof(gg_cli_table_row, error)},
+    {"unit", TEXT, offsetof(gg_cli_table_row, unit)},
+    {"reference", TEXT, offsetof(gg_cli_table_row, reference)},
+    {"reference_mean", NUMBER, offsetof(gg_cli_table_row, reference_mean)},
+    {"difference", NUMBER, offsetof(gg_cli_table_row, difference)},
+    {"difference_error", NUMBER, offsetof(gg_cli_table_row, difference_error)},
+    {"deviation", NUMBER, offsetof(gg_cli_table_row, deviation)},
+    {"deviation_error", NUMBER, offsetof(gg_cli_table_row, deviation_error)},
+    {"z", NUMBER, offsetof(gg_cli_table_row, z)},
+    {"beyond_expected", TRUTH, offsetof(gg_cli_table_row, beyond)},
+    {"cause", TEXT, offsetof(gg_cli_table_row, cause)},
+    {"seed", WHOLE, offsetof(gg_cli_table_row, seed)},
+    {"steady", TRUTH, offsetof(gg_cli_table_row, steady)},
+    {"short", TRUTH, offsetof(gg_cli_table_row, fell_short)},
+    {"seconds", NUMBER, offsetof(gg_cli_table_row, seconds)},
+    {"file", NAME, offsetof(gg_cli_table_row, file)},
+    {"version", TEXT, offsetof(gg_cli_table_row, version)},
+    {"build", TEXT, offsetof(gg_cli_table_row, build)},
 };
 enum { COLUMNS = sizeof columns / sizeof *columns };
 
 static const void *cell(const gg_cli_table_row *row, size_t c)
 {
-  return row->theory && columns[c].of_run ? NULL : (const char *)row + columns[c].offset;
+  return (const char *)row + columns[c].offset;
 }
 
 static const char *text_of(const gg_cli_table_row *row, size_t c)
 {
   const void *at = cell(row, c);
   return columns[c].kind == NAME ? at : *(const char *const *)at;
-}
-
-static double number_of(const gg_cli_table_row *row, size_t c)
-{
-  const void *at = cell(row, c);
-  if (!at) return NAN;
-  return columns[c].kind == NUMBER  ? *(const double *)at
-         : columns[c].kind == WHOLE ? (double)*(const uint64_t *)at
-                                    : *(const bool *)at;
 }
 
 static void put_count(gg_csv *csv, uint64_t n)
@@ -196,10 +211,16 @@ static void put_cell(gg_csv *csv, const gg_cli_table_row *row, size_t c)
     gg_base_csv_json(csv, value);
     json_decref(value);
     return;
-  case WHOLE: at ? put_count(csv, *(const uint64_t *)at) : gg_base_csv_text(csv, NULL); return;
-  case TRUTH: gg_base_csv_text(csv, at ? *(const bool *)at ? "true" : "false" : NULL); return;
+  case WHOLE: put_count(csv, *(const uint64_t *)at); return;
+  case TRUTH: gg_base_csv_text(csv, *(const bool *)at ? "true" : "false"); return;
   default: gg_base_csv_text(csv, text_of(row, c));
   }
+}
+
+/* YAML's infinity is ".inf", which readers of tables take for a text. */
+static const char *plain_value(const char *yaml)
+{
+  return strcmp(yaml, ".inf") == 0 ? "inf" : yaml;
 }
 
 static void put_head(gg_csv *csv, const gg_sweep *sweep)
@@ -214,7 +235,8 @@ static void put_head(gg_csv *csv, const gg_sweep *sweep)
 static void put_row(gg_csv *csv, const gg_sweep *sweep, const gg_cli_table_row *row)
 {
   put_count(csv, row->point + 1);
-  for (size_t k = 0; gg_sweep_key(sweep, k); k++) gg_base_csv_text(csv, gg_sweep_value(sweep, row->point, k));
+  for (size_t k = 0; gg_sweep_key(sweep, k); k++)
+    gg_base_csv_text(csv, plain_value(gg_sweep_value(sweep, row->point, k)));
   for (size_t c = 0; c < COLUMNS; c++) put_cell(csv, row, c);
   gg_base_csv_end_row(csv);
 }
@@ -238,51 +260,76 @@ gg_status gg_sweep_point_table_write_csv(const gg_point_table *t, const gg_sweep
   return status;
 }
 
-/* Room for a column of numbers or texts. */
+/* Room for a column of each type. */
 typedef struct column {
   gg_h5 *h;
   size_t n;
   double *number;
+  int64_t *whole;
+  uint8_t *truth;
   const char **text;
 } column;
 
-static void write_column(const column *c, const char *name, bool numbers)
+static void write_column(const column *c, const char *name, kind of)
 {
   const hsize_t n = c->n;
   char path[160];
   snprintf(path, sizeof path, "/graingas/table/%s", name);
-  if (numbers)
-    gg_h5_array(c->h, path, H5T_NATIVE_DOUBLE, 1, &n, c->number);
-  else
-    gg_h5_texts(c->h, path, c->text, c->n);
+  switch (of) {
+  case NUMBER: gg_h5_array(c->h, path, H5T_NATIVE_DOUBLE, 1, &n, c->number); break;
+  case WHOLE: gg_h5_array(c->h, path, H5T_NATIVE_INT64, 1, &n, c->whole); break;
+  case TRUTH: gg_h5_array(c->h, path, H5T_NATIVE_UINT8, 1, &n, c->truth); break;
+  default: gg_h5_texts(c->h, path, c->text, c->n);
+  }
 }
 
-/* Numbers, where every point has one. */
+/* Digits alone, beyond the whole numbers that a double holds: seeds. */
+static bool is_whole(const char *text, long long *n)
+{
+  char *end;
+  errno = 0;
+  *n = strtoll(text, &end, 10);
+  return end != text && !*end && errno == 0;
+}
+
+/* Whole numbers or numbers, where every point has one. */
 static void write_key(const column *c, const gg_point_table *t, const gg_sweep *sweep, size_t k)
 {
-  bool numbers = true;
+  bool numbers = true, wholes = true;
   for (size_t i = 0; i < t->n; i++) {
     char *end;
-    c->text[i] = gg_sweep_value(sweep, t->row[i].point, k);
+    long long n = 0;
+    c->text[i] = plain_value(gg_sweep_value(sweep, t->row[i].point, k));
     c->number[i] = strtod(c->text[i], &end);
     numbers = numbers && !*end && end != c->text[i];
+    wholes = is_whole(c->text[i], &n) && wholes;
+    c->whole[i] = n;
   }
-  write_column(c, gg_sweep_key(sweep, k), numbers);
+  write_column(c, gg_sweep_key(sweep, k), wholes ? WHOLE : numbers ? NUMBER : TEXT);
+}
+
+static void fill_column(const column *out, const gg_point_table *t, size_t c)
+{
+  for (size_t i = 0; i < t->n; i++) {
+    const gg_cli_table_row *row = &t->row[i];
+    const char *text = columns[c].kind >= TEXT ? text_of(row, c) : NULL;
+    switch (columns[c].kind) {
+    case NUMBER: out->number[i] = *(const double *)cell(row, c); break;
+    case WHOLE: out->whole[i] = (int64_t) * (const uint64_t *)cell(row, c); break;
+    case TRUTH: out->truth[i] = *(const bool *)cell(row, c); break;
+    default: out->text[i] = text ? text : "";
+    }
+  }
 }
 
 static void write_columns(const column *out, const gg_point_table *t, const gg_sweep *sweep)
 {
-  for (size_t i = 0; i < t->n; i++) out->number[i] = (double)(t->row[i].point + 1);
-  write_column(out, "point", true);
+  for (size_t i = 0; i < t->n; i++) out->whole[i] = (int64_t)t->row[i].point + 1;
+  write_column(out, "point", WHOLE);
   for (size_t k = 0; gg_sweep_key(sweep, k); k++) write_key(out, t, sweep, k);
   for (size_t c = 0; c < COLUMNS; c++) {
-    const bool numbers = columns[c].kind < TEXT;
-    for (size_t i = 0; i < t->n; i++) {
-      const char *text = numbers ? NULL : text_of(&t->row[i], c);
-      out->number[i] = numbers ? number_of(&t->row[i], c) : 0;
-      out->text[i] = text ? text : "";
-    }
-    write_column(out, columns[c].name, numbers);
+    fill_column(out, t, c);
+    write_column(out, columns[c].name, columns[c].kind);
   }
 }
 
@@ -306,9 +353,13 @@ gg_status gg_sweep_point_table_write_h5(const gg_point_table *t, const gg_sweep 
                                         const char *command, gg_error *err)
 {
   gg_h5 h;
-  const column c = {&h, t->n, gg_base_array_new(t->n, sizeof(double), err),
+  const column c = {&h,
+                    t->n,
+                    gg_base_array_new(t->n, sizeof(double), err),
+                    gg_base_array_new(t->n, sizeof(int64_t), err),
+                    gg_base_array_new(t->n, 1, err),
                     gg_base_array_new(t->n, sizeof(char *), err)};
-  gg_status status = c.number && c.text ? GG_OK : GG_FAILED;
+  gg_status status = c.number && c.whole && c.truth && c.text ? GG_OK : GG_FAILED;
   if (status == GG_OK) {
     gg_h5_create_in_memory(&h);
     gg_h5_group(&h, "/graingas/table");
@@ -319,17 +370,10 @@ gg_status gg_sweep_point_table_write_h5(const gg_point_table *t, const gg_sweep 
     status = write_image(&h, path, err);
   }
   free(c.number);
+  free(c.whole);
+  free(c.truth);
   free(c.text);
   return status;
-}
-
-/* Digits alone, beyond the whole numbers that a double holds: seeds. */
-static bool is_whole(const char *text, long long *n)
-{
-  char *end;
-  errno = 0;
-  *n = strtoll(text, &end, 10);
-  return end != text && !*end && errno == 0;
 }
 
 /* A value as a number where it is one, else as its YAML. */

@@ -3,6 +3,7 @@
 #ifndef GG_SWEEP_TABLE_H
 #define GG_SWEEP_TABLE_H
 
+#include "base/text.h"
 #include "sweep/folder.h"
 
 typedef struct gg_cli_table_row {
@@ -16,6 +17,14 @@ typedef struct gg_cli_table_row {
   bool steady, fell_short;
   double seconds; /* of processor time, of the method's whole run; NaN: a theory */
   uint64_t seed;
+  /* Against the reference: NULL and NaN where there is none. */
+  const char *reference; /* "enskog_hermite", "dsmc" */
+  double reference_mean;
+  double difference, difference_error; /* mean - reference, in the unit of the quantity */
+  double deviation, deviation_error;   /* both over the reference; NaN of numbers about zero: N1, N2, a2 */
+  double z;                            /* difference over its error; NaN of theories */
+  bool beyond;                         /* by more than four errors and more than is expected */
+  const char *cause;                   /* where it is */
 } gg_cli_table_row;
 
 typedef struct gg_point_table {
@@ -24,6 +33,7 @@ typedef struct gg_point_table {
   size_t n_other_builds; /* points that a build of another identity ran */
   size_t n_documents;    /* one for each point that has a file */
   json_t **document;     /* texts of the rows belong to them */
+  gg_string_list texts;  /* and causes to these */
 } gg_point_table;
 
 /* From all files that there are; GG_FAILED if there is none. To be cleared, also on failure. */
@@ -31,8 +41,8 @@ gg_status gg_sweep_point_table_read(gg_point_table *table, const gg_sweep *sweep
 void gg_sweep_point_table_clear(gg_point_table *table);
 
 /* Whole or not at all; columns: the point's number, a column a varied key, then method, quantity, mean, error, unit,
- * seed, steady, short, seconds, file, version, build. In HDF5 each is an array under /graingas/table, texts without
- * length. */
+ * reference, its mean, differences from it, z, beyond_expected, cause, seed, steady, short, seconds, file, version,
+ * build. In HDF5 each is an array under /graingas/table: numbers, whole numbers, truths as bytes, texts. */
 gg_status gg_sweep_point_table_write_csv(const gg_point_table *table, const gg_sweep *sweep, const char *path,
                                          gg_error *err);
 gg_status gg_sweep_point_table_write_h5(const gg_point_table *table, const gg_sweep *sweep, const char *path,

@@ -143,6 +143,47 @@ def test_collect():
     check(not done.out and not done.new and rows("s.sweep.csv") == before, done.out)
 
 
+def test_deviations():
+    """Rows of the table have the numbers of the point's comparison, and every column one type."""
+    write(SWEEP.replace("replicas: 2}", "replicas: 2}\nsweep: {does: compare}").replace(
+        "collision.e: [0.7, 0.8, 0.9]\n  phi: [0.05, 0.1]", "particles: [100, 200]\n  collision.mu: [.inf, 0.1]").replace(
+        "particles: 100\n", "collision: {e: 0.5, beta: 0.3}\n"))
+    check(run("sweep", "s.yaml", "--quiet").code == 0)
+    check(run("sweep", "s.yaml", "--collect", "--picture", "none").code == 0)
+    table = rows("s.sweep.csv")
+    check(all(int(r["seed"]) > 1 and int(r["particles"]) in (100, 200) for r in table), table[0])
+    check(all(r[key] in ("true", "false") for r in table for key in ("steady", "short", "beyond_expected")))
+    check({r["collision.mu"] for r in table} == {"inf", "0.1"}, "infinity as tables have it")
+    for r in table:
+        solved = r["collision.mu"] == "inf"
+        if r["method"] == "md" and r["quantity"] in ("temperature", "N1"):
+            of = json.loads(run("info", "s.sweep/" + r["file"] + ".h5", "--json").out)
+            of = next(row for row in of["comparison"] if row["quantity"] == r["quantity"])
+            check(r["beyond_expected"] == ("true" if of["beyond_expected"] else "false"), r)
+            check(bool(r["cause"]) == of["beyond_expected"], r)
+            check(r["reference"] == ("enskog_hermite" if solved else "dsmc"), r)
+            check(float(r["z"]) == (of["md_enskog_z"] if solved else of["md_dsmc_z"]), r)
+            check((r["deviation"] == "") == (r["quantity"] == "N1"), r)
+            if solved and r["deviation"]:
+                check(float(r["deviation"]) == of["md_enskog_deviation"], r)
+                check(float(r["deviation_error"]) == of["md_enskog_deviation_error"], r)
+        if r["method"] == "dsmc" and r["quantity"] == "temperature":
+            check(bool(r["z"]) == solved, "dsmc is no reference of its own:", r)
+        if r["method"] == "lun1991" and r["quantity"] == "temperature":
+            off = float(r["mean"]) / float(r["reference_mean"]) - 1
+            check(abs(float(r["deviation"]) - off) < 1e-12 and r["z"] == "" and r["beyond_expected"] == "true", r)
+            check("e" in r["cause"], r)
+    try:
+        import h5py
+    except ImportError:
+        return
+    with h5py.File("s.sweep.h5") as f:
+        kinds = {name: f["graingas/table/" + name].dtype.kind for name in ("point", "particles", "seed", "steady", "mean",
+                                                                          "collision.mu", "z", "method")}
+    check(kinds == {"point": "i", "particles": "i", "seed": "i", "steady": "u", "mean": "f", "collision.mu": "f",
+                    "z": "f", "method": "S"}, kinds)
+
+
 SPECIES = """[{fraction: 0.3333, diameter: 1.0, mass: 1.0, inertia: 0.4},
    {fraction: 0.3333, diameter: 0.8, mass: 0.8, inertia: 0.4},
    {fraction: 0.3334, diameter: 0.5, mass: %g, inertia: 0.4}]"""

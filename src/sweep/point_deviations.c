@@ -1,0 +1,96 @@
+/* How far the rows of a comparison are off their reference, by the functions that `compare` uses. */
+#include "sweep/point_deviations.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "files/h5/result_restore.h"
+#include "run/z_scores.h"
+
+/* The causes that apply to the whole comparison, in one line; "" if none. */
+static const char *join_causes(const gg_comparison *c, gg_string_list *texts)
+{
+  enum { MOST = 8 };
+  const char *cause[MOST];
+  char line[1200] = "";
+  const int n = gg_run_disagreement_causes(c, cause, MOST);
+  for (int i = 0; i < n; i++) gg_base_text_append(line, sizeof line, "%s%s", i ? "; " : "", cause[i]);
+  if (!*line) return NULL;
+  gg_base_string_list_add(texts, "%s", line);
+  return gg_base_string_list_at(texts, texts->n - 1);
+}
+
+static const gg_theory *theory_of(const gg_comparison *c, const char *name)
+{
+  for (int i = 0; i < c->n_theories; i++)
+    if (strcmp(c->theory[i].theory->name, name) == 0) return c->theory[i].theory;
+  return NULL;
+}
+
+static void set_deviation(gg_cli_table_row *row, gg_quantity q, const gg_reference *reference)
+{
+  const gg_estimate mean = {.mean = row->mean, .error = row->theory ? NAN : row->error};
+  const gg_departure d = gg_run_reference_deviation(q, &mean, &reference->value);
+  row->reference = reference->method;
+  row->reference_mean = reference->value.mean;
+  row->difference = d.difference, row->difference_error = d.error;
+  row->deviation = d.deviation, row->deviation_error = d.deviation_error;
+  row->z = d.z;
+}
+
+/* The causes of `compare` are md's; those of theories are their range. */
+static void set_cause(gg_cli_table_row *row, const gg_comparison *c, const char *of_md, gg_string_list *texts)
+{
+  const gg_theory *theory = row->theory ? theory_of(c, row->method) : NULL;
+  if (theory) {
+    gg_base_string_list_add(texts, "%s", gg_run_theory_cause(theory, &c->model));
+    row->cause = gg_base_string_list_at(texts, texts->n - 1);
+  } else if (strcmp(row->method, "md") == 0) {
+    row->cause = of_md;
+  }
+}
+
+static void compare_row(gg_point_table *t, gg_cli_table_row *row, const gg_comparison *c, const char *of_md)
+{
+  gg_reference reference;
+  const gg_quantity_row *named = gg_run_rows_find(&c->rows, row->quantity);
+  if (!named || !gg_run_reference_find(c, named, &reference) || strcmp(reference.method, row->method) == 0) return;
+  const gg_estimate mean = {.mean = row->mean, .error = row->theory ? NAN : row->error};
+  set_deviation(row, named->quantity, &reference);
+  row->beyond =
+      (row->theory || row->error > 0) && gg_run_is_beyond(&c->model, named->quantity, &mean, &reference.value);
+  if (row->beyond) set_cause(row, c, of_md, &t->texts);
+}
+
+/* A comparison of means alone: series and frames are not read. */
+static gg_status restore(json_t *document, char *scene, gg_comparison *c, gg_error *err)
+{
+  gg_stored_result stored = {.comparison = true, .scene = scene, .document = document};
+  for (int k = 0; k < 2; k++) {
+    static const char *const names[] = {[GG_MD] = "md", [GG_DSMC] = "dsmc"};
+    json_t *part = json_object_get(document, names[k]);
+    if (json_is_object(part)) stored.engine[k] = (gg_stored_engine){.name = names[k], .document = part};
+  }
+  return gg_files_comparison_restore(&stored, c, err);
+}
+
+gg_status gg_sweep_point_deviations(gg_point_table *t, size_t first, json_t *document, char *scene, gg_error *err)
+{
+  for (size_t i = first; i < t->n; i++) {
+    gg_cli_table_row *row = &t->row[i];
+    row->reference_mean = row->difference = row->difference_error = row->deviation = row->deviation_error = row->z =
+        NAN;
+  }
+  if (!json_object_get(document, "comparison")) return GG_OK;
+  gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
+  if (!c) return GG_FAILED;
+  const unsigned before = gg_base_memory_failures();
+  gg_status status = restore(document, scene, c, err);
+  const char *of_md = status == GG_OK ? join_causes(c, &t->texts) : NULL;
+  for (size_t i = first; i < t->n && status == GG_OK; i++) compare_row(t, &t->row[i], c, of_md);
+  gg_run_comparison_clear(c);
+  free(c);
+  return gg_base_memory_check(before, status, err);
+}

@@ -1,0 +1,11 @@
+/* How far the rows of a point are off their reference: Enskog's noise-free solution, else dsmc. */
+#ifndef GG_POINT_DEVIATIONS_H
+#define GG_POINT_DEVIATIONS_H
+
+#include "sweep/sweep_table.h"
+
+/* Of the rows from `first` on; `scene` is the YAML beside the document. Empty (NaN, NULL) where there is no reference.
+ */
+gg_status gg_sweep_point_deviations(gg_point_table *table, size_t first, json_t *document, char *scene, gg_error *err);
+
+#endif
