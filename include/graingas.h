@@ -1400,6 +1400,42 @@ typedef struct gg_collecting {
 GG_API gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collecting *options,
                                   void (*written)(void *context, const char *file), void *context, gg_error *err);
 
+/* What validation of a grid of comparisons leaves beside its verdict. All zero: nothing. */
+typedef struct gg_validating {
+  const char *command;  /* for their record; NULL: "the graingas library" */
+  const char *repeat;   /* command that repeats a point, to which its number is added; NULL: none is named */
+  const char *picture;  /* maps of deviations: "grid.svg" makes grid_temperature.svg and on; NULL: no maps */
+  const char *width;    /* of the maps, as for gg_plot; NULL: free */
+  const char *show;     /* quantities, with commas, a map each; NULL: the main ones */
+  const char *theories; /* theories in the maps, with commas; NULL: lun1991 */
+  const char *page;     /* Markdown with maps, counts and tables; NULL: no page */
+  void (*warn)(void *context, const char *message); /* of maps that cannot be drawn, and of other builds; NULL: nobody */
+} gg_validating;
+
+/**
+ * Compare all finished points of a sweep (`does: compare`) with Enskog's equation: dsmc with the noise-free solution,
+ * which both solve, and md and theories with either.
+ * @param sweep the sweep
+ * @param folder folder of the results
+ * @param options NULL: default options
+ * @param written called with each file name; may be NULL
+ * @param context passed to the callbacks
+ * @param verdict receives counts and tables as Markdown, to be freed with free(); also with GG_FAILED, else NULL
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_FAILED where dsmc and the noise-free solution disagree beyond chance (one grid in 1000 without any
+ * fault does), or no point is finished; GG_BAD_INPUT if the sweep does not compare
+ */
+GG_API gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_validating *options,
+                                   void (*written)(void *context, const char *file), void *context, char **verdict,
+                                   gg_error *err);
+
+/**
+ * Sweep that `graingas validate` runs without a file: uniform shear over density and restitution.
+ * @param quick not 0: the small grid
+ * @return the YAML text; never NULL. Borrowed; do not free.
+ */
+GG_API const char *gg_standard_grid(int quick);
+
 /**
  * Draw pictures of a result file with gnuplot: PICTURE, PICTURE_snapshot and one for each observable with curves.
  * Nothing is drawn if one of them cannot be written.

@@ -23,6 +23,7 @@ int gg_cli_compare_main(const gg_command *command, int argc, char **argv);
 int gg_cli_run_main(const gg_command *command, int argc, char **argv);
 int gg_cli_theory_main(const gg_command *command, int argc, char **argv);
 int gg_cli_sweep_main(const gg_command *command, int argc, char **argv);
+int gg_cli_validate_main(const gg_command *command, int argc, char **argv);
 int gg_cli_reproduce_main(const gg_command *command, int argc, char **argv);
 int gg_cli_plot_main(const gg_command *command, int argc, char **argv);
 int gg_cli_export_main(const gg_command *command, int argc, char **argv);

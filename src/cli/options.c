@@ -21,19 +21,25 @@ const gg_option gg_cli_options_table[] = {
     {GG_OPT_OUTPUT, "output", "FILE",
      "file to write (default: NAME of the input, in the current folder: NAME.h5, of a comparison NAME.compare.h5)"},
     {GG_OPT_PREFIX, "output", "PREFIX", "prefix of the file names (default: the input's name, in the current folder)"},
-    {GG_OPT_SWEEP, "vary", "KEY=VALUES",
+    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "vary", "KEY=VALUES",
      "vary one more key, FIRST:LAST:STEP or v1,v2,..., e.g. phi=0.1:0.5:0.1; repeatable, every combination is a point"},
     {GG_OPT_SWEEP, "does", "WHAT", "command for each point: run, compare or theory (sweep.does)"},
-    {GG_OPT_SWEEP, "list", NULL, "list the points, their state and the expected time; run nothing"},
-    {GG_OPT_SWEEP, "point", "K", "run only the K-th point of the list"},
+    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "list", NULL, "list the points, their state and the expected time; run nothing"},
+    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "point", "K", "run only the K-th point of the list"},
     {GG_OPT_SWEEP, "collect", NULL,
      "collect the results of all points: FOLDER.csv, FOLDER.h5 and the picture FOLDER.svg; run nothing"},
     {GG_OPT_SWEEP, "over", "KEY",
      "with --collect: the key along the picture's axis (default: the one with most values)"},
     {GG_OPT_SWEEP, "show", "QUANTITIES",
      "with --collect: quantities in the picture, separated by commas (default: the main ones)"},
+    {GG_OPT_VALIDATE, "show", "QUANTITIES",
+     "quantities to map, separated by commas (default: temperature, temperature_ratio, pressure, shear_viscosity, N1, "
+     "N2)"},
+    {GG_OPT_VALIDATE, "theories", "THEORIES", "theories in the maps, separated by commas (default: lun1991)"},
+    {GG_OPT_VALIDATE, "page", "FILE", "write maps, counts and tables as a page of Markdown"},
     {GG_OPT_SWEEP, "slurm", NULL, "print a Slurm script for an array of tasks; run nothing"},
-    {GG_OPT_SWEEP, "output", "FOLDER", "folder of the points' files (default: NAME.sweep, in the current folder)"},
+    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "output", "FOLDER",
+     "folder of the points' files (default: NAME.sweep, in the current folder)"},
     {GG_OPT_FOLDER, "output", "FOLDER", "folder to write to, created if missing (default: the current one)"},
     {GG_OPT_ONLY, "only", "PARTS", "parts to write: results, curves, trajectory; separated by commas"},
     {GG_OPT_PICTURE, "picture", "FILE",
@@ -159,7 +165,7 @@ static int take_theory(gg_options *o, const char *value)
   return GG_CLI_GO_ON;
 }
 
-/* Options of sweeps alone, by name. */
+/* Options of sweeps and of their validation, by name. */
 static int take_sweep(gg_options *o, const char *name, const char *value)
 {
   if (strcmp(name, "vary") == 0) return take_vary(o, value);
@@ -168,6 +174,8 @@ static int take_sweep(gg_options *o, const char *name, const char *value)
   if (strcmp(name, "output") == 0) o->output = value;
   if (strcmp(name, "over") == 0) o->over = value;
   if (strcmp(name, "show") == 0) o->show = value;
+  if (strcmp(name, "theories") == 0) o->mapped = value;
+  if (strcmp(name, "page") == 0) o->page = value;
   o->list |= strcmp(name, "list") == 0;
   o->collect |= strcmp(name, "collect") == 0;
   o->slurm |= strcmp(name, "slurm") == 0;
@@ -196,7 +204,9 @@ static int take(gg_options *o, unsigned flag, const char *name, const char *valu
   case GG_OPT_JSON: o->json = true; break;
   case GG_OPT_QUICK: o->quick = true; break;
   case GG_OPT_QUIET: o->quiet = true; break;
-  case GG_OPT_SWEEP: return take_sweep(o, name, value);
+  case GG_OPT_SWEEP:
+  case GG_OPT_VALIDATE:
+  case GG_OPT_SWEEP | GG_OPT_VALIDATE: return take_sweep(o, name, value);
   default: break;
   }
   return GG_CLI_GO_ON;

@@ -24,6 +24,7 @@ enum {
   GG_OPT_COLLISIONS = 1u << 16,
   GG_OPT_ACCEPT = 1u << 17,
   GG_OPT_THEORY = 1u << 18,
+  GG_OPT_VALIDATE = 1u << 19, /* all that only validate has */
 };
 
 typedef struct gg_option {
@@ -48,6 +49,8 @@ typedef struct gg_options {
   const char *does;        /* what a sweep does at its points; NULL: what its file says */
   const char *over, *show; /* of the picture of a sweep: key along x, quantities; NULL: chosen */
   char *theories;          /* with commas, owned; NULL: all */
+  const char *mapped;      /* theories in maps; NULL: chosen */
+  const char *page;        /* to be written; NULL: none */
   const char *point;       /* the one of a sweep to do; NULL: all */
   bool json, quiet, all, quick, accept_version;
   bool list, collect, slurm; /* what else to do with a sweep */

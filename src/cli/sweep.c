@@ -6,19 +6,10 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "cli/options.h"
 #include "cli/outputs.h"
 #include "cli/print.h"
 #include "cli/processes.h"
-#include "cli/progress.h"
-
-typedef struct sweep_command {
-  const gg_options *options;
-  gg_sweep *sweep; /* checked */
-  char *folder;
-  gg_cli_line line;
-  bool over; /* the last line was shown */
-} sweep_command;
+#include "cli/sweep_command.h"
 
 enum { MOST_KEYS = 256 };
 
@@ -52,7 +43,7 @@ static void print_head(const gg_sweep *sweep, const widths *w)
 }
 
 /* Whoever takes part in its time: the missing ones. */
-static double print_point(const sweep_command *c, const widths *w, size_t i, gg_point_state state)
+static double print_point(const gg_sweep_command *c, const widths *w, size_t i, gg_point_state state)
 {
   static const char *const states[] = {"", "done", "short"};
   char time[24];
@@ -66,7 +57,7 @@ static double print_point(const sweep_command *c, const widths *w, size_t i, gg_
 }
 
 /* --list: a line a point, and the time that those which are missing will take. */
-static int list_points(const sweep_command *c)
+int gg_cli_sweep_list(const gg_sweep_command *c)
 {
   size_t done = 0, n = gg_sweep_points(c->sweep);
   double seconds = 0;
@@ -90,7 +81,7 @@ static int list_points(const sweep_command *c)
 enum { MOST_TASKS = 1000 };
 
 /* The longest task, at a quarter of the speed that is expected; whole hours. */
-static long hours(const sweep_command *c, size_t tasks)
+static long hours(const gg_sweep_command *c, size_t tasks)
 {
   double longest = 0;
   size_t n = gg_sweep_points(c->sweep);
@@ -105,7 +96,7 @@ static long hours(const sweep_command *c, size_t tasks)
 }
 
 /* --slurm: an array script in which every task does points of its own. */
-static int print_slurm(const sweep_command *c)
+static int print_slurm(const gg_sweep_command *c)
 {
   size_t n = gg_sweep_points(c->sweep), tasks = n < MOST_TASKS ? n : MOST_TASKS;
   long h = hours(c, tasks);
@@ -147,7 +138,7 @@ static void describe(const gg_sweep_progress *p, char *text, size_t size)
 static void show_progress(void *context, const gg_sweep_progress *p)
 {
   char line[240];
-  sweep_command *c = context;
+  gg_sweep_command *c = context;
   describe(p, line, sizeof line);
   bool over = p->done + p->failed == p->points;
   gg_cli_line_show(&c->line, line, over && !c->over);
@@ -164,9 +155,9 @@ static gg_status vary(void *sweep, const char *key, const char *values, gg_error
   return gg_sweep_vary(sweep, key, values, err);
 }
 
-static gg_status read_sweep(const gg_options *o, gg_sweep **sweep, gg_error *err)
+gg_status gg_cli_sweep_read(const gg_options *o, const char *text, const char *name, gg_sweep **sweep, gg_error *err)
 {
-  gg_status status = gg_sweep_load(o->input, sweep, err);
+  gg_status status = o->input ? gg_sweep_load(o->input, sweep, err) : gg_sweep_parse(text, name, sweep, err);
   for (int i = 0; i < o->n_vary && status == GG_OK; i++)
     status = gg_cli_options_set("vary", o->vary[i], "phi=0.1:0.5:0.1", vary, *sweep, err);
   for (int i = 0; i < o->n_overrides && status == GG_OK; i++)
@@ -184,7 +175,7 @@ static int is_interrupted(void *context)
 /* What became of a point that did not come to its end. */
 static void print_point_end(void *context, size_t i, gg_status status, const char *file, const char *message)
 {
-  sweep_command *c = context;
+  gg_sweep_command *c = context;
   if (status == GG_OK) return;
   gg_cli_line_clear(&c->line);
   fprintf(stderr, "point %zu", i + 1);
@@ -193,13 +184,13 @@ static void print_point_end(void *context, size_t i, gg_status status, const cha
   fprintf(stderr, ")%s: %s\n", file ? " ended short" : " failed", message);
 }
 
-static void warn(void *context, const char *message)
+void gg_cli_sweep_warn(void *context, const char *message)
 {
-  gg_cli_line_clear(&((sweep_command *)context)->line);
+  gg_cli_line_clear(&((gg_sweep_command *)context)->line);
   fprintf(stderr, "warning: %s\n", message);
 }
 
-static int take_point(const sweep_command *c, size_t *i)
+static int take_point(const gg_sweep_command *c, size_t *i)
 {
   char *end;
   size_t n = gg_sweep_points(c->sweep);
@@ -210,7 +201,7 @@ static int take_point(const sweep_command *c, size_t *i)
                      c->options->point, n);
 }
 
-static int work(sweep_command *c)
+int gg_cli_sweep_work(gg_sweep_command *c)
 {
   gg_error err;
   size_t i = 0;
@@ -224,7 +215,7 @@ static int work(sweep_command *c)
                                     .progress = show_progress,
                                     .stop = is_interrupted,
                                     .ended = print_point_end,
-                                    .warn = warn};
+                                    .warn = gg_cli_sweep_warn};
   int code = o->point ? take_point(c, &i) : GG_CLI_GO_ON;
   if (code != GG_CLI_GO_ON) return code;
   gg_cli_catch_interrupts();
@@ -233,14 +224,15 @@ static int work(sweep_command *c)
                               : gg_sweep_run(c->sweep, c->folder, &options, &err);
   gg_cli_line_clear(&c->line);
   if (status == GG_OK && !o->quiet)
-    gg_cli_print_name(stderr, "results: ", c->folder, "; --collect makes one table and a picture of them\n");
+    gg_cli_print_name(stderr, "results: ", c->folder,
+                      c->tables ? "\n" : "; --collect makes one table and a picture of them\n");
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 
 /* The files go to standard output, for scripts. */
-static void print_file(void *context, const char *file)
+void gg_cli_sweep_print_file(void *context, const char *file)
 {
-  const gg_options *o = ((const sweep_command *)context)->options;
+  const gg_options *o = ((const gg_sweep_command *)context)->options;
   if (!o->quiet && !o->json) gg_cli_print_name(stdout, "", file, "\n");
 }
 
@@ -251,24 +243,24 @@ static char *tables_of(const char *folder)
   return strcmp(name, ".") == 0 || strcmp(name, "..") == 0 ? realpath(folder, NULL) : strdup(folder);
 }
 
-static int collect(sweep_command *c)
+int gg_cli_sweep_collect(gg_sweep_command *c, const char *picture)
 {
   gg_error err;
   const gg_options *o = c->options;
   const gg_collecting options = {.command = o->command_line,
-                                 .picture = o->picture,
+                                 .picture = picture,
                                  .width = o->width,
                                  .over = o->over,
                                  .show = o->show,
-                                 .warn = warn};
+                                 .warn = gg_cli_sweep_warn};
   char *prefix = tables_of(c->folder);
   if (!prefix) return gg_cli_fail(GG_FAILED, "%s: no name can be made for the tables: %s", c->folder, strerror(errno));
-  gg_status status = gg_sweep_collect(c->sweep, c->folder, prefix, &options, print_file, c, &err);
+  gg_status status = gg_sweep_collect(c->sweep, c->folder, prefix, &options, gg_cli_sweep_print_file, c, &err);
   free(prefix);
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 
-static int print_json(const sweep_command *c)
+static int print_json(const gg_sweep_command *c)
 {
   gg_error err;
   char *text = NULL;
@@ -278,7 +270,7 @@ static int print_json(const sweep_command *c)
 }
 
 /* A scene alone has nothing to vary: most likely an oversight. */
-static int check_varied(const sweep_command *c)
+static int check_varied(const gg_sweep_command *c)
 {
   if (gg_sweep_key(c->sweep, 0)) return GG_CLI_GO_ON;
   return gg_cli_fail(GG_BAD_INPUT,
@@ -307,21 +299,34 @@ static int check_together(const gg_options *o)
   return GG_CLI_GO_ON;
 }
 
-static int sweep_points(sweep_command *c)
+/* A sweep's folder knows its sweep. */
+static bool is_folder(const gg_options *o)
+{
+  struct stat about;
+  return o->input && !o->output && stat(o->input, &about) == 0 && S_ISDIR(about.st_mode);
+}
+
+gg_status gg_cli_sweep_find_folder(gg_sweep_command *c, const char *name, gg_error *err)
+{
+  const gg_options *o = c->options;
+  const bool made = !is_folder(o) && (o->input || o->output);
+  c->folder = made ? gg_cli_options_output(o, ".sweep", err) : strdup(o->input ? o->input : name);
+  if (!c->folder) return made ? err->status : gg_cli_refuse(err, GG_FAILED, "out of memory");
+  for (size_t n = strlen(c->folder); n > 1 && c->folder[n - 1] == '/'; n--)
+    c->folder[n - 1] = '\0'; /* shells add it when they complete a name */
+  return GG_OK;
+}
+
+static int sweep_points(gg_sweep_command *c)
 {
   gg_error err;
   const gg_options *o = c->options;
   int code = check_varied(c);
   if (code != GG_CLI_GO_ON) return code;
-  struct stat about; /* a sweep's folder knows its sweep */
-  const bool is_folder = !o->output && stat(o->input, &about) == 0 && S_ISDIR(about.st_mode);
-  c->folder = is_folder ? strdup(o->input) : gg_cli_options_output(o, ".sweep", &err);
-  if (!c->folder) return gg_cli_report(&err);
-  for (size_t n = strlen(c->folder); n > 1 && c->folder[n - 1] == '/'; n--)
-    c->folder[n - 1] = '\0'; /* shells add it when they complete a name */
+  if (gg_cli_sweep_find_folder(c, NULL, &err) != GG_OK) return gg_cli_report(&err);
   if (o->slurm) return print_slurm(c);
-  if (o->list && !o->json) return list_points(c);
-  code = o->list ? GG_OK : o->collect ? collect(c) : work(c);
+  if (o->list && !o->json) return gg_cli_sweep_list(c);
+  code = o->list ? GG_OK : o->collect ? gg_cli_sweep_collect(c, o->picture) : gg_cli_sweep_work(c);
   return o->json && code != GG_BAD_INPUT && print_json(c) != GG_OK ? GG_FAILED : code;
 }
 
@@ -329,10 +334,10 @@ int gg_cli_sweep_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
   gg_error err;
-  sweep_command c = {.options = &o};
+  gg_sweep_command c = {.options = &o};
   int code = gg_cli_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON) code = check_together(&o);
-  if (code == GG_CLI_GO_ON && read_sweep(&o, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);
+  if (code == GG_CLI_GO_ON && gg_cli_sweep_read(&o, NULL, NULL, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON) code = sweep_points(&c);
   gg_sweep_free(c.sweep);
   free(c.folder);

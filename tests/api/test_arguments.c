@@ -254,6 +254,11 @@ static void sweeps(void **state)
   assert_missing(gg_sweep_collect(NULL, "x", "y", NULL, file, NULL, &err));
   assert_missing(gg_sweep_collect(s, NULL, "y", NULL, file, NULL, &err));
   assert_missing(gg_sweep_collect(s, "x", NULL, NULL, file, NULL, &err));
+  assert_missing(gg_sweep_validate(NULL, "x", NULL, file, NULL, &text, &err));
+  assert_missing(gg_sweep_validate(s, NULL, NULL, file, NULL, &text, &err));
+  assert_missing(gg_sweep_validate(s, "x", NULL, file, NULL, NULL, &err));
+  assert_refused(gg_sweep_validate(s, "x", NULL, file, NULL, &text, &err), "needs does: compare");
+  assert_true(strcmp(gg_standard_grid(0), gg_standard_grid(1)) != 0);
   assert_int_equal(gg_sweep_points(NULL), 0);
   assert_null(gg_sweep_does(NULL));
   assert_null(gg_sweep_key(NULL, 0));

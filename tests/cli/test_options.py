@@ -75,7 +75,7 @@ def test_ways_to_ask():
                         (("--verison",), "did you mean '--version'?"), (("simulate",), f"see {GRAINGAS} --help"),
                         (("run", "--out-put", "x"), "did you mean '--output'?"),
                         (("run", "--verbose"), f"see {GRAINGAS} run --help"),
-                        (("run", "--quick", "x"), "run has no option '--quick', which is for reproduce, bench"),
+                        (("run", "--quick", "x"), "run has no option '--quick', which is for validate, reproduce, bench"),
                         (("run", "scene.yaml", "-json"), "unknown option '-json'; did you mean '--json'?"),
                         (("run", "-seed", "7", "scene.yaml"), "unknown option '-seed'; did you mean '--seed'?"),
                         (("run", "--output=x.h5", "-v", "scene.yaml"), "unknown option '-v'"),

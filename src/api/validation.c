@@ -1,0 +1,47 @@
+/* Grids of comparisons: validated against Enskog's equation. */
+#include "sweep/validation.h"
+
+#include <stdio.h>
+
+#include "api/api.h"
+#include "base/text.h"
+#include "plot/plot.h"
+#include "sweep/standard_grid.h"
+
+const char *gg_standard_grid(int quick)
+{
+  return quick ? gg_sweep_quick_grid : gg_sweep_standard_grid;
+}
+
+static void warn_of_builds(const gg_point_table *t, const gg_validating *o, void *context)
+{
+  char text[120];
+  if (!t->n_other_builds || !o->warn) return;
+  snprintf(text, sizeof text, "%zu of %zu points are by another build of graingas, whose numbers may differ",
+           t->n_other_builds, t->n_documents);
+  o->warn(context, text);
+}
+
+gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_validating *options,
+                            void (*written)(void *context, const char *file), void *context, char **verdict,
+                            gg_error *err)
+{
+  GG_NEED(sweep, folder, verdict);
+  static const gg_validating none = {0};
+  const gg_validating *o = options ? options : &none;
+  gg_point_table table;
+  *verdict = NULL;
+  GG_TRY(gg_sweep_check(sweep, err));
+  if (sweep->settings.does != GG_DOES_COMPARE)
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: does: %s; validation needs does: compare", sweep->name,
+                        gg_sweep_does(sweep));
+  if (o->picture) GG_TRY(gg_plot_paper_check(o->picture, o->width, err));
+  GG_C_LOCALE;
+  gg_status status = gg_sweep_point_table_read(&table, sweep, folder, err);
+  if (status == GG_OK) {
+    warn_of_builds(&table, o, context);
+    status = gg_sweep_validate_table(&table, sweep, o, written, context, verdict, err);
+  }
+  gg_sweep_point_table_clear(&table);
+  return status;
+}

@@ -1,0 +1,212 @@
+#include "sweep/deviation_maps.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/build.h"
+#include "base/memory.h"
+#include "common/quantity.h"
+#include "plot/chart.h"
+#include "plot/heat_map.h"
+#include "plot/plot.h"
+#include "sweep/verdict.h"
+
+enum { MOST_CELLS = 24, MOST_COLUMNS = 8, MOST_THEORIES = 6, MOST_ROWS = 3 + MOST_THEORIES };
+
+typedef enum row_kind { DSMC_ENSKOG, MD_ENSKOG, MD_DSMC, THEORY_ENSKOG } row_kind;
+
+typedef struct map_row {
+  row_kind kind;
+  char theory[64], name[160];
+} map_row;
+
+typedef struct maps {
+  const gg_grid_view *view;
+  const gg_map_choice *choice;
+  size_t n_rows;
+  map_row row[MOST_ROWS];
+  gg_heat_cell *cell;
+  char x_label[96], y_label[96], column[MOST_COLUMNS][GG_PANEL_NAME], title[200];
+  const char *x_value[MOST_CELLS], *y_value[MOST_CELLS], *column_name[MOST_COLUMNS], *row_name[MOST_ROWS];
+} maps;
+
+static const gg_heat_cell nothing = {NAN, NAN, false};
+
+/* A row of the table against the noise-free solution; `nothing` where that has no answer. */
+static gg_heat_cell against_enskog(const gg_cli_table_row *row)
+{
+  if (!row || !row->reference || strcmp(row->reference, "enskog_hermite") != 0) return nothing;
+  return (gg_heat_cell){gg_sweep_deviation_of(row), gg_sweep_deviation_error_of(row), !row->steady};
+}
+
+static gg_heat_cell between_engines(const gg_cli_table_row *md, const gg_cli_table_row *dsmc, bool difference)
+{
+  if (!md || !dsmc || !(difference || fabs(dsmc->mean) > 3 * dsmc->error)) return nothing;
+  const double scale = difference ? 1 : dsmc->mean;
+  return (gg_heat_cell){(md->mean - dsmc->mean) / scale, hypot(md->error, dsmc->error) / fabs(scale),
+                        !md->steady || !dsmc->steady};
+}
+
+static gg_heat_cell cell_of(const maps *m, const map_row *row, size_t point, const char *quantity, bool difference)
+{
+  const gg_cli_table_row *md = gg_sweep_grid_row(m->view, point, "md", quantity),
+                         *dsmc = gg_sweep_grid_row(m->view, point, "dsmc", quantity);
+  switch (row->kind) {
+  case DSMC_ENSKOG: return against_enskog(dsmc);
+  case MD_ENSKOG: return against_enskog(md);
+  case MD_DSMC: return between_engines(md, dsmc, difference);
+  default: return against_enskog(gg_sweep_grid_row(m->view, point, row->theory, quantity));
+  }
+}
+
+static void fill(maps *m, const char *quantity, bool difference)
+{
+  const gg_grid_view *v = m->view;
+  gg_heat_cell *cell = m->cell;
+  for (size_t r = 0; r < m->n_rows; r++)
+    for (size_t p = 0; p < v->n_panels; p++)
+      for (size_t y = 0; y < v->y.n; y++)
+        for (size_t x = 0; x < v->x.n; x++)
+          *cell++ = cell_of(m, &m->row[r], gg_sweep_grid_point(v, p, x, y), quantity, difference);
+}
+
+static void name_rows(maps *m, bool difference)
+{
+  static const char *const engines[][2] = {
+      [DSMC_ENSKOG] = {"dsmc", "Enskog"}, [MD_ENSKOG] = {"md", "Enskog"}, [MD_DSMC] = {"md", "dsmc"}};
+  for (size_t r = 0; r < m->n_rows; r++) {
+    map_row *row = &m->row[r];
+    char of[64];
+    gg_plot_method_name(row->theory, of, sizeof of);
+    const char *a = row->kind == THEORY_ENSKOG ? of : engines[row->kind][0],
+               *b = row->kind == THEORY_ENSKOG ? "Enskog" : engines[row->kind][1];
+    if (difference)
+      snprintf(row->name, sizeof row->name, "%s - %s", a, b);
+    else
+      snprintf(row->name, sizeof row->name, "%s/%s - 1", a, b);
+    m->row_name[r] = row->name;
+  }
+}
+
+static gg_status draw_quantity(maps *m, const char *quantity, const char *picture, gg_error *err)
+{
+  const gg_grid_view *v = m->view;
+  const gg_quantity q = gg_common_quantity_find(quantity);
+  const bool known = q < GG_N_QUANTITIES, difference = known && gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
+  fill(m, quantity, difference);
+  name_rows(m, difference);
+  snprintf(m->title, sizeof m->title, "%s: %s (graingas %s)", quantity,
+           difference ? "differences, as a share of the pressure" : "relative deviations", gg_base_build_version);
+  const gg_heat_map map = {.title = m->title,
+                           .n_x = v->x.n,
+                           .n_y = v->y.n,
+                           .x_label = m->x_label,
+                           .y_label = m->y_label,
+                           .x_value = m->x_value,
+                           .y_value = m->y_value,
+                           .columns = v->n_panels,
+                           .rows = m->n_rows,
+                           .column_name = m->column_name,
+                           .row_name = m->row_name,
+                           .cell = m->cell};
+  return gg_plot_heat_map_draw(&map, picture, m->choice->width, err);
+}
+
+static void name_axes(maps *m)
+{
+  const gg_grid_view *v = m->view;
+  if (v->x.key) gg_plot_chart_key(v->x.key, m->x_label, sizeof m->x_label, NULL);
+  if (v->y.key) gg_plot_chart_key(v->y.key, m->y_label, sizeof m->y_label, NULL);
+  for (size_t i = 0; i < v->x.n; i++) m->x_value[i] = gg_sweep_grid_value(v, &v->x, i);
+  for (size_t i = 0; i < v->y.n; i++) m->y_value[i] = gg_sweep_grid_value(v, &v->y, i);
+  for (size_t p = 0; p < v->n_panels; p++) {
+    gg_sweep_grid_panel_name(v, p, true, m->column[p]);
+    m->column_name[p] = m->column[p];
+  }
+}
+
+/* The next word of a list with commas; false at its end. */
+static bool next_word(const char **list, char word[64])
+{
+  if (!**list) return false;
+  const size_t length = strcspn(*list, ",");
+  snprintf(word, 64, "%.*s", (int)length, *list);
+  *list += length + ((*list)[length] == ',');
+  return true;
+}
+
+static bool has_method(const gg_grid_view *v, const char *method)
+{
+  for (size_t i = 0; i < v->table->n; i++)
+    if (strcmp(v->table->row[i].method, method) == 0) return true;
+  return false;
+}
+
+static gg_status choose_rows(maps *m, gg_error *err)
+{
+  const char *theories = m->choice->theories ? m->choice->theories : "lun1991";
+  char word[64];
+  m->row[m->n_rows++].kind = DSMC_ENSKOG;
+  m->row[m->n_rows++].kind = MD_ENSKOG;
+  m->row[m->n_rows++].kind = MD_DSMC;
+  while (next_word(&theories, word)) {
+    if (!has_method(m->view, word) && m->choice->theories)
+      return gg_base_fail(err, GG_BAD_INPUT, "no point has a theory '%s'", word);
+    if (m->n_rows == MOST_ROWS) return gg_base_fail(err, GG_BAD_INPUT, "a map has at most %d theories", MOST_THEORIES);
+    if (!has_method(m->view, word)) continue;
+    m->row[m->n_rows].kind = THEORY_ENSKOG;
+    snprintf(m->row[m->n_rows++].theory, sizeof m->row[0].theory, "%s", word);
+  }
+  return GG_OK;
+}
+
+static bool has_quantity(const gg_grid_view *v, const char *quantity)
+{
+  for (size_t i = 0; i < v->table->n; i++)
+    if (!v->table->row[i].theory && strcmp(v->table->row[i].quantity, quantity) == 0) return true;
+  return false;
+}
+
+static gg_status draw_all(maps *m, void (*drawn)(void *, const char *, const char *), void *context, gg_error *err)
+{
+  const char *show = m->choice->show ? m->choice->show : "temperature,temperature_ratio,pressure,shear_viscosity,N1,N2";
+  char word[64];
+  gg_plot_paper paper;
+  GG_TRY(gg_plot_paper_choose(&paper, m->choice->picture, NULL, m->choice->width, err));
+  while (next_word(&show, word)) {
+    if (!has_quantity(m->view, word) && m->choice->show)
+      return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%s'", word);
+    if (!has_quantity(m->view, word)) continue;
+    char *picture = gg_plot_page_name(m->choice->picture, "", word, &paper);
+    if (!picture) return gg_base_out_of_memory(err);
+    gg_status status = draw_quantity(m, word, picture, err);
+    if (status == GG_OK && drawn) drawn(context, picture, word);
+    free(picture);
+    GG_TRY(status);
+  }
+  return GG_OK;
+}
+
+gg_status gg_sweep_deviation_maps_draw(const gg_grid_view *v, const gg_map_choice *choice,
+                                       void (*drawn)(void *context, const char *picture, const char *quantity),
+                                       void *context, gg_error *err)
+{
+  if (v->x.n > MOST_CELLS || v->y.n > MOST_CELLS || v->n_panels > MOST_COLUMNS)
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "no maps: they have room for %d values of two keys and %d combinations of the others",
+                        MOST_CELLS, MOST_COLUMNS);
+  maps *m = gg_base_array_new(1, sizeof *m, err);
+  if (!m) return GG_FAILED;
+  *m = (maps){.view = v, .choice = choice};
+  m->cell = gg_base_array_new(MOST_ROWS * v->n_panels * v->x.n * v->y.n, sizeof *m->cell, err);
+  gg_status status = m->cell ? choose_rows(m, err) : GG_FAILED;
+  if (status == GG_OK) {
+    name_axes(m);
+    status = draw_all(m, drawn, context, err);
+  }
+  free(m->cell);
+  free(m);
+  return status;
+}

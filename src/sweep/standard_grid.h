@@ -1,0 +1,7 @@
+/* The grids of `graingas validate` without a file: validation/grid.yaml and grid_quick.yaml. */
+#ifndef GG_STANDARD_GRID_H
+#define GG_STANDARD_GRID_H
+
+extern const char gg_sweep_standard_grid[], gg_sweep_quick_grid[];
+
+#endif

@@ -1,0 +1,134 @@
+#include "sweep/validation.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/build.h"
+#include "base/file_writer.h"
+#include "base/memory.h"
+#include "sweep/deviation_maps.h"
+#include "sweep/verdict.h"
+
+typedef struct validating {
+  const gg_validating *options;
+  void (*written)(void *context, const char *file);
+  void *context;
+  FILE *maps; /* the page's part that shows them; NULL: no page */
+} validating;
+
+/* As the page finds the picture: from its own folder, where that is a part of both names. */
+static const char *seen_from(const char *page, const char *picture)
+{
+  const char *slash = strrchr(page, '/');
+  const size_t folder = slash ? (size_t)(slash - page) + 1 : 0;
+  return strncmp(page, picture, folder) == 0 ? picture + folder : picture;
+}
+
+static void note_map(void *context, const char *picture, const char *quantity)
+{
+  const validating *v = context;
+  if (v->written) v->written(v->context, picture);
+  if (v->maps)
+    fprintf(v->maps, "![deviations of %s](%s)\n\n", quantity,
+            seen_from(v->options->page ? v->options->page : "", picture));
+}
+
+static gg_status draw_maps(validating *v, const gg_grid_view *view, gg_error *err)
+{
+  const gg_validating *o = v->options;
+  const gg_map_choice choice = {o->show, o->theories, o->picture, o->width};
+  if (!o->picture) return GG_OK;
+  gg_status status = gg_sweep_deviation_maps_draw(view, &choice, note_map, v, err);
+  const bool chosen = o->show || o->theories || o->width;
+  if (status == GG_OK || chosen || status == GG_BAD_FILE || !o->warn) return status;
+  o->warn(v->context, err ? err->message : "there are no maps");
+  return GG_OK;
+}
+
+static void put_head(gg_file_writer *out, const gg_validating *o, const gg_point_table *t)
+{
+  char line[400], date[24];
+  const time_t now = time(NULL);
+  struct tm utc;
+  strftime(date, sizeof date, "%Y-%m-%d", gmtime_r(&now, &utc));
+  gg_base_file_writer_put(out, "# md, dsmc, Enskog's equation and theories over a grid\n\n");
+  snprintf(line, sizeof line, "Written by `%.200s` on %s, graingas %s. Do not edit.\n\n",
+           o->command ? o->command : "the graingas library", date, gg_base_build_version);
+  gg_base_file_writer_put(out, line);
+  if (t->n_other_builds) {
+    snprintf(line, sizeof line, "%zu points are by another build.\n\n", t->n_other_builds);
+    gg_base_file_writer_put(out, line);
+  }
+}
+
+static gg_status write_page(const gg_validating *o, const gg_point_table *t, const char *maps, const char *verdict,
+                            gg_error *err)
+{
+  gg_atomic_file file;
+  GG_TRY(gg_base_atomic_open(&file, o->page, err));
+  gg_file_writer *out = gg_base_array_new(1, sizeof *out, err);
+  if (!out) return gg_base_atomic_abandon(&file), GG_FAILED;
+  gg_base_file_writer_begin(out, &file, err);
+  put_head(out, o, t);
+  gg_base_file_writer_put(out, verdict);
+  if (*maps)
+    gg_base_file_writer_put(out,
+                            "## Maps\n\nRelative deviations at each point, in per cent; of N1 and N2 differences. "
+                            "Enskog is the noise-free solution, `enskog_hermite`. Lines between cells: 1 % "
+                            "(dashed), 5 %, 20 % (thick). Hatched: below two standard errors. Red cross: a run that "
+                            "is not steady.\n\n");
+  gg_base_file_writer_put(out, maps);
+  gg_status status = gg_base_file_writer_end(out);
+  free(out);
+  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
+  gg_base_atomic_abandon(&file);
+  return status;
+}
+
+static gg_status print_verdict(const gg_grid_view *view, const gg_agreement *agreement, const char *repeat, char **text,
+                               gg_error *err)
+{
+  char *made = NULL;
+  FILE *out = gg_base_memory_stream_open(&made);
+  if (!out) return gg_base_out_of_memory(err);
+  gg_status status = gg_sweep_verdict_print(view, agreement, repeat, out, err);
+  if (!gg_base_memory_stream_close(out, &made)) return gg_base_out_of_memory(err);
+  if (status == GG_OK)
+    *text = made;
+  else
+    free(made);
+  return status;
+}
+
+static gg_status validate(validating *v, const gg_grid_view *view, const gg_point_table *t, char **text, gg_error *err)
+{
+  gg_agreement agreement;
+  char *maps = NULL;
+  gg_sweep_agreement_make(&agreement, view);
+  GG_TRY(print_verdict(view, &agreement, v->options->repeat, text, err));
+  if (!(v->maps = gg_base_memory_stream_open(&maps))) return gg_base_out_of_memory(err);
+  gg_status status = draw_maps(v, view, err);
+  if (!gg_base_memory_stream_close(v->maps, &maps)) return gg_base_out_of_memory(err);
+  if (status == GG_OK && v->options->page) {
+    status = write_page(v->options, t, maps, *text, err);
+    if (status == GG_OK && v->written) v->written(v->context, v->options->page);
+  }
+  free(maps);
+  if (status != GG_OK || !agreement.fails) return status;
+  return gg_base_fail(err, GG_FAILED, "dsmc and the noise-free solution disagree beyond chance");
+}
+
+gg_status gg_sweep_validate_table(const gg_point_table *t, const gg_sweep *sweep, const gg_validating *options,
+                                  void (*written)(void *context, const char *file), void *context, char **text,
+                                  gg_error *err)
+{
+  gg_grid_view view;
+  validating v = {.options = options, .written = written, .context = context};
+  GG_TRY(gg_sweep_grid_view_make(&view, t, sweep, err));
+  gg_status status = validate(&v, &view, t, text, err);
+  gg_sweep_grid_view_clear(&view);
+  return status;
+}

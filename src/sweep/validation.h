@@ -1,0 +1,12 @@
+/* A grid of comparisons, validated: verdict, maps and page of what is in its folder. */
+#ifndef GG_SWEEP_VALIDATION_H
+#define GG_SWEEP_VALIDATION_H
+
+#include "sweep/sweep_table.h"
+
+/* Verdict as Markdown in *text, to be freed, also with GG_FAILED where dsmc and the noise-free solution disagree. */
+gg_status gg_sweep_validate_table(const gg_point_table *table, const gg_sweep *sweep, const gg_validating *options,
+                                  void (*written)(void *context, const char *file), void *context, char **text,
+                                  gg_error *err);
+
+#endif

@@ -1,0 +1,96 @@
+"""graingas validate: a grid in order passes, a planted deviation does not; page, maps, continuation, points, options."""
+import json
+import os
+import struct
+import zlib
+
+from tap import check, main, run
+
+GRID = """flow: usf
+phi: 0.1
+particles: 500
+run: {relative_error: 0.03}
+vary:
+  - {collision.beta: [-1, 0.3], collision.mu: [.inf, 0.1]}
+  - {phi: [0.01, 0.1]}
+  - {collision.e: [0.6, 0.9]}
+sweep: {does: compare}
+"""
+
+
+def validated(*args):
+    with open("g.yaml", "w") as f:
+        f.write(GRID)
+    return run("validate", "g.yaml", *args)
+
+
+def test_a_grid_in_order():
+    """Verdict, tables, maps and page; a second call runs nothing; a point is repeated with other random numbers."""
+    done = validated("--page", "g.md")
+    maps = ["g_%s.svg" % q for q in ("N1", "N2", "pressure", "shear_viscosity", "temperature")]
+    ratio = "g_temperature_ratio.svg"  # rough grains alone
+    check(done.code == 0 and done.new == sorted(["g.md", "g.sweep", "g.sweep.csv", "g.sweep.h5", ratio] + maps),
+          done.new, done.err)
+    check("8 points; md at 8, dsmc at 8." in done.out and "agree within their errors" in done.out, done.out)
+    check("4 points have no noise-free solution" in done.out, done.out)
+    check("| beta 0.3, mu 0.1 | no answer" in done.out and "| beta -1 " in done.out, done.out)
+    with open("g.md") as f:
+        page = f.read()
+    check(all("](%s)" % name in page for name in maps) and "agree within their errors" in page, page)
+    with open("g_temperature.svg") as f:
+        picture = f.read()
+    check(all(word in picture for word in ("Lun 1991/Enskog - 1", "md/dsmc - 1", "β = 0.3, μ = 0.1", "nothing to compare")))
+    before = {f: os.stat("g.sweep/" + f).st_mtime_ns for f in os.listdir("g.sweep")}
+    again = validated("--picture", "none")
+    check(again.code == 0 and again.out.split("\n\n", 1)[1] == done.out.split("\n\n", 1)[1], "the same verdict")
+    check(before == {f: os.stat("g.sweep/" + f).st_mtime_ns for f in os.listdir("g.sweep")})
+    command = next(line for line in done.out.splitlines() if "--seed 2" in line).split("`")[1]
+    check(command.startswith("graingas validate g.yaml --seed 2 --output again.sweep --point "), command)
+    repeated = run(*command.split()[1:])
+    check(repeated.code == 0 and repeated.new == ["again.sweep"] and len(os.listdir("again.sweep")) == 1, repeated.err)
+    check("at 1 points" in repeated.out, repeated.out)
+
+
+def plant(path):
+    """A dsmc whose temperature is a fifth too large, in a file that is whole."""
+    result = json.loads(run("info", path, "--json").out)["dsmc"]["results"]["temperature"]
+    with open(path, "rb") as f:
+        body = f.read()
+    body = body[:body.rindex(b"gg-crc32")]
+    mean = next(t for t in (("%%.%dg" % n % result["mean"]).encode() for n in (17, 16, 15)) if t in body)
+    planted = (b"%.17g" % (1.2 * result["mean"]) + b"0" * 20)[:len(mean)]
+    check(mean.count(b".") == 1 and planted.index(b".") < len(planted) - 1, mean, planted)
+    body = body.replace(mean, planted)
+    with open(path, "wb") as f:
+        f.write(body + b"gg-crc32" + struct.pack("<QI", len(body), zlib.crc32(body)))
+
+
+def test_a_planted_deviation():
+    check(validated("--picture", "none").code == 0)
+    points = json.loads(run("sweep", "g.yaml", "--list", "--json").out)["points"]
+    for p in points:
+        plant("g.sweep/" + p["name"] + ".h5")
+    done = validated("--picture", "none", "--page", "g.md")
+    check(done.code == 1 and "disagree beyond chance" in done.err, done.code, done.err)
+    check("**dsmc and `enskog_hermite` disagree beyond chance.**" in done.out, done.out)
+    check("| temperature !" in done.out and "| N1 " in done.out and "N1 !" not in done.out, done.out)
+    check("| temperature " in done.out.split("The largest z:")[1].splitlines()[4], done.out)
+    with open("g.md") as f:
+        check("disagree beyond chance" in f.read(), "a page also where it fails")
+
+
+def test_options():
+    for args, words in ((("--quick",), "without a file"), (("--point", "1", "--page", "p.md"), "do not go together"),
+                        (("--point", "9"), "from 1 to 8"), (("--show", "colour"), "no point has a quantity 'colour'"),
+                        (("--picture", "maps.bmp"), "not .bmp")):
+        done = validated(*args)
+        check(done.code == 2 and words in done.err, args, done.code, done.err)
+    done = run("validate", "--list")
+    check(done.code == 0 and "compare at 144 points" in done.out, done.out[-200:], done.err)
+    done = run("validate", "--quick", "--list")
+    check(done.code == 0 and "compare at 36 points" in done.out, done.out[-200:], done.err)
+
+
+if __name__ == "__main__":
+    import sys
+    main(sys.modules[__name__])
