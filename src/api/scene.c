@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "api/api.h"
+#include "api/scene_theories.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "common/engine.h"
@@ -36,22 +37,34 @@ static gg_status publish(const gg_scene *made, gg_scene **scene, gg_error *err)
   return GG_OK;
 }
 
+/* With its theories, whose files lie beside `path`. */
+static gg_status read_text(const char *yaml, size_t length, const char *name, const char *path, gg_scene **scene,
+                           gg_error *err)
+{
+  gg_scene made = gg_scene_defaults();
+  GG_C_LOCALE;
+  GG_TRY(gg_scene_read(&made, yaml, length, name, err));
+  gg_status status = gg_api_scene_theories_add(&made, yaml, length, name, path, err);
+  if (status == GG_OK) status = publish(&made, scene, err);
+  gg_common_extension_release(made.extension);
+  return status;
+}
+
 gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err)
 {
   GG_NEED(path, scene);
-  gg_scene made = gg_scene_defaults();
-  GG_C_LOCALE;
-  GG_TRY(gg_scene_read_file(&made, path, err));
-  return publish(&made, scene, err);
+  char *text;
+  size_t length;
+  GG_TRY(gg_scene_file_text(path, &text, &length, err));
+  gg_status status = read_text(text, length, gg_scene_file_name(path), path, scene, err);
+  free(text);
+  return status;
 }
 
 gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, gg_error *err)
 {
   GG_NEED(yaml, scene);
-  gg_scene made = gg_scene_defaults();
-  GG_C_LOCALE;
-  GG_TRY(gg_scene_read(&made, yaml, strlen(yaml), name ? name : "scene", err));
-  return publish(&made, scene, err);
+  return read_text(yaml, strlen(yaml), name ? name : "scene", NULL, scene, err);
 }
 
 gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err)

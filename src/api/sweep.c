@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "api/api.h"
+#include "api/scene_theories.h"
 #include "base/atomic_file.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -42,12 +43,14 @@ void gg_sweep_free(gg_sweep *sweep)
   if (sweep) gg_base_busy_free(&sweep->busy);
 }
 
-static gg_status read_text(const char *yaml, size_t length, const char *name, gg_sweep **sweep, gg_error *err)
+static gg_status read_text(const char *yaml, size_t length, const char *name, const char *path, gg_sweep **sweep,
+                           gg_error *err)
 {
   gg_sweep *made = new_sweep(name, err);
   if (!made) return GG_FAILED;
   GG_C_LOCALE;
   gg_status status = gg_sweep_read_text(made, yaml, length, name, err);
+  if (status == GG_OK) status = gg_api_scene_theories_add(&made->base, yaml, length, name, path, err);
   if (status == GG_OK)
     *sweep = made;
   else
@@ -62,7 +65,7 @@ gg_status gg_sweep_load(const char *path, gg_sweep **sweep, gg_error *err)
   size_t length;
   if (gg_sweep_folder_text_path(path, inside) && access(inside, R_OK) == 0) path = inside;
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
-  gg_status status = read_text(text, length, gg_scene_file_name(path), sweep, err);
+  gg_status status = read_text(text, length, gg_scene_file_name(path), path, sweep, err);
   free(text);
   return status;
 }
@@ -70,7 +73,7 @@ gg_status gg_sweep_load(const char *path, gg_sweep **sweep, gg_error *err)
 gg_status gg_sweep_parse(const char *yaml, const char *name, gg_sweep **sweep, gg_error *err)
 {
   GG_NEED(yaml, sweep);
-  return read_text(yaml, strlen(yaml), name ? name : "sweep", sweep, err);
+  return read_text(yaml, strlen(yaml), name ? name : "sweep", NULL, sweep, err);
 }
 
 static gg_status check_open(const gg_sweep *sweep, gg_error *err)

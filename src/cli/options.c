@@ -35,7 +35,8 @@ const gg_option gg_cli_options_table[] = {
     {GG_OPT_VALIDATE, "show", "QUANTITIES",
      "quantities to map, separated by commas (default: temperature, temperature_ratio, pressure, shear_viscosity, N1, "
      "N2)"},
-    {GG_OPT_VALIDATE, "theories", "THEORIES", "theories in the maps, separated by commas (default: lun1991)"},
+    {GG_OPT_VALIDATE, "theories", "THEORIES",
+     "theories in the maps, separated by commas (default: lun1991 and those of the file)"},
     {GG_OPT_VALIDATE, "page", "FILE", "write maps, counts and tables as a page of Markdown"},
     {GG_OPT_SWEEP, "slurm", NULL, "print a Slurm script for an array of tasks; run nothing"},
     {GG_OPT_SWEEP | GG_OPT_VALIDATE, "output", "FOLDER",

@@ -21,6 +21,7 @@ struct gg_extension {
   gg_law_table table;
   char *text; /* strings and tables of all these: one block, filled up to `used` */
   size_t used;
+  void *owned;
 };
 
 /* Room for a copy of a string; 8 bytes more for the alignment of what follows. */
@@ -120,6 +121,11 @@ gg_extension *gg_common_extension_with_law(gg_extension *before, const gg_restit
   return x;
 }
 
+void gg_common_extension_keep(gg_extension *x, void *owned)
+{
+  x->owned = owned;
+}
+
 gg_extension *gg_common_extension_hold(gg_extension *x)
 {
   if (x) atomic_fetch_add(&x->holders, 1);
@@ -132,6 +138,7 @@ void gg_common_extension_release(gg_extension *x)
     gg_extension *before = x->before;
     free(x->face);
     free(x->text);
+    free(x->owned);
     free(x);
     x = before;
   }

@@ -23,6 +23,9 @@ gg_extension *gg_common_extension_with_theory(gg_extension *before, const gg_the
 gg_extension *gg_common_extension_with_law(gg_extension *before, const gg_restitution_law *law,
                                            const gg_law_table *table, gg_error *err);
 
+/* The head frees `owned` (from malloc) when it goes: what its callbacks have as their context. */
+void gg_common_extension_keep(gg_extension *x, void *owned);
+
 /* Both take NULL, too: a scene without extension. */
 gg_extension *gg_common_extension_hold(gg_extension *x);
 void gg_common_extension_release(gg_extension *x);

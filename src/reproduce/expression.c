@@ -1,166 +1,16 @@
 #include "reproduce/expression.h"
 
-#include <ctype.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-typedef struct function {
-  const char *name;
-  double (*of)(double);
-} function;
-
-static const function functions[] = {{"ln", log},   {"log10", log10}, {"exp", exp}, {"sqrt", sqrt},
-                                     {"abs", fabs}, {"sin", sin},     {"cos", cos}, {NULL, NULL}};
-
-typedef struct parser {
-  const char *text, *at;
-  gg_expression *e;
-  int depth;
-  gg_error *err;
-} parser;
-
-static gg_status sum(parser *p);
-
-static gg_status refuse(const parser *p, const char *what)
-{
-  return gg_base_fail(p->err, GG_BAD_INPUT, "'%s' at character %td: %s", p->text, p->at - p->text + 1, what);
-}
-
-static void skip(parser *p)
-{
-  while (*p->at == ' ') p->at++;
-}
-
-static gg_status add(const parser *p, char code, double number)
-{
-  if (p->e->n == GG_EXPRESSION_STEPS) return refuse(p, "the formula is too long");
-  p->e->step[p->e->n].code = code;
-  p->e->step[p->e->n++].number = number;
-  return GG_OK;
-}
-
-static gg_status word(parser *p)
-{
-  size_t length = 0;
-  while (isalnum((unsigned char)p->at[length])) length++;
-  const char *name = p->at;
-  p->at += length;
-  if (length == 1 && strchr("xyrv", *name)) return add(p, *name, 0);
-  if (length == 2 && strncmp(name, "pi", 2) == 0) return add(p, 'n', M_PI);
-  if (length == 3 && strncmp(name, "inf", 3) == 0) return add(p, 'n', INFINITY);
-  for (int k = 0; functions[k].name; k++) {
-    if (strlen(functions[k].name) != length || strncmp(functions[k].name, name, length) != 0) continue;
-    skip(p);
-    if (*p->at++ != '(') return p->at--, refuse(p, "( is missing after a function");
-    GG_TRY(sum(p));
-    if (*p->at++ != ')') return p->at--, refuse(p, ") is missing");
-    return add(p, 'f', k);
-  }
-  p->at = name;
-  return refuse(p, "not known; there are x, y, r, v, pi, inf, ln, log10, exp, sqrt, abs, sin, cos");
-}
-
-static gg_status atom(parser *p)
-{
-  char *end;
-  skip(p);
-  if (*p->at == '(') {
-    p->at++;
-    GG_TRY(sum(p));
-    if (*p->at != ')') return refuse(p, ") is missing");
-    p->at++;
-  } else if (isdigit((unsigned char)*p->at) || *p->at == '.') {
-    double number = strtod(p->at, &end);
-    p->at = end;
-    GG_TRY(add(p, 'n', number));
-  } else if (isalpha((unsigned char)*p->at)) {
-    GG_TRY(word(p));
-  } else {
-    return refuse(p, "a number, a name or ( is missing");
-  }
-  skip(p);
-  return GG_OK;
-}
-
-/* The sign binds less than ^, and ^ from the right: -x^2, 2^x^2. */
-static gg_status power(parser *p)
-{
-  skip(p);
-  if (*p->at == '-' || *p->at == '+') {
-    char sign = *p->at++;
-    if (++p->depth > GG_EXPRESSION_STEPS) return refuse(p, "the formula is too deep");
-    GG_TRY(power(p));
-    return sign == '-' ? add(p, '_', 0) : GG_OK;
-  }
-  GG_TRY(atom(p));
-  if (*p->at != '^') return GG_OK;
-  p->at++;
-  if (++p->depth > GG_EXPRESSION_STEPS) return refuse(p, "the formula is too deep");
-  GG_TRY(power(p));
-  return add(p, '^', 0);
-}
-
-static gg_status product(parser *p)
-{
-  GG_TRY(power(p));
-  while (*p->at == '*' || *p->at == '/') {
-    char sign = *p->at++;
-    GG_TRY(power(p));
-    GG_TRY(add(p, sign, 0));
-  }
-  return GG_OK;
-}
-
-static gg_status sum(parser *p)
-{
-  if (++p->depth > GG_EXPRESSION_STEPS) return refuse(p, "the formula is too deep");
-  GG_TRY(product(p));
-  while (*p->at == '+' || *p->at == '-') {
-    char sign = *p->at++;
-    GG_TRY(product(p));
-    GG_TRY(add(p, sign, 0));
-  }
-  return GG_OK;
-}
 
 gg_status gg_reproduce_expression_parse(gg_expression *e, const char *text, gg_error *err)
 {
-  parser p = {text, text, e, 0, err};
-  e->n = 0;
-  GG_TRY(sum(&p));
-  return *p.at ? refuse(&p, "not expected here") : GG_OK;
-}
-
-static double combine(char code, double a, double b)
-{
-  switch (code) {
-  case '+': return a + b;
-  case '-': return a - b;
-  case '*': return a * b;
-  case '/': return a / b;
-  default: return pow(a, b);
-  }
+  static const char *const names[] = {"x", "y", "r", "v", NULL};
+  return gg_base_expression_parse(e, text, names, err);
 }
 
 double gg_reproduce_expression_value(const gg_expression *e, gg_variables at)
 {
-  double stack[GG_EXPRESSION_STEPS];
-  int top = 0;
-  for (int i = 0; i < e->n; i++) {
-    double *last = stack + (top ? top - 1 : 0);
-    switch (e->step[i].code) {
-    case 'n': stack[top++] = e->step[i].number; break;
-    case 'x': stack[top++] = at.x; break;
-    case 'y': stack[top++] = at.y; break;
-    case 'r': stack[top++] = at.r; break;
-    case 'v': stack[top++] = at.v; break;
-    case '_': *last = -*last; break;
-    case 'f': *last = functions[(int)e->step[i].number].of(*last); break;
-    default: top--; stack[top - 1] = combine(e->step[i].code, stack[top - 1], stack[top]);
-    }
-  }
-  return top ? stack[0] : NAN;
+  return gg_base_expression_value(e, (const double[]){at.x, at.y, at.r, at.v});
 }
 
 double gg_reproduce_expression_slope(const gg_expression *e, gg_variables at, char variable)

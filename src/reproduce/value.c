@@ -120,7 +120,7 @@ static gg_told reference_of(const gg_asked *a, const gg_figure_point *point)
 
 gg_told gg_reproduce_figure_value(const gg_asked *a, const gg_figure_point *point, double x)
 {
-  static const gg_expression ratio = {3, {{'y', 0}, {'r', 0}, {'/', 0}}};
+  static const gg_expression ratio = {3, {{'p', 1}, {'p', 2}, {'/', 0}}};
   const gg_source *s = a->source;
   bool is_relative = s->relative_theory || s->relative_to.n;
   gg_told value = raw(a, point), reference = {0, 0, NULL};

@@ -160,7 +160,8 @@ gg_status gg_scene_read_root(gg_scene_reader *r, const char *key, const yaml_nod
 
 gg_status gg_scene_read(gg_scene *scene, const char *yaml, size_t length, const char *name, gg_error *err)
 {
-  gg_scene_reader r = {.name = name, .lines = true, .scene = scene, .err = err};
+  static const char *const others[] = {"theories", NULL}; /* api/scene_theories.h */
+  gg_scene_reader r = {.name = name, .lines = true, .scene = scene, .others = others, .err = err};
   return gg_scene_with_document(&r, yaml, length, "", gg_scene_read_root);
 }
 

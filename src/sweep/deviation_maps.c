@@ -144,10 +144,20 @@ static bool has_method(const gg_grid_view *v, const char *method)
   return false;
 }
 
+/* Lun's, and those of the sweep's own file. */
+static void list_theories(const maps *m, char *list, size_t size)
+{
+  const gg_extension *own = m->view->sweep->base.extension;
+  snprintf(list, size, "lun1991");
+  for (int i = 0; i < gg_common_extension_theories(own) && i + 1 < MOST_THEORIES; i++)
+    gg_base_text_append(list, size, ",%s", gg_common_extension_theory(own, i)->name);
+}
+
 static gg_status choose_rows(maps *m, gg_error *err)
 {
-  const char *theories = m->choice->theories ? m->choice->theories : "lun1991";
-  char word[64];
+  char chosen[64 * MOST_THEORIES], word[64];
+  const char *theories = m->choice->theories ? m->choice->theories : chosen;
+  list_theories(m, chosen, sizeof chosen);
   m->row[m->n_rows++].kind = DSMC_ENSKOG;
   m->row[m->n_rows++].kind = MD_ENSKOG;
   m->row[m->n_rows++].kind = MD_DSMC;

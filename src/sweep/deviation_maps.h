@@ -7,7 +7,7 @@
 
 typedef struct gg_map_choice { /* NULL: chosen */
   const char *show;            /* quantities, with commas */
-  const char *theories;        /* theories, with commas; default: lun1991 */
+  const char *theories;        /* theories, with commas; default: lun1991 and the sweep's own */
   const char *picture;         /* "grid.svg": grid_temperature.svg and on */
   const char *width;
 } gg_map_choice;

@@ -44,8 +44,9 @@ static void set_deviation(gg_cli_table_row *row, gg_quantity q, const gg_referen
 static void set_cause(gg_cli_table_row *row, const gg_comparison *c, const char *of_md, gg_string_list *texts)
 {
   const gg_theory *theory = row->theory ? theory_of(c, row->method) : NULL;
-  if (theory) {
-    gg_base_string_list_add(texts, "%s", gg_run_theory_cause(theory, &c->model));
+  if (row->theory) {
+    gg_base_string_list_add(texts, "%s",
+                            theory ? gg_run_theory_cause(theory, &c->model) : "a theory of the sweep's own");
     row->cause = gg_base_string_list_at(texts, texts->n - 1);
   } else if (strcmp(row->method, "md") == 0) {
     row->cause = of_md;

@@ -18,7 +18,9 @@
 #include "files/h5/hdf5_writer.h"
 #include "files/h5/result_file.h"
 #include "files/result_document.h"
+#include "run/result.h"
 #include "sweep/point_deviations.h"
+#include "theory/theory.h"
 
 void gg_sweep_point_table_clear(gg_point_table *t)
 {
@@ -74,7 +76,38 @@ static gg_status add_run(gg_point_table *t, gg_cli_table_row row, json_t *docume
   return row.method ? add_quantities(t, row, json_object_get(document, "results"), "stderr", err) : GG_OK;
 }
 
-static gg_status add_document(gg_point_table *t, gg_cli_table_row row, json_t *document, gg_error *err)
+/* Theories of the sweep's own file, which may have changed since the point was run: asked again. */
+static gg_status add_own_theories(gg_point_table *t, gg_cli_table_row row, const gg_model *m, gg_error *err)
+{
+  gg_quantity_rows *rows = gg_base_array_new(1, sizeof *rows, err);
+  if (!rows) return GG_FAILED;
+  gg_status status = GG_OK;
+  gg_run_rows_make(m, rows);
+  for (int i = 0; i < gg_common_extension_theories(m->extension) && status == GG_OK; i++) {
+    const gg_theory *theory = gg_common_extension_face(m->extension, i);
+    gg_theory_answer answer;
+    if (gg_theory_evaluate(theory, m, &answer, NULL) != GG_OK) continue;
+    row.method = theory->name;
+    for (int k = 0; k < rows->n && status == GG_OK; k++) {
+      row.quantity = rows->row[k].name, row.unit = rows->row[k].unit;
+      row.mean = answer.value[rows->row[k].quantity], row.error = NAN;
+      if (isfinite(row.mean)) status = add_row(t, &row, err);
+    }
+  }
+  free(rows);
+  return status;
+}
+
+static bool is_own(const gg_extension *x, const char *theory)
+{
+  bool found = false;
+  for (int i = 0; i < gg_common_extension_theories(x); i++)
+    found |= strcmp(gg_common_extension_theory(x, i)->name, theory) == 0;
+  return found;
+}
+
+static gg_status add_document(gg_point_table *t, gg_cli_table_row row, json_t *document, const gg_scene *scene,
+                              gg_error *err)
 {
   const char *name;
   json_t *theory;
@@ -86,9 +119,12 @@ static gg_status add_document(gg_point_table *t, gg_cli_table_row row, json_t *d
   json_object_foreach(json_object_get(document, "theory"), name, theory)
   {
     row.method = name;
-    GG_TRY(add_quantities(t, row, theory, "error", err));
+    if (!is_own(scene->extension, name)) GG_TRY(add_quantities(t, row, theory, "error", err));
   }
-  return GG_OK;
+  gg_model model;
+  if (!scene->extension) return GG_OK;
+  GG_TRY(gg_common_model_make(scene, GG_MD, &model, err));
+  return add_own_theories(t, row, &model, err);
 }
 
 static gg_status read_document(const char *path, json_t **document, char **scene, gg_error *err)
@@ -105,14 +141,15 @@ static gg_status read_document(const char *path, json_t **document, char **scene
   return gg_h5_in_status(&h, path, err);
 }
 
-static gg_status add_read_point(gg_point_table *t, gg_cli_table_row row, json_t *document, char *scene, gg_error *err)
+static gg_status add_read_point(gg_point_table *t, gg_cli_table_row row, const gg_scene *scene, json_t *document,
+                                char *yaml, gg_error *err)
 {
   const size_t first = t->n;
   row.version = json_string_value(json_object_get(document, "graingas"));
   row.build = json_string_value(json_object_get(document, "build"));
   t->n_other_builds += !row.build || strcmp(row.build, gg_base_build_identity) != 0;
-  GG_TRY(add_document(t, row, document, err));
-  return gg_sweep_point_deviations(t, first, document, scene, err);
+  GG_TRY(add_document(t, row, document, scene, err));
+  return gg_sweep_point_deviations(t, first, document, yaml, err);
 }
 
 static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char *folder, size_t i, gg_error *err)
@@ -132,7 +169,7 @@ static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char 
     status = gg_sweep_point_check(&scene, sweep->settings.does, json_object_get(document, "scene"), path, err);
   if (status == GG_OK) {
     t->document[t->n_documents++] = document;
-    status = add_read_point(t, row, document, yaml, err);
+    status = add_read_point(t, row, &scene, document, yaml, err);
   } else {
     json_decref(document);
   }

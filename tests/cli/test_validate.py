@@ -9,10 +9,10 @@ from tap import check, main, run
 GRID = """flow: usf
 phi: 0.1
 particles: 500
-run: {relative_error: 0.03}
+run: {relative_error: 0.05}
 vary:
   - {collision.beta: [-1, 0.3], collision.mu: [.inf, 0.1]}
-  - {phi: [0.01, 0.1]}
+  - {phi: [0.05, 0.1]}
   - {collision.e: [0.6, 0.9]}
 sweep: {does: compare}
 """
@@ -39,7 +39,7 @@ def test_a_grid_in_order():
     check(all("](%s)" % name in page for name in maps) and "agree within their errors" in page, page)
     with open("g_temperature.svg") as f:
         picture = f.read()
-    check(all(word in picture for word in ("Lun 1991/Enskog - 1", "md/dsmc - 1", "β = 0.3, μ = 0.1", "nothing to compare")))
+    check(all(word in picture for word in ("Lun 1991/Enskog - 1", "md/dsmc - 1", "β = 0.3, μ = 0.1", ">nothing<")))
     before = {f: os.stat("g.sweep/" + f).st_mtime_ns for f in os.listdir("g.sweep")}
     again = validated("--picture", "none")
     check(again.code == 0 and again.out.split("\n\n", 1)[1] == done.out.split("\n\n", 1)[1], "the same verdict")

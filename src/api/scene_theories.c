@@ -1,0 +1,155 @@
+#include "api/scene_theories.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "api/api.h"
+#include "base/memory.h"
+#include "scene/scene_reader.h"
+#include "theory/formula.h"
+
+enum { MOST_FORMULAS = 64 };
+
+typedef struct theories_reader {
+  gg_scene_reader reader; /* the first member: it is what callbacks get */
+  gg_scene *scene;
+  const char *path;
+} theories_reader;
+
+/* What is wrong, with file and line. */
+static gg_status reject(const gg_scene_reader *r, const yaml_node_t *node, const char *key, const gg_error *why)
+{
+  return gg_scene_reject(r, node, key, "%.900s", why->message);
+}
+
+/* Register it; the head of the extension owns `context` from then on. */
+static gg_status add(gg_scene *scene, const gg_theory_definition *definition, gg_error *err)
+{
+  GG_TRY(gg_scene_add_theory(scene, definition, err));
+  gg_common_extension_keep(scene->extension, definition->context);
+  return GG_OK;
+}
+
+static gg_status read_formulas(const theories_reader *t, const char *key, const yaml_node_t *map,
+                               gg_formula_theory *made, const char **quantity)
+{
+  gg_error why;
+  for (gg_scene_entry e = {0}; gg_scene_entry_next(&t->reader, map, &e);) {
+    const char *formula = gg_scene_scalar(e.value);
+    if (!e.word || !formula)
+      return gg_scene_reject(&t->reader, e.name, key,
+                             "a quantity with its formula is expected: temperature: \"phi*e\"");
+    if (made->n == MOST_FORMULAS)
+      return gg_scene_reject(&t->reader, e.name, key, "has more than %d formulas", MOST_FORMULAS);
+    if (gg_base_expression_parse(&made->of[made->n], formula, gg_theory_parameters, &why) != GG_OK)
+      return reject(&t->reader, e.value, key, &why);
+    quantity[made->n++] = e.word;
+  }
+  return GG_OK;
+}
+
+static gg_status add_formulas(const theories_reader *t, const char *key, const char *name, const yaml_node_t *map)
+{
+  gg_error why;
+  const char *quantity[MOST_FORMULAS];
+  gg_formula_theory *made = gg_base_array_new(1, sizeof *made + MOST_FORMULAS * sizeof(gg_expression), t->reader.err);
+  if (!made) return GG_FAILED;
+  made->n = 0;
+  gg_status status = read_formulas(t, key, map, made, quantity);
+  const gg_theory_definition definition = {.name = name,
+                                           .title = "formulas of the scene",
+                                           .assumptions = "Written in the scene, under theories.",
+                                           .n_quantities = made->n,
+                                           .quantities = quantity,
+                                           .evaluate = gg_theory_formula_evaluate,
+                                           .context = made};
+  if (status == GG_OK) status = add(t->scene, &definition, &why) == GG_OK ? GG_OK : reject(&t->reader, map, key, &why);
+  if (status != GG_OK) free(made);
+  return status;
+}
+
+/* Beside the scene's file, unless it says from where. */
+static void find_file(const char *scene, const char *file, char path[PATH_MAX])
+{
+  const char *slash = scene ? strrchr(scene, '/') : NULL;
+  const int folder = *file != '/' && slash ? (int)(slash - scene) + 1 : 0;
+  if (snprintf(path, PATH_MAX, "%.*s%s", folder, folder ? scene : "", file) >= PATH_MAX) *path = '\0';
+}
+
+static gg_status read_points(const char *path, gg_points_theory **made, char ***quantity, char **names, gg_error *err)
+{
+  char *text;
+  size_t length;
+  GG_TRY(gg_scene_file_text(path, &text, &length, err));
+  gg_status status =
+      length > GG_SCENE_MAX_BYTES ? gg_base_fail(err, GG_BAD_INPUT, "%s: is larger than 1 MiB", path) : GG_OK;
+  char *ended = status == GG_OK ? gg_base_array_new(length + 1, 1, err) : NULL;
+  if (status == GG_OK && !ended) status = GG_FAILED;
+  if (ended) memcpy(ended, text, length);
+  free(text);
+  if (status == GG_OK) status = gg_theory_points_read(ended, path, made, quantity, names, err);
+  free(ended);
+  return status;
+}
+
+static gg_status add_points(const theories_reader *t, const char *key, const char *name, const yaml_node_t *node)
+{
+  gg_error why;
+  char path[PATH_MAX], *names = NULL, **quantity = NULL;
+  gg_points_theory *made = NULL;
+  find_file(t->path, gg_scene_scalar(node), path);
+  if (read_points(path, &made, &quantity, &names, &why) != GG_OK) return reject(&t->reader, node, key, &why);
+  const gg_theory_definition definition = {.name = name,
+                                           .title = "a table of points of the scene",
+                                           .assumptions = "A table named in the scene, under theories.",
+                                           .n_quantities = made->n,
+                                           .quantities = (const char *const *)quantity,
+                                           .evaluate = gg_theory_points_evaluate,
+                                           .context = made};
+  gg_status status = add(t->scene, &definition, &why) == GG_OK ? GG_OK : reject(&t->reader, node, key, &why);
+  if (status != GG_OK) free(made);
+  free(quantity);
+  free(names);
+  return status;
+}
+
+static gg_status add_all(const theories_reader *t, const yaml_node_t *map)
+{
+  char key[GG_SCENE_KEY];
+  if (map->type != YAML_MAPPING_NODE)
+    return gg_scene_reject(&t->reader, map, "theories", "is a section: its keys go below it, indented");
+  for (gg_scene_entry e = {0}; gg_scene_entry_next(&t->reader, map, &e);) {
+    GG_TRY(gg_scene_entry_key(&t->reader, &e, "theories", "theories", key));
+    if (e.value->type == YAML_MAPPING_NODE)
+      GG_TRY(add_formulas(t, key, e.word, e.value));
+    else if (gg_scene_scalar(e.value) && *gg_scene_scalar(e.value))
+      GG_TRY(add_points(t, key, e.word, e.value));
+    else
+      return gg_scene_reject(&t->reader, e.value, key,
+                             "formulas are expected, {temperature: \"phi*e\"}, or a file, points.csv");
+  }
+  return GG_OK;
+}
+
+static gg_status use(gg_scene_reader *r, const char *key, const yaml_node_t *root)
+{
+  const theories_reader *t = (const theories_reader *)(void *)r;
+  const yaml_node_t *map = NULL;
+  (void)key;
+  if (!root || root->type != YAML_MAPPING_NODE) return GG_OK;
+  for (gg_scene_entry e = {0}; gg_scene_entry_next(r, root, &e);) {
+    if (!e.word || strcmp(e.word, "theories") != 0) continue;
+    if (map) return gg_scene_reject(r, e.name, e.word, "is given twice");
+    map = e.value;
+  }
+  return map ? add_all(t, map) : GG_OK;
+}
+
+gg_status gg_api_scene_theories_add(gg_scene *scene, const char *yaml, size_t length, const char *name,
+                                    const char *path, gg_error *err)
+{
+  theories_reader t = {{.name = name, .lines = true, .scene = scene, .err = err}, scene, path};
+  return gg_scene_with_document(&t.reader, yaml, length, "", use);
+}

@@ -1,0 +1,12 @@
+/* The map `theories` of a scene or a sweep: theories as formulas or tables of points. */
+#ifndef GG_API_SCENE_THEORIES_H
+#define GG_API_SCENE_THEORIES_H
+
+#include "common/scene.h"
+
+/* Add those of the YAML text to the scene, which holds its extension; files lie beside `path` (NULL: in the current
+ * folder). Nothing where the text has no such map. */
+gg_status gg_api_scene_theories_add(gg_scene *scene, const char *yaml, size_t length, const char *name,
+                                    const char *path, gg_error *err);
+
+#endif

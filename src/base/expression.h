@@ -1,0 +1,26 @@
+/* Small formulas, "y/(1+y)": + - * / ^, parentheses, numbers, pi, inf, functions of one argument, and variables that
+ * the caller names. */
+#ifndef GG_BASE_EXPRESSION_H
+#define GG_BASE_EXPRESSION_H
+
+#include <stdbool.h>
+
+#include "base/error.h"
+
+enum { GG_EXPRESSION_STEPS = 64 };
+
+/* In postfix order; n = 0: not given. */
+typedef struct gg_expression {
+  int n;
+  struct {
+    char code;     /* 'n' a number, 'p' a variable, an operator, '_' the sign, 'f' a function */
+    double number; /* of 'p' and 'f' their index */
+  } step[GG_EXPRESSION_STEPS];
+} gg_expression;
+
+/* `variables` ends with NULL. GG_BAD_INPUT says what is wrong and at which character. */
+gg_status gg_base_expression_parse(gg_expression *e, const char *text, const char *const *variables, gg_error *err);
+/* With the values of all variables, in their order. */
+double gg_base_expression_value(const gg_expression *e, const double *at);
+
+#endif

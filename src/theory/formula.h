@@ -1,0 +1,37 @@
+/* Theories written in a scene: formulas of its parameters, or a table of points. */
+#ifndef GG_THEORY_FORMULA_H
+#define GG_THEORY_FORMULA_H
+
+#include "base/expression.h"
+#include "graingas.h"
+
+/* Parameters that formulas and columns of tables may use; ends with NULL. Of species 1 without an index: e, beta, mu,
+ * chi, K; of a mixture of two also e_12, e_22, x_1, x_2 and so on. */
+extern const char *const gg_theory_parameters[];
+enum { GG_THEORY_PARAMETERS = 27 };
+
+/* A theory as the context of its definition: one piece of memory, from malloc. */
+typedef struct gg_formula_theory {
+  int n; /* quantities */
+  gg_expression of[];
+} gg_formula_theory;
+
+typedef struct gg_points_theory {
+  size_t n_rows;
+  int n_keys, n; /* columns of parameters, then of quantities */
+  int key[GG_THEORY_PARAMETERS];
+  double cell[]; /* row by row */
+} gg_points_theory;
+
+/* For gg_theory_definition.evaluate. Formulas of one species do not apply to a mixture; a table answers at its points
+ * alone, to nine digits. */
+const char *gg_theory_formula_evaluate(void *theory, const gg_facts *facts, double *values);
+const char *gg_theory_points_evaluate(void *theory, const gg_facts *facts, double *values);
+
+/* A table from text: a line of names, parameters and quantities in any order, then numbers, with commas; an empty cell
+ * is no answer. A parameter may have its scene's name, collision.e. *quantity (to be freed) has the names of `n`
+ * quantities, which are in *names (to be freed). */
+gg_status gg_theory_points_read(const char *text, const char *name, gg_points_theory **theory, char ***quantity,
+                                char **names, gg_error *err);
+
+#endif

@@ -1,0 +1,103 @@
+"""Theories of a scene's own, `theories`: formulas and tables answer like the others, in theory, compare and sweeps, where
+a changed formula needs no new run; what is wrong is named with its line."""
+import csv
+import json
+import math
+import os
+
+from tap import check, main, run
+
+SCENE = """flow: usf
+phi: 0.1
+particles: 100
+collision: {e: 0.9}
+run: {collisions: 100, warmup: 20}
+theories:
+  mine: {temperature: "5*pi/(1152*phi^2*chi^2*(1-e^2))", N1: "5/2*(1-e)"}
+  table: points.csv
+"""
+POINTS = "temperature,phi,collision.e,N2\n2.5,0.1,0.9,\n1.5,0.2,0.9,0.01\n"
+
+
+def theories(text, points=POINTS):
+    with open("points.csv", "w") as f:
+        f.write(points)
+    return run("theory", "scene.yaml", "--json", scene=text)
+
+
+def test_answers():
+    done = theories(SCENE)
+    said = json.loads(done.out)["theory"]
+    chi = (1 - 0.1 / 2) / (1 - 0.1) ** 3
+    exact = 5 * math.pi / (1152 * 0.01 * chi ** 2 * 0.19)
+    check(abs(said["mine"]["temperature"]["mean"] / exact - 1) < 1e-12, said["mine"], exact)
+    check(abs(said["mine"]["N1"]["mean"] - 0.25) < 1e-15 and set(said["mine"]) == {"temperature", "N1"})
+    check(said["table"] == {"temperature": {"mean": 2.5, "unit": "d^2 gamma^2"}}, said["table"])
+    other = json.loads(theories(SCENE.replace("phi: 0.1", "phi: 0.2")).out)["theory"]
+    check(other["table"]["N2"]["mean"] == 0.01 and other["table"]["temperature"]["mean"] == 1.5, other["table"])
+    done = run("theory", "scene.yaml", "--set", "phi=0.15", "--json")
+    check("table does not apply: table has no row for this scene" in done.out, done.out[-900:])
+    mixture = "species:\n - {fraction: 0.5}\n - {fraction: 0.5, mass: 2}\n"
+    done = theories(SCENE + mixture)
+    check("mine is a formula for one species" in done.out, done.out[-900:])
+    done = theories(SCENE.replace('"5/2*(1-e)"', "m_2*x_1") + mixture)
+    check(abs(json.loads(done.out)["theory"]["mine"]["N1"]["mean"] - 1) < 1e-12)
+
+
+def test_another_folder():
+    """The table lies beside the scene, wherever the command is typed."""
+    os.mkdir("there")
+    with open("there/points.csv", "w") as f:
+        f.write(POINTS)
+    with open("there/scene.yaml", "w") as f:
+        f.write(SCENE)
+    check(json.loads(run("theory", "there/scene.yaml", "--json").out)["theory"]["table"]["temperature"]["mean"] == 2.5)
+
+
+def test_compared_and_swept():
+    theories(SCENE)
+    done = run("compare", "scene.yaml", "--json", "--picture", "none")
+    check(json.loads(done.out)["theory"]["table"]["temperature"]["mean"] == 2.5, done.err)
+    text = SCENE + "vary: {collision.e: [0.8, 0.9]}\nsweep: {does: compare}\n"
+    first = collected(text)
+    check(run("info", "s.sweep/" + first[0]["file"] + ".h5", "--json").out.count('"mine"') >= 2)
+    second = collected(text.replace("5/2", "7/2"))
+    values = [[float(r["mean"]) for r in rows if r["method"] == "mine" and r["quantity"] == "N1"] for rows in (first, second)]
+    check(len(values[0]) == 2 and all(abs(b / a - 1.4) < 1e-12 for a, b in zip(*values)), values)
+    mine = next(r for r in second if r["method"] == "mine")
+    off = float(mine["mean"]) - float(mine["reference_mean"])
+    check(mine["reference"] == "enskog_hermite" and abs(float(mine["difference"]) - off) < 1e-12, mine)
+    check(all(r in second for r in first if r["method"] in ("md", "dsmc")), "no point is run again")
+
+
+def collected(text):
+    with open("s.yaml", "w") as f:
+        f.write(text)
+    check(run("sweep", "s.yaml", "--quiet").code in (0, 1))
+    check(run("sweep", "s.yaml", "--collect", "--picture", "none").code == 0)
+    with open("s.sweep.csv", newline="") as f:
+        return list(csv.DictReader(f))
+
+
+def test_refused():
+    for old, new, words in (("phi^2", "psi^2", "scene.yaml:7: key 'theories.mine': '5*pi/(1152*psi^2"),
+                            ("N1:", "colour:", "scene.yaml:7: key 'theories.mine': mine: there is no quantity called 'colour'"),
+                            ("mine:", "grad:", "scene.yaml:7: key 'theories.grad': theory: the name 'grad' is taken"),
+                            ("points.csv", "none.csv", "scene.yaml:8: key 'theories.table': none.csv: cannot be read"),
+                            ("points.csv", "[1]", "scene.yaml:8: key 'theories.table': formulas are expected"),
+                            ("  table: points.csv", "  mine: points.csv", "'mine' is taken")):
+        done = theories(SCENE.replace(old, new))
+        check(done.code == 2 and words in done.err and not done.out, done.code, done.err, words)
+    for points, words in (("phi,e\n0.1,0.9\n", "has to name parameters"), ("temperature\n1\n", "has to name parameters"),
+                          ("phi,temperature\n0.1\n", "points.csv:2: 2 numbers are needed"),
+                          ("phi,temperature\n0.1,2,3\n", "points.csv:2: 2 numbers are needed"),
+                          ("phi,temperature\n0.1,x\n", "points.csv:2: column 2 is not a number"),
+                          ("phi,temperature\n", "has no row"), ("phi,temperature", "has no row"),
+                          ("phi,phi," * 40 + "N1\n", "has two columns"), ("", "has to name parameters")):
+        done = theories(SCENE, points)
+        check(done.code == 2 and words in done.err, points, done.code, done.err)
+
+
+if __name__ == "__main__":
+    import sys
+    main(sys.modules[__name__])
