@@ -54,9 +54,11 @@ static void put_head(gg_file_writer *out, const gg_validating *o, const gg_point
   const time_t now = time(NULL);
   struct tm utc;
   strftime(date, sizeof date, "%Y-%m-%d", gmtime_r(&now, &utc));
+  snprintf(line, sizeof line, "<!-- Do not edit. Written by: %.240s -->\n",
+           o->command ? o->command : "the graingas library");
+  gg_base_file_writer_put(out, line);
   gg_base_file_writer_put(out, "# md, dsmc, Enskog's equation and theories over a grid\n\n");
-  snprintf(line, sizeof line, "Written by `%.200s` on %s, graingas %s. Do not edit.\n\n",
-           o->command ? o->command : "the graingas library", date, gg_base_build_version);
+  snprintf(line, sizeof line, "Written by `graingas validate` on %s, graingas %s.\n\n", date, gg_base_build_version);
   gg_base_file_writer_put(out, line);
   if (t->n_other_builds) {
     snprintf(line, sizeof line, "%zu points are by another build.\n\n", t->n_other_builds);
