@@ -48,17 +48,14 @@ static gg_status draw_maps(validating *v, const gg_grid_view *view, gg_error *er
   return GG_OK;
 }
 
-static void put_head(gg_file_writer *out, const gg_validating *o, const gg_point_table *t)
+static void put_head(gg_file_writer *out, const gg_point_table *t)
 {
   char line[400], date[24];
   const time_t now = time(NULL);
   struct tm utc;
   strftime(date, sizeof date, "%Y-%m-%d", gmtime_r(&now, &utc));
-  snprintf(line, sizeof line, "<!-- Do not edit. Written by: %.240s -->\n",
-           o->command ? o->command : "the graingas library");
-  gg_base_file_writer_put(out, line);
   gg_base_file_writer_put(out, "# md, dsmc, Enskog's equation and theories over a grid\n\n");
-  snprintf(line, sizeof line, "Written by `graingas validate` on %s, graingas %s.\n\n", date, gg_base_build_version);
+  snprintf(line, sizeof line, "Written by `graingas validate` on %s, graingas %s. Do not edit.\n\n", date, gg_base_build_version);
   gg_base_file_writer_put(out, line);
   if (t->n_other_builds) {
     snprintf(line, sizeof line, "%zu points are by another build.\n\n", t->n_other_builds);
@@ -74,7 +71,7 @@ static gg_status write_page(const gg_validating *o, const gg_point_table *t, con
   gg_file_writer *out = gg_base_array_new(1, sizeof *out, err);
   if (!out) return gg_base_atomic_abandon(&file), GG_FAILED;
   gg_base_file_writer_begin(out, &file, err);
-  put_head(out, o, t);
+  put_head(out, t);
   gg_base_file_writer_put(out, verdict);
   if (*maps)
     gg_base_file_writer_put(out,
