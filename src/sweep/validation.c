@@ -55,7 +55,8 @@ static void put_head(gg_file_writer *out, const gg_point_table *t)
   struct tm utc;
   strftime(date, sizeof date, "%Y-%m-%d", gmtime_r(&now, &utc));
   gg_base_file_writer_put(out, "# md, dsmc, Enskog's equation and theories over a grid\n\n");
-  snprintf(line, sizeof line, "Written by `graingas validate` on %s, graingas %s. Do not edit.\n\n", date, gg_base_build_version);
+  snprintf(line, sizeof line, "Written by `graingas validate` on %s, graingas %s. Do not edit.\n\n", date,
+           gg_base_build_version);
   gg_base_file_writer_put(out, line);
   if (t->n_other_builds) {
     snprintf(line, sizeof line, "%zu points are by another build.\n\n", t->n_other_builds);
