@@ -56,7 +56,7 @@ static uint64_t add_extension(uint64_t sum, const gg_scene *scene)
   char signature[2048] = "";
   if (!scene->extension) return sum;
   gg_common_extension_signature(scene->extension, signature, sizeof signature);
-  return add_text(sum, signature);
+  return *signature ? add_text(sum, signature) : sum; /* theories alone leave a point the same */
 }
 
 /* Every bit of the sum goes into every bit of the name (the finalizer of MurmurHash3). */
