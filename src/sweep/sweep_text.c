@@ -75,6 +75,7 @@ gg_status gg_sweep_folder_note(const gg_sweep *sweep, const char *folder, gg_err
   gg_status status = GG_OK;
   if (!holds(path, text)) {
     status = gg_base_atomic_open(&file, path, err);
+    if (status == GG_BAD_FILE) return free(text), GG_OK; /* another process is writing the same */
     file.repeated = true;
     if (status == GG_OK) status = gg_base_atomic_write(&file, text, strlen(text), err);
     if (status == GG_OK) status = gg_base_atomic_commit(&file, err);

@@ -111,7 +111,7 @@ static void suggestions(void **state)
       {"shear: 1", "did you mean 'shear_rate'?"},
       {"density: 1", "did you mean 'phi'?"},
       {"temp: 1", "did you mean 'temperature'?"},
-      {"run: {k0: 1}", "under run there are relative_error, collisions, time_limit, warmup, replicas, seed"},
+      {"run: {k0: 1}", "under run there are relative_error, until, collisions, time_limit, warmup, replicas, seed"},
       {"run: {error: 1}", "did you mean 'run.relative_error'?"},
       {"run: {time: 1}", "did you mean 'run.time_limit'?"},
       {"wall: {e: 1}", "did you mean 'walls'?"},

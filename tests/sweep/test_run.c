@@ -177,7 +177,8 @@ static void stopped(void **state)
     assert_int_equal(gg_sweep_find(sweep, "stopped", i, &there, NULL, NULL), GG_OK);
     assert_int_equal(there, GG_POINT_MISSING);
   }
-  assert_int_equal(rmdir("stopped"), 0); /* nothing is left in it */
+  assert_int_equal(remove("stopped/sweep.yaml"), 0);
+  assert_int_equal(rmdir("stopped"), 0); /* nothing else is left in it */
   gg_sweep_free(sweep);
 }
 
