@@ -29,13 +29,15 @@ gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *m
   gg_function f;
   const int k = find_function(all, q, &f);
   if (k < 0) return GG_OK;
+  gg_slow_modes slow;
+  GG_TRY(gg_run_replicas_slow_modes(all, &slow, err));
   const gg_series **series = gg_base_array_new((size_t)all->n, sizeof *series, err);
   if (!series) return GG_FAILED;
   for (int r = 0; r < all->n; r++) series[r] = &all->replica[r].series;
   const gg_replica *first = &all->replica[0];
-  gg_status status =
-      gg_statistics_estimate_mean(series, (size_t)all->n, first->series.window, first->series.n, first->offset[k],
-                                  first->observable[k]->width(&all->model), f, &all->model, mean, err);
+  gg_status status = gg_statistics_estimate_mean(series, (size_t)all->n, first->series.window, first->series.n,
+                                                 first->offset[k], first->observable[k]->width(&all->model), f,
+                                                 &all->model, slow.time / (double)first->series.per_row, mean, err);
   free(series);
   double rows = (double)gg_series_window_rows(&first->series) * all->n;
   mean->error *= gg_run_criteria_margin(&all->criteria, mean->correlation_rows, rows);
@@ -105,7 +107,7 @@ static gg_status test_wandering(const gg_replicas *all, gg_convergence *c, gg_er
   GG_TRY(gg_run_replicas_slow_modes(all, &w, err));
   c->slow_mode = w.mode, c->slow_mode_time = w.time;
   double sampled = (double)(all->state.due - all->state.window_at) * all->n;
-  if (w.mode >= 0 && sampled < GG_LEAST_CORRELATION_TIMES * w.time) c->trusted = false;
+  if (w.mode >= 0 && sampled < GG_LEAST_SLOW_TIMES * w.time) c->trusted = false;
   return GG_OK;
 }
 

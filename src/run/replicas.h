@@ -17,6 +17,9 @@ typedef struct gg_stopping_criteria { /* what is asked, settled before the run; 
 
 /* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
 enum { GG_LEAST_CORRELATION_TIMES = 20 };
+/* Nor one of less than this many decay times of the slowest mode across a gap between walls: a time that short windows
+ * show too short, by half at 20. */
+enum { GG_LEAST_SLOW_TIMES = 50 };
 
 typedef struct gg_convergence { /* of the present averaging window */
   double relative_error;        /* of the worst quantity whose error is asked for, in proportion to what is asked of it:

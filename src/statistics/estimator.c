@@ -158,8 +158,13 @@ static gg_status memory_of_parts(const rows *a, const double *mean, const double
   return GG_OK;
 }
 
+/* The sum over correlations goes on for about one decay time of a slow mode (REACH times this share of it); further,
+ * noise takes more than it gives. What is still missed, as in small_sample. */
+#define SHARE_OF_SLOW 0.4
+#define DOUBT_OF_SLOW 2.5
+
 gg_status gg_statistics_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end,
-                                      size_t offset, size_t channels, gg_function f, const gg_model *model,
+                                      size_t offset, size_t channels, gg_function f, const gg_model *model, double slow,
                                       gg_mean *out, gg_error *err)
 {
   *out = (gg_mean){.mean = NAN, .error = NAN, .scatter = NAN, .correlation_rows = 0.5};
@@ -178,7 +183,8 @@ gg_status gg_statistics_estimate_mean(const gg_series *const *series, size_t n_r
     status = memory_of_parts(&a, mean, df, y, &memory, err);
     memset(y, 0, total * sizeof *y);
     for (size_t k = 0; k < channels; k++) add_response(&a, k, mean, df, y);
-    if (status == GG_OK) status = estimate(y, n, n_runs, memory, out, err);
+    if (status == GG_OK) status = estimate(y, n, n_runs, fmax(memory, SHARE_OF_SLOW * slow), out, err);
+    out->error *= 1 + DOUBT_OF_SLOW * slow / (double)total;
     out->mean = value;
   }
   free(work);

@@ -39,9 +39,10 @@ typedef struct gg_mean {
 enum { GG_MIN_BLOCKS = 16, GG_MAX_BLOCKS = 64 };
 
 /* Rows [begin, end) of each of n_runs series of equal length and width. `offset` is where the observable's channels
- * begin in a row, `channels` how many f depends on. */
+ * begin in a row, `channels` how many f depends on. `slow`: the decay time, in rows, of a mode that wanders more slowly
+ * than the window can show and that f may follow; 0: none is known. */
 gg_status gg_statistics_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end,
-                                      size_t offset, size_t channels, gg_function f, const gg_model *model,
+                                      size_t offset, size_t channels, gg_function f, const gg_model *model, double slow,
                                       gg_mean *out, gg_error *err);
 
 /* The same for a scalar series, n_runs stretches of n rows end to end. */

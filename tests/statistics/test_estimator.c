@@ -108,8 +108,8 @@ static void ratios(void **state)
     gg_series s = planted_ratio(&r, 2000);
     const gg_series *list[] = {&s};
     gg_mean m;
-    assert_int_equal(gg_statistics_estimate_mean(list, 1, 0, s.n, 1, 2, (gg_function){.of = ratio}, &model, &m, NULL),
-                     GG_OK);
+    assert_int_equal(
+        gg_statistics_estimate_mean(list, 1, 0, s.n, 1, 2, (gg_function){.of = ratio}, &model, 0, &m, NULL), GG_OK);
     assert_true(m.error < 0.0005); /* 0.02/2/sqrt(2000) = 0.00022; the common part alone would give 0.005 */
     sum += pow((m.mean - 1.5) / m.error, 2);
     gg_statistics_series_clear(&s);
@@ -142,8 +142,8 @@ static void small_channels(void **state)
     for (int k = 0; k < 2; k++) {
       const gg_function f = {.of = k ? inverse : ratio};
       const size_t offset = k ? 0 : 1;
-      assert_int_equal(gg_statistics_estimate_mean(one, 1, 0, s.n, offset, 2, f, &model, &m, NULL), GG_OK);
-      assert_int_equal(gg_statistics_estimate_mean(other, 1, 0, t.n, offset, 2, f, &model, &n, NULL), GG_OK);
+      assert_int_equal(gg_statistics_estimate_mean(one, 1, 0, s.n, offset, 2, f, &model, 0, &m, NULL), GG_OK);
+      assert_int_equal(gg_statistics_estimate_mean(other, 1, 0, t.n, offset, 2, f, &model, 0, &n, NULL), GG_OK);
       if (fabs(n.error / n.mean / (m.error / m.mean) - 1) > 1e-4)
         fail_msg("in units of %g: %g of %g, %g of %g", unit, n.error, n.mean, m.error, m.mean);
     }
@@ -173,7 +173,7 @@ static void followers(void **state)
     }
     const gg_series *list[] = {&s};
     gg_mean m;
-    assert_int_equal(gg_statistics_estimate_mean(list, 1, 0, N, 0, 2, (gg_function){.of = ratio}, &model, &m, NULL),
+    assert_int_equal(gg_statistics_estimate_mean(list, 1, 0, N, 0, 2, (gg_function){.of = ratio}, &model, 0, &m, NULL),
                      GG_OK);
     z2 += pow((m.mean - 1) / m.error, 2) / SERIES;
     gg_statistics_series_clear(&s);
@@ -192,10 +192,10 @@ static void replicas(void **state)
   const gg_series *list[4];
   for (int i = 0; i < 4; i++) s[i] = planted_ratio(&r, 1500), list[i] = &s[i];
   gg_mean one, four;
-  assert_int_equal(gg_statistics_estimate_mean(list, 1, 0, 1500, 1, 2, (gg_function){.of = ratio}, &model, &one, NULL),
-                   GG_OK);
-  assert_int_equal(gg_statistics_estimate_mean(list, 4, 0, 1500, 1, 2, (gg_function){.of = ratio}, &model, &four, NULL),
-                   GG_OK);
+  assert_int_equal(
+      gg_statistics_estimate_mean(list, 1, 0, 1500, 1, 2, (gg_function){.of = ratio}, &model, 0, &one, NULL), GG_OK);
+  assert_int_equal(
+      gg_statistics_estimate_mean(list, 4, 0, 1500, 1, 2, (gg_function){.of = ratio}, &model, 0, &four, NULL), GG_OK);
   assert_true(fabs(one.error / four.error - 2) < 0.8);
   for (int i = 0; i < 4; i++) gg_statistics_series_clear(&s[i]);
 }
