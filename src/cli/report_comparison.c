@@ -173,7 +173,7 @@ static void print_verdicts(const gg_comparison *c)
   }
 }
 
-/* Causes of the marked z-scores. */
+/* Causes of the marked z-scores: one at least, if only that none is known. */
 static void print_causes(const gg_comparison *c, bool all)
 {
   bool marked = false;
@@ -182,9 +182,7 @@ static void print_causes(const gg_comparison *c, bool all)
   for (size_t i = 0; !marked && next_shown(c, all, &i, &row);) marked = row.beyond;
   if (!marked) return;
   printf("\n");
-  gg_cli_print_wrapped(
-      stdout,
-      "!: ", "md deviates from Enskog's equation more than expected. Causes that apply to this scene:");
+  gg_cli_print_wrapped(stdout, "!: ", "md deviates from Enskog's equation more than expected:");
   for (size_t i = 0; gg_comparison_remark(c, i, &r, NULL) == GG_OK; i++)
     if (!r.theory) gg_cli_print_wrapped(stdout, "  - ", r.cause);
 }
@@ -198,8 +196,7 @@ static void print_remarks(const gg_comparison *c)
     char text[400];
     if (!r.theory) continue;
     if (!any) printf("\n");
-    if (!any)
-      gg_cli_print_wrapped(stdout, "", "Theories that deviate more than expected, and why:");
+    if (!any) gg_cli_print_wrapped(stdout, "", "Theories that deviate more than expected, and why:");
     any = true;
     snprintf(text, sizeof text, "%s, %s %+.1f %%: %s", r.theory, r.quantity, 100 * r.deviation, r.cause);
     gg_cli_print_wrapped(stdout, "  - ", text);

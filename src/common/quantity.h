@@ -25,6 +25,7 @@ enum {
   GG_NEEDS_THEORY = 1u << 14,      /* no mean of anything */
   GG_NEEDS_WORK = 1u << 21,        /* something that does work on the grains: shear, or walls */
   GG_NEEDS_WALLS = 1u << 22,
+  GG_NEEDS_NO_WALLS = 1u << 23,
 
   GG_KEPT_HEATING = 1u << 15,      /* free of the temperature's scale: has a meaning as a mean in a gas that heats up */
   GG_MONITORED = 1u << 16,         /* relaxes slowly: a run is not steady while it has a trend */
@@ -169,6 +170,14 @@ enum {
       "\\eta^* = \\frac{\\nu_0\\,\\eta}{nT}")                                                                          \
   ONE(VISCOSITY_REDUCED_KINETIC, "viscosity_reduced_kinetic", "η*^k", "", NONE, GG_REDUCED_VISCOSITY,                  \
       "nu_0 eta_k/(n T): kinetic part of viscosity_reduced", "\\eta^{*k} = \\frac{\\nu_0\\,\\eta^k}{nT}")              \
+  ONE(DENSITY_WAVES, "density_waves", "S_L", "", NONE, GG_NEEDS_BOX | GG_NEEDS_NO_WALLS | GG_KEPT_HEATING,             \
+      "|sum d^3 exp(ikr)|^2/(S_e sum d^6): density waves of the box's length, |k| = 2 pi/L, over those of elastic "    \
+      "spheres; 1 in a homogeneous gas, more where grains cluster",                                                    \
+      "\\frac{\\lvert\\sum d^3\\,e^{i k r}\\rvert^2}{S_e\\sum d^6}")                                                   \
+  ONE(MOMENTUM_WAVES, "momentum_waves", "M_L", "", NONE, GG_NEEDS_BOX | GG_NEEDS_NO_WALLS | GG_KEPT_HEATING,           \
+      "|sum m C_t exp(ikr)|^2/sum (m C_t)^2: shear waves of the box's length, |k| = 2 pi/L, C_t across k; 1 in a "     \
+      "homogeneous elastic gas, more where it swirls",                                                                 \
+      "\\frac{\\lvert\\sum m C_t\\,e^{i k r}\\rvert^2}{\\sum (m C_t)^2}")                                              \
   ONE(CLUSTERING_LENGTH, "clustering_length", "L_c", "", LENGTH, GG_NEEDS_THEORY,                                      \
       "2 pi sqrt(2 eta/(n m zeta)): box length above which a cooling gas forms vortices and clusters",                 \
       "L_c = 2\\pi\\sqrt{\\frac{2\\eta}{n m \\zeta}}")                                                                 \

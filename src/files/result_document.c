@@ -355,12 +355,13 @@ static json_t *engine_json(const gg_comparison *c, gg_engine_kind kind, json_t *
 /* Where md differs beyond what is expected, the causes that apply; theories that are further off than expected. */
 static void warn_deviations(const gg_comparison *c, json_t *warnings)
 {
-  const char *cause[8];
+  gg_causes causes;
   gg_theory_remark r[GG_MOST_THEORIES];
-  const int n_causes = gg_run_disagreement_causes(c, cause, 8), n = gg_run_theory_remarks(c, r);
-  for (int i = 0; i < n_causes; i++)
+  const int n = gg_run_theory_remarks(c, r);
+  gg_run_causes_find(c, &causes);
+  for (int i = 0; i < causes.n; i++)
     json_array_append_new(warnings,
-                          json_sprintf("md deviates from Enskog's equation more than expected: %s", cause[i]));
+                          json_sprintf("md deviates from Enskog's equation more than expected: %s", causes.text[i]));
   for (int i = 0; i < n; i++)
     json_array_append_new(warnings,
                           json_sprintf("%s deviates by %+.1f %% in %s: %s", r[i].theory->name, 100 * r[i].deviation,

@@ -50,6 +50,8 @@ typedef struct gg_observable {
    * An observable without rows has width NULL, and none of what follows. */
   size_t (*width)(const gg_model *model);
   void (*begin)(void *self);
+  /* Are positions wanted for the row that has begun, where the engine has any? Beside `positions`; NULL: no. */
+  bool (*wants_positions)(const void *self);
   void (*add_chunk)(void *self, const gg_chunk *chunk);
   void (*add_blocks)(void *self, const gg_block_run *run); /* instead, with the same result; NULL: chunks only */
   void (*finish)(void *self, const gg_interval *interval, double *row);

@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "measure/grain_snapshot.h"
+#include "measure/long_waves.h"
 #include "measure/velocity_moments.h"
 
 /* What one sample leaves for the next. */
@@ -15,7 +16,12 @@ typedef struct memory {
   double log2_scale;       /* engine's velocities are 2^this times those of the start: beyond all numbers at last */
   double mean_spin[GG_MAX_SPECIES][3];
   double energy, momentum[2]; /* of all grains; m c_x and m c_y, between walls */
+  double density_waves, momentum_waves;
+  uint64_t samples;
 } memory;
+
+/* Long waves change slowly, and positions cost time: one sample in so many has them. */
+enum { WAVES_EVERY = 10 };
 
 typedef struct rheology {
   gg_model model;
@@ -23,6 +29,7 @@ typedef struct rheology {
   bool quick;
   memory memory;
   double energy, momentum[2]; /* of this sample's grains as they are, where moments are about a local flow */
+  gg_long_waves waves;
   gg_species_scratch scratch;
 } rheology;
 
@@ -52,6 +59,7 @@ static void *memory_of(void *self, size_t *bytes)
 static void begin(void *self)
 {
   rheology *r = self;
+  r->waves = (gg_long_waves){0};
   const double T = r->memory.last_temperature;
   r->energy = r->momentum[0] = r->momentum[1] = 0;
   r->quick = T > 0x1p-60 && T < 0x1p60; /* squares of velocities will be far from what single precision cannot hold */
@@ -59,6 +67,12 @@ static void begin(void *self)
     r->moments[i] = (gg_velocity_moments){0};
     memcpy(r->moments[i].mean_spin, r->memory.mean_spin[i], sizeof r->memory.mean_spin[i]);
   }
+}
+
+static bool wants_positions(const void *self)
+{
+  const rheology *r = self;
+  return gg_measure_has_long_waves(&r->model) && r->memory.samples % WAVES_EVERY == 0;
 }
 
 /* Between walls: the energy of the grains as they are, their flow included. */
@@ -93,6 +107,7 @@ static void add_chunk(void *self, const gg_chunk *chunk)
 {
   rheology *r = self;
   if (chunk->whole_c[0]) add_whole(r, chunk);
+  if (chunk->r[0] && wants_positions(r)) gg_measure_long_waves_add(&r->waves, &r->model, chunk);
   for (int i = 0; i < r->model.n_species; i++) {
     gg_species_view v = gg_measure_species_chunk(chunk, i, &r->scratch);
     gg_velocity_moment_view grains = {
@@ -217,6 +232,14 @@ static void put_energy(rheology *r, const gg_interval *in, double *row)
   memcpy(r->memory.momentum, r->momentum, sizeof r->memory.momentum);
 }
 
+static void put_waves(rheology *r, double *row)
+{
+  if (r->waves.matter_squares > 0)
+    gg_measure_long_waves_finish(&r->waves, &r->model, &r->memory.density_waves, &r->memory.momentum_waves);
+  r->memory.samples++;
+  row[CH_DENSITY_WAVES] = r->memory.density_waves, row[CH_MOMENTUM_WAVES] = r->memory.momentum_waves;
+}
+
 static void finish(void *self, const gg_interval *in, double *row)
 {
   rheology *r = self;
@@ -229,6 +252,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   r->memory.last_temperature = T;
   r->memory.log2_scale += log2(in->velocity_factor);
   put_energy(r, in, row);
+  put_waves(r, row);
   if (!(in->elapsed > 0)) return;
   row[CH_LN_T] = log(T) - 2 * M_LN2 * r->memory.log2_scale;
   haff h = cooling ? haff_integrals(T0, T, in->elapsed) : (haff){in->elapsed, in->elapsed, 0};
@@ -254,6 +278,7 @@ const gg_observable gg_measure_rheology = {
     .destroy = free,
     .memory = memory_of,
     .begin = begin,
+    .wants_positions = wants_positions,
     .add_chunk = add_chunk,
     .add_blocks = add_blocks,
     .finish = finish,

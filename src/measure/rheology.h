@@ -21,8 +21,10 @@ enum {
   CH_WALL_LOSS, /* as CH_LOSS, in contacts with walls */
   CH_WALL_DRAG, /* force along the walls, the way they pull or hold, and across: sums over walls, per volume */
   CH_WALL_PUSH,
-  CH_WALL_WORK, /* of moving walls and of gravity between walls, per volume and time */
-  CH_SPECIES    /* where the moments of species 1 begin; those of species 2 follow */
+  CH_WALL_WORK,     /* of moving walls and of gravity between walls, per volume and time */
+  CH_DENSITY_WAVES, /* of the latest sample that took positions */
+  CH_MOMENTUM_WAVES,
+  CH_SPECIES /* where the moments of species 1 begin; those of species 2 follow */
 };
 enum {
   CH_C2X,

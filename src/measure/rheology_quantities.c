@@ -1,5 +1,6 @@
 /* From channel means of rheology to named quantities. Stress by Gayen's thesis eq. 5.15 (per volume), normal stress
  * differences eqs 5.17-5.18. */
+#include "measure/long_waves.h"
 #include "measure/rheology.h"
 
 #include <math.h>
@@ -212,6 +213,15 @@ static double partial_ratio(const double *a, const gg_model *m)
   return partial_temperature(a, m, 0) / partial_temperature(a, m, 1);
 }
 
+static double density_waves(const double *a, const gg_model *m)
+{
+  return gg_measure_has_long_waves(m) ? a[CH_DENSITY_WAVES] : NAN;
+}
+static double momentum_waves(const double *a, const gg_model *m)
+{
+  return gg_measure_has_long_waves(m) ? a[CH_MOMENTUM_WAVES] : NAN;
+}
+
 const gg_derived gg_measure_rheology_derived[] = {
     {GG_Q_TEMPERATURE, .of = temperature},
     {GG_Q_ROTATIONAL_TEMPERATURE, .of = rotational_temperature},
@@ -257,6 +267,8 @@ const gg_derived gg_measure_rheology_derived[] = {
     {GG_Q_CUMULANT, .each = twice_cumulant},
     {GG_Q_PARTIAL_TEMPERATURE, .each = partial_temperature},
     {GG_Q_PARTIAL_TEMPERATURE_RATIO, .of = partial_ratio},
+    {GG_Q_DENSITY_WAVES, .of = density_waves},
+    {GG_Q_MOMENTUM_WAVES, .of = momentum_waves},
     GG_DERIVED_END,
 };
 

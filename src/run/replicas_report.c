@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "common/ensemble_size.h"
 #include "common/linear_response.h"
+#include "run/causes.h"
 #include "run/replicas.h"
 #include "scene/fields.h"
 
@@ -128,10 +129,16 @@ static void warn_if_few(const gg_replicas *all, gg_result *result)
                      (long long)all->model.n, 100 * bias, bias / (0.25 * asked) * (double)all->model.n);
 }
 
-/* At rest or cooling, a homogeneous gas has equal normal stresses. Free cooling breaks up into vortices and clusters in
- * a box that is large enough (Goldhirsch & Zanetti 1993): then means are those of that state. */
+/* What the longest waves of the box show; where they show nothing, normal stresses may: at rest or cooling, a
+ * homogeneous gas has equal normal stresses. Free cooling breaks up into vortices and clusters in a box that is large
+ * enough (Goldhirsch & Zanetti 1993): then means are those of that state. */
 static void warn_if_structured(gg_result *result)
 {
+  char what[240];
+  if (gg_run_structure(result, what, sizeof what)) {
+    gg_run_result_warn(result, "%s; means are those of this state", what);
+    return;
+  }
   if (result->model.shear_rate != 0 || gg_flow_is_walled(result->model.flow)) return;
   for (gg_quantity q = gg_common_quantity_next(-1, GG_STRESS_DIFFERENCE); q < GG_N_QUANTITIES;
        q = gg_common_quantity_next(q, GG_STRESS_DIFFERENCE)) {

@@ -303,6 +303,7 @@ gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, 
   c->scene = *scene;
   gg_common_extension_hold(c->scene.extension);
   gg_status status = model ? compare_scene(scene, resume, threads, callbacks, model, c, err) : GG_FAILED;
+  gg_run_causes_find(c, &c->causes);
   free(model);
   return status;
 }

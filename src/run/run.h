@@ -2,6 +2,7 @@
 #ifndef GG_RUN_H
 #define GG_RUN_H
 
+#include "run/causes.h"
 #include "run/result.h"
 #include "theory/theory_list.h"
 
@@ -56,6 +57,7 @@ struct gg_comparison {
     gg_theory_answer answer;
     gg_curves curves; /* of what the scene measures; owned */
   } theory[GG_MOST_THEORIES];
+  gg_causes causes;        /* why md differs, found when all was there */
   gg_string_list warnings; /* of the scene */
   char *document;          /* JSON as it was stored; NULL of a comparison that was not read from a file */
   bool of_one;             /* that file is one of a run */

@@ -102,8 +102,11 @@ static bool reads_blocks(const gg_replica *r)
 /* Where rows are made of positions, too, and the engine has any. */
 static bool reads_positions(const gg_replica *r)
 {
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->width && r->observable[k]->positions) return !r->model.homogeneous;
+  for (int k = 0; k < r->n_observables; k++) {
+    const gg_observable *o = r->observable[k];
+    if (o->width && (o->positions || (o->wants_positions && o->wants_positions(r->self[k]))))
+      return !r->model.homogeneous;
+  }
   return false;
 }
 

@@ -3,8 +3,6 @@
 
 #include <math.h>
 
-#include "theory/goldhirsch_zanetti1993.h"
-
 double gg_run_z_score(const gg_estimate *a, const gg_estimate *b)
 {
   double error = hypot(a->error, b->error);
@@ -103,57 +101,6 @@ bool gg_run_results_disagree(const gg_comparison *c, gg_quantity q)
   }
   const gg_estimate *md = &c->by_engine[GG_MD]->value[q];
   return md->error > 0 && gg_run_is_beyond(&c->model, q, md, &enskog);
-}
-
-static bool denser_than_enskog(const gg_model *m)
-{
-  return m->phi > 0.3;
-}
-static bool rough_and_moderate(const gg_model *m)
-{
-  return m->rule != GG_SMOOTH && m->phi > 0.05;
-}
-static bool moderate(const gg_model *m)
-{
-  return m->shear_rate != 0 && m->phi > 0.01 && m->phi <= 0.3;
-}
-static bool clusters(const gg_model *m)
-{
-  double L = gg_theory_clustering_length(m), edge = fmax(m->box[0], fmax(m->box[1], m->box[2]));
-  return edge > (m->shear_rate != 0 ? 3 : 1) * L;
-}
-static bool unsteady_beyond_theory(const gg_model *m)
-{
-  return m->phi <= 0.02 && !moderate(m);
-}
-
-static const struct {
-  bool (*applies)(const gg_model *m);
-  const char *text;
-} causes[] = {
-    {clusters,
-     "the box is longer than the length above which this gas forms clusters or vortices; a Monte Carlo ensemble "
-     "stays homogeneous"},
-    {denser_than_enskog, "at this density velocities of neighbours are correlated, which Enskog's equation leaves out: "
-                         "smooth grains dissipate "
-                         "less in md; with rough or very dissipative grains the equation fails badly"},
-    {rough_and_moderate,
-     "rough grains: theta/T in md lies above Enskog's, by some 9 % at phi = 0.3 and beta = 0 (correlated "
-     "velocities and spins)"},
-    {moderate,
-     "md depends on the number of grains at moderate density (T rises from 200 grains to 8000 by a few per cent, at "
-     "phi = 0.1 and e = 0.7 by a fifth or more): compare at equal numbers"},
-    {unsteady_beyond_theory, "none known at this density: look at the warnings, the warm-up and the errors"},
-};
-
-int gg_run_disagreement_causes(const gg_comparison *c, const char **found, int most)
-{
-  int n = 0;
-  bool marked = false;
-  for (int i = 0; i < c->rows.n; i++) marked |= gg_run_results_disagree(c, c->rows.row[i].quantity);
-  for (size_t i = 0; marked && i < sizeof causes / sizeof *causes; i++)
-    if (n < most && causes[i].applies(&c->model)) found[n++] = causes[i].text;
-  return n;
 }
 
 double gg_run_deviation(const gg_estimate *simulation, double theory)

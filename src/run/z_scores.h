@@ -34,9 +34,6 @@ bool gg_run_results_disagree(const gg_comparison *comparison, gg_quantity q);
 /* Why a theory is off where it is beyond what is expected; returns text that lasts. */
 const char *gg_run_theory_cause(const gg_theory *theory, const gg_model *model);
 
-/* Where any quantity is marked so: causes that apply to this scene, a sentence each; returns how many. */
-int gg_run_disagreement_causes(const gg_comparison *comparison, const char **causes, int most);
-
 /* Relative deviation of a theory from a simulation, theory/simulation - 1. NaN where the simulation cannot be told from
  * zero (within three standard errors). */
 double gg_run_deviation(const gg_estimate *simulation, double theory);

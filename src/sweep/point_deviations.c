@@ -7,17 +7,16 @@
 
 #include "base/memory.h"
 #include "files/h5/result_restore.h"
+#include "run/causes.h"
 #include "run/z_scores.h"
 
-/* The causes that apply to the whole comparison, in one line; "" if none. */
-static const char *join_causes(const gg_comparison *c, gg_string_list *texts)
+/* Why md differs in this quantity, in one line. */
+static const char *join_causes(const gg_comparison *c, gg_quantity q, gg_string_list *texts)
 {
-  enum { MOST = 8 };
-  const char *cause[MOST];
-  char line[1200] = "";
-  const int n = gg_run_disagreement_causes(c, cause, MOST);
-  for (int i = 0; i < n; i++) gg_base_text_append(line, sizeof line, "%s%s", i ? "; " : "", cause[i]);
-  if (!*line) return NULL;
+  gg_causes causes;
+  char line[sizeof causes.text] = "";
+  gg_run_causes_of(c, q, &causes);
+  for (int i = 0; i < causes.n; i++) gg_base_text_append(line, sizeof line, "%s%s", i ? "; " : "", causes.text[i]);
   gg_base_string_list_add(texts, "%s", line);
   return gg_base_string_list_at(texts, texts->n - 1);
 }
@@ -41,7 +40,7 @@ static void set_deviation(gg_cli_table_row *row, gg_quantity q, const gg_referen
 }
 
 /* The causes of `compare` are md's; those of theories are their range. */
-static void set_cause(gg_cli_table_row *row, const gg_comparison *c, const char *of_md, gg_string_list *texts)
+static void set_cause(gg_cli_table_row *row, const gg_comparison *c, gg_quantity q, gg_string_list *texts)
 {
   const gg_theory *theory = row->theory ? theory_of(c, row->method) : NULL;
   if (row->theory) {
@@ -49,11 +48,11 @@ static void set_cause(gg_cli_table_row *row, const gg_comparison *c, const char 
                             theory ? gg_run_theory_cause(theory, &c->model) : "a theory of the sweep's own");
     row->cause = gg_base_string_list_at(texts, texts->n - 1);
   } else if (strcmp(row->method, "md") == 0) {
-    row->cause = of_md;
+    row->cause = join_causes(c, q, texts);
   }
 }
 
-static void compare_row(gg_point_table *t, gg_cli_table_row *row, const gg_comparison *c, const char *of_md)
+static void compare_row(gg_point_table *t, gg_cli_table_row *row, const gg_comparison *c)
 {
   gg_reference reference;
   const gg_quantity_row *named = gg_run_rows_find(&c->rows, row->quantity);
@@ -62,7 +61,7 @@ static void compare_row(gg_point_table *t, gg_cli_table_row *row, const gg_compa
   set_deviation(row, named->quantity, &reference);
   row->beyond =
       (row->theory || row->error > 0) && gg_run_is_beyond(&c->model, named->quantity, &mean, &reference.value);
-  if (row->beyond) set_cause(row, c, of_md, &t->texts);
+  if (row->beyond) set_cause(row, c, named->quantity, &t->texts);
 }
 
 /* A comparison of means alone: series and frames are not read. */
@@ -89,8 +88,7 @@ gg_status gg_sweep_point_deviations(gg_point_table *t, size_t first, json_t *doc
   if (!c) return GG_FAILED;
   const unsigned before = gg_base_memory_failures();
   gg_status status = restore(document, scene, c, err);
-  const char *of_md = status == GG_OK ? join_causes(c, &t->texts) : NULL;
-  for (size_t i = first; i < t->n && status == GG_OK; i++) compare_row(t, &t->row[i], c, of_md);
+  for (size_t i = first; i < t->n && status == GG_OK; i++) compare_row(t, &t->row[i], c);
   gg_run_comparison_clear(c);
   free(c);
   return gg_base_memory_check(before, status, err);

@@ -323,6 +323,7 @@ static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c,
   restore_refusals(c, s->document);
   if (s->comparison) gg_scene_ineffective_keys(&c->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &c->warnings);
   c->of_one = !s->comparison;
+  gg_run_causes_find(c, &c->causes);
   c->document = gg_files_document_text(s->document);
   return c->document ? GG_OK : gg_base_out_of_memory(err);
 }

@@ -1,0 +1,198 @@
+#include "run/causes.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "common/scene.h"
+#include "run/z_scores.h"
+#include "theory/goldhirsch_zanetti1993.h"
+
+/* Waves of a homogeneous gas near its instability may be a few times those of an elastic one. */
+#define STRUCTURED 4.0
+
+static bool is_raised(const gg_estimate *waves)
+{
+  const double error = isfinite(waves->error) ? waves->error : 0;
+  return waves->mean - 2 * error > STRUCTURED;
+}
+
+static bool has_waves(const gg_result *r)
+{
+  return isfinite(r->value[GG_Q_DENSITY_WAVES].mean) && r->value[GG_Q_DENSITY_WAVES].mean > 0;
+}
+
+bool gg_run_structure(const gg_result *r, char *text, size_t size)
+{
+  const gg_estimate *density = &r->value[GG_Q_DENSITY_WAVES], *momentum = &r->value[GG_Q_MOMENTUM_WAVES];
+  if (!has_waves(r)) return false;
+  if (is_raised(density))
+    snprintf(text, size,
+             "the grains have clustered: density waves of the box's length are %.2g times those of a homogeneous gas, "
+             "shear waves %.2g times",
+             density->mean, momentum->mean);
+  else if (is_raised(momentum))
+    snprintf(text, size,
+             "the gas swirls: shear waves of the box's length are %.2g times those of a homogeneous gas, density waves "
+             "%.2g times",
+             momentum->mean, density->mean);
+  else
+    return false;
+  return true;
+}
+
+/* What is to be explained. */
+typedef struct difference {
+  const gg_model *model;
+  const gg_result *md;
+  gg_quantity q;
+  double by; /* relative; of what lies about zero the difference itself */
+} difference;
+
+/* Does it grow with the energy of the grains (1), fall (-1), or neither (0)? */
+static int follows_energy(gg_quantity q)
+{
+  switch (q) {
+  case GG_Q_TEMPERATURE:
+  case GG_Q_ROTATIONAL_TEMPERATURE:
+  case GG_Q_PRESSURE:
+  case GG_Q_SHEAR_VISCOSITY:
+  case GG_Q_COLLISION_RATE: return 1;
+  case GG_Q_COOLING_RATE: return -1;
+  default: return 0;
+  }
+}
+
+/* Each writes its sentence and returns true where it applies to this difference. */
+typedef bool cause(const difference *d, char *text, size_t size);
+
+static bool not_steady(const difference *d, char *text, size_t size)
+{
+  if (d->md->steadiness != GG_NOT_STEADY) return false;
+  snprintf(text, size, "md has no steady mean: %s", d->md->steadiness_text);
+  return true;
+}
+
+static bool structured(const difference *d, char *text, size_t size)
+{
+  char what[240];
+  if (!gg_run_structure(d->md, what, sizeof what)) return false;
+  snprintf(text, size, "%s; a Monte Carlo ensemble stays homogeneous", what);
+  return true;
+}
+
+/* Results of versions that did not measure waves. */
+static bool may_be_structured(const difference *d, char *text, size_t size)
+{
+  const gg_model *m = d->model;
+  const double L = gg_theory_clustering_length(m), edge = fmax(m->box[0], fmax(m->box[1], m->box[2]));
+  if (has_waves(d->md) || !(edge > (m->shear_rate != 0 ? 3 : 1) * L)) return false;
+  snprintf(
+      text, size,
+      "the box, %.3g d, is longer than the length above which this gas forms clusters or vortices, %.3g d; a Monte "
+      "Carlo ensemble stays homogeneous",
+      edge, L);
+  return true;
+}
+
+/* Collisions without loss leave more energy; a share of them cannot change it many times over. */
+static bool treated(const difference *d, char *text, size_t size)
+{
+  const gg_engine_state *s = &d->md->engine_state;
+  const double share = s->collisions ? (double)s->treated / (double)s->collisions : 0;
+  if (!(share > 1e-3 && d->by * follows_energy(d->q) > 0 && fabs(d->by) < 10 * share)) return false;
+  snprintf(text, size, "%.2g %% of md's collisions fell under the contact-time rule and lost no energy", 100 * share);
+  return true;
+}
+
+static bool number_of_grains(const difference *d, char *text, size_t size)
+{
+  const gg_model *m = d->model;
+  if (!(m->shear_rate != 0 && m->phi > 0.01 && m->phi <= 0.3 && follows_energy(d->q) > 0 && d->by > 0 && d->by < 0.4))
+    return false;
+  snprintf(
+      text, size,
+      "number of grains, %lld here (default %lld): md's T rises from 200 grains to 8000 by a few per cent, at phi = "
+      "0.1 and e = 0.7 by a fifth or more; compare at equal numbers",
+      (long long)m->n, (long long)gg_scene_defaults().particles);
+  return true;
+}
+
+static bool hot_spins(const difference *d, char *text, size_t size)
+{
+  const gg_model *m = d->model;
+  if (!(m->rule == GG_ROUGH && d->q == GG_Q_TEMPERATURE_RATIO && m->phi > 0.05 && d->by > 0 && d->by < 0.2))
+    return false;
+  snprintf(text, size,
+           "rough grains: velocities and spins are correlated, so that theta/T in md lies above Enskog's, by some 9 %% "
+           "at phi = 0.3 and beta = 0");
+  return true;
+}
+
+static bool correlated(const difference *d, char *text, size_t size)
+{
+  const gg_model *m = d->model;
+  const bool dense = m->phi > 0.3, moderate = m->phi > 0.05 && !m->elastic && fabs(d->by) < 0.3;
+  if (!dense && !moderate) return false;
+  snprintf(text, size,
+           "velocities of neighbours are correlated before they collide, which Enskog's equation leaves out; the more "
+           "so the denser and the more dissipative the gas");
+  return true;
+}
+
+static cause *const causes_known[] = {not_steady,       structured, may_be_structured, treated,
+                                      number_of_grains, hot_spins,  correlated};
+
+static const char unknown[] = "no known cause";
+
+/* Relative, or as it is. */
+static double size_of(const gg_comparison *c, gg_quantity q)
+{
+  gg_reference reference;
+  const gg_estimate *md = &c->by_engine[GG_MD]->value[q];
+  if (!gg_run_reference_find(c, gg_run_rows_at(&c->rows, q), &reference)) return NAN;
+  const gg_departure d = gg_run_reference_deviation(q, md, &reference.value);
+  return isfinite(d.deviation) ? d.deviation : d.difference;
+}
+
+static int add(gg_causes *causes, const char *text)
+{
+  for (int i = 0; i < causes->n; i++)
+    if (strcmp(causes->text[i], text) == 0) return 1;
+  if (causes->n < GG_MOST_CAUSES) snprintf(causes->text[causes->n++], sizeof *causes->text, "%s", text);
+  return 1;
+}
+
+/* How many of the known causes apply. */
+static int add_known(const gg_comparison *c, gg_quantity q, gg_causes *causes)
+{
+  const difference d = {&c->model, c->by_engine[GG_MD], q, size_of(c, q)};
+  int n = 0;
+  for (size_t i = 0; i < sizeof causes_known / sizeof *causes_known; i++) {
+    char text[sizeof *causes->text];
+    if (causes_known[i](&d, text, sizeof text)) n += add(causes, text);
+  }
+  return n;
+}
+
+void gg_run_causes_of(const gg_comparison *c, gg_quantity q, gg_causes *causes)
+{
+  causes->n = 0;
+  if (gg_run_results_disagree(c, q) && add_known(c, q, causes) == 0) add(causes, unknown);
+}
+
+void gg_run_causes_find(const gg_comparison *c, gg_causes *causes)
+{
+  char none[sizeof *causes->text - 40] = "";
+  causes->n = 0;
+  for (int i = 0; i < c->rows.n; i++) {
+    const gg_quantity_row *row = &c->rows.row[i];
+    if (!gg_run_results_disagree(c, row->quantity) || add_known(c, row->quantity, causes)) continue;
+    gg_base_text_append(none, sizeof none, "%s%s", *none ? ", " : "", row->name);
+  }
+  if (!*none) return;
+  char text[sizeof *causes->text];
+  snprintf(text, sizeof text, "%s of the difference in %s", unknown, none);
+  add(causes, text);
+}

@@ -1,0 +1,28 @@
+/* Why md differs from Enskog's equation by more than expected, told from what a run measured. A cause is given to a
+ * difference only where it can have this sign and this size. */
+#ifndef GG_CAUSES_H
+#define GG_CAUSES_H
+
+#include "common/model.h"
+#include "run/result.h"
+
+struct gg_comparison;
+
+enum { GG_MOST_CAUSES = 8 };
+typedef struct gg_causes { /* a sentence each */
+  int n;
+  char text[GG_MOST_CAUSES][320];
+} gg_causes;
+
+/* Of one quantity that is marked (gg_run_results_disagree): at least one sentence, if only that no cause is known; of
+ * another quantity none. */
+void gg_run_causes_of(const struct gg_comparison *comparison, gg_quantity q, gg_causes *causes);
+
+/* Of all that are marked, each sentence once; the last names those without a known cause. None where nothing is marked.
+ */
+void gg_run_causes_find(const struct gg_comparison *comparison, gg_causes *causes);
+
+/* "the grains have clustered: ..."; false where the gas is homogeneous, or nothing tells. Returns text. */
+bool gg_run_structure(const gg_result *result, char *text, size_t size);
+
+#endif
