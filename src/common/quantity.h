@@ -171,13 +171,15 @@ enum {
   ONE(VISCOSITY_REDUCED_KINETIC, "viscosity_reduced_kinetic", "η*^k", "", NONE, GG_REDUCED_VISCOSITY,                  \
       "nu_0 eta_k/(n T): kinetic part of viscosity_reduced", "\\eta^{*k} = \\frac{\\nu_0\\,\\eta^k}{nT}")              \
   ONE(DENSITY_WAVES, "density_waves", "S_L", "", NONE, GG_NEEDS_BOX | GG_NEEDS_NO_WALLS | GG_KEPT_HEATING,             \
-      "|sum d^3 exp(ikr)|^2/(S_e sum d^6): density waves of the box's length, |k| = 2 pi/L, over those of elastic "    \
-      "spheres; 1 in a homogeneous gas, more where grains cluster",                                                    \
-      "\\frac{\\lvert\\sum d^3\\,e^{i k r}\\rvert^2}{S_e\\sum d^6}")                                                   \
+      "<|sum d^3 exp(ikr)|^2>/(S_e sum d^6): density waves as long as the box and half of it, k = 2 pi/L and 4 pi/L, " \
+      "over "                                                                                                          \
+      "those of elastic spheres; near 1 in a homogeneous gas, more where grains cluster",                              \
+      "\\frac{\\langle\\lvert\\sum d^3\\,e^{i k r}\\rvert^2\\rangle}{S_e\\sum d^6}")                                   \
   ONE(MOMENTUM_WAVES, "momentum_waves", "M_L", "", NONE, GG_NEEDS_BOX | GG_NEEDS_NO_WALLS | GG_KEPT_HEATING,           \
-      "|sum m C_t exp(ikr)|^2/sum (m C_t)^2: shear waves of the box's length, |k| = 2 pi/L, C_t across k; 1 in a "     \
-      "homogeneous elastic gas, more where it swirls",                                                                 \
-      "\\frac{\\lvert\\sum m C_t\\,e^{i k r}\\rvert^2}{\\sum (m C_t)^2}")                                              \
+      "<|sum m C_t exp(ikr)|^2>/sum (m C_t)^2: shear waves as long as the box and half of it, k = 2 pi/L and 4 pi/L, " \
+      "C_t "                                                                                                           \
+      "across k; near 1 in a homogeneous gas, more where it swirls",                                                   \
+      "\\frac{\\langle\\lvert\\sum m C_t\\,e^{i k r}\\rvert^2\\rangle}{\\sum (m C_t)^2}")                              \
   ONE(CLUSTERING_LENGTH, "clustering_length", "L_c", "", LENGTH, GG_NEEDS_THEORY,                                      \
       "2 pi sqrt(2 eta/(n m zeta)): box length above which a cooling gas forms vortices and clusters",                 \
       "L_c = 2\\pi\\sqrt{\\frac{2\\eta}{n m \\zeta}}")                                                                 \

@@ -36,7 +36,7 @@ static double elastic_structure(double phi)
 }
 
 /* |sum x exp(ikr)|^2 of matter and of each component of momentum. */
-static void power_along(const gg_wave_slab slab[GG_WAVE_SLABS], const double phase[2][GG_WAVE_SLABS], double power[4])
+static void power_along(const gg_wave_slab slab[GG_WAVE_SLABS], double phase[2][GG_WAVE_SLABS], double power[4])
 {
   double sum[2][4] = {{0}};
   for (int part = 0; part < 2; part++)
@@ -49,14 +49,17 @@ static void power_along(const gg_wave_slab slab[GG_WAVE_SLABS], const double pha
 
 void gg_measure_long_waves_finish(const gg_long_waves *w, const gg_model *m, double *density, double *momentum)
 {
-  const double angle = 2 * M_PI / GG_WAVE_SLABS, shared = sin(angle / 2) / (angle / 2), kept = pow(shared, 4);
-  double phase[2][GG_WAVE_SLABS], power[4];
-  for (int k = 0; k < GG_WAVE_SLABS; k++) phase[0][k] = cos(angle * k), phase[1][k] = sin(angle * k);
+  const double each = 1.0 / (3 * GG_LONG_WAVES), matter = w->matter_squares * elastic_structure(m->phi);
   *density = *momentum = 0;
-  for (int a = 0; a < 3; a++) {
-    power_along(w->slab[a], phase, power);
-    *density += power[3] / (3 * kept * w->matter_squares * elastic_structure(m->phi));
-    for (int b = 0; b < 3; b++)
-      if (b != a) *momentum += power[b] / (6 * kept * w->squares[b]);
+  for (int wave = 1; wave <= GG_LONG_WAVES; wave++) {
+    const double angle = 2 * M_PI * wave / GG_WAVE_SLABS, shared = sin(angle / 2) / (angle / 2), kept = pow(shared, 4);
+    double phase[2][GG_WAVE_SLABS], power[4];
+    for (int k = 0; k < GG_WAVE_SLABS; k++) phase[0][k] = cos(angle * k), phase[1][k] = sin(angle * k);
+    for (int a = 0; a < 3; a++) {
+      power_along(w->slab[a], phase, power);
+      *density += each * power[3] / (kept * matter);
+      for (int b = 0; b < 3; b++)
+        if (b != a) *momentum += each / 2 * power[b] / (kept * w->squares[b]);
+    }
   }
 }

@@ -9,7 +9,8 @@
 #include "run/z_scores.h"
 #include "theory/goldhirsch_zanetti1993.h"
 
-/* Waves of a homogeneous gas near its instability may be a few times those of an elastic one. */
+/* Waves of a homogeneous gas near its instability may be a few times those of an elastic one: sheared, e = 0.5, 1000
+ * grains, three times. */
 #define STRUCTURED 4.0
 
 static bool is_raised(const gg_estimate *waves)
