@@ -43,12 +43,14 @@ bool gg_run_structure(const gg_result *r, char *text, size_t size)
   return true;
 }
 
-/* What is to be explained. */
+/* What is to be explained. Of a gas that has structure that is the cause, and what holds in homogeneous ones is left.
+ */
 typedef struct difference {
   const gg_model *model;
   const gg_result *md;
   gg_quantity q;
-  double by; /* relative; of what lies about zero the difference itself */
+  bool homogeneous; /* as far as is known */
+  double by;        /* relative; of what lies about zero the difference itself */
 } difference;
 
 /* Does it grow with the energy of the grains (1), fall (-1), or neither (0)? */
@@ -79,7 +81,8 @@ static bool structured(const difference *d, char *text, size_t size)
 {
   char what[240];
   if (!gg_run_structure(d->md, what, sizeof what)) return false;
-  snprintf(text, size, "%s; a Monte Carlo ensemble stays homogeneous", what);
+  snprintf(text, size, "%s; %lld grains, default %lld; a Monte Carlo ensemble stays homogeneous", what,
+           (long long)d->model->n, (long long)gg_scene_defaults().particles);
   return true;
 }
 
@@ -110,7 +113,8 @@ static bool treated(const difference *d, char *text, size_t size)
 static bool number_of_grains(const difference *d, char *text, size_t size)
 {
   const gg_model *m = d->model;
-  if (!(m->shear_rate != 0 && m->phi > 0.01 && m->phi <= 0.3 && follows_energy(d->q) > 0 && d->by > 0 && d->by < 0.4))
+  if (!(d->homogeneous && m->shear_rate != 0 && m->phi > 0.01 && m->phi <= 0.3 && follows_energy(d->q) > 0 &&
+        d->by > 0 && d->by < 0.4))
     return false;
   snprintf(
       text, size,
@@ -123,7 +127,8 @@ static bool number_of_grains(const difference *d, char *text, size_t size)
 static bool hot_spins(const difference *d, char *text, size_t size)
 {
   const gg_model *m = d->model;
-  if (!(m->rule == GG_ROUGH && d->q == GG_Q_TEMPERATURE_RATIO && m->phi > 0.05 && d->by > 0 && d->by < 0.2))
+  if (!(d->homogeneous && m->rule == GG_ROUGH && d->q == GG_Q_TEMPERATURE_RATIO && m->phi > 0.05 && d->by > 0 &&
+        d->by < 0.2))
     return false;
   snprintf(text, size,
            "rough grains: velocities and spins are correlated, so that theta/T in md lies above Enskog's, by some 9 %% "
@@ -135,7 +140,7 @@ static bool correlated(const difference *d, char *text, size_t size)
 {
   const gg_model *m = d->model;
   const bool dense = m->phi > 0.3, moderate = m->phi > 0.05 && !m->elastic && fabs(d->by) < 0.3;
-  if (!dense && !moderate) return false;
+  if (!d->homogeneous || (!dense && !moderate)) return false;
   snprintf(text, size,
            "velocities of neighbours are correlated before they collide, which Enskog's equation leaves out; the more "
            "so the denser and the more dissipative the gas");
@@ -157,6 +162,7 @@ static double size_of(const gg_comparison *c, gg_quantity q)
   return isfinite(d.deviation) ? d.deviation : d.difference;
 }
 
+/* 1: one more applies, said before or not. */
 static int add(gg_causes *causes, const char *text)
 {
   for (int i = 0; i < causes->n; i++)
@@ -168,12 +174,12 @@ static int add(gg_causes *causes, const char *text)
 /* How many of the known causes apply. */
 static int add_known(const gg_comparison *c, gg_quantity q, gg_causes *causes)
 {
-  const difference d = {&c->model, c->by_engine[GG_MD], q, size_of(c, q)};
+  char text[sizeof *causes->text];
+  const gg_result *md = c->by_engine[GG_MD];
+  const difference d = {&c->model, md, q, !gg_run_structure(md, text, sizeof text), size_of(c, q)};
   int n = 0;
-  for (size_t i = 0; i < sizeof causes_known / sizeof *causes_known; i++) {
-    char text[sizeof *causes->text];
+  for (size_t i = 0; i < sizeof causes_known / sizeof *causes_known; i++)
     if (causes_known[i](&d, text, sizeof text)) n += add(causes, text);
-  }
   return n;
 }
 
