@@ -13,6 +13,7 @@
 #include "files/text_format.h"
 #include "run/cost_estimate.h"
 #include "scene/scene_reader.h"
+#include "theory/goldhirsch_zanetti1993.h"
 
 gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *err)
 {
@@ -173,6 +174,8 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
     snprintf(text, sizeof text, "size of the ensemble: %s", chosen);
     line(context, text);
   }
+  char stable[200];
+  if (gg_theory_stable_size(&model, stable, sizeof stable)) line(context, stable);
   gg_cost_estimate cost = gg_run_cost_estimate(&finished, &model, kind);
   gg_run_cost_report(&cost, finished.run.replicas, line, context);
   gg_common_extension_release(held);

@@ -5,6 +5,7 @@
 #include "theory/goldhirsch_zanetti1993.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "theory/answer.h"
 #include "theory/lun1991.h"
@@ -36,6 +37,19 @@ double gg_theory_clustering_length(const gg_model *m)
   if (m->elastic) return INFINITY;
   if (m->n_species > 1 || m->rule == GG_FRICTIONAL) return NAN;
   return 2 * M_PI * sqrt(2 * viscous_length2(*m));
+}
+
+bool gg_theory_stable_size(const gg_model *m, char *text, size_t size)
+{
+  const bool cools = gg_flow_cools(m->flow) || (gg_flow_is_heated(m->flow) && m->thermostat == GG_GAUSSIAN);
+  if (m->homogeneous || m->shear_rate != 0 || m->linear_response || !cools) return false;
+  const double length = gg_theory_clustering_length(m), edge = fmax(m->box[0], fmax(m->box[1], m->box[2]));
+  if (!isfinite(length)) return false;
+  const double grains = (double)m->n * pow(length / edge, 3), digits = pow(10, floor(log10(grains)) - 1);
+  snprintf(text, size, "homogeneity: the box is %.3g d long and stays homogeneous up to %.3g d%s, about %.0f grains%s",
+           edge, length, edge > length ? " only" : "", round(grains / digits) * digits,
+           edge > length ? ": vortices and clusters will grow" : "");
+  return true;
 }
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)

@@ -9,4 +9,9 @@
  */
 double gg_theory_clustering_length(const gg_model *model);
 
+/* "homogeneity: the box is 12 d long and stays homogeneous up to 8.5 d only, about 350 grains: ...", of a box that
+ * cools, or whose heat goes back by the Gaussian thermostat, which is the same gas in other units; false where it is
+ * not known. Returns text. */
+bool gg_theory_stable_size(const gg_model *model, char *text, size_t size);
+
 #endif

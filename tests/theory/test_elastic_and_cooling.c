@@ -167,6 +167,29 @@ static void critical_size(void **state)
   assert_true(isnan(gg_theory_clustering_length(&m)));
 }
 
+/* The number of grains of a box of that length; also under the Gaussian thermostat, not under noise or shear. */
+static void stable_size(void **state)
+{
+  (void)state;
+  char text[200], gaussian[200];
+  gg_model m = model_for(GG_HCS, 0.3, 0.7, -1);
+  m.n = 1000, m.homogeneous = false;
+  m.box[0] = m.box[1] = m.box[2] = gg_theory_clustering_length(&m) / 0.7;
+  assert_true(gg_theory_stable_size(&m, text, sizeof text));
+  assert_non_null(strstr(text, "only, about 340 grains")); /* 0.7^3 = 0.343 */
+  m.flow = GG_HSS, m.thermostat = GG_GAUSSIAN;
+  assert_true(gg_theory_stable_size(&m, gaussian, sizeof gaussian));
+  assert_string_equal(gaussian, text);
+  m.thermostat = GG_WHITE_NOISE;
+  assert_false(gg_theory_stable_size(&m, text, sizeof text));
+  m.flow = GG_HCS, m.thermostat = GG_NO_THERMOSTAT, m.homogeneous = true;
+  assert_false(gg_theory_stable_size(&m, text, sizeof text));
+  m.homogeneous = false, m.box[0] = m.box[1] = m.box[2] = gg_theory_clustering_length(&m) / 2;
+  assert_true(gg_theory_stable_size(&m, text, sizeof text));
+  assert_non_null(strstr(text, "about 8000 grains"));
+  assert_null(strstr(text, "will grow"));
+}
+
 /* Nearly elastic, perfectly rough, dilute: Pidduck's viscosity, and zeta = nu (1-e^2)/6, translation and rotation
  * sharing the loss. */
 static void critical_size_of_rough_grains(void **state)
@@ -191,6 +214,7 @@ int main(void)
       cmocka_unit_test(viscosity_of_a_mixture),
       cmocka_unit_test(haff_law),
       cmocka_unit_test(critical_size),
+      cmocka_unit_test(stable_size),
       cmocka_unit_test(critical_size_of_rough_grains),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
