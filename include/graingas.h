@@ -720,6 +720,20 @@ GG_API gg_status gg_result_get(const gg_result *result, const char *quantity, do
 GG_API gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measurement *found, gg_error *err);
 
 /**
+ * Covariance of two means of a result (also of one engine of a comparison), from the blocks that their errors come
+ * from: that of a quantity with itself is its error squared. Means of different runs are independent.
+ * @param result the result
+ * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
+ * @param other name of a quantity; may be the same
+ * @param covariance receives the covariance, in the product of the units of both; NaN, also on failure, if there is
+ * none
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT for an unknown name, or with the reason why there is no covariance
+ */
+GG_API gg_status gg_result_covariance(const gg_result *result, const char *quantity, const char *other,
+                                      double *covariance, gg_error *err);
+
+/**
  * The i-th quantity of a result: for (i = 0; gg_result_at(result, i, &m, NULL) == GG_OK; i++).
  * @param result the result
  * @param i index from 0

@@ -61,6 +61,22 @@ gg_status gg_result_get(const gg_result *result, const char *quantity, double *m
   return GG_OK;
 }
 
+gg_status gg_result_covariance(const gg_result *result, const char *quantity, const char *other, double *covariance,
+                               gg_error *err)
+{
+  GG_NEED(covariance);
+  *covariance = NAN;
+  GG_NEED(result, quantity, other);
+  const gg_quantity_row *one, *second;
+  const char *why;
+  GG_TRY(find(result, quantity, &one, err));
+  GG_TRY(find(result, other, &second, err));
+  *covariance = gg_run_result_covariance(result, one->quantity, second->quantity, &why);
+  if (!why) return GG_OK;
+  return gg_base_fail(err, GG_BAD_INPUT, "the covariance of '%s' and '%s' cannot be had here: %s", quantity, other,
+                      why);
+}
+
 const char *gg_result_unit(const gg_result *result, const char *quantity)
 {
   gg_measurement m;
@@ -184,8 +200,7 @@ gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_er
   const gg_frame *f = &result->final;
   if (!f->velocity) return gg_base_fail(err, GG_BAD_INPUT, "this result holds no grains");
   if (into->position && !f->position)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s is spatially homogeneous: it has no positions",
-                        result->engine);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s is spatially homogeneous: it has no positions", result->engine);
   for (size_t i = 0; i < f->n; i++) {
     size_t place = f->id ? (size_t)f->id[i] : i;
     if (into->species) into->species[place] = f->species ? f->species[i] : 0;

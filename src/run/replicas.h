@@ -128,6 +128,12 @@ gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *converge
 /* Mean of one quantity over the window of all replicas; NaN if no observable here has it. */
 gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err);
 
+/* Means of the linear response of a quantity that has a mean, over blocks of so many rows (statistics/estimator.h). */
+gg_status gg_run_replicas_blocks(const gg_replicas *all, gg_quantity q, size_t length, double *blocks, gg_error *err);
+
+/* correlations.c: of the quantities in result->correlations, whose errors are known. */
+gg_status gg_run_replicas_correlations(const gg_replicas *all, gg_result *result, gg_error *err);
+
 /* slow_modes.c: what slow_mode slowly across the gap between walls, over the window. */
 typedef struct gg_slow_modes {
   int mode;    /* the slowest that shifts results (measure/wall_modes.h); -1 without walls */

@@ -55,8 +55,10 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
     e->mean = m.mean, e->error = m.error;
     e->correlation_time = m.correlation_rows * row_length;
     e->samples = rows * s->per_row * (uint64_t)all->n;
+    if (!isfinite(m.error)) continue;
+    result->correlations.quantity[result->correlations.n++] = q;
   }
-  return GG_OK;
+  return gg_run_replicas_correlations(all, result, err);
 }
 
 /* How a row of the first observable (rheology, if it was asked for) gives a followed quantity; also one that decays, of

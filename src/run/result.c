@@ -69,6 +69,7 @@ void gg_run_result_label(gg_result *r)
 void gg_result_free(gg_result *result)
 {
   if (!result) return;
+  free(result->correlations.coefficient);
   free(result->history.time);
   for (int k = 0; k < GG_N_HISTORY; k++) free(result->history.value[k]);
   gg_measure_curves_clear(&result->curves);

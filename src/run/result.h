@@ -72,6 +72,18 @@ typedef struct gg_effort {
   double cpu_seconds, wall_seconds;
 } gg_effort;
 
+/* How the means of a run vary together. The covariance of two is their coefficient here times their errors, so that
+ * that of a mean with itself is its error squared. All coefficients come from the same blocks: no combination of means
+ * has a negative variance. */
+typedef struct gg_correlations {
+  size_t n; /* means with an error; 0: not known */
+  gg_quantity quantity[GG_MOST_QUANTITIES];
+  double *coefficient; /* n x n; 1 on the diagonal */
+} gg_correlations;
+
+/* Covariance of two means; NaN with the reason in *why (one of the result's texts, or a constant). */
+double gg_run_result_covariance(const gg_result *result, gg_quantity one, gg_quantity other, const char **why);
+
 struct gg_result {
   gg_scene scene; /* as run: overrides and seed included; holds its extension */
   gg_model model;
@@ -82,6 +94,7 @@ struct gg_result {
   char steadiness_text[256];             /* which quantity decided, and how */
   char ensemble_text[200];               /* why so many grains, where the program chose; else "" */
   gg_estimate value[GG_MOST_QUANTITIES]; /* those of the rows */
+  gg_correlations correlations;
   gg_history history;
   gg_curves curves;
   gg_frame final; /* the first replica's last state */

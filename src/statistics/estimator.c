@@ -50,8 +50,8 @@ static double small_sample(const gg_correlation *c, size_t blocks, size_t total)
   return 1 + fmax(1 / (double)(blocks - 1), 2.5 * c->slow / (double)total);
 }
 
-/* `memory`: as gg_statistics_correlation_of has it. */
-static gg_status estimate(const double *y, size_t n, size_t n_runs, double memory, gg_mean *out, gg_error *err)
+gg_status gg_statistics_estimate_made_of(const double *y, size_t n, size_t n_runs, double memory, gg_mean *out,
+                                         gg_error *err)
 {
   *out = (gg_mean){.mean = NAN, .error = NAN, .scatter = NAN, .correlation_rows = 0.5};
   size_t total = n * n_runs;
@@ -78,7 +78,7 @@ static gg_status estimate(const double *y, size_t n, size_t n_runs, double memor
 
 gg_status gg_statistics_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err)
 {
-  return estimate(y, n, n_runs, 0, out, err);
+  return gg_statistics_estimate_made_of(y, n, n_runs, 0, out, err);
 }
 
 static void channel_means(const gg_series *const *series, size_t n_runs, size_t begin, size_t end, size_t offset,
@@ -163,30 +163,64 @@ static gg_status memory_of_parts(const rows *a, const double *mean, const double
 #define SHARE_OF_SLOW 0.4
 #define DOUBT_OF_SLOW 2.5
 
+/* A function of channel means, and what its linear response takes. */
+typedef struct response {
+  rows of;
+  double value;
+  double *y, *mean, *df; /* y: a number a row; the two others follow it in one piece of memory */
+} response;
+
+static gg_status response_make(response *p, const rows *of, gg_function f, const gg_model *model, gg_error *err)
+{
+  size_t total = of->n * of->n_runs;
+  *p = (response){.of = *of, .y = gg_base_array_new(total + 2 * of->channels, sizeof(double), err)};
+  if (!p->y) return GG_FAILED;
+  p->mean = p->y + total, p->df = p->mean + of->channels;
+  channel_means(of->series, of->n_runs, of->begin, of->begin + of->n, of->offset, of->channels, p->mean);
+  p->value = gg_function_value(f, p->mean, model);
+  for (size_t k = 0; isfinite(p->value) && k < of->channels; k++) p->df[k] = slope(f, model, of, p->mean, k);
+  return GG_OK;
+}
+
+static void respond(response *p)
+{
+  memset(p->y, 0, p->of.n * p->of.n_runs * sizeof *p->y);
+  for (size_t k = 0; k < p->of.channels; k++) add_response(&p->of, k, p->mean, p->df, p->y);
+}
+
 gg_status gg_statistics_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end,
                                       size_t offset, size_t channels, gg_function f, const gg_model *model, double slow,
                                       gg_mean *out, gg_error *err)
 {
   *out = (gg_mean){.mean = NAN, .error = NAN, .scatter = NAN, .correlation_rows = 0.5};
   if (end <= begin) return GG_OK;
-  size_t n = end - begin, total = n * n_runs;
-  double *work = gg_base_array_new(total + 2 * channels, sizeof *work, err);
-  if (!work) return GG_FAILED;
-  double *y = work, *mean = work + total, *df = mean + channels;
-  channel_means(series, n_runs, begin, end, offset, channels, mean);
-  double value = gg_function_value(f, mean, model);
+  const rows a = {series, n_runs, begin, end - begin, offset, channels};
+  response p;
+  GG_TRY(response_make(&p, &a, f, model, err));
   gg_status status = GG_OK;
-  if (isfinite(value)) {
-    rows a = {series, n_runs, begin, n, offset, channels};
-    for (size_t k = 0; k < channels; k++) df[k] = slope(f, model, &a, mean, k);
+  if (isfinite(p.value)) {
     double memory;
-    status = memory_of_parts(&a, mean, df, y, &memory, err);
-    memset(y, 0, total * sizeof *y);
-    for (size_t k = 0; k < channels; k++) add_response(&a, k, mean, df, y);
-    if (status == GG_OK) status = estimate(y, n, n_runs, fmax(memory, SHARE_OF_SLOW * slow), out, err);
-    out->error *= 1 + DOUBT_OF_SLOW * slow / (double)total;
-    out->mean = value;
+    status = memory_of_parts(&a, p.mean, p.df, p.y, &memory, err);
+    respond(&p);
+    if (status == GG_OK)
+      status = gg_statistics_estimate_made_of(p.y, a.n, n_runs, fmax(memory, SHARE_OF_SLOW * slow), out, err);
+    out->error *= 1 + DOUBT_OF_SLOW * slow / (double)(a.n * n_runs);
+    out->mean = p.value;
   }
-  free(work);
+  free(p.y);
   return status;
+}
+
+gg_status gg_statistics_response_blocks(const gg_series *const *series, size_t n_runs, size_t begin, size_t end,
+                                        size_t offset, size_t channels, gg_function f, const gg_model *model,
+                                        size_t length, double *blocks, gg_error *err)
+{
+  if (end <= begin) return GG_OK;
+  const rows a = {series, n_runs, begin, end - begin, offset, channels};
+  response p;
+  GG_TRY(response_make(&p, &a, f, model, err));
+  respond(&p); /* without a value df is 0 */
+  block_means(p.y, a.n, n_runs, length, blocks);
+  free(p.y);
+  return GG_OK;
 }

@@ -45,7 +45,16 @@ gg_status gg_statistics_estimate_mean(const gg_series *const *series, size_t n_r
                                       size_t offset, size_t channels, gg_function f, const gg_model *model, double slow,
                                       gg_mean *out, gg_error *err);
 
-/* The same for a scalar series, n_runs stretches of n rows end to end. */
+/* Means of the linear response over blocks of `length` rows, n_runs floor((end - begin)/length) of them, about the mean
+ * of all rows: from them follows how two quantities of one window vary together. All 0 where f has no value. */
+gg_status gg_statistics_response_blocks(const gg_series *const *series, size_t n_runs, size_t begin, size_t end,
+                                        size_t offset, size_t channels, gg_function f, const gg_model *model,
+                                        size_t length, double *blocks, gg_error *err);
+
+/* gg_statistics_estimate_mean for a scalar series, n_runs stretches of n rows end to end. */
 gg_status gg_statistics_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err);
+/* Likewise for one that is made of a slower one, of this correlation time in rows (gg_statistics_correlation_of). */
+gg_status gg_statistics_estimate_made_of(const double *y, size_t n, size_t n_runs, double memory, gg_mean *out,
+                                         gg_error *err);
 
 #endif

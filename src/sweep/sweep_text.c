@@ -37,6 +37,7 @@ static void print_varied(FILE *out, const gg_varied *v)
 static char *text_of(const gg_sweep *sweep)
 {
   char *text = NULL;
+  const unsigned before = gg_base_memory_failures();
   FILE *out = gg_base_memory_stream_open(&text);
   json_t *given = given_json(&sweep->base);
   if (out && given) {
@@ -46,9 +47,8 @@ static char *text_of(const gg_sweep *sweep)
     for (size_t f = 0; f < sweep->n_varied; f++) print_varied(out, &sweep->varied[f]);
     gg_sweep_settings_print(out, &sweep->settings);
   }
-  bool whole = given != NULL;
   json_decref(given);
-  if (gg_base_memory_stream_close(out, &text) && whole) return text;
+  if (gg_base_memory_stream_close(out, &text) && gg_base_memory_failures() == before) return text;
   free(text);
   return NULL;
 }

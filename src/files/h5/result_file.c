@@ -91,6 +91,23 @@ static void write_estimate(gg_h5 *h, const char *group, const gg_quantity_row *r
   gg_h5_text_attribute(h, gg_h5_path(h, "%s/results/%s", group, row->name), "doc", row->doc);
 }
 
+/* A table, and the names of its rows, which are those of its columns, a line each. */
+static void write_correlations(gg_h5 *h, const char *group, const gg_result *r)
+{
+  const gg_correlations *c = &r->correlations;
+  const hsize_t size[] = {c->n, c->n};
+  char *names = NULL;
+  if (!c->n) return;
+  FILE *out = gg_base_memory_stream_open(&names);
+  for (size_t i = 0; out && i < c->n; i++) fprintf(out, "%s\n", gg_run_rows_at(&r->rows, c->quantity[i])->name);
+  gg_h5_array(h, gg_h5_path(h, "%s/correlations/coefficients", group), H5T_NATIVE_DOUBLE, 2, size, c->coefficient);
+  if (gg_base_memory_stream_close(out, &names))
+    gg_h5_text(h, gg_h5_path(h, "%s/correlations/quantities", group), names);
+  else
+    gg_h5_failed(h, "out of memory");
+  free(names);
+}
+
 static void write_effort(gg_h5 *h, const char *group, const char *name, const gg_effort *effort)
 {
   gg_h5_count(h, gg_h5_path(h, "%s/%s/collisions", group, name), effort->collisions);
@@ -191,6 +208,7 @@ static void write_engine(gg_h5 *h, const char *group, const char *observables, c
   gg_h5_group(h, gg_h5_path(h, "%s/results", group));
   for (int i = 0; i < r->rows.n; i++)
     if (gg_files_quantity_is_measured(&r->value[r->rows.row[i].quantity])) write_estimate(h, group, &r->rows.row[i], r);
+  write_correlations(h, group, r);
   gg_h5_text(h, gg_h5_path(h, "%s/engine", group), r->engine);
   const char *verdict = gg_h5_path(h, "%s/verdict", group);
   gg_h5_text(h, verdict, verdicts[r->steadiness]);

@@ -6,6 +6,8 @@
  *   /observables/<quantity>          step, time, value from the start of the run; compare: /observables/md_<quantity>
  *   /graingas                        version, command, machine, date, seed, scene (YAML), document (JSON), warnings
  *   /graingas/results/<quantity>     mean, stderr, unit, samples, correlation_time; compare: /graingas/md/results/...
+ *   /graingas/correlations           coefficients of means and their quantities, a line each; compare:
+ *                                    /graingas/md/correlations
  *   /graingas/curves/<name>          x, value, stderr, numbers/<what>/mean, stderr; units are attributes; compare:
  *                                    /graingas/md/curves/...
  *   /graingas/theory/<name>/<quantity>   mean, error where the theory is solved numerically, unit

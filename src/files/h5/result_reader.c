@@ -51,6 +51,16 @@ static void read_series(gg_h5_in *h, gg_stored_engine *e, const char *observable
   if (n_times < s->n) s->n = n_times;
 }
 
+static void read_correlations(gg_h5_in *h, gg_stored_engine *e, const char *group)
+{
+  char path[160];
+  snprintf(path, sizeof path, "%s/correlations/quantities", group);
+  if (!gg_h5_exists(h, path)) return;
+  e->correlated = gg_h5_read_text(h, path);
+  snprintf(path, sizeof path, "%s/correlations/coefficients", group);
+  e->coefficients = gg_h5_read_array(h, path, GG_ITEM_F64, &e->n_coefficients);
+}
+
 static void read_engine(gg_h5_in *h, gg_stored_engine *e, const char *group, const char *observables)
 {
   char path[160];
@@ -59,6 +69,7 @@ static void read_engine(gg_h5_in *h, gg_stored_engine *e, const char *group, con
   double *window = gg_h5_read_array(h, path, GG_ITEM_F64, &n);
   if (n == 2) memcpy(e->window, window, sizeof e->window);
   free(window);
+  read_correlations(h, e, group);
   for (int q = 0; q < GG_N_QUANTITIES; q++) read_series(h, e, observables, gg_common_quantity_name((gg_quantity)q));
 }
 
@@ -189,11 +200,14 @@ gg_status gg_files_stored_result_read(gg_stored_result *s, const char *path, gg_
 
 void gg_files_stored_result_clear(gg_stored_result *s)
 {
-  for (int k = 0; k < 2; k++)
+  for (int k = 0; k < 2; k++) {
+    free(s->engine[k].correlated);
+    free(s->engine[k].coefficients);
     for (int i = 0; i < s->engine[k].n_series; i++) {
       free(s->engine[k].series[i].time);
       free(s->engine[k].series[i].value);
     }
+  }
   free(s->version);
   free(s->command);
   free(s->machine);

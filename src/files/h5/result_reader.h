@@ -18,9 +18,12 @@ typedef struct gg_stored_series {
 enum { GG_MAX_STORED_SERIES = 16 };
 
 typedef struct gg_stored_engine {
-  const char *name; /* "md", "dsmc"; NULL: not in the file */
-  json_t *document; /* as `run` prints it; owned by the result's document */
-  double window[2]; /* averaging from .. to */
+  const char *name;     /* "md", "dsmc"; NULL: not in the file */
+  json_t *document;     /* as `run` prints it; owned by the result's document */
+  double window[2];     /* averaging from .. to */
+  char *correlated;     /* names of quantities, a line each; NULL: an older version wrote the file */
+  double *coefficients; /* correlation coefficients of their means, n_coefficients = number of names squared */
+  size_t n_coefficients;
   int n_series;
   gg_stored_series series[GG_MAX_STORED_SERIES];
 } gg_stored_engine;

@@ -122,6 +122,41 @@ static void restore_means(gg_result *r, const json_t *document)
   }
 }
 
+/* Where the quantities of a result stand among the stored names; returns how many names there are. */
+static size_t find_correlated(const gg_result *r, const char *names, gg_correlations *c, size_t *place)
+{
+  size_t at = 0;
+  for (char name[64]; *names; at++) {
+    size_t length = strcspn(names, "\n");
+    snprintf(name, sizeof name, "%.*s", (int)length, names);
+    names += length + (names[length] == '\n');
+    const gg_quantity_row *row = gg_run_rows_find(&r->rows, name);
+    if (!row || c->n == GG_MOST_QUANTITIES || isnan(r->value[row->quantity].error)) continue;
+    place[c->n] = at, c->quantity[c->n++] = row->quantity;
+  }
+  return at;
+}
+
+static gg_status restore_correlations(gg_result *r, const gg_stored_engine *e, gg_error *err)
+{
+  gg_correlations *c = &r->correlations;
+  size_t place[GG_MOST_QUANTITIES];
+  if (!e->correlated) return GG_OK;
+  const size_t n = find_correlated(r, e->correlated, c, place);
+  if (!e->coefficients || n * n != e->n_coefficients)
+    return gg_base_fail(err, GG_BAD_FILE, "the stored correlations are not those of %zu quantities", n);
+  c->coefficient = gg_base_array_new(c->n * c->n, sizeof *c->coefficient, err);
+  if (!c->coefficient) return GG_FAILED;
+  for (size_t i = 0; i < c->n; i++)
+    for (size_t j = 0; j < c->n; j++) {
+      const double stored = e->coefficients[place[i] * n + place[j]];
+      if (!(fabs(stored) <= 1))
+        return gg_base_fail(err, GG_BAD_FILE, "a stored correlation coefficient is not from -1 to 1");
+      c->coefficient[i * c->n + j] = stored;
+    }
+  return GG_OK;
+}
+
 static double *copy_of(const double *from, size_t n, gg_error *err)
 {
   double *to = gg_base_array_new(n, sizeof *to, err);
@@ -217,6 +252,7 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
   snprintf(r->ensemble_text, sizeof r->ensemble_text, "%s", chosen ? chosen : "");
   restore_warnings(r, e->document);
   restore_means(r, e->document);
+  GG_TRY(restore_correlations(r, e, err));
   restore_effort(r, e->document);
   GG_TRY(restore_history(r, e, err));
   r->curves.model = &r->model;
