@@ -156,6 +156,28 @@ def about_flow(store, window):
     return C, W
 
 
+def long_waves(store, flow):
+    """Of every sample, as of the last one of which the number is divisible by ten: waves of solid fraction over those of
+    elastic spheres (Carnahan & Starling), and of momentum across the wave."""
+    matter, momentum = np.zeros(len(store.time)), np.zeros(len(store.time))
+    volume = d[store.species] ** 3
+    p = m[store.species][:, None] * store.velocity
+    structure = (1 - PHI) ** 4 / ((1 + 2 * PHI) ** 2 + PHI ** 3 * (PHI - 4))
+    for axis in range(3):
+        for wave in 1, 2:
+            place = 16 * store.position[..., axis] / box_of(store, flow)[axis]
+            left, step = np.exp(2j * np.pi * wave * np.floor(place) / 16), np.exp(2j * np.pi * wave / 16)
+            phase = left * (1 + place % 1 * (step - 1)) / np.sinc(wave / 16) ** 2  # on straight lines between 16 points
+            matter += np.abs((volume * phase).sum(1)) ** 2 / (6 * structure * (volume ** 2).sum())
+            for across in {0, 1, 2} - {axis}:
+                momentum += np.abs((p[..., across] * phase).sum(1)) ** 2 / (12 * (p[..., across] ** 2).sum(1))
+    held = np.zeros(len(matter), int)
+    for r in set(store.replica):
+        rows = np.where(store.replica == r)[0]
+        held[rows] = rows[np.maximum(np.arange(len(rows)) - np.arange(1, len(rows) + 1) % 10, 0)]  # the first has no row
+    return matter[held], momentum[held]
+
+
 def expected(store, flow, kind, replicas):
     """Means over window and replicas, from grains and collisions alone; ratios are ratios of means."""
     window = window_of(store, replicas)
@@ -212,6 +234,8 @@ def expected(store, flow, kind, replicas):
             c4 = mean(((C * C).sum(2) ** 2)[:, who[i]].mean(1) / unit ** 2) / (15 * (partial[i] / m[i]) ** 2)
             fluctuation = (shares ** 2).mean() / shares.mean() ** 2
             out[f"c_{i + 1}"] = 2 * (c4 / fluctuation * (3 * N - 1) / (3 * N - 3) - 1)
+    if not walled:
+        out["density_waves"], out["momentum_waves"] = map(mean, long_waves(store, flow))
     if rough:
         inertia = K * m * d * d / 4
         whole = [(1 - 1 / N) / (1 - 1 / w.sum()) for w in who]  # means of spins are those of a species
