@@ -24,10 +24,11 @@ class Estimate:
     tau           correlation time, in `tau_unit`; NaN: unknown
     samples       number of samples
     reason        why there is no mean; None if there is one
-    u             the same as an uncertainties.ufloat
+    u             the same as a number of uncertainties, correlated with other means of the run; where means
+                  nearly cancel, its error is larger than that of the operators below
 
-    + - * / and ** give estimates. Errors add up linearly: means of different runs are independent, an estimate is fully
-    correlated with itself. The error is NaN where it needs the covariance of two means that is not known.
+    + - * / and ** give estimates. Errors add up linearly: means of different runs are independent, those of one run have
+    a covariance. The error is NaN where that is not known, and where a sum of several means nearly cancels.
     """
 
     __slots__ = ("name", "mean", "error", "unit", "tau", "tau_unit", "samples", "reason", "symbol", "_source", "_terms")
@@ -48,7 +49,10 @@ class Estimate:
     @property
     def u(self):
         from uncertainties import ufloat
-        return ufloat(self.mean, self.error, tag=self.name or None)
+        if self._terms is not None:
+            return self.mean + sum(d * (e.u - e.mean) for d, e in self._terms.values() if d)
+        made = self._source._correlated(self.name) if self._source is not None else None
+        return made if made is not None else ufloat(self.mean, self.error, tag=self.name or None)
 
     def __float__(self):
         return float(self.mean)
@@ -128,9 +132,11 @@ def _unit(a, b, between):
 
 def _error(terms):
     """Standard error of a sum of derivative times estimate."""
-    variance = sum(d**2 * e.error**2 for d, e in terms if d)
+    variance = independent = sum(d**2 * e.error**2 for d, e in terms if d)
     for i, (d, a) in enumerate(terms):
         for f, b in terms[:i]:
             if d and f and a._source is not None and a._source is b._source:
                 variance += 2 * d * f * a._source._covariance(a.name, b.name)
-    return math.sqrt(variance) if variance >= 0 else (0.0 if variance > -1e-300 else math.nan)
+    if -1e-12 * independent <= variance < 0:  # rounding
+        return 0.0
+    return math.sqrt(variance) if variance >= 0 else math.nan

@@ -30,6 +30,7 @@ class Result(Mapping):
     def __init__(self, pointer, owner=None, scene=None):
         self._pointer = pointer if owner is not None else ffi.gc(pointer, lib.gg_result_free)
         self._owner, self._scene, self.partial = owner, scene, None
+        self._ufloats = None
 
     def find(self, quantity: str) -> Estimate:
         """Everything known about a quantity, also if it has no mean. Raises NotFound for an unknown name."""
@@ -60,11 +61,33 @@ class Result(Mapping):
 
     def _covariance(self, a, b):
         """Of two means; NaN: unknown."""
-        get = getattr(lib, "gg_result_covariance", None)
-        if get is None:
-            return math.nan
         found = ffi.new("double *")
-        return found[0] if get(self._pointer, a.encode(), b.encode(), found, ffi.NULL) == lib.GG_OK else math.nan
+        lib.gg_result_covariance(self._pointer, a.encode(), b.encode(), found, ffi.NULL)
+        return found[0]
+
+    def covariance(self, quantity: str, other: str) -> float:
+        """Covariance of two means. Raises NotFound or BadInput with the reason if there is none."""
+        found = ffi.new("double *")
+        look_up(lib.gg_result_covariance, self._pointer, encode(quantity, "quantity"), encode(other, "quantity"), found)
+        return found[0]
+
+    def _correlated(self, name):
+        """A mean as a number of uncertainties, correlated with the other means; None: its error is unknown. Pairs are
+        estimated one by one, so that their table may have small negative eigenvalues. Those are left out: what nearly cancels gets larger errors than Estimates give."""
+        if self._ufloats is None:
+            import numpy as np
+            from uncertainties import ufloat
+            known = [e for e in self.values() if not math.isnan(e.error)]
+            table = np.array([[self._covariance(a.name, b.name) for b in known] for a in known])
+            errors = np.array([e.error for e in known])
+            table = np.nan_to_num(table / np.where(errors > 0, errors, 1) / np.where(errors > 0, errors, 1)[:, None])
+            np.fill_diagonal(table, 1)
+            weights, vectors = np.linalg.eigh(table)
+            parts = vectors * np.sqrt(np.maximum(weights, 0))
+            parts *= (errors / np.linalg.norm(parts, axis=1))[:, None]
+            independent = [ufloat(0, 1) for _ in known]
+            self._ufloats = {e.name: e.mean + sum(x * z for x, z in zip(row, independent)) for e, row in zip(known, parts)}
+        return self._ufloats.get(name)
 
     @property
     def info(self) -> Record:

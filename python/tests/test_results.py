@@ -116,16 +116,30 @@ def test_estimates_by_hand():
 
 
 def test_estimates_of_one_run_are_correlated(comparison):
-    """Their covariance enters; unknown, the error is NaN and never that of independent numbers."""
+    """Covariances enter: p/(nT) from p and T has the error of its own series, as independent numbers five times that."""
     md = comparison.md
-    sum_of_parts = md["P_xx_kinetic"] + md["P_xx_collisional"]
-    independent = math.hypot(md["P_xx_kinetic"].error, md["P_xx_collisional"].error)
-    assert sum_of_parts.mean == pytest.approx(md["P_xx"].mean)
-    assert math.isnan(sum_of_parts.error) or abs(sum_of_parts.error / md["P_xx"].error - 1) < 0.2 != independent
+    p, T, ratio = md["pressure"], md["temperature"], md["compressibility_factor"]
+    ours = (p / T).error / (p / T).mean
+    assert ours == pytest.approx(ratio.error / ratio.mean, rel=0.4)
+    assert math.hypot(p.error / p.mean, T.error / T.mean) > 3 * ours
+    assert md.covariance("pressure", "pressure") == pytest.approx(p.error**2)
+    assert md.covariance("pressure", "temperature") == md.covariance("temperature", "pressure") > 0
+    assert (p - md["pressure"]).error == 0 and (p / T * T).error == pytest.approx(p.error)
+    expected = p.error**2 + T.error**2 + 2 * md.covariance("pressure", "temperature")
+    assert (p + T).error == pytest.approx(math.sqrt(expected))
+    of_both = p.error**2 + comparison.dsmc["pressure"].error**2
+    assert (p - comparison.dsmc["pressure"]).error == pytest.approx(math.sqrt(of_both))
+    with pytest.raises(gg.NotFound):
+        md.covariance("pressur", "temperature")
 
 
 def test_uncertainties(comparison):
     uncertainties = pytest.importorskip("uncertainties")
     u = comparison["temperature"].md.u
-    assert (u.n, u.s) == (comparison.md["temperature"].mean, comparison.md["temperature"].error)
+    assert (u.n, u.s) == pytest.approx((comparison.md["temperature"].mean, comparison.md["temperature"].error))
+    p, T = comparison.md["pressure"], comparison.md["temperature"]
+    independent = (p / T).mean * math.hypot(p.error / p.mean, T.error / T.mean)
+    assert 0.7 * (p / T).error < (p.u / T.u).s < 0.6 * independent and (p / T).u.s == pytest.approx((p.u / T.u).s)
+    assert (p.u - comparison.md["pressure"].u).s == 0
+    assert (p.u - comparison.dsmc["pressure"].u).s == pytest.approx((p - comparison.dsmc["pressure"]).error)
     assert isinstance(u, uncertainties.core.AffineScalarFunc)
