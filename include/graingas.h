@@ -500,6 +500,28 @@ GG_API gg_status gg_simulation_save(const gg_simulation *simulation, const char 
  */
 GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_simulation **simulation, gg_error *err);
 
+/**
+ * The file of a simulation as bytes in memory: what gg_simulation_save() writes.
+ * @param simulation the simulation
+ * @param bytes receives the bytes, to be freed with free()
+ * @param size receives their number
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
+GG_API gg_status gg_simulation_to_bytes(const gg_simulation *simulation, void **bytes, size_t *size, gg_error *err);
+
+/**
+ * A simulation from such bytes, or from those of a file that graingas wrote.
+ * @param bytes the bytes
+ * @param size their number
+ * @param scene as for gg_simulation_load(); may be NULL
+ * @param simulation receives the simulation, to be freed by gg_simulation_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE for bytes that are cut off or changed
+ */
+GG_API gg_status gg_simulation_from_bytes(const void *bytes, size_t size, const gg_scene *scene, gg_simulation **simulation,
+                                          gg_error *err);
+
 /* ---- More than one process ----
  * The replicas of runs and comparisons can be shared by several processes, on one machine or many. One of them, rank 0,
  * calls gg_run or gg_compare with `workers` among its options; each of the others calls gg_worker_run, and stays there.
@@ -883,6 +905,26 @@ GG_API gg_status gg_result_write(const gg_result *result, const char *path, gg_e
 GG_API gg_status gg_result_read(const char *path, gg_result **result, gg_error *err);
 
 /**
+ * The file of a result as bytes in memory: what gg_result_write() writes.
+ * @param result the result
+ * @param bytes receives the bytes, to be freed with free()
+ * @param size receives their number
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
+GG_API gg_status gg_result_to_bytes(const gg_result *result, void **bytes, size_t *size, gg_error *err);
+
+/**
+ * A result from such bytes, or from those of a file that graingas wrote.
+ * @param bytes the bytes
+ * @param size their number
+ * @param result receives the result, to be freed by gg_result_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE for bytes that are cut off or changed
+ */
+GG_API gg_status gg_result_from_bytes(const void *bytes, size_t size, gg_result **result, gg_error *err);
+
+/**
  * Free a result.
  * @param result may be NULL
  */
@@ -1190,6 +1232,26 @@ GG_API gg_status gg_comparison_write(const gg_comparison *comparison, const char
  * @return GG_OK; GG_BAD_FILE
  */
 GG_API gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err);
+
+/**
+ * The file of a comparison as bytes in memory: what gg_comparison_write() writes.
+ * @param comparison the comparison
+ * @param bytes receives the bytes, to be freed with free()
+ * @param size receives their number
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
+GG_API gg_status gg_comparison_to_bytes(const gg_comparison *comparison, void **bytes, size_t *size, gg_error *err);
+
+/**
+ * A comparison from such bytes, or from those of a file that graingas wrote.
+ * @param bytes the bytes
+ * @param size their number
+ * @param comparison receives the comparison, to be freed by gg_comparison_free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_FILE for bytes that are cut off or changed
+ */
+GG_API gg_status gg_comparison_from_bytes(const void *bytes, size_t size, gg_comparison **comparison, gg_error *err);
 
 /* ---- Sweeps: a scene, and keys of it that take other values from point to point ----
  * Results of a sweep are a folder with a file a point, FOLDER/NAME.h5: an ordinary result or comparison file, whose

@@ -9,7 +9,7 @@ from . import _c, tables
 from .curves import curves_of
 from .errors import NotFound, check, encode, lib, look_up, new_error, owned_text, text
 from .estimate import Estimate
-from .result import Result, file_bytes, from_bytes, iter_texts
+from .result import Result, from_bytes, iter_texts, to_bytes
 from .scene import Scene
 from .structs import Record, new, values
 
@@ -282,7 +282,7 @@ class Comparison(Mapping):
         return plot_comparison(self, quantities, ax)
 
     def __reduce__(self):
-        return _comparison_from_bytes, (file_bytes(self.write), self.partial)
+        return _comparison_from_bytes, (to_bytes(lib.gg_comparison_to_bytes, self._pointer), self.partial)
 
     __hash__ = object.__hash__
 
@@ -310,6 +310,6 @@ def read_comparison(path):
 
 
 def _comparison_from_bytes(content, partial):
-    comparison = from_bytes(read_comparison, content)
+    comparison = Comparison(from_bytes(lib.gg_comparison_from_bytes, "gg_comparison **", content))
     comparison.partial = partial
     return comparison

@@ -2,8 +2,6 @@
 from __future__ import annotations
 
 import math
-import os
-import tempfile
 from collections import namedtuple
 from collections.abc import Mapping
 
@@ -164,7 +162,7 @@ class Result(Mapping):
         return tables.as_html(self.scene.title, *self._table(), [self.partial] if self.partial else [])
 
     def __reduce__(self):
-        return _result_from_bytes, (file_bytes(self.write), self.partial)
+        return _result_from_bytes, (to_bytes(lib.gg_result_to_bytes, self._pointer), self.partial)
 
     __hash__ = object.__hash__
 
@@ -180,22 +178,21 @@ def iter_texts(get):
         i += 1
 
 
-def file_bytes(write):
-    """What write(path) writes, as bytes."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "x.h5")
-        write(path)
-        with open(path, "rb") as file:
-            return file.read()
+def to_bytes(function, pointer):
+    """What a gg_..._to_bytes gives."""
+    made, size = ffi.new("void **"), ffi.new("size_t *")
+    check(function, pointer, made, size)
+    try:
+        return bytes(ffi.buffer(made[0], size[0]))
+    finally:
+        lib.free(made[0])
 
 
-def from_bytes(read, content):
-    """read(path) of a file with this content."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "x.h5")
-        with open(path, "wb") as file:
-            file.write(content)
-        return read(path)
+def from_bytes(function, kind, content, *more):
+    """The handle that a gg_..._from_bytes makes."""
+    made = ffi.new(kind)
+    check(function, ffi.from_buffer(content), len(content), *more, made)
+    return made[0]
 
 
 def read_result(path):
@@ -205,6 +202,6 @@ def read_result(path):
 
 
 def _result_from_bytes(content, partial):
-    result = from_bytes(read_result, content)
+    result = Result(from_bytes(lib.gg_result_from_bytes, "gg_result **", content))
     result.partial = partial
     return result

@@ -9,7 +9,7 @@ from . import _c, calls
 from .errors import BadInput, check, encode, exception, lib, new_error, text
 from .grains import Grains, copy_grains, grains_from
 from .handles import Handle
-from .result import file_bytes, from_bytes
+from .result import from_bytes, to_bytes
 from .run import serving
 from .scene import Scene, as_scene
 from .structs import Record, array, dtype, new, values
@@ -273,7 +273,8 @@ class Simulation:
         return Simulation._from_pointer(made[0], self._scene)
 
     def __reduce__(self):
-        return _from_file, (file_bytes(self.save), self._scene)
+        with self._handle.held() as pointer:
+            return _from_bytes, (to_bytes(lib.gg_simulation_to_bytes, pointer), self._scene)
 
     def close(self) -> None:
         """Frees the memory; later uses raise BadInput."""
@@ -296,8 +297,10 @@ class Simulation:
                 f"{state.collisions} collisions>")
 
 
-def _from_file(content, scene):
-    return from_bytes(lambda path: Simulation.load(path, scene), content)
+def _from_bytes(content, scene):
+    with scene.held() as pointer:
+        made = from_bytes(lib.gg_simulation_from_bytes, "gg_simulation **", content, pointer)
+    return Simulation._from_pointer(made, scene)
 
 
 def species_of(function, pointer, n):

@@ -279,32 +279,69 @@ gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg
                           text, err);
 }
 
+/* The engine whose record a file has. */
+static gg_status first_of(const gg_comparison *c, const char *path, const gg_result **one, gg_error *err)
+{
+  *one = c->by_engine[GG_MD] ? c->by_engine[GG_MD] : c->by_engine[GG_DSMC];
+  return *one ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "%s: not written: nothing was simulated", path);
+}
+
 gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, gg_error *err)
 {
   GG_NEED(comparison, path);
   gg_result_file file;
-  const gg_result *md = comparison->by_engine[GG_MD], *one = md ? md : comparison->by_engine[GG_DSMC];
-  if (!one) return gg_base_fail(err, GG_BAD_INPUT, "%s: not written: nothing was simulated", path);
+  const gg_result *one;
+  GG_TRY(first_of(comparison, path, &one, err));
   if (comparison->of_one) return gg_result_write(one, path, err);
   GG_TRY(
       gg_files_result_file_open(&file, path, one->origin.command ? one->origin.command : "gg_comparison_write", err));
   return gg_files_result_file_finish_comparison(&file, comparison, err);
 }
 
-gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err)
+gg_status gg_comparison_to_bytes(const gg_comparison *comparison, void **bytes, size_t *size, gg_error *err)
 {
-  GG_NEED(path, comparison);
-  gg_stored_result stored;
-  gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
-  if (!c) return GG_FAILED;
-  locale_t before = gg_base_c_locale_enter();
-  gg_status status = gg_files_stored_result_read(&stored, path, err);
-  if (status == GG_OK) status = gg_files_comparison_restore(&stored, c, err);
-  gg_base_c_locale_leave(before);
-  gg_files_stored_result_clear(&stored);
+  GG_NEED(comparison, bytes, size);
+  gg_result_file file;
+  const gg_result *one;
+  GG_TRY(first_of(comparison, "the comparison", &one, err));
+  if (comparison->of_one) return gg_result_to_bytes(one, bytes, size, err);
+  gg_files_result_file_open_in_memory(&file, one->origin.command ? one->origin.command : "gg_comparison_to_bytes");
+  GG_TRY(gg_files_result_file_finish_comparison(&file, comparison, err));
+  *bytes = file.bytes, *size = file.size;
+  return GG_OK;
+}
+
+/* What was read, or why not. */
+static gg_status restore(gg_status status, gg_stored_result *stored, gg_comparison **comparison, gg_error *err)
+{
+  gg_comparison *c = status == GG_OK ? gg_base_array_new(1, sizeof *c, err) : NULL;
+  if (status == GG_OK) status = c ? gg_files_comparison_restore(stored, c, err) : GG_FAILED;
+  gg_files_stored_result_clear(stored);
   if (status == GG_OK)
     *comparison = c;
   else
     gg_comparison_free(c);
+  return status;
+}
+
+gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err)
+{
+  GG_NEED(path, comparison);
+  gg_stored_result stored;
+  locale_t before = gg_base_c_locale_enter();
+  gg_status status = gg_files_stored_result_read(&stored, path, err);
+  status = restore(status, &stored, comparison, err);
+  gg_base_c_locale_leave(before);
+  return status;
+}
+
+gg_status gg_comparison_from_bytes(const void *bytes, size_t size, gg_comparison **comparison, gg_error *err)
+{
+  GG_NEED(bytes, comparison);
+  gg_stored_result stored;
+  locale_t before = gg_base_c_locale_enter();
+  gg_status status = gg_files_stored_result_from_bytes(&stored, bytes, size, err);
+  status = restore(status, &stored, comparison, err);
+  gg_base_c_locale_leave(before);
   return status;
 }

@@ -228,6 +228,17 @@ gg_status gg_result_write(const gg_result *result, const char *path, gg_error *e
   return gg_files_result_file_finish_run(&file, result, err);
 }
 
+gg_status gg_result_to_bytes(const gg_result *result, void **bytes, size_t *size, gg_error *err)
+{
+  GG_NEED(result, bytes, size);
+  gg_result_file file;
+  gg_files_result_file_open_in_memory(&file,
+                                      result->origin.command ? result->origin.command : "gg_result_to_bytes");
+  GG_TRY(gg_files_result_file_finish_run(&file, result, err));
+  *bytes = file.bytes, *size = file.size;
+  return GG_OK;
+}
+
 static gg_status restore(const gg_stored_result *stored, const char *path, gg_result **result, gg_error *err)
 {
   if (stored->comparison)
@@ -242,6 +253,18 @@ gg_status gg_result_read(const char *path, gg_result **result, gg_error *err)
   locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_files_stored_result_read(&stored, path, err);
   if (status == GG_OK) status = restore(&stored, path, result, err);
+  gg_base_c_locale_leave(before);
+  gg_files_stored_result_clear(&stored);
+  return status;
+}
+
+gg_status gg_result_from_bytes(const void *bytes, size_t size, gg_result **result, gg_error *err)
+{
+  GG_NEED(bytes, result);
+  gg_stored_result stored;
+  locale_t before = gg_base_c_locale_enter();
+  gg_status status = gg_files_stored_result_from_bytes(&stored, bytes, size, err);
+  if (status == GG_OK) status = restore(&stored, "the bytes", result, err);
   gg_base_c_locale_leave(before);
   gg_files_stored_result_clear(&stored);
   return status;

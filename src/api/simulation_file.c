@@ -32,6 +32,19 @@ gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, 
   return status;
 }
 
+gg_status gg_simulation_to_bytes(const gg_simulation *simulation, void **bytes, size_t *size, gg_error *err)
+{
+  GG_NEED(simulation, bytes, size);
+  GG_USE_READING(simulation);
+  gg_archive archive = {0};
+  locale_t before = gg_base_c_locale_enter();
+  gg_status status = put_all(simulation, &archive, err);
+  if (status == GG_OK) status = gg_files_checkpoint_to_bytes(&archive, &simulation->scene, bytes, size, err);
+  gg_base_c_locale_leave(before);
+  gg_base_archive_clear(&archive);
+  return status;
+}
+
 static gg_status stored_scene(const gg_archive *a, const char *path, gg_scene *scene, gg_error *err)
 {
   const gg_item *yaml = gg_base_archive_find(a, "simulation/scene");
@@ -80,6 +93,17 @@ gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_simulat
   if (status == GG_OK && older)
     status = gg_base_fail(err, GG_BAD_FILE, "%s: is damaged or missing; the earlier one is intact: %s.1", path, path);
   if (status == GG_OK) status = load(&archive, path, scene, simulation, err);
+  gg_base_archive_clear(&archive);
+  return status;
+}
+
+gg_status gg_simulation_from_bytes(const void *bytes, size_t size, const gg_scene *scene, gg_simulation **simulation,
+                                   gg_error *err)
+{
+  GG_NEED(bytes, simulation);
+  gg_archive archive = {0};
+  gg_status status = gg_files_checkpoint_from_bytes(bytes, size, &archive, err);
+  if (status == GG_OK) status = load(&archive, "the bytes", scene, simulation, err);
   gg_base_archive_clear(&archive);
   return status;
 }

@@ -134,20 +134,44 @@ static gg_status read_item(gg_h5_in *h, size_t i, gg_archive *a, gg_error *err)
   return status;
 }
 
-static gg_status read_file(const char *path, bool any_build, gg_archive *a, gg_error *err)
+/* An open file, which is closed. */
+static gg_status read_all(gg_h5_in *in, const char *path, bool any_build, gg_archive *a, gg_error *err)
 {
-  gg_h5_in h;
   uint64_t n = 0;
   gg_status status = GG_OK;
-  gg_h5_open(&h, path);
-  if (!h.failed && !gg_h5_exists(&h, "/checkpoint")) gg_h5_in_failed(&h, "it is not a checkpoint of graingas");
-  gg_files_checkpoint_check_version(&h, any_build);
-  gg_h5_read_attribute(&h, "/checkpoint", "items", GG_ITEM_U64, &n);
-  for (uint64_t i = 0; i < n && status == GG_OK && !h.failed; i++) status = read_item(&h, i, a, err);
-  gg_h5_in_close(&h);
-  if (status == GG_OK) status = gg_h5_in_status(&h, path, err);
+  if (!in->failed && !gg_h5_exists(in, "/checkpoint")) gg_h5_in_failed(in, "it is not a checkpoint of graingas");
+  gg_files_checkpoint_check_version(in, any_build);
+  gg_h5_read_attribute(in, "/checkpoint", "items", GG_ITEM_U64, &n);
+  for (uint64_t i = 0; i < n && status == GG_OK && !in->failed; i++) status = read_item(in, i, a, err);
+  gg_h5_in_close(in);
+  if (status == GG_OK) status = gg_h5_in_status(in, path, err);
   if (status != GG_OK) gg_base_archive_clear(a);
   return status;
+}
+
+static gg_status read_file(const char *path, bool any_build, gg_archive *a, gg_error *err)
+{
+  gg_h5_in in;
+  gg_h5_open(&in, path);
+  return read_all(&in, path, any_build, a, err);
+}
+
+gg_status gg_files_checkpoint_from_bytes(const void *bytes, size_t size, gg_archive *a, gg_error *err)
+{
+  gg_h5_in in;
+  gg_h5_open_bytes(&in, bytes, size);
+  return read_all(&in, "the bytes", false, a, err);
+}
+
+gg_status gg_files_checkpoint_to_bytes(const gg_archive *a, const gg_scene *scene, void **bytes, size_t *size,
+                                       gg_error *err)
+{
+  size_t image_size = 0;
+  void *image = make_image("the simulation", a, scene, &image_size, err);
+  if (!image) return GG_FAILED;
+  if (!(image = gg_files_checksum_trailer_append(image, image_size, err))) return GG_FAILED;
+  *bytes = image, *size = image_size + GG_TRAILER_SIZE;
+  return GG_OK;
 }
 
 gg_status gg_files_checkpoint_read(const char *path, bool any_build, gg_archive *a, bool *older, gg_error *err)

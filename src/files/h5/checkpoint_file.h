@@ -33,6 +33,11 @@ bool gg_files_checkpoint_is_of(const char *file, const char *path);
  * another identity wrote them, unless any_build: of this layout they are readable, and their numbers may be others. */
 gg_status gg_files_checkpoint_read(const char *path, bool any_build, gg_archive *archive, bool *older, gg_error *err);
 
+/* A checkpoint as bytes, to be freed, and back: what its file would hold. */
+gg_status gg_files_checkpoint_to_bytes(const gg_archive *archive, const gg_scene *scene, void **bytes, size_t *size,
+                                       gg_error *err);
+gg_status gg_files_checkpoint_from_bytes(const void *bytes, size_t size, gg_archive *archive, gg_error *err);
+
 /* Fails the file, open, where a build of another layout wrote its checkpoint, or (unless any_build) of another
  * identity.
  */

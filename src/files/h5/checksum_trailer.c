@@ -10,6 +10,8 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include "base/memory.h"
+
 enum { BLOCK = GG_TRAILER_SMALL };
 static const char hdf5[8] = "\x89HDF\r\n\x1a\n", mark[8] = {'g', 'g', '-', 'c', 'r', 'c', '3', '2'};
 
@@ -42,6 +44,27 @@ gg_status gg_files_checksum_trailer_write(gg_atomic_file *file, const void *data
   gg_files_checksum_trailer_of(data, size, trailer);
   GG_TRY(gg_base_atomic_write(file, data, size, err));
   return gg_base_atomic_write(file, trailer, sizeof trailer, err);
+}
+
+void *gg_files_checksum_trailer_append(void *data, size_t size, gg_error *err)
+{
+  unsigned char *all = realloc(data, size + GG_TRAILER_SIZE);
+  if (all)
+    gg_files_checksum_trailer_of(all, size, all + size);
+  else
+    gg_base_out_of_memory(err), free(data);
+  return all;
+}
+
+const char *gg_files_checksum_trailer_check(const void *data, size_t size, uint64_t *before)
+{
+  unsigned char wanted[GG_TRAILER_SIZE];
+  if (size < GG_TRAILER_SIZE + sizeof hdf5 || memcmp(data, hdf5, sizeof hdf5) != 0)
+    return "they are no image of a file of graingas, or a damaged one";
+  *before = size - GG_TRAILER_SIZE;
+  gg_files_checksum_trailer_of(data, size - GG_TRAILER_SIZE, wanted);
+  const unsigned char *there = (const unsigned char *)data + *before;
+  return memcmp(there, wanted, sizeof wanted) == 0 ? NULL : "their checksum does not match: they are damaged";
 }
 
 /* Of the first `size` bytes. The block that they were read into, of as many if they are few, is left to be freed. */

@@ -92,7 +92,8 @@ static void open_file(gg_h5_in *in, const char *path, bool any)
   memset(in, 0, sizeof *in);
   in->fd = -1;
   errno = 0;
-  const char *broken = gg_files_checksum_trailer_open(path, &in->fd, &in->size, &in->whole, &in->changed);
+  const char *broken = gg_files_checksum_trailer_open(path, &in->fd, &in->size, &in->own, &in->changed);
+  in->whole = in->own;
   if (!broken && in->changed && !any) broken = cut_off;
   if (broken)
     gg_h5_in_failed(in, broken);
@@ -110,10 +111,23 @@ void gg_h5_open_any(gg_h5_in *in, const char *path)
   open_file(in, path, true);
 }
 
+void gg_h5_open_bytes(gg_h5_in *in, const void *bytes, size_t size)
+{
+  memset(in, 0, sizeof *in);
+  in->fd = -1;
+  errno = 0;
+  const char *broken = gg_files_checksum_trailer_check(bytes, size, &in->size);
+  in->whole = bytes;
+  if (broken)
+    gg_h5_in_failed(in, broken);
+  else
+    read_superblock(in);
+}
+
 void gg_h5_in_close(gg_h5_in *in)
 {
   if (in->fd >= 0) close(in->fd);
-  free(in->whole);
+  free(in->own);
   in->fd = -1;
-  in->whole = NULL;
+  in->whole = in->own = NULL;
 }

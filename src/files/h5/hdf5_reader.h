@@ -33,8 +33,9 @@ typedef struct gg_h5_in {
   uint64_t size, root;  /* of the HDF5 file; the header of its root group */
   bool failed, changed; /* changed: another program wrote it, so that it has no checksum */
   char why[256];
-  unsigned char *whole; /* all of it; NULL: it is too large for that */
-  uint64_t window_at;   /* what was read last of what is small */
+  const unsigned char *whole; /* all of it; NULL: it is too large for that */
+  unsigned char *own;         /* what of that is to be freed */
+  uint64_t window_at;         /* what was read last of what is small */
   size_t window_n;
   unsigned char window[GG_H5_WINDOW];
   gg_h5_trail trail;
@@ -44,6 +45,8 @@ typedef struct gg_h5_in {
 void gg_h5_open(gg_h5_in *in, const char *path);
 /* Also a file that ends without one: another program has changed it, if it is as long as its superblock says. */
 void gg_h5_open_any(gg_h5_in *in, const char *path);
+/* A file that is in memory, with its checksum; the bytes are borrowed. */
+void gg_h5_open_bytes(gg_h5_in *in, const void *bytes, size_t size);
 void gg_h5_in_close(gg_h5_in *in);
 /* GG_BAD_FILE "path: cannot be read: why" if anything failed. */
 gg_status gg_h5_in_status(const gg_h5_in *in, const char *path, gg_error *err);

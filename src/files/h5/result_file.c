@@ -259,6 +259,11 @@ gg_status gg_files_result_file_open(gg_result_file *f, const char *path, const c
   return gg_base_atomic_open(&f->file, path, err);
 }
 
+void gg_files_result_file_open_in_memory(gg_result_file *f, const char *command)
+{
+  *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command, .in_memory = true};
+}
+
 static void forget(gg_result_file *f)
 {
   gg_result_writer *w = f->now;
@@ -323,6 +328,13 @@ static gg_status append_trailer(gg_result_file *f, gg_error *err)
   return gg_base_atomic_write(&f->file, trailer, sizeof trailer, err);
 }
 
+static gg_status keep_bytes(gg_result_file *f, void *image, size_t size, gg_error *err)
+{
+  f->bytes = image ? gg_files_checksum_trailer_append(image, size, err) : NULL;
+  f->size = size + GG_TRAILER_SIZE;
+  return f->bytes ? GG_OK : GG_FAILED;
+}
+
 /* Close what was streamed, or write what was made in memory; then put it in place. */
 static gg_status finish(gg_result_file *f, gg_error *err)
 {
@@ -331,7 +343,12 @@ static gg_status finish(gg_result_file *f, gg_error *err)
   size_t size = 0;
   void *image = w->streaming ? NULL : gg_h5_image(&w->h, &size);
   gg_h5_close(&w->h);
-  gg_status status = gg_h5_status(&w->h, f->file.path, "written", err);
+  gg_status status = gg_h5_status(&w->h, f->in_memory ? "the result" : f->file.path, "written", err);
+  if (status == GG_OK && f->in_memory) {
+    status = keep_bytes(f, image, size, err);
+    forget(f);
+    return status;
+  }
   if (status == GG_OK)
     status = w->streaming ? append_trailer(f, err) : gg_files_checksum_trailer_write(&f->file, image, size, err);
   free(image);

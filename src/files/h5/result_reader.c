@@ -159,43 +159,56 @@ static char *read_line(gg_h5_in *h, const char *path)
   return text;
 }
 
-gg_status gg_files_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
+/* An open file, which is closed. */
+static gg_status read_all(gg_stored_result *s, gg_h5_in *in, const char *path, gg_error *err)
 {
-  gg_h5_in h;
   *s = (gg_stored_result){0};
-  gg_h5_open_any(&h, path);
-  const bool checkpoint = !h.failed && gg_h5_exists(&h, "/checkpoint");
-  if (checkpoint) gg_files_checkpoint_check_version(&h, true);
-  if (checkpoint && !h.failed)
-    gg_h5_in_failed(&h, "it is a checkpoint: resume it with graingas run SCENE.yaml --resume FILE");
-  if (!h.failed && gg_h5_exists(&h, "/graingas/table"))
-    gg_h5_in_failed(&h, "it is the table of a sweep, for h5py; the results are the files in the sweep's folder");
-  if (!h.failed && gg_h5_exists(&h, "/figure"))
-    gg_h5_in_failed(&h, "it is a reproduced figure, for h5py; its curves are in the .csv beside it, too");
-  if (!h.failed && !gg_h5_exists(&h, "/graingas/document")) gg_h5_in_failed(&h, "it holds no result of graingas");
-  char *text = gg_h5_read_text(&h, "/graingas/document");
-  s->changed = h.changed;
-  s->version = read_line(&h, "/graingas/version");
-  s->command = read_line(&h, "/graingas/command");
-  s->machine = read_line(&h, "/graingas/machine");
-  s->date = read_line(&h, "/graingas/date");
-  s->scene = gg_h5_read_text(&h, "/graingas/scene");
+  const bool checkpoint = !in->failed && gg_h5_exists(in, "/checkpoint");
+  if (checkpoint) gg_files_checkpoint_check_version(in, true);
+  if (checkpoint && !in->failed)
+    gg_h5_in_failed(in, "it is a checkpoint: resume it with graingas run SCENE.yaml --resume FILE");
+  if (!in->failed && gg_h5_exists(in, "/graingas/table"))
+    gg_h5_in_failed(in, "it is the table of a sweep, for h5py; the results are the files in the sweep's folder");
+  if (!in->failed && gg_h5_exists(in, "/figure"))
+    gg_h5_in_failed(in, "it is a reproduced figure, for h5py; its curves are in the .csv beside it, too");
+  if (!in->failed && !gg_h5_exists(in, "/graingas/document")) gg_h5_in_failed(in, "it holds no result of graingas");
+  char *text = gg_h5_read_text(in, "/graingas/document");
+  s->changed = in->changed;
+  s->version = read_line(in, "/graingas/version");
+  s->command = read_line(in, "/graingas/command");
+  s->machine = read_line(in, "/graingas/machine");
+  s->date = read_line(in, "/graingas/date");
+  s->scene = gg_h5_read_text(in, "/graingas/scene");
   gg_files_stored_scene_update_words(s->scene);
   const char *why = "out of memory";
   s->document = text ? gg_files_document_read(text, &why) : NULL;
   free(text);
-  if (!s->document) gg_h5_in_failed(&h, why);
-  if (!h.failed) {
+  if (!s->document) gg_h5_in_failed(in, why);
+  if (!in->failed) {
     s->comparison = json_object_get(s->document, "comparison") != NULL;
-    read_engines(&h, s);
-    s->n_frames = count_numbers(&h, "/particles/grains/velocity/step");
-    s->n_grains = count_numbers(&h, "/particles/grains/id");
-    read_last_frame(&h, s);
+    read_engines(in, s);
+    s->n_frames = count_numbers(in, "/particles/grains/velocity/step");
+    s->n_grains = count_numbers(in, "/particles/grains/id");
+    read_last_frame(in, s);
   }
-  gg_h5_in_close(&h);
-  gg_status status = gg_h5_in_status(&h, path, err);
+  gg_h5_in_close(in);
+  gg_status status = gg_h5_in_status(in, path, err);
   if (status != GG_OK) gg_files_stored_result_clear(s);
   return status;
+}
+
+gg_status gg_files_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
+{
+  gg_h5_in in;
+  gg_h5_open_any(&in, path);
+  return read_all(s, &in, path, err);
+}
+
+gg_status gg_files_stored_result_from_bytes(gg_stored_result *s, const void *bytes, size_t size, gg_error *err)
+{
+  gg_h5_in in;
+  gg_h5_open_bytes(&in, bytes, size);
+  return read_all(s, &in, "the bytes", err);
 }
 
 void gg_files_stored_result_clear(gg_stored_result *s)

@@ -43,6 +43,8 @@ typedef struct gg_stored_result {
 void gg_files_stored_scene_update_words(char *yaml);
 
 gg_status gg_files_stored_result_read(gg_stored_result *stored, const char *path, gg_error *err);
+/* Likewise from what gg_files_result_file_open_in_memory left. */
+gg_status gg_files_stored_result_from_bytes(gg_stored_result *stored, const void *bytes, size_t size, gg_error *err);
 /* One line on what is unusual about it; "" if nothing is. */
 gg_status gg_files_stored_result_notice(const char *path, char *text, size_t size, gg_error *err);
 void gg_files_stored_result_clear(gg_stored_result *stored);

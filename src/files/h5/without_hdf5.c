@@ -16,6 +16,10 @@ gg_status gg_files_result_file_open(gg_result_file *f, const char *path, const c
   *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command};
   return refuse(path, err);
 }
+void gg_files_result_file_open_in_memory(gg_result_file *f, const char *command)
+{
+  *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command, .in_memory = true};
+}
 gg_status gg_files_result_file_frame(gg_result_file *f, const gg_model *model, const gg_frame *frame, gg_error *err)
 {
   (void)f, (void)model, (void)frame;
@@ -41,6 +45,12 @@ gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_arch
 {
   (void)locked, (void)archive, (void)scene;
   return refuse(path, err);
+}
+gg_status gg_files_checkpoint_to_bytes(const gg_archive *archive, const gg_scene *scene, void **bytes, size_t *size,
+                                       gg_error *err)
+{
+  (void)archive, (void)scene, (void)bytes, (void)size;
+  return refuse("the simulation", err);
 }
 gg_status gg_files_checkpoint_replace(const char *path, const gg_archive *archive, const gg_scene *scene, gg_error *err)
 {
