@@ -65,22 +65,28 @@ static bool holds(const char *path, const char *text)
   return same;
 }
 
+static gg_status write_text(const char *path, const char *text, gg_error *err)
+{
+  gg_atomic_file file = GG_ATOMIC_NONE;
+  gg_status status = gg_base_atomic_open_locked(&file, path, err);
+  file.repeated = true;
+  if (status == GG_OK) status = gg_base_atomic_write(&file, text, strlen(text), err);
+  if (status == GG_OK) status = gg_base_atomic_commit(&file, err);
+  gg_base_atomic_abandon(&file);
+  return status;
+}
+
 gg_status gg_sweep_folder_note(const gg_sweep *sweep, const char *folder, gg_error *err)
 {
   char path[PATH_MAX];
-  gg_atomic_file file = GG_ATOMIC_NONE;
+  gg_file_lock lock = GG_FILE_LOCK_NONE;
   if (!gg_sweep_folder_text_path(folder, path)) return GG_OK;
   char *text = text_of(sweep);
   if (!text) return gg_base_out_of_memory(err);
-  gg_status status = GG_OK;
-  if (!holds(path, text)) {
-    status = gg_base_atomic_open(&file, path, err);
-    if (status == GG_BAD_FILE) return free(text), GG_OK; /* another process is writing the same */
-    file.repeated = true;
-    if (status == GG_OK) status = gg_base_atomic_write(&file, text, strlen(text), err);
-    if (status == GG_OK) status = gg_base_atomic_commit(&file, err);
-    gg_base_atomic_abandon(&file);
-  }
+  gg_status status = gg_base_file_lock_take(&lock, path, path, err); /* and clear up behind a dead process */
+  if (status == GG_OK && !holds(path, text)) status = write_text(path, text, err);
+  if (lock.busy) status = GG_OK; /* another process is writing the same */
+  gg_base_file_lock_release(&lock);
   free(text);
   return status;
 }

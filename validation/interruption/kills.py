@@ -52,7 +52,7 @@ def all_files():
 
 
 def results():
-    return [f for f in all_files() if f == RESULT or (f.startswith(FOLDER) and f.count(".") == 2)]
+    return [f for f in all_files() if f == RESULT or (f.startswith(FOLDER) and f.count(".") == 2 and f.endswith(".h5"))]
 
 
 def readable(path):
@@ -115,7 +115,7 @@ class Chain:
 
     def compare(self):
         files = all_files()
-        wrong = [f"{f} is left" for f in files if f != "scene.yaml" and f not in self.whole["bits"]]
+        wrong = [f"{f} is left" for f in files if os.path.basename(f) not in ("scene.yaml", "sweep.yaml") and f not in self.whole["bits"]]
         for path, expected in self.whole["bits"].items():
             different = difference(bits(path), expected) if path in files else "is missing"
             if different:
