@@ -743,7 +743,8 @@ GG_API gg_status gg_result_find(const gg_result *result, const char *quantity, g
 
 /**
  * Covariance of two means of a result (also of one engine of a comparison), from the blocks that their errors come
- * from: that of a quantity with itself is its error squared. Means of different runs are independent.
+ * from: that of a quantity with itself is its error squared. Means of different runs are independent. Pairs are
+ * estimated one by one: the variance of a sum of several means that nearly cancel may come out negative.
  * @param result the result
  * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
  * @param other name of a quantity; may be the same

@@ -60,7 +60,7 @@ void gg_cli_progress_start(gg_cli_progress *p, bool quiet)
   gg_cli_line_start(&p->line, quiet);
 }
 
-/* ", 20 s left"; ", limit in 36 s, the error asked for needs about 9 min": where the limit ends the run. */
+/* ", 20 s left"; ", limit in 36 s (the run needs about 9 min)": where the limit ends the run. */
 static int describe_end(const gg_progress *g, char *text, size_t size)
 {
   char left[24], limit[24];
@@ -68,7 +68,7 @@ static int describe_end(const gg_progress *g, char *text, size_t size)
   gg_cli_format_duration(g->time_left, left, sizeof left);
   if (isnan(g->time_left)) return isfinite(g->limit_in) ? snprintf(text, size, ", limit in %s", limit) : 0;
   if (g->time_left <= g->limit_in) return snprintf(text, size, ", %s left", left);
-  return snprintf(text, size, ", limit in %s (what is asked needs about %s)", limit, left);
+  return snprintf(text, size, ", limit in %s (the run needs about %s)", limit, left);
 }
 
 /* "md averaging 43 %, 1.2 M collisions, 0.9 M/s, error 1.2 %, 20 s left" */

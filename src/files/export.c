@@ -273,6 +273,7 @@ typedef struct target {
   const json_t *curve;
   dev_t device; /* of the file that stands there */
   ino_t inode;  /* 0: none does */
+  bool filled;  /* it is not empty */
   gg_atomic_file file;
 } target;
 
@@ -364,7 +365,7 @@ static gg_status look_at(job *j, size_t i, gg_error *err)
   gg_output_path place;
   target *t = &j->target[i];
   GG_TRY(gg_base_output_path_find(&place, t->path, err));
-  if (place.there) t->device = place.about.st_dev, t->inode = place.about.st_ino;
+  if (place.there) t->device = place.about.st_dev, t->inode = place.about.st_ino, t->filled = place.about.st_size > 0;
   bool stream = place.stream;
   gg_base_output_path_clear(&place);
   if (stream)
@@ -393,26 +394,27 @@ static gg_status open_all(job *j, const char *path, gg_error *err)
   return GG_OK;
 }
 
-/* One line of a file, from 0; false where it has not so many. */
-static bool read_line(const char *path, int line, char **text)
+/* One line of a file, from 0, to be freed; NULL where it has not so many, or cannot be read. */
+static char *read_line(const char *path, int line)
 {
   FILE *in = path ? fopen(path, "r") : NULL;
+  char *text = NULL;
   size_t room = 0;
   bool there = in != NULL;
-  for (int k = 0; k <= line && there; k++) there = getline(text, &room, in) > 0;
+  for (int k = 0; k <= line && there; k++) there = getline(&text, &room, in) > 0;
   if (in) fclose(in);
-  return there;
+  if (there) return text;
+  free(text);
+  return NULL;
 }
 
-/* What stands there is an earlier export, or empty: its head is that of what is to replace it; of a trajectory the
- * second line says what it is. */
+/* What stands there is an earlier export: its head is that of what is to replace it; of a trajectory the second line
+ * says what it is. */
 static bool is_export(const target *t)
 {
-  char *there = NULL, *now = NULL;
   const int line = t->content == TRAJECTORY;
-  const bool ours =
-      !read_line(t->path, 0, &there) || (read_line(t->path, line, &there) && read_line(t->file.temporary, line, &now) &&
-                                         (line ? strncmp(there, "Lattice=", 8) == 0 : strcmp(there, now) == 0));
+  char *there = read_line(t->path, line), *now = read_line(t->file.temporary, line);
+  const bool ours = there && now && (line ? strncmp(there, "Lattice=", 8) == 0 : strcmp(there, now) == 0);
   free(there);
   free(now);
   return ours;
@@ -421,7 +423,7 @@ static bool is_export(const target *t)
 static gg_status check_replaced(const job *j, gg_error *err)
 {
   for (const target *t = j->target; t < j->target + j->n; t++)
-    if (t->inode && !is_export(t))
+    if (t->filled && !is_export(t))
       return gg_base_fail(err, GG_BAD_FILE,
                           "%s: is there and was not made by an export like this; nothing was replaced: give --output "
                           "another name, or remove it",

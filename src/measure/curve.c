@@ -203,7 +203,8 @@ static bool is_divided_by_zero(const gg_curve *c)
 static void withhold(gg_curves *full)
 {
   for (gg_curve *c = full->curve; c < full->curve + full->n; c++)
-    for (size_t i = 0; i < c->n && is_divided_by_zero(c); i++) c->value[i] = c->error[i] = NAN;
+    if (is_divided_by_zero(c))
+      for (size_t i = 0; i < c->n; i++) c->value[i] = c->error[i] = NAN;
 }
 
 /* Move the curves of one list to the end of another. */

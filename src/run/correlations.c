@@ -99,7 +99,7 @@ gg_status gg_run_replicas_correlations(const gg_replicas *replicas, gg_result *r
   all.rows = gg_base_array_new((c->n + 1) * all.n_rows * n_runs, sizeof *all.rows, err);
   all.of = gg_base_array_new(c->n, sizeof *all.of, err);
   c->coefficient = gg_base_array_new(c->n * c->n, sizeof *c->coefficient, err);
-  all.sum = all.rows + c->n * all.n_rows * n_runs;
+  if (all.rows) all.sum = all.rows + c->n * all.n_rows * n_runs;
   gg_status status = all.rows && all.of && c->coefficient ? fill(replicas, length, &all, result, err) : GG_FAILED;
   free(all.rows);
   free(all.of);

@@ -73,8 +73,8 @@ typedef struct gg_effort {
 } gg_effort;
 
 /* How the means of a run vary together. The covariance of two is their coefficient here times their errors, so that
- * that of a mean with itself is its error squared. All coefficients come from the same blocks: no combination of means
- * has a negative variance. */
+ * that of a mean with itself is its error squared. Pairs are estimated one by one: of several means whose sum
+ * nearly cancels the variance may come out negative. */
 typedef struct gg_correlations {
   size_t n; /* means with an error; 0: not known */
   gg_quantity quantity[GG_MOST_QUANTITIES];
