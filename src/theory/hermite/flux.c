@@ -14,10 +14,16 @@ static const double farthest = 12;
 /* Rows of the polynomials of a point, zero beyond the last; points over v. */
 enum { N1 = GG_HERMITE_MOST_DEGREE + 1, STRIDE = 32, POINTS = (3 * GG_HERMITE_MOST_DEGREE + 4) / 2 };
 
+/* All points of the rule over v at one u: weights, and polynomials of both grains and of the test by rows of STRIDE. */
+typedef struct gg_points {
+  double w[POINTS], x1[POINTS * STRIDE], x2[POINTS * STRIDE], test[POINTS * STRIDE];
+} gg_points;
+
 static double *lay_out(gg_hermite_flux *f)
 {
   int X = gg_padded(f->trials, GG_PRODUCT_ROWS) * f->width_X;
-  double **const part[] = {&f->u, &f->wu, &f->v, &f->wv, &f->Z, &f->X, &f->loss, &f->along, &f->Y, &f->W};
+  double **const part[] = {&f->u,    &f->wu,    &f->v, &f->wv, &f->Z,       &f->X,
+                           &f->loss, &f->along, &f->Y, &f->W,  &f->columns, &f->points};
   const int size[] = {f->n_u,
                       f->n_u,
                       f->n_v,
@@ -27,7 +33,9 @@ static double *lay_out(gg_hermite_flux *f)
                       X,
                       f->n_u * f->width_along,
                       f->n_u * f->width_Y,
-                      f->width_along * f->width_Y};
+                      f->width_along * f->width_Y,
+                      f->n_v * f->width_X,
+                      sizeof(gg_points) / sizeof(double)};
   enum { PARTS = sizeof size / sizeof *size };
   size_t total = 0;
   for (int i = 0; i < PARTS; i++) total += (size_t)size[i];
@@ -83,11 +91,6 @@ static gg_sight sight_of(const gg_hermite_flux *f, const gg_hermite_contact *c, 
   return (gg_sight){at, -decay * c->other * at / all, 1 / sqrt(all), exp(-decay * at * at / (2 * all)) / sqrt(all)};
 }
 
-/* All points of the rule over v at one u: weights, and polynomials of both grains and of the test by rows of STRIDE. */
-typedef struct gg_points {
-  double w[POINTS], x1[POINTS * STRIDE], x2[POINTS * STRIDE], test[POINTS * STRIDE];
-} gg_points;
-
 static void see(const gg_hermite_flux *f, const gg_hermite_contact *c, double u, double shift, double amount,
                 gg_points *p)
 {
@@ -109,18 +112,18 @@ static void see(const gg_hermite_flux *f, const gg_hermite_contact *c, double u,
 static void add_normal(const gg_hermite_flux *f, const gg_hermite_contact *c, double u, double shift, double amount,
                        double *to)
 {
-  gg_points p;
-  double column[POINTS * GG_HERMITE_MOST_X];
-  see(f, c, u, shift, amount, &p);
+  gg_points *p = (gg_points *)(void *)f->points;
+  double *column = f->columns;
+  see(f, c, u, shift, amount, p);
   for (int k = 0; k < f->n_v; k++) {
     double *row = column + k * f->width_X;
     memset(row, 0, (size_t)f->width_X * sizeof *row);
     for (int J = 0; J < f->tests; J++) {
-      double factor = p.w[k] * p.test[k * STRIDE + J], *at = row + gg_hermite_X_column(f, J);
-      for (int l = 0; l < f->halves; l++) at[l] = factor * p.x2[k * STRIDE + 2 * l];
+      double factor = p->w[k] * p->test[k * STRIDE + J], *at = row + gg_hermite_X_column(f, J);
+      for (int l = 0; l < f->halves; l++) at[l] = factor * p->x2[k * STRIDE + 2 * l];
     }
   }
-  gg_hermite_product_add(gg_padded(f->trials, GG_PRODUCT_ROWS), f->width_X, f->n_v, p.x1, STRIDE, column, f->width_X,
+  gg_hermite_product_add(gg_padded(f->trials, GG_PRODUCT_ROWS), f->width_X, f->n_v, p->x1, STRIDE, column, f->width_X,
                          to, f->width_X);
 }
 
@@ -128,16 +131,16 @@ static void add_normal(const gg_hermite_flux *f, const gg_hermite_contact *c, do
 static void add_contracted(const gg_hermite_flux *f, const gg_hermite_contact *c, double u, double shift, double amount,
                            const double *marginal, double *to)
 {
-  gg_points p;
+  gg_points *p = (gg_points *)(void *)f->points;
   double sum[STRIDE * STRIDE] = {0};
-  see(f, c, u, shift, amount, &p);
+  see(f, c, u, shift, amount, p);
   for (int k = 0; k < f->n_v; k++) {
     double density = 0;
-    for (int l = 0; l < f->halves; l++) density += marginal[l] * p.x2[k * STRIDE + 2 * l];
-    for (int J = 0; J < f->tests; J++) p.test[k * STRIDE + J] *= p.w[k] * density;
+    for (int l = 0; l < f->halves; l++) density += marginal[l] * p->x2[k * STRIDE + 2 * l];
+    for (int J = 0; J < f->tests; J++) p->test[k * STRIDE + J] *= p->w[k] * density;
   }
-  gg_hermite_product_add(gg_padded(f->tests, GG_PRODUCT_ROWS), gg_padded(f->trials, GG_PRODUCT_COLUMNS), f->n_v, p.test,
-                         STRIDE, p.x1, STRIDE, sum, STRIDE);
+  gg_hermite_product_add(gg_padded(f->tests, GG_PRODUCT_ROWS), gg_padded(f->trials, GG_PRODUCT_COLUMNS), f->n_v,
+                         p->test, STRIDE, p->x1, STRIDE, sum, STRIDE);
   for (int J = 0; J < f->tests; J++)
     for (int j = 0; j < f->trials; j++) to[J * f->trials + j] += sum[J * STRIDE + j];
 }

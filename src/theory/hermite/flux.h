@@ -12,9 +12,6 @@
 #include "theory/hermite/basis.h"
 #include "theory/hermite/overlap.h"
 
-/* Most columns of X. */
-enum { GG_HERMITE_MOST_X = (GG_HERMITE_MOST_DEGREE / 2 + 2) * (GG_HERMITE_MOST_DEGREE + 2) };
-
 typedef struct gg_hermite_contact {
   double frequency;
   double eta;        /* what the grain loses of g; (1+e)/2 among equals */
@@ -36,6 +33,7 @@ typedef struct gg_hermite_flux {
   double *along;                     /* X with the partner contracted, by i, columns (J,j) */
   double *Y;                         /* by i, columns (P,p) */
   double *W;                         /* by (J,j), columns (P,p) */
+  double *columns, *points;          /* room for one u; in the heap, since threads of small stacks come here */
   int odd_X;                         /* where columns of odd J begin */
   int width_X, width_along, width_Y; /* of rows, padded for products */
 } gg_hermite_flux;
