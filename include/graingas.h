@@ -28,9 +28,9 @@
  * <C.C>/3, C the velocity relative to the imposed flow; of mixtures m<C.C>/3, m in that of species 1. Where phi = 0,
  * n d^2 = 1 sets the length.
  *
- * Structs grow at their end only; those that the caller fills in are to be zeroed first. Functions get the size that the
- * caller's compiler knows ("Sizes" below), so that a program that was built with an older header works or is refused.
- * Arrays of the caller's, and structs in structs, do not grow: gg_error, gg_quantity_definition, gg_departure,
+ * Structs grow at their end only; those that the caller fills in are to be zeroed first. Functions get the size that
+ * the caller's compiler knows ("Sizes" below), so that a program that was built with an older header works or is
+ * refused. Arrays of the caller's, and structs in structs, do not grow: gg_error, gg_quantity_definition, gg_departure,
  * gg_checkpoint_part, gg_figure_needs. */
 #ifndef GRAINGAS_H
 #define GRAINGAS_H
@@ -69,6 +69,14 @@ typedef struct gg_error {
   gg_status status;
   char message[1024]; /* for people: what is wrong, where, what is allowed */
 } gg_error;
+
+/**
+ * Say, from within any callback, that it failed: the call that it came from ends soon, and returns GG_FAILED with this
+ * reason. The first reason counts. What the callback returns or sets from then on is of no account. A simulation stays
+ * valid, and what a run had stored stays; a user-defined theory that fails becomes a warning of the comparison.
+ * @param reason one line for people; bytes that are not UTF-8 become '?'
+ */
+GG_API void gg_callback_fail(const char *reason);
 
 /**
  * Version of the library: "0.1.0" of a release, otherwise with the commit ("0.1.0+g156f34b3") and ".dirty" for changed
@@ -519,8 +527,8 @@ GG_API gg_status gg_simulation_to_bytes(const gg_simulation *simulation, void **
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE for bytes that are cut off or changed
  */
-GG_API gg_status gg_simulation_from_bytes(const void *bytes, size_t size, const gg_scene *scene, gg_simulation **simulation,
-                                          gg_error *err);
+GG_API gg_status gg_simulation_from_bytes(const void *bytes, size_t size, const gg_scene *scene,
+                                          gg_simulation **simulation, gg_error *err);
 
 /* ---- More than one process ----
  * The replicas of runs and comparisons can be shared by several processes, on one machine or many. One of them, rank 0,
@@ -594,18 +602,19 @@ typedef struct gg_progress { /* where a run stands */
 
 /* All zero: one thread, nobody told, nothing written. Results do not depend on any of it. */
 typedef struct gg_run_options {
-  int threads;            /* for replicas, for compare's two engines, for large Monte Carlo ensembles; 0: one */
-  const char *output;     /* result file to write, with the trajectory if the scene has output.trajectory_every; another
-                           * file than the two below. A device or pipe is written to, made up in memory */
-  const char *checkpoint; /* file to keep checkpoints in: every output.checkpoint_every seconds of the scene (0: never),
-                           * and whenever the run is stopped or runs out of time; the one before is kept as FILE.1. One of
-                           * another run there, or a link, is GG_BAD_FILE. The
-                           * trajectory until then is kept beside it (x.frames for x.h5), for the output at the end. All
-                           * are removed when all is done (GG_OK) and the output written */
-  const char *resume;     /* checkpoint to go on from, bit for bit, the trajectory included; FILE.1 is taken where it is
-                           * damaged. GG_BAD_FILE where frames that belong to it are damaged or not there */
-  const char *command;    /* how the file was made, for its record; NULL: "the graingas library" */
-  void *context;          /* for the callbacks, of which each may be NULL; one at a time, maybe on threads of the run */
+  int threads;        /* for replicas, for compare's two engines, for large Monte Carlo ensembles; 0: one */
+  const char *output; /* result file to write, with the trajectory if the scene has output.trajectory_every; another
+                       * file than the two below. A device or pipe is written to, made up in memory */
+  const char
+      *checkpoint;     /* file to keep checkpoints in: every output.checkpoint_every seconds of the scene (0: never),
+                        * and whenever the run is stopped or runs out of time; the one before is kept as FILE.1. One of
+                        * another run there, or a link, is GG_BAD_FILE. The
+                        * trajectory until then is kept beside it (x.frames for x.h5), for the output at the end. All
+                        * are removed when all is done (GG_OK) and the output written */
+  const char *resume;  /* checkpoint to go on from, bit for bit, the trajectory included; FILE.1 is taken where it is
+                        * damaged. GG_BAD_FILE where frames that belong to it are damaged or not there */
+  const char *command; /* how the file was made, for its record; NULL: "the graingas library" */
+  void *context;       /* for the callbacks, of which each may be NULL; one at a time, maybe on threads of the run */
   int (*progress)(void *context, const gg_progress *progress); /* now and then; not 0: stop, as below */
   int (*stop)(void *context);                                  /* asked several times a second; not 0: stop */
   void (*stored)(void *context, const char *checkpoint);       /* a checkpoint was written */
@@ -1486,7 +1495,8 @@ typedef struct gg_validating {
   const char *show;     /* quantities, with commas, a map each; NULL: the main ones */
   const char *theories; /* theories in the maps, with commas; NULL: lun1991 */
   const char *page;     /* Markdown with maps, counts and tables; NULL: no page */
-  void (*warn)(void *context, const char *message); /* of maps that cannot be drawn, and of other builds; NULL: nobody */
+  void (*warn)(void *context,
+               const char *message); /* of maps that cannot be drawn, and of other builds; NULL: nobody */
 } gg_validating;
 
 /**
@@ -1736,10 +1746,10 @@ typedef struct gg_sample {
   double elapsed; /* length of the interval */
   size_t n;       /* grains; in md always in the same order */
   int n_species;
-  const double *position;                  /* 3 a grain: x y z x y z ...; 0 to box[i]; NULL without positions (dsmc) */
-  const double *velocity;                  /* 3 a grain; less the imposed flow, between walls less the local mean */
-  const double *spin;                      /* 3 a grain: angular velocity (phi = 0: times d/2); NULL for smooth grains */
-  const unsigned char *species;            /* of each grain, from 0 */
+  const double *position;       /* 3 a grain: x y z x y z ...; 0 to box[i]; NULL without positions (dsmc) */
+  const double *velocity;       /* 3 a grain; less the imposed flow, between walls less the local mean */
+  const double *spin;           /* 3 a grain: angular velocity (phi = 0: times d/2); NULL for smooth grains */
+  const unsigned char *species; /* of each grain, from 0 */
   const double *mass, *diameter, *inertia; /* of each species; inertia: 4I/(m d^2) */
   double box[3], volume;
   uint64_t collisions;
@@ -1802,8 +1812,9 @@ typedef struct gg_facts {
   const gg_pair_facts *pairs; /* of species i and j: pairs[n_species*i + j] */
 } gg_facts;
 
-/* The reason is one line for people; bytes that are not UTF-8 become '?'. `evaluate` sets one number for each of `quantities`, names of shared quantities or of the scene's own observables
- * (NaN, as which all are preset: no answer), and returns NULL; or the reason why the theory does not apply. */
+/* `evaluate` sets one number for each of `quantities`, names of shared quantities or of the scene's own observables
+ * (NaN, as which all are preset: no answer), and returns NULL; or the reason why the theory does not apply, as for
+ * gg_callback_fail(). */
 typedef struct gg_theory_definition {
   const char *name;
   const char *title, *citation, *assumptions; /* a line each; may be NULL */

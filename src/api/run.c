@@ -14,10 +14,19 @@
 #include "run/scheduler.h"
 #include "scene/fields.h"
 
+/* After every callback: one that failed stops the run, in whatever thread it was. */
+static void note_failure(gg_run_call *r)
+{
+  if (!gg_base_callback_failed()) return;
+  gg_base_callback_settle(GG_OK, atomic_exchange(&r->callback_failed, true) ? NULL : &r->callback_reason);
+  atomic_store(&r->stopped, true);
+}
+
 static void report_progress(void *context, const gg_progress *progress)
 {
   gg_run_call *r = context;
   if (r->options.progress && r->options.progress(r->options.context, progress)) atomic_store(&r->stopped, true);
+  note_failure(r);
 }
 
 /* Does the caller want the run to end? */
@@ -25,6 +34,7 @@ static bool is_stopped(void *context)
 {
   gg_run_call *r = context;
   if (r->options.stop && r->options.stop(r->options.context)) atomic_store(&r->stopped, true);
+  note_failure(r);
   return atomic_load(&r->stopped);
 }
 
@@ -41,6 +51,7 @@ static gg_status store_checkpoint(void *context, gg_archive *archive, gg_error *
   r->stored = true;
   GG_TRY(gg_files_frame_log_put_in_place(&r->log, err));
   if (r->options.stored) r->options.stored(r->options.context, r->options.checkpoint);
+  note_failure(r);
   return GG_OK;
 }
 
@@ -141,6 +152,7 @@ static gg_status begin(gg_run_call *r, const gg_scene *scene, const gg_run_optio
   if (r->options.threads < 1) r->options.threads = 1;
   if (!r->options.command) r->options.command = "the graingas library";
   atomic_init(&r->stopped, false);
+  atomic_init(&r->callback_failed, false);
   r->callbacks = (gg_run_callbacks){.context = r,
                                     .progress = report_progress,
                                     .interrupted = is_stopped,
@@ -258,6 +270,8 @@ static gg_status simulate(gg_run_call *r, gg_point_call *point, const gg_scene *
   }
   gg_status written = finish(r, point, status, some ? c : NULL, &why);
   end(r);
+  note_failure(r);
+  if (atomic_load(&r->callback_failed)) status = gg_base_fail(err, GG_FAILED, "%s", r->callback_reason.message);
   if (some)
     *made = c;
   else

@@ -30,6 +30,8 @@ typedef struct gg_run_call {
   char *temporary[GG_TEMPORARIES]; /* of a run that keeps checkpoints */
   gg_string_list warnings;         /* keys without effect */
   atomic_bool stopped;
+  atomic_bool callback_failed;
+  gg_error callback_reason;
   gg_file_lock lock; /* of options.checkpoint */
 } gg_run_call;
 

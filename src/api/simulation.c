@@ -123,7 +123,7 @@ static gg_status settle_callback(gg_simulation *s, gg_error *err)
 enum { STRETCH = 20, COLLAPSE = 1000 };
 
 /* Within at most `time` (units of the start) and `most` collisions; both are lessened by what has gone. */
-static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
+static gg_status advance_once(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
 {
   double T = gg_api_simulation_temperature(s), unit = gg_api_simulation_unit(s), gone = 0;
   double free_time = 1 / gg_common_model_collision_rate(&s->model, T > 0 ? T : s->model.temperature0);
@@ -147,11 +147,13 @@ static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most,
   return rescale_if_cold(s, gg_api_simulation_temperature(s), err);
 }
 
-/* Asked before the first stretch, too: with small systems an advance ends before the engine looks. */
-static gg_status look(gg_simulation *s, gg_error *err)
+/* The caller is asked before the first stretch, too: with small systems an advance ends before the engine looks. */
+static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
 {
   GG_TRY(settle_callback(s, err)); /* of an advance that was stopped */
-  return gg_stop_asked(s->model.stop) ? gg_base_fail(err, GG_INTERRUPTED, "stopped by its caller") : GG_OK;
+  gg_status status = gg_stop_asked(s->model.stop) ? gg_base_fail(err, GG_INTERRUPTED, "stopped by its caller")
+                                                  : advance_once(s, time, most, err);
+  return gg_base_callback_settle(status, err);
 }
 
 gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error *err)
@@ -160,10 +162,7 @@ gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error
   if (!(time >= 0 && time < INFINITY))
     return gg_base_fail(err, GG_BAD_INPUT, "gg_simulation_advance: cannot advance by %g", time);
   GG_USE_ALONE(simulation);
-  for (uint64_t most = UINT64_MAX; time > 0;) {
-    GG_TRY(look(simulation, err));
-    GG_TRY(advance_stretch(simulation, &time, &most, err));
-  }
+  for (uint64_t most = UINT64_MAX; time > 0;) GG_TRY(advance_stretch(simulation, &time, &most, err));
   return GG_OK;
 }
 
@@ -177,7 +176,6 @@ gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions_m
   double time = INFINITY;
   for (int empty = 0; collisions_more > 0; empty++) {
     uint64_t before = collisions_more;
-    GG_TRY(look(simulation, err));
     GG_TRY(advance_stretch(simulation, &time, &collisions_more, err));
     if (collisions_more < before) empty = -1;
     if (empty == MOST_EMPTY_STRETCHES)

@@ -322,6 +322,7 @@ static gg_status do_all(sweep_run *all, size_t at_once, gg_error *err)
     pthread_mutex_unlock(&all->lock);
     if (o->stop && o->stop(o->context)) atomic_store(&all->stopped, true);
     report_progress(all);
+    if (gg_base_callback_failed()) atomic_store(&all->stopped, true);
     pthread_mutex_lock(&all->lock);
   }
   report_ended_points(all);
@@ -446,7 +447,7 @@ static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t e
   pthread_mutex_destroy(&all.lock);
   pthread_cond_destroy(&all.changed);
   free(all.item);
-  return status;
+  return gg_base_callback_settle(status, err);
 }
 
 gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_sweep_options *options, gg_error *err)

@@ -5,6 +5,7 @@
 #include "api/api.h"
 #include "api/sized.h"
 #include "base/build.h"
+#include "base/cancellation.h"
 #include "base/memory.h"
 #include "base/spelling.h"
 #include "base/text.h"
@@ -15,6 +16,11 @@
 const char *gg_version(void)
 {
   return gg_base_build_version;
+}
+
+void gg_callback_fail(const char *reason)
+{
+  gg_base_callback_fail(reason);
 }
 
 gg_status gg_api_arguments_check(const char *function, const char *names, const void *const *argument, size_t n,

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/cancellation.h"
 #include "base/memory.h"
 #include "common/laws/loss_table.h"
 
@@ -67,6 +68,7 @@ gg_status gg_common_law_check(const gg_restitution_law *law, int n_species, gg_e
     for (int j = 0; j < n_species; j++)
       for (int k = -36; k <= 36; k++) {
         double speed = pow(10, 0.25 * k), e = law->e(law->context, speed, i, j);
+        GG_TRY(gg_base_callback_settle(GG_OK, err));
         if (!(e >= 0 && e <= 1))
           return gg_base_fail(
               err, GG_BAD_INPUT,

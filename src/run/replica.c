@@ -249,12 +249,13 @@ static gg_status sample_once(gg_replica *r, bool adapt, gg_error *err)
 gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_run_callbacks *callbacks,
                                  gg_error *err)
 {
-  while (r->clock.samples < samples) {
-    if (gg_stop_asked(r->model.stop)) return gg_base_fail(err, GG_INTERRUPTED, "interrupted");
-    GG_TRY(sample_once(r, adapt, err));
-    GG_TRY(emit_frame(r, callbacks, err));
+  gg_status status = GG_OK;
+  while (status == GG_OK && r->clock.samples < samples) {
+    if (gg_stop_asked(r->model.stop)) status = gg_base_fail(err, GG_INTERRUPTED, "interrupted");
+    if (status == GG_OK) status = sample_once(r, adapt, err);
+    if (status == GG_OK) status = emit_frame(r, callbacks, err);
   }
-  return GG_OK;
+  return gg_base_callback_settle(status, err);
 }
 
 bool gg_run_replica_settled(const gg_replica *r)

@@ -88,6 +88,8 @@ static gg_status compare_theories(const gg_model *model, const bool *wanted, gg_
     gg_status status = gg_theory_evaluate(theory, theory->own ? start : model, &c->theory[n].answer, &why);
     if (gg_base_memory_failures() != before)
       return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
+    if (theory->own && status == GG_FAILED)
+      gg_base_string_list_add(&c->warnings, "%s failed: %s", theory->name, why.message);
     c->theory[n].theory = theory;
     c->theory[n].applies = status == GG_OK;
     snprintf(c->theory[n].reason, sizeof c->theory[n].reason, "%.250s", why.message);

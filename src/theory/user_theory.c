@@ -72,5 +72,6 @@ gg_status gg_theory_user_theory_evaluate(const gg_theory_definition *t, const gg
     if (q < GG_MOST_QUANTITIES && isfinite(values[k])) a->value[q] = values[k];
   }
   free(values);
+  GG_TRY(gg_base_callback_settle(GG_OK, err));
   return refusal ? gg_base_fail(err, GG_BAD_INPUT, "%s %s", t->name, refusal) : GG_OK;
 }

@@ -1,0 +1,218 @@
+/* A callback that fails with a reason ends the call that it came from, of every kind of callback. */
+#include <stdatomic.h>
+#include <stdbool.h>
+
+#include "api_test.h"
+
+static const char small[] = "{flow: usf, phi: 0.1, particles: 100, dsmc: {particles: 200}, run: {collisions: 4000, "
+                            "replicas: 2}}";
+
+/* Of calls to callbacks: the one that fails, from 0, and how many there were. */
+static atomic_int calls;
+static int bad;
+static bool fails(void)
+{
+  if (atomic_fetch_add(&calls, 1) < bad) return false;
+  gg_callback_fail("the disk of \xff fell over");
+  gg_callback_fail("and more");
+  return true;
+}
+
+static void sample(void *context, void *state, const gg_sample *now, double *values)
+{
+  (void)context, (void)state;
+  values[0] = fails() ? NAN : now->velocity[0];
+}
+
+static void plain(void *context, void *state, const gg_sample *now, double *values)
+{
+  (void)context, (void)state, (void)now;
+  values[0] = 1;
+}
+
+static void collision(void *context, void *state, const gg_collision_view *view)
+{
+  (void)context, (void)state, (void)view;
+  fails();
+}
+
+static double law(void *context, double speed, int one, int two)
+{
+  (void)context, (void)speed, (void)one, (void)two;
+  return fails() ? -7 : 0.9;
+}
+
+static int progress(void *context, const gg_progress *now)
+{
+  (void)context, (void)now;
+  return fails(), 0;
+}
+
+static int stop(void *context)
+{
+  (void)context;
+  return fails(), 0;
+}
+
+static const char *evaluate(void *context, const gg_facts *facts, double *values)
+{
+  (void)context, (void)facts, (void)values;
+  return fails(), NULL;
+}
+
+static void arm(int from)
+{
+  bad = from;
+  atomic_store(&calls, 0);
+}
+
+#define assert_callback_failed(call)                                                                                   \
+  do {                                                                                                                 \
+    memset(&err, 0, sizeof err);                                                                                       \
+    assert_int_equal(call, GG_FAILED);                                                                                 \
+    if (!strstr(err.message, "the disk of ? fell over") || strstr(err.message, "and more"))                            \
+      fail_msg("%s", err.message);                                                                                     \
+  } while (0)
+
+/* By one thread and by two, in both engines, and then the next run as if nothing had been. */
+static void assert_runs_fail(gg_scene *s, gg_run_options o, int from)
+{
+  gg_error err;
+  gg_scene *good = scene_of("{flow: usf, phi: 0.1, particles: 100, dsmc: {particles: 200}, run: {collisions: 40}}");
+  for (int k = 0; k < 4; k++) {
+    gg_result *r = NULL;
+    o.threads = 1 + k % 2;
+    assert_ok(gg_scene_set(s, "engine", k < 2 ? "md" : "dsmc", &err));
+    arm(from);
+    assert_callback_failed(gg_run(s, &o, &r, &err));
+    gg_result_free(r);
+    r = NULL;
+    assert_ok(gg_run(good, &(gg_run_options){.threads = o.threads}, &r, &err));
+    gg_result_free(r);
+  }
+  gg_scene_free(good);
+}
+
+static void observables(void **state)
+{
+  (void)state;
+  const gg_quantity_definition q = {.name = "mine"};
+  gg_error err;
+  for (int k = 0; k < 2; k++) {
+    gg_scene *s = scene_of(small);
+    assert_ok(gg_scene_add_observable(s,
+                                      &(gg_observable_definition){.name = "own",
+                                                                  .n_quantities = 1,
+                                                                  .quantities = &q,
+                                                                  .sample = k ? plain : sample,
+                                                                  .collision = k ? collision : NULL},
+                                      &err));
+    assert_runs_fail(s, (gg_run_options){0}, 20);
+    gg_comparison *c = NULL;
+    arm(20);
+    assert_callback_failed(gg_compare(s, &(gg_run_options){.threads = 2}, &c, &err));
+    gg_comparison_free(c);
+    gg_scene_free(s);
+  }
+}
+
+static void laws(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(small);
+  arm(3);
+  assert_callback_failed(gg_scene_set_restitution(s, "mine", law, NULL, &err));
+  arm(1 << 20);
+  assert_ok(gg_scene_set_restitution(s, "mine", law, NULL, &err));
+  assert_runs_fail(s, (gg_run_options){0}, 1000);
+  gg_scene_free(s);
+}
+
+static void runs(void **state)
+{
+  (void)state;
+  gg_scene *s = scene_of(small);
+  assert_runs_fail(s, (gg_run_options){.progress = progress}, 0);
+  assert_runs_fail(s, (gg_run_options){.stop = stop}, 2);
+  gg_scene_free(s);
+}
+
+/* The comparison of the engines stays; the theory's failure is one of its warnings. */
+static void theories(void **state)
+{
+  (void)state;
+  const char *const quantity[] = {"temperature"};
+  gg_error err;
+  gg_scene *s = scene_of(small);
+  gg_comparison *c = NULL;
+  assert_ok(gg_scene_add_theory(
+      s, &(gg_theory_definition){.name = "mine", .n_quantities = 1, .quantities = quantity, .evaluate = evaluate},
+      &err));
+  arm(0);
+  assert_ok(gg_theories_evaluate(s, "mine", &c, &err));
+  assert_string_equal(gg_comparison_warning(c, 0), "mine failed: the disk of ? fell over");
+  gg_comparison_free(c);
+  gg_scene_free(s);
+}
+
+static void seen(void *context, const gg_collision_event *event)
+{
+  (void)context, (void)event;
+  fails();
+}
+
+/* A simulation goes on after it. */
+static void simulations(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(small);
+  gg_simulation *sim = NULL;
+  assert_ok(gg_simulation_new(s, 0, &sim, &err));
+  assert_ok(gg_simulation_on_collision(sim, seen, NULL, &err));
+  arm(7);
+  assert_callback_failed(gg_simulation_collide(sim, 100000, &err));
+  arm(1 << 30);
+  assert_ok(gg_simulation_collide(sim, 100, &err));
+  assert_ok(gg_simulation_on_collision(sim, NULL, NULL, &err));
+  assert_ok(gg_simulation_on_stop(sim, stop, NULL, &err));
+  arm(0);
+  assert_callback_failed(gg_simulation_advance(sim, 10, &err));
+  gg_simulation_free(sim);
+  gg_scene_free(s);
+}
+
+static int sweep_progress(void *context, const gg_sweep_progress *now)
+{
+  (void)context, (void)now;
+  return fails();
+}
+static void note(void *context, const gg_sweep_progress *now)
+{
+  sweep_progress(context, now);
+}
+
+static void sweeps(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_sweep *w = NULL;
+  assert_ok(gg_sweep_parse("{flow: usf, phi: 0.1, particles: 100, run: {collisions: 400}, vary: {collision.e: "
+                           "[0.8, 0.9]}}",
+                           "test", &w, &err));
+  arm(0);
+  assert_callback_failed(gg_sweep_run(w, "t_sweep", &(gg_sweep_options){.progress = note}, &err));
+  assert_ok(gg_sweep_run(w, "t_sweep", NULL, &err));
+  gg_sweep_free(w);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(observables), cmocka_unit_test(laws),        cmocka_unit_test(runs),
+      cmocka_unit_test(theories),    cmocka_unit_test(simulations), cmocka_unit_test(sweeps),
+  };
+  cmocka_set_message_output(CM_OUTPUT_TAP);
+  return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
