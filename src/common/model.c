@@ -80,6 +80,16 @@ static double chi_of(const gg_model *m, const gg_scene *s, int i, int j)
   return gg_common_contact_value_mixture(m->phi, phi_hat, d_red);
 }
 
+/* Central difference: its error is 1e-10 below random close packing. */
+static double chi_slope_of(const gg_model *m, const gg_scene *s)
+{
+  const double h = 1e-5;
+  if (m->boltzmann || m->n_species > 1) return 0;
+  return log(gg_common_contact_value_of(s->contact_value, m->phi * (1 + h)) /
+             gg_common_contact_value_of(s->contact_value, m->phi * (1 - h))) /
+         (2 * h);
+}
+
 static void set_restitution(gg_model *m, int i, int j, double e)
 {
   int o = gg_pair(i, j);
@@ -112,6 +122,7 @@ static void set_pairs(gg_model *m, const gg_scene *s)
 {
   m->rule = GG_SMOOTH;
   m->elastic = true;
+  m->chi_slope = chi_slope_of(m, s);
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
       int o = gg_pair(i, j);

@@ -40,6 +40,7 @@ typedef struct gg_model {
   /* By pair of species: gg_pair. */
   double sigma[GG_PAIRS]; /* (d_i + d_j)/2 */
   double chi[GG_PAIRS];   /* contact value; 1 in the Boltzmann limit */
+  double chi_slope;       /* d ln chi/d ln phi of one species; 0 in the Boltzmann limit */
   double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
   /* Of restitution between grains (name NULL: none). With one, `e` and `contact` are those at the mean impact speed of
    * some temperature (gg_common_model_at), for estimates, and engines evaluate the law at every collision. */

@@ -170,6 +170,18 @@ enum {
       "\\eta^* = \\frac{\\nu_0\\,\\eta}{nT}")                                                                          \
   ONE(VISCOSITY_REDUCED_KINETIC, "viscosity_reduced_kinetic", "η*^k", "", NONE, GG_REDUCED_VISCOSITY,                  \
       "nu_0 eta_k/(n T): kinetic part of viscosity_reduced", "\\eta^{*k} = \\frac{\\nu_0\\,\\eta^k}{nT}")              \
+  ONE(THERMAL_CONDUCTIVITY_REDUCED, "thermal_conductivity_reduced", "κ*", "", NONE, GG_NEEDS_THEORY,                   \
+      "kappa/kappa_0: heat flux along -grad T of a cooling gas; kappa_0 = 15 n T/(4 m nu_0), q = -kappa grad T - mu "  \
+      "grad n",                                                                                                        \
+      "\\kappa^* = \\frac{4 m\\nu_0\\,\\kappa}{15\\,nT}")                                                              \
+  ONE(THERMAL_CONDUCTIVITY_REDUCED_KINETIC, "thermal_conductivity_reduced_kinetic", "κ*^k", "", NONE, GG_NEEDS_THEORY, \
+      "kappa_k/kappa_0: kinetic part of thermal_conductivity_reduced",                                                 \
+      "\\kappa^{*k} = \\frac{4 m\\nu_0\\,\\kappa^k}{15\\,nT}")                                                         \
+  ONE(DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED, "diffusive_heat_conductivity_reduced", "μ*", "", NONE, GG_NEEDS_THEORY,     \
+      "n mu/(T kappa_0): heat flux along -grad n of a cooling gas; 0 for elastic grains",                              \
+      "\\mu^* = \\frac{4 m\\nu_0\\,\\mu}{15\\,T^2}")                                                                   \
+  ONE(BULK_VISCOSITY_REDUCED, "bulk_viscosity_reduced", "η_b*", "", NONE, GG_NEEDS_THEORY,                             \
+      "nu_0 eta_b/(n T): bulk viscosity, of collisions alone", "\\eta_b^* = \\frac{\\nu_0\\,\\eta_b}{nT}")             \
   ONE(DENSITY_WAVES, "density_waves", "S_L", "", NONE, GG_NEEDS_BOX | GG_NEEDS_NO_WALLS | GG_KEPT_HEATING,             \
       "<|sum d^3 exp(ikr)|^2>/(S_e sum d^6): density waves as long as the box and half of it, k = 2 pi/L and 4 pi/L, " \
       "over "                                                                                                          \

@@ -7,6 +7,7 @@
 #include "theory/answer.h"
 #include "theory/enskog_hermite.h"
 #include "theory/garzo_dufty1999.h"
+#include "theory/hermite/heat.h"
 #include "theory/hermite/isotropic.h"
 #include "theory/hermite/order_convergence.h"
 #include "theory/hermite/viscosity.h"
@@ -67,6 +68,38 @@ static gg_status answer_viscosity(const gg_model *m, gg_hermite_isotropic *h, gg
   return GG_OK;
 }
 
+/* In units of 15/(4 nu_0), at n = T = m = 1. */
+static gg_status answer_heat(const gg_model *m, const gg_hermite_isotropic *h, gg_theory_answer *a, gg_error *err)
+{
+  gg_hermite_heat heat;
+  gg_hermite_density density = {m->boltzmann ? 0 : gg_theory_phi_chi(m), m->chi_slope};
+  double unit = 15 / (4 * gg_common_model_nu0(m, 1));
+  GG_TRY(gg_hermite_heat_of(h, density, &heat, err));
+  a->value[GG_Q_THERMAL_CONDUCTIVITY_REDUCED] = heat.conductivity / unit;
+  a->value[GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC] = heat.conductivity_kinetic / unit;
+  a->value[GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED] = m->elastic ? 0 : heat.diffusive / unit;
+  return GG_OK;
+}
+
+/* Degree after degree of the cooling state: heat flux, whose series takes as many as there are. */
+static gg_status conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  gg_rungs rungs = {.n = 0};
+  const gg_quantity q[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC,
+                           GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED};
+  double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
+  for (int degree = GOOD_DEGREE; degree <= LAST_DEGREE; degree += 2) {
+    gg_hermite_isotropic h;
+    GG_TRY(gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, false, err));
+    gg_status status = answer_heat(m, &h, gg_hermite_convergence_next(&rungs), err);
+    gg_hermite_isotropic_end(&h);
+    GG_TRY(status);
+    if (gg_hermite_convergence_change(&rungs, q[0]) < hardly) break;
+  }
+  for (size_t k = 0; k < sizeof q / sizeof *q; k++) gg_hermite_convergence_take(&rungs, q[k], a);
+  return GG_OK;
+}
+
 /* The isotropic state is cheap, its viscosity is not: that one up to a lower degree, from which on its series does
  * nothing any more. */
 static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *err)
@@ -88,7 +121,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
   GG_TRY(gg_hermite_convergence_finish(&rungs, name, GG_Q_COOLING_RATE, hardly, a, err));
   gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED, a);
   gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
-  return GG_OK;
+  return m->flow == GG_HCS ? conduct(m, a, err) : GG_OK;
 }
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
@@ -109,12 +142,13 @@ const gg_theory gg_theory_enskog_hermite = {
     .answers = "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor "
                "shear_viscosity N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
                "kurtosis_Wx kurtosis_Wy kurtosis_Wz skewness_Wz dissipation cooling_rate a2 c_1 c_2 " GG_ANSWERS_MIXTURE
-                   GG_ANSWERS_VISCOSITY "relaxation_rate",
+                   GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "relaxation_rate",
     .assumptions =
         "Any density; one species, smooth or of constant beta, or a smooth mixture: steady uniform shear (of up to 8 "
-        "species), free cooling, heated states, and of smooth grains their viscosity (of up to 6). Molecular chaos, "
-        "and "
-        "nothing else: what is left is a numerical error, of smooth grains mostly below 0.01 % (0.1 % in dilute shear "
+        "species), free cooling, heated states, and of smooth grains their viscosity (of up to 6) and, of one cooling "
+        "species, its "
+        "conductivities. Molecular chaos, and nothing else: what is left is a numerical error, of smooth grains mostly "
+        "below 0.01 % (0.1 % in dilute shear "
         "of "
         "e = 0.5), of rough ones 0.1 % for e from 0.7.",
     .evaluate = evaluate,

@@ -5,6 +5,12 @@
  *   eta_k = [1 - 2/5 (1+e)(1-3e) phi chi]/(nu_eta - s zeta),  s = 1/2 cooling, 1 Gaussian thermostat, 0 white noise
  *   eta   = eta_k [1 + 4/5 (1+e) phi chi] + 3/5 kappa,   kappa = 128/(5 pi) phi^2 chi (1+e)(1 - c/32)
  *   p     = nT [1 + 2(1+e) phi chi]
+ * Heat flux of a cooling gas, in units of kappa_0 = 15 nT/(4 m nu_0), with slope = d ln chi/d ln phi:
+ *   nu_kappa = (1+e)/3 chi [1 + 33/16 (1-e) + (19-3e)/1024 c]
+ *   kappa_k  = 2/3 {1 + c + 3/5 phi chi (1+e)^2 [2e-1 + (1+e) c/2]}/(nu_kappa - 2 zeta)
+ *   kappa    = kappa_k [1 + 6/5 (1+e) phi chi] + 256/(25 pi) phi^2 chi (1+e)(1 - 7c/32)
+ *   mu_k     = 2 {zeta kappa_k (1 + slope) + c/3 + 4/5 phi chi (1+e)(1 + slope/2)[e(e-1) + (16 - 3e + 3e^2) c/12]}
+ *              /(2 nu_kappa - 3 zeta),   mu = mu_k [1 + 6/5 (1+e) phi chi]
  * a_2 by T.P.C. van Noije & M.H. Ernst, Granular Matter 1 (1998) 57; collision rate and mean speed of that distribution
  * are those of a Maxwellian times 1 - a_2/16 and 1 - a_2/8.
  * Modified first Sonine: the weight of the expansion is the distribution of the cooling state itself, which makes
@@ -73,6 +79,22 @@ static void answer_viscosity(const gg_model *m, double a2, double weight, gg_the
   double bulk = 128 / (5 * M_PI) * m->phi * y * (1 + e) * (1 - c / 32);
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = eta_k;
   a->value[GG_Q_VISCOSITY_REDUCED] = eta_k * (1 + 0.8 * (1 + e) * y) + 0.6 * bulk;
+  if (!m->boltzmann) a->value[GG_Q_BULK_VISCOSITY_REDUCED] = bulk;
+}
+
+/* Of a cooling gas. */
+static void answer_heat(const gg_model *m, double a2, gg_theory_answer *a)
+{
+  double e = m->e[0], y = gg_theory_phi_chi(m), c = 2 * a2, zeta = a->value[GG_Q_COOLING_RATE], slope = m->chi_slope;
+  double nu = (1 + e) / 3 * m->chi[0] * (1 + 33. / 16 * (1 - e) + (19 - 3 * e) / 1024 * c);
+  double collisional = 1 + 1.2 * (1 + e) * y;
+  double kappa = 2. / 3 * (1 + c + 0.6 * y * (1 + e) * (1 + e) * (2 * e - 1 + (1 + e) * c / 2)) / (nu - 2 * zeta);
+  double density = 0.8 * y * (1 + e) * (1 + slope / 2) * (e * (e - 1) + (16 - 3 * e + 3 * e * e) * c / 12);
+  double mu = 2 * (zeta * kappa * (1 + slope) + c / 3 + density) / (2 * nu - 3 * zeta);
+  a->value[GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC] = kappa;
+  a->value[GG_Q_THERMAL_CONDUCTIVITY_REDUCED] =
+      kappa * collisional + 256 / (25 * M_PI) * m->phi * y * (1 + e) * (1 - 7. / 32 * c);
+  a->value[GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED] = mu * collisional;
 }
 
 static const double standard = -1. / 32, modified = 7. / 16;
@@ -85,6 +107,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   double a2 = noisy ? gg_theory_a2_white_noise(m->e[0]) : gg_theory_a2_van_noije_ernst(m->e[0]);
   answer_sonine(m, a2, a);
   answer_viscosity(m, a2, standard, a);
+  if (m->flow == GG_HCS) answer_heat(m, a2, a);
   return GG_OK;
 }
 
@@ -96,7 +119,7 @@ const gg_theory gg_theory_garzo_dufty1999 = {
         "V. Garzo and J.W. Dufty, Phys. Rev. E 59 (1999) 5895; V. Garzo and J.M. Montanero, Physica A 313 (2002) "
         "336",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
-               "cooling_rate a2 " GG_ANSWERS_VISCOSITY,
+               "cooling_rate a2 " GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "bulk_viscosity_reduced",
     .assumptions = "Homogeneous cooling or heated state (Gaussian thermostat or white noise) of one species of smooth "
                    "spheres, any density with molecular chaos; first Sonine order, linear in a2 (van Noije and Ernst "
                    "1998). Viscosity of linear response, counted in eta_0 = n T/nu_0.",
@@ -138,7 +161,7 @@ const gg_theory gg_theory_montanero_santos2000 = {
     .title = "Fourth cumulant, the other linearisation",
     .citation = "J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
-               "cooling_rate a2 " GG_ANSWERS_VISCOSITY,
+               "cooling_rate a2 " GG_ANSWERS_VISCOSITY "bulk_viscosity_reduced",
     .assumptions =
         "As garzo_dufty1999 for the cooling state, its fourth-moment equation divided by 1 + a2 before it is "
         "linearised: closer to simulations for e below 0.7.",
@@ -151,7 +174,7 @@ const gg_theory gg_theory_garzo_santos_montanero2007 = {
     .title = "Viscosity about the cooling state's own distribution",
     .citation = "V. Garzo, A. Santos and J.M. Montanero, Physica A 376 (2007) 94",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
-               "cooling_rate a2 " GG_ANSWERS_VISCOSITY,
+               "cooling_rate a2 " GG_ANSWERS_VISCOSITY "bulk_viscosity_reduced",
     .assumptions =
         "As montanero_santos2000, but the first Sonine term multiplies the distribution of the cooling state "
         "instead of a Maxwellian: closer to simulations below e = 0.7. That of one species, carried over to "

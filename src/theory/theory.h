@@ -18,6 +18,8 @@ typedef struct gg_theory_answer {
 #define GG_ANSWERS_RATES "collision_rate mean_free_path knudsen "
 #define GG_ANSWERS_KURTOSES "kurtosis_Cx kurtosis_Cy kurtosis_Cz "
 #define GG_ANSWERS_VISCOSITY "viscosity_reduced viscosity_reduced_kinetic "
+#define GG_ANSWERS_HEAT                                                                                                \
+  "thermal_conductivity_reduced thermal_conductivity_reduced_kinetic diffusive_heat_conductivity_reduced "
 #define GG_ANSWERS_MIXTURE "temperature_1 temperature_2 partial_temperature_ratio "
 
 typedef struct gg_theory {
