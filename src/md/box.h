@@ -40,9 +40,9 @@ GG_INLINE double gg_md_offset(const gg_md_box *b, double t)
   return gg_wrap(b->offset0 + b->image_velocity * t, b->edge[0], b->inverse[0]);
 }
 
-/* The nearest image of a separation: right for pairs closer than half the shortest edge. The relative velocity dv goes
- * with the image. */
-GG_INLINE void gg_md_nearest_image(const gg_md_box *b, int sheared, double t, gg_vec *dr, gg_vec *dv)
+/* Minimum-image convention: replaces a separation by that of the nearest images, right for pairs closer than half the
+ * shortest edge. The relative velocity dv becomes that of the images. */
+GG_INLINE void gg_md_minimum_image(const gg_md_box *b, int sheared, double t, gg_vec *dr, gg_vec *dv)
 {
   double layers = gg_nearest(dr->y * b->inverse[1]);
   dr->y -= b->edge[1] * layers;

@@ -1,6 +1,6 @@
 /* The end of an epoch: every grain is brought to it, all times are re-zeroed there, and what was tuned to the rate of
- * events (the calendar's buckets, the contact time) is tuned anew. It comes when the calendar runs out, a matter of the
- * trajectory alone: never of how a caller cuts a run. */
+ * events (the buckets of the event queue, the contact time) is tuned anew. It comes when the queue runs out, a matter
+ * of the trajectory alone: never of how a caller cuts a run. */
 #include <math.h>
 
 #include "md/md_state.h"

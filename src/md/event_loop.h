@@ -1,9 +1,9 @@
 /* The event loop: pop, re-check, advance the pair, collide, re-predict.
  *
- * Each grain has one entry in the calendar: the earliest of the collisions that it saw when it was last predicted and
- * of its next crossing. That no collision is missed: for every pair the one predicted last saw the other as it moves
- * now, so its entry is no later than their contact. A collision whose partner has collided since (its counter tells)
- * was merely a lower limit: the grain is re-predicted when that time comes. */
+ * Each grain has one entry in the event queue: the earliest of the collisions that it saw when it was last predicted
+ * and of its next crossing. That no collision is missed: for every pair the one predicted last saw the other as it
+ * moves now, so its entry is no later than their contact. A collision whose partner has collided since (its counter
+ * tells) was merely a lower limit: the grain is re-predicted when that time comes. */
 #ifndef GG_MD_EVENT_LOOP_H
 #define GG_MD_EVENT_LOOP_H
 
@@ -56,7 +56,7 @@ GG_INLINE void gg_md_re_predict(gg_md *e, uint32_t i)
     gg_md_predict(e, i);
 }
 
-/* Both searches before either goes into the calendar: the processor works on both at a time. */
+/* Both searches before either goes into the event queue: the processor works on both at a time. */
 GG_INLINE void gg_md_predict_two(gg_md *e, uint32_t i, uint32_t j)
 {
   gg_md_search one = {.candidates = e->candidates}, two = {.candidates = e->candidates + GG_MD_CANDIDATES_APART};
@@ -71,7 +71,7 @@ GG_INLINE void gg_md_collide(gg_md *e, uint32_t i, uint32_t j)
   const bool again = (e->grain[i].t == e->k.now) & (e->grain[j].t == e->k.now);
   gg_md_grain *one = gg_md_synchronise(e, i), *two = gg_md_synchronise(e, j);
   gg_vec dr = gg_sub(two->r, one->r), dv = gg_sub(two->v, one->v);
-  gg_md_nearest_image(&e->box, IS_SHEARED, e->k.now, &dr, &dv);
+  gg_md_minimum_image(&e->box, IS_SHEARED, e->k.now, &dr, &dv);
   (__builtin_expect(again, 0) ? gg_md_resolve_again : e->resolve)(e, i, j, dr, gg_scale(-1, dv));
   one->counter++;
   two->counter++;

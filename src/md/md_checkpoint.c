@@ -1,4 +1,4 @@
-/* Everything needed to go on bit for bit: the records as they are. What cells and calendar hold is put there anew:
+/* Everything needed to go on bit for bit: the records as they are. What cells and event queue hold is put there anew:
  * its order never matters. */
 #include "md/md_engine.h"
 

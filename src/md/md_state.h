@@ -1,5 +1,5 @@
 /* The state of an event-driven run: one 64-byte record a grain for what every prediction reads, one for what only the
- * grain's own events read, and the box, the cells, the calendar and the sums around them.
+ * grain's own events read, and the box, the cells, the event queue and the sums around them.
  *
  * Each grain is kept where it stood at its own time t, its last event; r(t') = r + v (t' - t) wherever it is needed.
  * Times count from the start of the present epoch: at an epoch's end all of them are re-zeroed (epoch.c), so that the
@@ -201,7 +201,7 @@ int32_t gg_md_cell_in_row(const gg_md *e, int32_t y, double x);
 /* lists.c: every grain's skin and list anew at the present time; the skins get smaller where lists overflow. */
 void gg_md_build_lists(gg_md *e);
 
-/* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the calendar re-tuned.
+/* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the queue re-tuned.
  * False if nothing will ever happen again. */
 bool gg_md_next_epoch(gg_md *e);
 /* verify.c: look at all grains, if that is due; false: a place, velocity or spin is no number, and e->no_number.
@@ -219,7 +219,7 @@ void gg_md_begin_contact_time(gg_md *e, double T);
 /* T about the mean velocity, relative to the imposed shear; all grains at the same time. */
 double gg_md_temperature(const gg_md *e);
 void gg_md_follow_contact_time(gg_md *e);
-/* Width of a calendar's bucket that suits a rate of events. */
+/* Bucket width of the event queue that suits a rate of events. */
 double gg_md_bucket_width(double events_per_time);
 
 /* collision_callback.c: a resolution that shows the collision to the callback, then goes on to e->resolve_shown; and

@@ -1,8 +1,8 @@
-/* The calendar of events, one entry a grain: buckets of equal width over the present epoch (a bounded-increment
- * priority queue: Paul, J. Comput. Phys. 221 (2007) 615), each one cache line of grains in any order; only the grains
- * of the present bucket stand sorted. Insertion and removal cost O(1), touch one line of a bucket and no other grain's
- * node, and have no branch that is hard to foresee. What finds its bucket full is chained to it; what lies beyond the
- * epoch is not kept at all: at the epoch's end everybody is inserted anew. */
+/* The event queue: a bounded-increment priority queue (Paul, J. Comput. Phys. 221 (2007) 615) with one entry per grain.
+ * Buckets of equal width cover the present epoch. A bucket is one cache line of unsorted grains; only the present
+ * bucket is sorted. Insertion and removal cost O(1), touch one cache line of a bucket and no other grain's node, and
+ * have no unpredictable branch. A full bucket has an overflow list. Events beyond the epoch are not stored: at the end
+ * of the epoch every grain is inserted again. */
 #ifndef GG_MD_QUEUE_H
 #define GG_MD_QUEUE_H
 
@@ -16,11 +16,11 @@
 
 #define GG_MD_NONE UINT32_MAX
 
-/* A grain's next event and its place in the calendar and the grid: read only by the grain's own events. */
+/* A grain's next event and its place in the event queue and the grid: read only by the grain's own events. */
 typedef struct gg_md_node {
   double time;               /* of the next event */
-  double collision;          /* of the next collision known of, >= time; equal: that is the event */
-  uint32_t partner, counter; /* of that collision: with whom, and the partner's counter when it was predicted */
+  double collision;          /* of the next predicted collision, >= time; equal: that is the event */
+  uint32_t partner, counter; /* of that collision, and the partner's counter when it was predicted */
   uint32_t later, earlier;   /* in the overflow list of a full bucket */
   int32_t cell[3];
   uint32_t neighbours; /* in its list; of overlapping cells: bits of those along which it is in two */
@@ -80,7 +80,7 @@ GG_INLINE uint32_t gg_md_bucket_of(const gg_md_queue *q, double time)
   return b < q->n_buckets ? (uint32_t)b : q->n_buckets;
 }
 
-/* Equal times go by the grain's index, so that the order never depends on the history of the calendar. */
+/* Equal times go by the grain's index, so that the order never depends on the history of the queue. */
 GG_INLINE bool gg_md_is_before(gg_md_due a, gg_md_due b)
 {
   return (a.time < b.time) | ((a.time == b.time) & (a.grain < b.grain));

@@ -12,7 +12,7 @@ bool gg_md_is_search_of(const gg_model *model, const int32_t cells[3], double sk
                         bool comoving);
 /* The counts, of a grid of so many cells. */
 bool gg_md_are_counts(const gg_md_counts *k, const int32_t cells[3]);
-/* Grains, events, spins, numbers, lists; before they are put into cells and calendar. NULL, or what is wrong. */
+/* Grains, events, spins, numbers, lists; before they are put into cells and event queue. NULL, or what is wrong. */
 const char *gg_md_wrong_grains(const gg_md *e);
 
 #endif

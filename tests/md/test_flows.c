@@ -370,7 +370,8 @@ static void white_noise_keeps_warm(void **state)
   md_destroy(e);
 }
 
-/* In whatever units gravity is given, few grains wait in the calendar's present bucket, which is searched in order. */
+/* In whatever units gravity is given, few grains wait in the present bucket of the event queue, which is searched in
+ * order. */
 static void gravity_in_any_unit(void **state)
 {
   (void)state;

@@ -254,7 +254,7 @@ static double nearest_pair(const shown *x)
   for (uint32_t i = 0; i < x->n; i++)
     for (uint32_t j = 0; j < i; j++) {
       gg_vec dr = gg_sub(x->r[i], x->r[j]), dv = {0, 0, 0};
-      gg_md_nearest_image(&x->e->box, 1, x->e->k.now, &dr, &dv);
+      gg_md_minimum_image(&x->e->box, 1, x->e->k.now, &dr, &dv);
       least = fmin(least, gg_dot(dr, dr));
     }
   return sqrt(least);

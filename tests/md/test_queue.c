@@ -1,6 +1,6 @@
-/* Proves: under 10^7 random insertions, removals, re-schedulings and pops the calendar gives the same order as a
+/* Proves: under 10^7 random insertions, removals, re-schedulings and pops the event queue gives the same order as a
  * sorted list, with events in the present bucket, ties, events beyond the epoch and never. The sorted list is an array
- * of all events in order, searched by halves: nothing that the calendar does. */
+ * of all events in order, searched by halves: nothing that the event queue does. */
 #include <stdlib.h>
 #include <string.h>
 

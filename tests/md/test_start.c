@@ -177,7 +177,7 @@ static void check_lattice(const double edge[3], uint32_t n, double nearest)
   for (uint32_t i = 0; i < n; i++)
     for (uint32_t j = 0; j < i; j++) {
       gg_vec dr = gg_sub(r[i], r[j]), dv = {0, 0, 0};
-      gg_md_nearest_image(&box, 0, 0, &dr, &dv);
+      gg_md_minimum_image(&box, 0, 0, &dr, &dv);
       least = fmin(least, sqrt(gg_dot(dr, dr)));
     }
   if (!(fabs(least / nearest - 1) < 1e-12)) fail_msg("%d grains: nearest %g, not %g", (int)n, least, nearest);

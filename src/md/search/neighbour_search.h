@@ -28,7 +28,8 @@ GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner);
 GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i);
 GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i);
 
-/* event_loop.h: the search is over, and what it found goes into the calendar; and a search from scratch with that. */
+/* event_loop.h: the search is over, and what it found goes into the event queue; and a search from scratch with that.
+ */
 GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s);
 static void gg_md_predict(gg_md *e, uint32_t i);
 

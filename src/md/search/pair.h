@@ -27,7 +27,7 @@ GG_INLINE void gg_md_try_nearest(const gg_md *e, gg_md_search *s, uint32_t j)
   const gg_md_grain *one = s->self, *two = &e->grain[j];
   gg_vec dr = gg_sub(gg_md_position(e, HAS_GRAVITY, two, e->k.now), one->r);
   gg_vec dv = gg_sub(gg_md_velocity(e, HAS_GRAVITY, two, e->k.now), one->v);
-  gg_md_nearest_image(&e->box, IS_SHEARED, e->k.now, &dr, &dv);
+  gg_md_minimum_image(&e->box, IS_SHEARED, e->k.now, &dr, &dv);
   gg_md_try_separated(e, s, j, dr, dv);
 }
 

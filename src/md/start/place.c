@@ -29,7 +29,7 @@ static void try_pair(sweep *s, uint32_t i, uint32_t j)
 {
   gg_md_packing *p = s->p;
   gg_vec dr = gg_sub(p->r[j], p->r[i]), unused = {0, 0, 0};
-  gg_md_nearest_image(&p->box, p->box.offset0 != 0, 0, &dr, &unused);
+  gg_md_minimum_image(&p->box, p->box.offset0 != 0, 0, &dr, &unused);
   double sigma = 0.5 * (p->diameter[i] + p->diameter[j]), wanted = sigma * (1 + s->margin), r2 = gg_dot(dr, dr);
   if (r2 >= wanted * wanted) return;
   double distance = sqrt(r2);
