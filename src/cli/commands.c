@@ -64,8 +64,10 @@ const gg_command gg_cli_commands[] = {
      GG_OPT_PREFIX | GG_OPT_ONLY | GG_OPT_QUIET, gg_cli_export_main},
     {"info", "[FILE|WORD]", "What a result or a checkpoint holds, what a scene means, or what a word means",
      "FILE is a scene, a result or a checkpoint. WORD is a scene key, a quantity, a theory, a flow or an observable: "
-     "graingas info N1 prints its definition. Without an argument: every scene key with its default and range.",
-     GG_OPT_SET | GG_OPT_JSON | GG_OPT_QUIET, gg_cli_info_main},
+     "graingas info N1 prints its definition in five lines, --all in full. Without an argument: every scene key with "
+     "its "
+     "default and range.",
+     GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL | GG_OPT_QUIET, gg_cli_info_main},
     {"fingerprint", "SCENE.yaml", "A hash of the grains' state after a number of collisions, to compare machines",
      "Runs the scene's engine, or the one of --engine, from its start and prints a hash of all positions, velocities "
      "and spins. The hash of a scene and seed is the same on every processor, with every compiler and in the browser. "

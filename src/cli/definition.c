@@ -1,7 +1,8 @@
-/* graingas info WORD: what a scene key, a quantity, a theory or an observable is, in five lines. */
+/* graingas info WORD: what a scene key, a quantity, a theory or an observable is, in five lines; --all: in full. */
 #include "cli/definition.h"
 
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,11 +15,34 @@ static const gg_catalogue lists[] = {GG_CATALOGUE_QUANTITIES, GG_CATALOGUE_KEYS,
                                      GG_CATALOGUE_OBSERVABLES};
 enum { LISTS = sizeof lists / sizeof *lists };
 
-static void line(const char *head, const char *text)
+/* How many bytes of a text fit into rows of `room` columns, wrapped at words. If not all: less `reserve` columns. */
+static size_t fit(const char *text, size_t room, int rows, size_t reserve)
+{
+  size_t end = 0, used = 0, start = 0;
+  while (text[start]) {
+    const size_t word = strcspn(text + start, " ");
+    const bool wraps = used && used + 1 + word > room;
+    if (wraps && --rows == 0) return end;
+    used = wraps || !used ? word : used + 1 + word;
+    start += word;
+    if (rows > 1 || used + reserve <= room) end = start;
+    start += strspn(text + start, " ");
+  }
+  return start;
+}
+
+static void print_rows(const char *lead, const char *text, int rows)
+{
+  static const char more[] = " ... (--all)";
+  const size_t room = (size_t)gg_cli_terminal_width() - strlen(lead), bytes = fit(text, room, rows, strlen(more));
+  gg_cli_print_paragraph(stdout, (int)strlen(lead), "%s%.*s%s", lead, (int)bytes, text, text[bytes] ? more : "");
+}
+
+static void line(const char *head, const char *text, int rows)
 {
   char lead[24];
   snprintf(lead, sizeof lead, "  %-12s ", head);
-  if (text && *text) gg_cli_print_wrapped(stdout, lead, text);
+  if (text && *text) print_rows(lead, text, rows);
 }
 
 bool gg_cli_quantity_is_minor(const char *name)
@@ -60,59 +84,66 @@ static void list_answers(const gg_entry *theory, char *text, size_t size)
       used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", q.name);
 }
 
-static void define_quantity(const gg_entry *q)
+/* `most`, here and below: rows of a text. The one that says what a word is may have two. */
+static int twice(int most)
 {
-  char text[1000], unit[160];
-  snprintf(unit, sizeof unit, "%s%s", q->unit, strcmp(q->unit, "1") == 0 ? " (a pure number)" : " under shear");
-  printf("%s, symbol %s: a quantity\n", q->name, q->symbol);
-  line("definition", q->doc);
-  line("unit", unit);
-  line("measured in", q->when);
-  if (!gg_cli_theories_of(q->name, text, sizeof text)) snprintf(text, sizeof text, "none");
-  line("theories", text);
+  return most == 1 ? 2 : most;
 }
 
-static void define_key(const gg_entry *f, bool of_species)
+static void define_quantity(const gg_entry *q, int most)
 {
   char text[1000];
-  printf("%s: a key of %s\n", f->name, of_species ? "a species" : "a scene");
+  snprintf(text, sizeof text, "%s: a quantity; symbol %s, unit %s%s", q->name, q->symbol, q->unit,
+           strcmp(q->unit, "1") == 0 ? " (a pure number)" : " under shear");
+  print_rows("", text, most);
+  line("definition", q->doc, twice(most));
+  line("measured in", q->when, most);
+  if (!gg_cli_theories_of(q->name, text, sizeof text)) snprintf(text, sizeof text, "none");
+  line("theories", text, most);
+}
+
+static void define_key(const gg_entry *f, bool of_species, int most)
+{
+  char text[5000];
+  snprintf(text, sizeof text, "%s: a key of %s; default: %s", f->name, of_species ? "a species" : "a scene",
+           f->value[0] ? f->value : "none (required)");
+  print_rows("", text, most);
   snprintf(text, sizeof text, "%s%s%s%s", f->doc, f->unit ? " (unit: " : "", f->unit ? f->unit : "",
            f->unit ? ")" : "");
-  line("meaning", text);
-  line("takes", f->allowed);
-  line("default", f->value[0] ? f->value : "none: required");
-  line("effect if", f->when[0] ? f->when : "always");
+  line("meaning", text, twice(most));
+  line("takes", f->allowed, most);
+  line("effect if", f->when[0] ? f->when : "always", most);
 }
 
-static void define_theory(const gg_entry *t)
+static void define_theory(const gg_entry *t, int most)
 {
   char text[1000];
-  printf("%s: a theory, %s\n", t->name, t->doc);
-  line("source", t->citation);
+  snprintf(text, sizeof text, "%s: %s; flows: %s", t->name, t->doc, t->when);
+  print_rows("", text, most);
+  line("source", t->citation, most);
   list_answers(t, text, sizeof text);
-  line("answers", text);
-  line("flows", t->when);
-  line("range", t->assumptions);
+  line("answers", text, most);
+  line("range", t->assumptions, twice(most));
 }
 
-static void define_word(const gg_entry *w, const char *of)
+static void define_word(const gg_entry *w, const char *of, int most)
 {
   printf("%s: %s\n", w->name, of);
-  line("meaning", w->doc);
+  line("meaning", w->doc, twice(most));
 }
 
-static void define(gg_catalogue list, const gg_entry *entry)
+static void define(gg_catalogue list, const gg_entry *entry, int most)
 {
   switch (list) {
-  case GG_CATALOGUE_QUANTITIES: define_quantity(entry); return;
-  case GG_CATALOGUE_KEYS: define_key(entry, false); return;
-  case GG_CATALOGUE_SPECIES_KEYS: define_key(entry, true); return;
-  case GG_CATALOGUE_THEORIES: define_theory(entry); return;
-  case GG_CATALOGUE_FLOWS: define_word(entry, "a flow (flow: ...)"); return;
-  case GG_CATALOGUE_ENGINES: define_word(entry, "an engine (engine: ...)"); return;
+  case GG_CATALOGUE_QUANTITIES: define_quantity(entry, most); return;
+  case GG_CATALOGUE_KEYS: define_key(entry, false, most); return;
+  case GG_CATALOGUE_SPECIES_KEYS: define_key(entry, true, most); return;
+  case GG_CATALOGUE_THEORIES: define_theory(entry, most); return;
+  case GG_CATALOGUE_FLOWS: define_word(entry, "a flow (flow: ...)", most); return;
+  case GG_CATALOGUE_ENGINES: define_word(entry, "an engine (engine: ...)", most); return;
   case GG_CATALOGUE_OBSERVABLES:
-    define_word(entry, "an observable (measure: [...])");
-    line("more", "docs/reference/observables.md");
+    define_word(entry, "an observable (measure: [...])", most);
+    line("more", "docs/reference/observables.md", most);
     return;
   }
 }
@@ -167,12 +198,13 @@ bool gg_cli_is_word(const char *input)
   return true;
 }
 
-int gg_cli_define(const char *word)
+int gg_cli_define(const char *word, bool all)
 {
+  const int most = all ? INT_MAX : 1;
   gg_catalogue list;
   gg_entry entry;
-  if (find(word, &list, &entry)) return define(list, &entry), GG_OK;
-  if (find_member(word, &entry)) return define(GG_CATALOGUE_KEYS, &entry), GG_OK;
+  if (find(word, &list, &entry)) return define(list, &entry, most), GG_OK;
+  if (find_member(word, &entry)) return define(GG_CATALOGUE_KEYS, &entry, most), GG_OK;
   const char *nearest = nearest_to(word);
   if (nearest)
     return gg_cli_fail(GG_BAD_INPUT, "'%s' is no file, scene key, quantity, theory or observable; did you mean '%s'?",

@@ -6,8 +6,8 @@
 
 /* May the argument of `info` be a word to define? What cannot be one, or ends like a file's name, is a file. */
 bool gg_cli_is_word(const char *input);
-/* Print the definition, five lines; or an error with the nearest word. Returns the exit code. */
-int gg_cli_define(const char *word);
+/* Print the definition in five lines, or in full; or an error with the nearest word. Returns the exit code. */
+int gg_cli_define(const char *word, bool all);
 
 /* A quantity that is left to --all: parts and components. */
 bool gg_cli_quantity_is_minor(const char *name);

@@ -251,13 +251,15 @@ static bool is_hdf5(const char *path)
 
 static int inform(const gg_options *o)
 {
+  struct stat about;
+  const bool is_word = o->input && gg_cli_is_word(o->input) && stat(o->input, &about) != 0;
+  if (o->all && !is_word) return gg_cli_fail(GG_BAD_INPUT, "info takes --all only with a WORD");
   if (o->input && is_hdf5(o->input)) {
     if (!o->n_overrides) return inform_result(o);
     return gg_cli_fail(GG_BAD_INPUT, "%s: is a result, which --set does not change", o->input);
   }
-  struct stat about;
-  if (o->input && gg_cli_is_word(o->input) && stat(o->input, &about) != 0) {
-    if (!o->json && !o->n_overrides) return gg_cli_define(o->input);
+  if (is_word) {
+    if (!o->json && !o->n_overrides) return gg_cli_define(o->input, o->all);
     return gg_cli_fail(GG_BAD_INPUT, "info WORD takes neither --set nor --json; '%s' is no file", o->input);
   }
   if (o->input) return inform_scene(o);

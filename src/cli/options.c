@@ -51,7 +51,7 @@ const gg_option gg_cli_options_table[] = {
     {GG_OPT_RESUME, "resume", "FILE", "resume from this checkpoint"},
     {GG_OPT_ACCEPT, "accept-version", NULL,
      "use checkpoints and points of sweeps of another build, whose numbers may differ"},
-    {GG_OPT_ALL, "all", NULL, "show every quantity, not only the main ones"},
+    {GG_OPT_ALL, "all", NULL, "show everything: every quantity, not only the main ones; whole definitions"},
     {GG_OPT_JSON, "json", NULL, "results as one JSON document on standard output, and nothing else there"},
     {GG_OPT_QUICK, "quick", NULL, "fewer sizes and fewer repeats"},
     {GG_OPT_QUIET, "quiet", NULL, "no progress"},

@@ -143,14 +143,11 @@ const gg_theory gg_theory_enskog_hermite = {
                "shear_viscosity N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
                "kurtosis_Wx kurtosis_Wy kurtosis_Wz skewness_Wz dissipation cooling_rate a2 c_1 c_2 " GG_ANSWERS_MIXTURE
                    GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "relaxation_rate",
-    .assumptions =
-        "Any density; one species, smooth or of constant beta, or a smooth mixture: steady uniform shear (of up to 8 "
-        "species), free cooling, heated states, and of smooth grains their viscosity (of up to 6) and, of one cooling "
-        "species, its "
-        "conductivities. Molecular chaos, and nothing else: what is left is a numerical error, of smooth grains mostly "
-        "below 0.01 % (0.1 % in dilute shear "
-        "of "
-        "e = 0.5), of rough ones 0.1 % for e from 0.7.",
+    .assumptions = "Any density, molecular chaos, no other assumption: each answer has a numerical error. One species, "
+                   "smooth or of constant beta, or a smooth mixture: steady uniform shear (up to 8 species), free "
+                   "cooling and heated states; viscosity of smooth grains (up to 6), heat flux of one cooling species. "
+                   "Errors of smooth grains are "
+                   "mostly below 0.01 % (0.1 % in dilute shear at e = 0.5), of rough grains 0.1 % from e = 0.7 on.",
     .evaluate = evaluate,
     .curves = gg_hermite_curves,
 };

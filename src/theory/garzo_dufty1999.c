@@ -120,9 +120,9 @@ const gg_theory gg_theory_garzo_dufty1999 = {
         "336",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
                "cooling_rate a2 " GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "bulk_viscosity_reduced",
-    .assumptions = "Homogeneous cooling or heated state (Gaussian thermostat or white noise) of one species of smooth "
-                   "spheres, any density with molecular chaos; first Sonine order, linear in a2 (van Noije and Ernst "
-                   "1998). Viscosity of linear response, counted in eta_0 = n T/nu_0.",
+    .assumptions = "Cooling or heated state (Gaussian thermostat or white noise) of one species of smooth spheres, any "
+                   "density with molecular chaos. Viscosity of linear response, in units of eta_0 = n T/nu_0. First "
+                   "Sonine order, linear in a2 (van Noije and Ernst 1998).",
     .evaluate = evaluate,
     .beyond = gg_theory_beyond_first_sonine,
 };
@@ -162,9 +162,8 @@ const gg_theory gg_theory_montanero_santos2000 = {
     .citation = "J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
                "cooling_rate a2 " GG_ANSWERS_VISCOSITY "bulk_viscosity_reduced",
-    .assumptions =
-        "As garzo_dufty1999 for the cooling state, its fourth-moment equation divided by 1 + a2 before it is "
-        "linearised: closer to simulations for e below 0.7.",
+    .assumptions = "As garzo_dufty1999 for the cooling state, but the fourth-moment equation is divided by 1 + a2 "
+                   "before it is linearised: closer to simulations for e below 0.7.",
     .evaluate = evaluate_ms,
 };
 
@@ -175,9 +174,8 @@ const gg_theory gg_theory_garzo_santos_montanero2007 = {
     .citation = "V. Garzo, A. Santos and J.M. Montanero, Physica A 376 (2007) 94",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
                "cooling_rate a2 " GG_ANSWERS_VISCOSITY "bulk_viscosity_reduced",
-    .assumptions =
-        "As montanero_santos2000, but the first Sonine term multiplies the distribution of the cooling state "
-        "instead of a Maxwellian: closer to simulations below e = 0.7. That of one species, carried over to "
-        "the heated state.",
+    .assumptions = "As montanero_santos2000, but the first Sonine term multiplies the distribution of the cooling "
+                   "state instead of a Maxwellian: closer to simulations for e below 0.7. Derived for one species in "
+                   "the cooling state, used for the heated state, too.",
     .evaluate = evaluate_modified,
 };

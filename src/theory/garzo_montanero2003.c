@@ -163,10 +163,9 @@ const gg_theory gg_theory_garzo_montanero2003 = {
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES
                "cooling_rate c_1 c_2 " GG_ANSWERS_MIXTURE GG_ANSWERS_VISCOSITY,
     .assumptions =
-        "Homogeneous cooling or Gaussian-heated state of a smooth binary mixture, any density with molecular "
-        "chaos; first Sonine order, linear in c_1 and c_2. T_1/T_2 within 0.5 % and, at one e "
-        "for all pairs, the viscosity within 1 % of Enskog's equation (5 % high at e = 0.6, 0.9, 0.99); c some 10 % "
-        "high at e = 0.5.",
+        "Cooling or Gaussian-heated state of a smooth binary mixture, any density with molecular chaos. T_1/T_2 is "
+        "within 0.5 % of Enskog's equation, the viscosity within 1 % at one e for all pairs (5 % high at e = 0.6, 0.9, "
+        "0.99), c_1 and c_2 are some 10 % high at e = 0.5. First Sonine order, linear in c_1 and c_2.",
     .evaluate = evaluate,
     .beyond = gg_theory_beyond_first_sonine,
 };
@@ -185,8 +184,7 @@ const gg_theory gg_theory_garzo_montanero2003_ms = {
     .citation = "As garzo_montanero2003, linearised as in J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES
                "cooling_rate c_1 c_2 " GG_ANSWERS_MIXTURE GG_ANSWERS_VISCOSITY,
-    .assumptions =
-        "As garzo_montanero2003, the fourth-moment equations divided by 1 + c_i/2 before they are linearised: c "
-        "closer to simulations.",
+    .assumptions = "As garzo_montanero2003, but the fourth-moment equations are divided by 1 + c_i/2 before they are "
+                   "linearised: c_1 and c_2 are closer to simulations.",
     .evaluate = evaluate_ms,
 };

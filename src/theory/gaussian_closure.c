@@ -80,11 +80,10 @@ const gg_theory gg_theory_gaussian_closure = {
         "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor shear_viscosity "
         "N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES "dissipation " GG_ANSWERS_MIXTURE,
     .assumptions =
-        "Steady uniform shear at any density, any number of species, smooth or of constant beta; molecular chaos "
-        "with velocities and spins Gaussian and independent, which leaves out a part of the mean spin that grows as "
-        "1/phi; that is told from phi = 0.01 on. Within 1 % of Enskog's equation in T, p and the "
-        "viscosity for e from 0.9 (1.6 % low in dilute gases as e -> 1; 4 % for dilute, half-rough grains); N2 within "
-        "15 %.",
+        "Steady uniform shear at any density, any number of species, smooth or of constant beta. Within 1 % of "
+        "Enskog's equation in T, p and viscosity for e from 0.9 (1.6 % low in dilute gases as e -> 1, 4 % for dilute, "
+        "half-rough grains), N2 within 15 %. Molecular chaos; velocities and spins are Gaussian and independent, which "
+        "leaves out a part of the mean spin that grows as 1/phi: spin_z has values from phi = 0.01 on.",
     .evaluate = evaluate,
     .beyond = gg_theory_beyond_gaussian,
 };

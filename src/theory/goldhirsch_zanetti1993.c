@@ -71,8 +71,8 @@ const gg_theory gg_theory_goldhirsch_zanetti1993 = {
     .citation =
         "I. Goldhirsch and G. Zanetti, Phys. Rev. Lett. 70 (1993) 1619; J.J. Brey et al., Phys. Rev. E 58 (1998) 4638",
     .answers = "clustering_length",
-    .assumptions = "Linear stability of the shear mode in homogeneous free cooling: periodic boxes with an edge above "
-                   "clustering_length break up. In uniform shear it is a scale: boxes larger than about three of it "
-                   "cluster at moderate density.",
+    .assumptions = "Linear stability of the shear mode in free cooling: a periodic box with an edge above "
+                   "clustering_length does not stay homogeneous. In uniform shear it is a scale: boxes larger than "
+                   "about three times this length cluster at moderate density.",
     .evaluate = evaluate,
 };

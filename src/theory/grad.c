@@ -108,9 +108,8 @@ const gg_theory gg_theory_grad = {
     .answers = "temperature rotational_temperature temperature_ratio pressure compressibility_factor shear_viscosity "
                "N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_RATES "dissipation " GG_ANSWERS_MIXTURE,
     .assumptions =
-        "Steady uniform shear of a dilute gas (Boltzmann's equation, phi up to 0.05): one species, smooth or of "
-        "constant beta, or a smooth binary mixture; N2 = 0. T is 3 % high at e = 0.9, 12 % at e = 0.75 in "
-        "mixtures.",
+        "Steady uniform shear of a dilute gas (Boltzmann's equation, phi up to 0.05). T is 3 % high at e = 0.9, 12 % "
+        "in mixtures at e = 0.75; N2 = 0. One species, smooth or of constant beta, or a smooth binary mixture.",
     .evaluate = evaluate,
     .beyond = gg_theory_beyond_linear_anisotropy,
 };

@@ -39,8 +39,7 @@ const gg_theory gg_theory_haff1983 = {
     .title = "Haff's law of free cooling",
     .citation = "P.K. Haff, J. Fluid Mech. 134 (1983) 401",
     .answers = "temperature " GG_ANSWERS_RATES "cooling_rate",
-    .assumptions =
-        "Homogeneous free cooling of smooth grains of one species, Maxwellian velocities: T = T_0/(1 + zeta t/2)^2 "
-        "in boxes too small for clusters; the cooling rate is within 2 % down to e = 0.5.",
+    .assumptions = "Free cooling of smooth grains of one species in boxes too small for clusters: T = T_0/(1 + zeta "
+                   "t/2)^2. The cooling rate is within 2 % down to e = 0.5. Maxwellian velocities.",
     .evaluate = evaluate,
 };

@@ -77,10 +77,9 @@ const gg_theory gg_theory_huthmann_zippelius1997 = {
         "Zippelius, Granular Matter 2 (2000) 211",
     .answers = "temperature rotational_temperature temperature_ratio pressure compressibility_factor " GG_ANSWERS_RATES
                "cooling_rate",
-    .assumptions =
-        "Free cooling and driven translation of one species, constant beta or Coulomb friction; velocities and "
-        "spins Maxwellian and independent, any density with molecular chaos. theta/T is 2-5 % high in free "
-        "cooling at e = 0.8-0.9 and low by up to 15 % under shear.",
+    .assumptions = "Free cooling and driven translation of one species, constant beta or Coulomb friction, any "
+                   "density. theta/T is 2-5 % high in free cooling at e = 0.8-0.9 and up to 15 % low under shear. "
+                   "Molecular chaos; velocities and spins Maxwellian and independent.",
     .evaluate = evaluate,
     .beyond = beyond,
 };

@@ -57,11 +57,10 @@ const gg_theory gg_theory_kremer_santos_garzo2014 = {
     .title = "Cooling and viscosity of rough grains",
     .citation = "G.M. Kremer, A. Santos and V. Garzo, Phys. Rev. E 90 (2014) 022205",
     .answers = "temperature rotational_temperature temperature_ratio cooling_rate " GG_ANSWERS_VISCOSITY,
-    .assumptions =
-        "Homogeneous free cooling of a dilute gas (Boltzmann's equation, phi up to 0.05) of one species of "
-        "rough grains, constant beta; first Sonine order, spins Maxwellian and independent of velocities. "
-        "Viscosity of linear response, counted in eta_0 = n T/nu_0: within 2 % of Boltzmann's equation at e = "
-        "0.8-0.9 and beta up to 0.5, 6 % low for perfectly rough grains.",
+    .assumptions = "Free cooling of a dilute gas (Boltzmann's equation, phi up to 0.05) of one species of rough grains "
+                   "with constant beta. Viscosity of linear response, in units of eta_0 = n T/nu_0: within 2 % of "
+                   "Boltzmann's equation at e = 0.8-0.9 and beta up to 0.5, 6 % low for perfectly rough grains. First "
+                   "Sonine order, spins Maxwellian and independent of velocities.",
     .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .evaluate = evaluate,
     .beyond = beyond,

@@ -84,10 +84,9 @@ const gg_theory gg_theory_lun1991 = {
     .citation = "C.K.K. Lun, J. Fluid Mech. 233 (1991) 539",
     .answers = "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor "
                "shear_viscosity N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES "dissipation",
-    .assumptions =
-        "Steady uniform shear of one species with constant e and beta, at the contact value of the scene; first "
-        "order in the shear rate (so N1 = N2 = 0) and first Sonine order. Good near e = 1 with beta = -1 or 1; "
-        "T is tens of percent off for dissipative or half-rough grains.",
+    .assumptions = "Steady uniform shear of one species with constant e and beta. Good near e = 1 with beta = -1 or 1; "
+                   "T is tens of percent off for dissipative or half-rough grains. First order in the shear rate (so "
+                   "N1 = N2 = 0), first Sonine order, contact value of the scene.",
     .evaluate = evaluate,
     .beyond = gg_theory_beyond_quasi_elastic,
 };
@@ -113,9 +112,8 @@ const gg_theory gg_theory_lun1991_lun_savage = {
         "(1987) 47",
     .answers = "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor "
                "shear_viscosity N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES "dissipation",
-    .assumptions =
-        "As lun1991, with chi = (1 - phi/0.64)^-1.6 whatever the scene chose: 11 % above Carnahan-Starling at "
-        "phi = 0.3, 90 % at 0.5.",
+    .assumptions = "As lun1991, but always with chi = (1 - phi/0.64)^-1.6, which is 11 % above Carnahan-Starling at "
+                   "phi = 0.3 and 90 % at 0.5.",
     .evaluate = evaluate_lun_savage,
     .beyond = gg_theory_beyond_quasi_elastic,
 };

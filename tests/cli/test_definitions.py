@@ -5,19 +5,24 @@ from tap import check, main, run
 
 
 def lines(word):
-    done = run("info", word, columns=2000)
-    check(done.code == 0 and not done.err, word, done.err)
-    found = done.out.splitlines()
-    check(2 <= len(found) <= 5, word, found)
-    return done.out
+    """The whole definition. In a terminal of 80 columns: five lines at most, and what is left out is said."""
+    narrow, whole, wide = run("info", word), run("info", word, "--all"), run("info", word, columns=2000)
+    for done in narrow, whole, wide:
+        check(done.code == 0 and not done.err, word, done.err)
+        check(all(len(row) <= 80 for row in done.out.splitlines()) or done is wide, done.out)
+    check(2 <= len(narrow.out.splitlines()) <= 5, word, narrow.out)
+    text = " ".join(whole.out.split())
+    check(text == " ".join(wide.out.split()) and "(--all)" not in text, whole.out, wide.out)
+    check(("... (--all)" in narrow.out) == (" ".join(narrow.out.split()) != text), narrow.out, whole.out)
+    return text
 
 
 def test_words():
     """Each kind of word has its own entries."""
-    for word, parts in (("N1", ("symbol N_1", "(P_xx - P_yy)/p", "a pure number", "measured in  always", "sela_goldhirsch1998")),
+    for word, parts in (("N1", ("symbol N_1", "(P_xx - P_yy)/p", "a pure number", "measured in always", "sela_goldhirsch1998")),
                         ("temperature_1", ("m_i<C.C>_i/3", "mixtures", "garzo_montanero2003")),
-                        ("lun1991", ("J. Fluid Mech. 233 (1991) 539", "answers", "temperature_ratio", "usf", "range")),
-                        ("run.relative_error", ("headline quantity", "at most 1, or auto", "default      auto", "effect if")),
+                        ("lun1991", ("J. Fluid Mech. 233 (1991) 539", "answers", "temperature_ratio", "; flows: usf", "range")),
+                        ("run.relative_error", ("headline quantity", "at most 1, or auto", "default: auto", "effect if")),
                         ("relative_error", ("run.relative_error: a key",)), ("walls.speed", ("flow couette", "unit: velocity")),
                         ("fraction", ("a key of a species",)), ("usf", ("a flow",)), ("dsmc", ("an engine",)),
                         ("pair_correlation", ("an observable", "docs/reference/observables.md"))):
@@ -47,6 +52,8 @@ def test_unknown_words():
         done = run("info", path)
         check(done.code == 3 and path in done.err, path, done.err)
     check(run("info", "N1", "--json").code == 2)
+    done = run("info", "scene.yaml", "--all", scene="flow: usf\nphi: 0.1\n")
+    check(done.code == 2 and "only with a WORD" in done.err, done.err)
     check("flow" in run("info", "N1", scene="flow: usf\nphi: 0.1\n", name="N1").out, "a file of that name comes first")
 
 
