@@ -1,36 +1,37 @@
 /* graingas: granular gases of hard spheres by event-driven molecular dynamics and Enskog Monte Carlo, with theories.
- * The whole public interface, for C99 and later and for C++. What holds throughout:
+ * The whole public interface, for C99 and later and for C++. Rules for all functions:
  *
  * Status: every call that can fail returns a gg_status (its values are the exit codes of the graingas command; 0 is
- * success) and leaves a message where the last argument points, which may be NULL. Outputs are written only on success,
- * unless it is said otherwise. A missing argument (NULL) is GG_BAD_INPUT, never a crash; calls that return pointers or
- * numbers answer it with NULL or 0. The library never exits and never prints.
+ * success). It writes a message to its last argument, which may be NULL. Unless stated otherwise, outputs are written
+ * only on success. A NULL argument that is needed gives GG_BAD_INPUT, never a crash; calls that return pointers or
+ * numbers then return NULL or 0. The library never exits and never prints.
  *
- * Ownership: handles made by a call belong to the caller, who frees them with the matching `_free` (of NULL: nothing
- * happens). Texts handed out as `char **` are the caller's to free(). Every other pointer handed out is borrowed: it
- * lasts as long as the handle that it came from.
+ * Ownership: handles made by a call belong to the caller, who frees them with the matching `_free` (freeing NULL is
+ * allowed). Texts returned through `char **` are freed with free(). Every other returned pointer is borrowed: it is
+ * valid as long as the handle that it came from.
  *
- * Threads: there is no global state. One thread at a time may use a handle, many may where it is `const`. Simulations
- * and runs in different threads do not know of each other. Where HDF5 was not built to be thread-safe (Debian's is),
- * one thread at a time may read or write files. Callbacks come on the calling thread, unless it is said otherwise.
+ * Threads: there is no global state. One thread at a time may use a handle, several may use a `const` one. Simulations
+ * and runs in different threads are independent. If HDF5 is not thread-safe (Debian's is), only one thread at a time
+ * may read or write files. Unless stated otherwise, callbacks come on the calling thread.
  *
  * Handles in use: while a call uses a simulation, session, trajectory or sweep, another call from its callback or from
  * a second thread returns GG_BAD_INPUT, and the call in progress is not affected. From a callback of a simulation,
  * gg_simulation_on_collision() and gg_simulation_on_stop() are allowed and take effect at once. A handle that is freed
- * while a call uses it lives until that call returns; advances return as soon as they can, with GG_INTERRUPTED. One
- * thing is of the process: while the library is loaded, jansson
- * asks malloc through it, so that what JSON lacks is noted; a program that gave jansson other functions keeps them.
+ * while a call uses it lives until that call returns; advances return as soon as they can, with GG_INTERRUPTED.
  *
- * Units are those of results (gg_catalogue_entry tells them): lengths in the diameter d and masses in the mass m of
+ * Loading the library replaces jansson's allocator for the whole process, in order to notice failed allocations. A
+ * program that has set its own keeps it.
+ *
+ * Units are those of results (gg_catalogue_entry() gives them): lengths in the diameter d and masses in the mass m of
  * species 1; sheared flows in units of the shear rate gamma (couette: of 2 walls.speed/L_y, its mean), others in the
  * initial thermal speed v_0 = sqrt(2T/m), which between walls at rest is a diameter per unit of time of the scene.
  * Stresses, and energies per volume, are in rho_p d^2 gamma^2 or rho_p v_0^2 with rho_p = 6m/(pi d^3). Temperatures are
  * <C.C>/3, C the velocity relative to the imposed flow; of mixtures m<C.C>/3, m in that of species 1. Where phi = 0,
  * n d^2 = 1 sets the length.
  *
- * Structs grow at their end only; those that the caller fills in are to be zeroed first. Functions get the size that
- * the caller's compiler knows ("Sizes" below), so that a program that was built with an older header works or is
- * refused. Arrays of the caller's, and structs in structs, do not grow: gg_error, gg_quantity_definition, gg_departure,
+ * Structs grow at their end only. Zero those that you fill in first. Functions get the size that the caller's compiler
+ * knows ("Sizes" below), so that a program built with an older header works or gets an error. Structs in arrays of the
+ * caller, and structs in structs, do not grow: gg_error, gg_quantity_definition, gg_departure,
  * gg_checkpoint_part, gg_figure_needs. */
 #ifndef GRAINGAS_H
 #define GRAINGAS_H
@@ -92,9 +93,9 @@ GG_API const char *gg_version(void);
 GG_API int gg_processors(void);
 
 /* ---- Scenes: what to simulate ----
- * A scene holds the keys that were given; all others have their defaults, of which some follow the given ones. Each key
- * is checked when it is set, and how they go together (gg_scene_check) when the scene is used. Whoever uses a scene
- * takes a copy: it may be changed or freed afterwards. */
+ * A scene holds the given keys; all others have defaults, some of which depend on the given keys. Each key is checked
+ * when it is set; combinations of keys are checked when the scene is used (gg_scene_check). Runs and simulations copy
+ * the scene: you may change or free it afterwards. */
 
 typedef struct gg_scene gg_scene;
 
@@ -201,11 +202,10 @@ GG_API gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, 
 GG_API gg_status gg_scene_describe(const gg_scene *scene, const char *engine,
                                    void (*line)(void *context, const char *text), void *context, gg_error *err);
 
-/* What a run of the scene will take on an engine: memory within a fifth, time within a factor of two (three where the
- * run goes on until an error that is asked for). A run that needs more memory than there is ends with GG_FAILED before
- * it begins. */
+/* Cost of a run on an engine: memory within a fifth, time within a factor of two (three if the run stops at a requested
+ * error). A run that needs more memory than available fails at the start with GG_FAILED. */
 typedef struct gg_scene_needs {
-  double memory, memory_available; /* bytes, all replicas; INFINITY available: nothing tells */
+  double memory, memory_available; /* bytes, all replicas; INFINITY available: unknown */
   double collisions_per_grain;     /* warm-up included */
   double cpu_seconds;
   double observables; /* share of the run's time that its observables add, over the run without them */
@@ -235,9 +235,9 @@ GG_API gg_status gg_scene_warnings(const gg_scene *scene, const char *use,
                                    void (*line)(void *context, const char *text), void *context, gg_error *err);
 
 /* ---- Simulations, step by step ----
- * The grains themselves, from a fresh start that is near the steady state where there is one. The same scene, seed and
- * stream give the same trajectory, bit for bit, in md however it is cut into steps; stream 0 is that of gg_run. Nothing
- * is averaged: that is what gg_run does. Free cooling goes on in the units of the start. */
+ * The grains, from a start near the steady state, if there is one. The same scene, seed and stream give the same
+ * trajectory, bit for bit; in md for any division into steps. Stream 0 is that of gg_run(). Nothing is averaged: use
+ * gg_run() for means. Free cooling keeps the units of its start. */
 
 typedef struct gg_simulation gg_simulation;
 
@@ -336,8 +336,8 @@ GG_API int gg_simulation_species(const gg_simulation *simulation);
 GG_API gg_status gg_simulation_get_species(const gg_simulation *simulation, int species, gg_species_state *state,
                                            gg_error *err);
 
-/* Arrays of the caller's, for `grains` grains; NULL for what is not wanted. The order of grains never changes in md; in
- * dsmc grains of a species change places, but for as long as collisions are shown. */
+/* Arrays of the caller, for `grains` grains; NULL: not wanted. md keeps the order of grains. dsmc permutes grains
+ * within a species, except while a collision callback or record is set. */
 typedef struct gg_grains {
   double *position; /* 3 a grain: x y z x y z ...; from 0 to box[i]; with walls at y = 0 and box[1] */
   double *velocity; /* 3 a grain, relative to the imposed flow gamma (y - box[1]/2) along x */
@@ -355,9 +355,9 @@ typedef struct gg_grains {
 GG_API gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err);
 
 /**
- * Start a simulation from grains of the caller's: a crystal, a cluster, two temperatures, the state of another program.
- * Members that are NULL have the scene's own start. The mean velocity is taken off where no walls hold it. Where the
- * scene gives no number of grains (particles, dsmc.particles), it is n. Under shear, image_offset starts at 0.
+ * Start a simulation from given grains: a crystal, a cluster, two temperatures, the state of another program. NULL
+ * members are started as in gg_simulation_new(). Without walls the mean velocity is subtracted. If the scene gives no
+ * number of grains (particles, dsmc.particles), it is n. Under shear, image_offset starts at 0.
  * @param scene the scene; its phi and n make the box (gg_simulation_get_state() of any simulation of it)
  * @param grains what gg_simulation_get_grains() copies, in units of results; only read. Monte Carlo takes no positions,
  *   and numbers its grains species by species. With several species, `species` is needed, by md also `position`
@@ -372,8 +372,8 @@ GG_API gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grain
                                            gg_simulation **simulation, gg_error *err);
 
 /**
- * Replace the grains of a simulation. Members that are NULL keep what they are. Time, counts and random stream go on.
- * The simulation is unchanged on failure.
+ * Replace the grains of a simulation. NULL members leave their values unchanged. Time, counts and random stream
+ * continue. The simulation is unchanged on failure.
  * @param simulation the simulation
  * @param grains as for gg_simulation_from_grains()
  * @param n number of grains, that of the simulation
@@ -383,7 +383,7 @@ GG_API gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grain
 GG_API gg_status gg_simulation_set_grains(gg_simulation *simulation, const gg_grains *grains, size_t n, gg_error *err);
 
 /**
- * Copy a simulation. Both go on with the same bits. Callbacks are not copied.
+ * Copy a simulation. Both continue with the same bits. Callbacks are not copied.
  * @param simulation the simulation
  * @param copy receives the copy, to be freed by gg_simulation_free()
  * @param err receives the message on failure; may be NULL
@@ -412,15 +412,15 @@ enum { GG_WALLS = 6 };
  */
 GG_API const char *gg_simulation_wall(const gg_simulation *simulation, int wall);
 
-typedef struct gg_simulation_sums { /* over the collisions since they were last asked for, or since the start */
-  double time;                      /* that they are over */
+typedef struct gg_simulation_sums { /* over the collisions since the last call, or since the start */
+  double time;                      /* covered by the sums */
   uint64_t collisions, wall_collisions;
-  double collisional_stress[3][3];  /* mean over the time, in units of stress; 0 in components that no flow here has;
-                                     * [1][0]: flux along y of momentum along x */
-  double dissipation;               /* energy that collisions between grains destroyed, per volume and time, in units
-                                     * of stress over time */
+  double collisional_stress[3][3]; /* mean over the time, in units of stress; 0 in components that vanish in every flow;
+                                    * [1][0]: flux along y of momentum along x */
+  double dissipation;              /* energy lost in collisions between grains, per volume and time, in units
+                                    * of stress over time */
   double wall_impulse[GG_WALLS][3]; /* on each wall: m times velocity */
-  double wall_loss;                 /* energy that collisions with walls destroyed */
+  double wall_loss;                 /* energy lost in collisions with walls */
 } gg_simulation_sums;
 
 /**
@@ -439,7 +439,7 @@ typedef struct gg_collision_event {
   double velocity[3];  /* of the first relative to the second, flow included, before the collision */
   double normal_speed; /* of approach: k . velocity, > 0 */
   double impulse[3];   /* J on the second grain, -J on the first; m times velocity */
-  double time;         /* since the start; of Monte Carlo, that of the step which it is in */
+  double time;         /* since the start; Monte Carlo: time of the step */
 } gg_collision_event;
 typedef void gg_on_collision(void *context, const gg_collision_event *event);
 
@@ -471,7 +471,7 @@ GG_API gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_ev
 
 /**
  * Change a key on the way: collision.*, thermostat, md.contact_time, dsmc.time_step, walls.e, walls.beta, walls.mu,
- * gravity. Grains, time, counts and random stream go on; units stay. Other keys set units, box or grains and are
+ * gravity. Grains, time, counts, random stream and units stay. Other keys set units, box or grains and are
  * rejected, as are values that would let smooth grains rotate. The simulation is unchanged on failure.
  * @param simulation the simulation
  * @param key as for gg_scene_set(), "collision.e"
@@ -531,23 +531,24 @@ GG_API gg_status gg_simulation_from_bytes(const void *bytes, size_t size, const 
                                           gg_simulation **simulation, gg_error *err);
 
 /* ---- More than one process ----
- * The replicas of runs and comparisons can be shared by several processes, on one machine or many. One of them, rank 0,
- * calls gg_run or gg_compare with `workers` among its options; each of the others calls gg_worker_run, and stays there.
- * Bits depend neither on how many they are nor on who does what. The library only knows that they can send each other
- * messages, and needs no MPI: `mpirun graingas` brings MPI's. All have to be the same build. Scenes with observables,
- * theories or laws of one's own, and the replica that writes a trajectory, stay with rank 0. */
+ * Several processes, on one machine or many, can share the replicas of runs and comparisons. One of them, rank 0, calls
+ * gg_run() or gg_compare() with `workers` among its options. Each of the others calls gg_worker_run(), which returns
+ * when rank 0 has finished. Results have the same bits for any number of processes and any distribution of work. The
+ * caller provides the message passing, so the library does not need MPI; the command `graingas` provides MPI's. All
+ * processes need the same build. Scenes with user-defined observables, theories or laws, and the replica that writes a
+ * trajectory, stay on rank 0. */
 
 typedef struct gg_messages { /* filled in by the caller; calls come one at a time, from any thread */
-  int rank, size;            /* this process, 0 to size - 1; how many they are */
+  int rank, size;            /* this process, 0 to size - 1; number of processes */
   void *context;
-  /* Take over a block from malloc, and see that it arrives: in order, later, without waiting. Not 0: it cannot. */
+  /* Own a block from malloc and deliver it: asynchronously, in order. Returns non-zero if it cannot. */
   int (*send)(void *context, int to, void *block, size_t size);
-  /* The next message, in a block from malloc for the caller, and who sent it: 1; none at present: 0; nothing will ever
-   * come again: -1. */
+  /* Set the next message, in a block from malloc that the caller frees, and its sender. Returns 1; 0: no message now;
+   * -1: no further messages. */
   int (*receive)(void *context, int *from, void **block, size_t *size);
-  /* Is that process known to be gone? NULL: nobody knows; then one that is silent for a minute counts as gone. */
+  /* Whether that process is known to be lost. NULL: unknown; a process silent for a minute then counts as lost. */
   int (*lost)(void *context, int rank);
-  /* Told to people, at rank 0: a process is lost, and its work done anew by others. NULL: nobody is told. */
+  /* Warning for the user, at rank 0: a process is lost, others repeat its work. NULL: no warning. */
   void (*warn)(void *context, const char *message);
 } gg_messages;
 
@@ -584,49 +585,50 @@ GG_API int gg_workers_threads(const gg_workers *workers);
  */
 GG_API gg_status gg_worker_run(const gg_messages *messages, gg_error *err);
 
-/* ---- Runs: to the end that the scene asks for, means with their errors ---- */
+/* ---- Runs: until the scene's stopping criteria are met; means with errors ---- */
 
-typedef struct gg_progress { /* where a run stands */
+typedef struct gg_progress { /* how far a run is */
   const char *engine;        /* "md", "dsmc": a comparison runs both */
   const char *phase;         /* "warm-up", "averaging" */
   double fraction;           /* of the run, 0..1; never falls, and is 1 when the run is over */
   uint64_t collisions;       /* so far, of all replicas */
   double rate;               /* collisions per second of processor time */
   double relative_error;     /* of the worst headline quantity; NaN: not known yet */
-  double time_left;          /* seconds until this engine has what was asked; NaN: not known yet */
-  double limit_in;           /* seconds until run.time_limit ends the run; INFINITY: there is none */
+  double time_left;          /* seconds until this engine meets its stopping criteria; NaN: not known yet */
+  double limit_in;           /* seconds until run.time_limit ends the run; INFINITY: no limit */
   int64_t replicas;
-  const char *next; /* a comparison: the engine that comes after this one; NULL: none */
-  double overall;   /* of all that the call does, 0..1: of a comparison the mean over its engines; never falls */
+  const char *next; /* of a comparison: the engine that runs after this one; NULL: none */
+  double overall;   /* of the whole call, 0..1: of a comparison the mean over its engines; never falls */
 } gg_progress;
 
-/* All zero: one thread, nobody told, nothing written. Results do not depend on any of it. */
+/* All zero: one thread, no callbacks, no files. Results do not depend on options. */
 typedef struct gg_run_options {
-  int threads;        /* for replicas, for compare's two engines, for large Monte Carlo ensembles; 0: one */
-  const char *output; /* result file to write, with the trajectory if the scene has output.trajectory_every; another
-                       * file than the two below. A device or pipe is written to, made up in memory */
-  const char
-      *checkpoint;     /* file to keep checkpoints in: every output.checkpoint_every seconds of the scene (0: never),
-                        * and whenever the run is stopped or runs out of time; the one before is kept as FILE.1. One of
-                        * another run there, or a link, is GG_BAD_FILE. The
-                        * trajectory until then is kept beside it (x.frames for x.h5), for the output at the end. All
-                        * are removed when all is done (GG_OK) and the output written */
-  const char *resume;  /* checkpoint to go on from, bit for bit, the trajectory included; FILE.1 is taken where it is
-                        * damaged. GG_BAD_FILE where frames that belong to it are damaged or not there */
-  const char *command; /* how the file was made, for its record; NULL: "the graingas library" */
-  void *context;       /* for the callbacks, of which each may be NULL; one at a time, maybe on threads of the run */
-  int (*progress)(void *context, const gg_progress *progress); /* now and then; not 0: stop, as below */
-  int (*stop)(void *context);                                  /* asked several times a second; not 0: stop */
-  void (*stored)(void *context, const char *checkpoint);       /* a checkpoint was written */
-  void (*warn)(void *context, const char *message); /* before the run begins: keys without effect, what was put right */
-  const char *input;   /* the scene's file, which nothing written may replace; NULL: not known */
-  const char *picture; /* that gg_plot is to draw of the output afterwards: looked at before the run, like the others */
-  gg_workers *workers; /* other processes that take part, with as many threads as was said there; NULL: none */
-  int accept_version;  /* not 0: resume a checkpoint of a build with other sources, whose numbers may differ */
-  const char *picture_width; /* that gg_plot is to draw it with; NULL: free */
+  int threads; /* for replicas, for compare's two engines, for large Monte Carlo ensembles; 0: one */
+  /* Result file to write, with the trajectory if the scene has output.trajectory_every; not one of the two files below.
+   * For a device or pipe the file is first made in memory. */
+  const char *output;
+  /* File for checkpoints: every output.checkpoint_every seconds of the scene (0: never), and when the run is
+   * interrupted or reaches its time limit. The previous one stays as FILE.1. A link, or the checkpoint of another run,
+   * is GG_BAD_FILE. The trajectory so far is beside it (x.frames for x.h5). All are removed after GG_OK, when the
+   * output is written. */
+  const char *checkpoint;
+  /* Checkpoint to resume, bit for bit, the trajectory included; if it is damaged, FILE.1. GG_BAD_FILE if its frames are
+   * damaged or missing. */
+  const char *resume;
+  const char *command; /* command that made the file, stored in it; NULL: "the graingas library" */
+  void *context;       /* for the callbacks; each may be NULL; one at a time, possibly on threads of the run */
+  int (*progress)(void *context, const gg_progress *progress); /* returns non-zero to stop the run */
+  int (*stop)(void *context);                            /* polled several times a second; returns non-zero to stop */
+  void (*stored)(void *context, const char *checkpoint); /* a checkpoint was written */
+  void (*warn)(void *context, const char *message);      /* before the run: keys without effect, corrections */
+  const char *input;         /* the scene's file, which no output may replace; NULL: unknown */
+  const char *picture;       /* file that gg_plot() will draw of the output; checked before the run, like the others */
+  gg_workers *workers;       /* other processes that take part, each with the threads of gg_workers_new(); NULL: none */
+  int accept_version;        /* non-zero: also resume a checkpoint of another build, whose numbers may differ */
+  const char *picture_width; /* width for gg_plot(); NULL: as for a screen */
 } gg_run_options;
 
-typedef struct gg_result gg_result; /* what came out of one engine's run */
+typedef struct gg_result gg_result; /* of one engine's run */
 
 /**
  * Run the scene's engine until its stopping criteria are met. There may be a result with a status other than GG_OK.
@@ -642,9 +644,8 @@ typedef struct gg_result gg_result; /* what came out of one engine's run */
 GG_API gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err);
 
 /* ---- Runs in pieces ----
- * A run of one replica whose caller takes it further for a while at a time, asks it for its means in between, and does
- * something else meanwhile: an interface of buttons, a notebook, a page. However it is cut, in the end its result has
- * the bits of gg_run's. */
+ * A run of one replica that the caller advances in pieces, for a user interface, a notebook or a page. Means can be
+ * read after each piece. The final result has the bits of gg_run(), for any division into pieces. */
 
 typedef struct gg_session gg_session;
 
@@ -694,15 +695,15 @@ GG_API gg_status gg_session_result(gg_session *session, gg_result **result, gg_e
 typedef struct gg_checkpoint_part { /* one engine's */
   const char *engine;               /* "md", "dsmc"; NULL: none */
   const char *phase;                /* "warm-up", "averaging"; "stepped": a saved simulation */
-  double collisions_per_grain;      /* about so many since the start ... */
-  double averaged;                  /* ... and averaged over; 0 of a saved simulation, as the next */
-  double seconds;                   /* by the clock on the wall */
+  double collisions_per_grain;      /* since the start, approximately */
+  double averaged;                  /* of those, averaged over; 0 for a saved simulation, as the next */
+  double seconds;                   /* wall-clock time */
 } gg_checkpoint_part;
 typedef struct gg_checkpoint_info {
   const char *kind; /* "run", "comparison", "simulation" */
   gg_checkpoint_part part[2];
   uint64_t frames; /* of the trajectory, in the file beside it */
-  int older;       /* FILE is missing or damaged: this is of FILE.1 */
+  int older;       /* non-zero: FILE is missing or damaged, this is FILE.1 */
 } gg_checkpoint_info;
 
 /**
@@ -719,13 +720,13 @@ GG_API gg_status gg_checkpoint_about(const char *path, gg_checkpoint_info *info,
 
 typedef struct gg_measurement {
   const char *name;        /* "temperature", "shear_viscosity", "N1": see GG_CATALOGUE_QUANTITIES */
-  double mean, error;      /* with its standard error. NaN mean: cannot be had; NaN error: the run is too short */
+  double mean, error;      /* standard error. NaN mean: none; NaN error: the run is too short */
   double correlation_time; /* integrated, in correlation_time_unit; NaN: unknown */
   uint64_t samples;
   const char *unit;
-  const char *reason;                /* why there is no mean; NULL if there is one; "" if it was not asked for */
-  const char *correlation_time_unit; /* of time; "collisions a grain" where the gas cools or heats up for ever */
-  const char *symbol;                /* as pictures have it: "T", "P_{xy}"; NULL of a number derived from a curve */
+  const char *reason;                /* why there is no mean; NULL if there is one; "" if it was not requested */
+  const char *correlation_time_unit; /* of time; "collisions a grain" if the gas cools or heats up for ever */
+  const char *symbol;                /* as in pictures: "T", "P_{xy}"; NULL for a number derived from a curve */
 } gg_measurement;
 
 /**
@@ -792,16 +793,16 @@ GG_API int gg_result_is_steady(const gg_result *result);
 
 typedef struct gg_result_info {
   const char *engine;  /* "md", "dsmc" */
-  int steady;          /* was the steady state reached ... */
-  const char *verdict; /* ... and how is that known */
+  int steady;          /* whether the steady state was reached */
+  const char *verdict; /* reason for `steady` */
   int64_t grains;
-  const char *grains_chosen;                      /* dsmc: why so many; NULL where the scene says how many */
+  const char *grains_chosen;                      /* dsmc: why so many; NULL if the scene gives the number */
   double window[2];                               /* averaged over these times */
-  uint64_t collisions;                            /* between grains, while averaging ... */
-  double cpu_seconds;                             /* ... in so much processor time */
+  uint64_t collisions;                            /* between grains, while averaging */
+  double cpu_seconds;                             /* while averaging */
   uint64_t total_collisions;                      /* of the whole run */
   double total_cpu_seconds, wall_seconds;         /* NaN: not known */
-  const char *version, *command, *machine, *date; /* of the file that it was read from; NULL if it was not */
+  const char *version, *command, *machine, *date; /* of the file that it was read from; else NULL */
   size_t frames;                                  /* of the trajectory in that file */
 } gg_result_info;
 
@@ -845,13 +846,13 @@ GG_API gg_status gg_result_history(const gg_result *result, const char *quantity
 
 typedef struct gg_curve_data { /* a distribution, profile, correlation function, spectrum ... */
   const char *name;            /* unique in a result */
-  const char *observable;      /* the word under `measure` that it came with */
-  const char *panel, *label;   /* curves of one panel belong in one picture, under their labels */
+  const char *observable;      /* its observable, a word of `measure` */
+  const char *panel, *label;   /* curves of one panel are drawn together, with these labels */
   const char *x_name, *x_unit, *y_name, *unit;
-  int log_x, log_y; /* how it is best drawn */
+  int log_x, log_y; /* non-zero: logarithmic axis */
   size_t n;
-  const double *x, *value, *error; /* NaN: cannot be had, not known */
-  const double *law;               /* to see the curve beside: n values, under this label; NULL if there is none */
+  const double *x, *value, *error; /* NaN: none, unknown */
+  const double *law;               /* reference curve: n values with this label; NULL: none */
   const char *law_label;
   uint64_t samples;
 } gg_curve_data;
@@ -941,8 +942,8 @@ GG_API gg_status gg_result_from_bytes(const void *bytes, size_t size, gg_result 
 GG_API void gg_result_free(gg_result *result);
 
 /* ---- Trajectories ----
- * What a run has stored of its grains (output.trajectory_every; without that, the last state), a frame at a time: one
- * is in memory, however many there are. In the units of results. Of a comparison's file they are md's. */
+ * The stored frames of a run (output.trajectory_every; without that key, the last state), in units of results. Only one
+ * frame at a time is in memory. The frames of a comparison are those of md. */
 
 typedef struct gg_trajectory gg_trajectory;
 
@@ -1096,11 +1097,11 @@ GG_API gg_status gg_comparison_agreement(const gg_comparison *comparison, const 
 
 /* An engine's mean against Enskog's equation solved without random numbers, theory enskog_hermite. */
 typedef struct gg_departure {
-  double difference, error; /* engine - solution, in the unit of results; standard error: the engine's, and with it the
-                               numerical one of the solution, which is small */
-  double z;                 /* the one over the other */
-  double deviation, deviation_error; /* both over the solution; NaN of numbers about zero: N1, N2, a2 */
-  int headline;                      /* one of the main quantities, those of a comparison's picture */
+  double difference, error; /* engine - solution, in units of results; the error combines the engine's standard error
+                               and the numerical error of the solution */
+  double z;                 /* difference over error */
+  double deviation, deviation_error; /* both over the solution; NaN for numbers near zero: N1, N2, a2 */
+  int headline;                      /* non-zero: one of the main quantities, those of a comparison's picture */
 } gg_departure;
 
 /**
@@ -1117,8 +1118,8 @@ GG_API gg_status gg_comparison_departure(const gg_comparison *comparison, const 
 
 typedef struct gg_comparison_row { /* one quantity; arrays: md, dsmc */
   const char *name, *symbol, *unit;
-  double mean[2], error[2]; /* with their standard errors; NaN: there is none */
-  double z;                 /* and `beyond`, as of gg_comparison_agreement */
+  double mean[2], error[2]; /* standard errors; NaN: none */
+  double z;                 /* this and `beyond`: see gg_comparison_agreement() */
   int beyond;
   gg_departure departure[2];
 } gg_comparison_row;
@@ -1136,7 +1137,7 @@ GG_API gg_status gg_comparison_at(const gg_comparison *comparison, size_t i, gg_
 typedef struct gg_theory_info {
   const char *name, *title, *citation, *assumptions;
   const char *reason; /* why it does not apply to this scene; NULL if it does */
-  const char *beyond; /* why this scene is beyond what it was made for, though it answers; NULL within */
+  const char *beyond; /* why this scene is out of its range, though it answers; NULL: within */
 } gg_theory_info;
 
 /**
@@ -1199,9 +1200,9 @@ GG_API gg_status gg_comparison_theory_error(const gg_comparison *comparison, con
 GG_API gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char *theory, size_t i,
                                             gg_curve_data *curve, gg_error *err);
 
-typedef struct gg_remark { /* on what differs by more than is expected */
+typedef struct gg_remark { /* on a difference larger than expected */
   const char *theory;      /* NULL: md and Enskog's equation or dsmc; causes that apply to this scene */
-  const char *quantity;    /* in which it is off most; NULL for md and Enskog's equation */
+  const char *quantity;    /* with the largest deviation; NULL for md and Enskog's equation */
   double deviation;
   const char *cause;
 } gg_remark;
@@ -1263,10 +1264,10 @@ GG_API gg_status gg_comparison_to_bytes(const gg_comparison *comparison, void **
  */
 GG_API gg_status gg_comparison_from_bytes(const void *bytes, size_t size, gg_comparison **comparison, gg_error *err);
 
-/* ---- Sweeps: a scene, and keys of it that take other values from point to point ----
- * Results of a sweep are a folder with a file a point, FOLDER/NAME.h5: an ordinary result or comparison file, whose
- * name is a hash of the point's scene, complete as it was run, and of what was done there. It is there: the point is
- * done. NAME.short.h5 is that of a point that ended short of what was asked (GG_FAILED of gg_run), and is done, too. */
+/* ---- Sweeps: one scene on a grid of keys ----
+ * A folder holds one file per point, FOLDER/NAME.h5, an ordinary result or comparison. NAME is a hash of the point's
+ * complete scene and of the command. A point is done when its file exists. A point that ended before its stopping
+ * criteria (GG_FAILED of gg_run) has NAME.short.h5 and is done, too. */
 
 typedef struct gg_sweep gg_sweep;
 
@@ -1339,8 +1340,8 @@ GG_API const char *gg_sweep_does(const gg_sweep *sweep);
 
 typedef struct gg_sweep_point {
   char name[17];      /* of its file, without folder and ending */
-  double cpu_seconds; /* expected, as gg_scene_get_needs has it */
-  int64_t replicas;   /* the scene's, or chosen where it has none (sweep.longest) */
+  double cpu_seconds; /* expected; see gg_scene_get_needs() */
+  int64_t replicas;   /* of the scene, or chosen if it has none (sweep.longest) */
   uint64_t seed;      /* its own, or the scene's (sweep.seeds) */
 } gg_sweep_point;
 
@@ -1384,7 +1385,7 @@ GG_API const char *gg_sweep_value(const gg_sweep *sweep, size_t i, size_t k);
 typedef enum gg_point_state {
   GG_POINT_MISSING,
   GG_POINT_DONE,
-  GG_POINT_SHORT /* done, but short of what was asked */
+  GG_POINT_SHORT /* done, but ended before its stopping criteria */
 } gg_point_state;
 
 /**
@@ -1411,28 +1412,28 @@ GG_API gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t
 GG_API gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **text, gg_error *err);
 
 typedef struct gg_sweep_progress {
-  size_t points, done; /* done: whether in this call or before, those that ended short included */
+  size_t points, done; /* done: also in earlier calls, and those that fell short */
   size_t fell_short, failed;
-  size_t running;        /* in progress here ... */
-  size_t elsewhere;      /* ... and in other processes that work in this folder */
+  size_t running;        /* in progress in this process */
+  size_t elsewhere;      /* in progress in other processes that use this folder */
   double time_left;      /* seconds; NaN: not known yet */
   double relative_error; /* the largest among points in progress; NaN: not known */
 } gg_sweep_progress;
 
-/* All zero: one thread, nobody told. Files do not depend on any of it but for the times and dates in them. */
+/* All zero: one thread, no callbacks. Files depend on options only in the times and dates in them. */
 typedef struct gg_sweep_options {
   int threads;         /* for points and their replicas; 0: one */
-  const char *command; /* how files were made, for their record; NULL: "the graingas library" */
-  const char *input;   /* the sweep's file, which nothing written may replace; NULL: not known */
-  void *context;       /* for the callbacks, which come on the calling thread; each may be NULL */
+  const char *command; /* command that made the files, stored in them; NULL: "the graingas library" */
+  const char *input;   /* the sweep's file, which no output may replace; NULL: unknown */
+  void *context;       /* for the callbacks, on the calling thread; each may be NULL */
   void (*progress)(void *context, const gg_sweep_progress *progress); /* several times a second */
-  int (*stop)(void *context);                                         /* asked as often; not 0: stop */
-  /* Point i ended now: GG_OK, GG_FAILED (with `file`: short of what was asked) or GG_BAD_FILE, with the reason. */
+  int (*stop)(void *context);                                         /* as often; returns non-zero to stop */
+  /* Point i ended: GG_OK, GG_FAILED (with a `file`: it fell short) or GG_BAD_FILE, with the reason. */
   void (*ended)(void *context, size_t i, gg_status status, const char *file, const char *message);
-  void (*warn)(void *context, const char *message); /* keys without effect; once, however many points say so */
-  gg_workers *workers; /* other processes that take part in the points done here; NULL: none */
-  int accept_version;  /* not 0: keep points and checkpoints of a build with other sources, whose numbers may differ;
-                        * 0: their points run again, and their files stay as NAME.old.h5 */
+  void (*warn)(void *context, const char *message); /* keys without effect; once for all points */
+  gg_workers *workers;                              /* other processes that take part; NULL: none */
+  int accept_version; /* non-zero: keep points and checkpoints of another build, whose numbers may differ;
+                       * 0: such points run again, and their files stay as NAME.old.h5 */
 } gg_sweep_options;
 
 /**
@@ -1458,17 +1459,15 @@ GG_API gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_swee
 GG_API gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, const gg_sweep_options *options,
                                     gg_error *err);
 
-/* What all points that are done came to, as files for other programs: PREFIX.csv and PREFIX.h5, a row a point, method
- * ("md", "dsmc", or a theory) and quantity, and the picture PREFIX.svg. GG_FAILED if no point is there; the tables also
- * if only the picture fails. `written` (may be NULL) is called with the name of each. */
+/* How gg_sweep_collect() collects. All zero: defaults. */
 typedef struct gg_collecting {
   const char *command; /* for their record; NULL: "the graingas library" */
   const char *picture; /* instead of PREFIX.svg; "none": no picture */
   const char *over;    /* key along x; NULL: of those with numbers the one with the most values */
   const char *show;    /* quantities, with commas, a panel each; NULL: the main ones */
-  /* Told why there is no picture, where none of these three asked for one; NULL: that is a failure, too. */
+  /* Called with the reason if there is no picture and none of these three requested one; NULL: that is an error. */
   void (*warn)(void *context, const char *message);
-  const char *width; /* of the picture, as for gg_plot; NULL: free */
+  const char *width; /* of the picture, as for gg_plot(); NULL: as for a screen */
 } gg_collecting;
 
 /**
@@ -1486,17 +1485,16 @@ typedef struct gg_collecting {
 GG_API gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collecting *options,
                                   void (*written)(void *context, const char *file), void *context, gg_error *err);
 
-/* What validation of a grid of comparisons leaves beside its verdict. All zero: nothing. */
+/* What gg_sweep_validate() writes beside its verdict. All zero: nothing. */
 typedef struct gg_validating {
   const char *command;  /* for their record; NULL: "the graingas library" */
-  const char *repeat;   /* command that repeats a point, to which its number is added; NULL: none is named */
-  const char *picture;  /* maps of deviations: "grid.svg" makes grid_temperature.svg and on; NULL: no maps */
-  const char *width;    /* of the maps, as for gg_plot; NULL: free */
+  const char *repeat;   /* command that repeats a point, without its number; NULL: none is printed */
+  const char *picture;  /* maps of deviations: "grid.svg" makes grid_temperature.svg and so on; NULL: no maps */
+  const char *width;    /* of the maps, as for gg_plot(); NULL: as for a screen */
   const char *show;     /* quantities, with commas, a map each; NULL: the main ones */
   const char *theories; /* theories in the maps, with commas; NULL: lun1991 */
   const char *page;     /* Markdown with maps, counts and tables; NULL: no page */
-  void (*warn)(void *context,
-               const char *message); /* of maps that cannot be drawn, and of other builds; NULL: nobody */
+  void (*warn)(void *context, const char *message); /* on maps that cannot be drawn, and other builds; NULL: none */
 } gg_validating;
 
 /**
@@ -1518,7 +1516,7 @@ GG_API gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg
 
 /**
  * Sweep that `graingas validate` runs without a file: uniform shear over density and restitution.
- * @param quick not 0: the small grid
+ * @param quick non-zero: the small grid
  * @return the YAML text; never NULL. Borrowed; do not free.
  */
 GG_API const char *gg_standard_grid(int quick);
@@ -1542,7 +1540,7 @@ enum {                        /* what gg_export writes */
        GG_EXPORT_RESULTS = 1, /* PREFIX.csv: a line a quantity */
        GG_EXPORT_CURVES =
            2, /* PREFIX_<observable>_<curve>.csv, of comparisons PREFIX_<engine>_<observable>_<curve>.csv;
-                 PREFIX_numbers.csv: the numbers read off them */
+                 PREFIX_numbers.csv: the numbers derived from them */
        GG_EXPORT_TRAJECTORY =
            4, /* PREFIX.xyz: grains as extended XYZ, one frame after another, where they have positions */
        GG_EXPORT_ALL = 7
@@ -1565,8 +1563,7 @@ GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned
                            void (*progress)(void *context, double share), void *context, gg_error *err);
 
 /**
- * Ask what is unusual about a result file that can be read all the same: another program has changed it, or a newer
- * graingas wrote it.
+ * Warnings about a readable result file: another program has changed it, or a newer graingas wrote it.
  * @param result_file file name of a result
  * @param text receives one line, cut to size bytes; empty: nothing is unusual
  * @param size size of the buffer in bytes
@@ -1576,13 +1573,13 @@ GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned
 GG_API gg_status gg_result_file_notice(const char *result_file, char *text, size_t size, gg_error *err);
 
 /* ---- Figures: those of two papers, simulated anew ----
- * Gayen's thesis (2008) and Montanero's review (2003). A figure is a small entry of validation/figures that the library
- * holds: sweeps, what of them is drawn over what, the theories beside, and the numbers that the paper states. */
+ * Gayen's thesis (2008) and Montanero's review (2003). The library contains the entries of validation/figures. An entry
+ * defines sweeps, panels, theories, and the numbers that the paper states. */
 
 typedef struct gg_figure_needs {
   size_t points;
   double cpu_seconds; /* expected of all points, whether done or not */
-  double shared;      /* the part of it for points that figures before it in the list have, too */
+  double shared;      /* the part of it for points that earlier figures of the list have, too */
   int64_t particles;  /* of the largest box or ensemble */
   int md, dsmc;       /* which engines run */
 } gg_figure_needs;
@@ -1607,21 +1604,21 @@ GG_API gg_status gg_list_figures(gg_on_figure *figure, void *context, gg_error *
 
 typedef struct gg_figure_number { /* that the paper states, beside ours; NaN: there is none */
   const char *figure, *what, *where;
-  double paper, paper_error; /* error: half a unit of its last digit where the paper gives none */
+  double paper, paper_error; /* error: half a unit of its last digit if the paper gives none */
   double md, md_error, md_z; /* z: (ours - paper's) over both errors */
   double dsmc, dsmc_error, dsmc_z;
 } gg_figure_number;
 
-/* All zero: full precision, one thread, files in the current folder, nobody told. */
+/* All zero: full precision, one thread, files in the current folder, no callbacks. */
 typedef struct gg_reproduce_options {
   int quick;           /* fewer points, larger errors: some ten to twenty times as fast */
   int threads;         /* 0: one; results do not depend on it */
-  const char *folder;  /* where files go, made if need be; results of the runs lie in its figures.sweep, and serve
-                        * every figure that shows them; NULL: the current one */
+  const char *folder;  /* of the files, created if missing; NULL: the current one. Results of the runs are in its
+                        * figures.sweep and are shared by all figures */
   const char *command; /* how files were made, for their record */
   void *context;       /* for the callbacks, of which each may be NULL */
   void (*progress)(void *context, const char *figure, const gg_sweep_progress *progress);
-  int (*stop)(void *context); /* asked several times a second; not 0: stop */
+  int (*stop)(void *context); /* polled several times a second; returns non-zero to stop */
   void (*warn)(void *context, const char *figure, const char *message);
   void (*written)(void *context, const char *file);
   void (*number)(void *context, const gg_figure_number *number);
@@ -1647,7 +1644,7 @@ GG_API gg_status gg_reproduce(const char *figure, const gg_reproduce_options *op
  */
 GG_API gg_status gg_reproduction_page(char **text, gg_error *err);
 
-/* ---- Tables to ask ---- */
+/* ---- Tables of names ---- */
 
 typedef enum gg_catalogue {
   GG_CATALOGUE_KEYS,         /* of scenes: name, type, unit, doc, allowed, value, given, when */
@@ -1659,14 +1656,14 @@ typedef enum gg_catalogue {
   GG_CATALOGUE_THEORIES      /* name, doc, citation, assumptions, answers, when */
 } gg_catalogue;
 
-typedef struct gg_entry { /* NULL or "" where the list has no such thing */
+typedef struct gg_entry { /* NULL or "": not in this table */
   const char *name, *doc, *unit, *citation, *assumptions;
   const char *type;    /* "number", "integer", "choice", "set", "pairs", "vector", "species" */
   char allowed[256];   /* "a number from 0 to 1" */
-  char value[4096];    /* in force in the scene; without a scene, the default, "" if there is none */
+  char value[4096];    /* in force in the scene; without a scene the default, "": none */
   int given;           /* in the scene */
   const char *formula; /* of a quantity: its definition, as LaTeX has it */
-  const char *missing; /* of a quantity: why the scene has no mean of it; NULL: it has, or there is no scene */
+  const char *missing; /* of a quantity: why the scene has no mean of it; NULL: it has one, or no scene is given */
   const char *answers; /* of a theory: names of quantities, separated by blanks */
   char symbol[48];     /* of a quantity, as pictures have it: "T", "P_{xy}" */
   int headline;        /* of a quantity: run.relative_error applies to it in the scene */
@@ -1721,26 +1718,25 @@ GG_API const char *gg_nearest_word(const char *word, const char *const *known);
 GG_API void gg_text_make_printable(char *text);
 
 /* ---- Extension ----
- * Observables, theories and a restitution law of one's own, registered with a scene. What is run, compared or evaluated
- * from it uses them; their quantities stand under their own names beside all others in results, tables, JSON documents,
- * files and pictures.
+ * User-defined observables, theories and a restitution law, registered with a scene. Runs, comparisons and evaluations
+ * of the scene use them. Their quantities appear under their own names in results, tables, JSON, files and pictures.
  *
- * Definitions are copied, strings and tables included. A `context` stays the caller's, is handed to the callbacks as it
- * is, and must live for as long as the scene and whatever runs from it (results keep no more than names). Callbacks
- * come from the threads of the run, several at once where replicas or engines run side by side: they must not write to
- * what they share without a lock. Numbers have the units of results. Each call below returns GG_BAD_INPUT with the
- * reason, and leaves the scene as it was, if something is missing, a name is taken or is no name (letters, digits and
- * _, at most 40), a text is not one line of UTF-8, or if there are too many: 32 quantities, 8 theories a scene. */
+ * Definitions are copied, strings and tables included. A `context` is passed to the callbacks unchanged and stays the
+ * caller's. It must be valid as long as the scene and everything that runs from it (results keep names only). Callbacks
+ * come from the threads of the run, several at once if replicas or engines run side by side: protect shared data with a
+ * lock. Numbers are in units of results. Each call below returns GG_BAD_INPUT with the reason, and leaves the scene
+ * unchanged, if a member is missing, a name is taken or invalid (letters, digits and _, at most 40), a text is not one
+ * line of UTF-8, or there are too many: 32 quantities, 8 theories per scene. */
 
-/* A quantity of one's own. */
+/* A user-defined quantity. */
 typedef struct gg_quantity_definition {
   const char *name;
-  const char *unit; /* as it is to be printed; NULL: "1" */
+  const char *unit; /* as printed; NULL: "1" */
   const char *doc;  /* one line; may be NULL */
 } gg_quantity_definition;
 
-/* What an observable is shown at the end of a sampling interval (two collisions a grain on average): the grains then,
- * and what the collisions of the interval came to. Valid during the call only. */
+/* Input of an observable at the end of a sampling interval (two collisions per grain on average): the grains at that
+ * time, and sums over the collisions of the interval. Valid during the call only. */
 typedef struct gg_sample {
   double time;    /* since the start */
   double elapsed; /* length of the interval */
@@ -1761,17 +1757,17 @@ typedef struct gg_sample {
 typedef struct gg_collision_view {
   int species[2];               /* from 0 */
   double normal[3];             /* unit vector from the first grain to the second */
-  double relative_velocity[3];  /* of the first centre against the second, the flow between them included */
+  double relative_velocity[3];  /* of the first centre relative to the second, flow included */
   double velocity[2][3];        /* peculiar, of each */
   double height[2];             /* y above the middle of the box; NaN where there are no positions */
   double time_since_contact[2]; /* of each; INFINITY: none since averaging began */
 } gg_collision_view;
 
-/* `sample` sets one number a quantity, at every interval from the start of the run; means over the averaging window,
- * their errors and correlation times are taken as of every other quantity. `collision` (may be NULL) is shown every
- * collision between grains while averaging: that costs time, and dsmc leaves its fast kernels for it. Both get `state`:
- * state_size plain bytes, zero at the start, one for each replica, kept in checkpoints. A run that is resumed needs the
- * same observables. */
+/* `sample` sets one number per quantity at the end of every sampling interval. The run computes means over the
+ * averaging window, errors and correlation times as for every other quantity. `collision` (may be NULL) is called at
+ * every collision between grains while averaging; this costs time, and dsmc then leaves its fast kernels. Both get
+ * `state`: state_size plain bytes, zero at the start, one for each replica, stored in checkpoints. A resumed run needs
+ * the same observables. */
 typedef struct gg_observable_definition {
   const char *name;
   const char *doc; /* one line; may be NULL */
@@ -1799,22 +1795,22 @@ typedef struct gg_pair_facts {
   double e, beta, mu, diameter, contact_value; /* e of a restitution law: at the mean impact speed at the start */
 } gg_pair_facts;
 
-/* A scene as theories see it, in the units of results. Valid during the call only. */
+/* Input of a theory: the scene in units of results. Valid during the call only. */
 typedef struct gg_facts {
   const char *flow, *thermostat; /* words of the scene */
   const char *restitution_law;   /* its name; NULL: constant e */
   double phi, density;           /* solid fraction, 0: Boltzmann limit; n d^3 (1 in that limit) */
   double shear_rate, gravity[3], box[3];
   double temperature; /* <C.C>/3 at the start */
-  double stress_unit; /* a stress in units of m n_0 v^2, n_0 = 1/d^3, times this is one in units of results */
+  double stress_unit; /* factor from stresses in m n_0 v^2, n_0 = 1/d^3, to units of results */
   int n_species;
   const gg_species_facts *species;
   const gg_pair_facts *pairs; /* of species i and j: pairs[n_species*i + j] */
 } gg_facts;
 
-/* `evaluate` sets one number for each of `quantities`, names of shared quantities or of the scene's own observables
- * (NaN, as which all are preset: no answer), and returns NULL; or the reason why the theory does not apply, as for
- * gg_callback_fail(). */
+/* `evaluate` sets one number for each of `quantities`, which are names of graingas or of the scene's own observables,
+ * and returns NULL. All numbers are preset to NaN: no answer. If the theory does not apply, it returns the reason, a
+ * text as for gg_callback_fail(). */
 typedef struct gg_theory_definition {
   const char *name;
   const char *title, *citation, *assumptions; /* a line each; may be NULL */
@@ -1833,11 +1829,8 @@ typedef struct gg_theory_definition {
  */
 GG_API gg_status gg_scene_add_theory(gg_scene *scene, const gg_theory_definition *definition, gg_error *err);
 
-/* Coefficient of normal restitution, 0 to 1, of two grains (species from 0) that meet with this relative speed along
- * their normal, instead of collision.e and collision.law (walls keep theirs). Asked at every collision of either
- * engine; the same arguments must have the same answer. It is tried at speeds from 1e-9 to 1e9 when it is registered;
- * what it returns out of range during a run is taken as the nearer end. dsmc leaves its fast kernels for it; theories
- * of constant e do not apply. A run that is resumed needs the same law; its name tells. NULL: back to collision.e. */
+/* Coefficient of normal restitution, 0 to 1, of two grains (species from 0) that collide with this relative speed along
+ * their normal. Called at every collision of either engine; the same arguments must give the same value. */
 typedef double gg_restitution(void *context, double normal_speed, int species_1, int species_2);
 
 /**
@@ -1870,7 +1863,7 @@ GG_API gg_status gg_scene_set_restitution_table(gg_scene *scene, const char *nam
 /* ---- Sizes ----
  * Structs grow at their end from version to version. So every function that takes one of the caller's structs also gets
  * the size that the caller's compiler knows: the names above become the functions below. A program that was built with
- * an older header goes on to work with a newer library; one that was built with a newer header than the library's gets
+ * an older header works with a newer library; one that was built with a newer header than the library's gets
  * GG_BAD_INPUT. Through a pointer, or from a language without this header, call these: the functions above exist, too,
  * for structs as they are in the library's own version. */
 
