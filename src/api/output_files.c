@@ -17,7 +17,7 @@ typedef struct file {
 /* Asks something of one of the pages beside the picture. */
 typedef gg_status page_check(const char *page, const char *picture, const void *context, gg_error *err);
 
-/* A checkpoint may take the place of the one that the run goes on from. */
+/* A checkpoint may take the place of the one that the run resumes from. */
 static bool may_be_same(const file *a, const file *b)
 {
   return !a->path || !b->path || (!a->option && !b->option) || (a->role[4] == 'c' && b->role[4] == 'c');

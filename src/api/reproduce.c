@@ -128,7 +128,7 @@ static gg_status reproduce(size_t k, const gg_reproduce_options *options, gg_err
   return status;
 }
 
-/* One after the other; what fails is told, and the rest goes on. */
+/* One after the other; failures are reported, and the rest continues. */
 static gg_status reproduce_all(const gg_reproduce_options *options, gg_error *err)
 {
   int failed = 0;

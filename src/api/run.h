@@ -41,7 +41,7 @@ typedef struct gg_point_call {
   /* Give the output, which is in place, the name that says how the run ended: before its checkpoints are removed. */
   gg_status (*publish)(void *context, gg_status run, gg_error *err);
   void *context;
-  bool resume_lost; /* set: what it was to go on from cannot be gone on from */
+  bool resume_lost; /* set: the checkpoint to resume cannot be used */
 } gg_point_call;
 /* gg_run and gg_compare, also for a point (NULL: it is none). *made, set where there is anything: both engines and the
  * theories, or the result of the scene's engine alone. */

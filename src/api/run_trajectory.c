@@ -1,9 +1,9 @@
 /* Where the frames of a run go.
  *
- * A run that does not go on from the log beside its checkpoint may be beside the checkpoint of another run, which needs
- * that log. So it writes X.frames.new, and its first checkpoint takes the other's place in three steps. What a kill -9
+ * A run that does not resume from the log beside its checkpoint may be beside the checkpoint of another run, which
+ * needs that log. So it writes X.frames.new, and its first checkpoint takes the other's place in three steps. A kill -9
  * leaves in between:
- * before them           X.h5, X.h5.1 and X.frames of the other run, which can be gone on from; X.frames.new is litter
+ * before them           X.h5, X.h5.1 and X.frames of the other run, which can be resumed; X.frames.new is litter
  * X.h5 is replaced      the new X.h5 with X.frames.new; X.h5.1 of the other run with X.frames
  * X.h5.1 is removed     the new X.h5 with X.frames.new; X.frames of the other run is litter
  * X.frames is replaced  X.h5 and X.frames of the new run
@@ -199,7 +199,7 @@ gg_status gg_api_trajectory_mark(const gg_run_call *r, gg_archive *archive, gg_e
   return gg_base_archive_put(archive, mark_item, GG_ITEM_U8, &r->log.mark, sizeof r->log.mark, err);
 }
 
-/* Gigabytes take seconds: a run that can be gone on from is stopped here, too. */
+/* Gigabytes take seconds: a run that can be resumed is stopped here, too. */
 static gg_status move_to_result(void *context, const gg_frame *frame, gg_error *err)
 {
   gg_run_call *r = context;

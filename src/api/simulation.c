@@ -147,7 +147,7 @@ static gg_status advance_once(gg_simulation *s, double *time, uint64_t *most, gg
   return rescale_if_cold(s, gg_api_simulation_temperature(s), err);
 }
 
-/* The caller is asked before the first stretch, too: with small systems an advance ends before the engine looks. */
+/* The callback is called before the first stretch, too: with small systems an advance ends before the engine looks. */
 static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
 {
   GG_TRY(settle_callback(s, err)); /* of an advance that was stopped */

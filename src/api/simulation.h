@@ -6,7 +6,7 @@
 #include "base/busy.h"
 #include "common/engine.h"
 
-/* Free cooling goes on over decades: as runs do, the engine's velocities are brought back by exact powers of two, and
+/* Free cooling extends over decades: as runs do, the engine's velocities are brought back by exact powers of two, and
  * what is handed out is in the units of the start. */
 struct gg_simulation {
   gg_scene scene; /* finished */
@@ -25,7 +25,7 @@ struct gg_simulation {
     char *events; /* gg_collision_event, `size` bytes each as the caller knows them; NULL: none */
     size_t size, capacity, *n;
   } record;
-  int (*asks)(void *context); /* whether to stop; NULL: nobody does */
+  int (*asks)(void *context); /* whether to stop; NULL: never */
   void *asks_context;
   gg_stop stop;        /* what the model's points to */
   double stretch_from; /* the engine's time at the start of the stretch that clock.time is the start of */
@@ -45,8 +45,8 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simul
 gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err);
 /* Show the collisions of an engine that is to take the place of the simulation's, as the present one does. */
 gg_status gg_api_simulation_watch(gg_simulation *s, gg_engine *engine, gg_error *err);
-/* simulation_grains.c: go on with another engine, of this model; with these grains, or what they are now where they are
- * NULL. On failure all stays as it was. */
+/* simulation_grains.c: continue with another engine, of this model; with these grains; members that are NULL stay.
+ * On failure nothing changes. */
 gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, const gg_grains *grains, gg_error *err);
 
 /* moments.c: what a state of the grains tells of itself, whether an engine has them or a file. */

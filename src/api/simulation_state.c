@@ -1,4 +1,4 @@
-/* Simulations asked: their state, their grains, their sums over collisions. */
+/* Queries of simulations: their state, their grains, their sums over collisions. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

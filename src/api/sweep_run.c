@@ -102,7 +102,7 @@ static gg_status evaluate(controller *c, const gg_scene *scene, const gg_run_opt
   gg_comparison *made = NULL;
   gg_result_file file;
   gg_status status = gg_theories_evaluate(scene, NULL, &made, err);
-  for (int k = 0; made && k < 2; k++) snprintf(made->refusal[k], sizeof made->refusal[k], "it was not asked to");
+  for (int k = 0; made && k < 2; k++) snprintf(made->refusal[k], sizeof made->refusal[k], "it was not run");
   if (status == GG_OK) status = gg_files_result_file_open(&file, options->output, options->command, err);
   if (status == GG_OK) status = gg_files_result_file_finish_comparison(&file, made, err);
   if (status == GG_OK) status = publish(c, GG_OK, err);
@@ -340,10 +340,10 @@ static gg_status sum_up(const sweep_run *all, gg_error *err)
     failed += all->item[k].status != GG_OK && all->item[k].status != GG_INTERRUPTED && !all->item[k].fell_short;
   }
   if (atomic_load(&all->stopped))
-    return gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted; go on with the same command", all->folder);
+    return gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted; continue with the same command", all->folder);
   if (!failed && !fell_short) return GG_OK;
   return gg_base_fail(err, GG_FAILED,
-                      "%s: of %zu points %zu failed, and %zu did not reach the accuracy asked for (*.short.h5)",
+                      "%s: of %zu points %zu failed, and %zu did not reach the requested accuracy (*.short.h5)",
                       all->folder, all->n + all->done_before, failed, fell_short);
 }
 

@@ -212,7 +212,7 @@ static bool wait_for_reader(const gg_atomic_file *f)
   struct pollfd out = {.fd = f->fd, .events = POLLOUT};
   for (int ready = 0; ready <= 0;) {
     ready = poll(&out, 1, 1000);
-    if (ready < 0 && errno != EINTR) return true; /* writing tells why */
+    if (ready < 0 && errno != EINTR) return true; /* writing reports why */
     if (ready == 0 && f->stop.asked && gg_stop_asked(&f->stop)) return false;
   }
   return true;

@@ -33,11 +33,11 @@ gg_status gg_base_file_lock_take(gg_file_lock *lock, const char *target, const c
 void gg_base_file_lock_release(gg_file_lock *lock);
 
 typedef struct gg_atomic_file {
-  char *path; /* as it was asked for, for messages */
+  char *path; /* as given, for messages */
   gg_output_path place;
   char *temporary;   /* NULL of a device or pipe */
   int fd;            /* of the temporary file, which others may open by name and write, too; or of the device or pipe */
-  gg_stop stop;      /* of a device or pipe: whoever is told to stop waits no longer for a reader who takes nothing */
+  gg_stop stop;      /* of a device or pipe: after a stop request it waits no longer for a reader who takes nothing */
   gg_file_lock lock; /* of the place, held until the end; not of a device or pipe */
   bool repeated;     /* an earlier or a later one is as good: not kept where it cannot be put in place */
 } gg_atomic_file;

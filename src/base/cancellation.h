@@ -1,4 +1,4 @@
-/* A word to those who do long work: look here now and then, and end early if you are asked to. Engines look several
+/* A word to those who do long work: look here now and then, and end early on request. Engines look several
  * times a second, at their start too. */
 #ifndef GG_STOP_H
 #define GG_STOP_H
@@ -20,7 +20,7 @@ bool gg_base_callback_failed(void);
 /* At the end of such work: GG_FAILED with the reason, which is then forgotten; `status` where no callback failed. */
 gg_status gg_base_callback_settle(gg_status status, gg_error *err);
 
-/* `stop` may be NULL: nobody will ask. */
+/* `stop` may be NULL: never stop. */
 static inline bool gg_stop_asked(const gg_stop *stop)
 {
   return gg_base_callback_failed() || (stop && stop->asked(stop->context));

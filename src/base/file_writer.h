@@ -9,7 +9,7 @@
 
 typedef struct gg_file_writer {
   gg_atomic_file *file;
-  gg_error *err; /* where the first failure is told; may be NULL */
+  gg_error *err; /* receives the first failure; may be NULL */
   gg_status status;
   size_t used;
   char buffer[1 << 15];

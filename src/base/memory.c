@@ -50,7 +50,7 @@ void *gg_base_array_new(size_t count, size_t size, gg_error *err)
   return block;
 }
 
-/* Volatile: a compiler may leave out what is asked for and given back. */
+/* Volatile: a compiler may leave out what is allocated and freed. */
 bool gg_base_memory_is_room(void)
 {
   void *volatile reserve = malloc(1 << 22);

@@ -34,7 +34,7 @@ bool gg_base_memory_is_room(void);
 /* How much memory is there for a run. */
 
 /* Bytes that this process can still have: what the system has, what its control groups and its own limits leave.
- * INFINITY where nothing tells. */
+ * INFINITY if unknown. */
 double gg_base_memory_available(void);
 
 /* GSL ends the program on errors, out of memory among them, unless its handler says otherwise. From the first thread

@@ -82,7 +82,7 @@ static bool is_pinned(const char *target, const struct stat *about)
   return pinned;
 }
 
-/* Write permission is asked for although the file is replaced, not written to: who took it away meant it. It counts for
+/* Write permission is required although the file is replaced, not written to: who took it away meant it. It counts for
  * root, too, who could write all the same. */
 static gg_status check_file(const gg_output_path *place, const char *path, gg_error *err)
 {

@@ -8,7 +8,7 @@
 #include "plot/chart.h"
 #include "plot/plot.h"
 
-/* What is drawn, so that curves can be told apart; each as points, and its floor as a line. */
+/* What is drawn, so that curves can be distinguished; each as points, and its floor as a line. */
 static const struct {
   int way;
   const char *group;

@@ -74,7 +74,7 @@ gg_status gg_bench_error_state_measure(const gg_bench *bench, gg_error_state *st
                                        gg_error *err);
 /* Relative error at a mark, the root of the mean square over runs; *error: how well that is known. */
 double gg_bench_error_at(const gg_error_state *state, int way, int quantity, int mark, double *error);
-/* Seconds until the error is this small; INFINITY: never, the floor is surely above; NaN: not told, the floor is not
+/* Seconds until the error is this small; INFINITY: never, the floor is surely above; NaN: unknown, the floor is not
  * known well enough. */
 double gg_bench_seconds_to(const gg_error_state *state, int way, int quantity, double error);
 

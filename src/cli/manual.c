@@ -107,9 +107,8 @@ static void print_files(void)
        "The trajectory up to the checkpoint, which goes into RESULT.h5 at the end. It belongs to the checkpoint: move "
        "both. Where it is lost, the run can be resumed without a trajectory, with --set output.trajectory_every=0."},
       {"RESULT.h5.graingas-lock, RESULT.h5.graingas-tmp", NULL,
-       "Who is writing the file, and the file that is to become it. What a dead process left of them is in nobody's "
-       "way, "
-       "and the next run removes it."},
+       "Which process writes the file, and the unfinished file. The next run removes what a dead process left of "
+       "them."},
       {"Checksum", NULL,
        "Results and checkpoints end with \"gg-crc32\", the size of the HDF5 file (8 bytes) and its CRC-32 (4 bytes), "
        "lowest byte first. A result without them is one that another program has changed: it is read with a warning. "
@@ -165,7 +164,7 @@ void gg_cli_print_manual(void)
   item("1", NULL, "The run failed or did not reach its stopping criteria.");
   item("2", NULL, "The command line or the scene is invalid.");
   item("3", NULL, "A file could not be read or written.");
-  item("130", NULL, "Interrupted; with a checkpoint if one was asked for.");
+  item("130", NULL, "Interrupted; a checkpoint is written if checkpoints are on.");
   printf(".SH EXAMPLES\n.EX\ngraingas compare examples/usf.yaml\n"
          "graingas run examples/usf.yaml \\-\\-engine md \\-\\-set collision.e=0.8 \\-\\-json\n"
          "graingas plot usf.h5 \\-\\-format png\n"

@@ -29,7 +29,7 @@ void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *now);
 /* Remove the live line, or print how it ended in a plain line; harmless again. */
 void gg_cli_progress_end(gg_cli_progress *p);
 
-/* interrupt.c: SIGINT, SIGTERM and SIGHUP end a run within half a second, with a checkpoint if one was asked for; a
+/* interrupt.c: SIGINT, SIGTERM and SIGHUP end a run within half a second, with a checkpoint if checkpoints are on; a
  * second one ends it at once. From this call on, standard output and error wait for a reader who takes nothing (a
  * pager, a terminal that was halted); once interrupted, only a second: the rest is lost, and the run comes to its end.
  */

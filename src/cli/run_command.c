@@ -213,7 +213,7 @@ static char *command_to_resume(const gg_run_command *r)
 static void report_checkpoint(const gg_run_command *r)
 {
   char *again = command_to_resume(r);
-  fprintf(stderr, "go on with: %s\n", again ? again : "the same command and --resume");
+  fprintf(stderr, "continue with: %s\n", again ? again : "the same command and --resume");
   free(again);
 }
 
@@ -229,7 +229,7 @@ typedef struct drawing {
   bool replaced;
 } drawing;
 
-/* Pages of curves stand beside the picture that was asked for. */
+/* Pages of curves stand beside the picture that was requested. */
 static void report_picture(void *context, const char *picture)
 {
   const drawing *d = context;

@@ -11,7 +11,7 @@ typedef struct gg_sweep_command {
   char *folder;
   gg_cli_line line;
   bool over;   /* the last line was shown */
-  bool tables; /* the command goes on to make tables of the points */
+  bool tables; /* the command then makes tables of the points */
 } gg_sweep_command;
 
 /* The input, or without one the YAML `text` that is called `name`; varied, overridden and checked. */

@@ -58,12 +58,12 @@ typedef struct gg_engine_state {
 enum { GG_CHUNK = 1024 };
 typedef struct gg_chunk {
   size_t n;
-  const double *r[3];                    /* positions in the box, all at the present time; only if asked for */
+  const double *r[3];                    /* positions in the box, all at the present time; only if requested */
   const double *c[3];                    /* peculiar velocities */
   const double *s[3];                    /* spins; NULL for smooth grains */
   const double *whole_c[3], *whole_s[3]; /* the same with their local mean, where c and s are about that; else NULL */
   const uint8_t *species;                /* NULL for one species */
-  const int64_t *id; /* the grain's number, constant through a run; only if positions are asked for */
+  const int64_t *id; /* the grain's number, constant through a run; only if positions are requested */
 } gg_chunk;
 typedef void gg_visit(void *context, const gg_chunk *chunk);
 
@@ -117,9 +117,9 @@ typedef struct gg_engine_ops {
   gg_status (*create_with)(const gg_model *model, uint64_t seed, uint64_t stream, const gg_grain_arrays *grains,
                            const gg_engine *before, gg_engine **engine, gg_error *err);
   void (*destroy)(gg_engine *engine);
-  /* Go on for `dt`, or until `max_collisions` more have happened, whichever is first; *elapsed is the time gone. dsmc
-   * may end its last step past either limit. Deterministic: cutting a run into advances never changes a trajectory in
-   * md, and in dsmc only through the ends of steps.
+  /* Continue for `dt`, or until `max_collisions` more have happened, whichever is first; *elapsed is the time gone.
+   * dsmc may end its last step past either limit. Deterministic: cutting a run into advances never changes a trajectory
+   * in md, and in dsmc only through the ends of steps.
    *
    * GG_INTERRUPTED where model.stop asks for it, which is looked at several times a second: the engine stands where it
    * has come to, in dsmc at the end of a step, and *elapsed is the time gone. The next call may be a new advance; or
@@ -129,9 +129,9 @@ typedef struct gg_engine_ops {
   void (*keep_sums)(gg_engine *engine, bool keep);
   /* Hand over the sums since the last read, and start anew. */
   void (*take_sums)(gg_engine *engine, gg_collision_sums *sums);
-  /* Show every collision between grains to `callback` from now on; NULL: to nobody. What is shown costs time; a dsmc
+  /* Show every collision between grains to `callback` from now on; NULL: none. What is shown costs time; a dsmc
    * engine also leaves its block kernels, in which grains change places, until it has no callback. An engine restored
-   * from a checkpoint has to be told again, and then goes on bit for bit. */
+   * from a checkpoint has to be set again, and then continues bit for bit. */
   gg_status (*set_callback)(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
   /* Does a callback slow this engine down many times over? Then it is best set now and then. NULL: no. */
   bool (*callback_slows)(const gg_engine *engine);
@@ -146,7 +146,7 @@ typedef struct gg_engine_ops {
   /* Multiply every velocity and spin by 2^power, exactly; for cooling over decades, and to begin the next sweep of a
    * linear response (linear_response.h), which leaves the clock alone. GG_BAD_INPUT in other sheared flows. */
   gg_status (*rescale)(gg_engine *engine, int power, gg_error *err);
-  /* Everything needed to go on bit for bit. Saving does not disturb the run. */
+  /* Everything needed to continue bit for bit. Saving does not disturb the run. */
   gg_status (*save)(const gg_engine *engine, gg_archive *archive, gg_error *err);
   gg_status (*restore)(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err);
   /* Lines of what this model switched on and off, for `graingas info`: calls `line` for each. */

@@ -4,8 +4,8 @@
  *
  * A heated gas (Gaussian thermostat, or elastic grains) starts at a* = high and heats itself down to `low`; one that
  * cools starts hot, below `low`, forgets that start, and is counted from `low` to `high`. Then the velocities are
- * multiplied by 2^power and the next sweep of a* begins, so that averaging can go on for as long as the requested error
- * needs; eta* is extrapolated to a* = 0 (src/measure/green_kubo_viscosity.c). */
+ * multiplied by 2^power and the next sweep of a* begins, so that averaging can continue for as long as the requested
+ * error needs; eta* is extrapolated to a* = 0 (src/measure/green_kubo_viscosity.c). */
 #ifndef GG_LINEAR_RESPONSE_H
 #define GG_LINEAR_RESPONSE_H
 

@@ -59,7 +59,7 @@ typedef struct gg_model {
   bool single;         /* dsmc: velocities kept in single precision */
 
   const gg_extension *extension; /* borrowed from the scene */
-  const gg_stop *stop;           /* borrowed from whoever runs an engine on it: no physics; NULL: nobody stops it */
+  const gg_stop *stop;           /* borrowed from whoever runs an engine on it: no physics; NULL: nothing stops it */
 
   double stress_unit; /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */
 } gg_model;

@@ -4,7 +4,7 @@
 #ifndef GG_OBSERVABLES_H
 #define GG_OBSERVABLES_H
 
-/* X(FLAG, word, description). rheology stays first: it tells when a run is steady. */
+/* X(FLAG, word, description). rheology stays first: it decides when a run is steady. */
 #define GG_OBSERVABLES(X)                                                                                              \
   X(RHEOLOGY, rheology, "temperatures, spin, stress, collision rate, free path, velocity moments")                     \
   X(VELOCITY_DISTRIBUTIONS, velocity_distributions, "distributions of the components of C and Omega, with their tails")              \

@@ -29,7 +29,7 @@ double gg_common_law_speed_of(gg_law_kind kind, double loss);
 #define GG_LAW_LEAST_E 0.01
 #define GG_LAW_MOST_E 0.99999
 
-/* A law read off a table of ascending speeds: the `gg_restitution` of a `context` that is one of these. */
+/* A law interpolated in a table of ascending speeds: the `gg_restitution` of a `context` that is one of these. */
 typedef struct gg_law_table {
   size_t n;
   const double *speed, *e;

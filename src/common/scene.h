@@ -18,7 +18,7 @@ enum { GG_FIELDS_POSITION = 1, GG_FIELDS_VELOCITY = 2, GG_FIELDS_SPIN = 4, GG_FI
 typedef enum gg_top { GG_CLOSED_TOP, GG_OPEN_TOP } gg_top;
 typedef enum gg_contact_value { GG_CARNAHAN_STARLING, GG_LUN_SAVAGE, GG_KOLAFA } gg_contact_value;
 
-/* An ensemble of a few thousand stands for one point of the flow to better than 0.1 %; fewer only if asked for. */
+/* An ensemble of a few thousand stands for one point of the flow to better than 0.1 %; fewer only if requested. */
 enum { GG_LEAST_ENSEMBLE = 5000 };
 
 #define GG_AUTO (-1.0) /* a number that the program is to choose */
@@ -57,8 +57,8 @@ struct gg_scene {
   } walls;
   double gravity[3];
   struct {
-    double relative_error, collisions, time_limit; /* GG_AUTO: not asked for; neither of the first two: 0.01 */
-    double until[GG_MAX_UNTIL];                    /* of gg_quantity: its own relative error; 0: not asked for */
+    double relative_error, collisions, time_limit; /* GG_AUTO: not requested; neither of the first two: 0.01 */
+    double until[GG_MAX_UNTIL];                    /* of gg_quantity: its own relative error; 0: not requested */
     double warmup;                                 /* collisions per particle, or GG_AUTO */
     int64_t replicas;
     uint64_t seed;

@@ -8,7 +8,7 @@ static double candidate_rate(const gg_dsmc *d, gg_dsmc_features features, int i,
   return gg_dsmc_candidates_per_unit(d->path[gg_pair(i, j)], features, one, two) * gg_dsmc_cross_section(d, i, j);
 }
 
-/* These candidates, over `dt` from d->interval_begin, are to be told of. */
+/* These candidates, over `dt` from d->interval_begin, are to be reported. */
 static void call_back(gg_dsmc *d, int i, int j, double dt, gg_dsmc_pass *pass)
 {
   pass->callback = &d->callback;

@@ -1,5 +1,5 @@
-/* The collision callback: collisions told one by one. They take the plain path, whose grains stay at their places in
- * the ensemble, so that it is known when each collided last. */
+/* The collision callback: collisions reported one by one. They take the plain path, whose grains stay at their places
+ * in the ensemble, so that it is known when each collided last. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* Storage of the engine: everything that a run needs to go on bit for bit. */
+/* Storage of the engine: everything that a run needs to continue bit for bit. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -239,7 +239,7 @@ static void blocks(gg_engine *engine, gg_visit_blocks *visit, void *context)
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_dsmc *d = dsmc_of(engine);
-  const bool next_sweep = d->model.linear_response; /* of the reduced shear rate: the clock goes on */
+  const bool next_sweep = d->model.linear_response; /* of the reduced shear rate: the clock continues */
   if (d->thermostat != GG_NO_THERMOSTAT && !next_sweep)
     return gg_base_fail(err, GG_BAD_INPUT, "a heated gas cannot be rescaled: it keeps its temperature");
   if (d->model.shear_rate != 0 && !next_sweep)

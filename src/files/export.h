@@ -7,7 +7,7 @@
 
 /* The files that the result of this path comes to, all of them or none: PREFIX.csv, one of each curve,
  * PREFIX_numbers.csv and PREFIX.xyz; `parts` (GG_EXPORT_...) says which. GG_FAILED if the result has nothing of what
- * was asked for. `written` (may be NULL) is called with the name of each, `progress` (may be NULL) with the share of
+ * was requested. `written` (may be NULL) is called with the name of each, `progress` (may be NULL) with the share of
  * the trajectory that is written. */
 gg_status gg_files_export_result(const gg_stored_result *stored, const char *path, const char *prefix, unsigned parts,
                                  void (*written)(void *context, const char *file),

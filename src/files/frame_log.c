@@ -184,7 +184,7 @@ static const char *read_next(const gg_frame_log *log, reader *r)
   bool fits = memcmp(header.word, word, sizeof word) == 0 && header.n <= left && header.n <= INT64_MAX / 128 &&
               header.holds < 8 && header.bytes == size_of(header.n, header.holds) && header.bytes <= left;
   if (!fits) return "damaged";
-  if (header.bytes > there) return "missing"; /* before memory is asked for it */
+  if (header.bytes > there) return "missing"; /* before memory is allocated for it */
   if (header.bytes > r->room) {
     free(r->whole);
     r->whole = malloc(header.bytes);

@@ -33,7 +33,7 @@ char *gg_files_frame_log_new_path(const char *path);
 
 /* To write there from the first frame on; a file that is there stays as it is until then. */
 gg_status gg_files_frame_log_open(gg_frame_log *log, const char *path, gg_error *err);
-/* The log of a run that does not go on from what is there: written as PATH.new, where none may be, until it is put in
+/* The log of a run that does not resume from what is there: written as PATH.new, where none may be, until it is put in
  * the place of the log of another run. Messages name PATH. */
 gg_status gg_files_frame_log_open_new(gg_frame_log *log, const char *path, gg_error *err);
 gg_status gg_files_frame_log_put_in_place(gg_frame_log *log, gg_error *err);

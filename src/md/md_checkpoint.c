@@ -1,5 +1,5 @@
-/* Everything needed to go on bit for bit: the records as they are. What cells and event queue hold is put there anew:
- * its order never matters. */
+/* Everything needed to continue bit for bit: the records as they are. What cells and event queue hold is put there
+ * anew: its order never matters. */
 #include "md/md_engine.h"
 
 #include <math.h>

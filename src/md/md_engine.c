@@ -34,7 +34,7 @@ static gg_status predict_all(gg_md *e, gg_error *err)
   return GG_OK;
 }
 
-/* From places and velocities to a run that can go on. */
+/* From places and velocities to a run that can continue. */
 gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
 {
   if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
@@ -203,7 +203,7 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   gg_md *e = (gg_md *)engine;
   double unused;
   if (!(dt >= 0)) return gg_base_fail(err, GG_BAD_INPUT, "a run cannot advance by %g", dt);
-  e->k.outer_time += outer_now(e); /* of one that was stopped, and is not to go on */
+  e->k.outer_time += outer_now(e); /* of one that was stopped, and does not continue */
   e->k.outer = 0;
   e->k.mark = e->k.now;
   e->k.asked = dt;

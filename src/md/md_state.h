@@ -21,7 +21,7 @@ typedef struct gg_md_grain {
   gg_vec r, v;
   double t;
   uint32_t species; /* before the counter: batches find it in the lowest bits of both words as one */
-  uint32_t counter; /* changes of course so far */
+  uint32_t counter; /* changes of velocity so far */
 } __attribute__((aligned(64))) gg_md_grain;
 
 /* Of the neighbour lists: the centre of the skin, which the grain may not leave before its list is updated. */
@@ -139,13 +139,13 @@ struct gg_md {
   uint64_t look_at;   /* events after which the loop is left, to look whether to stop */
   bool plain;         /* one pair at a time, the reference for the tests */
   bool out_of_memory; /* a cell could not grow: the run is over */
-  bool no_number;     /* nor does it go on with what is no number (verify.c) */
+  bool no_number;     /* nor does it continue with what is no number (verify.c) */
   bool stands_still;  /* nor where one grain's contacts never end */
   uint64_t check_at;  /* events after which all grains are looked at again */
   const gg_md_kernel *kernel;
   gg_md_resolution *resolve;
   gg_md_surface_resolution *resolve_surface;
-  gg_collision_callback *callback; /* told of every collision; NULL: none, and `resolve` is not wrapped */
+  gg_collision_callback *callback; /* receives every collision; NULL: none, and `resolve` is not wrapped */
   void *callback_context;
   gg_md_resolution *resolve_shown;  /* what `resolve` goes on to then */
   gg_md_resolution *resolve_parted; /* what gg_md_resolve_parting goes on to */
@@ -189,7 +189,7 @@ bool gg_md_fill_grid(gg_md *e);
 gg_status gg_md_note_surfaces(gg_md *e, gg_error *err);
 double gg_md_shaped_delay(const gg_md *e, const gg_surface *surface, const gg_flight *flight, const int32_t *cell);
 
-/* row_motion.c: rows of cells that move with the flow, placed as e->k tells; as the images above stand at the epoch's
+/* row_motion.c: rows of cells that move with the flow, placed as e->k says; as the images above stand at the epoch's
  * start; at the start of the next epoch; and after they have shifted by a cell. */
 gg_status gg_md_make_rows(gg_md *e, gg_error *err);
 void gg_md_align_rows(gg_md *e);

@@ -3,7 +3,7 @@
 
 #include "md/resolve.h"
 
-/* X for every rule, with and without contact-time rule and sums; the other two features go on to X. */
+/* X for every rule, with and without contact-time rule and sums; the other two features are passed on to X. */
 #define EACH_CHOICE(X, rule, one, two)                                                                                 \
   X(rule, 0, 0, one, two) X(rule, 0, 1, one, two) X(rule, 1, 0, one, two) X(rule, 1, 1, one, two)
 #define EACH_RULE(X, one, two)                                                                                         \

@@ -69,8 +69,8 @@ static bool is_partner(const gg_md *e, uint32_t i, uint32_t partner)
   return partner < e->n && partner != i;
 }
 
-/* Two grains that are about to collide have two centres. Where the partner has changed its course since, nothing comes
- * of the collision, and by then it is anywhere; its changes to come are none of those counted. */
+/* Two grains that are about to collide have two centres. Where the partner has changed its velocity since, nothing
+ * comes of the collision, and by then it is anywhere; its changes to come are none of those counted. */
 static bool is_contact(const gg_md *e, uint32_t i, const gg_md_node *node)
 {
   if (node->time != node->collision || !isfinite(node->time) || GG_MD_NO_GRAIN(node->partner)) return true;
@@ -158,7 +158,7 @@ const char *gg_md_wrong_grains(const gg_md *e)
 }
 
 /* What is no number any more. Collisions look at what they leave behind (event_loop.h); here all grains are looked at,
- * once in as many events as there are grains: whatever it came from, no run goes on with it. */
+ * once in as many events as there are grains: whatever it came from, no run continues with it. */
 static bool is_number(gg_vec a, gg_vec b)
 {
   return fabs((a.x + a.y + a.z) + (b.x + b.y + b.z)) < INFINITY;

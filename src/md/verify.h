@@ -1,7 +1,7 @@
-/* A state that was read: is it one that the event loop can go on from? A checkpoint says what stands in every record,
- * and somebody may have written it to lead the loop out of its arrays. What is looked at here is what the loop takes
- * for granted: every index, every number that an index is made of, and that the events of a grain come before it has
- * gone far. What a state means is not looked at. */
+/* A state that was read: is it one that the event loop can continue from? A checkpoint says what stands in every
+ * record, and somebody may have written it to lead the loop out of its arrays. What is looked at here is what the loop
+ * takes for granted: every index, every number that an index is made of, and that the events of a grain come before it
+ * has gone far. What a state means is not looked at. */
 #ifndef GG_MD_VERIFY_H
 #define GG_MD_VERIFY_H
 

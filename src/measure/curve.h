@@ -1,6 +1,6 @@
-/* Curves: histograms, profiles, correlation functions, spectra, with standard errors, and the numbers read off them. An
- * observable says how curves follow from the means of its bins; errors come from leaving out one block of samples at a
- * time (jackknife.h), so that ratios and fits get honest errors, too. */
+/* Curves: histograms, profiles, correlation functions, spectra, with standard errors, and the numbers derived from
+ * them. An observable says how curves follow from the means of its bins; errors come from leaving out one block of
+ * samples at a time (jackknife.h), so that ratios and fits get honest errors, too. */
 #ifndef GG_CURVE_H
 #define GG_CURVE_H
 
@@ -33,7 +33,7 @@ typedef struct gg_curve {
   double block_correlation; /* between neighbouring blocks, on average over the points: errors allow for it */
   uint64_t samples;         /* snapshots behind each point, all replicas */
   int n_numbers;
-  gg_curve_number number[GG_CURVE_NUMBERS]; /* read off this curve: exponents, contact values, coefficients */
+  gg_curve_number number[GG_CURVE_NUMBERS]; /* derived from this curve: exponents, contact values, coefficients */
 } gg_curve;
 
 typedef struct gg_curves {

@@ -12,7 +12,7 @@ typedef struct gg_snapshot {
   const struct gg_local_frame *frame; /* between walls: of the flow (local_frame.h); else NULL */
   size_t n;
   double *r[3], *c[3],
-      *s[3];           /* positions in the box (NULL where not asked for), peculiar velocities, spins (or NULL) */
+      *s[3];           /* positions in the box (NULL where not requested), peculiar velocities, spins (or NULL) */
   uint8_t *species;    /* NULL for one species */
   int64_t *id;         /* with positions; else NULL: the order itself is constant */
   double offset;       /* the image of the box above stands so far displaced along x (sheared flows) */

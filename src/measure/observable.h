@@ -59,7 +59,7 @@ typedef struct gg_observable {
   /* What followed quantities (GG_FOLLOWED) are in a single row, where it is something else than `derived` has; NULL: no
    * history is asked of this observable. */
   const gg_derived *history;
-  /* ln T of a row in units of the start, where T itself may be below all numbers; NULL: not told. */
+  /* ln T of a row in units of the start, where T itself may be below all numbers; NULL: unknown. */
   double (*log_temperature)(const double *row);
 
   /* Curves: while averaging, a snapshot at the end of every `every`-th sampling interval is added to bins. An
@@ -77,8 +77,8 @@ typedef struct gg_observable {
   /* Called with every collision while averaging; goes into the bins with the next snapshot. NULL: not needed. */
   gg_collision_callback *add_collision;
   bool (*wants_collisions)(const gg_model *model); /* does it want them of this model? NULL: of all */
-  /* It does with the collisions of some episodes, where showing them slows the engine down many times over; told when
-   * one begins. Snapshots are then added in episodes only. NULL: it is to have every collision. */
+  /* It does with the collisions of some bursts, where showing them slows the engine down many times over; called when
+   * one begins. Snapshots are then added in bursts only. NULL: it is to have every collision. */
   void (*begin_episode)(void *self);
   /* All velocities have just been multiplied by this: told before the next collision, where it has add_collision. */
   void (*rescaled)(void *self, double factor);

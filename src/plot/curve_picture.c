@@ -68,7 +68,7 @@ static void add_line(gg_plot_sheet *s, gg_chart_series like, const json_t *absci
 typedef struct group {
   const json_t *curve[MOST_IN_PANEL], *theory[MOST_IN_PANEL];
   const char *title, *theory_name;
-  int n, more; /* curves for which there is no room: those of many species are too many to be told apart */
+  int n, more; /* curves for which there is no room: those of many species are too many to be distinguished */
 } group;
 
 /* The first theory that has a curve of this name: lines of several would be too many. */

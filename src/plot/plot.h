@@ -75,7 +75,7 @@ void gg_plot_page_place(FILE *script, gg_panel panel);
  * a second or two where they are not stored. */
 json_t *gg_plot_theory_curves(const gg_stored_result *stored);
 
-/* Okabe and Ito's colours, told apart by the colour-blind: md, dsmc, then the theories. */
+/* Okabe and Ito's colours, distinguished by the colour-blind: md, dsmc, then the theories. */
 extern const char *const gg_plot_colours[];
 enum { GG_PLOT_COLOURS = 8 };
 

@@ -41,7 +41,7 @@ static bool adapts(const gg_replicas *all)
   return !all->state.averaging || !gg_model_keeps_temperature(&all->model);
 }
 
-/* Is there no point in going on, whatever was asked? */
+/* Is there no point in going on, whatever was requested? */
 static bool is_over(const gg_replicas *all)
 {
   return all->stopped == GG_OUT_OF_TIME || all->state.arrest_share > 0;

@@ -1,4 +1,4 @@
-/* Why md differs from Enskog's equation by more than expected, told from what a run measured. A cause is given to a
+/* Why md differs from Enskog's equation by more than expected, derived from what a run measured. A cause is given to a
  * difference only where it can have this sign and this size. */
 #ifndef GG_CAUSES_H
 #define GG_CAUSES_H
@@ -22,7 +22,7 @@ void gg_run_causes_of(const struct gg_comparison *comparison, gg_quantity q, gg_
  */
 void gg_run_causes_find(const struct gg_comparison *comparison, gg_causes *causes);
 
-/* "the grains have clustered: ..."; false where the gas is homogeneous, or nothing tells. Returns text. */
+/* "the grains have clustered: ..."; false where the gas is homogeneous, or it is unknown. Returns text. */
 bool gg_run_structure(const gg_result *result, char *text, size_t size);
 
 #endif

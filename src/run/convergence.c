@@ -9,7 +9,7 @@
 /* A difference between earlier and later beyond this many errors is a trend: with five quantities tested a few times,
  * chance alone reaches it in a few of a thousand runs. */
 #define TREND_Z 4.0
-/* ... unless it is too small to matter beside the error asked for. */
+/* ... unless it is too small to matter beside the requested error. */
 #define TREND_NEGLIGIBLE 1e-4
 
 /* The observable that has a quantity, and by what function; -1 if none. */
@@ -76,7 +76,7 @@ static int append(const gg_replicas *all, gg_quantity q, gg_quantity *list, int 
   return n;
 }
 
-/* What must not have a trend: the headline quantities and others whose error is asked for first (*asked of them), then
+/* What must not have a trend: the headline quantities and others with a requested error first (*asked of them), then
  * those that relax slowly. Returns how many. */
 static int monitored(const gg_replicas *all, gg_quantity *list, int *asked)
 {

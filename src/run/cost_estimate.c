@@ -265,7 +265,7 @@ void gg_run_cost_report(const gg_cost_estimate *f, int64_t replicas, void (*line
   put_time(f->seconds, all);
   snprintf(text, sizeof text, "time: about %s of one processor, within a factor of %s, for %.3g collisions a grain%s%s",
            all, f->to_an_error ? "three" : "two", f->collisions, replicas > 1 ? " and replica" : "",
-           f->to_an_error ? " (until the error asked for)" : "");
+           f->to_an_error ? " (until the requested error)" : "");
   line(context, text);
   if (f->limit > 0) {
     put_time(f->limit, all);

@@ -1,5 +1,5 @@
-/* What a run will take, told before it begins: memory, processor time, and the shares of its observables. Times are
- * those of one processor of 2020 or so, right within a factor of two (three where an error is asked for); memory within
+/* Cost estimate of a run, before it begins: memory, processor time, and the shares of its observables. Times are
+ * those of one processor of 2020 or so, right within a factor of two (three where an error is requested); memory within
  * a fifth. */
 #ifndef GG_COST_ESTIMATE_H
 #define GG_COST_ESTIMATE_H
@@ -17,7 +17,7 @@ typedef struct gg_cost_estimate {
   double ns;                          /* of processor time a collision, observables apart */
   double seconds;                     /* of processor time in all */
   double limit;                       /* run.time_limit, seconds; 0: none */
-  bool to_an_error;                   /* it goes on until an error that is asked for */
+  bool to_an_error;                   /* it ends at a requested error */
   int n_costs;
   struct {
     const char *name;

@@ -1,4 +1,4 @@
-/* What a run reports while it goes on. */
+/* What a run reports while it lasts. */
 #include <math.h>
 #include <string.h>
 
@@ -70,7 +70,7 @@ static double log_scale(const gg_progress_estimate *o)
   return sum / weights;
 }
 
-/* What a test will find, if the error goes on as 1/sqrt(window), but for some doubts. */
+/* What a test will find, if the error falls as 1/sqrt(window), but for some doubts. */
 static gg_window_test test_at(const gg_progress_estimate *o, const gg_stopping_criteria *criteria, uint64_t window,
                               double doubts)
 {
@@ -187,8 +187,8 @@ static double usual_end(const gg_replicas *all)
   return fmax(begins + window, 1.25 * (double)all->state.goal);
 }
 
-/* Until what was asked is reached, whatever the limit; NaN: not known. What a sample takes where curves are measured is
- * known only after some of the averaging. */
+/* Until what was requested is reached, whatever the limit; NaN: not known. What a sample takes where curves are
+ * measured is known only after some of the averaging. */
 static double time_left(const gg_replicas *all, double due, gg_expected_end end)
 {
   double left = (end.at - due) * gg_run_progress_pace(&all->progress);

@@ -25,7 +25,7 @@ typedef struct gg_progress_estimate {
   struct {
     double wall, due; /* a clock reading, and how many samples every replica had taken */
   } marks[GG_PROGRESS_MARKS];
-  double fraction; /* the largest told */
+  double fraction; /* the largest reported */
 } gg_progress_estimate;
 
 /* Averaging begins, or begins anew. */

@@ -172,7 +172,7 @@ static gg_status emit_frame(gg_replica *r, const gg_run_callbacks *callbacks, gg
 }
 
 /* Of the grains as the engine has them: of the last row, which tells its logarithm in units of the start, or in linear
- * response, whose sweeps go on beyond all units, T itself. As if all were well where nobody measures it. */
+ * response, whose sweeps continue beyond all units, T itself. As if all were well where nobody measures it. */
 static double temperature_now(const gg_replica *r)
 {
   const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
@@ -282,7 +282,7 @@ gg_status gg_run_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
   return gg_run_replica_save_observables(r, a, err);
 }
 
-/* Frames may be asked for at other times than before: only of what is still to come. */
+/* Frames may be requested at other times than before: only of what is still to come. */
 static void resume_frames(gg_replica *r)
 {
   if (r->clock.frame_every == r->trajectory_every) return;
@@ -290,7 +290,7 @@ static void resume_frames(gg_replica *r)
   if (r->trajectory_every > 0 && r->clock.samples > 0) r->clock.next_frame = next_frame(r);
 }
 
-/* What was read may be anybody's: is it a clock that can go on? */
+/* What was read may be anybody's: is it a clock that can continue? */
 static gg_status check_clock(const gg_replica *r, gg_error *err)
 {
   const struct gg_replica_clock *c = &r->clock;

@@ -39,7 +39,7 @@ typedef struct gg_replica {
     double temperature;     /* of the last sample, at the engine's present velocities */
     double time;            /* since the start, in units of the start */
     int64_t power;          /* the engine's velocities are 2^power times those of the start */
-    double velocity_factor; /* of a rescaling not yet told to the observables */
+    double velocity_factor; /* of a rescaling not yet reported to the observables */
     double cpu, window_cpu; /* seconds used; at the opening of the window */
     uint64_t window_collisions;
     uint64_t averaging, window_samples; /* curves are being taken; samples since */
@@ -59,8 +59,8 @@ typedef struct gg_replica {
 gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err);
 void gg_run_replica_clear(gg_replica *r);
 
-/* Go on until `samples` have been taken in all; GG_INTERRUPTED where model.stop asks for it, within an interval as
- * well: what is saved there goes on bit for bit. With `adapt`, the interval follows the collision rate (warm-up,
+/* Continue until `samples` have been taken in all; GG_INTERRUPTED where model.stop asks for it, within an interval as
+ * well: what is saved there continues bit for bit. With `adapt`, the interval follows the collision rate (warm-up,
  * cooling). */
 gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_run_callbacks *callbacks,
                                  gg_error *err);

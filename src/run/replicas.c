@@ -14,7 +14,7 @@
 #include "run/workers/workers.h"
 #include "scene/fields.h"
 
-/* The replicas in an archive: everything needed to go on bit for bit. */
+/* The replicas in an archive: everything needed to continue bit for bit. */
 
 gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *a, gg_error *err)
 {
@@ -37,7 +37,7 @@ gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *a, gg_error *
 static gg_status check_kind(const gg_archive *a, gg_error *err)
 {
   if (gg_base_archive_find(a, "md/campaign/state") || gg_base_archive_find(a, "dsmc/campaign/state"))
-    return gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is one of a comparison, which alone can go on from it");
+    return gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is one of a comparison: only a comparison can resume it");
   if (gg_base_archive_find(a, "simulation/scene"))
     return gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is a saved simulation, not one of a run");
   return GG_OK;
@@ -191,7 +191,7 @@ static gg_status create_or_restore(gg_replicas *all, const gg_archive *resume, g
   return GG_OK;
 }
 
-/* A quantity whose error is asked for has a mean in this scene, by an observable that it measures. */
+/* A quantity with a requested error has a mean in this scene, by an observable that it measures. */
 static gg_status check_until(const gg_replicas *all, gg_error *err)
 {
   for (gg_quantity q = 0; q < GG_N_QUANTITIES; q++) {

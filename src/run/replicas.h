@@ -6,11 +6,11 @@
 #include "run/progress_estimate.h"
 #include "run/scheduler.h"
 
-typedef struct gg_stopping_criteria { /* what is asked, settled before the run; in samples of each replica */
-  uint64_t warmup, least, most; /* warm-up; shortest window that can be tested; asked length, 0: until the error */
+typedef struct gg_stopping_criteria { /* stopping criteria, settled before the run; in samples of each replica */
+  uint64_t warmup, least, most; /* warm-up; shortest window that can be tested; requested length, 0: until the error */
   uint64_t least_steady;        /* a shorter window is not called steady */
-  uint64_t longest;             /* window after which the asked error counts as out of reach */
-  double relative_error;        /* 0: not asked; the smallest where quantities have their own */
+  uint64_t longest;             /* window after which the requested error counts as out of reach */
+  double relative_error;        /* 0: none; the smallest where quantities have their own */
   double time_limit;            /* seconds, 0: none */
   bool find_steady;             /* give up windows that show a trend */
 } gg_stopping_criteria;
@@ -22,7 +22,7 @@ enum { GG_LEAST_CORRELATION_TIMES = 20 };
 enum { GG_LEAST_SLOW_TIMES = 50 };
 
 typedef struct gg_convergence { /* of the present averaging window */
-  double relative_error;        /* of the worst quantity whose error is asked for, in proportion to what is asked of it:
+  double relative_error;        /* of the worst quantity with a requested error, in units of its requested error:
                                  * equal to gg_stopping_criteria.relative_error where it just has that; NaN: not known */
   gg_quantity worst;
   bool trusted;     /* every headline error rests on long enough blocks */
@@ -56,7 +56,7 @@ typedef struct gg_replicas {
     uint64_t window_at;                           /* samples when the window was opened */
     uint64_t goal;                                /* samples at which the window is tested next */
     uint64_t restarts;                            /* windows given up for a trend */
-    int64_t exact;                                /* at the last test, errors were as small as asked */
+    int64_t exact;                                /* at the last test, errors were as small as requested */
     double wall;                                  /* seconds used before this process */
     uint64_t stretch_collisions, stretch_treated; /* of all replicas, where the present stretch began */
     double arrest_share; /* share of contacts that last, if there was little else; 0: the grains move */
@@ -71,7 +71,7 @@ typedef struct gg_replicas {
 enum { GG_NOT_STOPPED, GG_OUT_OF_TIME, GG_STOP_REQUESTED }; /* why a run is stopped */
 
 gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *model);
-/* The relative error asked of a quantity; INFINITY: none. */
+/* The relative error requested of a quantity; INFINITY: none. */
 double gg_run_criteria_error_of(const gg_scene *scene, const gg_model *model, gg_quantity q);
 /* Is a window with a trend given up, after so many that were? */
 bool gg_run_criteria_restart(const gg_stopping_criteria *criteria, uint64_t restarts);
@@ -82,18 +82,18 @@ bool gg_run_criteria_end(const gg_stopping_criteria *criteria, uint64_t restarts
  * 16 of them, do not know it to better than a fifth. */
 typedef struct gg_window_test {
   uint64_t window;
-  double ratio;     /* error over the asked one; NaN: not known */
-  bool exact, sure; /* as small as asked, and to be trusted */
+  double ratio;     /* error over the requested one; NaN: not known */
+  bool exact, sure; /* as small as requested, and to be trusted */
 } gg_window_test;
 /* Does it end the run? A run that tests again and again, and stops as soon as its estimate of the error is small, stops
- * where the estimate is too small. So a window that is not sure goes on for half its length after the first test that
- * it passes, and the estimate there is the one that counts. One that is sure need not: looks are few, as each goes
+ * where the estimate is too small. So a window that is not sure is extended by half its length after the first test
+ * that it passes, and the estimate there is the one that counts. One that is sure need not: looks are few, as each goes
  * where the last expects the end, and the estimate scatters little. (Simulated with independent blocks, the error's own
  * doubt not allowed for: the mean square of deviations over claimed errors is 1.07 then, against 1.05 with the half
  * more, 1.03 of windows of fixed length; with 16 blocks 1.3, against 1.16 and 1.15.) */
 bool gg_run_criteria_are_met(const gg_window_test *test, bool exact_before);
 /* Length at which the window is tested next, after that test; NULL: first. It grows by a quarter a time; of one that is
- * sure, to where its error should be a twentieth smaller than asked. */
+ * sure, to where its error should be a twentieth smaller than requested. */
 uint64_t gg_run_criteria_next_test(const gg_stopping_criteria *criteria, uint64_t restarts, const gg_window_test *last);
 
 /* By how much errors of a run that stops by them are enlarged, the others' by nothing: it stops where their estimate is
@@ -149,7 +149,8 @@ gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *slow
 /* Everything needed to continue bit for bit. */
 gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *archive, gg_error *err);
 
-/* report.c: the result of where the replicas stand, whole if GG_OK; then, GG_FAILED if that is short of what was asked.
+/* report.c: the result of where the replicas stand, whole if GG_OK; then, GG_FAILED if that is short of what was
+ * requested.
  */
 gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *err);
 gg_status gg_run_replicas_check_end(const gg_replicas *all, gg_error *err);

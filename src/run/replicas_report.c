@@ -11,7 +11,7 @@
 #include "run/replicas.h"
 #include "scene/fields.h"
 
-/* Why a quantity is not there: the scene has none of it, or nothing that was asked for measures it. */
+/* Why a quantity is not there: the scene has none of it, or nothing that was requested measures it. */
 static const char *why_missing(const gg_replicas *all, gg_quantity q)
 {
   if (q >= GG_N_QUANTITIES && all->state.averaging) return "its observable returned NaN or infinite values";
@@ -61,7 +61,7 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
   return gg_run_replicas_correlations(all, result, err);
 }
 
-/* How a row of the first observable (rheology, if it was asked for) gives a followed quantity; also one that decays, of
+/* How a row of the first observable (rheology, if it was requested) gives a followed quantity; also one that decays, of
  * which there is no mean. */
 static bool find_history(const gg_replicas *all, gg_quantity q, gg_function *f)
 {
@@ -120,7 +120,7 @@ static void report_effort(const gg_replicas *all, gg_result *result)
   result->averaging.wall_seconds = NAN;
 }
 
-/* Of an ensemble whose size is given: one that is chosen keeps this below a quarter of the error asked for. */
+/* Of an ensemble whose size is given: one that is chosen keeps this below a quarter of the requested error. */
 static void warn_if_few(const gg_replicas *all, gg_result *result)
 {
   const double bias = result->engine_state.particles_bias, asked = all->criteria.relative_error;
@@ -213,9 +213,9 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
     gg_run_result_warn(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
                        100 * (double)s->overflows / (double)s->collisions);
   if (all->criteria.relative_error > 0 && s->time_step_bias > all->criteria.relative_error / 5)
-    gg_run_result_warn(result,
-                       "the Monte Carlo time step may bias results by %.2g %%, more than a fifth of the asked error",
-                       100 * s->time_step_bias);
+    gg_run_result_warn(
+        result, "the Monte Carlo time step may bias results by %.2g %%, more than a fifth of the requested error",
+        100 * s->time_step_bias);
   warn_if_few(all, result);
 }
 

@@ -113,7 +113,7 @@ void gg_run_result_warn(gg_result *result, const char *format, ...) GG_PRINTF(2,
 /* Fill rows and correlation_time_unit, by the model. */
 void gg_run_result_label(gg_result *result);
 
-/* The headline quantities of a flow: what run.relative_error is asked of. Returns how many. */
+/* The headline quantities of a flow: what run.relative_error applies to. Returns how many. */
 int gg_run_headline_quantities(const gg_model *model, gg_quantity headline[GG_N_QUANTITIES]);
 
 /* The warning of results whose restitution follows no scene says so in these words. */

@@ -10,7 +10,7 @@
 #include "run/replicas.h"
 #include "run/scheduler.h"
 
-/* Where the replicas stand as a result; it may fall short of what was asked. */
+/* Where the replicas stand as a result; it may fall short of what was requested. */
 static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
 {
   gg_result *result = gg_base_array_new(1, sizeof *result, err);

@@ -1,4 +1,4 @@
-/* A run: warm-up to the steady state, averaging to the asked error, one result. Engine-blind. */
+/* A run: warm-up to the steady state, averaging to the requested error, one result. Engine-blind. */
 #ifndef GG_RUN_H
 #define GG_RUN_H
 
@@ -8,12 +8,12 @@
 
 typedef struct gg_run_scheduler gg_run_scheduler; /* run/scheduler.h */
 
-/* What the caller wants to be told while it runs; every member may be NULL. Calls come from threads of the run, never
+/* Callbacks of the caller during a run; every member may be NULL. Calls come from threads of the run, never
  * two at once. */
 typedef struct gg_run_callbacks {
   void *context;
   void (*progress)(void *context, const gg_progress *progress);
-  /* Asked several times a second, from the start on; true ends the run with GG_INTERRUPTED. */
+  /* Polled several times a second, from the start on; true ends the run with GG_INTERRUPTED. */
   bool (*interrupted)(void *context);
   gg_status (*frame)(void *context, const gg_frame *frame, gg_error *err); /* every output.trajectory_every */
   /* Every output.checkpoint_every seconds, at an interruption, and when a run is over before its time: store it whole,
@@ -26,9 +26,9 @@ typedef struct gg_run_callbacks {
 
 /* Run the scene's engine. `resume` (may be NULL) is an archive that a checkpoint stored; `threads` runs replicas side
  * by side, and shares out a large ensemble of engine dsmc where there are more threads than that needs; the result does
- * not depend on it. GG_FAILED with *result set: ended short of what was asked; GG_INTERRUPTED, and GG_BAD_FILE from a
- * callback, with *result set: so far. Stopped while many grains were placed, no *result. The caller frees *result with
- * gg_result_free. */
+ * not depend on it. GG_FAILED with *result set: ended short of what was requested; GG_INTERRUPTED, and GG_BAD_FILE from
+ * a callback, with *result set: so far. Stopped while many grains were placed, no *result. The caller frees *result
+ * with gg_result_free. */
 gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int threads, const gg_run_callbacks *callbacks,
                        gg_result **result, gg_error *err);
 
@@ -64,7 +64,7 @@ struct gg_comparison {
   gg_extension *own;       /* names of what that file's program had brought; else NULL */
 };
 
-/* `resume` (may be NULL): an archive that the checkpoint callback stored; each engine goes on from its part. Also after
+/* `resume` (may be NULL): an archive that the checkpoint callback stored; each engine resumes from its part. Also after
  * a failure the comparison holds what there is, and is to be cleared. */
 gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads,
                                const gg_run_callbacks *callbacks, gg_comparison *comparison, gg_error *err);

@@ -6,7 +6,7 @@
 #include "run/replica.h"
 
 /* When an engine shows its collisions: always, or in bursts. A Monte Carlo engine is some thirty times slower while
- * it shows them, so that an episode of one sample in a hundred costs a third of the run. Errors ask for sixteen
+ * it shows them, so that a burst of one sample in a hundred costs a third of the run. Errors ask for sixteen
  * bursts, whatever the length of a run: they are close together at first, and further and further apart. They depend
  * on the samples of the window alone: a resumed run has them where the uninterrupted one has. */
 
@@ -30,8 +30,8 @@ static bool are_asked_for(const gg_replica *r, bool *some_will_do)
   return any;
 }
 
-/* An episode is 24 collisions of a grain long, and of a grain of any species: what is seen of a flight begins with the
- * episode, and where grains of one kind collide a few times in it, only their short flights are seen whole. Grains that
+/* A burst is 24 collisions of a grain long, and of a grain of any species: what is seen of a flight begins with the
+ * burst, and where grains of one kind collide a few times in it, only their short flights are seen whole. Grains that
  * collide yet more seldom than MOST_LONGER allows for have no flights then, instead of short ones. */
 enum { EPISODE = 12, EPISODES_ALIKE = 16, APART_FIRST = 32, GROWTH = 32, MOST_LONGER = 32 };
 gg_sampling_bursts gg_run_sampling_bursts_of(const gg_model *m)
@@ -43,7 +43,7 @@ gg_sampling_bursts gg_run_sampling_bursts_of(const gg_model *m)
   return (gg_sampling_bursts){length, first, GROWTH * first, EPISODES_ALIKE * (GROWTH - 1) * first};
 }
 
-/* Samples since the last episode began: sixteen bursts follow each other at the least distance, as many at twice it,
+/* Samples since the last burst began: sixteen bursts follow each other at the least distance, as many at twice it,
  * and so on up to the largest. */
 static uint64_t since_episode(const gg_sampling_bursts *e, uint64_t sample)
 {
@@ -67,8 +67,8 @@ gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err)
   return r->engine->ops->set_callback(r->engine, wanted == GG_OBSERVED ? add_collision : NULL, r, err);
 }
 
-/* Has the present sample of observable k others of its episode to follow? All of one are a single sample of its bins,
- * so that errors know of what changes from one episode to the next alone. */
+/* Has the present sample of observable k others of its burst to follow? All of one are a single sample of its bins,
+ * so that errors know of what changes from one burst to the next alone. */
 static bool in_burst(const gg_replica *r, int k)
 {
   bool in_bursts;

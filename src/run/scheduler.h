@@ -62,7 +62,7 @@ struct gg_run_tasks { /* the tasks of one run, one a replica */
  * `distributed`: controllers have messages to attend to instead; they neither work nor count as busy, and the first
  * thread is started at once. */
 gg_status gg_run_scheduler_new(int threads, bool distributed, gg_run_scheduler **scheduler, gg_error *err);
-/* Once nobody uses it; NULL: nothing. */
+/* After its last use; NULL: nothing. */
 void gg_run_scheduler_free(gg_run_scheduler *scheduler);
 
 /* A controller counts as busy from enter to leave, except while it waits for its tasks. It enters before its first
@@ -102,7 +102,7 @@ void gg_run_task_finish(gg_run_task *task);
 
 gg_run_task_status gg_run_task_get_status(const gg_run_task *task);
 void gg_run_task_set_status(gg_run_task *task, const gg_run_task_status *status);
-/* From its replica, which nobody is working on. */
+/* From its replica, which no thread is working on. */
 void gg_run_task_update(gg_run_task *task);
 
 #endif

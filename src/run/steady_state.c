@@ -36,7 +36,7 @@ void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_converge
   } else if (!all->state.averaging) {
     snprintf(text, size, "the run ended in its warm-up");
   } else if (all->replica[0].series.width == 0) { /* not even modes of the gap */
-    snprintf(text, size, "nobody can tell: nothing is measured, rheology would say");
+    snprintf(text, size, "unknown: nothing is measured (rheology is needed)");
   } else if (c->trending) {
     describe_trend(c, happened, text, size);
   } else if (window == 0) {

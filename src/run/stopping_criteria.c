@@ -1,4 +1,4 @@
-/* How long to warm up and average: from what is asked and how slowly the slowest quantity relaxes. */
+/* How long to warm up and average: from the stopping criteria and how slowly the slowest quantity relaxes. */
 #include <math.h>
 
 #include "common/ensemble_size.h"
@@ -96,11 +96,11 @@ gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *m
   if (scene->run.time_limit != GG_AUTO) p.time_limit = scene->run.time_limit;
   if (model->linear_response) {
     plan_linear_response(&p, scene, model);
-  } else if (never_the_same(model)) { /* nothing to wait for; follow it for as long as asked, or for a while */
+  } else if (never_the_same(model)) { /* nothing to wait for; follow it for as long as requested, or for a while */
     p.relative_error = 0;
     if (!p.most) p.most = samples_for(model->steady ? GG_COLLISIONS_FOLLOWED : 1000);
   } else if (!has_headline(model) &&
-             !asks_for_quantities(scene)) { /* nothing whose error could be asked for: the shortest window */
+             !asks_for_quantities(scene)) { /* nothing with a requested error: the shortest window */
     p.relative_error = 0;
     if (!p.most) p.most = p.least;
   }

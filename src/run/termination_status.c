@@ -1,4 +1,4 @@
-/* Did the run reach what was asked, and why not? */
+/* Did the run reach what was requested, and why not? */
 #include <math.h>
 
 #include "run/replicas.h"
@@ -25,7 +25,7 @@ static bool out_of_time(const gg_replicas *all)
   return atomic_load(&all->stopped) == GG_OUT_OF_TIME;
 }
 
-/* The error that was asked for is told of means over a window long enough to know it. */
+/* The requested error counts for means over a window long enough to know it. */
 static gg_status check_error(const gg_replicas *all, const char *engine, gg_error *err)
 {
   const gg_convergence *c = &all->last;
@@ -33,14 +33,14 @@ static gg_status check_error(const gg_replicas *all, const char *engine, gg_erro
   const uint64_t window = window_of(all);
   if (all->replica[0].n_observables == 0)
     return gg_base_fail(err, GG_FAILED,
-                        "%s: nothing is measured: nobody can tell whether the asked relative error %g is "
+                        "%s: nothing is measured: it is unknown whether the requested relative error %g is "
                         "reached",
                         engine, criteria->relative_error);
   const bool cut = out_of_time(all) || (criteria->most && window >= criteria->most);
   if (cut && (window < criteria->least || !c->trusted))
     return gg_base_fail(
         err, GG_FAILED,
-        "%s: %s after %.0f collisions a grain of averaging, too few to know whether the asked relative error %g is "
+        "%s: %s after %.0f collisions a grain of averaging, too few to know whether the requested relative error %g is "
         "reached",
         engine, out_of_time(all) ? "time limit reached" : "run.collisions ended the run", collisions_a_grain(all, true),
         criteria->relative_error);
@@ -50,11 +50,11 @@ static gg_status check_error(const gg_replicas *all, const char *engine, gg_erro
     return gg_base_fail(err, GG_FAILED, "%s: %stoo short a run to know the error of %s", engine, why,
                         gg_common_quantity_name(c->worst));
   const double asked = gg_run_criteria_error_of(&all->scene, &all->model, c->worst);
-  return gg_base_fail(err, GG_FAILED, "%s: %sthe asked relative error %g was not reached: %s has %.3g", engine, why,
+  return gg_base_fail(err, GG_FAILED, "%s: %sthe requested relative error %g was not reached: %s has %.3g", engine, why,
                       asked, gg_common_quantity_name(c->worst), c->relative_error * asked / criteria->relative_error);
 }
 
-/* An error that was asked for counts even where run.collisions ended the run first. */
+/* A requested error counts even where run.collisions ended the run first. */
 static gg_status check_goal(const gg_replicas *all, const char *engine, gg_error *err)
 {
   const gg_stopping_criteria *criteria = &all->criteria;
@@ -79,7 +79,7 @@ gg_status gg_run_replicas_check_end(const gg_replicas *all, gg_error *err)
   if (status == GG_OK || !out_of_time(all) || !(all->state.wall > all->criteria.time_limit)) return status;
   return gg_base_fail(
       err, GG_FAILED,
-      "%s: the time limit of %g s was over before: it counts from the run's first start; to go on, give "
-      "run.time_limit a larger value",
+      "%s: the time limit of %g s was over before: it counts from the run's first start; to continue, set a larger "
+      "run.time_limit",
       engine, all->criteria.time_limit);
 }

@@ -138,7 +138,7 @@ void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_string_l
  * the scene: items "scene/KEY" and "scene/extension". */
 
 gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *archive, gg_error *err);
-/* Before the scene's model is made: an ensemble whose size followed from the error asked for at first keeps it. */
+/* Before the scene's model is made: an ensemble whose size followed from the requested error at first keeps it. */
 gg_status gg_scene_resumption_settle(gg_scene *scene, const gg_archive *archive, gg_error *err);
 /* GG_BAD_INPUT names the first key that differs, with both values; numbers are compared to the last bit. */
 gg_status gg_scene_resumption_check(const gg_scene *scene, const gg_archive *archive, gg_error *err);

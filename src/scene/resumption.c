@@ -107,7 +107,7 @@ static gg_status same_value(const gg_field *f, const gg_scene *there, const gg_s
   return GG_OK;
 }
 
-/* Callbacks cannot be kept: the program has to register its law and observables again before the run goes on. */
+/* Callbacks cannot be kept: the program has to register its law and observables again before the run continues. */
 static gg_status same_extension(const gg_scene *scene, const gg_archive *a, gg_error *err)
 {
   char here[SIGNATURE], there[SIGNATURE];

@@ -290,7 +290,7 @@ static gg_status reject_quantity(const input *in, const gg_scene_entry *e)
   return gg_scene_reject(in->r, e->name, in->key, "no quantity '%s'; `graingas info SCENE.yaml` lists them", word);
 }
 
-/* What the map leaves out is not asked for. */
+/* What the map leaves out is not requested. */
 static gg_status read_errors(const input *in, double *value)
 {
   const char *text = gg_scene_scalar(in->node);

@@ -43,7 +43,7 @@ enum { WINDOW = 8, ROUNDS = 3 };
 
 /* A ratio forgets sooner than what it is made of: that both were too high together cancels, but the one that follows
  * the other comes back later with the opposite sign. What is left then is small at each lag, would end the sum, and is
- * a quarter of it (theta/T of dilute rough grains: errors 7 % too large). So the sum goes on for some times of the
+ * a quarter of it (theta/T of dilute rough grains: errors 7 % too large). So the sum extends over some times of the
  * slower one; further, noise would take more than it gives (chosen on that series, in windows of 100 to 1600 rows). */
 #define LONGER 1.5
 #define REACH 2.5

@@ -11,7 +11,7 @@ typedef struct gg_correlation {
   double time;   /* integrated: 1/2 + sum_{t>=1} rho(t), in rows (1/2: uncorrelated); variance of the mean: 2 time
                     var/rows */
   double slow;   /* mean lag of the sum, at least `time`: nearer to the slowest of several times */
-  double memory; /* of what the series is made of, if that is longer and the sum went on for it; else 0 */
+  double memory; /* of what the series is made of, if that is longer and the sum extended over it; else 0 */
   size_t window; /* the sum goes so far: to the first t > 8 tau(t) (Madras & Sokal, J. Stat. Phys. 50 (1988) 109), or
                     to where two neighbouring lags have nothing left between them, but over 2.5 memories at least */
   double *rho;   /* 0 .. window */

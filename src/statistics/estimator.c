@@ -158,7 +158,7 @@ static gg_status memory_of_parts(const rows *a, const double *mean, const double
   return GG_OK;
 }
 
-/* The sum over correlations goes on for about one decay time of a slow mode (REACH times this share of it); further,
+/* The sum over correlations extends over about one decay time of a slow mode (REACH times this share of it); further,
  * noise takes more than it gives. What is still missed, as in small_sample. */
 #define SHARE_OF_SLOW 0.4
 #define DOUBT_OF_SLOW 2.5

@@ -29,7 +29,7 @@ void gg_statistics_jackknife_add(gg_jackknife *j);
  * itself is uncertain by 1/sqrt(blocks). `memory` (0: not known): the decay time, in blocks, of a slow mode that the
  * numbers may depend on, beside fast noise. Neighbouring blocks are then less correlated than in a chain, but for
  * longer: the correlation tells the share of the mode, its decay the rest. `beside`
- * (NaN: there is none): the mean correlation of the curve that a number was read off, which counts as two more. NaN
+ * (NaN: there is none): the mean correlation of the curve that a number is derived from, which counts as two more. NaN
  * with fewer than two blocks. Returns the mean correlation. */
 double gg_statistics_jackknife_errors(const gg_jackknife *j, size_t from, size_t n, double memory, double beside,
                                       double *error);

@@ -207,8 +207,8 @@ static gg_status cost_of(const gg_scene *scene, gg_engine_kind engine, gg_cost_e
   return GG_OK;
 }
 
-/* A run that goes on until an error is shared among replicas: as many as keep each below `longest`, and warm-ups, which
- * each of them has, below a fifth of the whole. By the scene alone: the same on every machine. */
+/* A run that stops at a requested error is shared among replicas: as many as keep each below `longest`, and warm-ups,
+ * which each of them has, below a fifth of the whole. By the scene alone: the same on every machine. */
 static int64_t replicas_for(const gg_cost_estimate *f, double warmup, double longest)
 {
   enum { MOST = 1000 };

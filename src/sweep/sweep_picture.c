@@ -170,7 +170,7 @@ static bool has_numbers(const gg_sweep *sweep, axis_key a)
   return true;
 }
 
-/* The key that was asked for, or of those with numbers the one with the most values. */
+/* The key that was requested, or of those with numbers the one with the most values. */
 static gg_status choose_key(drawing *d, const char *over, gg_error *err)
 {
   size_t most = 0;

@@ -288,7 +288,7 @@ double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state)
   if (solver && x) {
     start(&c, x);
     left = improve(solver, &f, x);
-    /* A stall close by is a stale Jacobian: go on from there. Far away the start was too far off: relax first. */
+    /* A stall close by is a stale Jacobian: continue from there. Far away the start was too far off: relax first. */
     for (int attempt = 1; attempt <= MAX_ATTEMPTS && !(left < converged); attempt++) {
       if (!(left < nearby)) start(&c, x), relax(&c, x, attempt * RELAXATION_STEPS);
       left = improve(solver, &f, x);

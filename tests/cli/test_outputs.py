@@ -380,7 +380,7 @@ def test_how_to_go_on():
         wait_for(words[words.index("--output") + 1].replace(".h5", ".checkpoint.h5"))
         child.send_signal(signal.SIGINT)
         said = child.communicate(timeout=60 * PATIENCE)[1].decode()
-        again = shlex.split(said.split("go on with: ")[1].splitlines()[0])
+        again = shlex.split(said.split("continue with: ")[1].splitlines()[0])
         before = [GRAINGAS, "run", "--quiet", *words]
         there = before.index("--") if "--" in before else len(before)
         check(again == before[:there] + ["--resume", expected[0]] + before[there:], said)

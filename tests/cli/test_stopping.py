@@ -169,7 +169,7 @@ def test_time_limit_before_a_checkpoint():
     there = 2 * json.loads(done.out)["total"]["collisions"] / 4000
     told = float(run("info", "scene.checkpoint.h5").out.split("after ")[1].split()[0])
     check(abs(told - there) < 3 + 0.04 * there, told, there)
-    again = shlex.split(done.err.split("\ngo on with: ")[1])
+    again = shlex.split(done.err.split("\ncontinue with: ")[1])
     check(again == [GRAINGAS, "run", "scene.yaml", "--json", "--quiet", "--resume", "scene.checkpoint.h5", "--set",
                     "run.time_limit=%g" % (3 * PATIENCE)], again)
     done = run("run", "scene.yaml", "--json", "--quiet", "--resume", "scene.checkpoint.h5")

@@ -280,7 +280,7 @@ def test_interrupted():
     time.sleep(1)
     child.send_signal(signal.SIGTERM)
     err = child.communicate(timeout=20 * PATIENCE)[1]
-    check(child.returncode == 130 and "interrupted; go on with the same command" in err, err)
+    check(child.returncode == 130 and "interrupted; continue with the same command" in err, err)
     check(points_in("s.sweep") == [], points_in("s.sweep"))
 
 

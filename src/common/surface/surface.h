@@ -1,5 +1,5 @@
 /* A surface that grains bounce off: what engine, sums, profiles and files know of a wall. The model holds a list of
- * them (common/model.h), surfaces.c makes it from a scene, and shapes.h says what a shape can be asked.
+ * them (common/model.h), surfaces.c makes it from a scene, and shapes.h lists the functions of a shape.
  *
  * Surfaces bound the gas across y at least: there is no period along y where a model has any. */
 #ifndef GG_SURFACE_H

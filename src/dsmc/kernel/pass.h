@@ -48,7 +48,7 @@ GG_INLINE gg_dsmc_features gg_dsmc_features_by_law(gg_dsmc_features features, bo
   return features;
 }
 
-/* Whom the plain path tells of each collision. */
+/* The plain path reports each collision to it. */
 typedef struct gg_dsmc_callback {
   gg_collision_callback *call;
   void *context;

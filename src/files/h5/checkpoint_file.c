@@ -71,7 +71,7 @@ static void *make_image(const char *path, const gg_archive *a, const gg_scene *s
   return NULL;
 }
 
-/* The one before gives way only once this one is safe on the disk. An error of the disk is told once: who asks again
+/* The one before gives way only once this one is safe on the disk. A disk error is reported once: who asks again
  * hears that all is well. */
 static gg_status keep_before(const gg_atomic_file *file, gg_error *err)
 {

@@ -15,7 +15,7 @@ enum { GG_CHECKPOINT_LAYOUT = 4 };
 /* `locked`: the caller holds the lock of this path (base/atomic_file.h). */
 gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_archive *archive, const gg_scene *scene,
                                     gg_error *err);
-/* The first of a run that does not go on from the one at FILE: that one is not kept as FILE.1, and the FILE.1 that was
+/* The first of a run that does not resume from the one at FILE: that one is not kept as FILE.1, and the FILE.1 that was
  * there is removed, since neither is a fall-back of this run. The caller holds the lock. */
 gg_status gg_files_checkpoint_replace(const char *path, const gg_archive *archive, const gg_scene *scene,
                                       gg_error *err);

@@ -21,7 +21,7 @@ gg_status gg_files_checksum_trailer_write(gg_atomic_file *file, const void *data
 void *gg_files_checksum_trailer_append(void *data, size_t size, gg_error *err);
 /* Likewise read: NULL if they are what was written, with the size before the checksum; otherwise why not. */
 const char *gg_files_checksum_trailer_check(const void *data, size_t size, uint64_t *before);
-/* Of a whole file that can be read; errno tells on -1. One pass over it. */
+/* Of a whole file that can be read; errno has the reason on -1. One pass over it. */
 int gg_files_checksum_trailer_of_file(int fd, unsigned char trailer[GG_TRAILER_SIZE]);
 /* NULL: the file is what was written, or *bare: it ends without a checksum. It is open, and *size says where its
  * checksum begins. Of one of up to GG_TRAILER_SMALL bytes *whole has those before its checksum, as they were summed, to

@@ -44,7 +44,7 @@ static bool show_block(gg_h5_in *in, walk *w, const unsigned char *block, uint64
   return !in->failed;
 }
 
-/* Each block takes a message of those that are left to name it, so that no circle goes on for ever. */
+/* Each block takes a message of those that are left to name it, so that no circle is followed for ever. */
 bool gg_h5_messages(gg_h5_in *in, uint64_t header, gg_h5_look *look, void *context)
 {
   unsigned char start[PREFIX];

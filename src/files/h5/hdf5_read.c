@@ -112,7 +112,7 @@ bool gg_h5_space_of(const unsigned char *data, size_t size, gg_h5_space *space)
   return space->n <= INT64_MAX;
 }
 
-/* Numbers as files hold them into those that are asked for. Whole numbers beyond the range of the other type take its
+/* Numbers as files hold them into those that are requested. Whole numbers beyond the range of the other type take its
  * nearest end, as HDF5 has it. */
 
 typedef struct number {

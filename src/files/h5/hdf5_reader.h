@@ -2,7 +2,7 @@
  * instead, and HDF5 never sees one. What graingas writes is a small part of HDF5's format, and that is read, checked
  * word by word: version 0 of the superblock, old groups and object headers, arrays in one piece or in chunks, numbers
  * and texts of fixed length. Other programs repack files: chunks may be compressed by gzip, shuffled and have
- * checksums. What else a file holds is left alone, and what is asked for and is of another kind (of variable length, in
+ * checksums. What else a file holds is left alone, and what is requested and is of another kind (of variable length, in
  * a newer format, compressed otherwise) is refused by name. Nothing takes more memory than the file has bytes; what is
  * compressed, 32 times as many or 64 MB.
  *

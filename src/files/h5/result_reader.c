@@ -1,4 +1,4 @@
-/* Which checkpoints can be gone on from. */
+/* Which checkpoints can be resumed. */
 #include "files/h5/result_reader.h"
 
 #include <stdio.h>
@@ -14,7 +14,7 @@
 #include "files/result_document.h"
 
 /* States are saved as they stand in memory: those of another layout cannot be read. Those of another identity can, but
- * the run would go on with other physics, or have another trajectory. */
+ * the run would continue with other physics, or have another trajectory. */
 void gg_files_checkpoint_check_version(struct gg_h5_in *h, bool any_build)
 {
   int64_t layout = 1; /* the first layout has no number */

@@ -347,7 +347,7 @@ static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c,
     if (s->engine[k].name)
       GG_TRY(gg_files_result_restore(s, (gg_engine_kind)k, &c->by_engine[k], err));
     else if (!s->comparison)
-      snprintf(c->refusal[k], sizeof c->refusal[k], "it was not asked to");
+      snprintf(c->refusal[k], sizeof c->refusal[k], "it was not run");
   if (s->comparison) {
     GG_TRY(restore_own(c, s->document, err));
     GG_TRY(restore_theories(c, s->document, err));

@@ -2,7 +2,7 @@
  * in meson.build, each into an object of its own, which defines GG_SEARCH (the header of its kind of search),
  * GG_BOUNDARY, GG_MIXTURE and GG_SIMD. So all of this is constant, and nothing in an instance asks what a scene has.
  *
- * The reference path is compiled once for all boundaries and mixtures, without those: there it is asked of the model.
+ * The reference path is compiled once for all boundaries and mixtures, without those: there the model decides.
  */
 #ifndef GG_MD_SEARCH_FEATURES_H
 #define GG_MD_SEARCH_FEATURES_H
