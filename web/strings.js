@@ -1,8 +1,8 @@
-/* Every text of the page, English and German: [en, de]. What the library itself says (messages, warnings, names of
- * theories) comes as it is. {x} is filled in. */
+/* Every text of the page, English and German: [en, de]. Texts of the library (messages, warnings, names of
+ * theories) stay as they are. {x} is replaced by a value. */
 const STRINGS = {
   heading: [
-    "Granular gas: grains that lose energy when they meet",
+    "Granular gas: grains that lose energy when they collide",
     "Granulares Gas: Körner, die beim Stoß Energie verlieren",
   ],
   language: ["Language", "Sprache"],
@@ -77,13 +77,13 @@ const STRINGS = {
   firstFrame: ["First frame", "Erstes Bild"],
   back: ["Back to the live gas", "Zurück zum laufenden Gas"],
   runLive: ["Run this scene live", "Diese Szene selbst laufen lassen"],
-  reading: ["{name} is being read …", "{name} wird gelesen …"],
+  reading: ["Reading {name} …", "{name} wird gelesen …"],
   tooLarge: [
     "{name}: a browser reads files of up to 2 GB; graingas export and graingas plot read this one.",
     "{name}: Ein Browser liest Dateien bis 2 GB; graingas export und graingas plot lesen diese.",
   ],
   oneFrame: [
-    "This result holds a single frame, the last state. A run with output.trajectory_every in its scene keeps more.",
+    "This result contains a single frame, the last state. Set output.trajectory_every in the scene to store more.",
     "Dieses Ergebnis enthält ein einziges Bild, den letzten Zustand. Ein Lauf mit output.trajectory_every in der Szene behält mehr.",
   ],
   playedNow: ["the frame that is shown", "das gezeigte Bild"],
@@ -91,8 +91,8 @@ const STRINGS = {
   summaryPlayed: ["{name}, frame {k} of {n}: {title}", "{name}, Bild {k} von {n}: {title}"],
   theoriesDrawn: ["Theories drawn", "Gezeichnete Theorien"],
   event: [
-    "Grains {a} and {b} met at {g} {unit} along k = ({k}).",
-    "Die Körner {a} und {b} trafen sich mit {g} {unit} entlang k = ({k}).",
+    "Grains {a} and {b} collided at {g} {unit} along k = ({k}).",
+    "Die Körner {a} und {b} stießen mit {g} {unit} entlang k = ({k}).",
   ],
   boxLabel: [
     "Box with {n} grains in three dimensions, coloured by {by}. Arrow keys turn it, plus and minus zoom.",
@@ -117,7 +117,7 @@ const STRINGS = {
   unit: ["unit", "Einheit"],
   z: ["z", "z"],
   caption: [
-    "md: molecular dynamics. dsmc: Enskog Monte Carlo. In brackets the standard error of the last digits; z: the difference over the combined error, ! where md is further from Enskog's equation than expected. † a theory out of its range: the reason is below.",
+    "md: molecular dynamics. dsmc: Enskog Monte Carlo. In brackets the standard error of the last digits; z: the difference over the combined error, ! where md is further from Enskog's equation than expected. † theory out of its range: reason below.",
     "md: Molekulardynamik. dsmc: Enskog-Monte-Carlo. In Klammern der Standardfehler der letzten Ziffern; z: Unterschied durch den gemeinsamen Fehler, ! wo md weiter als erwartet von Enskogs Gleichung abweicht. † Theorie außerhalb ihres Bereichs: der Grund steht unten.",
   ],
   tableName: ["The table, to be scrolled", "Die Tabelle, zum Scrollen"],
@@ -129,11 +129,11 @@ const STRINGS = {
   phaseNone: ["not this scene", "nicht für diese Szene"],
   steady_no: ["{engine}: {why}", "{engine}: {why}"],
   clusters: [
-    "The box is longer than {l} d, beyond which a cooling gas forms vortices and clusters: it will not stay homogeneous, and homogeneous theories stop being true.",
+    "The box is longer than {l} d, beyond which a cooling gas forms vortices and clusters: it does not stay homogeneous, and homogeneous theories do not apply.",
     "Der Kasten ist länger als {l} d; darüber bildet ein abkühlendes Gas Wirbel und Klumpen: es bleibt nicht homogen, und homogene Theorien gelten nicht mehr.",
   ],
   collapse: [
-    "Some collisions came so fast after each other that they were made elastic (contact time): without that the grains would collapse. {n} so far while measuring.",
+    "Some collisions followed each other so quickly that they were made elastic (contact time) to prevent inelastic collapse. {n} so far while measuring.",
     "Manche Stöße folgten so schnell aufeinander, dass sie elastisch gemacht wurden (Kontaktzeit): sonst kollabierte das Gas. Bisher {n} beim Messen.",
   ],
   spins: [
@@ -142,8 +142,8 @@ const STRINGS = {
   ],
   ended: ["{engine} stopped: {why}", "{engine} hielt an: {why}"],
   behind: [
-    "This machine cannot go faster; the gas loses nothing by it.",
-    "Schneller kann dieser Rechner nicht; dem Gas schadet das nicht.",
+    "This machine cannot go faster. The results are not affected.",
+    "Schneller kann dieser Rechner nicht. Die Ergebnisse ändert das nicht.",
   ],
   summary: [
     "{title}. After {c} collisions a grain T is {T}{theta}.{means}",
@@ -156,7 +156,7 @@ const STRINGS = {
   saveCsv: ["Curves (CSV)", "Kurven (CSV)"],
   saveYaml: ["Scene for the terminal (YAML)", "Szene für die Kommandozeile (YAML)"],
   copied: [
-    "The link holds scene and seed: who opens it sees this experiment.",
+    "The link contains scene and seed: it opens this experiment.",
     "Der Link enthält Szene und Startwert: wer ihn öffnet, sieht dieses Experiment.",
   ],
   linkIs: ["Link: {link}", "Link: {link}"],
