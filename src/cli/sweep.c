@@ -104,7 +104,7 @@ static int print_slurm(const gg_sweep_command *c)
                                             " --point \"$point\" --threads \"${SLURM_CPUS_PER_TASK:-1}\" --quiet");
   if (!command) return gg_cli_fail(GG_FAILED, "out of memory");
   printf("#!/bin/bash\n"
-         "# %zu points; those that are done already cost a task a moment.\n"
+         "# %zu points; finished ones are skipped.\n"
          "#SBATCH --job-name=graingas-sweep\n"
          "#SBATCH --array=1-%zu\n"
          "#SBATCH --cpus-per-task=1\n"
