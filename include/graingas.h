@@ -1467,7 +1467,14 @@ typedef struct gg_collecting {
   const char *show;    /* quantities, with commas, a panel each; NULL: the main ones */
   /* Called with the reason if there is no picture and none of these three requested one; NULL: that is an error. */
   void (*warn)(void *context, const char *message);
-  const char *width; /* of the picture, as for gg_plot(); NULL: as for a screen */
+  const char *width;       /* of the picture, as for gg_plot; NULL: free */
+  const char *log;         /* logarithmic axes: "x", "y", "xy" or "none"; NULL: y where its values span decades */
+  const char *relative_to; /* method: the picture has deviations from it; NULL: the numbers themselves */
+  const char *theories;    /* in the picture, with commas; NULL: all */
+  /* Theories are evaluated between the points, too, at forty values of the axis, and kept in FOLDER/lines. */
+  int threads;                                                        /* for that; 0: one */
+  void (*progress)(void *context, const gg_sweep_progress *progress); /* of that; NULL: nobody told */
+  int (*stop)(void *context);                                         /* not 0: the lines end at what there is */
 } gg_collecting;
 
 /**
@@ -1494,7 +1501,9 @@ typedef struct gg_validating {
   const char *show;     /* quantities, with commas, a map each; NULL: the main ones */
   const char *theories; /* theories in the maps, with commas; NULL: lun1991 */
   const char *page;     /* Markdown with maps, counts and tables; NULL: no page */
-  void (*warn)(void *context, const char *message); /* on maps that cannot be drawn, and other builds; NULL: none */
+  void (*warn)(void *context,
+               const char *message); /* of maps that cannot be drawn, and of other builds; NULL: nobody */
+  int json; /* not 0: the verdict is one JSON document, for programs */
 } gg_validating;
 
 /**
@@ -1505,7 +1514,7 @@ typedef struct gg_validating {
  * @param options NULL: default options
  * @param written called with each file name; may be NULL
  * @param context passed to the callbacks
- * @param verdict receives counts and tables as Markdown, to be freed with free(); also with GG_FAILED, else NULL
+ * @param verdict receives counts and tables as Markdown or JSON, to be freed with free(); also with GG_FAILED, else NULL
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED where dsmc and the noise-free solution disagree beyond chance (one grid in 1000 without any
  * fault does), or no point is finished; GG_BAD_INPUT if the sweep does not compare

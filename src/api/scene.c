@@ -130,7 +130,7 @@ gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_erro
   GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
   GG_C_LOCALE;
-  gg_files_scene_title(&filled, text, size);
+  gg_files_scene_title(&filled, NULL, text, size);
   return GG_OK;
 }
 

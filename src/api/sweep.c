@@ -232,14 +232,57 @@ static gg_status check_places(const collecting *c, gg_error *err)
 static bool may_lack_picture(const collecting *c, gg_status status, const gg_error *err)
 {
   const gg_collecting *o = &c->options;
-  if (!o->warn || o->picture || o->width || o->over || o->show || status == GG_BAD_FILE) return false;
+  const bool chosen = o->picture || o->width || o->over || o->show || o->log || o->relative_to || o->theories;
+  if (!o->warn || chosen || status == GG_BAD_FILE) return false;
   o->warn(c->context, err ? err->message : "there is no picture");
   return true;
 }
 
+static bool has_theories(const gg_point_table *t)
+{
+  size_t i = 0;
+  while (i < t->n && !t->row[i].theory) i++;
+  return i < t->n;
+}
+
+/* Theories between the points. Without them lines go from point to point, which is said. */
+static void evaluate_lines(const collecting *c, const char *folder, gg_picture_lines *lines)
+{
+  gg_error why;
+  char path[PATH_MAX];
+  const gg_collecting *o = &c->options;
+  const gg_sweep_options options = {
+      .threads = o->threads, .command = o->command, .context = c->context, .progress = o->progress, .stop = o->stop};
+  gg_status status = snprintf(path, sizeof path, "%s/lines", folder) < PATH_MAX
+                         ? GG_OK
+                         : gg_base_path_write_error(folder, strerror(ENAMETOOLONG), &why);
+  if (status == GG_OK) status = gg_sweep_run(lines->sweep, path, &options, &why);
+  if (status == GG_OK) status = gg_sweep_point_table_read(&lines->table, lines->sweep, path, &why);
+  if (status != GG_OK && o->warn) {
+    char text[sizeof why.message + 80];
+    snprintf(text, sizeof text, "lines of theories are drawn from point to point: %s", why.message);
+    o->warn(c->context, text);
+  }
+}
+
+static gg_status draw_picture(const collecting *c, const char *folder, gg_error *err)
+{
+  const gg_collecting *o = &c->options;
+  gg_picture_lines lines = {0};
+  gg_picture_choice choice = {
+      .show = o->show, .log = o->log, .relative_to = o->relative_to, .theories = o->theories, .lines = &lines};
+  GG_TRY(gg_sweep_axis_choose(c->sweep, o->over, o->log, &choice.axis, err));
+  if (has_theories(&c->table)) GG_TRY(gg_sweep_lines_make(c->sweep, &choice.axis, &lines.sweep, err));
+  if (lines.sweep) evaluate_lines(c, folder, &lines);
+  if (!lines.table.n) choice.lines = NULL;
+  gg_status status = gg_sweep_point_table_draw(&c->table, c->sweep, &choice, c->picture, o->width, err);
+  gg_sweep_point_table_clear(&lines.table);
+  gg_sweep_lines_free(lines.sweep, &choice.axis);
+  return status;
+}
+
 static gg_status write_all(collecting *c, const char *folder, gg_error *err)
 {
-  const gg_picture_choice choice = {c->options.over, c->options.show};
   const char *command = c->options.command ? c->options.command : "the graingas library";
   GG_TRY(check_places(c, err));
   GG_TRY(gg_sweep_point_table_read(&c->table, c->sweep, folder, err));
@@ -249,7 +292,7 @@ static gg_status write_all(collecting *c, const char *folder, gg_error *err)
   GG_TRY(gg_sweep_point_table_write_h5(&c->table, c->sweep, c->h5, command, err));
   report_file(c, c->h5);
   if (!c->picture) return GG_OK;
-  gg_status status = gg_sweep_point_table_draw(&c->table, c->sweep, &choice, c->picture, c->options.width, err);
+  gg_status status = draw_picture(c, folder, err);
   if (status == GG_OK) report_file(c, c->picture);
   return status == GG_OK || !may_lack_picture(c, status, err) ? status : GG_OK;
 }

@@ -40,14 +40,14 @@ static void add_points(const gg_error_state *s, int q, int k, curve *c, gg_chart
     n++;
   }
   const char *method = gg_bench_error_methods[drawn[k].way].engine == GG_MD ? "md" : "dsmc";
-  *series = (gg_chart_series){method, drawn[k].group, GG_CHART_POINTS, n, c->x, c->y, c->error, NULL};
+  *series = (gg_chart_series){method, drawn[k].group, GG_CHART_POINTS, n, c->x, c->y, c->error, NULL, NULL};
 }
 
 static void add_line(const char *method, const char *group, double from, double to, double y_from, double y_to,
                      curve *c, gg_chart_series *series)
 {
   c->x[0] = from, c->x[1] = to, c->y[0] = y_from, c->y[1] = y_to;
-  *series = (gg_chart_series){method, group, GG_CHART_LINE, 2, c->x, c->y, NULL, NULL};
+  *series = (gg_chart_series){method, group, GG_CHART_LINE, 2, c->x, c->y, NULL, NULL, NULL};
 }
 
 static void fill(const gg_error_state *s, int q, int i, page *p)

@@ -32,6 +32,13 @@ const gg_option gg_cli_options_table[] = {
      "with --collect: the key along the picture's axis (default: the one with most values)"},
     {GG_OPT_SWEEP, "show", "QUANTITIES",
      "with --collect: quantities in the picture, separated by commas (default: the main ones)"},
+    {GG_OPT_SWEEP, "log", "AXES",
+     "with --collect: logarithmic axes, x, y, xy or none (default: y where its values span more than a decade and a "
+     "half)"},
+    {GG_OPT_SWEEP, "relative-to", "METHOD",
+     "with --collect: draw deviations from a method, md, dsmc or a theory, e.g. enskog_hermite"},
+    {GG_OPT_SWEEP, "theories", "THEORIES",
+     "with --collect: theories in the picture, separated by commas (default: all)"},
     {GG_OPT_VALIDATE, "show", "QUANTITIES",
      "quantities to map, separated by commas (default: temperature, temperature_ratio, pressure, shear_viscosity, N1, "
      "N2)"},
@@ -175,6 +182,8 @@ static int take_sweep(gg_options *o, const char *name, const char *value)
   if (strcmp(name, "output") == 0) o->output = value;
   if (strcmp(name, "over") == 0) o->over = value;
   if (strcmp(name, "show") == 0) o->show = value;
+  if (strcmp(name, "log") == 0) o->log = value;
+  if (strcmp(name, "relative-to") == 0) o->relative_to = value;
   if (strcmp(name, "theories") == 0) o->mapped = value;
   if (strcmp(name, "page") == 0) o->page = value;
   o->list |= strcmp(name, "list") == 0;

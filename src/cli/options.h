@@ -46,12 +46,13 @@ typedef struct gg_options {
   const char *input;   /* the one argument: a scene or a result; NULL where it may be left out ([...]) and was */
   const char *surplus; /* a second one */
   const char *output, *resume, *format, *picture, *width, *only;
-  const char *does;        /* what a sweep does at its points; NULL: what its file says */
-  const char *over, *show; /* of the picture of a sweep: key along x, quantities; NULL: chosen */
-  char *theories;          /* with commas, owned; NULL: all */
-  const char *mapped;      /* theories in maps; NULL: chosen */
-  const char *page;        /* to be written; NULL: none */
-  const char *point;       /* the one of a sweep to do; NULL: all */
+  const char *does;              /* what a sweep does at its points; NULL: what its file says */
+  const char *over, *show;       /* of the picture of a sweep: key along x, quantities; NULL: chosen */
+  char *theories;                /* with commas, owned; NULL: all */
+  const char *log, *relative_to; /* axes of that picture, and the method that it has deviations from */
+  const char *mapped;            /* theories in maps and in that picture; NULL: chosen */
+  const char *page;              /* to be written; NULL: none */
+  const char *point;             /* the one of a sweep to do; NULL: all */
   bool json, quiet, all, quick, accept_version;
   bool list, collect, slurm; /* what else to do with a sweep */
   uint64_t collisions;       /* 0: not said */

@@ -252,10 +252,19 @@ int gg_cli_sweep_collect(gg_sweep_command *c, const char *picture)
                                  .width = o->width,
                                  .over = o->over,
                                  .show = o->show,
+                                 .log = o->log,
+                                 .relative_to = o->relative_to,
+                                 .theories = o->mapped,
+                                 .threads = o->threads,
+                                 .progress = show_progress,
+                                 .stop = is_interrupted,
                                  .warn = gg_cli_sweep_warn};
   char *prefix = tables_of(c->folder);
   if (!prefix) return gg_cli_fail(GG_FAILED, "%s: no name can be made for the tables: %s", c->folder, strerror(errno));
+  gg_cli_catch_interrupts();
+  gg_cli_line_start(&c->line, o->quiet);
   gg_status status = gg_sweep_collect(c->sweep, c->folder, prefix, &options, gg_cli_sweep_print_file, c, &err);
+  gg_cli_line_clear(&c->line);
   free(prefix);
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
@@ -283,11 +292,14 @@ static int check_together(const gg_options *o)
 {
   const char *does[] = {o->list ? "--list" : NULL, o->collect ? "--collect" : NULL, o->slurm ? "--slurm" : NULL,
                         o->point ? "--point" : NULL};
-  const char *first = NULL, *drawing = o->over      ? "--over"
-                                       : o->show    ? "--show"
-                                       : o->picture ? "--picture"
-                                       : o->width   ? "--width"
-                                                    : NULL;
+  const char *first = NULL, *drawing = o->over          ? "--over"
+                                       : o->show        ? "--show"
+                                       : o->log         ? "--log"
+                                       : o->relative_to ? "--relative-to"
+                                       : o->mapped      ? "--theories"
+                                       : o->picture     ? "--picture"
+                                       : o->width       ? "--width"
+                                                        : NULL;
   for (size_t k = 0; k < sizeof does / sizeof *does; k++) {
     if (does[k] && first) return gg_cli_fail(GG_BAD_INPUT, "options '%s' and '%s' do not go together", first, does[k]);
     if (does[k]) first = does[k];

@@ -66,28 +66,48 @@ static void add_pairs(char *text, size_t size, const char *name, const double *x
     add(text, size, ", %s %g to %g", name, least, most);
 }
 
-void gg_files_scene_title(const gg_scene *s, char *text, size_t size)
+/* Is a key, or a member of it ("collision.e.12"), in a list with commas? */
+static bool has(const char *list, const char *key)
 {
-  if (!size) return;
-  const char *flow = gg_flow_of(s->flow)->title;
-  bool as_well = gg_flow_takes(s->flow, GG_NO_THERMOSTAT) && s->thermostat != GG_NO_THERMOSTAT;
-  snprintf(text, size, "%s%s, phi %g", flow, as_well ? ", heated" : "", s->phi);
+  const size_t length = strlen(key);
+  for (const char *at = list; at && (at = strstr(at, key)); at++)
+    if ((at == list || at[-1] == ',') && strchr(",.", at[length])) return true;
+  return false;
+}
+
+static void add_law(const gg_scene *s, const char *varied, char *text, size_t size)
+{
   const gg_restitution_law law = gg_common_extension_law(s->extension);
   if (law.e)
     add(text, size, ", law %s of e", law.name);
-  else
+  else if (!has(varied, "collision.e"))
     add_pairs(text, size, "e", s->collision.e, s->n_species);
   if (!law.e && s->collision.law != GG_LAW_CONSTANT) add(text, size, " (%s)", gg_common_law_name(s->collision.law));
-  bool smooth = true, frictional = false;
+}
+
+static void add_surface(const gg_scene *s, const char *varied, char *text, size_t size)
+{
+  const bool any_beta = has(varied, "collision.beta"), any_mu = has(varied, "collision.mu");
+  bool smooth = !any_beta, frictional = any_mu;
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) {
-    smooth &= s->collision.beta[p] == -1 || s->collision.mu[p] == 0;
+    smooth &= s->collision.beta[p] == -1 || (s->collision.mu[p] == 0 && !any_mu);
     frictional |= isfinite(s->collision.mu[p]);
   }
-  if (smooth)
-    add(text, size, ", smooth");
-  else
-    add_pairs(text, size, frictional ? "beta_0" : "beta", s->collision.beta, s->n_species);
-  if (!smooth && frictional) add_pairs(text, size, "mu", s->collision.mu, s->n_species);
+  if (smooth) add(text, size, ", smooth");
+  if (!smooth && !any_beta) add_pairs(text, size, frictional ? "beta_0" : "beta", s->collision.beta, s->n_species);
+  if (!smooth && frictional && !any_mu) add_pairs(text, size, "mu", s->collision.mu, s->n_species);
+}
+
+void gg_files_scene_title(const gg_scene *s, const char *varied, char *text, size_t size)
+{
+  if (!size) return;
+  const char *flow = has(varied, "flow") ? "several flows" : gg_flow_of(s->flow)->title;
+  bool as_well = gg_flow_takes(s->flow, GG_NO_THERMOSTAT) && s->thermostat != GG_NO_THERMOSTAT;
+  snprintf(text, size, "%s%s", flow, as_well ? ", heated" : "");
+  if (!has(varied, "phi")) add(text, size, ", phi %g", s->phi);
+  add_law(s, varied, text, size);
+  add_surface(s, varied, text, size);
+  if (has(varied, "species")) return;
   if (s->n_species > 2) add(text, size, "; %d species", s->n_species);
   if (s->n_species == 2) {
     const gg_species *one = &s->species[0], *two = &s->species[1];

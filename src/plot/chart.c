@@ -23,6 +23,7 @@ typedef struct frame {
 
 typedef struct layout {
   double left, page[2];
+  int note_rows;
   gg_chart_styles common, own[MOST_PANELS];
   frame frame[MOST_PANELS];
 } layout;
@@ -99,6 +100,23 @@ static double place_rows(const gg_chart *c, layout *l, double top)
   return place_row(c, l, from, c->n, top);
 }
 
+/* The text below, broken at blanks to fit; returns its rows, and prints them where there is a script. */
+static int lay_note(FILE *s, const gg_chart *c, const layout *l)
+{
+  int rows = 0;
+  const size_t most = (size_t)(l->page[0] / letter) - 2;
+  for (const char *at = c->note ? c->note : ""; *at; rows++) {
+    size_t n = strlen(at);
+    if (n > most)
+      for (n = most; n > 1 && at[n] != ' ';) n--;
+    if (s)
+      fprintf(s, "set label %d '%.*s' at screen 0.5,%g center noenhanced tc rgb '#444444'\n", rows + 1, (int)n, at,
+              1 - (l->page[1] - 8 - ROW * (l->note_rows - 1 - rows)) / l->page[1]);
+    at += n + (at[n] == ' ');
+  }
+  return rows;
+}
+
 static const char *title_of(const gg_chart *c, const layout *l)
 {
   return has_text(c->title) && 1.25 * gg_plot_text_width(c->title) < l->page[0] ? c->title : NULL;
@@ -114,6 +132,8 @@ static layout *lay_out(const gg_chart *c, double width)
   share_width(c, width, l);
   int rows = gg_plot_styles_legend_rows(&l->common, l->page[0]);
   l->page[1] = place_rows(c, l, (title_of(c, l) ? TITLE : NO_TITLE) + ROW * rows + (rows ? 6 : 0));
+  l->note_rows = lay_note(NULL, c, l);
+  l->page[1] += ROW * l->note_rows;
   return l;
 }
 
@@ -128,7 +148,21 @@ static double error_of(const double *error, size_t i)
   return error && isfinite(error[i]) ? fabs(error[i]) : 0;
 }
 
-/* x, y, ends of the bars of x and of y; a bar that ends at or below 0 on a logarithmic axis ends at its edge. */
+static bool is_open(const gg_chart_series *c, size_t i)
+{
+  return c->open && c->open[i];
+}
+
+/* Has the series some that are open, or some that are not? */
+static bool has_such(const gg_chart_series *c, bool open)
+{
+  for (size_t i = 0; i < c->n; i++)
+    if (is_open(c, i) == open) return true;
+  return false;
+}
+
+/* x, y, ends of the bars of x and of y, and whether it is open; a bar that ends at or below 0 on a logarithmic axis
+ * ends at its edge. */
 static void print_data(FILE *s, const gg_chart_panel *p, size_t k, double offset, gg_axis x_axis, gg_axis y_axis)
 {
   const gg_chart_series *c = &p->series[k];
@@ -142,7 +176,7 @@ static void print_data(FILE *s, const gg_chart_panel *p, size_t k, double offset
     }
     if (y_axis.log && low <= 0) low = fmin(y_axis.from, c->y[i]);
     if (x_axis.log && left <= 0) left = fmin(x_axis.from, c->x[i]);
-    fprintf(s, "%.8g %.8g %.8g %.8g %.8g %.8g\n", x, c->y[i], left, x + dx, low, c->y[i] + dy);
+    fprintf(s, "%.8g %.8g %.8g %.8g %.8g %.8g %d\n", x, c->y[i], left, x + dx, low, c->y[i] + dy, is_open(c, i));
   }
   fprintf(s, "EOD\n");
 }
@@ -169,12 +203,18 @@ static void print_series(FILE *s, const gg_chart_styles *styles, const gg_chart_
             p->name ? "1:2:($1-0.4):($1+0.4):5:6 with boxxyerror" : "1:5:6 with filledcurves",
             gg_plot_styles_colour(styles, c));
   if (c->style == GG_CHART_BAND && p->name) return;
-  fprintf(s, ", $series%zu using %s ", k,
-          c->style != GG_CHART_POINTS ? "1:2 with lines"
-          : c->x_error                ? "1:2:3:4:5:6 with xyerrorbars"
-                                      : "1:2:5:6 with yerrorbars");
-  gg_plot_styles_print(s, styles, c);
-  fprintf(s, " notitle");
+  if (c->style != GG_CHART_POINTS) {
+    fprintf(s, ", $series%zu using 1:2 with lines ", k);
+    gg_plot_styles_print(s, styles, c, false);
+    fprintf(s, " notitle");
+  }
+  for (int open = 0; open < 2 && c->style == GG_CHART_POINTS; open++) {
+    if (!has_such(c, open)) continue;
+    fprintf(s, ", $series%zu using 1:($7==%d?$2:NaN):%s ", k, open,
+            c->x_error ? "3:4:5:6 with xyerrorbars" : "5:6 with yerrorbars");
+    gg_plot_styles_print(s, styles, c, open);
+    fprintf(s, " notitle");
+  }
 }
 
 /* Bands under lines under points, and the first points over the others; of many points lines go over them. */
@@ -285,14 +325,16 @@ static void draw_panel(FILE *s, const gg_chart_panel *p, const gg_chart_styles *
   fprintf(s, "\n");
 }
 
-/* A plot over the whole page, whose key has all the width. */
-static void draw_legend(FILE *s, const layout *l, double top)
+/* A plot over the whole page, whose key has all the width, and the note. */
+static void draw_legend(FILE *s, const gg_chart *c, const layout *l, double top)
 {
   gg_plot_page_place(s, (gg_panel){0, 1, 0, 1});
   fprintf(s,
           "unset border\nunset xtics\nunset ytics\nunset grid\nunset xlabel\nunset ylabel\nset xrange [0:1]\n"
-          "set yrange [0:1]\nset key at screen 0.5,%g center top horizontal Left reverse samplen 2.5\nplot NaN notitle",
+          "set yrange [0:1]\nset key at screen 0.5,%g center top horizontal Left reverse samplen 2.5\n",
           1 - top / l->page[1]);
+  lay_note(s, c, l);
+  fprintf(s, "plot NaN notitle");
   gg_plot_styles_legend_print(s, &l->common);
   fprintf(s, "\n");
 }
@@ -302,7 +344,7 @@ static void print_page(FILE *s, const gg_chart *c, const layout *l, const gg_plo
   const char *title = title_of(c, l);
   gg_plot_page_open(s, title, paper, l->page[0], l->page[1]);
   for (size_t i = 0; i < c->n; i++) draw_panel(s, &c->panel[i], &l->own[i], l, &l->frame[i]);
-  if (l->common.method.n + l->common.group.n) draw_legend(s, l, title ? TITLE - 4 : NO_TITLE - 4);
+  if (l->common.method.n + l->common.group.n || l->note_rows) draw_legend(s, c, l, title ? TITLE - 4 : NO_TITLE - 4);
   fprintf(s, "unset multiplot\n");
 }
 

@@ -22,6 +22,7 @@ typedef struct gg_chart_series {
   size_t n;
   const double *x, *y;
   const double *error, *x_error; /* standard errors; NULL, and NaN: none is known */
+  const bool *open;              /* symbols that are drawn open: of runs that are not steady; NULL: none */
 } gg_chart_series;
 
 /* Labels are gnuplot's enhanced text, P_{xy} or n σ^3; units as results have them ("d^2 gamma^2"), NULL or "1": none.
@@ -48,7 +49,7 @@ typedef struct gg_chart_panel {
 
 /* Methods and groups look the same in all panels, and one legend over them names each once. */
 typedef struct gg_chart {
-  const char *title; /* over all; plain text; may be NULL */
+  const char *title, *note; /* over all, and below; plain text; may be NULL */
   size_t n;
   const gg_chart_panel *panel;
   int columns; /* of panels; 0: chosen by their number */

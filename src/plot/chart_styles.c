@@ -1,12 +1,14 @@
 #include "plot/chart_styles.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "plot/axis.h"
 #include "plot/plot.h"
 
-/* Symbols in pairs, filled and open; the first two stand for md and dsmc where there are no groups. */
+/* Symbols in pairs, filled and open: a run that is not steady is open. The first two stand for md and dsmc where there
+ * are no groups. */
 static const int symbols[][2] = {{7, 6}, {5, 4}, {9, 8}, {13, 12}, {11, 10}, {15, 14}};
 static const int crosses[] = {2, 1, 3, 8, 10, 12, 4, 14}; /* of what is measured by neither engine */
 static const char *const dashes[] = {"1",         "(10,4)",         "(2.5,3)",      "(10,3,2.5,3)",
@@ -133,26 +135,36 @@ const char *gg_plot_styles_colour(const gg_chart_styles *l, const gg_chart_serie
   return gg_plot_colours[place < 2 && !from ? place : 2 + (place + from - 2) % (GG_PLOT_COLOURS - 2)];
 }
 
-/* md is small and filled, so that dsmc shows around it where both agree. */
-static void print_symbol(FILE *s, int symbol, int place, double size)
+/* md is small, so that dsmc shows around it where both agree. */
+static void print_symbol(FILE *s, int symbol, int place, double size, bool open)
 {
   if (place >= 2)
     fprintf(s, "pt %d ps %g", crosses[(place - 2) % N_CROSSES], 0.9 * size);
   else
-    fprintf(s, "pt %d ps %g", symbols[symbol % N_SYMBOLS][place], (place ? 1.0 : 0.7) * size);
+    fprintf(s, "pt %d ps %g", symbols[symbol % N_SYMBOLS][open], (place ? 1.1 : 0.65) * size);
 }
 
-void gg_plot_styles_print(FILE *s, const gg_chart_styles *l, const gg_chart_series *series)
+/* Halfway to white: dsmc beside md in the colour of one group. */
+static unsigned pale(const char *colour)
+{
+  return (((unsigned)strtoul(colour + 1, NULL, 16) & 0xfefefe) >> 1) + 0x7f7f7f;
+}
+
+void gg_plot_styles_print(FILE *s, const gg_chart_styles *l, const gg_chart_series *series, bool open)
 {
   int place = place_of(l, series), group = series->group ? find(&l->group, series->group, false) : -1;
   if (series->style == GG_CHART_BAND) fprintf(s, "lw 1.5 dt 1");
   if (series->style == GG_CHART_LINE)
     fprintf(s, "lw 1.5 dt %s", dashes[(place + (l->method.bands || l->group.bands)) % N_DASHES]);
   if (series->style == GG_CHART_POINTS) {
-    print_symbol(s, group >= 0 ? group : place < 2 ? place : 0, place, series->n > CROWD ? 0.6 : 1);
+    print_symbol(s, group >= 0 ? group : place < 2 ? place : 0, place, series->n > CROWD ? 0.6 : 1, open);
     fprintf(s, " lw 1.2");
   }
-  fprintf(s, " lc rgb '%s'", gg_plot_styles_colour(l, series));
+  const char *colour = gg_plot_styles_colour(l, series);
+  if (series->style == GG_CHART_POINTS && l->group.n && place == 1 && !open)
+    fprintf(s, " lc rgb '#%06x'", pale(colour));
+  else
+    fprintf(s, " lc rgb '%s'", colour);
 }
 
 /* What stands for a group: its points if it has some, else a line through, whatever its methods are. */
@@ -193,7 +205,7 @@ static bool is_named(const gg_chart_styles *l, int i)
 static void print_entry(FILE *s, const gg_chart_styles *l, const gg_chart_series *sample)
 {
   fprintf(s, ", keyentry with %s ", sample->style == GG_CHART_POINTS ? "points" : "lines");
-  gg_plot_styles_print(s, l, sample);
+  gg_plot_styles_print(s, l, sample, false);
   fprintf(s, " title '");
 }
 

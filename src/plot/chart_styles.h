@@ -28,8 +28,8 @@ gg_chart_styles gg_plot_styles_of(const gg_chart *chart, const gg_chart_panel *o
 /* False: another theory says the same. */
 bool gg_plot_styles_shows(const gg_chart_styles *styles, const gg_chart_series *series);
 
-/* The style of a series: "pt 7 ps 0.8 ..." or "dt 1 lw ...". */
-void gg_plot_styles_print(FILE *script, const gg_chart_styles *styles, const gg_chart_series *series);
+/* The style of a series: "pt 7 ps 0.8 ..." or "dt 1 lw ..."; of its open symbols or the others. */
+void gg_plot_styles_print(FILE *script, const gg_chart_styles *styles, const gg_chart_series *series, bool open);
 const char *gg_plot_styles_colour(const gg_chart_styles *styles, const gg_chart_series *series);
 
 /* The legend: groups by colour and symbol, methods by filling or dash. gnuplot sets it in columns; how many rows there

@@ -130,8 +130,8 @@ static void fill_panel(gg_plot_sheet *s, gg_chart_panel *p, const group *g, cons
   for (int k = 0; k < g->n; k++) {
     const char *label = gg_base_json_string(g->curve[k], "label");
     labels[k] = *label ? label : NULL;
-    gg_chart_series like = {engine, labels[k], g->theory[k] ? GG_CHART_POINTS : GG_CHART_BAND, 0, NULL, NULL,
-                            NULL,   NULL};
+    gg_chart_series like = {
+        .method = engine, .group = labels[k], .style = g->theory[k] ? GG_CHART_POINTS : GG_CHART_BAND};
     add_measured(s, p, like, g->curve[k]);
   }
   for (int k = 0; k < g->n; k++)

@@ -71,7 +71,7 @@ void gg_plot_page_title(const gg_stored_result *stored, char *title, size_t size
   gg_scene scene = gg_scene_defaults();
   *title = '\0';
   if (gg_scene_read(&scene, stored->scene, strlen(stored->scene), "scene", NULL) == GG_OK)
-    gg_files_scene_title(&scene, title, size);
+    gg_files_scene_title(&scene, NULL, title, size);
 }
 
 /* A line's end would end the text, and what comes next be a command. */

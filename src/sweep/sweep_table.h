@@ -48,15 +48,40 @@ gg_status gg_sweep_point_table_write_csv(const gg_point_table *table, const gg_s
 gg_status gg_sweep_point_table_write_h5(const gg_point_table *table, const gg_sweep *sweep, const char *path,
                                         const char *command, gg_error *err);
 
+/* Along x: a key, by its place among the varied ones. */
+typedef struct gg_picture_axis {
+  size_t varied, k, n; /* n values */
+  bool alone;          /* no other key changes with it: theories are lines */
+  bool log;
+} gg_picture_axis;
+
+/* Theories at values of the axis between those of the points: a sweep of its own, and its table. */
+typedef struct gg_picture_lines {
+  gg_sweep *sweep;
+  gg_point_table table;
+} gg_picture_lines;
+
 typedef struct gg_picture_choice { /* NULL: chosen */
-  const char *over;                /* key along x */
-  const char *show;                /* quantities, with commas: a panel each */
+  gg_picture_axis axis;
+  const char *show;              /* quantities, with commas: a panel each */
+  const char *log;               /* "x", "y", "xy", "none"; by default y where its values span decades */
+  const char *relative_to;       /* a method: deviations from it; NULL: the numbers themselves */
+  const char *theories;          /* with commas; NULL: all */
+  const gg_picture_lines *lines; /* NULL: theories at the points alone */
 } gg_picture_choice;
-/* sweep_picture.c: a panel a quantity; over one key, a line for each combination of the others; engines as points,
- * theories as lines, unless keys go together with that one. GG_BAD_INPUT if no key has numbers, or one that is named is
- * not there. */
+
+/* sweep_picture.c: the key of the name, or with NULL of those with numbers the one with most values. GG_BAD_INPUT if no
+ * key has numbers, or one that is named is not there. */
+gg_status gg_sweep_axis_choose(const gg_sweep *sweep, const char *over, const char *log, gg_picture_axis *axis,
+                               gg_error *err);
+/* A panel a quantity; a line for each combination of the other keys; engines as points, open ones where a run is not
+ * steady, theories as lines, unless keys go together with that of the axis. */
 gg_status gg_sweep_point_table_draw(const gg_point_table *table, const gg_sweep *sweep, const gg_picture_choice *choice,
                                     const char *picture, const char *width, gg_error *err);
+/* picture_rows.c: the theories at forty values of the axis, for each combination; to be run, read and freed. *lines is
+ * NULL where there are none: keys change with that of the axis, or it takes whole numbers. */
+gg_status gg_sweep_lines_make(const gg_sweep *sweep, const gg_picture_axis *axis, gg_sweep **lines, gg_error *err);
+void gg_sweep_lines_free(gg_sweep *lines, const gg_picture_axis *axis);
 
 /* Points that differ in the rows of one varied group alone, that of a picture's axis, are one line of it. */
 /* Bytes of a name as enhanced text; what it shows has at most some 70 letters, the width of a picture. */

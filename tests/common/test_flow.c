@@ -103,7 +103,7 @@ static void run_briefly(int flow, gg_engine_kind engine, const char *rest)
   for (int i = 0; i < n; i++)
     if (!isfinite(r->value[list[i]].mean))
       fail_msg("%s: no %s: %s", gg_common_flows[flow].word, gg_common_quantity_name(list[i]), r->value[list[i]].reason);
-  gg_files_scene_title(&s, title, sizeof title);
+  gg_files_scene_title(&s, NULL, title, sizeof title);
   assert_int_equal(strncmp(title, gg_common_flows[flow].title, strlen(gg_common_flows[flow].title)), 0);
   gg_result_free(r);
 }

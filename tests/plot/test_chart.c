@@ -17,7 +17,13 @@
 #include "plot/chart.h"
 #include "plot/plot.h"
 
-enum { MOST = 64, FILLED_CIRCLE = 6, OPEN_SQUARE = 3, FILLED_SQUARE = 4 }; /* gnuplot's svg counts from 0 */
+enum {
+  MOST = 64,
+  FILLED_CIRCLE = 6,
+  OPEN_CIRCLE = 5,
+  OPEN_SQUARE = 3,
+  FILLED_SQUARE = 4
+}; /* gnuplot's svg counts from 0 */
 
 static char folder[] = "/tmp/graingas-chart-XXXXXX";
 
@@ -50,7 +56,7 @@ static char *drawn(const gg_chart *chart)
 
 typedef struct mark {
   int symbol;
-  double x, y;
+  double x, y, size;
 } mark;
 
 /* Symbols of the page in their colours; those of white clear the ground behind others. */
@@ -59,7 +65,9 @@ static int marks_of(const char *svg, int symbol, mark marks[])
   int n = 0;
   mark m;
   for (const char *at = svg; (at = strstr(at, "<use xlink:href='#gpPt")); at++) {
-    if (sscanf(at, "<use xlink:href='#gpPt%d' transform='translate(%lf,%lf)", &m.symbol, &m.x, &m.y) != 3) continue;
+    if (sscanf(at, "<use xlink:href='#gpPt%d' transform='translate(%lf,%lf) scale(%lf)", &m.symbol, &m.x, &m.y,
+               &m.size) != 4)
+      continue;
     const char *white = strstr(at, "#FFFFFF"), *end = strstr(at, "/>");
     if (m.symbol == symbol && !(white && white < end) && n < MOST) marks[n++] = m;
   }
@@ -124,8 +132,28 @@ static int count(const char *text, const char *what)
   return n;
 }
 
-/* md is filled and dsmc open, groups have symbols, theories dashes: the same in both panels, each once in the legend.
- */
+/* Those of runs that are not steady are open, at their places, and the text below the picture is whole. */
+static void what_is_not_steady_is_open(void **state)
+{
+  (void)state;
+  const bool open[] = {false, true, false};
+  gg_chart_series md = {.method = "md", .n = 3, .x = x3, .y = y3, .error = e3, .open = open};
+  gg_chart_panel panel = {.x = {.log = true}, .n = 1, .series = &md};
+  gg_chart chart = {.n = 1,
+                    .panel = &panel,
+                    .note = "Open symbols: not steady, point 2 of some that have a name so "
+                            "long that one line of the page has no room for it at all"};
+  mark filled[MOST], empty[MOST];
+  char *svg = drawn(&chart);
+  assert_int_equal(marks_of(svg, FILLED_CIRCLE, filled), 2 + 1);
+  assert_int_equal(marks_of(svg, OPEN_CIRCLE, empty), 1);
+  assert_true(fabs(empty[0].x - (filled[0].x + filled[1].x) / 2) < 0.05);
+  assert_true(bar_at(svg, empty[0].x) > 5);
+  assert_int_equal(count(svg, ">Open symbols: not steady, point 2") + count(svg, "room for it at all</tspan>"), 2);
+  free(svg);
+}
+
+/* md is small and dsmc pale, groups have symbols, theories dashes: the same in both panels, each once in the legend. */
 static void looks_follow_from_names(void **state)
 {
   (void)state;
@@ -139,9 +167,10 @@ static void looks_follow_from_names(void **state)
   const gg_chart chart = {.title = "'it's a title'", .n = 2, .panel = panels};
   mark m[MOST];
   char *svg = drawn(&chart);
-  assert_int_equal(marks_of(svg, FILLED_CIRCLE, m), 3 + 3 + 2); /* md and its group in the legend */
-  assert_int_equal(marks_of(svg, FILLED_SQUARE, m), 3 + 3 + 1);
-  assert_int_equal(marks_of(svg, OPEN_SQUARE, m), 3 + 3 + 1);
+  assert_int_equal(marks_of(svg, FILLED_CIRCLE, m), 3 + 3 + 2);       /* md and its group in the legend */
+  assert_int_equal(marks_of(svg, FILLED_SQUARE, m), 2 * (3 + 3 + 1)); /* also of dsmc */
+  assert_true(m[0].size != m[3].size);
+  assert_int_equal(marks_of(svg, OPEN_SQUARE, m), 0);
   assert_int_equal(count(svg, "stroke-dasharray"), 1 + 1);
   assert_int_equal(count(svg, ">Enskog (Hermite)</tspan>") + count(svg, ">Lun 1991</tspan>") +
                        count(svg, ">one</tspan>") + count(svg, ">two</tspan>"),
@@ -390,6 +419,7 @@ int main(void)
       cmocka_unit_test(kinds_of_pictures),
       cmocka_unit_test(points_stand_where_they_are),
       cmocka_unit_test(what_is_not_there),
+      cmocka_unit_test(what_is_not_steady_is_open),
       cmocka_unit_test(looks_follow_from_names),
       cmocka_unit_test(laws_beside_bands),
       cmocka_unit_test(tics),
