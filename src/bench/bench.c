@@ -151,7 +151,13 @@ void gg_bench_clear(gg_bench *b)
 char *gg_bench_document(const gg_bench *b)
 {
   json_t *document = json_pack("{s:s}", "graingas", gg_version());
-  for (int i = 0; i < b->n_tables; i++) json_object_set(document, b->table[i]->key, b->table[i]->rows);
+  for (int i = 0; i < b->n_tables; i++) {
+    json_t *there = json_object_get(document, b->table[i]->key); /* tables of one key are one */
+    if (there)
+      json_array_extend(there, b->table[i]->rows);
+    else
+      json_object_set(document, b->table[i]->key, b->table[i]->rows);
+  }
   char *text = document ? gg_files_document_text(document) : NULL;
   json_decref(document);
   return text;

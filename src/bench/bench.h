@@ -7,13 +7,14 @@
 #include "common/scene.h"
 
 /* A table of text, and the same rows as JSON. Subjects fill it, the command prints it. */
-enum { GG_BENCH_COLUMNS = 16, GG_BENCH_ROWS = 64, GG_BENCH_CELL = 64 };
+enum { GG_BENCH_COLUMNS = 16, GG_BENCH_ROWS = 80, GG_BENCH_CELL = 64 };
 
 typedef struct gg_bench_table {
-  const char *key;     /* of the rows in the JSON document; a literal, as the caption is */
-  const char *caption; /* above the table: what was measured, and how */
-  int keep;            /* columns that are repeated where the table is too wide */
-  json_t *rows;        /* an array of objects */
+  const char *key;           /* of the rows in the JSON document; a literal, as the caption is */
+  const char *caption;       /* above the table: what was measured, and how; NULL: nothing */
+  char title[GG_BENCH_CELL]; /* over the caption; may be empty */
+  int keep;                  /* columns that are repeated where the table is too wide */
+  json_t *rows;              /* an array of objects */
   int n_columns, n_rows;
   bool right[GG_BENCH_COLUMNS]; /* numbers stand right */
   char head[GG_BENCH_COLUMNS][GG_BENCH_CELL];
@@ -22,17 +23,17 @@ typedef struct gg_bench_table {
 
 typedef struct gg_bench_options {
   bool quick;          /* fewer sizes, shorter stretches */
-  const char *picture; /* of "error": file to draw, .svg, .png or .pdf; NULL: none */
+  const char *picture; /* of "error": "x.svg" makes x_<state>.svg for each; also .png, .pdf; NULL: none */
   const char *width;   /* of the picture, "86mm"; NULL: free */
   int threads;         /* that one engine may use where threads are measured */
   double smaller; /* so many times fewer grains and shorter stretches: what is measured says little; 0: as they are */
   int n_overrides;
   const char *const *override; /* "KEY=VALUE" of a scene; only run.seed matters */
   void *context;
-  void (*tell)(void *context, const char *line); /* progress; NULL: not wanted */
+  void (*tell)(void *context, const char *line); /* progress, a line in place of the last; NULL: not wanted */
 } gg_bench_options;
 
-enum { GG_BENCH_TABLES = 8 };
+enum { GG_BENCH_TABLES = 24 };
 typedef struct gg_bench {
   const gg_bench_options *options;
   uint64_t seed;

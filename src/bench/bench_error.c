@@ -8,120 +8,141 @@
 #include "plot/chart.h"
 #include "plot/plot.h"
 
-/* What is drawn, so that curves can be distinguished; each as points, and its floor as a line. */
-static const struct {
-  int way;
-  const char *group;
-} drawn[] = {{0, "N 250"},   {2, "N 4000"}, {3, "N 100"},  {5, "N 2000"},
-             {7, "N 80000"}, {8, "single"}, {9, "step 1"}, {11, "5 replicas"}};
-enum { DRAWN = sizeof drawn / sizeof *drawn, SERIES = 2 * DRAWN + 1, MOST_COLUMNS = 3 };
-enum { MOST_PANELS = MOST_COLUMNS * GG_COURSE_QUANTITIES };
+/* A picture a state: a panel a quantity, error against time of the best md and the best dsmc, and theories, which take
+ * no time, as bars at their error. */
+enum { SERIES = 2 + GG_ERROR_THEORIES, MOST_STATES = 16 };
 
 typedef struct curve {
   double x[GG_COURSE_MARKS], y[GG_COURSE_MARKS], error[GG_COURSE_MARKS];
 } curve;
 
 typedef struct page {
-  char title[MOST_PANELS][64];
-  gg_chart_panel panel[MOST_PANELS];
-  gg_chart_series series[MOST_PANELS][SERIES];
-  curve curve[MOST_PANELS][SERIES];
+  char title[GG_BENCH_CELL], name[GG_COURSE_QUANTITIES][32];
+  gg_chart_panel panel[GG_COURSE_QUANTITIES];
+  gg_chart_series series[GG_COURSE_QUANTITIES][SERIES];
+  curve curve[GG_COURSE_QUANTITIES][SERIES];
 } page;
 
-/* Marks at least twice as far as the last one drawn. */
-static void add_points(const gg_error_state *s, int q, int k, curve *c, gg_chart_series *series)
+/* What noise and floor of a way leave after so many seconds; INFINITY: it is still warming up. */
+static double expected(const gg_error_state *s, int way, int q, double seconds)
 {
-  const gg_course *course = &s->course[drawn[k].way];
+  const gg_course *c = &s->course[way];
+  return seconds < c->seconds[0] ? INFINITY : hypot(s->floor[way][q], s->noise[way][q] / sqrt(seconds - c->warmup));
+}
+
+static int best_at(const gg_error_state *s, gg_engine_kind engine, int q, double seconds)
+{
+  int best = -1;
+  for (int i = 0; i < GG_WAYS; i++) {
+    if (!s->done[i] || gg_bench_error_methods[i].engine != engine ||
+        seconds > s->course[i].seconds[s->course[i].marks - 1] * 1.01)
+      continue;
+    if (best < 0 || expected(s, i, q, seconds) < expected(s, best, q, seconds)) best = i;
+  }
+  return best >= 0 && isfinite(expected(s, best, q, seconds)) ? best : -1;
+}
+
+/* Marks of the way that is best by then, each twice as late as the last. */
+static void add_engine(const gg_error_state *s, gg_engine_kind engine, int q, double to, curve *c,
+                       gg_chart_series *series)
+{
   size_t n = 0;
-  for (int i = 0; i < course->marks; i++) {
-    if (n && course->seconds[i] < 2 * c->x[n - 1]) continue;
-    c->x[n] = course->seconds[i];
-    c->y[n] = gg_bench_error_at(s, drawn[k].way, q, i, &c->error[n]);
+  for (double t = to; n < GG_COURSE_MARKS && t > 1e-6; t /= 2) {
+    const int way = best_at(s, engine, q, t);
+    int mark = 0;
+    if (way < 0) continue;
+    const gg_course *course = &s->course[way];
+    while (mark + 1 < course->marks && course->seconds[mark + 1] <= 1.01 * t) mark++;
+    if (n && course->seconds[mark] > 0.7 * c->x[n - 1]) continue;
+    c->x[n] = course->seconds[mark];
+    c->y[n] = gg_bench_error_at(s, way, q, mark, &c->error[n]);
     n++;
   }
-  const char *method = gg_bench_error_methods[drawn[k].way].engine == GG_MD ? "md" : "dsmc";
-  *series = (gg_chart_series){method, drawn[k].group, GG_CHART_POINTS, n, c->x, c->y, c->error, NULL, NULL};
+  *series = (gg_chart_series){.method = engine == GG_MD ? "md" : "dsmc",
+                              .style = GG_CHART_POINTS,
+                              .n = n,
+                              .x = c->x,
+                              .y = c->y,
+                              .error = c->error};
 }
 
-static void add_line(const char *method, const char *group, double from, double to, double y_from, double y_to,
-                     curve *c, gg_chart_series *series)
+static void add_theory(const char *name, double error, const double ends[2], curve *c, gg_chart_series *series)
 {
-  c->x[0] = from, c->x[1] = to, c->y[0] = y_from, c->y[1] = y_to;
-  *series = (gg_chart_series){method, group, GG_CHART_LINE, 2, c->x, c->y, NULL, NULL, NULL};
+  for (int k = 0; k < 2; k++) c->x[k] = ends[k], c->y[k] = error;
+  *series = (gg_chart_series){.method = name, .style = GG_CHART_LINE, .n = 2, .x = c->x, .y = c->y};
 }
 
-static void fill(const gg_error_state *s, int q, int i, page *p)
+static void fill(const gg_error_state *s, int q, page *p, gg_chart_panel *panel)
 {
+  const int i = (int)(panel - p->panel);
   size_t n = 0;
-  double from = INFINITY, to = 0;
-  for (int k = 0; k < DRAWN; k++) {
-    const gg_course *c = &s->course[drawn[k].way];
-    if (!s->done[drawn[k].way]) continue;
-    from = fmin(from, c->seconds[0]), to = fmax(to, c->seconds[c->marks - 1]);
-    add_points(s, q, k, &p->curve[i][n], &p->series[i][n]);
-    n++;
+  double ends[2] = {INFINITY, 0};
+  for (int k = 0; k < GG_WAYS; k++) {
+    const gg_course *c = &s->course[k];
+    if (s->done[k]) ends[0] = fmin(ends[0], c->seconds[0]), ends[1] = fmax(ends[1], c->seconds[c->marks - 1]);
   }
-  const double noise = s->noise[7][q];
-  add_line("1/√time", NULL, from, to, noise / sqrt(from), noise / sqrt(to), &p->curve[i][n], &p->series[i][n]);
-  n++;
-  for (int k = 0; k < DRAWN; k++) {
-    const double floor = s->floor[drawn[k].way][q];
-    if (!s->done[drawn[k].way] || !(floor > noise / sqrt(to))) continue;
-    add_line("floor", drawn[k].group, from, to, floor, floor, &p->curve[i][n], &p->series[i][n]);
-    n++;
+  for (int engine = 0; engine < 2; engine++) {
+    add_engine(s, (gg_engine_kind)engine, q, ends[1], &p->curve[i][n], &p->series[i][n]);
+    n += p->series[i][n].n > 0;
   }
-  char symbol[32];
-  gg_common_quantity_symbol(gg_bench_error_course_quantity[q], symbol, sizeof symbol);
-  snprintf(p->title[i], sizeof p->title[i], "%s, φ = %g", symbol, s->phi);
-  p->panel[i] = (gg_chart_panel){.title = p->title[i],
-                                 .x = {"processor time", "s", true, 0, 0},
-                                 .y = {"relative error", NULL, true, 0, 0},
-                                 .n = n,
-                                 .series = p->series[i]};
-}
-
-/* Of the rough states at e = 0.9: a row a quantity, a column a density. */
-static gg_status draw(const gg_error_state *states, int n, const char *picture, const char *width, gg_error *err)
-{
-  page *p = gg_base_array_new(1, sizeof *p, err);
-  if (!p) return GG_FAILED;
-  int panels = 0, columns = 0;
-  for (int i = 0; i < n; i++) columns += states[i].rough && states[i].e == 0.9;
-  for (int q = 0; q < GG_COURSE_QUANTITIES; q++)
-    for (int i = 0; i < n; i++)
-      if (states[i].rough && states[i].e == 0.9 && panels < MOST_PANELS) fill(&states[i], q, panels++, p);
-  gg_chart chart = {.title = "Uniform shear of rough grains, e = 0.9, β = 0",
-                    .n = (size_t)panels,
-                    .panel = p->panel,
-                    .columns = columns};
-  gg_status status = gg_plot_chart_draw(&chart, picture, width, err);
-  free(p);
-  return status;
-}
-
-static const char seconds_caption[] =
-    "Uniform shear: seconds of processor time, one core, warm-up included, until the true error (root of the mean "
-    "square over seeds, against the truth of the next table) is 1, 0.1 and 0.01 %, with the way that is quickest; "
-    "never: its floors are above; ?: they are not known so well. Beyond the times that were run by noise falling as "
-    "1/sqrt(time after the warm-up). kurtosis_Cx: the fourth moment. first: the engine that has it first at 1 %, and "
-    "how many times sooner";
-static const char floors_caption[] =
-    "The truth, its relative error and where it is from; what the number of grains shifts a mean by, relative, times "
-    "N (dsmc and md); a split step of h mean free times, times h^2, with the order that steps 1 and 0.5 give; and "
-    "single precision against double, relative";
-
-static const double targets[] = {0.01, 0.001, 0.0001};
-enum { N_TARGETS = 3, MOST_STATES = 12, SINGLE = 8, DOUBLE = 6 };
-
-static const char *name_of(int q)
-{
-  return gg_common_quantity_name(gg_bench_error_course_quantity[q]);
+  for (int k = 0; k < s->n_theories; k++)
+    if (s->theory[k].error[q] > 0) {
+      add_theory(s->theory[k].name, s->theory[k].error[q], ends, &p->curve[i][n], &p->series[i][n]);
+      n++;
+    }
+  gg_common_quantity_symbol(gg_bench_error_quantities(s->flow)[q], p->name[i], sizeof p->name[i]);
+  *panel = (gg_chart_panel){.title = p->name[i],
+                            .x = {"processor time", "s", true, 0, 0},
+                            .y = {"relative error", NULL, true, 0, 0},
+                            .n = n,
+                            .series = p->series[i]};
 }
 
 /* Smooth grains have no spins. */
 static bool has(const gg_error_state *s, int q)
 {
   return isfinite(s->unit[q]) && s->unit[q] > 0;
+}
+
+/* "x.svg" and "phi 0.3, e 0.9, rough, shear": x_phi-0.3-e-0.9-rough-shear.svg */
+static gg_status draw(const gg_bench *b, const gg_error_state *s, gg_error *err)
+{
+  char word[GG_BENCH_CELL];
+  size_t n = 0, panels = 0;
+  gg_plot_paper paper;
+  GG_TRY(gg_plot_paper_choose(&paper, b->options->picture, NULL, b->options->width, err));
+  page *p = gg_base_array_new(1, sizeof *p, err);
+  if (!p) return GG_FAILED;
+  gg_bench_error_state_name(s, p->title, sizeof p->title);
+  for (const char *c = p->title; *c; c++)
+    if (*c != ',') word[n++] = *c == ' ' ? '-' : *c;
+  word[n] = '\0';
+  for (int q = 0; q < GG_COURSE_QUANTITIES; q++)
+    if (has(s, q)) fill(s, q, p, &p->panel[panels++]);
+  const gg_chart chart = {.title = p->title, .n = panels, .panel = p->panel};
+  char *picture = gg_plot_page_name(b->options->picture, "", word, &paper);
+  gg_status status = picture ? gg_plot_chart_draw_on(&chart, &paper, picture, err) : gg_base_out_of_memory(err);
+  free(picture);
+  free(p);
+  return status;
+}
+
+static const char seconds_caption[] =
+    "Seconds of processor time, one core, warm-up included, until the true error (root of the mean square over seeds, "
+    "against the truth of the last table) is 1, 0.1 and 0.01 %, with the way that is quickest; never: its floors are "
+    "above; ?: they are not known so well. Beyond the times that were run by noise falling as 1/sqrt(time after the "
+    "warm-up). kurtosis_Cx: the fourth moment. first: the engine that has it first at 1 %, and how many times sooner";
+static const char floors_caption[] =
+    "The truth, its relative error and where it is from; what the number of grains shifts a mean by, relative, times "
+    "N (dsmc and md); a split step of h mean free times, times h^2, with the order that steps 1 and 0.5 give; and "
+    "single precision against double, relative";
+
+static const double targets[] = {0.01, 0.001, 0.0001};
+enum { N_TARGETS = 3, SINGLE = 8, DOUBLE = 6 };
+
+static const char *name_of(const gg_error_state *s, int q)
+{
+  return gg_common_quantity_name(gg_bench_error_quantities(s->flow)[q]);
 }
 
 /* -1 where no way has it: *seconds is INFINITY where that is sure of all of them, else NaN. */
@@ -165,7 +186,7 @@ static void put_seconds(gg_bench_table *table, int row, const gg_error_state *s,
     for (int k = 0; k < N_TARGETS; k++) {
       double t;
       const int way = quickest(s, (gg_engine_kind)engine, q, targets[k], &t);
-      const int column = 2 + engine * N_TARGETS + k;
+      const int column = 1 + engine * N_TARGETS + k;
       if (k == 0) first[engine] = t;
       if (way < 0)
         gg_bench_table_put(table, row, column, "%s", isnan(t) ? "?" : is_run(s, engine) ? "never" : "-");
@@ -176,7 +197,7 @@ static void put_seconds(gg_bench_table *table, int row, const gg_error_state *s,
                                                                   : "",
                            gg_bench_error_methods[way].replicas > 1 ? ", replicas" : "");
     }
-  put_first(table, row, 2 + 2 * N_TARGETS, first);
+  put_first(table, row, 1 + 2 * N_TARGETS, first);
 }
 
 static json_t *number(double x)
@@ -191,7 +212,8 @@ static json_t *two(double x, double y)
 
 static json_t *state_json(const gg_error_state *s, int q)
 {
-  return json_pack("{s:f, s:f, s:b, s:s}", "phi", s->phi, "e", s->e, "rough", s->rough, "quantity", name_of(q));
+  return json_pack("{s:s, s:f, s:f, s:b, s:s}", "flow", gg_flow_of(s->flow)->word, "phi", s->phi, "e", s->e, "rough",
+                   s->rough, "quantity", name_of(s, q));
 }
 
 static void add_course(json_t *rows, const gg_error_state *s, int q, int i)
@@ -241,43 +263,55 @@ static void put_floors(gg_bench_table *table, int row, const gg_error_state *s, 
   json_array_append_new(table->rows, json);
 }
 
-static int row_of(gg_bench_table *table, const gg_error_state *s, int q)
+static gg_bench_table *new_seconds(gg_bench *b, const gg_error_state *s, bool first, gg_error *err)
 {
-  const int row = gg_bench_table_row(table, "phi %g e %g %s", s->phi, s->e, s->rough ? "rough" : "smooth");
-  gg_bench_table_put(table, row, 1, "%s", name_of(q));
-  return row;
+  gg_bench_table *t = gg_bench_table_new(b, "seconds", first ? seconds_caption : NULL, 1, err);
+  if (!t) return NULL;
+  gg_bench_error_state_name(s, t->title, sizeof t->title);
+  gg_bench_table_column(t, false, "quantity");
+  for (int engine = 0; engine < 2; engine++)
+    for (int k = 0; k < N_TARGETS; k++)
+      gg_bench_table_column(t, true, "%s %g %%", engine == GG_MD ? "md" : "dsmc", 100 * targets[k]);
+  gg_bench_table_column(t, false, "first");
+  return t;
 }
 
-static void note(gg_bench_table *seconds, gg_bench_table *floors, const gg_error_state *s)
+static gg_bench_table *new_floors(gg_bench *b, gg_error *err)
 {
+  static const char *const head[] = {"state",    "quantity", "truth",    "its error", "from",
+                                     "1/N dsmc", "1/N md",   "step h^2", "order",     "single"};
+  gg_bench_table *t = gg_bench_table_new(b, "floors", floors_caption, 2, err);
+  for (size_t k = 0; t && k < sizeof head / sizeof *head; k++) gg_bench_table_column(t, k > 1 && k != 4, "%s", head[k]);
+  return t;
+}
+
+/* A table of the state, and its lines of that of all floors, once this is there. */
+static gg_status put_state(gg_bench *b, const gg_error_state *s, bool first, gg_error *err)
+{
+  gg_bench_table *seconds = new_seconds(b, s, first, err);
+  if (!seconds) return GG_FAILED;
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
     if (!has(s, q)) continue;
-    put_seconds(seconds, row_of(seconds, s, q), s, q);
-    put_floors(floors, row_of(floors, s, q), s, q);
+    put_seconds(seconds, gg_bench_table_row(seconds, "%s", name_of(s, q)), s, q);
     for (int i = 0; i < GG_WAYS; i++)
       if (s->done[i]) add_course(seconds->rows, s, q, i);
   }
-}
-
-static gg_status new_tables(gg_bench *b, gg_bench_table *table[2], gg_error *err)
-{
-  static const char *const head[] = {"truth", "its error", "from", "1/N dsmc", "1/N md", "step h^2", "order", "single"};
-  table[0] = gg_bench_table_new(b, "seconds", seconds_caption, 2, err);
-  table[1] = gg_bench_table_new(b, "floors", floors_caption, 2, err);
-  if (!table[0] || !table[1]) return GG_FAILED;
-  for (int k = 0; k < 2; k++) {
-    gg_bench_table_column(table[k], false, "shear");
-    gg_bench_table_column(table[k], false, "quantity");
-  }
-  for (int engine = 0; engine < 2; engine++)
-    for (int k = 0; k < N_TARGETS; k++)
-      gg_bench_table_column(table[0], true, "%s %g %%", engine == GG_MD ? "md" : "dsmc", 100 * targets[k]);
-  gg_bench_table_column(table[0], false, "first");
-  for (int k = 0; k < 8; k++) gg_bench_table_column(table[1], k != 2, "%s", head[k]);
   return GG_OK;
 }
 
-/* Quick: the rough state of both densities above 0 at e = 0.9, and the smooth one at 0.01. */
+static void put_state_floors(gg_bench_table *floors, const gg_error_state *s)
+{
+  char name[GG_BENCH_CELL];
+  gg_bench_error_state_name(s, name, sizeof name);
+  for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
+    if (!has(s, q)) continue;
+    const int row = gg_bench_table_row(floors, "%s", name);
+    gg_bench_table_put(floors, row, 1, "%s", name_of(s, q));
+    put_floors(floors, row, s, q);
+  }
+}
+
+/* Quick: rough shear of both densities above 0 at e = 0.9, smooth shear at 0.01, and rough cooling at 0.01. */
 static int list_states(gg_error_state *s, bool quick)
 {
   static const double phi[] = {0, 0.01, 0.3}, e[] = {0.9, 0.7};
@@ -286,8 +320,9 @@ static int list_states(gg_error_state *s, bool quick)
     for (int k = 0; k < 2; k++)
       for (int p = 0; p < 3; p++) {
         if (quick && (k == 1 || p == 0 || (!rough && p == 2))) continue;
-        s[n].phi = phi[p], s[n].e = e[k], s[n++].rough = rough;
+        s[n].phi = phi[p], s[n].e = e[k], s[n].flow = GG_USF, s[n++].rough = rough;
       }
+  for (int rough = 1; rough >= quick; rough--) s[n].phi = 0.01, s[n].e = 0.9, s[n].flow = GG_HCS, s[n++].rough = rough;
   return n;
 }
 
@@ -297,15 +332,17 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
   const int n = list_states(s, quick);
   if (b->options->picture)
     GG_TRY(gg_plot_paper_check(b->options->picture, b->options->width, err)); /* before it has taken an hour */
-  gg_bench_table *table[2];
-  GG_TRY(new_tables(b, table, err));
+  gg_status drawn = GG_OK;
   for (int i = 0; i < n; i++) {
     GG_TRY(gg_bench_error_state_measure(b, &s[i], quick ? 4 : 6, gg_bench_seconds(b, quick ? 0.3 : 1.5), err));
-    note(table[0], table[1], &s[i]);
-    gg_bench_tell(b, "phi %g e %g %s done", s[i].phi, s[i].e, s[i].rough ? "rough" : "smooth");
+    GG_TRY(put_state(b, &s[i], i == 0, err));
+    if (b->options->picture && drawn == GG_OK) drawn = draw(b, &s[i], err);
   }
+  gg_bench_table *floors = new_floors(b, err);
+  if (!floors) return GG_FAILED;
+  for (int i = 0; i < n; i++) put_state_floors(floors, &s[i]);
   b->measured = true;
-  return b->options->picture ? draw(s, n, b->options->picture, b->options->width, err) : GG_OK;
+  return drawn;
 }
 
 gg_status gg_bench_error(gg_bench *b, gg_error *err)

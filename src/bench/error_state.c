@@ -5,8 +5,20 @@
 #include "run/replicas.h"
 #include "theory/theory_list.h"
 
-const gg_quantity gg_bench_error_course_quantity[GG_COURSE_QUANTITIES] = {GG_Q_TEMPERATURE, GG_Q_P_XY, GG_Q_N1,
-                                                                          GG_Q_KURTOSIS_CX, GG_Q_TEMPERATURE_RATIO};
+const gg_quantity *gg_bench_error_quantities(gg_flow flow)
+{
+  static const gg_quantity sheared[GG_COURSE_QUANTITIES] = {GG_Q_TEMPERATURE, GG_Q_P_XY, GG_Q_N1, GG_Q_KURTOSIS_CX,
+                                                            GG_Q_TEMPERATURE_RATIO},
+                           cooling[GG_COURSE_QUANTITIES] = {GG_Q_COOLING_RATE, GG_Q_A2, GG_Q_KURTOSIS_CX,
+                                                            GG_Q_KURTOSIS_WX, GG_Q_TEMPERATURE_RATIO};
+  return flow == GG_HCS ? cooling : sheared;
+}
+
+void gg_bench_error_state_name(const gg_error_state *s, char *text, size_t size)
+{
+  snprintf(text, size, "phi %g, e %g, %s, %s", s->phi, s->e, s->rough ? "rough" : "smooth",
+           s->flow == GG_HCS ? "cooling" : "shear");
+}
 
 static double seconds_of(const gg_replicas *all)
 {
@@ -34,7 +46,7 @@ static gg_status note(const gg_replicas *all, gg_course *c, int mark, int seed, 
 {
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
     gg_mean m;
-    GG_TRY(gg_run_replicas_mean(all, gg_bench_error_course_quantity[q], &m, err));
+    GG_TRY(gg_run_replicas_mean(all, gg_bench_error_quantities(all->scene.flow)[q], &m, err));
     c->mean[q][mark][seed] = m.mean;
     if (seed == 0) c->error[q] = m.error;
   }
@@ -120,6 +132,7 @@ enum { LONGER = 100, TRUTH_N = 80000 };
 static gg_scene scene_of(const gg_bench *b, const gg_error_state *s, const gg_way *w)
 {
   gg_scene scene = gg_bench_scene(b, w->engine, s->phi, w->n);
+  scene.flow = s->flow;
   scene.collision.e[0] = s->e;
   scene.collision.beta[0] = s->rough ? 0 : -1;
   scene.run.replicas = w->replicas;
@@ -160,17 +173,42 @@ static void ask_theory(gg_error_state *s, const gg_model *m)
   gg_theory_answer a;
   if (gg_theory_evaluate(&gg_theory_enskog_hermite, m, &a, NULL) != GG_OK) return;
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
-    const gg_quantity name = gg_bench_error_course_quantity[q];
+    const gg_quantity name = gg_bench_error_quantities(s->flow)[q];
     take_truth(s, GG_DSMC, q, a.value[name], a.error[name], "solved without noise");
   }
 }
 
-/* Is the solution ten times better than a run of this length? Smooth grains have no theta. */
+/* How far each theory is off, once the truth is known. */
+static void find_theories(gg_error_state *s, const gg_model *m)
+{
+  const gg_theory *theory;
+  gg_theory_answer a;
+  for (int i = 0; (theory = gg_theory_of(m, i)) && s->n_theories < GG_ERROR_THEORIES; i++) {
+    bool any = false;
+    if (gg_theory_evaluate(theory, m, &a, NULL) != GG_OK) continue;
+    double *error = s->theory[s->n_theories].error;
+    for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
+      const gg_quantity name = gg_bench_error_quantities(s->flow)[q];
+      error[q] = fmax(fabs(a.value[name] - s->truth[GG_DSMC][q]), a.error[name]) / s->unit[q];
+      if (!isfinite(a.value[name])) error[q] = NAN;
+      any |= isfinite(error[q]);
+    }
+    if (any) s->theory[s->n_theories++].name = theory->name;
+  }
+}
+
+/* Smooth grains have no spins. */
+static bool is_of_spins(gg_quantity q)
+{
+  return q == GG_Q_TEMPERATURE_RATIO || q == GG_Q_KURTOSIS_WX;
+}
+
+/* Is the solution ten times better than a run of this length? */
 static bool wants_long_run(const gg_error_state *s, double seconds)
 {
   bool wants = false;
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
-    if (!s->rough && gg_bench_error_course_quantity[q] == GG_Q_TEMPERATURE_RATIO) continue;
+    if (!s->rough && is_of_spins(gg_bench_error_quantities(s->flow)[q])) continue;
     double best = INFINITY;
     for (int i = 0; i < GG_WAYS; i++) {
       const gg_course *c = &s->course[i];
@@ -190,6 +228,7 @@ static gg_status find_truth(const gg_bench *b, gg_error_state *s, double seconds
   GG_TRY(gg_common_model_make(&scene, GG_DSMC, &m, err));
   ask_theory(s, &m);
   if (wants_long_run(s, seconds)) {
+    gg_bench_tell(b, "phi %g, e %g: a run of %.0f s for the truth", s->phi, s->e, LONGER * seconds);
     gg_course c;
     GG_TRY(gg_bench_error_course_measure(&scene, 1, LONGER * seconds, &c, err));
     for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
@@ -204,6 +243,7 @@ static gg_status find_truth(const gg_bench *b, gg_error_state *s, double seconds
     s->size[GG_DSMC][q] = fit_size(s, GG_DSMC, q, s->truth[GG_DSMC][q], s->truth_error[GG_DSMC][q]);
     s->unit[q] = fabs(s->truth[GG_DSMC][q]);
   }
+  find_theories(s, &m);
   return GG_OK;
 }
 
@@ -245,8 +285,11 @@ static void find_errors(gg_error_state *s)
 
 gg_status gg_bench_error_state_measure(const gg_bench *b, gg_error_state *s, int seeds, double seconds, gg_error *err)
 {
+  char name[GG_BENCH_CELL];
+  gg_bench_error_state_name(s, name, sizeof name);
   for (int i = 0; i < GG_WAYS; i++) {
     if (s->phi == 0 && gg_bench_error_methods[i].engine == GG_MD) continue;
+    gg_bench_tell(b, "%s: %s (%d of %d)", name, gg_bench_error_methods[i].name, i + 1, GG_WAYS);
     const gg_scene scene = scene_of(b, s, &gg_bench_error_methods[i]);
     GG_TRY(gg_bench_error_course_measure(&scene, seeds, seconds, &s->course[i], err));
     s->done[i] = true;

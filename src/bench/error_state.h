@@ -8,8 +8,9 @@
 
 /* Means of one scene after so much processor time, warm-up included: of runs that differ in their seed. */
 enum { GG_COURSE_QUANTITIES = 5, GG_COURSE_MARKS = 32, GG_COURSE_SEEDS = 8 };
-/* T, P_xy, N1, kurtosis of C_x (the fourth moment; shear has no a2), theta/T. */
-extern const gg_quantity gg_bench_error_course_quantity[GG_COURSE_QUANTITIES];
+/* Of shear T, P_xy, N1, kurtosis of C_x (the fourth moment; shear has no a2), theta/T; of free cooling the reduced
+ * cooling rate, a2, kurtoses of C_x and of the spin, theta/T. */
+const gg_quantity *gg_bench_error_quantities(gg_flow flow);
 
 typedef struct gg_course {
   int seeds, marks;
@@ -42,7 +43,7 @@ typedef struct gg_way { /* to simulate it */
   bool single;
   int replicas;
 } gg_way;
-enum { GG_WAYS = 12 };
+enum { GG_WAYS = 12, GG_ERROR_THEORIES = 16 };
 extern const gg_way gg_bench_error_methods[GG_WAYS];
 
 /* limit + per_grain/N over the ways of an engine whose step and precision are its own. */
@@ -53,6 +54,7 @@ typedef struct gg_by_size {
 typedef struct gg_error_state {
   double phi, e;
   bool rough;
+  gg_flow flow;
   bool done[GG_WAYS];
   gg_course course[GG_WAYS];
   double noise[GG_WAYS][GG_COURSE_QUANTITIES]; /* relative, of a second without warm-up */
@@ -67,7 +69,15 @@ typedef struct gg_error_state {
   gg_by_size size[2][GG_COURSE_QUANTITIES];
   double step_coefficient[GG_COURSE_QUANTITIES], step_coefficient_error[GG_COURSE_QUANTITIES]; /* relative, times h^2 */
   double step_order[GG_COURSE_QUANTITIES];
+  int n_theories;
+  struct {
+    const char *name;
+    double error[GG_COURSE_QUANTITIES]; /* relative to the truth, at least what it says of itself; NaN: no answer */
+  } theory[GG_ERROR_THEORIES];
 } gg_error_state;
+
+/* "phi 0.3, e 0.9, rough, shear" */
+void gg_bench_error_state_name(const gg_error_state *state, char *text, size_t size);
 
 /* `seconds` of each run, warm-up included. */
 gg_status gg_bench_error_state_measure(const gg_bench *bench, gg_error_state *state, int seeds, double seconds,

@@ -7,11 +7,11 @@
 
 #include "cli/options.h"
 #include "cli/print.h"
+#include "cli/progress.h"
 
-static void tell(void *context, const char *line)
+static void tell(void *context, const char *text)
 {
-  (void)context;
-  fprintf(stderr, "%s\n", line);
+  gg_cli_line_show(context, text, false);
 }
 
 static int print_table(const gg_bench_table *s)
@@ -23,8 +23,8 @@ static int print_table(const gg_bench_table *s)
     int row = gg_cli_table_row(t);
     for (int c = 0; c < s->n_columns; c++) snprintf(gg_cli_table_cell(t, row, c), GG_TABLE_CELL, "%s", s->cell[r][c]);
   }
-  gg_cli_print_wrapped(stdout, "", s->caption);
-  putchar('\n');
+  if (s->caption) gg_cli_print_wrapped(stdout, "", s->caption), putchar('\n');
+  if (*s->title) printf("%s\n\n", s->title);
   gg_cli_table_print(t, stdout, s->keep);
   free(t);
   return GG_OK;
@@ -55,12 +55,15 @@ int gg_cli_bench_main(const gg_command *command, int argc, char **argv)
   int code = gg_cli_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON) {
     const char *picture = o.picture && strcmp(o.picture, "none") != 0 ? o.picture : NULL;
+    gg_cli_line line;
     gg_bench_options asked = {
-        .quick = o.quick, .picture = picture, .width = o.width, .threads = o.threads, .tell = o.quiet ? NULL : tell};
+        .quick = o.quick, .picture = picture, .width = o.width, .threads = o.threads, .context = &line, .tell = tell};
+    gg_cli_line_start(&line, o.quiet);
     asked.n_overrides = o.n_overrides, asked.override = o.override;
     gg_bench b;
     gg_error err;
     const gg_status status = gg_bench_run(&b, o.input, &asked, &err);
+    gg_cli_line_clear(&line);
     code = b.measured ? print(&b, o.json) : GG_OK;
     if (status != GG_OK) code = gg_cli_report(&err);
     gg_bench_clear(&b);

@@ -38,7 +38,7 @@ const gg_command gg_cli_commands[] = {
      "md is off by more than 1, 5 and 20 %, where Lun is within 5 %. Draws maps of the deviations "
      "(grid_temperature.svg and on). The exit code is 1 where dsmc and the noise-free solution disagree beyond chance.",
      GG_OPT_VALIDATE | GG_OPT_ACCEPT | GG_OPT_SET | GG_OPT_PICTURE | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_QUICK |
-         GG_OPT_QUIET,
+         GG_OPT_JSON | GG_OPT_QUIET,
      gg_cli_validate_main},
     {"reproduce", "FIGURE|list|all", "A figure of the papers: data, theory lines, picture",
      "Reproduces figures of Gayen's thesis and of Montanero's review: \"thesis 3.5\", \"review 3\"; 3.5 alone works "

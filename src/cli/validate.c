@@ -45,10 +45,11 @@ static int judge(gg_sweep_command *c)
                                  .show = o->show,
                                  .theories = o->mapped,
                                  .page = o->page,
+                                 .json = o->json,
                                  .warn = gg_cli_sweep_warn};
   gg_status status = gg_sweep_validate(c->sweep, c->folder, &options, gg_cli_sweep_print_file, c, &verdict, &err);
   if (verdict) {
-    if (!o->quiet && !o->point) printf("\n");
+    if (!o->quiet && !o->point && !o->json) printf("\n");
     gg_cli_print_text(verdict);
   }
   free(maps);
@@ -73,6 +74,7 @@ static int check_together(const gg_options *o)
   if (o->quick && o->input)
     return gg_cli_fail(GG_BAD_INPUT, "option '--quick' is for the standard grid, without a file");
   if (o->point && o->page) return gg_cli_fail(GG_BAD_INPUT, "options '--point' and '--page' do not go together");
+  if (o->json && o->list) return gg_cli_fail(GG_BAD_INPUT, "options '--list' and '--json' do not go together");
   if (o->point && o->list) return gg_cli_fail(GG_BAD_INPUT, "options '--list' and '--point' do not go together");
   return GG_CLI_GO_ON;
 }

@@ -150,7 +150,7 @@ static double error_of(const double *error, size_t i)
 
 static bool is_open(const gg_chart_series *c, size_t i)
 {
-  return c->open && c->open[i];
+  return c->all_open || (c->open && c->open[i]);
 }
 
 /* Has the series some that are open, or some that are not? */

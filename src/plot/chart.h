@@ -23,6 +23,7 @@ typedef struct gg_chart_series {
   const double *x, *y;
   const double *error, *x_error; /* standard errors; NULL, and NaN: none is known */
   const bool *open;              /* symbols that are drawn open: of runs that are not steady; NULL: none */
+  bool all_open;                 /* all of them are */
 } gg_chart_series;
 
 /* Labels are gnuplot's enhanced text, P_{xy} or n σ^3; units as results have them ("d^2 gamma^2"), NULL or "1": none.

@@ -11,6 +11,7 @@ enum { MOST_OWN = 6, MOST_METHODS = 24 };
 typedef struct method {
   const char *name;
   const json_t *results;
+  bool unsteady;
 } method;
 
 /* A quantity that the program that made the file brought with it. */
@@ -26,10 +27,11 @@ static int methods_of(const gg_stored_result *stored, method *methods)
   json_t *theory;
   for (int k = 0; k < 2; k++)
     if (stored->engine[k].name)
-      methods[n++] = (method){stored->engine[k].name, json_object_get(stored->engine[k].document, "results")};
+      methods[n++] = (method){stored->engine[k].name, json_object_get(stored->engine[k].document, "results"),
+                              gg_plot_is_unsteady(&stored->engine[k])};
   json_object_foreach(json_object_get(stored->document, "theory"), name, theory)
   {
-    if (n < MOST_METHODS) methods[n++] = (method){name, theory};
+    if (n < MOST_METHODS) methods[n++] = (method){name, theory, false};
   }
   return n;
 }
@@ -121,7 +123,8 @@ static void set_reach(gg_chart_panel *p)
 static void add_method(gg_plot_sheet *s, const method *m, const method *reference, bool ratio, const char *const *names,
                        int n)
 {
-  gg_chart_series like = {.method = m->name, .style = ratio && m == reference ? GG_CHART_BAND : GG_CHART_POINTS};
+  gg_chart_series like = {
+      .method = m->name, .style = ratio && m == reference ? GG_CHART_BAND : GG_CHART_POINTS, .all_open = m->unsteady};
   gg_chart_series *series = gg_plot_sheet_add_series(s, like, (size_t)n);
   for (int i = 0; series && i < n; i++) {
     double scale = ratio ? number(reference, names[i], "mean") : 1, mean = number(m, names[i], "mean") / scale;

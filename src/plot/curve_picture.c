@@ -124,14 +124,16 @@ static void add_laws(gg_plot_sheet *s, const group *g, const char *const *labels
   }
 }
 
-static void fill_panel(gg_plot_sheet *s, gg_chart_panel *p, const group *g, const char *engine)
+static void fill_panel(gg_plot_sheet *s, gg_chart_panel *p, const group *g, const gg_stored_engine *engine)
 {
   const char *labels[MOST_IN_PANEL];
   for (int k = 0; k < g->n; k++) {
     const char *label = gg_base_json_string(g->curve[k], "label");
     labels[k] = *label ? label : NULL;
-    gg_chart_series like = {
-        .method = engine, .group = labels[k], .style = g->theory[k] ? GG_CHART_POINTS : GG_CHART_BAND};
+    gg_chart_series like = {.method = engine->name,
+                            .group = labels[k],
+                            .style = g->theory[k] ? GG_CHART_POINTS : GG_CHART_BAND,
+                            .all_open = gg_plot_is_unsteady(engine)};
     add_measured(s, p, like, g->curve[k]);
   }
   for (int k = 0; k < g->n; k++)
@@ -141,11 +143,11 @@ static void fill_panel(gg_plot_sheet *s, gg_chart_panel *p, const group *g, cons
   add_laws(s, g, labels);
 }
 
-void gg_plot_sheet_add_curves(gg_plot_sheet *s, const char *engine, const json_t *document, const json_t *theories,
+void gg_plot_sheet_add_curves(gg_plot_sheet *s, const gg_stored_engine *engine, const json_t *theories,
                               const char *name)
 {
   group groups[GG_SHEET_PANELS];
-  int n = groups_of(document, theories, name, groups);
+  int n = groups_of(engine->document, theories, name, groups);
   for (int i = 0; i < n; i++) {
     const group *g = &groups[i];
     const json_t *first = g->curve[0];

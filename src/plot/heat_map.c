@@ -103,13 +103,18 @@ static void print_hatches(const heat_page *p, const gg_heat_cell *cell)
   fprintf(p->script, "NaN NaN NaN NaN\nEOD\n");
 }
 
+/* In the upper corners: on the right what is not steady, on the left what is not homogeneous. */
 static void print_marks(const heat_page *p, const gg_heat_cell *cell)
 {
+  enum { CROSS = 2, TRIANGLE = 9, DIAMOND = 13 };
   fprintf(p->script, "$marks << EOD\n");
-  for (size_t i = 0; i < p->map->n_x * p->map->n_y; i++)
-    if (is_known(&cell[i]) && cell[i].not_steady)
-      fprintf(p->script, "%g %g\n", (double)(i % p->map->n_x) + 0.36, (double)(i / p->map->n_x) + 0.27);
-  fprintf(p->script, "NaN NaN\nEOD\n");
+  for (size_t i = 0; i < p->map->n_x * p->map->n_y; i++) {
+    const double x = (double)(i % p->map->n_x), y = (double)(i / p->map->n_x) + 0.27;
+    if (is_known(&cell[i]) && cell[i].not_steady) fprintf(p->script, "%g %g %d\n", x + 0.36, y, CROSS);
+    if (is_known(&cell[i]) && cell[i].structure)
+      fprintf(p->script, "%g %g %d\n", x - 0.38, y, cell[i].structure == 'c' ? TRIANGLE : DIAMOND);
+  }
+  fprintf(p->script, "NaN NaN NaN\nEOD\n");
 }
 
 /* An edge between two cells where one is on each side of a line; unknown cells have no lines. */
@@ -192,6 +197,9 @@ static void draw_panel(const heat_page *p, size_t row, size_t column)
             (double)m->n_x * p->wide > 130 ? "nothing to compare" : "nothing");
     return;
   }
+  const char *note = m->panel_note ? m->panel_note[row * m->columns + column] : NULL;
+  if (note)
+    fprintf(p->script, "set label 5 '%s' at graph 1,1 right offset 0,0.35 font ',7' textcolor rgb '#555555'\n", note);
   print_cells(p, cell);
   print_hatches(p, cell);
   print_marks(p, cell);
@@ -202,7 +210,7 @@ static void draw_panel(const heat_page *p, size_t row, size_t column)
           "$lines0 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 0.8 dt (3,2) notitle, "
           "$lines1 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 1.3 notitle, "
           "$lines2 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 2.8 notitle, "
-          "$marks using 1:2 with points pt 2 ps 0.5 lw 1.2 lc rgb '#d00000' notitle%s\n",
+          "$marks using 1:2:3 with points pt variable ps 0.5 lw 1.2 lc rgb '#d00000' notitle%s\n",
           p->wide < LEAST_WIDE ? "" : ", $cells using 1:2:4:5 with labels textcolor rgb variable font ',8' notitle");
 }
 
@@ -227,7 +235,8 @@ static void draw_bar(const heat_page *p)
   fprintf(p->script,
           ")\nset xlabel 'deviation [%%]' offset 0,0.5\nset label 1 'lines at 1 %% (dashed), 5 %% and 20 %% (thick); "
           "hatched: below two standard errors' at graph "
-          "0.5,1 center offset 0,1.7\nset label 2 'red cross: a run that is not steady' at graph 0.5,1 center offset "
+          "0.5,1 center offset 0,1.7\nset label 2 'red: × not steady, ▼ clustered or swirling, ◆ collapsed' at graph "
+          "0.5,1 center offset "
           "0,0.6\nplot $bar using 1:2:(%g):(1):3 with boxxyerror lc rgb variable fs solid noborder "
           "notitle\n",
           1.5 / STEPS);

@@ -11,6 +11,7 @@ typedef struct gg_heat_cell {
   double value;    /* 0.05: 5 %; NaN: none */
   double error;    /* standard error; NaN: none. Below two of them the cell is hatched */
   bool not_steady; /* marked by a cross */
+  char structure;  /* of md, by its first letter: 'c'lustered, a triangle; 'k', collapsed, a diamond; 0: none */
 } gg_heat_cell;
 
 /* Texts are gnuplot's enhanced text and the caller's. */
@@ -21,7 +22,8 @@ typedef struct gg_heat_map {
   const char *const *x_value, *const *y_value;
   size_t columns, rows; /* of panels */
   const char *const *column_name, *const *row_name;
-  const gg_heat_cell *cell; /* of panel (row r, column c) at x, y: [((r*columns + c)*n_y + y)*n_x + x] */
+  const char *const *panel_note; /* of each panel, in the order of cells; NULL: none, also of one */
+  const gg_heat_cell *cell;      /* of panel (row r, column c) at x, y: [((r*columns + c)*n_y + y)*n_x + x] */
 } gg_heat_map;
 
 /* The place of a deviation on the colour scale, from -1 to 1: linear below 0.5 %, logarithmic above, up to 100 %. */

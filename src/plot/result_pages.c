@@ -41,7 +41,7 @@ static gg_status draw_curves(const gg_stored_result *stored, const page *p, cons
 {
   gg_plot_sheet *s = gg_plot_sheet_new(stored, paper);
   if (!s) return gg_base_out_of_memory(err);
-  gg_plot_sheet_add_curves(s, p->engine->name, p->engine->document, theories, p->group);
+  gg_plot_sheet_add_curves(s, p->engine, theories, p->group);
   return gg_plot_sheet_finish(s, paper, p->path, err);
 }
 

@@ -5,12 +5,26 @@
 
 #include "base/memory.h"
 
+bool gg_plot_is_unsteady(const gg_stored_engine *e)
+{
+  return e->name && json_is_false(json_object_get(e->document, "steady"));
+}
+
+static void write_note(const gg_stored_result *stored, char *note, size_t size)
+{
+  const bool md = gg_plot_is_unsteady(&stored->engine[GG_MD]), dsmc = gg_plot_is_unsteady(&stored->engine[GG_DSMC]);
+  if (md || dsmc)
+    snprintf(note, size, "Open symbols: not steady (%s%s%s)", md ? "md" : "", md && dsmc ? ", " : "",
+             dsmc ? "dsmc" : "");
+}
+
 gg_plot_sheet *gg_plot_sheet_new(const gg_stored_result *stored, const gg_plot_paper *paper)
 {
   gg_plot_sheet *s = calloc(1, sizeof *s);
   if (!s) return NULL;
   gg_plot_page_title(stored, s->title, sizeof s->title);
-  s->chart = (gg_chart){.title = s->title, .panel = s->panel};
+  write_note(stored, s->note, sizeof s->note);
+  s->chart = (gg_chart){.title = s->title, .note = s->note, .panel = s->panel};
   s->width = paper->width;
   return s;
 }

@@ -13,7 +13,7 @@ typedef struct gg_plot_sheet {
   gg_chart_panel panel[GG_SHEET_PANELS];
   gg_chart_series series[GG_SHEET_PANELS][GG_SHEET_SERIES];
   const char *name[2][GG_SHEET_NAMES]; /* of categories */
-  char title[240], text[2 * GG_SHEET_NAMES + 2 * GG_SHEET_PANELS][112];
+  char title[240], note[80], text[2 * GG_SHEET_NAMES + 2 * GG_SHEET_PANELS][112];
   int n_texts;
   double width; /* of the paper; 0: free */
   bool lacks;   /* memory */
@@ -21,6 +21,8 @@ typedef struct gg_plot_sheet {
 
 /* A new one under the title of the scene; NULL: out of memory. */
 gg_plot_sheet *gg_plot_sheet_new(const gg_stored_result *stored, const gg_plot_paper *paper);
+/* Has a stored engine no steady mean? Its symbols are open then, and the text below says so. */
+bool gg_plot_is_unsteady(const gg_stored_engine *engine);
 /* Draw and free it. */
 gg_status gg_plot_sheet_finish(gg_plot_sheet *sheet, const gg_plot_paper *paper, const char *picture, gg_error *err);
 
@@ -39,7 +41,7 @@ bool gg_plot_has_stresses(const gg_stored_engine *engine); /* not of gases that 
 /* md, dsmc and the theories: ratios to md, and the numbers that have no scale to be divided by (N1, N2 ...). */
 void gg_plot_sheet_add_comparison(gg_plot_sheet *sheet, const gg_stored_result *stored);
 /* One group of curves (one observable), with the theories' as lines. */
-void gg_plot_sheet_add_curves(gg_plot_sheet *sheet, const char *engine, const json_t *document, const json_t *theories,
+void gg_plot_sheet_add_curves(gg_plot_sheet *sheet, const gg_stored_engine *engine, const json_t *theories,
                               const char *group);
 
 #endif

@@ -29,16 +29,22 @@ typedef struct maps {
   map_row row[MOST_ROWS];
   gg_heat_cell *cell;
   char x_label[96], y_label[96], column[MOST_COLUMNS][GG_PANEL_NAME], title[200];
+  const char *note[MOST_ROWS * MOST_COLUMNS];
   const char *x_value[MOST_CELLS], *y_value[MOST_CELLS], *column_name[MOST_COLUMNS], *row_name[MOST_ROWS];
 } maps;
 
-static const gg_heat_cell nothing = {NAN, NAN, false};
+static const gg_heat_cell nothing = {NAN, NAN, false, 0};
 
-/* A row of the table against the noise-free solution; `nothing` where that has no answer. */
+static char structure_of(const gg_cli_table_row *row)
+{
+  return !row->structure ? 0 : strcmp(row->structure, "collapsed") == 0 ? 'k' : 'c';
+}
+
+/* A row of the table against the noise-free solution, where that has no answer against dsmc. */
 static gg_heat_cell against_enskog(const gg_cli_table_row *row)
 {
-  if (!row || !row->reference || strcmp(row->reference, "enskog_hermite") != 0) return nothing;
-  return (gg_heat_cell){gg_sweep_deviation_of(row), gg_sweep_deviation_error_of(row), !row->steady};
+  if (!row || !row->reference) return nothing;
+  return (gg_heat_cell){gg_sweep_deviation_of(row), gg_sweep_deviation_error_of(row), !row->steady, structure_of(row)};
 }
 
 static gg_heat_cell between_engines(const gg_cli_table_row *md, const gg_cli_table_row *dsmc, bool difference)
@@ -46,7 +52,7 @@ static gg_heat_cell between_engines(const gg_cli_table_row *md, const gg_cli_tab
   if (!md || !dsmc || !(difference || fabs(dsmc->mean) > 3 * dsmc->error)) return nothing;
   const double scale = difference ? 1 : dsmc->mean;
   return (gg_heat_cell){(md->mean - dsmc->mean) / scale, hypot(md->error, dsmc->error) / fabs(scale),
-                        !md->steady || !dsmc->steady};
+                        !md->steady || !dsmc->steady, structure_of(md)};
 }
 
 static gg_heat_cell cell_of(const maps *m, const map_row *row, size_t point, const char *quantity, bool difference)
@@ -61,15 +67,27 @@ static gg_heat_cell cell_of(const maps *m, const map_row *row, size_t point, con
   }
 }
 
+/* Is a panel's reference dsmc somewhere? */
+static bool is_against_dsmc(const maps *m, const map_row *row, size_t point, const char *quantity)
+{
+  const char *method = row->kind == THEORY_ENSKOG ? row->theory : row->kind == MD_ENSKOG ? "md" : NULL;
+  const gg_cli_table_row *of = method ? gg_sweep_grid_row(m->view, point, method, quantity) : NULL;
+  return of && of->reference && strcmp(of->reference, "dsmc") == 0;
+}
+
 static void fill(maps *m, const char *quantity, bool difference)
 {
   const gg_grid_view *v = m->view;
   gg_heat_cell *cell = m->cell;
   for (size_t r = 0; r < m->n_rows; r++)
-    for (size_t p = 0; p < v->n_panels; p++)
-      for (size_t y = 0; y < v->y.n; y++)
-        for (size_t x = 0; x < v->x.n; x++)
-          *cell++ = cell_of(m, &m->row[r], gg_sweep_grid_point(v, p, x, y), quantity, difference);
+    for (size_t p = 0; p < v->n_panels; p++) {
+      m->note[r * v->n_panels + p] = NULL;
+      for (size_t i = 0; i < v->x.n * v->y.n; i++) {
+        const size_t point = gg_sweep_grid_point(v, p, i % v->x.n, i / v->x.n);
+        *cell++ = cell_of(m, &m->row[r], point, quantity, difference);
+        if (is_against_dsmc(m, &m->row[r], point, quantity)) m->note[r * v->n_panels + p] = "against dsmc";
+      }
+    }
 }
 
 static void name_rows(maps *m, bool difference)
@@ -110,6 +128,7 @@ static gg_status draw_quantity(maps *m, const char *quantity, const char *pictur
                            .rows = m->n_rows,
                            .column_name = m->column_name,
                            .row_name = m->row_name,
+                           .panel_note = m->note,
                            .cell = m->cell};
   return gg_plot_heat_map_draw(&map, picture, m->choice->width, err);
 }

@@ -52,6 +52,20 @@ static void set_cause(gg_cli_table_row *row, const gg_comparison *c, gg_quantity
   }
 }
 
+/* A collapse: collisions that the contact-time rule treats are no longer rare. */
+#define COLLAPSED 0.01
+
+static const char *structure_of(const gg_comparison *c)
+{
+  char text[320];
+  const gg_result *md = c->by_engine[GG_MD];
+  if (!md) return NULL;
+  const gg_engine_state *s = &md->engine_state;
+  if ((double)s->treated > COLLAPSED * (double)s->collisions) return "collapsed";
+  if (!gg_run_structure(md, text, sizeof text)) return NULL;
+  return strstr(text, "clustered") ? "clustered" : "swirling";
+}
+
 static void compare_row(gg_point_table *t, gg_cli_table_row *row, const gg_comparison *c)
 {
   gg_reference reference;
@@ -88,7 +102,10 @@ gg_status gg_sweep_point_deviations(gg_point_table *t, size_t first, json_t *doc
   if (!c) return GG_FAILED;
   const unsigned before = gg_base_memory_failures();
   gg_status status = restore(document, scene, c, err);
-  for (size_t i = first; i < t->n && status == GG_OK; i++) compare_row(t, &t->row[i], c);
+  for (size_t i = first; i < t->n && status == GG_OK; i++) {
+    if (strcmp(t->row[i].method, "md") == 0) t->row[i].structure = structure_of(c);
+    compare_row(t, &t->row[i], c);
+  }
   gg_run_comparison_clear(c);
   free(c);
   return gg_base_memory_check(before, status, err);

@@ -210,6 +210,7 @@ static const struct {
     {"z", NUMBER, offsetof(gg_cli_table_row, z)},
     {"beyond_expected", TRUTH, offsetof(gg_cli_table_row, beyond)},
     {"cause", TEXT, offsetof(gg_cli_table_row, cause)},
+    {"structure", TEXT, offsetof(gg_cli_table_row, structure)},
     {"seed", WHOLE, offsetof(gg_cli_table_row, seed)},
     {"steady", TRUTH, offsetof(gg_cli_table_row, steady)},
     {"short", TRUTH, offsetof(gg_cli_table_row, fell_short)},

@@ -25,6 +25,7 @@ typedef struct gg_cli_table_row {
   double z;                            /* difference over its error; NaN of theories */
   bool beyond;                         /* by more than four errors and more than is expected */
   const char *cause;                   /* where it is */
+  const char *structure;               /* of md: "clustered", "swirling", "collapsed"; NULL: homogeneous, or unknown */
 } gg_cli_table_row;
 
 typedef struct gg_point_table {

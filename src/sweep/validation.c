@@ -9,6 +9,7 @@
 #include "base/build.h"
 #include "base/file_writer.h"
 #include "base/memory.h"
+#include "files/result_document.h"
 #include "sweep/deviation_maps.h"
 #include "sweep/verdict.h"
 
@@ -78,14 +79,24 @@ static gg_status write_page(const gg_validating *o, const gg_point_table *t, con
     gg_base_file_writer_put(out,
                             "## Maps\n\nRelative deviations at each point, in per cent; of N1 and N2 differences. "
                             "Enskog is the noise-free solution, `enskog_hermite`. Lines between cells: 1 % "
-                            "(dashed), 5 %, 20 % (thick). Hatched: below two standard errors. Red cross: a run that "
-                            "is not steady.\n\n");
+                            "(dashed), 5 %, 20 % (thick). Hatched: below two standard errors. Red: a cross where a "
+                            "run is not steady, a triangle where md is clustered or swirls, a diamond where it is "
+                            "collapsed. Panels marked \"against dsmc\" have no noise-free solution.\n\n");
   gg_base_file_writer_put(out, maps);
   gg_status status = gg_base_file_writer_end(out);
   free(out);
   if (status == GG_OK) return gg_base_atomic_commit(&file, err);
   gg_base_atomic_abandon(&file);
   return status;
+}
+
+static gg_status write_json(const gg_grid_view *view, const gg_agreement *agreement, const char *repeat, char **text,
+                            gg_error *err)
+{
+  json_t *document = gg_sweep_verdict_document(view, agreement, repeat);
+  *text = document ? gg_files_document_text(document) : NULL;
+  json_decref(document);
+  return *text ? GG_OK : gg_base_out_of_memory(err);
 }
 
 static gg_status print_verdict(const gg_grid_view *view, const gg_agreement *agreement, const char *repeat, char **text,
@@ -103,21 +114,32 @@ static gg_status print_verdict(const gg_grid_view *view, const gg_agreement *agr
   return status;
 }
 
-static gg_status validate(validating *v, const gg_grid_view *view, const gg_point_table *t, char **text, gg_error *err)
+static gg_status draw(validating *v, const gg_grid_view *view, const gg_point_table *t, const char *verdict,
+                      gg_error *err)
 {
-  gg_agreement agreement;
   char *maps = NULL;
-  gg_sweep_agreement_make(&agreement, view);
-  GG_TRY(print_verdict(view, &agreement, v->options->repeat, text, err));
   if (!(v->maps = gg_base_memory_stream_open(&maps))) return gg_base_out_of_memory(err);
   gg_status status = draw_maps(v, view, err);
   if (!gg_base_memory_stream_close(v->maps, &maps)) return gg_base_out_of_memory(err);
   if (status == GG_OK && v->options->page) {
-    status = write_page(v->options, t, maps, *text, err);
+    status = write_page(v->options, t, maps, verdict, err);
     if (status == GG_OK && v->written) v->written(v->context, v->options->page);
   }
   free(maps);
-  if (status != GG_OK || !agreement.fails) return status;
+  return status;
+}
+
+static gg_status validate(validating *v, const gg_grid_view *view, const gg_point_table *t, char **text, gg_error *err)
+{
+  gg_agreement agreement;
+  gg_sweep_agreement_make(&agreement, view);
+  GG_TRY(print_verdict(view, &agreement, v->options->repeat, text, err));
+  GG_TRY(draw(v, view, t, *text, err));
+  if (v->options->json) {
+    free(*text);
+    GG_TRY(write_json(view, &agreement, v->options->repeat, text, err));
+  }
+  if (!agreement.fails) return GG_OK;
   return gg_base_fail(err, GG_FAILED, "dsmc and the noise-free solution disagree beyond chance");
 }
 

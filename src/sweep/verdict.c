@@ -63,6 +63,45 @@ static void count_engine(const gg_grid_view *v, const char *engine, size_t *n, s
     }
 }
 
+const char *gg_sweep_not_steady(const gg_grid_view *v, size_t point)
+{
+  const char *which = NULL;
+  for (size_t r = v->first[point]; r < v->first[point + 1]; r++) {
+    const gg_cli_table_row *row = &v->table->row[r];
+    if (!row->steady && which && strcmp(which, row->method) != 0) return "md and dsmc";
+    if (!row->steady) which = row->method;
+  }
+  return which;
+}
+
+const char *gg_sweep_not_homogeneous(const gg_grid_view *v, size_t point)
+{
+  for (size_t r = v->first[point]; r < v->first[point + 1]; r++)
+    if (v->table->row[r].structure) return v->table->row[r].structure;
+  return NULL;
+}
+
+const char *gg_sweep_no_reference(const gg_grid_view *v, size_t point)
+{
+  for (size_t r = v->first[point]; r < v->first[point + 1]; r++)
+    if (v->table->row[r].reference) return NULL;
+  return gg_sweep_grid_has(v, point) ? "neither a noise-free solution nor dsmc" : NULL;
+}
+
+/* "Not steady: md at phi 0.1, e 0.5; dsmc at ...", nothing where no point has it. */
+static void print_trouble(const writing *w, const char *what, gg_point_trouble *trouble)
+{
+  char name[GG_PANEL_NAME];
+  size_t n = 0;
+  for (size_t i = 0; i < w->view->sweep->n; i++) {
+    const char *which = trouble(w->view, i);
+    if (!which) continue;
+    name_point(w->view, i, name);
+    fprintf(w->out, "%s%s at %s", n++ ? "; " : what, which, name);
+  }
+  if (n) fprintf(w->out, ".\n\n");
+}
+
 static void print_points(const writing *w)
 {
   static const char *const engines[] = {"md", "dsmc"};
@@ -81,6 +120,9 @@ static void print_points(const writing *w)
     if (unsteady) fprintf(w->out, " (%zu not steady)", unsteady);
   }
   fprintf(w->out, ".\n\n");
+  print_trouble(w, "Not steady: ", gg_sweep_not_steady);
+  print_trouble(w, "Not homogeneous (md): ", gg_sweep_not_homogeneous);
+  print_trouble(w, "Without a reference: ", gg_sweep_no_reference);
 }
 
 static void print_agreement_table(const writing *w)
@@ -128,8 +170,6 @@ static void print_agreement(const writing *w)
   print_agreement_table(w);
 }
 
-/* The ten largest |z|, of each point the largest; of a single point all. */
-
 enum { WORST = 10 };
 
 static int by_z(const void *a, const void *b)
@@ -139,8 +179,7 @@ static int by_z(const void *a, const void *b)
   return x < y ? 1 : x > y ? -1 : 0;
 }
 
-/* Sorted; returns how many. */
-static size_t find_worst(const gg_grid_view *v, const gg_cli_table_row **found)
+size_t gg_sweep_find_worst(const gg_grid_view *v, const gg_cli_table_row **found)
 {
   size_t n = 0;
   const bool all = v->table->n_documents == 1;
@@ -178,7 +217,7 @@ static gg_status print_worst(const writing *w, gg_error *err)
   static const char *const head[] = {"z", "quantity", "dsmc", "error", "enskog_hermite", "point", "repeat it"};
   const gg_cli_table_row **found = gg_base_array_new(w->view->table->n + 1, sizeof(void *), err);
   if (!found) return GG_FAILED;
-  const size_t n = find_worst(w->view, found);
+  const size_t n = gg_sweep_find_worst(w->view, found);
   if (n) {
     fprintf(w->out, "The largest z:\n\n");
     gg_sweep_text_row(w->table);
@@ -190,16 +229,9 @@ static gg_status print_worst(const writing *w, gg_error *err)
   return GG_OK;
 }
 
-/* How often one method is off its reference, for each quantity. */
-typedef struct off_counts {
-  size_t n, off[GG_THRESHOLDS];
-  double largest;
-  const gg_cli_table_row *where;
-} off_counts;
-
-static off_counts count_off(const gg_grid_view *v, const char *method, const char *quantity)
+gg_off_counts gg_sweep_count_off(const gg_grid_view *v, const char *method, const char *quantity)
 {
-  off_counts c = {0};
+  gg_off_counts c = {0};
   for (size_t i = 0; i < v->sweep->n; i++) {
     const gg_cli_table_row *row = gg_sweep_grid_row(v, i, method, quantity);
     const double off = row ? gg_sweep_deviation_of(row) : NAN;
@@ -221,7 +253,7 @@ static void head_of_counts(const writing *w, const char *what)
   gg_sweep_text_cell(w->table, "where");
 }
 
-static void row_of_counts(const writing *w, const char *name, const off_counts *c)
+static void row_of_counts(const writing *w, const char *name, const gg_off_counts *c)
 {
   char where[GG_PANEL_NAME] = "";
   if (!c->n) return;
@@ -304,7 +336,7 @@ static bool y_is_restitution(const gg_grid_view *v)
 
 static void print_md(const writing *w)
 {
-  off_counts c = count_off(w->view, "md", "temperature");
+  gg_off_counts c = gg_sweep_count_off(w->view, "md", "temperature");
   fprintf(w->out, "## md against Enskog's equation\n\n"
                   "Points where md differs from the noise-free solution (without one from dsmc) by more than 1, 5 and "
                   "20 %% and by more than two errors. `N1` and `N2`: of the pressure.\n\n");
@@ -312,7 +344,7 @@ static void print_md(const writing *w)
   for (gg_quantity q = 0; q < GG_N_QUANTITIES; q++) {
     const char *name = gg_common_quantity_name(q);
     if (!gg_sweep_is_main_quantity(name)) continue;
-    const off_counts of = count_off(w->view, "md", name);
+    const gg_off_counts of = gg_sweep_count_off(w->view, "md", name);
     row_of_counts(w, name, &of);
   }
   gg_sweep_text_print(w->table, w->out);
@@ -338,11 +370,11 @@ static void print_theories(const writing *w)
     const gg_cli_table_row *row = &w->view->table->row[i];
     if (!row->theory || is_among(row->method, seen, n)) continue;
     seen[n++] = row->method;
-    const off_counts c = count_off(w->view, row->method, "temperature");
+    const gg_off_counts c = gg_sweep_count_off(w->view, row->method, "temperature");
     row_of_counts(w, row->method, &c);
   }
   gg_sweep_text_print(w->table, w->out);
-  if (!y_is_restitution(w->view) || !count_off(w->view, "lun1991", "temperature").n) return;
+  if (!y_is_restitution(w->view) || !gg_sweep_count_off(w->view, "lun1991", "temperature").n) return;
   fprintf(w->out, "Lun's temperature (`lun1991`) is within 5 %% where:\n\n");
   print_over_panels(w, "lun1991", print_within);
 }

@@ -71,7 +71,7 @@ static void measured_state(void **state)
   gg_bench b = {.options = &options, .seed = 1};
   gg_error_state *s = calloc(1, sizeof *s);
   gg_error err;
-  s->phi = 0.3, s->e = 0.9;
+  s->phi = 0.3, s->e = 0.9, s->flow = GG_USF;
   assert_int_equal(gg_bench_error_state_measure(&b, s, 3, 0.01, &err), GG_OK);
   for (int i = 0; i < GG_WAYS; i++) {
     const gg_course *c = &s->course[i];

@@ -192,19 +192,14 @@ static bool is_null_or_number(const json_t *row, const char *key)
   return json_is_null(value) || (json_is_real(value) && isfinite(json_real_value(value)));
 }
 
-static void error(void **state)
+/* A table a state: a row a quantity; seconds to 1, 0.1 and 0.01 % of md and of dsmc, and who has it first. */
+static void check_state(const gg_bench_table *seconds, const char *title, int rows)
 {
-  (void)state;
-  gg_bench b;
-  const char *picture = system("command -v gnuplot >/dev/null") == 0 ? "error.svg" : NULL;
-  gg_bench_options o = {.quick = true, .smaller = 100, .tell = tell, .picture = picture};
-  begin(&b, &o, "error");
-  assert_int_equal(told, 3);
-  const gg_bench_table *seconds = table_of(&b, "seconds"), *floors = table_of(&b, "floors");
-  assert_int_equal(seconds->n_rows, 14); /* smooth grains have no theta */
-  assert_int_equal(floors->n_rows, 14);
   size_t i;
   json_t *row;
+  assert_string_equal(seconds->title, title);
+  assert_int_equal(seconds->n_rows, rows);
+  assert_int_equal(seconds->n_columns, 8);
   json_array_foreach(seconds->rows, i, row)
   {
     assert_true(is_null_or_number(row, "error_of_a_second") && is_null_or_number(row, "floor"));
@@ -212,20 +207,46 @@ static void error(void **state)
     assert_int_equal(json_array_size(until), 3);
     assert_int_equal(json_array_size(json_object_get(row, "seconds")), json_array_size(json_object_get(row, "stderr")));
   }
-  assert_int_equal(i, 14 * 12); /* by every way */
+  assert_int_equal(i, rows * 12); /* by every way */
+  for (int r = 0; r < rows; r++) {
+    const char *cell = seconds->cell[r][1], *first = seconds->cell[r][7];
+    assert_true(strcmp(cell, "never") == 0 || strcmp(cell, "?") == 0 || strstr(cell, " s, N "));
+    assert_true(strncmp(first, "md", 2) == 0 || strncmp(first, "dsmc", 4) == 0 || strcmp(first, "?") == 0 ||
+                strcmp(first, "-") == 0);
+  }
+}
+
+static void error(void **state)
+{
+  (void)state;
+  static const char *const pictures[] = {"error_phi-0.01-e-0.9-rough-shear.svg", "error_phi-0.3-e-0.9-rough-shear.svg",
+                                         "error_phi-0.01-e-0.9-smooth-shear.svg",
+                                         "error_phi-0.01-e-0.9-rough-cooling.svg"};
+  gg_bench b;
+  const char *picture = system("command -v gnuplot >/dev/null") == 0 ? "error.svg" : NULL;
+  gg_bench_options o = {.quick = true, .smaller = 100, .tell = tell, .picture = picture};
+  begin(&b, &o, "error");
+  assert_true(told >= 4 * 12); /* each way of each state */
+  assert_int_equal(b.n_tables, 4 + 1);
+  static const char *const titles[] = {"phi 0.01, e 0.9, rough, shear", "phi 0.3, e 0.9, rough, shear",
+                                       "phi 0.01, e 0.9, smooth, shear", "phi 0.01, e 0.9, rough, cooling"};
+  static const int rows[] = {5, 5, 4, 5}; /* smooth grains have no theta */
+  for (int t = 0; t < 4; t++) check_state(b.table[t], titles[t], rows[t]);
+  const gg_bench_table *floors = table_of(&b, "floors");
+  assert_int_equal(floors->n_rows, 19);
+  size_t i;
+  json_t *row;
   json_array_foreach(floors->rows, i, row)
   {
     assert_true(is_null_or_number(row, "truth") && is_null_or_number(row, "step_order"));
     assert_true(strlen(json_string_value(json_object_get(row, "source"))) > 0);
   }
-  for (int r = 0; r < seconds->n_rows; r++) {
-    const char *cell = seconds->cell[r][2], *first = seconds->cell[r][8];
-    assert_true(strcmp(cell, "never") == 0 || strcmp(cell, "?") == 0 || strstr(cell, " s, N "));
-    assert_true(strncmp(first, "md", 2) == 0 || strncmp(first, "dsmc", 4) == 0 || strcmp(first, "?") == 0 ||
-                strcmp(first, "-") == 0);
-  }
-  if (picture) assert_int_equal(access(picture, R_OK), 0);
-  remove("error.svg");
+  char *text = gg_bench_document(&b);
+  json_t *document = json_loads(text, 0, NULL);
+  assert_int_equal(json_array_size(json_object_get(document, "seconds")), 19 * 12); /* of all states */
+  json_decref(document);
+  free(text);
+  for (int t = 0; picture && t < 4; t++) assert_int_equal(remove(pictures[t]), 0);
   end(&b);
 }
 

@@ -53,10 +53,11 @@ static int count(const char *path, const char *what)
 static void test_drawn(void **state)
 {
   (void)state;
-  const gg_heat_cell cell[] = {{0.0012, 0.01, false}, {0.03, 0.001, false}, {-0.072, 0.001, true}, {NAN, NAN, false},
-                               {NAN, NAN, false},     {NAN, NAN, false},    {NAN, NAN, false},     {NAN, NAN, false}};
+  const gg_heat_cell cell[] = {{0.0012, 0.01, false, 0}, {0.03, 0.001, false, 0}, {-0.072, 0.001, true, 'c'},
+                               {NAN, NAN, false, 0},     {NAN, NAN, false, 0},    {NAN, NAN, false, 0},
+                               {NAN, NAN, false, 0},     {NAN, NAN, false, 0}};
   const char *values[] = {"0.1", "0.2"}, *columns[] = {"β = 0", "β = 1"}, *rows[] = {"md/dsmc - 1"};
-  const gg_heat_map map = {"a map", 2, 2, "φ", "e", values, values, 2, 1, columns, rows, cell};
+  const gg_heat_map map = {"a map", 2, 2, "φ", "e", values, values, 2, 1, columns, rows, NULL, cell};
   char path[] = "/tmp/heatXXXXXX.svg";
   gg_error err;
   if (gg_plot_gnuplot_is_there(NULL) != GG_OK) skip();

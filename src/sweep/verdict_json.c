@@ -1,0 +1,120 @@
+/* The verdict on a grid for programs. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/build.h"
+#include "base/checked_json.h"
+#include "base/memory.h"
+#include "common/quantity.h"
+#include "sweep/verdict.h"
+
+static json_t *number(double x)
+{
+  return isfinite(x) ? json_real(x) : json_null();
+}
+
+/* The number of the point, and its keys as in the table. */
+static json_t *point_json(const gg_grid_view *v, size_t point)
+{
+  const char *key;
+  json_t *one = json_pack("{s:I}", "point", (json_int_t)point + 1);
+  for (size_t k = 0; (key = gg_sweep_key(v->sweep, k)); k++) {
+    const char *text = gg_sweep_value(v->sweep, point, k);
+    char *end;
+    const double x = strtod(text, &end);
+    json_object_set_new(one, key, *end || !isfinite(x) ? json_string(text) : json_real(x));
+  }
+  return one;
+}
+
+static json_t *agreement_json(const gg_agreement *a)
+{
+  json_t *rows = json_array();
+  for (int i = 0; i < a->n; i++) {
+    const gg_agreement_row *r = &a->row[i];
+    json_array_append_new(rows,
+                          json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:b}", "quantity", r->quantity, "points",
+                                    (json_int_t)r->n, "mean_z", number(r->mean), "mean_z_allowed", number(r->most_mean),
+                                    "mean_z2", number(r->variance), "mean_z2_allowed", number(r->most_variance),
+                                    "largest_z", number(r->largest), "fails", r->fails));
+  }
+  return json_pack("{s:b, s:I, s:I, s:I, s:I, s:o, s:o}", "agrees", !a->fails, "points", (json_int_t)a->n_points,
+                   "values", (json_int_t)a->n_values, "without_solution", (json_int_t)a->unanswered, "not_steady",
+                   (json_int_t)a->unsteady, "z_allowed", number(a->most), "quantities", rows);
+}
+
+static json_t *worst_json(const gg_grid_view *v, const char *repeat)
+{
+  json_t *rows = json_array();
+  const gg_cli_table_row **found = gg_base_array_new(v->table->n + 1, sizeof(void *), NULL);
+  for (size_t i = 0, n = found ? gg_sweep_find_worst(v, found) : 0; i < n; i++) {
+    json_t *row = point_json(v, found[i]->point);
+    json_object_update_new(row, json_pack("{s:o, s:s, s:o, s:o, s:o}", "z", number(found[i]->z), "quantity",
+                                          found[i]->quantity, "dsmc", number(found[i]->mean), "error",
+                                          number(found[i]->error), "enskog_hermite", number(found[i]->reference_mean)));
+    if (repeat) json_object_set_new(row, "repeat", json_sprintf("%s %zu", repeat, found[i]->point + 1));
+    json_array_append_new(rows, row);
+  }
+  free(found);
+  return rows;
+}
+
+static void add_counts(json_t *rows, const gg_grid_view *v, const char *method, const char *quantity)
+{
+  const gg_off_counts c = gg_sweep_count_off(v, method, quantity);
+  json_t *beyond = json_object();
+  if (!c.n) {
+    json_decref(beyond);
+    return;
+  }
+  for (int k = 0; k < GG_THRESHOLDS; k++) {
+    char text[16];
+    snprintf(text, sizeof text, "%g", gg_sweep_thresholds[k]);
+    json_object_set_new(beyond, text, json_integer((json_int_t)c.off[k]));
+  }
+  json_array_append_new(rows, json_pack("{s:s, s:s, s:I, s:o, s:o, s:o}", "method", method, "quantity", quantity,
+                                        "points", (json_int_t)c.n, "beyond", beyond, "largest", number(c.largest),
+                                        "where", c.where ? point_json(v, c.where->point) : json_null()));
+}
+
+/* Of every method the main quantities. */
+static json_t *counts_json(const gg_grid_view *v)
+{
+  json_t *rows = json_array(), *seen = json_object();
+  for (size_t i = 0; i < v->table->n; i++) {
+    const char *method = v->table->row[i].method;
+    if (json_object_get(seen, method)) continue;
+    json_object_set_new(seen, method, json_true());
+    for (gg_quantity q = 0; q < GG_N_QUANTITIES; q++)
+      if (gg_sweep_is_main_quantity(gg_common_quantity_name(q)))
+        add_counts(rows, v, method, gg_common_quantity_name(q));
+  }
+  json_decref(seen);
+  return rows;
+}
+
+static json_t *trouble_json(const gg_grid_view *v, gg_point_trouble *trouble)
+{
+  json_t *rows = json_array();
+  for (size_t i = 0; i < v->sweep->n; i++) {
+    const char *which = trouble(v, i);
+    json_t *row = which ? point_json(v, i) : NULL;
+    if (!row) continue;
+    json_object_set_new(row, "what", json_string(which));
+    json_array_append_new(rows, row);
+  }
+  return rows;
+}
+
+json_t *gg_sweep_verdict_document(const gg_grid_view *v, const gg_agreement *a, const char *repeat)
+{
+  const unsigned before = gg_base_memory_failures();
+  return gg_base_json_end(before,
+                          json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version,
+                                    "points", (json_int_t)v->sweep->n, "done", (json_int_t)v->table->n_documents,
+                                    "dsmc", agreement_json(a), "largest_z", worst_json(v, repeat), "deviations",
+                                    counts_json(v), "not_steady", trouble_json(v, gg_sweep_not_steady),
+                                    "not_homogeneous", trouble_json(v, gg_sweep_not_homogeneous), "without_reference",
+                                    trouble_json(v, gg_sweep_no_reference)));
+}
