@@ -124,7 +124,7 @@ void gg_cli_print_quantities_page(void)
       "A result has a mean and a standard error of each quantity that its scene has. The others are `null`, with the "
       "reason. $\\langle\\cdot\\rangle$ is the mean over grains and samples.\n\n"
       "| symbol | meaning |\n| --- | --- |\n"
-      "| $\\mathbf C$ | velocity relative to the imposed flow; between walls, relative to the local mean |\n"
+      "| $\\mathbf C$ | velocity relative to the imposed flow; between walls, relative to the local mean; see the key `frame` |\n"
       "| $\\mathbf\\Omega$ | spin relative to the mean spin |\n"
       "| $m$, $I$ | mass and moment of inertia; the mass of species 1 is 1 |\n"
       "| $\\sigma$ | distance of two centres at contact |\n"

@@ -286,6 +286,8 @@ gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_mode
                                                     : 1e-5;
   m->time_step = s->dsmc.time_step;
   m->asked_error = gg_common_ensemble_requested_error(s);
+  if (engine == GG_MD && !gg_flow_is_walled(s->flow)) m->frame = s->frame;
+  m->frame_cells = (int)s->frame_cells;
   m->single = engine == GG_DSMC && s->dsmc.precision == GG_SINGLE;
   guess_temperature(m, s, sheared);
   m->ratio0 = guess_ratio(m);

@@ -30,6 +30,9 @@ typedef struct gg_model {
   int64_t n_of[GG_MAX_SPECIES];
   double diameter[GG_MAX_SPECIES], mass[GG_MAX_SPECIES], inertia[GG_MAX_SPECIES]; /* inertia: K = 4I/(m d^2) */
 
+  gg_frame_kind frame; /* of peculiar velocities; imposed where there are walls, or no box */
+  int frame_cells;     /* along each edge */
+
   double phi, density;   /* density: n d_1^3, 1 in the Boltzmann limit */
   double box[3], volume; /* edges, volume = n/density */
   double shear_rate;     /* 1 if sheared, else 0 */

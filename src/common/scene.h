@@ -15,6 +15,9 @@ typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
 typedef enum gg_precision { GG_DOUBLE, GG_SINGLE } gg_precision;
 typedef enum gg_frames_after { GG_AFTER_START, GG_AFTER_WARMUP } gg_frames_after;
 enum { GG_FIELDS_POSITION = 1, GG_FIELDS_VELOCITY = 2, GG_FIELDS_SPIN = 4, GG_FIELDS_ALL = 7 };
+/* Of peculiar velocities in flows without walls: the imposed flow, or means of cells, with it taken off first or not.
+ */
+typedef enum gg_frame_kind { GG_FRAME_IMPOSED, GG_FRAME_CELLS, GG_FRAME_CELLS_LABORATORY } gg_frame_kind;
 typedef enum gg_top { GG_CLOSED_TOP, GG_OPEN_TOP } gg_top;
 typedef enum gg_contact_value { GG_CARNAHAN_STARLING, GG_LUN_SAVAGE, GG_KOLAFA } gg_contact_value;
 
@@ -74,6 +77,8 @@ struct gg_scene {
                         * resumed it is that of its start: no key, set from the checkpoint */
   } dsmc;
   unsigned measure; /* GG_MEASURE_... */
+  gg_frame_kind frame;
+  int64_t frame_cells; /* along each edge of the box */
   struct {
     double checkpoint_every; /* seconds, 0: none */
     double trajectory_every; /* collisions per particle, 0: none */

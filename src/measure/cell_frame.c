@@ -8,12 +8,13 @@
 
 typedef struct gg_cell_mean {
   double mass, inertia; /* sums of m, I; then what c and omega are the means of under these weights */
+  double y;             /* likewise, of the height */
   gg_vec c, omega;
 } gg_cell_mean;
 
-gg_status gg_measure_cell_frame_init(gg_cell_frame *f, const gg_model *m, gg_error *err)
+gg_status gg_measure_cell_frame_init(gg_cell_frame *f, const gg_model *m, gg_cell_grid grid, gg_error *err)
 {
-  f->grid = gg_measure_cell_grid_of(m);
+  f->grid = grid;
   f->mean = gg_base_array_new(gg_measure_cell_grid_cells(&f->grid), sizeof *f->mean, err);
   f->at = f->mean ? gg_base_array_new((size_t)m->n, sizeof *f->at, err) : NULL;
   return f->at ? GG_OK : GG_FAILED;
@@ -51,12 +52,13 @@ void gg_measure_cell_frame_take(gg_cell_frame *f, const gg_snapshot *s)
     f->at[i] = (uint32_t)gg_measure_cell_grid_cell(&f->grid, s, i);
     gg_cell_mean *cell = &f->mean[f->at[i]];
     cell->mass += m->mass[k], cell->inertia += inertia;
+    cell->y += m->mass[k] * s->r[1][i];
     add(&cell->c, m->mass[k], of_grain(s->c, i));
     if (s->s[0]) add(&cell->omega, inertia, omega_of(s, i));
   }
   for (size_t k = 0; k < cells; k++) {
     gg_cell_mean *cell = &f->mean[k];
-    if (cell->mass > 0) cell->c = gg_scale(1 / cell->mass, cell->c);
+    if (cell->mass > 0) cell->c = gg_scale(1 / cell->mass, cell->c), cell->y /= cell->mass;
     if (cell->inertia > 0) cell->omega = gg_scale(1 / cell->inertia, cell->omega);
   }
 }
@@ -97,4 +99,92 @@ size_t gg_measure_cell_grid_cell(const gg_cell_grid *g, const gg_snapshot *s, si
     at[a] = at[a] < 0 ? 0 : at[a] >= g->n[a] ? g->n[a] - 1 : at[a];
   }
   return (size_t)((at[2] * g->n[1] + at[1]) * g->n[0] + at[0]);
+}
+
+gg_status gg_measure_framed_init(gg_framed *f, const gg_model *m, gg_error *err)
+{
+  gg_cell_grid grid = gg_measure_cell_grid_of(m);
+  for (int a = 0; a < 3; a++) grid.n[a] = m->frame_cells;
+  GG_TRY(gg_measure_cell_frame_init(&f->cells, m, grid, err));
+  for (int a = 0; a < 3; a++) {
+    if (!(f->c[a] = gg_base_array_new((size_t)m->n, sizeof(double), err))) return GG_FAILED;
+    if (m->rule != GG_SMOOTH && !(f->s[a] = gg_base_array_new((size_t)m->n, sizeof(double), err))) return GG_FAILED;
+  }
+  return GG_OK;
+}
+
+void gg_measure_framed_clear(gg_framed *f)
+{
+  gg_measure_cell_frame_clear(&f->cells);
+  for (int a = 0; a < 3; a++) free(f->c[a]), free(f->s[a]);
+}
+
+static void put(double *const to[3], size_t i, gg_vec v)
+{
+  to[0][i] = v.x, to[1][i] = v.y, to[2][i] = v.z;
+}
+
+/* The share that the mean of its cell leaves of a grain's variance; 0 where it is alone. */
+static double left_of(const gg_framed *f, size_t i, bool spin)
+{
+  const gg_snapshot *s = &f->snapshot;
+  const gg_cell_mean *cell = &f->cells.mean[f->cells.at[i]];
+  const int k = gg_snapshot_species(s, i);
+  return spin ? 1 - gg_moment_of_inertia(s->model, k) / cell->inertia : 1 - s->model->mass[k] / cell->mass;
+}
+
+/* What makes up for grains alone in their cells, and for the mean of all, which the imposed flow has taken out, too. */
+static double share_of_all(const gg_framed *f)
+{
+  const double n = (double)f->snapshot.n;
+  double together = 0;
+  for (size_t i = 0; i < f->snapshot.n; i++) together += left_of(f, i, false) > 0;
+  return together > 0 ? (n - 1) / together : 0;
+}
+
+static gg_vec mean_spin(const gg_cell_frame *f)
+{
+  gg_vec sum = {0, 0, 0};
+  double inertia = 0;
+  for (size_t k = 0; k < gg_measure_cell_grid_cells(&f->grid); k++) {
+    add(&sum, f->mean[k].inertia, f->mean[k].omega);
+    inertia += f->mean[k].inertia;
+  }
+  return gg_scale(1 / inertia, sum);
+}
+
+void gg_measure_framed_take(gg_framed *f, const gg_snapshot *whole)
+{
+  const gg_model *m = whole->model;
+  const bool laboratory = m->frame == GG_FRAME_CELLS_LABORATORY;
+  f->snapshot = *whole;
+  f->snapshot.whole = whole;
+  for (int a = 0; a < 3; a++) f->snapshot.c[a] = f->c[a], f->snapshot.s[a] = f->s[a];
+  gg_measure_cell_frame_take(&f->cells, whole);
+  const double all = laboratory ? 0 : share_of_all(f);
+  const gg_vec spin = f->s[0] ? mean_spin(&f->cells) : (gg_vec){0, 0, 0};
+  for (size_t i = 0; i < whole->n; i++) {
+    gg_vec c = gg_measure_cell_frame_velocity(&f->cells, whole, i);
+    double left = left_of(f, i, false), stretch = laboratory ? 1 : left > 0 ? sqrt(all / left) : 0;
+    if (laboratory) c.x += m->shear_rate * (whole->r[1][i] - f->cells.mean[f->cells.at[i]].y);
+    put(f->c, i, gg_scale(stretch, c));
+    if (!f->s[0]) continue;
+    if (!laboratory && left > 0) stretch = sqrt(all / left_of(f, i, true));
+    gg_vec omega = gg_scale(stretch, gg_measure_cell_frame_spin(&f->cells, whole, i));
+    put(f->s, i, gg_scale(m->diameter[gg_snapshot_species(whole, i)] / 2, gg_add(omega, spin)));
+  }
+}
+
+void gg_measure_framed_visit(const gg_framed *f, gg_visit *visit, void *context)
+{
+  const gg_snapshot *s = &f->snapshot, *w = s->whole;
+  for (size_t from = 0; from < s->n; from += GG_CHUNK) {
+    gg_chunk chunk = {.n = s->n - from < GG_CHUNK ? s->n - from : GG_CHUNK, .id = s->id + from};
+    if (s->species) chunk.species = s->species + from;
+    for (int a = 0; a < 3; a++) {
+      chunk.r[a] = s->r[a] + from, chunk.c[a] = s->c[a] + from, chunk.whole_c[a] = w->c[a] + from;
+      if (s->s[a]) chunk.s[a] = s->s[a] + from, chunk.whole_s[a] = w->s[a] + from;
+    }
+    visit(context, &chunk);
+  }
 }

@@ -10,6 +10,7 @@ struct gg_local_frame;
 typedef struct gg_snapshot {
   const gg_model *model;
   const struct gg_local_frame *frame; /* between walls: of the flow (local_frame.h); else NULL */
+  const struct gg_snapshot *whole;    /* the same with cell means, where c and s are about those; else NULL */
   size_t n;
   double *r[3], *c[3],
       *s[3];           /* positions in the box (NULL where not requested), peculiar velocities, spins (or NULL) */

@@ -66,8 +66,10 @@ static void begin(void *self)
 static void add_chunk(void *self, const gg_chunk *chunk)
 {
   viscosity *v = self;
+  gg_chunk grains = *chunk;
+  for (int a = 0; a < 3 && chunk->whole_c[0]; a++) grains.c[a] = chunk->whole_c[a]; /* whatever the scene's frame */
   for (int i = 0; i < v->model.n_species; i++) {
-    gg_species_view g = gg_measure_species_chunk(chunk, i, &v->scratch);
+    gg_species_view g = gg_measure_species_chunk(&grains, i, &v->scratch);
     double cc = 0, cxcy = 0;
     for (size_t k = 0; k < g.n; k++) {
       double x = g.c[0][k], y = g.c[1][k], z = g.c[2][k];

@@ -69,6 +69,7 @@ typedef struct gg_observable {
   int (*every_of)(const void *self); /* instead, where it depends on the size; NULL: `every` */
   int parts;      /* above 1: each interval is cut into so many parts, with a snapshot after each; for correlations in
                      time */
+  bool framed;    /* its snapshots are in the scene's frame; else they are about the imposed flow */
   bool positions; /* of the grains are wanted, where the engine has any */
   void (*add_snapshot)(void *self, const gg_snapshot *snapshot, double *bins);
   /* Called with every sampling interval, after the snapshot at its end. What it takes from it goes into the bins with

@@ -129,7 +129,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
     take_peculiar(s, from, n, mean, &c, &w);
     count(&c, &w, n, bin);
     if (!has_both(m)) continue;
-    take_instantaneous(s, from, n, &c, &w);
+    take_instantaneous(s->whole ? s->whole : s, from, n, &c, &w);
     count(&c, &w, n, bin + SET);
   }
 }
@@ -177,6 +177,7 @@ const gg_observable gg_measure_orientation = {
     .refuses = refuses,
     .bins = bins,
     .every = 2,
+    .framed = true,
     .positions = true,
     .add_snapshot = add_snapshot,
     .curves = curves,

@@ -28,7 +28,8 @@ typedef struct rheology {
   gg_velocity_moments moments[GG_MAX_SPECIES];
   bool quick;
   memory memory;
-  double energy, momentum[2]; /* of this sample's grains as they are, where moments are about a local flow */
+  double energy, momentum[2], shear_stress; /* of this sample's grains as they are, where moments are about a local
+                                               flow; sum of m c_x c_y */
   gg_long_waves waves;
   gg_species_scratch scratch;
 } rheology;
@@ -61,7 +62,7 @@ static void begin(void *self)
   rheology *r = self;
   r->waves = (gg_long_waves){0};
   const double T = r->memory.last_temperature;
-  r->energy = r->momentum[0] = r->momentum[1] = 0;
+  r->energy = r->momentum[0] = r->momentum[1] = r->shear_stress = 0;
   r->quick = T > 0x1p-60 && T < 0x1p60; /* squares of velocities will be far from what single precision cannot hold */
   for (int i = 0; i < r->model.n_species; i++) {
     r->moments[i] = (gg_velocity_moments){0};
@@ -75,7 +76,7 @@ static bool wants_positions(const void *self)
   return gg_measure_has_long_waves(&r->model) && r->memory.samples % WAVES_EVERY == 0;
 }
 
-/* Between walls: the energy of the grains as they are, their flow included. */
+/* Between walls and about cells: the energy of the grains as they are, their flow included. */
 static void add_whole(rheology *r, const gg_chunk *chunk)
 {
   const gg_model *m = &r->model;
@@ -86,6 +87,7 @@ static void add_whole(rheology *r, const gg_chunk *chunk)
     for (int a = 0; a < 3 && chunk->whole_s[0]; a++) ss += chunk->whole_s[a][k] * chunk->whole_s[a][k];
     r->energy += 0.5 * m->mass[i] * (cc + m->inertia[i] * ss);
     for (int a = 0; a < 2; a++) r->momentum[a] += m->mass[i] * chunk->whole_c[a][k];
+    r->shear_stress += m->mass[i] * chunk->whole_c[0][k] * chunk->whole_c[1][k];
   }
 }
 
@@ -107,7 +109,11 @@ static void add_chunk(void *self, const gg_chunk *chunk)
 {
   rheology *r = self;
   if (chunk->whole_c[0]) add_whole(r, chunk);
-  if (chunk->r[0] && wants_positions(r)) gg_measure_long_waves_add(&r->waves, &r->model, chunk);
+  if (chunk->r[0] && wants_positions(r)) {
+    gg_chunk grains = *chunk; /* structure, whatever the frame */
+    for (int a = 0; a < 3 && chunk->whole_c[0]; a++) grains.c[a] = chunk->whole_c[a];
+    gg_measure_long_waves_add(&r->waves, &r->model, &grains);
+  }
   for (int i = 0; i < r->model.n_species; i++) {
     gg_species_view v = gg_measure_species_chunk(chunk, i, &r->scratch);
     gg_velocity_moment_view grains = {
@@ -212,7 +218,7 @@ static void put_energy(rheology *r, const gg_interval *in, double *row)
 {
   const gg_model *m = &r->model;
   const double g[2] = {m->gravity[0], m->gravity[1]};
-  double energy = m->walled ? r->energy : energy_of_moments(r), f = in->velocity_factor;
+  double energy = m->walled || m->frame ? r->energy : energy_of_moments(r), f = in->velocity_factor;
   double work = 0, loss = 0, drag = 0, push = 0;
   if (in->elapsed > 0) {
     double unit = m->stress_unit / (m->volume * in->elapsed);
@@ -224,6 +230,7 @@ static void put_energy(rheology *r, const gg_interval *in, double *row)
       drag += drag_of(m, wall) * sums->impulse[0], push += wall->side * sums->impulse[wall->axis];
     }
     for (int a = 0; a < 2; a++) work += 0.5 * g[a] * (r->momentum[a] + f * r->memory.momentum[a]) * in->elapsed;
+    if (m->frame) work = -m->shear_rate * r->shear_stress * in->elapsed;
     row[CH_GROWTH] = (energy - f * f * r->memory.energy) * unit;
     row[CH_WALL_LOSS] = loss * unit, row[CH_WALL_WORK] = work * unit;
     row[CH_WALL_DRAG] = drag * unit, row[CH_WALL_PUSH] = push * unit;

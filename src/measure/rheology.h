@@ -21,7 +21,8 @@ enum {
   CH_WALL_LOSS, /* as CH_LOSS, in contacts with walls */
   CH_WALL_DRAG, /* force along the walls, the way they pull or hold, and across: sums over walls, per volume */
   CH_WALL_PUSH,
-  CH_WALL_WORK,     /* of moving walls and of gravity between walls, per volume and time */
+  CH_WALL_WORK,     /* of moving walls and of gravity between walls, per volume and time; about cells: of the shear
+                       on the kinetic stress of the grains as they are */
   CH_DENSITY_WAVES, /* of the latest sample that took positions */
   CH_MOMENTUM_WAVES,
   CH_SPECIES /* where the moments of species 1 begin; those of species 2 follow */

@@ -137,7 +137,9 @@ static double wall_friction(const double *a, const gg_model *m)
  * every moment, and what is left of its scatter is that of P_xy between samples. */
 static double energy_balance(const double *a, const gg_model *m)
 {
-  double work = m->walled ? a[CH_WALL_WORK] : -total_xy(a, m) * m->shear_rate;
+  double work = m->walled  ? a[CH_WALL_WORK]
+                : m->frame ? a[CH_WALL_WORK] - a[CH_PC_XY] * m->shear_rate
+                           : -total_xy(a, m) * m->shear_rate;
   return (work - a[CH_GROWTH]) / (a[CH_LOSS] + a[CH_WALL_LOSS]);
 }
 

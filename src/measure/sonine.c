@@ -159,6 +159,13 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 }
 
 const gg_observable gg_measure_sonine = {
-    GG_OBSERVABLE(SONINE, sonine), .create = create, .destroy = free, .refuses = refuses, .bins = bins, .every = 2,
-    .add_snapshot = add_snapshot,  .curves = curves,
+    GG_OBSERVABLE(SONINE, sonine),
+    .create = create,
+    .destroy = free,
+    .refuses = refuses,
+    .bins = bins,
+    .every = 2,
+    .framed = true,
+    .add_snapshot = add_snapshot,
+    .curves = curves,
 };

@@ -56,7 +56,7 @@ static void *create_of(const gg_model *m, bool local, gg_error *err)
   d->bins = (int)fmin(floor(reach / SPACING), MOST_BINS);
   d->spins = m->rule != GG_SMOOTH;
   d->local = local;
-  bool whole = !local || gg_measure_cell_frame_init(&d->cells, m, err) == GG_OK;
+  bool whole = !local || gg_measure_cell_frame_init(&d->cells, m, gg_measure_cell_grid_of(m), err) == GG_OK;
   d->motion = gg_base_array_new((size_t)m->n, sizeof *d->motion, err);
   if (whole && d->motion && gg_measure_pairs_init(&d->pairs, m, d->bins * SPACING, TRIES, FALL, err) == GG_OK) return d;
   destroy(d);
@@ -196,7 +196,8 @@ static void put(const correlations *d, gg_curves *list, const char *name, const 
     c->x[i] = ((double)i + first + 0.5) * SPACING;
     c->value[i] = at[COUNT] > 0 ? at[channel] / (at[COUNT] * norm) : NAN;
   }
-  if (d->local) return; /* less than nothing within a cell, and nothing beyond: no level */
+  if (d->local || m->frame != GG_FRAME_IMPOSED)
+    return; /* less than nothing within a cell, and nothing beyond: no level */
   double level = strstr(name, "CxW") ? 0 : strchr(name, 'W') ? -1 / ((double)m->n - 1) : of_no_momentum(m);
   gg_measure_curve_beside(c, "uncorrelated", gg_measure_curve_level, &level);
 }
@@ -242,6 +243,7 @@ const gg_observable gg_measure_velocity_correlations = {
     .refuses = gg_measure_needs_bulk,
     .bins = bins,
     .every = 8,
+    .framed = true,
     .positions = true,
     .add_snapshot = add_snapshot,
     .curves = curves,

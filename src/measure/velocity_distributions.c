@@ -137,6 +137,7 @@ const gg_observable gg_measure_velocity_distributions = {
     .refuses = gg_measure_needs_homogeneity,
     .bins = bins,
     .every = 2,
+    .framed = true,
     .add_snapshot = add_snapshot,
     .curves = curves,
 };

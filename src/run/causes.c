@@ -77,6 +77,16 @@ static bool not_steady(const difference *d, char *text, size_t size)
   return true;
 }
 
+/* What does not come from velocities of single grains is the same in any frame. */
+static bool about_cells(const difference *d, char *text, size_t size)
+{
+  if (!d->model->frame || d->q == GG_Q_COLLISION_RATE || d->q == GG_Q_DISSIPATION) return false;
+  snprintf(text, size,
+           "md's velocities are relative to the means of cells (frame), those of Monte Carlo and theories to "
+           "the imposed flow");
+  return true;
+}
+
 static bool structured(const difference *d, char *text, size_t size)
 {
   char what[240];
@@ -147,8 +157,8 @@ static bool correlated(const difference *d, char *text, size_t size)
   return true;
 }
 
-static cause *const causes_known[] = {not_steady,       structured, may_be_structured, treated,
-                                      number_of_grains, hot_spins,  correlated};
+static cause *const causes_known[] = {not_steady, about_cells,      structured, may_be_structured,
+                                      treated,    number_of_grains, hot_spins,  correlated};
 
 static const char unknown[] = "no known cause";
 

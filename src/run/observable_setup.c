@@ -43,7 +43,10 @@ gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene,
   width += (size_t)gg_measure_wall_modes(&r->model);
   r->row = gg_base_array_new(width, sizeof *r->row, err);
   if (!r->row) return GG_FAILED;
-  if (curves) GG_TRY(gg_measure_snapshot_init(&r->snapshot, &r->model, positions, err));
+  const bool framed = r->model.frame != GG_FRAME_IMPOSED;
+  if (curves || framed) GG_TRY(gg_measure_snapshot_init(&r->snapshot, &r->model, positions || framed, err));
+  if (framed && !(r->framed = gg_base_array_new(1, sizeof *r->framed, err))) return GG_FAILED;
+  if (framed) GG_TRY(gg_measure_framed_init(r->framed, &r->model, err));
   if (r->model.walled && !(r->flow = gg_base_array_new(1, sizeof *r->flow, err))) return GG_FAILED;
   if (r->flow) gg_measure_slabs_init(&r->flow->window, &r->model);
   return gg_statistics_series_init(&r->series, width, err);
@@ -56,8 +59,10 @@ void gg_run_replica_clear_observables(gg_replica *r)
     gg_statistics_bins_clear(&r->bins[k]);
   }
   gg_measure_snapshot_clear(&r->snapshot);
+  if (r->framed) gg_measure_framed_clear(r->framed);
+  free(r->framed);
   free(r->flow);
-  r->flow = NULL;
+  r->framed = NULL, r->flow = NULL;
 }
 
 /* The sums of the flow between walls, of every slab. */

@@ -2,6 +2,7 @@
 #ifndef GG_REPLICA_H
 #define GG_REPLICA_H
 
+#include "measure/cell_frame.h"
 #include "measure/local_frame.h"
 #include "measure/observable.h"
 #include "run/run.h"
@@ -29,6 +30,7 @@ typedef struct gg_replica {
     gg_slabs window;       /* of all rows since averaging began */
     gg_local_frame frame;  /* of them; before, of the last row */
   } * flow;
+  gg_framed *framed; /* about cells; else NULL */
   gg_series series;
   double *row;
   double trajectory_every;  /* collisions per grain between frames; 0: none */

@@ -125,6 +125,10 @@ static void add_grains(gg_replica *r)
 {
   if (r->flow) {
     add_grains_between_walls(r);
+  } else if (r->framed) {
+    gg_measure_snapshot_take(&r->snapshot, r->engine);
+    gg_measure_framed_take(r->framed, &r->snapshot);
+    gg_measure_framed_visit(r->framed, add_chunk, r);
   } else if (reads_blocks(r)) {
     r->engine->ops->blocks(r->engine, add_blocks, r);
   } else {
@@ -163,6 +167,7 @@ static void take_snapshot(gg_replica *r, int part, double part_elapsed)
   gg_measure_snapshot_take(s, r->engine);
   s->elapsed = part_elapsed;
   s->velocity_factor = part == 1 ? r->clock.velocity_factor : 1;
+  if (r->framed) gg_measure_framed_take(r->framed, s);
   if (!r->flow || !s->r[0]) return;
   s->frame = &r->flow->frame;
   if (!gg_measure_slabs_are_empty(&r->flow->window)) return;
@@ -178,7 +183,8 @@ void gg_run_replica_sample_curves(gg_replica *r, int part, double part_elapsed)
   if (any) take_snapshot(r, part, part_elapsed);
   for (int k = 0; k < r->n_observables; k++) {
     if (!is_due(r, k, part)) continue;
-    r->observable[k]->add_snapshot(r->self[k], &r->snapshot, gg_statistics_bins_sample(&r->bins[k]));
+    const gg_snapshot *s = r->framed && r->observable[k]->framed ? &r->framed->snapshot : &r->snapshot;
+    r->observable[k]->add_snapshot(r->self[k], s, gg_statistics_bins_sample(&r->bins[k]));
     if (last && !in_burst(r, k)) gg_statistics_bins_commit(&r->bins[k]);
   }
   if (last) r->clock.window_samples++;

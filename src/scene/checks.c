@@ -90,6 +90,19 @@ static gg_status check_gravity(const gg_scene *s, gg_error *err)
   return GG_OK;
 }
 
+/* Of one or two grains about their mean little is left. */
+enum { LEAST_OF_CELL = 4 };
+static gg_status check_cells(const gg_scene *s, gg_error *err)
+{
+  const long long n = (long long)s->frame_cells;
+  if (s->frame == GG_FRAME_IMPOSED || gg_flow_is_walled(s->flow) || LEAST_OF_CELL * n * n * n <= s->particles)
+    return GG_OK;
+  return gg_base_fail(
+      err, GG_BAD_INPUT,
+      "key 'frame_cells': %lld x %lld x %lld cells of %lld grains hold %.2g each; at least %d are needed", n, n, n,
+      (long long)s->particles, (double)s->particles / (double)(n * n * n), LEAST_OF_CELL);
+}
+
 static gg_status check_flow(const gg_scene *s, gg_error *err)
 {
   const gg_flow_row *flow = gg_flow_of(s->flow);
@@ -135,6 +148,7 @@ gg_status gg_scene_finish(gg_scene *s, gg_error *err)
                         "key 'output.fields': velocity is missing, which frames always hold; add it to the list");
   gg_scene_fill_in(s);
   GG_TRY(check_friction(s, err));
+  GG_TRY(check_cells(s, err));
   return check_flow(s, err);
 }
 
@@ -203,6 +217,8 @@ static const struct {
     {GG_IF_WALL_BETA, "while walls.beta is -1: smooth walls", NULL, "", "walls.beta is not -1"},
     {GG_IF_WALL_FRICTION, "while walls.mu is 0: smooth walls", NULL, "", "walls.mu is not 0"},
     {GG_IF_FRAMES, "while output.trajectory_every is 0", NULL, "", "output.trajectory_every is not 0"},
+    {GG_IF_UNWALLED, "between walls, where velocities are about the measured flow", NULL, "", "no walls"},
+    {GG_IF_CELLS, "while frame is imposed", NULL, "", "frame is not imposed"},
 };
 enum { CONDITIONS = sizeof conditions / sizeof *conditions };
 
@@ -242,6 +258,8 @@ static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
   case GG_IF_WALL_BETA: return s->walls.beta != -1;
   case GG_IF_WALL_FRICTION: return s->walls.mu != 0;
   case GG_IF_FRAMES: return s->output.trajectory_every > 0;
+  case GG_IF_UNWALLED: return !gg_flow_is_walled(s->flow);
+  case GG_IF_CELLS: return s->frame != GG_FRAME_IMPOSED;
   default: return true;
   }
 }

@@ -47,6 +47,13 @@ static const gg_word laws[] = {{"constant", GG_LAW_CONSTANT, "e is constant"}, G
 static const gg_word tops[] = {{"closed", GG_CLOSED_TOP, "a wall like the one below"},
                                {"open", GG_OPEN_TOP, "no wall: grains fall back under gravity"},
                                {0}};
+static const gg_word frames[] = {
+    {"imposed", GG_FRAME_IMPOSED, "the imposed flow"},
+    {"cells", GG_FRAME_CELLS,
+     "the mean of the cell, the imposed flow taken off first; the share of the mean is put back"},
+    {"cells_laboratory", GG_FRAME_CELLS_LABORATORY,
+     "the mean laboratory velocity of the cell: the shear within it stays in, the share of the mean is not put back"},
+    {0}};
 #define WORD(FLAG, word, description) {#word, GG_MEASURE_##FLAG, description},
 static const gg_word observables[] = {GG_OBSERVABLES(WORD){0}};
 #undef WORD
@@ -141,6 +148,12 @@ const gg_field gg_scene_fields[] = {
      .doc = "precision of stored velocities and spins in dsmc; sums are always double", .when = GG_IF_DSMC},
     {"measure", GG_FIELD_SET, AT(measure), .words = observables, .by_default = GG_MEASURE_RHEOLOGY,
      .doc = "observables to measure; unlisted ones cost nothing", .also = "observables"},
+    {"frame", GG_FIELD_CHOICE, AT(frame), .words = frames,
+     .doc = "what peculiar velocities and spins are relative to, in means and distributions",
+     .when = GG_IF_BOXED | GG_IF_UNWALLED},
+    {"frame_cells", GG_FIELD_INTEGER, AT(frame_cells), 1, 400, .by_default = 5,
+     .doc = "cells along each edge of the box; at least 4 grains per cell",
+     .when = GG_IF_BOXED | GG_IF_UNWALLED | GG_IF_CELLS},
     {"output.checkpoint_every", GG_FIELD_NUMBER, AT(output.checkpoint_every), 0, 1e9, .unit = "s",
      .doc = "wall-clock time between checkpoints; 0: none", .may_change = true},
     {"output.trajectory_every", GG_FIELD_NUMBER, AT(output.trajectory_every), 0, 1e15, .unit = "collisions per grain",

@@ -49,7 +49,9 @@ enum {
   GG_IF_FRICTION = 1u << 15,
   GG_IF_WALL_BETA = 1u << 16,
   GG_IF_WALL_FRICTION = 1u << 17,
-  GG_IF_FRAMES = 1u << 18
+  GG_IF_FRAMES = 1u << 18,
+  GG_IF_UNWALLED = 1u << 19,
+  GG_IF_CELLS = 1u << 20
 };
 
 typedef struct gg_field {

@@ -46,10 +46,17 @@ def by_pair(values):
     return dict(zip(("11", "12", "22"), values))
 
 
-def scene_of(flow, kind):
+# Frames other than the imposed flow: cells, two along each edge.
+FRAMES = {("usf", "smooth"): ["cells"], ("usf", "rough"): ["cells", "cells_laboratory"], ("hcs", "frictional"): ["cells"]}
+
+
+def scene_of(flow, kind, frame):
     collision = {k: by_pair(v) for k, v in COLLISION[kind].items()}
     measure = ["rheology", "collisions"] + FLOWS[flow]["measure"] + (["orientation"] if kind != "smooth" else [])
-    return dict(FLOWS[flow]["keys"], flow=flow, phi=PHI, particles=N, species=SPECIES, collision=collision, measure=measure,
+    cells = {} if frame == "imposed" else {"frame": frame, "frame_cells": 2}
+    if cells and flow == "usf":  # sums over a cooling gas weigh samples by the engine's present scale
+        measure.append("velocity_correlations")
+    return dict(FLOWS[flow]["keys"], **cells, flow=flow, phi=PHI, particles=N, species=SPECIES, collision=collision, measure=measure,
                 run={"warmup": WARMUP, "collisions": COLLISIONS}, output={"trajectory_every": 1e-9},
                 md={"contact_time": 1e-9})  # hardly a collision without its e
 
@@ -156,6 +163,32 @@ def about_flow(store, window):
     return C, W
 
 
+def about_cells(store, flow, frame):
+    """Velocities about the mean of their cell, weighted by mass; spins about that, weighted by moment of inertia, plus the
+    same mean of the box. In `cells` what a mean takes out of variances is put back."""
+    laboratory = frame == "cells_laboratory"
+    inertia, mass = (K * m * d * d / 4)[store.species], m[store.species]
+    box = np.array(box_of(store, flow))
+    C, W = np.zeros_like(store.velocity), np.zeros_like(store.spin)
+    for t in range(len(store.time)):
+        v, w = store.velocity[t].copy(), store.spin[t]
+        if laboratory and flow == "usf":
+            v[:, 0] += store.position[t][:, 1] - box[1] / 2
+        place = np.clip(np.floor(2 * store.position[t] / box), 0, 1).astype(int) @ [1, 2, 4]
+        alone = np.bincount(place, minlength=8)[place] == 1
+        for k in range(8):
+            here = place == k
+            for field, weight, to in (v, mass, C), (w, inertia, W):
+                g = weight[here]
+                left = field[here] - (g @ field[here]) / g.sum() if here.any() else field[here]
+                share = 1 - g / g.sum()
+                if not laboratory:
+                    left *= np.where(share > 0, (N - 1) / (N - alone.sum()) / np.where(share > 0, share, 1), 0)[:, None] ** 0.5
+                to[t, here] = left
+        W[t] += inertia @ w / inertia.sum()
+    return C, W
+
+
 def long_waves(store, flow):
     """Of every sample, as of the last one of which the number is divisible by ten: waves of solid fraction over those of
     elastic spheres (Carnahan & Starling), and of momentum across the wave."""
@@ -178,11 +211,10 @@ def long_waves(store, flow):
     return matter[held], momentum[held]
 
 
-def expected(store, flow, kind, replicas):
+def expected(store, flow, kind, replicas, C, W):
     """Means over window and replicas, from grains and collisions alone; ratios are ratios of means."""
     window = window_of(store, replicas)
     walled, cooling, rough = "image" in FLOWS[flow], flow == "hcs", kind != "smooth"
-    C, W = about_flow(store, window) if walled else (store.velocity, store.spin)
     who = [store.species == i for i in range(2)]
     x = np.array([w.mean() for w in who])
     V = sum(STRESS * d[i] ** 3 * who[i].sum() for i in range(2)) / PHI
@@ -247,7 +279,7 @@ def expected(store, flow, kind, replicas):
         cosine = (C * omega).sum(2) ** 2 / ((C * C).sum(2) * (omega * omega).sum(2))
         out["cos2_psi"] = mean(cosine.mean(1))
         if not walled:
-            out["spin_z"] = species_mean(store.spin[..., 2], 1)
+            out["spin_z"] = species_mean(W[..., 2], 1)
     growth_rate = mean(energy_growth(store) / (V * dt)) * STRESS
     lost = per_row(store, losses(store, kind)[:, None])[:, 0]
     if kind != "frictional":
@@ -258,7 +290,8 @@ def expected(store, flow, kind, replicas):
         out["wall_friction"] = mean(drag / dt) / mean((force[:, 1, 1] - force[:, 0, 1]) / dt)
         out["energy"] = mean(work_between_walls(store, flow) / (V * dt)) * STRESS - growth_rate
     elif flow == "usf" and kind != "frictional":
-        out["energy_balance"] = (-P[0, 1] - growth_rate) / out["dissipation"]
+        work = collisional + species_mean(store.velocity[..., :, None] * store.velocity[..., None, :], 2, m) * n * STRESS
+        out["energy_balance"] = (-work[0, 1] - growth_rate) / out["dissipation"]
     if cooling:  # nu_0 of two species: sqrt(pi) n sigma_12^2 v_0, v_0^2 = 2T(m_1 + m_2)/(m_1 m_2)
         out["cooling_rate"] = mean(2 * growth) / (STRESS * 6 / np.pi * np.pi ** 0.5 * n * d.mean() ** 2 * (2 / m).sum() ** 0.5)
     return out
@@ -331,10 +364,10 @@ def hold_collisions(store, flow, curves, replicas):
         close(curves["collision_angle"]["numbers"]["fabric_" + name]["mean"], (k[:, i] * k[:, j]).mean(), flow, name)
 
 
-def hold_distributions(store, flow, curves, rows):
+def hold_distributions(store, flow, curves, rows, C, W):
     for i in range(2):
         who = store.species == i
-        for letter, field in ("C", store.velocity), ("W", store.spin):
+        for letter, field in ("C", C), ("W", W):
             for a in range(3):
                 curve = curves.get(f"velocity_distribution_{letter}{'xyz'[a]}_{i + 1}")
                 if letter == "W" and not store.spin.any():
@@ -422,14 +455,58 @@ def hold_walls(store, flow, curves, replicas):
             close(numbers[f"wall_P_y{a}_{wall}"]["mean"], P[i], flow, wall, a)
 
 
-def hold_curves(store, flow, kind, curves, replicas):
+def hold_peculiar_orientation(store, curves, rows, C, W):
+    """About the mean spin of each species, at every instant."""
+    omega = W[rows].copy()
+    for i in range(2):
+        omega[:, store.species == i] -= omega[:, store.species == i].mean(1, keepdims=True)
+    cosine = (C[rows] * omega).sum(2) / (np.linalg.norm(C[rows], axis=2) * np.linalg.norm(omega, axis=2))
+    cosine = cosine[np.isfinite(cosine)]
+    close(curves["orientation_cos"]["value"], histogram(cosine, 50, -1, 1), "orientation_cos", least=2e-2)
+    close(curves["orientation_cos"]["numbers"]["Lambda"]["mean"], (cosine ** 2).mean(), "Lambda")
+
+
+def hold_correlations(store, flow, kind, curves, replicas, C, W):
+    """All pairs of every 8th sample: in so small a box none is left out."""
+    rows = window_of(store, replicas) & ((store.index - WARMUP // 2) % 8 == 0)
+    L, width = box_of(store, flow)[0], 0.25
+    r = store.position[rows]
+    apart = r[:, :, None] - r[:, None]
+    up = np.round(apart[..., 1] / L)
+    apart[..., 1] -= L * up
+    apart[..., 0] -= up * store.state[rows, 3][:, None, None]
+    for a in 0, 2:
+        apart[..., a] -= L * np.round(apart[..., a] / L)
+    bins = np.floor(np.linalg.norm(apart, axis=3) / width).astype(int)
+    bins[:, np.arange(N), np.arange(N)] = 0
+    fields = {"C": C[rows]}
+    if kind != "smooth":
+        omega = W[rows].copy()
+        for i in range(2):
+            omega[:, store.species == i] -= omega[:, store.species == i].mean(1, keepdims=True)
+        fields["W"] = omega
+    for letter, field in fields.items():
+        for a in range(3):
+            curve = curves[f"velocity_correlation_{letter}{'xyz'[a]}"]
+            products = field[:, :, None, a] * field[:, None, :, a]
+            right = [products[bins == int(x / width)].mean() / (field[..., a] ** 2).mean() if (bins == int(x / width)).any() else np.nan
+                     for x in curve["x"]]
+            found = [np.nan if v is None else v for v in curve["value"]]
+            close(found, right, flow, kind, "correlation", letter, a)
+
+
+def hold_curves(store, flow, kind, curves, replicas, C, W):
     rows = window_of(store, replicas) & (store.index % 2 == 0)  # every 2nd sample
     hold_collisions(store, flow, curves, replicas)
     if "profiles" in FLOWS[flow]["measure"]:
         hold_profiles(store, flow, kind, curves, rows)
         hold_walls(store, flow, curves, replicas)
     else:
-        hold_distributions(store, flow, curves, rows)
+        hold_distributions(store, flow, curves, rows, C, W)
+    if "velocity_correlation_Cx" in curves:
+        hold_correlations(store, flow, kind, curves, replicas, C, W)
+    if kind != "smooth" and "profiles" not in FLOWS[flow]["measure"]:
+        hold_peculiar_orientation(store, curves, rows, C, W)
     if kind != "smooth":
         hold_orientation(store, flow, kind, curves, rows)
 
@@ -569,7 +646,7 @@ def hold_export(name, document, store, flow, kind):
         close(of("omega"), spin, flow, "omega", within=1e-6, least=1e-6 * np.abs(spin).max())
 
 
-def hold_interface(store, flow, kind):
+def hold_interface(store, flow, kind, frame, C):
     """What the C interface says: the result one by one, an observable's sample, sums and state of a simulation."""
     with open("result.json") as f:
         document = json.load(f)
@@ -580,7 +657,7 @@ def hold_interface(store, flow, kind):
         check([r["mean"], r["stderr"], r["unit"]] == [mean, error, unit], name, r, mean, error, unit)
     if "image" not in FLOWS[flow]:
         scale = np.abs(store.velocity).max((1, 2), keepdims=True)
-        check((np.abs(store.shown["velocity"] - store.velocity) <= 1e-9 * scale).all(), flow, "velocity shown")
+        check((np.abs(store.shown["velocity"] - C) <= 1e-9 * scale).all(), flow, frame, "velocity shown")
     if kind != "smooth":
         scale = np.abs(store.spin).max((1, 2), keepdims=True)
         check((np.abs(store.shown["spin"] - store.spin) <= 1e-9 * scale).all(), flow, "spin shown")
@@ -633,11 +710,11 @@ def resumed(document, whole):
     check(arrays("cut.h5") == whole, "resumed: frames")
 
 
-def row(flow, kind):
+def row(flow, kind, frame):
     if isinstance(h5py, ImportError):
         raise Skip(h5py)
     with open("scene.yaml", "w") as f:
-        json.dump(scene_of(flow, kind), f)
+        json.dump(scene_of(flow, kind, frame), f)
     done = subprocess.run([os.environ["STORED_EVENTS"], "scene.yaml", ".", str(REPLICAS), str(SINGLE)], capture_output=True,
                           text=True, timeout=60 * PATIENCE)
     check(done.returncode == 0, done.stderr)
@@ -647,23 +724,28 @@ def row(flow, kind):
         done = run("run", "scene.yaml", "--quiet", "--json", "--set", f"run.replicas={replicas}", "--output", f"r{replicas}.h5")
         check(done.code == 0, done.err)
         document = json.loads(done.out)
+        walled = "image" in FLOWS[flow]
+        C, W = (about_flow(store, window_of(store, replicas)) if walled else (store.velocity, store.spin) if frame == "imposed"
+                else about_cells(store, flow, frame))
         check(document["results"]["N1"]["samples"] == window_of(store, replicas).sum(), "samples")
-        hold_numbers(document["results"], expected(store, flow, kind, replicas), flow, f"{flow} {kind} {replicas}")
+        hold_numbers(document["results"], expected(store, flow, kind, replicas, C, W), flow, f"{flow} {kind} {replicas}")
         hold_units(document["results"], flow)
-        hold_curves(store, flow, kind, document["curves"], replicas)
+        hold_curves(store, flow, kind, document["curves"], replicas, C, W)
         hold_file(f"r{replicas}.h5", document, store, flow, kind)
         hold_export(f"r{replicas}", document, store, flow, kind)
     with open("result.json") as f:
         library = json.load(f)
     check({k: v for k, v in library["results"].items() if k != "recorded"} == document["results"], "library and command")
     check(library["curves"] == document["curves"], "curves of library and command")
-    hold_interface(store, flow, kind)
+    hold_interface(store, flow, kind, frame, C)
     resumed(document, arrays(f"r{REPLICAS}.h5"))
 
 
 for _flow in FLOWS:
     for _kind in COLLISION:
-        globals()[f"test_{_flow}_{_kind}"] = lambda flow=_flow, kind=_kind: row(flow, kind)
+        for _frame in ["imposed"] + FRAMES.get((_flow, _kind), []):
+            _name = f"test_{_flow}_{_kind}" + (f"_{_frame}" if _frame != "imposed" else "")
+            globals()[_name] = lambda flow=_flow, kind=_kind, frame=_frame: row(flow, kind, frame)
 
 if __name__ == "__main__":
     main(sys.modules[__name__])

@@ -1,0 +1,77 @@
+"""The key frame: what it changes, what it leaves as it is, where it has no effect. Its numbers are held by
+test_independent.py."""
+import json
+import sys
+
+from tap import check, main, run
+
+SCENE = """flow: usf
+phi: 0.3
+particles: 500
+collision: {e: 0.9, beta: 0}
+run: {warmup: 40, collisions: 80}
+measure: [rheology, velocity_distributions, orientation]
+"""
+
+
+def document(*sets, scene=SCENE):
+    done = run("run", "scene.yaml", "--json", "--quiet", *[x for s in sets for x in ("--set", s)], scene=scene)
+    check(done.code == 0, done.err)
+    return json.loads(done.out)
+
+
+def numbers(d):
+    return d["results"], d["curves"]
+
+
+def test_imposed_is_the_default():
+    check(numbers(document()) == numbers(document("frame=imposed")), "other numbers")
+
+
+def test_only_peculiar_velocities_change():
+    imposed, cells, laboratory = document(), document("frame=cells", "frame_cells=3"), document("frame=cells_laboratory", "frame_cells=3")
+    for d in cells, laboratory:
+        for q in "collision_rate", "dissipation", "P_xx_collisional", "P_xy_collisional", "momentum_waves", "density_waves":
+            check(d["results"][q] == imposed["results"][q], q, d["results"][q], imposed["results"][q])
+        for q in "spin_z", "energy_balance":  # sums in another order
+            check(abs(d["results"][q]["mean"] / imposed["results"][q]["mean"] - 1) < 1e-9, q)
+        instantaneous = d["curves"]["orientation_cos_instantaneous"]
+        check(instantaneous == imposed["curves"]["orientation_cos_instantaneous"], "instantaneous orientation")
+    T = [d["results"]["temperature"]["mean"] for d in (imposed, cells, laboratory)]
+    check(0.9 * T[0] < T[1] < T[0] and T[2] > 1.1 * T[0], "temperatures", T)
+    kurtosis = [d["results"]["kurtosis_Cx"]["mean"] for d in (imposed, cells, laboratory)]
+    check(kurtosis[2] < kurtosis[0] - 0.2 and abs(kurtosis[1] - kurtosis[0]) < 0.1, "kurtosis", kurtosis)
+
+
+def test_share_of_the_mean_is_put_back():
+    """In equilibrium velocities are independent but for their sum: temperatures are those of the imposed frame, be grains
+    few in a cell or many."""
+    scene = "flow: equilibrium\nphi: 0.2\nparticles: 108\ncollision: {e: 1, beta: 1}\nrun: {warmup: 20, collisions: 2000}\n"
+    imposed = document(scene=scene)["results"]
+    for cells in 2, 3:
+        found = document("frame=cells", f"frame_cells={cells}", scene=scene)["results"]
+        for q in "temperature", "rotational_temperature":
+            error = max(found[q]["stderr"], 1e-4)
+            check(abs(found[q]["mean"] - imposed[q]["mean"]) < 4 * error and error < 0.01, cells, q, found[q], imposed[q])
+    share = document("frame=cells_laboratory", "frame_cells=2", scene=scene)["results"]["temperature"]["mean"]
+    check(abs(share / imposed["temperature"]["mean"] - (1 - 8 / 108) / (1 - 1 / 108)) < 0.005, "share", share)
+
+
+def test_where_it_has_no_effect():
+    both = "frame=cells", "frame_cells=3"
+    dsmc, plain = document("engine=dsmc", *both), document("engine=dsmc")
+    check(numbers(dsmc) == numbers(plain), "dsmc: other numbers")
+    walls = "flow: couette\nphi: 0.2\nparticles: 200\nrun: {warmup: 20, collisions: 40}\n"
+    for arguments, scene, reason in ((("engine=dsmc",) + both, SCENE, "dsmc"), (both, walls, "between walls"),
+                                     (("frame_cells=3",), SCENE, "frame is imposed")):
+        done = run("run", "scene.yaml", *[x for s in arguments for x in ("--set", s)], scene=scene)
+        check("no effect" in done.err and "frame_cells" in done.err and reason in done.err, done.err)
+
+
+def test_cells_of_few_grains_are_rejected():
+    done = run("run", "scene.yaml", "--set", "frame=cells", "--set", "frame_cells=6", scene=SCENE)
+    check(done.code != 0 and "6 x 6 x 6 cells of 500 grains hold 2.3 each; at least 4" in done.err, done.code, done.err)
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])
