@@ -282,6 +282,7 @@ gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_mode
   for (int a = 0; a < 3; a++) m->gravity[a] = s->gravity[a] * time_unit * time_unit / s->species[0].diameter;
   m->contact_time = m->elastic                      ? 0
                     : s->md.contact_time != GG_AUTO ? s->md.contact_time
+                    : s->md.raised != GG_AUTO       ? s->md.raised
                     : m->gravity[1] != 0            ? 1e-3
                                                     : 1e-5;
   m->time_step = s->dsmc.time_step;

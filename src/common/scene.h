@@ -68,6 +68,8 @@ struct gg_scene {
   } run;
   struct {
     double contact_time; /* in mean free times, or sqrt(d/|g_y|) under gravity; 0: off; or GG_AUTO */
+    double raised; /* what auto stands for after a collapse; GG_AUTO: there was none. No key: set by the run, of one
+                    * that is resumed from the checkpoint */
   } md;
   struct {
     double time_step;  /* in mean free times, or GG_AUTO */

@@ -192,11 +192,18 @@ static gg_status check_numbers(const gg_replica *r, gg_error *err)
                       r->clock.time);
 }
 
+#define COLLAPSE "collisions accumulate without end"
+
+bool gg_run_is_collapse(const gg_error *err)
+{
+  return strstr(err->message, COLLAPSE) != NULL;
+}
+
 gg_status gg_run_replica_collapsed(const gg_replica *r, gg_error *err)
 {
   const char *unit = gg_common_model_contact_unit(&r->model), *name = r->engine->ops->name;
   return gg_base_fail(err, GG_FAILED,
-                      "%s: collisions accumulate without end (inelastic collapse) near time %g; "
+                      "%s: " COLLAPSE " (inelastic collapse) near time %g; "
                       "give md.contact_time a larger value (it is %g %s)",
                       name, r->clock.time, r->model.contact_time, unit);
 }

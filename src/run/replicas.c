@@ -216,7 +216,8 @@ gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const 
   all->last.relative_error = NAN; /* nothing is estimated yet */
   if (resume) GG_TRY(gg_scene_resumption_settle(&all->scene, resume, err));
   scene = &all->scene;
-  GG_TRY(gg_run_start_make(scene, callbacks && !resume ? callbacks->model : NULL, &all->model, err));
+  GG_TRY(gg_run_start_make(scene, callbacks && !resume && scene->md.raised == GG_AUTO ? callbacks->model : NULL,
+                           &all->model, err));
   GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(&all->model, err));
   GG_TRY(check_until(all, err));
   all->criteria = gg_run_criteria_of(scene, &all->model);
@@ -234,6 +235,28 @@ gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const 
                           gg_run_engine_ops_of(scene->engine)->name);
   if (status != GG_OK) gg_run_replicas_clear(all);
   return status;
+}
+
+/* Contact times beyond change means: 1e-3, at the densest and most dissipative, by a few per cent. */
+#define MOST_CONTACT_TIME 1e-3
+
+bool gg_run_replicas_can_raise(const gg_replicas *all)
+{
+  const double t = all->model.contact_time;
+  return all->scene.md.contact_time == GG_AUTO && t > 0 && t < MOST_CONTACT_TIME * (1 - 1e-9) &&
+         !(all->scene.output.trajectory_every > 0);
+}
+
+gg_status gg_run_replicas_raise(gg_replicas *all, int threads, gg_error *err)
+{
+  gg_scene scene = all->scene;
+  const gg_run_callbacks *callbacks = all->callbacks;
+  const double wall = all->state.wall + gg_base_clock_wall() - all->started;
+  scene.md.raised = 10 * all->model.contact_time;
+  gg_run_replicas_clear(all);
+  GG_TRY(gg_run_replicas_create(all, &scene, NULL, threads, callbacks, err));
+  all->state.wall = wall;
+  return GG_OK;
 }
 
 void gg_run_replicas_clear(gg_replicas *all)

@@ -200,6 +200,11 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
   if (result->steadiness == GG_STEADY && !c->trusted)
     gg_run_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
                        GG_MIN_BLOCKS);
+  if (all->scene.md.raised != GG_AUTO)
+    gg_run_result_warn(result,
+                       "md.contact_time: auto is %g here, since collisions accumulate without end at %g; grains in "
+                       "lasting contact lose less energy: see how means change from one to the other",
+                       all->scene.md.raised, all->scene.md.raised / 10);
   if ((double)s->treated > 1e-4 * (double)s->collisions)
     gg_run_result_warn(result, "%.3g %% of collisions fell under the contact-time rule (e = 1 within t_c)",
                        100 * (double)s->treated / (double)s->collisions);

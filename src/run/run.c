@@ -40,12 +40,19 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
                        gg_result **out, gg_error *err)
 {
   gg_replicas *all = gg_base_array_new(1, sizeof *all, err);
+  gg_error own;
   *out = NULL;
   if (!all) return GG_FAILED;
+  if (!err) err = &own;
   const unsigned before = gg_base_memory_failures();
   gg_status status = gg_run_replicas_create(all, scene, resume, threads, callbacks, err);
-  const bool created = status == GG_OK;
+  bool created = status == GG_OK;
   if (created) status = run_replicas(all, out, err);
+  while (created && status == GG_FAILED && !*out && gg_run_is_collapse(err) && gg_run_replicas_can_raise(all)) {
+    status = gg_run_replicas_raise(all, threads, err);
+    created = status == GG_OK;
+    if (created) status = run_replicas(all, out, err);
+  }
   if (created) gg_run_replicas_clear(all);
   free(all);
   if (!created) return gg_base_memory_check(before, status, err);

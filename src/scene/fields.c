@@ -136,7 +136,7 @@ const gg_field gg_scene_fields[] = {
      .doc = "seed of the random streams; the same seed gives the same run"},
     {"md.contact_time", GG_FIELD_NUMBER, AT(md.contact_time), 0, 1, false, AUTO, .unit = "mean free times",
      .doc = "collisions of a grain closer in time than this lose no normal energy, against inelastic collapse; 0: off; "
-            "auto: 1e-5, with gravity along y 1e-3 sqrt(d/g)",
+            "auto: 1e-5, tenfold up to 1e-3 where grains collapse nevertheless; with gravity along y 1e-3 sqrt(d/g)",
      .when = GG_IF_MD | GG_IF_LOSSY},
     {"dsmc.time_step", GG_FIELD_NUMBER, AT(dsmc.time_step), 0, 1, true, AUTO, .unit = "mean free times",
      .doc = "time step of the Monte Carlo engine", .when = GG_IF_DSMC, .also = "dt"},
@@ -207,7 +207,7 @@ static void set_default(const gg_field *f, void *base)
 
 gg_scene gg_scene_defaults(void)
 {
-  gg_scene scene = {.n_species = 1, .dsmc = {.chosen_for = GG_AUTO}};
+  gg_scene scene = {.n_species = 1, .md = {.raised = GG_AUTO}, .dsmc = {.chosen_for = GG_AUTO}};
   for (const gg_field *f = gg_scene_fields; f->key; f++) set_default(f, &scene);
   for (int i = 0; i < GG_MAX_SPECIES; i++) {
     for (const gg_field *f = gg_scene_species_fields; f->key; f++) set_default(f, &scene.species[i]);

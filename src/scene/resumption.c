@@ -21,7 +21,7 @@ static const struct {
 };
 
 static const char number_of_species[] = "scene/species.n", extension_item[] = "scene/extension";
-static const char ensemble_item[] = "scene/chosen_for";
+static const char ensemble_item[] = "scene/chosen_for", raised_item[] = "scene/contact_time_raised";
 enum { SIGNATURE = 2048 };
 
 static const char *item_of(const gg_field *f, char name[64])
@@ -42,6 +42,7 @@ gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *a, gg_error
   GG_TRY(gg_base_archive_put(a, number_of_species, GG_ITEM_I64, &n, 1, err));
   const double chosen_for = gg_common_ensemble_size_error(scene);
   GG_TRY(gg_base_archive_put(a, ensemble_item, GG_ITEM_F64, &chosen_for, 1, err));
+  if (scene->md.raised != GG_AUTO) GG_TRY(gg_base_archive_put(a, raised_item, GG_ITEM_F64, &scene->md.raised, 1, err));
   gg_common_extension_signature(scene->extension, signature, sizeof signature);
   return gg_base_archive_put(a, extension_item, GG_ITEM_U8, signature, sizeof signature, err);
 }
@@ -124,6 +125,8 @@ static gg_status same_extension(const gg_scene *scene, const gg_archive *a, gg_e
 
 gg_status gg_scene_resumption_settle(gg_scene *scene, const gg_archive *a, gg_error *err)
 {
+  if (gg_base_archive_find(a, raised_item))
+    GG_TRY(gg_base_archive_get(a, raised_item, GG_ITEM_F64, &scene->md.raised, 1, err));
   if (!gg_base_archive_find(a, ensemble_item))
     return GG_OK; /* no archive of a run: gg_scene_resumption_check rejects it */
   return gg_base_archive_get(a, ensemble_item, GG_ITEM_F64, &scene->dsmc.chosen_for, 1, err);

@@ -208,6 +208,8 @@ static void restore_effort(gg_result *r, const json_t *document)
                                       .events = count(state, "events"),
                                       .treated = count(state, "contact_time_collisions"),
                                       .overflows = count(state, "majorant_overflows")};
+  if (json_object_get(state, "contact_time"))
+    r->scene.md.raised = r->model.contact_time = gg_base_json_number(state, "contact_time");
   if (json_object_get(state, "worst_overlap"))
     r->engine_state.worst_overlap = gg_base_json_number(state, "worst_overlap");
   if (json_object_get(state, "time_step")) r->engine_state.time_step = gg_base_json_number(state, "time_step");
