@@ -1,27 +1,43 @@
 /* The length from which on shear modes outgrow the thermal speed of a cooling gas, so that it breaks up into vortices
  * and then clusters: I. Goldhirsch & G. Zanetti, Phys. Rev. Lett. 70 (1993) 1619; J.J. Brey, J.W. Dufty, C.S. Kim & A.
  * Santos, Phys. Rev. E 58 (1998) 4638:
- *   L_c = 2 pi sqrt(2 eta/(n m zeta)) = 2 pi 5/(16 sqrt(pi) n d^2) sqrt(2 H/Z),  H = eta/eta_0, Z = zeta/nu_0 */
+ *   L_c = 2 pi sqrt(2 eta/(n m zeta)) = 2 pi 5/(16 sqrt(pi) n d^2) sqrt(2 H/Z),  H = eta/eta_0, Z = zeta/nu_0
+ * Of mixtures n m is the density of mass, zeta the rate that all temperatures share: P.P. Mitrano, V. Garzo & C.M.
+ * Hrenya, Phys. Rev. E 89 (2014) 020201(R). The Gaussian thermostat acts on the velocity of flows, too, and so feeds
+ * shear modes as cooling does. Of smooth grains that is cooling itself, in other units; of rough ones, whose spins get
+ * nothing, theta/T is that of the heated state, and zeta the rate at which translation loses energy there. */
 #include "theory/goldhirsch_zanetti1993.h"
 
 #include <math.h>
 #include <stdio.h>
 
+#include "common/thermostat.h"
 #include "theory/answer.h"
+#include "theory/garzo_montanero2003.h"
 #include "theory/lun1991.h"
 #include "theory/theory_list.h"
 
 static const char name[] = "goldhirsch_zanetti1993";
 
-/* eta/(n m) over zeta in the cooling state, from the theories that know them. */
+static double viscous_length2_of_mixture(const gg_model *m)
+{
+  const gg_mixture_state s = gg_theory_mixture_cooling(m, GG_LINEAR, 1);
+  double mass = 0;
+  for (int i = 0; i < m->n_species; i++) mass += gg_theory_fraction(m, i) * m->mass[i];
+  return gg_theory_mixture_viscosity_of(m, &s, 0.5).total / (m->density * mass) / s.zeta;
+}
+
+/* eta/(n m) over zeta in the cooling or heated state, from the theories that know them. */
 static double viscous_length2(gg_model m)
 {
   gg_theory_answer a;
-  m.flow = GG_HCS;
-  m.thermostat = GG_NO_THERMOSTAT;
+  const bool heated = m.rule != GG_SMOOTH && gg_common_thermostat_of(&m) == GG_GAUSSIAN;
+  m.flow = heated ? GG_HSS : GG_HCS;
+  m.thermostat = heated ? GG_GAUSSIAN : GG_NO_THERMOSTAT;
   m.linear_response = false;
   m.shear_rate = 0;
   m.temperature0 = 1;
+  if (m.n_species > 1) return viscous_length2_of_mixture(&m);
   double unit = 1 / gg_common_model_nu0(&m, 1); /* eta_0/(n m) over nu_0 is unit^2 */
   if (m.rule == GG_SMOOTH) {
     if (gg_theory_evaluate(&gg_theory_garzo_dufty1999, &m, &a, NULL) != GG_OK) return NAN;
@@ -35,7 +51,7 @@ static double viscous_length2(gg_model m)
 double gg_theory_clustering_length(const gg_model *m)
 {
   if (m->elastic) return INFINITY;
-  if (m->n_species > 1 || m->rule == GG_FRICTIONAL) return NAN;
+  if (m->n_species > 2 || (m->n_species == 2 && m->rule != GG_SMOOTH) || m->rule == GG_FRICTIONAL) return NAN;
   return 2 * M_PI * sqrt(2 * viscous_length2(*m));
 }
 
@@ -54,8 +70,13 @@ bool gg_theory_stable_size(const gg_model *m, char *text, size_t size)
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_theory_require_one_species(m, name, err));
+  if (m->n_species > 2)
+    return gg_theory_reject(err, name, "needs the viscosity of one or two species; this scene has %d", m->n_species);
+  if (m->n_species == 2) GG_TRY(gg_theory_require_smooth(m, name, err));
   GG_TRY(gg_theory_require_constant_beta(m, name, err));
+  if (gg_common_thermostat_of(m) == GG_WHITE_NOISE)
+    return gg_theory_reject(err, name,
+                            "describes free cooling and the Gaussian thermostat; white noise feeds all modes");
   if (m->elastic)
     return gg_theory_reject(err, name, "describes gases that lose energy; collisions of this scene do not");
   double length = gg_theory_clustering_length(m);
@@ -66,7 +87,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 const gg_theory gg_theory_goldhirsch_zanetti1993 = {
     .name = name,
-    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_USF) | GG_FLOW_BIT(GG_SMALL_SHEAR),
+    .flows = GG_FLOW_BIT(GG_HCS) | GG_FLOW_BIT(GG_HSS) | GG_FLOW_BIT(GG_USF) | GG_FLOW_BIT(GG_SMALL_SHEAR),
     .title = "Size above which cooling gases form vortices and clusters",
     .citation =
         "I. Goldhirsch and G. Zanetti, Phys. Rev. Lett. 70 (1993) 1619; J.J. Brey et al., Phys. Rev. E 58 (1998) 4638",

@@ -5,7 +5,8 @@
 #include "theory/theory.h"
 
 /* Box length above which free cooling at this density breaks up into vortices and clusters, in d of species 1 (in
- * 1/(n d^2) in the Boltzmann limit): INFINITY for elastic grains, NaN for mixtures and friction, where it is not known.
+ * 1/(n d^2) in the Boltzmann limit), or the state that the model's Gaussian thermostat heats: INFINITY for elastic
+ * grains, NaN for rough mixtures, three species and more, and friction, where it is not known.
  */
 double gg_theory_clustering_length(const gg_model *model);
 

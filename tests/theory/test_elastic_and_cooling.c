@@ -163,8 +163,37 @@ static void critical_size(void **state)
   assert_close(gg_theory_clustering_length(&sheared), gg_theory_clustering_length(&m), 1e-12);
   m = model_for(GG_USF, 0.3, 1, -1);
   assert_true(isinf(gg_theory_clustering_length(&m)));
-  m = mixture_for(GG_HCS, 0.3, 0.9, -1, 2, 1, 1);
+  m = mixture_for(GG_HCS, 0.3, 0.9, 0, 2, 1, 1);
   assert_true(isnan(gg_theory_clustering_length(&m)));
+}
+
+/* One species cut in two; a mixture under the Gaussian thermostat is one that cools, in other units. Dilute, nearly
+ * elastic, trace species apart: eta and zeta of the other, one species with that mass. */
+static void critical_size_of_mixtures(void **state)
+{
+  (void)state;
+  const double e[] = {0.5, 0.8, 0.95};
+  for (int k = 0; k < 3; k++) {
+    gg_model one = model_for(GG_HCS, 0.3, e[k], -1), cut = mixture_for(GG_HCS, 0.3, e[k], -1, 1, 1, 1);
+    assert_close(gg_theory_clustering_length(&cut), gg_theory_clustering_length(&one), 0.01);
+    gg_model heavy = mixture_for(GG_HCS, 0.3, e[k], -1, 8, 1, 1e4);
+    assert_close(gg_theory_clustering_length(&heavy), gg_theory_clustering_length(&one), 0.01);
+    gg_model cooling = mixture_for(GG_HCS, 0.2, e[k], -1, 4, 2, 1), heated = cooling;
+    heated.flow = GG_HSS, heated.thermostat = GG_GAUSSIAN;
+    assert_close(gg_theory_clustering_length(&heated), gg_theory_clustering_length(&cooling), 1e-12);
+    assert_true(gg_theory_clustering_length(&cooling) > 1);
+  }
+}
+
+/* Rough grains whose translation alone is heated have colder spins than those that cool at beta = 0; perfectly rough
+ * and nearly elastic ones share energy, and the thermostat gives what both lose: zeta is twice that of T in cooling,
+ * where both fall together. */
+static void critical_size_of_heated_rough_grains(void **state)
+{
+  (void)state;
+  gg_model cooling = model_for(GG_HCS, 0.1, 1 - 1e-6, 1), heated = cooling;
+  heated.flow = GG_HSS, heated.thermostat = GG_GAUSSIAN;
+  assert_close(gg_theory_clustering_length(&heated), gg_theory_clustering_length(&cooling) / sqrt(2), 1e-4);
 }
 
 /* The number of grains of a box of that length; also under the Gaussian thermostat, not under noise or shear. */
@@ -214,6 +243,8 @@ int main(void)
       cmocka_unit_test(viscosity_of_a_mixture),
       cmocka_unit_test(haff_law),
       cmocka_unit_test(critical_size),
+      cmocka_unit_test(critical_size_of_mixtures),
+      cmocka_unit_test(critical_size_of_heated_rough_grains),
       cmocka_unit_test(stable_size),
       cmocka_unit_test(critical_size_of_rough_grains),
   };
