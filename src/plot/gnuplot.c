@@ -55,7 +55,9 @@ static gg_status spawn(int in, int out, int complaints, pid_t *child, gg_error *
   return failed ? gg_base_fail(err, GG_FAILED, "gnuplot cannot be started: %s", strerror(failed)) : GG_OK;
 }
 
-enum { LONGEST = 60 /* s: a page takes some seconds at most */ };
+#ifndef GG_GNUPLOT_SECONDS    /* tests wait for less */
+#define GG_GNUPLOT_SECONDS 60 /* a page takes some seconds at most */
+#endif
 
 /* Those that would end this process or are caught, not those that are ignored. */
 static void choose_signals(sigset_t *ends)
@@ -89,7 +91,7 @@ static gg_status await(pid_t child, int *status, gg_error *err)
   bool ended = false;
   choose_signals(&ends);
   pthread_sigmask(SIG_BLOCK, &ends, &before);
-  const int number = wait_for(child, &ends, LONGEST, &ended, status);
+  const int number = wait_for(child, &ends, GG_GNUPLOT_SECONDS, &ended, status);
   if (!ended) {
     kill(child, number ? number : SIGTERM);
     sigset_t none;
@@ -102,7 +104,8 @@ static gg_status await(pid_t child, int *status, gg_error *err)
   pthread_sigmask(SIG_SETMASK, &before, NULL);
   if (number) return gg_base_fail(err, GG_INTERRUPTED, "interrupted while gnuplot drew a picture");
   return ended ? GG_OK
-               : gg_base_fail(err, GG_FAILED, "gnuplot was ended, as it took more than %d s for a picture", LONGEST);
+               : gg_base_fail(err, GG_FAILED, "gnuplot was ended, as it took more than %d s for a picture",
+                              GG_GNUPLOT_SECONDS);
 }
 
 /* Its complaint is the last line that says something. */
