@@ -1385,7 +1385,9 @@ GG_API const char *gg_sweep_value(const gg_sweep *sweep, size_t i, size_t k);
 typedef enum gg_point_state {
   GG_POINT_MISSING,
   GG_POINT_DONE,
-  GG_POINT_SHORT /* done, but ended before its stopping criteria */
+  GG_POINT_SHORT,       /* done, but ended before its stopping criteria */
+  GG_POINT_OTHER_BUILD, /* done by a build with other sources: gg_sweep_run repeats it, unless accept_version is set */
+  GG_POINT_DAMAGED      /* its file is not whole: gg_sweep_run repeats it */
 } gg_point_state;
 
 /**

@@ -18,7 +18,8 @@ from .theory import Grid, grid_keys
 
 ffi = _c.ffi
 
-STATES = {lib.GG_POINT_MISSING: "missing", lib.GG_POINT_DONE: "done", lib.GG_POINT_SHORT: "short"}
+STATES = {lib.GG_POINT_MISSING: "missing", lib.GG_POINT_DONE: "done", lib.GG_POINT_SHORT: "short",
+          lib.GG_POINT_OTHER_BUILD: "other build", lib.GG_POINT_DAMAGED: "damaged"}
 
 
 class Point:

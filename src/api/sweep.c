@@ -176,10 +176,12 @@ gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_
   GG_NEED(sweep, folder, state);
   GG_USE_READING(sweep);
   GG_TRY(check_point(sweep, i, err));
-  *state = gg_sweep_point_status(folder, sweep->point[i].id);
+  const uint64_t id = sweep->point[i].id;
+  const bool fell_short = gg_sweep_point_status(folder, id) == GG_POINT_SHORT;
+  *state = gg_sweep_point_state(folder, id);
   if (!file) return GG_OK;
   char path[PATH_MAX];
-  *file = strdup(gg_sweep_point_path(folder, sweep->point[i].id, *state == GG_POINT_SHORT ? ".short.h5" : ".h5", path));
+  *file = strdup(gg_sweep_point_path(folder, id, fell_short ? ".short.h5" : ".h5", path));
   return *file ? GG_OK : gg_base_out_of_memory(err);
 }
 

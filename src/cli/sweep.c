@@ -39,34 +39,41 @@ static void print_head(const gg_sweep *sweep, const widths *w)
 {
   printf("%5s  ", "point");
   for (size_t k = 0; k < w->n; k++) printf("%-*s  ", w->of[k], gg_sweep_key(sweep, k));
-  printf("%-16s  %-7s  %8s  %s\n", "file", "state", "replicas", "time");
+  printf("%-16s  %-13s  %8s  %s\n", "file", "state", "replicas", "time");
 }
 
-/* Whoever takes part in its time: the missing ones. */
+/* Points of other builds and damaged ones run again. */
+static bool is_done(const gg_sweep_command *c, gg_point_state state)
+{
+  return state == GG_POINT_DONE || state == GG_POINT_SHORT ||
+         (state == GG_POINT_OTHER_BUILD && c->options->accept_version);
+}
+
+/* Whoever takes part in its time: those that are not done. */
 static double print_point(const gg_sweep_command *c, const widths *w, size_t i, gg_point_state state)
 {
-  static const char *const states[] = {"", "done", "short"};
+  static const char *const states[] = {"", "done", "short", "another build", "damaged"};
   char time[24];
   gg_sweep_point p;
   if (gg_sweep_at(c->sweep, i, &p, NULL) != GG_OK) return 0;
   gg_cli_format_duration(p.cpu_seconds, time, sizeof time);
   printf("%5zu  ", i + 1);
   for (size_t k = 0; k < w->n; k++) printf("%-*s  ", w->of[k], gg_sweep_value(c->sweep, i, k));
-  printf("%-16s  %-7s  %8ld  %s\n", p.name, states[state], (long)p.replicas, time);
-  return state == GG_POINT_MISSING ? p.cpu_seconds : 0;
+  printf("%-16s  %-13s  %8ld  %s\n", p.name, states[state], (long)p.replicas, time);
+  return is_done(c, state) ? 0 : p.cpu_seconds;
 }
 
-/* --list: a line a point, and the time that those which are missing will take. */
+/* --list: a line a point, and the time that those which are not done will take. */
 int gg_cli_sweep_list(const gg_sweep_command *c)
 {
-  size_t done = 0, n = gg_sweep_points(c->sweep);
+  size_t done = 0, again = 0, n = gg_sweep_points(c->sweep);
   double seconds = 0;
   const widths w = measure(c->sweep);
   print_head(c->sweep, &w);
   for (size_t i = 0; i < n; i++) {
     gg_point_state state = GG_POINT_MISSING;
     gg_sweep_find(c->sweep, c->folder, i, &state, NULL, NULL);
-    done += state != GG_POINT_MISSING;
+    done += is_done(c, state), again += state != GG_POINT_MISSING && !is_done(c, state);
     seconds += print_point(c, &w, i, state);
   }
   char time[24];
@@ -74,6 +81,9 @@ int gg_cli_sweep_list(const gg_sweep_command *c)
   gg_cli_format_duration(seconds / threads, time, sizeof time);
   printf("\n%s at %zu point%s, of which %zu %s done; about %s on %d thread%s for the others\n", gg_sweep_does(c->sweep),
          n, n == 1 ? "" : "s", done, done == 1 ? "is" : "are", time, threads, threads == 1 ? "" : "s");
+  if (again)
+    printf("%zu %s: damaged, or of another build of graingas (--accept-version keeps the latter)\n", again,
+           again == 1 ? "point will run again" : "points will run again");
   return GG_OK;
 }
 

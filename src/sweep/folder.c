@@ -68,6 +68,18 @@ static gg_point_file check_file(const char *path, bool any_build)
   return gg_base_memory_failures() == before ? found : GG_POINT_FILE_GOOD;
 }
 
+gg_point_state gg_sweep_point_state(const char *folder, uint64_t id)
+{
+  char path[PATH_MAX];
+  const gg_point_state there = gg_sweep_point_status(folder, id);
+  if (there == GG_POINT_MISSING) return there;
+  switch (check_file(gg_sweep_point_path(folder, id, there == GG_POINT_SHORT ? ".short.h5" : ".h5", path), false)) {
+  case GG_POINT_FILE_OTHER_BUILD: return GG_POINT_OTHER_BUILD;
+  case GG_POINT_FILE_DAMAGED: return GG_POINT_DAMAGED;
+  default: return there;
+  }
+}
+
 /* Under the point's lock the file is checked again: another process may have put a new one there. */
 static gg_point_file set_aside(const char *folder, uint64_t id, const char *ending, bool any_build)
 {

@@ -11,8 +11,10 @@ void gg_sweep_point_name(uint64_t id, char name[GG_POINT_NAME]);
 /* FOLDER/NAME and an ending: ".h5", ".short.h5", ".work.h5" (until it is known which of both), ".checkpoint.h5". In a
  * buffer of PATH_MAX bytes, which it returns; empty where the folder's name is too long. */
 char *gg_sweep_point_path(const char *folder, uint64_t id, const char *ending, char *path);
-/* What is there of a point. */
+/* What is there of a point: missing, done or short. */
 gg_point_state gg_sweep_point_status(const char *folder, uint64_t id);
+/* The same after a look into its file, which may be of another build, or damaged. */
+gg_point_state gg_sweep_point_state(const char *folder, uint64_t id);
 
 /* Make it if it is not there (not what it stands in), and see that files can be made in it. `holds` ends the message
  * where something else has its name. */

@@ -427,8 +427,11 @@ static json_t *value_json(const char *text)
 
 static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
 {
-  static const char *const states[] = {
-      [GG_POINT_MISSING] = "missing", [GG_POINT_DONE] = "done", [GG_POINT_SHORT] = "short"};
+  static const char *const states[] = {[GG_POINT_MISSING] = "missing",
+                                       [GG_POINT_DONE] = "done",
+                                       [GG_POINT_SHORT] = "short",
+                                       [GG_POINT_OTHER_BUILD] = "other build",
+                                       [GG_POINT_DAMAGED] = "damaged"};
   char name[GG_POINT_NAME];
   gg_scene scene;
   json_t *keys = json_object();
@@ -440,7 +443,7 @@ static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
   for (size_t k = 0; gg_sweep_key(sweep, k); k++)
     json_object_set_new(keys, gg_sweep_key(sweep, k), value_json(gg_sweep_value(sweep, i, k)));
   return json_pack("{s:I, s:o, s:s, s:s, s:f, s:I, s:I}", "point", (json_int_t)i + 1, "keys", keys, "name", name,
-                   "state", states[gg_sweep_point_status(folder, sweep->point[i].id)], "cpu_seconds",
+                   "state", states[gg_sweep_point_state(folder, sweep->point[i].id)], "cpu_seconds",
                    sweep->point[i].seconds, "replicas", (json_int_t)scene.run.replicas, "seed",
                    (json_int_t)scene.run.seed);
 }

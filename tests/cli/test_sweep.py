@@ -297,7 +297,12 @@ def by_another_build(path):
 
 
 def test_other_builds():
-    """Points of another build and damaged ones run again, and are kept; --accept-version keeps the former in place."""
+    """Points of another build and damaged ones run again, and are kept, as --list says before; --accept-version keeps the
+    former in place."""
+    def told(file):
+        points = json.loads(run("sweep", "s.yaml", "--list", "--json").out)["points"]
+        return next(p["state"] for p in points if p["name"] + ".h5" == file)
+
     write()
     check(run("sweep", "s.yaml").code == 0)
     table, files = collected("s.sweep"), sorted(points_in("s.sweep"))
@@ -308,11 +313,19 @@ def test_other_builds():
     done = run("sweep", "s.yaml", "--collect", "--picture", "none")
     check(done.code == 0 and "warning: 2 of 6 points are by another build" in done.err, done.err)
     check(sum(row["build"][0:4] == "0000" for row in rows("s.sweep.csv")) == len(table) // 3)
+    states = ["other build" if f in points[:2] else "done" for f in points]
+    done = run("sweep", "s.yaml", "--list")
+    check("of which 4 are done" in done.out and "2 points will run again: damaged, or of another build" in done.out, done.out)
+    check(sum("another build  " in line for line in done.out.splitlines()) == 2, done.out)
+    check([told(f) for f in points] == states, states)
+    done = run("sweep", "s.yaml", "--list", "--accept-version")
+    check("of which 6 are done" in done.out and "will run again" not in done.out, done.out)
     done = run("sweep", "s.yaml", "--accept-version")
     check(done.code == 0 and "warning" not in done.err and sorted(points_in("s.sweep")) == files, done.err)
     with open("s.sweep/" + points[2], "r+b") as f:
         f.seek(3000)
         f.write(b"damage")
+    check(told(points[2]) == "damaged" and "3 points will run again" in run("sweep", "s.yaml", "--list").out)
     done = run("sweep", "s.yaml")
     check(done.code == 0 and "warning: 2 points are by another build of graingas, 1 are damaged" in done.err, done.err)
     check(collected("s.sweep") == table)
