@@ -1,9 +1,10 @@
 /* What cli/leaves holds results against: a run with every sample and every collision of all its replicas, and what the
  * C interface says of it, by the public header alone.
- *   stored_events SCENE.yaml FOLDER REPLICAS COLLISIONS
+ *   stored_events SCENE.yaml FOLDER REPLICAS COLLISIONS [SAMPLES]
  * FOLDER/result.json: the result; interface.json: the same, asked one by one; samples.bin: what an observable is shown;
  * grains.bin, sums.bin, events.bin: the simulations of the same streams at the samples' times and in between, of all
- * replicas; rule.bin: states of both grains around COLLISIONS single collisions. Every number is a double. */
+ * replicas; rule.bin: states of both grains around COLLISIONS single collisions. Every number is a double. SAMPLES: the
+ * run is stopped after so many of all replicas together, in the midst of one. Without COLLISIONS no grains are stored. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,7 @@ typedef struct recorder {
   const char *folder;
   FILE *samples, *grains, *sums, *events, *rule;
   int replicas;
+  size_t all, most; /* samples of all replicas, and those that there may be */
   size_t n[MOST_REPLICAS];
   double *elapsed[MOST_REPLICAS];
   double replica, sample; /* of the simulation that goes on */
@@ -53,12 +55,19 @@ static void sample(void *context, void *state, const gg_sample *s, double *value
   if (k >= MOST_REPLICAS || r->n[k] >= MOST_SAMPLES) abort();
   if (!r->elapsed[k]) r->elapsed[k] = calloc(MOST_SAMPLES, sizeof(double));
   r->elapsed[k][r->n[k]++] = s->elapsed;
+  r->all++;
   const double head[] = {k, s->time, s->elapsed, (double)s->collisions, s->dissipation};
   put(r->samples, head, sizeof head / sizeof *head);
   put(r->samples, &s->stress[0][0], 9);
   put(r->samples, s->velocity, 3 * s->n);
   if (s->spin) put(r->samples, s->spin, 3 * s->n);
   *values = s->time;
+}
+
+static int stop(void *context)
+{
+  const recorder *r = context;
+  return r->most && r->all >= r->most;
 }
 
 static void run(recorder *r, const gg_scene *bare)
@@ -72,7 +81,9 @@ static void run(recorder *r, const gg_scene *bare)
   char *text;
   must(gg_scene_copy(bare, &scene, &err), &err);
   must(gg_scene_add_observable(scene, &mine, &err), &err);
-  must(gg_run(scene, NULL, &result, &err), &err);
+  const gg_run_options options = {.context = r, .stop = stop};
+  const gg_status status = gg_run(scene, &options, &result, &err);
+  if (!r->most || status != GG_INTERRUPTED) must(status, &err);
   must(gg_result_to_json(result, &text, &err), &err);
   FILE *f = file(r, "result.json");
   fputs(text, f);
@@ -188,15 +199,16 @@ int main(int argc, char **argv)
 {
   gg_error err;
   gg_scene *scene;
-  if (argc != 5) return fprintf(stderr, "stored_events SCENE.yaml FOLDER REPLICAS COLLISIONS\n"), 2;
-  recorder r = {.folder = argv[2]};
+  if (argc < 5) return fprintf(stderr, "stored_events SCENE.yaml FOLDER REPLICAS COLLISIONS [SAMPLES]\n"), 2;
+  const int collisions = atoi(argv[4]);
+  recorder r = {.folder = argv[2], .most = argc > 5 ? (size_t)atoi(argv[5]) : 0};
   must(gg_scene_load(argv[1], &scene, &err), &err);
   must(gg_scene_set(scene, "run.replicas", argv[3], &err), &err);
   r.samples = file(&r, "samples.bin"), r.grains = file(&r, "grains.bin"), r.sums = file(&r, "sums.bin");
   r.events = file(&r, "events.bin"), r.rule = file(&r, "rule.bin");
   run(&r, scene);
-  for (int k = 0; k < r.replicas; k++) follow(&r, scene, k);
-  single_collisions(&r, scene, atoi(argv[4]));
+  for (int k = 0; k < r.replicas && collisions; k++) follow(&r, scene, k);
+  single_collisions(&r, scene, collisions);
   for (int k = 0; k < r.replicas; k++) free(r.elapsed[k]);
   FILE *const files[] = {r.samples, r.grains, r.sums, r.events, r.rule};
   for (int k = 0; k < 5; k++)

@@ -91,10 +91,12 @@ class Store:
         self.event_row = np.array([place[int(r), int(i)] for r, i in e[:, :2]])
         self.pair = np.take_along_axis(species[self.event_row], e[:, 3:5].astype(int), 1)
         self.k, self.c12, self.J = e[:, 5:8], e[:, 8:11], e[:, 11:14]
+        self.event_time, self.grains = e[:, 2], e[:, 3:5].astype(int)
+        self.end = len(samples)  # samples of a replica that count
 
 
 def window_of(store, replicas):
-    return (store.replica < replicas) & (store.index >= WARMUP // 2)
+    return (store.replica < replicas) & (store.index >= WARMUP // 2) & (store.index < store.end)
 
 
 def per_row(store, values):
@@ -118,6 +120,55 @@ def losses(store, kind):
     tangential = ((1 + 1 / K[store.pair]) / m[store.pair]).sum(1)
     lost += (Jt * Jt).sum(1) * tangential * (1 - beta) / (1 + beta) / 2
     return np.where(np.linalg.norm(Jt, axis=1) < mu * Jn * (1 - 1e-9), lost, np.nan)
+
+
+class Followed:
+    """Grains of a periodic flow from sample to sample and collision to collision: peculiar velocities (in flight C_x
+    falls by C_y), heights from the middle, spins, and times since the collision before, of both grains as they meet."""
+
+    def __init__(self, store, flow):
+        sheared, edge = flow == "usf", box_of(store, flow)[1]
+        n = len(store.J)
+        self.c, self.spin, self.height = np.full((n, 2, 3), np.nan), np.full((n, 2, 3), np.nan), np.full((n, 2), np.nan)
+        self.since = np.full((n, 2), np.inf)
+        pushed = store.J[:, None] * np.array([-1, 1])[:, None] / m[store.pair][..., None]
+        turned = self.turned(store)
+        rows = {of: row for row, of in enumerate(zip(store.replica, store.index))}
+        row, last = -1, {}
+        for i in range(n):
+            if store.event_row[i] != row:
+                row = store.event_row[i]
+                replica = store.replica[row]
+                before = rows.get((replica, store.index[row] - 1))
+                if before is not None:
+                    place = np.argsort(store.order[before])
+                    c, y, w = (x[before][place] for x in (store.velocity, store.position[..., 1], store.spin))
+                    at = [store.state[before, 0]] * N
+            now = store.event_time[i]
+            for k, g in enumerate(store.grains[i]):
+                self.since[i, k] = now - last.get((replica, g), -np.inf)
+                last[replica, g] = now
+                if before is None:  # the first sample: nobody knows where they came from
+                    continue
+                t, at[g] = now - at[g], now
+                if sheared:
+                    c[g, 0] -= c[g, 1] * t
+                y[g] = (y[g] + c[g, 1] * t) % edge
+                self.c[i, k], self.height[i, k], self.spin[i, k] = c[g], y[g] - edge / 2, w[g]
+                c[g] += pushed[i, k]
+                w[g] -= turned[i, k]
+
+    @staticmethod
+    def turned(store):
+        """What a collision takes from the spins of both."""
+        return np.cross(store.k, store.J)[:, None] * ((d / 2) / (K * m * d * d / 4))[store.pair][..., None]
+
+    def losses(self, store):
+        """What the relative motion and both spins have less afterwards."""
+        over_m = (1 / m[store.pair]).sum(1)
+        lost = (store.c12 * store.J).sum(1) - (store.J ** 2).sum(1) * over_m / 2
+        turned, inertia = self.turned(store), (K * m * d * d / 4)[store.pair]
+        return lost + (inertia * (self.spin * turned - turned ** 2 / 2).sum(2)).sum(1)
 
 
 def energy_growth(store):
@@ -211,7 +262,7 @@ def long_waves(store, flow):
     return matter[held], momentum[held]
 
 
-def expected(store, flow, kind, replicas, C, W):
+def expected(store, flow, kind, replicas, C, W, followed):
     """Means over window and replicas, from grains and collisions alone; ratios are ratios of means."""
     window = window_of(store, replicas)
     walled, cooling, rough = "image" in FLOWS[flow], flow == "hcs", kind != "smooth"
@@ -281,15 +332,18 @@ def expected(store, flow, kind, replicas, C, W):
         if not walled:
             out["spin_z"] = species_mean(W[..., 2], 1)
     growth_rate = mean(energy_growth(store) / (V * dt)) * STRESS
-    lost = per_row(store, losses(store, kind)[:, None])[:, 0]
-    if kind != "frictional":
+    lost = losses(store, kind)
+    if not walled:
+        lost = np.where(np.isnan(lost), followed.losses(store), lost)
+    lost = per_row(store, lost[:, None])[:, 0]
+    if kind != "frictional" or not walled:
         out["dissipation"] = mean(lost / (V * dt)) * STRESS
     if walled:
         force = store.sums[:, 12:].reshape(-1, 2, 3)  # on the lower and the upper wall
         drag = force[:, 0, 0] + (-1 if flow == "couette" else 1) * force[:, 1, 0]
         out["wall_friction"] = mean(drag / dt) / mean((force[:, 1, 1] - force[:, 0, 1]) / dt)
         out["energy"] = mean(work_between_walls(store, flow) / (V * dt)) * STRESS - growth_rate
-    elif flow == "usf" and kind != "frictional":
+    elif flow == "usf":
         work = collisional + species_mean(store.velocity[..., :, None] * store.velocity[..., None, :], 2, m) * n * STRESS
         out["energy_balance"] = (-work[0, 1] - growth_rate) / out["dissipation"]
     if cooling:  # nu_0 of two species: sqrt(pi) n sigma_12^2 v_0, v_0^2 = 2T(m_1 + m_2)/(m_1 m_2)
@@ -333,7 +387,7 @@ def hold_numbers(results, right, flow, where):
             within = 4 * r["stderr"] if name.startswith(("kurt", "skew", "cos2", "c_")) else 0.01 * abs(value) + 0.3 * r["stderr"]
             check(abs(r["mean"] - value) < within, where, name, r["mean"], r["stderr"], value)
     missing = [q for q, r in results.items() if r["mean"] is not None and q not in right and q != "recorded"]
-    slid = {True: ["dissipation"], flow == "usf": ["dissipation", "energy_balance"]}[True] if "mu" in COLLISION[where.split()[1]] else []
+    slid = ["dissipation"] if walled and "mu" in COLLISION[where.split()[1]] else []
     check(missing in ([], slid), where, "is held by nothing:", missing)
 
 
@@ -353,8 +407,30 @@ def histogram(values, bins, low, high):
     return count * bins / (count.sum() * (high - low))
 
 
-def hold_collisions(store, flow, curves, replicas):
-    rows = window_of(store, replicas)[store.event_row]
+def hold_flights(store, flow, curves, replicas, followed):
+    """Of a species all count that end after twelve collisions a grain of the window."""
+    inside = window_of(store, replicas)[store.event_row]
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    for s in range(2):
+        ends = inside[:, None] & (store.pair == s)
+        for r in range(replicas):
+            of = ends & (store.replica[store.event_row] == r)[:, None]
+            ends &= ~(of & (of.cumsum().reshape(of.shape) <= 12 * (store.species == s).sum()))
+        t, c, y = followed.since[ends], followed.c[ends], followed.height[ends]
+        check(np.isfinite(t).all() and len(t) > 1000, flow, s, len(t))
+        back = c[:, None] + (nodes[:, None] * 0.5 + 0.5) * (t[:, None, None] * np.outer(c[:, 1], [flow == "usf", 0, 0])[:, None])
+        numbers = {"free_path": ("mean_free_path", (weights / 2 * np.linalg.norm(back, axis=2)).sum(1) * t)}
+        if flow == "usf":
+            numbers["free_time"] = "mean_free_time", t
+            numbers["free_path_laboratory"] = "mean_free_path_laboratory", t * np.linalg.norm(c + np.outer(y, [1, 0, 0]), axis=1)
+        for curve, (name, x) in numbers.items():
+            found = curves[f"{curve}_{s + 1}"]["numbers"]
+            close(found[name]["mean"], x.mean(), flow, name, s, within=1e-5)
+            close(found["second_moment_over_mean_squared"]["mean"], (x * x).mean() / x.mean() ** 2, flow, name, s, within=1e-5)
+
+
+def hold_collisions(store, flow, curves, rows):
+    rows = rows[store.event_row]
     k, c12 = store.k[rows], store.c12[rows]
     cosine = (k * c12).sum(1) / np.linalg.norm(c12, axis=1)
     close(curves["impact_cos"]["value"], histogram(np.clip(cosine, 0, 1), 50, 0, 1), flow, "impact_cos")
@@ -495,14 +571,15 @@ def hold_correlations(store, flow, kind, curves, replicas, C, W):
             close(found, right, flow, kind, "correlation", letter, a)
 
 
-def hold_curves(store, flow, kind, curves, replicas, C, W):
+def hold_curves(store, flow, kind, curves, replicas, C, W, followed):
     rows = window_of(store, replicas) & (store.index % 2 == 0)  # every 2nd sample
-    hold_collisions(store, flow, curves, replicas)
+    hold_collisions(store, flow, curves, window_of(store, replicas))
     if "profiles" in FLOWS[flow]["measure"]:
         hold_profiles(store, flow, kind, curves, rows)
         hold_walls(store, flow, curves, replicas)
     else:
         hold_distributions(store, flow, curves, rows, C, W)
+        hold_flights(store, flow, curves, replicas, followed)
     if "velocity_correlation_Cx" in curves:
         hold_correlations(store, flow, kind, curves, replicas, C, W)
     if kind != "smooth" and "profiles" not in FLOWS[flow]["measure"]:
@@ -710,16 +787,21 @@ def resumed(document, whole):
     check(arrays("cut.h5") == whole, "resumed: frames")
 
 
-def row(flow, kind, frame):
+def stored(scene, collisions, *more):
     if isinstance(h5py, ImportError):
         raise Skip(h5py)
     with open("scene.yaml", "w") as f:
-        json.dump(scene_of(flow, kind, frame), f)
-    done = subprocess.run([os.environ["STORED_EVENTS"], "scene.yaml", ".", str(REPLICAS), str(SINGLE)], capture_output=True,
-                          text=True, timeout=60 * PATIENCE)
+        json.dump(scene, f)
+    done = subprocess.run([os.environ["STORED_EVENTS"], "scene.yaml", ".", str(REPLICAS), str(collisions), *map(str, more)],
+                          capture_output=True, text=True, timeout=60 * PATIENCE)
     check(done.returncode == 0, done.stderr)
+
+
+def row(flow, kind, frame):
+    stored(scene_of(flow, kind, frame), SINGLE)
     store = Store(kind != "smooth")
     hold_rule(flow, kind)
+    followed = None if "image" in FLOWS[flow] else Followed(store, flow)
     for replicas in 1, REPLICAS:
         done = run("run", "scene.yaml", "--quiet", "--json", "--set", f"run.replicas={replicas}", "--output", f"r{replicas}.h5")
         check(done.code == 0, done.err)
@@ -728,9 +810,9 @@ def row(flow, kind, frame):
         C, W = (about_flow(store, window_of(store, replicas)) if walled else (store.velocity, store.spin) if frame == "imposed"
                 else about_cells(store, flow, frame))
         check(document["results"]["N1"]["samples"] == window_of(store, replicas).sum(), "samples")
-        hold_numbers(document["results"], expected(store, flow, kind, replicas, C, W), flow, f"{flow} {kind} {replicas}")
+        hold_numbers(document["results"], expected(store, flow, kind, replicas, C, W, followed), flow, f"{flow} {kind} {replicas}")
         hold_units(document["results"], flow)
-        hold_curves(store, flow, kind, document["curves"], replicas, C, W)
+        hold_curves(store, flow, kind, document["curves"], replicas, C, W, followed)
         hold_file(f"r{replicas}.h5", document, store, flow, kind)
         hold_export(f"r{replicas}", document, store, flow, kind)
     with open("result.json") as f:
@@ -739,6 +821,56 @@ def row(flow, kind, frame):
     check(library["curves"] == document["curves"], "curves of library and command")
     hold_interface(store, flow, kind, frame, C)
     resumed(document, arrays(f"r{REPLICAS}.h5"))
+
+
+def test_uneven_replicas():
+    """A run that is stopped in the midst of its replicas: means are over what all of them have, curves over all whole
+    blocks, of which a sample weighs as much as any other."""
+    scene = scene_of("usf", "rough")
+    scene["run"]["collisions"] = 1e5
+    stored(scene, SINGLE, 800)
+    with open("result.json") as f:
+        document = json.load(f)
+    store, first = Store(True), WARMUP // 2
+    n = np.bincount(store.replica) - first
+    check(n.min() > 20 and n.max() > n.min() + 20, "even replicas", n)
+    store.end = first + n.min()
+    right = expected(store, "usf", "rough", REPLICAS, store.velocity, store.spin, Followed(store, "usf"))
+    check(document["results"]["N1"]["samples"] == REPLICAS * n.min(), n)
+    for name in "temperature", "P_xy", "collision_rate", "temperature_ratio":
+        close(document["results"][name]["mean"], right[name], name, n)
+    samples = document["curves"]["impact_cos"]["samples"]
+    block = [b for b in (1, 2, 4, 8, 16, 32, 64) if (n // b * b).sum() == samples]
+    check(block, n, samples)
+    rows = (store.index >= first) & (store.index < first + (n // block[-1] * block[-1])[store.replica])
+    hold_collisions(store, "usf", document["curves"], rows)
+
+
+def test_errors():
+    """Standard errors against those of means over blocks of samples, which are known to 8 %; of the distribution of angles
+    against counting."""
+    scene = scene_of("usf", "rough")
+    scene["run"]["collisions"], scene["output"] = 3000, {}
+    stored(scene, 0)
+    samples = np.fromfile("samples.bin").reshape(-1, 14 + 6 * N)
+    with open("result.json") as f:
+        document = json.load(f)
+    of, blocks = samples[:, 0].astype(int), 25
+    C = samples[:, 14:14 + 3 * N].reshape(-1, N, 3)
+    series = {"collision_rate": samples[:, 3] / samples[:, 2], "dissipation": samples[:, 4], "P_xy_collisional": samples[:, 6],
+              "P_yy_collisional": samples[:, 9], "kurtosis_Cy": (C[..., 1] ** 4).mean(1) / (C[..., 1] ** 2).mean(1) ** 2}
+    for name, y in series.items():
+        means = []
+        for r in range(REPLICAS):
+            own = y[of == r][WARMUP // 2:]
+            means += list(own[len(own) % blocks:].reshape(blocks, -1).mean(1))
+        right = np.std(means, ddof=1) / len(means) ** 0.5 / abs(np.mean(means))
+        q = document["results"][name]
+        check(0.75 < q["stderr"] / abs(q["mean"]) / right < 1.4, name, q, right)
+    curve = document["curves"]["impact_cos"]
+    p, n = np.array(curve["value"]) / 50, document["collisions"]
+    ratio = (np.array(curve["stderr"]) / 50) ** 2 / (p * (1 - p) / n)
+    check(0.75 < ratio[5:].mean() < 1.35, "impact_cos", ratio)
 
 
 for _flow in FLOWS:
