@@ -8,7 +8,12 @@ setup_tests() {
     grep -q '^build tests/' "$1/build.ninja" && return
     again=--reconfigure
   fi
-  meson setup $again "$@" -Dtests=true >/dev/null
+  setup $again "$@" -Dtests=true
+}
+
+# Meson's words where it fails alone.
+setup() {
+  said=$(meson setup "$@" 2>&1) || { echo "$said" >&2; return 1; }
 }
 
 need() {
@@ -17,6 +22,24 @@ need() {
   else
     name_missing "$@"
   fi
+  case " $* " in *" all "*) check_usable "${CC:-cc}" clang ;; *) check_usable "${CC:-cc}" ;; esac
+}
+
+# What is there may be too old, or half there: an earlier meson, a compiler without the headers that are its own.
+check_usable() {
+  least=$(sed -n "s/.*meson_version: '>=\([0-9.]*\)'.*/\1/p" meson.build)
+  there=$(meson --version)
+  if awk -v a="$there" -v b="$least" \
+    'BEGIN { split(a, x, "."); split(b, y, "."); exit !(a && (x[1] < y[1] + 0 || x[1] == y[1] && x[2] < y[2] + 0)) }'; then
+    echo "meson $there is too old: install meson $least or later, e.g. by: python3 -m pip install --user meson" >&2
+    return 1
+  fi
+  for compiler in "$@"; do
+    echo "#include <stddef.h>" | $compiler -E - >/dev/null 2>&1 && continue
+    echo "$compiler does not find its own headers (stddef.h): install them, for clang on Debian: sudo apt-get install" \
+      "libclang-common-$($compiler -dumpversion | sed 's/[.].*//')-dev" >&2
+    return 1
+  done
 }
 
 # Column $1 of the table, of the steps that follow.

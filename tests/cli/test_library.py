@@ -80,6 +80,32 @@ def test_examples_build_against_it():
         check(len(out.splitlines()) >= 1, out)
 
 
+def test_first_program_as_the_page_says():
+    """Its lines of shell, from the installation into a prefix to the program's output."""
+    page = open(os.path.join(SOURCE, "docs", "tutorial", "first_program.md")).read()
+    with open("gas.c", "w") as program:
+        program.write(re.search(r"```c\n(.*?)```", page, re.DOTALL)[1])
+    install_it, build_it = re.findall(r"```sh\n(.*?)```", page, re.DOTALL)[:2]
+    check("meson install -C build --destdir /tmp/graingas " in install_it and build_it.startswith("cc gas.c"), install_it, build_it)
+    lines = install_it.replace("-C build ", f"-C {BUILD} --no-rebuild ") + build_it
+    if SANITIZERS != "none":
+        lines = lines.replace("cc gas.c", "cc -fsanitize=" + SANITIZERS + " gas.c")
+    clean = {k: v for k, v in os.environ.items() if k not in ("PKG_CONFIG_PATH", "PKG_CONFIG_SYSROOT_DIR", "LD_LIBRARY_PATH", "DESTDIR")}
+    out = sh("sh", "-e", "-c", lines.replace("/tmp/graingas", os.path.abspath("prefix")) + "./gas", env=clean)
+    check(len(re.findall(r"^strain +\d+\.0  T = \d+\.\d+$", out, re.MULTILINE)) == 10, out)
+
+
+def test_another_processor():
+    """valgrind is one that has not all instructions of this machine: the message says what to do, or it runs."""
+    if SANITIZERS != "none" or not shutil.which("valgrind"):
+        raise Skip("sanitizers do not go with valgrind, or it is not installed")
+    with open("scene.yaml", "w") as f:
+        f.write("{flow: usf, phi: 0.1, particles: 20, run: {collisions: 4, warmup: 2}}")
+    done = subprocess.run(["valgrind", "-q", GRAINGAS, "run", "scene.yaml", "--quiet"], capture_output=True, text=True)
+    refused = done.returncode == 1 and "for another processor: build it here, or with -Dinstructions=all" in done.stderr
+    check(refused or done.returncode == 0 and "temperature" in done.stdout, done)
+
+
 def test_example_scenes():
     """Every scene that newcomers copy is one; among them is each flow, and each observable in some."""
     scenes = glob.glob(os.path.join(SOURCE, "examples", "*.yaml"))

@@ -7,14 +7,15 @@ import sys
 from tap import check, main
 
 SOURCE = os.environ["SOURCE"]
+TOOLS = ("gcc", "clang", "cc", "meson", "ninja", "pkg-config", "gnuplot", "python3", "man", "h5repack")
 SHELL = "sh", "awk", "sed", "cat", "tr", "dirname"  # what every system has
 
 
-def without_apt(script, *arguments, present=(), fake=()):
+def without_apt(script, *arguments, present=(), fake=(), says={}, CC=None):
     """Run a script of an otherwise empty tree with nothing on the PATH but the named programs and fakes, which do
-    nothing, successfully."""
+    nothing, successfully, or what `says` has for them."""
     os.makedirs("tree/scripts", exist_ok=True)
-    for name in "quickstart", "check", "scripts/packages.sh", "scripts/needs.txt":
+    for name in "quickstart", "check", "scripts/packages.sh", "scripts/needs.txt", "meson.build":
         shutil.copy(os.path.join(SOURCE, name), os.path.join("tree", name))
     shutil.rmtree("bin", ignore_errors=True)
     os.mkdir("bin")
@@ -22,9 +23,11 @@ def without_apt(script, *arguments, present=(), fake=()):
         os.symlink(shutil.which(name), f"bin/{name}")
     for name in fake:
         with open(f"bin/{name}", "w") as f:
-            f.write("#!/bin/sh\n")
+            f.write("#!/bin/sh\n" + says.get(name, ""))
         os.chmod(f"bin/{name}", 0o755)
     clean = {k: v for k, v in os.environ.items() if k not in ("CC", "CPPFLAGS", "CFLAGS")}
+    if CC:
+        clean["CC"] = CC
     return subprocess.run([f"tree/{script}", *arguments], capture_output=True, text=True,
                           env={**clean, "PATH": os.path.abspath("bin")})
 
@@ -51,7 +54,18 @@ def test_what_is_there_is_not_asked_for():
         check(word not in done.stderr.split(), word, done.stderr)
 
 
-TOOLS = ("gcc", "clang", "cc", "meson", "ninja", "pkg-config", "gnuplot", "python3", "man", "h5repack")
+def test_what_is_half_there_is_named():
+    """An old meson, a clang without its headers, a meson that fails: in a line, and what to do."""
+    for version, old in ("0.56.2", True), ("0.9.9", True), ("1.0.1", False), ("1.10.0", False), ("2.0", False):
+        done = without_apt("quickstart", fake=TOOLS, says={"meson": f"[ $1 != --version ] || echo {version}"})
+        check(("too old: install meson 1.0.0 or later" in done.stderr) == old, version, done)
+        check(not old or done.returncode == 1 and len(done.stderr.splitlines()) == 1, version, done)
+    bare = '[ $1 != -dumpversion ] || { echo 14.0.6; exit; }\nread line\n[ "$line" != "#include <stddef.h>" ]'
+    for script, CC in ("quickstart", "clang"), ("check", None):
+        done = without_apt(script, fake=TOOLS, says={"clang": bare}, CC=CC)
+        check(done.returncode == 1 and "sudo apt-get install libclang-common-14-dev" in done.stderr, script, done)
+    done = without_apt("quickstart", fake=TOOLS, says={"meson": "[ $1 = --version ] || { echo because; exit 1; }"})
+    check(done.returncode == 1 and done.stderr == "because\n", done)
 
 
 def test_the_page_is_built_where_it_can_be():

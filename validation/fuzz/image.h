@@ -2,6 +2,7 @@
 #ifndef GG_FUZZ_IMAGE_H
 #define GG_FUZZ_IMAGE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -19,7 +20,7 @@ typedef struct fuzz_image {
 fuzz_image fuzz_image_of(const char *path);
 fuzz_image fuzz_image_of_bytes(void *data, size_t size);
 /* small_result.c: of a result at the path, which is removed, what readers look at; with the scene as it was given. */
-fuzz_image fuzz_small_result(const char *path, const char *scene);
+fuzz_image fuzz_small_result(const char *path, const char *scene, bool compressed);
 /* The image with records of an input put into it, sealed; its path. To be taken back before the next change. */
 const char *fuzz_image_change(fuzz_image *image, const uint8_t *data, size_t size);
 void fuzz_image_take_back(fuzz_image *image, const uint8_t *data, size_t size);

@@ -1,5 +1,7 @@
 /* A result file whose checksum is right, words of it changed: what `info`, `plot` and `export` read of it. The first
- * byte chooses a run or a comparison, and who reads it; the rest are records (patch.h). */
+ * byte chooses a run or a comparison, who reads it, and whether its arrays are compressed; the rest are records
+ * (patch.h).
+ */
 #include <stdio.h>
 #include <unistd.h>
 
@@ -18,7 +20,7 @@ static const char *const scenes[] = {
     "{flow: equilibrium, phi: 0.1, particles: 10, dsmc: {particles: 16}, run: {collisions: 6, warmup: 2}}"};
 enum { FILES = sizeof scenes / sizeof *scenes, COMPARED = 3 };
 
-static fuzz_image make(size_t which)
+static fuzz_image make(size_t which, bool compressed)
 {
   char path[80];
   gg_scene *scene = NULL;
@@ -34,7 +36,7 @@ static fuzz_image make(size_t which)
   gg_comparison_free(comparison);
   gg_result_free(result);
   gg_scene_free(scene);
-  return fuzz_small_result(path, scenes[which]);
+  return fuzz_small_result(path, scenes[which], compressed);
 }
 
 static void read_frames(const char *path)
@@ -56,19 +58,30 @@ static void read_comparison(const char *path)
   gg_comparison_free(c);
 }
 
-static void read_stored(const char *path)
+static bool is_read(const char *path)
 {
   gg_stored_result stored;
-  if (gg_files_stored_result_read(&stored, path, NULL) == GG_OK) gg_files_stored_result_clear(&stored);
+  if (gg_files_stored_result_read(&stored, path, NULL) != GG_OK) return false;
+  gg_files_stored_result_clear(&stored);
+  return true;
+}
+
+static void read_stored(const char *path)
+{
+  is_read(path);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-  static fuzz_image images[FILES];
+  static fuzz_image images[2][FILES];
   static void (*const readers[])(const char *) = {read_stored, read_comparison, read_frames};
   if (size < 1) return 0;
-  fuzz_image *image = &images[data[0] % FILES];
-  if (!image->data) *image = make(data[0] % FILES);
+  const bool compressed = data[0] & 0x80;
+  fuzz_image *image = &images[compressed][data[0] % FILES];
+  if (!image->data) {
+    *image = make(data[0] % FILES, compressed);
+    if (!is_read(fuzz_image_change(image, NULL, 0))) abort();
+  }
   readers[data[0] / FILES % 3](fuzz_image_change(image, data + 1, size - 1));
   fuzz_image_take_back(image, data + 1, size - 1);
   return 0;

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "compressed.h"
 #include "files/h5/hdf5_reader.h"
 #include "files/h5/hdf5_writer.h"
 #include "image.h"
@@ -93,7 +94,7 @@ static herr_t copy(hid_t from, const char *name, const H5L_info_t *about, void *
   return H5Ocopy(from, name, *(hid_t *)to, name, H5P_DEFAULT, H5P_DEFAULT);
 }
 
-fuzz_image fuzz_small_result(const char *path, const char *scene)
+fuzz_image fuzz_small_result(const char *path, const char *scene, bool compressed)
 {
   gg_h5 h;
   size_t size = 0;
@@ -104,6 +105,7 @@ fuzz_image fuzz_small_result(const char *path, const char *scene)
   if (!document || H5Literate(from, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, copy, &h.file) < 0) abort();
   gg_h5_text(&h, "/graingas/document", document);
   gg_h5_text(&h, "/graingas/scene", scene);
+  if (compressed) fuzz_compress(h.file);
   void *data = gg_h5_image(&h, &size);
   gg_h5_close(&h);
   H5Fclose(from);
