@@ -200,6 +200,23 @@ static void replicas(void **state)
   for (int i = 0; i < 4; i++) gg_statistics_series_clear(&s[i]);
 }
 
+/* A slow mode from elsewhere, too short to change blocks or sums, is a doubt of 2.5 of its times over all rows. */
+static void doubt_of_slow_modes(void **state)
+{
+  (void)state;
+  gg_rng r = gg_common_rng_seed(22, 0);
+  gg_model model = {0};
+  gg_series s[2] = {planted_ratio(&r, 1500), planted_ratio(&r, 1500)};
+  const gg_series *list[] = {&s[0], &s[1]};
+  gg_mean without, with;
+  const gg_function f = {.of = ratio};
+  assert_int_equal(gg_statistics_estimate_mean(list, 2, 0, 1500, 1, 2, f, &model, 0, &without, NULL), GG_OK);
+  const double slow = 3 * without.correlation_rows;
+  assert_int_equal(gg_statistics_estimate_mean(list, 2, 0, 1500, 1, 2, f, &model, slow, &with, NULL), GG_OK);
+  assert_true(fabs(with.error / without.error - (1 + 2.5 * slow / 3000)) < 1e-12);
+  for (int i = 0; i < 2; i++) gg_statistics_series_clear(&s[i]);
+}
+
 /* Runs of so few rows that they hang together: errors know of it (where two rows or three were taken as independent:
  * z^2 of 2.1), and are rather too large. */
 static void short_runs(void **state)
@@ -223,9 +240,9 @@ static void short_runs(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(honest_errors),  cmocka_unit_test(short_windows),
-                                     cmocka_unit_test(coverage),       cmocka_unit_test(ratios),
-                                     cmocka_unit_test(small_channels), cmocka_unit_test(followers),
-                                     cmocka_unit_test(replicas),       cmocka_unit_test(short_runs)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(honest_errors), cmocka_unit_test(short_windows),  cmocka_unit_test(coverage),
+      cmocka_unit_test(ratios),        cmocka_unit_test(small_channels), cmocka_unit_test(followers),
+      cmocka_unit_test(replicas),      cmocka_unit_test(short_runs),     cmocka_unit_test(doubt_of_slow_modes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
