@@ -10,7 +10,7 @@ static void long_series(void **state)
   (void)state;
   gg_series s, t;
   assert_int_equal(gg_statistics_series_init(&s, 2, NULL), GG_OK);
-  double n = 3.7 * GG_SERIES_ROWS, in_window = 0, sum = 0;
+  double n = floor(3.7 * GG_SERIES_ROWS / 4) * 4 + 3, in_window = 0, sum = 0;
   gg_rng r = gg_common_rng_seed(16, 0);
   for (int i = 0; i < (int)n; i++) {
     if (i == 5001) gg_statistics_series_open_window(&s);
@@ -18,7 +18,7 @@ static void long_series(void **state)
     gg_statistics_series_add(&s, i, row);
     if (i >= 5001) sum += row[0], in_window++;
   }
-  assert_int_equal(s.per_row, 4);
+  assert_true(s.per_row == 4 && s.pending == 3); /* the checkpoint has a part of a row */
   double mean = 0;
   for (size_t i = s.window; i < s.n; i++) mean += gg_series_row(&s, i)[0];
   mean /= (double)gg_series_window_rows(&s);
@@ -82,9 +82,24 @@ static void coarsened(void **state)
   gg_statistics_series_clear(&s);
 }
 
+/* A part of a row from before the window is none of its rows. */
+static void window_begins_with_a_row(void **state)
+{
+  (void)state;
+  gg_series s;
+  assert_int_equal(gg_statistics_series_init(&s, 1, NULL), GG_OK);
+  gg_statistics_series_coarsen(&s, 4);
+  for (int i = 0; i < 6; i++) gg_statistics_series_add(&s, i + 1, &(double){100});
+  gg_statistics_series_open_window(&s);
+  for (int i = 0; i < 7; i++) gg_statistics_series_add(&s, i + 7, &(double){i});
+  assert_true(s.n == 2 && s.window == 1 && s.pending == 3);
+  assert_true(gg_series_row(&s, 1)[0] == 1.5 && s.end_time[1] == 10);
+  gg_statistics_series_clear(&s);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(long_series), cmocka_unit_test(coarsened),
-                                     cmocka_unit_test(made_to_harm)};
+                                     cmocka_unit_test(window_begins_with_a_row), cmocka_unit_test(made_to_harm)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
