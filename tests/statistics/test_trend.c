@@ -57,8 +57,28 @@ static void beginnings(void **state)
   assert_true(found[0] >= SERIES - 4 && found[1] >= SERIES - 4 && silent >= SERIES - 1);
 }
 
+/* The beginnings of eight replicas are known better than that of one, by the root of eight. */
+static void beginnings_of_replicas(void **state)
+{
+  (void)state;
+  enum { N = 400, T = 8, RUNS = 8, SERIES = 40 };
+  static double x[N * RUNS];
+  gg_rng r = gg_common_rng_seed(17, 0);
+  gg_trend d;
+  int found = 0;
+  for (int s = 0; s < SERIES; s++) {
+    for (size_t k = 0; k < RUNS; k++) planted_autoregressive(&r, 0.3, x + k * N, N);
+    for (size_t i = 0; i < N * RUNS; i++) x[i] += 10 + 1.5 * exp(-(double)(i % N) / T);
+    assert_int_equal(gg_statistics_trend_test(x, N, RUNS, &d, NULL), GG_OK);
+    found += d.z < -4 && d.share < 0.1;
+  }
+  print_message("# beginnings of replicas: %d of %d\n", found, SERIES);
+  assert_true(found >= SERIES - 4);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(trends), cmocka_unit_test(beginnings)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(trends), cmocka_unit_test(beginnings),
+                                     cmocka_unit_test(beginnings_of_replicas)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
