@@ -5,6 +5,7 @@
 #include <stddef.h>
 
 #include <cmocka.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,6 +57,22 @@ static void zipped(void **state)
   (void)state;
   check_values(SCENE "vary: [{collision.e: [0.7, 0.9], phi: [0.1, 0.2]}, {particles: [100, 200]}]",
                "0.7 0.1 100|0.7 0.1 200|0.9 0.2 100|0.9 0.2 200");
+}
+
+/* Whole numbers come to both ends of their span, and two keys are drawn apart: a third of a span between them at most
+ * points. */
+static void drawn_apart(void **state)
+{
+  (void)state;
+  gg_sweep *sweep = sweep_of(SCENE "vary: {random: {points: 200, seed: 7}, phi: 0.1..0.2, particles: 50..60}");
+  int first = 0, last = 0, apart = 0;
+  for (size_t i = 0; i < 200; i++) {
+    const double phi = strtod(gg_sweep_value(sweep, i, 0), NULL), n = strtod(gg_sweep_value(sweep, i, 1), NULL);
+    first += n == 50, last += n == 60;
+    apart += fabs((phi - 0.1) / 0.1 - (n - 50) / 10) > 0.33;
+  }
+  assert_true(first > 5 && last > 5 && apart > 60);
+  gg_sweep_free(sweep);
 }
 
 /* More points, or another key, leave the draws that there were. */
@@ -144,6 +161,7 @@ static void seeds_of_lengths(void **state)
   check_seeds("run.warmup: [0, 2]", false);
   check_seeds("run.relative_error: [0.01, 0.02]", false);
   check_seeds("run.time_limit: [1, 2]", false);
+  check_seeds("species: [[{}, {mass: 2}], [{}, {mass: 3}]]", false);
   check_seeds("run: [{collisions: 10}, {collisions: 20}]", false);
   check_seeds("measure: [[rheology], [cells]]", true);
   check_seeds("engine: [md, dsmc]", true);
@@ -336,6 +354,7 @@ int main(void)
       cmocka_unit_test(drawn),
       cmocka_unit_test(names),
       cmocka_unit_test(seeds),
+      cmocka_unit_test(drawn_apart),
       cmocka_unit_test(replicas),
       cmocka_unit_test(refusals),
       cmocka_unit_test(engines),
