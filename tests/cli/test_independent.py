@@ -50,7 +50,7 @@ def by_pair(values):
 FRAMES = {("usf", "smooth"): ["cells"], ("usf", "rough"): ["cells", "cells_laboratory"], ("hcs", "frictional"): ["cells"]}
 
 
-def scene_of(flow, kind, frame):
+def scene_of(flow, kind, frame="imposed"):
     collision = {k: by_pair(v) for k, v in COLLISION[kind].items()}
     measure = ["rheology", "collisions"] + FLOWS[flow]["measure"] + (["orientation"] if kind != "smooth" else [])
     cells = {} if frame == "imposed" else {"frame": frame, "frame_cells": 2}
