@@ -3,7 +3,7 @@
  * of the trajectory alone: never of how a caller cuts a run. */
 #include <math.h>
 
-#include "md/md_state.h"
+#include "md/kicks.h"
 #include "md/md_thermostat.h"
 
 enum { COLLISIONS_TO_MEASURE = 16 };
@@ -72,7 +72,7 @@ bool gg_md_next_epoch(gg_md *e)
   e->k.epoch_start += span;
   e->k.now -= span;
   e->k.mark -= span;
-  e->k.next_kick -= span;
+  gg_md_kicks_move(e, span);
   e->k.stop -= span;
   if (gg_flow_of(e->model.flow)->frame != GG_LABORATORY) gg_md_follow_centre_of_mass(e);
   if (e->thermostat == GG_GAUSSIAN) {

@@ -96,6 +96,7 @@ void gg_md_free(gg_md *e)
   free(e->last);
   free(e->id);
   free(e->candidates);
+  free(e->kicks.order);
   free(e);
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "md/kicks.h"
 #include "md/verify.h"
 
 /* What stands beside the arrays, in one plain block. */
@@ -113,6 +114,7 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   if (gg_base_memory_failures() != before) return gg_base_out_of_memory_for(err, "reading the checkpoint of md");
   if (wrong) return refuse(wrong, err);
   if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
+  GG_TRY(gg_md_kicks_make(e, err));
   e->queue.current = b.current_bucket;
   for (uint32_t i = 0; i < e->n; i++) gg_md_queue_insert(&e->queue, e->node, i);
   gg_md_select(e);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "md/kicks.h"
 #include "md/md_engine.h"
 #include "md/md_thermostat.h"
 
@@ -38,6 +39,7 @@ static gg_status predict_all(gg_md *e, gg_error *err)
 gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
 {
   if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
+  GG_TRY(gg_md_kicks_make(e, err));
   if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) {
     gg_md_build_lists(e);
   } else {
@@ -52,6 +54,7 @@ gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
   gg_md_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e, soon_temperature(e, early))));
   gg_md_select(e);
   gg_md_thermostat_begin(e);
+  gg_md_kicks_begin(e);
   for (uint32_t i = 0; i < e->n; i++) {
     e->node[i].time = INFINITY;
     gg_md_queue_insert(&e->queue, e->node, i);
@@ -163,7 +166,7 @@ static bool run_legs(gg_md *e)
     if (!run_leg(e)) return false;
     if (!e->k.collisions_left) return true;
     e->k.now = e->k.next_kick;
-    gg_md_thermostat_kick(e);
+    gg_md_kick(e);
     e->k.beyond_kick -= e->k.next_kick - e->k.now;
   }
   if (e->k.beyond_kick > -INFINITY) e->k.stop = e->k.next_kick + e->k.beyond_kick;
@@ -208,7 +211,7 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   e->k.mark = e->k.now;
   e->k.asked = dt;
   e->k.stop = e->k.now + dt * e->k.scale;
-  e->k.beyond_kick = e->thermostat == GG_WHITE_NOISE ? e->k.stop - e->k.next_kick : -INFINITY;
+  e->k.beyond_kick = e->k.next_kick < INFINITY ? e->k.stop - e->k.next_kick : -INFINITY;
   e->k.collisions_left = max_collisions;
   return go_on(engine, elapsed ? elapsed : &unused, err);
 }

@@ -78,6 +78,20 @@ typedef struct gg_md_search_state {
   };
 } gg_md_search_state;
 
+/* Kicks (kicks.h): how the grains of a species take turns; and how far they are. */
+typedef struct gg_md_turns {
+  uint32_t first, n, step; /* in `order`: the first of n; of the n-th turn, n * step behind it, round and round */
+  double apart, size;      /* time between turns on average, and the change of velocity */
+} gg_md_turns;
+typedef struct gg_md_kicks {
+  gg_md_turns of[GG_MAX_SPECIES];
+  uint32_t *order; /* the grains by species; NULL: there is one */
+} gg_md_kicks;
+typedef struct gg_md_turn {
+  double at; /* epoch time of the next */
+  uint64_t number;
+} gg_md_turn;
+
 typedef struct gg_md gg_md;
 
 /* What happens to two grains in contact at the present time: dr from 1 to 2, c12 = c1 - c2, images accounted for. */
@@ -100,16 +114,17 @@ typedef struct gg_md_counts {
   uint64_t collisions, events, treated, wall_treated;
   double worst_overlap;
   gg_rng rng;
-  double next_kick; /* white noise: epoch time of the next kick */
+  double next_kick; /* epoch time of the earliest turn; INFINITY: no kicks */
+  gg_md_turn turn[GG_MAX_SPECIES];
   /* Gaussian thermostat: the gas inside cools freely; outside, velocities are `scale` times larger and clocks slower.
    */
   double scale, kinetic, kinetic0; /* kinetic: energy inside, at present; kinetic0: outside, kept */
   double mark, outer;              /* outside time `outer` since the advance began had gone by at inside time `mark` */
   double outer_time;               /* outside, up to the present advance */
   /* Of the present advance, which may have been stopped. */
-  double asked, stop;       /* its length, outside; its end, or that of its present leg, in epoch time */
-  double beyond_kick;       /* white noise: what is left of it after the next kick; -INFINITY: that comes too late */
-  uint64_t collisions_left; /* to it */
+  double asked, stop;                    /* its length, outside; its end, or that of its present leg, in epoch time */
+  double beyond_kick;                    /* what is left of it after the next kick; -INFINITY: that comes too late */
+  uint64_t collisions_left;              /* to it */
   double fractional_shift, common_shift; /* of co-moving rows (row_motion.c), at the epoch's start */
   int32_t row_shift, image_shift;
   uint32_t keeps_sums;
@@ -151,6 +166,7 @@ struct gg_md {
   gg_md_resolution *resolve_parted; /* what gg_md_resolve_parting goes on to */
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white-noise thermostat */
+  gg_md_kicks kicks;
 };
 
 /* md_allocate.c: an engine with its arrays for this model, nothing in them; and its end. */

@@ -2,9 +2,6 @@
 
 #include <math.h>
 
-/* Between kicks, in mean free times, on average. */
-#define KICK_INTERVAL 0.1
-
 static double kinetic_energy(const gg_md *e)
 {
   double sum = 0;
@@ -13,16 +10,10 @@ static double kinetic_energy(const gg_md *e)
   return sum;
 }
 
-static double kick_interval(const gg_md *e)
-{
-  return KICK_INTERVAL / gg_common_model_collision_rate(&e->model, e->model.temperature0);
-}
-
 void gg_md_thermostat_begin(gg_md *e)
 {
   e->k.scale = 1;
   e->k.kinetic = e->k.kinetic0 = kinetic_energy(e);
-  e->k.next_kick = e->thermostat == GG_WHITE_NOISE ? kick_interval(e) : INFINITY;
 }
 
 void gg_md_thermostat_fold(gg_md *e)
@@ -79,22 +70,4 @@ void gg_md_follow_centre_of_mass(gg_md *e)
   double mass, energy;
   const gg_vec momentum = momentum_of(e, &mass, &energy);
   for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
-}
-
-/* Each kick brings what the time to the next one takes. No two intervals are alike: between equal ones T falls by some
- * percent, and a run whose samples keep in step with them would see the same part of that again and again (e = 0: means
- * off by up to 1 %). */
-void gg_md_thermostat_kick(gg_md *e)
-{
-  const double interval = kick_interval(e) * (0.5 + gg_rng_uniform(&e->k.rng)), size = sqrt(3 * e->noise * interval);
-  for (uint32_t i = 0; i < e->n; i++) {
-    gg_md_grain *g = &e->grain[i];
-    g->r = gg_md_position(e, false, g, e->k.now);
-    g->t = e->k.now;
-    g->v = gg_axpy(size, gg_rng_direction(&e->k.rng), g->v);
-    g->counter++;
-  }
-  gg_md_follow_centre_of_mass(e);
-  e->kernel->predict(e, 0, e->n);
-  e->k.next_kick += interval;
 }

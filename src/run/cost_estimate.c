@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "common/linear_response.h"
+#include "common/thermostat.h"
 #include "measure/mesh.h"
 #include "measure/observable.h"
 #include "run/replicas.h"
@@ -56,13 +57,22 @@ static double crowding(const gg_model *m)
   return pow(gg_common_model_widest(m), 3) / cubes;
 }
 
+/* White noise: each kick is half a collision's work, and there are more the more energy is lost (md/kicks.h). */
+static double cost_of_kicks(const gg_model *m)
+{
+  if (m->thermostat != GG_WHITE_NOISE) return 1;
+  double mass = 0;
+  for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i] / (double)m->n;
+  const double T = m->temperature0, loss = mass * gg_common_thermostat_noise(m) / T;
+  return 1 + 0.5 * fmin(50 * loss / gg_common_model_collision_rate(m, T), 4);
+}
+
 /* Nanoseconds a collision. The thinner the gas the more cells are crossed between two; out of cache beyond some
- * thousand grains; after each kick of white noise all grains are predicted anew; walls are met, too. */
+ * thousand grains; walls are met, too. */
 static double pace_of_md(const gg_model *m)
 {
   const double cells = 180 + 115 / sqrt(fmax(m->phi, 1e-12)), cache = 1 + 0.2 * fmax(0, log((double)m->n / 2000));
-  const double kicks = m->thermostat == GG_WHITE_NOISE ? 3 : 1, walls = m->walled ? 2 : 1;
-  return cells * cache * crowding(m) * kicks * walls;
+  return cells * cache * crowding(m) * cost_of_kicks(m) * (m->walled ? 2 : 1);
 }
 
 /* Small ensembles, and those with a law of restitution, take collisions one by one; each pair of species is a sweep of

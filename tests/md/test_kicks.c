@@ -1,0 +1,231 @@
+/* Proves: at a turn two grains of a species get opposite kicks, or none; everybody has one turn in every interval,
+ * neighbours in memory far apart; second and fourth moment of what comes in an interval
+ * are those of white noise; after kicks no contact is missed; kicks are few; and the cumulant a2 is that of Enskog's
+ * equation, which intervals four times as long miss. */
+#include "md_test.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "md/kicks.h"
+
+static gg_scene heated(int64_t n, double phi, double e)
+{
+  gg_scene s = md_scene((md_case){GG_HSS, n, phi, e, -1, INFINITY, {0}});
+  s.thermostat = GG_WHITE_NOISE;
+  return s;
+}
+
+/* n[0] and n[1] grains of two species, of which the second has `mass` times the mass of the first. */
+static gg_model mixture(double phi, double e, int64_t one, int64_t two, double mass)
+{
+  gg_scene s = heated(one + two, phi, e);
+  gg_model m;
+  gg_error err = {0};
+  s.n_species = 2;
+  s.species[0].fraction = (double)one / (double)(one + two), s.species[1].fraction = (double)two / (double)(one + two);
+  s.species[1].mass = mass;
+  if (gg_common_model_make(&s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  assert_int_equal(m.n_of[0], one);
+  return m;
+}
+
+typedef struct turn_log {
+  gg_vec *v;
+  int64_t *last; /* the turn of each grain's last kick; -1: none yet */
+} turn_log;
+
+/* One turn; whom it kicked, at most two. */
+static int take_turn(gg_md *e, turn_log *log, uint32_t kicked[2])
+{
+  int n = 0;
+  for (uint32_t i = 0; i < e->n; i++) log->v[i] = e->grain[i].v;
+  e->k.now = e->k.next_kick;
+  gg_md_kick(e);
+  for (uint32_t i = 0; i < e->n; i++)
+    if (memcmp(&log->v[i], &e->grain[i].v, sizeof(gg_vec)) != 0) {
+      assert_true(n < 2);
+      kicked[n++] = i;
+    }
+  return n;
+}
+
+/* Over many rounds: of an even number one half meets the other, which goes round by one. */
+static void everybody_in_turn(void **state)
+{
+  (void)state;
+  static const int64_t sizes[] = {2, 3, 4, 31, 60};
+  for (int k = 0; k < 5; k++) {
+    gg_scene s = heated(sizes[k], 0.01, 0.9);
+    gg_model m = md_model_of(&s);
+    gg_md *e = md_create(&m, 1);
+    turn_log log = {calloc(e->n, sizeof *log.v), malloc(e->n * sizeof *log.last)};
+    const int64_t half = sizes[k] / 2, turns = 60 * sizes[k];
+    int64_t kicks = 0;
+    for (uint32_t i = 0; i < e->n; i++) log.last[i] = -1;
+    for (int64_t turn = 0; turn < turns; turn++) {
+      uint32_t pair[2];
+      const int n = take_turn(e, &log, pair);
+      assert_true(n == 0 || n == 2);
+      kicks += n / 2;
+      for (int j = 0; j < n; j++) {
+        const int64_t before = log.last[pair[j]], rounds = (turn - before + half / 2) / half;
+        if (before >= 0) assert_true(rounds >= 1 && llabs(turn - before - rounds * half) <= rounds);
+        log.last[pair[j]] = turn;
+      }
+    }
+    for (uint32_t i = 0; i < e->n; i++) assert_true(log.last[i] > turns - 20 * sizes[k]);
+    assert_true(fabs((double)kicks / (double)turns - 0.625) < 4 * sqrt(0.235 / (double)turns));
+    gg_vec p = md_momentum(e);
+    assert_true(gg_dot(p, p) < 1e-24 * md_energy(e) * (double)e->n);
+    free(log.v);
+    free(log.last);
+    md_destroy(e);
+  }
+}
+
+/* Neighbours along the curve have turns far apart: any tenth of the turns of a round is a tenth of any tenth of them.
+ */
+static void evenly_in_space(void **state)
+{
+  (void)state;
+  gg_scene s = heated(2000, 0.05, 0.9);
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 1);
+  const gg_md_turns *t = &e->kicks.of[0];
+  for (uint64_t from = 0; from + 200 <= 2000; from += 100) {
+    int in[10] = {0};
+    for (uint64_t k = from; k < from + 200; k++) in[k * t->step % t->n / 200]++;
+    for (int part = 0; part < 10; part++) assert_in_range(in[part], 17, 23);
+  }
+  md_destroy(e);
+}
+
+/* A kick has a fixed length l and comes with probability 5/8: per interval t <l^2> = 3 xi^2 t, and <l^4> is 1/25 below
+ * 15 xi^4 t^2 (kicks.c). */
+static void moments_of_white_noise(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 4; k++) {
+    gg_model m = mixture(0.1, (double[]){0.99, 0.9, 0.5, 0}[k], 600, 400, 3);
+    gg_md *e = md_create(&m, 1);
+    for (int s = 0; s < 2; s++) {
+      const gg_md_turns *t = &e->kicks.of[s];
+      const double interval = t->apart * t->n / 2, variance = e->noise * interval, l2 = t->size * t->size;
+      assert_true(fabs(0.625 * l2 / (3 * variance) - 1) < 1e-12);
+      assert_true(fabs(0.625 * l2 * l2 / (15 * variance * variance) - 0.96) < 1e-12);
+      const double share = m.mass[s] * variance / m.temperature0;
+      const double least = 0.27 / gg_common_model_collision_rate(&m, m.temperature0);
+      assert_true(share < 0.02 * (1 + 1e-12) || fabs(interval / least - 1) < 1e-12);
+    }
+    assert_true(e->kicks.of[0].apart * 600 >= e->kicks.of[1].apart * 400);
+    md_destroy(e);
+  }
+}
+
+/* The next collision is that of the plain finder, kicks in between or not; nobody is outside its cell. */
+static void no_contact_is_missed(gg_md *e)
+{
+  for (int k = 0; k < 40; k++) {
+    const double horizon = 0.2 / gg_common_model_collision_rate(&e->model, e->model.temperature0) / e->n;
+    md_prediction next = md_oracle(e, horizon);
+    const double stop = e->k.next_kick - e->k.now, dt = fmin(horizon, 0.99 * stop);
+    const uint64_t before = e->k.collisions;
+    gg_error err;
+    if (next.time < dt) {
+      const double gone = md_collide(e, 1);
+      assert_true(fabsl(gone - next.time) < 1e-10L * e->k.mean_free_time);
+    } else {
+      assert_int_equal(gg_md_ops.advance(&e->base, dt, UINT64_MAX, NULL, &err), GG_OK);
+      assert_int_equal(e->k.collisions, before);
+    }
+    assert_int_equal(gg_md_ops.advance(&e->base, 3 * horizon, UINT64_MAX, NULL, &err), GG_OK);
+  }
+  assert_int_equal(md_misplaced(e), 0);
+  assert_true(md_closest(e) > 1 - 1e-12L);
+}
+
+/* Cells, overlapping cells and lists; a few heavy or light grains among others. */
+static void contacts_after_kicks(void **state)
+{
+  (void)state;
+  static const double phi[] = {0.02, 0.2, 0.45};
+  for (int k = 0; k < 3; k++) {
+    gg_scene s = heated(600, phi[k], 0.5);
+    gg_model m = md_model_of(&s);
+    gg_md *e = md_create(&m, 2);
+    md_collide(e, 3000);
+    no_contact_is_missed(e);
+    md_destroy(e);
+  }
+  for (int k = 0; k < 2; k++) {
+    gg_model m = mixture(0.1, 0.5, 200, 3, k ? 0.1 : 10);
+    gg_md *e = md_create(&m, 2);
+    md_collide(e, 3000);
+    no_contact_is_missed(e);
+    gg_vec p = md_momentum(e);
+    assert_true(gg_dot(p, p) < 1e-20 * md_energy(e) * e->n);
+    assert_true(e->k.turn[0].number > 0 && e->k.turn[1].number > 0);
+    md_destroy(e);
+  }
+}
+
+/* Pairs kicked per collision: each is two predictions, and an elastic gas makes some three. */
+static void few_predictions(void **state)
+{
+  (void)state;
+  static const double e_of[] = {0.99, 0.9, 0.5}, most[] = {0.25, 2.1, 3.1};
+  for (int k = 0; k < 3; k++) {
+    gg_scene s = heated(1000, 0.3, e_of[k]),
+             plain = md_scene((md_case){GG_EQUILIBRIUM, 1000, 0.3, 1, -1, INFINITY, {0}});
+    gg_model m = md_model_of(&s), mp = md_model_of(&plain);
+    gg_md *e = md_create(&m, 1), *p = md_create(&mp, 1);
+    md_collide(e, 20000);
+    md_collide(p, 20000);
+    const double kicks = 0.625 * (double)e->k.turn[0].number / 20000;
+    const double more = (double)(e->k.events - p->k.events) / 20000;
+    print_message("# e = %g: %.3g kicks, %.3g more events per collision\n", e_of[k], kicks, more);
+    assert_true(kicks < most[k] && more < 1.1 * most[k]);
+    md_destroy(e);
+    md_destroy(p);
+  }
+}
+
+/* a2 at e = 0.5 of Enskog's equation without random numbers (enskog_hermite, phi: 0): 0.025015, to 0.0032, four
+ * standard errors; T and the rate of collisions in the mean. At four times the interval a2 is 0.0055 off. */
+static void cumulant(void **state)
+{
+  (void)state;
+  gg_scene s = heated(2000, 0.005, 0.5);
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 5);
+  const int samples = 800;
+  double c2 = 0, c4 = 0;
+  md_collide(e, 20 * 1000);
+  const double start = gg_md_time(e);
+  for (int k = 0; k < samples; k++) {
+    md_collide(e, 2000);
+    for (int i = 0; i < 2000; i++) {
+      const double v2 = gg_dot(e->grain[i].v, e->grain[i].v);
+      c2 += v2 / 2000 / samples, c4 += v2 * v2 / 2000 / samples;
+    }
+  }
+  const double a2 = 0.6 * c4 / (c2 * c2) - 1, T = c2 / 3 / m.temperature0;
+  const double rate = 2.0 * samples / (gg_md_time(e) - start);
+  const double maxwellian = gg_common_model_collision_rate(&m, T * m.temperature0); /* 1 - a2/16 of it */
+  print_message("# a2 %.5f, T %.5f, rate %.5f\n", a2, T, rate / maxwellian);
+  assert_true(fabs(a2 - 0.025015) < 0.0032);
+  assert_true(fabs(T / 0.9969 - 1) < 0.006);
+  assert_true(fabs(rate / maxwellian - (1 - 0.025 / 16)) < 0.005);
+  md_destroy(e);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(everybody_in_turn),      cmocka_unit_test(evenly_in_space),
+      cmocka_unit_test(moments_of_white_noise), cmocka_unit_test(contacts_after_kicks),
+      cmocka_unit_test(few_predictions),        cmocka_unit_test(cumulant),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
