@@ -31,7 +31,7 @@ struct gg_simulation {
   double stretch_from; /* the engine's time at the start of the stretch that clock.time is the start of */
 };
 
-/* Asked of it (simulation_state.c). Velocities of the start over those of the engine. */
+/* Queries (simulation_state.c). Velocities of the start over those of the engine. */
 double gg_api_simulation_unit(const gg_simulation *s);
 /* T of the engine's grains, in the engine's units. */
 double gg_api_simulation_temperature(const gg_simulation *s);
@@ -49,7 +49,7 @@ gg_status gg_api_simulation_watch(gg_simulation *s, gg_engine *engine, gg_error 
  * On failure nothing changes. */
 gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, const gg_grains *grains, gg_error *err);
 
-/* moments.c: what a state of the grains tells of itself, whether an engine has them or a file. */
+/* moments.c: moments of a state of the grains, from an engine or a file. */
 
 /* Sums over grains, mass by mass; zero but for the model to begin with. */
 typedef struct gg_moments {

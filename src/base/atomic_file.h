@@ -1,6 +1,6 @@
 /* Files that appear whole or not at all: written under a temporary name in the same folder, flushed to the disk, and
- * renamed. What stands at the path, and what is to become of it, says base/output_path.h. Devices and pipes, for which
- * there is no such thing, are written to as they are. */
+ * renamed. base/output_path.h decides what happens to an existing file at the path. Devices and pipes are written to
+ * directly. */
 #ifndef GG_ATOMIC_FILE_H
 #define GG_ATOMIC_FILE_H
 
@@ -12,8 +12,8 @@
 
 #define GG_LOCK_SUFFIX ".graingas-lock"
 
-/* One writer a file: while it is held, PATH.graingas-lock stands beside PATH and says who holds it. The system takes
- * the lock from a process that ends in whatever way, so that what a dead one left behind never blocks. */
+/* One writer per file: while the lock is held, PATH.graingas-lock beside PATH names the holder. The system releases the
+ * lock of a process that ends in any way, so a dead process never blocks. */
 typedef struct gg_file_lock {
   char *path;
   int fd;    /* -1: not held ... */
@@ -25,9 +25,9 @@ typedef struct gg_file_lock {
 #define GG_TEMPORARY_SUFFIX ".graingas-tmp"
 #define GG_KEPT_SUFFIX ".graingas-kept" /* a temporary file whole but for its name */
 
-/* `target` is locked, `path` stands in messages. GG_BAD_FILE if another run holds it, or if its folder takes no files.
- * The temporary file that a dead run left beside it is removed, unless the file system has no locks: it may be that of
- * one that lives. */
+/* `target` is locked, `path` is the name in messages. GG_BAD_FILE if another run holds the lock, or if the folder is
+ * not writable. The temporary file of a dead run is removed, unless the file system has no locks: then the run may be
+ * alive. */
 gg_status gg_base_file_lock_take(gg_file_lock *lock, const char *target, const char *path, gg_error *err);
 /* Harmless if it is not held. */
 void gg_base_file_lock_release(gg_file_lock *lock);
@@ -57,8 +57,8 @@ void gg_base_atomic_abandon(gg_atomic_file *file);
 
 #define GG_ATOMIC_NONE ((gg_atomic_file){.fd = -1, .lock.fd = -1})
 
-/* Could a regular file be written there, not a device or pipe? Asked before a long run, so that it does not end in
- * vain. `why_regular` says what it is for: "pictures are files". */
+/* Whether a regular file, not a device or pipe, can be written there. Checked before a long run, so that its result is
+ * not lost. `why_regular` gives the reason: "pictures are files". */
 gg_status gg_base_atomic_check_writable(const char *path, const char *why_regular, gg_error *err);
 
 #endif

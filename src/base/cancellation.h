@@ -1,5 +1,5 @@
-/* A word to those who do long work: look here now and then, and end early on request. Engines look several
- * times a second, at their start too. */
+/* Cancellation of long work: poll here and end early on request. Engines poll several times a second, also at their
+ * start. */
 #ifndef GG_STOP_H
 #define GG_STOP_H
 
@@ -13,8 +13,8 @@ typedef struct gg_stop {
   void *context;
 } gg_stop;
 
-/* A callback of the user's program says, in the thread that called it, why it failed: whoever looks whether to stop
- * ends early, and the work that it stands in fails with its reason. The first reason counts. */
+/* Reports, on the thread that called a user's callback, why the callback failed. All that poll this cancellation then
+ * end early, and the work fails with the first reason reported. */
 void gg_base_callback_fail(const char *reason);
 bool gg_base_callback_failed(void);
 /* At the end of such work: GG_FAILED with the reason, which is then forgotten; `status` where no callback failed. */

@@ -1,6 +1,6 @@
-/* JSON that is whole or not there. jansson's makers return NULL where there is no memory, and its containers leave out
- * what is NULL: nobody would tell a document that lacks a number from a whole one. In files that include this every
- * maker that gets nothing is counted (base/memory.h); who makes a document ends with gg_base_json_end. */
+/* JSON that is complete or missing. If memory is short, jansson's constructors return NULL and its containers leave out
+ * NULL members, so that an incomplete document would go unnoticed. In files that include this, every failed constructor
+ * is counted (base/memory.h). Finish a document with gg_base_json_end. */
 #ifndef GG_CHECKED_JSON_H
 #define GG_CHECKED_JSON_H
 

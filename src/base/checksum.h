@@ -1,4 +1,4 @@
-/* Checksums of what lies on disks: they find damage, not intent. */
+/* Checksums of files: they detect damage, not intent. */
 #ifndef GG_CHECKSUM_H
 #define GG_CHECKSUM_H
 

@@ -1,4 +1,4 @@
-/* Clocks, in seconds: the wall's, which nobody sets back, and the calling thread's CPU time. */
+/* Clocks, in seconds: monotonic wall-clock time, and CPU time of the calling thread. */
 #ifndef GG_CLOCK_H
 #define GG_CLOCK_H
 

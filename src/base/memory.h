@@ -1,9 +1,9 @@
-/* Memory: how it is allocated, and what happens where it is out.
+/* Memory: allocation, and failed allocations.
  *
- * It may fail deep inside, where no error is returned (a residual of GSL's solvers, a warning, a JSON document that
- * leaves out what it has no room for), or where somebody makes do without what failed, a theory or its curves. Such
- * failures are counted for the thread. The outermost frames compare the count: what was made in between is not the
- * answer if it grew, since answers must not depend on how much memory there was. */
+ * An allocation may fail where no error is returned (in a residual of GSL's solvers, a warning, a JSON document), or
+ * where the caller continues without the part that failed (a theory, its curves). Such failures are counted per thread.
+ * The outermost frames compare the count. If it grew, they return an error, since results must not depend on the
+ * available memory. */
 #ifndef GG_BASE_MEMORY_H
 #define GG_BASE_MEMORY_H
 
@@ -27,8 +27,8 @@ void gg_base_memory_lacked(void);
 /* The end of a call: its status, or GG_FAILED if it was GG_OK and an allocation failed since `before`. */
 gg_status gg_base_memory_check(unsigned before, gg_status status, gg_error *err);
 
-/* Could some megabytes be had? Asked before libraries are called that do not look at what they get: FFTW ends the
- * program where its planner gets no memory, HDF5 where it lacks it in the midst of a file. */
+/* Whether some megabytes are available. Checked before calls of libraries that do not check their allocations: FFTW
+ * ends the program if its planner gets no memory, HDF5 if memory is short in the midst of a file. */
 bool gg_base_memory_is_room(void);
 
 /* How much memory is there for a run. */

@@ -1,6 +1,5 @@
-/* What stands where a file is to be written. One place decides for every output: a symbolic link is followed, a regular
- * file is replaced by a whole new one if its owner lets it be written, a character device or a pipe is written to as it
- * is; anything else is refused. */
+/* What an output path refers to. One rule for every output: symbolic links are followed, a regular file is replaced by
+ * a whole new one if it is writable, a character device or a pipe is written to directly, anything else is rejected. */
 #ifndef GG_OUTPUT_PATH_H
 #define GG_OUTPUT_PATH_H
 
@@ -11,7 +10,7 @@
 
 typedef struct gg_output_path {
   char *target;      /* where links lead; to be freed */
-  bool stream;       /* a device or a pipe: nothing can stand beside it or take its place */
+  bool stream;       /* a device or a pipe: no file beside it, none in its place */
   bool there;        /* a regular file is: */
   struct stat about; /* what is known of it */
 } gg_output_path;
@@ -20,15 +19,15 @@ typedef struct gg_output_path {
 gg_status gg_base_output_path_find(gg_output_path *place, const char *path, gg_error *err);
 void gg_base_output_path_clear(gg_output_path *place);
 
-/* Where symbolic links lead in the end, also if nothing stands there; to be freed. NULL: nowhere, or out of memory,
- * which is noted. */
+/* Final target of symbolic links, also if it does not exist; to be freed. NULL: none, or out of memory, which is
+ * counted. */
 char *gg_base_path_follow_links(const char *path);
 
 /* "PATH: cannot be written: WHY", GG_BAD_FILE. */
 gg_status gg_base_path_write_error(const char *path, const char *why, gg_error *err);
 
-/* Would both be one file? By what stands there, or where nothing does, by folder and name. Devices are never one.
- * Not for want of memory, which is noted. */
+/* Whether both are one file: by device and inode if they exist, otherwise by folder and name. Devices never are. False
+ * if out of memory, which is counted. */
 bool gg_base_path_is_same_file(const char *a, const char *b);
 
 #endif

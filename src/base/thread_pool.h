@@ -16,8 +16,8 @@ enum { GG_MOST_PARTS = 32 };
 /* Part number `part` of a job. */
 typedef void gg_part(void *context, int part);
 
-/* So many threads, the caller's included. NULL if that is one, or if the system has none to give: a job that is given
- * to nobody is done by the caller. Of more threads than GG_MOST_PARTS the others are not started. */
+/* A pool of so many threads, the caller's included, at most GG_MOST_PARTS. NULL for one thread, or if none can be
+ * started: the caller then does the jobs itself. */
 gg_thread_pool *gg_base_thread_pool_new(int threads);
 void gg_base_thread_pool_free(gg_thread_pool *pool);
 
@@ -25,7 +25,7 @@ void gg_base_thread_pool_free(gg_thread_pool *pool);
 void gg_base_thread_pool_for(gg_thread_pool *pool, int parts, gg_part *part, void *context);
 
 /* The same for rounds of `columns` parts each: part k is not begun before those in need[k] (a bit each, of earlier
- * rounds) are done. Nobody waits for all of a round. Each thread takes a run of columns first. */
+ * rounds) are done. There is no barrier between rounds. Each thread begins with a range of columns. */
 void gg_base_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, const uint32_t *need, gg_part *part,
                                 void *context);
 

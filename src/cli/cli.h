@@ -39,7 +39,7 @@ int gg_cli_report_of(const char *prefix, const gg_error *err);
 /* The same for a message of the command line's own. */
 int gg_cli_fail(gg_status status, const char *format, ...) GG_CLI_PRINTF(2, 3);
 
-/* A message of the command line's own, to be told later; returns `status`. */
+/* Set a message of the command line, to be printed later; returns `status`. */
 gg_status gg_cli_refuse(gg_error *err, gg_status status, const char *format, ...) GG_CLI_PRINTF(3, 4);
 
 /* A warning on standard error where there is something unusual about a result file (gg_result_file_notice). */

@@ -12,7 +12,7 @@ char *gg_cli_options_beside(const gg_options *options, const char *suffix);
 /* "results: usf.h5", and whether an older one was there. */
 void gg_cli_report_written(const gg_options *options, const char *what, const char *path, bool replaced);
 bool gg_cli_file_exists(const char *path);
-/* A device or a pipe: what is written there stands nowhere, and nothing beside it. */
+/* A device or a pipe: no file results, and none beside it. */
 bool gg_cli_file_is_device(const char *path);
 /* `path` with another ending, or with one where it had none; to be freed. */
 char *gg_cli_path_with_suffix(const char *path, const char *suffix);

@@ -1,4 +1,4 @@
-/* Progress on standard error: one live line on a terminal, now and then a plain line otherwise. */
+/* Progress on standard error: one live line on a terminal, otherwise a plain line at intervals. */
 #ifndef GG_CLI_PROGRESS_H
 #define GG_CLI_PROGRESS_H
 
@@ -30,9 +30,8 @@ void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *now);
 void gg_cli_progress_end(gg_cli_progress *p);
 
 /* interrupt.c: SIGINT, SIGTERM and SIGHUP end a run within half a second, with a checkpoint if checkpoints are on; a
- * second one ends it at once. From this call on, standard output and error wait for a reader who takes nothing (a
- * pager, a terminal that was halted); once interrupted, only a second: the rest is lost, and the run comes to its end.
- */
+ * second one ends it at once. From this call on, standard output and error wait for a stalled reader (a pager, a
+ * halted terminal). After an interruption they wait one second only, then the rest of the output is dropped. */
 void gg_cli_catch_interrupts(void);
 bool gg_cli_interrupted(void);
 bool gg_cli_output_lost(void);

@@ -1,4 +1,4 @@
-/* What an engine is to everyone else. md and dsmc are peers behind this interface; nobody outside asks which one it is.
+/* The engine interface. md and dsmc are peers behind it; other code does not test which one runs.
  *
  * Velocities are peculiar, C = c - shear_rate y x_hat, and spins are surface velocities s = (d/2) omega, both in model
  * units (common/model.h). Positions exist only where the engine has any. */
@@ -45,7 +45,7 @@ typedef struct gg_engine_state {
   uint64_t treated;      /* md: collisions treated by the contact-time rule */
   uint64_t wall_treated; /* md: the same for contacts with walls, which `collisions` does not count */
   uint64_t overflows;    /* dsmc: candidates whose rate exceeded the majorant */
-  double offset;         /* md, sheared: the image of the box above stands so far displaced along x; else 0 */
+  double offset;         /* md, sheared: displacement along x of the image of the box above; else 0 */
   double worst_overlap;  /* md: largest overlap seen at a collision, in d; 0 otherwise */
   double time_step; /* dsmc: the present step, that of one sweep over all pairs of species; model units; 0 for md */
   double time_step_bias; /* dsmc: estimated relative bias of the step; 0 for md */
@@ -121,19 +121,19 @@ typedef struct gg_engine_ops {
    * dsmc may end its last step past either limit. Deterministic: cutting a run into advances never changes a trajectory
    * in md, and in dsmc only through the ends of steps.
    *
-   * GG_INTERRUPTED where model.stop asks for it, which is looked at several times a second: the engine stands where it
-   * has come to, in dsmc at the end of a step, and *elapsed is the time gone. The next call may be a new advance; or
-   * `go_on`, also after save and restore, which takes this one to the end that it would have had, bit for bit. */
+   * GG_INTERRUPTED if model.stop requests it, which is polled several times a second. The engine then is at the present
+   * event, in dsmc at the end of a step, and *elapsed is the time gone. The next call may be a new advance; or `go_on`,
+   * also after save and restore, which completes the interrupted advance, bit for bit. */
   gg_status (*advance)(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err);
   /* Keep these sums over collisions, or not (at creation they are not kept). */
   void (*keep_sums)(gg_engine *engine, bool keep);
-  /* Hand over the sums since the last read, and start anew. */
+  /* Return the sums since the last read, and reset them. */
   void (*take_sums)(gg_engine *engine, gg_collision_sums *sums);
   /* Show every collision between grains to `callback` from now on; NULL: none. What is shown costs time; a dsmc
    * engine also leaves its block kernels, in which grains change places, until it has no callback. An engine restored
    * from a checkpoint has to be set again, and then continues bit for bit. */
   gg_status (*set_callback)(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
-  /* Does a callback slow this engine down many times over? Then it is best set now and then. NULL: no. */
+  /* Whether a callback slows this engine down many times over, so that it is best set in bursts. NULL: no. */
   bool (*callback_slows)(const gg_engine *engine);
   /* Share the work out to so many threads, the caller's included; the trajectory does not depend on it. NULL where the
    * engine cannot. */

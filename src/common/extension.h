@@ -1,7 +1,7 @@
-/* What the user's program adds to a scene: observables, theories, a law of restitution (graingas.h, "Extension").
+/* User-defined observables, theories and restitution law of a scene (graingas.h, "Extension").
  *
- * A chain, the latest addition first. Links never change and are counted: a scene holds its head, and so does all that
- * outlives the scene (results); whoever runs from a scene in the meantime borrows it. */
+ * A linked list, the latest addition first. Links are immutable and reference-counted. A scene holds a reference to the
+ * head, and so do objects that outlive the scene (results). Runs borrow it. */
 #ifndef GG_EXTENSION_H
 #define GG_EXTENSION_H
 

@@ -62,7 +62,7 @@ typedef struct gg_model {
   bool single;         /* dsmc: velocities kept in single precision */
 
   const gg_extension *extension; /* borrowed from the scene */
-  const gg_stop *stop;           /* borrowed from whoever runs an engine on it: no physics; NULL: nothing stops it */
+  const gg_stop *stop;           /* borrowed from the caller of the engine: no physics; NULL: nothing stops it */
 
   double stress_unit; /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */
 } gg_model;
@@ -126,7 +126,7 @@ gg_status gg_common_surfaces_make(const gg_scene *scene, bool spins, double time
 /* The plain or other surface at the upper (1) or lower (-1) end of an axis; NULL: none. */
 const gg_surface *gg_surface_at(const gg_model *model, int axis, double side);
 
-/* Is the box closed along this axis: no period, and nobody beyond its ends? One without a lid is, too. */
+/* Whether the box is closed along this axis: not periodic, no grain beyond its ends. Also without a lid. */
 bool gg_common_surface_is_closed(const gg_model *model, int axis);
 /* Closed across y, and nothing at the upper end. */
 bool gg_common_surface_is_open_above(const gg_model *model);

@@ -1,5 +1,5 @@
-/* The shared names: one table for JSON keys, HDF5 names, table rows, pictures, theories and documents. What becomes of
- * a quantity follows from its row, never from where the row stands. */
+/* The shared names: one table for JSON keys, HDF5 names, table rows, pictures, theories and documents. A quantity
+ * is treated according to its row, never according to the position of the row. */
 #ifndef GG_QUANTITY_H
 #define GG_QUANTITY_H
 

@@ -1,4 +1,4 @@
-/* The scene: what the user asked for, in the user's units. Plain data; the field table of src/scene/fields.c holds the
+/* The scene: the user's input, in the user's units. Plain data; the field table of src/scene/fields.c holds the
  * default of every member, reads, checks, prints and documents it. */
 #ifndef GG_SCENE_H
 #define GG_SCENE_H
@@ -26,8 +26,8 @@ enum { GG_LEAST_ENSEMBLE = 5000 };
 
 #define GG_AUTO (-1.0) /* a number that the program is to choose */
 
-/* Collisions a grain for which a gas that cools by a law of restitution is followed: no error can be asked of a rate
- * that is never the same again. */
+/* Collisions a grain for which a gas that cools by a law of restitution is followed: no error can be
+ * requested for a rate that has no steady value. */
 enum { GG_COLLISIONS_FOLLOWED = 400 };
 
 typedef struct gg_species {

@@ -1,6 +1,6 @@
-/* The majorant of the relative normal speed g_n of one pair of species: learned from the candidates, kept relative to
- * the thermal speed so that it follows a cooling or heating gas, exceeded rarely and never unnoticed (an overflow,
- * which a correction pass makes up for: kernel/pass.h). */
+/* The majorant of the relative normal speed g_n of one pair of species. It adapts to the candidates and is relative to
+ * the thermal speed, so that it follows a cooling or heating gas. Candidates rarely exceed it; each such overflow is
+ * counted and corrected by a correction pass (kernel/pass.h). */
 #ifndef GG_DSMC_MAJORANT_H
 #define GG_DSMC_MAJORANT_H
 
@@ -11,7 +11,7 @@ typedef struct gg_dsmc_majorant {
   uint64_t seen;      /* candidates in this window */
 } gg_dsmc_majorant;
 
-/* Start from a majorant that holds for sure. */
+/* Start from a safe upper bound `sure`. */
 void gg_dsmc_majorant_start(gg_dsmc_majorant *m, double sure, double thermal);
 /* The majorant to use at this thermal speed. */
 double gg_dsmc_majorant_at(const gg_dsmc_majorant *m, double thermal);

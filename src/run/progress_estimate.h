@@ -1,6 +1,6 @@
-/* How far a run is and how long it will still take, for those who watch it: nothing of the run depends on it. A run
- * ends at a test of its averaging window (averaging.c): at which one is told by the errors so far, if they fall as
- * 1/sqrt(window); when that is, by the time that samples have lately taken. */
+/* Progress and time left of a run. The run does not depend on them. A run ends at a test of its averaging window
+ * (averaging.c). The errors so far predict which test, assuming that they fall as 1/sqrt(window); the time of recent
+ * samples predicts when. */
 #ifndef GG_PROGRESS_ESTIMATE_H
 #define GG_PROGRESS_ESTIMATE_H
 
@@ -28,7 +28,7 @@ typedef struct gg_progress_estimate {
   double fraction; /* the largest reported */
 } gg_progress_estimate;
 
-/* Averaging begins, or begins anew. */
+/* Averaging starts or restarts. */
 void gg_run_progress_open_window(gg_progress_estimate *o);
 /* Averaging begins: another pace. */
 void gg_run_progress_new_phase(gg_progress_estimate *o);

@@ -23,7 +23,7 @@ typedef struct gg_replica {
     GG_OBSERVED_UNSET,
     GG_NOT_OBSERVED,
     GG_OBSERVED
-  } shown;                 /* collisions, to the observables that ask for them */
+  } shown;                 /* collisions, for the observables that need them */
   gg_snapshot snapshot;    /* what they sample; gathered only if one of them is due */
   int parts;               /* of a sampling interval, each ending with a snapshot, while averaging */
   struct gg_replica_flow { /* between walls; else NULL */
@@ -45,7 +45,7 @@ typedef struct gg_replica {
     double cpu, window_cpu; /* seconds used; at the opening of the window */
     uint64_t window_collisions;
     uint64_t averaging, window_samples; /* curves are being taken; samples since */
-    double next_frame, frame_every;     /* collisions per grain; of the frames asked for when it was set */
+    double next_frame, frame_every;     /* collisions per grain; of the frames requested when it was set */
     /* Of the interval under way, where the run was stopped within it. */
     int64_t part;       /* in which it was stopped, from 1 on; 0: between intervals */
     double gone;        /* time of the parts before */
@@ -88,9 +88,9 @@ void gg_run_replica_sample_row(gg_replica *r, double elapsed);
 void gg_run_replica_sample_curves(gg_replica *r, int part, double part_elapsed);
 void gg_run_replica_restart_curves(gg_replica *r);
 
-/* sampling.c, before an interval of the window: does the engine show its collisions to the observables that ask
- * for them? Always, but where that slows it down many times over, and they do with less: there for so many samples at
- * the beginning of every `apart`, but closer together before the window is `settled` samples long. */
+/* sampling.c, before an interval of the window: whether the engine reports its collisions to the observables that need
+ * them. Always, unless that slows the engine down many times over and the observables accept bursts. A burst is so many
+ * samples at the beginning of every `apart`; bursts are closer before the window is `settled` samples long. */
 typedef struct gg_sampling_bursts {
   uint64_t length, first, apart, settled; /* samples; first: how far apart the first ones begin */
 } gg_sampling_bursts;

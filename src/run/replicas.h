@@ -1,5 +1,5 @@
-/* The ensemble of replicas that answers one scene. They go through warm-up and averaging in lockstep, until what the
- * scene asks for is reached; the result is taken from all of them together. */
+/* The replicas of one scene. They go through warm-up and averaging in lockstep until the stopping criteria are met. The
+ * result combines all of them. */
 #ifndef GG_REPLICAS_H
 #define GG_REPLICAS_H
 
@@ -85,12 +85,12 @@ typedef struct gg_window_test {
   double ratio;     /* error over the requested one; NaN: not known */
   bool exact, sure; /* as small as requested, and to be trusted */
 } gg_window_test;
-/* Does it end the run? A run that tests again and again, and stops as soon as its estimate of the error is small, stops
- * where the estimate is too small. So a window that is not sure is extended by half its length after the first test
- * that it passes, and the estimate there is the one that counts. One that is sure need not: looks are few, as each goes
- * where the last expects the end, and the estimate scatters little. (Simulated with independent blocks, the error's own
- * doubt not allowed for: the mean square of deviations over claimed errors is 1.07 then, against 1.05 with the half
- * more, 1.03 of windows of fixed length; with 16 blocks 1.3, against 1.16 and 1.15.) */
+/* Whether the test ends the run. A run that tests repeatedly and stops at the first small error estimate stops where
+ * the estimate is too low. So a window that is not `sure` is extended by half its length after the first passed test,
+ * and the estimate at its end counts. A sure window is not extended: its tests are few, since each is at the end
+ * predicted by the last, and its estimate scatters little. (Simulated with independent blocks, without the error of the
+ * error: the mean square of deviations over claimed errors is 1.07 without extension, 1.05 with it, 1.03 for windows of
+ * fixed length; with 16 blocks 1.3, 1.16 and 1.15.) */
 bool gg_run_criteria_are_met(const gg_window_test *test, bool exact_before);
 /* Length at which the window is tested next, after that test; NULL: first. It grows by a quarter a time; of one that is
  * sure, to where its error should be a twentieth smaller than requested. */
@@ -115,7 +115,7 @@ void gg_run_replicas_clear(gg_replicas *all);
  * checkpoint. */
 gg_status gg_run_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_error *err);
 
-/* averaging.c: warm-up and averaging, to the end that the criteria asks for or until time is up. */
+/* averaging.c: warm-up and averaging, until the stopping criteria are met or the time limit. */
 gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err);
 /* progress.c: report to the caller's callback, if there is one; `over`: the run is. */
 void gg_run_replicas_report_progress(gg_replicas *all, bool over);

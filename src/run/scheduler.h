@@ -29,7 +29,7 @@ typedef struct gg_run_task {
   atomic_bool over;
   gg_status status; /* once it is over, with the reason */
   gg_error err;
-  _Atomic uint64_t samples; /* its status, which anybody may read at any time */
+  _Atomic uint64_t samples; /* its status, readable by any thread at any time */
   _Atomic double collisions_per_grain, cpu;
   struct gg_run_task *next; /* in the queue */
 } gg_run_task;
@@ -44,7 +44,7 @@ typedef struct gg_run_remote {
 struct gg_run_tasks { /* the tasks of one run, one a replica */
   gg_run_scheduler *scheduler;
   const gg_scene *scene;
-  const gg_model *model; /* its `stop` ends the tasks, and looks at `stopping` */
+  const gg_model *model; /* its `stop` ends the tasks, and polls `stopping` */
   const gg_run_callbacks *callbacks;
   int n;
   gg_run_task *task;
@@ -89,7 +89,7 @@ void gg_run_tasks_close(gg_run_tasks *run);
 
 /* Submit a task for each replica that does not exist or has not the samples that are due. */
 void gg_run_submit(gg_run_tasks *run, uint64_t due, bool adapt, double priority);
-/* Until all are over: true. False, now and then, if the scheduler is distributed. */
+/* Wait until all are over: true. A distributed scheduler also returns false at intervals. */
 bool gg_run_wait(gg_run_tasks *run);
 /* Tasks end where they are, with GG_INTERRUPTED; they still have to be waited for. */
 void gg_run_stop(gg_run_tasks *run);

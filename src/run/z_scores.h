@@ -34,8 +34,8 @@ bool gg_run_results_disagree(const gg_comparison *comparison, gg_quantity q);
 /* Why a theory is off where it is beyond what is expected; returns text that lasts. */
 const char *gg_run_theory_cause(const gg_theory *theory, const gg_model *model);
 
-/* Relative deviation of a theory from a simulation, theory/simulation - 1. NaN where the simulation cannot be told from
- * zero (within three standard errors). */
+/* Relative deviation of a theory from a simulation, theory/simulation - 1. NaN if the simulation is zero
+ * within three standard errors. */
 double gg_run_deviation(const gg_estimate *simulation, double theory);
 
 /* A theory that is off by more than the engines may be of one another, and by more than four standard errors: in which
