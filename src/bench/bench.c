@@ -156,7 +156,7 @@ char *gg_bench_document(const gg_bench *b)
     if (there)
       json_array_extend(there, b->table[i]->rows);
     else
-      json_object_set(document, b->table[i]->key, b->table[i]->rows);
+      json_object_set_new(document, b->table[i]->key, json_copy(b->table[i]->rows));
   }
   char *text = document ? gg_files_document_text(document) : NULL;
   json_decref(document);

@@ -85,9 +85,11 @@ const gg_command gg_cli_commands[] = {
      "repeats.\nmd: elastic smooth spheres by size and density; cost of roughness, shear, walls, gravity, a second "
      "species and stress measurement.\ndsmc: nanoseconds per accepted collision; gain of the block kernels over the "
      "plain loop and of threads within one ensemble.\nobservables: run time that each observable adds, for both "
-     "engines and three sizes.\nerror: error of the means of uniform shear against run time, warm-up included, by "
-     "engine, number of grains, time step, precision and replicas, with the time to 1, 0.1 and 0.01 %; --picture draws "
-     "it. --quick takes two or three minutes, the full run most of an hour. Use an idle machine.",
+     "engines and three sizes.\nerror: processor time until means have an error of 1, 0.1 and 0.01 %, a table a state "
+     "of uniform shear and free cooling, over engines, numbers of grains, time steps, precision and replicas. "
+     "--picture "
+     "e.svg draws e_<state>.svg: error against time of the best of each engine, theories as bars. --quick takes two or "
+     "three minutes, the full run most of an hour. Use an idle machine.",
      GG_OPT_PICTURE | GG_OPT_JSON | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_QUICK | GG_OPT_QUIET, gg_cli_bench_main},
     {0},
 };

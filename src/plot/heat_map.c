@@ -210,7 +210,8 @@ static void draw_panel(const heat_page *p, size_t row, size_t column)
           "$lines0 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 0.8 dt (3,2) notitle, "
           "$lines1 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 1.3 notitle, "
           "$lines2 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 2.8 notitle, "
-          "$marks using 1:2:3 with points pt variable ps 0.5 lw 1.2 lc rgb '#d00000' notitle%s\n",
+          "$marks using 1:2:3 with points pt variable ps 0.95 lw 3 lc rgb '#ffffff' notitle, "
+          "$marks using 1:2:3 with points pt variable ps 0.6 lw 1.2 lc rgb '#d00000' notitle%s\n",
           p->wide < LEAST_WIDE ? "" : ", $cells using 1:2:4:5 with labels textcolor rgb variable font ',8' notitle");
 }
 
@@ -235,7 +236,7 @@ static void draw_bar(const heat_page *p)
   fprintf(p->script,
           ")\nset xlabel 'deviation [%%]' offset 0,0.5\nset label 1 'lines at 1 %% (dashed), 5 %% and 20 %% (thick); "
           "hatched: below two standard errors' at graph "
-          "0.5,1 center offset 0,1.7\nset label 2 'red: × not steady, ▼ clustered or swirling, ◆ collapsed' at graph "
+          "0.5,1 center offset 0,1.7\nset label 2 'red: × not steady, ▲ clustered or swirling, ◆ collapsed' at graph "
           "0.5,1 center offset "
           "0,0.6\nplot $bar using 1:2:(%g):(1):3 with boxxyerror lc rgb variable fs solid noborder "
           "notitle\n",

@@ -92,14 +92,25 @@ static void begin(gg_bench *b, gg_bench_options *o, const char *subject)
   if (gg_bench_run(b, subject, o, &err) != GG_OK) fail_msg("%s", err.message);
 }
 
-/* As JSON it has the same tables under the same names. */
+/* Are these among the rows of a table of JSON, one after another? */
+static bool holds(const json_t *all, const json_t *rows)
+{
+  for (size_t at = 0; at + json_array_size(rows) <= json_array_size(all); at++) {
+    size_t i = 0;
+    while (i < json_array_size(rows) && json_equal(json_array_get(all, at + i), json_array_get(rows, i))) i++;
+    if (i == json_array_size(rows)) return true;
+  }
+  return false;
+}
+
+/* As JSON it has the same tables under the same names; those of one name are one. */
 static void end(gg_bench *b)
 {
   char *text = gg_bench_document(b);
   json_t *document = json_loads(text, 0, NULL);
   assert_non_null(json_object_get(document, "graingas"));
   for (int i = 0; i < b->n_tables; i++)
-    assert_true(json_equal(json_object_get(document, b->table[i]->key), b->table[i]->rows));
+    assert_true(holds(json_object_get(document, b->table[i]->key), b->table[i]->rows));
   json_decref(document);
   free(text);
   gg_bench_clear(b);

@@ -114,7 +114,7 @@ def test_collect():
     write(SWEEP.replace("replicas: 2}", "replicas: 2}\nsweep: {does: compare}"))
     done = run("sweep", "s.yaml", "--quiet")
     check(done.code == 0 and not done.out and not done.err and done.new == ["s.sweep"], done.out, done.err)
-    done = run("sweep", "s.yaml", "--collect", "--over", "phi", "--show", "N1,temperature")
+    done = run("sweep", "s.yaml", "--collect", "--over", "collision.e", "--show", "N1,temperature")
     check(done.out.split() == ["s.sweep.csv", "s.sweep.h5", "s.sweep.svg"], done.out, done.err)
     table = rows("s.sweep.csv")
     check({r["method"] for r in table} >= {"md", "dsmc", "lun1991", "enskog_hermite"})
@@ -130,7 +130,7 @@ def test_collect():
     check(done.out.split() == ["s.sweep.csv", "s.sweep.h5"], done.out, done.err)
     done = run("info", "s.sweep.h5")
     check(done.code == 3 and "table of a sweep" in done.err, done.code, done.err)
-    done = run("sweep", "s.yaml", "--collect", "--json")
+    done = run("sweep", "s.yaml", "--collect", "--json", "--picture", "none")
     check(done.code == 0 and len(json.loads(done.out)["points"]) == 6, done.out, done.err)
     for args, words in (("--over", "engine"), "is not a key that this sweep varies"), (("--show", "colour"), "no point has"):
         done = run("sweep", "s.yaml", "--collect", *args)
@@ -214,6 +214,31 @@ def test_lines_of_a_picture():
     for rows in "{random: {points: 4}, phi: 0.1..0.4, particles: 100..200}", "[{phi: [0.1, 0.2], particles: [9, 4]}]":
         check(symbols(drawn(rows, "--over", "phi")) >= 2, "theories are points:", rows)
     check(symbols(drawn("[{phi: [0.1, 0.2], particles: [100, 100]}]", "--over", "phi")) == 0)
+
+
+def test_deviations_in_a_picture():
+    """Relative to a theory: its own line is zero, others lie off it as the table says; chosen theories, logarithmic
+    axes and the title; lines have forty points more than the table, which a second picture reads."""
+    write(SWEEP.replace("replicas: 2}", "replicas: 2}\nsweep: {does: theory}").replace("  phi: [0.05, 0.1]\n", ""))
+    check(run("sweep", "s.yaml", "--quiet").code == 0)
+    args = ("sweep", "s.yaml", "--collect", "--quiet", "--over", "collision.e", "--show", "temperature", "--theories", "lun1991")
+    done = run(*args, "--relative-to", "enskog_hermite", "--log", "xy")
+    check(done.code == 0 and "lines" in os.listdir("s.sweep"), done.err)
+    with open("s.sweep.svg") as f:
+        picture = f.read()
+    check("T / Enskog (Hermite)" in picture and ">Lun 1991<" in picture and "Gaussian closure" not in picture)
+    title = re.search(">(Uniform shear[^<]*)<", picture)
+    check(title and "phi 0.1" in title[1] and ", e " not in title[1], title)
+    longest = max(len(re.findall(r"[ML]?[\d.]+,[\d.]+", path)) for path in re.findall("d='([^']*)'", picture))
+    check(longest >= 40, longest)
+    before = {f: os.stat("s.sweep/lines/" + f).st_mtime_ns for f in os.listdir("s.sweep/lines") if f.endswith(".h5")}
+    check(len(before) == 40, len(before))
+    check(run(*args, "--log", "x").code == 0)
+    check(before == {f: os.stat("s.sweep/lines/" + f).st_mtime_ns for f in before})
+    for wrong, words in ((("--relative-to", "moon"), "no point has a method 'moon'"), (("--theories", "moon"), "no point has a theory"),
+                         (("--log", "z"), "allowed: x, y, xy, none")):
+        done = run("sweep", "s.yaml", "--collect", *wrong)
+        check(done.code == 2 and words in done.err, done.err)
 
 
 def test_an_axis_of_one_value():

@@ -40,6 +40,11 @@ def test_a_grid_in_order():
     with open("g_temperature.svg") as f:
         picture = f.read()
     check(all(word in picture for word in ("Lun 1991/Enskog - 1", "md/dsmc - 1", "β = 0.3, μ = 0.1", ">nothing<")))
+    check(">against dsmc<" in picture, "friction")
+    document = json.loads(validated("--picture", "none", "--json").out)
+    check(document["points"] == 8 and document["dsmc"]["agrees"] and document["dsmc"]["without_solution"] == 4, document)
+    check(document["largest_z"][0]["repeat"] == next(line for line in done.out.splitlines() if "--seed 2" in line).split("`")[1])
+    check(document["without_reference"] == [] and {d["method"] for d in document["deviations"]} >= {"md", "dsmc", "lun1991"})
     before = {f: os.stat("g.sweep/" + f).st_mtime_ns for f in os.listdir("g.sweep")}
     again = validated("--picture", "none")
     check(again.code == 0 and again.out.split("\n\n", 1)[1] == done.out.split("\n\n", 1)[1], "the same verdict")
