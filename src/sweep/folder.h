@@ -19,8 +19,8 @@ gg_point_state gg_sweep_point_state(const char *folder, uint64_t id);
 /* Make it if it is not there (not what it stands in), and see that files can be made in it. `holds` ends the message
  * where something else has its name. */
 gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_error *err);
-/* The sweep itself, so that the folder knows what it is of: FOLDER/sweep.yaml, in a buffer of PATH_MAX bytes; false where
- * the name is too long. */
+/* The sweep itself, so that the folder knows what it is of: FOLDER/sweep.yaml, in a buffer of PATH_MAX bytes; false
+ * where the name is too long. */
 bool gg_sweep_folder_text_path(const char *folder, char *path);
 gg_status gg_sweep_folder_note(const gg_sweep *sweep, const char *folder, gg_error *err);
 /* Is the file of the point of this build (any_build: of any), and whole? Where it is not it becomes NAME.old.h5, and
