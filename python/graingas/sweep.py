@@ -1,6 +1,7 @@
 """Sweeps: a scene at every point of a grid, in a folder that can be resumed."""
 from __future__ import annotations
 
+import itertools
 import math
 import tempfile
 import warnings
@@ -12,7 +13,7 @@ from .errors import BadInput, NotFound, PartialResult, check, encode, exception,
 from .handles import Handle
 from .result import Result
 from .run import read, reporting, thread_count
-from .scene import as_scene
+from .scene import Scene, as_scene
 from .structs import Record, new, values
 from .theory import Grid, grid_keys
 
@@ -29,10 +30,17 @@ class Point:
     name     of its file, a hash
     state    "missing", "done", or "short": done, but short of what was asked
     file     its result file; None while it is missing
+    seconds  of processor time that it is expected to take
     """
 
-    def __init__(self, keys, name, state, file, seed):
+    def __init__(self, keys, name, state, file, seed, seconds, scene):
         self.values, self.name, self.state, self.file, self.seed = keys, name, state, file, seed
+        self.seconds, self._scene = seconds, scene
+
+    @property
+    def scene(self):
+        """The scene as it is run at this point."""
+        return self._scene()
 
     def read(self):
         """Its Result or Comparison. Raises NotFound while it is missing."""
@@ -58,7 +66,19 @@ class Sweep:
         self.folder = self._temporary.name if folder is None else str(folder)
         self.partial = None
 
-    def _run(self, threads, progress):
+    @classmethod
+    def parse(cls, source, folder=None, name="sweep") -> Sweep:
+        """The sweep of a file's text: a scene with the maps `vary` and `sweep`. Nothing runs before run(). `name` of the
+        file appears in messages."""
+        made = ffi.new("gg_sweep **")
+        check(lib.gg_sweep_parse, encode(source), encode(name), made)
+        found = cls(made[0], {}, folder)
+        check(lib.gg_sweep_check, made[0])
+        found.axes = _axes(made[0])
+        return found
+
+    def run(self, threads=1, progress=None) -> Sweep:
+        """Runs the points that are not finished. Ctrl-C and what falls short: as sweep()."""
         call, error, options = calls.Call(), new_error(), new("gg_sweep_options")
         options.threads, options.context = thread_count(threads), call.c
         call.keep.append(ffi.new("char[]", b"graingas (Python)"))
@@ -74,7 +94,14 @@ class Sweep:
             raise exception(status, error)
         if status != lib.GG_OK:
             self.partial = "\n".join([text(error.message), *call.events])
-            warnings.warn(self.partial, PartialResult, stacklevel=4)
+            warnings.warn(self.partial, PartialResult, stacklevel=3)
+        return self
+
+    @property
+    def does(self) -> str:
+        """"run", "compare" or "theory"."""
+        with self._handle.held() as pointer:
+            return text(lib.gg_sweep_does(pointer))
 
     def __len__(self):
         with self._handle.held() as pointer:
@@ -87,7 +114,13 @@ class Sweep:
         if not -n <= i < n:
             raise IndexError(f"point {i}: the sweep has {n} points")
         with self._handle.held() as pointer:
-            return _point(pointer, self.folder, i % n, list(self.axes))
+            return _point(self, pointer, i % n)
+
+    def _scene(self, i):
+        made = ffi.new("gg_scene **")
+        with self._handle.held() as pointer:
+            check(lib.gg_sweep_scene, pointer, i, made)
+        return Scene._from_pointer(made[0])
 
     def to_dataframe(self):
         """A row for each point, solver ("md", "dsmc", a theory) and quantity: the keys, mean, error, unit."""
@@ -124,16 +157,35 @@ class Sweep:
         return f"<sweep of {len(states)} points over {', '.join(self.axes)}: {states.count('missing')} missing>"
 
 
-def _point(pointer, folder, i, keys):
+def _names(pointer):
+    return [text(name) for name in itertools.takewhile(lambda name: name != ffi.NULL,
+                                                       (lib.gg_sweep_key(pointer, k) for k in itertools.count()))]
+
+
+def _values(pointer, i):
+    return {name: yaml.read(text(lib.gg_sweep_value(pointer, i, k))) for k, name in enumerate(_names(pointer))}
+
+
+def _axes(pointer):
+    """Values of each key, in the order of the grid."""
+    axes = {}
+    for i in range(lib.gg_sweep_points(pointer)):
+        for key, value in _values(pointer, i).items():
+            axes.setdefault(key, [])
+            if value not in axes[key]:
+                axes[key].append(value)
+    return axes
+
+
+def _point(sweep, pointer, i):
     point, state, file = new("gg_sweep_point"), ffi.new("gg_point_state *"), ffi.new("char **")
     check(lib.gg_sweep_at, pointer, i, point)
-    check(lib.gg_sweep_find, pointer, encode(folder), i, state, file)
+    check(lib.gg_sweep_find, pointer, encode(sweep.folder), i, state, file)
     path = text(file[0])
     if file[0] != ffi.NULL:
         lib.free(file[0])
-    names = [text(lib.gg_sweep_key(pointer, k)) for k in range(len(keys))]
-    found = {name: yaml.read(text(lib.gg_sweep_value(pointer, i, k))) for k, name in enumerate(names)}
-    return Point(found, text(point.name), STATES[state[0]], path, point.seed)
+    return Point(_values(pointer, i), text(point.name), STATES[state[0]], path, point.seed, point.cpu_seconds,
+                 lambda: sweep._scene(i))
 
 
 def _rows(result):
@@ -198,8 +250,4 @@ def sweep(scene, vary=None, *, does="run", folder=None, threads=1, seeds="indepe
         raise BadInput("sweep: give at least one key to vary, e.g. e=[0.5, 0.7, 0.9]")
     if scene._extensions:
         raise BadInput("sweep: its points are files, which hold no Python functions; use scan(), or run() in a loop")
-    made = ffi.new("gg_sweep **")
-    check(lib.gg_sweep_parse, encode(_yaml(scene, axes, encode(does, "does").decode(), seeds)), b"sweep", made)
-    found = Sweep(made[0], axes, folder)
-    found._run(threads, progress)
-    return found
+    return Sweep.parse(_yaml(scene, axes, encode(does, "does").decode(), seeds), folder).run(threads, progress)

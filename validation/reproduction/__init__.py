@@ -1,0 +1,1 @@
+"""Figures of papers, simulated anew: validation/figures/NAME.yaml becomes NAME.csv, NAME_numbers.csv and pictures."""

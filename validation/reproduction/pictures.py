@@ -1,0 +1,195 @@
+"""A figure as a picture, by matplotlib, in the style of graingas.plot: a colour and a symbol for each line, dashes for
+theories. Filled symbols are md, half-filled ones dsmc where both are shown, open ones points that are not settled."""
+import io
+import os
+import re
+
+import graingas as gg
+import matplotlib
+import numpy as np
+from graingas.plot import COLOURS, DASHES, STYLE
+
+from .entry import ENGINES
+from .tables import write
+
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+from matplotlib.lines import Line2D  # noqa: E402
+
+MARKERS = "osD^vPX"
+COLUMNS, WIDTH, HEIGHT = 3, 3.0, 2.4  # panels side by side, inches
+MOST_SHOWN = 12  # snapshots
+LARGEST = 500_000  # bytes of an SVG; above it curves become pixels
+
+
+def mathematics(label):
+    """C_x/σ and T_{cell}/T as matplotlib has them."""
+    return re.sub(r"([^\W_]+)([_^])(\{[^{}]*\}|[^\W_])", lambda m: f"${m[1]}{m[2]}{{\\rm {m[3].strip('{}')}}}$", label.replace("\\_", "_"))
+
+
+def _axis_label(label, unit):
+    return mathematics(label) + (f" [{gg.plot.unit_text(unit)}]" if unit not in ("", "1") else "")
+
+
+class _Drawing:
+    """One panel in its axes."""
+
+    def __init__(self, ax, table, rasterized):
+        self.ax, self.table, self.of, self.rasterized = ax, table, table.of, rasterized
+        measured = [line for line in table.lines if line.method in ENGINES]
+        self.groups = list(dict.fromkeys(line.group for line in measured)) or [""]
+        self.methods = list(dict.fromkeys(line.method for line in table.lines if line.method not in ENGINES and line.rows))
+        self.both = len({line.method for line in measured}) == 2
+        self.unsettled = False
+
+    def _colour(self, group):
+        return COLOURS[self.groups.index(group) % len(COLOURS)] if group in self.groups else "black"
+
+    def _marker(self, group):
+        marks = self.of.symbols or MARKERS
+        return marks[self.groups.index(group) % len(marks)] if group in self.groups else "o"
+
+    def _dash(self, method):
+        return DASHES[self.methods.index(method) % len(DASHES)]
+
+    def draw(self):
+        for line in filter(lambda line: line.rows, self.table.lines):
+            {"points": self._points, "band": self._band, "line": self._line}[line.style](line)
+        of = self.of
+        self.ax.set(xlabel=_axis_label(self.table.x_label, self.table.x_unit),
+                    ylabel=_axis_label(self.table.y_label, self.table.y_unit), title=mathematics(of.title or ""),
+                    xscale="log" if of.x.log else "linear", yscale="log" if of.y.log else "linear")
+        if of.x.range:
+            self.ax.set_xlim(of.x.range)
+        if of.y.range:
+            self.ax.set_ylim(of.y.range)
+        return self.legend()
+
+    def _points(self, line):
+        settled, (x, x_error, y, error) = np.array([row[4] for row in line.rows]), line.columns
+        fill = "bottom" if self.both and line.method == "dsmc" else "full"
+        for some, style in (settled, fill), (~settled, "none"):
+            self.unsettled |= style == "none" and some.any()
+            if some.any():
+                self.ax.errorbar(x[some], y[some], np.nan_to_num(error[some]), np.nan_to_num(x_error[some]), linestyle="none",
+                                 color=self._colour(line.group), marker=self._marker(line.group), fillstyle=style,
+                                 markerfacecoloralt="white", elinewidth=0.7)
+
+    def _band(self, line):
+        x, _, y, error = line.columns
+        settled, colour = line.rows[0][4], self._colour(line.group)
+        self.unsettled |= not settled
+        self.ax.plot(x, y, color=colour, linestyle="-" if settled else (0, (1, 1)), alpha=1 if line.method == "md" else 0.6,
+                     rasterized=self.rasterized)
+        known = np.isfinite(error)
+        if known.any():
+            self.ax.fill_between(x[known], (y - error)[known], (y + error)[known], color=colour, alpha=0.25, linewidth=0,
+                                 rasterized=self.rasterized)
+
+    def _line(self, line):
+        x, _, y, _ = line.columns
+        colour = self._colour(line.group) if line.group and len(self.groups) > 1 else "black"
+        self.ax.plot(x, y, color=colour, linestyle=self._dash(line.method), zorder=1)
+
+    def legend(self):
+        """What explains colours, symbols and dashes."""
+        points = any(line.style == "points" for line in self.table.lines)
+        found = [Line2D([], [], color=self._colour(group), label=mathematics(group),
+                        **({"marker": self._marker(group), "linestyle": "none"} if points else {}))
+                 for group in self.groups if group]
+        found += [Line2D([], [], color="black", linestyle=self._dash(method), label=mathematics(method) if "_" not in method
+                         or method not in gg.catalogue.theories() else method.replace("_", " ")) for method in self.methods]
+        mark = {"color": "black", "marker": "o", "linestyle": "none"}
+        if self.both and points:
+            found += [Line2D([], [], label="md", **mark),
+                      Line2D([], [], label="dsmc", fillstyle="bottom", markerfacecoloralt="white", **mark)]
+        if self.unsettled:
+            found.append(Line2D([], [], label="not settled", fillstyle="none", **mark) if points
+                         else Line2D([], [], label="not settled", color="black", linestyle=(0, (1, 1))))
+        return found
+
+
+def _surface(ax, table):
+    """x and the key of the lines below, y above; md."""
+    lines = {float(line.group.rpartition("= ")[2]): line.columns for line in table.lines if line.method == "md"}
+    x, across = sorted({value for columns in lines.values() for value in columns[0]}), sorted(lines)
+    height = np.array([[dict(zip(lines[b][0], lines[b][2])).get(a, np.nan) for a in x] for b in across])
+    ax.plot_surface(*np.meshgrid(x, across), height, cmap="viridis", edgecolor="black", linewidth=0.3)
+    label = next(iter(table.of.lines.values()))
+    ax.set(xlabel=mathematics(table.x_label), ylabel=mathematics(label), title=mathematics(table.of.title or ""))
+    ax.set_title(mathematics(f"{table.of.title}: {table.y_label}"))
+    ax.view_init(25, -130)
+    ax.tick_params(pad=0)
+
+
+def _shown(tables):
+    """Panels with their snapshots in place: (table, point or None)."""
+    found = []
+    for table in tables:
+        if table.of.source.kind != "snapshot":
+            found.append((table, None))
+            continue
+        found += [(table, point) for point in table.points if table.takes(point)]
+    return found[:MOST_SHOWN + len(tables)]
+
+
+def _snapshot(ax, table, point):
+    """The grains of a frame, projected."""
+    source, frames = table.of.source, gg.trajectory(point.file)
+    frame = frames[max(len(frames) - 1 - source.frame, 0)]
+    across, box = (2 if source.names[0][0] == "z" else 0), frame.state.box
+    x, y = (frame.grains.position[:, a] % box[a] for a in (across, 1))
+    ax.plot(x, y, ",", color=COLOURS[0], rasterized=True) if len(x) > 20000 else ax.scatter(
+        x, y, s=3, color=COLOURS[0], linewidths=0, rasterized=True)
+    words = [word for word in (table.of.title, table.group(point, "")) if word]
+    words.append(f"{frame.state.collisions_per_grain:.0f} collisions per grain")
+    ax.set(xlim=(0, box[across]), ylim=(0, box[1]), aspect="equal", xlabel="z [d]" if across else "x [d]", ylabel="y [d]")
+    ax.set_title(mathematics(", ".join(words)), fontsize=8)
+
+
+def _page(entry, tables, note, rasterized):
+    shown = _shown(tables)
+    columns = min(COLUMNS, len(shown))
+    rows = -(-len(shown) // columns)
+    figure = pyplot.figure(figsize=(columns * WIDTH, rows * HEIGHT + 0.4), dpi=150, layout="constrained")
+    explained = []
+    for k, (table, point) in enumerate(shown, 1):
+        ax = figure.add_subplot(rows, columns, k, projection="3d" if table.of.surface else None)
+        if point is not None:
+            _snapshot(ax, table, point)
+        elif table.of.surface:
+            _surface(ax, table)
+        else:
+            handles = _Drawing(ax, table, rasterized).draw()
+            key = [handle.get_label() for handle in handles]
+            if handles and key not in explained:  # panels alike share the first one's
+                explained.append(key)
+                ax.legend(handles=handles, ncols=1 + len(handles) // 7, handlelength=1.6)
+    figure.suptitle(entry.figure + note, fontsize=10)
+    return figure
+
+
+def unsettled(tables):
+    """Points that are not settled, in words: "e = 0.5, β = -0.999 (md)"."""
+    found = {}
+    for table in tables:
+        for engine, point in table.unsettled:
+            keys = ", ".join(f"{key} {point.scene.text_of(key)}" for key in point.varied)
+            found.setdefault(f"{keys} ({engine})" if keys else engine)
+    return list(found)
+
+
+def draw(entry, tables, quick, base, formats):
+    """Writes the picture in every format; returns the paths."""
+    paths = []
+    with matplotlib.rc_context({**STYLE, "axes.titlesize": 9, "svg.hashsalt": "graingas"}):
+        for ending in formats:
+            for rasterized in False, True:
+                figure, image = _page(entry, tables, " (quick)" if quick else "", rasterized), io.BytesIO()
+                figure.savefig(image, format=ending, metadata={"Date": None} if ending == "svg" else None)
+                pyplot.close(figure)
+                if ending != "svg" or image.tell() <= LARGEST:
+                    break
+            paths.append(f"{base}.{ending}")
+            write(paths[-1], image.getvalue())
+    return paths
