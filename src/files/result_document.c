@@ -403,13 +403,14 @@ static bool is_word(const char *key)
   return *key && *key != '.' && *key != '-' && !key[strspn(key, plain)];
 }
 
-/* Of what is registered: quantities, curves, theories. */
-static bool holds_names(const char *key)
+/* Of what is registered: quantities, theories; of curves some have a number behind: local_distribution_Cx_0.5. */
+static bool is_allowed(const char *key, const char *name)
 {
-  static const char *const all[] = {"results", "curves", "theory", "theories", GG_THEORY_CURVES};
-  for (size_t i = 0; i < sizeof all / sizeof *all; i++)
-    if (strcmp(all[i], key) == 0) return true;
-  return false;
+  static const char *const registered[] = {"results", "theory", "theories"};
+  for (size_t i = 0; i < sizeof registered / sizeof *registered; i++)
+    if (strcmp(registered[i], key) == 0) return gg_base_text_is_name(name, LONGEST_NAME);
+  bool curves = strcmp(key, "curves") == 0 || strcmp(key, GG_THEORY_CURVES) == 0;
+  return is_word(name) && (!curves || strlen(name) <= LONGEST_NAME);
 }
 
 static bool make_text_printable(json_t *value)
@@ -436,7 +437,7 @@ static const char *check_value(const char *key, json_t *value)
   json_array_foreach(value, i, one) if (!wrong) wrong = check_value("", one);
   json_object_foreach(value, name, one)
   {
-    const bool good = holds_names(key) ? gg_base_text_is_name(name, LONGEST_NAME) : is_word(name);
+    const bool good = is_allowed(key, name);
     if (!wrong)
       wrong = good ? check_value(name, one) : "a quantity, curve or theory in it has a name that is not allowed";
   }
