@@ -32,7 +32,7 @@
  * Structs grow at their end only. Zero those that you fill in first. Functions get the size that the caller's compiler
  * knows ("Sizes" below), so that a program built with an older header works or gets an error. Structs in arrays of the
  * caller, and structs in structs, do not grow: gg_error, gg_quantity_definition, gg_departure,
- * gg_checkpoint_part, gg_figure_needs. */
+ * gg_checkpoint_part. */
 #ifndef GRAINGAS_H
 #define GRAINGAS_H
 
@@ -1583,78 +1583,6 @@ GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned
  */
 GG_API gg_status gg_result_file_notice(const char *result_file, char *text, size_t size, gg_error *err);
 
-/* ---- Figures: those of two papers, simulated anew ----
- * Gayen's thesis (2008) and Montanero's review (2003). The library contains the entries of validation/figures. An entry
- * defines sweeps, panels, theories, and the numbers that the paper states. */
-
-typedef struct gg_figure_needs {
-  size_t points;
-  double cpu_seconds; /* expected of all points, whether done or not */
-  double shared;      /* the part of it for points that earlier figures of the list have, too */
-  int64_t particles;  /* of the largest box or ensemble */
-  int md, dsmc;       /* which engines run */
-} gg_figure_needs;
-
-typedef struct gg_figure_info { /* texts last for the call */
-  const char *name, *file;      /* "thesis 3.5"; how its files are called: "thesis-3.05" */
-  const char *shows;
-  const char *cannot;            /* why it cannot be reproduced; NULL if it can */
-  const char *verdict, *because; /* "agrees", "differs", "cannot be told", "open": not judged yet */
-  gg_figure_needs quick, full;
-} gg_figure_info;
-typedef void gg_on_figure(void *context, const gg_figure_info *figure);
-
-/**
- * List the figures of the two papers, in the order of papers and numbers.
- * @param figure called with each figure
- * @param context passed to the callback
- * @param err receives the message on failure; may be NULL
- * @return GG_OK, or an error status
- */
-GG_API gg_status gg_list_figures(gg_on_figure *figure, void *context, gg_error *err);
-
-typedef struct gg_figure_number { /* that the paper states, beside ours; NaN: there is none */
-  const char *figure, *what, *where;
-  double paper, paper_error; /* error: half a unit of its last digit if the paper gives none */
-  double md, md_error, md_z; /* z: (ours - paper's) over both errors */
-  double dsmc, dsmc_error, dsmc_z;
-} gg_figure_number;
-
-/* All zero: full precision, one thread, files in the current folder, no callbacks. */
-typedef struct gg_reproduce_options {
-  int quick;           /* fewer points, larger errors: some ten to twenty times as fast */
-  int threads;         /* 0: one; results do not depend on it */
-  const char *folder;  /* of the files, created if missing; NULL: the current one. Results of the runs are in its
-                        * figures.sweep and are shared by all figures */
-  const char *command; /* how files were made, for their record */
-  void *context;       /* for the callbacks, of which each may be NULL */
-  void (*progress)(void *context, const char *figure, const gg_sweep_progress *progress);
-  int (*stop)(void *context); /* polled several times a second; returns non-zero to stop */
-  void (*warn)(void *context, const char *figure, const char *message);
-  void (*written)(void *context, const char *file);
-  void (*number)(void *context, const gg_figure_number *number);
-  int accept_version; /* as for gg_sweep_options */
-} gg_reproduce_options;
-
-/**
- * Simulate and draw a figure: NAME.h5, NAME.csv, NAME.svg, NAME.png, and NAME_numbers.csv if the paper publishes
- * numbers. Each file appears whole or not at all; finished points are not run again.
- * @param figure "thesis 3.5", "3.5" if one paper alone has it, or "all"
- * @param options NULL: default options
- * @param err receives the message on failure; may be NULL
- * @return GG_OK; GG_FAILED: points ended before their criteria (files hold what there is), the figure cannot be
- *   reproduced, or gnuplot is missing
- */
-GG_API gg_status gg_reproduce(const char *figure, const gg_reproduce_options *options, gg_error *err);
-
-/**
- * docs/appendix/reproduction.md: every figure with its verdict, as Markdown.
- * @param text receives the text, to be freed with free()
- * @param err receives the message on failure; may be NULL
- * @return GG_OK, or an error status
- */
-GG_API gg_status gg_reproduction_page(char **text, gg_error *err);
-
 /* ---- Tables of names ---- */
 
 typedef enum gg_catalogue {
@@ -1940,8 +1868,6 @@ GG_API gg_status gg_sweep_run_point_sized(gg_sweep *sweep, const char *folder, s
 GG_API gg_status gg_sweep_collect_sized(gg_sweep *sweep, const char *folder, const char *prefix,
                                         const gg_collecting *options, void (*written)(void *context, const char *file),
                                         void *context, gg_error *err, size_t options_size);
-GG_API gg_status gg_reproduce_sized(const char *figure, const gg_reproduce_options *options, gg_error *err,
-                                    size_t options_size);
 GG_API gg_status gg_catalogue_entry_sized(gg_catalogue list, size_t i, const gg_scene *scene, gg_entry *entry,
                                           gg_error *err, size_t entry_size);
 GG_API gg_status gg_catalogue_word_sized(const char *key, size_t i, gg_entry *entry, gg_error *err, size_t entry_size);
@@ -1983,7 +1909,6 @@ GG_API gg_status gg_simulation_record_sized(gg_simulation *simulation, gg_collis
 #define gg_sweep_run(...) gg_sweep_run_sized(__VA_ARGS__, sizeof(gg_sweep_options))
 #define gg_sweep_run_point(...) gg_sweep_run_point_sized(__VA_ARGS__, sizeof(gg_sweep_options))
 #define gg_sweep_collect(...) gg_sweep_collect_sized(__VA_ARGS__, sizeof(gg_collecting))
-#define gg_reproduce(...) gg_reproduce_sized(__VA_ARGS__, sizeof(gg_reproduce_options))
 #define gg_catalogue_entry(...) gg_catalogue_entry_sized(__VA_ARGS__, sizeof(gg_entry))
 #define gg_catalogue_word(...) gg_catalogue_word_sized(__VA_ARGS__, sizeof(gg_entry))
 #define gg_scene_add_observable(...) gg_scene_add_observable_sized(__VA_ARGS__, sizeof(gg_observable_definition))

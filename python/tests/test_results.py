@@ -147,7 +147,7 @@ def test_uncertainties(comparison):
 
 def test_curves_by_local_density_are_read_back():
     """Their names end in a number: local_distribution_Cx_0.5."""
-    scene = gg.Scene(flow="usf", phi=0.3, particles=200, measure=["local_distributions"], run={"collisions": 60, "warmup": 10})
+    scene = gg.Scene(flow="usf", phi=0.3, particles=200, measure=["rheology", "local_distributions"], run={"collisions": 60, "warmup": 10})
     made = gg.run(scene, output="local.h5")
     found = gg.read("local.h5").curves
     assert "local_distribution_Cx_0.5" in found and set(found) == set(made.curves)

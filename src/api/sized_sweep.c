@@ -1,4 +1,4 @@
-/* Of sweeps and figures. */
+/* Of sweeps. */
 #include "api/sized.h"
 
 GG_WRITES(gg_sweep_at, gg_sweep_point, point,
@@ -13,5 +13,3 @@ GG_READS(gg_sweep_collect, gg_collecting, options,
          (gg_sweep * sweep, const char *folder, const char *prefix, const gg_collecting *options,
           void (*written)(void *context, const char *file), void *context, gg_error *err, size_t size),
          (sweep, folder, prefix, options, written, context, err))
-GG_READS(gg_reproduce, gg_reproduce_options, options,
-         (const char *figure, const gg_reproduce_options *options, gg_error *err, size_t size), (figure, options, err))

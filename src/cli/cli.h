@@ -24,7 +24,6 @@ int gg_cli_run_main(const gg_command *command, int argc, char **argv);
 int gg_cli_theory_main(const gg_command *command, int argc, char **argv);
 int gg_cli_sweep_main(const gg_command *command, int argc, char **argv);
 int gg_cli_validate_main(const gg_command *command, int argc, char **argv);
-int gg_cli_reproduce_main(const gg_command *command, int argc, char **argv);
 int gg_cli_plot_main(const gg_command *command, int argc, char **argv);
 int gg_cli_export_main(const gg_command *command, int argc, char **argv);
 int gg_cli_info_main(const gg_command *command, int argc, char **argv);
@@ -55,7 +54,5 @@ void gg_cli_print_scene_page(void);
 /* The pages of quantities and of commands, docs/reference/quantities.md and commands.md. */
 void gg_cli_print_quantities_page(void);
 void gg_cli_print_commands_page(void);
-/* The page of figures, docs/appendix/reproduction.md. */
-void gg_cli_print_reproduction_page(void);
 
 #endif

@@ -40,13 +40,6 @@ const gg_command gg_cli_commands[] = {
      GG_OPT_VALIDATE | GG_OPT_ACCEPT | GG_OPT_SET | GG_OPT_PICTURE | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_QUICK |
          GG_OPT_JSON | GG_OPT_QUIET,
      gg_cli_validate_main},
-    {"reproduce", "FIGURE|list|all", "A figure of the papers: data, theory lines, picture",
-     "Reproduces figures of Gayen's thesis and of Montanero's review: \"thesis 3.5\", \"review 3\"; 3.5 alone works "
-     "where only one of them has it. Writes thesis-3.05.h5, .csv, .svg and .png, and thesis-3.05_numbers.csv with the "
-     "published numbers beside the simulated ones. list prints all figures with their needs, run time and "
-     "verdict.\nThe runs are stored in figures.sweep and shared by the figures. The same command continues an "
-     "interrupted figure. Two processes need two folders (--output). docs/appendix/reproduction.md has the results.",
-     GG_OPT_ACCEPT | GG_OPT_QUICK | GG_OPT_FOLDER | GG_OPT_JSON | GG_OPT_THREADS | GG_OPT_QUIET, gg_cli_reproduce_main},
     {"plot", "RESULT.h5", "Pictures of a result file",
      "Draws the relaxation of the temperatures with the averaging window; for a comparison also md, dsmc and the "
      "theories side by side. Draws a snapshot if the file has positions, and one picture for each observable with "

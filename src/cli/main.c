@@ -50,6 +50,9 @@ static int unknown(const char *word)
   const char *known[16] = {"--help", "--version", NULL};
   for (int i = 0; gg_cli_commands[i].name && i < 13; i++) known[i + 2] = gg_cli_commands[i].name;
   const char *nearest = gg_nearest_word(word, known);
+  if (strcmp(word, "reproduce") == 0)
+    return gg_cli_fail(GG_BAD_INPUT,
+                       "the figures of papers are reproduced in Python: validation/reproduce of the sources");
   if (ends_with(word, ".yaml") || ends_with(word, ".yml"))
     return gg_cli_fail(GG_BAD_INPUT, "'%s' is not a command; for this scene, e.g. %s compare %s", word,
                        program_invocation_name, word);
@@ -110,7 +113,6 @@ static int dispatch(int argc, char **argv)
     return help(argc > 2 ? argv[2] : NULL);
   if (strcmp(word, "--version") == 0) return printf("graingas %s\n", gg_version()), GG_OK;
   if (strcmp(word, "--manual") == 0) return gg_cli_print_manual(), GG_OK;
-  if (strcmp(word, "--reproduction-page") == 0) return gg_cli_print_reproduction_page(), GG_OK;
   if (strcmp(word, "--quantities-page") == 0) return gg_cli_print_quantities_page(), GG_OK;
   if (strcmp(word, "--commands-page") == 0) return gg_cli_print_commands_page(), GG_OK;
   if (strcmp(word, "--scene-page") == 0) return gg_cli_print_scene_page(), GG_OK;

@@ -48,7 +48,6 @@ const gg_option gg_cli_options_table[] = {
     {GG_OPT_SWEEP, "slurm", NULL, "print a Slurm script for an array of tasks; run nothing"},
     {GG_OPT_SWEEP | GG_OPT_VALIDATE, "output", "FOLDER",
      "folder of the points' files (default: NAME.sweep, in the current folder)"},
-    {GG_OPT_FOLDER, "output", "FOLDER", "folder to write to, created if missing (default: the current one)"},
     {GG_OPT_ONLY, "only", "PARTS", "parts to write: results, curves, trajectory; separated by commas"},
     {GG_OPT_PICTURE, "picture", "FILE",
      "picture to draw, .svg, .png or .pdf, or none (default: .svg beside the output; bench: none)"},
@@ -202,7 +201,6 @@ static int take(gg_options *o, unsigned flag, const char *name, const char *valu
   case GG_OPT_COLLISIONS: return take_collisions(o, value);
   case GG_OPT_THEORY: return take_theory(o, value);
   case GG_OPT_OUTPUT:
-  case GG_OPT_FOLDER:
   case GG_OPT_PREFIX: o->output = value; break;
   case GG_OPT_ONLY: o->only = value; break;
   case GG_OPT_PICTURE | GG_OPT_FORMAT: o->width = value; break;

@@ -20,7 +20,6 @@ enum {
   GG_OPT_PREFIX = 1u << 12,
   GG_OPT_ONLY = 1u << 13,
   GG_OPT_SWEEP = 1u << 14, /* all that only sweeps have */
-  GG_OPT_FOLDER = 1u << 15,
   GG_OPT_COLLISIONS = 1u << 16,
   GG_OPT_ACCEPT = 1u << 17,
   GG_OPT_THEORY = 1u << 18,

@@ -1,7 +1,6 @@
 #include "scene/fields.h"
 
 #include <inttypes.h>
-#include <limits.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -272,12 +271,6 @@ int gg_scene_key_find(const char *key, int n_species, gg_field *member)
   if (id >= 0) return *member = gg_scene_fields[id], id;
   if (sscanf(key, "species.%d.%n", &number, &used) != 1 || !used) return find_of_map(key, member);
   return number >= 1 && number <= n_species ? find_of_species(key + used, number, member) : -1;
-}
-
-bool gg_scene_key_exists(const char *key)
-{
-  gg_field member;
-  return gg_scene_key_find(key, INT_MAX, &member) >= 0;
 }
 
 bool gg_scene_is_given(const gg_scene *scene, const char *key)

@@ -84,8 +84,6 @@ int gg_scene_field_find(const char *key);
 /* The same of keys and of members of their values, "collision.e.12" and "species.2.mass" (1 to n_species): *member is
  * the row, or a row for that member whose offset is in gg_scene. */
 int gg_scene_key_find(const char *key, int n_species, gg_field *member);
-/* Is there such a key: collision.e, species.2.mass, collision.e.12? */
-bool gg_scene_key_exists(const char *key);
 /* Did the user give this key? */
 bool gg_scene_is_given(const gg_scene *scene, const char *key);
 /* Is it the first part of some dotted key ("collision")? */

@@ -270,10 +270,6 @@ static void sweeps(void **state)
   assert_true(!other && !scene && !text && !path);
   gg_sweep_free(s);
   gg_sweep_free(NULL);
-  gg_reproduce_options none = {0};
-  assert_missing(gg_list_figures(NULL, NULL, &err));
-  assert_missing(gg_reproduce(NULL, &none, &err));
-  assert_missing(gg_reproduction_page(NULL, &err));
 }
 
 /* Names that are nobody's, of theories, quantities and engines; and what there is nothing of. */

@@ -142,7 +142,7 @@ def test_foreign_characters():
     calls = [[b"run", bad + b".yaml"], [b"run", b"scene.yaml", b"--" + bad], [bad], [b"run", b"scene.yaml", b"--engine", bad],
              [b"run", b"scene.yaml", b"--set", bad + b"=1"], [b"info", bad + b".h5"], [b"export", bad + b".h5"],
              [b"compare", b"scene.yaml", b"--threads", bad], [b"sweep", b"scene.yaml", b"--vary", bad],
-             [b"run", b"scene.yaml", b"--resume", bad], [b"plot", bad], [b"reproduce", bad], [b"info", bad],
+             [b"run", b"scene.yaml", b"--resume", bad], [b"plot", bad], [b"info", bad],
              [b"export", b"scene.yaml", b"--only", bad]]
     with open("scene.yaml", "w") as f:
         f.write(GOOD)

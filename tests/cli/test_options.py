@@ -12,7 +12,7 @@ SCENE = ("flow: usf\nphi: 0.1\nparticles: 200\ncollision: {e: 0.9, beta: 0}\ndsm
 COMMANDS = "compare", "run", "theory", "plot", "info", "bench"
 TAKEN = {"set": "compare run theory info", "output": "compare run plot", "json": "compare run theory info bench",
          "seed": "compare run bench", "threads": "compare run bench", "quiet": " ".join(COMMANDS),
-         "resume": "compare run", "accept-version": "compare run sweep reproduce", "all": "compare run theory info", "engine": "run", "format": "plot", "picture": "compare bench",
+         "resume": "compare run", "accept-version": "compare run sweep", "all": "compare run theory info", "engine": "run", "format": "plot", "picture": "compare bench",
          "width": "compare plot bench",
          "quick": "bench", "theory": "theory", "help": " ".join(COMMANDS)}
 
@@ -72,10 +72,10 @@ def test_ways_to_ask():
                         (("scene.yaml",), f"for this scene, e.g. {GRAINGAS} compare scene.yaml"),
                         (("r.h5",), f"for this result, e.g. {GRAINGAS} info r.h5"),
                         (("--json", "run"), f"options come after the command: {GRAINGAS} COMMAND --json"),
-                        (("--verison",), "did you mean '--version'?"), (("simulate",), f"see {GRAINGAS} --help"),
+                        (("--verison",), "did you mean '--version'?"), (("simulate",), f"see {GRAINGAS} --help"), (("reproduce", "3.5"), "in Python: validation/reproduce"),
                         (("run", "--out-put", "x"), "did you mean '--output'?"),
                         (("run", "--verbose"), f"see {GRAINGAS} run --help"),
-                        (("run", "--quick", "x"), "run has no option '--quick', which is for validate, reproduce, bench"),
+                        (("run", "--quick", "x"), "run has no option '--quick', which is for validate, bench"),
                         (("run", "scene.yaml", "-json"), "unknown option '-json'; did you mean '--json'?"),
                         (("run", "-seed", "7", "scene.yaml"), "unknown option '-seed'; did you mean '--seed'?"),
                         (("run", "--output=x.h5", "-v", "scene.yaml"), "unknown option '-v'"),

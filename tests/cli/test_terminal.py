@@ -83,12 +83,5 @@ def test_sweep():
     assert_live(text, "of 3 points done, ")
 
 
-def test_reproduce():
-    text, code, out = on_terminal("reproduce", "thesis 2.25", "--quick", "--threads", "1", "--output", "out",
-                                  columns=24)
-    check(code == 0 and "out/thesis-2.25.csv" in out, code, text)
-    assert_live(text, "^thesis 2.25: 0 of 1 ", 24)
-
-
 if __name__ == "__main__":
     main(sys.modules[__name__])

@@ -218,7 +218,7 @@ def test_standard_output():
         f.write(SCENE)
     runs = [["run", "scene.yaml"], ["compare", "scene.yaml", "--picture", "none"], ["info", "scene.h5"],
             ["info", "scene.yaml"], ["theory", "scene.yaml"], ["export", "scene.h5"], ["--help"], ["run", "--help"],
-            ["--version"], ["sweep", "scene.yaml", "--vary", "phi=0.1,0.2", "--list"], ["reproduce", "list"]]
+            ["--version"], ["sweep", "scene.yaml", "--vary", "phi=0.1,0.2", "--list"]]
     for command in runs + [[*c, "--json"] for c in runs[:5]]:
         with open("/dev/full", "w") as full:
             done = subprocess.run([GRAINGAS, *command], stdout=full, stderr=subprocess.PIPE, text=True)

@@ -10,6 +10,7 @@ import yaml
 from graingas.scene import KEYS
 from graingas.yaml import write
 
+from . import curves
 from .formula import Formula
 
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "figures")
@@ -118,6 +119,16 @@ class Reader:
         raise BadEntry(f"{self.file}:{line}: " + (f"key '{key}': " if key else "") + what)
 
 
+def _take(m):
+    """A place x, a range [from, to] or a word."""
+    if "take" not in m or m["take"] in curves.WORDS:
+        return m.get("take")
+    try:
+        return [float(end) for end in m["take"]] if isinstance(m["take"], list) else float(m["take"])
+    except ValueError:
+        m.refuse("take", f"is an abscissa, a range [from, to], or one of {', '.join(curves.WORDS)}")
+
+
 def _scene_key(of, key):
     stem = re.sub(r"\.\d+$", "", key)
     if stem not in KEYS and not re.fullmatch(r"species\.\d+\.\w+", key):
@@ -145,6 +156,7 @@ class Source:
     kind: str
     names: list  # quantities, curves, or the plane of a snapshot
     number: str = None  # of kind "number": which of the curve's
+    take: object = None  # of kind "curve" in a number: what of the curve, see curves.py
     frame: int = 0  # of a snapshot, from the end
     beside: bool = True  # of a curve: draw the law
     relative_to: dict = field(default_factory=dict)
@@ -168,7 +180,7 @@ class Source:
             m.refuse("tail", "is [2, 4.5] or [3.3, 5.5], and goes with number: alpha or gamma")
         if "tail" in m:
             number = "_".join([number, *m["tail"]])
-        return cls(kinds[0], names, number, int(m.number("frame", 0)), m.flag("beside", True),
+        return cls(kinds[0], names, number, _take(m), int(m.number("frame", 0)), m.flag("beside", True),
                    {} if "theory" in to else m.scene_keys("relative_to"),
                    to.names("theory", THEORIES, "theory")[0] if "theory" in to else None, m.formula("as"))
 
@@ -248,11 +260,11 @@ class Number:
         if find not in FINDS or (find != "value" and not over):
             m.refuse("find", f"is one of {', '.join(FINDS)}, along the key `over`")
         if isinstance(m["of"], Map):
-            source = Source.of(m["of"].only("quantity", "number", "curve", "tail", "as", "relative_to"))
+            source = Source.of(m["of"].only("quantity", "number", "curve", "take", "tail", "as", "relative_to"))
         else:
             source = Source("quantity", m.names("of", QUANTITIES, "quantity"))
-        if source.kind not in ("quantity", "number") or len(source.names) != 1:
-            m.refuse("of", "is one quantity or the number of one curve")
+        if source.kind not in ("quantity", "number") + ("curve",) * (source.take is not None) or len(source.names) != 1:
+            m.refuse("of", "is one quantity, or of one curve a number or what to `take`")
         source.formula = m.formula("as") or source.formula
         digits = len(m["paper"].partition(".")[2]) if "paper" in m else 0
         return cls(m.get("name"), m.get("what", m.get("name")), m.get("where"),

@@ -121,7 +121,7 @@ class Table:
         if not solved and ends and min(ends) < max(ends) and all(_differ_in(points[0], p, self.of.key) for p in points):
             line.rows.clear()
             for key in fine(min(ends), max(ends), self.of.x.log):
-                changes = {**at, self.of.key: f"{key:.15g}"}
+                changes = {self.of.key: f"{key:.15g}", **at}
                 x = self._x(key)
                 self._put_theory(line, x, Asked(self.points, source, name, theory=theory, changes=changes).at(points[0], x))
         line.sort()

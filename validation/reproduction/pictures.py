@@ -9,7 +9,7 @@ import matplotlib
 import numpy as np
 from graingas.plot import COLOURS, DASHES, STYLE
 
-from .entry import ENGINES
+from .entry import ENGINES, THEORIES, key_label
 from .tables import write
 
 matplotlib.use("Agg")
@@ -29,6 +29,16 @@ def mathematics(label):
 
 def _axis_label(label, unit):
     return mathematics(label) + (f" [{gg.plot.unit_text(unit)}]" if unit not in ("", "1") else "")
+
+
+def method_label(method, panel):
+    """"lun1991" -> "Lun (1991)", with the values that it takes instead of the scene's."""
+    if method not in THEORIES:
+        return mathematics(method)
+    words = re.fullmatch(r"([a-z_]+)(\d{4})", method)
+    name = f"{words[1].title().replace('_', ', ')} ({words[2]})" if words else method.replace("_", " ")
+    instead = [f"{key_label(key)} = {value[0].replace('inf', '∞')}" for key, value in panel.theories_at.items()]
+    return ", ".join([name, *instead])
 
 
 class _Drawing:
@@ -97,8 +107,8 @@ class _Drawing:
         found = [Line2D([], [], color=self._colour(group), label=mathematics(group),
                         **({"marker": self._marker(group), "linestyle": "none"} if points else {}))
                  for group in self.groups if group]
-        found += [Line2D([], [], color="black", linestyle=self._dash(method), label=mathematics(method) if "_" not in method
-                         or method not in gg.catalogue.theories() else method.replace("_", " ")) for method in self.methods]
+        found += [Line2D([], [], color="black", linestyle=self._dash(method), label=method_label(method, self.of))
+                  for method in self.methods]
         mark = {"color": "black", "marker": "o", "linestyle": "none"}
         if self.both and points:
             found += [Line2D([], [], label="md", **mark),

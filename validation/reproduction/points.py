@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 import graingas as gg
 
+from . import curves
 from . import entry as entries
 from .formula import Formula
 
@@ -34,7 +35,7 @@ def sweeps(entry, quick, folder):
         if not isinstance(sweep, entries.Sweep):
             raise entries.BadEntry(f"{entry.base}.yaml: key 'sweep': {owner.figure} has not one sweep of its own")
         text = sweep.quick(owner.quick) if quick else sweep.text
-        found[name] = gg.Sweep.parse(text, folder, f"{owner.base}.yaml")
+        found[name] = gg.Sweep.parse(text, folder, f"{owner.base}.yaml" + (" with its quick values" if quick else ""))
     return found
 
 
@@ -146,6 +147,9 @@ class Asked:
     def _raw(self, point, changes):
         if self.theory:
             return point.theory(self.theory, self.name, changes)
+        if self.source.kind == "curve":
+            curve = point.curves(self.engine).get(self.name)
+            return Value(*curves.take(curve, self.source.take)) if curve is not None else NOTHING
         if self.source.kind == "number":
             return point.curve_number(self.engine, self.name, self.source.number)
         return point.quantity(self.engine, self.name)

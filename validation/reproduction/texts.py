@@ -2,8 +2,9 @@
 
 {kurtosis: 3.51(1), 3.04(1)} in a text is what the table has under the name `kurtosis`, in the order of the key it is
 over. Words behind the name choose: an engine or theory; `at 0.5`; `range`, `min`, `max`; `bare` leaves errors out,
-`percent` is 100 times the number, `size` its absolute value.
+`percent` is 100 times the number, `size` its absolute value, `z` the number over its error.
 """
+import math
 import os
 import re
 import textwrap
@@ -14,13 +15,13 @@ from .tables import read, write
 ROOT = os.path.dirname(os.path.dirname(entries.FOLDER))
 PICTURES = os.path.join(ROOT, "docs", "images", "reproduction")
 FILLED = re.compile(r"\{([^{}:]+):\s+([^{}]*)\}")
-CHOICES = "range", "min", "max", "bare", "percent", "size", "at"
+CHOICES = "range", "min", "max", "bare", "percent", "size", "z", "at"
 
 
 def format_number(mean, error, bare=False):
-    """1.364, 0.021 -> "1.36(2)"; two digits of an error that begins with 1; an unknown one: four digits."""
+    """1.364, 0.021 -> "1.36(2)"; two digits of an error that begins with 1; an unknown one: three digits."""
     if not error > 0:
-        return f"{mean:.4g}"
+        return f"{mean:.3g}"
     digits = -int(f"{error:.0e}".partition("e")[2])
     if f"{error:.0e}"[0] == "1" and not bare:
         digits += 1
@@ -56,9 +57,11 @@ def filled(words, table):
     scale = 100 if "percent" in choice else 1
     values = [(scale * float(row["mean"]), scale * float(row["stderr"] or "nan")) for row in rows]
     values = [(abs(mean) if "size" in choice else mean, error) for mean, error in values]
+    if "z" in choice:
+        values = [(mean / error, 0.0) for mean, error in values if error > 0] or [(math.nan, 0.0)]
     least, largest = min(values), max(values)
     values = [least, largest] if "range" in choice else [least] if "min" in choice else [largest] if "max" in choice else values
-    return (" to " if "range" in choice else ", ").join(format_number(*value, "bare" in choice) for value in values)
+    return (" to " if "range" in choice else ", ").join(f"{value[0]:+.1f}" if "z" in choice else format_number(*value, "bare" in choice) for value in values)
 
 
 def plain(text):
@@ -102,7 +105,8 @@ def page(folder=entries.FOLDER):
     found = [entries.read(path) for path in entries.files(folder)]
     parts.append(f"\n# {len(found)} figures\n\n{counts(found)}.\n")
     for entry in found:
-        picture = f"![{entry.figure}](../images/reproduction/{entry.base}.svg)\n\n" if entry.verdict != "open" else ""
+        kind = next((kind for kind in ("svg", "png") if os.path.exists(f"{PICTURES}/{entry.base}.{kind}")), None)
+        picture = f"![{entry.figure}](../images/reproduction/{entry.base}.{kind})\n\n" if kind else ""
         text = f"{entry.shows}. **{entry.verdict.capitalize()}.** {plain(entry.because)}"
         wrapped = textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False)
         parts.append(f"\n## {entry.figure}\n\n{picture}{wrapped}\n")

@@ -169,8 +169,6 @@ static gg_status read_all(gg_stored_result *s, gg_h5_in *in, const char *path, g
     gg_h5_in_failed(in, "it is a checkpoint: resume it with graingas run SCENE.yaml --resume FILE");
   if (!in->failed && gg_h5_exists(in, "/graingas/table"))
     gg_h5_in_failed(in, "it is the table of a sweep, for h5py; the results are the files in the sweep's folder");
-  if (!in->failed && gg_h5_exists(in, "/figure"))
-    gg_h5_in_failed(in, "it is a reproduced figure, for h5py; its curves are in the .csv beside it, too");
   if (!in->failed && !gg_h5_exists(in, "/graingas/document")) gg_h5_in_failed(in, "it holds no result of graingas");
   char *text = gg_h5_read_text(in, "/graingas/document");
   s->changed = in->changed;

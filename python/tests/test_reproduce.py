@@ -1,0 +1,243 @@
+"""validation/reproduce: figures of papers. A small entry against runs and formulas of its own; entries, names, resumption,
+texts."""
+import csv
+import glob
+import math
+import os
+import sys
+
+import numpy as np
+import pytest
+from conftest import SOURCE
+
+import graingas as gg
+
+pytest.importorskip("matplotlib")
+pytest.importorskip("yaml")
+sys.path.insert(0, os.path.join(SOURCE, "validation"))
+from reproduction import command, curves, numbers, pictures, points, texts  # noqa: E402
+from reproduction import entry as entries  # noqa: E402
+from reproduction.formula import Formula  # noqa: E402
+
+ENTRY = """figure: thesis 9.9
+shows: A small figure
+sweep:
+  flow: usf
+  engine: md
+  phi: 0.1
+  particles: 100
+  measure: [rheology, velocity_distributions]
+  run: {collisions: 200, warmup: 20}
+  vary: {collision.beta: [-1, 0], collision.e: [0.8, 0.9, 1]}
+  sweep: {does: run}
+quick: {run.collisions: 100, vary: {collision.e: [0.7, 0.9]}}
+panels:
+  - {title: one, x: {key: collision.e, label: e}, y: {quantity: pressure, as: y/r-1, relative_to: {collision.beta: -1}},
+     lines: {by: collision.beta, label: β}}
+  - {title: two, x: {key: collision.e, as: 1-x^2}, y: {quantity: temperature}, where: {collision.beta: -1},
+     theories: [lun1991], guides: [{label: half, as: x/2}]}
+  - {x: {label: c, from: -2, to: 2}, y: {curve: velocity_distribution_Cx}, where: {collision.e: 0.9}, lines: {by: collision.beta}}
+numbers:
+  - {what: T at e = 0.9, where: p. 1, paper: 0.50, of: temperature, at: {collision.e: 0.9, collision.beta: -1}}
+  - {name: p, of: pressure, over: collision.e, at: {collision.beta: 0}, theories: [lun1991]}
+verdict: agrees
+because: >
+  The pressure is {p: ?} (Lun {p lun1991 at 0.9: ?}), at most {p max bare: ?}.
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "entries").mkdir()
+    (tmp_path / "entries" / "thesis-9.09.yaml").write_text(ENTRY, encoding="utf-8")
+    return str(tmp_path / "entries")
+
+
+def rows_of(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def quick(folder, *more):
+    return command.main(["9.9", "--quick", "--entries", folder, "--output", "out", "--quiet", "--formats", "svg", *more])
+
+
+def the_runs():
+    """The same scenes, run by the module alone, by beta and e."""
+    scenes = gg.sweep(gg.Scene(flow="usf", engine="md", phi=0.1, particles=100, measure=["rheology", "velocity_distributions"],
+                               run={"collisions": 100, "warmup": 20}),
+                      {"collision.beta": [-1, 0], "collision.e": [0.7, 0.9]}, folder="own")
+    return {tuple(point.values.values()): gg.run(point.scene) for point in scenes}
+
+
+def test_a_figure_against_runs_of_its_own(folder):
+    assert quick(folder) in (0, 1)
+    rows, runs = rows_of("out/thesis-9.09.csv"), the_runs()
+    one = {(row["line"], float(row["x"])): row for row in rows if row["panel"] == "1"}
+    assert len(one) == 4
+    for e in 0.7, 0.9:
+        mine, smooth = runs[0, e]["pressure"], runs[-1, e]["pressure"]
+        row, ratio = one["β = 0", e], mine.mean / smooth.mean
+        assert float(row["y"]) == pytest.approx(ratio - 1, rel=1e-12)
+        error = ratio * math.hypot(mine.error / mine.mean, smooth.error / smooth.mean)
+        assert float(row["y_stderr"]) == pytest.approx(error, rel=1e-8)
+        assert float(one["β = -1", e]["y"]) == 0 and float(one["β = -1", e]["y_stderr"]) == 0
+    two = [row for row in rows if row["panel"] == "2"]
+    md = {float(row["x"]): row for row in two if row["method"] == "md"}
+    assert set(md) == {1 - 0.7**2, 1 - 0.9**2} and {row["y_unit"] for row in two} == {"d^2 gamma^2"}
+    assert float(md[1 - 0.9**2]["y"]) == runs[-1, 0.9]["temperature"].mean
+    lun = [row for row in two if row["method"] == "lun1991"]
+    assert len(lun) == 33
+    for row in lun[::8]:
+        scene = gg.Scene(flow="usf", phi=0.1, e=math.sqrt(1 - float(row["x"])))
+        assert float(row["y"]) == pytest.approx(gg.theory(scene, "lun1991")["temperature"], rel=1e-9)
+    assert all(float(row["y"]) == float(row["x"]) / 2 for row in two if row["method"] == "half")
+    curve = runs[-1, 0.9].curves["velocity_distribution_Cx"]
+    inside = abs(curve.x) <= 2
+    three = [row for row in rows if row["panel"] == "3" and row["line"] == "β = -1" and row["method"] == "md"]
+    assert np.array_equal([float(row["y"]) for row in three], curve.value[inside])
+    t = next(row for row in rows_of("out/thesis-9.09_numbers.csv") if row["paper"])
+    mean, error = runs[-1, 0.9]["temperature"].mean, runs[-1, 0.9]["temperature"].error
+    assert float(t["mean"]) == mean and float(t["z"]) == pytest.approx((mean - 0.5) / math.hypot(error, 0.005))
+
+
+def test_finished_runs_are_reused(folder):
+    quick(folder)
+    before = {path: os.stat(path).st_mtime_ns for path in glob.glob("out/figures.sweep/*.h5")}
+    assert len(before) == 4
+    os.remove(sorted(before)[0])
+    quick(folder)
+    after = {path: os.stat(path).st_mtime_ns for path in glob.glob("out/figures.sweep/*.h5")}
+    assert set(before) == set(after) and [p for p in before if before[p] != after[p]] == sorted(before)[:1]
+
+
+def test_runs_that_are_not_steady_are_open_and_named(folder, capsys):
+    path = os.path.join(folder, "thesis-9.09.yaml")
+    text = open(path, encoding="utf-8").read().replace("warmup: 20", "warmup: 0")
+    open(path, "w", encoding="utf-8").write(text.replace("run.collisions: 100", "run.collisions: 20"))
+    command.main(["9.9", "--quick", "--entries", folder, "--output", "out"])
+    said, rows = capsys.readouterr(), rows_of("out/thesis-9.09.csv")
+    steady = {tuple(p.values.values()): p.read().is_steady for p in gg.Sweep.parse(entries.read(path).sweeps[""].quick(
+        entries.read(path).quick), "out/figures.sweep")}
+    assert len(steady) == 4 and not all(steady.values())
+    for (beta, e), is_steady in steady.items():
+        shown = [row for row in rows if row["panel"] == "1" and row["line"] == f"β = {beta}" and float(row["x"]) == e]
+        assert [row["settled"] for row in shown] == ["yes" if is_steady else "no"]
+        assert is_steady or f"collision.beta {beta}, collision.e {e} (md)" in said.out
+    assert os.path.getsize("out/thesis-9.09.png") > 5000
+
+
+def test_texts_are_filled_from_the_table(folder):
+    quick(folder)
+    entry, runs = entries.read(os.path.join(folder, "thesis-9.09.yaml")), the_runs()
+    assert texts.fill(entry, "out") and not texts.fill(entries.read(entry.path), "out")
+    told = texts.plain(entries.read(entry.path).because)
+    p = [runs[0, e]["pressure"] for e in (0.7, 0.9)]
+    lun = gg.theory(gg.Scene(flow="usf", phi=0.1, e=0.9, beta=0), "lun1991")["pressure"]
+    most = max(p, key=lambda value: value.mean)
+    assert told == (f"The pressure is {texts.format_number(p[0].mean, p[0].error)}, {texts.format_number(p[1].mean, p[1].error)} "
+                    f"(Lun {lun:.3g}), at most {texts.format_number(most.mean, most.error, True)}.")
+    with pytest.raises(entries.BadEntry, match="has no number 'q'"):
+        entry.because = "{q: 1}"
+        texts.fill(entry, "out")
+
+
+@pytest.mark.parametrize("mean, error, text", [(1.364, 0.021, "1.36(2)"), (0.54321, 0.114, "0.54(11)"), (-0.0042, 0.0096, "-0.004(10)"),
+                                               (312.4, 23, "312(23)"), (0.25, math.nan, "0.25")])
+def test_numbers_as_text(mean, error, text):
+    assert texts.format_number(mean, error) == text
+
+
+def test_the_page_is_that_of_the_entries():
+    """validation/reproduce page > docs/appendix/reproduction.md"""
+    with open(os.path.join(SOURCE, "docs", "appendix", "reproduction.md"), encoding="utf-8") as page:
+        assert page.read() == texts.page()
+
+
+def test_verdicts_agree_with_the_tables_beside_the_pictures():
+    """validation/reproduce fill"""
+    for path in entries.files():
+        entry = entries.read(path)
+        table = os.path.join(texts.PICTURES, entry.base + "_numbers.csv")
+        if os.path.exists(table):
+            assert texts.from_table(entry.because, rows_of(table)) == entry.because, path
+        names = {number.name for number in entry.numbers}
+        assert {found.split()[0] for found, _ in texts.FILLED.findall(entry.because)} <= names, path
+
+
+def test_entries():
+    found = [entries.read(path) for path in entries.files()]
+    assert len(found) >= 94 and len({entry.figure for entry in found}) == len(found)
+    for entry in found:
+        assert entries.find(entry.figure) == entry.path and entry.panels and entry.because
+        for sweep in points.sweeps(entry, True, None).values():
+            assert len(sweep) > 0
+        for panel in entry.panels:
+            assert "none" not in panel.guides
+
+
+@pytest.mark.parametrize("replaced, by, said", [
+    ("title: one", "titel: one", "yaml:14: key 'titel': did you mean 'title'"),
+    ("quantity: pressure", "quantity: presure", "yaml:14: key 'quantity': there is no quantity 'presure'"),
+    ("theories: [lun1991], guides", "theories: [lun], guides", "yaml:17: key 'theories': there is no theory 'lun'"),
+    ("as: y/r-1", "as: y/q-1", "yaml:14: key 'as': 'q' is not known; there are x, y"),
+    ("as: 1-x^2", "as: __import__('os')", "yaml:16: key 'as'"),
+    ("key: collision.e, label", "key: colision.e, label", "yaml:14: key 'colision.e': is no key of a scene"),
+    ("verdict: agrees", "verdict: perhaps", "yaml:22: key 'verdict': 'perhaps' is not allowed"),
+    ("shows: A", "figure: x\nshows: A", "yaml:2: key 'figure': is given twice"),
+    ("numbers:", "numbers: [", "yaml:"), ("  phi: 0.1", "  phy: 0.1", "yaml:6: key 'phy'")])
+def test_bad_entries_are_named(folder, capsys, replaced, by, said):
+    path = os.path.join(folder, "thesis-9.09.yaml")
+    open(path, "w", encoding="utf-8").write(ENTRY.replace(replaced, by, 1))
+    assert command.main(["9.9", "--entries", folder, "--output", "out"]) == 2
+    assert "thesis-9.09." + said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("typed, said", [("thsis 2.16", "did you mean 'thesis 2.16'?"), ("reviw 3", "did you mean 'review 3'?"),
+                                         ("nothing", "there is no figure 'nothing'")])
+def test_no_such_figure(capsys, typed, said):
+    assert command.main([typed]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_the_list(folder, capsys):
+    assert command.main(["list", "--entries", folder]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[1].split()[:4] == ["thesis", "9.9", "md", "6"] and "agrees" in lines[1]
+    assert lines[-1].startswith("1 figures: agrees 1. ")
+
+
+def test_formulas():
+    for text, value in ("-2^2", -4), ("2^-1", 0.5), ("2^3^2", 512), ("ln(x)*y/(1+y)", math.log(3) * 2 / 3), ("abs(-pi)", math.pi):
+        assert Formula(text)(x=3, y=2) == pytest.approx(value, rel=1e-15)
+    assert math.isnan(Formula("ln(-x)")(x=1)) and Formula("y^2").slope("y", y=3) == pytest.approx(6)
+    for text in "x.real", "f(1)", "x if x else y", "ln(x, y)", "'a'", "1 +", "[x]", "x < 1":
+        with pytest.raises(ValueError):
+            Formula(text)
+
+
+def test_finding_zeros_extremes_and_powers():
+    x, e = np.array([1.0, 2, 3, 4]), np.full(4, 0.1)
+    zero = numbers.zero(x, np.array([3, 1, -1, -3.0]), e)
+    assert zero.mean == 2.5 and zero.error == pytest.approx(math.hypot(0.05, 0.05) / 2)
+    least = numbers.extreme(np.exp(x), (x - 2.2) ** 2, e, True)
+    assert least.mean == pytest.approx(math.exp(2.2)) and least.error > 0
+    assert math.isnan(numbers.extreme(x, x, e, True).mean) and math.isnan(numbers.zero(x, x, e).mean)
+    a, b = (numbers.power(x, 0.7 * x**1.5, 0.01 * x**1.5, which) for which in (False, True))
+    assert a.mean == pytest.approx(0.7) and b.mean == pytest.approx(1.5)
+    u = np.log(x) - np.log(x).mean()
+    assert b.error == pytest.approx(0.01 / 0.7 / math.sqrt((u**2).sum()))
+
+
+def test_numbers_taken_from_curves():
+    class Curve:
+        x, error = np.linspace(-4, 4, 81), np.full(81, 0.1)
+        value = np.exp(-(x**2) / 2)
+    assert curves.take(Curve, "largest") == curves.take(Curve, "middle") == pytest.approx((1, 0.1)) and curves.take(Curve, 2.0)[0] == pytest.approx(math.exp(-2))
+    assert curves.take(Curve, "deviation")[0] == pytest.approx(1, abs=2e-3) and abs(curves.take(Curve, "skewness")[0]) < 1e-12
+    assert curves.take(Curve, [-1.05, 1.05])[0] == pytest.approx(100 * math.erf(1.05 / math.sqrt(2)), abs=0.1)
+    assert curves.take(Curve, "first")[0] == pytest.approx(math.exp(-8))
+
+
+def test_labels():
+    assert pictures.mathematics("T_{cell}/T") == r"$T_{\rm cell}$/T" and pictures.mathematics("e = 1") == "e = 1"
