@@ -68,16 +68,17 @@ static void test_drawn(void **state)
   assert_int_equal(count(path, "-7.2<"), 1);
   assert_int_equal(count(path, "nothing"), 1);
   assert_true(count(path, "β = 1") == 1 && count(path, "md/dsmc - 1") == 1);
-  /* A cross more where one more run is not steady, no hatch where no cell is below its errors. */
+  /* Each cross has an edge. A cross more where one more run is not steady, no hatch where no cell is below its errors.
+   */
   gg_heat_cell other[8];
   memcpy(other, cell, sizeof cell);
   const int crosses = count(path, "xlink:href='#gpPt1'"), strokes = count(path, "rgb(136, 136, 136)");
-  assert_true(crosses == 1 && strokes > 0);
+  assert_true(crosses == 2 && strokes > 0);
   other[1].not_steady = true, other[0].error = 0.0001;
   gg_heat_map changed = map;
   changed.cell = other;
   assert_int_equal(gg_plot_heat_map_draw(&changed, path, "120mm", &err), GG_OK);
-  assert_int_equal(count(path, "xlink:href='#gpPt1'"), 2);
+  assert_int_equal(count(path, "xlink:href='#gpPt1'"), 4);
   assert_true(count(path, "rgb(136, 136, 136)") < strokes);
   remove(path);
 }
