@@ -1,6 +1,7 @@
 /* Proves: starts at every solid fraction from 0.001 to 0.6 are free of overlaps, at rest as a whole and exactly at the
  * asked temperatures; boxes too small for the nearest image, phi = 0 and unknown flows are refused by name;
  * long and flat boxes run; grains above an open top are where they are. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "md/start/place.h"
@@ -88,6 +89,44 @@ static void long_and_flat_boxes(void **state)
         fail_msg("shape %d kind %d: %u misplaced, worst overlap %g", s, k, md_misplaced(e), e->k.worst_overlap);
       md_destroy(e);
     }
+}
+
+static void take_places(void *context, const gg_chunk *chunk)
+{
+  double *r = context;
+  for (size_t k = 0; k < chunk->n; k++)
+    for (int a = 0; a < 3; a++) r[3 * chunk->id[k] + (size_t)a] = chunk->r[a][k];
+}
+
+/* From 50 000 grains on lists find those that overlap: no pair is closer than contact, as the check of given places
+ * sees it, which finds one that is moved into its neighbour. Of two sizes, dense and dilute. */
+static void large_boxes(void **state)
+{
+  (void)state;
+  static const double phis[] = {0.001, 0.3, 0.5};
+  for (int k = 0; k < 3; k++) {
+    gg_scene s = md_scene((md_case){GG_EQUILIBRIUM, 50000, phis[k], 1, -1, INFINITY, {k == 1 ? 2 : 1, 1, 1}});
+    s.n_species = k == 1 ? 2 : 1;
+    s.species[0].fraction = s.species[1].fraction = s.n_species == 2 ? 0.5 : 1;
+    s.species[1].diameter = 0.7;
+    gg_model m = md_model_of(&s);
+    gg_md *e = md_create(&m, 3);
+    gg_engine *again = NULL;
+    gg_error err = {0};
+    double *r = malloc(3 * 50000 * sizeof *r);
+    int *species = malloc(50000 * sizeof *species);
+    gg_md_ops.snapshot(&e->base, true, take_places, r);
+    for (uint32_t i = 0; i < e->n; i++) species[e->id[i]] = gg_md_species_of(&e->grain[i]);
+    const gg_grain_arrays given = {.r = r, .species = species};
+    assert_int_equal(gg_md_ops.create_with(&m, 3, 0, &given, NULL, &again, &err), GG_OK);
+    gg_md_ops.destroy(again);
+    for (int a = 0; a < 3; a++) r[a] = r[3 + a] + (a == 0) * 0.3;
+    r[0] = fmin(r[0], m.box[0] * (1 - 1e-9));
+    assert_int_equal(gg_md_ops.create_with(&m, 3, 0, &given, NULL, &again, &err), GG_BAD_INPUT);
+    free(r);
+    free(species);
+    md_destroy(e);
+  }
 }
 
 typedef struct shown {
@@ -198,6 +237,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(any_solid_fraction),
       cmocka_unit_test(dense_mixtures_and_walls),
+      cmocka_unit_test(large_boxes),
       cmocka_unit_test(long_and_flat_boxes),
       cmocka_unit_test(above_an_open_top),
       cmocka_unit_test(lattices),

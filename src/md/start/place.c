@@ -22,9 +22,6 @@ typedef struct sweep {
   double distance;  /* of their centres */
 } sweep;
 
-/* Of what overlaps by less, nothing is known but rounding. Fresh places leave as much free. */
-#define TOUCHING 1e-9
-
 static void try_pair(sweep *s, uint32_t i, uint32_t j)
 {
   gg_md_packing *p = s->p;
@@ -33,9 +30,9 @@ static void try_pair(sweep *s, uint32_t i, uint32_t j)
   double sigma = 0.5 * (p->diameter[i] + p->diameter[j]), wanted = sigma * (1 + s->margin), r2 = gg_dot(dr, dr);
   if (r2 >= wanted * wanted) return;
   double distance = sqrt(r2);
-  if (s->checking && distance < sigma * (1 - TOUCHING) && !s->overlaps++)
+  if (s->checking && distance < sigma * (1 - GG_MD_TOUCHING) && !s->overlaps++)
     s->pair[0] = i, s->pair[1] = j, s->distance = distance;
-  if (!s->checking && distance < sigma * (1 + TOUCHING)) s->overlaps++;
+  if (!s->checking && distance < sigma * (1 + GG_MD_TOUCHING)) s->overlaps++;
   if (!s->pushing) return;
   if (distance == 0) dr = (gg_vec){1e-3, 0, 0}, distance = 1e-3;
   double push = 0.5 * (wanted - distance) / distance;
@@ -100,7 +97,7 @@ static void sweep_cells(sweep *s)
   }
 }
 
-static void into_box(const gg_md_packing *p, uint32_t i)
+void gg_md_place_into_box(const gg_md_packing *p, uint32_t i)
 {
   for (int a = 0; a < 3; a++) {
     double *x = gg_component(&p->r[i], a), edge = p->box.edge[a], radius = 0.5 * p->diameter[i];
@@ -130,7 +127,7 @@ static gg_status sweep_all(sweep *s, gg_error *err)
 static gg_status sweep_once(gg_md_packing *p, double margin, bool pushing, bool *free, gg_error *err)
 {
   sweep s = {.p = p, .margin = margin, .pushing = pushing};
-  for (uint32_t i = 0; i < p->n; i++) into_box(p, i);
+  for (uint32_t i = 0; i < p->n; i++) gg_md_place_into_box(p, i);
   gg_status status = sweep_all(&s, err);
   *free = s.overlaps == 0;
   return status;
@@ -142,7 +139,7 @@ gg_status gg_md_place_check(gg_md_packing *p, const uint32_t *id, gg_error *err)
   for (uint32_t i = 0; i < p->n; i++)
     for (int w = 0; w < p->model->n_surfaces; w++) {
       const double inside = -gg_surface_clearance(&p->model->surface[w], &p->r[i], 0.5 * p->diameter[i]);
-      if (inside > TOUCHING)
+      if (inside > GG_MD_TOUCHING)
         return gg_base_fail(err, GG_BAD_INPUT, "grain %u overlaps the %s wall by %g d", id[i],
                             p->model->surface[w].word, inside);
     }
@@ -165,6 +162,7 @@ gg_status gg_md_place_relax(gg_md_packing *p, double phi, int most_sweeps, bool 
 {
   double margin = margin_for(phi);
   *free = false;
+  if (gg_md_place_has_lists(p)) return gg_md_place_relax_lists(p, margin, most_sweeps, free, err);
   for (int k = 0; k < most_sweeps && !*free; k++) {
     GG_TRY(sweep_once(p, margin, true, free, err));
     if (*free) GG_TRY(sweep_once(p, margin, false, free, err));

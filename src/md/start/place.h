@@ -9,6 +9,9 @@
 #include "common/rng.h"
 #include "md/cell_grid.h"
 
+/* Of what overlaps by less, nothing is known but rounding. Fresh places leave as much free. */
+#define GG_MD_TOUCHING 1e-9
+
 /* Centres and diameters in a box, on their way to a state without overlaps. */
 typedef struct gg_md_packing {
   gg_md_box box;         /* inverse[a] = 0: closed along a, no closer to its ends than a radius */
@@ -28,6 +31,11 @@ gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t *id, uint32
 void gg_md_place_lattice(const gg_md_box *box, uint32_t n, gg_rng *rng, gg_vec *r);
 /* Push overlapping grains apart, *free: no overlap is left after so many sweeps. Positions end in the box. */
 gg_status gg_md_place_relax(gg_md_packing *p, double phi, int most_sweeps, bool *free, gg_error *err);
+/* relax_lists.c: the same for large periodic boxes, faster and with other places; is this one? */
+bool gg_md_place_has_lists(const gg_md_packing *p);
+gg_status gg_md_place_relax_lists(gg_md_packing *p, double margin, int most_sweeps, bool *free, gg_error *err);
+/* Into the box: wrapped, or off the walls. */
+void gg_md_place_into_box(const gg_md_packing *p, uint32_t i);
 /* GG_BAD_INPUT names two grains, or a grain and a wall, that overlap by more than rounding. */
 gg_status gg_md_place_check(gg_md_packing *p, const uint32_t *id, gg_error *err);
 

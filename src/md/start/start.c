@@ -25,7 +25,7 @@ static gg_status make_cells(const gg_md *e, gg_md_packing *p, gg_error *err)
 static gg_status relax(const gg_md *e, gg_md_packing *p, gg_rng *rng, gg_error *err)
 {
   bool free;
-  GG_TRY(make_cells(e, p, err));
+  if (!gg_md_place_has_lists(p)) GG_TRY(make_cells(e, p, err));
   GG_TRY(gg_md_place_relax(p, e->model.phi, SWEEPS, &free, err));
   if (free) return GG_OK;
   gg_md_place_lattice(&e->box, e->n, rng, p->r);
