@@ -19,16 +19,19 @@ enum { KICKED = 5, OUT_OF = 8 };
 /* Turns ahead that grains are on their way to the cache. */
 enum { AHEAD = 4, CACHED = 6000 };
 
+/* Of more grains than the cache holds, so many that follow each other in memory have turns one after the other. */
+enum { GROUP = 32 };
+
 static uint32_t greatest_common_divisor(uint32_t a, uint32_t b)
 {
   return b ? greatest_common_divisor(b, a % b) : a;
 }
 
-/* Turns go round in steps of the golden ratio: grains that are near in memory, and so in space, have turns far apart.
- */
+/* Turns go round in steps of the golden ratio: grains, or groups, that are near in memory, and so in space, have turns
+ * far apart. */
 static uint32_t golden_step(uint32_t n)
 {
-  uint32_t step = (uint32_t)(0.6180339887498949 * n);
+  uint32_t step = (uint32_t)(0.6180339887498949 * n) + (n == 1);
   while (greatest_common_divisor(step, n) != 1) step++;
   return step;
 }
@@ -47,7 +50,8 @@ gg_status gg_md_kicks_make(gg_md *e, gg_error *err)
   for (int s = 0; s < e->model.n_species; s++) {
     gg_md_turns *t = &e->kicks.of[s];
     *t = (gg_md_turns){.first = before, .n = (uint32_t)e->model.n_of[s]};
-    t->step = golden_step(t->n);
+    t->group = e->n > CACHED && t->n > GROUP ? GROUP : 1;
+    t->step = golden_step(t->n / t->group);
     const double interval = interval_of(e, s);
     t->apart = 2 * interval / t->n;
     t->size = e->noise > 0 ? sqrt(3 * e->noise * interval * OUT_OF / KICKED) : 0;
@@ -87,7 +91,9 @@ void gg_md_kicks_move(gg_md *e, double span)
 
 static uint32_t at_place(const gg_md *e, const gg_md_turns *t, uint64_t place)
 {
-  const uint32_t i = t->first + (uint32_t)(place * t->step % t->n);
+  const uint64_t groups = t->n / t->group, k = place / t->group;
+  const uint64_t there = k < groups ? k * t->step % groups * t->group + place % t->group : place;
+  const uint32_t i = t->first + (uint32_t)there;
   return e->kicks.order ? e->kicks.order[i] : i;
 }
 

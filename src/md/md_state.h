@@ -80,8 +80,9 @@ typedef struct gg_md_search_state {
 
 /* Kicks (kicks.h): how the grains of a species take turns; and how far they are. */
 typedef struct gg_md_turns {
-  uint32_t first, n, step; /* in `order`: the first of n; of the n-th turn, n * step behind it, round and round */
-  double apart, size;      /* time between turns on average, and the change of velocity */
+  uint32_t first, n;    /* in `order` */
+  uint32_t group, step; /* so many have turns one after the other; the next group is so many groups further */
+  double apart, size;   /* time between turns on average, and the change of velocity */
 } gg_md_turns;
 typedef struct gg_md_kicks {
   gg_md_turns of[GG_MAX_SPECIES];

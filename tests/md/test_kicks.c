@@ -54,11 +54,13 @@ static int take_turn(gg_md *e, turn_log *log, uint32_t kicked[2])
 static void everybody_in_turn(void **state)
 {
   (void)state;
-  static const int64_t sizes[] = {2, 3, 4, 31, 60};
-  for (int k = 0; k < 5; k++) {
+  static const int64_t sizes[] = {2, 3, 4, 31, 60, 131};
+  for (int k = 0; k < 6; k++) {
     gg_scene s = heated(sizes[k], 0.01, 0.9);
     gg_model m = md_model_of(&s);
     gg_md *e = md_create(&m, 1);
+    gg_md_turns *t = &e->kicks.of[0];
+    if (k == 5) t->group = 32, t->step = 3; /* as of many grains: four groups, and three grains left over */
     turn_log log = {calloc(e->n, sizeof *log.v), malloc(e->n * sizeof *log.last)};
     const int64_t half = sizes[k] / 2, turns = 60 * sizes[k];
     int64_t kicks = 0;
