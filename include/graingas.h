@@ -796,7 +796,7 @@ typedef struct gg_result_info {
   int steady;          /* whether the steady state was reached */
   const char *verdict; /* reason for `steady` */
   int64_t grains;
-  const char *grains_chosen;                      /* dsmc: why so many; NULL if the scene gives the number */
+  const char *grains_chosen;                      /* why so many; NULL if given, or as usual */
   double window[2];                               /* averaged over these times */
   uint64_t collisions;                            /* between grains, while averaging */
   double cpu_seconds;                             /* while averaging */

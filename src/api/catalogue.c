@@ -8,6 +8,7 @@
 #include "common/extension.h"
 #include "common/flow.h"
 #include "common/quantity.h"
+#include "run/default_size.h"
 #include "run/result.h"
 #include "scene/scene_reader.h"
 #include "theory/theory.h"
@@ -53,7 +54,7 @@ static gg_status key_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_
   const gg_field *f = field_at(gg_scene_fields, i);
   GG_TRY(field_entry(f, entry, err));
   gg_scene filled = scene ? *scene : gg_scene_defaults();
-  if (scene) gg_scene_fill_in(&filled);
+  if (scene) gg_run_scene_fill_in(&filled);
   entry->given = gg_scene_is_given(&filled, f->key);
   bool required = strcmp(f->key, "flow") == 0 || strcmp(f->key, "phi") == 0;
   if (entry->given || !required) put_value(f, &filled, &filled, entry);

@@ -12,19 +12,20 @@
 #include "common/extension.h"
 #include "files/text_format.h"
 #include "run/cost_estimate.h"
+#include "run/default_size.h"
 #include "scene/scene_reader.h"
 #include "theory/goldhirsch_zanetti1993.h"
 
 gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *err)
 {
   *copy = *scene;
-  return gg_scene_finish(copy, err);
+  return gg_run_scene_finish(copy, err);
 }
 
 static gg_scene filled_in(const gg_scene *scene)
 {
   gg_scene filled = *scene;
-  gg_scene_fill_in(&filled);
+  gg_run_scene_fill_in(&filled);
   return filled;
 }
 
@@ -168,10 +169,13 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   gg_extension *held = gg_common_extension_hold(finished.extension); /* `line` may free the scene */
   gg_run_engine_ops_of(kind)->describe(&model, line, context);
   char chosen[200] = "";
-  if (model.homogeneous) gg_common_ensemble_size_reason(&finished, chosen, sizeof chosen);
+  if (model.homogeneous)
+    gg_common_ensemble_size_reason(&finished, chosen, sizeof chosen);
+  else
+    gg_run_default_size_reason(&finished, chosen, sizeof chosen);
   if (*chosen) {
     char text[240];
-    snprintf(text, sizeof text, "size of the ensemble: %s", chosen);
+    snprintf(text, sizeof text, "%s: %s", model.homogeneous ? "size of the ensemble" : "number of grains", chosen);
     line(context, text);
   }
   char stable[200];

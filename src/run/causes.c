@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "common/scene.h"
+#include "run/default_size.h"
 #include "run/z_scores.h"
 #include "theory/goldhirsch_zanetti1993.h"
 
@@ -92,7 +93,7 @@ static bool structured(const difference *d, char *text, size_t size)
   char what[240];
   if (!gg_run_structure(d->md, what, sizeof what)) return false;
   snprintf(text, size, "%s; %lld grains, default %lld; a Monte Carlo ensemble stays homogeneous", what,
-           (long long)d->model->n, (long long)gg_scene_defaults().particles);
+           (long long)d->model->n, (long long)gg_run_default_size(&d->md->scene));
   return true;
 }
 

@@ -8,6 +8,7 @@
 #include "common/ensemble_size.h"
 #include "common/linear_response.h"
 #include "run/causes.h"
+#include "run/default_size.h"
 #include "run/replicas.h"
 #include "scene/fields.h"
 
@@ -311,6 +312,8 @@ gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *
   gg_run_replicas_report_steadiness(all, &c, result);
   if (all->model.homogeneous)
     gg_common_ensemble_size_reason(&all->scene, result->ensemble_text, sizeof result->ensemble_text);
+  else
+    gg_run_default_size_reason(&all->scene, result->ensemble_text, sizeof result->ensemble_text);
   report_warnings(all, &c, result);
   GG_TRY(report_curves(all, result, err));
   GG_TRY(gg_run_frame_take(all->replica[0].engine, &all->model, &result->final, err));

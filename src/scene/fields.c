@@ -75,7 +75,9 @@ const gg_field gg_scene_fields[] = {
     {"phi", GG_FIELD_NUMBER, AT(phi), 0, 0.6, .by_default = GG_AUTO,
      .doc = "solid fraction; required; 0 is the Boltzmann limit (dsmc only)",
      .also = "density volume_fraction solid_fraction packing_fraction nu"},
-    {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .by_default = 1000, .doc = "number of grains in the box",
+    {"particles", GG_FIELD_INTEGER, AT(particles), 2, 1e8, .by_default = 1000,
+     .doc = "number of grains in the box; by default fewer, from 500 on, where a box of 1000 that cools or has the "
+            "Gaussian thermostat would not stay homogeneous",
      .when = GG_IF_COUNTED, .also = "N grains number n_particles num_particles"},
     {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), SMALL, LARGE, .by_default = 1, .unit = "1/time",
      .doc = "imposed shear rate", .when = GG_IF_SHEARED, .also = "gamma gamma_dot rate shear"},

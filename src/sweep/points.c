@@ -10,6 +10,7 @@
 #include "common/engine.h"
 #include "common/extension.h"
 #include "run/cost_estimate.h"
+#include "run/default_size.h"
 #include "run/replicas.h"
 #include "scene/fields.h"
 #include "scene/scene_reader.h"
@@ -253,7 +254,7 @@ static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, doubl
 {
   *scene = sweep->base;
   GG_TRY(set_values(sweep, i, scene, err));
-  GG_TRY(gg_scene_finish(scene, err));
+  GG_TRY(gg_run_scene_finish(scene, err));
   GG_TRY(estimate_point(sweep, scene, seconds, err));
   if (sweep->settings.seeds == GG_SEEDS_INDEPENDENT && !gg_sweep_sets(sweep, "run.seed"))
     scene->run.seed = point_seed(sweep, scene);

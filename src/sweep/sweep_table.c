@@ -73,6 +73,7 @@ static gg_status add_run(gg_point_table *t, gg_cli_table_row row, json_t *docume
   row.method = json_string_value(json_object_get(document, "engine"));
   row.steady = json_is_true(json_object_get(document, "steady"));
   row.seconds = number(json_object_get(document, "total"), "cpu_seconds");
+  row.contact_time = number(json_object_get(document, "engine_state"), "contact_time");
   return row.method ? add_quantities(t, row, json_object_get(document, "results"), "stderr", err) : GG_OK;
 }
 
@@ -115,7 +116,7 @@ static gg_status add_document(gg_point_table *t, gg_cli_table_row row, json_t *d
   GG_TRY(add_run(t, row, json_object_get(document, "md"), err));
   GG_TRY(add_run(t, row, json_object_get(document, "dsmc"), err));
   row.theory = row.steady = true;
-  row.seconds = NAN;
+  row.seconds = row.contact_time = NAN;
   json_object_foreach(json_object_get(document, "theory"), name, theory)
   {
     row.method = name;
@@ -211,6 +212,7 @@ static const struct {
     {"beyond_expected", TRUTH, offsetof(gg_cli_table_row, beyond)},
     {"cause", TEXT, offsetof(gg_cli_table_row, cause)},
     {"structure", TEXT, offsetof(gg_cli_table_row, structure)},
+    {"contact_time", NUMBER, offsetof(gg_cli_table_row, contact_time)},
     {"seed", WHOLE, offsetof(gg_cli_table_row, seed)},
     {"steady", TRUTH, offsetof(gg_cli_table_row, steady)},
     {"short", TRUTH, offsetof(gg_cli_table_row, fell_short)},

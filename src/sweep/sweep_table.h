@@ -26,6 +26,7 @@ typedef struct gg_cli_table_row {
   bool beyond;                         /* by more than four errors and more than is expected */
   const char *cause;                   /* where it is */
   const char *structure;               /* of md: "clustered", "swirling", "collapsed"; NULL: homogeneous, or unknown */
+  double contact_time;                 /* of md that auto ended at, where that is not its default; else NaN */
 } gg_cli_table_row;
 
 typedef struct gg_point_table {
@@ -42,8 +43,9 @@ gg_status gg_sweep_point_table_read(gg_point_table *table, const gg_sweep *sweep
 void gg_sweep_point_table_clear(gg_point_table *table);
 
 /* Whole or not at all; columns: the point's number, a column a varied key, then method, quantity, mean, error, unit,
- * reference, its mean, differences from it, z, beyond_expected, cause, seed, steady, short, seconds, file, version,
- * build. In HDF5 each is an array under /graingas/table: numbers, whole numbers, truths as bytes, texts. */
+ * reference, its mean, differences from it, z, beyond_expected, cause, structure, contact_time, seed, steady, short,
+ * seconds, file, version, build. In HDF5 each is an array under /graingas/table: numbers, whole numbers, truths as
+ * bytes, texts. */
 gg_status gg_sweep_point_table_write_csv(const gg_point_table *table, const gg_sweep *sweep, const char *path,
                                          gg_error *err);
 gg_status gg_sweep_point_table_write_h5(const gg_point_table *table, const gg_sweep *sweep, const char *path,

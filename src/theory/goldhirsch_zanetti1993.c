@@ -55,13 +55,23 @@ double gg_theory_clustering_length(const gg_model *m)
   return 2 * M_PI * sqrt(2 * viscous_length2(*m));
 }
 
-bool gg_theory_stable_size(const gg_model *m, char *text, size_t size)
+static double longest_edge(const gg_model *m)
+{
+  return fmax(m->box[0], fmax(m->box[1], m->box[2]));
+}
+
+double gg_theory_stable_grains(const gg_model *m)
 {
   const bool cools = gg_flow_cools(m->flow) || (gg_flow_is_heated(m->flow) && m->thermostat == GG_GAUSSIAN);
-  if (m->homogeneous || m->shear_rate != 0 || m->linear_response || !cools) return false;
-  const double length = gg_theory_clustering_length(m), edge = fmax(m->box[0], fmax(m->box[1], m->box[2]));
-  if (!isfinite(length)) return false;
-  const double grains = (double)m->n * pow(length / edge, 3), digits = pow(10, floor(log10(grains)) - 1);
+  if (m->homogeneous || m->shear_rate != 0 || m->linear_response || !cools) return NAN;
+  return (double)m->n * pow(gg_theory_clustering_length(m) / longest_edge(m), 3);
+}
+
+bool gg_theory_stable_size(const gg_model *m, char *text, size_t size)
+{
+  const double grains = gg_theory_stable_grains(m), edge = longest_edge(m);
+  if (!isfinite(grains)) return false;
+  const double length = gg_theory_clustering_length(m), digits = pow(10, floor(log10(grains)) - 1);
   snprintf(text, size, "homogeneity: the box is %.3g d long and stays homogeneous up to %.3g d%s, about %.0f grains%s",
            edge, length, edge > length ? " only" : "", round(grains / digits) * digits,
            edge > length ? ": vortices and clusters will grow" : "");

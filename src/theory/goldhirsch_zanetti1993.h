@@ -10,9 +10,13 @@
  */
 double gg_theory_clustering_length(const gg_model *model);
 
-/* "homogeneity: the box is 12 d long and stays homogeneous up to 8.5 d only, about 350 grains: ...", of a box that
- * cools, or whose heat goes back by the Gaussian thermostat, which is the same gas in other units; false where it is
- * not known. Returns text. */
+/* Up to how many grains a box of this density and shape stays homogeneous that cools, or whose heat goes back by the
+ * Gaussian thermostat, which is the same gas in other units; INFINITY for elastic grains, NaN of other states, and
+ * where it is not known. */
+double gg_theory_stable_grains(const gg_model *model);
+
+/* "homogeneity: the box is 12 d long and stays homogeneous up to 8.5 d only, about 350 grains: ..."; false where
+ * that is not finite. Returns text. */
 bool gg_theory_stable_size(const gg_model *model, char *text, size_t size);
 
 #endif

@@ -1,5 +1,6 @@
 """Collisions that accumulate without end: with md.contact_time auto the run begins anew with a tenfold one, up to 1e-3, and
 says so. The scene collapses at 1e-5 with seed 1 and at 1e-4 too with seed 2."""
+import csv
 import json
 import os
 import sys
@@ -70,6 +71,20 @@ def test_it_is_resumed_with():
 def test_a_comparison_tells_it():
     done = run("compare", "scene.yaml", "--quiet", scene=SCENE)
     check(done.code == 0 and "auto is 0.0001 here" in done.out + done.err, done.out, done.err)
+
+
+def test_the_table_of_a_sweep_has_it():
+    with open("sweep.yaml", "w") as f:
+        f.write(SCENE + "vary: {md.contact_time: [auto, 1e-3]}\nsweep: {does: run}\n")
+    check(run("sweep", "sweep.yaml", "--quiet", "--output", "s").code == 0)
+    done = run("sweep", "s", "--collect", "--quiet", "--picture", "none")
+    check(done.code == 0, done.err)
+    with open(done.out.split()[0]) as f:
+        table = list(csv.DictReader(f))
+    state = json.loads(run("info", "s/" + table[0]["file"] + ".h5", "--json").out)["engine_state"]
+    found = {(row["point"], row["contact_time"] and float(row["contact_time"])) for row in table}
+    check(found == {("1", state["contact_time"]), ("2", "")}, found)
+
 
 
 if __name__ == "__main__":
