@@ -16,11 +16,11 @@ from .errors import BadFile, BadInput, Busy, GraingasError, NotFound, PartialRes
 from .estimate import Estimate
 from .extension import DoesNotApply, define_law, define_observable, define_theory
 from .grains import Grains
-from .result import Result
+from .result import Result, export
 from .run import compare, read, run
 from .scene import Scene
 from .simulation import Simulation
-from .sweep import Sweep, sweep
+from .sweep import Sweep, Verdict, sweep, validate
 from .theory import Grid, scan, theories, theory
 from .trajectory import Trajectory, trajectory
 

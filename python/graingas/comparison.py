@@ -9,7 +9,7 @@ from . import _c, tables
 from .curves import curves_of
 from .errors import NotFound, check, encode, lib, look_up, new_error, owned_text, text
 from .estimate import Estimate
-from .result import Result, from_bytes, iter_texts, to_bytes
+from .result import Result, bytes_of, from_bytes, iter_texts
 from .scene import Scene
 from .structs import Record, new, values
 
@@ -233,6 +233,28 @@ class Comparison(Mapping):
         check(lib.gg_comparison_to_json, self._pointer, made)
         return owned_text(made)
 
+    def to_bytes(self) -> bytes:
+        """The file in memory; Comparison.from_bytes(content) reads it."""
+        return bytes_of(lib.gg_comparison_to_bytes, self._pointer)
+
+    @classmethod
+    def from_bytes(cls, content: bytes, partial: Optional[str] = None) -> Comparison:
+        """A comparison from the bytes of a file or of to_bytes(). Raises BadFile if they are damaged."""
+        found = cls(from_bytes(lib.gg_comparison_from_bytes, "gg_comparison **", content))
+        found.partial = partial
+        return found
+
+    def _take(self, result):
+        """A copy of a Result. Nobody may have the result of its engine that the library then frees."""
+        if not isinstance(result, Result):
+            raise TypeError(f"theories: expected a Result, not {type(result).__name__}")
+        copy = from_bytes(lib.gg_result_from_bytes, "gg_result **", result.to_bytes())
+        try:
+            check(lib.gg_comparison_take, self._pointer, copy)
+        except Exception:
+            lib.gg_result_free(copy)
+            raise
+
     def write(self, path) -> None:
         """Writes the HDF5 file; it appears whole or not at all."""
         check(lib.gg_comparison_write, self._pointer, encode(path, "file name"))
@@ -282,7 +304,7 @@ class Comparison(Mapping):
         return plot_comparison(self, quantities, ax)
 
     def __reduce__(self):
-        return _comparison_from_bytes, (to_bytes(lib.gg_comparison_to_bytes, self._pointer), self.partial)
+        return Comparison.from_bytes, (self.to_bytes(), self.partial)
 
     __hash__ = object.__hash__
 
@@ -307,9 +329,3 @@ def read_comparison(path):
     made = ffi.new("gg_comparison **")
     check(lib.gg_comparison_read, encode(path, "file name"), made)
     return Comparison(made[0])
-
-
-def _comparison_from_bytes(content, partial):
-    comparison = Comparison(from_bytes(lib.gg_comparison_from_bytes, "gg_comparison **", content))
-    comparison.partial = partial
-    return comparison

@@ -24,8 +24,8 @@ class Estimate:
     tau           correlation time, in `tau_unit`; NaN: unknown
     samples       number of samples
     reason        why there is no mean; None if there is one
-    u             the same as a number of uncertainties, correlated with other means of the run; where means
-                  nearly cancel, its error is larger than that of the operators below
+    u             the same as a number of uncertainties, correlated with the means of the run whose `u` was used before.
+                  Of two means every combination has the error of the operators below; of more, nearly
 
     + - * / and ** give estimates. Errors add up linearly: means of different runs are independent, those of one run have
     a covariance. The error is NaN where that is not known, and where a sum of several means nearly cancels.
@@ -51,7 +51,7 @@ class Estimate:
         from uncertainties import ufloat
         if self._terms is not None:
             return self.mean + sum(d * (e.u - e.mean) for d, e in self._terms.values() if d)
-        made = self._source._correlated(self.name) if self._source is not None else None
+        made = self._source._correlated.number(self.name) if self._source is not None else None
         return made if made is not None else ufloat(self.mean, self.error, tag=self.name or None)
 
     def __float__(self):

@@ -4,8 +4,10 @@ from __future__ import annotations
 import math
 from collections import namedtuple
 from collections.abc import Mapping
+from typing import Optional
 
 from . import _c, tables
+from .correlated import Correlated
 from .curves import Curve, result_curves
 from .errors import check, encode, lib, look_up, new_error, owned_text, text
 from .estimate import Estimate
@@ -28,7 +30,7 @@ class Result(Mapping):
     def __init__(self, pointer, owner=None, scene=None):
         self._pointer = pointer if owner is not None else ffi.gc(pointer, lib.gg_result_free)
         self._owner, self._scene, self.partial = owner, scene, None
-        self._ufloats = None
+        self._correlated = Correlated(self.find, self._covariance)
 
     def find(self, quantity: str) -> Estimate:
         """Everything known about a quantity, also if it has no mean. Raises NotFound for an unknown name."""
@@ -68,24 +70,6 @@ class Result(Mapping):
         found = ffi.new("double *")
         look_up(lib.gg_result_covariance, self._pointer, encode(quantity, "quantity"), encode(other, "quantity"), found)
         return found[0]
-
-    def _correlated(self, name):
-        """A mean as a number of uncertainties, correlated with the other means; None: its error is unknown. Pairs are
-        estimated one by one, so that their table may have small negative eigenvalues. Those are left out: what nearly cancels gets larger errors than Estimates give."""
-        if self._ufloats is None:
-            import numpy as np
-            from uncertainties import ufloat
-            known = [e for e in self.values() if not math.isnan(e.error)]
-            table = np.array([[self._covariance(a.name, b.name) for b in known] for a in known])
-            errors = np.array([e.error for e in known])
-            table = np.nan_to_num(table / np.where(errors > 0, errors, 1) / np.where(errors > 0, errors, 1)[:, None])
-            np.fill_diagonal(table, 1)
-            weights, vectors = np.linalg.eigh(table)
-            parts = vectors * np.sqrt(np.maximum(weights, 0))
-            parts *= (errors / np.linalg.norm(parts, axis=1))[:, None]
-            independent = [ufloat(0, 1) for _ in known]
-            self._ufloats = {e.name: e.mean + sum(x * z for x, z in zip(row, independent)) for e, row in zip(known, parts)}
-        return self._ufloats.get(name)
 
     @property
     def info(self) -> Record:
@@ -136,6 +120,17 @@ class Result(Mapping):
         check(lib.gg_result_to_json, self._pointer, made)
         return owned_text(made)
 
+    def to_bytes(self) -> bytes:
+        """The file in memory; Result.from_bytes(content) reads it."""
+        return bytes_of(lib.gg_result_to_bytes, self._pointer)
+
+    @classmethod
+    def from_bytes(cls, content: bytes, partial: Optional[str] = None) -> Result:
+        """A result from the bytes of a file or of to_bytes(). Raises BadFile if they are damaged."""
+        found = cls(from_bytes(lib.gg_result_from_bytes, "gg_result **", content))
+        found.partial = partial
+        return found
+
     def write(self, path) -> None:
         """Writes the HDF5 (H5MD) file; it appears whole or not at all."""
         check(lib.gg_result_write, self._pointer, encode(path, "file name"))
@@ -162,7 +157,7 @@ class Result(Mapping):
         return tables.as_html(self.scene.title, *self._table(), [self.partial] if self.partial else [])
 
     def __reduce__(self):
-        return _result_from_bytes, (to_bytes(lib.gg_result_to_bytes, self._pointer), self.partial)
+        return Result.from_bytes, (self.to_bytes(), self.partial)
 
     __hash__ = object.__hash__
 
@@ -178,7 +173,7 @@ def iter_texts(get):
         i += 1
 
 
-def to_bytes(function, pointer):
+def bytes_of(function, pointer):
     """What a gg_..._to_bytes gives."""
     made, size = ffi.new("void **"), ffi.new("size_t *")
     check(function, pointer, made, size)
@@ -201,7 +196,11 @@ def read_result(path):
     return Result(made[0])
 
 
-def _result_from_bytes(content, partial):
-    result = Result(from_bytes(lib.gg_result_from_bytes, "gg_result **", content))
-    result.partial = partial
-    return result
+def export(path, prefix, *, results=True, curves=True, trajectory=True) -> list[str]:
+    """Writes tables (CSV) and the trajectory (extended XYZ) of a result file: PREFIX.csv, PREFIX_....csv, PREFIX.xyz.
+    Returns the file names. Raises BadFile; RunFailed if the result has none of the parts."""
+    parts = results * lib.GG_EXPORT_RESULTS + curves * lib.GG_EXPORT_CURVES + trajectory * lib.GG_EXPORT_TRAJECTORY
+    names = []
+    context = ffi.new_handle(names)
+    check(lib.gg_export, encode(path, "file name"), encode(prefix, "prefix"), parts, lib.ggpy_line, ffi.NULL, context)
+    return names

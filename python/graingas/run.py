@@ -7,7 +7,7 @@ from typing import Callable, Optional, Union
 
 from . import _c, calls
 from .comparison import Comparison, read_comparison
-from .errors import BadInput, PartialResult, encode, exception, lib, new_error
+from .errors import BadInput, PartialResult, check, encode, exception, lib, new_error, text
 from .progress import reporter
 from .result import Result, read_result
 from .scene import as_scene
@@ -117,10 +117,16 @@ def compare(scene, threads: Optional[int] = 1, output=None, checkpoint=None, res
 
 
 def read(path) -> Union[Result, Comparison]:
-    """A result file: a Result of one engine's run, or a Comparison. Raises BadFile."""
+    """A result file: a Result of one engine's run, or a Comparison. Raises BadFile. Warns
+    if another program has changed it."""
     try:
-        return read_result(path)
+        found = read_result(path)
     except BadInput as error:
         if "gg_comparison_read" not in str(error):
             raise
-    return read_comparison(path)
+        found = read_comparison(path)
+    notice = ffi.new("char[]", 1024)
+    check(lib.gg_result_file_notice, encode(path, "file name"), notice, len(notice))
+    if text(notice):
+        warnings.warn(text(notice), stacklevel=2)
+    return found

@@ -185,6 +185,13 @@ class Scene:
             check(lib.gg_scene_to_yaml, scene, made)
         return owned_text(made)
 
+    def to_json(self) -> str:
+        """Every key with the value in force, as JSON that Scene() reads."""
+        made = ffi.new("char **")
+        with self.held() as scene:
+            check(lib.gg_scene_to_json, scene, made)
+        return owned_text(made)
+
     def check(self) -> None:
         """Raises BadInput, with the reason, if the keys do not go together."""
         with self.held() as scene:

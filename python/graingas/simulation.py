@@ -1,17 +1,18 @@
 """Simulations, step by step."""
 from __future__ import annotations
 
+from contextlib import contextmanager
 from typing import Any, Callable, Iterator, Optional
 
 import numpy as np
 
-from . import _c, calls
+from . import _c, calls, yaml
 from .errors import BadInput, check, encode, exception, lib, new_error, text
 from .grains import Grains, copy_grains, grains_from
 from .handles import Handle
-from .result import from_bytes, to_bytes
+from .result import bytes_of, from_bytes
 from .run import serving
-from .scene import Scene, as_scene
+from .scene import SHORT, Scene, as_scene
 from .structs import Record, array, dtype, new, values
 
 ffi = _c.ffi
@@ -119,7 +120,7 @@ class Simulation:
         self._adopt(made[0], scene)
 
     def _adopt(self, pointer, scene):
-        self._scene = scene
+        self._scene = Scene._copy_of(lib.gg_simulation_scene(pointer), scene._extensions if scene else ())
         self._handle = Handle(pointer, lib.gg_simulation_free, "simulation")
         self._watcher, self._stop = _Watcher(), ffi.new("ggpy_call *")
         check(lib.gg_simulation_on_stop, pointer, ffi.addressof(lib, "ggpy_stop"), self._stop)
@@ -180,8 +181,22 @@ class Simulation:
 
     @property
     def scene(self) -> Scene:
-        """A copy of the scene."""
+        """A copy of the scene, with the keys that were changed."""
         return self._scene.copy()
+
+    def __getitem__(self, key):
+        return self._scene[key]
+
+    def __setitem__(self, key, value):
+        """Changes a key on the way: sim["collision.e"] = 0.8. Allowed: collision.*, thermostat, md.contact_time,
+        dsmc.time_step, walls.e, walls.beta, walls.mu, gravity. Grains, time, counts, random stream and units stay. The
+        simulation is unchanged if this raises BadInput."""
+        if not isinstance(key, str):
+            raise TypeError(f"a key of a scene is a text, not {type(key).__name__}")
+        key = SHORT.get(key, key)
+        with self._handle.held() as pointer:
+            check(lib.gg_simulation_set, pointer, encode(key, "key"), encode(yaml.write(value), key))
+            self._scene = Scene._copy_of(lib.gg_simulation_scene(pointer), self._scene._extensions)
 
     @property
     def state(self) -> Record:
@@ -253,17 +268,23 @@ class Simulation:
     @classmethod
     def load(cls, path, scene=None) -> Simulation:
         """A saved simulation, without its callbacks. scene: the scene that was saved; None: the stored one."""
-        made, stored = ffi.new("gg_simulation **"), ffi.new("gg_scene **")
-        name = encode(path, "file name")
-        if scene is None:
-            check(lib.gg_checkpoint_about, name, new("gg_checkpoint_info"), stored)
-            scene = Scene._from_pointer(stored[0])
-            check(lib.gg_simulation_load, name, ffi.NULL, made)
-            return cls._from_pointer(made[0], scene)
-        scene = as_scene(scene).copy()
-        with scene.held() as pointer:
-            check(lib.gg_simulation_load, name, pointer, made)
+        made = ffi.new("gg_simulation **")
+        with _scene_or_null(scene) as (scene, pointer):
+            check(lib.gg_simulation_load, encode(path, "file name"), pointer, made)
         return cls._from_pointer(made[0], scene)
+
+    def to_bytes(self) -> bytes:
+        """What save() writes, in memory."""
+        with self._handle.held() as pointer:
+            return bytes_of(lib.gg_simulation_to_bytes, pointer)
+
+    @classmethod
+    def from_bytes(cls, content: bytes, scene=None) -> Simulation:
+        """A simulation from the bytes of a saved file or of to_bytes(); scene as for load(). Raises BadFile if they are
+        damaged."""
+        with _scene_or_null(scene) as (scene, pointer):
+            made = from_bytes(lib.gg_simulation_from_bytes, "gg_simulation **", content, pointer)
+        return cls._from_pointer(made, scene)
 
     def copy(self) -> Simulation:
         """A copy that continues with the same bits, without the callback."""
@@ -273,8 +294,7 @@ class Simulation:
         return Simulation._from_pointer(made[0], self._scene)
 
     def __reduce__(self):
-        with self._handle.held() as pointer:
-            return _from_bytes, (to_bytes(lib.gg_simulation_to_bytes, pointer), self._scene)
+        return Simulation.from_bytes, (self.to_bytes(), self._scene)
 
     def close(self) -> None:
         """Frees the memory; later uses raise BadInput."""
@@ -297,10 +317,15 @@ class Simulation:
                 f"{state.collisions} collisions>")
 
 
-def _from_bytes(content, scene):
+@contextmanager
+def _scene_or_null(scene):
+    """A copy of a scene with its pointer; None with NULL."""
+    if scene is None:
+        yield None, ffi.NULL
+        return
+    scene = as_scene(scene).copy()
     with scene.held() as pointer:
-        made = from_bytes(lib.gg_simulation_from_bytes, "gg_simulation **", content, pointer)
-    return Simulation._from_pointer(made, scene)
+        yield scene, pointer
 
 
 def species_of(function, pointer, n):

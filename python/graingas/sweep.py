@@ -2,14 +2,16 @@
 from __future__ import annotations
 
 import itertools
+import json
 import math
+import os
 import tempfile
 import warnings
 
 import numpy as np
 
 from . import _c, calls, yaml
-from .errors import BadInput, NotFound, PartialResult, check, encode, exception, lib, new_error, text
+from .errors import BadInput, NotFound, PartialResult, check, encode, exception, lib, new_error, owned_text, text
 from .handles import Handle
 from .result import Result
 from .run import read, reporting, thread_count
@@ -72,9 +74,47 @@ class Sweep:
         file appears in messages."""
         made = ffi.new("gg_sweep **")
         check(lib.gg_sweep_parse, encode(source), encode(name), made)
-        found = cls(made[0], {}, folder)
-        check(lib.gg_sweep_check, made[0])
-        found.axes = _axes(made[0])
+        return cls._checked(made[0], folder)
+
+    @classmethod
+    def load(cls, path, folder=None, does=None) -> Sweep:
+        """The sweep of a file, or of a sweep's folder, whose results it then has. Nothing runs before run(). does: in
+        place of what the file says."""
+        made = ffi.new("gg_sweep **")
+        check(lib.gg_sweep_load, encode(path, "file name"), made)
+        return cls._checked(made[0], path if folder is None and os.path.isdir(path) else folder, does)
+
+    @classmethod
+    def _checked(cls, pointer, folder, does=None):
+        found = cls(pointer, {}, folder)
+        if does is not None:
+            check(lib.gg_sweep_set, pointer, b"sweep.does", encode(does, "does"))
+        check(lib.gg_sweep_check, pointer)
+        found.axes = _axes(pointer)
+        return found
+
+    def validate(self, page=None, picture=None) -> Verdict:
+        """Compares the finished points, which have to be comparisons, with Enskog's equation.
+
+        page      Markdown file to write, with maps, counts and tables
+        picture   SVG, PNG or PDF: the maps alone, drawn by gnuplot
+        Raises BadInput if the sweep does not compare; RunFailed if no point is finished.
+        """
+        kept = {name: ffi.new("char[]", encode(path, name)) for name, path in (("page", page), ("picture", picture)) if path}
+        lines = []
+        with self._handle.held() as pointer:
+            document = self._verdict(pointer, {"json": 1, **kept}, lines)
+            return Verdict(json.loads(document), self._verdict(pointer, {}, lines))
+
+    def _verdict(self, pointer, settings, lines):
+        options, made, error = new("gg_validating"), ffi.new("char **"), new_error()
+        for name, value in settings.items():
+            setattr(options, name, value)
+        context = ffi.new_handle(lines)
+        status = lib.gg_sweep_validate(pointer, encode(self.folder, "folder"), options, lib.ggpy_line, context, made, error)
+        found = owned_text(made)
+        if status not in (lib.GG_OK, lib.GG_FAILED) or found is None:
+            raise exception(status, error)
         return found
 
     def run(self, threads=1, progress=None) -> Sweep:
@@ -155,6 +195,25 @@ class Sweep:
     def __repr__(self):
         states = [point.state for point in self]
         return f"<sweep of {len(states)} points over {', '.join(self.axes)}: {states.count('missing')} missing>"
+
+
+class Verdict(dict):
+    """Comparison of a grid with Enskog's equation: the document of `graingas validate --json` as a dict; str() is the
+    Markdown that the command prints."""
+
+    def __init__(self, document, words):
+        super().__init__(document)
+        self._words = words
+
+    @property
+    def agrees(self) -> bool:
+        """Whether dsmc and the noise-free solution agree within chance."""
+        return self["dsmc"]["agrees"]
+
+    def __str__(self):
+        return self._words
+
+    __repr__ = _repr_markdown_ = __str__
 
 
 def _names(pointer):
@@ -251,3 +310,17 @@ def sweep(scene, vary=None, *, does="run", folder=None, threads=1, seeds="indepe
     if scene._extensions:
         raise BadInput("sweep: its points are files, which hold no Python functions; use scan(), or run() in a loop")
     return Sweep.parse(_yaml(scene, axes, encode(does, "does").decode(), seeds), folder).run(threads, progress)
+
+
+def validate(source=None, *, quick=False, folder=None, threads=1, progress=None, page=None, picture=None) -> Verdict:
+    """Both engines and the theories against Enskog's equation over a grid, as `graingas validate`.
+
+    source   file of a sweep, or its folder; None: the standard grid, uniform shear over density and restitution
+    quick    the small standard grid
+    Other arguments, Ctrl-C and errors: as for sweep() and Sweep.validate().
+    """
+    if source is None:
+        found = Sweep.parse(text(lib.gg_standard_grid(quick)), folder, "the standard grid")
+    else:
+        found = Sweep.load(source, folder, "compare")
+    return found.run(threads, progress).validate(page, picture)

@@ -25,9 +25,13 @@ def _evaluate(scene, name):
     return Comparison(made[0], scene=scene)
 
 
-def theories(scene) -> Comparison:
-    """Answers of all theories, as a Comparison without simulations."""
-    return _evaluate(as_scene(scene).copy(), None)
+def theories(scene, *results) -> Comparison:
+    """Answers of all theories, as a Comparison without simulations, or with results of the same scene:
+    theories(r.scene, r). Raises BadInput if a result has another scene."""
+    found = _evaluate(as_scene(scene).copy(), None)
+    for result in results:
+        found._take(result)
+    return found
 
 
 def theory(scene, name) -> Theory:

@@ -78,6 +78,14 @@ TYPES = [
     (lambda: simulation().set_grains(species=np.full(100, 7)), gg.BadInput),
     (lambda: simulation().set_grains(species=[0.5] * 100), gg.BadInput),
     (lambda: simulation("dsmc").set_grains(positions=np.zeros((5000, 3))), gg.BadInput),
+    (lambda: simulation().__setitem__(3, 1), TypeError), (lambda: simulation().__setitem__("e", object()), TypeError),
+    (lambda: simulation().__setitem__("e", float("nan")), gg.BadInput),
+    (lambda: simulation().__setitem__("x" * 100000, 1), gg.BadInput), (lambda: simulation()[3], TypeError),
+    (lambda: gg.Simulation.from_bytes("text"), TypeError), (lambda: gg.Simulation.from_bytes(b""), gg.BadFile),
+    (lambda: gg.Result.from_bytes(b"x" * 99), gg.BadFile), (lambda: gg.Comparison.from_bytes(None), TypeError),
+    (lambda: gg.Result.from_bytes(simulation().to_bytes()), gg.GraingasError),
+    (lambda: gg.export(3, "x"), TypeError), (lambda: gg.export(__file__, "x"), gg.BadFile),
+    (lambda: gg.theories(scene(), 3), TypeError),
     (lambda: gg.theory(scene(), 3), TypeError), (lambda: gg.theory(scene(), "\0"), gg.BadInput),
     (lambda: gg.define_observable("a")(3), TypeError), (lambda: gg.define_theory("a", "N1")(None), TypeError),
     (lambda: gg.define_law(3), TypeError), (lambda: gg.define_law("abc"), TypeError),
@@ -104,6 +112,7 @@ CLOSED = [
     (lambda: closed().species, gg.BadInput), (lambda: closed().walls, gg.BadInput),
     (lambda: closed().hash, gg.BadInput), (lambda: closed().take_sums(), gg.BadInput),
     (lambda: pickle.dumps(closed()), gg.BadInput),
+    (lambda: closed().__setitem__("e", 0.8), gg.BadInput), (lambda: closed().to_bytes(), gg.BadInput),
     (lambda: closed_trajectory()[0], gg.BadInput), (lambda: len(closed_trajectory()), gg.BadInput),
 ]
 
@@ -128,6 +137,7 @@ INSIDE = {
     "hash": lambda sim: sim.hash, "sums": lambda sim: sim.take_sums(), "save": lambda sim: sim.save("s.h5"),
     "copy": lambda sim: sim.copy(),
     "set_grains": lambda sim: sim.set_grains(velocities=np.zeros((100, 3))),
+    "set": lambda sim: sim.__setitem__("collision.e", 0.8), "bytes": lambda sim: sim.to_bytes(),
     "close": lambda sim: sim.close(), "pickle": lambda sim: pickle.dumps(sim)}
 
 

@@ -139,10 +139,73 @@ def test_uncertainties(comparison):
     assert (u.n, u.s) == pytest.approx((comparison.md["temperature"].mean, comparison.md["temperature"].error))
     p, T = comparison.md["pressure"], comparison.md["temperature"]
     independent = (p / T).mean * math.hypot(p.error / p.mean, T.error / T.mean)
-    assert 0.7 * (p / T).error < (p.u / T.u).s < 0.6 * independent and (p / T).u.s == pytest.approx((p.u / T.u).s)
+    assert (p.u / T.u).s == pytest.approx((p / T).error) and (p / T).error < 0.3 * independent
+    assert (p / T).u.s == pytest.approx((p.u / T.u).s)
     assert (p.u - comparison.md["pressure"].u).s == 0
     assert (p.u - comparison.dsmc["pressure"].u).s == pytest.approx((p - comparison.dsmc["pressure"]).error)
     assert isinstance(u, uncertainties.core.AffineScalarFunc)
+
+
+@pytest.mark.parametrize("a, b", [("temperature", "pressure"), ("P_xx", "P_yy"), ("collision_rate", "temperature"),
+                                  ("N1", "N2"), ("P_xy", "shear_viscosity"), ("rotational_temperature", "temperature")])
+def test_uncertainties_of_two_means_are_exact(comparison, a, b):
+    """Sum, product and ratio of the first two means used have the errors that their covariance gives."""
+    pytest.importorskip("uncertainties")
+    md = pickle.loads(pickle.dumps(comparison.md))
+    a, b = md[a], md[b]
+    for ours, theirs in (a + b, a.u + b.u), (a * b, a.u * b.u), (a / b, a.u / b.u):
+        assert theirs.s == pytest.approx(ours.error, rel=1e-6), ours
+
+
+def test_uncertainties_of_many_means(comparison):
+    """Each keeps its error. A mean has exactly the covariance with the earlier one that correlates most with it."""
+    uncertainties = pytest.importorskip("uncertainties")
+    md = pickle.loads(pickle.dumps(comparison.md))
+    used = []
+    for e in md.values():
+        if not e.error > 0:
+            continue
+        assert e.u.s == pytest.approx(e.error)
+        rho = {b: np.clip(md.covariance(e.name, b.name) / e.error / b.error, -1, 1) for b in used
+               if math.isfinite(md._covariance(e.name, b.name))}
+        if rho:
+            largest = max(map(abs, rho.values()))
+            found = {b: uncertainties.covariance_matrix([e.u, b.u])[0][1] / e.error / b.error
+                     for b in rho if abs(rho[b]) > largest - 1e-9}
+            assert any(found[b] == pytest.approx(rho[b], abs=1e-9) for b in found)
+        used.append(e)
+    assert len(used) > 20
+
+
+def test_bytes_are_the_file(comparison):
+    comparison.write("c.h5")
+    with open("c.h5", "rb") as file:
+        made = gg.Comparison.from_bytes(file.read())
+    assert list(made) == list(comparison)
+    again = gg.Result.from_bytes(comparison.md.to_bytes())
+    assert again["N1"].mean == comparison.md["N1"].mean
+
+
+def test_export(comparison):
+    comparison.md.write("r.h5")
+    names = gg.export("r.h5", "out", trajectory=False)
+    assert "out.csv" in names and not any(name.endswith(".xyz") for name in names)
+    with open("out.csv", encoding="utf-8") as file:
+        row = next(line for line in file if line.startswith("temperature,")).split(",")
+    assert repr(comparison.md["temperature"].mean) in row or float(row[2]) == comparison.md["temperature"].mean
+    assert gg.export("r.h5", "only", results=False, curves=False) == ["only.xyz"]
+    with pytest.raises(gg.GraingasError):
+        gg.export("r.h5", "none", results=False, curves=False, trajectory=False)
+
+
+def test_changed_files_are_read_with_a_warning(comparison):
+    h5py = pytest.importorskip("h5py")
+    comparison.md.write("r.h5")
+    gg.read("r.h5")
+    with h5py.File("r.h5", "a") as file:
+        file["note"] = 1
+    with pytest.warns(UserWarning, match="changed"):
+        assert gg.read("r.h5")["N1"].mean == comparison.md["N1"].mean
 
 
 def test_curves_by_local_density_are_read_back():

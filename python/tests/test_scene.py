@@ -2,11 +2,13 @@
 import math
 import os
 import pickle
+import re
 
 import numpy as np
 import pytest
 
 import graingas as gg
+from conftest import SOURCE
 from graingas import yaml
 from graingas.scene import KEYS, SHORT
 
@@ -118,3 +120,29 @@ def test_words_about_a_scene():
 @pytest.mark.parametrize("value", [1, -2.5, 1e-300, [1, [2, 3]], {"a": 1, 12: [0.5, "x"]}, "word", [], {}])
 def test_yaml_reads_what_it_writes(value):
     assert yaml.read(yaml.write(value)) == value
+
+
+# Functions of include/graingas.h without a call in the module, and why.
+NOT_CALLED = """
+gg_callback_fail: exceptions come out of the call
+gg_comparison_departure gg_result_get gg_result_unit: rows and estimates have it
+gg_nearest_word gg_text_make_printable: for programs with words of their own
+gg_page_write gg_plot: pictures are those of matplotlib; the page is a command
+gg_session_advance gg_session_free gg_session_get_progress gg_session_new gg_session_result: threads take their place
+gg_simulation_record: events() stores all collisions of a step, however many
+gg_sweep_collect gg_sweep_run_point gg_sweep_to_json gg_sweep_vary: sweep(), Point and to_dataframe()
+gg_worker_run gg_workers_free gg_workers_new gg_workers_threads: mpirun starts the command
+gg_checkpoint_about: a loaded simulation has its scene
+"""
+
+
+def test_functions_of_the_c_interface_are_called_or_listed():
+    with open(os.path.join(SOURCE, "include", "graingas.h"), encoding="utf-8") as file:
+        declared = set(re.findall(r"^GG_API [^;(]*?(gg_\w+)\(", file.read(), re.MULTILINE))
+    folder, called = os.path.join(SOURCE, "python", "graingas"), set()
+    for name in os.listdir(folder):
+        if name.endswith(".py"):
+            with open(os.path.join(folder, name), encoding="utf-8") as file:
+                called |= set(re.findall(r"lib\.(gg_\w+)", file.read()))
+    listed = set(re.findall(r"gg_\w+", NOT_CALLED))
+    assert {name for name in declared - called if not name.endswith("_sized")} == listed

@@ -97,6 +97,41 @@ def test_two_temperatures_relax():
     assert hot > 8 and abs(mixed - 1) < 0.35
 
 
+def test_keys_change_on_the_way(either):
+    """From e = 1 on the energy stays; copies, pickles and files have the new key, earlier copies the old one."""
+    before = either.copy()
+    sim = gg.Simulation(gg.Scene(flow="hcs", phi=0.1, particles=200, e=0.8, engine=either.scene.engine))
+    sim.collide(500)
+    sim["collision.e"] = 1
+    T = sim.temperature
+    assert sim.collide(2000).temperature == pytest.approx(T, rel=1e-12)
+    either["e"] = 0.6
+    assert either["collision.e"] == either.scene.e == 0.6 and before["e"] == before.scene.e == 0.9
+    either.save("s.h5")
+    others = [either.copy(), pickle.loads(pickle.dumps(either)), gg.Simulation.load("s.h5"),
+              gg.Simulation.from_bytes(either.to_bytes(), either.scene)]
+    assert {other.collide(500).hash for other in others} == {either.collide(500).hash} != {before.collide(500).hash}
+    assert all(other.scene == either.scene for other in others)
+
+
+@pytest.mark.parametrize("key, value, words", [("phi", 0.2, "on the way"), ("collision.e", 1.5, "1.5"),
+                                               ("collision.beta", -1, "other grains"), ("nothing", 1, "on the way")])
+def test_other_keys_stay(sim, key, value, words):
+    before = sim.hash, sim.scene
+    with pytest.raises(gg.BadInput, match=words):
+        sim[key] = value
+    assert (sim.hash, sim.scene) == before
+
+
+def test_own_law_stays_when_keys_change(short):
+    asked = []
+    sim = gg.Simulation(short.copy().add(gg.define_law(lambda g: asked.append(g) or 0.9)))
+    sim["beta"] = 0.5
+    del asked[:]
+    sim.copy().collide(100)
+    assert len(asked) >= 100
+
+
 def test_streams(short):
     assert gg.Simulation(short).hash == gg.Simulation(short).hash != gg.Simulation(short, stream=1).hash
 

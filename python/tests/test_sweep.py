@@ -54,6 +54,39 @@ def test_comparisons_theories_and_pictures(short):
     assert theories[0].read().theories["lun1991"]["temperature"] == compared[0].read().theories["lun1991"]["temperature"]
 
 
+GRID = """
+flow: usf
+phi: 0.1
+particles: 200
+run: {collisions: 150, warmup: 30}
+dsmc: {particles: 500}
+vary: {collision.e: [0.8, 0.9]}
+"""
+
+
+def test_validate():
+    """The verdict of a grid: the document and the page; the folder has the sweep, and gives the same again."""
+    with open("grid.yaml", "w", encoding="utf-8") as file:
+        file.write(GRID)
+    verdict = gg.validate("grid.yaml", folder="g", page="page.md")
+    assert verdict["points"] == verdict["done"] == 2 and verdict.agrees is verdict["dsmc"]["agrees"]
+    assert str(verdict).startswith("2 points") and os.path.exists("page.md")
+    again = gg.Sweep.load("g")
+    assert [point.state for point in again] == ["done"] * 2 and again.does == "compare" and again.validate() == verdict
+    assert again.axes == {"collision.e": [0.8, 0.9]}
+    assert gg.Sweep.load("grid.yaml").does == "run" and gg.Sweep.load("grid.yaml", does="theory").does == "theory"
+
+
+@pytest.mark.parametrize("wrong, kind", [
+    (lambda s: gg.validate("nowhere.yaml"), gg.BadFile), (lambda s: gg.validate(3), TypeError),
+    (lambda s: gg.sweep(s, e=[0.9]).validate(), gg.BadInput),
+    (lambda s: gg.Sweep.parse(GRID + "sweep: {does: compare}\n").validate(), gg.RunFailed),
+    (lambda s: gg.sweep(s, e=[0.9], does="compare").validate(page="no/such/folder.md"), gg.BadFile)])
+def test_no_verdict(short, wrong, kind):
+    with pytest.raises(kind):
+        wrong(short)
+
+
 def test_temporary_folder_goes_with_the_sweep(short):
     found = gg.sweep(short, e=[0.9])
     folder = found.folder

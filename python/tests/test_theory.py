@@ -72,3 +72,15 @@ def test_scan_of_words_and_pairs(shear):
 def test_wrong_grids(shear, wrong):
     with pytest.raises(gg.BadInput):
         gg.scan(shear, theories=["lun1991"], **wrong)
+
+
+def test_results_beside_theories():
+    """Results of single runs, put beside the theories, are the columns of a comparison."""
+    scene = gg.Scene(flow="usf", phi=0.1, e=0.9, beta=0, run={"collisions": 50, "warmup": 20})
+    md, dsmc = (gg.run(scene.copy(engine=engine)) for engine in ("md", "dsmc"))
+    alone, both = gg.theories(md.scene, md), gg.theories(dsmc.scene, dsmc, md)
+    assert alone.md["N1"].mean == both.md["N1"].mean == md["N1"].mean and alone.dsmc is None
+    assert both.dsmc["N1"].mean == dsmc["N1"].mean and math.isfinite(both["N1"].z)
+    assert alone["temperature"].theory == gg.theories(md.scene)["temperature"].theory
+    with pytest.raises(gg.BadInput, match="another scene"):
+        gg.theories(md.scene.copy(phi=0.2), md)

@@ -1,0 +1,69 @@
+"""Means of one run as numbers of uncertainties."""
+import math
+
+import numpy as np
+
+
+class Correlated:
+    """Makes the number of each mean when it is first used, correlated with those made before.
+
+    Covariances are estimated pair by pair, and no set of independent numbers has all of them (their table has large
+    negative eigenvalues). So a mean gets exactly its covariance with the earlier mean that correlates most with it. The
+    others are as near as they can be, those whose difference nearly cancels first. Where they cannot be had together,
+    half of the variance that is left is independent, so that no difference vanishes by chance.
+    """
+
+    def __init__(self, find, covariance):
+        self._find, self._covariance = find, covariance
+        self._made, self._before, self._shares, self._independent = {}, [], [], []
+
+    def number(self, name):
+        """None: the error of this mean is unknown."""
+        if name not in self._made:
+            estimate = self._find(name)
+            if math.isnan(estimate.error):
+                return None
+            self._made[name] = self._make(estimate)
+        return self._made[name]
+
+    def _make(self, estimate):
+        from uncertainties import ufloat
+        share = _share(self._shares, self._coefficients(estimate))
+        self._independent.append(ufloat(0, 1))
+        self._shares = [*(np.append(row, 0) for row in self._shares), share]
+        self._before.append(estimate)
+        return estimate.mean + estimate.error * sum(x * z for x, z in zip(share, self._independent))
+
+    def _coefficients(self, estimate):
+        """Correlation coefficients with the earlier means; unknown ones are 0."""
+        errors = np.array([estimate.error * other.error for other in self._before])
+        table = np.array([self._covariance(estimate.name, other.name) for other in self._before])
+        return np.clip(np.nan_to_num(table / np.where(errors > 0, errors, 1)), -1, 1)
+
+
+def _share(shares, rho):
+    """A unit vector whose products with the unit vectors `shares` are `rho`, and which may have one more element."""
+    if not shares:
+        return np.ones(1)
+    nearest = np.argmax(abs(rho))
+    main, left = rho[nearest] * shares[nearest], 1 - rho[nearest] ** 2
+    others = np.array([share - (share @ shares[nearest]) * shares[nearest] for share in shares])
+    rest = _nearest(others, rho - np.array(shares) @ main, 1 / np.sqrt(1 - rho**2 + 1e-4), left)
+    return np.append(main + rest, math.sqrt(max(left - rest @ rest, 0)))
+
+
+def _nearest(matrix, wanted, weight, room):
+    """Least squares, matrix @ x = wanted. If x @ x is above `room`, the solution with half of that."""
+    left, scale, right = np.linalg.svd(weight[:, None] * matrix, full_matrices=False)
+    scale = np.where(scale > 1e-6 * scale.max(), scale, 0)
+    b = left.T @ (weight * wanted)
+
+    def solution(damping):
+        return right.T @ (scale / np.maximum(scale**2 + damping, 1e-300) * b)
+    if (found := solution(0)) @ found <= room:
+        return found
+    low, high = 1e-15, 1e15
+    while high > 1.001 * low:
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if solution(middle) @ solution(middle) > room / 2 else (low, middle)
+    return solution(high)
