@@ -4,6 +4,7 @@ import json
 import math
 import os
 import re
+import sys
 
 import numpy as np
 import pytest
@@ -39,7 +40,7 @@ def execute(parts):
 
 
 def test_every_notebook_is_tried():
-    assert sorted(NOTEBOOKS) == ["haffs_law", "own_theory", "three_questions"]
+    assert sorted(NOTEBOOKS) == ["haffs_law", "own_theory", "sweep_to_xarray", "three_questions", "trajectory", "two_temperatures"]
 
 
 def test_haffs_law():
@@ -65,6 +66,42 @@ def test_three_questions():
     assert abs(z[0]) < 8 and z[-1] > 10
     assert names["a2"].values[0] > 0.03 and names["a2"].values[-1] < 0
     assert np.allclose(names["a2"], names["theory"], atol=0.03)
+
+
+def test_sweep_to_xarray():
+    names = execute(cells("sweep_to_xarray"))
+    measured, deviation, error = (names[name] for name in ("measured", "deviation", "error"))
+    assert measured["N1"].dims == ("collision.e", "phi")
+    assert (measured["N1"].diff("phi") < 0).all() and (measured["N1"].diff("collision.e") < 0).all()
+    assert abs(deviation.sel(phi=0.05, **{"collision.e": 0.6})) < 2 > 4 * error.min()
+    assert (names["theory"]["N1"].sel(theory="lun1991") == 0).all()
+
+
+def test_two_temperatures():
+    """Both starts and the changed coefficient end at Enskog's ratio; the bounds are four standard errors."""
+    names = execute(cells("two_temperatures"))
+    first = {name: path[3][0] / path[2][0] for name, path in names["paths"].items()}
+    assert first["cold spins"] < 0.2 and first["hot spins"] > 2.5
+    for late in names["late"].values():
+        assert abs(late - names["enskog"]) < 0.12
+    assert abs(names["changed"] - names["expected"]) < 0.09 and names["expected"] < names["enskog"] - 0.25
+
+
+def test_trajectory():
+    """g(r) at contact is near the contact value; ASE, where it is, finds the same distances."""
+    names = execute(cells("trajectory"))
+    assert 1 <= names["nearest"] < 1.01 and abs(names["g"][-5:].mean() - 1) < 0.05
+    assert names["g"][0] == pytest.approx((1 - 0.1) / (1 - 0.2) ** 3, rel=0.15)
+    assert names["T"][-1] == pytest.approx(names["frame"].state.temperature)
+    if names["ase"]:
+        assert names["same"] == pytest.approx(names["distances"](names["frame"]).min(), rel=1e-12)
+        assert os.path.getsize("last.xyz") > 10000
+
+
+def test_trajectory_without_ase(monkeypatch):
+    monkeypatch.setitem(sys.modules, "ase.io", None)
+    names = execute(cells("trajectory"))
+    assert names["ase"] is None and names["nearest"] >= 1
 
 
 def page():
