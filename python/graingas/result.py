@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 from collections import namedtuple
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Optional
 
 from . import _c, tables
@@ -30,7 +31,6 @@ class Result(Mapping):
     def __init__(self, pointer, owner=None, scene=None):
         self._pointer = pointer if owner is not None else ffi.gc(pointer, lib.gg_result_free)
         self._owner, self._scene, self.partial = owner, scene, None
-        self._correlated = Correlated(self.find, self._covariance)
 
     def find(self, quantity: str) -> Estimate:
         """Everything known about a quantity, also if it has no mean. Raises NotFound for an unknown name."""
@@ -70,6 +70,10 @@ class Result(Mapping):
         found = ffi.new("double *")
         look_up(lib.gg_result_covariance, self._pointer, encode(quantity, "quantity"), encode(other, "quantity"), found)
         return found[0]
+
+    @cached_property
+    def _correlated(self):
+        return Correlated(self.find, self._covariance)
 
     @property
     def info(self) -> Record:
