@@ -8,10 +8,10 @@
 #include <string.h>
 #include <sys/statvfs.h>
 #include <sys/utsname.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "base/build.h"
+#include "base/machine.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/curve_table.h"
@@ -39,22 +39,17 @@ static void write_h5md(gg_h5 *h)
 static void describe_machine(char *text, size_t size)
 {
   struct utsname system;
-  char line[256], model[200] = "unknown processor";
+  char model[200];
   if (uname(&system) != 0) system = (struct utsname){.sysname = "unknown"};
-  FILE *in = fopen("/proc/cpuinfo", "r");
-  while (in && fgets(line, sizeof line, in))
-    if (sscanf(line, "model name : %199[^\n]", model) == 1) break;
-  if (in) fclose(in);
+  gg_base_machine_processor(model, sizeof model);
   snprintf(text, size, "%.64s %.64s %.64s, %s, %ld processors", system.sysname, system.release, system.machine, model,
-           sysconf(_SC_NPROCESSORS_ONLN));
+           gg_base_machine_cores());
 }
 
 static void write_header(gg_h5 *h, const char *command, const gg_scene *scene, const char *document)
 {
   char machine[480], date[32];
-  time_t now = time(NULL);
-  struct tm utc;
-  strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &utc));
+  gg_base_machine_date(date, sizeof date);
   describe_machine(machine, sizeof machine);
   write_h5md(h);
   gg_h5_text(h, "/graingas/version", gg_base_build_version);
