@@ -1,14 +1,17 @@
 #include "bench/bench.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/build.h"
+#include "base/machine.h"
 #include "base/memory.h"
-#include "files/result_document.h"
-#include "graingas.h"
+#include "base/text.h"
 #include "scene/scene_reader.h"
+#include "simd/dispatch.h"
 
 static const struct {
   const char *name; /* the word typed; NULL: none */
@@ -60,12 +63,44 @@ void gg_bench_table_put(gg_bench_table *s, int row, int column, const char *form
   va_end(list);
 }
 
-void gg_bench_table_add(gg_bench_table *s, const char *format, ...)
+json_t *gg_bench_number(double x)
 {
+  return isfinite(x) ? json_real(x) : json_null();
+}
+
+/* "ratios: md, walls, phi 0.3, particles 10000"; what is true by its key, what is false not at all. */
+static void name_row(const char *table, json_t *members, char *name, size_t size)
+{
+  const char *key;
+  json_t *member;
+  snprintf(name, size, "%s:", table);
+  json_object_foreach(members, key, member)
+  {
+    if (json_is_false(member)) continue;
+    gg_base_text_append(name, size, "%s ", name[strlen(name) - 1] == ':' ? "" : ",");
+    if (json_is_string(member))
+      gg_base_text_append(name, size, "%s", json_string_value(member));
+    else if (json_is_number(member))
+      gg_base_text_append(name, size, "%s %.10g", key, json_number_value(member));
+    else
+      gg_base_text_append(name, size, "%s", key);
+  }
+}
+
+json_t *gg_bench_table_add(gg_bench_table *s, gg_bench_value v, const char *format, ...)
+{
+  char name[200];
   va_list list;
   va_start(list, format);
-  json_array_append_new(s->rows, json_vpack_ex(NULL, 0, format, list));
+  json_t *members = json_vpack_ex(NULL, 0, format, list);
   va_end(list);
+  name_row(s->key, members, name, sizeof name);
+  json_t *row = json_pack("{s:s, s:s, s:o, s:o, s:o, s:i, s:i}", "name", name, "unit", v.unit, "value",
+                          gg_bench_number(v.value), "lowest", gg_bench_number(v.lowest), "highest",
+                          gg_bench_number(v.highest), "repeats", v.repeats, "threads", v.threads > 1 ? v.threads : 1);
+  json_object_update_new(row, members);
+  json_array_append_new(s->rows, row);
+  return row;
 }
 
 void gg_bench_tell(const gg_bench *b, const char *format, ...)
@@ -121,13 +156,30 @@ static gg_status refuse(const char *word, gg_error *err)
     if (subjects[i].name)
       snprintf(allowed + strlen(allowed), sizeof allowed - strlen(allowed), "%s%s", *allowed ? ", " : "",
                subjects[i].name);
-  return gg_base_fail(err, GG_BAD_INPUT, "bench: '%s' is not known; allowed: %s, or nothing for an overview", word,
-                      allowed);
+  return gg_base_fail(err, GG_BAD_INPUT, "bench: '%s' is not known; allowed: %s, compare, or nothing for an overview",
+                      word, allowed);
+}
+
+/* Where and when all rows were measured, and by which build. */
+static void sign(gg_bench *b)
+{
+  size_t k;
+  json_t *row;
+  char processor[200], date[32];
+  gg_base_machine_processor(processor, sizeof processor);
+  gg_base_machine_date(date, sizeof date);
+  json_t *origin = json_pack("{s:{s:s, s:I}, s:s, s:s, s:s}", "machine", "cpu", processor, "cores",
+                             (json_int_t)gg_base_machine_cores(), "version", gg_base_build_version, "instructions",
+                             gg_simd_instructions_name(gg_simd_instructions_best()), "time", date);
+  for (int i = 0; i < b->n_tables; i++)
+    json_array_foreach(b->table[i]->rows, k, row) gg_base_json_put(json_object_update(row, origin));
+  json_decref(origin);
 }
 
 gg_status gg_bench_run(gg_bench *b, const char *subject, const gg_bench_options *options, gg_error *err)
 {
   int i = 0;
+  const unsigned before = gg_base_memory_failures();
   *b = (gg_bench){.options = options};
   while (i < N_SUBJECTS && (subject ? !subjects[i].name || strcmp(subject, subjects[i].name) != 0 : i > 0)) i++;
   if (i == N_SUBJECTS) return refuse(subject, err);
@@ -135,6 +187,8 @@ gg_status gg_bench_run(gg_bench *b, const char *subject, const gg_bench_options 
     return gg_base_fail(err, GG_BAD_INPUT, "bench: --picture is for bench error, which has one");
   GG_TRY(take_seed(b, err));
   const gg_status status = subjects[i].run(b, err);
+  sign(b);
+  if (gg_base_memory_failures() != before) return b->measured = false, gg_base_out_of_memory(err);
   b->measured |= status == GG_OK;
   return status;
 }
@@ -148,17 +202,17 @@ void gg_bench_clear(gg_bench *b)
   *b = (gg_bench){0};
 }
 
-char *gg_bench_document(const gg_bench *b)
+char *gg_bench_record(const gg_bench *b)
 {
-  json_t *document = json_pack("{s:s}", "graingas", gg_version());
-  for (int i = 0; i < b->n_tables; i++) {
-    json_t *there = json_object_get(document, b->table[i]->key); /* tables of one key are one */
-    if (there)
-      json_array_extend(there, b->table[i]->rows);
-    else
-      json_object_set_new(document, b->table[i]->key, json_copy(b->table[i]->rows));
-  }
-  char *text = document ? gg_files_document_text(document) : NULL;
-  json_decref(document);
-  return text;
+  size_t k;
+  json_t *row;
+  char *record, *line;
+  FILE *out = gg_base_memory_stream_open(&record);
+  for (int i = 0; out && i < b->n_tables; i++) json_array_foreach(b->table[i]->rows, k, row)
+    {
+      line = gg_base_json_text(row, JSON_COMPACT | JSON_REAL_PRECISION(12));
+      if (line) fprintf(out, "%s\n", line);
+      free(line);
+    }
+  return gg_base_memory_stream_close(out, &record) ? record : NULL;
 }

@@ -6,11 +6,11 @@
 #include "base/checked_json.h"
 #include "common/scene.h"
 
-/* A table of text, and the same rows as JSON. Subjects fill it, the command prints it. */
+/* A table of text, and the same numbers as rows of the record. Subjects fill it, the command prints it. */
 enum { GG_BENCH_COLUMNS = 16, GG_BENCH_ROWS = 80, GG_BENCH_CELL = 64 };
 
 typedef struct gg_bench_table {
-  const char *key;           /* of the rows in the JSON document; a literal, as the caption is */
+  const char *key;           /* that names of rows in the record begin with; a literal, as the caption is */
   const char *caption;       /* above the table: what was measured, and how; NULL: nothing */
   char title[GG_BENCH_CELL]; /* over the caption; may be empty */
   int keep;                  /* columns that are repeated where the table is too wide */
@@ -33,6 +33,13 @@ typedef struct gg_bench_options {
   void (*tell)(void *context, const char *line); /* progress, a line in place of the last; NULL: not wanted */
 } gg_bench_options;
 
+/* What a row of the record is about. NaN is null there: not known. */
+typedef struct gg_bench_value {
+  const char *unit;              /* one that ends with "second" is a rate, else less is better */
+  double value, lowest, highest; /* median, least and largest of the repeats */
+  int repeats, threads;
+} gg_bench_value;
+
 enum { GG_BENCH_TABLES = 24 };
 typedef struct gg_bench {
   const gg_bench_options *options;
@@ -45,12 +52,17 @@ typedef struct gg_bench {
 /* Measure a subject: "md", "dsmc", "observables", "error"; NULL for the overview. Clear *bench whatever comes of it. */
 gg_status gg_bench_run(gg_bench *bench, const char *subject, const gg_bench_options *options, gg_error *err);
 void gg_bench_clear(gg_bench *bench);
-/* All rows as one JSON document; to be freed. NULL if out of memory. */
-char *gg_bench_document(const gg_bench *bench);
+/* The record: all rows as JSON, a line each; to be freed. NULL if out of memory. */
+char *gg_bench_record(const gg_bench *bench);
+
+/* Two files of such lines set against each other, as text, or as lines of JSON; to be freed, NULL if there is none.
+ * GG_FAILED, beside the text: rows are slower by more than `limit` per cent beyond their spread; negative: no limit. */
+gg_status gg_bench_compare(const char *before, const char *after, double limit, bool json, char **text, gg_error *err);
 
 /* For subjects. */
 typedef gg_status gg_bench_subject(gg_bench *bench, gg_error *err);
 gg_bench_subject gg_bench_overview, gg_bench_md, gg_bench_dsmc, gg_bench_observables, gg_bench_error;
+gg_status gg_bench_scenes(gg_bench *bench, gg_error *err); /* the second table of the overview */
 
 /* A new, empty table, owned by the bench; NULL with the message if out of memory. Strings must be literals. */
 gg_bench_table *gg_bench_table_new(gg_bench *bench, const char *key, const char *caption, int keep, gg_error *err);
@@ -58,8 +70,10 @@ gg_bench_table *gg_bench_table_new(gg_bench *bench, const char *key, const char 
 int gg_bench_table_column(gg_bench_table *table, bool right, const char *format, ...) GG_PRINTF(3, 4);
 int gg_bench_table_row(gg_bench_table *table, const char *format, ...) GG_PRINTF(2, 3);
 void gg_bench_table_put(gg_bench_table *table, int row, int column, const char *format, ...) GG_PRINTF(4, 5);
-/* A row of the JSON document; the format is json_pack's. */
-void gg_bench_table_add(gg_bench_table *table, const char *format, ...);
+/* A row of the record; the format, which is json_pack's, has what makes up its name. Returns the row for more members,
+ * the table's; NULL: out of memory. */
+json_t *gg_bench_table_add(gg_bench_table *table, gg_bench_value value, const char *format, ...);
+json_t *gg_bench_number(double x); /* null where it is not finite */
 void gg_bench_tell(const gg_bench *bench, const char *format, ...) GG_PRINTF(2, 3);
 /* The defaults with this bench's seed; and seconds of a stretch: less where the options say so. */
 gg_scene gg_bench_scene(const gg_bench *bench, gg_engine_kind engine, double phi, int64_t n);

@@ -8,7 +8,18 @@
 
 #define COUNT(list) ((int)(sizeof(list) / sizeof *(list)))
 
-enum { ROUGH = 1, FRICTIONAL = 2, MIXTURE = 4, SUMS = 8, SHEARED = 16, WALLS = 32, GRAVITY = 64, COUETTE = 128 };
+enum {
+  ROUGH = 1,
+  FRICTIONAL = 2,
+  MIXTURE = 4,
+  SUMS = 8,
+  SHEARED = 16,
+  WALLS = 32,
+  GRAVITY = 64,
+  COUETTE = 128,
+  NOISE = 256,
+  NEARLY = 512
+};
 
 /* A scene that has a feature, and the one that lacks it; the first is set against itself. */
 typedef struct feature {
@@ -28,6 +39,8 @@ static const feature md_features[] = {
     {"sheared frictional", "sheared rough", SHEARED | FRICTIONAL},
     {"sheared rough, stress measured", "sheared rough", SHEARED | ROUGH | SUMS},
     {"moving walls, rough", "sheared rough", SHEARED | ROUGH | COUETTE},
+    {"white noise, e = 0.99", "smooth", NOISE | NEARLY},
+    {"white noise, e = 0.9", "smooth", NOISE},
 };
 static const feature dsmc_features[] = {
     {"smooth", "smooth", 0},
@@ -115,9 +128,10 @@ static gg_timed_scene timed_scene(const gg_bench *b, const engine_bench *e, int 
   gg_timed_scene c = {.scene = gg_bench_scene(b, e->engine, phi, n), .sums = has & SUMS};
   gg_scene *s = &c.scene;
   c.against = find(e, e->features[kind].against);
-  s->flow = has & COUETTE ? GG_COUETTE : has & SHEARED ? GG_USF : GG_EQUILIBRIUM;
+  s->flow = has & COUETTE ? GG_COUETTE : has & SHEARED ? GG_USF : has & NOISE ? GG_HSS : GG_EQUILIBRIUM;
+  if (has & NOISE) s->thermostat = GG_WHITE_NOISE;
   for (int p = 0; p < GG_PAIRS; p++) {
-    s->collision.e[p] = has & SHEARED ? 0.9 : 1;
+    s->collision.e[p] = has & NEARLY ? 0.99 : has & (SHEARED | NOISE) ? 0.9 : 1;
     s->collision.beta[p] = has & FRICTIONAL ? 0.4 : !(has & ROUGH) ? -1 : has & SHEARED ? 0 : 1;
     s->collision.mu[p] = has & FRICTIONAL ? 0.123 : INFINITY;
   }
@@ -135,19 +149,22 @@ static double warmup_of(const engine_bench *e, int64_t n, bool quick)
   return e->engine == GG_MD && n >= 1000000 ? 5 : quick ? 10 : e->engine == GG_MD ? 30 : 20;
 }
 
+static const char *engine_name(const engine_bench *e)
+{
+  return gg_run_engine_ops_of(e->engine)->name;
+}
+
 static void put_rate(gg_bench_table *t, const engine_bench *e, int row, int column, double phi, int64_t n,
                      const gg_throughput *r)
 {
   const bool is_md = e->engine == GG_MD;
-  const double mean = is_md ? r->rate : 1e9 / r->rate, least = is_md ? r->slowest : 1e9 / r->fastest,
-               largest = is_md ? r->fastest : 1e9 / r->slowest;
+  const gg_bench_value v = gg_bench_throughput_value(r, !is_md, e->unit);
   if (is_md)
-    gg_bench_table_put(t, row, column, "%.3g (%.3g - %.3g) %.0f ns", mean * 1e-6, least * 1e-6, largest * 1e-6,
-                       1e9 / mean);
+    gg_bench_table_put(t, row, column, "%.3g (%.3g - %.3g) %.0f ns", v.value * 1e-6, v.lowest * 1e-6, v.highest * 1e-6,
+                       1e9 / v.value);
   else
-    gg_bench_table_put(t, row, column, "%.2f (%.2f - %.2f)", mean, least, largest);
-  gg_bench_table_add(t, "{s:f, s:I, s:f, s:f, s:f, s:s}", "phi", phi, "particles", (json_int_t)n, "mean", mean,
-                     is_md ? "slowest" : "least", least, is_md ? "fastest" : "largest", largest, "unit", e->unit);
+    gg_bench_table_put(t, row, column, "%.2f (%.2f - %.2f)", v.value, v.lowest, v.highest);
+  gg_bench_table_add(t, v, "{s:s, s:f, s:I}", "engine", engine_name(e), "phi", phi, "particles", (json_int_t)n);
 }
 
 /* The plain scene by size, a column a density. */
@@ -178,17 +195,19 @@ static void put_ratio(gg_bench_table *t, const engine_bench *e, int column, doub
 {
   const bool is_md = e->engine == GG_MD;
   const feature *f = &e->features[kind];
-  const double mean = is_md ? r->own.rate : 1e9 / r->own.rate, ratio = is_md ? r->ratio : 1 / r->ratio,
-               least = is_md ? r->lowest : 1 / r->highest, largest = is_md ? r->highest : 1 / r->lowest;
+  const gg_bench_value v = gg_bench_throughput_value(&r->own, !is_md, e->unit);
+  const double ratio = is_md ? r->ratio : 1 / r->ratio, least = is_md ? r->lowest : 1 / r->highest,
+               largest = is_md ? r->highest : 1 / r->lowest;
   if (strcmp(f->against, f->name) == 0)
-    gg_bench_table_put(t, kind, column, is_md ? "%.3g M/s" : "%.2f ns", is_md ? mean * 1e-6 : mean);
+    gg_bench_table_put(t, kind, column, is_md ? "%.3g M/s" : "%.2f ns", is_md ? v.value * 1e-6 : v.value);
   else if (is_md)
     gg_bench_table_put(t, kind, column, "%.2f (%.2f - %.2f)", ratio, least, largest);
   else
-    gg_bench_table_put(t, kind, column, "%.2f (%.2f - %.2f) %.1f ns", ratio, least, largest, mean);
-  gg_bench_table_add(t, "{s:f, s:I, s:s, s:s, s:f, s:f, s:f, s:f, s:s}", "phi", phi, "particles", (json_int_t)n,
-                     "scene", f->name, "against", f->against, "ratio", ratio, "least", least, "largest", largest,
-                     "mean", mean, "unit", e->unit);
+    gg_bench_table_put(t, kind, column, "%.2f (%.2f - %.2f) %.1f ns", ratio, least, largest, v.value);
+  json_t *row = gg_bench_table_add(t, v, "{s:s, s:s, s:f, s:I}", "engine", engine_name(e), "scene", f->name, "phi", phi,
+                                   "particles", (json_int_t)n);
+  json_object_update_new(row, json_pack("{s:s, s:f, s:f, s:f}", "against", f->against, "ratio", ratio, "ratio_lowest",
+                                        least, "ratio_highest", largest));
 }
 
 /* Scenes with a feature against those without, at one size; a row each. */
@@ -324,16 +343,13 @@ static const two_ways threads = {
 
 static void add_two(gg_bench_table *t, const two_ways *w, int k, int64_t n, const gg_timing r[2], int used)
 {
-  const double one = 1e9 / r[0].own.rate, two = 1e9 / r[1].own.rate;
-  if (w == &precision)
-    gg_bench_table_add(t, "{s:s, s:f, s:I, s:f, s:f, s:f, s:f, s:f, s:s}", "scene", w->kinds[k], "phi", dense,
-                       "particles", (json_int_t)n, "double", one, "single", two, "ratio", r[1].ratio, "least",
-                       r[1].lowest, "largest", r[1].highest, "unit", dsmc.unit);
-  else
-    gg_bench_table_add(t, "{s:s, s:f, s:I, s:i, s:f, s:f, s:f, s:f, s:f, s:f, s:s}", "scene", w->kinds[k], "phi", dense,
-                       "particles", (json_int_t)n, "threads", used, "ratio", r[1].ratio, "least", r[1].lowest,
-                       "largest", r[1].highest, "processors", r[1].own.processors, "mean_of_one", one, "mean", two,
-                       "unit", dsmc.unit);
+  gg_bench_value v = gg_bench_throughput_value(&r[1].own, true, w == &threads ? gg_bench_by_the_clock : dsmc.unit);
+  v.threads = used;
+  json_t *row = gg_bench_table_add(t, v, "{s:s, s:s, s:f, s:I}", "engine", engine_name(&dsmc), "scene", w->kinds[k],
+                                   "phi", dense, "particles", (json_int_t)n);
+  json_object_update_new(row, json_pack("{s:f, s:f, s:f, s:f, s:f}", "other", 1e9 / r[0].own.rate, "ratio", r[1].ratio,
+                                        "ratio_lowest", r[1].lowest, "ratio_highest", r[1].highest, "processors",
+                                        r[1].own.processors));
 }
 
 static gg_status measure_two(gg_bench *b, const two_ways *w, int used, gg_error *err)
@@ -389,9 +405,8 @@ static void put_overview(gg_bench_table *t, const char *engine, double phi, int6
   gg_bench_table_put(t, row, 2, "%lld", (long long)n);
   for (int k = 0; k < COUNT(kernels); k++) {
     gg_bench_table_put(t, row, 3 + k, "%.3g M/s (%.0f ns)", r[k].rate * 1e-6, 1e9 / r[k].rate);
-    gg_bench_table_add(t, "{s:s, s:f, s:I, s:s, s:f, s:f, s:f, s:s}", "engine", engine, "phi", phi, "particles",
-                       (json_int_t)n, "kernel", kernels[k].name, "mean", r[k].rate, "slowest", r[k].slowest, "fastest",
-                       r[k].fastest, "unit", md.unit);
+    gg_bench_table_add(t, gg_bench_throughput_value(&r[k], false, md.unit), "{s:s, s:s, s:f, s:I}", "engine", engine,
+                       "kernel", kernels[k].name, "phi", phi, "particles", (json_int_t)n);
   }
 }
 
@@ -427,5 +442,5 @@ gg_status gg_bench_overview(gg_bench *b, gg_error *err)
   for (int i = 0; i < 2 * 2 * n_sizes; i++)
     GG_TRY(measure_overview(b, t, (gg_engine_kind)(i / (2 * n_sizes)), md.densities[i / n_sizes % 2],
                             md.sizes[i % n_sizes], err));
-  return GG_OK;
+  return gg_bench_scenes(b, err);
 }

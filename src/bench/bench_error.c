@@ -200,42 +200,42 @@ static void put_seconds(gg_bench_table *table, int row, const gg_error_state *s,
   put_first(table, row, 1 + 2 * N_TARGETS, first);
 }
 
-static json_t *number(double x)
-{
-  return isfinite(x) ? json_real(x) : json_null();
-}
-
 static json_t *two(double x, double y)
 {
-  return json_pack("[o, o]", number(x), number(y));
+  return json_pack("[o, o]", gg_bench_number(x), gg_bench_number(y));
 }
 
-static json_t *state_json(const gg_error_state *s, int q)
+/* A row of the record, about a mean in a state, by a way of measuring it. */
+static json_t *add_row(gg_bench_table *table, const gg_error_state *s, int q, const char *by, const char *unit,
+                       double value, int seeds)
 {
-  return json_pack("{s:s, s:f, s:f, s:b, s:s}", "flow", gg_flow_of(s->flow)->word, "phi", s->phi, "e", s->e, "rough",
-                   s->rough, "quantity", name_of(s, q));
+  return gg_bench_table_add(table, (gg_bench_value){unit, value, NAN, NAN, seeds, 1}, "{s:s, s:f, s:f, s:b, s:s, s:s}",
+                            "flow", gg_flow_of(s->flow)->word, "phi", s->phi, "e", s->e, "rough", s->rough, "quantity",
+                            name_of(s, q), "way", by);
 }
 
-static void add_course(json_t *rows, const gg_error_state *s, int q, int i)
+static void add_course(gg_bench_table *table, const gg_error_state *s, int q, int i)
 {
   const gg_course *c = &s->course[i];
-  json_t *row = state_json(s, q), *t = json_array(), *error = json_array(), *uncertain = json_array();
+  json_t *t = json_array(), *error = json_array(), *uncertain = json_array();
   for (int k = 0; k < c->marks; k++) {
     double of_error, e = gg_bench_error_at(s, i, q, k, &of_error);
-    json_array_append_new(t, number(c->seconds[k]));
-    json_array_append_new(error, number(e));
-    json_array_append_new(uncertain, number(of_error));
+    json_array_append_new(t, gg_bench_number(c->seconds[k]));
+    json_array_append_new(error, gg_bench_number(e));
+    json_array_append_new(uncertain, gg_bench_number(of_error));
   }
   json_t *until = json_array();
-  for (int k = 0; k < N_TARGETS; k++) json_array_append_new(until, number(gg_bench_seconds_to(s, i, q, targets[k])));
+  for (int k = 0; k < N_TARGETS; k++)
+    json_array_append_new(until, gg_bench_number(gg_bench_seconds_to(s, i, q, targets[k])));
   const gg_way *way = &gg_bench_error_methods[i];
-  json_object_update_new(row, json_pack("{s:s, s:s, s:I, s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "way",
-                                        way->name, "engine", way->engine == GG_MD ? "md" : "dsmc", "particles",
-                                        (json_int_t)way->n, "seeds", c->seeds, "warmup_seconds", number(c->warmup),
-                                        "error_of_a_second", number(s->noise[i][q]), "floor", number(s->floor[i][q]),
-                                        "floor_stderr", number(s->shift_error[i][q]), "seconds", t, "relative_error",
-                                        error, "stderr", uncertain, "seconds_to_0.01_0.001_0.0001", until));
-  json_array_append_new(rows, row);
+  json_t *row = add_row(table, s, q, way->name, "CPU seconds to an error of 1 %",
+                        gg_bench_seconds_to(s, i, q, targets[0]), c->seeds);
+  json_object_update_new(
+      row, json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "engine",
+                     way->engine == GG_MD ? "md" : "dsmc", "particles", (json_int_t)way->n, "warmup_seconds",
+                     gg_bench_number(c->warmup), "error_of_a_second", gg_bench_number(s->noise[i][q]), "floor",
+                     gg_bench_number(s->floor[i][q]), "floor_stderr", gg_bench_number(s->shift_error[i][q]), "seconds",
+                     t, "relative_error", error, "stderr", uncertain, "seconds_to_0.01_0.001_0.0001", until));
 }
 
 static void put_floors(gg_bench_table *table, int row, const gg_error_state *s, int q)
@@ -252,15 +252,15 @@ static void put_floors(gg_bench_table *table, int row, const gg_error_state *s, 
   gg_bench_table_put(table, row, 7, "%+.4f +- %.4f", s->step_coefficient[q], s->step_coefficient_error[q]);
   if (isfinite(s->step_order[q])) gg_bench_table_put(table, row, 8, "%.1f", s->step_order[q]);
   gg_bench_table_put(table, row, 9, "%+.1e +- %.0e", single, e);
-  json_t *json = state_json(s, q);
   const double coefficient = s->step_coefficient[q], uncertain = s->step_coefficient_error[q];
+  json_t *json =
+      add_row(table, s, q, s->source[GG_DSMC][q], "relative error of the truth", s->truth_error[GG_DSMC][q] / unit, 1);
   json_object_update_new(
-      json, json_pack("{s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o}", "truth", number(s->truth[GG_DSMC][q]), "truth_error",
-                      number(s->truth_error[GG_DSMC][q]), "source", s->source[GG_DSMC][q], "dsmc_times_N",
-                      two(dsmc->per_grain / unit, dsmc->per_grain_error / unit), "md_times_N",
+      json, json_pack("{s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o}", "truth", gg_bench_number(s->truth[GG_DSMC][q]),
+                      "truth_error", gg_bench_number(s->truth_error[GG_DSMC][q]), "source", s->source[GG_DSMC][q],
+                      "dsmc_times_N", two(dsmc->per_grain / unit, dsmc->per_grain_error / unit), "md_times_N",
                       two(md->per_grain / unit, md->per_grain_error / unit), "step", two(coefficient, uncertain),
-                      "step_order", number(s->step_order[q]), "single", two(single, e)));
-  json_array_append_new(table->rows, json);
+                      "step_order", gg_bench_number(s->step_order[q]), "single", two(single, e)));
 }
 
 static gg_bench_table *new_seconds(gg_bench *b, const gg_error_state *s, bool first, gg_error *err)
@@ -294,7 +294,7 @@ static gg_status put_state(gg_bench *b, const gg_error_state *s, bool first, gg_
     if (!has(s, q)) continue;
     put_seconds(seconds, gg_bench_table_row(seconds, "%s", name_of(s, q)), s, q);
     for (int i = 0; i < GG_WAYS; i++)
-      if (s->done[i]) add_course(seconds->rows, s, q, i);
+      if (s->done[i]) add_course(seconds, s, q, i);
   }
   return GG_OK;
 }

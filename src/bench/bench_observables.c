@@ -13,8 +13,7 @@ enum { MOST_REPEATS = 32, LEAST_CYCLE = 32 };
 
 typedef struct cost_of_observable {
   double overhead, lowest, highest; /* over the time of the run without it: median, least and largest of the repeats */
-  double ns;                        /* that a collision takes in the run with it; median */
-  int repeats;
+  gg_bench_value ns;                /* that a collision takes in the run with it */
 } cost_of_observable;
 
 typedef struct timed_run {
@@ -93,8 +92,8 @@ static gg_status compare(timed_run c[2], int repeats, double seconds, cost_of_ob
   *cost = (cost_of_observable){.overhead = gsl_stats_median_from_sorted_data(over, 1, (size_t)repeats),
                                .lowest = over[0],
                                .highest = over[repeats - 1],
-                               .ns = gsl_stats_median_from_sorted_data(ns[1], 1, (size_t)repeats),
-                               .repeats = repeats};
+                               .ns = {"ns per collision", gsl_stats_median_from_sorted_data(ns[1], 1, (size_t)repeats),
+                                      ns[1][0], ns[1][repeats - 1], repeats, 1}};
   return GG_OK;
 }
 
@@ -178,10 +177,10 @@ static gg_status measure(gg_bench *b, gg_bench_table *table, int row, int i, con
                       gg_bench_seconds(b, b->options->quick ? 0.01 : 0.15), &cost, err));
   gg_bench_table_put(table, row, 1 + i, "%.0f %% (%.0f - %.0f)", 100 * cost.overhead, 100 * cost.lowest,
                      100 * cost.highest);
-  gg_bench_table_add(table, "{s:s, s:s, s:f, s:I, s:f, s:f, s:f, s:f, s:s}", "observable", o->name, "engine",
-                     gg_run_engine_ops_of(c.engine)->name, "phi", c.phi, "particles", (json_int_t)c.n, "overhead",
-                     cost.overhead, "least", cost.lowest, "largest", cost.highest, "ns", cost.ns, "unit",
-                     "over the CPU time of the run without it; ns a collision with it");
+  json_t *added = gg_bench_table_add(table, cost.ns, "{s:s, s:s, s:f, s:I}", "observable", o->name, "engine",
+                                     gg_run_engine_ops_of(c.engine)->name, "phi", c.phi, "particles", (json_int_t)c.n);
+  json_object_update_new(added, json_pack("{s:f, s:f, s:f}", "overhead", cost.overhead, "overhead_lowest", cost.lowest,
+                                          "overhead_highest", cost.highest));
   return GG_OK;
 }
 

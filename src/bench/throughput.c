@@ -10,6 +10,8 @@
 
 enum { MOST_REPEATS = 32 };
 
+const char gg_bench_by_the_clock[] = "ns per collision, by the clock";
+
 /* A scene being timed. */
 typedef struct timed {
   gg_engine *engine;
@@ -165,4 +167,10 @@ gg_status gg_bench_throughput_measure(const gg_scene *scene, bool sums, double w
   GG_TRY(gg_bench_throughput_compare(&only, 1, warmup, repeats, seconds, &result, err));
   *out = result.own;
   return GG_OK;
+}
+
+gg_bench_value gg_bench_throughput_value(const gg_throughput *r, bool time, const char *unit)
+{
+  if (time) return (gg_bench_value){unit, 1e9 / r->rate, 1e9 / r->fastest, 1e9 / r->slowest, r->repeats, 1};
+  return (gg_bench_value){unit, r->rate, r->slowest, r->fastest, r->repeats, 1};
 }

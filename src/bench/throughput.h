@@ -2,6 +2,7 @@
 #ifndef GG_THROUGHPUT_H
 #define GG_THROUGHPUT_H
 
+#include "bench/bench.h"
 #include "common/engine.h"
 
 typedef struct gg_throughput {
@@ -16,6 +17,10 @@ typedef struct gg_throughput {
  * stretches of at least `seconds` CPU each. */
 gg_status gg_bench_throughput_measure(const gg_scene *scene, bool sums, double warmup, int repeats, double seconds,
                                       gg_throughput *out, gg_error *err);
+
+extern const char gg_bench_by_the_clock[]; /* unit of what threads are timed in */
+/* As a row has it: the rate, or nanoseconds a collision. */
+gg_bench_value gg_bench_throughput_value(const gg_throughput *measured, bool time, const char *unit);
 
 /* Several scenes side by side. A repeat times a stretch of each in turn, so that what else the machine does meets all
  * alike: the ratios within a repeat mean more than the rates. */

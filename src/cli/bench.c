@@ -30,18 +30,18 @@ static int print_table(const gg_bench_table *s)
   return GG_OK;
 }
 
-static int print_document(const gg_bench *b)
+static int print_record(const gg_bench *b)
 {
-  char *text = gg_bench_document(b);
+  char *text = gg_bench_record(b);
   if (!text) return gg_cli_fail(GG_FAILED, "out of memory");
-  puts(text);
+  fputs(text, stdout);
   free(text);
   return GG_OK;
 }
 
 static int print(const gg_bench *b, bool json)
 {
-  int code = json ? print_document(b) : GG_OK;
+  int code = json ? print_record(b) : GG_OK;
   for (int i = 0; i < b->n_tables && !json && code == GG_OK; i++) {
     if (i) putchar('\n');
     code = print_table(b->table[i]);
@@ -49,25 +49,47 @@ static int print(const gg_bench *b, bool json)
   return code;
 }
 
+static int compare(const gg_options *o)
+{
+  char *text;
+  gg_error err;
+  if (!o->more[1]) return gg_cli_fail(GG_BAD_INPUT, "bench compare needs two files: A.json B.json");
+  const gg_status status = gg_bench_compare(o->more[0], o->more[1], o->limit, o->json, &text, &err);
+  if (text) fputs(text, stdout);
+  free(text);
+  return status == GG_OK ? GG_OK : gg_cli_report(&err);
+}
+
+static int measure(const gg_options *o)
+{
+  const char *picture = o->picture && strcmp(o->picture, "none") != 0 ? o->picture : NULL;
+  gg_cli_line line;
+  gg_bench_options asked = {.quick = o->quick,
+                            .picture = picture,
+                            .width = o->width,
+                            .threads = o->threads,
+                            .n_overrides = o->n_overrides,
+                            .override = o->override,
+                            .context = &line,
+                            .tell = tell};
+  gg_bench b;
+  gg_error err;
+  if (o->more[0])
+    return gg_cli_fail(GG_BAD_INPUT, "bench %s takes no file; '%s' is one too many", o->input, o->more[0]);
+  gg_cli_line_start(&line, o->quiet);
+  const gg_status status = gg_bench_run(&b, o->input, &asked, &err);
+  gg_cli_line_clear(&line);
+  int code = b.measured ? print(&b, o->json) : GG_OK;
+  if (status != GG_OK) code = gg_cli_report(&err);
+  gg_bench_clear(&b);
+  return code;
+}
+
 int gg_cli_bench_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
   int code = gg_cli_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON) {
-    const char *picture = o.picture && strcmp(o.picture, "none") != 0 ? o.picture : NULL;
-    gg_cli_line line;
-    gg_bench_options asked = {
-        .quick = o.quick, .picture = picture, .width = o.width, .threads = o.threads, .context = &line, .tell = tell};
-    gg_cli_line_start(&line, o.quiet);
-    asked.n_overrides = o.n_overrides, asked.override = o.override;
-    gg_bench b;
-    gg_error err;
-    const gg_status status = gg_bench_run(&b, o.input, &asked, &err);
-    gg_cli_line_clear(&line);
-    code = b.measured ? print(&b, o.json) : GG_OK;
-    if (status != GG_OK) code = gg_cli_report(&err);
-    gg_bench_clear(&b);
-  }
+  if (code == GG_CLI_GO_ON) code = o.input && strcmp(o.input, "compare") == 0 ? compare(&o) : measure(&o);
   gg_cli_options_clear(&o);
   return code;
 }

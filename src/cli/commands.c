@@ -72,17 +72,24 @@ const gg_command gg_cli_commands[] = {
      "as WebAssembly, the box in three dimensions beside live curves, and six lessons. The page starts with the scene. "
      "It has to be built once from the sources of graingas: ./check-page does so.",
      GG_OPT_SET | GG_OPT_OUTPUT | GG_OPT_SEED | GG_OPT_QUIET, gg_cli_page_main},
-    {"bench", "[md|dsmc|observables|error]",
+    {"bench", "[md|dsmc|observables|error|compare A B]",
      "Speed of the engines: collisions per second by kernel, density and size; run time against error",
      "Without an argument: both engines in uniform shear at e = 0.9 with the stress measured, one core, median of "
-     "repeats.\nmd: elastic smooth spheres by size and density; cost of roughness, shear, walls, gravity, a second "
+     "repeats; then single scenes: white noise, walls, placing grains, two threads.\nmd: elastic smooth spheres by "
+     "size and density; cost of roughness, shear, walls, gravity, white noise, a second "
      "species and stress measurement.\ndsmc: nanoseconds per accepted collision; gain of the block kernels over the "
      "plain loop and of threads within one ensemble.\nobservables: run time that each observable adds, for both "
      "engines and three sizes.\nerror: processor time until means have an error of 1, 0.1 and 0.01 %, a table a state "
      "of uniform shear and free cooling, over engines, numbers of grains, time steps, precision and replicas. "
      "--picture "
      "e.svg draws e_<state>.svg: error against time of the best of each engine, theories as bars. --quick takes two or "
-     "three minutes, the full run most of an hour. Use an idle machine.",
-     GG_OPT_PICTURE | GG_OPT_JSON | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_QUICK | GG_OPT_QUIET, gg_cli_bench_main},
+     "three minutes, the full run most of an hour. Use an idle machine.\n--json prints a line of JSON for each row: "
+     "name, unit, value (the median), lowest and highest of the repeats, threads, machine, version with commit, "
+     "instructions and time.\ncompare A B: for each row of two such files the time in B over that in A with its "
+     "spread, and which are slower or faster beyond it. With --limit 10 the exit code is 1 if a row is slower by more "
+     "than 10 % beyond its spread. The last row of a name counts.",
+     GG_OPT_MORE | GG_OPT_LIMIT | GG_OPT_PICTURE | GG_OPT_JSON | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_QUICK |
+         GG_OPT_QUIET,
+     gg_cli_bench_main},
     {0},
 };

@@ -58,7 +58,10 @@ const gg_option gg_cli_options_table[] = {
     {GG_OPT_ACCEPT, "accept-version", NULL,
      "use checkpoints and points of sweeps of another build, whose numbers may differ"},
     {GG_OPT_ALL, "all", NULL, "show everything: every quantity, not only the main ones; whole definitions"},
-    {GG_OPT_JSON, "json", NULL, "results as one JSON document on standard output, and nothing else there"},
+    {GG_OPT_JSON, "json", NULL,
+     "results as one JSON document on standard output, and nothing else there; bench: a line for each row"},
+    {GG_OPT_LIMIT, "limit", "PERCENT",
+     "bench compare: exit code 1 if a row is slower by more than this beyond its spread (default: no limit)"},
     {GG_OPT_QUICK, "quick", NULL, "fewer sizes and fewer repeats"},
     {GG_OPT_QUIET, "quiet", NULL, "no progress"},
     {0},
@@ -155,6 +158,15 @@ static int take_collisions(gg_options *o, const char *value)
   return GG_CLI_GO_ON;
 }
 
+static int take_limit(gg_options *o, const char *value)
+{
+  char *end;
+  o->limit = strtod(value, &end);
+  if (end != value && !*end && o->limit >= 0 && o->limit <= 1e6) return GG_CLI_GO_ON;
+  return gg_cli_fail(GG_BAD_INPUT, "option '--limit': value '%s' is not allowed; allowed: a number from 0 to 1000000",
+                     value);
+}
+
 static int take_vary(gg_options *o, const char *value)
 {
   if (o->n_vary == GG_MAX_OVERRIDES) return gg_cli_fail(GG_BAD_INPUT, "more than %d keys to vary", GG_MAX_OVERRIDES);
@@ -202,6 +214,7 @@ static int take(gg_options *o, unsigned flag, const char *name, const char *valu
   case GG_OPT_THEORY: return take_theory(o, value);
   case GG_OPT_OUTPUT:
   case GG_OPT_PREFIX: o->output = value; break;
+  case GG_OPT_LIMIT: return take_limit(o, value);
   case GG_OPT_ONLY: o->only = value; break;
   case GG_OPT_PICTURE | GG_OPT_FORMAT: o->width = value; break;
   case GG_OPT_PICTURE: o->picture = value; break;
@@ -230,13 +243,13 @@ static void list_known(const gg_command *c, struct option *known)
   known[n] = (struct option){"help", no_argument, NULL, 'h'};
 }
 
-/* The one argument, and the first of those that are too many. */
-static void take_input(gg_options *o, const char *word)
+/* The first argument, those that may follow it, and the first of those that are too many. */
+static void take_input(const gg_command *c, gg_options *o, const char *word)
 {
-  if (!o->input)
-    o->input = word;
-  else if (!o->surplus)
-    o->surplus = word;
+  int k = c->options & GG_OPT_MORE ? 0 : GG_MORE_INPUTS;
+  while (k < GG_MORE_INPUTS && o->more[k]) k++;
+  const char **free_place = !o->input ? &o->input : k < GG_MORE_INPUTS ? &o->more[k] : &o->surplus;
+  if (!*free_place) *free_place = word;
 }
 
 /* Words in the order in which they were typed, also where POSIXLY_CORRECT would have options first: "-". The tasks of
@@ -252,7 +265,7 @@ static int take_words(const gg_command *c, const struct option *known, gg_option
     if (got != 1 && got < 256) return refuse_option(c, argv[at]);
     value = optarg;
     if (got == 1) {
-      take_input(o, optarg);
+      take_input(c, o, optarg);
     } else {
       const gg_option *t = &gg_cli_options_table[got - 256];
       code = take(o, t->flag, t->name, optarg);
@@ -261,7 +274,7 @@ static int take_words(const gg_command *c, const struct option *known, gg_option
   }
   last = argv[optind - 1];
   if (last && last != value && strcmp(last, "--") == 0) o->words.options_end = optind - 1;
-  for (; optind < argc; optind++) take_input(o, argv[optind]);
+  for (; optind < argc; optind++) take_input(c, o, argv[optind]);
   return code;
 }
 
@@ -283,7 +296,7 @@ static int check_words(const gg_command *c, const gg_options *o)
 int gg_cli_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
 {
   struct option known[sizeof gg_cli_options_table / sizeof *gg_cli_options_table + 1] = {{0}};
-  *o = (gg_options){.threads = gg_cli_default_threads(), .words = {argc, argv, argc}};
+  *o = (gg_options){.threads = gg_cli_default_threads(), .limit = -1, .words = {argc, argv, argc}};
   o->command_line = gg_cli_command_line_quote("graingas", &o->words, "");
   list_known(c, known);
   int code = take_words(c, known, o);

@@ -24,6 +24,8 @@ enum {
   GG_OPT_ACCEPT = 1u << 17,
   GG_OPT_THEORY = 1u << 18,
   GG_OPT_VALIDATE = 1u << 19, /* all that only validate has */
+  GG_OPT_LIMIT = 1u << 20,
+  GG_OPT_MORE = 1u << 21, /* no option: GG_MORE_INPUTS arguments may follow the first */
 };
 
 typedef struct gg_option {
@@ -39,11 +41,12 @@ typedef struct gg_command_line {
   int options_end; /* the word "--"; n where there is none */
 } gg_command_line;
 
-enum { GG_MAX_OVERRIDES = 64 };
+enum { GG_MAX_OVERRIDES = 64, GG_MORE_INPUTS = 2 };
 
 typedef struct gg_options {
-  const char *input;   /* the one argument: a scene or a result; NULL where it may be left out ([...]) and was */
-  const char *surplus; /* a second one */
+  const char *input; /* the one argument: a scene or a result; NULL where it may be left out ([...]) and was */
+  const char *more[GG_MORE_INPUTS]; /* those that follow, of commands that have them */
+  const char *surplus;              /* one too many */
   const char *output, *resume, *format, *picture, *width, *only;
   const char *does;              /* what a sweep does at its points; NULL: what its file says */
   const char *over, *show;       /* of the picture of a sweep: key along x, quantities; NULL: chosen */
@@ -56,6 +59,7 @@ typedef struct gg_options {
   bool list, collect, slurm; /* what else to do with a sweep */
   uint64_t collisions;       /* 0: not said */
   int threads;
+  double limit; /* in per cent; negative: none */
   int n_overrides;
   const char *override[GG_MAX_OVERRIDES]; /* "key=value" */
   char *owned[GG_MAX_OVERRIDES];          /* those that options stand for; else NULL */

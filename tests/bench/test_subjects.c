@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "bench/bench.h"
+#include "graingas.h"
 
 static int told;
 
@@ -29,8 +30,16 @@ static double of(const json_t *row, const char *key)
   return json_number_value(value);
 }
 
-/* Each cell of the table is filled, and each row of the document has what was measured between its bounds. */
-static void assert_whole(const gg_bench_table *s, const char *middle, const char *least, const char *largest)
+static double of_two(const json_t *row, const char *key, const char *end)
+{
+  char name[64];
+  snprintf(name, sizeof name, "%s_%s", key, end);
+  return of(row, name);
+}
+
+/* Each cell of the table is filled, and each row of the record has what was measured between its bounds, and so has
+ * what else it has (NULL: nothing): a ratio, an overhead. */
+static void assert_whole(const gg_bench_table *s, const char *also)
 {
   size_t i;
   json_t *row;
@@ -43,9 +52,11 @@ static void assert_whole(const gg_bench_table *s, const char *middle, const char
   }
   json_array_foreach(s->rows, i, row)
   {
-    const double m = of(row, middle), low = of(row, least), high = of(row, largest);
-    if (!(low <= m && m <= high)) fail_msg("%s: %g is not from %g to %g", s->key, m, low, high);
-    assert_non_null(json_object_get(row, "unit"));
+    const double m = of(row, "value"), low = of(row, "lowest"), high = of(row, "highest");
+    if (!(0 < low && low <= m && m <= high)) fail_msg("%s: %g is not from %g to %g", s->key, m, low, high);
+    assert_true(of(row, "repeats") >= 3 && of(row, "threads") >= 1 && json_object_get(row, "unit"));
+    if (also)
+      assert_true(of_two(row, also, "lowest") <= of(row, also) && of(row, also) <= of_two(row, also, "highest"));
   }
 }
 
@@ -59,7 +70,7 @@ static void assert_beside(const gg_bench_table *s, const char *unit)
 {
   size_t i, k;
   json_t *row, *other;
-  assert_whole(s, "ratio", "least", "largest");
+  assert_whole(s, "ratio");
   assert_int_equal(json_array_size(s->rows), s->n_rows * (s->n_columns - 2));
   json_array_foreach(s->rows, i, row)
   {
@@ -72,7 +83,7 @@ static void assert_beside(const gg_bench_table *s, const char *unit)
       beside += is_word(other, "scene", against);
     }
     if (itself != 1 || beside != 1) fail_msg("%s: row %zu: %d, %d of '%s'", s->key, i, itself, beside, against);
-    assert_true(is_word(row, "unit", unit) && of(row, "least") > 0 && of(row, "mean") > 0);
+    assert_true(is_word(row, "unit", unit) && of(row, "ratio_lowest") > 0);
     assert_true(!is_word(row, "scene", against) || of(row, "ratio") == 1);
   }
 }
@@ -92,29 +103,50 @@ static void begin(gg_bench *b, gg_bench_options *o, const char *subject)
   if (gg_bench_run(b, subject, o, &err) != GG_OK) fail_msg("%s", err.message);
 }
 
-/* Are these among the rows of a table of JSON, one after another? */
-static bool holds(const json_t *all, const json_t *rows)
-{
-  for (size_t at = 0; at + json_array_size(rows) <= json_array_size(all); at++) {
-    size_t i = 0;
-    while (i < json_array_size(rows) && json_equal(json_array_get(all, at + i), json_array_get(rows, i))) i++;
-    if (i == json_array_size(rows)) return true;
-  }
-  return false;
-}
-
-/* As JSON it has the same tables under the same names; those of one name are one. */
+/* The record has every row in a line, with a name of its own, where and when it was measured and by which build. */
 static void end(gg_bench *b)
 {
-  char *text = gg_bench_document(b);
-  json_t *document = json_loads(text, 0, NULL);
-  assert_non_null(json_object_get(document, "graingas"));
-  for (int i = 0; i < b->n_tables; i++)
-    assert_true(holds(json_object_get(document, b->table[i]->key), b->table[i]->rows));
-  json_decref(document);
+  char *text = gg_bench_record(b), *rest = text, *line;
+  json_t *names = json_object();
+  size_t rows = 0;
+  for (int i = 0; i < b->n_tables; i++) rows += json_array_size(b->table[i]->rows);
+  while ((line = strtok_r(rest, "\n", &rest))) {
+    json_t *row = json_loads(line, 0, NULL);
+    const json_t *machine = json_object_get(row, "machine");
+    assert_true(json_is_string(json_object_get(machine, "cpu")) && of(machine, "cores") >= 1);
+    assert_true(is_word(row, "version", gg_version()));
+    assert_true(json_is_string(json_object_get(row, "instructions")));
+    assert_int_equal(strlen(json_string_value(json_object_get(row, "time"))), strlen("2024-05-31T12:00:00Z"));
+    json_object_set(names, json_string_value(json_object_get(row, "name")), json_true());
+    json_decref(row);
+  }
+  if (json_object_size(names) != rows) fail_msg("%zu names of %zu rows", json_object_size(names), rows);
+  json_decref(names);
   free(text);
   gg_bench_clear(b);
   assert_int_equal(b->n_tables, 0);
+}
+
+/* Scenes of the overview: one of each kind that a nightly run is to watch. */
+static void check_scenes(const gg_bench_table *s)
+{
+  static const char *const names[] = {"white noise, e = 0.99", "white noise, e = 0.9", "walls (couette), e = 0.9",
+                                      "start, per grain", "two threads"};
+  size_t i;
+  json_t *row;
+  assert_whole(s, NULL);
+  assert_int_equal(json_array_size(s->rows), s->n_rows);
+  for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+    int found = 0;
+    json_array_foreach(s->rows, i, row) found += is_word(row, "scene", names[k]);
+    if (!found) fail_msg("there is no scene '%s'", names[k]);
+  }
+  json_array_foreach(s->rows, i, row)
+  {
+    const bool two = is_word(row, "scene", "two threads"), start = is_word(row, "scene", "start, per grain");
+    assert_int_equal(of(row, "threads"), two ? 2 : 1);
+    assert_true(start == is_word(row, "unit", "ns per grain"));
+  }
 }
 
 static void overview(void **state)
@@ -125,10 +157,11 @@ static void overview(void **state)
     gg_bench_options o = {.quick = quick, .smaller = 200, .tell = tell};
     begin(&b, &o, NULL);
     const gg_bench_table *s = table_of(&b, "throughput");
-    assert_whole(s, "mean", "slowest", "fastest");
+    assert_whole(s, NULL);
     assert_int_equal(s->n_rows, 2 * 2 * (quick ? 2 : 3)); /* engines, densities, sizes */
-    assert_int_equal(told, s->n_rows);
+    assert_int_equal(told, s->n_rows + table_of(&b, "scenes")->n_rows);
     assert_int_equal(json_array_size(s->rows), 3 * s->n_rows);
+    check_scenes(table_of(&b, "scenes"));
     end(&b);
   }
 }
@@ -140,7 +173,7 @@ static void md(void **state)
   for (int quick = 0; quick < 2; quick++) {
     gg_bench_options o = {.quick = quick, .smaller = 1000};
     begin(&b, &o, "md");
-    assert_whole(table_of(&b, "collisions"), "mean", "slowest", "fastest");
+    assert_whole(table_of(&b, "collisions"), NULL);
     assert_int_equal(table_of(&b, "collisions")->n_rows, quick ? 2 : 4);
     assert_beside(table_of(&b, "ratios"), "collisions per CPU-second");
     end(&b);
@@ -155,12 +188,12 @@ static void dsmc(void **state)
     for (int threads = 1; threads <= (quick ? 2 : 1); threads++) {
       gg_bench_options o = {.quick = quick, .smaller = 1000, .threads = threads, .tell = tell};
       begin(&b, &o, "dsmc");
-      assert_whole(table_of(&b, "times"), "mean", "least", "largest");
+      assert_whole(table_of(&b, "times"), NULL);
       assert_beside(table_of(&b, "ratios"), "ns per collision");
-      assert_whole(table_of(&b, "precision"), "ratio", "least", "largest");
-      assert_whole(table_of(&b, "paths"), "ratio", "least", "largest");
+      assert_whole(table_of(&b, "precision"), "ratio");
+      assert_whole(table_of(&b, "paths"), "ratio");
       assert_int_equal(b.n_tables, threads > 1 ? 5 : 4);
-      if (threads > 1) assert_whole(table_of(&b, "threads"), "ratio", "least", "largest");
+      if (threads > 1) assert_whole(table_of(&b, "threads"), "ratio");
       end(&b);
     }
 }
@@ -176,7 +209,7 @@ static void observables(void **state)
   gg_bench_options o = {.quick = true, .smaller = 20, .tell = tell};
   begin(&b, &o, "observables");
   const gg_bench_table *s = table_of(&b, "observables");
-  assert_whole(s, "overhead", "least", "largest");
+  assert_whole(s, "overhead");
   assert_int_equal(told, s->n_rows);
   assert_int_equal(s->n_columns, 1 + 2 * 2 * 3); /* engines, densities, sizes */
   size_t next = 0;
@@ -189,7 +222,7 @@ static void observables(void **state)
       if (!there) continue;
       const json_t *row = json_array_get(s->rows, next++);
       assert_true(is_word(row, "observable", s->cell[r][0]) && is_word(row, "engine", dsmc ? "dsmc" : "md"));
-      assert_true(of(row, "ns") > 0 && of(row, "particles") > 0);
+      assert_true(is_word(row, "unit", "ns per collision") && of(row, "particles") > 0);
     }
   }
   assert_int_equal(next, json_array_size(s->rows));
@@ -252,11 +285,10 @@ static void error(void **state)
     assert_true(is_null_or_number(row, "truth") && is_null_or_number(row, "step_order"));
     assert_true(strlen(json_string_value(json_object_get(row, "source"))) > 0);
   }
-  char *text = gg_bench_document(&b);
-  json_t *document = json_loads(text, 0, NULL);
-  assert_int_equal(json_array_size(json_object_get(document, "seconds")), 19 * 12); /* of all states */
-  json_decref(document);
-  free(text);
+  size_t seconds = 0;
+  for (int k = 0; k < b.n_tables; k++)
+    if (strcmp(b.table[k]->key, "seconds") == 0) seconds += json_array_size(b.table[k]->rows);
+  assert_int_equal(seconds, 19 * 12); /* of all states */
   for (int t = 0; picture && t < 4; t++) assert_int_equal(remove(pictures[t]), 0);
   end(&b);
 }
@@ -275,7 +307,8 @@ static void refused(void **state)
 {
   (void)state;
   static const char *const bad[] = {"run.seed=-1"};
-  refuse("rubbish", (gg_bench_options){0}, "'rubbish' is not known; allowed: md, dsmc, observables, error");
+  refuse("rubbish", (gg_bench_options){0},
+         "'rubbish' is not known; allowed: md, dsmc, observables, error, compare, or nothing");
   refuse("md", (gg_bench_options){.picture = "x.svg"}, "--picture is for bench error");
   refuse(NULL, (gg_bench_options){.picture = "x.svg"}, "--picture is for bench error");
   refuse("error", (gg_bench_options){.picture = "x.gif", .smaller = 100}, "x.gif");
