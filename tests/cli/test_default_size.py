@@ -4,11 +4,9 @@ import csv
 import glob
 import json
 import os
-import shutil
-import subprocess
 import sys
 
-from tap import GRAINGAS, check, main, run
+from tap import check, main, run
 
 SCENE = "flow: hcs\nphi: 0.2\ncollision: {e: 0.85}\nrun: {warmup: 20, collisions: 60}\n"
 NONE_FITS = SCENE.replace("0.2", "0.3").replace("0.85", "0.8")
@@ -75,16 +73,6 @@ def test_points_of_a_sweep():
         about = json.loads(run("info", path, "--json").out)
         found[about["scene"]["collision"]["e"]] = about["particles"]
     check(found == {0.85: N, 0.95: 1000}, found)
-
-
-def test_ranks():
-    if not shutil.which("mpirun"):
-        return
-    one = result("run")
-    env = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    two = subprocess.run(["mpirun", "--oversubscribe", "-n", "2", GRAINGAS, "run", "scene.yaml", "--json", "--quiet", "--output",
-                          "two.h5"], capture_output=True, text=True, env=env, timeout=100)
-    check(two.returncode == 0 and json.loads(two.stdout)["results"] == one["results"], two.stderr)
 
 
 if __name__ == "__main__":

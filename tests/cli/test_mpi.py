@@ -104,6 +104,14 @@ def test_same_bits():
     check(numbers(both.out) == numbers(shared.stdout), shared.stderr)
 
 
+def test_the_default_number_of_grains():
+    """Rank 0 chooses it, and all have the same."""
+    scene = "flow: hcs\nphi: 0.2\ncollision: {e: 0.85}\nrun: {warmup: 20, collisions: 60, replicas: 2}\n"
+    one = run("run", "scene.yaml", "--json", "--quiet", scene=scene)
+    two = several(2, "run", "scene.yaml", "--json", "--quiet", "--output", "two.h5")
+    check(json.loads(one.out)["particles"] < 1000 and numbers(one.out) == numbers(two.stdout), two.stderr)
+
+
 def test_one_voice():
     write_scene()
     done = several(3, "run", "nothing.yaml")
