@@ -1467,7 +1467,7 @@ typedef struct gg_collecting {
   const char *picture; /* instead of PREFIX.svg; "none": no picture */
   const char *over;    /* key along x; NULL: of those with numbers the one with the most values */
   const char *show;    /* quantities, with commas, a panel each; NULL: the main ones */
-  /* Called with the reason if there is no picture and none of these three requested one; NULL: that is an error. */
+  /* Called with the reason if there is no picture and none of the options about it is set; NULL: that is an error. */
   void (*warn)(void *context, const char *message);
   const char *width;       /* of the picture, as for gg_plot; NULL: free */
   const char *log;         /* logarithmic axes: "x", "y", "xy" or "none"; NULL: y where its values span decades */
@@ -1505,7 +1505,7 @@ typedef struct gg_validating {
   const char *page;     /* Markdown with maps, counts and tables; NULL: no page */
   void (*warn)(void *context,
                const char *message); /* of maps that cannot be drawn, and of other builds; NULL: nobody */
-  int json; /* not 0: the verdict is one JSON document, for programs */
+  int json;                          /* not 0: the verdict is one JSON document, for programs */
 } gg_validating;
 
 /**
@@ -1516,7 +1516,8 @@ typedef struct gg_validating {
  * @param options NULL: default options
  * @param written called with each file name; may be NULL
  * @param context passed to the callbacks
- * @param verdict receives counts and tables as Markdown or JSON, to be freed with free(); also with GG_FAILED, else NULL
+ * @param verdict receives counts and tables as Markdown or JSON, to be freed with free(); also with GG_FAILED, else
+ * NULL
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED where dsmc and the noise-free solution disagree beyond chance (one grid in 1000 without any
  * fault does), or no point is finished; GG_BAD_INPUT if the sweep does not compare

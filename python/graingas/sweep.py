@@ -30,7 +30,7 @@ class Point:
 
     values   its varied keys
     name     of its file, a hash
-    state    "missing", "done", or "short": done, but short of what was asked
+    state    "missing", "done", "short": done, but ended before its stopping criteria; "other build" or "damaged": runs again
     file     its result file; None while it is missing
     seconds  of processor time that it is expected to take
     """

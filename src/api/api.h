@@ -5,6 +5,7 @@
 
 #include <jansson.h>
 
+#include "base/cancellation.h"
 #include "base/error.h"
 #include "common/scene.h"
 #include "measure/curve.h"

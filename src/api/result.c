@@ -232,8 +232,7 @@ gg_status gg_result_to_bytes(const gg_result *result, void **bytes, size_t *size
 {
   GG_NEED(result, bytes, size);
   gg_result_file file;
-  gg_files_result_file_open_in_memory(&file,
-                                      result->origin.command ? result->origin.command : "gg_result_to_bytes");
+  gg_files_result_file_open_in_memory(&file, result->origin.command ? result->origin.command : "gg_result_to_bytes");
   GG_TRY(gg_files_result_file_finish_run(&file, result, err));
   *bytes = file.bytes, *size = file.size;
   return GG_OK;
@@ -287,6 +286,7 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
   if (status == GG_OK && drawn) drawn(context, picture);
   if (status == GG_OK) status = gg_plot_pages_draw(&stored, &paper, picture, drawn, context, err);
   gg_files_stored_result_clear(&stored);
+  status = gg_base_callback_settle(status, err);
   return gg_base_memory_check(before, status, err); /* a picture that lacks its title */
 }
 
@@ -311,5 +311,5 @@ gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
   gg_status status = gg_files_export_result(&stored, result_file, prefix, parts, written, progress, context, err);
   gg_files_stored_result_clear(&stored);
-  return status;
+  return gg_base_callback_settle(status, err);
 }

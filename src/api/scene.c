@@ -183,7 +183,7 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   gg_cost_estimate cost = gg_run_cost_estimate(&finished, &model, kind);
   gg_run_cost_report(&cost, finished.run.replicas, line, context);
   gg_common_extension_release(held);
-  return GG_OK;
+  return gg_base_callback_settle(GG_OK, err);
 }
 
 gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)(void *context, const char *text),
@@ -207,5 +207,5 @@ gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)
   gg_status status = gg_base_memory_check(before, GG_OK, err);
   for (size_t i = 0; status == GG_OK && i < lines.n; i++) line(context, lines.text[i]);
   gg_base_string_list_clear(&lines);
-  return status;
+  return gg_base_callback_settle(status, err);
 }

@@ -235,7 +235,7 @@ static bool may_lack_picture(const collecting *c, gg_status status, const gg_err
 {
   const gg_collecting *o = &c->options;
   const bool chosen = o->picture || o->width || o->over || o->show || o->log || o->relative_to || o->theories;
-  if (!o->warn || chosen || status == GG_BAD_FILE) return false;
+  if (!o->warn || chosen || status == GG_BAD_FILE || status == GG_INTERRUPTED) return false;
   o->warn(c->context, err ? err->message : "there is no picture");
   return true;
 }
@@ -247,10 +247,11 @@ static bool has_theories(const gg_point_table *t)
   return i < t->n;
 }
 
-/* Theories between the points. Without them lines go from point to point, which is said. */
-static void evaluate_lines(const collecting *c, const char *folder, gg_picture_lines *lines)
+/* Theories between the points, as many as there are when it is interrupted. Without them lines go from point to point,
+ * which is said. */
+static gg_status evaluate_lines(const collecting *c, const char *folder, gg_picture_lines *lines, gg_error *err)
 {
-  gg_error why;
+  gg_error why, unread;
   char path[PATH_MAX];
   const gg_collecting *o = &c->options;
   const gg_sweep_options options = {
@@ -258,13 +259,17 @@ static void evaluate_lines(const collecting *c, const char *folder, gg_picture_l
   gg_status status = snprintf(path, sizeof path, "%s/lines", folder) < PATH_MAX
                          ? GG_OK
                          : gg_base_path_write_error(folder, strerror(ENAMETOOLONG), &why);
-  if (status == GG_OK) status = gg_sweep_run(lines->sweep, path, &options, &why);
-  if (status == GG_OK) status = gg_sweep_point_table_read(&lines->table, lines->sweep, path, &why);
-  if (status != GG_OK && o->warn) {
+  if (status == GG_OK) {
+    status = gg_sweep_run(lines->sweep, path, &options, &why);
+    gg_sweep_point_table_read(&lines->table, lines->sweep, path, &unread);
+  }
+  if (status == GG_INTERRUPTED) return gg_base_fail(err, status, "%s", why.message);
+  if (!lines->table.n && o->warn) {
     char text[sizeof why.message + 80];
     snprintf(text, sizeof text, "lines of theories are drawn from point to point: %s", why.message);
     o->warn(c->context, text);
   }
+  return GG_OK;
 }
 
 static gg_status draw_picture(const collecting *c, const char *folder, gg_error *err)
@@ -274,13 +279,17 @@ static gg_status draw_picture(const collecting *c, const char *folder, gg_error 
   gg_picture_choice choice = {
       .show = o->show, .log = o->log, .relative_to = o->relative_to, .theories = o->theories, .lines = &lines};
   GG_TRY(gg_sweep_axis_choose(c->sweep, o->over, o->log, &choice.axis, err));
+  GG_TRY(gg_sweep_picture_check(&c->table, c->sweep, &choice, err));
   if (has_theories(&c->table)) GG_TRY(gg_sweep_lines_make(c->sweep, &choice.axis, &lines.sweep, err));
-  if (lines.sweep) evaluate_lines(c, folder, &lines);
+  gg_status interrupted = lines.sweep ? evaluate_lines(c, folder, &lines, err) : GG_OK;
   if (!lines.table.n) choice.lines = NULL;
-  gg_status status = gg_sweep_point_table_draw(&c->table, c->sweep, &choice, c->picture, o->width, err);
+  gg_error why;
+  gg_status status = gg_sweep_point_table_draw(&c->table, c->sweep, &choice, c->picture, o->width, &why);
+  if (status != GG_OK) gg_base_fail(err, status, "%s", why.message);
   gg_sweep_point_table_clear(&lines.table);
   gg_sweep_lines_free(lines.sweep, &choice.axis);
-  return status;
+  if (status == GG_OK) report_file(c, c->picture);
+  return status == GG_OK ? interrupted : status;
 }
 
 static gg_status write_all(collecting *c, const char *folder, gg_error *err)
@@ -295,7 +304,6 @@ static gg_status write_all(collecting *c, const char *folder, gg_error *err)
   report_file(c, c->h5);
   if (!c->picture) return GG_OK;
   gg_status status = draw_picture(c, folder, err);
-  if (status == GG_OK) report_file(c, c->picture);
   return status == GG_OK || !may_lack_picture(c, status, err) ? status : GG_OK;
 }
 
@@ -322,5 +330,5 @@ gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *pref
   GG_C_LOCALE;
   gg_status status = write_all(&c, folder, err);
   gg_sweep_point_table_clear(&c.table);
-  return status;
+  return gg_base_callback_settle(status, err);
 }

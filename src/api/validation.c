@@ -2,6 +2,7 @@
 #include "sweep/validation.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "api/api.h"
 #include "base/text.h"
@@ -43,5 +44,7 @@ gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_valida
     status = gg_sweep_validate_table(&table, sweep, o, written, context, verdict, err);
   }
   gg_sweep_point_table_clear(&table);
+  status = gg_base_callback_settle(status, err);
+  if (status != GG_OK && status != GG_FAILED) free(*verdict), *verdict = NULL;
   return status;
 }

@@ -135,7 +135,7 @@ static void add_collision(void *self, const gg_collision_record *m)
     if (flights_count(d, m->species[i])) add_flights(d, m, i);
 }
 
-static void begin_episode(void *self)
+static void begin_burst(void *self)
 {
   collisions *d = self;
   memset(d->first, 0, sizeof d->first);
@@ -251,7 +251,7 @@ const gg_observable gg_measure_collisions = {
     .memory = memory,
     .every = 1,
     .add_collision = add_collision,
-    .begin_episode = begin_episode,
+    .begin_burst = begin_burst,
     .add_snapshot = add_snapshot,
     .restart = restart,
     .curves = curves,

@@ -96,7 +96,7 @@ static void add_snapshot(void *self, const gg_snapshot *g, double *bin)
 }
 
 /* Also when averaging begins. */
-static void begin_episode(void *self)
+static void begin_burst(void *self)
 {
   state *s = &((impact_speed *)self)->state;
   memset(s, 0, sizeof *s);
@@ -138,9 +138,9 @@ const gg_observable gg_measure_impact_speed = {
     .memory = memory,
     .every = 1,
     .add_collision = add_collision,
-    .begin_episode = begin_episode,
+    .begin_burst = begin_burst,
     .rescaled = rescaled,
     .add_snapshot = add_snapshot,
-    .restart = begin_episode,
+    .restart = begin_burst,
     .curves = curves,
 };

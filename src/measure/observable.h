@@ -80,7 +80,7 @@ typedef struct gg_observable {
   bool (*wants_collisions)(const gg_model *model); /* does it want them of this model? NULL: of all */
   /* It does with the collisions of some bursts, where showing them slows the engine down many times over; called when
    * one begins. Snapshots are then added in bursts only. NULL: it is to have every collision. */
-  void (*begin_episode)(void *self);
+  void (*begin_burst)(void *self);
   /* All velocities have just been multiplied by this: told before the next collision, where it has add_collision. */
   void (*rescaled)(void *self, double factor);
   void (*restart)(void *self); /* averaging begins (anew): forget earlier snapshots; NULL if there is nothing to forget

@@ -127,6 +127,8 @@ gg_status gg_scene_resumption_settle(gg_scene *scene, const gg_archive *a, gg_er
 {
   if (gg_base_archive_find(a, raised_item))
     GG_TRY(gg_base_archive_get(a, raised_item, GG_ITEM_F64, &scene->md.raised, 1, err));
+  if (scene->md.raised != GG_AUTO && !(scene->md.raised > 0 && scene->md.raised < 0.01))
+    return gg_base_fail(err, GG_BAD_FILE, "a contact time of %g, which no run has", scene->md.raised);
   if (!gg_base_archive_find(a, ensemble_item))
     return GG_OK; /* no archive of a run: gg_scene_resumption_check rejects it */
   return gg_base_archive_get(a, ensemble_item, GG_ITEM_F64, &scene->dsmc.chosen_for, 1, err);

@@ -279,17 +279,19 @@ static gg_status write_title(drawing *d, gg_error *err)
   return GG_OK;
 }
 
-/* Points with an engine that is not steady, by their numbers in the list. */
+/* Points with an engine that is not steady, by their numbers in the list, as many as a line has room for. */
 static void write_note(drawing *d)
 {
+  enum { NAMED = 20 };
   size_t last = SIZE_MAX, n = 0;
   char list[300] = "";
   for (size_t i = 0; i < d->table->n; i++) {
     const gg_cli_table_row *row = &d->table->row[i];
     if (row->steady || row->point == last) continue;
-    gg_base_text_append(list, sizeof list, "%s%zu", n++ ? ", " : "", row->point + 1);
-    last = row->point;
+    if (n < NAMED) gg_base_text_append(list, sizeof list, "%s%zu", n ? ", " : "", row->point + 1);
+    last = row->point, n++;
   }
+  if (n > NAMED) gg_base_text_append(list, sizeof list, " and %zu more", n - NAMED);
   if (n) snprintf(d->note, sizeof d->note, "Open symbols: not steady, point%s %s", n > 1 ? "s" : "", list);
 }
 
@@ -306,16 +308,33 @@ static gg_status check_theories(const drawing *d, gg_error *err)
   return GG_OK;
 }
 
-static gg_status choose_rows(drawing *d, gg_error *err)
+static gg_status choose_names(drawing *d, gg_error *err)
 {
-  char quantities[MOST_PANELS * 65] = "";
   const gg_picture_choice *c = d->choice;
   GG_TRY(c->show ? add_named(d, c->show, err) : choose_quantities(d, err));
   GG_TRY(check_theories(d, err));
   if (c->relative_to && !has_method(d->table, c->relative_to))
     return gg_base_fail(err, GG_BAD_INPUT, "no point has a method '%.60s'", c->relative_to);
+  return GG_OK;
+}
+
+gg_status gg_sweep_picture_check(const gg_point_table *t, const gg_sweep *sweep, const gg_picture_choice *choice,
+                                 gg_error *err)
+{
+  drawing *d = gg_base_array_new(1, sizeof *d, err);
+  if (!d) return GG_FAILED;
+  d->table = t, d->sweep = sweep, d->choice = choice;
+  gg_status status = choose_names(d, err);
+  free(d);
+  return status;
+}
+
+static gg_status choose_rows(drawing *d, gg_error *err)
+{
+  char quantities[MOST_PANELS * 65] = "";
+  GG_TRY(choose_names(d, err));
   for (size_t p = 0; p < d->n; p++) gg_base_text_append(quantities, sizeof quantities, "%s,", d->quantity[p]);
-  GG_TRY(gg_sweep_picture_rows_make(&d->rows, d->table, d->sweep, c, quantities, err));
+  GG_TRY(gg_sweep_picture_rows_make(&d->rows, d->table, d->sweep, d->choice, quantities, err));
   qsort(d->rows.row, d->rows.n, sizeof *d->rows.row, by_x); /* lines go from left to right */
   return GG_OK;
 }

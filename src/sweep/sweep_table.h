@@ -79,6 +79,10 @@ gg_status gg_sweep_axis_choose(const gg_sweep *sweep, const char *over, const ch
                                gg_error *err);
 /* A panel a quantity; a line for each combination of the other keys; engines as points, open ones where a run is not
  * steady, theories as lines, unless keys go together with that of the axis. */
+/* Quantities, theories and methods that the picture is to have are there. */
+gg_status gg_sweep_picture_check(const gg_point_table *table, const gg_sweep *sweep, const gg_picture_choice *choice,
+                                 gg_error *err);
+
 gg_status gg_sweep_point_table_draw(const gg_point_table *table, const gg_sweep *sweep, const gg_picture_choice *choice,
                                     const char *picture, const char *width, gg_error *err);
 /* picture_rows.c: the theories at forty values of the axis, for each combination; to be run, read and freed. *lines is

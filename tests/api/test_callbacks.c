@@ -207,11 +207,40 @@ static void sweeps(void **state)
   gg_sweep_free(w);
 }
 
+static void line(void *context, const char *text)
+{
+  (void)context, (void)text;
+  fails();
+}
+
+/* Of what is told and written outside runs; and the next run knows nothing of it. */
+static void reports(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: usf, phi: 0.1, particles: 100, run: {collisions: 40}}");
+  gg_sweep *w = NULL;
+  gg_result *r = NULL;
+  arm(0);
+  assert_callback_failed(gg_scene_describe(s, "md", line, NULL, &err));
+  assert_ok(gg_run(s, &(gg_run_options){.output = "t_run.h5"}, &r, &err));
+  assert_callback_failed(gg_export("t_run.h5", "t_run", GG_EXPORT_ALL, line, NULL, NULL, &err));
+  assert_ok(gg_sweep_parse("{flow: usf, phi: 0.1, vary: {collision.e: [0.8, 0.9]}, sweep: {does: theory}}", "test", &w,
+                           &err));
+  assert_ok(gg_sweep_run(w, "t_theory", NULL, &err));
+  assert_callback_failed(
+      gg_sweep_collect(w, "t_theory", "t_table", &(gg_collecting){.picture = "none"}, line, NULL, &err));
+  assert_ok(gg_sweep_run(w, "t_theory", NULL, &err));
+  gg_result_free(r);
+  gg_sweep_free(w);
+  gg_scene_free(s);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(observables), cmocka_unit_test(laws),        cmocka_unit_test(runs),
-      cmocka_unit_test(theories),    cmocka_unit_test(simulations), cmocka_unit_test(sweeps),
+      cmocka_unit_test(observables), cmocka_unit_test(laws),   cmocka_unit_test(runs),    cmocka_unit_test(theories),
+      cmocka_unit_test(simulations), cmocka_unit_test(sweeps), cmocka_unit_test(reports),
   };
   cmocka_set_message_output(CM_OUTPUT_TAP);
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
