@@ -25,8 +25,8 @@ def test_needs_foreseen():
     if SANITIZERS != "none":
         raise Skip("sanitizers take memory of their own")
     few = "run: {warmup: 0.5, collisions: 2}\n"
-    scenes = {"md": "flow: usf\nphi: 0.1\nparticles: 200000\ncollision: {beta: 0}\n" + few,
-              "dsmc": "flow: hss\nengine: dsmc\nphi: 0.2\ndsmc: {particles: 400000}\n"
+    scenes = {"md": "flow: usf\nphi: 0.1\nparticles: 500000\ncollision: {beta: 0}\n" + few,
+              "dsmc": "flow: hss\nengine: dsmc\nphi: 0.2\ndsmc: {particles: 1000000}\n"
                       "measure: [rheology, velocity_distributions]\n" + few}
     for engine, scene in scenes.items():
         told = run("info", "scene.yaml", scene=scene).out.split(f"\n{engine}, ")[1]
