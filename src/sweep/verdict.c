@@ -88,7 +88,7 @@ const char *gg_sweep_no_reference(const gg_grid_view *v, size_t point)
   return gg_sweep_grid_has(v, point) ? "neither a noise-free solution nor dsmc" : NULL;
 }
 
-/* "Not steady: md at phi 0.1, e 0.5; dsmc at ...", nothing where no point has it. */
+/* "Not steady:" and a list, "- md at phi 0.1, e 0.5" and so on; nothing where no point has it. */
 static void print_trouble(const writing *w, const char *what, gg_point_trouble *trouble)
 {
   char name[GG_PANEL_NAME];
@@ -97,9 +97,10 @@ static void print_trouble(const writing *w, const char *what, gg_point_trouble *
     const char *which = trouble(w->view, i);
     if (!which) continue;
     name_point(w->view, i, name);
-    fprintf(w->out, "%s%s at %s", n++ ? "; " : what, which, name);
+    if (!n++) fprintf(w->out, "%s:\n\n", what);
+    fprintf(w->out, "- %s at %s\n", which, name);
   }
-  if (n) fprintf(w->out, ".\n\n");
+  if (n) fprintf(w->out, "\n");
 }
 
 static void print_points(const writing *w)
@@ -120,9 +121,9 @@ static void print_points(const writing *w)
     if (unsteady) fprintf(w->out, " (%zu not steady)", unsteady);
   }
   fprintf(w->out, ".\n\n");
-  print_trouble(w, "Not steady: ", gg_sweep_not_steady);
-  print_trouble(w, "Not homogeneous (md): ", gg_sweep_not_homogeneous);
-  print_trouble(w, "Without a reference: ", gg_sweep_no_reference);
+  print_trouble(w, "Not steady", gg_sweep_not_steady);
+  print_trouble(w, "Not homogeneous (md)", gg_sweep_not_homogeneous);
+  print_trouble(w, "Without a reference", gg_sweep_no_reference);
 }
 
 static void print_agreement_table(const writing *w)
