@@ -72,9 +72,10 @@ typedef struct gg_error {
 } gg_error;
 
 /**
- * Say, from within any callback, that it failed: the call that it came from ends soon, and returns GG_FAILED with this
- * reason. The first reason counts. What the callback returns or sets from then on is of no account. A simulation stays
- * valid, and what a run had stored stays; a user-defined theory that fails becomes a warning of the comparison.
+ * Say, from within any callback (but those of gg_messages), that it failed: the call that it came from ends soon, and
+ * returns GG_FAILED with this reason. The first reason counts. What the callback returns or sets from then on is of no
+ * account. A simulation stays valid, and what a run had stored stays; a user-defined theory that fails becomes a
+ * warning of the comparison.
  * @param reason one line for people; bytes that are not UTF-8 become '?'
  */
 GG_API void gg_callback_fail(const char *reason);
@@ -1664,9 +1665,11 @@ GG_API void gg_text_make_printable(char *text);
  * Definitions are copied, strings and tables included. A `context` is passed to the callbacks unchanged and stays the
  * caller's. It must be valid as long as the scene and everything that runs from it (results keep names only). Callbacks
  * come from the threads of the run, several at once if replicas or engines run side by side: protect shared data with a
- * lock. Numbers are in units of results. Each call below returns GG_BAD_INPUT with the reason, and leaves the scene
- * unchanged, if a member is missing, a name is taken or invalid (letters, digits and _, at most 40), a text is not one
- * line of UTF-8, or there are too many: 32 quantities, 8 theories per scene. */
+ * lock. Numbers are in units of results.
+ *
+ * Each call below checks the definition: no member is missing, names are free and valid (letters, digits and _, at most
+ * 40), texts are one line of UTF-8. A scene has at most 32 quantities and 8 theories. Otherwise the call returns
+ * GG_BAD_INPUT with the reason, and the scene is unchanged. */
 
 /* A user-defined quantity. */
 typedef struct gg_quantity_definition {

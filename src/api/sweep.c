@@ -248,7 +248,7 @@ static bool has_theories(const gg_point_table *t)
 }
 
 /* Theories between the points, as many as there are when it is interrupted. Without them lines go from point to point,
- * which is said. */
+ * with a warning. */
 static gg_status evaluate_lines(const collecting *c, const char *folder, gg_picture_lines *lines, gg_error *err)
 {
   gg_error why, unread;

@@ -13,8 +13,8 @@ typedef struct gg_stop {
   void *context;
 } gg_stop;
 
-/* Reports, on the thread that called a user's callback, why the callback failed. All that poll this cancellation then
- * end early, and the work fails with the first reason reported. */
+/* A user's callback reports, on the thread that called it, why it failed. Work of this thread that polls then ends
+ * early, and fails with the first reason reported. */
 void gg_base_callback_fail(const char *reason);
 bool gg_base_callback_failed(void);
 /* At the end of such work: GG_FAILED with the reason, which is then forgotten; `status` where no callback failed. */

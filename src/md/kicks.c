@@ -13,7 +13,7 @@
 /* Turns that have a kick, five of eight. Three of five would give kicks of fixed length the second and fourth moment of
  * a Gaussian. But since its last collision a grain has had a turn more or less, which widens the distribution of
  * velocities: a2 would be (x^2)/6 larger, x being that share of T. What five of eight leave of the fourth moment makes
- * up for that at LEAST_INTERVAL, where it is seen: 1/24 less in each turn, which lasts for about a mean free time. */
+ * up for that at LEAST_INTERVAL, where it is seen: 1/25 less in each turn, which lasts for about a mean free time. */
 enum { KICKED = 5, OUT_OF = 8 };
 
 /* Turns ahead that grains are on their way to the cache. */

@@ -108,7 +108,7 @@ gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const 
                                  const gg_run_callbacks *callbacks, gg_error *err);
 /* After a collapse: is the contact time the program's choice, are larger ones left, and no frames stored? */
 bool gg_run_replicas_can_raise(const gg_replicas *all);
-/* All of them anew with a tenfold one, of the same run: its clock goes on. On failure they are cleared. */
+/* All of them anew with a tenfold one, of the same run: its clock continues. On failure they are cleared. */
 gg_status gg_run_replicas_raise(gg_replicas *all, int threads, gg_error *err);
 void gg_run_replicas_clear(gg_replicas *all);
 /* Every replica takes samples until it has `due` of them; GG_OK before that where several processes pause for a

@@ -213,7 +213,7 @@ static void line(void *context, const char *text)
   fails();
 }
 
-/* Of what is told and written outside runs; and the next run knows nothing of it. */
+/* Callbacks for lines and files outside runs; the next run is not affected. */
 static void reports(void **state)
 {
   (void)state;

@@ -10,7 +10,7 @@
 
 /* From so many grains on: places of smaller systems are in stored results. */
 enum { LARGE = 50000, FEWEST_CELLS = 3 };
-/* Pairs are moved further than to where they leave each other alone: fewer sweeps. Lists go on for so many sweeps at
+/* Pairs are moved further than to where they leave each other alone: fewer sweeps. Lists are used for so many sweeps at
  * least, while too much moves for them to be complete. */
 #define BEYOND 1.5
 enum { LISTED_SWEEPS = 4 };
