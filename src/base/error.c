@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/text.h"
+#include "base/printable.h"
 
 enum { LONGEST = 8192, HEAD = 300 }; /* a path may have 4096, a reason a thousand */
 static const char between[] = " ... ";

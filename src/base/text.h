@@ -12,6 +12,7 @@
 #endif
 
 #include "base/error.h"
+#include "base/printable.h"
 
 /* As open_memstream, which leaves out what it finds no room for and does not say so (glibc 2.36). *text is there when
  * it is closed; to be freed. NULL: no memory. ftell says how long it is by now. */
@@ -36,14 +37,6 @@ const char *gg_base_string_list_at(const gg_string_list *list, size_t i);
 
 /* Append to a text in a buffer of `size` bytes, cut to it. */
 void gg_base_text_append(char *text, size_t size, const char *format, ...) GG_PRINTF(3, 4);
-
-/* Foreign texts: of files, of callbacks, of the command line. Printable is one line of UTF-8 without control characters
- * and marks of writing direction, which a terminal would act on. */
-bool gg_base_text_is_printable(const char *text);
-/* What is not printable becomes '?', in place. */
-void gg_base_text_make_printable(char *text);
-/* A letter, then letters, digits and _, at most `longest`: the name of a quantity, a curve, a theory. */
-bool gg_base_text_is_name(const char *text, size_t longest);
 
 /* Numbers have a decimal point whatever locale the calling program has chosen.
  * Switch this thread to the C locale; hand the returned value to gg_base_c_locale_leave. */

@@ -30,7 +30,7 @@ static double seconds_of(const gg_replicas *all)
 static gg_status advance_to(gg_replicas *all, uint64_t due, bool adapt, gg_error *err)
 {
   all->state.due = due;
-  return gg_run_replicas_advance(all, due, adapt, err);
+  return gg_run_replicas_advance(all, due, adapt, NULL, err);
 }
 
 static gg_status warm_up(gg_replicas *all, gg_error *err)

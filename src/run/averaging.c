@@ -89,12 +89,19 @@ static uint64_t next_of(const gg_replicas *all)
   return all->tasks.remote ? all->state.due : least + step(all, all->state.due - least);
 }
 
+static bool pauses_for_checkpoint(gg_replicas *all)
+{
+  if (gg_run_replicas_checkpoint_is_due(all)) return true;
+  gg_run_replicas_report_progress(all, false);
+  return false;
+}
+
 /* Let every replica reach `due` samples, in short steps with progress and a checkpoint between them. */
 static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
 {
   while (all->state.due < due || !gg_run_replicas_are_level(all)) {
     if (gg_run_replicas_are_level(all)) all->state.due += step(all, due - all->state.due);
-    gg_status status = gg_run_replicas_advance(all, next_of(all), adapts(all), err);
+    gg_status status = gg_run_replicas_advance(all, next_of(all), adapts(all), pauses_for_checkpoint, err);
     if (status == GG_INTERRUPTED && is_over(all)) return GG_OK;
     if (status == GG_INTERRUPTED && checkpoints(all)) GG_TRY(store_checkpoint(all, err));
     if (status != GG_OK) return status;

@@ -151,15 +151,6 @@ static gg_status open_tasks(gg_replicas *all, int threads, gg_error *err)
   return workers ? gg_run_distribution_open(workers, &all->tasks, err) : GG_OK;
 }
 
-static void report_while_waiting(gg_replicas *all, uint64_t due)
-{
-  bool pauses = due > 0 && gg_run_replicas_checkpoint_is_due(all);
-  if (pauses || is_stopped(all))
-    gg_run_stop(&all->tasks);
-  else if (due > 0)
-    gg_run_replicas_report_progress(all, false);
-}
-
 /* The first failure, or else the first that was stopped, unless that was for a checkpoint. */
 static gg_status outcome(gg_replicas *all, gg_error *err)
 {
@@ -173,19 +164,20 @@ static gg_status outcome(gg_replicas *all, gg_error *err)
   return worst->status;
 }
 
-/* Nothing is due: replicas are created. */
-gg_status gg_run_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_error *err)
+gg_status gg_run_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, bool (*pauses)(gg_replicas *all),
+                                  gg_error *err)
 {
   const double error = all->last.relative_error;
   gg_run_submit(&all->tasks, due, adapt, isnan(error) ? INFINITY : error);
-  while (!gg_run_wait(&all->tasks)) report_while_waiting(all, due);
+  while (!gg_run_wait(&all->tasks))
+    if (is_stopped(all) || (pauses && pauses(all))) gg_run_stop(&all->tasks);
   atomic_store(&all->tasks.stopping, false);
   return outcome(all, err);
 }
 
 static gg_status create_or_restore(gg_replicas *all, const gg_archive *resume, gg_error *err)
 {
-  if (!resume) return gg_run_replicas_advance(all, 0, false, err);
+  if (!resume) return gg_run_replicas_advance(all, 0, false, NULL, err);
   GG_TRY(restore(all, resume, err));
   for (int i = 0; i < all->n; i++) gg_run_task_update(&all->tasks.task[i]);
   return GG_OK;

@@ -111,9 +111,10 @@ bool gg_run_replicas_can_raise(const gg_replicas *all);
 /* All of them anew with a tenfold one, of the same run: its clock continues. On failure they are cleared. */
 gg_status gg_run_replicas_raise(gg_replicas *all, int threads, gg_error *err);
 void gg_run_replicas_clear(gg_replicas *all);
-/* Every replica takes samples until it has `due` of them; GG_OK before that where several processes pause for a
- * checkpoint. */
-gg_status gg_run_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, gg_error *err);
+/* Every replica takes samples until it has `due` of them; 0: it is created. `pauses` (may be NULL) is called while they
+ * work: once it is true they stop, GG_OK before that, as for a checkpoint where several processes work. */
+gg_status gg_run_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, bool (*pauses)(gg_replicas *all),
+                                  gg_error *err);
 
 /* averaging.c: warm-up and averaging, until the stopping criteria are met or the time limit. */
 gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err);

@@ -36,7 +36,7 @@ typedef struct gg_h5_message {
 typedef bool gg_h5_look(gg_h5_in *in, const gg_h5_message *message, void *context);
 bool gg_h5_messages(gg_h5_in *in, uint64_t header, gg_h5_look *look, void *context);
 
-/* hdf5_read.c: what an array's elements are, and how many. */
+/* hdf5_types.c: what an array's elements are, and how many. */
 typedef struct gg_h5_type {
   enum { GG_H5_OTHER, GG_H5_WHOLE, GG_H5_REAL, GG_H5_TEXT } kind;
   bool is_signed, backwards; /* highest byte first */
@@ -75,7 +75,7 @@ const char *gg_h5_filters_of(const unsigned char *data, size_t size, gg_h5_array
 bool gg_h5_filters_undo(const gg_h5_array_in *array, unsigned skipped, const unsigned char *stored, size_t n,
                         unsigned char *chunk, size_t bytes);
 
-/* n numbers of a file in another type. False: these are no numbers. */
+/* hdf5_types.c: n numbers of a file in another type. False: these are no numbers. */
 bool gg_h5_convert(const gg_h5_type *from, const void *data, gg_item_type type, void *to, size_t n);
 
 #endif

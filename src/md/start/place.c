@@ -151,18 +151,15 @@ gg_status gg_md_place_check(gg_md_packing *p, const uint32_t *id, gg_error *err)
                       0.5 * (p->diameter[s.pair[0]] + p->diameter[s.pair[1]]));
 }
 
-/* Denser systems leave less room to aim for than touching. */
-static double margin_for(double phi)
+double gg_md_place_margin(double phi)
 {
   double room = gg_root(0.64 / phi, 3) - 1;
   return fmin(0.02, fmax(0.25 * room, 1e-4));
 }
 
-gg_status gg_md_place_relax(gg_md_packing *p, double phi, int most_sweeps, bool *free, gg_error *err)
+gg_status gg_md_place_relax(gg_md_packing *p, double margin, int most_sweeps, bool *free, gg_error *err)
 {
-  double margin = margin_for(phi);
   *free = false;
-  if (gg_md_place_has_lists(p)) return gg_md_place_relax_lists(p, margin, most_sweeps, free, err);
   for (int k = 0; k < most_sweeps && !*free; k++) {
     GG_TRY(sweep_once(p, margin, true, free, err));
     if (*free) GG_TRY(sweep_once(p, margin, false, free, err));

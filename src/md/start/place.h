@@ -29,8 +29,10 @@ gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t *id, uint32
                            gg_error *err);
 /* n of the sites of a face-centred lattice that fills the box. */
 void gg_md_place_lattice(const gg_md_box *box, uint32_t n, gg_rng *rng, gg_vec *r);
+/* By what share of a diameter grains are pushed beyond contact: denser systems leave less room. */
+double gg_md_place_margin(double phi);
 /* Push overlapping grains apart, *free: no overlap is left after so many sweeps. Positions end in the box. */
-gg_status gg_md_place_relax(gg_md_packing *p, double phi, int most_sweeps, bool *free, gg_error *err);
+gg_status gg_md_place_relax(gg_md_packing *p, double margin, int most_sweeps, bool *free, gg_error *err);
 /* relax_lists.c: the same for large periodic boxes, faster and with other places; is this one? */
 bool gg_md_place_has_lists(const gg_md_packing *p);
 gg_status gg_md_place_relax_lists(gg_md_packing *p, double margin, int most_sweeps, bool *free, gg_error *err);

@@ -152,7 +152,7 @@ GG_INLINE void move(lists *l, uint32_t i, double by, gg_vec dr, uint16_t sweep, 
   if (far2 > l->farthest2) l->farthest2 = far2;
 }
 
-GG_INLINE void try_pair(lists *l, uint32_t i, uint32_t j, uint16_t sweep, bool pushing)
+GG_INLINE void push_pair(lists *l, uint32_t i, uint32_t j, uint16_t sweep, bool pushing)
 {
   gg_md_packing *p = l->p;
   gg_vec dr = gg_sub(p->r[j], p->r[i]), unused = {0, 0, 0};
@@ -180,7 +180,7 @@ static gg_status sweep_lists(lists *l, uint16_t sweep, bool pushing, gg_error *e
     const bool tried = l->all || !pushing || l->tried_to[i] >= sweep;
     for (size_t k = l->from[i]; k < l->from[i + 1]; k++) {
       const uint32_t j = l->neighbour[k];
-      if (tried || l->tried_to[j] >= sweep) try_pair(l, i, j, sweep, pushing);
+      if (tried || l->tried_to[j] >= sweep) push_pair(l, i, j, sweep, pushing);
     }
   }
   return GG_OK;

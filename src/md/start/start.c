@@ -20,17 +20,24 @@ static gg_status make_cells(const gg_md *e, gg_md_packing *p, gg_error *err)
   return GG_OK;
 }
 
+static gg_status push_apart(gg_md_packing *p, double phi, bool *free, gg_error *err)
+{
+  const double margin = gg_md_place_margin(phi);
+  return gg_md_place_has_lists(p) ? gg_md_place_relax_lists(p, margin, SWEEPS, free, err)
+                                  : gg_md_place_relax(p, margin, SWEEPS, free, err);
+}
+
 /* From random points; where that gets stuck, near random close packing, from a lattice with vacancies, which the run
  * itself has to melt. */
 static gg_status relax(const gg_md *e, gg_md_packing *p, gg_rng *rng, gg_error *err)
 {
   bool free;
   if (!gg_md_place_has_lists(p)) GG_TRY(make_cells(e, p, err));
-  GG_TRY(gg_md_place_relax(p, e->model.phi, SWEEPS, &free, err));
+  GG_TRY(push_apart(p, e->model.phi, &free, err));
   if (free) return GG_OK;
   gg_md_place_lattice(&e->box, e->n, rng, p->r);
   GG_TRY(gg_md_place_sort(&e->box, p->r, NULL, e->n, p->stop, err));
-  GG_TRY(gg_md_place_relax(p, e->model.phi, SWEEPS, &free, err));
+  GG_TRY(push_apart(p, e->model.phi, &free, err));
   if (free) return GG_OK;
   return gg_base_fail(
       err, GG_FAILED,
