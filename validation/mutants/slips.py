@@ -22,7 +22,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 # Others look at the tree itself or at exported names, or take minutes to kill and fail what no slip changes.
 TESTS = (r"(run|statistics|sweep|files|measure|bench)/|api/(?!workers|memory)|scene/resumption"
          r"|cli/(export|files|independent|numbers|options|outputs|stopping|trajectory|wall_frames)$")
-AT_ONCE = 12
+AT_ONCE = 4
 
 
 def parts(text):
