@@ -29,13 +29,13 @@ static bool about_zero(gg_quantity q, const gg_estimate *solution)
 
 gg_departure gg_run_reference_deviation(gg_quantity q, const gg_estimate *mean, const gg_estimate *reference)
 {
-  const double error = hypot(isfinite(mean->error) ? mean->error : 0, reference->error),
+  const double own = isfinite(mean->error) ? mean->error : 0, error = hypot(own, reference->error),
                scale = about_zero(q, reference) ? NAN : reference->mean, difference = mean->mean - reference->mean;
   return (gg_departure){.difference = difference,
                         .error = error,
                         .z = isfinite(mean->error) && error > 0 ? difference / error : NAN,
                         .deviation = difference / scale,
-                        .deviation_error = error / fabs(scale),
+                        .deviation_error = hypot(own, mean->mean / scale * reference->error) / fabs(scale),
                         .headline = gg_common_quantity_mask(q) & (GG_DRAWN | GG_DRAWN_AS_RATIO) ? 1 : 0};
 }
 

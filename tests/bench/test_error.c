@@ -34,6 +34,7 @@ static void made_up_runs(void **state)
   assert_true(fabs(gg_bench_error_course_noise(&s->course[WAY], 0) - 0.1) < 1e-12);
   s->noise[WAY][0] = 0.05, s->unit[0] = 2, s->truth[GG_DSMC][0] = 2;
   assert_true(fabs(gg_bench_error_at(s, WAY, 0, 3, &of_error) - 0.05 * sqrt(7.0 / 8) / sqrt(0.008)) < 1e-12);
+  assert_true(fabs(of_error / gg_bench_error_at(s, WAY, 0, 3, &of_error) - 0.25) < 1e-12); /* of 8 squares */
   assert_true(fabs(gg_bench_seconds_to(s, WAY, 0, 0.01) - 25) < 1e-9);
   s->floor[WAY][0] = s->shift[WAY][0] = 0.006;
   assert_true(fabs(gg_bench_seconds_to(s, WAY, 0, 0.01) - 25 / (1 - 0.36)) < 1e-9);
@@ -64,6 +65,26 @@ static void warm_up(void **state)
   free(s);
 }
 
+/* The coefficient c of shifts c h^2 at steps of 1 and 1/2, by least squares: where the sum of squares is least. */
+static void check_step(const gg_error_state *s, int q)
+{
+  double least = INFINITY, best = NAN;
+  const double around = s->step_coefficient[q], wide = 3 * s->step_coefficient_error[q];
+  for (double c = around - wide; c < around + wide; c += wide / 1000) {
+    double sum = 0;
+    for (int i = 0; i < GG_WAYS; i++) {
+      const gg_way *w = &gg_bench_error_methods[i];
+      if (w->step != 1 && w->step != 0.5) continue;
+      const gg_course_end end = gg_bench_error_course_last(&s->course[i], q);
+      const double off = end.mean - s->truth[GG_DSMC][q] - s->size[GG_DSMC][q].per_grain / (double)w->n -
+                         c * w->step * w->step * s->unit[q];
+      sum += off * off / (end.error * end.error + s->truth_error[GG_DSMC][q] * s->truth_error[GG_DSMC][q]);
+    }
+    if (sum < least) least = sum, best = c;
+  }
+  if (!(fabs(best - around) < wide / 400)) fail_msg("%d: %g, least squares at %g", q, around, best);
+}
+
 static void measured_state(void **state)
 {
   (void)state;
@@ -86,6 +107,7 @@ static void measured_state(void **state)
     assert_true(isnan(s->noise[i][4])); /* smooth: no theta */
     assert_true(s->noise[i][0] < 0.1);  /* of T, a second: some thousand times the noise of one grain a collision */
   }
+  for (int q = 0; q < 3; q++) check_step(s, q);
   assert_string_equal(s->source[GG_DSMC][0], "solved without noise");
   assert_true(fabs(s->truth[GG_DSMC][0] / 1.2 - 1) < 1); /* T is of order one at this density */
   assert_true(s->truth_error[GG_DSMC][0] < 1e-4 * s->unit[0]);

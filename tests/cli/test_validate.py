@@ -1,4 +1,5 @@
 """graingas validate: a grid in order passes, a planted deviation does not; page, maps, continuation, points, options."""
+import csv
 import json
 import os
 import struct
@@ -55,6 +56,46 @@ def test_a_grid_in_order():
     check(repeated.code == 0 and repeated.new == ["again.sweep"] and sum(f.endswith(".h5") for f in os.listdir("again.sweep")) == 1,
           repeated.err)
     check("at 1 points" in repeated.out, repeated.out)
+
+
+def number(text):
+    return float(text) if text else None
+
+
+def test_the_verdict_by_hand():
+    """Deviations, their errors, z and counts from the means in the table; processor times with the warm-up."""
+    counts = json.loads(validated("--picture", "none", "--json").out)["deviations"]
+    with open("g.sweep.csv") as f:
+        rows = list(csv.DictReader(f))
+    means = {(r["point"], r["method"], r["quantity"]): (number(r["mean"]), number(r["error"])) for r in rows}
+    off = {}
+    for r in rows:
+        if not r["reference"]:
+            continue
+        mean, error, (truth, doubt) = float(r["mean"]), number(r["error"]), means[r["point"], r["reference"], r["quantity"]]
+        engine = r["method"] in ("md", "dsmc")
+        doubt, error = doubt or 0, (error if engine else 0) or 0
+        check(float(r["reference_mean"]) == truth and abs(float(r["difference"]) - (mean - truth)) <= 1e-12 * abs(truth), r)
+        scatter = (error**2 + doubt**2)**.5
+        check(not engine or abs(float(r["z"]) * scatter / (mean - truth) - 1) < 1e-9, r)
+        check(engine or not r["z"], "a theory's answer has no error of its own", r)
+        check(abs(float(r["difference_error"] or 0) - scatter) <= 1e-9 * scatter, r)
+        if r["quantity"] in ("N1", "N2"):
+            size, unsure = mean - truth, scatter
+        else:
+            size, unsure = mean / truth - 1, (error**2 + (mean / truth * doubt)**2)**.5 / abs(truth)
+            check(not r["deviation"] or abs(float(r["deviation"]) - size) < 1e-12 and abs(float(r["deviation_error"] or 0) - unsure) < 1e-12, r)
+        off.setdefault((r["method"], r["quantity"]), []).append((abs(size), unsure))
+    for c in counts:
+        seen = off[c["method"], c["quantity"]]
+        check(c["points"] == len(seen) and abs(abs(c["largest"]) - max(seen)[0]) < 1e-12, c)
+        for threshold, n in c["beyond"].items():
+            check(n == sum(size > float(threshold) and size >= 2 * error for size, error in seen), c, threshold)
+    unsure = sum(size > .01 and size < 2 * error for key in off for size, error in off[key] if key[0] != "lun1991")
+    check(unsure > 3, "deviations within their errors are there to be left out", unsure)
+    engine = next(r for r in rows if r["method"] == "dsmc")
+    total = json.loads(run("info", "g.sweep/%s.h5" % engine["file"], "--json").out)["dsmc"]["total"]["cpu_seconds"]
+    check(abs(float(engine["seconds"]) / total - 1) < 1e-12, engine["seconds"], total)
 
 
 def plant(path):

@@ -145,7 +145,7 @@ static void pace(void **state)
 }
 
 typedef struct watcher {
-  double fraction, left;
+  double fraction, left, limit_in;
   int calls, known, falls, early, cut; /* cut: times that the limit was told to end the run first */
 } watcher;
 
@@ -156,7 +156,7 @@ static void watch(void *context, const gg_progress *p)
   if (p->fraction < w->fraction) w->falls++;
   assert_true(p->fraction >= 0 && p->fraction <= 1 && !(p->time_left < 0));
   if (isfinite(p->limit_in) && isfinite(p->time_left) && p->fraction < 1) w->cut += p->time_left > p->limit_in;
-  w->fraction = p->fraction, w->left = p->time_left;
+  w->fraction = p->fraction, w->left = p->time_left, w->limit_in = p->limit_in;
   w->known += isfinite(p->time_left);
   w->calls++;
 }
@@ -185,6 +185,7 @@ static void every_run(void **state)
       fail_msg("%d: fell %d, early %d, ended %g %g, known %d of %d", k, w.falls, w.early, w.fraction, w.left, w.known,
                w.calls);
     assert_int_equal(w.cut > 0, k == TIME);
+    assert_true(k == TIME ? w.limit_in < 0.1 : isinf(w.limit_in)); /* it has run down */
     gg_result_free(r);
   }
 }

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "run/replicas.h"
 #include "run/run.h"
 #include "scene/scene_reader.h"
 
@@ -31,6 +32,30 @@ static void too_short(void **state)
   gg_result *r = run("{flow: usf, phi: 0.1, particles: 50, run: {collisions: 20, relative_error: 1}}", GG_FAILED, &err);
   if (!strstr(err.message, "run.collisions ended the run")) fail_msg("%s", err.message);
   gg_result_free(r);
+}
+
+static void stand_still(const gg_engine *engine, gg_engine_state *state)
+{
+  (void)engine;
+  *state = (gg_engine_state){.collisions = 1000};
+}
+
+/* Nor where its blocks are long enough by chance. */
+static void shorter_than_the_shortest_window(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_engine_ops ops = {.name = "md", .state = stand_still};
+  gg_engine engine = {.ops = &ops};
+  gg_replica replica = {.engine = &engine, .n_observables = 1, .model = {.n = 100}};
+  gg_replicas all = {.n = 1, .replica = &replica, .model = {.n = 100}};
+  all.criteria = (gg_stopping_criteria){.least = 100, .most = 90, .relative_error = 0.1};
+  all.state.averaging = 1, all.state.window_at = 10, all.state.due = 109;
+  all.last = (gg_convergence){.relative_error = 0.05, .trusted = true};
+  assert_int_equal(gg_run_replicas_check_end(&all, &err), GG_FAILED);
+  if (!strstr(err.message, "too few to know")) fail_msg("%s", err.message);
+  all.state.due = 110;
+  assert_int_equal(gg_run_replicas_check_end(&all, &err), GG_OK);
 }
 
 static void nothing_measured(void **state)
@@ -85,8 +110,9 @@ static void less_than_a_sweep(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(too_short), cmocka_unit_test(nothing_measured),
-                                     cmocka_unit_test(cools_by_a_law), cmocka_unit_test(time_of_the_start),
-                                     cmocka_unit_test(less_than_a_sweep)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(too_short),         cmocka_unit_test(shorter_than_the_shortest_window),
+      cmocka_unit_test(nothing_measured),  cmocka_unit_test(cools_by_a_law),
+      cmocka_unit_test(time_of_the_start), cmocka_unit_test(less_than_a_sweep)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@ ROOMS = {
     "md": (32, """
         src/md/box.h src/md/epoch.c src/md/contacts.c src/md/contacts.h src/md/event_loop.h
         src/md/separating_pairs.c src/md/predict.h src/md/resolve.c src/md/resolve.h src/md/row_motion.c
-        src/md/row_motion.h src/md/md_snapshot.c src/md/start/place.c src/md/start/start.c
+        src/md/row_motion.h src/md/md_snapshot.c src/md/kicks.c src/md/start/place.c src/md/start/relax_lists.c src/md/start/start.c
         src/md/wall_contacts.c src/md/md_thermostat.c src/md/cell_grid.c src/md/cell_grid.h"""),
     "md/search": (26, """
         src/md/search/candidates.h src/md/search/comoving_rows.h src/md/search/faces.h src/md/search/list_update.h
@@ -51,7 +51,7 @@ ROOMS = {
         src/theory/hermite/shear.c src/theory/hermite/shear_answer.c src/theory/hermite/spectrum.c
         src/theory/hermite/streaming.c src/theory/hermite/sums.c src/theory/hermite/viscosity.c"""),
     "theory/rough": (8, """
-        src/theory/rough/rough_answer.c src/theory/rough/rough_collision.c src/theory/rough/factors.c
+        src/theory/rough/rough_answer.c src/theory/rough/rough_collision.c src/theory/rough/eight_directions.c src/theory/rough/factors.c
         src/theory/rough/functions.c src/theory/rough/rough_pairs.c src/theory/rough/relative.c src/theory/rough/rough_state.c
         src/theory/rough/steady.c"""),
 }

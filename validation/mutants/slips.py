@@ -21,8 +21,8 @@ from slip_list import SLIPS
 HERE = os.path.dirname(os.path.abspath(__file__))
 # Others look at the tree itself or at exported names, or take minutes to kill and fail what no slip changes.
 TESTS = (r"(run|statistics|sweep|files|measure|bench)/|api/(?!workers|memory)|scene/resumption"
-         r"|cli/(export|files|independent|numbers|options|outputs|stopping|trajectory|wall_frames)$")
-AT_ONCE = 4
+         r"|cli/(export|files|independent|numbers|options|outputs|stopping|trajectory|validate|wall_frames)$")
+AT_ONCE = 3
 
 
 def parts(text):
@@ -112,11 +112,12 @@ def reach(folder, wanted=""):
 
 
 def attempt(s, found, commands):
-    """The tests that reach it, of its file and its room first, and quickest first."""
+    """The tests that reach it, of its file and its room first, and quickest first; an independent computation early."""
     row = {"id": s["id"], "tried": [], "killer": None}
     left = [n for n, t in found.items() if s["id"] in t["reached"] and t["code"] == 0 and n in commands]
     stem = os.path.splitext(os.path.basename(s["file"]))[0]
-    for name in sorted(left, key=lambda n: (stem not in n, found[n]["cpu"] * (1 if n.startswith(s["room"]) else 3))):
+    weight = {s["room"]: 1, "cli": 0.3}
+    for name in sorted(left, key=lambda n: (stem not in n, found[n]["cpu"] * weight.get(n.split("/")[0], 3))):
         code, _, failed = mutants.run(commands[name], s["id"], 3 * found[name]["cpu"] + 20)
         row["tried"].append(name)
         if code != 0:
