@@ -52,7 +52,7 @@ SLIPS = [
     ("src/run/replica.c", "«r->clock.frame_every = r->trajectory_every; ¦ »\n  if (r->trajectory_every > 0 &&",
      "a resumed run does not note the new distance of frames"),
     ("src/run/z_scores.c", "double error = «hypot(a->error, b->error) ¦ a->error + b->error»;", "errors of z added up"),
-    ("src/run/z_scores.c", ".deviation_error = «error / fabs(scale) ¦ error»,", "the error of a relative deviation is absolute"),
+    ("src/run/z_scores.c", ".deviation_error = «hypot(own, mean->mean / scale * reference->error) / fabs(scale) ¦ error»,", "the error of a relative deviation is absolute"),
     ("src/run/z_scores.c", "return told_from_zero ? «theory / simulation->mean - 1 ¦ simulation->mean / theory - 1» : NAN;",
      "the deviation of a theory upside down"),
     ("src/run/z_scores.c", "scale = «is_difference(q) ? 1 : fabs(reference->mean) ¦ fabs(reference->mean)»,",
