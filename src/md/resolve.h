@@ -62,14 +62,15 @@ GG_INLINE double gg_md_kinetic_loss(const gg_contact *c, gg_vec was1, gg_vec was
 }
 
 /* The contact of this pair at this speed, outside and in units of the start. */
-GG_INLINE gg_contact gg_md_contact_by_law(const gg_md *e, const gg_contact *contact, double gn, int a, int b)
+GG_INLINE gg_contact gg_md_contact_by_law(const gg_md *e, const gg_contact *contact, double gn, int a, int b,
+                                          uint32_t number)
 {
   gg_contact at = *contact;
   const gg_restitution_law *law = &e->model.law;
   double speed = ldexp(gn * e->k.scale, -e->k.power),
          restitution = law->e ? gg_common_law_at(law, speed, a, b)
                               : 1 - gg_loss_at(e->losses->loss, law->scale[gg_pair(a, b)] * speed);
-  at.jn = gg_md_contact_normal_coefficient(contact, restitution, e->k.collisions);
+  at.jn = gg_md_contact_normal_coefficient(contact, restitution, number);
   return at;
 }
 
@@ -79,21 +80,22 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
   int a = f.mixture ? gg_md_species_of(one) : 0, b = f.mixture ? gg_md_species_of(two) : 0,
       pair = f.mixture ? gg_md_pair(&e->contacts, a, b) : 0, q = f.mixture ? gg_pair(a, b) : 0;
   const gg_md_contacts *contacts = &e->contacts;
-  uint64_t turn = e->k.collisions & contacts->turns;
+  const uint32_t number = one->counter + two->counter; /* local: the same whatever happens elsewhere */
+  uint64_t turn = number & contacts->turns;
   const uint64_t row = f.mixture ? turn * (uint64_t)contacts->n_pairs : turn;
   const gg_contact *contact = &contacts->contact[row + (uint64_t)pair];
   bool treated = f.contact_time && gg_md_is_treated(e, i, j);
   if (treated) contact = &contacts->treated[row + (uint64_t)pair];
   double r2 = gg_dot(dr, dr), overlap = 0.5 * (contacts->sigma2[pair] - r2) * contacts->inverse[pair];
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
-  gg_vec k = gg_md_contact_normal(contacts, pair, dr, r2, e->k.collisions);
+  gg_vec k = gg_md_contact_normal(contacts, pair, dr, r2, number);
   const double scale = f.gaussian ? e->k.scale : 1;
   gg_vec s1 = {0, 0, 0}, s2 = s1;
   if (f.rule != GG_SMOOTH) s1 = gg_md_spin_inside(f, scale, e->spin[i]), s2 = gg_md_spin_inside(f, scale, e->spin[j]);
   gg_vec g = gg_contact_velocity(f.rule, k, c12, s1, s2);
   gg_contact by_law;
   if (f.law && !treated) {
-    by_law = gg_md_contact_by_law(e, contact, gg_dot(k, g), a, b);
+    by_law = gg_md_contact_by_law(e, contact, gg_dot(k, g), a, b, number);
     contact = &by_law;
   }
   gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));

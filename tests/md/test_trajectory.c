@@ -13,14 +13,14 @@ static const struct {
   md_case scene;
   uint64_t state;
 } stored[] = {
-    {{GG_EQUILIBRIUM, 200, 0.1, 1, -1, INFINITY, {0}}, 0x735ba73dd81c3e78},
-    {{GG_EQUILIBRIUM, 200, 0.5, 1, 1, INFINITY, {0}}, 0x33e35c4cd4949e55},
-    {{GG_USF, 200, 0.3, 0.9, 0, INFINITY, {0}}, 0x62995ba8995d13a3},
-    {{GG_USF, 300, 0.45, 0.9, 0, INFINITY, {0}}, 0xd92d41b2c7f29e55},
-    {{GG_USF, 200, 0.02, 0.8, 0.5, 0.3, {0}}, 0xc061a9ac509ac780},
-    {{GG_USF, 700, 0.01, 0.9, 0, INFINITY, {2, 1, 1}}, 0xd4f95094d9b5273f},
-    {{GG_USF, 1000, 0.15, 0.8, 0, INFINITY, {1, 1.2, 1}}, 0xc1b4dc9b6d940853},
-    {{GG_COUETTE, 200, 0.2, 0.9, 0, INFINITY, {0}}, 0xf2f94596fc9b0c6f},
+    {{GG_EQUILIBRIUM, 200, 0.1, 1, -1, INFINITY, {0}}, 0x76d3b1e21bd8ade4},
+    {{GG_EQUILIBRIUM, 200, 0.5, 1, 1, INFINITY, {0}}, 0x74f1e00e87e04a46},
+    {{GG_USF, 200, 0.3, 0.9, 0, INFINITY, {0}}, 0x8a4dd17bca5bf190},
+    {{GG_USF, 300, 0.45, 0.9, 0, INFINITY, {0}}, 0xe463dbe25f2f7502},
+    {{GG_USF, 200, 0.02, 0.8, 0.5, 0.3, {0}}, 0xe5f954a8f688deb8},
+    {{GG_USF, 700, 0.01, 0.9, 0, INFINITY, {2, 1, 1}}, 0xf9453ed5e80b1da7},
+    {{GG_USF, 1000, 0.15, 0.8, 0, INFINITY, {1, 1.2, 1}}, 0x564659e422b510c0},
+    {{GG_COUETTE, 200, 0.2, 0.9, 0, INFINITY, {0}}, 0xd302cf185ee70374},
 };
 enum { CASES = sizeof stored / sizeof *stored };
 
