@@ -86,6 +86,13 @@ gg_cell_grid gg_measure_cell_grid_of(const gg_model *m)
   return g;
 }
 
+gg_cell_grid gg_measure_frame_grid_of(const gg_model *m)
+{
+  gg_cell_grid g = gg_measure_cell_grid_of(m);
+  for (int a = 0; a < 3 && m->frame != GG_FRAME_IMPOSED; a++) g.n[a] = m->frame_cells;
+  return g;
+}
+
 size_t gg_measure_cell_grid_cells(const gg_cell_grid *g)
 {
   return (size_t)g->n[0] * (size_t)g->n[1] * (size_t)g->n[2];
@@ -103,9 +110,7 @@ size_t gg_measure_cell_grid_cell(const gg_cell_grid *g, const gg_snapshot *s, si
 
 gg_status gg_measure_framed_init(gg_framed *f, const gg_model *m, gg_error *err)
 {
-  gg_cell_grid grid = gg_measure_cell_grid_of(m);
-  for (int a = 0; a < 3; a++) grid.n[a] = m->frame_cells;
-  GG_TRY(gg_measure_cell_frame_init(&f->cells, m, grid, err));
+  GG_TRY(gg_measure_cell_frame_init(&f->cells, m, gg_measure_frame_grid_of(m), err));
   for (int a = 0; a < 3; a++) {
     if (!(f->c[a] = gg_base_array_new((size_t)m->n, sizeof(double), err))) return GG_FAILED;
     if (m->rule != GG_SMOOTH && !(f->s[a] = gg_base_array_new((size_t)m->n, sizeof(double), err))) return GG_FAILED;

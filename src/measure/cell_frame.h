@@ -12,6 +12,8 @@ typedef struct gg_cell_grid {
 } gg_cell_grid;
 
 gg_cell_grid gg_measure_cell_grid_of(const gg_model *model);
+/* The cells of the scene's frame; those above where it is the imposed flow. */
+gg_cell_grid gg_measure_frame_grid_of(const gg_model *model);
 size_t gg_measure_cell_grid_cells(const gg_cell_grid *grid);
 /* The cell of grain i; x runs fastest. */
 size_t gg_measure_cell_grid_cell(const gg_cell_grid *grid, const gg_snapshot *s, size_t i);

@@ -1,7 +1,8 @@
 /* Distributions of C_x and Omega_z where the gas is thin and where it is dense: of the grains in cells whose density
  * lies within a tenth of a chosen one (Gayen's thesis, section 4.1), and of the grains of all cells. Cells hold about
  * eight grains. Velocities are about the mean of the cell; with the share m_i/M_c that a mean over few grains takes out
- * of a variance put back they are, for Gaussian grains, Gaussian again. */
+ * of a variance put back they are, for Gaussian grains, Gaussian again. Where the scene's frame is cells, cells and
+ * velocities are those of the frame. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,7 +45,7 @@ static void *create(const gg_model *m, gg_error *err)
   if (!d) return NULL;
   d->model = *m;
   d->vectors = m->rule == GG_SMOOTH ? 1 : VECTORS;
-  d->grid = gg_measure_cell_grid_of(m);
+  d->grid = gg_measure_frame_grid_of(m);
   d->cell = gg_base_array_new(gg_measure_cell_grid_cells(&d->grid), sizeof *d->cell, err);
   d->at = gg_base_array_new((size_t)m->n, sizeof *d->at, err);
   bool whole = d->cell && d->at;
@@ -92,20 +93,29 @@ static void sort_grains(local *d, const gg_snapshot *s)
   }
 }
 
-/* Values about the cells' means, and their standard deviation over the whole box, by species. A grain alone in its cell
- * has none: NaN. */
-static void centre_values(local *d, const gg_snapshot *s, int v, double sigma[GG_MAX_SPECIES])
+/* Of a grain about its cell's mean; alone in its cell it has none: NaN. */
+static double about_cell(const local *d, const gg_snapshot *s, int v, size_t i)
 {
-  double squares[GG_MAX_SPECIES] = {0}, n[GG_MAX_SPECIES] = {0};
+  const cell *c = &d->cell[d->at[i]];
+  double w = weight_of(&d->model, gg_snapshot_species(s, i), v), left = c->weight[v] - w;
+  return left > 1e-9 * w ? (component(s, v, i) - c->sum[v] / c->weight[v]) * sqrt(c->weight[v] / left) : NAN;
+}
+
+/* Values of grains, and by species their mean and standard deviation over the whole box. The frame's values are about
+ * cells already, spins plus a mean of the box. */
+static void take_values(local *d, const gg_snapshot *s, int v, gg_scale_of scale[GG_MAX_SPECIES])
+{
+  const bool framed = d->model.frame != GG_FRAME_IMPOSED;
+  double sum[GG_MAX_SPECIES] = {0}, squares[GG_MAX_SPECIES] = {0}, n[GG_MAX_SPECIES] = {0};
   for (size_t i = 0; i < s->n; i++) {
     int k = gg_snapshot_species(s, i);
-    const cell *c = &d->cell[d->at[i]];
-    double w = weight_of(&d->model, k, v), left = c->weight[v] - w;
-    double x = left > 1e-9 * w ? (component(s, v, i) - c->sum[v] / c->weight[v]) * sqrt(c->weight[v] / left) : NAN;
-    d->value[v][i] = x;
-    if (isfinite(x)) squares[k] += x * x, n[k]++;
+    double x = d->value[v][i] = framed ? component(s, v, i) : about_cell(d, s, v, i);
+    if (isfinite(x)) sum[k] += x, squares[k] += x * x, n[k]++;
   }
-  for (int k = 0; k < GG_MAX_SPECIES; k++) sigma[k] = sqrt(squares[k] / n[k]);
+  for (int k = 0; k < d->model.n_species; k++) {
+    double mean = framed ? sum[k] / n[k] : 0;
+    scale[k] = (gg_scale_of){mean, sqrt(squares[k] / n[k] - mean * mean)};
+  }
 }
 
 static bool belongs(double density, int class)
@@ -120,14 +130,15 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   double mean = 6 / M_PI * m->phi * m->volume / (double)gg_measure_cell_grid_cells(&d->grid); /* sum of d^3 in a cell */
   sort_grains(d, s);
   for (int v = 0; v < d->vectors; v++) {
-    double sigma[GG_MAX_SPECIES];
-    centre_values(d, s, v, sigma);
+    gg_scale_of scale[GG_MAX_SPECIES];
+    take_values(d, s, v, scale);
     for (size_t i = 0; i < s->n; i++) {
       double density = d->cell[d->at[i]].volume / mean;
       int k = gg_snapshot_species(s, i);
       if (!isfinite(d->value[v][i])) continue;
       for (int j = 0; j < CLASSES; j++)
-        if (belongs(density, j)) gg_histogram_add(histogram_of(d, bin, k, v, j), d->value[v][i] / sigma[k]);
+        if (belongs(density, j))
+          gg_histogram_add(histogram_of(d, bin, k, v, j), (d->value[v][i] - scale[k].mean) / scale[k].sigma);
     }
   }
 }
@@ -168,6 +179,7 @@ const gg_observable gg_measure_local_distributions = {
     .refuses = gg_measure_needs_bulk,
     .bins = bins,
     .every = 4,
+    .framed = true,
     .positions = true,
     .add_snapshot = add_snapshot,
     .curves = curves,

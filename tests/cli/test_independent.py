@@ -55,7 +55,7 @@ def scene_of(flow, kind, frame="imposed"):
     measure = ["rheology", "collisions"] + FLOWS[flow]["measure"] + (["orientation"] if kind != "smooth" else [])
     cells = {} if frame == "imposed" else {"frame": frame, "frame_cells": 2}
     if cells and flow == "usf":  # sums over a cooling gas weigh samples by the engine's present scale
-        measure.append("velocity_correlations")
+        measure += ["velocity_correlations", "local_distributions"]
     return dict(FLOWS[flow]["keys"], **cells, flow=flow, phi=PHI, particles=N, species=SPECIES, collision=collision, measure=measure,
                 run={"warmup": WARMUP, "collisions": COLLISIONS}, output={"trajectory_every": 1e-9},
                 md={"contact_time": 1e-9})  # hardly a collision without its e
@@ -571,6 +571,27 @@ def hold_correlations(store, flow, kind, curves, replicas, C, W):
             close(found, right, flow, kind, "correlation", letter, a)
 
 
+def hold_local(store, flow, kind, curves, replicas, C, W):
+    """C_x and Omega_z in the cells of the frame, all and by solid fraction, about the mean of their species over its sigma."""
+    rows = np.where(window_of(store, replicas) & (store.index % 4 == 0))[0]  # every 4th sample
+    place = np.clip(np.floor(2 * store.position[rows] / np.array(box_of(store, flow))), 0, 1).astype(int) @ [1, 2, 4]
+    volume = np.array([np.bincount(p, d[store.species] ** 3, 8) for p in place])
+    density = np.take_along_axis(volume, place, 1) / (d[store.species] ** 3).sum() * 8
+    for letter, field in ({"C": C[..., 0]} if kind == "smooth" else {"C": C[..., 0], "W": W[..., 2]}).items():
+        for k in 0, 1:
+            of = store.species == k
+            x = field[rows][:, of]
+            x = (x - x.mean(1, keepdims=True)) / x.std(1, keepdims=True)
+            for class_ in "0.75", "1", "1.25", "all":
+                curve = curves[f"local_distribution_{letter}{'x' if letter == 'C' else 'z'}_{k + 1}_{class_}"]
+                here = x[np.abs(density[:, of] / float(class_) - 1) < 0.1] if class_ != "all" else x.ravel()
+                variance = (here ** 2).mean()
+                right = {"kurtosis": (here ** 4).mean() / variance ** 2, "skewness": (here ** 3).mean() / variance ** 1.5,
+                         "temperature_over_mean": variance}
+                for name, value in right.items():
+                    close(curve["numbers"][name]["mean"], value, flow, kind, "local", letter, k, class_, name)
+
+
 def hold_curves(store, flow, kind, curves, replicas, C, W, followed):
     rows = window_of(store, replicas) & (store.index % 2 == 0)  # every 2nd sample
     hold_collisions(store, flow, curves, window_of(store, replicas))
@@ -582,6 +603,7 @@ def hold_curves(store, flow, kind, curves, replicas, C, W, followed):
         hold_flights(store, flow, curves, replicas, followed)
     if "velocity_correlation_Cx" in curves:
         hold_correlations(store, flow, kind, curves, replicas, C, W)
+        hold_local(store, flow, kind, curves, replicas, C, W)
     if kind != "smooth" and "profiles" not in FLOWS[flow]["measure"]:
         hold_peculiar_orientation(store, curves, rows, C, W)
     if kind != "smooth":

@@ -297,11 +297,13 @@ class Sweep:
     keys: dict
 
     def quick(self, changes):
-        """The text with other values, and keys that vary less, which come last."""
+        """The text with other values, and keys that vary less, which come last. Lists of maps are replaced as a whole."""
         keys = copy.deepcopy(dict(self.keys))
         for key, value in changes.items():
             if key == "vary":
-                keys["vary"] = {**{k: v for k, v in keys["vary"].items() if k not in value}, **value}
+                if isinstance(value, dict) and isinstance(keys["vary"], dict):
+                    value = {**{k: v for k, v in keys["vary"].items() if k not in value}, **value}
+                keys["vary"] = value
                 continue
             head, _, rest = key.partition(".")
             keys[head] = {**keys.get(head, {}), rest: value} if rest else value
@@ -328,9 +330,11 @@ def read(path):
     nodes = {key.value: value for key, value in reader.root.value}
     named = {"": nodes["sweep"]} if "sweep" in root else {key.value: value for key, value in nodes["sweeps"].value}
     quick = root.map("quick") or {}
-    vary = quick.map("vary") if quick and "vary" in quick else {}
-    for of, key in [(quick, key) for key in quick if key != "vary"] + [(vary, key) for key in vary]:
-        _scene_key(of, key)
+    vary = [] if "vary" not in quick else quick.maps("vary") if isinstance(quick["vary"], list) else [quick.map("vary")]
+    for of in [quick, *vary]:
+        for key in of:
+            if of is not quick or key != "vary":
+                _scene_key(of, key)
     if root.get("verdict", "open") not in VERDICTS:
         root.refuse("verdict", f"'{root['verdict']}' is not allowed; allowed: {', '.join(VERDICTS)}")
     return Entry(path, root["figure"], root["shows"], {name: _sweep(text, reader, node) for name, node in named.items()}, quick,

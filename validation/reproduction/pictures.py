@@ -184,7 +184,7 @@ def unsettled(tables):
     found = {}
     for table in tables:
         for engine, point in table.unsettled:
-            keys = ", ".join(f"{key} {point.scene.text_of(key)}" for key in point.varied)
+            keys = ", ".join(f"{key} {point.scene.text_of(key)}" for key in point.varied if not key.startswith("run."))
             found.setdefault(f"{keys} ({engine})" if keys else engine)
     return list(found)
 

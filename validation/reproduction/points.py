@@ -158,7 +158,7 @@ class Asked:
         """The point that differs from this one in the keys of relative_to only."""
         free = self.source.relative_to
         for other in self.points:
-            keys = {*other.varied, *point.varied} - set(free)
+            keys = {key for key in {*other.varied, *point.varied} - set(free) if not key.startswith("run.")}
             if meets(other.scene, free) and all(other.scene.text_of(k) == point.scene.text_of(k) for k in keys):
                 return other
         return None
