@@ -1632,6 +1632,23 @@ GG_API gg_status gg_catalogue_entry(gg_catalogue list, size_t i, const gg_scene 
  */
 GG_API gg_status gg_catalogue_word(const char *key, size_t i, gg_entry *entry, gg_error *err);
 
+/**
+ * A scene to begin with, as YAML: what has to be said, and every other key of the flow as a comment with its default.
+ * @param flow "usf", or another word of the key flow
+ * @param text receives the text, to be freed with free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK; GG_BAD_INPUT: there is no such flow
+ */
+GG_API gg_status gg_scene_begin(const char *flow, char **text, gg_error *err);
+
+/**
+ * What files of scenes and sweeps may hold, as JSON Schema (draft 7): editors complete keys and mark errors by it.
+ * @param text receives the text, to be freed with free()
+ * @param err receives the message on failure; may be NULL
+ * @return GG_OK, or an error status
+ */
+GG_API gg_status gg_schema_to_json(char **text, gg_error *err);
+
 /* ---- Words for people ---- */
 
 /**

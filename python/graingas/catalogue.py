@@ -1,8 +1,10 @@
 """Tables of the library: keys of scenes, flows, engines, observables, quantities, theories."""
 from __future__ import annotations
 
+import json
+
 from . import _c
-from .errors import lib, new_error, encode
+from .errors import check, encode, lib, new_error, owned_text
 from .structs import Record, new, values
 
 ffi = _c.ffi
@@ -49,3 +51,10 @@ def quantities():
 def theories():
     """Theories: name, doc, citation, assumptions, answers (names of quantities), when they apply."""
     return table(lib.GG_CATALOGUE_THEORIES)
+
+
+def schema():
+    """JSON Schema (draft 7) of the files of scenes and sweeps, as a dict."""
+    made = ffi.new("char **")
+    check(lib.gg_schema_to_json, made)
+    return json.loads(owned_text(made))

@@ -28,6 +28,7 @@ int gg_cli_plot_main(const gg_command *command, int argc, char **argv);
 int gg_cli_export_main(const gg_command *command, int argc, char **argv);
 int gg_cli_info_main(const gg_command *command, int argc, char **argv);
 int gg_cli_fingerprint_main(const gg_command *command, int argc, char **argv);
+int gg_cli_init_main(const gg_command *command, int argc, char **argv);
 int gg_cli_page_main(const gg_command *command, int argc, char **argv);
 int gg_cli_bench_main(const gg_command *command, int argc, char **argv);
 

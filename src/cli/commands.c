@@ -60,7 +60,11 @@ const gg_command gg_cli_commands[] = {
      "graingas info N1 prints its definition in five lines, --all in full. Without an argument: every scene key with "
      "its "
      "default and range.",
-     GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL | GG_OPT_QUIET, gg_cli_info_main},
+     GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL | GG_OPT_SCHEMA | GG_OPT_QUIET, gg_cli_info_main},
+    {"init", "[FLOW]", "A scene to begin with: FLOW.yaml, with every key of the flow",
+     "Writes a scene of the flow (usf without an argument) that runs as it is. Its other keys stand there as comments, "
+     "with their defaults and meanings. A file that is there already stays.",
+     GG_OPT_OUTPUT | GG_OPT_QUIET, gg_cli_init_main},
     {"fingerprint", "SCENE.yaml", "A hash of the grains' state after a number of collisions, to compare machines",
      "Runs the scene's engine, or the one of --engine, from its start and prints a hash of all positions, velocities "
      "and spins. The hash of a scene and seed is the same on every processor, with every compiler and in the browser. "

@@ -249,11 +249,22 @@ static bool is_hdf5(const char *path)
   return yes;
 }
 
+static int print_schema(const gg_options *o)
+{
+  gg_error err;
+  char *text = NULL;
+  if (o->input || o->n_overrides) return gg_cli_fail(GG_BAD_INPUT, "info --schema takes neither a FILE nor --set");
+  if (gg_schema_to_json(&text, &err) != GG_OK) return gg_cli_report(&err);
+  gg_cli_print_text(text);
+  return GG_OK;
+}
+
 static int inform(const gg_options *o)
 {
   struct stat about;
   const bool is_word = o->input && gg_cli_is_word(o->input) && stat(o->input, &about) != 0;
   if (o->all && !is_word) return gg_cli_fail(GG_BAD_INPUT, "info takes --all only with a WORD");
+  if (o->schema) return print_schema(o);
   if (o->input && is_hdf5(o->input)) {
     if (!o->n_overrides) return inform_result(o);
     return gg_cli_fail(GG_BAD_INPUT, "%s: is a result, which --set does not change", o->input);

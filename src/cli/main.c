@@ -47,8 +47,8 @@ static bool has_value(const char *word, const char *option)
 
 static int unknown(const char *word)
 {
-  const char *known[16] = {"--help", "--version", NULL};
-  for (int i = 0; gg_cli_commands[i].name && i < 13; i++) known[i + 2] = gg_cli_commands[i].name;
+  const char *known[20] = {"--help", "--version", NULL};
+  for (int i = 0; gg_cli_commands[i].name && i < 17; i++) known[i + 2] = gg_cli_commands[i].name;
   const char *nearest = gg_nearest_word(word, known);
   if (strcmp(word, "reproduce") == 0)
     return gg_cli_fail(GG_BAD_INPUT,
@@ -112,6 +112,7 @@ static int dispatch(int argc, char **argv)
   if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0)
     return help(argc > 2 ? argv[2] : NULL);
   if (strcmp(word, "--version") == 0) return printf("graingas %s\n", gg_version()), GG_OK;
+  if (strcmp(word, "--completion") == 0) return gg_cli_print_completion(argc > 2 ? argv[2] : NULL);
   if (strcmp(word, "--manual") == 0) return gg_cli_print_manual(), GG_OK;
   if (strcmp(word, "--quantities-page") == 0) return gg_cli_print_quantities_page(), GG_OK;
   if (strcmp(word, "--commands-page") == 0) return gg_cli_print_commands_page(), GG_OK;

@@ -60,6 +60,7 @@ const gg_option gg_cli_options_table[] = {
     {GG_OPT_ALL, "all", NULL, "show everything: every quantity, not only the main ones; whole definitions"},
     {GG_OPT_JSON, "json", NULL,
      "results as one JSON document on standard output, and nothing else there; bench: a line for each row"},
+    {GG_OPT_SCHEMA, "schema", NULL, "JSON Schema of scenes and sweeps, by which editors complete keys and mark errors"},
     {GG_OPT_LIMIT, "limit", "PERCENT",
      "bench compare: exit code 1 if a row is slower by more than this beyond its spread (default: no limit)"},
     {GG_OPT_QUICK, "quick", NULL, "fewer sizes and fewer repeats"},
@@ -224,6 +225,7 @@ static int take(gg_options *o, unsigned flag, const char *name, const char *valu
   case GG_OPT_ALL: o->all = true; break;
   case GG_OPT_JSON: o->json = true; break;
   case GG_OPT_QUICK: o->quick = true; break;
+  case GG_OPT_SCHEMA: o->schema = true; break;
   case GG_OPT_QUIET: o->quiet = true; break;
   case GG_OPT_SWEEP:
   case GG_OPT_VALIDATE:

@@ -25,6 +25,7 @@ enum {
   GG_OPT_THEORY = 1u << 18,
   GG_OPT_VALIDATE = 1u << 19, /* all that only validate has */
   GG_OPT_LIMIT = 1u << 20,
+  GG_OPT_SCHEMA = 1u << 22,
   GG_OPT_MORE = 1u << 21, /* no option: GG_MORE_INPUTS arguments may follow the first */
 };
 
@@ -55,7 +56,7 @@ typedef struct gg_options {
   const char *mapped;            /* theories in maps and in that picture; NULL: chosen */
   const char *page;              /* to be written; NULL: none */
   const char *point;             /* the one of a sweep to do; NULL: all */
-  bool json, quiet, all, quick, accept_version;
+  bool json, quiet, all, quick, accept_version, schema;
   bool list, collect, slurm; /* what else to do with a sweep */
   uint64_t collisions;       /* 0: not said */
   int threads;
@@ -85,6 +86,8 @@ typedef gg_status gg_options_setter(void *target, const char *key, const char *v
 gg_status gg_cli_options_set(const char *option, const char *typed, const char *example, gg_options_setter *set,
                              void *target, gg_error *err);
 
+/* completion.c: for bash, zsh or fish; the exit code. */
+int gg_cli_print_completion(const char *shell);
 void gg_cli_command_print_help(const gg_command *command);
 
 #endif

@@ -237,6 +237,13 @@ void gg_scene_field_when(const gg_field *f, char *text, size_t size)
   }
 }
 
+bool gg_scene_field_is_of(const gg_field *f, gg_flow flow)
+{
+  for (int i = 0; i < CONDITIONS; i++)
+    if ((f->when & conditions[i].condition) && conditions[i].flow && !conditions[i].flow(flow)) return false;
+  return !(f->when & GG_IF_UNWALLED) || !gg_flow_is_walled(flow);
+}
+
 /* Conditions that depend on more than the flow. */
 static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
 {

@@ -102,8 +102,16 @@ gg_word gg_scene_field_word_for(const gg_field *field, int value);
 void gg_scene_number_format(double value, char *text, size_t size);
 /* When the key has an effect: "flow couette; walls.beta is not -1"; "" if it always has. */
 void gg_scene_field_when(const gg_field *field, char *text, size_t size);
+/* Does a key belong to the flow, whatever else a scene says? */
+bool gg_scene_field_is_of(const gg_field *field, gg_flow flow);
 /* What a field takes, in words: "a number from 0 to 1", "one of md, dsmc". */
 void gg_scene_field_allowed(const gg_field *field, char *text, size_t size);
+
+/* scene_schema.c: a map with these keys as JSON Schema; the part before a dot is a map of its own. */
+json_t *gg_scene_schema_of(const gg_field *fields);
+
+/* scene_template.c: a scene of the flow to begin with, as YAML with comments, to be freed; NULL: out of memory. */
+char *gg_scene_template(gg_flow flow);
 
 /* scene_json.c: scenes as JSON for results and as YAML for people; either can be read again as a scene. */
 

@@ -49,6 +49,8 @@ gg_sweep_settings gg_sweep_settings_defaults(void);
 /* One key of the map `sweep`, "sweep.does", from YAML. */
 gg_status gg_sweep_settings_set(gg_sweep_settings *settings, const char *key, const char *value, gg_error *err);
 /* As text that can be read again. */
+/* The map `sweep` as JSON Schema. */
+json_t *gg_sweep_settings_schema(void);
 void gg_sweep_settings_print(FILE *out, const gg_sweep_settings *settings);
 gg_status gg_sweep_read_text(gg_sweep *sweep, const char *yaml, size_t length, const char *name, gg_error *err);
 

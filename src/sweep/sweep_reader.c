@@ -65,6 +65,14 @@ gg_status gg_sweep_settings_set(gg_sweep_settings *settings, const char *key, co
   return GG_OK;
 }
 
+json_t *gg_sweep_settings_schema(void)
+{
+  json_t *whole = gg_scene_schema_of(settings_fields);
+  json_t *settings = json_incref(json_object_get(json_object_get(whole, "properties"), "sweep"));
+  json_decref(whole);
+  return settings;
+}
+
 void gg_sweep_settings_print(FILE *out, const gg_sweep_settings *settings)
 {
   fputs("sweep:\n", out);

@@ -1,0 +1,160 @@
+/* Completion for shells, from the tables of commands and options: `graingas --completion bash`. */
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/options.h"
+
+/* Names of a table, separated by blanks. */
+static void put_names(gg_catalogue list)
+{
+  gg_entry e;
+  for (size_t i = 0; gg_catalogue_entry(list, i, NULL, &e, NULL) == GG_OK; i++) printf("%s%s", i ? " " : "", e.name);
+}
+
+static void put_arguments(const gg_option *o)
+{
+  const char *a = o->argument;
+  if (strcmp(o->name, "theory") == 0 || strcmp(o->name, "theories") == 0)
+    put_names(GG_CATALOGUE_THEORIES);
+  else if (strcmp(o->name, "show") == 0)
+    put_names(GG_CATALOGUE_QUANTITIES);
+  else if (strcmp(o->name, "over") == 0 || strcmp(o->name, "set") == 0 || strcmp(o->name, "vary") == 0)
+    put_names(GG_CATALOGUE_KEYS);
+  else if (strcmp(o->name, "does") == 0)
+    fputs("run compare theory", stdout);
+  else if (strcmp(o->name, "only") == 0)
+    fputs("results curves trajectory", stdout);
+  else
+    for (; *a; a++) putchar(*a == '|' ? ' ' : *a); /* "md|dsmc" */
+}
+
+/* Do words follow that are known, or a number or a file? */
+static bool has_words(const gg_option *o)
+{
+  static const char *const known[] = {"theory", "theories", "show", "over", "set", "vary", "does", "only"};
+  if (!o->argument) return false;
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+    if (strcmp(o->name, known[i]) == 0) return true;
+  return strchr(o->argument, '|') != NULL;
+}
+
+static bool takes_file(const gg_option *o)
+{
+  return o->argument && (strcmp(o->argument, "FILE") == 0 || strcmp(o->argument, "FOLDER") == 0);
+}
+
+/* The words that the argument of a command may be, besides files. */
+static void put_words(const gg_command *c)
+{
+  if (strcmp(c->name, "init") == 0) put_names(GG_CATALOGUE_FLOWS);
+  if (strcmp(c->name, "bench") == 0) fputs("md dsmc observables error compare", stdout);
+  if (strcmp(c->name, "info") != 0) return;
+  static const gg_catalogue all[] = {GG_CATALOGUE_KEYS, GG_CATALOGUE_QUANTITIES, GG_CATALOGUE_THEORIES,
+                                     GG_CATALOGUE_OBSERVABLES, GG_CATALOGUE_FLOWS};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) fputs(i ? " " : "", stdout), put_names(all[i]);
+}
+
+/* Endings of the files that a command reads. */
+static const char *endings_of(const gg_command *c)
+{
+  if (strstr(c->arguments, "RESULT.h5")) return "h5";
+  if (strstr(c->arguments, "FILE")) return "yaml|yml|h5";
+  return strstr(c->arguments, ".yaml") ? "yaml|yml" : "";
+}
+
+static void print_bash(void)
+{
+  printf("# graingas --completion bash\n_graingas() {\n  local cur=${COMP_WORDS[COMP_CWORD]} "
+         "prev=${COMP_WORDS[COMP_CWORD-1]} words= options= endings=\n  COMPREPLY=()\n"
+         "  case ${COMP_WORDS[1]} in\n");
+  for (const gg_command *c = gg_cli_commands; c->name; c++) {
+    printf("  %s)\n    endings='%s' words='", c->name, endings_of(c));
+    put_words(c);
+    printf("' options='--help");
+    for (const gg_option *o = gg_cli_options_table; o->flag; o++)
+      if (c->options & o->flag) printf(" --%s", o->name);
+    printf("'\n    case $prev in\n");
+    for (const gg_option *o = gg_cli_options_table; o->flag; o++) {
+      if (!(c->options & o->flag) || !o->argument) continue;
+      printf("    --%s) ", o->name);
+      if (has_words(o)) printf("COMPREPLY=($(compgen -W '"), put_arguments(o), printf("' -- \"$cur\"));");
+      if (takes_file(o)) printf("COMPREPLY=($(compgen -f -- \"$cur\"));");
+      printf(" return ;;\n");
+    }
+    printf("    esac ;;\n");
+  }
+  printf("  esac\n"
+         "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n    COMPREPLY=($(compgen -W '--help --version");
+  for (const gg_command *c = gg_cli_commands; c->name; c++) printf(" %s", c->name);
+  printf("' -- \"$cur\"))\n  elif [ \"${cur#-}\" != \"$cur\" ]; then\n"
+         "    COMPREPLY=($(compgen -W \"$options\" -- \"$cur\"))\n  else\n"
+         "    COMPREPLY=($(compgen -W \"$words\" -- \"$cur\") $(compgen -d -- \"$cur\")\n"
+         "      $([ -z \"$endings\" ] || compgen -f -- \"$cur\" | grep -E \"\\\\.($endings)\\$\"))\n  fi\n}\n"
+         "complete -o filenames -F _graingas graingas\n");
+}
+
+/* In single quotes of zsh and fish; what zsh would take as its own marks is left out. */
+static void put_quoted(const char *text)
+{
+  for (; *text; text++)
+    if (strchr("'[]", *text) == NULL) putchar(*text == ':' ? ',' : *text);
+}
+
+static void print_zsh(void)
+{
+  printf("#compdef graingas\n# graingas --completion zsh\nlocal -a commands\ncommands=(\n");
+  for (const gg_command *c = gg_cli_commands; c->name; c++)
+    printf("  '%s:", c->name), put_quoted(c->summary), printf("'\n");
+  printf(")\nif (( CURRENT == 2 )); then\n  _describe command commands\n  return\nfi\nshift words\n(( CURRENT-- ))\n"
+         "case $words[1] in\n");
+  for (const gg_command *c = gg_cli_commands; c->name; c++) {
+    printf("%s)\n  _arguments '--help[this text]'", c->name);
+    for (const gg_option *o = gg_cli_options_table; o->flag; o++) {
+      if (!(c->options & o->flag)) continue;
+      printf(" \\\n    '--%s[", o->name);
+      put_quoted(o->doc);
+      printf("]");
+      if (o->argument) printf(":"), put_quoted(o->argument), printf(":");
+      if (has_words(o)) printf("("), put_arguments(o), printf(")");
+      if (takes_file(o)) printf("_files");
+      printf("'");
+    }
+    const char *endings = endings_of(c);
+    printf(" \\\n    '1:argument:_alternative \"words:word:(");
+    put_words(c);
+    printf(")\"%s%s%s' '*:file:_files' ;;\n", *endings ? " \"files:file:_files -g \\\"*.(" : "", endings,
+           *endings ? ")\\\"\"" : "");
+  }
+  printf("esac\n");
+}
+
+static void print_fish(void)
+{
+  printf("# graingas --completion fish\ncomplete -c graingas -n __fish_use_subcommand -f\n");
+  for (const gg_command *c = gg_cli_commands; c->name; c++) {
+    printf("complete -c graingas -n __fish_use_subcommand -a %s -d '", c->name);
+    put_quoted(c->summary);
+    printf("'\ncomplete -c graingas -n '__fish_seen_subcommand_from %s' -a '", c->name);
+    put_words(c);
+    printf("'\n");
+    for (const gg_option *o = gg_cli_options_table; o->flag; o++) {
+      if (!(c->options & o->flag)) continue;
+      printf("complete -c graingas -n '__fish_seen_subcommand_from %s' -l %s%s", c->name, o->name,
+             !o->argument    ? ""
+             : takes_file(o) ? " -r"
+                             : " -x");
+      if (has_words(o)) printf(" -a '"), put_arguments(o), printf("'");
+      printf(" -d '");
+      put_quoted(o->doc);
+      printf("'\n");
+    }
+  }
+}
+
+int gg_cli_print_completion(const char *shell)
+{
+  if (shell && strcmp(shell, "bash") == 0) return print_bash(), GG_OK;
+  if (shell && strcmp(shell, "zsh") == 0) return print_zsh(), GG_OK;
+  if (shell && strcmp(shell, "fish") == 0) return print_fish(), GG_OK;
+  return gg_cli_fail(GG_BAD_INPUT, "--completion takes the name of a shell: bash, zsh or fish");
+}
