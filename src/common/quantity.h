@@ -38,6 +38,7 @@ enum {
 #define GG_P_COLLISIONAL (GG_NEEDS_SCALE | GG_NEEDS_TRANSFER)
 #define GG_SPIN_MOMENT (GG_NEEDS_SPINS)
 #define GG_CUMULANT (GG_NEEDS_NO_SHEAR)
+#define GG_HEAT_OF_SPINS (GG_NEEDS_THEORY | GG_NEEDS_SPINS)
 #define GG_REDUCED_VISCOSITY (GG_NEEDS_LINEAR_RESPONSE | GG_KEPT_HEATING)
 
 /* ONE(identifier, name, symbol as pictures have it, short word or "", unit, mask, meaning in one line, "plain formula:
@@ -181,7 +182,29 @@ enum {
       "n mu/(T kappa_0): heat flux along -grad n of a cooling gas; 0 for elastic grains",                              \
       "\\mu^* = \\frac{4 m\\nu_0\\,\\mu}{15\\,T^2}")                                                                   \
   ONE(BULK_VISCOSITY_REDUCED, "bulk_viscosity_reduced", "η_b*", "", NONE, GG_NEEDS_THEORY,                             \
-      "nu_0 eta_b/(n T): bulk viscosity, of collisions alone", "\\eta_b^* = \\frac{\\nu_0\\,\\eta_b}{nT}")             \
+      "nu_0 eta_b/(n T): bulk viscosity; of smooth grains by collisions alone",                                        \
+      "\\eta_b^* = \\frac{\\nu_0\\,\\eta_b}{nT}")                                                                      \
+  ONE(ROTATIONAL_CONDUCTIVITY_REDUCED, "rotational_conductivity_reduced", "κ_r*", "", NONE, GG_HEAT_OF_SPINS,          \
+      "kappa_r/kappa_0: rotational heat flux along -grad T of a cooling gas, whose theta goes as T",                   \
+      "\\kappa_r^* = \\frac{4 m\\nu_0\\,\\kappa_r}{15\\,nT}")                                                          \
+  ONE(ROTATIONAL_DIFFUSIVE_CONDUCTIVITY_REDUCED, "rotational_diffusive_conductivity_reduced", "μ_r*", "", NONE,        \
+      GG_HEAT_OF_SPINS, "n mu_r/(T kappa_0): rotational heat flux along -grad n of a cooling gas",                     \
+      "\\mu_r^* = \\frac{4 m\\nu_0\\,\\mu_r}{15\\,T^2}")                                                               \
+  ONE(THERMAL_CONDUCTIVITY, "thermal_conductivity", "κ", "", VISCOSITY, GG_NEEDS_THEORY,                               \
+      "translational heat flux along -grad T under shear, n uniform; q = -kappa grad T - kappa_h grad theta",          \
+      "\\mathbf q = -\\kappa\\nabla T - \\kappa_h\\nabla\\theta")                                                      \
+  ONE(THERMAL_CONDUCTIVITY_CROSS, "thermal_conductivity_cross", "κ_h", "", VISCOSITY, GG_HEAT_OF_SPINS,                \
+      "translational heat flux along -grad theta", "\\mathbf q = -\\kappa\\nabla T - \\kappa_h\\nabla\\theta")         \
+  ONE(ROTATIONAL_CONDUCTIVITY_CROSS, "rotational_conductivity_cross", "κ_r", "", VISCOSITY, GG_HEAT_OF_SPINS,          \
+      "rotational heat flux along -grad T; q_r = -kappa_r grad T - kappa_rh grad theta",                               \
+      "\\mathbf q_r = -\\kappa_r\\nabla T - \\kappa_{rh}\\nabla\\theta")                                               \
+  ONE(ROTATIONAL_CONDUCTIVITY, "rotational_conductivity", "κ_rh", "", VISCOSITY, GG_HEAT_OF_SPINS,                     \
+      "rotational heat flux along -grad theta", "\\mathbf q_r = -\\kappa_r\\nabla T - \\kappa_{rh}\\nabla\\theta")     \
+  ONE(BULK_VISCOSITY, "bulk_viscosity", "ξ", "", VISCOSITY, GG_NEEDS_THEORY | GG_NEEDS_TRANSFER,                       \
+      "pressure lost per rate of expansion, of collisions alone", "p - \\xi\\,\\nabla\\cdot\\mathbf u")                \
+  ONE(ROTATIONAL_VISCOSITY, "rotational_viscosity", "μ_r", "", VISCOSITY, GG_HEAT_OF_SPINS | GG_NEEDS_TRANSFER,        \
+      "antisymmetric stress over what the mean spin lacks of the flow's rotation",                                     \
+      "\\Psi = -2\\mu_r(2\\boldsymbol\\omega - \\nabla\\times\\mathbf u)")                                             \
   ONE(DENSITY_WAVES, "density_waves", "S_L", "", NONE, GG_NEEDS_BOX | GG_NEEDS_NO_WALLS | GG_KEPT_HEATING,             \
       "<|sum d^3 exp(ikr)|^2>/(S_e sum d^6): density waves as long as the box and half of it, k = 2 pi/L and 4 pi/L, " \
       "over "                                                                                                          \
@@ -195,6 +218,9 @@ enum {
   ONE(CLUSTERING_LENGTH, "clustering_length", "L_c", "", LENGTH, GG_NEEDS_THEORY,                                      \
       "2 pi sqrt(2 eta/(n m zeta)): box length above which a cooling gas forms vortices and clusters",                 \
       "L_c = 2\\pi\\sqrt{\\frac{2\\eta}{n m \\zeta}}")                                                                 \
+  ONE(HEAT_MODE_LENGTH, "heat_mode_length", "L_h", "", LENGTH, GG_NEEDS_THEORY,                                        \
+      "box length above which a cooling gas forms clusters by its heat mode alone, at any shear viscosity",            \
+      "L_h = 2\\pi\\sqrt{\\frac{2(\\kappa C_p - \\mu n/T)}{3n\\zeta(1+r)(C_\\chi - C_p/2)}}")                          \
   ONE(RELAXATION_RATE, "relaxation_rate", "λ", "", RATE, GG_NEEDS_THEORY,                                              \
       "decay rate of the slowest disturbance of a homogeneous steady state",                                           \
       "\\lambda = -\\max\\operatorname{Re}\\,\\mathrm{spec}")

@@ -78,6 +78,36 @@ double gg_theory_phi_chi(const gg_model *m)
   return m->phi * m->chi[0];
 }
 
+double gg_theory_bulk_viscosity(const gg_model *m, double share)
+{
+  return m->boltzmann ? 0 : 256 / (5 * M_PI) * m->phi * gg_theory_phi_chi(m) * gg_theory_grain_of(m).eta1 * share;
+}
+
+static void answer_length(gg_quantity q, double square, double relative_error, gg_theory_answer *a)
+{
+  if (!(square > 0)) return;
+  a->value[q] = 2 * M_PI * sqrt(square);
+  a->error[q] = a->value[q] * relative_error / 2;
+}
+
+void gg_theory_answer_critical_lengths(const gg_model *m, double ratio, gg_theory_answer *a)
+{
+  const double *v = a->value, *error = a->error, zeta = v[GG_Q_COOLING_RATE];
+  if (m->elastic || !(zeta > 0)) return;
+  double y = gg_theory_phi_chi(m), Z = 1 + 4 * gg_theory_grain_of(m).eta1 * y, g = 1 + m->chi_slope;
+  double Cp = 1 + (Z - 1) / Z * g, unit = 1 / gg_common_model_nu0(m, 1), mass = 0;
+  for (int i = 0; i < m->n_species; i++) mass += gg_theory_fraction(m, i) * m->mass[i];
+  const gg_quantity eta = GG_Q_VISCOSITY_REDUCED, kappa = GG_Q_THERMAL_CONDUCTIVITY_REDUCED,
+                    mu = GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED;
+  const double off = error[GG_Q_COOLING_RATE] / zeta;
+  answer_length(GG_Q_CLUSTERING_LENGTH, unit * unit * 2 * v[eta] / zeta / mass, error[eta] / v[eta] + off, a);
+  double spins =
+      ratio > 0 ? v[GG_Q_ROTATIONAL_CONDUCTIVITY_REDUCED] * Cp - v[GG_Q_ROTATIONAL_DIFFUSIVE_CONDUCTIVITY_REDUCED] : 0;
+  double heat = v[kappa] * Cp - v[mu] + spins;
+  answer_length(GG_Q_HEAT_MODE_LENGTH, unit * unit * 2.5 * heat / (zeta * (1 + ratio) * (g - Cp / 2)),
+                (error[kappa] * Cp + error[mu]) / heat + off, a);
+}
+
 double gg_theory_fraction(const gg_model *m, int species)
 {
   return (double)m->n_of[species] / (double)m->n;

@@ -61,6 +61,17 @@ void gg_theory_answer_rolling(const gg_model *model, double spin, gg_theory_answ
 void gg_theory_answer_collisions(const gg_model *model, const double T[], gg_theory_answer *a);
 void gg_theory_answer_collisions_one(const gg_model *model, double T, gg_theory_answer *a);
 
+/* Bulk viscosity of smooth grains, in eta_0, by what collisions carry: share: collision rate over that of Maxwellians.
+ * With it Enskog's equation is solved exactly: an isotropic f of the same T has the same pressure. */
+double gg_theory_bulk_viscosity(const gg_model *model, double share);
+
+/* Box lengths above which shear modes and the heat mode of free cooling grow, from the coefficients and the cooling
+ * rate that the answer has, with their errors; ratio: theta/T, 0 of smooth grains. Modes of wave number k are marginal
+ * at shear: zeta/2 = eta k^2/(n m),   heat: (1 + r) zeta (C_chi - C_p/2) = 2/(3n) (kappa C_p - mu n/T) k^2 where the
+ * pressure is uniform and so dT/T = -C_p dn/n, C_p = 1 + d ln Z/d ln phi, C_chi = 1 + d ln chi/d ln phi: J.J. Brey,
+ * J.W. Dufty, C.S. Kim & A. Santos, Phys. Rev. E 58 (1998) 4638; V. Garzo, Phys. Rev. E 72 (2005) 021106. */
+void gg_theory_answer_critical_lengths(const gg_model *model, double ratio, gg_theory_answer *a);
+
 /* Mole fraction x_i = n_i/n. */
 double gg_theory_fraction(const gg_model *model, int species);
 

@@ -56,6 +56,9 @@ static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, bool no
   gg_theory_answer_temperature(m, T, NAN, a);
   gg_theory_answer_pressure(m, T, p, p * sums.transfer[2][2] / 3, a); /* all along the one direction: the trace */
   answer_flights(m, sums.rate * sqrt(T), sums.speed * sqrt(T), a);
+  if (!m->boltzmann)
+    a->value[GG_Q_BULK_VISCOSITY_REDUCED] =
+        gg_theory_bulk_viscosity(m, sums.rate / gg_common_model_collision_rate(m, 1));
 }
 
 static gg_status answer_viscosity(const gg_model *m, gg_hermite_isotropic *h, gg_theory_answer *a, gg_error *err)
@@ -121,7 +124,10 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
   GG_TRY(gg_hermite_convergence_finish(&rungs, name, GG_Q_COOLING_RATE, hardly, a, err));
   gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED, a);
   gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
-  return m->flow == GG_HCS ? conduct(m, a, err) : GG_OK;
+  if (m->flow != GG_HCS) return GG_OK;
+  GG_TRY(conduct(m, a, err));
+  gg_theory_answer_critical_lengths(m, 0, a);
+  return GG_OK;
 }
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
@@ -142,7 +148,7 @@ const gg_theory gg_theory_enskog_hermite = {
     .answers = "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor "
                "shear_viscosity N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
                "kurtosis_Wx kurtosis_Wy kurtosis_Wz skewness_Wz dissipation cooling_rate a2 c_1 c_2 " GG_ANSWERS_MIXTURE
-                   GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "relaxation_rate",
+                   GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "bulk_viscosity_reduced " GG_ANSWERS_LENGTHS "relaxation_rate",
     .assumptions = "Any density, molecular chaos, no other assumption: each answer has a numerical error. One species, "
                    "smooth or of constant beta, or a smooth mixture: steady uniform shear (up to 8 species), free "
                    "cooling and heated states; viscosity of smooth grains (up to 6), heat flux of one cooling species. "

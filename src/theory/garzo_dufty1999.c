@@ -14,8 +14,8 @@
  * a_2 by T.P.C. van Noije & M.H. Ernst, Granular Matter 1 (1998) 57; collision rate and mean speed of that distribution
  * are those of a Maxwellian times 1 - a_2/16 and 1 - a_2/8.
  * Modified first Sonine: the weight of the expansion is the distribution of the cooling state itself, which makes
- * nu_eta = chi [1 - (1-e)^2/4](1 + 7c/32), with the a_2 of Montanero & Santos: V. Garzo, A. Santos & J.M. Montanero,
- * Physica A 376 (2007) 94. */
+ * nu_eta = chi [1 - (1-e)^2/4](1 + 7c/32) and 947 - 579 e over 512 the factor of c in nu_kappa, with the a_2 of
+ * Montanero & Santos: V. Garzo, A. Santos & J.M. Montanero, Physica A 376 (2007) 94. */
 #include "theory/garzo_dufty1999.h"
 #include "common/thermostat.h"
 
@@ -72,21 +72,21 @@ static void answer_sonine(const gg_model *m, double a2, gg_theory_answer *a)
 /* `weight`: nu_eta is Maxwellians' times 1 + weight a_2. */
 static void answer_viscosity(const gg_model *m, double a2, double weight, gg_theory_answer *a)
 {
-  double e = m->e[0], y = gg_theory_phi_chi(m), c = 2 * a2;
+  double e = m->e[0], y = gg_theory_phi_chi(m);
   double nu = m->chi[0] * (1 - (1 - e) * (1 - e) / 4) * (1 + weight * a2);
   double eta_k =
       (1 - 0.4 * (1 + e) * (1 - 3 * e) * y) / (nu - gg_theory_thermostat_share(m) * a->value[GG_Q_COOLING_RATE]);
-  double bulk = 128 / (5 * M_PI) * m->phi * y * (1 + e) * (1 - c / 32);
+  double bulk = gg_theory_bulk_viscosity(m, 1 - a2 / 16);
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = eta_k;
   a->value[GG_Q_VISCOSITY_REDUCED] = eta_k * (1 + 0.8 * (1 + e) * y) + 0.6 * bulk;
   if (!m->boltzmann) a->value[GG_Q_BULK_VISCOSITY_REDUCED] = bulk;
 }
 
-/* Of a cooling gas. */
-static void answer_heat(const gg_model *m, double a2, gg_theory_answer *a)
+/* Of a cooling gas; `weight`: what a_2 adds to nu_kappa. */
+static void answer_heat(const gg_model *m, double a2, double weight, gg_theory_answer *a)
 {
   double e = m->e[0], y = gg_theory_phi_chi(m), c = 2 * a2, zeta = a->value[GG_Q_COOLING_RATE], slope = m->chi_slope;
-  double nu = (1 + e) / 3 * m->chi[0] * (1 + 33. / 16 * (1 - e) + (19 - 3 * e) / 1024 * c);
+  double nu = (1 + e) / 3 * m->chi[0] * (1 + 33. / 16 * (1 - e) + weight * a2);
   double collisional = 1 + 1.2 * (1 + e) * y;
   double kappa = 2. / 3 * (1 + c + 0.6 * y * (1 + e) * (1 + e) * (2 * e - 1 + (1 + e) * c / 2)) / (nu - 2 * zeta);
   double density = 0.8 * y * (1 + e) * (1 + slope / 2) * (e * (e - 1) + (16 - 3 * e + 3 * e * e) * c / 12);
@@ -97,7 +97,16 @@ static void answer_heat(const gg_model *m, double a2, gg_theory_answer *a)
   a->value[GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED] = mu * collisional;
 }
 
-static const double standard = -1. / 32, modified = 7. / 16;
+/* Everything, with a_2 and its weight in the rates by either order. */
+static void answer_all(const gg_model *m, double a2, bool modified, gg_theory_answer *a)
+{
+  const double e = m->e[0];
+  answer_sonine(m, a2, a);
+  answer_viscosity(m, a2, modified ? 7. / 16 : -1. / 32, a);
+  if (m->flow != GG_HCS) return;
+  answer_heat(m, a2, modified ? (947 - 579 * e) / 256 : (19 - 3 * e) / 512, a);
+  gg_theory_answer_critical_lengths(m, 0, a);
+}
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
@@ -105,9 +114,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   GG_TRY(gg_theory_require_smooth(m, name, err));
   bool noisy = gg_common_thermostat_of(m) == GG_WHITE_NOISE;
   double a2 = noisy ? gg_theory_a2_white_noise(m->e[0]) : gg_theory_a2_van_noije_ernst(m->e[0]);
-  answer_sonine(m, a2, a);
-  answer_viscosity(m, a2, standard, a);
-  if (m->flow == GG_HCS) answer_heat(m, a2, a);
+  answer_all(m, a2, false, a);
   return GG_OK;
 }
 
@@ -119,7 +126,7 @@ const gg_theory gg_theory_garzo_dufty1999 = {
         "V. Garzo and J.W. Dufty, Phys. Rev. E 59 (1999) 5895; V. Garzo and J.M. Montanero, Physica A 313 (2002) "
         "336",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
-               "cooling_rate a2 " GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "bulk_viscosity_reduced",
+               "cooling_rate a2 " GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "bulk_viscosity_reduced " GG_ANSWERS_LENGTHS,
     .assumptions = "Cooling or heated state (Gaussian thermostat or white noise) of one species of smooth spheres, any "
                    "density with molecular chaos. Viscosity of linear response, in units of eta_0 = n T/nu_0. First "
                    "Sonine order, linear in a2 (van Noije and Ernst 1998).",
@@ -129,7 +136,7 @@ const gg_theory gg_theory_garzo_dufty1999 = {
 
 static const char name_ms[] = "montanero_santos2000";
 
-static gg_status with_other_a2(const gg_model *m, const char *theory, double weight, gg_theory_answer *a, gg_error *err)
+static gg_status with_other_a2(const gg_model *m, const char *theory, bool modified, gg_theory_answer *a, gg_error *err)
 {
   GG_TRY(gg_theory_require_one_species(m, theory, err));
   GG_TRY(gg_theory_require_smooth(m, theory, err));
@@ -137,22 +144,20 @@ static gg_status with_other_a2(const gg_model *m, const char *theory, double wei
     return gg_theory_reject(err, theory,
                             "is given here for free cooling and the Gaussian thermostat; this scene is heated by "
                             "white noise");
-  double a2 = gg_theory_a2_montanero_santos(m->e[0]);
-  answer_sonine(m, a2, a);
-  answer_viscosity(m, a2, weight, a);
+  answer_all(m, gg_theory_a2_montanero_santos(m->e[0]), modified, a);
   return GG_OK;
 }
 
 static gg_status evaluate_ms(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  return with_other_a2(m, name_ms, standard, a, err);
+  return with_other_a2(m, name_ms, false, a, err);
 }
 
 static const char name_modified[] = "garzo_santos_montanero2007";
 
 static gg_status evaluate_modified(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  return with_other_a2(m, name_modified, modified, a, err);
+  return with_other_a2(m, name_modified, true, a, err);
 }
 
 const gg_theory gg_theory_montanero_santos2000 = {
@@ -161,7 +166,7 @@ const gg_theory gg_theory_montanero_santos2000 = {
     .title = "Fourth cumulant, the other linearisation",
     .citation = "J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
-               "cooling_rate a2 " GG_ANSWERS_VISCOSITY "bulk_viscosity_reduced",
+               "cooling_rate a2 " GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "bulk_viscosity_reduced " GG_ANSWERS_LENGTHS,
     .assumptions = "As garzo_dufty1999 for the cooling state, but the fourth-moment equation is divided by 1 + a2 "
                    "before it is linearised: closer to simulations for e below 0.7.",
     .evaluate = evaluate_ms,
@@ -173,7 +178,7 @@ const gg_theory gg_theory_garzo_santos_montanero2007 = {
     .title = "Viscosity about the cooling state's own distribution",
     .citation = "V. Garzo, A. Santos and J.M. Montanero, Physica A 376 (2007) 94",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
-               "cooling_rate a2 " GG_ANSWERS_VISCOSITY "bulk_viscosity_reduced",
+               "cooling_rate a2 " GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "bulk_viscosity_reduced " GG_ANSWERS_LENGTHS,
     .assumptions = "As montanero_santos2000, but the first Sonine term multiplies the distribution of the cooling "
                    "state instead of a Maxwellian: closer to simulations for e below 0.7. Derived for one species in "
                    "the cooling state, used for the heated state, too.",

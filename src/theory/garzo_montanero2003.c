@@ -142,6 +142,7 @@ static gg_status answer_in(const gg_model *m, const char *theory, gg_linearisati
   a->value[GG_Q_COOLING_RATE] = s.zeta / nu0;
   a->value[GG_Q_VISCOSITY_REDUCED] = nu0 * v.total / p;
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = nu0 * v.kinetic / p;
+  if (m->flow == GG_HCS) gg_theory_answer_critical_lengths(m, 0, a);
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = m->mass[0] * s.a[0] / (m->mass[1] * s.a[1]);
   if (m->linear_response) return GG_OK; /* no temperature of its own: it grows */
   gg_theory_answer_partial_temperatures(m, s.a, a);
@@ -161,7 +162,7 @@ const gg_theory gg_theory_garzo_montanero2003 = {
     .citation = "V. Garzo and J.M. Montanero, Phys. Rev. E 68 (2003) 041302; V. Garzo and J.W. Dufty, Phys. Rev. E 60 "
                 "(1999) 5706",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES
-               "cooling_rate c_1 c_2 " GG_ANSWERS_MIXTURE GG_ANSWERS_VISCOSITY,
+               "cooling_rate c_1 c_2 " GG_ANSWERS_MIXTURE GG_ANSWERS_VISCOSITY "clustering_length",
     .assumptions =
         "Cooling or Gaussian-heated state of a smooth binary mixture, any density with molecular chaos. T_1/T_2 is "
         "within 0.5 % of Enskog's equation, the viscosity within 1 % at one e for all pairs (5 % high at e = 0.6, 0.9, "
@@ -183,7 +184,7 @@ const gg_theory gg_theory_garzo_montanero2003_ms = {
     .title = "Binary mixtures, the other linearisation of c_1 and c_2",
     .citation = "As garzo_montanero2003, linearised as in J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES
-               "cooling_rate c_1 c_2 " GG_ANSWERS_MIXTURE GG_ANSWERS_VISCOSITY,
+               "cooling_rate c_1 c_2 " GG_ANSWERS_MIXTURE GG_ANSWERS_VISCOSITY "clustering_length",
     .assumptions = "As garzo_montanero2003, but the fourth-moment equations are divided by 1 + c_i/2 before they are "
                    "linearised: c_1 and c_2 are closer to simulations.",
     .evaluate = evaluate_ms,

@@ -17,9 +17,19 @@ typedef struct gg_lun_functions {
   double f1, f1_kinetic, f1_transfer; /* the sum and its parts */
   double f2, f2_kinetic, f2_transfer;
   double f2r, f3, f5, f5r;
+  double f4[2][2]; /* conductivities T^1/2 f4: of translational and rotational heat along -grad T and -grad theta */
 } gg_lun_functions;
 
 gg_lun_functions gg_theory_lun_functions_at(gg_lun_state s);
+
+/* Heat fluxes of translation and rotation, q_0 and q_1, decay and make one another: dq_i/dt = -nu_0 chi sum_j rate_ij
+ * q_j of Maxwellians with a first Sonine term each. `flux` solves (rate - fading) flux = source; false where it is no
+ * longer positive. */
+typedef struct gg_heat_rates {
+  double at[2][2];
+} gg_heat_rates;
+gg_heat_rates gg_theory_heat_rates(gg_grain g, double ratio);
+bool gg_theory_heat_flux(gg_heat_rates rate, double fading, const double source[2], double flux[2]);
 
 /* theta/T at which the spins neither gain nor lose energy: eta_2/(1 - eta_2/K) = K(1+beta)/(1+2K-beta). */
 double gg_theory_lun_ratio(gg_grain g);

@@ -31,18 +31,21 @@ static void smooth_is_lun_1984(void **state)
                   (1 / (eta * (2 - eta) * g0) + 8. / 5 * (3 * eta - 1) / (2 - eta) * phi +
                    64. / 25 * eta * ((3 * eta - 2) / (2 - eta) + 12 / M_PI) * phi * phi * g0);
       double f3 = 8 / (3 * sqrt(M_PI)) * eta * phi * phi * g0;
-      double f5 = 48 / sqrt(M_PI) * eta * (1 - eta) * phi * phi * g0;
+      double f5 = 48 / sqrt(M_PI) * eta * (1 - eta) * phi * phi * g0, s = eta * phi * g0, t = eta * (41 - 33 * eta);
+      double f4 = 75 / (64 * sqrt(M_PI)) * 8 / (t * g0) *
+                  ((1 + 2.4 * s) * (1 + 2.4 * s * eta * (4 * eta - 3)) + 64 / (25 * M_PI) * (41 - 33 * eta) * s * s);
       gg_lun_functions f = functions(phi, chi, grain(e, -1, 0.4));
       assert_close(f.f1 * M_PI / 6, f1, 1e-12);
       assert_close(f.f2 * M_PI / 6, f2, 1e-12);
       assert_close(f.f3 * M_PI / 6, f3, 1e-12);
       assert_close(f.f5 * M_PI / 6, f5, 1e-12);
+      assert_close(f.f4[0][0], f4, 1e-12);
       assert_close(f.f2r, 0, 0);
       assert_close(f.f5r, 0, 0);
     }
 }
 
-/* Elastic smooth grains: Enskog's viscosity and bulk viscosity at first Sonine order. */
+/* Elastic smooth grains: Enskog's viscosities and conductivity at first Sonine order. */
 static void elastic_is_enskog(void **state)
 {
   (void)state;
@@ -51,12 +54,13 @@ static void elastic_is_enskog(void **state)
     gg_lun_functions f = functions(phi, chi, grain(1, -1, 0.4));
     assert_close(f.f2, eta0 * (pow(1 + 1.6 * y, 2) / chi + 768 / (25 * M_PI) * phi * y), 1e-12);
     assert_close(f.f3, eta0 * 256 / (5 * M_PI) * phi * y, 1e-12);
+    assert_close(f.f4[0][0], 15. / 4 * eta0 * (pow(1 + 2.4 * y, 2) / chi + 512 / (25 * M_PI) * phi * y), 1e-12);
     assert_close(f.f5, 0, 0);
   }
 }
 
 /* Elastic perfectly rough dilute grains: Pidduck, Proc. R. Soc. A 101 (1922) 101:
- * 15/8 sqrt(T/pi) (1+K)^2/(6+13K). */
+ * 15/8 sqrt(T/pi) (1+K)^2/(6+13K), and with theta = T the conductivity of Chapman & Cowling, 11.62. */
 static void perfectly_rough_is_pidduck(void **state)
 {
   (void)state;
@@ -66,6 +70,10 @@ static void perfectly_rough_is_pidduck(void **state)
     gg_lun_functions f = gg_theory_lun_functions_at((gg_lun_state){1, 0, 1, g, 1});
     assert_close(f.f2, 15 / (8 * sqrt(M_PI)) * (1 + K) * (1 + K) / (6 + 13 * K), 1e-12);
     assert_close(f.f5, 0, 1e-14);
+    assert_close(f.f4[0][0] + f.f4[0][1] + f.f4[1][0] + f.f4[1][1],
+                 9 / (16 * sqrt(M_PI)) * pow(1 + K, 2) * (37 + 151 * K + 50 * K * K) /
+                     (12 + 75 * K + 101 * K * K + 102 * K * K * K),
+                 1e-12);
   }
 }
 
@@ -95,6 +103,7 @@ static void steady_state_balances(void **state)
   assert_close(v[GG_Q_PRESSURE], v[GG_Q_COMPRESSIBILITY] * 0.3 * v[GG_Q_TEMPERATURE], 1e-13);
   assert_close(v[GG_Q_TEMPERATURE_RATIO] * v[GG_Q_TEMPERATURE], v[GG_Q_ROTATIONAL_TEMPERATURE], 1e-14);
   assert_close(v[GG_Q_SPIN_Z], -0.5, 0);
+  assert_close(v[GG_Q_BULK_VISCOSITY] / v[GG_Q_ROTATIONAL_VISCOSITY], 4. / 3 * 0.95 / (1.2 * 0.4 / 2.8), 1e-13);
   /* nu = 24 phi chi sqrt(T/pi)/d, l = d/(6 sqrt(2) phi chi) */
   assert_close(v[GG_Q_COLLISION_RATE], 24 * 0.3 * chi_cs(0.3) * sqrt(v[GG_Q_TEMPERATURE] / M_PI), 1e-12);
   assert_close(v[GG_Q_MEAN_FREE_PATH], 1 / (6 * sqrt(2) * 0.3 * chi_cs(0.3)), 1e-12);
@@ -115,7 +124,8 @@ static void boltzmann_is_the_dilute_limit(void **state)
       double p = a.value[GG_Q_PRESSURE] / phi * n * n / b.value[GG_Q_PRESSURE] - 1;
       double mu = a.value[GG_Q_SHEAR_VISCOSITY] / phi * n * n / b.value[GG_Q_SHEAR_VISCOSITY] - 1;
       double nu = a.value[GG_Q_COLLISION_RATE] / b.value[GG_Q_COLLISION_RATE] - 1;
-      worst[i] = fmax(fmax(fabs(T), fabs(p)), fmax(fabs(mu), fabs(nu)));
+      double kappa = a.value[GG_Q_THERMAL_CONDUCTIVITY] / phi * n * n / b.value[GG_Q_THERMAL_CONDUCTIVITY] - 1;
+      worst[i] = fmax(fmax(fabs(T), fabs(p)), fmax(fmax(fabs(mu), fabs(kappa)), fabs(nu)));
       assert_close(a.value[GG_Q_MEAN_FREE_PATH] * n, b.value[GG_Q_MEAN_FREE_PATH], 10 * phi);
       assert_true(isnan(b.value[GG_Q_P_XX_COLLISIONAL]) && isnan(b.value[GG_Q_SPIN_Z]));
     }

@@ -185,8 +185,9 @@ static void heated_by_noise(void **state)
   }
 }
 
-/* Viscosity of rough grains that cool: elastic and perfectly rough is Pidduck's; without the cooling term it is Lun's
- * at the ratio of the cooling state, whose integrals were done elsewhere; theta/T and zeta are those of Maxwellians. */
+/* Transport of rough grains that cool: elastic and perfectly rough it is Pidduck's (heat flux, bulk viscosity: Chapman
+ * & Cowling, 11.62); without the cooling term it is Lun's at the ratio of the cooling state, whose integrals were done
+ * elsewhere; theta/T and zeta are those of Maxwellians. */
 static void rough_viscosity(void **state)
 {
   (void)state;
@@ -197,6 +198,15 @@ static void rough_viscosity(void **state)
     gg_model m = model_of(&s);
     assert_close(value_of(&gg_theory_kremer_santos_garzo2014, &m, GG_Q_VISCOSITY_REDUCED),
                  6 * pow(1 + K[i], 2) / (6 + 13 * K[i]), 1e-9);
+    gg_theory_answer a = answer_of(&gg_theory_kremer_santos_garzo2014, &m);
+    double kappa0 = 75 / (64 * sqrt(M_PI)), k = K[i];
+    assert_close(a.value[GG_Q_THERMAL_CONDUCTIVITY_REDUCED] + a.value[GG_Q_ROTATIONAL_CONDUCTIVITY_REDUCED],
+                 9 / (16 * sqrt(M_PI)) / kappa0 * pow(1 + k, 2) * (37 + 151 * k + 50 * k * k) /
+                     (12 + 75 * k + 101 * k * k + 102 * k * k * k),
+                 1e-9);
+    assert_close(a.value[GG_Q_BULK_VISCOSITY_REDUCED], pow(1 + k, 2) / (10 * k), 1e-9);
+    assert_close(a.value[GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED], 0, 0);
+    assert_true(isnan(a.value[GG_Q_HEAT_MODE_LENGTH]));
   }
   const double e[] = {0.95, 0.8, 0.6}, beta[] = {0.9, 0, -0.7};
   for (int i = 0; i < 3; i++) {

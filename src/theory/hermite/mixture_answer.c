@@ -129,5 +129,6 @@ gg_status gg_hermite_mixture_answer(const gg_model *m, gg_theory_answer *a, gg_e
   if (viscous.n > 0)
     gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED, a),
         gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
+  if (m->flow == GG_HCS) gg_theory_answer_critical_lengths(m, 0, a);
   return GG_OK;
 }

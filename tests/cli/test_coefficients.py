@@ -1,0 +1,204 @@
+"""Transport coefficients of theories against a second computation: collision integrals of Lun (1991) and of Kremer,
+Santos & Garzo (2014) from the collision rule itself, term by term over Gaussians, and the critical lengths from the
+eigenvalues of the equations of hydrodynamics. Nothing is shared with the program but the rule."""
+import json
+import math
+import sys
+
+from tap import Skip, check, main, run
+
+try:
+    import numpy as np
+except ImportError:
+    np = None
+
+K = 0.4
+
+
+def add(p, q, factor=1):
+    sum_ = dict(p)
+    for powers, c in q.items():
+        sum_[powers] = sum_.get(powers, 0) + factor * c
+    return sum_
+
+
+def product(p, q):
+    out = {}
+    for a, c in p.items():
+        for b, d in q.items():
+            powers = tuple(map(sum, zip(a, b)))
+            out[powers] = out.get(powers, 0) + c * d
+    return out
+
+
+def times(p, factor):
+    return {powers: factor * c for powers, c in p.items()}
+
+
+ONE = {(0,) * 12: 1.0}
+
+
+def variable(i):
+    return {tuple(int(i == j) for j in range(12)): 1.0}
+
+
+def square(vector):
+    return add(add(product(vector[0], vector[0]), product(vector[1], vector[1])), product(vector[2], vector[2]))
+
+
+def moments():
+    """Of a standard normal: on the positive half line, on the whole."""
+    double = [math.prod(range(n - 1, 0, -2)) for n in range(16)]
+    half = [double[n] / (math.sqrt(2 * math.pi) if n % 2 else 2) for n in range(16)]
+    return half, [0 if n % 2 else double[n] for n in range(16)]
+
+
+HALF, WHOLE = moments()
+
+
+def mean(p):
+    return sum(c * HALF[powers[2]] * math.prod(WHOLE[n] for i, n in enumerate(powers) if i != 2) for powers, c in p.items())
+
+
+class Collision:
+    """k along z, from grain 1 to 2; m = d = T = 1, surface velocities s with K <s.s>/3 = r; weight: g.k > 0."""
+
+    def __init__(self, e, beta, r):
+        self.r = r
+        relative, centre = [variable(i) for i in range(3)], [variable(i) for i in range(3, 6)]
+        width = math.sqrt(r / K)
+        s = [[times(variable(6 + 3 * grain + i), width) for i in range(3)] for grain in range(2)]
+        c = [[times(add(centre[i], relative[i], sign), math.sqrt(0.5)) for i in range(3)] for sign in (1, -1)]
+        spin = [add(a, b) for a, b in zip(*s)]
+        g = [times(u, math.sqrt(2)) for u in relative]
+        slip = [add(g[0], spin[1]), add(g[1], spin[0], -1), g[2]]
+        eta = [(1 + beta) * K / (2 * (1 + K))] * 2 + [(1 + e) / 2]
+        J = [times(v, f) for v, f in zip(slip, eta)]
+        self.flux, self.c, self.s = g[2], c, s
+        self.after = [add(a, b, -1) for a, b in zip(c[0], J)], [add(s[0][0], J[1], 1 / K), add(s[0][1], J[0], -1 / K), s[0][2]]
+
+    def energy(self, which, v=None, s=None):
+        return times(square(v), 0.5) if which == 0 else times(square(s), K / 2)
+
+    def excess(self, which, grain, mean_energy):
+        """C^2/2 - 3/2 and the like, of width 1."""
+        energy = self.energy(which, self.c[grain], self.s[grain])
+        return add(times(energy, 1 if which == 0 else 1 / self.r), ONE, -mean_energy)
+
+    def change(self, which):
+        return add(self.energy(which, *self.after), self.energy(which, self.c[0], self.s[0]), -1)
+
+    def change_of_flux(self, which, axis):
+        now, then = self.energy(which, self.c[0], self.s[0]), self.energy(which, *self.after)
+        return add(product(then, self.after[0][axis]), product(now, self.c[0][axis]), -1)
+
+    def trial(self, which, axis):
+        """c times the Sonine polynomial of both grains."""
+        terms = [product(self.c[grain][axis], self.excess(which, grain, 2.5 if which == 0 else 1.5)) for grain in range(2)]
+        return add(*terms)
+
+    def average(self, p):
+        return mean(product(p, self.flux))
+
+
+def decay(collision):
+    """-dq_i/dt per n chi d^2 of q_j; f = f0 (1 + A.trial) has q_0 = 5/2 n A, q_1 = 3/2 n r A."""
+    norm = [2.5, 1.5 * collision.r]
+    return np.array([[-4 * math.pi / 3 / norm[j] * sum(
+        collision.average(product(collision.change_of_flux(i, axis), collision.trial(j, axis))) for axis in range(3))
+        for j in range(2)] for i in range(2)])
+
+
+def conductivities(e, beta, r, phi, chi):
+    """q_i = -sum_j kappa_ij grad T_j at T = 1, over n."""
+    c, n = Collision(e, beta, r), 6 * phi / math.pi
+    pressure = 1 + n * chi * 2 * math.pi / 3 * (1 + e) / 2
+    kappa = np.zeros((2, 2))
+    widths = [1, r]
+    norm = [2.5, 1.5 * r]
+    streaming = np.array([[2.5 * (2 - pressure), 0], [1.5 * r * (1 - pressure), 1.5]])
+    distant = np.array([[n * chi * 4 * math.pi / 3 * c.average(product(c.change_of_flux(i, 2), c.excess(j, 1, 1.5))) / widths[j]
+                         for j in range(2)] for i in range(2)])
+    kinetic = np.linalg.solve(n * chi * decay(c), streaming - distant)
+    carried = np.array([[-n * chi * 2 * math.pi / 3 * c.average(product(c.change(i), c.trial(j, 2))) / norm[j]
+                         for j in range(2)] for i in range(2)])
+    direct = np.array([[n * chi * math.pi / 3 * c.average(product(c.change(i), add(c.excess(j, 1, 1.5), c.excess(j, 0, 1.5), -1))) / widths[j]
+                        for j in range(2)] for i in range(2)])
+    return kinetic + carried @ kinetic + direct
+
+
+def theory(name, scene):
+    if np is None:
+        raise Skip("no numpy")
+    document = json.loads(run("theory", "scene.yaml", "--json", "--theory", name, scene=json.dumps(scene)).out)
+    return {q: v["mean"] for q, v in document["theory"][name].items()}
+
+
+def close(found, right, *what, within=1e-9):
+    check(abs(found - right) <= within * max(abs(right), 1e-3), *what, found, right)
+
+
+def test_lun():
+    names = [["thermal_conductivity", "thermal_conductivity_cross"],
+             ["rotational_conductivity_cross", "rotational_conductivity"]]
+    for e, beta, phi in (0.9, 0.3, 0.3), (0.6, -0.5, 0.1), (0.95, 1, 0.45), (0.8, -1, 0.2):
+        a = theory("lun1991", {"flow": "usf", "phi": phi, "collision": {"e": e, "beta": beta}})
+        chi, T = (1 - phi / 2) / (1 - phi) ** 3, a["temperature"]
+        kappa = conductivities(e, beta, a.get("temperature_ratio", 1), phi, chi)
+        for i in range(2 if beta > -1 else 1):
+            for j in range(2 if beta > -1 else 1):
+                close(a[names[i][j]], phi * math.sqrt(T) * kappa[i, j], e, beta, names[i][j])
+        close(a["bulk_viscosity"], math.sqrt(T) * 8 / 3 / math.sqrt(math.pi) * (1 + e) / 2 * phi ** 2 * chi, "bulk viscosity")
+        check((beta > -1) == ("rotational_viscosity" in a) == ("rotational_conductivity" in a), sorted(a))
+
+
+def test_rough_cooling():
+    """Fluxes along grad T and grad n decay by collisions and grow, in units of the falling temperature, by cooling."""
+    nu0 = 16 / 5 * math.sqrt(math.pi)
+    for e, beta in (0.9, 0.3), (0.7, -0.4), (1, 1):
+        a = theory("kremer_santos_garzo2014", {"flow": "hcs", "phi": 0, "collision": {"e": e, "beta": beta}})
+        r = a["temperature_ratio"]
+
+        def losses(ratio):
+            c = Collision(e, beta, ratio)
+            return [-4 * math.pi * c.average(c.change(i)) / 1.5 / (1, ratio)[i] / nu0 for i in range(2)]
+
+        zeta = losses(r)[0]
+        close(losses(r)[1], zeta, e, beta, "one cooling rate", within=1e-6)
+        rate = decay(Collision(e, beta, r)) / nu0
+        kappa = np.linalg.solve(rate - 2 * zeta * np.eye(2), [2 / 3, 0.4 * r])
+        mu = np.linalg.solve(rate - 1.5 * zeta * np.eye(2), zeta * kappa)
+        for name, value in (("thermal_conductivity_reduced", kappa[0]), ("rotational_conductivity_reduced", kappa[1]),
+                            ("diffusive_heat_conductivity_reduced", mu[0]),
+                            ("rotational_diffusive_conductivity_reduced", mu[1])):
+            close(a[name], value, e, beta, name, within=1e-6)
+        h = 1e-4
+        slope = sum(s * (b - t) for s, (t, b) in ((1, losses(r * math.exp(h))), (-1, losses(r * math.exp(-h))))) / (2 * h)
+        close(a["bulk_viscosity_reduced"], 2 / 3 * r / (1 + r) / (slope + zeta / 2), e, beta, "bulk viscosity", within=1e-6)
+
+
+def growth(k, a, Z, slope, bulk):
+    """Largest growth of n, longitudinal u and T, as shares of n, sqrt(T) and T, and of the transverse u; t in 1/nu_0 and
+    lengths in sqrt(T)/nu_0."""
+    zeta, eta, kappa, mu = (a[q] for q in ("cooling_rate", "viscosity_reduced", "thermal_conductivity_reduced",
+                                           "diffusive_heat_conductivity_reduced"))
+    along = np.array([[0, -1j * k, 0],
+                      [-1j * k * Z * (1 + (Z - 1) / Z * (1 + slope)), zeta / 2 - (4 / 3 * eta + bulk) * k * k, -1j * k * Z],
+                      [-zeta * (1 + slope) - 2.5 * mu * k * k, -2 / 3 * Z * 1j * k, -zeta / 2 - 2.5 * kappa * k * k]])
+    return max(np.linalg.eigvals(along).real), zeta / 2 - eta * k * k
+
+
+def test_critical_lengths():
+    for name in "garzo_dufty1999", "garzo_santos_montanero2007", "enskog_hermite":
+        for phi, e in (0, 0.9), (0.2, 0.8), (0.4, 0.95):
+            a = theory(name, {"flow": "hcs", "phi": phi, "collision": {"e": e}})
+            chi, h = (1 - phi / 2) / (1 - phi) ** 3, 1e-5
+            slope = phi * (math.log((1 - (phi + h) / 2) / (1 - phi - h) ** 3) - math.log((1 - (phi - h) / 2) / (1 - phi + h) ** 3)) / (2 * h)
+            unit = 1 / (3.2 * math.sqrt(math.pi) * (6 * phi / math.pi or 1))
+            for which, length in enumerate((a["heat_mode_length"], a["clustering_length"])):
+                short, long = (growth(2 * math.pi * unit / (length * f), a, 1 + 2 * (1 + e) * phi * chi, slope, 1)[which] for f in (0.9999, 1.0001))
+                check(short < 0 < long, name, phi, e, which, short, long)
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])
