@@ -123,7 +123,7 @@ def test_runs_that_are_not_steady_are_open_and_named(folder, capsys):
     for (beta, e), is_steady in steady.items():
         shown = [row for row in rows if row["panel"] == "1" and row["line"] == f"β = {beta}" and float(row["x"]) == e]
         assert [row["settled"] for row in shown] == ["yes" if is_steady else "no"]
-        assert is_steady or f"collision.beta {beta}, collision.e {e} (md)" in said.out
+        assert is_steady or f"collision.beta = {beta}, collision.e = {e} (md)" in said.out
     assert os.path.getsize("out/thesis-9.09.png") > 5000
 
 

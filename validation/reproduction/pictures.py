@@ -3,6 +3,7 @@ theories. Filled symbols are md, half-filled ones dsmc where both are shown, ope
 import io
 import os
 import re
+import textwrap
 
 import graingas as gg
 import matplotlib
@@ -17,7 +18,7 @@ from matplotlib import pyplot  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 MARKERS = "osD^vPX"
-COLUMNS, WIDTH, HEIGHT = 3, 3.0, 2.4  # panels side by side, inches
+COLUMNS, WIDTH, HEIGHT, BESIDE = 3, 3.0, 2.4, 1.1  # panels side by side; inches, of a legend beside a panel, too
 MOST_SHOWN = 12  # snapshots
 LARGEST = 500_000  # bytes of an SVG; above it curves become pixels
 
@@ -157,12 +158,46 @@ def _snapshot(ax, table, point):
     ax.set_title(mathematics(", ".join(words)), fontsize=8)
 
 
+def _covers(ax):
+    """Does the legend of a panel hide something that is drawn?"""
+    box = ax.get_legend().get_window_extent()
+    for line in ax.lines:
+        path = line.get_path().transformed(line.get_transform())
+        if line.get_linestyle() == "None":
+            if box.count_contains(path.vertices[np.isfinite(path.vertices).all(1)]):
+                return True
+        elif path.intersects_bbox(box, filled=False):
+            return True
+    return False
+
+
+def _explain(figure, panels):
+    """The legends. Panels alike share one: in the first that has a place for it, else beside the last of their row."""
+    alike = {}
+    for ax, handles in panels:
+        if handles:
+            alike.setdefault(tuple(handle.get_label() for handle in handles), []).append((ax, handles))
+    figure.draw_without_rendering()  # the layout
+    beside = 0
+    for group in alike.values():
+        for ax, handles in group:
+            ax.legend(handles=handles, ncols=1 + len(handles) // 7, handlelength=1.6)
+            if not _covers(ax):
+                break
+            ax.get_legend().remove()
+        else:
+            row = [ax for ax, _ in group if ax.get_subplotspec().rowspan == group[0][0].get_subplotspec().rowspan]
+            row[-1].legend(handles=handles, handlelength=1.6, loc="upper left", bbox_to_anchor=(1.02, 1), borderaxespad=0)
+            beside += 1
+    figure.set_size_inches(figure.get_figwidth() + BESIDE * min(beside, COLUMNS), figure.get_figheight())
+
+
 def _page(entry, tables, note, rasterized):
     shown = _shown(tables)
     columns = min(COLUMNS, len(shown))
     rows = -(-len(shown) // columns)
     figure = pyplot.figure(figsize=(columns * WIDTH, rows * HEIGHT + 0.4), dpi=150, layout="constrained")
-    explained = []
+    panels = []
     for k, (table, point) in enumerate(shown, 1):
         ax = figure.add_subplot(rows, columns, k, projection="3d" if table.of.surface else None)
         if point is not None:
@@ -170,21 +205,22 @@ def _page(entry, tables, note, rasterized):
         elif table.of.surface:
             _surface(ax, table)
         else:
-            handles = _Drawing(ax, table, rasterized).draw()
-            key = [handle.get_label() for handle in handles]
-            if handles and key not in explained:  # panels alike share the first one's
-                explained.append(key)
-                ax.legend(handles=handles, ncols=1 + len(handles) // 7, handlelength=1.6)
+            panels.append((ax, _Drawing(ax, table, rasterized).draw()))
     figure.suptitle(entry.figure + note, fontsize=10)
+    still = unsettled(tables, key_label)
+    if still:
+        figure.supxlabel("\n".join(textwrap.wrap(f"not settled: {'; '.join(still)}", 45 * columns)), fontsize=6)
+    _explain(figure, panels)
     return figure
 
 
-def unsettled(tables):
-    """Points that are not settled, in words: "e = 0.5, β = -0.999 (md)"."""
+def unsettled(tables, name=str):
+    """Points that are not settled, in words: "collision.e = 0.5, phi = 0.1 (md)"."""
     found = {}
     for table in tables:
         for engine, point in table.unsettled:
-            keys = ", ".join(f"{key} {point.scene.text_of(key)}" for key in point.varied if not key.startswith("run."))
+            keys = ", ".join(f"{name(key)} = {point.scene.text_of(key)}" for key in point.varied
+                             if not key.startswith(("run.", "frame")))
             found.setdefault(f"{keys} ({engine})" if keys else engine)
     return list(found)
 
