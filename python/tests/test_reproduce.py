@@ -125,6 +125,52 @@ def test_runs_that_are_not_steady_are_open_and_named(folder, capsys):
         assert [row["settled"] for row in shown] == ["yes" if is_steady else "no"]
         assert is_steady or f"collision.beta = {beta}, collision.e = {e} (md)" in said.out
     assert os.path.getsize("out/thesis-9.09.png") > 5000
+    with open("out/thesis-9.09.svg", encoding="utf-8") as picture:
+        note = picture.read().partition("not settled: ")[2].partition("<")[0]
+    assert all((f"β = {beta}, e = {e} (md)" in note) == (not is_steady) for (beta, e), is_steady in steady.items())
+
+
+def test_keys_that_vary_together_and_their_quick_values(folder):
+    path = os.path.join(folder, "thesis-9.09.yaml")
+    vary = "vary: [{collision.beta: [-1, 0], run.warmup: [30, 20]}, {collision.e: [0.8, 0.9, 1]}]"
+    text = ENTRY.replace("vary: {collision.beta: [-1, 0], collision.e: [0.8, 0.9, 1]}", vary)
+    for quick_vary, varied in (("{collision.beta: [0], collision.e: [0.7, 0.9]}", [{"collision.beta": 0, "collision.e": e} for e in (0.7, 0.9)]),
+                               ("[{collision.beta: [0, 1], run.warmup: [5, 6]}]",
+                                [{"collision.beta": beta, "run.warmup": warmup} for beta, warmup in ((0, 5), (1, 6))])):
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text.replace("vary: {collision.e: [0.7, 0.9]}", "vary: " + quick_vary))
+        entry = entries.read(path)
+        assert [point.values for point in points.sweeps(entry, True, None)[""]] == varied
+        full = points.sweeps(entry, False, None)[""]
+        assert [point.scene["run.warmup"] for point in full] == [30] * 3 + [20] * 3
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text.replace("vary: {collision.e: [0.7, 0.9]}", "vary: [{collision.é: [0]}]"))
+    with pytest.raises(entries.BadEntry, match="is no key of a scene"):
+        entries.read(path)
+
+
+def drawn(*heights):
+    """Panels alike with a line of each of these heights along their whole width, and the legend they share."""
+    figure = pictures.pyplot.figure(figsize=(6, 2), layout="constrained")
+    panels = []
+    for k, lines in enumerate(heights, 1):
+        ax = figure.add_subplot(1, len(heights), k, ylim=(0, 1))
+        handles = [ax.plot([0, 1], [y, y], label="one")[0] for y in lines]
+        panels.append((ax, handles[:1]))
+    pictures._explain(figure, panels)
+    figure.draw_without_rendering()
+    return [ax for ax, _ in panels if ax.get_legend()], [ax for ax, _ in panels]
+
+
+def test_legends_cover_nothing():
+    full = np.linspace(0, 1, 30)
+    (ax,), panels = drawn([0.5], full)
+    assert ax is panels[0] and not pictures._covers(ax)
+    (ax,), panels = drawn(full, [0.5])
+    assert ax is panels[1] and not pictures._covers(ax)
+    (ax,), panels = drawn(full, full)
+    box = ax.get_legend().get_window_extent()
+    assert ax is panels[1] and box.x0 >= ax.get_window_extent().x1 and not pictures._covers(ax)
 
 
 def test_texts_are_filled_from_the_table(folder):

@@ -77,6 +77,19 @@ static gg_status save(things *t, gg_error *err)
   return gg_checkpoint_about("saved.h5", &(gg_checkpoint_info){0}, NULL, err);
 }
 
+static gg_status save_to_bytes(things *t, gg_error *err)
+{
+  void *bytes;
+  size_t size;
+  STEP(steps(t, err));
+  STEP(gg_simulation_to_bytes(t->simulation, &bytes, &size, err));
+  gg_simulation_free(t->simulation);
+  t->simulation = NULL;
+  const gg_status read = gg_simulation_from_bytes(bytes, size, NULL, &t->simulation, err);
+  free(bytes);
+  return read;
+}
+
 static gg_status run(things *t, gg_error *err)
 {
   return gg_run(t->scene, NULL, &t->result, err);
@@ -166,6 +179,22 @@ static gg_status read_result(things *t, gg_error *err)
   return gg_result_to_json(t->result, &t->text[0], err);
 }
 
+/* As a result of another process is read, and what its means have in common. */
+static gg_status read_bytes(things *t, gg_error *err)
+{
+  void *bytes;
+  size_t size;
+  STEP(gg_result_read("there.h5", &t->result, err));
+  STEP(gg_result_to_bytes(t->result, &bytes, &size, err));
+  gg_result_free(t->result);
+  t->result = NULL;
+  const gg_status read = gg_result_from_bytes(bytes, size, &t->result, err);
+  free(bytes);
+  STEP(read);
+  STEP(gg_result_covariance(t->result, "temperature", "pressure", &t->numbers[0], err));
+  return gg_result_to_json(t->result, &t->text[0], err);
+}
+
 static gg_status read_comparison(things *t, gg_error *err)
 {
   STEP(gg_comparison_read("both.h5", &t->comparison, err));
@@ -212,12 +241,14 @@ const memory_call calls[] = {{"scenes", scenes},
                              {"theories", theories},
                              {"theories, rough", theories_rough},
                              {"save and load", save},
+                             {"save and load as bytes", save_to_bytes},
                              {"run to a file", run_to_file},
                              {"go on", go_on},
                              {"compare to a file", compare},
                              {"sweep", sweep},
                              {"collect", collect},
                              {"read a result", read_result},
+                             {"read a result as bytes", read_bytes},
                              {"read a comparison", read_comparison},
                              {"read a trajectory", play},
                              {"export", export},

@@ -38,7 +38,8 @@ def method_label(method, panel):
         return mathematics(method)
     words = re.fullmatch(r"([a-z_]+)(\d{4})", method)
     name = f"{words[1].title().replace('_', ', ')} ({words[2]})" if words else method.replace("_", " ")
-    instead = [f"{key_label(key)} = {value[0].replace('inf', '∞')}" for key, value in panel.theories_at.items()]
+    instead = ["constant β" if (key, value) == ("collision.mu", ["inf"]) else f"{key_label(key)} = {value[0]}"
+               for key, value in panel.theories_at.items()]
     return ", ".join([name, *instead])
 
 
