@@ -7,29 +7,22 @@
 #include "common/flow.h"
 #include "scene/fields.h"
 
-/* Values that stand in it; those of all other keys are their defaults. */
-static const struct {
-  const char *key, *value;
-} said[] = {{"phi", "0.2"}, {"collision.e", "0.9"}};
-
-static const char *said_of(const char *key)
+/* Keys that are no comments. */
+static bool is_said(const char *key)
 {
-  for (size_t i = 0; i < sizeof said / sizeof *said; i++)
-    if (strcmp(said[i].key, key) == 0) return said[i].value;
-  return NULL;
+  return strcmp(key, "flow") == 0 || strcmp(key, "phi") == 0 || strcmp(key, "collision.e") == 0;
 }
 
 static void print_key(FILE *out, const gg_field *f, const gg_scene *scene)
 {
   char value[400], line[512];
-  const char *dot = strrchr(f->key, '.'), *given = said_of(f->key);
+  const char *dot = strrchr(f->key, '.');
   json_t *usual = gg_scene_field_json(f, scene, scene);
   gg_scene_flow_style_text(usual, value, sizeof value);
   json_decref(usual);
-  const bool is_said = given || f->offset == offsetof(gg_scene, flow);
-  snprintf(line, sizeof line, "%s%s%s: %s", dot ? "  " : "", is_said ? "" : "# ", dot ? dot + 1 : f->key,
-           given ? given : value);
-  fprintf(out, "%-32s # %s%s%s%s\n", line, f->doc, f->unit ? " (" : "", f->unit ? f->unit : "", f->unit ? ")" : "");
+  snprintf(line, sizeof line, "%s%s%s: %s", dot ? "  " : "", is_said(f->key) ? "" : "# ", dot ? dot + 1 : f->key,
+           value);
+  fprintf(out, "%-40s # %s%s%s%s\n", line, f->doc, f->unit ? " (" : "", f->unit ? f->unit : "", f->unit ? ")" : "");
 }
 
 /* A section without a value is none: its line is a comment, too. */
@@ -37,7 +30,7 @@ static void print_section(FILE *out, const gg_field *f, const char *section)
 {
   const size_t length = strlen(section);
   bool any = false;
-  for (const gg_field *k = f; k->key && strncmp(k->key, section, length) == 0; k++) any |= said_of(k->key) != NULL;
+  for (const gg_field *k = f; k->key && strncmp(k->key, section, length) == 0; k++) any |= is_said(k->key);
   fprintf(out, "%s%.*s:\n", any ? "" : "# ", (int)length - 1, section);
 }
 
@@ -68,6 +61,7 @@ char *gg_scene_template(gg_flow flow)
   if (!out) return NULL;
   gg_scene scene = gg_scene_defaults();
   scene.flow = flow;
+  scene.phi = 0.2;
   gg_scene_fill_in(&scene);
   print(out, &scene);
   return gg_base_memory_stream_close(out, &text) ? text : NULL;

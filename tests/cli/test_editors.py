@@ -41,7 +41,7 @@ def test_init():
 
 
 # Text of a scene, and whether it is one.
-SCENES = ((True, "{flow: usf, phi: 0.1, collision: {e: {11: 0.9, other: 0.8}, mu: 0.3}}"),
+SCENES = ((True, "{flow: usf, phi: 0.1, collision: {e: {11: 0.9, other: 0.8}, beta: 0, mu: 0.3}}"),
           (True, "{flow: couette, phi: 0, walls: {speed: 2}, gravity: [0, 0, -1], run: {until: {N1: 0.1}, relative_error: auto}}"),
           (True, "{flow: usf, phi: 0.1, species: [{fraction: 0.5}, {fraction: 0.5, diameter: 2}], measure: [rheology]}"),
           (False, "{flow: usf, phi: 0.7}"), (False, "{flow: usf, phi: 0.1, colision: {e: 0.9}}"), (False, "{phi: 0.1}"),
