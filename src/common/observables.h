@@ -19,6 +19,7 @@
   X(PROFILES, profiles, "density, flow, temperatures and spin across the gap between walls")                           \
   X(DIFFUSION, diffusion, "velocity autocorrelation, mean-square displacement, self-diffusion")                        \
   X(VISCOSITY, viscosity, "eta* of cooling and heated gases by linear response; comes with flow: small_shear")         \
+  X(CONDUCTIVITY, conductivity, "kappa* and mu* of smooth grains that cool or rest, by Green-Kubo integrals")                                                                        \
   X(COLLISIONS, collisions, "free paths, times between collisions, angles of contact")                                 \
   X(IMPACT_SPEED, impact_speed, "normal relative speed of collisions")
 

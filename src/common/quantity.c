@@ -206,6 +206,10 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
       {GG_NEEDS_ONE_SPECIES, m->n_species > 1, "see c_1 and c_2 for mixtures"},
       {GG_NEEDS_LINEAR_RESPONSE, !m->linear_response, "needs the linear response: flow: small_shear"},
       {GG_NEEDS_THEORY, true, "given by theories only; see graingas theory"},
+      {GG_NEEDS_HEAT_FLUX, m->shear_rate != 0 || m->walled || heated, "only in cooling gases and at rest"},
+      {GG_NEEDS_HEAT_FLUX, m->n_species > 1 || !smooth, "measured of smooth grains of one species"},
+      {GG_NEEDS_HEAT_FLUX, m->law.name != NULL, "with a law of restitution the cooling gas is never the same"},
+      {GG_NEEDS_HEAT_FLUX, !m->homogeneous, "needs engine: dsmc"},
       {GG_NEEDS_MIXTURE, m->n_species == 1, "there is one species only"},
   };
   for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
@@ -226,6 +230,7 @@ const char *gg_common_quantity_when(gg_quantity q, char *text, size_t size)
   } words[] = {
       {GG_NEEDS_THEORY, "theories only"},
       {GG_NEEDS_LINEAR_RESPONSE, "flow: small_shear"},
+      {GG_NEEDS_HEAT_FLUX, "dsmc with measure: conductivity; smooth grains, one species, cooling or at rest"},
       {GG_NEEDS_SPINS, "rough grains"},
       {GG_NEEDS_MEAN_SPIN, "shear without walls, phi above 0"},
       {GG_NEEDS_SHEAR, "shear"},

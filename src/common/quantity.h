@@ -26,6 +26,7 @@ enum {
   GG_NEEDS_WORK = 1u << 21,        /* something that does work on the grains: shear, or walls */
   GG_NEEDS_WALLS = 1u << 22,
   GG_NEEDS_NO_WALLS = 1u << 23,
+  GG_NEEDS_HEAT_FLUX = 1u << 24, /* of linear response, in dsmc: smooth grains of one species, cooling or at rest */
 
   GG_KEPT_HEATING = 1u << 15,      /* free of the temperature's scale: has a meaning as a mean in a gas that heats up */
   GG_MONITORED = 1u << 16,         /* relaxes slowly: a run is not steady while it has a trend */
@@ -171,14 +172,14 @@ enum {
       "\\eta^* = \\frac{\\nu_0\\,\\eta}{nT}")                                                                          \
   ONE(VISCOSITY_REDUCED_KINETIC, "viscosity_reduced_kinetic", "η*^k", "", NONE, GG_REDUCED_VISCOSITY,                  \
       "nu_0 eta_k/(n T): kinetic part of viscosity_reduced", "\\eta^{*k} = \\frac{\\nu_0\\,\\eta^k}{nT}")              \
-  ONE(THERMAL_CONDUCTIVITY_REDUCED, "thermal_conductivity_reduced", "κ*", "", NONE, GG_NEEDS_THEORY,                   \
+  ONE(THERMAL_CONDUCTIVITY_REDUCED, "thermal_conductivity_reduced", "κ*", "", NONE, GG_NEEDS_HEAT_FLUX,                   \
       "kappa/kappa_0: heat flux along -grad T of a cooling gas; kappa_0 = 15 n T/(4 m nu_0), q = -kappa grad T - mu "  \
       "grad n",                                                                                                        \
       "\\kappa^* = \\frac{4 m\\nu_0\\,\\kappa}{15\\,nT}")                                                              \
-  ONE(THERMAL_CONDUCTIVITY_REDUCED_KINETIC, "thermal_conductivity_reduced_kinetic", "κ*^k", "", NONE, GG_NEEDS_THEORY, \
+  ONE(THERMAL_CONDUCTIVITY_REDUCED_KINETIC, "thermal_conductivity_reduced_kinetic", "κ*^k", "", NONE, GG_NEEDS_HEAT_FLUX, \
       "kappa_k/kappa_0: kinetic part of thermal_conductivity_reduced",                                                 \
       "\\kappa^{*k} = \\frac{4 m\\nu_0\\,\\kappa^k}{15\\,nT}")                                                         \
-  ONE(DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED, "diffusive_heat_conductivity_reduced", "μ*", "", NONE, GG_NEEDS_THEORY,     \
+  ONE(DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED, "diffusive_heat_conductivity_reduced", "μ*", "", NONE, GG_NEEDS_HEAT_FLUX,     \
       "n mu/(T kappa_0): heat flux along -grad n of a cooling gas; 0 for elastic grains",                              \
       "\\mu^* = \\frac{4 m\\nu_0\\,\\mu}{15\\,T^2}")                                                                   \
   ONE(BULK_VISCOSITY_REDUCED, "bulk_viscosity_reduced", "η_b*", "", NONE, GG_NEEDS_THEORY,                             \

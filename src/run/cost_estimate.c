@@ -32,6 +32,7 @@ static const struct needs {
     {GG_MEASURE_CELLS, 10, {4, 0}},
     {GG_MEASURE_PROFILES, 0, {10, 0}},
     {GG_MEASURE_DIFFUSION, 700, {120, 0}},
+    {GG_MEASURE_CONDUCTIVITY, 96, {0, 180}},
     {GG_MEASURE_COLLISIONS, 8, {90, 6}},
 };
 enum { N_NEEDS = sizeof needs / sizeof *needs };

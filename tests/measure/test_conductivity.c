@@ -1,0 +1,94 @@
+/* Conductivity: snapshots of Maxwellian grains have that of elastic spheres, 1.025218 of first Sonine order where they
+ * are dilute (Chapman & Cowling 1970, 10.21), and with Enskog's two factors and his transfer where they are dense; no
+ * heat flows along gradients of their density; the last point of the curve is the mean of the rows. */
+#include "curve_test.h"
+
+enum { N = 2000, SAMPLES = 6000 };
+
+static void maxwellian(gg_snapshot *s, gg_rng *r, int sample)
+{
+  (void)sample;
+  for (int a = 0; a < 3; a++) {
+    double momentum = 0;
+    for (size_t i = 0; i < s->n; i++) momentum += s->c[a][i] = 0.7 * gg_common_rng_normal(r);
+    for (size_t i = 0; i < s->n; i++) s->c[a][i] -= momentum / (double)s->n;
+  }
+}
+
+static gg_model model(gg_flow flow, gg_engine_kind engine, double phi, double beta)
+{
+  gg_scene s = gg_scene_defaults();
+  gg_model m;
+  s.flow = flow, s.phi = phi, s.dsmc.particles = N, s.collision.e[0] = 1, s.collision.beta[0] = beta;
+  assert_int_equal(gg_common_model_make(&s, engine, &m, NULL), GG_OK);
+  return m;
+}
+
+static void expect_last(const gg_curves *list, const char *name, double value, double most)
+{
+  const gg_curve *c = ct_find(list, name);
+  for (size_t i = 0; i < c->n; i++) ct_expect(name, c->value[i], c->error[i], value, most);
+}
+
+static void elastic(void **state)
+{
+  (void)state;
+  const double phi[] = {0, 0.3};
+  for (int k = 0; k < 2; k++) {
+    const gg_model m = model(GG_HCS, GG_DSMC, phi[k], -1);
+    const double chi = m.chi[0], y = 4 * phi[k] * chi, kinetic = 1.025218 * (1 + 0.6 * y) / chi;
+    const double total = kinetic * (1 + 0.6 * y) + 512 / (25 * M_PI) * phi[k] * phi[k] * chi;
+    gg_curves list = ct_curves(&gg_measure_conductivity, &m, SAMPLES, maxwellian, 17);
+    expect_last(&list, "thermal_conductivity_of_lag", total, 0.008 * total);
+    expect_last(&list, "diffusive_heat_conductivity_of_lag", 0, 0.008 * total);
+    gg_measure_curves_clear(&list);
+  }
+}
+
+static void rows(void **state)
+{
+  (void)state;
+  const gg_model m = model(GG_HCS, GG_DSMC, 0.2, -1);
+  const gg_observable *o = &gg_measure_conductivity;
+  gg_snapshot s;
+  gg_rng r = gg_common_rng_seed(18, 0);
+  void *self = o->create(&m, NULL);
+  double *bin = calloc(o->bins(self), sizeof *bin), *row = calloc(o->width(&m), sizeof *row);
+  assert_int_equal(gg_measure_snapshot_init(&s, &m, false, NULL), GG_OK);
+  maxwellian(&s, &r, 0);
+  o->add_snapshot(self, &s, bin);
+  o->begin(self);
+  o->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row);
+  gg_curves list = {.model = &m, .curve = calloc(GG_MOST_CURVES, sizeof *list.curve)};
+  o->curves(self, bin, &list);
+  for (int k = 0; k < 2; k++) {
+    gg_function f;
+    assert_true(gg_measure_derived_find(
+        o->derived, k ? GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED : GG_Q_THERMAL_CONDUCTIVITY_REDUCED, &f));
+    const gg_curve *c = &list.curve[k];
+    assert_true(gg_function_value(f, row, &m) == c->value[c->n - 1]);
+  }
+  o->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row); /* no snapshot: nothing */
+  for (size_t i = 0; i < o->width(&m); i++) assert_true(row[i] == 0);
+  gg_measure_curves_clear(&list);
+  gg_measure_snapshot_clear(&s);
+  free(bin), free(row);
+  o->destroy(self);
+}
+
+static void refused(void **state)
+{
+  (void)state;
+  const gg_model fine = model(GG_EQUILIBRIUM, GG_DSMC, 0.1, -1), md = model(GG_HCS, GG_MD, 0.1, -1),
+                 rough = model(GG_HCS, GG_DSMC, 0.1, 0), heated = model(GG_HSS, GG_DSMC, 0.1, -1),
+                 sheared = model(GG_USF, GG_DSMC, 0.1, -1);
+  assert_null(gg_measure_conductivity.refuses(&fine));
+  const gg_model * not [] = {&md, &rough, &heated, &sheared};
+  for (size_t i = 0; i < sizeof not / sizeof *not ; i++) assert_non_null(gg_measure_conductivity.refuses(not [i]));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic), cmocka_unit_test(rows), cmocka_unit_test(refused)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
