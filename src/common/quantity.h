@@ -206,6 +206,13 @@ enum {
   ONE(ROTATIONAL_VISCOSITY, "rotational_viscosity", "μ_r", "", VISCOSITY, GG_HEAT_OF_SPINS | GG_NEEDS_TRANSFER,        \
       "antisymmetric stress over what the mean spin lacks of the flow's rotation",                                     \
       "\\Psi = -2\\mu_r(2\\boldsymbol\\omega - \\nabla\\times\\mathbf u)")                                             \
+  ONE(DIFFUSION_REDUCED, "diffusion_reduced", "D*", "", NONE, GG_NEEDS_THEORY | GG_NEEDS_MIXTURE,                      \
+      "mass flux of species 1 along -grad x_1; j_1 = -(nT/nu_0)(D* grad x_1 + D_p* grad ln p + D'* grad ln T)",        \
+      "D^* = \\frac{m_1 m_2\\nu_0}{\\rho T}D")                                                                         \
+  ONE(PRESSURE_DIFFUSION_REDUCED, "pressure_diffusion_reduced", "D_p*", "", NONE, GG_NEEDS_THEORY | GG_NEEDS_MIXTURE,  \
+      "mass flux of species 1 along -grad ln p", "D_p^* = \\frac{\\rho\\nu_0}{nT}D_p")                                 \
+  ONE(THERMAL_DIFFUSION_REDUCED, "thermal_diffusion_reduced", "D'*", "", NONE, GG_NEEDS_THEORY | GG_NEEDS_MIXTURE,     \
+      "mass flux of species 1 along -grad ln T", "D'^* = \\frac{\\rho\\nu_0}{nT}D'")                                   \
   ONE(DENSITY_WAVES, "density_waves", "S_L", "", NONE, GG_NEEDS_BOX | GG_NEEDS_NO_WALLS | GG_KEPT_HEATING,             \
       "<|sum d^3 exp(ikr)|^2>/(S_e sum d^6): density waves as long as the box and half of it, k = 2 pi/L and 4 pi/L, " \
       "over "                                                                                                          \

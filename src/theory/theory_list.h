@@ -22,6 +22,7 @@
   X(garzo_santos_montanero2007)                                                                                        \
   X(garzo_montanero2003)                                                                                               \
   X(garzo_montanero2003_ms)                                                                                            \
+  X(garzo_dufty2002)                                                                                                   \
   X(enskog)                                                                                                            \
   X(carnahan_starling1969)                                                                                             \
   X(kolafa2004)                                                                                                        \

@@ -1,8 +1,11 @@
 """Transport coefficients of theories against a second computation: collision integrals of Lun (1991) and of Kremer,
 Santos & Garzo (2014) from the collision rule itself, term by term over Gaussians, and the critical lengths from the
 eigenvalues of the equations of hydrodynamics. Nothing is shared with the program but the rule."""
+import csv
 import json
 import math
+import os
+import subprocess
 import sys
 
 from tap import Skip, check, main, run
@@ -198,6 +201,68 @@ def test_critical_lengths():
             for which, length in enumerate((a["heat_mode_length"], a["clustering_length"])):
                 short, long = (growth(2 * math.pi * unit / (length * f), a, 1 + 2 * (1 + e) * phi * chi, slope, 1)[which] for f in (0.9999, 1.0001))
                 check(short < 0 < long, name, phi, e, which, short, long)
+
+
+def test_closures():
+    """The table that validation/closures makes is that of graingas theory; so is the one that stands there."""
+    folder = os.path.join(os.environ["SOURCE"], "validation")
+    with open("two.yaml", "w") as f:
+        f.write("flow: hcs\nvary: {phi: [0.1, 0.4], collision.e: [0.8, 1]}\nsweep: {does: theory}\n")
+    done = subprocess.run([os.path.join(folder, "closures"), "two.yaml"], capture_output=True, text=True)
+    if "No module" in done.stderr:
+        raise Skip(done.stderr)
+    check(done.returncode == 0, done.stderr)
+    with open("two.csv") as f, open(os.path.join(folder, "closures.csv")) as g:
+        rows, all_ = list(csv.DictReader(f)), list(csv.DictReader(g))
+    check(len(rows) == 4 and len(all_) == 1020, len(rows), len(all_))
+    import h5py
+
+    with h5py.File("two.h5") as h, h5py.File(os.path.join(folder, "closures.h5")) as whole:
+        for row in rows:
+            phi, e = float(row["phi"]), float(row["collision.e"])
+            a = theory("enskog_hermite", {"flow": "hcs", "phi": phi, "collision": {"e": e}})
+            stored = [r for r in all_ if float(r["phi"]) == phi and float(r["collision.e"]) == e][0]
+            place = tuple(list(h[k][:]).index(v) for k, v in (("phi", phi), ("collision.e", e)))
+            there = tuple(list(whole[k][:]).index(v) for k, v in (("phi", phi), ("collision.e", e)))
+            check(len(row) == 14 == len(stored), row)
+            for q in [c for c in row if c + "_error" in row]:
+                for found in float(row[q]), float(stored[q]), h[q][place], whole[q][there]:
+                    close(found, a.get(q, 0), phi, e, q, within=1e-7)
+
+
+def test_diffusion():
+    """The flux of mass that keeps pace with the gradients of a cooling mixture: momentum of species 1, and how gradients
+    of p and T change where zeta depends on place."""
+    for masses, sizes, e in ((1, 1), (1, 1), 0.8), ((4, 1), (1.5, 1), 0.7), ((1, 8), (1, 2), 0.9), ((4, 1), (2, 1), 1):
+        def at(x):
+            species = [{"fraction": f, "mass": m, "diameter": d} for f, m, d in zip((x, 1 - x), masses, sizes)]
+            return theory("garzo_dufty2002", {"flow": "hcs", "phi": 0, "dsmc": {"particles": 100000}, "engine": "dsmc",
+                                              "species": species, "collision": {"e": e}})
+
+        def split(a, x):  # T_1, T_2 at T = 1
+            r = a["partial_temperature_ratio"]
+            return r / (x * r + 1 - x), 1 / (x * r + 1 - x)
+
+        x, h, a = 0.4, 0.01, at(0.4)
+        sides = [(at(x + s), x + s) for s in (-h, h)]
+        m1, m2 = masses
+        rho, T1, T2 = x * m1 + (1 - x) * m2, *split(a, x)
+        g_slope = sum(s * y * split(b, y)[0] for s, (b, y) in zip((-1, 1), sides)) / (2 * h)
+        zeta, zeta_slope = a["cooling_rate"], (sides[1][0]["cooling_rate"] - sides[0][0]["cooling_rate"]) / (2 * h)
+        # drag of both species on each other over nu_0 = sqrt(pi) n sigma_12^2 v_0, v_0^2 = 2 T (m_1 + m_2)/(m_1 m_2)
+        S = math.sqrt(T1 / m1 + T2 / m2)
+        nu = 4 / 3 * math.sqrt(2) * (1 + e) * rho * S / (m1 + m2) / math.sqrt(2 * (m1 + m2) / (m1 * m2))
+        # J = j_1 nu_0/(nT), where sqrt(T) falls at zeta/2: dJ/dt = -(nu - zeta/2) J - s.V of the gradients V of x, ln p
+        # and ln T, and dV/dt = -B V. J = -D.V at all times if D B = (nu - zeta/2) D - s.
+        s = [g_slope, x * T1 - x * m1 / rho, 0]
+        B = np.array([[0, 0, 0], [zeta_slope, zeta, -zeta / 2], [zeta_slope, zeta, -zeta / 2]])
+        D = np.linalg.solve(((nu - zeta / 2) * np.eye(3) - B).T, s)
+        for name, value in zip(("diffusion_reduced", "pressure_diffusion_reduced", "thermal_diffusion_reduced"), D):
+            close(a[name], value, masses, sizes, e, name, within=2e-3)
+        if e == 1:  # Chapman & Cowling, 9.81: n D_12 = 3/(8 sigma^2) sqrt(T (m_1 + m_2)/(2 pi m_1 m_2))
+            close(a["diffusion_reduced"], 3 / 8 * math.sqrt((m1 + m2) / (2 * math.pi * m1 * m2)) * m1 * m2 / rho * math.sqrt(
+                math.pi) * math.sqrt(2 * (m1 + m2) / (m1 * m2)), "elastic", within=1e-9)
+            check(a["thermal_diffusion_reduced"] == 0, a)
 
 
 if __name__ == "__main__":
