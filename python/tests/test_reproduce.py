@@ -287,3 +287,4 @@ def test_numbers_taken_from_curves():
 
 def test_labels():
     assert pictures.mathematics("T_{cell}/T") == r"$T_{\rm cell}$/T" and pictures.mathematics("e = 1") == "e = 1"
+    assert pictures.mathematics("|G_{CC}^{xx}|") == r"|$G_{\rm CC}^{\rm xx}$|"

@@ -23,9 +23,15 @@ MOST_SHOWN = 12  # snapshots
 LARGEST = 500_000  # bytes of an SVG; above it curves become pixels
 
 
+MARK = r"[_^](?:\{[^{}]*\}|[^\W_])"  # a subscript or superscript
+
+
 def mathematics(label):
-    """C_x/σ and T_{cell}/T as matplotlib has them."""
-    return re.sub(r"([^\W_]+)([_^])(\{[^{}]*\}|[^\W_])", lambda m: f"${m[1]}{m[2]}{{\\rm {m[3].strip('{}')}}}$", label.replace("\\_", "_"))
+    """C_x/σ, T_{cell}/T and G_{CC}^{xx} as matplotlib has them."""
+    def upright(found):
+        marks = "".join(f"{mark[0]}{{\\rm {mark[1:].strip('{}')}}}" for mark in re.findall(MARK, found[2]))
+        return f"${found[1]}{marks}$"
+    return re.sub(rf"([^\W_]+)((?:{MARK})+)", upright, label.replace("\\_", "_"))
 
 
 def _axis_label(label, unit):
@@ -126,7 +132,8 @@ def _surface(ax, table):
     lines = {float(line.group.rpartition("= ")[2]): line.columns for line in table.lines if line.method == "md"}
     x, across = sorted({value for columns in lines.values() for value in columns[0]}), sorted(lines)
     height = np.array([[dict(zip(lines[b][0], lines[b][2])).get(a, np.nan) for a in x] for b in across])
-    ax.plot_surface(*np.meshgrid(x, across), height, cmap="viridis", edgecolor="black", linewidth=0.3)
+    if height.ndim == 2:
+        ax.plot_surface(*np.meshgrid(x, across), height, cmap="viridis", edgecolor="black", linewidth=0.3)
     label = next(iter(table.of.lines.values()))
     ax.set(xlabel=mathematics(table.x_label), ylabel=mathematics(label), title=mathematics(table.of.title or ""))
     ax.set_title(mathematics(f"{table.of.title}: {table.y_label}"))
@@ -173,21 +180,25 @@ def _covers(ax):
 
 
 def _explain(figure, panels):
-    """The legends. Panels alike share one: in the first that has a place for it, else beside the last of their row."""
-    alike = {}
-    for ax, handles in panels:
+    """The legends. One serves all panels that need no more: in the first that has a place for it, else beside the last
+    of the first's row."""
+    shared = {}
+    for ax, handles in sorted(panels, key=lambda panel: -len(panel[1])):
+        look = frozenset((one.get_label(), one.get_marker(), one.get_linestyle(), one.get_color()) for one in handles)
         if handles:
-            alike.setdefault(tuple(handle.get_label() for handle in handles), []).append((ax, handles))
+            host = next((other for other in shared if look <= other), look)
+            shared.setdefault(host, (handles, []))[1].append(ax)
     figure.draw_without_rendering()  # the layout
     beside = 0
-    for group in alike.values():
-        for ax, handles in group:
+    for handles, axes in shared.values():
+        axes.sort(key=lambda ax: ax.get_subplotspec().num1)
+        for ax in axes:
             ax.legend(handles=handles, ncols=1 + len(handles) // 7, handlelength=1.6)
             if not _covers(ax):
                 break
             ax.get_legend().remove()
         else:
-            row = [ax for ax, _ in group if ax.get_subplotspec().rowspan == group[0][0].get_subplotspec().rowspan]
+            row = [ax for ax in axes if ax.get_subplotspec().rowspan == axes[0].get_subplotspec().rowspan]
             row[-1].legend(handles=handles, handlelength=1.6, loc="upper left", bbox_to_anchor=(1.02, 1), borderaxespad=0)
             beside += 1
     figure.set_size_inches(figure.get_figwidth() + BESIDE * min(beside, COLUMNS), figure.get_figheight())
@@ -210,7 +221,8 @@ def _page(entry, tables, note, rasterized):
     figure.suptitle(entry.figure + note, fontsize=10)
     still = unsettled(tables, key_label)
     if still:
-        figure.supxlabel("\n".join(textwrap.wrap(f"not settled: {'; '.join(still)}", 45 * columns)), fontsize=6)
+        figure.supxlabel("\n".join(textwrap.wrap(f"not settled: {'; '.join(still)}", 45 * columns, max_lines=3, placeholder=" ...")),
+                         fontsize=6)
     _explain(figure, panels)
     return figure
 
