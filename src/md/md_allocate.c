@@ -6,6 +6,7 @@
 #include "md/aligned_memory.h"
 #include "md/md_engine.h"
 #include "md/md_state.h"
+#include "md/parallel/parallel.h"
 #include "simd/dispatch.h"
 
 gg_status gg_md_allocate_last(gg_md *e, gg_error *err)
@@ -85,6 +86,7 @@ static void free_search(gg_md_search_state *search)
 void gg_md_free(gg_md *e)
 {
   if (!e) return;
+  gg_md_parallel_free(e);
   gg_md_contacts_free(&e->contacts);
   gg_md_queue_free(&e->queue);
   gg_md_cells_free(&e->cells);

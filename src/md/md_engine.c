@@ -6,6 +6,7 @@
 #include "md/kicks.h"
 #include "md/md_engine.h"
 #include "md/md_thermostat.h"
+#include "md/parallel/parallel.h"
 
 /* A fall gives its grains a temperature of its own, whatever they start from: m g times some of the height, where that
  * is much more. Events that come much faster than guessed wait in one bucket, all of them, for the whole first epoch.
@@ -139,7 +140,7 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
 }
 
 /* Between looks at whether to stop: some milliseconds. */
-enum { EVENTS_BETWEEN_LOOKS = 1 << 14 };
+enum { EVENTS_BETWEEN_LOOKS = 1 << 14, EVENTS_BETWEEN_WINDOWS = 16 };
 
 /* Events up to k.stop; false if it was stopped on the way. So many events at one and the same time are a grain that
  * comes to rest on a wall without the contact-time rule: no time will go by any more. */
@@ -147,6 +148,7 @@ static bool run_leg(gg_md *e)
 {
   for (;;) {
     const double before = e->k.now;
+    if (e->parallel && gg_md_run_windows(e)) e->look_at = e->k.events + EVENTS_BETWEEN_WINDOWS;
     e->kernel->run(e);
     if (e->k.events < e->look_at) return true;
     e->stands_still = e->k.now == before && e->model.walled && e->model.contact_time == 0;
@@ -230,6 +232,13 @@ static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
   memset(&e->k.transfer, 0, sizeof e->k.transfer);
 }
 
+/* Smaller systems are as fast on one. */
+static void threads(gg_engine *engine, int threads)
+{
+  gg_md *e = (gg_md *)engine;
+  gg_md_share(e, e->n < GG_MD_FEWEST_SHARED ? 1 : threads);
+}
+
 static void state(const gg_engine *engine, gg_engine_state *s)
 {
   const gg_md *e = (const gg_md *)engine;
@@ -239,7 +248,8 @@ static void state(const gg_engine *engine, gg_engine_state *s)
                          .treated = e->k.treated,
                          .offset = gg_md_offset(&e->box, e->k.now),
                          .wall_treated = e->k.wall_treated,
-                         .worst_overlap = e->k.worst_overlap};
+                         .worst_overlap = e->k.worst_overlap,
+                         .others_cpu = gg_md_parallel_cpu(e)};
 }
 
 /* Everything that has a dimension of time or velocity, by exact powers of two. */
@@ -278,6 +288,7 @@ const gg_engine_ops gg_md_ops = {
     .keep_sums = keep_sums,
     .take_sums = take_sums,
     .set_callback = gg_md_set_callback,
+    .threads = threads,
     .state = state,
     .snapshot = gg_md_snapshot,
     .rescale = rescale,

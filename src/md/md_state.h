@@ -168,6 +168,7 @@ struct gg_md {
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white-noise thermostat */
   gg_md_kicks kicks;
+  struct gg_md_parallel *parallel; /* parallel/: threads that share the events; NULL: one does all */
 };
 
 /* md_allocate.c: an engine with its arrays for this model, nothing in them; and its end. */

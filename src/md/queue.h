@@ -101,6 +101,22 @@ GG_INLINE void gg_md_queue_remove_due(gg_md_queue *q, uint32_t grain)
   for (; k < q->n_due; k++) q->due[k] = q->due[k + 1];
 }
 
+/* Into a bucket to come, and out of it; false: the bucket is full, or the grain is not among its fourteen. */
+GG_INLINE bool gg_md_bucket_add(gg_md_bucket *bucket, uint32_t grain)
+{
+  if (bucket->count == GG_MD_BUCKET) return false;
+  bucket->grain[bucket->count++] = grain;
+  return true;
+}
+
+GG_INLINE bool gg_md_bucket_take(gg_md_bucket *bucket, uint32_t grain)
+{
+  uint32_t found = gg_words_equal16((const uint32_t *)bucket, grain) >> 2 & gg_lowest_bits(bucket->count);
+  if (__builtin_expect(found == 0, 0)) return false;
+  bucket->grain[__builtin_ctz(found)] = bucket->grain[--bucket->count];
+  return true;
+}
+
 GG_INLINE void gg_md_queue_insert(gg_md_queue *q, gg_md_node *node, uint32_t grain)
 {
   uint32_t b = gg_md_bucket_of(q, node[grain].time);
@@ -108,12 +124,7 @@ GG_INLINE void gg_md_queue_insert(gg_md_queue *q, gg_md_node *node, uint32_t gra
     gg_md_queue_insert_due(q, (gg_md_due){node[grain].time, grain});
     return;
   }
-  if (b == q->n_buckets) return;
-  gg_md_bucket *bucket = &q->bucket[b];
-  if (bucket->count < GG_MD_BUCKET)
-    bucket->grain[bucket->count++] = grain;
-  else
-    gg_md_queue_chain(bucket, node, grain);
+  if (b < q->n_buckets && !gg_md_bucket_add(&q->bucket[b], grain)) gg_md_queue_chain(&q->bucket[b], node, grain);
 }
 
 GG_INLINE void gg_md_queue_remove(gg_md_queue *q, gg_md_node *node, uint32_t grain)
@@ -123,13 +134,7 @@ GG_INLINE void gg_md_queue_remove(gg_md_queue *q, gg_md_node *node, uint32_t gra
     gg_md_queue_remove_due(q, grain);
     return;
   }
-  if (b == q->n_buckets) return;
-  gg_md_bucket *bucket = &q->bucket[b];
-  uint32_t found = gg_words_equal16((const uint32_t *)bucket, grain) >> 2 & gg_lowest_bits(bucket->count);
-  if (__builtin_expect(found != 0, 1))
-    bucket->grain[__builtin_ctz(found)] = bucket->grain[--bucket->count];
-  else
-    gg_md_queue_unchain(bucket, node, grain);
+  if (b < q->n_buckets && !gg_md_bucket_take(&q->bucket[b], grain)) gg_md_queue_unchain(&q->bucket[b], node, grain);
 }
 
 #endif

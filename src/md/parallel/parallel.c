@@ -1,0 +1,194 @@
+/* Which runs share their events among threads, and whole windows of them. */
+#include "md/parallel/parallel.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "common/thermostat.h"
+#include "md/aligned_memory.h"
+#include "md/parallel/slab.h"
+
+/* Windows an epoch; layers of cells a slab has at least; buckets that a window has at least; events after a cancelled
+ * window without any. */
+enum { WINDOWS = 48, FEWEST_LAYERS = 8, FEWEST_BUCKETS = 32, WINDOWS_BETWEEN_LOOKS = 16, SERIAL_EVENTS = 1 << 15 };
+
+const char *gg_md_serial_because(const gg_model *m)
+{
+  double radius;
+  int32_t n[3];
+  const gg_md_search_kind kind = gg_md_search_select(m, &radius, n);
+  if (m->walled) return "walls";
+  if (gg_common_thermostat_of(m) != GG_NO_THERMOSTAT) return "a thermostat: it couples all grains";
+  if (m->law.e) return "a law of restitution of your own";
+  if (kind != GG_MD_PLAIN_CELLS && kind != GG_MD_COMOVING_ROWS) return "this search";
+  if (n[0] < 4 || n[1] < 4 || n[2] < 2 * FEWEST_LAYERS || (kind == GG_MD_PLAIN_CELLS && m->shear_rate != 0))
+    return "a small box";
+  return NULL;
+}
+
+int gg_md_most_slabs(const gg_model *m)
+{
+  double radius;
+  int32_t n[3];
+  gg_md_search_select(m, &radius, n);
+  if (gg_md_serial_because(m)) return 1;
+  const int slabs = n[2] / FEWEST_LAYERS;
+  return slabs < GG_MD_MOST_SLABS ? slabs : GG_MD_MOST_SLABS;
+}
+
+static void free_slab(gg_md_slab *s)
+{
+  gg_md_growing *lists[] = {&s->due, &s->fresh, &s->late, &s->put_off, &s->back, &s->overflow};
+  for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) free(lists[k]->item);
+  for (int k = 0; k < GG_MD_MOST_SLABS; k++) free(s->mail[k].item);
+  for (int phase = 0; phase < GG_MD_PHASES; phase++) {
+    free(s->log[phase].item);
+    for (int k = 0; k < GG_MD_MOST_SLABS; k++) free(s->moves[phase][k].item);
+  }
+  if (s->view) free(s->view->candidates);
+  free(s->view);
+}
+
+void gg_md_parallel_free(gg_md *e)
+{
+  gg_md_parallel *p = e->parallel;
+  if (!p) return;
+  gg_base_thread_pool_free(p->pool);
+  for (int k = 0; p->slab && k < p->n_slabs; k++) free_slab(&p->slab[k]);
+  for (int phase = 0; phase < GG_MD_PHASES; phase++) free(p->layers[phase]);
+  free(p->slab);
+  free(p->layer);
+  free(p->cell);
+  free(p);
+  e->parallel = NULL;
+}
+
+/* Slabs of equal height, those of the second phase half a slab higher; in the last there is one. */
+static void cut_slabs(const gg_md_parallel *p, int32_t n)
+{
+  for (int phase = 0; phase < 2; phase++)
+    for (int k = 0; k < p->n_slabs; k++) {
+      const int32_t slabs = 2 * p->n_slabs, from = n * (2 * k + phase) / slabs, to = n * (2 * k + 2 + phase) / slabs;
+      for (int32_t z = from; z < to; z++) {
+        const int32_t depth = z - from < to - 1 - z ? z - from : to - 1 - z;
+        p->layers[phase][z % n] = (gg_md_layer){(uint8_t)k, (uint8_t)(depth < 2 ? depth : 2)};
+      }
+    }
+  for (int32_t z = 0; z < n; z++) p->layers[2][z] = (gg_md_layer){0, 2};
+}
+
+static bool make_slab(gg_md_parallel *p, int k)
+{
+  gg_md_slab *s = &p->slab[k];
+  s->all = p;
+  s->self = k;
+  s->mark = (uint32_t)k;
+  s->view = aligned_alloc(64, (sizeof *s->view + 63) / 64 * 64);
+  if (!s->view) return false;
+  memset(s->view, 0, sizeof *s->view);
+  s->view->candidates = gg_md_new_pages(2 * GG_MD_CANDIDATES_APART, sizeof *s->view->candidates, NULL);
+  return s->view->candidates != NULL;
+}
+
+static bool make(gg_md *e, int threads)
+{
+  gg_md_parallel *p = e->parallel = gg_base_array_new(1, sizeof *p, NULL);
+  if (!p) return false;
+  const int32_t *n = e->cells.n;
+  const size_t cells = (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
+  p->engine = e;
+  p->n_slabs = threads;
+  p->n_buckets = e->queue.n_buckets / WINDOWS;
+  if (p->n_buckets < FEWEST_BUCKETS) p->n_buckets = FEWEST_BUCKETS;
+  p->slab = gg_md_new_lines((size_t)threads, sizeof *p->slab, NULL);
+  p->layer = gg_md_new_lines(e->n, sizeof *p->layer, NULL);
+  p->cell = gg_md_new_lines(cells, sizeof *p->cell, NULL);
+  for (int phase = 0; phase < GG_MD_PHASES; phase++)
+    if (!(p->layers[phase] = gg_base_array_new((size_t)n[2], sizeof *p->layers[phase], NULL))) return false;
+  if (!p->slab || !p->layer || !p->cell) return false;
+  for (int k = 0; k < threads; k++)
+    if (!make_slab(p, k)) return false;
+  cut_slabs(p, n[2]);
+  p->pool = gg_base_thread_pool_new(threads);
+  return p->pool != NULL;
+}
+
+void gg_md_share(gg_md *e, int threads)
+{
+  const int most = gg_md_most_slabs(&e->model);
+  gg_md_parallel_free(e);
+  if (threads > most) threads = most;
+  if (threads > 1 && !make(e, threads)) gg_md_parallel_free(e);
+}
+
+uint64_t gg_md_shared_events(const gg_md *e)
+{
+  return e->parallel ? e->parallel->events : 0;
+}
+
+double gg_md_parallel_cpu(const gg_md *e)
+{
+  return e->parallel ? gg_base_thread_pool_cpu(e->parallel->pool) : 0;
+}
+
+static void note_layers(void *context, int self)
+{
+  const gg_md_parallel *p = context;
+  const gg_md *e = p->engine;
+  const uint64_t n = e->n, from = n * (uint64_t)self / (uint64_t)p->n_slabs,
+                 to = n * (uint64_t)(self + 1) / (uint64_t)p->n_slabs;
+  for (uint64_t i = from; i < to; i++)
+    atomic_store_explicit(&p->layer[i], (uint16_t)e->node[i].cell[2], memory_order_relaxed);
+}
+
+/* The engine as it is now, with an event queue that takes in nothing: its bucket of any time is beyond the last. */
+static void renew_view(gg_md_slab *s)
+{
+  uint32_t *const candidates = s->view->candidates;
+  *s->view = *s->all->engine;
+  s->view->candidates = candidates;
+  s->view->queue = (gg_md_queue){.inverse_width = NAN, .n_buckets = 1, .due = s->pair};
+  s->view->look_at = 1;
+  s->view->k.collisions_left = UINT64_MAX / 2;
+  s->view->k.stop = INFINITY;
+}
+
+static void begin(gg_md_parallel *p)
+{
+  gg_base_thread_pool_for(p->pool, p->n_slabs, note_layers, p);
+  for (int k = 0; k < p->n_slabs; k++) renew_view(&p->slab[k]);
+}
+
+/* The bucket before which the next window ends; 0: there is no room for one. */
+static uint32_t next_end(const gg_md_parallel *p)
+{
+  const gg_md *e = p->engine;
+  double stop = e->k.stop;
+  if (gg_md_search_has_rows(e->search.kind)) stop = fmin(stop, e->search.rows.next_shift);
+  const uint64_t last = gg_md_bucket_of(&e->queue, stop), begin = e->queue.current + 1,
+                 most = e->k.collisions_left / GG_MD_BUCKET_MEAN;
+  uint64_t size = p->n_buckets;
+  if (last < begin + 2 * size) size = last > begin ? last - begin : 0;
+  if (size > most) size = most;
+  return size < FEWEST_BUCKETS ? 0 : (uint32_t)(begin + size);
+}
+
+bool gg_md_run_windows(gg_md *e)
+{
+  gg_md_parallel *p = e->parallel;
+  if (e->callback || e->plain || e->k.next_kick < INFINITY || e->k.events < p->serial_until) return false;
+  uint32_t end = next_end(p);
+  if (!end) return false;
+  begin(p);
+  for (int k = 0; end && k < WINDOWS_BETWEEN_LOOKS * WINDOWS; k++) {
+    if (!gg_md_run_window(p, end)) {
+      p->serial_until = e->k.events + SERIAL_EVENTS;
+      return false;
+    }
+    if (k % WINDOWS_BETWEEN_LOOKS == 0 && gg_stop_asked(e->model.stop)) break;
+    end = next_end(p);
+  }
+  return true;
+}

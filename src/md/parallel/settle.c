@@ -1,0 +1,121 @@
+/* The end of a window: what it leaves goes into the event queue, and into counts and sums in the order of time,
+ * whatever the order in which its events ran. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "md/parallel/slab.h"
+
+enum { AHEAD = 8, MOST_LOGS = 2 * GG_MD_MOST_SLABS + 1 };
+
+/* Overflow lists lead from grain to grain, and a grain from one into another: the few moves that concern them wait. */
+static void apply(gg_md_slab *s, const gg_md_growing *moves)
+{
+  const gg_md_queue *q = &s->all->engine->queue;
+  const gg_md_move *m = moves->item;
+  for (uint32_t k = 0; k < moves->n; k++) {
+    if (k + AHEAD < moves->n) __builtin_prefetch(&q->bucket[m[k + AHEAD].bucket & ~GG_MD_OUT], 1);
+    gg_md_bucket *bucket = &q->bucket[m[k].bucket & ~GG_MD_OUT];
+    if (!(m[k].bucket & GG_MD_OUT ? gg_md_bucket_take(bucket, m[k].grain) : gg_md_bucket_add(bucket, m[k].grain)))
+      *(gg_md_move *)gg_md_append(s, &s->overflow, sizeof *m) = m[k];
+  }
+}
+
+/* In order of phases: in each a grain's moves are those of one slab. */
+static void apply_part(void *context, int self)
+{
+  const gg_md_parallel *p = context;
+  for (int phase = 0; phase < GG_MD_PHASES; phase++)
+    for (int k = 0; k < p->n_slabs; k++) apply(&p->slab[self], &p->slab[k].moves[phase][self]);
+}
+
+static int in_order(const void *a, const void *b)
+{
+  const uint64_t x = ((const gg_md_move *)a)->order, y = ((const gg_md_move *)b)->order;
+  return (x > y) - (x < y);
+}
+
+static void apply_overflow(gg_md_parallel *p)
+{
+  const gg_md *e = p->engine;
+  gg_md_growing *all = &p->slab[0].overflow;
+  for (int k = 1; k < p->n_slabs; k++)
+    for (uint32_t m = 0; m < p->slab[k].overflow.n; m++)
+      *(gg_md_move *)gg_md_append(&p->slab[0], all, sizeof(gg_md_move)) = ((gg_md_move *)p->slab[k].overflow.item)[m];
+  if (all->n) qsort(all->item, all->n, sizeof(gg_md_move), in_order);
+  for (uint32_t k = 0; k < all->n; k++) {
+    const gg_md_move *m = (gg_md_move *)all->item + k;
+    gg_md_bucket *bucket = &e->queue.bucket[m->bucket & ~GG_MD_OUT];
+    (m->bucket & GG_MD_OUT ? gg_md_queue_unchain : gg_md_queue_chain)(bucket, e->node, m->grain);
+  }
+}
+
+static void count(gg_md_counts *k, const gg_md_record *r)
+{
+  k->events++;
+  if (r->partner == GG_MD_NONE) return;
+  k->collisions++;
+  k->collisions_left--;
+  k->treated += r->treated;
+  k->worst_overlap = fmax(k->worst_overlap, r->overlap);
+  k->transfer.collisions[r->pair]++;
+  if (!k->keeps_sums) return;
+  double(*stress)[3] = k->transfer.stress[r->pair];
+  for (int a = 0; a < 3; a++) stress[a][a] += r->stress[a];
+  stress[0][1] += r->stress[3];
+  stress[1][0] += r->stress[4];
+  k->transfer.loss[r->pair] += r->loss;
+}
+
+static bool is_earlier(const gg_md_record *a, const gg_md_record *b)
+{
+  return a->time < b->time || (a->time == b->time && a->grain < b->grain);
+}
+
+static const gg_md_growing *log_of(const gg_md_parallel *p, int k)
+{
+  return k == 2 * p->n_slabs ? &p->slab[0].log[2] : &p->slab[k / 2].log[k % 2];
+}
+
+static void count_all(gg_md_parallel *p)
+{
+  gg_md_counts *k = &p->engine->k;
+  const gg_md_record *next[MOST_LOGS], *end[MOST_LOGS];
+  int n = 0;
+  for (int log = 0; log <= 2 * p->n_slabs; log++)
+    if (log_of(p, log)->n) {
+      next[n] = gg_md_record_at(log_of(p, log), 0);
+      end[n] = next[n] + log_of(p, log)->n;
+      n++;
+    }
+  while (n) {
+    int first = 0;
+    for (int m = 1; m < n; m++)
+      if (is_earlier(next[m], next[first])) first = m;
+    const gg_md_record *r = next[first]++;
+    if (!r->gone) count(k, r), k->now = r->time;
+    if (next[first] < end[first]) continue;
+    n--;
+    next[first] = next[n];
+    end[first] = end[n];
+  }
+}
+
+uint64_t gg_md_window_collisions(const gg_md_parallel *p)
+{
+  uint64_t collisions = 0;
+  for (int k = 0; k <= 2 * p->n_slabs; k++)
+    for (uint32_t m = 0; m < log_of(p, k)->n; m++) {
+      const gg_md_record *r = gg_md_record_at(log_of(p, k), m);
+      collisions += !r->gone && r->partner != GG_MD_NONE;
+    }
+  return collisions;
+}
+
+void gg_md_settle(gg_md_parallel *p)
+{
+  gg_base_thread_pool_for(p->pool, p->n_slabs, apply_part, p);
+  apply_overflow(p);
+  const uint64_t before = p->engine->k.events;
+  count_all(p);
+  p->events += p->engine->k.events - before;
+}

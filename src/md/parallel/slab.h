@@ -1,0 +1,149 @@
+/* The state of shared windows of events (parallel.h): slabs of the box along z, one a thread, and what each keeps of a
+ * window.
+ *
+ * A window is a span of time, whole buckets of the event queue. Its events run in three phases: all slabs at once;
+ * slabs shifted by half of one, with what the first phase put off; on one thread, with what the second put off. An
+ * event touches the cells of its grains, and reads the cells around. Two events far from each other may run in any
+ * order. Whenever a later phase comes to an event that is earlier than one beside it that has run, the later one, and
+ * all that followed from it, is taken back (take_back.c). So of any two events beside each other the earlier has run
+ * first, as in a serial run, and all bits are the same.
+ *
+ * Within a phase nobody writes what another thread reads: events that touch the two outer layers of cells of a slab are
+ * put off. */
+#ifndef GG_MD_SLAB_H
+#define GG_MD_SLAB_H
+
+#include <stdatomic.h>
+
+#include "base/thread_pool.h"
+#include "md/parallel/parallel.h"
+
+enum { GG_MD_MOST_SLABS = 16, GG_MD_PHASES = 3, GG_MD_MOST_TOUCHED = 3 };
+
+/* A list that grows. */
+typedef struct gg_md_growing {
+  void *item;
+  uint32_t n, room;
+} gg_md_growing;
+
+/* The cells that an event touches: the grain's own; its partner's, or the one that it comes into, or the two one of
+ * which it comes into. */
+typedef struct gg_md_touched {
+  int32_t at[GG_MD_MOST_TOUCHED][3];
+  uint32_t n;
+  bool collides;
+} gg_md_touched;
+
+/* Of a cell: the last event that touched it, at which time and in which phase; the phase in which it is closed, for
+ * what depends on an event that was put off; and a mark (take_back.c). Phases of all windows have numbers, four a
+ * window. */
+typedef struct gg_md_cell_state {
+  double last;
+  uint32_t phase, closed, mark;
+} gg_md_cell_state;
+
+/* A grain as it was. */
+typedef struct gg_md_saved {
+  gg_md_grain grain;
+  gg_md_node node;
+  gg_vec spin;
+  double last;
+} gg_md_saved;
+
+/* An event that has run, with all that it takes to take it back. */
+typedef struct gg_md_record {
+  double time;
+  uint32_t grain, partner; /* GG_MD_NONE: no collision */
+  gg_md_touched touched;
+  bool crossed, gone, treated;
+  uint16_t pair;                   /* of species */
+  double overlap, stress[5], loss; /* what it adds to the sums: xx, yy, zz, xy, yx */
+  double last[GG_MD_MOST_TOUCHED]; /* of the cells before */
+  uint32_t phase[GG_MD_MOST_TOUCHED];
+  gg_md_saved was[2];
+} gg_md_record;
+
+/* A grain into a bucket of the event queue beyond the window, or (GG_MD_OUT) out of it: done at the window's end. */
+#define GG_MD_OUT 0x80000000u
+typedef struct gg_md_move {
+  uint32_t bucket, grain;
+  uint64_t order; /* by phase, slab and time: of overflow lists */
+} gg_md_move;
+
+typedef struct gg_md_parallel gg_md_parallel;
+
+typedef struct gg_md_slab {
+  gg_md_parallel *all;
+  gg_md *view;     /* the engine as this slab's events know it: with a clock, counts and candidates of its own */
+  int self, phase; /* from 0, from 1 */
+  uint32_t number; /* of the phase, among those of all windows */
+  uint32_t at;     /* in `due`: up to there it is done */
+  uint32_t mark;   /* the last one: each slab has every n_slabs-th */
+  uint32_t n_moves;
+  bool crowded, out_of_memory;
+  gg_md_due pair[2];                    /* the view's queue: an event, and the one after it */
+  gg_md_growing mail[GG_MD_MOST_SLABS]; /* of the window's buckets that it emptied: whose event, for which slab */
+  gg_md_growing due, fresh;             /* earliest first; new ones, latest first */
+  gg_md_growing late, put_off;          /* put off in this phase, and in the one before */
+  gg_md_growing back;                   /* take_back.c: records */
+  gg_md_growing log[GG_MD_PHASES];      /* gg_md_record */
+  gg_md_growing overflow;               /* gg_md_move of full buckets */
+  gg_md_growing moves[GG_MD_PHASES][GG_MD_MOST_SLABS]; /* by who does it */
+  gg_md_record spare;                                  /* written where memory lacked */
+} gg_md_slab;
+
+/* Of a layer of cells in a phase: whose it is, and how many layers of the same slab lie outside of it. */
+typedef struct gg_md_layer {
+  uint8_t owner, depth;
+} gg_md_layer;
+
+struct gg_md_parallel {
+  gg_md *engine;
+  gg_thread_pool *pool;
+  int n_slabs, phase;
+  uint32_t window, n_buckets; /* its number, and of how many buckets it usually is */
+  uint32_t begin, end;        /* buckets of this one */
+  uint64_t events;            /* in windows so far */
+  uint64_t serial_until;      /* events up to which there are none */
+  gg_md_layer *layers[GG_MD_PHASES];
+  _Atomic uint16_t *layer; /* of each grain */
+  gg_md_cell_state *cell;
+  gg_md_slab *slab;
+};
+
+/* Room for one more at the end of a list; where memory lacks, the spare room. */
+void *gg_md_append(gg_md_slab *s, gg_md_growing *list, size_t size);
+/* An event within the window that is new, or back again. */
+void gg_md_add_fresh(gg_md_slab *s, gg_md_due due);
+/* The grain's event has another time. */
+void gg_md_requeue(gg_md_slab *s, uint32_t grain, double from, double to);
+
+/* window.c: one of these buckets; false: it is for the serial loop. */
+bool gg_md_run_window(gg_md_parallel *p, uint32_t end);
+/* settle.c: what the window leaves: the event queue, and the counts and sums. */
+void gg_md_settle(gg_md_parallel *p);
+uint64_t gg_md_window_collisions(const gg_md_parallel *p);
+
+/* touched.c: the cells that the next event of a grain touches, except, perhaps, the partner's (`partner`: it is there);
+ * and the cells that are searched from a cell, itself included. */
+enum { GG_MD_MOST_AROUND = 33 };
+bool gg_md_find_touched(const gg_md_slab *s, uint32_t grain, gg_md_touched *touched);
+int gg_md_cells_around(const gg_md *e, const int32_t at[3], uint32_t index[GG_MD_MOST_AROUND]);
+
+/* take_back.c: has a later event run beside this one, in an earlier phase? If so: take it back; false: some of what
+ * followed from it is not this slab's. And all of a window. */
+bool gg_md_is_overtaken(const gg_md_slab *s, double time, const gg_md_touched *touched);
+bool gg_md_take_back(gg_md_slab *s, double time, const gg_md_touched *touched);
+void gg_md_take_back_all(gg_md_parallel *p);
+
+GG_INLINE const gg_md_layer *gg_md_layer_of(const gg_md_slab *s, const int32_t at[3])
+{
+  return &s->all->layers[s->phase - 1][at[2]];
+}
+
+GG_INLINE gg_md_record *gg_md_record_at(const gg_md_growing *log, uint32_t k)
+{
+  return (gg_md_record *)log->item + k;
+}
+
+#endif

@@ -1,0 +1,375 @@
+/* A window of events: dealt out to slabs, and run in three phases (slab.h). */
+#include "md/parallel/slab.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* More events in a slab than so many times those that were due: contacts that accumulate, perhaps without end. */
+enum { MOST_MORE = 16, AHEAD = 8 };
+
+void *gg_md_append(gg_md_slab *s, gg_md_growing *list, size_t size)
+{
+  if (list->n == list->room) {
+    const uint32_t room = list->room ? 2 * list->room : 64;
+    void *item = realloc(list->item, room * size);
+    if (!item) {
+      s->out_of_memory = true;
+      return &s->spare;
+    }
+    list->item = item;
+    list->room = room;
+  }
+  return (char *)list->item + size * list->n++;
+}
+
+static void add_due(gg_md_slab *s, gg_md_growing *list, gg_md_due due)
+{
+  *(gg_md_due *)gg_md_append(s, list, sizeof due) = due;
+}
+
+void gg_md_add_fresh(gg_md_slab *s, gg_md_due due)
+{
+  add_due(s, &s->fresh, due);
+  gg_md_due *item = s->fresh.item;
+  uint32_t k = s->fresh.n - 1;
+  for (; k > 0 && gg_md_is_before(item[k - 1], due); k--) item[k] = item[k - 1];
+  item[k] = due;
+}
+
+static void move(gg_md_slab *s, uint32_t bucket, uint32_t grain, uint32_t out)
+{
+  gg_md_growing *moves = &s->moves[s->phase - 1][bucket / 8 % (uint32_t)s->all->n_slabs];
+  const uint64_t order = (uint64_t)(s->phase * GG_MD_MOST_SLABS + s->self) << 32 | s->n_moves++;
+  *(gg_md_move *)gg_md_append(s, moves, sizeof(gg_md_move)) = (gg_md_move){bucket | out, grain, order};
+}
+
+void gg_md_requeue(gg_md_slab *s, uint32_t grain, double from, double to)
+{
+  const gg_md_queue *q = &s->all->engine->queue;
+  const uint32_t before = gg_md_bucket_of(q, from), after = gg_md_bucket_of(q, to), end = s->all->end;
+  if (before >= end && before < q->n_buckets) move(s, before, grain, GG_MD_OUT);
+  if (after < end)
+    gg_md_add_fresh(s, (gg_md_due){to, grain});
+  else if (after < q->n_buckets)
+    move(s, after, grain, 0);
+}
+
+/* Earliest first; nearly in order as they come. */
+static void sort(gg_md_growing *list)
+{
+  gg_md_due *item = list->item;
+  for (uint32_t n = 1; n < list->n; n++) {
+    const gg_md_due due = item[n];
+    uint32_t k = n;
+    for (; k > 0 && gg_md_is_before(due, item[k - 1]); k--) item[k] = item[k - 1];
+    item[k] = due;
+  }
+}
+
+static bool take_next(gg_md_slab *s, gg_md_due *next)
+{
+  const gg_md_due *due = s->due.item, *fresh = s->fresh.item;
+  if (s->at == s->due.n && s->fresh.n == 0) return false;
+  if (s->at == s->due.n || (s->fresh.n && gg_md_is_before(fresh[s->fresh.n - 1], due[s->at])))
+    *next = fresh[--s->fresh.n];
+  else
+    *next = due[s->at++];
+  return true;
+}
+
+static bool is_open(const gg_md_slab *s, const int32_t at[3])
+{
+  const gg_md_layer *layer = gg_md_layer_of(s, at);
+  return layer->owner == s->self && layer->depth >= 2 &&
+         s->all->cell[gg_md_cell_index(&s->view->cells, at)].closed != s->number;
+}
+
+/* Cells that are full grow in the last phase. */
+static bool is_full(const gg_md_slab *s, const int32_t at[3])
+{
+  return gg_md_cell_at(&s->view->cells, at)[0] + 1 == s->view->cells.stride && s->phase < GG_MD_PHASES;
+}
+
+static bool may_run(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
+{
+  if (!gg_md_find_touched(s, i, t)) return false;
+  for (uint32_t k = 0; k < t->n; k++)
+    if (!is_open(s, t->at[k]) || (k > 0 && is_full(s, t->at[k]))) return false;
+  return true;
+}
+
+/* What depends on it waits, too. The two outer layers are closed anyway. */
+static void put_off(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
+{
+  uint32_t index[GG_MD_MOST_AROUND];
+  add_due(s, &s->late, due);
+  for (uint32_t k = 0; k < t->n; k++) {
+    const gg_md_layer *layer = gg_md_layer_of(s, t->at[k]);
+    if (layer->owner != s->self || layer->depth < 1) continue;
+    for (int n = gg_md_cells_around(s->view, t->at[k], index) - 1; n >= 0; n--)
+      s->all->cell[index[n]].closed = s->number;
+  }
+}
+
+static void save(const gg_md *e, uint32_t i, gg_md_saved *was)
+{
+  was->grain = e->grain[i];
+  was->node = e->node[i];
+  if (e->spin) was->spin = e->spin[i];
+  if (e->last) was->last = e->last[i];
+}
+
+static gg_md_record *begin_record(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
+{
+  const gg_md *e = s->view;
+  gg_md_record *r = gg_md_append(s, &s->log[s->phase - 1], sizeof *r);
+  r->time = due.time;
+  r->grain = due.grain;
+  r->partner = t->collides ? e->node[due.grain].partner : GG_MD_NONE;
+  r->touched = *t;
+  r->crossed = e->node[due.grain].time < e->node[due.grain].collision;
+  r->gone = false;
+  save(e, due.grain, &r->was[0]);
+  if (t->collides) save(e, r->partner, &r->was[1]);
+  for (uint32_t k = 0; k < t->n; k++) {
+    const gg_md_cell_state *c = &s->all->cell[gg_md_cell_index(&e->cells, t->at[k])];
+    r->last[k] = c->last;
+    r->phase[k] = c->phase;
+  }
+  return r;
+}
+
+/* The view's counts are those of this event alone. */
+static void clear_counts(gg_md *v, gg_md_record *r)
+{
+  v->k.events = v->k.collisions = v->k.treated = 0;
+  v->k.worst_overlap = 0;
+  if (r->partner == GG_MD_NONE) return;
+  r->pair = (uint16_t)gg_pair((int)r->was[0].grain.species, (int)r->was[1].grain.species);
+  if (!v->k.keeps_sums) return;
+  memset(v->k.transfer.stress[r->pair], 0, sizeof v->k.transfer.stress[r->pair]);
+  v->k.transfer.loss[r->pair] = 0;
+}
+
+static void keep_counts(const gg_md *v, gg_md_record *r)
+{
+  if (r->partner == GG_MD_NONE) return;
+  const gg_collision_sums *t = &v->k.transfer;
+  r->treated = v->k.treated > 0;
+  r->overlap = v->k.worst_overlap;
+  if (!v->k.keeps_sums) return;
+  for (int a = 0; a < 3; a++) r->stress[a] = t->stress[r->pair][a][a];
+  r->stress[3] = t->stress[r->pair][0][1];
+  r->stress[4] = t->stress[r->pair][1][0];
+  r->loss = t->loss[r->pair];
+}
+
+/* The view's event loop runs one event, of a queue that has no others; what comes next is read ahead. */
+static void run_event(gg_md_slab *s, gg_md_due due)
+{
+  gg_md *v = s->view;
+  const bool more = s->at < s->due.n;
+  if (more) s->pair[0] = ((gg_md_due *)s->due.item)[s->at];
+  s->pair[more] = due;
+  v->queue.n_due = 1 + more;
+  v->kernel->run(v);
+}
+
+static void run(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
+{
+  gg_md *v = s->view;
+  gg_md_record *r = begin_record(s, due, t);
+  clear_counts(v, r);
+  run_event(s, due);
+  keep_counts(v, r);
+  for (uint32_t k = 0; k < t->n; k++) {
+    gg_md_cell_state *c = &s->all->cell[gg_md_cell_index(&v->cells, t->at[k])];
+    c->last = due.time;
+    c->phase = s->number;
+  }
+  if (r->crossed)
+    atomic_store_explicit(&s->all->layer[due.grain], (uint16_t)v->node[due.grain].cell[2], memory_order_relaxed);
+  gg_md_requeue(s, due.grain, due.time, v->node[due.grain].time);
+  if (t->collides) gg_md_requeue(s, r->partner, r->was[1].node.time, v->node[r->partner].time);
+}
+
+static void prefetch(const gg_md_slab *s)
+{
+  const gg_md *e = s->view;
+  const gg_md_due *due = s->due.item;
+  if (s->at + AHEAD < s->due.n) {
+    const uint32_t i = due[s->at + AHEAD].grain;
+    __builtin_prefetch(&e->grain[i]);
+    __builtin_prefetch(&e->node[i]);
+  }
+  if (s->at + AHEAD / 2 < s->due.n) {
+    const uint32_t i = due[s->at + AHEAD / 2].grain, j = e->node[i].partner;
+    __builtin_prefetch(&s->all->cell[gg_md_cell_index(&e->cells, e->node[i].cell)]);
+    if (GG_MD_NO_GRAIN(j)) return;
+    __builtin_prefetch(&e->grain[j]);
+    __builtin_prefetch(&e->node[j]);
+  }
+}
+
+static void run_phase(gg_md_slab *s)
+{
+  gg_md_touched t;
+  const uint32_t most = MOST_MORE * (s->due.n + 64);
+  for (gg_md_due due; take_next(s, &due);) {
+    prefetch(s);
+    if (s->view->node[due.grain].time != due.time) continue; /* it has been predicted anew */
+    if (!may_run(s, due.grain, &t))
+      put_off(s, due, &t);
+    else if (!gg_md_is_overtaken(s, due.time, &t))
+      run(s, due, &t);
+    else if (gg_md_take_back(s, due.time, &t))
+      gg_md_add_fresh(s, due); /* what was taken back may be earlier, if only by its number */
+    else
+      put_off(s, due, &t);
+    s->crowded = s->log[s->phase - 1].n > most;
+    if (s->crowded || s->out_of_memory || s->view->no_number) return;
+  }
+}
+
+/* Empty this slab's part of the window's buckets. */
+static void deal_part(void *context, int self)
+{
+  const gg_md_parallel *p = context;
+  gg_md_slab *s = &p->slab[self];
+  const gg_md_queue *q = &p->engine->queue;
+  const gg_md_node *node = p->engine->node;
+  const uint32_t n = (uint32_t)p->n_slabs, all = p->end - p->begin, from = p->begin + all * (uint32_t)self / n,
+                 to = p->begin + all * (uint32_t)(self + 1) / n;
+  for (uint32_t b = from; b < to; b++) {
+    if (b + 4 < to)
+      for (uint32_t k = 0; k < q->bucket[b + 4].count; k++) {
+        __builtin_prefetch(&node[q->bucket[b + 4].grain[k]]);
+        __builtin_prefetch(&p->layer[q->bucket[b + 4].grain[k]]);
+      }
+    gg_md_bucket *bucket = &q->bucket[b];
+    uint32_t i = bucket->chain;
+    for (uint32_t k = 0; k < bucket->count || i != GG_MD_NONE; k++) {
+      const uint32_t grain = k < bucket->count ? bucket->grain[k] : i;
+      if (k >= bucket->count) i = node[i].later;
+      add_due(s, &s->mail[p->layers[0][p->layer[grain]].owner], (gg_md_due){node[grain].time, grain});
+    }
+    bucket->count = 0;
+    bucket->chain = GG_MD_NONE;
+  }
+}
+
+/* The events of all slabs that are this one's: those dealt out, or those put off. */
+static void collect(gg_md_slab *s)
+{
+  const gg_md_parallel *p = s->all;
+  s->due.n = s->fresh.n = s->at = 0;
+  for (int k = 0; k < p->n_slabs; k++) {
+    const gg_md_growing *from = s->phase == 1 ? &p->slab[k].mail[s->self] : &p->slab[k].put_off;
+    const gg_md_due *item = from->item;
+    for (uint32_t m = 0; m < from->n; m++)
+      if (s->phase == 1 || p->layers[s->phase - 1][p->layer[item[m].grain]].owner == s->self)
+        add_due(s, &s->due, item[m]);
+  }
+  sort(&s->due);
+}
+
+static void phase_part(void *context, int self)
+{
+  gg_md_parallel *p = context;
+  gg_md_slab *s = &p->slab[self];
+  s->phase = p->phase;
+  s->number = 4 * p->window + (uint32_t)p->phase;
+  collect(s);
+  run_phase(s);
+}
+
+static bool is_good(const gg_md_parallel *p)
+{
+  for (int k = 0; k < p->n_slabs; k++)
+    if (p->slab[k].crowded || p->slab[k].out_of_memory || p->slab[k].view->no_number) return false;
+  return true;
+}
+
+/* All slabs at once; or the first one alone, in the last phase. Each collects what was put off before any puts off. */
+static bool run_phases(gg_md_parallel *p)
+{
+  for (p->phase = 1; p->phase <= GG_MD_PHASES; p->phase++) {
+    bool any = p->phase == 1;
+    for (int k = 0; k < p->n_slabs; k++) {
+      gg_md_slab *s = &p->slab[k];
+      const gg_md_growing other = s->put_off;
+      s->put_off = s->late;
+      s->late = other;
+      s->late.n = 0;
+      any |= s->put_off.n > 0;
+    }
+    if (!any) return true;
+    gg_base_thread_pool_for(p->pool, p->phase < GG_MD_PHASES ? p->n_slabs : 1, phase_part, p);
+    if (!is_good(p)) return false;
+  }
+  return true;
+}
+
+static void begin_window(gg_md_parallel *p, uint32_t end)
+{
+  gg_md_queue *q = &p->engine->queue;
+  p->window++;
+  p->begin = q->current + 1;
+  p->end = end;
+  for (int k = 0; k < p->n_slabs; k++) {
+    gg_md_slab *s = &p->slab[k];
+    s->crowded = false;
+    s->n_moves = 0;
+    s->overflow.n = 0;
+    s->late.n = s->put_off.n = 0;
+    for (int phase = 0; phase < GG_MD_PHASES; phase++) {
+      s->log[phase].n = 0;
+      for (int to = 0; to < p->n_slabs; to++) s->moves[phase][to].n = 0;
+    }
+    for (int to = 0; to < p->n_slabs; to++) s->mail[to].n = 0;
+  }
+  for (uint32_t k = q->n_due; k-- > 0;)
+    add_due(&p->slab[0], &p->slab[0].mail[p->layers[0][p->layer[q->due[k].grain]].owner], q->due[k]);
+  q->n_due = 0;
+  gg_base_thread_pool_for(p->pool, p->n_slabs, deal_part, p);
+  q->current = end - 1;
+}
+
+static int latest_first(const void *a, const void *b)
+{
+  return gg_md_is_before(*(const gg_md_due *)a, *(const gg_md_due *)b) ? 1 : -1;
+}
+
+/* As before the window, but for its buckets, all of which stand in `due`. */
+static void cancel(gg_md_parallel *p)
+{
+  gg_md_queue *q = &p->engine->queue;
+  gg_md_take_back_all(p);
+  for (int k = 0; k < p->n_slabs; k++)
+    for (int to = 0; to < p->n_slabs; to++) {
+      const gg_md_growing *mail = &p->slab[k].mail[to];
+      if (mail->n) memcpy(q->due + q->n_due, mail->item, mail->n * sizeof *q->due);
+      q->n_due += mail->n;
+    }
+  qsort(q->due, q->n_due, sizeof *q->due, latest_first);
+}
+
+bool gg_md_run_window(gg_md_parallel *p, uint32_t end)
+{
+  gg_md *e = p->engine;
+  begin_window(p, end);
+  const bool good = run_phases(p);
+  e->cells = p->slab[0].view->cells; /* they may have grown in the last phase */
+  for (int k = 0; k < p->n_slabs; k++) {
+    e->out_of_memory |= p->slab[k].out_of_memory | p->slab[k].view->out_of_memory;
+    p->slab[k].view->cells = e->cells;
+  }
+  if (e->out_of_memory) return false;
+  if (good && gg_md_window_collisions(p) < e->k.collisions_left) {
+    gg_md_settle(p);
+    return true;
+  }
+  cancel(p);
+  return false;
+}
