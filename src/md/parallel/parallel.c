@@ -12,7 +12,7 @@
 
 /* Windows an epoch; layers of cells a slab has at least; buckets that a window has at least; events after a cancelled
  * window without any. */
-enum { WINDOWS = 48, FEWEST_LAYERS = 8, FEWEST_BUCKETS = 32, WINDOWS_BETWEEN_LOOKS = 16, SERIAL_EVENTS = 1 << 15 };
+enum { WINDOWS = 96, FEWEST_LAYERS = 8, FEWEST_BUCKETS = 32, WINDOWS_BETWEEN_LOOKS = 16, SERIAL_EVENTS = 1 << 15 };
 
 const char *gg_md_serial_because(const gg_model *m)
 {
@@ -44,7 +44,11 @@ static void free_slab(gg_md_slab *s)
   for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) free(lists[k]->item);
   for (int k = 0; k < GG_MD_MOST_SLABS; k++) free(s->mail[k].item);
   for (int phase = 0; phase < GG_MD_PHASES; phase++) {
-    free(s->log[phase].item);
+    gg_md_log *log = &s->log[phase];
+    free(log->record.item);
+    free(log->saved.item);
+    free(log->more.item);
+    free(log->addend.item);
     for (int k = 0; k < GG_MD_MOST_SLABS; k++) free(s->moves[phase][k].item);
   }
   if (s->view) free(s->view->candidates);
@@ -61,6 +65,7 @@ void gg_md_parallel_free(gg_md *e)
   free(p->slab);
   free(p->layer);
   free(p->cell);
+  free(p->mark);
   free(p);
   e->parallel = NULL;
 }
@@ -97,17 +102,18 @@ static bool make(gg_md *e, int threads)
   gg_md_parallel *p = e->parallel = gg_base_array_new(1, sizeof *p, NULL);
   if (!p) return false;
   const int32_t *n = e->cells.n;
-  const size_t cells = (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
   p->engine = e;
   p->n_slabs = threads;
+  p->n_cells = (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
   p->n_buckets = e->queue.n_buckets / WINDOWS;
   if (p->n_buckets < FEWEST_BUCKETS) p->n_buckets = FEWEST_BUCKETS;
   p->slab = gg_md_new_lines((size_t)threads, sizeof *p->slab, NULL);
   p->layer = gg_md_new_lines(e->n, sizeof *p->layer, NULL);
-  p->cell = gg_md_new_lines(cells, sizeof *p->cell, NULL);
+  p->cell = gg_md_new_lines(p->n_cells, sizeof *p->cell, NULL);
+  p->mark = gg_md_new_lines(p->n_cells, sizeof *p->mark, NULL);
   for (int phase = 0; phase < GG_MD_PHASES; phase++)
     if (!(p->layers[phase] = gg_base_array_new((size_t)n[2], sizeof *p->layers[phase], NULL))) return false;
-  if (!p->slab || !p->layer || !p->cell) return false;
+  if (!p->slab || !p->layer || !p->cell || !p->mark) return false;
   for (int k = 0; k < threads; k++)
     if (!make_slab(p, k)) return false;
   cut_slabs(p, n[2]);

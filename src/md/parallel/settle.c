@@ -49,21 +49,21 @@ static void apply_overflow(gg_md_parallel *p)
   }
 }
 
-static void count(gg_md_counts *k, const gg_md_record *r)
+static void count(gg_md_counts *k, const gg_md_record *r, const gg_md_addend *a)
 {
   k->events++;
   if (r->partner == GG_MD_NONE) return;
   k->collisions++;
   k->collisions_left--;
   k->treated += r->treated;
-  k->worst_overlap = fmax(k->worst_overlap, r->overlap);
+  k->worst_overlap = fmax(k->worst_overlap, a->overlap);
   k->transfer.collisions[r->pair]++;
   if (!k->keeps_sums) return;
   double(*stress)[3] = k->transfer.stress[r->pair];
-  for (int a = 0; a < 3; a++) stress[a][a] += r->stress[a];
-  stress[0][1] += r->stress[3];
-  stress[1][0] += r->stress[4];
-  k->transfer.loss[r->pair] += r->loss;
+  for (int c = 0; c < 3; c++) stress[c][c] += a->stress[c];
+  stress[0][1] += a->stress[3];
+  stress[1][0] += a->stress[4];
+  k->transfer.loss[r->pair] += a->loss;
 }
 
 static bool is_earlier(const gg_md_record *a, const gg_md_record *b)
@@ -71,40 +71,47 @@ static bool is_earlier(const gg_md_record *a, const gg_md_record *b)
   return a->time < b->time || (a->time == b->time && a->grain < b->grain);
 }
 
-static const gg_md_growing *log_of(const gg_md_parallel *p, int k)
+static const gg_md_log *log_of(const gg_md_parallel *p, int k)
 {
   return k == 2 * p->n_slabs ? &p->slab[0].log[2] : &p->slab[k / 2].log[k % 2];
 }
 
+/* All logs in order of time. */
 static void count_all(gg_md_parallel *p)
 {
   gg_md_counts *k = &p->engine->k;
   const gg_md_record *next[MOST_LOGS], *end[MOST_LOGS];
+  const gg_md_addend *addend[MOST_LOGS];
   int n = 0;
-  for (int log = 0; log <= 2 * p->n_slabs; log++)
-    if (log_of(p, log)->n) {
-      next[n] = gg_md_record_at(log_of(p, log), 0);
-      end[n] = next[n] + log_of(p, log)->n;
-      n++;
-    }
+  for (int m = 0; m <= 2 * p->n_slabs; m++) {
+    const gg_md_log *log = log_of(p, m);
+    if (!log->record.n) continue;
+    next[n] = log->record.item;
+    end[n] = next[n] + log->record.n;
+    addend[n++] = log->addend.item;
+  }
   while (n) {
     int first = 0;
     for (int m = 1; m < n; m++)
       if (is_earlier(next[m], next[first])) first = m;
     const gg_md_record *r = next[first]++;
-    if (!r->gone) count(k, r), k->now = r->time;
+    if (!r->gone) count(k, r, addend[first] + r->addend), k->now = r->time;
     if (next[first] < end[first]) continue;
     n--;
     next[first] = next[n];
     end[first] = end[n];
+    addend[first] = addend[n];
   }
 }
 
+/* As many as there are events, if that is enough to know. */
 uint64_t gg_md_window_collisions(const gg_md_parallel *p)
 {
-  uint64_t collisions = 0;
+  uint64_t events = 0, collisions = 0;
+  for (int k = 0; k <= 2 * p->n_slabs; k++) events += log_of(p, k)->record.n;
+  if (events < p->engine->k.collisions_left) return events;
   for (int k = 0; k <= 2 * p->n_slabs; k++)
-    for (uint32_t m = 0; m < log_of(p, k)->n; m++) {
+    for (uint32_t m = 0; m < log_of(p, k)->record.n; m++) {
       const gg_md_record *r = gg_md_record_at(log_of(p, k), m);
       collisions += !r->gone && r->partner != GG_MD_NONE;
     }

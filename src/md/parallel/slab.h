@@ -34,34 +34,46 @@ typedef struct gg_md_touched {
   bool collides;
 } gg_md_touched;
 
-/* Of a cell: the last event that touched it, at which time and in which phase; the phase in which it is closed, for
- * what depends on an event that was put off; and a mark (take_back.c). Phases of all windows have numbers, four a
- * window. */
+/* Of a cell in a window: the last event that touched it, in which phase (GG_MD_LAST) and when, in the window's lengths
+ * since it began; and whether it is closed in a phase (GG_MD_CLOSED), for what depends on an event that was put off.
+ * `word` has the window's number before these bits: that of another window says nothing. */
+enum { GG_MD_LAST = 3, GG_MD_CLOSED = 4, GG_MD_STATE_BITS = 4 };
 typedef struct gg_md_cell_state {
-  double last;
-  uint32_t phase, closed, mark;
+  uint32_t word;
+  float last;
 } gg_md_cell_state;
 
-/* A grain as it was. */
+/* A grain as it was before an event. */
 typedef struct gg_md_saved {
   gg_md_grain grain;
   gg_md_node node;
+} gg_md_saved;
+typedef struct gg_md_saved_more {
   gg_vec spin;
   double last;
-} gg_md_saved;
+} gg_md_saved_more;
+
+/* What a collision adds to the sums: xx, yy, zz, xy, yx; a collision's loss. */
+typedef struct gg_md_addend {
+  double stress[5], loss, overlap;
+} gg_md_addend;
 
 /* An event that has run, with all that it takes to take it back. */
 typedef struct gg_md_record {
   double time;
   uint32_t grain, partner; /* GG_MD_NONE: no collision */
-  gg_md_touched touched;
+  uint32_t cell[GG_MD_MOST_TOUCHED];
+  gg_md_cell_state before[GG_MD_MOST_TOUCHED];
+  uint16_t layer[GG_MD_MOST_TOUCHED], pair; /* of species */
+  uint32_t saved, addend;                   /* the first of its own in the log */
+  uint8_t touched;
   bool crossed, gone, treated;
-  uint16_t pair;                   /* of species */
-  double overlap, stress[5], loss; /* what it adds to the sums: xx, yy, zz, xy, yx */
-  double last[GG_MD_MOST_TOUCHED]; /* of the cells before */
-  uint32_t phase[GG_MD_MOST_TOUCHED];
-  gg_md_saved was[2];
 } gg_md_record;
+
+/* The records of a phase, and what stands beside them: of each record two saved grains, and an addend. */
+typedef struct gg_md_log {
+  gg_md_growing record, saved, more, addend;
+} gg_md_log;
 
 /* A grain into a bucket of the event queue beyond the window, or (GG_MD_OUT) out of it: done at the window's end. */
 #define GG_MD_OUT 0x80000000u
@@ -76,7 +88,7 @@ typedef struct gg_md_slab {
   gg_md_parallel *all;
   gg_md *view;     /* the engine as this slab's events know it: with a clock, counts and candidates of its own */
   int self, phase; /* from 0, from 1 */
-  uint32_t number; /* of the phase, among those of all windows */
+  uint32_t closed; /* the word's bits of a cell that is closed in this phase */
   uint32_t at;     /* in `due`: up to there it is done */
   uint32_t mark;   /* the last one: each slab has every n_slabs-th */
   uint32_t n_moves;
@@ -86,7 +98,7 @@ typedef struct gg_md_slab {
   gg_md_growing due, fresh;             /* earliest first; new ones, latest first */
   gg_md_growing late, put_off;          /* put off in this phase, and in the one before */
   gg_md_growing back;                   /* take_back.c: records */
-  gg_md_growing log[GG_MD_PHASES];      /* gg_md_record */
+  gg_md_log log[GG_MD_PHASES];
   gg_md_growing overflow;               /* gg_md_move of full buckets */
   gg_md_growing moves[GG_MD_PHASES][GG_MD_MOST_SLABS]; /* by who does it */
   gg_md_record spare;                                  /* written where memory lacked */
@@ -107,7 +119,10 @@ struct gg_md_parallel {
   uint64_t serial_until;      /* events up to which there are none */
   gg_md_layer *layers[GG_MD_PHASES];
   _Atomic uint16_t *layer; /* of each grain */
+  size_t n_cells;
   gg_md_cell_state *cell;
+  uint32_t *mark;               /* of each cell: take_back.c */
+  double start, inverse_length; /* of the window, as cells have it */
   gg_md_slab *slab;
 };
 
@@ -130,20 +145,32 @@ enum { GG_MD_MOST_AROUND = 33 };
 bool gg_md_find_touched(const gg_md_slab *s, uint32_t grain, gg_md_touched *touched);
 int gg_md_cells_around(const gg_md *e, const int32_t at[3], uint32_t index[GG_MD_MOST_AROUND]);
 
-/* take_back.c: has a later event run beside this one, in an earlier phase? If so: take it back; false: some of what
- * followed from it is not this slab's. And all of a window. */
+/* take_back.c: has a later event run beside this one, in an earlier phase, or one at nearly the same time? If so:
+ * take it back, unless some of what followed from it is not this slab's. And all of a window. */
 bool gg_md_is_overtaken(const gg_md_slab *s, double time, const gg_md_touched *touched);
-bool gg_md_take_back(gg_md_slab *s, double time, const gg_md_touched *touched);
+typedef enum gg_md_taken { GG_MD_NOTHING, GG_MD_TAKEN_BACK, GG_MD_NOT_MINE } gg_md_taken;
+gg_md_taken gg_md_take_back(gg_md_slab *s, double time, const gg_md_touched *touched);
 void gg_md_take_back_all(gg_md_parallel *p);
 
-GG_INLINE const gg_md_layer *gg_md_layer_of(const gg_md_slab *s, const int32_t at[3])
+GG_INLINE const gg_md_layer *gg_md_layer_of(const gg_md_slab *s, int32_t z)
 {
-  return &s->all->layers[s->phase - 1][at[2]];
+  return &s->all->layers[s->phase - 1][z];
 }
 
-GG_INLINE gg_md_record *gg_md_record_at(const gg_md_growing *log, uint32_t k)
+GG_INLINE gg_md_record *gg_md_record_at(const gg_md_log *log, uint32_t k)
 {
-  return (gg_md_record *)log->item + k;
+  return (gg_md_record *)log->record.item + k;
+}
+
+/* Of a cell in this window. */
+GG_INLINE uint32_t gg_md_bits_of(const gg_md_parallel *p, const gg_md_cell_state *c)
+{
+  return c->word >> GG_MD_STATE_BITS == p->window ? c->word & ((1u << GG_MD_STATE_BITS) - 1) : 0;
+}
+
+GG_INLINE float gg_md_window_time(const gg_md_parallel *p, double time)
+{
+  return (float)((time - p->start) * p->inverse_length);
 }
 
 #endif

@@ -4,20 +4,15 @@
 
 #include "md/parallel/slab.h"
 
-static gg_md_cell_state *state_at(const gg_md_slab *s, const int32_t at[3])
-{
-  return &s->all->cell[gg_md_cell_index(&s->view->cells, at)];
-}
-
 /* Equal times, too: which of both comes first is seen when both wait in one queue. */
-static bool is_overtaken_at(const gg_md_slab *s, double time, const int32_t at[3])
+static bool is_overtaken_at(const gg_md_slab *s, float time, const int32_t at[3])
 {
   uint32_t index[GG_MD_MOST_AROUND];
-  const uint32_t before = (s->number & ~3u) + 1;
   const int n = gg_md_cells_around(s->view, at, index);
   for (int k = 0; k < n; k++) {
     const gg_md_cell_state *c = &s->all->cell[index[k]];
-    if (c->phase - before < s->number - before && c->last >= time) return true;
+    const uint32_t phase = gg_md_bits_of(s->all, c) & GG_MD_LAST;
+    if (phase > 0 && phase < (uint32_t)s->phase && c->last >= time) return true;
   }
   return false;
 }
@@ -26,30 +21,36 @@ bool gg_md_is_overtaken(const gg_md_slab *s, double time, const gg_md_touched *t
 {
   if (s->phase == 1) return false;
   for (uint32_t k = 0; k < t->n; k++)
-    if (is_overtaken_at(s, time, t->at[k])) return true;
+    if (is_overtaken_at(s, gg_md_window_time(s->all, time), t->at[k])) return true;
   return false;
 }
 
-static void mark_around(const gg_md_slab *s, const gg_md_touched *t, uint32_t mark)
+static void mark_around(const gg_md_slab *s, const int32_t at[3])
 {
   uint32_t index[GG_MD_MOST_AROUND];
-  for (uint32_t k = 0; k < t->n; k++)
-    for (int n = gg_md_cells_around(s->view, t->at[k], index) - 1; n >= 0; n--) s->all->cell[index[n]].mark = mark;
+  for (int n = gg_md_cells_around(s->view, at, index) - 1; n >= 0; n--) s->all->mark[index[n]] = s->mark;
+}
+
+static void mark_around_record(const gg_md_slab *s, const gg_md_record *r)
+{
+  const uint32_t *n = (const uint32_t *)s->view->cells.n;
+  for (int k = 0; k < r->touched; k++)
+    mark_around(s, (int32_t[3]){(int32_t)(r->cell[k] % n[0]), (int32_t)(r->cell[k] / n[0] % n[1]), r->layer[k]});
 }
 
 /* Does it touch a marked cell? What is known of cells of other slabs is theirs alone. */
-static bool is_marked(const gg_md_slab *s, const gg_md_touched *t, uint32_t mark)
+static bool is_marked(const gg_md_slab *s, const gg_md_record *r)
 {
-  for (uint32_t k = 0; k < t->n; k++)
-    if (gg_md_layer_of(s, t->at[k])->owner == s->self && state_at(s, t->at[k])->mark == mark) return true;
+  for (int k = 0; k < r->touched; k++)
+    if (gg_md_layer_of(s, r->layer[k])->owner == s->self && s->all->mark[r->cell[k]] == s->mark) return true;
   return false;
 }
 
 /* The cells around are this slab's, too. */
-static bool is_inside(const gg_md_slab *s, const gg_md_touched *t)
+static bool is_inside(const gg_md_slab *s, const gg_md_record *r)
 {
-  for (uint32_t k = 0; k < t->n; k++) {
-    const gg_md_layer *layer = gg_md_layer_of(s, t->at[k]);
+  for (int k = 0; k < r->touched; k++) {
+    const gg_md_layer *layer = gg_md_layer_of(s, r->layer[k]);
     if (layer->owner != s->self || layer->depth < 1) return false;
   }
   return true;
@@ -58,11 +59,18 @@ static bool is_inside(const gg_md_slab *s, const gg_md_touched *t)
 /* The logs of earlier phases, from a time on. */
 typedef struct reader {
   gg_md_record *next, *end;
+  const gg_md_log *log;
 } reader;
 
-static reader read_from(const gg_md_growing *log, double time)
+/* What is taken back, and the log that it stands in. */
+typedef struct gg_md_undone {
+  gg_md_record *record;
+  const gg_md_log *log;
+} gg_md_undone;
+
+static reader read_from(const gg_md_log *log, double time)
 {
-  uint32_t low = 0, high = log->n;
+  uint32_t low = 0, high = log->record.n;
   while (low < high) {
     const uint32_t middle = (low + high) / 2;
     if (gg_md_record_at(log, middle)->time < time)
@@ -70,80 +78,82 @@ static reader read_from(const gg_md_growing *log, double time)
     else
       high = middle;
   }
-  return (reader){gg_md_record_at(log, low), gg_md_record_at(log, log->n)};
+  return (reader){gg_md_record_at(log, low), gg_md_record_at(log, log->record.n), log};
 }
 
-static gg_md_record *read_earliest(reader *readers, int n)
+static reader *earliest(reader *readers, int n)
 {
   reader *first = NULL;
   for (int k = 0; k < n; k++)
     if (readers[k].next < readers[k].end && (!first || readers[k].next->time < first->next->time)) first = &readers[k];
-  return first ? first->next++ : NULL;
+  return first;
 }
 
-/* Bring a record's grains, cells and counts back to what they were; not the event queue. */
-static void undo(gg_md_parallel *p, const gg_md *e, gg_md_record *r)
+/* Bring a record's grains and cells back to what they were; not the event queue. */
+static void undo(gg_md_parallel *p, const gg_md *e, const gg_md_log *log, gg_md_record *r)
 {
-  const int n = r->partner == GG_MD_NONE ? 1 : 2;
+  const gg_md_saved *was = (gg_md_saved *)log->saved.item + r->saved;
+  const gg_md_saved_more *more = (gg_md_saved_more *)log->more.item + r->saved;
   if (r->crossed) gg_md_cell_remove(gg_md_cell_at(&e->cells, e->node[r->grain].cell), r->grain);
-  for (int k = 0; k < n; k++) {
+  for (int k = 0; k < (r->partner == GG_MD_NONE ? 1 : 2); k++) {
     const uint32_t i = k ? r->partner : r->grain;
-    e->grain[i] = r->was[k].grain;
-    e->node[i] = r->was[k].node;
-    if (e->spin) e->spin[i] = r->was[k].spin;
-    if (e->last) e->last[i] = r->was[k].last;
+    e->grain[i] = was[k].grain;
+    e->node[i] = was[k].node;
+    if (e->spin) e->spin[i] = more[k].spin;
+    if (e->last) e->last[i] = more[k].last;
   }
   if (r->crossed) {
     const int32_t *at = e->node[r->grain].cell;
     gg_md_cell_add(&e->cells, at, r->grain); /* those who came later have left: there is room */
     atomic_store_explicit(&p->layer[r->grain], (uint16_t)at[2], memory_order_relaxed);
   }
-  for (uint32_t k = r->touched.n; k-- > 0;) {
-    gg_md_cell_state *c = &p->cell[gg_md_cell_index(&e->cells, r->touched.at[k])];
-    c->last = r->last[k];
-    c->phase = r->phase[k];
+  for (int k = r->touched; k-- > 0;) {
+    gg_md_cell_state *c = &p->cell[r->cell[k]];
+    c->word = (c->word & ~(uint32_t)GG_MD_LAST) | (gg_md_bits_of(p, &r->before[k]) & GG_MD_LAST);
+    c->last = r->before[k].last;
   }
   r->gone = true;
 }
 
-static void undo_and_requeue(gg_md_slab *s, gg_md_record *r)
+static void undo_and_requeue(gg_md_slab *s, gg_md_undone *u)
 {
+  gg_md_record *r = u->record;
   const uint32_t who[2] = {r->grain, r->partner};
   double now[2];
   const int n = r->partner == GG_MD_NONE ? 1 : 2;
   for (int k = 0; k < n; k++) now[k] = s->view->node[who[k]].time;
-  undo(s->all, s->view, r);
-  for (int k = 0; k < n; k++) gg_md_requeue(s, who[k], now[k], r->was[k].node.time);
+  undo(s->all, s->view, u->log, r);
+  for (int k = 0; k < n; k++) gg_md_requeue(s, who[k], now[k], s->view->node[who[k]].time);
 }
 
 /* First find out whether all of it is this slab's; in order of time, so that what follows is known when it comes. */
-bool gg_md_take_back(gg_md_slab *s, double time, const gg_md_touched *t)
+gg_md_taken gg_md_take_back(gg_md_slab *s, double time, const gg_md_touched *t)
 {
   reader readers[2 * GG_MD_MOST_SLABS];
   int n = 0;
   for (int phase = 0; phase < s->phase - 1; phase++)
     for (int k = 0; k < s->all->n_slabs; k++) readers[n++] = read_from(&s->all->slab[k].log[phase], time);
-  const uint32_t mark = s->mark += (uint32_t)s->all->n_slabs;
-  if (!is_inside(s, t)) return false;
-  mark_around(s, t, mark);
+  s->mark += (uint32_t)s->all->n_slabs;
   s->back.n = 0;
-  for (gg_md_record *r; (r = read_earliest(readers, n));) {
-    if (!is_marked(s, &r->touched, mark)) continue;
-    if (!is_inside(s, &r->touched)) return false;
+  for (uint32_t k = 0; k < t->n; k++) mark_around(s, t->at[k]);
+  for (reader *first; (first = earliest(readers, n));) {
+    gg_md_record *r = first->next++;
+    if (!is_marked(s, r)) continue;
+    if (!is_inside(s, r)) return GG_MD_NOT_MINE;
     if (r->gone) continue;
-    mark_around(s, &r->touched, mark);
-    *(gg_md_record **)gg_md_append(s, &s->back, sizeof r) = r;
+    mark_around_record(s, r);
+    *(gg_md_undone *)gg_md_append(s, &s->back, sizeof(gg_md_undone)) = (gg_md_undone){r, first->log};
   }
-  for (uint32_t k = s->back.n; k-- > 0;) undo_and_requeue(s, ((gg_md_record **)s->back.item)[k]);
-  return true;
+  for (uint32_t k = s->back.n; k-- > 0;) undo_and_requeue(s, (gg_md_undone *)s->back.item + k);
+  return s->back.n ? GG_MD_TAKEN_BACK : GG_MD_NOTHING;
 }
 
 void gg_md_take_back_all(gg_md_parallel *p)
 {
   for (int phase = GG_MD_PHASES; phase-- > 0;)
     for (int k = 0; k < p->n_slabs; k++) {
-      const gg_md_growing *log = &p->slab[k].log[phase];
-      for (uint32_t m = log->n; m-- > 0;)
-        if (!gg_md_record_at(log, m)->gone) undo(p, p->engine, gg_md_record_at(log, m));
+      const gg_md_log *log = &p->slab[k].log[phase];
+      for (uint32_t m = log->record.n; m-- > 0;)
+        if (!gg_md_record_at(log, m)->gone) undo(p, p->engine, log, gg_md_record_at(log, m));
     }
 }

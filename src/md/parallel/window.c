@@ -6,17 +6,19 @@
 #include <string.h>
 
 /* More events in a slab than so many times those that were due: contacts that accumulate, perhaps without end. */
-enum { MOST_MORE = 16, AHEAD = 8 };
+enum { MOST_MORE = 16, AHEAD = 4 };
 
 void *gg_md_append(gg_md_slab *s, gg_md_growing *list, size_t size)
 {
   if (list->n == list->room) {
     const uint32_t room = list->room ? 2 * list->room : 64;
-    void *item = realloc(list->item, room * size);
+    void *item = aligned_alloc(64, room * size); /* records begin on cache lines: realloc would not know */
     if (!item) {
       s->out_of_memory = true;
       return &s->spare;
     }
+    if (list->n) memcpy(item, list->item, list->n * size);
+    free(list->item);
     list->item = item;
     list->room = room;
   }
@@ -80,9 +82,9 @@ static bool take_next(gg_md_slab *s, gg_md_due *next)
 
 static bool is_open(const gg_md_slab *s, const int32_t at[3])
 {
-  const gg_md_layer *layer = gg_md_layer_of(s, at);
+  const gg_md_layer *layer = gg_md_layer_of(s, at[2]);
   return layer->owner == s->self && layer->depth >= 2 &&
-         s->all->cell[gg_md_cell_index(&s->view->cells, at)].closed != s->number;
+         !(gg_md_bits_of(s->all, &s->all->cell[gg_md_cell_index(&s->view->cells, at)]) & s->closed);
 }
 
 /* Cells that are full grow in the last phase. */
@@ -94,49 +96,68 @@ static bool is_full(const gg_md_slab *s, const int32_t at[3])
 static bool may_run(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
 {
   if (!gg_md_find_touched(s, i, t)) return false;
+  const bool crosses = s->view->node[i].time < s->view->node[i].collision;
   for (uint32_t k = 0; k < t->n; k++)
-    if (!is_open(s, t->at[k]) || (k > 0 && is_full(s, t->at[k]))) return false;
+    if (!is_open(s, t->at[k]) || (crosses && is_full(s, t->at[k]))) return false;
   return true;
 }
 
-/* What depends on it waits, too. The two outer layers are closed anyway. */
-static void put_off(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
+static void set_bits(const gg_md_parallel *p, gg_md_cell_state *c, uint32_t clear, uint32_t set)
+{
+  c->word = p->window << GG_MD_STATE_BITS | (gg_md_bits_of(p, c) & ~clear) | set;
+}
+
+/* Close the cells around, layer by layer; the two outer layers of a slab are closed anyway. */
+static void close_around(const gg_md_slab *s, const int32_t at[3])
 {
   uint32_t index[GG_MD_MOST_AROUND];
-  add_due(s, &s->late, due);
-  for (uint32_t k = 0; k < t->n; k++) {
-    const gg_md_layer *layer = gg_md_layer_of(s, t->at[k]);
-    if (layer->owner != s->self || layer->depth < 1) continue;
-    for (int n = gg_md_cells_around(s->view, t->at[k], index) - 1; n >= 0; n--)
-      s->all->cell[index[n]].closed = s->number;
+  const int32_t n = s->view->cells.n[2], each = gg_md_cells_around(s->view, at, index) / 3;
+  for (int32_t m = 0; m < 3; m++) {
+    const gg_md_layer *layer = gg_md_layer_of(s, (at[2] + m - 1 + n) % n);
+    if (layer->owner != s->self || layer->depth < 2) continue;
+    for (int32_t k = m * each; k < (m + 1) * each; k++) set_bits(s->all, &s->all->cell[index[k]], 0, s->closed);
   }
 }
 
-static void save(const gg_md *e, uint32_t i, gg_md_saved *was)
+/* What depends on it waits, too. */
+static void put_off(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
 {
+  add_due(s, &s->late, due);
+  for (uint32_t k = 0; k < t->n; k++) close_around(s, t->at[k]);
+}
+
+static void save(gg_md_slab *s, gg_md_log *log, uint32_t i)
+{
+  const gg_md *e = s->view;
+  gg_md_saved *was = gg_md_append(s, &log->saved, sizeof *was);
   was->grain = e->grain[i];
   was->node = e->node[i];
-  if (e->spin) was->spin = e->spin[i];
-  if (e->last) was->last = e->last[i];
+  if (!e->spin && !e->last) return;
+  gg_md_saved_more *more = gg_md_append(s, &log->more, sizeof *more);
+  if (e->spin) more->spin = e->spin[i];
+  if (e->last) more->last = e->last[i];
 }
 
 static gg_md_record *begin_record(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
 {
   const gg_md *e = s->view;
-  gg_md_record *r = gg_md_append(s, &s->log[s->phase - 1], sizeof *r);
-  r->time = due.time;
-  r->grain = due.grain;
-  r->partner = t->collides ? e->node[due.grain].partner : GG_MD_NONE;
-  r->touched = *t;
-  r->crossed = e->node[due.grain].time < e->node[due.grain].collision;
-  r->gone = false;
-  save(e, due.grain, &r->was[0]);
-  if (t->collides) save(e, r->partner, &r->was[1]);
+  const gg_md_node *node = &e->node[due.grain];
+  gg_md_log *log = &s->log[s->phase - 1];
+  gg_md_record *r = gg_md_append(s, &log->record, sizeof *r);
+  *r = (gg_md_record){.time = due.time,
+                      .grain = due.grain,
+                      .partner = t->collides ? node->partner : GG_MD_NONE,
+                      .saved = log->saved.n,
+                      .addend = log->addend.n,
+                      .touched = (uint8_t)t->n,
+                      .crossed = node->time < node->collision};
   for (uint32_t k = 0; k < t->n; k++) {
-    const gg_md_cell_state *c = &s->all->cell[gg_md_cell_index(&e->cells, t->at[k])];
-    r->last[k] = c->last;
-    r->phase[k] = c->phase;
+    r->cell[k] = (uint32_t)gg_md_cell_index(&e->cells, t->at[k]);
+    r->layer[k] = (uint16_t)t->at[k][2];
+    r->before[k] = s->all->cell[r->cell[k]];
   }
+  save(s, log, due.grain);
+  if (t->collides) save(s, log, r->partner);
   return r;
 }
 
@@ -146,23 +167,24 @@ static void clear_counts(gg_md *v, gg_md_record *r)
   v->k.events = v->k.collisions = v->k.treated = 0;
   v->k.worst_overlap = 0;
   if (r->partner == GG_MD_NONE) return;
-  r->pair = (uint16_t)gg_pair((int)r->was[0].grain.species, (int)r->was[1].grain.species);
+  r->pair = (uint16_t)gg_pair(gg_md_species_of(&v->grain[r->grain]), gg_md_species_of(&v->grain[r->partner]));
   if (!v->k.keeps_sums) return;
   memset(v->k.transfer.stress[r->pair], 0, sizeof v->k.transfer.stress[r->pair]);
   v->k.transfer.loss[r->pair] = 0;
 }
 
-static void keep_counts(const gg_md *v, gg_md_record *r)
+static void keep_counts(gg_md_slab *s, gg_md_record *r)
 {
+  const gg_md_counts *k = &s->view->k;
   if (r->partner == GG_MD_NONE) return;
-  const gg_collision_sums *t = &v->k.transfer;
-  r->treated = v->k.treated > 0;
-  r->overlap = v->k.worst_overlap;
-  if (!v->k.keeps_sums) return;
-  for (int a = 0; a < 3; a++) r->stress[a] = t->stress[r->pair][a][a];
-  r->stress[3] = t->stress[r->pair][0][1];
-  r->stress[4] = t->stress[r->pair][1][0];
-  r->loss = t->loss[r->pair];
+  gg_md_addend *a = gg_md_append(s, &s->log[s->phase - 1].addend, sizeof *a);
+  r->treated = k->treated > 0;
+  a->overlap = k->worst_overlap;
+  if (!k->keeps_sums) return;
+  const double(*stress)[3] = k->transfer.stress[r->pair];
+  *a = (gg_md_addend){{stress[0][0], stress[1][1], stress[2][2], stress[0][1], stress[1][0]},
+                      k->transfer.loss[r->pair],
+                      k->worst_overlap};
 }
 
 /* The view's event loop runs one event, of a queue that has no others; what comes next is read ahead. */
@@ -180,54 +202,70 @@ static void run(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
 {
   gg_md *v = s->view;
   gg_md_record *r = begin_record(s, due, t);
+  const gg_md_log *log = &s->log[s->phase - 1];
   clear_counts(v, r);
   run_event(s, due);
-  keep_counts(v, r);
+  keep_counts(s, r);
   for (uint32_t k = 0; k < t->n; k++) {
-    gg_md_cell_state *c = &s->all->cell[gg_md_cell_index(&v->cells, t->at[k])];
-    c->last = due.time;
-    c->phase = s->number;
+    gg_md_cell_state *c = &s->all->cell[r->cell[k]];
+    set_bits(s->all, c, GG_MD_LAST, (uint32_t)s->phase);
+    c->last = gg_md_window_time(s->all, due.time);
   }
   if (r->crossed)
     atomic_store_explicit(&s->all->layer[due.grain], (uint16_t)v->node[due.grain].cell[2], memory_order_relaxed);
   gg_md_requeue(s, due.grain, due.time, v->node[due.grain].time);
-  if (t->collides) gg_md_requeue(s, r->partner, r->was[1].node.time, v->node[r->partner].time);
+  if (!t->collides) return;
+  const gg_md_saved *was = (gg_md_saved *)log->saved.item + r->saved + 1;
+  gg_md_requeue(s, r->partner, was->node.time, v->node[r->partner].time);
 }
 
+/* The states of the cells that the event of a grain will touch. */
+static void prefetch_states(const gg_md_slab *s, uint32_t i)
+{
+  gg_md_touched t;
+  gg_md_find_touched(s, i, &t);
+  for (uint32_t k = 0; k < t.n; k++) __builtin_prefetch(&s->all->cell[gg_md_cell_index(&s->view->cells, t.at[k])]);
+}
+
+/* What events to come will read: their grains; when those are there, their partners; and then their cells' states. */
 static void prefetch(const gg_md_slab *s)
 {
   const gg_md *e = s->view;
-  const gg_md_due *due = s->due.item;
-  if (s->at + AHEAD < s->due.n) {
-    const uint32_t i = due[s->at + AHEAD].grain;
-    __builtin_prefetch(&e->grain[i]);
-    __builtin_prefetch(&e->node[i]);
+  const gg_md_due *due = (gg_md_due *)s->due.item + s->at;
+  const uint32_t left = s->due.n - s->at;
+  if (left > 3 * AHEAD) {
+    __builtin_prefetch(&e->grain[due[3 * AHEAD].grain]);
+    __builtin_prefetch(&e->node[due[3 * AHEAD].grain]);
   }
-  if (s->at + AHEAD / 2 < s->due.n) {
-    const uint32_t i = due[s->at + AHEAD / 2].grain, j = e->node[i].partner;
-    __builtin_prefetch(&s->all->cell[gg_md_cell_index(&e->cells, e->node[i].cell)]);
-    if (GG_MD_NO_GRAIN(j)) return;
-    __builtin_prefetch(&e->grain[j]);
-    __builtin_prefetch(&e->node[j]);
+  if (left > 2 * AHEAD) {
+    const uint32_t j = e->node[due[2 * AHEAD].grain].partner;
+    if (!GG_MD_NO_GRAIN(j)) {
+      __builtin_prefetch(&e->grain[j]);
+      __builtin_prefetch(&e->node[j]);
+      __builtin_prefetch(&s->all->layer[j]);
+    }
   }
+  if (left > AHEAD) prefetch_states(s, due[AHEAD].grain);
 }
 
 static void run_phase(gg_md_slab *s)
 {
   gg_md_touched t;
+  const gg_md_growing *records = &s->log[s->phase - 1].record;
   const uint32_t most = MOST_MORE * (s->due.n + 64);
   for (gg_md_due due; take_next(s, &due);) {
     prefetch(s);
     if (s->view->node[due.grain].time != due.time) continue; /* it has been predicted anew */
-    if (!may_run(s, due.grain, &t))
-      put_off(s, due, &t);
-    else if (!gg_md_is_overtaken(s, due.time, &t))
+    gg_md_taken taken = GG_MD_NOT_MINE;
+    if (may_run(s, due.grain, &t))
+      taken = gg_md_is_overtaken(s, due.time, &t) ? gg_md_take_back(s, due.time, &t) : GG_MD_NOTHING;
+    if (taken == GG_MD_NOTHING)
       run(s, due, &t);
-    else if (gg_md_take_back(s, due.time, &t))
+    else if (taken == GG_MD_TAKEN_BACK)
       gg_md_add_fresh(s, due); /* what was taken back may be earlier, if only by its number */
     else
       put_off(s, due, &t);
-    s->crowded = s->log[s->phase - 1].n > most;
+    s->crowded = records->n > most;
     if (s->crowded || s->out_of_memory || s->view->no_number) return;
   }
 }
@@ -279,7 +317,7 @@ static void phase_part(void *context, int self)
   gg_md_parallel *p = context;
   gg_md_slab *s = &p->slab[self];
   s->phase = p->phase;
-  s->number = 4 * p->window + (uint32_t)p->phase;
+  s->closed = 2u << p->phase;
   collect(s);
   run_phase(s);
 }
@@ -314,9 +352,14 @@ static bool run_phases(gg_md_parallel *p)
 static void begin_window(gg_md_parallel *p, uint32_t end)
 {
   gg_md_queue *q = &p->engine->queue;
-  p->window++;
+  if (++p->window >> (32 - GG_MD_STATE_BITS)) {
+    memset(p->cell, 0, p->n_cells * sizeof *p->cell);
+    p->window = 1;
+  }
   p->begin = q->current + 1;
   p->end = end;
+  p->start = p->begin * q->width;
+  p->inverse_length = 1 / ((end - p->begin) * q->width);
   for (int k = 0; k < p->n_slabs; k++) {
     gg_md_slab *s = &p->slab[k];
     s->crowded = false;
@@ -324,7 +367,8 @@ static void begin_window(gg_md_parallel *p, uint32_t end)
     s->overflow.n = 0;
     s->late.n = s->put_off.n = 0;
     for (int phase = 0; phase < GG_MD_PHASES; phase++) {
-      s->log[phase].n = 0;
+      gg_md_log *log = &s->log[phase];
+      log->record.n = log->saved.n = log->more.n = log->addend.n = 0;
       for (int to = 0; to < p->n_slabs; to++) s->moves[phase][to].n = 0;
     }
     for (int to = 0; to < p->n_slabs; to++) s->mail[to].n = 0;
