@@ -2,7 +2,7 @@
 #include <stdio.h>
 
 #include "md/md_engine.h"
-#include "md/md_state.h"
+#include "md/parallel/parallel.h"
 
 static void tell(void (*line)(void *, const char *), void *context, const char *what, const char *how)
 {
@@ -39,6 +39,20 @@ static void tell_search(const gg_model *m, void (*line)(void *, const char *), v
   if (crossings < 100) return;
   snprintf(text, sizeof text, "%.2g a collision: so dilute a gas is slow; engine: dsmc is exact there", crossings);
   tell(line, context, "crossings of cells", text);
+}
+
+/* How many threads one run can use, or why one does all. */
+static void tell_threads(const gg_model *m, void (*line)(void *, const char *), void *context)
+{
+  char text[160];
+  const char *serial = gg_md_serial_because(m);
+  if (serial)
+    snprintf(text, sizeof text, "one a replica, because of %s", serial);
+  else if (m->n < GG_MD_FEWEST_SHARED)
+    snprintf(text, sizeof text, "one a replica: %d grains gain from more", GG_MD_FEWEST_SHARED);
+  else
+    snprintf(text, sizeof text, "up to %d a replica share its events, with the same bits", gg_md_most_slabs(m));
+  tell(line, context, "threads", text);
 }
 
 /* "a wall below, a wall above, periodic along x, z" */
@@ -78,5 +92,6 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
   snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time, gg_common_model_contact_unit(m));
   tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
   tell_search(m, line, context);
+  tell_threads(m, line, context);
   tell(line, context, "collision sums", "while stresses are measured; else only counts");
 }

@@ -1,21 +1,48 @@
 /* Proves: threads that share the events of one run leave every bit of it as it is: the state after so many collisions,
- * and the sums over them, are those of one thread, with two, three and four threads, in boxes with and without shear,
- * near collapse, however the run is cut. */
+ * and the sums over them, are those of one thread, with two, three and four threads; with cells, cells that move with
+ * the flow and neighbour lists; smooth, rough and frictional, one species and two, near collapse; however the run is
+ * cut, and resumed with another number of threads. And that these runs do what could go wrong: events are put off, and
+ * taken back. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "md/parallel/parallel.h"
+#include "md/md_engine.h"
+#include "md/parallel/slab.h"
 #include "md_test.h"
 
 enum { MOST_THREADS = 4 };
 
-static const md_case cases[] = {
-    {GG_EQUILIBRIUM, 6000, 0.3, 1, -1, INFINITY, {1, 1, 4}}, {GG_EQUILIBRIUM, 5000, 0.1, 1, 1, INFINITY, {1, 1, 4}},
-    {GG_HCS, 6000, 0.3, 0.5, -1, INFINITY, {1, 1, 4}},       {GG_HCS, 6000, 0.2, 0.8, 0.5, 0.3, {1, 1, 4}},
-    {GG_USF, 6000, 0.3, 0.9, 0, INFINITY, {1, 1, 4}},        {GG_USF, 6000, 0.38, 0.5, -1, INFINITY, {1, 1, 4}},
-    {GG_USF, 5000, 0.15, 0.8, 0, INFINITY, {1, 1.2, 4}},
+static const struct {
+  md_case scene;
+  double contact_time;
+  int species;
+} cases[] = {
+    {{GG_EQUILIBRIUM, 6000, 0.3, 1, -1, INFINITY, {1, 1, 4}}, 0, 1},
+    {{GG_EQUILIBRIUM, 5000, 0.1, 1, 1, INFINITY, {1, 1, 4}}, 0, 2},
+    {{GG_HCS, 6000, 0.3, 0.5, -1, INFINITY, {1, 1, 4}}, 0, 1},
+    {{GG_HCS, 6000, 0.2, 0.8, 0.5, 0.3, {1, 1, 4}}, 1e-3, 1},
+    {{GG_USF, 6000, 0.3, 0.9, 0, INFINITY, {1, 1, 4}}, 0, 1},
+    {{GG_USF, 6000, 0.38, 0.5, -1, INFINITY, {1, 1, 4}}, 1e-5, 1},
+    {{GG_USF, 5000, 0.15, 0.8, 0, INFINITY, {1, 1.2, 4}}, 0, 2},
+    {{GG_EQUILIBRIUM, 8000, 0.5, 1, -1, INFINITY, {1, 1, 4}}, 0, 1},
+    {{GG_HCS, 8000, 0.45, 0.5, 0, INFINITY, {1, 1, 4}}, 1e-5, 2},
+    {{GG_USF, 8000, 0.5, 0.9, 0, INFINITY, {1, 1, 4}}, 0, 1},
+    {{GG_USF, 8000, 0.5, 0.5, -1, 0.1, {1, 1, 4}}, 1e-4, 1},
+    {{GG_USF, 7000, 0.48, 0.7, 0.3, INFINITY, {1, 0.8, 5}}, 1e-4, 2},
 };
 enum { CASES = sizeof cases / sizeof *cases };
+
+static gg_model model_of(int k)
+{
+  gg_scene s = md_scene(cases[k].scene);
+  s.md.contact_time = cases[k].contact_time;
+  if (cases[k].species > 1) {
+    s.n_species = 2;
+    s.species[0].fraction = s.species[1].fraction = 0.5;
+    s.species[1].diameter = 0.9;
+  }
+  return md_model_of(&s);
+}
 
 static uint64_t mix(uint64_t h, const void *data, size_t bytes)
 {
@@ -24,7 +51,7 @@ static uint64_t mix(uint64_t h, const void *data, size_t bytes)
   return h;
 }
 
-/* The state and the sums. */
+/* The state, the sums, which are taken, and the counts. */
 static uint64_t hash_of(gg_md *e)
 {
   gg_collision_sums sums;
@@ -35,36 +62,119 @@ static uint64_t hash_of(gg_md *e)
   return mix(h, &e->k.worst_overlap, sizeof e->k.worst_overlap);
 }
 
-static uint64_t run(const gg_model *m, int threads, uint64_t collisions, uint64_t *shared)
+static gg_md *create(const gg_model *m, int threads)
 {
   gg_md *e = md_create(m, 7);
   gg_md_ops.keep_sums(&e->base, true);
   gg_md_share(e, threads);
   assert_int_equal(threads > 1, e->parallel != NULL);
+  return e;
+}
+
+static uint64_t run(const gg_model *m, int threads, uint64_t collisions, gg_md_window_counts *counts)
+{
+  gg_md *e = create(m, threads);
   md_collide(e, collisions);
-  *shared = gg_md_shared_events(e);
-  uint64_t h = hash_of(e);
+  const uint64_t h = hash_of(e);
+  if (threads > 1) *counts = e->parallel->counts;
   md_destroy(e);
   return h;
+}
+
+/* `COLLISIONS` asks for another number of them. */
+static uint64_t collisions_asked(void)
+{
+  const char *asked = getenv("COLLISIONS");
+  return asked ? strtoull(asked, NULL, 10) : 60000;
 }
 
 static void same_bits(void **state)
 {
   (void)state;
-  const char *asked = getenv("COLLISIONS");
-  const uint64_t collisions = asked ? strtoull(asked, NULL, 10) : 100000;
+  const uint64_t collisions = collisions_asked();
+  uint64_t late = 0, taken_back = 0;
   for (int k = 0; k < CASES; k++) {
-    gg_model m = md_model(cases[k]);
-    uint64_t shared, serial = run(&m, 1, collisions, &shared);
+    gg_model m = model_of(k);
+    gg_md_window_counts c = {0};
+    const uint64_t serial = run(&m, 1, collisions, &c);
     for (int threads = 2; threads <= MOST_THREADS; threads++) {
-      if (run(&m, threads, collisions, &shared) != serial) fail_msg("case %d, %d threads", k, threads);
-      if (shared < collisions) fail_msg("case %d: %llu events shared", k, (unsigned long long)shared);
+      if (run(&m, threads, collisions, &c) != serial) fail_msg("case %d, %d threads", k, threads);
+      if (c.events < collisions || !c.put_off[0]) fail_msg("case %d, %d threads: hardly shared", k, threads);
+      late += c.put_off[1];
+      taken_back += c.taken_back;
     }
   }
+  assert_true(late > 0 && taken_back > 0);
+}
+
+/* By times and by numbers of collisions, the sums taken at each end. */
+static uint64_t run_in_parts(gg_md *e)
+{
+  uint64_t h = 0;
+  for (int k = 0; k < 8; k++) {
+    double elapsed;
+    gg_error err = {0};
+    const uint64_t most = k % 2 ? 3001 : UINT64_MAX;
+    if (gg_md_ops.advance(&e->base, k % 2 ? INFINITY : 0.05, most, &elapsed, &err) != GG_OK)
+      fail_msg("%s", err.message);
+    const uint64_t part[3] = {h, hash_of(e), e->queue.current};
+    h = mix(mix(0, part, sizeof part), &elapsed, sizeof elapsed);
+  }
+  return h;
+}
+
+static gg_md *restored(gg_md *e, const gg_model *m, int threads)
+{
+  gg_archive archive = {0};
+  gg_error err = {0};
+  gg_engine *back = NULL;
+  if (gg_md_save(&e->base, &archive, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_md_restore(m, &archive, &back, &err) != GG_OK) fail_msg("%s", err.message);
+  gg_base_archive_clear(&archive);
+  gg_md_share((gg_md *)back, threads);
+  return (gg_md *)back;
+}
+
+static void cuts_and_resumes(void **state)
+{
+  (void)state;
+  for (int k = 0; k < CASES; k += 3) {
+    gg_model m = model_of(k);
+    gg_md *serial = create(&m, 1), *shared = create(&m, 3);
+    assert_int_equal(run_in_parts(serial), run_in_parts(shared));
+    gg_md *two = restored(shared, &m, 2), *one = restored(shared, &m, 1);
+    md_destroy(shared);
+    md_collide(serial, 20000);
+    md_collide(two, 20000);
+    md_collide(one, 20000);
+    const uint64_t h = hash_of(serial);
+    if (hash_of(two) != h || hash_of(one) != h) fail_msg("case %d", k);
+    md_destroy(serial);
+    md_destroy(two);
+    md_destroy(one);
+  }
+}
+
+/* What is not shared says so. */
+static void says_why_not(void **state)
+{
+  (void)state;
+  gg_model walls = md_model((md_case){GG_COUETTE, 6000, 0.3, 0.9, 0, INFINITY, {0}}),
+           bath = md_model((md_case){GG_HSS, 6000, 0.3, 0.9, 0, INFINITY, {0}}),
+           small = md_model((md_case){GG_USF, 500, 0.3, 0.9, 0, INFINITY, {0}}), shared = model_of(0);
+  assert_string_equal(gg_md_serial_because(&walls), "walls");
+  assert_non_null(gg_md_serial_because(&bath));
+  assert_string_equal(gg_md_serial_because(&small), "a small box");
+  assert_null(gg_md_serial_because(&shared));
+  gg_md *e = md_create(&small, 1);
+  gg_md_share(e, 4);
+  assert_null(e->parallel);
+  md_destroy(e);
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(same_bits)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(same_bits), cmocka_unit_test(cuts_and_resumes),
+                                     cmocka_unit_test(says_why_not)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,7 +22,7 @@ const char *gg_md_serial_because(const gg_model *m)
   if (m->walled) return "walls";
   if (gg_common_thermostat_of(m) != GG_NO_THERMOSTAT) return "a thermostat: it couples all grains";
   if (m->law.e) return "a law of restitution of your own";
-  if (kind != GG_MD_PLAIN_CELLS && kind != GG_MD_COMOVING_ROWS) return "this search";
+  if (gg_md_search_overlaps(kind)) return "its overlapping cells";
   if (n[0] < 4 || n[1] < 4 || n[2] < 2 * FEWEST_LAYERS || (kind == GG_MD_PLAIN_CELLS && m->shear_rate != 0))
     return "a small box";
   return NULL;
@@ -45,10 +45,7 @@ static void free_slab(gg_md_slab *s)
   for (int k = 0; k < GG_MD_MOST_SLABS; k++) free(s->mail[k].item);
   for (int phase = 0; phase < GG_MD_PHASES; phase++) {
     gg_md_log *log = &s->log[phase];
-    free(log->record.item);
-    free(log->saved.item);
-    free(log->more.item);
-    free(log->addend.item);
+    for (int k = 0; k < GG_MD_LOG_PARTS; k++) free(((gg_md_growing *)log)[k].item);
     for (int k = 0; k < GG_MD_MOST_SLABS; k++) free(s->moves[phase][k].item);
   }
   if (s->view) free(s->view->candidates);
@@ -129,11 +126,6 @@ void gg_md_share(gg_md *e, int threads)
   if (threads > 1 && !make(e, threads)) gg_md_parallel_free(e);
 }
 
-uint64_t gg_md_shared_events(const gg_md *e)
-{
-  return e->parallel ? e->parallel->events : 0;
-}
-
 double gg_md_parallel_cpu(const gg_md *e)
 {
   return e->parallel ? gg_base_thread_pool_cpu(e->parallel->pool) : 0;
@@ -157,6 +149,7 @@ static void renew_view(gg_md_slab *s)
   s->view->candidates = candidates;
   s->view->queue = (gg_md_queue){.inverse_width = NAN, .n_buckets = 1, .due = s->pair};
   s->view->look_at = 1;
+  s->view->is_view = true;
   s->view->k.collisions_left = UINT64_MAX / 2;
   s->view->k.stop = INFINITY;
 }
@@ -167,8 +160,8 @@ static void begin(gg_md_parallel *p)
   for (int k = 0; k < p->n_slabs; k++) renew_view(&p->slab[k]);
 }
 
-/* The bucket before which the next window ends; 0: there is no room for one. */
-static uint32_t next_end(const gg_md_parallel *p)
+/* The buckets of the next window; false: there is no room for one. */
+static bool plan(gg_md_parallel *p)
 {
   const gg_md *e = p->engine;
   double stop = e->k.stop;
@@ -178,23 +171,22 @@ static uint32_t next_end(const gg_md_parallel *p)
   uint64_t size = p->n_buckets;
   if (last < begin + 2 * size) size = last > begin ? last - begin : 0;
   if (size > most) size = most;
-  return size < FEWEST_BUCKETS ? 0 : (uint32_t)(begin + size);
+  p->begin = (uint32_t)begin;
+  p->end = (uint32_t)(begin + size);
+  return size >= FEWEST_BUCKETS && gg_md_measure_around(p);
 }
 
 bool gg_md_run_windows(gg_md *e)
 {
   gg_md_parallel *p = e->parallel;
-  if (e->callback || e->plain || e->k.next_kick < INFINITY || e->k.events < p->serial_until) return false;
-  uint32_t end = next_end(p);
-  if (!end) return false;
+  if (e->callback || e->plain || e->k.next_kick < INFINITY || e->k.events < p->serial_until || !plan(p)) return false;
   begin(p);
-  for (int k = 0; end && k < WINDOWS_BETWEEN_LOOKS * WINDOWS; k++) {
-    if (!gg_md_run_window(p, end)) {
+  int k = 0;
+  do {
+    if (!gg_md_run_window(p)) {
       p->serial_until = e->k.events + SERIAL_EVENTS;
       return false;
     }
-    if (k % WINDOWS_BETWEEN_LOOKS == 0 && gg_stop_asked(e->model.stop)) break;
-    end = next_end(p);
-  }
+  } while (++k % WINDOWS_BETWEEN_LOOKS || !gg_stop_asked(e->model.stop) ? plan(p) : false);
   return true;
 }

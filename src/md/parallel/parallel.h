@@ -19,8 +19,6 @@ void gg_md_parallel_free(gg_md *e);
  * none. */
 bool gg_md_run_windows(gg_md *e);
 
-/* Events handled in windows so far. */
-uint64_t gg_md_shared_events(const gg_md *e);
 /* Processor time of the other threads so far, in seconds. */
 double gg_md_parallel_cpu(const gg_md *e);
 

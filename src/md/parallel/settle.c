@@ -95,7 +95,10 @@ static void count_all(gg_md_parallel *p)
     for (int m = 1; m < n; m++)
       if (is_earlier(next[m], next[first])) first = m;
     const gg_md_record *r = next[first]++;
-    if (!r->gone) count(k, r, addend[first] + r->addend), k->now = r->time;
+    if (r->gone)
+      p->counts.taken_back++;
+    else
+      count(k, r, addend[first] + r->beside), k->now = r->time;
     if (next[first] < end[first]) continue;
     n--;
     next[first] = next[n];
@@ -124,5 +127,5 @@ void gg_md_settle(gg_md_parallel *p)
   apply_overflow(p);
   const uint64_t before = p->engine->k.events;
   count_all(p);
-  p->events += p->engine->k.events - before;
+  p->counts.events += p->engine->k.events - before;
 }

@@ -18,7 +18,7 @@
 #include "base/thread_pool.h"
 #include "md/parallel/parallel.h"
 
-enum { GG_MD_MOST_SLABS = 16, GG_MD_PHASES = 3, GG_MD_MOST_TOUCHED = 3 };
+enum { GG_MD_MOST_SLABS = 16, GG_MD_PHASES = 3, GG_MD_MOST_AROUND = 63, GG_MD_MOST_TOUCHED = 2 * GG_MD_MOST_AROUND };
 
 /* A list that grows. */
 typedef struct gg_md_growing {
@@ -26,12 +26,12 @@ typedef struct gg_md_growing {
   uint32_t n, room;
 } gg_md_growing;
 
-/* The cells that an event touches: the grain's own; its partner's, or the one that it comes into, or the two one of
- * which it comes into. */
+/* The cells that an event touches, and their layers: the grain's own; its partner's, or those that it may come into.
+ * Where grains have lists, a new skin changes those of grains in the cells around. */
 typedef struct gg_md_touched {
-  int32_t at[GG_MD_MOST_TOUCHED][3];
-  uint32_t n;
-  bool collides;
+  uint32_t n, cell[GG_MD_MOST_TOUCHED];
+  uint16_t layer[GG_MD_MOST_TOUCHED];
+  bool crosses, collides;
 } gg_md_touched;
 
 /* Of a cell in a window: the last event that touched it, in which phase (GG_MD_LAST) and when, in the window's lengths
@@ -58,22 +58,32 @@ typedef struct gg_md_addend {
   double stress[5], loss, overlap;
 } gg_md_addend;
 
-/* An event that has run, with all that it takes to take it back. */
+/* A list and its skin. */
+typedef struct gg_md_saved_list {
+  uint32_t neighbour[GG_MD_LIST];
+  gg_md_skin skin;
+} gg_md_saved_list;
+
+/* A cell that an event has touched, as it was before. */
+typedef struct gg_md_stamp {
+  uint32_t cell, layer;
+  gg_md_cell_state before;
+} gg_md_stamp;
+
+/* An event that has run, with all that it takes to take it back: from where on in the log. */
 typedef struct gg_md_record {
   double time;
-  uint32_t grain, partner; /* GG_MD_NONE: no collision */
-  uint32_t cell[GG_MD_MOST_TOUCHED];
-  gg_md_cell_state before[GG_MD_MOST_TOUCHED];
-  uint16_t layer[GG_MD_MOST_TOUCHED], pair; /* of species */
-  uint32_t saved, addend;                   /* the first of its own in the log */
-  uint8_t touched;
-  bool crossed, gone, treated;
+  uint32_t grain, partner;                /* GG_MD_NONE: no collision */
+  uint32_t saved, stamp, touched, beside; /* beside: an addend of a collision, or a list */
+  uint16_t pair;                          /* of species */
+  bool crosses, gone, treated;
 } gg_md_record;
 
-/* The records of a phase, and what stands beside them: of each record two saved grains, and an addend. */
+/* The records of a phase, and what stands beside them. */
 typedef struct gg_md_log {
-  gg_md_growing record, saved, more, addend;
+  gg_md_growing record, saved, more, stamp, addend, list;
 } gg_md_log;
+enum { GG_MD_LOG_PARTS = sizeof(gg_md_log) / sizeof(gg_md_growing) };
 
 /* A grain into a bucket of the event queue beyond the window, or (GG_MD_OUT) out of it: done at the window's end. */
 #define GG_MD_OUT 0x80000000u
@@ -99,7 +109,7 @@ typedef struct gg_md_slab {
   gg_md_growing late, put_off;          /* put off in this phase, and in the one before */
   gg_md_growing back;                   /* take_back.c: records */
   gg_md_log log[GG_MD_PHASES];
-  gg_md_growing overflow;               /* gg_md_move of full buckets */
+  gg_md_growing overflow;                              /* gg_md_move of full buckets */
   gg_md_growing moves[GG_MD_PHASES][GG_MD_MOST_SLABS]; /* by who does it */
   gg_md_record spare;                                  /* written where memory lacked */
 } gg_md_slab;
@@ -109,19 +119,26 @@ typedef struct gg_md_layer {
   uint8_t owner, depth;
 } gg_md_layer;
 
+/* How windows went: events, those that the first and the second phase put off, those taken back; and windows given up.
+ */
+typedef struct gg_md_window_counts {
+  uint64_t events, put_off[2], taken_back, cancelled;
+} gg_md_window_counts;
+
 struct gg_md_parallel {
   gg_md *engine;
   gg_thread_pool *pool;
   int n_slabs, phase;
   uint32_t window, n_buckets; /* its number, and of how many buckets it usually is */
   uint32_t begin, end;        /* buckets of this one */
-  uint64_t events;            /* in windows so far */
-  uint64_t serial_until;      /* events up to which there are none */
+  gg_md_window_counts counts;
+  uint64_t serial_until; /* events up to which there are none */
   gg_md_layer *layers[GG_MD_PHASES];
   _Atomic uint16_t *layer; /* of each grain */
   size_t n_cells;
   gg_md_cell_state *cell;
   uint32_t *mark;               /* of each cell: take_back.c */
+  int32_t from[3][2], to[3][2]; /* sheared lists: cells around in rows below, beside, above; in images of them */
   double start, inverse_length; /* of the window, as cells have it */
   gg_md_slab *slab;
 };
@@ -133,17 +150,18 @@ void gg_md_add_fresh(gg_md_slab *s, gg_md_due due);
 /* The grain's event has another time. */
 void gg_md_requeue(gg_md_slab *s, uint32_t grain, double from, double to);
 
-/* window.c: one of these buckets; false: it is for the serial loop. */
-bool gg_md_run_window(gg_md_parallel *p, uint32_t end);
+/* window.c: one of buckets p->begin to p->end; false: it is for the serial loop. */
+bool gg_md_run_window(gg_md_parallel *p);
 /* settle.c: what the window leaves: the event queue, and the counts and sums. */
 void gg_md_settle(gg_md_parallel *p);
 uint64_t gg_md_window_collisions(const gg_md_parallel *p);
 
-/* touched.c: the cells that the next event of a grain touches, except, perhaps, the partner's (`partner`: it is there);
- * and the cells that are searched from a cell, itself included. */
-enum { GG_MD_MOST_AROUND = 33 };
+/* touched.c: the cells that the next event of a grain touches; false: but for a partner elsewhere, and its cell. The
+ * cells that are searched from a cell, itself included, layer by layer. What goes with a new window; false: too much.
+ */
 bool gg_md_find_touched(const gg_md_slab *s, uint32_t grain, gg_md_touched *touched);
-int gg_md_cells_around(const gg_md *e, const int32_t at[3], uint32_t index[GG_MD_MOST_AROUND]);
+int gg_md_cells_around(const gg_md_parallel *p, uint32_t cell, uint32_t index[GG_MD_MOST_AROUND]);
+bool gg_md_measure_around(gg_md_parallel *p);
 
 /* take_back.c: has a later event run beside this one, in an earlier phase, or one at nearly the same time? If so:
  * take it back, unless some of what followed from it is not this slab's. And all of a window. */

@@ -1,14 +1,15 @@
 /* Events that ran too early, and all that followed from them, are taken back: latest first, each leaves all as it was
  * before it. */
-#include <stdlib.h>
+#include <string.h>
 
 #include "md/parallel/slab.h"
+#include "md/search/list_update.h"
 
 /* Equal times, too: which of both comes first is seen when both wait in one queue. */
-static bool is_overtaken_at(const gg_md_slab *s, float time, const int32_t at[3])
+static bool is_overtaken_at(const gg_md_slab *s, float time, uint32_t cell)
 {
   uint32_t index[GG_MD_MOST_AROUND];
-  const int n = gg_md_cells_around(s->view, at, index);
+  const int n = gg_md_cells_around(s->all, cell, index);
   for (int k = 0; k < n; k++) {
     const gg_md_cell_state *c = &s->all->cell[index[k]];
     const uint32_t phase = gg_md_bits_of(s->all, c) & GG_MD_LAST;
@@ -21,36 +22,36 @@ bool gg_md_is_overtaken(const gg_md_slab *s, double time, const gg_md_touched *t
 {
   if (s->phase == 1) return false;
   for (uint32_t k = 0; k < t->n; k++)
-    if (is_overtaken_at(s, gg_md_window_time(s->all, time), t->at[k])) return true;
+    if (is_overtaken_at(s, gg_md_window_time(s->all, time), t->cell[k])) return true;
   return false;
 }
 
-static void mark_around(const gg_md_slab *s, const int32_t at[3])
+static void mark_around(const gg_md_slab *s, uint32_t cell)
 {
   uint32_t index[GG_MD_MOST_AROUND];
-  for (int n = gg_md_cells_around(s->view, at, index) - 1; n >= 0; n--) s->all->mark[index[n]] = s->mark;
+  for (int n = gg_md_cells_around(s->all, cell, index) - 1; n >= 0; n--) s->all->mark[index[n]] = s->mark;
 }
 
-static void mark_around_record(const gg_md_slab *s, const gg_md_record *r)
+static gg_md_stamp *stamps_of(const gg_md_log *log, const gg_md_record *r)
 {
-  const uint32_t *n = (const uint32_t *)s->view->cells.n;
-  for (int k = 0; k < r->touched; k++)
-    mark_around(s, (int32_t[3]){(int32_t)(r->cell[k] % n[0]), (int32_t)(r->cell[k] / n[0] % n[1]), r->layer[k]});
+  return (gg_md_stamp *)log->stamp.item + r->stamp;
 }
 
 /* Does it touch a marked cell? What is known of cells of other slabs is theirs alone. */
-static bool is_marked(const gg_md_slab *s, const gg_md_record *r)
+static bool is_marked(const gg_md_slab *s, const gg_md_log *log, const gg_md_record *r)
 {
-  for (int k = 0; k < r->touched; k++)
-    if (gg_md_layer_of(s, r->layer[k])->owner == s->self && s->all->mark[r->cell[k]] == s->mark) return true;
+  const gg_md_stamp *stamp = stamps_of(log, r);
+  for (uint32_t k = 0; k < r->touched; k++)
+    if (gg_md_layer_of(s, stamp[k].layer)->owner == s->self && s->all->mark[stamp[k].cell] == s->mark) return true;
   return false;
 }
 
 /* The cells around are this slab's, too. */
-static bool is_inside(const gg_md_slab *s, const gg_md_record *r)
+static bool is_inside(const gg_md_slab *s, const gg_md_log *log, const gg_md_record *r)
 {
-  for (int k = 0; k < r->touched; k++) {
-    const gg_md_layer *layer = gg_md_layer_of(s, r->layer[k]);
+  const gg_md_stamp *stamp = stamps_of(log, r);
+  for (uint32_t k = 0; k < r->touched; k++) {
+    const gg_md_layer *layer = gg_md_layer_of(s, stamp[k].layer);
     if (layer->owner != s->self || layer->depth < 1) return false;
   }
   return true;
@@ -89,12 +90,35 @@ static reader *earliest(reader *readers, int n)
   return first;
 }
 
+static bool lists(const gg_md *e, uint32_t i, uint32_t j)
+{
+  return gg_md_list_places(gg_md_list(e, i), j) != 0;
+}
+
+/* The neighbours' lists as far as they concern this grain: there may be others, far from it, that stay. */
+static void undo_list(gg_md *e, uint32_t i, const gg_md_saved_list *was)
+{
+  uint32_t *list = gg_md_list(e, i);
+  for (int k = 0; k < GG_MD_LIST; k++) {
+    const uint32_t j = list[k];
+    if (j != e->n && !gg_md_list_places(was->neighbour, j) && lists(e, j, i)) gg_md_list_remove(e, j, i);
+  }
+  for (int k = 0; k < GG_MD_LIST; k++) {
+    const uint32_t j = was->neighbour[k];
+    if (j != e->n && !lists(e, j, i)) gg_md_list_add(e, j, i);
+  }
+  memcpy(list, was->neighbour, sizeof was->neighbour);
+  e->search.lists.skin[i] = was->skin;
+}
+
 /* Bring a record's grains and cells back to what they were; not the event queue. */
-static void undo(gg_md_parallel *p, const gg_md *e, const gg_md_log *log, gg_md_record *r)
+static void undo(gg_md_parallel *p, gg_md *e, const gg_md_log *log, gg_md_record *r)
 {
   const gg_md_saved *was = (gg_md_saved *)log->saved.item + r->saved;
   const gg_md_saved_more *more = (gg_md_saved_more *)log->more.item + r->saved;
-  if (r->crossed) gg_md_cell_remove(gg_md_cell_at(&e->cells, e->node[r->grain].cell), r->grain);
+  if (r->crosses) gg_md_cell_remove(gg_md_cell_at(&e->cells, e->node[r->grain].cell), r->grain);
+  if (r->crosses && e->search.kind == GG_MD_NEIGHBOUR_LISTS)
+    undo_list(e, r->grain, (gg_md_saved_list *)log->list.item + r->beside);
   for (int k = 0; k < (r->partner == GG_MD_NONE ? 1 : 2); k++) {
     const uint32_t i = k ? r->partner : r->grain;
     e->grain[i] = was[k].grain;
@@ -102,15 +126,16 @@ static void undo(gg_md_parallel *p, const gg_md *e, const gg_md_log *log, gg_md_
     if (e->spin) e->spin[i] = more[k].spin;
     if (e->last) e->last[i] = more[k].last;
   }
-  if (r->crossed) {
+  if (r->crosses) {
     const int32_t *at = e->node[r->grain].cell;
     gg_md_cell_add(&e->cells, at, r->grain); /* those who came later have left: there is room */
     atomic_store_explicit(&p->layer[r->grain], (uint16_t)at[2], memory_order_relaxed);
   }
-  for (int k = r->touched; k-- > 0;) {
-    gg_md_cell_state *c = &p->cell[r->cell[k]];
-    c->word = (c->word & ~(uint32_t)GG_MD_LAST) | (gg_md_bits_of(p, &r->before[k]) & GG_MD_LAST);
-    c->last = r->before[k].last;
+  const gg_md_stamp *stamp = stamps_of(log, r);
+  for (uint32_t k = r->touched; k-- > 0;) {
+    gg_md_cell_state *c = &p->cell[stamp[k].cell];
+    c->word = (c->word & ~(uint32_t)GG_MD_LAST) | (gg_md_bits_of(p, &stamp[k].before) & GG_MD_LAST);
+    c->last = stamp[k].before.last;
   }
   r->gone = true;
 }
@@ -135,13 +160,14 @@ gg_md_taken gg_md_take_back(gg_md_slab *s, double time, const gg_md_touched *t)
     for (int k = 0; k < s->all->n_slabs; k++) readers[n++] = read_from(&s->all->slab[k].log[phase], time);
   s->mark += (uint32_t)s->all->n_slabs;
   s->back.n = 0;
-  for (uint32_t k = 0; k < t->n; k++) mark_around(s, t->at[k]);
+  for (uint32_t k = 0; k < t->n; k++) mark_around(s, t->cell[k]);
   for (reader *first; (first = earliest(readers, n));) {
     gg_md_record *r = first->next++;
-    if (!is_marked(s, r)) continue;
-    if (!is_inside(s, r)) return GG_MD_NOT_MINE;
+    if (!is_marked(s, first->log, r)) continue;
+    if (!is_inside(s, first->log, r)) return GG_MD_NOT_MINE;
     if (r->gone) continue;
-    mark_around_record(s, r);
+    const gg_md_stamp *stamp = stamps_of(first->log, r);
+    for (uint32_t k = 0; k < r->touched; k++) mark_around(s, stamp[k].cell);
     *(gg_md_undone *)gg_md_append(s, &s->back, sizeof(gg_md_undone)) = (gg_md_undone){r, first->log};
   }
   for (uint32_t k = s->back.n; k-- > 0;) undo_and_requeue(s, (gg_md_undone *)s->back.item + k);

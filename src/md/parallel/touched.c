@@ -1,15 +1,25 @@
 /* The cells that an event touches, and those around a cell, by kind of search. */
+#include <math.h>
+
 #include "md/parallel/slab.h"
 #include "md/row_motion.h"
+#include "md/search/list_update.h"
+
+static int32_t wrapped(int32_t k, int32_t n)
+{
+  while (k < 0) k += n;
+  while (k >= n) k -= n;
+  return k;
+}
 
 static int around_in_rows(const gg_md *e, const int32_t at[3], uint32_t *index)
 {
+  static const int from[3] = {-1, -1, -2}, to[3] = {2, 1, 1};
   const gg_md_row *row = &e->search.rows.row[at[1]];
   const gg_md_cells *c = &e->cells;
   const uint32_t *y = c->part[1] + at[1], *z = c->part[2] + at[2];
   const uint32_t *x[3] = {c->part[0] + gg_md_index_in_row(e, at[0] + row->below), c->part[0] + at[0],
                           c->part[0] + gg_md_index_in_row(e, at[0] - row->above)};
-  static const int from[3] = {-1, -1, -2}, to[3] = {2, 1, 1};
   int n = 0;
   for (int m = -1; m <= 1; m++)
     for (int l = -1; l <= 1; l++)
@@ -17,9 +27,55 @@ static int around_in_rows(const gg_md *e, const int32_t at[3], uint32_t *index)
   return n;
 }
 
-int gg_md_cells_around(const gg_md *e, const int32_t at[3], uint32_t index[GG_MD_MOST_AROUND])
+/* Of skins that move with the flow: a list may be as old as its skin, and have been made when the centres stood
+ * otherwise. Whoever it holds was then within reach. */
+bool gg_md_measure_around(gg_md_parallel *p)
 {
+  const gg_md *e = p->engine;
+  const double rho = e->cells.reach, rate = e->model.shear_rate, *w = e->cells.width;
+  if (e->search.kind != GG_MD_NEIGHBOUR_LISTS || rate == 0) return true;
+  const double span = gg_md_queue_span(&e->queue), age = e->search.lists.radius / e->search.lists.shrinkage;
+  const double strain[2] = {rate * (p->begin * e->queue.width - age) - 1e-6,
+                            rate * fmin(p->end * e->queue.width, span) + 1e-6};
+  for (int l = -1; l <= 1; l++) {
+    const double height[2] = {fmax((l - 1) * w[1], -rho), fmin((l + 1) * w[1], rho)};
+    double least = INFINITY, most = -INFINITY;
+    for (int k = 0; k < 4; k++) {
+      least = fmin(least, strain[k & 1] * height[k >> 1]);
+      most = fmax(most, strain[k & 1] * height[k >> 1]);
+    }
+    for (int image = 0; image < 2; image++) {
+      const double shift = image * l * e->box.offset0;
+      p->from[l + 1][image] = (int32_t)gg_floor((-rho - most - shift) / w[0] - 1e-9);
+      p->to[l + 1][image] = (int32_t)gg_floor(1 + (rho - least - shift) / w[0] + 1e-9);
+      if (9 * (p->to[l + 1][image] - p->from[l + 1][image] + 1) > GG_MD_MOST_AROUND) return false;
+    }
+  }
+  return true;
+}
+
+static int around_in_flow(const gg_md_parallel *p, const int32_t at[3], uint32_t *index)
+{
+  const gg_md_cells *c = &p->engine->cells;
+  int n = 0;
+  for (int m = -1; m <= 1; m++)
+    for (int l = -1; l <= 1; l++) {
+      const int image = at[1] + l < 0 || at[1] + l >= c->n[1];
+      const uint32_t row = c->part[2][at[2] + m] + c->part[1][at[1] + l];
+      for (int k = p->from[l + 1][image]; k <= p->to[l + 1][image]; k++)
+        index[n++] = row + c->part[0][wrapped(at[0] + k, c->n[0])];
+    }
+  return n;
+}
+
+int gg_md_cells_around(const gg_md_parallel *p, uint32_t cell, uint32_t index[GG_MD_MOST_AROUND])
+{
+  const gg_md *e = p->engine;
+  const uint32_t row = cell / (uint32_t)e->cells.n[0];
+  const int32_t at[3] = {(int32_t)(cell % (uint32_t)e->cells.n[0]), (int32_t)(row % (uint32_t)e->cells.n[1]),
+                         (int32_t)(row / (uint32_t)e->cells.n[1])};
   if (e->search.kind == GG_MD_COMOVING_ROWS) return around_in_rows(e, at, index);
+  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS && e->model.shear_rate != 0) return around_in_flow(p, at, index);
   const uint32_t *x = e->cells.part[0] + at[0], *y = e->cells.part[1] + at[1], *z = e->cells.part[2] + at[2];
   int n = 0;
   for (int m = -1; m <= 1; m++)
@@ -28,15 +84,31 @@ int gg_md_cells_around(const gg_md *e, const int32_t at[3], uint32_t index[GG_MD
   return n;
 }
 
-static void add(gg_md_touched *t, int32_t x, int32_t y, int32_t z)
+static void add(const gg_md *e, gg_md_touched *t, const int32_t at[3])
 {
-  int32_t *at = t->at[t->n++];
-  at[0] = x, at[1] = y, at[2] = z;
+  t->cell[t->n] = (uint32_t)gg_md_cell_index(&e->cells, at);
+  t->layer[t->n++] = (uint16_t)at[2];
 }
 
-static int32_t wrapped(int32_t k, int32_t n)
+static void add_around(const gg_md_slab *s, gg_md_touched *t, const int32_t at[3])
 {
-  return k < 0 ? k + n : k >= n ? k - n : k;
+  const gg_md_cells *c = &s->view->cells;
+  const int n = gg_md_cells_around(s->all, (uint32_t)gg_md_cell_index(c, at), t->cell + t->n);
+  for (int k = 0; k < n; k++) t->layer[t->n++] = (uint16_t)wrapped(at[2] + 3 * k / n - 1, c->n[2]);
+}
+
+/* The lists of all around may change where its skin was and where the new one will be. */
+static void add_skins(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
+{
+  const gg_md *e = s->view;
+  const gg_md_node *node = &e->node[i];
+  gg_md_grain g = e->grain[i];
+  int32_t at[3];
+  g.r = gg_md_position(e, false, &g, node->time);
+  gg_md_cell_of(&e->cells, gg_md_into_box(e, node->time, &g), at);
+  t->n = 0;
+  add_around(s, t, node->cell);
+  if (at[0] != node->cell[0] || at[1] != node->cell[1] || at[2] != node->cell[2]) add_around(s, t, at);
 }
 
 /* Into another row there are two cells in question. */
@@ -49,27 +121,31 @@ static void add_destination(const gg_md *e, const gg_md_node *node, gg_md_touche
   if (axis == 1 && e->search.kind == GG_MD_COMOVING_ROWS) {
     const gg_md_row *old = &e->search.rows.row[node->cell[1]];
     at[0] = gg_md_index_in_row(e, at[0] + (step > 0 ? -old->above - 1 : old->below));
-    add(t, wrapped(at[0] + 1, n[0]), at[1], at[2]);
+    add(e, t, (int32_t[3]){wrapped(at[0] + 1, n[0]), at[1], at[2]});
   }
-  add(t, at[0], at[1], at[2]);
+  add(e, t, at);
 }
 
-/* A partner that was elsewhere at the end of the last phase may be at work there: its node is not read. */
+/* A partner that is elsewhere may be at work there: its node is not read. */
 bool gg_md_find_touched(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
 {
   const gg_md *e = s->view;
   const gg_md_node *node = &e->node[i];
   t->n = 0;
   t->collides = false;
-  add(t, node->cell[0], node->cell[1], node->cell[2]);
-  if (node->time < node->collision) {
-    add_destination(e, node, t);
+  t->crosses = node->time < node->collision;
+  add(e, t, node->cell);
+  if (t->crosses) {
+    if (e->search.kind == GG_MD_NEIGHBOUR_LISTS)
+      add_skins(s, i, t);
+    else
+      add_destination(e, node, t);
     return true;
   }
   const uint32_t j = node->partner;
   const int32_t layer = atomic_load_explicit(&s->all->layer[j], memory_order_relaxed);
   if (s->all->layers[s->phase - 1][layer].owner != s->self) return false;
-  add(t, e->node[j].cell[0], e->node[j].cell[1], e->node[j].cell[2]);
+  add(e, t, e->node[j].cell);
   t->collides = e->grain[j].counter == node->counter;
   return true;
 }

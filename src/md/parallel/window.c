@@ -80,25 +80,21 @@ static bool take_next(gg_md_slab *s, gg_md_due *next)
   return true;
 }
 
-static bool is_open(const gg_md_slab *s, const int32_t at[3])
-{
-  const gg_md_layer *layer = gg_md_layer_of(s, at[2]);
-  return layer->owner == s->self && layer->depth >= 2 &&
-         !(gg_md_bits_of(s->all, &s->all->cell[gg_md_cell_index(&s->view->cells, at)]) & s->closed);
-}
-
 /* Cells that are full grow in the last phase. */
-static bool is_full(const gg_md_slab *s, const int32_t at[3])
+static bool is_open(const gg_md_slab *s, const gg_md_touched *t, uint32_t k)
 {
-  return gg_md_cell_at(&s->view->cells, at)[0] + 1 == s->view->cells.stride && s->phase < GG_MD_PHASES;
+  const gg_md_layer *layer = gg_md_layer_of(s, t->layer[k]);
+  const gg_md_cells *c = &s->view->cells;
+  if (layer->owner != s->self || layer->depth < 2) return false;
+  if (gg_md_bits_of(s->all, &s->all->cell[t->cell[k]]) & s->closed) return false;
+  return !t->crosses || s->phase == GG_MD_PHASES || c->cell[(size_t)t->cell[k] * c->stride] + 1 < c->stride;
 }
 
 static bool may_run(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
 {
   if (!gg_md_find_touched(s, i, t)) return false;
-  const bool crosses = s->view->node[i].time < s->view->node[i].collision;
   for (uint32_t k = 0; k < t->n; k++)
-    if (!is_open(s, t->at[k]) || (crosses && is_full(s, t->at[k]))) return false;
+    if (!is_open(s, t, k)) return false;
   return true;
 }
 
@@ -108,12 +104,12 @@ static void set_bits(const gg_md_parallel *p, gg_md_cell_state *c, uint32_t clea
 }
 
 /* Close the cells around, layer by layer; the two outer layers of a slab are closed anyway. */
-static void close_around(const gg_md_slab *s, const int32_t at[3])
+static void close_around(const gg_md_slab *s, uint32_t cell, int32_t z)
 {
   uint32_t index[GG_MD_MOST_AROUND];
-  const int32_t n = s->view->cells.n[2], each = gg_md_cells_around(s->view, at, index) / 3;
+  const int32_t n = s->view->cells.n[2], each = gg_md_cells_around(s->all, cell, index) / 3;
   for (int32_t m = 0; m < 3; m++) {
-    const gg_md_layer *layer = gg_md_layer_of(s, (at[2] + m - 1 + n) % n);
+    const gg_md_layer *layer = gg_md_layer_of(s, (z + m - 1 + n) % n);
     if (layer->owner != s->self || layer->depth < 2) continue;
     for (int32_t k = m * each; k < (m + 1) * each; k++) set_bits(s->all, &s->all->cell[index[k]], 0, s->closed);
   }
@@ -123,7 +119,7 @@ static void close_around(const gg_md_slab *s, const int32_t at[3])
 static void put_off(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
 {
   add_due(s, &s->late, due);
-  for (uint32_t k = 0; k < t->n; k++) close_around(s, t->at[k]);
+  for (uint32_t k = 0; k < t->n; k++) close_around(s, t->cell[k], t->layer[k]);
 }
 
 static void save(gg_md_slab *s, gg_md_log *log, uint32_t i)
@@ -138,26 +134,32 @@ static void save(gg_md_slab *s, gg_md_log *log, uint32_t i)
   if (e->last) more->last = e->last[i];
 }
 
+static void save_list(gg_md_slab *s, gg_md_log *log, uint32_t i)
+{
+  const gg_md_lists *lists = &s->view->search.lists;
+  gg_md_saved_list *was = gg_md_append(s, &log->list, sizeof *was);
+  memcpy(was->neighbour, lists->neighbour + (size_t)i * GG_MD_LIST, sizeof was->neighbour);
+  was->skin = lists->skin[i];
+}
+
 static gg_md_record *begin_record(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
 {
-  const gg_md *e = s->view;
-  const gg_md_node *node = &e->node[due.grain];
   gg_md_log *log = &s->log[s->phase - 1];
   gg_md_record *r = gg_md_append(s, &log->record, sizeof *r);
   *r = (gg_md_record){.time = due.time,
                       .grain = due.grain,
-                      .partner = t->collides ? node->partner : GG_MD_NONE,
+                      .partner = t->collides ? s->view->node[due.grain].partner : GG_MD_NONE,
                       .saved = log->saved.n,
-                      .addend = log->addend.n,
-                      .touched = (uint8_t)t->n,
-                      .crossed = node->time < node->collision};
-  for (uint32_t k = 0; k < t->n; k++) {
-    r->cell[k] = (uint32_t)gg_md_cell_index(&e->cells, t->at[k]);
-    r->layer[k] = (uint16_t)t->at[k][2];
-    r->before[k] = s->all->cell[r->cell[k]];
-  }
+                      .stamp = log->stamp.n,
+                      .touched = t->n,
+                      .beside = t->crosses ? log->list.n : log->addend.n,
+                      .crosses = t->crosses};
+  for (uint32_t k = 0; k < t->n; k++)
+    *(gg_md_stamp *)gg_md_append(s, &log->stamp, sizeof(gg_md_stamp)) =
+        (gg_md_stamp){t->cell[k], t->layer[k], s->all->cell[t->cell[k]]};
   save(s, log, due.grain);
   if (t->collides) save(s, log, r->partner);
+  if (t->crosses && s->view->search.kind == GG_MD_NEIGHBOUR_LISTS) save_list(s, log, due.grain);
   return r;
 }
 
@@ -207,11 +209,11 @@ static void run(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
   run_event(s, due);
   keep_counts(s, r);
   for (uint32_t k = 0; k < t->n; k++) {
-    gg_md_cell_state *c = &s->all->cell[r->cell[k]];
+    gg_md_cell_state *c = &s->all->cell[t->cell[k]];
     set_bits(s->all, c, GG_MD_LAST, (uint32_t)s->phase);
     c->last = gg_md_window_time(s->all, due.time);
   }
-  if (r->crossed)
+  if (t->crosses)
     atomic_store_explicit(&s->all->layer[due.grain], (uint16_t)v->node[due.grain].cell[2], memory_order_relaxed);
   gg_md_requeue(s, due.grain, due.time, v->node[due.grain].time);
   if (!t->collides) return;
@@ -222,9 +224,11 @@ static void run(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
 /* The states of the cells that the event of a grain will touch. */
 static void prefetch_states(const gg_md_slab *s, uint32_t i)
 {
+  const gg_md *e = s->view;
   gg_md_touched t;
+  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS && e->node[i].time < e->node[i].collision) return;
   gg_md_find_touched(s, i, &t);
-  for (uint32_t k = 0; k < t.n; k++) __builtin_prefetch(&s->all->cell[gg_md_cell_index(&s->view->cells, t.at[k])]);
+  for (uint32_t k = 0; k < t.n; k++) __builtin_prefetch(&s->all->cell[t.cell[k]]);
 }
 
 /* What events to come will read: their grains; when those are there, their partners; and then their cells' states. */
@@ -265,7 +269,7 @@ static void run_phase(gg_md_slab *s)
       gg_md_add_fresh(s, due); /* what was taken back may be earlier, if only by its number */
     else
       put_off(s, due, &t);
-    s->crowded = records->n > most;
+    s->crowded = records->n > most || s->view->lists_are_full;
     if (s->crowded || s->out_of_memory || s->view->no_number) return;
   }
 }
@@ -341,6 +345,7 @@ static bool run_phases(gg_md_parallel *p)
       s->late = other;
       s->late.n = 0;
       any |= s->put_off.n > 0;
+      if (p->phase > 1) p->counts.put_off[p->phase - 2] += s->put_off.n;
     }
     if (!any) return true;
     gg_base_thread_pool_for(p->pool, p->phase < GG_MD_PHASES ? p->n_slabs : 1, phase_part, p);
@@ -349,26 +354,24 @@ static bool run_phases(gg_md_parallel *p)
   return true;
 }
 
-static void begin_window(gg_md_parallel *p, uint32_t end)
+static void begin_window(gg_md_parallel *p)
 {
   gg_md_queue *q = &p->engine->queue;
   if (++p->window >> (32 - GG_MD_STATE_BITS)) {
     memset(p->cell, 0, p->n_cells * sizeof *p->cell);
     p->window = 1;
   }
-  p->begin = q->current + 1;
-  p->end = end;
   p->start = p->begin * q->width;
-  p->inverse_length = 1 / ((end - p->begin) * q->width);
+  p->inverse_length = 1 / ((p->end - p->begin) * q->width);
   for (int k = 0; k < p->n_slabs; k++) {
     gg_md_slab *s = &p->slab[k];
-    s->crowded = false;
+    s->crowded = s->view->lists_are_full = false;
     s->n_moves = 0;
     s->overflow.n = 0;
     s->late.n = s->put_off.n = 0;
     for (int phase = 0; phase < GG_MD_PHASES; phase++) {
-      gg_md_log *log = &s->log[phase];
-      log->record.n = log->saved.n = log->more.n = log->addend.n = 0;
+      gg_md_growing *part = &s->log[phase].record;
+      for (int m = 0; m < GG_MD_LOG_PARTS; m++) part[m].n = 0;
       for (int to = 0; to < p->n_slabs; to++) s->moves[phase][to].n = 0;
     }
     for (int to = 0; to < p->n_slabs; to++) s->mail[to].n = 0;
@@ -377,7 +380,7 @@ static void begin_window(gg_md_parallel *p, uint32_t end)
     add_due(&p->slab[0], &p->slab[0].mail[p->layers[0][p->layer[q->due[k].grain]].owner], q->due[k]);
   q->n_due = 0;
   gg_base_thread_pool_for(p->pool, p->n_slabs, deal_part, p);
-  q->current = end - 1;
+  q->current = p->end - 1;
 }
 
 static int latest_first(const void *a, const void *b)
@@ -389,6 +392,7 @@ static int latest_first(const void *a, const void *b)
 static void cancel(gg_md_parallel *p)
 {
   gg_md_queue *q = &p->engine->queue;
+  p->counts.cancelled++;
   gg_md_take_back_all(p);
   for (int k = 0; k < p->n_slabs; k++)
     for (int to = 0; to < p->n_slabs; to++) {
@@ -399,10 +403,10 @@ static void cancel(gg_md_parallel *p)
   qsort(q->due, q->n_due, sizeof *q->due, latest_first);
 }
 
-bool gg_md_run_window(gg_md_parallel *p, uint32_t end)
+bool gg_md_run_window(gg_md_parallel *p)
 {
   gg_md *e = p->engine;
-  begin_window(p, end);
+  begin_window(p);
   const bool good = run_phases(p);
   e->cells = p->slab[0].view->cells; /* they may have grown in the last phase */
   for (int k = 0; k < p->n_slabs; k++) {

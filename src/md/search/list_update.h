@@ -145,26 +145,31 @@ GG_INLINE uint32_t gg_md_search_skin(const gg_md *e, uint32_t i, uint32_t *found
   return n == GG_MD_MOST_CANDIDATES ? GG_MD_LIST + 1 : count;
 }
 
-/* The skin of grain i anew, around where it now is: image in the box, centre, cell (which it does not enter yet). */
-GG_INLINE void gg_md_new_skin(gg_md *e, uint32_t i)
+/* Into the box, at the time `now`: the image, and the centre of a skin around it. */
+GG_INLINE gg_vec gg_md_into_box(const gg_md *e, double now, gg_md_grain *g)
 {
-  gg_md_grain *g = gg_md_synchronise(e, i);
-  gg_md_node *node = &e->node[i];
-  gg_md_skin *skin = &e->search.lists.skin[i];
   double layers = gg_floor(g->r.y * e->box.inverse[1]);
   g->r.y -= layers * e->box.edge[1];
   if (IS_SHEARED && layers != 0) {
-    g->r.x -= layers * gg_md_offset(&e->box, e->k.now);
+    g->r.x -= layers * gg_md_offset(&e->box, now);
     g->v.x -= layers * e->box.image_velocity;
   }
   g->r.x = gg_wrap(g->r.x, e->box.edge[0], e->box.inverse[0]);
   g->r.z = gg_wrap(g->r.z, e->box.edge[2], e->box.inverse[2]);
   gg_vec centre = g->r;
   if (IS_SHEARED) {
-    centre.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]) * e->k.now;
+    centre.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]) * now;
     centre.x = gg_wrap(centre.x, e->box.edge[0], e->box.inverse[0]);
   }
-  *skin = (gg_md_skin){centre};
+  return centre;
+}
+
+/* The skin of grain i anew, around where it now is: image in the box, centre, cell (which it does not enter yet). */
+GG_INLINE void gg_md_new_skin(gg_md *e, uint32_t i)
+{
+  gg_md_node *node = &e->node[i];
+  const gg_vec centre = gg_md_into_box(e, e->k.now, gg_md_synchronise(e, i));
+  e->search.lists.skin[i] = (gg_md_skin){centre};
   node->skin_time = e->k.now;
   gg_md_cell_of(&e->cells, centre, node->cell);
 }

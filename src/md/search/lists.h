@@ -78,6 +78,10 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
     gg_md_predict(e, i);
     return;
   }
+  if (e->is_view) {
+    e->lists_are_full = true;
+    return;
+  }
   gg_md_build_lists(e);
   e->kernel->predict(e, 0, e->n);
 }
