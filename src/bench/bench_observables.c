@@ -121,8 +121,8 @@ static const char caption[] =
     "Processor time that each observable adds at its own cadence, in per cent of the run without it, timed in turn "
     "with it: median (least - largest) of repeats. rheology: against an engine that is not sampled. Uniform shear, e = "
     "0.9, "
-    "rough grains (beta = 0); sonine in free cooling, profiles in Couette flow, viscosity in its flow. -: cannot be "
-    "had";
+    "rough grains (beta = 0); sonine and conductivity (of smooth grains) in free cooling, profiles in Couette flow, "
+    "viscosity in its flow. -: cannot be had";
 
 static const double densities[] = {0.01, 0.3};
 static const int64_t sizes[] = {500, 4000, 32000}, quick_sizes[] = {500, 2000, 4000};
@@ -141,10 +141,7 @@ static setting setting_of(const gg_bench *b, int i)
                    (b->options->quick ? quick_sizes : sizes)[i % N_SIZES]};
 }
 
-/* The scene to measure it in: of the usual flow, or of the first other one that has it and whose grains may lose
- * energy.
- */
-static bool find_scene(const gg_bench *b, const setting *c, const gg_observable *o, gg_scene *scene)
+static bool find_scene_with(const gg_bench *b, const setting *c, const gg_observable *o, double beta, gg_scene *scene)
 {
   for (int k = -1; k < GG_N_FLOWS; k++) {
     gg_model model;
@@ -152,12 +149,19 @@ static bool find_scene(const gg_bench *b, const setting *c, const gg_observable 
     if (k >= 0) scene->flow = (gg_flow)k;
     if (gg_flow_of(scene->flow)->conserves) continue;
     memcpy(scene->gravity, gg_flow_of(scene->flow)->gravity, sizeof scene->gravity);
-    for (int p = 0; p < GG_PAIRS; p++) scene->collision.beta[p] = 0;
+    for (int p = 0; p < GG_PAIRS; p++) scene->collision.beta[p] = beta;
     if (gg_common_model_make(scene, c->engine, &model, NULL) != GG_OK) continue;
     if (gg_run_engine_ops_of(c->engine)->accepts(&model, NULL) != GG_OK) continue;
     if (!o->refuses || !o->refuses(&model)) return true;
   }
   return false;
+}
+
+/* The scene to measure it in: of the usual flow, or of the first other one that has it and whose grains may lose
+ * energy; of rough grains, or of smooth ones where it takes no others. */
+static bool find_scene(const gg_bench *b, const setting *c, const gg_observable *o, gg_scene *scene)
+{
+  return find_scene_with(b, c, o, 0, scene) || find_scene_with(b, c, o, -1, scene);
 }
 
 /* Stretches of large systems are long by themselves, and scatter less. */
