@@ -12,7 +12,14 @@
 
 /* Windows an epoch; layers of cells a slab has at least; buckets that a window has at least; events after a cancelled
  * window without any. */
-enum { WINDOWS = 96, FEWEST_LAYERS = 8, FEWEST_BUCKETS = 32, WINDOWS_BETWEEN_LOOKS = 16, SERIAL_EVENTS = 1 << 15 };
+enum {
+  WINDOWS = 96,
+  WINDOWS_OF_LISTS = 192,
+  FEWEST_LAYERS = 8,
+  FEWEST_BUCKETS = 32,
+  WINDOWS_BETWEEN_LOOKS = 16,
+  SERIAL_EVENTS = 1 << 15
+};
 
 const char *gg_md_serial_because(const gg_model *m)
 {
@@ -102,7 +109,9 @@ static bool make(gg_md *e, int threads)
   p->engine = e;
   p->n_slabs = threads;
   p->n_cells = (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
-  p->n_buckets = e->queue.n_buckets / WINDOWS;
+  p->n_buckets =
+      e->queue.n_buckets /
+      (e->search.kind == GG_MD_NEIGHBOUR_LISTS ? (getenv("WL") ? atoi(getenv("WL")) : WINDOWS_OF_LISTS) : WINDOWS);
   if (p->n_buckets < FEWEST_BUCKETS) p->n_buckets = FEWEST_BUCKETS;
   p->slab = gg_md_new_lines((size_t)threads, sizeof *p->slab, NULL);
   p->layer = gg_md_new_lines(e->n, sizeof *p->layer, NULL);

@@ -27,11 +27,12 @@ typedef struct gg_md_growing {
 } gg_md_growing;
 
 /* The cells that an event touches, and their layers: the grain's own; its partner's, or those that it may come into.
- * Where grains have lists, a new skin changes those of grains in the cells around. */
+ * It reads those around. Where grains have lists, a new skin changes those of grains in the cells around: such an event
+ * is wide, it touches all that it reads. */
 typedef struct gg_md_touched {
   uint32_t n, cell[GG_MD_MOST_TOUCHED];
   uint16_t layer[GG_MD_MOST_TOUCHED];
-  bool crosses, collides;
+  bool crosses, collides, wide;
 } gg_md_touched;
 
 /* Of a cell in a window: the last event that touched it, in which phase (GG_MD_LAST) and when, in the window's lengths
@@ -76,7 +77,7 @@ typedef struct gg_md_record {
   uint32_t grain, partner;                /* GG_MD_NONE: no collision */
   uint32_t saved, stamp, touched, beside; /* beside: an addend of a collision, or a list */
   uint16_t pair;                          /* of species */
-  bool crosses, gone, treated;
+  bool crosses, wide, gone, treated;
 } gg_md_record;
 
 /* The records of a phase, and what stands beside them. */

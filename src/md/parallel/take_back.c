@@ -6,12 +6,10 @@
 #include "md/search/list_update.h"
 
 /* Equal times, too: which of both comes first is seen when both wait in one queue. */
-static bool is_overtaken_at(const gg_md_slab *s, float time, uint32_t cell)
+static bool is_overtaken_in(const gg_md_slab *s, float time, const uint32_t *cells, int n)
 {
-  uint32_t index[GG_MD_MOST_AROUND];
-  const int n = gg_md_cells_around(s->all, cell, index);
   for (int k = 0; k < n; k++) {
-    const gg_md_cell_state *c = &s->all->cell[index[k]];
+    const gg_md_cell_state *c = &s->all->cell[cells[k]];
     const uint32_t phase = gg_md_bits_of(s->all, c) & GG_MD_LAST;
     if (phase > 0 && phase < (uint32_t)s->phase && c->last >= time) return true;
   }
@@ -20,15 +18,21 @@ static bool is_overtaken_at(const gg_md_slab *s, float time, uint32_t cell)
 
 bool gg_md_is_overtaken(const gg_md_slab *s, double time, const gg_md_touched *t)
 {
+  uint32_t index[GG_MD_MOST_AROUND];
+  const float at = gg_md_window_time(s->all, time);
   if (s->phase == 1) return false;
+  if (t->wide) return is_overtaken_in(s, at, t->cell, (int)t->n);
   for (uint32_t k = 0; k < t->n; k++)
-    if (is_overtaken_at(s, gg_md_window_time(s->all, time), t->cell[k])) return true;
+    if (is_overtaken_in(s, at, index, gg_md_cells_around(s->all, t->cell[k], index))) return true;
   return false;
 }
 
-static void mark_around(const gg_md_slab *s, uint32_t cell)
+/* What depends on an event that touches this cell touches one of these. */
+static void mark(const gg_md_slab *s, uint32_t cell, bool wide)
 {
   uint32_t index[GG_MD_MOST_AROUND];
+  s->all->mark[cell] = s->mark;
+  if (wide) return;
   for (int n = gg_md_cells_around(s->all, cell, index) - 1; n >= 0; n--) s->all->mark[index[n]] = s->mark;
 }
 
@@ -160,14 +164,14 @@ gg_md_taken gg_md_take_back(gg_md_slab *s, double time, const gg_md_touched *t)
     for (int k = 0; k < s->all->n_slabs; k++) readers[n++] = read_from(&s->all->slab[k].log[phase], time);
   s->mark += (uint32_t)s->all->n_slabs;
   s->back.n = 0;
-  for (uint32_t k = 0; k < t->n; k++) mark_around(s, t->cell[k]);
+  for (uint32_t k = 0; k < t->n; k++) mark(s, t->cell[k], t->wide);
   for (reader *first; (first = earliest(readers, n));) {
     gg_md_record *r = first->next++;
     if (!is_marked(s, first->log, r)) continue;
     if (!is_inside(s, first->log, r)) return GG_MD_NOT_MINE;
     if (r->gone) continue;
     const gg_md_stamp *stamp = stamps_of(first->log, r);
-    for (uint32_t k = 0; k < r->touched; k++) mark_around(s, stamp[k].cell);
+    for (uint32_t k = 0; k < r->touched; k++) mark(s, stamp[k].cell, r->wide);
     *(gg_md_undone *)gg_md_append(s, &s->back, sizeof(gg_md_undone)) = (gg_md_undone){r, first->log};
   }
   for (uint32_t k = s->back.n; k-- > 0;) undo_and_requeue(s, (gg_md_undone *)s->back.item + k);

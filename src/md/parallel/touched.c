@@ -62,8 +62,11 @@ static int around_in_flow(const gg_md_parallel *p, const int32_t at[3], uint32_t
     for (int l = -1; l <= 1; l++) {
       const int image = at[1] + l < 0 || at[1] + l >= c->n[1];
       const uint32_t row = c->part[2][at[2] + m] + c->part[1][at[1] + l];
-      for (int k = p->from[l + 1][image]; k <= p->to[l + 1][image]; k++)
-        index[n++] = row + c->part[0][wrapped(at[0] + k, c->n[0])];
+      int32_t x = wrapped(at[0] + p->from[l + 1][image], c->n[0]);
+      for (int k = p->from[l + 1][image]; k <= p->to[l + 1][image]; k++) {
+        index[n++] = row + (uint32_t)x;
+        if (++x == c->n[0]) x = 0;
+      }
     }
   return n;
 }
@@ -107,6 +110,7 @@ static void add_skins(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
   g.r = gg_md_position(e, false, &g, node->time);
   gg_md_cell_of(&e->cells, gg_md_into_box(e, node->time, &g), at);
   t->n = 0;
+  t->wide = true;
   add_around(s, t, node->cell);
   if (at[0] != node->cell[0] || at[1] != node->cell[1] || at[2] != node->cell[2]) add_around(s, t, at);
 }
@@ -132,7 +136,7 @@ bool gg_md_find_touched(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
   const gg_md *e = s->view;
   const gg_md_node *node = &e->node[i];
   t->n = 0;
-  t->collides = false;
+  t->collides = t->wide = false;
   t->crosses = node->time < node->collision;
   add(e, t, node->cell);
   if (t->crosses) {

@@ -119,7 +119,11 @@ static void close_around(const gg_md_slab *s, uint32_t cell, int32_t z)
 static void put_off(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
 {
   add_due(s, &s->late, due);
-  for (uint32_t k = 0; k < t->n; k++) close_around(s, t->cell[k], t->layer[k]);
+  for (uint32_t k = 0; k < t->n; k++)
+    if (!t->wide)
+      close_around(s, t->cell[k], t->layer[k]);
+    else if (gg_md_layer_of(s, t->layer[k])->owner == s->self)
+      set_bits(s->all, &s->all->cell[t->cell[k]], 0, s->closed);
 }
 
 static void save(gg_md_slab *s, gg_md_log *log, uint32_t i)
@@ -153,7 +157,8 @@ static gg_md_record *begin_record(gg_md_slab *s, gg_md_due due, const gg_md_touc
                       .stamp = log->stamp.n,
                       .touched = t->n,
                       .beside = t->crosses ? log->list.n : log->addend.n,
-                      .crosses = t->crosses};
+                      .crosses = t->crosses,
+                      .wide = t->wide};
   for (uint32_t k = 0; k < t->n; k++)
     *(gg_md_stamp *)gg_md_append(s, &log->stamp, sizeof(gg_md_stamp)) =
         (gg_md_stamp){t->cell[k], t->layer[k], s->all->cell[t->cell[k]]};
@@ -231,21 +236,29 @@ static void prefetch_states(const gg_md_slab *s, uint32_t i)
   for (uint32_t k = 0; k < t.n; k++) __builtin_prefetch(&s->all->cell[t.cell[k]]);
 }
 
+static void prefetch_grain(const gg_md *e, uint32_t i)
+{
+  __builtin_prefetch(&e->grain[i]);
+  __builtin_prefetch(&e->node[i]);
+  if (e->spin) __builtin_prefetch(&e->spin[i]);
+  if (e->last) __builtin_prefetch(&e->last[i]);
+  if (e->search.kind != GG_MD_NEIGHBOUR_LISTS) return;
+  const uint32_t *list = e->search.lists.neighbour + (size_t)i * GG_MD_LIST;
+  __builtin_prefetch(list);
+  __builtin_prefetch(list + 16);
+}
+
 /* What events to come will read: their grains; when those are there, their partners; and then their cells' states. */
 static void prefetch(const gg_md_slab *s)
 {
   const gg_md *e = s->view;
   const gg_md_due *due = (gg_md_due *)s->due.item + s->at;
   const uint32_t left = s->due.n - s->at;
-  if (left > 3 * AHEAD) {
-    __builtin_prefetch(&e->grain[due[3 * AHEAD].grain]);
-    __builtin_prefetch(&e->node[due[3 * AHEAD].grain]);
-  }
+  if (left > 3 * AHEAD) prefetch_grain(e, due[3 * AHEAD].grain);
   if (left > 2 * AHEAD) {
     const uint32_t j = e->node[due[2 * AHEAD].grain].partner;
     if (!GG_MD_NO_GRAIN(j)) {
-      __builtin_prefetch(&e->grain[j]);
-      __builtin_prefetch(&e->node[j]);
+      prefetch_grain(e, j);
       __builtin_prefetch(&s->all->layer[j]);
     }
   }
