@@ -4,12 +4,19 @@
 #include "common/quantity.h"
 
 enum { IN_MD = 1u << GG_MD, IN_DSMC = 1u << GG_DSMC };
-enum { UNHEATED = 1u << GG_NO_THERMOSTAT, GAUSSIAN = 1u << GG_GAUSSIAN, WHITE_NOISE = 1u << GG_WHITE_NOISE };
+enum {
+  UNHEATED = 1u << GG_NO_THERMOSTAT,
+  GAUSSIAN = 1u << GG_GAUSSIAN,
+  WHITE_NOISE = 1u << GG_WHITE_NOISE,
+  BATH = 1u << GG_BATH
+};
 
 /* Those of them that a scene lacks (gg_common_quantity_missing) are left out. */
 #define KNOWN_BY(...) ((const int[]){__VA_ARGS__, GG_N_QUANTITIES})
 #define BY_SHEAR KNOWN_BY(GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_SHEAR_VISCOSITY, GG_Q_TEMPERATURE_RATIO)
 #define BY_LOSS KNOWN_BY(GG_Q_COOLING_RATE, GG_Q_TEMPERATURE_RATIO, GG_Q_PARTIAL_TEMPERATURE_RATIO)
+#define BY_TEMPERATURES                                                                                                \
+  KNOWN_BY(GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_TEMPERATURE_RATIO, GG_Q_PARTIAL_TEMPERATURE_RATIO)
 #define BY_WALLS KNOWN_BY(GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_TEMPERATURE_RATIO)
 
 const gg_flow_row gg_common_flows[GG_N_FLOWS] = {
@@ -26,7 +33,7 @@ const gg_flow_row gg_common_flows[GG_N_FLOWS] = {
                 .doc = "uniform shear in a Lees-Edwards box",
                 .state = "uniform shear",
                 .frame = GG_SHEARED_FRAME,
-                .thermostats = UNHEATED,
+                .thermostats = UNHEATED | BATH,
                 .engines = IN_MD | IN_DSMC,
                 .headline = BY_SHEAR},
     [GG_HCS] = {.word = "hcs",
@@ -42,10 +49,11 @@ const gg_flow_row gg_common_flows[GG_N_FLOWS] = {
                 .doc = "homogeneous gas heated by a thermostat, gaussian by default",
                 .state = "a homogeneously heated state",
                 .frame = GG_CENTRE_OF_MASS,
-                .thermostats = GAUSSIAN | WHITE_NOISE,
+                .thermostats = GAUSSIAN | WHITE_NOISE | BATH,
                 .thermostat = GG_GAUSSIAN,
                 .engines = IN_MD | IN_DSMC,
-                .headline = BY_LOSS},
+                .headline = BY_LOSS,
+                .headline_in_bath = BY_TEMPERATURES},
     [GG_COUETTE] = {.word = "couette",
                     .title = "Couette flow",
                     .doc = "shear between moving walls",

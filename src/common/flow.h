@@ -21,7 +21,7 @@ typedef enum gg_flow {
   GG_N_FLOWS
 } gg_flow;
 
-typedef enum gg_thermostat { GG_NO_THERMOSTAT, GG_GAUSSIAN, GG_WHITE_NOISE, GG_N_THERMOSTATS } gg_thermostat;
+typedef enum gg_thermostat { GG_NO_THERMOSTAT, GG_GAUSSIAN, GG_WHITE_NOISE, GG_BATH, GG_N_THERMOSTATS } gg_thermostat;
 
 /* The frame in which the gas is homogeneous or at rest. In all but the first the centre of mass is followed: what
  * rounding leaves of its velocity would grow relative to the thermal speed. */
@@ -54,7 +54,7 @@ typedef struct gg_flow_row {
   double gravity[3];
   /* Headline quantities, whose errors end a run: gg_quantity, ends with
    * GG_N_QUANTITIES. A scene has those that it does not lack (gg_common_quantity_missing). */
-  const int *headline;
+  const int *headline, *headline_in_bath; /* the latter NULL: the same */
 } gg_flow_row;
 
 extern const gg_flow_row gg_common_flows[GG_N_FLOWS];

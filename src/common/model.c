@@ -5,6 +5,7 @@
 #include "common/contact_value.h"
 #include "common/ensemble_size.h"
 #include "common/portable_math.h"
+#include "common/thermostat.h"
 
 /* Whole numbers of grains: the largest remainders go up, of equal ones the first. */
 static void deal_grains(gg_model *m, const gg_scene *s)
@@ -168,10 +169,11 @@ static double guess_sheared_temperature(const gg_model *m)
 /* With a restitution law, temperature and mean impact speed depend on each other. */
 static void guess_temperature(gg_model *m, const gg_scene *s, bool sheared)
 {
-  double speed = s->shear_rate * s->species[0].diameter;
+  double speed = sheared ? s->shear_rate * s->species[0].diameter : 1;
   for (int round = 0; round < (m->law.name ? 5 : 1); round++) {
     m->temperature0 = gg_flow_is_timed_by_shear(s->flow) ? guess_sheared_temperature(m) : 0.5;
-    if (sheared && s->temperature != GG_AUTO) m->temperature0 = s->temperature / (speed * speed);
+    if (m->bath.on) m->temperature0 = gg_common_thermostat_balance(m, sheared ? m->temperature0 : 0);
+    if ((sheared || m->bath.on) && s->temperature != GG_AUTO) m->temperature0 = s->temperature / (speed * speed);
     gg_common_model_at(m, m->temperature0);
   }
 }
@@ -255,6 +257,36 @@ static gg_status set_law(gg_model *m, const gg_scene *s, gg_error *err)
   return GG_OK;
 }
 
+/* The bath of thermostat: bath; also white noise of a given strength, and a Gaussian thermostat of a given rate, which
+ * is a negative drag. */
+static gg_status set_bath(gg_model *m, const gg_scene *s, double time_unit, gg_error *err)
+{
+  gg_bath *b = &m->bath;
+  const double speed = m->shear_rate != 0 ? time_unit / s->species[0].diameter : 1,
+               T = s->bath.temperature * speed * speed;
+  const bool bath = s->thermostat == GG_BATH;
+  const bool rate = s->thermostat == GG_GAUSSIAN && s->gaussian_rate != GG_AUTO && !m->linear_response;
+  const bool noise = s->thermostat == GG_WHITE_NOISE && s->noise_strength != GG_AUTO;
+  b->on = bath || rate || noise;
+  for (int i = 0; i < m->n_species && b->on; i++) {
+    b->drag[i] = bath ? s->bath.drag * s->species[i].drag * time_unit : rate ? -s->gaussian_rate * time_unit / 2 : 0;
+    b->noise[i] = bath ? 2 * b->drag[i] * T / m->mass[i] : noise ? s->noise_strength * speed * speed * time_unit : 0;
+    if (!bath || m->rule == GG_SMOOTH) continue;
+    b->spin_drag[i] = s->bath.rotation * b->drag[i];
+    b->spin_noise[i] = 2 * b->spin_drag[i] * T / (m->mass[i] * m->inertia[i]);
+  }
+  if (bath && T == 0 && m->shear_rate == 0)
+    return gg_base_fail(
+        err, GG_BAD_INPUT,
+        "bath.temperature: 0 without shear: the gas only cools; give a temperature above 0, or flow: %s",
+        gg_flow_of(GG_USF)->word);
+  if ((rate || noise) && m->elastic && m->shear_rate == 0)
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "key '%s': collisions of this scene lose no energy, so that it heats up for ever",
+                        rate ? "gaussian_rate" : "noise_strength");
+  return GG_OK;
+}
+
 gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, gg_error *err)
 {
   if (s->phi < 0) return gg_base_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
@@ -290,9 +322,10 @@ gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_mode
   if (engine == GG_MD && !gg_flow_is_walled(s->flow)) m->frame = s->frame;
   m->frame_cells = (int)s->frame_cells;
   m->single = engine == GG_DSMC && s->dsmc.precision == GG_SINGLE;
-  guess_temperature(m, s, sheared);
   m->ratio0 = guess_ratio(m);
-  m->steady = !m->linear_response && !(m->elastic && sheared);
+  GG_TRY(set_bath(m, s, time_unit, err));
+  guess_temperature(m, s, sheared);
+  m->steady = !m->linear_response && !(m->elastic && sheared && !(m->bath.drag[0] > 0));
   m->stress_unit = m->boltzmann ? 1 : M_PI / 6;
   return GG_OK;
 }

@@ -15,6 +15,13 @@
 #include "common/scene.h"
 #include "common/surface/surface.h"
 
+/* What acts on every grain between collisions, relative to the imposed flow, of each species (thermostat.h):
+ *   dC = -drag C dt + sqrt(noise) dW,   ds = -spin_drag (s - rolling) dt + sqrt(spin_noise) dW. */
+typedef struct gg_bath {
+  bool on;
+  double drag[GG_MAX_SPECIES], noise[GG_MAX_SPECIES], spin_drag[GG_MAX_SPECIES], spin_noise[GG_MAX_SPECIES];
+} gg_bath;
+
 typedef struct gg_model {
   gg_flow flow;
   gg_thermostat thermostat;
@@ -37,6 +44,7 @@ typedef struct gg_model {
   double box[3], volume; /* edges, volume = n/density */
   double shear_rate;     /* 1 if sheared, else 0 */
   double gravity[3];
+  gg_bath bath;
 
   gg_contact contact[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* grain 1 of the first species, grain 2 of the second */
   gg_contact treated[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* for the contact-time rule: e = 1, see gg_common_treated_beta */
@@ -72,6 +80,12 @@ typedef struct gg_model {
 static inline bool gg_model_keeps_temperature(const gg_model *model)
 {
   return model->steady && !gg_flow_cools(model->flow);
+}
+
+/* Surface velocity of a grain that rolls with the imposed shear; 0 in the Boltzmann limit, beside thermal ones. */
+static inline double gg_model_rolling(const gg_model *m, int species)
+{
+  return m->boltzmann ? 0 : -m->shear_rate * m->diameter[species] / 4;
 }
 
 /* Build it for the engine the caller means to use (it fixes the number of grains). temperature0 and ratio0 get

@@ -5,6 +5,7 @@
 #include "base/memory.h"
 #include "common/model.h"
 #include "common/portable_math.h"
+#include "common/thermostat.h"
 
 /* Collisions of species i with j per unit time, all of temperature T = m <c^2>/3, of `share` grains of i. */
 static double rate_of(const gg_model *m, double share, int i, int j, double T)
@@ -105,11 +106,20 @@ double gg_common_model_sharing(const gg_model *m)
   return m->n_species > 1 ? gg_common_model_collision_rate(m, 1) / slowest_rate(m) : 0;
 }
 
+/* The loss goes as T^(3/2), what drag takes as T. */
+static double in_bath(const gg_model *m, double loss)
+{
+  double drag = INFINITY;
+  for (int i = 0; i < m->n_species; i++) drag = fmin(drag, m->bath.drag[i]);
+  return 1 / ((loss > 0 ? 1.5 / loss : 0) + 2 * drag / gg_common_model_collision_rate(m, m->temperature0));
+}
+
 /* Scaled, T itself does not relax. What is left of the loss is that of some species being larger than that of others,
  * beside the exchange between them: the rates add up. */
 static double of_temperatures(const gg_model *m, double loss)
 {
-  const bool scaled = gg_flow_cools(m->flow) || m->thermostat == GG_GAUSSIAN;
+  if (m->bath.on) return in_bath(m, loss);
+  const bool scaled = gg_flow_cools(m->flow) || gg_common_thermostat_of(m) == GG_GAUSSIAN;
   if (m->elastic || scaled) {
     const double sharing = m->steady ? gg_common_model_sharing(m) : 0;
     return sharing > 0 && loss > 0 ? 1 / (1 / sharing + 1 / loss) : sharing;

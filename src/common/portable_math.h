@@ -34,6 +34,17 @@ static inline double gg_power(double x, int n)
   return gg_power_and_rest(x, n, &rest);
 }
 
+/* e^x for moderate x: Taylor's series of a small part of it, squared again and again. */
+static inline double gg_exponential(double x)
+{
+  int halves = 0;
+  while (fabs(x) > 0.06 && halves < 60) x /= 2, halves++;
+  double sum = 1;
+  for (int k = 9; k > 0; k--) sum = 1 + sum * x / k;
+  while (halves-- > 0) sum *= sum;
+  return sum;
+}
+
 /* The n-th root of x > 0: one step of Newton from the library's, with what x - y^n leaves. */
 static inline double gg_root(double x, int n)
 {

@@ -32,6 +32,7 @@ enum { GG_COLLISIONS_FOLLOWED = 400 };
 
 typedef struct gg_species {
   double fraction, diameter, mass, inertia; /* mole fraction; user's units; K = 4I/(m d^2) */
+  double drag;                              /* of a bath, over bath.drag */
 } gg_species;
 
 /* At least GG_N_QUANTITIES, which only quantity.h knows. */
@@ -41,7 +42,11 @@ struct gg_scene {
   gg_flow flow;
   gg_engine_kind engine;
   gg_thermostat thermostat;
-  gg_contact_value contact_value; /* chi of the Monte Carlo engine and of theories */
+  struct {
+    double drag, temperature, rotation; /* user's units; rotation: drag of spins over that of velocities */
+  } bath;
+  double gaussian_rate, noise_strength; /* zeta_0 and xi^2 in the user's units, or GG_AUTO */
+  gg_contact_value contact_value;       /* chi of the Monte Carlo engine and of theories */
   double phi;
   int64_t particles;
   double shear_rate;

@@ -1,7 +1,12 @@
 #include "common/thermostat.h"
 
+#include <math.h>
+
+#include "common/portable_math.h"
+
 gg_thermostat gg_common_thermostat_of(const gg_model *model)
 {
+  if (model->bath.on) return GG_BATH;
   return gg_flow_takes(model->flow, model->thermostat) ? model->thermostat : gg_flow_of(model->flow)->thermostat;
 }
 
@@ -16,17 +21,65 @@ static double loss_per_collision(const gg_model *m, int i, int j)
   return normal + (1 - m->beta[o] * m->beta[o]) * spread / gg_inverse_mt(c);
 }
 
-double gg_common_thermostat_noise(const gg_model *m)
+/* Energy that collisions destroy, per grain and time. */
+static double loss_per_grain(const gg_model *m)
 {
-  double loss = 0, mass = 0, n = (double)m->n;
-  for (int i = 0; i < m->n_species; i++) {
-    mass += m->mass[i] * (double)m->n_of[i] / n;
+  double loss = 0, n = (double)m->n;
+  for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
       int o = gg_pair(i, j);
       double spread = m->temperature0 * (1 / m->mass[i] + 1 / m->mass[j]);
       double rate = m->sigma[o] * m->sigma[o] * m->chi[o] * sqrt(8 * M_PI * spread) * m->density / 2;
       loss += (double)m->n_of[i] / n * (double)m->n_of[j] / n * rate * loss_per_collision(m, i, j);
     }
+  return loss;
+}
+
+double gg_common_thermostat_noise(const gg_model *m)
+{
+  double mass = 0;
+  for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i] / (double)m->n;
+  return loss_per_grain(m) / (1.5 * mass);
+}
+
+/* Per grain and time: what noise brings, what drag takes at T = 1, and the loss at T = 1. Between them the balance
+ * falls through zero once: T by bisection, in square roots alone. */
+double gg_common_thermostat_balance(const gg_model *m, double sheared)
+{
+  double noise = 0, drag = 0, loss = loss_per_grain(m) / (m->temperature0 * sqrt(m->temperature0));
+  for (int i = 0; i < m->n_species; i++) {
+    const double share = (double)m->n_of[i] / (double)m->n;
+    noise += 1.5 * share * m->mass[i] * m->bath.noise[i];
+    drag += 3 * share * m->bath.drag[i];
   }
-  return loss / (1.5 * mass);
+  double low = 1e-100, high = 1e100;
+  for (int round = 0; round < 60; round++) {
+    const double T = sqrt(low) * sqrt(high);
+    if (noise + loss * sheared * sqrt(T) > (drag + loss * sqrt(T)) * T)
+      low = T;
+    else
+      high = T;
+  }
+  return sqrt(low) * sqrt(high);
+}
+
+/* e^-y, (1 - e^-y)/y, and of the distribution of times u in (0, 1) with weight e^(y u) the mean and variance. Where y
+ * is small their differences are series. */
+gg_relaxation gg_common_relaxation(double drag, double dt)
+{
+  const double y = 2 * drag * dt, decay = gg_exponential(-drag * dt), y2 = y * y;
+  gg_relaxation r = {.decay = decay};
+  if (fabs(y) < 0.25) {
+    double term = 1;
+    for (int k = 2; k < 16; k++) r.spread += term, term *= -y / k;
+    r.mean = 0.5 + y / 12 * (1 - y2 / 60 * (1 - y2 / 42));
+    r.width = (1 - y2 / 20 * (1 - y2 / 25.2 * (1 - y2 / 28.57))) / 12;
+  } else {
+    const double rest = 1 - decay * decay;
+    r.spread = rest / y;
+    r.mean = 1 / rest - 1 / y;
+    r.width = 1 / y2 - decay * decay / (rest * rest);
+  }
+  r.spread *= dt, r.mean *= dt, r.width *= dt * dt;
+  return r;
 }

@@ -7,6 +7,18 @@
 /* The thermostat in force: that of the scene, or the flow's default where it needs one. */
 gg_thermostat gg_common_thermostat_of(const gg_model *model);
 
+/* The temperature at which a bath, shear that alone would keep `sheared` (0: none) and the collisions of Maxwellians at
+ * ratio0 are in balance: the loss goes as T^(3/2), the work of shear as T^(1/2). */
+double gg_common_thermostat_balance(const gg_model *model, double sheared);
+
+/* What a bath does in a time dt, exactly: velocities shrink by `decay` and get kicks of variance `spread` x noise.
+ * Kicks that come in at a steady rate and decay since came at the time `mean`, on average, with the variance `width`.
+ */
+typedef struct gg_relaxation {
+  double decay, spread, mean, width;
+} gg_relaxation;
+gg_relaxation gg_common_relaxation(double drag, double dt);
+
 /* xi^2 at which white noise balances the collisions of Maxwellians at temperature0 and ratio0. */
 double gg_common_thermostat_noise(const gg_model *model);
 

@@ -29,7 +29,8 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
   else
     line(context, "shear: streaming followed exactly between collisions");
   static const char *const thermostats[] = {"no thermostat", "Gaussian thermostat: returns what collisions destroy",
-                                            "white-noise thermostat"};
+                                            "white-noise thermostat",
+                                            "bath: drag and noise, followed exactly between collisions"};
   line(context, thermostats[gg_common_thermostat_of(m)]);
   const gg_dsmc_time_step step = gg_dsmc_time_step_choose(m, m->temperature0);
   if (step.bias > 0) {

@@ -1,6 +1,7 @@
 #include "dsmc/dsmc_thermostat.h"
 
 #include "base/thread_pool.h"
+#include "common/thermostat.h"
 #include "dsmc/kernel/kernels.h"
 #include "dsmc/parallel/schedule.h"
 
@@ -71,9 +72,18 @@ double gg_dsmc_thermostat_return(gg_dsmc_ensemble *e, double strain, double kept
 
 typedef struct kicking {
   gg_dsmc_ensemble *e;
-  double strain, size;
+  double strain;
+  gg_dsmc_kick_map centre[GG_MAX_SPECIES], spin[GG_MAX_SPECIES];
+  bool turns; /* do spins get kicks, too? */
   gg_dsmc_rng_lanes *lanes;
 } kicking;
+
+/* What is not a grain stays at rest. */
+static void clear_rest(const gg_dsmc_population *p, void *blocks)
+{
+  for (size_t a = (size_t)p->n; a < p->n_blocks * GG_DSMC_LANES; a++)
+    gg_dsmc_block_set(p, blocks, (uint32_t)a, (gg_vec){0, 0, 0});
+}
 
 static void kick_segment(void *context, int part)
 {
@@ -82,17 +92,49 @@ static void kick_segment(void *context, int part)
   for (int i = 0; i < w->e->n_species; i++) {
     gg_dsmc_population *p = &w->e->of[i];
     gg_dsmc_range r = gg_dsmc_segment(p, w->e->segments, segment);
+    const bool turns = w->turns && p->s, last = segment == w->e->segments - 1;
     w->e->kernels->kick(gg_dsmc_blocks_at(p, p->c, r.first), p->single, p->speed_bound + r.first, r.n, w->strain,
-                        w->size, w->e->bound_scale, &w->lanes[segment]);
-    if (segment < w->e->segments - 1) continue;
-    for (size_t a = (size_t)p->n; a < p->n_blocks * GG_DSMC_LANES; a++)
-      gg_dsmc_block_set(p, p->c, (uint32_t)a, (gg_vec){0, 0, 0});
+                        &w->centre[i], w->e->bound_scale, &w->lanes[segment]);
+    if (turns)
+      w->e->kernels->kick(gg_dsmc_blocks_at(p, p->s, r.first), p->single, NULL, r.n, 0, &w->spin[i], 1,
+                          &w->lanes[segment]);
+    if (last) clear_rest(p, p->c);
+    if (last && turns) clear_rest(p, p->s);
   }
+}
+
+static void kick(kicking *w)
+{
+  gg_base_thread_pool_for(w->e->pool, w->e->segments, kick_segment, w);
+  w->e->bound_strain = w->strain;
+  w->e->bound_width = 0;
 }
 
 void gg_dsmc_thermostat_kick(gg_dsmc_ensemble *e, double strain, double variance, gg_dsmc_rng_lanes *lanes)
 {
-  gg_base_thread_pool_for(e->pool, e->segments, kick_segment, &(kicking){e, strain, sqrt(variance), lanes});
-  e->bound_strain = strain;
-  e->bound_width = 0;
+  kicking w = {.e = e, .strain = strain, .lanes = lanes};
+  for (int i = 0; i < e->n_species; i++)
+    w.centre[i] = (gg_dsmc_kick_map){.factor = 1, .size = sqrt(variance), .widening = 1, .lean = strain};
+  kick(&w);
+}
+
+void gg_dsmc_thermostat_bath(gg_dsmc_ensemble *e, const gg_model *m, const gg_dsmc_bath_step *step,
+                             gg_dsmc_rng_lanes *lanes)
+{
+  const gg_bath *b = &m->bath;
+  const double rate = m->shear_rate;
+  kicking w = {.e = e, .strain = step->strain, .lanes = lanes, .turns = b->spin_drag[0] > 0};
+  for (int i = 0; i < e->n_species; i++) {
+    const gg_relaxation r = gg_common_relaxation(b->drag[i], step->dt),
+                        s = gg_common_relaxation(b->spin_drag[i], step->dt);
+    w.centre[i] = (gg_dsmc_kick_map){.factor = r.decay,
+                                     .size = sqrt(b->noise[i] * r.spread),
+                                     .widening = sqrt(1 + rate * rate * r.width),
+                                     .lean = step->begin + rate * r.mean};
+    w.spin[i] = (gg_dsmc_kick_map){.factor = s.decay,
+                                   .size = sqrt(b->spin_noise[i] * s.spread),
+                                   .widening = 1,
+                                   .drift = (1 - s.decay) * gg_model_rolling(m, i)};
+  }
+  kick(&w);
 }

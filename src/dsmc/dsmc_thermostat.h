@@ -18,4 +18,13 @@ double gg_dsmc_thermostat_return(gg_dsmc_ensemble *e, double strain, double kept
 /* Kick every grain: `variance` along each axis; each segment of the ensemble has `lanes` of its own. */
 void gg_dsmc_thermostat_kick(gg_dsmc_ensemble *e, double strain, double variance, gg_dsmc_rng_lanes *lanes);
 
+/* A step of the bath: the strain at its beginning, that in its middle at which velocities are stored, its length. */
+typedef struct gg_dsmc_bath_step {
+  double begin, strain, dt;
+} gg_dsmc_bath_step;
+/* What drag, noise and shear do together in the step, exactly (an Ornstein-Uhlenbeck process): in stored velocities,
+ * which streaming leaves alone, drag is a factor, and a kick along y at a later strain is one along x as well. */
+void gg_dsmc_thermostat_bath(gg_dsmc_ensemble *e, const gg_model *model, const gg_dsmc_bath_step *step,
+                             gg_dsmc_rng_lanes *lanes);
+
 #endif

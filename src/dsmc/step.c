@@ -26,8 +26,13 @@ static void heat(gg_dsmc *d, double dt, double strain, double half)
 {
   if (d->thermostat == GG_GAUSSIAN) {
     d->now.lost = -gg_dsmc_thermostat_return(&d->ensemble, strain, kept_by_centres(d), d->now.lost, half);
+    return;
+  }
+  gg_dsmc_rng_lanes *lanes = d->schedule ? d->schedule->lanes : &d->now.lanes;
+  if (d->thermostat == GG_BATH) {
+    const gg_dsmc_bath_step step = {d->now.strain, strain, dt};
+    gg_dsmc_thermostat_bath(&d->ensemble, &d->model, &step, lanes);
   } else {
-    gg_dsmc_rng_lanes *lanes = d->schedule ? d->schedule->lanes : &d->now.lanes;
     gg_dsmc_thermostat_kick(&d->ensemble, strain, d->noise * dt, lanes);
   }
 }

@@ -10,9 +10,12 @@
  * square of the energy that a collision of smooth grains destroys, 1 - e^2: cooling rate .0139 at e = .5, .0128 at .8,
  * Gaussian, and .0144, .0125 of white noise. */
 static const double bias_of_splitting = 0.08, bias_of_alternation = 0.008, bias_of_thermostat = 0.0145;
+/* A bath: where drag takes 2 gamma h and collisions zeta h, small, in a step h, the temperature at its end is lower by
+ * gamma zeta h^2/6 more than that of a thermostat; zeta is the collision rate times a third of the loss. */
+static const double bias_of_drag = 1. / 18;
 
-/* A run that asks for an error takes steps whose bias is so small a share of it. */
-static const double share = 0.2;
+/* A run that asks for an error takes steps whose bias is so small a share of it; in a bath all do. */
+static const double share = 0.2, usual_error = 0.01;
 
 static double smaller(double a, double b)
 {
@@ -27,19 +30,29 @@ static double loss_of(const gg_model *m)
   return 4 * (eta1 * (1 - eta1) + eta2 * (1 - eta2));
 }
 
-/* Of means, over the square of the step: where a thermostat or pairs of species take turns with collisions. */
-static double alternation_of(const gg_model *m)
+/* Of the fastest drag, in a mean free time. */
+static double drag_of(const gg_model *m, double free_time)
 {
-  if (m->n_species > 1) return bias_of_alternation;
-  const double loss = loss_of(m);
+  double drag = 0;
+  for (int i = 0; i < m->n_species; i++) drag = fmax(drag, fmax(fabs(m->bath.drag[i]), m->bath.spin_drag[i]));
+  return drag * free_time;
+}
+
+/* Of means, over the square of the step: where a thermostat or pairs of species take turns with collisions. */
+static double alternation_of(const gg_model *m, double free_time)
+{
+  const double loss = loss_of(m), drag = bias_of_drag * loss * drag_of(m, free_time);
+  if (m->n_species > 1) return bias_of_alternation + drag;
+  if (m->bath.on) return bias_of_thermostat * loss * loss + drag;
   return gg_common_thermostat_of(m) != GG_NO_THERMOSTAT ? bias_of_thermostat * loss * loss : 0;
 }
 
 /* In mean free times. */
-static double alternate_every(const gg_model *m)
+static double alternate_every(const gg_model *m, double free_time)
 {
-  const double bias = alternation_of(m);
-  return m->asked_error > 0 && bias > 0 ? smaller(0.25, sqrt(share * m->asked_error / bias)) : 0.25;
+  const double bias = alternation_of(m, free_time);
+  const double error = m->asked_error > 0 ? m->asked_error : m->bath.on ? usual_error : 0;
+  return error > 0 && bias > 0 ? smaller(0.25, sqrt(share * error / bias)) : 0.25;
 }
 
 gg_dsmc_time_step gg_dsmc_time_step_choose(const gg_model *model, double T)
@@ -47,15 +60,16 @@ gg_dsmc_time_step gg_dsmc_time_step_choose(const gg_model *model, double T)
   bool heated = gg_common_thermostat_of(model) != GG_NO_THERMOSTAT;
   double free_time = 1 / gg_common_model_collision_rate(model, T);
   gg_dsmc_time_step step = {.synchronise = heated ? free_time : 3 * free_time,
-                            .length = heated ? alternate_every(model) * free_time : free_time};
+                            .length = heated ? alternate_every(model, free_time) * free_time : free_time};
   if (!heated && model->shear_rate == 0) step.length = step.synchronise; /* the kernel needs no step at all */
   if (model->shear_rate > 0) step.length = smaller(step.length, 0.5 / model->shear_rate);
-  step.splitting = model->n_species == 1 ? step.length : smaller(step.length, alternate_every(model) * free_time);
+  step.splitting =
+      model->n_species == 1 ? step.length : smaller(step.length, alternate_every(model, free_time) * free_time);
   if (model->time_step > 0) {
     step.splitting = step.length = model->time_step * free_time;
     step.split = model->shear_rate > 0;
   }
   double h = step.splitting / free_time;
-  step.bias = (step.split ? bias_of_splitting : alternation_of(model)) * h * h;
+  step.bias = (step.split ? bias_of_splitting : alternation_of(model, free_time)) * h * h;
   return step;
 }

@@ -49,14 +49,16 @@ void gg_scene_fill_in(gg_scene *s)
   s->measure |= flow->measure;
 }
 
-static bool takes_gaussian(gg_flow flow)
-{
-  return gg_flow_takes(flow, GG_GAUSSIAN);
-}
-static bool takes_white_noise(gg_flow flow)
-{
-  return gg_flow_takes(flow, GG_WHITE_NOISE);
-}
+#define TAKES(name, thermostat)                                                                                        \
+  static bool takes_##name(gg_flow flow)                                                                               \
+  {                                                                                                                    \
+    return gg_flow_takes(flow, thermostat);                                                                            \
+  }
+TAKES(gaussian, GG_GAUSSIAN)
+TAKES(white_noise, GG_WHITE_NOISE)
+TAKES(bath, GG_BATH)
+static bool (*const takes[])(gg_flow flow) = {
+    [GG_GAUSSIAN] = takes_gaussian, [GG_WHITE_NOISE] = takes_white_noise, [GG_BATH] = takes_bath};
 
 static gg_status check_thermostat(const gg_scene *s, gg_error *err)
 {
@@ -65,7 +67,7 @@ static gg_status check_thermostat(const gg_scene *s, gg_error *err)
   char text[160] = "";
   if (gg_flow_takes(s->flow, s->thermostat)) return GG_OK;
   if (s->thermostat != GG_NO_THERMOSTAT) {
-    gg_common_flow_list(s->thermostat == GG_GAUSSIAN ? takes_gaussian : takes_white_noise, text, sizeof text);
+    gg_common_flow_list(takes[s->thermostat], text, sizeof text);
     return gg_base_fail(err, GG_BAD_INPUT, "thermostat: %s does not go with flow: %s; use flow: %s",
                         gg_scene_field_word_for(field, (int)s->thermostat).name, flow, text);
   }
@@ -174,6 +176,7 @@ static bool has_error(const gg_scene *s, unsigned uses)
   const bool user_defined = gg_common_extension_law(s->extension).e != NULL, lossy = user_defined || t.lossy;
   if (uses == GG_USE_THEORY || lossy)
     return !(gg_flow_cools(s->flow) && (user_defined || s->collision.law != GG_LAW_CONSTANT));
+  if (s->thermostat == GG_BATH) return true;
   if (gg_flow_is_sheared(s->flow)) return gg_flow_of(s->flow)->linear_response;
   const bool shares = s->n_species > 1 || t.rough; /* temperatures, whose ratio is known */
   return shares || !(gg_flow_cools(s->flow) || gg_flow_is_heated(s->flow));
@@ -219,6 +222,11 @@ static const struct {
     {GG_IF_FRAMES, "while output.trajectory_every is 0", NULL, "", "output.trajectory_every is not 0"},
     {GG_IF_UNWALLED, "between walls, where velocities are about the measured flow", NULL, "", "no walls"},
     {GG_IF_CELLS, "while frame is imposed", NULL, "", "frame is not imposed"},
+    {GG_IF_BATH, "but with thermostat: bath", NULL, "", "thermostat bath"},
+    {GG_IF_GAUSSIAN, "but with thermostat: gaussian in flow: hss", NULL, "", "thermostat gaussian in flow hss"},
+    {GG_IF_NOISE, "but with thermostat: white_noise", NULL, "", "thermostat white_noise"},
+    {GG_IF_TEMPERED, "but under shear, or with a bath, gaussian_rate or noise_strength", NULL, "",
+     "shear, a bath, gaussian_rate or noise_strength"},
 };
 enum { CONDITIONS = sizeof conditions / sizeof *conditions };
 
@@ -267,6 +275,13 @@ static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
   case GG_IF_FRAMES: return s->output.trajectory_every > 0;
   case GG_IF_UNWALLED: return !gg_flow_is_walled(s->flow);
   case GG_IF_CELLS: return s->frame != GG_FRAME_IMPOSED;
+  case GG_IF_BATH: return s->thermostat == GG_BATH;
+  case GG_IF_GAUSSIAN: return s->thermostat == GG_GAUSSIAN && gg_flow_is_heated(s->flow);
+  case GG_IF_NOISE: return s->thermostat == GG_WHITE_NOISE;
+  case GG_IF_TEMPERED:
+    return gg_flow_is_sheared(s->flow) || s->thermostat == GG_BATH ||
+           (holds(GG_IF_GAUSSIAN, s, uses) && s->gaussian_rate != GG_AUTO) ||
+           (holds(GG_IF_NOISE, s, uses) && s->noise_strength != GG_AUTO);
   default: return true;
   }
 }

@@ -21,6 +21,7 @@ static const gg_word thermostats[] = {
     {"none", GG_NO_THERMOSTAT, "no thermostat; the default except in flows that need one"},
     {"gaussian", GG_GAUSSIAN, "force along the velocity that replaces the energy lost in collisions; spins get none"},
     {"white_noise", GG_WHITE_NOISE, "random kicks of all grains"},
+    {"bath", GG_BATH, "drag and random kicks, as in a fluid of temperature bath.temperature"},
     {0}};
 static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARLING, "(1 - phi/2)/(1 - phi)^3"},
                                          {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
@@ -70,6 +71,22 @@ const gg_field gg_scene_fields[] = {
     {"engine", GG_FIELD_CHOICE, AT(engine), .words = engines,
      .doc = "engine of `graingas run`; `graingas compare` runs both", .also = "method"},
     {"thermostat", GG_FIELD_CHOICE, AT(thermostat), .words = thermostats, .doc = "thermostat that supplies energy"},
+    {"bath.drag", GG_FIELD_NUMBER, AT(bath.drag), 0, LARGE, true, .by_default = 1, .unit = "1/time",
+     .doc = "drag coefficient: velocities relative to the imposed flow decay at this rate", .when = GG_IF_BATH,
+     .also = "damping"},
+    {"bath.temperature", GG_FIELD_NUMBER, AT(bath.temperature), 0, LARGE, .by_default = 1, .unit = "velocity^2",
+     .doc = "temperature that the bath alone would give; 0: drag alone, which needs shear", .when = GG_IF_BATH,
+     .also = "T_b"},
+    {"bath.rotation", GG_FIELD_NUMBER, AT(bath.rotation), 0, LARGE,
+     .doc = "drag of spins over that of velocities, at the same temperature; 0: none; 10/3: Stokes drag of a sphere",
+     .when = GG_IF_BATH | GG_IF_ROUGH},
+    {"gaussian_rate", GG_FIELD_NUMBER, AT(gaussian_rate), 0, LARGE, true, AUTO, .unit = "1/time",
+     .doc = "rate zeta_0 of the Gaussian thermostat, dT/dt = zeta_0 T; auto: that of the energy lost in collisions",
+     .when = GG_IF_GAUSSIAN},
+    {"noise_strength", GG_FIELD_NUMBER, AT(noise_strength), 0, LARGE, true, AUTO, .unit = "velocity^2/time",
+     .doc = "xi^2 of white noise: variance that each component of a velocity gains per time; auto: balances the losses "
+            "at the initial temperature",
+     .when = GG_IF_NOISE},
     {"contact_value", GG_FIELD_CHOICE, AT(contact_value), .words = contact_values,
      .doc = "formula for the pair correlation at contact", .when = GG_IF_CONTACT_VALUE},
     {"phi", GG_FIELD_NUMBER, AT(phi), 0, 0.6, .by_default = GG_AUTO,
@@ -82,7 +99,7 @@ const gg_field gg_scene_fields[] = {
     {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), SMALL, LARGE, .by_default = 1, .unit = "1/time",
      .doc = "imposed shear rate", .when = GG_IF_SHEARED, .also = "gamma gamma_dot rate shear"},
     {"temperature", GG_FIELD_NUMBER, AT(temperature), 1e-100, 1e100, false, AUTO, .unit = "velocity^2",
-     .doc = "initial temperature, <C.C>/3; auto: near the steady state", .when = GG_IF_SHEARED, .also = "T T0"},
+     .doc = "initial temperature, <C.C>/3; auto: near the steady state", .when = GG_IF_TEMPERED, .also = "T T0"},
     {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .by_default = 1,
      .doc = "shape of the box: ratio of its edges x : y : z", .when = GG_IF_BOXED, .also = "box"},
     {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .by_default = 0.9,
@@ -179,6 +196,8 @@ const gg_field gg_scene_species_fields[] = {
      .doc = "mass of a grain", .also = "m"},
     {"inertia", GG_FIELD_NUMBER, offsetof(gg_species, inertia), 1e-6, 1, false, .by_default = 0.4,
      .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow", .when = GG_IF_ROUGH, .also = "K I"},
+    {"drag", GG_FIELD_NUMBER, offsetof(gg_species, drag), SMALL, LARGE, .by_default = 1,
+     .doc = "drag of the bath on this species, in units of bath.drag", .when = GG_IF_BATH},
     {0},
 };
 
@@ -281,7 +300,7 @@ bool gg_scene_is_given(const gg_scene *scene, const char *key)
   return id >= 0 && scene->given >> id & 1;
 }
 
-const char *const gg_scene_sections[] = {"collision", "walls", "run", "md", "dsmc", "output", NULL};
+const char *const gg_scene_sections[] = {"bath", "collision", "walls", "run", "md", "dsmc", "output", NULL};
 
 bool gg_scene_is_section(const char *name)
 {
@@ -359,7 +378,7 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
       gg_base_text_append(text, size, "%s%s", i ? ", " : "", word.name);
     return;
   case GG_FIELD_SPECIES:
-    snprintf(text, size, "a list of 1 to %d maps with fraction, diameter, mass and inertia", GG_MAX_SPECIES);
+    snprintf(text, size, "a list of 1 to %d maps with fraction, diameter, mass, inertia and drag", GG_MAX_SPECIES);
     return;
   }
 }

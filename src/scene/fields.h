@@ -51,7 +51,11 @@ enum {
   GG_IF_WALL_FRICTION = 1u << 17,
   GG_IF_FRAMES = 1u << 18,
   GG_IF_UNWALLED = 1u << 19,
-  GG_IF_CELLS = 1u << 20
+  GG_IF_CELLS = 1u << 20,
+  GG_IF_BATH = 1u << 21,
+  GG_IF_GAUSSIAN = 1u << 22,
+  GG_IF_NOISE = 1u << 23,
+  GG_IF_TEMPERED = 1u << 24
 };
 
 typedef struct gg_field {
@@ -72,7 +76,7 @@ typedef struct gg_field {
   bool may_change;  /* between the parts of a run that is resumed: it touches neither trajectory nor means */
 } gg_field;
 
-enum { GG_MAX_FIELDS = 48 };                     /* as many bits of gg_scene.given are used */
+enum { GG_MAX_FIELDS = 56 };                     /* as many bits of gg_scene.given are used */
 extern const gg_field gg_scene_fields[];         /* ends with a NULL key */
 extern const gg_field gg_scene_species_fields[]; /* likewise */
 extern const gg_word

@@ -18,7 +18,7 @@ gg_status gg_theory_reject(gg_error *err, const char *theory, const char *format
 
 gg_status gg_theory_require_steady_shear(const gg_model *m, const char *theory, gg_error *err)
 {
-  if (m->elastic)
+  if (!m->steady)
     return gg_theory_reject(
         err, theory, "describes steady shear; collisions of this scene lose no energy, so that it heats up for ever");
   return GG_OK;

@@ -3,7 +3,6 @@
  * degree, so that each number tells how far it is from its limit. Rough grains: theory/rough. */
 #include <math.h>
 
-#include "common/thermostat.h"
 #include "theory/answer.h"
 #include "theory/enskog_hermite.h"
 #include "theory/garzo_dufty1999.h"
@@ -37,13 +36,15 @@ static double fourth(const double C[3])
 }
 
 /* White noise is set to balance Maxwellians at temperature0 (thermostat.h). */
-static double temperature_of(const gg_model *m, double cooling, bool noise)
+static double temperature_of(const gg_model *m, const gg_hermite_isotropic *h, const gg_heating *heating)
 {
   double e = m->e[0], maxwellian = 5. / 12 * m->chi[0] * (1 - e * e) * gg_common_model_nu0(m, 1);
-  return m->temperature0 * (noise && cooling > 0 && !m->elastic ? pow(maxwellian / cooling, 2. / 3) : 1);
+  bool balanced = heating->kind == GG_HEATING_NOISE && h->cooling_rate > 0 && !m->elastic;
+  double T = m->temperature0 * (balanced ? pow(maxwellian / h->cooling_rate, 2. / 3) : 1);
+  return gg_theory_heating_temperature(heating, h->heating, T);
 }
 
-static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, bool noise, gg_theory_answer *a)
+static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, const gg_heating *heating, gg_theory_answer *a)
 {
   gg_hermite_sums sums;
   gg_hermite_sums_at(&h->op, &h->gas, &h->state, &sums);
@@ -52,7 +53,7 @@ static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, bool no
   a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3 * (1 + a2);
   a->value[GG_Q_COOLING_RATE] = m->elastic ? 0 : h->cooling_rate / gg_common_model_nu0(m, 1);
   if (m->linear_response) return; /* no temperature of its own: it grows */
-  double T = temperature_of(m, h->cooling_rate, noise), p = m->density * T;
+  double T = temperature_of(m, h, heating), p = m->density * T;
   gg_theory_answer_temperature(m, T, NAN, a);
   gg_theory_answer_pressure(m, T, p, p * sums.transfer[2][2] / 3, a); /* all along the one direction: the trace */
   answer_flights(m, sums.rate * sqrt(T), sums.speed * sqrt(T), a);
@@ -91,9 +92,10 @@ static gg_status conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
   const gg_quantity q[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC,
                            GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED};
   double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
+  const gg_heating heating = {.kind = GG_HEATING_COOLS};
   for (int degree = GOOD_DEGREE; degree <= LAST_DEGREE; degree += 2) {
     gg_hermite_isotropic h;
-    GG_TRY(gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, false, err));
+    GG_TRY(gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, &heating, err));
     gg_status status = answer_heat(m, &h, gg_hermite_convergence_next(&rungs), err);
     gg_hermite_isotropic_end(&h);
     GG_TRY(status);
@@ -108,15 +110,15 @@ static gg_status conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
 static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_rungs rungs = {.n = 0}, viscous = {.n = 0};
-  bool noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE;
+  const gg_heating heating = gg_theory_heating_of(m);
   double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
   for (int degree = FIRST_DEGREE; degree <= LAST_DEGREE; degree += 2) {
     if (degree > GOOD_DEGREE && gg_hermite_convergence_change(&rungs, GG_Q_COOLING_RATE) < good) break;
     gg_hermite_isotropic h;
     gg_error why;
-    gg_status status = gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, noise, &why);
+    gg_status status = gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, &heating, &why);
     if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
-    answer_isotropic(m, &h, noise, gg_hermite_convergence_next(&rungs));
+    answer_isotropic(m, &h, &heating, gg_hermite_convergence_next(&rungs));
     if (degree <= VISCOSITY_DEGREE) status = answer_viscosity(m, &h, gg_hermite_convergence_next(&viscous), &why);
     gg_hermite_isotropic_end(&h);
     if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
@@ -151,9 +153,11 @@ const gg_theory gg_theory_enskog_hermite = {
                    GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "bulk_viscosity_reduced " GG_ANSWERS_LENGTHS "relaxation_rate",
     .assumptions = "Any density, molecular chaos, no other assumption: each answer has a numerical error. One species, "
                    "smooth or of constant beta, or a smooth mixture: steady uniform shear (up to 8 species), free "
-                   "cooling and heated states; viscosity of smooth grains (up to 6), heat flux of one cooling species. "
+                   "cooling and heated states, also in a bath; viscosity of smooth grains (up to 6), heat flux of one "
+                   "cooling species. "
                    "Errors of smooth grains are "
                    "mostly below 0.01 % (0.1 % in dilute shear at e = 0.5), of rough grains 0.1 % from e = 0.7 on.",
+    .baths = true,
     .evaluate = evaluate,
     .curves = gg_hermite_curves,
 };

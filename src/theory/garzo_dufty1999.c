@@ -43,7 +43,7 @@ double gg_theory_a2_white_noise(double e)
 
 double gg_theory_thermostat_share(const gg_model *m)
 {
-  static const double share[] = {[GG_NO_THERMOSTAT] = 0.5, [GG_GAUSSIAN] = 1, [GG_WHITE_NOISE] = 0};
+  static const double share[] = {[GG_NO_THERMOSTAT] = 0.5, [GG_GAUSSIAN] = 1, [GG_WHITE_NOISE] = 0, [GG_BATH] = 0};
   return share[gg_common_thermostat_of(m)];
 }
 
@@ -53,9 +53,9 @@ static double temperature_of(const gg_model *m, double a2)
   return m->temperature0 * (gg_common_thermostat_of(m) == GG_WHITE_NOISE ? pow(1 + 3. / 16 * a2, -2. / 3) : 1);
 }
 
-static void answer_sonine(const gg_model *m, double a2, gg_theory_answer *a)
+void gg_theory_answer_sonine(const gg_model *m, double T, double a2, gg_theory_answer *a)
 {
-  double e = m->e[0], T = temperature_of(m, a2), p = m->density * T, pc = p * 2 * (1 + e) * gg_theory_phi_chi(m);
+  double e = m->e[0], p = m->density * T, pc = p * 2 * (1 + e) * gg_theory_phi_chi(m);
   a->value[GG_Q_A2] = a2;
   a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3 * (1 + a2);
   a->value[GG_Q_COOLING_RATE] = 5. / 12 * m->chi[0] * (1 - e * e) * (1 + 3. / 16 * a2);
@@ -101,7 +101,7 @@ static void answer_heat(const gg_model *m, double a2, double weight, gg_theory_a
 static void answer_all(const gg_model *m, double a2, bool modified, gg_theory_answer *a)
 {
   const double e = m->e[0];
-  answer_sonine(m, a2, a);
+  gg_theory_answer_sonine(m, temperature_of(m, a2), a2, a);
   answer_viscosity(m, a2, modified ? 7. / 16 : -1. / 32, a);
   if (m->flow != GG_HCS) return;
   answer_heat(m, a2, modified ? (947 - 579 * e) / 256 : (19 - 3 * e) / 512, a);

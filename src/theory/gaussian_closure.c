@@ -1,6 +1,6 @@
 /* Uniform shear at all densities from the second moments of Enskog's equation, closed by anisotropic Gaussians:
  *   d<C_a C_b>_i/dt = -rate (<C_y C_b> delta_ax + <C_y C_a> delta_bx) + collisions = 0,
- *   d Theta_i/dt = 0,   d<s_z>_i/dt = 0      for each species i,
+ *   d Theta_i/dt = 0,   d<s_z>_i/dt = 0      for each species i, less drag and plus noise of a bath (model.h),
  * J.T. Jenkins & M.W. Richman, J. Fluid Mech. 192 (1988) 313; C.-S. Chou & M.W. Richman, Physica A 259 (1998) 430;
  * S. Saha & M. Alam, J. Fluid Mech. 795 (2016) 549; here with the collision integrals in full, rough spheres and
  * mixtures included. */
@@ -56,7 +56,7 @@ static void report(const gg_model *m, const gg_gaussian state[], gg_theory_answe
   a->value[GG_Q_COLLISION_RATE] = frequency;
   a->value[GG_Q_MEAN_FREE_PATH] = speed / frequency;
   if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = speed / frequency / cbrt(m->volume);
-  a->value[GG_Q_DISSIPATION] = -a->value[GG_Q_P_XY] * m->shear_rate;
+  a->value[GG_Q_DISSIPATION] = m->bath.on ? m->stress_unit * r.loss : -a->value[GG_Q_P_XY] * m->shear_rate;
 }
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
@@ -84,6 +84,7 @@ const gg_theory gg_theory_gaussian_closure = {
         "Enskog's equation in T, p and viscosity for e from 0.9 (1.6 % low in dilute gases as e -> 1, 4 % for dilute, "
         "half-rough grains), N2 within 15 %. Molecular chaos; velocities and spins are Gaussian and independent, which "
         "leaves out a part of the mean spin that grows as 1/phi: spin_z has values from phi = 0.01 on.",
+    .baths = true,
     .evaluate = evaluate,
     .beyond = gg_theory_beyond_gaussian,
 };

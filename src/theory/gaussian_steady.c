@@ -61,7 +61,7 @@ static void pack_tensor(const closure *c, gg_tensor A, double scale, gsl_vector 
   set_unknown(x, at + 3, 0.5 * log(zz));
 }
 
-/* Of grains that roll with the flow. */
+/* Of grains that roll with the flow: a unit, of the Boltzmann limit, too. */
 static double rolling(const gg_model *m, int i)
 {
   return -m->shear_rate * m->diameter[i] / 4;
@@ -111,10 +111,10 @@ static void scale_tensor(gg_tensor *A, double factor)
     for (int j = 0; j < 3; j++) A->at[i][j] *= factor;
 }
 
-/* Mean free time or shear time, whichever is shorter. */
+/* Mean free time, shear time or time of the bath, whichever is shorter. */
 static double time_of(const gg_model *m, const gg_gaussian_rates *r, int i)
 {
-  return 1 / (r->frequency[i] + 3 * m->shear_rate);
+  return 1 / (r->frequency[i] + 3 * m->shear_rate + fabs(m->bath.drag[i]) + m->bath.spin_drag[i]);
 }
 
 /* d/dt of all moments, streaming included, per that time (of spins: per time in which collisions change them); the
@@ -124,12 +124,34 @@ typedef struct gg_production {
   double excess, shear[GG_MAX_SPECIES];
 } gg_production;
 
+/* What the bath changes, and what it brings and takes per volume; a negative drag brings. */
+static void add_bath(const gg_model *m, const gg_gaussian *state, int i, gg_gaussian *change, double flow[2])
+{
+  const gg_bath *b = &m->bath;
+  const double n = m->density * gg_theory_fraction(m, i) * m->mass[i], nK = n * m->inertia[i];
+  const double slip = state[i].spin - gg_model_rolling(m, i), C2 = gg_theory_trace(state[i].M);
+  for (int a = 0; a < 3; a++) {
+    for (int c = 0; c < 3; c++) change->M.at[a][c] -= 2 * b->drag[i] * state[i].M.at[a][c];
+    change->M.at[a][a] += b->noise[i];
+  }
+  flow[b->drag[i] > 0] += n * fabs(b->drag[i]) * C2;
+  flow[0] += 1.5 * n * b->noise[i];
+  if (!gg_theory_species_spins(m, i)) return;
+  for (int a = 0; a < 3; a++) {
+    for (int c = 0; c < 3; c++) change->Theta.at[a][c] -= 2 * b->spin_drag[i] * state[i].Theta.at[a][c];
+    change->Theta.at[a][a] += b->spin_noise[i];
+  }
+  change->spin -= b->spin_drag[i] * slip;
+  flow[1] += nK * b->spin_drag[i] * (gg_theory_trace(state[i].Theta) + state[i].spin * slip);
+  flow[0] += 1.5 * nK * b->spin_noise[i];
+}
+
 static void production(const gg_model *m, const gg_gaussian *state, gg_production *p)
 {
   gg_gaussian_rates r;
   gg_gaussian *change = p->change;
   gg_theory_gaussian_rates_at(m, state, &r);
-  double stress = r.Pc.at[1][0];
+  double stress = r.Pc.at[1][0], flow[2] = {0, 0};
   for (int i = 0; i < m->n_species; i++) {
     double xy = state[i].M.at[0][1], yy = state[i].M.at[1][1];
     change[i] = r.change[i];
@@ -137,6 +159,7 @@ static void production(const gg_model *m, const gg_gaussian *state, gg_productio
     change[i].M.at[0][1] -= m->shear_rate * yy;
     change[i].M.at[1][0] -= m->shear_rate * yy;
     stress += m->density * gg_theory_fraction(m, i) * m->mass[i] * xy;
+    if (m->bath.on) add_bath(m, state, i, &change[i], flow);
     double time = time_of(m, &r, i);
     p->shear[i] = 3 * m->shear_rate * time;
     scale_tensor(&change[i].M, time);
@@ -145,7 +168,7 @@ static void production(const gg_model *m, const gg_gaussian *state, gg_productio
     scale_tensor(&change[i].Theta, time);
     change[i].spin *= time;
   }
-  p->excess = -m->shear_rate * stress / r.loss - 1;
+  p->excess = (flow[0] - m->shear_rate * stress) / (flow[1] + r.loss) - 1;
 }
 
 /* Trace and deviations apart: energy is the slow equation. `shear`: what drives the last. */
@@ -194,7 +217,7 @@ static closure closure_of(const gg_model *m)
     if (m->n_of[i] > m->n_of[c.most]) c.most = i;
   }
   c.T = mass * lun.f2 / lun.f5;
-  if (!(c.T > 0 && isfinite(c.T))) c.T = m->temperature0;
+  if (m->bath.on || !(c.T > 0 && isfinite(c.T))) c.T = m->temperature0;
   double thermal = sqrt(c.T / mass), rate = m->shear_rate * m->diameter[0];
   c.ratio = fmax(ratio, 1e-6);
   c.shear = fmin(fabs(lun.f2_kinetic) * m->shear_rate / (m->density * thermal), 0.5); /* < 0 where dense, e small */
@@ -287,6 +310,8 @@ double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state)
   double left = NAN;
   if (solver && x) {
     start(&c, x);
+    /* In a bath there may be several states: the one that the gas relaxes to. */
+    if (model->bath.on) relax(&c, x, 3 * RELAXATION_STEPS);
     left = improve(solver, &f, x);
     /* A stall close by is a stale Jacobian: continue from there. Far away the start was too far off: relax first. */
     for (int attempt = 1; attempt <= MAX_ATTEMPTS && !(left < converged); attempt++) {

@@ -47,6 +47,12 @@ static gg_status check_flow(const gg_theory *theory, const gg_model *m, gg_error
   return gg_theory_reject(err, theory->name, "describes %s; this scene is %s", states, gg_flow_of(m->flow)->state);
 }
 
+static gg_status check_bath(const gg_theory *theory, const gg_model *m, gg_error *err)
+{
+  if (!m->bath.on || theory->baths || theory->own) return GG_OK;
+  return gg_theory_reject(err, theory->name, "has no bath, nor heating of a given strength; this scene has");
+}
+
 static gg_status check_law(const gg_theory *theory, const gg_model *model, gg_error *err)
 {
   if (!model->law.name || theory->own) return GG_OK;
@@ -59,6 +65,7 @@ gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
   GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
+  GG_TRY(check_bath(theory, model, err));
   const unsigned before = gg_base_memory_failures();
   gg_base_gsl_enter();
   gg_status status = theory->own ? gg_theory_user_theory_evaluate(theory->own, model, answer, err)
@@ -76,6 +83,7 @@ gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsig
   if (!theory->curves) return GG_OK;
   GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
+  GG_TRY(check_bath(theory, model, err));
   const unsigned before = gg_base_memory_failures();
   gg_base_gsl_enter();
   gg_status status = theory->curves(model, measure, list, err);

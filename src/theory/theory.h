@@ -29,6 +29,7 @@ typedef struct gg_theory {
   const char *citation;    /* the original paper */
   const char *assumptions; /* and range, one or two sentences */
   unsigned flows;          /* that it describes, a sum of GG_FLOW_BIT; 0: it looks for itself */
+  bool baths;              /* does it describe gases in a bath, too? */
   /* Of those flows alone: GG_OK with the answer, or GG_BAD_INPUT with the reason why the theory does not apply to this
    * model. */
   gg_status (*evaluate)(const gg_model *model, gg_theory_answer *answer, gg_error *err);

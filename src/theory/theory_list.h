@@ -20,6 +20,7 @@
   X(garzo_dufty1999)                                                                                                   \
   X(montanero_santos2000)                                                                                              \
   X(garzo_santos_montanero2007)                                                                                        \
+  X(chamorro_vega_garzo2013)                                                                                           \
   X(garzo_montanero2003)                                                                                               \
   X(garzo_montanero2003_ms)                                                                                            \
   X(garzo_dufty2002)                                                                                                   \

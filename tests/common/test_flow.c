@@ -72,7 +72,7 @@ static void defaults_run(void **state)
 static void thermostats(void **state)
 {
   (void)state;
-  static const char *const words[] = {"none", "gaussian", "white_noise"};
+  static const char *const words[] = {"none", "gaussian", "white_noise", "bath"};
   for (int f = 0; f < GG_N_FLOWS; f++)
     for (int t = 0; t < GG_N_THERMOSTATS; t++) {
       char key[40];

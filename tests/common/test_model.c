@@ -51,8 +51,8 @@ static void mixture(void **state)
   (void)state;
   gg_scene s = gg_scene_defaults();
   s.phi = 0.2, s.n_species = 2, s.particles = 1001;
-  s.species[0] = (gg_species){0.25, 2, 3, 0.4};
-  s.species[1] = (gg_species){0.75, 1, 6, 0.4};
+  s.species[0] = (gg_species){0.25, 2, 3, 0.4, 1};
+  s.species[1] = (gg_species){0.75, 1, 6, 0.4, 1};
   gg_model m = make(&s);
   assert_int_equal(m.n_of[0] + m.n_of[1], 1001);
   assert_int_equal(m.n_of[0], 250);
@@ -87,7 +87,7 @@ static void sharing_of_energy(void **state)
   (void)state;
   gg_scene s = gg_scene_defaults();
   s.flow = GG_EQUILIBRIUM, s.phi = 0.1, s.n_species = 2, s.collision.e[0] = 1;
-  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
+  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
   for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = 1;
   gg_model m = make(&s);
   near(gg_common_model_relaxation(&m), 1.5, 1e-12);
@@ -96,7 +96,7 @@ static void sharing_of_energy(void **state)
   near(gg_common_model_relaxation(&m) / 1e8, 3 / 16.0 * (1 + sqrt(0.5)), 1e-3);
   const double two = gg_common_model_relaxation(&m);
   s.n_species = 4; /* the same grains; like ones share quickly, and the two kinds as slowly as before */
-  for (int k = 0; k < 4; k++) s.species[k] = (gg_species){0.25, 1, 1, 0.4};
+  for (int k = 0; k < 4; k++) s.species[k] = (gg_species){0.25, 1, 1, 0.4, 1};
   s.species[2].mass = s.species[3].mass = 1e8;
   m = make(&s);
   near(gg_common_model_relaxation(&m) / two, 1, 1e-6);
@@ -108,7 +108,7 @@ static void loss_to_others(void **state)
   (void)state;
   gg_scene s = gg_scene_defaults();
   s.flow = GG_USF, s.phi = 0.1, s.n_species = 2;
-  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
+  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
   for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = 1;
   s.collision.e[gg_pair(0, 1)] = 0.8;
   gg_model m = make(&s);
@@ -134,7 +134,7 @@ static void scaled_temperature(void **state)
   m = make(&s);
   near(gg_common_model_relaxation(&m), loss, 1e-9);
   s.flow = GG_HCS, s.thermostat = GG_NO_THERMOSTAT, s.n_species = 2;
-  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
+  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
   for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = e;
   m = make(&s);
   near(gg_common_model_relaxation(&m), 1 / (1 / 1.5 + 1 / loss), 1e-9);
@@ -197,7 +197,7 @@ static void noise_replaces_losses(void **state)
   gg_scene s = gg_scene_defaults();
   s.flow = GG_HSS, s.thermostat = GG_WHITE_NOISE, s.phi = 0.2, s.particles = 1000;
   s.n_species = 2;
-  s.species[0] = (gg_species){0.3, 1, 1, 0.4}, s.species[1] = (gg_species){0.7, 1.5, 4, 0.4};
+  s.species[0] = (gg_species){0.3, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.7, 1.5, 4, 0.4, 1};
   for (int o = 0; o < 3; o++) s.collision.e[o] = 0.7 + 0.1 * o;
   gg_model m = make(&s);
   double T = m.temperature0, a[2] = {T / m.mass[0], T / m.mass[1]}, loss = 0, mass = 0;
@@ -225,12 +225,12 @@ static void units_of_rates(void **state)
   gg_model m = make(&s);
   near(gg_common_model_nu0(&m, 3), 16 * sqrt(M_PI) / 5 * m.density * sqrt(3), 1e-14);
   s.n_species = 2;
-  s.species[0] = (gg_species){0.5, 1, 1, 0.4}, s.species[1] = (gg_species){0.5, 2, 4, 0.4};
+  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.5, 2, 4, 0.4, 1};
   m = make(&s);
   const double unit = sqrt(M_PI);
   near(gg_common_model_nu0(&m, 3), unit * m.density * 2.25 * sqrt(2 * 3 * 1.25), 1e-14);
   s.n_species = 3;
-  s.species[0].fraction = 0.2, s.species[1].fraction = 0.3, s.species[2] = (gg_species){0.5, 3, 9, 0.4};
+  s.species[0].fraction = 0.2, s.species[1].fraction = 0.3, s.species[2] = (gg_species){0.5, 3, 9, 0.4, 1};
   m = make(&s);
   double pair[] = {2.25 * sqrt(6 * 1.25), 4 * sqrt(6 * 10. / 9), 6.25 * sqrt(6 * 13. / 36)};
   double mean = (0.06 * pair[0] + 0.1 * pair[1] + 0.15 * pair[2]) / 0.31;
@@ -284,7 +284,7 @@ static void scales(void **state)
   s.temperature = 1.01e-12;
   assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, &err), GG_OK);
   s.temperature = GG_AUTO, s.n_species = 2;
-  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4};
+  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
   s.species[1].mass = 2e12;
   refused(&s, "values of mass in a ratio of 1 : 2e+12");
   s.species[1].mass = 1, s.species[1].diameter = 1e-7;

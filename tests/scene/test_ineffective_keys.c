@@ -41,8 +41,13 @@ static void flows(void **state)
   (void)state;
   char words[160], expected[240];
   gg_common_flow_list(gg_flow_is_sheared, words, sizeof words);
-  snprintf(expected, sizeof expected, "shear_rate, temperature have no effect but in flow: %s", words);
-  assert_line("{flow: hcs, phi: 0.1, shear_rate: 2, temperature: 3}", BOTH, expected);
+  snprintf(expected, sizeof expected, "shear_rate has no effect but in flow: %s", words);
+  assert_line("{flow: hcs, phi: 0.1, shear_rate: 2}", BOTH, expected);
+  assert_line("{flow: hss, phi: 0.1, temperature: 3}", BOTH,
+              "temperature has no effect but under shear, or with a bath, gaussian_rate or noise_strength");
+  assert_line("{flow: hss, phi: 0.1, gaussian_rate: 2, temperature: 3}", BOTH, NULL);
+  assert_line("{flow: hss, phi: 0.1, thermostat: bath, bath: {drag: 2}, temperature: 3}", BOTH, NULL);
+  assert_line("{flow: hss, phi: 0.1, bath: {drag: 2}}", BOTH, "bath.drag has no effect but with thermostat: bath");
   assert_line("{flow: usf, phi: 0.1, shear_rate: 2, temperature: 3}", BOTH, NULL);
   assert_line("{flow: hcs, phi: 0.1, walls: {e: 0.5, beta: 0.5, mu: 1, speed: 2, top: open}}", BOTH,
               "walls.e, walls.beta, walls.mu, walls.top, walls.speed have no effect but between walls (flow: couette, "

@@ -13,7 +13,8 @@ static void elastic_limit(void **state)
   gg_hermite_isotropic h;
   gg_hermite_viscosity v;
   gg_error err;
-  assert_int_equal(gg_hermite_isotropic_solve(&h, 10, 1, 1, false, &err), GG_OK);
+  const gg_heating cools = {.kind = GG_HEATING_COOLS};
+  assert_int_equal(gg_hermite_isotropic_solve(&h, 10, 1, 1, &cools, &err), GG_OK);
   assert_true(fabs(h.cooling_rate) < 1e-12);
   assert_int_equal(gg_hermite_viscosity_of(&h.gas, &h.state, 10, false, 0, &v, &err), GG_OK);
   assert_close(v.kinetic * 3.2 * sqrt(M_PI), 1.016034, 1e-5);
@@ -252,7 +253,7 @@ static void refuses_what_it_does_not_describe(void **state)
   assert_refused(&gg_theory_enskog_hermite, &mixed, "describes smooth grains");
   gg_scene many = scene_of(GG_USF, 0.1, 0.9, -1);
   many.n_species = 9;
-  for (int i = 0; i < 9; i++) many.species[i] = (gg_species){1. / 9, 1, 1 + i, 0.4};
+  for (int i = 0; i < 9; i++) many.species[i] = (gg_species){1. / 9, 1, 1 + i, 0.4, 1};
   many.dsmc.particles = 90000;
   gg_model nine = model_of(&many);
   assert_refused(&gg_theory_enskog_hermite, &nine, "up to 8 species");

@@ -187,8 +187,8 @@ static void those_of_the_engine(void **state)
   (void)state;
   gg_scene mixed = scene_of(GG_HCS, 0, 0.4, -1);
   mixed.n_species = 2;
-  mixed.species[0] = (gg_species){0.5, 1, 1, 0.4};
-  mixed.species[1] = (gg_species){0.5, 1, 3, 0.4};
+  mixed.species[0] = (gg_species){0.5, 1, 1, 0.4, 1};
+  mixed.species[1] = (gg_species){0.5, 1, 3, 0.4, 1};
   const unsigned components = GG_MEASURE_VELOCITY_DISTRIBUTIONS, speeds = GG_MEASURE_SONINE;
   const struct {
     gg_scene scene;

@@ -157,7 +157,7 @@ static void jacobian_is_the_derivative(void **state)
   enum { N = 14, ALL = 2 * N };
   double a[ALL], R[ALL], J[ALL * ALL], up[ALL], down[ALL];
   gg_hermite_gas gas = two_species(0.6, 0.9);
-  gas.stream[0][1] = 0.9, gas.diffusion = 0.1;
+  gas.stream[0][1] = 0.9, gas.diffusion[0] = 0.1, gas.drag[1] = 0.4;
   assert_int_equal(op.basis.n, N);
   some_coefficients(&op.basis, a);
   for (int r = 0; r < N; r++) a[N + r] = r == 0 ? 1 : -0.7 * a[r];

@@ -177,12 +177,13 @@ static void degree_two_cools_like_two_maxwellians(void **state)
   (void)state;
   gg_rough_gas gas = gas_of(0.8, 0.2, 0);
   gg_grain grain = {gas.eta1, gas.eta2, gas.K};
-  double ratio = gg_theory_ratio_cooling(grain, INFINITY), cooling;
+  double ratio = gg_theory_ratio_cooling(grain, INFINITY), growth;
   gg_rough_steady s = {.choice = moments, .gas = gas, .weight = isotropic(ratio)};
+  const gg_heating cools = {.kind = GG_HEATING_COOLS};
   gg_error err;
-  assert_int_equal(gg_rough_isotropic_solve(&s, 2, GG_ROUGH_COOLING, &cooling, &err), GG_OK);
+  assert_int_equal(gg_rough_isotropic_solve(&s, 2, &cools, &growth, &err), GG_OK);
   for (int q = 1; q < s.form.n; q++) assert_true(fabs(s.a[q]) < 1e-9);
-  assert_close(cooling, -4 * sqrt(M_PI) / 3 * gg_theory_exchange_at(grain, INFINITY, ratio).translation, 1e-10);
+  assert_close(2 * growth, -4 * sqrt(M_PI) / 3 * gg_theory_exchange_at(grain, INFINITY, ratio).translation, 1e-10);
   gg_rough_steady_clear(&s);
 }
 

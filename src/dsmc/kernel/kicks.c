@@ -1,4 +1,4 @@
-/* White-noise thermostat: a random kick for every grain, computed in double for blocks of either precision. */
+/* White noise and baths: a random kick for every grain, computed in double for blocks of either precision. */
 #include "dsmc/kernel/synchronise.h"
 
 #include "dsmc/kernel/normal.h"
@@ -33,8 +33,8 @@ GG_INLINE gg_vd3 store(void *blocks, bool single, size_t b, int at, gg_vd3 v)
   return v;
 }
 
-GG_INLINE void kick(void *c, bool single, float *speed_bound, size_t n, double strain, double size, double bound_scale,
-                    gg_dsmc_rng_lanes *lanes)
+GG_INLINE void kick(void *c, bool single, float *speed_bound, size_t n, double strain, gg_dsmc_kick_map map,
+                    double bound_scale, gg_dsmc_rng_lanes *lanes)
 {
   const double per_scale = gg_dsmc_per_bound(bound_scale);
   gg_dsmc_lane_rng rng;
@@ -46,18 +46,22 @@ GG_INLINE void kick(void *c, bool single, float *speed_bound, size_t n, double s
       gg_dsmc_lane_normal(&rng, part, &x, &y);
       gg_dsmc_lane_normal(&rng, part, &z, &spare);
       gg_vd3 v = load(c, single, b, at);
-      v = store(c, single, b, at, (gg_vd3){v.x + size * (x + strain * y), v.y + size * y, v.z + size * z});
+      v.x = map.factor * v.x + map.size * (map.widening * x + map.lean * y);
+      v.y = map.factor * v.y + map.size * y;
+      v.z = map.factor * v.z + map.size * z + map.drift;
+      v = store(c, single, b, at, v);
+      if (!speed_bound) continue;
       v.x -= strain * v.y;
       gg_dsmc_note_speed_bound(&speed_bound[b], at, gg_vd3_dot(v, v), per_scale);
     }
   gg_dsmc_lane_rng_save(&rng, lanes);
 }
 
-void NAME(gg_dsmc_kick, GG_INSTRUCTIONS)(void *c, bool single, float *speed_bound, size_t n, double strain, double size,
-                                         double bound_scale, gg_dsmc_rng_lanes *lanes)
+void NAME(gg_dsmc_kick, GG_INSTRUCTIONS)(void *c, bool single, float *speed_bound, size_t n, double strain,
+                                         const gg_dsmc_kick_map *map, double bound_scale, gg_dsmc_rng_lanes *lanes)
 {
   if (single)
-    kick(c, true, speed_bound, n, strain, size, bound_scale, lanes);
+    kick(c, true, speed_bound, n, strain, *map, bound_scale, lanes);
   else
-    kick(c, false, speed_bound, n, strain, size, bound_scale, lanes);
+    kick(c, false, speed_bound, n, strain, *map, bound_scale, lanes);
 }

@@ -8,6 +8,7 @@ gg_hermite_gas gg_hermite_gas_of(const gg_model *m)
   gg_hermite_gas gas = {.n_species = m->n_species};
   for (int i = 0; i < m->n_species; i++) {
     gas.fraction[i] = gg_theory_fraction(m, i), gas.mass[i] = m->mass[i];
+    gas.drag[i] = m->bath.drag[i], gas.diffusion[i] = m->bath.noise[i] / 2;
     for (int j = 0; j < m->n_species; j++) {
       int pair = gg_pair(i, j);
       double sigma = m->sigma[pair];

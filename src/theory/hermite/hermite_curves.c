@@ -78,10 +78,10 @@ static gg_status sheared(const gg_model *m, series *s, gg_error *err)
 static gg_status one_isotropic(const gg_model *m, series *s, gg_error *err)
 {
   double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
-  bool noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE;
+  const gg_heating heating = gg_theory_heating_of(m);
   for (int degree = FIRST_DEGREE; degree <= ISOTROPIC_DEGREE; degree += 2) {
     gg_hermite_isotropic h;
-    GG_TRY(gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, noise, err));
+    GG_TRY(gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, &heating, err));
     solution *x = next(s);
     x->share[0] = 1;
     for (int a = 0; a < 3; a++) x->marginal[0][a] = gg_hermite_component_of(&h.op.basis, &h.state, 2);
@@ -92,7 +92,7 @@ static gg_status one_isotropic(const gg_model *m, series *s, gg_error *err)
 
 static gg_status mixed_isotropic(const gg_model *m, series *s, gg_error *err)
 {
-  gg_hermite_mixture h = {.noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE};
+  gg_hermite_mixture h = {.drive = gg_theory_heating_of(m)};
   for (int most = FIRST_DEGREE / 2; most <= MOST_SQUARES; most++) {
     double even[GG_RADIAL_MOST + 1], T = 0;
     GG_TRY(gg_hermite_mixture_solve(&h, m, most, err));

@@ -107,16 +107,19 @@ static void add_collisions(gg_solver *s, int i, int j, int l)
       }
 }
 
-static void add_heating(gg_solver *s, int i, int l, double rate)
+static void add_heating(gg_solver *s, int i, int l, double x)
 {
   const gg_radial *r = &s->mixture->radial;
+  const gg_heating_rates at = gg_theory_heating_at(&s->mixture->drive, i, x);
+  const gg_heating_rates slope = gg_theory_heating_slopes(&s->mixture->drive, i, x);
   size_t row = column(s, i, l);
   double square = s->mixture->scale[i] * s->mixture->scale[i];
   for (int m = 0; m <= r->most; m++) {
-    double value = s->mixture->noise ? r->spread[l][m] / square : r->growth[l][m], alpha = s->mixture->alpha[i][m];
-    gsl_vector_set(s->x, row, gsl_vector_get(s->x, row) + rate * value * alpha);
-    add_to(s->J, row, 0, value * alpha);
-    if (m > 0) add_to(s->J, row, column(s, i, m), rate * value);
+    const double growth = r->growth[l][m], spread = r->spread[l][m] / square, alpha = s->mixture->alpha[i][m];
+    const double value = at.diffusion * spread - at.drag * growth;
+    gsl_vector_set(s->x, row, gsl_vector_get(s->x, row) + value * alpha);
+    add_to(s->J, row, 0, (slope.diffusion * spread - slope.drag * growth) * alpha);
+    if (m > 0) add_to(s->J, row, column(s, i, m), value);
   }
 }
 
@@ -150,7 +153,7 @@ static double step(gg_solver *s, double *rate)
   if (gsl_linalg_LU_decomp(s->J, s->order, &sign) != GSL_SUCCESS) return INFINITY;
   if (gsl_linalg_LU_svx(s->J, s->order, s->x) != GSL_SUCCESS) return INFINITY;
   *rate -= gsl_vector_get(s->x, 0);
-  most = fabs(gsl_vector_get(s->x, 0)) / unit;
+  most = gg_theory_heating_step(&s->mixture->drive, *rate, gsl_vector_get(s->x, 0), unit);
   for (int i = 0; i < s->species; i++)
     for (int l = 1; l <= s->l; l++) {
       double change = gsl_vector_get(s->x, column(s, i, l));
@@ -176,7 +179,7 @@ static double follow(gg_hermite_mixture *x, int species)
 static gg_status iterate(gg_solver *s, gg_error *err)
 {
   gg_hermite_mixture *x = s->mixture;
-  double rate = x->heating;
+  double rate = x->heating != 0 ? x->heating : x->drive.guess;
   for (int move = 0; move < MOST_MOVES; move++) {
     double left = INFINITY;
     for (int i = 0; i < s->species; i++)
@@ -220,9 +223,13 @@ gg_status gg_hermite_mixture_solve(gg_hermite_mixture *x, const gg_model *m, int
 
 double gg_hermite_mixture_cooling(const gg_hermite_mixture *x, const gg_model *m)
 {
-  double mass = 0;
-  for (int i = 0; i < m->n_species; i++) mass += gg_theory_fraction(m, i) * m->mass[i];
-  return 2 * x->heating * (x->noise ? mass : 1);
+  double sum = 0;
+  for (int i = 0; i < m->n_species; i++) {
+    const gg_heating_rates at = gg_theory_heating_at(&x->drive, i, x->heating);
+    const double square = x->scale[i] * x->scale[i] * gg_hermite_mixture_square(x, i);
+    sum += 2 * gg_theory_fraction(m, i) * m->mass[i] * (at.diffusion - at.drag * square);
+  }
+  return sum;
 }
 
 /* Phi_1 = (c^2 - 3)/sqrt 6, Phi_2 = (c^4 - 10 c^2 + 15)/sqrt 120. */

@@ -1,19 +1,17 @@
 /* Homogeneous mixtures of smooth grains, cooling or heated: of each species a sum of isotropic functions about a
- * Gaussian of its own temperature. In a cooling gas, and by a Gaussian thermostat, one cooling rate for all; white
- * noise heats all velocities alike. */
+ * Gaussian of its own temperature. What heats them: theory/heating.h. */
 #ifndef GG_HERMITE_MIXTURE_H
 #define GG_HERMITE_MIXTURE_H
 
-#include "common/model.h"
+#include "theory/heating.h"
 #include "theory/hermite/radial.h"
 
 typedef struct gg_hermite_mixture {
   gg_radial radial;
   double scale[GG_MAX_SPECIES]; /* of each species: C = scale c */
   double alpha[GG_MAX_SPECIES][GG_RADIAL_MOST + 1];
-  bool noise;
-  double heating; /* at sum_i x_i T_i = 1: what makes up for the cooling. Rate of growth of velocities, or by noise the
-                     diffusion of all */
+  gg_heating drive;
+  double heating; /* its x, at sum_i x_i T_i = 1 */
 } gg_hermite_mixture;
 
 /* Degree 2 l of the expansion; from the scales given (all 0: from equal temperatures). */

@@ -63,21 +63,20 @@ static void clear(gg_isotropic_work *w)
   if (w->order) gsl_permutation_free(w->order);
 }
 
-/* How R changes with the rate of heating. */
-static void heat(gg_hermite_gas *gas, double rate, bool noise)
+static void heat(gg_hermite_gas *gas, gg_heating_rates rates)
 {
-  for (int i = 0; i < 3; i++) gas->stream[i][i] = noise ? 0 : -rate;
-  gas->diffusion = noise ? rate : 0;
+  gas->drag[0] = rates.drag;
+  gas->diffusion[0] = rates.diffusion;
 }
 
-/* Unknowns: the rate of heating, in the place of alpha_1, which the width fixes; alpha_2 ... The last step, relative.
+/* Unknowns: that of heating, in the place of alpha_1, which the width fixes; alpha_2 ... The last step, relative.
  */
-static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double *alpha, double *rate, bool noise)
+static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double *alpha, const gg_heating *heating)
 {
   const gg_hermite_basis *b = &h->op.basis;
   int half = b->degree / 2, sign;
   double projected[HALVES], basis[HALVES], most = 0;
-  heat(&h->gas, *rate, noise);
+  heat(&h->gas, gg_theory_heating_at(heating, 0, h->heating));
   gg_hermite_isotropic_expand(b, alpha, h->state.a);
   gg_hermite_operator_at(&h->op, &h->gas, &h->state, w->R, w->jacobian);
   project(b, w->R, projected);
@@ -86,8 +85,8 @@ static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double 
     memset(w->column, 0, (size_t)b->n * sizeof *w->column);
     if (l == 1) {
       gg_hermite_gas unit = {0};
-      heat(&unit, 1, noise);
-      gg_hermite_add_streaming(&h->op, &unit, &h->state, w->column, NULL, 0);
+      heat(&unit, gg_theory_heating_slopes(heating, 0, h->heating));
+      gg_hermite_add_streaming(&h->op, &unit, 0, &h->state, w->column, NULL, 0);
     } else {
       memset(basis, 0, sizeof basis);
       basis[l] = 1;
@@ -101,8 +100,8 @@ static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double 
   }
   if (gsl_linalg_LU_decomp(w->J, w->order, &sign) != GSL_SUCCESS) return INFINITY;
   if (gsl_linalg_LU_svx(w->J, w->order, w->x) != GSL_SUCCESS) return INFINITY;
-  *rate -= gsl_vector_get(w->x, 0);
-  most = fabs(gsl_vector_get(w->x, 0)) / h->gas.impact[0][0].frequency;
+  h->heating -= gsl_vector_get(w->x, 0);
+  most = gg_theory_heating_step(heating, h->heating, gsl_vector_get(w->x, 0), h->gas.impact[0][0].frequency);
   for (int l = 2; l <= half; l++) {
     double step = gsl_vector_get(w->x, (size_t)l - 1);
     alpha[l] -= step;
@@ -111,22 +110,23 @@ static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double 
   return isfinite(most) ? most : INFINITY;
 }
 
-static gg_status iterate(gg_hermite_isotropic *h, gg_isotropic_work *w, bool noise, gg_error *err)
+static gg_status iterate(gg_hermite_isotropic *h, gg_isotropic_work *w, const gg_heating *heating, gg_error *err)
 {
-  double alpha[HALVES] = {1, (3 / h->state.width - 3) / sqrt(6)}, rate = 0, left = INFINITY;
+  double alpha[HALVES] = {1, (3 / h->state.width - 3) / sqrt(6)}, left = INFINITY;
+  h->heating = heating->guess;
   for (int i = 0; i < MOST_ITERATIONS && left > converged; i++) {
-    left = newton_step(h, w, alpha, &rate, noise);
+    left = newton_step(h, w, alpha, heating);
     if (left == INFINITY) break;
   }
   if (left > converged) return gg_base_fail(err, GG_FAILED, "no steady state was found");
-  heat(&h->gas, rate, noise);
+  heat(&h->gas, gg_theory_heating_at(heating, 0, h->heating));
   gg_hermite_isotropic_expand(&h->op.basis, alpha, h->state.a);
-  h->cooling_rate = 2 * rate; /* d T/dt = 2 rate T, or 2 D, at T = 1 */
+  h->cooling_rate = 2 * (h->gas.diffusion[0] - h->gas.drag[0]); /* dT/dt = 2 D - 2 drag T, at T = 1 */
   return GG_OK;
 }
 
-gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double frequency, double eta, bool noise,
-                                     gg_error *err)
+gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double frequency, double eta,
+                                     const gg_heating *heating, gg_error *err)
 {
   gg_isotropic_work w = {0};
   *h = (gg_hermite_isotropic){.gas = gg_hermite_one(frequency, eta, 0), .state.width = GG_HERMITE_WIDTH};
@@ -135,7 +135,7 @@ gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double
   if (status == GG_OK) h->state.a = calloc((size_t)h->op.basis.n, sizeof *h->state.a);
   gg_base_gsl_enter();
   if (status == GG_OK && (!h->state.a || !make(&w, h->op.basis.n, degree / 2))) status = gg_base_out_of_memory(err);
-  if (status == GG_OK) status = iterate(h, &w, noise, err);
+  if (status == GG_OK) status = iterate(h, &w, heating, err);
   gg_base_gsl_leave();
   clear(&w);
   if (status != GG_OK) gg_hermite_isotropic_end(h);

@@ -1,21 +1,22 @@
-/* Homogeneous smooth grains whose loss of energy is made up for, at T = 1: by stretching, as in the scaled frame of a
- * cooling gas or by a Gaussian thermostat, or by diffusion, as white noise does. f is isotropic: a sum of
+/* Homogeneous smooth grains whose loss of energy is made up for, at T = 1: theory/heating.h. f is isotropic: a sum of
  * Phi_l ~ (a^+ . a^+)^l, Sonine polynomials of c^2, of which one direction tells everything. */
 #ifndef GG_HERMITE_ISOTROPIC_H
 #define GG_HERMITE_ISOTROPIC_H
 
+#include "theory/heating.h"
 #include "theory/hermite/operator.h"
 
 typedef struct gg_hermite_isotropic {
   gg_hermite_operator op;
-  gg_hermite_gas gas; /* stream and diffusion of the steady state are the answer's */
+  gg_hermite_gas gas; /* drag and diffusion of the steady state are the answer's */
   gg_hermite_state state;
   double cooling_rate; /* of the temperature by collisions, at T = 1 */
+  double heating;      /* x of heating.h */
 } gg_hermite_isotropic;
 
-/* frequency = n chi sigma^2; noise: white noise instead of stretching. */
-gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double frequency, double eta, bool noise,
-                                     gg_error *err);
+/* frequency = n chi sigma^2. */
+gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double frequency, double eta,
+                                     const gg_heating *heating, gg_error *err);
 /* a of the Ho_r from alpha_l of the Phi_l. */
 void gg_hermite_isotropic_expand(const gg_hermite_basis *basis, const double *alpha, double *a);
 

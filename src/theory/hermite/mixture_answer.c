@@ -47,7 +47,8 @@ static double transfer(const gg_model *m, const gg_hermite_mixture *x)
 /* White noise is set to balance Maxwellians at temperature0 (thermostat.h). */
 static double temperature_of(const gg_model *m, const gg_hermite_mixture *x)
 {
-  if (m->elastic || !x->noise || !(x->heating > 0)) return m->temperature0;
+  if (x->drive.kind == GG_HEATING_BATH) return gg_theory_heating_temperature(&x->drive, x->heating, NAN);
+  if (m->elastic || x->drive.kind != GG_HEATING_NOISE || !(x->heating > 0)) return m->temperature0;
   return pow(gg_common_thermostat_noise(m) / 2 / x->heating, 2. / 3);
 }
 
@@ -73,10 +74,11 @@ static gg_hermite_gas resting(const gg_model *m, const gg_hermite_mixture *x)
 {
   gg_hermite_gas gas = gg_hermite_gas_of(m);
   gas.stream[0][1] = 0;
-  for (int i = 0; i < m->n_species; i++)
+  for (int i = 0; i < m->n_species; i++) {
+    const gg_heating_rates at = gg_theory_heating_at(&x->drive, i, x->heating);
+    gas.drag[i] = at.drag, gas.diffusion[i] = at.diffusion;
     for (int j = 0; j < m->n_species; j++) gas.impact[i][j].shear = 0;
-  for (int i = 0; i < 3; i++) gas.stream[i][i] = x->noise ? 0 : -x->heating;
-  gas.diffusion = x->noise ? x->heating : 0;
+  }
   return gas;
 }
 
@@ -115,7 +117,7 @@ static gg_status answer_viscosity(const gg_model *m, const gg_hermite_mixture *x
 gg_status gg_hermite_mixture_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_rungs rungs = {.n = 0}, viscous = {.n = 0};
-  gg_hermite_mixture x = {.noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE};
+  gg_hermite_mixture x = {.drive = gg_theory_heating_of(m)};
   gg_error why;
   for (int l = FIRST; l <= LAST; l++) {
     if (l > LAST_VISCOSITY && gg_hermite_convergence_change(&rungs, GG_Q_COOLING_RATE) < good) break;

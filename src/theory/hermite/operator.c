@@ -222,5 +222,6 @@ void gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, 
       add_species(op, gas, (int)i, k, R + i * n, jacobian ? jacobian + i * n * all : NULL, all);
   }
   for (size_t i = 0; i < (size_t)gas->n_species; i++)
-    gg_hermite_add_streaming(op, gas, &state[i], R + i * n, jacobian ? jacobian + i * n * (all + 1) : NULL, all);
+    gg_hermite_add_streaming(op, gas, (int)i, &state[i], R + i * n, jacobian ? jacobian + i * n * (all + 1) : NULL,
+                             all);
 }

@@ -24,7 +24,8 @@ typedef struct gg_hermite_gas {
   double fraction[GG_MAX_SPECIES], mass[GG_MAX_SPECIES];
   gg_hermite_impact impact[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* of a grain of the first species */
   double stream[3][3];                                      /* A of dC/dt = -A C between collisions; A_xy: shear rate */
-  double diffusion; /* D of df/dt = D laplacian f between collisions: white noise */
+  /* Of each species: what drag adds to the diagonal of A, and D of df/dt = D laplacian f: white noise. */
+  double drag[GG_MAX_SPECIES], diffusion[GG_MAX_SPECIES];
 } gg_hermite_gas;
 
 /* The smooth grains of a model, sheared at its rate; and one species of mass 1. */
@@ -56,8 +57,8 @@ void gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, 
                             double *jacobian);
 
 /* The share of streaming and diffusion in these of one species, added; rows of the Jacobian are `stride` apart. */
-void gg_hermite_add_streaming(const gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state,
-                              double *R, double *jacobian, size_t stride);
+void gg_hermite_add_streaming(const gg_hermite_operator *op, const gg_hermite_gas *gas, int species,
+                              gg_hermite_state *state, double *R, double *jacobian, size_t stride);
 
 /* < psi_r Ho_s > */
 double gg_hermite_test_overlap(const gg_hermite_operator *op, int r, int s);

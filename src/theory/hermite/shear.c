@@ -33,7 +33,8 @@ gg_status gg_hermite_shear_begin(gg_hermite_shear *h, const gg_model *m, gg_erro
   *h = (gg_hermite_shear){.model = m, .gas = gg_hermite_gas_of(m)};
   bool fine = gg_theory_gaussian_steady(m, start) < 1e-6;
   double factor = fine ? factor_of(m, start) : 1;
-  if (gg_common_thermostat_of(m) == GG_WHITE_NOISE) h->gas.diffusion = gg_common_thermostat_noise(m) / 2;
+  for (int i = 0; i < m->n_species && gg_common_thermostat_of(m) == GG_WHITE_NOISE; i++)
+    h->gas.diffusion[i] = gg_common_thermostat_noise(m) / 2;
   for (int i = 0; i < m->n_species && fine; i++) {
     gg_hermite_state *s = &h->state[i];
     s->width = 1;

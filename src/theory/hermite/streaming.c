@@ -66,8 +66,8 @@ static void add(const gg_hermite_operator *op, const gg_tests *t, double factor,
     }
 }
 
-/* B = L^-1 A L and G = L^-T L^-1 */
-static void frame(const gg_hermite_gas *gas, double L[3][3], double B[3][3], double G[3][3])
+/* B = L^-1 A L, where drag is drag again, and G = L^-T L^-1 */
+static void frame(const gg_hermite_gas *gas, int species, double L[3][3], double B[3][3], double G[3][3])
 {
   double one[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   double AL[3][3], inverse[3][3];
@@ -75,18 +75,19 @@ static void frame(const gg_hermite_gas *gas, double L[3][3], double B[3][3], dou
     for (int j = 0; j < 3; j++)
       AL[i][j] = gas->stream[i][0] * L[0][j] + gas->stream[i][1] * L[1][j] + gas->stream[i][2] * L[2][j];
   gg_hermite_left_divide(L, AL, B);
+  for (int i = 0; i < 3; i++) B[i][i] += gas->drag[species];
   gg_hermite_left_divide(L, one, inverse); /* d/dC_a = sum_i inverse_ia d_i */
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)
       G[i][j] = inverse[i][0] * inverse[j][0] + inverse[i][1] * inverse[j][1] + inverse[i][2] * inverse[j][2];
 }
 
-void gg_hermite_add_streaming(const gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state,
-                              double *R, double *jacobian, size_t stride)
+void gg_hermite_add_streaming(const gg_hermite_operator *op, const gg_hermite_gas *gas, int species,
+                              gg_hermite_state *state, double *R, double *jacobian, size_t stride)
 {
   const gg_hermite_basis *b = &op->basis;
   double B[3][3], G[3][3], *a = state->a;
-  frame(gas, state->L, B, G);
+  frame(gas, species, state->L, B, G);
   for (int r = 1; r < b->n; r++) {
     const int *m = b->function[r].r;
     double *row = jacobian ? jacobian + (size_t)r * stride : NULL;
@@ -97,7 +98,7 @@ void gg_hermite_add_streaming(const gg_hermite_operator *op, const gg_hermite_ga
         gg_tests d = derivative(psi, i);
         gg_tests streamed = ladder(d, j, 1, 1), spread = derivative(d, j);
         add(op, &streamed, -B[i][j], a, R + r, row);
-        add(op, &spread, gas->diffusion * G[i][j], a, R + r, row);
+        add(op, &spread, gas->diffusion[species] * G[i][j], a, R + r, row);
       }
   }
 }

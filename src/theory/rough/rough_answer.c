@@ -2,7 +2,6 @@
 
 #include <math.h>
 
-#include "common/thermostat.h"
 #include "theory/answer.h"
 #include "theory/gaussian_moments.h"
 #include "theory/hermite/hermite_state.h"
@@ -85,6 +84,16 @@ static void answer_flights(const gg_model *m, double rate, double mean_speed, gg
   if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = mean_speed / rate / cbrt(m->volume);
 }
 
+/* Energy per grain that a bath brings. */
+static double from_bath(const gg_model *m, const gg_rough_steady *s)
+{
+  const gg_bath *b = &m->bath;
+  const double spin = gg_rough_mean_spin(&s->form, &s->relative.f, &s->weight, s->a);
+  const double rolling = spin * (spin - gg_model_rolling(m, 0)), square = 3 * third_of_trace(s, true) + rolling;
+  return 1.5 * b->noise[0] - b->drag[0] * 3 * third_of_trace(s, false) +
+         m->inertia[0] * (1.5 * b->spin_noise[0] - b->spin_drag[0] * square);
+}
+
 static void answer_shear(const gg_model *m, const gg_rough_steady *s, gg_theory_answer *a)
 {
   double M[3][3], P[3][3], T = third_of_trace(s, false), n = m->density;
@@ -95,7 +104,7 @@ static void answer_shear(const gg_model *m, const gg_rough_steady *s, gg_theory_
   gg_theory_answer_stress(m, T, (gg_stress){n * M[0][0], n * M[1][1], n * M[2][2], n * M[0][1], n * M[1][0]},
                           (gg_stress){n * P[0][0], n * P[1][1], n * P[2][2], n * P[0][1], n * P[1][0]}, a);
   answer_flights(m, mean(s, s->relative.rate), speed(s), a);
-  a->value[GG_Q_DISSIPATION] = -a->value[GG_Q_P_XY] * m->shear_rate;
+  a->value[GG_Q_DISSIPATION] = -a->value[GG_Q_P_XY] * m->shear_rate + m->stress_unit * n * from_bath(m, s);
   if (!m->boltzmann)
     a->value[GG_Q_SPIN_Z] = gg_rough_mean_spin(&s->form, &s->relative.f, &s->weight, s->a) * 2 / m->diameter[0];
   answer_cumulants(s, a);
@@ -145,6 +154,11 @@ static gg_status sheared(const gg_model *m, gg_theory_answer *a, gg_error *err)
   gg_theory_answer rung[LAST_DEGREE - FIRST_DEGREE + 1];
   gg_rough_steady s = begin(m, &moments);
   GG_TRY(gg_theory_require_steady_shear(m, name, err));
+  s.stream = (gg_rough_stream){.spin = m->bath.spin_drag[0],
+                               .rolling = gg_model_rolling(m, 0),
+                               .diffusion = m->bath.noise[0] / 2,
+                               .spin_diffusion = m->bath.spin_noise[0] / 2};
+  for (int i = 0; i < 3; i++) s.stream.velocity[i][i] = m->bath.drag[0];
   s.stream.velocity[0][1] = m->shear_rate;
   if (!gaussian_start(m, &s.weight)) return gg_theory_reject(err, name, "fails here: no steady state was found");
   gg_status status = climb(m, &s, rung, err);
@@ -158,21 +172,18 @@ static gg_status sheared(const gg_model *m, gg_theory_answer *a, gg_error *err)
   return refuse_poor(a, GG_Q_TEMPERATURE, poor, err);
 }
 
-static gg_rough_heating heating_of(const gg_model *m)
-{
-  if (m->flow == GG_HCS) return GG_ROUGH_COOLING;
-  return gg_common_thermostat_of(m) == GG_WHITE_NOISE ? GG_ROUGH_NOISE : GG_ROUGH_STRETCHED;
-}
-
 /* At T = 1, in units of its own rates. */
-static void answer_isotropic(const gg_model *m, const gg_rough_steady *s, double cooling, gg_theory_answer *a)
+static void answer_isotropic(const gg_model *m, const gg_rough_steady *s, const gg_heating *heating, double x,
+                             gg_theory_answer *a)
 {
-  double ratio = m->inertia[0] * third_of_trace(s, true), T = m->temperature0, p = m->density * T;
+  double ratio = m->inertia[0] * third_of_trace(s, true);
+  double T = gg_theory_heating_temperature(heating, x, m->temperature0), p = m->density * T;
+  double cooling = 2 * (s->stream.diffusion - s->stream.velocity[0][0]); /* of translation */
   answer_cumulants(s, a);
   a->value[GG_Q_A2] = a->value[GG_Q_KURTOSIS_CX] / 3 - 1;
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
   a->value[GG_Q_COOLING_RATE] = cooling / gg_common_model_nu0(m, 1);
-  if (heating_of(m) == GG_ROUGH_NOISE) return; /* of a temperature that it finds itself */
+  if (heating->kind == GG_HEATING_NOISE) return; /* of a temperature that it finds itself */
   gg_theory_answer_temperature(m, T, ratio, a);
   gg_theory_answer_pressure(m, T, p, p * m->sigma[0] / 6 * mean(s, s->relative.J[2][2]),
                             a); /* one direction: the trace */
@@ -182,10 +193,11 @@ static void answer_isotropic(const gg_model *m, const gg_rough_steady *s, double
 /* One solution after another, the weight of each from the last. */
 static gg_status isotropic(const gg_model *m, gg_rough_steady *s, int degree, gg_theory_answer *a, gg_error *err)
 {
-  double cooling;
+  const gg_heating heating = gg_theory_heating_of(m);
+  double x;
   *a = nothing();
-  GG_TRY(gg_rough_isotropic_solve(s, degree, heating_of(m), &cooling, err));
-  answer_isotropic(m, s, cooling, a);
+  GG_TRY(gg_rough_isotropic_solve(s, degree, &heating, &x, err));
+  answer_isotropic(m, s, &heating, x, a);
   return gg_rough_follow(s) ? GG_OK : gg_base_fail(err, GG_FAILED, "no second moments");
 }
 
@@ -229,6 +241,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
 gg_status gg_rough_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   if (m->linear_response) return gg_theory_reject(err, name, "has no linear response of rough grains");
-  if (m->flow == GG_HEATED_SHEAR) return gg_theory_reject(err, name, "has no heated shear of rough grains");
-  return m->flow == GG_USF ? sheared(m, a, err) : homogeneous(m, a, err);
+  if (m->flow == GG_HEATED_SHEAR && !m->bath.on)
+    return gg_theory_reject(err, name, "has no heated shear of rough grains");
+  return m->shear_rate != 0 ? sheared(m, a, err) : homogeneous(m, a, err);
 }

@@ -54,10 +54,24 @@ static void add_diffusion(const gg_target *t, int i, int j, double amount)
   add(t, index.r, amount);
 }
 
+/* amount < d_i Ho_r > */
+static void add_drift(const gg_target *t, int i, double amount)
+{
+  gg_rough_index index = t->f->function[t->form->test[t->r]];
+  amount *= sqrt(index.r[i]);
+  if (index.r[i]-- > 0) add(t, index.r, amount);
+}
+
+static double product(const double a[3], const double b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 void gg_rough_stream_add(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *w,
                          const gg_rough_stream *stream, const double *a, double *R, double *jacobian)
 {
-  double AL[3][3], L[3][3], B[3][3], one[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, inverse[3][3];
+  double AL[3][3], L[3][3], B[3][3], one[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, inverse[3][3], S[3][3],
+                                     turned[3][3];
   memcpy(L, w->L, sizeof L);
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++) {
@@ -66,6 +80,8 @@ void gg_rough_stream_add(const gg_rough_form *form, const gg_rough_functions *f,
     }
   gg_hermite_left_divide(L, AL, B);
   gg_hermite_left_divide(L, one, inverse); /* d/dC_a = sum_i inverse_ia d_i */
+  memcpy(S, w->S, sizeof S);
+  gg_hermite_left_divide(S, one, turned);
   size_t many = (size_t)form->n_tests, n = (size_t)form->n;
   double *all = calloc(many * (n + 1), sizeof *all), *slopes = all ? all + many : NULL;
   if (!all) {
@@ -76,10 +92,12 @@ void gg_rough_stream_add(const gg_rough_form *form, const gg_rough_functions *f,
     gg_target t = {form, f, a, r, all, jacobian ? slopes : NULL};
     for (int i = 0; i < 3; i++) {
       add_flow(&t, 3 + i, 3 + i, -stream->spin);
+      add_drift(&t, 3 + i, -stream->spin * (w->spin - stream->rolling) * turned[i][2]);
       for (int j = 0; j < 3; j++) {
-        double G = inverse[i][0] * inverse[j][0] + inverse[i][1] * inverse[j][1] + inverse[i][2] * inverse[j][2];
+        double G = product(inverse[i], inverse[j]);
         add_flow(&t, i, j, -B[i][j]);
         add_diffusion(&t, i, j, stream->diffusion * G);
+        add_diffusion(&t, 3 + i, 3 + j, stream->spin_diffusion * product(turned[i], turned[j]));
       }
     }
   }

@@ -4,10 +4,10 @@
 
 #include "theory/rough/rough_pairs.h"
 
-/* Streaming between collisions, dC/dt = -A C, d(spin)/dt = -B (spin): linear in the coefficients; diffusion: of
- * velocities, white noise. */
+/* Streaming between collisions, dC/dt = -A C, d(spin)/dt = -B (spin - rolling): linear in the coefficients; diffusion,
+ * of velocities and spins: noise. */
 typedef struct gg_rough_stream {
-  double velocity[3][3], spin, diffusion;
+  double velocity[3][3], spin, rolling, diffusion, spin_diffusion;
 } gg_rough_stream;
 
 void gg_rough_stream_add(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *weight,

@@ -180,12 +180,10 @@ static int isotropic_functions(const gg_rough_steady *s, double *direction)
   return m;
 }
 
-/* The stream that makes temperatures grow at twice this rate. */
-static gg_rough_stream heat(double rate, gg_rough_heating heating)
+static gg_rough_stream heat(gg_heating_rates at)
 {
-  gg_rough_stream s = {.spin = heating == GG_ROUGH_COOLING ? -rate : 0,
-                       .diffusion = heating == GG_ROUGH_NOISE ? rate : 0};
-  for (int i = 0; i < 3 && heating != GG_ROUGH_NOISE; i++) s.velocity[i][i] = -rate;
+  gg_rough_stream s = {.spin = at.spin_drag, .diffusion = at.diffusion, .spin_diffusion = at.spin_diffusion};
+  for (int i = 0; i < 3; i++) s.velocity[i][i] = at.drag;
   return s;
 }
 
@@ -196,12 +194,12 @@ static double product(const gg_rough_newton *w, int i, const double *R)
   return sum;
 }
 
-/* The derivative of R along direction j; of the first, which the width fixes, along the rate of heating instead. */
-static void derivative(gg_rough_steady *s, gg_rough_newton *w, int j, gg_rough_heating heating)
+/* The derivative of R along direction j; of the first, which the width fixes, along x of heating.h instead. */
+static void derivative(gg_rough_steady *s, gg_rough_newton *w, int j, gg_heating_rates slopes)
 {
   memset(w->extra, 0, (size_t)w->n * sizeof *w->extra);
   if (j == 0) {
-    gg_rough_stream unit = heat(1, heating);
+    gg_rough_stream unit = heat(slopes);
     gg_rough_stream_add(&s->form, &s->relative.f, &s->weight, &unit, s->a, w->extra, NULL);
     return;
   }
@@ -210,38 +208,36 @@ static void derivative(gg_rough_steady *s, gg_rough_newton *w, int j, gg_rough_h
     for (int q = 0; q < w->n; q++) w->extra[r] += w->J[r * w->n + q] * direction[q];
 }
 
-static gg_status iterate_isotropic(gg_rough_steady *s, gg_rough_newton *w, gg_rough_heating heating, double *rate,
+static gg_status iterate_isotropic(gg_rough_steady *s, gg_rough_newton *w, const gg_heating *heating, double *x,
                                    gg_error *err)
 {
-  *rate = 0;
+  *x = heating->guess;
   for (int i = 0; i < MOST_ITERATIONS; i++) {
-    s->stream = heat(*rate, heating);
+    s->stream = heat(gg_theory_heating_at(heating, 0, *x));
     residual(s, w);
     for (int k = 0; k < w->m; k++) gsl_vector_set(w->x, (size_t)k, product(w, k, w->R));
     for (int j = 0; j < w->m; j++) {
-      derivative(s, w, j, heating);
+      derivative(s, w, j, gg_theory_heating_slopes(heating, 0, *x));
       for (int k = 0; k < w->m; k++) gsl_matrix_set(w->A, (size_t)k, (size_t)j, product(w, k, w->extra));
     }
     if (!solve(w)) break;
-    *rate -= gsl_vector_get(w->x, 0);
-    double most = fabs(gsl_vector_get(w->x, 0)) / s->gas.frequency;
+    *x -= gsl_vector_get(w->x, 0);
+    double most = gg_theory_heating_step(heating, *x, gsl_vector_get(w->x, 0), s->gas.frequency);
     for (int j = 1; j < w->m; j++) {
       double step = gsl_vector_get(w->x, (size_t)j);
       for (int q = 0; q < w->n; q++) s->a[q] -= step * w->direction[j * w->n + q];
       most = fmax(most, fabs(step));
     }
-    s->stream = heat(*rate, heating);
+    s->stream = heat(gg_theory_heating_at(heating, 0, *x));
     if (most < converged) return GG_OK;
     if (most > 1e3) break;
   }
   return gg_base_fail(err, GG_FAILED, "no steady state was found");
 }
 
-gg_status gg_rough_isotropic_solve(gg_rough_steady *s, int degree, gg_rough_heating heating, double *cooling_rate,
-                                   gg_error *err)
+gg_status gg_rough_isotropic_solve(gg_rough_steady *s, int degree, const gg_heating *heating, double *x, gg_error *err)
 {
   gg_rough_newton w = {0};
-  double rate = 0;
   memset(s->weight.L, 0, sizeof s->weight.L);
   for (int i = 0; i < 3; i++) s->weight.L[i][i] = sqrt(s->choice.width);
   gg_base_gsl_enter();
@@ -252,8 +248,7 @@ gg_status gg_rough_isotropic_solve(gg_rough_steady *s, int degree, gg_rough_heat
     w.direction = calloc((size_t)m * (size_t)w.n, sizeof *w.direction);
     if (!w.direction || isotropic_functions(s, w.direction) != m) status = gg_base_out_of_memory(err);
   }
-  if (status == GG_OK) status = iterate_isotropic(s, &w, heating, &rate, err);
-  *cooling_rate = 2 * rate;
+  if (status == GG_OK) status = iterate_isotropic(s, &w, heating, x, err);
   end(&w);
   gg_base_gsl_leave();
   return status;

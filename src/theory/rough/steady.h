@@ -1,7 +1,8 @@
-/* Steady states of rough grains: uniform shear; free cooling in its scaled frame; translation heated. */
+/* Steady states of rough grains: uniform shear; free cooling in its scaled frame; heated. */
 #ifndef GG_ROUGH_STEADY_H
 #define GG_ROUGH_STEADY_H
 
+#include "theory/heating.h"
 #include "theory/rough/rough_state.h"
 
 typedef struct gg_rough_steady {
@@ -18,11 +19,8 @@ typedef struct gg_rough_steady {
 /* choice, gas, weight and stream are the caller's: those of a shear flow. */
 gg_status gg_rough_shear_solve(gg_rough_steady *state, int degree, gg_error *err);
 
-/* What makes up for the energy that collisions take. */
-typedef enum gg_rough_heating { GG_ROUGH_COOLING, GG_ROUGH_STRETCHED, GG_ROUGH_NOISE } gg_rough_heating;
-
-/* choice, gas and the spread of the weight's spins are the caller's; T = 1. */
-gg_status gg_rough_isotropic_solve(gg_rough_steady *state, int degree, gg_rough_heating heating, double *cooling_rate,
+/* choice, gas and the spread of the weight's spins are the caller's; T = 1. x: of heating.h. */
+gg_status gg_rough_isotropic_solve(gg_rough_steady *state, int degree, const gg_heating *heating, double *x,
                                    gg_error *err);
 
 /* The weight of the next solution: Gaussian of the second moments of this. False where they are none. */

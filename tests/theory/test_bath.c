@@ -1,0 +1,234 @@
+/* Gases in a bath: the balance of energy, Maxwellians of elastic grains, and the thermostats and the shear flow that
+ * baths become. */
+#include "theory_test.h"
+
+#include "common/thermostat.h"
+
+static gg_scene bath(gg_flow flow, double phi, double e, double beta, double drag, double T)
+{
+  gg_scene s = scene_of(flow, phi, e, beta);
+  s.thermostat = GG_BATH;
+  s.bath.drag = drag, s.bath.temperature = T;
+  return s;
+}
+
+static gg_theory_answer solved(const gg_scene *s)
+{
+  gg_model m = model_of(s);
+  return answer_of(&gg_theory_enskog_hermite, &m);
+}
+
+/* 2 gamma (T_b - T) = zeta(T) T, zeta from the distribution; the first Sonine order is near. */
+static void balance(void **state)
+{
+  (void)state;
+  for (double drag = 0.01; drag < 100; drag *= 10)
+    for (double e = 0.5; e < 1; e += 0.2) {
+      const gg_scene s = bath(GG_HSS, 0.2, e, -1, drag, 3);
+      gg_model m = model_of(&s);
+      const gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &m),
+                             b = answer_of(&gg_theory_chamorro_vega_garzo2013, &m);
+      const double T = a.value[GG_Q_TEMPERATURE], zeta = a.value[GG_Q_COOLING_RATE] * gg_common_model_nu0(&m, T);
+      assert_close(2 * drag * (3 - T), zeta * T, 1e-9);
+      /* Of the distribution, not of the equation solved: zeta of Maxwellians times 1 + 3 a2/16 and what is of a2^2. */
+      assert_close(
+          zeta, 5. / 12 * m.chi[0] * (1 - e * e) * (1 + 3. / 16 * a.value[GG_Q_A2]) * gg_common_model_nu0(&m, T), 2e-4);
+      assert_close(b.value[GG_Q_TEMPERATURE], T, 1e-3);
+      assert_true(fabs(b.value[GG_Q_A2] - a.value[GG_Q_A2]) < 0.002);
+    }
+}
+
+/* Elastic grains, smooth or perfectly rough, have the bath's temperature, and Maxwellians; with shear almost, where the
+ * bath is strong: viscous heat is gamma_dot^2 T/(2 drag) of centres in a thin gas. */
+static void elastic(void **state)
+{
+  (void)state;
+  gg_scene s = bath(GG_HSS, 0.3, 1, -1, 0.7, 3);
+  gg_theory_answer a = solved(&s);
+  assert_close(a.value[GG_Q_TEMPERATURE], 3, 1e-12);
+  assert_true(fabs(a.value[GG_Q_A2]) < 1e-10);
+  s = bath(GG_HSS, 0.3, 1, 1, 0.7, 3);
+  s.bath.rotation = 0.5;
+  a = solved(&s);
+  assert_close(a.value[GG_Q_TEMPERATURE], 3, 1e-5);
+  assert_close(a.value[GG_Q_TEMPERATURE_RATIO], 1, 1e-5);
+  assert_true(fabs(a.value[GG_Q_A2]) < 1e-5);
+  /* Hardly a collision: M_yy = T_b, M_xy = -T_b/(2 gamma), M_xx = T_b (1 + 1/(2 gamma^2)). */
+  s = bath(GG_USF, 1e-6, 1, -1, 5, 3);
+  a = solved(&s);
+  assert_close(a.value[GG_Q_TEMPERATURE], 3 * (1 + 1. / 150), 1e-5);
+  assert_close(a.value[GG_Q_P_XY] / a.value[GG_Q_PRESSURE], -0.1 / (1 + 1. / 150), 1e-5);
+  assert_close(a.value[GG_Q_N1], 0.02 / (1 + 1. / 150), 1e-4);
+}
+
+/* Spins of hardly colliding grains: those of the bath, about the rolling ones. */
+static void rotation(void **state)
+{
+  (void)state;
+  gg_scene s = bath(GG_USF, 1e-2, 0.9, 0.1, 500, 3);
+  s.bath.rotation = 10. / 3;
+  gg_model m = model_of(&s);
+  const gg_theory *const theories[] = {&gg_theory_enskog_hermite, &gg_theory_gaussian_closure};
+  for (int i = 0; i < 2; i++) {
+    const gg_theory_answer a = answer_of(theories[i], &m);
+    assert_close(a.value[GG_Q_TEMPERATURE], 3, 1e-3);
+    assert_close(a.value[GG_Q_ROTATIONAL_TEMPERATURE], 3, 1e-3);
+    assert_close(a.value[GG_Q_SPIN_Z], -0.5, 1e-2);
+  }
+}
+
+/* drag to 0 at constant noise: white noise, whose strength the program chooses or is given. */
+static void white_noise(void **state)
+{
+  (void)state;
+  for (int rough = 0; rough < 2; rough++) {
+    gg_scene s = scene_of(GG_HSS, 0.2, 0.8, rough ? 0.2 : -1);
+    s.thermostat = GG_WHITE_NOISE;
+    gg_model m = model_of(&s);
+    const double noise = gg_common_thermostat_noise(&m);
+    const gg_theory_answer automatic = answer_of(&gg_theory_enskog_hermite, &m);
+    s.noise_strength = noise;
+    const gg_theory_answer given = solved(&s);
+    s = bath(GG_HSS, 0.2, 0.8, rough ? 0.2 : -1, 1e-9, noise / 2e-9);
+    const gg_theory_answer limit = solved(&s);
+    const gg_quantity q[] = {GG_Q_COOLING_RATE, GG_Q_TEMPERATURE_RATIO, GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_A2};
+    for (int k = 0; k < 5; k++) {
+      if (isnan(given.value[q[k]])) continue;
+      assert_close(limit.value[q[k]], given.value[q[k]], 1e-6);
+      if (!isnan(automatic.value[q[k]])) assert_close(given.value[q[k]], automatic.value[q[k]], 1e-8);
+    }
+  }
+}
+
+/* A Gaussian thermostat of a given rate: the cooling state's distribution, at the temperature with that cooling rate.
+ */
+static void gaussian_rate(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(GG_HSS, 0.2, 0.6, -1);
+  s.thermostat = GG_GAUSSIAN;
+  const gg_theory_answer usual = solved(&s);
+  s.gaussian_rate = 0.3;
+  gg_model m = model_of(&s);
+  const gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &m);
+  assert_close(a.value[GG_Q_A2], usual.value[GG_Q_A2], 1e-8);
+  assert_close(a.value[GG_Q_COOLING_RATE] * gg_common_model_nu0(&m, a.value[GG_Q_TEMPERATURE]), 0.3, 1e-8);
+  const double formula = value_of(&gg_theory_chamorro_vega_garzo2013, &m, GG_Q_A2);
+  s.gaussian_rate = GG_AUTO;
+  m = model_of(&s);
+  assert_close(formula, value_of(&gg_theory_garzo_dufty1999, &m, GG_Q_A2), 5e-3); /* but for a2^2 */
+}
+
+/* Sheared, drag to 0: the shear flow, of smooth and rough grains and mixtures; two equal species are one. */
+static void sheared(void **state)
+{
+  (void)state;
+  const gg_quantity q[] = {GG_Q_TEMPERATURE, GG_Q_P_XY, GG_Q_N1, GG_Q_DISSIPATION};
+  const gg_theory *const theories[] = {&gg_theory_enskog_hermite, &gg_theory_gaussian_closure};
+  for (int rough = 0; rough < 2; rough++)
+    for (int i = 0; i < 2; i++) {
+      gg_scene s = scene_of(GG_USF, 0.3, 0.8, rough ? 0.2 : -1);
+      gg_model m = model_of(&s);
+      const gg_theory_answer without = answer_of(theories[i], &m);
+      s = bath(GG_USF, 0.3, 0.8, rough ? 0.2 : -1, 1e-9, 1);
+      s.bath.rotation = 1;
+      m = model_of(&s);
+      const gg_theory_answer with = answer_of(theories[i], &m);
+      for (int k = 0; k < 4; k++) assert_close(with.value[q[k]], without.value[q[k]], 1e-6);
+    }
+}
+
+/* The work of shear and what the bath brings are what drag and collisions take. */
+static void energy(void **state)
+{
+  (void)state;
+  for (int rough = 0; rough < 2; rough++) {
+    gg_scene s = bath(GG_USF, 0.2, 0.8, rough ? 0.2 : -1, 0.3, 2);
+    s.bath.rotation = 0.5;
+    const gg_theory_answer a = solved(&s);
+    gg_model m = model_of(&s);
+    const double spin = rough ? a.value[GG_Q_SPIN_Z] : 0, theta = rough ? a.value[GG_Q_ROTATIONAL_TEMPERATURE] : 2;
+    const double rolling = 0.4 / 4 * spin * (spin + 0.5); /* K s (s + 1/4), s = omega/2 */
+    const double brought = 3 * 0.3 * (2 - a.value[GG_Q_TEMPERATURE]) + 0.15 * (3 * (2 - theta) - rolling);
+    const double work = -a.value[GG_Q_P_XY] + m.stress_unit * m.density * brought;
+    assert_close(a.value[GG_Q_DISSIPATION], work, rough ? 1e-3 : 1e-6);
+  }
+}
+
+/* Two species of one kind are one; a heavier one with less drag has the same balance by itself. */
+static void mixtures(void **state)
+{
+  (void)state;
+  for (int flow = 0; flow < 2; flow++) {
+    const gg_flow f = flow ? GG_USF : GG_HSS;
+    gg_scene s = bath(f, 0.2, 0.8, -1, 0.3, 2);
+    const gg_theory_answer one = solved(&s);
+    s.n_species = 2;
+    s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
+    const gg_theory_answer two = solved(&s);
+    assert_close(two.value[GG_Q_TEMPERATURE], one.value[GG_Q_TEMPERATURE], flow ? 1e-5 : 1e-7);
+    s.species[1].drag = 3;
+    s.species[1].mass = 2;
+    const gg_theory_answer unlike = solved(&s);
+    assert_true(unlike.value[GG_Q_PARTIAL_TEMPERATURE_RATIO] < 0.98); /* nearer to a colder bath: 2 */
+    gg_model m = model_of(&s);
+    const double T[] = {unlike.value[GG_Q_PARTIAL_TEMPERATURE], unlike.value[GG_Q_PARTIAL_TEMPERATURE + 1]};
+    const double brought = 0.3 * (2 - T[0]) + 0.9 * (2 - T[1]); /* sum x_i 2 gamma_i (T_b - T_i) */
+    if (!flow)
+      assert_close(brought,
+                   unlike.value[GG_Q_COOLING_RATE] * gg_common_model_nu0(&m, unlike.value[GG_Q_TEMPERATURE]) *
+                       unlike.value[GG_Q_TEMPERATURE],
+                   1e-8);
+    else
+      assert_close(unlike.value[GG_Q_DISSIPATION], -unlike.value[GG_Q_P_XY] + m.stress_unit * m.density * 1.5 * brought,
+                   1e-6);
+  }
+}
+
+/* Steps of an Ornstein-Uhlenbeck process with kicks at times between: composed of halves, and by quadrature. */
+static void relaxation(void **state)
+{
+  (void)state;
+  const double drags[] = {-2, -0.1, 1e-9, 0.1, 0.12, 0.13, 3, 40};
+  for (int k = 0; k < 8; k++) {
+    const double drag = drags[k], dt = 0.9;
+    const gg_relaxation r = gg_common_relaxation(drag, dt);
+    double sum[3] = {0};
+    enum { STEPS = 200000 };
+    for (int i = 0; i < STEPS; i++) {
+      const double t = (i + 0.5) * dt / STEPS, w = exp(-2 * drag * (dt - t)) * dt / STEPS;
+      sum[0] += w, sum[1] += w * t, sum[2] += w * t * t;
+    }
+    const double mean = sum[1] / sum[0];
+    assert_close(r.decay, exp(-drag * dt), 1e-14);
+    assert_close(r.spread, sum[0], 1e-8);
+    assert_close(r.mean, mean, 1e-8);
+    assert_close(r.width, sum[2] / sum[0] - mean * mean, 1e-6);
+  }
+}
+
+static void refused(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_model m;
+  gg_scene s = bath(GG_HSS, 0.2, 0.8, -1, 1, 0);
+  assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, &err), GG_BAD_INPUT);
+  s = scene_of(GG_HSS, 0.2, 1, -1);
+  s.thermostat = GG_WHITE_NOISE, s.noise_strength = 1;
+  assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, &err), GG_BAD_INPUT);
+  s = bath(GG_HSS, 0.2, 0.8, -1, 1, 1);
+  m = model_of(&s);
+  assert_refused(&gg_theory_garzo_dufty1999, &m, "has no bath");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(balance),     cmocka_unit_test(elastic),       cmocka_unit_test(rotation),
+      cmocka_unit_test(white_noise), cmocka_unit_test(gaussian_rate), cmocka_unit_test(sheared),
+      cmocka_unit_test(energy),      cmocka_unit_test(mixtures),      cmocka_unit_test(relaxation),
+      cmocka_unit_test(refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
