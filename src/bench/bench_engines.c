@@ -237,14 +237,10 @@ static gg_status measure_ratios(gg_bench *b, const engine_bench *e, gg_error *er
   return GG_OK;
 }
 
-gg_status gg_bench_md(gg_bench *b, gg_error *err)
-{
-  GG_TRY(measure_rates(b, &md, err));
-  return measure_ratios(b, &md, err);
-}
-
-/* A scene of dsmc at phi = 0.3 in two ways, by kind and size. */
+/* A scene in two ways, by kind and size. */
 typedef struct two_ways {
+  const engine_bench *of;
+  double phi;
   const char *key, *caption, *done;
   const char *kinds[11]; /* ends with NULL */
   int first_size, warmup[2], repeats[2];
@@ -252,8 +248,6 @@ typedef struct two_ways {
   void (*differ)(gg_timed_scene way[2], int threads);
   void (*put)(gg_bench_table *t, int row, int column, const gg_timing r[2], int threads);
 } two_ways;
-
-static const double dense = 0.3;
 
 static void in_single_precision(gg_timed_scene way[2], int threads)
 {
@@ -301,6 +295,8 @@ static void put_threads(gg_bench_table *t, int row, int column, const gg_timing 
 }
 
 static const two_ways precision = {
+    &dsmc,
+    0.3,
     "precision",
     "Single precision: nanoseconds per accepted collision in double/in single precision, and the ratio of the rates, "
     "timed in turn; CPU time, one thread, phi 0.3; median (least - largest) of repeats",
@@ -316,6 +312,8 @@ static const two_ways precision = {
     in_single_precision,
     put_precision};
 static const two_ways paths = {
+    &dsmc,
+    0.3,
     "paths",
     "What blocks gain: the rate of collisions over that of the plain loop (one random pair after another, under one "
     "majorant), one thread, CPU time, timed in turn; median (least - largest) of repeats, and nanoseconds per "
@@ -329,6 +327,8 @@ static const two_ways paths = {
     in_blocks,
     put_paths};
 static const two_ways threads = {
+    &dsmc,
+    0.3,
     "threads",
     "What threads gain within one ensemble: the rate of collisions over that of one thread, by the clock, timed in "
     "turn; median (least - largest) of repeats, and processors busy on average",
@@ -341,12 +341,22 @@ static const two_ways threads = {
     on_threads,
     put_threads};
 
+#define THREADS_OF_MD(key, phi)                                                                                        \
+  {                                                                                                                    \
+    &md, phi, key,                                                                                                     \
+        "What threads gain within one run: the rate of collisions over that of one thread, by the clock, timed in "    \
+        "turn; median (least - largest) of repeats, and processors busy on average",                                   \
+        "threads against one", {"smooth", "sheared rough, stress measured"}, 2, {5, 5}, {5, 3}, {1, 0.3}, on_threads,  \
+        put_threads                                                                                                    \
+  }
+static const two_ways threads_of_md[] = {THREADS_OF_MD("threads", 0.3), THREADS_OF_MD("threads, dense", 0.5)};
+
 static void add_two(gg_bench_table *t, const two_ways *w, int k, int64_t n, const gg_timing r[2], int used)
 {
-  gg_bench_value v = gg_bench_throughput_value(&r[1].own, true, w == &threads ? gg_bench_by_the_clock : dsmc.unit);
+  gg_bench_value v = gg_bench_throughput_value(&r[1].own, true, used > 1 ? gg_bench_by_the_clock : dsmc.unit);
   v.threads = used;
-  json_t *row = gg_bench_table_add(t, v, "{s:s, s:s, s:f, s:I}", "engine", engine_name(&dsmc), "scene", w->kinds[k],
-                                   "phi", dense, "particles", (json_int_t)n);
+  json_t *row = gg_bench_table_add(t, v, "{s:s, s:s, s:f, s:I}", "engine", engine_name(w->of), "scene", w->kinds[k],
+                                   "phi", w->phi, "particles", (json_int_t)n);
   json_object_update_new(row, json_pack("{s:f, s:f, s:f, s:f, s:f}", "other", 1e9 / r[0].own.rate, "ratio", r[1].ratio,
                                         "ratio_lowest", r[1].lowest, "ratio_highest", r[1].highest, "processors",
                                         r[1].own.processors));
@@ -357,13 +367,13 @@ static gg_status measure_two(gg_bench *b, const two_ways *w, int used, gg_error 
   const bool quick = b->options->quick;
   gg_bench_table *t = gg_bench_table_new(b, w->key, w->caption, 1, err);
   if (!t) return GG_FAILED;
-  gg_bench_table_column(t, false, "scene, phi 0.3");
+  gg_bench_table_column(t, false, "scene, phi %g", w->phi);
   for (int k = 0; w->kinds[k]; k++) gg_bench_table_row(t, "%s", w->kinds[k]);
-  for (int i = w->first_size; i < (quick ? w->first_size + 1 : dsmc.n_sizes); i++) {
-    const int64_t n = dsmc.sizes[i];
+  for (int i = w->first_size; i < (quick ? w->first_size + 1 : w->of->n_sizes); i++) {
+    const int64_t n = w->of->sizes[i];
     const int column = gg_bench_table_column(t, true, "N %lld", (long long)n);
     for (int k = 0; w->kinds[k]; k++) {
-      gg_timed_scene way[2] = {timed_scene(b, &dsmc, find(&dsmc, w->kinds[k]), dense, n)};
+      gg_timed_scene way[2] = {timed_scene(b, w->of, find(w->of, w->kinds[k]), w->phi, n)};
       gg_timing r[2];
       way[0].against = 0;
       way[1] = way[0];
@@ -381,15 +391,27 @@ static gg_status measure_two(gg_bench *b, const two_ways *w, int used, gg_error 
   return GG_OK;
 }
 
+static gg_status measure_threads(gg_bench *b, const two_ways *w, int n, gg_error *err)
+{
+  if (b->options->threads <= 1) gg_bench_tell(b, "one processor: threads are left out");
+  for (int k = 0; k < n && b->options->threads > 1; k++) GG_TRY(measure_two(b, &w[k], b->options->threads, err));
+  return GG_OK;
+}
+
+gg_status gg_bench_md(gg_bench *b, gg_error *err)
+{
+  GG_TRY(measure_rates(b, &md, err));
+  GG_TRY(measure_ratios(b, &md, err));
+  return measure_threads(b, threads_of_md, COUNT(threads_of_md), err);
+}
+
 gg_status gg_bench_dsmc(gg_bench *b, gg_error *err)
 {
   GG_TRY(measure_rates(b, &dsmc, err));
   GG_TRY(measure_ratios(b, &dsmc, err));
   GG_TRY(measure_two(b, &precision, 1, err));
   GG_TRY(measure_two(b, &paths, 1, err));
-  if (b->options->threads > 1) return measure_two(b, &threads, b->options->threads, err);
-  gg_bench_tell(b, "one processor: threads are left out");
-  return GG_OK;
+  return measure_threads(b, &threads, 1, err);
 }
 
 /* The overview times both engines sheared at e = 0.9, their stress measured as in a run. */

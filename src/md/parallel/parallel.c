@@ -81,11 +81,10 @@ static void cut_slabs(const gg_md_parallel *p, int32_t n)
     for (int k = 0; k < p->n_slabs; k++) {
       const int32_t slabs = 2 * p->n_slabs, from = n * (2 * k + phase) / slabs, to = n * (2 * k + 2 + phase) / slabs;
       for (int32_t z = from; z < to; z++) {
-        const int32_t depth = z - from < to - 1 - z ? z - from : to - 1 - z;
-        p->layers[phase][z % n] = (gg_md_layer){(uint8_t)k, (uint8_t)(depth < 2 ? depth : 2)};
+        p->layers[phase][z % n] = (gg_md_layer){(uint8_t)k, z == from || z == to - 1};
       }
     }
-  for (int32_t z = 0; z < n; z++) p->layers[2][z] = (gg_md_layer){0, 2};
+  for (int32_t z = 0; z < n; z++) p->layers[2][z] = (gg_md_layer){0, false};
 }
 
 static bool make_slab(gg_md_parallel *p, int k)

@@ -8,8 +8,8 @@
  * all that followed from it, is taken back (take_back.c). So of any two events beside each other the earlier has run
  * first, as in a serial run, and all bits are the same.
  *
- * Within a phase nobody writes what another thread reads: events that touch the two outer layers of cells of a slab are
- * put off. */
+ * Within a phase nobody writes what another thread reads: events that touch the outer layers of cells of a slab are put
+ * off. */
 #ifndef GG_MD_SLAB_H
 #define GG_MD_SLAB_H
 
@@ -115,9 +115,10 @@ typedef struct gg_md_slab {
   gg_md_record spare;                                  /* written where memory lacked */
 } gg_md_slab;
 
-/* Of a layer of cells in a phase: whose it is, and how many layers of the same slab lie outside of it. */
+/* Of a layer of cells in a phase: whose it is, and whether it is an outer one. */
 typedef struct gg_md_layer {
-  uint8_t owner, depth;
+  uint8_t owner;
+  bool outer;
 } gg_md_layer;
 
 /* How windows went: events, those that the first and the second phase put off, those taken back; and windows given up.
@@ -174,6 +175,12 @@ void gg_md_take_back_all(gg_md_parallel *p);
 GG_INLINE const gg_md_layer *gg_md_layer_of(const gg_md_slab *s, int32_t z)
 {
   return &s->all->layers[s->phase - 1][z];
+}
+
+/* While its slab is at work it may change, but to no other slab. */
+GG_INLINE int32_t gg_md_layer_of_grain(const gg_md_parallel *p, uint32_t grain)
+{
+  return atomic_load_explicit(&p->layer[grain], memory_order_relaxed);
 }
 
 GG_INLINE gg_md_record *gg_md_record_at(const gg_md_log *log, uint32_t k)

@@ -56,7 +56,7 @@ static bool is_inside(const gg_md_slab *s, const gg_md_log *log, const gg_md_rec
   const gg_md_stamp *stamp = stamps_of(log, r);
   for (uint32_t k = 0; k < r->touched; k++) {
     const gg_md_layer *layer = gg_md_layer_of(s, stamp[k].layer);
-    if (layer->owner != s->self || layer->depth < 1) return false;
+    if (layer->owner != s->self || layer->outer) return false;
   }
   return true;
 }

@@ -147,8 +147,7 @@ bool gg_md_find_touched(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
     return true;
   }
   const uint32_t j = node->partner;
-  const int32_t layer = atomic_load_explicit(&s->all->layer[j], memory_order_relaxed);
-  if (s->all->layers[s->phase - 1][layer].owner != s->self) return false;
+  if (gg_md_layer_of(s, gg_md_layer_of_grain(s->all, j))->owner != s->self) return false;
   add(e, t, e->node[j].cell);
   t->collides = e->grain[j].counter == node->counter;
   return true;

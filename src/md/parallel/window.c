@@ -85,7 +85,7 @@ static bool is_open(const gg_md_slab *s, const gg_md_touched *t, uint32_t k)
 {
   const gg_md_layer *layer = gg_md_layer_of(s, t->layer[k]);
   const gg_md_cells *c = &s->view->cells;
-  if (layer->owner != s->self || layer->depth < 2) return false;
+  if (layer->owner != s->self || layer->outer) return false;
   if (gg_md_bits_of(s->all, &s->all->cell[t->cell[k]]) & s->closed) return false;
   return !t->crosses || s->phase == GG_MD_PHASES || c->cell[(size_t)t->cell[k] * c->stride] + 1 < c->stride;
 }
@@ -103,14 +103,14 @@ static void set_bits(const gg_md_parallel *p, gg_md_cell_state *c, uint32_t clea
   c->word = p->window << GG_MD_STATE_BITS | (gg_md_bits_of(p, c) & ~clear) | set;
 }
 
-/* Close the cells around, layer by layer; the two outer layers of a slab are closed anyway. */
+/* Close the cells around, layer by layer; the outer layers of a slab are closed anyway. */
 static void close_around(const gg_md_slab *s, uint32_t cell, int32_t z)
 {
   uint32_t index[GG_MD_MOST_AROUND];
   const int32_t n = s->view->cells.n[2], each = gg_md_cells_around(s->all, cell, index) / 3;
   for (int32_t m = 0; m < 3; m++) {
     const gg_md_layer *layer = gg_md_layer_of(s, (z + m - 1 + n) % n);
-    if (layer->owner != s->self || layer->depth < 2) continue;
+    if (layer->owner != s->self || layer->outer) continue;
     for (int32_t k = m * each; k < (m + 1) * each; k++) set_bits(s->all, &s->all->cell[index[k]], 0, s->closed);
   }
 }
@@ -226,8 +226,9 @@ static void run(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
   gg_md_requeue(s, r->partner, was->node.time, v->node[r->partner].time);
 }
 
-/* The states of the cells that the event of a grain will touch. */
-static void prefetch_states(const gg_md_slab *s, uint32_t i)
+/* The states of the cells that the event of a grain will touch. (Inline: gcc takes a call of a function that does
+ * nothing but prefetch for one that does nothing.) */
+GG_INLINE void prefetch_states(const gg_md_slab *s, uint32_t i)
 {
   const gg_md *e = s->view;
   gg_md_touched t;
@@ -236,7 +237,7 @@ static void prefetch_states(const gg_md_slab *s, uint32_t i)
   for (uint32_t k = 0; k < t.n; k++) __builtin_prefetch(&s->all->cell[t.cell[k]]);
 }
 
-static void prefetch_grain(const gg_md *e, uint32_t i)
+GG_INLINE void prefetch_grain(const gg_md *e, uint32_t i)
 {
   __builtin_prefetch(&e->grain[i]);
   __builtin_prefetch(&e->node[i]);
@@ -249,7 +250,7 @@ static void prefetch_grain(const gg_md *e, uint32_t i)
 }
 
 /* What events to come will read: their grains; when those are there, their partners; and then their cells' states. */
-static void prefetch(const gg_md_slab *s)
+GG_INLINE void prefetch(const gg_md_slab *s)
 {
   const gg_md *e = s->view;
   const gg_md_due *due = (gg_md_due *)s->due.item + s->at;
@@ -307,7 +308,7 @@ static void deal_part(void *context, int self)
     for (uint32_t k = 0; k < bucket->count || i != GG_MD_NONE; k++) {
       const uint32_t grain = k < bucket->count ? bucket->grain[k] : i;
       if (k >= bucket->count) i = node[i].later;
-      add_due(s, &s->mail[p->layers[0][p->layer[grain]].owner], (gg_md_due){node[grain].time, grain});
+      add_due(s, &s->mail[p->layers[0][gg_md_layer_of_grain(p, grain)].owner], (gg_md_due){node[grain].time, grain});
     }
     bucket->count = 0;
     bucket->chain = GG_MD_NONE;
@@ -323,7 +324,7 @@ static void collect(gg_md_slab *s)
     const gg_md_growing *from = s->phase == 1 ? &p->slab[k].mail[s->self] : &p->slab[k].put_off;
     const gg_md_due *item = from->item;
     for (uint32_t m = 0; m < from->n; m++)
-      if (s->phase == 1 || p->layers[s->phase - 1][p->layer[item[m].grain]].owner == s->self)
+      if (s->phase == 1 || p->layers[s->phase - 1][gg_md_layer_of_grain(p, item[m].grain)].owner == s->self)
         add_due(s, &s->due, item[m]);
   }
   sort(&s->due);
@@ -390,7 +391,7 @@ static void begin_window(gg_md_parallel *p)
     for (int to = 0; to < p->n_slabs; to++) s->mail[to].n = 0;
   }
   for (uint32_t k = q->n_due; k-- > 0;)
-    add_due(&p->slab[0], &p->slab[0].mail[p->layers[0][p->layer[q->due[k].grain]].owner], q->due[k]);
+    add_due(&p->slab[0], &p->slab[0].mail[p->layers[0][gg_md_layer_of_grain(p, q->due[k].grain)].owner], q->due[k]);
   q->n_due = 0;
   gg_base_thread_pool_for(p->pool, p->n_slabs, deal_part, p);
   q->current = p->end - 1;
