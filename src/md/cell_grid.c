@@ -50,6 +50,7 @@ void gg_md_cells_clear(gg_md_cells *c)
 
 bool gg_md_cells_grow(gg_md_cells *c)
 {
+  if (c->fixed) return false;
   size_t total = total_of(c), stride = 2 * c->stride;
   uint32_t *cell = gg_md_new_lines(total * stride + MOST_BEHIND, sizeof *cell, NULL);
   if (!cell) return false;

@@ -17,6 +17,7 @@ typedef struct gg_md_cells {
   double width[3], inverse[3];
   double reach;      /* largest contact distance (of lists: largest distance of centres) */
   uint32_t stride;   /* a multiple of 8 */
+  bool fixed;        /* others are at work in them: they do not grow */
   uint32_t *part[3]; /* an index -2 .. n + 1 along an axis: its share of the cell's number, wrapped */
   uint32_t
       *cell; /* stride words a cell, x fastest: how many grains, then who; readable beyond the last (cell_frame.c) */

@@ -157,7 +157,7 @@ static void renew_view(gg_md_slab *s)
   s->view->candidates = candidates;
   s->view->queue = (gg_md_queue){.inverse_width = NAN, .n_buckets = 1, .due = s->pair};
   s->view->look_at = 1;
-  s->view->is_view = true;
+  s->view->is_view = s->view->cells.fixed = true;
   s->view->k.collisions_left = UINT64_MAX / 2;
   s->view->k.stop = INFINITY;
 }

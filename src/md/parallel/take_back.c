@@ -115,12 +115,23 @@ static void undo_list(gg_md *e, uint32_t i, const gg_md_saved_list *was)
   e->search.lists.skin[i] = was->skin;
 }
 
+/* If it is there: in a cell that was full it is not. */
+static void leave_cell(const gg_md *e, uint32_t i)
+{
+  uint32_t *cell = gg_md_cell_at(&e->cells, e->node[i].cell);
+  for (uint32_t k = 1; k <= cell[0]; k++)
+    if (cell[k] == i) {
+      cell[k] = cell[cell[0]--];
+      return;
+    }
+}
+
 /* Bring a record's grains and cells back to what they were; not the event queue. */
 static void undo(gg_md_parallel *p, gg_md *e, const gg_md_log *log, gg_md_record *r)
 {
   const gg_md_saved *was = (gg_md_saved *)log->saved.item + r->saved;
   const gg_md_saved_more *more = (gg_md_saved_more *)log->more.item + r->saved;
-  if (r->crosses) gg_md_cell_remove(gg_md_cell_at(&e->cells, e->node[r->grain].cell), r->grain);
+  if (r->crosses) leave_cell(e, r->grain);
   if (r->crosses && e->search.kind == GG_MD_NEIGHBOUR_LISTS)
     undo_list(e, r->grain, (gg_md_saved_list *)log->list.item + r->beside);
   for (int k = 0; k < (r->partner == GG_MD_NONE ? 1 : 2); k++) {

@@ -80,14 +80,11 @@ static bool take_next(gg_md_slab *s, gg_md_due *next)
   return true;
 }
 
-/* Cells that are full grow in the last phase. */
 static bool is_open(const gg_md_slab *s, const gg_md_touched *t, uint32_t k)
 {
   const gg_md_layer *layer = gg_md_layer_of(s, t->layer[k]);
-  const gg_md_cells *c = &s->view->cells;
   if (layer->owner != s->self || layer->outer) return false;
-  if (gg_md_bits_of(s->all, &s->all->cell[t->cell[k]]) & s->closed) return false;
-  return !t->crosses || s->phase == GG_MD_PHASES || c->cell[(size_t)t->cell[k] * c->stride] + 1 < c->stride;
+  return !(gg_md_bits_of(s->all, &s->all->cell[t->cell[k]]) & s->closed);
 }
 
 static bool may_run(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
@@ -266,6 +263,12 @@ GG_INLINE void prefetch(const gg_md_slab *s)
   if (left > AHEAD) prefetch_states(s, due[AHEAD].grain);
 }
 
+/* What the serial loop has to do: cells or lists that are full, what is no number, and the end. */
+static bool is_over(const gg_md_slab *s)
+{
+  return s->out_of_memory | s->view->out_of_memory | s->view->no_number | s->view->lists_are_full;
+}
+
 static void run_phase(gg_md_slab *s)
 {
   gg_md_touched t;
@@ -283,8 +286,10 @@ static void run_phase(gg_md_slab *s)
       gg_md_add_fresh(s, due); /* what was taken back may be earlier, if only by its number */
     else
       put_off(s, due, &t);
-    s->crowded = records->n > most || s->view->lists_are_full;
-    if (s->crowded || s->out_of_memory || s->view->no_number) return;
+    if (records->n > most || is_over(s)) {
+      s->crowded = true;
+      return;
+    }
   }
 }
 
@@ -343,7 +348,7 @@ static void phase_part(void *context, int self)
 static bool is_good(const gg_md_parallel *p)
 {
   for (int k = 0; k < p->n_slabs; k++)
-    if (p->slab[k].crowded || p->slab[k].out_of_memory || p->slab[k].view->no_number) return false;
+    if (p->slab[k].crowded) return false;
   return true;
 }
 
@@ -379,7 +384,7 @@ static void begin_window(gg_md_parallel *p)
   p->inverse_length = 1 / ((p->end - p->begin) * q->width);
   for (int k = 0; k < p->n_slabs; k++) {
     gg_md_slab *s = &p->slab[k];
-    s->crowded = s->view->lists_are_full = false;
+    s->crowded = s->view->lists_are_full = s->view->out_of_memory = s->view->no_number = false;
     s->n_moves = 0;
     s->overflow.n = 0;
     s->late.n = s->put_off.n = 0;
@@ -422,11 +427,7 @@ bool gg_md_run_window(gg_md_parallel *p)
   gg_md *e = p->engine;
   begin_window(p);
   const bool good = run_phases(p);
-  e->cells = p->slab[0].view->cells; /* they may have grown in the last phase */
-  for (int k = 0; k < p->n_slabs; k++) {
-    e->out_of_memory |= p->slab[k].out_of_memory | p->slab[k].view->out_of_memory;
-    p->slab[k].view->cells = e->cells;
-  }
+  for (int k = 0; k < p->n_slabs; k++) e->out_of_memory |= p->slab[k].out_of_memory;
   if (e->out_of_memory) return false;
   if (good && gg_md_window_collisions(p) < e->k.collisions_left) {
     gg_md_settle(p);
