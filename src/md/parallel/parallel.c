@@ -10,13 +10,14 @@
 #include "md/aligned_memory.h"
 #include "md/parallel/slab.h"
 
-/* Windows an epoch; layers of cells a slab has at least; buckets that a window has at least; events after a cancelled
- * window without any. */
+/* Buckets of a window for each slab: so few that its log stays in the cache. Windows of an epoch at least: in shorter
+ * ones fewer events depend on one that was put off. Buckets at least; layers of cells that a slab has at least; windows
+ * between looks at whether to stop; events after a cancelled window without any. */
 enum {
-  WINDOWS = 96,
-  WINDOWS_OF_LISTS = 192,
-  FEWEST_LAYERS = 8,
+  BUCKETS_OF_A_SLAB = 96,
+  FEWEST_WINDOWS = 128,
   FEWEST_BUCKETS = 32,
+  FEWEST_LAYERS = 6,
   WINDOWS_BETWEEN_LOOKS = 16,
   SERIAL_EVENTS = 1 << 15
 };
@@ -100,6 +101,11 @@ static bool make_slab(gg_md_parallel *p, int k)
   return s->view->candidates != NULL;
 }
 
+static uint32_t smaller(uint32_t a, uint32_t b)
+{
+  return a < b ? a : b;
+}
+
 static bool make(gg_md *e, int threads)
 {
   gg_md_parallel *p = e->parallel = gg_base_array_new(1, sizeof *p, NULL);
@@ -108,9 +114,7 @@ static bool make(gg_md *e, int threads)
   p->engine = e;
   p->n_slabs = threads;
   p->n_cells = (size_t)n[0] * (size_t)n[1] * (size_t)n[2];
-  p->n_buckets =
-      e->queue.n_buckets /
-      (e->search.kind == GG_MD_NEIGHBOUR_LISTS ? (getenv("WL") ? atoi(getenv("WL")) : WINDOWS_OF_LISTS) : WINDOWS);
+  p->n_buckets = smaller(BUCKETS_OF_A_SLAB * (uint32_t)threads, e->queue.n_buckets / FEWEST_WINDOWS);
   if (p->n_buckets < FEWEST_BUCKETS) p->n_buckets = FEWEST_BUCKETS;
   p->slab = gg_md_new_lines((size_t)threads, sizeof *p->slab, NULL);
   p->layer = gg_md_new_lines(e->n, sizeof *p->layer, NULL);
