@@ -81,7 +81,7 @@ const gg_command gg_cli_commands[] = {
      "Without an argument: both engines in uniform shear at e = 0.9 with the stress measured, one core, median of "
      "repeats; then single scenes: white noise, walls, placing grains, two threads.\nmd: elastic smooth spheres by "
      "size and density; cost of roughness, shear, walls, gravity, white noise, a second "
-     "species and stress measurement.\ndsmc: nanoseconds per accepted collision; gain of the block kernels over the "
+     "species and stress measurement; gain of threads within one run.\ndsmc: nanoseconds per accepted collision; gain of the block kernels over the "
      "plain loop and of threads within one ensemble.\nobservables: run time that each observable adds, for both "
      "engines and three sizes.\nerror: processor time until means have an error of 1, 0.1 and 0.01 %, a table a state "
      "of uniform shear and free cooling, over engines, numbers of grains, time steps, precision and replicas. "

@@ -129,6 +129,17 @@ def test_same_seed_same_numbers():
     check(a == b and a != c, a, b, c)
 
 
+def test_threads_share_a_large_run():
+    """From 30 000 grains on threads share the events of one replica: the numbers stay, and info says so."""
+    scene = "{flow: usf, phi: 0.3, particles: 32000, run: {warmup: 0.5, collisions: 1.5}}\n"
+    one, two = (loads(run("run", "scene.yaml", "--json", "--quiet", "--threads", n, scene=scene)) for n in ("1", "2"))
+    check(one["results"] == two["results"] and one["engine_state"] == two["engine_state"], "the numbers differ")
+    for key, text in (("particles=32000", "a replica share its events"), ("particles=1000", "30000 grains gain"),
+                      ("flow=couette", "because of walls")):
+        found = " ".join(run("info", "scene.yaml", "--set", key, scene=scene).out.split())
+        check(text in found, key, found)
+
+
 def test_fingerprint():
     """The same state is the same number, of either engine; after more collisions or from another seed, another one."""
     scene, found = ROUGH.replace("1000", "500"), set()
