@@ -4,11 +4,18 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "common/thermostat.h"
 
 /* What the noise brings a grain from turn to turn, of T: at most this, but turns come no more often than every so many
  * mean free times, where it is up to 9 % (e = 0). */
 #define SHARE_OF_T 0.02
 #define LEAST_INTERVAL 0.27
+
+/* A bath: the temperature is low by drag x cooling rate x interval^2/6 (see tests/md/test_bath.c), at most this; what
+ * drag takes in a turn is at most so much, less under shear: stresses are off by a third of its square. */
+#define BIAS_OF_BATH 2e-4
+#define MOST_DRAG 0.1
+#define MOST_DRAG_SHEARED 0.04
 
 /* Turns that have a kick, five of eight. Three of five would give kicks of fixed length the second and fourth moment of
  * a Gaussian. But since its last collision a grain has had a turn more or less, which widens the distribution of
@@ -36,16 +43,37 @@ static uint32_t golden_step(uint32_t n)
   return step;
 }
 
+static double interval_in_bath(const gg_model *m, int species)
+{
+  const double drag = fmax(fabs(m->bath.drag[species]), m->bath.spin_drag[species]);
+  double mass = 0;
+  for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i] / (double)m->n;
+  const double cooling = mass * gg_common_thermostat_noise(m) / m->temperature0;
+  const double free_time = 1 / gg_common_model_collision_rate(m, m->temperature0);
+  const double most = (m->shear_rate != 0 ? MOST_DRAG_SHEARED : MOST_DRAG) / drag;
+  return fmin(fmin(free_time, most), cooling > 0 ? sqrt(6 * BIAS_OF_BATH / (drag * cooling)) : INFINITY);
+}
+
+/* The bath does at a turn what it would have done since the last one. */
+static void make_bath(const gg_bath *b, int species, double interval, gg_md_turns *t)
+{
+  const gg_relaxation r = gg_common_relaxation(b->drag[species], interval);
+  const gg_relaxation s = gg_common_relaxation(b->spin_drag[species], interval);
+  t->keep = r.decay, t->size = sqrt(b->noise[species] * r.spread);
+  t->spin_keep = s.decay, t->spin_size = sqrt(b->spin_noise[species] * s.spread);
+}
+
 static double interval_of(const gg_md *e, int species)
 {
   const gg_model *m = &e->model;
+  if (e->thermostat == GG_BATH) return interval_in_bath(m, species);
   const double least = LEAST_INTERVAL / gg_common_model_collision_rate(m, m->temperature0);
   return fmax(least, SHARE_OF_T * m->temperature0 / (m->mass[species] * e->noise));
 }
 
 gg_status gg_md_kicks_make(gg_md *e, gg_error *err)
 {
-  if (e->thermostat != GG_WHITE_NOISE) return GG_OK;
+  if (!gg_md_has_kicks(e)) return GG_OK;
   uint32_t end[GG_MAX_SPECIES], before = 0;
   for (int s = 0; s < e->model.n_species; s++) {
     gg_md_turns *t = &e->kicks.of[s];
@@ -55,6 +83,7 @@ gg_status gg_md_kicks_make(gg_md *e, gg_error *err)
     const double interval = interval_of(e, s);
     t->apart = 2 * interval / t->n;
     t->size = e->noise > 0 ? sqrt(3 * e->noise * interval * OUT_OF / KICKED) : 0;
+    if (e->thermostat == GG_BATH) make_bath(&e->model.bath, s, interval, t);
     end[s] = before;
     before += t->n;
   }
@@ -78,7 +107,7 @@ static int due(const gg_md *e)
 void gg_md_kicks_begin(gg_md *e)
 {
   e->k.next_kick = INFINITY;
-  if (e->thermostat != GG_WHITE_NOISE) return;
+  if (!gg_md_has_kicks(e)) return;
   for (int s = 0; s < e->model.n_species; s++) e->k.turn[s] = (gg_md_turn){.at = 0.5 * e->kicks.of[s].apart};
   e->k.next_kick = e->k.turn[due(e)].at;
 }
@@ -115,12 +144,43 @@ static void kick(gg_md *e, uint32_t i, double size, gg_vec direction)
   g->counter++;
 }
 
-static void kick_pair(gg_md *e, const gg_md_turns *t, uint64_t turn, gg_vec direction)
+/* Velocities relative to the imposed flow shrink, spins relative to those of grains that roll with it. */
+static void relax(gg_md *e, const gg_md_turns *t, uint32_t i)
+{
+  gg_md_grain *g = &e->grain[i];
+  g->r = gg_md_position(e, false, g, e->k.now);
+  g->t = e->k.now;
+  const double flow = e->model.shear_rate * (g->r.y - 0.5 * e->box.edge[1]);
+  g->v = gg_scale(t->keep, g->v);
+  g->v.x += (1 - t->keep) * flow;
+  if (!e->spin) return;
+  e->spin[i] = gg_scale(t->spin_keep, e->spin[i]);
+  e->spin[i].z += (1 - t->spin_keep) * gg_model_rolling(&e->model, (int)g->species);
+}
+
+static void bathe(gg_md *e, const gg_md_turns *t, const uint32_t pair[2])
+{
+  const gg_vec ways[2] = {gg_common_rng_normal_vec(&e->k.rng),
+                          t->spin_size > 0 ? gg_common_rng_normal_vec(&e->k.rng) : (gg_vec){0, 0, 0}};
+  for (int k = 0; k < 2; k++) {
+    const double sign = k ? -1 : 1;
+    relax(e, t, pair[k]);
+    kick(e, pair[k], sign * t->size, ways[0]);
+    if (t->spin_size > 0) e->spin[pair[k]] = gg_axpy(sign * t->spin_size, ways[1], e->spin[pair[k]]);
+  }
+}
+
+static void kick_pair(gg_md *e, const gg_md_turns *t, uint64_t turn)
 {
   uint32_t pair[2];
   pair_of(e, t, turn, pair);
-  kick(e, pair[0], t->size, direction);
-  kick(e, pair[1], -t->size, direction);
+  if (e->thermostat == GG_BATH) {
+    bathe(e, t, pair);
+  } else {
+    const gg_vec direction = gg_rng_direction(&e->k.rng);
+    kick(e, pair[0], t->size, direction);
+    kick(e, pair[1], -t->size, direction);
+  }
   for (int k = 0; k < 2; k++) e->kernel->predict(e, pair[k], pair[k] + 1);
 }
 
@@ -140,9 +200,9 @@ void gg_md_kick(gg_md *e)
   const int s = due(e);
   const gg_md_turns *t = &e->kicks.of[s];
   gg_md_turn *turn = &e->k.turn[s];
-  if (gg_rng_below(&e->k.rng, OUT_OF) < KICKED) {
+  if (e->thermostat == GG_BATH || gg_rng_below(&e->k.rng, OUT_OF) < KICKED) {
     e->k.events++;
-    kick_pair(e, t, turn->number, gg_rng_direction(&e->k.rng));
+    kick_pair(e, t, turn->number);
   }
   turn->at += t->apart * (0.5 + gg_rng_uniform(&e->k.rng));
   turn->number++;

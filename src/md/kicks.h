@@ -10,6 +10,13 @@
 
 #include "md/md_state.h"
 
+/* A bath does at each turn what drag and noise would have done since the last one (an Ornstein-Uhlenbeck process, exact
+ * for a grain that has not collided since); the two grains get opposite Gaussian kicks. */
+static inline bool gg_md_has_kicks(const gg_md *e)
+{
+  return e->thermostat == GG_WHITE_NOISE || e->thermostat == GG_BATH;
+}
+
 /* Who has a turn when; all of it follows from the model and the grains. */
 gg_status gg_md_kicks_make(gg_md *e, gg_error *err);
 /* At a start: everybody's first turn is to come. */

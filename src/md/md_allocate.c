@@ -61,6 +61,7 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
   e->falls = gg_dot(e->gravity, e->gravity) > 0;
   e->thermostat = gg_common_thermostat_of(model);
   e->noise = e->thermostat == GG_WHITE_NOISE ? gg_common_thermostat_noise(model) : 0;
+  if (model->bath.on && model->bath.drag[0] == 0) e->thermostat = GG_WHITE_NOISE, e->noise = model->bath.noise[0];
   gg_status status = gg_md_contacts_make(&e->contacts, model, err);
   if (status == GG_OK) status = allocate(e, err);
   if (status != GG_OK) {

@@ -83,6 +83,8 @@ typedef struct gg_md_turns {
   uint32_t first, n;    /* in `order` */
   uint32_t group, step; /* so many have turns one after the other; the next group is so many groups further */
   double apart, size;   /* time between turns on average, and the change of velocity */
+  /* Of a bath: what a turn leaves of a velocity and a spin, and the size of its kicks along each axis. */
+  double keep, spin_keep, spin_size;
 } gg_md_turns;
 typedef struct gg_md_kicks {
   gg_md_turns of[GG_MAX_SPECIES];

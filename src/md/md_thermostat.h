@@ -3,7 +3,7 @@
  * Gaussian (the force m zeta C/2 on centres): exactly a gas that cools freely, seen through a growing scale of velocity
  * and a slowing clock. So the gas inside runs untouched, and only the outside's scale follows the energy (resolve.h);
  * at every epoch's end it is folded into the velocities. No torque goes with the force: spins are kept as they are
- * outside. White noise: kicks (kicks.h). */
+ * outside. White noise, baths and a given rate of heating: kicks (kicks.h). */
 #ifndef GG_MD_THERMOSTAT_H
 #define GG_MD_THERMOSTAT_H
 

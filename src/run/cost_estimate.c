@@ -61,6 +61,9 @@ static double crowding(const gg_model *m)
 /* White noise: each kick is half a collision's work, and there are more the more energy is lost (md/kicks.h). */
 static double cost_of_kicks(const gg_model *m)
 {
+  const double turns = m->shear_rate != 0 ? 25 : 10; /* of drag, in its own time */
+  if (m->bath.drag[0] != 0)
+    return 1 + 0.5 * fmax(1, turns * fabs(m->bath.drag[0]) / gg_common_model_collision_rate(m, m->temperature0));
   if (m->thermostat != GG_WHITE_NOISE) return 1;
   double mass = 0;
   for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i] / (double)m->n;
@@ -83,7 +86,7 @@ static double pace_of_dsmc(const gg_model *m)
   const double n = (double)m->n, pairs = 0.5 + 0.5 * m->n_species;
   if (n < 320 * m->n_species || m->law.e) return 330;
   return (m->rule == GG_SMOOTH ? 12 : 18) * (1 + 0.5 * exp(-n / 1000)) * pairs +
-         (m->thermostat == GG_WHITE_NOISE ? 30 : 0);
+         (m->thermostat == GG_WHITE_NOISE || m->bath.on ? 30 : 0);
 }
 
 static double mesh_points(const gg_model *m)

@@ -93,7 +93,7 @@ static void answer_length(gg_quantity q, double square, double relative_error, g
 void gg_theory_answer_critical_lengths(const gg_model *m, double ratio, gg_theory_answer *a)
 {
   const double *v = a->value, *error = a->error, zeta = v[GG_Q_COOLING_RATE];
-  if (m->elastic || !(zeta > 0)) return;
+  if (m->elastic || m->bath.on || !(zeta > 0)) return; /* drag damps the modes */
   double y = gg_theory_phi_chi(m), Z = 1 + 4 * gg_theory_grain_of(m).eta1 * y, g = 1 + m->chi_slope;
   double Cp = 1 + (Z - 1) / Z * g, unit = 1 / gg_common_model_nu0(m, 1), mass = 0;
   for (int i = 0; i < m->n_species; i++) mass += gg_theory_fraction(m, i) * m->mass[i];

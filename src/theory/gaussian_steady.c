@@ -313,9 +313,11 @@ double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state)
     /* In a bath there may be several states: the one that the gas relaxes to. */
     if (model->bath.on) relax(&c, x, 3 * RELAXATION_STEPS);
     left = improve(solver, &f, x);
-    /* A stall close by is a stale Jacobian: continue from there. Far away the start was too far off: relax first. */
+    /* A stall close by is a stale Jacobian: continue from there. Far away the start was too far off: relax first; in a
+     * bath also where a state nearly exists, which it may leave slowly. */
     for (int attempt = 1; attempt <= MAX_ATTEMPTS && !(left < converged); attempt++) {
-      if (!(left < nearby)) start(&c, x), relax(&c, x, attempt * RELAXATION_STEPS);
+      if (model->bath.on || !(left < nearby))
+        start(&c, x), relax(&c, x, (model->bath.on ? 10 : 1) * attempt * RELAXATION_STEPS);
       left = improve(solver, &f, x);
     }
     unpack(&c, x, state);

@@ -1,0 +1,157 @@
+/* Gases in a bath, in md: elastic grains relax as drag and noise do, whatever the interval of the turns; hardly
+ * colliding sheared grains have the moments of turns in closed form, at the engine's interval and at one ten times as
+ * long, which is how its error is known; inelastic dilute grains have the temperatures of Enskog's equation. */
+#include "../dsmc/lab.h"
+
+#include "common/thermostat.h"
+#include "md/kicks.h"
+#include "theory/theory.h"
+
+static gg_model bath(gg_flow flow, double phi, double e, double beta, double drag, double T, double rotation, int64_t n)
+{
+  gg_scene s = lab_scene(flow, phi, e, beta, n);
+  gg_model m;
+  gg_error err = {0};
+  s.particles = n;
+  s.thermostat = GG_BATH;
+  s.bath.drag = drag, s.bath.temperature = T, s.bath.rotation = rotation;
+  if (gg_common_model_make(&s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  return m;
+}
+
+static gg_engine *engine_of(const gg_model *m, uint64_t seed)
+{
+  gg_engine *g = NULL;
+  gg_error err = {0};
+  if (gg_md_ops.create(m, seed, 0, &g, &err) != GG_OK) fail_msg("%s", err.message);
+  return g;
+}
+
+static void advance(gg_engine *g, double dt)
+{
+  double elapsed;
+  gg_error err = {0};
+  if (gg_md_ops.advance(g, dt, UINT64_MAX, &elapsed, &err) != GG_OK) fail_msg("%s", err.message);
+}
+
+static lab_view view_of(gg_engine *g)
+{
+  lab_view v = {0};
+  gg_md_ops.snapshot(g, false, lab_add_chunk, &v);
+  return v;
+}
+
+/* Turns so many times further apart; the interval. */
+static double stretch(gg_engine *g, double factor)
+{
+  gg_md *e = (gg_md *)g;
+  const gg_bath *b = &e->model.bath;
+  gg_md_turns *t = &e->kicks.of[0];
+  t->apart *= factor;
+  const double interval = t->apart * t->n / 2;
+  const gg_relaxation r = gg_common_relaxation(b->drag[0], interval);
+  t->keep = r.decay, t->size = sqrt(b->noise[0] * r.spread);
+  return interval;
+}
+
+/* Momentum is taken off: 1/N of T. */
+static void relaxation(void **state)
+{
+  (void)state;
+  const int n = 1000;
+  lab_mean T[3] = {{0}};
+  for (uint64_t seed = 0; seed < 24; seed++) {
+    gg_model m = bath(GG_HSS, 0.1, 1, -1, 0.5, 1, 0, n);
+    m.temperature0 = 3;
+    gg_engine *g = engine_of(&m, 1 + seed);
+    for (int i = 0; i < 3; i++) {
+      advance(g, 0.5);
+      lab_view v = view_of(g);
+      lab_add(&T[i], lab_temperature(&v));
+    }
+    gg_md_ops.destroy(g);
+  }
+  for (int i = 0; i < 3; i++) {
+    const double rest = exp(-0.5 * (i + 1));
+    lab_expect("T(t)", &T[i], 1 + 2 * rest, 1e-3, 0.05);
+  }
+}
+
+/* With h = gamma t, t the interval, C = coth(h): M_yy = T_b, M_xy = -T_b (t/2) C, M_xx = T_b [1 + t^2 (C^2/2 - 1/6)] in
+ * the mean over an interval, at shear rate 1; h to 0: the bath's. */
+static void sheared_turns(void **state)
+{
+  (void)state;
+  const double gamma = 1.5, Tb = 0.4;
+  for (int k = 0; k < 2; k++) {
+    gg_model m = bath(GG_USF, 1e-4, 0.9, 0.1, gamma, Tb, 0.7, 1000);
+    m.temperature0 = 0.4;
+    gg_engine *g = engine_of(&m, 1);
+    const double t = stretch(g, k ? 12 : 1), C = 1 / tanh(gamma * t);
+    lab_mean M[3] = {{0}}, theta = {0}, spin = {0};
+    advance(g, 5);
+    for (int i = 0; i < 200; i++) {
+      lab_view v = {0};
+      for (int s = 0; s < 10; s++) {
+        advance(g, 0.37);
+        gg_md_ops.snapshot(g, false, lab_add_chunk, &v);
+      }
+      lab_add(&M[0], v.cc[0][0] / v.n);
+      lab_add(&M[1], v.cc[1][1] / v.n);
+      lab_add(&M[2], v.cc[0][1] / v.n);
+      const double sz = v.s_mean[2] / v.n;
+      lab_add(&theta, m.inertia[0] * (v.ss / v.n - sz * sz) / 3);
+      lab_add(&spin, 2 * sz);
+    }
+    print_message("# interval %.3g/gamma\n", gamma * t);
+    lab_expect("M_xx", &M[0], Tb * (1 + t * t * (C * C / 2 - 1. / 6)), 4e-4, 0.02);
+    lab_expect("M_yy", &M[1], Tb, 4e-4, 0.02);
+    lab_expect("M_xy", &M[2], -Tb * t / 2 * C, 0, 0.04);
+    if (k) continue;
+    assert_true(gamma * t < 0.05); /* stresses within 0.1 % of the bath's */
+    lab_expect("theta", &theta, Tb, 0, 0.02);
+    lab_expect("spin", &spin, -0.5, 0, 0.03);
+  }
+}
+
+static void against_theory(gg_model m)
+{
+  gg_theory_answer a;
+  gg_error err;
+  if (gg_theory_evaluate(gg_theory_find("enskog_hermite"), &m, &a, &err) != GG_OK) fail_msg("%s", err.message);
+  m.temperature0 = a.value[GG_Q_TEMPERATURE];
+  gg_engine *g = engine_of(&m, 5);
+  lab_mean T = {0}, theta = {0};
+  const double free_time = 1 / gg_common_model_collision_rate(&m, m.temperature0);
+  advance(g, 30 * free_time);
+  for (int i = 0; i < 60; i++) {
+    lab_view v = {0};
+    for (int s = 0; s < 10; s++) {
+      advance(g, 1.5 * free_time);
+      gg_md_ops.snapshot(g, false, lab_add_chunk, &v);
+    }
+    lab_add(&T, lab_temperature(&v));
+    const double sz = v.s_mean[2] / v.n;
+    lab_add(&theta, m.inertia[0] * (v.ss / v.n - sz * sz) / 3);
+  }
+  const double error = isnan(a.error[GG_Q_TEMPERATURE]) ? 0 : a.error[GG_Q_TEMPERATURE];
+  lab_expect("temperature", &T, a.value[GG_Q_TEMPERATURE], error, 0.03);
+  if (m.rule == GG_ROUGH)
+    lab_expect("theta", &theta, a.value[GG_Q_ROTATIONAL_TEMPERATURE], a.error[GG_Q_ROTATIONAL_TEMPERATURE], 0.03);
+  gg_md_ops.destroy(g);
+}
+
+static void dilute(void **state)
+{
+  (void)state;
+  against_theory(bath(GG_HSS, 0.01, 0.7, -1, 0.03, 1, 0, 2000));
+  against_theory(bath(GG_HSS, 0.01, 0.8, 0.1, 0.03, 1, 1, 2000));
+  against_theory(bath(GG_USF, 0.01, 0.9, -1, 0.1, 40, 0, 2000));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(relaxation), cmocka_unit_test(sheared_turns),
+                                     cmocka_unit_test(dilute)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
