@@ -471,8 +471,8 @@ GG_API gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_ev
                                       gg_error *err);
 
 /**
- * Change a key on the way: collision.*, thermostat, md.contact_time, dsmc.time_step, walls.e, walls.beta, walls.mu,
- * gravity. Grains, time, counts, random stream and units stay. Other keys set units, box or grains and are
+ * Change a key on the way: collision.*, bath.*, thermostat, gaussian_rate, noise_strength, md.contact_time,
+ * dsmc.time_step, walls.e, walls.beta, walls.mu, gravity. Grains, time, counts, random stream and units stay. Other keys set units, box or grains and are
  * rejected, as are values that would let smooth grains rotate. The simulation is unchanged on failure.
  * @param simulation the simulation
  * @param key as for gg_scene_set(), "collision.e"

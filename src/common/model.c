@@ -186,6 +186,13 @@ static double guess_ratio(const gg_model *m)
   return K * (1 + beta) / (1 + 2 * K - beta);
 }
 
+void gg_common_model_set_ratio(const gg_scene *s, gg_model *m)
+{
+  const double speed = m->shear_rate != 0 ? s->shear_rate * s->species[0].diameter : 1;
+  if (s->rotational_temperature != GG_AUTO && m->rule != GG_SMOOTH && (m->shear_rate != 0 || m->bath.on))
+    m->ratio0 = s->rotational_temperature / (speed * speed) / m->temperature0;
+}
+
 static int64_t grains_of(const gg_scene *s, gg_engine_kind engine)
 {
   return engine == GG_MD ? s->particles : gg_common_ensemble_size(s);
@@ -325,6 +332,7 @@ gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_mode
   m->ratio0 = guess_ratio(m);
   GG_TRY(set_bath(m, s, time_unit, err));
   guess_temperature(m, s, sheared);
+  gg_common_model_set_ratio(s, m);
   m->steady = !m->linear_response && !(m->elastic && sheared && !(m->bath.drag[0] > 0));
   m->stress_unit = m->boltzmann ? 1 : M_PI / 6;
   return GG_OK;

@@ -88,6 +88,9 @@ static inline double gg_model_rolling(const gg_model *m, int species)
   return m->boltzmann ? 0 : -m->shear_rate * m->diameter[species] / 4;
 }
 
+/* theta/T at the start, of a scene that gives its rotational temperature; else it stays. */
+void gg_common_model_set_ratio(const gg_scene *scene, gg_model *model);
+
 /* Build it for the engine the caller means to use (it fixes the number of grains). temperature0 and ratio0 get
  * order-of- magnitude guesses, which a caller may improve before creating an engine. */
 gg_status gg_common_model_make(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err);

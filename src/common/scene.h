@@ -50,9 +50,10 @@ struct gg_scene {
   double phi;
   int64_t particles;
   double shear_rate;
-  double temperature; /* initial <C.C>/3 in the user's units, or GG_AUTO */
-  double aspect[3];   /* shape of the box, relative edges */
-  struct {            /* by pair of species: gg_pair */
+  double temperature;            /* initial <C.C>/3 in the user's units, or GG_AUTO */
+  double rotational_temperature; /* the same of theta */
+  double aspect[3];              /* shape of the box, relative edges */
+  struct {                       /* by pair of species: gg_pair */
     double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
     gg_law_kind law;
     double speed; /* at which e is e, with a law; in the user's units, or GG_AUTO */

@@ -65,5 +65,7 @@ gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, gg_mode
     *model = *made;
   else
     GG_TRY(gg_common_model_make(scene, scene->engine, model, err));
-  return scene->temperature == GG_AUTO ? gg_run_start_near_steady(model, err) : GG_OK;
+  if (scene->temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(model, err));
+  gg_common_model_set_ratio(scene, model);
+  return GG_OK;
 }
