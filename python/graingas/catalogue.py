@@ -58,3 +58,10 @@ def schema():
     made = ffi.new("char **")
     check(lib.gg_schema_to_json, made)
     return json.loads(owned_text(made))
+
+
+def template(flow="usf"):
+    """A scene of the flow to begin with, as YAML text: every other key is a comment with its default."""
+    made = ffi.new("char **")
+    check(lib.gg_scene_begin, encode(flow, "flow"), made)
+    return owned_text(made)

@@ -117,6 +117,13 @@ def test_words_about_a_scene():
     assert "usf" in gg.catalogue.words("flow") and "temperature" in gg.catalogue.quantities()
 
 
+def test_schema_and_template():
+    assert gg.catalogue.schema()["properties"]["phi"]["maximum"] == 0.6
+    gg.Scene(gg.catalogue.template("couette")).check()
+    with pytest.raises(gg.BadInput, match="one of usf|there is no flow"):
+        gg.catalogue.template("shear")
+
+
 @pytest.mark.parametrize("value", [1, -2.5, 1e-300, [1, [2, 3]], {"a": 1, 12: [0.5, "x"]}, "word", [], {}])
 def test_yaml_reads_what_it_writes(value):
     assert yaml.read(yaml.write(value)) == value

@@ -14,7 +14,7 @@ TAKEN = {"set": "compare run theory info", "output": "compare run plot", "json":
          "seed": "compare run bench", "threads": "compare run bench", "quiet": " ".join(COMMANDS),
          "resume": "compare run", "accept-version": "compare run sweep", "all": "compare run theory info", "engine": "run", "format": "plot", "picture": "compare bench",
          "width": "compare plot bench",
-         "quick": "bench", "limit": "bench", "theory": "theory", "help": " ".join(COMMANDS)}
+         "quick": "bench", "limit": "bench", "schema": "info", "theory": "theory", "help": " ".join(COMMANDS)}
 
 
 def test_options_of_commands():
