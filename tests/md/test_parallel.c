@@ -1,8 +1,8 @@
 /* Proves: threads that share the events of one run leave every bit of it as it is: the state after so many collisions,
- * and the sums over them, are those of one thread, with two, three and four threads; with cells, cells that move with
- * the flow and neighbour lists; smooth, rough and frictional, one species and two, near collapse; however the run is
- * cut, and resumed with another number of threads. And that these runs do what could go wrong: events are put off, and
- * taken back. */
+ * and the sums over them, are those of one thread, with two, three and four threads; with cells, cells that
+ * overlap or move with the flow, and neighbour lists; smooth, rough and frictional, one species and two, near collapse;
+ * however the run is cut, and resumed with another number of threads. And that these runs do what could go wrong:
+ * events are put off, and taken back. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -28,6 +28,9 @@ static const struct {
     {{GG_HCS, 8000, 0.45, 0.5, 0, INFINITY, {1, 1, 4}}, 1e-5, 2},
     {{GG_USF, 8000, 0.5, 0.9, 0, INFINITY, {1, 1, 4}}, 0, 1},
     {{GG_USF, 8000, 0.5, 0.5, -1, 0.1, {1, 1, 4}}, 1e-4, 1},
+    {{GG_EQUILIBRIUM, 9000, 0.02, 1, 0, INFINITY, {1, 1, 4}}, 0, 1},
+    {{GG_HCS, 9000, 0.03, 0.6, 0, INFINITY, {1, 1, 4}}, 1e-4, 2},
+    {{GG_USF, 9000, 0.02, 0.8, 0.5, 0.3, {1, 1, 4}}, 0, 1},
     {{GG_USF, 7000, 0.48, 0.7, 0.3, INFINITY, {1, 0.8, 5}}, 1e-4, 2},
 };
 enum { CASES = sizeof cases / sizeof *cases };

@@ -30,7 +30,6 @@ const char *gg_md_serial_because(const gg_model *m)
   if (m->walled) return "walls";
   if (gg_common_thermostat_of(m) != GG_NO_THERMOSTAT) return "a thermostat: it couples all grains";
   if (m->law.e) return "a law of restitution of your own";
-  if (gg_md_search_overlaps(kind)) return "its overlapping cells";
   if (n[0] < 4 || n[1] < 4 || n[2] < 2 * FEWEST_LAYERS || (kind == GG_MD_PLAIN_CELLS && m->shear_rate != 0))
     return "a small box";
   return NULL;
@@ -149,8 +148,7 @@ static void note_layers(void *context, int self)
   const gg_md *e = p->engine;
   const uint64_t n = e->n, from = n * (uint64_t)self / (uint64_t)p->n_slabs,
                  to = n * (uint64_t)(self + 1) / (uint64_t)p->n_slabs;
-  for (uint64_t i = from; i < to; i++)
-    atomic_store_explicit(&p->layer[i], (uint16_t)e->node[i].cell[2], memory_order_relaxed);
+  for (uint64_t i = from; i < to; i++) gg_md_note_layer(p, e, (uint32_t)i);
 }
 
 /* The engine as it is now, with an event queue that takes in nothing: its bucket of any time is beyond the last. */

@@ -183,6 +183,11 @@ GG_INLINE int32_t gg_md_layer_of_grain(const gg_md_parallel *p, uint32_t grain)
   return atomic_load_explicit(&p->layer[grain], memory_order_relaxed);
 }
 
+GG_INLINE void gg_md_note_layer(const gg_md_parallel *p, const gg_md *e, uint32_t grain)
+{
+  atomic_store_explicit(&p->layer[grain], (uint16_t)e->node[grain].cell[2], memory_order_relaxed);
+}
+
 GG_INLINE gg_md_record *gg_md_record_at(const gg_md_log *log, uint32_t k)
 {
   return (gg_md_record *)log->record.item + k;

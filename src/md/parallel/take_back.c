@@ -2,6 +2,7 @@
  * before it. */
 #include <string.h>
 
+#include "md/overlapping_members.h"
 #include "md/parallel/slab.h"
 #include "md/search/list_update.h"
 
@@ -116,9 +117,9 @@ static void undo_list(gg_md *e, uint32_t i, const gg_md_saved_list *was)
 }
 
 /* If it is there: in a cell that was full it is not. */
-static void leave_cell(const gg_md *e, uint32_t i)
+static void leave_cell(const gg_md_cells *c, size_t index, uint32_t i)
 {
-  uint32_t *cell = gg_md_cell_at(&e->cells, e->node[i].cell);
+  uint32_t *cell = c->cell + index * c->stride;
   for (uint32_t k = 1; k <= cell[0]; k++)
     if (cell[k] == i) {
       cell[k] = cell[cell[0]--];
@@ -126,25 +127,44 @@ static void leave_cell(const gg_md *e, uint32_t i)
     }
 }
 
+/* Out of all cells that a grain is in, or into them: those who came later have left, so there is room. */
+static void change_cells(const gg_md *e, uint32_t i, bool enters)
+{
+  const gg_md_node *node = &e->node[i];
+  gg_md_members in = {.index = {(uint32_t)gg_md_cell_index(&e->cells, node->cell)}, .which = 1};
+  if (e->search.kind == GG_MD_OVERLAPPING_ROWS)
+    gg_md_members_in_rows_of(e, node, &in);
+  else if (e->search.kind == GG_MD_OVERLAPPING_CELLS)
+    gg_md_members_of(e, node, &in);
+  for (uint32_t which = in.which; which; which &= which - 1) {
+    const size_t index = in.index[__builtin_ctz(which)];
+    uint32_t *cell = e->cells.cell + index * e->cells.stride;
+    if (enters)
+      cell[++cell[0]] = i;
+    else
+      leave_cell(&e->cells, index, i);
+  }
+}
+
 /* Bring a record's grains and cells back to what they were; not the event queue. */
 static void undo(gg_md_parallel *p, gg_md *e, const gg_md_log *log, gg_md_record *r)
 {
   const gg_md_saved *was = (gg_md_saved *)log->saved.item + r->saved;
   const gg_md_saved_more *more = (gg_md_saved_more *)log->more.item + r->saved;
-  if (r->crosses) leave_cell(e, r->grain);
+  const uint32_t who[2] = {r->grain, r->partner};
+  const int n = r->partner == GG_MD_NONE ? 1 : 2;
+  const bool moves = r->crosses || gg_md_search_overlaps(e->search.kind); /* there cells are left in any event */
+  for (int k = 0; moves && k < n; k++) change_cells(e, who[k], false);
   if (r->crosses && e->search.kind == GG_MD_NEIGHBOUR_LISTS)
     undo_list(e, r->grain, (gg_md_saved_list *)log->list.item + r->beside);
-  for (int k = 0; k < (r->partner == GG_MD_NONE ? 1 : 2); k++) {
-    const uint32_t i = k ? r->partner : r->grain;
-    e->grain[i] = was[k].grain;
-    e->node[i] = was[k].node;
-    if (e->spin) e->spin[i] = more[k].spin;
-    if (e->last) e->last[i] = more[k].last;
-  }
-  if (r->crosses) {
-    const int32_t *at = e->node[r->grain].cell;
-    gg_md_cell_add(&e->cells, at, r->grain); /* those who came later have left: there is room */
-    atomic_store_explicit(&p->layer[r->grain], (uint16_t)at[2], memory_order_relaxed);
+  for (int k = 0; k < n; k++) {
+    e->grain[who[k]] = was[k].grain;
+    e->node[who[k]] = was[k].node;
+    if (e->spin) e->spin[who[k]] = more[k].spin;
+    if (e->last) e->last[who[k]] = more[k].last;
+    if (!moves) continue;
+    change_cells(e, who[k], true);
+    gg_md_note_layer(p, e, who[k]);
   }
   const gg_md_stamp *stamp = stamps_of(log, r);
   for (uint32_t k = r->touched; k-- > 0;) {

@@ -1,6 +1,7 @@
 /* The cells that an event touches, and those around a cell, by kind of search. */
 #include <math.h>
 
+#include "md/overlapping_members.h"
 #include "md/parallel/slab.h"
 #include "md/row_motion.h"
 #include "md/search/list_update.h"
@@ -130,6 +131,75 @@ static void add_destination(const gg_md *e, const gg_md_node *node, gg_md_touche
   add(e, t, at);
 }
 
+/* Cells that overlap: from `low` to `high` along each axis. */
+static void add_box(const gg_md *e, gg_md_touched *t, const int32_t low[3], const int32_t high[3])
+{
+  const int32_t *n = e->cells.n;
+  for (int32_t z = low[2]; z <= high[2]; z++)
+    for (int32_t y = low[1]; y <= high[1]; y++)
+      for (int32_t x = low[0]; x <= high[0]; x++)
+        add(e, t, (int32_t[3]){wrapped(x, n[0]), wrapped(y, n[1]), wrapped(z, n[2])});
+}
+
+/* Those that a grain is in. With a step (1 up, -1 down, 0 none) along an axis those beyond, too. */
+static void add_members(const gg_md *e, const gg_md_node *node, int axis, int step, gg_md_touched *t)
+{
+  int32_t low[3], high[3];
+  for (int a = 0; a < 3; a++) {
+    low[a] = node->cell[a] - (a == axis && step < 0);
+    high[a] = node->cell[a] + (int32_t)(node->neighbours >> a & 1) + (a == axis && step > 0);
+  }
+  add_box(e, t, low, high);
+}
+
+/* The row that a grain is about to enter, and where along it. */
+static void add_entered_row(const gg_md *e, const gg_md_node *node, gg_md_grain g, int step, const int32_t deep[2],
+                            gg_md_touched *t)
+{
+  uint32_t both;
+  g.r = gg_md_position(e, false, &g, node->time);
+  const double layers = gg_floor(g.r.y * e->box.inverse[1]);
+  g.r.y -= layers * e->box.edge[1];
+  g.r.x = gg_wrap(g.r.x - layers * gg_md_offset(&e->box, node->time), e->box.edge[0], e->box.inverse[0]);
+  const int32_t upper = (int32_t)(node->neighbours >> 1 & 1), row = gg_md_lower_row(e, node, g.r.y),
+                next = step > 0 ? row + upper + 1 : row - 1, x = gg_md_place_in_row(e, next, g.r.x, &both);
+  add_box(e, t, (int32_t[3]){x, next, deep[0]}, (int32_t[3]){x + (int32_t)both, next, deep[1]});
+}
+
+/* In rows that move with the flow; `lane`: of a step. */
+static void add_members_in_rows(const gg_md *e, uint32_t i, int lane, int step, gg_md_touched *t)
+{
+  const gg_md_node *node = &e->node[i];
+  const uint32_t bits = node->neighbours;
+  const int32_t deep[2] = {node->cell[2] - (lane == GG_MD_ALONG_Z && step < 0),
+                           node->cell[2] + (int32_t)(bits >> 2 & 1) + (lane == GG_MD_ALONG_Z && step > 0)};
+  for (int row = 0; row <= (int)(bits >> 1 & 1); row++) {
+    const int own = row ? GG_MD_UPPER_X : GG_MD_LOWER_X;
+    const int32_t x = row ? node->upper : node->cell[0], y = node->cell[1] + row;
+    add_box(e, t, (int32_t[3]){x - (lane == own && step < 0), y, deep[0]},
+            (int32_t[3]){x + (int32_t)(bits >> own & 1) + (lane == own && step > 0), y, deep[1]});
+  }
+  if (lane == GG_MD_ALONG_Y && step) add_entered_row(e, node, e->grain[i], step, deep, t);
+}
+
+/* Where cells overlap an event reads no others than those that it touches. */
+static bool find_overlapping(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
+{
+  gg_md *e = s->view;
+  const gg_md_node *node = &e->node[i];
+  const bool rows = e->search.kind == GG_MD_OVERLAPPING_ROWS;
+  const int lane = node->face >> 1, step = !t->crosses ? 0 : node->face & 1 ? 1 : -1;
+  t->wide = true;
+  e->k.now = node->time; /* rows stand where they do then */
+  rows ? add_members_in_rows(e, i, lane, step, t) : add_members(e, node, lane, step, t);
+  if (t->crosses) return true;
+  const uint32_t j = node->partner;
+  if (gg_md_layer_of(s, gg_md_layer_of_grain(s->all, j))->owner != s->self) return false;
+  rows ? add_members_in_rows(e, j, 0, 0, t) : add_members(e, &e->node[j], 0, 0, t);
+  t->collides = e->grain[j].counter == node->counter;
+  return true;
+}
+
 /* A partner that is elsewhere may be at work there: its node is not read. */
 bool gg_md_find_touched(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
 {
@@ -138,6 +208,7 @@ bool gg_md_find_touched(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
   t->n = 0;
   t->collides = t->wide = false;
   t->crosses = node->time < node->collision;
+  if (gg_md_search_overlaps(e->search.kind)) return find_overlapping(s, i, t);
   add(e, t, node->cell);
   if (t->crosses) {
     if (e->search.kind == GG_MD_NEIGHBOUR_LISTS)

@@ -215,8 +215,9 @@ static void run(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
     set_bits(s->all, c, GG_MD_LAST, (uint32_t)s->phase);
     c->last = gg_md_window_time(s->all, due.time);
   }
-  if (t->crosses)
-    atomic_store_explicit(&s->all->layer[due.grain], (uint16_t)v->node[due.grain].cell[2], memory_order_relaxed);
+  const bool moves = t->crosses || gg_md_search_overlaps(v->search.kind);
+  if (moves) gg_md_note_layer(s->all, v, due.grain);
+  if (moves && t->collides) gg_md_note_layer(s->all, v, r->partner);
   gg_md_requeue(s, due.grain, due.time, v->node[due.grain].time);
   if (!t->collides) return;
   const gg_md_saved *was = (gg_md_saved *)log->saved.item + r->saved + 1;
