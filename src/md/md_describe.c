@@ -49,7 +49,7 @@ static void tell_threads(const gg_model *m, void (*line)(void *, const char *), 
   if (serial)
     snprintf(text, sizeof text, "one a replica, because of %s", serial);
   else if (m->n < GG_MD_FEWEST_SHARED)
-    snprintf(text, sizeof text, "one a replica: %d grains gain from more", GG_MD_FEWEST_SHARED);
+    snprintf(text, sizeof text, "one a replica below %d grains", GG_MD_FEWEST_SHARED);
   else
     snprintf(text, sizeof text, "up to %d a replica share its events, with the same bits", gg_md_most_slabs(m));
   tell(line, context, "threads", text);

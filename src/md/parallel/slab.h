@@ -145,13 +145,17 @@ struct gg_md_parallel {
   gg_md_slab *slab;
 };
 
-/* Room for one more at the end of a list; where memory lacks, the spare room. */
+/* slab.c: room for one more at the end of a list; where memory lacks, the spare room. */
 void *gg_md_append(gg_md_slab *s, gg_md_growing *list, size_t size);
+/* At the end of a list of events. */
+void gg_md_add_due(gg_md_slab *s, gg_md_growing *list, gg_md_due due);
 /* An event within the window that is new, or back again. */
 void gg_md_add_fresh(gg_md_slab *s, gg_md_due due);
 /* The grain's event has another time. */
 void gg_md_requeue(gg_md_slab *s, uint32_t grain, double from, double to);
 
+/* shared_event.c: an event runs, which touches these cells. */
+void gg_md_run_shared(gg_md_slab *s, gg_md_due due, const gg_md_touched *touched);
 /* window.c: one of buckets p->begin to p->end; false: it is for the serial loop. */
 bool gg_md_run_window(gg_md_parallel *p);
 /* settle.c: what the window leaves: the event queue, and the counts and sums. */
@@ -197,6 +201,11 @@ GG_INLINE gg_md_record *gg_md_record_at(const gg_md_log *log, uint32_t k)
 GG_INLINE uint32_t gg_md_bits_of(const gg_md_parallel *p, const gg_md_cell_state *c)
 {
   return c->word >> GG_MD_STATE_BITS == p->window ? c->word & ((1u << GG_MD_STATE_BITS) - 1) : 0;
+}
+
+GG_INLINE void gg_md_set_bits(const gg_md_parallel *p, gg_md_cell_state *c, uint32_t clear, uint32_t set)
+{
+  c->word = p->window << GG_MD_STATE_BITS | (gg_md_bits_of(p, c) & ~clear) | set;
 }
 
 GG_INLINE float gg_md_window_time(const gg_md_parallel *p, double time)

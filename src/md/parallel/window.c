@@ -8,55 +8,6 @@
 /* More events in a slab than so many times those that were due: contacts that accumulate, perhaps without end. */
 enum { MOST_MORE = 16, AHEAD = 4 };
 
-void *gg_md_append(gg_md_slab *s, gg_md_growing *list, size_t size)
-{
-  if (list->n == list->room) {
-    const uint32_t room = list->room ? 2 * list->room : 64;
-    void *item = aligned_alloc(64, room * size); /* records begin on cache lines: realloc would not know */
-    if (!item) {
-      s->out_of_memory = true;
-      return &s->spare;
-    }
-    if (list->n) memcpy(item, list->item, list->n * size);
-    free(list->item);
-    list->item = item;
-    list->room = room;
-  }
-  return (char *)list->item + size * list->n++;
-}
-
-static void add_due(gg_md_slab *s, gg_md_growing *list, gg_md_due due)
-{
-  *(gg_md_due *)gg_md_append(s, list, sizeof due) = due;
-}
-
-void gg_md_add_fresh(gg_md_slab *s, gg_md_due due)
-{
-  add_due(s, &s->fresh, due);
-  gg_md_due *item = s->fresh.item;
-  uint32_t k = s->fresh.n - 1;
-  for (; k > 0 && gg_md_is_before(item[k - 1], due); k--) item[k] = item[k - 1];
-  item[k] = due;
-}
-
-static void move(gg_md_slab *s, uint32_t bucket, uint32_t grain, uint32_t out)
-{
-  gg_md_growing *moves = &s->moves[s->phase - 1][bucket / 8 % (uint32_t)s->all->n_slabs];
-  const uint64_t order = (uint64_t)(s->phase * GG_MD_MOST_SLABS + s->self) << 32 | s->n_moves++;
-  *(gg_md_move *)gg_md_append(s, moves, sizeof(gg_md_move)) = (gg_md_move){bucket | out, grain, order};
-}
-
-void gg_md_requeue(gg_md_slab *s, uint32_t grain, double from, double to)
-{
-  const gg_md_queue *q = &s->all->engine->queue;
-  const uint32_t before = gg_md_bucket_of(q, from), after = gg_md_bucket_of(q, to), end = s->all->end;
-  if (before >= end && before < q->n_buckets) move(s, before, grain, GG_MD_OUT);
-  if (after < end)
-    gg_md_add_fresh(s, (gg_md_due){to, grain});
-  else if (after < q->n_buckets)
-    move(s, after, grain, 0);
-}
-
 /* Earliest first; nearly in order as they come. */
 static void sort(gg_md_growing *list)
 {
@@ -95,11 +46,6 @@ static bool may_run(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
   return true;
 }
 
-static void set_bits(const gg_md_parallel *p, gg_md_cell_state *c, uint32_t clear, uint32_t set)
-{
-  c->word = p->window << GG_MD_STATE_BITS | (gg_md_bits_of(p, c) & ~clear) | set;
-}
-
 /* Close the cells around, layer by layer; the outer layers of a slab are closed anyway. */
 static void close_around(const gg_md_slab *s, uint32_t cell, int32_t z)
 {
@@ -108,120 +54,19 @@ static void close_around(const gg_md_slab *s, uint32_t cell, int32_t z)
   for (int32_t m = 0; m < 3; m++) {
     const gg_md_layer *layer = gg_md_layer_of(s, (z + m - 1 + n) % n);
     if (layer->owner != s->self || layer->outer) continue;
-    for (int32_t k = m * each; k < (m + 1) * each; k++) set_bits(s->all, &s->all->cell[index[k]], 0, s->closed);
+    for (int32_t k = m * each; k < (m + 1) * each; k++) gg_md_set_bits(s->all, &s->all->cell[index[k]], 0, s->closed);
   }
 }
 
 /* What depends on it waits, too. */
 static void put_off(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
 {
-  add_due(s, &s->late, due);
+  gg_md_add_due(s, &s->late, due);
   for (uint32_t k = 0; k < t->n; k++)
     if (!t->wide)
       close_around(s, t->cell[k], t->layer[k]);
     else if (gg_md_layer_of(s, t->layer[k])->owner == s->self)
-      set_bits(s->all, &s->all->cell[t->cell[k]], 0, s->closed);
-}
-
-static void save(gg_md_slab *s, gg_md_log *log, uint32_t i)
-{
-  const gg_md *e = s->view;
-  gg_md_saved *was = gg_md_append(s, &log->saved, sizeof *was);
-  was->grain = e->grain[i];
-  was->node = e->node[i];
-  if (!e->spin && !e->last) return;
-  gg_md_saved_more *more = gg_md_append(s, &log->more, sizeof *more);
-  if (e->spin) more->spin = e->spin[i];
-  if (e->last) more->last = e->last[i];
-}
-
-static void save_list(gg_md_slab *s, gg_md_log *log, uint32_t i)
-{
-  const gg_md_lists *lists = &s->view->search.lists;
-  gg_md_saved_list *was = gg_md_append(s, &log->list, sizeof *was);
-  memcpy(was->neighbour, lists->neighbour + (size_t)i * GG_MD_LIST, sizeof was->neighbour);
-  was->skin = lists->skin[i];
-}
-
-static gg_md_record *begin_record(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
-{
-  gg_md_log *log = &s->log[s->phase - 1];
-  gg_md_record *r = gg_md_append(s, &log->record, sizeof *r);
-  *r = (gg_md_record){.time = due.time,
-                      .grain = due.grain,
-                      .partner = t->collides ? s->view->node[due.grain].partner : GG_MD_NONE,
-                      .saved = log->saved.n,
-                      .stamp = log->stamp.n,
-                      .touched = t->n,
-                      .beside = t->crosses ? log->list.n : log->addend.n,
-                      .crosses = t->crosses,
-                      .wide = t->wide};
-  for (uint32_t k = 0; k < t->n; k++)
-    *(gg_md_stamp *)gg_md_append(s, &log->stamp, sizeof(gg_md_stamp)) =
-        (gg_md_stamp){t->cell[k], t->layer[k], s->all->cell[t->cell[k]]};
-  save(s, log, due.grain);
-  if (t->collides) save(s, log, r->partner);
-  if (t->crosses && s->view->search.kind == GG_MD_NEIGHBOUR_LISTS) save_list(s, log, due.grain);
-  return r;
-}
-
-/* The view's counts are those of this event alone. */
-static void clear_counts(gg_md *v, gg_md_record *r)
-{
-  v->k.events = v->k.collisions = v->k.treated = 0;
-  v->k.worst_overlap = 0;
-  if (r->partner == GG_MD_NONE) return;
-  r->pair = (uint16_t)gg_pair(gg_md_species_of(&v->grain[r->grain]), gg_md_species_of(&v->grain[r->partner]));
-  if (!v->k.keeps_sums) return;
-  memset(v->k.transfer.stress[r->pair], 0, sizeof v->k.transfer.stress[r->pair]);
-  v->k.transfer.loss[r->pair] = 0;
-}
-
-static void keep_counts(gg_md_slab *s, gg_md_record *r)
-{
-  const gg_md_counts *k = &s->view->k;
-  if (r->partner == GG_MD_NONE) return;
-  gg_md_addend *a = gg_md_append(s, &s->log[s->phase - 1].addend, sizeof *a);
-  r->treated = k->treated > 0;
-  a->overlap = k->worst_overlap;
-  if (!k->keeps_sums) return;
-  const double(*stress)[3] = k->transfer.stress[r->pair];
-  *a = (gg_md_addend){{stress[0][0], stress[1][1], stress[2][2], stress[0][1], stress[1][0]},
-                      k->transfer.loss[r->pair],
-                      k->worst_overlap};
-}
-
-/* The view's event loop runs one event, of a queue that has no others; what comes next is read ahead. */
-static void run_event(gg_md_slab *s, gg_md_due due)
-{
-  gg_md *v = s->view;
-  const bool more = s->at < s->due.n;
-  if (more) s->pair[0] = ((gg_md_due *)s->due.item)[s->at];
-  s->pair[more] = due;
-  v->queue.n_due = 1 + more;
-  v->kernel->run(v);
-}
-
-static void run(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
-{
-  gg_md *v = s->view;
-  gg_md_record *r = begin_record(s, due, t);
-  const gg_md_log *log = &s->log[s->phase - 1];
-  clear_counts(v, r);
-  run_event(s, due);
-  keep_counts(s, r);
-  for (uint32_t k = 0; k < t->n; k++) {
-    gg_md_cell_state *c = &s->all->cell[t->cell[k]];
-    set_bits(s->all, c, GG_MD_LAST, (uint32_t)s->phase);
-    c->last = gg_md_window_time(s->all, due.time);
-  }
-  const bool moves = t->crosses || gg_md_search_overlaps(v->search.kind);
-  if (moves) gg_md_note_layer(s->all, v, due.grain);
-  if (moves && t->collides) gg_md_note_layer(s->all, v, r->partner);
-  gg_md_requeue(s, due.grain, due.time, v->node[due.grain].time);
-  if (!t->collides) return;
-  const gg_md_saved *was = (gg_md_saved *)log->saved.item + r->saved + 1;
-  gg_md_requeue(s, r->partner, was->node.time, v->node[r->partner].time);
+      gg_md_set_bits(s->all, &s->all->cell[t->cell[k]], 0, s->closed);
 }
 
 /* The states of the cells that the event of a grain will touch. (Inline: gcc takes a call of a function that does
@@ -282,7 +127,7 @@ static void run_phase(gg_md_slab *s)
     if (may_run(s, due.grain, &t))
       taken = gg_md_is_overtaken(s, due.time, &t) ? gg_md_take_back(s, due.time, &t) : GG_MD_NOTHING;
     if (taken == GG_MD_NOTHING)
-      run(s, due, &t);
+      gg_md_run_shared(s, due, &t);
     else if (taken == GG_MD_TAKEN_BACK)
       gg_md_add_fresh(s, due); /* what was taken back may be earlier, if only by its number */
     else
@@ -314,7 +159,8 @@ static void deal_part(void *context, int self)
     for (uint32_t k = 0; k < bucket->count || i != GG_MD_NONE; k++) {
       const uint32_t grain = k < bucket->count ? bucket->grain[k] : i;
       if (k >= bucket->count) i = node[i].later;
-      add_due(s, &s->mail[p->layers[0][gg_md_layer_of_grain(p, grain)].owner], (gg_md_due){node[grain].time, grain});
+      gg_md_add_due(s, &s->mail[p->layers[0][gg_md_layer_of_grain(p, grain)].owner],
+                    (gg_md_due){node[grain].time, grain});
     }
     bucket->count = 0;
     bucket->chain = GG_MD_NONE;
@@ -331,7 +177,7 @@ static void collect(gg_md_slab *s)
     const gg_md_due *item = from->item;
     for (uint32_t m = 0; m < from->n; m++)
       if (s->phase == 1 || p->layers[s->phase - 1][gg_md_layer_of_grain(p, item[m].grain)].owner == s->self)
-        add_due(s, &s->due, item[m]);
+        gg_md_add_due(s, &s->due, item[m]);
   }
   sort(&s->due);
 }
@@ -397,7 +243,8 @@ static void begin_window(gg_md_parallel *p)
     for (int to = 0; to < p->n_slabs; to++) s->mail[to].n = 0;
   }
   for (uint32_t k = q->n_due; k-- > 0;)
-    add_due(&p->slab[0], &p->slab[0].mail[p->layers[0][gg_md_layer_of_grain(p, q->due[k].grain)].owner], q->due[k]);
+    gg_md_add_due(&p->slab[0], &p->slab[0].mail[p->layers[0][gg_md_layer_of_grain(p, q->due[k].grain)].owner],
+                  q->due[k]);
   q->n_due = 0;
   gg_base_thread_pool_for(p->pool, p->n_slabs, deal_part, p);
   q->current = p->end - 1;

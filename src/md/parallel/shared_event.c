@@ -1,0 +1,105 @@
+/* One event of a window: run by the serial loop's own code, and written down with all that it takes to take it back. */
+#include <string.h>
+
+#include "md/parallel/slab.h"
+
+static void save(gg_md_slab *s, gg_md_log *log, uint32_t i)
+{
+  const gg_md *e = s->view;
+  gg_md_saved *was = gg_md_append(s, &log->saved, sizeof *was);
+  was->grain = e->grain[i];
+  was->node = e->node[i];
+  if (!e->spin && !e->last) return;
+  gg_md_saved_more *more = gg_md_append(s, &log->more, sizeof *more);
+  if (e->spin) more->spin = e->spin[i];
+  if (e->last) more->last = e->last[i];
+}
+
+static void save_list(gg_md_slab *s, gg_md_log *log, uint32_t i)
+{
+  const gg_md_lists *lists = &s->view->search.lists;
+  gg_md_saved_list *was = gg_md_append(s, &log->list, sizeof *was);
+  memcpy(was->neighbour, lists->neighbour + (size_t)i * GG_MD_LIST, sizeof was->neighbour);
+  was->skin = lists->skin[i];
+}
+
+static gg_md_record *begin_record(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
+{
+  gg_md_log *log = &s->log[s->phase - 1];
+  gg_md_record *r = gg_md_append(s, &log->record, sizeof *r);
+  *r = (gg_md_record){.time = due.time,
+                      .grain = due.grain,
+                      .partner = t->collides ? s->view->node[due.grain].partner : GG_MD_NONE,
+                      .saved = log->saved.n,
+                      .stamp = log->stamp.n,
+                      .touched = t->n,
+                      .beside = t->crosses ? log->list.n : log->addend.n,
+                      .crosses = t->crosses,
+                      .wide = t->wide};
+  for (uint32_t k = 0; k < t->n; k++)
+    *(gg_md_stamp *)gg_md_append(s, &log->stamp, sizeof(gg_md_stamp)) =
+        (gg_md_stamp){t->cell[k], t->layer[k], s->all->cell[t->cell[k]]};
+  save(s, log, due.grain);
+  if (t->collides) save(s, log, r->partner);
+  if (t->crosses && s->view->search.kind == GG_MD_NEIGHBOUR_LISTS) save_list(s, log, due.grain);
+  return r;
+}
+
+/* The view's counts are those of this event alone. */
+static void clear_counts(gg_md *v, gg_md_record *r)
+{
+  v->k.events = v->k.collisions = v->k.treated = 0;
+  v->k.worst_overlap = 0;
+  if (r->partner == GG_MD_NONE) return;
+  r->pair = (uint16_t)gg_pair(gg_md_species_of(&v->grain[r->grain]), gg_md_species_of(&v->grain[r->partner]));
+  if (!v->k.keeps_sums) return;
+  memset(v->k.transfer.stress[r->pair], 0, sizeof v->k.transfer.stress[r->pair]);
+  v->k.transfer.loss[r->pair] = 0;
+}
+
+static void keep_counts(gg_md_slab *s, gg_md_record *r)
+{
+  const gg_md_counts *k = &s->view->k;
+  if (r->partner == GG_MD_NONE) return;
+  gg_md_addend *a = gg_md_append(s, &s->log[s->phase - 1].addend, sizeof *a);
+  r->treated = k->treated > 0;
+  a->overlap = k->worst_overlap;
+  if (!k->keeps_sums) return;
+  const double(*stress)[3] = k->transfer.stress[r->pair];
+  *a = (gg_md_addend){{stress[0][0], stress[1][1], stress[2][2], stress[0][1], stress[1][0]},
+                      k->transfer.loss[r->pair],
+                      k->worst_overlap};
+}
+
+/* The view's event loop runs one event, of a queue that has no others; what comes next is read ahead. */
+static void run_event(gg_md_slab *s, gg_md_due due)
+{
+  gg_md *v = s->view;
+  const bool more = s->at < s->due.n;
+  if (more) s->pair[0] = ((gg_md_due *)s->due.item)[s->at];
+  s->pair[more] = due;
+  v->queue.n_due = 1 + more;
+  v->kernel->run(v);
+}
+
+void gg_md_run_shared(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
+{
+  gg_md *v = s->view;
+  gg_md_record *r = begin_record(s, due, t);
+  const gg_md_log *log = &s->log[s->phase - 1];
+  clear_counts(v, r);
+  run_event(s, due);
+  keep_counts(s, r);
+  for (uint32_t k = 0; k < t->n; k++) {
+    gg_md_cell_state *c = &s->all->cell[t->cell[k]];
+    gg_md_set_bits(s->all, c, GG_MD_LAST, (uint32_t)s->phase);
+    c->last = gg_md_window_time(s->all, due.time);
+  }
+  const bool moves = t->crosses || gg_md_search_overlaps(v->search.kind);
+  if (moves) gg_md_note_layer(s->all, v, due.grain);
+  if (moves && t->collides) gg_md_note_layer(s->all, v, r->partner);
+  gg_md_requeue(s, due.grain, due.time, v->node[due.grain].time);
+  if (!t->collides) return;
+  const gg_md_saved *was = (gg_md_saved *)log->saved.item + r->saved + 1;
+  gg_md_requeue(s, r->partner, was->node.time, v->node[r->partner].time);
+}
