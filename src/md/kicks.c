@@ -43,13 +43,13 @@ static uint32_t golden_step(uint32_t n)
   return step;
 }
 
-static double interval_in_bath(const gg_model *m, int species)
+static double interval_in_bath(const gg_model *m, int species, double T)
 {
   const double drag = fmax(fabs(m->bath.drag[species]), m->bath.spin_drag[species]);
   double mass = 0;
   for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i] / (double)m->n;
-  const double cooling = mass * gg_common_thermostat_noise(m) / m->temperature0;
-  const double free_time = 1 / gg_common_model_collision_rate(m, m->temperature0);
+  const double cooling = mass * gg_common_thermostat_noise(m) / m->temperature0 * sqrt(T / m->temperature0);
+  const double free_time = 1 / gg_common_model_collision_rate(m, T);
   const double most = (m->shear_rate != 0 ? MOST_DRAG_SHEARED : MOST_DRAG) / drag;
   return fmin(fmin(free_time, most), cooling > 0 ? sqrt(6 * BIAS_OF_BATH / (drag * cooling)) : INFINITY);
 }
@@ -66,24 +66,46 @@ static void make_bath(const gg_bath *b, int species, double interval, gg_md_turn
 static double interval_of(const gg_md *e, int species)
 {
   const gg_model *m = &e->model;
-  if (e->thermostat == GG_BATH) return interval_in_bath(m, species);
+  if (e->thermostat == GG_BATH) return interval_in_bath(m, species, e->k.kick_temperature);
   const double least = LEAST_INTERVAL / gg_common_model_collision_rate(m, m->temperature0);
   return fmax(least, SHARE_OF_T * m->temperature0 / (m->mass[species] * e->noise));
+}
+
+static void choose_interval(gg_md *e, int species)
+{
+  gg_md_turns *t = &e->kicks.of[species];
+  const double interval = interval_of(e, species);
+  t->apart = 2 * interval / t->n;
+  t->size = e->noise > 0 ? sqrt(3 * e->noise * interval * OUT_OF / KICKED) : 0;
+  if (e->thermostat == GG_BATH) make_bath(&e->model.bath, species, interval, t);
+}
+
+/* A gas in a bath may begin colder than it will be: by the bath, or, as epochs show, by what else heats it. */
+static void follow_bath(gg_md *e)
+{
+  const gg_model *m = &e->model;
+  const double hot = fmax(m->temperature0, m->shear_rate == 0 ? gg_common_thermostat_balance(m, 0) : 0);
+  if (e->thermostat == GG_BATH) e->k.kick_temperature = fmax(e->k.kick_temperature, hot);
+}
+
+void gg_md_kicks_follow(gg_md *e, double T)
+{
+  if (e->thermostat != GG_BATH || !(T > 2 * e->k.kick_temperature)) return;
+  e->k.kick_temperature = T;
+  for (int s = 0; s < e->model.n_species; s++) choose_interval(e, s);
 }
 
 gg_status gg_md_kicks_make(gg_md *e, gg_error *err)
 {
   if (!gg_md_has_kicks(e)) return GG_OK;
   uint32_t end[GG_MAX_SPECIES], before = 0;
+  follow_bath(e);
   for (int s = 0; s < e->model.n_species; s++) {
     gg_md_turns *t = &e->kicks.of[s];
     *t = (gg_md_turns){.first = before, .n = (uint32_t)e->model.n_of[s]};
     t->group = e->n > CACHED && t->n > GROUP ? GROUP : 1;
     t->step = golden_step(t->n / t->group);
-    const double interval = interval_of(e, s);
-    t->apart = 2 * interval / t->n;
-    t->size = e->noise > 0 ? sqrt(3 * e->noise * interval * OUT_OF / KICKED) : 0;
-    if (e->thermostat == GG_BATH) make_bath(&e->model.bath, s, interval, t);
+    choose_interval(e, s);
     end[s] = before;
     before += t->n;
   }

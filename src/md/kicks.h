@@ -23,6 +23,8 @@ gg_status gg_md_kicks_make(gg_md *e, gg_error *err);
 void gg_md_kicks_begin(gg_md *e);
 /* An epoch of this length is over. */
 void gg_md_kicks_move(gg_md *e, double span);
+/* More frequent turns where a gas in a bath has become hotter than they are made for. */
+void gg_md_kicks_follow(gg_md *e, double temperature);
 /* The turn that is due at the present time, k.next_kick. */
 void gg_md_kick(gg_md *e);
 

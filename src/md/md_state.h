@@ -117,7 +117,8 @@ typedef struct gg_md_counts {
   uint64_t collisions, events, treated, wall_treated;
   double worst_overlap;
   gg_rng rng;
-  double next_kick; /* epoch time of the earliest turn; INFINITY: no kicks */
+  double next_kick;        /* epoch time of the earliest turn; INFINITY: no kicks */
+  double kick_temperature; /* of a bath: the hottest gas that turns are frequent enough for */
   gg_md_turn turn[GG_MAX_SPECIES];
   /* Gaussian thermostat: the gas inside cools freely; outside, velocities are `scale` times larger and clocks slower.
    */
@@ -231,7 +232,7 @@ bool gg_md_next_epoch(gg_md *e);
 bool gg_md_check_numbers(gg_md *e);
 /* md_thermostat.c: take off the velocity of the centre of mass, relative to the imposed shear; all grains at the same
  * time. */
-void gg_md_follow_centre_of_mass(gg_md *e);
+double gg_md_follow_centre_of_mass(gg_md *e); /* the temperature */
 /* Is that velocity more than rounding? */
 bool gg_md_has_drift(const gg_md *e);
 /* contact_time.c: a sheared gas that begins in the cold does not stay there; the contact time at the start, and

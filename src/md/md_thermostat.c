@@ -65,9 +65,10 @@ bool gg_md_has_drift(const gg_md *e)
 /* Rounding of the mean peculiar velocity must not take over. A gas that cools forever cools below it; under shear, that
  * along y drives the one along x for ever (dP_x/dt = -rate P_y). The frame follows it: relative motion, and so every
  * predicted collision, stays as it is. */
-void gg_md_follow_centre_of_mass(gg_md *e)
+double gg_md_follow_centre_of_mass(gg_md *e)
 {
   double mass, energy;
   const gg_vec momentum = momentum_of(e, &mass, &energy);
   for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
+  return energy / (3.0 * e->n);
 }

@@ -31,8 +31,9 @@ static bool are_numbers(const double *x, size_t n)
 
 bool gg_md_are_counts(const gg_md_counts *k, const int32_t cells[3])
 {
-  const double finite[] = {k->now,   k->epoch_start, k->contact_time,     k->mean_free_time, k->window_time, k->scale,
-                           k->outer, k->kinetic,     k->fractional_shift, k->common_shift,   k->outer_time};
+  const double finite[] = {k->now,        k->epoch_start,     k->contact_time, k->mean_free_time,   k->window_time,
+                           k->scale,      k->outer,           k->kinetic,      k->fractional_shift, k->common_shift,
+                           k->outer_time, k->kick_temperature};
   const double others[] = {k->worst_overlap, k->next_kick, k->kinetic0, k->mark, k->asked, k->stop, k->beyond_kick};
   for (size_t i = 0; i < sizeof finite / sizeof *finite; i++)
     if (!(fabs(finite[i]) < 1e300)) return false;

@@ -1,6 +1,6 @@
 /* Gases in a bath, in md: elastic grains relax as drag and noise do, whatever the interval of the turns; hardly
- * colliding sheared grains have the moments of turns in closed form, at the engine's interval and at one ten times as
- * long, which is how its error is known; inelastic dilute grains have the temperatures of Enskog's equation. */
+ * colliding sheared grains have the moments of turns in closed form, at the engine's interval and at one twelve times
+ * as long, which is how its error is known; inelastic dilute grains have the temperatures of Enskog's equation. */
 #include "../dsmc/lab.h"
 
 #include "common/thermostat.h"
@@ -107,11 +107,52 @@ static void sheared_turns(void **state)
     lab_expect("M_xx", &M[0], Tb * (1 + t * t * (C * C / 2 - 1. / 6)), 4e-4, 0.02);
     lab_expect("M_yy", &M[1], Tb, 4e-4, 0.02);
     lab_expect("M_xy", &M[2], -Tb * t / 2 * C, 0, 0.04);
+    gg_md_ops.destroy(g);
     if (k) continue;
     assert_true(gamma * t < 0.05); /* stresses within 0.1 % of the bath's */
     lab_expect("theta", &theta, Tb, 0, 0.02);
     lab_expect("spin", &spin, -0.5, 0, 0.03);
   }
+}
+
+static double interval_of(gg_engine *g)
+{
+  const gg_md_turns *t = &((gg_md *)g)->kicks.of[0];
+  return t->apart * t->n / 2;
+}
+
+/* A gas that begins colder than the bath will keep it has the same turns as one that begins there; and one that shear
+ * heats gets them on the way. */
+static void cold_starts(void **state)
+{
+  (void)state;
+  gg_model steady = bath(GG_HSS, 0.02, 0.8, -1, 0.02, 1, 0, 500), cold = steady;
+  cold.temperature0 = 1e-6;
+  gg_engine *a = engine_of(&steady, 1), *b = engine_of(&cold, 1);
+  assert_true(fabs(interval_of(b) / interval_of(a) - 1) < 1e-9);
+  advance(b, 150);
+  lab_mean T = {0};
+  for (int i = 0; i < 40; i++) {
+    advance(b, 10);
+    lab_view v = view_of(b);
+    lab_add(&T, lab_temperature(&v));
+  }
+  gg_theory_answer answer;
+  gg_error err;
+  assert_int_equal(gg_theory_evaluate(gg_theory_find("enskog_hermite"), &steady, &answer, &err), GG_OK);
+  lab_expect("T from cold", &T, answer.value[GG_Q_TEMPERATURE], 2e-3, 0.03);
+  gg_md_ops.destroy(a);
+  gg_md_ops.destroy(b);
+  gg_model sheared = bath(GG_USF, 0.2, 0.9, -1, 0.02, 1e-4, 0, 500);
+  sheared.temperature0 = 1e-4;
+  gg_engine *c = engine_of(&sheared, 1);
+  const double before = interval_of(c);
+  advance(c, 100);
+  lab_view v = view_of(c);
+  const double free_time = 1 / gg_common_model_collision_rate(&sheared, lab_temperature(&v));
+  print_message("# interval %.3g, then %.3g; mean free time %.3g\n", before, interval_of(c), free_time);
+  assert_true(interval_of(c) < 2.5 * free_time && before > 5 * free_time);
+  gg_md_ops.destroy(c);
 }
 
 static void against_theory(gg_model m)
@@ -152,6 +193,6 @@ static void dilute(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(relaxation), cmocka_unit_test(sheared_turns),
-                                     cmocka_unit_test(dilute)};
+                                     cmocka_unit_test(cold_starts), cmocka_unit_test(dilute)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
