@@ -69,7 +69,7 @@ static gg_md *create(const gg_model *m, int threads)
 {
   gg_md *e = md_create(m, 7);
   gg_md_ops.keep_sums(&e->base, true);
-  gg_md_share(e, threads);
+  gg_md_share(e, threads, false);
   assert_int_equal(threads > 1, e->parallel != NULL);
   return e;
 }
@@ -134,7 +134,7 @@ static gg_md *restored(gg_md *e, const gg_model *m, int threads)
   if (gg_md_save(&e->base, &archive, &err) != GG_OK) fail_msg("%s", err.message);
   if (gg_md_restore(m, &archive, &back, &err) != GG_OK) fail_msg("%s", err.message);
   gg_base_archive_clear(&archive);
-  gg_md_share((gg_md *)back, threads);
+  gg_md_share((gg_md *)back, threads, false);
   return (gg_md *)back;
 }
 
@@ -158,6 +158,22 @@ static void cuts_and_resumes(void **state)
   }
 }
 
+/* Where the clock decides, both ways are gone, and the bits are the same. */
+static void adapts(void **state)
+{
+  (void)state;
+  gg_model m = model_of(0);
+  gg_md *serial = create(&m, 1), *shared = create(&m, 1);
+  gg_md_share(shared, 2, true);
+  md_collide(serial, 40000);
+  md_collide(shared, 40000);
+  assert_int_equal(hash_of(serial), hash_of(shared));
+  const gg_md_trial *t = &shared->parallel->trial;
+  assert_true(t->cost[0] > 0 && t->cost[1] > 0 && shared->parallel->counts.events > 0);
+  md_destroy(serial);
+  md_destroy(shared);
+}
+
 /* What is not shared says so. */
 static void says_why_not(void **state)
 {
@@ -170,7 +186,7 @@ static void says_why_not(void **state)
   assert_string_equal(gg_md_serial_because(&small), "a small box");
   assert_null(gg_md_serial_because(&shared));
   gg_md *e = md_create(&small, 1);
-  gg_md_share(e, 4);
+  gg_md_share(e, 4, false);
   assert_null(e->parallel);
   md_destroy(e);
 }
@@ -178,6 +194,6 @@ static void says_why_not(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(same_bits), cmocka_unit_test(cuts_and_resumes),
-                                     cmocka_unit_test(says_why_not)};
+                                     cmocka_unit_test(adapts), cmocka_unit_test(says_why_not)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "common/thermostat.h"
 #include "md/aligned_memory.h"
@@ -12,15 +13,19 @@
 
 /* Buckets of a window for each slab: so few that its log stays in the cache. Windows of an epoch at least: in shorter
  * ones fewer events depend on one that was put off. Buckets at least; layers of cells that a slab has at least; windows
- * between looks at whether to stop; events after a cancelled window without any. */
+ * between looks at whether to stop; events after a cancelled window without any; spans of events of which one goes the
+ * slower way, to see whether it still is. */
 enum {
   BUCKETS_OF_A_SLAB = 96,
   FEWEST_WINDOWS = 128,
   FEWEST_BUCKETS = 32,
   FEWEST_LAYERS = 6,
   WINDOWS_BETWEEN_LOOKS = 16,
-  SERIAL_EVENTS = 1 << 15
+  SERIAL_EVENTS = 1 << 15,
+  TRIALS = 16
 };
+
+#define FASTER 0.95
 
 const char *gg_md_serial_because(const gg_model *m)
 {
@@ -129,12 +134,13 @@ static bool make(gg_md *e, int threads)
   return p->pool != NULL;
 }
 
-void gg_md_share(gg_md *e, int threads)
+void gg_md_share(gg_md *e, int threads, bool adapts)
 {
   const int most = gg_md_most_slabs(&e->model);
   gg_md_parallel_free(e);
   if (threads > most) threads = most;
   if (threads > 1 && !make(e, threads)) gg_md_parallel_free(e);
+  if (e->parallel) e->parallel->adapts = adapts;
 }
 
 double gg_md_parallel_cpu(const gg_md *e)
@@ -186,10 +192,33 @@ static bool plan(gg_md_parallel *p)
   return size >= FEWEST_BUCKETS && gg_md_measure_around(p);
 }
 
+/* The next span of events goes the faster way; once in a while the other way, to compare. */
+static void begin_trial(gg_md_parallel *p)
+{
+  gg_md_trial *t = &p->trial;
+  const uint64_t events = p->engine->k.events;
+  const double now = gg_base_clock_wall();
+  if (t->until > 0 && events > t->from) t->cost[t->serial] = (now - t->began) / (double)(events - t->from);
+  const bool faster = t->cost[1] < FASTER * t->cost[0];
+  if (t->cost[1] == 0 || t->cost[0] == 0)
+    t->serial = t->cost[0] > 0;
+  else
+    t->serial = ++t->number % TRIALS == 0 ? !faster : faster;
+  t->from = events;
+  t->until = events + p->engine->n / 2;
+  t->began = now;
+}
+
+static bool goes_serial(gg_md_parallel *p)
+{
+  if (p->adapts && p->engine->k.events >= p->trial.until) begin_trial(p);
+  return p->trial.serial || p->engine->k.events < p->serial_until;
+}
+
 bool gg_md_run_windows(gg_md *e)
 {
   gg_md_parallel *p = e->parallel;
-  if (e->callback || e->plain || e->k.next_kick < INFINITY || e->k.events < p->serial_until || !plan(p)) return false;
+  if (e->callback || e->plain || e->k.next_kick < INFINITY || goes_serial(p) || !plan(p)) return false;
   begin(p);
   int k = 0;
   do {

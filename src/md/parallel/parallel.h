@@ -11,8 +11,9 @@ int gg_md_most_slabs(const gg_model *model);
 /* From so many grains on threads gain. */
 enum { GG_MD_FEWEST_SHARED = 30000 };
 
-/* Share the events of this engine out to so many threads, where that is possible; 1: no longer. */
-void gg_md_share(gg_md *e, int threads);
+/* Share the events of this engine out to so many threads, where that is possible; 1: no longer. `adapts`: only while
+ * that is faster by the clock. */
+void gg_md_share(gg_md *e, int threads, bool adapts);
 void gg_md_parallel_free(gg_md *e);
 
 /* Events up to about e->k.stop or the epoch's end in whole windows, as far as there is room for some; false: there was

@@ -127,7 +127,19 @@ typedef struct gg_md_window_counts {
   uint64_t events, put_off[2], taken_back, cancelled;
 } gg_md_window_counts;
 
+/* Which is faster, shared events or serial ones? The clock decides, since no bit depends on it: where other processes
+ * keep the processors busy, threads wait for each other. */
+typedef struct gg_md_trial {
+  bool serial;
+  uint64_t from, until; /* events */
+  double began;         /* by the clock */
+  double cost[2];       /* seconds per event, shared and serial; 0: not known yet */
+  uint32_t number;
+} gg_md_trial;
+
 struct gg_md_parallel {
+  bool adapts;
+  gg_md_trial trial;
   gg_md *engine;
   gg_thread_pool *pool;
   int n_slabs, phase;
