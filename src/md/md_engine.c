@@ -149,6 +149,7 @@ static bool run_leg(gg_md *e)
   for (;;) {
     const double before = e->k.now;
     if (e->parallel && gg_md_run_windows(e)) e->look_at = e->k.events + EVENTS_BETWEEN_WINDOWS;
+    if (e->out_of_memory) return true;
     e->kernel->run(e);
     if (e->k.events < e->look_at) return true;
     e->stands_still = e->k.now == before && e->model.walled && e->model.contact_time == 0;
@@ -182,7 +183,7 @@ static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
   gg_md *e = (gg_md *)engine;
   e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
   bool ended = !gg_md_check_numbers(e) || run_legs(e);
-  if (e->out_of_memory) return gg_base_out_of_memory_for(err, "a cell of the grid");
+  if (e->out_of_memory) return gg_base_out_of_memory_for(err, "cells and events of md");
   if (e->no_number)
     return gg_base_fail(err, GG_FAILED,
                         "md: a velocity or position became NaN or infinite after %.3g collisions per grain",

@@ -141,10 +141,12 @@ static gg_md *restored(gg_md *e, const gg_model *m, int threads)
 static void cuts_and_resumes(void **state)
 {
   (void)state;
+  uint64_t cancelled = 0;
   for (int k = 0; k < CASES; k += 3) {
     gg_model m = model_of(k);
     gg_md *serial = create(&m, 1), *shared = create(&m, 3);
     assert_int_equal(run_in_parts(serial), run_in_parts(shared));
+    cancelled += shared->parallel->counts.cancelled;
     gg_md *two = restored(shared, &m, 2), *one = restored(shared, &m, 1);
     md_destroy(shared);
     md_collide(serial, 20000);
@@ -156,6 +158,38 @@ static void cuts_and_resumes(void **state)
     md_destroy(two);
     md_destroy(one);
   }
+  assert_true(cancelled > 0); /* windows that a part ends in */
+}
+
+/* What lists of windows grow by, but for this test: so many times, then no more; -1: always. */
+static int allocations_left = -1;
+
+void *aligned_alloc(size_t alignment, size_t size)
+{
+  void *block = NULL;
+  if (allocations_left == 0) return NULL;
+  if (allocations_left > 0) allocations_left--;
+  return posix_memalign(&block, alignment, size) == 0 ? block : NULL;
+}
+
+/* Wherever memory lacks, the run ends with an error. */
+static void lacks_memory(void **state)
+{
+  (void)state;
+  int failed = 0;
+  for (int k = 0; k < 120; k += 5) {
+    gg_model m = model_of(k % CASES);
+    gg_md *e = create(&m, 3);
+    double elapsed;
+    gg_error err = {0};
+    allocations_left = k;
+    const gg_status status = gg_md_ops.advance(&e->base, INFINITY, 20000, &elapsed, &err);
+    allocations_left = -1;
+    if (status != GG_OK) assert_non_null(strstr(err.message, "out of memory"));
+    failed += status != GG_OK;
+    md_destroy(e);
+  }
+  assert_true(failed > 10);
 }
 
 /* Where the clock decides, both ways are gone, and the bits are the same. */
@@ -179,10 +213,10 @@ static void says_why_not(void **state)
 {
   (void)state;
   gg_model walls = md_model((md_case){GG_COUETTE, 6000, 0.3, 0.9, 0, INFINITY, {0}}),
-           bath = md_model((md_case){GG_HSS, 6000, 0.3, 0.9, 0, INFINITY, {0}}),
+           heated = md_model((md_case){GG_HSS, 6000, 0.3, 0.9, 0, INFINITY, {0}}),
            small = md_model((md_case){GG_USF, 500, 0.3, 0.9, 0, INFINITY, {0}}), shared = model_of(0);
   assert_string_equal(gg_md_serial_because(&walls), "walls");
-  assert_non_null(gg_md_serial_because(&bath));
+  assert_non_null(strstr(gg_md_serial_because(&heated), "thermostat"));
   assert_string_equal(gg_md_serial_because(&small), "a small box");
   assert_null(gg_md_serial_because(&shared));
   gg_md *e = md_create(&small, 1);
@@ -194,6 +228,7 @@ static void says_why_not(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(same_bits), cmocka_unit_test(cuts_and_resumes),
-                                     cmocka_unit_test(adapts), cmocka_unit_test(says_why_not)};
+                                     cmocka_unit_test(lacks_memory), cmocka_unit_test(adapts),
+                                     cmocka_unit_test(says_why_not)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,7 +40,7 @@ static gg_md_record *begin_record(gg_md_slab *s, gg_md_due due, const gg_md_touc
     *(gg_md_stamp *)gg_md_append(s, &log->stamp, sizeof(gg_md_stamp)) =
         (gg_md_stamp){t->cell[k], t->layer[k], s->all->cell[t->cell[k]]};
   save(s, log, due.grain);
-  if (t->collides) save(s, log, r->partner);
+  if (t->collides) save(s, log, s->view->node[due.grain].partner);
   if (t->crosses && s->view->search.kind == GG_MD_NEIGHBOUR_LISTS) save_list(s, log, due.grain);
   return r;
 }
@@ -86,6 +86,7 @@ void gg_md_run_shared(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
 {
   gg_md *v = s->view;
   gg_md_record *r = begin_record(s, due, t);
+  if (s->out_of_memory) return;
   const gg_md_log *log = &s->log[s->phase - 1];
   clear_counts(v, r);
   run_event(s, due);

@@ -29,6 +29,7 @@ void gg_md_add_due(gg_md_slab *s, gg_md_growing *list, gg_md_due due)
 void gg_md_add_fresh(gg_md_slab *s, gg_md_due due)
 {
   gg_md_add_due(s, &s->fresh, due);
+  if (s->out_of_memory) return;
   gg_md_due *item = s->fresh.item;
   uint32_t k = s->fresh.n - 1;
   for (; k > 0 && gg_md_is_before(item[k - 1], due); k--) item[k] = item[k - 1];

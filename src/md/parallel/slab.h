@@ -93,6 +93,18 @@ typedef struct gg_md_move {
   uint64_t order; /* by phase, slab and time: of overflow lists */
 } gg_md_move;
 
+/* Any item of the lists. */
+typedef union gg_md_any {
+  gg_md_record record;
+  gg_md_saved saved;
+  gg_md_saved_more more;
+  gg_md_saved_list list;
+  gg_md_addend addend;
+  gg_md_stamp stamp;
+  gg_md_move move;
+  gg_md_due due;
+} gg_md_any;
+
 typedef struct gg_md_parallel gg_md_parallel;
 
 typedef struct gg_md_slab {
@@ -112,7 +124,7 @@ typedef struct gg_md_slab {
   gg_md_log log[GG_MD_PHASES];
   gg_md_growing overflow;                              /* gg_md_move of full buckets */
   gg_md_growing moves[GG_MD_PHASES][GG_MD_MOST_SLABS]; /* by who does it */
-  gg_md_record spare;                                  /* written where memory lacked */
+  gg_md_any spare;                                     /* written where memory lacked, and not read */
 } gg_md_slab;
 
 /* Of a layer of cells in a phase: whose it is, and whether it is an outer one. */

@@ -270,16 +270,22 @@ static void cancel(gg_md_parallel *p)
   qsort(q->due, q->n_due, sizeof *q->due, latest_first);
 }
 
+/* Then what the window has done cannot be taken back, and the run is over. */
+static bool lacks_memory(const gg_md_parallel *p)
+{
+  for (int k = 0; k < p->n_slabs; k++) p->engine->out_of_memory |= p->slab[k].out_of_memory;
+  return p->engine->out_of_memory;
+}
+
 bool gg_md_run_window(gg_md_parallel *p)
 {
   gg_md *e = p->engine;
   begin_window(p);
   const bool good = run_phases(p);
-  for (int k = 0; k < p->n_slabs; k++) e->out_of_memory |= p->slab[k].out_of_memory;
-  if (e->out_of_memory) return false;
+  if (lacks_memory(p)) return false;
   if (good && gg_md_window_collisions(p) < e->k.collisions_left) {
     gg_md_settle(p);
-    return true;
+    return !lacks_memory(p);
   }
   cancel(p);
   return false;
