@@ -97,7 +97,10 @@ static void print_bash(void)
 static void put_quoted(const char *text)
 {
   for (; *text; text++)
-    if (strchr("'[]", *text) == NULL) putchar(*text == ':' ? ',' : *text);
+    if (*text == '\'')
+      fputs("'\"'\"'", stdout);
+    else if (strchr("[]", *text) == NULL)
+      putchar(*text == ':' ? ',' : *text);
 }
 
 static void print_zsh(void)

@@ -30,7 +30,7 @@ gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene,
   const gg_observable *own = gg_measure_user_observables(&r->model);
   if ((own || scene->measure & ~GG_MEASURE_RHEOLOGY) && !(scene->measure & GG_MEASURE_RHEOLOGY))
     return gg_base_fail(err, GG_BAD_INPUT,
-                        "measure: add rheology: it tells when the gas is steady and the run is done");
+                        "measure: add rheology: by it a run knows when the gas is steady and the run is done");
   for (int i = 0; gg_measure_observables[i]; i++) {
     const gg_observable *o = gg_measure_observables[i];
     if (!(scene->measure & o->flag) || (o->refuses && o->refuses(&r->model))) continue;

@@ -82,7 +82,8 @@ const gg_theory gg_theory_gaussian_closure = {
     .assumptions =
         "Steady uniform shear at any density, any number of species, smooth or of constant beta. Within 1 % of "
         "Enskog's equation in T, p and viscosity for e from 0.9 (1.6 % low in dilute gases as e -> 1, 4 % for dilute, "
-        "half-rough grains), N2 within 15 %. Molecular chaos; velocities and spins are Gaussian and independent, which "
+        "half-rough grains), N2 within 15 %; in a sheared bath a quarter off at worst. Molecular chaos; velocities and "
+        "spins are Gaussian and independent, which "
         "leaves out a part of the mean spin that grows as 1/phi: spin_z has values from phi = 0.01 on.",
     .baths = true,
     .evaluate = evaluate,
