@@ -75,7 +75,7 @@ def test_a_comparison_tells_it():
 
 def test_the_table_of_a_sweep_has_it():
     with open("sweep.yaml", "w") as f:
-        f.write(SCENE + "vary: {md.contact_time: [auto, 1e-3]}\nsweep: {does: run}\n")
+        f.write(SCENE + "vary: {md.contact_time: [auto, 1e-3]}\nsweep: {does: run, seeds: common}\n")
     check(run("sweep", "sweep.yaml", "--quiet", "--output", "s").code == 0)
     done = run("sweep", "s", "--collect", "--picture", "none")
     check(done.code == 0, done.err)
