@@ -28,7 +28,8 @@ double gg_md_temperature(const gg_md *e)
 
 double gg_md_early_temperature(const gg_md *e, double T)
 {
-  return e->model.shear_rate != 0 && T < 0.01 ? 0.01 : T;
+  const double sheared = e->model.shear_rate != 0 ? 0.01 : 0, bath = e->model.bath.on ? e->k.kick_temperature : 0;
+  return fmax(T, fmax(sheared, bath));
 }
 
 /* What gravity along y has to lift a grain across the box, over the temperature, below which it holds nobody down. */

@@ -67,8 +67,8 @@ static double interval_of(const gg_md *e, int species)
 {
   const gg_model *m = &e->model;
   if (e->thermostat == GG_BATH) return interval_in_bath(m, species, e->k.kick_temperature);
-  const double least = LEAST_INTERVAL / gg_common_model_collision_rate(m, m->temperature0);
-  return fmax(least, SHARE_OF_T * m->temperature0 / (m->mass[species] * e->noise));
+  const double T = e->k.kick_temperature, least = LEAST_INTERVAL / gg_common_model_collision_rate(m, T);
+  return fmax(least, SHARE_OF_T * T / (m->mass[species] * e->noise));
 }
 
 static void choose_interval(gg_md *e, int species)
@@ -80,17 +80,19 @@ static void choose_interval(gg_md *e, int species)
   if (e->thermostat == GG_BATH) make_bath(&e->model.bath, species, interval, t);
 }
 
-/* A gas in a bath may begin colder than it will be: by the bath, or, as epochs show, by what else heats it. */
-static void follow_bath(gg_md *e)
+/* A gas in a bath, or with noise of a given strength, may begin colder than it will be: what heats it is the bath or,
+ * as epochs show, the shear. */
+static void choose_temperature(gg_md *e)
 {
   const gg_model *m = &e->model;
-  const double hot = fmax(m->temperature0, m->shear_rate == 0 ? gg_common_thermostat_balance(m, 0) : 0);
-  if (e->thermostat == GG_BATH) e->k.kick_temperature = fmax(e->k.kick_temperature, hot);
+  const bool balanced = m->bath.on && m->shear_rate == 0;
+  const double hot = fmax(m->temperature0, balanced ? gg_common_thermostat_balance(m, 0) : 0);
+  e->k.kick_temperature = fmax(e->k.kick_temperature, hot);
 }
 
 void gg_md_kicks_follow(gg_md *e, double T)
 {
-  if (e->thermostat != GG_BATH || !(T > 2 * e->k.kick_temperature)) return;
+  if (!e->model.bath.on || !(T > 2 * e->k.kick_temperature)) return;
   e->k.kick_temperature = T;
   for (int s = 0; s < e->model.n_species; s++) choose_interval(e, s);
 }
@@ -99,7 +101,7 @@ gg_status gg_md_kicks_make(gg_md *e, gg_error *err)
 {
   if (!gg_md_has_kicks(e)) return GG_OK;
   uint32_t end[GG_MAX_SPECIES], before = 0;
-  follow_bath(e);
+  choose_temperature(e);
   for (int s = 0; s < e->model.n_species; s++) {
     gg_md_turns *t = &e->kicks.of[s];
     *t = (gg_md_turns){.first = before, .n = (uint32_t)e->model.n_of[s]};

@@ -118,7 +118,7 @@ typedef struct gg_md_counts {
   double worst_overlap;
   gg_rng rng;
   double next_kick;        /* epoch time of the earliest turn; INFINITY: no kicks */
-  double kick_temperature; /* of a bath: the hottest gas that turns are frequent enough for */
+  double kick_temperature; /* the hottest gas that turns are frequent enough for */
   gg_md_turn turn[GG_MAX_SPECIES];
   /* Gaussian thermostat: the gas inside cools freely; outside, velocities are `scale` times larger and clocks slower.
    */

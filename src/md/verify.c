@@ -99,7 +99,7 @@ static bool is_event(const gg_md *e, uint32_t i)
   if (n->face != GG_MD_IMAGES_MOVED && (n->face < 0 || n->face > 7)) return false;
   if (isnan(n->time) || isnan(n->collision) || isnan(n->skin_time) || n->time < -0.5 * e->queue.width) return false;
   if (!is_partner(e, i, n->partner)) return false;
-  /* A grain that hardly moves crosses a border never; what the centre of mass has moved since is more than its way. */
+  /* A grain at rest but for rounding: its frame, which follows the centre of mass, may have moved more than it. */
   if (n->time > 0x1p60 * gg_md_queue_span(&e->queue)) return true;
   return is_in_box(e, place_at(e, &e->grain[i], n->time), FAR);
 }

@@ -121,12 +121,24 @@ static double interval_of(gg_engine *g)
   return t->apart * t->n / 2;
 }
 
+/* Noise of a given strength, or a given rate of heating. */
+static gg_model given(gg_thermostat thermostat, double strength)
+{
+  gg_scene s = lab_scene(GG_HSS, 0.02, 0.8, -1, 500);
+  gg_model m;
+  gg_error err = {0};
+  s.particles = 500;
+  s.thermostat = thermostat;
+  *(thermostat == GG_GAUSSIAN ? &s.gaussian_rate : &s.noise_strength) = strength;
+  if (gg_common_model_make(&s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  return m;
+}
+
 /* A gas that begins colder than the bath will keep it has the same turns as one that begins there; and one that shear
  * heats gets them on the way. */
-static void cold_starts(void **state)
+static void from_cold(gg_model steady)
 {
-  (void)state;
-  gg_model steady = bath(GG_HSS, 0.02, 0.8, -1, 0.02, 1, 0, 500), cold = steady;
+  gg_model cold = steady;
   cold.temperature0 = 1e-6;
   gg_engine *a = engine_of(&steady, 1), *b = engine_of(&cold, 1);
   assert_true(fabs(interval_of(b) / interval_of(a) - 1) < 1e-9);
@@ -143,6 +155,14 @@ static void cold_starts(void **state)
   lab_expect("T from cold", &T, answer.value[GG_Q_TEMPERATURE], 2e-3, 0.03);
   gg_md_ops.destroy(a);
   gg_md_ops.destroy(b);
+}
+
+static void cold_starts(void **state)
+{
+  (void)state;
+  from_cold(bath(GG_HSS, 0.02, 0.8, -1, 0.02, 1, 0, 500));
+  from_cold(given(GG_WHITE_NOISE, 0.02));
+  from_cold(given(GG_GAUSSIAN, 0.2));
   gg_model sheared = bath(GG_USF, 0.2, 0.9, -1, 0.02, 1e-4, 0, 500);
   sheared.temperature0 = 1e-4;
   gg_engine *c = engine_of(&sheared, 1);
