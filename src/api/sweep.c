@@ -1,5 +1,4 @@
 /* Sweeps: read, changed, checked and queried. */
-#include <errno.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +7,6 @@
 
 #include "api/api.h"
 #include "api/scene_theories.h"
-#include "base/atomic_file.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "common/extension.h"

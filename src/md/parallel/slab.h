@@ -44,7 +44,7 @@ typedef struct gg_md_cell_state {
   float last;
 } gg_md_cell_state;
 
-/* A grain as it was before an event. */
+/* The state of a grain before an event. */
 typedef struct gg_md_saved {
   gg_md_grain grain;
   gg_md_node node;
@@ -65,7 +65,7 @@ typedef struct gg_md_saved_list {
   gg_md_skin skin;
 } gg_md_saved_list;
 
-/* A cell that an event has touched, as it was before. */
+/* The state of a cell before an event that touched it. */
 typedef struct gg_md_stamp {
   uint32_t cell, layer;
   gg_md_cell_state before;

@@ -1,4 +1,4 @@
-/* Events that ran too early, and all that followed from them, are taken back: latest first, each leaves all as it was
+/* Events that ran too early, and all that followed from them, are taken back: latest first, each restores the state
  * before it. */
 #include <string.h>
 

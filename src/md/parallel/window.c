@@ -109,7 +109,7 @@ GG_INLINE void prefetch(const gg_md_slab *s)
   if (left > AHEAD) prefetch_states(s, due[AHEAD].grain);
 }
 
-/* What the serial loop has to do: cells or lists that are full, what is no number, and the end. */
+/* What the serial loop has to do: cells or lists that are full, NaN, and the end. */
 static bool is_over(const gg_md_slab *s)
 {
   return s->out_of_memory | s->view->out_of_memory | s->view->no_number | s->view->lists_are_full;
