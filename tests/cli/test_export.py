@@ -156,6 +156,18 @@ def test_comparison():
         path = f"r_{engine}_velocity_distributions_{next(iter(document[engine]['curves']))}.csv"
         check(path in done.new, path, done.new)
     check(len(frames("r.xyz")) == 1)
+    # One engine alone steady: as another program may have written it.
+    if not h5py:
+        return
+    document["md"]["steady"], document["dsmc"]["steady"] = False, True
+    with h5py.File("r.h5", "r+") as f:
+        del f["graingas/document"]
+        text = json.dumps(document).encode()
+        f["graingas"].create_dataset("document", data=text, dtype=f"S{len(text) + 1}")
+    exported("r.h5", "--output", "other")
+    for line in rows("other.csv")[1]:
+        check((line["md_steady"], line["dsmc_steady"]) in (("false", "true"), ("false", ""), ("", "true"), ("", "")), line)
+    check(any(line["md_steady"] and line["dsmc_steady"] for line in rows("other.csv")[1]))
 
 
 def stored(path):

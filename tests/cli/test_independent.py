@@ -868,6 +868,39 @@ def test_uneven_replicas():
     hold_collisions(store, "usf", document["curves"], rows)
 
 
+def cooling(**more):
+    """The result of a short run of a few cooling grains, of which nothing is stored."""
+    scene = {"flow": "hcs", "engine": "dsmc", "phi": 0.1, "dsmc": {"particles": 200}, "collision": {"e": 0.95, "beta": 0.97},
+             "run": {"warmup": 200, **more}}
+    with open("scene.yaml", "w") as f:
+        json.dump(scene, f)
+    done = run("run", "scene.yaml", "--quiet", "--json")
+    check(done.code == 0, done.err)
+    return json.loads(done.out)
+
+
+def test_margin():
+    """Errors that decide when a run ends are larger by 6 tau over the length of all replicas' windows."""
+    asked, fixed = cooling(relative_error=0.05, replicas=3), cooling(collisions=1000, replicas=3)
+    for name, q in asked["results"].items():
+        if q.get("stderr"):
+            plain = fixed["results"][name]
+            close(q["mean"], plain["mean"], name)
+            close(q["stderr"], plain["stderr"] * (1 + 6 * q["correlation_time"] / (2 * q["samples"])), name)
+
+
+def test_long_series():
+    """Rows of one sample, and of two: the shortest correlation time is half of a row, of two collisions a grain a sample.
+    Work is that of the window."""
+    for collisions, shortest in (12000, 1), (36000, 2):
+        document = cooling(collisions=collisions, warmup=8000)
+        close(document["results"]["cooling_rate"]["correlation_time"], shortest, "cooling_rate")
+        share = document["collisions"] / document["total"]["collisions"]
+        close(share, collisions / (collisions + 8000), "collisions", within=0.01)
+        cpu = document["cpu_seconds"] / document["total"]["cpu_seconds"]
+        check(share - 0.15 < cpu < share + 0.15, "processor time", cpu, share)
+
+
 def test_errors():
     """Standard errors against those of means over blocks of samples, which are known to 8 %; of the distribution of angles
     against counting."""
