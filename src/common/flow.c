@@ -88,12 +88,12 @@ const gg_flow_row gg_common_flows[GG_N_FLOWS] = {
                         .title = "Linear response to shear",
                         .doc =
                             "linear response to shear: viscosity at vanishing shear rate of the cooling gas, or with "
-                            "thermostat: gaussian of the heated gas",
+                            "thermostat: gaussian (dsmc) of the heated gas",
                         .state = "the linear response of a cooling or heated gas to shear",
                         .frame = GG_SHEARED_FRAME,
                         .linear_response = true,
                         .thermostats = UNHEATED | GAUSSIAN,
-                        .engines = IN_DSMC,
+                        .engines = IN_MD | IN_DSMC,
                         .measure = GG_MEASURE_VISCOSITY,
                         .headline = KNOWN_BY(GG_Q_VISCOSITY_REDUCED)},
     [GG_HEATED_SHEAR] = {.word = "heated_shear",

@@ -253,10 +253,44 @@ static void state(const gg_engine *engine, gg_engine_state *s)
                          .others_cpu = gg_md_parallel_cpu(e)};
 }
 
+/* Every grain to the present, which is where a new epoch begins. */
+static void bring_to_present(gg_md *e)
+{
+  gg_md_counts *k = &e->k;
+  const double now = k->now;
+  e->box.offset0 = gg_md_offset(&e->box, now);
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_md_grain *g = &e->grain[i];
+    g->r = gg_md_position(e, e->falls, g, now);
+    g->t = 0;
+  }
+  k->epoch_start += now, k->mark -= now;
+  k->now = k->window_time = 0;
+  k->window_collisions = 0;
+  k->epoch_collisions = k->collisions, k->epoch_events = k->events;
+  if (gg_md_search_has_rows(e->search.kind)) gg_md_align_rows(e);
+}
+
+/* Of a linear response: peculiar velocities are multiplied, the flow and the clock stay, and all is predicted anew. */
+static gg_status begin_sweep(gg_md *e, int power, gg_error *err)
+{
+  bring_to_present(e);
+  for (uint32_t i = 0; i < e->n; i++) {
+    gg_md_grain *g = &e->grain[i];
+    const double flow = e->model.shear_rate * (g->r.y - 0.5 * e->box.edge[1]);
+    g->v.x = ldexp(g->v.x - flow, power) + flow;
+    g->v.y = ldexp(g->v.y, power), g->v.z = ldexp(g->v.z, power);
+    if (e->spin) e->spin[i] = gg_scale(ldexp(1, power), e->spin[i]);
+  }
+  e->k.power += power;
+  return gg_md_begin_at(e, gg_md_temperature(e), err);
+}
+
 /* Everything that has a dimension of time or velocity, by exact powers of two. */
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
+  if (e->model.linear_response) return begin_sweep(e, power, err);
   if (e->model.shear_rate != 0 || e->model.walled || e->thermostat != GG_NO_THERMOSTAT)
     return gg_base_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled in a driven flow: the drive sets the clock");
   double v = ldexp(1, power), t = ldexp(1, -power);

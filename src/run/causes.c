@@ -97,6 +97,19 @@ static bool structured(const difference *d, char *text, size_t size)
   return true;
 }
 
+/* They die out slowly near their instability, and take part in the response. */
+static bool waves_respond(const difference *d, char *text, size_t size)
+{
+  const gg_estimate *waves = &d->md->value[GG_Q_MOMENTUM_WAVES];
+  if (!(d->model->linear_response && waves->mean - 2 * waves->error > 1.5)) return false;
+  snprintf(
+      text, size,
+      "shear waves of the box's length, %.2g times those of a homogeneous gas, answer the shear, too: in a smaller "
+      "box the viscosity is lower",
+      waves->mean);
+  return true;
+}
+
 /* Results of versions that did not measure waves. */
 static bool may_be_structured(const difference *d, char *text, size_t size)
 {
@@ -158,7 +171,7 @@ static bool correlated(const difference *d, char *text, size_t size)
   return true;
 }
 
-static cause *const causes_known[] = {not_steady, about_cells,      structured, may_be_structured,
+static cause *const causes_known[] = {not_steady, about_cells,      structured, waves_respond, may_be_structured,
                                       treated,    number_of_grains, hot_spins,  correlated};
 
 static const char unknown[] = "no known cause";

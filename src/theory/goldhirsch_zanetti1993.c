@@ -62,8 +62,9 @@ static double longest_edge(const gg_model *m)
 
 double gg_theory_stable_grains(const gg_model *m)
 {
-  const bool cools = gg_flow_cools(m->flow) || (gg_flow_is_heated(m->flow) && m->thermostat == GG_GAUSSIAN);
-  if (m->homogeneous || m->shear_rate != 0 || m->linear_response || !cools) return NAN;
+  const bool cools = gg_flow_cools(m->flow) || (gg_flow_is_heated(m->flow) && m->thermostat == GG_GAUSSIAN) ||
+                     (m->linear_response && m->thermostat == GG_NO_THERMOSTAT);
+  if (m->homogeneous || !cools) return NAN;
   return (double)m->n * pow(gg_theory_clustering_length(m) / longest_edge(m), 3);
 }
 

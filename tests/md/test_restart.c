@@ -94,6 +94,68 @@ static void cut_anywhere(void **state)
   }
 }
 
+typedef struct grains {
+  size_t n;
+  double r[3][1000], c[3][1000];
+} grains;
+
+static void note(void *context, const gg_chunk *chunk)
+{
+  grains *g = context;
+  for (size_t i = 0; i < chunk->n; i++, g->n++)
+    for (int a = 0; a < 3; a++) g->r[a][g->n] = chunk->r[a][i], g->c[a][g->n] = chunk->c[a][i];
+}
+
+/* The next sweep of a linear response begins in the same places at the same time, with a multiple of the peculiar
+ * velocities; nobody overlaps then or later; and it goes on from a checkpoint bit for bit. */
+static void sweeps(void **state)
+{
+  (void)state;
+  static const md_case swept[] = {{GG_SMALL_SHEAR, 200, 0.3, 0.9, 0.3, INFINITY, {0}},
+                                  {GG_SMALL_SHEAR, 700, 0.01, 0.9, -1, INFINITY, {2, 1, 1}},
+                                  {GG_SMALL_SHEAR, 900, 0.45, 1, -1, INFINITY, {0}}};
+  for (size_t k = 0; k < sizeof swept / sizeof *swept; k++) {
+    gg_model m = md_model(swept[k]);
+    gg_md *e = md_create(&m, 2);
+    gg_engine *back = NULL;
+    gg_archive a = {0};
+    gg_error err;
+    md_collide(e, 20001);
+    for (int power = -2; power <= 4; power += 6) {
+      grains before = {0}, after = {0};
+      gg_engine_state then, now;
+      gg_md_ops.snapshot(&e->base, true, note, &before);
+      gg_md_ops.state(&e->base, &then);
+      assert_int_equal(gg_md_ops.rescale(&e->base, power, &err), GG_OK);
+      gg_md_ops.snapshot(&e->base, true, note, &after);
+      gg_md_ops.state(&e->base, &now);
+      assert_true(fabs(now.time - then.time) < 1e-12 * then.time && now.collisions == then.collisions);
+      for (size_t i = 0; i < before.n; i++)
+        for (int b = 0; b < 3; b++) {
+          const double moved = fabs(after.r[b][i] - before.r[b][i]);
+          assert_true(fmin(moved, fabs(moved - m.box[b])) < 1e-9);
+          assert_true(fabs(after.c[b][i] - ldexp(before.c[b][i], power)) < 1e-9 * (1 + fabs(after.c[b][i])));
+        }
+      md_collide(e, 20001);
+    }
+    gg_engine_state s;
+    gg_md_ops.state(&e->base, &s);
+    assert_true(s.worst_overlap < 1e-12);
+    assert_int_equal(gg_md_ops.save(&e->base, &a, &err), GG_OK);
+    assert_int_equal(gg_md_ops.restore(&m, &a, &back, &err), GG_OK);
+    gg_base_archive_clear(&a);
+    for (int part = 0; part < 2; part++) {
+      md_collide(e, 7777);
+      md_collide((gg_md *)back, 7777);
+      assert_int_equal(md_hash(e), md_hash((gg_md *)back));
+      assert_int_equal(gg_md_ops.rescale(&e->base, -2, &err), GG_OK);
+      assert_int_equal(gg_md_ops.rescale(back, -2, &err), GG_OK);
+    }
+    md_destroy(e);
+    md_destroy((gg_md *)back);
+  }
+}
+
 /* Up by 2^p at random moments and down again is the same run. */
 static void rescaled(void **state)
 {
@@ -219,9 +281,13 @@ static void stopped_and_left(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(saved_and_restored), cmocka_unit_test(clock_far_off), cmocka_unit_test(cut_anywhere),
-      cmocka_unit_test(rescaled),           cmocka_unit_test(stopped),       cmocka_unit_test(stopped_while_heated),
-      cmocka_unit_test(stopped_and_left)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(saved_and_restored),
+                                     cmocka_unit_test(clock_far_off),
+                                     cmocka_unit_test(cut_anywhere),
+                                     cmocka_unit_test(sweeps),
+                                     cmocka_unit_test(rescaled),
+                                     cmocka_unit_test(stopped),
+                                     cmocka_unit_test(stopped_while_heated),
+                                     cmocka_unit_test(stopped_and_left)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

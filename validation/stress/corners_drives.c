@@ -106,7 +106,6 @@ static const corner corners[] = {
      .quick = true},
     {.name = "shear that goes to 0, cooling",
      .scene = "{flow: small_shear, phi: 0.1, particles: 300}",
-     .md = "flow: small_shear",
      .quick = true},
     {.name = "Couette, e 0 at walls and grains",
      .scene = "{flow: couette, phi: 0.1, particles: 400, collision: {e: 0}, walls: {e: 0}}",
