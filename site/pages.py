@@ -86,7 +86,7 @@ def c_pages(folder):
             if item in documented:
                 continue
             documented.add(item)
-            lines += [f".. doxygen{kind}:: {item}"] + ["   :members:"] * (kind == "struct") + [""]
+            lines += [f".. doxygen{kind}:: {item}"] + ["   :members:", "   :undoc-members:"] * (kind == "struct") + [""]
             if kind == "function" and item in python:
                 lines += ["Python: " + ", ".join(role(n) for n in sorted(python[item])), ""]
         write(folder, f"c/{name}.rst", "\n".join(lines))
