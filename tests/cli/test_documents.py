@@ -57,6 +57,26 @@ def test_header():
     check(n > 90 and not wrong, n, "in include/graingas.h, without such a comment:\n" + "\n".join(sorted(wrong)))
 
 
+def test_versions():
+    """One version everywhere; of a release also one date."""
+    text = {name: open(os.path.join(SOURCE, *name.split("/")), encoding="utf-8").read() for name in
+            ("meson.build", "pyproject.toml", "CITATION.cff", "codemeta.json", "debian/changelog", "debian/control", "CHANGELOG.md", "include/graingas.h")}
+    version = re.search(r"^  version: '(.*)',", text["meson.build"], re.MULTILINE)[1]
+    found = {"pyproject.toml": re.search(r'^version = "(.*)"', text["pyproject.toml"], re.MULTILINE)[1],
+             "CITATION.cff": re.search(r'^version: "?([^"\n]*)"?$', text["CITATION.cff"], re.MULTILINE)[1],
+             "codemeta.json": json.loads(text["codemeta.json"])["version"],
+             "debian/changelog": re.match(r"graingas \((.*)-\d+\)", text["debian/changelog"])[1],
+             "CHANGELOG.md": re.search(r"^## (\S+)", text["CHANGELOG.md"], re.MULTILINE)[1],
+             "include/graingas.h": re.search(r'GRAINGAS_VERSION "(.*)"', text["include/graingas.h"])[1],
+             "include/graingas.h, numbers": ".".join(re.findall(r"^#define GRAINGAS_VERSION_[A-Z]+ (\d+)", text["include/graingas.h"], re.MULTILINE)),
+             "graingas --version": re.match(r"graingas ([\d.]*\d)", run("--version").out)[1]}
+    none({f"{name} has {other}, meson.build {version}" for name, other in found.items() if other != version})
+    check(f"\nPackage: libgraingas{version.rsplit('.', 1)[0]}\n" in text["debian/control"], "debian/control has another soversion")
+    dates = [re.search(pattern, text[name], re.MULTILINE) for name, pattern in
+             (("CITATION.cff", r"^date-released: '?\"?([\d-]+)"), ("CHANGELOG.md", rf"^## {re.escape(version)} \(([\d-]+)\)"))]
+    check(len({d and d[1] for d in dates}) == 1, "date-released of CITATION.cff is not the date in CHANGELOG.md")
+
+
 def test_pictures():
     """Pictures are small."""
     sizes = {path: os.path.getsize(path) for path in glob.glob(os.path.join(SOURCE, "docs", "images", "*", "*"))}
