@@ -1599,7 +1599,7 @@ typedef enum gg_catalogue {
 
 typedef struct gg_entry { /* NULL or "": not in this table */
   const char *name, *doc, *unit, *citation, *assumptions;
-  const char *type;    /* "number", "integer", "choice", "set", "pairs", "vector", "species" */
+  const char *type;    /* "number", "integer", "choice", "set", "pairs", "vector", "file", "species" */
   char allowed[256];   /* "a number from 0 to 1" */
   char value[4096];    /* in force in the scene; without a scene the default, "": none */
   int given;           /* in the scene */

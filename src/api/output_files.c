@@ -106,7 +106,8 @@ gg_status gg_api_picture_check(const gg_run_call *r, gg_error *err)
   gg_output_path place;
   GG_TRY(gg_plot_paper_choose(&paper, o->picture, NULL, o->picture_width, err));
   if (!o->output)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from an output file: set --output FILE.h5", o->picture);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from an output file: set --output FILE.h5",
+                        o->picture);
   GG_TRY(gg_base_output_path_find(&place, o->output, err));
   bool stream = place.stream;
   gg_base_output_path_clear(&place);
@@ -129,6 +130,7 @@ gg_status gg_api_files_check(const gg_run_call *r, gg_error *err)
                       {frames, "the frames beside the checkpoint", "checkpoint"},
                       {o->resume, "the checkpoint to resume from", NULL},
                       {third, "the checkpoint before it", NULL},
+                      {*r->scene.output.log ? r->scene.output.log : NULL, "the log", "output.log"},
                       {o->input, "the scene", NULL},
                       {NULL, NULL, NULL}};
   gg_status status = check_pairs(all, sizeof all / sizeof *all - 1, err);

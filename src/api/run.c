@@ -43,6 +43,7 @@ static gg_status store_checkpoint(void *context, gg_archive *archive, gg_error *
   gg_run_call *r = context;
   locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_api_trajectory_mark(r, archive, err);
+  if (status == GG_OK) status = gg_api_log_mark(r, archive, err);
   if (status == GG_OK)
     status = r->log.place ? gg_files_checkpoint_replace(r->options.checkpoint, archive, &r->scene, err)
                           : gg_files_checkpoint_write(r->options.checkpoint, true, archive, &r->scene, err);
@@ -145,7 +146,8 @@ static gg_status begin(gg_run_call *r, const gg_scene *scene, const gg_run_optio
 {
   r->file.file = GG_ATOMIC_NONE;
   r->lock = GG_FILE_LOCK_NONE;
-  r->log.fd = -1;
+  r->log.fd = r->samples.fd = -1;
+  r->samples.lock = GG_FILE_LOCK_NONE;
   r->comparison = comparison;
   r->replaces = replaces;
   if (options) r->options = *options;
@@ -172,6 +174,7 @@ static void end(gg_run_call *r)
 {
   gg_files_result_file_abandon(&r->file);
   gg_api_trajectory_end(r);
+  gg_api_log_end(r);
   gg_base_file_lock_release(&r->lock);
   gg_base_archive_clear(&r->resume);
   for (int i = 0; i < GG_TEMPORARIES; i++) free(r->temporary[i]);
@@ -196,6 +199,7 @@ static gg_status run_engines(gg_run_call *r, gg_comparison *c, gg_error *err)
   const gg_archive *resume = r->resume.n_items ? &r->resume : NULL;
   gg_result **result = &c->by_engine[r->scene.engine];
   if (!r->comparison) GG_TRY(gg_api_trajectory_begin(r, err));
+  GG_TRY(gg_api_log_begin(r, err));
   r->started = true;
   gg_status status = r->comparison ? gg_run_compare_scene(&r->scene, resume, r->options.threads, &r->callbacks, c, err)
                                    : gg_run_scene(&r->scene, resume, r->options.threads, &r->callbacks, result, err);

@@ -12,15 +12,29 @@
 /* Files that are to be removed once the run is done, by where links lead. */
 enum { GG_TEMPORARY_CHECKPOINT, GG_TEMPORARY_BEFORE, GG_TEMPORARY_FRAMES, GG_TEMPORARIES };
 
+/* run_log.c: the rows of output.log. */
+typedef struct gg_sample_log {
+  int fd;           /* -1: none */
+  const char *path; /* the scene's */
+  bool json;        /* a JSON object a line; else CSV */
+  gg_file_lock lock;
+  struct gg_sample_log_state { /* plain data: saved as bytes */
+    uint64_t sample, rows;     /* of the last row; rows in the sums: since averaging began */
+  } state;
+  size_t width;
+  double *sum, *mean; /* over those rows, of each channel */
+} gg_sample_log;
+
 typedef struct gg_run_call {
   gg_run_options options;
   bool comparison; /* both engines and the theories; else the scene's engine */
   gg_run_callbacks callbacks;
-  gg_scene scene;                  /* finished */
-  gg_model model;                  /* of the scene's engine: for the run and for its frames */
-  gg_archive resume;               /* empty: from the start */
-  gg_result_file file;             /* of options.output */
-  gg_frame_log log;                /* of the frames of a run that keeps checkpoints */
+  gg_scene scene;      /* finished */
+  gg_model model;      /* of the scene's engine: for the run and for its frames */
+  gg_archive resume;   /* empty: from the start */
+  gg_result_file file; /* of options.output */
+  gg_frame_log log;    /* of the frames of a run that keeps checkpoints */
+  gg_sample_log samples;
   bool frames_missing;             /* those before the resumption, which did not ask for any */
   bool stored;                     /* a checkpoint */
   bool started;                    /* all before the run itself went well */
@@ -52,6 +66,11 @@ gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const
  * like a picture; the picture and the pages beside it can be written. */
 gg_status gg_api_files_check(const gg_run_call *run, gg_error *err);
 gg_status gg_api_picture_check(const gg_run_call *run, gg_error *err);
+
+/* Before the run: opens the log that the scene names, and cuts it to what the checkpoint to resume from has. */
+gg_status gg_api_log_begin(gg_run_call *run, gg_error *err);
+gg_status gg_api_log_mark(const gg_run_call *run, gg_archive *archive, gg_error *err);
+void gg_api_log_end(gg_run_call *run);
 
 /* run_trajectory.c: the frames of a run go to the result as they come. Where checkpoints are kept, they go to the log
  * beside them, and to the result at the end. What a resumed run had before goes first. */

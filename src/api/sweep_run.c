@@ -170,6 +170,7 @@ static gg_status do_point(controller *c, gg_error *err)
   gg_status status = gg_sweep_resolve(all->sweep, c->item->i, &scene, err);
   gg_base_c_locale_leave(before);
   if (status != GG_OK) return status;
+  *scene.output.log = '\0'; /* one file for all points */
   if (all->sweep->settings.does == GG_DOES_THEORY) return evaluate(c, &scene, &options, err);
   if (!(scene.output.checkpoint_every > 0)) return simulate(c, &scene, &options, &lost, err);
   options.checkpoint = gg_sweep_point_path(all->folder, id_of(c), ".checkpoint.h5", checkpoint);

@@ -36,7 +36,7 @@ typedef struct gg_species {
 } gg_species;
 
 /* At least GG_N_QUANTITIES, which only quantity.h knows. */
-enum { GG_MAX_UNTIL = 96 };
+enum { GG_MAX_UNTIL = 96, GG_FILE_NAME = 256 };
 
 struct gg_scene {
   gg_flow flow;
@@ -93,6 +93,7 @@ struct gg_scene {
     gg_frames_after after;   /* which of these are stored */
     unsigned fields;         /* GG_FIELDS_..., of every frame */
     gg_precision precision;  /* of them in the file */
+    char log[GG_FILE_NAME];  /* rows of samples; "": none */
   } output;
   gg_extension *extension; /* what the user's program adds; NULL: nothing. The scene of the interface holds it, copies
                               of its values borrow it */

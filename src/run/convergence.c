@@ -12,15 +12,17 @@
 /* ... unless it is too small to matter beside the requested error. */
 #define TREND_NEGLIGIBLE 1e-4
 
-/* The observable that has a quantity, and by what function; -1 if none. */
+int gg_run_replica_find_function(const gg_replica *r, gg_quantity q, gg_function *f)
+{
+  if (gg_common_quantity_missing(&r->model, q)) return -1;
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->width && gg_measure_derived_find(r->observable[k]->derived, q, f)) return k;
+  return -1;
+}
+
 static int find_function(const gg_replicas *all, gg_quantity q, gg_function *f)
 {
-  if (gg_common_quantity_missing(&all->model, q)) return -1;
-  for (int k = 0; k < all->replica[0].n_observables; k++) {
-    const gg_observable *o = all->replica[0].observable[k];
-    if (o->width && gg_measure_derived_find(o->derived, q, f)) return k;
-  }
-  return -1;
+  return gg_run_replica_find_function(&all->replica[0], q, f);
 }
 
 /* The series of every replica; to be freed. */

@@ -19,6 +19,7 @@ gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_m
   memset(r, 0, sizeof *r);
   r->model = *model;
   r->clock.temperature = model->temperature0;
+  r->logged = index == 0 && *scene->output.log;
   r->trajectory_every = r->clock.frame_every = index == 0 ? scene->output.trajectory_every : 0;
   r->frames_of_window = leaves_out_warmup(scene);
   r->clock.velocity_factor = 1;
@@ -260,6 +261,8 @@ gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, co
   while (status == GG_OK && r->clock.samples < samples) {
     if (gg_stop_asked(r->model.stop)) status = gg_base_fail(err, GG_INTERRUPTED, "interrupted");
     if (status == GG_OK) status = sample_once(r, adapt, err);
+    if (status == GG_OK && r->logged && callbacks && callbacks->sample)
+      status = callbacks->sample(callbacks->context, r, err);
     if (status == GG_OK) status = emit_frame(r, callbacks, err);
   }
   return gg_base_callback_settle(status, err);
@@ -315,6 +318,7 @@ gg_status gg_run_replica_restore(gg_replica *r, const gg_archive *a, const gg_sc
   memset(r, 0, sizeof *r);
   r->model = *model;
   r->trajectory_every = index == 0 ? scene->output.trajectory_every : 0;
+  r->logged = index == 0 && *scene->output.log;
   r->frames_of_window = leaves_out_warmup(scene);
   gg_status status = gg_run_replica_setup_observables(r, scene, err);
   if (status == GG_OK) status = gg_run_engine_ops_of(scene->engine)->restore(model, a, &r->engine, err);

@@ -34,6 +34,7 @@ typedef struct gg_replica {
   gg_series series;
   double *row;
   double trajectory_every;  /* collisions per grain between frames; 0: none */
+  bool logged;              /* the caller gets every sample */
   bool frames_of_window;    /* none of the warm-up */
   struct gg_replica_clock { /* plain data: saved as bytes */
     uint64_t samples;       /* taken so far */
@@ -96,6 +97,9 @@ typedef struct gg_sampling_bursts {
 } gg_sampling_bursts;
 gg_sampling_bursts gg_run_sampling_bursts_of(const gg_model *model);
 gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err);
+
+/* convergence.c: the observable that has a quantity, and by what function; -1 if none. */
+int gg_run_replica_find_function(const gg_replica *r, gg_quantity q, gg_function *f);
 
 double gg_run_replica_collisions_per_grain(const gg_replica *r);
 /* A frame of the engine as results have it: at the time since the start, velocities in units of the start. */

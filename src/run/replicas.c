@@ -123,6 +123,15 @@ static gg_status locked_frame(void *context, const gg_frame *frame, gg_error *er
   return status;
 }
 
+static gg_status locked_sample(void *context, const gg_replica *replica, gg_error *err)
+{
+  gg_replicas *all = context;
+  pthread_mutex_lock(&all->lock);
+  gg_status status = all->callbacks->sample(all->callbacks->context, replica, err);
+  pthread_mutex_unlock(&all->lock);
+  return status;
+}
+
 /* Replicas come first; threads that are left over go to their engines, in equal parts. */
 static int threads_each(int threads, int replicas)
 {
@@ -141,8 +150,9 @@ static gg_status find_scheduler(gg_replicas *all, int threads, gg_run_scheduler 
 
 static gg_status open_tasks(gg_replicas *all, int threads, gg_error *err)
 {
-  all->task_callbacks =
-      (gg_run_callbacks){.context = all, .frame = all->callbacks && all->callbacks->frame ? locked_frame : NULL};
+  all->task_callbacks = (gg_run_callbacks){.context = all,
+                                           .frame = all->callbacks && all->callbacks->frame ? locked_frame : NULL,
+                                           .sample = all->callbacks && all->callbacks->sample ? locked_sample : NULL};
   all->tasks = (gg_run_tasks){.scene = &all->scene, .model = &all->model, .callbacks = &all->task_callbacks};
   gg_workers *workers = all->callbacks && !all->scene.extension ? all->callbacks->workers : NULL;
   gg_run_scheduler *scheduler = workers ? gg_run_workers_scheduler(workers) : NULL;

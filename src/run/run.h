@@ -7,6 +7,7 @@
 #include "theory/theory_list.h"
 
 typedef struct gg_run_scheduler gg_run_scheduler; /* run/scheduler.h */
+struct gg_replica; /* run/replica.h */
 
 /* Callbacks of the caller during a run; every member may be NULL. Calls come from threads of the run, never
  * two at once. */
@@ -16,6 +17,8 @@ typedef struct gg_run_callbacks {
   /* Polled several times a second, from the start on; true ends the run with GG_INTERRUPTED. */
   bool (*interrupted)(void *context);
   gg_status (*frame)(void *context, const gg_frame *frame, gg_error *err); /* every output.trajectory_every */
+  /* After each sample of the first replica, where the scene has output.log. */
+  gg_status (*sample)(void *context, const struct gg_replica *replica, gg_error *err);
   /* Every output.checkpoint_every seconds, at an interruption, and when a run is over before its time: store it whole,
    * with all frames that came before. Items may be added. */
   gg_status (*checkpoint)(void *context, gg_archive *archive, gg_error *err);

@@ -204,7 +204,7 @@ static const struct {
     {GG_IF_COUNTED, "with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)", NULL, "",
      "engine md; dsmc above 5000"},
     {GG_IF_BOXED, "with engine: dsmc, which has no box", NULL, "", "engine md"},
-    {GG_IF_ONE_ENGINE, "in a comparison; graingas run keeps a trajectory", NULL, "", "graingas run"},
+    {GG_IF_ONE_ENGINE, "in a comparison; graingas run keeps trajectories and logs", NULL, "", "graingas run"},
     {GG_IF_CONTACT_VALUE,
      "but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0", NULL, "",
      "one species and phi above 0, in theories, dsmc and white noise"},

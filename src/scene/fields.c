@@ -58,6 +58,8 @@ static const gg_word frames[] = {
 static const gg_word observables[] = {GG_OBSERVABLES(WORD){0}};
 #undef WORD
 
+static const gg_word log_endings[] = {{".csv", 0, "a table"}, {".jsonl", 0, "a JSON object a line"}, {0}};
+
 #define AT(member) offsetof(gg_scene, member)
 #define AUTO .special = "auto", .special_value = GG_AUTO, .by_default = GG_AUTO
 /* Of numbers with a unit: products and ratios of a few of them are numbers, too. */
@@ -187,6 +189,10 @@ const gg_field gg_scene_fields[] = {
     {"output.precision", GG_FIELD_CHOICE, AT(output.precision), .words = stored_precisions,
      .doc = "precision of the frames in the result file; means, curves and checkpoints are always double",
      .may_change = true},
+    {"output.log", GG_FIELD_FILE, AT(output.log), .words = log_endings, .special = "none",
+     .doc = "file to which a run appends a row for each sample of its first replica: time, collisions, headline "
+            "quantities and their means so far",
+     .when = GG_IF_ONE_ENGINE, .may_change = true},
     {0},
 };
 
@@ -222,7 +228,8 @@ static void set_default(const gg_field *f, void *base)
   case GG_FIELD_INTEGER: *(int64_t *)at = (int64_t)f->by_default; return;
   case GG_FIELD_CHOICE:
   case GG_FIELD_SET: memcpy(at, &(int){(int)f->by_default}, sizeof(int)); return; /* of numbers it may be infinite */
-  case GG_FIELD_SPECIES: return;
+  case GG_FIELD_SPECIES:
+  case GG_FIELD_FILE: return;
   default:
     for (size_t i = 0; i < gg_scene_field_count(f); i++) ((double *)at)[i] = f->by_default;
   }
@@ -379,6 +386,12 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
     snprintf(text, size, f->type == GG_FIELD_SET ? "a list of " : "one of ");
     for (int i = 0; (word = gg_scene_field_word(f, i)).name; i++)
       gg_base_text_append(text, size, "%s%s", i ? ", " : "", word.name);
+    return;
+  case GG_FIELD_FILE:
+    snprintf(text, size, "the name of a file that ends in ");
+    for (const gg_word *w = f->words; w->name; w++)
+      gg_base_text_append(text, size, "%s%s", w > f->words ? " or " : "", w->name);
+    gg_base_text_append(text, size, ", or none");
     return;
   case GG_FIELD_SPECIES:
     snprintf(text, size, "a list of 1 to %d maps with fraction, diameter, mass, inertia and drag", GG_MAX_SPECIES);

@@ -19,6 +19,7 @@ typedef enum gg_field_type {
   GG_FIELD_PAIRS,   /* double[GG_PAIRS]: a number, or a map by pair: {11: , 12: , other: } */
   GG_FIELD_VECTOR,  /* double[3] */
   GG_FIELD_ERRORS,  /* double[GG_MAX_UNTIL]: a map by quantity: {N1: 0.01} */
+  GG_FIELD_FILE,    /* char[GG_FILE_NAME]: the name of a file with one of the endings `words`; "": none */
   GG_FIELD_SPECIES  /* gg_species[]: a list of maps, whose members are gg_scene_species_fields */
 } gg_field_type;
 

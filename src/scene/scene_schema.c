@@ -62,6 +62,7 @@ static json_t *value_schema(const gg_field *f)
   case GG_FIELD_ERRORS: return errors_schema(f);
   case GG_FIELD_VECTOR:
     return json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", number_schema(f), "minItems", 3, "maxItems", 3);
+  case GG_FIELD_FILE: return json_pack("{s:s}", "type", "string");
   case GG_FIELD_SPECIES:
     return json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", gg_scene_schema_of(gg_scene_species_fields),
                      "minItems", 1, "maxItems", (int)f->max);

@@ -309,6 +309,18 @@ static gg_status read_errors(const input *in, double *value)
   return GG_OK;
 }
 
+static gg_status read_file_name(const input *in, char *value)
+{
+  const char *text = gg_scene_scalar(in->node), *ending = text ? strrchr(text, '.') : NULL;
+  char printable[GG_FILE_NAME];
+  if (text && strcmp(text, in->f->special) == 0) return *value = '\0', GG_OK;
+  snprintf(printable, sizeof printable, "%s", text ? text : "");
+  gg_base_text_make_printable(printable);
+  if (!ending || ending == text || !gg_scene_field_find_word(in->f, ending).name || strcmp(printable, text) != 0)
+    return reject_value(in);
+  return snprintf(value, GG_FILE_NAME, "%s", text), GG_OK;
+}
+
 static gg_status read_vector(const input *in, double *value)
 {
   if (length_of(in->node) != 3) return reject_value(in);
@@ -423,6 +435,7 @@ gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *f, const
   case GG_FIELD_PAIRS: return read_pairs(&in, value);
   case GG_FIELD_ERRORS: return read_errors(&in, value);
   case GG_FIELD_VECTOR: return read_vector(&in, value);
+  case GG_FIELD_FILE: return read_file_name(&in, value);
   case GG_FIELD_SPECIES: return read_species(&in);
   }
   return GG_OK;

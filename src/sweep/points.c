@@ -28,7 +28,7 @@ static bool begins(const char *key, const char *const *with)
 /* Keys that no number in the file of a point depends on. */
 static bool is_left_out(const char *key, gg_does does)
 {
-  static const char *const never[] = {"output.checkpoint_every", NULL};
+  static const char *const never[] = {"output.checkpoint_every", "output.log", NULL};
   static const char *const of_run[] = {"engine", NULL};
   static const char *const of_simulation[] = {"run.", "md.", "dsmc.", "output.", NULL};
   return begins(key, never) || (does != GG_DOES_RUN && begins(key, of_run)) ||

@@ -76,7 +76,7 @@ static void engines(void **state)
   assert_line("{flow: usf, phi: 0.1, aspect: [1, 2, 1]}", GG_USE_DSMC,
               "aspect has no effect with engine: dsmc, which has no box");
   assert_line("{flow: usf, phi: 0.1, output: {trajectory_every: 5}}", BOTH,
-              "output.trajectory_every has no effect in a comparison; graingas run keeps a trajectory");
+              "output.trajectory_every has no effect in a comparison; graingas run keeps trajectories and logs");
   assert_line("{flow: usf, phi: 0.1, output: {trajectory_every: 5}}", GG_USE_MD, NULL);
   const char ensemble[] =
       "particles has no effect with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)";

@@ -76,12 +76,13 @@ static void send_word(gg_workers *w, int to, gg_run_message_kind kind, int64_t r
   send_block(w, to, block, size);
 }
 
-/* To the rank with the fewest replicas; but frames are written by this process. */
+/* To the rank with the fewest replicas; but frames and the log are written by this process. */
 static void assign(distribution *d, int i)
 {
   gg_workers *w = d->workers;
   int owner = 0;
-  bool stays = i == 0 && d->tasks->scene->output.trajectory_every > 0;
+  const gg_scene *scene = d->tasks->scene;
+  bool stays = i == 0 && (scene->output.trajectory_every > 0 || *scene->output.log);
   for (int k = 1; k < w->messages.size && !stays; k++)
     if (is_working(w, k) && w->rank[k].replicas < w->rank[owner].replicas) owner = k;
   d->placed[i].owner = owner;

@@ -1,0 +1,205 @@
+/* output.log: a row for each sample of the first replica, appended while the run lasts. A checkpoint holds the number
+ * of its last row and the sums of its means, so that a resumed run cuts what came after and continues the same file. */
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "api/run.h"
+#include "base/memory.h"
+#include "base/text.h"
+#include "run/replica.h"
+
+static const char state_item[] = "log/state", sums_item[] = "log/sums";
+static const char csv_begins[] = "sample,time,", json_begins[] = "{\"sample\": ";
+
+/* Of a line; 0: none, as of the names of columns. */
+static uint64_t sample_of(const char *line, bool json)
+{
+  return strtoull(line + (json && strncmp(line, json_begins, strlen(json_begins)) == 0 ? strlen(json_begins) : 0), NULL,
+                  10);
+}
+
+static gg_status write_error(const gg_sample_log *log, gg_error *err)
+{
+  return gg_base_path_write_error(log->path, strerror(errno), err);
+}
+
+/* What else is called so stays: a scene may be anybody's. */
+static gg_status check_ours(const gg_sample_log *log, gg_error *err)
+{
+  const char *begins = log->json ? json_begins : csv_begins;
+  char there[16] = "";
+  const ssize_t n = pread(log->fd, there, strlen(begins), 0);
+  if (n < 0) return write_error(log, err);
+  if (n == 0 || strcmp(there, begins) == 0) return GG_OK;
+  return gg_base_path_write_error(log->path, "it is there, and no log of a run: remove it, or choose another name",
+                                  err);
+}
+
+/* Whole rows up to a sample stay, 0: nothing. */
+static gg_status cut(const gg_sample_log *log, uint64_t sample, gg_error *err)
+{
+  char *line = NULL;
+  size_t size = 0;
+  off_t end = 0;
+  const int fd = sample ? dup(log->fd) : -1;
+  FILE *in = fd >= 0 ? fdopen(fd, "r") : NULL;
+  if (in) rewind(in);
+  for (ssize_t n; in && (n = getline(&line, &size, in)) > 0 && line[n - 1] == '\n';) {
+    if (sample_of(line, log->json) > sample) break;
+    end += n;
+  }
+  free(line);
+  if (in) fclose(in);
+  return ftruncate(log->fd, end) == 0 ? GG_OK : write_error(log, err);
+}
+
+static gg_status append(const gg_sample_log *log, const char *text, size_t size, gg_error *err)
+{
+  while (size > 0) {
+    const ssize_t n = write(log->fd, text, size);
+    if (n < 0 && errno != EINTR) return write_error(log, err);
+    if (n > 0) text += n, size -= (size_t)n;
+  }
+  return GG_OK;
+}
+
+static void put_number(FILE *out, const gg_sample_log *log, const char *name, const char *end, double x)
+{
+  if (log->json) fprintf(out, ", \"%s%s\": ", name, end);
+  if (!log->json) fputc(',', out);
+  if (isfinite(x)) fprintf(out, "%.9g", x);
+  if (!isfinite(x) && log->json) fputs("null", out);
+}
+
+static void put_names(FILE *out, const gg_quantity *list, int n, bool temperature)
+{
+  fprintf(out, "%stime,collisions_per_grain,averaging%s", "sample,", temperature ? ",temperature" : "");
+  for (int i = 0; i < n; i++) fprintf(out, ",%s", gg_common_quantity_name(list[i]));
+  for (int i = 0; i < n; i++) fprintf(out, ",%s_mean", gg_common_quantity_name(list[i]));
+  fputc('\n', out);
+}
+
+/* Values of the interval before the sample, and means over the averaging window so far. */
+static void put_row(FILE *out, const gg_sample_log *log, const gg_replica *r)
+{
+  gg_quantity list[GG_N_QUANTITIES];
+  gg_function f;
+  const int n = gg_run_headline_quantities(&r->model, list);
+  const bool temperature = !gg_model_keeps_temperature(&r->model);
+  if (!log->json && lseek(log->fd, 0, SEEK_END) == 0) put_names(out, list, n, temperature);
+  fprintf(out, "%s%llu", log->json ? json_begins : "", (unsigned long long)r->clock.samples);
+  put_number(out, log, "time", "", r->clock.time);
+  put_number(out, log, "collisions_per_grain", "", gg_run_replica_collisions_per_grain(r));
+  put_number(out, log, "averaging", "", r->clock.averaging ? 1 : 0);
+  if (temperature) put_number(out, log, "temperature", "", ldexp(r->clock.temperature, -2 * (int)r->clock.power));
+  for (int mean = 0; mean < 2; mean++)
+    for (int i = 0; i < n; i++) {
+      const int k = gg_run_replica_find_function(r, list[i], &f);
+      double x = NAN;
+      if (k >= 0 && (!mean || log->state.rows))
+        x = gg_function_value(f, (mean ? log->mean : r->row) + r->offset[k], &r->model);
+      put_number(out, log, gg_common_quantity_name(list[i]), mean ? "_mean" : "", x);
+    }
+  fputs(log->json ? "}\n" : "\n", out);
+}
+
+static gg_status add_to_sums(gg_sample_log *log, const gg_replica *r, gg_error *err)
+{
+  const size_t width = r->series.width;
+  if (log->width != width) {
+    free(log->sum);
+    log->state.rows = 0;
+    log->sum = gg_base_array_new(2 * width + 2, sizeof *log->sum, err);
+    if (!log->sum) return GG_FAILED;
+    log->width = width;
+  }
+  log->mean = log->sum + width + 1;
+  if (!r->clock.averaging) return GG_OK;
+  if (r->clock.window_samples == 1) {
+    log->state.rows = 0;
+    memset(log->sum, 0, width * sizeof *log->sum);
+  }
+  log->state.rows++;
+  for (size_t i = 0; i < width; i++) {
+    log->sum[i] += r->row[i];
+    log->mean[i] = log->sum[i] / (double)log->state.rows;
+  }
+  return GG_OK;
+}
+
+static gg_status log_sample(void *context, const gg_replica *r, gg_error *err)
+{
+  gg_sample_log *log = &((gg_run_call *)context)->samples;
+  char *text = NULL;
+  size_t size = 0;
+  GG_C_LOCALE;
+  GG_TRY(add_to_sums(log, r, err));
+  if (r->clock.samples <= log->state.sample)
+    GG_TRY(cut(log, r->clock.samples - 1, err)); /* begun anew after a collapse */
+  FILE *out = open_memstream(&text, &size);
+  if (!out) return gg_base_out_of_memory(err);
+  put_row(out, log, r);
+  gg_status status = fclose(out) == 0 ? append(log, text, size, err) : gg_base_out_of_memory(err);
+  free(text);
+  log->state.sample = r->clock.samples;
+  return status;
+}
+
+/* Sums of a run without rows are not there: its means begin where it is resumed. */
+static gg_status restore(gg_sample_log *log, const gg_archive *a, gg_error *err)
+{
+  const gg_item *sums = gg_base_archive_find(a, sums_item);
+  if (!sums || gg_base_archive_get(a, state_item, GG_ITEM_U8, &log->state, sizeof log->state, NULL) != GG_OK)
+    return GG_OK;
+  log->width = sums->count;
+  log->sum = gg_base_array_new(2 * log->width + 2, sizeof *log->sum, err);
+  return log->sum ? gg_base_archive_get(a, sums_item, GG_ITEM_F64, log->sum, log->width, err) : GG_FAILED;
+}
+
+static gg_status open_file(gg_sample_log *log, const char *path, gg_error *err)
+{
+  gg_output_path place;
+  GG_TRY(gg_base_output_path_find(&place, path, err));
+  gg_status status = place.stream ? gg_base_path_write_error(path, "it is a device or a pipe; logs are files", err)
+                                  : gg_base_file_lock_take(&log->lock, place.target, path, err);
+  if (status == GG_OK) {
+    log->fd = open(place.target, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (log->fd < 0) status = write_error(log, err);
+  }
+  gg_base_output_path_clear(&place);
+  return status;
+}
+
+gg_status gg_api_log_begin(gg_run_call *r, gg_error *err)
+{
+  gg_sample_log *log = &r->samples;
+  log->path = r->scene.output.log;
+  if (!*log->path || r->comparison) return GG_OK;
+  const char *ending = strrchr(log->path, '.');
+  log->json = ending && strcmp(ending, ".jsonl") == 0;
+  GG_TRY(open_file(log, log->path, err));
+  GG_TRY(check_ours(log, err));
+  GG_TRY(restore(log, &r->resume, err));
+  r->callbacks.sample = log_sample;
+  return cut(log, log->state.sample, err);
+}
+
+gg_status gg_api_log_mark(const gg_run_call *r, gg_archive *a, gg_error *err)
+{
+  const gg_sample_log *log = &r->samples;
+  if (log->fd < 0 || !log->sum) return GG_OK;
+  GG_TRY(gg_base_archive_put(a, state_item, GG_ITEM_U8, &log->state, sizeof log->state, err));
+  return gg_base_archive_put(a, sums_item, GG_ITEM_F64, log->sum, log->width, err);
+}
+
+void gg_api_log_end(gg_run_call *r)
+{
+  if (r->samples.fd >= 0) close(r->samples.fd);
+  free(r->samples.sum);
+  gg_base_file_lock_release(&r->samples.lock);
+}
