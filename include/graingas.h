@@ -472,8 +472,9 @@ GG_API gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_ev
 
 /**
  * Change a key on the way: collision.*, bath.*, thermostat, gaussian_rate, noise_strength, md.contact_time,
- * dsmc.time_step, walls.e, walls.beta, walls.mu, gravity. Grains, time, counts, random stream and units stay. Other keys set units, box or grains and are
- * rejected, as are values that would let smooth grains rotate. The simulation is unchanged on failure.
+ * dsmc.time_step, walls.e, walls.beta, walls.mu, walls.temperature, walls.accommodation, gravity. Grains, time, counts,
+ * random stream and units stay. Other keys set units, box or grains and are rejected, as are values that would let
+ * smooth grains rotate. The simulation is unchanged on failure.
  * @param simulation the simulation
  * @param key as for gg_scene_set(), "collision.e"
  * @param value YAML in units of the scene
@@ -1599,7 +1600,7 @@ typedef enum gg_catalogue {
 
 typedef struct gg_entry { /* NULL or "": not in this table */
   const char *name, *doc, *unit, *citation, *assumptions;
-  const char *type;    /* "number", "integer", "choice", "set", "pairs", "vector", "file", "species" */
+  const char *type;    /* "number", "integer", "choice", "set", "pairs", "vector", "ends", "file", "species" */
   char allowed[256];   /* "a number from 0 to 1" */
   char value[4096];    /* in force in the scene; without a scene the default, "": none */
   int given;           /* in the scene */

@@ -241,8 +241,9 @@ gg_status gg_simulation_copy(const gg_simulation *simulation, gg_simulation **co
 /* Keys that change neither units nor box nor grains. */
 static bool may_change(const char *key)
 {
-  const char *const keys[] = {"thermostat", "gaussian_rate", "noise_strength", "md.contact_time", "dsmc.time_step",
-                              "walls.e",    "walls.beta",    "walls.mu",       "gravity"};
+  const char *const keys[] = {"thermostat",     "gaussian_rate",     "noise_strength",     "md.contact_time",
+                              "dsmc.time_step", "walls.e",           "walls.beta",         "walls.mu",
+                              "gravity",        "walls.temperature", "walls.accommodation"};
   bool may = strncmp(key, "collision.", 10) == 0 || strncmp(key, "bath.", 5) == 0;
   for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) may |= strcmp(key, keys[i]) == 0;
   return may;
@@ -280,7 +281,9 @@ gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const ch
     return gg_base_fail(
         err, GG_BAD_INPUT,
         "key '%.60s': cannot be changed on the way; allowed: collision.*, bath.*, thermostat, gaussian_rate, "
-        "noise_strength, md.contact_time, dsmc.time_step, walls.e, walls.beta, walls.mu, gravity",
+        "noise_strength, md.contact_time, dsmc.time_step, walls.e, walls.beta, walls.mu, walls.temperature, "
+        "walls.accommodation, "
+        "gravity",
         key);
   GG_USE_ALONE(simulation);
   gg_scene changed = simulation->scene;

@@ -11,7 +11,7 @@
 /* Contacts of grains with a surface of the model; like the others, all but the number is kept while sums are on. */
 typedef struct gg_surface_sums {
   double impulse[3]; /* on the surface */
-  double loss;       /* energy destroyed */
+  double loss;       /* energy destroyed, or taken by a thermal wall; given: below 0 */
   uint64_t collisions;
 } gg_surface_sums;
 

@@ -18,6 +18,7 @@ enum {
 #define BY_TEMPERATURES                                                                                                \
   KNOWN_BY(GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_TEMPERATURE_RATIO, GG_Q_PARTIAL_TEMPERATURE_RATIO)
 #define BY_WALLS KNOWN_BY(GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_TEMPERATURE_RATIO)
+#define BY_HEAT KNOWN_BY(GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_TEMPERATURE_RATIO, GG_Q_WALL_HEAT_FLUX)
 
 const gg_flow_row gg_common_flows[GG_N_FLOWS] = {
     [GG_EQUILIBRIUM] = {.word = "equilibrium",
@@ -106,6 +107,16 @@ const gg_flow_row gg_common_flows[GG_N_FLOWS] = {
                          .thermostat = GG_WHITE_NOISE,
                          .engines = IN_MD | IN_DSMC,
                          .headline = BY_SHEAR},
+    [GG_FOURIER] = {.word = "fourier",
+                    .title = "Fourier flow",
+                    .doc = "heat between resting walls of two temperatures, [1, 0.5] by default",
+                    .state = "heat conduction between walls",
+                    .walls = GG_RESTING_WALLS,
+                    .falling = GG_MAY_FALL,
+                    .thermostats = UNHEATED,
+                    .engines = IN_MD,
+                    .wall_temperature = {1, 0.5},
+                    .headline = BY_HEAT},
 };
 
 /* Separated by commas, before the last one by "or". */

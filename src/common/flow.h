@@ -18,6 +18,7 @@ typedef enum gg_flow {
   GG_CHUTE,
   GG_SMALL_SHEAR,
   GG_HEATED_SHEAR,
+  GG_FOURIER,
   GG_N_FLOWS
 } gg_flow;
 
@@ -52,6 +53,7 @@ typedef struct gg_flow_row {
   /* Defaults of keys that depend on the flow (that of collision.e: 1 where energy is conserved). */
   gg_thermostat thermostat;
   double gravity[3];
+  double wall_temperature[2]; /* lower, upper; 0: none. A flow that has them lives by them, and needs some */
   /* Headline quantities, whose errors end a run: gg_quantity, ends with
    * GG_N_QUANTITIES. A scene has those that it does not lack (gg_common_quantity_missing). */
   const int *headline, *headline_in_bath; /* the latter NULL: the same */

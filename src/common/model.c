@@ -150,7 +150,7 @@ static gg_status set_walls(gg_model *m, const gg_scene *s, double time_unit, gg_
   m->walled = m->n_surfaces > 0;
   m->wall_rule = m->walled ? gg_common_rule_select(s->walls.beta, s->walls.mu) : GG_SMOOTH;
   bool lossy = m->wall_rule == GG_FRICTIONAL || (m->wall_rule == GG_ROUGH && s->walls.beta < 1);
-  if (m->walled && (s->walls.e < 1 || lossy)) m->elastic = false;
+  if (m->walled && m->surface[0].accommodation == 0 && (s->walls.e < 1 || lossy)) m->elastic = false;
   if (!spinless) m->rule = later_rule(m->rule, m->wall_rule);
   return GG_OK;
 }
@@ -166,12 +166,23 @@ static double guess_sheared_temperature(const gg_model *m)
   return m->boltzmann ? dilute : dilute + dense;
 }
 
+/* Between thermal walls at rest that of a gas that nothing cools: where they alone warm it, the geometric mean, at
+ * which free flights from wall to wall bring and take as much. */
+static double guess_unsheared_temperature(const gg_model *m)
+{
+  double product = 1;
+  if (m->n_surfaces == 0 || m->surface[0].accommodation == 0) return 0.5;
+  for (int w = 0; w < m->n_surfaces; w++) product *= m->surface[w].temperature;
+  return m->n_surfaces > 1 ? sqrt(product) : product;
+}
+
 /* With a restitution law, temperature and mean impact speed depend on each other. */
 static void guess_temperature(gg_model *m, const gg_scene *s, bool sheared)
 {
   double speed = sheared ? s->shear_rate * s->species[0].diameter : 1;
   for (int round = 0; round < (m->law.name ? 5 : 1); round++) {
-    m->temperature0 = gg_flow_is_timed_by_shear(s->flow) ? guess_sheared_temperature(m) : 0.5;
+    m->temperature0 =
+        gg_flow_is_timed_by_shear(s->flow) ? guess_sheared_temperature(m) : guess_unsheared_temperature(m);
     if (m->bath.on) m->temperature0 = gg_common_thermostat_balance(m, sheared ? m->temperature0 : 0);
     if ((sheared || m->bath.on) && s->temperature != GG_AUTO) m->temperature0 = s->temperature / (speed * speed);
     gg_common_model_at(m, m->temperature0);

@@ -28,7 +28,8 @@ typedef struct gg_model {
   gg_rule rule;         /* the most complex rule that any collision of the scene needs */
   bool boltzmann;       /* phi = 0 */
   bool homogeneous;     /* no box: an ensemble that stands for one point of the flow (dsmc) */
-  bool elastic;         /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding) */
+  bool elastic;         /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding); of walls
+                         * those without a temperature count */
   bool linear_response; /* of a cooling or heated gas to shear (linear_response.h) */
   bool steady;          /* a steady state can exist (scaled, for cooling) */
 

@@ -14,19 +14,20 @@ enum unit {
   UNIT_LENGTH,
   UNIT_SPIN,
   UNIT_POWER,
+  UNIT_HEAT_FLUX,
   N_UNITS
 };
 enum scale { SHEARED, SHEARED_BOLTZMANN, THERMAL, THERMAL_BOLTZMANN, N_SCALES };
 
 /* Temperatures are <C.C>/3, velocities squared, with m of species 1 as the unit of mass. */
 static const char *const unit_names[N_SCALES][N_UNITS] = {
-    [SHEARED] = {"1", "d^2 gamma^2", "rho_p d^2 gamma^2", "rho_p d^2 gamma", "gamma", "d", "gamma",
-                 "rho_p d^2 gamma^3"},
+    [SHEARED] = {"1", "d^2 gamma^2", "rho_p d^2 gamma^2", "rho_p d^2 gamma", "gamma", "d", "gamma", "rho_p d^2 gamma^3",
+                 "rho_p d^3 gamma^3"},
     [SHEARED_BOLTZMANN] = {"1", "(gamma/(n d^2))^2", "n m (gamma/(n d^2))^2", "n m gamma/(n d^2)^2", "gamma",
-                           "1/(n d^2)", "gamma", "n m gamma^3/(n d^2)^2"},
-    [THERMAL] = {"1", "v_0^2", "rho_p v_0^2", "rho_p d v_0", "v_0/d", "d", "v_0/d", "rho_p v_0^3/d"},
+                           "1/(n d^2)", "gamma", "n m gamma^3/(n d^2)^2", "n m (gamma/(n d^2))^3"},
+    [THERMAL] = {"1", "v_0^2", "rho_p v_0^2", "rho_p d v_0", "v_0/d", "d", "v_0/d", "rho_p v_0^3/d", "rho_p v_0^3"},
     [THERMAL_BOLTZMANN] = {"1", "v_0^2", "n m v_0^2", "n m v_0/(n d^2)", "n d^2 v_0", "1/(n d^2)", "v_0/d",
-                           "n m v_0^3 (n d^2)"},
+                           "n m v_0^3 (n d^2)", "n m v_0^3"},
 };
 
 /* What a family's members are called. */
@@ -180,6 +181,7 @@ const char *gg_common_quantity_unit(gg_quantity q, const gg_model *model)
 const char *gg_common_model_missing(const gg_model *m, unsigned needs)
 {
   const bool smooth = m->rule == GG_SMOOTH, cools = gg_flow_cools(m->flow), heated = gg_flow_is_heated(m->flow);
+  const bool alike = m->n_surfaces < 2 || m->surface[0].temperature == m->surface[1].temperature;
   const struct {
     unsigned need;
     bool unmet;
@@ -197,6 +199,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
       {GG_NEEDS_SHEAR, m->shear_rate == 0, "there is no shear"},
       {GG_NEEDS_NO_WALLS, m->walled, "between walls the gas is not homogeneous"},
       {GG_NEEDS_WALLS, !m->walled, "there are no walls"},
+      {GG_NEEDS_UNEQUAL_WALLS, alike, "there are no two walls of different temperatures"},
       {GG_NEEDS_WORK, m->shear_rate == 0 && !m->walled, "nothing does work on the grains"},
       {GG_NEEDS_LOSS, m->elastic, "collisions conserve energy"},
       {GG_NEEDS_BOX, m->homogeneous, "the Monte Carlo ensemble has no box"},
@@ -236,6 +239,7 @@ const char *gg_common_quantity_when(gg_quantity q, char *text, size_t size)
       {GG_NEEDS_SHEAR, "shear"},
       {GG_NEEDS_WALLS, "walls"},
       {GG_NEEDS_NO_WALLS, "no walls"},
+      {GG_NEEDS_UNEQUAL_WALLS, "walls of two temperatures"},
       {GG_NEEDS_WORK, "shear or walls"},
       {GG_NEEDS_NO_SHEAR, "no shear"},
       {GG_NEEDS_ONE_SPECIES, "one species"},

@@ -26,7 +26,8 @@ enum {
   GG_NEEDS_WORK = 1u << 21,        /* something that does work on the grains: shear, or walls */
   GG_NEEDS_WALLS = 1u << 22,
   GG_NEEDS_NO_WALLS = 1u << 23,
-  GG_NEEDS_HEAT_FLUX = 1u << 24, /* of linear response, in dsmc: smooth grains of one species, cooling or at rest */
+  GG_NEEDS_UNEQUAL_WALLS = 1u << 25, /* of two temperatures */
+  GG_NEEDS_HEAT_FLUX = 1u << 24,     /* of linear response, in dsmc: smooth grains of one species, cooling or at rest */
 
   GG_KEPT_HEATING = 1u << 15,      /* free of the temperature's scale: has a meaning as a mean in a gas that heats up */
   GG_MONITORED = 1u << 16,         /* relaxes slowly: a run is not steady while it has a trend */
@@ -144,14 +145,19 @@ enum {
       "sum of -Delta E/(V t): energy lost in collisions, per volume and time",                                         \
       "D = \\frac{1}{V t}\\sum_{\\mathrm{coll}}(-\\Delta E)")                                                          \
   ONE(WALL_DISSIPATION, "wall_dissipation", "D_w", "", POWER, GG_NEEDS_WALLS | GG_NEEDS_SCALE,                         \
-      "sum of -Delta E_wall/(V t): energy lost in contacts with walls, per volume and time",                           \
+      "sum of -Delta E_wall/(V t): energy lost in contacts with walls, per volume and time; below 0 where thermal "    \
+      "walls heat the gas",                                                                                            \
       "D_w = \\frac{1}{V t}\\sum_{\\mathrm{wall}}(-\\Delta E)")                                                        \
+  ONE(WALL_HEAT_FLUX, "wall_heat_flux", "q_w", "heat", HEAT_FLUX, GG_NEEDS_UNEQUAL_WALLS | GG_DRAWN_AS_RATIO,          \
+      "(Q_upper - Q_lower)/(2 A t): heat that the upper wall takes and the lower one gives, mean of both, per area "   \
+      "and time",                                                                                                      \
+      "q_w = \\frac{1}{2At}(Q_{\\mathrm{upper}} - Q_{\\mathrm{lower}})")                                               \
   ONE(WALL_FRICTION, "wall_friction", "F_x/F_y", "", NONE, GG_NEEDS_WALLS,                                             \
       "F_x/F_y: force of the gas along the walls over that across them; walls.mu where every contact slides",          \
       "F_x/F_y")                                                                                                       \
   ONE(ENERGY_BALANCE, "energy_balance", "(W-dE/dt)/D", "", NONE, GG_NEEDS_WORK | GG_NEEDS_LOSS,                        \
       "(W - dE/dt)/(D + D_w): work of shear, walls and gravity less the growth of the grains' energy, over "           \
-      "dissipation; 1 without a heat bath",                                                                            \
+      "dissipation; 1 without a heat bath; between thermal walls (W - D_w - dE/dt)/D",                                 \
       "(W - \\dot E)/(D + D_w)")                                                                                       \
   ONE(COOLING_RATE, "cooling_rate", "ζ*", "cooling", NONE, GG_NEEDS_LOSS | GG_NEEDS_COOLING | GG_DRAWN_AS_RATIO,       \
       "zeta/nu_0: rate of energy loss over the reference collision rate nu_0", "\\zeta^* = \\zeta/\\nu_0")             \
@@ -172,14 +178,14 @@ enum {
       "\\eta^* = \\frac{\\nu_0\\,\\eta}{nT}")                                                                          \
   ONE(VISCOSITY_REDUCED_KINETIC, "viscosity_reduced_kinetic", "η*^k", "", NONE, GG_REDUCED_VISCOSITY,                  \
       "nu_0 eta_k/(n T): kinetic part of viscosity_reduced", "\\eta^{*k} = \\frac{\\nu_0\\,\\eta^k}{nT}")              \
-  ONE(THERMAL_CONDUCTIVITY_REDUCED, "thermal_conductivity_reduced", "κ*", "", NONE, GG_NEEDS_HEAT_FLUX,                   \
+  ONE(THERMAL_CONDUCTIVITY_REDUCED, "thermal_conductivity_reduced", "κ*", "", NONE, GG_NEEDS_HEAT_FLUX,                \
       "kappa/kappa_0: heat flux along -grad T of a cooling gas; kappa_0 = 15 n T/(4 m nu_0), q = -kappa grad T - mu "  \
       "grad n",                                                                                                        \
       "\\kappa^* = \\frac{4 m\\nu_0\\,\\kappa}{15\\,nT}")                                                              \
-  ONE(THERMAL_CONDUCTIVITY_REDUCED_KINETIC, "thermal_conductivity_reduced_kinetic", "κ*^k", "", NONE, GG_NEEDS_HEAT_FLUX, \
-      "kappa_k/kappa_0: kinetic part of thermal_conductivity_reduced",                                                 \
+  ONE(THERMAL_CONDUCTIVITY_REDUCED_KINETIC, "thermal_conductivity_reduced_kinetic", "κ*^k", "", NONE,                  \
+      GG_NEEDS_HEAT_FLUX, "kappa_k/kappa_0: kinetic part of thermal_conductivity_reduced",                             \
       "\\kappa^{*k} = \\frac{4 m\\nu_0\\,\\kappa^k}{15\\,nT}")                                                         \
-  ONE(DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED, "diffusive_heat_conductivity_reduced", "μ*", "", NONE, GG_NEEDS_HEAT_FLUX,     \
+  ONE(DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED, "diffusive_heat_conductivity_reduced", "μ*", "", NONE, GG_NEEDS_HEAT_FLUX,  \
       "n mu/(T kappa_0): heat flux along -grad n of a cooling gas; 0 for elastic grains",                              \
       "\\mu^* = \\frac{4 m\\nu_0\\,\\mu}{15\\,T^2}")                                                                   \
   ONE(BULK_VISCOSITY_REDUCED, "bulk_viscosity_reduced", "η_b*", "", NONE, GG_NEEDS_THEORY,                             \

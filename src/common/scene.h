@@ -36,7 +36,7 @@ typedef struct gg_species {
 } gg_species;
 
 /* At least GG_N_QUANTITIES, which only quantity.h knows. */
-enum { GG_MAX_UNTIL = 96, GG_FILE_NAME = 256 };
+enum { GG_MAX_UNTIL = 112, GG_FILE_NAME = 256 };
 
 struct gg_scene {
   gg_flow flow;
@@ -62,7 +62,9 @@ struct gg_scene {
   gg_species species[GG_MAX_SPECIES];
   struct {
     double e, beta, mu, speed, ridges;
-    gg_top top; /* chute: is there an upper wall? */
+    double temperature[2]; /* lower, upper, in the user's units; GG_AUTO: none */
+    double accommodation;  /* share of contacts that leave with it */
+    gg_top top;            /* chute: is there an upper wall? */
   } walls;
   double gravity[3];
   struct {

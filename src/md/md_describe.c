@@ -64,6 +64,9 @@ static void tell_walls(const gg_model *m, void (*line)(void *, const char *), vo
     used += (size_t)snprintf(text + used, sizeof text - used, "%s, ", m->surface[w].title);
   if (m->n_surfaces > 0 && m->surface[0].radius > 0 && used < sizeof text)
     used += (size_t)snprintf(text + used, sizeof text - used, "ridges %.4g d wide, ", 2 * m->surface[0].radius);
+  for (int w = 0; w < m->n_surfaces && m->surface[w].accommodation > 0 && used < sizeof text; w++)
+    used += (size_t)snprintf(text + used, sizeof text - used, "%s at T = %.4g, ", m->surface[w].word,
+                             m->surface[w].temperature);
   if (gg_common_surface_is_open_above(m) && used < sizeof text)
     used += (size_t)snprintf(text + used, sizeof text - used, "open above, ");
   const char *before = "periodic along ";

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "common/surface/collide.h"
 #include "common/surface/shapes.h"
 #include "md/md_state.h"
 
@@ -116,7 +117,7 @@ GG_INLINE double gg_md_least_speed(const gg_md *e, bool contact_time, double tow
   return contact_time && towards > 0 ? 0.5 * towards * e->k.contact_time : 0;
 }
 
-/* The same rule with a partner of infinite mass without spin: surface w of the model. */
+/* A contact with surface w of the model. */
 GG_INLINE void gg_md_resolve_surface(gg_md *e, gg_md_resolve_features f, uint32_t i, int w)
 {
   gg_md_grain *one = &e->grain[i];
@@ -127,20 +128,18 @@ GG_INLINE void gg_md_resolve_surface(gg_md *e, gg_md_resolve_features f, uint32_
   double overlap = -gg_surface_clearance(surface, &one->r, 0.5 * e->model.diameter[a]);
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
   gg_vec k = gg_surface_normal(surface, &one->r), none = {0, 0, 0};
-  gg_vec wall_v = surface->velocity, still = {0, 0, 0}, *s1 = f.spins ? &e->spin[i] : &none;
-  gg_vec g = gg_contact_velocity(f.rule, k, gg_sub(one->v, wall_v), *s1, still);
-  gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));
-  gg_kick(f.rule, contact, k, J, &one->v, s1, &wall_v, &still);
+  gg_surface_hit hit =
+      gg_surface_collide(f.rule, surface, contact, &e->k.rng, k, &one->v, f.spins ? &e->spin[i] : &none);
   double least = gg_md_least_speed(e, f.contact_time, gg_dot(k, e->gravity)), towards = gg_dot(k, one->v);
-  if (-towards < least) {
-    J = gg_axpy((least + towards) / contact->im1, k, J);
+  if (!hit.thermal && -towards < least) {
+    hit.J = gg_axpy((least + towards) / contact->im1, k, hit.J);
     one->v = gg_axpy(-least, k, gg_axpy(-towards, k, one->v));
   }
   gg_surface_sums *t = &e->k.transfer.surface[w];
   t->collisions++;
   if (!f.sums) return;
-  for (int c = 0; c < 3; c++) t->impulse[c] += gg_along(&J, c);
-  t->loss += gg_energy_loss(contact, k, g, J);
+  for (int c = 0; c < 3; c++) t->impulse[c] += gg_along(&hit.J, c);
+  t->loss += gg_surface_heat(contact, k, &hit);
 }
 
 #endif

@@ -219,13 +219,13 @@ static void put_energy(rheology *r, const gg_interval *in, double *row)
   const gg_model *m = &r->model;
   const double g[2] = {m->gravity[0], m->gravity[1]};
   double energy = m->walled || m->frame ? r->energy : energy_of_moments(r), f = in->velocity_factor;
-  double work = 0, loss = 0, drag = 0, push = 0;
+  double work = 0, loss = 0, drag = 0, push = 0, heat = 0;
   if (in->elapsed > 0) {
     double unit = m->stress_unit / (m->volume * in->elapsed);
     for (int w = 0; w < m->n_surfaces; w++) {
       const gg_surface *wall = &m->surface[w];
       const gg_surface_sums *sums = &in->transfer->surface[w];
-      loss += sums->loss;
+      loss += sums->loss, heat += 0.5 * wall->side * sums->loss;
       work -= sums->impulse[0] * wall->velocity.x;
       drag += drag_of(m, wall) * sums->impulse[0], push += wall->side * sums->impulse[wall->axis];
     }
@@ -234,6 +234,7 @@ static void put_energy(rheology *r, const gg_interval *in, double *row)
     row[CH_GROWTH] = (energy - f * f * r->memory.energy) * unit;
     row[CH_WALL_LOSS] = loss * unit, row[CH_WALL_WORK] = work * unit;
     row[CH_WALL_DRAG] = drag * unit, row[CH_WALL_PUSH] = push * unit;
+    row[CH_WALL_HEAT] = heat * unit * m->box[1];
   }
   r->memory.energy = energy;
   memcpy(r->memory.momentum, r->momentum, sizeof r->memory.momentum);

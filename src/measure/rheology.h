@@ -21,6 +21,7 @@ enum {
   CH_WALL_LOSS, /* as CH_LOSS, in contacts with walls */
   CH_WALL_DRAG, /* force along the walls, the way they pull or hold, and across: sums over walls, per volume */
   CH_WALL_PUSH,
+  CH_WALL_HEAT,     /* upwards through the gap: what the upper wall takes and the lower gives, mean of both, per area */
   CH_WALL_WORK,     /* of moving walls and of gravity between walls, per volume and time; about cells: of the shear
                        on the kinetic stress of the grains as they are */
   CH_DENSITY_WAVES, /* of the latest sample that took positions */

@@ -128,18 +128,20 @@ static double knudsen(const double *a, const gg_model *m)
 }
 COLLISIONAL(dissipation, CH_LOSS)
 COLLISIONAL(wall_dissipation, CH_WALL_LOSS)
+COLLISIONAL(wall_heat_flux, CH_WALL_HEAT)
 static double wall_friction(const double *a, const gg_model *m)
 {
   (void)m;
   return a[CH_WALL_DRAG] / a[CH_WALL_PUSH];
 }
 /* The energy of the grains changes from one end of a run to the other: with that change taken off, the balance holds at
- * every moment, and what is left of its scatter is that of P_xy between samples. */
+ * every moment, and what is left of its scatter is that of P_xy between samples. What thermal walls give is no loss. */
 static double energy_balance(const double *a, const gg_model *m)
 {
   double work = m->walled  ? a[CH_WALL_WORK]
                 : m->frame ? a[CH_WALL_WORK] - a[CH_PC_XY] * m->shear_rate
                            : -total_xy(a, m) * m->shear_rate;
+  if (m->n_surfaces > 0 && m->surface[0].accommodation > 0) return (work - a[CH_WALL_LOSS] - a[CH_GROWTH]) / a[CH_LOSS];
   return (work - a[CH_GROWTH]) / (a[CH_LOSS] + a[CH_WALL_LOSS]);
 }
 
@@ -262,6 +264,7 @@ const gg_derived gg_measure_rheology_derived[] = {
     {GG_Q_SKEWNESS_WZ, .of = skewness_wz},
     {GG_Q_DISSIPATION, .of = dissipation},
     {GG_Q_WALL_DISSIPATION, .of = wall_dissipation},
+    {GG_Q_WALL_HEAT_FLUX, .of = wall_heat_flux},
     {GG_Q_WALL_FRICTION, .of = wall_friction},
     {GG_Q_ENERGY_BALANCE, .of = energy_balance},
     {GG_Q_COOLING_RATE, .of = cooling_rate},

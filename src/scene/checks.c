@@ -32,6 +32,16 @@ static traits traits_of(const gg_scene *s)
   return t;
 }
 
+/* Does a wall act otherwise than by its temperature; and by that at all? */
+static bool walls_have_rule(const gg_scene *s)
+{
+  return s->walls.temperature[0] == GG_AUTO || s->walls.accommodation < 1;
+}
+static bool walls_are_thermal(const gg_scene *s)
+{
+  return s->walls.temperature[0] != GG_AUTO && s->walls.accommodation > 0;
+}
+
 /* Defaults that depend on the flow come from its row. */
 void gg_scene_fill_in(gg_scene *s)
 {
@@ -46,6 +56,8 @@ void gg_scene_fill_in(gg_scene *s)
     s->run.collisions = GG_COLLISIONS_FOLLOWED;
   if (!gg_scene_is_given(s, "thermostat")) s->thermostat = flow->thermostat;
   if (!gg_scene_is_given(s, "gravity")) memcpy(s->gravity, flow->gravity, sizeof s->gravity);
+  if (flow->wall_temperature[0] > 0 && !gg_scene_is_given(s, "walls.temperature"))
+    memcpy(s->walls.temperature, flow->wall_temperature, sizeof s->walls.temperature);
   s->measure |= flow->measure;
 }
 
@@ -117,6 +129,10 @@ static gg_status check_flow(const gg_scene *s, gg_error *err)
         "inf); for a cooling gas use flow: %s",
         flow->word, cooling);
   }
+  if (flow->wall_temperature[0] > 0 && !walls_are_thermal(s))
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "flow: %s needs walls.temperature, e.g. [%g, %g], and walls.accommodation above 0", flow->word,
+                        flow->wall_temperature[0], flow->wall_temperature[1]);
   GG_TRY(check_thermostat(s, err));
   return check_gravity(s, err);
 }
@@ -227,6 +243,9 @@ static const struct {
     {GG_IF_NOISE, "but with thermostat: white_noise", NULL, "", "thermostat white_noise"},
     {GG_IF_TEMPERED, "but under shear, or with a bath, gaussian_rate or noise_strength", NULL, "",
      "shear, a bath, gaussian_rate or noise_strength"},
+    {GG_IF_THERMAL_WALLS, "while walls.temperature is none", NULL, "", "walls.temperature is given"},
+    {GG_IF_WALL_RULE, "while every contact with a wall is by its temperature: walls.accommodation is 1", NULL, "",
+     "walls.temperature is none, or walls.accommodation below 1"},
 };
 enum { CONDITIONS = sizeof conditions / sizeof *conditions };
 
@@ -264,7 +283,8 @@ static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
   case GG_IF_CONTACT_VALUE: return uses_contact_value(s, uses);
   case GG_IF_LOSSY:
     return gg_common_extension_law(s->extension).e || traits_of(s).lossy ||
-           (gg_flow_is_walled(s->flow) && loses_energy(s->walls.e, s->walls.beta, s->walls.mu));
+           (gg_flow_is_walled(s->flow) && !walls_are_thermal(s) &&
+            loses_energy(s->walls.e, s->walls.beta, s->walls.mu));
   case GG_IF_ERROR: return has_error(s, uses);
   case GG_IF_ROUGH: return traits_of(s).rough;
   case GG_IF_LAW: return s->collision.law != GG_LAW_CONSTANT;
@@ -272,6 +292,8 @@ static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
   case GG_IF_FRICTION: return traits_of(s).friction;
   case GG_IF_WALL_BETA: return s->walls.beta != -1;
   case GG_IF_WALL_FRICTION: return s->walls.mu != 0;
+  case GG_IF_THERMAL_WALLS: return s->walls.temperature[0] != GG_AUTO;
+  case GG_IF_WALL_RULE: return walls_have_rule(s);
   case GG_IF_FRAMES: return s->output.trajectory_every > 0;
   case GG_IF_UNWALLED: return !gg_flow_is_walled(s->flow);
   case GG_IF_CELLS: return s->frame != GG_FRAME_IMPOSED;

@@ -121,12 +121,19 @@ const gg_field gg_scene_fields[] = {
      .doc = "normal speed at which collision.e holds; auto: the unit of velocity of results", .when = GG_IF_LAW},
     {"species", GG_FIELD_SPECIES, AT(species), 1, GG_MAX_SPECIES, .doc = "species of the mixture, up to 16"},
     {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .by_default = 0.9,
-     .doc = "coefficient of normal restitution at walls", .when = GG_IF_WALLED},
+     .doc = "coefficient of normal restitution at walls", .when = GG_IF_WALLED | GG_IF_WALL_RULE},
     {"walls.beta", GG_FIELD_NUMBER, AT(walls.beta), -1, 1, .by_default = 1,
      .doc = "coefficient of tangential restitution at walls; smooth grains do not spin: theirs applies to the centre",
-     .when = GG_IF_WALLED | GG_IF_WALL_FRICTION},
+     .when = GG_IF_WALLED | GG_IF_WALL_RULE | GG_IF_WALL_FRICTION},
     {"walls.mu", GG_FIELD_NUMBER, AT(walls.mu), 0, INFINITY, .by_default = INFINITY,
-     .doc = "Coulomb friction coefficient at walls", .when = GG_IF_WALLED | GG_IF_WALL_BETA},
+     .doc = "Coulomb friction coefficient at walls", .when = GG_IF_WALLED | GG_IF_WALL_RULE | GG_IF_WALL_BETA},
+    {"walls.temperature", GG_FIELD_ENDS, AT(walls.temperature), SMALL, LARGE, false, NONE, .unit = "velocity^2",
+     .doc = "temperature of the walls, of both or [lower, upper]: grains that touch leave with velocities and spins of "
+            "a gas of it (times the mass of species 1); none: by walls.e, beta and mu",
+     .when = GG_IF_WALLED},
+    {"walls.accommodation", GG_FIELD_NUMBER, AT(walls.accommodation), 0, 1, .by_default = 1,
+     .doc = "share of contacts in which a wall of a given temperature does so; the others are by walls.e, beta and mu",
+     .when = GG_IF_WALLED | GG_IF_THERMAL_WALLS},
     {"walls.top", GG_FIELD_CHOICE, AT(walls.top), .words = tops, .doc = "upper boundary of a chute",
      .when = GG_IF_WALLED | GG_IF_OPENABLE},
     {"walls.speed", GG_FIELD_NUMBER, AT(walls.speed), SMALL, LARGE, .by_default = 1, .unit = "velocity",
@@ -252,6 +259,7 @@ size_t gg_scene_field_count(const gg_field *f)
   case GG_FIELD_PAIRS: return GG_PAIRS;
   case GG_FIELD_ERRORS: return GG_MAX_UNTIL;
   case GG_FIELD_VECTOR: return 3;
+  case GG_FIELD_ENDS: return 2;
   default: return 1;
   }
 }
@@ -376,6 +384,7 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
   case GG_FIELD_NUMBER: number_allowed(f, "a number", text, size); return;
   case GG_FIELD_INTEGER: number_allowed(f, "a whole number", text, size); return;
   case GG_FIELD_VECTOR: number_allowed(f, "a list of three numbers", text, size); return;
+  case GG_FIELD_ENDS: number_allowed(f, "a number or [lower, upper], each", text, size); return;
   case GG_FIELD_PAIRS:
     number_allowed(f, "a number", text, size);
     gg_base_text_append(text, size, ", or a map of them by pair of species: {11: , 12: , other: }");

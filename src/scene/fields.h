@@ -18,6 +18,7 @@ typedef enum gg_field_type {
   GG_FIELD_SET,     /* unsigned bits: a list of `words` */
   GG_FIELD_PAIRS,   /* double[GG_PAIRS]: a number, or a map by pair: {11: , 12: , other: } */
   GG_FIELD_VECTOR,  /* double[3] */
+  GG_FIELD_ENDS,    /* double[2], lower and upper wall: a number for both, or a list of two */
   GG_FIELD_ERRORS,  /* double[GG_MAX_UNTIL]: a map by quantity: {N1: 0.01} */
   GG_FIELD_FILE,    /* char[GG_FILE_NAME]: the name of a file with one of the endings `words`; "": none */
   GG_FIELD_SPECIES  /* gg_species[]: a list of maps, whose members are gg_scene_species_fields */
@@ -56,7 +57,9 @@ enum {
   GG_IF_BATH = 1u << 21,
   GG_IF_GAUSSIAN = 1u << 22,
   GG_IF_NOISE = 1u << 23,
-  GG_IF_TEMPERED = 1u << 24
+  GG_IF_TEMPERED = 1u << 24,
+  GG_IF_THERMAL_WALLS = 1u << 25,
+  GG_IF_WALL_RULE = 1u << 26
 };
 
 typedef struct gg_field {

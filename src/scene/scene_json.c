@@ -87,6 +87,11 @@ static json_t *vector_json(const gg_field *f, const double *x)
   return json_pack("[o, o, o]", number_json(f, x[0]), number_json(f, x[1]), number_json(f, x[2]));
 }
 
+static json_t *ends_json(const gg_field *f, const double *x)
+{
+  return x[0] == x[1] ? number_json(f, x[0]) : json_pack("[o, o]", number_json(f, x[0]), number_json(f, x[1]));
+}
+
 static json_t *species_json(const gg_scene *scene)
 {
   json_t *list = json_array();
@@ -111,6 +116,7 @@ static json_t *value_json(const gg_field *f, const void *base, const gg_scene *s
   case GG_FIELD_ERRORS: return errors_json(f, at);
   case GG_FIELD_VECTOR: return vector_json(f, at);
   case GG_FIELD_FILE: return json_string(*(const char *)at ? at : f->special);
+  case GG_FIELD_ENDS: return ends_json(f, at);
   case GG_FIELD_SPECIES: return species_json(scene);
   }
   return json_null();

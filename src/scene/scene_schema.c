@@ -51,6 +51,11 @@ static json_t *errors_schema(const gg_field *f)
   return json_pack("{s:s, s:o, s:b}", "type", "object", "properties", names, "additionalProperties", 0);
 }
 
+static json_t *list_schema(const gg_field *f, int n)
+{
+  return json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", number_schema(f), "minItems", n, "maxItems", n);
+}
+
 static json_t *value_schema(const gg_field *f)
 {
   switch (f->type) {
@@ -60,8 +65,8 @@ static json_t *value_schema(const gg_field *f)
   case GG_FIELD_SET: return json_pack("{s:s, s:o, s:b}", "type", "array", "items", word_schema(f), "uniqueItems", 1);
   case GG_FIELD_PAIRS: return pairs_schema(f);
   case GG_FIELD_ERRORS: return errors_schema(f);
-  case GG_FIELD_VECTOR:
-    return json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", number_schema(f), "minItems", 3, "maxItems", 3);
+  case GG_FIELD_VECTOR: return list_schema(f, 3);
+  case GG_FIELD_ENDS: return json_pack("{s:[o, o]}", "anyOf", number_schema(f), list_schema(f, 2));
   case GG_FIELD_FILE: return json_pack("{s:s}", "type", "string");
   case GG_FIELD_SPECIES:
     return json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", gg_scene_schema_of(gg_scene_species_fields),

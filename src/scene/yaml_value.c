@@ -331,6 +331,23 @@ static gg_status read_vector(const input *in, double *value)
   return GG_OK;
 }
 
+/* A special word is for both. */
+static gg_status read_ends(const input *in, double *value)
+{
+  gg_field number = *in->f;
+  number.special = NULL;
+  if (in->node->type != YAML_SEQUENCE_NODE) {
+    GG_TRY(read_number(in, &value[0]));
+    return value[1] = value[0], GG_OK;
+  }
+  if (length_of(in->node) != 2) return reject_value(in);
+  for (int w = 0; w < 2; w++) {
+    const input item = {in->r, &number, in->key, item_of(in, in->node->data.sequence.items.start[w])};
+    GG_TRY(read_number(&item, &value[w]));
+  }
+  return GG_OK;
+}
+
 /* How many species the document itself lists; 0: it lists none, as what overrides a single key. */
 static int listed_species(const gg_scene_reader *r)
 {
@@ -436,6 +453,7 @@ gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *f, const
   case GG_FIELD_ERRORS: return read_errors(&in, value);
   case GG_FIELD_VECTOR: return read_vector(&in, value);
   case GG_FIELD_FILE: return read_file_name(&in, value);
+  case GG_FIELD_ENDS: return read_ends(&in, value);
   case GG_FIELD_SPECIES: return read_species(&in);
   }
   return GG_OK;
