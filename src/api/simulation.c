@@ -79,7 +79,7 @@ gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulatio
     gg_simulation_free(s);
     return status;
   }
-  ops->keep_sums(s->engine, true);
+  s->engine->ops->keep_sums(s->engine, true);
   *simulation = s;
   return GG_OK;
 }

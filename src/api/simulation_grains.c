@@ -130,7 +130,7 @@ static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uin
     status = ops->create_with(m, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &a.grains, NULL, &s->engine, err);
   }
   clear(&a);
-  if (status == GG_OK) ops->keep_sums(s->engine, true);
+  if (status == GG_OK) s->engine->ops->keep_sums(s->engine, true);
   return status;
 }
 

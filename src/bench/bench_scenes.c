@@ -48,7 +48,7 @@ static gg_status time_start(const gg_scene *scene, const gg_model *model, double
   const double began = gg_base_clock_cpu();
   GG_TRY(ops->create(model, scene->run.seed, 0, &engine, err));
   *ns = 1e9 * (gg_base_clock_cpu() - began) / (double)model->n;
-  ops->destroy(engine);
+  engine->ops->destroy(engine);
   return GG_OK;
 }
 

@@ -104,6 +104,7 @@ static gg_status start(const gg_timed_scene *c, double warmup, timed *r, gg_erro
   GG_TRY(gg_run_start_near_steady(&model, err));
   GG_TRY(ops->create(&model, scene->run.seed, 0, &r->engine, err));
   r->by_the_clock = c->by_the_clock;
+  ops = r->engine->ops;
   if (c->threads > 1 && ops->threads) ops->threads(r->engine, c->threads);
   if (c->prepare) c->prepare(r->engine);
   ops->keep_sums(r->engine, c->sums);

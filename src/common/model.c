@@ -69,7 +69,10 @@ static void set_box(gg_model *m, const gg_scene *s)
   m->density = m->boltzmann ? 1 : 6 * s->phi / (M_PI * mean_power(m, 3));
   m->volume = (double)m->n / m->density;
   double shape = s->aspect[0] * s->aspect[1] * s->aspect[2];
-  for (int a = 0; a < 3; a++) m->box[a] = s->aspect[a] * gg_root(m->volume / shape, 3);
+  /* Between walls Monte Carlo has the gap that `particles` grains have in md, and more area. */
+  const double wider = gg_flow_is_walled(s->flow) ? (double)m->n / (double)s->particles : 1;
+  for (int a = 0; a < 3; a++)
+    m->box[a] = s->aspect[a] * gg_root(m->volume / (wider * shape), 3) * (a == 1 ? 1 : sqrt(wider));
 }
 
 static double chi_of(const gg_model *m, const gg_scene *s, int i, int j)
@@ -316,7 +319,8 @@ gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_mode
     return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs a constant e: restitution law '%s' has a speed of its own",
                         gg_flow_of(s->flow)->word, m->law.name);
   bool sheared = gg_flow_is_sheared(s->flow);
-  m->homogeneous = engine == GG_DSMC;
+  m->homogeneous = engine == GG_DSMC && !gg_flow_is_walled(s->flow);
+  m->contact_value = s->contact_value;
   m->n = grains_of(s, engine);
   set_composition(m, s);
   GG_TRY(check_grains(m, s, err));

@@ -27,7 +27,7 @@ typedef struct gg_model {
   gg_thermostat thermostat;
   gg_rule rule;         /* the most complex rule that any collision of the scene needs */
   bool boltzmann;       /* phi = 0 */
-  bool homogeneous;     /* no box: an ensemble that stands for one point of the flow (dsmc) */
+  bool homogeneous;     /* no box: an ensemble that stands for one point of the flow (dsmc without walls) */
   bool elastic;         /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding); of walls
                          * those without a temperature count */
   bool linear_response; /* of a cooling or heated gas to shear (linear_response.h) */
@@ -53,6 +53,7 @@ typedef struct gg_model {
   double sigma[GG_PAIRS]; /* (d_i + d_j)/2 */
   double chi[GG_PAIRS];   /* contact value; 1 in the Boltzmann limit */
   double chi_slope;       /* d ln chi/d ln phi of one species; 0 in the Boltzmann limit */
+  gg_contact_value contact_value; /* which chi is, for other densities than phi */
   double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
   /* Of restitution between grains (name NULL: none). With one, `e` and `contact` are those at the mean impact speed of
    * some temperature (gg_common_model_at), for estimates, and engines evaluate the law at every collision. */

@@ -5,6 +5,7 @@
 
 #include "base/thread_pool.h"
 #include "dsmc/dsmc.h"
+#include "dsmc/walls/gap.h"
 #include "simd/clones.h"
 
 static gg_dsmc *dsmc_of(gg_engine *engine)
@@ -63,8 +64,16 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   return go_on(engine, elapsed ? elapsed : &unused, err);
 }
 
+/* Between walls there is another engine (walls/gap.h): its models are handed over, its engines have operations of their
+ * own. */
+static bool is_walled(const gg_model *model)
+{
+  return gg_flow_is_walled(model->flow);
+}
+
 static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
 {
+  if (is_walled(model)) return gg_dsmc_gap_ops.create(model, seed, stream, engine, err);
   GG_TRY(gg_dsmc_accepts(model, err));
   gg_dsmc *d;
   GG_TRY(gg_dsmc_allocate(model, &d, err));
@@ -123,6 +132,7 @@ static void measure(gg_dsmc *d)
 static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stream, const gg_grain_arrays *grains,
                              const gg_engine *before, gg_engine **engine, gg_error *err)
 {
+  if (is_walled(model)) return gg_dsmc_gap_ops.create_with(model, seed, stream, grains, before, engine, err);
   GG_TRY(create(model, seed, stream, engine, err));
   gg_dsmc *d = dsmc_of(*engine);
   take_grains(&d->ensemble, grains, model->n);
@@ -262,11 +272,31 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   return GG_OK;
 }
 
+static gg_status accepts(const gg_model *model, gg_error *err)
+{
+  return (is_walled(model) ? gg_dsmc_gap_accepts : gg_dsmc_accepts)(model, err);
+}
+
+static double bytes(const gg_model *model)
+{
+  return (is_walled(model) ? gg_dsmc_gap_bytes : gg_dsmc_bytes)(model);
+}
+
+static gg_status restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
+{
+  return (is_walled(model) ? gg_dsmc_gap_restore : gg_dsmc_restore)(model, archive, engine, err);
+}
+
+static void describe(const gg_model *model, void (*line)(void *context, const char *text), void *context)
+{
+  (is_walled(model) ? gg_dsmc_gap_describe : gg_dsmc_describe)(model, line, context);
+}
+
 const gg_engine_ops gg_dsmc_ops = {
     .name = "dsmc",
     .doc = "Enskog Monte Carlo (direct simulation of the Enskog or Boltzmann equation)",
-    .accepts = gg_dsmc_accepts,
-    .bytes = gg_dsmc_bytes,
+    .accepts = accepts,
+    .bytes = bytes,
     .create = create,
     .create_with = create_with,
     .destroy = gg_dsmc_destroy,
@@ -281,7 +311,7 @@ const gg_engine_ops gg_dsmc_ops = {
     .blocks = blocks,
     .rescale = rescale,
     .save = gg_dsmc_save,
-    .restore = gg_dsmc_restore,
-    .describe = gg_dsmc_describe,
+    .restore = restore,
+    .describe = describe,
     .go_on = go_on,
 };

@@ -31,7 +31,7 @@ gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_m
     gg_run_replica_clear(r);
     return status;
   }
-  ops->keep_sums(r->engine, true);
+  r->engine->ops->keep_sums(r->engine, true);
   r->clock.interval = GG_SAMPLING_INTERVAL / gg_common_model_collision_rate(model, model->temperature0);
   gg_run_replica_sample_row(r, 0);
   return GG_OK;

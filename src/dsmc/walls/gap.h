@@ -1,0 +1,131 @@
+/* Enskog Monte Carlo between walls: the gas in the gap, uniform along x and z. Grains have a height and live in cells
+ * across the gap. A step is half a flight, collisions, half a flight; the explanation is in docs/explanation/dsmc.md.
+ *
+ * Frezzotti, Phys. Fluids 9 (1997) 1329; Montanero & Santos, Phys. Rev. E 54 (1996) 438; Bird's method at phi = 0. */
+#ifndef GG_DSMC_WALLS_GAP_H
+#define GG_DSMC_WALLS_GAP_H
+
+#include "common/engine.h"
+#include "common/laws/loss_table.h"
+#include "common/rng.h"
+#include "dsmc/majorant.h"
+
+/* Columns of the grains, one number a grain in each. Spins only of grains that have them, the time of the last
+ * contact only for a collision callback. */
+enum { GG_GAP_Y, GG_GAP_C, GG_GAP_S = GG_GAP_C + 3, GG_GAP_LAST = GG_GAP_S + 3, GG_GAP_COLUMNS };
+
+/* By cell when they collide, and within a cell by species. */
+typedef struct gg_dsmc_gap_grains {
+  double *x[GG_GAP_COLUMNS]; /* NULL: not kept */
+  uint32_t *id;
+  uint8_t *species;
+} gg_dsmc_gap_grains;
+
+/* Cells of equal width across the heights that centres can have; above an open top far beyond the box. */
+typedef struct gg_dsmc_gap_cells {
+  int n, reach; /* of them; half the width of a kernel, in half cells */
+  double from, width, inverse, volume;
+  uint32_t *start; /* [n x species + 1]: the first grain of each */
+  double *counted; /* [n x species]: grains x time, since the last measurement */
+  double *mean;    /* [n x species]: mean number of grains, over about a crossing of the gap */
+  double *hits;    /* [n]: grains that collided since the last measurement */
+  double *chi;     /* [pairs x 2n]: contact value between the middles of cells a and b, at a + b */
+  double *kernel;  /* [species x (reach + 1)]: what share of a cell's grains fills the place half cells away */
+  gg_dsmc_majorant *majorant; /* [n x species x species]: of chi N g_n, N in the partner's cell */
+} gg_dsmc_gap_cells;
+
+/* Everything else that changes while running: plain data, saved as it is. */
+typedef struct gg_dsmc_gap_state {
+  gg_rng rng;
+  double time;
+  double owed;        /* flight that is still to come before the present time */
+  double step, rate;  /* the step; collisions of a grain per time, where collisions happen */
+  double all_rate;    /* collisions per time */
+  double temperature; /* sum m c^2/(3N), the flow included: the scale of majorants */
+  double unmeasured;  /* time since the last measurement */
+  uint64_t steps, collisions, candidates, overflows, rests;
+  uint64_t keeps_sums;
+  gg_collision_sums transfer;
+  /* Of the present advance, which may have been stopped: its length, and what of it has gone; the last collision. */
+  double asked, gone;
+  uint64_t last_collision;
+} gg_dsmc_gap_state;
+
+typedef struct gg_dsmc_gap {
+  gg_engine base;
+  gg_model model;
+  gg_dsmc_gap_grains grains, sorted;                                        /* the latter is room for the next order */
+  uint32_t *place;                                                          /* of each grain in that order */
+  double low[GG_MAX_SPECIES], high[GG_MAX_SPECIES], radius[GG_MAX_SPECIES]; /* heights of centres */
+  double reach[GG_PAIRS]; /* distance of centres at contact; 0 in the Boltzmann limit */
+  gg_vec gravity;
+  gg_rule wall_rule; /* of walls, as grains with or without spins have it */
+  gg_dsmc_gap_cells cells;
+  gg_loss_table *losses;
+  gg_dsmc_gap_state now;
+  gg_collision_callback *callback;
+  void *callback_context;
+} gg_dsmc_gap;
+
+GG_INLINE gg_vec gg_dsmc_gap_get(const gg_dsmc_gap_grains *g, int column, size_t i)
+{
+  return (gg_vec){g->x[column][i], g->x[column + 1][i], g->x[column + 2][i]};
+}
+GG_INLINE void gg_dsmc_gap_set(gg_dsmc_gap_grains *g, int column, size_t i, gg_vec v)
+{
+  g->x[column][i] = v.x, g->x[column + 1][i] = v.y, g->x[column + 2][i] = v.z;
+}
+GG_INLINE bool gg_dsmc_gap_has_spins(const gg_dsmc_gap *d)
+{
+  return d->grains.x[GG_GAP_S] != NULL;
+}
+
+/* A grain by itself. */
+typedef struct gg_dsmc_gap_grain {
+  gg_vec r, c, s;
+  int species;
+  bool touched; /* a wall */
+} gg_dsmc_gap_grain;
+
+/* gap_flight.c: all grains for a time; one grain, where the rest of the engine stays as it is but for `sums`,
+ * `rests`: contacts that would have left it on the wall. */
+void gg_dsmc_gap_fly(gg_dsmc_gap *d, double dt);
+void gg_dsmc_gap_fly_grain(const gg_dsmc_gap *d, double dt, gg_dsmc_gap_grain *grain, gg_collision_sums *sums,
+                           uint64_t *rests);
+
+/* gap_cells.c */
+gg_status gg_dsmc_gap_cells_new(gg_dsmc_gap *d, gg_error *err);
+void gg_dsmc_gap_cells_free(gg_dsmc_gap_cells *cells);
+/* Width of a cell, and how many. */
+double gg_dsmc_gap_cell_width(const gg_model *model);
+/* Order the grains by cell. */
+void gg_dsmc_gap_sort(gg_dsmc_gap *d);
+/* Contact values of the present mean numbers. */
+void gg_dsmc_gap_set_chi(gg_dsmc_gap *d);
+/* After some steps: mean numbers, contact values, temperature, the next step. */
+void gg_dsmc_gap_measure(gg_dsmc_gap *d);
+void gg_dsmc_gap_choose_step(gg_dsmc_gap *d);
+
+/* gap_collide.c: the collisions of a step, candidate by candidate; sorted grains. */
+void gg_dsmc_gap_collide(gg_dsmc_gap *d, double dt);
+
+/* gap_start.c: memory; the initial state, or grains from outside. */
+gg_status gg_dsmc_gap_allocate(const gg_model *model, gg_dsmc_gap **d, gg_error *err);
+gg_status gg_dsmc_gap_allocate_last(gg_dsmc_gap *d, gg_error *err);
+void gg_dsmc_gap_destroy(gg_engine *engine);
+gg_status gg_dsmc_gap_start(gg_dsmc_gap *d, uint64_t seed, uint64_t stream, const gg_grain_arrays *given,
+                            gg_error *err);
+
+/* gap_describe.c */
+gg_status gg_dsmc_gap_accepts(const gg_model *model, gg_error *err);
+double gg_dsmc_gap_bytes(const gg_model *model);
+void gg_dsmc_gap_describe(const gg_model *model, void (*line)(void *context, const char *text), void *context);
+
+/* gap_checkpoint.c */
+gg_status gg_dsmc_gap_save(const gg_engine *engine, gg_archive *archive, gg_error *err);
+gg_status gg_dsmc_gap_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err);
+
+/* What gg_dsmc_ops hands models between walls to; engines that it makes have it as their ops. */
+extern const gg_engine_ops gg_dsmc_gap_ops;
+
+#endif

@@ -1,0 +1,211 @@
+/* The cells: who is in them, mean numbers, contact values; and the step, from the rate of collisions. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "common/contact_value.h"
+#include "dsmc/walls/gap.h"
+
+/* Bias of transport by cells of width w: 0.11 (w/l)^2, l the mean free path (Alexander, Garcia & Alder, Phys. Fluids 10
+ * (1998) 1540); of steps h: 0.05 h^2, in mean free times (Hadjiconstantinou, Phys. Fluids 12 (2000) 2634). */
+#define PATHS_PER_CELL 0.15
+#define FREE_TIMES_PER_STEP 0.25
+#define BIAS_OF_STEP 0.05
+/* Cells a diameter, to resolve the layers at walls: at the densest, and over phi where these fade. */
+#define DIAMETERS_PER_CELL 0.1
+#define LAYERS_FADE 0.005
+/* At least so many cells across the gap; of an open top, up to so many heights of the box. */
+enum { LEAST_CELLS = 20, OPEN_HEIGHTS = 8 };
+/* Contact values rise without end towards close packing; mean numbers that a start makes may go beyond. */
+#define MOST_FILLED 0.63
+
+double gg_dsmc_gap_cell_width(const gg_model *m)
+{
+  double path = 1 / (sqrt(2) * M_PI * m->density * m->chi[0]);
+  double width = fmin(PATHS_PER_CELL * path, m->box[1] / LEAST_CELLS);
+  return m->boltzmann ? width : fmin(width, fmax(DIAMETERS_PER_CELL, LAYERS_FADE / m->phi));
+}
+
+/* Integral of the cross-section pi (R^2 - z^2) of a grain up to z, over all of it. */
+static double share_below(double radius, double z)
+{
+  const double u = fmin(fmax(z / radius, -1), 1);
+  return 0.25 * (2 + 3 * u - u * u * u);
+}
+
+/* Fischer & Methfessel, Phys. Rev. A 22 (1980) 2836: the contact value is that of the density averaged over a sphere
+ * about the point of contact; that is the share of the volume that grains fill there. */
+static void set_kernels(gg_dsmc_gap *d)
+{
+  gg_dsmc_gap_cells *c = &d->cells;
+  for (int s = 0; s < d->model.n_species; s++)
+    for (int k = 0; k <= c->reach; k++) { /* places are half cells away */
+      const double z = 0.5 * k * c->width, radius = 0.5 * d->model.diameter[s];
+      c->kernel[s * (c->reach + 1) + k] =
+          share_below(radius, z + 0.5 * c->width) - share_below(radius, z - 0.5 * c->width);
+    }
+}
+
+static double lowest(const gg_dsmc_gap *d)
+{
+  double low = d->low[0];
+  for (int s = 1; s < d->model.n_species; s++) low = fmin(low, d->low[s]);
+  return low;
+}
+
+static double highest(const gg_dsmc_gap *d)
+{
+  if (gg_common_surface_is_open_above(&d->model)) return OPEN_HEIGHTS * d->model.box[1];
+  double high = d->high[0];
+  for (int s = 1; s < d->model.n_species; s++) high = fmax(high, d->high[s]);
+  return high;
+}
+
+gg_status gg_dsmc_gap_cells_new(gg_dsmc_gap *d, gg_error *err)
+{
+  const gg_model *m = &d->model;
+  gg_dsmc_gap_cells *c = &d->cells;
+  const size_t species = (size_t)m->n_species, pairs = (size_t)gg_pairs_of(m->n_species);
+  c->from = lowest(d);
+  const double gap = highest(d) - c->from;
+  c->n = (int)fmin(ceil(gap / gg_dsmc_gap_cell_width(m) * (1 - 1e-12)), 1e7);
+  c->width = gap / c->n;
+  c->inverse = c->n / gap;
+  c->volume = m->box[0] * m->box[2] * c->width;
+  c->reach = (int)fmin(1 + ceil(gg_common_model_widest(m) * c->inverse), 2 * c->n);
+  const size_t n = (size_t)c->n;
+  c->start = gg_base_array_new(n * species + 1, sizeof *c->start, err);
+  c->counted = gg_base_array_new(n * species, sizeof *c->counted, err);
+  c->mean = gg_base_array_new(n * species, sizeof *c->mean, err);
+  c->hits = gg_base_array_new(n, sizeof *c->hits, err);
+  c->chi = gg_base_array_new(pairs * 2 * n, sizeof *c->chi, err);
+  c->kernel = gg_base_array_new(species * (size_t)(c->reach + 1), sizeof *c->kernel, err);
+  c->majorant = gg_base_array_new(n * species * species, sizeof *c->majorant, err);
+  if (!c->start || !c->counted || !c->mean || !c->hits || !c->chi || !c->kernel || !c->majorant) return GG_FAILED;
+  set_kernels(d);
+  return GG_OK;
+}
+
+void gg_dsmc_gap_cells_free(gg_dsmc_gap_cells *c)
+{
+  free(c->start);
+  free(c->counted);
+  free(c->mean);
+  free(c->hits);
+  free(c->chi);
+  free(c->kernel);
+  free(c->majorant);
+}
+
+static uint32_t cell_of(const gg_dsmc_gap_cells *c, double y)
+{
+  const double at = (y - c->from) * c->inverse;
+  return at > 0 ? at < c->n ? (uint32_t)at : (uint32_t)c->n - 1 : 0;
+}
+
+void gg_dsmc_gap_sort(gg_dsmc_gap *d)
+{
+  gg_dsmc_gap_cells *c = &d->cells;
+  const size_t n = (size_t)d->model.n, species = (size_t)d->model.n_species, bins = (size_t)c->n * species;
+  const gg_dsmc_gap_grains from = d->grains, to = d->sorted;
+  memset(c->start, 0, (bins + 1) * sizeof *c->start);
+  for (size_t i = 0; i < n; i++) {
+    d->place[i] = cell_of(c, from.x[GG_GAP_Y][i]) * (uint32_t)species + from.species[i];
+    c->start[d->place[i] + 1]++;
+  }
+  for (size_t b = 0; b < bins; b++) c->start[b + 1] += c->start[b];
+  /* Each start moves to its end, and with it to the place of the next. */
+  for (size_t i = 0; i < n; i++) d->place[i] = c->start[d->place[i]]++;
+  memmove(c->start + 1, c->start, bins * sizeof *c->start);
+  c->start[0] = 0;
+  for (int k = 0; k < GG_GAP_COLUMNS; k++)
+    for (size_t i = 0; from.x[k] && i < n; i++) to.x[k][d->place[i]] = from.x[k][i];
+  for (size_t i = 0; i < n; i++) to.id[d->place[i]] = from.id[i], to.species[d->place[i]] = from.species[i];
+  d->grains = to;
+  d->sorted = from;
+}
+
+/* Grains fill a share `filled` of the place, and of each species' share 1/d. */
+static void filling_at(const gg_dsmc_gap *d, int place, double *filled, double *over_d)
+{
+  const gg_dsmc_gap_cells *c = &d->cells;
+  const int species = d->model.n_species;
+  *filled = *over_d = 0;
+  for (int s = 0; s < species; s++) {
+    const double diameter = d->model.diameter[s], *kernel = c->kernel + s * (c->reach + 1);
+    double grains = 0;
+    for (int b = (place - c->reach + 1) / 2 > 0 ? (place - c->reach + 1) / 2 : 0; b < c->n && 2 * b <= place + c->reach;
+         b++)
+      grains += c->mean[b * species + s] * kernel[abs(place - 2 * b)];
+    const double share = M_PI / 6 * diameter * diameter * diameter * grains / c->volume;
+    *filled += share, *over_d += share / diameter;
+  }
+}
+
+void gg_dsmc_gap_set_chi(gg_dsmc_gap *d)
+{
+  const gg_model *m = &d->model;
+  gg_dsmc_gap_cells *c = &d->cells;
+  const gg_contact_value kind = m->contact_value;
+  for (int place = 0; place < 2 * c->n; place++) {
+    double filled = 0, over_d = 0;
+    if (!m->boltzmann) filling_at(d, place, &filled, &over_d);
+    if (filled > MOST_FILLED) over_d *= MOST_FILLED / filled, filled = MOST_FILLED;
+    for (int i = 0; i < m->n_species; i++)
+      for (int j = i; j < m->n_species; j++)
+        c->chi[gg_pair(i, j) * 2 * c->n + place] =
+            m->boltzmann ? 1
+            : m->n_species == 1
+                ? gg_common_contact_value_of(kind, filled)
+                : gg_common_contact_value_mixture(
+                      filled, over_d, 2 * m->diameter[i] * m->diameter[j] / (m->diameter[i] + m->diameter[j]));
+  }
+}
+
+/* Longer than this share of a thermal crossing of the gap no step is, whether grains collide or not. */
+#define MOST_OF_CROSSING 0.25
+
+void gg_dsmc_gap_choose_step(gg_dsmc_gap *d)
+{
+  gg_dsmc_gap_state *s = &d->now;
+  const double crossing = d->model.box[1] / sqrt(s->temperature);
+  const double share = d->model.time_step > 0 ? d->model.time_step : FREE_TIMES_PER_STEP;
+  s->step = fmin(share / s->rate, MOST_OF_CROSSING * crossing);
+}
+
+static double temperature_of(const gg_dsmc_gap *d)
+{
+  double sum = 0;
+  for (size_t i = 0; i < (size_t)d->model.n; i++) {
+    const gg_vec c = gg_dsmc_gap_get(&d->grains, GG_GAP_C, i);
+    sum += d->model.mass[d->grains.species[i]] * gg_dot(c, c);
+  }
+  return sum / (3 * (double)d->model.n);
+}
+
+void gg_dsmc_gap_measure(gg_dsmc_gap *d)
+{
+  gg_dsmc_gap_cells *c = &d->cells;
+  gg_dsmc_gap_state *s = &d->now;
+  const int species = d->model.n_species;
+  const double t = s->unmeasured, memory = d->model.box[1] / sqrt(s->temperature), share = t / (t + memory);
+  double hits = 0, squares = 0;
+  for (int a = 0; a < c->n; a++) {
+    double grains = 0;
+    for (int k = a * species; k < (a + 1) * species; k++) {
+      grains += c->counted[k] / t;
+      c->mean[k] += share * (c->counted[k] / t - c->mean[k]);
+      c->counted[k] = 0;
+    }
+    hits += c->hits[a];
+    if (grains > 0) squares += c->hits[a] * c->hits[a] / (grains * t);
+    c->hits[a] = 0;
+  }
+  s->rate = hits > 0 ? squares / hits : 0.5 * s->rate;
+  s->all_rate = 0.5 * hits / t;
+  s->temperature = temperature_of(d);
+  s->unmeasured = 0;
+  gg_dsmc_gap_choose_step(d);
+  gg_dsmc_gap_set_chi(d);
+}

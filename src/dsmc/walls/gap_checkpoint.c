@@ -1,0 +1,127 @@
+/* Everything needed to continue bit for bit. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/memory.h"
+#include "dsmc/walls/gap.h"
+
+#define DAMAGED "the checkpoint of dsmc is damaged: %s"
+
+/* Either way: into an archive, or out of one. */
+typedef struct way {
+  gg_archive *to;
+  const gg_archive *from;
+} way;
+
+static gg_status move(way w, const char *name, gg_item_type type, void *data, size_t count, gg_error *err)
+{
+  return w.to ? gg_base_archive_put(w.to, name, type, data, count, err)
+              : gg_base_archive_get(w.from, name, type, data, count, err);
+}
+
+/* All that there is. */
+static gg_status move_all(gg_dsmc_gap *d, way w, gg_error *err)
+{
+  static const char *const names[GG_GAP_COLUMNS] = {"dsmc/height", "dsmc/c_x", "dsmc/c_y", "dsmc/c_z",
+                                                    "dsmc/s_x",    "dsmc/s_y", "dsmc/s_z", "dsmc/last"};
+  const gg_dsmc_gap_cells *c = &d->cells;
+  const size_t n = (size_t)d->model.n, species = (size_t)d->model.n_species, cells = (size_t)c->n;
+  GG_TRY(move(w, "dsmc/gap", GG_ITEM_U8, &d->now, sizeof d->now, err));
+  for (int k = 0; k < GG_GAP_COLUMNS; k++)
+    if (d->grains.x[k]) GG_TRY(move(w, names[k], GG_ITEM_F64, d->grains.x[k], n, err));
+  GG_TRY(move(w, "dsmc/id", GG_ITEM_U8, d->grains.id, n * sizeof *d->grains.id, err));
+  GG_TRY(move(w, "dsmc/species", GG_ITEM_U8, d->grains.species, n, err));
+  GG_TRY(move(w, "dsmc/counted", GG_ITEM_F64, c->counted, cells * species, err));
+  GG_TRY(move(w, "dsmc/mean", GG_ITEM_F64, c->mean, cells * species, err));
+  GG_TRY(move(w, "dsmc/hits", GG_ITEM_F64, c->hits, cells, err));
+  return move(w, "dsmc/majorant", GG_ITEM_U8, c->majorant, cells * species * species * sizeof *c->majorant, err);
+}
+
+gg_status gg_dsmc_gap_save(const gg_engine *engine, gg_archive *archive, gg_error *err)
+{
+  gg_dsmc_gap copy = *(const gg_dsmc_gap *)engine; /* put reads only */
+  return move_all(&copy, (way){.to = archive}, err);
+}
+
+/* What was read may be anybody's: are these numbers that a step can be taken with? */
+static bool is_between(double x, double least, double most)
+{
+  return x >= least && x <= most;
+}
+
+static bool are_between(const double *x, size_t n, double least, double most)
+{
+  for (size_t i = 0; x && i < n; i++)
+    if (!is_between(x[i], least, most)) return false;
+  return true;
+}
+
+static bool is_state(const gg_dsmc_gap *d)
+{
+  const gg_dsmc_gap_state *s = &d->now;
+  const double crossing = d->model.box[1] / sqrt(s->temperature);
+  return is_between(s->temperature, 1e-300, 1e300) && is_between(s->step, 1e-12 * crossing, crossing) &&
+         is_between(s->owed, 0, 0.5 * s->step * 10) && is_between(s->rate, 0, 1e300) &&
+         is_between(s->all_rate, 0, 1e300) && is_between(s->time, -1e300, 1e300) &&
+         is_between(s->unmeasured, 0, 1e300) && is_between(s->gone, 0, 1e300) && s->asked >= 0 && s->keeps_sums <= 1;
+}
+
+/* Heights between the walls, speeds of about the temperature, each grain once. */
+static bool are_grains(const gg_dsmc_gap *d)
+{
+  const gg_dsmc_gap_grains *g = &d->grains;
+  const size_t n = (size_t)d->model.n;
+  int64_t of[GG_MAX_SPECIES] = {0};
+  double energy = 0;
+  for (size_t i = 0; i < n; i++) d->place[i] = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (g->species[i] >= d->model.n_species || g->id[i] >= n || d->place[g->id[i]]++) return false;
+    const int s = g->species[i];
+    of[s]++;
+    if (!is_between(g->x[GG_GAP_Y][i], d->low[s], fmin(d->high[s], 1e300))) return false;
+    const gg_vec c = gg_dsmc_gap_get(g, GG_GAP_C, i);
+    energy += d->model.mass[s] * gg_dot(c, c);
+  }
+  for (int s = 0; s < d->model.n_species; s++)
+    if (of[s] != d->model.n_of[s]) return false;
+  for (int k = GG_GAP_S; k < GG_GAP_LAST; k++)
+    if (!are_between(g->x[k], n, -1e150, 1e150)) return false;
+  for (size_t i = 0; g->x[GG_GAP_LAST] && i < n; i++)
+    if (!(g->x[GG_GAP_LAST][i] <= d->now.time)) return false;
+  return is_between(energy / (3 * (double)n * d->now.temperature), 1e-4, 1e4);
+}
+
+static bool are_cells(const gg_dsmc_gap *d)
+{
+  const gg_dsmc_gap_cells *c = &d->cells;
+  const size_t n = (size_t)c->n, species = (size_t)d->model.n_species;
+  const double grains = (double)d->model.n;
+  if (!are_between(c->counted, n * species, 0, 1e300) || !are_between(c->mean, n * species, 0, grains * (1 + 1e-9)) ||
+      !are_between(c->hits, n, 0, 1e300))
+    return false;
+  for (size_t k = 0; k < n * species * species; k++)
+    if (!is_between(c->majorant[k].now, 0, 1e6 * grains) || !is_between(c->majorant[k].before, 0, 1e6 * grains))
+      return false;
+  return true;
+}
+
+gg_status gg_dsmc_gap_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
+{
+  gg_dsmc_gap *d;
+  GG_TRY(gg_dsmc_gap_accepts(model, err));
+  GG_TRY(gg_dsmc_gap_allocate(model, &d, err));
+  gg_status status = gg_base_archive_find(archive, "dsmc/last") ? gg_dsmc_gap_allocate_last(d, err) : GG_OK;
+  if (status == GG_OK) status = move_all(d, (way){.from = archive}, err);
+  if (status == GG_OK && !is_state(d)) status = gg_base_fail(err, GG_BAD_FILE, DAMAGED, "its state");
+  if (status == GG_OK && !are_grains(d)) status = gg_base_fail(err, GG_BAD_FILE, DAMAGED, "its grains");
+  if (status == GG_OK && !are_cells(d)) status = gg_base_fail(err, GG_BAD_FILE, DAMAGED, "its cells");
+  if (status != GG_OK) {
+    gg_dsmc_gap_destroy(&d->base);
+    return status;
+  }
+  gg_dsmc_gap_set_chi(d);
+  *engine = &d->base;
+  return GG_OK;
+}

@@ -1,0 +1,59 @@
+/* Which models run between walls, and what the engine makes of them. */
+#include <math.h>
+#include <stdio.h>
+
+#include "common/surface/shapes.h"
+#include "dsmc/walls/gap.h"
+
+gg_status gg_dsmc_gap_accepts(const gg_model *m, gg_error *err)
+{
+  const double widest = m->boltzmann ? 0 : gg_common_model_widest(m);
+  if (!gg_flow_runs_in(m->flow, GG_DSMC))
+    return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs engine: md", gg_flow_of(m->flow)->word);
+  for (int w = 0; w < m->n_surfaces; w++)
+    if (m->surface[w].shape != GG_SHAPE_plane || m->surface[w].axis != 1)
+      return gg_base_fail(err, GG_BAD_INPUT, "walls.ridges: needs engine: md; Monte Carlo is uniform along the walls");
+  if (gg_common_surface_is_open_above(m) && m->gravity[1] >= 0)
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "walls.top: open needs gravity towards the lower wall: gravity: [gx, gy < 0, gz]");
+  if (m->thermostat != GG_NO_THERMOSTAT)
+    return gg_base_fail(err, GG_BAD_INPUT, "thermostat: not in flow: %s", gg_flow_of(m->flow)->word);
+  if (m->box[1] < 2 * widest)
+    return gg_base_fail(err, GG_BAD_INPUT, "particles: with %g the gap is %.3g diameters wide; at least 2 are needed",
+                        (double)m->n, m->box[1] / m->diameter[0]);
+  if (m->n < 2 || m->n > UINT32_MAX / 2)
+    return gg_base_fail(err, GG_BAD_INPUT, "dsmc.particles: %lld; allowed: 2 to %u", (long long)m->n, UINT32_MAX / 2);
+  if (m->single)
+    return gg_base_fail(err, GG_BAD_INPUT, "dsmc.precision: between walls velocities are kept in double precision");
+  if (m->time_step == 0 || m->time_step > 10)
+    return gg_base_fail(err, GG_BAD_INPUT, "dsmc.time_step: in mean free times, above 0 and up to 10, or auto");
+  return GG_OK;
+}
+
+double gg_dsmc_gap_bytes(const gg_model *m)
+{
+  const double columns = m->rule != GG_SMOOTH ? GG_GAP_LAST : GG_GAP_S;
+  return (double)m->n * (2 * (columns * sizeof(double) + 5) + 4);
+}
+
+void gg_dsmc_gap_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)
+{
+  static const char *const rules[] = {"smooth grains: no spins are kept", "rough grains: spins, constant beta",
+                                      "frictional grains: spins, Coulomb's law"};
+  char text[160];
+  const double width = gg_dsmc_gap_cell_width(m);
+  snprintf(text, sizeof text, "%lld grains across a gap of %.4g d, uniform along the walls", (long long)m->n,
+           m->box[1]);
+  line(context, text);
+  snprintf(text, sizeof text, "cells %.2g d wide, %.0f across the gap", width, ceil(m->box[1] / width));
+  line(context, text);
+  line(context, rules[m->rule]);
+  if (m->law.name) line(context, "e follows from the speed of each collision");
+  line(context, m->boltzmann
+                    ? "Boltzmann limit: partners in the same cell, no contact value, no collisional stress"
+                    : "Enskog: partners at a distance, contact value of the local density, collisional stress");
+  snprintf(text, sizeof text, "step: %.2g mean free times where grains collide%s; flights are exact",
+           m->time_step > 0 ? m->time_step : 0.25, m->time_step > 0 ? "" : ", chosen");
+  line(context, text);
+  line(context, "a majorant for each cell and pair of species");
+}

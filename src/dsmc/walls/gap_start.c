@@ -1,0 +1,203 @@
+/* Life of the engine; the initial state. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "dsmc/walls/gap.h"
+
+static gg_status allocate_grains(gg_dsmc_gap_grains *g, size_t n, bool spins, gg_error *err)
+{
+  const int columns = spins ? GG_GAP_LAST : GG_GAP_S;
+  for (int k = 0; k < columns; k++)
+    if (!(g->x[k] = gg_base_array_new(n, sizeof *g->x[k], err))) return GG_FAILED;
+  g->id = gg_base_array_new(n, sizeof *g->id, err);
+  g->species = gg_base_array_new(n, sizeof *g->species, err);
+  return g->id && g->species ? GG_OK : GG_FAILED;
+}
+
+static void free_grains(gg_dsmc_gap_grains *g)
+{
+  for (int k = 0; k < GG_GAP_COLUMNS; k++) free(g->x[k]);
+  free(g->id);
+  free(g->species);
+}
+
+/* Heights that centres can have. */
+static void set_heights(gg_dsmc_gap *d)
+{
+  const gg_model *m = &d->model;
+  const gg_surface *lower = gg_surface_at(m, 1, -1), *upper = gg_surface_at(m, 1, 1);
+  for (int s = 0; s < m->n_species; s++) {
+    d->radius[s] = m->boltzmann ? 0 : 0.5 * m->diameter[s];
+    d->low[s] = lower->place + d->radius[s];
+    d->high[s] = upper ? upper->place - d->radius[s] : INFINITY;
+  }
+  for (int p = 0; p < gg_pairs_of(m->n_species); p++) d->reach[p] = m->boltzmann ? 0 : m->sigma[p];
+}
+
+gg_status gg_dsmc_gap_allocate(const gg_model *model, gg_dsmc_gap **made, gg_error *err)
+{
+  gg_dsmc_gap *d = gg_base_array_new(1, sizeof *d, err);
+  if (!d) return GG_FAILED;
+  d->base.ops = &gg_dsmc_gap_ops;
+  d->model = *model;
+  d->gravity = (gg_vec){model->gravity[0], model->gravity[1], model->gravity[2]};
+  const bool spins = model->rule != GG_SMOOTH;
+  d->wall_rule = spins ? model->rule : model->wall_rule;
+  set_heights(d);
+  const size_t n = (size_t)model->n;
+  gg_status status = allocate_grains(&d->grains, n, spins, err);
+  if (status == GG_OK) status = allocate_grains(&d->sorted, n, spins, err);
+  if (status == GG_OK && !(d->place = gg_base_array_new(n, sizeof *d->place, err))) status = GG_FAILED;
+  if (status == GG_OK) status = gg_dsmc_gap_cells_new(d, err);
+  if (status == GG_OK) status = gg_common_loss_table_new(model->law.kind, &d->losses, err);
+  if (status != GG_OK) {
+    gg_dsmc_gap_destroy(&d->base);
+    return status;
+  }
+  *made = d;
+  return GG_OK;
+}
+
+gg_status gg_dsmc_gap_allocate_last(gg_dsmc_gap *d, gg_error *err)
+{
+  const size_t n = (size_t)d->model.n;
+  double **last = &d->grains.x[GG_GAP_LAST], **room = &d->sorted.x[GG_GAP_LAST];
+  if (*last) return GG_OK;
+  *room = gg_base_array_new(n, sizeof **room, err);
+  if (*room) *last = gg_base_array_new(n, sizeof **last, err);
+  if (!*last) {
+    free(*room);
+    *room = NULL;
+    return GG_FAILED;
+  }
+  for (size_t i = 0; i < n; i++) (*last)[i] = -INFINITY;
+  return GG_OK;
+}
+
+void gg_dsmc_gap_destroy(gg_engine *engine)
+{
+  gg_dsmc_gap *d = (gg_dsmc_gap *)engine;
+  if (!d) return;
+  free_grains(&d->grains);
+  free_grains(&d->sorted);
+  free(d->place);
+  gg_dsmc_gap_cells_free(&d->cells);
+  free(d->losses);
+  free(d);
+}
+
+/* Uniform from wall to wall; under an open top in the box. */
+static void place_grains(gg_dsmc_gap *d, gg_rng *rng)
+{
+  size_t i = 0;
+  for (int s = 0; s < d->model.n_species; s++)
+    for (int64_t k = 0; k < d->model.n_of[s]; k++, i++) {
+      d->grains.id[i] = (uint32_t)i;
+      d->grains.species[i] = (uint8_t)s;
+      d->grains.x[GG_GAP_Y][i] = d->low[s] + gg_rng_uniform(rng) * (fmin(d->high[s], d->model.box[1]) - d->low[s]);
+    }
+}
+
+/* Gaussian, at rest as a whole, exactly of the energy 3 N T/2; `weight` of a species is its mass or moment of inertia.
+ */
+static void set_motion(gg_dsmc_gap *d, int column, const double *weight, double T, bool at_rest, gg_rng *rng)
+{
+  const size_t n = (size_t)d->model.n;
+  gg_vec momentum = {0, 0, 0};
+  double all = 0, energy = 0;
+  for (size_t i = 0; i < n; i++) {
+    const double w = weight[d->grains.species[i]];
+    const gg_vec v = gg_scale(sqrt(T / w), gg_common_rng_normal_vec(rng));
+    gg_dsmc_gap_set(&d->grains, column, i, v);
+    momentum = gg_axpy(w, v, momentum);
+    all += w;
+  }
+  const gg_vec mean = gg_scale(at_rest ? 1 / all : 0, momentum);
+  for (size_t i = 0; i < n; i++) {
+    const gg_vec v = gg_sub(gg_dsmc_gap_get(&d->grains, column, i), mean);
+    energy += weight[d->grains.species[i]] * gg_dot(v, v);
+  }
+  const double scale = energy > 0 ? sqrt(3 * (double)n * T / energy) : 0;
+  for (size_t i = 0; i < n; i++)
+    gg_dsmc_gap_set(&d->grains, column, i, gg_scale(scale, gg_sub(gg_dsmc_gap_get(&d->grains, column, i), mean)));
+}
+
+/* The laminar profile between walls that move. */
+static void add_flow(gg_dsmc_gap *d)
+{
+  const gg_surface *lower = gg_surface_at(&d->model, 1, -1), *upper = gg_surface_at(&d->model, 1, 1);
+  if (!upper) return;
+  const double rate = (upper->velocity.x - lower->velocity.x) / d->model.box[1];
+  for (size_t i = 0; i < (size_t)d->model.n; i++)
+    d->grains.x[GG_GAP_C][i] += rate * (d->grains.x[GG_GAP_Y][i] - 0.5 * d->model.box[1]);
+}
+
+static gg_status take_grains(gg_dsmc_gap *d, const gg_grain_arrays *given, gg_error *err)
+{
+  gg_dsmc_gap_grains *g = &d->grains;
+  for (size_t i = 0; i < (size_t)d->model.n; i++) {
+    if (given->species) g->species[i] = (uint8_t)given->species[i];
+    const int s = g->species[i];
+    if (given->r) g->x[GG_GAP_Y][i] = given->r[3 * i + 1];
+    const double y = g->x[GG_GAP_Y][i];
+    if (!(y >= d->low[s] - 1e-9 && y <= d->high[s] + 1e-9))
+      return gg_base_fail(err, GG_BAD_INPUT, "grain %zu overlaps the %s wall by %g d", i,
+                          y < d->low[s] ? "lower" : "upper", fmax(d->low[s] - y, y - d->high[s]));
+    g->x[GG_GAP_Y][i] = fmin(fmax(y, d->low[s]), d->high[s]);
+    for (int a = 0; a < 3; a++) {
+      if (given->c) g->x[GG_GAP_C + a][i] = given->c[3 * i + (size_t)a];
+      if (given->s && g->x[GG_GAP_S]) g->x[GG_GAP_S + a][i] = given->s[3 * i + (size_t)a];
+    }
+  }
+  return GG_OK;
+}
+
+/* Until something is measured: mean numbers of a uniform gas, rates of Enskog's theory, majorants that hold for sure.
+ */
+static void begin(gg_dsmc_gap *d)
+{
+  gg_dsmc_gap_state *s = &d->now;
+  gg_dsmc_gap_cells *c = &d->cells;
+  const int species = d->model.n_species;
+  double fastest = 0, energy = 0, most = 0, chi = 0;
+  for (size_t i = 0; i < (size_t)d->model.n; i++) {
+    const gg_vec v = gg_dsmc_gap_get(&d->grains, GG_GAP_C, i);
+    fastest = fmax(fastest, gg_dot(v, v));
+    energy += d->model.mass[d->grains.species[i]] * gg_dot(v, v);
+  }
+  s->temperature = energy / (3 * (double)d->model.n);
+  s->rate = gg_common_model_collision_rate(&d->model, s->temperature);
+  s->all_rate = 0.5 * (double)d->model.n * s->rate;
+  gg_dsmc_gap_choose_step(d);
+  gg_dsmc_gap_sort(d);
+  for (int k = 0; k < c->n * species; k++) {
+    const int cell = k / species, of = k % species;
+    const double from = fmax(c->from + cell * c->width, d->low[of]),
+                 to = fmin(c->from + (cell + 1) * c->width, fmin(d->high[of], d->model.box[1]));
+    c->mean[k] = (double)d->model.n_of[of] * fmax(to - from, 0) / (fmin(d->high[of], d->model.box[1]) - d->low[of]);
+    most = fmax(most, c->start[k + 1] - c->start[k]);
+  }
+  gg_dsmc_gap_set_chi(d);
+  for (int k = 0; k < gg_pairs_of(species) * 2 * c->n; k++) chi = fmax(chi, c->chi[k]);
+  for (int k = 0; k < c->n * species * species; k++)
+    gg_dsmc_majorant_start(&c->majorant[k], 2 * sqrt(fastest) * chi * most, sqrt(s->temperature));
+}
+
+gg_status gg_dsmc_gap_start(gg_dsmc_gap *d, uint64_t seed, uint64_t stream, const gg_grain_arrays *given, gg_error *err)
+{
+  gg_rng rng = gg_common_rng_seed(seed, stream + GG_STREAM_START);
+  const gg_model *m = &d->model;
+  double inertia[GG_MAX_SPECIES];
+  for (int i = 0; i < m->n_species; i++) inertia[i] = m->inertia[i] * m->mass[i];
+  d->now.rng = gg_common_rng_seed(seed, stream + GG_STREAM_ENGINE);
+  place_grains(d, &rng);
+  set_motion(d, GG_GAP_C, m->mass, m->temperature0, true, &rng);
+  add_flow(d);
+  if (gg_dsmc_gap_has_spins(d)) set_motion(d, GG_GAP_S, inertia, m->ratio0 * m->temperature0, false, &rng);
+  if (given) GG_TRY(take_grains(d, given, err));
+  begin(d);
+  if (!(d->now.temperature > 0 && d->now.temperature < 1e300))
+    return gg_base_fail(err, GG_BAD_INPUT, "dsmc: grains at rest, or too fast to compute with");
+  return GG_OK;
+}
