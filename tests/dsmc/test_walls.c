@@ -1,0 +1,163 @@
+/* Enskog Monte Carlo between walls. Identities: what grains lose of momentum and energy is what walls and collisions
+ * took, to rounding; a restored engine goes on bit for bit. Limits: elastic grains between smooth elastic walls are in
+ * equilibrium, with the pressure n T Z(phi) on both walls and Enskog's collision rate; a column is barometric, and
+ * carries its weight. */
+#include "common/contact_value.h"
+#include "common/surface/shapes.h"
+#include "lab.h"
+
+/* A gap `height` wide of `n` grains; elastic and smooth, walls, too. */
+static gg_scene scene_of(gg_flow flow, double phi, double height, int64_t n)
+{
+  gg_scene s = lab_scene(flow, phi, 1, -1, n);
+  s.particles = (int64_t)round(6 * fmax(phi, 0.5236 * (phi == 0)) / M_PI * height * height * height);
+  s.walls.e = 1, s.walls.beta = -1, s.walls.mu = INFINITY, s.walls.speed = height / 2;
+  for (int a = 0; a < 3; a++) s.gravity[a] = 0;
+  return s;
+}
+
+/* Sums over grains, by slabs of the box's height. */
+enum { SLABS = 40 };
+typedef struct view {
+  double height, n, cc, momentum[3], energy, of[SLABS];
+  const gg_model *m;
+} view;
+
+static void add_grains(void *context, const gg_chunk *k)
+{
+  view *v = context;
+  for (size_t i = 0; i < k->n; i++) {
+    const int s = k->species ? k->species[i] : 0;
+    const double y = k->r[1][i] / v->height * SLABS;
+    assert_true(k->r[0][i] == 0 && k->r[2][i] == 0);
+    v->n++;
+    if (y >= 0 && y < SLABS) v->of[(int)y]++;
+    for (int a = 0; a < 3; a++) {
+      const double c = k->c[a][i], spin = k->s[0] ? k->s[a][i] : 0;
+      v->cc += v->m->mass[s] * c * c;
+      v->momentum[a] += v->m->mass[s] * c;
+      v->energy += 0.5 * v->m->mass[s] * (c * c + v->m->inertia[s] * spin * spin);
+    }
+  }
+}
+
+static view view_of(gg_engine *g, const gg_model *m)
+{
+  view v = {.height = m->box[1], .m = m};
+  g->ops->snapshot(g, true, add_grains, &v);
+  return v;
+}
+
+static double advance(gg_engine *g, double dt, uint64_t collisions)
+{
+  double elapsed = 0;
+  gg_error err = {0};
+  if (g->ops->advance(g, dt, collisions, &elapsed, &err) != GG_OK) fail_msg("%s", err.message);
+  return elapsed;
+}
+
+static gg_collision_sums taken(gg_engine *g)
+{
+  gg_collision_sums t;
+  g->ops->take_sums(g, &t);
+  return t;
+}
+
+static void balance(gg_scene *s)
+{
+  gg_model m = lab_model(s);
+  gg_engine *g = lab_engine(&m, 3);
+  g->ops->keep_sums(g, true);
+  view before = view_of(g, &m);
+  const double elapsed = advance(g, INFINITY, (uint64_t)(4 * m.n));
+  view after = view_of(g, &m);
+  gg_collision_sums t = taken(g);
+  const gg_surface_sums walls = gg_sums_of_surfaces(&t);
+  double lost = walls.loss, mass = 0, work = 0;
+  for (int p = 0; p < GG_PAIRS; p++) lost += t.loss[p];
+  for (int i = 0; i < m.n_species; i++) mass += (double)m.n_of[i] * m.mass[i];
+  assert_true(walls.collisions > 100);
+  for (int a = 0; a < 3; a++) {
+    const double scale = sqrt(2 * after.energy * mass);
+    const double expected = before.momentum[a] - walls.impulse[a] + m.gravity[a] * mass * elapsed;
+    assert_true(fabs(after.momentum[a] - expected) < 1e-11 * scale);
+  }
+  for (int w = 0; w < m.n_surfaces; w++) work -= t.surface[w].impulse[0] * m.surface[w].velocity.x;
+  if (m.gravity[0] == 0 && m.gravity[1] == 0)
+    assert_true(fabs(after.energy - (before.energy + work - lost)) < 1e-11 * (before.energy + fabs(lost)));
+  g->ops->destroy(g);
+}
+
+/* Energy with moving walls: what they do is work and loss. */
+static void what_is_lost_is_accounted_for(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(GG_COUETTE, 0.2, 12, 3000);
+  balance(&s);
+  for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = 0.8, s.collision.beta[p] = 0.3;
+  s.walls.e = 0.9, s.walls.beta = 0.5, s.walls.mu = 0.4;
+  balance(&s);
+  s.n_species = 2;
+  s.species[0] = (gg_species){.fraction = 0.6, .diameter = 1, .mass = 1, .inertia = 0.4};
+  s.species[1] = (gg_species){.fraction = 0.4, .diameter = 1.6, .mass = 3, .inertia = 0.4};
+  balance(&s);
+  s.flow = GG_CHUTE;
+  s.gravity[0] = 0.1, s.gravity[1] = -0.3;
+  balance(&s);
+}
+
+static double slab_mean(const view *v, int from, int to)
+{
+  double sum = 0;
+  for (int k = from; k < to; k++) sum += v->of[k];
+  return sum / (to - from);
+}
+
+/* Elastic grains keep the temperature of the start, their walls smooth and elastic. */
+static void equilibrium(double phi, double height)
+{
+  gg_scene s = scene_of(GG_COUETTE, phi, height, 20000);
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 5);
+  g->ops->keep_sums(g, true);
+  advance(g, INFINITY, (uint64_t)(100 * m.n));
+  taken(g);
+  lab_mean pressure[2] = {{0}, {0}}, core = {0}, even = {0};
+  const double area = m.box[0] * m.box[2], slab = m.box[1] / SLABS;
+  double T = 0;
+  for (int block = 0; block < 30; block++) {
+    double of_core = 0, of_half = 0, time = 0;
+    for (int k = 0; k < 10; k++) {
+      time += advance(g, INFINITY, (uint64_t)m.n);
+      const view v = view_of(g, &m);
+      T = v.cc / (3 * v.n);
+      of_core += slab_mean(&v, SLABS / 4, 3 * SLABS / 4) / (area * slab) / 10;
+      of_half += slab_mean(&v, SLABS / 4, SLABS / 2) / slab_mean(&v, SLABS / 2, 3 * SLABS / 4) / 10;
+    }
+    const gg_collision_sums t = taken(g);
+    const double filled = M_PI / 6 * of_core, p = of_core * T * gg_common_compressibility(m.contact_value, filled);
+    for (int w = 0; w < 2; w++) lab_add(&pressure[w], fabs(t.surface[w].impulse[1]) / (area * time) / p);
+    lab_add(&core, of_core);
+    lab_add(&even, of_half);
+  }
+  printf("# phi %g: core %.5f of mean %.5f, T %.6f of %.6f\n", phi, lab_value(&core), m.density, T, m.temperature0);
+  lab_expect("lower wall, p/(n T Z)", &pressure[0], 1, 0.0005, 0.01);
+  lab_expect("upper wall, p/(n T Z)", &pressure[1], 1, 0.0005, 0.01);
+  lab_expect("halves of the core", &even, 1, 0, 0.01);
+  g->ops->destroy(g);
+}
+
+static void walls_carry_the_pressure(void **state)
+{
+  (void)state;
+  equilibrium(0.01, 30);
+  equilibrium(0.2, 12);
+  equilibrium(0.3, 12);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_lost_is_accounted_for),
+                                     cmocka_unit_test(walls_carry_the_pressure)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
