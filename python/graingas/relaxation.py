@@ -1,0 +1,266 @@
+"""How gases relax: courses in time, means of many replicas in one or both engines, with what is changed on the way."""
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from typing import Optional, Sequence
+
+import numpy as np
+
+from .errors import BadInput
+from .plot import COLOURS, DASHES, label, legend, new_axes, styled
+from .run import thread_count
+from .scene import as_scene
+from .simulation import Simulation
+
+ENGINES = ("md", "dsmc")
+
+
+class Course:
+    """A quantity in time: mean and stderr (points) over replicas; values (replicas, points) of each."""
+
+    def __init__(self, values):
+        self.values = values
+        self.mean = values.mean(axis=0)
+        self.stderr = values.std(axis=0, ddof=1) / len(values) ** 0.5
+
+    def __repr__(self):
+        return f"<graingas.Course: {self.values.shape[1]} times, {self.values.shape[0]} replicas>"
+
+
+def _first_crossing(time, difference):
+    """When a difference changes its sign for the first time, by straight lines; NaN: never."""
+    after = np.flatnonzero(difference[:-1] * difference[1:] < 0)
+    if not len(after):
+        return np.nan
+    k = after[0]
+    return time[k] + (time[k + 1] - time[k]) * difference[k] / (difference[k] - difference[k + 1])
+
+
+class Relaxation:
+    """Courses of a gas in time. relaxation["temperature"]["md"].mean; units are those of results.
+
+    time (points); engines; quantities: temperature, a2; rotational_temperature and temperature_ratio of rough grains;
+    temperature_1, temperature_2, ... of mixtures
+    """
+
+    def __init__(self, scene, time, courses, protocol):
+        self.scene, self.time, self.protocol, self._courses = scene, time, protocol, courses
+
+    @property
+    def engines(self):
+        return list(self._courses)
+
+    @property
+    def quantities(self):
+        return list(next(iter(self._courses.values())))
+
+    def __getitem__(self, quantity):
+        """Engine -> Course."""
+        if quantity not in self.quantities:
+            raise KeyError(f"no course of {quantity!r}; there are: {', '.join(self.quantities)}")
+        return {engine: of[quantity] for engine, of in self._courses.items()}
+
+    def z(self, quantity):
+        """(points) md minus dsmc over their combined standard error. Points of one replica depend on each other."""
+        md, dsmc = (self[quantity][engine] for engine in ENGINES)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return (md.mean - dsmc.mean) / np.hypot(md.stderr, dsmc.stderr)
+
+    def crossing(self, other, quantity="temperature", engine=None):
+        """(time, standard error) at which the mean of this gas and of another cross for the first time; NaN: they do
+        not. The error is a jackknife over the replicas of both. engine: of both; None: the first."""
+        engine = engine or self.engines[0]
+        one, two = self[quantity][engine], other[quantity][engine]
+        if len(self.time) != len(other.time) or not np.allclose(self.time, other.time):
+            raise BadInput("crossing: both relaxations need the same times")
+
+        def without(course):
+            n = len(course.values)
+            return (n * course.mean - course.values) / (n - 1)
+        when = _first_crossing(self.time, one.mean - two.mean)
+        variance = 0
+        for first, second in ((without(one), [two.mean]), ([one.mean], without(two))):
+            times = np.array([_first_crossing(self.time, a - b) for a in first for b in second])
+            variance += (len(times) - 1) * times.var()
+        return when, variance ** 0.5
+
+    @styled
+    def plot(self, quantity="temperature", ax=None, bands=2.0, **style):
+        """Means with a band of so many standard errors, a colour an engine. Returns the axes."""
+        ax = new_axes(ax)
+        for k, (engine, course) in enumerate(self[quantity].items()):
+            look = {"color": COLOURS[k], "linestyle": DASHES[k], "label": engine, **style}
+            line, = ax.plot(self.time, course.mean, **look)
+            ax.fill_between(self.time, course.mean - bands * course.stderr, course.mean + bands * course.stderr,
+                            color=line.get_color(), alpha=0.25, linewidth=0)
+        for at, changes in self.protocol:
+            ax.axvline(at, color="0.7", linewidth=0.6, zorder=0)
+        ax.set(xlabel="time", ylabel=label(quantity))
+        legend(ax)
+        return ax
+
+    def to_dataframe(self):
+        """pandas: a row a time; columns (engine, quantity, "mean" or "stderr")."""
+        import pandas
+        table = {(engine, q, what): getattr(course, what) for engine, of in self._courses.items()
+                 for q, course in of.items() for what in ("mean", "stderr")}
+        return pandas.DataFrame(table, index=pandas.Index(self.time, name="time"))
+
+    def __repr__(self):
+        n = len(next(iter(self[self.quantities[0]].values())).values)
+        return (f"<graingas.Relaxation: {self.scene.title}; {', '.join(self.engines)}; {n} replicas, "
+                f"times 0 to {self.time[-1]:g}>")
+
+
+def _now(sim, rough):
+    """Quantities at this time."""
+    state, grains = sim.state, sim.grains
+    found = {"temperature": state.temperature}
+    species = sim.species
+    if len(species) == 1:
+        square = (grains.velocity ** 2).sum(axis=1)
+        found["a2"] = 0.6 * (square ** 2).mean() / square.mean() ** 2 - 1
+    else:
+        found.update({f"temperature_{k + 1}": s.temperature for k, s in enumerate(species)})
+    if rough:
+        found["rotational_temperature"] = state.rotational_temperature
+        found["temperature_ratio"] = state.rotational_temperature / state.temperature
+    return state.time, found
+
+
+def _sonine(rng, n, a2):
+    """Velocities (n, 3) of <v^2> = 3 from a Maxwellian times 1 + a2 (v^4/8 - 5 v^2/4 + 15/8), where that is above 0."""
+    # The polynomial is -5/4 at v^2 = 5, and 152 at 40, beyond which a Maxwellian has one velocity of 10^8.
+    most, found = 1 + max(152 * a2, -1.25 * a2), []
+    while sum(map(len, found)) < n:
+        v = rng.normal(size=(4 * n, 3))
+        square = (v ** 2).sum(axis=1)
+        found.append(v[rng.random(4 * n) * most < 1 + a2 * (square ** 2 / 8 - 5 * square / 4 + 15 / 8)])
+    return np.concatenate(found)[:n]
+
+
+def _prepare(sim, start, rng):
+    """Velocities as asked, about a mean of zero. The spins stay."""
+    grains, species = sim.grains, sim.species
+    velocity = np.array(grains.velocity)
+    kind = np.zeros(len(velocity), int) if grains.species is None else np.asarray(grains.species)
+    mass = np.array([s.mass for s in species])[kind][:, None]
+    wanted = np.broadcast_to(start.get("temperature", [s.temperature for s in species]), len(species))
+    if "a2" in start:
+        velocity = _sonine(rng, len(velocity), float(start["a2"]))
+    for again in range(2):  # the mean that is taken off changes temperatures, by 1/N
+        velocity -= (mass * velocity).sum(axis=0) / mass.sum()
+        for k, T in enumerate(wanted):
+            own = kind == k
+            velocity[own] *= (3 * T * own.sum() / (mass[own] * velocity[own] ** 2).sum()) ** 0.5
+    sim.set_grains(velocities=velocity)
+
+
+def _settle(sim):
+    """md places grains at random and pushes them apart until none overlap: many are left close to another, and for half
+    a collision a grain collisions are several times as frequent as later. They find places; then it begins."""
+    grains = sim.grains
+    if grains.position is not None:
+        sim.collide(5 * len(grains) // 2)
+        sim.set_grains(velocities=grains.velocity, spins=grains.spin)
+
+
+class _Replicas:
+    """Replicas of one engine, several at a time."""
+
+    def __init__(self, scene, time, protocol, start):
+        self.scene, self.time, self.start = scene, time, start
+        self.protocol = sorted(protocol, key=lambda change: change[0])
+        self.running, self.stopped = set(), False
+
+    def run(self, n, threads):
+        """Quantity -> values (n, points)."""
+        with ThreadPoolExecutor(threads) as pool:
+            try:
+                rows = list(pool.map(self._one, range(n)))
+            except BaseException:  # Ctrl-C, too
+                self.stopped = True
+                for sim in list(self.running):
+                    sim._stop.stop = 1
+                raise
+        return {q: np.array([row[q] for row in rows]) for q in rows[0]}
+
+    def _one(self, stream):
+        if self.stopped:
+            return None
+        with Simulation(self.scene, stream) as sim:
+            self.running.add(sim)
+            try:
+                return self._course(sim, stream)
+            finally:
+                self.running.discard(sim)
+
+    def _course(self, sim, stream):
+        rough = sim.grains.spin is not None
+        _settle(sim)
+        if self.start:
+            _prepare(sim, self.start, np.random.default_rng([stream, 1]))
+        begin, at, rows, changes = sim.time, [], [], list(self.protocol)
+        for t in self.time:
+            while changes and changes[0][0] <= t:
+                when, keys = changes.pop(0)
+                _advance_to(sim, begin + when)
+                for key, value in keys.items():
+                    sim[key] = value
+            _advance_to(sim, begin + t)
+            now, row = _now(sim, rough)
+            at.append(now - begin), rows.append(row)
+        # Monte Carlo ends within a step behind the time.
+        return {q: np.interp(self.time, at, [row[q] for row in rows]) for q in rows[0]}
+
+
+def _advance_to(sim, time):
+    if time > sim.time:
+        sim.advance(time - sim.time)
+
+
+def _checked(protocol):
+    found = []
+    for change in protocol or ():
+        try:
+            at, keys = change
+            found.append((float(at), dict(keys)))
+        except (TypeError, ValueError):
+            raise BadInput(f"protocol: {change!r} is not allowed; allowed: (time, {{key: value, ...}})") from None
+    return found
+
+
+def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines: Sequence[str] = ENGINES,
+          protocol: Optional[Sequence] = None, start: Optional[dict] = None, threads: Optional[int] = 1,
+          **keys) -> Relaxation:
+    """The course of a gas in time, from its start to a time, as the mean of many replicas.
+
+    scene, keys  as for run(); flows without walls
+    until        the last time, in the unit of results
+    points       times, evenly spaced from 0
+    replicas     of each engine, at least 2: bands and errors come from them
+    protocol     [(time, {"bath.temperature": 2, ...}), ...]: keys changed on the way, those of Simulation[...]
+    start        {"temperature": T or [T_1, T_2, ...], "a2": a2}: in units of results. T of species are m <v^2>/3; a2, of
+                 small size, makes the distribution a Maxwellian times 1 + a2 S_2. Without it the scene's start
+    threads      replicas at a time; None: all processors
+
+    Sheared gases, too: velocities are those about the flow. Free cooling is not rescaled: not beyond 100 decades.
+    """
+    scene = as_scene(scene).copy(**keys)
+    if int(points) != points or points < 2 or not until > 0:
+        raise BadInput("relax: allowed: points of 2 or more, until above 0")
+    if int(replicas) != replicas or replicas < 2:
+        raise BadInput(f"replicas: {replicas!r} is not allowed; allowed: a whole number of 2 or more")
+    unknown = set(start or ()) - {"temperature", "a2"}
+    if unknown:
+        raise BadInput(f"start: key {sorted(unknown)[0]!r} is not allowed; allowed: temperature, a2")
+    wrong = [e for e in engines if e not in ENGINES]
+    if wrong or not engines:
+        raise BadInput(f"engines: {wrong[0] if wrong else engines!r} is not allowed; allowed: md, dsmc")
+    time, protocol = np.linspace(0, until, int(points)), _checked(protocol)
+    courses = {}
+    for engine in engines:
+        replica = _Replicas(scene.copy(engine=engine), time, protocol, start or {})
+        found = replica.run(int(replicas), thread_count(threads))
+        courses[engine] = {q: Course(values) for q, values in found.items()}
+    return Relaxation(scene, time, courses, protocol)

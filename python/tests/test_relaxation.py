@@ -1,0 +1,110 @@
+"""Courses in time: starts, protocols, bands against what is known exactly, crossings, Ctrl-C."""
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+
+import graingas as gg
+
+BATH = dict(flow="hss", thermostat="bath", phi=0.1, e=1, temperature=1)
+
+
+def bath(**keys):
+    scene = gg.Scene(particles=200, **{**BATH, **keys})
+    scene["dsmc.particles"], scene["bath.drag"], scene["bath.temperature"] = 200, 0.3, 0.5
+    return scene
+
+
+def test_elastic_gas_follows_its_bath():
+    """T - T_b falls as exp(-2 drag t), also after the bath was made hotter; scatter as of a canonical gas."""
+    found = gg.relax(bath(), 8, points=17, replicas=96, protocol=[(4, {"bath.temperature": 2})], threads=None)
+    decay = np.exp(-0.6 * found.time)
+    cold = 0.5 + 0.5 * decay
+    right = np.where(found.time <= 4, cold, 2 + (cold[8] - 2) * decay / decay[8])
+    for engine, course in found["temperature"].items():
+        z = (course.mean - right)[1:] / course.stderr[1:]
+        assert np.abs(z).max() < 4, (engine, z)
+        scatter = course.values[:, -1].std(ddof=1) / (right[-1] * (2 / 600) ** 0.5)
+        assert 0.75 < scatter < 1.25, (engine, scatter)
+    z = found.z("temperature")[1:]
+    assert np.abs(z).max() < 4 and (z ** 2).mean() > 0.1
+
+
+def test_starts_are_as_asked():
+    scene = gg.Scene(flow="hcs", phi=0.05, e=0.9, particles=500)
+    scene["dsmc.particles"] = 20000
+    found = gg.relax(scene, 0.02, points=2, replicas=4, engines=["dsmc"], start={"temperature": 3, "a2": 0.1})
+    course = found["a2"]["dsmc"]
+    assert found["temperature"]["dsmc"].mean[0] == pytest.approx(3)
+    assert course.mean[0] == pytest.approx(0.1, abs=0.025) and course.stderr[0] < 0.02
+    less = gg.relax(scene, 0.02, points=2, replicas=4, engines=["dsmc"], start={"a2": -0.1})
+    assert less["a2"]["dsmc"].mean[0] == pytest.approx(-0.1, abs=0.025)
+    scene.species = [{"fraction": 0.5}, {"fraction": 0.5, "mass": 5}]
+    mixed = gg.relax(scene, 0.02, points=2, replicas=2, start={"temperature": [1, 4]})
+    for engine in "md", "dsmc":
+        assert mixed["temperature_1"][engine].mean[0] == pytest.approx(1)
+        assert mixed["temperature_2"][engine].mean[0] == pytest.approx(4)
+
+
+def test_cooling_is_that_of_haff():
+    """T^(-1/2) grows as a straight line, at half of Enskog's cooling rate (4/3) sqrt(pi) n chi (1 - e^2)."""
+    phi, e = 0.05, 0.95
+    scene = gg.Scene(flow="hcs", phi=phi, e=e, particles=500)
+    scene["dsmc.particles"] = 5000
+    found = gg.relax(scene, 20, points=21, replicas=24, start={"temperature": 1}, threads=None)
+    rate = 4 / 3 * np.pi ** 0.5 * (6 * phi / np.pi) * (1 - phi / 2) / (1 - phi) ** 3 * (1 - e ** 2)
+    for engine, course in found["temperature"].items():
+        slope = (course.mean[1:] ** -0.5 - 1) / found.time[1:]
+        assert np.abs(slope[2:] / (rate / 2) - 1).max() < 0.02, (engine, slope, rate / 2)
+    assert np.abs(found.z("temperature")[1:]).max() < 4.5
+
+
+def test_crossing():
+    """The hotter of two rough gases is the colder one soon; the jackknife's error is that of the scatter of parts."""
+    hot = bath(e=0.9, beta=0, temperature=1.2)
+    hot["rotational_temperature"], hot["bath.temperature"], hot["dsmc.particles"] = 0.02, 0.05, 2000
+    cold = hot.copy(temperature=1)
+    cold["rotational_temperature"] = 3
+    one, two = (gg.relax(s, 2, points=21, replicas=32, engines=["dsmc"], threads=None) for s in (hot, cold))
+    when, error = one.crossing(two)
+    parts = []
+    for k in range(8):
+        first, second = (r["temperature"]["dsmc"].values[4 * k:4 * k + 4].mean(axis=0) for r in (one, two))
+        after = np.flatnonzero(first < second)[0]
+        gap = (first - second)[after - 1:after + 1]
+        parts.append(one.time[after - 1] + 0.1 * gap[0] / (gap[0] - gap[1]))
+    assert when == pytest.approx(np.mean(parts), abs=3 * error + 0.005)
+    assert 0.5 < error / (np.std(parts, ddof=1) / 8 ** 0.5) < 2
+    assert np.isnan(one.crossing(one)[0])
+
+
+def test_pictures_and_tables():
+    pytest.importorskip("matplotlib")
+    pandas = pytest.importorskip("pandas")
+    found = gg.relax(bath(beta=0.5), 1, points=5, replicas=2, protocol=[(0.5, {"bath.temperature": 1})])
+    ax = found.plot("temperature_ratio")
+    assert len(ax.lines) == 3 and [t.get_text() for t in ax.get_legend().texts] == ["md", "dsmc"]
+    table = found.to_dataframe()
+    assert isinstance(table, pandas.DataFrame)
+    assert table["md", "temperature", "mean"].iloc[0] == pytest.approx(1, abs=0.2)
+    assert "2 replicas" in repr(found)
+
+
+@pytest.mark.parametrize("wrong, word", [
+    (dict(replicas=1), "replicas"), (dict(points=1), "points"), (dict(until=0), "until"),
+    (dict(engines=["lattice"]), "lattice"),
+    (dict(start={"spin": 1}), "spin"), (dict(protocol=[3]), "protocol"), (dict(protocol=[(0, {"phi": 0.2})]), "phi")])
+def test_refusals(wrong, word):
+    with pytest.raises(gg.BadInput, match=word):
+        gg.relax(bath(), **{"until": 1, "points": 2, "replicas": 2, **wrong})
+
+
+def test_interrupted():
+    scene = bath()
+    scene["dsmc.particles"] = 200000
+    timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        gg.relax(scene, 1e6, points=3, replicas=4, engines=["dsmc"], threads=2)
