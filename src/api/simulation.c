@@ -210,7 +210,7 @@ static void put(double to[3], gg_vec v, double factor)
 static void show(void *context, const gg_collision_record *collision)
 {
   gg_simulation *s = context;
-  if (!is_observed(s) || gg_base_busy_is_freed(&s->busy)) return;
+  if (collision->wall || !is_observed(s) || gg_base_busy_is_freed(&s->busy)) return;
   double unit = gg_api_simulation_unit(s);
   gg_engine_state engine;
   s->engine->ops->state(s->engine, &engine);

@@ -77,17 +77,20 @@ typedef struct gg_block_run {
 } gg_block_run;
 typedef void gg_visit_blocks(void *context, const gg_block_run *run);
 
-/* One collision between two grains as a callback sees it: velocities are those before the impulse. */
+/* One collision as a callback sees it, of two grains or, between walls, of a grain (1) with a surface (2): velocities
+ * and spins are those before the impulse. */
 typedef struct gg_collision_record {
   int64_t id[2]; /* the grains' numbers: gg_chunk.id, or their places in a snapshot where that is NULL */
   int species[2];
-  gg_vec k;         /* from 1 to 2 */
-  gg_vec c12;       /* c_1 - c_2 of the centres, the flow between them included */
-  gg_vec c[2];      /* peculiar velocities */
-  double height[2]; /* y over the middle of the box; NaN where there are no positions */
-  gg_vec J;         /* impulse on grain 2, -J on grain 1 */
-  double time;      /* in the clock of gg_engine_state; in dsmc the candidate's, and pairs of species take turns */
-  double since[2];  /* time since the last contact of each, walls included; INFINITY: none since the callback was set */
+  gg_vec k;             /* from 1 to 2 */
+  gg_vec c12;           /* c_1 - c_2 of the centres, the flow between them included */
+  gg_vec c[2];          /* peculiar velocities */
+  gg_vec s[2], turn[2]; /* between walls: spins, and what the collision adds to them; else 0 */
+  double height[2];     /* y over the middle of the box; NaN where there are no positions; of a surface its place */
+  int wall;             /* number of the surface, from 1; 0: two grains */
+  gg_vec J;             /* impulse on grain 2, -J on grain 1 */
+  double time;          /* in the clock of gg_engine_state; in dsmc the candidate's, and pairs of species take turns */
+  double since[2]; /* time since the last contact of each, walls included; INFINITY: none since the callback was set */
 } gg_collision_record;
 typedef void gg_collision_callback(void *context, const gg_collision_record *collision);
 

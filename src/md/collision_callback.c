@@ -2,6 +2,7 @@
  * one without a callback knows nothing of it. */
 #include <math.h>
 
+#include "common/surface/shapes.h"
 #include "md/md_state.h"
 
 static void show_grain(const gg_md *e, uint32_t i, int which, gg_collision_record *m)
@@ -14,7 +15,15 @@ static void show_grain(const gg_md *e, uint32_t i, int which, gg_collision_recor
   m->species[which] = gg_md_species_of(g);
   m->c[which] = gg_scale(e->k.scale, c);
   m->height[which] = height;
+  if (e->spin && e->model.walled) m->s[which] = e->spin[i];
   m->since[which] = (e->k.now - e->last[i]) / e->k.scale; /* of a Gaussian thermostat's clock: at its present pace */
+}
+
+static void show_turns(const gg_md *e, uint32_t i, uint32_t j, gg_collision_record *m)
+{
+  if (!e->spin || !e->model.walled) return;
+  m->turn[0] = gg_sub(e->spin[i], m->s[0]);
+  if (j != i) m->turn[1] = gg_sub(e->spin[j], m->s[1]);
 }
 
 void gg_md_show_collision(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
@@ -27,6 +36,25 @@ void gg_md_show_collision(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c1
   const double scale = e->k.scale; /* the thermostat's, as of the velocities: it changes with what is lost */
   e->resolve_shown(e, i, j, dr, c12);
   m.J = gg_scale(scale * e->model.mass[m.species[1]], gg_sub(e->grain[j].v, before));
+  show_turns(e, i, j, &m);
+  e->callback(e->callback_context, &m);
+}
+
+void gg_md_show_contact(gg_md *e, uint32_t i, int w)
+{
+  const gg_surface *surface = &e->model.surface[w];
+  gg_collision_record m = {.k = gg_surface_normal(surface, &e->grain[i].r),
+                           .time = gg_md_time(e),
+                           .wall = w + 1,
+                           .id[1] = -1,
+                           .c[1] = surface->velocity,
+                           .since[1] = INFINITY};
+  show_grain(e, i, 0, &m);
+  m.height[1] = surface->place - 0.5 * e->box.edge[1];
+  m.c12 = gg_sub(m.c[0], m.c[1]);
+  e->resolve_surface_shown(e, i, w);
+  m.J = gg_scale(e->model.mass[m.species[0]], gg_sub(m.c[0], e->grain[i].v));
+  show_turns(e, i, i, &m);
   e->callback(e->callback_context, &m);
 }
 

@@ -167,6 +167,7 @@ struct gg_md {
   gg_collision_callback *callback; /* receives every collision; NULL: none, and `resolve` is not wrapped */
   void *callback_context;
   gg_md_resolution *resolve_shown;  /* what `resolve` goes on to then */
+  gg_md_surface_resolution *resolve_surface_shown;
   gg_md_resolution *resolve_parted; /* what gg_md_resolve_parting goes on to */
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white-noise thermostat */
@@ -248,6 +249,7 @@ double gg_md_bucket_width(double events_per_time);
 /* collision_callback.c: a resolution that shows the collision to the callback, then goes on to e->resolve_shown; and
  * the engine's operation that sets it. */
 gg_md_resolution gg_md_show_collision;
+gg_md_surface_resolution gg_md_show_contact;
 /* md_engine.c: the present time since the engine's creation, outside. */
 double gg_md_time(const gg_md *e);
 

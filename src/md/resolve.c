@@ -58,4 +58,6 @@ void gg_md_select_resolution(gg_md *e)
   if (e->callback) e->resolve = gg_md_show_collision;
   const bool spins = e->spin != NULL;
   e->resolve_surface = surface_resolutions[spins ? rule : e->model.wall_rule][timed][sums][spins];
+  e->resolve_surface_shown = e->resolve_surface;
+  if (e->callback) e->resolve_surface = gg_md_show_contact;
 }

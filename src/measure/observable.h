@@ -77,6 +77,7 @@ typedef struct gg_observable {
   void (*add_interval)(void *self, const gg_interval *interval);
   /* Called with every collision while averaging; goes into the bins with the next snapshot. NULL: not needed. */
   gg_collision_callback *add_collision;
+  bool of_walls_too;                               /* also with every contact with a surface (record's `wall`) */
   bool (*wants_collisions)(const gg_model *model); /* does it want them of this model? NULL: of all */
   /* It does with the collisions of some bursts, where showing them slows the engine down many times over; called when
    * one begins. Snapshots are then added in bursts only. NULL: it is to have every collision. */

@@ -10,18 +10,16 @@
 
 #include "base/memory.h"
 #include "common/surface/shapes.h"
+#include "measure/gap.h"
 #include "measure/observable.h"
-#include "measure/wall_modes.h"
 
-enum { LEAST_SLABS = 8, MOST_SLABS = 80 };
-#define THICKNESS 0.5
 /* Sums over a slab: pi/6 d^3, grains, omega_z; then with the weight w = m of v = C and with w = I of v = omega: w, w v,
  * w v^2, and with the height h above the slab's middle, in its thickness: w h, w h^2, w h v. */
 enum { WEIGHT, FIRST, SQUARE = FIRST + 3, HEIGHT, HEIGHT_SQUARE, MOMENT, MOTION = MOMENT + 3 };
 enum { VOLUME, GRAINS, OMEGA, FLOW, ROLLING = FLOW + MOTION, SLAB = ROLLING + MOTION };
 
 /* Behind the slabs: time, and the impulses on the surfaces of the model. */
-enum { TIME, IMPULSE, WALLS = IMPULSE + 3 * GG_MOST_SURFACES, MOST_BINS = MOST_SLABS * SLAB + WALLS };
+enum { TIME, IMPULSE, WALLS = IMPULSE + 3 * GG_MOST_SURFACES, MOST_BINS = GG_MOST_GAP_SLABS * SLAB + WALLS };
 
 typedef struct profiles {
   gg_model model;
@@ -37,8 +35,7 @@ static const char *refuses(const gg_model *m)
 static void *create(const gg_model *m, gg_error *err)
 {
   profiles *d = gg_base_array_new(1, sizeof *d, err);
-  double pairs = fmin(fmax(round(m->box[1] / (2 * THICKNESS)), LEAST_SLABS / 2), MOST_SLABS / 2);
-  if (d) *d = (profiles){.model = *m, .slabs = 2 * (int)pairs}; /* no slab is its own mirror image */
+  if (d) *d = (profiles){.model = *m, .slabs = gg_measure_gap_slabs(m)};
   return d;
 }
 
@@ -98,13 +95,6 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   }
 }
 
-/* The image of a vector's component a; spins are axial: a mirror turns those along it, and leaves the one across. */
-static double image_of(gg_wall_symmetry symmetry, bool axial, int a)
-{
-  if (symmetry == GG_TURNED) return a == 2 ? 1 : -1;
-  return (a == 1) == axial ? 1 : -1; /* mirrored */
-}
-
 /* The image of a slab's sums. */
 static void slab_image(gg_wall_symmetry symmetry, const double *at, double *to)
 {
@@ -113,11 +103,11 @@ static void slab_image(gg_wall_symmetry symmetry, const double *at, double *to)
     double *motion = to + (spin ? ROLLING : FLOW);
     motion[HEIGHT] *= -1;
     for (int a = 0; a < 3; a++) {
-      double sign = image_of(symmetry, spin, a);
+      double sign = gg_wall_image(symmetry, spin, a);
       motion[FIRST + a] *= sign, motion[MOMENT + a] *= -sign;
     }
   }
-  to[OMEGA] *= image_of(symmetry, true, 2);
+  to[OMEGA] *= gg_wall_image(symmetry, true, 2);
 }
 
 /* The mean of all sums and of their image; without a symmetry a copy. */
@@ -135,7 +125,8 @@ static void fold(const profiles *d, const double *bin, double *to)
   }
   for (int w = 0; w < d->model.n_surfaces; w++) {
     const double *own = walls + IMPULSE + 3 * w, *other = walls + IMPULSE + 3 * gg_surface_image(&d->model, w);
-    for (int a = 0; a < 3; a++) folded[IMPULSE + 3 * w + a] = 0.5 * (own[a] + image_of(symmetry, false, a) * other[a]);
+    for (int a = 0; a < 3; a++)
+      folded[IMPULSE + 3 * w + a] = 0.5 * (own[a] + gg_wall_image(symmetry, false, a) * other[a]);
   }
 }
 

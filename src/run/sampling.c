@@ -14,7 +14,8 @@ static void add_collision(void *context, const gg_collision_record *collision)
 {
   gg_replica *r = context;
   for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->add_collision) r->observable[k]->add_collision(r->self[k], collision);
+    if (r->observable[k]->add_collision && (!collision->wall || r->observable[k]->of_walls_too))
+      r->observable[k]->add_collision(r->self[k], collision);
 }
 
 /* Does anybody ask for collisions; and is there nobody who has to have them all? */

@@ -1,0 +1,27 @@
+/* Slabs across the gap between walls, which profiles are of; and what its symmetry makes of them. */
+#ifndef GG_GAP_H
+#define GG_GAP_H
+
+#include <math.h>
+
+#include "measure/wall_modes.h"
+
+enum { GG_LEAST_GAP_SLABS = 8, GG_MOST_GAP_SLABS = 80 };
+#define GG_GAP_THICKNESS 0.5
+
+/* An even number: no slab is its own mirror image. */
+static inline int gg_measure_gap_slabs(const gg_model *m)
+{
+  double pairs = round(m->box[1] / (2 * GG_GAP_THICKNESS));
+  return 2 * (int)fmin(fmax(pairs, GG_LEAST_GAP_SLABS / 2), GG_MOST_GAP_SLABS / 2);
+}
+
+/* By what the image multiplies a vector's component a; spins are axial: a mirror turns those along it, and leaves the
+ * one across. */
+static inline double gg_wall_image(gg_wall_symmetry symmetry, bool axial, int a)
+{
+  if (symmetry == GG_TURNED) return a == 2 ? 1 : -1;
+  return (a == 1) == axial ? 1 : -1; /* mirrored */
+}
+
+#endif
