@@ -421,7 +421,8 @@ typedef struct gg_simulation_sums { /* over the collisions since the last call, 
   double dissipation;              /* energy lost in collisions between grains, per volume and time, in units
                                     * of stress over time */
   double wall_impulse[GG_WALLS][3]; /* on each wall: m times velocity */
-  double wall_loss;                 /* energy lost in collisions with walls */
+  double wall_loss;                 /* energy lost in collisions with walls, or taken by thermal ones */
+  double wall_heat[GG_WALLS];       /* the same of each wall */
 } gg_simulation_sums;
 
 /**

@@ -113,8 +113,10 @@ void gg_api_simulation_collect(gg_simulation *s)
   const gg_surface_sums walls = gg_sums_of_surfaces(&t);
   sums->wall_collisions += walls.collisions;
   sums->wall_loss += walls.loss;
-  for (int w = 0; w < GG_WALLS; w++)
+  for (int w = 0; w < GG_WALLS; w++) {
     for (int a = 0; a < 3; a++) sums->wall_impulse[w][a] += t.surface[w].impulse[a];
+    sums->wall_heat[w] += t.surface[w].loss;
+  }
 }
 
 gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err)

@@ -186,10 +186,11 @@ static const struct {
     {"profile_spin_z", "spin", "ω_z", "spin", spin, true},
 };
 
-/* Velocity of the gas next to a flat wall, over that of the wall: the straight line through the outermost three slabs
- * with grains, at the height of a grain that touches. Centres are only beyond that height: the outermost slab stands
- * for the part of it where they can be, and every slab counts by its grains. */
-static void put_slip(const gg_model *m, const gg_surface *wall, const double *bin, gg_curve *c)
+/* Velocity or temperature of the gas next to a flat wall, against that of the wall: the straight line through the
+ * outermost three slabs with grains, at the height of a grain that touches. Centres are only beyond that height: the
+ * outermost slab stands for the part of it where they can be, and every slab counts by its grains. */
+static void put_step(const gg_model *m, const gg_surface *wall, const double *bin, gg_curve *c, const char *what,
+                     double of_wall, const char *unit)
 {
   double height = m->box[1] / (double)c->n;
   double from_wall[3], u[3], grains[3], all = 0, mx = 0, mu = 0, xx = 0, xu = 0;
@@ -208,9 +209,8 @@ static void put_slip(const gg_model *m, const gg_surface *wall, const double *bi
     xu += grains[k] * (from_wall[k] - mx) * (u[k] - mu);
   }
   char name[40];
-  snprintf(name, sizeof name, "slip_%s", wall->word);
-  gg_measure_curve_put_number(c, name, wall->velocity.x - (mu + xu / xx * (0.5 - mx)),
-                              gg_measure_curve_unit(m, "velocity"));
+  snprintf(name, sizeof name, "%s_%s", what, wall->word);
+  gg_measure_curve_put_number(c, name, of_wall - (mu + xu / xx * (0.5 - mx)), gg_measure_curve_unit(m, unit));
 }
 
 /* What a wall feels is the flux of momentum through it, of what is across it and of what is along x: across y it equals
@@ -228,10 +228,25 @@ static void put_wall_stress(const gg_model *m, const gg_surface *wall, const dou
   }
 }
 
+static bool is_flat(const gg_surface *s)
+{
+  return s->axis == 1 && gg_surface_height(s) == 0;
+}
+
+static void put_jumps(const gg_model *m, const double *bin, gg_curve *c)
+{
+  for (int w = 0; w < m->n_surfaces; w++) {
+    const gg_surface *s = &m->surface[w];
+    if (is_flat(s) && s->accommodation > 0) put_step(m, s, bin, c, "temperature_jump", s->temperature, "temperature");
+  }
+}
+
 static void put_walls(const gg_model *m, const double *bin, const double *walls, gg_curve *c)
 {
-  for (int w = 0; w < m->n_surfaces; w++)
-    if (m->surface[w].axis == 1 && gg_surface_height(&m->surface[w]) == 0) put_slip(m, &m->surface[w], bin, c);
+  for (int w = 0; w < m->n_surfaces; w++) {
+    const gg_surface *s = &m->surface[w];
+    if (is_flat(s)) put_step(m, s, bin, c, "slip", s->velocity.x, "velocity");
+  }
   for (int w = 0; w < m->n_surfaces; w++) put_wall_stress(m, &m->surface[w], walls + IMPULSE + 3 * w, walls[TIME], c);
 }
 
@@ -253,8 +268,8 @@ static void curves(const void *self, const double *mean, gg_curves *list)
       c->x[i] = ((double)i + 0.5) * height;
       c->value[i] = at[GRAINS] > 0 || table[t].of == solid_fraction ? table[t].of(at, volume) : NAN;
     }
-    if (table[t].of != velocity) continue;
-    put_walls(m, bin, bin + d->slabs * SLAB, c);
+    if (table[t].of == temperature) put_jumps(m, bin, c);
+    if (table[t].of == velocity) put_walls(m, bin, bin + d->slabs * SLAB, c);
   }
 }
 

@@ -153,6 +153,7 @@ static void follow(recorder *r, const gg_scene *scene, int replica)
     put(r->sums, last, 3);
     put(r->sums, &sums.collisional_stress[0][0], 9);
     for (int wall = 0; wall < 2; wall++) put(r->sums, sums.wall_impulse[wall], 3);
+    put(r->sums, sums.wall_heat, 2);
   }
   gg_simulation_free(s);
   free(now.position);

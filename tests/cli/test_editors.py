@@ -29,7 +29,7 @@ def test_init():
         check(whole.count("\n#") == 0 and len(whole.splitlines()) > 20, whole)
         done = run("info", "all.yaml", scene=whole, name="all.yaml")
         check(done.code == 0, flow, done.err)
-        check("no effect" not in done.err and ("walls:" in whole) == (flow in ("couette", "poiseuille", "chute")), done.err)
+        check("no effect" not in done.err and ("walls:" in whole) == (flow in ("couette", "poiseuille", "chute", "fourier")), done.err)
     again = run("init", "usf")
     check(again.code == 3 and "is there already" in again.err, again.err)
     with open("usf.yaml") as f:
@@ -46,6 +46,8 @@ SCENES = ((True, "{flow: usf, phi: 0.1, collision: {e: {11: 0.9, other: 0.8}, be
           (True, "{flow: usf, phi: 0.1, species: [{fraction: 0.5}, {fraction: 0.5, diameter: 2}], measure: [rheology]}"),
           (False, "{flow: usf, phi: 0.7}"), (False, "{flow: usf, phi: 0.1, colision: {e: 0.9}}"), (False, "{phi: 0.1}"),
           (False, "{flow: usf, phi: 0.1, collision: {e: 1.1}}"), (False, "{flow: shear, phi: 0.1}"), (False, "{flow: usf}"),
+          (True, "{flow: fourier, phi: 0.1, walls: {temperature: [2, 1]}}"), (True, "{flow: couette, phi: 0.1, walls: {temperature: 2}}"),
+          (False, "{flow: fourier, phi: 0.1, walls: {temperature: [2]}}"), (False, "{flow: fourier, phi: 0.1, walls: {temperature: [2, 0]}}"),
           (False, "{flow: usf, phi: 0.1, measure: [colour]}"), (False, "{flow: usf, phi: 0.1, gravity: [0, 1]}"),
           (False, "{flow: usf, phi: 0.1, species: [{fracton: 1}]}"), (False, "{flow: usf, phi: 0.1, run: {replicas: 1.5}}"),
           (False, "{flow: usf, phi: 0.1, run: {until: {colour: 0.1}}}"), (False, "{flow: usf, phi: 0.1, shear_rate: 0}"))

@@ -26,9 +26,9 @@ COLLISION = {"smooth": {"e": [0.95, 0.7, 0.85]},
 SHEAR = {"temperature": "d^2 gamma^2", "pressure": "rho_p d^2 gamma^2", "collision_rate": "gamma", "spin_z": "gamma",
          "dissipation": "rho_p d^2 gamma^3", "velocity": "d gamma", "spin": "gamma", "time": "1/gamma"}
 REST = {"temperature": "v_0^2", "pressure": "rho_p v_0^2", "collision_rate": "v_0/d", "spin_z": "v_0/d",
-        "dissipation": "rho_p v_0^3/d", "velocity": "v_0", "spin": "v_0/d", "time": "d/v_0"}
+        "dissipation": "rho_p v_0^3/d", "wall_heat_flux": "rho_p v_0^3", "velocity": "v_0", "spin": "v_0/d", "time": "d/v_0"}
 # What differs from flow to flow: keys of the scene, units, the curves of it, and the image that profiles are folded with
-# (the factors of u_x and of omega_z). Accelerations are in the scene's units.
+# (the factors of u_x and of omega_z; None: not folded). Accelerations are in the scene's units.
 FLOWS = {
     "usf": {"keys": {"shear_rate": 2}, "units": SHEAR, "measure": ["velocity_distributions"]},
     "hcs": {"keys": {}, "units": REST, "measure": ["velocity_distributions"]},
@@ -36,6 +36,8 @@ FLOWS = {
                 "measure": ["profiles"], "image": (-1, 1)},
     "poiseuille": {"keys": {"walls": {"e": 0.9, "beta": 0.5}, "gravity": [0.1, 0, 0]}, "units": REST,
                    "measure": ["profiles"], "image": (1, -1)},
+    "fourier": {"keys": {"walls": {"e": 0.9, "beta": 0.5, "temperature": [1, 0.5], "accommodation": 0.8}}, "units": REST,
+                "measure": ["profiles", "fluxes"], "image": None},
 }
 if not isinstance(h5py, ImportError):
     d, m, K = np.array([1, 1.5]), np.array([1, 5 / 3]), np.array([0.4, 0.6])  # in units of species 1
@@ -69,9 +71,9 @@ class Store:
         self.replica = samples[:, 0].astype(int)
         self.time, self.elapsed, self.collisions = samples[:, 1], samples[:, 2], samples[:, 3]
         order = np.argsort(self.replica, kind="stable")  # simulations follow one by one
-        grains, sums = np.empty((len(samples), 4 + 10 * N)), np.empty((len(samples), 18))
+        grains, sums = np.empty((len(samples), 4 + 10 * N)), np.empty((len(samples), 20))
         grains[order] = np.fromfile("grains.bin").reshape(-1, 4 + 10 * N)
-        sums[order] = np.fromfile("sums.bin").reshape(-1, 18)
+        sums[order] = np.fromfile("sums.bin").reshape(-1, 20)
         species = grains[:, -N:].astype(int)
         self.state, self.sums = grains[:, :4], sums
         self.order = np.argsort(species, axis=1, kind="stable")  # species 1 first: which grain is of which is drawn
@@ -185,8 +187,10 @@ def energy_growth(store):
 def work_between_walls(store, flow):
     """What moving walls do (gamma is their velocity over half the gap), and gravity: that by the trapezoidal rule."""
     if flow == "couette":
-        force = store.sums[:, 12:].reshape(-1, 2, 3)[:, :, 0]  # lower, upper
+        force = store.sums[:, 12:18].reshape(-1, 2, 3)[:, :, 0]  # lower, upper
         return box_of(store, flow)[1] / 2 * (force[:, 0] - force[:, 1])
+    if flow == "fourier":
+        return np.zeros(len(store.sums))
     p = (m[store.species] * store.velocity[..., 0]).sum(1)
     work = np.full(len(p), np.nan)
     for r in set(store.replica):
@@ -339,8 +343,13 @@ def expected(store, flow, kind, replicas, C, W, followed):
     if kind != "frictional" or not walled:
         out["dissipation"] = mean(lost / (V * dt)) * STRESS
     if walled:
-        force = store.sums[:, 12:].reshape(-1, 2, 3)  # on the lower and the upper wall
+        force = store.sums[:, 12:18].reshape(-1, 2, 3)  # on the lower and the upper wall
         drag = force[:, 0, 0] + (-1 if flow == "couette" else 1) * force[:, 1, 0]
+        heat = store.sums[:, 18:]  # that the lower and the upper wall took
+        out["wall_dissipation"] = mean(heat.sum(1) / (V * dt)) * STRESS
+        if flow == "fourier":
+            drag = -drag
+            out["wall_heat_flux"] = mean((heat[:, 1] - heat[:, 0]) / (2 * V ** (2 / 3) * dt)) * STRESS
         out["wall_friction"] = mean(drag / dt) / mean((force[:, 1, 1] - force[:, 0, 1]) / dt)
         out["energy"] = mean(work_between_walls(store, flow) / (V * dt)) * STRESS - growth_rate
     elif flow == "usf":
@@ -370,13 +379,12 @@ def hold_numbers(results, right, flow, where):
     whole window: within 1 % and a third of an error, higher moments and angles within four errors."""
     walled = "image" in FLOWS[flow]
     if walled:  # what grains and walls lose is what goes in and does not stay: exact, but for the rule of gravity's work
-        lost = results["dissipation"]["mean"] + results["wall_dissipation"]["mean"]
+        lost, taken = results["dissipation"]["mean"], right["wall_dissipation"]
         energy, balance = right.pop("energy"), results["energy_balance"]["mean"]
-        close(balance, energy / lost, where, "energy_balance")
-        close(balance, 1, where, "energy_balance", within=1e-9 if flow == "couette" else 0.02)
-        check(results["energy_balance"]["stderr"] < (1e-9 if flow == "couette" else 0.02), where, results["energy_balance"])
+        close(balance, (energy - taken) / lost if flow == "fourier" else energy / (lost + taken), where, "energy_balance")
+        close(balance, 1, where, "energy_balance", within=1e-9 if flow != "poiseuille" else 0.02)
+        check(results["energy_balance"]["stderr"] < (1e-9 if flow != "poiseuille" else 0.02), where, results["energy_balance"])
         right["energy_balance"] = balance
-        right["wall_dissipation"] = lost - results["dissipation"]["mean"]
     for name, value in right.items():
         r = results[name]
         if r["mean"] is None:
@@ -482,15 +490,17 @@ def hold_profiles(store, flow, kind, curves, rows):
     y = store.position[rows][..., 1].ravel() / height * slabs
     s = np.tile(store.species, rows.sum())
     c, w = store.velocity[rows].reshape(-1, 3), store.spin[rows].reshape(-1, 3)
-    turned = image == (-1, 1)
-    c = np.concatenate([c, c * ([-1, -1, 1] if turned else [1, -1, 1])])
-    w = np.concatenate([w, w * ([-1, -1, 1] if turned else [-1, 1, -1])])
-    y, s = np.concatenate([y, slabs - y]), np.concatenate([s, s])
+    turned, alike = image == (-1, 1), 2 if image else 1
+    if image:
+        c = np.concatenate([c, c * ([-1, -1, 1] if turned else [1, -1, 1])])
+        w = np.concatenate([w, w * ([-1, -1, 1] if turned else [-1, 1, -1])])
+        y, s = np.concatenate([y, slabs - y]), np.concatenate([s, s])
     slab, mass, inertia = y.astype(int), m[s], (K * m * d * d / 4)[s]
-    right = {name: np.full(slabs, np.nan) for name in curves if name.startswith("profile_")}
+    names = ["solid_fraction", "velocity", "temperature"] + ([] if kind == "smooth" else ["rotational_temperature", "spin_z"])
+    right = {"profile_" + name: np.full(slabs, np.nan) for name in names}
     for k in range(slabs):
         here = slab == k
-        right["profile_solid_fraction"][k] = (d[s[here]] ** 3).sum() * STRESS * slabs / (height ** 3 * 2 * rows.sum())
+        right["profile_solid_fraction"][k] = (d[s[here]] ** 3).sum() * STRESS * slabs / (height ** 3 * alike * rows.sum())
         if not here.any():
             continue
         h = y[here] - k
@@ -519,16 +529,70 @@ def hold_walls(store, flow, curves, replicas):
     area, window = box_of(store, flow)[0] ** 2, window_of(store, replicas)
     last = max(store.index[window]) // 2 * 2
     rows = window & (store.index < last)
-    force = store.sums[rows, 12:].reshape(-1, 2, 3).sum(0) / (store.elapsed[rows].sum() * area) * STRESS
+    force = store.sums[rows, 12:18].reshape(-1, 2, 3).sum(0) / (store.elapsed[rows].sum() * area) * STRESS
     lower, upper = -force[0], force[1]
     numbers = curves["profile_velocity"]["numbers"]
     if FLOWS[flow]["image"] == (-1, 1):
         lower = upper = (lower + upper) / 2
-    else:
+    elif FLOWS[flow]["image"]:
         lower, upper = ((lower + upper * [-1, 1, 1]) / 2, (upper + lower * [-1, 1, 1]) / 2)
     for wall, P in ("lower", lower), ("upper", upper):
         for i, a in enumerate("xy"):
             close(numbers[f"wall_P_y{a}_{wall}"]["mean"], P[i], flow, wall, a)
+
+
+def straight(x, h, weight):
+    """Of each component the line at + slope h with the least weighted squares: [at, slope]."""
+    basis = np.stack([np.ones_like(h), h], 1) * weight[:, None] ** 0.5
+    return np.linalg.lstsq(basis, x * weight[:, None] ** 0.5, rcond=None)[0]
+
+
+def hold_fluxes(store, flow, kind, curves, replicas):
+    """What grains carry, about the lines of their slab, or where they fill less than half of it of the next; what collisions
+    pass on on average over the gap, from the second sample on, where walls pass on nothing; heat of the walls, of all
+    intervals but the last."""
+    window, height = window_of(store, replicas), box_of(store, flow)[1]
+    slabs = len(curves["profile_P_yy"]["value"])
+    y = store.position[window][..., 1].ravel() / height * slabs
+    s = np.tile(store.species, window.sum())
+    c, w = store.velocity[window].reshape(-1, 3), store.spin[window].reshape(-1, 3)
+    slab, mass, inertia = y.astype(int), m[s], (K * m * d * d / 4)[s]
+    h = y - slab - 0.5
+    line = {}
+    for k in range(slabs):
+        here = slab == k
+        if here.any() and np.average(h[here] ** 2, weights=mass[here]) - np.average(h[here], weights=mass[here]) ** 2 > 1 / 48:
+            line[k] = [straight(x[here], h[here], g[here]) for x, g in ((c, mass), (w, inertia))]
+    right = {}
+    for k in range(slabs):
+        here = slab == k
+        near = min(line, key=lambda i: (abs(i - k), i > k))
+        C, W = (x[here] - (fit[0] + np.outer(h[here] + k - near, fit[1])) for x, fit in zip((c, w), line[near]))
+        per = STRESS * slabs / (height ** 3 * window.sum())
+        for a, b in "xx", "yy", "zz", "xy", "yx":
+            right.setdefault(f"P_{a}{b}", []).append(per * (mass[here] * C[:, "xyz".index(a)] * C[:, "xyz".index(b)]).sum())
+        right.setdefault("q_y", []).append(per * (mass[here] / 2 * (C * C).sum(1) * C[:, 1]).sum())
+        if kind != "smooth":
+            right.setdefault("q_y_rotational", []).append(per * (inertia[here] / 2 * (W * W).sum(1) * C[:, 1]).sum())
+            right.setdefault("M_yz", []).append(per * (inertia[here] * W[:, 2] * C[:, 1]).sum())
+    size = np.abs(right["q_y"]).max()
+    for name, value in right.items():
+        close(curves[f"profile_{name}_kinetic"]["value"], value, flow, kind, name, within=1e-6, least=1e-7 * size)
+        total = np.add(curves[f"profile_{name}_kinetic"]["value"], curves[f"profile_{name}_collisional"]["value"])
+        close(curves[f"profile_{name}"]["value"], total, flow, kind, name, within=1e-12, least=1e-12 * size)
+    rows = window & (store.index > store.index[window].min())
+    stress = (d[store.pair].mean(1)[:, None, None] * store.k[:, :, None] * store.J[:, None, :])[rows[store.event_row]].sum(0)
+    stress *= STRESS / (height ** 3 * store.elapsed[rows].sum())
+    for a, b in "xx", "zz", "xy":
+        close(np.mean(curves[f"profile_P_{a}{b}_collisional"]["value"]), stress["xyz".index(a), "xyz".index(b)], flow, kind, a, b)
+    rows = window & (store.index < store.index[window].max())
+    heat = store.sums[rows, 18:].sum(0) / (store.elapsed[rows].sum() * height ** 2) * STRESS
+    for wall, q in ("lower", -heat[0]), ("upper", heat[1]):
+        close(curves["profile_q_y"]["numbers"]["wall_q_y_" + wall]["mean"], q, flow, kind, wall)
+    terms = {t: np.array(curves["profile_" + t]["value"]) for t in ("heat_divergence", "stress_work", "loss", "energy_residual")}
+    q = np.array(curves["profile_q_y"]["value"]) + (0 if kind == "smooth" else np.array(curves["profile_q_y_rotational"]["value"]))
+    close(terms["heat_divergence"], np.diff(q) * slabs / height, flow, kind, "dq/dy", within=1e-9, least=1e-9 * size)
+    close(terms["energy_residual"], terms["heat_divergence"] - terms["stress_work"] + terms["loss"], flow, kind, "residual")
 
 
 def hold_peculiar_orientation(store, curves, rows, C, W):
@@ -598,6 +662,8 @@ def hold_curves(store, flow, kind, curves, replicas, C, W, followed):
     if "profiles" in FLOWS[flow]["measure"]:
         hold_profiles(store, flow, kind, curves, rows)
         hold_walls(store, flow, curves, replicas)
+        if "fluxes" in FLOWS[flow]["measure"]:
+            hold_fluxes(store, flow, kind, curves, replicas)
     else:
         hold_distributions(store, flow, curves, rows, C, W)
         hold_flights(store, flow, curves, replicas, followed)
@@ -782,7 +848,7 @@ def hold_interface(store, flow, kind, frame, C):
             rows = store.replica == r
             gained = np.diff(p[rows], axis=0)
             pull = 0.05 * m[store.species].sum() * store.elapsed[rows][1:] if flow == "poiseuille" else 0
-            walls = store.sums[rows, 12:].reshape(-1, 2, 3).sum(1)[1:]
+            walls = store.sums[rows, 12:18].reshape(-1, 2, 3).sum(1)[1:]
             left = gained + walls
             left[:, 0] -= pull
             check(np.abs(left[:, :2]).max() < 1e-7 * np.abs(walls).max(), flow, "momentum of grains and walls", np.abs(left).max())

@@ -177,6 +177,14 @@ static void constant_fluxes(void **state)
   assert_true(ct_chi2(p, 0, p->n, level, &p_low.value) < 2);
   assert_true(ct_chi2(q, 0, q->n, level, &heat) < 2);
   assert_true(ct_chi2(ct_find(&r->curves, "profile_energy_residual"), 0, 1000, level, &none) < 2);
+  const gg_curve *T = ct_find(&r->curves, "profile_temperature");
+  const gg_curve_number hot = ct_number(T, "temperature_jump_lower"), cold = ct_number(T, "temperature_jump_upper");
+  print_message("# jumps %.4f +- %.4f, %.4f +- %.4f\n", hot.value, hot.error, cold.value, cold.error);
+  assert_true(hot.value > 4 * hot.error && cold.value < -4 * cold.error);
+  for (int k = 0; k < 2; k++) { /* half a slab further the gas is a little closer to the middle */
+    const double next = T->value[k ? T->n - 2 : 1], of_gas = k ? 0.5 - cold.value : 1 - hot.value;
+    assert_true(fabs(of_gas - next) < 0.03);
+  }
   double mean = 0, variance = 0;
   for (size_t i = 0; i < p->n; i++) {
     if (!(p->error[i] < 0.02 * p_low.value)) fail_msg("P_yy at %g: error %g", p->x[i], p->error[i]);

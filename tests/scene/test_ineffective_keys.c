@@ -51,11 +51,19 @@ static void flows(void **state)
   assert_line("{flow: usf, phi: 0.1, shear_rate: 2, temperature: 3}", BOTH, NULL);
   assert_line("{flow: hcs, phi: 0.1, walls: {e: 0.5, beta: 0.5, mu: 1, speed: 2, top: open}}", BOTH,
               "walls.e, walls.beta, walls.mu, walls.top, walls.speed have no effect but between walls (flow: couette, "
-              "poiseuille or chute)");
+              "poiseuille, chute or fourier)");
   assert_line("{flow: couette, phi: 0.1, walls: {e: 0.5, beta: 0.5, mu: 1, speed: 2}}", BOTH, NULL);
   assert_line("{flow: chute, phi: 0.1, gravity: [1, -1, 0], walls: {speed: 2, top: open}}", GG_USE_MD,
               "walls.speed has no effect but in flow: couette");
   assert_line("{flow: couette, phi: 0.1, walls: {top: open}}", GG_USE_MD, "walls.top has no effect but in flow: chute");
+  assert_line("{flow: couette, phi: 0.1, walls: {temperature: 2, accommodation: 0.5, e: 0.5}}", GG_USE_MD, NULL);
+  assert_line("{flow: couette, phi: 0.1, walls: {accommodation: 0.5}}", GG_USE_MD,
+              "walls.accommodation has no effect while walls.temperature is none");
+  assert_line("{flow: fourier, phi: 0.1, walls: {e: 0.5, mu: 1}}", GG_USE_MD,
+              "walls.e, walls.mu have no effect while every contact with a wall is by its temperature: "
+              "walls.accommodation is 1");
+  assert_line("{flow: fourier, phi: 0.1, collision: {e: 1}, md: {contact_time: 1e-3}}", GG_USE_MD,
+              "md.contact_time has no effect where no collision loses energy");
   assert_line("{flow: couette, phi: 0.1, walls: {beta: -1, mu: 0.5}}", GG_USE_MD,
               "walls.mu has no effect while walls.beta is -1: smooth walls");
   assert_line("{flow: couette, phi: 0.1, walls: {beta: 0.5, mu: 0}}", GG_USE_MD,

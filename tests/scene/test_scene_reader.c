@@ -26,17 +26,17 @@ static gg_scene parse(const char *yaml)
 static void reads_every_key(void **state)
 {
   (void)state;
-  gg_scene s =
-      parse("flow: hss\nengine: dsmc\nthermostat: white_noise\ncontact_value: kolafa\nphi: 0.25\n"
-            "particles: 1e5\nshear_rate: 2.5\ntemperature: 0.125\naspect: [1, 2, 0.5]\n"
-            "collision:\n  e: {11: 0.9, 12: 0.8, 22: 0.7}\n  beta: 0.5\n  mu: {11: inf, 12: 0.25, 22: .inf}\n"
-            "species:\n  - {fraction: 0.25, diameter: 2, mass: 3, inertia: 0.5}\n"
-            "  - {fraction: 0.75, diameter: 1, mass: 4}\n"
-            "walls: {e: 0.5, beta: -1, mu: 0.1, speed: 3}\ngravity: [0, 0, 0]\n"
-            "run: {relative_error: 0.02, collisions: 500, time_limit: 60, warmup: 10, replicas: 3, "
-            "seed: 9007199254740993}\n"
-            "md: {contact_time: 0.001}\ndsmc: {time_step: 0.05, particles: 777, precision: single}\nmeasure: []\n"
-            "output: {checkpoint_every: 30, trajectory_every: 4}\n");
+  gg_scene s = parse(
+      "flow: hss\nengine: dsmc\nthermostat: white_noise\ncontact_value: kolafa\nphi: 0.25\n"
+      "particles: 1e5\nshear_rate: 2.5\ntemperature: 0.125\naspect: [1, 2, 0.5]\n"
+      "collision:\n  e: {11: 0.9, 12: 0.8, 22: 0.7}\n  beta: 0.5\n  mu: {11: inf, 12: 0.25, 22: .inf}\n"
+      "species:\n  - {fraction: 0.25, diameter: 2, mass: 3, inertia: 0.5}\n"
+      "  - {fraction: 0.75, diameter: 1, mass: 4}\n"
+      "walls: {e: 0.5, beta: -1, mu: 0.1, speed: 3, temperature: [4, 0.5], accommodation: 0.25}\ngravity: [0, 0, 0]\n"
+      "run: {relative_error: 0.02, collisions: 500, time_limit: 60, warmup: 10, replicas: 3, "
+      "seed: 9007199254740993}\n"
+      "md: {contact_time: 0.001}\ndsmc: {time_step: 0.05, particles: 777, precision: single}\nmeasure: []\n"
+      "output: {checkpoint_every: 30, trajectory_every: 4}\n");
   assert_int_equal(s.flow, GG_HSS);
   assert_int_equal(s.engine, GG_DSMC);
   assert_int_equal(s.thermostat, GG_WHITE_NOISE);
@@ -50,6 +50,7 @@ static void reads_every_key(void **state)
   assert_true(s.species[0].diameter == 2 && s.species[0].mass == 3 && s.species[0].inertia == 0.5);
   assert_true(s.species[1].fraction == 0.75 && s.species[1].inertia == 0.4);
   assert_true(s.walls.e == 0.5 && s.walls.beta == -1 && s.walls.mu == 0.1 && s.walls.speed == 3);
+  assert_true(s.walls.temperature[0] == 4 && s.walls.temperature[1] == 0.5 && s.walls.accommodation == 0.25);
   assert_true(s.run.relative_error == 0.02 && s.run.collisions == 500 && s.run.time_limit == 60);
   assert_true(s.run.warmup == 10 && s.run.replicas == 3 && s.run.seed == UINT64_C(9007199254740993));
   assert_true(s.md.contact_time == 0.001 && s.dsmc.time_step == 0.05 && s.dsmc.particles == 777);
@@ -68,6 +69,10 @@ static void defaults(void **state)
   assert_memory_equal(&s, &d, sizeof s);
   assert_true(parse("flow: equilibrium\nphi: 0.3\n").collision.e[GG_12] == 1);
   assert_int_equal(parse("flow: hss\nphi: 0.3\n").thermostat, GG_GAUSSIAN);
+  s = parse("flow: fourier\nphi: 0.3\n");
+  assert_true(s.walls.temperature[0] == 1 && s.walls.temperature[1] == 0.5);
+  s = parse("flow: chute\nphi: 0.3\nwalls: {temperature: 2}\n");
+  assert_true(s.walls.temperature[0] == 2 && s.walls.temperature[1] == 2);
 }
 
 /* Overrides: whole keys, single pairs, members of a species; the scene stays as it was when one is refused. */

@@ -225,6 +225,13 @@ static void combinations(void **state)
   assert_refused("flow: usf\nphi: 0.3\nsmall_shear: on\n",
                  "s.yaml:3: key 'small_shear': is a flow of its own: write flow: small_shear instead of flow: usf");
   assert_refused("flow: usf\nphi: 0.3\ngravity: [0, -1, 0]\n", "gravity needs a flow with walls");
+  const char thermal[] = "flow: fourier needs walls.temperature, e.g. [1, 0.5], and walls.accommodation above 0";
+  assert_refused("flow: fourier\nphi: 0.3\nwalls: {temperature: none}\n", thermal);
+  assert_refused("flow: fourier\nphi: 0.3\nwalls: {accommodation: 0}\n", thermal);
+  const char ends[] = "allowed: a number or [lower, upper], each from 1e-30 to 1e+30, or none";
+  assert_refused("flow: fourier\nphi: 0.3\nwalls: {temperature: 0}\n", ends);
+  assert_refused("flow: fourier\nphi: 0.3\nwalls: {temperature: [1, 2, 3]}\n", ends);
+  assert_refused("flow: fourier\nphi: 0.3\nwalls: {temperature: [1, none]}\n", "value 'none'");
   assert_refused("flow: chute\nphi: 0.3\ngravity: [0, 0, 0]\n", "chute needs gravity, e.g. gravity: [0.1, -0.1, 0]");
   assert_refused("flow: usf\nphi: 0.3\ncollision: {mu: 0.5}\n",
                  "key 'collision.mu': has no effect without collision.beta, whose default -1 is smooth grains");
