@@ -169,13 +169,13 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   gg_extension *held = gg_common_extension_hold(finished.extension); /* `line` may free the scene */
   gg_run_engine_ops_of(kind)->describe(&model, line, context);
   char chosen[200] = "";
-  if (model.homogeneous)
+  if (model.ensemble)
     gg_common_ensemble_size_reason(&finished, chosen, sizeof chosen);
   else
     gg_run_default_size_reason(&finished, chosen, sizeof chosen);
   if (*chosen) {
     char text[240];
-    snprintf(text, sizeof text, "%s: %s", model.homogeneous ? "size of the ensemble" : "number of grains", chosen);
+    snprintf(text, sizeof text, "%s: %s", model.ensemble ? "size of the ensemble" : "number of grains", chosen);
     line(context, text);
   }
   char stable[200];

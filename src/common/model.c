@@ -37,7 +37,7 @@ static gg_status check_grains(const gg_model *m, const gg_scene *s, gg_error *er
           "species: the fraction %g of species %d is %lld of %lld grains; each species needs two: give %s a "
           "larger value",
           s->species[i].fraction, i + 1, (long long)m->n_of[i], (long long)m->n,
-          m->homogeneous ? "dsmc.particles" : "particles");
+          m->ensemble ? "dsmc.particles" : "particles");
   return GG_OK;
 }
 
@@ -319,7 +319,8 @@ gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_mode
     return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs a constant e: restitution law '%s' has a speed of its own",
                         gg_flow_of(s->flow)->word, m->law.name);
   bool sheared = gg_flow_is_sheared(s->flow);
-  m->homogeneous = engine == GG_DSMC && !gg_flow_is_walled(s->flow);
+  m->ensemble = engine == GG_DSMC;
+  m->homogeneous = m->ensemble && !gg_flow_is_walled(s->flow);
   m->contact_value = s->contact_value;
   m->n = grains_of(s, engine);
   set_composition(m, s);

@@ -27,6 +27,7 @@ typedef struct gg_model {
   gg_thermostat thermostat;
   gg_rule rule;         /* the most complex rule that any collision of the scene needs */
   bool boltzmann;       /* phi = 0 */
+  bool ensemble;        /* Monte Carlo: the number of grains is that of samples, not part of the problem */
   bool homogeneous;     /* no box: an ensemble that stands for one point of the flow (dsmc without walls) */
   bool elastic;         /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding); of walls
                          * those without a temperature count */

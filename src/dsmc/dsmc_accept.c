@@ -4,7 +4,7 @@
 gg_status gg_dsmc_accepts(const gg_model *m, gg_error *err)
 {
   if (!gg_flow_runs_in(m->flow, GG_DSMC))
-    return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs engine: md (Enskog Monte Carlo here is homogeneous)",
+    return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs engine: md",
                         gg_flow_of(m->flow)->word);
   if (m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0)
     return gg_base_fail(err, GG_BAD_INPUT, "gravity: must be 0 with engine: dsmc (a homogeneous gas falls freely)");

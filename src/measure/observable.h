@@ -107,7 +107,9 @@ GG_OBSERVABLES(GG_OBSERVABLE_PLUG_IN)
 /* What observables ask of a model; each is the reason to refuse it, or NULL where the model has it. */
 static inline const char *gg_measure_needs_positions(const gg_model *m)
 {
-  return m->homogeneous ? "the Monte Carlo ensemble has no positions" : NULL;
+  return !m->ensemble     ? NULL
+         : m->homogeneous ? "the Monte Carlo ensemble has no positions"
+                          : "the Monte Carlo ensemble has no positions along the walls";
 }
 /* The same gas everywhere: no walls. */
 static inline const char *gg_measure_needs_homogeneity(const gg_model *m)

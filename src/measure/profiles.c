@@ -29,7 +29,7 @@ typedef struct profiles {
 
 static const char *refuses(const gg_model *m)
 {
-  return gg_flow_is_walled(m->flow) && !m->homogeneous ? NULL : "profiles are of flows between walls";
+  return gg_flow_is_walled(m->flow) ? NULL : "profiles are of flows between walls";
 }
 
 static void *create(const gg_model *m, gg_error *err)

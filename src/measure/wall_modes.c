@@ -33,7 +33,7 @@ static const struct {
 
 int gg_measure_wall_modes(const gg_model *m)
 {
-  if (!m->walled || m->homogeneous) return 0;
+  if (!m->walled) return 0;
   return m->n_species > 1 ? GG_MOST_WALL_MODES : SPECIES_SIDE;
 }
 

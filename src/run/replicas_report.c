@@ -104,7 +104,7 @@ static void report_effort(const gg_replicas *all, gg_result *result)
     r->engine->ops->state(r->engine, &s);
     if (i == 0) { /* in units of the start, whatever the engine's velocities have been multiplied by since */
       sum->time = r->clock.time, sum->time_step_bias = s.time_step_bias;
-      sum->particles_bias = all->model.homogeneous ? gg_common_ensemble_bias(&all->model) : 0;
+      sum->particles_bias = all->model.ensemble ? gg_common_ensemble_bias(&all->model) : 0;
       sum->time_step = ldexp(s.time_step, (int)r->clock.power);
     }
     sum->collisions += s.collisions, sum->events += s.events;
@@ -163,7 +163,7 @@ static void warn_if_narrow(gg_result *result)
 {
   const gg_model *m = &result->model;
   double narrowest = fmin(m->box[0], fmin(m->box[1], m->box[2])), widest = gg_common_model_widest(m);
-  if (m->homogeneous || narrowest >= NARROW_BOX * widest) return;
+  if (m->ensemble || narrowest >= NARROW_BOX * widest) return;
   gg_run_result_warn(
       result,
       "the box is %.3g diameters wide: its grains meet the same few again and again, and means are those of "
@@ -310,7 +310,7 @@ gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *
   GG_TRY(report_history(all, result, err));
   report_effort(all, result);
   gg_run_replicas_report_steadiness(all, &c, result);
-  if (all->model.homogeneous)
+  if (all->model.ensemble)
     gg_common_ensemble_size_reason(&all->scene, result->ensemble_text, sizeof result->ensemble_text);
   else
     gg_run_default_size_reason(&all->scene, result->ensemble_text, sizeof result->ensemble_text);

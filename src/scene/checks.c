@@ -218,8 +218,8 @@ static const struct {
     {GG_IF_MD, "with engine: dsmc", NULL, "", "engine md"},
     {GG_IF_DSMC, "with engine: md", NULL, "", "engine dsmc"},
     {GG_IF_COUNTED, "with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)", NULL, "",
-     "engine md; dsmc above 5000"},
-    {GG_IF_BOXED, "with engine: dsmc, which has no box", NULL, "", "engine md"},
+     "engine md; dsmc between walls, or above 5000"},
+    {GG_IF_BOXED, "with engine: dsmc, which has no box", NULL, "", "engine md, or walls"},
     {GG_IF_ONE_ENGINE, "in a comparison; graingas run keeps trajectories and logs", NULL, "", "graingas run"},
     {GG_IF_CONTACT_VALUE,
      "but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0", NULL, "",
@@ -275,10 +275,11 @@ bool gg_scene_field_is_of(const gg_field *f, gg_flow flow)
 static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
 {
   switch (condition) {
-  case GG_IF_MD:
-  case GG_IF_BOXED: return uses_md(s, uses);
+  case GG_IF_MD: return uses_md(s, uses);
+  case GG_IF_BOXED: return uses_md(s, uses) || gg_flow_is_walled(s->flow);
   case GG_IF_DSMC: return uses == GG_USE_THEORY || ((uses & GG_USE_DSMC) && gg_flow_runs_in(s->flow, GG_DSMC));
-  case GG_IF_COUNTED: return uses_md(s, uses) || (s->dsmc.particles == 0 && s->particles > GG_LEAST_ENSEMBLE);
+  case GG_IF_COUNTED:
+    return holds(GG_IF_BOXED, s, uses) || (s->dsmc.particles == 0 && s->particles > GG_LEAST_ENSEMBLE);
   case GG_IF_ONE_ENGINE: return !(uses & GG_USE_MD) || !(uses & GG_USE_DSMC);
   case GG_IF_CONTACT_VALUE: return uses_contact_value(s, uses);
   case GG_IF_LOSSY:
