@@ -114,7 +114,7 @@ const gg_flow_row gg_common_flows[GG_N_FLOWS] = {
                     .walls = GG_RESTING_WALLS,
                     .falling = GG_MAY_FALL,
                     .thermostats = UNHEATED,
-                    .engines = IN_MD,
+                    .engines = IN_MD | IN_DSMC,
                     .wall_temperature = {1, 0.5},
                     .headline = BY_HEAT},
 };

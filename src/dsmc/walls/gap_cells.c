@@ -8,10 +8,8 @@
 #include "dsmc/walls/gap.h"
 
 /* Bias of transport by cells of width w: 0.11 (w/l)^2, l the mean free path (Alexander, Garcia & Alder, Phys. Fluids 10
- * (1998) 1540); of steps h: 0.05 h^2, in mean free times (Hadjiconstantinou, Phys. Fluids 12 (2000) 2634). */
+ * (1998) 1540). */
 #define PATHS_PER_CELL 0.15
-#define FREE_TIMES_PER_STEP 0.25
-#define BIAS_OF_STEP 0.05
 /* Cells a diameter, to resolve the layers at walls: at the densest, and over phi where these fade. */
 #define DIAMETERS_PER_CELL 0.1
 #define LAYERS_FADE 0.005
@@ -170,7 +168,7 @@ void gg_dsmc_gap_choose_step(gg_dsmc_gap *d)
 {
   gg_dsmc_gap_state *s = &d->now;
   const double crossing = d->model.box[1] / sqrt(s->temperature);
-  const double share = d->model.time_step > 0 ? d->model.time_step : FREE_TIMES_PER_STEP;
+  const double share = d->model.time_step > 0 ? d->model.time_step : GG_GAP_FREE_TIMES_PER_STEP;
   s->step = fmin(share / s->rate, MOST_OF_CROSSING * crossing);
 }
 

@@ -53,7 +53,7 @@ void gg_dsmc_gap_describe(const gg_model *m, void (*line)(void *context, const c
                     ? "Boltzmann limit: partners in the same cell, no contact value, no collisional stress"
                     : "Enskog: partners at a distance, contact value of the local density, collisional stress");
   snprintf(text, sizeof text, "step: %.2g mean free times where grains collide%s; flights are exact",
-           m->time_step > 0 ? m->time_step : 0.25, m->time_step > 0 ? "" : ", chosen");
+           m->time_step > 0 ? m->time_step : GG_GAP_FREE_TIMES_PER_STEP, m->time_step > 0 ? "" : ", chosen");
   line(context, text);
   line(context, "a majorant for each cell and pair of species");
 }

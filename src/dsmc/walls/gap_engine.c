@@ -137,12 +137,14 @@ static gg_status set_callback(gg_engine *engine, gg_collision_callback *callback
 static void state(const gg_engine *engine, gg_engine_state *state)
 {
   const gg_dsmc_gap_state *s = &const_gap_of(engine)->now;
+  const double h = s->step * s->rate;
   *state = (gg_engine_state){.time = s->time,
                              .collisions = s->collisions,
                              .events = s->candidates,
                              .overflows = s->overflows,
                              .wall_treated = s->rests,
-                             .time_step = s->step};
+                             .time_step = s->step,
+                             .time_step_bias = GG_GAP_BIAS_OF_STEP * h * h};
 }
 
 enum { SHOWN = 256 };
@@ -153,10 +155,10 @@ static void show_grain(const gg_dsmc_gap *d, size_t i, size_t slot, double out[9
   const gg_dsmc_gap_grains *g = &d->grains;
   gg_dsmc_gap_grain p = {
       .r = {0, g->x[GG_GAP_Y][i], 0}, .c = gg_dsmc_gap_get(g, GG_GAP_C, i), .species = g->species[i]};
-  gg_collision_sums unused = {0};
-  uint64_t rests = 0;
+  gg_dsmc_gap_contacts unused = {0};
+  gg_rng rng = d->now.rng;
   if (gg_dsmc_gap_has_spins(d)) p.s = gg_dsmc_gap_get(g, GG_GAP_S, i);
-  if (d->now.owed > 0) gg_dsmc_gap_fly_grain(d, d->now.owed, &p, &unused, &rests);
+  if (d->now.owed > 0) gg_dsmc_gap_fly_grain(d, d->now.owed, &rng, &p, &unused);
   const gg_vec parts[] = {p.r, p.c, p.s};
   for (int k = 0; k < 9; k++) out[k][slot] = gg_along(&parts[k / 3], k % 3);
 }
