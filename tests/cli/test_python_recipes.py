@@ -79,8 +79,23 @@ def test_mdanalysis():
     same_temperature("MDAnalysis")
 
 
+def test_gsd():
+    """Also the nearest distances, by GSD's leaning cell: grains touch and do not overlap."""
+    same_temperature("GSD")
+    code = "import gsd.hoomd, numpy as np\n" \
+           "s = gsd.hoomd.open('dense.gsd', 'rb')[-1]\nL, xy = s.configuration.box[:3], s.configuration.box[3]\n" \
+           "h = np.diag(L).astype(float); h[1, 0] = xy * L[1]\n" \
+           "d = s.particles.position[:, None].astype(float) - s.particles.position\n" \
+           "f = np.linalg.solve(h.T, d.reshape(-1, 3).T).T; f -= np.round(f)\n" \
+           "near = min(np.linalg.norm(((f + [i, 0, 0]) @ h).reshape(d.shape), axis=2)[np.triu_indices(len(d), 1)].min() for i in (-1, 0, 1))\n" \
+           "print(near, abs(xy) > 1e-6)"
+    done = subprocess.run([sys.executable, "-W", "ignore", "-c", code], cwd=FOLDER.name, capture_output=True, text=True)
+    near, leans = done.stdout.split()
+    check(0.9999 < float(near) < 1.05 and leans == "True", done.stdout, done.stderr)
+
+
 def test_every_recipe_is_tried():
-    check(sorted(blocks("python")) == sorted(["h5py", "pandas", "xarray", "ASE", "MDAnalysis"]), list(blocks("python")))
+    check(sorted(blocks("python")) == sorted(["h5py", "pandas", "xarray", "ASE", "MDAnalysis", "GSD"]), list(blocks("python")))
 
 
 if __name__ == "__main__":

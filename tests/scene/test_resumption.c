@@ -107,7 +107,7 @@ static void both_values(void **state)
           "collision.e.12 differs (there 0.9, here 0.8); only run.relative_error, run.until, "
           "run.collisions, "
           "run.time_limit, output.checkpoint_every, output.trajectory_every, output.after, "
-          "output.fields, output.precision may change");
+          "output.fields, output.precision, output.log may change");
 }
 
 int main(void)
