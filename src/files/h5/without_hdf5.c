@@ -70,9 +70,9 @@ bool gg_files_checkpoint_is_of(const char *file, const char *path)
   (void)file, (void)path;
   return false;
 }
-gg_status gg_files_checkpoint_read(const char *path, gg_archive *archive, bool *older, gg_error *err)
+gg_status gg_files_checkpoint_read(const char *path, bool any_build, gg_archive *archive, bool *older, gg_error *err)
 {
-  (void)archive, (void)older;
+  (void)any_build, (void)archive, (void)older;
   return refuse(path, err);
 }
 char *gg_files_checkpoint_scene(const char *path, bool older)
