@@ -1,66 +1,87 @@
-/* The box in three dimensions, on a canvas: x to the right along the flow, y up along its gradient; the far grains are
- * painted first. */
-class BoxView {
-  constructor(canvas) {
-    this.canvas = canvas;
-    this.yaw = 0.45;
-    this.pitch = 0.22;
-    this.zoom = 1;
-    this.spheres = new Spheres();
+/* The box in three dimensions, on a canvas: x to the right along the flow, y up along its gradient; what is far is
+ * painted first: edges behind the grains, grains, edges before them. */
+import { DARK, rgb } from "./colours.js";
+import { Spheres } from "./spheres.js";
+
+export const CAMERA = [0.45, 0.22, 1];
+const PART = 0.3, /* of the images above and below, how much is seen */
+  SIDE = 0.25; /* beyond the box along x, too */
+const EDGES = [];
+for (let i = 0; i < 8; i++) for (const bit of [1, 2, 4]) if (!(i & bit)) EDGES.push([i, i | bit]);
+
+export class BoxView {
+  /* `turned(camera)`: somebody turned it. */
+  constructor(canvas, turned) {
+    Object.assign(this, { canvas, turned, spheres: new Spheres(), sheet: document.createElement("canvas") });
+    [this.yaw, this.pitch, this.zoom] = CAMERA;
     this.listen();
   }
+  get camera() {
+    return [this.yaw, this.pitch, this.zoom];
+  }
+  look([yaw, pitch, zoom]) {
+    if (yaw === this.yaw && pitch === this.pitch && zoom === this.zoom) return;
+    Object.assign(this, { yaw, pitch, zoom });
+    this.again();
+  }
+  move(yaw, pitch, zoom) {
+    this.turned([
+      this.yaw + yaw,
+      Math.min(1.55, Math.max(-1.55, this.pitch + pitch)),
+      Math.min(8, Math.max(0.4, this.zoom * zoom)),
+    ]);
+  }
 
+  /* One finger or the mouse turns, two fingers zoom. */
   listen() {
-    const c = this.canvas;
-    let from = null;
-    const turn = (dx, dy) => {
-      this.yaw += dx;
-      this.pitch = Math.min(1.5, Math.max(-1.5, this.pitch + dy));
-      this.again();
-    };
+    const c = this.canvas,
+      held = new Map(),
+      apart = () => {
+        const [a, b] = [...held.values()];
+        return Math.hypot(a[0] - b[0], a[1] - b[1]);
+      };
     c.addEventListener("pointerdown", (e) => {
       if (e.button !== 0) return;
-      from = [e.clientX, e.clientY];
-      c.setPointerCapture(e.pointerId);
+      held.set(e.pointerId, [e.clientX, e.clientY]);
+      try {
+        c.setPointerCapture(e.pointerId);
+      } catch (none) {
+        /* a pointer that is gone already */
+      }
     });
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
-      c.addEventListener(end, () => {
-        from = null;
-      });
+      c.addEventListener(end, (e) => held.delete(e.pointerId));
     c.addEventListener("pointermove", (e) => {
-      if (!(e.buttons & 1)) from = null; /* it was let go where nobody saw it */
+      if (!(e.buttons & 1)) held.delete(e.pointerId); /* it was let go where nobody saw it */
+      const from = held.get(e.pointerId);
       if (!from) return;
-      turn((e.clientX - from[0]) * 0.008, (e.clientY - from[1]) * 0.008);
-      from = [e.clientX, e.clientY];
+      const before = held.size === 2 ? apart() : 0;
+      held.set(e.pointerId, [e.clientX, e.clientY]);
+      if (held.size === 2) this.move(0, 0, apart() / before || 1);
+      else if (held.size === 1) this.move((e.clientX - from[0]) * 0.008, (e.clientY - from[1]) * 0.008, 1);
     });
     const keys = {
-      ArrowLeft: () => turn(-0.1, 0),
-      ArrowRight: () => turn(0.1, 0),
-      ArrowUp: () => turn(0, -0.1),
-      ArrowDown: () => turn(0, 0.1),
-      "+": () => this.zoomBy(1.15),
-      "-": () => this.zoomBy(1 / 1.15),
+      ArrowLeft: [-0.1, 0, 1],
+      ArrowRight: [0.1, 0, 1],
+      ArrowUp: [0, -0.1, 1],
+      ArrowDown: [0, 0.1, 1],
+      "+": [0, 0, 1.15],
+      "-": [0, 0, 1 / 1.15],
     };
     c.addEventListener("keydown", (e) => {
-      if (keys[e.key]) {
-        keys[e.key]();
-        e.preventDefault();
-      }
+      if (!keys[e.key]) return;
+      this.move(...keys[e.key]);
+      e.preventDefault();
     });
     c.addEventListener(
       "wheel",
       (e) => {
-        if (e.ctrlKey) {
-          this.zoomBy(e.deltaY < 0 ? 1.1 : 1 / 1.1);
-          e.preventDefault();
-        }
+        if (!e.ctrlKey) return;
+        this.move(0, 0, e.deltaY < 0 ? 1.1 : 1 / 1.1);
+        e.preventDefault();
       },
       { passive: false },
     );
-  }
-  zoomBy(factor) {
-    this.zoom = Math.min(6, Math.max(0.4, this.zoom * factor));
-    this.again();
   }
   again() {
     if (this.last) this.draw(...this.last);
@@ -71,65 +92,74 @@ class BoxView {
     const ratio = Math.min(window.devicePixelRatio || 1, 2),
       w = Math.round(this.canvas.clientWidth * ratio),
       h = Math.round(this.canvas.clientHeight * ratio);
-    if (this.canvas.width !== w || this.canvas.height !== h) {
-      this.canvas.width = w;
-      this.canvas.height = h;
-    }
+    for (const one of [this.canvas, this.sheet])
+      if (one.width !== w || one.height !== h) {
+        one.width = w;
+        one.height = h;
+      }
     this.w = w;
     this.h = h;
+    this.thick = Math.max(1, ratio);
   }
 
   /* From the box to the screen: [x, y, pixels per length, depth]. */
   aim(box, strips) {
-    const extent = Math.hypot(box[0], box[1] * (strips ? 1.35 : 1), box[2]),
+    const extent = Math.hypot(box[0] * (strips ? 1.25 : 1), box[1] * (strips ? 1.5 : 1), box[2]),
       away = 1.9 * extent;
     const cy = Math.cos(this.yaw),
       sy = Math.sin(this.yaw),
       cp = Math.cos(this.pitch),
       sp = Math.sin(this.pitch);
-    const scale = this.zoom * Math.min(this.w / Math.hypot(box[0], box[2]), this.h / (extent * 0.92)) * away * 0.94;
-    this.to = (x, y, z) => {
-      const a = x - box[0] / 2,
-        b = y - box[1] / 2,
-        c = z - box[2] / 2;
-      const u = a * cy - c * sy,
-        v = a * sy + c * cy,
-        up = b * cp - v * sp,
-        depth = b * sp + v * cp;
-      const f = scale / (away - depth);
-      return [this.w / 2 + u * f, this.h / 2 - up * f, f, depth];
+    const wide = Math.hypot(box[0] * (strips ? 1.35 : 1), box[2]),
+      scale = this.zoom * Math.min(this.w / wide, this.h / (extent * 0.92)) * away * 1.02;
+    this.rotate = (a, b, c) => {
+      const v = a * sy + c * cy;
+      return [a * cy - c * sy, b * cp - v * sp, b * sp + v * cp];
     };
+    let right = this.w / 2,
+      down = this.h / 2;
+    this.to = (x, y, z) => {
+      const [u, up, depth] = this.rotate(x - box[0] / 2, y - box[1] / 2, z - box[2] / 2),
+        f = scale / (away - depth);
+      return [right + u * f, down - up * f, f, depth];
+    };
+    /* the corners in the middle */
+    const corners = Array.from({ length: 8 }, (_, i) => this.to(i & 1 ? box[0] : 0, i & 2 ? box[1] : 0, i & 4 ? box[2] : 0)),
+      middle = (k) => (Math.min(...corners.map((c) => c[k])) + Math.max(...corners.map((c) => c[k]))) / 2,
+      [x0, y0] = [middle(0), middle(1)];
+    right += this.w / 2 - x0;
+    down += this.h / 2 - y0;
+    this.far = extent / 2;
+    this.corner = [this.rotate(1, 0, 0), this.rotate(0, 1, 0), this.rotate(0, 0, 1)];
+    this.away = away;
+  }
+  /* Whether the face of an axis, at its low or its high side, is seen from outside. */
+  faces(axis, high, box) {
+    return this.corner[axis][2] * (high ? 1 : -1) * this.away > box[axis] / 2;
   }
 
-  edges(to, box, y0, y1, shift, style, dashes) {
-    const corner = (i) => this.to(shift + (i & 1 ? box[0] : 0), i & 2 ? y1 : y0, i & 4 ? box[2] : 0);
+  /* Of a box from y0 to y1 that is shifted along x, cut at its sides; only those edges for which `which` holds. */
+  edges(to, box, [y0, y1], [x0, x1], style, dashes, which = () => true) {
+    const point = (i) => this.to(i & 1 ? x1 : x0, i & 2 ? y1 : y0, i & 4 ? box[2] : 0);
     to.strokeStyle = style;
     to.setLineDash(dashes);
-    to.lineWidth = Math.max(1, this.w / 700);
+    to.lineWidth = this.thick;
     to.beginPath();
-    for (const [i, j] of [
-      [0, 1],
-      [2, 3],
-      [4, 5],
-      [6, 7],
-      [0, 2],
-      [1, 3],
-      [4, 6],
-      [5, 7],
-      [0, 4],
-      [1, 5],
-      [2, 6],
-      [3, 7],
-    ]) {
-      to.moveTo(...corner(i).slice(0, 2));
-      to.lineTo(...corner(j).slice(0, 2));
+    for (const [i, j] of EDGES) {
+      if (!which(i, j)) continue;
+      to.moveTo(...point(i).slice(0, 2));
+      to.lineTo(...point(j).slice(0, 2));
     }
     to.stroke();
     to.setLineDash([]);
   }
+  /* An edge is behind if both its faces are turned away. */
+  isBehind(box) {
+    return (i, j) => [0, 1, 2].every((axis) => ((i ^ j) >> axis) & 1 || !this.faces(axis, !!(i & (1 << axis)), box));
+  }
 
   wall(to, box, y) {
-    to.fillStyle = "rgba(150, 175, 200, 0.28)";
+    to.fillStyle = "rgba(150, 175, 200, 0.25)";
     to.beginPath();
     for (const [x, z] of [
       [0, 0],
@@ -141,66 +171,49 @@ class BoxView {
     to.fill();
   }
 
-  /* All grains to be painted, with those of the images in strips above and below the box: [x, y, r, depth, i, faint]. */
+  /* All grains to be painted, with those of the images above and below the box, which slide along x:
+   * [x, y, r, depth, i, image]. */
   collect(picture, about, box, offset, strips) {
     const found = [],
       { position } = picture,
-      part = 0.3 * box[1];
-    const add = (i, x, y, z, faint) => {
+      part = PART * box[1],
+      [from, until] = [-SIDE * box[0], (1 + SIDE) * box[0]];
+    const add = (i, x, y, z, image) => {
       const [sx, sy, f, depth] = this.to(x, y, z);
-      found.push([sx, sy, (f * about.diameters[about.species[i]]) / 2, depth, i, faint]);
+      found.push([sx, sy, (f * about.diameters[about.species[i]]) / 2, depth, i, image]);
+    };
+    const slide = (i, x, y, z) => {
+      for (const one of [x - box[0], x, x + box[0]]) if (one >= from && one <= until) add(i, one, y, z, true);
     };
     for (let i = 0; i < about.species.length; i++) {
       const x = position[3 * i],
         y = position[3 * i + 1],
         z = position[3 * i + 2];
       add(i, x, y, z, false);
-      if (!strips) continue;
-      if (y < part) add(i, (x + offset) % box[0], y + box[1], z, true);
-      if (y > box[1] - part) add(i, (x - offset + box[0]) % box[0], y - box[1], z, true);
+      if (strips && y < part) slide(i, (x + offset) % box[0], y + box[1], z);
+      if (strips && y > box[1] - part) slide(i, (((x - offset) % box[0]) + box[0]) % box[0], y - box[1], z);
     }
     return found.sort((a, b) => a[3] - b[3]);
   }
 
-  grains(found, picture) {
-    for (const [x, y, r, , i, faint] of found) {
+  grains(found, picture, map) {
+    for (const [x, y, r, depth, i, image] of found) {
       if (r <= 0 || x < -r || y < -r || x > this.w + r || y > this.h + r) continue;
-      this.spheres.paint(x, y, r, picture.value[i], faint);
-      if (picture.marks && !faint && r > 3) this.mark(x, y, r, picture.marks, 3 * i);
+      const fog = Math.min(1, Math.max(0, 0.5 - depth / (2 * this.far)) * 0.75 + (image ? 0.45 : 0));
+      let spin = null;
+      if (picture.marks && r > 2) {
+        const [u, up, near] = this.rotate(picture.marks[3 * i], picture.marks[3 * i + 1], picture.marks[3 * i + 2]);
+        spin = [u, -up, near];
+      }
+      this.spheres.paint(x, y, r, picture.value[i], map, fog, spin);
     }
-  }
-
-  /* Two dots on opposite sides of a grain, which turn with it: the one that is seen. */
-  mark(x, y, r, marks, at) {
-    const cy = Math.cos(this.yaw),
-      sy = Math.sin(this.yaw),
-      cp = Math.cos(this.pitch),
-      sp = Math.sin(this.pitch);
-    const a = marks[at],
-      b = marks[at + 1],
-      c = marks[at + 2];
-    const u = a * cy - c * sy,
-      v = a * sy + c * cy,
-      up = b * cp - v * sp,
-      depth = b * sp + v * cp,
-      side = depth < 0 ? -1 : 1;
-    const flat = Math.hypot(u, up) || 1;
-    this.spheres.dot(
-      x + side * u * r * 0.8,
-      y - side * up * r * 0.8,
-      r * 0.28,
-      Math.max(0.5, r * 0.28 * Math.abs(depth)),
-      u / flat,
-      -up / flat,
-      depth < 0 ? [255, 255, 255] : [10, 12, 14],
-    );
   }
 
   /* The two of the last collision, and the line k between their centres. */
   pair(to, event, found) {
     const both = event.grain.map((i) => found.find((one) => one[4] === i && !one[5]));
     if (both.some((one) => !one)) return;
-    to.lineWidth = Math.max(2, this.w / 350);
+    to.lineWidth = 2 * this.thick;
     to.strokeStyle = "#ffffff";
     for (const [x, y, r] of both) {
       to.beginPath();
@@ -212,23 +225,48 @@ class BoxView {
     if (away > 4 * (a[2] + b[2])) return; /* they met across a side of the box */
     const dx = b[0] - a[0],
       dy = b[1] - a[1];
-    to.strokeStyle = "#ffffff";
     to.beginPath();
     to.moveTo(a[0] - dx, a[1] - dy);
     to.lineTo(b[0] + dx, b[1] + dy);
     to.stroke();
   }
 
-  arrows(to, box) {
-    to.fillStyle = "#dfe6ee";
-    to.font = `${Math.max(14, this.h / 26)}px sans-serif`;
-    to.textAlign = "center";
-    for (const [y, text] of [
-      [box[1] * 1.22, "⟶"],
-      [-box[1] * 0.22, "⟵"],
-    ]) {
-      const [x, at] = this.to(box[0] / 2, y, box[2] / 2);
-      to.fillText(text, x, at);
+  /* From a place of the box along a direction of it, so many pixels long. */
+  arrow(to, [x, y, z], [a, b, c], length) {
+    const [x0, y0] = this.to(x, y, z),
+      [u, up] = this.rotate(a, b, c),
+      size = Math.hypot(u, up) || 1,
+      [ux, uy] = [u / size, -up / size],
+      head = length / 3;
+    const [x1, y1] = [x0 + ux * length, y0 + uy * length];
+    to.strokeStyle = to.fillStyle = "#f0f4f8";
+    to.lineWidth = 2.5 * this.thick;
+    to.beginPath();
+    to.moveTo(x0 - ux * length, y0 - uy * length);
+    to.lineTo(x1 - ux * head, y1 - uy * head);
+    to.stroke();
+    to.beginPath();
+    to.moveTo(x1, y1);
+    to.lineTo(x1 - ux * head - uy * head * 0.6, y1 - uy * head + ux * head * 0.6);
+    to.lineTo(x1 - ux * head + uy * head * 0.6, y1 - uy * head - ux * head * 0.6);
+    to.fill();
+  }
+  /* Which way the images, the walls move; which way gravity pulls. */
+  arrows(to, box, values, strips) {
+    const length = 22 * this.thick,
+      moves = strips ? PART : values.flow === "couette" ? 0.06 : 0,
+      along = Math.sign(values.flow === "couette" ? values.walls.speed : 1) || 1;
+    if (moves)
+      for (const [y, sign] of [
+        [1 + moves * 0.8, along],
+        [-moves * 0.8, -along],
+      ])
+        this.arrow(to, [box[0] / 2, box[1] * y, box[2] / 2], [sign, 0, 0], length);
+    if (values.gravity && values.gravity.some((one) => one !== 0)) {
+      this.arrow(to, [box[0] * 1.12, box[1] * 0.85, box[2] / 2], values.gravity, length);
+      const [x, y] = this.to(box[0] * 1.12, box[1] * 0.85, box[2] / 2);
+      to.font = `italic ${16 * this.thick}px serif`;
+      to.fillText("g", x + 8 * this.thick, y - 4 * this.thick);
     }
   }
 
@@ -237,24 +275,45 @@ class BoxView {
     this.fit();
     if (!this.w || !this.h) return; /* it is not shown */
     const to = this.canvas.getContext("2d"),
-      box = state.box,
-      flow = about.values.flow;
-    const sheared = /shear|usf/.test(flow),
-      walled = /couette|poiseuille|chute/.test(flow),
-      strips = sheared && options.images;
-    this.spheres.begin(this.w, this.h);
-    if (!picture) {
-      to.putImageData(this.spheres.image, 0, 0);
-      return;
-    }
+      { box } = state,
+      { values } = about,
+      walls = /couette|poiseuille|chute/.test(values.flow) ? (values.walls.top === "open" ? [0] : [0, 1]) : [],
+      strips = options.images && /shear|usf/.test(values.flow);
+    to.fillStyle = rgb(DARK);
+    to.fillRect(0, 0, this.w, this.h);
+    if (!picture) return;
     this.aim(box, strips);
+    const behind = this.isBehind(box),
+      whole = [
+        [0, box[1]],
+        [0, box[0]],
+      ];
+    if (strips) this.outlines(to, box, state.imageOffset);
+    for (const side of walls) if (!this.faces(1, !!side, box)) this.wall(to, box, side * box[1]);
+    this.edges(to, box, ...whole, "rgba(160, 185, 205, 0.55)", [], behind);
+    this.spheres.begin(this.w, this.h);
     const found = this.collect(picture, about, box, state.imageOffset, strips);
-    this.grains(found, picture);
-    to.putImageData(this.spheres.image, 0, 0);
-    if (walled) this.wall(to, box, 0);
-    if (walled && about.values.walls.top !== "open") this.wall(to, box, box[1]);
-    this.edges(to, box, 0, box[1], 0, "rgba(160, 185, 205, 0.75)", []);
-    if (strips) this.arrows(to, box);
+    this.grains(found, picture, options.map);
+    this.sheet.getContext("2d").putImageData(this.spheres.image, 0, 0);
+    to.drawImage(this.sheet, 0, 0);
+    for (const side of walls) if (this.faces(1, !!side, box)) this.wall(to, box, side * box[1]);
+    this.edges(to, box, ...whole, "rgba(190, 210, 225, 0.9)", [], (i, j) => !behind(i, j));
+    this.arrows(to, box, values, strips);
     if (options.event) this.pair(to, options.event, found);
+  }
+
+  /* Of the images: what is seen of them, with the sides of their boxes, which slide. */
+  outlines(to, box, offset) {
+    const cut = (x) => Math.min((1 + SIDE) * box[0], Math.max(-SIDE * box[0], x)),
+      dashes = [4 * this.thick, 4 * this.thick];
+    for (const [ys, shift] of [
+      [[box[1], (1 + PART) * box[1]], offset],
+      [[-PART * box[1], 0], -offset],
+    ]) {
+      const from = ((shift % box[0]) + box[0]) % box[0];
+      for (const x of [from - box[0], from])
+        if (cut(x + box[0]) > cut(x))
+          this.edges(to, box, ys, [cut(x), cut(x + box[0])], "rgba(160, 185, 205, 0.45)", dashes);
+    }
   }
 }

@@ -1,18 +1,25 @@
-/* A diagram as SVG, with its legend as a list: lines, points with error bars, bands. */
+/* A diagram as SVG, with its legend as a list: lines, points with error bars, bands, bars. It is built once; what is new
+ * moves its lines. A pointer, or the arrow keys, read it. */
+import { number } from "./words.js";
+
 const SVG = "http://www.w3.org/2000/svg";
 
-function make(name, attributes, ...children) {
+export function make(name, attributes, ...children) {
   const made = document.createElementNS(SVG, name);
-  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  set(made, attributes);
   made.append(...children);
   return made;
 }
+function set(element, attributes) {
+  for (const [key, value] of Object.entries(attributes))
+    if (element.getAttribute(key) !== String(value)) element.setAttribute(key, value);
+}
 
 /* What logarithmic axes show: beyond it doubles end, and quotients of such numbers too. */
-const inLog = (x) => x >= 1e-300 && x <= 1e300;
+export const inLog = (x) => x >= 1e-300 && x <= 1e300;
 
 /* About five round numbers between two, or the decades and what lies between them. */
-function ticks(from, to, log) {
+export function ticks(from, to, log) {
   const found = [];
   if (!(Number.isFinite(from) && Number.isFinite(to) && from < to && (!log || from > 0))) return found;
   if (log) {
@@ -33,14 +40,16 @@ function ticks(from, to, log) {
   for (let i = 0; i < 12 && (first + i) * step <= to + 1e-9 * step; i++) found.push((first + i) * step);
   return found;
 }
-const nice = (x) =>
-  x === 0
-    ? "0"
-    : Math.abs(x) >= 1e4 || Math.abs(x) < 1e-2
-      ? x.toExponential(0).replace("e+", "e")
-      : String(+x.toPrecision(3));
+const SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+const superscript = (n) => String(n).replace(/-/, "⁻").replace(/\d/g, (d) => SUPERSCRIPTS[d]);
+export const nice = (x) => {
+  if (x === 0) return "0";
+  if (Math.abs(x) < 1e4 && Math.abs(x) >= 1e-2) return String(+x.toPrecision(3)).replace("-", "−");
+  const [digits, power] = x.toExponential(0).split("e");
+  return `${digits === "1" ? "" : `${digits}·`}10${superscript(+power)}`;
+};
 
-function range(values, log) {
+export function range(values, log) {
   const good = values.filter((x) => Number.isFinite(x) && (!log || inLog(x)));
   if (!good.length) return log ? [0.1, 1] : [0, 1];
   let a = Math.min(...good),
@@ -53,108 +62,10 @@ function range(values, log) {
   return [a - 0.06 * (b - a), b + 0.08 * (b - a)];
 }
 
-const WIDE = 560,
-  HIGH = 250,
-  LEFT = 58,
-  RIGHT = 12,
-  TOP = 10,
-  BOTTOM = 40;
-
-/* series: {label, colour, dash, x, y, error (points), band (of a line), points (true), shape, from legend hidden (quiet)} */
-function plot(figure, { title, x, y, series, summary }) {
-  const all = (key) => series.flatMap((s) => Array.from(s[key] || []));
-  const around = series.flatMap((s) =>
-    s.error || s.band ? s.y.flatMap((v, i) => [v - (s.error || s.band)[i], v + (s.error || s.band)[i]]) : [],
-  );
-  const xr = x.range || range(all("x"), x.log),
-    yr = y.range || range(all("y").concat(around), y.log);
-  const scale = (v, [a, b], log, from, to) =>
-    from + (log ? (Math.log(v) - Math.log(a)) / (Math.log(b) - Math.log(a)) : (v - a) / (b - a)) * (to - from);
-  const X = (v) => scale(v, xr, x.log, LEFT, WIDE - RIGHT),
-    Y = (v) => Math.min(2 * HIGH, Math.max(-HIGH, scale(v, yr, y.log, HIGH - BOTTOM, TOP)));
-  const svg = make("svg", { viewBox: `0 0 ${WIDE} ${HIGH}`, role: "img", "aria-label": summary || title });
-  const clip = `clip-${figure.id}`;
-  svg.append(
-    make(
-      "clipPath",
-      { id: clip },
-      make("rect", { x: LEFT, y: TOP, width: WIDE - LEFT - RIGHT, height: HIGH - TOP - BOTTOM }),
-    ),
-  );
-  axes(svg, X, Y, xr, yr, x, y);
-  const inside = make("g", { "clip-path": `url(#${clip})` });
-  for (const s of series) inside.append(...drawn(s, X, Y, x.log, y.log));
-  svg.append(inside);
-  const caption = document.createElement("figcaption");
-  caption.textContent = title;
-  figure.replaceChildren(caption, svg, legend(series));
-  figure.dataset.scales = JSON.stringify({ xr, yr, xlog: !!x.log, ylog: !!y.log });
-}
-
-function axes(svg, X, Y, xr, yr, x, y) {
-  const line = (x1, y1, x2, y2, stroke) => svg.append(make("line", { x1, y1, x2, y2, stroke }));
-  const text = (content, attributes) => svg.append(make("text", attributes, content));
-  for (const v of ticks(...yr, y.log)) {
-    line(LEFT, Y(v), WIDE - RIGHT, Y(v), "#e4e7ea");
-    text(nice(v), { x: LEFT - 6, y: Y(v) + 4, "text-anchor": "end" });
-  }
-  if (x.names) x.names.forEach((name, i) => text(name, { x: X(i), y: HIGH - BOTTOM + 16, "text-anchor": "middle" }));
-  else
-    for (const v of ticks(...xr, x.log)) {
-      line(X(v), HIGH - BOTTOM, X(v), HIGH - BOTTOM + 4, "#50575e");
-      text(nice(v), { x: X(v), y: HIGH - BOTTOM + 16, "text-anchor": "middle" });
-    }
-  line(LEFT, HIGH - BOTTOM, WIDE - RIGHT, HIGH - BOTTOM, "#50575e");
-  line(LEFT, TOP, LEFT, HIGH - BOTTOM, "#50575e");
-  if (x.label) text(x.label, { x: (LEFT + WIDE - RIGHT) / 2, y: HIGH - 6, "text-anchor": "middle" });
-  if (y.label)
-    text(y.label, {
-      x: 12,
-      y: (TOP + HIGH - BOTTOM) / 2,
-      "text-anchor": "middle",
-      transform: `rotate(-90 12 ${(TOP + HIGH - BOTTOM) / 2})`,
-    });
-}
-
-function drawn(s, X, Y, xlog, ylog) {
-  const good = (i) =>
-    Number.isFinite(s.x[i]) && Number.isFinite(s.y[i]) && (!xlog || inLog(s.x[i])) && (!ylog || inLog(s.y[i]));
-  const at = Array.from(s.x, (_, i) => i).filter(good),
-    out = [];
-  if (s.band && at.length) {
-    const up = at.map((i) => `${X(s.x[i]).toFixed(1)},${Y(s.y[i] + s.band[i]).toFixed(1)}`);
-    const down = at
-      .map(
-        (i) =>
-          `${X(s.x[i]).toFixed(1)},${Y(ylog ? Math.max(s.y[i] - s.band[i], 1e-300) : s.y[i] - s.band[i]).toFixed(1)}`,
-      )
-      .reverse();
-    out.push(make("polygon", { points: up.concat(down).join(" "), fill: s.colour, opacity: 0.25 }));
-  }
-  if (s.points)
-    for (const i of at)
-      out.push(
-        ...point(
-          s,
-          X(s.x[i]),
-          Y(s.y[i]),
-          s.error && s.error[i] > 0 ? [Y(s.y[i] - s.error[i]), Y(s.y[i] + s.error[i])] : null,
-        ),
-      );
-  else
-    out.push(
-      make("polyline", {
-        points: at.map((i) => `${X(s.x[i]).toFixed(1)},${Y(s.y[i]).toFixed(1)}`).join(" "),
-        fill: "none",
-        stroke: s.colour,
-        "stroke-width": s.width || 2,
-        "stroke-dasharray": s.dash || "none",
-        "data-name": s.name || s.label,
-      }),
-    );
-  return out;
-}
-
+const LEFT = 52,
+  RIGHT = 10,
+  TOP = 8,
+  BOTTOM = 38;
 const SHAPES = {
   circle: "M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0",
   square: "M-4,-4h8v8h-8z",
@@ -162,46 +73,241 @@ const SHAPES = {
   dash: "M-9,0h18",
   plus: "M-5,0h10M0,-5v10",
 };
-function point(s, x, y, bar) {
-  const out = [],
-    open = s.shape === "cross" || s.shape === "dash" || s.shape === "plus";
-  if (bar) out.push(make("line", { x1: x, x2: x, y1: bar[0], y2: bar[1], stroke: s.colour, "stroke-width": 1.5 }));
-  out.push(
-    make("path", {
-      d: SHAPES[s.shape || "circle"],
-      transform: `translate(${x.toFixed(1)},${y.toFixed(1)})`,
-      fill: open ? "none" : s.colour,
+const isOpen = (shape) => shape === "cross" || shape === "dash" || shape === "plus";
+
+export class Chart {
+  /* `text(name, values)`: words for what is read. */
+  constructor(figure, text) {
+    Object.assign(this, { figure, text, drawn: new Map(), keys: new Map(), series: [], at: null });
+    this.caption = document.createElement("figcaption");
+    this.legend = document.createElement("ul");
+    this.legend.className = "legend";
+    this.readout = document.createElement("output");
+    this.readout.className = "readout";
+    this.svg = make("svg", { role: "img", tabindex: 0 });
+    this.axes = make("g", {});
+    this.inside = make("g", { "clip-path": `url(#clip-${figure.id})` });
+    this.rule = make("line", { class: "rule", visibility: "hidden" });
+    this.clip = make("rect", { x: LEFT, y: TOP });
+    this.svg.append(make("clipPath", { id: `clip-${figure.id}` }, this.clip), this.axes, this.inside, this.rule);
+    const holder = document.createElement("div");
+    holder.className = "plot";
+    holder.append(this.svg);
+    figure.append(this.caption, holder, this.legend, this.readout);
+    this.holder = holder;
+    new ResizeObserver(() => this.fit()).observe(holder);
+    this.listen();
+  }
+
+  fit() {
+    const wide = Math.max(180, this.holder.clientWidth),
+      high = Math.max(110, this.holder.clientHeight);
+    if (wide === this.wide && high === this.high) return;
+    Object.assign(this, { wide, high });
+    set(this.svg, { viewBox: `0 0 ${wide} ${high}`, width: wide, height: high });
+    set(this.clip, { width: wide - LEFT - RIGHT, height: high - TOP - BOTTOM });
+    this.axesKey = null;
+    if (this.spec) this.update(this.spec);
+  }
+
+  /* series: {name, label, colour, dash, width, x, y, error (of points), band (of a line), points, bars, shape, quiet: not
+   * in the legend, reads: false where the pointer does not read it}; x, y: {label, log, range, names}. */
+  update(spec) {
+    this.spec = spec;
+    if (!this.wide) this.fit();
+    const { title, x, y, series, summary } = spec,
+      all = (key) => series.flatMap((s) => Array.from(s[key] || [])),
+      around = series.flatMap((s) =>
+        s.error || s.band ? Array.from(s.y).flatMap((v, i) => [v - (s.error || s.band)[i], v + (s.error || s.band)[i]]) : [],
+      );
+    this.xr = x.range || range(all("x"), x.log);
+    this.yr = y.range || range(all("y").concat(around), y.log);
+    const scale = (v, [a, b], log, from, to) =>
+      from + (log ? (Math.log(v) - Math.log(a)) / (Math.log(b) - Math.log(a)) : (v - a) / (b - a)) * (to - from);
+    this.X = (v) => scale(v, this.xr, x.log, LEFT, this.wide - RIGHT);
+    this.Y = (v) =>
+      Math.min(2 * this.high, Math.max(-this.high, scale(v, this.yr, y.log, this.high - BOTTOM, TOP)));
+    this.series = series;
+    if (this.caption.textContent !== title) this.caption.textContent = title;
+    set(this.svg, { "aria-label": summary || title });
+    this.figure.dataset.scales = JSON.stringify({ xr: this.xr, yr: this.yr, xlog: !!x.log, ylog: !!y.log });
+    this.drawAxes(x, y);
+    this.keep(this.drawn, series, (s) => make("g", { "data-name": s.name }), this.inside);
+    for (const s of series) this.drawSeries(this.drawn.get(s.name), s, x.log, y.log);
+    this.drawLegend(series.filter((s) => !s.quiet));
+    if (this.at !== null) this.read(this.at, false);
+  }
+
+  /* One element for each series, in their order; those of series that are no more go. */
+  keep(elements, series, make_, parent) {
+    const names = new Set(series.map((s) => s.name));
+    for (const [name, element] of elements)
+      if (!names.has(name)) {
+        element.remove();
+        elements.delete(name);
+      }
+    series.forEach((s, i) => {
+      if (!elements.has(s.name)) elements.set(s.name, make_(s));
+      if (parent.children[i] !== elements.get(s.name)) parent.insertBefore(elements.get(s.name), parent.children[i] || null);
+    });
+  }
+
+  drawAxes(x, y) {
+    const key = JSON.stringify([this.xr, this.yr, x, y]);
+    if (key === this.axesKey) return;
+    this.axesKey = key;
+    const { wide, high, xr, yr, X, Y } = this,
+      out = [],
+      line = (x1, y1, x2, y2, stroke) => out.push(make("line", { x1, y1, x2, y2, stroke })),
+      text = (content, attributes) => out.push(make("text", attributes, content));
+    for (const v of ticks(...yr, y.log)) {
+      line(LEFT, Y(v), wide - RIGHT, Y(v), "#e4e7ea");
+      text(nice(v), { x: LEFT - 5, y: Y(v) + 4, "text-anchor": "end" });
+    }
+    if (x.names) x.names.forEach((name, i) => text(name, { x: X(i), y: high - BOTTOM + 16, "text-anchor": "middle" }));
+    else
+      for (const v of ticks(...xr, x.log)) {
+        line(X(v), high - BOTTOM, X(v), high - BOTTOM + 4, "#50575e");
+        text(nice(v), { x: X(v), y: high - BOTTOM + 16, "text-anchor": "middle" });
+      }
+    line(LEFT, high - BOTTOM, wide - RIGHT, high - BOTTOM, "#50575e");
+    line(LEFT, TOP, LEFT, high - BOTTOM, "#50575e");
+    if (x.label) text(x.label, { x: (LEFT + wide - RIGHT) / 2, y: high - 5, "text-anchor": "middle" });
+    const middle = (TOP + high - BOTTOM) / 2;
+    if (y.label) text(y.label, { x: 11, y: middle, "text-anchor": "middle", transform: `rotate(-90 11 ${middle})` });
+    this.axes.replaceChildren(...out);
+  }
+
+  drawSeries(group, s, xlog, ylog) {
+    const { X, Y } = this,
+      good = (i) =>
+        Number.isFinite(s.x[i]) && Number.isFinite(s.y[i]) && (!xlog || inLog(s.x[i])) && (!ylog || inLog(s.y[i])),
+      at = Array.from(s.x, (_, i) => i).filter(good);
+    if (s.points || s.bars) {
+      group.replaceChildren(...at.flatMap((i) => (s.bars ? this.bar(s, i) : this.point(s, i))));
+      return;
+    }
+    if (!group.line) group.append((group.band = make("polygon", { opacity: 0.22 })), (group.line = make("polyline", { fill: "none" })));
+    const place = (i, y) => `${X(s.x[i]).toFixed(1)},${Y(y).toFixed(1)}`;
+    set(group.line, {
+      points: at.map((i) => place(i, s.y[i])).join(" "),
       stroke: s.colour,
-      "stroke-width": open ? 2 : 1,
-      "data-name": s.name || s.label,
-    }),
-  );
-  return out;
+      "stroke-width": s.width || 2,
+      "stroke-dasharray": s.dash || "none",
+    });
+    const low = (y) => (ylog ? Math.max(y, 1e-300) : y);
+    set(group.band, {
+      fill: s.colour,
+      points: s.band
+        ? at
+            .map((i) => place(i, s.y[i] + s.band[i]))
+            .concat(at.map((i) => place(i, low(s.y[i] - s.band[i]))).reverse())
+            .join(" ")
+        : "",
+    });
+  }
+  bar(s, i) {
+    const left = this.X(s.x[i] - s.bars / 2),
+      top = this.Y(s.y[i]);
+    return [make("rect", { x: left, y: top, width: Math.max(1, this.X(s.x[i] + s.bars / 2) - left - 1), height: Math.max(0, this.high - BOTTOM - top), fill: s.colour, opacity: 0.55 })];
+  }
+  point(s, i) {
+    const x = this.X(s.x[i]),
+      y = this.Y(s.y[i]),
+      e = s.error && s.error[i] > 0 ? s.error[i] : 0,
+      out = e ? [make("line", { x1: x, x2: x, y1: this.Y(s.y[i] - e), y2: this.Y(s.y[i] + e), stroke: s.colour, "stroke-width": 1.5 })] : [];
+    out.push(mark(s, x, y));
+    return out;
+  }
+
+  drawLegend(series) {
+    this.keep(this.keys, series, (s) => {
+      const item = document.createElement("li");
+      item.append(make("svg", { viewBox: "0 0 26 10", "aria-hidden": "true" }), document.createTextNode(""));
+      return item;
+    }, this.legend);
+    for (const s of series) {
+      const item = this.keys.get(s.name),
+        key = JSON.stringify([s.label, s.colour, s.dash, s.width, s.shape, s.points, s.bars]);
+      if (item.dataset.key === key) continue;
+      item.dataset.key = key;
+      item.firstChild.replaceChildren(
+        s.points
+          ? mark(s, 13, 5)
+          : make("line", { x1: 0, x2: 26, y1: 5, y2: 5, stroke: s.colour, "stroke-width": s.bars ? 8 : s.width || 2, "stroke-dasharray": s.dash || "none" }),
+      );
+      item.lastChild.textContent = s.label;
+      if (s.title) item.title = s.title;
+    }
+  }
+
+  /* ---- Reading it ---- */
+
+  listen() {
+    this.svg.addEventListener("pointermove", (e) => {
+      const at = this.svg.getBoundingClientRect();
+      this.read(this.valueAt(((e.clientX - at.left) * this.wide) / at.width), false);
+    });
+    for (const end of ["pointerleave", "blur"]) this.svg.addEventListener(end, () => this.read(null, false));
+    this.svg.addEventListener("keydown", (e) => {
+      const step = { ArrowLeft: -1, ArrowRight: 1, Home: -Infinity, End: Infinity }[e.key];
+      if (step === undefined || !this.X) return;
+      e.preventDefault();
+      const all = this.places(),
+        now = this.at === null ? (step > 0 ? -1 : all.length) : all.findIndex((x) => x >= this.at);
+      this.read(all[Math.min(all.length - 1, Math.max(0, now + step * Math.max(1, Math.round(all.length / 40))))], true);
+    });
+  }
+  valueAt(pixel) {
+    if (!this.xr) return null;
+    const [a, b] = this.xr,
+      f = (pixel - LEFT) / (this.wide - LEFT - RIGHT);
+    return this.spec.x.log ? a * (b / a) ** f : a + f * (b - a);
+  }
+  /* All x where something stands, in order. */
+  places() {
+    const inside = (x) => x >= this.xr[0] && x <= this.xr[1];
+    return [...new Set(this.series.filter((s) => s.reads !== false).flatMap((s) => Array.from(s.x)))].filter(inside).sort((a, b) => a - b);
+  }
+  /* The values at an x of all series, said aloud if by keys. */
+  read(x, aloud) {
+    this.at = x === undefined ? null : x;
+    const shown = this.at !== null && Number.isFinite(this.at) && this.X;
+    set(this.rule, { visibility: shown ? "visible" : "hidden" });
+    this.readout.setAttribute("aria-live", aloud ? "polite" : "off");
+    if (!shown) {
+      this.readout.textContent = "";
+      return;
+    }
+    const at = this.X(this.at);
+    set(this.rule, { x1: at, x2: at, y1: TOP, y2: this.high - BOTTOM });
+    const said = this.series.filter((s) => s.reads !== false).map((s) => [s, nearest(s, this.at)]).filter(([, y]) => Number.isFinite(y));
+    this.readout.textContent = this.text("readout", {
+      x: this.spec.x.names ? this.spec.x.names[Math.round(this.at)] || "" : `${this.spec.x.symbol || this.spec.x.label} = ${nice(+this.at.toPrecision(3))}`,
+      all: said.map(([s, y]) => `${s.label}: ${number(y)}`).join("; "),
+    });
+  }
 }
 
-function legend(series) {
-  const list = document.createElement("ul");
-  list.className = "legend";
-  for (const s of series) {
-    if (s.quiet) continue;
-    const item = document.createElement("li"),
-      key = make("svg", { viewBox: "0 0 26 10", "aria-hidden": "true" });
-    if (s.points) key.append(...point(s, 13, 5, null));
-    else
-      key.append(
-        make("line", {
-          x1: 0,
-          x2: 26,
-          y1: 5,
-          y2: 5,
-          stroke: s.colour,
-          "stroke-width": s.width || 2,
-          "stroke-dasharray": s.dash || "none",
-        }),
-      );
-    item.append(key, s.label);
-    if (s.title) item.title = s.title;
-    list.append(item);
-  }
-  return list;
+/* The value at the point that is nearest to x; none beyond its ends. */
+function nearest(s, x) {
+  let best = -1;
+  for (let i = 0; i < s.x.length; i++)
+    if (Number.isFinite(s.y[i]) && (best < 0 || Math.abs(s.x[i] - x) < Math.abs(s.x[best] - x))) best = i;
+  if (best < 0) return NaN;
+  const first = s.x[0],
+    last = s.x[s.x.length - 1],
+    slack = s.points ? Infinity : 0.05 * Math.abs(last - first);
+  return x < first - slack || x > last + slack ? NaN : s.y[best];
+}
+
+function mark(s, x, y) {
+  const open = isOpen(s.shape);
+  return make("path", {
+    d: SHAPES[s.shape || "circle"],
+    transform: `translate(${x.toFixed(1)},${y.toFixed(1)})`,
+    fill: open || s.hollow ? "none" : s.colour,
+    stroke: s.colour,
+    "stroke-width": open || s.hollow ? 2 : 1,
+  });
 }

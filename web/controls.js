@@ -5,7 +5,10 @@
  *   get, put          where it is not the key's own value: a number (null: none) of the scene's values; and the text for
  *                     the key of a number and those values
  *   flows             where it has an effect; everywhere without */
-const FLOWS = ["usf", "hcs", "hss", "equilibrium", "couette", "chute"];
+import { store } from "./state.js";
+import { t } from "./i18n.js";
+
+export const FLOWS = ["usf", "hcs", "hss", "equilibrium", "couette", "chute"];
 const WALLED = ["couette", "poiseuille", "chute"];
 
 /* The second species beside the first: its diameter or mass over that one's. */
@@ -32,27 +35,27 @@ const tilt = {
   },
 };
 
-const CONTROLS = [
+export const CONTROLS = [
   { key: "flow", name: "flow", words: FLOWS },
   { key: "thermostat", name: "thermostat", words: ["gaussian", "white_noise"], flows: ["hss"] },
   { name: "tilt", ...tilt, min: 0, max: 60, step: 1, flows: ["chute"] },
-  { key: "phi", name: "phi", min: 0.005, max: 0.5, step: 0.005 },
-  { key: "collision.e", name: "e", min: 0, max: 1, step: 0.01 },
+  { key: "phi", name: "phi", min: 0.005, max: 0.5, step: 0.005, symbol: "φ" },
+  { key: "collision.e", name: "e", min: 0, max: 1, step: 0.01, symbol: "e", wide: [0.5, 1] },
   { key: "collision.law", name: "law", words: ["constant", "viscoelastic"] },
-  { key: "collision.beta", name: "beta", min: -1, max: 1, step: 0.05 },
-  { key: "collision.mu", name: "mu", min: 0, max: 1, step: 0.01, box: "friction", on: () => "0.3", off: () => "inf" },
+  { key: "collision.beta", name: "beta", min: -1, max: 1, step: 0.05, symbol: "β" },
+  { key: "collision.mu", name: "mu", min: 0, max: 1, step: 0.01, symbol: "μ", box: "friction", on: () => "0.3", off: () => "inf" },
   { key: "walls.e", name: "wallE", min: 0, max: 1, step: 0.01, flows: WALLED },
   { key: "walls.beta", name: "wallBeta", min: -1, max: 1, step: 0.05, flows: WALLED },
   { name: "diameter", ...ratioOf("diameter"), min: 0.25, max: 4, step: 0.05, box: "mixture", on: inTwo, off: alone },
   { name: "mass", ...ratioOf("mass"), min: 0.1, max: 20, step: 0.1 },
-  { key: "particles", name: "particles", min: 100, max: 4000, step: 100 },
+  { key: "particles", name: "particles", min: 100, max: 4000, step: 100, symbol: "N" },
   { key: "run.seed", name: "seed", min: 0, step: 1, plain: true },
 ];
-const valueOf = (values, key) => key.split(".").reduce((at, part) => (at == null ? at : at[part]), values);
-const asText = (value) => (typeof value === "object" ? JSON.stringify(value) : String(value));
-const shownValue = (row, values) => (row.get ? row.get(values) : valueOf(values, row.key));
+export const valueOf = (values, key) => key.split(".").reduce((at, part) => (at == null ? at : at[part]), values);
+export const asText = (value) => (typeof value === "object" ? JSON.stringify(value) : String(value));
+export const shownValue = (row, values) => (row.get ? row.get(values) : valueOf(values, row.key));
 
-class Controls {
+export class Controls {
   /* `change(key, value)`: somebody moved one. `wanted()`: the values that its new one is put into. */
   constructor(rows, change, wanted) {
     Object.assign(this, { rows, change, wanted });
@@ -148,10 +151,16 @@ class Controls {
     select.value = value;
   }
 
-  /* Which one the library refused, by the key that its message names. */
-  refuse(key) {
+  /* Those that the library refused, by the keys that its message names. */
+  refuse(keys) {
     for (const row of CONTROLS)
-      if (row.key === key) for (const input of row.inputs) input.setAttribute("aria-invalid", "true");
+      if (keys.includes(row.key)) for (const input of row.inputs) input.setAttribute("aria-invalid", "true");
+  }
+
+  /* The one of a lesson stands apart; the others keep their order. */
+  pull(name, place) {
+    for (const row of CONTROLS) (row.name === name ? place : this.rows).append(row.all);
+    place.hidden = !name;
   }
 
   /* Names for those who do not see where a number stands. */
@@ -159,4 +168,54 @@ class Controls {
     for (const row of CONTROLS)
       if (row.number && !row.plain) row.number.setAttribute("aria-label", t("number", { name: t(row.name) }));
   }
+}
+
+/* The row of a name, and what stands before its value. */
+export const rowOf = (name) => CONTROLS.find((row) => row.name === name) || CONTROLS.find((row) => row.name === "e");
+export const symbolOf = (row) => row.symbol || t(row.name);
+/* Where theories are drawn over a slider: what it has, or the part of it that is asked for. */
+export const gridOf = (row, n = 9) => {
+  const [a, b] = row.wide || [row.min, row.max];
+  return Array.from({ length: n }, (_, i) => a + ((b - a) * i) / (n - 1));
+};
+
+/* Keys that would cost energy, and what they are in an elastic gas. */
+const ELASTIC = { "collision.e": "1", "collision.beta": "-1", "collision.mu": "inf", "collision.law": "constant" };
+let inelastic = null; /* what the gas had before it was elastic */
+
+/* What is wanted of the next gas: a key as text, and the values that controls build on. */
+function wantedText(key) {
+  const { asked, gas } = store.state,
+    wanted = asked.sets[key];
+  return wanted === undefined || wanted === gas.sets[key] ? asText(valueOf(gas.about.values, key)) : wanted;
+}
+export function wantedValues() {
+  const values = { ...store.state.gas.about.values };
+  for (const key of ["species", "gravity"])
+    try {
+      values[key] = JSON.parse(wantedText(key));
+    } catch (e) {
+      /* a link's own way to write it: what is in force */
+    }
+  return values;
+}
+
+/* The keys to be set with this one: what a flow needs, and others refuse. An elastic gas needs e = 1; the flow that comes
+ * after it has again what was there before, or 0.9 where nothing was. */
+export function setsOf(key, value) {
+  const sets = { [key]: value };
+  if (key !== "flow") return sets;
+  const before = wantedText("flow");
+  Object.assign(sets, {
+    thermostat: value === "hss" ? "gaussian" : "none",
+    gravity: value === "chute" ? "[0.1, -0.1, 0]" : "[0, 0, 0]",
+  });
+  if (value === "equilibrium") {
+    if (before !== "equilibrium") inelastic = Object.fromEntries(Object.keys(ELASTIC).map((one) => [one, wantedText(one)]));
+    Object.assign(sets, ELASTIC);
+  } else if (before === "equilibrium") {
+    Object.assign(sets, inelastic || { "collision.e": "0.9" });
+    inelastic = null;
+  }
+  return sets;
 }

@@ -1,6 +1,5 @@
 /* The engines as a page sees them: objects with methods, around the exports of exports_*.c. Runs in a worker, a window and
  * node. `make` is the function that the module engines.js was built as (graingas). */
-"use strict";
 
 const STATE = [
   "time",
@@ -18,7 +17,7 @@ const ENTRY = ["name", "doc", "unit", "type", "allowed", "value"];
 const CATALOGUES = ["keys", "speciesKeys", "flows", "engines", "observables", "quantities", "theories"];
 
 /* What the library refuses or fails at, in its own words; status as graingas.h has it. */
-class GraingasError extends Error {
+export class GraingasError extends Error {
   constructor(message, status) {
     super(message);
     this.name = "GraingasError";
@@ -34,7 +33,7 @@ function refuseNul(text) {
   throw new GraingasError(`no YAML text (control characters are not allowed at byte ${bytes})`, 2);
 }
 
-async function openEngines(make, options) {
+export async function openEngines(make, options) {
   const c = await make(options);
   const fail = () => {
     throw new GraingasError(c.UTF8ToString(c._page_error()), c._page_status());
@@ -116,6 +115,11 @@ async function openEngines(make, options) {
     title() {
       return take(c._page_scene_title(this.at));
     }
+    /* Bytes and seconds of a processor of a run by "md" or "dsmc". */
+    needs(engine) {
+      const [bytes, seconds] = numbers(withText([engine], (e) => c._page_scene_needs(this.at, e)), 2);
+      return { bytes, seconds };
+    }
     warnings(use) {
       return take(withText([use], (u) => c._page_scene_warnings(this.at, u)))
         .split("\n")
@@ -178,6 +182,24 @@ async function openEngines(make, options) {
     }
     species() {
       return allSpecies((i) => c._page_species_state(this.at, i));
+    }
+    reverse() {
+      need(c._page_reverse(this.at));
+    }
+    /* The first grain's velocity along x, so many last bits up. */
+    nudge(bits) {
+      need(c._page_nudge(this.at, bits));
+    }
+    remember() {
+      need(c._page_remember(this.at));
+    }
+    /* Of its grains from where they were remembered, or from those of another simulation. */
+    distance(other = null) {
+      return c._page_distance(this.at, other ? other.at : 0);
+    }
+    /* Of the grains taken last: the density of speeds, in bins up to `end`. */
+    speeds(bins, end) {
+      return numbers(c._page_speeds(this.at, bins, end), bins);
     }
     hash() {
       return c.UTF8ToString(need(c._page_hash(this.at)));
@@ -309,5 +331,3 @@ async function openEngines(make, options) {
     run: (scene) => JSON.parse(take(c._page_run_json(scene.at))),
   };
 }
-
-if (typeof module !== "undefined") module.exports = { openEngines, GraingasError };

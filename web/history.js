@@ -1,24 +1,40 @@
 /* The history of the temperatures of the live simulation. */
 
+import { inLog } from "./chart.js";
+
 /* Monte Carlo that has not come to md's time, or stopped before it: what it shows is of another time. */
-const isLate = (dsmc, md) => !!dsmc && !!md && dsmc.time < md.time * (1 - 1e-9);
+export const isLate = (dsmc, md) => !!dsmc && !!md && dsmc.time < md.time * (1 - 1e-9);
 
 /* Points of the history, ever fewer of the older ones: a bounded memory. Cooling gases have logarithmic axes. */
-class TemperatureHistory {
+export class TemperatureHistory {
   constructor(logarithmic) {
     this.rows = [];
     this.gap = 0.02;
     this.logarithmic = logarithmic;
+    this.far = { x: [], y: [], gap: 0.01 };
   }
-  add(md, dsmc) {
+  /* How far the grains are from where they were, or from their twins, over collisions a grain. */
+  addDistance(clock, distance) {
+    const { far } = this;
+    if (!Number.isFinite(distance) || clock < (far.x[far.x.length - 1] ?? -1) + far.gap) return;
+    far.x.push(clock);
+    far.y.push(distance);
+    if (far.x.length > 600) {
+      far.x = far.x.filter((_, i) => i % 2 === 0);
+      far.y = far.y.filter((_, i) => i % 2 === 0);
+      far.gap *= 2;
+    }
+  }
+  add(md, dsmc, twin = null) {
     const of = md || dsmc,
       last = this.rows[this.rows.length - 1];
     if (this.logarithmic && !(inLog(of.time) && inLog(of.temperature))) return;
     if (last && (this.logarithmic ? of.time < 1.03 * last.time : of.collisionsPerGrain < last.clock + this.gap)) return;
     const pick = (s) => (s ? [s.temperature, s.rotationalTemperature] : [NaN, NaN]),
       [T, theta] = pick(md),
-      [T2, theta2] = pick(isLate(dsmc, md) ? null : dsmc);
-    this.rows.push({ clock: of.collisionsPerGrain, time: of.time, T, theta, T2, theta2 });
+      [T2, theta2] = pick(isLate(dsmc, md) ? null : dsmc),
+      [T3] = pick(isLate(twin, md) ? null : twin);
+    this.rows.push({ clock: of.collisionsPerGrain, time: of.time, T, theta, T2, theta2, T3 });
     if (this.rows.length > 480) {
       this.rows = this.rows.filter((_, i) => i % 2 === 0);
       this.gap *= 2;
@@ -36,7 +52,7 @@ class TemperatureHistory {
 }
 
 /* Of a stored result, over time; a line marks the frame that is played. */
-class StoredHistory {
+export class StoredHistory {
   constructor(logarithmic, courses = {}) {
     this.logarithmic = logarithmic;
     this.courses = courses;

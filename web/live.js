@@ -1,8 +1,10 @@
-/* The gas that is seen, in a worker: md, and dsmc beside it, taken along by the clock of their own collisions. Nothing
- * here depends on how often the page asks. */
+/* The gas that is seen, in a worker: md, and dsmc beside it, or a twin of md that differs in one thing. Nothing here
+ * depends on how often the page asks. */
+import { GraingasError } from "./engines.js";
+import { Picture } from "./picture.js";
 
 /* The scene's text with keys set over it. */
-function sceneOf(g, text, sets, more = {}) {
+export function sceneOf(g, text, sets, more = {}) {
   const scene = new g.Scene(text);
   try {
     for (const [key, value] of Object.entries({ ...sets, ...more })) scene.set(key, value);
@@ -13,18 +15,91 @@ function sceneOf(g, text, sets, more = {}) {
   }
 }
 
-/* What is shown of a state. Between walls T is the one that results have: the state's is of whole velocities. */
-const isWalled = ({ flow }) => /couette|poiseuille|chute/.test(flow);
-function shownState(gas, state, values) {
-  return isWalled(values) ? { ...state, temperature: gas.localTemperature(state.grains, state.box[1]) } : state;
+/* What differs from the defaults, of objects of values. */
+function differing(values, defaults) {
+  const found = {};
+  for (const [key, value] of Object.entries(values)) {
+    if (JSON.stringify(value) === JSON.stringify(defaults[key])) continue;
+    const inner = value && typeof value === "object" && !Array.isArray(value);
+    found[key] = inner ? differing(value, defaults[key]) : value;
+  }
+  return found;
+}
+/* As YAML on one line. */
+const flowStyle = (value) =>
+  Array.isArray(value)
+    ? `[${value.map(flowStyle).join(", ")}]`
+    : value && typeof value === "object"
+      ? `{${Object.entries(value)
+          .map(([key, one]) => `${key}: ${flowStyle(one)}`)
+          .join(", ")}}`
+      : String(value);
+
+/* The scene in as few words as say the same; all of it where that cannot be had. */
+function briefScene(g, values, yaml) {
+  const read = (text, use) => {
+    const scene = new g.Scene(text);
+    try {
+      return use(scene);
+    } finally {
+      scene.free();
+    }
+  };
+  const { flow, phi } = values;
+  for (const given of [{ flow, phi }, { flow, phi, thermostat: values.thermostat }])
+    try {
+      const defaults = read(flowStyle(given), (scene) => scene.values()),
+        brief = flowStyle({ ...given, ...differing(values, defaults) });
+      if (read(brief, (scene) => scene.yaml()) === yaml) return brief;
+    } catch (e) {
+      /* a flow that needs more than these */
+    }
+  return yaml;
 }
 
-class LiveGas {
-  constructor(g, text, sets) {
-    this.refusal = this.dsmcRefusal = this.event = this.ended = this.dsmcEnded = null;
+/* What the page says of a scene. */
+export function aboutOf(g, scene) {
+  const values = scene.values(),
+    yaml = scene.yaml();
+  return { values, yaml, title: scene.title(), brief: briefScene(g, values, yaml) };
+}
+
+/* How many grains, and what a run of them needs: asked before anything is made. */
+export function costOf(g, text, sets) {
+  const scene = sceneOf(g, text, sets);
+  try {
+    const { particles } = scene.values();
+    let bytes = 0;
+    for (const engine of ["md", "dsmc"])
+      try {
+        bytes = Math.max(bytes, scene.needs(engine).bytes);
+      } catch (e) {
+        /* an engine that cannot run it needs nothing */
+      }
+    return { particles, bytes };
+  } finally {
+    scene.free();
+  }
+}
+
+/* What is shown of a state. Between walls T is the one that results have: the state's is of whole velocities. */
+export const isWalled = ({ flow }) => /couette|poiseuille|chute/.test(flow);
+export function shownState(gas, state, values) {
+  return isWalled(values) ? { ...state, temperature: gas.localTemperature(state.grains, state.box[1]) } : state;
+}
+/* The shear rate of the flow that velocities are about. */
+export const flowOf = ({ flow }) => (/usf|shear/.test(flow) ? 1 : 0);
+
+const BINS = 30;
+
+export class LiveGas {
+  /* pair: null; "elastic", the same start with e = 1; "bit", the same with one last bit more. remember: distances from
+   * the start are wanted. */
+  constructor(g, text, sets, { pair = null, remember = false } = {}) {
+    Object.assign(this, { pair, remember, refusal: null, dsmcRefusal: null, event: null, ended: null, dsmcEnded: null });
     const scene = sceneOf(g, text, sets);
     try {
-      this.about = { values: scene.values(), title: scene.title(), yaml: scene.yaml() };
+      this.about = aboutOf(g, scene);
     } finally {
       scene.free();
     }
@@ -38,13 +113,30 @@ class LiveGas {
 
   begin(g, text, sets, values) {
     this.md = this.make(g, text, sets, { engine: "md" }, "refusal");
+    if (this.pair && this.md) this.beginTwin(g, text, sets);
     const grains = values.dsmc.particles === "auto" ? { "dsmc.particles": Math.max(4000, values.particles) } : {};
-    this.dsmc = this.make(g, text, sets, { engine: "dsmc", ...grains }, "dsmcRefusal");
+    if (!this.twin) this.dsmc = this.make(g, text, sets, { engine: "dsmc", ...grains }, "dsmcRefusal");
     if (!this.md && !this.dsmc) throw new GraingasError(this.refusal, 2);
-    this.rate = this.firstRate(g, text, sets);
+    this.rate = this.startRate = this.firstRate(g, text, sets);
     if (!this.md) return;
+    if (this.remember) this.md.remember();
     this.md.follow();
-    this.view = new Picture(this.md.grains(), this.md.species(), this.about);
+    this.view = this.viewOf(this.md, this.about);
+    this.about.fast = this.view.scale.speed;
+    if (this.twin) this.twinView = this.viewOf(this.twin, {});
+  }
+  viewOf(gas, about) {
+    const view = new Picture(gas.grains(), gas.species(), about);
+    view.fix(gas.state(), gas.grains(), gas.species());
+    return view;
+  }
+  /* Grains put back into both: what that rounds is the same in both. */
+  beginTwin(g, text, sets) {
+    const elastic = this.pair === "elastic" ? { "collision.e": "1" } : {};
+    this.twin = this.make(g, text, sets, { engine: "md", ...elastic }, "twinRefusal");
+    if (!this.twin || this.pair !== "bit") return;
+    this.md.nudge(0);
+    this.twin.nudge(1);
   }
 
   make(g, text, sets, more, why) {
@@ -82,12 +174,12 @@ class LiveGas {
     this.since = state;
   }
 
-  /* Go on by so many collisions a grain, for 12 ms of work at most; is it done? */
-  goOn(collisions) {
+  /* Go on by so long, for 12 ms of work at most; is it done? */
+  goOn(time) {
     const leader = this.md || this.dsmc;
     let done = true;
     try {
-      if (!this.ended && collisions > 0) done = leader.advance(collisions / this.rate, 12);
+      if (!this.ended && time > 0) done = leader.advance(time, 12);
     } catch (e) {
       this.ended = e.message;
     }
@@ -96,12 +188,13 @@ class LiveGas {
     return this.takeAlong(state.time) && done;
   }
 
-  /* dsmc to the time of md, for 6 ms of work at most; is it there? */
+  /* dsmc, or the twin, to the time of md, for some ms of work at most; is it there? */
   takeAlong(time) {
-    if (!this.md || !this.dsmc || this.dsmcEnded || this.ended) return true;
-    const lack = time - this.dsmc.state().time;
+    const other = this.twin || this.dsmc;
+    if (!this.md || !other || this.dsmcEnded || this.ended) return true;
+    const lack = time - other.state().time;
     try {
-      return !(lack > 0) || this.dsmc.advance(lack, 6);
+      return !(lack > 0) || other.advance(lack, this.twin ? 12 : 6);
     } catch (e) {
       this.dsmcEnded = e.message;
       return true;
@@ -118,23 +211,47 @@ class LiveGas {
     }
     this.goOn(0);
   }
+  reverse() {
+    for (const gas of [this.md, this.twin]) if (gas) gas.reverse();
+  }
 
-  frame({ collisions, colour, step }) {
-    const done = step ? (this.step(), true) : this.goOn(collisions);
+  distance() {
+    if (!this.md || !(this.twin ? this.pair === "bit" : this.remember)) return NaN;
+    if (this.twin && this.twin.state().time < this.md.state().time * (1 - 1e-12)) return NaN;
+    return this.md.distance(this.twin || null);
+  }
+
+  /* `collisions` a grain at the start's rate, or, if it is followed, at the present one. */
+  frame({ collisions, colour, step, follow = false, speeds = false }) {
+    const rate = follow ? this.rate : this.startRate,
+      done = step ? (this.step(), true) : this.goOn(collisions / rate);
     if (!step && collisions > 0) this.event = null;
-    const short = (s) => s && shownState(s, s.state(), this.about.values);
-    return {
+    const { values } = this.about,
+      short = (s) => s && shownState(s, s.state(), values),
+      look = { by: colour, rate: this.rate, follow, flow: flowOf(values) };
+    const answer = {
       md: short(this.md),
       dsmc: short(this.dsmc),
-      picture: this.md ? this.view.of(this.md.state(), this.md.grains(), colour, this.rate) : null,
+      twin: short(this.twin),
+      picture: this.md ? this.view.of(this.md.state(), this.md.grains(), look) : null,
+      twinPicture: this.twin ? this.twinView.of(this.twin.state(), this.twin.grains(), { ...look, by: colour === "since" ? "speed" : colour }) : null,
+      distance: this.distance(),
+      rate: this.rate,
+      timeScale: 1 / rate,
       event: this.event,
       behind: !done,
       ended: this.ended,
       dsmcEnded: this.dsmcEnded,
     };
+    if (speeds && this.md) {
+      const end = 2.5 * this.view.scale.speed;
+      this.md.grains();
+      answer.speeds = { end, density: this.md.speeds(BINS, end) };
+    }
+    return answer;
   }
 
   free() {
-    for (const s of [this.md, this.dsmc]) if (s) s.free();
+    for (const s of [this.md, this.dsmc, this.twin]) if (s) s.free();
   }
 }

@@ -1,10 +1,12 @@
+import { isWalled, sceneOf } from "./live.js";
+
 /* Times for the lines of theories of free cooling: decades, few enough, as far as diagrams go. The page draws lines
  * between them, which at late times are straight. */
-const COOLING_TIMES = [
+export const COOLING_TIMES = [
   ...Array.from({ length: 120 }, (_, i) => 10 ** (i / 12 - 4)),
   ...Array.from({ length: 589 }, (_, i) => 10 ** (6 + i / 2)),
 ];
-function courseOfTheories(comparison) {
+export function courseOfTheories(comparison) {
   const T = {};
   for (const name of Object.keys(comparison.document().theory || {})) {
     const said = comparison.cooling(name, COOLING_TIMES);
@@ -14,7 +16,7 @@ function courseOfTheories(comparison) {
 }
 
 /* The means, in a worker of their own: a run of each engine in pieces, with the theories, until the scene's own end. */
-class Measuring {
+export class Measuring {
   constructor(g, text, sets) {
     this.sessions = {};
     this.refused = {};
@@ -25,10 +27,8 @@ class Measuring {
     } finally {
       scene.free();
     }
-    const measure = values.measure.includes("velocity_distributions")
-      ? {}
-      : { measure: `[${[...values.measure, "velocity_distributions"]}]` };
-    const one = { ...measure, "run.replicas": 1 };
+    const drawn = isWalled(values) ? ["profiles"] : ["velocity_distributions"],
+      one = { measure: `[${[...new Set([...values.measure, ...drawn])]}]`, "run.replicas": 1 };
     try {
       this.compare(sceneOf(g, text, sets, one), g);
       for (const engine of ["md", "dsmc"]) this.begin(g, text, sets, engine, one);
@@ -89,5 +89,19 @@ class Measuring {
   free() {
     for (const one of Object.values(this.sessions)) one.session.free();
     if (this.comparison) this.comparison.free();
+  }
+}
+
+/* What the theories say of a scene. */
+export function theoriesOf(g, text, sets) {
+  const scene = sceneOf(g, text, sets);
+  let comparison = null;
+  try {
+    comparison = new g.Comparison(scene);
+    const { theory, theories } = comparison.document();
+    return { theory, theories };
+  } finally {
+    scene.free();
+    if (comparison) comparison.free();
   }
 }

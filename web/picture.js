@@ -1,16 +1,14 @@
 /* What is drawn of grains, whether they live or are played: places, colours from 0 to 1, marks that turn. */
-const COLOURS_END = { speed: 2, spin: 2, since: 3 }; /* root mean squares; mean free times */
+export const COLOURS_END = { speed: 2, spin: 2, since: 3 }; /* root mean squares; mean free times */
 
-/* Lengths of vectors over so many times their root mean square. */
+const rootMeanSquare = (vectors) => Math.sqrt((3 * vectors.reduce((sum, v) => sum + v * v, 0)) / vectors.length);
+
+/* Lengths of vectors over what is the end of the scale. */
 function lengths(vectors, end) {
   const found = new Float32Array(vectors.length / 3);
-  let sum = 0;
-  for (let i = 0; i < found.length; i++) {
-    found[i] = Math.hypot(vectors[3 * i], vectors[3 * i + 1], vectors[3 * i + 2]);
-    sum += found[i] * found[i];
-  }
-  const most = end * Math.sqrt(sum / found.length) || 1;
-  return found.map((one) => one / most);
+  for (let i = 0; i < found.length; i++)
+    found[i] = Math.hypot(vectors[3 * i], vectors[3 * i + 1], vectors[3 * i + 2]) / end;
+  return found;
 }
 
 /* Turn the marks, a unit vector a grain, about their spins for so long. */
@@ -33,7 +31,7 @@ function turnMarks(marks, spin, time) {
   }
 }
 
-class Picture {
+export class Picture {
   /* Adds to `about` what of the grains stays as it is. */
   constructor({ n, species }, kinds, about) {
     about.species = Uint8Array.from(species);
@@ -49,19 +47,37 @@ class Picture {
     }
   }
 
-  /* `by`: speed, spin, or since, the time since the last collision in mean free times, of so many collisions a time. */
-  of(state, { position, velocity, spin, hit }, by, rate) {
-    const turning = state.rotationalTemperature > 0;
+  /* The scale of colours: that of this state for good. Spins that are not there yet: as fast as equipartition has them. */
+  fix(state, { velocity, spin, position }, kinds) {
+    const inertia = (kinds[0].inertia * kinds[0].mass * kinds[0].diameter ** 2) / 4,
+      fast = rootMeanSquare(velocity) || 1;
+    this.scale = { speed: fast, spin: rootMeanSquare(spin) || Math.sqrt((3 * state.temperature) / inertia) || 1 };
+    this.origin = Float32Array.from({ length: position.length / 3 }, (_, i) => position[3 * i] / state.box[0]);
+  }
+
+  /* `by`: speed, spin; since, the time since the last collision in mean free times, of so many collisions a time;
+   * along, the velocity along x from left to right, of a sheared gas with that of the flow; origin, where it began.
+   * `follow`: speeds and spins over those of now, not over those of the start. */
+  of(state, { position, velocity, spin, hit }, { by, rate = 0, follow = false, flow = 0 }) {
+    const turning = state.rotationalTemperature > 0,
+      end = (vectors, name) => COLOURS_END[name] * (follow || !this.scale ? rootMeanSquare(vectors) || 1 : this.scale[name]);
     if (turning) turnMarks(this.marks, spin, state.time - this.time);
     this.time = state.time;
+    const values = {
+      since: () => hit && Float32Array.from(hit, (time) => ((state.time - time) * rate) / COLOURS_END.since),
+      spin: () => lengths(spin, end(spin, "spin")),
+      origin: () => this.origin,
+      along: () => {
+        const most = 2 * Math.max(end(velocity, "speed") / 2, Math.abs(flow) * state.box[1] * 0.3);
+        return Float32Array.from(
+          { length: velocity.length / 3 },
+          (_, i) => 0.5 + (velocity[3 * i] + flow * (position[3 * i + 1] - state.box[1] / 2)) / most,
+        );
+      },
+    };
     return {
       position: Float32Array.from(position),
-      value:
-        by === "since" && hit
-          ? Float32Array.from(hit, (time) => ((state.time - time) * rate) / COLOURS_END.since)
-          : by === "spin"
-            ? lengths(spin, COLOURS_END.spin)
-            : lengths(velocity, COLOURS_END.speed),
+      value: Float32Array.from((values[by] && values[by]()) || lengths(velocity, end(velocity, "speed"))),
       marks: turning ? Float32Array.from(this.marks) : null,
     };
   }

@@ -1,9 +1,14 @@
 /* A result of the terminal, in a worker: its frames as they are asked for, by their numbers. */
-class Replay {
+import { aboutOf, flowOf, shownState } from "./live.js";
+import { courseOfTheories } from "./measuring.js";
+import { Picture } from "./picture.js";
+
+export class Replay {
   constructor(g, file) {
     const { answer, gone } = g.withFile(file, (path) => new g.Trajectory(path));
     this.trajectory = answer;
     this.gone = gone;
+    this.g = g;
     try {
       this.begin();
     } catch (e) {
@@ -14,17 +19,20 @@ class Replay {
   begin() {
     const scene = this.trajectory.scene();
     try {
-      this.about = { values: scene.values(), title: scene.title(), yaml: scene.yaml() };
+      this.about = aboutOf(this.g, scene);
     } finally {
       scene.free();
     }
     this.about.frames = this.trajectory.frames;
-    this.view = new Picture(this.trajectory.frame(0).grains, this.trajectory.species(), this.about);
+    const { state, grains } = this.trajectory.frame(0),
+      kinds = this.trajectory.species();
+    this.view = new Picture(grains, kinds, this.about);
+    this.view.fix(state, grains, kinds);
   }
   frame({ k, colour }) {
     const { state, grains } = this.trajectory.frame(k);
     const md = shownState(this.trajectory, state, this.about.values);
-    return { md, dsmc: null, picture: this.view.of(state, grains, colour, 0), event: null };
+    return { md, dsmc: null, picture: this.view.of(state, grains, { by: colour, flow: flowOf(this.about.values) }), event: null };
   }
   free() {
     this.trajectory.free();
@@ -33,7 +41,7 @@ class Replay {
 }
 
 /* Its means and curves beside the theories, as a comparison has them, and how its temperatures went. */
-function readResult(g, file) {
+export function readResult(g, file) {
   const { answer, gone } = g.withFile(file, (path) => new g.Comparison(path));
   try {
     const courses = {};

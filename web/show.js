@@ -1,160 +1,364 @@
-/* Where the answers of the workers are shown: clock, curves, table, words; and the lessons. */
-const sheared = () => /usf|shear/.test(page.about.values.flow);
-const hasRate = () => sheared() || page.about.values.flow === "couette";
-const timeUnit = () => (hasRate() ? "1/γ" : page.about.values.phi === 0 ? "1/(n d² v₀)" : "d/v₀");
+/* Shows the state: each part where it has changed. */
+import { Chart } from "./chart.js";
+import { CHARTS, sheared, showChart, speedUnit, temperatureUnit, timeUnit } from "./charts.js";
+import { SPEEDS } from "./clock.js";
+import { colourAt, mapOf, rgb } from "./colours.js";
+import { rowOf } from "./controls.js";
+import { FRAMES_A_SECOND, whichFrame } from "./files.js";
+import { now, openLesson, ownScene } from "./gas.js";
+import { LANGUAGES, t } from "./i18n.js";
+import { LESSONS } from "./lessons.js";
+import { writeLink } from "./link.js";
+import { canKeep, drawLines, hasPoints, QUANTITIES, showPoints } from "./points.js";
+import { showProfiles } from "./profiles.js";
+import { store } from "./state.js";
+import { fillRanges, fillTable } from "./table.js";
+import { error, mean, showTheories } from "./theories.js";
+import { allWarnings } from "./warnings.js";
+import { byId, cell, number, quantityName, withError } from "./words.js";
 
-function showClock(s) {
-  byId("clock").textContent =
-    t("clock", {
-      c: s.collisionsPerGrain.toFixed(s.collisionsPerGrain < 100 ? 2 : 0),
-      t: number(s.time),
-      unit: timeUnit(),
-      n: s.collisions,
-    }) + (sheared() ? t("clockStrain", { s: s.strain.toFixed(2) }) : "");
+const COLOURS = ["speed", "along", "spin", "since", "origin"];
+const TRUTHS = ["same", "collisions", "dice", "size", "theory", "scale", "clusters"];
+export const parts = {}; /* made by begin() */
+
+/* Those that never change their place. */
+export function begin({ controls, view, twin }) {
+  const text = (key, values) => t(key, values);
+  Object.assign(parts, { controls, view, twin, chart: new Chart(byId("chart"), text), points: new Chart(byId("points"), text) });
+  for (const { name } of LESSONS) {
+    const button = cell("button", "", { type: "button", id: `lesson-${name}` });
+    button.addEventListener("click", () => openLesson(name));
+    byId("lessons").append(button);
+  }
+  const own = cell("button", "", { type: "button", id: "lesson-own" });
+  own.addEventListener("click", () => ownScene(store.state.gas.about.brief));
+  byId("lessons").append(own);
+  const options = (id, names) => byId(id).append(...names.map((value) => cell("option", "", { value })));
+  options("colour", COLOURS);
+  options("chart-kind", CHARTS);
+  options("quantity", QUANTITIES);
+  options("language", Object.keys(LANGUAGES));
+  for (const [code, strings] of Object.entries(LANGUAGES)) {
+    const one = byId("language").querySelector(`[value=${code}]`);
+    one.textContent = strings.languageName;
+    one.lang = code;
+  }
+  byId("thermometer").append(cell("div", "", { className: "tube" }), cell("output", ""));
+  byId("thermometer").firstChild.append(cell("div", "", { className: "mercury" }), cell("div", "", { className: "second" }));
+}
+
+/* Everything that the state says, where it differs from what is shown. */
+export function show(state, before) {
+  const is = (...names) => names.some((name) => state[name] !== before[name]);
+  if (is("language")) showLanguage();
+  if (is("banner", "language")) showBanner(state);
+  if (is("view")) showView(state);
+  if (!state.gas) return;
+  if (is("gas", "language")) showGas(state);
+  if (is("gas", "lesson", "language", "slider")) showLesson(state, before);
+  if (is("refusedKeys", "gas")) parts.controls.refuse(state.refusedKeys);
+  if (is("gas", "playing", "speed", "player", "follow", "language")) showPlaying(state);
+  if (is("gas", "colour", "language", "player")) showScale(state);
+  if (is("colour", "follow", "pair")) now.want = true;
+  if (is("camera")) for (const one of [parts.view, parts.twin]) one.look(state.camera);
+  if (is("images") && now.frame) now.fresh = true;
+  if (is("gas", "pair", "language")) showPair(state);
+  if (is("means", "theories", "everything", "language", "gas")) showMeans(state);
+  if (is("chart", "quantity", "language", "gas")) showChoices(state);
+  if (is("chart", "gas", "means", "language", "theories", "ghosts", "pair")) showChart(parts.chart, state);
+  if (is("chart", "gas", "means", "language", "theories", "points", "lines", "quantity", "slider", "player")) showMyPoints(state);
+  if (is("gas", "lesson", "language", "colour", "speed", "camera", "playing", "pair", "chart", "view", "follow", "images")) link(state, before);
+  announceChanges(state, before);
+}
+
+/* The address: at once for another lesson, a little later for a camera that is turned. */
+let linking = 0;
+function link(state, before) {
+  clearTimeout(linking);
+  const step = !!before.gas && !state.player && !before.player && (before.lesson !== state.lesson || (state.lesson === null && before.gas.about.brief !== state.gas.about.brief));
+  if (step || before.gas !== state.gas || before.language !== state.language) writeLink(state, step && before.gas.id !== state.gas.id);
+  else linking = setTimeout(() => writeLink(store.state, false), 300);
+}
+
+/* ---- Words ---- */
+
+function showLanguage() {
+  document.documentElement.lang = store.state.language;
+  byId("language").value = store.state.language;
+  for (const one of document.querySelectorAll("[data-t]")) one.textContent = t(one.dataset.t);
+  for (const one of document.querySelectorAll("[data-label]")) {
+    one.setAttribute("aria-label", t(one.dataset.label));
+    if (one.tagName === "BUTTON") one.title = t(one.dataset.label);
+  }
+  for (const one of byId("colour").options) one.textContent = t(`${one.value}Of`);
+  for (const one of byId("chart-kind").options) one.textContent = t(`chart_${one.value}`);
+  for (const one of byId("quantity").options) one.textContent = quantityName(one.value);
+  for (const { name } of LESSONS) byId(`lesson-${name}`).textContent = t(`lesson_${name}_short`);
+  byId("lesson-own").textContent = t("lesson_own_short");
+  byId("truths").replaceChildren(...TRUTHS.map((name) => cell("li", t(`truth_${name}`))));
+  parts.controls.name();
+}
+
+function showBanner({ banner }) {
+  const place = byId("banner");
+  place.replaceChildren();
+  if (!banner) return;
+  place.append(cell("p", banner.text));
+  place.classList.toggle("quiet", !!banner.quiet);
+  for (const { label, act } of banner.offers) {
+    const button = cell("button", label, { type: "button" });
+    button.addEventListener("click", () => {
+      store.dispatch("banner", { banner: null });
+      act();
+    });
+    place.append(button);
+  }
+  const close = cell("button", "×", { type: "button", className: "close" });
+  close.setAttribute("aria-label", t("close"));
+  close.addEventListener("click", () => store.dispatch("banner", { banner: null }));
+  place.append(close);
+}
+
+function showView({ view }) {
+  document.body.dataset.view = view;
+  byId("present").setAttribute("aria-pressed", String(view === "present"));
+  now.fresh = !!now.frame;
+}
+
+function showLesson({ lesson, gas, slider, player }) {
+  for (const button of byId("lessons").children) button.setAttribute("aria-pressed", String(button.id === `lesson-${lesson || "own"}`));
+  byId("lesson-name").textContent = lesson ? t(`lesson_${lesson}`) : player ? player.name : t("lesson_own");
+  byId("lesson-text").textContent = lesson ? t(`lesson_${lesson}_text`) : gas.about.title;
+  byId("question").textContent = lesson ? t(`lesson_${lesson}_question`) : "";
+  parts.controls.pull(rowOf(slider).name, byId("main-control"));
+  byId("reverse").hidden = lesson !== "reverse";
+}
+
+/* ---- The gas ---- */
+
+/* What is known of it before it moves. */
+function showGas({ gas, player }) {
+  const { about } = gas,
+    title = player ? `${player.name}: ${about.title}` : about.title;
+  parts.controls.show(about.values);
+  byId("images-row").hidden = !sheared(about.values);
+  if (document.activeElement !== byId("yaml")) byId("yaml").value = about.yaml; /* nobody's typing is written over */
+  byId("event").textContent = "";
+  document.title = `${title} – graingas`;
+  byId("profiles").hidden = !/couette|poiseuille|chute/.test(about.values.flow);
+  byId("thermometer").style.display = "";
+  thermometer.top = 0;
+  shownWarnings = null;
+  showWarnings(store.state);
+}
+function showPair({ pair, gas }) {
+  byId("pair").value = pair;
+  byId("twin-figure").hidden = !pair;
+  byId("boxes").classList.toggle("two", !!pair);
+  byId("box-name").textContent = pair ? t(`this_${pair}`, { e: gas.about.values.collision.e }) : "";
+  byId("twin-name").textContent = pair ? t(`other_${pair}`) : "";
+  now.fresh = !!now.frame;
+}
+
+export function drawFrame(time) {
+  const { frame } = now,
+    { gas, images, colour } = store.state,
+    look = { images, map: mapOf(colour) };
+  if (frame.md) parts.view.draw(frame.picture, frame.md, gas.about, { ...look, event: frame.event });
+  else parts.view.draw(null, frame.dsmc, gas.about, {});
+  if (frame.twinPicture) parts.twin.draw(frame.twinPicture, frame.twin, gas.about, look);
+  showClock(frame.md || frame.dsmc, gas.about.values);
+  showThermometer(frame);
+  if (frame.event !== shownEvent) showEvent((shownEvent = frame.event));
+  if (time - slow < 250) return;
+  slow = time;
+  showChart(parts.chart, store.state);
+  showWarnings(store.state);
+  if (!byId("profiles").hidden && frame.md) alignProfiles(frame.md.box);
+  announceState(frame.md || frame.dsmc);
+}
+let slow = 0,
+  shownEvent = null;
+
+function alignProfiles(box) {
+  const ratio = parts.view.w / parts.view.canvas.clientWidth || 1,
+    at = (y) => parts.view.to(box[0] / 2, y, box[2] / 2)[1] / ratio,
+    heights = [at(0), at(box[1])];
+  if (!(heights[0] > heights[1])) return;
+  const key = `${store.state.gas.id} ${heights.map(Math.round)} ${store.state.language}`;
+  if (key === aligned && store.state.means === alignedMeans) return;
+  aligned = key;
+  alignedMeans = store.state.means;
+  showProfiles(byId("profiles"), alignedMeans, heights, byId("box").clientHeight);
+}
+let aligned = "",
+  alignedMeans = null;
+
+function showClock(s, values) {
+  const text = t("clock", {
+    c: s.collisionsPerGrain.toFixed(s.collisionsPerGrain < 100 ? 1 : 0),
+    t: number(s.time, 3),
+    unit: timeUnit(values),
+  });
+  if (byId("clock").textContent !== text) byId("clock").textContent = text;
 }
 
 function showEvent(event) {
-  byId("event").textContent = event
-    ? t("event", {
-        a: event.grain[0] + 1,
-        b: event.grain[1] + 1,
-        g: number(event.normalSpeed, 3),
-        unit: hasRate() ? "d γ" : "v₀",
-        k: event.k.map((x) => x.toFixed(2)).join(", "),
-      })
-    : "";
+  const { values } = store.state.gas.about;
+  if (!event) {
+    byId("event").textContent = "";
+    return;
+  }
+  const e = values.collision.e,
+    lost = values.collision.law === "constant" ? t("eventLost", { share: Math.round(100 * (1 - e * e)) }) : "";
+  byId("event").textContent = t("event", {
+    a: event.grain[0] + 1,
+    b: event.grain[1] + 1,
+    g: number(event.normalSpeed, 3),
+    unit: speedUnit(values),
+    lost,
+  });
 }
 
-function showCharts() {
-  temperatureChart(byId("chart-temperature"), page.history, page.means, page.about.values);
-  showWarnings();
+/* As high as T is, on the scale of the gas's start; of a gas that heats up on a longer one. */
+const thermometer = { top: 0 };
+function showThermometer({ md, dsmc, twin }) {
+  const s = md || dsmc,
+    T = s.temperature,
+    { values } = store.state.gas.about,
+    [tube, text] = byId("thermometer").children;
+  if (!thermometer.top) thermometer.top = 1.25 * T;
+  if (T > thermometer.top) thermometer.top *= 1.5;
+  const { follow } = store.state,
+    fast = store.state.gas.about.fast,
+    share = follow || !fast ? 0.5 : Math.sqrt(3 * T) / (2 * fast);
+  tube.firstChild.style.height = `${Math.min(100, (100 * T) / thermometer.top)}%`;
+  tube.firstChild.style.background = rgb(colourAt(share));
+  const second = twin ? twin.temperature : s.rotationalTemperature > 0 ? s.rotationalTemperature : 0;
+  tube.lastChild.style.bottom = `${Math.min(100, (100 * second) / thermometer.top)}%`;
+  tube.lastChild.hidden = !second;
+  const words = `T\n${number(T, 3)}\n${temperatureUnit(values)}${second ? `\n${twin ? "T₂" : "θ"}\n${number(second, 3)}` : ""}`;
+  if (text.textContent !== words) text.textContent = words;
 }
 
-function showMeans(means) {
-  page.means = means;
-  velocityChart(byId("chart-velocities"), means);
-  stressChart(byId("chart-stress"), means);
-  fillTable(byId("table"), means, byId("everything").checked);
-  fillRanges(byId("ranges"), means);
-  showTheories(means);
+function showScale({ colour, player }) {
+  const to = byId("scale").getContext("2d");
+  for (let i = 0; i < 120; i++) {
+    to.fillStyle = rgb(colourAt(i / 119, mapOf(colour)));
+    to.fillRect(i, 0, 1, 10);
+  }
+  byId("colour").value = colour;
+  for (const name of ["since", "origin"]) byId("colour").querySelector(`[value=${name}]`).disabled = !!player;
+  byId("scale-low").textContent = t(`low_${colour}`);
+  byId("scale-high").textContent = t(`high_${colour}`);
+}
+
+function showPlaying({ player, playing, speed, follow }) {
+  const [rate, all] = player ? [player.rate, FRAMES_A_SECOND] : [speed, SPEEDS];
+  byId("play").textContent = t(playing ? "pause" : "play");
+  byId("speed").textContent = player ? t("frameRate", { x: rate }) : t(follow ? "speedFollow" : "speed", { x: rate });
+  byId("slower").disabled = rate <= all[0];
+  byId("faster").disabled = rate >= all[all.length - 1];
+  byId("step").textContent = t(player ? "nextFrame" : "step");
+  byId("restart").textContent = t(player ? "firstFrame" : "restart");
+  byId("reseed").hidden = !!player;
+  byId("follow").checked = follow;
+  if (!player && byId("player").contains(document.activeElement)) byId("play").focus(); /* who pressed goes on */
+  byId("player").hidden = !player;
+  if (player) {
+    byId("scrub").max = player.frames - 1;
+    byId("frame-number").textContent = t("frameOf", whichFrame());
+  }
+}
+
+/* ---- Means, points ---- */
+
+function showMeans(state) {
+  const { means, player, everything } = state,
+    empty = { theory: {}, theories: {}, progress: {} };
+  fillTable(byId("table"), means && means.theory ? means : empty, everything);
+  fillRanges(byId("ranges"), means && means.theory ? means : empty);
+  if (means && means.theory) showTheories(means);
+  else {
+    byId("theory-boxes").replaceChildren();
+    delete byId("theory-boxes").dataset.names;
+  }
   const phase = (engine) => {
-    const p = means.progress[engine];
-    if (!p) return t("phaseNone");
+    const p = means && means.progress[engine];
+    if (!p) return t(means ? "phaseNone" : "waiting");
     return p.over ? t("phaseDone") : t(p.averaging ? "phaseAverage" : "phaseWarm", { p: Math.floor(100 * p.fraction) });
   };
-  byId("progress").textContent = page.player
-    ? t("progressStored", { name: page.player.name })
-    : t("progress", { md: phase("md"), dsmc: phase("dsmc") });
-  page.changed = true;
+  byId("progress").textContent = player ? t("progressStored", { name: player.name }) : means && means.failed ? means.failed : t("progress", { md: phase("md"), dsmc: phase("dsmc") });
+  byId("box").setAttribute("aria-label", t("boxLabel", { by: t(`${state.colour}Of`), title: state.gas.about.title }));
+  byId("twin").setAttribute("aria-label", t("twinLabel"));
+}
+function showChoices({ chart, quantity }) {
+  byId("chart-kind").value = chart;
+  byId("quantity").value = quantity;
+}
+function showMyPoints(state) {
+  const has_ = hasPoints(state);
+  byId("points").hidden = byId("points-row").hidden = !has_;
+  byId("keep").hidden = !has_;
+  byId("keep").disabled = !canKeep(state);
+  byId("save-points").disabled = byId("forget").disabled = !state.points.length;
+  if (!has_) return;
+  showPoints(parts.points, state);
+  drawLines();
 }
 
-/* Nothing is known of this gas: what was of another goes. */
-function clearMeans() {
-  velocityChart(byId("chart-velocities"), {});
-  stressChart(byId("chart-stress"), {});
-  byId("table").tBodies[0].replaceChildren();
-  byId("ranges").replaceChildren();
-  byId("theories").hidden = true;
+let shownWarnings = null;
+function showWarnings(state) {
+  const all = allWarnings(state),
+    text = `${state.language} ${all.join("\n")}`;
+  if (text === shownWarnings) return;
+  shownWarnings = text;
+  byId("notes").hidden = !all.length;
+  byId("notes").firstElementChild.textContent = t("notes", { n: all.length });
+  byId("warnings").replaceChildren(...all.map((one) => cell("li", one)));
 }
 
-const whichFrame = () => ({ k: Math.max(0, page.player.shown) + 1, n: page.player.frames });
+/* ---- For those who hear the page: what changes, once ---- */
 
-/* For those who hear the page: every few seconds what it shows. */
-function say() {
-  const s = page.frame.md || page.frame.dsmc,
-    means = page.means,
-    of = (engine) => means[engine] && means[engine].results;
-  const both =
-    means && Number.isFinite(mean(of("md"), "temperature"))
-      ? t("summaryMeans", {
-          md: withError(mean(of("md"), "temperature"), error(of("md"), "temperature")),
-          dsmc: withError(mean(of("dsmc"), "temperature"), error(of("dsmc"), "temperature")),
-        })
-      : "";
-  byId("summary").textContent = t("summary", {
-    title: page.player
-      ? t("summaryPlayed", { name: page.player.name, title: page.about.title, ...whichFrame() })
-      : page.about.title,
+export function say(text) {
+  byId("said").textContent = text;
+}
+const heard = { T: 0, steady: false, time: 0 };
+function announceChanges(state, before) {
+  if (state.gas !== before.gas) Object.assign(heard, { T: 0, steady: false });
+  if (state.lesson !== before.lesson && state.lesson) say(`${t(`lesson_${state.lesson}`)}. ${t(`lesson_${state.lesson}_text`)} ${t(`lesson_${state.lesson}_question`)}`);
+  else if (state.gas !== before.gas && before.gas) say(state.player ? t("summaryPlayed", { name: state.player.name, ...whichFrame(), title: state.gas.about.title }) : state.gas.about.title);
+  const p = state.means && state.means.progress && state.means.progress.md;
+  if (p && p.over && !heard.steady && state.means.md) {
+    heard.steady = true;
+    say(`${t("measured")} ${describeMeans(state)}`);
+  }
+}
+/* T has halved or doubled since it was said last. */
+function announceState(s) {
+  const T = s.temperature;
+  if (!heard.T) heard.T = T;
+  if (performance.now() - heard.time < 4000 || !(T < heard.T / 2 || T > 2 * heard.T)) return;
+  say(t(T < heard.T ? "halved" : "doubled", { T: number(T, 3) }));
+  Object.assign(heard, { T, time: performance.now() });
+}
+function describeMeans({ means, quantity }) {
+  return ["md", "dsmc"]
+    .map((engine) => [engine, means && means[engine] && means[engine].results])
+    .filter(([, part]) => Number.isFinite(mean(part, quantity)))
+    .map(([engine, part]) => `${t(engine)}: ${quantityName(quantity)} ${withError(mean(part, quantity), error(part, quantity))}.`)
+    .join(" ");
+}
+/* Whenever somebody asks. */
+export function describe() {
+  const { gas, player } = store.state,
+    s = now.frame && (now.frame.md || now.frame.dsmc);
+  if (!s) return "";
+  const words = t("summary", {
+    title: player ? t("summaryPlayed", { name: player.name, title: gas.about.title, ...whichFrame() }) : gas.about.title,
     c: number(s.collisionsPerGrain, 3),
     T: number(s.temperature),
     theta: s.rotationalTemperature > 0 ? t("summaryTheta", { theta: number(s.rotationalTemperature) }) : "",
-    means: both,
   });
-  byId("box").setAttribute("aria-label", t("boxLabel", { n: s.grains, by: t(`${byId("colour").value}Of`) }));
-}
-
-function showScale() {
-  const to = byId("scale").getContext("2d");
-  for (let i = 0; i < 120; i++) {
-    to.fillStyle = rgb(colourAt(i / 119));
-    to.fillRect(i, 0, 1, 10);
-  }
-  byId("scale-text").textContent = t(`scale_${byId("colour").value}`);
-}
-
-function showPlaying() {
-  const [speed, all] = page.player ? [page.player.rate, FRAMES_A_SECOND] : [page.speed, SPEEDS];
-  byId("play").textContent = t(page.playing ? "pause" : "play");
-  byId("speed").textContent = t(page.player ? "frameRate" : "speed", { x: speed });
-  byId("slower").disabled = speed <= all[0];
-  byId("faster").disabled = speed >= all[all.length - 1];
-  byId("step").textContent = t(page.player ? "nextFrame" : "step");
-  byId("restart").textContent = t(page.player ? "firstFrame" : "restart");
-  byId("reseed").hidden = !!page.player;
-  if (!page.player && byId("player").contains(document.activeElement)) byId("play").focus(); /* who pressed goes on */
-  byId("player").hidden = !page.player;
-  byId("colour").querySelector("[value=since]").disabled = !!page.player;
-}
-
-function showLanguage() {
-  document.documentElement.lang = LANGUAGES[language];
-  byId("language").value = LANGUAGES[language];
-  for (const one of document.querySelectorAll("[data-t]")) one.textContent = t(one.dataset.t);
-  for (const one of document.querySelectorAll("[data-label]")) one.setAttribute("aria-label", t(one.dataset.label));
-  byId("transport").setAttribute("aria-label", t("transport"));
-  byId("box").setAttribute("aria-label", t("view"));
-  page.controls.name();
-  showLesson();
-  showScale();
-  showPlaying();
-  if (page.player) byId("frame-number").textContent = t("frameOf", whichFrame());
-  if (page.about) {
-    page.controls.show(page.about.values);
-    page.shownWarnings = null;
-    showCharts();
-    if (!page.player) writeUrlState(page); /* the address is of the gas that waits */
-  }
-  if (page.means) showMeans(page.means);
-  if (page.frame) say();
-}
-
-/* ---- Lessons ---- */
-
-function lessonButtons() {
-  for (const lesson of LESSONS) {
-    const button = cell("button", "", { type: "button", id: `lesson-${lesson.name}` });
-    button.addEventListener("click", () => follow({ scene: null, sets: {}, lesson: lesson.name }));
-    byId("lesson-buttons").append(button);
-  }
-}
-function takeLook(lesson) {
-  page.speed = SPEEDS.reduce((best, one) =>
-    Math.abs(Math.log(one / lesson.speed)) < Math.abs(Math.log(best / lesson.speed)) ? one : best,
-  );
-  byId("colour").value = lesson.colour;
-  showScale();
-  showPlaying();
-}
-function showLesson() {
-  for (const [i, lesson] of LESSONS.entries()) {
-    const button = byId(`lesson-${lesson.name}`),
-      now = page.lesson === lesson.name;
-    button.textContent = `${i + 1}. ${lesson.title[language]}`;
-    button.setAttribute("aria-pressed", String(now));
-    if (!now) continue;
-    const [text, question] = byId("lesson-text").children;
-    text.textContent = lesson.text[language];
-    question.textContent = lesson.question[language];
-  }
-  byId("lesson-text").hidden = !page.lesson;
+  return `${words} ${describeMeans(store.state)}`;
 }

@@ -1,4 +1,8 @@
 /* The table of both engines and the theories, as `graingas compare` prints it. */
+import { t } from "./i18n.js";
+import { chosenTheories, error, mean, theoriesWith, titleOf } from "./theories.js";
+import { cell, number, quantityName, theoryName, typeset, withError } from "./words.js";
+
 const MAIN = [
   "temperature",
   "rotational_temperature",
@@ -17,37 +21,7 @@ const MAIN = [
   "energy_balance",
 ];
 
-const number = (x, digits = 4) =>
-  !Number.isFinite(x)
-    ? "–"
-    : x !== 0 && (Math.abs(x) < 1e-3 || Math.abs(x) >= 1e6)
-      ? x.toExponential(digits - 1)
-      : String(+x.toPrecision(digits));
-
-/* 138.82(40): the error in units of the last digits; (?): it is not known. What is conserved has none but rounding. */
-function withError(x, e) {
-  if (!Number.isFinite(x)) return "–";
-  if (!Number.isFinite(e)) return `${number(x, 3)}(?)`;
-  if (e < 1e-9 * Math.abs(x) || !(e > 0)) return number(x, 6);
-  const first = Math.floor(Math.log10(e)),
-    places = Math.max(0, 1 - first),
-    far = Math.floor(Math.log10(Math.abs(x) || e));
-  if (far > 6 || far < -4) {
-    const scale = 10 ** far;
-    return `${withError(x / scale, e / scale)}e${far}`;
-  }
-  const digits = Math.round(e * 10 ** places);
-  return places ? `${x.toFixed(places)}(${digits})` : `${Math.round(x)}(${Math.round(e)})`;
-}
-
-function cell(kind, text, more = {}) {
-  const made = document.createElement(kind);
-  made.textContent = text;
-  Object.assign(made, more);
-  return made;
-}
-
-function fillTable(table, means, everything) {
+export function fillTable(table, means, everything) {
   const parts = [means.md && means.md.results, means.dsmc && means.dsmc.results];
   const names = everything
     ? [
@@ -62,7 +36,7 @@ function fillTable(table, means, everything) {
       (!everything && Object.values(means.theory).some((one) => Number.isFinite(mean(one, name)))) ||
       everything,
   );
-  const theories = everything ? theoriesWith(means, shown) : chosenTheories(means, theoriesWith(means, shown)),
+  const theories = everything ? theoriesWith(means, shown) : chosenTheories(theoriesWith(means, shown)),
     compared = Object.fromEntries((means.comparison || []).map((one) => [one.quantity, one]));
   const head = document.createElement("tr");
   for (const text of [
@@ -71,7 +45,7 @@ function fillTable(table, means, everything) {
     t("md"),
     t("dsmc"),
     t("z"),
-    ...theories.map((name) => name + beyondMark(means, name)),
+    ...theories.map((name) => titleOf(means, name)),
   ])
     head.append(cell("th", text, { scope: "col" }));
   table.tHead.replaceChildren(head);
@@ -83,7 +57,7 @@ function row(name, parts, theories, means, { md_dsmc_z: z, beyond_expected: far 
     known = [...parts, ...theories.map((one) => means.theory[one])].find(
       (part) => part && part[name] && part[name].unit,
     );
-  line.append(cell("th", name, { scope: "row" }), cell("td", known ? known[name].unit : ""));
+  line.append(cell("th", quantityName(name), { scope: "row", title: name }), cell("td", known ? typeset(known[name].unit) : ""));
   for (const part of parts)
     line.append(
       cell("td", withError(mean(part, name), error(part, name)), {
@@ -100,7 +74,7 @@ function row(name, parts, theories, means, { md_dsmc_z: z, beyond_expected: far 
 }
 
 /* Why theories are out of their range. */
-function fillRanges(list, means) {
+export function fillRanges(list, means) {
   const beyond = Object.entries(means.theories).filter(([name, about]) => about.beyond && means.theory[name]);
-  list.replaceChildren(...beyond.map(([name, about]) => cell("li", `† ${name} (${about.title}): ${about.beyond}`)));
+  list.replaceChildren(...beyond.map(([name, about]) => cell("li", `† ${theoryName(name)} (${about.title}): ${about.beyond}`)));
 }

@@ -1,32 +1,67 @@
-/* Which theories are drawn: a box each, of those that say something here. */
-function drawableTheories(means) {
-  const cooling = Object.keys((means.cooling && means.cooling.T) || {});
-  return [...new Set([...theoriesWith(means, ["temperature", "N1"]), ...cooling])];
-}
+/* Which theories are drawn, and how: a theory looks the same in each diagram. */
+import { LINES } from "./colours.js";
+import { store } from "./state.js";
+import { byId, cell, theoryName } from "./words.js";
 
-function showTheories(means) {
-  const names = ranked(drawableTheories(means)),
-    first = new Set(drawnTheories(means));
-  byId("theories").hidden = names.length === 0;
-  const list = byId("theory-boxes");
+/* The best known first. */
+const FIRST = [
+  "enskog_hermite",
+  "haff1983",
+  "gaussian_closure",
+  "lun1991",
+  "huthmann_zippelius1997",
+  "garzo_dufty1999",
+  "enskog",
+  "sela_goldhirsch1998",
+  "grad",
+];
+const FEW = 2; /* drawn where nobody chose */
+
+export const mean = (part, name) => (part && part[name] && Number.isFinite(part[name].mean) ? part[name].mean : NaN);
+export const error = (part, name) => (part && part[name] && Number.isFinite(part[name].stderr) ? part[name].stderr : NaN);
+
+export function ranked(names) {
+  const rank = (name) => (FIRST.indexOf(name) + FIRST.length + 1) % (FIRST.length + 1);
+  return [...names].sort((a, b) => rank(a) - rank(b));
+}
+/* Those with an answer to one of these quantities. */
+export function theoriesWith(means, names) {
+  return ranked(Object.keys(means.theory || {}).filter((name) => names.some((q) => Number.isFinite(mean(means.theory[name], q)))));
+}
+/* Of those the ones that are drawn: the first, or what the student has chosen. */
+export function chosenTheories(names) {
+  const all = ranked(names),
+    { theories } = store.state;
+  return theories ? all.filter((name) => theories.includes(name)) : all.slice(0, FEW);
+}
+/* A colour of its own for every theory that has something to say of this gas. */
+export function lineOf(name) {
+  const known = store.state.means ? drawable(store.state.means) : [],
+    at = known.indexOf(name);
+  return LINES[(at < 0 ? known.length : at) % LINES.length];
+}
+export const drawable = (means) =>
+  ranked([...new Set([...theoriesWith(means, ["temperature", "N1", "cooling_rate"]), ...Object.keys((means.cooling && means.cooling.T) || {})])]);
+/* A dagger where it is out of its range. */
+export const titleOf = (means, name) => `${theoryName(name)}${means.theories[name] && means.theories[name].beyond ? " †" : ""}`;
+
+/* A box each. */
+export function showTheories(means) {
+  const names = drawable(means),
+    shown = store.state.theories || names.filter((name, i) => i < FEW),
+    list = byId("theory-boxes");
   if (list.dataset.names !== names.join()) {
     list.dataset.names = names.join();
     list.replaceChildren(...names.map((name) => theoryBox(name, means)));
   }
-  for (const box of list.querySelectorAll("input")) box.checked = first.has(box.value);
+  for (const box of list.querySelectorAll("input")) box.checked = shown.includes(box.value);
 }
-
 function theoryBox(name, means) {
   const label = document.createElement("label"),
-    box = document.createElement("input");
-  box.type = "checkbox";
-  box.value = name;
-  box.addEventListener("change", () => {
-    page.drawnTheories = new Set(
-      [...byId("theory-boxes").querySelectorAll("input:checked")].map((checked) => checked.value),
-    );
-    if (page.means) showMeans(page.means);
-  });
-  label.append(box, ` ${name}`, cell("small", ` ${means.theories[name].title}`));
+    box = Object.assign(document.createElement("input"), { type: "checkbox", value: name });
+  box.addEventListener("change", () =>
+    store.look({ theories: [...byId("theory-boxes").querySelectorAll("input:checked")].map((one) => one.value) }),
+  );
+  label.append(box, ` ${theoryName(name)} `, cell("small", means.theories[name] ? means.theories[name].title : ""));
   return label;
 }

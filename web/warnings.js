@@ -1,16 +1,24 @@
 /* Warnings: where the model stops being true, and what the library warns about. */
-function allWarnings() {
+import { MOST_BEHIND } from "./clock.js";
+import { now } from "./gas.js";
+import { t } from "./i18n.js";
+import { mean } from "./theories.js";
+import { number } from "./words.js";
+
+export function allWarnings({ gas, means, player }) {
   const out = [],
-    { means, about, frame } = page,
+    { frame } = now,
+    { about } = gas,
     add = (key, values) => out.push(t(key, values));
-  if (page.refusal) add("noBox", { why: page.refusal });
-  if (page.dsmcRefusal) out.push(`dsmc: ${page.dsmcRefusal}`);
-  if (frame && frame.ended) add("ended", { engine: frame.md ? "md" : "dsmc", why: frame.ended });
-  if (frame && frame.dsmcEnded) add("ended", { engine: "dsmc", why: frame.dsmcEnded });
-  if (page.behind > MOST_BEHIND) add("behind");
-  if (page.player && page.player.frames === 1) add("oneFrame");
+  if (gas.refusal) add("noBox", { why: gas.refusal });
+  if (gas.dsmcRefusal) out.push(`${t("dsmc")}: ${gas.dsmcRefusal}`);
+  if (frame && frame.ended) add("ended", { engine: t(frame.md ? "md" : "dsmc"), why: frame.ended });
+  if (frame && frame.dsmcEnded) add("ended", { engine: t("dsmc"), why: frame.dsmcEnded });
+  if (now.behind > MOST_BEHIND) add("behind");
+  if (player && player.frames === 1) add("oneFrame");
   if (!means) return out;
-  if (page.player) return [...new Set([...out, ...storedWarnings(means)])].slice(0, 7);
+  if (means.failed) return [...out, means.failed];
+  if (player) return [...new Set([...out, ...storedWarnings(means)])].slice(0, 7);
   const length = mean(means.theory && means.theory.goldhirsch_zanetti1993, "clustering_length");
   if (about.values.flow === "hcs" && frame && frame.md && Math.max(...frame.md.box) > length)
     add("clusters", { l: number(length, 3) });
@@ -27,9 +35,9 @@ function allWarnings() {
   )
     add("spins");
   for (const [engine, p] of Object.entries(means.progress)) {
-    if (p.why) add("ended", { engine, why: p.why });
+    if (p.why) add("ended", { engine: t(engine), why: p.why });
     else if (p.over && means[engine] && means[engine].steady === false)
-      add("steady_no", { engine, why: means[engine].verdict });
+      add("steady_no", { engine: t(engine), why: means[engine].verdict });
   }
   out.push(...warningsOf(means));
   return [...new Set(out)].slice(0, 7);
@@ -41,21 +49,14 @@ function warningsOf(means) {
   for (const engine of ["md", "dsmc"]) {
     const now = means.progress[engine],
       unfinished = now && !now.over,
-      elsewhere = unfinished ? /null|not a steady mean|has no error|too short for errors/ : /null|not a steady mean/;
+      elsewhere = unfinished ? /null|not a steady mean|has no error|too short for errors|blocks/ : /null|not a steady mean/;
     for (const w of (means[engine] && means[engine].warnings) || [])
-      if (!elsewhere.test(w)) out.push(`${engine}: ${w}`);
+      if (!elsewhere.test(w)) out.push(`${t(engine)}: ${w}`);
   }
   return out;
 }
 /* Of a result: whether its run was steady, too. */
 function storedWarnings(means) {
   const unsteady = ["md", "dsmc"].filter((engine) => means[engine] && means[engine].steady === false);
-  return [...unsteady.map((engine) => t("steady_no", { engine, why: means[engine].verdict })), ...warningsOf(means)];
-}
-function showWarnings() {
-  const now = allWarnings(),
-    text = now.join("\n");
-  if (text === page.shownWarnings) return;
-  page.shownWarnings = text;
-  byId("warnings").replaceChildren(...now.map((one) => cell("li", one)));
+  return [...unsteady.map((engine) => t("steady_no", { engine: t(engine), why: means[engine].verdict })), ...warningsOf(means)];
 }

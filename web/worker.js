@@ -1,4 +1,9 @@
 /* The worker's side of the page: messages in, answers out. One worker shows the gas, another measures it. */
+import { openEngines } from "./engines.js";
+import { LiveGas, costOf } from "./live.js";
+import { Measuring, theoriesOf } from "./measuring.js";
+import { Replay, readResult } from "./replay.js";
+
 let g = null,
   live = null,
   replay = null,
@@ -6,17 +11,20 @@ let g = null,
   timer = 0,
   told = 0;
 
-const JOBS = {
+export const JOBS = {
   open: async ({ wasm }) => {
-    g = await openEngines(graingas, { wasmBinary: wasm });
+    g = await openEngines(globalThis.graingas, { wasmBinary: wasm });
     return { version: g.version };
   },
-  start: ({ scene, sets }) => {
-    const next = new LiveGas(g, scene, sets);
+  cost: ({ scene, sets }) => costOf(g, scene, sets),
+  theory: ({ scene, sets }) => theoriesOf(g, scene, sets),
+  start: ({ scene, sets, pair, remember }) => {
+    const next = new LiveGas(g, scene, sets, { pair, remember });
     if (live) live.free();
     live = next;
     return { about: live.about, refusal: live.refusal, dsmcRefusal: live.dsmcRefusal };
   },
+  reverse: () => (live.reverse(), {}),
   frame: (job) => (live ? live.frame(job) : {}),
   play: ({ file }) => {
     const next = new Replay(g, file);
@@ -78,9 +86,9 @@ function measureOn(id) {
 }
 
 const transfers = (answer) =>
-  answer.picture
-    ? [answer.picture.position, answer.picture.value, answer.picture.marks].filter(Boolean).map((array) => array.buffer)
-    : [];
+  [answer.picture, answer.twinPicture]
+    .filter(Boolean)
+    .flatMap(({ position, value, marks }) => [position, value, marks].filter(Boolean).map((array) => array.buffer));
 
 onmessage = async ({ data }) => {
   try {

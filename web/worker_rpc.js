@@ -1,5 +1,5 @@
 /* Calls of a worker (RPC): each job is a promise of its answer. */
-class WorkerClient {
+export class WorkerClient {
   constructor(source) {
     this.worker = new Worker(source);
     this.pending = new Map();

@@ -68,7 +68,7 @@ class Browser {
   }
 
   /* A tab with the file, in a window of that size; what it says on the console is kept in `said`. */
-  async open(file, { width = 1366, height = 768, hash = "", media = [], scale = 1 } = {}) {
+  async open(file, { width = 1366, height = 768, hash = "", media = [], scale = 1, url = `file://${file}${hash}` } = {}) {
     const { targetId } = await this.send("Target.createTarget", { url: "about:blank" });
     const { sessionId } = await this.send("Target.attachToTarget", { targetId, flatten: true });
     const tab = new Tab(this, sessionId, targetId);
@@ -80,7 +80,7 @@ class Browser {
       mobile: width < 600,
     });
     if (media.length) await tab.send("Emulation.setEmulatedMedia", { features: media });
-    await tab.send("Page.navigate", { url: `file://${file}${hash}` });
+    await tab.send("Page.navigate", { url });
     return tab;
   }
 }
@@ -120,7 +120,7 @@ class Tab {
     }
   }
   async press(key) {
-    const windowsVirtualKeyCode = { Home: 36, ArrowRight: 39, Enter: 13 }[key];
+    const windowsVirtualKeyCode = { Home: 36, ArrowRight: 39, Enter: 13 }[key] || key.toUpperCase().charCodeAt(0);
     for (const type of ["keyDown", "keyUp"])
       await this.send("Input.dispatchKeyEvent", { type, key, code: key, windowsVirtualKeyCode });
   }

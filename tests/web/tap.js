@@ -13,7 +13,7 @@ async function engines() {
     console.log("1..0 # SKIP the page was not built (ninja page)");
     process.exit(0);
   }
-  const { openEngines } = require(path.resolve(__dirname, "../../web/engines.js"));
+  const { openEngines } = await import(path.resolve(__dirname, "../../web/engines.js"));
   return openEngines(require(module_file), { wasmBinary: fs.readFileSync(module_file.replace(/js$/, "wasm")) });
 }
 

@@ -185,7 +185,7 @@ run({
     }
     /* of frames that are played */
     const { printed, bytes } = resultOf(
-      "{flow: couette, phi: 0.2, particles: 500, collision: {e: 0.9}, output: {trajectory_every: 4}, run: {collisions: 300, warmup: 200}}",
+      "{flow: couette, phi: 0.2, particles: 500, collision: {e: 0.9}, output: {trajectory_every: 4, after: warmup}, run: {collisions: 300, warmup: 200}}",
     );
     const { answer: t, gone } = g.withFile({ name: "walls.h5", bytes }, (path) => new g.Trajectory(path));
     let T = 0;

@@ -1,22 +1,67 @@
-/* Parts of the page that need no browser, in node: scales of diagrams, what is kept of the history, texts of numbers, links.
- */
+/* Parts of the page that need no browser, in node: the state, scales of diagrams, what is kept of the history, texts of
+ * numbers, links, points, languages. */
 "use strict";
-const assert = require("assert"),
-  fs = require("fs"),
-  path = require("path"),
-  { list } = require("./tap.js");
+const assert = require("assert");
+const { execFileSync } = require("child_process"),
+  { list } = require("./tap.js"),
+  { modules, strings, texts, languages } = require("./modules.js");
 
-/* Those names of these files of the page, with what the browser would give them. */
-function parts(files, names, given = {}) {
-  const folder = path.resolve(__dirname, "../../web"),
-    source = files.map((name) => fs.readFileSync(path.join(folder, name), "utf8")).join("\n");
-  return new Function(...Object.keys(given), `"use strict";${source}\nreturn { ${names} };`)(...Object.values(given));
+try {
+  execFileSync("esbuild", ["--version"]);
+} catch (e) {
+  console.log("1..0 # SKIP esbuild is not installed");
+  process.exit(0);
 }
-const drawing = (names) => parts(["plot.js", "history.js", "curves.js", "table.js"], names, { page: {}, t: (key) => key });
+const NAMES = ["chart", "charts", "controls", "files", "gas", "history", "lessons", "link", "live", "measuring", "points", "save", "state", "theories", "warnings", "words", "worker_rpc"];
+globalThis.navigator ||= { language: "en" };
+const m = modules(NAMES);
+
+const ABOUT = { values: { flow: "hcs", phi: 0.1, collision: { e: 0.9, beta: -1, mu: "inf" }, run: { seed: 1 }, particles: 100 }, brief: "{flow: hcs, phi: 0.1}", title: "", yaml: "" };
+const gasOf = (id, about = ABOUT, more = {}) => ({ id, scene: about.brief, sets: {}, lesson: null, about, history: new m.history.TemperatureHistory(true), ...more });
+const reduce = (state, type, more) => m.state.reduce(state, { type, ...more });
 
 const tests = {
+  "one writer: late answers, refusals, edits": () => {
+    let s = m.state.initial;
+    s = reduce(s, "ask", { asked: { id: 1, scene: "a", sets: {} } });
+    s = reduce(s, "started", { gas: gasOf(1) });
+    /* two are asked for; the first answer comes: the second stays asked */
+    s = reduce(s, "ask", { asked: { id: 2, scene: "b", sets: {} } });
+    s = reduce(s, "ask", { asked: { id: 3, scene: "b", sets: { phi: "0.2" } } });
+    s = reduce(s, "started", { gas: gasOf(2) });
+    assert.deepStrictEqual([s.gas.id, s.asked.id, s.asked.sets], [2, 3, { phi: "0.2" }]);
+    /* refused: what was asked is what runs, and the banner says why */
+    s = reduce(s, "refused", { text: "no", keys: ["phi"] });
+    assert.deepStrictEqual([s.gas.id, s.asked.scene, s.asked.sets, s.banner.text, s.refusedKeys], [2, ABOUT.brief, {}, "no", ["phi"]]);
+    /* means of another gas are not this one's */
+    assert.strictEqual(reduce(s, "means", { id: 1, means: {} }), s);
+    assert.deepStrictEqual(reduce(s, "means", { id: 2, means: { x: 1 } }).means, { x: 1 });
+  },
+  "a result that is played leaves the gas as it was": () => {
+    let s = reduce(m.state.initial, "started", { gas: gasOf(1), change: { lesson: "haff", chart: "stress", playing: false } });
+    s = reduce(s, "means", { id: 1, means: { of: 1 } });
+    s = reduce(s, "play", { player: { name: "a.h5" }, gas: gasOf(2), change: { playing: true, chart: "temperature" } });
+    s = reduce(s, "play", { player: { name: "b.h5" }, gas: gasOf(3), change: {} });
+    s = reduce(s, "means", { id: 1, means: { of: 2 } });
+    assert.deepStrictEqual([s.lesson, s.means, s.shelf.means], [null, null, { of: 2 }]);
+    s = reduce(s, "back", { id: 4 });
+    assert.deepStrictEqual([s.gas.id, s.lesson, s.chart, s.playing, s.means, s.player, s.asked.id], [1, "haff", "stress", false, { of: 2 }, null, 4]);
+  },
+  "who listens hears each change once, though listeners change more": () => {
+    const store = new m.state.Store(),
+      seen = [];
+    store.subscribe((s, before) => {
+      seen.push([before.speed, s.speed]);
+      if (s.speed === 3) store.look({ speed: 10 });
+    });
+    store.look({ speed: 3 });
+    assert.deepStrictEqual(seen, [
+      [1, 3],
+      [3, 10],
+    ]);
+  },
   "axes of gases that cool for ever": () => {
-    const { ticks, range } = drawing(["ticks", "range"]);
+    const { ticks, range } = m.chart;
     for (const [from, to] of [
       [1, Infinity],
       [0, 1],
@@ -28,10 +73,10 @@ const tests = {
     assert.ok(a > 5e-300 && b < 2e299 && marks.length > 3 && marks.length < 9, `${a} to ${b}: ${marks}`);
     assert.ok(ticks(1e17, 1e17 + 64, false).length < 13);
     assert.deepStrictEqual(ticks(0, 1, false), [0, 0.2, 0.4, 0.6000000000000001, 0.8, 1]);
+    assert.deepStrictEqual([1e-15, 2e5, 0.25, -0.5, 0].map(m.chart.nice), ["10⁻¹⁵", "2·10⁵", "0.25", "−0.5", "0"]);
   },
   "the history of a gas that cools for ever": () => {
-    const { TemperatureHistory } = drawing(["TemperatureHistory"]),
-      history = new TemperatureHistory(true),
+    const history = new m.history.TemperatureHistory(true),
       at = (time, temperature) => ({ time, temperature, rotationalTemperature: 0, collisionsPerGrain: 1 });
     for (const [time, T] of [
       [0, 1],
@@ -44,19 +89,26 @@ const tests = {
       history.add(at(time, T), null);
     assert.deepStrictEqual(history.column("time"), [1, 1e100]);
   },
+  "the history is bounded": () => {
+    const history = new m.history.TemperatureHistory(false);
+    for (let k = 0; k < 20000; k++) {
+      history.add({ time: k, temperature: 1, rotationalTemperature: 0, collisionsPerGrain: k / 10 }, null);
+      history.addDistance(k / 10, 1e-10);
+    }
+    assert.ok(history.rows.length <= 480 && history.far.x.length <= 600 && history.far.x.length === history.far.y.length);
+    assert.ok(history.far.x[history.far.x.length - 1] > 1900);
+  },
   "lines of theories go as far as the gas": () => {
-    const { coolingLines } = drawing(["coolingLines"]),
-      { COOLING_TIMES: time } = parts(["measuring.js"], ["COOLING_TIMES"]),
+    const { COOLING_TIMES: time } = m.measuring,
       means = { cooling: { time, T: { haff1983: time.map((t) => (1 + t) ** -2) } }, theories: { haff1983: {} }, theory: {} };
     for (const last of [1e-3, 40, 1e7, 3e80, 9e299]) {
-      const [{ x, y }] = coolingLines(means, [0, 1e-4, last]);
+      const [{ x, y }] = m.charts.coolingLines(means, [0, 1e-4, last]);
       assert.ok(x[x.length - 1] >= last && x[x.length - 1] <= 1.31 * last, `${last}: to ${x[x.length - 1]}`);
       if (last < 1e100) assert.ok(Math.abs(y[y.length - 1] * (1 + x[x.length - 1]) ** 2 - 1) < 1e-3);
     }
   },
   "Monte Carlo that is late is not drawn at the time of md": () => {
-    const { TemperatureHistory } = drawing(["TemperatureHistory"]),
-      history = new TemperatureHistory(false),
+    const history = new m.history.TemperatureHistory(false),
       at = (time, temperature) => ({ time, temperature, rotationalTemperature: 0, collisionsPerGrain: time });
     history.add(at(1, 2), at(1.01, 3));
     history.add(at(2, 2), at(1.5, 3));
@@ -65,7 +117,7 @@ const tests = {
     assert.deepStrictEqual(history.column("T"), [2, 2, NaN]);
   },
   "a gas whose Monte Carlo lags is behind": () => {
-    const { LiveGas } = parts(["live.js"], ["LiveGas"]),
+    const { LiveGas } = m.live,
       engine = (time, done) => ({
         advance: () => done,
         state: () => ({ time, collisionsPerGrain: 0, grains: 9 }),
@@ -74,83 +126,127 @@ const tests = {
     const behind = (md, dsmc) => {
       const gas = Object.create(LiveGas.prototype),
         since = { time: 0, collisionsPerGrain: 0 };
-      Object.assign(gas, { md, dsmc, since, about: { values: { flow: "usf" } }, view: { of: () => null } });
+      Object.assign(gas, { md, dsmc, since, startRate: 1, about: { values: { flow: "usf" } }, view: { of: () => null } });
       return gas.frame({ collisions: 1 }).behind;
     };
     assert.strictEqual(behind(engine(2, true), engine(1, true)), false);
     assert.strictEqual(behind(engine(2, true), engine(1, false)), true);
     assert.strictEqual(behind(engine(2, false), engine(2, true)), true);
   },
+  "time is physical: a gas that collides less often comes as far": () => {
+    const asked = [],
+      gas = Object.create(m.live.LiveGas.prototype),
+      md = { advance: (time) => asked.push(time) && true, state: () => ({ time: 0, collisionsPerGrain: 0, grains: 9 }), grains: () => null };
+    Object.assign(gas, { md, since: { time: 0, collisionsPerGrain: 0 }, rate: 0.1, startRate: 2, about: { values: { flow: "hcs" } }, view: { of: () => null } });
+    gas.frame({ collisions: 1 });
+    gas.frame({ collisions: 1, follow: true });
+    assert.deepStrictEqual(asked, [0.5, 10]);
+  },
   "a worker that fails tells whoever waits": async () => {
-    class Worker {
+    globalThis.Worker = class {
       postMessage() {}
-    }
-    const { WorkerClient } = parts(["worker_rpc.js"], ["WorkerClient"], { Worker }),
-      client = new WorkerClient("source"),
+    };
+    const client = new m.worker_rpc.WorkerClient("source"),
       waiting = client.ask("frame");
     client.worker.onerror({ message: "out of memory" });
     await assert.rejects(waiting, /out of memory/);
     await assert.rejects(client.ask("frame"), /out of memory/);
   },
-  "what fails while it is measured is told": () => {
-    const said = [],
-      later = [];
-    class Measuring {
-      means() {
-        return {};
-      }
-      goOn() {
-        throw new Error("broken");
-      }
-    }
-    const { JOBS } = parts(["worker.js"], ["JOBS"], {
-      Measuring,
-      onmessage: null,
-      postMessage: (message) => said.push(message),
-      setTimeout: (call) => later.push(call),
-      clearTimeout: () => {},
-    });
-    JOBS.measure({ scene: "", sets: {}, id: 7 });
-    later.pop()();
-    assert.deepStrictEqual(said, [{ job: "means", id: 7, refused: "broken" }]);
-  },
   "errors that are not known, and those of what is conserved": () => {
-    const { withError, error } = drawing(["withError", "error"]),
-      of = (mean, stderr) => withError(mean, error({ q: { mean, stderr } }, "q"));
+    const { withError } = m.words,
+      of = (mean, stderr) => withError(mean, m.theories.error({ q: { mean, stderr } }, "q"));
     assert.strictEqual(of(1.23456, null), "1.23(?)");
     assert.strictEqual(of(1.2345678, 1e-12), "1.23457");
     assert.strictEqual(of(2, 0), "2");
     assert.strictEqual(of(0.1388, 0.0004), "0.13880(40)");
   },
+  "names of theories and units as people write them": () => {
+    const { theoryName, typeset } = m.words;
+    assert.deepStrictEqual(["haff1983", "garzo_dufty1999", "garzo_santos_montanero2007", "lun1991_lun_savage", "enskog_hermite"].map(theoryName), [
+      "Haff's law, 1983",
+      "Garzó & Dufty 1999",
+      "Garzó, Santos & Montanero 2007",
+      "Lun 1991 (lun, savage)",
+      "Enskog's equation, solved",
+    ]);
+    assert.strictEqual(typeset("rho_p d^2 gamma^2"), "ρₚ\u202fd²\u202fγ²");
+  },
   "a collapse is told by contacts and collisions of the same time": () => {
     const told = (caught, collisions, since) => {
-      const results = {},
-        md = { collisions, total: { collisions: since }, engine_state: { contact_time_collisions: caught }, results },
-        page = { about: { values: { flow: "usf" } }, means: { md, progress: {} } };
-      const { allWarnings } = parts(["curves.js", "warnings.js"], ["allWarnings"], { page, t: (key) => key, MOST_BEHIND: 1 });
-      return allWarnings().includes("collapse");
+      const md = { collisions, total: { collisions: since }, engine_state: { contact_time_collisions: caught }, results: {} };
+      return m.warnings.allWarnings({ gas: { about: { values: { flow: "usf" } } }, means: { md, progress: {} }, player: null }).some((one) => /inelastic collapse/.test(one));
     };
     assert.strictEqual(told(500, 1e3, 1e6), false);
     assert.strictEqual(told(2000, 1e6, 1e6), true);
   },
   "units of time": () => {
-    const unit = (flow, phi) =>
-      parts(["show.js"], ["timeUnit"], { page: { about: { values: { flow, phi } } } }).timeUnit();
-    assert.deepStrictEqual(
-      [unit("usf", 0), unit("couette", 0.1), unit("hcs", 0.1), unit("hcs", 0)],
-      ["1/γ", "1/γ", "d/v₀", "1/(n d² v₀)"],
+    const unit = (flow, phi) => m.charts.timeUnit({ flow, phi });
+    assert.deepStrictEqual([unit("usf", 0), unit("couette", 0.1), unit("hcs", 0.1), unit("hcs", 0)], ["1/γ", "1/γ", "d/v₀", "1/(n d² v₀)"]);
+  },
+  "a link says what differs, and is read back": () => {
+    const { linkOf, readLink } = m.link,
+      look = (name) => m.gas.lookOf(m.lessons.lessonOf(name)),
+      lesson = (name, more = {}, sets = {}) => ({ ...m.state.initial, ...look(name), lesson: name, gas: { sets, about: ABOUT }, ...more });
+    assert.strictEqual(linkOf(lesson("temperature"), "en"), "");
+    assert.strictEqual(linkOf(lesson("haff", {}, { "collision.e": "0.8", "run.seed": "7" }), "en"), "#lesson=haff&set=collision.e=0.8&seed=7");
+    const own = { ...m.state.initial, lesson: null, gas: { sets: {}, about: ABOUT }, language: "de", colour: "along", camera: [0, 1, 2], playing: false, view: "box" };
+    const link = linkOf(own, "en"),
+      read = readLink({ hash: link, search: "" });
+    assert.strictEqual(link, "#scene={flow:+hcs,+phi:+0.1}&view=box&colour=along&camera=0,1,2&playing=0&language=de");
+    assert.deepStrictEqual([read.scene, read.language, read.look], [ABOUT.brief, "de", { view: "box", colour: "along", camera: [0, 1, 2], playing: false }]);
+    /* nonsense is no part of the state */
+    assert.deepStrictEqual(readLink({ hash: "#colour=__proto__&camera=1,2&speed=-1&view=xx&language=constructor", search: "" }).look, {});
+    assert.strictEqual(readLink({ hash: "#language=constructor", search: "" }).language, null);
+  },
+  "wrong names of lessons": () => {
+    const { nearestLesson } = m.lessons;
+    assert.deepStrictEqual(["haf", "Clusterings", "chaos2", "nonsense"].map(nearestLesson), ["haff", "clustering", "chaos", null]);
+  },
+  "points go to a table and come back": () => {
+    const point = { slider: "e", x: 0.8, seed: 3, from: "", md: { N1: [0.5, 0.01] }, dsmc: { N1: [0.52, 0.02], temperature: [1.5, 0.1] } };
+    const text = m.points.pointsCsv([point]),
+      [head] = text.split("\n");
+    assert.match(head, /^slider,value,seed,md_N1,md_N1_error,dsmc_temperature,/);
+    const [read] = m.points.pointsOf(text, "class.csv");
+    assert.deepStrictEqual([read.x, read.md, read.dsmc, read.from], [0.8, { N1: [0.5, 0.01] }, { N1: [0.52, 0.02], temperature: [1.5, 0.1] }, "class.csv"]);
+    assert.deepStrictEqual(m.points.pointsOf("a,b\n1,2\n", "x.csv"), []);
+  },
+  "curves as a table: a row a time": () => {
+    const history = new m.history.TemperatureHistory(false);
+    for (const k of [1, 2]) history.add({ time: k, temperature: 3 * k, rotationalTemperature: 0, collisionsPerGrain: k }, null);
+    const means = { md: { curves: { P: { x_name: "C", x: [0, 1], value: [1, null], stderr: [0.1, null] } } } };
+    assert.strictEqual(
+      m.save.curvesCsv(history, means, "A gas"),
+      "# A gas\ntime,collisions_per_grain,md_temperature,md_rotational_temperature\n1,1,3,0\n2,2,6,0\n\nC,md_P,error\n0,1,0.1\n",
     );
   },
-  "a link keeps the language": () => {
-    const link = (own, language) => {
-      const { urlState } = parts(["url_state.js"], ["urlState"], {
-        navigator: { language: own },
-        LANGUAGES: ["en", "de"],
-        language,
-      });
-      return new URLSearchParams(urlState({ scene: "", sets: { "run.seed": "1" } }).slice(1)).get("language");
-    };
-    assert.deepStrictEqual([link("en-GB", 0), link("en-GB", 1), link("de-AT", 0), link("de-AT", 1)], [null, "de", "en", "de"]);
+  "no language lacks a string, no string is of no use": () => {
+    const english = strings("en"),
+      all = texts().join("\n");
+    assert.deepStrictEqual(languages, ["de", "en", "es"]);
+    for (const language of languages) {
+      const own = strings(language);
+      assert.deepStrictEqual(Object.keys(own).sort(), Object.keys(english).sort(), language);
+      for (const [key, text] of Object.entries(own)) {
+        assert.ok(typeof text === "string" && text.length > 0, `${language}: ${key}`);
+        const holes = (of) => [...of.matchAll(/\{\w+\}/g)].map(String).sort();
+        assert.deepStrictEqual(holes(text), holes(english[key]), `${language}: ${key}`);
+      }
+    }
+    for (const [, key] of all.matchAll(/\bt\("(\w+)"|data-(?:t|label)="(\w+)"/g)) if (key) assert.ok(key in english, key);
+    for (const [, key] of all.matchAll(/data-(?:t|label)="(\w+)"/g)) assert.ok(key in english, key);
+    const made = /^(lesson|flow|thermostat|law|pair|this|other|chart|truth|q|symbol|theory|low|high)_|Of$/;
+    for (const key of Object.keys(english)) assert.ok(made.test(key) || new RegExp(`["'.]${key}\\b`).test(all), `${key} is shown nowhere`);
+  },
+  "a lesson has one question and at most 40 words": () => {
+    for (const language of languages) {
+      const own = strings(language);
+      for (const { name } of m.lessons.LESSONS) {
+        const words = `${own[`lesson_${name}_text`]} ${own[`lesson_${name}_question`]}`.split(/\s+/).filter((one) => /[\p{L}\d]/u.test(one));
+        assert.ok(words.length <= 40, `${language}, ${name}: ${words.length} words`);
+        assert.strictEqual(own[`lesson_${name}_question`].split("?").length, 2, `${language}, ${name}`);
+      }
+    }
   },
 };
 

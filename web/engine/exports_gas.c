@@ -6,7 +6,7 @@
 
 #include "exports.h"
 
-enum { MOST_SPECIES = 16 };
+enum { MOST_SPECIES = 16, MOST_BINS = 64 };
 
 /* Grains in arrays that stay where they are, and are filled anew when the page asks. */
 typedef struct page_grains {
@@ -69,7 +69,8 @@ static const double *told_species(const gg_species_state *s)
 typedef struct page_simulation {
   page_grains grains;
   gg_simulation *simulation;
-  double until; /* when an advance in slices is to stop, in milliseconds */
+  double until;  /* when an advance in slices is to stop, in milliseconds */
+  double *start; /* positions that were remembered; NULL: none */
   uint64_t caught;
   gg_collision_event event; /* the last one shown */
 } page_simulation;
@@ -84,6 +85,7 @@ PAGE void page_simulation_free(page_simulation *p)
   if (!p) return;
   gg_simulation_free(p->simulation);
   free_arrays(&p->grains);
+  free(p->start);
   free(p);
 }
 
@@ -177,6 +179,75 @@ PAGE const double *page_step(page_simulation *p)
   for (int a = 0; a < 3; a++) *to++ = e->impulse[a];
   *to = e->time;
   return numbers;
+}
+
+/* ---- What a class does with a gas ---- */
+
+static int put_grains(page_simulation *p)
+{
+  return gg_simulation_set_grains(p->simulation, &p->grains.into, p->grains.n, &page_why) == GG_OK;
+}
+
+/* All velocities and spins reversed. */
+PAGE int page_reverse(page_simulation *p)
+{
+  if (gg_simulation_get_grains(p->simulation, &p->grains.into, &page_why) != GG_OK) return 0;
+  for (size_t i = 0; i < 3 * p->grains.n; i++) {
+    p->grains.into.velocity[i] = -p->grains.into.velocity[i];
+    p->grains.into.spin[i] = -p->grains.into.spin[i];
+  }
+  return put_grains(p);
+}
+
+/* Put the grains back as they are, the first one's velocity along x with `bits` last bits more. */
+PAGE int page_nudge(page_simulation *p, int bits)
+{
+  if (gg_simulation_get_grains(p->simulation, &p->grains.into, &page_why) != GG_OK) return 0;
+  for (int k = 0; k < bits; k++) p->grains.into.velocity[0] = nextafter(p->grains.into.velocity[0], INFINITY);
+  return put_grains(p);
+}
+
+/* Remember where the grains are now, for page_distance. */
+PAGE int page_remember(page_simulation *p)
+{
+  if (!p->start) p->start = malloc(3 * p->grains.n * sizeof *p->start);
+  if (!p->start) return page_fail("out of memory"), 0;
+  if (gg_simulation_get_grains(p->simulation, &p->grains.into, &page_why) != GG_OK) return 0;
+  memcpy(p->start, p->grains.into.position, 3 * p->grains.n * sizeof *p->start);
+  return 1;
+}
+
+/* Root mean square distance of the grains, by minimum image, from where they were remembered, or from those of another
+ * simulation; NaN: failed. Of periodic boxes without shear. */
+PAGE double page_distance(page_simulation *p, page_simulation *other)
+{
+  gg_simulation_state s;
+  double sum = 0;
+  if (gg_simulation_get_state(p->simulation, &s, &page_why) != GG_OK ||
+      gg_simulation_get_grains(p->simulation, &p->grains.into, &page_why) != GG_OK ||
+      (other && gg_simulation_get_grains(other->simulation, &other->grains.into, &page_why) != GG_OK))
+    return NAN;
+  const double *from = other ? other->grains.into.position : p->start;
+  for (size_t i = 0; from && i < 3 * p->grains.n; i++) {
+    double d = p->grains.into.position[i] - from[i];
+    d -= s.box[i % 3] * round(d / s.box[i % 3]);
+    sum += d * d;
+  }
+  return from ? sqrt(sum / (double)p->grains.n) : NAN;
+}
+
+/* Share of the grains by speed: `bins` bins up to `end`, over the bin width. The grains that page_take_grains took. */
+PAGE const double *page_speeds(const page_simulation *p, int bins, double end)
+{
+  static double share[MOST_BINS];
+  if (bins < 1 || bins > MOST_BINS || !(end > 0)) return page_fail("no such bins");
+  memset(share, 0, sizeof share);
+  for (size_t i = 0; i < p->grains.n; i++) {
+    const double *v = p->grains.into.velocity + 3 * i;
+    const double at = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / end * bins;
+    if (at < bins) share[(int)at] += bins / (end * (double)p->grains.n);
+  }
+  return share;
 }
 
 PAGE const double *page_state(page_simulation *p)

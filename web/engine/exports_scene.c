@@ -53,6 +53,16 @@ PAGE char *page_scene_title(const gg_scene *scene)
   return (copy = strdup(text)) ? copy : page_fail("out of memory");
 }
 
+/* Bytes, seconds of a processor of a run by this engine. */
+PAGE const double *page_scene_needs(const gg_scene *scene, const char *engine)
+{
+  static double numbers[2];
+  gg_scene_needs needs;
+  if (gg_scene_get_needs(scene, engine, &needs, &page_why) != GG_OK) return NULL;
+  numbers[0] = needs.memory, numbers[1] = needs.cpu_seconds;
+  return numbers;
+}
+
 typedef struct lines {
   char *text;
   size_t size;

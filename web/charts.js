@@ -1,0 +1,230 @@
+/* What the diagram beside the box shows: the history of the gas that is seen, the means so far, the lines of theories. */
+import { inLog } from "./chart.js";
+import { DSMC, GHOSTS, MD } from "./colours.js";
+import { now } from "./gas.js";
+import { t } from "./i18n.js";
+import { store } from "./state.js";
+import { chosenTheories, error, lineOf, mean, theoriesWith, titleOf } from "./theories.js";
+import { withError, number, theoryName } from "./words.js";
+
+export const CHARTS = ["temperature", "speeds", "velocities", "stress", "distance"];
+export const sheared = (values) => /usf|shear/.test(values.flow);
+const hasRate = (values) => sheared(values) || values.flow === "couette";
+export const timeUnit = (values) => (hasRate(values) ? "1/γ" : values.phi === 0 ? "1/(n d² v₀)" : "d/v₀");
+export const temperatureUnit = (values) => (hasRate(values) ? "d² γ²" : "v₀²");
+export const speedUnit = (values) => (hasRate(values) ? "d γ" : "v₀");
+
+const MARKS = ["cross", "plus", "dash"];
+
+export function showChart(chart, state) {
+  const kinds = { temperature, speeds, velocities, stress, distance };
+  chart.update(kinds[state.chart](state));
+}
+
+/* Earlier runs, the newest first. */
+const ghosts = (state, log) =>
+  state.ghosts
+    .filter((one) => one.chart === state.chart)
+    .map((one, i) => ({ name: `ghost ${one.label}`, label: one.label, x: one.x, y: one.y, colour: GHOSTS[i], width: 1.5, log }));
+
+function temperature(state) {
+  const { gas, means, shelf } = state,
+    { values } = gas.about,
+    { history } = gas,
+    cooling = values.flow === "hcs",
+    rough = values.collision.beta > -1 || values.collision.mu !== "inf" || history.course("theta").y.some((y) => y > 0);
+  const line = (name, label, colour, dash) => ({ ...history.course(name), name: label, label, colour, dash });
+  const drawn = [line("T", `${t("md")}: T`, MD), line("T2", `${t("dsmc")}: T`, DSMC), line("T3", `${t("twin")}: T`, "#7a3db8")];
+  if (rough) drawn.push(line("theta", `${t("md")}: θ`, MD, "4 3"), line("theta2", `${t("dsmc")}: θ`, DSMC, "4 3"));
+  const series = [...ghosts(state, cooling), ...drawn.filter((one) => one.y.some(Number.isFinite))],
+    x = series.flatMap((one) => one.x).sort((a, b) => a - b);
+  if (means && means.theory && x.length) series.push(...(cooling ? coolingLines(means, x) : steadyLines(means, x, rough, values)));
+  if (history.now > 0) series.push(nowLine(history.now, series));
+  const time = history.key === "time",
+    unit = temperatureUnit(values);
+  return {
+    title: t(rough ? "temperature" : "temperatureOnly"),
+    series,
+    summary: shelf ? t("temperature") : summaryOf(state, "temperature"),
+    x: { label: time ? t("time", { unit: timeUnit(values) }) : t("collisionsAGrain"), symbol: time ? "t" : t("collisionsAGrain"), log: cooling },
+    y: { label: `T (${unit})`, log: cooling, range: cooling ? null : [0, 1.12 * highest(series)] },
+  };
+}
+/* Where a result that is played stands. */
+function nowLine(at, series) {
+  const good = series.flatMap((s) => Array.from(s.y)).filter(inLog),
+    y = good.length ? [Math.min(...good), Math.max(...good)] : [0, 1];
+  return { x: [at, at], y, colour: "#222222", dash: "2 3", width: 1.5, label: t("playedNow"), name: "now", reads: false };
+}
+function highest(series) {
+  const all = series.flatMap((s) => Array.from(s.y)).filter(Number.isFinite);
+  return all.length ? Math.max(...all) || 1 : 1;
+}
+
+/* Of a steady flow: means with their errors as bands, theories as lines across. Between walls the mean is of the steady
+ * flow, which this gas has yet to come to: none is drawn across it. */
+function steadyLines(means, x, rough, values) {
+  const across = [x[0], Math.max(x[x.length - 1], x[0] + 0.1)],
+    out = [],
+    both = rough ? ["temperature", "rotational_temperature"] : ["temperature"];
+  if (/couette|poiseuille|chute/.test(values.flow)) return out;
+  for (const [engine, colour] of [
+    ["md", MD],
+    ["dsmc", DSMC],
+  ])
+    for (const name of both) {
+      const part = means[engine] && means[engine].results,
+        m = mean(part, name),
+        e = error(part, name) || 0;
+      if (Number.isFinite(m)) out.push({ x: across, y: [m, m], band: [e, e], colour, width: 1, name: `mean ${engine} ${name}`, label: t("meanOf", { name: t(engine) }), quiet: true });
+    }
+  for (const name of chosenTheories(theoriesWith(means, ["temperature"])))
+    for (const q of both) {
+      const m = mean(means.theory[name], q);
+      if (Number.isFinite(m)) out.push({ x: across, y: [m, m], ...lineOf(name), width: 1.6, label: titleOf(means, name), title: means.theories[name].title, quiet: q !== "temperature", name: `${name} ${q}` });
+    }
+  return out;
+}
+
+/* Of a line on logarithmic axes the part between two x, with its end there. */
+function pieceOf(x, y, from, to) {
+  const end = x.findIndex((one) => one > to),
+    inside = x.map((_, i) => i).filter((i) => x[i] >= from && x[i] <= to),
+    piece = { x: inside.map((i) => x[i]), y: inside.map((i) => y[i]) };
+  if (end < 1 || !(y[end] > 0)) return piece;
+  const part = Math.log(to / x[end - 1]) / Math.log(x[end] / x[end - 1]);
+  piece.x.push(to);
+  piece.y.push(y[end - 1] * (y[end] / y[end - 1]) ** part);
+  return piece;
+}
+
+/* Theories of free cooling, each with its own rate, as far as the gas has come; those that lie on each other once. */
+export function coolingLines(means, x) {
+  const { time, T } = means.cooling,
+    shown = x.filter(inLog),
+    drawn = store.state.theories ? chosenTheories(Object.keys(T)) : ["haff1983"].filter((name) => T[name]);
+  return (drawn.length ? drawn : chosenTheories(Object.keys(T)).slice(0, 1)).map((name) => ({
+    ...pieceOf(time, T[name], shown[0] / 1.3, shown[shown.length - 1] * 1.3),
+    ...lineOf(name),
+    width: 1.6,
+    label: titleOf(means, name),
+    title: means.theories[name].title,
+    name: `${name} temperature`,
+  }));
+}
+
+/* Of single grains now, beside Maxwell's distribution of the same T. */
+function speeds({ gas }) {
+  const { frame } = now,
+    found = frame && frame.speeds,
+    series = [];
+  if (found) {
+    const { end, density } = found,
+      wide = end / density.length,
+      T = frame.md.temperature,
+      x = Array.from({ length: 81 }, (_, i) => (i * end) / 80),
+      norm = Math.sqrt(2 / Math.PI) / T ** 1.5;
+    series.push({ name: "speeds", label: t("grainsNow"), colour: MD, bars: wide, x: density.map((_, i) => (i + 0.5) * wide), y: density });
+    if (T > 0) series.push({ name: "maxwell", label: t("maxwell"), colour: "#222222", dash: "6 4", x, y: x.map((v) => norm * v * v * Math.exp((-v * v) / (2 * T))) });
+  }
+  const fast = gas.about.fast || 1;
+  return {
+    title: t("speeds"),
+    series,
+    summary: t("speeds"),
+    x: { label: t("speedAxis", { unit: speedUnit(gas.about.values) }), symbol: "v", range: [0, 2.5 * fast] },
+    y: { label: t("shareAxis"), range: [0, 1.3 * Math.max(highest(series.slice(-1)), 0.8 / fast)] },
+  };
+}
+
+function velocities({ means }) {
+  const series = [],
+    /* Cx and Cy, of mixtures those of each species */
+    curves = (engine) =>
+      Object.entries((means && means[engine] && means[engine].curves) || {})
+        .map(([name, c]) => [c, /^velocity_distribution_(C([xy])(?:_(\d+))?)$/.exec(name)])
+        .filter(([, found]) => found);
+  let gauss = null;
+  for (const [engine, colour] of [
+    ["md", MD],
+    ["dsmc", DSMC],
+  ])
+    for (const [c, [, which, axis, species]] of curves(engine)) {
+      const numbers = (list) => list.map((v) => (v === null ? NaN : v));
+      series.push({
+        x: c.x,
+        y: numbers(c.value),
+        band: numbers(c.stderr).map((v) => v || 0),
+        colour,
+        dash: axis === "x" ? "" : "4 3",
+        width: species > 1 ? 1 : 2,
+        label: `${t(engine)}: ${c.label.replace(/[_{}]/g, "")}`,
+        name: `velocities ${engine} ${which}`,
+      });
+      if (!gauss && c.reference) gauss = { x: c.x, y: c.reference.value, colour: "#222222", dash: "1 3", width: 2, label: t("gaussian"), name: "gaussian" };
+    }
+  if (gauss) series.push(gauss);
+  return {
+    title: t("velocities"),
+    series,
+    summary: t("velocities"),
+    x: { label: t("velocityAxis"), symbol: "C", range: [-5, 5] },
+    y: { label: "P / P(0)", log: true, range: [1e-4, 2] },
+  };
+}
+
+/* The three pressures along x, y and z over their mean, as they are now and as they are measured. */
+function stress({ means }) {
+  const series = [],
+    names = ["P_xx", "P_yy", "P_zz"],
+    add = (part, at, rest) => {
+      const p = mean(part, "pressure");
+      if (Number.isFinite(mean(part, "P_xx")) && p > 0)
+        series.push({ x: names.map((_, i) => i + at), y: names.map((name) => mean(part, name) / p), error: names.map((name) => error(part, name) / p || 0), points: true, ...rest });
+    };
+  if (means && means.theory) {
+    const chosen = chosenTheories(theoriesWith(means, ["P_xx"]));
+    chosen.forEach((name, i) =>
+      add(means.theory[name], (0.36 * (i + 0.5)) / chosen.length - 0.18, { name, colour: lineOf(name).colour, shape: MARKS[i % MARKS.length], label: titleOf(means, name) }),
+    );
+    add(means.md && means.md.results, -0.26, { name: "md", colour: MD, shape: "circle", label: t("md") });
+    add(means.dsmc && means.dsmc.results, 0.26, { name: "dsmc", colour: DSMC, shape: "square", label: t("dsmc") });
+  }
+  const { frame } = now,
+    s = frame && frame.md && frame.md.kineticStress;
+  if (s && s.length === 3) {
+    const p = (s[0][0] + s[1][1] + s[2][2]) / 3;
+    if (p > 0) series.unshift({ name: "now", label: t("stressNow"), colour: "#9fc3dd", bars: 0.8, x: [0, 1, 2], y: [0, 1, 2].map((a) => s[a][a] / p) });
+  }
+  const all = series.flatMap((one) => one.y).filter(Number.isFinite);
+  return {
+    title: t("stress"),
+    series,
+    summary: means ? `${summaryOf({ means }, "N1")}. ${summaryOf({ means }, "N2")}` : t("stress"),
+    x: { names: [t("alongX"), t("alongY"), t("alongZ")], range: [-0.5, 2.5] },
+    y: { label: t("pressureAxis"), range: [0, Math.max(1.5, 1.1 * Math.max(0, ...all))] },
+  };
+}
+
+/* How far the grains are from where they began, or from their twins: over decades. */
+function distance(state) {
+  const { x, y } = state.gas.history.far || { x: [], y: [] },
+    twin = state.pair === "bit";
+  return {
+    title: t(twin ? "distanceTwin" : "distanceStart"),
+    series: [...ghosts(state, twin), { name: "distance", label: t(twin ? "distanceTwin" : "distanceStart"), colour: MD, x, y }],
+    summary: t(twin ? "distanceTwin" : "distanceStart"),
+    x: { label: t("collisionsAGrain"), symbol: t("collisionsAGrain"), range: [0, Math.max(10, ...x.slice(-1))] },
+    y: { label: t("distanceAxis"), log: true, range: [1e-17, 10] },
+  };
+}
+
+function summaryOf({ means }, name) {
+  if (!means || !means.theory) return t("waiting");
+  const parts = ["md", "dsmc"].map((engine) => [t(engine), withError(mean(means[engine] && means[engine].results, name), error(means[engine] && means[engine].results, name))]);
+  const theories = chosenTheories(theoriesWith(means, [name])).map((one) => [theoryName(one), number(mean(means.theory[one], name))]);
+  return `${name}: ${parts
+    .concat(theories)
+    .map(([who, what]) => `${who} ${what}`)
+    .join("; ")}`;
+}

@@ -1,0 +1,64 @@
+/* Frames: the gas is asked to go on as far as the clock on the wall says. */
+import { tickPlaying } from "./files.js";
+import { now, workers } from "./gas.js";
+import { clicks } from "./sound.js";
+import { store } from "./state.js";
+
+export const SPEEDS = [-3, -2, -1, 0, 1, 2].flatMap((k) => [+(10 ** k).toPrecision(1), +(3 * 10 ** k).toPrecision(1)]).concat(1000);
+const MOST_OWED = 1; /* seconds that the gas has yet to go on for; above they are lost */
+export const MOST_BEHIND = 0.7; /* those lost in frames one after another; from here on that is said */
+
+let last = 0;
+/* `draw()` the newest frame. */
+export function runClock(draw) {
+  const tick = (time) => {
+    requestAnimationFrame(tick); /* first: whatever goes wrong in one frame, the next is drawn */
+    const seconds = Math.min((time - (last || time)) / 1000, 0.25);
+    last = time;
+    const { gas, player } = store.state;
+    if (now.fresh) {
+      now.fresh = false;
+      draw(time);
+    }
+    owe(gas ? seconds : 0);
+    if (player) tickPlaying(seconds);
+    else if (gas && !now.busy && (store.state.playing || now.want || now.step)) ask();
+  };
+  requestAnimationFrame(tick);
+}
+
+function owe(seconds) {
+  const { playing, player } = store.state;
+  if (!playing || player) now.owed = 0;
+  else now.owed += seconds;
+  now.lost += Math.max(0, now.owed - MOST_OWED);
+  now.owed = Math.min(now.owed, MOST_OWED);
+}
+
+async function ask() {
+  const { gas, speed, colour, follow, chart } = store.state,
+    { step } = now,
+    seconds = step ? 0 : now.owed;
+  Object.assign(now, { busy: true, owed: 0, want: false, step: false });
+  try {
+    const frame = await workers.live.ask("frame", { collisions: speed * seconds, colour, follow, step, speeds: chart === "speeds" });
+    if (gas === store.state.gas) take(frame, gas, seconds);
+    else now.want = true; /* a start came between; if it is refused, the gas before is to be seen */
+  } catch (e) {
+    if (gas === store.state.gas) {
+      store.dispatch("banner", { banner: { text: e.message, offers: [] } });
+      store.look({ playing: false });
+    }
+  }
+  now.busy = false;
+}
+
+function take(frame, gas, seconds) {
+  const before = now.frame,
+    lost = now.lost + (frame.behind ? seconds : 0);
+  now.behind = lost > 0 ? now.behind + lost : 0;
+  Object.assign(now, { frame, fresh: true, frames: now.frames + 1, lost: 0 });
+  gas.history.add(frame.md, frame.dsmc, frame.twin);
+  if (frame.md) gas.history.addDistance(frame.md.collisionsPerGrain, frame.distance);
+  if (store.state.sound && before && before.md && frame.md) clicks(before.md, frame.md, gas.about.fast, seconds);
+}

@@ -1,0 +1,204 @@
+/* Which gas runs: what is asked of the workers, and what becomes of their answers. */
+import { rowOf, setsOf, shownValue, symbolOf } from "./controls.js";
+import { LESSONS, lessonOf, nearestLesson } from "./lessons.js";
+import { TemperatureHistory } from "./history.js";
+import { t } from "./i18n.js";
+import { store } from "./state.js";
+import { WorkerClient } from "./worker_rpc.js";
+import { byId, number } from "./words.js";
+
+export const START = LESSONS[0];
+const MOST_GRAINS = 20000,
+  MOST_BYTES = 6e8,
+  FEWER = 2000;
+
+export const workers = { live: null, measure: null };
+/* What comes with frames; not for the state. */
+export const now = { frame: null, frames: 0, fresh: false, want: true, step: false, owed: 0, lost: 0, behind: 0, busy: false };
+const renew = () => Object.assign(now, { frame: null, fresh: false, want: true, owed: 0, lost: 0, behind: 0 });
+
+async function wasmBytes() {
+  const packed = Uint8Array.from(atob(byId("wasm").textContent.trim()), (c) => c.charCodeAt(0));
+  byId("wasm").textContent = "";
+  return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+}
+
+/* Their version. The second, which measures, is waited for by those who measure. */
+export async function openWorkers() {
+  const wasm = await wasmBytes(),
+    source = URL.createObjectURL(new Blob([byId("worker").textContent], { type: "text/javascript" }));
+  workers.live = new WorkerClient(source);
+  workers.measure = new WorkerClient(source);
+  workers.measure.onmeans = takeMeans;
+  workers.measure.ask("open", { wasm }).catch((e) => store.dispatch("banner", { banner: { text: e.message, offers: [] } }));
+  return (await workers.live.ask("open", { wasm })).version;
+}
+
+/* ---- A new gas ---- */
+
+let asks = 0,
+  edits = 0;
+export const askNumber = () => ++asks;
+
+/* A control was moved. Changes add up until the sliders rest. */
+export function change(key, value) {
+  const { asked } = store.state;
+  store.dispatch("ask", { asked: { id: askNumber(), sets: { ...asked.sets, ...setsOf(key, value) } } });
+  clearTimeout(edits);
+  edits = setTimeout(() => again(), 120);
+}
+/* What is asked for, with more keys set. */
+export function again(more = {}, options = {}) {
+  const { scene, sets } = store.state.asked;
+  return start(scene, { ...sets, ...more }, options);
+}
+
+/* Too many grains for a page? Whoever opened the link is asked first. */
+async function isTooLarge(scene, sets, options, id) {
+  const { particles, bytes } = await workers.live.ask("cost", { scene, sets });
+  if (particles <= MOST_GRAINS && bytes <= MOST_BYTES) return false;
+  if (id !== store.state.asked.id) return true;
+  const fewer = { ...sets, particles: String(FEWER), "dsmc.particles": "auto" };
+  store.dispatch("refused", {
+    text: t("tooLarge", { n: particles.toLocaleString(store.state.language), bytes: number(bytes / 1e6, 2) }),
+    offers: [
+      { label: t("fewer", { n: FEWER }), act: () => start(scene, fewer, options) },
+      { label: t("runAll"), act: () => start(scene, sets, { ...options, whatever: true }) },
+    ],
+  });
+  return true;
+}
+
+/* Whether the scene is one; if not, the gas that there was goes on, and the banner says why. `look`: what of the state
+ * changes with it. */
+export async function start(scene, sets, options = {}) {
+  const { lesson = store.state.lesson, look = {}, keepBanner = false, whatever = false } = options,
+    id = askNumber(),
+    { remember = false } = lessonOf(lesson) || {};
+  clearTimeout(edits); /* whatever a control was about to change is in it, or was of the gas before */
+  store.dispatch("ask", { asked: { id, scene, sets } });
+  let answer;
+  try {
+    if (!whatever && (await isTooLarge(scene, sets, options, id))) return false;
+    answer = await workers.live.ask("start", { scene, sets, pair: ("pair" in look ? look.pair : store.state.pair) || null, remember });
+  } catch (e) {
+    if (id === store.state.asked.id) refuse(e.message, sets, scene);
+    return false;
+  }
+  const { about, refusal, dsmcRefusal } = answer,
+    gas = { id, scene, sets, lesson, about, refusal, dsmcRefusal, history: new TemperatureHistory(about.values.flow === "hcs") };
+  leaveGhost(gas);
+  const quantity = about.values.flow === "hcs" && store.state.quantity === "temperature" ? { quantity: "cooling_rate" } : {}; /* T has no mean there */
+  if (store.state.player) workers.live.ask("close").catch(() => {});
+  renew();
+  store.dispatch("started", { gas, change: { lesson, ...quantity, ...look, ...(keepBanner ? {} : { banner: null }) } });
+  askMeans();
+  return true;
+}
+
+function refuse(message, sets, scene) {
+  const keys = Object.keys(sets).filter((key) => message.includes(key)),
+    text = store.state.gas || !scene ? message : t("refusedLink", { why: message });
+  store.dispatch("refused", { text: text.slice(0, 700), keys });
+}
+
+/* The curve of the gas that goes stays in the diagram, if the next one is of its kind. */
+function leaveGhost(next) {
+  const { gas, slider, chart, player } = store.state;
+  if (!gas || player || gas.lesson !== next.lesson || gas.about.values.flow !== next.about.values.flow) return;
+  const row = rowOf(slider),
+    [before, after] = [gas, next].map(({ about }) => shownValue(row, about.values));
+  if (before === after) return;
+  const course = chart === "distance" ? gas.history.far : gas.history.course("T");
+  if (course.x.length < 8) return;
+  store.dispatch("ghost", { ghost: { label: `${symbolOf(row)} = ${number(before)}`, chart, x: [...course.x], y: [...course.y] } });
+}
+
+/* ---- Lessons ---- */
+
+/* How a lesson is shown. */
+export const lookOf = ({ speed, colour, camera, pair, chart, quantity, slider, follow }) => ({
+  speed,
+  colour,
+  camera,
+  pair,
+  chart,
+  slider,
+  follow,
+  ghosts: [],
+  theories: null,
+  ...(quantity ? { quantity } : {}),
+});
+export function openLesson(name, { sets = {}, look = {} } = {}) {
+  const lesson = lessonOf(name);
+  return start(lesson.scene, sets, { lesson: name, look: { ...lookOf(lesson), ...look } });
+}
+/* A gas of one's own: no words beside it. */
+export function ownScene(scene, sets = {}, look = {}) {
+  return start(scene, sets, { lesson: null, look: { ghosts: [], pair: "", chart: "temperature", ...look } });
+}
+
+/* What a link asks for, or the command, or nobody. */
+export async function follow({ scene, sets, lesson, look }, given = null) {
+  const known = lessonOf(lesson);
+  let ok;
+  if (scene === null && known) ok = await openLesson(known.name, { sets, look });
+  else if (scene !== null || given) ok = await ownScene(scene ?? given, sets, look);
+  else ok = await openLesson(START.name, { sets, look });
+  if (!ok && !store.state.gas) await openLesson(START.name).then(() => restoreBanner());
+  if (lesson !== null && !known) unknownLesson(lesson);
+}
+let said = null;
+store.subscribe((state, before) => {
+  if (state.banner && state.banner !== before.banner) said = state.banner;
+});
+/* The first gas does not wipe away why another was not shown. */
+function restoreBanner() {
+  if (said) store.dispatch("banner", { banner: said });
+}
+function unknownLesson(wrong) {
+  const near = nearestLesson(wrong);
+  store.dispatch("banner", {
+    banner: {
+      text: t("noLesson", { name: wrong.slice(0, 60) }),
+      offers: near ? [{ label: t(`lesson_${near}`), act: () => openLesson(near) }] : [],
+    },
+  });
+}
+
+/* ---- Means ---- */
+
+let timer = 0,
+  asking = false,
+  measuring = { job: 0, gas: 0 };
+
+/* Theories take a second: only the newest gas is measured, after the sliders rest. */
+export function askMeans() {
+  clearTimeout(timer);
+  timer = setTimeout(async () => {
+    if (asking) {
+      askMeans();
+      return;
+    }
+    const { gas, player } = store.state;
+    if (player) return;
+    asking = true;
+    measuring = { job: workers.measure.count + 1, gas: gas.id };
+    try {
+      store.dispatch("means", { id: gas.id, means: await workers.measure.ask("measure", { scene: gas.scene, sets: gas.sets }) });
+    } catch (e) {
+      store.dispatch("means", { id: gas.id, means: { failed: e.message, theory: {}, theories: {}, progress: {} } });
+    }
+    asking = false;
+  }, 300);
+}
+function takeMeans(data) {
+  if (data.id !== measuring.job || asking) return;
+  if (data.refused !== undefined) store.dispatch("means", { id: measuring.gas, means: { failed: data.refused, theory: {}, theories: {}, progress: {} } });
+  else store.dispatch("means", { id: measuring.gas, means: data.answer });
+}
+
+export async function reverse() {
+  await workers.live.ask("reverse");
+  now.want = true;
+}

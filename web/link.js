@@ -1,0 +1,86 @@
+/* The state of the page in its address, as little as says it: #lesson=haff&set=collision.e=0.8, or #scene={flow: ...}.
+ * Also read after a question mark. */
+import { LANGUAGES, ownLanguage } from "./i18n.js";
+import { lessonOf } from "./lessons.js";
+import { lookOf, START } from "./gas.js";
+import { initial, store } from "./state.js";
+
+const VIEWS = ["all", "box", "curve", "present"],
+  COLOURS = ["speed", "spin", "since", "along", "origin"],
+  CHARTS = ["temperature", "speeds", "velocities", "stress", "distance"],
+  PAIRS = ["", "elastic", "bit"];
+const one = (list) => ({ read: (text) => (list.includes(text) ? text : undefined), write: String });
+const yes = { read: (text) => text === "1", write: (value) => (value ? "1" : "0") };
+/* How it is shown: parameters by their place in the state. */
+const LOOK = {
+  view: one(VIEWS),
+  colour: one(COLOURS),
+  chart: one(CHARTS),
+  pair: one(PAIRS),
+  follow: yes,
+  images: yes,
+  playing: yes,
+  speed: { read: (text) => (+text >= 0.001 && +text <= 1000 ? +text : undefined), write: String },
+  camera: {
+    read: (text) => {
+      const at = text.split(",").map(Number);
+      return at.length === 3 && at.every(Number.isFinite) && at[2] >= 0.4 && at[2] <= 8 ? at : undefined;
+    },
+    write: (at) => at.map((x) => +x.toFixed(2)).join(","),
+  },
+};
+
+export function readLink(place = location) {
+  const given = new URLSearchParams(place.hash.length > 1 ? place.hash.slice(1) : place.search.slice(1)),
+    look = {};
+  const pairs = given.getAll("set").map((text) => {
+    const at = text.indexOf("=");
+    return at < 0 ? [text, ""] : [text.slice(0, at), text.slice(at + 1)];
+  });
+  if (given.has("seed")) pairs.push(["run.seed", given.get("seed")]);
+  for (const [name, { read }] of Object.entries(LOOK)) {
+    const value = given.has(name) ? read(given.get(name)) : undefined;
+    if (value !== undefined) look[name] = value;
+  }
+  const language = given.get("language");
+  return {
+    scene: given.get("scene"),
+    sets: Object.fromEntries(pairs) /* whatever a key is called */,
+    lesson: given.get("lesson"),
+    language: Object.keys(LANGUAGES).includes(language) ? language : null,
+    look,
+  };
+}
+
+/* Of the live gas; while a result is played, of the one that waits. */
+export function linkOf(state, own = ownLanguage()) {
+  const of = state.shelf ? { ...state, ...state.shelf } : state,
+    lesson = lessonOf(of.lesson),
+    usual = { ...initial, ...(lesson ? lookOf(lesson) : {}) },
+    to = new URLSearchParams();
+  const { gas } = of;
+  if (lesson) {
+    if (lesson !== START) to.set("lesson", lesson.name);
+    for (const [key, value] of Object.entries(gas.sets)) if (key !== "run.seed") to.append("set", `${key}=${value}`);
+    if (gas.sets["run.seed"] !== undefined) to.set("seed", gas.sets["run.seed"]);
+  } else to.set("scene", gas.about.brief);
+  for (const [name, { write }] of Object.entries(LOOK))
+    if (write(of[name]) !== write(usual[name]) && name !== "playing") to.set(name, write(of[name]));
+  if (!of.playing) to.set("playing", "0");
+  if (state.language !== own) to.set("language", state.language);
+  /* what may stand in an address as it is, so that people can read it */
+  const text = to.toString().replace(/%(3A|2C|7B|7D|5B|5D|3D)/g, (code) => decodeURIComponent(code));
+  return text ? `#${text}` : "";
+}
+
+/* An entry of the history for another lesson or scene, none for the movement of a slider. */
+export function writeLink(state, step) {
+  const link = linkOf(state),
+    at = location.href.split("#")[0] + link;
+  if (location.href === at) return;
+  try {
+    history[step ? "pushState" : "replaceState"](null, "", at);
+  } catch (e) {
+    /* an address too long for this browser */
+  }
+}

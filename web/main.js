@@ -1,0 +1,177 @@
+/* The page: what people do, and what becomes of it. */
+import { BoxView, CAMERA } from "./box.js";
+import { runClock, SPEEDS } from "./clock.js";
+import { Controls, wantedValues } from "./controls.js";
+import { endPlaying, FRAMES_A_SECOND, goTo, listenForFiles, openFile, played } from "./files.js";
+import { again, change, follow, now, openWorkers, ownScene, reverse, start, workers } from "./gas.js";
+import { ownLanguage, t } from "./i18n.js";
+import { lessonOf } from "./lessons.js";
+import { linkOf, readLink } from "./link.js";
+import { keepPoint, pointsCsv } from "./points.js";
+import { qrSvg } from "./qr.js";
+import { curvesCsv, fileName, save } from "./save.js";
+import { begin, describe, drawFrame, parts, say, show } from "./show.js";
+import { openSound } from "./sound.js";
+import { store } from "./state.js";
+import { byId } from "./words.js";
+
+function givenScene() {
+  const given = JSON.parse(byId("given").textContent);
+  return given === null || /^@given@$/.test(given) ? null : given;
+}
+
+async function main() {
+  const link = readLink(),
+    turned = (camera) => store.look({ camera });
+  begin({
+    controls: new Controls(byId("control-rows"), change, wantedValues),
+    view: new BoxView(byId("box"), turned),
+    twin: new BoxView(byId("twin"), turned),
+  });
+  store.subscribe(show);
+  store.dispatch("look", { change: { language: link.language || ownLanguage(), view: link.look.view || "all" } });
+  show(store.state, {});
+  listen();
+  byId("lesson-name").textContent = t("loading");
+  try {
+    byId("version").textContent = t("version", { version: `${await openWorkers()} @commit@` });
+  } catch (e) {
+    byId("lesson-name").textContent = t("broken", { why: e.message });
+    return;
+  }
+  if (matchMedia("(prefers-reduced-motion: reduce)").matches) link.look = { playing: false, ...link.look };
+  await follow(link, givenScene());
+  byId("main").inert = false; /* until now there was no gas that controls could act on */
+  runClock(drawFrame);
+}
+
+/* ---- What people do ---- */
+
+function play(yes) {
+  if (yes && store.state.player && played.at >= store.state.player.frames - 1) played.at = 0;
+  store.look({ playing: yes });
+}
+function step() {
+  if (store.state.player) {
+    goTo(Math.floor(played.at) + 1);
+    return;
+  }
+  play(false);
+  now.step = true;
+}
+function faster(by) {
+  const { player, speed } = store.state,
+    next = (all, one) => all[Math.min(all.length - 1, Math.max(0, all.findIndex((x) => x >= one) + by))];
+  if (player) store.look({ player: { ...player, rate: next(FRAMES_A_SECOND, player.rate) } });
+  else store.look({ speed: next(SPEEDS, speed) });
+}
+function present() {
+  const yes = store.state.view !== "present";
+  store.look({ view: yes ? "present" : "all" });
+  const done = yes ? document.documentElement.requestFullscreen?.() : document.fullscreenElement && document.exitFullscreen();
+  if (done) done.catch(() => {}); /* a page within another may not */
+}
+
+const on = (id, what, kind = "click") => byId(id).addEventListener(kind, what);
+const KEYS = {
+  " ": () => play(!store.state.playing),
+  f: present,
+  d: () => say(describe()),
+  k: () => byId("keep").click(),
+};
+function listen() {
+  on("play", () => play(!store.state.playing));
+  on("step", step);
+  on("slower", () => faster(-1));
+  on("faster", () => faster(1));
+  on("restart", () => (store.state.player ? goTo(0) : again()));
+  on("reseed", () => again({ "run.seed": String(1 + Math.floor(Math.random() * 999999)) }));
+  on("reverse", () => reverse().then(() => say(t("reversed"))));
+  on("keep", () => {
+    keepPoint();
+    say(t("kept"));
+  });
+  on("forget", () => store.dispatch("forget"));
+  on("present", present);
+  on("describe", () => say(describe()));
+  for (const name of ["colour", "quantity", "language"]) on(name, () => store.look({ [name]: byId(name).value }), "change");
+  on("chart-kind", () => store.look({ chart: byId("chart-kind").value }), "change");
+  for (const name of ["images", "follow", "everything"]) on(name, () => store.look({ [name]: byId(name).checked }), "change");
+  on("sound", () => {
+    if (byId("sound").checked) openSound();
+    store.look({ sound: byId("sound").checked });
+  }, "change");
+  on("pair", () => again({}, { look: { pair: byId("pair").value } }), "change");
+  on("use-yaml", () => ownScene(byId("yaml").value));
+  on("controls", (e) => e.preventDefault(), "submit");
+  for (const button of document.querySelectorAll("[data-move]"))
+    button.addEventListener("click", () => parts.view.move(...button.dataset.move.split(" ").map(Number)));
+  on("camera-home", () => store.look({ camera: (lessonOf(store.state.lesson) || { camera: CAMERA }).camera }));
+  listenForTaking();
+  listenForFiles();
+  listenForKeys();
+  window.addEventListener("hashchange", () => {
+    const link = readLink();
+    if (link.language) store.look({ language: link.language });
+    if (store.state.player) endPlaying();
+    follow(link, givenScene());
+  });
+  for (const kind of ["resize", "fullscreenchange"])
+    window.addEventListener(kind, () => {
+      now.fresh = !!now.frame;
+    });
+  document.addEventListener("fullscreenchange", () => {
+    if (!document.fullscreenElement && store.state.view === "present") store.look({ view: "all" });
+  });
+}
+
+/* Not where somebody types, or where a key has a meaning already. */
+function listenForKeys() {
+  document.addEventListener("keydown", (e) => {
+    const typing = e.target.closest("input, textarea, select, button, summary, dialog, a");
+    if (typing || e.ctrlKey || e.metaKey || e.altKey) return;
+    if (e.key === "Escape" && store.state.view === "present") present();
+    if (!KEYS[e.key]) return;
+    KEYS[e.key]();
+    e.preventDefault();
+  });
+}
+
+/* ---- Taking along ---- */
+
+function listenForTaking() {
+  const about = () => store.state.gas.about;
+  on("save-png", () => {
+    parts.view.again();
+    byId("box").toBlob((blob) => graingas.save(fileName(about(), "png"), blob));
+  });
+  const text = (id, ending, type, make) => on(id, () => graingas.save(fileName(about(), ending), new Blob([make()], { type })));
+  text("save-csv", "csv", "text/csv", () => curvesCsv(store.state.gas.history, store.state.means, about().title));
+  text("save-yaml", "yaml", "text/yaml", () => about().yaml);
+  on("save-points", () => graingas.save("graingas-points.csv", new Blob([pointsCsv(store.state.points)], { type: "text/csv" })));
+  on("share", openSharing);
+  on("close-sharing", () => byId("sharing").close());
+  on("copy-link", async () => {
+    byId("link").select();
+    try {
+      await navigator.clipboard.writeText(byId("link").value);
+      byId("link-said").textContent = t("copied");
+    } catch (e) {
+      byId("link-said").textContent = t("copyYourself");
+    }
+  });
+}
+/* A link to a file is of no use to others: they need the file, and what is asked for after #. */
+function openSharing() {
+  const here = location.protocol === "file:",
+    link = location.href.split("#")[0] + linkOf(store.state);
+  byId("link").value = link;
+  byId("link-words").textContent = t(here ? "linkFile" : "linkWorks");
+  byId("link-said").textContent = "";
+  byId("qr").replaceChildren(...(here ? [] : qrSvg(link, t("qrLabel"))));
+  byId("sharing").showModal();
+}
+
+/* What tests and those who are curious on the console want. */
+globalThis.graingas = { store, workers, now, parts, start, ownScene, openFile, openSharing, describe, drawFrame, linkOf, played, save };
+main();

@@ -1,0 +1,128 @@
+/* The state of the page: one object, with one writer. Whoever wants a change dispatches an action; whoever shows
+ * something subscribes. What comes with every frame (grains, clock) is not in it. */
+
+export const initial = {
+  language: "en",
+  view: "all" /* "box", "curve": for pages that embed it; "present": for a projector */,
+  lesson: null /* its name; null: a gas of one's own */,
+  asked: { id: 0, scene: "", sets: {} } /* what is wanted of the next gas; in force or on its way */,
+  gas: null /* what runs: {id, scene, sets, lesson, about, refusal, dsmcRefusal, history} */,
+  means: null,
+  shelf: null /* the live gas while a result is played */,
+  player: null /* the result that is played: {name, frames, rate} */,
+  playing: true,
+  speed: 1,
+  colour: "speed",
+  follow: false,
+  images: true,
+  sound: false,
+  camera: [0.45, 0.22, 1],
+  pair: "",
+  chart: "temperature",
+  quantity: "temperature",
+  slider: "e",
+  theories: null /* those that are drawn; null: the first few */,
+  everything: false,
+  banner: null /* {text, offers: [{label, act}]} */,
+  refusedKeys: [],
+  ghosts: [] /* curves of runs before: {label, chart, x, y} */,
+  points: [],
+  lines: {} /* of theories over the slider: {key: {x, theory: [per x]}} */,
+};
+
+/* What belongs to the gas that is seen, and comes back with it after a result was played. */
+const SHELVED = ["gas", "means", "lesson", "playing", "theories", "chart", "pair"];
+const pick = (from, names) => Object.fromEntries(names.map((name) => [name, from[name]]));
+
+const ACTIONS = {
+  /* Anything of how it is shown. */
+  look: (state, { change }) => ({ ...state, ...change }),
+
+  /* A gas is asked for; an edit is the same, a little earlier. */
+  ask: (state, { asked }) => ({ ...state, asked: { ...state.asked, ...asked } }),
+  /* It runs. Answers may come late: only what was asked for later stays asked. A new flow has other theories. */
+  started: (state, { gas, change }) => ({
+    ...state,
+    ...change,
+    ...(state.shelf ? { shelf: null, player: null, playing: state.shelf.playing } : {}),
+    gas,
+    asked: state.asked.id > gas.id ? state.asked : { id: gas.id, scene: gas.scene, sets: gas.sets },
+    means: null,
+    refusedKeys: [],
+    theories: state.gas && state.gas.about.values.flow !== gas.about.values.flow ? null : state.theories,
+  }),
+  /* It is refused: the gas that there was goes on. */
+  refused: (state, { text, keys = [], offers = [] }) => ({
+    ...state,
+    asked: state.gas ? { id: state.asked.id, scene: state.gas.scene, sets: state.gas.sets } : state.asked,
+    refusedKeys: keys,
+    banner: { text, offers },
+  }),
+  banner: (state, { banner }) => ({ ...state, banner }),
+
+  /* Of the gas that is seen, or of the one that waits. */
+  means: (state, { id, means }) =>
+    state.gas && state.gas.id === id
+      ? { ...state, means }
+      : state.shelf && state.shelf.gas.id === id
+        ? { ...state, shelf: { ...state.shelf, means } }
+        : state,
+
+  /* A result is played; the live gas waits. */
+  play: (state, { player, gas, change }) => ({
+    ...state,
+    ...change,
+    shelf: state.shelf || pick(state, SHELVED),
+    player,
+    gas,
+    asked: { id: gas.id, scene: gas.scene, sets: {} },
+    means: null,
+    lesson: null,
+    theories: null,
+    banner: null,
+  }),
+  back: (state, { id }) => {
+    const { gas } = state.shelf;
+    return { ...state, ...state.shelf, shelf: null, player: null, asked: { id, scene: gas.scene, sets: gas.sets } };
+  },
+
+  ghost: (state, { ghost }) => ({ ...state, ghosts: [ghost, ...state.ghosts.filter((one) => one.label !== ghost.label)].slice(0, 3) }),
+  point: (state, { points }) => ({ ...state, points: [...state.points, ...points] }),
+  forget: (state) => ({ ...state, points: [], ghosts: [] }),
+  line: (state, { key, line }) => ({ ...state, lines: { ...state.lines, [key]: line } }),
+};
+
+export function reduce(state, action) {
+  return ACTIONS[action.type](state, action);
+}
+
+export class Store {
+  constructor(state = initial) {
+    this.state = state;
+    this.listeners = [];
+    this.shown = state;
+  }
+  /* Whoever listens hears of it at once, but not within another's hearing. */
+  dispatch(type, more = {}) {
+    this.state = reduce(this.state, { type, ...more });
+    if (this.telling) return;
+    this.telling = true;
+    try {
+      for (let round = 0; this.shown !== this.state && round < 20; round++) {
+        const before = this.shown;
+        this.shown = this.state;
+        for (const listener of this.listeners) listener(this.shown, before);
+      }
+    } finally {
+      this.telling = false;
+    }
+  }
+  look(change) {
+    this.dispatch("look", { change });
+  }
+  subscribe(listener) {
+    this.listeners.push(listener);
+  }
+}
+
+export const store = new Store();
