@@ -203,7 +203,7 @@ static void observables(void **state)
 {
   (void)state;
   static const char *const md_alone[] = {
-      "pair_correlation",    "velocity_correlations",      "structure", "cells", "diffusion", "profiles",
+      "pair_correlation",    "velocity_correlations",      "structure", "cells", "diffusion",
       "local_distributions", "local_velocity_correlations"};
   gg_bench b;
   gg_bench_options o = {.quick = true, .smaller = 20, .tell = tell};
@@ -213,6 +213,7 @@ static void observables(void **state)
   assert_int_equal(told, s->n_rows);
   assert_int_equal(s->n_columns, 1 + 2 * 2 * 3); /* engines, densities, sizes */
   size_t next = 0;
+  double most = -1;
   for (int r = 0; r < s->n_rows; r++) {
     bool of_md = strcmp(s->cell[r][0], "viscosity") != 0 && strcmp(s->cell[r][0], "conductivity") != 0, of_dsmc = true;
     for (size_t k = 0; k < sizeof md_alone / sizeof *md_alone; k++) of_dsmc &= strcmp(s->cell[r][0], md_alone[k]) != 0;
@@ -223,9 +224,12 @@ static void observables(void **state)
       const json_t *row = json_array_get(s->rows, next++);
       assert_true(is_word(row, "observable", s->cell[r][0]) && is_word(row, "engine", dsmc ? "dsmc" : "md"));
       assert_true(is_word(row, "unit", "ns per collision") && of(row, "particles") > 0);
+      most = fmax(most, of(row, "overhead"));
     }
   }
   assert_int_equal(next, json_array_size(s->rows));
+  print_message("# the largest overhead: %g\n", most);
+  assert_true(most > 1); /* conductivity doubles the work; upside down no overhead is above 0 */
   end(&b);
 }
 

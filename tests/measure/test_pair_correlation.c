@@ -140,6 +140,22 @@ static double one(double x, const void *context)
   return 1;
 }
 
+/* Few of them: no grain is its own partner. */
+static void few_points(void **state)
+{
+  (void)state;
+  gg_model m = ct_model(GG_USF, 0.02, -1, 12, 1);
+  gg_curves list = ct_curves(&gg_measure_pair_correlation, &m, 30000, thrown, 52);
+  double sum = 0, weight = 0;
+  for (size_t k = 0; k < list.curve->n; k++) {
+    const double shell = list.curve->x[k] * list.curve->x[k];
+    sum += shell * list.curve->value[k], weight += shell;
+  }
+  print_message("# %zu bins, mean %g\n", list.curve->n, sum / weight);
+  assert_true(fabs(sum / weight - 1) < 0.02); /* 1/12 off by a pair with itself */
+  gg_measure_curves_clear(&list);
+}
+
 /* Points thrown anywhere: g_11 = g_12 = g_22 = 1 at every distance; and the rate planted with them. */
 static void ideal_gas(void **state)
 {
@@ -371,10 +387,10 @@ static void dense(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(pairs_of_images), cmocka_unit_test(sampled_pairs),
-      cmocka_unit_test(ideal_gas),       cmocka_unit_test(planted_collisions),
-      cmocka_unit_test(hard_spheres),    cmocka_unit_test(inelastic),
-      cmocka_unit_test(dense),
+      cmocka_unit_test(pairs_of_images),    cmocka_unit_test(sampled_pairs),
+      cmocka_unit_test(few_points),         cmocka_unit_test(ideal_gas),
+      cmocka_unit_test(planted_collisions), cmocka_unit_test(hard_spheres),
+      cmocka_unit_test(inelastic),          cmocka_unit_test(dense),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
