@@ -2,12 +2,13 @@
 
 #include <math.h>
 
-/* Least e of any pair. */
+/* Least e of any pair. (gcc 12 for 64-bit ARM breaks off at a loop of fmin.) */
 static double least_restitution(const gg_model *m)
 {
   double least = 1;
   for (int i = 0; i < m->n_species; i++)
-    for (int j = 0; j < m->n_species; j++) least = fmin(least, m->e[gg_pair(i, j)]);
+    for (int j = 0; j < m->n_species; j++)
+      if (m->e[gg_pair(i, j)] < least) least = m->e[gg_pair(i, j)];
   return least;
 }
 
