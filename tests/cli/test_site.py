@@ -26,6 +26,8 @@ def site():
         return
     if SANITIZERS != "none":
         raise Skip("sanitizers would have to be loaded before Python")
+    if not os.path.isdir(os.path.join(BUILD, "python", "graingas")):
+        raise Skip("this build has no Python module")
     for tool in "doxygen", "sphinx-build", "pandoc":
         if not shutil.which(tool):
             raise Skip(f"{tool} is not installed")
