@@ -3,9 +3,10 @@
  * Grains carry: sums over all samples of the window, about a straight line of velocity and one of spin in each slab, as
  * in profiles.c. Collisions pass on over the line between both centres (Irving & Kirkwood, J. Chem. Phys. 18 (1950)
  * 817; Todd, Evans & Daivis, Phys. Rev. E 52 (1995) 1627): each slab has the share of the line that lies in it. What
- * passes from grain 1 to 2 is the impulse J, half of what 2 gains in energy less what 1 gains, the same of the spin's
- * angular momentum about z; the energy that both lose goes at the centres, half at each. A wall is a partner at its
- * place: between it and the centre of a grain that touches, fluxes are those through the wall.
+ * passes from grain 1 to 2 (at heights that are sigma k_y apart, or, in Monte Carlo, what its cells make of that) is
+ * the impulse J, half of what 2 gains in energy less what 1 gains, the same of the spin's angular momentum about z; the
+ * energy that both lose goes at the centres, half at each. A wall is a partner at its place: between it and the centre
+ * of a grain that touches, fluxes are those through the wall.
  *
  * So momentum and energy are conserved exactly at every height. With F the flux of energy along y, in the laboratory,
  *   dF/dy = rho g.u - loss,
@@ -168,8 +169,9 @@ static void add_collision(void *self, const gg_collision_record *c)
     return;
   }
   const gain one = gain_of(&d->model, c, 0), two = gain_of(&d->model, c, 1);
+  const double sigma = d->model.boltzmann ? 0 : d->model.sigma[gg_pair(c->species[0], c->species[1])];
   transfer t = {
-      gg_scale(d->model.sigma[gg_pair(c->species[0], c->species[1])], c->k), c->J, {0, 0}, 0.5 * (two.spin - one.spin)};
+      {sigma * c->k.x, c->height[1] - c->height[0], sigma * c->k.z}, c->J, {0, 0}, 0.5 * (two.spin - one.spin)};
   double lost = 0;
   for (int k = 0; k < 2; k++) {
     t.energy[k] = 0.5 * (two.energy[k] - one.energy[k]);
