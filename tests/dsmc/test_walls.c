@@ -125,7 +125,7 @@ static void equilibrium(double phi, double height)
   lab_mean pressure[2] = {{0}, {0}}, core = {0}, even = {0};
   const double area = m.box[0] * m.box[2], slab = m.box[1] / SLABS;
   double T = 0;
-  for (int block = 0; block < 30; block++) {
+  for (int block = 0; block < 60; block++) {
     double of_core = 0, of_half = 0, time = 0;
     for (int k = 0; k < 10; k++) {
       time += advance(g, INFINITY, (uint64_t)m.n);

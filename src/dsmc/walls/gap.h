@@ -10,18 +10,22 @@
 #include "common/rng.h"
 #include "dsmc/majorant.h"
 
-/* Columns of the grains, one number a grain in each. Spins only of grains that have them, the time of the last
- * contact only for a collision callback. */
-enum { GG_GAP_Y, GG_GAP_C, GG_GAP_S = GG_GAP_C + 3, GG_GAP_LAST = GG_GAP_S + 3, GG_GAP_COLUMNS };
-
-/* Bias of a step of h mean free times: 0.12 h^2 in the shear stress of a sheared gas, 0.06 h^2 in its temperature,
- * measured at phi = 0.01, e = 0.9. */
+/* Relative bias of a step of h mean free times: 0.12 h^2 in the shear stress of a sheared gas, 0.06 h^2 in its
+ * temperature, measured at phi = 0.01, e = 0.9. */
 #define GG_GAP_FREE_TIMES_PER_STEP 0.2
 #define GG_GAP_BIAS_OF_STEP 0.12
 
+/* Height, and velocity. */
+typedef struct gg_dsmc_gap_motion {
+  double y;
+  gg_vec c;
+} gg_dsmc_gap_motion;
+
 /* By cell when they collide, and within a cell by species. */
 typedef struct gg_dsmc_gap_grains {
-  double *x[GG_GAP_COLUMNS]; /* NULL: not kept */
+  gg_dsmc_gap_motion *at;
+  gg_vec *s;    /* spins; NULL for smooth grains */
+  double *last; /* time of the last contact; NULL without a collision callback */
   uint32_t *id;
   uint8_t *species;
 } gg_dsmc_gap_grains;
@@ -68,26 +72,14 @@ typedef struct gg_dsmc_gap {
   gg_dsmc_gap_cells cells;
   gg_loss_table *losses;
   gg_dsmc_gap_state now;
+  bool plain; /* tests: candidates one by one */
   gg_collision_callback *callback;
   void *callback_context;
 } gg_dsmc_gap;
 
-GG_INLINE gg_vec gg_dsmc_gap_get(const gg_dsmc_gap_grains *g, int column, size_t i)
-{
-  return (gg_vec){g->x[column][i], g->x[column + 1][i], g->x[column + 2][i]};
-}
-GG_INLINE void gg_dsmc_gap_set(gg_dsmc_gap_grains *g, int column, size_t i, gg_vec v)
-{
-  g->x[column][i] = v.x, g->x[column + 1][i] = v.y, g->x[column + 2][i] = v.z;
-}
-GG_INLINE bool gg_dsmc_gap_has_spins(const gg_dsmc_gap *d)
-{
-  return d->grains.x[GG_GAP_S] != NULL;
-}
-
 /* A grain by itself. */
 typedef struct gg_dsmc_gap_grain {
-  gg_vec r, c, s;
+  gg_vec r, c, s; /* s: 0 without spins */
   int species;
   bool touched; /* a wall */
 } gg_dsmc_gap_grain;
@@ -108,6 +100,8 @@ gg_status gg_dsmc_gap_cells_new(gg_dsmc_gap *d, gg_error *err);
 void gg_dsmc_gap_cells_free(gg_dsmc_gap_cells *cells);
 /* Width of a cell, and how many. */
 double gg_dsmc_gap_cell_width(const gg_model *model);
+/* A step in mean free times, where grains collide. */
+double gg_dsmc_gap_free_times(const gg_model *model);
 /* Order the grains by cell. */
 void gg_dsmc_gap_sort(gg_dsmc_gap *d);
 /* Contact values of the present mean numbers. */

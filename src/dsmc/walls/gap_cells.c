@@ -109,17 +109,22 @@ void gg_dsmc_gap_sort(gg_dsmc_gap *d)
   const gg_dsmc_gap_grains from = d->grains, to = d->sorted;
   memset(c->start, 0, (bins + 1) * sizeof *c->start);
   for (size_t i = 0; i < n; i++) {
-    d->place[i] = cell_of(c, from.x[GG_GAP_Y][i]) * (uint32_t)species + from.species[i];
+    d->place[i] = cell_of(c, from.at[i].y);
+    if (species > 1) d->place[i] = d->place[i] * (uint32_t)species + from.species[i];
     c->start[d->place[i] + 1]++;
   }
   for (size_t b = 0; b < bins; b++) c->start[b + 1] += c->start[b];
   /* Each start moves to its end, and with it to the place of the next. */
-  for (size_t i = 0; i < n; i++) d->place[i] = c->start[d->place[i]]++;
+  for (size_t i = 0; i < n; i++) {
+    const uint32_t k = c->start[d->place[i]]++;
+    d->place[i] = k;
+    to.at[k] = from.at[i], to.id[k] = from.id[i];
+  }
   memmove(c->start + 1, c->start, bins * sizeof *c->start);
   c->start[0] = 0;
-  for (int k = 0; k < GG_GAP_COLUMNS; k++)
-    for (size_t i = 0; from.x[k] && i < n; i++) to.x[k][d->place[i]] = from.x[k][i];
-  for (size_t i = 0; i < n; i++) to.id[d->place[i]] = from.id[i], to.species[d->place[i]] = from.species[i];
+  for (size_t i = 0; from.s && i < n; i++) to.s[d->place[i]] = from.s[i];
+  for (size_t i = 0; from.last && i < n; i++) to.last[d->place[i]] = from.last[i];
+  for (size_t i = 0; species > 1 && i < n; i++) to.species[d->place[i]] = from.species[i];
   d->grains = to;
   d->sorted = from;
 }
@@ -164,19 +169,28 @@ void gg_dsmc_gap_set_chi(gg_dsmc_gap *d)
 /* Longer than this share of a thermal crossing of the gap no step is, whether grains collide or not. */
 #define MOST_OF_CROSSING 0.25
 
+/* A run that asks for an error takes steps whose bias is so small a share of it. */
+#define SHARE_OF_ERROR 0.2
+
+double gg_dsmc_gap_free_times(const gg_model *m)
+{
+  if (m->time_step > 0) return m->time_step;
+  const double exact = m->asked_error > 0 ? sqrt(SHARE_OF_ERROR * m->asked_error / GG_GAP_BIAS_OF_STEP) : 1;
+  return fmin(exact, GG_GAP_FREE_TIMES_PER_STEP);
+}
+
 void gg_dsmc_gap_choose_step(gg_dsmc_gap *d)
 {
   gg_dsmc_gap_state *s = &d->now;
   const double crossing = d->model.box[1] / sqrt(s->temperature);
-  const double share = d->model.time_step > 0 ? d->model.time_step : GG_GAP_FREE_TIMES_PER_STEP;
-  s->step = fmin(share / s->rate, MOST_OF_CROSSING * crossing);
+  s->step = fmin(gg_dsmc_gap_free_times(&d->model) / s->rate, MOST_OF_CROSSING * crossing);
 }
 
 static double temperature_of(const gg_dsmc_gap *d)
 {
   double sum = 0;
   for (size_t i = 0; i < (size_t)d->model.n; i++) {
-    const gg_vec c = gg_dsmc_gap_get(&d->grains, GG_GAP_C, i);
+    const gg_vec c = d->grains.at[i].c;
     sum += d->model.mass[d->grains.species[i]] * gg_dot(c, c);
   }
   return sum / (3 * (double)d->model.n);

@@ -24,15 +24,15 @@ static gg_status move(way w, const char *name, gg_item_type type, void *data, si
 /* All that there is. */
 static gg_status move_all(gg_dsmc_gap *d, way w, gg_error *err)
 {
-  static const char *const names[GG_GAP_COLUMNS] = {"dsmc/height", "dsmc/c_x", "dsmc/c_y", "dsmc/c_z",
-                                                    "dsmc/s_x",    "dsmc/s_y", "dsmc/s_z", "dsmc/last"};
+  const gg_dsmc_gap_grains *g = &d->grains;
   const gg_dsmc_gap_cells *c = &d->cells;
   const size_t n = (size_t)d->model.n, species = (size_t)d->model.n_species, cells = (size_t)c->n;
   GG_TRY(move(w, "dsmc/gap", GG_ITEM_U8, &d->now, sizeof d->now, err));
-  for (int k = 0; k < GG_GAP_COLUMNS; k++)
-    if (d->grains.x[k]) GG_TRY(move(w, names[k], GG_ITEM_F64, d->grains.x[k], n, err));
-  GG_TRY(move(w, "dsmc/id", GG_ITEM_U8, d->grains.id, n * sizeof *d->grains.id, err));
-  GG_TRY(move(w, "dsmc/species", GG_ITEM_U8, d->grains.species, n, err));
+  GG_TRY(move(w, "dsmc/height_velocity", GG_ITEM_F64, g->at, 4 * n, err));
+  if (g->s) GG_TRY(move(w, "dsmc/spin", GG_ITEM_F64, g->s, 3 * n, err));
+  if (g->last) GG_TRY(move(w, "dsmc/last", GG_ITEM_F64, g->last, n, err));
+  GG_TRY(move(w, "dsmc/id", GG_ITEM_U8, g->id, n * sizeof *g->id, err));
+  GG_TRY(move(w, "dsmc/species", GG_ITEM_U8, g->species, n, err));
   GG_TRY(move(w, "dsmc/counted", GG_ITEM_F64, c->counted, cells * species, err));
   GG_TRY(move(w, "dsmc/mean", GG_ITEM_F64, c->mean, cells * species, err));
   GG_TRY(move(w, "dsmc/hits", GG_ITEM_F64, c->hits, cells, err));
@@ -80,16 +80,15 @@ static bool are_grains(const gg_dsmc_gap *d)
     if (g->species[i] >= d->model.n_species || g->id[i] >= n || d->place[g->id[i]]++) return false;
     const int s = g->species[i];
     of[s]++;
-    if (!is_between(g->x[GG_GAP_Y][i], d->low[s], fmin(d->high[s], 1e300))) return false;
-    const gg_vec c = gg_dsmc_gap_get(g, GG_GAP_C, i);
+    if (!is_between(g->at[i].y, d->low[s], fmin(d->high[s], 1e300))) return false;
+    const gg_vec c = g->at[i].c;
     energy += d->model.mass[s] * gg_dot(c, c);
   }
   for (int s = 0; s < d->model.n_species; s++)
     if (of[s] != d->model.n_of[s]) return false;
-  for (int k = GG_GAP_S; k < GG_GAP_LAST; k++)
-    if (!are_between(g->x[k], n, -1e150, 1e150)) return false;
-  for (size_t i = 0; g->x[GG_GAP_LAST] && i < n; i++)
-    if (!(g->x[GG_GAP_LAST][i] <= d->now.time)) return false;
+  if (g->s && !are_between((const double *)g->s, 3 * n, -1e150, 1e150)) return false;
+  for (size_t i = 0; g->last && i < n; i++)
+    if (!(g->last[i] <= d->now.time)) return false;
   return is_between(energy / (3 * (double)n * d->now.temperature), 1e-4, 1e4);
 }
 

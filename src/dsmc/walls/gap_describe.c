@@ -32,8 +32,8 @@ gg_status gg_dsmc_gap_accepts(const gg_model *m, gg_error *err)
 
 double gg_dsmc_gap_bytes(const gg_model *m)
 {
-  const double columns = m->rule != GG_SMOOTH ? GG_GAP_LAST : GG_GAP_S;
-  return (double)m->n * (2 * (columns * sizeof(double) + 5) + 4);
+  const double grain = sizeof(gg_dsmc_gap_motion) + (m->rule != GG_SMOOTH ? sizeof(gg_vec) : 0) + 5;
+  return (double)m->n * (2 * grain + 4);
 }
 
 void gg_dsmc_gap_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)
@@ -53,7 +53,7 @@ void gg_dsmc_gap_describe(const gg_model *m, void (*line)(void *context, const c
                     ? "Boltzmann limit: partners in the same cell, no contact value, no collisional stress"
                     : "Enskog: partners at a distance, contact value of the local density, collisional stress");
   snprintf(text, sizeof text, "step: %.2g mean free times where grains collide%s; flights are exact",
-           m->time_step > 0 ? m->time_step : GG_GAP_FREE_TIMES_PER_STEP, m->time_step > 0 ? "" : ", chosen");
+           gg_dsmc_gap_free_times(m), m->time_step > 0 ? "" : ", chosen");
   line(context, text);
   line(context, "a majorant for each cell and pair of species");
 }

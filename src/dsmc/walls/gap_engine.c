@@ -153,11 +153,10 @@ enum { SHOWN = 256 };
 static void show_grain(const gg_dsmc_gap *d, size_t i, size_t slot, double out[9][SHOWN])
 {
   const gg_dsmc_gap_grains *g = &d->grains;
-  gg_dsmc_gap_grain p = {
-      .r = {0, g->x[GG_GAP_Y][i], 0}, .c = gg_dsmc_gap_get(g, GG_GAP_C, i), .species = g->species[i]};
+  gg_dsmc_gap_grain p = {.r = {0, g->at[i].y, 0}, .c = g->at[i].c, .species = g->species[i]};
+  if (g->s) p.s = g->s[i];
   gg_dsmc_gap_contacts unused = {0};
   gg_rng rng = d->now.rng;
-  if (gg_dsmc_gap_has_spins(d)) p.s = gg_dsmc_gap_get(g, GG_GAP_S, i);
   if (d->now.owed > 0) gg_dsmc_gap_fly_grain(d, d->now.owed, &rng, &p, &unused);
   const gg_vec parts[] = {p.r, p.c, p.s};
   for (int k = 0; k < 9; k++) out[k][slot] = gg_along(&parts[k / 3], k % 3);
@@ -175,7 +174,7 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
     for (int a = 0; a < 3; a++) {
       chunk.r[a] = positions ? out[a] : NULL;
       chunk.c[a] = out[3 + a];
-      chunk.s[a] = gg_dsmc_gap_has_spins(d) ? out[6 + a] : NULL;
+      chunk.s[a] = d->grains.s ? out[6 + a] : NULL;
     }
     chunk.species = d->model.n_species > 1 ? d->grains.species + first : NULL;
     chunk.id = positions ? id : NULL;

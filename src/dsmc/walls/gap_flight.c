@@ -64,33 +64,33 @@ void gg_dsmc_gap_fly_grain(const gg_dsmc_gap *d, double dt, gg_rng *rng, gg_dsmc
 static void fly_to_walls(gg_dsmc_gap *d, size_t i, double dt, gg_dsmc_gap_contacts *all)
 {
   gg_dsmc_gap_grains *g = &d->grains;
-  gg_dsmc_gap_grain p = {
-      .r = {0, g->x[GG_GAP_Y][i], 0}, .c = gg_dsmc_gap_get(g, GG_GAP_C, i), .species = g->species[i]};
-  const bool spins = gg_dsmc_gap_has_spins(d);
-  if (spins) p.s = gg_dsmc_gap_get(g, GG_GAP_S, i);
+  gg_dsmc_gap_motion *at = &g->at[i];
+  gg_dsmc_gap_grain p = {.r = {0, at->y, 0}, .c = at->c, .species = g->species[i]};
+  if (g->s) p.s = g->s[i];
   gg_dsmc_gap_fly_grain(d, dt, &d->now.rng, &p, all);
-  g->x[GG_GAP_Y][i] = fmin(fmax(p.r.y, d->low[p.species]), d->high[p.species]);
-  gg_dsmc_gap_set(g, GG_GAP_C, i, p.c);
-  if (spins) gg_dsmc_gap_set(g, GG_GAP_S, i, p.s);
-  if (p.touched && g->x[GG_GAP_LAST]) g->x[GG_GAP_LAST][i] = d->now.time;
+  at->y = fmin(fmax(p.r.y, d->low[p.species]), d->high[p.species]);
+  at->c = p.c;
+  if (g->s) g->s[i] = p.s;
+  if (p.touched && g->last) g->last[i] = d->now.time;
 }
 
 void gg_dsmc_gap_fly(gg_dsmc_gap *d, double dt)
 {
   gg_dsmc_gap_contacts all = {0};
-  const gg_vec g = d->gravity;
-  const double fall = 0.5 * fabs(g.y) * dt * dt;
-  double *y = d->grains.x[GG_GAP_Y],
-         *c[3] = {d->grains.x[GG_GAP_C], d->grains.x[GG_GAP_C + 1], d->grains.x[GG_GAP_C + 2]};
+  const gg_vec g = d->gravity, dc = gg_scale(dt, g);
+  const double fall = 0.5 * fabs(g.y) * dt * dt, lift = 0.5 * dt * dt * g.y;
+  const bool mixture = d->model.n_species > 1;
+  double low = d->low[0] + fall, high = d->high[0] - fall;
   for (size_t i = 0; i < (size_t)d->model.n; i++) {
-    const int k = d->grains.species[i];
-    const double far = fabs(c[1][i]) * dt + fall;
-    if (!(y[i] - far > d->low[k] && y[i] + far < d->high[k])) {
+    gg_dsmc_gap_motion *at = &d->grains.at[i];
+    if (mixture) low = d->low[d->grains.species[i]] + fall, high = d->high[d->grains.species[i]] - fall;
+    const double way = at->c.y * dt, far = fabs(way);
+    if (__builtin_expect(!(at->y - far > low && at->y + far < high), 0)) {
       fly_to_walls(d, i, dt, &all);
       continue;
     }
-    y[i] += dt * (c[1][i] + 0.5 * dt * g.y);
-    c[0][i] += dt * g.x, c[1][i] += dt * g.y, c[2][i] += dt * g.z;
+    at->y += way + lift;
+    at->c = gg_add(at->c, dc);
   }
   d->now.rests += all.rests;
   for (int w = 0; w < d->model.n_surfaces; w++) {

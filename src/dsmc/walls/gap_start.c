@@ -7,17 +7,18 @@
 
 static gg_status allocate_grains(gg_dsmc_gap_grains *g, size_t n, bool spins, gg_error *err)
 {
-  const int columns = spins ? GG_GAP_LAST : GG_GAP_S;
-  for (int k = 0; k < columns; k++)
-    if (!(g->x[k] = gg_base_array_new(n, sizeof *g->x[k], err))) return GG_FAILED;
+  g->at = gg_base_array_new(n, sizeof *g->at, err);
+  if (spins) g->s = gg_base_array_new(n, sizeof *g->s, err);
   g->id = gg_base_array_new(n, sizeof *g->id, err);
   g->species = gg_base_array_new(n, sizeof *g->species, err);
-  return g->id && g->species ? GG_OK : GG_FAILED;
+  return g->at && (g->s || !spins) && g->id && g->species ? GG_OK : GG_FAILED;
 }
 
 static void free_grains(gg_dsmc_gap_grains *g)
 {
-  for (int k = 0; k < GG_GAP_COLUMNS; k++) free(g->x[k]);
+  free(g->at);
+  free(g->s);
+  free(g->last);
   free(g->id);
   free(g->species);
 }
@@ -62,7 +63,7 @@ gg_status gg_dsmc_gap_allocate(const gg_model *model, gg_dsmc_gap **made, gg_err
 gg_status gg_dsmc_gap_allocate_last(gg_dsmc_gap *d, gg_error *err)
 {
   const size_t n = (size_t)d->model.n;
-  double **last = &d->grains.x[GG_GAP_LAST], **room = &d->sorted.x[GG_GAP_LAST];
+  double **last = &d->grains.last, **room = &d->sorted.last;
   if (*last) return GG_OK;
   *room = gg_base_array_new(n, sizeof **room, err);
   if (*room) *last = gg_base_array_new(n, sizeof **last, err);
@@ -95,32 +96,36 @@ static void place_grains(gg_dsmc_gap *d, gg_rng *rng)
     for (int64_t k = 0; k < d->model.n_of[s]; k++, i++) {
       d->grains.id[i] = (uint32_t)i;
       d->grains.species[i] = (uint8_t)s;
-      d->grains.x[GG_GAP_Y][i] = d->low[s] + gg_rng_uniform(rng) * (fmin(d->high[s], d->model.box[1]) - d->low[s]);
+      d->grains.at[i].y = d->low[s] + gg_rng_uniform(rng) * (fmin(d->high[s], d->model.box[1]) - d->low[s]);
     }
 }
 
-/* Gaussian, at rest as a whole, exactly of the energy 3 N T/2; `weight` of a species is its mass or moment of inertia.
- */
-static void set_motion(gg_dsmc_gap *d, int column, const double *weight, double T, bool at_rest, gg_rng *rng)
+static gg_vec *motion_of(gg_dsmc_gap_grains *g, bool spin, size_t i)
+{
+  return spin ? &g->s[i] : &g->at[i].c;
+}
+
+/* Gaussian, exactly of the energy 3 N T/2, velocities at rest as a whole; `weight` of a species is its mass or moment
+ * of inertia. */
+static void set_motion(gg_dsmc_gap *d, bool spin, const double *weight, double T, gg_rng *rng)
 {
   const size_t n = (size_t)d->model.n;
   gg_vec momentum = {0, 0, 0};
   double all = 0, energy = 0;
   for (size_t i = 0; i < n; i++) {
     const double w = weight[d->grains.species[i]];
-    const gg_vec v = gg_scale(sqrt(T / w), gg_common_rng_normal_vec(rng));
-    gg_dsmc_gap_set(&d->grains, column, i, v);
-    momentum = gg_axpy(w, v, momentum);
+    gg_vec *v = motion_of(&d->grains, spin, i);
+    *v = gg_scale(sqrt(T / w), gg_common_rng_normal_vec(rng));
+    momentum = gg_axpy(w, *v, momentum);
     all += w;
   }
-  const gg_vec mean = gg_scale(at_rest ? 1 / all : 0, momentum);
   for (size_t i = 0; i < n; i++) {
-    const gg_vec v = gg_sub(gg_dsmc_gap_get(&d->grains, column, i), mean);
-    energy += weight[d->grains.species[i]] * gg_dot(v, v);
+    gg_vec *v = motion_of(&d->grains, spin, i);
+    if (!spin) *v = gg_axpy(-1 / all, momentum, *v);
+    energy += weight[d->grains.species[i]] * gg_dot(*v, *v);
   }
   const double scale = energy > 0 ? sqrt(3 * (double)n * T / energy) : 0;
-  for (size_t i = 0; i < n; i++)
-    gg_dsmc_gap_set(&d->grains, column, i, gg_scale(scale, gg_sub(gg_dsmc_gap_get(&d->grains, column, i), mean)));
+  for (size_t i = 0; i < n; i++) *motion_of(&d->grains, spin, i) = gg_scale(scale, *motion_of(&d->grains, spin, i));
 }
 
 /* The laminar profile between walls that move. */
@@ -130,7 +135,7 @@ static void add_flow(gg_dsmc_gap *d)
   if (!upper) return;
   const double rate = (upper->velocity.x - lower->velocity.x) / d->model.box[1];
   for (size_t i = 0; i < (size_t)d->model.n; i++)
-    d->grains.x[GG_GAP_C][i] += rate * (d->grains.x[GG_GAP_Y][i] - 0.5 * d->model.box[1]);
+    d->grains.at[i].c.x += rate * (d->grains.at[i].y - 0.5 * d->model.box[1]);
 }
 
 static gg_status take_grains(gg_dsmc_gap *d, const gg_grain_arrays *given, gg_error *err)
@@ -139,16 +144,14 @@ static gg_status take_grains(gg_dsmc_gap *d, const gg_grain_arrays *given, gg_er
   for (size_t i = 0; i < (size_t)d->model.n; i++) {
     if (given->species) g->species[i] = (uint8_t)given->species[i];
     const int s = g->species[i];
-    if (given->r) g->x[GG_GAP_Y][i] = given->r[3 * i + 1];
-    const double y = g->x[GG_GAP_Y][i];
-    if (!(y >= d->low[s] - 1e-9 && y <= d->high[s] + 1e-9))
+    gg_dsmc_gap_motion *at = &g->at[i];
+    if (given->r) at->y = given->r[3 * i + 1];
+    if (!(at->y >= d->low[s] - 1e-9 && at->y <= d->high[s] + 1e-9))
       return gg_base_fail(err, GG_BAD_INPUT, "grain %zu overlaps the %s wall by %g d", i,
-                          y < d->low[s] ? "lower" : "upper", fmax(d->low[s] - y, y - d->high[s]));
-    g->x[GG_GAP_Y][i] = fmin(fmax(y, d->low[s]), d->high[s]);
-    for (int a = 0; a < 3; a++) {
-      if (given->c) g->x[GG_GAP_C + a][i] = given->c[3 * i + (size_t)a];
-      if (given->s && g->x[GG_GAP_S]) g->x[GG_GAP_S + a][i] = given->s[3 * i + (size_t)a];
-    }
+                          at->y < d->low[s] ? "lower" : "upper", fmax(d->low[s] - at->y, at->y - d->high[s]));
+    at->y = fmin(fmax(at->y, d->low[s]), d->high[s]);
+    if (given->c) at->c = (gg_vec){given->c[3 * i], given->c[3 * i + 1], given->c[3 * i + 2]};
+    if (given->s && g->s) g->s[i] = (gg_vec){given->s[3 * i], given->s[3 * i + 1], given->s[3 * i + 2]};
   }
   return GG_OK;
 }
@@ -162,7 +165,7 @@ static void begin(gg_dsmc_gap *d)
   const int species = d->model.n_species;
   double fastest = 0, energy = 0, most = 0, chi = 0;
   for (size_t i = 0; i < (size_t)d->model.n; i++) {
-    const gg_vec v = gg_dsmc_gap_get(&d->grains, GG_GAP_C, i);
+    const gg_vec v = d->grains.at[i].c;
     fastest = fmax(fastest, gg_dot(v, v));
     energy += d->model.mass[d->grains.species[i]] * gg_dot(v, v);
   }
@@ -192,9 +195,9 @@ gg_status gg_dsmc_gap_start(gg_dsmc_gap *d, uint64_t seed, uint64_t stream, cons
   for (int i = 0; i < m->n_species; i++) inertia[i] = m->inertia[i] * m->mass[i];
   d->now.rng = gg_common_rng_seed(seed, stream + GG_STREAM_ENGINE);
   place_grains(d, &rng);
-  set_motion(d, GG_GAP_C, m->mass, m->temperature0, true, &rng);
+  set_motion(d, false, m->mass, m->temperature0, &rng);
   add_flow(d);
-  if (gg_dsmc_gap_has_spins(d)) set_motion(d, GG_GAP_S, inertia, m->ratio0 * m->temperature0, false, &rng);
+  if (d->grains.s) set_motion(d, true, inertia, m->ratio0 * m->temperature0, &rng);
   if (given) GG_TRY(take_grains(d, given, err));
   begin(d);
   if (!(d->now.temperature > 0 && d->now.temperature < 1e300))
