@@ -1,9 +1,11 @@
 /* Enskog Monte Carlo between walls. Identities: what grains lose of momentum and energy is what walls and collisions
- * took, to rounding; a restored engine goes on bit for bit. Limits: elastic grains between smooth elastic walls are in
+ * took, to rounding; a restored or stopped engine goes on bit for bit; candidates one by one are the same as some at
+ * once. Limits: elastic grains between smooth elastic walls are in
  * equilibrium, with the pressure n T Z(phi) on both walls and Enskog's collision rate; a column is barometric, and
  * carries its weight. */
 #include "common/contact_value.h"
 #include "common/surface/shapes.h"
+#include "dsmc/walls/gap.h"
 #include "lab.h"
 
 /* A gap `height` wide of `n` grains; elastic and smooth, walls, too. */
@@ -106,6 +108,137 @@ static void what_is_lost_is_accounted_for(void **state)
   balance(&s);
 }
 
+static void same_archive(gg_engine *a, gg_engine *b)
+{
+  gg_archive one = {0}, two = {0};
+  gg_error err = {0};
+  assert_int_equal(a->ops->save(a, &one, &err), GG_OK);
+  assert_int_equal(b->ops->save(b, &two, &err), GG_OK);
+  assert_int_equal(one.n_items, two.n_items);
+  for (size_t i = 0; i < one.n_items; i++) {
+    assert_int_equal(one.items[i].count, two.items[i].count);
+    assert_memory_equal(one.items[i].data, two.items[i].data,
+                        one.items[i].count * gg_base_archive_item_size(one.items[i].type));
+  }
+  gg_base_archive_clear(&one);
+  gg_base_archive_clear(&two);
+}
+
+/* Rough grains of two species under gravity, hot walls. */
+static gg_scene full_scene(int64_t n)
+{
+  gg_scene s = scene_of(GG_CHUTE, 0.15, 10, n);
+  s.n_species = 2;
+  s.species[0] = (gg_species){.fraction = 0.6, .diameter = 1, .mass = 1, .inertia = 0.4};
+  s.species[1] = (gg_species){.fraction = 0.4, .diameter = 1.5, .mass = 2, .inertia = 0.4};
+  for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = 0.8, s.collision.beta[p] = 0.2, s.collision.mu[p] = 0.5;
+  s.gravity[0] = 0.1, s.gravity[1] = -0.2;
+  s.walls.temperature[0] = 0.6, s.walls.temperature[1] = 0.4, s.walls.accommodation = 0.7;
+  return s;
+}
+
+static void plain_is_the_same(void **state)
+{
+  (void)state;
+  gg_scene s = full_scene(2000);
+  gg_model m = lab_model(&s);
+  gg_engine *fast = lab_engine(&m, 4), *plain = lab_engine(&m, 4);
+  ((gg_dsmc_gap *)plain)->plain = true;
+  fast->ops->keep_sums(fast, true);
+  plain->ops->keep_sums(plain, true);
+  advance(fast, INFINITY, (uint64_t)(5 * m.n));
+  advance(plain, INFINITY, (uint64_t)(5 * m.n));
+  same_archive(fast, plain);
+  fast->ops->destroy(fast);
+  plain->ops->destroy(plain);
+}
+
+static bool by_chance(void *context)
+{
+  return gg_rng_uniform(context) < 0.5;
+}
+
+static void see(void *context, const gg_collision_record *c)
+{
+  assert_true(c->since[0] >= 0 && c->since[1] >= 0 && fabs(c->height[0]) < 6 && fabs(c->height[1]) < 6);
+  assert_true(gg_dot(c->k, c->c12) > 0);
+  ++*(uint64_t *)context;
+}
+
+/* Stopped at random, saved and restored each time; one has a collision callback. */
+static void restored_and_stopped(void **state)
+{
+  (void)state;
+  for (int callback = 0; callback < 2; callback++) {
+    gg_scene s = full_scene(20000);
+    gg_model m = lab_model(&s);
+    gg_rng rng = gg_common_rng_seed(1, 0);
+    gg_stop stop = {by_chance, &rng};
+    gg_error err;
+    uint64_t seen[2] = {0, 0};
+    double gone;
+    gg_engine *straight = lab_engine(&m, 8);
+    m.stop = &stop;
+    gg_engine *cut = lab_engine(&m, 8);
+    straight->ops->keep_sums(straight, true);
+    cut->ops->keep_sums(cut, true);
+    if (callback) assert_int_equal(straight->ops->set_callback(straight, see, &seen[0], &err), GG_OK);
+    if (callback) assert_int_equal(cut->ops->set_callback(cut, see, &seen[1], &err), GG_OK);
+    const double whole = advance(straight, INFINITY, (uint64_t)(3 * m.n));
+    gg_status status = cut->ops->advance(cut, INFINITY, (uint64_t)(3 * m.n), &gone, &err);
+    int stops = 0;
+    for (; status != GG_OK; stops++) {
+      gg_archive a = {0};
+      assert_int_equal(status, GG_INTERRUPTED);
+      assert_int_equal(cut->ops->save(cut, &a, &err), GG_OK);
+      const view shown = view_of(cut, &m);
+      assert_int_equal((int)shown.n, (int)m.n);
+      cut->ops->destroy(cut);
+      assert_int_equal(gg_dsmc_ops.restore(&m, &a, &cut, &err), GG_OK);
+      if (callback) assert_int_equal(cut->ops->set_callback(cut, see, &seen[1], &err), GG_OK);
+      gg_base_archive_clear(&a);
+      status = cut->ops->go_on(cut, &gone, &err);
+    }
+    assert_true(stops > 2 && gone == whole && seen[0] == seen[1] && (seen[0] > 0) == callback);
+    same_archive(straight, cut);
+    straight->ops->destroy(straight);
+    cut->ops->destroy(cut);
+  }
+}
+
+/* Whatever a byte of it becomes, a checkpoint is refused or an engine that runs. */
+static void damaged(void **state)
+{
+  (void)state;
+  gg_scene s = full_scene(60);
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 8), *other;
+  gg_archive a = {0};
+  gg_error err;
+  gg_rng rng = gg_common_rng_seed(2, 0);
+  advance(g, INFINITY, 300);
+  assert_int_equal(g->ops->save(g, &a, &err), GG_OK);
+  int refused = 0;
+  for (int trial = 0; trial < 3000; trial++) {
+    const gg_item *item = &a.items[gg_rng_below(&rng, (uint32_t)a.n_items)];
+    unsigned char *byte = (unsigned char *)item->data +
+                          gg_rng_below(&rng, (uint32_t)(item->count * gg_base_archive_item_size(item->type))),
+                  was = *byte;
+    *byte = (unsigned char)(was ^ (1u << gg_rng_below(&rng, 8)));
+    const gg_status status = gg_dsmc_ops.restore(&m, &a, &other, &err);
+    double elapsed;
+    refused += status != GG_OK;
+    if (status == GG_OK) {
+      other->ops->advance(other, 0.1, 300, &elapsed, &err);
+      other->ops->destroy(other);
+    }
+    *byte = was;
+  }
+  assert_true(refused > 100);
+  gg_base_archive_clear(&a);
+  g->ops->destroy(g);
+}
+
 static double slab_mean(const view *v, int from, int to)
 {
   double sum = 0;
@@ -155,9 +288,51 @@ static void walls_carry_the_pressure(void **state)
   equilibrium(0.3, 12);
 }
 
+/* A column of elastic grains: walls carry its weight, and in a dilute one the density falls as exp(-m g y/T); in a
+ * dense one dp/dy = -rho g, so that the walls' pressures differ by the weight. */
+static void column(double phi, double height, double g_over_T)
+{
+  gg_scene s = scene_of(GG_CHUTE, phi, height, 20000);
+  s.gravity[1] = -g_over_T / 2;
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 6);
+  g->ops->keep_sums(g, true);
+  advance(g, INFINITY, (uint64_t)(200 * m.n));
+  taken(g);
+  lab_mean weight = {0}, slope = {0};
+  for (int block = 0; block < 10; block++) {
+    double time = 0, T = 0, of[SLABS] = {0};
+    for (int k = 0; k < 40; k++) {
+      time += advance(g, INFINITY, (uint64_t)m.n);
+      const view v = view_of(g, &m);
+      T += v.cc / (3 * v.n) / 40;
+      for (int i = 0; i < SLABS; i++) of[i] += v.of[i];
+    }
+    const gg_collision_sums t = taken(g);
+    lab_add(&weight, -(t.surface[0].impulse[1] + t.surface[1].impulse[1]) / (time * (double)m.n * fabs(m.gravity[1])));
+    double low = 0, high = 0;
+    for (int i = 5; i < 10; i++) low += of[i], high += of[SLABS - 5 + 5 - 1 - i];
+    const double apart = (SLABS - 1 - 2 * 7) * m.box[1] / SLABS; /* between the middles of both groups */
+    lab_add(&slope, log(low / high) * T / (fabs(m.gravity[1]) * apart));
+  }
+  lab_expect("weight on the walls", &weight, 1, 0, 0.03);
+  if (phi == 0) lab_expect("barometric", &slope, 1, 0, 0.02);
+  g->ops->destroy(g);
+}
+
+static void columns_carry_their_weight(void **state)
+{
+  (void)state;
+  column(0, 10, 0.2);
+  column(0.1, 15, 0.1);
+  column(0.3, 12, 0.1);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_lost_is_accounted_for),
-                                     cmocka_unit_test(walls_carry_the_pressure)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(what_is_lost_is_accounted_for), cmocka_unit_test(plain_is_the_same),
+      cmocka_unit_test(restored_and_stopped),          cmocka_unit_test(damaged),
+      cmocka_unit_test(walls_carry_the_pressure),      cmocka_unit_test(columns_carry_their_weight)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

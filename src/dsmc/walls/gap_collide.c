@@ -17,7 +17,8 @@ typedef struct pass {
   int cell, one, two, pair;
   double reach, floor, majorant, largest;
   uint64_t candidates;
-  const double *chi; /* to the cells */
+  const double *chi;  /* to the cells */
+  double begin, tick; /* time of the first candidate, and between two: those of all cells take turns in a step */
 } pass;
 
 static gg_contact contact_of(const gg_dsmc_gap *d, const pass *p, double gn)
@@ -31,22 +32,22 @@ static gg_contact contact_of(const gg_dsmc_gap *d, const pass *p, double gn)
   return c;
 }
 
-static void call_back(gg_dsmc_gap *d, const uint32_t i[2], gg_vec k, const gg_vec c[2], gg_vec J)
+static void call_back(gg_dsmc_gap *d, double time, const uint32_t i[2], gg_vec k, const gg_vec c[2], gg_vec J)
 {
   gg_dsmc_gap_grains *g = &d->grains;
-  gg_collision_record m = {.k = k, .c12 = gg_sub(c[0], c[1]), .J = J, .time = d->now.time};
+  gg_collision_record m = {.k = k, .c12 = gg_sub(c[0], c[1]), .J = J, .time = time};
   for (int w = 0; w < 2; w++) {
     m.id[w] = g->id[i[w]];
     m.species[w] = g->species[i[w]];
     m.c[w] = c[w];
     m.height[w] = g->at[i[w]].y - 0.5 * d->model.box[1];
-    m.since[w] = d->now.time - g->last[i[w]];
-    g->last[i[w]] = d->now.time;
+    m.since[w] = fmax(time - g->last[i[w]], 0); /* candidates of a correction go back in time */
+    g->last[i[w]] = time;
   }
   d->callback(d->callback_context, &m);
 }
 
-static void collide(gg_dsmc_gap *d, const pass *p, uint32_t i, uint32_t j, gg_vec k)
+static void collide(gg_dsmc_gap *d, const pass *p, double time, uint32_t i, uint32_t j, gg_vec k)
 {
   gg_dsmc_gap_grains *g = &d->grains;
   const gg_rule rule = d->model.rule;
@@ -58,7 +59,7 @@ static void collide(gg_dsmc_gap *d, const pass *p, uint32_t i, uint32_t j, gg_ve
   const gg_contact contact = contact_of(d, p, gn);
   const gg_vec J = gg_impulse(rule, &contact, k, v, gn);
   gg_kick(rule, &contact, k, J, &c1, &s1, &c2, &s2);
-  if (d->callback) call_back(d, (const uint32_t[]){i, j}, k, before, J);
+  if (d->callback) call_back(d, time, (const uint32_t[]){i, j}, k, before, J);
   g->at[i].c = c1, g->at[j].c = c2;
   if (rule != GG_SMOOTH) g->s[i] = s1, g->s[j] = s2;
   gg_collision_sums *t = &d->now.transfer;
@@ -125,7 +126,7 @@ static bool judge(gg_dsmc_gap *d, pass *p, const block *b, uint32_t m)
   d->now.overflows += value > p->floor + p->majorant;
   if (!(b->limit[m] < value)) return false;
   gg_dsmc_gap_cells *c = &d->cells;
-  collide(d, p, i, j, k);
+  collide(d, p, p->begin + m * p->tick, i, j, k);
   c->hits[p->cell]++;
   c->hits[(int)fmin(fmax((d->grains.at[j].y - c->from) * c->inverse, 0), c->n - 1)]++;
   return true;
@@ -157,7 +158,8 @@ static void collide_block(gg_dsmc_gap *d, pass *p, const block *b)
 
 enum { WINDOW = 20000 }; /* candidates after which a majorant forgets */
 
-static void collide_species(gg_dsmc_gap *d, int cell, int one, int two, double dt)
+/* At `turn` of `turns`. */
+static void collide_species(gg_dsmc_gap *d, int cell, int one, int two, double dt, double turn, double turns)
 {
   gg_dsmc_gap_cells *c = &d->cells;
   const int species = d->model.n_species, here = cell * species + one, pair = gg_pair(one, two);
@@ -177,10 +179,13 @@ static void collide_species(gg_dsmc_gap *d, int cell, int one, int two, double d
   /* After a majorant overflow: correction passes, each over the layer above. */
   for (uint64_t tried = 0; p.majorant > 0; p.floor += p.majorant, p.majorant = 1.1 * p.largest - p.floor) {
     p.candidates = (uint64_t)(rate * p.majorant + gg_rng_uniform(&d->now.rng));
+    p.tick = dt / turns / (double)(p.candidates + 1);
+    p.begin = d->now.time + dt * turn / turns + p.tick;
     for (uint64_t left = p.candidates; left > 0; left -= b.n) {
       b.n = left < BLOCK ? (uint32_t)left : BLOCK;
       draw(d, &p, first, n, &b);
       (d->plain ? collide_plain : collide_block)(d, &p, &b);
+      p.begin += b.n * p.tick;
     }
     d->now.candidates += p.candidates;
     tried += p.candidates;
@@ -196,6 +201,6 @@ void gg_dsmc_gap_collide(gg_dsmc_gap *d, double dt)
   const bool backward = d->now.steps % 2; /* symmetric splitting: every second step mirrors the one before */
   for (int t = 0; t < all; t++) {
     const int k = backward ? all - 1 - t : t;
-    collide_species(d, k / (species * species), k / species % species, k % species, dt);
+    collide_species(d, k / (species * species), k / species % species, k % species, dt, t, all);
   }
 }

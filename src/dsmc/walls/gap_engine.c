@@ -28,13 +28,12 @@ static double step(gg_dsmc_gap *d, double left, double wanted)
   gg_dsmc_gap_state *s = &d->now;
   double dt = s->step;
   if (!(d->model.time_step > 0)) dt = fmin(fmin(dt, left), fmax(wanted / s->all_rate, 1e-3 * dt));
-  s->time += 0.5 * dt;
   gg_dsmc_gap_fly(d, s->owed + 0.5 * dt);
   gg_dsmc_gap_sort(d);
   count(&d->cells, d->model.n_species, dt);
   gg_dsmc_gap_collide(d, dt);
   s->owed = 0.5 * dt;
-  s->time += 0.5 * dt;
+  s->time += dt;
   s->unmeasured += dt;
   if (++s->steps % STEPS_BETWEEN_MEASUREMENTS == 0) gg_dsmc_gap_measure(d);
   return dt;
