@@ -79,11 +79,12 @@ static double pace_of_md(const gg_model *m)
   return cells * cache * crowding(m) * cost_of_kicks(m) * (m->walled ? 2 : 1);
 }
 
-/* Small ensembles, and those with a law of restitution, take collisions one by one; each pair of species is a sweep of
- * its own; noise is drawn. */
+/* Between walls grains fly, too. Small ensembles, and those with a law of restitution, take collisions one by one; each
+ * pair of species is a sweep of its own; noise is drawn. */
 static double pace_of_dsmc(const gg_model *m)
 {
   const double n = (double)m->n, pairs = 0.5 + 0.5 * m->n_species;
+  if (m->walled) return m->rule == GG_SMOOTH ? 350 : 450;
   if (n < 320 * m->n_species || m->law.e) return 330;
   return (m->rule == GG_SMOOTH ? 12 : 18) * (1 + 0.5 * exp(-n / 1000)) * pairs +
          (m->thermostat == GG_WHITE_NOISE || m->bath.on ? 30 : 0);

@@ -48,10 +48,10 @@ def frames_of(path):
         return fields[0][:, 1], fields[1], spin, group["box/edges/value"][0].ravel()
 
 
-def against_frames(name):
+def against_frames(name, *words):
     if isinstance(h5py, ImportError):
         raise Skip(h5py)
-    made = run("run", "scene.yaml", "--json", "--quiet", scene=CASES[name] + RUN)
+    made = run("run", "scene.yaml", "--json", "--quiet", *words, scene=CASES[name] + RUN)
     check(made.code == 0, made.err)
     d = json.loads(made.out)
     results, phi, rough = d["results"], d["scene"]["phi"], d["scene"]["collision"]["beta"] != -1
@@ -81,6 +81,10 @@ def test_thin_couette():
 
 def test_couette():
     against_frames("couette")
+
+
+def test_couette_by_monte_carlo():
+    against_frames("couette", "--engine", "dsmc", "--set", "dsmc.particles=1000")
 
 
 def test_poiseuille():

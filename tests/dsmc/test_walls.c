@@ -323,7 +323,7 @@ static void column(double phi, double height, double g_over_T)
 static void columns_carry_their_weight(void **state)
 {
   (void)state;
-  column(0, 10, 0.2);
+  column(0, 4, 0.5);
   column(0.1, 15, 0.1);
   column(0.3, 12, 0.1);
 }
