@@ -65,7 +65,7 @@ typedef struct fluxes {
 
 static const char *refuses(const gg_model *m)
 {
-  return gg_flow_is_walled(m->flow) && !m->homogeneous ? NULL : "fluxes across a gap are of flows between walls";
+  return gg_flow_is_walled(m->flow) ? NULL : "fluxes across a gap are of flows between walls";
 }
 
 static void restart(void *self)

@@ -84,7 +84,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
     int slab = (int)floor(y), k = gg_snapshot_species(s, i);
     if (slab < 0 || slab >= d->slabs) continue; /* above an open top */
     double *at = bin + slab * SLAB, height = y - slab - 0.5, diameter = m->diameter[k];
-    at[VOLUME] += M_PI / 6 * diameter * diameter * diameter;
+    at[VOLUME] += m->boltzmann ? 1 : M_PI / 6 * diameter * diameter * diameter; /* points: n over its mean */
     at[GRAINS]++;
     add_motion(at + FLOW, m->mass[k], height, (const double[]){s->c[0][i], s->c[1][i], s->c[2][i]});
     if (!s->s[0]) continue;
@@ -192,13 +192,13 @@ static const struct {
 static void put_step(const gg_model *m, const gg_surface *wall, const double *bin, gg_curve *c, const char *what,
                      double of_wall, const char *unit)
 {
-  double height = m->box[1] / (double)c->n;
+  const double height = m->box[1] / (double)c->n, contact = m->boltzmann ? 0 : 0.5;
   double from_wall[3], u[3], grains[3], all = 0, mx = 0, mu = 0, xx = 0, xu = 0;
   int n = 0;
   for (size_t i = 0; i < c->n && n < 3; i++) {
     size_t k = wall->side > 0 ? c->n - 1 - i : i;
     if (!isfinite(c->value[k])) continue;
-    from_wall[n] = 0.5 * (fmax((double)i * height, 0.5) + (double)(i + 1) * height);
+    from_wall[n] = 0.5 * (fmax((double)i * height, contact) + (double)(i + 1) * height);
     grains[n] = bin[k * SLAB + GRAINS], u[n++] = c->value[k];
   }
   if (n < 3) return;
@@ -210,7 +210,7 @@ static void put_step(const gg_model *m, const gg_surface *wall, const double *bi
   }
   char name[40];
   snprintf(name, sizeof name, "%s_%s", what, wall->word);
-  gg_measure_curve_put_number(c, name, of_wall - (mu + xu / xx * (0.5 - mx)), gg_measure_curve_unit(m, unit));
+  gg_measure_curve_put_number(c, name, of_wall - (mu + xu / xx * (contact - mx)), gg_measure_curve_unit(m, unit));
 }
 
 /* What a wall feels is the flux of momentum through it, of what is across it and of what is along x: across y it equals

@@ -12,9 +12,19 @@ static void refused(const gg_model *m, const char *key)
 static void refusals(void **state)
 {
   (void)state;
-  gg_scene s = lab_scene(GG_COUETTE, 0.1, 0.9, -1, 100);
+  gg_scene s = lab_scene(GG_POISEUILLE, 0.1, 0.9, -1, 100);
+  s.gravity[0] = 1;
+  s.walls.ridges = 1;
   gg_model m = lab_model(&s);
-  refused(&m, "flow");
+  refused(&m, "walls.ridges");
+  s.walls.ridges = 0;
+  m = lab_model(&s);
+  m.n = m.n_of[0] = 1;
+  refused(&m, "dsmc.particles");
+  m = lab_model(&s);
+  m.single = true;
+  refused(&m, "dsmc.precision");
+  s.gravity[0] = 0;
   s.flow = GG_USF;
   m = lab_model(&s);
   m.gravity[1] = -1;

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "dsmc/dsmc.h"
+#include "dsmc/walls/gap.h"
 #include "md/md_state.h"
 #include "run/replica.h"
 #include "scene/scene_reader.h"
@@ -27,6 +28,11 @@ enum { WHAT_VELOCITY, WHAT_SPIN, KINDS };
 
 static void plant(gg_replica *r, int what)
 {
+  if (r->model.walled && r->model.ensemble) {
+    gg_dsmc_gap *d = (gg_dsmc_gap *)r->engine;
+    *(what == WHAT_SPIN ? &d->grains.s[7].z : &d->grains.at[7].c.z) = NAN;
+    return;
+  }
   if (!r->model.homogeneous) {
     gg_md *e = (gg_md *)r->engine;
     *(what == WHAT_SPIN ? &e->spin[7].z : &e->grain[7].v.z) = NAN;
@@ -67,7 +73,7 @@ static void within_an_interval(void **state)
       "{flow: hcs, phi: 0.45, particles: 500}",
       "{flow: hss, phi: 0.1, particles: 300}",
       "{flow: hss, thermostat: white_noise, phi: 0.1, particles: 300, collision: {beta: 0}}",
-      "{flow: couette, phi: 0.1, particles: 300}",
+      "{flow: couette, phi: 0.1, particles: 300, collision: {beta: 0}}",
       "{flow: usf, phi: 0.1, particles: 300, measure: [rheology, diffusion]}",
       "{flow: equilibrium, phi: 0.2, particles: 300, measure: [rheology, pair_correlation]}",
       "{flow: usf, phi: 0, particles: 2000, dsmc: {particles: 70000}}",

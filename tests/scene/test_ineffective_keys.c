@@ -80,7 +80,8 @@ static void engines(void **state)
   assert_line(keys, BOTH, NULL);
   assert_line(keys, GG_USE_THEORY, NULL);
   assert_line("{flow: usf, phi: 0, md: {contact_time: 0.01}}", BOTH, "md.contact_time has no effect with engine: dsmc");
-  assert_line("{flow: couette, phi: 0.1, dsmc: {particles: 10}}", BOTH, "dsmc.particles has no effect with engine: md");
+  assert_line("{flow: couette, phi: 0.1, dsmc: {particles: 10}}", BOTH, NULL);
+  assert_line("{flow: couette, phi: 0.1, particles: 2000, aspect: [1, 2, 1]}", GG_USE_DSMC, NULL);
   assert_line("{flow: usf, phi: 0.1, aspect: [1, 2, 1]}", GG_USE_DSMC,
               "aspect has no effect with engine: dsmc, which has no box");
   assert_line("{flow: usf, phi: 0.1, output: {trajectory_every: 5}}", BOTH,
