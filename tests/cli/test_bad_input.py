@@ -191,7 +191,8 @@ def test_page_of_the_build_folder():
 
 
 def test_flow_of_another_engine():
-    refused("flow", 2, scene="flow: small_shear\nphi: 0.3\n", *("run", "scene.yaml", "--engine", "md"))
+    refused("thermostat", 2, scene="flow: small_shear\nthermostat: gaussian\nphi: 0.3\n",
+            *("run", "scene.yaml", "--engine", "md"))
     refused("walls.ridges", 2, "run", "scene.yaml", "--engine", "dsmc", scene="{flow: poiseuille, phi: 0.3, walls: {ridges: 1}}\n")
 
 
