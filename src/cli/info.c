@@ -24,16 +24,21 @@ static void print_inert(void *context, const char *text)
   print_line(NULL, text);
 }
 
-static void print_engines(const gg_scene *scene)
+/* An exit code. */
+static int print_engines(const gg_scene *scene)
 {
   gg_entry engine;
   gg_error err;
-  bool any = false;
+  bool any = false, runs = false;
   gg_scene_warnings(scene, "theory", print_inert, &any, NULL);
   for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_ENGINES, i, scene, &engine, NULL) == GG_OK; i++) {
     printf("\n%s, %s:\n", engine.name, engine.doc);
-    if (gg_scene_describe(scene, engine.name, print_line, NULL, &err) != GG_OK) print_line(NULL, err.message);
+    if (gg_scene_describe(scene, engine.name, print_line, NULL, &err) == GG_OK)
+      runs = true;
+    else
+      print_line(NULL, err.message);
   }
+  return runs ? GG_OK : gg_cli_report(&err);
 }
 
 /* A line a key where there is room; else its meaning below. Of no scene (no origin): what is allowed, too. */
@@ -74,7 +79,7 @@ static int inform_scene(const gg_options *o)
     print_fields(scene);
     printf("\n");
     gg_cli_print_headline(scene);
-    print_engines(scene);
+    code = print_engines(scene);
   }
   gg_scene_free(scene);
   return code;

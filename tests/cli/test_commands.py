@@ -284,6 +284,10 @@ def test_info_of_a_scene():
     check(json.dumps(json.loads(again.out)) == text, "a scene written as JSON is a scene")
     done = run("info", "scene.yaml", scene=f"flow: usf\nphi: 0.1\nspecies: [{', '.join(['{}'] * 16)}]\n")
     check(done.code == 0 and done.out.count("inertia:") == 16, "all of sixteen species", done.out)
+    done = run("info", "scene.yaml", scene="{flow: usf, phi: 0.1, measure: [rheology, conductivity]}")
+    check(done.code == 0 and done.out.count("conductivity is not measured: ") == 2, done.out)
+    done = run("info", "scene.yaml", scene="{flow: poiseuille, phi: 0, walls: {ridges: 1}}")
+    check(done.code == 2 and "needs phi > 0" in done.out and "walls.ridges" in done.err, "no engine runs it", done)
 
 
 def test_info_and_plot_of_a_result():
