@@ -1003,13 +1003,14 @@ GG_API gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int 
                                            gg_error *err);
 
 /**
- * Write the teaching page, one HTML file. It has to be built once with the sources (./check-page).
+ * Write the teaching page, one HTML file. It is a file of each release, and is built with the sources (./check-page).
+ * @param page the page to be copied; NULL: the installed one, or that of the build folder of the running program
  * @param scene scene that the page starts with; NULL: its own
  * @param path file name
  * @param err receives the message on failure; may be NULL
- * @return GG_OK; GG_BAD_FILE if no page was built
+ * @return GG_OK; GG_BAD_FILE if there is no page
  */
-GG_API gg_status gg_page_write(const gg_scene *scene, const char *path, gg_error *err);
+GG_API gg_status gg_page_write(const char *page, const gg_scene *scene, const char *path, gg_error *err);
 
 /* ---- Comparisons and theories ----
  * Both engines and every theory on one scene; also the theories alone, and a file of one engine's run read back. */

@@ -186,9 +186,9 @@ export async function openEngines(make, options) {
     reverse() {
       need(c._page_reverse(this.at));
     }
-    /* The first grain's velocity along x, so many last bits up. */
-    nudge(bits) {
-      need(c._page_nudge(this.at, bits));
+    /* The grains put back; `change`: one of them aside by a last bit of its place. */
+    nudge(change) {
+      need(c._page_nudge(this.at, change));
     }
     remember() {
       need(c._page_remember(this.at));

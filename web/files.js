@@ -59,6 +59,7 @@ function beginPlaying(file, about) {
     change: {
       playing: !still,
       chart: "temperature",
+      quantity: "temperature",
       ...(store.state.colour === "since" || store.state.colour === "origin" ? { colour: "speed" } : {}),
     },
   });

@@ -135,8 +135,8 @@ export class LiveGas {
     const elastic = this.pair === "elastic" ? { "collision.e": "1" } : {};
     this.twin = this.make(g, text, sets, { engine: "md", ...elastic }, "twinRefusal");
     if (!this.twin || this.pair !== "bit") return;
-    this.md.nudge(0);
-    this.twin.nudge(1);
+    this.md.nudge(false);
+    this.twin.nudge(true);
   }
 
   make(g, text, sets, more, why) {

@@ -344,9 +344,12 @@ function announceState(s) {
 }
 function describeMeans({ means, quantity }) {
   return ["md", "dsmc"]
-    .map((engine) => [engine, means && means[engine] && means[engine].results])
-    .filter(([, part]) => Number.isFinite(mean(part, quantity)))
-    .map(([engine, part]) => `${t(engine)}: ${quantityName(quantity)} ${withError(mean(part, quantity), error(part, quantity))}.`)
+    .map((engine) => {
+      const part = means && means[engine] && means[engine].results,
+        q = [quantity, "temperature"].find((one) => Number.isFinite(mean(part, one)));
+      return q ? `${t(engine)}: ${quantityName(q)} ${withError(mean(part, q), error(part, q))}.` : "";
+    })
+    .filter(Boolean)
     .join(" ");
 }
 /* Whenever somebody asks. */

@@ -31,7 +31,7 @@ export const initial = {
 };
 
 /* What belongs to the gas that is seen, and comes back with it after a result was played. */
-const SHELVED = ["gas", "means", "lesson", "playing", "theories", "chart", "pair"];
+const SHELVED = ["gas", "means", "lesson", "playing", "theories", "chart", "quantity", "pair"];
 const pick = (from, names) => Object.fromEntries(names.map((name) => [name, from[name]]));
 
 const ACTIONS = {

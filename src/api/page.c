@@ -43,9 +43,9 @@ static gg_status find_page(char page[PATH_MAX + 16], gg_error *err)
   snprintf(page, PATH_MAX + 16, "%s%s", folder, *folder ? "/page.html" : GG_PAGE_INSTALLED);
   if (access(page, R_OK) != 0)
     return gg_base_fail(err, GG_BAD_FILE,
-                        "the page was not built: there is no %s; in the sources of graingas ./check-page "
-                        "builds it (ninja -C build page, where emscripten is installed)",
-                        page);
+                        "there is no page: no %s; take graingas-VERSION-page.html of the release of this version (%s), "
+                        "and name it: graingas page --page FILE; or build it from the sources: ./check-page",
+                        page, gg_version());
   if (!*folder || (is_safe(folder) && is_safe(page))) return GG_OK;
   return gg_base_fail(err, GG_BAD_FILE,
                       "%s: others can write there, and could put another page in its place; "
@@ -65,10 +65,11 @@ static gg_status read_all(FILE *in, char **text, gg_error *err)
   return gg_base_fail(err, GG_BAD_FILE, "the page that was built cannot be read: %s", strerror(errno));
 }
 
-static gg_status read_page(char **text, gg_error *err)
+static gg_status read_page(const char *given, char **text, gg_error *err)
 {
-  char path[PATH_MAX + 16];
-  GG_TRY(find_page(path, err));
+  char found[PATH_MAX + 16];
+  if (!given) GG_TRY(find_page(found, err));
+  const char *path = given ? given : found;
   FILE *in = fopen(path, "rb");
   if (!in) return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
   gg_status status = read_all(in, text, err);
@@ -96,7 +97,7 @@ static gg_status write_parts(const char *path, const char *page, const char *sce
 {
   const char *at = strstr(page, marker), *rest = at ? at + strlen(marker) : NULL;
   gg_atomic_file file = GG_ATOMIC_NONE;
-  if (!at) return gg_base_fail(err, GG_BAD_FILE, "the page that was built is outdated: build it again");
+  if (!at) return gg_base_fail(err, GG_BAD_FILE, "no page of graingas, or one that has a scene already");
   GG_TRY(gg_base_atomic_open(&file, path, err));
   gg_status status = gg_base_atomic_write(&file, page, (size_t)(at - page), err);
   if (status == GG_OK) status = gg_base_atomic_write(&file, scene, strlen(scene), err);
@@ -106,15 +107,15 @@ static gg_status write_parts(const char *path, const char *page, const char *sce
   return status;
 }
 
-gg_status gg_page_write(const gg_scene *scene, const char *path, gg_error *err)
+gg_status gg_page_write(const char *page, const gg_scene *scene, const char *path, gg_error *err)
 {
-  char *page = NULL, *literal = NULL;
+  char *text = NULL, *literal = NULL;
   GG_NEED(path);
   if (scene) GG_TRY(gg_scene_check(scene, err));
-  GG_TRY(read_page(&page, err));
+  GG_TRY(read_page(page, &text, err));
   gg_status status = scene ? scene_literal(scene, &literal, err) : GG_OK;
-  if (status == GG_OK) status = write_parts(path, page, scene ? literal : "null", err);
+  if (status == GG_OK) status = write_parts(path, text, scene ? literal : "null", err);
   free(literal);
-  free(page);
+  free(text);
   return status;
 }

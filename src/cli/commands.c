@@ -73,9 +73,10 @@ const gg_command gg_cli_commands[] = {
      gg_cli_fingerprint_main},
     {"page", "[SCENE.yaml]", "The teaching page: one HTML file with live engines",
      "Writes one HTML file that needs no network and no installation: both engines, the theories and the measurements "
-     "as WebAssembly, the box in three dimensions beside live curves, and six lessons. The page starts with the scene. "
-     "It has to be built once from the sources of graingas: ./check-page does so.",
-     GG_OPT_SET | GG_OPT_OUTPUT | GG_OPT_SEED | GG_OPT_QUIET, gg_cli_page_main},
+     "as WebAssembly, the box in three dimensions beside live curves, and ten lessons. The page starts with the scene. "
+     "The page is installed with graingas, or is graingas-VERSION-page.html of a release (--page FILE), or is built from "
+     "the sources: ./check-page.",
+     GG_OPT_PAGE | GG_OPT_SET | GG_OPT_OUTPUT | GG_OPT_SEED | GG_OPT_QUIET, gg_cli_page_main},
     {"bench", "[md|dsmc|observables|error|compare A B]",
      "Speed of the engines: collisions per second by kernel, density and size; run time against error",
      "Without an argument: both engines in uniform shear at e = 0.9 with the stress measured, one core, median of "

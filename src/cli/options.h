@@ -20,6 +20,7 @@ enum {
   GG_OPT_PREFIX = 1u << 12,
   GG_OPT_ONLY = 1u << 13,
   GG_OPT_SWEEP = 1u << 14, /* all that only sweeps have */
+  GG_OPT_PAGE = 1u << 15,
   GG_OPT_COLLISIONS = 1u << 16,
   GG_OPT_ACCEPT = 1u << 17,
   GG_OPT_THEORY = 1u << 18,
@@ -54,7 +55,7 @@ typedef struct gg_options {
   char *theories;                /* with commas, owned; NULL: all */
   const char *log, *relative_to; /* axes of that picture, and the method that it has deviations from */
   const char *mapped;            /* theories in maps and in that picture; NULL: chosen */
-  const char *page;              /* to be written; NULL: none */
+  const char *page;              /* validate: to be written; NULL: none. page: to be copied; NULL: the installed one */
   const char *point;             /* the one of a sweep to do; NULL: all */
   bool json, quiet, all, quick, accept_version, schema;
   bool list, collect, slurm; /* what else to do with a sweep */

@@ -12,7 +12,7 @@ static int write_page(const gg_options *o, const gg_scene *scene)
   if (!output && o->input) return gg_cli_report(&err);
   if (!output) return gg_cli_fail(GG_FAILED, "out of memory");
   const bool replaced = gg_cli_file_exists(output) && !gg_cli_file_is_device(output);
-  gg_status status = gg_page_write(scene, output, &err);
+  gg_status status = gg_page_write(o->page, scene, output, &err);
   if (status == GG_OK) gg_cli_report_written(o, "page", output, replaced);
   free(output);
   if (status == GG_OK) return GG_OK;

@@ -190,6 +190,18 @@ def test_page_of_the_build_folder():
     check(done.returncode == 0 and open("o.html").read() == page.replace('"@given@"', "null"), done)
 
 
+def test_page_of_a_release():
+    """A page that was downloaded is named; what is none is refused."""
+    for name, text in ("page.html", '<html>"@given@"</html>'), ("other.html", "<html></html>"):
+        with open(name, "w") as f:
+            f.write(text)
+    done = run("page", "scene.yaml", "--page", "page.html", "--output", "o.html", scene=GOOD)
+    check(done.code == 0 and "usf" in open("o.html").read() and "@given@" not in open("o.html").read(), done)
+    for name, words in ("other.html", "no page of graingas"), ("none.html", "none.html: cannot be read"):
+        done = run("page", "--page", name, "--output", "p.html")
+        check(done.code == 3 and words in done.err and not os.path.exists("p.html"), done)
+
+
 def test_flow_of_another_engine():
     refused("thermostat", 2, scene="flow: small_shear\nthermostat: gaussian\nphi: 0.3\n",
             *("run", "scene.yaml", "--engine", "md"))

@@ -165,7 +165,7 @@ def test_page():
             text = f.read()
         check("usf" in text and '"@given@"' not in text, len(text))
     else:
-        check(done.code == 3 and "was not built" in done.err and not os.path.exists("p.html"), done.code, done.err)
+        check(done.code == 3 and "--page FILE" in done.err and not os.path.exists("p.html"), done.code, done.err)
 
 
 def test_compare():

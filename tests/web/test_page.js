@@ -385,7 +385,7 @@ const tests = {
     const there = JSON.parse(terminal(scene, "run", "--json", "--quiet", "--output", "/dev/null", "--set", "collision.e=0.8")).results.temperature;
     assert.deepStrictEqual(await tab.value("S().points[1].md.temperature"), [there.mean, there.stderr]);
     assert.strictEqual(await tab.value("document.querySelectorAll(\"#points [data-name='md kept'] path\").length"), 2);
-    await tab.until("document.querySelector(\"#points [data-name='enskog_hermite'] polyline\")?.getAttribute('points').split(' ').length === 9", quick);
+    await tab.until("document.querySelector(\"#points [data-name='enskog_hermite'] polyline\")?.getAttribute('points').split(' ').length > 6", quick);
     await tab.until("document.querySelector(\"#chart [data-name='ghost e = 0.9']\")", quick);
     /* the table, and the table of a class beside one's own */
     await tab.value("byId('save-points').click()");
@@ -419,7 +419,7 @@ const tests = {
     await tab.until("now.frame.twin && now.frame.md.temperature < 0.8 * now.frame.twin.temperature", quick);
     assert.ok((await tab.value(drawn("twin"))).share > 0.1);
     await tab.value("byId('lesson-chaos').click()");
-    await tab.until("S().lesson === 'chaos' && now.frame && S().gas.history.far.y.length > 3", quick);
+    await tab.until("S().lesson === 'chaos' && now.frame && S().gas.history.far.y.some((d) => d > 0)", quick);
     const first = await tab.value("S().gas.history.far.y.find((d) => d > 0)");
     assert.ok(first < 1e-9, `${first}`);
     await tab.value("graingas.store.look({ speed: 30 })");

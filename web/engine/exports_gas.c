@@ -181,6 +181,29 @@ PAGE const double *page_step(page_simulation *p)
   return numbers;
 }
 
+PAGE const double *page_state(page_simulation *p)
+{
+  gg_simulation_state s;
+  return gg_simulation_get_state(p->simulation, &s, &page_why) == GG_OK ? told_state(&s) : NULL;
+}
+
+PAGE const double *page_sums(page_simulation *p)
+{
+  static double numbers[4 + 9];
+  gg_simulation_sums s;
+  if (gg_simulation_take_sums(p->simulation, &s, &page_why) != GG_OK) return NULL;
+  const double head[] = {s.time, (double)s.collisions, (double)s.wall_collisions, s.dissipation};
+  memcpy(numbers, head, sizeof head);
+  memcpy(numbers + 4, s.collisional_stress, sizeof s.collisional_stress);
+  return numbers;
+}
+
+/* Fill the arrays. */
+PAGE int page_take_grains(page_simulation *p)
+{
+  return gg_simulation_get_grains(p->simulation, &p->grains.into, &page_why) == GG_OK;
+}
+
 /* ---- What a class does with a gas ---- */
 
 static int put_grains(page_simulation *p)
@@ -191,7 +214,7 @@ static int put_grains(page_simulation *p)
 /* All velocities and spins reversed. */
 PAGE int page_reverse(page_simulation *p)
 {
-  if (gg_simulation_get_grains(p->simulation, &p->grains.into, &page_why) != GG_OK) return 0;
+  if (!page_take_grains(p)) return 0;
   for (size_t i = 0; i < 3 * p->grains.n; i++) {
     p->grains.into.velocity[i] = -p->grains.into.velocity[i];
     p->grains.into.spin[i] = -p->grains.into.spin[i];
@@ -199,12 +222,22 @@ PAGE int page_reverse(page_simulation *p)
   return put_grains(p);
 }
 
-/* Put the grains back as they are, the first one's velocity along x with `bits` last bits more. */
-PAGE int page_nudge(page_simulation *p, int bits)
+/* Put the grains back, as they are after a change of units and back; `change`: with the one of the largest x nearer to
+ * 0 by the least that is kept, one last bit or, where the change of units rounds that away, a few. A last bit of a
+ * velocity would mostly be lost in the first collision. */
+PAGE int page_nudge(page_simulation *p, int change)
 {
-  if (gg_simulation_get_grains(p->simulation, &p->grains.into, &page_why) != GG_OK) return 0;
-  for (int k = 0; k < bits; k++) p->grains.into.velocity[0] = nextafter(p->grains.into.velocity[0], INFINITY);
-  return put_grains(p);
+  if (!page_take_grains(p) || !put_grains(p) || !page_take_grains(p) || !put_grains(p)) return 0;
+  double *x = p->grains.into.position;
+  for (size_t i = 1; i < p->grains.n; i++)
+    if (p->grains.into.position[3 * i] > *x) x = p->grains.into.position + 3 * i;
+  double before = *x, after = before;
+  for (int tries = 0; change && tries < 64; tries++) {
+    *x = after = nextafter(after, 0);
+    if (!put_grains(p) || !page_take_grains(p)) return 0;
+    if (*x != before) return 1;
+  }
+  return change ? page_fail("no place is that near"), 0 : 1;
 }
 
 /* Remember where the grains are now, for page_distance. */
@@ -212,7 +245,7 @@ PAGE int page_remember(page_simulation *p)
 {
   if (!p->start) p->start = malloc(3 * p->grains.n * sizeof *p->start);
   if (!p->start) return page_fail("out of memory"), 0;
-  if (gg_simulation_get_grains(p->simulation, &p->grains.into, &page_why) != GG_OK) return 0;
+  if (!page_take_grains(p)) return 0;
   memcpy(p->start, p->grains.into.position, 3 * p->grains.n * sizeof *p->start);
   return 1;
 }
@@ -248,29 +281,6 @@ PAGE const double *page_speeds(const page_simulation *p, int bins, double end)
     if (at < bins) share[(int)at] += bins / (end * (double)p->grains.n);
   }
   return share;
-}
-
-PAGE const double *page_state(page_simulation *p)
-{
-  gg_simulation_state s;
-  return gg_simulation_get_state(p->simulation, &s, &page_why) == GG_OK ? told_state(&s) : NULL;
-}
-
-PAGE const double *page_sums(page_simulation *p)
-{
-  static double numbers[4 + 9];
-  gg_simulation_sums s;
-  if (gg_simulation_take_sums(p->simulation, &s, &page_why) != GG_OK) return NULL;
-  const double head[] = {s.time, (double)s.collisions, (double)s.wall_collisions, s.dissipation};
-  memcpy(numbers, head, sizeof head);
-  memcpy(numbers + 4, s.collisional_stress, sizeof s.collisional_stress);
-  return numbers;
-}
-
-/* Fill the arrays. */
-PAGE int page_take_grains(page_simulation *p)
-{
-  return gg_simulation_get_grains(p->simulation, &p->grains.into, &page_why) == GG_OK;
 }
 
 /* NULL after the last. */
