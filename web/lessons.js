@@ -36,7 +36,7 @@ export const LESSONS = [
     quantity: "N1",
     colour: "along",
   }),
-  lesson("friction", "{flow: usf, phi: 0.2, particles: 1000, collision: {e: 0.9, beta: 0.5, mu: 0.2}}", {
+  lesson("friction", "{flow: usf, phi: 0.2, particles: 1000, collision: {e: 0.9, beta: 1, mu: 0.2}}", {
     slider: "mu",
     chart: "temperature",
     quantity: "temperature",
