@@ -102,33 +102,35 @@ export class BoxView {
     this.thick = Math.max(1, ratio);
   }
 
-  /* From the box to the screen: [x, y, pixels per length, depth]. */
-  aim(box, strips) {
+  /* From the box to the screen: [x, y, pixels per length, depth]. A chute is tilted so that gravity points down. */
+  aim(box, strips, [along, down] = [0, 0]) {
     const extent = Math.hypot(box[0] * (strips ? 1.25 : 1), box[1] * (strips ? 1.5 : 1), box[2]),
-      away = 1.9 * extent;
-    const cy = Math.cos(this.yaw),
-      sy = Math.sin(this.yaw),
-      cp = Math.cos(this.pitch),
-      sp = Math.sin(this.pitch);
-    const wide = Math.hypot(box[0] * (strips ? 1.35 : 1), box[2]),
-      scale = this.zoom * Math.min(this.w / wide, this.h / (extent * 0.92)) * away * 1.02;
+      away = 1.9 * extent,
+      roll = Math.atan2(along, -down || 1);
+    const [cy, sy, cp, sp, cr, sr] = [this.yaw, this.pitch, along ? roll : 0].flatMap((angle) => [Math.cos(angle), Math.sin(angle)]);
     this.rotate = (a, b, c) => {
-      const v = a * sy + c * cy;
-      return [a * cy - c * sy, b * cp - v * sp, b * sp + v * cp];
+      const v = a * sy + c * cy,
+        u = a * cy - c * sy,
+        up = b * cp - v * sp;
+      return [u * cr + up * sr, up * cr - u * sr, b * sp + v * cp];
     };
-    let right = this.w / 2,
-      down = this.h / 2;
+    let scale = 1,
+      right = 0,
+      lower = 0;
     this.to = (x, y, z) => {
       const [u, up, depth] = this.rotate(x - box[0] / 2, y - box[1] / 2, z - box[2] / 2),
         f = scale / (away - depth);
-      return [right + u * f, down - up * f, f, depth];
+      return [right + u * f, lower - up * f, f, depth];
     };
-    /* the corners in the middle */
+    /* the corners in the middle, and as large as the canvas lets it */
     const corners = Array.from({ length: 8 }, (_, i) => this.to(i & 1 ? box[0] : 0, i & 2 ? box[1] : 0, i & 4 ? box[2] : 0)),
-      middle = (k) => (Math.min(...corners.map((c) => c[k])) + Math.max(...corners.map((c) => c[k]))) / 2,
-      [x0, y0] = [middle(0), middle(1)];
-    right += this.w / 2 - x0;
-    down += this.h / 2 - y0;
+      ends = (k) => [Math.min(...corners.map((c) => c[k])), Math.max(...corners.map((c) => c[k]))],
+      [x0, x1] = ends(0),
+      [y0, y1] = ends(1),
+      part = strips ? [1.3, 1.45] : [1.05, 1.07];
+    scale = Math.min(this.w / Math.hypot(box[0], box[2]) / part[0] * away * 1.12, this.w / (x1 - x0) / part[0], this.h / (y1 - y0) / part[1]) * this.zoom;
+    right = this.w / 2 - (scale * (x0 + x1)) / 2;
+    lower = this.h / 2 - (scale * (y0 + y1)) / 2;
     this.far = extent / 2;
     this.corner = [this.rotate(1, 0, 0), this.rotate(0, 1, 0), this.rotate(0, 0, 1)];
     this.away = away;
@@ -263,8 +265,8 @@ export class BoxView {
       ])
         this.arrow(to, [box[0] / 2, box[1] * y, box[2] / 2], [sign, 0, 0], length);
     if (values.gravity && values.gravity.some((one) => one !== 0)) {
-      this.arrow(to, [box[0] * 1.12, box[1] * 0.85, box[2] / 2], values.gravity, length);
-      const [x, y] = this.to(box[0] * 1.12, box[1] * 0.85, box[2] / 2);
+      this.arrow(to, [box[0] / 2, box[1] * 0.9, box[2]], values.gravity, length);
+      const [x, y] = this.to(box[0] / 2, box[1] * 0.9, box[2]);
       to.font = `italic ${16 * this.thick}px serif`;
       to.fillText("g", x + 8 * this.thick, y - 4 * this.thick);
     }
@@ -282,7 +284,7 @@ export class BoxView {
     to.fillStyle = rgb(DARK);
     to.fillRect(0, 0, this.w, this.h);
     if (!picture) return;
-    this.aim(box, strips);
+    this.aim(box, strips, values.flow === "chute" ? values.gravity : undefined);
     const behind = this.isBehind(box),
       whole = [
         [0, box[1]],

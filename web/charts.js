@@ -34,7 +34,7 @@ function temperature(state) {
     cooling = values.flow === "hcs",
     rough = values.collision.beta > -1 || values.collision.mu !== "inf" || history.course("theta").y.some((y) => y > 0);
   const line = (name, label, colour, dash) => ({ ...history.course(name), name, label, colour, dash });
-  const drawn = [line("T", `${t("md")}: T`, MD), line("T2", `${t("dsmc")}: T`, DSMC), line("T3", `${t("twin")}: T`, "#7a3db8")];
+  const drawn = [line("T", `${t("md")}: T`, MD), line("T2", `${t("dsmc")}: T`, DSMC), line("T3", `${t("twin")}: T`, "#444444")];
   if (rough) drawn.push(line("theta", `${t("md")}: θ`, MD, "4 3"), line("theta2", `${t("dsmc")}: θ`, DSMC, "4 3"));
   const series = [...ghosts(state, cooling), ...drawn.filter((one) => one.y.some(Number.isFinite))],
     x = series.flatMap((one) => one.x).sort((a, b) => a - b);

@@ -57,12 +57,13 @@ export const LESSONS = [
     speed: 10,
     follow: true,
   }),
-  lesson("walls", "{flow: couette, phi: 0.1, particles: 1000, temperature: 6, collision: {e: 0.9}}", {
+  lesson("walls", "{flow: couette, phi: 0.1, particles: 1000, collision: {e: 0.9}}", {
     slider: "e",
     chart: "temperature",
     quantity: "temperature",
     colour: "along",
     camera: [0.2, 0.1, 1],
+    speed: 10,
   }),
   lesson("chaos", "{flow: hcs, phi: 0.1, particles: 200, collision: {e: 1}}", {
     slider: "phi",

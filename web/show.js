@@ -125,13 +125,14 @@ function showView({ view }) {
   now.fresh = !!now.frame;
 }
 
-function showLesson({ lesson, gas, slider, player }) {
+function showLesson({ lesson, gas, slider, player }, before) {
   for (const button of byId("lessons").children) button.setAttribute("aria-pressed", String(button.id === `lesson-${lesson || "own"}`));
   byId("lesson-name").textContent = lesson ? t(`lesson_${lesson}`) : player ? player.name : t("lesson_own");
   byId("lesson-text").textContent = lesson ? t(`lesson_${lesson}_text`) : gas.about.title;
   byId("question").textContent = lesson ? t(`lesson_${lesson}_question`) : "";
   parts.controls.pull(rowOf(slider).name, byId("main-control"));
   byId("reverse").hidden = lesson !== "reverse";
+  if (before.lesson !== lesson || !before.gas) byId("more-controls").open = !lesson;
 }
 
 /* ---- The gas ---- */
