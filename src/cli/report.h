@@ -17,5 +17,7 @@ void gg_cli_print_head(const gg_scene *scene);
 void gg_cli_print_effort(const gg_result *result);
 void gg_cli_print_warnings(const gg_result *result, const char *reported);
 void gg_cli_print_numbers(const gg_result *one, const gg_result *two, bool all);
+/* report_profiles.c: those across the gap that both results have; nothing if there are none. */
+void gg_cli_print_profiles(const gg_result *md, const gg_result *dsmc, bool all);
 
 #endif

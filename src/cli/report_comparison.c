@@ -239,6 +239,7 @@ void gg_cli_print_comparison(const gg_comparison *c, bool all)
   print_causes(c, all);
   print_remarks(c);
   gg_cli_print_numbers(gg_comparison_result(c, "md"), gg_comparison_result(c, "dsmc"), all);
+  if (both_ran(c)) gg_cli_print_profiles(gg_comparison_result(c, "md"), gg_comparison_result(c, "dsmc"), all);
   printf("\n");
   for (int k = 0; k < 2; k++) {
     const char *refusal = gg_comparison_refusal(c, engines[k]);

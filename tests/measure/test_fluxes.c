@@ -151,13 +151,13 @@ static void carried(void **state)
 
 /* ---- Runs */
 
-static gg_result *run_of(gg_flow flow, double phi, double e, double beta, double T)
+static gg_result *run_of(gg_engine_kind engine, gg_flow flow, double phi, double e, double beta, double T)
 {
   gg_scene s = gg_scene_defaults();
-  s.engine = GG_MD, s.flow = flow, s.phi = phi, s.particles = 500;
+  s.engine = engine, s.flow = flow, s.phi = phi, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = e, s.collision.beta[q] = beta;
   s.walls.temperature[0] = T, s.walls.temperature[1] = flow == GG_FOURIER ? 0.5 * T : T;
-  s.run.collisions = 8000, s.run.warmup = 1000;
+  s.run.collisions = engine == GG_MD ? 8000 : 1500, s.run.warmup = engine == GG_MD ? 1000 : 500;
   s.measure |= GG_MEASURE_PROFILES | GG_MEASURE_FLUXES;
   return ct_run(s);
 }
@@ -165,7 +165,7 @@ static gg_result *run_of(gg_flow flow, double phi, double e, double beta, double
 static void constant_fluxes(void **state)
 {
   (void)state;
-  gg_result *r = run_of(GG_FOURIER, 0.3, 1, -1, 1);
+  gg_result *r = run_of(GG_MD, GG_FOURIER, 0.3, 1, -1, 1);
   const gg_curve *p = ct_find(&r->curves, "profile_P_yy"), *q = ct_find(&r->curves, "profile_q_y");
   const gg_curve *u = ct_find(&r->curves, "profile_velocity");
   const gg_curve_number p_low = ct_number(u, "wall_P_yy_lower"), q_low = ct_number(q, "wall_q_y_lower"),
@@ -205,7 +205,7 @@ static double sum_of(const gg_curve *c)
 static void balance(void **state)
 {
   (void)state;
-  gg_result *r = run_of(GG_COUETTE, 0.2, 0.9, 0.2, 0.02);
+  gg_result *r = run_of(GG_MD, GG_COUETTE, 0.2, 0.9, 0.2, 0.02);
   const gg_curve *left = ct_find(&r->curves, "profile_energy_residual"), *loss = ct_find(&r->curves, "profile_loss"),
                  *work = ct_find(&r->curves, "profile_stress_work"),
                  *heat = ct_find(&r->curves, "profile_heat_divergence");
@@ -237,13 +237,32 @@ static void balance(void **state)
   gg_result_free(r);
 }
 
+/* Momentum and energy are conserved in Monte Carlo, too, dense and dilute. */
+static void monte_carlo(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    gg_result *r = run_of(GG_DSMC, GG_COUETTE, k ? 0 : 0.2, 0.9, 0.2, 0.02);
+    const gg_curve *left = ct_find(&r->curves, "profile_energy_residual"), *P = ct_find(&r->curves, "profile_P_yx"),
+                   *p = ct_find(&r->curves, "profile_P_yy"), *u = ct_find(&r->curves, "profile_velocity");
+    const gg_curve_number yx = ct_number(u, "wall_P_yx_lower"), yy = ct_number(u, "wall_P_yy_lower");
+    const double none = 0;
+    assert_true(ct_chi2(left, 0, left->n, level, &none) < 2);
+    assert_true(ct_chi2(P, 0, P->n, level, &yx.value) < 2);
+    assert_true(ct_chi2(p, 0, p->n, level, &yy.value) < 2);
+    double variance = 0;
+    for (size_t i = 0; i < left->n; i++) variance += pow(left->error[i], 2);
+    const double lost = sum_of(ct_find(&r->curves, "profile_loss"));
+    ct_expect("sum of the residual", sum_of(left), sqrt(variance), 0, 0.1 * lost);
+    gg_result_free(r);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(conservation),
-      cmocka_unit_test(carried),
-      cmocka_unit_test(constant_fluxes),
-      cmocka_unit_test(balance),
+      cmocka_unit_test(conservation), cmocka_unit_test(carried),     cmocka_unit_test(constant_fluxes),
+      cmocka_unit_test(balance),      cmocka_unit_test(monte_carlo),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -88,6 +88,8 @@ typedef struct gg_dsmc_gap_grain {
 typedef struct gg_dsmc_gap_contacts {
   gg_surface_sums surface[GG_MOST_SURFACES];
   uint64_t rests;
+  bool shown;  /* to the callback */
+  uint32_t id; /* of the grain */
 } gg_dsmc_gap_contacts;
 
 /* gap_flight.c: all grains for a time; one grain, where the engine stays as it is. */

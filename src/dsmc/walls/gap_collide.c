@@ -32,7 +32,8 @@ static gg_contact contact_of(const gg_dsmc_gap *d, const pass *p, double gn)
   return c;
 }
 
-static void call_back(gg_dsmc_gap *d, double time, const uint32_t i[2], gg_vec k, const gg_vec c[2], gg_vec J)
+static void call_back(gg_dsmc_gap *d, double time, const uint32_t i[2], gg_vec k, const gg_vec c[2], gg_vec J,
+                      const gg_vec s[2])
 {
   gg_dsmc_gap_grains *g = &d->grains;
   gg_collision_record m = {.k = k, .c12 = gg_sub(c[0], c[1]), .J = J, .time = time};
@@ -40,6 +41,7 @@ static void call_back(gg_dsmc_gap *d, double time, const uint32_t i[2], gg_vec k
     m.id[w] = g->id[i[w]];
     m.species[w] = g->species[i[w]];
     m.c[w] = c[w];
+    if (g->s) m.s[w] = g->s[i[w]], m.turn[w] = gg_sub(s[w], m.s[w]);
     m.height[w] = g->at[i[w]].y - 0.5 * d->model.box[1];
     m.since[w] = fmax(time - g->last[i[w]], 0); /* candidates of a correction go back in time */
     g->last[i[w]] = time;
@@ -59,7 +61,7 @@ static void collide(gg_dsmc_gap *d, const pass *p, double time, uint32_t i, uint
   const gg_contact contact = contact_of(d, p, gn);
   const gg_vec J = gg_impulse(rule, &contact, k, v, gn);
   gg_kick(rule, &contact, k, J, &c1, &s1, &c2, &s2);
-  if (d->callback) call_back(d, time, (const uint32_t[]){i, j}, k, before, J);
+  if (d->callback) call_back(d, time, (const uint32_t[]){i, j}, k, before, J, (const gg_vec[]){s1, s2});
   g->at[i].c = c1, g->at[j].c = c2;
   if (rule != GG_SMOOTH) g->s[i] = s1, g->s[j] = s2;
   gg_collision_sums *t = &d->now.transfer;

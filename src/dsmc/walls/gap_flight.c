@@ -15,11 +15,32 @@ static void move(gg_dsmc_gap_grain *p, gg_vec g, double dt)
   p->c = gg_axpy(dt, g, p->c);
 }
 
+static void show(const gg_dsmc_gap *d, int w, gg_vec k, gg_vec J, const gg_dsmc_gap_grain *before,
+                 const gg_dsmc_gap_grain *p, uint32_t id)
+{
+  const gg_surface *surface = &d->model.surface[w];
+  const double middle = 0.5 * d->model.box[1];
+  const gg_collision_record m = {.id = {id, -1},
+                                 .species = {p->species},
+                                 .k = k,
+                                 .c12 = gg_sub(before->c, surface->velocity),
+                                 .c = {before->c, surface->velocity},
+                                 .s = {before->s},
+                                 .turn = {gg_sub(p->s, before->s)},
+                                 .height = {p->r.y - middle, surface->place - middle},
+                                 .wall = w + 1,
+                                 .J = J,
+                                 .time = d->now.time,
+                                 .since = {INFINITY, INFINITY}};
+  d->callback(d->callback_context, &m);
+}
+
 static void touch(const gg_dsmc_gap *d, int w, gg_rng *rng, gg_dsmc_gap_grain *p, gg_dsmc_gap_contacts *all)
 {
   const gg_surface *surface = &d->model.surface[w];
   const gg_contact *contact = &surface->contact[p->species];
   const gg_vec k = gg_surface_normal(surface, &p->r);
+  const gg_dsmc_gap_grain before = *p;
   gg_surface_hit hit = gg_surface_collide(d->wall_rule, surface, contact, rng, k, &p->c, &p->s);
   const double pull = gg_dot(k, d->gravity), least = pull > 0 ? 0.5 * pull * d->now.step * SHORTEST_HOP : 0;
   const double towards = gg_dot(k, p->c);
@@ -30,6 +51,7 @@ static void touch(const gg_dsmc_gap *d, int w, gg_rng *rng, gg_dsmc_gap_grain *p
   }
   p->r.y = surface->side > 0 ? d->high[p->species] : d->low[p->species];
   p->touched = true;
+  if (all->shown) show(d, w, k, hit.J, &before, p, all->id);
   gg_surface_sums *t = &all->surface[w];
   t->collisions++;
   for (int a = 0; a < 3; a++) t->impulse[a] += gg_along(&hit.J, a);
@@ -67,6 +89,7 @@ static void fly_to_walls(gg_dsmc_gap *d, size_t i, double dt, gg_dsmc_gap_contac
   gg_dsmc_gap_motion *at = &g->at[i];
   gg_dsmc_gap_grain p = {.r = {0, at->y, 0}, .c = at->c, .species = g->species[i]};
   if (g->s) p.s = g->s[i];
+  all->id = g->id[i];
   gg_dsmc_gap_fly_grain(d, dt, &d->now.rng, &p, all);
   at->y = fmin(fmax(p.r.y, d->low[p.species]), d->high[p.species]);
   at->c = p.c;
@@ -76,7 +99,7 @@ static void fly_to_walls(gg_dsmc_gap *d, size_t i, double dt, gg_dsmc_gap_contac
 
 void gg_dsmc_gap_fly(gg_dsmc_gap *d, double dt)
 {
-  gg_dsmc_gap_contacts all = {0};
+  gg_dsmc_gap_contacts all = {.shown = d->callback != NULL};
   const gg_vec g = d->gravity, dc = gg_scale(dt, g);
   const double fall = 0.5 * fabs(g.y) * dt * dt, lift = 0.5 * dt * dt * g.y;
   const bool mixture = d->model.n_species > 1;
