@@ -160,8 +160,9 @@ static bool by_chance(void *context)
 
 static void see(void *context, const gg_collision_record *c)
 {
-  assert_true(c->since[0] >= 0 && c->since[1] >= 0 && fabs(c->height[0]) < 6 && fabs(c->height[1]) < 6);
   assert_true(gg_dot(c->k, c->c12) > 0);
+  if (c->wall) return;
+  assert_true(c->since[0] >= 0 && c->since[1] >= 0 && fabs(c->height[0]) < 6 && fabs(c->height[1]) < 6);
   ++*(uint64_t *)context;
 }
 
