@@ -115,7 +115,7 @@ static bool may_be_structured(const difference *d, char *text, size_t size)
 {
   const gg_model *m = d->model;
   const double L = gg_theory_clustering_length(m), edge = fmax(m->box[0], fmax(m->box[1], m->box[2]));
-  if (has_waves(d->md) || !(edge > (m->shear_rate != 0 ? 3 : 1) * L)) return false;
+  if (m->walled || has_waves(d->md) || !(edge > (m->shear_rate != 0 ? 3 : 1) * L)) return false;
   snprintf(
       text, size,
       "the box, %.3g d, is longer than the length above which this gas forms clusters or vortices, %.3g d; a Monte "
@@ -171,8 +171,17 @@ static bool correlated(const difference *d, char *text, size_t size)
   return true;
 }
 
+static bool at_walls(const difference *d, char *text, size_t size)
+{
+  if (!d->model->walled || fabs(d->by) > 0.3) return false;
+  snprintf(text, size,
+           "near walls grains that have collided meet again after one returns from the wall, and dense layers order "
+           "along it: Enskog's equation leaves out both");
+  return true;
+}
+
 static cause *const causes_known[] = {not_steady, about_cells,      structured, waves_respond, may_be_structured,
-                                      treated,    number_of_grains, hot_spins,  correlated};
+                                      treated,    number_of_grains, hot_spins,  correlated,    at_walls};
 
 static const char unknown[] = "no known cause";
 
