@@ -2,7 +2,7 @@
  * took, to rounding; a restored or stopped engine goes on bit for bit; candidates one by one are the same as some at
  * once. Limits: elastic grains between smooth elastic walls are in
  * equilibrium, with the pressure n T Z(phi) on both walls and Enskog's collision rate; a column is barometric, and
- * carries its weight. */
+ * carries its weight; sheared between thermal walls the core has Enskog's viscosity. */
 #include "common/contact_value.h"
 #include "common/surface/shapes.h"
 #include "dsmc/walls/gap.h"
@@ -329,11 +329,71 @@ static void columns_carry_their_weight(void **state)
   column(0.3, 12, 0.1);
 }
 
+/* Sums over the slabs of the core, from 3/10 to 7/10 of the gap: height times velocity, and so on. */
+typedef struct core {
+  const gg_model *m;
+  double n, y, yy, u, yu, cc[SLABS], flow[SLABS], of[SLABS];
+} core;
+
+static void add_core(void *context, const gg_chunk *k)
+{
+  core *v = context;
+  for (size_t i = 0; i < k->n; i++) {
+    const double y = k->r[1][i], u = k->c[0][i];
+    const int slab = (int)(y / v->m->box[1] * SLABS);
+    if (slab < 12 || slab >= 28) continue;
+    v->n++, v->y += y, v->yy += y * y, v->u += u, v->yu += y * u;
+    v->of[slab]++, v->flow[slab] += u;
+    for (int a = 0; a < 3; a++) v->cc[slab] += k->c[a][i] * k->c[a][i];
+  }
+}
+
+/* Chapman & Cowling (1970), 16.41, with the first of its terms to all orders of Sonine polynomials. */
+static double enskog_viscosity(double phi, double chi, double T)
+{
+  const double b = 1 + 1.6 * phi * chi;
+  return 5. / 16 * (1.016034 * b * b / chi + 768 / (25 * M_PI) * phi * phi * chi) * sqrt(T / M_PI);
+}
+
+static void core_has_the_viscosity(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(GG_COUETTE, 0.1, 18, 10000);
+  s.walls.speed = 10;
+  s.walls.temperature[0] = s.walls.temperature[1] = 200; /* so hot that the gas thins by half a per cent at most */
+  s.walls.accommodation = 1;
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 9);
+  g->ops->keep_sums(g, true);
+  advance(g, INFINITY, (uint64_t)(150 * m.n));
+  taken(g);
+  lab_mean ratio = {0};
+  for (int block = 0; block < 16; block++) {
+    core v = {.m = &m};
+    double time = 0, heat = 0;
+    for (int k = 0; k < 50; k++) {
+      time += advance(g, INFINITY, (uint64_t)m.n);
+      g->ops->snapshot(g, true, add_core, &v);
+    }
+    const gg_collision_sums t = taken(g);
+    const double shear = (v.yu - v.y * v.u / v.n) / (v.yy - v.y * v.y / v.n), area = m.box[0] * m.box[2];
+    const double stress = (t.surface[0].impulse[0] - t.surface[1].impulse[0]) / (2 * area * time);
+    for (int i = 12; i < 28; i++) heat += v.cc[i] - v.flow[i] * v.flow[i] / v.of[i];
+    const double thickness = m.box[1] / SLABS, T = heat / (3 * v.n) - shear * shear * thickness * thickness / 36;
+    const double phi = M_PI / 6 * v.n / (50 * area * 16 * thickness);
+    lab_add(&ratio,
+            fabs(stress) / (shear * enskog_viscosity(phi, gg_common_contact_value_of(m.contact_value, phi), T)));
+  }
+  lab_expect("viscosity over Enskog's", &ratio, 1, 0.005, 0.08);
+  g->ops->destroy(g);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_is_lost_is_accounted_for), cmocka_unit_test(plain_is_the_same),
       cmocka_unit_test(restored_and_stopped),          cmocka_unit_test(damaged),
-      cmocka_unit_test(walls_carry_the_pressure),      cmocka_unit_test(columns_carry_their_weight)};
+      cmocka_unit_test(walls_carry_the_pressure),      cmocka_unit_test(columns_carry_their_weight),
+      cmocka_unit_test(core_has_the_viscosity)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
