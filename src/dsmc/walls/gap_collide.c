@@ -72,10 +72,10 @@ static void collide(gg_dsmc_gap *d, const pass *p, double time, uint32_t i, uint
   t->loss[p->pair] += gg_energy_loss(&contact, k, v, J);
 }
 
-/* Candidates drawn at once; who the grains are, k_y, chi N, the limit. */
+/* Candidates drawn at once; who the grains are, the cell of the second, k_y, chi N, the limit. */
 enum { BLOCK = 16 };
 typedef struct block {
-  uint32_t n, i[BLOCK], j[BLOCK];
+  uint32_t n, i[BLOCK], j[BLOCK], cell[BLOCK];
   double ky[BLOCK], scale[BLOCK], limit[BLOCK];
 } block;
 
@@ -92,6 +92,7 @@ static void draw(gg_dsmc_gap *d, const pass *p, uint32_t first, uint32_t n, bloc
     const int cell = inside ? (int)at : p->cell, there = cell * d->model.n_species + p->two;
     const uint32_t begin = c->start[there], partners = inside ? c->start[there + 1] - begin : 0;
     b->j[k] = partners ? begin + (uint32_t)((who & UINT32_MAX) * partners >> 32) : b->i[k];
+    b->cell[k] = (uint32_t)cell;
     b->scale[k] = p->chi[cell] * partners;
   }
 }
@@ -127,10 +128,9 @@ static bool judge(gg_dsmc_gap *d, pass *p, const block *b, uint32_t m)
   if (value > p->largest) p->largest = value;
   d->now.overflows += value > p->floor + p->majorant;
   if (!(b->limit[m] < value)) return false;
-  gg_dsmc_gap_cells *c = &d->cells;
   collide(d, p, p->begin + m * p->tick, i, j, k);
-  c->hits[p->cell]++;
-  c->hits[(int)fmin(fmax((d->grains.at[j].y - c->from) * c->inverse, 0), c->n - 1)]++;
+  d->cells.hits[p->cell]++;
+  d->cells.hits[b->cell[m]]++;
   return true;
 }
 
