@@ -764,6 +764,7 @@ const tests = {
     await tab.until("heard.some((one) => /T has halved/.test(one))", quick);
     await tab.value("byId('lesson-friction').click()");
     await tab.until("heard.some((one) => /^Friction\\. .*At which/.test(one))", quick);
+    await tab.until("now.frame", quick);
     await tab.press("d");
     await tab.until("heard.some((one) => /After .* collisions a grain T is/.test(one))", quick);
     assert.strictEqual(await tab.value("new Set(heard).size"), await tab.value("heard.length"));
