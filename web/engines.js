@@ -82,7 +82,7 @@ export async function openEngines(make, options) {
   };
   const localTemperature = (at, n, height) => {
     const [position, velocity, , species, , mass] = [0, 1, 2, 3, 4, 5].map((which) => c._page_array(at, which));
-    return c._page_local_temperature(n, position, velocity, species, mass, height);
+    return position ? c._page_local_temperature(n, position, velocity, species, mass, height) : NaN;
   };
   const stateAt = (at) => {
     const v = numbers(at, 20);

@@ -85,7 +85,8 @@ export function costOf(g, text, sets) {
 /* What is shown of a state. Between walls T is the one that results have: the state's is of whole velocities. */
 export const isWalled = ({ flow }) => /couette|poiseuille|chute/.test(flow);
 export function shownState(gas, state, values) {
-  return isWalled(values) ? { ...state, temperature: gas.localTemperature(state.grains, state.box[1]) } : state;
+  const temperature = isWalled(values) ? gas.localTemperature(state.grains, state.box[1]) : NaN; /* none without places */
+  return Number.isFinite(temperature) ? { ...state, temperature } : state;
 }
 /* The shear rate of the flow that velocities are about. */
 export const flowOf = ({ flow }) => (/usf|shear/.test(flow) ? 1 : 0);
