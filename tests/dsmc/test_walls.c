@@ -2,7 +2,8 @@
  * took, to rounding; a restored or stopped engine goes on bit for bit; candidates one by one are the same as some at
  * once. Limits: elastic grains between smooth elastic walls are in
  * equilibrium, with the pressure n T Z(phi) on both walls and Enskog's collision rate; a column is barometric, and
- * carries its weight; sheared between thermal walls the core has Enskog's viscosity. */
+ * carries its weight; sheared between thermal walls the core has Enskog's viscosity, and
+ * grains that meet nobody carry the stress of free molecular flow. */
 #include "common/contact_value.h"
 #include "common/surface/shapes.h"
 #include "dsmc/walls/gap.h"
@@ -388,12 +389,38 @@ static void core_has_the_viscosity(void **state)
   g->ops->destroy(g);
 }
 
+/* Half of the grains comes from either wall, each with the wall's velocity -+U on the mean, at a mean speed sqrt(2T/pi)
+ * across the gap: the stress is n U sqrt(2T/pi). */
+static void free_molecular_flow(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(GG_COUETTE, 1e-6, 400, 20000);
+  s.walls.speed = 10;
+  s.walls.temperature[0] = s.walls.temperature[1] = 100;
+  s.walls.accommodation = 1;
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 10);
+  const double T = m.surface[0].temperature, crossing = m.box[1] / sqrt(T), area = m.box[0] * m.box[2];
+  const double n = (double)m.n / (area * (m.box[1] - 1)), stress = n * m.surface[1].velocity.x * sqrt(2 * T / M_PI);
+  g->ops->keep_sums(g, true);
+  advance(g, 20 * crossing, UINT64_MAX);
+  taken(g);
+  lab_mean ratio = {0};
+  for (int block = 0; block < 20; block++) {
+    const double time = advance(g, 20 * crossing, UINT64_MAX);
+    const gg_collision_sums t = taken(g);
+    lab_add(&ratio, fabs(t.surface[0].impulse[0] - t.surface[1].impulse[0]) / (2 * area * time * stress));
+  }
+  lab_expect("free molecular stress", &ratio, 1, 0.002, 0.02);
+  g->ops->destroy(g);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(what_is_lost_is_accounted_for), cmocka_unit_test(plain_is_the_same),
       cmocka_unit_test(restored_and_stopped),          cmocka_unit_test(damaged),
       cmocka_unit_test(walls_carry_the_pressure),      cmocka_unit_test(columns_carry_their_weight),
-      cmocka_unit_test(core_has_the_viscosity)};
+      cmocka_unit_test(core_has_the_viscosity),        cmocka_unit_test(free_molecular_flow)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
