@@ -13,6 +13,7 @@ const MOST_GRAINS = 20000,
   FEWER = 2000;
 
 export const workers = { live: null, measure: null };
+export const page = { given: null }; /* the scene that the page was written with: what no address means */
 /* What comes with frames; not for the state. */
 export const now = { frame: null, frames: 0, fresh: false, want: true, step: false, owed: 0, lost: 0, behind: 0, busy: false };
 const renew = () => Object.assign(now, { frame: null, fresh: false, want: true, owed: 0, lost: 0, behind: 0 });
@@ -139,8 +140,9 @@ export function ownScene(scene, sets = {}, look = {}) {
 }
 
 /* What a link asks for, or the command, or nobody. */
-export async function follow({ scene, sets, lesson, look }, given = null) {
-  const known = lessonOf(lesson);
+export async function follow({ scene, sets, lesson, look }) {
+  const { given } = page,
+    known = lessonOf(lesson);
   let ok;
   if (scene === null && known) ok = await openLesson(known.name, { sets, look });
   else if (scene !== null || given) ok = await ownScene(scene ?? given, sets, look);

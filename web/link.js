@@ -2,7 +2,7 @@
  * Also read after a question mark. */
 import { LANGUAGES, ownLanguage } from "./i18n.js";
 import { lessonOf } from "./lessons.js";
-import { lookOf, START } from "./gas.js";
+import { lookOf, page, START } from "./gas.js";
 import { initial, store } from "./state.js";
 
 const VIEWS = ["all", "box", "curve", "present"],
@@ -60,10 +60,10 @@ export function linkOf(state, own = ownLanguage()) {
     to = new URLSearchParams();
   const { gas } = of;
   if (lesson) {
-    if (lesson !== START) to.set("lesson", lesson.name);
+    if (lesson !== START || page.given !== null) to.set("lesson", lesson.name);
     for (const [key, value] of Object.entries(gas.sets)) if (key !== "run.seed") to.append("set", `${key}=${value}`);
     if (gas.sets["run.seed"] !== undefined) to.set("seed", gas.sets["run.seed"]);
-  } else to.set("scene", gas.about.brief);
+  } else if (gas.scene !== page.given || Object.keys(gas.sets).length) to.set("scene", gas.about.brief);
   for (const [name, { write }] of Object.entries(LOOK))
     if (write(of[name]) !== write(usual[name]) && name !== "playing") to.set(name, write(of[name]));
   if (!of.playing) to.set("playing", "0");

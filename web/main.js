@@ -3,7 +3,7 @@ import { BoxView, CAMERA } from "./box.js";
 import { runClock, SPEEDS } from "./clock.js";
 import { Controls, wantedValues } from "./controls.js";
 import { endPlaying, FRAMES_A_SECOND, goTo, listenForFiles, openFile, played } from "./files.js";
-import { again, change, follow, now, openWorkers, ownScene, reverse, start, workers } from "./gas.js";
+import { again, change, follow, now, openWorkers, ownScene, page, reverse, start, workers } from "./gas.js";
 import { ownLanguage, t } from "./i18n.js";
 import { lessonOf } from "./lessons.js";
 import { linkOf, readLink } from "./link.js";
@@ -40,7 +40,8 @@ async function main() {
     return;
   }
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) link.look = { playing: false, ...link.look };
-  await follow(link, givenScene());
+  page.given = givenScene();
+  await follow(link);
   byId("main").inert = false; /* until now there was no gas that controls could act on */
   runClock(drawFrame);
 }
@@ -114,7 +115,7 @@ function listen() {
     const link = readLink();
     if (link.language) store.look({ language: link.language });
     if (store.state.player) endPlaying();
-    follow(link, givenScene());
+    follow(link);
   });
   for (const kind of ["resize", "fullscreenchange"])
     window.addEventListener(kind, () => {

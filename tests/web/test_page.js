@@ -81,7 +81,12 @@ const tests = {
       await tab.value("(({ flow, particles, collision }) => [flow, particles, collision.e])(graingas.store.state.gas.about.values)"),
       ["chute", 300, 0.8],
     );
-    assert.ok((await tab.value("location.hash")).length < 120);
+    assert.strictEqual(await tab.value("location.hash"), "");
+    /* a lesson, and back to the teacher's scene */
+    await tab.value("document.getElementById('lesson-temperature').click()");
+    await tab.until("location.hash === '#lesson=temperature' && graingas.store.state.lesson === 'temperature'", quick);
+    await tab.value("history.back()");
+    await tab.until("graingas.store.state.lesson === null && graingas.store.state.gas.about.values.flow === 'chute'", quick);
     await silent(tab);
   },
 
