@@ -18,16 +18,17 @@ export const page = { given: null }; /* the scene that the page was written with
 export const now = { frame: null, frames: 0, fresh: false, want: true, step: false, owed: 0, lost: 0, behind: 0, busy: false };
 const renew = () => Object.assign(now, { frame: null, fresh: false, want: true, owed: 0, lost: 0, behind: 0 });
 
-async function wasmBytes() {
-  const packed = Uint8Array.from(atob(byId("wasm").textContent.trim()), (c) => c.charCodeAt(0));
-  byId("wasm").textContent = "";
+/* What the page holds packed: gzip as base64. Read once. */
+async function unpack(id) {
+  const packed = Uint8Array.from(atob(byId(id).textContent.trim()), (c) => c.charCodeAt(0));
+  byId(id).textContent = "";
   return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
 /* Their version. The second, which measures, is waited for by those who measure. */
 export async function openWorkers() {
-  const wasm = await wasmBytes(),
-    source = URL.createObjectURL(new Blob([byId("worker").textContent], { type: "text/javascript" }));
+  const wasm = await unpack("wasm"),
+    source = URL.createObjectURL(new Blob([await unpack("worker")], { type: "text/javascript" }));
   workers.live = new WorkerClient(source);
   workers.measure = new WorkerClient(source);
   workers.measure.onmeans = takeMeans;

@@ -6,7 +6,7 @@ const LONGEST = 1200; /* characters: more cannot be read from a screen */
 
 /* A list with one drawing, or none for what is too long. */
 export function qrSvg(text, label) {
-  if (text.length > LONGEST) return [];
+  if (!qrcode || text.length > LONGEST) return []; /* null: built without it */
   const code = qrcode(0, "L");
   code.addData(text);
   code.make();
