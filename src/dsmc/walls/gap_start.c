@@ -166,7 +166,7 @@ static void begin(gg_dsmc_gap *d)
   double fastest = 0, energy = 0, most = 0, chi = 0;
   for (size_t i = 0; i < (size_t)d->model.n; i++) {
     const gg_vec v = d->grains.at[i].c;
-    fastest = fmax(fastest, gg_dot(v, v));
+    if (gg_dot(v, v) > fastest) fastest = gg_dot(v, v); /* as a reduction by fmax gcc 12 fails to compile it for ARM */
     energy += d->model.mass[d->grains.species[i]] * gg_dot(v, v);
   }
   s->temperature = energy / (3 * (double)d->model.n);
@@ -179,10 +179,11 @@ static void begin(gg_dsmc_gap *d)
     const double from = fmax(c->from + cell * c->width, d->low[of]),
                  to = fmin(c->from + (cell + 1) * c->width, fmin(d->high[of], d->model.box[1]));
     c->mean[k] = (double)d->model.n_of[of] * fmax(to - from, 0) / (fmin(d->high[of], d->model.box[1]) - d->low[of]);
-    most = fmax(most, c->start[k + 1] - c->start[k]);
+    if (c->start[k + 1] - c->start[k] > most) most = c->start[k + 1] - c->start[k];
   }
   gg_dsmc_gap_set_chi(d);
-  for (int k = 0; k < gg_pairs_of(species) * 2 * c->n; k++) chi = fmax(chi, c->chi[k]);
+  for (int k = 0; k < gg_pairs_of(species) * 2 * c->n; k++)
+    if (c->chi[k] > chi) chi = c->chi[k];
   for (int k = 0; k < c->n * species * species; k++)
     gg_dsmc_majorant_start(&c->majorant[k], 2 * sqrt(fastest) * chi * most, sqrt(s->temperature));
 }
