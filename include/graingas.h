@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas: granular gases of hard spheres by event-driven molecular dynamics and Enskog Monte Carlo, with theories.
  * The whole public interface, for C99 and later and for C++. Rules for all functions:
  *

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Writes the C source of the module graingas._c: python3 binding.py HEADER HELPERS OUTPUT
 
 cffi in API mode. The declarations are those of include/graingas.h, so that a function that is added there is in

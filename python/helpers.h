@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The C side of graingas._c: what callbacks need without Python's lock. Comments that begin with `cffi:` are
  * declarations for binding.py. */
 #include <stdlib.h>

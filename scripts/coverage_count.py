@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Counts of gcov's, of all objects of src in a build folder, added up by line: coverage_count.py FOLDER COUNTS. See
 scripts/coverage."""
 import json

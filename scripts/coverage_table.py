@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Lines and branches that were run, from what coverage_count.py added up: coverage_table.py COUNTS [FILE]. See
 scripts/coverage."""
 import json

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Files as C texts: embed_text.py HEADER OUTPUT.c NAME=FILE ... writes `const char NAME[]` for each."""
 import sys
 

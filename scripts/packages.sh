@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # What a step needs is there, or is installed, or is named: `need build unit`. Sourced by quickstart, check and others.
 needs_table=scripts/needs.txt
 

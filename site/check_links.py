@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Does every link of the pages in a folder lead somewhere in it? Files and anchors; nothing is fetched from elsewhere.
 
     site/check_links.py FOLDER

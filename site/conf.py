@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sphinx: the site of the documents. scripts/build-site lays the tree out for it, and sets the variables read here."""
 import ast
 import os

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Pages of the site that are made from the tree: the C interface, the Python module, examples, figures of papers.
 
     site/pages.py header > FILE   include/graingas.h with every comment in Doxygen form

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """N1, N2 and the kurtosis of C_x of a sheared run by the definitions of a peculiar velocity that papers leave open:
 
   graingas run SCENE.yaml --engine md --set output.trajectory_every=6 --output usf.h5

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Is there a bias in the Monte Carlo engine's means? Six scenes of smooth grains, whose answer is known without random
  * numbers. Each cause of a bias is made large: few grains (1/N), long steps (the step's square), runs that are so short
  * that the asked error ends them at once (stopping); and single precision, and ensembles of so many grains that they

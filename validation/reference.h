@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Uniform shear of smooth grains by Enskog's equation without random numbers, at a degree of one's own choice. */
 #ifndef GG_VALIDATION_REFERENCE_H
 #define GG_VALIDATION_REFERENCE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Enskog's equation in steady uniform shear over phi and e, without random numbers: T, P_xy, N1 and N2 of smooth
  * grains, each with its numerical error (theory enskog_hermite). shear_table [--phi N] [--e N] FILE.csv FILE.h5 writes
  * the whole table, some minutes, or its first N rows and columns. Exit code 0; 1 where a state does not converge, 2

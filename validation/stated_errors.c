@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Are the stated numerical errors of enskog_hermite honest? Random scenes of uniform shear, phi from 0 to 0.5 (a fifth
  * of them at 0) and e from 0.3 to 0.99, each answer beside the same expansion at degree 16: stated_errors [--scenes N]
  * prints, for each scene, the true error of T, P_xy, N1 and N2 over the stated one, and how many exceed it. Exit code

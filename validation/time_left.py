@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How right is the time left that a run tells? By hand, on a machine that does nothing else:
 
     taskset -c 0 validation/time_left.py build/libgraingas.so [SEED [NAME ...]]

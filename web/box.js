@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The box in three dimensions, on a canvas: x to the right along the flow, y up along its gradient; what is far is
  * painted first: edges behind the grains, grains, edges before them. */
 import { DARK, rgb } from "./colours.js";

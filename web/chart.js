@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A diagram as SVG, with its legend as a list: lines, points with error bars, bands, bars. It is built once; what is new
  * moves its lines. A pointer, or the arrow keys, read it. */
 import { number } from "./words.js";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the diagram beside the box shows: the history of the gas that is seen, the means so far, the lines of theories. */
 import { inLog } from "./chart.js";
 import { DSMC, GHOSTS, MD } from "./colours.js";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames: the gas is asked to go on as far as the clock on the wall says. */
 import { tickPlaying } from "./files.js";
 import { now, workers } from "./gas.js";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Colours: of grains by a value from 0 to 1, of curves. */
 export const DARK = [16, 21, 26];
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The controls of the scene, a row each: a key of it, as the library names it, and how it is chosen. A row has
  *   min, max, step    a slider and a number; without min and max a number alone (plain)
  *   words             a list to choose from; their names are the strings NAME_WORD

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The engines as a page sees them: objects with methods, around the exports of exports_*.c. Runs in a worker, a window and
  * node. `make` is the function that the module engines.js was built as (graingas). */
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files that somebody opens or drops: a result of the terminal is played in place of the live gas, which waits; a scene
  * is run; points of a class are put beside one's own. */
 import { askMeans, askNumber, now, ownScene, workers } from "./gas.js";

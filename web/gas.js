@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which gas runs: what is asked of the workers, and what becomes of their answers. */
 import { rowOf, setsOf, shownValue, symbolOf } from "./controls.js";
 import { LESSONS, lessonOf, nearestLesson } from "./lessons.js";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The history of the temperatures of the live simulation. */
 
 import { inLog } from "./chart.js";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Texts, a JSON file a language. What a language lacks, a test says. {x} is replaced by a value. */
 import de from "./strings/de.json";
 import en from "./strings/en.json";

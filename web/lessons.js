@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lessons: a scene, the slider that its question asks for, the curve that answers it. Their words are the strings
  * lesson_NAME, lesson_NAME_short, lesson_NAME_text and lesson_NAME_question of every language.
  *   slider     the row of CONTROLS;  chart      which diagram;  quantity   of the points that are kept; null: none

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The state of the page in its address, as little as says it: #lesson=haff&set=collision.e=0.8, or #scene={flow: ...}.
  * Also read after a question mark. */
 import { LANGUAGES, ownLanguage } from "./i18n.js";

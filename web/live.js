@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The gas that is seen, in a worker: md, and dsmc beside it, or a twin of md that differs in one thing. Nothing here
  * depends on how often the page asks. */
 import { GraingasError } from "./engines.js";

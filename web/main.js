@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The page: what people do, and what becomes of it. */
 import { BoxView, CAMERA } from "./box.js";
 import { runClock, SPEEDS } from "./clock.js";

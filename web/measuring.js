@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 import { isWalled, sceneOf } from "./live.js";
 
 /* Times for the lines of theories of free cooling: decades, few enough, as far as diagrams go. The page draws lines

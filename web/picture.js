@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is drawn of grains, whether they live or are played: places, colours from 0 to 1, marks that turn. */
 export const COLOURS_END = { speed: 2, spin: 2, since: 3 }; /* root mean squares; mean free times */
 

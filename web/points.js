@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A student's own points: what was measured, over the slider's value, beside the theories' lines; as CSV, and from it. */
 import { DSMC, MD } from "./colours.js";
 import { gridOf, rowOf, shownValue, symbolOf } from "./controls.js";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Between walls: velocity, temperature and solid fraction across the gap, beside the box and on its own height. */
 import { make, nice, range, ticks } from "./chart.js";
 import { DSMC, MD } from "./colours.js";

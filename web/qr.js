@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A link as a QR code, big enough for the back row. By qrcode-generator (Kazuhiko Arase, MIT). */
 import qrcode from "qrcode-generator";
 import { make } from "./chart.js";

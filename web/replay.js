@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A result of the terminal, in a worker: its frames as they are asked for, by their numbers. */
 import { aboutOf, flowOf, shownState } from "./live.js";
 import { courseOfTheories } from "./measuring.js";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What can be taken along: the picture, the curves, the scene. Names of files say which gas it is. */
 import { t } from "./i18n.js";
 import { byId } from "./words.js";

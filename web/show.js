@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shows the state: each part where it has changed. */
 import { Chart } from "./chart.js";
 import { CHARTS, sheared, showChart, speedUnit, temperatureUnit, timeUnit } from "./charts.js";

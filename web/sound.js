@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Haff's law heard: a click a collision, or a share of them, the higher the faster the grains. No library. */
 let audio = null,
   share = null;

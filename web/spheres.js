@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Spheres as pixels, painted by the page itself: some thousand a picture take a few milliseconds on the processor, with
  * or without a graphics processor. Where there is none the pixels are clear. */
 import { DARK, colourAt } from "./colours.js";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The state of the page: one object, with one writer. Whoever wants a change dispatches an action; whoever shows
  * something subscribes. What comes with every frame (grains, clock) is not in it. */
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of both engines and the theories, as `graingas compare` prints it. */
 import { t } from "./i18n.js";
 import { chosenTheories, error, mean, theoriesWith, titleOf } from "./theories.js";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which theories are drawn, and how: a theory looks the same in each diagram. */
 import { LINES } from "./colours.js";
 import { store } from "./state.js";

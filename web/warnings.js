@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Warnings: where the model stops being true, and what the library warns about. */
 import { MOST_BEHIND } from "./clock.js";
 import { now } from "./gas.js";

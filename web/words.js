@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers, units and names as a reader wants them. */
 import { has, t } from "./i18n.js";
 

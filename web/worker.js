@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The worker's side of the page: messages in, answers out. One worker shows the gas, another measures it. */
 import { openEngines } from "./engines.js";
 import { LiveGas, costOf } from "./live.js";

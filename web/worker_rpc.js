@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Calls of a worker (RPC): each job is a promise of its answer. */
 export class WorkerClient {
   constructor(source) {

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Granular gases of hard spheres: molecular dynamics, Enskog Monte Carlo and kinetic theories of one scene.
 
     import graingas as gg

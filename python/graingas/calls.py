@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Long calls: without Python's lock, in a thread, interruptible.
 
 The main thread waits on an Event, never in Thread.join: before Python 3.12 an interrupted join takes the thread for

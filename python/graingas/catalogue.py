@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Tables of the library: keys of scenes, flows, engines, observables, quantities, theories."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Comparisons: both engines and the theories on one scene."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Means of one run as numbers of uncertainties."""
 import math
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Curves of results: distributions, profiles, correlation functions, spectra."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Errors of the library as exceptions. The text is the library's: what is wrong, where, what is allowed."""
 from . import _c
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Means with their standard errors."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Observables, theories and laws of restitution from Python functions.
 
 An exception in such a function ends every call that uses it at the time, and comes out of that call."""

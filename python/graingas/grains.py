@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Positions, velocities, spins and species of grains, as numpy arrays."""
 from __future__ import annotations
 

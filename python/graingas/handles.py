@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Handles of the library: freed once, not used after that, by one call at a time."""
 import threading
 from contextlib import contextmanager

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures with matplotlib, in one style. Every function returns the axes; axes.figure.savefig("x.pdf") writes them."""
 from __future__ import annotations
 

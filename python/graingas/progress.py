@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Progress of long calls: a bar by tqdm where it is installed, or a function of the caller's."""
 import sys
 

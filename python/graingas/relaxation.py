@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """How gases relax: courses in time, means of many replicas in one or both engines, with what is changed on the way."""
 from __future__ import annotations
 

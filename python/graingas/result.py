@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Results of one engine's run."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs and comparisons: to the end that the scene asks for."""
 from __future__ import annotations
 

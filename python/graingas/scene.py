@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Scenes: what to simulate."""
 from __future__ import annotations
 

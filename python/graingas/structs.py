@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Structs of the header in Python: made, copied into numpy, read as simple values."""
 import numpy as np
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sweeps: a scene at every point of a grid, in a folder that can be resumed."""
 from __future__ import annotations
 

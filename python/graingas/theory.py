@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Theories without simulation: of one scene, and over a grid of scenes."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Trajectories: what a run has stored of its grains."""
 from __future__ import annotations
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Values of scene keys: from Python to YAML of one line, and back."""
 import math
 import re

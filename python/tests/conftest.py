@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What the tests share: scenes that take a fraction of a second, and a folder of their own."""
 import os
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """pytest on one file: run.py FILE. Exit code 77 (skipped) without pytest."""
 import sys
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Own observables, theories and laws: their numbers, their exceptions, and the same runs from tables and functions."""
 import numpy as np
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Nothing done in Python ends in a crash: wrong types and shapes, after close, from own callbacks, from two threads, in
 a fork. Each row of a table is a misuse and the exception that it raises; a crash would end the test's process."""
 import gc

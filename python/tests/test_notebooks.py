@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The notebooks and the page docs/howto/python.md run as they are, and find what they say."""
 import glob
 import json

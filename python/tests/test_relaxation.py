@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Courses in time: starts, protocols, bands against what is known exactly, crossings, Ctrl-C."""
 import os
 import signal

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """validation/reproduce: figures of papers. A small entry against runs and formulas of its own; entries, names, resumption,
 texts."""
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Results and comparisons: the numbers of the library's own document and file, tables, arithmetic, pickles, pictures."""
 import json
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Runs: the command's numbers, progress, threads, Ctrl-C, checkpoints, files, processes."""
 import json
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Scenes: keys by every way to write them, their help, errors with the library's words, copies and pickles."""
 import math
 import os

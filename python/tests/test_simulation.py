@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Simulations: conservation, the same bits from copies, collisions by callback and in bulk, Ctrl-C, trajectories."""
 import os
 import pickle

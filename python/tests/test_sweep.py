@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Sweeps: every point is the run it says, tables and cubes, resumed folders."""
 import os
 

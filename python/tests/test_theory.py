@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Theories alone: numbers in closed form, grids, and what does not apply."""
 import math
 

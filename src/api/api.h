@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the files of the public interface have in common. Each of them is one section of graingas.h: it checks
  * arguments, finishes scenes, and hands on to the rooms that do the work. */
 #ifndef GG_API_H

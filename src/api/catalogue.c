@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The catalogue: rows of the tables that the library itself uses. */
 #include <stdio.h>
 #include <string.h>

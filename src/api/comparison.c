@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Comparisons: theories alone, rows and remarks, to and from files and documents. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the user's program adds to a scene is checked here, and here alone. */
 #include "common/extension.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "api/simulation.h"
 
 void gg_api_moments_add(void *moments, const gg_chunk *chunk)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The files of a run, looked at before it begins. */
 #include <stdio.h>
 #include <stdlib.h>

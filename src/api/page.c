@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The teaching page with a scene in it: a copy of the file that `ninja page` built. */
 #include <errno.h>
 #include <limits.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trajectories that runs have stored, a frame at a time. */
 #include <math.h>
 #include <stdlib.h>

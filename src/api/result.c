@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Results: quantities, curves and grains; to and from files and documents; pictures and tables of files. */
 #include <math.h>
 #include <stdlib.h>

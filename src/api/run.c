@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gg_run and gg_compare: one path, with one engine or both. */
 #include "api/run.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One call of gg_run or gg_compare: options turned into the callbacks of a run, and its files. */
 #ifndef GG_API_RUN_H
 #define GG_API_RUN_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* output.log: a row for each sample of the first replica, appended while the run lasts. A checkpoint holds the number
  * of its last row and the sums of its means, so that a resumed run cuts what came after and continues the same file. */
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where the frames of a run go.
  *
  * A run that does not resume from the log beside its checkpoint may be beside the checkpoint of another run, which

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes: read, changed, queried and written back. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The map `theories` of a scene or a sweep: theories as formulas or tables of points. */
 #ifndef GG_API_SCENE_THEORIES_H
 #define GG_API_SCENE_THEORIES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What scenes and sweeps may hold, for editors and beginners. */
 #include "api/api.h"
 #include "base/checked_json.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs in pieces: a run whose caller takes it further, and asks it for its means in between. */
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Simulations: made, advanced, with a callback for their collisions. */
 #include "api/simulation.h"
 

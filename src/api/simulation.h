@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A simulation step by step: an engine, and what its clock and units need outside of it. */
 #ifndef GG_API_SIMULATION_H
 #define GG_API_SIMULATION_H
@@ -20,7 +21,7 @@ struct gg_simulation {
   gg_busy busy;
   gg_on_collision *callback; /* NULL: none */
   void *context;
-  bool observed;              /* the engine shows its collisions; settled after a stretch */
+  bool observed; /* the engine shows its collisions; settled after a stretch */
   struct {
     char *events; /* gg_collision_event, `size` bytes each as the caller knows them; NULL: none */
     size_t size, capacity, *n;

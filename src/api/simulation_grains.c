@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Simulations of grains from outside: started from them, given others, copied. */
 #include <math.h>
 #include <stdio.h>

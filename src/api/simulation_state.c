@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Queries of simulations: their state, their grains, their sums over collisions. */
 #include <math.h>
 #include <stdlib.h>

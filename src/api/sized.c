@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "api/sized.h"
 
 GG_WRITES(gg_scene_get_needs, gg_scene_needs, needs,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Functions with the sizes of the caller's structs (graingas.h, "Sizes"). A struct that is read is zero beyond what the
  * caller's compiler knew of it; of one that is written the caller gets what it knew of. */
 #ifndef GG_API_SIZED_H

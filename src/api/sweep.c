@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sweeps: read, changed, checked and queried. */
 #include <limits.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a sweep came to, as tables and a picture. */
 #include <errno.h>
 #include <limits.h>

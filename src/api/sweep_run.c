@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sweeps: what is missing of a folder is done, point beside point. */
 #include <limits.h>
 #include <math.h>

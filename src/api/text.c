@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The version, names of engines, texts, and words for people. */
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Grids of comparisons: validated against Enskog's equation. */
 #include "sweep/validation.h"
 

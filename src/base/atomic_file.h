@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files that appear whole or not at all: written under a temporary name in the same folder, flushed to the disk, and
  * renamed. base/output_path.h decides what happens to an existing file at the path. Devices and pipes are written to
  * directly. */

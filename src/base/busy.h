@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Who uses a handle of the public interface at present: one call that changes it, or any number that only read it.
  *
  * A call that comes in between, from a callback of the call in progress or from another thread, is an error and not a

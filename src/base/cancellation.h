@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cancellation of long work: poll here and end early on request. Engines poll several times a second, also at their
  * start. */
 #ifndef GG_STOP_H

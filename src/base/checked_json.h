@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* JSON that is complete or missing. If memory is short, jansson's constructors return NULL and its containers leave out
  * NULL members, so that an incomplete document would go unnoticed. In files that include this, every failed constructor
  * is counted (base/memory.h). Finish a document with gg_base_json_end. */

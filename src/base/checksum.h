@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checksums of files: they detect damage, not intent. */
 #ifndef GG_CHECKSUM_H
 #define GG_CHECKSUM_H

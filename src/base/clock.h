@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Clocks, in seconds: monotonic wall-clock time, and CPU time of the calling thread. */
 #ifndef GG_CLOCK_H
 #define GG_CLOCK_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Errors are values: every call that can fail returns a status and fills a message a user can act on. */
 #ifndef GG_ERROR_H
 #define GG_ERROR_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Small formulas, "y/(1+y)": + - * / ^, parentheses, numbers, pi, inf, functions of one argument, and variables that
  * the caller names. */
 #ifndef GG_BASE_EXPRESSION_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text into a file that appears whole or not at all (atomic_file.h), through a buffer. The first failure sticks: later
  * calls do nothing, and gg_base_file_writer_end reports it, so that a writer reads as what it writes. */
 #ifndef GG_FILE_WRITER_H

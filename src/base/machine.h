@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where and when something ran, for records. */
 #ifndef GG_MACHINE_H
 #define GG_MACHINE_H

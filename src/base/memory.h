@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Memory: allocation, and failed allocations.
  *
  * An allocation may fail where no error is returned (in a residual of GSL's solvers, a warning, a JSON document), or

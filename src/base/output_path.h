@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What an output path refers to. One rule for every output: symbolic links are followed, a regular file is replaced by
  * a whole new one if it is writable, a character device or a pipe is written to directly, anything else is rejected. */
 #ifndef GG_OUTPUT_PATH_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a terminal may be shown. */
 #ifndef GG_BASE_PRINTABLE_H
 #define GG_BASE_PRINTABLE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The known word nearest to one that was mistyped, for "did you mean". */
 #ifndef GG_NEAREST_H
 #define GG_NEAREST_H

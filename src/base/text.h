@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Texts in memory: streams that are written piece by piece, lists, and the locale in which numbers are read and
  * written. */
 #ifndef GG_BASE_TEXT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A thread pool: threads that share the parts of a job. Made once, asleep while there is nothing to do; a job costs
  * about a microsecond as long as they come one after another. Each thread takes a run of parts first, the same in each
  * job of as many, and then what others have left: who does what is not known, and parts must not depend on it. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas bench: how fast things are. A subject measures and fills tables; it is a file of its own and a line in
  * bench.c's table. */
 #ifndef GG_BENCH_H

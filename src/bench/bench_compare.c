@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas bench compare: two records set against each other, row by row. */
 #include <errno.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas bench, bench md, bench dsmc: both engines by size and density, and what each feature of a scene costs. */
 #include <math.h>
 #include <string.h>

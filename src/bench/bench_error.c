@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas bench error: how wrong a run of so many seconds is, and after how many seconds it is wrong by less. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas bench observables: what each observable costs, over the time of a run without it, at three sizes. */
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>

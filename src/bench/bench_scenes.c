@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas bench, second table: single scenes that an engine may be slow in, and starts. */
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>

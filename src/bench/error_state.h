@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One state of uniform shear: all ways to simulate it, the truth, and how far from it each of them ends. */
 #ifndef GG_BENCH_ERROR_STATE_H
 #define GG_BENCH_ERROR_STATE_H

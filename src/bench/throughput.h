@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How fast an engine is on a scene: collisions per second, engine alone or with its collision sums. */
 #ifndef GG_THROUGHPUT_H
 #define GG_THROUGHPUT_H

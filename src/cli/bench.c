@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas bench: prints what src/bench measures. The one subcommand that looks behind the public header. */
 #include "bench/bench.h"
 

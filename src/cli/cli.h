@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The graingas command, first user of graingas.h: one file a subcommand, a line in commands.c each. A subcommand
  * returns its exit code. Only `bench` looks inside the library. */
 #ifndef GG_CLI_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas compare: both engines and the theories on one scene. */
 #include "cli/report.h"
 #include "cli/run_command.h"

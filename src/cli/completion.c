@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Completion for shells, from the tables of commands and options: `graingas --completion bash`. */
 #include <stdio.h>
 #include <string.h>

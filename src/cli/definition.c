@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas info WORD: what a scene key, a quantity, a theory or an observable is, in five lines; --all: in full. */
 #include "cli/definition.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Definitions where they are looked for: graingas info WORD, and the headline quantities of a scene. */
 #ifndef GG_CLI_DEFINITION_H
 #define GG_CLI_DEFINITION_H

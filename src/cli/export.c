@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas export: what a result file holds as tables and trajectories for other programs. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas fingerprint: the state after so many collisions as one number. */
 #include <inttypes.h>
 #include <stdio.h>

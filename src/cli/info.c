@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas info: every key of a scene and what it switches on and off, or what a result file holds. */
 #include <math.h>
 #include <stdio.h>

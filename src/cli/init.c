@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas init: a scene to begin with. */
 #include <errno.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas: dispatch to the subcommands. */
 #include <errno.h>
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The manual page, in roff, from the tables that the program itself uses. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options of every subcommand, from one table: parsing, --help and the manual page. */
 #ifndef GG_CLI_OPTIONS_H
 #define GG_CLI_OPTIONS_H

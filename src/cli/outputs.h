@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where outputs go: names of files, what is there already, and telling of what was written. */
 #ifndef GG_CLI_OUTPUTS_H
 #define GG_CLI_OUTPUTS_H

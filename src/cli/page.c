@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas page: the teaching page, with a scene of one's own in it. */
 #include <stdlib.h>
 #include <string.h>

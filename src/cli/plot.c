@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas plot: a picture of what a result file holds. */
 #include <stdio.h>
 #include <stdlib.h>

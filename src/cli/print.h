@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text for people: paragraphs and tables as wide as their terminal, counts and durations as they read them. */
 #ifndef GG_CLI_PRINT_H
 #define GG_CLI_PRINT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The command as one of several processes, under mpirun: rank 0 does what the command line says, the others work for it
  * and neither print nor write. */
 #ifndef GG_CLI_PROCESSES_H

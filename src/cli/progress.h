@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Progress on standard error: one live line on a terminal, otherwise a plain line at intervals. */
 #ifndef GG_CLI_PROGRESS_H
 #define GG_CLI_PROGRESS_H

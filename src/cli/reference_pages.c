@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pages of docs/reference in Markdown, from the program's own tables: scene keys, quantities, commands. */
 #include <stdio.h>
 #include <stdlib.h>

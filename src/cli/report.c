@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One engine's result, and what is printed of each engine below a table. */
 #include "cli/report.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What people read: the tables of run, compare and theory. */
 #ifndef GG_CLI_REPORT_H
 #define GG_CLI_REPORT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Both engines and the theories in one table, and the causes of their differences. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Profiles across the gap of both engines, side by side: a row each, and with `all` a table of every slab. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas run: one engine, with checkpoints and a trajectory where the scene asks for them. */
 #include "cli/report.h"
 #include "cli/run_command.h"

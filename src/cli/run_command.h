@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the commands on a scene have in common: options and scene at the beginning, errors at the end; and around a run
  * or a comparison its files, progress, interruption and checkpoints. */
 #ifndef GG_CLI_RUN_COMMAND_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas sweep: a run, a comparison or the theories at every point of a grid of scenes. */
 #include <errno.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What `sweep` and `validate` share: a sweep is read, its points are listed and run. */
 #ifndef GG_SWEEP_COMMAND_H
 #define GG_SWEEP_COMMAND_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas theory: what every theory that applies says of a scene. */
 #include <stdio.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas validate: both engines and the theories against Enskog's equation, over a grid. */
 #include <stdio.h>
 #include <stdlib.h>

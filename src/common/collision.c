@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "common/collision.h"
 
 gg_contact gg_common_contact_make(gg_partner one, gg_partner two, double e, double beta, double mu)

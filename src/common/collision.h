@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The one collision rule: grain-grain and grain-wall; smooth, rough and frictional; equal and unequal partners.
  *
  * Spins are carried as the surface velocity s = a omega (a = d/2), which drops the diameter from the rule, so that

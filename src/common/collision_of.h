@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the collision rule of common/collision.h says, stated once for every kind of number: one pair of grains
  * (doubles) or one a lane (registers of dsmc's kernels). Included with
  *

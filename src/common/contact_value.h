@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact value chi of the pair correlation function, and equations of state of elastic hard spheres. */
 #ifndef GG_CONTACT_VALUE_H
 #define GG_CONTACT_VALUE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The engine interface. md and dsmc are peers behind it; other code does not test which one runs.
  *
  * Velocities are peculiar, C = c - shear_rate y x_hat, and spins are surface velocities s = (d/2) omega, both in model

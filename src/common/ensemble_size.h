@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How many grains a Monte Carlo ensemble has, where the scene does not give it: by the requested error. */
 #ifndef GG_ENSEMBLE_H
 #define GG_ENSEMBLE_H

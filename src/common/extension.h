@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* User-defined observables, theories and restitution law of a scene (graingas.h, "Extension").
  *
  * A linked list, the latest addition first. Links are immutable and reference-counted. A scene holds a reference to the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The flows there are, a row each, with everything that depends on the flow: its words, its frame, what drives
  * and what warms it, who can run it, what it is known by. A new flow is a name below and its row in flow.c: the scene's
  * words and page, defaults, checks, units, titles, engines' acceptance and headline quantities follow from the row. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "common/linear_response.h"
 
 /* eta* falls with a* like 1 - 4 a*^2 (e = 0.7): 6 % at the high end, which the extrapolation takes out to 0.05 %. A

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Linear response to uniform shear: the viscosity of cooling and heated gases, which have no steady shear flow of their
  * own (Montanero's review, section 3: under a thermostat that compensates the cooling, viscous heating makes the
  * reduced shear rate a* = rate/nu_0 fall for ever, and eta* is the long-time limit of -nu_0 P_xy/(n T rate)).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The model: the scene in the engines' units, everything that both engines and the theories need settled once. It has
  * room for any number of species; engines copy what their kernels read into arrays as small as the scene needs.
  *
@@ -51,9 +52,9 @@ typedef struct gg_model {
   gg_contact contact[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* grain 1 of the first species, grain 2 of the second */
   gg_contact treated[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* for the contact-time rule: e = 1, see gg_common_treated_beta */
   /* By pair of species: gg_pair. */
-  double sigma[GG_PAIRS]; /* (d_i + d_j)/2 */
-  double chi[GG_PAIRS];   /* contact value; 1 in the Boltzmann limit */
-  double chi_slope;       /* d ln chi/d ln phi of one species; 0 in the Boltzmann limit */
+  double sigma[GG_PAIRS];         /* (d_i + d_j)/2 */
+  double chi[GG_PAIRS];           /* contact value; 1 in the Boltzmann limit */
+  double chi_slope;               /* d ln chi/d ln phi of one species; 0 in the Boltzmann limit */
   gg_contact_value contact_value; /* which chi is, for other densities than phi */
   double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
   /* Of restitution between grains (name NULL: none). With one, `e` and `contact` are those at the mean impact speed of

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What follows from a model: how fast its grains collide, and how long what relaxes takes. */
 #include <gsl/gsl_eigen.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The observables there are, a line each: the one place where they are named and described. The flags of a scene's
  * `measure`, the words that a scene may give it, and the table of plug-ins (measure/observable.c) are made from
  * it. */
@@ -7,20 +8,22 @@
 /* X(FLAG, word, description). rheology stays first: it decides when a run is steady. */
 #define GG_OBSERVABLES(X)                                                                                              \
   X(RHEOLOGY, rheology, "temperatures, spin, stress, collision rate, free path, velocity moments")                     \
-  X(VELOCITY_DISTRIBUTIONS, velocity_distributions, "distributions of the components of C and Omega, with their tails")              \
+  X(VELOCITY_DISTRIBUTIONS, velocity_distributions,                                                                    \
+    "distributions of the components of C and Omega, with their tails")                                                \
   X(LOCAL_DISTRIBUTIONS, local_distributions, "distributions of C_x and Omega_z by the local density")                 \
   X(ORIENTATION, orientation, "angle between peculiar velocity and spin")                                              \
   X(SONINE, sonine, "deviation of speeds from a Maxwellian")                                                           \
   X(PAIR_CORRELATION, pair_correlation, "g(r) from contact outwards")                                                  \
-  X(VELOCITY_CORRELATIONS, velocity_correlations, "velocity correlations of pairs over their distance")                               \
-  X(LOCAL_VELOCITY_CORRELATIONS, local_velocity_correlations, "velocity correlations of pairs, velocities relative to cell means")          \
+  X(VELOCITY_CORRELATIONS, velocity_correlations, "velocity correlations of pairs over their distance")                \
+  X(LOCAL_VELOCITY_CORRELATIONS, local_velocity_correlations,                                                          \
+    "velocity correlations of pairs, velocities relative to cell means")                                               \
   X(STRUCTURE, structure, "structure factor and velocity spectra")                                                     \
   X(CELLS, cells, "local density, shear rate, temperatures and spin")                                                  \
   X(PROFILES, profiles, "density, flow, temperatures and spin across the gap between walls")                           \
   X(FLUXES, fluxes, "stress, heat flux and balance of energy across the gap between walls")                            \
   X(DIFFUSION, diffusion, "velocity autocorrelation, mean-square displacement, self-diffusion")                        \
   X(VISCOSITY, viscosity, "eta* of cooling and heated gases by linear response; comes with flow: small_shear")         \
-  X(CONDUCTIVITY, conductivity, "kappa* and mu* of smooth grains that cool or rest, by Green-Kubo integrals")                                                                        \
+  X(CONDUCTIVITY, conductivity, "kappa* and mu* of smooth grains that cool or rest, by Green-Kubo integrals")          \
   X(COLLISIONS, collisions, "free paths, times between collisions, angles of contact")                                 \
   X(IMPACT_SPEED, impact_speed, "normal relative speed of collisions")
 

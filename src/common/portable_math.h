@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers that begin a trajectory, the same on every processor and from every C library. These compute square roots and
  * fused products alike, to the last bit, but not exponentials, logarithms and other roots. */
 #ifndef GG_AGREED_H

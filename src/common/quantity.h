@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The shared names: one table for JSON keys, HDF5 names, table rows, pictures, theories and documents. A quantity
  * is treated according to its row, never according to the position of the row. */
 #ifndef GG_QUANTITY_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A law of normal restitution: e of the relative normal speed at contact, where a scene has one instead of constants:
  * one that is built in (common/laws/laws.h), or the callback of the user's program. */
 #ifndef GG_RESTITUTION_H

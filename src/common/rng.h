@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random streams: xoshiro256++ (Blackman & Vigna 2021) in the hot loops, seeded through the counter-based Philox of
  * Random123 (Salmon et al. 2011), so that (seed, stream) names an independent stream for every replica and every lane.
  * The state is plain data: copied into checkpoints as it is. */

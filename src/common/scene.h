@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scene: the user's input, in the user's units. Plain data; the field table of src/scene/fields.c holds the
  * default of every member, reads, checks, prints and documents it. */
 #ifndef GG_SCENE_H

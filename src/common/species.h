@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Species and their pairs. GG_MAX_SPECIES may be changed: everything else follows from it. */
 #ifndef GG_SPECIES_H
 #define GG_SPECIES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which thermostat a model has, and how strong: what both engines need to heat alike. */
 #ifndef GG_THERMOSTAT_H
 #define GG_THERMOSTAT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Three-vectors of doubles by value; everything inlines. */
 #ifndef GG_VEC_H
 #define GG_VEC_H

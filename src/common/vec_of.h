@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Three-vectors by value, stated once for every kind of number. Included with
  *
  *   GG_NUMBER      a double, or a register with one number a lane

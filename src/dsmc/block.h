@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks of eight grains, and bounds of their speeds.
  *
  * A block holds eight grains as structure of arrays, one cache line a component, so that a kernel takes them lane by

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The collision half of a step: candidates for each pair of species, under its majorant. */
 #include "dsmc/dsmc.h"
 

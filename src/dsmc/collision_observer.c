@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The collision callback: collisions reported one by one. They take the plain path, whose grains stay at their places
  * in the ensemble, so that it is known when each collided last. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The Enskog Monte Carlo engine as its own files see it. */
 #ifndef GG_DSMC_DSMC_H
 #define GG_DSMC_DSMC_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Life of the engine: memory and the choice of kernels. */
 #include <stdlib.h>
 

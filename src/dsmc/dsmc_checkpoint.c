@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Storage of the engine: everything that a run needs to continue bit for bit. */
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dsmc/dsmc_thermostat.h"
 
 #include "base/thread_pool.h"

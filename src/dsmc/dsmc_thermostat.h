@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The thermostats: they act once in the middle of every step, between two halves of its collisions.
  *
  * Gaussian: the force m zeta C/2 that gives back exactly the energy that collisions destroyed (Montanero's review, eqs

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Life of the ensemble, and what is done to all of it. */
 #include "dsmc/ensemble.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ensemble: the velocities (and spins) that stand for the distribution function, in blocks of eight grains
  * (block.h).
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The velocities and spins that a run starts from. */
 #include <math.h>
 

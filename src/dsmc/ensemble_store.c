@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ensemble in a checkpoint. */
 #include <math.h>
 #include <stdio.h>

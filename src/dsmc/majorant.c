@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dsmc/majorant.h"
 
 /* Room above the largest value so far: enough that a new record rarely goes over, little enough to cost no candidates.

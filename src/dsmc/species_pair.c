@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What all collisions of a pair of species have in common, and where what they come to is added up. */
 #include "dsmc/dsmc.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Symmetric (Strang) splitting over species pairs: they collide one after another, 11, 12, 22, then in the reverse
  * order, and so on, so that errors of the first order cancel.
  *

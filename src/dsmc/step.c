@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One step: streaming, collisions, thermostat. */
 #include "dsmc/dsmc.h"
 #include "dsmc/dsmc_thermostat.h"

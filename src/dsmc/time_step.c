@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dsmc/time_step.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The time step, from the collision and shear rates at the present temperature. */
 #ifndef GG_DSMC_TIME_STEP_H
 #define GG_DSMC_TIME_STEP_H

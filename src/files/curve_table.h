@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Curves of a result, in documents and files. Pictures are drawn from the document. */
 #ifndef GG_IO_CURVES_H
 #define GG_IO_CURVES_H

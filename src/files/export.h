@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Result files as tables and trajectories that other programs read. */
 #ifndef GG_EXPORT_H
 #define GG_EXPORT_H

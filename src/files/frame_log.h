@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The frames of a run that keeps checkpoints, in one file beside them: what a resumed run has before it, and what
  * becomes the trajectory in the result at the end.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The JSON documents of `run`, `compare` and `theory`. A number that cannot be had is null, with the reason among the
  * warnings. The caller owns every returned reference; NULL only if out of memory. */
 #ifndef GG_DOCUMENT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers and scenes in words, for tables and titles. */
 #ifndef GG_TEXT_H
 #define GG_TEXT_H

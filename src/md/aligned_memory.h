@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Memory for what events jump all over. */
 #ifndef GG_MD_LINES_H
 #define GG_MD_LINES_H

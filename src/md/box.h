@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The box, its images and, under shear, its moving images (Lees & Edwards, J. Phys. C 5 (1972) 1921).
  *
  * The image of the box above moves in x at speed U = shear_rate L_y and stands at offset D(t) = D_0 + U t; the one

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "md/cell_grid.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cells: a grid over the box, no edge below the largest contact distance, so that a grain can only touch grains of its
  * own and the 26 cells around (32 where rows of cells move with the flow, search/comoving_rows.h). The grains of a cell
  * stand side by side in memory. A grain's cell is a matter of its crossings, not of its rounded coordinates: it changes

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Collisions shown one by one. While a callback is set, the resolution of contacts is wrapped by one that shows them:
  * one without a callback knows nothing of it. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The contact time, in units of the mean free time that is measured; but no less than half of what it is, by Enskog,
  * for grains as fast as they are now. In a collapse collisions come ever faster, and a contact time that followed them
  * would shrink with the time between them, and end nothing. */

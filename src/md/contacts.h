@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contacts whose rounding does not add up. A rounding that takes the same side at every collision would make the energy
  * of elastic grains change by some 10^-16 T a collision: 3 x 10^-10 of it in 10^9 collisions of 1000 grains.
  *

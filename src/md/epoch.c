@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The end of an epoch: every grain is brought to it, all times are re-zeroed there, and what was tuned to the rate of
  * events (the buckets of the event queue, the contact time) is tuned anew. It comes when the queue runs out, a matter
  * of the trajectory alone: never of how a caller cuts a run. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The event loop: pop, re-check, advance the pair, collide, re-predict.
  *
  * Each grain has one entry in the event queue: the earliest of the collisions that it saw when it was last predicted

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The instances of the event loop (instance.c, meson.build), and which of them a scene needs. */
 #include "md/event_loops.h"
 

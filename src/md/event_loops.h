@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The instances of the event loop, by what a scene needs: each compiled into an object of its own (instance.c), those
  * that predict eight pairs at a time once more for every set of instructions. All of them give the same bits. */
 #ifndef GG_MD_KERNELS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The grid of cells, and what goes with the kind of search. */
 #include "base/memory.h"
 #include "md/md_state.h"

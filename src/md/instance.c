@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One instance of the event loop: compiled once for each row of the table in meson.build (search/features.h). */
 #include GG_SEARCH
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Kicks: random changes of velocity at times of their own, between the events of the queue, after which those grains
  * alone are predicted anew.
  *

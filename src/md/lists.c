@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* All lists anew: the searches of search/list_update.h for any boundary and mixture. */
 #include "md/search/list_update.h"
 

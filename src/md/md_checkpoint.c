@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Everything needed to continue bit for bit: the records as they are. What cells and event queue hold is put there
  * anew: its order never matters. */
 #include "md/md_engine.h"

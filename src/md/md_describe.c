@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the engine makes of a model, in words. */
 #include <stdio.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The engine behind the interface that all engines share. */
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Operations of the engine that are not in md_engine.c. */
 #ifndef GG_MD_ENGINE_H
 #define GG_MD_ENGINE_H

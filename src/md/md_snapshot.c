@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The grains shown to the outside: at the present time, peculiar velocities, a few hundred at a time. */
 #include "md/md_engine.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The state of an event-driven run: one 64-byte record a grain for what every prediction reads, one for what only the
  * grain's own events read, and the box, the cells, the event queue and the sums around them.
  *
@@ -166,7 +167,7 @@ struct gg_md {
   gg_md_surface_resolution *resolve_surface;
   gg_collision_callback *callback; /* receives every collision; NULL: none, and `resolve` is not wrapped */
   void *callback_context;
-  gg_md_resolution *resolve_shown;  /* what `resolve` goes on to then */
+  gg_md_resolution *resolve_shown; /* what `resolve` goes on to then */
   gg_md_surface_resolution *resolve_surface_shown;
   gg_md_resolution *resolve_parted; /* what gg_md_resolve_parting goes on to */
   gg_thermostat thermostat;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What keeps a heated gas warm.
  *
  * Gaussian (the force m zeta C/2 on centres): exactly a gas that cools freely, seen through a growing scale of velocity

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cells that overlap, for dilute gases: each reaches half a contact distance beyond its faces, and a grain is in every
  * cell whose extended region it is in, one or two along each axis. Two grains that touch share a cell, so a grain tries
  * only those who share one with it; and there is somebody new to try only when it comes into another cell, whose

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* When will two grains touch? The contact quadratic |dr + dv t|^2 = sigma^2 with dr, dv at the present time. */
 #ifndef GG_MD_PREDICT_H
 #define GG_MD_PREDICT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The event queue: a bounded-increment priority queue (Paul, J. Comput. Phys. 221 (2007) 615) with one entry per grain.
  * Buckets of equal width cover the present epoch. A bucket is one cache line of unsorted grains; only the present
  * bucket is sorted. Insertion and removal cost O(1), touch one cache line of a bucket and no other grain's node, and

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The instances of what a contact does, and which of them a scene needs. */
 #include <assert.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a contact does to its grains: the collision rule, the contact-time rule and the collision sums. One
  * always-inlined body with constant features; resolve.c makes the instances. */
 #ifndef GG_MD_RESOLVE_H

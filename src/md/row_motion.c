@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where the rows of cells that move with the flow stand (search/comoving_rows.h). Row j begins at
  *
  *   common + (j - J) f + s_j w,  J = floor(n_y/2),

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Co-moving rows of cells (row_motion.c, search/comoving_rows.h): how few cells they may have, and their numbers. */
 #ifndef GG_MD_ROWS_H
 #define GG_MD_ROWS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The search, and the cells, that suit a model. */
 #include <math.h>
 

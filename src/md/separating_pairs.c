@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Grains whose restitution is 0, or nearly so, leave each other at a normal speed of 0, but for rounding. Where that
  * rounding says that they still approach they would collide again at once, with an impulse that is too small to change
  * their velocities: for ever. So such pairs part at a speed that is just above rounding; what it adds to the energy is

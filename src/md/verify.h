@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A state that was read: is it one that the event loop can continue from? A checkpoint says what stands in every
  * record, and somebody may have written it to lead the loop out of its arrays. What is looked at here is what the loop
  * takes for granted: every index, every number that an index is made of, and that the events of a grain come before it

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which surfaces can be touched from which cells, and contacts with those that are no planes. */
 #include <stdlib.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Velocities and spins about the means of cells of about eight grains (gg_cell_grid), as they are: what a mean over few
  * grains takes out of a variance is not put back. */
 #ifndef GG_CELL_FRAME_H

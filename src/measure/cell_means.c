@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Local state over cells of about eight grains: density, translational and
  * rotational temperature about the cell's own mean, spin, shear rate, with their distributions; and what averaging over
  * cells, slabs across y, or the whole box makes of the temperatures. A mean taken over n_c grains takes the share 1/n_c

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What single collisions say: path and time between successive ones, and the angles at which grains collide.
  *
  * A free path is peculiar, the integral of |C| over the flight, or the way in the laboratory, |c| times its duration.

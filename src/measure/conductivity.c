@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Heat flux of linear response in the cooling state, or at rest, of smooth grains of one species:
  *   f = f0 + A . grad ln T + B . grad ln n,   q = -kappa grad T - mu grad n,
  * in the frame in which T = m = 1 and time is u = int sqrt(T) dt. With L, the linearised collisions and the rescaling,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Curves: histograms, profiles, correlation functions, spectra, with standard errors, and the numbers derived from
  * them. An observable says how curves follow from the means of its bins; errors come from leaving out one block of
  * samples at a time (jackknife.h), so that ratios and fits get honest errors, too. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Velocity autocorrelation and mean-square displacement of a grain, by component and species, from origins spread over
  * the run; the coefficient of self-diffusion from both: D = int <C(0)C(t)> dt (Green 1952, Kubo 1957) and half the
  * slope of the displacement (Einstein 1905), with what is left beyond the last lags (long_time_tail.h). Lags up to 480

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The coefficient of self-diffusion from correlations at lags up to 480 collisions a grain. */
 #include <math.h>
 

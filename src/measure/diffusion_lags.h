@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The lags at which diffusion correlates a grain with its past, and what is summed at each. Level l has lags up to
  * REACH 4^l snapshots in steps of 4^l, from a quarter of it on: what is below belongs to the level before. */
 #ifndef GG_DIFFUSION_LAGS_H

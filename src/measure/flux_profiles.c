@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fluxes across the gap between walls: stress, heat, spin; and the balance of energy, slab by slab.
  *
  * Grains carry: sums over all samples of the window, about a straight line of velocity and one of spin in each slab, as

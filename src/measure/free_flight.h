@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws of free flight in a gas of hard spheres with Maxwellian velocities and molecular chaos, to see measured ones
  * beside: a grain of speed c collides nu(c) times a unit of time (Chapman & Cowling, section 5.4), so that flights at
  * c, as many as nu(c) f(c), last longer than t with probability exp(-nu t). Close to exponentials, but not exponential:

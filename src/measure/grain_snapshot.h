@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* All grains at one instant, gathered from an engine's chunks: what observables of distributions, pairs and fields
  * sample. */
 #ifndef GG_SNAPSHOT_H

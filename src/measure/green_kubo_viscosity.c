@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* eta* = nu_0 eta/(n T) of cooling and heated gases by linear response: the limit of -P_xy/(n T a*) at a vanishing
  * reduced shear rate a* (common/linear_response.h). The noise of P_xy/(nT) is the same at every a*, so least squares of
  * -P_xy/(n T) on eta* a* + B a*^3, over all samples while a* went up and down its range; its sums are the channels, so

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Histograms of a velocity component x, in bins of a tenth of a given unit about 0: scaled to P(0) = 1, with the tail
  * as a stretched exponential, kurtosis and skewness. */
 #ifndef GG_HISTOGRAM_H

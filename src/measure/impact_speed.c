@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How hard grains collide: the distribution of the normal relative speed g_n of their collisions, on which restitution
  * depends that is not constant.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Distributions of C_x and Omega_z where the gas is thin and where it is dense: of the grains in cells whose density
  * lies within a tenth of a chosen one (Gayen's thesis, section 4.1), and of the grains of all cells. Cells hold about
  * eight grains. Velocities are about the mean of the cell; with the share m_i/M_c that a mean over few grains takes out

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Peculiar velocities in walled flows, where no profile is imposed. The flow velocity u(y) is a straight line in each
  * slab across y, fitted to the velocities of all samples of the averaging window so far: a mean alone would leave the
  * shear within a slab in the temperature, and a fit to one instant takes more out of it than the noise of the slab's

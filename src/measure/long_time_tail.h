@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a velocity correlation has left beyond the lags that were measured: its long-time tail, and coefficients that
  * include it.
  *

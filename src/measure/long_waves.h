@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The longest waves of a periodic box: what tells a homogeneous gas from one that has clustered or swirls. Of each axis
  * of length L the modes k = 2 pi/L and 4 pi/L (bands of a sheared gas come in twos), which also moving images (Lees &
  * Edwards 1972) leave alone. Grains are counted in slabs across each axis, of which the modes are sums: no function of

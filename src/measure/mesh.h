@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fourier modes of fields carried by grains, F(k) = sum_i f_i exp(-i k.r_i), on a mesh laid along the edges of the
  * sheared box, (L_x,0,0), (D,L_y,0), (0,0,L_z): its wave vectors are exactly those of the sheared periodicity. Grains
  * are assigned by cubic splines; modes up to half the mesh's limit are given, where after division by the spline's own

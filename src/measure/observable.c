@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "measure/observable.h"
 
 #define PLUG_IN(FLAG, word, description) &gg_measure_##word,

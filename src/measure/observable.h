@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* An observable: a plug-in that turns what an engine shows (its grains, its sums over collisions) into a row of numbers
  * a sample, and channel means into named quantities; or adds to bins, from which curves follow; or both. It knows
  * nothing of engines' insides, files or pictures. A new one is a file and a line in common/observables.h. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Orientation of spins to velocities: the angle Psi between C and Omega = omega - <omega> of each grain (Brilliantov,
  * Poeschel, Kranz & Zippelius, Phys. Rev. Lett. 98 (2007) 128001), its distribution and Lambda = <cos^2 Psi>; and the
  * same for the instantaneous velocities c and omega. Without correlation Lambda = 1/3, P(cos Psi) = 1/2 and

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pair correlation g_ij(r) = V/(N_i N_j) <sum delta(r - r_ij)>/(4 pi r^2) from contact outwards, averaged over
  * directions; its value at contact, of pairs that approach and that separate; and the contact value of the collision
  * rate of one species, which is rate/(2 pi n d^2 v), v the mean normal speed of those about to collide: 2 sqrt(T/pi) if

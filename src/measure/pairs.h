@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pairs of grains closer than a reach, under periodic or sheared periodic images. Cells are laid along the edges of the
  * sheared box, (L_x,0,0), (D,L_y,0), (0,0,L_z), in which its images form a plain lattice: no boundary is special.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Profiles across the gap between walls: solid fraction (each grain where its centre is), flow velocity, temperatures
  * about the local flow, mean spin. Means are over the window, so a slab's temperature is about its flow of the whole
  * window, a straight line in each slab: nothing has to be put back for the few grains of one instant. Where the walls

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The default set: temperatures, spin, stress, rates, moments. */
 #include "measure/rheology.h"
 

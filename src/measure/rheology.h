@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Channels of a rheology sample. In free cooling everything is scaled by the temperature of the moment (moments) or of
  * the interval (rates), so that the scaled state is steady; else plain model units. */
 #ifndef GG_RHEOLOGY_H

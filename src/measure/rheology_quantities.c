@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From channel means of rheology to named quantities. Stress by Gayen's thesis eq. 5.15 (per volume), normal stress
  * differences eqs 5.17-5.18. */
 #include "measure/long_waves.h"

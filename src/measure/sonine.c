@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Deviation of the distribution of speeds from a Maxwellian: Phi_i/Phi_iM = 1 + (c_i/2) Delta_i(v*), with v* = v/v_0,
  * v_0^2 = 2T (m_1 + m_2)/(m_1 m_2) for mixtures and 2T/m for one species; in the first Sonine approximation Delta_i =
  * x^4/2 - 5 x^2/2 + 15/8, x^2 = m_i v^2/(2 T_i) (Montanero & Garzo, Granular Matter 4 (2002) 17). c_i = 2 a_2 is

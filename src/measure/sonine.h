@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Curves of the deviation of one species' speeds from a Maxwellian, measured or a theory's (sonine.c has the formulas).
  */
 #ifndef GG_SONINE_CURVES_H

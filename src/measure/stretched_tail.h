@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The tail of a velocity distribution as a stretched exponential, P(x)/P(0) = exp(-gamma x^alpha); Gaussian: alpha = 2,
  * gamma = 1/2. */
 #ifndef GG_STRETCHED_TAIL_H

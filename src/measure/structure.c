@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Structure factor S(k) = <|sum_i exp(-i k.r_i)|^2>/N, and spectra of the momentum field, <|k_hat.J(k)|^2>
  * (longitudinal) and half the rest (transverse) over <sum m^2 C^2>/3: 1 without correlations. J(k) = sum_i m_i C_i
  * exp(-i k.r_i). Averaged over directions, and S along the axes (under shear, along x: the mode nearest to the axis).

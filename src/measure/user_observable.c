@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every quantity of the user's own is a channel, and its mean the channel's. Grains are laid out as whole arrays, in
  * the units of results, whatever the engine's velocities were multiplied by. */
 #include "measure/observable.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Spatial velocity correlations G(r) = <zeta_a(R) zeta_b(R + r)>/<zeta_a^2>: C with C and Omega with Omega by
  * component, C_x with Omega_z (over the root of both), over all directions, and within half a diameter of the axes.
  * Without correlations G is a little below 0, for the total momentum is 0. Spins are about their mean, by species.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Distributions of the components of C and Omega, by species, about their mean and in units of their standard deviation
  * at each instant (so that a cooling gas has a steady one, too), scaled to P(0) = 1; their tails as stretched
  * exponentials; their deviation from a Gaussian at low velocity. */

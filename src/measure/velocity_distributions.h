@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Curves of the distribution of one component of C or Omega, from a histogram of x/sigma, measured or a theory's. */
 #ifndef GG_VELOCITY_CURVES_H
 #define GG_VELOCITY_CURVES_H

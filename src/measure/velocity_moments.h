@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Velocity moments of grains, by species, summed over chunks. */
 #ifndef GG_VELOCITY_MOMENTS_H
 #define GG_VELOCITY_MOMENTS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The long waves across the gap between walls: what wanders slowly there, and what no mean over all grains shows. A run
  * keeps them as a series, from which it knows for how long it has to average (run/slow_modes.c). They come from the
  * slabs of the local frame, which every sample takes anyway. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Axes of charts: their ends; gnuplot places the tics. */
 #ifndef GG_PLOT_AXIS_H
 #define GG_PLOT_AXIS_H

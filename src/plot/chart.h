@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Charts: series of numbers over an abscissa, measured ones with error bars, theories as lines, in one style for all
  * that draws such pictures. Told apart by symbols, filling and dashes, also in grey. */
 #ifndef GG_CHART_H

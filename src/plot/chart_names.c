@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Names on axes and in legends: of scene keys and of methods. */
 #include <ctype.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How the series of a chart look: from the names of their methods and groups, the same in all panels of one legend. */
 #ifndef GG_CHART_STYLES_H
 #define GG_CHART_STYLES_H

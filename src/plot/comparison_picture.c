@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* md, dsmc and the theories side by side. Quantities with a scale are shown as ratios to md (to dsmc where md did not
  * run), so that all fit on one axis; those around zero as they are. */
 #include <ctype.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pictures of curves: one page an observable, one panel for curves that belong together, shaded bands of one standard
  * error; where a theory has them, too, points with error bars, and the theory as a line. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gnuplot as a child process: the script on its standard input, the picture from its standard output, its complaints
  * read back. It is told no file name: in its language names can be commands. */
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Maps of relative deviations over two keys: panels of coloured cells, with one colour scale for all pictures. */
 #ifndef GG_HEAT_MAP_H
 #define GG_HEAT_MAP_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What all pages have in common: terminal, title, colours, how a panel is placed, texts. */
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a picture is drawn on: its format and its width. */
 #include <stdlib.h>
 #include <string.h>

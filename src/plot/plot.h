@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pictures of result files, drawn by gnuplot. */
 #ifndef GG_PLOT_H
 #define GG_PLOT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How a run relaxed: series from its start to its end, with the averaging window shaded. */
 #include <float.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The picture of a result, and those beside it: a snapshot, and one for each observable that left curves. */
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A chart with the memory for its panels, numbers and texts: for pages made of result files. */
 #ifndef GG_PLOT_SHEET_H
 #define GG_PLOT_SHEET_H

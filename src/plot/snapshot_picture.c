@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A snapshot: the last stored frame, its grains projected on the planes of shear (x, y) and across it (z, y), to scale.
  * Frames, tics and titles are gnuplot's, and in PNG and PDF the discs. In SVG it would draw each as two polygons of 4
  * kB: there they are put over its page, forty bytes each. */

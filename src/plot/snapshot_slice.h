@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a panel of the snapshot shows: of large or crowded systems not all grains, but the layer nearest to the viewer.
  */
 #ifndef GG_PLOT_LAYER_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The curves of theories that go with a stored result: those of a comparison are in its file; a run's, which has asked
  * no theory, follow from its scene. */
 #include <string.h>

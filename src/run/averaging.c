@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From the warm-up to the end of a run. The averaging window grows until it is long, steady and exact enough; one that
  * shows a trend is given up, and averaging begins anew. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Why md differs from Enskog's equation by more than expected, derived from what a run measured. A cause is given to a
  * difference only where it can have this sign and this size. */
 #ifndef GG_CAUSES_H

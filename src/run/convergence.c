@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The convergence monitor: how exact the means over the averaging window are, and whether a quantity has a trend. */
 #include <math.h>
 #include <stdlib.h>

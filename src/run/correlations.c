@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How the means of a run vary together. */
 #include <math.h>
 #include <stdlib.h>

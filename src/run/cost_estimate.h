@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cost estimate of a run, before it begins: memory, processor time, and the shares of its observables. Times are
  * those of one processor of 2020 or so, right within a factor of two (three where an error is requested); memory within
  * a fifth. */

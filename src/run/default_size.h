@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes completed and checked, with the default number of grains: a gas that would swirl and cluster in the usual box
  * gets a smaller one, if one of some hundreds of grains stays homogeneous. */
 #ifndef GG_DEFAULT_SIZE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "common/engine.h"
 
 /* The engines there are; a new one is a line here. */

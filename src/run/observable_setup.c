@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a replica is sampled with: the observables that the scene asks for, their bins, their memories. */
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a run reports while it lasts. */
 #include <math.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Progress and time left of a run. The run does not depend on them. A run ends at a test of its averaging window
  * (averaging.c). The errors so far predict which test, assuming that they fall as 1/sqrt(window); the time of recent
  * samples predicts when. */

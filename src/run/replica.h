@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A replica: one engine, the observables that sample it, and the series they fill. */
 #ifndef GG_REPLICA_H
 #define GG_REPLICA_H

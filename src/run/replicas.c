@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Replicas are created and take samples, as tasks of the scheduler, until the run's callback or the time limit stops
  * them. */
 #include "run/replicas.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The replicas of one scene. They go through warm-up and averaging in lockstep until the stopping criteria are met. The
  * result combines all of them. */
 #ifndef GG_REPLICAS_H

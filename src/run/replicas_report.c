@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From where the replicas stand to a result. */
 #include <math.h>
 #include <stdio.h>

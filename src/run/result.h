@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The result of a run: plain data, made by src/run, written by src/files and printed by src/cli. */
 #ifndef GG_RESULT_H
 #define GG_RESULT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A run: warm-up to the steady state, averaging to the requested error, one result. Engine-blind. */
 #ifndef GG_RUN_H
 #define GG_RUN_H

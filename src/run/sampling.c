@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How a replica is sampled. For rows: chunk by chunk, or block by block, at the end of every sampling interval. For
  * curves: whole snapshots, where an observable is due. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The one scheduler of runs. A task lets one replica of a run take samples until it has as many as are due. Tasks wait
  * in one queue, largest priority first. Threads of this process serve it; with several processes (run/workers) a task
  * goes to the rank that has its replica, and waits in the queue of that rank's scheduler. A run's controller is the

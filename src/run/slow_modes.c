@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Between walls a dense core slow_mode to and fro, grows and shrinks, for longer than any mean over all grains
  * remembers. The long waves across the gap (measure/wall_modes.h) show for how long. Where the walls are alike, what is
  * reported is even under the symmetry of the flow: modes that are odd do not shift it, but a core that keeps to one

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The steady-state test: may a mean over the window be called that of a steady state? */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How long to warm up and average: from the stopping criteria and how slowly the slowest quantity relaxes. */
 #include <math.h>
 

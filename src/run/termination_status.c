@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Did the run reach what was requested, and why not? */
 #include <math.h>
 

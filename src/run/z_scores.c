@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* z-scores of the engines, and deviations from Enskog's equation and from theories. */
 #include "run/z_scores.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where molecular dynamics, the Enskog equation and theories may differ, and why: what a comparison is to remark on. */
 #ifndef GG_Z_SCORES_H
 #define GG_Z_SCORES_H

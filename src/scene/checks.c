@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What concerns several keys of a scene: defaults that follow the flow, combinations that are invalid anywhere, and
  * keys that have no effect beside the others. Engines reject what they cannot run
  * (gg_engine_ops.accepts). */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The one table of the keys of a scene, and what follows from it: defaults, the reader, --set, range checks, `graingas
  * info`, the scene echoed in results, what a checkpoint is compared with when a run is resumed, and the manual. A new
  * key is a member of gg_scene and a row of fields.c. */

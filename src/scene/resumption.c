@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a checkpoint keeps of a scene, to reject another scene when the run is resumed. */
 #include <stdio.h>
 #include <string.h>

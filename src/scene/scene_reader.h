@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes from text: every key is checked by itself when it is read, and how keys go together when a scene is used
  * (gg_scene_finish). */
 #ifndef GG_SCENE_READER_H

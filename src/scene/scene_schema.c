@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of keys as JSON Schema (draft 7), for editors. */
 #include <math.h>
 #include <stdio.h>

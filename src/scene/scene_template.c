@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A scene to begin with: what has to be said, and every other key of the flow as a comment with its default. */
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The value of one key from a YAML node, and validation errors: file, line, key, and what is allowed there. */
 #include <errno.h>
 #include <float.h>

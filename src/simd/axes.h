@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The three axes at once: vectors of four lanes, the fourth idle. Plain vector types; every lane goes through the
  * operations that one axis would alone, so that results are the same on every processor. No branch depends on an axis
  * or on a side: which of them is next can't be foreseen. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Functions compiled for wider registers, too: the one for this processor is chosen when the program starts. For plain
  * loops whose result does not depend on how many numbers a register holds; static ones, for
  * the choice itself would be seen from outside. Where the loader can choose (ELF with the GNU C library). */

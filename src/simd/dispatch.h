@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which compiled set of instructions runs here. All of them leave the same bits. */
 #ifndef GG_SIMD_DISPATCH_H
 #define GG_SIMD_DISPATCH_H

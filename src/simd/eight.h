@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Eight doubles at a time, whatever the registers are: plain vector types of a fixed width, which the compiler maps on
  * what the processor has. For the event-driven engine, whose batches are of eight grains on every processor; lanes.h,
  * of the Monte Carlo engine, has as many as a register. Every element goes through the operations that one number alone

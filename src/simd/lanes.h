@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lanes: numbers side by side in a register, GG_WIDTH of them. They are double, or float where GG_SINGLE_LANES is
  * defined before; up to eight, as many as a register has. Every operation is lane by lane, exact or correctly rounded,
  * and nothing is contracted, so that all processors leave the same bits. Only for files that are compiled once for each

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The operations of lanes.h with masks of one bit a lane, eight lanes in either precision. */
 #ifndef GG_SIMD_LANES_AVX512_H
 #define GG_SIMD_LANES_AVX512_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The operations of lanes.h on plain vectors, whose masks are as wide as numbers: AVX2 where the compiler needs to be
  * told, and any processor. */
 #ifndef GG_SIMD_LANES_VECTOR_H

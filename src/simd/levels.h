@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What this processor can do, in the levels that kernels are compiled for: x86-64-v3 (AVX2) and x86-64-v4 (AVX-512).
  * The compiler may use anything of a level; what is requested here no processor has without the rest of it. */
 #ifndef GG_SIMD_LEVELS_H

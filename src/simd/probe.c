@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Run when the build is configured: the best set of instructions that this machine has. The same tests as dispatch.c.
  */
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Many words of an array at once: which of them are the one looked for? One bit for each. */
 #ifndef GG_SIMD_WORDS_H
 #define GG_SIMD_WORDS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Autocorrelation of a stationary series by FFT, and its integrated correlation time. */
 #ifndef GG_AUTOCORRELATION_H
 #define GG_AUTOCORRELATION_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sums over samples of an array of bins, kept in blocks of equal numbers of samples: every curve's mean and error comes
  * from here. The blocks are 16 to 32 whatever the length of the window: when there are 32, neighbours are joined. */
 #ifndef GG_BINS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Means and their standard errors, from one place. A quantity is a function f of channel means (a plain mean, a ratio,
  * a difference of stresses); its error comes from the series of its linear response to each row, y_t = f(a) + sum_i
  * (df/da_i)(a_i,t - a_i), so that correlations between channels and in time are both accounted for: blocks of y much

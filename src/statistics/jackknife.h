@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Standard errors of anything that follows from blocks of samples: leave out one block at a time (the jackknife:
  * Quenouille 1956, Tukey 1958). Blocks that are not much longer than a correlation time depend on their neighbours in
  * time; from the correlation r of neighbouring blocks the variance is taken larger by (1 + r)/(1 - r), as it is for a

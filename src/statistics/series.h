@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A series of samples, many channels wide: what every mean of a run is taken from. When it is full, neighbouring rows
  * are averaged in pairs, so that a run of any length stays within a bounded memory and keeps its whole history. */
 #ifndef GG_SERIES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Is a stretch of a series stationary? Compare its first and last third: a relaxation still under way, or a slow trend,
  * shows as a difference beyond its error. And its very beginning with the latter two thirds: a relaxation that is over
  * soon makes the first third scatter so much that a difference of thirds hides in it, and yet shifts the mean. */

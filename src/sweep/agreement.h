@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Do the z-scores of dsmc against Enskog's noise-free solution look like chance? Over all points of a grid. */
 #ifndef GG_AGREEMENT_H
 #define GG_AGREEMENT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sweep/deviation_maps.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Maps of deviations over two keys of a grid: a picture a quantity; rows: dsmc, md and theories against Enskog's
  * equation, md against dsmc; a column for each combination of the other keys. */
 #ifndef GG_DEVIATION_MAPS_H

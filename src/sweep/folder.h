@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The folder of a sweep: a file a point. */
 #ifndef GG_SWEEP_FOLDER_H
 #define GG_SWEEP_FOLDER_H

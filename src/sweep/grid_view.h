@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of a sweep seen over two of its keys: cells (x, y), and a panel for each combination of the other keys. */
 #ifndef GG_GRID_VIEW_H
 #define GG_GRID_VIEW_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Names of the lines of a sweep's picture: what the other keys are. */
 #include <stdio.h>
 #include <string.h>

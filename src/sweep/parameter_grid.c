@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The keys that a sweep varies: their values as they are written, and the rows that these make. */
 #include <errno.h>
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sweep/picture_rows.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a picture of a sweep shows: numbers of its table, and theories at forty values of the axis. */
 #ifndef GG_PICTURE_ROWS_H
 #define GG_PICTURE_ROWS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How far the rows of a comparison are off their reference, by the functions that `compare` uses. */
 #include "sweep/point_deviations.h"
 

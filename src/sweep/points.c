@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The points of a sweep: which values each takes, its scene, and whether that can be simulated. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sweep: a scene, and keys of it that take other values from point to point. Read from a scene file with two more
  * maps, `vary` and `sweep`; what is done at a point is a run, a comparison or the theories. */
 #ifndef GG_SWEEP_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A picture of a sweep: quantities over one of its keys. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sweep from YAML: the scene's keys, and beside them the maps `vary` and `sweep`. */
 #include <math.h>
 #include <stddef.h>

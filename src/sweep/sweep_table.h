@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the points of a sweep came to: one tidy table, a row a point, method and quantity; in files for other programs
  * and as a picture. And the points themselves as a JSON document. */
 #ifndef GG_SWEEP_TABLE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sweep as the text that it can be read from again: the scene's keys that were given, `vary` and `sweep`. */
 #include <errno.h>
 #include <limits.h>

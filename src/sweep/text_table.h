@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables of Markdown whose columns stand below each other, so that they read in a terminal, too. */
 #ifndef GG_TEXT_TABLE_H
 #define GG_TEXT_TABLE_H

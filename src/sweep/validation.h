@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A grid of comparisons, validated: verdict, maps and page of what is in its folder. */
 #ifndef GG_SWEEP_VALIDATION_H
 #define GG_SWEEP_VALIDATION_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a grid of comparisons came to, in words, counts and tables (Markdown). */
 #ifndef GG_VERDICT_H
 #define GG_VERDICT_H

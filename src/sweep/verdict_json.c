@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The verdict on a grid for programs. */
 #include <math.h>
 #include <stdlib.h>

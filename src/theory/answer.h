@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What every theory needs to speak the shared names: guards that refuse a scene with a reason, and reports of stress,
  * temperatures and collisions. Theories work per volume with m = d = 1 (model units); the reports convert. */
 #ifndef GG_ANSWER_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Smooth grains in a bath, without shear: M.G. Chamorro, F. Vega Reyes & V. Garzo, J. Stat. Mech. (2013) P07013, at
  * first Sonine order. With A = sqrt(2 pi) chi (1 - e^2), x = drag/(n d^2 sqrt(2T)), and the collisional moments of
  * T.P.C. van Noije & M.H. Ernst, Granular Matter 1 (1998) 57,

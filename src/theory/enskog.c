@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Elastic hard spheres at rest: Enskog's equation (Chapman & Cowling, The Mathematical Theory of Non-Uniform Gases, ch.
  * 16) at the contact value of the scene.
  *   Z = p/(nT) = 1 + (2 pi/3) n sum_ij x_i x_j sigma_ij^3 chi_ij        (= 1 + 4 phi chi for one species)

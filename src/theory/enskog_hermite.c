@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Enskog's equation itself, solved without random numbers: an expansion of the distribution about an anisotropic
  * Gaussian, all collision integrals by quadrature, the steady state by Newton's method (theory/hermite). Degree after
  * degree, so that each number tells how far it is from its limit. Rough grains: theory/rough. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the solver of Enskog's equation without random numbers answers (enskog_hermite.c), state by state. */
 #ifndef GG_ENSKOG_HERMITE_H
 #define GG_ENSKOG_HERMITE_H

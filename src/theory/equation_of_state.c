@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Equations of state of elastic hard spheres of one species, each whatever contact value the scene chose:
  *   N.F. Carnahan & K.E. Starling, J. Chem. Phys. 51 (1969) 635: Z = (1 + phi + phi^2 - phi^3)/(1 - phi)^3
  *   J. Kolafa, S. Labik & A. Malijevsky, Phys. Chem. Chem. Phys. 6 (2004) 2335, a series in x = phi/(1-phi)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef GG_EQUATION_OF_STATE_H
 #define GG_EQUATION_OF_STATE_H
 

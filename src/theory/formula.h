@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Theories written in a scene: formulas of its parameters, or a table of points. */
 #ifndef GG_THEORY_FORMULA_H
 #define GG_THEORY_FORMULA_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Smooth inelastic spheres, free cooling or heated, at all densities: V. Garzo & J.W. Dufty, Phys. Rev. E 59 (1999)
  * 5895; heated states V. Garzo & J.M. Montanero, Physica A 313 (2002) 336. With c = 2 a_2, nu_0 = nT/eta_0,
  * eta_0 = 5/(16 d^2) sqrt(m T/pi), rates and viscosities in units of those:

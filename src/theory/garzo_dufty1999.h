@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Homogeneous states of smooth spheres, for the theories of one species and of mixtures. */
 #ifndef GG_GARZO_DUFTY1999_H
 #define GG_GARZO_DUFTY1999_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mass flux of a dilute smooth binary mixture that cools freely, first Sonine order: V. Garzo & J.W. Dufty, Phys.
  * Fluids 14 (2002) 1476. Along the gradients of x = x_1, p and T: j_1 = -(nT/nu_0) (D grad x + D_p grad p/p + D' grad
  * T/T) Momentum of species 1 decays at the rate nu, g = x T_1/T, rho the densities of mass, rates in nu_0: D_p = (g -

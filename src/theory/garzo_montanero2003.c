@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Smooth binary mixtures, free cooling or with a Gaussian thermostat: partial temperatures and fourth cumulants V.
  * Garzo & J.W. Dufty, Phys. Rev. E 60 (1999) 5706, J.M. Montanero & V. Garzo, Granular Matter 4 (2002) 17; viscosity
  * J.M. Montanero & V. Garzo, Phys. Rev. E 67 (2003) 021308 and V. Garzo & J.M. Montanero, Phys. Rev. E 68 (2003)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cooling state of a smooth binary mixture and its viscosity, for theories and tests. */
 #ifndef GG_GARZO_MONTANERO2003_H
 #define GG_GARZO_MONTANERO2003_H

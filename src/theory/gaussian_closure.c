@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Uniform shear at all densities from the second moments of Enskog's equation, closed by anisotropic Gaussians:
  *   d<C_a C_b>_i/dt = -rate (<C_y C_b> delta_ax + <C_y C_a> delta_bx) + collisions = 0,
  *   d Theta_i/dt = 0,   d<s_z>_i/dt = 0      for each species i, less drag and plus noise of a bath (model.h),

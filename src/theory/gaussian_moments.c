@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The integrals over velocities, at fixed direction k, are those of a Gaussian vector z = (g, C_1, s_1) with mean m and
  * covariance S, weighted by the normal velocity u = k.g > 0, u ~ N(mu, v). With the regression on u, R = S k_g/v,
  * B = m - R mu, C = S - v R R^T, and I_p = int_0^inf u^p N(u; mu, v) du:

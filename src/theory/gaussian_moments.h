@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Collision integrals of Enskog's equation over anisotropic Gaussian distributions of velocity and spin,
  *   f_i = n_i N(C; 0, M_i) N(s; s_i z, Theta_i),
  * exact in shear rate, roughness and density: the production terms of the second moments, and the collisional stress.

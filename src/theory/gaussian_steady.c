@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The steady state of uniform shear for anisotropic Gaussians: zero of the production terms of gaussian_moments.c plus
  * streaming. The unknowns are M = L L^T and Theta = L L^T by the logarithms of the diagonal of L, so that every trial
  * state is a distribution; and the mean spins, but where they are nothing beside thermal ones. The solver steps by a

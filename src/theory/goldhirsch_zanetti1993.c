@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The length from which on shear modes outgrow the thermal speed of a cooling gas, so that it breaks up into vortices
  * and then clusters: I. Goldhirsch & G. Zanetti, Phys. Rev. Lett. 70 (1993) 1619; J.J. Brey, J.W. Dufty, C.S. Kim & A.
  * Santos, Phys. Rev. E 58 (1998) 4638:

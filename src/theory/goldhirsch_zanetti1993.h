@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The size above which a dissipative gas does not stay homogeneous. */
 #ifndef GG_GOLDHIRSCH_ZANETTI1993_H
 #define GG_GOLDHIRSCH_ZANETTI1993_H

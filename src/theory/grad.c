@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Dilute uniform shear by Grad's method, with the production of stress linearised: one species, smooth (J.J. Brey, M.J.
  * Ruiz-Montero & F. Moreno, Phys. Rev. E 55 (1997) 2846; A. Santos, V. Garzo & J.W. Dufty, Phys. Rev. E 69 (2004)
  * 061303) or rough. Rates in units of nu_0 = (16/5) sqrt(pi) n d^2 sqrt(T), r = theta/T, shear rate a:

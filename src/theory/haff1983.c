@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Haff's law of free cooling, P.K. Haff, J. Fluid Mech. 134 (1983) 401: since zeta grows as sqrt(T),
  *   T(t) = T_0/(1 + zeta_0 t/2)^2,   collisions per grain = (2 nu_0/zeta_0) ln(1 + zeta_0 t/2) */
 #include "theory/haff1983.h"

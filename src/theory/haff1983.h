@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Haff's law, and what follows from it. */
 #ifndef GG_HAFF1983_H
 #define GG_HAFF1983_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What makes up for the energy that collisions take in a homogeneous state, at T = 1, by one unknown x: velocities that
  * grow at the rate x (in the scaled frame of a cooling gas, or by a Gaussian thermostat), the diffusion x of white
  * noise; or a bath, of which at the steady temperature 1/x^2, in units of that, drag is x and diffusion x^3 times what

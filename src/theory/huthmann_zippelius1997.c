@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rough grains with two Maxwellians: M. Huthmann & A. Zippelius, Phys. Rev. E 56 (1997) R6275; with Coulomb friction O.
  * Herbst, M. Huthmann & A. Zippelius, Granular Matter 2 (2000) 211. The ratio theta/T of free cooling, and of states in
  * which translation is driven (heated, or sheared, where this is eq. (5.13) of Gayen's thesis generalised to friction);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Transport of rough grains that cool freely, dilute: G.M. Kremer, A. Santos & V. Garzo, Phys. Rev. E 90 (2014) 022205,
  * first Sonine order, Maxwellian spins. Translation and rotation cool alike, at the rate zeta, at r = theta/T of the
  * cooling state; in units of nu_0 = (16/5) sqrt(pi) n d^2 chi sqrt(T) and eta_0 = n T/nu_0:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Kinetic theory of slightly inelastic, slightly rough (or nearly perfectly rough) spheres: C.K.K. Lun, J. Fluid Mech.
  * 233 (1991) 539. First Sonine order, first order in gradients, isotropic spins, independent of velocities, with mean
  * curl(u)/2; the dependence of the collision integrals on e and beta is kept in full. Steady shear: Gayen & Alam, J.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lun's constitutive functions, for the theory and its tests. */
 #ifndef GG_LUN1991_H
 #define GG_LUN1991_H

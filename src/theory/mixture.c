@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rates of <v^2> and <v^4> of species i by collisions with species j. With a = T_i/m_i, b = T_j/m_j, S^2 = a + b,
  * B = (1+e_ij) m_j/(m_i+m_j), F = 4 pi n_j sigma_ij^2 chi_ij sqrt(2/pi), Maxwellian averages are sums of terms
  * a^p b^q S^s:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Smooth binary mixtures: collision rates of moments at partial temperatures T_i, as functions of a_i = T_i/m_i. */
 #ifndef GG_MIXTURE_H
 #define GG_MIXTURE_H

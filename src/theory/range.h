@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where theories answer but are beyond what they were made for: shared by those of one kind. For gg_theory.beyond. */
 #ifndef GG_RANGE_H
 #define GG_RANGE_H

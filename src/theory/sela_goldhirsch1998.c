@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Normal stress differences of a dilute gas of smooth inelastic spheres at Burnett order: N. Sela & I. Goldhirsch, J.
  * Fluid Mech. 361 (1998) 41, in steady uniform shear (Alam & Luding, J. Fluid Mech. 476 (2003) 69), eps = 1 - e^2:
  *   N1 =  (1.6735 eps - 0.04315 eps^2)/(1.2996 + 0.0966 eps)

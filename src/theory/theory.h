@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Theories: one file each, all answering under the shared names and in the units of the model. */
 #ifndef GG_THEORY_H
 #define GG_THEORY_H

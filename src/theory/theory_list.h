@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The theories there are, in the order in which they are shown: the one list of them. Each is a constant gg_<name> in a
  * file of its own, or shares one with its variants, and describes itself there; what asks for theories or names them
  * reads these constants. */

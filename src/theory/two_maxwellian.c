@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exchange of energy between translation and rotation of rough grains, with r = theta/T, per collision, m = T = 1.
  *
  * Constant beta: M. Huthmann & A. Zippelius, Phys. Rev. E 56 (1997) R6275; A. Santos, G.M. Kremer & V. Garzo, Prog.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rough grains with Maxwellian velocities and Maxwellian spins: exchange between translation and rotation. */
 #ifndef GG_TWO_MAXWELLIAN_H
 #define GG_TWO_MAXWELLIAN_H

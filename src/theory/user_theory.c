@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Theories that the user's program brings (graingas.h, "Extension"): shown the scene, they answer like all others. */
 #include <math.h>
 #include <stdlib.h>

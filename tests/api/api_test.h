@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Small scenes for tests of the public interface, which include nothing else of the library. */
 #ifndef API_TEST_H
 #define API_TEST_H

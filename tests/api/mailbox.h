@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Messages between threads that stand for processes: what MPI is to the command. Any of them can be lost, as a process
  * that is killed: nobody hears of it any more. */
 #ifndef MAILBOX_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Calls of the public interface, and all that they answer as one text. */
 #ifndef GG_TESTS_DOOR_MEMORY_H
 #define GG_TESTS_DOOR_MEMORY_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* All that calls answer, as one text. */
 #include <stdarg.h>
 #include <stdio.h>

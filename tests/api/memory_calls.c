@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The calls that are to fail. */
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A folder made anew from another, some 200 000 times: a shell for each took a third of the time. */
 #include <fcntl.h>
 #include <ftw.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A missing argument is answered with GG_BAD_INPUT and a message that names it, in every function. */
 #include "api_test.h"
 

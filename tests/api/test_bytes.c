@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Results, comparisons and simulations as bytes in memory: no file is written, and what comes back is the same. */
 #include "api_test.h"
 

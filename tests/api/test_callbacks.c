@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A callback that fails with a reason ends the call that it came from, of every kind of callback. */
 #include <stdatomic.h>
 #include <stdbool.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Covariances of the means of a run: those of a quantity with itself and with its parts, and against many seeds. */
 #include "api_test.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs and their files: what is stopped at any moment goes on to the same end; what cannot be written is said, and no
  * result is lost for it. */
 #include <locale.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Grains from outside: what is set is read back, a copy goes on with the same bits, and starts that no scene has
  * (crystal, cluster, two temperatures) do what physics says. What cannot be is refused, and nothing has changed. */
 #include "api_test.h"

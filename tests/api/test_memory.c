@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every call of the public interface with its k-th allocation failing, whoever asked for it: our own code, HDF5, GSL,
  * FFTW, libyaml, jansson or the C library. Each try is a process of its own, so that a crash is one finding. It ends
  * with GG_OK and the whole answer, or with an error that says so; nothing leaks; no file is left half-written. (Blocks

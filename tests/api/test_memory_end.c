@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* No memory at all from the moment on at which the result is in place: what is left to do is done without any. */
 #include "../faults/failing_malloc.h"
 #include "api_test.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Handles defend themselves: what is called from their own callbacks or from a second thread is refused with a reason,
  * and the call in progress goes on as if nothing had happened. */
 #include "api_test.h"

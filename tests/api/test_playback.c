@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trajectories read back, a frame at a time; what theories say of gases that cool. */
 #include "api_test.h"
 

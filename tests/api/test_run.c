@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs with options, comparisons, and results: asked, written, read back. */
 #include "api_test.h"
 

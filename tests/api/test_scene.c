@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes and tables as the public interface has them. */
 #include "api_test.h"
 

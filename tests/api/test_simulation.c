@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Simulations step by step: what they show agrees with itself and with the conservation laws; cut, saved and loaded
  * they go on bit for bit. */
 #include "api_test.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a program adds to a scene, by the public interface alone: found again in files, right in a cooling gas, refused
  * where it would spoil files. */
 #include <stdbool.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Replicas shared by several processes: the bits are those of one process, whoever works, whoever is lost on the way,
  * wherever a run is stopped and resumed, and for any number of threads and ranks. Here the processes are threads with a
  * mailbox of their own. */

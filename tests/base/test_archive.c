@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Named arrays of a checkpoint: what is taken out must be what was put in, and whatever is not is refused by name. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* JSON is whole or not there, whichever allocation fails. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: a message that is too long keeps its beginning, which names a file, and its end, which is the reason; letters
  * stay whole. */
 #include <setjmp.h>

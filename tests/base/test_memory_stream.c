@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: a text in memory is what was written, of any length; if any allocation on its way fails, it is not there, and
  * closing says so. */
 #include <setjmp.h>

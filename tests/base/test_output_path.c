@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What stands at an output's path: links are followed, who may read and write stays, one writer at a time, and nothing
  * that a dead one left blocks or stays. */
 #include <setjmp.h>

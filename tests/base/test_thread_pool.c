@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A thread pool does every part of a job once and returns when all are done: many short jobs in a row, jobs after a
  * pause (the others sleep), more threads than processors, and jobs that one part holds up. Parts that have to wait for
  * others do.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* bench error: of made-up runs whose noise and floors are known, the seconds to an error are those; and of a state that
  * is really measured, briefly, all ways have errors, and the truth is the best there is. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every table of graingas bench, of small systems and short stretches: whole, its numbers what they say; and what is
  * refused. */
 #include <setjmp.h>

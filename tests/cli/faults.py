@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What tests of failing writes and kills share, with validation/interruption: graingas behind the interposed library of
 tests/faults, what it saw, and two result files compared bit for bit."""
 import json

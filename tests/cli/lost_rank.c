@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The post between processes, when one of them is killed with messages under way to it: the others still get theirs,
  * and come to their end at once. cli/mpi starts it under mpirun --enable-recovery; rank 1 is the one that is killed.
  * Rank 0 prints the seconds that its end took. */

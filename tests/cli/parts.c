@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A message in several parts, as one above a gigabyte is: it arrives whole, though MPI takes its last part, a short
  * one, long before it has read the others. cli/mpi starts it under mpirun with two processes; parts have a megabyte
  * here. */

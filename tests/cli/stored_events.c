@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What cli/leaves holds results against: a run with every sample and every collision of all its replicas, and what the
  * C interface says of it, by the public header alone.
  *   stored_events SCENE.yaml FOLDER REPLICAS COLLISIONS [SAMPLES]

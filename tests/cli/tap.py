@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A few lines of TAP around functions named test_*, and the graingas command run in a folder of its own."""
 import os
 import signal

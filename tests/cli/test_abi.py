@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What programs that are already built rely on: the offsets of all public structs and the exported names, as abi.txt
 beside this file holds them, and programs that were built with an older or a newer header than the library's.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Every mistake a user can make: the message says what is wrong and what to do, the exit code says whose fault it is,
 and no partial file is left."""
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """graingas bench compare: ratios of planted records, what is beyond their spread, the limit and its exit code."""
 import json
 import sys

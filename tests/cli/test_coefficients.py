@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Transport coefficients of theories against a second computation: collision integrals of Lun (1991) and of Kremer,
 Santos & Garzo (2014) from the collision rule itself, term by term over Gaussians, and the critical lengths from the
 eigenvalues of the equations of hydrodynamics. Nothing is shared with the program but the rule."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Collisions that accumulate without end: with md.contact_time auto the run begins anew with a tenfold one, up to 1e-3, and
 says so. The scene collapses at 1e-5 with seed 1 and at 1e-4 too with seed 2."""
 import csv

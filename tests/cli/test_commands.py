@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The commands as interface: what they print, the keys of their JSON, their exit codes."""
 import concurrent.futures
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Damaged result files and checkpoints are refused in words: HDF5 does not see them, and nothing crashes."""
 import glob
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The default number of grains: where 1000 that cool or are heated by the Gaussian thermostat would not stay homogeneous, a
 number that does, the same for every command; a given number is kept."""
 import csv

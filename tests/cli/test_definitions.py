@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """graingas info WORD: a quantity, a theory, a scene key, a flow, an observable in five lines; the nearest word otherwise."""
 import sys
 

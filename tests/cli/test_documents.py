@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Documents say what is true of the tree: the page of scene keys is the table's, every path that a document names
 exists, and the commands that it shows are the command's. So do comments of the code."""
 import glob
@@ -154,6 +155,21 @@ def test_rooms():
             backwards.update(f"{os.path.relpath(path, SOURCE)} includes {name}/" for name in included
                              if name in later)
     check(files > 200 and not backwards, "against the way the data goes:\n" + "\n".join(sorted(backwards)))
+
+
+def test_licences():
+    """Source files name their licence in their first two lines; .reuse/dep5 covers the rest."""
+    missing, n = set(), 0
+    for folder in "src", "include", "tests", "validation", "web", "python", "site", "scripts":
+        for where, folders, names in os.walk(os.path.join(SOURCE, folder)):
+            folders[:] = [f for f in folders if f not in ("node_modules", "__pycache__")]
+            for path in (os.path.join(where, name) for name in names if name.endswith((".c", ".h", ".py", ".js", ".css"))):
+                n += 1
+                with open(path, encoding="utf-8") as source:
+                    if "SPDX-License-Identifier: GPL-3.0-or-later" not in source.readline() + source.readline():
+                        missing.add(os.path.relpath(path, SOURCE))
+    none(missing)
+    check(n > 800, n)
 
 
 def test_comments():

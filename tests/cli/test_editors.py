@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What helps at the keyboard: init, JSON Schema, completion for shells; each held against what the program itself takes."""
 import glob
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """graingas export: tables with the numbers of the result's document, to the last bit, in CSV as others read it; grains
 as extended XYZ in the cell of their frame; and no file at all where one of them cannot be."""
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Interruption, checkpoints and resumption from the command line."""
 import json
 import os

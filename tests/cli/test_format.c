@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Counts and durations as people read them. */
 #include <setjmp.h>
 #include <stdarg.h>

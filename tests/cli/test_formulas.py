@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Formulas of docs/reference/theories.md are those of the code: their TeX is evaluated at a point, and compared with
 what `graingas theory` prints there."""
 import json

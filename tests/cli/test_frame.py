@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The key frame: what it changes, what it leaves as it is, where it has no effect. Its numbers are held by
 test_independent.py."""
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Result files opened by the readers that users bring: h5py and MDAnalysis."""
 import json
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Recipes of docs/howto are run as they stand: the Slurm array with an sbatch that runs each task here, MPI, and the
 tables by which others check their programs, anew with other seeds and larger errors."""
 import json

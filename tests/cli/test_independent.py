@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers that leave the program, held against a second computation. Grains and collisions of every replica are stored
 by tests/cli/stored_events.c; what JSON, HDF5, CSV, XYZ and the C interface say of them is computed here from the
 definitions in docs/reference, with numpy and without any of the program's model. A new flow is a row of FLOWS."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """kill -9 in the calls that change a file (of a write, in its midst), the first twenty and every seventh: what is left
 can be gone on from, to the bits of the run that was left alone, and the command clears up behind the dead one."""
 import os

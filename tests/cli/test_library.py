@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The library as it is installed: header, pkg-config file, manual page, command; examples/*.c and the program of
 docs/tutorial/first_program.md build and run against it; what names it exports, and how names inside are made."""
 import glob

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """output.log: a row for each sample while the run lasts, with means that end as those of the result; resumed runs go on
 in the same file, as if they had never been interrupted; what is no log is left alone."""
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """graingas under mpirun: the bits of one process, one voice, one writer; processes that are killed; what a build without
 MPI says."""
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers in print: what is read off curves, with errors in the last digits and z, and the rates that bench prints."""
 import json
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The command line itself: which command takes which option, the ways to ask for help, where a scene comes from, how
 numbers may be written, and lines no wider than the terminal."""
 import json

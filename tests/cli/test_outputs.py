@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What stands where an output is to go is written to, replaced by a whole file, or refused before the run."""
 import os
 import re

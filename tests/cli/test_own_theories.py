@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Theories of a scene's own, `theories`: formulas and tables answer like the others, in theory, compare and sweeps, where
 a changed formula needs no new run; what is wrong is named with its line."""
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Documents and messages are in plain words: no sentence of more than 40 words, none of the project's private words.
 
 plain_words.txt beside this file has exceptions: a file, its long sentences, its private words. Its numbers may only fall.

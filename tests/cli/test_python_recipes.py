@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The recipes of docs/howto/read_results_in_python.md are run as they stand: its shell block with graingas first, then each
 python block in a process of its own. A recipe whose modules are not installed is skipped."""
 import os

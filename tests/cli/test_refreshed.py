@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """README and tutorial show what their commands print: scripts/refresh-documents on those that take under 3 s each."""
 import os
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """quickstart and check where there is no apt-get: what is missing is named, with the packages of the system."""
 import os
 import shutil

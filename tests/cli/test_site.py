@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """scripts/build-site makes pages of all documents, of the C interface and of the Python module, without a warning of
 Sphinx or Doxygen and without a dead link. Skipped where its tools are not installed; notebooks have tests of their own."""
 import importlib.util

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Signals and the time limit are honoured at once, whatever the run is at: the start, an interval that would take
 minutes, a million grains. The bound is far above what it takes, and far below what it took."""
 import fcntl

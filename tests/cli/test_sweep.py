@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """graingas sweep as users meet it: what is listed, refused, done, killed and gone on with, shared between processes,
 collected, and handed to a cluster."""
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Progress where standard error is a terminal: one line, no wider than it, which is gone at the end."""
 import fcntl
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A trajectory goes on where a run does: cut by kill -9, SIGTERM or the time limit, resumed once or often, here or
 there, the result holds every frame of the run that was left alone, bit for bit."""
 import glob

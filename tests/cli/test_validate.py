@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """graingas validate: a grid in order passes, a planted deviation does not; page, maps, continuation, points, options."""
 import csv
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Temperature, stresses and N1 between walls, held against stored frames: fine slabs, in each of them the straight line of
 all frames together taken off. Nothing but the file is used: the two share no code."""
 import json

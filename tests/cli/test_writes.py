@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A call that changes a file fails, for every such call of a command in turn: the exit code and the message say so, what
 was there before is whole, and nothing half-written or temporary is left but what the message names. Writes that take less than they were given are
 gone on with. EVERY_KIND=1 tries all kinds of failure at every call, and prints a table (validation/interruption)."""

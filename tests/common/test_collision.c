@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The collision rule: conservation laws, energy, coefficients recovered from the velocities, friction cone, limits and
  * time reversal, on a million random pairs of unequal grains (and a wall), grazing and head-on ones among them. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How many grains a Monte Carlo ensemble has: what the scene gives is kept; else so many that 1/N stays within a
  * quarter of the asked error, of the scarcest species, never fewer than the least, and as many as at the start of a run
  * that is resumed. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of flows: every row is complete and its words are its own; its defaults make a scene that every engine it
  * claims takes and no other; thermostats it does not name are refused; its headline quantities are there in short runs,
  * of plain grains and of rough ones; lists of flows read like English. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From scene to model: units, composition, contact values, limits; archives. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers on which all C libraries agree: roots and powers are rounded as IEEE 754 rounds, against long double, and two
  * answers that differ in their last bits agree in their first ones. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of quantities: names are found again and none is used twice, families have a member a species and scenes
  * those of the species that they have, and what a quantity needs is what decides whether it is there. */
 #include <setjmp.h>

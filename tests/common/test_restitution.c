@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Built-in laws of restitution: viscoelastic spheres against their series and their equation of motion, the table
  * against the law, and what a scene makes of it. */
 #include <math.h>

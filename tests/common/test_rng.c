@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random streams: uniform, independent of each other, the same for the same seed; directions and normals have the right
  * moments within five standard errors. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Species and their pairs: every pair has one number, whatever the number of species, and one name that is read back;
  * grains are dealt by the largest remainders, and no species goes without. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: every shape says when a grain in flight touches it, straight or on a parabola, as a search in small steps
  * along its clearance does; at the contact the normal points along the clearance's gradient; a grain that was put
  * outside touches or is clear, and touches nowhere else than its height says; what touches and leaves is not touched at

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A bench for the engine's tests: scenes in one line, means with error bars from blocks of time. */
 #ifndef GG_TESTS_DSMC_LAB_H
 #define GG_TESTS_DSMC_LAB_H

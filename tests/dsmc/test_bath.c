@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gases in a bath against closed forms, where collisions are rare or change nothing, and against Enskog's equation
  * without random numbers where both matter. */
 #include "lab.h"

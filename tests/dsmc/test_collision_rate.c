@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The elastic gas collides as often as kinetic theory says, for ensembles of 2 to 1000 grains. N grains of zero total
  * momentum at fixed energy are uniform on a sphere in 3(N-1) dimensions, so the mean relative speed of a pair is known
  * for every N; each of the N(N-1)/2 pairs collides at pi sigma^2 chi <g>/V. */

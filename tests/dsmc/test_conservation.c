@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What collisions must keep, they keep to rounding: momentum always, energy where e = 1 and beta = +-1; and the
  * momentum stays at rounding however far the gas cools. */
 #include "lab.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Free cooling: fourth cumulant and cooling rate of smooth grains, and the temperature ratio of rough ones. */
 #include "lab.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes that the engine cannot run are refused with the scene key to change. */
 #include "lab.h"
 

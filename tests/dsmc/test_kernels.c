@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The block kernels against each other, bit for bit, and against the plain path, within its error bars. */
 #include "dsmc/dsmc.h"
 #include "dsmc/kernel/lanes_collision.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A majorant that is too low is noticed, counted and made up for: forced down before every step, it changes neither the
  * collision rate nor the energy that collisions destroy; nor, of a sheared mixture of rough grains, the collision rate
  * of any pair of species, the stress, and how energy is shared between species and with the spins. */

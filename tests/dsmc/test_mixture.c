@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Binary mixtures: what must hold exactly, and temperature ratios, cumulants and viscosity known from elsewhere. */
 #include "lab.h"
 

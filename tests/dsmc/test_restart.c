@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A restored engine goes on bit for bit; so does one whose velocities were multiplied by a power of two. */
 #include "common/rng.h"
 #include "dsmc/dsmc.h"

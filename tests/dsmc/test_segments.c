@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Segments that collide in rounds are the gas: every pair of segments is paired as often as any other, grains of one
  * segment and of two collide at the same rate, gases that begin at different temperatures mix as they would one pair
  * after another, and what is measured of heated, sheared and mixed gases is what an ensemble in one piece has. One

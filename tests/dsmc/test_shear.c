@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Uniform shear: the sign of everything, the balance of energy, and numbers of independent solutions. */
 #include "lab.h"
 

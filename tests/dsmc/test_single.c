@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Single precision against double: the same physics within errors, and what rounding does. */
 #include "lab.h"
 

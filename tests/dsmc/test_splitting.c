@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Symmetric splitting over species pairs: all have had the same time, the second half of the list mirrors the first,
  * and both orders together take no longer than the step allows: in the list, and as the collision callback of a mixture
  * has it. */

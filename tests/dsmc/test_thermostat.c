@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Heated gases: what the thermostats keep, and the viscosities that the literature measures with them. */
 #include "lab.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Threads change nothing: the same seed leaves the same ensemble, sums, counts and streams with one thread, two, three
  * or as many as there are pairs of segments, whatever the scene has; also if a run is saved and goes on with another
  * number. */

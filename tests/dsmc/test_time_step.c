@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The error of a split step is of second order, and the automatic step has none to speak of. */
 #include "lab.h"
 

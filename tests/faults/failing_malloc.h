@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The allocations of a whole process, libraries included, of which one can be made to fail: linked into a test, or put
  * before the C library (LD_PRELOAD; glibc only), where the environment says what fails:
  *

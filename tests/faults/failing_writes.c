@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Put before the C library (LD_PRELOAD), this makes one call of a program that changes files fail, or kills the program
  * there. Calls are counted from 1: opening for writing, write, pwrite, writev, ftruncate, fsync, fdatasync, rename,
  * mkdir, and close of what was opened for writing. What the C library's own streams do inside is not seen.

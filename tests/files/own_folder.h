@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A folder of its own for a test that writes files: it is entered before, and gone afterwards. */
 #ifndef OWN_FOLDER_H
 #define OWN_FOLDER_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A result with planted numbers, as a run would leave it. */
 #ifndef PLANTED_H
 #define PLANTED_H

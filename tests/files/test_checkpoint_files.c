@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files of checkpoints: bit for bit what was written, two generations of it, and others' refused. */
 #include <setjmp.h>
 #include <stdarg.h>

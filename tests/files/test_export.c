@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* CSV: cells are quoted where RFC 4180 says so, numbers read back to the last bit, what is none is an empty cell, and a
  * text longer than the buffer arrives whole. Extended XYZ: a frame known beforehand, grains in the leaning cell. */
 #include <setjmp.h>

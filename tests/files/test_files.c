@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files: results come back as they were written, and a write that fails leaves nothing behind. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The log of frames: what was put in comes out in the order of the grains' numbers; a mark vouches for every byte
  * before it, and for none behind it. */
 #include <setjmp.h>

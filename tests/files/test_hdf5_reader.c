@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The reader of HDF5 files beside HDF5, which wrote them: the same numbers of every shape, in whatever chunks, groups
  * of thousands of names, headers in many pieces, other types; and what it does not read is refused by name. Files that
  * were made to harm: words of one in turn set to what a word may be, under a checksum that is right. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The JSON documents: the keys that scripts rely on, numbers to the last bit, null with a reason where there is none.
  */
 #include <setjmp.h>

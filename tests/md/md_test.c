@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "md_test.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the md tests share: models by a few numbers, engines from given states, a plain event finder, a hash. */
 #ifndef GG_MD_TEST_H
 #define GG_MD_TEST_H

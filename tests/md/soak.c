@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Long runs, outside the test list: does an error that is rounding at first grow over 10^9 collisions, or on a clock
  * that shows 10^8?
  *

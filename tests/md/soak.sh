@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
 # The grid of long runs: every density, restitution and start of the clock, one after the other.
 #   tests/md/soak.sh build/tests/md/md_soak [COLLISIONS [N]]     (10^9 collisions each: hours)
 # Prints a line for each; the exit status is that of the worst.

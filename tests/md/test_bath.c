@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gases in a bath, in md: elastic grains relax as drag and noise do, whatever the interval of the turns; hardly
  * colliding sheared grains have the moments of turns in closed form, at the engine's interval and at one twelve times
  * as long, which is how its error is known; inelastic dilute grains have the temperatures of Enskog's equation. */

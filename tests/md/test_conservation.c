@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: momentum to rounding in every flow; energy at e = 1 with beta = -1 or 1; no overlaps, nobody outside the box
  * or its cell, over 10^5 collisions; the energy that the collision sums report lost is the energy that went. */
 #include "md_test.h"

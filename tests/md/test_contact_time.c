@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: an inelastic collapse ends in finite time, and the share of treated collisions is told; a cooling gas does
  * not feel the contact time while it is short; grains at rest on a floor cost a bounded number of collisions; without
  * the rule they end the run; gravity that nobody feels makes no difference. */

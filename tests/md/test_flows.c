@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves, in walled, driven and mixed systems: energy and momentum budgets close (what walls, gravity and collisions
  * give and take is what the grains have); wall stress equals bulk stress in walled shear; equal temperatures of an
  * elastic mixture; the Gaussian thermostat is free cooling seen through another clock, and turns no grain; white noise

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: the same first hundred collisions (pairs in order, and times to 10^-8 of a mean free time) wherever the
  * sheared boundary lies, under translations, under half a turn about the vorticity, for images displaced by whole
  * boxes, and for any grid of cells, at rest or co-moving, or neighbour lists; and the same averages of long runs. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: eight pairs at a time give the same bits as one at a time, on every boundary, every instruction set gives the
  * same bits, no choice of a way of searching is without its kernels, and cells may be crowded. */
 #include <stdlib.h>

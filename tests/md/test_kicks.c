@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: at a turn two grains of a species get opposite kicks, or none; everybody has one turn in every interval,
  * neighbours in memory far apart; second and fourth moment of what comes in an interval
  * are those of white noise; after kicks no contact is missed; kicks are few; and the cumulant a2 is that of Enskog's

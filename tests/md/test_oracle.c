@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: given the engine's own state after each event, a plain search over all images of all pairs, and the walls,
  * names the same next collision (who, and when to 10^-10 of a mean free time), over hundreds of random small systems:
  * periodic, sheared, between walls, under gravity; smooth, rough and frictional; one and two species; dilute and dense,

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: threads that share the events of one run leave every bit of it as it is: the state after so many collisions,
  * and the sums over them, are those of one thread, with two, three and four threads; with cells, cells that
  * overlap or move with the flow, and neighbour lists; smooth, rough and frictional, one species and two, near collapse;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: under 10^7 random insertions, removals, re-schedulings and pops the event queue gives the same order as a
  * sorted list, with events in the present bucket, ties, events beyond the epoch and never. The sorted list is an array
  * of all events in order, searched by halves: nothing that the event queue does. */

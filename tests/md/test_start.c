@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: starts at every solid fraction from 0.001 to 0.6 are free of overlaps, at rest as a whole and exactly at the
  * asked temperatures; boxes too small for the nearest image, phi = 0 and unknown flows are refused by name;
  * long and flat boxes run; grains above an open top are where they are. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: elastic pressure at phi = 0.1 ... 0.45 within four standard errors (below 0.1 %) of the accurate equation of
  * state, and the elastic mean free time within four counting errors of what follows from it, 1/(4 n chi sqrt(pi T/m)):
  * 0.1302 at n = 0.5 (Lue, J. Chem. Phys. 122 (2005) 044513, has 0.1303).

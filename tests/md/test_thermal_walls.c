@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: between thermal walls a gas without collisions carries the heat, pressure and shear stress that streams of
  * two half-Maxwellians do (exact, at any accommodation); dense gases between walls of one temperature, smooth mixtures
  * and rough grains with their spins, have that temperature and no heat flux; the energy of grains changes by what walls

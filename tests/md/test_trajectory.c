@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: the state after 10^6 collisions is the stored one, bit for bit, whatever compiler, optimisation and
  * registers.
  *

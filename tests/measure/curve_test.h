@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the tests of curves share: planted snapshots shown to an observable, its curves with errors, comparisons. */
 #ifndef GG_CURVE_TEST_H
 #define GG_CURVE_TEST_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A row sampled from the Monte Carlo engine's blocks is, to the bit, the one sampled from its chunks, for any scene;
  * and what roots in single precision cost the mean speed. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cells: grains thrown anywhere fall into them binomially; temperatures about cell, slab and box means come out with
  * and without the 1/n_c share exactly; a planted extra shear shows in the local shear rate and in the box temperature.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The callback for single collisions: what it is given adds up to what the engine's own sums say, and changes no
  * trajectory.
  * Free flights and angles planted with known laws come back; an elastic gas has the free times and paths of the kinetic

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Conductivity: snapshots of Maxwellian grains have that of elastic spheres, 1.025218 of first Sonine order where they
  * are dilute (Chapman & Cowling 1970, 10.21), and with Enskog's two factors and his transfer where they are dense; no
  * heat flows along gradients of their density; the last point of the curve is the mean of the rows. */

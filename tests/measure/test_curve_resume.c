@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A run interrupted while it averages, and resumed from its checkpoint, leaves the same curves to the last bit as one
  * that was not: bins, origins in time, and counters all go through the checkpoint. Two replicas,
  * both engines. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Errors of curves: equal to the textbook error of a mean, honest for a ratio and for correlated blocks, replicas
  * pooled.
  */

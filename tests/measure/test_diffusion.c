@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Self-diffusion: grains that remember their velocity from step to step by a known share have known correlations and
  * displacements, under shear and through the boundaries of small boxes, two species apart, at lags up to the longest; a
  * planted long-time tail is found; an elastic dilute gas diffuses as Chapman and Enskog say, also in a box far shorter

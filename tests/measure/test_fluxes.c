@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves of profiles of stress and heat flux: at every height what collisions and walls give to the grains is the
  * divergence of what they pass on, less their loss, to rounding, of real collisions with a floor under gravity, smooth
  * and rough, one species and two; planted grains carry the stress and heat flux of their distribution about a flow with

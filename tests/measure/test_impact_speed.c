@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Normal speeds at impact: speeds planted with the law of a Maxwellian gas come back as that law, of one species, of
  * two with different temperatures, and of a gas that cools while it is sampled; elastic gases have it in both engines;
  * and of inelastic ones the mean square is what their loss of energy says. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Distributions by local density: Gaussian grains of any cell flow are Gaussian at every density, at one temperature;
  * grains that are colder and of another law where it is dense show that there and only there, and all cells together
  * are the mixture; an elastic gas of rough

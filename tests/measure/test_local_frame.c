@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The local frame of walled flows: a planted profile u(y) of any shape is taken out, and the variance that is left is
  * that of the planted noise, few grains a slab or many (the 1/n_c correction). Mean spins of slabs likewise, and what
  * comes of both as a temperature ratio. */

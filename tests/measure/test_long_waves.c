@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Waves of a box's length on planted grains: grains at random give 1 over the factor of an ideal gas, planted waves
  * their known power, whatever the species, and shorter waves next to nothing. */
 #include <setjmp.h>

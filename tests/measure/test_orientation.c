@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Orientation: planted angles give Lambda and both histograms back, whatever the mean spin; instantaneous velocities
  * contain the flow; an engine's curve agrees with the quantity cos2_psi of rheology. */
 #include "curve_test.h"

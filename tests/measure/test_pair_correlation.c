@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pairs in sheared boxes against a search through every image; sampled pairs against all of them; g = 1 for points
  * thrown anywhere; planted collisions have the density at contact that they were drawn from, also where the gas cools;
  * hard spheres in equilibrium have the contact value of the equation of state, by collisions, next to contact, and by

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Profiles: planted flow, temperature and spin come back slab by slab, planted impulses as the stress on the walls; of
  * walls that are alike the curves are those of the flow and its image, and as much of the walls' stress is; a
  * Couette gas is antisymmetric, slips at its walls, presses and pulls them as its own stress says, and holds as much as

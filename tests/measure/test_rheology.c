@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rheology on planted grains: every quantity against its definition written out plainly, smooth and rough, one species
  * and two, sheared and cooling. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sonine deviation: speeds drawn from the first Sonine form give c and the polynomial back; a Maxwellian has none; the
  * Monte Carlo engine cools freely with the cumulant of the literature. */
 #include "curve_test.h"

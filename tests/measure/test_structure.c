@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Modes on the mesh against the plain sum over grains, in oblique boxes; spectra of grains thrown anywhere are 1 at
  * every k; hard spheres have the compressibility of the equation of state at small k. */
 #include <gsl/gsl_cdf.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Spatial velocity correlations: a planted wave of velocity and spin gives its sine integral back, radially and along
  * each axis; pairs that are sampled say what all pairs say, about cells, too; an elastic gas in equilibrium has only
  * what momentum conservation leaves, -1/(N-1), and keeps its energy. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Distributions and tails: fits on exact counts and on drawn samples give the planted exponents back; a Gaussian gas
  * has no deviation; an elastic engine has alpha = 2, and a sheared inelastic one has not. */
 #include "curve_test.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Heat flux of cooling gases measured by Monte Carlo, through the run layer, against Enskog's equation without noise:
  * kappa* and mu*, dilute and dense, each within four of its own standard errors, which are small enough for e to be
  * known to 0.01 and the diameter to 0.5 %. First Sonine order is excluded at e = 0.7, where it is 3 and 8 % high. */

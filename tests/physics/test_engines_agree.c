@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where Enskog theory is exact (dilute), the two engines are two ways to the same numbers: uniform shear at phi = 0.01,
  * smooth, rough and frictional, within four combined standard errors; heated gases without restitution, sheared ones
  * that are heated; the energy balance closes; and the same test sees a restitution coefficient that is off by 0.02 (a

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mixtures of three species and of ten (a log-normal of diameters cut into tenths, masses as volumes): both engines
  * collide every pair of species, and all together, at Enskog's rate in equilibrium, and have one temperature for all;
  * sheared, where every species has its own, md and the Monte Carlo engine agree within four combined errors, in the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: runs that stop themselves, once their errors are as small as asked, state errors that are true: over many
  * seeds means scatter as much as their errors say, and as little as was asked. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Theories where they must hold: Lun (1991) for nearly elastic, nearly smooth and nearly perfectly rough grains within
  * a few per cent of the Monte Carlo solution of its own equation; the Gaussian closure within 2 % for dissipative ones;
  * and a contact value 2 % off is seen (a canary). */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A gas of viscoelastic grains: Haff's law T ~ t^(-5/3) in both engines, md beside dsmc in shear, no inelastic
  * collapse, and restarts. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Viscosities of heated and cooling gases by linear response, through the run layer: the elastic one to the exact
  * 1.016 of first Sonine order, the inelastic ones to independent Monte Carlo solutions (Garzo & Montanero 2002), which
  * lie 14 % apart at e = 0.7 (a wrong thermostat fails), a dense mixture to first Sonine order within the 1.5 % that

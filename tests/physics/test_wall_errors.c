@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: errors of profiles between walls are true where a dense core wanders slowly: over seeds the profiles scatter
  * as much as is stated. Without the modes across the gap, and without folding, velocities scattered by some six errors.
  * A window that is too short for the slowest of these modes is not called steady. */

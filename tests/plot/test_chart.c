@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Charts: every point stands where its numbers say, on linear and logarithmic axes, with a bar as long as its error;
  * what is NaN, or has no place on a logarithmic axis, is not there; methods and groups are told apart without colours,
  * and alike in all panels; labels do not leave the page. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A gnuplot that hangs is ended after its time, and leaves no picture. */
 #include <setjmp.h>
 #include <stdarg.h>

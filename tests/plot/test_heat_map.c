@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Maps of deviations: the scale is odd and rises throughout, colours of either sign are equally dark, so that grey
  * tells the size; and a map is drawn with cells that are unknown, hatched and not steady. */
 #include <setjmp.h>

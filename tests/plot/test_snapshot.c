@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The snapshot page: a few grains at known places are drawn there, in both projections, to scale and in the colour of
  * their species; of a gas below an open top the page shows what it fills; a result without positions has none; of many
  * grains a layer is shown, and no picture is large. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* An engine whose answer is known: temperature and spin relax exponentially, with noise of known size, towards planted
  * values. It takes the place of the real ones in tests of the run layer (linked before the library). */
 #ifndef FAKE_ENGINE_H

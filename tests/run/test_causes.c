@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Why md differs from Enskog's equation: over a grid of scenes, with planted differences of either sign and many sizes,
  * every marked quantity has a sentence, and no sentence is contradicted by the sign or the size of what it explains. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* When a run ends: what warm-up and window wait for, how they grow, and that one estimate is not enough. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The default number of grains, over a grid of cooling and heated gases: the usual one where its box is below the
  * length of Goldhirsch and Zanetti, or where a box of 500 grains is above; else one whose box is below, and not far. */
 #include <setjmp.h>

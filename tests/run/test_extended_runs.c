@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs of extended scenes go on from checkpoints, and do not see each other. */
 #include <math.h>
 #include <pthread.h>

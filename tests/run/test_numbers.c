@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves, with the real engines: what is no number ends a run within one sampling interval, with a message that says
  * so, whether anybody measures it or not; in md at the very collision that it comes from. */
 #include <setjmp.h>

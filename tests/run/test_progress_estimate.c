@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a run tells of its end: right where errors fall as 1/sqrt(window), the half of the window that it may go on for
  * included; a fraction that never falls and is 1 at the end alone, whatever ends the run; no time where none is known.
  */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The run layer over an engine whose answers are planted: right means, honest ends, slow relaxation noticed, replicas
  * and threads, interruption and bitwise resumption. */
 #include <setjmp.h>

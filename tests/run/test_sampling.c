@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves, with the real engines: a run that is told not to warm up does not; the temperature by which the sampling
  * interval is looked at is that of the grains as the engine has them; samples of a gas that cools or heats up for ever
  * are as many collisions a grain apart as they are said to be. */

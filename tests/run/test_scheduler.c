@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves, with tasks on replicas of a real engine: the scheduler takes the task of the largest priority first, and of
  * equal ones the first; no more are under way at a time than it has threads, and 70 of them are; a stop ends those that
  * run and those that wait; a controller that waits works, so that one thread needs no other. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: the modes across a gap are what they are called; a planted mode that slow_mode slowly is found, with how long
  * it remembers, also in windows of a few such times; a window that is too short for it is not called steady, nor is one
  * whose dense core keeps to one side overlooked. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves, with the real engines: a run that is stopped in the midst of an interval and resumed from the checkpoint it
  * left ends with the same numbers to the last bit, whatever stops it; replicas that were stopped at different samples
  * are reported as far as all of them came; the time limit is kept within an interval; a start in the cold, a gas that

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves: where a run stops by an error, the mean square of deviations over stated errors is 1, for errors that take 40,
  * 80 and 160 correlation times (before the estimate's own doubt and its being picked were allowed for: 1.2); and such a
  * run is not much longer than that takes. The runs are whole ones, of the product's own loop, on an engine whose mean

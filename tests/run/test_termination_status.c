@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proves, with the real engines: how a run ends that cannot know what was asked of it, and what is told of its time. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A law of restitution of a user's program is obeyed by both engines; one that is none is refused. */
 #include <math.h>
 #include <setjmp.h>

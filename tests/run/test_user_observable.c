@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Observables of a user's program are measured as ours are; whatever is wrong with a definition is refused. */
 #include <math.h>
 #include <setjmp.h>

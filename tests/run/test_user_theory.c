@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A theory of a user's program answers beside ours. */
 #include <math.h>
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Engines and theories side by side, over an engine whose answers are planted and over made-up results: what differs is
  * marked, and causes are named. */
 #include <setjmp.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Keys that a scene gives and that have no effect are told, with the reason; those with an effect, those with their
  * defaults and those that nobody gave are not. */
 #include <setjmp.h>

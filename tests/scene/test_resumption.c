@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A run is resumed with the scene that it began with: every key of the field table that does not say otherwise is
  * refused when it differs, by name and with both values, and whole numbers are told apart to the last digit. */
 #include <setjmp.h>

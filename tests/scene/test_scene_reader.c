@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes: what is read, what is refused and with which words, what is written back. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How scenes are refused: file, line, key, value, what is allowed and what was probably meant. */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Series whose statistics are known. */
 #ifndef PLANTED_H
 #define PLANTED_H

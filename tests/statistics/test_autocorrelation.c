@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Correlation times of autoregressive noise, which are known. */
 #include "planted.h"
 #include "statistics/autocorrelation.h"

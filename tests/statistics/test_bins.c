@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blocks of bins: joined without loss, and restored from a checkpoint as they were. */
 #include <string.h>
 

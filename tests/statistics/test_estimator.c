@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Errors of means and of ratios of means: honest for correlated series, short windows, replicas. */
 #include "planted.h"
 #include "statistics/estimator.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The jackknife over blocks whose scatter and correlation are known. */
 #include "planted.h"
 #include "statistics/jackknife.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A series of any length within a bounded memory. */
 #include <stdlib.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The test for a trend: silent on stationary noise, and not on a relaxation. */
 #include "planted.h"
 #include "statistics/trend.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The verdict over a grid: z-scores as chance has them pass, in ninety grids; a shift, a
  * width and a single value beyond chance fail; what does not take part does not count. */
 #include <setjmp.h>

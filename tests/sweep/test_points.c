@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which points a sweep has: grids, keys that go together, random draws; what is refused; and that a point's name
  * depends on what its numbers depend on, and on nothing else. */
 #include <setjmp.h>

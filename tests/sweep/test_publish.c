@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A point's result gets its name whatever else lacks: no allocation is asked for, and what cannot be named is not left
  * behind. */
 #include <setjmp.h>

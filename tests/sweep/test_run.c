@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sweeps done: the numbers do not depend on threads or on how many points are in progress, they are those of the same
  * scenes run alone, and points that fail or end short are told of, while the rest goes on. */
 #include <setjmp.h>

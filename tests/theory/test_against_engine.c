@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Theories that claim to solve the Enskog equation against the Monte Carlo engine that does: each within the accuracy
  * that the theory states, plus four standard errors of the run. */
 #include "theory_test.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gases in a bath: the balance of energy, Maxwellians of elastic grains, and the thermostats and the shear flow that
  * baths become. */
 #include "theory_test.h"

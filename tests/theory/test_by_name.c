@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Theories by name: those that are named are evaluated, and no other, with the numbers that they have among all. */
 #include "../api/api_test.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The collision integrals against the collision rule itself: pairs of grains drawn from the distributions, collided by
  * the same code that both engines use. Bounds are 4.5 standard errors of the sample; about 300 numbers are tested. */
 #include "theory_test.h"

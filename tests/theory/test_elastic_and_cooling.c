@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Equations of state, contact values, collision rates, Haff's law, critical sizes. */
 #include "theory_test.h"
 

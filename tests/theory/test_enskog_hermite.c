@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The noise-free solution of Enskog's equation: limits that are known, and errors that are honest. */
 #include "theory_test.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "theory_test.h"
 
 #include "theory/gaussian_moments.h"

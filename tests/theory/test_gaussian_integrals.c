@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The collision integrals over Gaussians contain those of the theories that linearise them: each closed form against
  * the quadrature, or against its slope. */
 #include "theory_test.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The distributions of enskog_hermite: a component of an expansion has the moments of the expansion; the curves'
  * moments are the theory's numbers; they are those that grains have in long Monte Carlo runs, bin by bin, which a
  * Gaussian is not; and they end where the series does. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The noise-free solution of Enskog's equation for mixtures of smooth grains: what they have in common with one
  * species, limits that are known, and errors that are honest. The operator itself: test_hermite_operator. */
 #include "theory_test.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Enskog's collision operator on Hermite functions: identities that hold whatever f is, and brute force. */
 #include "theory_test.h"
 

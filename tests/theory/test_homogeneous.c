@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cooling and heated states of smooth grains, one species and mixtures, and dilute shear of both by Grad's method. */
 #include "theory_test.h"
 

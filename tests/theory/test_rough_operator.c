@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Collisions of rough grains on Hermite functions of velocity and spin: identities, brute force, and degree 2, where
  * the Gaussian closure and two Maxwellians know the answer. */
 #include "theory_test.h"

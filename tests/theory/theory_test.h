@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes, models and comparisons for the tests of theories. */
 #ifndef GG_THEORY_TEST_H
 #define GG_THEORY_TEST_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A page in headless Chromium, driven over its debugging pipe: no package is needed. */
 "use strict";
 const { spawn, execFileSync } = require("child_process"),

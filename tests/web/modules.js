@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The modules of the page, bundled for node as they are for a browser. */
 "use strict";
 const fs = require("fs"),

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes whose trajectories are compared: collision models, flows, ways to find neighbours, kernels of dsmc. */
 "use strict";
 module.exports = {

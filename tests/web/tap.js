@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* TAP, as the tests of the command print it; and the two that are compared: the terminal and the engines in node. */
 "use strict";
 const fs = require("fs"),

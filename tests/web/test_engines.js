@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a page is given is what the library says: states, grains, collisions, means so far, theories, refusals. */
 "use strict";
 const assert = require("assert"),

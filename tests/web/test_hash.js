@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Same scene and seed, same trajectory: after 100 000 collisions the state in WebAssembly is the terminal's to the last
  * bit. */
 "use strict";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The page in headless Chromium: it loads without a word on the console, and without the network; lessons run; controls
  * act; the same seed gives the same trajectory; what is hostile is refused in the terminal's words. */
 "use strict";

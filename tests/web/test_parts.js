@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parts of the page that need no browser, in node: the state, scales of diagrams, what is kept of the history, texts of
  * numbers, links, points, languages. */
 "use strict";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How often the true mean lies within the stated error, and within 1.96 of it: coverage FOLDER NAME ... reads stored
  * series, cuts each into windows of 30, 60, 200 and 600 correlation times, at most 1000 of each, and prints a line a
  * window for the errors of src/statistics/estimator.c ("graingas") and for 32 batch means with Student's t. The

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Long series of a simulation, for coverage: rows FOLDER PREFIX SCENE.yaml [--rows N] [--set KEY=VALUE ...] warms the
  * scene up as a run does, then stores N (100000) successive samples of T, theta, P_xy, N1 and a2, those that the scene
  * has, as PREFIX_T and so on. The truth is the mean over all of them, the correlation time theirs. Exit code 0; 1: the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Do the errors of whole runs hold? seeds SCENE.yaml [--seeds N] [--set KEY=VALUE ...] [--truth QUANTITY=VALUE ...]
  * runs a scene N (200) times, seeds 1 to N, one thread, and prints a line for each mean, for each curve (all its points
  * together) and for each number read off a curve: how many runs have it, the per cent of them that lie within the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Series on disk: NAME.f64, doubles one after another; NAME.txt, a line with how many there are, their integrated
  * correlation time in rows, and the true mean. */
 #ifndef GG_ERRORS_STORED_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Series whose statistics are known: synthetic FOLDER [--windows N] writes into the folder N (1000) windows of 600
  * correlation times each of every kind, one long series a kind. All have an integrated correlation time of about ten
  * rows. Exit code 0; 2: the command line is wrong; 3: a file could not be written. */

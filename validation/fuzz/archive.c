@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The archive in a checkpoint, items of it changed: what a run makes of it that goes on from there for some samples,
  * and of what it saves then. The first byte chooses the run; the second an item to be cut or made longer, or none; the
  * rest are records (patch.h), each with the item before it. */

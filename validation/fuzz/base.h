@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the targets of files begin with: small runs of both engines, interrupted, with the archive that their
  * checkpoints hold. Made anew at every start: no files of one version are kept. */
 #ifndef GG_FUZZ_BASE_H

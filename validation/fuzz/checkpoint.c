@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A checkpoint whose checksum is right, words of the file changed: the archive that comes out of it, and what `info`
  * says. What a run makes of archives: archive.c. The first byte chooses the run; the rest are records (patch.h). */
 #include <stdio.h>

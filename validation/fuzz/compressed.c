@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every array of a file in chunks that are shuffled and compressed, as h5repack -f SHUF -f GZIP leaves them. */
 #include "compressed.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #ifndef GG_FUZZ_COMPRESSED_H
 #define GG_FUZZ_COMPRESSED_H
 

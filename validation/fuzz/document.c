@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The JSON document of a result, as it stands in a file, from its text to what `info --json` prints: means, curves,
  * theories, names of quantities that nobody knows. The first byte chooses the scene beside it. */
 #include <jansson.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The log of a trajectory beside a checkpoint, as it stands in a file, up to a mark that claims any number of frames
  * and bytes: the first sixteen bytes, and whose checksum is mended, as that of every record is. What is read goes into
  * a result's arrays. */

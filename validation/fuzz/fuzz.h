@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hostile input: each target is one function of some bytes, which must come back from it without an error of memory,
  * an overflow or a leak, whatever they are. Built with -Dfuzz=true libFuzzer drives it (docs/appendix/fuzzing.md
  * has the commands, `campaign` runs one, and goes on where it was left). Everywhere else replay.c gives it the kept

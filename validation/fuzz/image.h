@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A file in memory, with a path: sealed, and read the way that commands read files. */
 #ifndef GG_FUZZ_IMAGE_H
 #define GG_FUZZ_IMAGE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Words of a whole that is good, replaced: what a file that somebody makes is mostly like. An input is a list of
  * records of 12 bytes: what to do, of how many bytes, where (counted in words that are not 0, or in steps of 8), and a
  * value. */

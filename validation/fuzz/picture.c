@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The JSON document of a result (stored.h), to the pictures of it: the scripts that gnuplot would be given, which must
  * do nothing but draw. Its member `series` holds lists by quantity, `frame` the last frame of a trajectory: `position`,
  * `species`, `edge`. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* replay N PATH...: every input that is kept in these files and folders, and N seeded changes of them: bytes changed,
  * put in, taken out, repeated; pieces of two inputs put together; numbers made large. The same on every machine. */
 #include <dirent.h>

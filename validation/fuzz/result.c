@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A result file whose checksum is right, words of it changed: what `info`, `plot` and `export` read of it. The first
  * byte chooses a run or a comparison, who reads it, and whether its arrays are compressed; the rest are records
  * (patch.h).

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A scene, from its text to what `info` says of it. What was accepted is written as YAML and as JSON, and must be
  * accepted again, as the same scene. */
 #include <stdio.h>

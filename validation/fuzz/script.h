@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Can a script for gnuplot do anything but draw? */
 #ifndef GG_FUZZ_SCRIPT_H
 #define GG_FUZZ_SCRIPT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What comes after --set, --vary and as the name of a key: lines KEY=VALUE, put into a scene, and again into a sweep as
  * what is set and as what is varied. */
 #include <stdbool.h>

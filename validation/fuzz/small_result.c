@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A result with all that readers look at and little else: a tenth of the words, and of the time that they take. */
 #include <hdf5.h>
 #include <jansson.h>

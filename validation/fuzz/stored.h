@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The JSON document of a result as a result file's reader leaves it, without the file. */
 #ifndef GG_FUZZ_STORED_H
 #define GG_FUZZ_STORED_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A sweep's file, from its text to the scenes of its points. */
 #include "sweep/sweep.h"
 #include "fuzz.h"

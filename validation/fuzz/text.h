@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bytes as the texts that they stand for. */
 #ifndef GG_FUZZ_TEXT_H
 #define GG_FUZZ_TEXT_H

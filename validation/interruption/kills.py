@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """kill -9 at random moments, and going on from what is left, until the result is the uninterrupted run's bit for bit.
 
     GRAINGAS=build/src/cli/graingas FAILING_WRITES=build/tests/faults/failing_writes.so \\

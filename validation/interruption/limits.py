@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Commands with less and less memory (the limit of the address space, as `ulimit -v` sets it): each ends well, or with an
 error that says so.
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the canaries change of a model, in the mutants' tree alone. */
 #include <math.h>
 

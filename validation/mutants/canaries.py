@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Errors of the size that a validation should see, each in one of the places that state the physics on their own: the
 engines and the theories. A text of a file is replaced by another; canaries.c has what changes a model."""
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which mutant a process is, read before main; and which of them it reached, told when it ends. */
 #include <stdio.h>
 #include <stdlib.h>

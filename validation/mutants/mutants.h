@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Included before every file of the mutants' tree. GG_MUTANT(i): is the i-th mutant the one that GG_MUTANT of the
  * environment names? Notes that somebody asked: a test that never asks cannot kill it. */
 #ifndef GG_MUTANTS_H

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Mutants of the physics, and the tests that notice them.
 
   mutants.py FOLDER plant [SEED]   choose the mutants (from a build in ./build) and list them in FOLDER/mutants.json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """What came of it: the two pages beside this file and the short tables of docs/appendix/mutants.md."""
 import collections
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Which files hold physics, by room, and how many mutants each room gets. What only makes a run fast (sorting, memory,
 prefetching, the size of cells), reads, writes or describes is left out: no result depends on it."""
 

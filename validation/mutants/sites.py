@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Where the physics could be wrong: every place of a file of rooms.py at which a slip of one of four kinds changes an
 expression, found in the syntax tree (libclang).
 

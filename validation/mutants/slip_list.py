@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The slips: file, source with «right ¦ wrong», what went wrong."""
 
 SLIPS = [

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Slips that a developer could make between the samples and the files, planted by hand, and the tests that notice them.
 
   slips.py FOLDER build            a copy of the tree in FOLDER that holds them all, and its build

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The mutants' tree: a copy of the sources in which every chosen site holds the right expression and the wrong one."""
 import json
 import os

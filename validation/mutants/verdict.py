@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """`compare`'s own verdict as a test: both engines agree with Enskog's equation, which is solved without random numbers."""
 import os
 import subprocess

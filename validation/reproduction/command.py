@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """validation/reproduce: one figure, all, the list, the page."""
 import argparse
 import os

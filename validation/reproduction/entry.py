@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Entries: validation/figures/NAME.yaml, every key checked. Errors name the file, the line and the key."""
 import copy
 import difflib

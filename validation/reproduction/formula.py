@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Formulas of entries: + - * / ^, parentheses, numbers, pi, inf, functions of one argument, and x, y, r, v."""
 import ast
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers of the text: found among the points of a figure."""
 import math
 from dataclasses import dataclass

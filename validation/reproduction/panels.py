@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """Panels as tables: lines of points with errors, by engine, theory or law."""
 import math
 from dataclasses import dataclass, field

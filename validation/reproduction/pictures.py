@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A figure as a picture, by matplotlib, in the style of graingas.plot: a colour and a symbol for each line, dashes for
 theories. Filled symbols are md, half-filled ones dsmc where both are shown, open ones points that are not settled."""
 import io

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The points of a figure: its sweeps run, their results, and what engines and theories say there."""
 import functools
 import math

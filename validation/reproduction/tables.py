@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """A figure as tables: NAME.csv, and NAME_numbers.csv."""
 import csv
 import io

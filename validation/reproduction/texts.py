@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 """The texts of verdicts, whose numbers come from NAME_numbers.csv, and the page of all figures.
 
 {kurtosis: 3.51(1), 3.04(1)} in a text is what the table has under the name `kurtosis`, in the order of the key it is

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hours without a stop: one run of one engine, with checkpoints and a trajectory, watched from within.
  *   soak SCENE.yaml SECONDS FOLDER      SECONDS of processor time; its files go into FOLDER
  * Prints a row every hundredth of that: processor time, collisions, collisions a second since the row before, memory in

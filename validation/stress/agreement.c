@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Means of both engines, and of Enskog's equation solved without random numbers, beside each other. */
 #include <math.h>
 #include <stdio.h>

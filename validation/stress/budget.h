@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What must balance from collision to collision: energy against the losses, the work of shear, walls and gravity; and
  * each collision against the rule, momentum and angular momentum. */
 #ifndef STRESS_BUDGET_H

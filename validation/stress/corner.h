@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A corner of what scenes may say, as a row: the suite runs it on both engines and asks that it is right, or refused
  * with the reason. A new corner is a new row in one of the tables corners_*.c. */
 #ifndef STRESS_CORNER_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ends of what a collision may be: e, beta, mu, K. */
 #include "corner.h"
 

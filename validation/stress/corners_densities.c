@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How dense, how many, in which boxes. */
 #include "corner.h"
 

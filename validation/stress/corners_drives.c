@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What drives and what cools: shear rates, cooling and heating over decades, thermostats, walls, gravity. */
 #include "corner.h"
 

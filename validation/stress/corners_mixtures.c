@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Grains as unlike as can be. */
 #include "corner.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Starts that no scene asks for: grains that touch, grains at rest, and what is no number. A new one is a function that
  * changes a fresh simulation, and its row. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* md beside its reference path: plain cells, one pair at a time, from the same start. Rounding differs where the search
  * does, and grows from collision to collision, the faster the farther grains fly: compared are collisions that have few
  * others before them. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each collision beside the rule, stated here a second time: what it does to velocities and spins. */
 #ifndef STRESS_RULE_H
 #define STRESS_RULE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A corner on one engine: refused, or run for a while with looks at the grains, then collision by collision. */
 #include <math.h>
 #include <stdio.h>

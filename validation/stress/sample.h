@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What can be read off the grains at one time, and what must be so at any: all are numbers, nobody overlaps, nobody has
  * left the box. */
 #ifndef STRESS_SAMPLE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The stability suite: corners of what scenes may say (corners_*.c, a row each), on both engines, each right or refused
  * with its reason. What is looked at: every number is one; time and collisions only grow; no two grains overlap, none
  * leaves the box or enters a wall; momentum; the budget of energy, collision by collision; each collision beside the

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a page calls: graingas.h with arguments that JavaScript can give, and answers that it can read. Handles are
  * addresses, answers are arrays of doubles in the order that engines.js names, texts are NUL-terminated UTF-8, to be
  * freed where they are `char *`. A call that fails returns 0 or NULL, and page_error says why. */

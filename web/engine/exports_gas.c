@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Simulations step by step, and trajectories of runs: both have a state, grains and species. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs in pieces, theories, comparisons; results of the terminal. */
 #include <math.h>
 #include <stdlib.h>

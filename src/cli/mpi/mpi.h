@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Messages between the processes that mpirun (or srun) started, for gg_workers_new and gg_worker_run. Of the command
  * alone: the library knows no MPI. One file with it (over_mpi.c), one that stands in where the program was built
  * without (without_mpi.c). */

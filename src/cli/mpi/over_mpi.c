@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A message goes in parts that an int can count; the tag says whether more follow. Nothing here waits but the end. */
 #include <errno.h>
 #include <mpi.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Laws of restitution that are built in: how e falls with the normal speed g at contact. Each is a function of the
  * speed in units of its own, and of nothing else: what a material is like is its unit of speed, which follows from
  * `collision.e`, the restitution at the speed `collision.speed`. A law that a program sets (gg_scene_set_restitution)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* 1 - e off a table (common/laws/loss_table.h), stated once for doubles and for lanes. Included with
  *
  *   GG_NUMBER, GG_OF(name)          as in common/vec_of.h

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A built-in law as a table of 1 - e, linear between nodes that are 1/256 of an octave of speed apart: within 1e-7 of
  * the law, and as fast for one law as for another. Speeds are in the law's units; beyond the table they count as its
  * ends: below 10^-30 nothing is lost, above 3 10^8 as much as there. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Viscoelastic spheres: Hertz's contact with dissipation in the bulk, F = rho (xi^(3/2) + (3/2) A xi^(1/2) dxi/dt).
  * With x = (A kappa^(2/5))^(1/2) g^(1/10), kappa = (3/2)^(5/2) rho/m_eff,
  *

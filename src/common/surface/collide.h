@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A grain collides with a surface, for all engines: by the collision rule, with a partner of infinite mass without
  * spin; or, of a thermal wall, in the given share of contacts, as Maxwell has it (Phil. Trans. 170 (1879) 231,
  * appendix): the wall takes the grain up, and another one leaves from a gas at rest beside it, of the wall's

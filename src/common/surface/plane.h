@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A plane across one of the axes. */
 #ifndef GG_SURFACE_PLANE_H
 #define GG_SURFACE_PLANE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Half cylinders side by side on a wall, across the flow: their axes are along z at y = place, x = (k + 1/2) 2 radius.
  * They touch each other, so the wall between them is out of reach, and a grain touches the one that is nearest along x:
  * the others are farther away. A grain under gravity meets a cylinder at a root of a quartic. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a shape answers. Each shape is a file with these five functions, and an alternative below; a grain is a sphere
  * of the given radius about r.
  *

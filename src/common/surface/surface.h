@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A surface that grains bounce off: what engine, sums, profiles and files know of a wall. The model holds a list of
  * them (common/model.h), surfaces.c makes it from a scene, and shapes.h lists the functions of a shape.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pairs of blocks, drawn eight at a time and ahead of their use, so that their memory can be prefetched. */
 #ifndef GG_DSMC_BLOCK_PAIRS_H
 #define GG_DSMC_BLOCK_PAIRS_H

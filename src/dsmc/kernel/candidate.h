@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One candidate pair a lane: is it accepted, along which direction k, with what contact velocity?
  *
  * A pair's rate integrated over directions is pi sigma^2 chi/V times

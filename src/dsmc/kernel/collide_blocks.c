@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Collisions on blocks, a Monte Carlo pass: two random blocks, the lanes of one against those of the other in a random
  * order, eight candidates at once (candidate.h). Compiled once for each collision rule (GG_RULE), with and without a
  * law of restitution (GG_LAW), set of instructions and precision (GG_SINGLE_LANES): GG_INSTANCES is what they are found

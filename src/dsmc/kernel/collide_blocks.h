@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The block kernels: one source, compiled for several sets of instructions, chosen when an engine is made. */
 #ifndef GG_DSMC_COLLIDE_BLOCKS_H
 #define GG_DSMC_COLLIDE_BLOCKS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The collision step as the textbooks have it, one candidate after another: the oracle of the fast kernels, and the
  * path of ensembles too small for blocks. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sums over collisions (stress, energy loss): a note of each block pair, and now and then the sums over a handful of
  * notes. Summed at once, seven sums would be loaded and stored with every block pair, in the midst of a kernel that has
  * its registers full. A handful later they stay in registers: a tenth of the cost. */

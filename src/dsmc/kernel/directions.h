@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random directions, sampled eight at a time and ahead of their use, for the lanes that collide, about half of them: a
  * list that is filled by gg_pack and read by gg_spread. */
 #ifndef GG_DSMC_DIRECTIONS_H

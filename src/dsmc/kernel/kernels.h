@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which kernel a step of the engine calls, and at what rate its candidates come. */
 #ifndef GG_DSMC_KERNELS_H
 #define GG_DSMC_KERNELS_H

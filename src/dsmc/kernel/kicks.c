@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* White noise and baths: a random kick for every grain, computed in double for blocks of either precision. */
 #include "dsmc/kernel/synchronise.h"
 

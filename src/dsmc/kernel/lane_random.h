@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Random words of the lanes' streams, and the numbers that they are made into. */
 #ifndef GG_DSMC_LANE_RANDOM_H
 #define GG_DSMC_LANE_RANDOM_H

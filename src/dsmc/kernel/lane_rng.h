@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* xoshiro256++ in eight lanes side by side, on whatever registers there are: `gg_vq` holds some of the lanes' 64-bit
  * words, eight, four or two. */
 #ifndef GG_DSMC_LANE_RNG_H

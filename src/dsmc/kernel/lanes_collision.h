@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The collision rule for lanes: common/collision_of.h with the operations of lanes. */
 #ifndef GG_DSMC_LANES_COLLISION_H
 #define GG_DSMC_LANES_COLLISION_H

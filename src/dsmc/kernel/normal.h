@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Normal numbers in lanes (Box & Muller 1958), without libm: the same bits everywhere. */
 #ifndef GG_DSMC_NORMAL_H
 #define GG_DSMC_NORMAL_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One pass of acceptance-rejection over a pair of species (or over one) and an interval of time: what a kernel is given
  * and what it hands back.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A block pair goes through three stages: load and relative speeds; accept and impulse; write back. */
 #ifndef GG_DSMC_STAGES_H
 #define GG_DSMC_STAGES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dsmc/kernel/synchronise.h"
 
 #include "dsmc/kernel/kernel_lanes.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One run through the blocks of a species: stored velocities brought up to date, their sums, and their speed bounds.
  * Compiled for several sets of instructions like the block kernels; lane by lane, so that all leave the same bits. */
 #ifndef GG_DSMC_SYNCHRONISE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Collisions of an ensemble in segments: rounds of a round-robin schedule (schedule.h).
  *
  * Some rounds run under the same majorants, as many at once as the thread pool takes: a thread that is done with a pair

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dsmc/parallel/schedule.h"
 
 int gg_dsmc_segment_pairs(int segments, int round)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The round-robin schedule by which the segments of an ensemble collide with each other.
  *
  * In each round every segment is paired with one other (or with itself), so that the pairs of a round have no grain in

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Enskog Monte Carlo between walls: the gas in the gap, uniform along x and z. Grains have a height and live in cells
  * across the gap. A step is half a flight, collisions, half a flight; the explanation is in docs/explanation/dsmc.md.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The cells: who is in them, mean numbers, contact values; and the step, from the rate of collisions. */
 #include <math.h>
 #include <stdlib.h>

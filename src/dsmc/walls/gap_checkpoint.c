@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Everything needed to continue bit for bit. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The collisions of a step.
  *
  * Of a grain i at y the candidates have k uniform on the sphere, and a partner j that is any grain of the cell at

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which models run between walls, and what the engine makes of them. */
 #include <math.h>
 #include <stdio.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Free flight: parabolas, cut where they touch a wall. */
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Life of the engine; the initial state. */
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checkpoints in files: an archive, the scene it belongs to, and a checksum. Written whole; the one before is kept
  * beside it as FILE.1, and taken if FILE is missing or damaged. */
 #ifndef GG_CHECKPOINT_FILE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The checksum at the end of result files and checkpoints. A damaged file is refused as a whole: only bytes
  * are read that are known to be those that were written. After the HDF5 file, which does not mind, follow
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bytes of a file that is read. */
 #include <errno.h>
 #include <stdio.h>

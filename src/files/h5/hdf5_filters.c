@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Chunks that another program has compressed, as h5repack and h5py do: gzip, shuffled bytes, checksums. */
 #include <stdlib.h>
 #include <string.h>

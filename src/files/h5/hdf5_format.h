@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* HDF5's format as far as it is read here (File Format Specification, version 3). Functions return false where a file
  * is not as it must be, and have said so. */
 #ifndef GG_H5_FORMAT_H

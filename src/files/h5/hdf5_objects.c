@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The objects of an HDF5 file: headers of groups and arrays, members of groups, attributes. */
 #include <stdio.h>
 #include <stdlib.h>

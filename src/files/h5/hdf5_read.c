@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Arrays, numbers and texts back from files. */
 #include <stdlib.h>
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Result files and checkpoints, read. HDF5 itself is not safe from files that somebody made to harm: they are read here
  * instead, and HDF5 never sees one. What graingas writes is a small part of HDF5's format, and that is read, checked
  * word by word: version 0 of the superblock, old groups and object headers, arrays in one piece or in chunks, numbers

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the elements of an array or attribute are, and how many. */
 #include <string.h>
 

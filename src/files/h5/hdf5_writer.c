@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "files/h5/hdf5_writer.h"
 
 #include <errno.h>

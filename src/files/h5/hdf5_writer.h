@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writing HDF5 in few words (reading: hdf5_reader.h). The first failure sticks: later calls do nothing, and
  * gg_h5_status reports it, so that a writer reads as the layout of its file. Paths may name groups that are still to be
  * made. */

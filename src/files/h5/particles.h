@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Grains in H5MD 1.1: /particles/grains with box, positions, velocities, spins, and what they are. */
 #ifndef GG_H5_PARTICLES_H
 #define GG_H5_PARTICLES_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Result files: HDF5, H5MD 1.1 for grains and time series; scene, results and how they were made under /graingas.
  *
  *   /h5md                            version, author, creator

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which checkpoints can be resumed. */
 #include "files/h5/result_reader.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Result files read back, for `info` and `plot`. */
 #ifndef GG_RESULT_READER_H
 #define GG_RESULT_READER_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From a result file that was read to the result that it was written from: means, history, curves, the last frame. What
  * the file does not hold (counts of events) is left at zero. */
 #ifndef GG_RESULT_RESTORE_H

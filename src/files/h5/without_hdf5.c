@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What stands in for the writing half of this room where there is no HDF5: the page of a browser, which reads results
  * and writes none. Whoever asks for that is told so. */
 #include <stdlib.h>

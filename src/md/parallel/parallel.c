@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which runs share their events among threads, and whole windows of them. */
 #include "md/parallel/parallel.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One run on several cores, with the bits of a run on one: docs/explanation/md.md has the method. */
 #ifndef GG_MD_PARALLEL_H
 #define GG_MD_PARALLEL_H

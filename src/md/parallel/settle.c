@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The end of a window: what it leaves goes into the event queue, and into counts and sums in the order of time,
  * whatever the order in which its events ran. */
 #include <math.h>

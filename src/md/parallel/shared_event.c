@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One event of a window: run by the serial loop's own code, and written down with all that it takes to take it back. */
 #include <string.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a slab keeps: lists that grow, and where its events wait. */
 #include "md/parallel/slab.h"
 

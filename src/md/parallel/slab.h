@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The state of shared windows of events (parallel.h): slabs of the box along z, one a thread, and what each keeps of a
  * window.
  *

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Events that ran too early, and all that followed from them, are taken back: latest first, each restores the state
  * before it. */
 #include <string.h>

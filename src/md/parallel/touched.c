@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The cells that an event touches, and those around a cell, by kind of search. */
 #include <math.h>
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A window of events: dealt out to slabs, and run in three phases (slab.h). */
 #include "md/parallel/slab.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Gathering candidates: the grains of the cells around, one list of them for the SIMD pair kernel. */
 #ifndef GG_MD_SEARCH_CANDIDATES_H
 #define GG_MD_SEARCH_CANDIDATES_H

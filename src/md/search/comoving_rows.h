@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cells under shear: a grid in which each row of cells along x moves with the mean flow at its middle, so that the flow
  * carries nobody through cells, however large the box, and the sheared boundary is a boundary of rows like any other.
  *

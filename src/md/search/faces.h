@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The faces of a grain's own cell: which does it reach next, and when? */
 #ifndef GG_MD_SEARCH_FACES_H
 #define GG_MD_SEARCH_FACES_H

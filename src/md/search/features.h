@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What this instance of the event loop is for. The loop and its searches are compiled once for every row of the table
  * in meson.build, each into an object of its own, which defines GG_SEARCH (the header of its kind of search),
  * GG_BOUNDARY, GG_MIXTURE and GG_SIMD. So all of this is constant, and nothing in an instance asks what a scene has.

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Neighbour lists kept up to date: who is within reach of a new skin, and whose lists change by that. */
 #ifndef GG_MD_SEARCH_LIST_UPDATE_H
 #define GG_MD_SEARCH_LIST_UPDATE_H

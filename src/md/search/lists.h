@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Neighbour lists for dense systems: who can be met before one of both leaves its skin.
  *
  * Each grain has a skin, a sphere of radius s around where it stood when its list was made; the list holds everybody

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The surfaces of the model: when does a grain touch one? */
 #ifndef GG_MD_SEARCH_SURFACES_H
 #define GG_MD_SEARCH_SURFACES_H

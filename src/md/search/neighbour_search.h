@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A kind of neighbour search: plain cells, cells in rows that move with the flow, overlapping cells, overlapping
  * cells in rows, neighbour lists. One header each, of which an instance of the event loop includes one (features.h).
  * Each of them defines the functions declared here, and the constants

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What both kinds of overlapping cells have in common: candidates from the cells that a grain is in. */
 #ifndef GG_MD_SEARCH_OVERLAPPING_H
 #define GG_MD_SEARCH_OVERLAPPING_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Searching cells that overlap (overlapping_members.h). */
 #ifndef GG_MD_SEARCH_OVERLAPPING_CELLS_H
 #define GG_MD_SEARCH_OVERLAPPING_CELLS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Searching cells that overlap, in rows that move with the flow (overlapping_members.h). */
 #ifndef GG_MD_SEARCH_OVERLAPPING_ROWS_H
 #define GG_MD_SEARCH_OVERLAPPING_ROWS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One pair at a time: the reference path. */
 #ifndef GG_MD_SEARCH_PAIR_H
 #define GG_MD_SEARCH_PAIR_H

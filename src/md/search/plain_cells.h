@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The search for a grain's next event: the cells around it, image by image, and its own cell's faces.
  *
  * Every neighbouring cell is searched as one definite image, with its shift, so that boxes of one or two cells across

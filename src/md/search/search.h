@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A search for a grain's next event, and what it has found so far. */
 #ifndef GG_MD_SEARCH_SEARCH_H
 #define GG_MD_SEARCH_SEARCH_H

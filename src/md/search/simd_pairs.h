@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Eight candidates at a time (predict.h): which of them does the grain meet first? */
 #ifndef GG_MD_SEARCH_SIMD_PAIRS_H
 #define GG_MD_SEARCH_SIMD_PAIRS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Centres that do not overlap, at any solid fraction: random points, sorted along a space-filling curve, pushed apart
  * pair by pair until no two are closer than their contact distance (the overlap-removing relaxation of Jodrey & Tory,
  * Phys. Rev. A 32 (1985) 2347, all pairs a sweep). The result is amorphous: a fluid configuration where a fluid exists.

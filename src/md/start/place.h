@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Places for the centres at a start: a lattice, or random ones pushed apart. */
 #ifndef GG_MD_START_PLACE_H
 #define GG_MD_START_PLACE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Large periodic boxes: grains are pushed apart (place.c) along lists of pairs, which hold over several sweeps, and
  * only where something overlaps or has just moved. */
 #include <math.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Centres in the order of a space-filling curve: those that are near in space are near in memory. */
 #include <math.h>
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The initial state: random places, Maxwellian velocities at temperature0 (energies equal for all species), spins at
  * ratio0 x that about minus half the shear rate, total momentum zero, temperatures exact. */
 #include <math.h>

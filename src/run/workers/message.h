@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Messages between processes that share the replicas of runs: a head, the same for all, and perhaps bytes after it.
  * Both ends are the same program (GG_MESSAGE_REGISTER), so that structs go as they are. */
 #ifndef GG_RUN_WORKERS_MESSAGE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The worker loop: a process other than rank 0 takes tasks from its messages, gives them to its own scheduler, and
  * answers. */
 #include <stdlib.h>

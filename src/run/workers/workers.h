@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Replicas of runs distributed over several processes, as rank 0 sees them. Each replica belongs to one rank, rank 0
  * included, for as long as that lives. A task that is done elsewhere comes back with the replica's whole state, an
  * archive, so that any rank can do the next one, or the same one again. */

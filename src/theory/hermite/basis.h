@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Products of normalised Hermite polynomials, Ho_r(c) = prod_i He_{r_i}(c_i)/sqrt(r_i!), orthonormal under the weight
  * (2 pi)^(-3/2) exp(-c^2/2); those of even total degree up to N. */
 #ifndef GG_HERMITE_BASIS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The distribution of one component of the velocity: phi(c) sum_k t_k Ho_k(c), phi the standard Gaussian. */
 #ifndef GG_HERMITE_COMPONENT_H
 #define GG_HERMITE_COMPONENT_H

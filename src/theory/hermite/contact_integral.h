@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The frame of a collision: normal along L^T k; tangent in the plane of that and L^-1 k; binormal. */
 #ifndef GG_HERMITE_CONTACT_H
 #define GG_HERMITE_CONTACT_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The Jacobian of one direction: what a test changes with the a_s of the grain itself, and with those of its partner,
  * which come in by the marginal alone. */
 #include <string.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the operator needs for one direction. Rotated functions are those of the frame of the collision, which every
  * species has its own of. */
 #ifndef GG_HERMITE_ROOM_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The integrals of one collision direction k. The pair's velocities along the normal, x1 and x2, are standard normal
  * under the weight, of widths s1 and s2; with S^2 = s1^2 + s2^2, u = (s1 x1 - s2 x2)/S and v = (s2 x1 + s1 x2)/S, too.
  * g = S (u - u0) is the approach velocity, and grains that approach (u > u0) leave with x1' = x1 - eta g b0 along the

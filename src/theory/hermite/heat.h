@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Heat flux of linear response about the cooling state of smooth grains of one species, T = m = 1:
  *   f = f0 + A . grad ln T + B . grad ln n,   q = -kappa grad T - mu grad n.
  * Equations for A and B: J.J. Brey, J.W. Dufty, C.S. Kim and A. Santos, Phys. Rev. E 58 (1998) 4638 (dilute); V. Garzo

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Homogeneous mixtures of smooth grains, cooling or heated: of each species a sum of isotropic functions about a
  * Gaussian of its own temperature. What heats them: theory/heating.h. */
 #ifndef GG_HERMITE_MIXTURE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A distribution: n (2 pi)^(-3/2) |L|^-1 exp(-c^2/2) sum_r a_r Ho_r(c), C = L c, with L L^T = width x <C C>. */
 #ifndef GG_HERMITE_STATE_H
 #define GG_HERMITE_STATE_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Homogeneous smooth grains whose loss of energy is made up for, at T = 1: theory/heating.h. f is isotropic: a sum of
  * Phi_l ~ (a^+ . a^+)^l, Sonine polynomials of c^2, of which one direction tells everything. */
 #ifndef GG_HERMITE_ISOTROPIC_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The steady state: Newton's method on the coefficients, the Gaussian following the second moments. */
 #ifndef GG_HERMITE_NEWTON_H
 #define GG_HERMITE_NEWTON_H

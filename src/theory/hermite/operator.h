@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Enskog's collision operator and streaming on an expansion about a Gaussian, of each species its own,
  *   f = n (2 pi)^(-3/2) |L|^-1 exp(-c^2/2) sum_s a_s Ho_s(c),   c = L^-1 C,
  * tested with psi_r = Ho_r(c) exp(-decay c^2/2): R_r = d<psi_r>/dt, and its derivatives with respect to the a_s. Tests

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Answers of one degree after another, and how far the last is from their limit. */
 #ifndef GG_HERMITE_RUNGS_H
 #define GG_HERMITE_RUNGS_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tests are psi_m = Ho_m(c) exp(-decay c^2/2), so that what f does far out in its tails, which no expansion of low
  * degree knows, has no say; trials are Ho_s(c) under the Gaussian weight. */
 #ifndef GG_HERMITE_OVERLAP_H

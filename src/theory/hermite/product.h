@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Products of small matrices: C += A^T B. */
 #ifndef GG_HERMITE_PRODUCT_H
 #define GG_HERMITE_PRODUCT_H

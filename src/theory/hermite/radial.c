@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "theory/hermite/radial.h"
 
 #include <gsl/gsl_integration.h>

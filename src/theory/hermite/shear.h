@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Steady uniform shear of smooth grains, white noise heating them or not, each species about a Gaussian of its own:
  * degree after degree. */
 #ifndef GG_HERMITE_SHEAR_H

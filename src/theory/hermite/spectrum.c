@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* d<psi_r>/dt = R_r, so that sum_s <psi_r Ho_s> d a_s/dt = sum_s J_rs a_s for small a, about a Gaussian that stands. */
 #include "theory/hermite/spectrum.h"
 

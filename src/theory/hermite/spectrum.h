@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How disturbances of a steady state die out: the eigenvalues of the Jacobian, as rates. */
 #ifndef GG_HERMITE_SPECTRUM_H
 #define GG_HERMITE_SPECTRUM_H

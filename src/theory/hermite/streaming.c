@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Between collisions dC/dt = -A C and df/dt = D laplacian f:
  *   R_r = < -sum_ij B_ij c_j d_i psi_r + D sum_ij G_ij d_i d_j psi_r >,   B = L^-1 A L,   G = (L L^T)^-1.
  * On psi_m, d_i and c_j are sums of two:

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What collisions carry: both partners by their distributions of normal velocity. */
 #include <math.h>
 #include <string.h>

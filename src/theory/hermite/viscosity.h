@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shear viscosity of linear response about a homogeneous state: f = f0 + (shear rate) f1, f1 ~ the functions odd in x
  * and in y. Frequencies and temperature are those of the isotropic state (T = 1). */
 #ifndef GG_HERMITE_VISCOSITY_H

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Eight directions of collision at a time, one in each lane of a vector: what they add to the operator W (relative.h).
  * Test after test, along a path of at most N + 1 of them, so that all that is read soon again stays in the cache. */
 #ifndef GG_ROUGH_EIGHT_DIRECTIONS_H

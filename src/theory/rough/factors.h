@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* W of one direction, k = z, where the weight is isotropic: collisions there are a product. The normal velocity d_z
  * goes by itself, d_x with the spin p_y, d_y with p_x, and p_z stays. This takes the room of no matrix, so that degrees
  * may be high. */

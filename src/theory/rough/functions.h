@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hermite functions of a velocity and a spin, Ho_r = prod_i He_{r_i}/sqrt(r_i!) over six coordinates, orthonormal under
  * the standard Gaussian; all of total degree up to N. Coordinates 0 .. 2 are a velocity, 3 .. 5 a spin. */
 #ifndef GG_ROUGH_FUNCTIONS_H

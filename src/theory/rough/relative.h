@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Collisions as a linear operator on the relative motion (d, p) of a pair, summed over all directions:
  *   W_RS = int dk < g_n [Ho_R(d', p') - Ho_R(d, p)] Ho_S(d, p) >,   g_n > 0,
  * without the frequency of collisions. Everything of the equation is in it: of particles 1 and 2 only the expansion of

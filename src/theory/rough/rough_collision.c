@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "theory/rough/rough_collision.h"
 
 #include <gsl/gsl_integration.h>

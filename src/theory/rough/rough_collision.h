@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One direction k of collision, as the pair's relative motion sees it. With d = (c1 - c2)/sqrt 2 and p = (o1 + o2)/sqrt
  * 2, standard normal under the weight, a collision is a linear map z -> M z + b of z = (d, p), and leaves
  * v = (c1 + c2)/sqrt 2 and m = (o1 - o2)/sqrt 2 alone. */

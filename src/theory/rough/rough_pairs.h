@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The collision operator as a quadratic form in the coefficients of f = weight x sum_q a_q Ho_q,
  *   d<psi_r>/dt = sum_pairs B_r(q,q') a_q a_q',   q <= q', a_0 = 1,
  * of degree N, from that of the relative motion, of degree N or more: products whose degrees add up to more are left

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "theory/rough/steady.h"
 
 #include <gsl/gsl_linalg.h>

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Steady states of rough grains: uniform shear; free cooling in its scaled frame; heated. */
 #ifndef GG_ROUGH_STEADY_H
 #define GG_ROUGH_STEADY_H

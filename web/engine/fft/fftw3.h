@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The transforms of FFTW that graingas uses, under FFTW's names, by those of GSL: for the page, which FFTW would make
  * twice as large. Sizes are products of small primes. */
 #ifndef GG_PAGE_FFTW3_H
