@@ -48,7 +48,7 @@ SLIPS = [
     ("src/run/replica.c", "r->clock.time += ldexp(elapsed, «(int)r->clock.power ¦ 0»);", "the clock of a cooling gas"),
     ("src/run/replica.c", "uint64_t stream = «(uint64_t)index * GG_STREAMS_PER_REPLICA ¦ (uint64_t)0»;", "replicas share a seed"),
     ("src/run/replica.c", "r->clock.window_collisions = «collisions(r) ¦ 0»;", "collisions before the window are not kept"),
-    ("src/run/replica.c", "  r->trajectory_every = index == 0 ? scene->output.trajectory_every : 0;\n  «r->frames_of_window = leaves_out_warmup(scene); ¦ »",
+    ("src/run/replica.c", "  r->logged = index == 0 && *scene->output.log;\n  «r->frames_of_window = leaves_out_warmup(scene); ¦ »",
      "output.after is forgotten on resume"),
     ("src/run/replica.c", "«r->clock.frame_every = r->trajectory_every; ¦ »\n  if (r->trajectory_every > 0 &&",
      "a resumed run does not note the new distance of frames"),
@@ -89,7 +89,7 @@ SLIPS = [
     ("src/statistics/trend.c", "(«1 / (double)n_runs ¦ 1.0» + 1 / (double)count));", "the beginning of many replicas as of one"),
     ("src/statistics/autocorrelation.c", "covariance[t] /= «(double)(n - t) ¦ (double)n»;", "pairs at a lag"),
     # measure
-    ("src/measure/profiles.c", "double sign = image_of(symmetry, «spin ¦ false», a);", "mirrors spins as velocities"),
+    ("src/measure/profiles.c", "double sign = gg_wall_image(symmetry, «spin ¦ false», a);", "mirrors spins as velocities"),
     ("src/measure/profiles.c", "add_motion(at + ROLLING, gg_moment_of_inertia(m, «k ¦ 0»), height, omega);",
      "theta(y) by the first species' moment of inertia"),
     ("src/measure/profiles.c", "size_t k = «wall->side > 0 ? c->n - 1 - i : i ¦ wall->side > 0 ? i : c->n - 1 - i»;",
