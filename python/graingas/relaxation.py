@@ -63,6 +63,8 @@ class Relaxation:
 
     def z(self, quantity):
         """(points) md minus dsmc over their combined standard error. Points of one replica depend on each other."""
+        if set(self.engines) != set(ENGINES):
+            raise BadInput(f"z: it takes both engines; here is {self.engines[0]} alone")
         md, dsmc = (self[quantity][engine] for engine in ENGINES)
         with np.errstate(invalid="ignore", divide="ignore"):
             return (md.mean - dsmc.mean) / np.hypot(md.stderr, dsmc.stderr)
@@ -129,14 +131,30 @@ def _now(sim, rough):
     return state.time, found
 
 
+def _weight(square, b):
+    """By how much a distribution of velocities of this square is above a Maxwellian."""
+    return np.maximum(1 + b * (square ** 2 / 8 - 5 * square / 4 + 15 / 8), 0)
+
+
+def _coefficient(a2):
+    """The b of _weight whose distribution has this a2; where it is nowhere cut off, a2 itself."""
+    v = np.linspace(0.005, 8.995, 900)
+    low, high = -30.0, 0.8
+    for _ in range(60):
+        b = (low + high) / 2
+        f = v ** 2 * np.exp(-v ** 2 / 2) * _weight(v ** 2, b)
+        low, high = (b, high) if 0.6 * (f * v ** 4).sum() * f.sum() / (f * v ** 2).sum() ** 2 - 1 < a2 else (low, b)
+    return b
+
+
 def _sonine(rng, n, a2):
-    """Velocities (n, 3) of <v^2> = 3 from a Maxwellian times 1 + a2 (v^4/8 - 5 v^2/4 + 15/8), where that is above 0."""
+    """Velocities (n, 3) with this a2, isotropic."""
+    b, found = _coefficient(a2), []
     # The polynomial is -5/4 at v^2 = 5, and 152 at 40, beyond which a Maxwellian has one velocity of 10^8.
-    most, found = 1 + max(152 * a2, -1.25 * a2), []
+    most = 1 + max(152 * b, -1.25 * b)
     while sum(map(len, found)) < n:
         v = rng.normal(size=(4 * n, 3))
-        square = (v ** 2).sum(axis=1)
-        found.append(v[rng.random(4 * n) * most < 1 + a2 * (square ** 2 / 8 - 5 * square / 4 + 15 / 8)])
+        found.append(v[rng.random(4 * n) * most < _weight((v ** 2).sum(axis=1), b)])
     return np.concatenate(found)[:n]
 
 
@@ -197,11 +215,11 @@ class _Replicas:
                 self.running.discard(sim)
 
     def _course(self, sim, stream):
-        rough = sim.grains.spin is not None
         _settle(sim)
         if self.start:
             _prepare(sim, self.start, np.random.default_rng([stream, 1]))
         begin, at, rows, changes = sim.time, [], [], list(self.protocol)
+        rough = bool(sim.grains.spin.any())  # those of smooth grains are 0
         for t in self.time:
             while changes and changes[0][0] <= t:
                 when, keys = changes.pop(0)
@@ -220,15 +238,30 @@ def _advance_to(sim, time):
         sim.advance(time - sim.time)
 
 
-def _checked(protocol):
+def _checked_protocol(protocol, until):
     found = []
     for change in protocol or ():
         try:
             at, keys = change
-            found.append((float(at), dict(keys)))
+            at, keys = float(at), dict(keys)
         except (TypeError, ValueError):
             raise BadInput(f"protocol: {change!r} is not allowed; allowed: (time, {{key: value, ...}})") from None
+        if not 0 <= at <= until:
+            raise BadInput(f"protocol: time {at:g} is not allowed; allowed: from 0 to until, {until:g}")
+        found.append((at, keys))
     return found
+
+
+def _check_start(start, species):
+    unknown = set(start) - {"temperature", "a2"}
+    if unknown:
+        raise BadInput(f"start: key {sorted(unknown)[0]!r} is not allowed; allowed: temperature, a2")
+    if "a2" in start and not -0.3 <= float(start["a2"]) <= 0.5:
+        raise BadInput(f"start: a2 {start['a2']!r} is not allowed; allowed: from -0.3 to 0.5")
+    T = np.atleast_1d(np.asarray(start.get("temperature", 1.0), float))
+    if T.shape not in ((1,), (species,)) or not (np.isfinite(T).all() and (T > 0).all()):
+        raise BadInput(f"start: temperature {start['temperature']!r} is not allowed; allowed: a number above 0, or one for "
+                       f"each of the {species} species")
 
 
 def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines: Sequence[str] = ENGINES,
@@ -241,24 +274,26 @@ def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines:
     points       times, evenly spaced from 0
     replicas     of each engine, at least 2: bands and errors come from them
     protocol     [(time, {"bath.temperature": 2, ...}), ...]: keys changed on the way, those of Simulation[...]
-    start        {"temperature": T or [T_1, T_2, ...], "a2": a2}: in units of results. T of species are m <v^2>/3; a2, of
-                 small size, makes the distribution a Maxwellian times 1 + a2 S_2. Without it the scene's start
+    start        {"temperature": T or [T_1, T_2, ...], "a2": a2}: in units of results. T of species are m <v^2>/3. a2,
+                 from -0.3 to 0.5: a Maxwellian times 1 + b S_2, or 0 where that is below, of this a2. Without it the
+                 scene's start
     threads      replicas at a time; None: all processors
 
     Sheared gases, too: velocities are those about the flow. Free cooling is not rescaled: not beyond 100 decades.
     """
     scene = as_scene(scene).copy(**keys)
-    if int(points) != points or points < 2 or not until > 0:
+    if int(points) != points or points < 2 or not 0 < until < np.inf:
         raise BadInput("relax: allowed: points of 2 or more, until above 0")
     if int(replicas) != replicas or replicas < 2:
         raise BadInput(f"replicas: {replicas!r} is not allowed; allowed: a whole number of 2 or more")
-    unknown = set(start or ()) - {"temperature", "a2"}
-    if unknown:
-        raise BadInput(f"start: key {sorted(unknown)[0]!r} is not allowed; allowed: temperature, a2")
+    engines = [engines] if isinstance(engines, str) else list(engines)
     wrong = [e for e in engines if e not in ENGINES]
     if wrong or not engines:
         raise BadInput(f"engines: {wrong[0] if wrong else engines!r} is not allowed; allowed: md, dsmc")
-    time, protocol = np.linspace(0, until, int(points)), _checked(protocol)
+    if scene["flow"] in ("couette", "poiseuille", "chute", "fourier"):
+        raise BadInput(f"relax: flow: {scene['flow']} has walls, and another temperature at each height")
+    _check_start(start or {}, max(len(scene.species), 1))
+    time, protocol = np.linspace(0, until, int(points)), _checked_protocol(protocol, until)
     courses = {}
     for engine in engines:
         replica = _Replicas(scene.copy(engine=engine), time, protocol, start or {})
