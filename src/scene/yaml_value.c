@@ -205,7 +205,8 @@ static bool underflows(const char *text)
 static gg_status reject_value(const input *in)
 {
   char shown[64], allowed[256], hint[64] = "";
-  const char *text = gg_scene_scalar(in->node), *likely = likely_word(in->f, text);
+  const char *text = gg_scene_scalar(in->node);
+  const char *likely = in->f->type == GG_FIELD_FILE ? NULL : likely_word(in->f, text);
   show(in->node, shown, sizeof shown);
   gg_scene_field_allowed(in->f, allowed, sizeof allowed);
   if (has_decimal_comma(text)) likely = "a decimal point";

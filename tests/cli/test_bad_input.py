@@ -201,6 +201,8 @@ def test_page_of_a_release():
     for name, words in ("other.html", "no page of graingas"), ("none.html", "none.html: cannot be read"):
         done = run("page", "--page", name, "--output", "p.html")
         check(done.code == 3 and words in done.err and not os.path.exists("p.html"), done)
+    done = run("page", "--page", ".", "--output", "p.html")
+    check(done.code != 0 and ".: is no file" in done.err and not done.new, done)
 
 
 def test_flow_of_another_engine():
