@@ -20,6 +20,20 @@ static void describe_trend(const gg_convergence *c, double window, char *text, s
              name, 100 * c->trend_relative, fabs(c->trend_z));
 }
 
+/* Of grains with weak friction spins may lose less energy than velocities do for ever: theta/T grows by decades, and
+ * scatters too much for a trend to show. */
+static bool spins_run_away(const gg_result *r, double *ratio)
+{
+  const gg_history *h = &r->history;
+  for (int k = 0; k < GG_N_HISTORY; k++) {
+    if (gg_common_quantity_of_history(k) != GG_Q_TEMPERATURE_RATIO || h->n < 100) continue;
+    *ratio = h->value[k][h->n - 1];
+    const double earlier = h->value[k][h->n / 2];
+    return !isnan(earlier) && !(*ratio < 1e3) && !(*ratio < 30 * earlier);
+  }
+  return false;
+}
+
 void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *c, gg_result *result)
 {
   uint64_t window = all->state.due - all->state.window_at;
@@ -27,6 +41,7 @@ void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_converge
   size_t size = sizeof result->steadiness_text;
   double sampled = (double)window * all->n; /* by all replicas */
   double happened = 2 * (double)result->averaging.collisions / ((double)all->model.n * all->n);
+  double ratio;
   result->steadiness = GG_NOT_STEADY;
   if (!all->model.steady && !all->model.linear_response) {
     result->steadiness = GG_HEATING;
@@ -38,6 +53,13 @@ void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_converge
     snprintf(text, size, "the run ended in its warm-up");
   } else if (all->replica[0].series.width == 0) { /* not even modes of the gap */
     snprintf(text, size, "unknown: nothing is measured (rheology is needed)");
+  } else if (spins_run_away(result, &ratio)) {
+    char beyond[32] = "infinity";
+    if (isfinite(ratio)) snprintf(beyond, sizeof beyond, "%.2g", ratio);
+    snprintf(text, size,
+             "theta/T grows without end, and has come to %s: friction takes less from spins than collisions from "
+             "velocities",
+             beyond);
   } else if (c->trending) {
     describe_trend(c, happened, text, size);
   } else if (window == 0) {

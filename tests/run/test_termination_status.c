@@ -109,11 +109,32 @@ static void less_than_a_sweep(void **state)
   gg_result_free(r);
 }
 
+/* Friction too weak to bring spins down with velocities: no mean of theta/T, and it is said; without its limit there is
+ * one. */
+static void spins_run_away(void **state)
+{
+  (void)state;
+  gg_error err;
+  static const char *const text[] = {
+      "{flow: hcs, engine: dsmc, phi: 0.1, dsmc: {particles: 300}, collision: {e: 0.9, beta: 0.5, mu: 0.3}, "
+      "run: {collisions: 2000}}",
+      "{flow: hcs, engine: dsmc, phi: 0.1, dsmc: {particles: 300}, collision: {e: 0.9, beta: 0.5}, "
+      "run: {collisions: 2000}}"};
+  for (int k = 0; k < 2; k++) {
+    gg_result *r = run(text[k], GG_OK, &err);
+    print_message("# %s\n", r->steadiness_text);
+    assert_int_equal(r->steadiness, k ? GG_STEADY : GG_NOT_STEADY);
+    assert_int_equal(strstr(r->steadiness_text, "theta/T grows without end") != NULL, !k);
+    gg_result_free(r);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(too_short),         cmocka_unit_test(shorter_than_the_shortest_window),
       cmocka_unit_test(nothing_measured),  cmocka_unit_test(cools_by_a_law),
-      cmocka_unit_test(time_of_the_start), cmocka_unit_test(less_than_a_sweep)};
+      cmocka_unit_test(time_of_the_start), cmocka_unit_test(less_than_a_sweep),
+      cmocka_unit_test(spins_run_away)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
