@@ -10,7 +10,7 @@
 static double work_of_shear(const gg_simulation *g, const sample *before, const sample *after)
 {
   const double rate = g->model.shear_rate, dt = after->state.time - before->state.time;
-  if (g->model.homogeneous) return -rate * 0.5 * (before->xy + after->xy) * dt;
+  if (g->model.ensemble) return -rate * 0.5 * (before->xy + after->xy) * dt;
   return -rate * (before->xy * dt - 0.5 * rate * before->yy * dt * dt);
 }
 
@@ -53,13 +53,13 @@ static double uncertainty(const gg_simulation *g, const sample *before, const sa
 {
   const double strain = g->model.shear_rate * (after->state.time - before->state.time);
   const double energy = after->translation + after->rotation, each = 10 * strain * energy / (double)after->n;
-  return g->model.homogeneous ? each * each : 0;
+  return g->model.ensemble ? each * each : 0;
 }
 
 /* Monte Carlo's Gaussian thermostat returns in a step what collisions destroyed in the one before. */
 static double rounding(const gg_simulation *g, int steps)
 {
-  if (g->model.homogeneous && gg_common_thermostat_of(&g->model) == GG_GAUSSIAN) return 1 / sqrt((double)g->model.n);
+  if (g->model.ensemble && gg_common_thermostat_of(&g->model) == GG_GAUSSIAN) return 1 / sqrt((double)g->model.n);
   return g->model.single ? 1e-4 : 1e-12 * (1 + steps);
 }
 
@@ -69,7 +69,7 @@ gg_status budget_follow(gg_simulation *g, sample *before, sample *after, int ste
   gg_simulation_sums sums;
   rule_watch watch = {.model = &g->model};
   GG_TRY(gg_simulation_take_sums(g, &sums, err));
-  if (!g->model.homogeneous) GG_TRY(gg_simulation_on_collision(g, rule_note, &watch, err));
+  if (!g->model.ensemble) GG_TRY(gg_simulation_on_collision(g, rule_note, &watch, err));
   sample_take(before, g);
   const double energy = before->translation + before->rotation, kinetic = before->translation;
   double work = 0, off = 0, most = energy;
@@ -80,18 +80,22 @@ gg_status budget_follow(gg_simulation *g, sample *before, sample *after, int ste
     sample_take(after, g);
     work += work_of_shear(g, before, after) + work_of_gravity(g, before, after);
     if (!(after->state.time >= before->state.time)) b->in_time = false;
-    if (!g->model.homogeneous && after->state.collisions != before->state.collisions + 1) b->in_time = false;
+    if (!g->model.ensemble && after->state.collisions != before->state.collisions + 1) b->in_time = false;
     rule_check(&watch, before, after);
     off += uncertainty(g, before, after);
     most = fmax(most, after->translation + after->rotation);
     swap(before, after);
   }
   GG_TRY(gg_simulation_take_sums(g, &sums, err));
-  if (!g->model.homogeneous) GG_TRY(gg_simulation_on_collision(g, NULL, NULL, err));
+  if (!g->model.ensemble) GG_TRY(gg_simulation_on_collision(g, NULL, NULL, err));
   b->energy_allowed = rounding(g, steps) + 6 * sqrt(off) / most;
   b->rule = watch.worst;
   const double change = before->translation + before->rotation - energy;
-  if (thermostat == GG_NO_THERMOSTAT)
+  const bool slides =
+      g->model.gravity[0] != 0 || g->model.gravity[2] != 0; /* ways that grains with heights alone lack */
+  if (g->model.ensemble && slides)
+    b->energy = NAN;
+  else if (thermostat == GG_NO_THERMOSTAT)
     b->energy = fabs(change - work - gain_in_contacts(g, &sums)) / most;
   else
     b->energy = thermostat == GG_GAUSSIAN ? fabs(before->translation / kinetic - 1) : NAN;

@@ -51,7 +51,7 @@ static void rest_in_dsmc(gg_dsmc *d)
 
 static void at_rest(gg_simulation *g)
 {
-  if (g->model.homogeneous) {
+  if (g->model.ensemble) {
     rest_in_dsmc((gg_dsmc *)g->engine);
     return;
   }
@@ -92,7 +92,7 @@ static void cradle(gg_simulation *g)
 static void nan_velocity(gg_simulation *g)
 {
   gg_dsmc *d = (gg_dsmc *)g->engine;
-  if (!g->model.homogeneous)
+  if (!g->model.ensemble)
     ((gg_md *)g->engine)->grain[1].v.y = NAN;
   else
     gg_dsmc_block_set(&d->ensemble.of[0], d->ensemble.of[0].c, 1, (gg_vec){0, NAN, 0});
@@ -101,7 +101,7 @@ static void nan_velocity(gg_simulation *g)
 static void nan_spin(gg_simulation *g)
 {
   gg_dsmc *d = (gg_dsmc *)g->engine;
-  if (!g->model.homogeneous)
+  if (!g->model.ensemble)
     ((gg_md *)g->engine)->spin[1].y = NAN;
   else
     gg_dsmc_block_set(&d->ensemble.of[0], d->ensemble.of[0].s, 1, (gg_vec){0, NAN, 0});

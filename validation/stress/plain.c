@@ -18,7 +18,7 @@ typedef struct course {
 static void note(void *context, const gg_collision_record *collision)
 {
   course *c = context;
-  if (c->n == MOST) return;
+  if (c->n == MOST || collision->wall) return;
   c->pair[c->n][0] = (size_t)collision->id[0];
   c->pair[c->n++][1] = (size_t)collision->id[1];
 }

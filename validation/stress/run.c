@@ -42,10 +42,12 @@ static double momentum_of(const gg_simulation *g, const sample *s, const double 
   return off / *largest;
 }
 
-/* Kicks of the Monte Carlo engine's white noise are taken off now and then alone. */
+/* Kicks of the Monte Carlo engine's white noise are taken off now and then alone. Between walls each of its half
+ * flights rounds what gravity gives. */
 static double allowed_momentum(const gg_simulation *g)
 {
-  const bool kicked = g->model.homogeneous && gg_common_thermostat_of(&g->model) == GG_WHITE_NOISE;
+  const bool kicked = g->model.ensemble && gg_common_thermostat_of(&g->model) == GG_WHITE_NOISE;
+  if (g->model.ensemble && g->model.walled) return 1e-10;
   return kicked ? 2 / sqrt((double)g->model.n) : g->model.single ? 1e-6 : 1e-11;
 }
 
@@ -102,7 +104,7 @@ static gg_status go_through(gg_simulation *g, const corner *c, sample *s, sample
   sample_take(s, g);
   for (int a = 0; a < 3; a++) expected[a] = g->model.walled ? s->momentum[a] : 0;
   const double first = s->state.temperature, energy = s->translation + s->rotation;
-  if (!g->model.homogeneous) look_at(g, s, f);
+  if (!g->model.ensemble) look_at(g, s, f);
   for (int k = 0; k < looks && f->numbers; k++) {
     const double time = s->state.time;
     const uint64_t collisions = s->state.collisions;
@@ -166,9 +168,9 @@ void corner_run(const corner *c, const char *engine, finding *f)
   f->ended = status != GG_OK && !f->refused;
   if (status != GG_OK) tell(f, &err);
   /* Places near the far end of a box have no finer grain. */
-  if (g && !g->model.homogeneous)
+  if (g && !g->model.ensemble)
     f->allowed_overlap = 1e-14 * (100 + fmax(g->model.box[0], fmax(g->model.box[1], g->model.box[2])));
-  if (status == GG_OK && !g->model.homogeneous && !c->start && g->model.n < MANY) corner_compare_plain(scene, f);
+  if (status == GG_OK && !g->model.ensemble && !c->start && g->model.n < MANY) corner_compare_plain(scene, f);
   sample_free(&s);
   sample_free(&other);
   gg_simulation_free(g);

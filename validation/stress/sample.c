@@ -12,8 +12,8 @@ bool sample_new(sample *s, const gg_simulation *g)
   s->velocity = malloc(3 * s->n * sizeof *s->velocity);
   s->spin = malloc(3 * s->n * sizeof *s->spin);
   s->species = malloc(s->n * sizeof *s->species);
-  s->position = g->model.homogeneous ? NULL : malloc(3 * s->n * sizeof *s->position);
-  return s->velocity && s->spin && s->species && (s->position || g->model.homogeneous);
+  s->position = g->model.ensemble ? NULL : malloc(3 * s->n * sizeof *s->position);
+  return s->velocity && s->spin && s->species && (s->position || g->model.ensemble);
 }
 
 void sample_free(sample *s)
