@@ -13,11 +13,19 @@ typedef struct pair {
   gg_curve_data one, two;
 } pair;
 
+/* At the same heights, to a hundredth of a slab. */
+static bool is_alike(const gg_curve_data *a, const gg_curve_data *b)
+{
+  bool alike = a->n == b->n;
+  for (size_t i = 0; alike && i < a->n; i++)
+    alike = fabs(a->x[i] - b->x[i]) <= 1e-2 * fabs(a->x[a->n - 1] - a->x[0]) / (double)a->n;
+  return alike;
+}
+
 static bool find(const gg_result *r, const gg_curve_data *like, gg_curve_data *found)
 {
   for (size_t i = 0; gg_result_curve(r, i, found, NULL) == GG_OK; i++)
-    if (strcmp(found->name, like->name) == 0)
-      return found->n == like->n && memcmp(found->x, like->x, like->n * sizeof *like->x) == 0;
+    if (strcmp(found->name, like->name) == 0) return is_alike(found, like);
   return false;
 }
 

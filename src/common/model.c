@@ -63,17 +63,25 @@ static double mean_power(const gg_model *m, int p)
   return sum;
 }
 
-static void set_box(gg_model *m, const gg_scene *s)
+static void set_size(gg_model *m, const gg_scene *s)
 {
   m->phi = s->phi;
   m->boltzmann = s->phi == 0;
   m->density = m->boltzmann ? 1 : 6 * s->phi / (M_PI * mean_power(m, 3));
   m->volume = (double)m->n / m->density;
   double shape = s->aspect[0] * s->aspect[1] * s->aspect[2];
-  /* Between walls Monte Carlo has the gap that `particles` grains have in md, and more area. */
-  const double wider = gg_flow_is_walled(s->flow) ? (double)m->n / (double)s->particles : 1;
-  for (int a = 0; a < 3; a++)
-    m->box[a] = s->aspect[a] * gg_root(m->volume / (wider * shape), 3) * (a == 1 ? 1 : sqrt(wider));
+  for (int a = 0; a < 3; a++) m->box[a] = s->aspect[a] * gg_root(m->volume / shape, 3);
+}
+
+/* Between walls Monte Carlo has the gap that `particles` grains have in md, to the last bit, and more area. */
+static void set_box(gg_model *m, const gg_scene *s)
+{
+  gg_model md = {.n = s->particles};
+  set_size(m, s);
+  if (!m->ensemble || !gg_flow_is_walled(s->flow)) return;
+  set_composition(&md, s);
+  set_size(&md, s);
+  for (int a = 0; a < 3; a++) m->box[a] = md.box[a] * (a == 1 ? 1 : sqrt(m->volume / md.volume));
 }
 
 static double chi_of(const gg_model *m, const gg_scene *s, int i, int j)

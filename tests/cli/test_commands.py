@@ -197,6 +197,17 @@ def test_compare_table():
     check("results:" not in done.err, done.err)
 
 
+def test_compare_lists_profiles():
+    """Of both engines at the same heights, also where their grains have other fractions or Monte Carlo has more."""
+    for more in ("phi: 0.123\n", "phi: 0.1\nspecies: [{fraction: 0.667}, {fraction: 0.333, diameter: 1.5}]\n"):
+        done = run("compare", "scene.yaml", "--quiet", "--picture", "none",
+                   scene="flow: couette\nparticles: 300\ndsmc: {particles: 5000}\ncollision: {e: 0.9}\n"
+                         "measure: [rheology, profiles]\nrun: {collisions: 150, warmup: 20}\n" + more)
+        _, _, table = done.out.partition("profiles, md and dsmc")
+        for name in "solid_fraction", "velocity", "temperature":
+            check(f"profile_{name} " in table, more, name, done.out, done.err)
+
+
 SMOOTH = ("flow: usf\nphi: 0.3\nparticles: 1000\ncollision: {e: 0.9}\ndsmc: {particles: 5000}\n"
           "run: {collisions: 2000, warmup: 50, seed: 3}\n")
 

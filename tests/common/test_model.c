@@ -67,6 +67,28 @@ static void mixture(void **state)
   near(m.chi[GG_12], gg_common_contact_value_of(GG_CARNAHAN_STARLING, 0.2), 1e-13);
 }
 
+/* Between walls Monte Carlo's gap has the height of md's, to the last bit, also where its grains have other fractions;
+ * the box holds the solid fraction. */
+static void gap_is_that_of_md(void **state)
+{
+  (void)state;
+  const double phi[] = {0.01, 0.123, 0.3};
+  gg_scene s = gg_scene_defaults();
+  s.flow = GG_COUETTE, s.walls.speed = 1;
+  s.species[0] = (gg_species){0.667, 1, 1, 0.4, 1};
+  s.species[1] = (gg_species){0.333, 1.5, 1, 0.4, 1};
+  for (int k = 0; k < 12; k++) {
+    s.phi = phi[k % 3], s.particles = 300 + 100 * k, s.dsmc.particles = 5000 + k, s.n_species = 1 + k % 2;
+    s.engine = GG_MD;
+    const gg_model md = make(&s);
+    s.engine = GG_DSMC;
+    const gg_model dsmc = make(&s);
+    assert_true(md.box[1] == dsmc.box[1]);
+    near(dsmc.box[0] * dsmc.box[1] * dsmc.box[2], dsmc.volume, 1e-13);
+    near(dsmc.box[0] / dsmc.box[2], s.aspect[0] / s.aspect[2], 1e-14);
+  }
+}
+
 /* Equations of state: published numbers, and Carnahan-Starling's known distance from them. */
 static void equations_of_state(void **state)
 {
@@ -297,6 +319,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(units_drop_out),
       cmocka_unit_test(mixture),
+      cmocka_unit_test(gap_is_that_of_md),
       cmocka_unit_test(equations_of_state),
       cmocka_unit_test(kinds),
       cmocka_unit_test(sharing_of_energy),
