@@ -131,6 +131,13 @@ double gg_common_treated_beta(const gg_model *m, int i, int j)
   return i == j || beta == 1 ? beta : -1;
 }
 
+bool gg_common_pair_loses(const gg_model *m, int i, int j)
+{
+  const int o = gg_pair(i, j);
+  const gg_rule rule = gg_common_rule_select(m->beta[o], m->mu[o]);
+  return m->e[o] < 1 || m->law.e || rule == GG_FRICTIONAL || (rule == GG_ROUGH && m->beta[o] < 1);
+}
+
 static void set_pairs(gg_model *m, const gg_scene *s)
 {
   m->rule = GG_SMOOTH;
@@ -146,9 +153,8 @@ static void set_pairs(gg_model *m, const gg_scene *s)
       m->treated[i][j] = gg_common_contact_make(one, two, 1, gg_common_treated_beta(m, i, j), i == j ? mu : INFINITY);
       m->sigma[o] = (m->diameter[i] + m->diameter[j]) / 2;
       m->chi[o] = chi_of(m, s, i, j);
-      gg_rule rule = gg_common_rule_select(beta, mu);
-      m->rule = later_rule(m->rule, rule);
-      if (e < 1 || m->law.e || rule == GG_FRICTIONAL || (rule == GG_ROUGH && beta < 1)) m->elastic = false;
+      m->rule = later_rule(m->rule, gg_common_rule_select(beta, mu));
+      if (gg_common_pair_loses(m, i, j)) m->elastic = false;
     }
 }
 

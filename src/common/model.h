@@ -105,6 +105,9 @@ void gg_common_model_at(gg_model *model, double T);
 /* What contact times count in, in words: under gravity that of a fall, unless it is too weak (md/contact_time.c). */
 const char *gg_common_model_contact_unit(const gg_model *model);
 
+/* Do collisions of these two species destroy energy? */
+bool gg_common_pair_loses(const gg_model *model, int i, int j);
+
 /* Largest and smallest diameter of a species. */
 double gg_common_model_widest(const gg_model *model);
 double gg_common_model_narrowest(const gg_model *model);

@@ -179,6 +179,7 @@ static void add_collision(void *self, const gg_collision_record *c)
     lost -= one.energy[k] + two.energy[k];
   }
   spread(d, from, to, &t);
+  if (!gg_common_pair_loses(&d->model, c->species[0], c->species[1])) return; /* rounding alone */
   lose(d, from, 0.5 * lost);
   lose(d, to, 0.5 * lost);
 }
