@@ -60,7 +60,7 @@ static int check_output(const char *output)
 }
 
 typedef struct export_command {
-  bool quiet;
+  bool quiet, grains; /* grains: a trajectory was written */
   gg_cli_line line;
 } export_command;
 
@@ -68,7 +68,9 @@ typedef struct export_command {
 static void print_file(void *context, const char *file)
 {
   export_command *c = context;
+  const char *ending = strrchr(file, '.');
   gg_cli_line_clear(&c->line);
+  c->grains |= ending && strcmp(ending, ".xyz") == 0;
   if (!c->quiet) gg_cli_print_name(stdout, "", file, "\n");
 }
 
@@ -78,6 +80,20 @@ static void show_progress(void *context, double share)
   char text[40];
   snprintf(text, sizeof text, "trajectory %.0f %%", floor(100 * share));
   gg_cli_line_show(&((export_command *)context)->line, text, false);
+}
+
+/* A picture of Monte Carlo's grains between walls would be a line. */
+static void print_if_heights(const char *file)
+{
+  gg_result *r = NULL;
+  gg_result_info info;
+  if (gg_result_read(file, &r, NULL) == GG_OK && gg_result_get_info(r, &info, NULL) == GG_OK &&
+      strcmp(info.engine, "dsmc") == 0) {
+    fflush(stdout);
+    gg_cli_print_name(stderr, "warning: ", file, ": ");
+    fprintf(stderr, "grains of dsmc between walls have heights alone: x and z are 0 in the trajectory\n");
+  }
+  gg_result_free(r);
 }
 
 /* All files are open at once, with a lock each: a mixture of sixteen species has more curves than the usual limit. */
@@ -104,6 +120,7 @@ static int export_parts(const gg_options *o)
   gg_cli_line_start(&c.line, o->quiet);
   gg_status status = gg_export(o->input, prefix, parts, print_file, show_progress, &c, &err);
   gg_cli_line_clear(&c.line);
+  if (status == GG_OK && c.grains) print_if_heights(o->input);
   code = status == GG_OK ? GG_OK : gg_cli_report(&err);
   free(prefix);
   return code;

@@ -38,13 +38,14 @@ static double top_of(const gg_plot_grains *s)
   return fmin(s->edge[1], top + 1);
 }
 
-/* False if the file holds no positions. */
+/* False if the file holds no positions; Monte Carlo's between walls are heights alone. */
 static bool find_grains(const gg_stored_result *stored, gg_plot_grains *s)
 {
   const gg_frame *f = &stored->last;
   *s = (gg_plot_grains){.n = f->n, .position = f->position, .species = f->species};
   memcpy(s->edge, stored->edge, sizeof s->edge);
-  bool whole = f->n && f->position && f->species && s->edge[0] > 0 && s->edge[1] > 0;
+  const bool heights = stored->engine[GG_DSMC].name && !stored->engine[GG_MD].name;
+  bool whole = !heights && f->n && f->position && f->species && s->edge[0] > 0 && s->edge[1] > 0;
   for (size_t i = 0; whole && i < f->n; i++) {
     whole = f->species[i] < GG_MAX_SPECIES;
     if (f->species[i] >= s->n_species) s->n_species = f->species[i] + 1;

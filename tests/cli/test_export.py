@@ -507,6 +507,18 @@ def test_nothing_to_export():
     check(exported("d.h5").new == ["d.csv"])
 
 
+def test_heights():
+    """Monte Carlo between walls has heights alone: no snapshot shows them, and what is exported says so."""
+    simulated(WALLED, "--engine", "dsmc", "--set", "dsmc.particles=500")
+    done = exported("r.h5", "--only", "trajectory")
+    check(done.new == ["r.xyz"] and done.err.count("\n") == 1 and "have heights alone" in done.err, done.new, done.err)
+    if shutil.which("gnuplot"):
+        done = run("plot", "r.h5")
+        check(done.code == 0 and done.new == ["r.svg"], done.new, done.err)
+    simulated(WALLED, output="md.h5")
+    check(exported("md.h5").err == "")
+
+
 def test_many_files():
     """More of them than the usual limit of open files allows; and a limit that cannot be raised leaves nothing."""
     simulated(SHEARED, command="compare")
