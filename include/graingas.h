@@ -301,7 +301,7 @@ typedef struct gg_simulation_state {
   double kinetic_stress[3][3];   /* in units of stress; x along the flow, y along its gradient */
   double strain;                 /* shear rate times time; 0 without shear */
   double image_offset;           /* md, sheared: the box above is displaced so far along x, from 0 to box[0] */
-  double box[3];                 /* edges; 0 where the engine has no positions (dsmc) */
+  double box[3];                 /* edges; 0 where there is none (dsmc without walls) */
 } gg_simulation_state;
 
 /**
@@ -362,7 +362,8 @@ GG_API gg_status gg_simulation_get_grains(const gg_simulation *simulation, const
  * number of grains (particles, dsmc.particles), it is n. Under shear, image_offset starts at 0.
  * @param scene the scene; its phi and n make the box (gg_simulation_get_state() of any simulation of it)
  * @param grains what gg_simulation_get_grains() copies, in units of results; only read. Monte Carlo takes no positions,
- *   and numbers its grains species by species. With several species, `species` is needed, by md also `position`
+ *   between walls the heights alone, and numbers its grains species by species. With several species, `species` is
+ *   needed, by md also `position`
  * @param n number of grains
  * @param stream number of the random stream, as for gg_simulation_new()
  * @param simulation receives the simulation, to be freed by gg_simulation_free()

@@ -53,8 +53,8 @@ const gg_command gg_cli_commands[] = {
      "observable. PREFIX_numbers.csv: exponents, coefficients and other numbers derived from the curves.\nPREFIX.xyz: "
      "the grains of each frame for OVITO and ASE, with the (under shear: tilted) cell of that instant, peculiar "
      "velocity, spin (omega), radius, mass, momentum and number. The first species is named H, the second He, and so "
-     "on. Needs "
-     "positions, which only md has; without output.trajectory_every in the scene it is the last state.",
+     "on. Needs positions: md has them, and dsmc between walls has heights alone (x = z = 0). Without "
+     "output.trajectory_every in the scene it is the last state.",
      GG_OPT_PREFIX | GG_OPT_ONLY | GG_OPT_QUIET, gg_cli_export_main},
     {"info", "[FILE|WORD]", "What a result or a checkpoint holds, what a scene means, or what a word means",
      "FILE is a scene, a result or a checkpoint. WORD is a scene key, a quantity, a theory, a flow or an observable: "
@@ -75,7 +75,8 @@ const gg_command gg_cli_commands[] = {
     {"page", "[SCENE.yaml]", "The teaching page: one HTML file with live engines",
      "Writes one HTML file that needs no network and no installation: both engines, the theories and the measurements "
      "as WebAssembly, the box in three dimensions beside live curves, and ten lessons. The page starts with the scene. "
-     "The page is installed with graingas, or is graingas-VERSION-page.html of a release (--page FILE), or is built from "
+     "The page is installed with graingas, or is graingas-VERSION-page.html of a release (--page FILE), or is built "
+     "from "
      "the sources: ./check-page.",
      GG_OPT_PAGE | GG_OPT_SET | GG_OPT_OUTPUT | GG_OPT_SEED | GG_OPT_QUIET, gg_cli_page_main},
     {"bench", "[md|dsmc|observables|error|compare A B]",
@@ -83,7 +84,8 @@ const gg_command gg_cli_commands[] = {
      "Without an argument: both engines in uniform shear at e = 0.9 with the stress measured, one core, median of "
      "repeats; then single scenes: white noise, walls, placing grains, two threads.\nmd: elastic smooth spheres by "
      "size and density; cost of roughness, shear, walls, gravity, white noise, a second "
-     "species and stress measurement; gain of threads within one run.\ndsmc: nanoseconds per accepted collision; gain of the block kernels over the "
+     "species and stress measurement; gain of threads within one run.\ndsmc: nanoseconds per accepted collision; gain "
+     "of the block kernels over the "
      "plain loop and of threads within one ensemble.\nobservables: run time that each observable adds, for both "
      "engines and three sizes.\nerror: processor time until means have an error of 1, 0.1 and 0.01 %, a table a state "
      "of uniform shear and free cooling, over engines, numbers of grains, time steps, precision and replicas. "

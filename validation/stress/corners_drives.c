@@ -129,6 +129,7 @@ static const corner corners[] = {
      .scene = "{flow: chute, phi: 0.2, particles: 400, gravity: [0, -1, 0], collision: {e: 0.5, beta: 0}, walls: {top: "
               "open}}",
      .collisions = 300,
+     .dsmc = NOT_RUN, /* no packed beds in Enskog's equation */
      .quick = true},
     {.name = "chute, e 0, friction, ridges",
      .scene = "{flow: chute, phi: 0.2, particles: 400, gravity: [0.5, -1, 0], collision: {e: 0, beta: 0, mu: 0.5}, "
