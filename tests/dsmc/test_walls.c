@@ -209,6 +209,37 @@ static void restored_and_stopped(void **state)
   }
 }
 
+static bool at_once(void *context)
+{
+  (void)context;
+  return true;
+}
+
+/* Pulled so hard that a grain meets walls a million times in a step of the rest, a run looks whether to stop all the
+ * same: 65536 flights or so, of some contacts each. */
+static void stops_under_any_gravity(void **state)
+{
+  (void)state;
+  const double pull[][2] = {{1e6, 0}, {0, -1e6}, {1e9, -1e9}};
+  for (int k = 0; k < 3; k++) {
+    gg_scene s = full_scene(500);
+    s.gravity[0] = pull[k][0], s.gravity[1] = pull[k][1];
+    gg_model m = lab_model(&s);
+    const gg_stop stop = {at_once, NULL};
+    m.stop = &stop;
+    gg_engine *g = lab_engine(&m, 8);
+    gg_error err;
+    double gone;
+    g->ops->keep_sums(g, true);
+    assert_int_equal(g->ops->advance(g, INFINITY, UINT64_MAX, &gone, &err), GG_INTERRUPTED);
+    const gg_collision_sums t = taken(g);
+    const double contacts = (double)(t.surface[0].collisions + t.surface[1].collisions);
+    printf("# gravity (%g, %g): %.3g contacts before a look\n", pull[k][0], pull[k][1], contacts);
+    assert_true(contacts < 100 * 65536);
+    g->ops->destroy(g);
+  }
+}
+
 /* Whatever a byte of it becomes, a checkpoint is refused or an engine that runs. */
 static void damaged(void **state)
 {
@@ -418,10 +449,14 @@ static void free_molecular_flow(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(what_is_lost_is_accounted_for), cmocka_unit_test(plain_is_the_same),
-      cmocka_unit_test(restored_and_stopped),          cmocka_unit_test(damaged),
-      cmocka_unit_test(walls_carry_the_pressure),      cmocka_unit_test(columns_carry_their_weight),
-      cmocka_unit_test(core_has_the_viscosity),        cmocka_unit_test(free_molecular_flow)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_lost_is_accounted_for),
+                                     cmocka_unit_test(plain_is_the_same),
+                                     cmocka_unit_test(restored_and_stopped),
+                                     cmocka_unit_test(damaged),
+                                     cmocka_unit_test(stops_under_any_gravity),
+                                     cmocka_unit_test(walls_carry_the_pressure),
+                                     cmocka_unit_test(columns_carry_their_weight),
+                                     cmocka_unit_test(core_has_the_viscosity),
+                                     cmocka_unit_test(free_molecular_flow)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
