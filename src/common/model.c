@@ -184,14 +184,21 @@ static double guess_sheared_temperature(const gg_model *m)
   return m->boltzmann ? dilute : dilute + dense;
 }
 
-/* Between thermal walls at rest that of a gas that nothing cools: where they alone warm it, the geometric mean, at
- * which free flights from wall to wall bring and take as much. */
-static double guess_unsheared_temperature(const gg_model *m)
+/* Of a gas that thermal walls alone warm and nothing cools: their geometric mean, at which free flights from wall to
+ * wall bring and take as much. 0 without such walls. */
+static double temperature_of_walls(const gg_model *m)
 {
   double product = 1;
-  if (m->n_surfaces == 0 || m->surface[0].accommodation == 0) return 0.5;
+  if (m->n_surfaces == 0 || m->surface[0].accommodation == 0) return 0;
   for (int w = 0; w < m->n_surfaces; w++) product *= m->surface[w].temperature;
   return m->n_surfaces > 1 ? sqrt(product) : product;
+}
+
+static double guess_unbathed_temperature(const gg_model *m)
+{
+  const double walls = temperature_of_walls(m);
+  if (gg_flow_is_timed_by_shear(m->flow)) return fmax(guess_sheared_temperature(m), walls);
+  return walls > 0 ? walls : 0.5;
 }
 
 /* With a restitution law, temperature and mean impact speed depend on each other. */
@@ -199,8 +206,7 @@ static void guess_temperature(gg_model *m, const gg_scene *s, bool sheared)
 {
   double speed = sheared ? s->shear_rate * s->species[0].diameter : 1;
   for (int round = 0; round < (m->law.name ? 5 : 1); round++) {
-    m->temperature0 =
-        gg_flow_is_timed_by_shear(s->flow) ? guess_sheared_temperature(m) : guess_unsheared_temperature(m);
+    m->temperature0 = guess_unbathed_temperature(m);
     if (m->bath.on) m->temperature0 = gg_common_thermostat_balance(m, sheared ? m->temperature0 : 0);
     if ((sheared || m->bath.on) && s->temperature != GG_AUTO) m->temperature0 = s->temperature / (speed * speed);
     gg_common_model_at(m, m->temperature0);

@@ -191,6 +191,22 @@ static void kinds(void **state)
   assert_non_null(strstr(err.message, "phi"));
 }
 
+/* Slowly moving thermal walls: a gas starts at their temperature, however little the shear would heat it; fast ones: at
+ * the shear's. */
+static void start_between_thermal_walls(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.flow = GG_COUETTE, s.phi = 0.1, s.walls.speed = 100;
+  const double by_shear = make(&s).temperature0;
+  s.walls.temperature[0] = 1, s.walls.temperature[1] = 4;
+  near(make(&s).temperature0, by_shear, 0);
+  s.walls.speed = 1e-4;
+  gg_model m = make(&s);
+  near(m.temperature0, sqrt(m.surface[0].temperature * m.surface[1].temperature), 1e-14);
+  assert_true(m.temperature0 > 1e6 * by_shear);
+}
+
 /* Rates: 4 n d^2 chi sqrt(pi T), and the unit strings of sheared, thermal and Boltzmann scenes. */
 static void rates_and_units(void **state)
 {
@@ -325,6 +341,7 @@ int main(void)
       cmocka_unit_test(sharing_of_energy),
       cmocka_unit_test(loss_to_others),
       cmocka_unit_test(scaled_temperature),
+      cmocka_unit_test(start_between_thermal_walls),
       cmocka_unit_test(rates_and_units),
       cmocka_unit_test(noise_replaces_losses),
       cmocka_unit_test(units_of_rates),
