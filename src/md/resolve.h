@@ -25,10 +25,6 @@ GG_INLINE bool gg_md_is_treated(gg_md *e, uint32_t i, uint32_t j)
   double now = e->k.now, limit = e->k.contact_time;
   bool treated = now - e->last[i] < limit || now - e->last[j] < limit;
   e->last[i] = e->last[j] = now;
-  if (i != j)
-    e->k.treated += treated;
-  else
-    e->k.wall_treated += treated; /* a grain with itself: at a wall */
   return treated;
 }
 
@@ -87,6 +83,7 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
   const uint64_t row = f.mixture ? turn * (uint64_t)contacts->n_pairs : turn;
   const gg_contact *contact = &contacts->contact[row + (uint64_t)pair];
   bool treated = f.contact_time && gg_md_is_treated(e, i, j);
+  e->k.treated += treated;
   if (treated) contact = &contacts->treated[row + (uint64_t)pair];
   double r2 = gg_dot(dr, dr), overlap = 0.5 * (contacts->sigma2[pair] - r2) * contacts->inverse[pair];
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
@@ -125,12 +122,14 @@ GG_INLINE void gg_md_resolve_surface(gg_md *e, gg_md_resolve_features f, uint32_
   int a = gg_md_species_of(one);
   const gg_surface *surface = &e->model.surface[w];
   const gg_contact *contact = &surface->contact[a];
-  if (f.contact_time && gg_md_is_treated(e, i, i)) contact = &surface->treated[a];
+  const bool treated = f.contact_time && gg_md_is_treated(e, i, i);
+  if (treated) contact = &surface->treated[a];
   double overlap = -gg_surface_clearance(surface, &one->r, 0.5 * e->model.diameter[a]);
   if (overlap > e->k.worst_overlap) e->k.worst_overlap = overlap;
   gg_vec k = gg_surface_normal(surface, &one->r), none = {0, 0, 0};
   gg_surface_hit hit =
       gg_surface_collide(f.rule, surface, contact, &e->k.rng, k, &one->v, f.spins ? &e->spin[i] : &none);
+  e->k.wall_treated += treated && !hit.thermal;
   double least = gg_md_least_speed(e, f.contact_time, gg_dot(k, e->gravity)), towards = gg_dot(k, one->v);
   if (!hit.thermal && -towards < least) {
     hit.J = gg_axpy((least + towards) / contact->im1, k, hit.J);

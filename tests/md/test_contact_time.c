@@ -197,6 +197,21 @@ static void heap_at_rest(void **state)
   md_destroy(e);
 }
 
+/* A thermal wall has no contact that the rule could treat, however soon one follows another. */
+static void thermal_floor(void **state)
+{
+  (void)state;
+  gg_scene s = md_scene((md_case){GG_CHUTE, 100, 0.1, 0.8, -1, INFINITY, {0}});
+  s.md.contact_time = GG_AUTO;
+  s.walls.temperature[0] = s.walls.temperature[1] = 1e-8;
+  s.gravity[1] = -1;
+  gg_model m = md_model_of(&s);
+  gg_md *e = md_create(&m, 4);
+  md_collide(e, 20000);
+  assert_true(m.contact_time > 0 && e->k.wall_treated == 0);
+  md_destroy(e);
+}
+
 /* Gravity so weak that nobody feels it leaves a gas between walls as it is: its collisions go on losing energy. */
 static void gravity_that_nobody_feels(void **state)
 {
@@ -235,13 +250,11 @@ static void no_rule_on_a_floor(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(three_in_a_line),
-                                     cmocka_unit_test(cooling_cluster),
-                                     cmocka_unit_test(no_restitution),
-                                     cmocka_unit_test(no_restitution_plain),
-                                     cmocka_unit_test(gas_does_not_feel_it),
-                                     cmocka_unit_test(heap_at_rest),
-                                     cmocka_unit_test(gravity_that_nobody_feels),
-                                     cmocka_unit_test(no_rule_on_a_floor)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(three_in_a_line),      cmocka_unit_test(cooling_cluster),
+      cmocka_unit_test(no_restitution),       cmocka_unit_test(no_restitution_plain),
+      cmocka_unit_test(gas_does_not_feel_it), cmocka_unit_test(heap_at_rest),
+      cmocka_unit_test(thermal_floor),        cmocka_unit_test(gravity_that_nobody_feels),
+      cmocka_unit_test(no_rule_on_a_floor)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
