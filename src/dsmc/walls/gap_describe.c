@@ -20,14 +20,17 @@ gg_status gg_dsmc_gap_accepts(const gg_model *m, gg_error *err)
   if (m->thermostat != GG_NO_THERMOSTAT)
     return gg_base_fail(err, GG_BAD_INPUT, "thermostat: not in flow: %s", gg_flow_of(m->flow)->word);
   if (m->box[1] < 2 * widest)
-    return gg_base_fail(err, GG_BAD_INPUT, "particles: with %g the gap is %.3g diameters wide; at least 2 are needed",
-                        (double)m->n, m->box[1] / m->diameter[0]);
+    return gg_base_fail(
+        err, GG_BAD_INPUT,
+        "particles: as in md they make the gap, which is %.3g diameters wide; at least %.3g are needed, "
+        "two of the widest grain: give particles or aspect's second number a larger value",
+        m->box[1], 2 * widest);
   if (m->n < 2 || m->n > UINT32_MAX / 2)
     return gg_base_fail(err, GG_BAD_INPUT, "dsmc.particles: %lld; allowed: 2 to %u", (long long)m->n, UINT32_MAX / 2);
   if (m->single)
     return gg_base_fail(err, GG_BAD_INPUT, "dsmc.precision: between walls velocities are kept in double precision");
-  if (m->time_step == 0 || m->time_step > 10)
-    return gg_base_fail(err, GG_BAD_INPUT, "dsmc.time_step: in mean free times, above 0 and up to 10, or auto");
+  if (m->time_step == 0 || m->time_step > 1)
+    return gg_base_fail(err, GG_BAD_INPUT, "dsmc.time_step: in mean free times, above 0 and up to 1, or auto");
   return GG_OK;
 }
 
