@@ -168,7 +168,7 @@ static gg_status set_walls(gg_model *m, const gg_scene *s, double time_unit, gg_
   m->walled = m->n_surfaces > 0;
   m->wall_rule = m->walled ? gg_common_rule_select(s->walls.beta, s->walls.mu) : GG_SMOOTH;
   bool lossy = m->wall_rule == GG_FRICTIONAL || (m->wall_rule == GG_ROUGH && s->walls.beta < 1);
-  if (m->walled && m->surface[0].accommodation == 0 && (s->walls.e < 1 || lossy)) m->elastic = false;
+  if (m->walled && m->surface[0].accommodation < 1 && (s->walls.e < 1 || lossy)) m->elastic = false;
   if (!spinless) m->rule = later_rule(m->rule, m->wall_rule);
   return GG_OK;
 }

@@ -245,6 +245,7 @@ static const struct {
     {GG_IF_TEMPERED, "but under shear, or with a bath, gaussian_rate or noise_strength", NULL, "",
      "shear, a bath, gaussian_rate or noise_strength"},
     {GG_IF_THERMAL_WALLS, "while walls.temperature is none", NULL, "", "walls.temperature is given"},
+    {GG_IF_ACCOMMODATION, "while walls.accommodation is 0", NULL, "", "walls.accommodation is not 0"},
     {GG_IF_WALL_RULE, "while every contact with a wall is by its temperature: walls.accommodation is 1", NULL, "",
      "walls.temperature is none, or walls.accommodation below 1"},
 };
@@ -285,8 +286,7 @@ static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
   case GG_IF_CONTACT_VALUE: return uses_contact_value(s, uses);
   case GG_IF_LOSSY:
     return gg_common_extension_law(s->extension).e || traits_of(s).lossy ||
-           (gg_flow_is_walled(s->flow) && !walls_are_thermal(s) &&
-            loses_energy(s->walls.e, s->walls.beta, s->walls.mu));
+           (gg_flow_is_walled(s->flow) && walls_have_rule(s) && loses_energy(s->walls.e, s->walls.beta, s->walls.mu));
   case GG_IF_ERROR: return has_error(s, uses);
   case GG_IF_ROUGH: return traits_of(s).rough;
   case GG_IF_LAW: return s->collision.law != GG_LAW_CONSTANT;
@@ -295,6 +295,7 @@ static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
   case GG_IF_WALL_BETA: return s->walls.beta != -1;
   case GG_IF_WALL_FRICTION: return s->walls.mu != 0;
   case GG_IF_THERMAL_WALLS: return s->walls.temperature[0] != GG_AUTO;
+  case GG_IF_ACCOMMODATION: return s->walls.accommodation > 0;
   case GG_IF_WALL_RULE: return walls_have_rule(s);
   case GG_IF_FRAMES: return s->output.trajectory_every > 0;
   case GG_IF_UNWALLED: return !gg_flow_is_walled(s->flow);
@@ -310,8 +311,8 @@ static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
   }
 }
 
-/* Keys that have no effect, by the reason. The last group has no keys. */
-enum { REASONS = CONDITIONS + 1 };
+/* Keys that have no effect, by the reason. Two more are of parts of keys; the last group has no keys. */
+enum { REASONS = CONDITIONS + 2 };
 typedef struct group {
   char reason[160], keys[600];
   int n;
@@ -387,6 +388,9 @@ void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_string_l
     else if (f->type == GG_FIELD_PAIRS)
       add_pairs(groups, f, scene);
   }
+  if (may_be_open(scene->flow) && scene->walls.top == GG_OPEN_TOP && walls_are_thermal(scene) &&
+      scene->walls.temperature[0] != scene->walls.temperature[1])
+    add_key(groups, "under an open top", "walls.temperature of the upper wall");
   for (const group *g = groups; g->n; g++)
     gg_base_string_list_add(lines, "%s %s no effect %s", g->keys, g->n > 1 ? "have" : "has", g->reason);
 }

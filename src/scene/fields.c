@@ -131,7 +131,7 @@ const gg_field gg_scene_fields[] = {
     {"walls.temperature", GG_FIELD_ENDS, AT(walls.temperature), SMALL, LARGE, false, NONE, .unit = "velocity^2",
      .doc = "temperature of the walls, of both or [lower, upper]: grains that touch leave with velocities and spins of "
             "a gas of it (times the mass of species 1); none: by walls.e, beta and mu",
-     .when = GG_IF_WALLED},
+     .when = GG_IF_WALLED | GG_IF_ACCOMMODATION},
     {"walls.accommodation", GG_FIELD_NUMBER, AT(walls.accommodation), 0, 1, .by_default = 1,
      .doc = "share of contacts in which a wall of a given temperature does so; the others are by walls.e, beta and mu",
      .when = GG_IF_WALLED | GG_IF_THERMAL_WALLS},

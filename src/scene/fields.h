@@ -60,7 +60,8 @@ enum {
   GG_IF_NOISE = 1u << 23,
   GG_IF_TEMPERED = 1u << 24,
   GG_IF_THERMAL_WALLS = 1u << 25,
-  GG_IF_WALL_RULE = 1u << 26
+  GG_IF_WALL_RULE = 1u << 26,
+  GG_IF_ACCOMMODATION = 1u << 27
 };
 
 typedef struct gg_field {

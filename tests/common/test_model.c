@@ -207,6 +207,19 @@ static void start_between_thermal_walls(void **state)
   assert_true(m.temperature0 > 1e6 * by_shear);
 }
 
+/* A wall that takes up some grains bounces the others: its e and beta still lose energy. */
+static void partly_thermal_walls(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  s.flow = GG_CHUTE, s.phi = 0.1, s.collision.e[0] = 1, s.walls.e = 0.5;
+  s.walls.temperature[0] = s.walls.temperature[1] = 1;
+  for (int k = 0; k < 3; k++) {
+    s.walls.accommodation = (const double[]){0, 0.001, 1}[k];
+    assert_true(make(&s).elastic == (k == 2));
+  }
+}
+
 /* Rates: 4 n d^2 chi sqrt(pi T), and the unit strings of sheared, thermal and Boltzmann scenes. */
 static void rates_and_units(void **state)
 {
@@ -342,6 +355,7 @@ int main(void)
       cmocka_unit_test(loss_to_others),
       cmocka_unit_test(scaled_temperature),
       cmocka_unit_test(start_between_thermal_walls),
+      cmocka_unit_test(partly_thermal_walls),
       cmocka_unit_test(rates_and_units),
       cmocka_unit_test(noise_replaces_losses),
       cmocka_unit_test(units_of_rates),

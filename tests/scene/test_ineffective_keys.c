@@ -60,6 +60,11 @@ static void flows(void **state)
   assert_line("{flow: couette, phi: 0.1, walls: {temperature: 2, accommodation: 0.5, e: 0.5}}", GG_USE_MD, NULL);
   assert_line("{flow: couette, phi: 0.1, walls: {accommodation: 0.5}}", GG_USE_MD,
               "walls.accommodation has no effect while walls.temperature is none");
+  assert_line("{flow: couette, phi: 0.1, walls: {temperature: 2, accommodation: 0}}", GG_USE_MD,
+              "walls.temperature has no effect while walls.accommodation is 0");
+  assert_line("{flow: chute, phi: 0.1, gravity: [1, -1, 0], walls: {temperature: [1, 2], top: open}}", GG_USE_MD,
+              "walls.temperature of the upper wall has no effect under an open top");
+  assert_line("{flow: chute, phi: 0.1, gravity: [1, -1, 0], walls: {temperature: 2, top: open}}", GG_USE_MD, NULL);
   assert_line("{flow: fourier, phi: 0.1, walls: {e: 0.5, mu: 1}}", GG_USE_MD,
               "walls.e, walls.mu have no effect while every contact with a wall is by its temperature: "
               "walls.accommodation is 1");
