@@ -164,6 +164,7 @@ static void set_pairs(gg_model *m, const gg_scene *s)
 static gg_status set_walls(gg_model *m, const gg_scene *s, double time_unit, gg_error *err)
 {
   bool spinless = m->rule == GG_SMOOTH;
+  m->elastic_grains = m->elastic;
   GG_TRY(gg_common_surfaces_make(s, !spinless, time_unit, m, err));
   m->walled = m->n_surfaces > 0;
   m->wall_rule = m->walled ? gg_common_rule_select(s->walls.beta, s->walls.mu) : GG_SMOOTH;

@@ -30,6 +30,7 @@ typedef struct gg_model {
   bool boltzmann;       /* phi = 0 */
   bool ensemble;        /* Monte Carlo: the number of grains is that of samples, not part of the problem */
   bool homogeneous;     /* no box: an ensemble that stands for one point of the flow (dsmc without walls) */
+  bool elastic_grains;  /* every collision between grains conserves energy */
   bool elastic;         /* every collision conserves energy: e = 1 and (smooth, or beta = 1 without sliding); of walls
                          * those without a temperature count */
   bool linear_response; /* of a cooling or heated gas to shear (linear_response.h) */
