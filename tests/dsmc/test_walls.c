@@ -240,6 +240,24 @@ static void stops_under_any_gravity(void **state)
   }
 }
 
+/* A step may shrink a hundredfold at once, while the flight of the one before is still owed. */
+static void step_has_shrunk(void **state)
+{
+  (void)state;
+  gg_scene s = full_scene(60);
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 8), *other;
+  gg_archive a = {0};
+  gg_error err;
+  gg_dsmc_gap_state *now = &((gg_dsmc_gap *)g)->now;
+  now->owed = 0.5 * now->step, now->step /= 100;
+  assert_int_equal(g->ops->save(g, &a, &err), GG_OK);
+  if (gg_dsmc_ops.restore(&m, &a, &other, &err) != GG_OK) fail_msg("%s", err.message);
+  other->ops->destroy(other);
+  gg_base_archive_clear(&a);
+  g->ops->destroy(g);
+}
+
 /* Whatever a byte of it becomes, a checkpoint is refused or an engine that runs. */
 static void damaged(void **state)
 {
@@ -453,6 +471,8 @@ int main(void)
                                      cmocka_unit_test(plain_is_the_same),
                                      cmocka_unit_test(restored_and_stopped),
                                      cmocka_unit_test(damaged),
+
+                                     cmocka_unit_test(step_has_shrunk),
                                      cmocka_unit_test(stops_under_any_gravity),
                                      cmocka_unit_test(walls_carry_the_pressure),
                                      cmocka_unit_test(columns_carry_their_weight),

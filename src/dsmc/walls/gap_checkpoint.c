@@ -59,14 +59,16 @@ static bool are_between(const double *x, size_t n, double least, double most)
   return true;
 }
 
+/* Temperature and step are those of the last measurement, after which the step may have shrunk at once, as between
+ * walls of very unlike temperatures; what is beyond these bounds no run has come from. */
 static bool is_state(const gg_dsmc_gap *d)
 {
   const gg_dsmc_gap_state *s = &d->now;
   const double crossing = d->model.box[1] / sqrt(s->temperature);
-  return is_between(s->temperature, 1e-300, 1e300) && is_between(s->step, 1e-12 * crossing, crossing) &&
-         is_between(s->owed, 0, 0.5 * s->step * 10) && is_between(s->rate, 0, 1e300) &&
-         is_between(s->all_rate, 0, 1e300) && is_between(s->time, -1e300, 1e300) &&
-         is_between(s->unmeasured, 0, 1e300) && is_between(s->gone, 0, 1e300) && s->asked >= 0 && s->keeps_sums <= 1;
+  return is_between(s->temperature, 1e-300, 1e300) && is_between(s->step, 1e-300, crossing) &&
+         is_between(s->owed, 0, 1e5 * crossing) && is_between(s->rate, 0, 1e300) && is_between(s->all_rate, 0, 1e300) &&
+         is_between(s->time, -1e300, 1e300) && is_between(s->unmeasured, 0, 1e300) && is_between(s->gone, 0, 1e300) &&
+         s->asked >= 0 && s->keeps_sums <= 1;
 }
 
 /* Heights between the walls, speeds of about the temperature, each grain once. */
@@ -90,7 +92,7 @@ static bool are_grains(const gg_dsmc_gap *d)
   if (g->s && !are_between((const double *)g->s, 3 * n, -1e150, 1e150)) return false;
   for (size_t i = 0; g->last && i < n; i++)
     if (!(g->last[i] <= d->now.time)) return false;
-  return is_between(energy / (3 * (double)n * d->now.temperature), 1e-4, 1e4);
+  return is_between(energy / (3 * (double)n * d->now.temperature), 1e-12, 1e12);
 }
 
 static bool are_cells(const gg_dsmc_gap *d)
@@ -102,7 +104,7 @@ static bool are_cells(const gg_dsmc_gap *d)
       !are_between(c->hits, n, 0, 1e300))
     return false;
   for (size_t k = 0; k < n * species * species; k++)
-    if (!is_between(c->majorant[k].now, 0, 1e6 * grains) || !is_between(c->majorant[k].before, 0, 1e6 * grains))
+    if (!is_between(c->majorant[k].now, 0, 1e9 * grains) || !is_between(c->majorant[k].before, 0, 1e9 * grains))
       return false;
   return true;
 }
