@@ -44,8 +44,9 @@ typedef struct gg_engine_state {
   uint64_t collisions;   /* grain-grain */
   uint64_t events;       /* md: everything taken from the queue; dsmc: candidate pairs */
   uint64_t treated;      /* md: collisions treated by the contact-time rule */
-  uint64_t wall_treated; /* md: the same for contacts with walls, which `collisions` does not count */
+  uint64_t wall_treated; /* the same for contacts with walls, which `collisions` does not count; dsmc: held up there */
   uint64_t overflows;    /* dsmc: candidates whose rate exceeded the majorant */
+  double overfilled;     /* dsmc between walls: share of grains where they fill more space than there is */
   double offset;         /* md, sheared: displacement along x of the image of the box above; else 0 */
   double worst_overlap;  /* md: largest overlap seen at a collision, in d; 0 otherwise */
   double time_step; /* dsmc: the present step, that of one sweep over all pairs of species; model units; 0 for md */

@@ -110,6 +110,7 @@ static void report_effort(const gg_replicas *all, gg_result *result)
     }
     sum->collisions += s.collisions, sum->events += s.events;
     sum->treated += s.treated, sum->wall_treated += s.wall_treated, sum->overflows += s.overflows;
+    sum->overfilled = fmax(sum->overfilled, s.overfilled);
     sum->worst_overlap = fmax(sum->worst_overlap, s.worst_overlap);
     if (all->state.averaging) {
       result->averaging.collisions += s.collisions - r->clock.window_collisions;
@@ -191,6 +192,9 @@ static void warn_if_walls_slip(gg_result *result)
                          : "; a flow that loses more energy than walls bring in so dies: give walls.mu a larger value");
 }
 
+/* Noise of mean numbers, and a layer at a wall of a dense gas, are less. */
+#define MOST_OVERFILLED 0.01
+
 static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_result *result)
 {
   const gg_engine_state *s = &result->engine_state;
@@ -211,8 +215,14 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
     gg_run_result_warn(result, "%.3g %% of collisions fell under the contact-time rule (e = 1 within t_c)",
                        100 * (double)s->treated / (double)s->collisions);
   if (s->wall_treated > s->collisions / 100)
-    gg_run_result_warn(result, "%.3g contacts with walls fell under the contact-time rule: grains rest on a wall",
-                       (double)s->wall_treated);
+    gg_run_result_warn(result, "%.3g contacts with walls %s: grains rest on a wall", (double)s->wall_treated,
+                       all->model.ensemble ? "would have left a grain at rest, which bounced for 1/64 of a step instead"
+                                           : "fell under the contact-time rule");
+  if (s->overfilled > MOST_OVERFILLED)
+    gg_run_result_warn(result,
+                       "%.2g %% of grains are where they would fill more than 0.63 of space: Enskog's theory has no "
+                       "packed beds, and Monte Carlo packs grains beyond what fits; use engine: md",
+                       100 * s->overfilled);
   warn_if_structured(result);
   warn_if_narrow(result);
   warn_if_walls_slip(result);

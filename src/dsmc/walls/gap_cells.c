@@ -16,7 +16,8 @@
 #define LAYERS_FADE 0.005
 /* At least so many cells across the gap; of an open top, up to so many heights of the box. */
 enum { LEAST_CELLS = 20, OPEN_HEIGHTS = 8 };
-/* Contact values rise without end towards close packing; mean numbers that a start makes may go beyond. */
+/* Contact values rise without end towards close packing; mean numbers of a start, or of a bed that gravity packs, go
+ * beyond. */
 #define MOST_FILLED 0.63
 
 double gg_dsmc_gap_cell_width(const gg_model *m)
@@ -152,10 +153,14 @@ void gg_dsmc_gap_set_chi(gg_dsmc_gap *d)
   const gg_model *m = &d->model;
   gg_dsmc_gap_cells *c = &d->cells;
   const gg_contact_value kind = m->contact_value;
+  double beyond = 0;
   for (int place = 0; place < 2 * c->n; place++) {
     double filled = 0, over_d = 0;
     if (!m->boltzmann) filling_at(d, place, &filled, &over_d);
-    if (filled > MOST_FILLED) over_d *= MOST_FILLED / filled, filled = MOST_FILLED;
+    if (filled > MOST_FILLED) {
+      over_d *= MOST_FILLED / filled, filled = MOST_FILLED;
+      for (int s = 0; place % 2 == 0 && s < m->n_species; s++) beyond += c->mean[place / 2 * m->n_species + s];
+    }
     for (int i = 0; i < m->n_species; i++)
       for (int j = i; j < m->n_species; j++)
         c->chi[gg_pair(i, j) * 2 * c->n + place] =
@@ -165,6 +170,7 @@ void gg_dsmc_gap_set_chi(gg_dsmc_gap *d)
                 : gg_common_contact_value_mixture(
                       filled, over_d, 2 * m->diameter[i] * m->diameter[j] / (m->diameter[i] + m->diameter[j]));
   }
+  c->overfilled = beyond / (double)m->n;
 }
 
 /* Longer than this share of a thermal crossing of the gap no step is, whether grains collide or not. */

@@ -143,6 +143,7 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .events = s->candidates,
                              .overflows = s->overflows,
                              .wall_treated = s->rests,
+                             .overfilled = const_gap_of(engine)->cells.overfilled,
                              .time_step = s->step,
                              .time_step_bias = GG_GAP_BIAS_OF_STEP * h * h};
 }
