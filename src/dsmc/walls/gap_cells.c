@@ -176,18 +176,19 @@ void gg_dsmc_gap_set_chi(gg_dsmc_gap *d)
 /* Longer than this share of a thermal crossing of the gap no step is, whether grains collide or not. */
 #define MOST_OF_CROSSING 0.25
 
-/* Nor longer than gravity takes for so many thermal speeds, those of grains that leave a cold wall included: else a
- * flight cuts as many contacts with walls, and a run could not be stopped for minutes. */
+/* Nor longer than gravity takes across the gap, or for so many thermal speeds of a grain that leaves a thermal wall:
+ * else a flight cuts contacts with walls without end, and a run could not be stopped for minutes. Neither depends on
+ * the temperature of grains, which in a bed falls with the step (gap_flight.c: the shortest hop). */
 #define MOST_FALL 16
 
-static double slowest(const gg_dsmc_gap *d)
+static double longest_fall(const gg_model *m, double g)
 {
-  const gg_model *m = &d->model;
-  double T = d->now.temperature, heaviest = 0;
+  double longest = 2 * sqrt(m->box[1] / g), heaviest = 0;
   for (int s = 0; s < m->n_species; s++) heaviest = fmax(heaviest, m->mass[s]);
   for (int w = 0; w < m->n_surfaces; w++)
-    if (m->surface[w].accommodation > 0) T = fmin(T, m->surface[w].temperature);
-  return sqrt(T / heaviest);
+    if (m->surface[w].accommodation > 0)
+      longest = fmin(longest, MOST_FALL * sqrt(m->surface[w].temperature / heaviest) / g);
+  return longest;
 }
 
 /* A run that asks for an error takes steps whose bias is so small a share of it. */
@@ -206,7 +207,7 @@ void gg_dsmc_gap_choose_step(gg_dsmc_gap *d)
   const double crossing = d->model.box[1] / sqrt(s->temperature);
   s->step = fmin(gg_dsmc_gap_free_times(&d->model) / s->rate, MOST_OF_CROSSING * crossing);
   const double g2 = gg_dot(d->gravity, d->gravity);
-  if (g2 > 0) s->step = fmin(s->step, MOST_FALL * slowest(d) / sqrt(g2));
+  if (g2 > 0) s->step = fmin(s->step, longest_fall(&d->model, sqrt(g2)));
 }
 
 static double temperature_of(const gg_dsmc_gap *d)
