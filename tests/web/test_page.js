@@ -75,7 +75,7 @@ const tests = {
 
   "a page with a scene in it begins with that": async () => {
     const out = path.join(browser.home, "own.html");
-    terminal("{flow: chute, phi: 0.2, particles: 300, collision: {e: 0.8}}", "page", "--quiet", "--output", out);
+    terminal("{flow: chute, phi: 0.2, particles: 300, collision: {e: 0.8}}", "page", "--page", file, "--quiet", "--output", out);
     const tab = await browser.open(out);
     await tab.until(READY, quick);
     assert.deepStrictEqual(
