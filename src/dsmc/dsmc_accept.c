@@ -18,7 +18,7 @@ gg_status gg_dsmc_accepts(const gg_model *m, gg_error *err)
     return gg_base_fail(err, GG_BAD_INPUT, "dsmc.precision: this build of graingas has double precision only");
 #endif
   if (m->n > UINT32_MAX / 2) return gg_base_fail(err, GG_BAD_INPUT, "dsmc.particles: at most %u", UINT32_MAX / 2);
-  if (m->time_step == 0 || m->time_step > 1)
-    return gg_base_fail(err, GG_BAD_INPUT, "dsmc.time_step: in mean free times, above 0 and up to 1, or auto");
+  if (m->time_step == 0 || m->time_step > 10)
+    return gg_base_fail(err, GG_BAD_INPUT, "dsmc.time_step: in mean free times, above 0 and up to 10, or auto");
   return GG_OK;
 }
