@@ -283,8 +283,7 @@ gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const ch
         err, GG_BAD_INPUT,
         "key '%.60s': cannot be changed on the way; allowed: collision.*, bath.*, thermostat, gaussian_rate, "
         "noise_strength, md.contact_time, dsmc.time_step, walls.e, walls.beta, walls.mu, walls.temperature, "
-        "walls.accommodation, "
-        "gravity",
+        "walls.accommodation, gravity",
         key);
   GG_USE_ALONE(simulation);
   gg_scene changed = simulation->scene;

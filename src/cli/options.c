@@ -46,7 +46,7 @@ const gg_option gg_cli_options_table[] = {
     {GG_OPT_VALIDATE, "theories", "THEORIES",
      "theories in the maps, separated by commas (default: lun1991 and those of the file)"},
     {GG_OPT_VALIDATE, "page", "FILE", "write maps, counts and tables as a page of Markdown"},
-    {GG_OPT_PAGE, "page", "FILE", "the page of a release, or as it was built (default: the installed one)"},
+    {GG_OPT_PAGE, "page", "FILE", "the page of a release, or one that was built (default: the installed one)"},
     {GG_OPT_SWEEP, "slurm", NULL, "print a Slurm script for an array of tasks; run nothing"},
     {GG_OPT_SWEEP | GG_OPT_VALIDATE, "output", "FOLDER",
      "folder of the points' files (default: NAME.sweep, in the current folder)"},

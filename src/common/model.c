@@ -190,7 +190,7 @@ static double guess_sheared_temperature(const gg_model *m)
 static double temperature_of_walls(const gg_model *m)
 {
   double product = 1;
-  if (m->n_surfaces == 0 || m->surface[0].accommodation == 0) return 0;
+  if (!gg_model_has_thermal_walls(m)) return 0;
   for (int w = 0; w < m->n_surfaces; w++) product *= m->surface[w].temperature;
   return m->n_surfaces > 1 ? sqrt(product) : product;
 }

@@ -106,6 +106,12 @@ void gg_common_model_at(gg_model *model, double T);
 /* What contact times count in, in words: under gravity that of a fall, unless it is too weak (md/contact_time.c). */
 const char *gg_common_model_contact_unit(const gg_model *model);
 
+/* Does a wall of a temperature of its own warm or cool the gas? All walls have one, or none. */
+static inline bool gg_model_has_thermal_walls(const gg_model *m)
+{
+  return m->n_surfaces > 0 && m->surface[0].accommodation > 0;
+}
+
 /* Do collisions of these two species destroy energy? */
 bool gg_common_pair_loses(const gg_model *model, int i, int j);
 

@@ -4,8 +4,8 @@
  * Grains carry: sums over all samples of the window, about a straight line of velocity and one of spin in each slab, as
  * in profiles.c. Collisions pass on over the line between both centres (Irving & Kirkwood, J. Chem. Phys. 18 (1950)
  * 817; Todd, Evans & Daivis, Phys. Rev. E 52 (1995) 1627): each slab has the share of the line that lies in it. What
- * passes from grain 1 to 2 (at heights that are sigma k_y apart, or, in Monte Carlo, what its cells make of that) is
- * the impulse J, half of what 2 gains in energy less what 1 gains, the same of the spin's angular momentum about z; the
+ * passes from grain 1 to 2 is the impulse J, half of what 2 gains in energy less what 1 gains, and the same of the
+ * spin's angular momentum about z. Their heights are sigma k_y apart, in Monte Carlo as far as its cells have it. The
  * energy that both lose goes at the centres, half at each. A wall is a partner at its place: between it and the centre
  * of a grain that touches, fluxes are those through the wall.
  *
@@ -21,7 +21,7 @@
 
 #include "base/memory.h"
 #include "common/surface/surface.h"
-#include "measure/gap.h"
+#include "measure/gap_slabs.h"
 #include "measure/observable.h"
 
 /* Sums over grains with the weight q of a field w, velocity (q = m) or omega (q = I); h: height above the middle of the
@@ -368,11 +368,6 @@ static void terms_of(const fluxes *d, const slab *slabs, const profile *p, int i
   term[RESIDUAL] = term[DIVERGENCE] - term[WORK] + term[LOSS];
 }
 
-static const char *unit_of_power(const gg_model *m)
-{
-  return gg_common_quantity_unit(GG_Q_DISSIPATION, m);
-}
-
 static const struct {
   const char *name, *label; /* profile_<name>, profile_<name>_kinetic, ... */
   gg_quantity like;         /* has its unit; of couple stress times a length */
@@ -462,7 +457,7 @@ static void put_terms(const fluxes *d, const slab *slabs, const profile *p, gg_c
 {
   for (int t = 0; t < TERMS; t++) {
     gg_curve *c = new_curve(d, list, (size_t)d->slabs - 1, terms[t].name, "balance of energy", terms[t].label,
-                            unit_of_power(&d->model));
+                            gg_common_quantity_unit(GG_Q_DISSIPATION, &d->model));
     for (size_t i = 0; i < c->n; i++) {
       double term[TERMS];
       terms_of(d, slabs, p, (int)i, term);

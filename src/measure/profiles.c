@@ -11,7 +11,7 @@
 
 #include "base/memory.h"
 #include "common/surface/shapes.h"
-#include "measure/gap.h"
+#include "measure/gap_slabs.h"
 #include "measure/observable.h"
 
 /* Sums over a slab: pi/6 d^3, grains, omega_z; then with the weight w = m of v = C and with w = I of v = omega: w, w v,

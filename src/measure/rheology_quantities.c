@@ -142,7 +142,7 @@ static double energy_balance(const double *a, const gg_model *m)
   double work = m->walled  ? a[CH_WALL_WORK]
                 : m->frame ? a[CH_WALL_WORK] - a[CH_PC_XY] * m->shear_rate
                            : -total_xy(a, m) * m->shear_rate;
-  if (m->n_surfaces > 0 && m->surface[0].accommodation > 0) return (work - a[CH_WALL_LOSS] - a[CH_GROWTH]) / a[CH_LOSS];
+  if (gg_model_has_thermal_walls(m)) return (work - a[CH_WALL_LOSS] - a[CH_GROWTH]) / a[CH_LOSS];
   return (work - a[CH_GROWTH]) / (a[CH_LOSS] + a[CH_WALL_LOSS]);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Enskog Monte Carlo between walls. Identities: what grains lose of momentum and energy is what walls and collisions
- * took, to rounding; a restored or stopped engine goes on bit for bit; candidates one by one are the same as some at
+ * took, to rounding; a restored or stopped engine continues bit for bit; candidates one by one are the same as some at
  * once. Limits: elastic grains between smooth elastic walls are in
  * equilibrium, with the pressure n T Z(phi) on both walls and Enskog's collision rate; a column is barometric, and
  * carries its weight; sheared between thermal walls the core has Enskog's viscosity, and

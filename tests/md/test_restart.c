@@ -108,7 +108,7 @@ static void note(void *context, const gg_chunk *chunk)
 }
 
 /* The next sweep of a linear response begins in the same places at the same time, with a multiple of the peculiar
- * velocities; nobody overlaps then or later; and it goes on from a checkpoint bit for bit. */
+ * velocities; nobody overlaps then or later; and it continues from a checkpoint bit for bit. */
 static void sweeps(void **state)
 {
   (void)state;

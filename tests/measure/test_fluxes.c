@@ -6,7 +6,7 @@
  * of energy closes where grains lose energy, and the parts average to the quantities of the run. */
 #include "curve_test.h"
 
-#include "measure/gap.h"
+#include "measure/gap_slabs.h"
 
 /* ---- Conservation */
 

@@ -105,7 +105,7 @@ static void dense(void **state)
   }
 }
 
-/* Molecular dynamics of elastic grains at phi = 0.3, where it is Enskog's within what is asked (4.148(48) of 1000
+/* Molecular dynamics of elastic grains at phi = 0.3, where it is Enskog's within the requested error (4.148(48) of 1000
  * grains, noise-free 4.146), and of grains that cool, in a box far from its instability. */
 static void molecular_dynamics(void **state)
 {

@@ -109,8 +109,8 @@ static void less_than_a_sweep(void **state)
   gg_result_free(r);
 }
 
-/* Friction too weak to bring spins down with velocities: no mean of theta/T, and it is said; without its limit there is
- * one. */
+/* Friction too weak to bring spins down with velocities: no mean of theta/T, and the run says so; without its limit
+ * there is one. */
 static void spins_run_away(void **state)
 {
   (void)state;

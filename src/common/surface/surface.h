@@ -22,8 +22,8 @@ typedef struct gg_surface {
   double place;    /* ... and begins there */
   double radius;   /* of curved shapes */
   gg_vec velocity; /* of the material */
-  double temperature,
-      accommodation; /* of a thermal wall (collide.h), and the share of contacts that it rules; 0: none */
+  double temperature;                 /* of a thermal wall (collide.h), */
+  double accommodation;               /* and the share of contacts that it rules; 0: none */
   gg_contact contact[GG_MAX_SPECIES]; /* grain (1) against the surface (2) */
   gg_contact treated[GG_MAX_SPECIES]; /* the same with e = 1, for the contact-time rule */
 } gg_surface;

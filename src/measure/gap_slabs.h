@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Slabs across the gap between walls, which profiles are of; and what its symmetry makes of them. */
-#ifndef GG_GAP_H
-#define GG_GAP_H
+#ifndef GG_GAP_SLABS_H
+#define GG_GAP_SLABS_H
 
 #include <math.h>
 
