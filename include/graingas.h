@@ -1479,7 +1479,7 @@ typedef struct gg_collecting {
   const char *log;         /* logarithmic axes: "x", "y", "xy" or "none"; NULL: y where its values span decades */
   const char *relative_to; /* method: the picture has deviations from it; NULL: the numbers themselves */
   const char *theories;    /* in the picture, with commas; NULL: all */
-  /* Theories are evaluated between the points, too, at forty values of the axis, and kept in FOLDER/lines. */
+  /* Theories are evaluated between the points, too, at twenty-five values of the axis, and kept in FOLDER/lines. */
   int threads;                                                        /* for that; 0: one */
   void (*progress)(void *context, const gg_sweep_progress *progress); /* of that; NULL: nobody told */
   int (*stop)(void *context);                                         /* not 0: the lines end at what there is */

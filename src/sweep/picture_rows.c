@@ -9,7 +9,7 @@
 #include "run/z_scores.h"
 #include "sweep/grid_view.h"
 
-enum { LINE_POINTS = 40 };
+enum { LINE_POINTS = 25 };
 
 bool gg_sweep_list_has(const char *list, const char *word)
 {

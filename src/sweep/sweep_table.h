@@ -86,7 +86,7 @@ gg_status gg_sweep_picture_check(const gg_point_table *table, const gg_sweep *sw
 
 gg_status gg_sweep_point_table_draw(const gg_point_table *table, const gg_sweep *sweep, const gg_picture_choice *choice,
                                     const char *picture, const char *width, gg_error *err);
-/* picture_rows.c: the theories at forty values of the axis, for each combination; to be run, read and freed. *lines is
+/* picture_rows.c: the theories at twenty-five values of the axis, for each combination; to be run, read and freed. *lines is
  * NULL where there are none: keys change with that of the axis, or it takes whole numbers. */
 gg_status gg_sweep_lines_make(const gg_sweep *sweep, const gg_picture_axis *axis, gg_sweep **lines, gg_error *err);
 void gg_sweep_lines_free(gg_sweep *lines, const gg_picture_axis *axis);

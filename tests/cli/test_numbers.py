@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers in print: what is read off curves, with errors in the last digits and z, and the rates that bench prints."""
+"""Numbers in print: what is read off curves, with errors in the last digits and z."""
 import json
 import re
 import sys
@@ -78,33 +78,6 @@ def test_numbers_off_curves():
                 check(abs(float(cells["z"]) - z) < 0.051, cells["z"], z)
     check(("pair_correlation", "contact_value") in table and not table["pair_correlation", "contact_value"]["dsmc"])
     check(table["orientation_cos", "Lambda"]["z"])
-
-
-def ratios_are_whole(rows, by):
-    """Every scene at every density once, its ratio within its range, the one it is set beside among the rows."""
-    seen = {(r["scene"], r["phi"]) for r in rows}
-    check(len(seen) == len(rows) == len({s for s, _ in seen}) * len({phi for _, phi in seen}), sorted(seen))
-    for r in rows:
-        check((r["against"], r["phi"]) in seen and 0 < r["ratio_lowest"] <= r["ratio"] <= r["ratio_highest"], r)
-        check(r["scene"] != r["against"] or r["ratio"] == 1, r)
-        check(r["unit"] == by, r)
-    return {s for s, _ in seen}
-
-
-def test_bench_md():
-    """The table by size and density, and a ratio for every feature. Times themselves are not asserted; the other tables
-    are those of tests/bench."""
-    done = run("bench", "md", "--quick", "--json", "--quiet", timeout=300)
-    check(done.code == 0, done.err)
-    rows = [json.loads(line) for line in done.out.splitlines()]
-    rates = [r for r in rows if r["name"].startswith("collisions:")]
-    cells = {(r["phi"], r["particles"]) for r in rates}
-    check(cells == {(phi, n) for phi in (0.01, 0.3, 0.5) for n in (1000, 10000)} and len(rates) == 6, cells)
-    for r in rows:
-        check(0 < r["lowest"] <= r["value"] <= r["highest"], r)
-    ratios = [r for r in rows if "ratio" in r]
-    scenes = ratios_are_whole([r for r in ratios if r["unit"] == "collisions per CPU-second"], "collisions per CPU-second")
-    check({"smooth", "rough", "two species", "walls", "walls, gravity", "sheared frictional", "white noise, e = 0.9"} < scenes, scenes)
 
 
 if __name__ == "__main__":
