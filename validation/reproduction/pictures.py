@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A figure as a picture, by matplotlib, in the style of graingas.plot: a colour and a symbol for each line, dashes for
-theories. Filled symbols are md, half-filled ones dsmc where both are shown, open ones points that are not settled."""
+theories. Filled symbols are md, half-filled ones and broken lines of curves dsmc where both are shown, open ones points
+that are not settled."""
 import io
 import os
 import re
@@ -19,6 +20,7 @@ from matplotlib import pyplot  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 MARKERS = "osD^vPX"
+BROKEN = (0, (4, 1.5))  # curves of dsmc
 COLUMNS, WIDTH, HEIGHT, BESIDE = 3, 3.0, 2.4, 1.1  # panels side by side; inches, of a legend beside a panel, too
 MOST_SHOWN = 12  # snapshots
 LARGEST = 500_000  # bytes of an SVG; above it curves become pixels
@@ -98,8 +100,8 @@ class _Drawing:
         x, _, y, error = line.columns
         settled, colour = line.rows[0][4], self._colour(line.group)
         self.unsettled |= not settled
-        self.ax.plot(x, y, color=colour, linestyle="-" if settled else (0, (1, 1)), alpha=1 if line.method == "md" else 0.6,
-                     rasterized=self.rasterized)
+        solid = BROKEN if self.both and line.method == "dsmc" else "-"
+        self.ax.plot(x, y, color=colour, linestyle=solid if settled else (0, (1, 1)), rasterized=self.rasterized)
         known = np.isfinite(error)
         if known.any():
             self.ax.fill_between(x[known], (y - error)[known], (y + error)[known], color=colour, alpha=0.25, linewidth=0,
@@ -122,6 +124,9 @@ class _Drawing:
         if self.both and points:
             found += [Line2D([], [], label="md", **mark),
                       Line2D([], [], label="dsmc", fillstyle="bottom", markerfacecoloralt="white", **mark)]
+        elif self.both:
+            found += [Line2D([], [], label="md", color="black"),
+                      Line2D([], [], label="dsmc", color="black", linestyle=BROKEN)]
         if self.unsettled:
             found.append(Line2D([], [], label="not settled", fillstyle="none", **mark) if points
                          else Line2D([], [], label="not settled", color="black", linestyle=(0, (1, 1))))
