@@ -182,6 +182,8 @@ const char *gg_common_quantity_unit(gg_quantity q, const gg_model *model)
 const char *gg_common_model_missing(const gg_model *m, unsigned needs)
 {
   const bool smooth = m->rule == GG_SMOOTH, cools = gg_flow_cools(m->flow), heated = gg_flow_is_heated(m->flow);
+  const bool rests = m->elastic && !m->walled && (cools || m->flow == GG_EQUILIBRIUM);
+  const bool fluctuates = rests && !m->homogeneous;
   const bool alike = m->n_surfaces < 2 || m->surface[0].temperature == m->surface[1].temperature;
   const struct {
     unsigned need;
@@ -208,12 +210,14 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
       {GG_NEEDS_COOLING, heated && !smooth, "the energy loss of rough grains does not depend on one temperature alone"},
       {GG_NEEDS_NO_SHEAR, m->shear_rate != 0, "see the kurtosis in sheared flows"},
       {GG_NEEDS_ONE_SPECIES, m->n_species > 1, "see c_1 and c_2 for mixtures"},
-      {GG_NEEDS_LINEAR_RESPONSE, !m->linear_response, "needs the linear response: flow: small_shear"},
+      {GG_NEEDS_LINEAR_RESPONSE, !m->linear_response && !fluctuates,
+       "needs flow: small_shear; or md of elastic grains at rest"},
+      {GG_NEEDS_FLUCTUATIONS, !fluctuates, "measured in md of elastic grains at rest"},
       {GG_NEEDS_THEORY, true, "given by theories only; see graingas theory"},
       {GG_NEEDS_HEAT_FLUX, m->shear_rate != 0 || m->walled || heated, "only in cooling gases and at rest"},
       {GG_NEEDS_HEAT_FLUX, m->n_species > 1 || !smooth, "measured of smooth grains of one species"},
       {GG_NEEDS_HEAT_FLUX, m->law.name != NULL, "with a law of restitution the cooling gas is never the same"},
-      {GG_NEEDS_HEAT_FLUX, !m->homogeneous, "needs engine: dsmc"},
+      {GG_NEEDS_HEAT_FLUX, !m->homogeneous && !fluctuates, "needs engine: dsmc, or elastic grains"},
       {GG_NEEDS_MIXTURE, m->n_species == 1, "there is one species only"},
   };
   for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
@@ -233,8 +237,10 @@ const char *gg_common_quantity_when(gg_quantity q, char *text, size_t size)
     const char *words;
   } words[] = {
       {GG_NEEDS_THEORY, "theories only"},
-      {GG_NEEDS_LINEAR_RESPONSE, "flow: small_shear"},
-      {GG_NEEDS_HEAT_FLUX, "dsmc with measure: conductivity; smooth grains, one species, cooling or at rest"},
+      {GG_NEEDS_LINEAR_RESPONSE, "flow: small_shear; md of elastic grains at rest with measure: helfand"},
+      {GG_NEEDS_FLUCTUATIONS, "md of elastic grains at rest with measure: helfand"},
+      {GG_NEEDS_HEAT_FLUX, "dsmc with measure: conductivity, cooling or at rest; md of elastic grains with measure: "
+                           "helfand; smooth grains, one species"},
       {GG_NEEDS_SPINS, "rough grains"},
       {GG_NEEDS_MEAN_SPIN, "shear without walls, phi above 0"},
       {GG_NEEDS_SHEAR, "shear"},

@@ -28,7 +28,8 @@ enum {
   GG_NEEDS_WALLS = 1u << 22,
   GG_NEEDS_NO_WALLS = 1u << 23,
   GG_NEEDS_UNEQUAL_WALLS = 1u << 25, /* of two temperatures */
-  GG_NEEDS_HEAT_FLUX = 1u << 24,     /* of linear response, in dsmc: smooth grains of one species, cooling or at rest */
+  GG_NEEDS_HEAT_FLUX = 1u << 24,     /* of linear response: smooth grains of one species; dsmc or fluctuations */
+  GG_NEEDS_FLUCTUATIONS = 1u << 26,  /* whose decay is that of linear response: elastic grains at rest, in md */
 
   GG_KEPT_HEATING = 1u << 15,      /* free of the temperature's scale: has a meaning as a mean in a gas that heats up */
   GG_MONITORED = 1u << 16,         /* relaxes slowly: a run is not steady while it has a trend */
@@ -189,7 +190,7 @@ enum {
   ONE(DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED, "diffusive_heat_conductivity_reduced", "μ*", "", NONE, GG_NEEDS_HEAT_FLUX,  \
       "n mu/(T kappa_0): heat flux along -grad n of a cooling gas; 0 for elastic grains",                              \
       "\\mu^* = \\frac{4 m\\nu_0\\,\\mu}{15\\,T^2}")                                                                   \
-  ONE(BULK_VISCOSITY_REDUCED, "bulk_viscosity_reduced", "η_b*", "", NONE, GG_NEEDS_THEORY,                             \
+  ONE(BULK_VISCOSITY_REDUCED, "bulk_viscosity_reduced", "η_b*", "", NONE, GG_NEEDS_FLUCTUATIONS,                       \
       "nu_0 eta_b/(n T): bulk viscosity; of smooth grains by collisions alone",                                        \
       "\\eta_b^* = \\frac{\\nu_0\\,\\eta_b}{nT}")                                                                      \
   ONE(ROTATIONAL_CONDUCTIVITY_REDUCED, "rotational_conductivity_reduced", "κ_r*", "", NONE, GG_HEAT_OF_SPINS,          \

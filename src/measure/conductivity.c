@@ -49,7 +49,8 @@ typedef struct conductivity {
 
 static const char *refuses(const gg_model *m)
 {
-  return gg_common_model_missing(m, GG_NEEDS_HEAT_FLUX);
+  const char *reason = gg_common_model_missing(m, GG_NEEDS_HEAT_FLUX);
+  return reason || m->homogeneous ? reason : "needs engine: dsmc; in md measure helfand";
 }
 
 static void destroy(void *self)

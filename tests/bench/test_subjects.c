@@ -224,7 +224,8 @@ static void observables(void **state)
   size_t next = 0;
   double most = -1;
   for (int r = 0; r < s->n_rows; r++) {
-    bool of_md = strcmp(s->cell[r][0], "conductivity") != 0, of_dsmc = true;
+    const bool elastic = strcmp(s->cell[r][0], "helfand") == 0;
+    bool of_md = !elastic && strcmp(s->cell[r][0], "conductivity") != 0, of_dsmc = !elastic;
     for (size_t k = 0; k < sizeof md_alone / sizeof *md_alone; k++) of_dsmc &= strcmp(s->cell[r][0], md_alone[k]) != 0;
     for (int c = 1; c < s->n_columns; c++) {
       bool dsmc = strncmp(s->head[c], "dsmc", 4) == 0, there = strcmp(s->cell[r][c], "-") != 0;

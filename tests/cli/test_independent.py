@@ -1079,6 +1079,73 @@ def test_conductivity():
         check(abs(r["mean"] - value) < 4 * (r["stderr"] ** 2 + own ** 2) ** 0.5, name, r, value, own)
 
 
+def chi(i, j, x):
+    """Of two species at contact: Boublik and Mansoori; of one Carnahan and Starling."""
+    xi = [PHI * sum(x[k] * d[k] ** p for k in range(2)) / sum(x[k] * d[k] ** 3 for k in range(2)) for p in range(4)]
+    y = d[i] * d[j] / (d[i] + d[j]) * xi[2] / (1 - PHI)
+    return (1 + 3 * y + 2 * y * y) / (1 - PHI)
+
+
+def moments(store):
+    """Growth of Helfand's moments from sample to sample: heat (3) and stress (9, symmetric), kinetic and in all. A flux
+    lasts from a collision to the sample after it, whatever comes between."""
+    c, mass = Followed(store, "equilibrium").c, m[store.pair][..., None]
+    after = c + store.J[:, None] * np.array([-1, 1])[:, None] / mass
+
+    def flux(mass, c):
+        heat, stress = mass * (c * c).sum(-1, keepdims=True) * c / 2, mass[..., None] * c[..., :, None] * c[..., None, :]
+        return np.concatenate([heat, stress.reshape(c.shape[:-1] + (9,))], -1)
+
+    left = store.state[store.event_row, 0] - store.event_time
+    kinetic = per_row(store, left[:, None] * (flux(mass, after) - flux(mass, c)).sum(1))
+    kinetic[1:] += (flux(m[store.species][:, None], store.velocity).sum(1)[:-1]) * store.elapsed[1:, None]
+    way = d[store.pair].mean(1)[:, None] * store.k
+    energy = (m[store.pair[:, 1]] / 2 * ((after[:, 1] ** 2).sum(1) - (c[:, 1] ** 2).sum(1)))[:, None]
+    stress = way[:, :, None] * store.J[:, None, :]
+    jumps = np.concatenate([way * energy, ((stress + stress.transpose(0, 2, 1)) / 2).reshape(-1, 9)], 1)
+    return kinetic, kinetic + per_row(store, jumps)
+
+
+def test_helfand():
+    """Of one species, and of two: integrals to the sixth interval, all of them in double sums over samples."""
+    last, trace = 6, np.eye(3).reshape(9) / 3
+    for species in None, SPECIES:
+        scene = {"flow": "equilibrium", "engine": "md", "phi": PHI, "particles": N, "measure": ["rheology", "helfand"],
+                 "run": {"warmup": WARMUP, "collisions": COLLISIONS}, "output": {"trajectory_every": 1e-9}}
+        stored(dict(scene, species=species) if species else scene, SINGLE)
+        store = Store(False)
+        done = run("run", "scene.yaml", "--quiet", "--json", "--set", f"run.replicas={REPLICAS}", "--output", "r.h5")
+        check(done.code == 0, done.err)
+        results = json.loads(done.out)["results"]
+        kinetic, whole = moments(store)
+        V = np.prod(box_of(store, "equilibrium"))
+        T = (m[store.species][:, None] * store.velocity[-1] ** 2).sum() / (3 * N)
+        x = [(store.species == i).sum() / N for i in range(2)]
+        Z = 1 + 2 * np.pi / 3 * N / V * sum(x[i] * x[j] * ((d[i] + d[j]) / 2) ** 3 * chi(i, j, x) for i in range(2) for j in range(2))
+        sums, bulk, rows, time = np.zeros(4), np.zeros(2), 0, 0
+        for r in range(REPLICAS):
+            of = np.where((store.replica == r) & window_of(store, REPLICAS))[0][1:]  # the first one only begins
+            a, k = whole[of], kinetic[of]
+            p = a[:, 3:] @ trace - N * T * Z * store.elapsed[of]
+            shear, shear_k = (u[:, 3:] - np.outer(3 * u[:, 3:] @ trace, trace) for u in (a, k))
+            for i in range(last, len(of)):
+                for j in range(i - last, i + 1):
+                    half = 0.5 if i == j else 1
+                    sums += half * np.array([a[i, :3] @ a[j, :3] / 3, (a[i, :3] @ k[j, :3] + k[i, :3] @ a[j, :3]) / 6,
+                                             shear[i] @ shear[j] / 10, (shear[i] @ shear_k[j] + shear_k[i] @ shear[j]) / 20])
+                    bulk[0] += half * p[i] * p[j]
+                bulk[1] += p[i]
+                rows, time = rows + 1, time + store.elapsed[of[i]]
+        eta, eta_b = sums[2:], bulk[0] - (last + 0.5) * bulk[1] ** 2 / rows
+        nu0 = 3.2 * (np.pi * T) ** 0.5 * N / V if not species else np.pi ** 0.5 * N / V * d.mean() ** 2 * (2 * T * (1 / m).sum()) ** 0.5
+        scale = nu0 / (N * T) / (time * T)
+        right = {"viscosity_reduced": eta[0], "viscosity_reduced_kinetic": eta[1], "bulk_viscosity_reduced": eta_b}
+        if not species:
+            right.update({"thermal_conductivity_reduced": 4 / 15 / T * sums[0], "thermal_conductivity_reduced_kinetic": 4 / 15 / T * sums[1]})
+        for name, value in right.items():
+            close(results[name]["mean"], scale * value, name, species, within=1e-8)
+
+
 for _flow in FLOWS:
     for _kind in COLLISION:
         for _frame in ["imposed"] + FRAMES.get((_flow, _kind), []):

@@ -68,7 +68,7 @@ static void needs(void **state)
        "there is one species only"},
       {{.flow = GG_USF, .rule = GG_ROUGH, .shear_rate = 1, .n_species = 2},
        GG_NEEDS_LINEAR_RESPONSE,
-       "needs the linear response: flow: small_shear"},
+       "needs flow: small_shear; or md of elastic grains at rest"},
       {{.flow = GG_USF, .rule = GG_ROUGH, .shear_rate = 1, .n_species = 2, .linear_response = true, .elastic = true},
        GG_NEEDS_LOSS,
        "collisions conserve energy"},
