@@ -193,6 +193,9 @@ enum {
   ONE(BULK_VISCOSITY_REDUCED, "bulk_viscosity_reduced", "η_b*", "", NONE, GG_NEEDS_FLUCTUATIONS,                       \
       "nu_0 eta_b/(n T): bulk viscosity; of smooth grains by collisions alone",                                        \
       "\\eta_b^* = \\frac{\\nu_0\\,\\eta_b}{nT}")                                                                      \
+  ONE(COOLING_RATE_TRANSPORT, "cooling_rate_transport", "ζ_u", "", NONE, GG_NEEDS_THEORY,                              \
+      "response of the cooling rate to expansion at first order in gradients: zeta = zeta_0 + zeta_u div u",           \
+      "\\zeta = \\zeta_0 + \\zeta_u\\,\\nabla\\cdot\\mathbf u")                                                        \
   ONE(ROTATIONAL_CONDUCTIVITY_REDUCED, "rotational_conductivity_reduced", "κ_r*", "", NONE, GG_HEAT_OF_SPINS,          \
       "kappa_r/kappa_0: rotational heat flux along -grad T of a cooling gas, whose theta goes as T",                   \
       "\\kappa_r^* = \\frac{4 m\\nu_0\\,\\kappa_r}{15\\,nT}")                                                          \

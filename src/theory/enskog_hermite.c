@@ -119,8 +119,12 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
     gg_error why;
     gg_status status = gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, &heating, &why);
     if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
-    answer_isotropic(m, &h, &heating, gg_hermite_convergence_next(&rungs));
-    if (degree <= VISCOSITY_DEGREE) status = answer_viscosity(m, &h, gg_hermite_convergence_next(&viscous), &why);
+    gg_theory_answer *rung = gg_hermite_convergence_next(&rungs);
+    answer_isotropic(m, &h, &heating, rung);
+    if (m->flow == GG_HCS && !m->boltzmann)
+      status = gg_hermite_isotropic_expansion(&h, m->sigma[0], &rung->value[GG_Q_COOLING_RATE_TRANSPORT], &why);
+    if (status == GG_OK && degree <= VISCOSITY_DEGREE)
+      status = answer_viscosity(m, &h, gg_hermite_convergence_next(&viscous), &why);
     gg_hermite_isotropic_end(&h);
     if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
   }
@@ -151,7 +155,7 @@ const gg_theory gg_theory_enskog_hermite = {
     .answers = "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor "
                "shear_viscosity N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
                "kurtosis_Wx kurtosis_Wy kurtosis_Wz skewness_Wz dissipation cooling_rate a2 c_1 c_2 " GG_ANSWERS_MIXTURE
-                   GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "bulk_viscosity_reduced " GG_ANSWERS_LENGTHS "relaxation_rate",
+                   GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT GG_ANSWERS_EXPANSION GG_ANSWERS_LENGTHS "relaxation_rate",
     .assumptions = "Any density, molecular chaos, no other assumption: each answer has a numerical error. One species, "
                    "smooth or of constant beta, or a smooth mixture: steady uniform shear (up to 8 species), free "
                    "cooling and heated states, also in a bath; viscosity of smooth grains (up to 6), heat flux of one "

@@ -12,6 +12,9 @@
  *   kappa    = kappa_k [1 + 6/5 (1+e) phi chi] + 256/(25 pi) phi^2 chi (1+e)(1 - 7c/32)
  *   mu_k     = 2 {zeta kappa_k (1 + slope) + c/3 + 4/5 phi chi (1+e)(1 + slope/2)[e(e-1) + (16 - 3e + 3e^2) c/12]}
  *              /(2 nu_kappa - 3 zeta),   mu = mu_k [1 + 6/5 (1+e) phi chi]
+ * Expansion: zeta_u = -2 phi chi (1-e^2) + (3/16) zeta_M b, where a_2 answers div u by b, with u = (1+e)/2,
+ *   b = (8/5) phi chi u^2 [2(1-u)(5u-3) - a_2 (1 - 8u + 5u^2)]/(Gamma + zeta/2),
+ *   Gamma = chi (1+e)[81 - 17e + 30 e^2 (1-e)]/192 the rate of a_2, zeta_M the cooling rate of a Maxwellian.
  * a_2 by T.P.C. van Noije & M.H. Ernst, Granular Matter 1 (1998) 57; collision rate and mean speed of that distribution
  * are those of a Maxwellian times 1 - a_2/16 and 1 - a_2/8.
  * Modified first Sonine: the weight of the expansion is the distribution of the cooling state itself, which makes
@@ -98,6 +101,15 @@ static void answer_heat(const gg_model *m, double a2, double weight, gg_theory_a
   a->value[GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED] = mu * collisional;
 }
 
+static void answer_expansion(const gg_model *m, double a2, gg_theory_answer *a)
+{
+  double e = m->e[0], u = (1 + e) / 2, chi = m->chi[0], y = gg_theory_phi_chi(m);
+  double rate = chi * (1 + e) * (81 - 17 * e + 30 * e * e * (1 - e)) / 192, maxwellian = 5. / 12 * chi * (1 - e * e);
+  double response = 1.6 * y * u * u * (2 * (1 - u) * (5 * u - 3) - a2 * (1 - 8 * u + 5 * u * u)) /
+                    (rate + a->value[GG_Q_COOLING_RATE] / 2);
+  a->value[GG_Q_COOLING_RATE_TRANSPORT] = -2 * y * (1 - e * e) + 3. / 16 * maxwellian * response;
+}
+
 /* Everything, with a_2 and its weight in the rates by either order. */
 static void answer_all(const gg_model *m, double a2, bool modified, gg_theory_answer *a)
 {
@@ -105,6 +117,7 @@ static void answer_all(const gg_model *m, double a2, bool modified, gg_theory_an
   gg_theory_answer_sonine(m, temperature_of(m, a2), a2, a);
   answer_viscosity(m, a2, modified ? 7. / 16 : -1. / 32, a);
   if (m->flow != GG_HCS) return;
+  if (!m->boltzmann) answer_expansion(m, a2, a);
   answer_heat(m, a2, modified ? (947 - 579 * e) / 256 : (19 - 3 * e) / 512, a);
   gg_theory_answer_critical_lengths(m, 0, a);
 }
@@ -127,7 +140,7 @@ const gg_theory gg_theory_garzo_dufty1999 = {
         "V. Garzo and J.W. Dufty, Phys. Rev. E 59 (1999) 5895; V. Garzo and J.M. Montanero, Physica A 313 (2002) "
         "336",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
-               "cooling_rate a2 " GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "bulk_viscosity_reduced " GG_ANSWERS_LENGTHS,
+               "cooling_rate a2 " GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT GG_ANSWERS_EXPANSION GG_ANSWERS_LENGTHS,
     .assumptions = "Cooling or heated state (Gaussian thermostat or white noise) of one species of smooth spheres, any "
                    "density with molecular chaos. Viscosity of linear response, in units of eta_0 = n T/nu_0. First "
                    "Sonine order, linear in a2 (van Noije and Ernst 1998).",
@@ -167,7 +180,7 @@ const gg_theory gg_theory_montanero_santos2000 = {
     .title = "Fourth cumulant, the other linearisation",
     .citation = "J.M. Montanero and A. Santos, Granular Matter 2 (2000) 53",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
-               "cooling_rate a2 " GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "bulk_viscosity_reduced " GG_ANSWERS_LENGTHS,
+               "cooling_rate a2 " GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT GG_ANSWERS_EXPANSION GG_ANSWERS_LENGTHS,
     .assumptions = "As garzo_dufty1999 for the cooling state, but the fourth-moment equation is divided by 1 + a2 "
                    "before it is linearised: closer to simulations for e below 0.7.",
     .evaluate = evaluate_ms,
@@ -179,7 +192,7 @@ const gg_theory gg_theory_garzo_santos_montanero2007 = {
     .title = "Viscosity about the cooling state's own distribution",
     .citation = "V. Garzo, A. Santos and J.M. Montanero, Physica A 376 (2007) 94",
     .answers = "temperature pressure compressibility_factor " GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
-               "cooling_rate a2 " GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT "bulk_viscosity_reduced " GG_ANSWERS_LENGTHS,
+               "cooling_rate a2 " GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT GG_ANSWERS_EXPANSION GG_ANSWERS_LENGTHS,
     .assumptions = "As montanero_santos2000, but the first Sonine term multiplies the distribution of the cooling "
                    "state instead of a Maxwellian: closer to simulations for e below 0.7. Derived for one species in "
                    "the cooling state, used for the heated state, too.",

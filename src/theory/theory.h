@@ -21,6 +21,7 @@ typedef struct gg_theory_answer {
 #define GG_ANSWERS_VISCOSITY "viscosity_reduced viscosity_reduced_kinetic "
 #define GG_ANSWERS_HEAT                                                                                                \
   "thermal_conductivity_reduced thermal_conductivity_reduced_kinetic diffusive_heat_conductivity_reduced "
+#define GG_ANSWERS_EXPANSION "bulk_viscosity_reduced cooling_rate_transport "
 #define GG_ANSWERS_LENGTHS "clustering_length heat_mode_length "
 #define GG_ANSWERS_MIXTURE "temperature_1 temperature_2 partial_temperature_ratio "
 

@@ -25,6 +25,7 @@
   X(garzo_montanero2003)                                                                                               \
   X(garzo_montanero2003_ms)                                                                                            \
   X(garzo_dufty2002)                                                                                                   \
+  X(garzo_dufty_hrenya2007)                                                                                            \
   X(enskog)                                                                                                            \
   X(carnahan_starling1969)                                                                                             \
   X(kolafa2004)                                                                                                        \

@@ -57,5 +57,5 @@ gg_hermite_contact gg_hermite_contact_of(const gg_hermite_impact *x, const gg_he
                               .other = two->s / S,
                               .b0 = one->b0,
                               .b1 = one->b1,
-                              .u0 = x->shear * k[0] * k[1] / S};
+                              .u0 = (x->shear * k[0] * k[1] + x->apart) / S};
 }

@@ -70,18 +70,13 @@ static void heat(gg_hermite_gas *gas, gg_heating_rates rates)
   gas->diffusion[0] = rates.diffusion;
 }
 
-/* Unknowns: that of heating, in the place of alpha_1, which the width fixes; alpha_2 ... The last step, relative.
- */
-static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double *alpha, const gg_heating *heating)
+/* The matrix: d<psi>/dt by the unknowns, that of heating in the place of alpha_1, which the width fixes; alpha_2 ...,
+ * that fade. */
+static void linearise(gg_hermite_isotropic *h, gg_isotropic_work *w, const gg_heating *heating, double fading)
 {
   const gg_hermite_basis *b = &h->op.basis;
-  int half = b->degree / 2, sign;
-  double projected[HALVES], basis[HALVES], most = 0;
-  heat(&h->gas, gg_theory_heating_at(heating, 0, h->heating));
-  gg_hermite_isotropic_expand(b, alpha, h->state.a);
-  gg_hermite_operator_at(&h->op, &h->gas, &h->state, w->R, w->jacobian);
-  project(b, w->R, projected);
-  for (int l = 1; l <= half; l++) gsl_vector_set(w->x, (size_t)l - 1, projected[l]);
+  int half = b->degree / 2;
+  double projected[HALVES], basis[HALVES];
   for (int l = 1; l <= half; l++) {
     memset(w->column, 0, (size_t)b->n * sizeof *w->column);
     if (l == 1) {
@@ -93,14 +88,38 @@ static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double 
       basis[l] = 1;
       gg_hermite_isotropic_expand(b, basis, h->state.a);
       for (int r = 0; r < b->n; r++)
-        for (int s = 0; s < b->n; s++)
-          w->column[r] += w->jacobian[(size_t)r * (size_t)b->n + (size_t)s] * h->state.a[s];
+        for (int s = 0; s < b->n; s++) {
+          double rate = w->jacobian[(size_t)r * (size_t)b->n + (size_t)s];
+          if (fading != 0) rate -= fading * gg_hermite_test_overlap(&h->op, r, s);
+          w->column[r] += rate * h->state.a[s];
+        }
     }
     project(b, w->column, projected);
     for (int k = 1; k <= half; k++) gsl_matrix_set(w->J, (size_t)k - 1, (size_t)l - 1, projected[k]);
   }
-  if (gsl_linalg_LU_decomp(w->J, w->order, &sign) != GSL_SUCCESS) return INFINITY;
-  if (gsl_linalg_LU_svx(w->J, w->order, w->x) != GSL_SUCCESS) return INFINITY;
+}
+
+/* x of J x = x. */
+static bool solve(gg_isotropic_work *w)
+{
+  int sign;
+  return gsl_linalg_LU_decomp(w->J, w->order, &sign) == GSL_SUCCESS &&
+         gsl_linalg_LU_svx(w->J, w->order, w->x) == GSL_SUCCESS;
+}
+
+/* The last step, relative. */
+static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double *alpha, const gg_heating *heating)
+{
+  const gg_hermite_basis *b = &h->op.basis;
+  int half = b->degree / 2;
+  double projected[HALVES], most = 0;
+  heat(&h->gas, gg_theory_heating_at(heating, 0, h->heating));
+  gg_hermite_isotropic_expand(b, alpha, h->state.a);
+  gg_hermite_operator_at(&h->op, &h->gas, &h->state, w->R, w->jacobian);
+  project(b, w->R, projected);
+  for (int l = 1; l <= half; l++) gsl_vector_set(w->x, (size_t)l - 1, projected[l]);
+  linearise(h, w, heating, 0);
+  if (!solve(w)) return INFINITY;
   h->heating -= gsl_vector_get(w->x, 0);
   most = gg_theory_heating_step(heating, h->heating, gsl_vector_get(w->x, 0), h->gas.impact[0][0].frequency);
   for (int l = 2; l <= half; l++) {
@@ -140,6 +159,61 @@ gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double
   gg_base_gsl_leave();
   clear(&w);
   if (status != GG_OK) gg_hermite_isotropic_end(h);
+  return status;
+}
+
+/* Of the central difference in a third of div u, at T = m = 1. */
+static const double small = 1e-3;
+
+/* f0 and the share of the response, x[1] .. */
+static void respond(gg_hermite_isotropic *h, const double *alpha, const gsl_vector *x, double share)
+{
+  double with[HALVES];
+  memcpy(with, alpha, sizeof with);
+  for (int l = 2; l <= h->op.basis.degree / 2; l++) with[l] += share * gsl_vector_get(x, (size_t)l - 1);
+  gg_hermite_isotropic_expand(&h->op.basis, with, h->state.a);
+}
+
+static bool expand(gg_hermite_isotropic *h, gg_isotropic_work *w, double reach, double *zeta_u)
+{
+  const gg_hermite_basis *b = &h->op.basis;
+  const gg_heating heating = {.kind = GG_HEATING_COOLS};
+  double alpha[HALVES] = {0}, side[2][HALVES], loss[2];
+  gg_hermite_sums sums;
+  for (int l = 0; l <= b->degree / 2; l++) alpha[l] = h->state.a[gg_hermite_place(b, 2 * l, 0, 0)] * sqrt(2 * l + 1);
+  for (int k = 0; k < 2; k++) {
+    h->gas.impact[0][0].apart = (k ? small : -small) * reach;
+    gg_hermite_operator_at(&h->op, &h->gas, &h->state, w->R, NULL);
+    project(b, w->R, side[k]);
+  }
+  h->gas.impact[0][0].apart = 0;
+  gg_hermite_operator_at(&h->op, &h->gas, &h->state, w->R, w->jacobian);
+  for (int l = 1; l <= b->degree / 2; l++) gsl_vector_set(w->x, (size_t)l - 1, (side[0][l] - side[1][l]) / (2 * small));
+  linearise(h, w, &heating, h->cooling_rate / 2);
+  const bool fine = solve(w);
+  for (int k = 0; k < 2 && fine; k++) {
+    h->gas.impact[0][0].apart = (k ? small : -small) * reach;
+    respond(h, alpha, w->x, k ? small : -small);
+    gg_hermite_sums_at(&h->op, &h->gas, &h->state, &sums);
+    loss[k] = sums.loss;
+  }
+  h->gas.impact[0][0].apart = 0;
+  respond(h, alpha, w->x, 0);
+  if (fine) *zeta_u = 2. / 9 * (loss[1] - loss[0]) / (2 * small); /* zeta = (2/3) loss, div u is three times the rate */
+  return fine;
+}
+
+gg_status gg_hermite_isotropic_expansion(gg_hermite_isotropic *h, double reach, double *zeta_u, gg_error *err)
+{
+  gg_isotropic_work w;
+  gg_status status = GG_OK;
+  gg_base_gsl_enter();
+  if (!make(&w, h->op.basis.n, h->op.basis.degree / 2))
+    status = gg_base_out_of_memory(err);
+  else if (!expand(h, &w, reach, zeta_u))
+    status = gg_base_fail(err, GG_FAILED, "no linear response was found");
+  gg_base_gsl_leave();
+  clear(&w);
   return status;
 }
 

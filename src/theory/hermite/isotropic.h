@@ -21,6 +21,10 @@ gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double
 /* a of the Ho_r from alpha_l of the Phi_l. */
 void gg_hermite_isotropic_expand(const gg_hermite_basis *basis, const double *alpha, double *a);
 
+/* zeta_u of a cooling gas, zeta = zeta_0 + zeta_u div u: the loss of grains that move apart at contact, and of the
+ * response of f to that, which fades at zeta/2 as the thermal speed does. `reach`: sigma in the length of frequency. */
+gg_status gg_hermite_isotropic_expansion(gg_hermite_isotropic *h, double reach, double *zeta_u, gg_error *err);
+
 void gg_hermite_isotropic_end(gg_hermite_isotropic *h);
 
 #endif

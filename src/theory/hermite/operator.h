@@ -17,6 +17,7 @@ typedef struct gg_hermite_impact {
   double e;
   double sigma;
   double shear; /* sigma times shear rate: the flow between two centres; 0 in the Boltzmann limit */
+  double apart; /* sigma times a third of div u: likewise */
 } gg_hermite_impact;
 
 /* What collides and streams. */
