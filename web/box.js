@@ -2,6 +2,7 @@
 /* The box in three dimensions, on a canvas: x to the right along the flow, y up along its gradient; what is far is
  * painted first: edges behind the grains, grains, edges before them. */
 import { DARK, rgb } from "./colours.js";
+import { isWalled, sheared } from "./flows.js";
 import { Spheres } from "./spheres.js";
 
 export const CAMERA = [0.45, 0.22, 1];
@@ -11,9 +12,9 @@ const EDGES = [];
 for (let i = 0; i < 8; i++) for (const bit of [1, 2, 4]) if (!(i & bit)) EDGES.push([i, i | bit]);
 
 export class BoxView {
-  /* `turned(camera)`: somebody turned it. */
-  constructor(canvas, turned) {
-    Object.assign(this, { canvas, turned, spheres: new Spheres(), sheet: document.createElement("canvas") });
+  /* `turned(camera)`: somebody turned it; `picked(grain)`: clicked on one, or, null, beside all of them. */
+  constructor(canvas, turned, picked) {
+    Object.assign(this, { canvas, turned, picked, found: [], spheres: new Spheres(), sheet: document.createElement("canvas") });
     [this.yaw, this.pitch, this.zoom] = CAMERA;
     this.listen();
   }
@@ -33,8 +34,9 @@ export class BoxView {
     ]);
   }
 
-  /* One finger or the mouse turns, two fingers zoom. */
+  /* One finger or the mouse turns, two fingers zoom; a click that goes nowhere picks a grain. */
   listen() {
+    let way = Infinity;
     const c = this.canvas,
       held = new Map(),
       apart = () => {
@@ -44,11 +46,15 @@ export class BoxView {
     c.addEventListener("pointerdown", (e) => {
       if (e.button !== 0) return;
       held.set(e.pointerId, [e.clientX, e.clientY]);
+      way = held.size === 1 ? 0 : Infinity;
       try {
         c.setPointerCapture(e.pointerId);
       } catch (none) {
         /* a pointer that is gone already */
       }
+    });
+    c.addEventListener("pointerup", (e) => {
+      if (held.has(e.pointerId) && way < 5) this.pick(e.offsetX, e.offsetY);
     });
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
       c.addEventListener(end, (e) => held.delete(e.pointerId));
@@ -56,6 +62,7 @@ export class BoxView {
       if (!(e.buttons & 1)) held.delete(e.pointerId); /* it was let go where nobody saw it */
       const from = held.get(e.pointerId);
       if (!from) return;
+      way += Math.hypot(e.clientX - from[0], e.clientY - from[1]);
       const before = held.size === 2 ? apart() : 0;
       held.set(e.pointerId, [e.clientX, e.clientY]);
       if (held.size === 2) this.move(0, 0, apart() / before || 1);
@@ -83,6 +90,14 @@ export class BoxView {
       },
       { passive: false },
     );
+  }
+  /* The nearest to the eye of those drawn there, with some slack for fingers. */
+  pick(x, y) {
+    const ratio = this.w / this.canvas.clientWidth,
+      nearest = [...this.found].reverse(),
+      on = (slack) => nearest.find(([sx, sy, r]) => Math.hypot(sx - x * ratio, sy - y * ratio) <= r + slack * ratio),
+      one = on(0) || on(8);
+    this.picked(one ? one[4] : null);
   }
   again() {
     if (this.last) this.draw(...this.last);
@@ -216,13 +231,7 @@ export class BoxView {
   pair(to, event, found) {
     const both = event.grain.map((i) => found.find((one) => one[4] === i && !one[5]));
     if (both.some((one) => !one)) return;
-    to.lineWidth = 2 * this.thick;
-    to.strokeStyle = "#ffffff";
-    for (const [x, y, r] of both) {
-      to.beginPath();
-      to.arc(x, y, r + to.lineWidth, 0, 2 * Math.PI);
-      to.stroke();
-    }
+    for (const one of both) this.ring(to, one);
     const [a, b] = both,
       away = Math.hypot(a[0] - b[0], a[1] - b[1]);
     if (away > 4 * (a[2] + b[2])) return; /* they met across a side of the box */
@@ -273,6 +282,57 @@ export class BoxView {
     }
   }
 
+  /* Every grain's velocity, or that of the one that is followed, as a line from its centre: of a speed of the start's root
+   * mean square it is a twelfth of the box long. */
+  velocities(to, picture, about, box) {
+    const per = Math.min(...box) / 12 / (about.fast || 1),
+      { velocity, position, one } = picture,
+      line = (at, v) => {
+        const [x0, y0] = this.to(...at),
+          [x1, y1] = this.to(...at.map((x, k) => x + v[k] * per)),
+          size = Math.hypot(x1 - x0, y1 - y0),
+          head = Math.min(size / 2, 5 * this.thick) / (size || 1),
+          [ux, uy] = [(x1 - x0) * head, (y1 - y0) * head];
+        to.moveTo(x0, y0);
+        to.lineTo(x1, y1);
+        to.moveTo(x1 - ux - uy * 0.6, y1 - uy + ux * 0.6);
+        to.lineTo(x1, y1);
+        to.lineTo(x1 - ux + uy * 0.6, y1 - uy - ux * 0.6);
+      };
+    to.lineWidth = this.thick;
+    to.strokeStyle = "rgba(240, 244, 248, 0.7)";
+    to.beginPath();
+    if (velocity) for (let i = 0; i < velocity.length; i += 3) line(position.subarray(i, i + 3), velocity.subarray(i, i + 3));
+    to.stroke();
+    if (!one) return;
+    to.lineWidth = 2.5 * this.thick;
+    to.strokeStyle = "#ffffff";
+    to.beginPath();
+    line(one.position, one.velocity);
+    to.stroke();
+  }
+  /* The one that is followed: its way so far, paler where it is older, and a ring. It leaves the box on one side and comes
+   * in on another: nothing is drawn across. */
+  trail(to, trail, box, followed) {
+    to.lineWidth = 2 * this.thick;
+    for (let k = 1; k < trail.length; k++) {
+      if (trail[k].some((x, a) => Math.abs(x - trail[k - 1][a]) > box[a] / 2)) continue;
+      to.strokeStyle = `rgba(255, 255, 255, ${(0.15 + (0.7 * k) / trail.length).toFixed(2)})`;
+      to.beginPath();
+      to.moveTo(...this.to(...trail[k - 1]).slice(0, 2));
+      to.lineTo(...this.to(...trail[k]).slice(0, 2));
+      to.stroke();
+    }
+    if (followed) this.ring(to, followed);
+  }
+  ring(to, [x, y, r]) {
+    to.lineWidth = 2 * this.thick;
+    to.strokeStyle = "#ffffff";
+    to.beginPath();
+    to.arc(x, y, r + to.lineWidth, 0, 2 * Math.PI);
+    to.stroke();
+  }
+
   draw(picture, state, about, options) {
     this.last = [picture, state, about, options];
     this.fit();
@@ -280,8 +340,8 @@ export class BoxView {
     const to = this.canvas.getContext("2d"),
       { box } = state,
       { values } = about,
-      walls = /couette|poiseuille|chute/.test(values.flow) ? (values.walls.top === "open" ? [0] : [0, 1]) : [],
-      strips = options.images && /shear|usf/.test(values.flow);
+      walls = isWalled(values) ? (values.walls.top === "open" ? [0] : [0, 1]) : [],
+      strips = options.images && sheared(values);
     to.fillStyle = rgb(DARK);
     to.fillRect(0, 0, this.w, this.h);
     if (!picture) return;
@@ -295,13 +355,15 @@ export class BoxView {
     for (const side of walls) if (!this.faces(1, !!side, box)) this.wall(to, box, side * box[1]);
     this.edges(to, box, ...whole, "rgba(160, 185, 205, 0.55)", [], behind);
     this.spheres.begin(this.w, this.h);
-    const found = this.collect(picture, about, box, state.imageOffset, strips);
+    const found = (this.found = this.collect(picture, about, box, state.imageOffset, strips));
     this.grains(found, picture, options.map);
     this.sheet.getContext("2d").putImageData(this.spheres.image, 0, 0);
     to.drawImage(this.sheet, 0, 0);
     for (const side of walls) if (this.faces(1, !!side, box)) this.wall(to, box, side * box[1]);
     this.edges(to, box, ...whole, "rgba(190, 210, 225, 0.9)", [], (i, j) => !behind(i, j));
     this.arrows(to, box, values, strips);
+    if (picture.velocity || picture.one) this.velocities(to, picture, about, box);
+    if (picture.one) this.trail(to, options.trail || [], box, found.find((one) => one[4] === options.grain && !one[5]));
     if (options.event) this.pair(to, options.event, found);
   }
 

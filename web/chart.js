@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A diagram as SVG, with its legend as a list: lines, points with error bars, bands, bars. It is built once; what is new
  * moves its lines. A pointer, or the arrow keys, read it. */
-import { number } from "./words.js";
+import { number, powerOfTen } from "./words.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -29,6 +29,7 @@ export function ticks(from, to, log) {
     for (let p = Math.ceil(Math.log10(from) - 1e-9); p <= Math.log10(to) + 1e-9; p++)
       if (p % every === 0) found.push(10 ** p);
     if (found.length > 1) return found;
+    if (many < 0.7) return ticks(from, to, false);
     return [1, 2, 5]
       .flatMap((m) => [-1, 0, 1].map((k) => m * 10 ** (Math.floor(Math.log10(from)) + k + 1)))
       .filter((x) => x >= from && x <= to)
@@ -41,13 +42,10 @@ export function ticks(from, to, log) {
   for (let i = 0; i < 12 && (first + i) * step <= to + 1e-9 * step; i++) found.push((first + i) * step);
   return found;
 }
-const SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹";
-const superscript = (n) => String(n).replace(/-/, "⁻").replace(/\d/g, (d) => SUPERSCRIPTS[d]);
 export const nice = (x) => {
   if (x === 0) return "0";
   if (Math.abs(x) < 1e4 && Math.abs(x) >= 1e-2) return String(+x.toPrecision(3)).replace("-", "−");
-  const [digits, power] = x.toExponential(0).split("e");
-  return `${digits === "1" ? "" : `${digits}·`}10${superscript(+power)}`;
+  return powerOfTen(x, 1);
 };
 
 export function range(values, log) {
@@ -67,7 +65,13 @@ const LEFT = 52,
   RIGHT = 10,
   TOP = 8,
   BOTTOM = 38;
+export const CLOSED = ["circle", "diamond", "up", "square", "down", "star", "hexagon"];
 const SHAPES = {
+  diamond: "M0,-5.5L5,0L0,5.5L-5,0z",
+  up: "M0,-5L5,4H-5z",
+  down: "M0,5L5,-4H-5z",
+  star: "M0,-6L1.8,-1.9L5.9,-1.6L2.8,1.2L3.7,5.4L0,3.1L-3.7,5.4L-2.8,1.2L-5.9,-1.6L-1.8,-1.9z",
+  hexagon: "M-5,0L-2.5,-4.4H2.5L5,0L2.5,4.4H-2.5z",
   circle: "M-4,0a4,4 0 1,0 8,0a4,4 0 1,0 -8,0",
   square: "M-4,-4h8v8h-8z",
   cross: "M-4,-4L4,4M-4,4L4,-4",
@@ -82,7 +86,7 @@ export class Chart {
     Object.assign(this, { figure, text, drawn: new Map(), keys: new Map(), series: [], at: null });
     this.caption = document.createElement("figcaption");
     this.legend = document.createElement("ul");
-    this.legend.className = "legend";
+    Object.assign(this.legend, { className: "legend", tabIndex: 0 });
     this.readout = document.createElement("output");
     this.readout.className = "readout";
     this.svg = make("svg", { role: "img", tabindex: 0 });
@@ -132,7 +136,7 @@ export class Chart {
     if (this.caption.textContent !== title) this.caption.textContent = title;
     set(this.svg, { "aria-label": summary || title });
     this.figure.dataset.scales = JSON.stringify({ xr: this.xr, yr: this.yr, xlog: !!x.log, ylog: !!y.log });
-    this.drawAxes(x, y);
+    this.drawAxes(x, y, !all("y").some(Number.isFinite));
     this.keep(this.drawn, series, (s) => make("g", { "data-name": s.name }), this.inside);
     for (const s of series) this.drawSeries(this.drawn.get(s.name), s, x.log, y.log);
     this.drawLegend(series.filter((s) => !s.quiet));
@@ -153,15 +157,17 @@ export class Chart {
     });
   }
 
-  drawAxes(x, y) {
-    const key = JSON.stringify([this.xr, this.yr, x, y]);
+  /* Where there is nothing yet, that is said instead of a scale that means nothing. */
+  drawAxes(x, y, empty) {
+    const key = JSON.stringify([this.xr, this.yr, x, y, empty, this.text("waiting")]);
     if (key === this.axesKey) return;
     this.axesKey = key;
     const { wide, high, xr, yr, X, Y } = this,
       out = [],
       line = (x1, y1, x2, y2, stroke) => out.push(make("line", { x1, y1, x2, y2, stroke })),
       text = (content, attributes) => out.push(make("text", attributes, content));
-    for (const v of ticks(...yr, y.log)) {
+    if (empty) text(this.text("waiting"), { x: (LEFT + wide - RIGHT) / 2, y: (TOP + high - BOTTOM) / 2, "text-anchor": "middle" });
+    for (const v of empty ? [] : ticks(...yr, y.log)) {
       line(LEFT, Y(v), wide - RIGHT, Y(v), "#e4e7ea");
       text(nice(v), { x: LEFT - 5, y: Y(v) + 4, "text-anchor": "end" });
     }
@@ -229,7 +235,7 @@ export class Chart {
     }, this.legend);
     for (const s of series) {
       const item = this.keys.get(s.name),
-        key = JSON.stringify([s.label, s.colour, s.dash, s.width, s.shape, s.points, s.bars]);
+        key = JSON.stringify([s.label, s.colour, s.dash, s.width, s.shape, s.points, s.bars, s.hollow]);
       if (item.dataset.key === key) continue;
       item.dataset.key = key;
       item.firstChild.replaceChildren(
@@ -307,7 +313,7 @@ function mark(s, x, y) {
   return make("path", {
     d: SHAPES[s.shape || "circle"],
     transform: `translate(${x.toFixed(1)},${y.toFixed(1)})`,
-    fill: open || s.hollow ? "none" : s.colour,
+    fill: s.hollow ? "#ffffff" : open ? "none" : s.colour,
     stroke: s.colour,
     "stroke-width": open || s.hollow ? 2 : 1,
   });

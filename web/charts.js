@@ -1,24 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the diagram beside the box shows: the history of the gas that is seen, the means so far, the lines of theories. */
 import { inLog } from "./chart.js";
-import { DSMC, GHOSTS, MD } from "./colours.js";
+import { DSMC, GHOSTS, MD, SHARE } from "./colours.js";
+import { isWalled, sheared } from "./flows.js";
 import { now } from "./gas.js";
 import { t } from "./i18n.js";
 import { store } from "./state.js";
 import { chosenTheories, error, lineOf, mean, theoriesWith, titleOf } from "./theories.js";
 import { withError, number, theoryName } from "./words.js";
 
-export const CHARTS = ["temperature", "speeds", "velocities", "stress", "distance"];
-export const sheared = (values) => /usf|shear/.test(values.flow);
+export const CHARTS = ["temperature", "speeds", "velocities", "stress", "distance", "profiles"];
 const hasRate = (values) => sheared(values) || values.flow === "couette";
 export const timeUnit = (values) => (hasRate(values) ? "1/γ" : values.phi === 0 ? "1/(n d² v₀)" : "d/v₀");
 export const temperatureUnit = (values) => (hasRate(values) ? "d² γ²" : "v₀²");
 export const speedUnit = (values) => (hasRate(values) ? "d γ" : "v₀");
 
+export const spinUnit = (values) => (hasRate(values) ? "γ" : "v₀/d");
+
 const MARKS = ["cross", "plus", "dash"];
 
 export function showChart(chart, state) {
-  const kinds = { temperature, speeds, velocities, stress, distance };
+  const kinds = { temperature, speeds, velocities, stress, distance, profiles };
   chart.update(kinds[state.chart](state));
 }
 
@@ -40,6 +42,7 @@ function temperature(state) {
   const series = [...ghosts(state, cooling), ...drawn.filter((one) => one.y.some(Number.isFinite))],
     x = series.flatMap((one) => one.x).sort((a, b) => a - b);
   if (means && means.theory && x.length) series.push(...(cooling ? coolingLines(means, x) : steadyLines(means, x, rough, values)));
+  if (cooling && x.length) series.push(...slopeLine(series.find((one) => one.name === "T") || series[0]));
   if (history.now > 0) series.push(nowLine(history.now, series));
   const time = history.key === "time",
     unit = temperatureUnit(values);
@@ -50,6 +53,15 @@ function temperature(state) {
     x: { label: time ? t("time", { unit: timeUnit(values) }) : t("collisionsAGrain"), symbol: time ? "t" : t("collisionsAGrain"), log: cooling },
     y: { label: `T (${unit})`, log: cooling, range: cooling ? null : [0, 1.12 * highest(series)] },
   };
+}
+/* Slope -2 on logarithmic axes, for the eye: above the end of a curve that has come to a tenth of its start, as far as it
+ * lies above the curve. */
+const ABOVE = 3;
+function slopeLine({ x, y }) {
+  const end = x.length - 1,
+    from = x[end] * Math.sqrt((ABOVE * y[end]) / y[0]);
+  if (!(y[end] < 0.1 * y[0]) || !inLog(from)) return [];
+  return [{ name: "slope", label: t("slope"), colour: "#777777", width: 1.2, reads: false, x: [from, x[end]], y: [y[0], ABOVE * y[end]] }];
 }
 /* Where a result that is played stands. */
 function nowLine(at, series) {
@@ -68,7 +80,7 @@ function steadyLines(means, x, rough, values) {
   const across = [x[0], Math.max(x[x.length - 1], x[0] + 0.1)],
     out = [],
     both = rough ? ["temperature", "rotational_temperature"] : ["temperature"];
-  if (/couette|poiseuille|chute/.test(values.flow)) return out;
+  if (isWalled(values)) return out;
   for (const [engine, colour] of [
     ["md", MD],
     ["dsmc", DSMC],
@@ -219,6 +231,41 @@ function distance(state) {
     y: { label: t("distanceAxis"), log: true, range: [1e-17, 10] },
   };
 }
+
+/* Between walls: T and the solid fraction over their means, from the lower wall to the upper; lines of the grains, marks of
+ * the dice. Not where centres of grains cannot be, close to the walls. */
+function profiles({ means }) {
+  const series = [];
+  for (const engine of ["md", "dsmc"]) {
+    const curves = (means && means[engine] && means[engine].curves) || {},
+      share = curves.profile_solid_fraction;
+    if (!share) continue;
+    const most = average(share.value),
+      inside = share.x.map((_, i) => i).filter((i) => share.value[i] > most / 2);
+    for (const [name, symbol, colour, shape] of [
+      ["profile_temperature", "T", DSMC, "circle"],
+      ["profile_solid_fraction", "φ", SHARE, "diamond"],
+    ]) {
+      const { x, value, stderr } = curves[name] || { x: [], value: [], stderr: [] },
+        all = average(inside.map((i) => value[i])),
+        of = (list) => inside.map((i) => (list[i] === null ? NaN : list[i] / all)),
+        errors = of(stderr).map((e) => e || 0),
+        look = engine === "md" ? { band: errors } : { error: errors, points: true, shape, hollow: true };
+      if (all > 0) series.push({ name: `${engine} ${name}`, label: `${t(engine)}: ${symbol}`, colour, x: inside.map((i) => x[i]), y: of(value), ...look });
+    }
+  }
+  return {
+    title: t("profilesTitle"),
+    series,
+    summary: series.length ? t("profilesTitle") : t("waiting"),
+    x: { label: t("heightAxis"), symbol: "y" },
+    y: { label: t("profilesAxis") },
+  };
+}
+const average = (list) => {
+  const good = list.filter(Number.isFinite);
+  return good.reduce((sum, one) => sum + one, 0) / good.length;
+};
 
 function summaryOf({ means }, name) {
   if (!means || !means.theory) return t("waiting");

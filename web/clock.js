@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames: the gas is asked to go on as far as the clock on the wall says. */
 import { tickPlaying } from "./files.js";
-import { now, workers } from "./gas.js";
+import { leaveTrail, now, workers } from "./gas.js";
 import { clicks } from "./sound.js";
 import { store } from "./state.js";
 
@@ -37,12 +37,12 @@ function owe(seconds) {
 }
 
 async function ask() {
-  const { gas, speed, colour, follow, chart } = store.state,
+  const { gas, speed, colour, follow, chart, arrows, grain } = store.state,
     { step } = now,
     seconds = step ? 0 : now.owed;
   Object.assign(now, { busy: true, owed: 0, want: false, step: false });
   try {
-    const frame = await workers.live.ask("frame", { collisions: speed * seconds, colour, follow, step, speeds: chart === "speeds" });
+    const frame = await workers.live.ask("frame", { collisions: speed * seconds, colour, follow, step, arrows, grain, speeds: chart === "speeds" });
     if (gas === store.state.gas) take(frame, gas, seconds);
     else now.want = true; /* a start came between; if it is refused, the gas before is to be seen */
   } catch (e) {
@@ -59,6 +59,7 @@ function take(frame, gas, seconds) {
     lost = now.lost + (frame.behind ? seconds : 0);
   now.behind = lost > 0 ? now.behind + lost : 0;
   Object.assign(now, { frame, fresh: true, frames: now.frames + 1, lost: 0 });
+  leaveTrail(frame, store.state.grain);
   gas.history.add(frame.md, frame.dsmc, frame.twin);
   if (frame.md) gas.history.addDistance(frame.md.collisionsPerGrain, frame.distance);
   if (store.state.sound && before && before.md && frame.md) clicks(before.md, frame.md, gas.about.fast, seconds);

@@ -33,7 +33,10 @@ export const rgb = (c) => `rgb(${c.join(",")})`;
 
 export const MD = "#0072B2",
   DSMC = "#C44E00",
+  SHARE = "#00785a" /* the solid fraction */,
   GHOSTS = ["#8aa4b8", "#a9b6c0", "#c4ccd2"];
+/* Of the students of a class, with as many marks less one: 42 pairs. */
+export const CLASS = ["#00785a", "#a3004c", "#8a6a00", "#6a3fa0", "#9a4a10", "#3d5a80"];
 /* Of theories, in the order in which they are drawn. */
 export const LINES = [
   { colour: "#00785a", dash: "8 4" },

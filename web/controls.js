@@ -6,11 +6,12 @@
  *   get, put          where it is not the key's own value: a number (null: none) of the scene's values; and the text for
  *                     the key of a number and those values
  *   flows             where it has an effect; everywhere without */
+import { WALLED } from "./flows.js";
 import { store } from "./state.js";
 import { t } from "./i18n.js";
 
-export const FLOWS = ["usf", "hcs", "hss", "equilibrium", "couette", "chute"];
-const WALLED = ["couette", "poiseuille", "chute"];
+export const FLOWS = ["usf", "hcs", "hss", "equilibrium", "couette", "poiseuille", "chute", "fourier"];
+const GRAVITY = { chute: "[0.1, -0.1, 0]", poiseuille: "[1, 0, 0]" };
 
 /* The second species beside the first: its diameter or mass over that one's. */
 const ratioOf = (part) => ({
@@ -209,7 +210,8 @@ export function setsOf(key, value) {
   const before = wantedText("flow");
   Object.assign(sets, {
     thermostat: value === "hss" ? "gaussian" : "none",
-    gravity: value === "chute" ? "[0.1, -0.1, 0]" : "[0, 0, 0]",
+    gravity: GRAVITY[value] || "[0, 0, 0]",
+    "walls.temperature": value === "fourier" ? "[1, 0.5]" : "none",
   });
   if (value === "equilibrium") {
     if (before !== "equilibrium") inelastic = Object.fromEntries(Object.keys(ELASTIC).map((one) => [one, wantedText(one)]));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files that somebody opens or drops: a result of the terminal is played in place of the live gas, which waits; a scene
  * is run; points of a class are put beside one's own. */
-import { askMeans, askNumber, now, ownScene, workers } from "./gas.js";
+import { askMeans, askNumber, leaveTrail, now, ownScene, workers } from "./gas.js";
 import { StoredHistory } from "./history.js";
 import { t } from "./i18n.js";
 import { pointsOf } from "./points.js";
@@ -25,9 +25,14 @@ export async function openFile(file) {
   }
   await playFile(file);
 }
+/* All tables of a class at once; of others the first. */
+function openFiles(files) {
+  const tables = files.filter((one) => /\.csv$/i.test(one.name));
+  for (const one of tables.length ? tables.slice(0, 200) : files.slice(0, 1)) openFile(one);
+}
 function takePoints(text, name) {
   const points = pointsOf(text, name);
-  if (points.length) store.dispatch("point", { points });
+  if (points.length) store.dispatch("gather", { points });
   else refuse(t("noPoints", { name }));
 }
 
@@ -53,7 +58,7 @@ function beginPlaying(file, about) {
     { values } = about,
     still = about.frames === 1 || matchMedia("(prefers-reduced-motion: reduce)").matches;
   Object.assign(played, { at: 0, shown: -1 });
-  Object.assign(now, { frame: null, fresh: false, want: true, behind: 0 });
+  Object.assign(now, { frame: null, trail: [], fresh: false, want: true, behind: 0 });
   store.dispatch("play", {
     player: { name: file.name, frames: about.frames, rate: 10 },
     gas: { id, scene: about.yaml, sets: {}, lesson: null, about, refusal: null, dsmcRefusal: null, history: new StoredHistory(values.flow === "hcs") },
@@ -79,7 +84,7 @@ export function endPlaying() {
   if (!store.state.player) return;
   files++;
   workers.live.ask("close").catch(() => {}); /* a worker that is gone has closed it */
-  Object.assign(now, { frame: null, fresh: false, want: true });
+  Object.assign(now, { frame: null, trail: [], fresh: false, want: true });
   store.dispatch("back", { id: askNumber() });
   if (!store.state.means) askMeans();
 }
@@ -96,10 +101,10 @@ export function tickPlaying(seconds) {
 }
 
 async function askPlayed(k) {
-  const { gas, colour } = store.state;
+  const { gas, colour, arrows, grain } = store.state;
   Object.assign(now, { busy: true, want: false });
   try {
-    const frame = await workers.live.ask("played", { k, colour });
+    const frame = await workers.live.ask("played", { k, colour, arrows, grain });
     if (gas === store.state.gas) takePlayed(frame, k);
   } catch (e) {
     if (gas === store.state.gas) {
@@ -112,6 +117,7 @@ async function askPlayed(k) {
 }
 function takePlayed(frame, k) {
   played.shown = k;
+  leaveTrail(frame, store.state.grain);
   Object.assign(now, { frame, fresh: true, frames: now.frames + 1 });
   store.state.gas.history.now = frame.md.time;
   byId("scrub").value = k;
@@ -130,9 +136,9 @@ export function goTo(k) {
 export function listenForFiles() {
   byId("open-file").addEventListener("click", () => byId("file").click());
   byId("file").addEventListener("change", () => {
-    const [file] = byId("file").files;
+    const files = [...byId("file").files];
     byId("file").value = "";
-    if (file) openFile(file);
+    openFiles(files);
   });
   byId("scrub").addEventListener("input", () => goTo(Number(byId("scrub").value)));
   byId("back").addEventListener("click", endPlaying);
@@ -146,7 +152,6 @@ export function listenForFiles() {
   document.addEventListener("dragleave", (e) => over(e, false));
   document.addEventListener("drop", (e) => {
     over(e, false);
-    const [file] = e.dataTransfer.files;
-    if (file) openFile(file);
+    openFiles([...e.dataTransfer.files]);
   });
 }

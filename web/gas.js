@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which gas runs: what is asked of the workers, and what becomes of their answers. */
 import { rowOf, setsOf, shownValue, symbolOf } from "./controls.js";
+import { isWalled } from "./flows.js";
 import { LESSONS, lessonOf, nearestLesson } from "./lessons.js";
+import { gather } from "./points.js";
 import { TemperatureHistory } from "./history.js";
 import { t } from "./i18n.js";
 import { store } from "./state.js";
@@ -16,8 +18,8 @@ const MOST_GRAINS = 20000,
 export const workers = { live: null, measure: null };
 export const page = { given: null }; /* the scene that the page was written with: what no address means */
 /* What comes with frames; not for the state. */
-export const now = { frame: null, frames: 0, fresh: false, want: true, step: false, owed: 0, lost: 0, behind: 0, busy: false };
-const renew = () => Object.assign(now, { frame: null, fresh: false, want: true, owed: 0, lost: 0, behind: 0 });
+export const now = { frame: null, frames: 0, fresh: false, want: true, step: false, owed: 0, lost: 0, behind: 0, busy: false, trail: [] };
+const renew = () => Object.assign(now, { frame: null, trail: [], fresh: false, want: true, owed: 0, lost: 0, behind: 0 });
 
 /* What the page holds packed: gzip as base64. Read once. */
 async function unpack(id) {
@@ -35,6 +37,14 @@ export async function openWorkers() {
   workers.measure.onmeans = takeMeans;
   workers.measure.ask("open", { wasm }).catch((e) => store.dispatch("banner", { banner: { text: e.message, offers: [] } }));
   return (await workers.live.ask("open", { wasm })).version;
+}
+
+const LONGEST_TRAIL = 400; /* frames */
+/* Where the followed grain has been; there is none without one, and after another was chosen. */
+export function leaveTrail({ picture }, grain) {
+  if (now.trailOf !== grain || !picture || !picture.one) Object.assign(now, { trail: [], trailOf: grain });
+  if (picture && picture.one) now.trail.push(picture.one.position);
+  if (now.trail.length > LONGEST_TRAIL) now.trail.shift();
 }
 
 /* ---- A new gas ---- */
@@ -91,10 +101,11 @@ export async function start(scene, sets, options = {}) {
   const { about, refusal, dsmcRefusal } = answer,
     gas = { id, scene, sets, lesson, about, refusal, dsmcRefusal, history: new TemperatureHistory(about.values.flow === "hcs") };
   leaveGhost(gas);
-  const quantity = about.values.flow === "hcs" && store.state.quantity === "temperature" ? { quantity: "cooling_rate" } : {}; /* T has no mean there */
+  const quantity = about.values.flow === "hcs" && store.state.quantity === "temperature" ? { quantity: "cooling_rate" } : {}, /* T has no mean there */
+    chart = store.state.chart === "profiles" && !isWalled(about.values) ? { chart: "temperature" } : {};
   if (store.state.player) workers.live.ask("close").catch(() => {});
   renew();
-  store.dispatch("started", { gas, change: { lesson, ...quantity, ...look, ...(keepBanner ? {} : { banner: null }) } });
+  store.dispatch("started", { gas, change: { lesson, ...quantity, ...chart, ...look, ...(keepBanner ? {} : { banner: null }) } });
   askMeans();
   return true;
 }
@@ -121,6 +132,7 @@ function leaveGhost(next) {
 
 /* How a lesson is shown. */
 export const lookOf = ({ speed, colour, camera, pair, chart, quantity, slider, follow }) => ({
+  question: "",
   speed,
   colour,
   camera,
@@ -138,11 +150,11 @@ export function openLesson(name, { sets = {}, look = {} } = {}) {
 }
 /* A gas of one's own: no words beside it. */
 export function ownScene(scene, sets = {}, look = {}) {
-  return start(scene, sets, { lesson: null, look: { ghosts: [], pair: "", chart: "temperature", ...look } });
+  return start(scene, sets, { lesson: null, look: { ghosts: [], pair: "", chart: "temperature", question: "", ...look } });
 }
 
 /* What a link asks for, or the command, or nobody. */
-export async function follow({ scene, sets, lesson, look }) {
+export async function follow({ scene, sets, lesson, look, points = [] }) {
   const { given } = page,
     known = lessonOf(lesson);
   let ok;
@@ -151,6 +163,7 @@ export async function follow({ scene, sets, lesson, look }) {
   else ok = await openLesson(START.name, { sets, look });
   if (!ok && !store.state.gas) await openLesson(START.name).then(() => restoreBanner());
   if (lesson !== null && !known) unknownLesson(lesson);
+  if (gather(points) < points.length) store.dispatch("banner", { banner: { text: t("noPointsLink"), offers: [] } });
 }
 let said = null;
 store.subscribe((state, before) => {

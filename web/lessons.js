@@ -60,7 +60,7 @@ export const LESSONS = [
   }),
   lesson("walls", "{flow: couette, phi: 0.1, particles: 1000, collision: {e: 0.9}}", {
     slider: "e",
-    chart: "temperature",
+    chart: "profiles",
     quantity: "temperature",
     colour: "along",
     camera: [0.2, 0.1, 1],

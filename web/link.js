@@ -2,24 +2,33 @@
 /* The state of the page in its address, as little as says it: #lesson=haff&set=collision.e=0.8, or #scene={flow: ...}.
  * Also read after a question mark. */
 import { LANGUAGES, ownLanguage } from "./i18n.js";
+import { CHARTS } from "./charts.js";
+import { CONTROLS } from "./controls.js";
 import { lessonOf } from "./lessons.js";
 import { lookOf, page, START } from "./gas.js";
+import { QUANTITIES } from "./points.js";
 import { initial, store } from "./state.js";
 
 const VIEWS = ["all", "box", "curve", "present"],
   COLOURS = ["speed", "spin", "since", "along", "origin"],
-  CHARTS = ["temperature", "speeds", "velocities", "stress", "distance"],
   PAIRS = ["", "elastic", "bit"];
 const one = (list) => ({ read: (text) => (list.includes(text) ? text : undefined), write: String });
+/* A teacher's words: text and nothing else, no line of it hidden or turned about. */
+export const tidyQuestion = (text) => text.replace(/[\p{C}\p{Zl}\p{Zp}]+/gu, " ").trim().slice(0, 240);
 const yes = { read: (text) => text === "1", write: (value) => (value ? "1" : "0") };
-/* How it is shown: parameters by their place in the state. */
+/* How it is shown: parameters by their place in the state. `asked`: with a question alone; lessons have their own. */
 const LOOK = {
+  question: { read: (text) => tidyQuestion(text) || undefined, write: String },
+  slider: { ...one(CONTROLS.filter((row) => row.max !== undefined).map((row) => row.name)), asked: true },
+  quantity: { ...one(QUANTITIES), asked: true },
   view: one(VIEWS),
   colour: one(COLOURS),
   chart: one(CHARTS),
   pair: one(PAIRS),
   follow: yes,
   images: yes,
+  arrows: yes,
+  grain: { read: (text) => (/^\d{1,5}$/.test(text) ? +text : undefined), write: (i) => String(i ?? "") },
   playing: yes,
   speed: { read: (text) => (+text >= 0.001 && +text <= 1000 ? +text : undefined), write: String },
   camera: {
@@ -44,14 +53,29 @@ export function readLink(place = location) {
     if (value !== undefined) look[name] = value;
   }
   const language = given.get("language");
+  if (lessonOf(given.get("lesson")) || !look.question) for (const name of ["question", "slider", "quantity"]) delete look[name];
   return {
     scene: given.get("scene"),
     sets: Object.fromEntries(pairs) /* whatever a key is called */,
     lesson: given.get("lesson"),
     language: Object.keys(LANGUAGES).includes(language) ? language : null,
     look,
+    points: given.getAll("points").slice(0, 200),
   };
 }
+/* The links, or parts of links, in a text: their points. */
+export const pointsIn = (text) =>
+  text.split(/\s+/).flatMap((one) => (one.includes("points=") ? readLink({ hash: `#${one.replace(/^[^#]*#/, "")}`, search: "" }).points : []));
+
+/* Of one's own points: what they are of, and whose. */
+export function linkOfPoints(state, text) {
+  const { lesson, gas } = state,
+    to = new URLSearchParams(lesson ? { lesson } : { scene: gas.about.brief });
+  to.set("points", text);
+  return `#${readable(to)}`;
+}
+/* What may stand in an address as it is, so that people can read it. */
+const readable = (to) => to.toString().replace(/%(3A|3B|2C|7B|7D|5B|5D|3D|3F)/g, (code) => decodeURIComponent(code));
 
 /* Of the live gas; while a result is played, of the one that waits. */
 export function linkOf(state, own = ownLanguage()) {
@@ -65,12 +89,11 @@ export function linkOf(state, own = ownLanguage()) {
     for (const [key, value] of Object.entries(gas.sets)) if (key !== "run.seed") to.append("set", `${key}=${value}`);
     if (gas.sets["run.seed"] !== undefined) to.set("seed", gas.sets["run.seed"]);
   } else if (gas.scene !== page.given || Object.keys(gas.sets).length) to.set("scene", gas.about.brief);
-  for (const [name, { write }] of Object.entries(LOOK))
-    if (write(of[name]) !== write(usual[name]) && name !== "playing") to.set(name, write(of[name]));
+  for (const [name, { write, asked }] of Object.entries(LOOK))
+    if (name !== "playing" && (asked ? of.question : write(of[name]) !== write(usual[name]))) to.set(name, write(of[name]));
   if (!of.playing) to.set("playing", "0");
   if (state.language !== own) to.set("language", state.language);
-  /* what may stand in an address as it is, so that people can read it */
-  const text = to.toString().replace(/%(3A|2C|7B|7D|5B|5D|3D)/g, (code) => decodeURIComponent(code));
+  const text = readable(to);
   return text ? `#${text}` : "";
 }
 

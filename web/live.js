@@ -2,6 +2,7 @@
 /* The gas that is seen, in a worker: md, and dsmc beside it, or a twin of md that differs in one thing. Nothing here
  * depends on how often the page asks. */
 import { GraingasError } from "./engines.js";
+import { isWalled, sheared } from "./flows.js";
 import { Picture } from "./picture.js";
 
 /* The scene's text with keys set over it. */
@@ -84,13 +85,12 @@ export function costOf(g, text, sets) {
 }
 
 /* What is shown of a state. Between walls T is the one that results have: the state's is of whole velocities. */
-export const isWalled = ({ flow }) => /couette|poiseuille|chute/.test(flow);
 export function shownState(gas, state, values) {
   const temperature = isWalled(values) ? gas.localTemperature(state.grains, state.box[1]) : NaN; /* none without places */
   return Number.isFinite(temperature) ? { ...state, temperature } : state;
 }
 /* The shear rate of the flow that velocities are about. */
-export const flowOf = ({ flow }) => (/usf|shear/.test(flow) ? 1 : 0);
+export const flowOf = (values) => (sheared(values) ? 1 : 0);
 
 const BINS = 30;
 
@@ -129,7 +129,7 @@ export class LiveGas {
   }
   viewOf(gas, about) {
     const view = new Picture(gas.grains(), gas.species(), about);
-    view.fix(gas.state(), gas.grains(), gas.species());
+    view.fix(gas.state(), gas.grains(), gas.species(), flowOf(this.about.values));
     return view;
   }
   /* Grains put back into both: what that rounds is the same in both. */
@@ -224,13 +224,13 @@ export class LiveGas {
   }
 
   /* `collisions` a grain at the start's rate, or, if it is followed, at the present one. */
-  frame({ collisions, colour, step, follow = false, speeds = false }) {
+  frame({ collisions, colour, step, follow = false, speeds = false, arrows = false, grain = null }) {
     const rate = follow ? this.rate : this.startRate,
       done = step ? (this.step(), true) : this.goOn(collisions / rate);
     if (!step && collisions > 0) this.event = null;
     const { values } = this.about,
       short = (s) => s && shownState(s, s.state(), values),
-      look = { by: colour, rate: this.rate, follow, flow: flowOf(values) };
+      look = { by: colour, rate: this.rate, follow, flow: flowOf(values), arrows, grain };
     const answer = {
       md: short(this.md),
       dsmc: short(this.dsmc),

@@ -7,8 +7,8 @@ import { endPlaying, FRAMES_A_SECOND, goTo, listenForFiles, openFile, played } f
 import { again, change, follow, now, openWorkers, ownScene, page, reverse, start, workers } from "./gas.js";
 import { ownLanguage, t } from "./i18n.js";
 import { lessonOf } from "./lessons.js";
-import { linkOf, readLink } from "./link.js";
-import { keepPoint, pointsCsv } from "./points.js";
+import { linkOf, linkOfPoints, pointsIn, readLink, tidyQuestion } from "./link.js";
+import { clearKept, gather, keepPoint, pointsCsv, pointsText, tidyName } from "./points.js";
 import { qrSvg } from "./qr.js";
 import { curvesCsv, fileName, save } from "./save.js";
 import { begin, describe, drawFrame, parts, say, show } from "./show.js";
@@ -23,11 +23,12 @@ function givenScene() {
 
 async function main() {
   const link = readLink(),
-    turned = (camera) => store.look({ camera });
+    turned = (camera) => store.look({ camera }),
+    picked = (grain) => store.look({ grain });
   begin({
     controls: new Controls(byId("control-rows"), change, wantedValues),
-    view: new BoxView(byId("box"), turned),
-    twin: new BoxView(byId("twin"), turned),
+    view: new BoxView(byId("box"), turned, picked),
+    twin: new BoxView(byId("twin"), turned, picked),
   });
   store.subscribe(show);
   store.dispatch("look", { change: { language: link.language || ownLanguage(), view: link.look.view || "all" } });
@@ -93,17 +94,29 @@ function listen() {
     keepPoint();
     say(t("kept"));
   });
-  on("forget", () => store.dispatch("forget"));
+  on("forget", () => {
+    clearKept();
+    store.dispatch("forget");
+  });
   on("present", present);
   on("describe", () => say(describe()));
   for (const name of ["colour", "quantity", "language"]) on(name, () => store.look({ [name]: byId(name).value }), "change");
   on("chart-kind", () => store.look({ chart: byId("chart-kind").value }), "change");
-  for (const name of ["images", "follow", "everything"]) on(name, () => store.look({ [name]: byId(name).checked }), "change");
+  for (const name of ["images", "follow", "everything", "arrows"]) on(name, () => store.look({ [name]: byId(name).checked }), "change");
   on("sound", () => {
     if (byId("sound").checked) openSound();
     store.look({ sound: byId("sound").checked });
   }, "change");
   on("pair", () => again({}, { look: { pair: byId("pair").value } }), "change");
+  on("grain-number", () => {
+    const i = Math.round(byId("grain-number").value);
+    store.look({ grain: i >= 1 ? i - 1 : null });
+  }, "change");
+  on("use-question", () => {
+    const question = tidyQuestion(byId("question-text").value);
+    store.look({ question, slider: byId("question-slider").value, ...(question ? { lesson: null } : {}) });
+    say(question);
+  });
   on("use-yaml", () => ownScene(byId("yaml").value));
   on("controls", (e) => e.preventDefault(), "submit");
   for (const button of document.querySelectorAll("[data-move]"))
@@ -150,8 +163,20 @@ function listenForTaking() {
   const text = (id, ending, type, make) => on(id, () => graingas.save(fileName(about(), ending), new Blob([make()], { type })));
   text("save-csv", "csv", "text/csv", () => curvesCsv(store.state.gas.history, store.state.means, about().title));
   text("save-yaml", "yaml", "text/yaml", () => about().yaml);
-  on("save-points", () => graingas.save("graingas-points.csv", new Blob([pointsCsv(store.state.points)], { type: "text/csv" })));
+  on("save-points", () => graingas.save(`graingas-points${store.state.points.every((one) => one.from) ? "" : ownName("-")}.csv`, new Blob([pointsCsv(store.state.points)], { type: "text/csv" })));
   on("share", openSharing);
+  for (const [id, kind] of [["mine", "change"], ["me", "input"]]) on(id, showLink, kind);
+  on("class", () => {
+    byId("gathering-said").textContent = "";
+    byId("gathering").showModal();
+  });
+  on("take-links", () => {
+    const n = gather(pointsIn(byId("links").value));
+    byId("gathering-said").textContent = t(n ? "gathered" : "noPointsLink", { n });
+    if (n) byId("links").value = "";
+  });
+  on("open-tables", () => byId("file").click());
+  on("close-gathering", () => byId("gathering").close());
   on("close-sharing", () => byId("sharing").close());
   on("copy-link", async () => {
     byId("link").select();
@@ -163,15 +188,29 @@ function listenForTaking() {
     }
   });
 }
-/* A link to a file is of no use to others: they need the file, and what is asked for after #. */
+/* The name that stands with one's own points; nothing without one. */
+const ownName = (before) => {
+  const name = tidyName(byId("me").value);
+  return name ? before + name.replace(/ /g, "-") : "";
+};
 function openSharing() {
-  const here = location.protocol === "file:",
-    link = location.href.split("#")[0] + linkOf(store.state);
-  byId("link").value = link;
-  byId("link-words").textContent = t(here ? "linkFile" : "linkWorks");
   byId("link-said").textContent = "";
-  byId("qr").replaceChildren(...(here ? [] : qrSvg(link, t("qrLabel"))));
+  byId("mine-row").hidden = !pointsText(store.state, "");
+  byId("mine").checked = !byId("mine-row").hidden;
+  showLink();
   byId("sharing").showModal();
+}
+/* Of the experiment, or of one's own points of it. A link to a file is of no use to others: they need the file, and what is
+ * asked for after #. Of points that alone is in the code: it can be pasted. */
+function showLink() {
+  const here = location.protocol === "file:",
+    points = byId("mine").checked ? pointsText(store.state, byId("me").value) : "",
+    asked = points ? linkOfPoints(store.state, points) : linkOf(store.state),
+    link = location.href.split("#")[0] + asked;
+  byId("me-row").hidden = !byId("mine").checked;
+  byId("link").value = link;
+  byId("link-words").textContent = t(points ? (here ? "linkPointsFile" : "linkPointsWorks") : here ? "linkFile" : "linkWorks");
+  byId("qr").replaceChildren(...(here && !points ? [] : qrSvg(here ? asked : link, t("qrLabel"))));
 }
 
 /* What tests and those who are curious on the console want. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-import { isWalled, sceneOf } from "./live.js";
+import { isWalled } from "./flows.js";
+import { sceneOf } from "./live.js";
 
 /* Times for the lines of theories of free cooling: decades, few enough, as far as diagrams go. The page draws lines
  * between them, which at late times are straight. */

@@ -4,6 +4,10 @@ export const COLOURS_END = { speed: 2, spin: 2, since: 3 }; /* root mean squares
 
 const rootMeanSquare = (vectors) => Math.sqrt((3 * vectors.reduce((sum, v) => sum + v * v, 0)) / vectors.length);
 
+/* Velocities along x, of a sheared gas with that of the flow; what is twice as fast as most ends the scale on both sides. */
+const alongX = ({ position, velocity }, flow, box) => Float32Array.from({ length: velocity.length / 3 }, (_, i) => velocity[3 * i] + flow * (position[3 * i + 1] - box[1] / 2));
+const endAlong = (all) => 2.2 * Math.sqrt(all.reduce((sum, v) => sum + v * v, 0) / all.length) || 1;
+
 /* Lengths of vectors over what is the end of the scale. */
 function lengths(vectors, end) {
   const found = new Float32Array(vectors.length / 3);
@@ -49,37 +53,45 @@ export class Picture {
   }
 
   /* The scale of colours: that of this state for good. Spins that are not there yet: as fast as equipartition has them. */
-  fix(state, { velocity, spin, position }, kinds) {
-    const inertia = (kinds[0].inertia * kinds[0].mass * kinds[0].diameter ** 2) / 4,
+  fix(state, grains, kinds, flow) {
+    const { velocity, spin, position } = grains,
+      inertia = (kinds[0].inertia * kinds[0].mass * kinds[0].diameter ** 2) / 4,
       fast = rootMeanSquare(velocity) || 1;
-    this.scale = { speed: fast, spin: rootMeanSquare(spin) || Math.sqrt((3 * state.temperature) / inertia) || 1 };
+    this.scale = { along: endAlong(alongX(grains, flow, state.box)), speed: fast, spin: rootMeanSquare(spin) || Math.sqrt((3 * state.temperature) / inertia) || 1 };
     this.origin = Float32Array.from({ length: position.length / 3 }, (_, i) => position[3 * i] / state.box[0]);
   }
 
   /* `by`: speed, spin; since, the time since the last collision in mean free times, of so many collisions a time;
    * along, the velocity along x from left to right, of a sheared gas with that of the flow; origin, where it began.
-   * `follow`: speeds and spins over those of now, not over those of the start. */
-  of(state, { position, velocity, spin, hit }, { by, rate = 0, follow = false, flow = 0 }) {
-    const turning = state.rotationalTemperature > 0,
+   * `follow`: speeds and spins over those of now, not over those of the start. `arrows`: with all velocities, of a sheared
+   * gas with that of the flow; `grain`: with the velocity and the spin of that one. */
+  of(state, grains, { by, rate = 0, follow = false, flow = 0, arrows = false, grain = null }) {
+    const { position, velocity, spin, hit } = grains,
+      turning = state.rotationalTemperature > 0,
       end = (vectors, name) => COLOURS_END[name] * (follow || !this.scale ? rootMeanSquare(vectors) || 1 : this.scale[name]);
     if (turning) turnMarks(this.marks, spin, state.time - this.time);
     this.time = state.time;
+    const along = by === "along" || arrows || grain !== null ? alongX(grains, flow, state.box) : null,
+      moving = (i) => (i % 3 ? velocity[i] : along[i / 3]),
+      three = (i, of) => [3 * i, 3 * i + 1, 3 * i + 2].map(of);
     const values = {
       since: () => hit && Float32Array.from(hit, (time) => ((state.time - time) * rate) / COLOURS_END.since),
       spin: () => lengths(spin, end(spin, "spin")),
       origin: () => this.origin,
       along: () => {
-        const most = 2 * Math.max(end(velocity, "speed") / 2, Math.abs(flow) * state.box[1] * 0.3);
-        return Float32Array.from(
-          { length: velocity.length / 3 },
-          (_, i) => 0.5 + (velocity[3 * i] + flow * (position[3 * i + 1] - state.box[1] / 2)) / most,
-        );
+        const most = follow || !this.scale ? endAlong(along) : this.scale.along;
+        return along.map((v) => 0.5 + v / (2 * most));
       },
     };
     return {
       position: Float32Array.from(position),
       value: Float32Array.from((values[by] && values[by]()) || lengths(velocity, end(velocity, "speed"))),
       marks: turning ? Float32Array.from(this.marks) : null,
+      velocity: arrows ? Float32Array.from(velocity, (_, i) => moving(i)) : null,
+      one:
+        grain === null || !(3 * grain < position.length)
+          ? null
+          : { position: three(grain, (i) => position[i]), velocity: three(grain, moving), spin: turning ? three(grain, (i) => spin[i]) : null },
     };
   }
 }

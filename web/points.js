@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A student's own points: what was measured, over the slider's value, beside the theories' lines; as CSV, and from it. */
-import { DSMC, MD } from "./colours.js";
-import { gridOf, rowOf, shownValue, symbolOf } from "./controls.js";
+import { CLASS, DSMC, MD } from "./colours.js";
+import { CLOSED } from "./chart.js";
+import { CONTROLS, gridOf, rowOf, shownValue, symbolOf } from "./controls.js";
 import { workers } from "./gas.js";
 import { lessonOf } from "./lessons.js";
 import { t } from "./i18n.js";
@@ -88,15 +89,15 @@ export function showPoints(chart, state) {
       series.push({ name, label: theoryName(name), ...lineOf(name), width: 1.6, x: line.x.slice(0, line.theory.length), y: line.theory.map((one) => (one[name] ? one[name][quantity] : NaN)) });
   }
   const family = familyOf(gas, row),
-    mine = points.filter((one) => one.slider === row.name && (!one.family || one.family === family));
+    shown = points.filter((one) => one.slider === row.name && (!one.family || one.family === family)),
+    mine = shown.filter((one) => !one.from);
+  series.push(...ofTheClass(shown, quantity));
   for (const [engine, colour, shape] of [
     ["md", MD, "circle"],
     ["dsmc", DSMC, "square"],
   ]) {
-    const kept = mine.filter((one) => one[engine] && one[engine][quantity]),
-      add = (name, some, more) => some.length && series.push({ name, label: t(engine), colour, points: true, shape, ...more, x: some.map((one) => one.x), y: some.map((one) => one[engine][quantity][0]), error: some.map((one) => one[engine][quantity][1]) });
-    add(`${engine} class`, kept.filter((one) => one.from), { shape: "plus", label: t("classPoints", { engine: t(engine) }) });
-    add(`${engine} kept`, kept.filter((one) => !one.from), {});
+    const kept = measuredOf(mine, engine, quantity);
+    if (kept.x.length) series.push({ name: `${engine} kept`, label: t(engine), colour, shape, ...kept });
     const part = means && means[engine] && means[engine].results,
       m = mean(part, quantity);
     if (Number.isFinite(m))
@@ -106,10 +107,86 @@ export function showPoints(chart, state) {
   chart.update({
     title: t("pointsOf", { quantity: quantityName(quantity), slider: symbolOf(row) }),
     series,
-    summary: t("pointsSummary", { n: mine.length, quantity: quantityName(quantity), slider: symbolOf(row) }),
+    summary: t("pointsSummary", { n: shown.length, quantity: quantityName(quantity), slider: symbolOf(row) }),
     x: { label: symbolOf(row), symbol: symbolOf(row), range: [Math.min(a, ...known) - 0.02 * (b - a), Math.max(b, ...known) + 0.02 * (b - a)] },
     y: { label: t(`symbol_${quantity}`) },
   });
+}
+
+const measuredOf = (some, engine, quantity) => {
+  const found = some.filter((one) => one[engine] && one[engine][quantity]);
+  return { points: true, x: found.map((one) => one.x), y: found.map((one) => one[engine][quantity][0]), error: found.map((one) => one[engine][quantity][1]) };
+};
+/* Of each student a mark of its own: full of the grains, hollow of the dice. */
+function ofTheClass(points, quantity) {
+  const names = [...new Set(points.map((one) => one.from).filter(Boolean))];
+  return names.flatMap((from, i) =>
+    ENGINES.map((engine) => ({
+      name: `${engine} of ${from}`,
+      label: engine === "md" ? from : `${from} (${t(engine)})`,
+      colour: CLASS[i % CLASS.length],
+      shape: CLOSED[i % CLOSED.length],
+      hollow: engine === "dsmc",
+      quiet: engine === "dsmc",
+      ...measuredOf(points.filter((one) => one.from === from), engine, quantity),
+    })).filter(({ x }) => x.length),
+  );
+}
+
+/* ---- As part of a link: a student's name, slider, quantity; then of each point its x, mean and error of the grains, mean
+ * and error of the dice: Ann;e;cooling_rate;0.9,0.122,0.003,0.125,0.001;... Nothing of it is believed when it is read. */
+
+const MOST = { names: 200, points: 60, name: 24 };
+/* What people are called, and no sign that tables or pages take for more. */
+export const tidyName = (text) => text.replace(/[^\p{L}\p{N} ._-]/gu, " ").replace(/\s+/g, " ").replace(/^[ .-]+| $/g, "").slice(0, MOST.name);
+
+export function pointsText({ points, slider, quantity }, name) {
+  const short = (x, digits) => String(+x.toPrecision(digits)),
+    mine = points.filter((one) => !one.from && one.slider === slider && ENGINES.some((engine) => one[engine][quantity])).slice(0, MOST.points),
+    part = (pair) => (pair ? `${short(pair[0], 5)},${short(pair[1], 2)}` : ",");
+  if (!mine.length) return "";
+  return [tidyName(name) || t("nobody"), slider, quantity, ...mine.map((one) => [short(one.x, 5), part(one.md[quantity]), part(one.dsmc[quantity])].join(",").replace(/,+$/, ""))].join(";");
+}
+export function pointsFrom(text) {
+  const [name, slider, quantity, ...rest] = String(text).slice(0, 5000).split(";"),
+    from = tidyName(name || "");
+  if (!from || !QUANTITIES.includes(quantity) || !CONTROLS.some((row) => row.name === slider && row.max !== undefined)) return [];
+  return rest
+    .slice(0, MOST.points)
+    .map((one) => {
+      const [x, ...numbers] = one.split(",").map((part) => (part.trim() ? Number(part) : NaN)),
+        pair = (at) => (Number.isFinite(numbers[at]) ? { [quantity]: [numbers[at], numbers[at + 1] >= 0 ? numbers[at + 1] : 0] } : {});
+      return { slider, x, quantity, seed: "", from, md: pair(0), dsmc: pair(2) };
+    })
+    .filter((one) => Number.isFinite(one.x) && (one.md[quantity] || one.dsmc[quantity]));
+}
+
+/* This device keeps what it was given by links, one after another, until somebody clears the diagram. */
+const KEPT = "graingas-class";
+const kept = () => {
+  try {
+    return JSON.parse(localStorage.getItem(KEPT)).filter((one) => typeof one === "string");
+  } catch (e) {
+    return []; /* none yet, or a browser that keeps nothing */
+  }
+};
+function keep(texts) {
+  try {
+    localStorage.setItem(KEPT, JSON.stringify(texts));
+  } catch (e) {
+    /* they are in the diagram */
+  }
+}
+export const clearKept = () => keep([]);
+/* The points of these texts, and those of before; how many are new. */
+export function gather(texts) {
+  const good = texts.filter((one) => pointsFrom(one).length),
+    head = (one) => one.split(";").slice(0, 3).join(";"),
+    all = Object.values(Object.fromEntries([...kept(), ...good].map((one) => [head(one), one]))).slice(-MOST.names),
+    points = all.flatMap(pointsFrom);
+  if (good.length) keep(all);
+  if (points.length) store.dispatch("gather", { points });
+  return good.length;
 }
 
 /* ---- CSV: a row a point, a column a quantity ---- */
@@ -121,15 +198,17 @@ export function pointsCsv(points) {
         found = one[engine] && one[engine][q];
       return found ? found[isError ? 1 : 0] : "";
     };
-  return `${[["slider", "value", "seed", ...columns], ...points.map((one) => [one.slider, one.x, one.seed, ...columns.map((column) => numberAt(one, column))])].map((row) => row.join(",")).join("\n")}\n`;
+  return `${[["slider", "value", "seed", ...columns, "name"], ...points.map((one) => [one.slider, one.x, one.seed, ...columns.map((column) => numberAt(one, column)), one.from])].map((row) => row.join(",")).join("\n")}\n`;
 }
 /* Those of a file; none if it is no such table. */
-export function pointsOf(text, from) {
+export function pointsOf(text, file) {
+  const whose = tidyName(file.replace(/^graingas-points-?|\.csv$/gi, "")) || tidyName(file);
   const [head, ...rows] = text.trim().split(/\r?\n/).slice(0, 5001).map((row) => row.split(","));
   if (head[0] !== "slider" || head[1] !== "value") return [];
   return rows
     .map((row) => {
-      const point = { slider: row[0], x: Number(row[1]), seed: row[2], from, md: {}, dsmc: {} };
+      const from = tidyName(row[head.indexOf("name")] || "") || whose,
+        point = { slider: row[0], x: Number(row[1]), seed: row[2], from, md: {}, dsmc: {} };
       head.forEach((column, i) => {
         const found = /^(md|dsmc)_(.*?)(_error)?$/.exec(column);
         if (!found || !QUANTITIES.includes(found[2]) || row[i] === "" || row[i] === undefined) return;

@@ -28,12 +28,12 @@ export class Replay {
     const { state, grains } = this.trajectory.frame(0),
       kinds = this.trajectory.species();
     this.view = new Picture(grains, kinds, this.about);
-    this.view.fix(state, grains, kinds);
+    this.view.fix(state, grains, kinds, flowOf(this.about.values));
   }
-  frame({ k, colour }) {
+  frame({ k, colour, arrows = false, grain = null }) {
     const { state, grains } = this.trajectory.frame(k);
     const md = shownState(this.trajectory, state, this.about.values);
-    return { md, dsmc: null, picture: this.view.of(state, grains, { by: colour, flow: flowOf(this.about.values) }), event: null };
+    return { md, dsmc: null, picture: this.view.of(state, grains, { by: colour, flow: flowOf(this.about.values), arrows, grain }), event: null };
   }
   free() {
     this.trajectory.free();

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shows the state: each part where it has changed. */
 import { Chart } from "./chart.js";
-import { CHARTS, sheared, showChart, speedUnit, temperatureUnit, timeUnit } from "./charts.js";
+import { CHARTS, showChart, speedUnit, spinUnit, temperatureUnit, timeUnit } from "./charts.js";
 import { SPEEDS } from "./clock.js";
 import { colourAt, mapOf, rgb } from "./colours.js";
-import { rowOf } from "./controls.js";
+import { CONTROLS, rowOf, symbolOf } from "./controls.js";
 import { FRAMES_A_SECOND, whichFrame } from "./files.js";
+import { isWalled, sheared } from "./flows.js";
 import { now, openLesson, ownScene } from "./gas.js";
 import { LANGUAGES, t } from "./i18n.js";
 import { LESSONS } from "./lessons.js";
@@ -38,6 +39,7 @@ export function begin({ controls, view, twin }) {
   options("colour", COLOURS);
   options("chart-kind", CHARTS);
   options("quantity", QUANTITIES);
+  options("question-slider", CONTROLS.filter((row) => row.max !== undefined).map((row) => row.name));
   options("language", Object.keys(LANGUAGES));
   for (const [code, strings] of Object.entries(LANGUAGES)) {
     const one = byId("language").querySelector(`[value=${code}]`);
@@ -56,11 +58,12 @@ export function show(state, before) {
   if (is("view")) showView(state);
   if (!state.gas) return;
   if (is("gas", "language")) showGas(state);
-  if (is("gas", "lesson", "language", "slider")) showLesson(state, before);
+  if (is("gas", "lesson", "language", "slider", "question")) showLesson(state, before);
   if (is("refusedKeys", "gas")) parts.controls.refuse(state.refusedKeys);
   if (is("gas", "playing", "speed", "player", "follow", "language")) showPlaying(state);
   if (is("gas", "colour", "language", "player")) showScale(state);
-  if (is("colour", "follow", "pair")) now.want = true;
+  if (is("colour", "follow", "pair", "arrows", "grain")) now.want = true;
+  if (is("arrows", "grain")) showFollowed(state, before);
   if (is("camera")) for (const one of [parts.view, parts.twin]) one.look(state.camera);
   if (is("images") && now.frame) now.fresh = true;
   if (is("gas", "pair", "language")) showPair(state);
@@ -68,7 +71,7 @@ export function show(state, before) {
   if (is("chart", "quantity", "language", "gas")) showChoices(state);
   if (is("chart", "gas", "means", "language", "theories", "ghosts", "pair")) showChart(parts.chart, state);
   if (is("chart", "gas", "means", "language", "theories", "points", "lines", "quantity", "slider", "player")) showMyPoints(state);
-  if (is("gas", "lesson", "language", "colour", "speed", "camera", "playing", "pair", "chart", "view", "follow", "images")) link(state, before);
+  if (is("gas", "lesson", "language", "colour", "speed", "camera", "playing", "pair", "chart", "view", "follow", "images", "arrows", "grain", "question", "quantity", "slider")) link(state, before);
   announceChanges(state, before);
 }
 
@@ -93,6 +96,7 @@ function showLanguage() {
   }
   for (const one of byId("colour").options) one.textContent = t(`${one.value}Of`);
   for (const one of byId("chart-kind").options) one.textContent = t(`chart_${one.value}`);
+  for (const one of byId("question-slider").options) one.textContent = symbolOf(rowOf(one.value));
   for (const one of byId("quantity").options) one.textContent = quantityName(one.value);
   for (const { name } of LESSONS) byId(`lesson-${name}`).textContent = t(`lesson_${name}_short`);
   byId("lesson-own").textContent = t("lesson_own_short");
@@ -126,14 +130,17 @@ function showView({ view }) {
   now.fresh = !!now.frame;
 }
 
-function showLesson({ lesson, gas, slider, player }, before) {
+function showLesson({ lesson, gas, slider, player, question }, before) {
   for (const button of byId("lessons").children) button.setAttribute("aria-pressed", String(button.id === `lesson-${lesson || "own"}`));
-  byId("lesson-name").textContent = lesson ? t(`lesson_${lesson}`) : player ? player.name : t("lesson_own");
+  const list = byId("lessons"),
+    { offsetLeft: left, offsetWidth: wide } = byId(`lesson-${lesson || "own"}`);
+  if (before.lesson !== lesson || !before.gas) list.scrollLeft = left - list.offsetLeft - (list.clientWidth - wide) / 2;
+  byId("lesson-name").textContent = lesson ? t(`lesson_${lesson}`) : player ? player.name : t(question ? "questionName" : "lesson_own");
   byId("lesson-text").textContent = lesson ? t(`lesson_${lesson}_text`) : gas.about.title;
-  byId("question").textContent = lesson ? t(`lesson_${lesson}_question`) : "";
+  byId("question").textContent = lesson ? t(`lesson_${lesson}_question`) : player ? "" : question;
   parts.controls.pull(rowOf(slider).name, byId("main-control"));
   byId("reverse").hidden = lesson !== "reverse";
-  if (before.lesson !== lesson || !before.gas) byId("more-controls").open = !lesson;
+  if (before.lesson !== lesson || before.question !== question || !before.gas) byId("more-controls").open = !lesson && !question;
 }
 
 /* ---- The gas ---- */
@@ -147,7 +154,8 @@ function showGas({ gas, player }) {
   if (document.activeElement !== byId("yaml")) byId("yaml").value = about.yaml; /* nobody's typing is written over */
   byId("event").textContent = "";
   document.title = `${title} – graingas`;
-  byId("profiles").hidden = !/couette|poiseuille|chute/.test(about.values.flow);
+  byId("profiles").hidden = !isWalled(about.values);
+  byId("chart-kind").querySelector("[value=profiles]").disabled = byId("profiles").hidden;
   byId("thermometer").style.display = "";
   thermometer.top = 0;
   shownWarnings = null;
@@ -164,13 +172,14 @@ function showPair({ pair, gas }) {
 
 export function drawFrame(time) {
   const { frame } = now,
-    { gas, images, colour } = store.state,
-    look = { images, map: mapOf(colour) };
+    { gas, images, colour, grain } = store.state,
+    look = { images, map: mapOf(colour), grain, trail: now.trail };
   if (frame.md) parts.view.draw(frame.picture, frame.md, gas.about, { ...look, event: frame.event });
   else parts.view.draw(null, frame.dsmc, gas.about, {});
-  if (frame.twinPicture) parts.twin.draw(frame.twinPicture, frame.twin, gas.about, look);
+  if (frame.twinPicture) parts.twin.draw(frame.twinPicture, frame.twin, gas.about, { ...look, trail: [] });
   showClock(frame.md || frame.dsmc, gas.about.values);
   showThermometer(frame);
+  showGrain(frame, grain);
   if (frame.event !== shownEvent) showEvent((shownEvent = frame.event));
   if (time - slow < 250) return;
   slow = time;
@@ -220,6 +229,27 @@ function showEvent(event) {
     unit: speedUnit(values),
     lost,
   });
+}
+
+function showFollowed({ arrows, grain }, before) {
+  byId("arrows").checked = arrows;
+  if (document.activeElement !== byId("grain-number")) byId("grain-number").value = grain === null ? "" : grain + 1;
+  if (grain !== before.grain && before.gas) say(grain === null ? "" : t("followed", { i: grain + 1 }));
+}
+/* The grain that is followed: its velocity, and its spin where it has one. */
+const signed = (x) => x.toFixed(2).replace("-", "−");
+const vector = (v) => `(${v.map(signed).join(", ")})`;
+const sizeOf = (v) => number(Math.hypot(...v), 3);
+function grainWords({ picture }, grain) {
+  const one = picture && picture.one,
+    { values } = store.state.gas.about;
+  if (!one) return "";
+  const words = t("grain", { i: grain + 1, v: sizeOf(one.velocity), unit: speedUnit(values), all: vector(one.velocity) });
+  return one.spin ? `${words} · ω ${sizeOf(one.spin)} ${spinUnit(values)} ${vector(one.spin)}` : words;
+}
+function showGrain(frame, grain) {
+  const words = grainWords(frame, grain);
+  if (byId("grain").textContent !== words) byId("grain").textContent = words;
 }
 
 /* As high as T is, on the scale of the gas's start; of a gas that heats up on a longer one. */
@@ -329,6 +359,7 @@ const heard = { T: 0, steady: false, time: 0 };
 function announceChanges(state, before) {
   if (state.gas !== before.gas) Object.assign(heard, { T: 0, steady: false });
   if (state.lesson !== before.lesson && state.lesson) say(`${t(`lesson_${state.lesson}`)}. ${t(`lesson_${state.lesson}_text`)} ${t(`lesson_${state.lesson}_question`)}`);
+  else if (state.question && state.question !== before.question && before.gas) say(state.question);
   else if (state.gas !== before.gas && before.gas) say(state.player ? t("summaryPlayed", { name: state.player.name, ...whichFrame(), title: state.gas.about.title }) : state.gas.about.title);
   const p = state.means && state.means.progress && state.means.progress.md;
   if (p && p.over && !heard.steady && state.means.md) {
@@ -365,5 +396,5 @@ export function describe() {
     T: number(s.temperature),
     theta: s.rotationalTemperature > 0 ? t("summaryTheta", { theta: number(s.rotationalTemperature) }) : "",
   });
-  return `${words} ${describeMeans(store.state)}`;
+  return `${words} ${describeMeans(store.state)} ${grainWords(now.frame, store.state.grain)}`.trim();
 }

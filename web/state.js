@@ -18,6 +18,9 @@ export const initial = {
   images: true,
   sound: false,
   camera: [0.45, 0.22, 1],
+  arrows: false,
+  grain: null /* the number of the one that is followed */,
+  question: "" /* a teacher's own, of a link or of this page */,
   pair: "",
   chart: "temperature",
   quantity: "temperature",
@@ -89,6 +92,12 @@ const ACTIONS = {
 
   ghost: (state, { ghost }) => ({ ...state, ghosts: [ghost, ...state.ghosts.filter((one) => one.label !== ghost.label)].slice(0, 3) }),
   point: (state, { points }) => ({ ...state, points: [...state.points, ...points] }),
+  /* Those of others: what a student gave before is replaced. */
+  gather: (state, { points }) => {
+    const whose = (one) => `${one.from} ${one.slider} ${one.quantity || ""}`,
+      given = new Set(points.map(whose));
+    return { ...state, points: [...state.points.filter((one) => !one.from || !given.has(whose(one))), ...points] };
+  },
   forget: (state) => ({ ...state, points: [], ghosts: [] }),
   line: (state, { key, line }) => ({ ...state, lines: { ...state.lines, [key]: line } }),
 };

@@ -6,8 +6,16 @@ export const number = (x, digits = 4) =>
   !Number.isFinite(x)
     ? "–"
     : x !== 0 && (Math.abs(x) < 1e-3 || Math.abs(x) >= 1e6)
-      ? x.toExponential(digits - 1)
+      ? powerOfTen(x, digits)
       : String(+x.toPrecision(digits));
+
+const SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+export const superscript = (n) => String(n).replace(/-/, "⁻").replace(/\d/g, (d) => SUPERSCRIPTS[d]);
+/* 5.05·10⁻⁵ */
+export function powerOfTen(x, digits) {
+  const [first, power] = x.toExponential(digits - 1).split("e");
+  return `${first === "1" ? "" : `${first}·`}10${superscript(+power)}`;
+}
 
 /* 138.82(40): the error in units of the last digits; (?): it is not known. What is conserved has none but rounding. */
 export function withError(x, e) {
@@ -19,7 +27,7 @@ export function withError(x, e) {
     far = Math.floor(Math.log10(Math.abs(x) || e));
   if (far > 6 || far < -4) {
     const scale = 10 ** far;
-    return `${withError(x / scale, e / scale)}e${far}`;
+    return `${withError(x / scale, e / scale)}·10${superscript(far)}`;
   }
   const digits = Math.round(e * 10 ** places);
   return places ? `${x.toFixed(places)}(${digits})` : `${Math.round(x)}(${Math.round(e)})`;
@@ -28,7 +36,7 @@ export function withError(x, e) {
 /* rho_p d^2 gamma^2 -> ρₚ d² γ² */
 export const typeset = (unit) =>
   unit
-    .replace(/\^(-?\d)/g, (_, n) => n.replace("-", "⁻").replace(/\d/, (d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]))
+    .replace(/\^(-?\d)/g, (_, n) => superscript(n))
     .replace(/rho_p/g, "ρₚ")
     .replace(/gamma/g, "γ")
     .replace(/v_0/g, "v₀")

@@ -89,7 +89,7 @@ function measureOn(id) {
 const transfers = (answer) =>
   [answer.picture, answer.twinPicture]
     .filter(Boolean)
-    .flatMap(({ position, value, marks }) => [position, value, marks].filter(Boolean).map((array) => array.buffer));
+    .flatMap(({ position, value, marks, velocity }) => [position, value, marks, velocity].filter(Boolean).map((array) => array.buffer));
 
 onmessage = async ({ data }) => {
   try {

@@ -12,6 +12,7 @@ const { find, Browser } = require("./chromium.js"),
 
 const file = process.env.PAGE,
   quick = 120;
+const LESSONS = Object.keys(strings("en")).filter((key) => /^lesson_.*_question$/.test(key)).map((key) => key.slice(7, -9));
 const wait = (ms) => new Promise((r) => setTimeout(r, ms));
 let browser;
 
@@ -97,7 +98,7 @@ const tests = {
       [1920, 1080],
     ]) {
       const tab = await open("#lesson=haff", { width, height });
-      for (const name of Object.keys(strings("en")).filter((key) => /^lesson_.*_question$/.test(key)).map((key) => key.slice(7, -9))) {
+      for (const name of LESSONS) {
         await tab.value(`byId("lesson-${name}").click()`);
         await tab.until(`S().lesson === "${name}" && now.frame`, quick);
         const [page, seen, left] = await tab.value("[document.documentElement.scrollHeight, innerHeight, byId('lesson').scrollHeight - byId('lesson').clientHeight]");
@@ -107,11 +108,17 @@ const tests = {
     }
     for (const language of ["en", "de", "es"]) {
       const tab = await open(`#lesson=haff&language=${language}`, { width: 390, height: 844 });
-      await tab.until("document.querySelector('#chart polyline')", quick);
-      const places = await tab.value("['box', 'main-control', 'chart'].map((id) => { const r = byId(id).getBoundingClientRect(); return [r.top, r.bottom - (id === 'chart' ? 30 : 0)]; })");
-      for (const [top, bottom] of places) assert.ok(top >= 0 && bottom <= 844, `${language}: ${places.join("; ")}`);
-      assert.ok(places[0][1] - places[0][0] > 180);
-      assert.strictEqual(await tab.value("document.documentElement.scrollWidth > innerWidth"), false);
+      for (const name of LESSONS) {
+        await tab.value(`byId("lesson-${name}").click()`);
+        await tab.until(`S().lesson === "${name}" && now.frame && document.querySelector("#chart [data-name]")`, quick);
+        /* of the diagram what is drawn, its axes and their names */
+        const places = await tab.value("[byId('box'), byId('main-control'), document.querySelector('#chart svg')].map((one) => { const r = one.getBoundingClientRect(); return [r.top, r.bottom]; })");
+        for (const [top, bottom] of places) assert.ok(top >= 0 && bottom <= 844, `${language}, ${name}: ${places.join("; ")}`);
+        assert.ok(places[0][1] - places[0][0] > 180 && places[2][1] - places[2][0] > 100, `${language}, ${name}: ${places.join("; ")}`);
+        assert.strictEqual(await tab.value("document.documentElement.scrollWidth > innerWidth"), false, `${language}, ${name}`);
+        const [left, right] = await tab.value(`(({ left, right }) => [left, right])(byId("lesson-${name}").getBoundingClientRect())`);
+        assert.ok(left >= 0 && right <= 390, `${language}, ${name}: its button from ${left} to ${right}`);
+      }
       assert.ok(await tab.value("+getComputedStyle(document.querySelector('#chart text')).fontSize.slice(0, -2) * document.querySelector('#chart svg').getScreenCTM().a >= 11"));
       await silent(tab);
     }
@@ -119,7 +126,7 @@ const tests = {
 
   "every lesson runs": async () => {
     const tab = await open("#lesson=haff");
-    for (const name of Object.keys(strings("en")).filter((key) => /^lesson_.*_question$/.test(key)).map((key) => key.slice(7, -9))) {
+    for (const name of LESSONS) {
       await tab.value(`byId("lesson-${name}").click()`);
       await tab.until(`S().lesson === "${name}" && now.frame && now.frame.md.collisions > 100 && S().means && (S().means.progress.md || S().means.progress.dsmc)`, quick);
       assert.strictEqual(await banner(tab), "", name);
@@ -398,7 +405,7 @@ const tests = {
     const text = await tab.value("graingas.taken['graingas-points.csv'].text()");
     assert.match(text, /^slider,value,seed,md_temperature,md_temperature_error,/);
     await drop(tab, "class.csv", Buffer.from(text.replace(/^e,0.9/m, "e,0.7")));
-    await tab.until("S().points.length === 4 && document.querySelector(\"#points [data-name='md class'] path\")", quick);
+    await tab.until("S().points.length === 4 && document.querySelector(\"#points [data-name='md of class'] path\")", quick);
     await drop(tab, "other.csv", Buffer.from("a,b\n1,2\n"));
     await tab.until("byId('banner').textContent.includes('other.csv')", quick);
     /* a pointer and keys read the curve */
@@ -408,6 +415,124 @@ const tests = {
     await tab.value("document.querySelector('#points svg').focus()");
     await tab.press("Home");
     await tab.until("document.querySelector('#points .readout').getAttribute('aria-live') === 'polite' && /e = /.test(document.querySelector('#points .readout').textContent)", quick);
+    await silent(tab);
+  },
+
+  "points of a class: by links, by several files, each student's own mark, on this device until they are cleared": async () => {
+    const tab = await open("#lesson=haff&points=Ann;e;cooling_rate;0.9,0.1,0.002,0.101,0.001;0.8,0.19,0.003");
+    const names = () => tab.value("[...document.querySelectorAll('#points [data-name]')].map((one) => one.dataset.name).filter((one) => / of /.test(one))");
+    await tab.until("document.querySelectorAll(\"#points [data-name='md of Ann'] path\").length === 2", quick);
+    /* links pasted by the teacher, whole or the end of one; the later one of a student stands */
+    await tab.value(`byId("class").click(); byId("links").value = "file:///x/page.html#lesson=haff&points=Bob+%26+<b>;e;cooling_rate;0.7,0.3,0.01\\n#points=Ann;e;cooling_rate;0.6,0.33,0.01\\n http://nothing"; byId("take-links").click()`);
+    assert.match(await tab.value("byId('gathering-said').textContent"), /: 2\./);
+    await tab.value("byId('close-gathering').click()");
+    assert.deepStrictEqual(await names(), ["md of Ann", "md of Bob b"]);
+    assert.deepStrictEqual(await tab.value("S().points.map((one) => [one.from, one.x])"), [["Ann", 0.6], ["Bob b", 0.7]]);
+    /* several tables at once */
+    const table = (x) => Buffer.from(`slider,value,seed,md_cooling_rate,md_cooling_rate_error\ne,${x},1,0.2,0.01\n`).toString("base64");
+    await tab.value(`(() => { const data = new DataTransfer(); for (const [name, text] of [["graingas-points-Cleo.csv", "${table(0.85)}"], ["Dan.csv", "${table(0.75)}"]]) data.items.add(new File([atob(text)], name));
+      byId("box").dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true })); })()`);
+    await tab.until("S().points.length === 4 && document.querySelector(\"#points [data-name='md of Dan'] path\")", quick);
+    assert.deepStrictEqual(await names(), ["md of Ann", "md of Bob b", "md of Cleo", "md of Dan"]);
+    const marks = await tab.value("[...document.querySelectorAll(\"#points [data-name^='md of '] path\")].map((one) => one.getAttribute('d') + one.getAttribute('fill'))");
+    assert.strictEqual(new Set(marks).size, 4);
+    await silent(tab);
+    /* the next visit has those of links; after Clear none */
+    const later = await open("#lesson=haff");
+    await later.until("S().points.length === 2", quick);
+    await later.value("byId('forget').click()");
+    await silent(later);
+    const cleared = await open("#lesson=haff");
+    assert.deepStrictEqual(await cleared.value("S().points"), []);
+    /* one's own, in a link and its code */
+    await cleared.value("graingas.store.dispatch('point', { points: [{ slider: 'e', x: 0.9, seed: 1, from: '', family: null, md: { cooling_rate: [0.1001, 0.002] }, dsmc: {} }] }); byId('share').click(); byId('me').value = 'Eve <i>'; byId('me').dispatchEvent(new Event('input')); 0");
+    assert.match(await cleared.value("byId('link').value"), /#lesson=haff&points=Eve\+i;e;cooling_rate;0.9,0.1001,0.002$/);
+    assert.match(await cleared.value("document.querySelector('#qr svg').getAttribute('viewBox')"), /^-4 -4 \d+ \d+$/);
+    assert.match(await cleared.value("byId('link-words').textContent"), /is a file/);
+    await cleared.value("byId('mine').click()");
+    assert.match(await cleared.value("byId('link').value"), /#lesson=haff$/);
+    await silent(cleared);
+  },
+
+  "hostile points and questions of links are text, or nothing": async () => {
+    const evil = "<img src=x onerror=globalThis.evil=1><script>globalThis.evil=1</script>\u202e";
+    const tab = await open(`${SMALL}&question=${encodeURIComponent(evil)}&slider=__proto__&quantity=constructor&chart=toString&grain=1e9&arrows=<b>&points=${encodeURIComponent(`${evil};e;temperature;0.5,1,0.1`)}&points=__proto__;__proto__;__proto__;1,2,3&points=${"9,".repeat(4000)}`);
+    assert.strictEqual(await tab.value("byId('question').textContent"), evil.slice(0, -1));
+    assert.deepStrictEqual(await tab.value("[S().slider, S().quantity, S().chart, S().grain, S().arrows]"), ["e", "temperature", "temperature", null, false]);
+    await tab.until("document.querySelector('#points [data-name]')", quick);
+    assert.match(await banner(tab), /holds points/);
+    assert.deepStrictEqual(await tab.value("S().points.map((one) => one.from)"), ["img src x onerror global"]);
+    await wait(500);
+    assert.strictEqual(await tab.value("globalThis.evil === undefined && document.querySelector('#question *, #points img, main script') === null && Object.prototype.temperature === undefined"), true);
+    await tab.value("byId('forget').click(); location.hash = '#scene={flow: usf, phi: 0.15, particles: 200}&question=' + 'x'.repeat(200000)");
+    await tab.until("V().phi === 0.15 && byId('question').textContent.length === 240 && byId('banner').textContent === ''", quick);
+    assert.ok(await tab.value("document.documentElement.scrollWidth <= innerWidth"));
+    await silent(tab);
+  },
+
+  "a teacher's own question: written here, opened by its link, with one slider and one curve": async () => {
+    const tab = await open("#scene={flow: usf, phi: 0.1, particles: 200}&chart=stress");
+    await tab.value("byId('question-text').value = 'Where is N₁ largest?'; move('question-slider', 'phi'); move('quantity', 'N1'); byId('use-question').click()");
+    await tab.until("byId('question').textContent === 'Where is N₁ largest?' && byId('main-control').querySelector('#phi') && !byId('more-controls').open", quick);
+    await tab.until("location.hash.includes('question=')", quick);
+    const hash = await tab.value("location.hash");
+    assert.ok(hash.length < 150, hash);
+    /* the slider moves, and the question stays */
+    await tab.value("move('phi', 0.2)");
+    await tab.until("V().phi === 0.2 && byId('question').textContent !== ''", quick);
+    await silent(tab);
+    const student = await open(hash);
+    assert.deepStrictEqual(await student.value("[S().lesson, S().chart, S().slider, S().quantity, byId('question').textContent, byId('lesson-name').textContent, byId('more-controls').open]"),
+      [null, "stress", "phi", "N1", "Where is N₁ largest?", "A question", false]);
+    await student.value("byId('lesson-haff').click()");
+    await student.until("S().lesson === 'haff' && S().question === '' && !location.hash.includes('question')", quick);
+    await silent(student);
+  },
+
+  "slope -2 is marked where a gas cools": async () => {
+    const tab = await open(link("{flow: hcs, phi: 0.2, particles: 300, collision: {e: 0.5}}") + "&speed=3");
+    const slope = "document.querySelector(\"#chart [data-name='slope'] polyline\")";
+    await tab.until(`${slope} && ${slope}.getAttribute("points")`, quick);
+    const found = await tab.value(`(() => { const { xr, yr } = JSON.parse(byId("chart").dataset.scales), chart = graingas.parts.chart,
+      [[x0, y0], [x1, y1]] = ${slope}.getAttribute("points").split(" ").map((one) => one.split(",").map(Number)),
+      X = (chart.X(xr[1]) - chart.X(xr[0])) / Math.log(xr[1] / xr[0]), Y = (chart.Y(yr[1]) - chart.Y(yr[0])) / Math.log(yr[1] / yr[0]);
+      return (y1 - y0) / Y / ((x1 - x0) / X); })()`);
+    assert.ok(Math.abs(found + 2) < 0.05, `${found}`);
+    assert.match(await tab.value("byId('chart').querySelector('.legend').textContent"), /slope −2/);
+    await silent(tab);
+  },
+
+  "a click on a grain names its velocity and spin, and follows it; arrows": async () => {
+    const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9, beta: 0}}") + "&images=0&speed=0.3");
+    await tab.until("graingas.parts.view.found.length === 200", quick);
+    await tab.value("byId('play').click()");
+    await wait(500);
+    const at = await tab.value("(() => { const [x, y, , , i] = graingas.parts.view.found[199], r = byId('box').getBoundingClientRect(), ratio = graingas.parts.view.w / byId('box').clientWidth; return [r.left + x / ratio, r.top + y / ratio, i]; })()");
+    const click = async ([x, y]) => {
+      for (const type of ["mousePressed", "mouseReleased"]) await tab.send("Input.dispatchMouseEvent", { type, x, y, button: "left", buttons: 1, clickCount: 1 });
+    };
+    await click(at);
+    await tab.until(`S().grain === ${at[2]} && now.frame.picture.one`, quick);
+    /* as the library has it: the speed of the picture over the colour scale is about the flow, this one with the flow */
+    const [words, one, box] = await tab.value("[byId('grain').textContent, now.frame.picture.one, now.frame.md.box]");
+    const speed = (v) => String(+Math.hypot(...v).toPrecision(3));
+    assert.match(words, new RegExp(`^Grain ${at[2] + 1}: v ${speed(one.velocity)} d γ \\(.*ω ${speed(one.spin)} γ`));
+    const value = await tab.value(`now.frame.picture.value[${at[2]}] * 2 * S().gas.about.fast`),
+      peculiar = [one.velocity[0] - (one.position[1] - box[1] / 2), one.velocity[1], one.velocity[2]];
+    assert.ok(Math.abs(Math.hypot(...peculiar) / value - 1) < 1e-3, `${peculiar} and ${value}`);
+    assert.match(await tab.value("byId('said').textContent"), /is followed/);
+    await tab.until("/grain=\\d/.test(location.hash)", quick);
+    /* it leaves its way behind */
+    await tab.value("byId('play').click()");
+    await tab.until("now.trail.length > 20 && Math.hypot(...now.trail[0].map((x, k) => x - now.trail[20][k])) > 1e-6", quick);
+    await tab.value("byId('arrows').click()");
+    await tab.until("now.frame.picture.velocity && now.frame.picture.velocity.length === 600", quick);
+    await tab.value("move('grain-number', 7)");
+    await tab.until("S().grain === 6 && now.trailOf === 6 && /^Grain 7:/.test(byId('grain').textContent)", quick);
+    /* beside all of them: none */
+    const [x, y] = await tab.value("(({ left, top }) => [left + 4, top + 4])(byId('box').getBoundingClientRect())");
+    await click([x, y]);
+    await tab.until("S().grain === null && byId('grain').textContent === '' && byId('grain-number').value === ''", quick);
     await silent(tab);
   },
 
@@ -464,11 +589,27 @@ const tests = {
     await tab.until("S().means && S().means.progress.md.over && now.frame.md.collisionsPerGrain > 300", quick);
     const [mean, live] = await tab.value("[S().means.md.results.temperature.mean, S().gas.history.column('T').slice(-20).reduce((a, b) => a + b) / 20]");
     assert.ok(Math.abs(live / mean - 1) < 0.15, `live ${live}, mean ${mean}`);
-    await tab.until("byId('profiles').querySelectorAll('polyline').length === 3", quick);
+    await tab.until("byId('profiles').querySelectorAll('polyline').length === 3 && byId('profiles').querySelectorAll('circle').length > 50", quick);
+    await tab.value("move('chart-kind', 'profiles')");
+    await tab.until("document.querySelector(\"#chart [data-name='md profile_temperature'] polyline\") && document.querySelectorAll(\"#chart [data-name='dsmc profile_temperature'] path\").length > 20", quick);
+    assert.ok(await tab.value("(() => { const { yr } = JSON.parse(byId('chart').dataset.scales); return yr[0] < 1 && yr[1] > 1 && yr[1] < 3; })()"));
+    /* another flow has no gap */
+    await tab.value("move('flow', 'usf')");
+    await tab.until("V().flow === 'usf' && S().chart === 'temperature'", quick);
     const lids = (top) => tab.value(`(async () => { await graingas.start("{flow: chute, phi: 0.2, particles: 300, collision: {e: 0.8}, walls: {top: ${top}}}", {});
       while (!now.frame) await new Promise((r) => setTimeout(r, 20));
       let n = 0; const { view } = graingas.parts; view.wall = () => n++; graingas.drawFrame(0); delete view.wall; return n; })()`);
     assert.deepStrictEqual([await lids("open"), await lids("closed")], [1, 2]);
+    await silent(tab);
+  },
+
+  "the walls lesson: scale and thermometer fit from the first moment": async () => {
+    const tab = await open("#lesson=walls");
+    const [height, T, fast] = await tab.value("graingas.drawFrame(0), [parseFloat(document.querySelector('.mercury').style.height), S().gas.history.rows[0].T, S().gas.about.fast]");
+    assert.ok(height > 20 && height < 95, `${height} % at T = ${T}`);
+    assert.ok(Math.abs(fast ** 2 / (3 * T) - 1) < 0.5, `${fast} at T = ${T}`);
+    const found = await tab.value("(() => { const v = [...now.frame.picture.value]; return [v.filter((x) => x <= 0 || x >= 1).length / v.length, Math.max(...v) - Math.min(...v)]; })()");
+    assert.ok(found[0] < 0.1 && found[1] > 0.6, `${found}`);
     await silent(tab);
   },
 

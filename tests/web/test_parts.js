@@ -209,8 +209,27 @@ const tests = {
       [head] = text.split("\n");
     assert.match(head, /^slider,value,seed,md_N1,md_N1_error,dsmc_temperature,/);
     const [read] = m.points.pointsOf(text, "class.csv");
-    assert.deepStrictEqual([read.x, read.md, read.dsmc, read.from], [0.8, { N1: [0.5, 0.01] }, { N1: [0.52, 0.02], temperature: [1.5, 0.1] }, "class.csv"]);
+    assert.deepStrictEqual([read.x, read.md, read.dsmc, read.from], [0.8, { N1: [0.5, 0.01] }, { N1: [0.52, 0.02], temperature: [1.5, 0.1] }, "class"]);
     assert.deepStrictEqual(m.points.pointsOf("a,b\n1,2\n", "x.csv"), []);
+  },
+  "points go into a link and come back": () => {
+    const { pointsText, pointsFrom, tidyName } = m.points,
+      point = (x, md, dsmc) => ({ slider: "e", x, from: "", md: md ? { N1: md } : {}, dsmc: dsmc ? { N1: dsmc } : {} });
+    const text = pointsText({ points: [point(0.9, [0.512345678, 0.0123], [0.5, 0.001]), point(0.8, [0.4, 0.01]), point(0.7, null, [0.3, 0.02]), { ...point(0.6), from: "other" }], slider: "e", quantity: "N1" }, "=Ann; <b>");
+    assert.strictEqual(text, "Ann b;e;N1;0.9,0.51235,0.012,0.5,0.001;0.8,0.4,0.01;0.7,,,0.3,0.02");
+    assert.deepStrictEqual(pointsFrom(text).map((one) => [one.from, one.x, one.md.N1, one.dsmc.N1]), [
+      ["Ann b", 0.9, [0.51235, 0.012], [0.5, 0.001]],
+      ["Ann b", 0.8, [0.4, 0.01], undefined],
+      ["Ann b", 0.7, undefined, [0.3, 0.02]],
+    ]);
+    assert.deepStrictEqual(m.link.pointsIn(`x.html#lesson=haff&points=${encodeURIComponent(text)} nonsense`), [text]);
+    for (const bad of ["", ";e;N1;1,2,3", "Ann;e;nothing;1,2,3", "Ann;constructor;N1;1,2,3", "Ann;seed;N1;1,2,3", "Ann;e;N1;x,2,3", "Ann;e;N1;1,,", "Ann;e;__proto__;1,2,3"]) assert.deepStrictEqual(pointsFrom(bad), [], bad);
+    assert.strictEqual(pointsFrom(`Ann;e;N1;${"1,2,3;".repeat(1000)}`).length, 60);
+    assert.strictEqual(tidyName("a".repeat(99)).length, 24);
+  },
+  "a question is one line of text": () => {
+    assert.strictEqual(m.link.tidyQuestion(" a\nb\u202ec\u0000d "), "a b c d");
+    assert.strictEqual(m.link.tidyQuestion("x".repeat(1e5)).length, 240);
   },
   "curves as a table: a row a time": () => {
     const history = new m.history.TemperatureHistory(false);
