@@ -282,10 +282,10 @@ export class BoxView {
     }
   }
 
-  /* Every grain's velocity, or that of the one that is followed, as a line from its centre: of a speed of the start's root
-   * mean square it is a twelfth of the box long. */
+  /* Every grain's velocity, or that of the one that is followed, as a line from its centre: that of the fastest at the
+   * start is a sixth of the box long. */
   velocities(to, picture, about, box) {
-    const per = Math.min(...box) / 12 / (about.fast || 1),
+    const per = Math.min(...box) / 6 / (about.fastest || 1),
       { velocity, position, one } = picture,
       line = (at, v) => {
         const [x0, y0] = this.to(...at),
@@ -300,7 +300,7 @@ export class BoxView {
         to.lineTo(x1 - ux + uy * 0.6, y1 - uy - ux * 0.6);
       };
     to.lineWidth = this.thick;
-    to.strokeStyle = "rgba(240, 244, 248, 0.7)";
+    to.strokeStyle = "rgba(240, 244, 248, 0.55)";
     to.beginPath();
     if (velocity) for (let i = 0; i < velocity.length; i += 3) line(position.subarray(i, i + 3), velocity.subarray(i, i + 3));
     to.stroke();

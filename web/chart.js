@@ -61,7 +61,7 @@ export function range(values, log) {
   return [a - 0.06 * (b - a), b + 0.08 * (b - a)];
 }
 
-const LEFT = 52,
+const LEFT = 58,
   RIGHT = 10,
   TOP = 8,
   BOTTOM = 38;
@@ -115,7 +115,7 @@ export class Chart {
     if (this.spec) this.update(this.spec);
   }
 
-  /* series: {name, label, colour, dash, width, x, y, error (of points), band (of a line), points, bars, shape, quiet: not
+  /* series: {name, label, colour, dash, width, x, y, error and shift in pixels (of points), band (of a line), points, bars, shape, quiet: not
    * in the legend, reads: false where the pointer does not read it}; x, y: {label, log, range, names}. */
   update(spec) {
     this.spec = spec;
@@ -219,7 +219,7 @@ export class Chart {
     return [make("rect", { x: left, y: top, width: Math.max(1, this.X(s.x[i] + s.bars / 2) - left - 1), height: Math.max(0, this.high - BOTTOM - top), fill: s.colour, opacity: 0.55 })];
   }
   point(s, i) {
-    const x = this.X(s.x[i]),
+    const x = this.X(s.x[i]) + (s.shift || 0),
       y = this.Y(s.y[i]),
       e = s.error && s.error[i] > 0 ? s.error[i] : 0,
       out = e ? [make("line", { x1: x, x2: x, y1: this.Y(s.y[i] - e), y2: this.Y(s.y[i] + e), stroke: s.colour, "stroke-width": 1.5 })] : [];

@@ -125,6 +125,7 @@ export class LiveGas {
     this.md.follow();
     this.view = this.viewOf(this.md, this.about);
     this.about.fast = this.view.scale.speed;
+    this.about.fastest = this.view.fastest;
     if (this.twin) this.twinView = this.viewOf(this.twin, {});
   }
   viewOf(gas, about) {

@@ -10,7 +10,7 @@ import { lessonOf } from "./lessons.js";
 import { linkOf, linkOfPoints, pointsIn, readLink, tidyQuestion } from "./link.js";
 import { clearKept, gather, keepPoint, pointsCsv, pointsText, tidyName } from "./points.js";
 import { qrSvg } from "./qr.js";
-import { curvesCsv, fileName, save } from "./save.js";
+import { boxPicture, curvesCsv, curveSvg, fileName, save } from "./save.js";
 import { begin, describe, drawFrame, parts, say, show } from "./show.js";
 import { openSound } from "./sound.js";
 import { store } from "./state.js";
@@ -157,10 +157,14 @@ function listenForKeys() {
 function listenForTaking() {
   const about = () => store.state.gas.about;
   on("save-png", () => {
-    parts.view.again();
-    byId("box").toBlob((blob) => graingas.save(fileName(about(), "png"), blob));
+    const boxes = [[parts.view, "box"], ...(byId("twin-figure").hidden ? [] : [[parts.twin, "twin"]])];
+    for (const [view] of boxes) view.again();
+    const ends = ["low", "high"].map((end) => byId(`scale-${end}`).textContent);
+    boxPicture(boxes.map(([, id]) => byId(id)), about().title, byId("scale"), ends).toBlob((blob) => graingas.save(fileName(about(), "png"), blob));
   });
   const text = (id, ending, type, make) => on(id, () => graingas.save(fileName(about(), ending), new Blob([make()], { type })));
+  text("save-svg", "svg", "image/svg+xml", () => curveSvg(byId("chart"), about().title));
+  text("save-points-svg", "points.svg", "image/svg+xml", () => curveSvg(byId("points"), about().title));
   text("save-csv", "csv", "text/csv", () => curvesCsv(store.state.gas.history, store.state.means, about().title));
   text("save-yaml", "yaml", "text/yaml", () => about().yaml);
   on("save-points", () => graingas.save(`graingas-points${store.state.points.every((one) => one.from) ? "" : ownName("-")}.csv`, new Blob([pointsCsv(store.state.points)], { type: "text/csv" })));

@@ -58,6 +58,7 @@ export class Picture {
       inertia = (kinds[0].inertia * kinds[0].mass * kinds[0].diameter ** 2) / 4,
       fast = rootMeanSquare(velocity) || 1;
     this.scale = { along: endAlong(alongX(grains, flow, state.box)), speed: fast, spin: rootMeanSquare(spin) || Math.sqrt((3 * state.temperature) / inertia) || 1 };
+    this.fastest = 2 * Math.max(fast, this.scale.along / 2.2);
     this.origin = Float32Array.from({ length: position.length / 3 }, (_, i) => position[3 * i] / state.box[0]);
   }
 

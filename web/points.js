@@ -117,7 +117,7 @@ const measuredOf = (some, engine, quantity) => {
   const found = some.filter((one) => one[engine] && one[engine][quantity]);
   return { points: true, x: found.map((one) => one.x), y: found.map((one) => one[engine][quantity][0]), error: found.map((one) => one[engine][quantity][1]) };
 };
-/* Of each student a mark of its own: full of the grains, hollow of the dice. */
+/* Of each student a mark of its own, full of the grains, hollow of the dice; those of one x stand side by side. */
 function ofTheClass(points, quantity) {
   const names = [...new Set(points.map((one) => one.from).filter(Boolean))];
   return names.flatMap((from, i) =>
@@ -128,6 +128,7 @@ function ofTheClass(points, quantity) {
       shape: CLOSED[i % CLOSED.length],
       hollow: engine === "dsmc",
       quiet: engine === "dsmc",
+      shift: (i - (names.length - 1) / 2) * Math.min(7, 36 / names.length),
       ...measuredOf(points.filter((one) => one.from === from), engine, quantity),
     })).filter(({ x }) => x.length),
   );

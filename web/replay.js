@@ -29,6 +29,7 @@ export class Replay {
       kinds = this.trajectory.species();
     this.view = new Picture(grains, kinds, this.about);
     this.view.fix(state, grains, kinds, flowOf(this.about.values));
+    this.about.fastest = this.view.fastest;
   }
   frame({ k, colour, arrows = false, grain = null }) {
     const { state, grains } = this.trajectory.frame(k);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What can be taken along: the picture, the curves, the scene. Names of files say which gas it is. */
+import { make } from "./chart.js";
 import { t } from "./i18n.js";
 import { byId } from "./words.js";
 
@@ -15,6 +16,52 @@ export function save(name, blob) {
 export function fileName({ values }, ending) {
   const { flow, phi, collision, run } = values;
   return `graingas-${flow}-phi${phi}-e${collision.e}${collision.beta > -1 ? `-beta${collision.beta}` : ""}-seed${run.seed}.${ending}`;
+}
+
+/* The boxes side by side, under them which gas it is, and what the colours mean: from `low` over the scale to `high`. */
+export function boxPicture(boxes, title, scale, [low, high]) {
+  const line = Math.max(16, Math.round(boxes[0].width / 36)),
+    sheet = Object.assign(document.createElement("canvas"), { width: boxes.reduce((sum, one) => sum + one.width, 0), height: boxes[0].height + 4 * line }),
+    to = sheet.getContext("2d");
+  to.fillStyle = "#ffffff";
+  to.fillRect(0, 0, sheet.width, sheet.height);
+  boxes.reduce((x, one) => (to.drawImage(one, x, 0), x + one.width), 0);
+  Object.assign(to, { font: `${line * 0.8}px sans-serif`, fillStyle: "#1b1f23", textBaseline: "middle" });
+  to.fillText(title, line / 2, boxes[0].height + line, sheet.width - line);
+  let x = line / 2;
+  const y = boxes[0].height + 2.6 * line,
+    put = (text) => (to.fillText(text, x, y), (x += to.measureText(text).width + line / 2));
+  put(low);
+  to.drawImage(scale, x, y - line / 3, 8 * line, (2 * line) / 3);
+  x += 8.5 * line;
+  put(high);
+  return sheet;
+}
+
+/* A diagram with its title and its legend, as a drawing of its own. */
+const STYLE = "text{font:12px sans-serif;fill:#1b1f23}.rule{display:none}";
+export function curveSvg(figure, title) {
+  const plot = figure.querySelector(".plot svg").cloneNode(true),
+    { width, height } = plot.viewBox.baseVal,
+    keys = [...figure.querySelectorAll(".legend li")],
+    line = 18;
+  plot.setAttribute("y", 2 * line);
+  const legend = keys.map((key, i) => {
+    const mark = key.firstChild.cloneNode(true);
+    for (const [name, value] of Object.entries({ width: 26, height: 10, y: -9 })) mark.setAttribute(name, value);
+    return make("g", { transform: `translate(10 ${height + (3 + i) * line})` }, mark, make("text", { x: 34 }, key.lastChild.textContent));
+  });
+  const svg = make(
+    "svg",
+    { xmlns: "http://www.w3.org/2000/svg", width, height: height + (3 + keys.length) * line, viewBox: `0 0 ${width} ${height + (3 + keys.length) * line}` },
+    make("style", {}, STYLE),
+    make("rect", { width: "100%", height: "100%", fill: "#fff" }),
+    make("text", { x: 10, y: line, "font-weight": "bold" }, figure.querySelector("figcaption").textContent),
+    make("text", { x: 10, y: 1.9 * line }, title),
+    plot,
+    ...legend,
+  );
+  return new XMLSerializer().serializeToString(svg);
 }
 
 const COURSES = [

@@ -40,6 +40,7 @@ export function begin({ controls, view, twin }) {
   options("chart-kind", CHARTS);
   options("quantity", QUANTITIES);
   options("question-slider", CONTROLS.filter((row) => row.max !== undefined).map((row) => row.name));
+  byId("question-slider").value = store.state.slider;
   options("language", Object.keys(LANGUAGES));
   for (const [code, strings] of Object.entries(LANGUAGES)) {
     const one = byId("language").querySelector(`[value=${code}]`);
@@ -330,7 +331,7 @@ function showChoices({ chart, quantity }) {
 }
 function showMyPoints(state) {
   const has_ = hasPoints(state);
-  byId("points").hidden = byId("points-row").hidden = !has_;
+  byId("points").hidden = byId("points-row").hidden = byId("save-points-svg").hidden = !has_;
   byId("keep").hidden = !has_;
   byId("keep").disabled = !canKeep(state);
   byId("save-points").disabled = byId("forget").disabled = !state.points.length;

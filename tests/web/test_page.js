@@ -132,7 +132,7 @@ const tests = {
       assert.strictEqual(await banner(tab), "", name);
       assert.ok((await tab.value(drawn("box"))).share > 0.02, name);
       assert.ok(await tab.value("byId('main-control').querySelector('input[type=range]').offsetWidth > 50"), name);
-      assert.ok(await tab.value("document.querySelectorAll('#chart [data-name]').length > 0"), name);
+      await tab.until("document.querySelectorAll('#chart [data-name]').length > 0", quick);
     }
     await silent(tab);
   },
@@ -850,8 +850,14 @@ const tests = {
     const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}, run: {collisions: 200, warmup: 20}}"));
     await tab.until("S().gas.history.rows.length > 3 && S().means && S().means.md && S().means.md.curves", quick);
     await tab.value("graingas.taken = {}; graingas.save = (name, blob) => { graingas.taken[name.split('.').pop()] = [name, blob]; }; 0");
-    for (const id of ["save-png", "save-csv", "save-yaml"]) await tab.value(`byId("${id}").click()`);
-    await tab.until("Object.keys(graingas.taken).length === 3", quick);
+    for (const id of ["save-png", "save-csv", "save-yaml", "save-svg"]) await tab.value(`byId("${id}").click()`);
+    await tab.until("Object.keys(graingas.taken).length === 4", quick);
+    /* pictures say of which gas they are, and what their colours and lines mean */
+    const svg = await tab.value("graingas.taken.svg[1].text()");
+    assert.match(svg, /<svg[^>]*xmlns="http:\/\/www.w3.org\/2000\/svg".*Temperature T.*Uniform shear flow.*data-name="T".*grains: T/s);
+    assert.strictEqual(await tab.value(`new DOMParser().parseFromString(${JSON.stringify(svg)}, "image/svg+xml").querySelector("parsererror")`), null);
+    const higher = await tab.value("createImageBitmap(graingas.taken.png[1]).then((image) => [image.width - byId('box').width, image.height - byId('box').height])");
+    assert.ok(higher[0] === 0 && higher[1] >= 64, `${higher}`);
     assert.strictEqual(await tab.value("graingas.taken.csv[0]"), "graingas-usf-phi0.1-e0.9-seed1.csv");
     const head = await tab.value("graingas.taken.png[1].arrayBuffer().then((b) => [...new Uint8Array(b, 0, 8)])");
     assert.deepStrictEqual(head, [137, 80, 78, 71, 13, 10, 26, 10]);
