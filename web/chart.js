@@ -42,11 +42,16 @@ export function ticks(from, to, log) {
   for (let i = 0; i < 12 && (first + i) * step <= to + 1e-9 * step; i++) found.push((first + i) * step);
   return found;
 }
-export const nice = (x) => {
+export const nice = (x, digits = 3) => {
   if (x === 0) return "0";
-  if (Math.abs(x) < 1e4 && Math.abs(x) >= 1e-2) return String(+x.toPrecision(3)).replace("-", "−");
-  return powerOfTen(x, 1);
+  if (Math.abs(x) < 1e4 && Math.abs(x) >= 1e-2) return String(+x.toPrecision(digits)).replace("-", "−");
+  return powerOfTen(x, digits - 2);
 };
+/* Of an axis: as many digits as tell them apart. */
+export function labels(values) {
+  const all = [3, 4, 5, 6, 7].map((digits) => values.map((v) => nice(v, digits)));
+  return all.find((some) => new Set(some).size === values.length) || all[4];
+}
 
 export function range(values, log) {
   const good = values.filter((x) => Number.isFinite(x) && (!log || inLog(x)));
@@ -167,15 +172,18 @@ export class Chart {
       line = (x1, y1, x2, y2, stroke) => out.push(make("line", { x1, y1, x2, y2, stroke })),
       text = (content, attributes) => out.push(make("text", attributes, content));
     if (empty) text(this.text("waiting"), { x: (LEFT + wide - RIGHT) / 2, y: (TOP + high - BOTTOM) / 2, "text-anchor": "middle" });
-    for (const v of empty ? [] : ticks(...yr, y.log)) {
+    const marks = empty ? [] : ticks(...yr, y.log),
+      below = x.names ? [] : ticks(...xr, x.log),
+      [markLabels, belowLabels] = [marks, below].map(labels);
+    for (const [i, v] of marks.entries()) {
       line(LEFT, Y(v), wide - RIGHT, Y(v), "#e4e7ea");
-      text(nice(v), { x: LEFT - 5, y: Y(v) + 4, "text-anchor": "end" });
+      text(markLabels[i], { x: LEFT - 5, y: Y(v) + 4, "text-anchor": "end" });
     }
     if (x.names) x.names.forEach((name, i) => text(name, { x: X(i), y: high - BOTTOM + 16, "text-anchor": "middle" }));
     else
-      for (const v of ticks(...xr, x.log)) {
+      for (const [i, v] of below.entries()) {
         line(X(v), high - BOTTOM, X(v), high - BOTTOM + 4, "#50575e");
-        text(nice(v), { x: X(v), y: high - BOTTOM + 16, "text-anchor": "middle" });
+        text(belowLabels[i], { x: X(v), y: high - BOTTOM + 16, "text-anchor": "middle" });
       }
     line(LEFT, high - BOTTOM, wide - RIGHT, high - BOTTOM, "#50575e");
     line(LEFT, TOP, LEFT, high - BOTTOM, "#50575e");

@@ -126,7 +126,7 @@ function showBanner({ banner }) {
 }
 
 function showView({ view }) {
-  document.body.dataset.view = view;
+  document.body.dataset.view = document.documentElement.dataset.view = view;
   byId("present").setAttribute("aria-pressed", String(view === "present"));
   now.fresh = !!now.frame;
 }

@@ -379,7 +379,13 @@ const tests = {
     const tab = await open("#lesson=haff");
     await tab.press("f");
     await tab.until("S().view === 'present' && document.querySelector('header').offsetWidth === 0 && byId('chart').offsetWidth > 200", quick);
-    assert.ok(await tab.value("document.documentElement.scrollHeight <= innerHeight"));
+    const sizes = "[document.documentElement.scrollHeight - innerHeight, byId('lesson').scrollHeight - byId('lesson').clientHeight, parseFloat(getComputedStyle(byId('question')).fontSize)]";
+    for (const name of LESSONS) {
+      await tab.value(`byId("lesson-${name}").click()`);
+      await tab.until(`S().lesson === "${name}" && now.frame`, quick);
+      const [page, words, font] = await tab.value(sizes);
+      assert.ok(page <= 0 && words <= 1 && font > 20, `${name}: ${page}, ${words} of the words, ${font} pixels`);
+    }
     await tab.press("f");
     await tab.until("S().view === 'all' && document.querySelector('header').offsetWidth > 0", quick);
     await silent(tab);

@@ -74,7 +74,9 @@ const tests = {
     assert.ok(a > 5e-300 && b < 2e299 && marks.length > 3 && marks.length < 9, `${a} to ${b}: ${marks}`);
     assert.ok(ticks(1e17, 1e17 + 64, false).length < 13);
     assert.deepStrictEqual(ticks(0, 1, false), [0, 0.2, 0.4, 0.6000000000000001, 0.8, 1]);
-    assert.deepStrictEqual([1e-15, 2e5, 0.25, -0.5, 0].map(m.chart.nice), ["10⁻¹⁵", "2·10⁵", "0.25", "−0.5", "0"]);
+    assert.deepStrictEqual([1e-15, 2e5, 0.25, -0.5, 0].map((x) => m.chart.nice(x)), ["10⁻¹⁵", "2·10⁵", "0.25", "−0.5", "0"]);
+    assert.deepStrictEqual(m.chart.labels([1.824, 1.826, 1.828]), ["1.824", "1.826", "1.828"]);
+    assert.deepStrictEqual(m.chart.labels([0, 0.2, 0.4, 0.6000000000000001]), ["0", "0.2", "0.4", "0.6"]);
   },
   "the history of a gas that cools for ever": () => {
     const history = new m.history.TemperatureHistory(true),
