@@ -39,14 +39,15 @@ function owe(seconds) {
 async function ask() {
   const { gas, speed, colour, follow, chart, arrows, grain } = store.state,
     { step } = now,
+    { live } = workers,
     seconds = step ? 0 : now.owed;
   Object.assign(now, { busy: true, owed: 0, want: false, step: false });
   try {
-    const frame = await workers.live.ask("frame", { collisions: speed * seconds, colour, follow, step, arrows, grain, speeds: chart === "speeds" });
+    const frame = await live.ask("frame", { collisions: speed * seconds, colour, follow, step, arrows, grain, speeds: chart === "speeds" });
     if (gas === store.state.gas) take(frame, gas, seconds);
     else now.want = true; /* a start came between; if it is refused, the gas before is to be seen */
   } catch (e) {
-    if (gas === store.state.gas) {
+    if (gas === store.state.gas && live === workers.live) {
       store.dispatch("banner", { banner: { text: e.message, offers: [] } });
       store.look({ playing: false });
     }

@@ -29,14 +29,37 @@ async function unpack(id) {
 }
 
 /* Their version. The second, which measures, is waited for by those who measure. */
+let wasm = null,
+  source = "";
 export async function openWorkers() {
-  const wasm = await unpack("wasm"),
-    source = URL.createObjectURL(new Blob([await unpack("worker")], { type: "text/javascript" }));
-  workers.live = new WorkerClient(source);
+  wasm = await unpack("wasm");
+  source = URL.createObjectURL(new Blob([await unpack("worker")], { type: "text/javascript" }));
   workers.measure = new WorkerClient(source);
   workers.measure.onmeans = takeMeans;
   workers.measure.ask("open", { wasm }).catch((e) => store.dispatch("banner", { banner: { text: e.message, offers: [] } }));
+  return openLive();
+}
+async function openLive() {
+  workers.live = new WorkerClient(source);
   return (await workers.live.ask("open", { wasm })).version;
+}
+
+/* A gas that takes long to make: what is made is said, and a button ends it, with the worker, for the gas before. */
+const LONG = 1500; /* ms */
+function sayMaking(n, id) {
+  return setTimeout(() => {
+    if (id !== store.state.asked.id) return;
+    const offers = store.state.player ? [] : [{ label: t("stop"), act: stopMaking }];
+    store.dispatch("banner", { banner: { text: t("making", { n: n.toLocaleString(store.state.language) }), offers, quiet: true } });
+  }, LONG);
+}
+async function stopMaking() {
+  const { gas } = store.state;
+  askNumber();
+  workers.live.end(t("stopped"));
+  await openLive();
+  if (gas) await start(gas.scene, gas.sets, { lesson: gas.lesson, look: { playing: true } });
+  else await openLesson(START.name);
 }
 
 const LONGEST_TRAIL = 400; /* frames */
@@ -67,8 +90,8 @@ export function again(more = {}, options = {}) {
 }
 
 /* Too many grains for a page? Whoever opened the link is asked first. */
-async function isTooLarge(scene, sets, options, id) {
-  const { particles, bytes } = await workers.live.ask("cost", { scene, sets });
+function isTooLarge({ particles, bytes }, scene, sets, options, id) {
+  if (options.whatever) return false;
   if (particles <= MOST_GRAINS && bytes <= MOST_BYTES) return false;
   if (id !== store.state.asked.id) return true;
   const fewer = { ...sets, particles: String(FEWER), "dsmc.particles": "auto" };
@@ -85,18 +108,23 @@ async function isTooLarge(scene, sets, options, id) {
 /* Whether the scene is one; if not, the gas that there was goes on, and the banner says why. `look`: what of the state
  * changes with it. */
 export async function start(scene, sets, options = {}) {
-  const { lesson = store.state.lesson, look = {}, keepBanner = false, whatever = false } = options,
+  const { lesson = store.state.lesson, look = {}, keepBanner = false } = options,
     id = askNumber(),
     { remember = false } = lessonOf(lesson) || {};
   clearTimeout(edits); /* whatever a control was about to change is in it, or was of the gas before */
   store.dispatch("ask", { asked: { id, scene, sets } });
-  let answer;
+  let answer,
+    making = 0;
   try {
-    if (!whatever && (await isTooLarge(scene, sets, options, id))) return false;
+    const cost = await workers.live.ask("cost", { scene, sets });
+    if (isTooLarge(cost, scene, sets, options, id)) return false;
+    making = sayMaking(cost.particles, id);
     answer = await workers.live.ask("start", { scene, sets, pair: ("pair" in look ? look.pair : store.state.pair) || null, remember });
   } catch (e) {
-    if (id === store.state.asked.id) refuse(e.message, sets, scene);
+    if (id === asks) refuse(e.message, sets, scene);
     return false;
+  } finally {
+    clearTimeout(making);
   }
   const { about, refusal, dsmcRefusal } = answer,
     gas = { id, scene, sets, lesson, about, refusal, dsmcRefusal, history: new TemperatureHistory(about.values.flow === "hcs") };
@@ -167,7 +195,7 @@ export async function follow({ scene, sets, lesson, look, points = [] }) {
 }
 let said = null;
 store.subscribe((state, before) => {
-  if (state.banner && state.banner !== before.banner) said = state.banner;
+  if (state.banner && !state.banner.quiet && state.banner !== before.banner) said = state.banner;
 });
 /* The first gas does not wipe away why another was not shown. */
 function restoreBanner() {

@@ -19,6 +19,11 @@ export class WorkerClient {
     for (const one of this.pending.values()) one.settle({ refused: message });
     this.pending.clear();
   }
+  /* No more answers. */
+  end(message) {
+    this.worker.terminate();
+    this.fail((this.broken = message));
+  }
   ask(job, more = {}, transfer = []) {
     const id = ++this.count;
     if (this.broken) return Promise.reject(new Error(this.broken));

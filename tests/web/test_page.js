@@ -368,6 +368,15 @@ const tests = {
     }
   },
 
+  "a gas that takes long to make can be stopped": async () => {
+    const tab = await open("#lesson=haff");
+    await tab.value("void graingas.start('{flow: hcs, phi: 0.4, particles: 1000000, collision: {e: 0.9}}', {}, { lesson: null, whatever: true })");
+    await tab.until("/1,000,000 grains is being made/.test(byId('banner').textContent)", quick);
+    await tab.value("byId('banner').querySelector('button').click()");
+    await tab.until("V().particles === 1000 && S().lesson === 'haff' && byId('banner').textContent === '' && now.frame && now.frame.md.collisions > 0", quick);
+    await silent(tab);
+  },
+
   "views for embedding and for a projector": async () => {
     const box = await open(SMALL + "&view=box");
     assert.ok(await box.value("byId('box').clientHeight > 0.7 * innerHeight && byId('lesson').offsetWidth === 0 && document.querySelector('header').offsetWidth === 0"));
