@@ -54,13 +54,13 @@ function temperature(state) {
     y: { label: `T (${unit})`, log: cooling, range: cooling ? null : [0, 1.12 * highest(series)] },
   };
 }
-/* Slope -2 on logarithmic axes, for the eye: above the end of a curve that has come to a tenth of its start, as far as it
- * lies above the curve. */
-const ABOVE = 3;
+/* Slope -2 on logarithmic axes, for the eye: above the end of a curve that has come to a fifth of its start, and up to that
+ * height. */
+const ABOVE = 2;
 function slopeLine({ x, y }) {
   const end = x.length - 1,
     from = x[end] * Math.sqrt((ABOVE * y[end]) / y[0]);
-  if (!(y[end] < 0.1 * y[0]) || !inLog(from)) return [];
+  if (!(y[end] < 0.2 * y[0]) || !inLog(from)) return [];
   return [{ name: "slope", label: t("slope"), colour: "#777777", width: 1.2, reads: false, x: [from, x[end]], y: [y[0], ABOVE * y[end]] }];
 }
 /* Where a result that is played stands. */

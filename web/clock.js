@@ -2,10 +2,12 @@
 /* Frames: the gas is asked to go on as far as the clock on the wall says. */
 import { tickPlaying } from "./files.js";
 import { leaveTrail, now, workers } from "./gas.js";
+import { SHORTEST } from "./live.js";
 import { clicks } from "./sound.js";
 import { store } from "./state.js";
 
 export const SPEEDS = [-3, -2, -1, 0, 1, 2].flatMap((k) => [+(10 ** k).toPrecision(1), +(3 * 10 ** k).toPrecision(1)]).concat(1000);
+const LONGEST = 40; /* ms of work a frame, on machines where frames come slowly */
 const MOST_OWED = 1; /* seconds that the gas has yet to go on for; above they are lost */
 export const MOST_BEHIND = 0.7; /* those lost in frames one after another; from here on that is said */
 
@@ -43,7 +45,7 @@ async function ask() {
     seconds = step ? 0 : now.owed;
   Object.assign(now, { busy: true, owed: 0, want: false, step: false });
   try {
-    const frame = await live.ask("frame", { collisions: speed * seconds, colour, follow, step, arrows, grain, speeds: chart === "speeds" });
+    const frame = await live.ask("frame", { collisions: speed * seconds, work: Math.min(LONGEST, Math.max(SHORTEST, 500 * seconds)), colour, follow, step, arrows, grain, speeds: chart === "speeds" });
     if (gas === store.state.gas) take(frame, gas, seconds);
     else now.want = true; /* a start came between; if it is refused, the gas before is to be seen */
   } catch (e) {

@@ -93,6 +93,7 @@ export function shownState(gas, state, values) {
 export const flowOf = (values) => (sheared(values) ? 1 : 0);
 
 const BINS = 30;
+export const SHORTEST = 12; /* ms of work a frame: sixty of them a second leave the page some */
 
 export class LiveGas {
   /* pair: null; "elastic", the same start with e = 1; "bit", the same with one last bit more. remember: distances from
@@ -177,27 +178,27 @@ export class LiveGas {
     this.since = state;
   }
 
-  /* Go on by so long, for 12 ms of work at most; is it done? */
-  goOn(time) {
+  /* Go on by so long, for so many ms of work at most; is it done? */
+  goOn(time, work) {
     const leader = this.md || this.dsmc;
     let done = true;
     try {
-      if (!this.ended && time > 0) done = leader.advance(time, 12);
+      if (!this.ended && time > 0) done = leader.advance(time, work);
     } catch (e) {
       this.ended = e.message;
     }
     const state = leader.state();
     this.followRate(state);
-    return this.takeAlong(state.time) && done;
+    return this.takeAlong(state.time, work) && done;
   }
 
-  /* dsmc, or the twin, to the time of md, for some ms of work at most; is it there? */
-  takeAlong(time) {
+  /* dsmc, or the twin, to the time of md; is it there? */
+  takeAlong(time, work) {
     const other = this.twin || this.dsmc;
     if (!this.md || !other || this.dsmcEnded || this.ended) return true;
     const lack = time - other.state().time;
     try {
-      return !(lack > 0) || other.advance(lack, this.twin ? 12 : 6);
+      return !(lack > 0) || other.advance(lack, this.twin ? work : work / 2);
     } catch (e) {
       this.dsmcEnded = e.message;
       return true;
@@ -212,7 +213,7 @@ export class LiveGas {
     } catch (e) {
       this.ended = e.message;
     }
-    this.goOn(0);
+    this.goOn(0, SHORTEST);
   }
   reverse() {
     for (const gas of [this.md, this.twin]) if (gas) gas.reverse();
@@ -225,9 +226,9 @@ export class LiveGas {
   }
 
   /* `collisions` a grain at the start's rate, or, if it is followed, at the present one. */
-  frame({ collisions, colour, step, follow = false, speeds = false, arrows = false, grain = null }) {
+  frame({ collisions, work = SHORTEST, colour, step, follow = false, speeds = false, arrows = false, grain = null }) {
     const rate = follow ? this.rate : this.startRate,
-      done = step ? (this.step(), true) : this.goOn(collisions / rate);
+      done = step ? (this.step(), true) : this.goOn(collisions / rate, work);
     if (!step && collisions > 0) this.event = null;
     const { values } = this.about,
       short = (s) => s && shownState(s, s.state(), values),

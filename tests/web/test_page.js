@@ -976,7 +976,13 @@ const tests = {
       await found("lesson");
       await tab.value("byId('share').click()");
       await found("sharing");
-      await tab.value("byId('close-sharing').click()");
+      await tab.value("byId('close-sharing').click(); byId('class').click()");
+      await found("points of a class");
+      await tab.value("byId('close-gathering').click(); byId('question-text').value = 'Why?'; byId('use-question').click(); byId('arrows').click(); move('grain-number', 3)");
+      await tab.until("byId('question').textContent === 'Why?' && byId('grain').textContent", quick);
+      await tab.value("graingas.store.look({ chart: 'temperature' }); graingas.store.dispatch('gather', { points: Array.from({ length: 30 }, (_, i) => ({ slider: S().slider, x: i / 30, from: `student ${i}`, md: { [S().quantity]: [1, 0.1] }, dsmc: {} })) })");
+      await tab.until("document.querySelectorAll('#points .legend li').length > 29", quick);
+      await found("a question, a grain, a class of thirty");
       await drop(tab, "class.h5", bytes);
       await tab.until("S().means && S().means.stored && graingas.played.shown >= 0", quick);
       await found("a result");
