@@ -67,11 +67,11 @@ export function readLink(place = location) {
 export const pointsIn = (text) =>
   text.split(/\s+/).flatMap((one) => (one.includes("points=") ? readLink({ hash: `#${one.replace(/^[^#]*#/, "")}`, search: "" }).points : []));
 
-/* Of one's own points: what they are of, and whose. */
-export function linkOfPoints(state, text) {
+/* Of points: what they are of, and whose. */
+export function linkOfPoints(state, texts) {
   const { lesson, gas } = state,
     to = new URLSearchParams(lesson ? { lesson } : { scene: gas.about.brief });
-  to.set("points", text);
+  for (const text of texts) to.append("points", text);
   return `#${readable(to)}`;
 }
 /* What may stand in an address as it is, so that people can read it. */

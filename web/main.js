@@ -8,7 +8,7 @@ import { again, change, follow, now, openWorkers, ownScene, page, reverse, start
 import { ownLanguage, t } from "./i18n.js";
 import { lessonOf } from "./lessons.js";
 import { linkOf, linkOfPoints, pointsIn, readLink, tidyQuestion } from "./link.js";
-import { clearKept, gather, keepPoint, pointsCsv, pointsText, tidyName } from "./points.js";
+import { clearKept, gather, keepPoint, pointsCsv, pointsText, pointsTexts, tidyName } from "./points.js";
 import { qrSvg } from "./qr.js";
 import { boxPicture, curvesCsv, curveSvg, fileName, save } from "./save.js";
 import { begin, describe, drawFrame, parts, say, show } from "./show.js";
@@ -199,22 +199,22 @@ const ownName = (before) => {
 };
 function openSharing() {
   byId("link-said").textContent = "";
-  byId("mine-row").hidden = !pointsText(store.state, "");
+  byId("mine-row").hidden = !pointsTexts(store.state, "").length;
   byId("mine").checked = !byId("mine-row").hidden;
   showLink();
   byId("sharing").showModal();
 }
-/* Of the experiment, or of one's own points of it. A link to a file is of no use to others: they need the file, and what is
+/* Of the experiment, or of points of it. A link to a file is of no use to others: they need the file, and what is
  * asked for after #. Of points that alone is in the code: it can be pasted. */
 function showLink() {
   const here = location.protocol === "file:",
-    points = byId("mine").checked ? pointsText(store.state, byId("me").value) : "",
-    asked = points ? linkOfPoints(store.state, points) : linkOf(store.state),
+    points = byId("mine").checked ? pointsTexts(store.state, byId("me").value) : [],
+    asked = points.length ? linkOfPoints(store.state, points) : linkOf(store.state),
     link = location.href.split("#")[0] + asked;
-  byId("me-row").hidden = !byId("mine").checked;
+  byId("me-row").hidden = !byId("mine").checked || !pointsText(store.state, "");
   byId("link").value = link;
-  byId("link-words").textContent = t(points ? (here ? "linkPointsFile" : "linkPointsWorks") : here ? "linkFile" : "linkWorks");
-  byId("qr").replaceChildren(...(here && !points ? [] : qrSvg(here ? asked : link, t("qrLabel"))));
+  byId("link-words").textContent = t(points.length ? (here ? "linkPointsFile" : "linkPointsWorks") : here ? "linkFile" : "linkWorks");
+  byId("qr").replaceChildren(...(here && !points.length ? [] : qrSvg(here ? asked : link, t("qrLabel"))));
 }
 
 /* What tests and those who are curious on the console want. */

@@ -141,12 +141,17 @@ const MOST = { names: 200, points: 60, name: 24 };
 /* What people are called, and no sign that tables or pages take for more. */
 export const tidyName = (text) => text.replace(/[^\p{L}\p{N} ._-]/gu, " ").replace(/\s+/g, " ").replace(/^[ .-]+| $/g, "").slice(0, MOST.name);
 
-export function pointsText({ points, slider, quantity }, name) {
+export function pointsText({ points, slider, quantity }, name, from = "") {
   const short = (x, digits) => String(+x.toPrecision(digits)),
-    mine = points.filter((one) => !one.from && one.slider === slider && ENGINES.some((engine) => one[engine][quantity])).slice(0, MOST.points),
+    mine = points.filter((one) => one.from === from && one.slider === slider && ENGINES.some((engine) => one[engine][quantity])).slice(0, MOST.points),
     part = (pair) => (pair ? `${short(pair[0], 5)},${short(pair[1], 2)}` : ",");
   if (!mine.length) return "";
   return [tidyName(name) || t("nobody"), slider, quantity, ...mine.map((one) => [short(one.x, 5), part(one.md[quantity]), part(one.dsmc[quantity])].join(",").replace(/,+$/, ""))].join(";");
+}
+/* One's own; where there are none, those of all others, as on the phone that gathers them. */
+export function pointsTexts(state, name) {
+  const own = pointsText(state, name);
+  return own ? [own] : [...new Set(state.points.map((one) => one.from))].map((from) => pointsText(state, from, from)).filter(Boolean);
 }
 export function pointsFrom(text) {
   const [name, slider, quantity, ...rest] = String(text).slice(0, 5000).split(";"),

@@ -455,7 +455,9 @@ const tests = {
     /* the next visit has those of links; after Clear none */
     const later = await open("#lesson=haff");
     await later.until("S().points.length === 2", quick);
-    await later.value("byId('forget').click()");
+    assert.match(await later.value("byId('share').click(), byId('link').value"), /#lesson=haff&points=Ann;e;cooling_rate;0.6,0.33,0.01&points=Bob\+b;e;cooling_rate;0.7,0.3,0.01$/);
+    assert.strictEqual(await later.value("byId('me-row').hidden"), true);
+    await later.value("byId('close-sharing').click(); byId('forget').click()");
     await silent(later);
     const cleared = await open("#lesson=haff");
     assert.deepStrictEqual(await cleared.value("S().points"), []);
