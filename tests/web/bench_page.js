@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How fast the page is, and whether its memory grows, in headless Chromium: numbers, no test. Each lesson's start is that of
- * a fresh tab. PAGE: the page; PAGE_SECONDS: how long its memory is followed (600). */
+ * a fresh tab. PAGE: the page; PAGE_SECONDS: how long its memory is followed (600). Arguments: some of starts, frames, memory. */
 "use strict";
 const { Browser } = require("./chromium.js");
 const file = process.env.PAGE,
@@ -52,7 +52,7 @@ async function memory(browser) {
     const { usedSize } = await tab.send("Runtime.getHeapUsage");
     return [usedSize, ...(await Promise.all(["live", "measure"].map((who) => tab.value(`graingas.workers.${who}.ask("memory").then((a) => a.bytes)`))))].map((b) => (b / 1e6).toFixed(1)).join(", ");
   };
-  await tab.until("graingas.store.state.means && graingas.store.state.means.md", 120);
+  await tab.until("globalThis.graingas && graingas.store.state.means && graingas.store.state.means.md", 120);
   for (let k = 0; k <= 4; k++) {
     if (k) await wait(seconds / 4);
     say(`memory after ${((k * seconds) / 4).toFixed(0)} s: page, live, measuring`, await used(), "MB");
@@ -60,15 +60,21 @@ async function memory(browser) {
   await tab.close();
 }
 
-(async () => {
-  const browser = new Browser();
-  try {
-    await starts(browser);
+const PARTS = {
+  starts,
+  frames: async (browser) => {
     await frames(browser, "1000 grains, sheared", link(GAS));
     await frames(browser, "1000 grains, sheared, measuring done", link(GAS.replace("}}", "}, run: {collisions: 20, warmup: 5}}")));
     await frames(browser, "1000 grains, arrows, a trail", `${link(GAS)}&arrows=1&grain=1`);
     await frames(browser, "4000 grains", link(GAS.replace("1000", "4000")));
-    await memory(browser);
+  },
+  memory,
+};
+(async () => {
+  const browser = new Browser(),
+    wanted = process.argv.slice(2);
+  try {
+    for (const [name, part] of Object.entries(PARTS)) if (!wanted.length || wanted.includes(name)) await part(browser);
   } finally {
     await browser.close();
   }
