@@ -39,7 +39,7 @@ export function chosenTheories(names) {
 export function lineOf(name) {
   const known = store.state.means ? drawable(store.state.means) : [],
     at = known.indexOf(name);
-  return LINES[(at < 0 ? known.length : at) % LINES.length];
+  return LINES[(at < 0 ? Math.max(0, FIRST.indexOf(name)) : at) % LINES.length];
 }
 export const drawable = (means) =>
   ranked([...new Set([...theoriesWith(means, ["temperature", "N1", "cooling_rate"]), ...Object.keys((means.cooling && means.cooling.T) || {})])]);
