@@ -25,6 +25,9 @@ function paints(map) {
   return all;
 }
 
+const made = {}; /* once, when one is drawn */
+const paintsOf = (map) => (made[map] ||= paints(map));
+
 /* A sphere whose centre stands a part of a pixel off: rows of first pixel, shades, and the direction of the surface in
  * parts of 127. Lit from above left. */
 function shapeOf(r, offX, offY) {
@@ -55,7 +58,6 @@ function shapeOf(r, offX, offY) {
 
 export class Spheres {
   constructor() {
-    this.paints = { rising: paints("rising"), sided: paints("sided") };
     this.shapes = new Map();
   }
 
@@ -91,7 +93,7 @@ export class Spheres {
       rows = this.shape(Math.min(r, 400), Math.floor(4 * (x - x0)), Math.floor(4 * (y - y0))),
       level = Math.min(LEVELS - 1, Math.max(0, Math.round(value * (LEVELS - 1)) || 0)),
       base = (Math.round(fog * (FOGS - 1)) * LEVELS + level) * SHADES,
-      from = this.paints[map];
+      from = paintsOf(map);
     for (const row of rows) {
       const at = y0 + row.y;
       if (at < 0 || at >= h) continue;
