@@ -9,7 +9,9 @@
 #include "common/engine.h"
 #include "common/laws/loss_table.h"
 #include "common/rng.h"
+#include "dsmc/kernel/pass.h"
 #include "dsmc/majorant.h"
+#include "simd/dispatch.h"
 
 /* Relative bias of a step of h mean free times: 0.12 h^2 in the shear stress of a sheared gas, 0.06 h^2 in its
  * temperature, measured at phi = 0.01, e = 0.9. */
@@ -48,6 +50,7 @@ typedef struct gg_dsmc_gap_cells {
 /* Everything else that changes while running: plain data, saved as it is. */
 typedef struct gg_dsmc_gap_state {
   gg_rng rng;
+  gg_dsmc_rng_lanes lanes; /* for candidates */
   double time;
   double owed;        /* flight that is still to come before the present time */
   double step, rate;  /* the step; collisions of a grain per time, where collisions happen */
@@ -65,8 +68,8 @@ typedef struct gg_dsmc_gap_state {
 typedef struct gg_dsmc_gap {
   gg_engine base;
   gg_model model;
-  gg_dsmc_gap_grains grains, sorted;                                        /* the latter is room for the next order */
-  uint32_t *place;                                                          /* of each grain in that order */
+  gg_dsmc_gap_grains grains, sorted; /* the latter is room for the next order */
+  uint32_t *place;                   /* of each grain: its cell, then in that order */
   double low[GG_MAX_SPECIES], high[GG_MAX_SPECIES], radius[GG_MAX_SPECIES]; /* heights of centres */
   double reach[GG_PAIRS]; /* distance of centres at contact; 0 in the Boltzmann limit */
   gg_vec gravity;
@@ -74,6 +77,7 @@ typedef struct gg_dsmc_gap {
   gg_dsmc_gap_cells cells;
   gg_loss_table *losses;
   gg_dsmc_gap_state now;
+  void (*collide)(struct gg_dsmc_gap *d, double dt);
   bool plain; /* tests: candidates one by one */
   gg_collision_callback *callback;
   void *callback_context;
@@ -94,7 +98,7 @@ typedef struct gg_dsmc_gap_contacts {
   uint32_t id; /* of the grain */
 } gg_dsmc_gap_contacts;
 
-/* gap_flight.c: all grains for a time; one grain, where the engine stays as it is. */
+/* gap_flight.c: all grains for a time, which counts them by cell, too; one grain, where the engine stays as it is. */
 void gg_dsmc_gap_fly(gg_dsmc_gap *d, double dt);
 void gg_dsmc_gap_fly_grain(const gg_dsmc_gap *d, double dt, gg_rng *rng, gg_dsmc_gap_grain *grain,
                            gg_dsmc_gap_contacts *all);
@@ -106,7 +110,7 @@ void gg_dsmc_gap_cells_free(gg_dsmc_gap_cells *cells);
 double gg_dsmc_gap_cell_width(const gg_model *model);
 /* A step in mean free times, where grains collide. */
 double gg_dsmc_gap_free_times(const gg_model *model);
-/* Order the grains by cell. */
+/* Order the grains by cell, after a flight. */
 void gg_dsmc_gap_sort(gg_dsmc_gap *d);
 /* Contact values of the present mean numbers. */
 void gg_dsmc_gap_set_chi(gg_dsmc_gap *d);
@@ -114,8 +118,9 @@ void gg_dsmc_gap_set_chi(gg_dsmc_gap *d);
 void gg_dsmc_gap_measure(gg_dsmc_gap *d);
 void gg_dsmc_gap_choose_step(gg_dsmc_gap *d);
 
-/* gap_collide.c: the collisions of a step, candidate by candidate; sorted grains. */
-void gg_dsmc_gap_collide(gg_dsmc_gap *d, double dt);
+/* gap_collide.c, once for each set of instructions: the collisions of a step; sorted grains. */
+#define GG_GAP_COLLIDE_OF(set, name) void gg_dsmc_gap_collide_##name(gg_dsmc_gap *d, double dt);
+GG_EACH_COMPILED_SET(GG_GAP_COLLIDE_OF)
 
 /* gap_start.c: memory; the initial state, or grains from outside. */
 gg_status gg_dsmc_gap_allocate(const gg_model *model, gg_dsmc_gap **d, gg_error *err);

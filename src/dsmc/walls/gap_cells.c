@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "common/contact_value.h"
 #include "dsmc/walls/gap.h"
+#include "simd/clones.h"
 
 /* Bias of transport by cells of width w: 0.11 (w/l)^2, l the mean free path (Alexander, Garcia & Alder, Phys. Fluids 10
  * (1998) 1540). */
@@ -98,10 +99,18 @@ void gg_dsmc_gap_cells_free(gg_dsmc_gap_cells *c)
   free(c->majorant);
 }
 
-static uint32_t cell_of(const gg_dsmc_gap_cells *c, double y)
+/* A height and a velocity are moved at once. */
+typedef double row __attribute__((vector_size(32), may_alias));
+
+GG_CLONES static void move_all(const gg_dsmc_gap_grains *from, const gg_dsmc_gap_grains *to, size_t n, uint32_t *place,
+                               uint32_t *next)
 {
-  const double at = (y - c->from) * c->inverse;
-  return at > 0 ? at < c->n ? (uint32_t)at : (uint32_t)c->n - 1 : 0;
+  for (size_t i = 0; i < n; i++) {
+    const uint32_t k = next[place[i]]++;
+    place[i] = k;
+    *(row *)&to->at[k] = *(row *)&from->at[i];
+    to->id[k] = from->id[i];
+  }
 }
 
 void gg_dsmc_gap_sort(gg_dsmc_gap *d)
@@ -109,19 +118,9 @@ void gg_dsmc_gap_sort(gg_dsmc_gap *d)
   gg_dsmc_gap_cells *c = &d->cells;
   const size_t n = (size_t)d->model.n, species = (size_t)d->model.n_species, bins = (size_t)c->n * species;
   const gg_dsmc_gap_grains from = d->grains, to = d->sorted;
-  memset(c->start, 0, (bins + 1) * sizeof *c->start);
-  for (size_t i = 0; i < n; i++) {
-    d->place[i] = cell_of(c, from.at[i].y);
-    if (species > 1) d->place[i] = d->place[i] * (uint32_t)species + from.species[i];
-    c->start[d->place[i] + 1]++;
-  }
   for (size_t b = 0; b < bins; b++) c->start[b + 1] += c->start[b];
   /* Each start moves to its end, and with it to the place of the next. */
-  for (size_t i = 0; i < n; i++) {
-    const uint32_t k = c->start[d->place[i]]++;
-    d->place[i] = k;
-    to.at[k] = from.at[i], to.id[k] = from.id[i];
-  }
+  move_all(&from, &to, n, d->place, c->start);
   memmove(c->start + 1, c->start, bins * sizeof *c->start);
   c->start[0] = 0;
   for (size_t i = 0; from.s && i < n; i++) to.s[d->place[i]] = from.s[i];

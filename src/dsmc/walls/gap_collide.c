@@ -1,22 +1,31 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The collisions of a step.
  *
- * Of a grain i at y the candidates have k uniform on the sphere, and a partner j that is any grain of the cell at
- * y + sigma k_y; N are there, of its species. Enskog's collision rate is that of candidates, times sigma^2 chi g_n N
- * per volume of a cell and 4 pi; every collision has two sides, so that candidates of each grain have half of it. A
- * grain beyond the walls is nobody's partner: no cell is there.
+ * Of a grain i at y the candidates have a direction k and a partner j that is any grain of the cell at y + sigma k_y; N
+ * are there, of its species. Enskog's collision rate is that of k uniform on the sphere, times sigma^2 chi g_n N per
+ * volume of a cell and 4 pi; every collision has two sides, so that candidates of each grain have half of it. A grain
+ * beyond the walls is nobody's partner: no cell is there.
  *
- * A candidate is accepted if chi N g_n is above a random limit. That is decided in two stages: k_y alone says which
- * cell and who, and how large g_n can be at most; only for those who may be accepted the rest of k is drawn. The first
- * stage takes some candidates at once, and those of grains that collide meanwhile again. */
+ * k_y alone says which cell and who: of all azimuths of k one is as good as its opposite. So a candidate stands for
+ * both, with the mean V of their positive g_n. With |g| = 1 V is at most h(k_y) = max(|k_y|, 1/2). Therefore k_y has
+ * the density of h, and a candidate is accepted if chi N V/h is above a random limit; one azimuth of the two is chosen
+ * in proportion to g_n. The rate of each k is then exactly that above, with 5/8 of the candidates.
+ *
+ * Random numbers of some candidates are drawn, and the candidates decided, at once; those of grains that collide
+ * meanwhile again. */
 #include <math.h>
+#include <string.h>
 
+#include "dsmc/kernel/normal.h"
 #include "dsmc/walls/gap.h"
+#include "simd/eight.h"
 
 /* What candidates of two species in a cell have in common. */
 typedef struct pass {
   int cell, one, two, pair;
+  uint32_t first, n; /* grains of the cell */
   double reach, floor, majorant, largest;
+  double known; /* what the majorant was last learned from */
   uint64_t candidates;
   const double *chi;  /* to the cells */
   double begin, tick; /* time of the first candidate, and between two: those of all cells take turns in a step */
@@ -73,96 +82,161 @@ static void collide(gg_dsmc_gap *d, const pass *p, double time, uint32_t i, uint
   t->loss[p->pair] += gg_energy_loss(&contact, k, v, J);
 }
 
-/* Candidates drawn at once; who the grains are, the cell of the second, k_y, chi N, the limit. */
-enum { BLOCK = 16 };
+/* Candidates drawn at once: k, of which k_x and k_z may have the other sign; h(k_y), chi N, the limit, a random number
+ * for that sign; who the grains are, the cell of the second. */
+enum { BLOCK = 32 };
 typedef struct block {
-  uint32_t n, i[BLOCK], j[BLOCK], cell[BLOCK];
-  double ky[BLOCK], scale[BLOCK], limit[BLOCK];
-} block;
+  double kx[BLOCK], ky[BLOCK], kz[BLOCK], h[BLOCK], scale[BLOCK], limit[BLOCK], sign[BLOCK];
+  uint32_t i[BLOCK], j[BLOCK], cell[BLOCK], n;
+} __attribute__((aligned(64))) block;
 
-static void draw(gg_dsmc_gap *d, const pass *p, uint32_t first, uint32_t n, block *b)
+#define EIGHT(array, k) (*(gg_line *)&(array)[k])
+
+/* As many lanes as a register has, of eight. */
+typedef union parts {
+  gg_v8 all;
+  gg_u8 words;
+  gg_vd lanes[GG_BATCH / GG_WIDTH];
+  gg_vq random[GG_BATCH / GG_QUADS];
+} parts;
+
+GG_INLINE gg_u8 next_words(gg_dsmc_lane_rng *rng)
+{
+  parts p;
+  for (int k = 0; k < GG_BATCH / GG_QUADS; k++) p.random[k] = gg_dsmc_lane_next(rng, k);
+  return p.words;
+}
+
+/* The lowest 32 bits as a number in [1, 2). */
+GG_INLINE gg_v8 one_to_two(gg_u8 word)
+{
+  return (gg_v8)((word & UINT32_MAX) << 20 | 0x3ff0000000000000u);
+}
+
+/* |k_y| has the distribution 4/5 k_y up to 1/2 and 1/5 + 4/5 k_y^2 above: its inverse is the smaller of two. An eighth
+ * turn either way, and that turned by a quarter, are half of all azimuths. */
+GG_INLINE void draw_direction(gg_u8 height, gg_u8 turn, block *b, uint32_t k)
+{
+  const gg_v8 low = 1.25 * (one_to_two(height) - (1 - 0x1p-33)), h = gg_sqrt8(gg_larger8(low - 0.25, gg_all8(0.25)));
+  const gg_v8 ky = gg_smaller8(low, h), across = gg_sqrt8(1 - ky * ky);
+  parts angle = {.all = (one_to_two(turn) - 1.5) * M_PI_2}, s, c;
+  for (int l = 0; l < GG_BATCH / GG_WIDTH; l++) gg_dsmc_lane_sincos(angle.lanes[l], &s.lanes[l], &c.lanes[l]);
+  const gg_k8 other = gg_odd8((gg_v8)(height >> 32));
+  EIGHT(b->kx, k) = across * gg_choose8(other, s.all, c.all);
+  EIGHT(b->ky, k) = (gg_v8)((gg_u8)ky | (height & 0x8000000000000000u));
+  EIGHT(b->kz, k) = across * gg_choose8(other, c.all, s.all);
+  EIGHT(b->h, k) = h;
+}
+
+/* Random numbers; j: 32 bits for it. */
+GG_INLINE void draw_numbers(const pass *p, gg_dsmc_lane_rng *rng, block *b, uint32_t k)
+{
+  const gg_u8 who = next_words(rng), way = next_words(rng), how = next_words(rng), i = (who >> 32) * p->n >> 32;
+  *(gg_list8 *)&b->i[k] = p->first + __builtin_convertvector(i, gg_list8);
+  *(gg_list8 *)&b->j[k] = __builtin_convertvector(who & UINT32_MAX, gg_list8);
+  draw_direction(way, how >> 32, b, k);
+  EIGHT(b->limit, k) = p->floor + p->majorant * (one_to_two(how) - 1);
+  EIGHT(b->sign, k) = one_to_two(way >> 31) - 1;
+}
+
+GG_INLINE void find_partner(const gg_dsmc_gap *d, const pass *p, block *b, uint32_t k)
 {
   const gg_dsmc_gap_cells *c = &d->cells;
-  for (uint32_t k = 0; k < b->n; k++) {
-    const uint64_t who = gg_rng_next(&d->now.rng), how = gg_rng_next(&d->now.rng);
-    b->i[k] = first + (uint32_t)((who >> 32) * n >> 32);
-    b->ky[k] = (double)(how >> 32) * 0x1p-31 - (1 - 0x1p-32);
-    b->limit[k] = p->floor + (double)(how & UINT32_MAX) * 0x1p-32 * p->majorant;
-    const double at = (d->grains.at[b->i[k]].y + p->reach * b->ky[k] - c->from) * c->inverse;
-    const bool inside = at >= 0 && at < c->n;
-    const int cell = inside ? (int)at : p->cell, there = cell * d->model.n_species + p->two;
-    const uint32_t begin = c->start[there], partners = inside ? c->start[there + 1] - begin : 0;
-    b->j[k] = partners ? begin + (uint32_t)((who & UINT32_MAX) * partners >> 32) : b->i[k];
-    b->cell[k] = (uint32_t)cell;
-    b->scale[k] = p->chi[cell] * partners;
-  }
+  const double y = (d->grains.at[b->i[k]].y + p->reach * b->ky[k] - c->from) * c->inverse;
+  const bool inside = (y >= 0) & (y < c->n);
+  const int cell = inside ? (int)y : p->cell, there = cell * d->model.n_species + p->two;
+  const uint32_t begin = c->start[there], partners = inside ? c->start[there + 1] - begin : 0;
+  b->j[k] = partners ? begin + (uint32_t)((uint64_t)b->j[k] * partners >> 32) : b->i[k];
+  b->cell[k] = (uint32_t)cell;
+  b->scale[k] = p->chi[cell] * partners;
 }
 
-/* Can it be accepted? For some azimuth of k: k.c12 is at most k_y c_y + sqrt(1 - k_y^2) sqrt(c_x^2 + c_z^2). */
-GG_INLINE bool may_collide(const gg_dsmc_gap_motion *at, const block *b, uint32_t k)
+/* Eight at a time, and not fewer. */
+static void draw(gg_dsmc_gap *d, const pass *p, gg_dsmc_lane_rng *rng, block *b)
 {
-  const gg_vec c = gg_sub(at[b->i[k]].c, at[b->j[k]].c);
-  const double ky = b->ky[k], scale = b->scale[k], lacks = b->limit[k] - scale * (ky * c.y);
-  const double across = (1 - ky * ky) * (c.x * c.x + c.z * c.z);
-  return (lacks < 0) | (lacks * lacks < scale * scale * across);
+  const uint32_t n = (b->n + GG_BATCH - 1) / GG_BATCH * GG_BATCH;
+  for (uint32_t k = 0; k < n; k += GG_BATCH) draw_numbers(p, rng, b, k);
+  for (uint32_t k = 0; k < n; k++) find_partner(d, p, b, k);
 }
 
-/* The direction of this k_y: cosine and sine of twice the angle of a point in the disc. */
-static gg_vec direction(double ky, gg_rng *rng)
-{
-  double a, b, q;
-  do {
-    a = 2 * gg_rng_uniform(rng) - 1;
-    b = 2 * gg_rng_uniform(rng) - 1;
-    q = a * a + b * b;
-  } while (q >= 1 || q == 0);
-  const double f = sqrt(1 - ky * ky) / q;
-  return (gg_vec){f * (a * a - b * b), ky, f * (2 * a * b)};
-}
-
-/* The second stage; whether they have collided. */
+/* Decide, and collide; whether they did. */
 static bool judge(gg_dsmc_gap *d, pass *p, const block *b, uint32_t m)
 {
   const uint32_t i = b->i[m], j = b->j[m];
-  const gg_vec k = direction(b->ky[m], &d->now.rng);
-  const double value = b->scale[m] * gg_dot(k, gg_sub(d->grains.at[i].c, d->grains.at[j].c));
-  if (value > p->largest) p->largest = value;
-  d->now.overflows += value > p->floor + p->majorant;
-  if (!(b->limit[m] < value)) return false;
-  collide(d, p, p->begin + m * p->tick, i, j, k);
+  const gg_vec c = gg_sub(d->grains.at[i].c, d->grains.at[j].c);
+  const double A = b->ky[m] * c.y, B = b->kx[m] * c.x + b->kz[m] * c.z, h = b->h[m];
+  const double one = A + B > 0 ? A + B : 0, other = A - B > 0 ? A - B : 0, value = b->scale[m] * (0.5 * (one + other));
+  if (value > p->largest * h) p->largest = value / h;
+  d->now.overflows += value > (p->floor + p->majorant) * h;
+  if (!(b->limit[m] * h < value)) return false;
+  const double sign = b->sign[m] * (one + other) < other ? -1 : 1;
+  collide(d, p, p->begin + m * p->tick, i, j, (gg_vec){sign * b->kx[m], b->ky[m], sign * b->kz[m]});
   d->cells.hits[p->cell]++;
   d->cells.hits[b->cell[m]]++;
   return true;
 }
 
 /* One candidate after another, as the textbooks have it. */
-static void collide_plain(gg_dsmc_gap *d, pass *p, const block *b)
+static void collide_plain(gg_dsmc_gap *d, pass *p, block *b)
 {
-  for (uint32_t m = 0; m < b->n; m++)
-    if (may_collide(d->grains.at, b, m)) judge(d, p, b, m);
+  for (uint32_t m = 0; m < b->n; m++) judge(d, p, b, m);
 }
 
-/* The same with the same bits: the first stage of all goes first. */
-static void collide_block(gg_dsmc_gap *d, pass *p, const block *b)
+/* Which of eight have to be judged: they are accepted, or teach the majorant. */
+GG_INLINE uint32_t to_judge(const gg_dsmc_gap_motion *at, block *b, uint32_t k, double known)
 {
-  const gg_dsmc_gap_motion *at = d->grains.at;
-  uint32_t may = 0;
-  for (uint32_t m = 0; m < b->n; m++) may |= (uint32_t)may_collide(at, b, m) << m;
-  while (may) {
-    const uint32_t m = (uint32_t)__builtin_ctz(may), i = b->i[m], j = b->j[m];
-    may &= may - 1;
+  gg_half pair[GG_BATCH];
+  const gg_half *row[GG_BATCH];
+  gg_v8 c[4];
+  for (int l = 0; l < GG_BATCH; l++) {
+    pair[l] = *(const gg_half *)&at[b->i[k + l]] - *(const gg_half *)&at[b->j[k + l]];
+    row[l] = &pair[l];
+  }
+  gg_columns(row, c);
+  const gg_v8 A = EIGHT(b->ky, k) * c[2], B = EIGHT(b->kx, k) * c[1] + EIGHT(b->kz, k) * c[3];
+  const gg_v8 one = gg_larger8(A + B, gg_all8(0)), other = gg_larger8(A - B, gg_all8(0));
+  const gg_v8 value = EIGHT(b->scale, k) * (0.5 * (one + other));
+  return gg_lanes8(gg_less8(gg_smaller8(EIGHT(b->limit, k), gg_all8(known)) * EIGHT(b->h, k), value));
+}
+
+/* Which candidates have one of these grains? */
+GG_INLINE uint32_t with(const block *b, uint32_t i, uint32_t j)
+{
+  int32_t found __attribute__((vector_size(32))) = {0};
+  for (uint32_t k = 0; k < BLOCK; k += GG_BATCH) {
+    const gg_list8 one = *(const gg_list8 *)&b->i[k], two = *(const gg_list8 *)&b->j[k];
+    found |= (one == i) | (one == j) | (two == i) | (two == j);
+  }
+  uint64_t any[4];
+  uint32_t which = 0;
+  memcpy(any, &found, sizeof any);
+  if (__builtin_expect((any[0] | any[1] | any[2] | any[3]) == 0, 1)) return 0;
+  for (uint32_t k = 0; k < b->n; k++)
+    which |= (uint32_t)((b->i[k] == i) | (b->i[k] == j) | (b->j[k] == i) | (b->j[k] == j)) << k;
+  return which;
+}
+
+/* The same with the same bits: a first look at all at once. */
+static void collide_block(gg_dsmc_gap *d, pass *p, block *b)
+{
+  const double known = fmin(fmax(p->known, p->largest), p->floor + p->majorant);
+  uint32_t judged = 0;
+  for (uint32_t m = 0; m < b->n; m += GG_BATCH) judged |= to_judge(d->grains.at, b, m, known) << m;
+  judged &= UINT32_MAX >> (BLOCK - b->n);
+  while (judged) {
+    const uint32_t m = (uint32_t)__builtin_ctz(judged), i = b->i[m], j = b->j[m];
+    judged &= judged - 1;
     if (!judge(d, p, b, m)) continue;
-    for (uint32_t k = m + 1; k < b->n; k++) {
-      if ((b->i[k] != i) & (b->i[k] != j) & (b->j[k] != i) & (b->j[k] != j)) continue;
-      may = (may & ~(1u << k)) | (uint32_t)may_collide(at, b, k) << k;
-    }
+    b->i[m] = b->j[m] = UINT32_MAX;
+    judged |= with(b, i, j) & ~(UINT32_MAX >> (BLOCK - 1 - m));
   }
 }
 
 enum { WINDOW = 20000 }; /* candidates after which a majorant forgets */
 
 /* At `turn` of `turns`. */
-static void collide_species(gg_dsmc_gap *d, int cell, int one, int two, double dt, double turn, double turns)
+static void collide_species(gg_dsmc_gap *d, gg_dsmc_lane_rng *rng, int cell, int one, int two, double dt, double turn,
+                            double turns)
 {
   gg_dsmc_gap_cells *c = &d->cells;
   const int species = d->model.n_species, here = cell * species + one, pair = gg_pair(one, two);
@@ -170,15 +244,18 @@ static void collide_species(gg_dsmc_gap *d, int cell, int one, int two, double d
   gg_dsmc_majorant *learned = &c->majorant[here * species + two];
   if (n == 0) return;
   const double thermal = sqrt(d->now.temperature), sigma = d->model.sigma[pair];
-  const double rate = 2 * M_PI * sigma * sigma / c->volume * n * dt;
+  const double rate = 1.25 * M_PI * sigma * sigma / c->volume * n * dt;
   pass p = {.cell = cell,
             .one = one,
             .two = two,
             .pair = pair,
+            .first = first,
+            .n = n,
             .reach = d->reach[pair],
             .majorant = gg_dsmc_majorant_at(learned, thermal),
+            .known = learned->now * thermal,
             .chi = c->chi + pair * 2 * c->n + cell};
-  block b;
+  block b = {0}; /* stale candidates are compared with, too */
   /* After a majorant overflow: correction passes, each over the layer above. */
   for (uint64_t tried = 0; p.majorant > 0; p.floor += p.majorant, p.majorant = 1.1 * p.largest - p.floor) {
     p.candidates = (uint64_t)(rate * p.majorant + gg_rng_uniform(&d->now.rng));
@@ -186,7 +263,7 @@ static void collide_species(gg_dsmc_gap *d, int cell, int one, int two, double d
     p.begin = d->now.time + dt * turn / turns + p.tick;
     for (uint64_t left = p.candidates; left > 0; left -= b.n) {
       b.n = left < BLOCK ? (uint32_t)left : BLOCK;
-      draw(d, &p, first, n, &b);
+      draw(d, &p, rng, &b);
       (d->plain ? collide_plain : collide_block)(d, &p, &b);
       p.begin += b.n * p.tick;
     }
@@ -198,12 +275,15 @@ static void collide_species(gg_dsmc_gap *d, int cell, int one, int two, double d
   }
 }
 
-void gg_dsmc_gap_collide(gg_dsmc_gap *d, double dt)
+void GG_GAP_COLLIDE(gg_dsmc_gap *d, double dt)
 {
+  gg_dsmc_lane_rng rng;
+  gg_dsmc_lane_rng_load(&rng, &d->now.lanes);
   const int species = d->model.n_species, all = d->cells.n * species * species;
   const bool backward = d->now.steps % 2; /* symmetric splitting: every second step mirrors the one before */
   for (int t = 0; t < all; t++) {
     const int k = backward ? all - 1 - t : t;
-    collide_species(d, k / (species * species), k / species % species, k % species, dt, t, all);
+    collide_species(d, &rng, k / (species * species), k / species % species, k % species, dt, t, all);
   }
+  gg_dsmc_lane_rng_save(&rng, &d->now.lanes);
 }

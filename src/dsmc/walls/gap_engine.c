@@ -32,7 +32,7 @@ static double step(gg_dsmc_gap *d, double left, double wanted)
   gg_dsmc_gap_fly(d, s->owed + 0.5 * dt);
   gg_dsmc_gap_sort(d);
   count(&d->cells, d->model.n_species, dt);
-  gg_dsmc_gap_collide(d, dt);
+  d->collide(d, dt);
   s->owed = 0.5 * dt;
   s->time += dt;
   s->unmeasured += dt;
@@ -84,6 +84,7 @@ static void take_over(gg_dsmc_gap *d, const gg_dsmc_gap *before)
   gg_dsmc_gap_state *s = &d->now;
   const gg_dsmc_gap_state *b = &before->now;
   s->rng = b->rng;
+  s->lanes = b->lanes;
   s->time = b->time;
   s->steps = b->steps;
   s->collisions = b->collisions;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Free flight: parabolas, cut where they touch a wall. */
 #include <math.h>
+#include <string.h>
 
 #include "common/surface/collide.h"
 #include "common/surface/shapes.h"
@@ -98,24 +99,44 @@ static void fly_to_walls(gg_dsmc_gap *d, size_t i, double dt, gg_dsmc_gap_contac
   if (p.touched && g->last) g->last[i] = d->now.time;
 }
 
-void gg_dsmc_gap_fly(gg_dsmc_gap *d, double dt)
+/* Grains by cell: the second number is the first cell's. */
+GG_INLINE void count(gg_dsmc_gap *d, size_t i, bool mixture)
 {
-  gg_dsmc_gap_contacts all = {.shown = d->callback != NULL};
+  const gg_dsmc_gap_cells *c = &d->cells;
+  const double at = (d->grains.at[i].y - c->from) * c->inverse, last = c->n - 0.5;
+  uint32_t cell = (uint32_t)(int)(at < last ? at : last);
+  if (mixture) cell = cell * (uint32_t)d->model.n_species + d->grains.species[i];
+  d->place[i] = cell;
+  c->start[cell + 1]++;
+}
+
+GG_INLINE void fly(gg_dsmc_gap *d, double dt, bool mixture, bool falls, gg_dsmc_gap_contacts *all)
+{
   const gg_vec g = d->gravity, dc = gg_scale(dt, g);
   const double fall = 0.5 * fabs(g.y) * dt * dt, lift = 0.5 * dt * dt * g.y;
-  const bool mixture = d->model.n_species > 1;
   double low = d->low[0] + fall, high = d->high[0] - fall;
   for (size_t i = 0; i < (size_t)d->model.n; i++) {
     gg_dsmc_gap_motion *at = &d->grains.at[i];
     if (mixture) low = d->low[d->grains.species[i]] + fall, high = d->high[d->grains.species[i]] - fall;
     const double way = at->c.y * dt, far = fabs(way);
-    if (__builtin_expect(!(at->y - far > low && at->y + far < high), 0)) {
-      fly_to_walls(d, i, dt, &all);
-      continue;
-    }
-    at->y += way + lift;
-    at->c = gg_add(at->c, dc);
+    if (__builtin_expect(at->y - far > low && at->y + far < high, 1)) {
+      at->y += way + lift;
+      if (falls) at->c = gg_add(at->c, dc);
+    } else
+      fly_to_walls(d, i, dt, all);
+    count(d, i, mixture);
   }
+}
+
+void gg_dsmc_gap_fly(gg_dsmc_gap *d, double dt)
+{
+  gg_dsmc_gap_contacts all = {.shown = d->callback != NULL};
+  const bool mixture = d->model.n_species > 1, falls = gg_dot(d->gravity, d->gravity) > 0;
+  memset(d->cells.start, 0, ((size_t)(d->cells.n * d->model.n_species) + 1) * sizeof *d->cells.start);
+  if (mixture || falls)
+    fly(d, dt, mixture, falls, &all);
+  else
+    fly(d, dt, false, false, &all);
   d->now.rests += all.rests;
   for (int w = 0; w < d->model.n_surfaces; w++) {
     gg_surface_sums *t = &d->now.transfer.surface[w];

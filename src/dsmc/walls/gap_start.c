@@ -2,13 +2,24 @@
 /* Life of the engine; the initial state. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "dsmc/walls/gap.h"
 
+/* Each on one cache line. */
+static gg_dsmc_gap_motion *new_motion(size_t n, gg_error *err)
+{
+  const size_t bytes = (n * sizeof(gg_dsmc_gap_motion) + 63) / 64 * 64;
+  gg_dsmc_gap_motion *at = aligned_alloc(64, bytes);
+  if (at) return memset(at, 0, bytes);
+  gg_base_out_of_memory(err);
+  return NULL;
+}
+
 static gg_status allocate_grains(gg_dsmc_gap_grains *g, size_t n, bool spins, gg_error *err)
 {
-  g->at = gg_base_array_new(n, sizeof *g->at, err);
+  g->at = new_motion(n, err);
   if (spins) g->s = gg_base_array_new(n, sizeof *g->s, err);
   g->id = gg_base_array_new(n, sizeof *g->id, err);
   g->species = gg_base_array_new(n, sizeof *g->species, err);
@@ -37,10 +48,15 @@ static void set_heights(gg_dsmc_gap *d)
   for (int p = 0; p < gg_pairs_of(m->n_species); p++) d->reach[p] = m->boltzmann ? 0 : m->sigma[p];
 }
 
+#define COLLIDE(set, name) [set] = gg_dsmc_gap_collide_##name,
+
 gg_status gg_dsmc_gap_allocate(const gg_model *model, gg_dsmc_gap **made, gg_error *err)
 {
+  static void (*const collide[GG_INSTRUCTION_SETS])(gg_dsmc_gap *, double) = {GG_EACH_COMPILED_SET(COLLIDE)};
+  GG_TRY(gg_simd_instructions_check(err));
   gg_dsmc_gap *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return GG_FAILED;
+  d->collide = collide[gg_simd_instructions_best()];
   d->base.ops = &gg_dsmc_gap_ops;
   d->model = *model;
   d->gravity = (gg_vec){model->gravity[0], model->gravity[1], model->gravity[2]};
@@ -174,6 +190,7 @@ static void begin(gg_dsmc_gap *d)
   s->rate = gg_common_model_collision_rate(&d->model, s->temperature);
   s->all_rate = 0.5 * (double)d->model.n * s->rate;
   gg_dsmc_gap_choose_step(d);
+  gg_dsmc_gap_fly(d, 0);
   gg_dsmc_gap_sort(d);
   for (int k = 0; k < c->n * species; k++) {
     const int cell = k / species, of = k % species;
@@ -196,6 +213,7 @@ gg_status gg_dsmc_gap_start(gg_dsmc_gap *d, uint64_t seed, uint64_t stream, cons
   double inertia[GG_MAX_SPECIES];
   for (int i = 0; i < m->n_species; i++) inertia[i] = m->inertia[i] * m->mass[i];
   d->now.rng = gg_common_rng_seed(seed, stream + GG_STREAM_ENGINE);
+  gg_dsmc_rng_lanes_seed(&d->now.lanes, seed, stream + GG_STREAM_LANES);
   place_grains(d, &rng);
   set_motion(d, false, m->mass, m->temperature0, &rng);
   add_flow(d);
