@@ -37,11 +37,12 @@ typedef struct gg_dsmc_gap_grains {
 typedef struct gg_dsmc_gap_cells {
   int n, reach; /* of them; half the width of a kernel, in half cells */
   double from, width, inverse, volume;
-  uint32_t *start;   /* [n x species + 1]: the first grain of each */
+  uint32_t *start; /* [n x species + 1]: the first grain of each; of empty cells below the first, above the last, too */
+  uint32_t *start_below;
   double *counted;   /* [n x species]: grains x time, since the last measurement */
   double *mean;      /* [n x species]: mean number of grains, over about a crossing of the gap */
   double *hits;      /* [n]: grains that collided since the last measurement */
-  double *chi;       /* [pairs x 2n]: contact value between the middles of cells a and b, at a + b */
+  double *chi;       /* [pairs x 2n]: contact value between the middles of cells a and b, at a + b + 1 */
   double *kernel;    /* [species x (reach + 1)]: what share of a cell's grains fills the place half cells away */
   double overfilled; /* share of grains where contact values are held down, over about a crossing */
   gg_dsmc_majorant *majorant; /* [n x species x species]: of chi N g_n, N in the partner's cell */

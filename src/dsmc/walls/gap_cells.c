@@ -76,21 +76,22 @@ gg_status gg_dsmc_gap_cells_new(gg_dsmc_gap *d, gg_error *err)
   c->volume = m->box[0] * m->box[2] * c->width;
   c->reach = (int)fmin(1 + ceil(gg_common_model_widest(m) * c->inverse), 2 * c->n);
   const size_t n = (size_t)c->n;
-  c->start = gg_base_array_new(n * species + 1, sizeof *c->start, err);
+  c->start_below = gg_base_array_new((n + 2) * species + 1, sizeof *c->start, err);
   c->counted = gg_base_array_new(n * species, sizeof *c->counted, err);
   c->mean = gg_base_array_new(n * species, sizeof *c->mean, err);
   c->hits = gg_base_array_new(n, sizeof *c->hits, err);
-  c->chi = gg_base_array_new(pairs * 2 * n, sizeof *c->chi, err);
+  c->chi = gg_base_array_new(pairs * 2 * n + 2, sizeof *c->chi, err);
   c->kernel = gg_base_array_new(species * (size_t)(c->reach + 1), sizeof *c->kernel, err);
   c->majorant = gg_base_array_new(n * species * species, sizeof *c->majorant, err);
-  if (!c->start || !c->counted || !c->mean || !c->hits || !c->chi || !c->kernel || !c->majorant) return GG_FAILED;
+  if (!c->start_below || !c->counted || !c->mean || !c->hits || !c->chi || !c->kernel || !c->majorant) return GG_FAILED;
+  c->start = c->start_below + species;
   set_kernels(d);
   return GG_OK;
 }
 
 void gg_dsmc_gap_cells_free(gg_dsmc_gap_cells *c)
 {
-  free(c->start);
+  free(c->start_below);
   free(c->counted);
   free(c->mean);
   free(c->hits);
@@ -102,14 +103,14 @@ void gg_dsmc_gap_cells_free(gg_dsmc_gap_cells *c)
 /* A height and a velocity are moved at once. */
 typedef double row __attribute__((vector_size(32), may_alias));
 
-GG_CLONES static void move_all(const gg_dsmc_gap_grains *from, const gg_dsmc_gap_grains *to, size_t n, uint32_t *place,
-                               uint32_t *next)
+GG_CLONES static void move_all(size_t n, uint32_t *restrict place, uint32_t *restrict next, const row *restrict at,
+                               row *restrict to, const uint32_t *restrict id, uint32_t *restrict id_to)
 {
   for (size_t i = 0; i < n; i++) {
     const uint32_t k = next[place[i]]++;
     place[i] = k;
-    *(row *)&to->at[k] = *(row *)&from->at[i];
-    to->id[k] = from->id[i];
+    to[k] = at[i];
+    id_to[k] = id[i];
   }
 }
 
@@ -118,9 +119,9 @@ void gg_dsmc_gap_sort(gg_dsmc_gap *d)
   gg_dsmc_gap_cells *c = &d->cells;
   const size_t n = (size_t)d->model.n, species = (size_t)d->model.n_species, bins = (size_t)c->n * species;
   const gg_dsmc_gap_grains from = d->grains, to = d->sorted;
-  for (size_t b = 0; b < bins; b++) c->start[b + 1] += c->start[b];
+  for (size_t b = 0; b < bins + species; b++) c->start[b + 1] += c->start[b];
   /* Each start moves to its end, and with it to the place of the next. */
-  move_all(&from, &to, n, d->place, c->start);
+  move_all(n, d->place, c->start, (const row *)from.at, (row *)to.at, from.id, to.id);
   memmove(c->start + 1, c->start, bins * sizeof *c->start);
   c->start[0] = 0;
   for (size_t i = 0; from.s && i < n; i++) to.s[d->place[i]] = from.s[i];
@@ -162,7 +163,7 @@ void gg_dsmc_gap_set_chi(gg_dsmc_gap *d)
     }
     for (int i = 0; i < m->n_species; i++)
       for (int j = i; j < m->n_species; j++)
-        c->chi[gg_pair(i, j) * 2 * c->n + place] =
+        c->chi[gg_pair(i, j) * 2 * c->n + place + 1] =
             m->boltzmann ? 1
             : m->n_species == 1
                 ? gg_common_contact_value_of(kind, filled)

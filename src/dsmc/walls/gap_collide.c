@@ -24,18 +24,23 @@
 typedef struct pass {
   int cell, one, two, pair;
   uint32_t first, n; /* grains of the cell */
-  double reach, floor, majorant, largest;
+  /* Of partners, from the empty cell below the first: starts, contact values, its edge, the last cell; the reach in
+   * cells
+   */
+  const uint32_t *start;
+  const double *chi;
+  double bottom, last, reach;
+  double floor, majorant, largest;
   double known; /* what the majorant was last learned from */
   uint64_t candidates;
-  const double *chi;  /* to the cells */
   double begin, tick; /* time of the first candidate, and between two: those of all cells take turns in a step */
+  gg_contact contact;
 } pass;
 
 static gg_contact contact_of(const gg_dsmc_gap *d, const pass *p, double gn)
 {
-  gg_contact c = d->model.contact[p->one][p->two];
+  gg_contact c = p->contact;
   const gg_restitution_law *law = &d->model.law;
-  if (!law->name) return c;
   const double e =
       law->e ? gg_common_law_at(law, gn, p->one, p->two) : 1 - gg_loss_at(d->losses->loss, law->scale[p->pair] * gn);
   c.jn = (1 + e) / gg_inverse_mr(&c);
@@ -68,9 +73,11 @@ static void collide(gg_dsmc_gap *d, const pass *p, double time, uint32_t i, uint
   if (rule != GG_SMOOTH) s1 = g->s[i], s2 = g->s[j];
   const gg_vec v = gg_contact_velocity(rule, k, gg_sub(c1, c2), s1, s2);
   const double gn = gg_dot(k, v);
-  const gg_contact contact = contact_of(d, p, gn);
-  const gg_vec J = gg_impulse(rule, &contact, k, v, gn);
-  gg_kick(rule, &contact, k, J, &c1, &s1, &c2, &s2);
+  gg_contact by_law;
+  const gg_contact *contact = &p->contact;
+  if (d->model.law.name) by_law = contact_of(d, p, gn), contact = &by_law;
+  const gg_vec J = gg_impulse(rule, contact, k, v, gn);
+  gg_kick(rule, contact, k, J, &c1, &s1, &c2, &s2);
   if (d->callback) call_back(d, time, (const uint32_t[]){i, j}, k, before, J, (const gg_vec[]){s1, s2});
   g->at[i].c = c1, g->at[j].c = c2;
   if (rule != GG_SMOOTH) g->s[i] = s1, g->s[j] = s2;
@@ -79,7 +86,7 @@ static void collide(gg_dsmc_gap *d, const pass *p, double time, uint32_t i, uint
   t->collisions[p->pair]++;
   if (!d->now.keeps_sums) return;
   if (!d->model.boltzmann) gg_add_stress(t->stress[p->pair], d->model.sigma[p->pair], k, J);
-  t->loss[p->pair] += gg_energy_loss(&contact, k, v, J);
+  t->loss[p->pair] += gg_energy_loss(contact, k, v, J);
 }
 
 /* Candidates drawn at once: k, of which k_x and k_z may have the other sign; h(k_y), chi N, the limit, a random number
@@ -141,14 +148,14 @@ GG_INLINE void draw_numbers(const pass *p, gg_dsmc_lane_rng *rng, block *b, uint
 
 GG_INLINE void find_partner(const gg_dsmc_gap *d, const pass *p, block *b, uint32_t k)
 {
-  const gg_dsmc_gap_cells *c = &d->cells;
-  const double y = (d->grains.at[b->i[k]].y + p->reach * b->ky[k] - c->from) * c->inverse;
-  const bool inside = (y >= 0) & (y < c->n);
-  const int cell = inside ? (int)y : p->cell, there = cell * d->model.n_species + p->two;
-  const uint32_t begin = c->start[there], partners = inside ? c->start[there + 1] - begin : 0;
-  b->j[k] = partners ? begin + (uint32_t)((uint64_t)b->j[k] * partners >> 32) : b->i[k];
-  b->cell[k] = (uint32_t)cell;
-  b->scale[k] = p->chi[cell] * partners;
+  double at = (d->grains.at[b->i[k]].y - p->bottom) * d->cells.inverse + p->reach * b->ky[k];
+  at = at > 0 ? at : 0;
+  at = at < p->last ? at : p->last;
+  const uint32_t cell = (uint32_t)(int)at, *start = p->start + cell * (uint32_t)d->model.n_species;
+  const uint32_t n = start[1] - start[0];
+  b->j[k] = start[0] + (uint32_t)((uint64_t)b->j[k] * n >> 32);
+  b->cell[k] = cell;
+  b->scale[k] = p->chi[cell] * (int)n;
 }
 
 /* Eight at a time, and not fewer. */
@@ -172,7 +179,7 @@ static bool judge(gg_dsmc_gap *d, pass *p, const block *b, uint32_t m)
   const double sign = b->sign[m] * (one + other) < other ? -1 : 1;
   collide(d, p, p->begin + m * p->tick, i, j, (gg_vec){sign * b->kx[m], b->ky[m], sign * b->kz[m]});
   d->cells.hits[p->cell]++;
-  d->cells.hits[b->cell[m]]++;
+  d->cells.hits[b->cell[m] - 1]++;
   return true;
 }
 
@@ -199,36 +206,37 @@ GG_INLINE uint32_t to_judge(const gg_dsmc_gap_motion *at, block *b, uint32_t k, 
   return gg_lanes8(gg_less8(gg_smaller8(EIGHT(b->limit, k), gg_all8(known)) * EIGHT(b->h, k), value));
 }
 
+/* Which of 32 numbers are this one? */
+GG_INLINE uint32_t where_is(const uint32_t *numbers, uint32_t x)
+{
+  uint32_t which = 0;
+#ifdef GG_HAS_AVX512
+  for (int k = 0; k < BLOCK; k += 16)
+    which |= (uint32_t)_mm512_cmpeq_epi32_mask(_mm512_load_si512(numbers + k), _mm512_set1_epi32((int)x)) << k;
+#else
+  for (int k = 0; k < BLOCK; k++) which |= (uint32_t)(numbers[k] == x) << k;
+#endif
+  return which;
+}
+
 /* Which candidates have one of these grains? */
 GG_INLINE uint32_t with(const block *b, uint32_t i, uint32_t j)
 {
-  int32_t found __attribute__((vector_size(32))) = {0};
-  for (uint32_t k = 0; k < BLOCK; k += GG_BATCH) {
-    const gg_list8 one = *(const gg_list8 *)&b->i[k], two = *(const gg_list8 *)&b->j[k];
-    found |= (one == i) | (one == j) | (two == i) | (two == j);
-  }
-  uint64_t any[4];
-  uint32_t which = 0;
-  memcpy(any, &found, sizeof any);
-  if (__builtin_expect((any[0] | any[1] | any[2] | any[3]) == 0, 1)) return 0;
-  for (uint32_t k = 0; k < b->n; k++)
-    which |= (uint32_t)((b->i[k] == i) | (b->i[k] == j) | (b->j[k] == i) | (b->j[k] == j)) << k;
-  return which;
+  return where_is(b->i, i) | where_is(b->i, j) | where_is(b->j, i) | where_is(b->j, j);
 }
 
 /* The same with the same bits: a first look at all at once. */
 static void collide_block(gg_dsmc_gap *d, pass *p, block *b)
 {
-  const double known = fmin(fmax(p->known, p->largest), p->floor + p->majorant);
+  const uint32_t drawn = UINT32_MAX >> (BLOCK - b->n);
+  const double most = p->floor + p->majorant, all = p->known > p->largest ? p->known : p->largest;
   uint32_t judged = 0;
-  for (uint32_t m = 0; m < b->n; m += GG_BATCH) judged |= to_judge(d->grains.at, b, m, known) << m;
-  judged &= UINT32_MAX >> (BLOCK - b->n);
+  for (uint32_t m = 0; m < b->n; m += GG_BATCH) judged |= to_judge(d->grains.at, b, m, all < most ? all : most) << m;
+  judged &= drawn;
   while (judged) {
-    const uint32_t m = (uint32_t)__builtin_ctz(judged), i = b->i[m], j = b->j[m];
+    const uint32_t m = (uint32_t)__builtin_ctz(judged);
     judged &= judged - 1;
-    if (!judge(d, p, b, m)) continue;
-    b->i[m] = b->j[m] = UINT32_MAX;
-    judged |= with(b, i, j) & ~(UINT32_MAX >> (BLOCK - 1 - m));
+    if (judge(d, p, b, m)) judged |= with(b, b->i[m], b->j[m]) & drawn & ~1u << m;
   }
 }
 
@@ -243,7 +251,7 @@ static void collide_species(gg_dsmc_gap *d, gg_dsmc_lane_rng *rng, int cell, int
   const uint32_t first = c->start[here], n = c->start[here + 1] - first;
   gg_dsmc_majorant *learned = &c->majorant[here * species + two];
   if (n == 0) return;
-  const double thermal = sqrt(d->now.temperature), sigma = d->model.sigma[pair];
+  const double thermal = sqrt(d->now.temperature), sigma = d->model.sigma[pair], reach = d->reach[pair] * c->inverse;
   const double rate = 1.25 * M_PI * sigma * sigma / c->volume * n * dt;
   pass p = {.cell = cell,
             .one = one,
@@ -251,11 +259,15 @@ static void collide_species(gg_dsmc_gap *d, gg_dsmc_lane_rng *rng, int cell, int
             .pair = pair,
             .first = first,
             .n = n,
-            .reach = d->reach[pair],
+            .start = c->start - species + two,
+            .chi = c->chi + pair * 2 * c->n + cell,
+            .bottom = c->from - c->width,
+            .last = c->n + 1,
+            .reach = reach,
             .majorant = gg_dsmc_majorant_at(learned, thermal),
             .known = learned->now * thermal,
-            .chi = c->chi + pair * 2 * c->n + cell};
-  block b = {0}; /* stale candidates are compared with, too */
+            .contact = d->model.contact[one][two]};
+  block b;
   /* After a majorant overflow: correction passes, each over the layer above. */
   for (uint64_t tried = 0; p.majorant > 0; p.floor += p.majorant, p.majorant = 1.1 * p.largest - p.floor) {
     p.candidates = (uint64_t)(rate * p.majorant + gg_rng_uniform(&d->now.rng));
@@ -275,15 +287,27 @@ static void collide_species(gg_dsmc_gap *d, gg_dsmc_lane_rng *rng, int cell, int
   }
 }
 
+/* Fetch the grains of a cell, if it is one: at random they would come one by one. */
+static void prefetch(const gg_dsmc_gap *d, int cell)
+{
+  const gg_dsmc_gap_cells *c = &d->cells;
+  const int species = d->model.n_species;
+  if (cell < 0 || cell >= c->n) return;
+  for (uint32_t i = c->start[cell * species]; i < c->start[(cell + 1) * species]; i += 2)
+    __builtin_prefetch(&d->grains.at[i], 1);
+}
+
 void GG_GAP_COLLIDE(gg_dsmc_gap *d, double dt)
 {
   gg_dsmc_lane_rng rng;
   gg_dsmc_lane_rng_load(&rng, &d->now.lanes);
   const int species = d->model.n_species, all = d->cells.n * species * species;
+  const int ahead = d->cells.reach / 2 + 2;
   const bool backward = d->now.steps % 2; /* symmetric splitting: every second step mirrors the one before */
   for (int t = 0; t < all; t++) {
-    const int k = backward ? all - 1 - t : t;
-    collide_species(d, &rng, k / (species * species), k / species % species, k % species, dt, t, all);
+    const int k = backward ? all - 1 - t : t, cell = k / (species * species);
+    if (t % (species * species) == 0) prefetch(d, backward ? cell - ahead : cell + ahead);
+    collide_species(d, &rng, cell, k / species % species, k % species, dt, t, all);
   }
   gg_dsmc_lane_rng_save(&rng, &d->now.lanes);
 }

@@ -99,24 +99,23 @@ static void fly_to_walls(gg_dsmc_gap *d, size_t i, double dt, gg_dsmc_gap_contac
   if (p.touched && g->last) g->last[i] = d->now.time;
 }
 
-/* Grains by cell: the second number is the first cell's. */
-GG_INLINE void count(gg_dsmc_gap *d, size_t i, bool mixture)
-{
-  const gg_dsmc_gap_cells *c = &d->cells;
-  const double at = (d->grains.at[i].y - c->from) * c->inverse, last = c->n - 0.5;
-  uint32_t cell = (uint32_t)(int)(at < last ? at : last);
-  if (mixture) cell = cell * (uint32_t)d->model.n_species + d->grains.species[i];
-  d->place[i] = cell;
-  c->start[cell + 1]++;
-}
+/* In registers: stores do not change them. */
+typedef struct counting {
+  uint32_t *next, *place; /* of each cell, one number on */
+  double from, inverse, last;
+} counting;
 
 GG_INLINE void fly(gg_dsmc_gap *d, double dt, bool mixture, bool falls, gg_dsmc_gap_contacts *all)
 {
+  const gg_dsmc_gap_cells *c = &d->cells;
+  const counting to = {c->start + 1, d->place, c->from, c->inverse, c->n - 0.5};
   const gg_vec g = d->gravity, dc = gg_scale(dt, g);
   const double fall = 0.5 * fabs(g.y) * dt * dt, lift = 0.5 * dt * dt * g.y;
+  const size_t n = (size_t)d->model.n;
+  gg_dsmc_gap_motion *grains = d->grains.at;
   double low = d->low[0] + fall, high = d->high[0] - fall;
-  for (size_t i = 0; i < (size_t)d->model.n; i++) {
-    gg_dsmc_gap_motion *at = &d->grains.at[i];
+  for (size_t i = 0; i < n; i++) {
+    gg_dsmc_gap_motion *at = &grains[i];
     if (mixture) low = d->low[d->grains.species[i]] + fall, high = d->high[d->grains.species[i]] - fall;
     const double way = at->c.y * dt, far = fabs(way);
     if (__builtin_expect(at->y - far > low && at->y + far < high, 1)) {
@@ -124,7 +123,11 @@ GG_INLINE void fly(gg_dsmc_gap *d, double dt, bool mixture, bool falls, gg_dsmc_
       if (falls) at->c = gg_add(at->c, dc);
     } else
       fly_to_walls(d, i, dt, all);
-    count(d, i, mixture);
+    const double cell = (at->y - to.from) * to.inverse;
+    uint32_t bin = (uint32_t)(int)(cell < to.last ? cell : to.last);
+    if (mixture) bin = bin * (uint32_t)d->model.n_species + d->grains.species[i];
+    to.place[i] = bin;
+    to.next[bin]++;
   }
 }
 
@@ -132,7 +135,7 @@ void gg_dsmc_gap_fly(gg_dsmc_gap *d, double dt)
 {
   gg_dsmc_gap_contacts all = {.shown = d->callback != NULL};
   const bool mixture = d->model.n_species > 1, falls = gg_dot(d->gravity, d->gravity) > 0;
-  memset(d->cells.start, 0, ((size_t)(d->cells.n * d->model.n_species) + 1) * sizeof *d->cells.start);
+  memset(d->cells.start, 0, ((size_t)((d->cells.n + 1) * d->model.n_species) + 1) * sizeof *d->cells.start);
   if (mixture || falls)
     fly(d, dt, mixture, falls, &all);
   else

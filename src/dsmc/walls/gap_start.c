@@ -7,10 +7,10 @@
 #include "base/memory.h"
 #include "dsmc/walls/gap.h"
 
-/* Each on one cache line. */
+/* Each on one cache line, and one more: an empty cell may begin behind the last. */
 static gg_dsmc_gap_motion *new_motion(size_t n, gg_error *err)
 {
-  const size_t bytes = (n * sizeof(gg_dsmc_gap_motion) + 63) / 64 * 64;
+  const size_t bytes = ((n + 1) * sizeof(gg_dsmc_gap_motion) + 63) / 64 * 64;
   gg_dsmc_gap_motion *at = aligned_alloc(64, bytes);
   if (at) return memset(at, 0, bytes);
   gg_base_out_of_memory(err);
@@ -201,7 +201,7 @@ static void begin(gg_dsmc_gap *d)
   }
   gg_dsmc_gap_set_chi(d);
   for (int k = 0; k < gg_pairs_of(species) * 2 * c->n; k++)
-    if (c->chi[k] > chi) chi = c->chi[k];
+    if (c->chi[k + 1] > chi) chi = c->chi[k + 1];
   for (int k = 0; k < c->n * species * species; k++)
     gg_dsmc_majorant_start(&c->majorant[k], 2 * sqrt(fastest) * chi * most, sqrt(s->temperature));
 }
