@@ -47,8 +47,8 @@ static gg_contact contact_of(const gg_dsmc_gap *d, const pass *p, double gn)
   return c;
 }
 
-static void call_back(gg_dsmc_gap *d, double time, const uint32_t i[2], gg_vec k, const gg_vec c[2], gg_vec J,
-                      const gg_vec s[2])
+static __attribute__((noinline)) void call_back(gg_dsmc_gap *d, double time, const uint32_t i[2], gg_vec k,
+                                                const gg_vec c[2], gg_vec J, const gg_vec s[2])
 {
   gg_dsmc_gap_grains *g = &d->grains;
   gg_collision_record m = {.k = k, .c12 = gg_sub(c[0], c[1]), .J = J, .time = time};
@@ -64,7 +64,7 @@ static void call_back(gg_dsmc_gap *d, double time, const uint32_t i[2], gg_vec k
   d->callback(d->callback_context, &m);
 }
 
-static void collide(gg_dsmc_gap *d, const pass *p, double time, uint32_t i, uint32_t j, gg_vec k)
+GG_INLINE void collide(gg_dsmc_gap *d, const pass *p, double time, uint32_t i, uint32_t j, gg_vec k)
 {
   gg_dsmc_gap_grains *g = &d->grains;
   const gg_rule rule = d->model.rule;
@@ -93,6 +93,7 @@ static void collide(gg_dsmc_gap *d, const pass *p, double time, uint32_t i, uint
  * for that sign; who the grains are, the cell of the second. */
 enum { BLOCK = 32 };
 typedef struct block {
+  gg_half relative[BLOCK]; /* the first grain less the second, in height and velocity */
   double kx[BLOCK], ky[BLOCK], kz[BLOCK], h[BLOCK], scale[BLOCK], limit[BLOCK], sign[BLOCK];
   uint32_t i[BLOCK], j[BLOCK], cell[BLOCK], n;
 } __attribute__((aligned(64))) block;
@@ -148,12 +149,14 @@ GG_INLINE void draw_numbers(const pass *p, gg_dsmc_lane_rng *rng, block *b, uint
 
 GG_INLINE void find_partner(const gg_dsmc_gap *d, const pass *p, block *b, uint32_t k)
 {
-  double at = (d->grains.at[b->i[k]].y - p->bottom) * d->cells.inverse + p->reach * b->ky[k];
+  const gg_half *grains = (const gg_half *)d->grains.at, one = grains[b->i[k]];
+  double at = (one[0] - p->bottom) * d->cells.inverse + p->reach * b->ky[k];
   at = at > 0 ? at : 0;
   at = at < p->last ? at : p->last;
   const uint32_t cell = (uint32_t)(int)at, *start = p->start + cell * (uint32_t)d->model.n_species;
-  const uint32_t n = start[1] - start[0];
-  b->j[k] = start[0] + (uint32_t)((uint64_t)b->j[k] * n >> 32);
+  const uint32_t n = start[1] - start[0], j = start[0] + (uint32_t)((uint64_t)b->j[k] * n >> 32);
+  b->relative[k] = one - grains[j];
+  b->j[k] = j;
   b->cell[k] = cell;
   b->scale[k] = p->chi[cell] * (int)n;
 }
@@ -190,15 +193,11 @@ static void collide_plain(gg_dsmc_gap *d, pass *p, block *b)
 }
 
 /* Which of eight have to be judged: they are accepted, or teach the majorant. */
-GG_INLINE uint32_t to_judge(const gg_dsmc_gap_motion *at, block *b, uint32_t k, double known)
+GG_INLINE uint32_t to_judge(block *b, uint32_t k, double known)
 {
-  gg_half pair[GG_BATCH];
   const gg_half *row[GG_BATCH];
   gg_v8 c[4];
-  for (int l = 0; l < GG_BATCH; l++) {
-    pair[l] = *(const gg_half *)&at[b->i[k + l]] - *(const gg_half *)&at[b->j[k + l]];
-    row[l] = &pair[l];
-  }
+  for (int l = 0; l < GG_BATCH; l++) row[l] = &b->relative[k + (uint32_t)l];
   gg_columns(row, c);
   const gg_v8 A = EIGHT(b->ky, k) * c[2], B = EIGHT(b->kx, k) * c[1] + EIGHT(b->kz, k) * c[3];
   const gg_v8 one = gg_larger8(A + B, gg_all8(0)), other = gg_larger8(A - B, gg_all8(0));
@@ -231,7 +230,7 @@ static void collide_block(gg_dsmc_gap *d, pass *p, block *b)
   const uint32_t drawn = UINT32_MAX >> (BLOCK - b->n);
   const double most = p->floor + p->majorant, all = p->known > p->largest ? p->known : p->largest;
   uint32_t judged = 0;
-  for (uint32_t m = 0; m < b->n; m += GG_BATCH) judged |= to_judge(d->grains.at, b, m, all < most ? all : most) << m;
+  for (uint32_t m = 0; m < b->n; m += GG_BATCH) judged |= to_judge(b, m, all < most ? all : most) << m;
   judged &= drawn;
   while (judged) {
     const uint32_t m = (uint32_t)__builtin_ctz(judged);

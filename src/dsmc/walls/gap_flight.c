@@ -74,13 +74,33 @@ static int next_wall(const gg_dsmc_gap *d, const gg_dsmc_gap_grain *p, double *d
   return first;
 }
 
+/* Heights between which a flight with both ends there touches no wall: of a parabola none is farther from the chord. */
+typedef struct inside {
+  double low, high;
+  bool falls;
+} inside;
+
+GG_INLINE inside inside_of(const gg_dsmc_gap *d, int species, double dt)
+{
+  const double bend = 0.125 * fabs(d->gravity.y) * dt * dt;
+  return (inside){d->low[species] + bend, d->high[species] - bend, bend > 0};
+}
+
+GG_INLINE bool stays(inside at, double y, double end)
+{
+  return end > at.low && end < at.high && (!at.falls || (y > at.low && y < at.high));
+}
+
 void gg_dsmc_gap_fly_grain(const gg_dsmc_gap *d, double dt, gg_rng *rng, gg_dsmc_gap_grain *p,
                            gg_dsmc_gap_contacts *all)
 {
   double delay;
-  for (int w; (w = next_wall(d, p, &delay)) >= 0 && delay < dt; dt -= delay) {
+  while (!stays(inside_of(d, p->species, dt), p->r.y, p->r.y + dt * (p->c.y + 0.5 * dt * d->gravity.y))) {
+    const int w = next_wall(d, p, &delay);
+    if (w < 0 || delay >= dt) break;
     move(p, d->gravity, delay);
     touch(d, w, rng, p, all);
+    dt -= delay;
   }
   move(p, d->gravity, dt);
 }
@@ -110,16 +130,17 @@ GG_INLINE void fly(gg_dsmc_gap *d, double dt, bool mixture, bool falls, gg_dsmc_
   const gg_dsmc_gap_cells *c = &d->cells;
   const counting to = {c->start + 1, d->place, c->from, c->inverse, c->n - 0.5};
   const gg_vec g = d->gravity, dc = gg_scale(dt, g);
-  const double fall = 0.5 * fabs(g.y) * dt * dt, lift = 0.5 * dt * dt * g.y;
+  const double lift = 0.5 * dt * dt * g.y;
   const size_t n = (size_t)d->model.n;
   gg_dsmc_gap_motion *grains = d->grains.at;
-  double low = d->low[0] + fall, high = d->high[0] - fall;
+  inside in = inside_of(d, 0, dt);
+  if (!falls) in.falls = false;
   for (size_t i = 0; i < n; i++) {
     gg_dsmc_gap_motion *at = &grains[i];
-    if (mixture) low = d->low[d->grains.species[i]] + fall, high = d->high[d->grains.species[i]] - fall;
-    const double way = at->c.y * dt, far = fabs(way);
-    if (__builtin_expect(at->y - far > low && at->y + far < high, 1)) {
-      at->y += way + lift;
+    if (mixture) in = inside_of(d, d->grains.species[i], dt);
+    const double end = at->y + (at->c.y * dt + lift);
+    if (__builtin_expect(stays(in, at->y, end), 1)) {
+      at->y = end;
       if (falls) at->c = gg_add(at->c, dc);
     } else
       fly_to_walls(d, i, dt, all);
