@@ -26,6 +26,7 @@ static const single singles[] = {
     {"start, per grain", GG_MD, GG_EQUILIBRIUM, 1, 0.3, 100000, 0, true},
     {"start, per grain", GG_MD, GG_EQUILIBRIUM, 1, 0.5, 100000, 0, true},
     {"white noise, e = 0.9", GG_DSMC, GG_HSS, 0.9, 0.3, 10000, 0, false},
+    {"walls (couette), e = 0.9", GG_DSMC, GG_COUETTE, 0.9, 0.01, 100000, 0, false},
     {"start, per grain", GG_DSMC, GG_EQUILIBRIUM, 1, 0.3, 100000, 0, true},
     {"one thread", GG_DSMC, GG_EQUILIBRIUM, 1, 0.3, 100000, 1, false},
     {"two threads", GG_DSMC, GG_EQUILIBRIUM, 1, 0.3, 100000, 2, false},
@@ -39,6 +40,7 @@ static gg_timed_scene timed_scene(const gg_bench *b, const single *s)
   c.scene.flow = s->flow;
   c.scene.collision.e[0] = s->e;
   if (s->flow == GG_HSS) c.scene.thermostat = GG_WHITE_NOISE;
+  if (s->flow == GG_COUETTE && s->engine == GG_DSMC) c.scene.particles = 1000; /* the gap is that of so many in md */
   return c;
 }
 

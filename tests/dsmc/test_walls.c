@@ -2,9 +2,9 @@
 /* Enskog Monte Carlo between walls. Identities: what grains lose of momentum and energy is what walls and collisions
  * took, to rounding; a restored or stopped engine continues bit for bit; candidates one by one are the same as some at
  * once. Limits: elastic grains between smooth elastic walls are in
- * equilibrium, with the pressure n T Z(phi) on both walls and Enskog's collision rate; a column is barometric, and
- * carries its weight; sheared between thermal walls the core has Enskog's viscosity, and
- * grains that meet nobody carry the stress of free molecular flow. */
+ * equilibrium, with the pressure n T Z(phi) on both walls and Enskog's collision rate, of isotropic directions, at
+ * every height; a column is barometric, and carries its weight; sheared between thermal walls the core has Enskog's
+ * viscosity, and grains that meet nobody carry the stress of free molecular flow. */
 #include "common/contact_value.h"
 #include "common/surface/shapes.h"
 #include "dsmc/walls/gap.h"
@@ -139,19 +139,25 @@ static gg_scene full_scene(int64_t n)
   return s;
 }
 
+/* So do all sets of instructions. */
 static void plain_is_the_same(void **state)
 {
   (void)state;
   gg_scene s = full_scene(2000);
   gg_model m = lab_model(&s);
-  gg_engine *fast = lab_engine(&m, 4), *plain = lab_engine(&m, 4);
+  gg_engine *plain = lab_engine(&m, 4);
   ((gg_dsmc_gap *)plain)->plain = true;
-  fast->ops->keep_sums(fast, true);
   plain->ops->keep_sums(plain, true);
-  advance(fast, INFINITY, (uint64_t)(5 * m.n));
   advance(plain, INFINITY, (uint64_t)(5 * m.n));
-  same_archive(fast, plain);
-  fast->ops->destroy(fast);
+  for (gg_instructions set = 0; set < GG_INSTRUCTION_SETS; set++) {
+    if (!gg_simd_instructions_run_here(set)) continue;
+    gg_engine *fast = lab_engine(&m, 4);
+    ((gg_dsmc_gap *)fast)->collide = gg_dsmc_gap_collide_of[set];
+    fast->ops->keep_sums(fast, true);
+    advance(fast, INFINITY, (uint64_t)(5 * m.n));
+    same_archive(fast, plain);
+    fast->ops->destroy(fast);
+  }
   plain->ops->destroy(plain);
 }
 
@@ -359,6 +365,58 @@ static void walls_carry_the_pressure(void **state)
   equilibrium(0.3, 12);
 }
 
+/* Sums over the collisions of a block whose first grain is in the core, which is as wide as `core`; by its slabs. */
+enum { CORE_SLABS = 20 };
+typedef struct collided {
+  double n, kx2, ky2, ky4, cosine2, speed, core, of[CORE_SLABS];
+} collided;
+
+static void add_collision(void *context, const gg_collision_record *r)
+{
+  collided *v = context;
+  if (r->wall || fabs(r->height[0]) > v->core / 2) return;
+  const double speed = gg_dot(r->k, r->c12), ky2 = r->k.y * r->k.y;
+  v->n++, v->kx2 += r->k.x * r->k.x, v->ky2 += ky2, v->ky4 += ky2 * ky2;
+  v->speed += speed, v->cosine2 += speed * speed / gg_dot(r->c12, r->c12);
+  v->of[(int)fmin((r->height[0] / v->core + 0.5) * CORE_SLABS, CORE_SLABS - 1)]++;
+}
+
+/* In equilibrium k is isotropic, its angle to c12 has the density 2 cos, the mean of g_n is sqrt(pi T), and all heights
+ * have the same rate, which is Enskog's. */
+static void directions_and_rates(void **state)
+{
+  (void)state;
+  gg_scene s = scene_of(GG_COUETTE, 0.01, 30, 20000);
+  gg_model m = lab_model(&s);
+  gg_engine *g = lab_engine(&m, 11);
+  gg_error err;
+  collided v = {0};
+  advance(g, INFINITY, (uint64_t)(50 * m.n));
+  assert_int_equal(g->ops->set_callback(g, add_collision, &v, &err), GG_OK);
+  lab_mean kx2 = {0}, ky2 = {0}, ky4 = {0}, cosine2 = {0}, speed = {0}, rate = {0}, of[CORE_SLABS] = {{0}};
+  for (int block = 0; block < 100; block++) {
+    v = (collided){.core = m.box[1] - 10};
+    const double time = advance(g, INFINITY, (uint64_t)(4 * m.n)), T = view_of(g, &m).cc / (3 * (double)m.n);
+    lab_add(&kx2, v.kx2 / v.n), lab_add(&ky2, v.ky2 / v.n), lab_add(&ky4, v.ky4 / v.n);
+    lab_add(&cosine2, v.cosine2 / v.n), lab_add(&speed, v.speed / v.n / sqrt(M_PI * T));
+    for (int k = 0; k < CORE_SLABS; k++) lab_add(&of[k], CORE_SLABS * v.of[k] / v.n);
+    /* Centres keep off the walls: they are denser by so much, and the rate by its square. */
+    const double n = m.box[1] / (m.box[1] - 1), chi = gg_common_contact_value_of(m.contact_value, m.phi * n);
+    lab_add(&rate, v.n * m.box[1] / v.core / (time * (double)m.n) / (2 * m.density * n * n * chi * sqrt(M_PI * T)));
+  }
+  lab_expect("k_x^2", &kx2, 1. / 3, 0, 0.01);
+  lab_expect("k_y^2", &ky2, 1. / 3, 0, 0.01);
+  lab_expect("k_y^4", &ky4, 1. / 5, 0, 0.01);
+  lab_expect("square of the cosine", &cosine2, 1. / 2, 0, 0.01);
+  lab_expect("g_n", &speed, 1, 0, 0.01);
+  lab_expect("rate of the core", &rate, 1, 0.003, 0.02);
+  double chi2 = 0;
+  for (int k = 0; k < CORE_SLABS; k++) chi2 += pow((lab_value(&of[k]) - 1) / lab_error(&of[k]), 2);
+  printf("# rates by height: chi^2 %.1f of %d, errors %.4f\n", chi2, CORE_SLABS, lab_error(&of[0]));
+  assert_true(chi2 < CORE_SLABS + 4 * sqrt(2 * CORE_SLABS) && lab_error(&of[0]) < 0.003);
+  g->ops->destroy(g);
+}
+
 /* A column of elastic grains: walls carry its weight, and in a dilute one the density falls as exp(-m g y/T); in a
  * dense one dp/dy = -rho g, so that the walls' pressures differ by the weight. */
 static void column(double phi, double height, double g_over_T)
@@ -495,6 +553,7 @@ int main(void)
                                      cmocka_unit_test(beds_are_overfilled),
                                      cmocka_unit_test(stops_under_any_gravity),
                                      cmocka_unit_test(walls_carry_the_pressure),
+                                     cmocka_unit_test(directions_and_rates),
                                      cmocka_unit_test(columns_carry_their_weight),
                                      cmocka_unit_test(core_has_the_viscosity),
                                      cmocka_unit_test(free_molecular_flow)};

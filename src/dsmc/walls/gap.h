@@ -66,6 +66,9 @@ typedef struct gg_dsmc_gap_state {
   uint64_t last_collision;
 } gg_dsmc_gap_state;
 
+struct gg_dsmc_gap;
+typedef void gg_dsmc_gap_collide(struct gg_dsmc_gap *d, double dt);
+
 typedef struct gg_dsmc_gap {
   gg_engine base;
   gg_model model;
@@ -78,7 +81,7 @@ typedef struct gg_dsmc_gap {
   gg_dsmc_gap_cells cells;
   gg_loss_table *losses;
   gg_dsmc_gap_state now;
-  void (*collide)(struct gg_dsmc_gap *d, double dt);
+  gg_dsmc_gap_collide *collide;
   bool plain; /* tests: candidates one by one */
   gg_collision_callback *callback;
   void *callback_context;
@@ -119,9 +122,10 @@ void gg_dsmc_gap_set_chi(gg_dsmc_gap *d);
 void gg_dsmc_gap_measure(gg_dsmc_gap *d);
 void gg_dsmc_gap_choose_step(gg_dsmc_gap *d);
 
-/* gap_collide.c, once for each set of instructions: the collisions of a step; sorted grains. */
-#define GG_GAP_COLLIDE_OF(set, name) void gg_dsmc_gap_collide_##name(gg_dsmc_gap *d, double dt);
+/* gap_collide.c, once for each set of instructions, with the same bits: the collisions of a step; sorted grains. */
+#define GG_GAP_COLLIDE_OF(set, name) gg_dsmc_gap_collide gg_dsmc_gap_collide_##name;
 GG_EACH_COMPILED_SET(GG_GAP_COLLIDE_OF)
+extern gg_dsmc_gap_collide *const gg_dsmc_gap_collide_of[GG_INSTRUCTION_SETS];
 
 /* gap_start.c: memory; the initial state, or grains from outside. */
 gg_status gg_dsmc_gap_allocate(const gg_model *model, gg_dsmc_gap **d, gg_error *err);

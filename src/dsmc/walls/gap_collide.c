@@ -98,6 +98,7 @@ typedef struct block {
   uint32_t i[BLOCK], j[BLOCK], cell[BLOCK], n;
 } __attribute__((aligned(64))) block;
 
+typedef int32_t int32_8 __attribute__((vector_size(32)));
 #define EIGHT(array, k) (*(gg_line *)&(array)[k])
 
 /* As many lanes as a register has, of eight. */
@@ -136,6 +137,16 @@ GG_INLINE void draw_direction(gg_u8 height, gg_u8 turn, block *b, uint32_t k)
   EIGHT(b->h, k) = h;
 }
 
+/* The cell where the partner is; grains beyond the last one of an open top have it far away. */
+GG_INLINE void find_cells(const gg_dsmc_gap *d, const pass *p, block *b, uint32_t k)
+{
+  gg_v8 y;
+  for (uint32_t l = 0; l < GG_BATCH; l++) y[l] = d->grains.at[b->i[k + l]].y;
+  const gg_v8 at = (y - p->bottom) * d->cells.inverse + p->reach * EIGHT(b->ky, k);
+  const gg_v8 inside = gg_smaller8(gg_larger8(at, gg_all8(0)), gg_all8(p->last));
+  *(gg_list8 *)&b->cell[k] = (gg_list8) __builtin_convertvector(inside, int32_8);
+}
+
 /* Random numbers; j: 32 bits for it. */
 GG_INLINE void draw_numbers(const pass *p, gg_dsmc_lane_rng *rng, block *b, uint32_t k)
 {
@@ -149,15 +160,11 @@ GG_INLINE void draw_numbers(const pass *p, gg_dsmc_lane_rng *rng, block *b, uint
 
 GG_INLINE void find_partner(const gg_dsmc_gap *d, const pass *p, block *b, uint32_t k)
 {
-  const gg_half *grains = (const gg_half *)d->grains.at, one = grains[b->i[k]];
-  double at = (one[0] - p->bottom) * d->cells.inverse + p->reach * b->ky[k];
-  at = at > 0 ? at : 0;
-  at = at < p->last ? at : p->last;
-  const uint32_t cell = (uint32_t)(int)at, *start = p->start + cell * (uint32_t)d->model.n_species;
+  const gg_half *grains = (const gg_half *)d->grains.at;
+  const uint32_t cell = b->cell[k], *start = p->start + cell * (uint32_t)d->model.n_species;
   const uint32_t n = start[1] - start[0], j = start[0] + (uint32_t)((uint64_t)b->j[k] * n >> 32);
-  b->relative[k] = one - grains[j];
+  b->relative[k] = grains[b->i[k]] - grains[j];
   b->j[k] = j;
-  b->cell[k] = cell;
   b->scale[k] = p->chi[cell] * (int)n;
 }
 
@@ -165,7 +172,10 @@ GG_INLINE void find_partner(const gg_dsmc_gap *d, const pass *p, block *b, uint3
 static void draw(gg_dsmc_gap *d, const pass *p, gg_dsmc_lane_rng *rng, block *b)
 {
   const uint32_t n = (b->n + GG_BATCH - 1) / GG_BATCH * GG_BATCH;
-  for (uint32_t k = 0; k < n; k += GG_BATCH) draw_numbers(p, rng, b, k);
+  for (uint32_t k = 0; k < n; k += GG_BATCH) {
+    draw_numbers(p, rng, b, k);
+    find_cells(d, p, b, k);
+  }
   for (uint32_t k = 0; k < n; k++) find_partner(d, p, b, k);
 }
 

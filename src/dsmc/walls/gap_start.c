@@ -49,14 +49,14 @@ static void set_heights(gg_dsmc_gap *d)
 }
 
 #define COLLIDE(set, name) [set] = gg_dsmc_gap_collide_##name,
+gg_dsmc_gap_collide *const gg_dsmc_gap_collide_of[GG_INSTRUCTION_SETS] = {GG_EACH_COMPILED_SET(COLLIDE)};
 
 gg_status gg_dsmc_gap_allocate(const gg_model *model, gg_dsmc_gap **made, gg_error *err)
 {
-  static void (*const collide[GG_INSTRUCTION_SETS])(gg_dsmc_gap *, double) = {GG_EACH_COMPILED_SET(COLLIDE)};
   GG_TRY(gg_simd_instructions_check(err));
   gg_dsmc_gap *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return GG_FAILED;
-  d->collide = collide[gg_simd_instructions_best()];
+  d->collide = gg_dsmc_gap_collide_of[gg_simd_instructions_best()];
   d->base.ops = &gg_dsmc_gap_ops;
   d->model = *model;
   d->gravity = (gg_vec){model->gravity[0], model->gravity[1], model->gravity[2]};
