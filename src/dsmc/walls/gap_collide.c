@@ -14,7 +14,6 @@
  * Random numbers of some candidates are drawn, and the candidates decided, at once; those of grains that collide
  * meanwhile again. */
 #include <math.h>
-#include <string.h>
 
 #include "dsmc/kernel/normal.h"
 #include "dsmc/walls/gap.h"
@@ -24,12 +23,10 @@
 typedef struct pass {
   int cell, one, two, pair;
   uint32_t first, n; /* grains of the cell */
-  /* Of partners, from the empty cell below the first: starts, contact values, its edge, the last cell; the reach in
-   * cells
-   */
+  /* Of partners, from the empty cell below the first on: starts, contact values; its edge, the empty cell above. */
   const uint32_t *start;
   const double *chi;
-  double bottom, last, reach;
+  double bottom, last, reach; /* reach: in cells */
   double floor, majorant, largest;
   double known; /* what the majorant was last learned from */
   uint64_t candidates;
