@@ -176,10 +176,10 @@ def _prepare(sim, start, rng):
 
 
 def _settle(sim):
-    """md places grains at random and pushes them apart until none overlap: many are left close to another, and for half
-    a collision a grain collisions are several times as frequent as later. They find places; then it begins."""
+    """Under shear md begins where grains were pushed apart: many are left close to another, and for half a collision a
+    grain collisions are several times as frequent as later. They find places; then it begins."""
     grains = sim.grains
-    if grains.position is not None:
+    if grains.position is not None and sim.scene["flow"] in ("usf", "heated_shear"):
         sim.collide(5 * len(grains) // 2)
         sim.set_grains(velocities=grains.velocity, spins=grains.spin)
 

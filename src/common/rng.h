@@ -17,6 +17,7 @@ typedef struct gg_rng {
 enum {
   GG_STREAM_START = 0,
   GG_STREAM_ENGINE = 1,
+  GG_STREAM_PLACES = 2, /* and the next */
   GG_STREAM_LANES = 16,
   GG_STREAM_SEGMENTS = 32,
   GG_STREAMS_PER_REPLICA = 1024

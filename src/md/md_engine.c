@@ -117,6 +117,8 @@ static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stre
 {
   gg_md *e;
   GG_TRY(gg_md_accepts(model, err));
+  if (!grains->r && !before && gg_md_starts_in_equilibrium(model))
+    return gg_md_create_in_equilibrium(model, seed, stream, grains, engine, err);
   GG_TRY(gg_md_allocate(model, &e, err));
   gg_status status = begin_with(e, seed, stream, grains, (const gg_md *)before, err);
   if (status == GG_OK)
@@ -130,6 +132,7 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
 {
   gg_md *e;
   GG_TRY(gg_md_accepts(model, err));
+  if (gg_md_starts_in_equilibrium(model)) return gg_md_create_in_equilibrium(model, seed, stream, NULL, engine, err);
   GG_TRY(gg_md_allocate(model, &e, err));
   gg_status status = gg_md_start(e, seed, stream, NULL, err);
   if (status == GG_OK) status = gg_md_begin(e, err);
