@@ -10,28 +10,9 @@
 #include "base/text.h"
 #include "common/extension.h"
 #include "common/rng.h"
+#include "run/engine_grains.h"
 #include "scene/fields.h"
 #include "scene/scene_reader.h"
-
-/* In the engine's units and the order of numbers: one block, of which `grains` has the parts. */
-typedef struct arrays {
-  double *number;
-  int *species;
-  gg_grain_arrays grains;
-} arrays;
-
-static void clear(arrays *a)
-{
-  free(a->number);
-  free(a->species);
-}
-
-static gg_status make(arrays *a, size_t n, gg_error *err)
-{
-  a->number = gg_base_array_new(9 * n, sizeof *a->number, err);
-  a->species = gg_base_array_new(n, sizeof *a->species, err);
-  return a->number && a->species ? GG_OK : GG_FAILED;
-}
 
 /* Beyond, squares of squares are no numbers. */
 #define LARGEST 1e75
@@ -97,7 +78,7 @@ static gg_status check(const gg_model *m, const gg_grains *g, size_t n, gg_error
 }
 
 /* What is given, into the engine's units. The upper end of a periodic edge is its lower one. */
-static void take(const gg_model *m, const gg_grains *g, double unit, arrays *a)
+static void take(const gg_model *m, const gg_grains *g, double unit, gg_engine_grains *a)
 {
   const size_t n = (size_t)m->n;
   double *r = a->number, *c = r + 3 * n, *s = c + 3 * n;
@@ -120,8 +101,8 @@ static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uin
   if (m->n_species > 1 && !m->homogeneous && !grains->position)
     return gg_base_fail(err, GG_BAD_INPUT,
                         "grains of several species need positions: the start would part the species");
-  arrays a = {0};
-  gg_status status = make(&a, n, err);
+  gg_engine_grains a = {0};
+  gg_status status = gg_run_engine_grains_make(&a, n, err);
   if (status == GG_OK) {
     take(m, grains, 1, &a);
     a.grains = (gg_grain_arrays){.r = grains->position ? a.number : NULL,
@@ -130,7 +111,7 @@ static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uin
                                  .species = a.species};
     status = ops->create_with(m, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &a.grains, NULL, &s->engine, err);
   }
-  clear(&a);
+  gg_run_engine_grains_clear(&a);
   if (status == GG_OK) s->engine->ops->keep_sums(s->engine, true);
   return status;
 }
@@ -163,43 +144,19 @@ gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grai
   return status;
 }
 
-/* A gg_visit: the engine's own grains into the arrays. */
-typedef struct reading {
-  arrays *to;
-  size_t n, at;
-} reading;
-
-static void read_chunk(void *context, const gg_chunk *chunk)
-{
-  reading *w = context;
-  double *r = w->to->number, *c = r + 3 * w->n, *s = c + 3 * w->n;
-  for (size_t i = 0; i < chunk->n; i++, w->at++) {
-    const size_t place = chunk->id ? (size_t)chunk->id[i] : w->at;
-    w->to->species[place] = chunk->species ? chunk->species[i] : 0;
-    for (size_t a = 0; a < 3; a++) {
-      if (chunk->r[a]) r[3 * place + a] = chunk->r[a][i];
-      c[3 * place + a] = chunk->c[a][i];
-      if (chunk->s[0]) s[3 * place + a] = chunk->s[a][i];
-    }
-  }
-}
-
 gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, const gg_grains *grains, gg_error *err)
 {
   const size_t n = (size_t)model->n;
   const gg_engine_ops *ops = s->engine->ops;
   gg_engine *engine = NULL;
-  arrays a = {0};
-  gg_status status = make(&a, n, err);
+  gg_engine_grains a = {0};
+  gg_status status = gg_run_engine_grains_make(&a, n, err);
   if (status == GG_OK) {
-    reading w = {.to = &a, .n = n};
-    ops->snapshot(s->engine, !model->homogeneous, read_chunk, &w);
+    gg_run_engine_grains_read(s->engine, model, &a);
     if (grains) take(model, grains, gg_api_simulation_unit(s), &a);
-    a.grains = (gg_grain_arrays){
-        .r = model->homogeneous ? NULL : a.number, .c = a.number + 3 * n, .s = a.number + 6 * n, .species = a.species};
     status = ops->create_with(model, 0, 0, &a.grains, s->engine, &engine, err);
   }
-  clear(&a);
+  gg_run_engine_grains_clear(&a);
   GG_TRY(status);
   status = gg_api_simulation_watch(s, engine, err);
   if (status != GG_OK) {
@@ -242,30 +199,16 @@ gg_status gg_simulation_copy(const gg_simulation *simulation, gg_simulation **co
 /* Keys that change neither units nor box nor grains. */
 static bool may_change(const char *key)
 {
-  const char *const keys[] = {"thermostat",     "gaussian_rate",     "noise_strength",     "md.contact_time",
-                              "dsmc.time_step", "walls.e",           "walls.beta",         "walls.mu",
-                              "gravity",        "walls.temperature", "walls.accommodation"};
-  bool may = strncmp(key, "collision.", 10) == 0 || strncmp(key, "bath.", 5) == 0;
+  const char *const keys[] = {"md.contact_time", "dsmc.time_step", "walls.e",           "walls.beta",
+                              "walls.mu",        "gravity",        "walls.temperature", "walls.accommodation"};
+  bool may = gg_scene_protocol_takes(key);
   for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) may |= strcmp(key, keys[i]) == 0;
   return may;
 }
 
-/* The same grains in the same box and units. */
-static bool is_same_gas(const gg_model *a, const gg_model *b)
-{
-  bool same = a->flow == b->flow && a->n == b->n && a->n_species == b->n_species && a->boltzmann == b->boltzmann &&
-              (a->rule == GG_SMOOTH) == (b->rule == GG_SMOOTH) && a->shear_rate == b->shear_rate &&
-              a->stress_unit == b->stress_unit && a->volume == b->volume;
-  for (int k = 0; same && k < a->n_species; k++)
-    same = a->n_of[k] == b->n_of[k] && a->mass[k] == b->mass[k] && a->diameter[k] == b->diameter[k] &&
-           a->inertia[k] == b->inertia[k];
-  for (int k = 0; same && k < 3; k++) same = a->box[k] == b->box[k];
-  return same;
-}
-
 static gg_status change(gg_simulation *s, gg_simulation *next, const char *key, gg_error *err)
 {
-  if (!is_same_gas(&s->model, &next->model))
+  if (!gg_run_is_same_gas(&s->model, &next->model))
     return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': this value needs other grains, another box or other units",
                         key);
   next->model.stop = &s->stop;

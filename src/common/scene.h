@@ -39,6 +39,13 @@ typedef struct gg_species {
 /* At least GG_N_QUANTITIES, which only quantity.h knows. */
 enum { GG_MAX_UNTIL = 112, GG_FILE_NAME = 256 };
 
+/* What changes on the way: one key at one time, both as they stand in scenes. */
+enum { GG_MAX_CHANGES = 16, GG_CHANGE_TEXT = 40 };
+typedef struct gg_change {
+  double at; /* user's units */
+  char key[GG_CHANGE_TEXT], value[GG_CHANGE_TEXT];
+} gg_change;
+
 struct gg_scene {
   gg_flow flow;
   gg_engine_kind engine;
@@ -72,6 +79,8 @@ struct gg_scene {
     double relative_error, collisions, time_limit; /* GG_AUTO: not requested; neither of the first two: 0.01 */
     double until[GG_MAX_UNTIL];                    /* of gg_quantity: its own relative error; 0: not requested */
     double warmup;                                 /* collisions per particle, or GG_AUTO */
+    double
+        duration; /* user's units: the gas is followed from its start for so long; GG_AUTO: means of a steady state */
     int64_t replicas;
     uint64_t seed;
   } run;
@@ -87,7 +96,8 @@ struct gg_scene {
     double chosen_for; /* relative error (0: none) by which a size is chosen; GG_AUTO: that of the run. Of a run that is
                         * resumed it is that of its start: no key, set from the checkpoint */
   } dsmc;
-  unsigned measure; /* GG_MEASURE_... */
+  gg_change protocol[GG_MAX_CHANGES]; /* in the order of times; ends with an empty key */
+  unsigned measure;                   /* GG_MEASURE_... */
   gg_frame_kind frame;
   int64_t frame_cells; /* along each edge of the box */
   struct {

@@ -6,8 +6,11 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/memory.h"
 #include "common/linear_response.h"
 #include "common/rng.h"
+#include "run/engine_grains.h"
+#include "run/relaxation.h"
 
 /* Without a warm-up the window is open from the start. */
 static bool leaves_out_warmup(const gg_scene *scene)
@@ -19,6 +22,7 @@ gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_m
 {
   memset(r, 0, sizeof *r);
   r->model = *model;
+  r->scene = scene;
   r->clock.temperature = model->temperature0;
   r->logged = index == 0 && *scene->output.log;
   r->trajectory_every = r->clock.frame_every = index == 0 ? scene->output.trajectory_every : 0;
@@ -35,6 +39,7 @@ gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_m
   r->engine->ops->keep_sums(r->engine, true);
   r->clock.interval = GG_SAMPLING_INTERVAL / gg_common_model_collision_rate(model, model->temperature0);
   gg_run_replica_sample_row(r, 0);
+  if (gg_run_is_followed(scene)) gg_statistics_series_add(&r->series, 0, r->row); /* curves begin at the start */
   return GG_OK;
 }
 
@@ -138,6 +143,7 @@ static gg_status rescale_if_due(gg_replica *r, gg_error *err)
     bool over = gg_common_linear_response_ends(&r->model, T0 / (slowdown * slowdown));
     return over ? rescale(r, gg_common_linear_response_of(&r->model).power, err) : GG_OK;
   }
+  if (gg_run_is_followed(r->scene)) slowdown = sqrt(T0 / r->clock.temperature);
   if (slowdown < 4) return GG_OK;
   r->clock.power += 2;
   return rescale(r, 2, err);
@@ -230,11 +236,45 @@ static gg_status check_collapse(gg_replica *r, bool adapt, double elapsed, uint6
       r->engine->ops->name, r->clock.time);
 }
 
+/* Up to the next of the times at which a gas is followed: in the engine's units, however few are left. */
+static void aim(gg_replica *r)
+{
+  const double from = gg_run_relaxation_time(r->scene, r->clock.samples),
+               to = gg_run_relaxation_time(r->scene, r->clock.samples + 1);
+  r->clock.interval = ldexp(fmax(to - r->clock.time, 1e-9 * (to - from)), -(int)r->clock.power);
+}
+
+/* The engine continues with what the protocol changes at this sample. */
+static gg_status change(gg_replica *r, const gg_model *model, gg_error *err)
+{
+  gg_engine *next;
+  GG_TRY(gg_run_engine_continue(r->engine, model, &next, err));
+  r->engine->ops->destroy(r->engine);
+  r->engine = next;
+  r->model = *model;
+  r->shown = GG_OBSERVED_UNSET;
+  return GG_OK;
+}
+
+static gg_status change_if_due(gg_replica *r, gg_error *err)
+{
+  int changes = 0;
+  if (!gg_run_is_followed(r->scene)) return GG_OK;
+  gg_model *model = gg_base_array_new(1, sizeof *model, err);
+  if (!model) return GG_FAILED;
+  gg_status status = gg_run_relaxation_model(r->scene, &r->model, r->clock.samples, model, &changes, err);
+  if (status == GG_OK && changes != r->clock.changes) status = change(r, model, err);
+  r->clock.changes = changes;
+  free(model);
+  return status;
+}
+
 static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
 {
   double elapsed;
   uint64_t happened;
   const double before = r->clock.temperature;
+  if (gg_run_is_followed(r->scene) && !r->clock.part) aim(r);
   GG_TRY(advance_interval(r, adapt, &elapsed, &happened, err));
   gg_run_replica_sample_row(r, elapsed);
   r->clock.temperature = temperature_now(r);
@@ -244,6 +284,7 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   gg_statistics_series_add(&r->series, r->clock.time, r->row);
   r->clock.samples++;
   if (adapt) adapt_interval(r, elapsed, happened, before);
+  GG_TRY(change_if_due(r, err));
   return rescale_if_due(r, err);
 }
 
@@ -259,6 +300,7 @@ gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, co
                                  gg_error *err)
 {
   gg_status status = GG_OK;
+  adapt = adapt && !gg_run_is_followed(r->scene);
   while (status == GG_OK && r->clock.samples < samples) {
     if (gg_stop_asked(r->model.stop)) status = gg_base_fail(err, GG_INTERRUPTED, "interrupted");
     if (status == GG_OK) status = sample_once(r, adapt, err);
@@ -271,7 +313,8 @@ gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, co
 
 bool gg_run_replica_settled(const gg_replica *r)
 {
-  if (r->model.gravity[1] != 0) return true; /* grains that lie collide as often as they like */
+  if (r->model.gravity[1] != 0 || gg_run_is_followed(r->scene))
+    return true; /* grains that lie collide as often as they like */
   double per_grain = r->clock.interval * gg_common_model_collision_rate(&r->model, r->clock.temperature);
   return !r->clock.cut_short && per_grain > GG_SAMPLING_INTERVAL / 50;
 }
@@ -313,19 +356,34 @@ static gg_status check_clock(const gg_replica *r, gg_error *err)
   return good ? GG_OK : gg_base_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the clock of a replica");
 }
 
+/* With what the protocol has changed up to the last sample. */
+static gg_status restore_model(gg_replica *r, gg_error *err)
+{
+  int changes;
+  if (!gg_run_is_followed(r->scene)) return GG_OK;
+  gg_model *model = gg_base_array_new(1, sizeof *model, err);
+  gg_status status =
+      model ? gg_run_relaxation_model(r->scene, &r->model, r->clock.samples, model, &changes, err) : GG_FAILED;
+  if (status == GG_OK) r->model = *model;
+  free(model);
+  return status;
+}
+
 gg_status gg_run_replica_restore(gg_replica *r, const gg_archive *a, const gg_scene *scene, const gg_model *model,
                                  int index, gg_error *err)
 {
   memset(r, 0, sizeof *r);
   r->model = *model;
+  r->scene = scene;
   r->trajectory_every = index == 0 ? scene->output.trajectory_every : 0;
   r->logged = index == 0 && *scene->output.log;
   r->frames_of_window = leaves_out_warmup(scene);
   gg_status status = gg_run_replica_setup_observables(r, scene, err);
-  if (status == GG_OK) status = gg_run_engine_ops_of(scene->engine)->restore(model, a, &r->engine, err);
-  if (status == GG_OK) status = gg_statistics_series_restore(&r->series, a, err);
   if (status == GG_OK) status = gg_base_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
   if (status == GG_OK) status = check_clock(r, err);
+  if (status == GG_OK) status = restore_model(r, err);
+  if (status == GG_OK) status = gg_run_engine_ops_of(scene->engine)->restore(&r->model, a, &r->engine, err);
+  if (status == GG_OK) status = gg_statistics_series_restore(&r->series, a, err);
   if (status == GG_OK) status = gg_run_replica_restore_observables(r, a, err);
   if (status == GG_OK) resume_frames(r);
   if (status != GG_OK) gg_run_replica_clear(r);

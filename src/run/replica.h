@@ -11,7 +11,8 @@
 enum { GG_MAX_OBSERVABLES = GG_N_OBSERVABLES + 1 }; /* every one there is, and those of the user's own */
 
 typedef struct gg_replica {
-  gg_model model;
+  gg_model model;        /* at present */
+  const gg_scene *scene; /* borrowed */
   gg_engine *engine;
   int n_observables;
   const gg_observable *observable[GG_MAX_OBSERVABLES];
@@ -54,6 +55,7 @@ typedef struct gg_replica {
     double part_gone;   /* of this part */
     uint64_t happened;  /* collisions of the engine when the interval began */
     uint64_t cut_short; /* intervals in a row that ended with their most collisions */
+    int64_t changes;    /* of the protocol, that the engine has */
   } clock;
 } gg_replica;
 
@@ -72,7 +74,8 @@ gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, co
 /* Is the interval between samples that of grains as fast as these are? Not while it still follows a burst of collisions
  * that only lasted for a while. */
 bool gg_run_replica_settled(const gg_replica *r);
-/* Collisions accumulate without end: GG_FAILED, with what to do. Other processes send no more of it than the message. */
+/* Collisions accumulate without end: GG_FAILED, with what to do. Other processes send no more of it than the message.
+ */
 gg_status gg_run_replica_collapsed(const gg_replica *r, gg_error *err);
 bool gg_run_is_collapse(const gg_error *err);
 
@@ -101,6 +104,9 @@ gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err);
 
 /* convergence.c: the observable that has a quantity, and by what function; -1 if none. */
 int gg_run_replica_find_function(const gg_replica *r, gg_quantity q, gg_function *f);
+/* replicas_report.c: how a row of the first observable (rheology, if it was requested) gives a followed quantity; also
+ * one that decays, of which there is no mean. */
+bool gg_run_replica_find_history(const gg_replica *r, gg_quantity q, gg_function *f);
 
 double gg_run_replica_collisions_per_grain(const gg_replica *r);
 /* A frame of the engine as results have it: at the time since the start, velocities in units of the start. */

@@ -10,6 +10,8 @@
 #include "common/linear_response.h"
 #include "run/causes.h"
 #include "run/default_size.h"
+#include "run/relaxation.h"
+#include "run/replica.h"
 #include "run/replicas.h"
 #include "scene/fields.h"
 
@@ -49,7 +51,10 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
       continue;
     }
     gg_mean m = {.mean = NAN};
-    if (all->state.averaging) GG_TRY(gg_run_replicas_mean(all, q, &m, err));
+    if (gg_run_is_followed(&all->scene))
+      m = gg_run_relaxation_end(all, q);
+    else if (all->state.averaging)
+      GG_TRY(gg_run_replicas_mean(all, q, &m, err));
     if (!isfinite(m.mean)) {
       snprintf(e->reason, sizeof e->reason, "%s", why_missing(all, q));
       continue;
@@ -57,19 +62,17 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
     e->mean = m.mean, e->error = m.error;
     e->correlation_time = m.correlation_rows * row_length;
     e->samples = rows * s->per_row * (uint64_t)all->n;
-    if (!isfinite(m.error)) continue;
+    if (!isfinite(m.error) || gg_run_is_followed(&all->scene)) continue;
     result->correlations.quantity[result->correlations.n++] = q;
   }
   return gg_run_replicas_correlations(all, result, err);
 }
 
-/* How a row of the first observable (rheology, if it was requested) gives a followed quantity; also one that decays, of
- * which there is no mean. */
-static bool find_history(const gg_replicas *all, gg_quantity q, gg_function *f)
+bool gg_run_replica_find_history(const gg_replica *r, gg_quantity q, gg_function *f)
 {
-  const gg_observable *o = all->replica[0].n_observables ? all->replica[0].observable[0] : NULL;
+  const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
   if (!o || !o->history ||
-      gg_common_model_missing(&all->model, gg_common_quantity_mask(q) & ~(unsigned)GG_NEEDS_SCALE_SHOWN))
+      gg_common_model_missing(&r->model, gg_common_quantity_mask(q) & ~(unsigned)GG_NEEDS_SCALE_SHOWN))
     return false;
   return gg_measure_derived_find(o->history, q, f) || gg_measure_derived_find(o->derived, q, f);
 }
@@ -88,7 +91,7 @@ static gg_status report_history(const gg_replicas *all, gg_result *result, gg_er
     h->value[k] = gg_base_array_new(h->n, sizeof *h->value[k], err);
     if (!h->value[k]) return GG_FAILED;
     gg_function f;
-    bool there = find_history(all, gg_common_quantity_of_history(k), &f);
+    bool there = gg_run_replica_find_history(r, gg_common_quantity_of_history(k), &f);
     for (size_t i = 0; i < h->n; i++)
       h->value[k][i] = there ? gg_function_value(f, gg_series_row(&r->series, i) + r->offset[0], &all->model) : NAN;
   }
@@ -202,7 +205,8 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
     gg_run_result_warn(result, "collision.e was not in force, but " GG_OWN_LAW " '%s'", all->model.law.name);
   else if (all->model.law.e)
     gg_run_result_warn(result, "in force was " GG_OWN_LAW " '%s'", all->model.law.name);
-  if (result->steadiness != GG_STEADY) gg_run_result_warn(result, "not a steady mean: %s", result->steadiness_text);
+  if (result->steadiness != GG_STEADY && !gg_run_is_followed(&all->scene))
+    gg_run_result_warn(result, "not a steady mean: %s", result->steadiness_text);
   if (result->steadiness == GG_STEADY && !c->trusted)
     gg_run_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
                        GG_MIN_BLOCKS);
@@ -304,7 +308,7 @@ static gg_status report_curves(const gg_replicas *all, gg_result *result, gg_err
   for (int k = 0; k < all->replica[0].n_observables; k++)
     if (all->replica[0].observable[k]->bins) GG_TRY(report_one(all, k, slow.mean_time, result, err));
   warn_of_one_side(&slow, result);
-  return GG_OK;
+  return gg_run_is_followed(&all->scene) ? gg_run_relaxation_curves(all, result, err) : GG_OK;
 }
 
 gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *err)

@@ -152,6 +152,38 @@ static gg_status check_friction(const gg_scene *s, gg_error *err)
   return GG_OK;
 }
 
+static bool can_be_followed(gg_flow flow)
+{
+  return !gg_flow_is_walled(flow) && !gg_flow_of(flow)->linear_response;
+}
+
+/* Each change has to leave a valid scene. */
+static gg_status check_protocol(const gg_scene *s, gg_error *err)
+{
+  const int n = gg_scene_protocol_count(s, INFINITY);
+  gg_scene changed;
+  if (!n) return GG_OK;
+  if (s->run.duration == GG_AUTO)
+    return gg_base_fail(err, GG_BAD_INPUT, "protocol needs run.duration, the time for which the gas is followed");
+  if (s->protocol[n - 1].at >= s->run.duration)
+    return gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': at: %g is not allowed; allowed: below run.duration, %g",
+                        s->protocol[n - 1].at, s->run.duration);
+  for (int k = 1; k <= n; k++) {
+    GG_TRY(gg_scene_protocol_apply(s, k, &changed, err));
+    GG_TRY(check_flow(&changed, err));
+  }
+  return GG_OK;
+}
+
+static gg_status check_duration(const gg_scene *s, gg_error *err)
+{
+  char flows[160];
+  if (s->run.duration == GG_AUTO || can_be_followed(s->flow)) return check_protocol(s, err);
+  gg_common_flow_list(can_be_followed, flows, sizeof flows);
+  return gg_base_fail(err, GG_BAD_INPUT, "run.duration does not go with flow: %s; use flow: %s",
+                      gg_flow_of(s->flow)->word, flows);
+}
+
 gg_status gg_scene_finish(gg_scene *s, gg_error *err)
 {
   if (!gg_scene_is_given(s, "flow")) return gg_base_fail(err, GG_BAD_INPUT, "flow is missing, e.g. flow: usf");
@@ -168,7 +200,8 @@ gg_status gg_scene_finish(gg_scene *s, gg_error *err)
   gg_scene_fill_in(s);
   GG_TRY(check_friction(s, err));
   GG_TRY(check_cells(s, err));
-  return check_flow(s, err);
+  GG_TRY(check_flow(s, err));
+  return check_duration(s, err);
 }
 
 /* With theories alone the keys of both engines count as used: theories do not depend on engines. */
@@ -248,6 +281,8 @@ static const struct {
     {GG_IF_ACCOMMODATION, "while walls.accommodation is 0", NULL, "", "walls.accommodation is not 0"},
     {GG_IF_WALL_RULE, "while every contact with a wall is by its temperature: walls.accommodation is 1", NULL, "",
      "walls.temperature is none, or walls.accommodation below 1"},
+    {GG_IF_AVERAGED, "while run.duration is given", NULL, "", "run.duration is none"},
+    {GG_IF_FOLLOWED, "while run.duration is none", NULL, "", "run.duration is given"},
 };
 enum { CONDITIONS = sizeof conditions / sizeof *conditions };
 
@@ -298,6 +333,8 @@ static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
   case GG_IF_ACCOMMODATION: return s->walls.accommodation > 0;
   case GG_IF_WALL_RULE: return walls_have_rule(s);
   case GG_IF_FRAMES: return s->output.trajectory_every > 0;
+  case GG_IF_AVERAGED: return s->run.duration == GG_AUTO;
+  case GG_IF_FOLLOWED: return s->run.duration != GG_AUTO;
   case GG_IF_UNWALLED: return !gg_flow_is_walled(s->flow);
   case GG_IF_CELLS: return s->frame != GG_FRAME_IMPOSED;
   case GG_IF_BATH: return s->thermostat == GG_BATH;

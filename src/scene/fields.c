@@ -148,19 +148,24 @@ const gg_field gg_scene_fields[] = {
     {"run.relative_error", GG_FIELD_NUMBER, AT(run.relative_error), 0, 1, true, AUTO,
      .doc = "stop when every headline quantity has this relative standard error; auto: 0.01, or no such test if "
             "run.collisions or run.until is given",
-     .when = GG_IF_ERROR, .also = "error tolerance accuracy", .may_change = true},
+     .when = GG_IF_AVERAGED | GG_IF_ERROR, .also = "error tolerance accuracy", .may_change = true},
     {"run.until", GG_FIELD_ERRORS, AT(run.until), 0, 1, true, .special = "none",
      .doc = "stop when each of these quantities has its relative standard error: {N1: 0.01, temperature: 0.002}; "
             "headline quantities that are not named keep run.relative_error, if it is given",
-     .also = "target targets", .may_change = true},
+     .when = GG_IF_AVERAGED, .also = "target targets", .may_change = true},
     {"run.collisions", GG_FIELD_NUMBER, AT(run.collisions), 0, 1e15, true, NONE, .unit = "collisions per grain",
      .doc = "stop after this length of averaging; a gas cooling with a restitution law has 400 by default",
-     .also = "steps", .may_change = true},
+     .when = GG_IF_AVERAGED, .also = "steps", .may_change = true},
     {"run.time_limit", GG_FIELD_NUMBER, AT(run.time_limit), 0, 1e9, true, NONE, .unit = "s",
      .doc = "wall-clock limit, counted from the first start; to continue, resume with a larger limit",
      .also = "walltime wall_time max_time", .may_change = true},
+    {"run.duration", GG_FIELD_NUMBER, AT(run.duration), 0, LARGE, true, NONE, .unit = "time",
+     .doc = "follow the gas from its start for this time, without warm-up: curves in time are means over replicas, and "
+            "values those at the end",
+     .when = GG_IF_UNWALLED, .also = "t_end end_time until_time"},
     {"run.warmup", GG_FIELD_NUMBER, AT(run.warmup), 0, 1e15, false, AUTO, .unit = "collisions per grain",
-     .doc = "length of the warm-up; auto: until the slowest quantity is steady", .also = "equilibration burn_in"},
+     .doc = "length of the warm-up; auto: until the slowest quantity is steady", .when = GG_IF_AVERAGED,
+     .also = "equilibration burn_in"},
     {"run.replicas", GG_FIELD_INTEGER, AT(run.replicas), 1, 10000, .by_default = 1,
      .doc = "number of independent copies to average over", .also = "repeats copies"},
     {"run.seed", GG_FIELD_INTEGER, AT(run.seed), 0, 9223372036854775807.0, .by_default = 1,
@@ -177,6 +182,9 @@ const gg_field gg_scene_fields[] = {
      .when = GG_IF_DSMC},
     {"dsmc.precision", GG_FIELD_CHOICE, AT(dsmc.precision), .words = precisions,
      .doc = "precision of stored velocities and spins in dsmc; sums are always double", .when = GG_IF_DSMC},
+    {"protocol", GG_FIELD_CHANGES, AT(protocol),
+     .doc = "what changes on the way, at times from the start: [{at: 5, bath.temperature: 2}]; keys: " GG_PROTOCOL_KEYS,
+     .when = GG_IF_FOLLOWED, .also = "schedule quench steps"},
     {"measure", GG_FIELD_SET, AT(measure), .words = observables, .by_default = GG_MEASURE_RHEOLOGY,
      .doc = "observables to measure; unlisted ones cost nothing", .also = "observables"},
     {"frame", GG_FIELD_CHOICE, AT(frame), .words = frames,
@@ -237,6 +245,7 @@ static void set_default(const gg_field *f, void *base)
   case GG_FIELD_CHOICE:
   case GG_FIELD_SET: memcpy(at, &(int){(int)f->by_default}, sizeof(int)); return; /* of numbers it may be infinite */
   case GG_FIELD_SPECIES:
+  case GG_FIELD_CHANGES:
   case GG_FIELD_FILE: return;
   default:
     for (size_t i = 0; i < gg_scene_field_count(f); i++) ((double *)at)[i] = f->by_default;
@@ -402,6 +411,10 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
     for (const gg_word *w = f->words; w->name; w++)
       gg_base_text_append(text, size, "%s%s", w > f->words ? " or " : "", w->name);
     gg_base_text_append(text, size, ", or none");
+    return;
+  case GG_FIELD_CHANGES:
+    snprintf(text, size, "a list of maps {at: TIME, KEY: VALUE}, up to %d changes of " GG_PROTOCOL_KEYS,
+             GG_MAX_CHANGES);
     return;
   case GG_FIELD_SPECIES:
     snprintf(text, size, "a list of 1 to %d maps with fraction, diameter, mass, inertia and drag", GG_MAX_SPECIES);

@@ -22,6 +22,7 @@ typedef enum gg_field_type {
   GG_FIELD_ENDS,    /* double[2], lower and upper wall: a number for both, or a list of two */
   GG_FIELD_ERRORS,  /* double[GG_MAX_UNTIL]: a map by quantity: {N1: 0.01} */
   GG_FIELD_FILE,    /* char[GG_FILE_NAME]: the name of a file with one of the endings `words`; "": none */
+  GG_FIELD_CHANGES, /* gg_change[GG_MAX_CHANGES]: a list of maps {at: TIME, KEY: VALUE, ...} */
   GG_FIELD_SPECIES  /* gg_species[]: a list of maps, whose members are gg_scene_species_fields */
 } gg_field_type;
 
@@ -61,7 +62,9 @@ enum {
   GG_IF_TEMPERED = 1u << 24,
   GG_IF_THERMAL_WALLS = 1u << 25,
   GG_IF_WALL_RULE = 1u << 26,
-  GG_IF_ACCOMMODATION = 1u << 27
+  GG_IF_ACCOMMODATION = 1u << 27,
+  GG_IF_AVERAGED = 1u << 28,
+  GG_IF_FOLLOWED = 1u << 29
 };
 
 typedef struct gg_field {
@@ -138,6 +141,16 @@ void gg_scene_flow_style_text(const json_t *value, char *text, size_t size);
 char *gg_scene_yaml(const gg_scene *scene);
 /* JSON of a scene, or of a part of its keys, as YAML. */
 void gg_scene_yaml_print(FILE *out, const json_t *scene);
+
+/* protocol.c: changes on the way. */
+
+/* May this key be changed? It changes neither units nor box nor grains. In words for messages: */
+bool gg_scene_protocol_takes(const char *key);
+#define GG_PROTOCOL_KEYS "collision.*, bath.*, thermostat, gaussian_rate, noise_strength"
+json_t *gg_scene_protocol_json(const gg_scene *scene);
+/* The scene after the first n changes; n of them by a time (user's units). */
+gg_status gg_scene_protocol_apply(const gg_scene *scene, int n, gg_scene *changed, gg_error *err);
+int gg_scene_protocol_count(const gg_scene *scene, double time);
 
 /* checks.c: what concerns several keys. */
 

@@ -118,6 +118,7 @@ static json_t *value_json(const gg_field *f, const void *base, const gg_scene *s
   case GG_FIELD_VECTOR: return vector_json(f, at);
   case GG_FIELD_FILE: return json_string(*(const char *)at ? at : f->special);
   case GG_FIELD_ENDS: return ends_json(f, at);
+  case GG_FIELD_CHANGES: return gg_scene_protocol_json(scene);
   case GG_FIELD_SPECIES: return species_json(scene);
   }
   return json_null();

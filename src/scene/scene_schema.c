@@ -57,6 +57,14 @@ static json_t *list_schema(const gg_field *f, int n)
   return json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", number_schema(f), "minItems", n, "maxItems", n);
 }
 
+/* Keys of changes are checked by the reader. */
+static json_t *changes_schema(void)
+{
+  return json_pack("{s:s, s:{s:s, s:{s:{s:s, s:i}}, s:[s]}, s:i}", "type", "array", "items", "type", "object",
+                   "properties", "at", "type", "number", "exclusiveMinimum", 0, "required", "at", "maxItems",
+                   GG_MAX_CHANGES);
+}
+
 static json_t *value_schema(const gg_field *f)
 {
   switch (f->type) {
@@ -69,6 +77,7 @@ static json_t *value_schema(const gg_field *f)
   case GG_FIELD_VECTOR: return list_schema(f, 3);
   case GG_FIELD_ENDS: return json_pack("{s:[o, o]}", "anyOf", number_schema(f), list_schema(f, 2));
   case GG_FIELD_FILE: return json_pack("{s:s}", "type", "string");
+  case GG_FIELD_CHANGES: return changes_schema();
   case GG_FIELD_SPECIES:
     return json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", gg_scene_schema_of(gg_scene_species_fields),
                      "minItems", 1, "maxItems", (int)f->max);

@@ -350,6 +350,64 @@ static gg_status read_ends(const input *in, double *value)
   return GG_OK;
 }
 
+static gg_status read_change(const input *in, const gg_scene_entry *e, gg_change *change)
+{
+  gg_field member;
+  gg_scene *tried = in->r->scene;
+  const char *value = gg_scene_scalar(e->value);
+  if (!e->word || !gg_scene_protocol_takes(e->word) || gg_scene_key_find(e->word, GG_MAX_SPECIES, &member) < 0) {
+    char word[61];
+    gg_scene_quote(e->word ? e->word : "", word, sizeof word);
+    return gg_scene_reject(in->r, e->name, in->key, "'%s' cannot change on the way; allowed: at, " GG_PROTOCOL_KEYS,
+                           word);
+  }
+  if (!value || strlen(value) >= GG_CHANGE_TEXT || strlen(e->word) >= GG_CHANGE_TEXT)
+    return gg_scene_reject(in->r, e->value, e->word, "on the way it takes one number or word");
+  const gg_scene before = *tried;
+  const gg_status status = gg_scene_read_value(in->r, &member, e->word, e->value, tried);
+  *tried = before;
+  snprintf(change->key, sizeof change->key, "%s", e->word);
+  snprintf(change->value, sizeof change->value, "%s", value);
+  return status;
+}
+
+/* The changes of one map, from `change` on; *n grows by their number. */
+static gg_status read_changes_at(const input *in, gg_change *change, int *n)
+{
+  static const gg_field at_field = {.key = "at", .type = GG_FIELD_NUMBER, .max = 1e30, .above_min = true};
+  const int first = *n;
+  double at = 0;
+  if (in->node->type != YAML_MAPPING_NODE) return reject_value(in);
+  for (gg_scene_entry e = {0}; gg_scene_entry_next(in->r, in->node, &e);) {
+    if (e.word && strcmp(e.word, "at") == 0) {
+      GG_TRY(read_number(&(input){in->r, &at_field, "at", e.value}, &at));
+    } else {
+      if (*n == GG_MAX_CHANGES) return reject_value(in);
+      GG_TRY(read_change(in, &e, &change[(*n)++]));
+    }
+  }
+  if (at == 0 || *n == first)
+    return gg_scene_reject(in->r, in->node, in->key, "a change needs a time and a key: {at: 5, bath.temperature: 2}");
+  if (first > 0 && at < change[first - 1].at)
+    return gg_scene_reject(in->r, in->node, in->key, "at: %g comes after at: %g; give changes in the order of times",
+                           at, change[first - 1].at);
+  for (int k = first; k < *n; k++) change[k].at = at;
+  return GG_OK;
+}
+
+static gg_status read_changes(const input *in, gg_change *value)
+{
+  gg_change change[GG_MAX_CHANGES] = {0};
+  int n = 0;
+  if (in->node->type != YAML_SEQUENCE_NODE) return reject_value(in);
+  for (ptrdiff_t i = 0; i < length_of(in->node); i++) {
+    const input item = at(in, item_of(in, in->node->data.sequence.items.start[i]));
+    GG_TRY(read_changes_at(&item, change, &n));
+  }
+  memcpy(value, change, sizeof change);
+  return GG_OK;
+}
+
 /* How many species the document itself lists; 0: it lists none, as what overrides a single key. */
 static int listed_species(const gg_scene_reader *r)
 {
@@ -456,6 +514,7 @@ gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *f, const
   case GG_FIELD_VECTOR: return read_vector(&in, value);
   case GG_FIELD_FILE: return read_file_name(&in, value);
   case GG_FIELD_ENDS: return read_ends(&in, value);
+  case GG_FIELD_CHANGES: return read_changes(&in, value);
   case GG_FIELD_SPECIES: return read_species(&in);
   }
   return GG_OK;

@@ -40,6 +40,19 @@ static void refusals(void **state)
   (void)state;
   assert_refused("flow: usf\nphi: 0.3\ncollision:\n  e: 1.5\n",
                  "s.yaml:4: key 'collision.e': value '1.5' is not allowed; allowed: a number from 0 to 1");
+#define FOLLOWED "flow: hss\nphi: 0.1\nthermostat: bath\nrun: {duration: 20}\nprotocol:\n"
+  assert_taken(FOLLOWED "- {at: 5, bath.temperature: 2, bath.drag: 3}\n- {at: 5, collision.e: 0.8}\n");
+  assert_refused(FOLLOWED "- {at: 5, phi: 0.2}\n",
+                 "s.yaml:6: key 'protocol': 'phi' cannot change on the way; allowed: at, collision.*");
+  assert_refused(FOLLOWED "- {at: 5}\n", "s.yaml:6: key 'protocol': a change needs a time and a key");
+  assert_refused(FOLLOWED "- {at: 25, bath.drag: 2}\n", "at: 25 is not allowed; allowed: below run.duration, 20");
+  assert_refused(FOLLOWED "- {at: 0, bath.drag: 2}\n", "s.yaml:6: key 'at': value '0' is not allowed");
+  assert_refused(FOLLOWED "- {at: 5, bath.drag: -2}\n", "s.yaml:6: key 'bath.drag': value '-2' is not allowed");
+  assert_refused(FOLLOWED "- {at: 5, bath.drag: [1, 2]}\n", "on the way it takes one number or word");
+  assert_refused(FOLLOWED "- {at: 5, bath.drag: 2}\n- {at: 4, bath.drag: 1}\n", "in the order of times");
+  assert_refused(FOLLOWED "- {at: 5, thermostat: none}\n", "flow: hss needs a thermostat");
+  assert_refused("flow: hss\nphi: 0.1\nprotocol: [{at: 5, collision.e: 0.8}]\n", "protocol needs run.duration");
+  assert_refused("flow: couette\nphi: 0.1\nrun: {duration: 5}\n", "run.duration does not go with flow: couette");
   assert_refused("flow: usf\nphi: 0.3\ndsmc: {precision: float}\n", "allowed: one of double, single");
   assert_refused("flow: usf\nphi: 0.7\n",
                  "s.yaml:2: key 'phi': value '0.7' is not allowed; allowed: a number from 0 to 0.6");
@@ -112,7 +125,7 @@ static void suggestions(void **state)
       {"shear: 1", "did you mean 'shear_rate'?"},
       {"density: 1", "did you mean 'phi'?"},
       {"temp: 1", "did you mean 'temperature'?"},
-      {"run: {k0: 1}", "under run there are relative_error, until, collisions, time_limit, warmup, replicas, seed"},
+      {"run: {k0: 1}", "under run there are relative_error, until, collisions, time_limit, duration, warmup, replicas, seed"},
       {"run: {error: 1}", "did you mean 'run.relative_error'?"},
       {"run: {time: 1}", "did you mean 'run.time_limit'?"},
       {"wall: {e: 1}", "did you mean 'walls'?"},

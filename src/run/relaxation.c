@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "run/relaxation.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "run/engine_grains.h"
+#include "run/replica.h"
+#include "scene/fields.h"
+
+enum { INTERVALS = 100 };
+
+/* The k-th of the evenly spaced times and the times of changes, each once; INFINITY beyond the last. User's units. */
+static double user_time(const gg_scene *s, uint64_t k)
+{
+  double time = 0;
+  for (int even = 1, next = 0; k > 0; k--) {
+    const double at = next < gg_scene_protocol_count(s, INFINITY) ? s->protocol[next].at : INFINITY;
+    if (even > INTERVALS) return INFINITY;
+    time = fmin(at, s->run.duration * even / INTERVALS);
+    even += time == s->run.duration * even / INTERVALS;
+    next = gg_scene_protocol_count(s, time);
+  }
+  return time;
+}
+
+uint64_t gg_run_relaxation_samples(const gg_scene *s)
+{
+  uint64_t k = INTERVALS;
+  while (user_time(s, k + 1) < INFINITY) k++;
+  return k;
+}
+
+double gg_run_relaxation_time(const gg_scene *s, uint64_t k)
+{
+  return user_time(s, k) * (gg_flow_is_sheared(s->flow) ? s->shear_rate : 1);
+}
+
+static gg_status make_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed, gg_error *err)
+{
+  gg_scene then;
+  GG_TRY(gg_scene_protocol_apply(scene, changes, &then, err));
+  then.md.raised = scene->md.raised;
+  GG_TRY(gg_run_start_make(&then, NULL, changed, err));
+  GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(changed, err));
+  changed->stop = model->stop;
+  return gg_run_is_same_gas(model, changed)
+             ? GG_OK
+             : gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': at %g: this value of %s needs other grains or units",
+                            scene->protocol[changes - 1].at, scene->protocol[changes - 1].key);
+}
+
+gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, uint64_t k, gg_model *changed,
+                                  int *changes, gg_error *err)
+{
+  *changes = gg_scene_protocol_count(scene, user_time(scene, k));
+  return *changes ? make_model(scene, model, *changes, changed, err) : (*changed = *model, GG_OK);
+}
+
+gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, gg_error *err)
+{
+  gg_model *changed = gg_base_array_new(1, sizeof *changed, err);
+  gg_status status = changed ? GG_OK : GG_FAILED;
+  for (int n = 1; status == GG_OK && n <= gg_scene_protocol_count(scene, INFINITY); n++)
+    status = make_model(scene, model, n, changed, err);
+  free(changed);
+  return status;
+}
+
+static double value_of(const gg_replicas *all, const gg_function *f, size_t offset, int replica, size_t row)
+{
+  return gg_function_value(*f, gg_series_row(&all->replica[replica].series, row) + offset, &all->model);
+}
+
+/* Monte Carlo ends within a step behind the time: between two rows by a straight line. */
+static double value_at(const gg_replicas *all, const gg_function *f, size_t offset, int replica, size_t row)
+{
+  const gg_series *s = &all->replica[replica].series;
+  const double value = value_of(all, f, offset, replica, row), time = gg_run_relaxation_time(&all->scene, row);
+  if (row == 0 || !(s->end_time[row] > time) || !(s->end_time[row - 1] < time)) return value;
+  const double before = value_of(all, f, offset, replica, row - 1);
+  const double late = (s->end_time[row] - time) / (s->end_time[row] - s->end_time[row - 1]);
+  return isfinite(before) ? value + (before - value) * late : value;
+}
+
+static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, size_t offset, size_t row)
+{
+  double sum = 0, squares = 0, n = all->n;
+  for (int i = 0; i < all->n; i++) sum += value_at(all, f, offset, i, row);
+  const double mean = sum / n;
+  for (int i = 0; i < all->n; i++) {
+    const double d = value_at(all, f, offset, i, row) - mean;
+    squares += d * d;
+  }
+  return (gg_mean){.mean = mean, .error = n > 1 ? sqrt(squares / (n * (n - 1))) : NAN, .correlation_rows = NAN};
+}
+
+gg_mean gg_run_relaxation_end(const gg_replicas *all, gg_quantity q)
+{
+  gg_function f;
+  const gg_replica *r = &all->replica[0];
+  const int k = gg_run_replica_find_function(r, q, &f);
+  if (k < 0 || r->series.n < 2) return (gg_mean){.mean = NAN, .error = NAN, .correlation_rows = NAN};
+  return over_replicas(all, &f, r->offset[k], r->series.n - 1);
+}
+
+static void add_curve(const gg_replicas *all, const gg_quantity_row *row, const gg_function *f, gg_curves *list)
+{
+  const gg_replica *r = &all->replica[0];
+  char name[48];
+  snprintf(name, sizeof name, "%.36s_in_time", row->name);
+  gg_curve *c = gg_measure_curve_add(list, r->series.n, name, row->symbol, "measured");
+  gg_measure_curve_axes(c, "t", gg_measure_curve_unit(&all->model, "time"), row->symbol, row->unit);
+  c->samples = (uint64_t)all->n;
+  for (size_t i = 0; i < c->n; i++) {
+    const gg_mean m = over_replicas(all, f, r->offset[0], i);
+    const bool unknown = i == 0 && row->quantity == GG_Q_P_XY; /* the start has no collisions */
+    c->x[i] = gg_run_relaxation_time(&all->scene, i);
+    c->value[i] = unknown ? NAN : m.mean, c->error[i] = unknown ? NAN : m.error;
+  }
+}
+
+static bool is_shown(const gg_model *m, gg_quantity q)
+{
+  return q == GG_Q_TEMPERATURE || q == GG_Q_ROTATIONAL_TEMPERATURE || q == GG_Q_TEMPERATURE_RATIO || q == GG_Q_A2 ||
+         (q >= GG_Q_PARTIAL_TEMPERATURE && q < GG_Q_PARTIAL_TEMPERATURE + GG_MAX_SPECIES) ||
+         (q == GG_Q_P_XY && m->shear_rate != 0);
+}
+
+gg_status gg_run_relaxation_curves(const gg_replicas *all, gg_result *result, gg_error *err)
+{
+  gg_curves *list = &result->curves;
+  list->group = "relaxation";
+  for (int i = 0; i < result->rows.n; i++) {
+    gg_function f;
+    const gg_quantity_row *row = &result->rows.row[i];
+    if (is_shown(&all->model, row->quantity) && gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
+      add_curve(all, row, &f, list);
+  }
+  list->group = NULL;
+  return list->failed ? gg_base_out_of_memory_for(err, "the curves in time") : GG_OK;
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Changes on the way: each is one key at one time, and is applied as an override is. */
+#include <math.h>
+#include <string.h>
+
+#include "scene/scene_reader.h"
+
+bool gg_scene_protocol_takes(const char *key)
+{
+  return strncmp(key, "collision.", 10) == 0 || strncmp(key, "bath.", 5) == 0 || strcmp(key, "thermostat") == 0 ||
+         strcmp(key, "gaussian_rate") == 0 || strcmp(key, "noise_strength") == 0;
+}
+
+int gg_scene_protocol_count(const gg_scene *s, double time)
+{
+  int n = 0;
+  while (n < GG_MAX_CHANGES && *s->protocol[n].key && s->protocol[n].at <= time) n++;
+  return n;
+}
+
+gg_status gg_scene_protocol_apply(const gg_scene *scene, int n, gg_scene *changed, gg_error *err)
+{
+  *changed = *scene;
+  for (int i = 0; i < n; i++) GG_TRY(gg_scene_override(changed, scene->protocol[i].key, scene->protocol[i].value, err));
+  return GG_OK;
+}
+
+json_t *gg_scene_protocol_json(const gg_scene *scene)
+{
+  json_t *list = json_array();
+  gg_scene changed = *scene;
+  for (const gg_change *c = scene->protocol; c < scene->protocol + GG_MAX_CHANGES && *c->key; c++) {
+    gg_scene_override(&changed, c->key, c->value, NULL); /* it was read once */
+    json_array_append_new(list, json_pack("{s:f, s:o}", "at", c->at, c->key, gg_scene_key_json(&changed, c->key)));
+  }
+  return list;
+}

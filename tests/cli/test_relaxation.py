@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""run.duration and protocol: curves in time are means over replicas, exact where the course is known in closed form;
+an interrupted run continues across a change bit for bit."""
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import h5py
+import numpy as np
+
+from tap import GRAINGAS, PATIENCE, check, main, run
+
+# Without losses dT/dt = 2 drag (T_b - T).
+ELASTIC = """flow: hss
+engine: %s
+phi: 0.05
+particles: 500
+thermostat: bath
+bath: {drag: 0.2, temperature: 2}
+temperature: 0.5
+collision: {e: 1}
+dsmc: {particles: 5000}
+protocol: [{at: 4.03, bath.temperature: 0.2}, {at: 7, bath.drag: 0.5, bath.temperature: 1}]
+run: {duration: 10, replicas: 16}
+"""
+
+
+def exact(t):
+    T = 2 - 1.5 * np.exp(-0.4 * np.minimum(t, 4.03))
+    T = np.where(t > 4.03, 0.2 + (T - 0.2) * np.exp(-0.4 * (np.clip(t, 4.03, 7) - 4.03)), T)
+    return np.where(t > 7, 1 + (T - 1) * np.exp(-(t - 7)), T)
+
+
+def curve(path, name, engine=""):
+    """x, value, error."""
+    with h5py.File(path) as file:
+        group = file[f"graingas/{engine}/curves/{name}"]
+        return [np.array(group[k]) for k in ("x", "value", "stderr")]
+
+
+def test_exact_course():
+    """Both engines, times of changes included; the errors are those of the mean. The start is exact."""
+    for engine in "md", "dsmc":
+        done = run("run", "scene.yaml", "--quiet", "--output", "r.h5", scene=ELASTIC % engine)
+        check(done.code == 0, done.err)
+        t, T, error = curve("r.h5", "temperature_in_time")
+        check(len(t) == 102 and t[0] == 0 and t[-1] == 10 and 4.03 in t, t)
+        z = (T[1:] - exact(t[1:])) / error[1:]
+        check(abs(T[0] - 0.5) < 1e-9 and np.abs(z).max() < 6 and (z ** 2).mean() < 3, engine, T[0], np.abs(z).max(), (z ** 2).mean())
+        check(error[1:].max() < 0.02 * T.max(), error.max())
+
+
+def test_end():
+    """Values are those at the end, and theories those of the last bath."""
+    scene = (ELASTIC % "md").replace("{e: 1}", "{e: 0.8}")
+    done = run("compare", "scene.yaml", "--json", "--quiet", "--output", "c.h5", scene=scene)
+    check(done.code == 0, done.err)
+    both = json.loads(done.out)
+    for engine in "md", "dsmc":
+        found = both[engine]["results"]["temperature"]
+        t, T, error = curve("c.h5", "temperature_in_time", engine)
+        check(abs(found["mean"] / T[-1] - 1) < 1e-12 and abs(found["stderr"] / error[-1] - 1) < 1e-9, found)
+        theory = both["theory"]["enskog_hermite"]["temperature"]["mean"]
+        check(abs(found["mean"] - theory) < 5 * found["stderr"] + 0.06 * theory, found, theory)
+        check("not a steady mean" not in done.out)
+
+
+def test_resumed():
+    """Interrupted before, between and after changes: the same bits."""
+    for engine in "md", "dsmc":
+        scene = (ELASTIC % engine).replace("{e: 1}", "{e: 0.9, beta: 0}") + "output: {checkpoint_every: 0.02}\n"
+        check(run("run", "scene.yaml", "--quiet", "--output", "whole.h5", scene=scene).code == 0, engine)
+        for tries in range(60):
+            command = [GRAINGAS, "run", "scene.yaml", "--quiet", "--output", "cut.h5"]
+            if os.path.exists("cut.checkpoint.h5"):
+                command += ["--resume", "cut.checkpoint.h5"]
+            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            time.sleep(0.15)
+            if tries < 8:
+                process.send_signal(signal.SIGINT)
+            err = process.communicate(timeout=100 * PATIENCE)[1]
+            if process.returncode == 0:
+                break
+            check(process.returncode == 130, process.returncode, err)
+        check(tries > 0 and process.returncode == 0, tries, err)
+        for name in "temperature_in_time", "rotational_temperature_in_time", "a2_in_time":
+            one, other = (curve(path, name) for path in ("whole.h5", "cut.h5"))
+            check(all(np.array_equal(a, b, equal_nan=True) for a, b in zip(one, other)), engine, name)
+
+
+if __name__ == "__main__":
+    main(sys.modules[__name__])
