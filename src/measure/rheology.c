@@ -263,13 +263,13 @@ static void finish(void *self, const gg_interval *in, double *row)
   put_energy(r, in, row);
   put_waves(r, row);
   row[CH_LN_T] = log(T) - 2 * M_LN2 * r->memory.log2_scale;
+  row[CH_T2] = cooling ? 1 : T * T;
   double *of_species = row + CH_SPECIES;
   const size_t width = gg_rheology_species_width(&r->model);
   for (int i = 0; i < r->model.n_species; i++) put_moments(r, i, cooling ? T : 1, of_species + (size_t)i * width);
   if (!(in->elapsed > 0)) return; /* the start has no rates */
   haff h = cooling ? haff_integrals(T0, T, in->elapsed) : (haff){in->elapsed, in->elapsed, 0};
   put_rates(r, in, h, row);
-  row[CH_T2] = cooling ? 1 : T * T;
   double during = speed_during(r, T0, T, in->elapsed);
   for (int i = 0; i < r->model.n_species; i++) of_species[(size_t)i * width + CH_SPEED] *= during;
 }

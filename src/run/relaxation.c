@@ -9,6 +9,7 @@
 #include "run/engine_grains.h"
 #include "run/replica.h"
 #include "scene/fields.h"
+#include "theory/relaxation.h"
 
 enum { INTERVALS = 100 };
 
@@ -106,7 +107,38 @@ gg_mean gg_run_relaxation_end(const gg_replicas *all, gg_quantity q)
   return over_replicas(all, &f, r->offset[k], r->series.n - 1);
 }
 
-static void add_curve(const gg_replicas *all, const gg_quantity_row *row, const gg_function *f, gg_curves *list)
+/* What kinetic theory has at each of the times, from the temperatures of the start on. */
+static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *err)
+{
+  const gg_scene *s = &all->scene;
+  gg_relaxing x = {.T = all->model.temperature0, .theta = all->model.rule == GG_SMOOTH ? 0 : all->model.ratio0};
+  int changes = 0;
+  gg_status status = GG_OK;
+  gg_model *model = gg_base_array_new(1, sizeof *model, err);
+  if (!model) return GG_FAILED;
+  x.theta *= x.T;
+  for (size_t k = 0; status == GG_OK && k < all->replica[0].series.n; k++) {
+    if (k > 0) gg_theory_relax(model, gg_run_relaxation_time(s, k) - gg_run_relaxation_time(s, k - 1), &x);
+    at[k] = x;
+    if (k > 0 && changes == gg_scene_protocol_count(s, user_time(s, k))) continue;
+    status = gg_run_relaxation_model(s, &all->model, k, model, &changes, err);
+  }
+  free(model);
+  return status;
+}
+
+static double theory_of(const gg_relaxing *x, gg_quantity q, const gg_model *m)
+{
+  return q == GG_Q_TEMPERATURE              ? x->T
+         : q == GG_Q_ROTATIONAL_TEMPERATURE ? x->theta
+         : q == GG_Q_TEMPERATURE_RATIO      ? x->theta / x->T
+         : m->rule == GG_SMOOTH             ? x->a2
+                                            : NAN;
+}
+
+/* `theory`: at every time; NULL: there is none. */
+static void add_curve(const gg_replicas *all, const gg_quantity_row *row, const gg_function *f,
+                      const gg_relaxing *theory, gg_curves *list)
 {
   const gg_replica *r = &all->replica[0];
   char name[48];
@@ -114,6 +146,10 @@ static void add_curve(const gg_replicas *all, const gg_quantity_row *row, const 
   gg_curve *c = gg_measure_curve_add(list, r->series.n, name, row->symbol, "measured");
   gg_measure_curve_axes(c, "t", gg_measure_curve_unit(&all->model, "time"), row->symbol, row->unit);
   c->samples = (uint64_t)all->n;
+  const bool beside = theory && !isnan(theory_of(theory, row->quantity, &all->model));
+  if (beside) gg_measure_curve_beside(c, gg_theory_relaxation_name(&all->model), gg_measure_curve_level, &(double){0});
+  for (size_t i = 0; beside && c->reference && i < c->n; i++)
+    c->reference[i] = theory_of(&theory[i], row->quantity, &all->model);
   for (size_t i = 0; i < c->n; i++) {
     const gg_mean m = over_replicas(all, f, r->offset[0], i);
     const bool unknown = i == 0 && row->quantity == GG_Q_P_XY; /* the start has no collisions */
@@ -132,13 +168,19 @@ static bool is_shown(const gg_model *m, gg_quantity q)
 gg_status gg_run_relaxation_curves(const gg_replicas *all, gg_result *result, gg_error *err)
 {
   gg_curves *list = &result->curves;
+  const bool known = gg_theory_relaxation_name(&all->model) != NULL;
+  gg_relaxing *theory = gg_base_array_new(all->replica[0].series.n + 1, sizeof *theory, err);
+  if (!theory) return GG_FAILED;
+  gg_status status = known ? integrate(all, theory, err) : GG_OK;
   list->group = "relaxation";
   for (int i = 0; i < result->rows.n; i++) {
     gg_function f;
     const gg_quantity_row *row = &result->rows.row[i];
     if (is_shown(&all->model, row->quantity) && gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
-      add_curve(all, row, &f, list);
+      add_curve(all, row, &f, known ? theory : NULL, list);
   }
   list->group = NULL;
+  free(theory);
+  GG_TRY(status);
   return list->failed ? gg_base_out_of_memory_for(err, "the curves in time") : GG_OK;
 }

@@ -68,6 +68,29 @@ def test_end():
         check("not a steady mean" not in done.out)
 
 
+def test_theory():
+    """Monte Carlo follows Enskog's equation: the first Sonine approximation and two Maxwellians are beside it in time,
+    within what they leave out. In free cooling T = T_0/(1 + t/t_0)^2, with Haff's t_0."""
+    smooth = (ELASTIC % "dsmc").replace("{e: 1}", "{e: 0.6}").replace("5000", "20000")
+    for scene in smooth, smooth.replace("{e: 0.6}", "{e: 0.9, beta: 0}"):
+        check(run("run", "scene.yaml", "--quiet", "--output", "t.h5", scene=scene).code == 0)
+        for name, most in ("temperature_in_time", 0.01), ("rotational_temperature_in_time", 0.03), ("a2_in_time", None):
+            with h5py.File("t.h5") as file:
+                group = file["graingas/curves"].get(name)
+                if group is None or "reference" not in group:
+                    check(name != "temperature_in_time", scene)
+                    continue
+                value, error, theory = (np.array(group[k]) for k in ("value", "stderr", "reference"))
+            off = np.abs(value - theory) - 5 * error
+            check((off - (most * theory if most else 0.003)).max() < 0, name, off.max())
+    cooling = "{flow: hcs, engine: dsmc, phi: 0.1, collision: {e: 0.9}, run: {duration: 100, replicas: 16}}"
+    check(run("run", "scene.yaml", "--quiet", "--output", "h.h5", scene=cooling).code == 0)
+    t, T, error = curve("h.h5", "temperature_in_time")
+    rate = 4 * 0.6 / np.pi * 0.95 / 0.9 ** 3 * np.sqrt(np.pi * T[0])  # 4 n d^2 chi sqrt(pi T), of Enskog
+    haff = T[0] / (1 + t * rate * (1 - 0.9 ** 2) / 6) ** 2
+    check(T[-1] < 0.1 * T[0] and np.abs(T / haff - 1).max() < 0.02, np.abs(T / haff - 1).max())
+
+
 def test_resumed():
     """Interrupted before, between and after changes: the same bits."""
     for engine in "md", "dsmc":

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* With drag gamma and noise xi^2 (thermostat.h), nu the collision rate of Maxwellians, m = 1:
+ *
+ * Smooth grains in the first Sonine approximation (T.P.C. van Noije & M.H. Ernst, Granular Matter 1 (1998) 57), g = n
+ * d^2 chi, v_0^2 = 2T, <v^2> = (3/2) v_0^2, <v^4> = (15/4) v_0^4 (1 + a2):
+ *   d<v^2>/dt = -g v_0^3 mu_2 - 2 gamma <v^2> + 3 xi^2,   d<v^4>/dt = -g v_0^5 mu_4 - 4 gamma <v^4> + 10 xi^2 <v^2>
+ *   mu_2 = sqrt(2 pi) (1-e^2) (1 + 3 a2/16)
+ *   mu_4 = sqrt(2 pi) {(1-e^2)(9/2+e^2) + a2 [(3/32)(1-e^2)(69+10e^2) + 2(1+e)]}
+ * Rough grains with two Maxwellians (two_maxwellian.h):
+ *   dT/dt = nu T dE_tr/3 - 2 gamma T + xi^2,   dtheta/dt = nu T dE_rot/3 - 2 gamma_r theta + K xi_r^2 */
+#include "theory/relaxation.h"
+
+#include "common/thermostat.h"
+#include "theory/two_maxwellian.h"
+
+static gg_thermostat thermostat_of(const gg_model *m)
+{
+  return gg_flow_cools(m->flow) ? GG_NO_THERMOSTAT : gg_common_thermostat_of(m);
+}
+
+const char *gg_theory_relaxation_name(const gg_model *m)
+{
+  const bool known = m->n_species == 1 && m->shear_rate == 0 && !m->walled && !m->law.name;
+  return !known ? NULL : m->rule == GG_SMOOTH ? "first Sonine" : "two Maxwellians";
+}
+
+static double noise_of(const gg_model *m)
+{
+  return m->bath.on ? m->bath.noise[0] : thermostat_of(m) == GG_WHITE_NOISE ? gg_common_thermostat_noise(m) : 0;
+}
+
+static double drag_of(const gg_model *m)
+{
+  return m->bath.on ? m->bath.drag[0] : 0;
+}
+
+static gg_relaxing smooth_rates(const gg_model *m, gg_relaxing x)
+{
+  const double e = m->e[0], v2 = 2 * x.T, g = m->density * m->chi[0] * sqrt(2 * M_PI * v2), lost = 1 - e * e;
+  const double noise = noise_of(m), drag = drag_of(m), square = 1.5 * v2, fourth = 3.75 * v2 * v2 * (1 + x.a2);
+  const double mu2 = lost * (1 + 3 * x.a2 / 16);
+  const double mu4 = lost * (4.5 + e * e) + x.a2 * (3. / 32 * lost * (69 + 10 * e * e) + 2 * (1 + e));
+  const double d2 = -g * v2 * mu2 - 2 * drag * square + 3 * noise;
+  const double d4 = -g * v2 * v2 * mu4 - 4 * drag * fourth + 10 * noise * square;
+  return (gg_relaxing){.T = d2 / 3, .a2 = (1 + x.a2) * (d4 / fourth - 2 * d2 / square)};
+}
+
+static gg_relaxing rough_rates(const gg_model *m, gg_relaxing x)
+{
+  const gg_exchange lost =
+      gg_theory_exchange_at(gg_theory_grain_of(m), m->rule == GG_FRICTIONAL ? m->mu[0] : INFINITY, x.theta / x.T);
+  const double energy = gg_common_model_collision_rate(m, x.T) * x.T / 3;
+  const gg_bath none = {0}, *b = m->bath.on ? &m->bath : &none;
+  return (gg_relaxing){.T = energy * lost.translation - 2 * drag_of(m) * x.T + noise_of(m),
+                       .theta =
+                           energy * lost.rotation - 2 * b->spin_drag[0] * x.theta + m->inertia[0] * b->spin_noise[0]};
+}
+
+static gg_relaxing rates(const gg_model *m, gg_relaxing x)
+{
+  gg_relaxing r = m->rule == GG_SMOOTH ? smooth_rates(m, x) : rough_rates(m, x);
+  if (thermostat_of(m) != GG_GAUSSIAN || m->bath.on) return r;
+  r.T = 0; /* it scales velocities, and a2 stays */
+  return r;
+}
+
+static gg_relaxing moved(gg_relaxing x, double dt, gg_relaxing r)
+{
+  return (gg_relaxing){x.T + dt * r.T, x.theta + dt * r.theta, x.a2 + dt * r.a2};
+}
+
+/* Runge and Kutta's fourth order. */
+static gg_relaxing step(const gg_model *m, gg_relaxing x, double dt)
+{
+  const gg_relaxing a = rates(m, x), b = rates(m, moved(x, dt / 2, a)), c = rates(m, moved(x, dt / 2, b)),
+                    d = rates(m, moved(x, dt, c));
+  return moved(moved(moved(moved(x, dt / 6, a), dt / 3, b), dt / 3, c), dt / 6, d);
+}
+
+/* Steps that are short beside a collision, and what drag and noise take to act. */
+void gg_theory_relax(const gg_model *m, double time, gg_relaxing *x)
+{
+  while (time > 0) {
+    const double fastest = gg_common_model_collision_rate(m, x->T) + 2 * fabs(drag_of(m)) + noise_of(m) / x->T +
+                           (m->bath.on ? 2 * m->bath.spin_drag[0] : 0);
+    const double dt = fmin(time, 0.05 / fastest);
+    *x = step(m, *x, dt);
+    time = dt < time ? time - dt : 0;
+  }
+}
