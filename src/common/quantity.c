@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "common/thermostat.h"
 
 enum unit {
   UNIT_NONE,
@@ -184,6 +185,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
   const bool smooth = m->rule == GG_SMOOTH, cools = gg_flow_cools(m->flow), heated = gg_flow_is_heated(m->flow);
   const bool rests = m->elastic && !m->walled && (cools || m->flow == GG_EQUILIBRIUM);
   const bool fluctuates = rests && !m->homogeneous;
+  const bool noisy = m->bath.on || gg_common_thermostat_of(m) == GG_WHITE_NOISE;
   const bool alike = m->n_surfaces < 2 || m->surface[0].temperature == m->surface[1].temperature;
   const struct {
     unsigned need;
@@ -203,7 +205,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
       {GG_NEEDS_NO_WALLS, m->walled, "between walls the gas is not homogeneous"},
       {GG_NEEDS_WALLS, !m->walled, "there are no walls"},
       {GG_NEEDS_UNEQUAL_WALLS, alike, "there are no two walls of different temperatures"},
-      {GG_NEEDS_WORK, m->shear_rate == 0 && !m->walled, "nothing does work on the grains"},
+      {GG_NEEDS_WORK, m->shear_rate == 0 && !m->walled && !noisy, "nothing does work on the grains"},
       {GG_NEEDS_LOSS, m->elastic || (m->elastic_grains && gg_model_has_thermal_walls(m)), "collisions conserve energy"},
       {GG_NEEDS_BOX, m->homogeneous, "the Monte Carlo ensemble has no box"},
       {GG_NEEDS_COOLING, !cools && !heated, "only in cooling and heated flows"},
@@ -247,7 +249,7 @@ const char *gg_common_quantity_when(gg_quantity q, char *text, size_t size)
       {GG_NEEDS_WALLS, "walls"},
       {GG_NEEDS_NO_WALLS, "no walls"},
       {GG_NEEDS_UNEQUAL_WALLS, "walls of two temperatures"},
-      {GG_NEEDS_WORK, "shear or walls"},
+      {GG_NEEDS_WORK, "shear, walls, a bath or noise"},
       {GG_NEEDS_NO_SHEAR, "no shear"},
       {GG_NEEDS_ONE_SPECIES, "one species"},
       {GG_NEEDS_MIXTURE, "mixtures"},

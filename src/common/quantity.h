@@ -24,7 +24,7 @@ enum {
   GG_NEEDS_SCALE = 1u << 12,       /* a temperature that lasts */
   GG_NEEDS_SCALE_SHOWN = 1u << 13, /* likewise, and the history says how it decays */
   GG_NEEDS_THEORY = 1u << 14,      /* no mean of anything */
-  GG_NEEDS_WORK = 1u << 21,        /* something that does work on the grains: shear, or walls */
+  GG_NEEDS_WORK = 1u << 21,        /* something that does work on the grains: shear, walls, a bath or thermostat */
   GG_NEEDS_WALLS = 1u << 22,
   GG_NEEDS_NO_WALLS = 1u << 23,
   GG_NEEDS_UNEQUAL_WALLS = 1u << 25, /* of two temperatures */
@@ -158,8 +158,8 @@ enum {
       "F_x/F_y: force of the gas along the walls over that across them; walls.mu where every contact slides",          \
       "F_x/F_y")                                                                                                       \
   ONE(ENERGY_BALANCE, "energy_balance", "(W-dE/dt)/D", "", NONE, GG_NEEDS_WORK | GG_NEEDS_LOSS,                        \
-      "(W - dE/dt)/(D + D_w): work of shear, walls and gravity less the growth of the grains' energy, over "           \
-      "dissipation; 1 without a heat bath; between thermal walls (W - D_w - dE/dt)/D",                                 \
+      "(W - dE/dt)/(D + D_w): work of shear, walls and gravity and what noise gives, less what drag takes and the "    \
+      "growth of the grains' energy, over dissipation: 1; between thermal walls (W - D_w - dE/dt)/D",                  \
       "(W - \\dot E)/(D + D_w)")                                                                                       \
   ONE(COOLING_RATE, "cooling_rate", "ζ*", "cooling", NONE, GG_NEEDS_LOSS | GG_NEEDS_COOLING | GG_DRAWN_AS_RATIO,       \
       "zeta/nu_0: rate of energy loss over the reference collision rate nu_0", "\\zeta^* = \\zeta/\\nu_0")             \

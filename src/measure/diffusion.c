@@ -7,7 +7,8 @@
  * what the flow has carried along x is taken off, the grain's height between two snapshots being taken as the mean of
  * both. A grain's way from snapshot to snapshot leads to one of the images of its new place: to which say its
  * velocities at both, or, where free paths are so long beside the box that it may have crossed half of it and collided,
- * those of all its flights. */
+ * those of all its flights. The Monte Carlo ensemble has no places: there the flights are the way, and grains keep
+ * theirs in the ensemble, as every collision is shown. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,7 +41,6 @@ typedef struct diffusion {
 
 static const char *refuses(const gg_model *m)
 {
-  if (m->homogeneous) return "the grains of the Monte Carlo ensemble have neither positions nor names";
   if (gg_flow_cools(m->flow)) return "a cooling gas has no stationary velocity correlation";
   if (!m->steady) return "a gas that heats up has no stationary velocity correlation";
   return gg_measure_needs_homogeneity(m);
@@ -52,9 +52,11 @@ static void destroy(void *self)
   free(self);
 }
 
-/* Can a fast grain go half the shortest edge between two snapshots? */
-static bool is_short_of_paths(const gg_model *m)
+/* Are all flights followed: without places, or where a fast grain may go half the shortest edge between two snapshots?
+ */
+static bool follows_flights(const gg_model *m)
 {
+  if (m->homogeneous) return true;
   double lightest = m->mass[0], fast, way;
   for (int k = 1; k < m->n_species; k++) lightest = fmin(lightest, m->mass[k]);
   fast = 5 * sqrt(m->temperature0 / lightest);
@@ -68,7 +70,7 @@ static void *create(const gg_model *m, gg_error *err)
   if (!d) return NULL;
   d->model = *m;
   d->n = (size_t)m->n;
-  size_t doubles = is_short_of_paths(m) ? 13 : 9;
+  size_t doubles = follows_flights(m) ? 13 : 9;
   d->bytes = sizeof *d->state + doubles * d->n * sizeof(double) + 6 * GG_LAG_ORIGINS * d->n * sizeof(float) +
              d->n * sizeof *d->place;
   d->state = gg_base_array_new(1, d->bytes, err);
@@ -81,7 +83,7 @@ static void *create(const gg_model *m, gg_error *err)
     double **arrays[] = {&d->r[a], &d->c[a], &d->moved[a]};
     for (int k = 0; k < 3; k++, at += d->n) *arrays[k] = at;
   }
-  if (is_short_of_paths(m)) {
+  if (follows_flights(m)) {
     for (int a = 0; a < 3; a++, at += d->n) d->flown[a] = at;
     d->until = at;
     at += d->n;
@@ -162,26 +164,37 @@ static gg_vec way_of(diffusion *d, size_t g, gg_vec c, const gg_snapshot *s)
   return gg_scale(0.5 * s->elapsed, gg_add((gg_vec){d->c[0][g], d->c[1][g], d->c[2][g]}, c));
 }
 
+static size_t number_of(const gg_snapshot *s, size_t i)
+{
+  return s->id ? (size_t)s->id[i] : i;
+}
+
 static void give_places(diffusion *d, const gg_snapshot *s)
 {
   uint32_t next[GG_MAX_SPECIES] = {0};
   for (int k = 1; k < d->model.n_species; k++) next[k] = next[k - 1] + (uint32_t)d->model.n_of[k - 1];
-  for (size_t i = 0; i < s->n; i++) d->place[s->id[i]] = next[gg_snapshot_species(s, i)]++;
+  for (size_t i = 0; i < s->n; i++) d->place[number_of(s, i)] = next[gg_snapshot_species(s, i)]++;
 }
 
 static void follow(diffusion *d, const gg_snapshot *s)
 {
-  gg_images b = gg_measure_pairs_images(s);
+  const bool placed = !d->model.homogeneous;
+  gg_images b = {0};
+  if (placed) b = gg_measure_pairs_images(s);
   bool first = d->state->snapshots == 0;
   if (first) give_places(d, s);
   for (size_t i = 0; i < s->n; i++) {
-    size_t g = d->place[s->id[i]];
-    gg_vec to = {s->r[0][i], s->r[1][i], s->r[2][i]}, c = {s->c[0][i], s->c[1][i], s->c[2][i]}, move = {0, 0, 0};
-    if (!first)
+    size_t g = d->place[number_of(s, i)];
+    const gg_vec c = {s->c[0][i], s->c[1][i], s->c[2][i]},
+                 to = placed ? (gg_vec){s->r[0][i], s->r[1][i], s->r[2][i]} : (gg_vec){0, 0, 0};
+    gg_vec move = {0, 0, 0};
+    if (!first && !placed)
+      move = way_of(d, g, c, s);
+    else if (!first)
       move = displacement(d, &b, (gg_vec){d->r[0][g], d->r[1][g], d->r[2][g]}, to, way_of(d, g, c, s), s->elapsed);
     const double step[3] = {move.x, move.y, move.z};
     for (int a = 0; a < 3; a++) {
-      d->r[a][g] = s->r[a][i];
+      if (placed) d->r[a][g] = s->r[a][i];
       d->c[a][g] = s->c[a][i];
       d->moved[a][g] = first ? 0 : d->moved[a][g] + step[a];
       if (d->until) d->flown[a][g] = 0;
@@ -252,6 +265,27 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   d->state->snapshots++;
 }
 
+/* Of smooth grains, in the first Sonine approximation: T_i/m_i over the rate at which a grain loses momentum to the gas
+ * and to a bath, with Maxwellians of the temperatures measured (of few grains among many: J.W. Dufty & V. Garzo, J.
+ * Stat. Phys. 105 (2001) 723; elastic: Chapman & Cowling). NaN: not of this model. */
+static double first_sonine(const gg_model *m, int i, const double *bins)
+{
+  double rate = m->bath.on ? m->bath.drag[i] : 0, T[GG_MAX_SPECIES] = {0}; /* <C_a^2> */
+  if (m->shear_rate != 0 || m->rule != GG_SMOOTH || m->law.name) return NAN;
+  for (int k = 0; k < m->n_species; k++) {
+    const double *bin = bins + k * GG_LAGS * GG_LAG_WIDTH;
+    T[k] =
+        (gg_lag_mean(bin, 0, GG_LAG_CC) + gg_lag_mean(bin, 0, GG_LAG_CC + 1) + gg_lag_mean(bin, 0, GG_LAG_CC + 2)) / 3;
+  }
+  for (int j = 0; j < m->n_species; j++) {
+    const int q = gg_pair(i, j);
+    const double n = m->density * (double)m->n_of[j] / (double)m->n, reduced = m->mass[j] / (m->mass[i] + m->mass[j]);
+    rate +=
+        4 / 3. * n * m->sigma[q] * m->sigma[q] * m->chi[q] * (1 + m->e[q]) * reduced * sqrt(2 * M_PI * (T[i] + T[j]));
+  }
+  return T[i] / rate;
+}
+
 static void put_component(const diffusion *d, int species, int a, const double *bin, gg_curves *list)
 {
   const gg_model *m = &d->model;
@@ -279,6 +313,8 @@ static void put_component(const diffusion *d, int species, int a, const double *
   const char *coefficient = m->shear_rate != 0 ? "d^2 gamma" : "d v_0";
   gg_measure_curve_put_truncated(c, "diffusion_green_kubo", D.green_kubo.D, D.green_kubo.unsure, coefficient);
   gg_measure_curve_put_truncated(c, "long_time_tail", D.green_kubo.tail, D.green_kubo.unsure, coefficient);
+  const double theory = first_sonine(m, species, bin - species * GG_LAGS * GG_LAG_WIDTH);
+  if (!isnan(theory)) gg_measure_curve_put_setting(c, "diffusion_first_sonine", theory, coefficient);
   gg_measure_curve_put_truncated(r, "diffusion_einstein", D.einstein.D, D.einstein.unsure, coefficient);
 }
 
@@ -302,7 +338,7 @@ const gg_observable gg_measure_diffusion = {
     .positions = true,
     .add_snapshot = add_snapshot,
     .add_collision = add_collision,
-    .wants_collisions = is_short_of_paths,
+    .wants_collisions = follows_flights,
     .restart = restart,
     .curves = curves,
 };

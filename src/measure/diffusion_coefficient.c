@@ -86,7 +86,9 @@ gg_diffusion_coefficients gg_measure_diffusion_read(const gg_model *m, int speci
   node list[NODES];
   int n = nodes_of(bin, kinetic_collisions(m, species) * (driven ? DRIVEN : 1), list);
   gg_long_time_tail tail = gg_measure_long_time_tail_of(m, T);
-  if (driven && n > 0)
+  if (m->homogeneous && n > 0) /* Enskog's equation has no vortices */
+    tail = gg_measure_long_time_tail_driven(0, gg_lag_mean(bin, list[0].lag, GG_LAG_TIME));
+  else if (driven && n > 0)
     tail = gg_measure_long_time_tail_driven(LEFT * m->phi * fabs(gg_lag_mean(bin, list[0].lag, GG_LAG_CR + a)),
                                             gg_lag_mean(bin, list[0].lag, GG_LAG_TIME));
   return (gg_diffusion_coefficients){green_kubo(&tail, bin, a, list, n, samples),

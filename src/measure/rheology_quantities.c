@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From channel means of rheology to named quantities. Stress by Gayen's thesis eq. 5.15 (per volume), normal stress
  * differences eqs 5.17-5.18. */
+#include "common/thermostat.h"
 #include "measure/long_waves.h"
 #include "measure/rheology.h"
 
@@ -135,6 +136,29 @@ static double wall_friction(const double *a, const gg_model *m)
   (void)m;
   return a[CH_WALL_DRAG] / a[CH_WALL_PUSH];
 }
+/* Energy that the noise of a bath or thermostat gives, and that drag takes, per volume and time. Spins are dragged
+ * towards those that roll with the shear. */
+static double power_of_noise(const gg_model *m)
+{
+  const double white = !m->bath.on && gg_common_thermostat_of(m) == GG_WHITE_NOISE ? gg_common_thermostat_noise(m) : 0;
+  double sum = 0;
+  for (int i = 0; i < m->n_species; i++)
+    sum += share(m, i) * 1.5 * m->mass[i] * (white + m->bath.noise[i] + m->inertia[i] * m->bath.spin_noise[i]);
+  return sum * m->density * m->stress_unit;
+}
+static double power_of_drag(const double *a, const gg_model *m)
+{
+  double sum = 0;
+  for (int i = 0; i < m->n_species && m->bath.on; i++) {
+    sum += 3 * share(m, i) * m->bath.drag[i] * partial_temperature(a, m, i);
+    if (m->rule == GG_SMOOTH || m->bath.spin_drag[i] == 0) continue;
+    const double w2 = (of(a, m, i, CH_W2X) + of(a, m, i, CH_W2Y) + of(a, m, i, CH_W2Z)) * given_back(m, i);
+    const double mean = of(a, m, i, CH_SPIN_Z), ahead = mean - gg_model_rolling(m, i);
+    sum += share(m, i) * m->bath.spin_drag[i] * m->inertia[i] * m->mass[i] * (w2 + mean * ahead);
+  }
+  return sum * m->density * m->stress_unit;
+}
+
 /* The energy of the grains changes from one end of a run to the other: with that change taken off, the balance holds at
  * every moment, and what is left of its scatter is that of P_xy between samples. What thermal walls give is no loss. */
 static double energy_balance(const double *a, const gg_model *m)
@@ -142,6 +166,7 @@ static double energy_balance(const double *a, const gg_model *m)
   double work = m->walled  ? a[CH_WALL_WORK]
                 : m->frame ? a[CH_WALL_WORK] - a[CH_PC_XY] * m->shear_rate
                            : -total_xy(a, m) * m->shear_rate;
+  work += power_of_noise(m) - power_of_drag(a, m);
   if (gg_model_has_thermal_walls(m)) return (work - a[CH_WALL_LOSS] - a[CH_GROWTH]) / a[CH_LOSS];
   return (work - a[CH_GROWTH]) / (a[CH_LOSS] + a[CH_WALL_LOSS]);
 }
