@@ -167,7 +167,7 @@ def _prepare(sim, start, rng):
     wanted = np.broadcast_to(start.get("temperature", [s.temperature for s in species]), len(species))
     if "a2" in start:
         velocity = _sonine(rng, len(velocity), float(start["a2"]))
-    for _ in range(2):  # the mean that is taken off changes temperatures, by 1/N
+    for _ in range(5):  # the mean that is taken off changes temperatures, by 1/N each time
         velocity -= (mass * velocity).sum(axis=0) / mass.sum()
         for k, T in enumerate(wanted):
             own = kind == k
