@@ -8,7 +8,7 @@
 
 static inline bool gg_run_is_followed(const gg_scene *scene)
 {
-  return scene->run.duration != GG_AUTO;
+  return scene->run.duration > 0;
 }
 
 /* Samples in all: at evenly spaced times, and at each of a change. The time of sample k, from 1 on; 0: the start. In

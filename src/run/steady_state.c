@@ -43,7 +43,7 @@ void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_converge
   double happened = 2 * (double)result->averaging.collisions / ((double)all->model.n * all->n);
   double ratio;
   result->steadiness = GG_NOT_STEADY;
-  if (all->scene.run.duration != GG_AUTO) {
+  if (all->scene.run.duration > 0) {
     result->steadiness = GG_HEATING;
     snprintf(text, size, "followed in time, %d replica%s: values are those at the end", all->n, all->n > 1 ? "s" : "");
   } else if (!all->model.steady && !all->model.linear_response) {
