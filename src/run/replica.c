@@ -22,7 +22,7 @@ gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_m
 {
   memset(r, 0, sizeof *r);
   r->model = *model;
-  r->scene = scene;
+  r->scene = *scene;
   r->clock.temperature = model->temperature0;
   r->logged = index == 0 && *scene->output.log;
   r->trajectory_every = r->clock.frame_every = index == 0 ? scene->output.trajectory_every : 0;
@@ -143,7 +143,7 @@ static gg_status rescale_if_due(gg_replica *r, gg_error *err)
     bool over = gg_common_linear_response_ends(&r->model, T0 / (slowdown * slowdown));
     return over ? rescale(r, gg_common_linear_response_of(&r->model).power, err) : GG_OK;
   }
-  if (gg_run_is_followed(r->scene)) slowdown = sqrt(T0 / r->clock.temperature);
+  if (gg_run_is_followed(&r->scene)) slowdown = sqrt(T0 / r->clock.temperature);
   if (slowdown < 4) return GG_OK;
   r->clock.power += 2;
   return rescale(r, 2, err);
@@ -239,8 +239,8 @@ static gg_status check_collapse(gg_replica *r, bool adapt, double elapsed, uint6
 /* Up to the next of the times at which a gas is followed: in the engine's units, however few are left. */
 static void aim(gg_replica *r)
 {
-  const double from = gg_run_relaxation_time(r->scene, r->clock.samples),
-               to = gg_run_relaxation_time(r->scene, r->clock.samples + 1);
+  const double from = gg_run_relaxation_time(&r->scene, r->clock.samples),
+               to = gg_run_relaxation_time(&r->scene, r->clock.samples + 1);
   r->clock.interval = ldexp(fmax(to - r->clock.time, 1e-9 * (to - from)), -(int)r->clock.power);
 }
 
@@ -259,10 +259,10 @@ static gg_status change(gg_replica *r, const gg_model *model, gg_error *err)
 static gg_status change_if_due(gg_replica *r, gg_error *err)
 {
   int changes = 0;
-  if (!gg_run_is_followed(r->scene)) return GG_OK;
+  if (!gg_run_is_followed(&r->scene)) return GG_OK;
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
   if (!model) return GG_FAILED;
-  gg_status status = gg_run_relaxation_model(r->scene, &r->model, r->clock.samples, model, &changes, err);
+  gg_status status = gg_run_relaxation_model(&r->scene, &r->model, r->clock.samples, model, &changes, err);
   if (status == GG_OK && changes != r->clock.changes) status = change(r, model, err);
   r->clock.changes = changes;
   free(model);
@@ -274,7 +274,7 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   double elapsed;
   uint64_t happened;
   const double before = r->clock.temperature;
-  if (gg_run_is_followed(r->scene) && !r->clock.part) aim(r);
+  if (gg_run_is_followed(&r->scene) && !r->clock.part) aim(r);
   GG_TRY(advance_interval(r, adapt, &elapsed, &happened, err));
   gg_run_replica_sample_row(r, elapsed);
   r->clock.temperature = temperature_now(r);
@@ -300,7 +300,7 @@ gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, co
                                  gg_error *err)
 {
   gg_status status = GG_OK;
-  adapt = adapt && !gg_run_is_followed(r->scene);
+  adapt = adapt && !gg_run_is_followed(&r->scene);
   while (status == GG_OK && r->clock.samples < samples) {
     if (gg_stop_asked(r->model.stop)) status = gg_base_fail(err, GG_INTERRUPTED, "interrupted");
     if (status == GG_OK) status = sample_once(r, adapt, err);
@@ -313,7 +313,7 @@ gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, co
 
 bool gg_run_replica_settled(const gg_replica *r)
 {
-  if (r->model.gravity[1] != 0 || gg_run_is_followed(r->scene))
+  if (r->model.gravity[1] != 0 || gg_run_is_followed(&r->scene))
     return true; /* grains that lie collide as often as they like */
   double per_grain = r->clock.interval * gg_common_model_collision_rate(&r->model, r->clock.temperature);
   return !r->clock.cut_short && per_grain > GG_SAMPLING_INTERVAL / 50;
@@ -360,10 +360,10 @@ static gg_status check_clock(const gg_replica *r, gg_error *err)
 static gg_status restore_model(gg_replica *r, gg_error *err)
 {
   int changes;
-  if (!gg_run_is_followed(r->scene)) return GG_OK;
+  if (!gg_run_is_followed(&r->scene)) return GG_OK;
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
   gg_status status =
-      model ? gg_run_relaxation_model(r->scene, &r->model, r->clock.samples, model, &changes, err) : GG_FAILED;
+      model ? gg_run_relaxation_model(&r->scene, &r->model, r->clock.samples, model, &changes, err) : GG_FAILED;
   if (status == GG_OK) r->model = *model;
   free(model);
   return status;
@@ -374,7 +374,7 @@ gg_status gg_run_replica_restore(gg_replica *r, const gg_archive *a, const gg_sc
 {
   memset(r, 0, sizeof *r);
   r->model = *model;
-  r->scene = scene;
+  r->scene = *scene;
   r->trajectory_every = index == 0 ? scene->output.trajectory_every : 0;
   r->logged = index == 0 && *scene->output.log;
   r->frames_of_window = leaves_out_warmup(scene);

@@ -11,8 +11,8 @@
 enum { GG_MAX_OBSERVABLES = GG_N_OBSERVABLES + 1 }; /* every one there is, and those of the user's own */
 
 typedef struct gg_replica {
-  gg_model model;        /* at present */
-  const gg_scene *scene; /* borrowed */
+  gg_model model; /* at present */
+  gg_scene scene;
   gg_engine *engine;
   int n_observables;
   const gg_observable *observable[GG_MAX_OBSERVABLES];
