@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "corner.h"
+#include "md/md_engine.h"
 #include "md/md_state.h"
 
 enum { MOST = 2000 };
@@ -23,15 +24,30 @@ static void note(void *context, const gg_collision_record *collision)
   c->pair[c->n++][1] = (size_t)collision->id[1];
 }
 
-/* As gg_md_ops.create makes it, but for the grid. */
-static gg_status make_reference(const gg_model *model, uint64_t seed, gg_md **engine, gg_error *err)
+typedef struct places {
+  double *r;
+  int *species;
+} places;
+
+static void take(void *context, const gg_chunk *chunk)
 {
+  const places *p = context;
+  for (size_t k = 0; k < chunk->n; k++) {
+    p->species[chunk->id[k]] = chunk->species ? chunk->species[k] : 0;
+    for (int a = 0; a < 3; a++) p->r[3 * chunk->id[k] + a] = chunk->r[a][k];
+  }
+}
+
+/* As gg_md_ops.create makes it, but for the grid. Places in equilibrium were found by the engine: they are its own. */
+static gg_status make_reference(const gg_model *model, uint64_t seed, const places *p, gg_md **engine, gg_error *err)
+{
+  const gg_grain_arrays start = {.r = p->r, .species = p->species};
   GG_TRY(gg_md_allocate(model, engine, err));
   gg_md *e = *engine;
   int32_t n[3];
   gg_md_cells_count(&e->box, fmax(gg_md_reach(model), cbrt(model->volume / e->n)), n);
   e->plain = true;
-  gg_status status = gg_md_start(e, seed, 0, NULL, err);
+  gg_status status = gg_md_start(e, seed, 0, gg_md_starts_in_equilibrium(model) ? &start : NULL, err);
   if (status == GG_OK) status = gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(model), err);
   if (status == GG_OK) status = gg_md_note_surfaces(e, err);
   if (status == GG_OK) status = gg_md_begin(e, err);
@@ -75,8 +91,19 @@ void corner_compare_plain(const gg_scene *scene, finding *f)
   gg_simulation *g = NULL;
   gg_md *reference = NULL;
   course *fast = calloc(2, sizeof *fast), *plain = fast ? fast + 1 : NULL;
-  if (!fast || gg_simulation_new(scene, 0, &g, NULL) != GG_OK ||
-      make_reference(&g->model, g->scene.run.seed, &reference, NULL) != GG_OK) {
+  places p = {0};
+  bool made = fast && gg_simulation_new(scene, 0, &g, NULL) == GG_OK;
+  if (made) {
+    p = (places){calloc(3 * (size_t)g->model.n, sizeof *p.r), calloc((size_t)g->model.n, sizeof *p.species)};
+    made = p.r && p.species;
+  }
+  if (made) {
+    g->engine->ops->snapshot(g->engine, true, take, &p);
+    made = make_reference(&g->model, g->scene.run.seed, &p, &reference, NULL) == GG_OK;
+  }
+  free(p.r);
+  free(p.species);
+  if (!made) {
     gg_simulation_free(g);
     free(fast);
     return;
