@@ -82,7 +82,7 @@ static void molecular_dynamics(void **state)
     gg_error err = {0};
     s.flow = GG_HCS, s.engine = GG_MD, s.phi = phi[k], s.particles = 300, s.collision.e[0] = 1;
     s.measure |= GG_MEASURE_HELFAND;
-    s.run.collisions = 60000;
+    s.run.collisions = 40000;
     if (gg_run_scene(&s, NULL, 1, NULL, &r, &err) != GG_OK) fail_msg("%s", err.message);
     for (int i = 0; i < 5; i++) {
       const gg_estimate *v = &r->value[q[i]];
