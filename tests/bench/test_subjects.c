@@ -211,9 +211,8 @@ static void dsmc(void **state)
 static void observables(void **state)
 {
   (void)state;
-  static const char *const md_alone[] = {
-      "pair_correlation",    "velocity_correlations",      "structure", "cells", "diffusion",
-      "local_distributions", "local_velocity_correlations"};
+  static const char *const md_alone[] = {"pair_correlation",    "velocity_correlations",      "structure", "cells",
+                                         "local_distributions", "local_velocity_correlations"};
   gg_bench b;
   gg_bench_options o = {.quick = true, .smaller = 20, .tell = tell};
   begin(&b, &o, "observables");
