@@ -141,7 +141,8 @@ static double force_by_temperature(const gg_model *m, const double n[GG_BINARY],
   return sum;
 }
 
-static void diffuse(const gg_model *m, bool dense, gg_theory_answer *a)
+/* False where the flux decays no faster than the gas cools: no solution of this order follows the gradients. */
+static bool diffuse(const gg_model *m, bool dense, gg_theory_answer *a)
 {
   const double x = gg_theory_fraction(m, 0), n[GG_BINARY] = {x * m->density, (1 - x) * m->density};
   const double rho_1 = n[0] * m->mass[0], rho = rho_1 + n[1] * m->mass[1], nu0 = gg_common_model_nu0(m, 1);
@@ -151,6 +152,7 @@ static void diffuse(const gg_model *m, bool dense, gg_theory_answer *a)
   const double zeta = value[ZETA], p = value[PRESSURE];
   const double nu = 4. / 3 * sqrt(2 * M_PI) * m->chi[unlike] * pow(m->sigma[unlike], 2) * (1 + m->e[unlike]) * rho *
                     sqrt(value[SPREAD] + value[SPREAD + 1]) / (m->mass[0] + m->mass[1]);
+  if (!(nu > zeta)) return false;
   double thermal = value[PRESSURE_1] - rho_1 / rho * p;
   if (dense) thermal -= force_by_temperature(m, n, value);
   thermal /= nu - zeta;
@@ -168,6 +170,7 @@ static void diffuse(const gg_model *m, bool dense, gg_theory_answer *a)
   a->value[GG_Q_THERMAL_DIFFUSION_REDUCED] = unit * (thermal - pressure);
   a->value[GG_Q_COOLING_RATE] = zeta / nu0;
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = m->mass[0] * value[SPREAD] / (m->mass[1] * value[SPREAD + 1]);
+  return true;
 }
 
 static gg_status answer_in(const gg_model *m, const char *theory, bool dense, gg_theory_answer *a, gg_error *err)
@@ -178,7 +181,8 @@ static gg_status answer_in(const gg_model *m, const char *theory, bool dense, gg
   if (!dense) GG_TRY(gg_theory_require_dilute(m, theory, err));
   if (isnan(gg_theory_mixture_cooling(m, GG_LINEAR, 1).zeta))
     return gg_theory_reject(err, theory, "finds no common cooling rate for this mixture");
-  diffuse(m, dense && !m->boltzmann, a);
+  if (!diffuse(m, dense && !m->boltzmann, a))
+    return gg_theory_reject(err, theory, "has no diffusion here: the mass flux decays more slowly than the gas cools");
   return GG_OK;
 }
 

@@ -231,6 +231,25 @@ static void critical_size_of_rough_grains(void **state)
   assert_close(gg_theory_clustering_length(&m), 2 * M_PI * sqrt(2 * eta / zeta), 1e-5);
 }
 
+/* A flux that decays no faster than the gas cools has no first-order solution: D falls towards that pole and is refused
+ * beyond, where it would be large and positive. */
+static void diffusion_where_cooling_is_fast(void **state)
+{
+  (void)state;
+  static const gg_theory *const theories[] = {&gg_theory_garzo_dufty2002, &gg_theory_garzo_dufty_hrenya2007};
+  for (int t = 0; t < 2; t++) {
+    double before = INFINITY;
+    for (double e = 0.5; e > 0.05; e -= 0.1) {
+      const gg_model m = mixture_for(GG_HCS, 0, e, -1, 0.1, 0.2, 1);
+      const double D = value_of(theories[t], &m, GG_Q_DIFFUSION_REDUCED);
+      if (!(D < before)) fail_msg("D = %g at e = %g, %g before", D, e, before);
+      before = D;
+    }
+    const gg_model m = mixture_for(GG_HCS, 0, 0, -1, 0.1, 0.2, 1);
+    assert_refused(theories[t], &m, "decays more slowly than the gas cools");
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -248,6 +267,7 @@ int main(void)
       cmocka_unit_test(critical_size_of_heated_rough_grains),
       cmocka_unit_test(stable_size),
       cmocka_unit_test(critical_size_of_rough_grains),
+      cmocka_unit_test(diffusion_where_cooling_is_fast),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
