@@ -380,6 +380,7 @@ static gg_status read_changes_at(const input *in, gg_change *change, int *n)
   if (in->node->type != YAML_MAPPING_NODE) return reject_value(in);
   for (gg_scene_entry e = {0}; gg_scene_entry_next(in->r, in->node, &e);) {
     if (e.word && strcmp(e.word, "at") == 0) {
+      if (at > 0) return gg_scene_reject(in->r, e.name, in->key, "at is given twice in one change");
       GG_TRY(read_number(&(input){in->r, &at_field, "at", e.value}, &at));
     } else {
       if (*n == GG_MAX_CHANGES) return reject_value(in);
@@ -391,7 +392,12 @@ static gg_status read_changes_at(const input *in, gg_change *change, int *n)
   if (first > 0 && at < change[first - 1].at)
     return gg_scene_reject(in->r, in->node, in->key, "at: %g comes after at: %g; give changes in the order of times",
                            at, change[first - 1].at);
-  for (int k = first; k < *n; k++) change[k].at = at;
+  for (int k = first; k < *n; k++) {
+    change[k].at = at;
+    for (int j = 0; j < k; j++)
+      if (change[j].at == at && strcmp(change[j].key, change[k].key) == 0)
+        return gg_scene_reject(in->r, in->node, in->key, "changes %s twice at: %g", change[k].key, at);
+  }
   return GG_OK;
 }
 

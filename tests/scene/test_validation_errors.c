@@ -51,6 +51,9 @@ static void refusals(void **state)
   assert_refused(FOLLOWED "- {at: 5, bath.drag: [1, 2]}\n", "on the way it takes one number or word");
   assert_refused(FOLLOWED "- {at: 5, bath.drag: 2}\n- {at: 4, bath.drag: 1}\n", "in the order of times");
   assert_refused(FOLLOWED "- {at: 5, thermostat: none}\n", "flow: hss needs a thermostat");
+  assert_refused(FOLLOWED "- {at: 1, at: 1.5, bath.drag: 2}\n", "s.yaml:6: key 'protocol': at is given twice");
+  assert_refused(FOLLOWED "- {at: 1, bath.drag: 2, bath.drag: 3}\n", "changes bath.drag twice at: 1");
+  assert_refused(FOLLOWED "- {at: 1, bath.drag: 2}\n- {at: 1, bath.drag: 3}\n", "changes bath.drag twice at: 1");
   assert_refused("flow: hss\nphi: 0.1\nprotocol: [{at: 5, collision.e: 0.8}]\n", "protocol needs run.duration");
   assert_refused("flow: couette\nphi: 0.1\nrun: {duration: 5}\n", "run.duration does not go with flow: couette");
   assert_refused("flow: usf\nphi: 0.3\ndsmc: {precision: float}\n", "allowed: one of double, single");
@@ -125,7 +128,8 @@ static void suggestions(void **state)
       {"shear: 1", "did you mean 'shear_rate'?"},
       {"density: 1", "did you mean 'phi'?"},
       {"temp: 1", "did you mean 'temperature'?"},
-      {"run: {k0: 1}", "under run there are relative_error, until, collisions, time_limit, duration, warmup, replicas, seed"},
+      {"run: {k0: 1}",
+       "under run there are relative_error, until, collisions, time_limit, duration, warmup, replicas, seed"},
       {"run: {error: 1}", "did you mean 'run.relative_error'?"},
       {"run: {time: 1}", "did you mean 'run.time_limit'?"},
       {"wall: {e: 1}", "did you mean 'walls'?"},
