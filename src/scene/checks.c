@@ -169,8 +169,9 @@ static gg_status check_protocol(const gg_scene *s, gg_error *err)
     return gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': at: %g is not allowed; allowed: below run.duration, %g",
                         s->protocol[n - 1].at, s->run.duration);
   for (int k = 1; k <= n; k++) {
-    GG_TRY(gg_scene_protocol_apply(s, k, &changed, err));
-    GG_TRY(check_flow(&changed, err));
+    gg_status status = gg_scene_protocol_apply(s, k, &changed, err);
+    if (status == GG_OK) status = check_flow(&changed, err);
+    if (status != GG_OK) return gg_base_error_prefix(err, status, "key 'protocol': at: %g", s->protocol[k - 1].at);
   }
   return GG_OK;
 }

@@ -383,7 +383,8 @@ static gg_status read_changes_at(const input *in, gg_change *change, int *n)
       if (at > 0) return gg_scene_reject(in->r, e.name, in->key, "at is given twice in one change");
       GG_TRY(read_number(&(input){in->r, &at_field, "at", e.value}, &at));
     } else {
-      if (*n == GG_MAX_CHANGES) return reject_value(in);
+      if (*n == GG_MAX_CHANGES)
+        return gg_scene_reject(in->r, e.name, in->key, "takes at most %d changes", GG_MAX_CHANGES);
       GG_TRY(read_change(in, &e, &change[(*n)++]));
     }
   }

@@ -50,10 +50,16 @@ static void refusals(void **state)
   assert_refused(FOLLOWED "- {at: 5, bath.drag: -2}\n", "s.yaml:6: key 'bath.drag': value '-2' is not allowed");
   assert_refused(FOLLOWED "- {at: 5, bath.drag: [1, 2]}\n", "on the way it takes one number or word");
   assert_refused(FOLLOWED "- {at: 5, bath.drag: 2}\n- {at: 4, bath.drag: 1}\n", "in the order of times");
-  assert_refused(FOLLOWED "- {at: 5, thermostat: none}\n", "flow: hss needs a thermostat");
+  assert_refused(FOLLOWED "- {at: 5, thermostat: none}\n", "key 'protocol': at: 5: flow: hss needs a thermostat");
   assert_refused(FOLLOWED "- {at: 1, at: 1.5, bath.drag: 2}\n", "s.yaml:6: key 'protocol': at is given twice");
   assert_refused(FOLLOWED "- {at: 1, bath.drag: 2, bath.drag: 3}\n", "changes bath.drag twice at: 1");
   assert_refused(FOLLOWED "- {at: 1, bath.drag: 2}\n- {at: 1, bath.drag: 3}\n", "changes bath.drag twice at: 1");
+#define FOUR(decade)                                                                                                   \
+  "- {at: " decade "1, bath.drag: 2}\n- {at: " decade "2, bath.drag: 3}\n- {at: " decade "3, bath.drag: 2}\n"          \
+  "- {at: " decade "4, bath.drag: 3}\n"
+#define SIXTEEN FOUR("0.") FOUR("1.") FOUR("2.") FOUR("3.")
+  assert_taken(FOLLOWED SIXTEEN);
+  assert_refused(FOLLOWED SIXTEEN "- {at: 4, bath.drag: 2}\n", "s.yaml:22: key 'protocol': takes at most 16 changes");
   assert_refused("flow: hss\nphi: 0.1\nprotocol: [{at: 5, collision.e: 0.8}]\n", "protocol needs run.duration");
   assert_refused("flow: couette\nphi: 0.1\nrun: {duration: 5}\n", "run.duration does not go with flow: couette");
   assert_refused("flow: usf\nphi: 0.3\ndsmc: {precision: float}\n", "allowed: one of double, single");
