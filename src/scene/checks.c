@@ -388,6 +388,33 @@ static bool is_ineffective(const gg_field *f, const gg_scene *scene, unsigned us
   return false;
 }
 
+/* The same of a key that the scene (change -1) or a change of its protocol gives: at no time until the next change of
+ * it. Changes of one time are one. */
+static bool never_matters(const gg_field *f, const gg_scene *s, int change, unsigned uses, char *text, size_t size)
+{
+  const int n = gg_scene_protocol_count(s, INFINITY);
+  const char *key = change < 0 ? f->key : s->protocol[change].key;
+  for (int k = change + 1; k <= n; k++) {
+    gg_scene now;
+    if (k > change + 1 && strcmp(s->protocol[k - 1].key, key) == 0) break;
+    if (k > 0 && k < n && s->protocol[k].at == s->protocol[k - 1].at) continue;
+    if (gg_scene_protocol_apply(s, k, &now, NULL) != GG_OK || !is_ineffective(f, &now, uses, text, size)) return false;
+  }
+  return true;
+}
+
+static void add_changes(group *groups, const gg_scene *s, unsigned uses)
+{
+  char reason[160], key[2 * GG_CHANGE_TEXT];
+  gg_field f;
+  for (int i = 0; i < gg_scene_protocol_count(s, INFINITY); i++) {
+    snprintf(key, sizeof key, "%s (protocol, at: %g)", s->protocol[i].key, s->protocol[i].at);
+    if (gg_scene_key_find(s->protocol[i].key, GG_MAX_SPECIES, &f) >= 0 &&
+        never_matters(&f, s, i, uses, reason, sizeof reason))
+      add_key(groups, reason, key);
+  }
+}
+
 /* Pairs of species that there are not: values given to them alone, unlike those of the rest. */
 static void add_pairs(group *groups, const gg_field *f, const gg_scene *scene)
 {
@@ -421,11 +448,12 @@ void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_string_l
     if (!gg_scene_is_given(scene, f->key)) continue;
     if (f->type == GG_FIELD_SPECIES)
       add_species(groups, scene, uses, &defaults);
-    else if (is_ineffective(f, scene, uses, reason, sizeof reason) && differs(f, scene, scene, &defaults, &defaults))
+    else if (never_matters(f, scene, -1, uses, reason, sizeof reason) && differs(f, scene, scene, &defaults, &defaults))
       add_key(groups, reason, f->key);
     else if (f->type == GG_FIELD_PAIRS)
       add_pairs(groups, f, scene);
   }
+  if (holds(GG_IF_FOLLOWED, scene, uses)) add_changes(groups, scene, uses);
   if (may_be_open(scene->flow) && scene->walls.top == GG_OPEN_TOP && walls_are_thermal(scene) &&
       scene->walls.temperature[0] != scene->walls.temperature[1])
     add_key(groups, "under an open top", "walls.temperature of the upper wall");

@@ -170,9 +170,37 @@ static void defaults_are_not_told(void **state)
   }
 }
 
+/* A change that has no effect until the next change of its key; and a key that has its effect after a change. */
+static void protocol(void **state)
+{
+  (void)state;
+#define FOLLOWED "flow: hss, phi: 0.1, thermostat: bath, run: {duration: 20}, protocol: "
+  assert_line("{" FOLLOWED "[{at: 5, noise_strength: 2}]}", BOTH,
+              "noise_strength (protocol, at: 5) has no effect but with thermostat: white_noise");
+  assert_line("{" FOLLOWED "[{at: 5, gaussian_rate: 2}]}", BOTH,
+              "gaussian_rate (protocol, at: 5) has no effect but with thermostat: gaussian in flow: hss");
+  assert_line("{" FOLLOWED "[{at: 5, collision.mu: 0.3}]}", BOTH,
+              "collision.mu (protocol, at: 5) has no effect while collision.beta is -1: smooth grains");
+  assert_line("{" FOLLOWED "[{at: 5, collision.speed: 2}]}", BOTH,
+              "collision.speed (protocol, at: 5) has no effect while collision.law is constant");
+  assert_line("{" FOLLOWED "[{at: 5, collision.speed: 2}, {at: 6, collision.law: viscoelastic}]}", BOTH, NULL);
+  assert_line("{" FOLLOWED "[{at: 5, collision.speed: 2}, {at: 6, collision.law: viscoelastic, collision.speed: 3}]}",
+              BOTH, "collision.speed (protocol, at: 5) has no effect while collision.law is constant");
+  assert_line("{" FOLLOWED "[{at: 5, thermostat: gaussian, gaussian_rate: 1}, {at: 6, bath.drag: 2}]}", BOTH,
+              "bath.drag (protocol, at: 6) has no effect but with thermostat: bath");
+  assert_line("{" FOLLOWED "[{at: 5, bath.drag: 2, thermostat: white_noise}]}", BOTH,
+              "bath.drag (protocol, at: 5) has no effect but with thermostat: bath");
+  assert_line("{noise_strength: 2, " FOLLOWED "[{at: 5, thermostat: white_noise}]}", BOTH, NULL);
+  assert_line("{" FOLLOWED "[{at: 5, bath.temperature: 2, collision.e: 0.8}]}", BOTH, NULL);
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(flows), cmocka_unit_test(engines), cmocka_unit_test(grains),
-                                     cmocka_unit_test(asked_errors), cmocka_unit_test(defaults_are_not_told)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(flows),
+                                     cmocka_unit_test(engines),
+                                     cmocka_unit_test(grains),
+                                     cmocka_unit_test(asked_errors),
+                                     cmocka_unit_test(defaults_are_not_told),
+                                     cmocka_unit_test(protocol)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
