@@ -188,8 +188,7 @@ class _Replicas:
     """Replicas of one engine, several at a time."""
 
     def __init__(self, scene, time, protocol, start):
-        self.scene, self.time, self.start = scene, time, start
-        self.protocol = sorted(protocol, key=lambda change: change[0])
+        self.scene, self.time, self.start, self.protocol = scene, time, start, protocol
         self.running, self.stopped = set(), False
 
     def run(self, n, threads):
@@ -246,8 +245,12 @@ def _checked_protocol(protocol, until):
             at, keys = float(at), dict(keys)
         except (TypeError, ValueError):
             raise BadInput(f"protocol: {change!r} is not allowed; allowed: (time, {{key: value, ...}})") from None
-        if not 0 <= at <= until:
-            raise BadInput(f"protocol: time {at:g} is not allowed; allowed: from 0 to until, {until:g}")
+        if not 0 < at < until:
+            raise BadInput(f"protocol: time {at:g} is not allowed; allowed: above 0 and below until, {until:g}")
+        if not keys:
+            raise BadInput(f"protocol: the change at {at:g} names no key; allowed: (time, {{key: value, ...}})")
+        if found and at < found[-1][0]:
+            raise BadInput(f"protocol: time {at:g} comes after {found[-1][0]:g}; give changes in the order of times")
         found.append((at, keys))
     return found
 
@@ -273,7 +276,8 @@ def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines:
     until        the last time, in the unit of results
     points       times, evenly spaced from 0
     replicas     of each engine, at least 2: bands and errors come from them
-    protocol     [(time, {"bath.temperature": 2, ...}), ...]: keys changed on the way, those of Simulation[...]
+    protocol     [(time, {"bath.temperature": 2, ...}), ...]: keys changed on the way, those of Simulation[...]; times
+                 in their order, between 0 and until
     start        {"temperature": T or [T_1, T_2, ...], "a2": a2}: in units of results. T of species are m <v^2>/3. a2,
                  from -0.3 to 0.5: a Maxwellian times 1 + b S_2, or 0 where that is below, of this a2. Without it the
                  scene's start

@@ -102,7 +102,9 @@ def test_pictures_and_tables():
     (dict(until=float("inf")), "until"), (dict(engines="lattice"), "lattice"), (dict(start={"a2": float("nan")}), "a2"),
     (dict(start={"a2": 0.6}), "a2"), (dict(start={"temperature": -1}), "temperature"),
     (dict(start={"temperature": [1, 2]}), "species"), (dict(protocol=[(2, {"bath.drag": 1})]), "time 2"),
-    (dict(flow="couette"), "walls"), (dict(start={"spin": 1}), "spin"), (dict(protocol=[3]), "protocol"), (dict(protocol=[(0, {"phi": 0.2})]), "phi")])
+    (dict(protocol=[(0, {"bath.drag": 1})]), "time 0"), (dict(protocol=[(1, {"bath.drag": 1})]), "time 1"),
+    (dict(protocol=[(0.5, {})]), "names no key"), (dict(protocol=[(0.5, {"bath.drag": 1}), (0.2, {"bath.drag": 2})]), "order of times"),
+    (dict(flow="couette"), "walls"), (dict(start={"spin": 1}), "spin"), (dict(protocol=[3]), "protocol"), (dict(protocol=[(0.5, {"phi": 0.2})]), "phi")])
 def test_refusals(wrong, word):
     with pytest.raises(gg.BadInput, match=word):
         gg.relax(gg.Scene(phi=0.1, flow="couette") if "flow" in wrong else bath(),
