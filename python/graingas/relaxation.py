@@ -11,7 +11,7 @@ from .errors import BadInput
 from .plot import COLOURS, DASHES, label, legend, new_axes, styled
 from .run import thread_count
 from .scene import as_scene
-from .simulation import Simulation
+from .simulation import Simulation, followed
 
 ENGINES = ("md", "dsmc")
 
@@ -296,6 +296,9 @@ def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines:
         raise BadInput(f"engines: {wrong[0] if wrong else engines!r} is not allowed; allowed: md, dsmc")
     if scene["flow"] in ("couette", "poiseuille", "chute", "fourier"):
         raise BadInput(f"relax: flow: {scene['flow']} has walls, and another temperature at each height")
+    given = followed(scene)
+    if given:
+        raise BadInput(f"relax: the scene gives {given}, which run() follows; leave it out, and give until and protocol")
     _check_start(start or {}, max(len(scene.species), 1))
     time, protocol = np.linspace(0, until, int(points)), _checked_protocol(protocol, until)
     courses = {}

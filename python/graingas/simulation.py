@@ -2,6 +2,7 @@
 """Simulations, step by step."""
 from __future__ import annotations
 
+import warnings
 from contextlib import contextmanager
 from typing import Any, Callable, Iterator, Optional
 
@@ -96,6 +97,12 @@ def ggpy_collision(context, event):
         watcher.call.fail(error)
 
 
+def followed(scene):
+    """Which keys of a followed gas a scene gives; "": none."""
+    given = [key for key, value in scene.given().items() if key in ("run.duration", "protocol") and value]
+    return " and ".join(given)
+
+
 class Simulation:
     """The grains of a scene, advanced step by step. Nothing is averaged: run() does that.
 
@@ -104,6 +111,8 @@ class Simulation:
                                      grains from outside, arrays of shape (n, 3) and (n,) as of `grains`; dsmc has no
                                      positions. Raises BadInput, which names two grains that overlap
 
+    It follows no protocol of the scene: change keys by sim[key] = value, or use run() or relax().
+
     The same scene, seed and stream give the same trajectory, bit for bit. Numbers have the units of results. One thread
     at a time may use a simulation: other uses, also from its own callback, raise Busy. Ctrl-C ends an advance within
     0.1 s and raises KeyboardInterrupt; the simulation can be advanced further.
@@ -111,6 +120,8 @@ class Simulation:
 
     def __init__(self, scene, stream: int = 0, *, positions=None, velocities=None, spins=None, species=None):
         scene = as_scene(scene).copy()
+        if followed(scene):
+            warnings.warn(f"{followed(scene)} of the scene: no effect on a Simulation; run() follows it", stacklevel=2)
         made = ffi.new("gg_simulation **")
         grains, kept, n = grains_from(None, position=positions, velocity=velocities, spin=spins, species=species)
         with scene.held() as pointer:

@@ -3,6 +3,7 @@
 import os
 import signal
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -109,6 +110,19 @@ def test_refusals(wrong, word):
     with pytest.raises(gg.BadInput, match=word):
         gg.relax(gg.Scene(phi=0.1, flow="couette") if "flow" in wrong else bath(),
                  **{"until": 1, "points": 2, "replicas": 2, **{k: v for k, v in wrong.items() if k != "flow"}})
+
+
+def test_followed_scenes():
+    """A scene's own duration and protocol are those of run(): no call leaves them out in silence."""
+    scene = bath()
+    scene["run.duration"], scene["protocol"] = 4, [{"at": 1, "bath.temperature": 2}]
+    with pytest.raises(gg.BadInput, match="run.duration and protocol, which run"):
+        gg.relax(scene, 4, points=2, replicas=2)
+    with pytest.warns(UserWarning, match="run.duration and protocol of the scene: no effect on a Simulation"):
+        gg.Simulation(scene)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        gg.Simulation(bath())
 
 
 def test_interrupted():
