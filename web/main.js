@@ -8,7 +8,7 @@ import { again, change, follow, now, openWorkers, ownScene, page, reverse, start
 import { ownLanguage, t } from "./i18n.js";
 import { lessonOf } from "./lessons.js";
 import { linkOf, linkOfPoints, pointsIn, readLink, tidyQuestion } from "./link.js";
-import { clearKept, gather, keepPoint, pointsCsv, pointsText, pointsTexts, tidyName } from "./points.js";
+import { clearKept, forgetStudent, gather, keepPoint, pointsCsv, pointsText, pointsTexts, tidyName } from "./points.js";
 import { qrSvg } from "./qr.js";
 import { boxPicture, curvesCsv, curveSvg, fileName, save } from "./save.js";
 import { begin, describe, drawFrame, parts, say, show } from "./show.js";
@@ -172,12 +172,14 @@ function listenForTaking() {
   for (const [id, kind] of [["mine", "change"], ["me", "input"]]) on(id, showLink, kind);
   on("class", () => {
     byId("gathering-said").textContent = "";
+    listStudents();
     byId("gathering").showModal();
   });
   on("take-links", () => {
     const n = gather(pointsIn(byId("links").value));
     byId("gathering-said").textContent = t(n ? "gathered" : "noPointsLink", { n });
     if (n) byId("links").value = "";
+    listStudents();
   });
   on("open-tables", () => byId("file").click());
   on("close-gathering", () => byId("gathering").close());
@@ -191,6 +193,22 @@ function listenForTaking() {
       byId("link-said").textContent = t("copyYourself");
     }
   });
+}
+/* A button for each student whose points are here: it takes them out. */
+function listStudents() {
+  const names = [...new Set(store.state.points.map((one) => one.from).filter(Boolean))];
+  byId("students-row").hidden = !names.length;
+  byId("students").replaceChildren(
+    ...names.map((from) => {
+      const button = document.createElement("button");
+      Object.assign(button, { type: "button", textContent: from });
+      button.addEventListener("click", () => {
+        forgetStudent(from);
+        listStudents();
+      });
+      return button;
+    }),
+  );
 }
 /* The name that stands with one's own points; nothing without one. */
 const ownName = (before) => {

@@ -153,6 +153,17 @@ export function pointsTexts(state, name) {
   const own = pointsText(state, name);
   return own ? [own] : [...new Set(state.points.map((one) => one.from))].map((from) => pointsText(state, from, from)).filter(Boolean);
 }
+/* A point that a link or a table may give: within its slider's range, numbers that a measurement can have. One outside
+ * would be all that the diagram shows. */
+const LARGEST = 1e6;
+function tidyPoint(point) {
+  const row = CONTROLS.find(({ name, max }) => name === point.slider && max !== undefined),
+    sane = ([m, dm]) => Math.abs(m) <= LARGEST && dm >= 0 && dm <= LARGEST,
+    of = (part) => Object.fromEntries(Object.entries(part).filter(([, pair]) => sane(pair)));
+  return { ...point, x: row && point.x >= row.min && point.x <= row.max ? point.x : NaN, md: of(point.md), dsmc: of(point.dsmc) };
+}
+const isPoint = (one) => Number.isFinite(one.x) && ENGINES.some((engine) => Object.keys(one[engine]).length);
+
 export function pointsFrom(text) {
   const [name, slider, quantity, ...rest] = String(text).slice(0, 5000).split(";"),
     from = tidyName(name || "");
@@ -161,10 +172,10 @@ export function pointsFrom(text) {
     .slice(0, MOST.points)
     .map((one) => {
       const [x, ...numbers] = one.split(",").map((part) => (part.trim() ? Number(part) : NaN)),
-        pair = (at) => (Number.isFinite(numbers[at]) ? { [quantity]: [numbers[at], numbers[at + 1] >= 0 ? numbers[at + 1] : 0] } : {});
-      return { slider, x, quantity, seed: "", from, md: pair(0), dsmc: pair(2) };
+        pair = (at) => ({ [quantity]: [numbers[at], numbers[at + 1] >= 0 ? numbers[at + 1] : 0] });
+      return tidyPoint({ slider, x, quantity, seed: "", from, md: pair(0), dsmc: pair(2) });
     })
-    .filter((one) => Number.isFinite(one.x) && (one.md[quantity] || one.dsmc[quantity]));
+    .filter(isPoint);
 }
 
 /* This device keeps what it was given by links, one after another, until somebody clears the diagram. */
@@ -184,6 +195,11 @@ function keep(texts) {
   }
 }
 export const clearKept = () => keep([]);
+/* One student's points go, from the diagram and from this device. */
+export function forgetStudent(from) {
+  keep(kept().filter((one) => !pointsFrom(one).some((point) => point.from === from)));
+  store.dispatch("forgetStudent", { from });
+}
 /* The points of these texts, and those of before; how many are new. */
 export function gather(texts) {
   const good = texts.filter((one) => pointsFrom(one).length),
@@ -221,7 +237,7 @@ export function pointsOf(text, file) {
         const at = (point[found[1]][found[2]] = point[found[1]][found[2]] || [NaN, 0]);
         at[found[3] ? 1 : 0] = Number(row[i]);
       });
-      return point;
+      return tidyPoint(point);
     })
-    .filter((one) => Number.isFinite(one.x));
+    .filter(isPoint);
 }

@@ -98,6 +98,7 @@ const ACTIONS = {
       given = new Set(points.map(whose));
     return { ...state, points: [...state.points.filter((one) => !one.from || !given.has(whose(one))), ...points] };
   },
+  forgetStudent: (state, { from }) => ({ ...state, points: state.points.filter((one) => one.from !== from) }),
   forget: (state) => ({ ...state, points: [], ghosts: [] }),
   line: (state, { key, line }) => ({ ...state, lines: { ...state.lines, [key]: line } }),
 };

@@ -226,6 +226,13 @@ const tests = {
     ]);
     assert.deepStrictEqual(m.link.pointsIn(`x.html#lesson=haff&points=${encodeURIComponent(text)} nonsense`), [text]);
     for (const bad of ["", ";e;N1;1,2,3", "Ann;e;nothing;1,2,3", "Ann;constructor;N1;1,2,3", "Ann;seed;N1;1,2,3", "Ann;e;N1;x,2,3", "Ann;e;N1;1,,", "Ann;e;__proto__;1,2,3"]) assert.deepStrictEqual(pointsFrom(bad), [], bad);
+    /* what no measurement gives would be all that the diagram shows */
+    for (const bad of ["1e300,1e300,1", "0.9,1e300,1", "0.9,1e999,1", "-0.1,1,1", "1.1,1,1", "0.9,-1e9,1", "Infinity,1,1", "0.9,0.5,1e999", "0.9,0.5,1e300"])
+      assert.deepStrictEqual([pointsFrom(`Eve;e;N1;${bad}`), m.points.pointsOf(`slider,value,seed,md_N1,md_N1_error\ne,${bad.replace(",", ",1,")}\n`, "Eve.csv")], [[], []], bad);
+    assert.deepStrictEqual(pointsFrom("Eve;e;N1;0.9,1e999,1,0.5,0.1").map((one) => [one.md, one.dsmc]), [[{}, { N1: [0.5, 0.1] }]]);
+    const of = (from) => pointsFrom(`${from};e;N1;0.9,1,0.1`),
+      both = reduce(reduce(m.state.initial, "gather", { points: of("Ann") }), "gather", { points: of("Eve") });
+    assert.deepStrictEqual(reduce(both, "forgetStudent", { from: "Eve" }).points.map((one) => one.from), ["Ann"]);
     assert.strictEqual(pointsFrom(`Ann;e;N1;${"1,2,3;".repeat(1000)}`).length, 60);
     assert.strictEqual(tidyName("a".repeat(99)).length, 24);
   },
