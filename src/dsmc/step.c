@@ -55,11 +55,12 @@ static void collide(gg_dsmc *d, double dt, double strain, double span)
   gg_dsmc_collide(d, 0.5 * dt, strain + 0.5 * span, 0.5 * span, GG_DSMC_BACKWARD);
 }
 
-/* The step to take with `left` time and `wanted` collisions to go: a step that the scene asked for is taken whole. */
+/* The step to take with `left` time and `wanted` collisions to go: a step that the scene asked for is taken whole,
+ * unless the gas is followed in time. */
 static double next_length(const gg_dsmc *d, double left, double wanted)
 {
   double dt = d->now.step.length;
-  if (d->model.time_step > 0) return dt;
+  if (d->model.time_step > 0) return d->model.cuts_steps ? fmin(dt, left) : dt;
   double rate = 0.5 * (double)d->model.n * gg_common_model_collision_rate(&d->model, d->now.temperature);
   return fmin(fmin(dt, left), fmax(wanted / rate, 1e-3 * dt));
 }

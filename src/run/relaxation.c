@@ -70,20 +70,9 @@ gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, 
   return status;
 }
 
-static double value_of(const gg_replicas *all, const gg_function *f, size_t offset, int replica, size_t row)
-{
-  return gg_function_value(*f, gg_series_row(&all->replica[replica].series, row) + offset, &all->model);
-}
-
-/* Monte Carlo ends within a step behind the time: between two rows by a straight line. */
 static double value_at(const gg_replicas *all, const gg_function *f, size_t offset, int replica, size_t row)
 {
-  const gg_series *s = &all->replica[replica].series;
-  const double value = value_of(all, f, offset, replica, row), time = gg_run_relaxation_time(&all->scene, row);
-  if (row == 0 || !(s->end_time[row] > time) || !(s->end_time[row - 1] < time)) return value;
-  const double before = value_of(all, f, offset, replica, row - 1);
-  const double late = (s->end_time[row] - time) / (s->end_time[row] - s->end_time[row - 1]);
-  return isfinite(before) ? value + (before - value) * late : value;
+  return gg_function_value(*f, gg_series_row(&all->replica[replica].series, row) + offset, &all->model);
 }
 
 static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, size_t offset, size_t row)

@@ -53,6 +53,15 @@ def test_exact_course():
         check(error[1:].max() < 0.02 * T.max(), error.max())
 
 
+def test_given_step():
+    """A step of Monte Carlo that is longer than the time from one sample to the next ends with it."""
+    done = run("run", "scene.yaml", "--quiet", "--output", "s.h5", "--set", "dsmc.time_step=1", scene=ELASTIC % "dsmc")
+    check(done.code == 0, done.err)
+    t, T, error = curve("s.h5", "temperature_in_time")
+    z = (T[1:] - exact(t[1:])) / error[1:]
+    check(np.abs(z).max() < 6 and (z ** 2).mean() < 3, np.abs(z).max(), (z ** 2).mean())
+
+
 def test_end():
     """Values are those at the end, and theories those of the last bath."""
     scene = (ELASTIC % "md").replace("{e: 1}", "{e: 0.8}")
