@@ -13,6 +13,7 @@
 #include "files/h5/result_file.h"
 #include "files/h5/result_restore.h"
 #include "files/result_document.h"
+#include "run/relaxation.h"
 #include "run/z_scores.h"
 #include "scene/fields.h"
 #include "theory/haff1983.h"
@@ -207,7 +208,8 @@ gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char
   const gg_result *against = has(md, q) ? md : has(dsmc, q) ? dsmc : NULL;
   double said = c->theory[i].applies ? c->theory[i].answer.value[q] : NAN;
   if (value) *value = isfinite(said) ? said : NAN;
-  if (deviation) *deviation = against && isfinite(said) ? gg_run_deviation(&against->value[q], said) : NAN;
+  const bool told = against && isfinite(said) && !gg_run_is_followed(&c->scene);
+  if (deviation) *deviation = told ? gg_run_deviation(&against->value[q], said) : NAN;
   return GG_OK;
 }
 

@@ -39,6 +39,13 @@ static void describe_averaging(const gg_result_info *a, char *text, size_t size)
   snprintf(text, size, "; %s collisions averaged over in %s of processor time%s", collisions, seconds, pace);
 }
 
+bool gg_cli_is_followed(const gg_scene *scene)
+{
+  char duration[40] = "none";
+  gg_scene_get(scene, "run.duration", duration, sizeof duration, NULL);
+  return strcmp(duration, "none") != 0;
+}
+
 /* "md    1000 grains; 2.1 M collisions averaged over in ...", and the verdict */
 void gg_cli_print_effort(const gg_result *r)
 {

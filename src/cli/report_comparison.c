@@ -219,7 +219,8 @@ static void print_legend(const gg_comparison *c, int n_theories)
 {
   gg_result_info against;
   char deviation[80] = "";
-  if (n_theories && gg_result_get_info(reference(c), &against, NULL) == GG_OK)
+  if (n_theories && !gg_cli_is_followed(gg_comparison_scene(c)) &&
+      gg_result_get_info(reference(c), &against, NULL) == GG_OK)
     snprintf(deviation, sizeof deviation, "; %%: deviation of a theory from %s", against.engine);
   printf("\n");
   gg_cli_print_paragraph(stdout, 0, "(..): standard error of the last digits%s%s",

@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/curve_table.h"
+#include "run/relaxation.h"
 #include "run/z_scores.h"
 #include "scene/fields.h"
 
@@ -292,14 +293,15 @@ json_t *gg_files_theory_document(const gg_scene *scene, const gg_comparison *c)
   return gg_base_json_end(before, document);
 }
 
-/* theory/engine - 1 of every theory with an answer; left out where the engine has no mean. */
+/* theory/engine - 1 of every theory with an answer; left out where the engine has no mean, and
+ * of a gas that is followed in time. */
 static void put_deviations(json_t *json, const gg_comparison *c, int k, const gg_quantity_row *row, json_t *warnings)
 {
   const gg_result *engine = c->by_engine[k];
   json_t *all = json_object();
   char key[64];
   bool small = false;
-  for (int i = 0; i < c->n_theories; i++) {
+  for (int i = 0; i < c->n_theories && !gg_run_is_followed(&c->scene); i++) {
     double value = c->theory[i].answer.value[row->quantity];
     if (!c->theory[i].applies || !isfinite(value)) continue;
     double deviation = gg_run_deviation(&engine->value[row->quantity], value);

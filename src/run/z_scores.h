@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where molecular dynamics, the Enskog equation and theories may differ, and why: what a comparison is to remark on. */
+/* Where molecular dynamics, the Enskog equation and theories may differ, and why: what a comparison is to remark on. Of
+ * a gas that is followed in time that is the z-score of the engines alone. */
 #ifndef GG_Z_SCORES_H
 #define GG_Z_SCORES_H
 

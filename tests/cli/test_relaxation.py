@@ -75,6 +75,16 @@ def test_end():
         theory = both["theory"]["enskog_hermite"]["temperature"]["mean"]
         check(abs(found["mean"] - theory) < 5 * found["stderr"] + 0.06 * theory, found, theory)
         check("not a steady mean" not in done.out)
+    told = [row for row in both["comparison"] if any(key.startswith("enskog") for key in row)]
+    check(not told and "differs from Enskog" not in done.out and "no known cause" not in done.out, told)
+
+
+def test_compared():
+    """On its way a gas is compared with the other engine, not with the state that theories describe."""
+    scene = (ELASTIC % "md").replace("duration: 10", "duration: 8").replace("{e: 1}", "{e: 0.8}")
+    done = run("compare", "scene.yaml", "--quiet", scene=scene)
+    check(done.code == 0, done.err)
+    check(not any(words in done.out for words in ("Enskog's equation", "cause", "why:", "%")), done.out)
 
 
 def test_theory():
