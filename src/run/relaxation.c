@@ -96,7 +96,8 @@ gg_mean gg_run_relaxation_end(const gg_replicas *all, gg_quantity q)
   return over_replicas(all, &f, r->offset[k], r->series.n - 1);
 }
 
-/* What kinetic theory has at each of the times, from the temperatures of the start on. */
+/* What kinetic theory has at each of the times, from the temperatures of the start on; NaN after a change to a gas that
+ * it has nothing for. */
 static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *err)
 {
   const gg_scene *s = &all->scene;
@@ -111,6 +112,7 @@ static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *er
     at[k] = x;
     if (k > 0 && changes == gg_scene_protocol_count(s, user_time(s, k))) continue;
     status = gg_run_relaxation_model(s, &all->model, k, model, &changes, err);
+    if (status == GG_OK && !gg_theory_relaxation_name(model)) x = (gg_relaxing){NAN, NAN, NAN};
   }
   free(model);
   return status;

@@ -110,6 +110,18 @@ def test_theory():
     check(T[-1] < 0.1 * T[0] and np.abs(T / haff - 1).max() < 0.02, np.abs(T / haff - 1).max())
 
 
+def test_theory_ends():
+    """Where the protocol goes to a law of restitution, theory with a constant e has nothing more to say."""
+    scene = ("{flow: hcs, engine: dsmc, phi: 0.1, collision: {e: 0.9}, dsmc: {particles: 1000}, "
+             "run: {duration: 20, replicas: 2}, protocol: [{at: 10, collision.law: viscoelastic}]}")
+    done = run("run", "scene.yaml", "--quiet", "--output", "l.h5", scene=scene)
+    check(done.code == 0, done.err)
+    with h5py.File("l.h5") as file:
+        group = file["graingas/curves/temperature_in_time"]
+        t, theory = (np.array(group[k]) for k in ("x", "reference"))
+    check(np.array_equal(np.isfinite(theory), t <= 10), t, theory)
+
+
 def written(path):
     """When; 0: it is not there."""
     return os.stat(path).st_mtime_ns if os.path.exists(path) else 0
