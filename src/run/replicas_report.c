@@ -147,7 +147,8 @@ static void warn_if_structured(gg_result *result)
     gg_run_result_warn(result, "%s; means are those of this state", what);
     return;
   }
-  if (result->model.shear_rate != 0 || gg_flow_is_walled(result->model.flow)) return;
+  const bool at_one_instant = gg_run_is_followed(&result->scene);
+  if (result->model.shear_rate != 0 || gg_flow_is_walled(result->model.flow) || at_one_instant) return;
   for (gg_quantity q = gg_common_quantity_next(-1, GG_STRESS_DIFFERENCE); q < GG_N_QUANTITIES;
        q = gg_common_quantity_next(q, GG_STRESS_DIFFERENCE)) {
     const gg_estimate *e = &result->value[q];

@@ -122,6 +122,14 @@ def test_theory_ends():
     check(np.array_equal(np.isfinite(theory), t <= 10), t, theory)
 
 
+def test_two_replicas():
+    """Two stresses at one instant, close to each other by chance, are no inhomogeneous gas."""
+    scene = "{flow: hcs, engine: md, phi: 0.05, particles: 100, collision: {e: 0.9}, run: {duration: 10, replicas: 2}}"
+    for seed in range(1, 9):
+        done = run("run", "scene.yaml", "--quiet", "--set", f"run.seed={seed}", scene=scene)
+        check(done.code == 0 and "not homogeneous" not in done.err, seed, done.err)
+
+
 def written(path):
     """When; 0: it is not there."""
     return os.stat(path).st_mtime_ns if os.path.exists(path) else 0
