@@ -5,6 +5,7 @@
 
 #include "common/linear_response.h"
 #include "measure/wall_modes.h"
+#include "run/relaxation.h"
 #include "run/replicas.h"
 
 static void describe_trend(const gg_convergence *c, double window, char *text, size_t size)
@@ -45,7 +46,10 @@ void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_converge
   result->steadiness = GG_NOT_STEADY;
   if (all->scene.run.duration > 0) {
     result->steadiness = GG_HEATING;
-    snprintf(text, size, "followed in time, %d replica%s: values are those at the end", all->n, all->n > 1 ? "s" : "");
+    char when[40] = "the end";
+    if (all->state.due < all->criteria.most)
+      snprintf(when, sizeof when, "time %.3g", gg_run_relaxation_time(&all->scene, all->state.due));
+    snprintf(text, size, "followed in time, %d replica%s: values are those at %s", all->n, all->n > 1 ? "s" : "", when);
   } else if (!all->model.steady && !all->model.linear_response) {
     result->steadiness = GG_HEATING;
     snprintf(text, size, "no steady state exists: collisions lose no energy and shear heats the gas");

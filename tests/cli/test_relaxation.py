@@ -130,6 +130,14 @@ def test_two_replicas():
         check(done.code == 0 and "not homogeneous" not in done.err, seed, done.err)
 
 
+def test_out_of_time():
+    """What is short of run.duration says so, and at which time the values are."""
+    scene = (ELASTIC % "md").replace("duration: 10", "duration: 1e9").replace("replicas: 16", "replicas: 1, time_limit: 1")
+    done = run("run", "scene.yaml", "--quiet", "--output", "o.h5", "--set", "particles=100", scene=scene)
+    check(done.code == 1 and "short of run.duration" in done.err and "run.collisions" not in done.err, done.code, done.err)
+    check("at the end" not in done.out and "values are those at time" in done.out, done.out)
+
+
 def written(path):
     """When; 0: it is not there."""
     return os.stat(path).st_mtime_ns if os.path.exists(path) else 0
