@@ -40,6 +40,7 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
   const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s);
   double row_length = row_length_of(all, s);
+  const bool followed = gg_run_is_followed(&all->scene);
   for (int i = 0; i < result->rows.n; i++) {
     const gg_quantity q = result->rows.row[i].quantity;
     gg_estimate *e = &result->value[q];
@@ -51,7 +52,7 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
       continue;
     }
     gg_mean m = {.mean = NAN};
-    if (gg_run_is_followed(&all->scene))
+    if (followed)
       m = gg_run_relaxation_end(all, q);
     else if (all->state.averaging)
       GG_TRY(gg_run_replicas_mean(all, q, &m, err));
@@ -61,8 +62,8 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
     }
     e->mean = m.mean, e->error = m.error;
     e->correlation_time = m.correlation_rows * row_length;
-    e->samples = rows * s->per_row * (uint64_t)all->n;
-    if (!isfinite(m.error) || gg_run_is_followed(&all->scene)) continue;
+    e->samples = (followed ? 1 : rows * s->per_row) * (uint64_t)all->n; /* at the end, of each replica one */
+    if (!isfinite(m.error) || followed) continue;
     result->correlations.quantity[result->correlations.n++] = q;
   }
   return gg_run_replicas_correlations(all, result, err);

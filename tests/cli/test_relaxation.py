@@ -72,6 +72,7 @@ def test_end():
         found = both[engine]["results"]["temperature"]
         t, T, error = curve("c.h5", "temperature_in_time", engine)
         check(abs(found["mean"] / T[-1] - 1) < 1e-12 and abs(found["stderr"] / error[-1] - 1) < 1e-9, found)
+        check(found["samples"] == 16, found)
         theory = both["theory"]["enskog_hermite"]["temperature"]["mean"]
         check(abs(found["mean"] - theory) < 5 * found["stderr"] + 0.06 * theory, found, theory)
         check("not a steady mean" not in done.out)
