@@ -121,7 +121,7 @@ static void print_verdict(const gg_result *r)
   const char *warning;
   if (gg_result_get_info(r, &about, NULL) != GG_OK) return;
   printf("\n");
-  gg_cli_print_paragraph(stdout, 2, "%s: %s: %s", about.engine, about.steady ? "steady" : "not steady", about.verdict);
+  gg_cli_print_paragraph(stdout, 2, "%s: %s%s", about.engine, gg_cli_steadiness(r), about.verdict);
   for (size_t i = 0; (warning = gg_result_warning(r, i)); i++) print_line(NULL, warning);
 }
 

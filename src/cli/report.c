@@ -46,6 +46,13 @@ bool gg_cli_is_followed(const gg_scene *scene)
   return strcmp(duration, "none") != 0;
 }
 
+const char *gg_cli_steadiness(const gg_result *r)
+{
+  gg_result_info about;
+  if (gg_cli_is_followed(gg_result_scene(r)) || gg_result_get_info(r, &about, NULL) != GG_OK) return "";
+  return about.steady ? "steady: " : "not steady: ";
+}
+
 /* "md    1000 grains; 2.1 M collisions averaged over in ...", and the verdict */
 void gg_cli_print_effort(const gg_result *r)
 {
@@ -53,9 +60,9 @@ void gg_cli_print_effort(const gg_result *r)
   gg_result_info a;
   if (gg_result_get_info(r, &a, NULL) != GG_OK) return;
   describe_averaging(&a, averaged, sizeof averaged);
-  gg_cli_print_paragraph(stdout, 6, "%-5s %ld grains%s%s%s\n%s: %s", a.engine, (long)a.grains,
+  gg_cli_print_paragraph(stdout, 6, "%-5s %ld grains%s%s%s\n%s%s", a.engine, (long)a.grains,
                          a.grains_chosen ? ", " : "", a.grains_chosen ? a.grains_chosen : "", averaged,
-                         a.steady ? "steady" : "not steady", a.verdict);
+                         gg_cli_steadiness(r), a.verdict);
 }
 
 void gg_cli_print_warnings(const gg_result *r, const char *reported)

@@ -15,7 +15,8 @@ void gg_cli_print_theories(const gg_comparison *theories, bool all);
 /* report.c, for both: title; effort and steadiness of an engine, then its warnings; numbers derived from the curves of
  * one result or two, nothing if there are none. */
 void gg_cli_print_head(const gg_scene *scene);
-bool gg_cli_is_followed(const gg_scene *scene); /* has it run.duration? */
+bool gg_cli_is_followed(const gg_scene *scene);         /* has it run.duration? */
+const char *gg_cli_steadiness(const gg_result *result); /* before the verdict; "" of a gas that is followed in time */
 void gg_cli_print_effort(const gg_result *result);
 void gg_cli_print_warnings(const gg_result *result, const char *reported);
 void gg_cli_print_numbers(const gg_result *one, const gg_result *two, bool all);

@@ -73,6 +73,8 @@ def test_end():
         t, T, error = curve("c.h5", "temperature_in_time", engine)
         check(abs(found["mean"] / T[-1] - 1) < 1e-12 and abs(found["stderr"] / error[-1] - 1) < 1e-9, found)
         check(found["samples"] == 16, found)
+        with h5py.File("c.h5") as file:
+            check(file[f"graingas/{engine}/verdict"][()] in (b"followed", "followed"))
         theory = both["theory"]["enskog_hermite"]["temperature"]["mean"]
         check(abs(found["mean"] - theory) < 5 * found["stderr"] + 0.06 * theory, found, theory)
         check("not a steady mean" not in done.out)
@@ -85,7 +87,8 @@ def test_compared():
     scene = (ELASTIC % "md").replace("duration: 10", "duration: 8").replace("{e: 1}", "{e: 0.8}")
     done = run("compare", "scene.yaml", "--quiet", scene=scene)
     check(done.code == 0, done.err)
-    check(not any(words in done.out for words in ("Enskog's equation", "cause", "why:", "%")), done.out)
+    words = "Enskog's equation", "cause", "why:", "%", "steady"
+    check("followed in time" in done.out and not any(word in done.out for word in words), done.out)
 
 
 def test_theory():
