@@ -313,9 +313,14 @@ static double history_rotational(const double *a, const gg_model *m)
 {
   return history_temperature(a, m) * temperature_ratio(a, m);
 }
+static double history_partial(const double *a, const gg_model *m, int i)
+{
+  return history_temperature(a, m) * partial_temperature(a, m, i) / temperature(a, m);
+}
 
 const gg_derived gg_measure_rheology_history[] = {
     {GG_Q_TEMPERATURE, .of = history_temperature},
     {GG_Q_ROTATIONAL_TEMPERATURE, .of = history_rotational},
+    {GG_Q_PARTIAL_TEMPERATURE, .each = history_partial},
     GG_DERIVED_END,
 };

@@ -72,10 +72,11 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
 bool gg_run_replica_find_history(const gg_replica *r, gg_quantity q, gg_function *f)
 {
   const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
-  if (!o || !o->history ||
-      gg_common_model_missing(&r->model, gg_common_quantity_mask(q) & ~(unsigned)GG_NEEDS_SCALE_SHOWN))
-    return false;
-  return gg_measure_derived_find(o->history, q, f) || gg_measure_derived_find(o->derived, q, f);
+  if (!o || !o->history) return false;
+  const bool decays = gg_measure_derived_find(o->history, q, f);
+  const unsigned lasting = GG_NEEDS_SCALE_SHOWN | (decays ? GG_NEEDS_SCALE : 0);
+  if (gg_common_model_missing(&r->model, gg_common_quantity_mask(q) & ~lasting)) return false;
+  return decays || gg_measure_derived_find(o->derived, q, f);
 }
 
 static gg_status report_history(const gg_replicas *all, gg_result *result, gg_error *err)

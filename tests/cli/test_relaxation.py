@@ -142,6 +142,18 @@ def test_out_of_time():
     check("at the end" not in done.out and "values are those at time" in done.out, done.out)
 
 
+def test_cooling_mixture():
+    """Temperatures of species decay with that of all grains, which is their mean."""
+    scene = ("{flow: hcs, engine: %s, phi: 0.1, particles: 200, collision: {e: 0.7}, dsmc: {particles: 1000}, "
+             "species: [{fraction: 0.5}, {fraction: 0.5, mass: 10}], run: {duration: 100, replicas: 4}}")
+    for engine in "md", "dsmc":
+        done = run("run", "scene.yaml", "--quiet", "--output", "m.h5", scene=scene % engine)
+        check(done.code == 0, done.err)
+        T, light, heavy = (curve("m.h5", name + "_in_time")[1] for name in ("temperature", "temperature_1", "temperature_2"))
+        check(T[-1] < T[0] / 16 and np.allclose((light + heavy) / 2, T, rtol=1e-6), engine, T[-1], light[-1], heavy[-1])
+        check((heavy[20:] > light[20:]).all(), engine)
+
+
 def written(path):
     """When; 0: it is not there."""
     return os.stat(path).st_mtime_ns if os.path.exists(path) else 0
