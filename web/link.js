@@ -75,7 +75,7 @@ export function linkOfPoints(state, texts) {
   return `#${readable(to)}`;
 }
 /* What may stand in an address as it is, so that people can read it. */
-const readable = (to) => to.toString().replace(/%(3A|3B|2C|7B|7D|5B|5D|3D|3F)/g, (code) => decodeURIComponent(code));
+const readable = (to) => to.toString().replace(/%(3A|3B|2C|7B|7D|5B|5D|3D|3F|7E)/g, (code) => decodeURIComponent(code));
 
 /* Of the live gas; while a result is played, of the one that waits. */
 export function linkOf(state, own = ownLanguage()) {

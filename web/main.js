@@ -8,7 +8,7 @@ import { again, change, follow, now, openWorkers, ownScene, page, reverse, start
 import { ownLanguage, t } from "./i18n.js";
 import { lessonOf } from "./lessons.js";
 import { linkOf, linkOfPoints, pointsIn, readLink, tidyQuestion } from "./link.js";
-import { clearKept, forgetStudent, gather, keepPoint, pointsCsv, pointsText, pointsTexts, tidyName } from "./points.js";
+import { clearKept, forgetStudent, gather, keepPoint, pointsCsv, pointsText, pointsTexts, shownName, studentsOf, tidyName } from "./points.js";
 import { qrSvg } from "./qr.js";
 import { boxPicture, curvesCsv, curveSvg, fileName, save } from "./save.js";
 import { begin, describe, drawFrame, parts, say, show } from "./show.js";
@@ -196,12 +196,12 @@ function listenForTaking() {
 }
 /* A button for each student whose points are here: it takes them out. */
 function listStudents() {
-  const names = [...new Set(store.state.points.map((one) => one.from).filter(Boolean))];
+  const names = studentsOf(store.state.points);
   byId("students-row").hidden = !names.length;
   byId("students").replaceChildren(
     ...names.map((from) => {
       const button = document.createElement("button");
-      Object.assign(button, { type: "button", textContent: from });
+      Object.assign(button, { type: "button", textContent: shownName(from, names) });
       button.addEventListener("click", () => {
         forgetStudent(from);
         listStudents();

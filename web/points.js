@@ -91,7 +91,7 @@ export function showPoints(chart, state) {
   const family = familyOf(gas, row),
     shown = points.filter((one) => one.slider === row.name && (!one.family || one.family === family)),
     mine = shown.filter((one) => !one.from);
-  series.push(...ofTheClass(shown, quantity));
+  series.push(...ofTheClass(shown, quantity, studentsOf(points)));
   for (const [engine, colour, shape] of [
     ["md", MD, "circle"],
     ["dsmc", DSMC, "square"],
@@ -118,12 +118,12 @@ const measuredOf = (some, engine, quantity) => {
   return { points: true, x: found.map((one) => one.x), y: found.map((one) => one[engine][quantity][0]), error: found.map((one) => one[engine][quantity][1]) };
 };
 /* Of each student a mark of its own, full of the grains, hollow of the dice; those of one x stand side by side. */
-function ofTheClass(points, quantity) {
-  const names = [...new Set(points.map((one) => one.from).filter(Boolean))];
+function ofTheClass(points, quantity, all) {
+  const names = studentsOf(points);
   return names.flatMap((from, i) =>
     ENGINES.map((engine) => ({
       name: `${engine} of ${from}`,
-      label: engine === "md" ? from : `${from} (${t(engine)})`,
+      label: shownName(from, all) + (engine === "md" ? "" : ` (${t(engine)})`),
       colour: CLASS[i % CLASS.length],
       shape: CLOSED[i % CLOSED.length],
       hollow: engine === "dsmc",
@@ -135,23 +135,55 @@ function ofTheClass(points, quantity) {
 }
 
 /* ---- As part of a link: a student's name, slider, quantity; then of each point its x, mean and error of the grains, mean
- * and error of the dice: Ann;e;cooling_rate;0.9,0.122,0.003,0.125,0.001;... Nothing of it is believed when it is read. */
+ * and error of the dice: Ann~k3f9x2;e;cooling_rate;0.9,0.122,0.003,0.125,0.001;... Nothing of it is believed when it is read. */
 
 const MOST = { names: 200, points: 60, name: 24 };
 /* What people are called, and no sign that tables or pages take for more. */
 export const tidyName = (text) => text.replace(/[^\p{L}\p{N} ._-]/gu, " ").replace(/\s+/g, " ").replace(/^[ .-]+| $/g, "").slice(0, MOST.name);
+
+/* Whose points: a name and, of links, the device that made them, Ann~k3f9x2: two students may have one name. */
+const tidyFrom = (text) => {
+  const [, name, device] = /^(.*?)(~[0-9a-z]{1,8})?$/s.exec(text);
+  return tidyName(name) && tidyName(name) + (device || "");
+};
+/* What people read: the second of a name is "Ann 2". `all`: everybody who has points. */
+export function shownName(from, all) {
+  const nameOf = (one) => one.split("~")[0],
+    same = all.filter((one) => nameOf(one) === nameOf(from)),
+    i = same.indexOf(from);
+  return i > 0 ? `${nameOf(from)} ${i + 1}` : nameOf(from);
+}
+export const studentsOf = (points) => [...new Set(points.map((one) => one.from).filter(Boolean))];
+/* This device's mark: kept, so that a student who shares again replaces what was given before. */
+const DEVICE = "graingas-device";
+let device = "";
+function ownDevice() {
+  try {
+    device ||= /^[0-9a-z]{1,8}$/.exec(localStorage.getItem(DEVICE) || "")?.[0] || "";
+  } catch (e) {
+    /* a browser that keeps nothing: a mark for this visit */
+  }
+  if (device) return device;
+  device = Math.floor(Math.random() * 36 ** 6).toString(36);
+  try {
+    localStorage.setItem(DEVICE, device);
+  } catch (e) {
+    /* the same */
+  }
+  return device;
+}
 
 export function pointsText({ points, slider, quantity }, name, from = "") {
   const short = (x, digits) => String(+x.toPrecision(digits)),
     mine = points.filter((one) => one.from === from && one.slider === slider && ENGINES.some((engine) => one[engine][quantity])).slice(0, MOST.points),
     part = (pair) => (pair ? `${short(pair[0], 5)},${short(pair[1], 2)}` : ",");
   if (!mine.length) return "";
-  return [tidyName(name) || t("nobody"), slider, quantity, ...mine.map((one) => [short(one.x, 5), part(one.md[quantity]), part(one.dsmc[quantity])].join(",").replace(/,+$/, ""))].join(";");
+  return [from || `${tidyName(name) || t("nobody")}~${ownDevice()}`, slider, quantity, ...mine.map((one) => [short(one.x, 5), part(one.md[quantity]), part(one.dsmc[quantity])].join(",").replace(/,+$/, ""))].join(";");
 }
 /* One's own; where there are none, those of all others, as on the phone that gathers them. */
 export function pointsTexts(state, name) {
   const own = pointsText(state, name);
-  return own ? [own] : [...new Set(state.points.map((one) => one.from))].map((from) => pointsText(state, from, from)).filter(Boolean);
+  return own ? [own] : studentsOf(state.points).map((from) => pointsText(state, from, from)).filter(Boolean);
 }
 /* A point that a link or a table may give: within its slider's range, numbers that a measurement can have. One outside
  * would be all that the diagram shows. */
@@ -166,7 +198,7 @@ const isPoint = (one) => Number.isFinite(one.x) && ENGINES.some((engine) => Obje
 
 export function pointsFrom(text) {
   const [name, slider, quantity, ...rest] = String(text).slice(0, 5000).split(";"),
-    from = tidyName(name || "");
+    from = tidyFrom(name || "");
   if (!from || !QUANTITIES.includes(quantity) || !CONTROLS.some((row) => row.name === slider && row.max !== undefined)) return [];
   return rest
     .slice(0, MOST.points)
@@ -229,7 +261,7 @@ export function pointsOf(text, file) {
   if (head[0] !== "slider" || head[1] !== "value") return [];
   return rows
     .map((row) => {
-      const from = tidyName(row[head.indexOf("name")] || "") || whose,
+      const from = tidyFrom(row[head.indexOf("name")] || "") || whose,
         point = { slider: row[0], x: Number(row[1]), seed: row[2], from, md: {}, dsmc: {} };
       head.forEach((column, i) => {
         const found = /^(md|dsmc)_(.*?)(_error)?$/.exec(column);

@@ -218,12 +218,23 @@ const tests = {
     const { pointsText, pointsFrom, tidyName } = m.points,
       point = (x, md, dsmc) => ({ slider: "e", x, from: "", md: md ? { N1: md } : {}, dsmc: dsmc ? { N1: dsmc } : {} });
     const text = pointsText({ points: [point(0.9, [0.512345678, 0.0123], [0.5, 0.001]), point(0.8, [0.4, 0.01]), point(0.7, null, [0.3, 0.02]), { ...point(0.6), from: "other" }], slider: "e", quantity: "N1" }, "=Ann; <b>");
-    assert.strictEqual(text, "Ann b;e;N1;0.9,0.51235,0.012,0.5,0.001;0.8,0.4,0.01;0.7,,,0.3,0.02");
+    const [who, device] = text.split(";")[0].split("~");
+    assert.match(device, /^[0-9a-z]{1,8}$/);
+    assert.strictEqual(text.replace(`~${device}`, ""), "Ann b;e;N1;0.9,0.51235,0.012,0.5,0.001;0.8,0.4,0.01;0.7,,,0.3,0.02");
     assert.deepStrictEqual(pointsFrom(text).map((one) => [one.from, one.x, one.md.N1, one.dsmc.N1]), [
-      ["Ann b", 0.9, [0.51235, 0.012], [0.5, 0.001]],
-      ["Ann b", 0.8, [0.4, 0.01], undefined],
-      ["Ann b", 0.7, undefined, [0.3, 0.02]],
+      [`${who}~${device}`, 0.9, [0.51235, 0.012], [0.5, 0.001]],
+      [`${who}~${device}`, 0.8, [0.4, 0.01], undefined],
+      [`${who}~${device}`, 0.7, undefined, [0.3, 0.02]],
     ]);
+    /* two of one name are two, one who shares again is one; so they are in a table */
+    const anns = ["Ann~a1", "Ann~b2", "Ann~a1", "Ann"].flatMap((from, i) => pointsFrom(`${from};e;N1;0.${i + 5},1,0.1`)),
+      gathered = anns.reduce((s, one) => reduce(s, "gather", { points: [one] }), m.state.initial).points,
+      students = m.points.studentsOf(gathered);
+    assert.deepStrictEqual(gathered.map((one) => [one.from, one.x]), [["Ann~b2", 0.6], ["Ann~a1", 0.7], ["Ann", 0.8]]);
+    assert.deepStrictEqual(students.map((one) => m.points.shownName(one, students)), ["Ann", "Ann 2", "Ann 3"]);
+    assert.deepStrictEqual(m.points.studentsOf(m.points.pointsOf(m.points.pointsCsv(gathered), "all.csv")), students);
+    assert.deepStrictEqual(m.points.pointsTexts({ points: gathered, slider: "e", quantity: "N1" }, "").map((one) => one.split(";")[0]), students);
+    assert.deepStrictEqual(pointsFrom("Ann~<b>;e;N1;0.5,1,0.1").map((one) => one.from), ["Ann b"]);
     assert.deepStrictEqual(m.link.pointsIn(`x.html#lesson=haff&points=${encodeURIComponent(text)} nonsense`), [text]);
     for (const bad of ["", ";e;N1;1,2,3", "Ann;e;nothing;1,2,3", "Ann;constructor;N1;1,2,3", "Ann;seed;N1;1,2,3", "Ann;e;N1;x,2,3", "Ann;e;N1;1,,", "Ann;e;__proto__;1,2,3"]) assert.deepStrictEqual(pointsFrom(bad), [], bad);
     /* what no measurement gives would be all that the diagram shows */
