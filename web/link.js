@@ -65,7 +65,7 @@ export function readLink(place = location) {
 }
 /* The links, or parts of links, in a text: their points. */
 export const pointsIn = (text) =>
-  text.split(/\s+/).flatMap((one) => (one.includes("points=") ? readLink({ hash: `#${one.replace(/^[^#]*#/, "")}`, search: "" }).points : []));
+  text.split(/\s+/).flatMap((one) => (one.includes("points=") ? readLink({ hash: `#${one.replace(/^[^#]*#/, "").replace(/^[^?=]*\?/, "")}`, search: "" }).points : []));
 
 /* Of points: what they are of, and whose. */
 export function linkOfPoints(state, texts) {

@@ -138,8 +138,9 @@ function ofTheClass(points, quantity, all) {
  * and error of the dice: Ann~k3f9x2;e;cooling_rate;0.9,0.122,0.003,0.125,0.001;... Nothing of it is believed when it is read. */
 
 const MOST = { names: 200, points: 60, name: 24 };
-/* What people are called, and no sign that tables or pages take for more. */
-export const tidyName = (text) => text.replace(/[^\p{L}\p{N} ._-]/gu, " ").replace(/\s+/g, " ").replace(/^[ .-]+| $/g, "").slice(0, MOST.name);
+/* What people are called in any script, marks on letters with it, and no sign that tables or pages take for more. */
+export const tidyName = (text) =>
+  [...text.normalize("NFC").replace(/[^\p{L}\p{M}\p{N} ._-]/gu, " ").replace(/\s+/g, " ").replace(/^[ .\p{M}-]+/u, "")].slice(0, MOST.name).join("").trimEnd();
 
 /* Whose points: a name and, of links, the device that made them, Ann~k3f9x2: two students may have one name. */
 const tidyFrom = (text) => {

@@ -245,7 +245,9 @@ const tests = {
       both = reduce(reduce(m.state.initial, "gather", { points: of("Ann") }), "gather", { points: of("Eve") });
     assert.deepStrictEqual(reduce(both, "forgetStudent", { from: "Eve" }).points.map((one) => one.from), ["Ann"]);
     assert.strictEqual(pointsFrom(`Ann;e;N1;${"1,2,3;".repeat(1000)}`).length, 60);
-    assert.strictEqual(tidyName("a".repeat(99)).length, 24);
+    for (const where of ["https://x/?", "https://x/page.html?lesson=haff&", "https://x/#", "https://x/?a=1#", "https://x/#question=why?&", "#", ""]) assert.deepStrictEqual(m.link.pointsIn(`${where}points=Ann;e;N1;1,2,3`), ["Ann;e;N1;1,2,3"], where);
+    assert.deepStrictEqual(["a".repeat(99), "𐐀".repeat(99)].map((one) => [...tidyName(one)].length), [24, 24]);
+    assert.deepStrictEqual(["Jose\u0301", "José", "किरण", "\u0301", " \u0301Ann. ", "a\u202eb"].map(tidyName), ["José", "José", "किरण", "", "Ann.", "a b"]);
   },
   "a question is one line of text": () => {
     assert.strictEqual(m.link.tidyQuestion(" a\nb\u202ec\u0000d "), "a b c d");
