@@ -70,9 +70,11 @@ gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, 
   return status;
 }
 
+/* Of the gas at present: what is followed in time does not depend on what may change. */
 static double value_at(const gg_replicas *all, const gg_function *f, size_t offset, int replica, size_t row)
 {
-  return gg_function_value(*f, gg_series_row(&all->replica[replica].series, row) + offset, &all->model);
+  const gg_replica *r = &all->replica[replica];
+  return gg_function_value(*f, gg_series_row(&r->series, row) + offset, &r->model);
 }
 
 static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, size_t offset, size_t row)
