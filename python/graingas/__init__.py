@@ -17,7 +17,7 @@ from .errors import BadFile, BadInput, Busy, GraingasError, NotFound, PartialRes
 from .estimate import Estimate
 from .extension import DoesNotApply, define_law, define_observable, define_theory
 from .grains import Grains
-from .relaxation import Course, Relaxation, relax
+from .relaxation import Relaxation, TimeSeries, relax
 from .result import Result, export
 from .run import compare, read, run
 from .scene import Scene

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How gases relax: courses in time, means of many replicas in one or both engines, with what is changed on the way."""
+"""How gases relax: curves in time, means of many replicas in one or both engines, with what is changed on the way."""
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
@@ -16,7 +16,7 @@ from .simulation import Simulation, followed
 ENGINES = ("md", "dsmc")
 
 
-class Course:
+class TimeSeries:
     """A quantity in time: mean and stderr (points) over replicas; values (replicas, points) of each."""
 
     def __init__(self, values):
@@ -25,7 +25,7 @@ class Course:
         self.stderr = values.std(axis=0, ddof=1) / len(values) ** 0.5
 
     def __repr__(self):
-        return f"<graingas.Course: {self.values.shape[1]} times, {self.values.shape[0]} replicas>"
+        return f"<graingas.TimeSeries: {self.values.shape[1]} times, {self.values.shape[0]} replicas>"
 
 
 def _first_crossing(time, difference):
@@ -38,28 +38,28 @@ def _first_crossing(time, difference):
 
 
 class Relaxation:
-    """Courses of a gas in time. relaxation["temperature"]["md"].mean; units are those of results.
+    """Curves of a gas in time. relaxation["temperature"]["md"].mean; units are those of results.
 
     time (points); engines; quantities: temperature, a2; rotational_temperature and temperature_ratio of rough grains;
     temperature_1, temperature_2, ... of mixtures
     """
 
-    def __init__(self, scene, time, courses, protocol):
-        self.scene, self.time, self.protocol, self._courses = scene, time, protocol, courses
+    def __init__(self, scene, time, series, protocol):
+        self.scene, self.time, self.protocol, self._series = scene, time, protocol, series
 
     @property
     def engines(self):
-        return list(self._courses)
+        return list(self._series)
 
     @property
     def quantities(self):
-        return list(next(iter(self._courses.values())))
+        return list(next(iter(self._series.values())))
 
     def __getitem__(self, quantity):
-        """Engine -> Course."""
+        """Engine -> TimeSeries."""
         if quantity not in self.quantities:
-            raise KeyError(f"no course of {quantity!r}; there are: {', '.join(self.quantities)}")
-        return {engine: of[quantity] for engine, of in self._courses.items()}
+            raise KeyError(f"no curve of {quantity!r}; there are: {', '.join(self.quantities)}")
+        return {engine: of[quantity] for engine, of in self._series.items()}
 
     def z(self, quantity):
         """(points) md minus dsmc over their combined standard error. Points of one replica depend on each other."""
@@ -77,9 +77,9 @@ class Relaxation:
         if len(self.time) != len(other.time) or not np.allclose(self.time, other.time):
             raise BadInput("crossing: both relaxations need the same times")
 
-        def without(course):
-            n = len(course.values)
-            return (n * course.mean - course.values) / (n - 1)
+        def without(series):
+            n = len(series.values)
+            return (n * series.mean - series.values) / (n - 1)
         when = _first_crossing(self.time, one.mean - two.mean)
         variance = 0
         for first, second in ((without(one), [two.mean]), ([one.mean], without(two))):
@@ -91,10 +91,10 @@ class Relaxation:
     def plot(self, quantity="temperature", ax=None, bands=2.0, **style):
         """Means with a band of so many standard errors, a colour an engine. Returns the axes."""
         ax = new_axes(ax)
-        for k, (engine, course) in enumerate(self[quantity].items()):
+        for k, (engine, series) in enumerate(self[quantity].items()):
             look = {"color": COLOURS[k], "linestyle": DASHES[k], "label": engine, **style}
-            line, = ax.plot(self.time, course.mean, **look)
-            ax.fill_between(self.time, course.mean - bands * course.stderr, course.mean + bands * course.stderr,
+            line, = ax.plot(self.time, series.mean, **look)
+            ax.fill_between(self.time, series.mean - bands * series.stderr, series.mean + bands * series.stderr,
                             color=line.get_color(), alpha=0.25, linewidth=0)
         for at, changes in self.protocol:
             ax.axvline(at, color="0.7", linewidth=0.6, zorder=0)
@@ -105,8 +105,8 @@ class Relaxation:
     def to_dataframe(self):
         """pandas: a row a time; columns (engine, quantity, "mean" or "stderr")."""
         import pandas
-        table = {(engine, q, what): getattr(course, what) for engine, of in self._courses.items()
-                 for q, course in of.items() for what in ("mean", "stderr")}
+        table = {(engine, q, what): getattr(series, what) for engine, of in self._series.items()
+                 for q, series in of.items() for what in ("mean", "stderr")}
         return pandas.DataFrame(table, index=pandas.Index(self.time, name="time"))
 
     def __repr__(self):
@@ -209,11 +209,11 @@ class _Replicas:
         with Simulation(self.scene, stream) as sim:
             self.running.add(sim)
             try:
-                return self._course(sim, stream)
+                return self._follow(sim, stream)
             finally:
                 self.running.discard(sim)
 
-    def _course(self, sim, stream):
+    def _follow(self, sim, stream):
         _settle(sim)
         if self.start:
             _prepare(sim, self.start, np.random.default_rng([stream, 1]))
@@ -270,7 +270,7 @@ def _check_start(start, species):
 def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines: Sequence[str] = ENGINES,
           protocol: Optional[Sequence] = None, start: Optional[dict] = None, threads: Optional[int] = 1,
           **keys) -> Relaxation:
-    """The course of a gas in time, from its start to a time, as the mean of many replicas.
+    """A gas in time, from its start to a time, as the mean of many replicas.
 
     scene, keys  as for run(); flows without walls
     until        the last time, in the unit of results
@@ -301,9 +301,9 @@ def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines:
         raise BadInput(f"relax: the scene gives {given}, which run() follows; leave it out, and give until and protocol")
     _check_start(start or {}, max(len(scene.species), 1))
     time, protocol = np.linspace(0, until, int(points)), _checked_protocol(protocol, until)
-    courses = {}
+    series = {}
     for engine in engines:
         replica = _Replicas(scene.copy(engine=engine), time, protocol, start or {})
         found = replica.run(int(replicas), thread_count(threads))
-        courses[engine] = {q: Course(values) for q, values in found.items()}
-    return Relaxation(scene, time, courses, protocol)
+        series[engine] = {q: TimeSeries(values) for q, values in found.items()}
+    return Relaxation(scene, time, series, protocol)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Courses in time: starts, protocols, bands against what is known exactly, crossings, Ctrl-C."""
+"""Curves in time: starts, protocols, bands against what is known exactly, crossings, Ctrl-C."""
 import os
 import signal
 import threading
@@ -25,10 +25,10 @@ def test_elastic_gas_follows_its_bath():
     decay = np.exp(-0.6 * found.time)
     cold = 0.5 + 0.5 * decay
     right = np.where(found.time <= 4, cold, 2 + (cold[8] - 2) * decay / decay[8])
-    for engine, course in found["temperature"].items():
-        z = (course.mean - right)[1:] / course.stderr[1:]
+    for engine, series in found["temperature"].items():
+        z = (series.mean - right)[1:] / series.stderr[1:]
         assert np.abs(z).max() < 4, (engine, z)
-        scatter = course.values[:, -1].std(ddof=1) / (right[-1] * (2 / 600) ** 0.5)
+        scatter = series.values[:, -1].std(ddof=1) / (right[-1] * (2 / 600) ** 0.5)
         assert 0.75 < scatter < 1.25, (engine, scatter)
     z = found.z("temperature")[1:]
     assert np.abs(z).max() < 4 and (z ** 2).mean() > 0.1
@@ -38,7 +38,7 @@ def test_starts_are_as_asked():
     scene = gg.Scene(flow="hcs", phi=0.05, e=0.9, particles=500)
     scene["dsmc.particles"] = 20000
     found = gg.relax(scene, 0.02, points=2, replicas=4, engines=["dsmc"], start={"temperature": 3, "a2": 0.1})
-    course = found["a2"]["dsmc"]
+    series = found["a2"]["dsmc"]
     assert found["temperature"]["dsmc"].mean[0] == pytest.approx(3)
     assert found.quantities == ["temperature", "a2"]
     for a2 in -0.3, -0.1, 0.1, 0.5:
@@ -58,8 +58,8 @@ def test_cooling_is_that_of_haff():
     scene["dsmc.particles"] = 5000
     found = gg.relax(scene, 20, points=21, replicas=24, start={"temperature": 1}, threads=None)
     rate = 4 / 3 * np.pi ** 0.5 * (6 * phi / np.pi) * (1 - phi / 2) / (1 - phi) ** 3 * (1 - e ** 2)
-    for engine, course in found["temperature"].items():
-        slope = (course.mean[1:] ** -0.5 - 1) / found.time[1:]
+    for engine, series in found["temperature"].items():
+        slope = (series.mean[1:] ** -0.5 - 1) / found.time[1:]
         assert np.abs(slope[2:] / (rate / 2) - 1).max() < 0.02, (engine, slope, rate / 2)
     assert np.abs(found.z("temperature")[1:]).max() < 4.5
 

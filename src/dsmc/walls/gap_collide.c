@@ -28,7 +28,7 @@ typedef struct pass {
   const double *chi;
   double bottom, last, reach; /* reach: in cells */
   double floor, majorant, largest;
-  double known; /* what the majorant was last learned from */
+  double recent; /* what the majorant was last learned from */
   uint64_t candidates;
   double begin, tick; /* time of the first candidate, and between two: those of all cells take turns in a step */
   gg_contact contact;
@@ -176,8 +176,8 @@ static void draw(gg_dsmc_gap *d, const pass *p, gg_dsmc_lane_rng *rng, block *b)
   for (uint32_t k = 0; k < n; k++) find_partner(d, p, b, k);
 }
 
-/* Decide, and collide; whether they did. */
-static bool judge(gg_dsmc_gap *d, pass *p, const block *b, uint32_t m)
+/* Acceptance-rejection, and the collision; whether it was accepted. */
+static bool try_candidate(gg_dsmc_gap *d, pass *p, const block *b, uint32_t m)
 {
   const uint32_t i = b->i[m], j = b->j[m];
   const gg_vec c = gg_sub(d->grains.at[i].c, d->grains.at[j].c);
@@ -196,11 +196,11 @@ static bool judge(gg_dsmc_gap *d, pass *p, const block *b, uint32_t m)
 /* One candidate after another, as the textbooks have it. */
 static void collide_plain(gg_dsmc_gap *d, pass *p, block *b)
 {
-  for (uint32_t m = 0; m < b->n; m++) judge(d, p, b, m);
+  for (uint32_t m = 0; m < b->n; m++) try_candidate(d, p, b, m);
 }
 
-/* Which of eight have to be judged: they are accepted, or teach the majorant. */
-GG_INLINE uint32_t to_judge(block *b, uint32_t k, double known)
+/* Which of eight have to be tested: they are accepted, or teach the majorant. */
+GG_INLINE uint32_t to_test(block *b, uint32_t k, double recent)
 {
   const gg_half *row[GG_BATCH];
   gg_v8 c[4];
@@ -209,7 +209,7 @@ GG_INLINE uint32_t to_judge(block *b, uint32_t k, double known)
   const gg_v8 A = EIGHT(b->ky, k) * c[2], B = EIGHT(b->kx, k) * c[1] + EIGHT(b->kz, k) * c[3];
   const gg_v8 one = gg_larger8(A + B, gg_all8(0)), other = gg_larger8(A - B, gg_all8(0));
   const gg_v8 value = EIGHT(b->scale, k) * (0.5 * (one + other));
-  return gg_lanes8(gg_less8(gg_smaller8(EIGHT(b->limit, k), gg_all8(known)) * EIGHT(b->h, k), value));
+  return gg_lanes8(gg_less8(gg_smaller8(EIGHT(b->limit, k), gg_all8(recent)) * EIGHT(b->h, k), value));
 }
 
 /* Which of 32 numbers are this one? */
@@ -235,14 +235,14 @@ GG_INLINE uint32_t with(const block *b, uint32_t i, uint32_t j)
 static void collide_block(gg_dsmc_gap *d, pass *p, block *b)
 {
   const uint32_t drawn = UINT32_MAX >> (BLOCK - b->n);
-  const double most = p->floor + p->majorant, all = p->known > p->largest ? p->known : p->largest;
-  uint32_t judged = 0;
-  for (uint32_t m = 0; m < b->n; m += GG_BATCH) judged |= to_judge(b, m, all < most ? all : most) << m;
-  judged &= drawn;
-  while (judged) {
-    const uint32_t m = (uint32_t)__builtin_ctz(judged);
-    judged &= judged - 1;
-    if (judge(d, p, b, m)) judged |= with(b, b->i[m], b->j[m]) & drawn & ~1u << m;
+  const double most = p->floor + p->majorant, all = p->recent > p->largest ? p->recent : p->largest;
+  uint32_t tested = 0;
+  for (uint32_t m = 0; m < b->n; m += GG_BATCH) tested |= to_test(b, m, all < most ? all : most) << m;
+  tested &= drawn;
+  while (tested) {
+    const uint32_t m = (uint32_t)__builtin_ctz(tested);
+    tested &= tested - 1;
+    if (try_candidate(d, p, b, m)) tested |= with(b, b->i[m], b->j[m]) & drawn & ~1u << m;
   }
 }
 
@@ -271,7 +271,7 @@ static void collide_species(gg_dsmc_gap *d, gg_dsmc_lane_rng *rng, int cell, int
             .last = c->n + 1,
             .reach = reach,
             .majorant = gg_dsmc_majorant_at(learned, thermal),
-            .known = learned->now * thermal,
+            .recent = learned->now * thermal,
             .contact = d->model.contact[one][two]};
   block b;
   /* After a majorant overflow: correction passes, each over the layer above. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Places of a fluid in equilibrium. Grains that were pushed apart (place.c) are left close to another, and collide some
- * times as often as Enskog's rate for about half a collision a grain. Where the course in time is what is wanted,
+ * times as often as Enskog's rate for about half a collision a grain. Where curves in time are what is wanted,
  * elastic spheres of the same diameters, all of one mass, first collide there; then places are taken over, and
  * velocities drawn. */
 #include <math.h>
