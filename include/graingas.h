@@ -1033,7 +1033,7 @@ GG_API gg_status gg_compare(const gg_scene *scene, const gg_run_options *options
 /**
  * Evaluate theories without simulation: those that are named, and no other. A formula takes microseconds, the
  * noise-free solver up to a second. Theories that do not apply have a reason in gg_comparison_theory().
- * @param scene the scene
+ * @param scene the scene; with a protocol the gas after the last change
  * @param theory names of theories, separated by commas: "lun1991", "lun1991,grad"; NULL: all
  * @param comparison receives the answers, to be freed by gg_comparison_free()
  * @param err receives the message on failure; may be NULL

@@ -340,6 +340,30 @@ static void part_comparisons(void **state)
   gg_scene_free(s);
 }
 
+static double cooling_rate_of(const char *yaml)
+{
+  gg_error err;
+  gg_scene *s = scene_of(yaml);
+  gg_comparison *c = NULL;
+  double zeta;
+  assert_ok(gg_theories_evaluate(s, "garzo_dufty1999", &c, &err));
+  assert_ok(gg_comparison_theory_value(c, "garzo_dufty1999", "cooling_rate", &zeta, NULL, &err));
+  gg_comparison_free(c);
+  gg_scene_free(s);
+  return zeta;
+}
+
+/* Of a gas that changes on the way theories describe what it comes to. */
+static void theories_after_changes(void **state)
+{
+  (void)state;
+  const double zeta =
+      cooling_rate_of("{flow: hcs, phi: 0.1, collision: {e: 0.8}, run: {duration: 9}, protocol: [{at: 1, "
+                      "collision.e: 0.7}, {at: 5, collision.e: 0.6}]}");
+  assert_true(zeta == cooling_rate_of("{flow: hcs, phi: 0.1, collision: {e: 0.6}}"));
+  assert_true(zeta > cooling_rate_of("{flow: hcs, phi: 0.1, collision: {e: 0.8}}"));
+}
+
 /* Theories alone: all, one, none of that name. */
 static void theories(void **state)
 {
@@ -401,9 +425,16 @@ static void correlation_times(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(stopped_and_resumed), cmocka_unit_test(in_pieces),          cmocka_unit_test(replicas_stopped),
-      cmocka_unit_test(written_and_read),    cmocka_unit_test(missing_quantities), cmocka_unit_test(unwritable_output),
-      cmocka_unit_test(comparisons),         cmocka_unit_test(part_comparisons),   cmocka_unit_test(theories),
+      cmocka_unit_test(stopped_and_resumed),
+      cmocka_unit_test(in_pieces),
+      cmocka_unit_test(replicas_stopped),
+      cmocka_unit_test(written_and_read),
+      cmocka_unit_test(missing_quantities),
+      cmocka_unit_test(unwritable_output),
+      cmocka_unit_test(comparisons),
+      cmocka_unit_test(part_comparisons),
+      cmocka_unit_test(theories),
+      cmocka_unit_test(theories_after_changes),
       cmocka_unit_test(correlation_times),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
