@@ -16,6 +16,8 @@ export function allWarnings({ gas, means, player }) {
   if (frame && frame.ended) add("ended", { engine: t(frame.md ? "md" : "dsmc"), why: frame.ended });
   if (frame && frame.dsmcEnded) add("ended", { engine: t("dsmc"), why: frame.dsmcEnded });
   if (now.behind > MOST_BEHIND) add("behind");
+  /* Of a scene that is pasted: the live gas has no end, and its keys are moved by hand. */
+  if (!player && about.values.run && Number.isFinite(about.values.run.duration)) add("notFollowed");
   if (player && player.frames === 1) add("oneFrame");
   if (!means) return out;
   if (means.failed) return [...out, means.failed];

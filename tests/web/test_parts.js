@@ -205,6 +205,11 @@ const tests = {
     const { nearestLesson } = m.lessons;
     assert.deepStrictEqual(["haf", "Clusterings", "chaos2", "nonsense"].map(nearestLesson), ["haff", "clustering", "chaos", null]);
   },
+  "a scene that is to be followed in time has a warning: the page does not follow it": () => {
+    const of = (duration, player = null) => m.warnings.allWarnings({ gas: gasOf(1, { ...ABOUT, values: { ...ABOUT.values, run: { seed: 1, duration } } }), means: null, player });
+    assert.deepStrictEqual([of("none"), of(5, { frames: 2 })], [[], []]);
+    assert.match(of(5).join(), /run\.duration/);
+  },
   "points go to a table and come back": () => {
     const point = { slider: "e", x: 0.8, seed: 3, from: "", md: { N1: [0.5, 0.01] }, dsmc: { N1: [0.52, 0.02], temperature: [1.5, 0.1] } };
     const text = m.points.pointsCsv([point]),
