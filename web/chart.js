@@ -162,7 +162,7 @@ export class Chart {
     });
   }
 
-  /* Where there is nothing yet, that is said instead of a scale that means nothing. */
+  /* Where there is nothing yet, words instead of a scale that means nothing. */
   drawAxes(x, y, empty) {
     const key = JSON.stringify([this.xr, this.yr, x, y, empty, this.text("waiting")]);
     if (key === this.axesKey) return;

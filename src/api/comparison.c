@@ -45,21 +45,13 @@ static gg_status choose(const gg_model *model, const char *names, bool wanted[GG
   return GG_OK;
 }
 
-/* Of a protocol the gas after the last change, as in comparisons. */
-static gg_status make_model(const gg_scene *scene, gg_model *model, gg_error *err)
-{
-  gg_scene end;
-  GG_TRY(gg_scene_protocol_apply(scene, gg_scene_protocol_count(scene, INFINITY), &end, err));
-  return gg_common_model_make(&end, GG_MD, model, err);
-}
-
 static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *theory, gg_model *model, gg_error *err)
 {
   gg_scene finished;
   GG_TRY(gg_api_scene_finish(scene, &finished, err));
   c->scene = finished;
   gg_common_extension_hold(c->scene.extension);
-  GG_TRY(make_model(&c->scene, model, err));
+  GG_TRY(gg_run_relaxation_end_model(&c->scene, model, err));
   bool wanted[GG_MOST_THEORIES] = {false};
   if (theory) GG_TRY(choose(model, theory, wanted, err));
   GG_TRY(gg_run_compare_theories(model, theory ? wanted : NULL, c, err));
@@ -216,7 +208,7 @@ gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char
   const gg_result *against = has(md, q) ? md : has(dsmc, q) ? dsmc : NULL;
   double said = c->theory[i].applies ? c->theory[i].answer.value[q] : NAN;
   if (value) *value = isfinite(said) ? said : NAN;
-  const bool told = against && isfinite(said) && !gg_run_is_followed(&c->scene);
+  const bool told = against && isfinite(said) && !gg_scene_is_followed(&c->scene);
   if (deviation) *deviation = told ? gg_run_deviation(&against->value[q], said) : NAN;
   return GG_OK;
 }

@@ -363,7 +363,7 @@ gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_mode
                     : m->gravity[1] != 0            ? 1e-3
                                                     : 1e-5;
   m->time_step = s->dsmc.time_step;
-  m->cuts_steps = s->run.duration > 0;
+  m->cuts_steps = gg_scene_is_followed(s);
   m->asked_error = gg_common_ensemble_requested_error(s);
   if (engine == GG_MD && !gg_flow_is_walled(s->flow)) m->frame = s->frame;
   m->frame_cells = (int)s->frame_cells;

@@ -79,8 +79,7 @@ struct gg_scene {
     double relative_error, collisions, time_limit; /* GG_AUTO: not requested; neither of the first two: 0.01 */
     double until[GG_MAX_UNTIL];                    /* of gg_quantity: its own relative error; 0: not requested */
     double warmup;                                 /* collisions per particle, or GG_AUTO */
-    double
-        duration; /* user's units: the gas is followed from its start for so long; GG_AUTO: means of a steady state */
+    double duration; /* user's units: the gas is followed from its start for so long; GG_AUTO: it is not */
     int64_t replicas;
     uint64_t seed;
   } run;
@@ -112,6 +111,12 @@ struct gg_scene {
                               of its values borrow it */
   uint64_t given;          /* keys that the user gave: a bit per row of the field table */
 };
+
+/* From its start in time, instead of means of a steady state. */
+static inline bool gg_scene_is_followed(const gg_scene *scene)
+{
+  return scene->run.duration > 0;
+}
 
 /* A scene with every default; flow and phi are still to be given (phi = GG_AUTO marks it missing). */
 gg_scene gg_scene_defaults(void);

@@ -11,7 +11,6 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/curve_table.h"
-#include "run/relaxation.h"
 #include "run/z_scores.h"
 #include "scene/fields.h"
 
@@ -301,7 +300,7 @@ static void put_deviations(json_t *json, const gg_comparison *c, int k, const gg
   json_t *all = json_object();
   char key[64];
   bool small = false;
-  for (int i = 0; i < c->n_theories && !gg_run_is_followed(&c->scene); i++) {
+  for (int i = 0; i < c->n_theories && !gg_scene_is_followed(&c->scene); i++) {
     double value = c->theory[i].answer.value[row->quantity];
     if (!c->theory[i].applies || !isfinite(value)) continue;
     double deviation = gg_run_deviation(&engine->value[row->quantity], value);

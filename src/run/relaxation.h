@@ -6,11 +6,6 @@
 
 #include "run/replicas.h"
 
-static inline bool gg_run_is_followed(const gg_scene *scene)
-{
-  return scene->run.duration > 0;
-}
-
 /* Samples in all: at evenly spaced times, and at each of a change. The time of sample k, from 1 on; 0: the start. In
  * units of results. */
 uint64_t gg_run_relaxation_samples(const gg_scene *scene);
@@ -22,6 +17,8 @@ gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, 
                                   int *changes, gg_error *err);
 /* That of all changes, before the run begins. */
 gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, gg_error *err);
+/* What theories describe: the gas after the last change. */
+gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_model *model, gg_error *err);
 
 /* Values at the end, over replicas; and the curves of what is followed. */
 gg_mean gg_run_relaxation_end(const gg_replicas *all, gg_quantity q);

@@ -39,7 +39,7 @@ gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_m
   r->engine->ops->keep_sums(r->engine, true);
   r->clock.interval = GG_SAMPLING_INTERVAL / gg_common_model_collision_rate(model, model->temperature0);
   gg_run_replica_sample_row(r, 0);
-  if (gg_run_is_followed(scene)) gg_statistics_series_add(&r->series, 0, r->row); /* curves begin at the start */
+  if (gg_scene_is_followed(scene)) gg_statistics_series_add(&r->series, 0, r->row); /* curves begin at the start */
   return GG_OK;
 }
 
@@ -143,7 +143,7 @@ static gg_status rescale_if_due(gg_replica *r, gg_error *err)
     bool over = gg_common_linear_response_ends(&r->model, T0 / (slowdown * slowdown));
     return over ? rescale(r, gg_common_linear_response_of(&r->model).power, err) : GG_OK;
   }
-  if (gg_run_is_followed(&r->scene)) slowdown = sqrt(T0 / r->clock.temperature);
+  if (gg_scene_is_followed(&r->scene)) slowdown = sqrt(T0 / r->clock.temperature);
   if (slowdown < 4) return GG_OK;
   r->clock.power += 2;
   return rescale(r, 2, err);
@@ -259,7 +259,7 @@ static gg_status change(gg_replica *r, const gg_model *model, gg_error *err)
 static gg_status change_if_due(gg_replica *r, gg_error *err)
 {
   int changes = 0;
-  if (!gg_run_is_followed(&r->scene)) return GG_OK;
+  if (!gg_scene_is_followed(&r->scene)) return GG_OK;
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
   if (!model) return GG_FAILED;
   gg_status status = gg_run_relaxation_model(&r->scene, &r->model, r->clock.samples, model, &changes, err);
@@ -274,7 +274,7 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   double elapsed;
   uint64_t happened;
   const double before = r->clock.temperature;
-  if (gg_run_is_followed(&r->scene) && !r->clock.part) aim(r);
+  if (gg_scene_is_followed(&r->scene) && !r->clock.part) aim(r);
   GG_TRY(advance_interval(r, adapt, &elapsed, &happened, err));
   gg_run_replica_sample_row(r, elapsed);
   r->clock.temperature = temperature_now(r);
@@ -300,7 +300,7 @@ gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, co
                                  gg_error *err)
 {
   gg_status status = GG_OK;
-  adapt = adapt && !gg_run_is_followed(&r->scene);
+  adapt = adapt && !gg_scene_is_followed(&r->scene);
   while (status == GG_OK && r->clock.samples < samples) {
     if (gg_stop_asked(r->model.stop)) status = gg_base_fail(err, GG_INTERRUPTED, "interrupted");
     if (status == GG_OK) status = sample_once(r, adapt, err);
@@ -313,8 +313,8 @@ gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, co
 
 bool gg_run_replica_settled(const gg_replica *r)
 {
-  if (r->model.gravity[1] != 0 || gg_run_is_followed(&r->scene))
-    return true; /* grains that lie collide as often as they like */
+  if (gg_scene_is_followed(&r->scene)) return true; /* times are given */
+  if (r->model.gravity[1] != 0) return true;        /* grains that lie collide as often as they like */
   double per_grain = r->clock.interval * gg_common_model_collision_rate(&r->model, r->clock.temperature);
   return !r->clock.cut_short && per_grain > GG_SAMPLING_INTERVAL / 50;
 }
@@ -360,7 +360,7 @@ static gg_status check_clock(const gg_replica *r, gg_error *err)
 static gg_status restore_model(gg_replica *r, gg_error *err)
 {
   int changes;
-  if (!gg_run_is_followed(&r->scene)) return GG_OK;
+  if (!gg_scene_is_followed(&r->scene)) return GG_OK;
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
   gg_status status =
       model ? gg_run_relaxation_model(&r->scene, &r->model, r->clock.samples, model, &changes, err) : GG_FAILED;

@@ -40,7 +40,7 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
   const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s);
   double row_length = row_length_of(all, s);
-  const bool followed = gg_run_is_followed(&all->scene);
+  const bool followed = gg_scene_is_followed(&all->scene);
   for (int i = 0; i < result->rows.n; i++) {
     const gg_quantity q = result->rows.row[i].quantity;
     gg_estimate *e = &result->value[q];
@@ -149,7 +149,7 @@ static void warn_if_structured(gg_result *result)
     gg_run_result_warn(result, "%s; means are those of this state", what);
     return;
   }
-  const bool at_one_instant = gg_run_is_followed(&result->scene);
+  const bool at_one_instant = gg_scene_is_followed(&result->scene);
   if (result->model.shear_rate != 0 || gg_flow_is_walled(result->model.flow) || at_one_instant) return;
   for (gg_quantity q = gg_common_quantity_next(-1, GG_STRESS_DIFFERENCE); q < GG_N_QUANTITIES;
        q = gg_common_quantity_next(q, GG_STRESS_DIFFERENCE)) {
@@ -208,7 +208,7 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
     gg_run_result_warn(result, "collision.e was not in force, but " GG_OWN_LAW " '%s'", all->model.law.name);
   else if (all->model.law.e)
     gg_run_result_warn(result, "in force was " GG_OWN_LAW " '%s'", all->model.law.name);
-  if (result->steadiness != GG_STEADY && !gg_run_is_followed(&all->scene))
+  if (result->steadiness != GG_STEADY && !gg_scene_is_followed(&all->scene))
     gg_run_result_warn(result, "not a steady mean: %s", result->steadiness_text);
   if (result->steadiness == GG_STEADY && !c->trusted)
     gg_run_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
@@ -311,7 +311,7 @@ static gg_status report_curves(const gg_replicas *all, gg_result *result, gg_err
   for (int k = 0; k < all->replica[0].n_observables; k++)
     if (all->replica[0].observable[k]->bins) GG_TRY(report_one(all, k, slow.mean_time, result, err));
   warn_of_one_side(&slow, result);
-  return gg_run_is_followed(&all->scene) ? gg_run_relaxation_curves(all, result, err) : GG_OK;
+  return gg_scene_is_followed(&all->scene) ? gg_run_relaxation_curves(all, result, err) : GG_OK;
 }
 
 gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *err)

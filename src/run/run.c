@@ -8,9 +8,9 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "run/relaxation.h"
 #include "run/replicas.h"
 #include "run/scheduler.h"
-#include "scene/fields.h"
 
 /* Where the replicas stand as a result; it may fall short of what was requested. */
 static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
@@ -273,11 +273,9 @@ static gg_status make_model(const gg_scene *scene, gg_engine_kind kind, const gg
 /* Of a gas that is followed theories describe the state that it comes to: after all changes. */
 static gg_status compare_theories_at_end(const gg_scene *scene, const gg_model *start, gg_comparison *c, gg_error *err)
 {
-  gg_scene end;
   if (!*scene->protocol[0].key) return gg_run_compare_theories(start, NULL, c, err);
-  GG_TRY(gg_scene_protocol_apply(scene, gg_scene_protocol_count(scene, INFINITY), &end, err));
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
-  gg_status status = model ? gg_common_model_make(&end, GG_MD, model, err) : GG_FAILED;
+  gg_status status = model ? gg_run_relaxation_end_model(scene, model, err) : GG_FAILED;
   if (status == GG_OK) status = gg_run_compare_theories(model, NULL, c, err);
   free(model);
   return status;

@@ -44,7 +44,7 @@ void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_converge
   double happened = 2 * (double)result->averaging.collisions / ((double)all->model.n * all->n);
   double ratio;
   result->steadiness = GG_NOT_STEADY;
-  if (all->scene.run.duration > 0) {
+  if (gg_scene_is_followed(&all->scene)) {
     result->steadiness = GG_HEATING;
     char when[40] = "the end";
     if (all->state.due < all->criteria.most)

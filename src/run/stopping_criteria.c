@@ -96,7 +96,7 @@ gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *m
   if (scene->run.collisions != GG_AUTO) p.most = samples_for(scene->run.collisions);
   p.relative_error = gg_common_ensemble_requested_error(scene);
   if (scene->run.time_limit != GG_AUTO) p.time_limit = scene->run.time_limit;
-  if (gg_run_is_followed(scene)) {
+  if (gg_scene_is_followed(scene)) {
     p.warmup = 0, p.relative_error = 0, p.find_steady = false;
     p.least = p.most = gg_run_relaxation_samples(scene);
   } else if (model->linear_response) {

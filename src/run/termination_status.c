@@ -61,7 +61,7 @@ static gg_status check_goal(const gg_replicas *all, const char *engine, gg_error
 {
   const gg_stopping_criteria *criteria = &all->criteria;
   const bool by_error = criteria->relative_error > 0;
-  if (gg_run_is_followed(&all->scene) && all->state.due < criteria->most)
+  if (gg_scene_is_followed(&all->scene) && all->state.due < criteria->most)
     return gg_base_fail(err, GG_FAILED, "%s: time limit reached at time %.3g, short of run.duration", engine,
                         gg_run_relaxation_time(&all->scene, all->state.due));
   if (!all->state.averaging || (!by_error && criteria->most && window_of(all) < criteria->most))

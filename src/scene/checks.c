@@ -163,7 +163,7 @@ static gg_status check_protocol(const gg_scene *s, gg_error *err)
   const int n = gg_scene_protocol_count(s, INFINITY);
   gg_scene changed;
   if (!n) return GG_OK;
-  if (s->run.duration == GG_AUTO)
+  if (!gg_scene_is_followed(s))
     return gg_base_fail(err, GG_BAD_INPUT, "protocol needs run.duration, the time for which the gas is followed");
   if (s->protocol[n - 1].at >= s->run.duration)
     return gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': at: %g is not allowed; allowed: below run.duration, %g",
@@ -179,7 +179,7 @@ static gg_status check_protocol(const gg_scene *s, gg_error *err)
 static gg_status check_duration(const gg_scene *s, gg_error *err)
 {
   char flows[160];
-  if (s->run.duration == GG_AUTO || can_be_followed(s->flow)) return check_protocol(s, err);
+  if (!gg_scene_is_followed(s) || can_be_followed(s->flow)) return check_protocol(s, err);
   gg_common_flow_list(can_be_followed, flows, sizeof flows);
   return gg_base_fail(err, GG_BAD_INPUT, "run.duration does not go with flow: %s; use flow: %s",
                       gg_flow_of(s->flow)->word, flows);
@@ -334,8 +334,8 @@ static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
   case GG_IF_ACCOMMODATION: return s->walls.accommodation > 0;
   case GG_IF_WALL_RULE: return walls_have_rule(s);
   case GG_IF_FRAMES: return s->output.trajectory_every > 0;
-  case GG_IF_AVERAGED: return s->run.duration == GG_AUTO;
-  case GG_IF_FOLLOWED: return s->run.duration != GG_AUTO;
+  case GG_IF_AVERAGED: return !gg_scene_is_followed(s);
+  case GG_IF_FOLLOWED: return gg_scene_is_followed(s);
   case GG_IF_UNWALLED: return !gg_flow_is_walled(s->flow);
   case GG_IF_CELLS: return s->frame != GG_FRAME_IMPOSED;
   case GG_IF_BATH: return s->thermostat == GG_BATH;

@@ -8,6 +8,7 @@
 #include "corner.h"
 #include "md/md_engine.h"
 #include "md/md_state.h"
+#include "run/engine_grains.h"
 
 enum { MOST = 2000 };
 
@@ -24,24 +25,11 @@ static void note(void *context, const gg_collision_record *collision)
   c->pair[c->n++][1] = (size_t)collision->id[1];
 }
 
-typedef struct places {
-  double *r;
-  int *species;
-} places;
-
-static void take(void *context, const gg_chunk *chunk)
-{
-  const places *p = context;
-  for (size_t k = 0; k < chunk->n; k++) {
-    p->species[chunk->id[k]] = chunk->species ? chunk->species[k] : 0;
-    for (int a = 0; a < 3; a++) p->r[3 * chunk->id[k] + a] = chunk->r[a][k];
-  }
-}
-
 /* As gg_md_ops.create makes it, but for the grid. Places in equilibrium were found by the engine: they are its own. */
-static gg_status make_reference(const gg_model *model, uint64_t seed, const places *p, gg_md **engine, gg_error *err)
+static gg_status make_reference(const gg_model *model, uint64_t seed, const gg_engine_grains *g, gg_md **engine,
+                                gg_error *err)
 {
-  const gg_grain_arrays start = {.r = p->r, .species = p->species};
+  const gg_grain_arrays start = {.r = g->grains.r, .species = g->grains.species};
   GG_TRY(gg_md_allocate(model, engine, err));
   gg_md *e = *engine;
   int32_t n[3];
@@ -91,18 +79,14 @@ void corner_compare_plain(const gg_scene *scene, finding *f)
   gg_simulation *g = NULL;
   gg_md *reference = NULL;
   course *fast = calloc(2, sizeof *fast), *plain = fast ? fast + 1 : NULL;
-  places p = {0};
-  bool made = fast && gg_simulation_new(scene, 0, &g, NULL) == GG_OK;
+  gg_engine_grains grains = {0};
+  bool made = fast && gg_simulation_new(scene, 0, &g, NULL) == GG_OK &&
+              gg_run_engine_grains_make(&grains, (size_t)g->model.n, NULL) == GG_OK;
   if (made) {
-    p = (places){calloc(3 * (size_t)g->model.n, sizeof *p.r), calloc((size_t)g->model.n, sizeof *p.species)};
-    made = p.r && p.species;
+    gg_run_engine_grains_read(g->engine, &g->model, &grains);
+    made = make_reference(&g->model, g->scene.run.seed, &grains, &reference, NULL) == GG_OK;
   }
-  if (made) {
-    g->engine->ops->snapshot(g->engine, true, take, &p);
-    made = make_reference(&g->model, g->scene.run.seed, &p, &reference, NULL) == GG_OK;
-  }
-  free(p.r);
-  free(p.species);
+  gg_run_engine_grains_clear(&grains);
   if (!made) {
     gg_simulation_free(g);
     free(fast);

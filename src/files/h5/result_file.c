@@ -207,7 +207,7 @@ static void write_engine(gg_h5 *h, const char *group, const char *observables, c
   write_correlations(h, group, r);
   gg_h5_text(h, gg_h5_path(h, "%s/engine", group), r->engine);
   const char *verdict = gg_h5_path(h, "%s/verdict", group);
-  gg_h5_text(h, verdict, r->scene.run.duration > 0 ? "followed" : verdicts[r->steadiness]);
+  gg_h5_text(h, verdict, gg_scene_is_followed(&r->scene) ? "followed" : verdicts[r->steadiness]);
   gg_h5_text_attribute(h, verdict, "why", r->steadiness_text);
   gg_h5_numbers(h, gg_h5_path(h, "%s/window", group), r->history.window, 2, NULL);
   write_effort(h, group, "averaging", &r->averaging);
