@@ -6,14 +6,14 @@
 
 /* Their names, searches and boundaries, as in meson.build; each for one species, and for a mixture. */
 #define EACH_INSTANCE(X, set)                                                                                          \
-  X(cells_periodic, GG_MD_PLAIN_CELLS, GG_MD_PERIODIC, set)                                                            \
-  X(cells_walled, GG_MD_PLAIN_CELLS, GG_MD_WALLED, set)                                                                \
+  X(cells_still, GG_MD_PLAIN_CELLS, GG_MD_STILL, set)                                                                  \
   X(cells_falling, GG_MD_PLAIN_CELLS, GG_MD_FALLING, set)                                                              \
   X(rows_sheared, GG_MD_COMOVING_ROWS, GG_MD_SHEARED, set)                                                             \
-  X(overlapping_periodic, GG_MD_OVERLAPPING_CELLS, GG_MD_PERIODIC, set)                                                \
+  X(overlapping_still, GG_MD_OVERLAPPING_CELLS, GG_MD_STILL, set)                                                      \
   X(overlapping_sheared, GG_MD_OVERLAPPING_ROWS, GG_MD_SHEARED, set)                                                   \
-  X(lists_periodic, GG_MD_NEIGHBOUR_LISTS, GG_MD_PERIODIC, set)                                                        \
-  X(lists_sheared, GG_MD_NEIGHBOUR_LISTS, GG_MD_SHEARED, set)
+  X(lists_still, GG_MD_NEIGHBOUR_LISTS, GG_MD_STILL, set)                                                              \
+  X(lists_sheared, GG_MD_NEIGHBOUR_LISTS, GG_MD_SHEARED, set)                                                          \
+  X(lists_falling, GG_MD_NEIGHBOUR_LISTS, GG_MD_FALLING, set)
 
 #define DECLARE(name, kind, boundary, set)                                                                             \
   extern const gg_md_kernel gg_md_kernel_##name##_##set, gg_md_kernel_##name##_mixture_##set;
@@ -38,8 +38,7 @@ const gg_md_kernel *gg_md_simd_kernel(gg_instructions set, gg_md_search_kind kin
 static enum gg_md_boundary boundary_of(const gg_md *e)
 {
   if (e->model.shear_rate != 0) return GG_MD_SHEARED;
-  if (e->falls) return GG_MD_FALLING;
-  return e->model.walled ? GG_MD_WALLED : GG_MD_PERIODIC;
+  return e->falls ? GG_MD_FALLING : GG_MD_STILL;
 }
 
 /* The nearest image of all that the cells around hold must be the one tried: four cells along each axis. */

@@ -23,7 +23,7 @@ gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
   if (!gg_md_cells_grow(&e->cells)) return gg_base_out_of_memory_for(err, "the grid of cells");
   GG_TRY(gg_md_allocate_lists(e, err));
   gg_md_set_skins(e, radius);
-  return GG_OK;
+  return gg_md_note_surfaces(e, err);
 }
 
 gg_status gg_md_make_grid(gg_md *e, gg_error *err)

@@ -80,9 +80,8 @@ static void free_search(gg_md_search_state *search)
     free(search->lists.neighbour);
   } else if (gg_md_search_has_rows(search->kind)) {
     if (search->rows.row) free(search->rows.row - 1);
-  } else {
-    for (int a = 0; a < 3; a++) free(search->near[a]);
   }
+  for (int a = 0; a < 3; a++) free(search->near[a]);
 }
 
 void gg_md_free(gg_md *e)

@@ -20,7 +20,7 @@ static void tell_search(const gg_model *m, void (*line)(void *, const char *), v
   char text[160];
   const gg_md_search_kind kind = gg_md_search_select(m, &radius, n);
   const char *const why[] = {
-      [GG_MD_PLAIN_CELLS] = m->walled ? "as between walls" : "for intermediate densities and small boxes",
+      [GG_MD_PLAIN_CELLS] = "for intermediate densities, small boxes, ridges and open tops",
       [GG_MD_NEIGHBOUR_LISTS] = "for dense gases: few updates",
       [GG_MD_OVERLAPPING_CELLS] = "for dilute gases: few crossings, each into one cell",
       [GG_MD_OVERLAPPING_ROWS] = "for dilute gases: few crossings, each into one cell",

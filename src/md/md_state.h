@@ -71,9 +71,9 @@ typedef struct gg_md_lists {
 
 typedef struct gg_md_search_state {
   gg_md_search_kind kind;
+  uint8_t *near[3]; /* by index of a grain's cell along each axis, the surfaces that it can touch before its next
+                       crossing, a bit each: those whose bit is there along all three. NULL without surfaces */
   union {
-    uint8_t *near[3]; /* plain cells: by index of the cell along each axis, the surfaces whose reach it is in, a bit
-                         each; those whose bit is there along all three can be touched. NULL without surfaces */
     gg_md_rows rows;
     gg_md_lists lists;
   };

@@ -78,9 +78,10 @@ GG_INLINE void gg_md_members_place(const gg_md *e, gg_vec r, gg_md_node *node)
   node->neighbours = 0;
   for (int a = 0; a < 3; a++) {
     double depth = gg_along(&r, a) - node->cell[a] * e->cells.width[a];
-    if (depth > e->cells.width[a] - half) {
+    const bool walled = a == 1 && e->model.walled; /* no cell beyond */
+    if (depth > e->cells.width[a] - half && !(walled && node->cell[a] == e->cells.n[a] - 1)) {
       node->neighbours |= 1u << a;
-    } else if (depth < half) {
+    } else if (depth < half && !(walled && node->cell[a] == 0)) {
       node->neighbours |= 1u << a;
       node->cell[a] = node->cell[a] ? node->cell[a] - 1 : e->cells.n[a] - 1;
     }

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "common/portable_math.h"
+#include "common/surface/shapes.h"
 #include "md/row_motion.h"
 
 /* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists,
@@ -30,13 +31,26 @@ static double mean_diameter(const gg_model *m)
   return sum / (double)m->n;
 }
 
+/* Ridges are looked for in one cell; above an open top a cell holds any number of grains. */
+static bool needs_plain_cells(const gg_model *m)
+{
+  for (int w = 0; w < m->n_surfaces; w++)
+    if (m->surface[w].shape != GG_SHAPE_plane) return true;
+  return gg_common_surface_is_open_above(m);
+}
+
+static bool falls(const gg_model *m)
+{
+  return m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
+}
+
 /* How wide the skins: wide ones are left seldom, but make long lists. Those of grains of very unequal size would be too
  * long, and cells must be as wide as the largest need; 0: none. */
 static double skin_radius(const gg_model *m)
 {
   double ratio = gg_common_model_widest(m) / gg_common_model_narrowest(m);
   double from = ratio > NEARLY_EQUAL ? LISTED_UNEQUAL_FROM : LISTED_FROM;
-  if (m->walled || m->phi < from || ratio > MOST_UNEQUAL_LISTED) return 0;
+  if (needs_plain_cells(m) || m->phi < from || ratio > MOST_UNEQUAL_LISTED) return 0;
   return mean_diameter(m) * fmin(0.34, 0.3 + 0.8 * (0.5 - m->phi));
 }
 
@@ -57,7 +71,7 @@ bool gg_md_fit_lists(const gg_model *m, double radius, int32_t n[3])
 /* Pairs in a cell must have one nearest image. */
 static bool fit_overlapping(const gg_model *m, int32_t n[3])
 {
-  if (m->walled || m->phi >= OVERLAPPING_BELOW) return false;
+  if (needs_plain_cells(m) || falls(m) || m->phi >= OVERLAPPING_BELOW) return false;
   double narrowest = 3 * gg_md_reach(m);
   count_cells(m, fmax(narrowest, gg_root(GRAINS_PER_OVERLAPPING_CELL * m->volume / (double)m->n, 3)), n);
   for (int a = 0; a < 3; a++) {

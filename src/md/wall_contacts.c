@@ -6,6 +6,13 @@
 #include "common/surface/shapes.h"
 #include "md/md_state.h"
 
+/* How far from its cell a grain can be before its next crossing: in its skin; in the next of two overlapping cells. */
+static void get_beyond(const gg_md *e, int axis, double *below, double *above)
+{
+  *below = *above = e->search.kind == GG_MD_NEIGHBOUR_LISTS ? e->search.lists.radius * (1 + 1e-9) : 0;
+  if (gg_md_search_overlaps(e->search.kind)) *above = e->cells.width[axis];
+}
+
 /* Centres touch it in a layer from its place into the gas. */
 static void note(gg_md *e, int w, double radius)
 {
@@ -13,11 +20,14 @@ static void note(gg_md *e, int w, double radius)
   const gg_md_cells *c = &e->cells;
   double depth = (gg_surface_height(s) + radius) * (1 + 1e-9), edge[2] = {s->place, s->place - s->side * depth};
   double from = fmin(edge[0], edge[1]), to = fmax(edge[0], edge[1]);
-  for (int a = 0; a < 3; a++)
+  for (int a = 0; a < 3; a++) {
+    double below, above;
+    get_beyond(e, a, &below, &above);
     for (int32_t k = 0; k < c->n[a]; k++) {
-      bool beyond = a == s->axis && (from > (k + 1) * c->width[a] || to < k * c->width[a]);
+      bool beyond = a == s->axis && (from > (k + 1) * c->width[a] + above || to < k * c->width[a] - below);
       if (!beyond) e->search.near[a][k] |= (uint8_t)(1 << w);
     }
+  }
 }
 
 gg_status gg_md_note_surfaces(gg_md *e, gg_error *err)

@@ -10,11 +10,17 @@
 static const int species[] = {1, 2, 3, GG_MAX_SPECIES};
 enum { MIXTURES = sizeof species / sizeof *species };
 
-static gg_scene scene_of(enum gg_md_boundary boundary, int mixture)
+/* Every boundary, that at rest with walls and without. */
+enum { PERIODIC, SHEARED, WALLED, FALLING, FLOWS };
+static const struct {
+  gg_flow flow;
+  enum gg_md_boundary boundary;
+} flows[FLOWS] = {{GG_HCS, GG_MD_STILL}, {GG_USF, GG_MD_SHEARED}, {GG_COUETTE, GG_MD_STILL}, {GG_CHUTE, GG_MD_FALLING}};
+
+static gg_scene scene_of(int flow, int mixture)
 {
-  static const gg_flow flows[] = {GG_HCS, GG_USF, GG_COUETTE, GG_CHUTE};
-  gg_scene s = md_scene((md_case){flows[boundary], 1500, 0.12, 0.9, 0.3, INFINITY, {0}});
-  if (boundary == GG_MD_FALLING) s.gravity[1] = -0.01;
+  gg_scene s = md_scene((md_case){flows[flow].flow, 1500, 0.12, 0.9, 0.3, INFINITY, {0}});
+  if (flow == FALLING) s.gravity[1] = -0.01;
   s.n_species = species[mixture];
   for (int i = 0; i < s.n_species; i++) {
     s.species[i].fraction = 1.0 / s.n_species;
@@ -38,14 +44,14 @@ static uint64_t run_with(const gg_model *m, const gg_md_kernel *kernel)
 static void simd_is_plain(void **state)
 {
   (void)state;
-  for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_FALLING; boundary++)
+  for (int flow = 0; flow < FLOWS; flow++)
     for (int mixture = 0; mixture < MIXTURES; mixture++) {
-      gg_scene s = scene_of(boundary, mixture);
+      gg_scene s = scene_of(flow, mixture);
       gg_model m = md_model_of(&s);
       const gg_md_kernel *simd =
-          gg_md_simd_kernel(gg_simd_instructions_best(),
-                            boundary == GG_MD_SHEARED ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS, boundary, mixture > 0);
-      if (run_with(&m, NULL) != run_with(&m, simd)) fail_msg("boundary %d, species %d", boundary, species[mixture]);
+          gg_md_simd_kernel(gg_simd_instructions_best(), flow == SHEARED ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS,
+                            flows[flow].boundary, mixture > 0);
+      if (run_with(&m, NULL) != run_with(&m, simd)) fail_msg("flow %d, species %d", flow, species[mixture]);
     }
 }
 
@@ -57,11 +63,12 @@ static void instruction_sets_agree(void **state)
                                [GG_MD_OVERLAPPING_CELLS] = 0.01,
                                [GG_MD_OVERLAPPING_ROWS] = 0.01,
                                [GG_MD_COMOVING_ROWS] = 0.1};
-  for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_FALLING; boundary++)
+  for (int flow = 0; flow < FLOWS; flow++)
     for (gg_md_search_kind kind = GG_MD_PLAIN_CELLS; kind < GG_MD_SEARCH_KINDS; kind++)
       for (int mixture = 0; mixture < MIXTURES; mixture++) {
+        const enum gg_md_boundary boundary = flows[flow].boundary;
         if (!gg_md_simd_kernel(gg_simd_instructions_best(), kind, boundary, mixture > 0)) continue;
-        gg_scene s = scene_of(boundary, mixture);
+        gg_scene s = scene_of(flow, mixture);
         s.particles = 700, s.phi = phi[kind], s.aspect[0] = 2;
         gg_model m = md_model_of(&s);
         double radius;
@@ -72,7 +79,8 @@ static void instruction_sets_agree(void **state)
           if (!gg_simd_instructions_run_here(set)) continue;
           uint64_t its = run_with(&m, gg_md_simd_kernel(set, kind, boundary, mixture > 0));
           if (hash && its != hash)
-            fail_msg("%s, search %d, species %d", gg_simd_instructions_name(set), (int)kind, species[mixture]);
+            fail_msg("%s, search %d, flow %d, species %d", gg_simd_instructions_name(set), (int)kind, flow,
+                     species[mixture]);
           hash = its;
         }
       }
@@ -85,21 +93,22 @@ static void every_search_has_its_kernels(void **state)
   (void)state;
   static const double phi[] = {0.001, 0.03, 0.06, 0.2, 0.3, 0.42, 0.55};
   static const int64_t sizes[] = {40, 300, 3000};
-  unsigned chosen[GG_MD_FALLING + 1] = {0};
-  for (int boundary = GG_MD_PERIODIC; boundary <= GG_MD_FALLING; boundary++)
+  unsigned chosen[FLOWS] = {0};
+  for (int flow = 0; flow < FLOWS; flow++)
     for (int k = 0; k < 7 * 3 * 2 * 2; k++) {
       const int mixture = k % 2;
-      gg_scene s = scene_of(boundary, mixture);
+      gg_scene s = scene_of(flow, mixture);
       s.phi = phi[k / 4 % 7], s.particles = sizes[k / 28], s.aspect[0] = k / 2 % 2 ? 2 : 1;
       gg_model m = md_model_of(&s);
       double radius;
       int32_t n[3];
       const gg_md_search_kind kind = gg_md_search_select(&m, &radius, n);
-      const bool plain = boundary == GG_MD_SHEARED && kind == GG_MD_PLAIN_CELLS;
-      chosen[boundary] |= 1u << kind;
+      const bool plain = flow == SHEARED && kind == GG_MD_PLAIN_CELLS;
+      chosen[flow] |= 1u << kind;
       for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++)
-        if (gg_simd_instructions_run_here(set) && !gg_md_simd_kernel(set, kind, boundary, mixture > 0) != plain)
-          fail_msg("%s, search %d, boundary %d", gg_simd_instructions_name(set), (int)kind, boundary);
+        if (gg_simd_instructions_run_here(set) &&
+            !gg_md_simd_kernel(set, kind, flows[flow].boundary, mixture > 0) != plain)
+          fail_msg("%s, search %d, flow %d", gg_simd_instructions_name(set), (int)kind, flow);
       if (!plain || gg_md_ops.accepts(&m, NULL) != GG_OK) continue;
       gg_md *e = md_create(&m, 1);
       md_collide(e, 100);
@@ -108,10 +117,10 @@ static void every_search_has_its_kernels(void **state)
     }
   const unsigned cells = 1 << GG_MD_PLAIN_CELLS, lists = 1 << GG_MD_NEIGHBOUR_LISTS,
                  rows = 1 << GG_MD_COMOVING_ROWS | 1 << GG_MD_OVERLAPPING_ROWS;
-  assert_int_equal(chosen[GG_MD_PERIODIC], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
-  assert_int_equal(chosen[GG_MD_SHEARED], cells | lists | rows);
-  assert_int_equal(chosen[GG_MD_WALLED], cells);
-  assert_int_equal(chosen[GG_MD_FALLING], cells);
+  assert_int_equal(chosen[PERIODIC], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
+  assert_int_equal(chosen[SHEARED], cells | lists | rows);
+  assert_int_equal(chosen[WALLED], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
+  assert_int_equal(chosen[FALLING], cells | lists);
 }
 
 /* All grains in a corner of the box, in n^3 overlapping cells. */

@@ -15,7 +15,7 @@ GG_INLINE bool gg_md_is_wall_above(const gg_md *e, const int32_t *cell)
 
 GG_INLINE bool gg_md_is_wall_below(const gg_md *e, const int32_t *cell)
 {
-  (void)e;
+  (void)e; /* sheared */
   return IS_WALLED && cell[1] == 0;
 }
 

@@ -63,6 +63,8 @@ GG_INLINE void gg_md_cells_nearby(const gg_md *e, uint32_t i, gg_md_nearby *near
     below[a] = depth * depth;
     above[a] = rest * rest;
   }
+  if (IS_WALLED && at[1] == 0) below[1] = INFINITY;
+  if (IS_WALLED && at[1] == c->n[1] - 1) above[1] = INFINITY;
   gg_axes far = {below[0], 0, above[0], INFINITY};
   double far_y[3] = {below[1], 0, above[1]}, far_z[3] = {below[2], 0, above[2]}, rho2 = c->reach * c->reach;
   nearby->which = 0;

@@ -36,7 +36,42 @@ GG_INLINE gg_vec gg_md_centre(const gg_md *e, uint32_t i)
   return c;
 }
 
-/* When the grain leaves its skin: |dr + dv t| = s - kappa t, root without cancellation. */
+/* When a straight path leaves a sphere that shrinks: |dr + dv t| = radius - kappa t, root without cancellation. */
+GG_INLINE double gg_md_sphere_exit(gg_vec dr, gg_vec dv, double radius, double kappa)
+{
+  double a = gg_dot(dv, dv) - kappa * kappa, b = gg_dot(dr, dv) + kappa * radius;
+  double c = gg_dot(dr, dr) - radius * radius;
+  if (!(c < 0) || radius < 0) return 0;
+  double root = sqrt(b * b - a * c);
+  bool out = b > 0; /* half of all: no branch */
+  double delay = (out ? -c : root - b) / (out ? b + root : a);
+  return (out | (a > 0)) ? delay : INFINITY;
+}
+
+/* On a parabola: not later than it leaves the skin, and no further than its next collision. The steps are straight
+ * paths in a sphere smaller by what the grain falls meanwhile, which is at most half of its way to the surface. */
+GG_INLINE double gg_md_fall_out_of_skin(const gg_md *e, const gg_md_search *s)
+{
+  enum { MOST_STEPS = 8 };
+  gg_vec dr = gg_sub(s->self->r, e->search.lists.skin[s->grain].centre), v = s->self->v;
+  const double radius = e->search.lists.radius, weight = sqrt(gg_dot(e->gravity, e->gravity));
+  double gone = 0, left = s->collision - e->k.now;
+  for (int k = 0; k < MOST_STEPS; k++) {
+    double room = radius - sqrt(gg_dot(dr, dr)), dt = left;
+    if (!(room > (k ? 0.02 * radius : 0))) break;
+    bool all = weight * left * left < room;
+    if (!all) dt = sqrt(room / weight);
+    double exit = gg_md_sphere_exit(dr, v, radius - 0.5 * weight * dt * dt, 0);
+    if (all && exit >= left) return s->collision;
+    if (exit < dt) dt = exit;
+    dr = gg_axpy(0.5 * dt * dt, e->gravity, gg_axpy(dt, v, dr));
+    v = gg_axpy(dt, e->gravity, v);
+    gone += dt, left -= dt;
+  }
+  return e->k.now + gone;
+}
+
+/* When the grain leaves its skin. */
 GG_INLINE double gg_md_skin_exit(const gg_md *e, uint32_t i, const gg_md_grain *g)
 {
   gg_vec centre = gg_md_centre(e, i), dr = gg_sub(g->r, centre), dv = g->v;
@@ -46,13 +81,7 @@ GG_INLINE double gg_md_skin_exit(const gg_md *e, uint32_t i, const gg_md_grain *
     dv.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]);
     radius -= kappa * (e->k.now - e->node[i].skin_time);
   }
-  double a = gg_dot(dv, dv) - kappa * kappa, b = gg_dot(dr, dv) + kappa * radius;
-  double c = gg_dot(dr, dr) - radius * radius;
-  if (!(c < 0) || radius < 0) return e->k.now;
-  double root = sqrt(b * b - a * c);
-  bool out = b > 0; /* half of all: no branch */
-  double delay = (out ? -c : root - b) / (out ? b + root : a);
-  return (out | (a > 0)) ? e->k.now + delay : INFINITY;
+  return e->k.now + gg_md_sphere_exit(dr, dv, radius, kappa);
 }
 
 GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
@@ -64,7 +93,7 @@ GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
 GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int32_t *face)
 {
   (void)face;
-  return gg_md_skin_exit(e, s->grain, s->self);
+  return HAS_GRAVITY ? gg_md_fall_out_of_skin(e, s) : gg_md_skin_exit(e, s->grain, s->self);
 }
 
 /* Out of its skin: a new one, lists updated, and a new prediction. */

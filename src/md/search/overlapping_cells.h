@@ -3,6 +3,7 @@
 #ifndef GG_MD_SEARCH_OVERLAPPING_CELLS_H
 #define GG_MD_SEARCH_OVERLAPPING_CELLS_H
 
+#include "md/search/faces.h"
 #include "md/search/overlapping.h"
 
 /* To the next cell along an axis; axis 3: nowhere. */
@@ -54,6 +55,12 @@ GG_INLINE void gg_md_store_cell(gg_md_node *node, gg_indices cell)
   *(gg_indices_there *)node->cell = cell;
 }
 
+/* Is the grain's upper cell, or its only one, the last below a wall? */
+GG_INLINE bool gg_md_is_below_wall(const gg_md *e, const gg_md_node *node)
+{
+  return IS_WALLED && node->cell[1] + (int32_t)(node->neighbours >> 1 & 1) == e->cells.n[1] - 1;
+}
+
 /* When the grain comes into another cell, and along which axis, which way. */
 GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int32_t *face)
 {
@@ -65,7 +72,10 @@ GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int3
   gg_axes way = gg_choose_axes(v > 0, upwards, depth - half);
   gg_axes delay = way / (gg_axes)((gg_axes_mask)v & INT64_MAX);
   delay = gg_choose_axes(delay > 0, delay, zero); /* at rest: NAN or infinite */
-  delay = gg_choose_axes((v != 0) & (gg_axes_mask){-1, -1, -1, 0}, delay, never);
+  gg_axes_mask open = (v != 0) & (gg_axes_mask){-1, -1, -1, 0};
+  if (gg_md_is_wall_below(e, node->cell)) open &= (v > 0) | (gg_axes_mask){-1, 0, -1, 0};
+  if (gg_md_is_below_wall(e, node)) open &= (v < 0) | (gg_axes_mask){-1, 0, -1, 0};
+  delay = gg_choose_axes(open, delay, never);
   gg_axes first = gg_least_axes(delay);
   int axis = __builtin_ctz(gg_axes_bits(delay == first));
   *face = 2 * axis + (int)(gg_axes_bits(v > 0) >> axis & 1);

@@ -119,17 +119,24 @@ GG_INLINE void gg_md_take_rows(const gg_md *e, gg_md_search *s, const int32_t at
   s->n_candidates = n;
 }
 
+static __attribute__((noinline, unused)) void
+gg_md_take_rows_at_wall(const gg_md *e, gg_md_search *s, const int32_t at[3], const int from[3], const int to[3])
+{
+  const int lower[3] = {from[0], gg_md_is_wall_below(e, at) && from[1] < 0 ? 0 : from[1], from[2]};
+  const int upper[3] = {to[0], gg_md_is_wall_above(e, at) && to[1] > 0 ? 0 : to[1], to[2]};
+  gg_md_take_rows(e, s, at, lower, upper, false);
+}
+
 /* Those of them that are in the box, in SIMD kernels; false: there may be no room for all. */
 GG_INLINE bool gg_md_take_box(const gg_md *e, gg_md_search *s, const int32_t at[3], const int from[3], const int to[3])
 {
   if (!IS_SIMD || !gg_md_has_room(e, 27)) return false;
-  bool lowest = IS_WALLED & (at[1] == 0), highest = IS_WALLED & (at[1] == e->cells.n[1] - 1);
-  int lower[3] = {from[0], lowest && from[1] < 0 ? 0 : from[1], from[2]};
-  int upper[3] = {to[0], highest && to[1] > 0 ? 0 : to[1], to[2]};
-  if (e->cells.stride == 8)
-    gg_md_take_rows(e, s, at, lower, upper, true);
+  if (gg_md_is_wall_below(e, at) || gg_md_is_wall_above(e, at))
+    gg_md_take_rows_at_wall(e, s, at, from, to);
+  else if (e->cells.stride == 8)
+    gg_md_take_rows(e, s, at, from, to, true);
   else
-    gg_md_take_rows(e, s, at, lower, upper, false);
+    gg_md_take_rows(e, s, at, from, to, false);
   s->inside = gg_md_is_inside(e, at);
   return true;
 }

@@ -49,7 +49,7 @@ GG_INLINE gg_md_quadratic gg_md_try_batch(const gg_md *e, const gg_md_search *s,
   } else if (images == GG_MD_AT_REST) {
     x = gg_fold8(x, L[0], inverse[0]);
   }
-  if (images == GG_MD_AT_REST && !IS_WALLED) y = gg_fold8(y, L[1], inverse[1]);
+  if (images == GG_MD_AT_REST) y = gg_fold8(y, L[1], inverse[1]);
   if (images != GG_MD_SAME) z = gg_fold8(z, L[2], inverse[2]);
   gg_v8 touch2 = gg_all8(sigma2[0]);
   if (IS_MIXTURE) {
