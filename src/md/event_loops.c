@@ -4,24 +4,30 @@
 
 #include <assert.h>
 
-/* Their names, searches and boundaries, as in meson.build; each for one species, and for a mixture. */
-#define EACH_INSTANCE(X, set)                                                                                          \
+/* Their names, searches and boundaries, as in meson.build; each for one species, and for a mixture; of grains that fall
+ * the latter serves both. */
+#define EACH_INSTANCE(X, BOTH, set)                                                                                    \
   X(cells_still, GG_MD_PLAIN_CELLS, GG_MD_STILL, set)                                                                  \
-  X(cells_falling, GG_MD_PLAIN_CELLS, GG_MD_FALLING, set)                                                              \
+  BOTH(cells_falling, GG_MD_PLAIN_CELLS, GG_MD_FALLING, set)                                                           \
   X(rows_sheared, GG_MD_COMOVING_ROWS, GG_MD_SHEARED, set)                                                             \
   X(overlapping_still, GG_MD_OVERLAPPING_CELLS, GG_MD_STILL, set)                                                      \
   X(overlapping_sheared, GG_MD_OVERLAPPING_ROWS, GG_MD_SHEARED, set)                                                   \
+  BOTH(overlapping_falling, GG_MD_OVERLAPPING_CELLS, GG_MD_FALLING, set)                                               \
   X(lists_still, GG_MD_NEIGHBOUR_LISTS, GG_MD_STILL, set)                                                              \
   X(lists_sheared, GG_MD_NEIGHBOUR_LISTS, GG_MD_SHEARED, set)                                                          \
-  X(lists_falling, GG_MD_NEIGHBOUR_LISTS, GG_MD_FALLING, set)
+  BOTH(lists_falling, GG_MD_NEIGHBOUR_LISTS, GG_MD_FALLING, set)
 
+#define DECLARE_BOTH(name, kind, boundary, set) extern const gg_md_kernel gg_md_kernel_##name##_mixture_##set;
 #define DECLARE(name, kind, boundary, set)                                                                             \
-  extern const gg_md_kernel gg_md_kernel_##name##_##set, gg_md_kernel_##name##_mixture_##set;
+  extern const gg_md_kernel gg_md_kernel_##name##_##set;                                                               \
+  DECLARE_BOTH(name, kind, boundary, set)
 #define ENTRY(name, kind, boundary, set)                                                                               \
   [kind][boundary] = {&gg_md_kernel_##name##_##set, &gg_md_kernel_##name##_mixture_##set},
+#define ENTRY_BOTH(name, kind, boundary, set)                                                                          \
+  [kind][boundary] = {&gg_md_kernel_##name##_mixture_##set, &gg_md_kernel_##name##_mixture_##set},
 
-#define DECLARE_SET(id, set) EACH_INSTANCE(DECLARE, set)
-#define TABLE(id, set) [id] = {EACH_INSTANCE(ENTRY, set)},
+#define DECLARE_SET(id, set) EACH_INSTANCE(DECLARE, DECLARE_BOTH, set)
+#define TABLE(id, set) [id] = {EACH_INSTANCE(ENTRY, ENTRY_BOTH, set)},
 
 GG_EACH_COMPILED_SET(DECLARE_SET)
 extern const gg_md_kernel gg_md_kernel_plain_cells, gg_md_kernel_plain_rows;

@@ -39,11 +39,6 @@ static bool needs_plain_cells(const gg_model *m)
   return gg_common_surface_is_open_above(m);
 }
 
-static bool falls(const gg_model *m)
-{
-  return m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
-}
-
 /* How wide the skins: wide ones are left seldom, but make long lists. Those of grains of very unequal size would be too
  * long, and cells must be as wide as the largest need; 0: none. */
 static double skin_radius(const gg_model *m)
@@ -71,7 +66,7 @@ bool gg_md_fit_lists(const gg_model *m, double radius, int32_t n[3])
 /* Pairs in a cell must have one nearest image. */
 static bool fit_overlapping(const gg_model *m, int32_t n[3])
 {
-  if (needs_plain_cells(m) || falls(m) || m->phi >= OVERLAPPING_BELOW) return false;
+  if (needs_plain_cells(m) || m->phi >= OVERLAPPING_BELOW) return false;
   double narrowest = 3 * gg_md_reach(m);
   count_cells(m, fmax(narrowest, gg_root(GRAINS_PER_OVERLAPPING_CELL * m->volume / (double)m->n, 3)), n);
   for (int a = 0; a < 3; a++) {

@@ -73,11 +73,11 @@ static double cost_of_kicks(const gg_model *m)
 }
 
 /* Nanoseconds a collision. The thinner the gas the more cells are crossed between two; out of cache beyond some
- * thousand grains; walls are met, too. */
+ * thousand grains; walls are met, too, and parabolas cost more than straight lines. */
 static double pace_of_md(const gg_model *m)
 {
   const double cells = 180 + 115 / sqrt(fmax(m->phi, 1e-12)), cache = 1 + 0.2 * fmax(0, log((double)m->n / 2000));
-  return cells * cache * crowding(m) * cost_of_kicks(m) * (m->walled ? 2 : 1);
+  return cells * cache * crowding(m) * cost_of_kicks(m) * (m->walled ? 1.2 : 1);
 }
 
 /* Between walls grains fly, too. Small ensembles, and those with a law of restitution, take collisions one by one; each

@@ -120,7 +120,7 @@ static void every_search_has_its_kernels(void **state)
   assert_int_equal(chosen[PERIODIC], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
   assert_int_equal(chosen[SHEARED], cells | lists | rows);
   assert_int_equal(chosen[WALLED], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
-  assert_int_equal(chosen[FALLING], cells | lists);
+  assert_int_equal(chosen[FALLING], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
 }
 
 /* All grains in a corner of the box, in n^3 overlapping cells. */

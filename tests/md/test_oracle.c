@@ -261,6 +261,33 @@ static void listed(void **state)
   }
 }
 
+/* The same between walls and on parabolas, before grains lie still on a floor: of those that hardly move any longer no
+ * time is known to this. */
+static void searched_between_walls(void **state)
+{
+  (void)state;
+  static const gg_flow flows[] = {GG_COUETTE, GG_FOURIER, GG_POISEUILLE, GG_CHUTE};
+  for (int k = 0; k < 32; k++) {
+    const bool lists = k % 2;
+    gg_scene s =
+        md_scene((md_case){flows[k / 2 % 4], 150, lists ? 0.42 : 0.01, 0.9, k % 3 ? 0 : -1, INFINITY, {1, 1.1, 1}});
+    s.md.contact_time = 1e-3;
+    s.walls.beta = 0.5, s.walls.e = 0.8;
+    if (s.flow == GG_POISEUILLE) s.gravity[0] = 0.5;
+    if (s.flow == GG_CHUTE) s.gravity[0] = 0.2, s.gravity[1] = k < 16 ? -0.1 : -0.5;
+    if (k >= 16 && k % 4 < 2) {
+      s.n_species = 2, s.species[0].fraction = s.species[1].fraction = 0.5;
+      s.species[1].diameter = lists ? 0.85 : 0.6;
+    }
+    if (s.n_species > 1) s.phi = lists ? 0.46 : 0.006;
+    gg_model m = md_model_of(&s);
+    gg_md *e = md_create(&m, 1);
+    assert_int_equal(e->search.kind, lists ? GG_MD_NEIGHBOUR_LISTS : GG_MD_OVERLAPPING_CELLS);
+    md_destroy(e);
+    follow(&s, (uint64_t)k, 300, 60);
+  }
+}
+
 static void dense(void **state)
 {
   (void)state;
@@ -333,6 +360,7 @@ int main(void)
       cmocka_unit_test(wide_cells),
       cmocka_unit_test(comoving_rows),
       cmocka_unit_test(overlapping_cells),
+      cmocka_unit_test(searched_between_walls),
       cmocka_unit_test(ten_thousand_in_a_row),
       cmocka_unit_test(late),
   };

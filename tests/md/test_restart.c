@@ -8,7 +8,9 @@ static const md_case cases[] = {
     {GG_USF, 200, 0.3, 0.9, 0, INFINITY, {0}},        {GG_USF, 200, 0.02, 0.8, 0.5, 0.3, {0}},
     {GG_HCS, 200, 0.5, 0.9, -1, INFINITY, {0}},       {GG_EQUILIBRIUM, 200, 0.1, 1, -1, INFINITY, {0}},
     {GG_HCS, 200, 0.2, 0.95, 0.8, INFINITY, {0}},     {GG_HCS, 400, 0.01, 0.9, -1, INFINITY, {0}},
-    {GG_USF, 700, 0.01, 0.9, 0, INFINITY, {2, 1, 1}},
+    {GG_USF, 700, 0.01, 0.9, 0, INFINITY, {2, 1, 1}}, {GG_COUETTE, 300, 0.5, 0.9, 0, INFINITY, {0}},
+    {GG_CHUTE, 300, 0.5, 0.9, 0, INFINITY, {0}},      {GG_COUETTE, 400, 0.01, 0.9, 0, INFINITY, {0}},
+    {GG_CHUTE, 400, 0.01, 0.9, 0, INFINITY, {0}},
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
@@ -163,7 +165,7 @@ static void rescaled(void **state)
   (void)state;
   for (int k = 0; k < CASES; k++) {
     gg_model m = md_model(cases[k]);
-    if (m.shear_rate != 0) continue;
+    if (m.shear_rate != 0 || m.walled) continue;
     gg_md *plain = md_create(&m, 2), *scaled = md_create(&m, 2);
     gg_error err;
     md_collide(plain, 20000);

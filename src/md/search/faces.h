@@ -3,9 +3,9 @@
 #ifndef GG_MD_SEARCH_FACES_H
 #define GG_MD_SEARCH_FACES_H
 
-#include "common/surface/plane.h"
 #include "md/search/search.h"
 #include "simd/axes.h"
+#include "simd/eight.h"
 
 /* Faces that are walls are not crossed. */
 GG_INLINE bool gg_md_is_wall_above(const gg_md *e, const int32_t *cell)
@@ -19,29 +19,34 @@ GG_INLINE bool gg_md_is_wall_below(const gg_md *e, const int32_t *cell)
   return IS_WALLED && cell[1] == 0;
 }
 
-/* When a grain on a parabola leaves its cell along one axis, and through which face. */
-GG_INLINE double gg_md_fall_out(const gg_md *e, const gg_md_search *s, int axis, int32_t *face)
+/* When a grain on a parabola comes to the first of the faces below and above along each axis, by their distances
+ * (INFINITY: a wall): gg_fall_delay of all at a time. A lane has the number of its face. */
+GG_INLINE double gg_md_fall_to_face(const gg_md *e, gg_axes below, gg_axes above, gg_axes v, int32_t *face)
 {
-  double x = gg_along(&s->self->r, axis), v = gg_along(&s->self->v, axis), width = e->cells.width[axis];
-  const int32_t *cell = e->node[s->grain].cell;
-  bool bottom = axis == 1 && gg_md_is_wall_below(e, cell), top = axis == 1 && gg_md_is_wall_above(e, cell);
-  double w = gg_along(&e->gravity, axis);
-  double down = bottom ? INFINITY : gg_fall_delay(x - cell[axis] * width, -v, -w);
-  double up = top ? INFINITY : gg_fall_delay((cell[axis] + 1) * width - x, v, w);
-  *face = 2 * axis + (up < down);
-  return up < down ? up : down;
+#define FACES(lower, upper) __builtin_shufflevector(lower, upper, 0, 4, 1, 5, 2, 6, 3, 7)
+  const gg_axes g = {e->gravity.x, e->gravity.y, e->gravity.z, 0};
+  gg_v8 h = FACES(below, above), u = FACES(-v, v), w = FACES(-g, g), zero = gg_all8(0), never = gg_all8(INFINITY);
+#undef FACES
+  gg_v8 discriminant = u * u + 2 * w * h, root = gg_sqrt8(gg_larger8(discriminant, zero));
+  gg_k8 towards = gg_less8(zero, u), there = gg_not_above8(h, zero);
+  gg_k8 meets = (towards | gg_less8(zero, w)) & (there | gg_not_above8(zero, discriminant)) & gg_less8(h, never);
+  gg_v8 delay = gg_choose8(towards, 2 * h, root - u) / gg_choose8(towards, u + root, w);
+  delay = gg_choose8(meets, gg_larger8(delay, zero), never);
+  delay = __builtin_shufflevector(delay, never, 0, 1, 2, 3, 4, 5, 8, 9);
+  gg_v8 first = gg_least8(delay);
+  *face = __builtin_ctz(gg_lanes8(gg_not_above8(delay, first)));
+  return first[0];
 }
 
+/* When it leaves its cell, and through which face. */
 GG_INLINE double gg_md_first_fall_out(const gg_md *e, const gg_md_search *s, int32_t *face)
 {
-  int32_t other;
-  double first = gg_md_fall_out(e, s, 0, face);
-  for (int axis = 1; axis < 3; axis++) {
-    double delay = gg_md_fall_out(e, s, axis, &other);
-    *face = delay < first ? other : *face;
-    first = delay < first ? delay : first;
-  }
-  return first;
+  const int32_t *cell = e->node[s->grain].cell;
+  gg_axes lower = __builtin_convertvector(gg_load_indices(cell), gg_axes), width = gg_load_axes(e->cells.width);
+  gg_axes r = gg_load_axes(&s->self->r.x), below = r - lower * width, above = (lower + 1) * width - r;
+  if (gg_md_is_wall_below(e, cell)) below[1] = INFINITY;
+  if (gg_md_is_wall_above(e, cell)) above[1] = INFINITY;
+  return gg_md_fall_to_face(e, below, above, gg_load_axes(&s->self->v.x), face);
 }
 
 /* The same on a straight line. Rounding may have left the grain outside by a digit: then at once. */

@@ -55,7 +55,8 @@ GG_INLINE double gg_md_fall_out_of_skin(const gg_md *e, const gg_md_search *s)
   enum { MOST_STEPS = 8 };
   gg_vec dr = gg_sub(s->self->r, e->search.lists.skin[s->grain].centre), v = s->self->v;
   const double radius = e->search.lists.radius, weight = sqrt(gg_dot(e->gravity, e->gravity));
-  double gone = 0, left = s->collision - e->k.now;
+  double gone = 0, left = s->collision - e->k.now, fall = 0.5 * weight * left * left;
+  if (fall < radius && gg_md_sphere_exit(dr, v, radius - fall, 0) >= left) return s->collision;
   for (int k = 0; k < MOST_STEPS; k++) {
     double room = radius - sqrt(gg_dot(dr, dr)), dt = left;
     if (!(room > (k ? 0.02 * radius : 0))) break;

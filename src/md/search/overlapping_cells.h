@@ -18,11 +18,17 @@ GG_INLINE gg_md_grain *gg_md_synchronise_step(gg_md *e, uint32_t i, gg_md_step s
   gg_md_grain *g = &e->grain[i];
   gg_line *record = (gg_line *)g;
   gg_v8 old = *record;
-  gg_axes r = gg_load_axes(&g->r.x) + (e->k.now - g->t) * gg_load_axes(&g->v.x);
+  const double dt = e->k.now - g->t;
+  gg_axes v = gg_load_axes(&g->v.x), r = gg_load_axes(&g->r.x) + dt * v;
+  if (HAS_GRAVITY) {
+    const gg_axes w = {e->gravity.x, e->gravity.y, e->gravity.z, 0};
+    r += 0.5 * dt * dt * w;
+    v += dt * w;
+  }
   gg_axes wrapped = gg_wrap_axes(r, gg_load_axes(e->box.edge), gg_load_axes(e->box.inverse));
   r = gg_choose_axes(gg_axes_of(1u << step.axis), wrapped, r);
-  gg_v8 new = __builtin_shufflevector(r, r, 0, 1, 2, 3, 4, 5, 6, 7);
-  new = __builtin_shufflevector(new, old, 0, 1, 2, 11, 12, 13, 14, 15);
+  gg_v8 new = __builtin_shufflevector(r, v, 0, 1, 2, 4, 5, 6, -1, -1);
+  new = __builtin_shufflevector(new, old, 0, 1, 2, 3, 4, 5, 14, 15);
   new[6] = e->k.now;
   *record = new;
   return g;
@@ -68,14 +74,14 @@ GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int3
   double half = 0.5 * e->cells.reach;
   gg_axes v = gg_load_axes(&s->self->v.x), width = gg_load_axes(e->cells.width);
   gg_axes depth = gg_md_depths(e, node, &s->self->r), zero = {0}, never = {INFINITY, INFINITY, INFINITY, INFINITY};
-  gg_axes upwards = gg_choose_axes(gg_axes_of(node->neighbours), 2 * width, width) - half - depth;
-  gg_axes way = gg_choose_axes(v > 0, upwards, depth - half);
+  gg_axes below = depth - half, above = gg_choose_axes(gg_axes_of(node->neighbours), 2 * width, width) - half - depth;
+  if (gg_md_is_wall_below(e, node->cell)) below[1] = INFINITY;
+  if (gg_md_is_below_wall(e, node)) above[1] = INFINITY;
+  if (HAS_GRAVITY) return e->k.now + gg_md_fall_to_face(e, below, above, v, face);
+  gg_axes way = gg_choose_axes(v > 0, above, below);
   gg_axes delay = way / (gg_axes)((gg_axes_mask)v & INT64_MAX);
   delay = gg_choose_axes(delay > 0, delay, zero); /* at rest: NAN or infinite */
-  gg_axes_mask open = (v != 0) & (gg_axes_mask){-1, -1, -1, 0};
-  if (gg_md_is_wall_below(e, node->cell)) open &= (v > 0) | (gg_axes_mask){-1, 0, -1, 0};
-  if (gg_md_is_below_wall(e, node)) open &= (v < 0) | (gg_axes_mask){-1, 0, -1, 0};
-  delay = gg_choose_axes(open, delay, never);
+  delay = gg_choose_axes((v != 0) & (gg_axes_mask){-1, -1, -1, 0}, delay, never);
   gg_axes first = gg_least_axes(delay);
   int axis = __builtin_ctz(gg_axes_bits(delay == first));
   *face = 2 * axis + (int)(gg_axes_bits(v > 0) >> axis & 1);
