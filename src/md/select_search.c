@@ -39,13 +39,21 @@ static bool needs_plain_cells(const gg_model *m)
   return gg_common_surface_is_open_above(m);
 }
 
+/* Walls that move, or gravity along them, make a flow that would carry grains out of skins at rest. */
+static bool flows_along_walls(const gg_model *m)
+{
+  for (int w = 0; w < m->n_surfaces; w++)
+    if (m->surface[w].velocity.x != 0) return true;
+  return m->gravity[0] != 0 || m->gravity[2] != 0;
+}
+
 /* How wide the skins: wide ones are left seldom, but make long lists. Those of grains of very unequal size would be too
  * long, and cells must be as wide as the largest need; 0: none. */
 static double skin_radius(const gg_model *m)
 {
   double ratio = gg_common_model_widest(m) / gg_common_model_narrowest(m);
   double from = ratio > NEARLY_EQUAL ? LISTED_UNEQUAL_FROM : LISTED_FROM;
-  if (needs_plain_cells(m) || m->phi < from || ratio > MOST_UNEQUAL_LISTED) return 0;
+  if (needs_plain_cells(m) || flows_along_walls(m) || m->phi < from || ratio > MOST_UNEQUAL_LISTED) return 0;
   return mean_diameter(m) * fmin(0.34, 0.3 + 0.8 * (0.5 - m->phi));
 }
 

@@ -15,12 +15,12 @@ enum { PERIODIC, SHEARED, WALLED, FALLING, FLOWS };
 static const struct {
   gg_flow flow;
   enum gg_md_boundary boundary;
-} flows[FLOWS] = {{GG_HCS, GG_MD_STILL}, {GG_USF, GG_MD_SHEARED}, {GG_COUETTE, GG_MD_STILL}, {GG_CHUTE, GG_MD_FALLING}};
+} flows[FLOWS] = {{GG_HCS, GG_MD_STILL}, {GG_USF, GG_MD_SHEARED}, {GG_FOURIER, GG_MD_STILL}, {GG_CHUTE, GG_MD_FALLING}};
 
 static gg_scene scene_of(int flow, int mixture)
 {
   gg_scene s = md_scene((md_case){flows[flow].flow, 1500, 0.12, 0.9, 0.3, INFINITY, {0}});
-  if (flow == FALLING) s.gravity[1] = -0.01;
+  if (flow == FALLING) s.gravity[0] = 0, s.gravity[1] = -0.01;
   s.n_species = species[mixture];
   for (int i = 0; i < s.n_species; i++) {
     s.species[i].fraction = 1.0 / s.n_species;

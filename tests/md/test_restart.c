@@ -8,8 +8,8 @@ static const md_case cases[] = {
     {GG_USF, 200, 0.3, 0.9, 0, INFINITY, {0}},        {GG_USF, 200, 0.02, 0.8, 0.5, 0.3, {0}},
     {GG_HCS, 200, 0.5, 0.9, -1, INFINITY, {0}},       {GG_EQUILIBRIUM, 200, 0.1, 1, -1, INFINITY, {0}},
     {GG_HCS, 200, 0.2, 0.95, 0.8, INFINITY, {0}},     {GG_HCS, 400, 0.01, 0.9, -1, INFINITY, {0}},
-    {GG_USF, 700, 0.01, 0.9, 0, INFINITY, {2, 1, 1}}, {GG_COUETTE, 300, 0.5, 0.9, 0, INFINITY, {0}},
-    {GG_CHUTE, 300, 0.5, 0.9, 0, INFINITY, {0}},      {GG_COUETTE, 400, 0.01, 0.9, 0, INFINITY, {0}},
+    {GG_USF, 700, 0.01, 0.9, 0, INFINITY, {2, 1, 1}}, {GG_FOURIER, 300, 0.5, 0.9, 0, INFINITY, {0}},
+    {GG_CHUTE, 300, 0.5, 1, -1, INFINITY, {0}},       {GG_COUETTE, 400, 0.01, 0.9, 0, INFINITY, {0}},
     {GG_CHUTE, 400, 0.01, 0.9, 0, INFINITY, {0}},
 };
 enum { CASES = sizeof cases / sizeof *cases };
@@ -18,6 +18,7 @@ enum { CASES = sizeof cases / sizeof *cases };
 static gg_model model_of(int k, bool mixture)
 {
   gg_scene s = md_scene(cases[k]);
+  if (s.flow == GG_CHUTE) s.gravity[0] = 0, s.gravity[1] = -0.1, s.walls.e = 1, s.walls.beta = -1; /* lists */
   if (mixture) {
     s.n_species = 3;
     s.species[0].fraction = 0.5;
