@@ -4,17 +4,20 @@
 
 #include <assert.h>
 
-/* Their names, searches and boundaries, as in meson.build; each for one species, and for a mixture; of grains that fall
- * the latter serves both. */
+/* Their names, searches and boundaries, as in meson.build; each for one species, and for a mixture; between walls the
+ * latter serves both. */
 #define EACH_INSTANCE(X, BOTH, set)                                                                                    \
-  X(cells_still, GG_MD_PLAIN_CELLS, GG_MD_STILL, set)                                                                  \
+  X(cells_periodic, GG_MD_PLAIN_CELLS, GG_MD_PERIODIC, set)                                                            \
+  BOTH(cells_walled, GG_MD_PLAIN_CELLS, GG_MD_WALLED, set)                                                             \
   BOTH(cells_falling, GG_MD_PLAIN_CELLS, GG_MD_FALLING, set)                                                           \
   X(rows_sheared, GG_MD_COMOVING_ROWS, GG_MD_SHEARED, set)                                                             \
-  X(overlapping_still, GG_MD_OVERLAPPING_CELLS, GG_MD_STILL, set)                                                      \
+  X(overlapping_periodic, GG_MD_OVERLAPPING_CELLS, GG_MD_PERIODIC, set)                                                \
   X(overlapping_sheared, GG_MD_OVERLAPPING_ROWS, GG_MD_SHEARED, set)                                                   \
+  BOTH(overlapping_walled, GG_MD_OVERLAPPING_CELLS, GG_MD_WALLED, set)                                                 \
   BOTH(overlapping_falling, GG_MD_OVERLAPPING_CELLS, GG_MD_FALLING, set)                                               \
-  X(lists_still, GG_MD_NEIGHBOUR_LISTS, GG_MD_STILL, set)                                                              \
+  X(lists_periodic, GG_MD_NEIGHBOUR_LISTS, GG_MD_PERIODIC, set)                                                        \
   X(lists_sheared, GG_MD_NEIGHBOUR_LISTS, GG_MD_SHEARED, set)                                                          \
+  BOTH(lists_walled, GG_MD_NEIGHBOUR_LISTS, GG_MD_WALLED, set)                                                         \
   BOTH(lists_falling, GG_MD_NEIGHBOUR_LISTS, GG_MD_FALLING, set)
 
 #define DECLARE_BOTH(name, kind, boundary, set) extern const gg_md_kernel gg_md_kernel_##name##_mixture_##set;
@@ -44,7 +47,8 @@ const gg_md_kernel *gg_md_simd_kernel(gg_instructions set, gg_md_search_kind kin
 static enum gg_md_boundary boundary_of(const gg_md *e)
 {
   if (e->model.shear_rate != 0) return GG_MD_SHEARED;
-  return e->falls ? GG_MD_FALLING : GG_MD_STILL;
+  if (e->falls) return GG_MD_FALLING;
+  return e->model.walled ? GG_MD_WALLED : GG_MD_PERIODIC;
 }
 
 /* The nearest image of all that the cells around hold must be the one tried: four cells along each axis. */

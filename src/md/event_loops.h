@@ -7,8 +7,7 @@
 #include "md/md_state.h"
 #include "simd/dispatch.h"
 
-/* A box at rest is periodic or has walls; grains that fall have walls. */
-enum gg_md_boundary { GG_MD_STILL, GG_MD_SHEARED, GG_MD_FALLING };
+enum gg_md_boundary { GG_MD_PERIODIC, GG_MD_SHEARED, GG_MD_WALLED, GG_MD_FALLING };
 
 /* The instance of a compiled set of instructions; NULL where there is no such thing. */
 const gg_md_kernel *gg_md_simd_kernel(gg_instructions set, gg_md_search_kind kind, enum gg_md_boundary boundary,

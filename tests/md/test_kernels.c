@@ -10,17 +10,15 @@
 static const int species[] = {1, 2, 3, GG_MAX_SPECIES};
 enum { MIXTURES = sizeof species / sizeof *species };
 
-/* Every boundary, that at rest with walls and without. */
-enum { PERIODIC, SHEARED, WALLED, FALLING, FLOWS };
-static const struct {
-  gg_flow flow;
-  enum gg_md_boundary boundary;
-} flows[FLOWS] = {{GG_HCS, GG_MD_STILL}, {GG_USF, GG_MD_SHEARED}, {GG_FOURIER, GG_MD_STILL}, {GG_CHUTE, GG_MD_FALLING}};
+/* A flow for every boundary. */
+static const gg_flow flows[] = {
+    [GG_MD_PERIODIC] = GG_HCS, [GG_MD_SHEARED] = GG_USF, [GG_MD_WALLED] = GG_FOURIER, [GG_MD_FALLING] = GG_CHUTE};
+enum { FLOWS = sizeof flows / sizeof *flows };
 
 static gg_scene scene_of(int flow, int mixture)
 {
-  gg_scene s = md_scene((md_case){flows[flow].flow, 1500, 0.12, 0.9, 0.3, INFINITY, {0}});
-  if (flow == FALLING) s.gravity[0] = 0, s.gravity[1] = -0.01;
+  gg_scene s = md_scene((md_case){flows[flow], 1500, 0.12, 0.9, 0.3, INFINITY, {0}});
+  if (flow == GG_MD_FALLING) s.gravity[0] = 0, s.gravity[1] = -0.01;
   s.n_species = species[mixture];
   for (int i = 0; i < s.n_species; i++) {
     s.species[i].fraction = 1.0 / s.n_species;
@@ -49,8 +47,8 @@ static void simd_is_plain(void **state)
       gg_scene s = scene_of(flow, mixture);
       gg_model m = md_model_of(&s);
       const gg_md_kernel *simd =
-          gg_md_simd_kernel(gg_simd_instructions_best(), flow == SHEARED ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS,
-                            flows[flow].boundary, mixture > 0);
+          gg_md_simd_kernel(gg_simd_instructions_best(),
+                            flow == GG_MD_SHEARED ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS, flow, mixture > 0);
       if (run_with(&m, NULL) != run_with(&m, simd)) fail_msg("flow %d, species %d", flow, species[mixture]);
     }
 }
@@ -66,8 +64,7 @@ static void instruction_sets_agree(void **state)
   for (int flow = 0; flow < FLOWS; flow++)
     for (gg_md_search_kind kind = GG_MD_PLAIN_CELLS; kind < GG_MD_SEARCH_KINDS; kind++)
       for (int mixture = 0; mixture < MIXTURES; mixture++) {
-        const enum gg_md_boundary boundary = flows[flow].boundary;
-        if (!gg_md_simd_kernel(gg_simd_instructions_best(), kind, boundary, mixture > 0)) continue;
+        if (!gg_md_simd_kernel(gg_simd_instructions_best(), kind, flow, mixture > 0)) continue;
         gg_scene s = scene_of(flow, mixture);
         s.particles = 700, s.phi = phi[kind], s.aspect[0] = 2;
         gg_model m = md_model_of(&s);
@@ -77,7 +74,7 @@ static void instruction_sets_agree(void **state)
         uint64_t hash = 0;
         for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
           if (!gg_simd_instructions_run_here(set)) continue;
-          uint64_t its = run_with(&m, gg_md_simd_kernel(set, kind, boundary, mixture > 0));
+          uint64_t its = run_with(&m, gg_md_simd_kernel(set, kind, flow, mixture > 0));
           if (hash && its != hash)
             fail_msg("%s, search %d, flow %d, species %d", gg_simd_instructions_name(set), (int)kind, flow,
                      species[mixture]);
@@ -103,11 +100,10 @@ static void every_search_has_its_kernels(void **state)
       double radius;
       int32_t n[3];
       const gg_md_search_kind kind = gg_md_search_select(&m, &radius, n);
-      const bool plain = flow == SHEARED && kind == GG_MD_PLAIN_CELLS;
+      const bool plain = flow == GG_MD_SHEARED && kind == GG_MD_PLAIN_CELLS;
       chosen[flow] |= 1u << kind;
       for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++)
-        if (gg_simd_instructions_run_here(set) &&
-            !gg_md_simd_kernel(set, kind, flows[flow].boundary, mixture > 0) != plain)
+        if (gg_simd_instructions_run_here(set) && !gg_md_simd_kernel(set, kind, flow, mixture > 0) != plain)
           fail_msg("%s, search %d, flow %d", gg_simd_instructions_name(set), (int)kind, flow);
       if (!plain || gg_md_ops.accepts(&m, NULL) != GG_OK) continue;
       gg_md *e = md_create(&m, 1);
@@ -117,10 +113,10 @@ static void every_search_has_its_kernels(void **state)
     }
   const unsigned cells = 1 << GG_MD_PLAIN_CELLS, lists = 1 << GG_MD_NEIGHBOUR_LISTS,
                  rows = 1 << GG_MD_COMOVING_ROWS | 1 << GG_MD_OVERLAPPING_ROWS;
-  assert_int_equal(chosen[PERIODIC], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
-  assert_int_equal(chosen[SHEARED], cells | lists | rows);
-  assert_int_equal(chosen[WALLED], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
-  assert_int_equal(chosen[FALLING], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
+  assert_int_equal(chosen[GG_MD_PERIODIC], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
+  assert_int_equal(chosen[GG_MD_SHEARED], cells | lists | rows);
+  assert_int_equal(chosen[GG_MD_WALLED], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
+  assert_int_equal(chosen[GG_MD_FALLING], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
 }
 
 /* All grains in a corner of the box, in n^3 overlapping cells. */

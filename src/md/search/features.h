@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What this instance of the event loop is for. The loop and its searches are compiled once for every row of the table
  * in meson.build, each into an object of its own, which defines GG_SEARCH (the header of its kind of search),
- * GG_BOUNDARY, GG_MIXTURE and GG_SIMD. So all of this is constant, and nothing in an instance asks what a scene has but
- * whether a box at rest has walls: one branch an event, always the same.
+ * GG_BOUNDARY, GG_MIXTURE and GG_SIMD. So all of this is constant, and nothing in an instance asks what a scene has.
  *
  * The reference path is compiled once for all boundaries and mixtures, without those: there the model decides.
  */
@@ -14,11 +13,11 @@
 #ifdef GG_BOUNDARY
 enum {
   IS_SHEARED = GG_BOUNDARY == GG_MD_SHEARED,
+  IS_WALLED = GG_BOUNDARY == GG_MD_WALLED || GG_BOUNDARY == GG_MD_FALLING,
   HAS_GRAVITY = GG_BOUNDARY == GG_MD_FALLING,
   IS_MIXTURE = GG_MIXTURE,
   IS_SIMD = GG_SIMD, /* eight pairs at a time */
 };
-#define IS_WALLED (HAS_GRAVITY || (!IS_SHEARED && e->model.walled))
 #else
 #define IS_SHEARED (e->model.shear_rate != 0)
 #define IS_WALLED (e->model.walled)
