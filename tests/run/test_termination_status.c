@@ -129,12 +129,38 @@ static void spins_run_away(void **state)
   }
 }
 
+/* Of a gas so dilute that Monte Carlo is exact it is told that this takes less time; of others not, nor of Monte Carlo.
+ */
+static void dilute(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *engine;
+    double phi;
+    bool told;
+  } cases[] = {{"md", 0.0019, true}, {"md", 0.0021, false}, {"dsmc", 0.0019, false}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    char yaml[200];
+    gg_error err;
+    snprintf(yaml, sizeof yaml, "{flow: hcs, phi: %g, particles: 50, engine: %s, run: {collisions: 5, warmup: 0}}",
+             cases[i].phi, cases[i].engine);
+    gg_result *r = run(yaml, GG_OK, &err);
+    bool told = false;
+    for (size_t k = 0; k < r->warnings.n; k++) told |= strstr(r->warnings.text[k], "so dilute a gas") != NULL;
+    assert_int_equal(told, cases[i].told);
+    gg_result_free(r);
+  }
+}
+
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(too_short),         cmocka_unit_test(shorter_than_the_shortest_window),
-      cmocka_unit_test(nothing_measured),  cmocka_unit_test(cools_by_a_law),
-      cmocka_unit_test(time_of_the_start), cmocka_unit_test(less_than_a_sweep),
-      cmocka_unit_test(spins_run_away)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(dilute),
+                                     cmocka_unit_test(too_short),
+                                     cmocka_unit_test(shorter_than_the_shortest_window),
+                                     cmocka_unit_test(nothing_measured),
+                                     cmocka_unit_test(cools_by_a_law),
+                                     cmocka_unit_test(time_of_the_start),
+                                     cmocka_unit_test(less_than_a_sweep),
+                                     cmocka_unit_test(spins_run_away)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
