@@ -12,8 +12,12 @@
  * accepted with probability (sum of its speed bounds)/(that majorant) only, and its lanes with that sum as their
  * majorant, which comes to the same rate for every pair of grains. Written back, the faster grain of each lane lies in
  * the block of lower number. Any order would do, but this one sorts grains by speed, and speed bounds are tighter yet.
- * Half the candidates collide, against a quarter without. Below a thousand blocks lanes are exchanged at random
- * instead: eight fast grains that always act at once would be too large a part of the ensemble. */
+ * Half the candidates collide, against a quarter without.
+ *
+ * It has a price: eight fast grains act at once, so means fluctuate more. Over 200 to 300 seeds of a sheared rough gas
+ * the spread of T was 1.2 times that without, of the stress 1.1 times, at 2000 to 20 000 grains alike; a2 of a cooling
+ * gas 1.4 times. A tenth less time at 2000 and 5000 grains is not worth that, a half at 100 000, out of cache, is.
+ * Below a thousand blocks lanes are exchanged at random instead. */
 #include "dsmc/kernel/collide_blocks.h"
 
 #include <string.h>
