@@ -7,7 +7,8 @@
 
 gg_heating gg_theory_heating_of(const gg_model *m)
 {
-  if (gg_flow_cools(m->flow)) return (gg_heating){.kind = GG_HEATING_COOLS};
+  const bool free = m->linear_response && gg_common_thermostat_of(m) == GG_NO_THERMOSTAT;
+  if (gg_flow_cools(m->flow) || free) return (gg_heating){.kind = GG_HEATING_COOLS};
   switch (gg_common_thermostat_of(m)) {
   case GG_BATH: return (gg_heating){GG_HEATING_BATH, &m->bath, 1 / sqrt(gg_common_thermostat_balance(m, 0))};
   case GG_WHITE_NOISE: return (gg_heating){.kind = GG_HEATING_NOISE};

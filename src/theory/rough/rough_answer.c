@@ -4,9 +4,10 @@
 #include <math.h>
 
 #include "theory/answer.h"
+#include "theory/garzo_dufty1999.h"
 #include "theory/gaussian_moments.h"
 #include "theory/hermite/hermite_state.h"
-#include "theory/rough/steady.h"
+#include "theory/rough/response.h"
 #include "theory/two_maxwellian.h"
 
 static const char name[] = "enskog_hermite";
@@ -184,11 +185,36 @@ static void answer_isotropic(const gg_model *m, const gg_rough_steady *s, const 
   a->value[GG_Q_A2] = a->value[GG_Q_KURTOSIS_CX] / 3 - 1;
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
   a->value[GG_Q_COOLING_RATE] = cooling / gg_common_model_nu0(m, 1);
-  if (heating->kind == GG_HEATING_NOISE) return; /* of a temperature that it finds itself */
+  if (heating->kind == GG_HEATING_NOISE || m->linear_response) return; /* of a temperature that it finds itself */
   gg_theory_answer_temperature(m, T, ratio, a);
   gg_theory_answer_pressure(m, T, p, p * m->sigma[0] / 6 * mean(s, s->relative.J[2][2]),
                             a); /* one direction: the trace */
   answer_flights(m, mean(s, s->relative.rate) * sqrt(T), speed(s) * sqrt(T), a);
+}
+
+/* In units of 15/(4 nu_0), at n = T = m = 1. */
+static gg_status answer_heat(const gg_model *m, const gg_rough_steady *s, gg_theory_answer *a, gg_error *err)
+{
+  gg_rough_heat heat;
+  const gg_hermite_density density = {gg_theory_phi_chi(m), m->chi_slope};
+  const double unit = 15 / (4 * gg_common_model_nu0(m, 1));
+  GG_TRY(gg_rough_heat_of(s, density, &heat, err));
+  a->value[GG_Q_THERMAL_CONDUCTIVITY_REDUCED] = heat.conductivity[0] / unit;
+  a->value[GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC] = heat.conductivity_kinetic[0] / unit;
+  a->value[GG_Q_ROTATIONAL_CONDUCTIVITY_REDUCED] = heat.conductivity[1] / unit;
+  a->value[GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED] = m->elastic ? 0 : heat.diffusive[0] / unit;
+  a->value[GG_Q_ROTATIONAL_DIFFUSIVE_CONDUCTIVITY_REDUCED] = m->elastic ? 0 : heat.diffusive[1] / unit;
+  return GG_OK;
+}
+
+static gg_status answer_viscosity(const gg_model *m, const gg_rough_steady *s, gg_theory_answer *a, gg_error *err)
+{
+  gg_rough_viscosity v;
+  const double fading = gg_theory_thermostat_share(m) == 0.5, nu0 = gg_common_model_nu0(m, 1);
+  GG_TRY(gg_rough_viscosity_of(s, gg_theory_phi_chi(m), fading, &v, err));
+  a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = v.kinetic * nu0;
+  a->value[GG_Q_VISCOSITY_REDUCED] = v.total * nu0;
+  return GG_OK;
 }
 
 /* One solution after another, the weight of each from the last. */
@@ -199,13 +225,16 @@ static gg_status isotropic(const gg_model *m, gg_rough_steady *s, int degree, gg
   *a = nothing();
   GG_TRY(gg_rough_isotropic_solve(s, degree, &heating, &x, err));
   answer_isotropic(m, s, &heating, x, a);
+  GG_TRY(answer_viscosity(m, s, a, err));
+  if (m->flow == GG_HCS) GG_TRY(answer_heat(m, s, a, err));
   return gg_rough_follow(s) ? GG_OK : gg_base_fail(err, GG_FAILED, "no second moments");
 }
 
 static double maxwellian_ratio(const gg_model *m)
 {
-  return m->flow == GG_HCS ? gg_theory_ratio_cooling(gg_theory_grain_of(m), INFINITY)
-                           : gg_theory_ratio_driven(gg_theory_grain_of(m), INFINITY);
+  const gg_grain g = gg_theory_grain_of(m);
+  return gg_theory_heating_of(m).kind == GG_HEATING_COOLS ? gg_theory_ratio_cooling(g, INFINITY)
+                                                          : gg_theory_ratio_driven(g, INFINITY);
 }
 
 /* Degree after degree; the error is what the last has changed. */
@@ -236,13 +265,13 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
   gg_status status = GG_FAILED;
   for (int i = 0; i < CHOICES && status != GG_OK; i++)
     status = climb_isotropic(m, &tails[i], ratio, i + 1 < CHOICES ? restless : poor, a, err);
+  if (status == GG_OK && m->flow == GG_HCS) gg_theory_answer_critical_lengths(m, a->value[GG_Q_TEMPERATURE_RATIO], a);
   return status;
 }
 
 gg_status gg_rough_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  if (m->linear_response) return gg_theory_reject(err, name, "has no linear response of rough grains");
   if (m->flow == GG_HEATED_SHEAR && !m->bath.on)
     return gg_theory_reject(err, name, "has no heated shear of rough grains");
-  return m->shear_rate != 0 ? sheared(m, a, err) : homogeneous(m, a, err);
+  return m->shear_rate != 0 && !m->linear_response ? sheared(m, a, err) : homogeneous(m, a, err);
 }
