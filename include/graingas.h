@@ -299,7 +299,7 @@ typedef struct gg_simulation_state {
   double rotational_temperature; /* theta = I <omega^2>/(3m) about the mean spin (results between walls: about that at
                                   * each height); 0 for smooth grains */
   double kinetic_stress[3][3];   /* in units of stress; x along the flow, y along its gradient */
-  double strain;                 /* shear rate times time; 0 without shear */
+  double strain;                 /* shear rate times time, also of one that changed; 0 without shear */
   double image_offset;           /* md, sheared: the box above is displaced so far along x, from 0 to box[0] */
   double box[3];                 /* edges; 0 where there is none (dsmc without walls) */
 } gg_simulation_state;
@@ -474,9 +474,9 @@ GG_API gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_ev
                                       gg_error *err);
 
 /**
- * Change a key on the way: collision.*, bath.*, thermostat, gaussian_rate, noise_strength, md.contact_time,
+ * Change a key on the way: collision.*, bath.*, thermostat, gaussian_rate, noise_strength, shear_rate, md.contact_time,
  * dsmc.time_step, walls.e, walls.beta, walls.mu, walls.temperature, walls.accommodation, gravity. Grains, time, counts,
- * random stream and units stay. Other keys set units, box or grains and are rejected, as are values that would let
+ * random stream and units stay: under shear, time stays in units of the shear rate of the start. Other keys set units, box or grains and are rejected, as are values that would let
  * smooth grains rotate. The simulation is unchanged on failure.
  * @param simulation the simulation
  * @param key as for gg_scene_set(), "collision.e"

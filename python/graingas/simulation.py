@@ -200,9 +200,10 @@ class Simulation:
         return self._scene[key]
 
     def __setitem__(self, key, value):
-        """Changes a key on the way: sim["collision.e"] = 0.8. Allowed: collision.*, thermostat, md.contact_time,
-        dsmc.time_step, walls.e, walls.beta, walls.mu, walls.temperature, walls.accommodation, gravity. Grains, time,
-        counts, random stream and units stay. The simulation is unchanged if this raises BadInput."""
+        """Changes a key on the way: sim["collision.e"] = 0.8. Allowed: collision.*, bath.*, thermostat,
+        gaussian_rate, noise_strength, shear_rate, md.contact_time, dsmc.time_step, walls.e, walls.beta,
+        walls.mu, walls.temperature, walls.accommodation, gravity. Grains, time, counts, random stream and units (of
+        time: 1/shear_rate of the start) stay. The simulation is unchanged if this raises BadInput."""
         if not isinstance(key, str):
             raise TypeError(f"a key of a scene is a text, not {type(key).__name__}")
         key = SHORT.get(key, key)

@@ -45,7 +45,6 @@ void gg_api_moments_state(const gg_moments *m, double unit, gg_simulation_state 
   state->collisions_per_grain = 2 * (double)state->collisions / n;
   state->temperature = gg_api_moments_temperature(m) * unit * unit;
   state->rotational_temperature = rotational_temperature_of(m) * unit * unit;
-  state->strain = model->shear_rate * state->time;
   for (int a = 0; a < 3; a++)
     for (int b = 0; b < 3; b++) state->kinetic_stress[a][b] = stress * m->cc[a][b];
 }

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "files/h5/result_reader.h"
 #include "files/h5/result_restore.h"
+#include "scene/fields.h"
 
 struct gg_trajectory {
   gg_busy busy;
@@ -100,7 +101,7 @@ static void sum_up(gg_trajectory *t, const gg_frame *f)
 static gg_status tell(const gg_trajectory *t, const gg_frame *f, const double edges[9], gg_simulation_state *state,
                       gg_error *err)
 {
-  *state = (gg_simulation_state){.time = f->time, .collisions = f->step};
+  *state = (gg_simulation_state){.time = f->time, .collisions = f->step, .strain = gg_scene_strain(&t->scene, f->time)};
   gg_api_moments_state(&t->last, 1, state);
   for (int a = 0; a < 3; a++) {
     state->box[a] = edges[4 * a];

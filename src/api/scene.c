@@ -21,6 +21,7 @@
 gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *err)
 {
   *copy = *scene;
+  copy->clock_rate = GG_AUTO;
   return gg_run_scene_finish(copy, err);
 }
 

@@ -37,6 +37,7 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simul
   if (!s) return GG_FAILED;
   gg_base_busy_init(&s->busy, "simulation", destroy, s);
   gg_status status = gg_api_scene_finish(scene, &s->scene, err);
+  s->scene.clock_rate = scene->clock_rate;
   if (status == GG_OK) status = gg_common_model_make(&s->scene, s->scene.engine, &s->model, err);
   if (status == GG_OK) status = gg_run_engine_ops_of(s->scene.engine)->accepts(&s->model, err);
   if (status != GG_OK) {
@@ -61,6 +62,7 @@ gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err)
   s->scene = other->scene;
   s->model = other->model;
   s->clock = other->clock;
+  s->strained = other->strained;
   s->stretch_from = other->stretch_from;
   gg_base_busy_init(&s->busy, "simulation", destroy, s);
   gg_common_extension_hold(s->scene.extension);
@@ -73,7 +75,9 @@ gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulatio
 {
   GG_NEED(scene, simulation);
   gg_simulation *s;
-  GG_TRY(gg_api_simulation_prepare(scene, &s, err));
+  gg_scene at_start = *scene; /* it may be that of a simulation whose shear rate has changed */
+  at_start.clock_rate = GG_AUTO;
+  GG_TRY(gg_api_simulation_prepare(&at_start, &s, err));
   const gg_engine_ops *ops = gg_run_engine_ops_of(s->scene.engine);
   gg_status status = ops->create(&s->model, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
   if (status != GG_OK) {

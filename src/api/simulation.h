@@ -18,6 +18,9 @@ struct gg_simulation {
     int64_t power;             /* the engine's velocities are 2^power times those of the start */
     gg_simulation_sums sums;   /* what was taken from the engine before its last rescaling; stress and energy as sums */
   } clock;
+  struct {
+    double strain, until; /* time of the last change of the shear rate, and strain up to it */
+  } strained;
   gg_busy busy;
   gg_on_collision *callback; /* NULL: none */
   void *context;
@@ -36,6 +39,8 @@ struct gg_simulation {
 double gg_api_simulation_unit(const gg_simulation *s);
 /* T of the engine's grains, in the engine's units. */
 double gg_api_simulation_temperature(const gg_simulation *s);
+/* Strain up to now. */
+double gg_api_simulation_strain(const gg_simulation *s);
 /* Take the engine's sums over collisions into the clock's. */
 void gg_api_simulation_collect(gg_simulation *s);
 
@@ -62,7 +67,7 @@ typedef struct gg_moments {
 /* A gg_visit. */
 void gg_api_moments_add(void *moments, const gg_chunk *chunk);
 double gg_api_moments_temperature(const gg_moments *m);
-/* Where time and collisions are filled in: temperatures, stress, strain, and the collisions a grain. `unit`: velocities
+/* Where time and collisions are filled in: temperatures, stress, and the collisions a grain. `unit`: velocities
  * handed out over those that were added. */
 void gg_api_moments_state(const gg_moments *m, double unit, gg_simulation_state *state);
 /* GG_BAD_INPUT: there are not so many. */

@@ -9,6 +9,8 @@
 #include "files/h5/checkpoint_file.h"
 #include "scene/scene_reader.h"
 
+static const char strained_item[] = "simulation/strained";
+
 static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)
 {
   char *yaml = gg_scene_yaml(&s->scene);
@@ -17,6 +19,8 @@ static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)
   free(yaml);
   if (status == GG_OK) status = gg_scene_resumption_put(&s->scene, a, err);
   if (status == GG_OK) status = gg_base_archive_put(a, "simulation/clock", GG_ITEM_U8, &s->clock, sizeof s->clock, err);
+  if (status == GG_OK && s->strained.until > 0)
+    status = gg_base_archive_put(a, strained_item, GG_ITEM_F64, &s->strained, 2, err);
   return status == GG_OK ? s->engine->ops->save(s->engine, a, err) : status;
 }
 
@@ -65,6 +69,8 @@ static gg_status take_all(gg_simulation *s, const gg_archive *a, gg_error *err)
 {
   GG_TRY(gg_scene_resumption_check(&s->scene, a, err));
   GG_TRY(gg_base_archive_get(a, "simulation/clock", GG_ITEM_U8, &s->clock, sizeof s->clock, err));
+  if (gg_base_archive_find(a, strained_item))
+    GG_TRY(gg_base_archive_get(a, strained_item, GG_ITEM_F64, &s->strained, 2, err));
   return gg_run_engine_ops_of(s->scene.engine)->restore(&s->model, a, &s->engine, err);
 }
 

@@ -135,6 +135,7 @@ gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grai
   gg_simulation *s;
   gg_scene counted;
   GG_TRY(with_number(scene, n, &counted, err));
+  counted.clock_rate = GG_AUTO; /* units of this start */
   GG_TRY(gg_api_simulation_prepare(&counted, &s, err));
   gg_status status = create(s, grains, n, stream, err);
   if (status == GG_OK)
@@ -213,6 +214,7 @@ static gg_status change(gg_simulation *s, gg_simulation *next, const char *key, 
                         key);
   next->model.stop = &s->stop;
   GG_TRY(gg_api_simulation_continue(s, &next->model, NULL, err));
+  s->strained.strain = gg_api_simulation_strain(s), s->strained.until = s->clock.time;
   s->model = next->model;
   s->scene = next->scene; /* both hold the same extension */
   return GG_OK;
@@ -225,11 +227,13 @@ gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const ch
     return gg_base_fail(
         err, GG_BAD_INPUT,
         "key '%.60s': cannot be changed on the way; allowed: collision.*, bath.*, thermostat, gaussian_rate, "
-        "noise_strength, md.contact_time, dsmc.time_step, walls.e, walls.beta, walls.mu, walls.temperature, "
+        "noise_strength, shear_rate, md.contact_time, dsmc.time_step, walls.e, walls.beta, walls.mu, "
+        "walls.temperature, "
         "walls.accommodation, gravity",
         key);
   GG_USE_ALONE(simulation);
   gg_scene changed = simulation->scene;
+  changed.clock_rate = gg_scene_clock_rate(&simulation->scene);
   gg_simulation *next = NULL;
   locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_scene_override(&changed, key, value, err);

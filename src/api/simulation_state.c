@@ -25,6 +25,11 @@ double gg_api_simulation_temperature(const gg_simulation *s)
   return gg_api_moments_temperature(&m);
 }
 
+double gg_api_simulation_strain(const gg_simulation *s)
+{
+  return s->strained.strain + s->model.shear_rate * (s->clock.time - s->strained.until);
+}
+
 int gg_simulation_species(const gg_simulation *simulation)
 {
   return simulation ? simulation->model.n_species : 0;
@@ -47,8 +52,10 @@ gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation
   const gg_moments m = sum_up(simulation);
   gg_engine_state engine;
   simulation->engine->ops->state(simulation->engine, &engine);
-  *state = (gg_simulation_state){
-      .time = simulation->clock.time, .collisions = engine.collisions, .image_offset = engine.offset};
+  *state = (gg_simulation_state){.time = simulation->clock.time,
+                                 .collisions = engine.collisions,
+                                 .strain = gg_api_simulation_strain(simulation),
+                                 .image_offset = engine.offset};
   gg_api_moments_state(&m, gg_api_simulation_unit(simulation), state);
   for (int a = 0; a < 3; a++) state->box[a] = model->homogeneous ? 0 : model->box[a];
   return GG_OK;

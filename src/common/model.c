@@ -182,7 +182,7 @@ static double guess_sheared_temperature(const gg_model *m)
   double loss = fmax(1 - e * e + 0.5 * rough, 0.01);
   double freq = m->density * m->chi[0]; /* n d^2 chi */
   double dilute = 0.4 / (loss * freq * freq), dense = 0.4 / loss;
-  return m->boltzmann ? dilute : dilute + dense;
+  return (m->boltzmann ? dilute : dilute + dense) * (m->shear_rate > 0 ? m->shear_rate * m->shear_rate : 1);
 }
 
 /* Of a gas that thermal walls alone warm and nothing cools: their geometric mean, at which free flights from wall to
@@ -205,7 +205,7 @@ static double guess_unbathed_temperature(const gg_model *m)
 /* With a restitution law, temperature and mean impact speed depend on each other. */
 static void guess_temperature(gg_model *m, const gg_scene *s, bool sheared)
 {
-  double speed = sheared ? s->shear_rate * s->species[0].diameter : 1;
+  double speed = sheared ? gg_scene_clock_rate(s) * s->species[0].diameter : 1;
   for (int round = 0; round < (m->law.name ? 5 : 1); round++) {
     m->temperature0 = guess_unbathed_temperature(m);
     if (m->bath.on) m->temperature0 = gg_common_thermostat_balance(m, sheared ? m->temperature0 : 0);
@@ -224,7 +224,7 @@ static double guess_ratio(const gg_model *m)
 
 void gg_common_model_set_ratio(const gg_scene *s, gg_model *m)
 {
-  const double speed = m->shear_rate != 0 ? s->shear_rate * s->species[0].diameter : 1;
+  const double speed = m->shear_rate != 0 ? gg_scene_clock_rate(s) * s->species[0].diameter : 1;
   if (s->rotational_temperature != GG_AUTO && m->rule != GG_SMOOTH && (m->shear_rate != 0 || m->bath.on))
     m->ratio0 = s->rotational_temperature / (speed * speed) / m->temperature0;
 }
@@ -264,7 +264,7 @@ static gg_status check_scales(const gg_scene *s, gg_error *err)
   GG_TRY(check_unequal("mass", mass[0], mass[1], MOST_UNEQUAL_MASSES, err));
   GG_TRY(check_unequal("diameter", diameter[0], diameter[1], MOST_UNEQUAL_DIAMETERS, err));
   if (!gg_flow_is_sheared(s->flow) || s->temperature == GG_AUTO) return GG_OK;
-  double speed = s->shear_rate * s->species[0].diameter, T = s->temperature / (speed * speed);
+  double speed = gg_scene_clock_rate(s) * s->species[0].diameter, T = s->temperature / (speed * speed);
   if (T >= starts_within[0] && T <= starts_within[1]) return GG_OK;
   return gg_base_fail(
       err, GG_BAD_INPUT,
@@ -349,10 +349,10 @@ gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_mode
   GG_TRY(check_grains(m, s, err));
   set_box(m, s);
   set_pairs(m, s);
-  m->shear_rate = sheared ? 1 : 0;
+  m->shear_rate = sheared ? s->shear_rate / gg_scene_clock_rate(s) : 0;
   /* One unit of time in the user's unit: 1/shear_rate, wall shear included; thermal flows have no other clock. */
   double time_unit = 1;
-  if (sheared) time_unit = 1 / s->shear_rate;
+  if (sheared) time_unit = 1 / gg_scene_clock_rate(s);
   if (gg_flow_has_moving_walls(s->flow)) time_unit = m->box[1] * s->species[0].diameter / (2 * s->walls.speed);
   GG_TRY(set_walls(m, s, time_unit, err));
   set_reference_speed(m, s, sheared || m->walled ? time_unit / s->species[0].diameter : 1);

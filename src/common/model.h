@@ -2,8 +2,8 @@
 /* The model: the scene in the engines' units, everything that both engines and the theories need settled once. It has
  * room for any number of species; engines copy what their kernels read into arrays as small as the scene needs.
  *
- * Units: length d of species 1, mass m of species 1; time 1/shear_rate in sheared and walled-shear flows, else d/v_0
- * with v_0 = sqrt(2 T_0/m), so that T_0 = <C.C>/3 = 1/2. These are the units of every result, too.
+ * Units: length d of species 1, mass m of species 1; time 1/shear_rate (of the start) in sheared and walled-shear
+ * flows, else d/v_0 with v_0 = sqrt(2 T_0/m), so that T_0 = <C.C>/3 = 1/2. These are the units of every result, too.
  * Boltzmann limit (phi = 0): n d^2 = 1 sets the length; formally n = d = chi = 1, and nothing of collisional transfer.
  *
  * Spins are surface velocities s = (d/2) omega throughout (see common/collision.h). */
@@ -46,7 +46,7 @@ typedef struct gg_model {
 
   double phi, density;   /* density: n d_1^3, 1 in the Boltzmann limit */
   double box[3], volume; /* edges, volume = n/density */
-  double shear_rate;     /* 1 if sheared, else 0 */
+  double shear_rate;     /* 1 if sheared, until it changes on the way; else 0 */
   double gravity[3];
   gg_bath bath;
 

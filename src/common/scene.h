@@ -58,6 +58,8 @@ struct gg_scene {
   double phi;
   int64_t particles;
   double shear_rate;
+  double clock_rate; /* whose inverse is the unit of time under shear: the shear rate of the start; GG_AUTO: shear_rate.
+                      * No key: set where that changes on the way */
   double temperature;            /* initial <C.C>/3 in the user's units, or GG_AUTO */
   double rotational_temperature; /* the same of theta */
   double aspect[3];              /* shape of the box, relative edges */
@@ -111,6 +113,12 @@ struct gg_scene {
                               of its values borrow it */
   uint64_t given;          /* keys that the user gave: a bit per row of the field table */
 };
+
+/* The shear rate whose inverse is the unit of time. */
+static inline double gg_scene_clock_rate(const gg_scene *scene)
+{
+  return scene->clock_rate == GG_AUTO ? scene->shear_rate : scene->clock_rate;
+}
 
 /* From its start in time, instead of means of a steady state. */
 static inline bool gg_scene_is_followed(const gg_scene *scene)

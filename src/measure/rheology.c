@@ -231,7 +231,7 @@ static void put_energy(rheology *r, const gg_interval *in, double *row)
       drag += drag_of(m, wall) * sums->impulse[0], push += wall->side * sums->impulse[wall->axis];
     }
     for (int a = 0; a < 2; a++) work += 0.5 * g[a] * (r->momentum[a] + f * r->memory.momentum[a]) * in->elapsed;
-    if (m->frame) work = -m->shear_rate * r->shear_stress * in->elapsed;
+    if (m->frame) work = -in->model->shear_rate * r->shear_stress * in->elapsed;
     row[CH_GROWTH] = (energy - f * f * r->memory.energy) * unit;
     row[CH_WALL_LOSS] = loss * unit, row[CH_WALL_WORK] = work * unit;
     row[CH_WALL_DRAG] = drag * unit, row[CH_WALL_PUSH] = push * unit;

@@ -36,7 +36,7 @@ uint64_t gg_run_relaxation_samples(const gg_scene *s)
 
 double gg_run_relaxation_time(const gg_scene *s, uint64_t k)
 {
-  return user_time(s, k) * (gg_flow_is_sheared(s->flow) ? s->shear_rate : 1);
+  return user_time(s, k) * (gg_flow_is_sheared(s->flow) ? gg_scene_clock_rate(s) : 1);
 }
 
 static gg_status make_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed, gg_error *err)

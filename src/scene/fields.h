@@ -146,11 +146,13 @@ void gg_scene_yaml_print(FILE *out, const json_t *scene);
 
 /* May this key be changed? It changes neither units nor box nor grains. In words for messages: */
 bool gg_scene_protocol_takes(const char *key);
-#define GG_PROTOCOL_KEYS "collision.*, bath.*, thermostat, gaussian_rate, noise_strength"
+#define GG_PROTOCOL_KEYS "collision.*, bath.*, thermostat, gaussian_rate, noise_strength, shear_rate"
 json_t *gg_scene_protocol_json(const gg_scene *scene);
 /* The scene after the first n changes; n of them by a time (user's units). */
 gg_status gg_scene_protocol_apply(const gg_scene *scene, int n, gg_scene *changed, gg_error *err);
 int gg_scene_protocol_count(const gg_scene *scene, double time);
+/* Strain up to a time, both as in results; 0 without shear. */
+double gg_scene_strain(const gg_scene *scene, double time);
 
 /* checks.c: what concerns several keys. */
 

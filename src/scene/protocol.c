@@ -8,7 +8,7 @@
 bool gg_scene_protocol_takes(const char *key)
 {
   return strncmp(key, "collision.", 10) == 0 || strncmp(key, "bath.", 5) == 0 || strcmp(key, "thermostat") == 0 ||
-         strcmp(key, "gaussian_rate") == 0 || strcmp(key, "noise_strength") == 0;
+         strcmp(key, "gaussian_rate") == 0 || strcmp(key, "noise_strength") == 0 || strcmp(key, "shear_rate") == 0;
 }
 
 int gg_scene_protocol_count(const gg_scene *s, double time)
@@ -21,8 +21,25 @@ int gg_scene_protocol_count(const gg_scene *s, double time)
 gg_status gg_scene_protocol_apply(const gg_scene *scene, int n, gg_scene *changed, gg_error *err)
 {
   *changed = *scene;
+  changed->clock_rate = gg_scene_clock_rate(scene); /* units are those of the start */
   for (int i = 0; i < n; i++) GG_TRY(gg_scene_override(changed, scene->protocol[i].key, scene->protocol[i].value, err));
   return GG_OK;
+}
+
+double gg_scene_strain(const gg_scene *scene, double time)
+{
+  if (!gg_flow_is_sheared(scene->flow)) return 0;
+  const double unit = gg_scene_clock_rate(scene);
+  double strain = 0, from = 0, rate = scene->shear_rate;
+  for (const gg_change *c = scene->protocol; c < scene->protocol + GG_MAX_CHANGES && *c->key; c++) {
+    const double at = c->at * unit;
+    gg_scene then = *scene;
+    if (strcmp(c->key, "shear_rate") != 0 || at >= time || gg_scene_override(&then, c->key, c->value, NULL) != GG_OK)
+      continue;
+    strain += rate / unit * (at - from);
+    from = at, rate = then.shear_rate;
+  }
+  return strain + rate / unit * (time - from);
 }
 
 json_t *gg_scene_protocol_json(const gg_scene *scene)

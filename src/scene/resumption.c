@@ -25,7 +25,8 @@ static const struct {
 };
 
 static const char number_of_species[] = "scene/species.n", extension_item[] = "scene/extension";
-static const char ensemble_item[] = "scene/chosen_for", raised_item[] = "scene/contact_time_raised";
+static const char ensemble_item[] = "scene/chosen_for", raised_item[] = "scene/contact_time_raised",
+                  clock_item[] = "scene/clock_rate";
 enum { SIGNATURE = 2048 };
 
 static const char *item_of(const gg_field *f, char name[64])
@@ -47,6 +48,7 @@ gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *a, gg_error
   const double chosen_for = gg_common_ensemble_size_error(scene);
   GG_TRY(gg_base_archive_put(a, ensemble_item, GG_ITEM_F64, &chosen_for, 1, err));
   if (scene->md.raised != GG_AUTO) GG_TRY(gg_base_archive_put(a, raised_item, GG_ITEM_F64, &scene->md.raised, 1, err));
+  if (scene->clock_rate != GG_AUTO) GG_TRY(gg_base_archive_put(a, clock_item, GG_ITEM_F64, &scene->clock_rate, 1, err));
   gg_common_extension_signature(scene->extension, signature, sizeof signature);
   return gg_base_archive_put(a, extension_item, GG_ITEM_U8, signature, sizeof signature, err);
 }
@@ -133,6 +135,10 @@ gg_status gg_scene_resumption_settle(gg_scene *scene, const gg_archive *a, gg_er
     GG_TRY(gg_base_archive_get(a, raised_item, GG_ITEM_F64, &scene->md.raised, 1, err));
   if (scene->md.raised != GG_AUTO && !(scene->md.raised > 0 && scene->md.raised < 0.01))
     return gg_base_fail(err, GG_BAD_FILE, "a contact time of %g, which no run has", scene->md.raised);
+  if (gg_base_archive_find(a, clock_item))
+    GG_TRY(gg_base_archive_get(a, clock_item, GG_ITEM_F64, &scene->clock_rate, 1, err));
+  if (scene->clock_rate != GG_AUTO && !(scene->clock_rate > 0 && scene->clock_rate < INFINITY))
+    return gg_base_fail(err, GG_BAD_FILE, "a unit of time of 1/%g", scene->clock_rate);
   if (!gg_base_archive_find(a, ensemble_item))
     return GG_OK; /* no archive of a run: gg_scene_resumption_check rejects it */
   return gg_base_archive_get(a, ensemble_item, GG_ITEM_F64, &scene->dsmc.chosen_for, 1, err);

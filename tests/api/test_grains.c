@@ -446,10 +446,54 @@ static void baths_on_the_way(void **state)
   }
 }
 
+/* A sheared gas twice as fast: strain and time add up, units stay, and what is saved and loaded continues with its
+ * bits.
+ */
+static void shear_rates_on_the_way(void **state)
+{
+  (void)state;
+  const char *const engines[] = {"{flow: usf, phi: 0.1, particles: 300, shear_rate: 3, collision: {e: 0.8}}",
+                                 "{flow: usf, phi: 0.1, engine: dsmc, dsmc: {particles: 300}, shear_rate: 3, "
+                                 "collision: {e: 0.8}}"};
+  for (int k = 0; k < 2; k++) {
+    gg_error err;
+    char text[40];
+    gg_simulation *m = simulation_of(engines[k]), *loaded = NULL, *another = NULL;
+    assert_ok(gg_simulation_advance(m, 4, &err));
+    const gg_simulation_state before = state_of(m);
+    assert_true(fabs(before.strain - before.time) < 1e-12);
+    assert_ok(gg_simulation_set(m, "shear_rate", "6", &err));
+    const gg_simulation_state changed = state_of(m);
+    assert_true(changed.time == before.time && fabs(changed.strain - before.strain) < 1e-12);
+    assert_true(fabs(changed.temperature / before.temperature - 1) < 1e-9); /* velocities about the flow stay */
+    assert_true(fabs(changed.image_offset - before.image_offset) < 1e-9);
+    assert_ok(gg_simulation_advance(m, 4, &err));
+    assert_ok(gg_simulation_save(m, "t_sheared.h5", &err));
+    assert_ok(gg_simulation_load("t_sheared.h5", NULL, &loaded, &err));
+    assert_ok(gg_simulation_set(m, "shear_rate", "1.5", &err));
+    assert_ok(gg_simulation_set(loaded, "shear_rate", "1.5", &err));
+    assert_ok(gg_simulation_collide(m, 1000, &err));
+    assert_ok(gg_simulation_collide(loaded, 1000, &err));
+    assert_true(hash_of(m) == hash_of(loaded));
+    const gg_simulation_state after = state_of(m), there = state_of(loaded);
+    const double doubled = 2 * (after.time - before.time), halved = after.strain - before.strain;
+    assert_true(halved < doubled && halved > 0.25 * doubled && fabs(after.strain - there.strain) < 1e-12);
+    assert_ok(gg_scene_get(gg_simulation_scene(loaded), "shear_rate", text, sizeof text, &err));
+    assert_string_equal(text, "1.5");
+    assert_ok(gg_simulation_new(gg_simulation_scene(m), 0, &another, &err)); /* another one has units of its own */
+    assert_ok(gg_simulation_advance(another, 1, &err));
+    assert_true(fabs(state_of(another).strain - state_of(another).time) < 1e-12);
+    gg_simulation_free(m);
+    gg_simulation_free(loaded);
+    gg_simulation_free(another);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(baths_on_the_way),
+      cmocka_unit_test(shear_rates_on_the_way),
       cmocka_unit_test(read_back),
       cmocka_unit_test(copies),
       cmocka_unit_test(stream_goes_on),

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """run.duration and protocol: curves in time are means over replicas, exact where the course is known in closed form;
 an interrupted run continues across a change bit for bit."""
+import glob
 import json
 import os
 import signal
@@ -51,6 +52,59 @@ def test_exact_course():
         z = (T[1:] - exact(t[1:])) / error[1:]
         check(abs(T[0] - 0.5) < 1e-9 and np.abs(z).max() < 6 and (z ** 2).mean() < 3, engine, T[0], np.abs(z).max(), (z ** 2).mean())
         check(error[1:].max() < 0.02 * T.max(), error.max())
+
+
+def free_shear(t):
+    """T and M_xy of grains that do not collide: drag 0.5 and a bath of 1 from M = 1, shear rate 2 until 3, then 0.5."""
+    xy, xx, found = 0.0, 1.0, []
+    for a, gone in ((2, np.minimum(t, 3)), (0.5, np.maximum(t - 3, 0))):
+        fade, lag = np.exp(-gone), xy + a
+        xy, xx = lag * fade - a, 1 + 2 * a * a * (1 - fade) - 2 * a * lag * gone * fade + (xx - 1) * fade
+    return (xx + 2) / 3, xy
+
+
+def test_shear_rate():
+    """It changes on the way, and the unit of time stays: exact without collisions, in both engines."""
+    scene = """{flow: usf, engine: %s, phi: 1e-5, particles: 500, shear_rate: 2, temperature: 1, collision: {e: 1},
+        thermostat: bath, bath: {drag: 0.5}, dsmc: {particles: 2000}, protocol: [{at: 3, shear_rate: 0.5}],
+        run: {duration: 8, replicas: 16}}"""
+    for engine in "md", "dsmc":
+        done = run("run", "scene.yaml", "--quiet", "--output", "f.h5", scene=scene % engine)
+        check(done.code == 0, done.err)
+        for name, unit in ("temperature_in_time", 4), ("P_xy_in_time", 4 / 1e-5):
+            t, value, error = (a[1:] for a in curve("f.h5", name))
+            check(abs(t[-1] - 16) < 1e-12 and 6 in t, t)
+            z = (value * unit - free_shear(t / 2)[name == "P_xy_in_time"]) / (error * unit)
+            check(np.abs(z).max() < 6 and (z ** 2).mean() < 3, engine, name, np.abs(z).max(), (z ** 2).mean())
+
+
+def test_shear_rate_scales():
+    """A steady gas sheared twice as fast has four times the temperature: theories of the last rate, both engines, and
+    the images of a stored box follow the strain."""
+    scene = """{flow: usf, engine: %s, phi: 0.05, particles: 200, shear_rate: 0.5, collision: {e: 0.7, beta: 0},
+        dsmc: {particles: 5000}, run: {duration: 80, replicas: 8}, protocol: [{at: 40, shear_rate: 1}],
+        output: {trajectory_every: 5}}"""
+    at_once, changed = (json.loads(run("theory", "scene.yaml", "--json", "--quiet", *arguments, scene=scene % "md").out)
+                        for arguments in (["--set", "protocol=[]"], []))
+    for name, values in at_once["theory"].items():
+        for quantity, power in ("temperature", 4), ("shear_viscosity", 2), ("P_xy", 4), ("N1", 1), ("temperature_ratio", 1):
+            one, two = (of["theory"][name].get(quantity) for of in (at_once, changed))
+            if isinstance(one, dict):
+                check(abs(two["mean"] - power * one["mean"]) <= 1e-6 * abs(two["mean"]), name, quantity, one, two)
+    expected = changed["theory"]["enskog_hermite"]["temperature"]["mean"]
+    for engine in "md", "dsmc":
+        done = run("run", "scene.yaml", "--quiet", "--output", "v.h5", scene=scene % engine)
+        check(done.code == 0, done.err)
+        t, T, error = curve("v.h5", "temperature_in_time")
+        last = T[-20:].mean()
+        check(abs(last / expected - 1) < (0.1 if engine == "md" else 0.03), engine, last, expected)
+        if engine == "md":
+            with h5py.File("v.h5") as file:
+                box = file["particles/grains/box/edges"]
+                t, edges = np.array(box["time"]), np.array(box["value"])
+            check(t[-1] > 30 and t[0] < 15, t)
+            slid = (np.where(t < 20, t, 20 + 2 * (t - 20)) * edges[:, 1, 1] - edges[:, 1, 0]) / edges[:, 0, 0]
+            check(np.abs(slid - np.round(slid)).max() < 1e-9, slid)
 
 
 def test_given_step():
@@ -162,27 +216,35 @@ def written(path):
 def test_resumed():
     """Interrupted before, between and after changes: the same bits."""
     for engine in "md", "dsmc":
-        scene = (ELASTIC % engine).replace("{e: 1}", "{e: 0.9, beta: 0}") + "output: {checkpoint_every: 0.02}\n"
-        check(run("run", "scene.yaml", "--quiet", "--output", "whole.h5", scene=scene).code == 0, engine)
-        cuts = 0
-        for _ in range(60):
-            command = [GRAINGAS, "run", "scene.yaml", "--quiet", "--output", "cut.h5"]
-            before = written("cut.checkpoint.h5")
-            if before:
-                command += ["--resume", "cut.checkpoint.h5"]
-            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-            while process.poll() is None and (cuts >= 8 or written("cut.checkpoint.h5") == before):
-                time.sleep(0.005)
-            process.send_signal(signal.SIGINT)
-            err = process.communicate(timeout=100 * PATIENCE)[1]
-            if process.returncode == 0:
-                break
-            check(process.returncode == 130, process.returncode, err)
-            cuts += 1
-        check(cuts > 0 and process.returncode == 0, cuts, err)
-        for name in "temperature_in_time", "rotational_temperature_in_time", "a2_in_time":
-            one, other = (curve(path, name) for path in ("whole.h5", "cut.h5"))
-            check(all(np.array_equal(a, b, equal_nan=True) for a, b in zip(one, other)), engine, name)
+        resumed(engine, (ELASTIC % engine).replace("{e: 1}", "{e: 0.9, beta: 0}"))
+        sheared = "shear_rate: 2\n" + (ELASTIC % engine).replace("hss", "usf").replace("{at: 7,", "{at: 7, shear_rate: 1,")
+        resumed(engine, sheared.replace("{e: 1}", "{e: 0.9, beta: 0}"))
+
+
+def resumed(engine, scene):
+    scene += "output: {checkpoint_every: 0.02}\n"
+    for left in glob.glob("cut.*"):
+        os.remove(left)
+    check(run("run", "scene.yaml", "--quiet", "--output", "whole.h5", scene=scene).code == 0, engine)
+    cuts = 0
+    for _ in range(60):
+        command = [GRAINGAS, "run", "scene.yaml", "--quiet", "--output", "cut.h5"]
+        before = written("cut.checkpoint.h5")
+        if before:
+            command += ["--resume", "cut.checkpoint.h5"]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and (cuts >= 8 or written("cut.checkpoint.h5") == before):
+            time.sleep(0.005)
+        process.send_signal(signal.SIGINT)
+        err = process.communicate(timeout=100 * PATIENCE)[1]
+        if process.returncode == 0:
+            break
+        check(process.returncode == 130, process.returncode, err)
+        cuts += 1
+    check(cuts > 0 and process.returncode == 0, cuts, err)
+    for name in "temperature_in_time", "rotational_temperature_in_time", "P_xy_in_time" if "usf" in scene else "a2_in_time":
+        one, other = (curve(path, name) for path in ("whole.h5", "cut.h5"))
+        check(all(np.array_equal(a, b, equal_nan=True) for a, b in zip(one, other)), engine, name)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 
 #include "common/model.h"
 #include "measure/curve.h"
+#include "scene/fields.h"
 
 #define GRAINS "/particles/grains"
 
@@ -127,12 +128,14 @@ static void start(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_
   write_grains(h, p->boxed, model, frame, order);
 }
 
-/* Under shear the image above has slid by rate L_y t (Lees & Edwards 1972): the second edge leans by as much, counted
- * from the nearest image, so that periodic images of the stored box are those of the simulation. (A gas that cools
- * without shear comes to times beyond all numbers.) */
-static double tilt_at(const gg_model *model, double time)
+/* Under shear the image above has slid by the strain times L_y (Lees & Edwards 1972): the second edge leans by as much,
+ * counted from the nearest image, so that periodic images of the stored box are those of the simulation. (A gas that
+ * cools without shear comes to times beyond all numbers.) */
+static double tilt_at(const gg_scene *scene, const gg_model *model, double time)
 {
-  return model->shear_rate == 0 ? 0 : remainder(model->shear_rate * model->box[1] * time, model->box[0]);
+  if (model->shear_rate == 0) return 0;
+  const double strain = scene ? gg_scene_strain(scene, time) : model->shear_rate * time;
+  return remainder(strain * model->box[1], model->box[0]);
 }
 
 static void append_vectors(gg_h5 *h, gg_h5_rows *rows, const double *data, const size_t *order, double *sorted,
@@ -164,7 +167,7 @@ void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model,
   } else {
     p->boxed = whole->position != NULL;
     if (!p->started) start(h, p, model, frame, order);
-    const double tilt = tilt_at(model, frame->time);
+    const double tilt = tilt_at(p->scene, model, frame->time);
     const double edges[9] = {model->box[0], 0, 0, tilt, model->box[1], 0, 0, 0, model->box[2]};
     gg_h5_rows_append(h, &p->step, &frame->step);
     gg_h5_rows_append(h, &p->time, &frame->time);

@@ -8,8 +8,9 @@
 
 typedef struct gg_h5_particles {
   bool started, boxed;
-  bool single;       /* positions, velocities and spins as float; set before the first frame */
-  unsigned left_out; /* GG_FIELDS_... that are not stored; likewise */
+  bool single;           /* positions, velocities and spins as float; set before the first frame */
+  unsigned left_out;     /* GG_FIELDS_... that are not stored; likewise */
+  const gg_scene *scene; /* whose protocol the images follow; NULL: none */
   size_t n;
   uint64_t last_step;
   gg_h5_rows step, time, edges, position, velocity, spin;
