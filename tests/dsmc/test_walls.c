@@ -161,6 +161,35 @@ static void plain_is_the_same(void **state)
   plain->ops->destroy(plain);
 }
 
+/* Whoever does what: from so many grains on threads share them. */
+static void threads_are_the_same(void **state)
+{
+  (void)state;
+  gg_scene s = full_scene(30000);
+  s.particles *= 8; /* twice the gap */
+  gg_model m = lab_model(&s);
+  gg_engine *one = lab_engine(&m, 4);
+  one->ops->keep_sums(one, true);
+  const gg_dsmc_gap *d = (gg_dsmc_gap *)one;
+  printf("# %d slabs of %d cells, %d parts\n", d->slabs, d->cells.n, d->parts);
+  assert_true(d->slabs >= 4 && d->parts > 1);
+  for (int k = 0; k < d->slabs; k++) /* slabs that collide at once are apart by more than partners on both sides */
+    assert_true((d->slab[k].end - d->slab[k].first) * d->cells.width > 2 * 1.5 + 2 * d->cells.width);
+  advance(one, INFINITY, (uint64_t)(5 * m.n));
+  for (int threads = 2; threads <= 3; threads++) {
+    gg_engine *more = lab_engine(&m, 4);
+    gg_engine_state at;
+    more->ops->threads(more, threads);
+    more->ops->keep_sums(more, true);
+    advance(more, INFINITY, (uint64_t)(5 * m.n));
+    more->ops->state(more, &at);
+    assert_true(at.others_cpu > 0);
+    same_archive(more, one);
+    more->ops->destroy(more);
+  }
+  one->ops->destroy(one);
+}
+
 static bool by_chance(void *context)
 {
   return gg_rng_uniform(context) < 0.5;
@@ -546,9 +575,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_lost_is_accounted_for),
                                      cmocka_unit_test(plain_is_the_same),
+                                     cmocka_unit_test(threads_are_the_same),
                                      cmocka_unit_test(restored_and_stopped),
                                      cmocka_unit_test(damaged),
-
                                      cmocka_unit_test(step_has_shrunk),
                                      cmocka_unit_test(beds_are_overfilled),
                                      cmocka_unit_test(stops_under_any_gravity),

@@ -6,6 +6,7 @@
 #ifndef GG_DSMC_WALLS_GAP_H
 #define GG_DSMC_WALLS_GAP_H
 
+#include "base/thread_pool.h"
 #include "common/engine.h"
 #include "common/laws/loss_table.h"
 #include "common/rng.h"
@@ -39,6 +40,8 @@ typedef struct gg_dsmc_gap_cells {
   double from, width, inverse, volume;
   uint32_t *start; /* [n x species + 1]: the first grain of each; of empty cells below the first, above the last, too */
   uint32_t *start_below;
+  uint32_t *next; /* [parts x stride]: of each part (below) the grains of each, then the place of its next one */
+  size_t stride;
   double *counted;   /* [n x species]: grains x time, since the last measurement */
   double *mean;      /* [n x species]: mean number of grains, over about a crossing of the gap */
   double *hits;      /* [n]: grains that collided since the last measurement */
@@ -48,10 +51,26 @@ typedef struct gg_dsmc_gap_cells {
   gg_dsmc_majorant *majorant; /* [n x species x species]: of chi N g_n, N in the partner's cell */
 } gg_dsmc_gap_cells;
 
+/* Threads share the work of a large gas, and the bits do not depend on how many they are. Grains fly, and are ordered,
+ * in parts of equal size; each has a stream of random numbers for its walls. Cells collide in slabs: every second one
+ * at once, which are so far apart that they share no partners; each has streams, and sums of its own. */
+enum { GG_GAP_MOST_PARTS = 8, GG_GAP_MOST_SLABS = 8, GG_GAP_LEAST_SHARED = 10000 };
+
+typedef struct gg_dsmc_gap_streams {
+  gg_rng walls[GG_GAP_MOST_PARTS], cells[GG_GAP_MOST_SLABS];
+  gg_dsmc_rng_lanes lanes[GG_GAP_MOST_SLABS];
+} gg_dsmc_gap_streams;
+
+/* Cells [first, end), when they have their turn, and what their collisions leave. */
+typedef struct gg_dsmc_gap_slab {
+  int first, end, turn;
+  uint64_t collisions, candidates, overflows;
+  gg_collision_sums transfer;
+} __attribute__((aligned(64))) gg_dsmc_gap_slab;
+
 /* Everything else that changes while running: plain data, saved as it is. */
 typedef struct gg_dsmc_gap_state {
-  gg_rng rng;
-  gg_dsmc_rng_lanes lanes; /* for candidates */
+  gg_dsmc_gap_streams streams;
   double time;
   double owed;        /* flight that is still to come before the present time */
   double step, rate;  /* the step; collisions of a grain per time, where collisions happen */
@@ -80,6 +99,9 @@ typedef struct gg_dsmc_gap {
   gg_rule wall_rule; /* of walls, as grains with or without spins have it */
   gg_dsmc_gap_cells cells;
   gg_loss_table *losses;
+  int parts, slabs;
+  gg_dsmc_gap_slab *slab;
+  gg_thread_pool *pool; /* NULL: one thread does all */
   gg_dsmc_gap_state now;
   gg_dsmc_gap_collide *collide;
   bool plain; /* tests: candidates one by one */
@@ -100,7 +122,13 @@ typedef struct gg_dsmc_gap_contacts {
   uint64_t rests;
   bool shown;  /* to the callback */
   uint32_t id; /* of the grain */
-} gg_dsmc_gap_contacts;
+} __attribute__((aligned(64))) gg_dsmc_gap_contacts;
+
+/* The first grain of a part. */
+GG_INLINE size_t gg_dsmc_gap_part(const gg_dsmc_gap *d, int part)
+{
+  return (size_t)d->model.n * (size_t)part / (size_t)d->parts;
+}
 
 /* gap_flight.c: all grains for a time, which counts them by cell, too; one grain, where the engine stays as it is. */
 void gg_dsmc_gap_fly(gg_dsmc_gap *d, double dt);

@@ -63,6 +63,27 @@ static double highest(const gg_dsmc_gap *d)
   return high;
 }
 
+/* A slab reaches beyond its ends as far as partners are, roundings included. */
+static gg_status share_out(gg_dsmc_gap *d, gg_error *err)
+{
+  const gg_dsmc_gap_cells *c = &d->cells;
+  const int64_t bins = (int64_t)c->n * d->model.n_species, n = d->model.n;
+  double reach = 0;
+  for (int p = 0; p < gg_pairs_of(d->model.n_species); p++) reach = fmax(reach, d->reach[p] * c->inverse);
+  d->parts = (int)fmin(GG_GAP_MOST_PARTS, fmax(1, (double)(n / (16 * bins))));
+  d->slabs = (int)fmin(GG_GAP_MOST_SLABS, floor(c->n / (2 * (ceil(reach) + 1)) / 2) * 2);
+  if (n < GG_GAP_LEAST_SHARED) d->parts = 1;
+  if (n < GG_GAP_LEAST_SHARED || d->slabs < 4) d->slabs = 1;
+  const size_t bytes = (size_t)d->slabs * sizeof *d->slab;
+  if (!(d->slab = aligned_alloc(64, bytes))) return gg_base_out_of_memory(err);
+  memset(d->slab, 0, bytes);
+  for (int k = 0; k < d->slabs; k++) {
+    d->slab[k].first = (int)((int64_t)c->n * k / d->slabs);
+    d->slab[k].end = (int)((int64_t)c->n * (k + 1) / d->slabs);
+  }
+  return GG_OK;
+}
+
 gg_status gg_dsmc_gap_cells_new(gg_dsmc_gap *d, gg_error *err)
 {
   const gg_model *m = &d->model;
@@ -83,7 +104,11 @@ gg_status gg_dsmc_gap_cells_new(gg_dsmc_gap *d, gg_error *err)
   c->chi = gg_base_array_new(pairs * 2 * n + 2, sizeof *c->chi, err);
   c->kernel = gg_base_array_new(species * (size_t)(c->reach + 1), sizeof *c->kernel, err);
   c->majorant = gg_base_array_new(n * species * species, sizeof *c->majorant, err);
-  if (!c->start_below || !c->counted || !c->mean || !c->hits || !c->chi || !c->kernel || !c->majorant) return GG_FAILED;
+  GG_TRY(share_out(d, err));
+  c->stride = (n * species + 15) / 16 * 16;
+  c->next = gg_base_array_new((size_t)d->parts * c->stride, sizeof *c->next, err);
+  if (!c->start_below || !c->next || !c->counted || !c->mean || !c->hits || !c->chi || !c->kernel || !c->majorant)
+    return GG_FAILED;
   c->start = c->start_below + species;
   set_kernels(d);
   return GG_OK;
@@ -92,6 +117,7 @@ gg_status gg_dsmc_gap_cells_new(gg_dsmc_gap *d, gg_error *err)
 void gg_dsmc_gap_cells_free(gg_dsmc_gap_cells *c)
 {
   free(c->start_below);
+  free(c->next);
   free(c->counted);
   free(c->mean);
   free(c->hits);
@@ -100,13 +126,32 @@ void gg_dsmc_gap_cells_free(gg_dsmc_gap_cells *c)
   free(c->majorant);
 }
 
+/* Where the grains of each part go in each cell. */
+static void number(gg_dsmc_gap *d)
+{
+  gg_dsmc_gap_cells *c = &d->cells;
+  const size_t species = (size_t)d->model.n_species, bins = (size_t)c->n * species;
+  uint32_t at = 0;
+  for (size_t b = 0; b < bins; b++) {
+    c->start[b] = at;
+    for (int part = 0; part < d->parts; part++) {
+      uint32_t *next = &c->next[(size_t)part * c->stride + b];
+      const uint32_t count = *next;
+      *next = at;
+      at += count;
+    }
+  }
+  for (size_t b = bins; b <= bins + species; b++) c->start[b] = at;
+}
+
 /* A height and a velocity are moved at once. */
 typedef double row __attribute__((vector_size(32), may_alias));
 
-GG_CLONES static void move_all(size_t n, uint32_t *restrict place, uint32_t *restrict next, const row *restrict at,
-                               row *restrict to, const uint32_t *restrict id, uint32_t *restrict id_to)
+GG_CLONES static void move_all(size_t from, size_t end, uint32_t *restrict place, uint32_t *restrict next,
+                               const row *restrict at, row *restrict to, const uint32_t *restrict id,
+                               uint32_t *restrict id_to)
 {
-  for (size_t i = 0; i < n; i++) {
+  for (size_t i = from; i < end; i++) {
     const uint32_t k = next[place[i]]++;
     place[i] = k;
     to[k] = at[i];
@@ -114,20 +159,24 @@ GG_CLONES static void move_all(size_t n, uint32_t *restrict place, uint32_t *res
   }
 }
 
+static void order_part(void *context, int part)
+{
+  const gg_dsmc_gap *d = context;
+  const gg_dsmc_gap_grains from = d->grains, to = d->sorted;
+  const size_t first = gg_dsmc_gap_part(d, part), end = gg_dsmc_gap_part(d, part + 1);
+  move_all(first, end, d->place, d->cells.next + (size_t)part * d->cells.stride, (const row *)from.at, (row *)to.at,
+           from.id, to.id);
+  for (size_t i = first; from.s && i < end; i++) to.s[d->place[i]] = from.s[i];
+  for (size_t i = first; from.last && i < end; i++) to.last[d->place[i]] = from.last[i];
+  for (size_t i = first; d->model.n_species > 1 && i < end; i++) to.species[d->place[i]] = from.species[i];
+}
+
 void gg_dsmc_gap_sort(gg_dsmc_gap *d)
 {
-  gg_dsmc_gap_cells *c = &d->cells;
-  const size_t n = (size_t)d->model.n, species = (size_t)d->model.n_species, bins = (size_t)c->n * species;
-  const gg_dsmc_gap_grains from = d->grains, to = d->sorted;
-  for (size_t b = 0; b < bins + species; b++) c->start[b + 1] += c->start[b];
-  /* Each start moves to its end, and with it to the place of the next. */
-  move_all(n, d->place, c->start, (const row *)from.at, (row *)to.at, from.id, to.id);
-  memmove(c->start + 1, c->start, bins * sizeof *c->start);
-  c->start[0] = 0;
-  for (size_t i = 0; from.s && i < n; i++) to.s[d->place[i]] = from.s[i];
-  for (size_t i = 0; from.last && i < n; i++) to.last[d->place[i]] = from.last[i];
-  for (size_t i = 0; species > 1 && i < n; i++) to.species[d->place[i]] = from.species[i];
-  d->grains = to;
+  number(d);
+  gg_base_thread_pool_for(d->pool, d->parts, order_part, d);
+  const gg_dsmc_gap_grains from = d->grains;
+  d->grains = d->sorted;
   d->sorted = from;
 }
 

@@ -14,6 +14,7 @@
  * Random numbers of some candidates are drawn, and the candidates decided, at once; those of grains that collide
  * meanwhile again. */
 #include <math.h>
+#include <string.h>
 
 #include "dsmc/kernel/normal.h"
 #include "dsmc/walls/gap.h"
@@ -21,6 +22,7 @@
 
 /* What candidates of two species in a cell have in common. */
 typedef struct pass {
+  gg_dsmc_gap_slab *slab;
   int cell, one, two, pair;
   uint32_t first, n; /* grains of the cell */
   /* Of partners, from the empty cell below the first on: starts, contact values; its edge, the empty cell above. */
@@ -78,8 +80,8 @@ GG_INLINE void collide(gg_dsmc_gap *d, const pass *p, double time, uint32_t i, u
   if (d->callback) call_back(d, time, (const uint32_t[]){i, j}, k, before, J, (const gg_vec[]){s1, s2});
   g->at[i].c = c1, g->at[j].c = c2;
   if (rule != GG_SMOOTH) g->s[i] = s1, g->s[j] = s2;
-  gg_collision_sums *t = &d->now.transfer;
-  d->now.collisions++;
+  gg_collision_sums *t = &p->slab->transfer;
+  p->slab->collisions++;
   t->collisions[p->pair]++;
   if (!d->now.keeps_sums) return;
   if (!d->model.boltzmann) gg_add_stress(t->stress[p->pair], d->model.sigma[p->pair], k, J);
@@ -184,7 +186,7 @@ static bool try_candidate(gg_dsmc_gap *d, pass *p, const block *b, uint32_t m)
   const double A = b->ky[m] * c.y, B = b->kx[m] * c.x + b->kz[m] * c.z, h = b->h[m];
   const double one = A + B > 0 ? A + B : 0, other = A - B > 0 ? A - B : 0, value = b->scale[m] * (0.5 * (one + other));
   if (value > p->largest * h) p->largest = value / h;
-  d->now.overflows += value > (p->floor + p->majorant) * h;
+  p->slab->overflows += value > (p->floor + p->majorant) * h;
   if (!(b->limit[m] * h < value)) return false;
   const double sign = b->sign[m] * (one + other) < other ? -1 : 1;
   collide(d, p, p->begin + m * p->tick, i, j, (gg_vec){sign * b->kx[m], b->ky[m], sign * b->kz[m]});
@@ -248,18 +250,27 @@ static void collide_block(gg_dsmc_gap *d, pass *p, block *b)
 
 enum { WINDOW = 20000 }; /* candidates after which a majorant forgets */
 
-/* At `turn` of `turns`. */
-static void collide_species(gg_dsmc_gap *d, gg_dsmc_lane_rng *rng, int cell, int one, int two, double dt, double turn,
-                            double turns)
+/* The collisions of a slab: of `turns` in the step, one is `turn`. */
+typedef struct sweep {
+  gg_dsmc_gap *d;
+  gg_dsmc_gap_slab *slab;
+  gg_rng rng;
+  gg_dsmc_lane_rng lanes;
+  double dt, turn, turns;
+} sweep;
+
+static void collide_species(sweep *w, int cell, int one, int two)
 {
+  gg_dsmc_gap *d = w->d;
   gg_dsmc_gap_cells *c = &d->cells;
   const int species = d->model.n_species, here = cell * species + one, pair = gg_pair(one, two);
   const uint32_t first = c->start[here], n = c->start[here + 1] - first;
   gg_dsmc_majorant *learned = &c->majorant[here * species + two];
   if (n == 0) return;
   const double thermal = sqrt(d->now.temperature), sigma = d->model.sigma[pair], reach = d->reach[pair] * c->inverse;
-  const double rate = 1.25 * M_PI * sigma * sigma / c->volume * n * dt;
-  pass p = {.cell = cell,
+  const double rate = 1.25 * M_PI * sigma * sigma / c->volume * n * w->dt;
+  pass p = {.slab = w->slab,
+            .cell = cell,
             .one = one,
             .two = two,
             .pair = pair,
@@ -276,16 +287,16 @@ static void collide_species(gg_dsmc_gap *d, gg_dsmc_lane_rng *rng, int cell, int
   block b;
   /* After a majorant overflow: correction passes, each over the layer above. */
   for (uint64_t tried = 0; p.majorant > 0; p.floor += p.majorant, p.majorant = 1.1 * p.largest - p.floor) {
-    p.candidates = (uint64_t)(rate * p.majorant + gg_rng_uniform(&d->now.rng));
-    p.tick = dt / turns / (double)(p.candidates + 1);
-    p.begin = d->now.time + dt * turn / turns + p.tick;
+    p.candidates = (uint64_t)(rate * p.majorant + gg_rng_uniform(&w->rng));
+    p.tick = w->dt / w->turns / (double)(p.candidates + 1);
+    p.begin = d->now.time + w->dt * w->turn / w->turns + p.tick;
     for (uint64_t left = p.candidates; left > 0; left -= b.n) {
       b.n = left < BLOCK ? (uint32_t)left : BLOCK;
-      draw(d, &p, rng, &b);
+      draw(d, &p, &w->lanes, &b);
       (d->plain ? collide_plain : collide_block)(d, &p, &b);
       p.begin += b.n * p.tick;
     }
-    d->now.candidates += p.candidates;
+    w->slab->candidates += p.candidates;
     tried += p.candidates;
     if (p.largest > p.floor + p.majorant) continue;
     gg_dsmc_majorant_learn(learned, p.largest, thermal, tried, WINDOW);
@@ -303,17 +314,64 @@ static void prefetch(const gg_dsmc_gap *d, int cell)
     __builtin_prefetch(&d->grains.at[i], 1);
 }
 
+typedef struct stage {
+  gg_dsmc_gap *d;
+  double dt;
+  bool backward, odd;
+} stage;
+
+static void collide_slab(void *context, int part)
+{
+  const stage *s = context;
+  gg_dsmc_gap *d = s->d;
+  const int nth = 2 * part + s->odd, each = d->model.n_species * d->model.n_species, ahead = d->cells.reach / 2 + 2;
+  gg_dsmc_gap_slab *slab = &d->slab[nth];
+  const int all = (slab->end - slab->first) * each;
+  sweep w = {.d = d, .slab = slab, .rng = d->now.streams.cells[nth], .dt = s->dt, .turns = d->cells.n * each};
+  gg_dsmc_lane_rng_load(&w.lanes, &d->now.streams.lanes[nth]);
+  for (int cell = s->backward ? slab->end : slab->first, k = -ahead; k < ahead; k++) prefetch(d, cell + k);
+  for (int t = 0; t < all; t++) {
+    const int k = s->backward ? all - 1 - t : t, cell = slab->first + k / each, pair = k % each;
+    if (t % each == 0) prefetch(d, s->backward ? cell - ahead : cell + ahead);
+    w.turn = slab->turn * each + t;
+    collide_species(&w, cell, pair / d->model.n_species, pair % d->model.n_species);
+  }
+  gg_dsmc_lane_rng_save(&w.lanes, &d->now.streams.lanes[nth]);
+  d->now.streams.cells[nth] = w.rng;
+}
+
+/* Every second slab at once, then the others; each has its turn after those before. */
+static void collide_half(gg_dsmc_gap *d, double dt, bool backward, bool odd, int *turn)
+{
+  stage s = {d, dt, backward, odd};
+  for (int k = odd; k < d->slabs; k += 2) {
+    d->slab[k].turn = *turn;
+    *turn += d->slab[k].end - d->slab[k].first;
+  }
+  gg_base_thread_pool_for(d->callback ? NULL : d->pool, (d->slabs + !odd) / 2, collide_slab, &s);
+}
+
+static void add_sums(gg_dsmc_gap *d, gg_dsmc_gap_slab *slab)
+{
+  gg_dsmc_gap_state *s = &d->now;
+  gg_collision_sums *to = &s->transfer, *from = &slab->transfer;
+  s->collisions += slab->collisions, s->candidates += slab->candidates, s->overflows += slab->overflows;
+  slab->collisions = slab->candidates = slab->overflows = 0;
+  for (int p = 0; p < gg_pairs_of(d->model.n_species); p++) {
+    to->collisions[p] += from->collisions[p];
+    to->loss[p] += from->loss[p];
+    for (int k = 0; k < 9; k++) to->stress[p][k / 3][k % 3] += from->stress[p][k / 3][k % 3];
+    from->collisions[p] = 0, from->loss[p] = 0;
+    memset(from->stress[p], 0, sizeof from->stress[p]);
+  }
+}
+
+/* Symmetric splitting: every second step mirrors the one before. */
 void GG_GAP_COLLIDE(gg_dsmc_gap *d, double dt)
 {
-  gg_dsmc_lane_rng rng;
-  gg_dsmc_lane_rng_load(&rng, &d->now.lanes);
-  const int species = d->model.n_species, all = d->cells.n * species * species;
-  const int ahead = d->cells.reach / 2 + 2;
-  const bool backward = d->now.steps % 2; /* symmetric splitting: every second step mirrors the one before */
-  for (int t = 0; t < all; t++) {
-    const int k = backward ? all - 1 - t : t, cell = k / (species * species);
-    if (t % (species * species) == 0) prefetch(d, backward ? cell - ahead : cell + ahead);
-    collide_species(d, &rng, cell, k / species % species, k % species, dt, t, all);
-  }
-  gg_dsmc_lane_rng_save(&rng, &d->now.lanes);
+  const bool backward = d->now.steps % 2;
+  int turn = 0;
+  collide_half(d, dt, backward, backward, &turn);
+  collide_half(d, dt, backward, !backward, &turn);
+  for (int k = 0; k < d->slabs; k++) add_sums(d, &d->slab[k]);
 }

@@ -60,4 +60,5 @@ void gg_dsmc_gap_describe(const gg_model *m, void (*line)(void *context, const c
            gg_dsmc_gap_free_times(m), m->time_step > 0 ? "" : ", chosen");
   line(context, text);
   line(context, "a majorant for each cell and pair of species");
+  if (m->n >= GG_GAP_LEAST_SHARED) line(context, "threads share parts of the grains and slabs of cells");
 }

@@ -83,8 +83,7 @@ static void take_over(gg_dsmc_gap *d, const gg_dsmc_gap *before)
 {
   gg_dsmc_gap_state *s = &d->now;
   const gg_dsmc_gap_state *b = &before->now;
-  s->rng = b->rng;
-  s->lanes = b->lanes;
+  s->streams = b->streams;
   s->time = b->time;
   s->steps = b->steps;
   s->collisions = b->collisions;
@@ -135,6 +134,14 @@ static gg_status set_callback(gg_engine *engine, gg_collision_callback *callback
   return GG_OK;
 }
 
+/* At most as many as there are slabs that collide at once. */
+static void threads(gg_engine *engine, int threads)
+{
+  gg_dsmc_gap *d = gap_of(engine);
+  gg_base_thread_pool_free(d->pool);
+  d->pool = d->slabs > 1 ? gg_base_thread_pool_new(threads < d->slabs / 2 ? threads : d->slabs / 2) : NULL;
+}
+
 static void state(const gg_engine *engine, gg_engine_state *state)
 {
   const gg_dsmc_gap_state *s = &const_gap_of(engine)->now;
@@ -144,6 +151,7 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .events = s->candidates,
                              .overflows = s->overflows,
                              .wall_treated = s->rests,
+                             .others_cpu = gg_base_thread_pool_cpu(const_gap_of(engine)->pool),
                              .overfilled = const_gap_of(engine)->cells.overfilled,
                              .time_step = s->step,
                              .time_step_bias = GG_GAP_BIAS_OF_STEP * h * h};
@@ -158,7 +166,7 @@ static void show_grain(const gg_dsmc_gap *d, size_t i, size_t slot, double out[9
   gg_dsmc_gap_grain p = {.r = {0, g->at[i].y, 0}, .c = g->at[i].c, .species = g->species[i]};
   if (g->s) p.s = g->s[i];
   gg_dsmc_gap_contacts unused = {0};
-  gg_rng rng = d->now.rng;
+  gg_rng rng = d->now.streams.walls[0];
   if (d->now.owed > 0) gg_dsmc_gap_fly_grain(d, d->now.owed, &rng, &p, &unused);
   const gg_vec parts[] = {p.r, p.c, p.s};
   for (int k = 0; k < 9; k++) out[k][slot] = gg_along(&parts[k / 3], k % 3);
@@ -202,6 +210,7 @@ const gg_engine_ops gg_dsmc_gap_ops = {
     .keep_sums = keep_sums,
     .take_sums = take_sums,
     .set_callback = set_callback,
+    .threads = threads,
     .state = state,
     .snapshot = snapshot,
     .rescale = rescale,

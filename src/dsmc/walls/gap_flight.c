@@ -105,14 +105,14 @@ void gg_dsmc_gap_fly_grain(const gg_dsmc_gap *d, double dt, gg_rng *rng, gg_dsmc
   move(p, d->gravity, dt);
 }
 
-static void fly_to_walls(gg_dsmc_gap *d, size_t i, double dt, gg_dsmc_gap_contacts *all)
+static void fly_to_walls(gg_dsmc_gap *d, size_t i, double dt, gg_rng *rng, gg_dsmc_gap_contacts *all)
 {
   gg_dsmc_gap_grains *g = &d->grains;
   gg_dsmc_gap_motion *at = &g->at[i];
   gg_dsmc_gap_grain p = {.r = {0, at->y, 0}, .c = at->c, .species = g->species[i]};
   if (g->s) p.s = g->s[i];
   all->id = g->id[i];
-  gg_dsmc_gap_fly_grain(d, dt, &d->now.rng, &p, all);
+  gg_dsmc_gap_fly_grain(d, dt, rng, &p, all);
   at->y = fmin(fmax(p.r.y, d->low[p.species]), d->high[p.species]);
   at->c = p.c;
   if (g->s) g->s[i] = p.s;
@@ -121,21 +121,23 @@ static void fly_to_walls(gg_dsmc_gap *d, size_t i, double dt, gg_dsmc_gap_contac
 
 /* In registers: stores do not change them. */
 typedef struct counting {
-  uint32_t *next, *place; /* of each cell, one number on */
+  uint32_t *next, *place; /* of each cell */
   double from, inverse, last;
 } counting;
 
-GG_INLINE void fly(gg_dsmc_gap *d, double dt, bool mixture, bool falls, gg_dsmc_gap_contacts *all)
+GG_INLINE void fly(gg_dsmc_gap *d, int part, double dt, bool mixture, bool falls, gg_rng *rng,
+                   gg_dsmc_gap_contacts *all)
 {
   const gg_dsmc_gap_cells *c = &d->cells;
-  const counting to = {c->start + 1, d->place, c->from, c->inverse, c->n - 0.5};
+  const counting to = {c->next + (size_t)part * c->stride, d->place, c->from, c->inverse, c->n - 0.5};
   const gg_vec g = d->gravity, dc = gg_scale(dt, g);
   const double lift = 0.5 * dt * dt * g.y;
-  const size_t n = (size_t)d->model.n;
+  const size_t end_of_part = gg_dsmc_gap_part(d, part + 1);
   gg_dsmc_gap_motion *grains = d->grains.at;
   inside in = inside_of(d, 0, dt);
   if (!falls) in.falls = false;
-  for (size_t i = 0; i < n; i++) {
+  memset(to.next, 0, c->stride * sizeof *to.next);
+  for (size_t i = gg_dsmc_gap_part(d, part); i < end_of_part; i++) {
     gg_dsmc_gap_motion *at = &grains[i];
     if (mixture) in = inside_of(d, d->grains.species[i], dt);
     const double end = at->y + (at->c.y * dt + lift);
@@ -143,7 +145,7 @@ GG_INLINE void fly(gg_dsmc_gap *d, double dt, bool mixture, bool falls, gg_dsmc_
       at->y = end;
       if (falls) at->c = gg_add(at->c, dc);
     } else
-      fly_to_walls(d, i, dt, all);
+      fly_to_walls(d, i, dt, rng, all);
     const double cell = (at->y - to.from) * to.inverse;
     uint32_t bin = (uint32_t)(int)(cell < to.last ? cell : to.last);
     if (mixture) bin = bin * (uint32_t)d->model.n_species + d->grains.species[i];
@@ -152,21 +154,41 @@ GG_INLINE void fly(gg_dsmc_gap *d, double dt, bool mixture, bool falls, gg_dsmc_
   }
 }
 
-void gg_dsmc_gap_fly(gg_dsmc_gap *d, double dt)
+typedef struct flight {
+  gg_dsmc_gap *d;
+  double dt;
+  gg_dsmc_gap_contacts all[GG_GAP_MOST_PARTS];
+} flight;
+
+static void fly_part(void *context, int part)
 {
-  gg_dsmc_gap_contacts all = {.shown = d->callback != NULL};
+  flight *f = context;
+  gg_dsmc_gap *d = f->d;
   const bool mixture = d->model.n_species > 1, falls = gg_dot(d->gravity, d->gravity) > 0;
-  memset(d->cells.start, 0, ((size_t)((d->cells.n + 1) * d->model.n_species) + 1) * sizeof *d->cells.start);
+  gg_rng *stream = &d->now.streams.walls[part], rng = *stream;
   if (mixture || falls)
-    fly(d, dt, mixture, falls, &all);
+    fly(d, part, f->dt, mixture, falls, &rng, &f->all[part]);
   else
-    fly(d, dt, false, false, &all);
-  d->now.rests += all.rests;
+    fly(d, part, f->dt, false, false, &rng, &f->all[part]);
+  *stream = rng;
+}
+
+static void add_contacts(gg_dsmc_gap *d, const gg_dsmc_gap_contacts *all)
+{
+  d->now.rests += all->rests;
   for (int w = 0; w < d->model.n_surfaces; w++) {
     gg_surface_sums *t = &d->now.transfer.surface[w];
-    t->collisions += all.surface[w].collisions;
+    t->collisions += all->surface[w].collisions;
     if (!d->now.keeps_sums) continue;
-    t->loss += all.surface[w].loss;
-    for (int a = 0; a < 3; a++) t->impulse[a] += all.surface[w].impulse[a];
+    t->loss += all->surface[w].loss;
+    for (int a = 0; a < 3; a++) t->impulse[a] += all->surface[w].impulse[a];
   }
+}
+
+void gg_dsmc_gap_fly(gg_dsmc_gap *d, double dt)
+{
+  flight f = {.d = d, .dt = dt};
+  for (int part = 0; part < d->parts; part++) f.all[part].shown = d->callback != NULL;
+  gg_base_thread_pool_for(d->callback ? NULL : d->pool, d->parts, fly_part, &f);
+  for (int part = 0; part < d->parts; part++) add_contacts(d, &f.all[part]);
 }

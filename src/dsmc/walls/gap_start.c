@@ -101,6 +101,8 @@ void gg_dsmc_gap_destroy(gg_engine *engine)
   free_grains(&d->sorted);
   free(d->place);
   gg_dsmc_gap_cells_free(&d->cells);
+  gg_base_thread_pool_free(d->pool);
+  free(d->slab);
   free(d->losses);
   free(d);
 }
@@ -206,14 +208,22 @@ static void begin(gg_dsmc_gap *d)
     gg_dsmc_majorant_start(&c->majorant[k], 2 * sqrt(fastest) * chi * most, sqrt(s->temperature));
 }
 
+static void seed_streams(gg_dsmc_gap_streams *s, uint64_t seed, uint64_t next)
+{
+  for (int k = 0; k < GG_GAP_MOST_PARTS; k++) s->walls[k] = gg_common_rng_seed(seed, next++);
+  for (int k = 0; k < GG_GAP_MOST_SLABS; k++, next += GG_DSMC_LANES) {
+    s->cells[k] = gg_common_rng_seed(seed, next++);
+    gg_dsmc_rng_lanes_seed(&s->lanes[k], seed, next);
+  }
+}
+
 gg_status gg_dsmc_gap_start(gg_dsmc_gap *d, uint64_t seed, uint64_t stream, const gg_grain_arrays *given, gg_error *err)
 {
   gg_rng rng = gg_common_rng_seed(seed, stream + GG_STREAM_START);
   const gg_model *m = &d->model;
   double inertia[GG_MAX_SPECIES];
   for (int i = 0; i < m->n_species; i++) inertia[i] = m->inertia[i] * m->mass[i];
-  d->now.rng = gg_common_rng_seed(seed, stream + GG_STREAM_ENGINE);
-  gg_dsmc_rng_lanes_seed(&d->now.lanes, seed, stream + GG_STREAM_LANES);
+  seed_streams(&d->now.streams, seed, stream + GG_STREAM_SEGMENTS);
   place_grains(d, &rng);
   set_motion(d, false, m->mass, m->temperature0, &rng);
   add_flow(d);
