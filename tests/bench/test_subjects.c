@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every table of graingas bench, of small systems and short stretches: whole, its numbers what they say; and what is
- * refused. */
+ * refused. `bench_subjects quick`: the tables of --quick alone. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,6 +16,7 @@
 #include "graingas.h"
 
 static int told;
+static int full_too = 1;
 
 static void tell(void *context, const char *line)
 {
@@ -158,7 +159,7 @@ static void overview(void **state)
 {
   (void)state;
   gg_bench b;
-  for (int quick = 0; quick < 2; quick++) {
+  for (int quick = !full_too; quick < 2; quick++) {
     gg_bench_options o = {.quick = quick, .smaller = 200, .tell = tell};
     begin(&b, &o, NULL);
     const gg_bench_table *s = table_of(&b, "throughput");
@@ -177,7 +178,7 @@ static void md(void **state)
   static const char *const scenes[] = {
       "smooth", "rough", "two species", "walls", "walls, gravity", "sheared frictional", "white noise, e = 0.9"};
   gg_bench b;
-  for (int quick = 0; quick < 2; quick++) {
+  for (int quick = !full_too; quick < 2; quick++) {
     gg_bench_options o = {.quick = quick, .smaller = 1000};
     begin(&b, &o, "md");
     assert_whole(table_of(&b, "collisions"), NULL);
@@ -193,7 +194,7 @@ static void dsmc(void **state)
 {
   (void)state;
   gg_bench b;
-  for (int quick = 0; quick < 2; quick++)
+  for (int quick = !full_too; quick < 2; quick++)
     for (int threads = 1; threads <= (quick ? 2 : 1); threads++) {
       gg_bench_options o = {.quick = quick, .smaller = 1000, .threads = threads, .tell = tell};
       begin(&b, &o, "dsmc");
@@ -328,8 +329,9 @@ static void refused(void **state)
   refuse("md", (gg_bench_options){.n_overrides = 1, .override = bad}, "run.seed");
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
+  full_too = !(argc > 1 && strcmp(argv[1], "quick") == 0);
   char folder[] = "/tmp/graingas-bench-XXXXXX";
   const struct CMUnitTest tests[] = {cmocka_unit_test(overview),    cmocka_unit_test(md),    cmocka_unit_test(dsmc),
                                      cmocka_unit_test(observables), cmocka_unit_test(error), cmocka_unit_test(refused)};

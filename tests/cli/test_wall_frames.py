@@ -29,14 +29,17 @@ RUN = f"run: {{warmup: {WARMUP}, collisions: {COLLISIONS}}}\noutput: {{trajector
 def about_lines(y, v, height, slabs):
     """Residuals of v (grains x 3) about a straight line in each slab."""
     slab = numpy.clip((y / height * slabs).astype(int), 0, slabs - 1)
-    left = numpy.zeros_like(v)
-    for k in range(slabs):
-        here = slab == k
-        if here.sum() < 3:
-            continue
-        h = y[here] - y[here].mean()
-        w = v[here] - v[here].mean(0)
-        left[here] = w - numpy.outer(h, h @ w) / (h @ h)
+
+    def of_slab(x):
+        return numpy.bincount(slab, x, slabs)
+
+    n = numpy.maximum(of_slab(None), 1)
+    h = y - (of_slab(y) / n)[slab]
+    left = numpy.empty_like(v)
+    for a in range(3):
+        w = v[:, a] - (of_slab(v[:, a]) / n)[slab]
+        left[:, a] = w - h * (of_slab(h * w) / numpy.maximum(of_slab(h * h), 1e-300))[slab]
+    left[n[slab] < 3] = 0
     return left
 
 
