@@ -34,9 +34,9 @@ static void shear_is_second_order(void **state)
   (void)state;
   lab_mean exact[OBSERVED], full[OBSERVED], half[OBSERVED];
   double bias[3];
-  sheared(GG_AUTO, 140, exact, &bias[0]);
-  sheared(1, 25, full, &bias[1]);
-  sheared(0.5, 140, half, &bias[2]);
+  sheared(GG_AUTO, 50, exact, &bias[0]);
+  sheared(1.4, 15, full, &bias[1]);
+  sheared(0.7, 50, half, &bias[2]);
   const char *names[] = {"T", "P_xy"};
   for (int q = 0; q < OBSERVED; q++) {
     double e = hypot(lab_error(&exact[q]), lab_error(&half[q]));
@@ -66,7 +66,7 @@ static lab_mean heated(double step, int blocks)
 static void thermostat_is_second_order(void **state)
 {
   (void)state;
-  lab_mean fine = heated(0.1, 150), full = heated(1.4, 50), half = heated(0.7, 150);
+  lab_mean fine = heated(0.1, 50), full = heated(2, 20), half = heated(1, 50);
   double e = hypot(lab_error(&fine), lab_error(&half));
   expect_order("a2", lab_value(&full) - lab_value(&fine), lab_value(&half) - lab_value(&fine), e);
 }
