@@ -24,7 +24,7 @@ def mpirun(ranks, *args, options=(), program=GRAINGAS):
     if os.environ["WITH_MPI"] != "true" or not shutil.which("mpirun"):
         raise Skip("built without MPI, or no mpirun")
     root = ("--allow-run-as-root",) if os.geteuid() == 0 else ()
-    return ["mpirun", "--oversubscribe", "-q", *root, *watched(), *options, "-n", str(ranks), program, *args]
+    return ["mpirun", "--oversubscribe", "-q", "--mca", "mpi_yield_when_idle", "1", *root, *watched(), *options, "-n", str(ranks), program, *args]
 
 
 def watched():
