@@ -28,7 +28,7 @@ enum {
   GG_NEEDS_WALLS = 1u << 22,
   GG_NEEDS_NO_WALLS = 1u << 23,
   GG_NEEDS_UNEQUAL_WALLS = 1u << 25, /* of two temperatures */
-  GG_NEEDS_HEAT_FLUX = 1u << 24,     /* of linear response: smooth grains of one species; dsmc or fluctuations */
+  GG_NEEDS_HEAT_FLUX = 1u << 24,     /* of linear response: one species; dsmc or fluctuations of smooth grains */
   GG_NEEDS_FLUCTUATIONS = 1u << 26,  /* whose decay is that of linear response: elastic grains at rest, in md */
 
   GG_KEPT_HEATING = 1u << 15,      /* free of the temperature's scale: has a meaning as a mean in a gas that heats up */
@@ -196,11 +196,12 @@ enum {
   ONE(COOLING_RATE_TRANSPORT, "cooling_rate_transport", "ζ_u", "", NONE, GG_NEEDS_THEORY,                              \
       "response of the cooling rate to expansion at first order in gradients: zeta = zeta_0 + zeta_u div u",           \
       "\\zeta = \\zeta_0 + \\zeta_u\\,\\nabla\\cdot\\mathbf u")                                                        \
-  ONE(ROTATIONAL_CONDUCTIVITY_REDUCED, "rotational_conductivity_reduced", "κ_r*", "", NONE, GG_HEAT_OF_SPINS,          \
+  ONE(ROTATIONAL_CONDUCTIVITY_REDUCED, "rotational_conductivity_reduced", "κ_r*", "", NONE,                            \
+      GG_NEEDS_HEAT_FLUX | GG_NEEDS_SPINS,                                                                             \
       "kappa_r/kappa_0: rotational heat flux along -grad T of a cooling gas, whose theta goes as T",                   \
       "\\kappa_r^* = \\frac{4 m\\nu_0\\,\\kappa_r}{15\\,nT}")                                                          \
   ONE(ROTATIONAL_DIFFUSIVE_CONDUCTIVITY_REDUCED, "rotational_diffusive_conductivity_reduced", "μ_r*", "", NONE,        \
-      GG_HEAT_OF_SPINS, "n mu_r/(T kappa_0): rotational heat flux along -grad n of a cooling gas",                     \
+      GG_NEEDS_HEAT_FLUX | GG_NEEDS_SPINS, "n mu_r/(T kappa_0): rotational heat flux along -grad n of a cooling gas",  \
       "\\mu_r^* = \\frac{4 m\\nu_0\\,\\mu_r}{15\\,T^2}")                                                               \
   ONE(THERMAL_CONDUCTIVITY, "thermal_conductivity", "κ", "", VISCOSITY, GG_NEEDS_THEORY,                               \
       "translational heat flux along -grad T under shear, n uniform; q = -kappa grad T - kappa_h grad theta",          \

@@ -17,12 +17,12 @@ static const gg_quantity conductivities[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED,
                                              GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC,
                                              GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED};
 
-static gg_result *run(double e, double phi)
+static gg_result *run(double e, double beta, double phi)
 {
   gg_scene s = gg_scene_defaults();
   gg_result *r = NULL;
   gg_error err = {0};
-  s.flow = GG_HCS, s.engine = GG_DSMC, s.phi = phi, s.collision.e[0] = e;
+  s.flow = GG_HCS, s.engine = GG_DSMC, s.phi = phi, s.collision.e[0] = e, s.collision.beta[0] = beta;
   s.measure |= GG_MEASURE_CONDUCTIVITY;
   s.dsmc.particles = 10000;
   s.run.collisions = 2500;
@@ -41,7 +41,7 @@ static double answer(const gg_result *r, const char *theory, gg_quantity q)
 
 static void expect(double e, double phi)
 {
-  gg_result *r = run(e, phi);
+  gg_result *r = run(e, -1, phi);
   const double kappa = r->value[conductivities[0]].mean;
   for (int k = 0; k < 3; k++) {
     const gg_estimate *v = &r->value[conductivities[k]];
@@ -66,6 +66,30 @@ static void dense(void **state)
 {
   (void)state;
   expect(1, 0.1), expect(0.8, 0.3);
+}
+
+/* Rough grains: dilute and perfectly rough, where first Sonine order is 7 and 10 % low, and dense. */
+static void rough(void **state)
+{
+  (void)state;
+  static const gg_quantity q[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC,
+                                  GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED, GG_Q_ROTATIONAL_CONDUCTIVITY_REDUCED,
+                                  GG_Q_ROTATIONAL_DIFFUSIVE_CONDUCTIVITY_REDUCED};
+  static const double e[] = {1, 0.9}, beta[] = {1, 0.5}, phi[] = {0, 0.2};
+  for (int k = 0; k < 2; k++) {
+    gg_result *r = run(e[k], beta[k], phi[k]);
+    const double kappa = r->value[q[0]].mean;
+    for (int i = 0; i < 5; i++) {
+      const gg_estimate *v = &r->value[q[i]];
+      const double value = answer(r, "enskog_hermite", q[i]);
+      print_message("# e %g beta %g phi %g %s: %.4f +- %.4f, expected %.4f\n", e[k], beta[k], phi[k],
+                    gg_common_quantity_name(q[i]), v->mean, v->error, value);
+      assert_true(v->error > 0 && v->error < 0.01 * kappa);
+      assert_true(fabs(v->mean - value) < 4 * v->error + 0.002 * kappa);
+      if (k == 0 && i != 2 && i != 4) assert_true(v->mean > answer(r, "kremer_santos_garzo2014", q[i]) * 1.03);
+    }
+    gg_result_free(r);
+  }
 }
 
 /* kappa* of 300 grains: 4.2/N low in a dilute gas (helfand.c), 2 % of a dense one that molecular chaos may miss; its
@@ -98,7 +122,7 @@ static void molecular_dynamics(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(dilute), cmocka_unit_test(dense),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(dilute), cmocka_unit_test(dense), cmocka_unit_test(rough),
                                      cmocka_unit_test(molecular_dynamics)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
