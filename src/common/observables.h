@@ -23,7 +23,7 @@
   X(FLUXES, fluxes, "stress, heat flux and balance of energy across the gap between walls")                            \
   X(DIFFUSION, diffusion, "velocity autocorrelation, mean-square displacement, self-diffusion")                        \
   X(VISCOSITY, viscosity, "eta* of cooling and heated gases by linear response; comes with flow: small_shear")         \
-  X(CONDUCTIVITY, conductivity, "kappa* and mu* of smooth grains that cool or rest, by Green-Kubo integrals")          \
+  X(CONDUCTIVITY, conductivity, "kappa* and mu* of grains that cool or rest, by Green-Kubo integrals")                 \
   X(HELFAND, helfand, "viscosities and conductivity of elastic grains at rest, by Helfand moments")                    \
   X(COLLISIONS, collisions, "free paths, times between collisions, angles of contact")                                 \
   X(IMPACT_SPEED, impact_speed, "normal relative speed of collisions")

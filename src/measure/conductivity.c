@@ -63,7 +63,7 @@ static size_t width(const gg_model *m)
 static size_t bins(const void *self)
 {
   const gg_heat_layout *l = &((const conductivity *)self)->copies.at;
-  return (size_t)(l->at_lag + GG_HEAT_STEPS * l->lag);
+  return (size_t)(l->at_lag + l->steps * l->lag);
 }
 
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
@@ -77,9 +77,9 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
     d->memory.rng = gg_common_rng_seed(seed, 0), d->memory.seeded = 1;
   }
   gg_measure_heat_copies_follow(&d->copies, s, &d->memory.rng, all);
-  for (int k = 0; k < l->at_lag + GG_HEAT_STEPS * l->lag; k++) bin[k] += all[k];
+  for (int k = 0; k < l->at_lag + l->steps * l->lag; k++) bin[k] += all[k];
   memcpy(d->row, all, (size_t)l->at_lag * sizeof *all);
-  memcpy(d->row + l->at_lag, all + l->at_lag + (GG_HEAT_STEPS - 1) * l->lag, (size_t)l->lag * sizeof *all);
+  memcpy(d->row + l->at_lag, all + l->at_lag + (l->steps - 1) * l->lag, (size_t)l->lag * sizeof *all);
 }
 
 /* Rows are made of the snapshot at the end of their interval; there is none before averaging. */
@@ -227,12 +227,13 @@ static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const conductivity *d = self;
   gg_curve *c[2] = {
-      start(list, GG_HEAT_STEPS, "thermal_conductivity_of_lag", "thermal conductivity", "κ*"),
-      start(list, GG_HEAT_STEPS, "diffusive_heat_conductivity_of_lag", "diffusive heat conductivity", "μ*")};
+      start(list, (size_t)d->copies.at.steps, "thermal_conductivity_of_lag", "thermal conductivity", "κ*"),
+      start(list, (size_t)d->copies.at.steps, "diffusive_heat_conductivity_of_lag", "diffusive heat conductivity",
+            "μ*")};
   const gg_heat_layout *l = &d->copies.at;
   double mean[GG_HEAT_MOST];
   memcpy(mean, bin, (size_t)l->at_lag * sizeof *mean);
-  for (size_t i = 0; i < GG_HEAT_STEPS; i++) {
+  for (size_t i = 0; i < (size_t)d->copies.at.steps; i++) {
     memcpy(mean + l->at_lag, bin + l->at_lag + (int)i * l->lag, (size_t)l->lag * sizeof *mean);
     const heat h = heat_of(mean, &d->copies.model, false);
     const double value[2] = {h.conductivity, h.diffusive};

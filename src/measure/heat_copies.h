@@ -3,10 +3,10 @@
  * grains carry it as weights w, and collide for some time. Two that collide both get w_1 + w_2; a candidate that is
  * rejected, of probability p, takes w_2 p/(1 - p) from w_1, and w_1 p/(1 - p) from w_2. Their average is the linearised
  * collision operator (H.A. Al-Mohssen and N.G. Hadjiconstantinou, J. Comput. Phys. 229 (2010) 4481), but the variance
- * grows with every collision. After STEPS f1 is therefore expanded anew, as f0 sum_n s_n b_n, b_n = C
+ * grows with every collision. After some steps f1 is therefore expanded anew, as f0 sum_n s_n b_n, b_n = C
  * |C|^n and, of rough grains, C s^2 and s (C.s), both also times |C|, and s x C, without momentum, with the moments
  * <b_m f1> that it has; the sources likewise. Longer lags follow by repetition. What an expansion leaves out has
- * decayed within STEPS: the curves show what they do. */
+ * decayed by then: the curves show what they do. */
 #ifndef GG_HEAT_COPIES_H
 #define GG_HEAT_COPIES_H
 
@@ -14,7 +14,7 @@
 #include "common/rng.h"
 #include "measure/grain_snapshot.h"
 
-enum { GG_HEAT_SMOOTH = 3, GG_HEAT_ORDERS = 8, GG_HEAT_FLUXES = 4, GG_HEAT_STEPS = 4 };
+enum { GG_HEAT_SMOOTH = 3, GG_HEAT_ORDERS = 8, GG_HEAT_FLUXES = 4, GG_HEAT_STEPS = 8 };
 /* Fluxes, of which smooth grains have the first: of energy with grains, and through collisions. */
 enum { GG_HEAT_TRANSLATION, GG_HEAT_ROTATION, GG_HEAT_CARRIED_TRANSLATION, GG_HEAT_CARRIED_ROTATION };
 /* Of the functions b, those of smooth grains first. */
@@ -23,8 +23,8 @@ static const int gg_heat_degree[GG_HEAT_ORDERS] = {2, 3, 4, 3, 4, 3, 4, 2};
 /* Where a row has, of n functions b: <C.b>/3, <d/dC . b>/3; averages over pairs, for partners at a distance; energy
  * that is carried so; <b_m b_n>; and a lag. Of a lag u: u, e^(zeta u/2), <b_m(u) b_n>, and the integral of <q b_n> up
  * to u, with e^(zeta u/2) and without. */
-typedef struct gg_heat_layout {
-  int n, fluxes, projected, diverged, distant_T, distant_n, carried, overlap, at_lag, channels;
+typedef struct gg_heat_layout { /* steps: lags of a bin, of which a row has the last */
+  int n, fluxes, steps, projected, diverged, distant_T, distant_n, carried, overlap, at_lag, channels;
   int time, fading, kept, flux[2], lag; /* in a lag: flux[0] with e^(zeta u/2); its length */
 } gg_heat_layout;
 enum {
