@@ -81,11 +81,12 @@ static void refused(void **state)
 {
   (void)state;
   const gg_model fine = model(GG_EQUILIBRIUM, GG_DSMC, 0.1, -1), md = model(GG_HCS, GG_MD, 0.1, -1),
-                 rough = model(GG_HCS, GG_DSMC, 0.1, 0), rough_md = model(GG_HCS, GG_MD, 0.1, 1),
-                 heated = model(GG_HSS, GG_DSMC, 0.1, -1), sheared = model(GG_USF, GG_DSMC, 0.1, -1);
+                 rough = model(GG_HCS, GG_DSMC, 0, 0), dense = model(GG_HCS, GG_DSMC, 0.1, 0),
+                 rough_md = model(GG_HCS, GG_MD, 0.1, 1), heated = model(GG_HSS, GG_DSMC, 0.1, -1),
+                 sheared = model(GG_USF, GG_DSMC, 0.1, -1);
   assert_null(gg_measure_conductivity.refuses(&fine));
   assert_null(gg_measure_conductivity.refuses(&rough));
-  const gg_model * not [] = {&md, &rough_md, &heated, &sheared};
+  const gg_model * not [] = {&md, &dense, &rough_md, &heated, &sheared};
   for (size_t i = 0; i < sizeof not / sizeof *not ; i++) assert_non_null(gg_measure_conductivity.refuses(not [i]));
 }
 
