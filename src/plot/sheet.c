@@ -30,8 +30,20 @@ gg_plot_sheet *gg_plot_sheet_new(const gg_stored_result *stored, const gg_plot_p
   return s;
 }
 
+static bool has_open_symbols(const gg_plot_sheet *s)
+{
+  bool any = false;
+  for (size_t p = 0; p < s->chart.n; p++)
+    for (size_t k = 0; k < s->panel[p].n; k++) {
+      const gg_chart_series *series = &s->panel[p].series[k];
+      any |= series->style == GG_CHART_POINTS && (series->all_open || series->open);
+    }
+  return any;
+}
+
 gg_status gg_plot_sheet_finish(gg_plot_sheet *s, const gg_plot_paper *paper, const char *picture, gg_error *err)
 {
+  if (!has_open_symbols(s)) *s->note = '\0';
   gg_status status = s->lacks ? gg_base_out_of_memory(err) : gg_plot_chart_draw_on(&s->chart, paper, picture, err);
   for (size_t p = 0; p < s->chart.n; p++)
     for (size_t k = 0; k < s->panel[p].n; k++) free((void *)(uintptr_t)s->series[p][k].x);

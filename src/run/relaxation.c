@@ -77,6 +77,34 @@ gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, 
   return status;
 }
 
+double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model)
+{
+  const uint64_t n = gg_run_relaxation_samples(scene);
+  gg_relaxing x = gg_theory_relaxation_start(model);
+  double sum = 0, T = x.T;
+  int made = 0;
+  gg_model *now = malloc(sizeof *now);
+  if (now) *now = *model;
+  for (uint64_t k = 0; now && k < n; k++) {
+    const double dt = gg_run_relaxation_time(scene, k + 1) - gg_run_relaxation_time(scene, k);
+    const int changes = gg_scene_protocol_count(scene, user_time(scene, k));
+    gg_scene then;
+    if (changes != made && (gg_scene_protocol_apply(scene, changes, &then, NULL) != GG_OK ||
+                            gg_common_model_make(&then, scene->engine, now, NULL) != GG_OK))
+      break;
+    /* Of sheared gases and mixtures theory takes some time: they are at the temperature they are going to. */
+    const bool quick = gg_theory_relaxation_name(now) && !gg_theory_gaussian_relaxes(now);
+    if (quick)
+      gg_theory_relax(now, dt, &x);
+    else if (changes != made && now->steady)
+      x.T = T = now->temperature0;
+    sum += dt * (gg_common_model_collision_rate(now, T) + gg_common_model_collision_rate(now, x.T)) / 2;
+    T = x.T, made = changes;
+  }
+  free(now);
+  return sum;
+}
+
 /* Of the gas at present: what is followed in time does not depend on what may change. */
 static double value_at(const gg_replicas *all, const gg_function *f, size_t offset, int replica, size_t row)
 {
@@ -110,21 +138,28 @@ gg_mean gg_run_relaxation_end(const gg_replicas *all, gg_quantity q)
 static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *err)
 {
   const gg_scene *s = &all->scene;
-  gg_relaxing x = {.T = all->model.temperature0, .theta = all->model.rule == GG_SMOOTH ? 0 : all->model.ratio0};
+  gg_relaxing x = gg_theory_relaxation_start(&all->model);
   int changes = 0;
   gg_status status = GG_OK;
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
   if (!model) return GG_FAILED;
-  x.theta *= x.T;
   for (size_t k = 0; status == GG_OK && k < all->replica[0].series.n; k++) {
     if (k > 0) gg_theory_relax(model, gg_run_relaxation_time(s, k) - gg_run_relaxation_time(s, k - 1), &x);
     at[k] = x;
     if (k > 0 && changes == gg_scene_protocol_count(s, user_time(s, k))) continue;
     status = gg_run_relaxation_model(s, &all->model, k, model, &changes, err);
-    if (status == GG_OK && !gg_theory_relaxation_name(model)) x = (gg_relaxing){NAN, NAN, NAN};
+    if (status == GG_OK && !gg_theory_relaxation_name(model))
+      x = (gg_relaxing){.T = NAN, .theta = NAN, .a2 = NAN, .P_xy = NAN, .of = {{.M = {{{NAN}}}}}};
   }
   free(model);
   return status;
+}
+
+/* Temperature of a species of a mixture; NaN: another quantity. */
+static double species_of(const gg_relaxing *x, gg_quantity q, const gg_model *m)
+{
+  const int i = (int)q - (int)GG_Q_PARTIAL_TEMPERATURE;
+  return i >= 0 && i < m->n_species ? m->mass[i] * gg_theory_trace(x->of[i].M) / 3 : NAN;
 }
 
 static double theory_of(const gg_relaxing *x, gg_quantity q, const gg_model *m)
@@ -132,30 +167,36 @@ static double theory_of(const gg_relaxing *x, gg_quantity q, const gg_model *m)
   return q == GG_Q_TEMPERATURE              ? x->T
          : q == GG_Q_ROTATIONAL_TEMPERATURE ? x->theta
          : q == GG_Q_TEMPERATURE_RATIO      ? x->theta / x->T
+         : q == GG_Q_P_XY                   ? x->P_xy
+         : gg_theory_gaussian_relaxes(m)    ? species_of(x, q, m)
          : m->rule == GG_SMOOTH             ? x->a2
                                             : NAN;
 }
 
-/* `theory`: at every time; NULL: there is none. */
+/* From sample `first` on; `theory`: at every time; NULL: there is none. */
 static void add_curve(const gg_replicas *all, const gg_quantity_row *row, const gg_function *f,
-                      const gg_relaxing *theory, gg_curves *list)
+                      const gg_relaxing *theory, size_t first, gg_curves *list)
 {
   const gg_replica *r = &all->replica[0];
-  char name[48];
-  snprintf(name, sizeof name, "%.36s_in_time", row->name);
-  gg_curve *c = gg_measure_curve_add(list, r->series.n, name, row->symbol, "measured");
+  char name[64], panel[80];
+  snprintf(name, sizeof name, first ? "%.36s_after_changes" : "%.36s_in_time", row->name);
+  snprintf(panel, sizeof panel, first ? "%s after the last change" : "%s", row->symbol);
+  gg_curve *c = gg_measure_curve_add(list, r->series.n - first, name, panel, "measured");
   gg_measure_curve_axes(c, "t", gg_measure_curve_unit(&all->model, "time"), row->symbol, row->unit);
   c->samples = (uint64_t)all->n;
   const bool beside = theory && !isnan(theory_of(theory, row->quantity, &all->model));
   if (beside) gg_measure_curve_beside(c, gg_theory_relaxation_name(&all->model), gg_measure_curve_level, &(double){0});
   for (size_t i = 0; beside && c->reference && i < c->n; i++)
-    c->reference[i] = theory_of(&theory[i], row->quantity, &all->model);
+    c->reference[i] = theory_of(&theory[first + i], row->quantity, &all->model);
+  double least = INFINITY, most = -INFINITY;
   for (size_t i = 0; i < c->n; i++) {
-    const gg_mean m = over_replicas(all, f, r->offset[0], i);
-    const bool unknown = i == 0 && row->quantity == GG_Q_P_XY; /* the start has no collisions */
-    c->x[i] = gg_run_relaxation_time(&all->scene, i);
+    const gg_mean m = over_replicas(all, f, r->offset[0], first + i);
+    const bool unknown = first + i == 0 && row->quantity == GG_Q_P_XY; /* the start has no collisions */
+    least = fmin(least, m.mean), most = fmax(most, m.mean);
+    c->x[i] = gg_run_relaxation_time(&all->scene, first + i);
     c->value[i] = unknown ? NAN : m.mean, c->error[i] = unknown ? NAN : m.error;
   }
+  c->log_y = least > 0 && most > 30 * least;
 }
 
 static bool is_shown(const gg_model *m, gg_quantity q)
@@ -165,19 +206,34 @@ static bool is_shown(const gg_model *m, gg_quantity q)
          (q == GG_Q_P_XY && m->shear_rate != 0);
 }
 
+/* The sample at which the last change was made; 0: there was none. */
+static size_t last_change(const gg_replicas *all)
+{
+  const gg_scene *s = &all->scene;
+  const int n = gg_scene_protocol_count(s, INFINITY);
+  size_t k = 0;
+  while (n > 0 && k + 1 < all->replica[0].series.n && user_time(s, k) < s->protocol[n - 1].at) k++;
+  return k;
+}
+
 gg_status gg_run_relaxation_curves(const gg_replicas *all, gg_result *result, gg_error *err)
 {
   gg_curves *list = &result->curves;
   const bool known = gg_theory_relaxation_name(&all->model) != NULL;
   gg_relaxing *theory = gg_base_array_new(all->replica[0].series.n + 1, sizeof *theory, err);
   if (!theory) return GG_FAILED;
+  const size_t changed = last_change(all);
   gg_status status = known ? integrate(all, theory, err) : GG_OK;
   list->group = "relaxation";
   for (int i = 0; i < result->rows.n; i++) {
     gg_function f;
     const gg_quantity_row *row = &result->rows.row[i];
     if (is_shown(&all->model, row->quantity) && gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
-      add_curve(all, row, &f, known ? theory : NULL, list);
+      add_curve(all, row, &f, known ? theory : NULL, 0, list);
+    /* What follows may be small beside what went before: a picture of its own. */
+    if (row->quantity == GG_Q_TEMPERATURE && changed > 0 && changed + 1 < all->replica[0].series.n &&
+        gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
+      add_curve(all, row, &f, known ? theory : NULL, changed, list);
   }
   list->group = NULL;
   free(theory);

@@ -17,6 +17,8 @@ gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, 
                                   int *changes, gg_error *err);
 /* That of all changes, before the run begins. */
 gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, gg_error *err);
+/* Collisions a grain up to the end, about. */
+double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model);
 /* What theories describe: the gas after the last change. */
 gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_model *model, gg_error *err);
 

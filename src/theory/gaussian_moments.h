@@ -30,6 +30,16 @@ typedef struct gg_gaussian_rates {
  * species; the spins of one that never spins are ignored. */
 void gg_theory_gaussian_rates_at(const gg_model *model, const gg_gaussian *state, gg_gaussian_rates *rates);
 
+/* The same with streaming and the bath; and per volume what the bath brings, and what it takes (flow). */
+void gg_theory_gaussian_changes_at(const gg_model *model, const gg_gaussian *state, gg_gaussian_rates *rates,
+                                   double flow[2]);
+
+/* gaussian_relaxation.c: moments in time, of the gases that they are known for. */
+bool gg_theory_gaussian_relaxes(const gg_model *model);
+void gg_theory_gaussian_start(const gg_model *model, gg_gaussian state[]);
+void gg_theory_gaussian_relax(const gg_model *model, double time, gg_gaussian state[]);
+double gg_theory_gaussian_shear_stress(const gg_model *model, const gg_gaussian state[]);
+
 /* The steady state of uniform shear: the largest residual left, of changes per mean free time, and of the balance of
  * energy and of shear stresses a thousandth of the relative ones, which small stresses do not hide (NaN: no memory). */
 double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state);

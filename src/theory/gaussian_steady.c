@@ -147,20 +147,30 @@ static void add_bath(const gg_model *m, const gg_gaussian *state, int i, gg_gaus
   flow[0] += 1.5 * nK * b->spin_noise[i];
 }
 
+void gg_theory_gaussian_changes_at(const gg_model *m, const gg_gaussian *state, gg_gaussian_rates *r, double flow[2])
+{
+  gg_theory_gaussian_rates_at(m, state, r);
+  flow[0] = flow[1] = 0;
+  for (int i = 0; i < m->n_species; i++) {
+    const double xy = state[i].M.at[0][1], yy = state[i].M.at[1][1];
+    gg_gaussian *change = &r->change[i];
+    change->M.at[0][0] -= 2 * m->shear_rate * xy;
+    change->M.at[0][1] -= m->shear_rate * yy;
+    change->M.at[1][0] -= m->shear_rate * yy;
+    if (m->bath.on) add_bath(m, state, i, change, flow);
+  }
+}
+
 static void production(const gg_model *m, const gg_gaussian *state, gg_production *p)
 {
   gg_gaussian_rates r;
   gg_gaussian *change = p->change;
-  gg_theory_gaussian_rates_at(m, state, &r);
-  double stress = r.Pc.at[1][0], flow[2] = {0, 0};
+  double flow[2];
+  gg_theory_gaussian_changes_at(m, state, &r, flow);
+  double stress = r.Pc.at[1][0];
   for (int i = 0; i < m->n_species; i++) {
-    double xy = state[i].M.at[0][1], yy = state[i].M.at[1][1];
     change[i] = r.change[i];
-    change[i].M.at[0][0] -= 2 * m->shear_rate * xy;
-    change[i].M.at[0][1] -= m->shear_rate * yy;
-    change[i].M.at[1][0] -= m->shear_rate * yy;
-    stress += m->density * gg_theory_fraction(m, i) * m->mass[i] * xy;
-    if (m->bath.on) add_bath(m, state, i, &change[i], flow);
+    stress += m->density * gg_theory_fraction(m, i) * m->mass[i] * state[i].M.at[0][1];
     double time = time_of(m, &r, i);
     p->shear[i] = 3 * m->shear_rate * time;
     scale_tensor(&change[i].M, time);

@@ -7,7 +7,8 @@
  *   mu_2 = sqrt(2 pi) (1-e^2) (1 + 3 a2/16)
  *   mu_4 = sqrt(2 pi) {(1-e^2)(9/2+e^2) + a2 [(3/32)(1-e^2)(69+10e^2) + 2(1+e)]}
  * Rough grains with two Maxwellians (two_maxwellian.h):
- *   dT/dt = nu T dE_tr/3 - 2 gamma T + xi^2,   dtheta/dt = nu T dE_rot/3 - 2 gamma_r theta + K xi_r^2 */
+ *   dT/dt = nu T dE_tr/3 - 2 gamma T + xi^2,   dtheta/dt = nu T dE_rot/3 - 2 gamma_r theta + K xi_r^2
+ * Sheared gases and mixtures: gaussian_relaxation.c. */
 #include "theory/relaxation.h"
 
 #include "common/thermostat.h"
@@ -21,7 +22,17 @@ static gg_thermostat thermostat_of(const gg_model *m)
 const char *gg_theory_relaxation_name(const gg_model *m)
 {
   const bool known = m->n_species == 1 && m->shear_rate == 0 && !m->walled && !m->law.name;
+  if (gg_theory_gaussian_relaxes(m)) return m->shear_rate != 0 ? "Gaussian closure" : "Maxwellians";
   return !known ? NULL : m->rule == GG_SMOOTH ? "first Sonine" : "two Maxwellians";
+}
+
+gg_relaxing gg_theory_relaxation_start(const gg_model *m)
+{
+  gg_relaxing x = {.T = m->temperature0, .theta = m->rule == GG_SMOOTH ? 0 : m->ratio0 * m->temperature0};
+  if (!gg_theory_gaussian_relaxes(m)) return x;
+  gg_theory_gaussian_start(m, x.of);
+  x.P_xy = m->shear_rate != 0 ? gg_theory_gaussian_shear_stress(m, x.of) : 0;
+  return x;
 }
 
 static double noise_of(const gg_model *m)
@@ -66,7 +77,7 @@ static gg_relaxing rates(const gg_model *m, gg_relaxing x)
 
 static gg_relaxing moved(gg_relaxing x, double dt, gg_relaxing r)
 {
-  return (gg_relaxing){x.T + dt * r.T, x.theta + dt * r.theta, x.a2 + dt * r.a2};
+  return (gg_relaxing){.T = x.T + dt * r.T, .theta = x.theta + dt * r.theta, .a2 = x.a2 + dt * r.a2};
 }
 
 /* Runge and Kutta's fourth order. */
@@ -77,9 +88,25 @@ static gg_relaxing step(const gg_model *m, gg_relaxing x, double dt)
   return moved(moved(moved(moved(x, dt / 6, a), dt / 3, b), dt / 3, c), dt / 6, d);
 }
 
+static void relax_moments(const gg_model *m, double time, gg_relaxing *x)
+{
+  gg_theory_gaussian_relax(m, time, x->of);
+  x->P_xy = m->shear_rate != 0 ? gg_theory_gaussian_shear_stress(m, x->of) : 0;
+  x->T = x->theta = 0;
+  for (int i = 0; i < m->n_species; i++) {
+    const double share = m->mass[i] * (double)m->n_of[i] / (double)m->n;
+    x->T += share * gg_theory_trace(x->of[i].M) / 3;
+    if (m->rule != GG_SMOOTH) x->theta += share * m->inertia[i] * gg_theory_trace(x->of[i].Theta) / 3;
+  }
+}
+
 /* Steps that are short beside a collision, and what drag and noise take to act. */
 void gg_theory_relax(const gg_model *m, double time, gg_relaxing *x)
 {
+  if (gg_theory_gaussian_relaxes(m)) {
+    relax_moments(m, time, x);
+    return;
+  }
   while (time > 0) {
     const double fastest = gg_common_model_collision_rate(m, x->T) + 2 * fabs(drag_of(m)) + noise_of(m) / x->T +
                            (m->bath.on ? 2 * m->bath.spin_drag[0] : 0);

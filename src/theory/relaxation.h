@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Temperatures in time of a homogeneous gas of one species without shear, cooling, heated or in a bath. */
+/* Temperatures in time of a homogeneous gas: cooling, heated, in a bath, sheared; mixtures. */
 #ifndef GG_THEORY_RELAXATION_H
 #define GG_THEORY_RELAXATION_H
 
-#include "common/model.h"
+#include "theory/gaussian_moments.h"
 
 typedef struct gg_relaxing {
-  double T, theta, a2; /* theta of rough grains, a2 of smooth ones; else 0 */
+  double T, theta, a2;            /* theta of rough grains, a2 of smooth ones; else 0 */
+  gg_gaussian of[GG_MAX_SPECIES]; /* moments of sheared gases and mixtures */
+  double P_xy;                    /* of sheared gases */
 } gg_relaxing;
 
-/* "first Sonine", "two Maxwellians"; NULL: not of this model. */
+/* "first Sonine", "two Maxwellians", "Maxwellians" of mixtures, "Gaussian closure"; NULL: not of this model. */
 const char *gg_theory_relaxation_name(const gg_model *model);
+/* That of the start, from the temperatures of the model. */
+gg_relaxing gg_theory_relaxation_start(const gg_model *model);
 /* The state after a time. */
 void gg_theory_relax(const gg_model *model, double time, gg_relaxing *state);
 

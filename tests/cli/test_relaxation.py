@@ -4,6 +4,7 @@ an interrupted run continues across a change bit for bit."""
 import glob
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -166,6 +167,46 @@ def test_theory():
     rate = 4 * 0.6 / np.pi * 0.95 / 0.9 ** 3 * np.sqrt(np.pi * T[0])  # 4 n d^2 chi sqrt(pi T), of Enskog
     haff = T[0] / (1 + t * rate * (1 - 0.9 ** 2) / 6) ** 2
     check(T[-1] < 0.1 * T[0] and np.abs(T / haff - 1).max() < 0.02, np.abs(T / haff - 1).max())
+
+
+def test_theory_of_shear():
+    """The Gaussian closure in time ends where its steady state is, after a change of the shear rate, too; Monte Carlo is
+    near it on the way. So it is in mixtures, of which Maxwellians know the temperatures."""
+    common = "{engine: dsmc, phi: 0.1, dsmc: {particles: 20000}, run: {duration: 120, replicas: 2}, "
+    sheared = common + "flow: usf, temperature: 1, protocol: [{at: 40, shear_rate: 1.5}], "
+    mixture = "species: [{fraction: 0.5}, {fraction: 0.5, mass: 8}], "
+    for scene, most in ((sheared + "collision: {e: 0.8}}", 0.05),
+                        (sheared + mixture + "collision: {e: 0.8}, thermostat: bath, bath: {drag: 0.1}}", 0.05),
+                        (sheared + "collision: {e: 0.9, beta: 0.2}}", 0.05),
+                        (common + "flow: hss, thermostat: gaussian, " + mixture + "collision: {e: 0.6}}", 0.02),
+                        (common + "flow: hss, thermostat: white_noise, " + mixture + "collision: {e: 0.6}}", 0.02),
+                        (common + "flow: hcs, " + mixture + "collision: {e: 0.6}}", 0.02)):
+        check(run("run", "scene.yaml", "--quiet", "--output", "g.h5", scene=scene).code == 0, scene)
+        steady = json.loads(run("theory", "scene.yaml", "--json", "--quiet", scene=scene).out)["theory"]
+        beside = 0
+        with h5py.File("g.h5") as file:
+            for name, group in file["graingas/curves"].items():
+                if "reference" not in group or not name.endswith("_in_time"):
+                    continue
+                beside += 1
+                value, error, theory = (np.array(group[k])[1:] for k in ("value", "stderr", "reference"))
+                off = np.abs(value / theory - 1) - 5 * np.nan_to_num(error / np.abs(theory), nan=0)
+                check((off < most).mean() > 0.95, scene, name, np.sort(off)[-5:])
+                end = steady.get("gaussian_closure", {}).get(name[:-len("_in_time")])
+                check(end is None or abs(theory[-1] / end["mean"] - 1) < 1e-3, scene, name, theory[-1], end)
+        check(beside >= 2 and ("gaussian_closure" in steady) == ("usf" in scene), scene, beside)
+
+
+def test_after_changes():
+    """What follows the last change is a curve of its own, and the cost counts the time that is followed."""
+    done = run("run", "scene.yaml", "--quiet", "--output", "k.h5", scene=ELASTIC % "dsmc")
+    check(done.code == 0, done.err)
+    (t, T, _), (since, tail, _) = curve("k.h5", "temperature_in_time"), curve("k.h5", "temperature_after_changes")
+    check(since[0] == 7 and np.array_equal(t[t >= 7], since) and np.array_equal(T[t >= 7], tail), since, tail)
+    collided = float(re.search(r"([\d.]+) ([kM]) collisions", done.out).group(1)) * (1e3 if " k collisions" in done.out else 1e6)
+    told = run("info", "scene.yaml", scene=ELASTIC % "dsmc").out
+    expected = float(re.search(r"for\s+([\d.]+)\s+collisions\s+a\s+grain", told).group(1)) * 16 * 5000 / 2
+    check(abs(expected / collided - 1) < 0.05, expected, collided)
 
 
 def test_theory_ends():

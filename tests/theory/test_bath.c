@@ -208,6 +208,25 @@ static void relaxation(void **state)
   }
 }
 
+/* A sheared suspension has a hot and a cold state at one drag, also close to where they end: Monte Carlo has a hot
+ * one of T = 78.03(22) at drag .18. At .16 the cold one is close to its end. */
+static void two_states(void **state)
+{
+  (void)state;
+  const struct {
+    double start, drag, T, within;
+  } states[] = {{100, 0.18, 78.03, 0}, {0.01, 0.16, 0.238, 0.005}};
+  for (size_t k = 0; k < sizeof states / sizeof *states; k++) {
+    gg_scene s = bath(GG_USF, 0.005, 0.9, -1, states[k].drag, 0.01);
+    s.temperature = states[k].start;
+    const gg_model m = model_of(&s);
+    const gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &m);
+    const double T = a.value[GG_Q_TEMPERATURE], error = a.error[GG_Q_TEMPERATURE];
+    assert_true(fabs(T - states[k].T) < states[k].within + 2 * error && error < 0.03 * T);
+    assert_true(a.value[GG_Q_RELAXATION_RATE] > 0); /* and it is stable */
+  }
+}
+
 static void refused(void **state)
 {
   (void)state;
@@ -229,7 +248,7 @@ int main(void)
       cmocka_unit_test(balance),     cmocka_unit_test(elastic),       cmocka_unit_test(rotation),
       cmocka_unit_test(white_noise), cmocka_unit_test(gaussian_rate), cmocka_unit_test(sheared),
       cmocka_unit_test(energy),      cmocka_unit_test(mixtures),      cmocka_unit_test(relaxation),
-      cmocka_unit_test(refused),
+      cmocka_unit_test(two_states),  cmocka_unit_test(refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

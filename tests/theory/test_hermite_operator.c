@@ -284,7 +284,7 @@ static void degree_two_is_the_gaussian_closure(void **state)
       wrong[0][0] *= 1.2, wrong[0][1] *= 0.9, wrong[1][0] *= 0.9;
       assert_true(gg_hermite_cholesky(wrong, s[k].L));
     }
-    assert_int_equal(gg_hermite_newton(&op, &gas, s, &err), GG_OK);
+    assert_int_equal(gg_hermite_newton(&op, &gas, s, NULL, &err), GG_OK);
     for (int k = 0; k < m.n_species; k++) {
       gg_hermite_second_moments(&op.basis, &s[k], M);
       for (int x = 0; x < 3; x++)

@@ -6,8 +6,6 @@
 
 #include "theory/answer.h"
 
-static const double poor = 0.01;
-
 gg_theory_answer *gg_hermite_convergence_next(gg_rungs *r)
 {
   memmove(r->answer + 1, r->answer, 3 * sizeof *r->answer);
@@ -57,6 +55,6 @@ gg_status gg_hermite_convergence_finish(const gg_rungs *r, const char *theory, g
   *a = r->answer[0];
   for (int q = 0; q < GG_N_QUANTITIES; q++) a->error[q] = gg_hermite_convergence_error_of(r, (gg_quantity)q);
   double left = r->n < 2 ? INFINITY : a->error[judge] / fmax(fabs(a->value[judge]), least);
-  if (left < poor) return GG_OK;
+  if (left < (r->poor > 0 ? r->poor : 0.01)) return GG_OK;
   return gg_theory_reject(err, theory, "does not converge here: it is still %.1g %% off", 100 * left);
 }

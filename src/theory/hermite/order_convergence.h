@@ -10,6 +10,7 @@ typedef struct gg_rungs {
   gg_theory_answer answer[4]; /* the last first */
   int n;
   bool paired; /* degrees 4, 6, 8, ... of a sheared gas */
+  double poor; /* relative error from which on there is no answer; 0: 0.01 */
 } gg_rungs;
 
 /* Room for the next answer, all of it NaN. */

@@ -60,7 +60,7 @@ void gg_hermite_shear_end(gg_hermite_shear *h)
 }
 
 /* About the Gaussian that the moments ask for. */
-static gg_status follow(const gg_hermite_basis *b, gg_hermite_state *s, gg_error *err)
+static gg_status centre(const gg_hermite_basis *b, gg_hermite_state *s, gg_error *err)
 {
   double M[3][3], L[3][3];
   gg_hermite_second_moments(b, s, M);
@@ -69,12 +69,100 @@ static gg_status follow(const gg_hermite_basis *b, gg_hermite_state *s, gg_error
   return gg_hermite_expand_anew(b, s, L, err);
 }
 
+static bool has_drag(const gg_hermite_gas *gas)
+{
+  for (int i = 0; i < gas->n_species; i++)
+    if (!(gas->drag[i] > 0)) return false;
+  return true;
+}
+
+/* The drag, over that of the bath, that keeps the gas at the temperature exp(log_T); about Gaussians as wide. */
+static gg_status pin_at(gg_hermite_shear *h, double log_T, gg_hermite_pin *pin, gg_error *err)
+{
+  const double wider = sqrt(exp(log_T) / gg_hermite_temperature(&h->op.basis, &h->gas, h->state));
+  for (int i = 0; i < h->gas.n_species; i++)
+    for (int k = 0; k < 9; k++) h->state[i].L[k / 3][k % 3] *= wider;
+  pin->T = exp(log_T);
+  return gg_hermite_newton(&h->op, &h->gas, h->state, pin, err);
+}
+
+/* That factor falls through 1 between low and high: by false position, halving what is kept twice. */
+static gg_status between(gg_hermite_shear *h, double low, double high, double above, double below, gg_hermite_pin *pin,
+                         gg_error *err)
+{
+  enum { MOST_STEPS = 60 };
+  const double close = 1e-9;
+  for (int k = 0; k < MOST_STEPS && high - low > close && fabs(pin->factor - 1) > close; k++) {
+    const double at = low + (high - low) * above / (above - below);
+    GG_TRY(pin_at(h, at, pin, err));
+    const double now = pin->factor - 1;
+    if (now > 0)
+      low = at, above = now, below /= 2;
+    else
+      high = at, below = now, above /= 2;
+  }
+  return GG_OK;
+}
+
+/* A sheared gas in a bath may have a hot state and a cold one. It cools where the drag that would keep its temperature
+ * is less than the bath's, and warms up where it is more: it goes that way, in small steps, up to where it is the
+ * bath's. Near a turning point, where one of the states ends, Newton's method alone goes astray. */
+static gg_status follow(gg_hermite_shear *h, gg_hermite_pin *pin, gg_error *err)
+{
+  enum { MOST_STEPS = 400 };
+  const double least = 0.005, most = 0.1;
+  double at = log(gg_hermite_temperature(&h->op.basis, &h->gas, h->state)), stride = least;
+  GG_TRY(pin_at(h, at, pin, err));
+  double before = pin->factor - 1;
+  for (int k = 0; k < MOST_STEPS; k++, stride = fmin(2 * stride, most)) {
+    const double to = before > 0 ? at + stride : at - stride;
+    GG_TRY(pin_at(h, to, pin, err));
+    const double now = pin->factor - 1;
+    if (now * before <= 0)
+      return before > 0 ? between(h, at, to, before, now, pin, err) : between(h, to, at, now, before, pin, err);
+    at = to, before = now;
+  }
+  return gg_base_fail(err, GG_FAILED, "no steady state was found");
+}
+
+static gg_status follow_drag(gg_hermite_shear *h, gg_error *err)
+{
+  gg_hermite_pin pin = gg_hermite_pin_of(&h->gas);
+  const gg_status status = follow(h, &pin, err);
+  gg_hermite_pin_end(&pin);
+  return status;
+}
+
+/* Newton's method takes a fifth of the time; it must not leave for another state. */
+static gg_status try_newton(gg_hermite_shear *h, gg_error *err)
+{
+  const gg_hermite_basis *b = &h->op.basis;
+  const int n_species = h->gas.n_species;
+  const size_t size = (size_t)b->n * sizeof(double);
+  const double T = gg_hermite_temperature(b, &h->gas, h->state);
+  double L[GG_MAX_SPECIES][3][3], *kept = malloc((size_t)n_species * size);
+  if (!kept) return gg_base_out_of_memory(err);
+  for (int i = 0; i < n_species; i++) {
+    memcpy(kept + i * b->n, h->state[i].a, size);
+    memcpy(L[i], h->state[i].L, sizeof L[i]);
+  }
+  gg_status status = gg_hermite_newton(&h->op, &h->gas, h->state, NULL, err);
+  const double moved = status == GG_OK ? log(gg_hermite_temperature(b, &h->gas, h->state) / T) : INFINITY;
+  for (int i = 0; i < n_species && !(fabs(moved) < 0.1); i++) {
+    memcpy(h->state[i].a, kept + i * b->n, size);
+    memcpy(h->state[i].L, L[i], sizeof L[i]);
+  }
+  free(kept);
+  return fabs(moved) < 0.1 ? status : follow_drag(h, err);
+}
+
 /* Functions are ordered by degree: those of the last degree keep their places, and the new ones are 0. */
 gg_status gg_hermite_shear_solve(gg_hermite_shear *h, int degree, gg_error *err)
 {
   gg_hermite_operator_clear(&h->op);
   GG_TRY(gg_hermite_operator_make(&h->op, degree, GG_HERMITE_DECAY, false, err));
   GG_TRY(gg_hermite_operator_hold(&h->op, h->gas.n_species, err));
-  for (int i = 0; i < h->gas.n_species; i++) GG_TRY(follow(&h->op.basis, &h->state[i], err));
-  return gg_hermite_newton(&h->op, &h->gas, h->state, err);
+  for (int i = 0; i < h->gas.n_species; i++) GG_TRY(centre(&h->op.basis, &h->state[i], err));
+  if (!has_drag(&h->gas)) return gg_hermite_newton(&h->op, &h->gas, h->state, NULL, err);
+  return try_newton(h, err);
 }

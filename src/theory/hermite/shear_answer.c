@@ -124,7 +124,8 @@ static gg_status climb(gg_hermite_shear *h, gg_rungs *rungs, gg_rungs *slow, gg_
 gg_status gg_hermite_shear_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_hermite_shear h;
-  gg_rungs rungs = {.paired = true}, slow = {.n = 0};
+  /* Near a turning point of a gas in a bath small errors of the drag are large ones of T. */
+  gg_rungs rungs = {.paired = true, .poor = m->bath.on ? 0.1 : 0}, slow = {.n = 0};
   GG_TRY(gg_theory_require_steady_shear(m, name, err));
   gg_error why;
   if (m->n_species > MOST_SPECIES)

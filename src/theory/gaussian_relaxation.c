@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The second moments of gaussian_closure.c in time: of sheared gases, and of mixtures, whose velocities are Maxwellians
+ * of their own temperatures without shear. */
+#include <math.h>
+
+#include "common/thermostat.h"
+#include "theory/gaussian_moments.h"
+#include "theory/relaxation.h"
+
+bool gg_theory_gaussian_relaxes(const gg_model *m)
+{
+  const bool known = !m->walled && !m->law.name && m->rule != GG_FRICTIONAL && !m->linear_response;
+  return known && (m->shear_rate != 0 || m->n_species > 1);
+}
+
+/* All at one temperature; spins roll with the flow. */
+void gg_theory_gaussian_start(const gg_model *m, gg_gaussian state[])
+{
+  for (int i = 0; i < m->n_species; i++) {
+    const double T = m->temperature0 / m->mass[i], theta = m->ratio0 * T / m->inertia[i];
+    state[i] = (gg_gaussian){.M = {{{T, 0, 0}, {0, T, 0}, {0, 0, T}}},
+                             .Theta = {{{theta, 0, 0}, {0, theta, 0}, {0, 0, theta}}},
+                             .spin = gg_model_rolling(m, i)};
+  }
+}
+
+static double energy_of(const gg_model *m, const gg_gaussian state[])
+{
+  double sum = 0;
+  for (int i = 0; i < m->n_species; i++)
+    sum += (double)m->n_of[i] / (double)m->n * m->mass[i] * gg_theory_trace(state[i].M);
+  return sum;
+}
+
+/* Noise that goes to all alike; or velocities that are scaled so that their energy stays. */
+static void add_thermostat(const gg_model *m, const gg_gaussian state[], gg_gaussian_rates *r)
+{
+  if (m->bath.on || gg_flow_cools(m->flow)) return;
+  const gg_thermostat thermostat = gg_common_thermostat_of(m);
+  const double noise = thermostat == GG_WHITE_NOISE ? gg_common_thermostat_noise(m) : 0;
+  const double scale = thermostat == GG_GAUSSIAN ? energy_of(m, r->change) / energy_of(m, state) : 0;
+  for (int i = 0; i < m->n_species; i++)
+    for (int a = 0; a < 3; a++) {
+      r->change[i].M.at[a][a] += noise;
+      for (int b = 0; b < 3; b++) r->change[i].M.at[a][b] -= scale * state[i].M.at[a][b];
+    }
+}
+
+static void rates_at(const gg_model *m, const gg_gaussian state[], gg_gaussian_rates *r)
+{
+  double flow[2];
+  gg_theory_gaussian_changes_at(m, state, r, flow);
+  add_thermostat(m, state, r);
+}
+
+static void move(const gg_model *m, const gg_gaussian from[], double dt, const gg_gaussian change[], gg_gaussian to[])
+{
+  for (int i = 0; i < m->n_species; i++) {
+    for (int a = 0; a < 9; a++) {
+      to[i].M.at[a / 3][a % 3] = from[i].M.at[a / 3][a % 3] + dt * change[i].M.at[a / 3][a % 3];
+      to[i].Theta.at[a / 3][a % 3] = from[i].Theta.at[a / 3][a % 3] + dt * change[i].Theta.at[a / 3][a % 3];
+    }
+    to[i].spin = from[i].spin + dt * change[i].spin;
+  }
+}
+
+static double fastest(const gg_model *m, const gg_gaussian state[], const gg_gaussian_rates *r)
+{
+  double most = 0;
+  for (int i = 0; i < m->n_species; i++) {
+    const double fed = m->bath.on ? m->bath.noise[i] : 0;
+    most = fmax(most, r->frequency[i] + 3 * m->shear_rate + 2 * fabs(m->bath.drag[i]) + 2 * m->bath.spin_drag[i] +
+                          3 * fed / gg_theory_trace(state[i].M));
+  }
+  return most;
+}
+
+/* Runge and Kutta's fourth order, in steps of a fifth of what is fastest. */
+void gg_theory_gaussian_relax(const gg_model *m, double time, gg_gaussian state[])
+{
+  gg_gaussian_rates r[4];
+  gg_gaussian at[GG_MAX_SPECIES];
+  while (time > 0) {
+    rates_at(m, state, &r[0]);
+    const double dt = fmin(time, 0.2 / fastest(m, state, &r[0]));
+    if (!(dt > 0)) return;
+    for (int k = 1; k < 4; k++) {
+      move(m, state, k < 3 ? dt / 2 : dt, r[k - 1].change, at);
+      rates_at(m, at, &r[k]);
+    }
+    for (int k = 0; k < 4; k++) move(m, state, k % 3 ? dt / 3 : dt / 6, r[k].change, state);
+    time = dt < time ? time - dt : 0;
+  }
+}
+
+double gg_theory_gaussian_shear_stress(const gg_model *m, const gg_gaussian state[])
+{
+  gg_gaussian_rates r;
+  gg_theory_gaussian_rates_at(m, state, &r);
+  double stress = r.Pc.at[0][1];
+  for (int i = 0; i < m->n_species; i++)
+    stress += m->density * (double)m->n_of[i] / (double)m->n * m->mass[i] * state[i].M.at[0][1];
+  return m->stress_unit * stress;
+}
