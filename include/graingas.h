@@ -260,7 +260,7 @@ GG_API gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_si
 GG_API void gg_simulation_free(gg_simulation *simulation);
 
 /**
- * Advance by a time. Monte Carlo ends at the first end of a step beyond.
+ * Advance by a time. Monte Carlo between walls with a given step ends at the first end of one beyond.
  * @param simulation the simulation
  * @param time duration in units of results
  * @param err receives the message on failure; may be NULL
@@ -594,7 +594,7 @@ GG_API gg_status gg_worker_run(const gg_messages *messages, gg_error *err);
 
 typedef struct gg_progress { /* how far a run is */
   const char *engine;        /* "md", "dsmc": a comparison runs both */
-  const char *phase;         /* "warm-up", "averaging" */
+  const char *phase;         /* "start", "warm-up", "averaging" */
   double fraction;           /* of the run, 0..1; never falls, and is 1 when the run is over */
   uint64_t collisions;       /* so far, of all replicas */
   double rate;               /* collisions per second of processor time */

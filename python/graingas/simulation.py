@@ -159,7 +159,7 @@ class Simulation:
             raise exception(status, error)
 
     def advance(self, time: float) -> Simulation:
-        """Advances by a time. Monte Carlo ends at the first end of a step beyond. Raises RunFailed: inelastic collapse."""
+        """Advances by a time. Raises RunFailed: inelastic collapse."""
         self._advance(lib.gg_simulation_advance, float(time))
         return self
 

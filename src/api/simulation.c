@@ -47,6 +47,7 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simul
   gg_common_extension_hold(s->scene.extension);
   s->stop = (gg_stop){is_stopped, s};
   s->model.stop = &s->stop;
+  s->model.cuts_steps = true;
   if (s->scene.temperature == GG_AUTO) status = gg_run_start_near_steady(&s->model, err);
   if (status == GG_OK)
     *simulation = s;

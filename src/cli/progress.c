@@ -78,6 +78,11 @@ static void describe(const gg_progress *g, bool brief, char *text, size_t size)
   char collisions[24], rate[24];
   gg_cli_format_count((double)g->collisions, collisions, sizeof collisions);
   gg_cli_format_count(g->rate, rate, sizeof rate);
+  if (strcmp(g->phase, "start") == 0) {
+    const int start = snprintf(text, size, "%s places grains", g->engine);
+    describe_end(g, text + start, size - (size_t)start);
+    return;
+  }
   int used = snprintf(text, size, "%s %s %.0f %%", g->engine, g->phase, floor(100 * g->fraction));
   if (g->replicas > 1 && !brief)
     used += snprintf(text + used, size - (size_t)used, ", %ld replicas", (long)g->replicas);

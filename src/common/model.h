@@ -71,7 +71,7 @@ typedef struct gg_model {
   double ratio0;       /* theta/T that a run starts from */
   double contact_time; /* of the contact-time rule, in units of gg_common_model_contact_unit; 0: off */
   double time_step;    /* dsmc, in mean free times per grain; GG_AUTO */
-  bool cuts_steps;     /* dsmc: a given step, too, ends with an advance: the gas is sampled at given times */
+  bool cuts_steps;     /* dsmc: a given step, too, ends with an advance: it is followed in time, or stepped */
   double asked_error;  /* relative, that ends the run; 0: none does. dsmc chooses its step by it */
   bool single;         /* dsmc: velocities kept in single precision */
 

@@ -104,9 +104,30 @@ static bool is_interrupted(gg_replicas *all)
 }
 
 /* For whoever works on a replica, engines in the midst of an interval included. Once a run is stopped, it stays so. */
+/* Dense starts take seconds, in which the controller itself may be at work: whoever polls reports. */
+static void report_start(gg_replicas *all)
+{
+  const double between = 0.5;
+  if (!all->starting || !all->callbacks || !all->callbacks->progress) return;
+  if (pthread_mutex_trylock(&all->lock) != 0) return;
+  const double now = gg_base_clock_wall(), limit = all->criteria.time_limit;
+  if (now - fmax(all->started, all->start_reported) > between) {
+    all->start_reported = now;
+    const gg_progress p = {.engine = gg_run_engine_ops_of(all->scene.engine)->name,
+                           .phase = "start",
+                           .relative_error = NAN,
+                           .time_left = NAN,
+                           .limit_in = limit > 0 ? fmax(limit - (now - all->started), 0) : INFINITY,
+                           .replicas = all->n};
+    all->callbacks->progress(all->callbacks->context, &p);
+  }
+  pthread_mutex_unlock(&all->lock);
+}
+
 static bool is_stopped(void *context)
 {
   gg_replicas *all = context;
+  report_start(all);
   if (atomic_load(&all->stopped) != GG_NOT_STOPPED || atomic_load(&all->tasks.stopping)) return true;
   int why = is_interrupted(all) ? GG_STOP_REQUESTED
             : out_of_time(all)  ? GG_OUT_OF_TIME
@@ -189,7 +210,12 @@ gg_status gg_run_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, bo
 
 static gg_status create_or_restore(gg_replicas *all, const gg_archive *resume, gg_error *err)
 {
-  if (!resume) return gg_run_replicas_advance(all, 0, false, NULL, err);
+  if (!resume) {
+    all->starting = true;
+    const gg_status status = gg_run_replicas_advance(all, 0, false, NULL, err);
+    all->starting = false;
+    return status;
+  }
   GG_TRY(restore(all, resume, err));
   for (int i = 0; i < all->n; i++) gg_run_task_update(&all->tasks.task[i]);
   return GG_OK;

@@ -64,6 +64,8 @@ typedef struct gg_replicas {
   } state;
   gg_convergence last;
   double started, last_checkpoint; /* clock readings */
+  bool starting;                   /* replicas come to be */
+  double start_reported;
   gg_progress_estimate progress;
   double estimated_at,
       next_estimate; /* samples in the window when errors were last estimated for it; not before this time */

@@ -75,6 +75,11 @@ static double fastest(const gg_model *m, const gg_gaussian state[], const gg_gau
   return most;
 }
 
+static void symmetrise(gg_tensor *A)
+{
+  A->at[0][1] = A->at[1][0] = (A->at[0][1] + A->at[1][0]) / 2;
+}
+
 /* Runge and Kutta's fourth order, in steps of a fifth of what is fastest. */
 void gg_theory_gaussian_relax(const gg_model *m, double time, gg_gaussian state[])
 {
@@ -89,6 +94,7 @@ void gg_theory_gaussian_relax(const gg_model *m, double time, gg_gaussian state[
       rates_at(m, at, &r[k]);
     }
     for (int k = 0; k < 4; k++) move(m, state, k % 3 ? dt / 3 : dt / 6, r[k].change, state);
+    for (int i = 0; i < m->n_species; i++) symmetrise(&state[i].M), symmetrise(&state[i].Theta); /* rounding grows */
     time = dt < time ? time - dt : 0;
   }
 }

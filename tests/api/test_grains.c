@@ -446,6 +446,20 @@ static void baths_on_the_way(void **state)
   }
 }
 
+/* Monte Carlo between steps: an advance ends at its time, also with a given step that is longer. */
+static void steps_end_in_time(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_simulation *m = simulation_of("{flow: hss, phi: 0.1, engine: dsmc, thermostat: bath, collision: {e: 0.9}, dsmc: "
+                                   "{particles: 500, time_step: 1}}");
+  for (int k = 1; k <= 10; k++) {
+    assert_ok(gg_simulation_advance(m, 0.07, &err));
+    assert_true(fabs(state_of(m).time - 0.07 * k) < 1e-12);
+  }
+  gg_simulation_free(m);
+}
+
 /* A sheared gas twice as fast: strain and time add up, units stay, and what is saved and loaded continues with its
  * bits.
  */
@@ -494,6 +508,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(baths_on_the_way),
       cmocka_unit_test(shear_rates_on_the_way),
+      cmocka_unit_test(steps_end_in_time),
       cmocka_unit_test(read_back),
       cmocka_unit_test(copies),
       cmocka_unit_test(stream_goes_on),

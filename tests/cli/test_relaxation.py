@@ -172,12 +172,12 @@ def test_theory():
 def test_theory_of_shear():
     """The Gaussian closure in time ends where its steady state is, after a change of the shear rate, too; Monte Carlo is
     near it on the way. So it is in mixtures, of which Maxwellians know the temperatures."""
-    common = "{engine: dsmc, phi: 0.1, dsmc: {particles: 20000}, run: {duration: 120, replicas: 2}, "
-    sheared = common + "flow: usf, temperature: 1, protocol: [{at: 40, shear_rate: 1.5}], "
+    common = "{engine: dsmc, phi: 0.1, dsmc: {particles: 10000}, run: {duration: 60, replicas: 4}, "
+    sheared = common + "flow: usf, temperature: 1, protocol: [{at: 30, shear_rate: 1.5}], "
     mixture = "species: [{fraction: 0.5}, {fraction: 0.5, mass: 8}], "
     for scene, most in ((sheared + "collision: {e: 0.8}}", 0.05),
-                        (sheared + mixture + "collision: {e: 0.8}, thermostat: bath, bath: {drag: 0.1}}", 0.05),
-                        (sheared + "collision: {e: 0.9, beta: 0.2}}", 0.05),
+                        (sheared + mixture + "collision: {e: 0.8}, thermostat: bath, bath: {drag: 0.3}}", 0.05),
+                        (sheared + "collision: {e: 0.9, beta: 0.2}}", 0.07),
                         (common + "flow: hss, thermostat: gaussian, " + mixture + "collision: {e: 0.6}}", 0.02),
                         (common + "flow: hss, thermostat: white_noise, " + mixture + "collision: {e: 0.6}}", 0.02),
                         (common + "flow: hcs, " + mixture + "collision: {e: 0.6}}", 0.02)):
@@ -235,6 +235,14 @@ def test_out_of_time():
     done = run("run", "scene.yaml", "--quiet", "--output", "o.h5", "--set", "particles=100", scene=scene)
     check(done.code == 1 and "short of run.duration" in done.err and "run.collisions" not in done.err, done.code, done.err)
     check("at the end" not in done.out and "values are those at time" in done.out, done.out)
+
+
+def test_long_start():
+    """A start that takes long shows that grains are placed, and ends with the time limit."""
+    done = run("run", "scene.yaml", "--output", "d.h5", scene="{flow: hcs, phi: 0.6, particles: 100000, collision: "
+               "{e: 0.9}, run: {duration: 10, replicas: 1, time_limit: 2}}")
+    check(done.code == 1 and "time limit reached before the start was done" in done.err, done.code, done.err)
+    check("md places grains, limit in " in done.err, done.err)
 
 
 def test_cooling_mixture():
