@@ -68,7 +68,7 @@ static void add_line(gg_plot_sheet *s, gg_chart_series like, const json_t *absci
 /* A panel as it comes to be: the curves in it, and the theory whose lines it has. */
 typedef struct group {
   const json_t *curve[MOST_IN_PANEL], *theory[MOST_IN_PANEL];
-  const char *title, *theory_name;
+  const char *name[MOST_IN_PANEL], *title, *theory_name;
   int n, more; /* curves for which there is no room: those of many species are too many to be distinguished */
 } group;
 
@@ -77,7 +77,7 @@ static void add_curve(group *g, const char *name, const json_t *curve, const jso
 {
   const char *theory;
   json_t *curves;
-  g->curve[g->n] = curve, g->theory[g->n] = NULL;
+  g->name[g->n] = name, g->curve[g->n] = curve, g->theory[g->n] = NULL;
   json_object_foreach((json_t *)(uintptr_t)theories, theory, curves)
   {
     const json_t *one = json_object_get(curves, name);
@@ -125,7 +125,41 @@ static void add_laws(gg_plot_sheet *s, const group *g, const char *const *labels
   }
 }
 
-static void fill_panel(gg_plot_sheet *s, gg_chart_panel *p, const group *g, const gg_stored_engine *engine)
+/* Chi^2 a point and the largest z between the first curve of a panel and the other engine's. */
+static const char *verdict(gg_plot_sheet *s, const group *g, const json_t *other)
+{
+  double squares = 0, most = 0;
+  int n = 0;
+  for (size_t i = 0; i < size_of(other) && g->n == 1; i++) {
+    const double z = (at(g->curve[0], "value", i) - at(other, "value", i)) /
+                     hypot(at(g->curve[0], "stderr", i), at(other, "stderr", i));
+    if (!isfinite(z)) continue;
+    squares += z * z, n++;
+    if (fabs(z) > fabs(most)) most = z;
+  }
+  return n ? gg_plot_sheet_add_text(s, "%s: chi^2/points %.3g, largest z %+.1f", g->title, squares / n, most)
+           : g->title;
+}
+
+/* The same curves of the other engine, at the same places. */
+static void add_other(gg_plot_sheet *s, gg_chart_panel *p, const group *g, const gg_stored_engine *other,
+                      const char *const *labels)
+{
+  const json_t *curves = json_object_get(other->document, "curves");
+  for (int k = 0; k < g->n; k++) {
+    const json_t *curve = json_object_get(curves, g->name[k]);
+    if (!curve || size_of(curve) != size_of(g->curve[k])) continue;
+    add_measured(
+        s, p,
+        (gg_chart_series){
+            .method = other->name, .group = labels[k], .style = GG_CHART_BAND, .all_open = gg_plot_is_unsteady(other)},
+        curve);
+    if (k == 0) p->title = verdict(s, g, curve);
+  }
+}
+
+static void fill_panel(gg_plot_sheet *s, gg_chart_panel *p, const group *g, const gg_stored_engine *engine,
+                       const gg_stored_engine *other)
 {
   const char *labels[MOST_IN_PANEL];
   for (int k = 0; k < g->n; k++) {
@@ -133,10 +167,11 @@ static void fill_panel(gg_plot_sheet *s, gg_chart_panel *p, const group *g, cons
     labels[k] = *label ? label : NULL;
     gg_chart_series like = {.method = engine->name,
                             .group = labels[k],
-                            .style = g->theory[k] ? GG_CHART_POINTS : GG_CHART_BAND,
+                            .style = other || g->theory[k] ? GG_CHART_POINTS : GG_CHART_BAND,
                             .all_open = gg_plot_is_unsteady(engine)};
     add_measured(s, p, like, g->curve[k]);
   }
+  if (other) add_other(s, p, g, other, labels);
   for (int k = 0; k < g->n; k++)
     if (g->theory[k])
       add_line(s, (gg_chart_series){.method = g->theory_name, .group = labels[k], .style = GG_CHART_LINE}, g->theory[k],
@@ -144,8 +179,8 @@ static void fill_panel(gg_plot_sheet *s, gg_chart_panel *p, const group *g, cons
   add_laws(s, g, labels);
 }
 
-void gg_plot_sheet_add_curves(gg_plot_sheet *s, const gg_stored_engine *engine, const json_t *theories,
-                              const char *name)
+void gg_plot_sheet_add_curves(gg_plot_sheet *s, const gg_stored_engine *engine, const gg_stored_engine *other,
+                              const json_t *theories, const char *name)
 {
   group groups[GG_SHEET_PANELS];
   int n = groups_of(engine->document, theories, name, groups);
@@ -160,6 +195,6 @@ void gg_plot_sheet_add_curves(gg_plot_sheet *s, const gg_stored_engine *engine, 
                            json_is_true(json_object_get(first, "log_x")), 0, 0};
     p->y = (gg_chart_axis){gg_base_json_string(first, "y_name"), gg_base_json_string(first, "unit"),
                            json_is_true(json_object_get(first, "log_y")), 0, 0};
-    fill_panel(s, p, g, engine);
+    fill_panel(s, p, g, engine, other);
   }
 }

@@ -37,7 +37,7 @@ bool gg_plot_snapshot_has(const gg_stored_result *stored);
 
 /* Pages are further pictures beside the given name: PICTURE_snapshot.svg if the file holds grains with positions, and
  * one for each observable that left curves: PICTURE_<observable>.svg, for comparisons
- * PICTURE_<engine>_<observable>.svg. `drawn` (may be NULL) is called with the name of each. */
+ * PICTURE_<engine>_<observable>.svg but for profiles, which have both engines. `drawn` (may be NULL) is called with the name of each. */
 gg_status gg_plot_pages_draw(const gg_stored_result *stored, const gg_plot_paper *paper, const char *picture,
                              void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
 /* Before anything is drawn: could all of them be written, and is none the result's own file? */
@@ -46,6 +46,8 @@ gg_status gg_plot_pages_check(const gg_stored_result *stored, const gg_plot_pape
 /* "usf.svg", "md", "profiles" -> "usf_md_profiles.svg"; engine: "" outside of comparisons. To be freed; NULL: out of
  * memory. */
 char *gg_plot_page_name(const char *picture, const char *engine, const char *group, const gg_plot_paper *paper);
+/* Of comparisons: do both engines share the page of this observable? */
+bool gg_plot_page_is_shared(const char *group);
 #define GG_SNAPSHOT_PAGE "snapshot"
 #define GG_PAGE_BESIDE "a picture beside %s"
 

@@ -28,8 +28,8 @@ gg_status gg_plot_result_draw(const gg_stored_result *stored, const gg_plot_pape
 
 typedef struct page {
   char *path;
-  const char *group; /* of curves; NULL: the snapshot */
-  const gg_stored_engine *engine;
+  const char *group;                      /* of curves; NULL: the snapshot */
+  const gg_stored_engine *engine, *other; /* NULL: one engine alone */
 } page;
 
 typedef struct page_list {
@@ -42,7 +42,7 @@ static gg_status draw_curves(const gg_stored_result *stored, const page *p, cons
 {
   gg_plot_sheet *s = gg_plot_sheet_new(stored, paper);
   if (!s) return gg_base_out_of_memory(err);
-  gg_plot_sheet_add_curves(s, p->engine, theories, p->group);
+  gg_plot_sheet_add_curves(s, p->engine, p->other, theories, p->group);
   return gg_plot_sheet_finish(s, paper, p->path, err);
 }
 
@@ -50,6 +50,19 @@ static void clear(page_list *pages)
 {
   for (int i = 0; i < pages->n; i++) free(pages->page[i].path);
   pages->n = 0;
+}
+
+bool gg_plot_page_is_shared(const char *group)
+{
+  return strcmp(group, "profiles") == 0 || strcmp(group, "fluxes") == 0;
+}
+
+static bool has_group(const gg_stored_engine *e, const char *group)
+{
+  const char *groups[MOST_GROUPS];
+  int n = e->name ? gg_plot_curve_groups(e->document, groups, MOST_GROUPS) : 0;
+  while (n > 0 && strcmp(groups[n - 1], group) != 0) n--;
+  return n > 0;
 }
 
 /* To be cleared, also on failure. */
@@ -61,11 +74,15 @@ static gg_status list(page_list *pages, const gg_stored_result *stored, const gg
   if (gg_plot_snapshot_has(stored))
     pages->page[pages->n++] = (page){.path = gg_plot_page_name(picture, "", GG_SNAPSHOT_PAGE, paper)};
   for (int k = 0; k < 2; k++) {
-    const gg_stored_engine *e = &stored->engine[k];
+    const gg_stored_engine *e = &stored->engine[k], *other = &stored->engine[!k];
     const char *groups[MOST_GROUPS], *engine = stored->comparison ? e->name : "";
     int n = e->name ? gg_plot_curve_groups(e->document, groups, MOST_GROUPS) : 0;
-    for (int i = 0; i < n; i++)
-      pages->page[pages->n++] = (page){gg_plot_page_name(picture, engine, groups[i], paper), groups[i], e};
+    for (int i = 0; i < n; i++) {
+      const bool both = stored->comparison && gg_plot_page_is_shared(groups[i]) && has_group(other, groups[i]);
+      if (both && k) continue;
+      pages->page[pages->n++] =
+          (page){gg_plot_page_name(picture, both ? "" : engine, groups[i], paper), groups[i], e, both ? other : NULL};
+    }
   }
   for (int i = 0; i < pages->n; i++) whole &= pages->page[i].path != NULL;
   return whole ? GG_OK : gg_base_out_of_memory(err);

@@ -41,8 +41,8 @@ void gg_plot_sheet_add_relaxation(gg_plot_sheet *sheet, const gg_stored_engine *
 bool gg_plot_has_stresses(const gg_stored_engine *engine); /* not of gases that cool */
 /* md, dsmc and the theories: ratios to md, and the numbers that have no scale to be divided by (N1, N2 ...). */
 void gg_plot_sheet_add_comparison(gg_plot_sheet *sheet, const gg_stored_result *stored);
-/* One group of curves (one observable), with the theories' as lines. */
-void gg_plot_sheet_add_curves(gg_plot_sheet *sheet, const gg_stored_engine *engine, const json_t *theories,
-                              const char *group);
+/* One group of curves (one observable), those of the other engine (NULL: none) over them, the theories' as lines. */
+void gg_plot_sheet_add_curves(gg_plot_sheet *sheet, const gg_stored_engine *engine, const gg_stored_engine *other,
+                              const json_t *theories, const char *group);
 
 #endif

@@ -198,14 +198,20 @@ def test_compare_table():
 
 
 def test_compare_lists_profiles():
-    """Of both engines at the same heights, also where their grains have other fractions or Monte Carlo has more."""
+    """Of both engines at the same heights, also where their grains have other fractions or Monte Carlo has more. They
+    share a picture."""
     for more in ("phi: 0.123\n", "phi: 0.1\nspecies: [{fraction: 0.667}, {fraction: 0.333, diameter: 1.5}]\n"):
-        done = run("compare", "scene.yaml", "--quiet", "--picture", "none",
+        done = run("compare", "scene.yaml", "--quiet", "--picture", "c.svg",
                    scene="flow: couette\nparticles: 300\ndsmc: {particles: 5000}\ncollision: {e: 0.9}\n"
                          "measure: [rheology, profiles]\nrun: {collisions: 150, warmup: 20}\n" + more)
         _, _, table = done.out.partition("profiles, md and dsmc")
         for name in "solid_fraction", "velocity", "temperature":
             check(f"profile_{name} " in table, more, name, done.out, done.err)
+        page = re.sub("<[^>]*>", "", open("c_profiles.svg").read())
+        squares = table.split("profile_velocity ")[1].split()[1]
+        told = re.search(r"flow velocity: chi\s*2\s*/points ([0-9.e+]+), largest z [+-]", page)
+        check("md" in page.split() and "dsmc" in page.split(), page)
+        check(told and abs(float(told[1]) - float(squares)) < 0.01 * float(squares) + 0.01, page, squares)
 
 
 SMOOTH = ("flow: usf\nphi: 0.3\nparticles: 1000\ncollision: {e: 0.9}\ndsmc: {particles: 5000}\n"

@@ -160,14 +160,19 @@ static void state(const gg_engine *engine, gg_engine_state *state)
 enum { SHOWN = 256 };
 
 /* Where the flight that is still owed takes it; the walls know nothing of it. */
+static void fly_on(const gg_dsmc_gap *d, gg_dsmc_gap_grain *p)
+{
+  gg_dsmc_gap_contacts unused = {0};
+  gg_rng rng = d->now.streams.walls[0];
+  gg_dsmc_gap_fly_grain(d, d->now.owed, &rng, p, &unused);
+}
+
 static void show_grain(const gg_dsmc_gap *d, size_t i, size_t slot, double out[9][SHOWN])
 {
   const gg_dsmc_gap_grains *g = &d->grains;
   gg_dsmc_gap_grain p = {.r = {0, g->at[i].y, 0}, .c = g->at[i].c, .species = g->species[i]};
   if (g->s) p.s = g->s[i];
-  gg_dsmc_gap_contacts unused = {0};
-  gg_rng rng = d->now.streams.walls[0];
-  if (d->now.owed > 0) gg_dsmc_gap_fly_grain(d, d->now.owed, &rng, &p, &unused);
+  if (d->now.owed > 0) fly_on(d, &p);
   const gg_vec parts[] = {p.r, p.c, p.s};
   for (int k = 0; k < 9; k++) out[k][slot] = gg_along(&parts[k / 3], k % 3);
 }
