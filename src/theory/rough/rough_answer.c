@@ -241,8 +241,8 @@ static const gg_quantity of_heat[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_TH
                                       GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED, GG_Q_ROTATIONAL_CONDUCTIVITY_REDUCED,
                                       GG_Q_ROTATIONAL_DIFFUSIVE_CONDUCTIVITY_REDUCED};
 
-/* The series of heat fluxes sways: two degrees may agree by chance, so that the change before them counts, too. It is an
- * estimate: degree 10 differs by less at e = 0.9, by up to 1.7 errors at e = 0.8, beta = 0.2, by 2.3 at e = 0.7,
+/* The series of heat fluxes sways: two degrees may agree by chance, so that the change before them counts, too. It is
+ * an estimate: degree 10 differs by less at e = 0.9, by up to 1.7 errors at e = 0.8, beta = 0.2, by 2.3 at e = 0.7,
  * beta = 0. What is further off than `poor` is not given. */
 static void judge_heat(const gg_theory_answer *first, const gg_theory_answer *before, gg_theory_answer *now)
 {
