@@ -14,7 +14,7 @@
 #include "dsmc/majorant.h"
 #include "simd/dispatch.h"
 
-/* Relative bias of a step of h mean free times: 0.12 h^2 in the shear stress of a sheared gas, 0.06 h^2 in its
+/* Relative bias of a step of h mean free times: 0.12 h^2 in the shear stress of a sheared gas, 0.06 to 0.08 h^2 in its
  * temperature, measured at phi = 0.01, e = 0.9. */
 #define GG_GAP_FREE_TIMES_PER_STEP 0.2
 #define GG_GAP_BIAS_OF_STEP 0.12
