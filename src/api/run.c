@@ -2,6 +2,7 @@
 /* gg_run and gg_compare: one path, with one engine or both. */
 #include "api/run.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -12,6 +13,7 @@
 #include "common/engine.h"
 #include "common/extension.h"
 #include "files/h5/checkpoint_file.h"
+#include "run/cost_estimate.h"
 #include "run/scheduler.h"
 #include "scene/fields.h"
 
@@ -182,6 +184,17 @@ static void end(gg_run_call *r)
   gg_base_string_list_clear(&r->warnings);
 }
 
+static void warn_if_dilute(gg_run_call *r)
+{
+  enum { LEAST = 20 };
+  const double ratio = gg_run_cost_dilute(&r->scene, &r->model);
+  if (ratio < LEAST) return;
+  gg_base_string_list_add(
+      &r->warnings,
+      "so dilute a gas takes about %.0f times less time a collision with engine: dsmc, which is exact there",
+      10 * round(ratio / 10));
+}
+
 /* Keys without effect on what the scene is used for. */
 static void warn_of_keys(gg_run_call *r)
 {
@@ -190,6 +203,7 @@ static void warn_of_keys(gg_run_call *r)
     gg_scene_ineffective_keys(&r->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &r->warnings);
   else if (gg_run_engine_ops_of(engine)->accepts(&r->model, NULL) == GG_OK)
     gg_scene_ineffective_keys(&r->scene, 1u << engine, &r->warnings);
+  if (!r->comparison && engine == GG_MD) warn_if_dilute(r);
   for (size_t i = 0; i < r->warnings.n && r->options.warn; i++)
     r->options.warn(r->options.context, r->warnings.text[i]);
 }

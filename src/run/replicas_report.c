@@ -9,7 +9,6 @@
 #include "common/ensemble_size.h"
 #include "common/linear_response.h"
 #include "run/causes.h"
-#include "run/cost_estimate.h"
 #include "run/default_size.h"
 #include "run/relaxation.h"
 #include "run/replica.h"
@@ -180,23 +179,6 @@ static void warn_if_narrow(gg_result *result)
       narrowest / widest);
 }
 
-/* Below this solid fraction Monte Carlo is exact within the errors of any run, and takes a hundredth of the time. */
-#define DILUTE 0.002
-
-static void warn_if_dilute(const gg_replicas *all, gg_result *result)
-{
-  const gg_model *m = &all->model;
-  if (m->ensemble || m->phi >= DILUTE) return;
-  gg_model *other = malloc(sizeof *other);
-  if (other && gg_common_model_make(&all->scene, GG_DSMC, other, NULL) == GG_OK &&
-      gg_run_engine_ops_of(GG_DSMC)->accepts(other, NULL) == GG_OK)
-    gg_run_result_warn(
-        result, "so dilute a gas takes about %.0f times less time a collision with engine: dsmc, which is exact there",
-        10 * round(0.1 * gg_run_cost_estimate(&all->scene, m, GG_MD).ns /
-                   gg_run_cost_estimate(&all->scene, other, GG_DSMC).ns));
-  free(other);
-}
-
 /* Where every contact slides, the force along a wall is mu times that across it whatever the gas does: a flow that
  * loses more than this feeds dies, and a faster wall does not help. */
 #define ALL_SLIDE 0.97
@@ -250,7 +232,6 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
                        100 * s->overfilled);
   warn_if_structured(result);
   warn_if_narrow(result);
-  warn_if_dilute(all, result);
   warn_if_walls_slip(result);
   if (s->overflows > 1e-3 * (double)s->collisions)
     gg_run_result_warn(result, "%.3g %% of collisions exceeded the majorant of the Monte Carlo step",
