@@ -243,13 +243,14 @@ static const gg_quantity of_heat[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_TH
 
 /* The series of heat fluxes sways: two degrees may agree by chance, so that the change before them counts, too. It is
  * an estimate: degree 10 differs by less at e = 0.9, by up to 1.7 errors at e = 0.8, beta = 0.2, by 2.3 at e = 0.7,
- * beta = 0. What is further off than `poor` is not given. */
+ * beta = 0. What is further off than `poor`, of itself or of kappa, is not given: mu vanishes where spins do nothing.
+ */
 static void judge_heat(const gg_theory_answer *first, const gg_theory_answer *before, gg_theory_answer *now)
 {
   for (size_t k = 0; k < sizeof of_heat / sizeof *of_heat; k++) {
     double *value = &now->value[of_heat[k]], *error = &now->error[of_heat[k]];
     *error = fmax(*error, fabs(before->value[of_heat[k]] - first->value[of_heat[k]]) / 5);
-    if (*error > poor * fabs(*value)) *value = *error = NAN;
+    if (*error > poor * fmax(fabs(*value), fabs(now->value[GG_Q_THERMAL_CONDUCTIVITY_REDUCED]))) *value = *error = NAN;
   }
 }
 
