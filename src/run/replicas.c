@@ -103,7 +103,6 @@ static bool is_interrupted(gg_replicas *all)
   return yes;
 }
 
-/* For whoever works on a replica, engines in the midst of an interval included. Once a run is stopped, it stays so. */
 /* Dense starts take seconds, in which the controller itself may be at work: whoever polls reports. */
 static void report_start(gg_replicas *all)
 {
@@ -124,6 +123,7 @@ static void report_start(gg_replicas *all)
   pthread_mutex_unlock(&all->lock);
 }
 
+/* For whoever works on a replica, engines in the midst of an interval included. Once a run is stopped, it stays so. */
 static bool is_stopped(void *context)
 {
   gg_replicas *all = context;
