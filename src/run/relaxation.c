@@ -77,10 +77,21 @@ gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, 
   return status;
 }
 
+/* That which a gas goes to, about; `last`: one that goes to none. */
+static double steady_temperature(const gg_scene *scene, const gg_model *m, double last)
+{
+  gg_scene start = *scene;
+  gg_model steady;
+  start.temperature = GG_AUTO;
+  const bool known = m->steady && !gg_flow_cools(m->flow);
+  return known && gg_common_model_make(&start, scene->engine, &steady, NULL) == GG_OK ? steady.temperature0 : last;
+}
+
 double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model)
 {
   const uint64_t n = gg_run_relaxation_samples(scene);
   gg_relaxing x = gg_theory_relaxation_start(model);
+  x.work /= 2; /* every run begins with this */
   double sum = 0, T = x.T;
   int made = 0;
   gg_model *now = malloc(sizeof *now);
@@ -89,17 +100,18 @@ double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model
     const double dt = gg_run_relaxation_time(scene, k + 1) - gg_run_relaxation_time(scene, k);
     const int changes = gg_scene_protocol_count(scene, user_time(scene, k));
     gg_scene then;
-    if (changes != made && (gg_scene_protocol_apply(scene, changes, &then, NULL) != GG_OK ||
-                            gg_common_model_make(&then, scene->engine, now, NULL) != GG_OK))
+    if (gg_scene_protocol_apply(scene, changes, &then, NULL) != GG_OK ||
+        (changes != made && gg_common_model_make(&then, scene->engine, now, NULL) != GG_OK))
       break;
-    /* Of sheared gases and mixtures theory takes some time: they are at the temperature they are going to. */
-    const bool quick = gg_theory_relaxation_name(now) && !gg_theory_gaussian_relaxes(now);
-    if (quick)
+    const bool begins = k == 0 || changes != made;
+    made = changes;
+    const double before = x.collisions;
+    if (gg_theory_relaxation_name(now))
       gg_theory_relax(now, dt, &x);
-    else if (changes != made && now->steady)
-      x.T = T = now->temperature0;
-    sum += dt * (gg_common_model_collision_rate(now, T) + gg_common_model_collision_rate(now, x.T)) / 2;
-    T = x.T, made = changes;
+    else
+      x = gg_theory_relaxation_lost();
+    T = !isnan(x.T) ? x.T : begins ? steady_temperature(&then, now, T) : T;
+    sum += isnan(x.T) ? dt * gg_common_model_collision_rate(now, T) : x.collisions - before;
   }
   free(now);
   return sum;
@@ -148,8 +160,7 @@ static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *er
     at[k] = x;
     if (k > 0 && changes == gg_scene_protocol_count(s, user_time(s, k))) continue;
     status = gg_run_relaxation_model(s, &all->model, k, model, &changes, err);
-    if (status == GG_OK && !gg_theory_relaxation_name(model))
-      x = (gg_relaxing){.T = NAN, .theta = NAN, .a2 = NAN, .P_xy = NAN, .of = {{.M = {{{NAN}}}}}};
+    if (status == GG_OK && !gg_theory_relaxation_name(model)) x = gg_theory_relaxation_lost();
   }
   free(model);
   return status;

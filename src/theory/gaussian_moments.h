@@ -37,7 +37,6 @@ void gg_theory_gaussian_changes_at(const gg_model *model, const gg_gaussian *sta
 /* gaussian_relaxation.c: moments in time, of the gases that they are known for. */
 bool gg_theory_gaussian_relaxes(const gg_model *model);
 void gg_theory_gaussian_start(const gg_model *model, gg_gaussian state[]);
-void gg_theory_gaussian_relax(const gg_model *model, double time, gg_gaussian state[]);
 double gg_theory_gaussian_shear_stress(const gg_model *model, const gg_gaussian state[]);
 
 /* The steady state of uniform shear: the largest residual left, of changes per mean free time, and of the balance of

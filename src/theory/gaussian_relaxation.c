@@ -80,15 +80,47 @@ static void symmetrise(gg_tensor *A)
   A->at[0][1] = A->at[1][0] = (A->at[0][1] + A->at[1][0]) / 2;
 }
 
-/* Runge and Kutta's fourth order, in steps of a fifth of what is fastest. */
-void gg_theory_gaussian_relax(const gg_model *m, double time, gg_gaussian state[])
+static bool is_small(gg_tensor change, gg_tensor of, double time)
 {
+  for (int a = 0; a < 9; a++)
+    if (!(fabs(change.at[a / 3][a % 3]) * time <= 1e-7 * gg_theory_trace(of))) return false;
+  return true;
+}
+
+/* Whether what is left to change is too little to be seen. */
+static bool is_settled(const gg_model *m, const gg_gaussian state[], const gg_gaussian_rates *r, double time)
+{
+  for (int i = 0; i < m->n_species; i++)
+    if (!is_small(r->change[i].M, state[i].M, time) || !is_small(r->change[i].Theta, state[i].Theta, time) ||
+        !(fabs(r->change[i].spin) * time <= 1e-7 * sqrt(gg_theory_trace(state[i].Theta))))
+      return false;
+  return true;
+}
+
+static double collision_rate(const gg_model *m, const gg_gaussian_rates *r)
+{
+  double sum = 0;
+  for (int i = 0; i < m->n_species; i++) sum += (double)m->n_of[i] / (double)m->n * r->frequency[i];
+  return sum;
+}
+
+#define SECONDS 2e-4 /* of a step, over the square of the number of species */
+#define LONG 1e5     /* relaxations are shorter, over the fastest rate; longer times show rounding */
+
+/* Runge and Kutta's fourth order, in steps of half of what is fastest. */
+void gg_theory_gaussian_relax(const gg_model *m, double time, gg_relaxing *x)
+{
+  gg_gaussian *state = x->of;
   gg_gaussian_rates r[4];
   gg_gaussian at[GG_MAX_SPECIES];
   while (time > 0) {
     rates_at(m, state, &r[0]);
-    const double dt = fmin(time, 0.2 / fastest(m, state, &r[0]));
-    if (!(dt > 0)) return;
+    const double most = fastest(m, state, &r[0]);
+    const bool settled = is_settled(m, state, &r[0], fmin(time, LONG / most));
+    const double dt = settled ? time : fmin(time, 0.5 / most);
+    x->collisions += dt * collision_rate(m, &r[0]);
+    x->work -= SECONDS * m->n_species * m->n_species;
+    if (settled || !(dt > 0) || x->work < 0) return;
     for (int k = 1; k < 4; k++) {
       move(m, state, k < 3 ? dt / 2 : dt, r[k - 1].change, at);
       rates_at(m, at, &r[k]);

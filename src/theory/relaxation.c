@@ -28,10 +28,18 @@ const char *gg_theory_relaxation_name(const gg_model *m)
 
 gg_relaxing gg_theory_relaxation_start(const gg_model *m)
 {
-  gg_relaxing x = {.T = m->temperature0, .theta = m->rule == GG_SMOOTH ? 0 : m->ratio0 * m->temperature0};
+  const double theta = m->rule == GG_SMOOTH ? 0 : m->ratio0 * m->temperature0;
+  gg_relaxing x = {.T = m->temperature0, .theta = theta, .work = 2};
   if (!gg_theory_gaussian_relaxes(m)) return x;
   gg_theory_gaussian_start(m, x.of);
   x.P_xy = m->shear_rate != 0 ? gg_theory_gaussian_shear_stress(m, x.of) : 0;
+  return x;
+}
+
+gg_relaxing gg_theory_relaxation_lost(void)
+{
+  gg_relaxing x = {.T = NAN, .theta = NAN, .a2 = NAN, .P_xy = NAN, .collisions = NAN, .work = -1};
+  for (int i = 0; i < GG_MAX_SPECIES; i++) x.of[i].M.at[0][0] = NAN;
   return x;
 }
 
@@ -77,7 +85,8 @@ static gg_relaxing rates(const gg_model *m, gg_relaxing x)
 
 static gg_relaxing moved(gg_relaxing x, double dt, gg_relaxing r)
 {
-  return (gg_relaxing){.T = x.T + dt * r.T, .theta = x.theta + dt * r.theta, .a2 = x.a2 + dt * r.a2};
+  x.T += dt * r.T, x.theta += dt * r.theta, x.a2 += dt * r.a2;
+  return x;
 }
 
 /* Runge and Kutta's fourth order. */
@@ -90,7 +99,7 @@ static gg_relaxing step(const gg_model *m, gg_relaxing x, double dt)
 
 static void relax_moments(const gg_model *m, double time, gg_relaxing *x)
 {
-  gg_theory_gaussian_relax(m, time, x->of);
+  gg_theory_gaussian_relax(m, time, x);
   x->P_xy = m->shear_rate != 0 ? gg_theory_gaussian_shear_stress(m, x->of) : 0;
   x->T = x->theta = 0;
   for (int i = 0; i < m->n_species; i++) {
@@ -101,17 +110,22 @@ static void relax_moments(const gg_model *m, double time, gg_relaxing *x)
 }
 
 /* Steps that are short beside a collision, and what drag and noise take to act. */
-void gg_theory_relax(const gg_model *m, double time, gg_relaxing *x)
+static void relax_temperatures(const gg_model *m, double time, gg_relaxing *x)
 {
-  if (gg_theory_gaussian_relaxes(m)) {
-    relax_moments(m, time, x);
-    return;
-  }
-  while (time > 0) {
-    const double fastest = gg_common_model_collision_rate(m, x->T) + 2 * fabs(drag_of(m)) + noise_of(m) / x->T +
-                           (m->bath.on ? 2 * m->bath.spin_drag[0] : 0);
+  const double seconds = 1e-6; /* of a step */
+  while (time > 0 && x->work >= 0) {
+    const double rate = gg_common_model_collision_rate(m, x->T);
+    const double fastest =
+        rate + 2 * fabs(drag_of(m)) + noise_of(m) / x->T + (m->bath.on ? 2 * m->bath.spin_drag[0] : 0);
     const double dt = fmin(time, 0.05 / fastest);
     *x = step(m, *x, dt);
+    x->collisions += dt * rate, x->work -= seconds;
     time = dt < time ? time - dt : 0;
   }
+}
+
+void gg_theory_relax(const gg_model *m, double time, gg_relaxing *x)
+{
+  if (x->work >= 0) (gg_theory_gaussian_relaxes(m) ? relax_moments : relax_temperatures)(m, time, x);
+  if (x->work < 0) *x = gg_theory_relaxation_lost();
 }

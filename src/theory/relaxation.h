@@ -9,13 +9,19 @@ typedef struct gg_relaxing {
   double T, theta, a2;            /* theta of rough grains, a2 of smooth ones; else 0 */
   gg_gaussian of[GG_MAX_SPECIES]; /* moments of sheared gases and mixtures */
   double P_xy;                    /* of sheared gases */
+  double collisions;              /* of a grain, so far */
+  double work;                    /* seconds of processor time left, about; without any, all is NaN */
 } gg_relaxing;
 
 /* "first Sonine", "two Maxwellians", "Maxwellians" of mixtures, "Gaussian closure"; NULL: not of this model. */
 const char *gg_theory_relaxation_name(const gg_model *model);
 /* That of the start, from the temperatures of the model. */
 gg_relaxing gg_theory_relaxation_start(const gg_model *model);
-/* The state after a time. */
+/* What theory has nothing for. */
+gg_relaxing gg_theory_relaxation_lost(void);
+/* The state after a time; lost where that takes more than the work that is left. */
 void gg_theory_relax(const gg_model *model, double time, gg_relaxing *state);
+/* gaussian_relaxation.c: moments alone. */
+void gg_theory_gaussian_relax(const gg_model *model, double time, gg_relaxing *state);
 
 #endif

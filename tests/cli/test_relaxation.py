@@ -197,6 +197,32 @@ def test_theory_of_shear():
         check(beside >= 2 and ("gaussian_closure" in steady) == ("usf" in scene), scene, beside)
 
 
+def collisions_told(scene):
+    """A grain's, of graingas info."""
+    return float(re.search(r"for\s+([\d.e+]+)\s+collisions\s+a\s+grain", run("info", "scene.yaml", scene=scene).out).group(1))
+
+
+def test_fast_gas():
+    """Theory beside a gas that comes to collide 10^4 times as often arrives at the steady state; where it takes too long
+    its curve ends, and results are there in seconds. info counts the collisions of either, and of mixtures."""
+    common = "{engine: dsmc, phi: 0.05, dsmc: {particles: 100}, "
+    fast = common + "flow: usf, collision: {e: 0.8}, protocol: [{at: 2, shear_rate: 500}], run: {duration: 4}}"
+    endless = common + "flow: usf, temperature: 1, collision: {e: 1}, run: {duration: 200}}"
+    mixture = common + "flow: hcs, collision: {e: 0.7}, species: [{fraction: 0.5}, {fraction: 0.5, mass: 10}], run: {duration: 200}}"
+    for scene, ends in (fast, False), (endless, True), (mixture, False):
+        done = run("run", "scene.yaml", "--quiet", "--output", "q.h5", scene=scene, timeout=30)
+        check(done.code == 0, done.err)
+        with h5py.File("q.h5") as file:
+            theory = np.array(file["graingas/curves/temperature_in_time/reference"])
+        check(np.isfinite(theory[:5]).all() and np.isnan(theory[-1]) == ends, scene, theory)
+        number, unit = re.search(r"([\d.]+) ([kMG]?) ?collisions averaged", done.out).groups()
+        made = float(number) * {"": 1, "k": 1e3, "M": 1e6, "G": 1e9}[unit] / 50
+        check(0.5 < collisions_told(scene) / made < 1.6 if ends else abs(collisions_told(scene) / made - 1) < 0.1, scene, made)
+        if scene == fast:
+            steady = json.loads(run("theory", "scene.yaml", "--json", "--quiet", scene=scene).out)["theory"]
+            check(abs(theory[-1] / steady["gaussian_closure"]["temperature"]["mean"] - 1) < 1e-5, theory[-1], steady)
+
+
 def test_after_changes():
     """What follows the last change is a curve of its own, and the cost counts the time that is followed."""
     done = run("run", "scene.yaml", "--quiet", "--output", "k.h5", scene=ELASTIC % "dsmc")
@@ -204,8 +230,7 @@ def test_after_changes():
     (t, T, _), (since, tail, _) = curve("k.h5", "temperature_in_time"), curve("k.h5", "temperature_after_changes")
     check(since[0] == 7 and np.array_equal(t[t >= 7], since) and np.array_equal(T[t >= 7], tail), since, tail)
     collided = float(re.search(r"([\d.]+) ([kM]) collisions", done.out).group(1)) * (1e3 if " k collisions" in done.out else 1e6)
-    told = run("info", "scene.yaml", scene=ELASTIC % "dsmc").out
-    expected = float(re.search(r"for\s+([\d.]+)\s+collisions\s+a\s+grain", told).group(1)) * 16 * 5000 / 2
+    expected = collisions_told(ELASTIC % "dsmc") * 16 * 5000 / 2
     check(abs(expected / collided - 1) < 0.05, expected, collided)
 
 
