@@ -39,7 +39,7 @@ static uint64_t run_with(const gg_model *m, const gg_md_kernel *kernel)
   e->plain = kernel == NULL;
   gg_md_select(e);
   if (kernel) e->kernel = kernel;
-  md_collide(e, 20000);
+  md_collide(e, 6000);
   uint64_t hash = md_hash(e);
   md_destroy(e);
   return hash;
