@@ -27,11 +27,12 @@ static gg_scene scene_of(const char *yaml, gg_engine_kind engine)
 
 enum { WHAT_VELOCITY, WHAT_SPIN, KINDS };
 
+/* A spin is noticed when it has spoilt a velocity: one of fifty grains does not collide in two samples. */
 static void plant(gg_replica *r, int what)
 {
   if (r->model.walled && r->model.ensemble) {
     gg_dsmc_gap *d = (gg_dsmc_gap *)r->engine;
-    *(what == WHAT_SPIN ? &d->grains.s[7].z : &d->grains.at[7].c.z) = NAN;
+    for (int i = 7; i < 10; i++) *(what == WHAT_SPIN ? &d->grains.s[i].z : &d->grains.at[i].c.z) = NAN;
     return;
   }
   if (!r->model.homogeneous) {
@@ -56,7 +57,8 @@ static void planted_in(const char *yaml, gg_engine_kind engine, int what)
   if (gg_run_replica_create(&r, &s, &m, 0, &err) != GG_OK) fail_msg("%s: %s", yaml, err.message);
   assert_int_equal(gg_run_replica_advance(&r, BEFORE, true, NULL, &err), GG_OK);
   plant(&r, what);
-  assert_int_equal(gg_run_replica_advance(&r, BEFORE + 2, true, NULL, &err), GG_FAILED);
+  if (gg_run_replica_advance(&r, BEFORE + 2, true, NULL, &err) != GG_FAILED)
+    fail_msg("%s, engine %d, %s", yaml, (int)engine, what == WHAT_SPIN ? "spin" : "velocity");
   if (r.clock.samples > BEFORE) fail_msg("%s: %d samples later", yaml, (int)r.clock.samples - BEFORE);
   if (!strstr(err.message, "NaN or infinite") && !strstr(err.message, "range of double precision"))
     fail_msg("%s: %s", yaml, err.message);
