@@ -476,8 +476,9 @@ GG_API gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_ev
 /**
  * Change a key on the way: collision.*, bath.*, thermostat, gaussian_rate, noise_strength, shear_rate, md.contact_time,
  * dsmc.time_step, walls.e, walls.beta, walls.mu, walls.temperature, walls.accommodation, gravity. Grains, time, counts,
- * random stream and units stay: under shear, time stays in units of the shear rate of the start. Other keys set units, box or grains and are rejected, as are values that would let
- * smooth grains rotate. The simulation is unchanged on failure.
+ * random stream and units stay: under shear, time stays in units of the shear rate of the start, from a thousandth to a
+ * thousandfold of which shear_rate may be. Other keys set units, box or grains and are rejected, as are values that
+ * would let smooth grains rotate. The simulation is unchanged on failure.
  * @param simulation the simulation
  * @param key as for gg_scene_set(), "collision.e"
  * @param value YAML in units of the scene

@@ -220,6 +220,15 @@ static gg_status change(gg_simulation *s, gg_simulation *next, const char *key, 
   return GG_OK;
 }
 
+static gg_status check_shear_rate(const gg_scene *changed, gg_error *err)
+{
+  char flows[160];
+  if (gg_flow_is_sheared(changed->flow)) return gg_scene_check_shear_rate(changed, err);
+  gg_common_flow_list(gg_flow_is_sheared, flows, sizeof flows);
+  return gg_base_fail(err, GG_BAD_INPUT, "key 'shear_rate': has no effect in flow: %s; allowed in flow: %s",
+                      gg_flow_of(changed->flow)->word, flows);
+}
+
 gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const char *value, gg_error *err)
 {
   GG_NEED(simulation, key, value);
@@ -238,6 +247,7 @@ gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const ch
   locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_scene_override(&changed, key, value, err);
   gg_base_c_locale_leave(before);
+  if (status == GG_OK && strcmp(key, "shear_rate") == 0) status = check_shear_rate(&changed, err);
   if (status == GG_OK) status = gg_api_simulation_prepare(&changed, &next, err);
   if (status == GG_OK) status = change(simulation, next, key, err);
   gg_simulation_free(next);

@@ -171,6 +171,7 @@ static gg_status check_protocol(const gg_scene *s, gg_error *err)
   for (int k = 1; k <= n; k++) {
     gg_status status = gg_scene_protocol_apply(s, k, &changed, err);
     if (status == GG_OK) status = check_flow(&changed, err);
+    if (status == GG_OK) status = gg_scene_check_shear_rate(&changed, err);
     if (status != GG_OK) return gg_base_error_prefix(err, status, "key 'protocol': at: %g", s->protocol[k - 1].at);
   }
   return GG_OK;

@@ -151,6 +151,8 @@ json_t *gg_scene_protocol_json(const gg_scene *scene);
 /* The scene after the first n changes; n of them by a time (user's units). */
 gg_status gg_scene_protocol_apply(const gg_scene *scene, int n, gg_scene *changed, gg_error *err);
 int gg_scene_protocol_count(const gg_scene *scene, double time);
+/* Whether a changed shear rate is near enough to that of the start, whose units grains keep. */
+gg_status gg_scene_check_shear_rate(const gg_scene *changed, gg_error *err);
 /* Strain up to a time, both as in results; 0 without shear. */
 double gg_scene_strain(const gg_scene *scene, double time);
 

@@ -26,6 +26,15 @@ gg_status gg_scene_protocol_apply(const gg_scene *scene, int n, gg_scene *change
   return GG_OK;
 }
 
+gg_status gg_scene_check_shear_rate(const gg_scene *changed, gg_error *err)
+{
+  const double most = 1000, first = gg_scene_clock_rate(changed), rate = changed->shear_rate;
+  if (rate <= first * most * (1 + 1e-12) && rate >= first / most * (1 - 1e-12)) return GG_OK;
+  return gg_base_fail(err, GG_BAD_INPUT,
+                      "key 'shear_rate': %g is not allowed on the way from %g; allowed: from %g to %g", rate, first,
+                      first / most, first * most);
+}
+
 double gg_scene_strain(const gg_scene *scene, double time)
 {
   if (!gg_flow_is_sheared(scene->flow)) return 0;

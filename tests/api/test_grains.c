@@ -494,6 +494,7 @@ static void shear_rates_on_the_way(void **state)
     assert_true(halved < doubled && halved > 0.25 * doubled && fabs(after.strain - there.strain) < 1e-12);
     assert_ok(gg_scene_get(gg_simulation_scene(loaded), "shear_rate", text, sizeof text, &err));
     assert_string_equal(text, "1.5");
+    assert_refused(gg_simulation_set(loaded, "shear_rate", "3001", &err), "from 0.003 to 3000");
     assert_ok(gg_simulation_new(gg_simulation_scene(m), 0, &another, &err)); /* another one has units of its own */
     assert_ok(gg_simulation_advance(another, 1, &err));
     assert_true(fabs(state_of(another).strain - state_of(another).time) < 1e-12);
@@ -501,6 +502,10 @@ static void shear_rates_on_the_way(void **state)
     gg_simulation_free(loaded);
     gg_simulation_free(another);
   }
+  gg_error err;
+  gg_simulation *m = simulation_of("{flow: hcs, phi: 0.1, particles: 100}");
+  assert_refused(gg_simulation_set(m, "shear_rate", "2", &err), "has no effect in flow: hcs; allowed in flow: usf");
+  gg_simulation_free(m);
 }
 
 int main(void)

@@ -54,6 +54,13 @@ static void refusals(void **state)
   assert_refused(FOLLOWED "- {at: 1, at: 1.5, bath.drag: 2}\n", "s.yaml:6: key 'protocol': at is given twice");
   assert_refused(FOLLOWED "- {at: 1, bath.drag: 2, bath.drag: 3}\n", "changes bath.drag twice at: 1");
   assert_refused(FOLLOWED "- {at: 1, bath.drag: 2}\n- {at: 1, bath.drag: 3}\n", "changes bath.drag twice at: 1");
+#define SHEARED(rate)                                                                                                  \
+  "flow: usf\nphi: 0.1\nprotocol: [{at: 2, shear_rate: " rate "}]\nshear_rate: 2\nrun: {duration: 4}\n"
+  assert_taken(SHEARED("2e3"));
+  assert_taken(SHEARED("2e-3"));
+  assert_refused(SHEARED("1e12"), "key 'protocol': at: 2: key 'shear_rate': 1e+12 is not allowed on the way from 2; "
+                                  "allowed: from 0.002 to 2000");
+  assert_refused(SHEARED("1.9e-3"), "key 'shear_rate': 0.0019 is not allowed");
 #define FOUR(decade)                                                                                                   \
   "- {at: " decade "1, bath.drag: 2}\n- {at: " decade "2, bath.drag: 3}\n- {at: " decade "3, bath.drag: 2}\n"          \
   "- {at: " decade "4, bath.drag: 3}\n"
