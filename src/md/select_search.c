@@ -71,10 +71,11 @@ bool gg_md_fit_lists(const gg_model *m, double radius, int32_t n[3])
   return true;
 }
 
-/* Pairs in a cell must have one nearest image. */
+/* Pairs in a cell must have one nearest image. Grains that fall on a wall may all come to lie in the lowest cells,
+ * which large ones are too crowded for. */
 static bool fit_overlapping(const gg_model *m, int32_t n[3])
 {
-  if (needs_plain_cells(m) || m->phi >= OVERLAPPING_BELOW) return false;
+  if (needs_plain_cells(m) || m->gravity[1] != 0 || m->phi >= OVERLAPPING_BELOW) return false;
   double narrowest = 3 * gg_md_reach(m);
   count_cells(m, fmax(narrowest, gg_root(GRAINS_PER_OVERLAPPING_CELL * m->volume / (double)m->n, 3)), n);
   for (int a = 0; a < 3; a++) {
