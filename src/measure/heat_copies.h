@@ -3,10 +3,10 @@
  * grains carry it as weights w, and collide for some time. Two that collide both get w_1 + w_2; a candidate that is
  * rejected, of probability p, takes w_2 p/(1 - p) from w_1, and w_1 p/(1 - p) from w_2. Their average is the linearised
  * collision operator (H.A. Al-Mohssen and N.G. Hadjiconstantinou, J. Comput. Phys. 229 (2010) 4481), but the variance
- * grows with every collision. After some steps f1 is therefore expanded anew, as f0 sum_n s_n b_n, b_n = C
- * |C|^n and, of rough grains, C s^2 and s (C.s), both also times |C|, and s x C, without momentum, with the moments
- * <b_m f1> that it has; the sources likewise. Longer lags follow by repetition. What an expansion leaves out has
- * decayed by then: the curves show what they do. */
+ * grows with every collision. After some steps f1 is therefore expanded anew, as f0 sum_n s_n b_n, with
+ * the moments <b_m f1> that it has; the sources likewise. The b_n, without their momentum, are C |C|^n. Rough grains
+ * also have C s^2 and s (C.s), each also times |C|, and s x C. Longer lags follow by repetition. What an expansion
+ * leaves out has decayed by then: the curves show what they do. */
 #ifndef GG_HEAT_COPIES_H
 #define GG_HEAT_COPIES_H
 

@@ -37,7 +37,8 @@ bool gg_plot_snapshot_has(const gg_stored_result *stored);
 
 /* Pages are further pictures beside the given name: PICTURE_snapshot.svg if the file holds grains with positions, and
  * one for each observable that left curves: PICTURE_<observable>.svg, for comparisons
- * PICTURE_<engine>_<observable>.svg but for profiles, which have both engines. `drawn` (may be NULL) is called with the name of each. */
+ * PICTURE_<engine>_<observable>.svg but for profiles, which have both engines. `drawn` (may be NULL) is called with the
+ * name of each. */
 gg_status gg_plot_pages_draw(const gg_stored_result *stored, const gg_plot_paper *paper, const char *picture,
                              void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
 /* Before anything is drawn: could all of them be written, and is none the result's own file? */

@@ -29,8 +29,8 @@ typedef struct gg_cost_estimate {
 /* Of a finished scene, and the model of its engine. */
 gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *model, gg_engine_kind engine);
 
-/* How many times less time a collision Monte Carlo takes for the same scene of md, where it is so dilute that it is exact
- * there and measures what is asked for; else 0. */
+/* Time of a collision in md over that in Monte Carlo, for scenes so dilute that Monte Carlo is exact, and of which it
+ * measures every requested observable; else 0. */
 double gg_run_cost_dilute(const gg_scene *scene, const gg_model *md);
 
 /* Seconds of processor time for all theories of a model, right within a factor of three; longest where

@@ -61,7 +61,7 @@ typedef struct gg_dsmc_gap_streams {
   gg_dsmc_rng_lanes lanes[GG_GAP_MOST_SLABS];
 } gg_dsmc_gap_streams;
 
-/* Cells [first, end), when they have their turn, and what their collisions leave. */
+/* Cells [first, end), how many cells come before them in a step, and what their collisions leave. */
 typedef struct gg_dsmc_gap_slab {
   int first, end, turn;
   uint64_t collisions, candidates, overflows;

@@ -64,7 +64,7 @@ static double highest(const gg_dsmc_gap *d)
 }
 
 /* A slab reaches beyond its ends as far as partners are, roundings included. */
-static gg_status share_out(gg_dsmc_gap *d, gg_error *err)
+static gg_status partition(gg_dsmc_gap *d, gg_error *err)
 {
   const gg_dsmc_gap_cells *c = &d->cells;
   const int64_t bins = (int64_t)c->n * d->model.n_species, n = d->model.n;
@@ -104,7 +104,7 @@ gg_status gg_dsmc_gap_cells_new(gg_dsmc_gap *d, gg_error *err)
   c->chi = gg_base_array_new(pairs * 2 * n + 2, sizeof *c->chi, err);
   c->kernel = gg_base_array_new(species * (size_t)(c->reach + 1), sizeof *c->kernel, err);
   c->majorant = gg_base_array_new(n * species * species, sizeof *c->majorant, err);
-  GG_TRY(share_out(d, err));
+  GG_TRY(partition(d, err));
   c->stride = (n * species + 15) / 16 * 16;
   c->next = gg_base_array_new((size_t)d->parts * c->stride, sizeof *c->next, err);
   if (!c->start_below || !c->next || !c->counted || !c->mean || !c->hits || !c->chi || !c->kernel || !c->majorant)

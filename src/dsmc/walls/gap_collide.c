@@ -340,7 +340,7 @@ static void collide_slab(void *context, int part)
   d->now.streams.cells[nth] = w.rng;
 }
 
-/* Every second slab at once, then the others; each has its turn after those before. */
+/* Every second slab at once, then the others; in time their cells follow one another. */
 static void collide_half(gg_dsmc_gap *d, double dt, bool backward, bool odd, int *turn)
 {
   stage s = {d, dt, backward, odd};

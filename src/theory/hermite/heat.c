@@ -2,12 +2,12 @@
 #include "theory/hermite/heat.h"
 
 #include <gsl/gsl_integration.h>
-#include <gsl/gsl_linalg.h>
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "theory/linear_solve.h"
 
 /* A vector along x is c_x times a function of c^2, c = C/sqrt(width). In a collision along z only c_z changes; the sum
  * over all directions of one component is a third of the sum over the components in one direction: along it, and twice
@@ -183,22 +183,16 @@ static gg_status make(response *r, const gg_hermite_isotropic *h, gg_error *err)
 static bool solve(const response *r, double fading, double *f1)
 {
   const size_t n = (size_t)r->n - 1;
-  gsl_matrix *M = gsl_matrix_alloc(n, n);
-  gsl_vector *x = gsl_vector_alloc(n);
-  gsl_permutation *order = gsl_permutation_alloc(n);
-  bool fine = M && x && order;
-  int sign;
-  for (size_t m = 0; fine && m < n; m++) {
-    gsl_vector_set(x, m, -f1[m + 1]);
-    for (size_t k = 0; k < n; k++) gsl_matrix_set(M, m, k, r->M[m + 1][k + 1] + fading * r->overlap[m + 1][k + 1]);
+  double *M = gg_theory_linear_new(n), *x = M ? M + n * n : NULL;
+  for (size_t m = 0; M && m < n; m++) {
+    x[m] = -f1[m + 1];
+    for (size_t k = 0; k < n; k++) M[m * n + k] = r->M[m + 1][k + 1] + fading * r->overlap[m + 1][k + 1];
   }
-  fine = fine && gsl_linalg_LU_decomp(M, order, &sign) == GSL_SUCCESS && gsl_linalg_LU_svx(M, order, x) == GSL_SUCCESS;
+  const bool solved = M && gg_theory_linear_solve(n, M);
   f1[0] = 0;
-  for (size_t m = 0; fine && m < n; m++) f1[m + 1] = gsl_vector_get(x, m);
-  if (M) gsl_matrix_free(M);
-  if (x) gsl_vector_free(x);
-  gsl_permutation_free(order);
-  return fine;
+  for (size_t m = 0; solved && m < n; m++) f1[m + 1] = x[m];
+  free(M);
+  return solved;
 }
 
 /* -<C^2 C_x>/2 of f1: C^2 C_x is of degree 3, sqrt(W)^3 c_x (5 - sqrt(10) H_1). */

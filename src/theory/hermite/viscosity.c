@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "theory/hermite/viscosity.h"
 
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "theory/hermite/direction_workspace.h"
+#include "theory/linear_solve.h"
 
 /* Shear rate of the central difference, in units in which T = m = 1. */
 static const double small = 1e-3;
@@ -79,26 +79,20 @@ static double overlap(const gg_response *r, int i, int j)
 /* (J - fading) f1 = -source */
 static bool solve(gg_response *r, double fading)
 {
-  size_t n = (size_t)r->n;
-  gsl_matrix *J = gsl_matrix_alloc(n, n);
-  gsl_vector *x = gsl_vector_alloc(n);
-  gsl_permutation *order = gsl_permutation_alloc(n);
-  bool fine = J && x && order;
-  for (size_t i = 0; fine && i < n; i++) {
-    gsl_vector_set(x, i, -r->R[r->function[i]]);
+  const size_t n = (size_t)r->n;
+  double *J = gg_theory_linear_new(n), *x = J ? J + n * n : NULL;
+  for (size_t i = 0; J && i < n; i++) {
+    x[i] = -r->R[r->function[i]];
     for (size_t j = 0; j < n; j++) {
       int row = r->function[i], column = r->function[j];
       double value = r->jacobian[(size_t)row * (size_t)r->all + (size_t)column];
-      gsl_matrix_set(J, i, j, value - fading * overlap(r, row, column));
+      J[i * n + j] = value - fading * overlap(r, row, column);
     }
   }
-  int sign;
-  fine = fine && gsl_linalg_LU_decomp(J, order, &sign) == GSL_SUCCESS && gsl_linalg_LU_svx(J, order, x) == GSL_SUCCESS;
-  for (size_t i = 0; fine && i < n; i++) r->R[r->function[i]] = gsl_vector_get(x, i);
-  if (J) gsl_matrix_free(J);
-  if (x) gsl_vector_free(x);
-  gsl_permutation_free(order);
-  return fine;
+  const bool solved = J && gg_theory_linear_solve(n, J);
+  for (size_t i = 0; solved && i < n; i++) r->R[r->function[i]] = x[i];
+  free(J);
+  return solved;
 }
 
 /* f0 + rate f1, f1 in R. */

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "theory/rough/response.h"
 
-#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "theory/linear_solve.h"
 #include "theory/rough/one_direction.h"
 #include "theory/rough/tensors.h"
 
@@ -221,27 +221,20 @@ static void clear(response *r)
  * momentum. */
 static gg_status solve(const response *r, double fading, double *rows, gg_error *err)
 {
-  const int skip = r->t.rank == 1;
-  const size_t n = (size_t)(r->t.n - skip);
-  gsl_matrix *M = gsl_matrix_alloc(n, n);
-  gsl_vector *x = gsl_vector_alloc(n);
-  gsl_permutation *order = gsl_permutation_alloc(n);
-  bool fine = M && x && order;
-  int sign;
-  for (size_t m = 0; fine && m < n; m++) {
-    gsl_vector_set(x, m, -rows[m + (size_t)skip]);
+  const size_t all = (size_t)r->t.n, skip = r->t.rank == 1, n = all - skip;
+  double *M = gg_theory_linear_new(n), *x = M ? M + n * n : NULL;
+  for (size_t m = 0; M && m < n; m++) {
+    x[m] = -rows[m + skip];
     for (size_t k = 0; k < n; k++) {
-      const size_t at = (m + (size_t)skip) * (size_t)r->t.n + k + (size_t)skip;
-      gsl_matrix_set(M, m, k, r->M[at] + fading * r->overlap[at]);
+      const size_t at = (m + skip) * all + k + skip;
+      M[m * n + k] = r->M[at] + fading * r->overlap[at];
     }
   }
-  fine = fine && gsl_linalg_LU_decomp(M, order, &sign) == GSL_SUCCESS && gsl_linalg_LU_svx(M, order, x) == GSL_SUCCESS;
+  const bool solved = M && gg_theory_linear_solve(n, M);
   if (skip) rows[0] = 0;
-  for (size_t m = 0; fine && m < n; m++) rows[m + (size_t)skip] = gsl_vector_get(x, m);
-  if (M) gsl_matrix_free(M);
-  if (x) gsl_vector_free(x);
-  gsl_permutation_free(order);
-  return fine ? GG_OK : gg_base_fail(err, GG_FAILED, "no linear response was found");
+  for (size_t m = 0; solved && m < n; m++) rows[m + skip] = x[m];
+  free(M);
+  return solved ? GG_OK : gg_base_fail(err, GG_FAILED, "no linear response was found");
 }
 
 /* A component of f1. */
