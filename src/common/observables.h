@@ -21,6 +21,7 @@
   X(CELLS, cells, "local density, shear rate, temperatures and spin")                                                  \
   X(PROFILES, profiles, "density, flow, temperatures and spin across the gap between walls")                           \
   X(FLUXES, fluxes, "stress, heat flux and balance of energy across the gap between walls")                            \
+  X(SLAB_DISTRIBUTIONS, slab_distributions, "distributions of C and Omega by height between walls")                    \
   X(DIFFUSION, diffusion, "velocity autocorrelation, mean-square displacement, self-diffusion")                        \
   X(VISCOSITY, viscosity, "eta* of cooling and heated gases by linear response; comes with flow: small_shear")         \
   X(CONDUCTIVITY, conductivity, "kappa* and mu* of grains that cool or rest, by Green-Kubo integrals")                 \

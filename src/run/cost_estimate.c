@@ -34,6 +34,7 @@ static const struct needs {
     {GG_MEASURE_STRUCTURE, 8, {0, 0}},
     {GG_MEASURE_CELLS, 10, {4, 0}},
     {GG_MEASURE_PROFILES, 0, {10, 0}},
+    {GG_MEASURE_SLAB_DISTRIBUTIONS, 0, {20, 20}},
     {GG_MEASURE_DIFFUSION, 700, {120, 400}},
     {GG_MEASURE_CONDUCTIVITY, 96, {0, 180}},
     {GG_MEASURE_COLLISIONS, 8, {90, 6}},
