@@ -128,15 +128,17 @@ static void report_effort(const gg_replicas *all, gg_result *result)
   result->averaging.wall_seconds = NAN;
 }
 
-/* Of an ensemble whose size is given: one that is chosen keeps this below a quarter of the requested error. */
+/* Of an ensemble whose size is given: one that is chosen keeps this below a share of the requested error. */
 static void warn_if_few(const gg_replicas *all, gg_result *result)
 {
-  const double bias = result->engine_state.particles_bias, asked = all->criteria.relative_error;
-  if (!(asked > 0 && bias > 0.2501 * asked)) return;
+  const double bias = result->engine_state.particles_bias, asked = all->criteria.relative_error,
+               most = gg_common_ensemble_most_bias(all->model.flow);
+  if (!(asked > 0 && bias > 1.001 * most * asked)) return;
   gg_run_result_warn(result,
-                     "the ensemble of %lld grains biases means by up to %.2g %% (1/N), more than a quarter of the "
-                     "requested error: give dsmc.particles %.2g or more, or auto",
-                     (long long)all->model.n, 100 * bias, bias / (0.25 * asked) * (double)all->model.n);
+                     "the ensemble of %lld grains biases means by up to %.2g %% (1/N), more than %s of the requested "
+                     "error: give dsmc.particles %.2g or more, or auto",
+                     (long long)all->model.n, 100 * bias, most < 0.5 ? "a quarter" : "half",
+                     bias / (most * asked) * (double)all->model.n);
 }
 
 /* What the longest waves of the box show; where they show nothing, normal stresses may: at rest or cooling, a

@@ -178,7 +178,7 @@ const gg_field gg_scene_fields[] = {
      .doc = "time step of the Monte Carlo engine", .when = GG_IF_DSMC, .also = "dt"},
     {"dsmc.particles", GG_FIELD_INTEGER, AT(dsmc.particles), 2, 1e8, .special = "auto", .special_value = 0,
      .doc = "size of the Monte Carlo ensemble; auto: particles, at least 5000, and finite-size bias below a quarter of "
-            "run.relative_error",
+            "run.relative_error, between walls half",
      .when = GG_IF_DSMC},
     {"dsmc.precision", GG_FIELD_CHOICE, AT(dsmc.precision), .words = precisions,
      .doc = "precision of stored velocities and spins in dsmc; sums are always double", .when = GG_IF_DSMC},

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How many grains a Monte Carlo ensemble has: what the scene gives is kept; else so many that 1/N stays within a
- * quarter of the asked error, of the scarcest species, never fewer than the least, and as many as at the start of a run
- * that is resumed. */
+ * quarter of the asked error (between walls more is needed, and half is allowed), of the scarcest species, never fewer
+ * than the least, and as many as at the start of a run that is resumed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 
 #include <cmocka.h>
+#include <math.h>
 #include <string.h>
 
 #include "common/ensemble_size.h"
@@ -39,6 +40,23 @@ static void by_the_asked_error(void **state)
   int64_t one = gg_common_ensemble_size(&s);
   s.n_species = 2, s.species[0].fraction = 0.9, s.species[1] = s.species[0], s.species[1].fraction = 0.1;
   assert_true(gg_common_ensemble_size(&s) >= 10 * one - 10 && gg_common_ensemble_size(&s) <= 10 * one + 10);
+}
+
+static void between_walls(void **state)
+{
+  (void)state;
+  gg_model m;
+  char text[200];
+  gg_scene s = scene_at(1e-3);
+  s.flow = GG_COUETTE, s.phi = 0.3;
+  assert_int_equal(gg_common_ensemble_size(&s), 50000);
+  gg_common_ensemble_size_reason(&s, text, sizeof text);
+  assert_non_null(strstr(text, "bias below 0.05 %, at most half of the requested error of 0.1 %"));
+  s.phi = 0.01;
+  assert_in_range(gg_common_ensemble_size(&s), 8600, 8601);
+  s.dsmc.particles = 1000, s.phi = 0.3;
+  assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, NULL), GG_OK);
+  assert_true(fabs(gg_common_ensemble_bias(&m) - 0.025) < 1e-12);
 }
 
 /* md has `particles`, whatever is asked. */
@@ -96,10 +114,8 @@ static void steps(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(by_the_asked_error),
-      cmocka_unit_test(what_is_given),
-      cmocka_unit_test(of_a_resumed_run),
-      cmocka_unit_test(steps),
+      cmocka_unit_test(by_the_asked_error), cmocka_unit_test(between_walls), cmocka_unit_test(what_is_given),
+      cmocka_unit_test(of_a_resumed_run),   cmocka_unit_test(steps),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
