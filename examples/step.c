@@ -21,7 +21,7 @@ int main(void)
   gg_grains grains = {NULL, NULL, NULL, NULL};
   double fastest = 0;
   if (gg_scene_parse("{flow: usf, phi: 0.2, particles: 500}", "scene", &scene, &err) ||
-      gg_simulation_new(scene, 0, &simulation, &err) ||
+      gg_simulation_new(scene, NULL, &simulation, &err) ||
       gg_simulation_on_collision(simulation, collided, &fastest, &err))
     goto failed;
   printf("   time  coll/grain  temperature     P_xy  fastest\n");

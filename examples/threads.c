@@ -15,8 +15,9 @@ typedef struct part {
 static void *run(void *argument)
 {
   part *p = (part *)argument;
+  const gg_start_options options = {.stream = p->stream};
   gg_simulation *simulation = NULL;
-  p->status = gg_simulation_new(p->scene, p->stream, &simulation, &p->err);
+  p->status = gg_simulation_new(p->scene, &options, &simulation, &p->err);
   if (p->status == GG_OK) p->status = gg_simulation_collide(simulation, 50000, &p->err);
   if (p->status == GG_OK) p->status = gg_simulation_get_state(simulation, &p->end, &p->err);
   gg_simulation_free(simulation);

@@ -243,15 +243,23 @@ GG_API gg_status gg_scene_warnings(const gg_scene *scene, const char *use,
 
 typedef struct gg_simulation gg_simulation;
 
+/* All zero: stream 0, and nothing interrupts the start. */
+typedef struct gg_start_options {
+  uint64_t stream; /* random stream; different streams of one seed are independent copies, 0 is that of gg_run() */
+  void *context;   /* for stop */
+  int (*stop)(void *context); /* polled several times a second during the start; returns non-zero to interrupt it */
+} gg_start_options;
+
 /**
- * Start a simulation with the scene's engine and run.seed. Different streams of one seed are independent copies.
+ * Start a simulation with the scene's engine and run.seed. In md, placing a million grains takes seconds.
  * @param scene the scene
- * @param stream number of the random stream; 0 is that of gg_run()
+ * @param options NULL: default options
  * @param simulation receives the simulation, to be freed by gg_simulation_free()
  * @param err receives the message on failure; may be NULL
- * @return GG_OK; GG_BAD_INPUT; GG_FAILED if memory is insufficient
+ * @return GG_OK; GG_BAD_INPUT; GG_FAILED if memory is insufficient; GG_INTERRUPTED by options->stop
  */
-GG_API gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulation **simulation, gg_error *err);
+GG_API gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options *options, gg_simulation **simulation,
+                                   gg_error *err);
 
 /**
  * Free a simulation.
@@ -279,7 +287,8 @@ GG_API gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t colli
 
 /**
  * Set a function that is polled several times a second during gg_simulation_advance() and gg_simulation_collide(). A
- * non-zero return interrupts the call; the simulation stays valid and can be advanced again.
+ * non-zero return interrupts the call; the simulation stays valid and can be advanced again. In large systems it also
+ * interrupts gg_simulation_set() and gg_simulation_set_grains(), which then change nothing.
  * @param simulation the simulation
  * @param stop returns non-zero to interrupt; NULL: none
  * @param context passed to the callback
@@ -365,14 +374,14 @@ GG_API gg_status gg_simulation_get_grains(const gg_simulation *simulation, const
  *   between walls the heights alone, and numbers its grains species by species. With several species, `species` is
  *   needed, by md also `position`
  * @param n number of grains
- * @param stream number of the random stream, as for gg_simulation_new()
+ * @param options as for gg_simulation_new()
  * @param simulation receives the simulation, to be freed by gg_simulation_free()
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT names two grains that overlap, a number that is not finite, a place outside the box, a
- *   count that is not the scene's; GG_FAILED if memory is insufficient
+ *   count that is not the scene's; GG_FAILED if memory is insufficient; GG_INTERRUPTED by options->stop
  */
-GG_API gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grains, size_t n, uint64_t stream,
-                                           gg_simulation **simulation, gg_error *err);
+GG_API gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grains, size_t n,
+                                           const gg_start_options *options, gg_simulation **simulation, gg_error *err);
 
 /**
  * Replace the grains of a simulation. NULL members leave their values unchanged. Time, counts and random stream
@@ -1841,9 +1850,11 @@ GG_API gg_status gg_simulation_get_species_sized(const gg_simulation *simulation
                                                  gg_error *err, size_t state_size);
 GG_API gg_status gg_simulation_get_grains_sized(const gg_simulation *simulation, const gg_grains *into, gg_error *err,
                                                 size_t into_size);
+GG_API gg_status gg_simulation_new_sized(const gg_scene *scene, const gg_start_options *options,
+                                         gg_simulation **simulation, gg_error *err, size_t options_size);
 GG_API gg_status gg_simulation_from_grains_sized(const gg_scene *scene, const gg_grains *grains, size_t n,
-                                                 uint64_t stream, gg_simulation **simulation, gg_error *err,
-                                                 size_t grains_size);
+                                                 const gg_start_options *options, gg_simulation **simulation,
+                                                 gg_error *err, size_t grains_size, size_t options_size);
 GG_API gg_status gg_simulation_set_grains_sized(gg_simulation *simulation, const gg_grains *grains, size_t n,
                                                 gg_error *err, size_t grains_size);
 GG_API gg_status gg_simulation_take_sums_sized(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err,
@@ -1910,7 +1921,9 @@ GG_API gg_status gg_simulation_record_sized(gg_simulation *simulation, gg_collis
 #define gg_simulation_get_state(...) gg_simulation_get_state_sized(__VA_ARGS__, sizeof(gg_simulation_state))
 #define gg_simulation_get_species(...) gg_simulation_get_species_sized(__VA_ARGS__, sizeof(gg_species_state))
 #define gg_simulation_get_grains(...) gg_simulation_get_grains_sized(__VA_ARGS__, sizeof(gg_grains))
-#define gg_simulation_from_grains(...) gg_simulation_from_grains_sized(__VA_ARGS__, sizeof(gg_grains))
+#define gg_simulation_new(...) gg_simulation_new_sized(__VA_ARGS__, sizeof(gg_start_options))
+#define gg_simulation_from_grains(...)                                                                                 \
+  gg_simulation_from_grains_sized(__VA_ARGS__, sizeof(gg_grains), sizeof(gg_start_options))
 #define gg_simulation_set_grains(...) gg_simulation_set_grains_sized(__VA_ARGS__, sizeof(gg_grains))
 #define gg_simulation_take_sums(...) gg_simulation_take_sums_sized(__VA_ARGS__, sizeof(gg_simulation_sums))
 #define gg_workers_new(...) gg_workers_new_sized(__VA_ARGS__, sizeof(gg_messages))

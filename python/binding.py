@@ -17,7 +17,7 @@ def without_comments(text):
 def declarations(header):
     """The header as cffi reads it: no comments, no preprocessor, no attributes."""
     text = without_comments(header)
-    text = re.sub(r"^[ \t]*#.*(\\\n.*)*\n", "", text, flags=re.MULTILINE)
+    text = re.sub(r"^[ \t]*#(.*\\\n)*.*\n", "", text, flags=re.MULTILINE)
     text = re.sub(r'extern "C" \{', "", text).replace("GG_API ", "")
     depth, kept = 0, []
     for character in text:  # the brace that closes extern "C"

@@ -115,27 +115,30 @@ class Simulation:
 
     The same scene, seed and stream give the same trajectory, bit for bit. Numbers have the units of results. One thread
     at a time may use a simulation: other uses, also from its own callback, raise Busy. Ctrl-C ends an advance within
-    0.1 s and raises KeyboardInterrupt; the simulation can be advanced further.
+    0.1 s and raises KeyboardInterrupt; the simulation can be advanced further. It ends a start, too: within 0.1 s up to
+    100 000 grains of md, 0.5 s a million.
     """
 
     def __init__(self, scene, stream: int = 0, *, positions=None, velocities=None, spins=None, species=None):
         scene = as_scene(scene).copy()
         if followed(scene):
             warnings.warn(f"{followed(scene)} of the scene: no effect on a Simulation; run() follows it", stacklevel=2)
-        made = ffi.new("gg_simulation **")
-        grains, kept, n = grains_from(None, position=positions, velocity=velocities, spin=spins, species=species)
-        with scene.held() as pointer:
-            if kept:
-                check(lib.gg_simulation_from_grains, pointer, grains, n, _stream(stream), made)
-            else:
-                check(lib.gg_simulation_new, pointer, _stream(stream), made)
-        self._adopt(made[0], scene)
+        grains = grains_from(None, position=positions, velocity=velocities, spin=spins, species=species)
+        self._adopt(_started(scene, stream, calls.Call(), *grains), scene)
 
-    def _adopt(self, pointer, scene):
+    def _adopt(self, pointer, scene, together=None):
         self._scene = Scene._copy_of(lib.gg_simulation_scene(pointer), scene._extensions if scene else ())
         self._handle = Handle(pointer, lib.gg_simulation_free, "simulation")
-        self._watcher, self._stop = _Watcher(), ffi.new("ggpy_call *")
+        self._watcher, self._together = _Watcher(), together
+        self._stop = together.c if together else ffi.new("ggpy_call *")
         check(lib.gg_simulation_on_stop, pointer, ffi.addressof(lib, "ggpy_stop"), self._stop)
+
+    @classmethod
+    def _one_of(cls, scene, stream, together):
+        """One of several that are stopped together, from their start to their last advance: their calls are one Call."""
+        made = cls.__new__(cls)
+        made._adopt(_started(scene, stream, together), scene, together)
+        return made
 
     @classmethod
     def _from_pointer(cls, pointer, scene):
@@ -143,20 +146,27 @@ class Simulation:
         made._adopt(pointer, scene)
         return made
 
+    @contextmanager
+    def _in_use(self):
+        """The pointer and the Call of a long call."""
+        call = self._together
+        with self._handle.held() as pointer:
+            if call is None:
+                call = calls.Call()
+                self._stop.stop, call.c = 0, self._stop
+            with serving(self._scene, call):
+                yield pointer, call
+
     def _advance(self, function, amount, recorder=None):
-        call, error, watcher = calls.Call(), new_error(), recorder or self._watcher
-        with self._handle.held() as pointer, serving(self._scene, call):
+        watcher = recorder or self._watcher
+        with self._in_use() as (pointer, call):
             watcher.install(pointer)
-            self._stop.stop, call.c, watcher.call = 0, self._stop, call
+            watcher.call = call
             try:
-                status = calls.interruptible(lambda: function(pointer, amount, error), call)
+                _interruptible(lambda error: function(pointer, amount, error), call)
             finally:
                 if watcher.finished():
                     check(lib.gg_simulation_on_collision, pointer, ffi.NULL, ffi.NULL)
-        if call.interrupted:
-            raise KeyboardInterrupt("the simulation can be advanced further")
-        if status != lib.GG_OK:
-            raise exception(status, error)
 
     def advance(self, time: float) -> Simulation:
         """Advances by a time. Raises RunFailed: inelastic collapse."""
@@ -207,9 +217,12 @@ class Simulation:
         if not isinstance(key, str):
             raise TypeError(f"a key of a scene is a text, not {type(key).__name__}")
         key = SHORT.get(key, key)
-        with self._handle.held() as pointer:
-            check(lib.gg_simulation_set, pointer, encode(key, "key"), encode(yaml.write(value), key))
-            self._scene = Scene._copy_of(lib.gg_simulation_scene(pointer), self._scene._extensions)
+        name, value = encode(key, "key"), encode(yaml.write(value), key)
+        with self._in_use() as (pointer, call):
+            try:
+                _interruptible(lambda error: lib.gg_simulation_set(pointer, name, value, error), call)
+            finally:  # Ctrl-C may come after the change
+                self._scene = Scene._copy_of(lib.gg_simulation_scene(pointer), self._scene._extensions)
 
     @property
     def state(self) -> Record:
@@ -246,8 +259,8 @@ class Simulation:
         The simulation is unchanged if this raises BadInput: a wrong shape, overlapping grains."""
         n = self.state.grains
         grains, kept, _ = grains_from(n, position=positions, velocity=velocities, spin=spins, species=species)
-        with self._handle.held() as pointer:
-            check(lib.gg_simulation_set_grains, pointer, grains, n)
+        with self._in_use() as (pointer, call):
+            _interruptible(lambda error: lib.gg_simulation_set_grains(pointer, grains, n, error), call)
         del kept
 
     @property
@@ -339,6 +352,33 @@ def _scene_or_null(scene):
     scene = as_scene(scene).copy()
     with scene.held() as pointer:
         yield scene, pointer
+
+
+def _interruptible(function, call, after="the simulation can be advanced further"):
+    """function(error), a call of the library that may take long; raises what it reports."""
+    error = new_error()
+    status = calls.interruptible(lambda: function(error), call)
+    if call.interrupted:
+        raise KeyboardInterrupt(after)
+    if status != lib.GG_OK:
+        raise exception(status, error)
+
+
+def _started(scene, stream, call, grains=None, kept=(), n=0):
+    """The pointer of a new simulation; Ctrl-C ends the start."""
+    made, options = ffi.new("gg_simulation **"), new("gg_start_options")
+    options.stream, options.context, options.stop = _stream(stream), call.c, ffi.addressof(lib, "ggpy_stop")
+    with scene.held() as pointer, serving(scene, call):
+        def start(error):
+            if kept:
+                return lib.gg_simulation_from_grains(pointer, grains, n, options, made, error)
+            return lib.gg_simulation_new(pointer, options, made, error)
+        try:
+            _interruptible(start, call, "the simulation was not started")
+        except BaseException:
+            lib.gg_simulation_free(made[0])
+            raise
+    return made[0]
 
 
 def species_of(function, pointer, n):

@@ -205,6 +205,49 @@ def test_interrupted(sim):
     assert sim.time == pytest.approx(before + 1)
 
 
+def interrupted_start(function):
+    """Ctrl-C half a second into a start that takes minutes: the test has no time for it."""
+    scene = gg.Scene(flow="hcs", phi=0.49, particles=300000, e=0.9, engine="md")
+    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt) as caught:
+        function(scene)
+    return str(caught.value)
+
+
+def test_interrupted_start():
+    assert interrupted_start(gg.Simulation) == "the simulation was not started"
+
+
+def test_interrupted_start_of_several():
+    interrupted_start(lambda scene: gg.relax(scene, 1, points=2, replicas=50, threads=2, engines="md"))
+    assert not [thread for thread in threading.enumerate() if thread.name == "graingas"]
+
+
+def test_interrupted_change():
+    """The grains are placed again; Ctrl-C before that changes nothing, after it comes out all the same."""
+    sim = gg.Simulation(gg.Scene(flow="usf", phi=0.3, particles=100000, e=0.9, engine="md"))
+    e, done = 0.9, False
+
+    def interrupt():
+        while not done:
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(0.2)
+    other = threading.Thread(target=interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        other.start()
+        while True:
+            sim["collision.e"] = e = 1.7 - e
+    while other.is_alive():
+        try:
+            done = True
+            other.join()
+        except KeyboardInterrupt:
+            pass
+    assert sim["collision.e"] in (e, 1.7 - e)
+    assert sim["collision.e"] == sim.copy()["collision.e"]  # which reads the library's scene
+    sim.collide(10)
+
+
 def test_two_simulations_in_two_threads(short):
     expected = [gg.Simulation(short, stream).collide(30000).hash for stream in (0, 1)]
     sims = [gg.Simulation(short, stream) for stream in (0, 1)]

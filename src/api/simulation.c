@@ -72,15 +72,22 @@ gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err)
   return s;
 }
 
-gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulation **simulation, gg_error *err)
+static gg_status check_stop(const gg_simulation *s, gg_error *err)
 {
-  GG_NEED(scene, simulation);
-  gg_simulation *s;
-  gg_scene at_start = *scene; /* it may be that of a simulation whose shear rate has changed */
-  at_start.clock_rate = GG_AUTO;
-  GG_TRY(gg_api_simulation_prepare(&at_start, &s, err));
-  const gg_engine_ops *ops = gg_run_engine_ops_of(s->scene.engine);
-  gg_status status = ops->create(&s->model, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
+  return gg_stop_asked(&s->stop) ? gg_base_fail(err, GG_INTERRUPTED, "stopped by its caller") : GG_OK;
+}
+
+/* Small systems start before the engine looks whether to stop. */
+gg_status gg_api_simulation_begin(gg_simulation *s, const gg_start_options *options, gg_error *err)
+{
+  if (options) s->asks = options->stop, s->asks_context = options->context;
+  return check_stop(s, err);
+}
+
+gg_status gg_api_simulation_started(gg_simulation *s, gg_status status, gg_simulation **simulation, gg_error *err)
+{
+  s->asks = NULL; /* that of the start */
+  status = gg_base_callback_settle(status, err);
   if (status != GG_OK) {
     gg_simulation_free(s);
     return status;
@@ -88,6 +95,22 @@ gg_status gg_simulation_new(const gg_scene *scene, uint64_t stream, gg_simulatio
   s->engine->ops->keep_sums(s->engine, true);
   *simulation = s;
   return GG_OK;
+}
+
+gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options *options, gg_simulation **simulation,
+                            gg_error *err)
+{
+  GG_NEED(scene, simulation);
+  gg_simulation *s;
+  gg_scene at_start = *scene; /* it may be that of a simulation whose shear rate has changed */
+  at_start.clock_rate = GG_AUTO;
+  GG_TRY(gg_api_simulation_prepare(&at_start, &s, err));
+  const uint64_t stream = options ? options->stream : 0;
+  gg_status status = gg_api_simulation_begin(s, options, err);
+  if (status == GG_OK)
+    status = gg_run_engine_ops_of(s->scene.engine)
+                 ->create(&s->model, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
+  return gg_api_simulation_started(s, status, simulation, err);
 }
 
 static uint64_t collisions(const gg_simulation *s)
@@ -157,8 +180,8 @@ static gg_status advance_once(gg_simulation *s, double *time, uint64_t *most, gg
 static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
 {
   GG_TRY(settle_callback(s, err)); /* of an advance that was stopped */
-  gg_status status = gg_stop_asked(s->model.stop) ? gg_base_fail(err, GG_INTERRUPTED, "stopped by its caller")
-                                                  : advance_once(s, time, most, err);
+  gg_status status = check_stop(s, err);
+  if (status == GG_OK) status = advance_once(s, time, most, err);
   return gg_base_callback_settle(status, err);
 }
 

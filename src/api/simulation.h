@@ -46,6 +46,10 @@ void gg_api_simulation_collect(gg_simulation *s);
 
 /* An empty one for a finished scene, without an engine yet. */
 gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simulation, gg_error *err);
+/* Before its engine is made: the caller's options, NULL or not; GG_INTERRUPTED if they stop it already. */
+gg_status gg_api_simulation_begin(gg_simulation *s, const gg_start_options *options, gg_error *err);
+/* After that, which ended with this status: *simulation is the new one, or it is freed. */
+gg_status gg_api_simulation_started(gg_simulation *s, gg_status status, gg_simulation **simulation, gg_error *err);
 
 /* simulation.c: one with the scene, model and clock of another, without engine and callbacks; NULL: out of memory. */
 gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err);

@@ -112,7 +112,6 @@ static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uin
     status = ops->create_with(m, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &a.grains, NULL, &s->engine, err);
   }
   gg_run_engine_grains_clear(&a);
-  if (status == GG_OK) s->engine->ops->keep_sums(s->engine, true);
   return status;
 }
 
@@ -128,8 +127,8 @@ static gg_status with_number(const gg_scene *scene, size_t n, gg_scene *counted,
   return gg_scene_override(counted, key, number, err);
 }
 
-gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grains, size_t n, uint64_t stream,
-                                    gg_simulation **simulation, gg_error *err)
+gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grains, size_t n,
+                                    const gg_start_options *options, gg_simulation **simulation, gg_error *err)
 {
   GG_NEED(scene, grains, simulation);
   gg_simulation *s;
@@ -137,12 +136,9 @@ gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grai
   GG_TRY(with_number(scene, n, &counted, err));
   counted.clock_rate = GG_AUTO; /* units of this start */
   GG_TRY(gg_api_simulation_prepare(&counted, &s, err));
-  gg_status status = create(s, grains, n, stream, err);
-  if (status == GG_OK)
-    *simulation = s;
-  else
-    gg_simulation_free(s);
-  return status;
+  gg_status status = gg_api_simulation_begin(s, options, err);
+  if (status == GG_OK) status = create(s, grains, n, options ? options->stream : 0, err);
+  return gg_api_simulation_started(s, status, simulation, err);
 }
 
 gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, const gg_grains *grains, gg_error *err)
@@ -158,7 +154,11 @@ gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, co
     status = ops->create_with(model, 0, 0, &a.grains, s->engine, &engine, err);
   }
   gg_run_engine_grains_clear(&a);
-  GG_TRY(status);
+  status = gg_base_callback_settle(status, err);
+  if (status != GG_OK) {
+    if (engine) ops->destroy(engine);
+    return status;
+  }
   status = gg_api_simulation_watch(s, engine, err);
   if (status != GG_OK) {
     ops->destroy(engine);

@@ -12,10 +12,10 @@ GG_WRITES(gg_simulation_get_species, gg_species_state, state,
           (simulation, species, state, err))
 GG_READS(gg_simulation_get_grains, gg_grains, into,
          (const gg_simulation *simulation, const gg_grains *into, gg_error *err, size_t size), (simulation, into, err))
-GG_READS(gg_simulation_from_grains, gg_grains, grains,
-         (const gg_scene *scene, const gg_grains *grains, size_t n, uint64_t stream, gg_simulation **simulation,
-          gg_error *err, size_t size),
-         (scene, grains, n, stream, simulation, err))
+GG_READS(gg_simulation_new, gg_start_options, options,
+         (const gg_scene *scene, const gg_start_options *options, gg_simulation **simulation, gg_error *err,
+          size_t size),
+         (scene, options, simulation, err))
 GG_READS(gg_simulation_set_grains, gg_grains, grains,
          (gg_simulation * simulation, const gg_grains *grains, size_t n, gg_error *err, size_t size),
          (simulation, grains, n, err))
@@ -84,6 +84,19 @@ GG_READS(gg_scene_add_observable, gg_observable_definition, definition,
 GG_READS(gg_scene_add_theory, gg_theory_definition, definition,
          (gg_scene * scene, const gg_theory_definition *definition, gg_error *err, size_t size),
          (scene, definition, err))
+
+gg_status gg_simulation_from_grains_sized(const gg_scene *scene, const gg_grains *grains, size_t n,
+                                          const gg_start_options *options, gg_simulation **simulation, gg_error *err,
+                                          size_t grains_size, size_t options_size)
+{
+  gg_grains all_grains = {0};
+  GG_SIZE(gg_grains, grains_size);
+  if (grains) memcpy(&all_grains, grains, grains_size);
+  gg_start_options all_options = {0};
+  GG_SIZE(gg_start_options, options_size);
+  if (options) memcpy(&all_options, options, options_size);
+  return gg_simulation_from_grains(scene, grains ? &all_grains : NULL, n, &all_options, simulation, err);
+}
 
 gg_status gg_trajectory_frame_sized(gg_trajectory *trajectory, size_t k, gg_simulation_state *state,
                                     const gg_grains *into, gg_error *err, size_t state_size, size_t into_size)

@@ -26,7 +26,7 @@ static gg_status fingerprint_of(const gg_scene *scene, uint64_t collisions, fing
   gg_status status = gg_scene_title(scene, f->title, sizeof f->title, err);
   if (status == GG_OK) status = gg_scene_get(scene, "engine", f->engine, sizeof f->engine, err);
   if (status == GG_OK) status = gg_scene_get(scene, "run.seed", f->seed, sizeof f->seed, err);
-  if (status == GG_OK) status = gg_simulation_new(scene, 0, &simulation, err);
+  if (status == GG_OK) status = gg_simulation_new(scene, NULL, &simulation, err);
   if (status == GG_OK) status = take(simulation, collisions, f, err);
   gg_simulation_free(simulation);
   return status;

@@ -26,12 +26,17 @@ static double guess_event_rate(const gg_md *e, double T)
   return e->n * fmax(rate, 1e-300);
 }
 
+static gg_status stopped_at_start(gg_error *err)
+{
+  return gg_base_fail(err, GG_INTERRUPTED, "md: stopped at the start");
+}
+
 /* Of a large system it takes a while. */
 static gg_status predict_all(gg_md *e, gg_error *err)
 {
   for (uint32_t from = 0, to; from < e->n; from = to) {
     to = e->n - from > GG_MD_GRAINS_BETWEEN_LOOKS ? from + GG_MD_GRAINS_BETWEEN_LOOKS : e->n;
-    if (from > 0 && gg_stop_asked(e->model.stop)) return gg_base_fail(err, GG_INTERRUPTED, "md: stopped at the start");
+    if (from > 0 && gg_stop_asked(e->model.stop)) return stopped_at_start(err);
     e->kernel->predict(e, from, to);
   }
   return GG_OK;
@@ -43,7 +48,7 @@ gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
   if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
   GG_TRY(gg_md_kicks_make(e, err));
   if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) {
-    gg_md_build_lists(e);
+    if (!gg_md_build_lists(e, e->model.stop)) return stopped_at_start(err);
   } else {
     gg_md_enter_grid(e);
     if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");

@@ -223,8 +223,9 @@ void gg_md_shift_rows_by_a_cell(gg_md *e);
 /* The cell along x of row y that a place is in now. */
 int32_t gg_md_cell_in_row(const gg_md *e, int32_t y, double x);
 
-/* lists.c: every grain's skin and list anew at the present time; the skins get smaller where lists overflow. */
-void gg_md_build_lists(gg_md *e);
+/* lists.c: every grain's skin and list anew at the present time; the skins get smaller where lists overflow. False: it
+ * was stopped, and lists are missing; `stop` NULL: never. */
+bool gg_md_build_lists(gg_md *e, const gg_stop *stop);
 
 /* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the queue re-tuned.
  * False if nothing will ever happen again. */

@@ -54,7 +54,7 @@ static gg_status scenes(things *t, gg_error *err)
 static gg_status steps(things *t, gg_error *err)
 {
   gg_simulation_state s;
-  STEP(gg_simulation_new(t->scene, 0, &t->simulation, err));
+  STEP(gg_simulation_new(t->scene, NULL, &t->simulation, err));
   STEP(gg_simulation_collide(t->simulation, 500, err));
   STEP(gg_simulation_get_state(t->simulation, &s, err));
   t->numbers[0] = s.temperature, t->numbers[1] = s.time, t->numbers[2] = (double)s.collisions;

@@ -57,9 +57,9 @@ static void simulations(void **state)
   gg_simulation_state now;
   gg_simulation_sums sums;
   gg_grains grains = {0};
-  assert_ok(gg_simulation_new(s, 0, &m, &err));
-  assert_missing(gg_simulation_new(NULL, 0, &other, &err));
-  assert_missing(gg_simulation_new(s, 0, NULL, &err));
+  assert_ok(gg_simulation_new(s, NULL, &m, &err));
+  assert_missing(gg_simulation_new(NULL, NULL, &other, &err));
+  assert_missing(gg_simulation_new(s, NULL, NULL, &err));
   assert_missing(gg_simulation_advance(NULL, 1, &err));
   assert_missing(gg_simulation_collide(NULL, 1, &err));
   assert_missing(gg_simulation_get_state(NULL, &now, &err));
@@ -377,7 +377,7 @@ static void beyond_the_ends(void **state)
   gg_simulation *m = NULL;
   gg_species_state species;
   gg_simulation_state now;
-  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_ok(gg_simulation_new(s, NULL, &m, &err));
   assert_int_equal(gg_simulation_species(NULL), 0);
   assert_int_equal(gg_simulation_species(m), 1);
   assert_missing(gg_simulation_get_species(NULL, 0, &species, &err));

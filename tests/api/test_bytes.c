@@ -92,7 +92,7 @@ static void simulations(void **state)
   gg_simulation *m = NULL, *back = NULL, *again = NULL, *none = NULL;
   void *bytes = NULL;
   size_t size = 0, file_size = 0;
-  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_ok(gg_simulation_new(s, NULL, &m, &err));
   assert_ok(gg_simulation_collide(m, 500, &err));
   assert_ok(gg_simulation_to_bytes(m, &bytes, &size, &err));
   assert_ok(gg_simulation_save(m, "t_saved.h5", &err));

@@ -170,7 +170,7 @@ static void simulations(void **state)
   gg_error err;
   gg_scene *s = scene_of(small);
   gg_simulation *sim = NULL;
-  assert_ok(gg_simulation_new(s, 0, &sim, &err));
+  assert_ok(gg_simulation_new(s, NULL, &sim, &err));
   assert_ok(gg_simulation_on_collision(sim, seen, NULL, &err));
   arm(7);
   assert_callback_failed(gg_simulation_collide(sim, 100000, &err));

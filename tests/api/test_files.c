@@ -158,7 +158,7 @@ static void checkpoints_of_others(void **state)
   gg_comparison_free(c);
   gg_result_free(r);
   r = NULL, c = NULL;
-  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_ok(gg_simulation_new(s, NULL, &m, &err));
   assert_ok(gg_simulation_save(m, "t_simulation.h5", &err));
   gg_simulation_free(m);
   m = NULL;

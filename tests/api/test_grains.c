@@ -15,7 +15,7 @@ static gg_simulation *simulation_of(const char *yaml)
   gg_error err;
   gg_simulation *m = NULL;
   gg_scene *s = scene_of(yaml);
-  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_ok(gg_simulation_new(s, NULL, &m, &err));
   gg_scene_free(s);
   return m;
 }
@@ -25,7 +25,7 @@ static gg_simulation *from_grains(const char *yaml, const gg_grains *grains, siz
   gg_error err;
   gg_simulation *m = NULL;
   gg_scene *s = scene_of(yaml);
-  assert_ok(gg_simulation_from_grains(s, grains, n, 0, &m, &err));
+  assert_ok(gg_simulation_from_grains(s, grains, n, NULL, &m, &err));
   gg_scene_free(s);
   return m;
 }
@@ -303,11 +303,11 @@ static void refusals(void **state)
   gg_scene *s = scene_of(gases[6].yaml);
   gg_simulation *none = NULL;
   const gg_grains unnamed = {position, velocity, NULL, NULL};
-  assert_refused(gg_simulation_from_grains(s, &unnamed, 300, 0, &none, &err), "give the species");
-  assert_refused(gg_simulation_from_grains(s, &moving, 300, 0, &none, &err), "the scene's fractions");
+  assert_refused(gg_simulation_from_grains(s, &unnamed, 300, NULL, &none, &err), "give the species");
+  assert_refused(gg_simulation_from_grains(s, &moving, 300, NULL, &none, &err), "the scene's fractions");
   species[299] = last;
-  assert_refused(gg_simulation_from_grains(s, &moving, 300, 0, &none, &err), "need positions");
-  assert_refused(gg_simulation_from_grains(s, &all, 299, 0, &none, &err), "299 grains; the scene has 300");
+  assert_refused(gg_simulation_from_grains(s, &moving, 300, NULL, &none, &err), "need positions");
+  assert_refused(gg_simulation_from_grains(s, &all, 299, NULL, &none, &err), "299 grains; the scene has 300");
   assert_null(none);
   gg_scene_free(s);
   gg_simulation_free(m);
@@ -495,7 +495,7 @@ static void shear_rates_on_the_way(void **state)
     assert_ok(gg_scene_get(gg_simulation_scene(loaded), "shear_rate", text, sizeof text, &err));
     assert_string_equal(text, "1.5");
     assert_refused(gg_simulation_set(loaded, "shear_rate", "3001", &err), "from 0.003 to 3000");
-    assert_ok(gg_simulation_new(gg_simulation_scene(m), 0, &another, &err)); /* another one has units of its own */
+    assert_ok(gg_simulation_new(gg_simulation_scene(m), NULL, &another, &err)); /* another one has units of its own */
     assert_ok(gg_simulation_advance(another, 1, &err));
     assert_true(fabs(state_of(another).strain - state_of(another).time) < 1e-12);
     gg_simulation_free(m);

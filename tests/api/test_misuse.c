@@ -15,7 +15,7 @@ static gg_simulation *simulation_of(const char *yaml)
   gg_error err;
   gg_simulation *m = NULL;
   gg_scene *s = scene_of(yaml);
-  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_ok(gg_simulation_new(s, NULL, &m, &err));
   gg_scene_free(s);
   return m;
 }

@@ -125,7 +125,7 @@ static void refused(void **state)
   assert_no_trajectory("t_damaged.h5", GG_BAD_FILE, "its checksum does not match");
   gg_simulation *m = NULL;
   gg_scene *s = scene_of(COOLING);
-  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_ok(gg_simulation_new(s, NULL, &m, &err));
   assert_ok(gg_simulation_save(m, "t_checkpoint.h5", &err));
   assert_no_trajectory("t_checkpoint.h5", GG_BAD_FILE, "it is a checkpoint");
   gg_simulation_free(m);
@@ -170,7 +170,7 @@ static void cooling(void **state)
   gg_simulation *m = NULL;
   gg_scene *s = scene_of(COOLING);
   gg_simulation_state now;
-  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_ok(gg_simulation_new(s, NULL, &m, &err));
   assert_ok(gg_simulation_advance(m, 6 / zeta, &err)); /* to T_0/16 */
   assert_ok(gg_simulation_get_state(m, &now, &err));
   assert_ok(gg_comparison_theory_cooling(c, "garzo_dufty1999", now.time, &T, &err));

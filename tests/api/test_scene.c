@@ -50,7 +50,7 @@ static void used_incomplete(void **state)
   gg_comparison *c = NULL;
   assert_refused(gg_scene_check(s, &err), "flow is missing");
   assert_refused(gg_run(s, NULL, &r, &err), "flow is missing");
-  assert_refused(gg_simulation_new(s, 0, &m, &err), "flow is missing");
+  assert_refused(gg_simulation_new(s, NULL, &m, &err), "flow is missing");
   assert_refused(gg_compare(s, NULL, &c, &err), "flow is missing");
   assert_refused(gg_theories_evaluate(s, NULL, &c, &err), "flow is missing");
   assert_ok(gg_scene_set(s, "flow", "chute", &err));

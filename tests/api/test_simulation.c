@@ -10,7 +10,7 @@ static gg_simulation *simulation_of(const char *yaml)
   gg_error err;
   gg_simulation *m = NULL;
   gg_scene *s = scene_of(yaml);
-  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_ok(gg_simulation_new(s, NULL, &m, &err));
   gg_scene_free(s); /* a simulation has its own copy */
   return m;
 }
@@ -313,7 +313,7 @@ static void starts(void **state)
   gg_simulation *m[2];
   double x[2];
   for (int k = 0; k < 2; k++) {
-    assert_ok(gg_simulation_new(s, (uint64_t)k, &m[k], &err));
+    assert_ok(gg_simulation_new(s, &(gg_start_options){.stream = (uint64_t)k}, &m[k], &err));
     take_grains(m[k], 0);
     x[k] = velocity[0];
   }
@@ -325,7 +325,7 @@ static void starts(void **state)
   for (int k = 0; k < 2; k++) gg_simulation_free(m[k]);
   assert_ok(gg_scene_set(s, "phi", "0", &err));
   assert_ok(gg_scene_set(s, "engine", "md", &err));
-  assert_refused(gg_simulation_new(s, 0, &m[0], &err), "phi");
+  assert_refused(gg_simulation_new(s, NULL, &m[0], &err), "phi");
   gg_scene_free(s);
 }
 
@@ -372,7 +372,7 @@ static void facts_of_the_start(void **state)
     gg_comparison *c = NULL;
     gg_simulation *m = NULL;
     assert_ok(gg_theories_evaluate(s, "noting", &c, &err));
-    assert_ok(gg_simulation_new(s, 0, &m, &err));
+    assert_ok(gg_simulation_new(s, NULL, &m, &err));
     gg_simulation_state now = state_of(m);
     double T = now.temperature;
     if (strstr(scenes[k / 2], "couette")) { /* less the laminar profile, of rate 1 */
@@ -412,8 +412,8 @@ static void stopped(void **state)
     gg_scene *s = scene_of(scenes[k]);
     gg_simulation *whole = NULL, *cut = NULL;
     gg_simulation_state one, two = {0};
-    assert_ok(gg_simulation_new(s, 0, &whole, &err));
-    assert_ok(gg_simulation_new(s, 0, &cut, &err));
+    assert_ok(gg_simulation_new(s, NULL, &whole, &err));
+    assert_ok(gg_simulation_new(s, NULL, &cut, &err));
     int left = 3, stops = 0;
     double reached = 0;
     assert_ok(gg_simulation_on_stop(cut, after_some, &left, &err));
@@ -472,7 +472,7 @@ static void walls_have_names(void **state)
   gg_error err;
   gg_scene *s = scene_of("{flow: couette, engine: md, phi: 0.05, particles: 100}");
   gg_simulation *m = NULL;
-  assert_ok(gg_simulation_new(s, 0, &m, &err));
+  assert_ok(gg_simulation_new(s, NULL, &m, &err));
   assert_string_equal(gg_simulation_wall(m, 0), "lower");
   assert_string_equal(gg_simulation_wall(m, 1), "upper");
   assert_null(gg_simulation_wall(m, 2));

@@ -431,7 +431,7 @@ static void laws_refused(void **state)
   for (int k = 0; k < 2; k++) {
     if (k) assert_ok(gg_scene_set_restitution(s, "softening", softening, NULL, &err));
     if (k) assert_ok(gg_scene_set_restitution(s, NULL, NULL, NULL, &err));
-    assert_ok(gg_simulation_new(s, 0, &m[k], &err));
+    assert_ok(gg_simulation_new(s, NULL, &m[k], &err));
     assert_ok(gg_simulation_collide(m[k], 500, &err));
     assert_ok(gg_simulation_get_state(m[k], &now[k], &err));
     gg_simulation_free(m[k]);

@@ -5,7 +5,8 @@
  * FOLDER/result.json: the result; interface.json: the same, asked one by one; samples.bin: what an observable is shown;
  * grains.bin, sums.bin, events.bin: the simulations of the same streams at the samples' times and in between, of all
  * replicas; rule.bin: states of both grains around COLLISIONS single collisions. Every number is a double. SAMPLES: the
- * run is stopped after so many of all replicas together, in the midst of one. Without COLLISIONS no grains are stored. */
+ * run is stopped after so many of all replicas together, in the midst of one. Without COLLISIONS no grains are stored.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -137,7 +138,7 @@ static void follow(recorder *r, const gg_scene *scene, int replica)
   gg_simulation *s;
   gg_simulation_sums sums;
   room now = {0};
-  must(gg_simulation_new(scene, (uint64_t)replica, &s, &err), &err);
+  must(gg_simulation_new(scene, &(gg_start_options){.stream = (uint64_t)replica}, &s, &err), &err);
   must(gg_simulation_on_collision(s, on_collision, r, &err), &err);
   r->replica = replica;
   for (size_t i = 0; i < r->n[replica]; i++) {
@@ -176,7 +177,7 @@ static void single_collisions(recorder *r, const gg_scene *scene, int collisions
   gg_error err;
   gg_simulation *s;
   room before = {0}, after = {0};
-  must(gg_simulation_new(scene, 0, &s, &err), &err);
+  must(gg_simulation_new(scene, NULL, &s, &err), &err);
   must(gg_simulation_on_collision(s, on_collision, r, &err), &err);
   r->replica = -1;
   for (int i = 0; i < collisions; i++) {

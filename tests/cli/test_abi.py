@@ -106,7 +106,7 @@ int main(void)
   gg_status status = gg_scene_parse("{flow: equilibrium, phi: 0.1, particles: 100, run: {collisions: 200}}", 0, &scene, &err);
   if (!status) status = gg_run(scene, &three.o, &result, &err);
   if (!status) status = gg_result_find(result, "pressure", &one.m, &err);
-  if (!status) status = gg_simulation_new(scene, 0, &simulation, &err);
+  if (!status) status = gg_simulation_new(scene, NULL, &simulation, &err);
   if (!status) status = gg_simulation_collide(simulation, 100, &err);
   if (!status) status = gg_simulation_take_sums(simulation, &two.s, &err);
   if (status) return printf("%d %s\n", status, err.message), 0;

@@ -80,7 +80,7 @@ void corner_compare_plain(const gg_scene *scene, finding *f)
   gg_md *reference = NULL;
   course *fast = calloc(2, sizeof *fast), *plain = fast ? fast + 1 : NULL;
   gg_engine_grains grains = {0};
-  bool made = fast && gg_simulation_new(scene, 0, &g, NULL) == GG_OK &&
+  bool made = fast && gg_simulation_new(scene, NULL, &g, NULL) == GG_OK &&
               gg_run_engine_grains_make(&grains, (size_t)g->model.n, NULL) == GG_OK;
   if (made) {
     gg_run_engine_grains_read(g->engine, &g->model, &grains);

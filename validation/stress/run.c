@@ -155,7 +155,7 @@ void corner_run(const corner *c, const char *engine, finding *f)
   const double begin = cpu_now();
   double until = INFINITY;
   gg_status status = prepare(c, engine, &scene, &err);
-  if (status == GG_OK) status = gg_simulation_new(scene, 0, &g, &err);
+  if (status == GG_OK) status = gg_simulation_new(scene, NULL, &g, &err);
   f->refused = status != GG_OK;
   if (status == GG_OK && c->start) c->start(g);
   if (status == GG_OK && !(sample_new(&s, g) && sample_new(&other, g)))

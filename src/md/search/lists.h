@@ -113,7 +113,7 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
     e->lists_are_full = true;
     return;
   }
-  gg_md_build_lists(e);
+  gg_md_build_lists(e, NULL);
   e->kernel->predict(e, 0, e->n);
 }
 

@@ -11,6 +11,7 @@
 
 /* From so many grains on: places of smaller systems are in stored results. */
 enum { LARGE = 50000, FEWEST_CELLS = 3 };
+enum { BETWEEN_LOOKS = 1 << 14 }; /* grains: some milliseconds */
 /* Pairs are moved further than to where they leave each other alone: fewer sweeps. Lists are used for so many sweeps at
  * least, while too much moves for them to be complete. */
 #define BEYOND 1.5
@@ -120,12 +121,20 @@ static bool list_cell(lists *l, uint32_t i, uint32_t cell, bool own, size_t *n)
   return true;
 }
 
+/* Asked at every grain, it looks at some. */
+static gg_status check_stop(const lists *l, uint32_t i, gg_error *err)
+{
+  if (i == 0 || i % BETWEEN_LOOKS != 0 || !gg_stop_asked(l->p->stop)) return GG_OK;
+  return gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
+}
+
 /* All pairs, each once: with the own cell and the thirteen behind it. */
-static bool make_lists(lists *l)
+static gg_status make_lists(lists *l, gg_error *err)
 {
   enter_cells(l);
   size_t n = 0;
   for (uint32_t i = 0; i < l->p->n; i++) {
+    GG_TRY(check_stop(l, i, err));
     const int32_t c = (int32_t)l->cell[i], at[3] = {c % l->n[0], c / l->n[0] % l->n[1], c / (l->n[0] * l->n[1])};
     l->from[i] = n;
     for (int q = 13; q < 27; q++) {
@@ -134,12 +143,13 @@ static bool make_lists(lists *l)
         const int32_t k = at[a] + step[a];
         cell = cell * (uint32_t)l->n[a] + (uint32_t)(k < 0 ? k + l->n[a] : k >= l->n[a] ? k - l->n[a] : k);
       }
-      if (!list_cell(l, i, cell, q == 13, &n)) return false;
+      if (!list_cell(l, i, cell, q == 13, &n))
+        return gg_base_out_of_memory_for(err, "the lists of grains that overlap");
     }
   }
   l->from[l->p->n] = n;
   l->farthest2 = 0;
-  return true;
+  return GG_OK;
 }
 
 GG_INLINE void move(lists *l, uint32_t i, double by, gg_vec dr, uint16_t sweep, bool overlaps)
@@ -176,8 +186,7 @@ static gg_status sweep_lists(lists *l, uint16_t sweep, bool pushing, gg_error *e
   const gg_md_packing *p = l->p;
   l->overlaps = 0;
   for (uint32_t i = 0; i < p->n; i++) {
-    if (i % (1 << 14) == 0 && i > 0 && gg_stop_asked(p->stop))
-      return gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
+    GG_TRY(check_stop(l, i, err));
     const bool tried = l->all || !pushing || l->tried_to[i] >= sweep;
     for (size_t k = l->from[i]; k < l->from[i + 1]; k++) {
       const uint32_t j = l->neighbour[k];
@@ -199,8 +208,10 @@ static gg_status relax(lists *l, int most_sweeps, bool *free, gg_error *err)
   l->farthest2 = INFINITY;
   for (int k = 0, age = 0; k < most_sweeps && !*free; k++, age++) {
     l->all = !are_complete(l) && (k == 0 || age >= LISTED_SWEEPS || l->overlaps == 0);
-    if (l->all && !make_lists(l)) return gg_base_out_of_memory_for(err, "the lists of grains that overlap");
-    if (l->all) age = 0;
+    if (l->all) {
+      GG_TRY(make_lists(l, err));
+      age = 0;
+    }
     GG_TRY(sweep_lists(l, (uint16_t)k, true, err));
     if (l->overlaps || !are_complete(l)) continue;
     GG_TRY(sweep_lists(l, (uint16_t)k, false, err));
