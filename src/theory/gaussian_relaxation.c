@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "common/thermostat.h"
+#include "theory/answer.h"
 #include "theory/gaussian_moments.h"
 #include "theory/relaxation.h"
 
@@ -44,6 +45,42 @@ static void add_thermostat(const gg_model *m, const gg_gaussian state[], gg_gaus
       r->change[i].M.at[a][a] += noise;
       for (int b = 0; b < 3; b++) r->change[i].M.at[a][b] -= scale * state[i].M.at[a][b];
     }
+}
+
+/* What the bath changes, and what it brings and takes per volume; a negative drag brings. */
+static void add_bath(const gg_model *m, const gg_gaussian *state, int i, gg_gaussian *change, double flow[2])
+{
+  const gg_bath *b = &m->bath;
+  const double n = m->density * gg_theory_fraction(m, i) * m->mass[i], nK = n * m->inertia[i];
+  const double slip = state[i].spin - gg_model_rolling(m, i), C2 = gg_theory_trace(state[i].M);
+  for (int a = 0; a < 3; a++) {
+    for (int c = 0; c < 3; c++) change->M.at[a][c] -= 2 * b->drag[i] * state[i].M.at[a][c];
+    change->M.at[a][a] += b->noise[i];
+  }
+  flow[b->drag[i] > 0] += n * fabs(b->drag[i]) * C2;
+  flow[0] += 1.5 * n * b->noise[i];
+  if (!gg_theory_species_spins(m, i)) return;
+  for (int a = 0; a < 3; a++) {
+    for (int c = 0; c < 3; c++) change->Theta.at[a][c] -= 2 * b->spin_drag[i] * state[i].Theta.at[a][c];
+    change->Theta.at[a][a] += b->spin_noise[i];
+  }
+  change->spin -= b->spin_drag[i] * slip;
+  flow[1] += nK * b->spin_drag[i] * (gg_theory_trace(state[i].Theta) + state[i].spin * slip);
+  flow[0] += 1.5 * nK * b->spin_noise[i];
+}
+
+void gg_theory_gaussian_changes_at(const gg_model *m, const gg_gaussian *state, gg_gaussian_rates *r, double flow[2])
+{
+  gg_theory_gaussian_rates_at(m, state, r);
+  flow[0] = flow[1] = 0;
+  for (int i = 0; i < m->n_species; i++) {
+    const double xy = state[i].M.at[0][1], yy = state[i].M.at[1][1];
+    gg_gaussian *change = &r->change[i];
+    change->M.at[0][0] -= 2 * m->shear_rate * xy;
+    change->M.at[0][1] -= m->shear_rate * yy;
+    change->M.at[1][0] -= m->shear_rate * yy;
+    if (m->bath.on) add_bath(m, state, i, change, flow);
+  }
 }
 
 static void rates_at(const gg_model *m, const gg_gaussian state[], gg_gaussian_rates *r)

@@ -6,15 +6,20 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multiroots.h>
 #include <math.h>
+#include <string.h>
 
 #include "theory/answer.h"
 #include "theory/gaussian_moments.h"
 #include "theory/lun1991.h"
+#include "theory/relaxation.h"
 
 enum { PER_TENSOR = 4, MAX_STEPS = 200, MAX_ATTEMPTS = 4, RELAXATION_STEPS = 100 };
 
 /* Residual aimed at; one that is close to it; step of relaxation, in the same times. */
 static const double converged = 1e-13, nearby = 1e-5, relaxation_step = 0.3;
+
+/* Of ln T: a steady state that is so near is the one that a gas in a bath goes to. Processor time of that way. */
+static const double near_by = 0.1, seconds_to_follow = 1;
 
 /* Weight of relative residuals, of the balance of energy and of shear stresses. Nearly elastic grains do not shear
  * fast: with s the ratio of the shear rate to that of collisions these equations are, in units of T, of order s^2 and
@@ -124,42 +129,6 @@ typedef struct gg_production {
   gg_gaussian change[GG_MAX_SPECIES];
   double excess, shear[GG_MAX_SPECIES];
 } gg_production;
-
-/* What the bath changes, and what it brings and takes per volume; a negative drag brings. */
-static void add_bath(const gg_model *m, const gg_gaussian *state, int i, gg_gaussian *change, double flow[2])
-{
-  const gg_bath *b = &m->bath;
-  const double n = m->density * gg_theory_fraction(m, i) * m->mass[i], nK = n * m->inertia[i];
-  const double slip = state[i].spin - gg_model_rolling(m, i), C2 = gg_theory_trace(state[i].M);
-  for (int a = 0; a < 3; a++) {
-    for (int c = 0; c < 3; c++) change->M.at[a][c] -= 2 * b->drag[i] * state[i].M.at[a][c];
-    change->M.at[a][a] += b->noise[i];
-  }
-  flow[b->drag[i] > 0] += n * fabs(b->drag[i]) * C2;
-  flow[0] += 1.5 * n * b->noise[i];
-  if (!gg_theory_species_spins(m, i)) return;
-  for (int a = 0; a < 3; a++) {
-    for (int c = 0; c < 3; c++) change->Theta.at[a][c] -= 2 * b->spin_drag[i] * state[i].Theta.at[a][c];
-    change->Theta.at[a][a] += b->spin_noise[i];
-  }
-  change->spin -= b->spin_drag[i] * slip;
-  flow[1] += nK * b->spin_drag[i] * (gg_theory_trace(state[i].Theta) + state[i].spin * slip);
-  flow[0] += 1.5 * nK * b->spin_noise[i];
-}
-
-void gg_theory_gaussian_changes_at(const gg_model *m, const gg_gaussian *state, gg_gaussian_rates *r, double flow[2])
-{
-  gg_theory_gaussian_rates_at(m, state, r);
-  flow[0] = flow[1] = 0;
-  for (int i = 0; i < m->n_species; i++) {
-    const double xy = state[i].M.at[0][1], yy = state[i].M.at[1][1];
-    gg_gaussian *change = &r->change[i];
-    change->M.at[0][0] -= 2 * m->shear_rate * xy;
-    change->M.at[0][1] -= m->shear_rate * yy;
-    change->M.at[1][0] -= m->shear_rate * yy;
-    if (m->bath.on) add_bath(m, state, i, change, flow);
-  }
-}
 
 static void production(const gg_model *m, const gg_gaussian *state, gg_production *p)
 {
@@ -311,6 +280,55 @@ static size_t unknowns(const closure *c)
   return n;
 }
 
+static double temperature_of(const gg_model *m, const gg_gaussian state[])
+{
+  double T = 0;
+  for (int i = 0; i < m->n_species; i++) T += gg_theory_fraction(m, i) * m->mass[i] * gg_theory_trace(state[i].M) / 3;
+  return T;
+}
+
+/* The steady state next to the present one, into x: its residual; INFINITY where the gas does not come closer to it:
+ * it is unstable, or another one. */
+static double settle(const closure *c, gsl_multiroot_fsolver *solver, gsl_multiroot_function *f,
+                     const gg_gaussian before[], const gg_gaussian now[], gsl_vector *x)
+{
+  gg_gaussian found[GG_MAX_SPECIES];
+  pack(c, now, x);
+  const double left = improve(solver, f, x);
+  unpack(c, x, found);
+  const double T = temperature_of(c->model, found), to_go = fabs(log(T / temperature_of(c->model, now)));
+  return to_go < near_by && to_go <= fabs(log(T / temperature_of(c->model, before))) ? left : INFINITY;
+}
+
+static double slowest_drag(const gg_model *m)
+{
+  double drag = INFINITY;
+  for (int i = 0; i < m->n_species; i++) drag = fmin(drag, fabs(m->bath.drag[i]));
+  return drag;
+}
+
+/* The moments in time from the start of the scene, up to a steady state; first until all but the temperature has
+ * forgotten the start. Where time is long beside that of collisions the work that is allowed ends before: what is left
+ * is x, from which energy alone decides. */
+static double follow(const closure *c, gsl_multiroot_fsolver *solver, gsl_multiroot_function *f, gsl_vector *x)
+{
+  const double forgetting = 10, drag = slowest_drag(c->model);
+  gg_relaxing gas = {.work = seconds_to_follow};
+  double stretch = 1 / c->model->shear_rate, time = 0, left = INFINITY;
+  gg_theory_gaussian_start(c->model, gas.of);
+  for (; gas.work > 0 && !(left < converged); stretch *= 1.5) {
+    gg_gaussian before[GG_MAX_SPECIES];
+    memcpy(before, gas.of, sizeof before);
+    gg_theory_gaussian_relax(c->model, stretch, &gas);
+    time += stretch;
+    const double change = log(temperature_of(c->model, gas.of) / temperature_of(c->model, before));
+    if (fabs(change) < near_by && gas.collisions + 2 * drag * time > forgetting)
+      left = settle(c, solver, f, before, gas.of, x);
+  }
+  if (!(left < converged)) pack(c, gas.of, x);
+  return left;
+}
+
 double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state)
 {
   closure c = closure_of(model);
@@ -321,14 +339,17 @@ double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state)
   double left = NAN;
   if (solver && x) {
     start(&c, x);
-    /* In a bath there may be several states: the one that the gas relaxes to. */
-    if (model->bath.on) relax(&c, x, 3 * RELAXATION_STEPS);
-    left = improve(solver, &f, x);
+    left = INFINITY;
+    /* In a bath there may be several states: the one that the gas goes to in time. */
+    if (model->bath.on) left = follow(&c, solver, &f, x);
+    if (!(left < converged)) left = improve(solver, &f, x);
     /* A stall close by is a stale Jacobian: continue from there. Far away the start was too far off: relax first; in a
      * bath also where a state nearly exists, which it may leave slowly. */
     for (int attempt = 1; attempt <= MAX_ATTEMPTS && !(left < converged); attempt++) {
-      if (model->bath.on || !(left < nearby))
-        start(&c, x), relax(&c, x, (model->bath.on ? 10 : 1) * attempt * RELAXATION_STEPS);
+      if (model->bath.on)
+        relax(&c, x, 10 * attempt * RELAXATION_STEPS);
+      else if (!(left < nearby))
+        start(&c, x), relax(&c, x, attempt * RELAXATION_STEPS);
       left = improve(solver, &f, x);
     }
     unpack(&c, x, state);

@@ -4,6 +4,7 @@
 #include "theory_test.h"
 
 #include "common/thermostat.h"
+#include "theory/relaxation.h"
 
 static gg_scene bath(gg_flow flow, double phi, double e, double beta, double drag, double T)
 {
@@ -208,6 +209,24 @@ static void relaxation(void **state)
   }
 }
 
+/* Which of two states a start leads to is what its moments come to in time; the state between them (T = 7.5) is
+ * unstable, and no start leads there. */
+static void start_decides(void **state)
+{
+  (void)state;
+  const double starts[] = {3, 5, 6, 400};
+  for (size_t k = 0; k < sizeof starts / sizeof *starts; k++) {
+    gg_scene s = bath(GG_USF, 0.005, 0.9, -1, 0.18, 0.01);
+    s.temperature = starts[k];
+    gg_model m = model_of(&s);
+    const double T = value_of(&gg_theory_gaussian_closure, &m, GG_Q_TEMPERATURE);
+    gg_relaxing x = gg_theory_relaxation_start(&m);
+    gg_theory_relax(&m, 500, &x);
+    assert_close(x.T, k < 2 ? 0.11718 : 94.43, 1e-3);
+    assert_close(T, x.T, 1e-3);
+  }
+}
+
 /* A sheared suspension has a hot and a cold state at one drag, also close to where they end: Monte Carlo has a hot
  * one of T = 78.03(22) at drag .18. At .16 the cold one is close to its end. */
 static void two_states(void **state)
@@ -248,7 +267,7 @@ int main(void)
       cmocka_unit_test(balance),     cmocka_unit_test(elastic),       cmocka_unit_test(rotation),
       cmocka_unit_test(white_noise), cmocka_unit_test(gaussian_rate), cmocka_unit_test(sheared),
       cmocka_unit_test(energy),      cmocka_unit_test(mixtures),      cmocka_unit_test(relaxation),
-      cmocka_unit_test(two_states),  cmocka_unit_test(refused),
+      cmocka_unit_test(two_states),  cmocka_unit_test(start_decides), cmocka_unit_test(refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
