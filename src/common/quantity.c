@@ -219,8 +219,6 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
       {GG_NEEDS_HEAT_FLUX, m->shear_rate != 0 || m->walled || heated, "only in cooling gases and at rest"},
       {GG_NEEDS_HEAT_FLUX, m->n_species > 1 || m->rule == GG_FRICTIONAL, "measured of one species without friction"},
       {GG_NEEDS_HEAT_FLUX, !smooth && !m->homogeneous, "of rough grains needs engine: dsmc"},
-      {GG_NEEDS_HEAT_FLUX, !smooth && !m->elastic && !m->boltzmann,
-       "of rough grains that lose energy only at phi: 0"}, /* dense, kappa_r comes out 1 to 2.5 % low */
       {GG_NEEDS_HEAT_FLUX, m->law.name != NULL, "with a law of restitution the cooling gas is never the same"},
       {GG_NEEDS_HEAT_FLUX, !m->homogeneous && !fluctuates, "needs engine: dsmc, or elastic grains"},
       {GG_NEEDS_MIXTURE, m->n_species == 1, "there is one species only"},
@@ -245,7 +243,7 @@ const char *gg_common_quantity_when(gg_quantity q, char *text, size_t size)
       {GG_NEEDS_LINEAR_RESPONSE, "flow: small_shear; md of elastic grains at rest with measure: helfand"},
       {GG_NEEDS_FLUCTUATIONS, "md of elastic grains at rest with measure: helfand"},
       {GG_NEEDS_HEAT_FLUX, "dsmc with measure: conductivity, cooling or at rest; md of elastic grains with measure: "
-                           "helfand (smooth grains); one species, rough ones at phi: 0 or elastic"},
+                           "helfand (smooth grains); one species"},
       {GG_NEEDS_SPINS, "rough grains"},
       {GG_NEEDS_MEAN_SPIN, "shear without walls, phi above 0"},
       {GG_NEEDS_SHEAR, "shear"},

@@ -133,7 +133,8 @@ static void sources(const double *mean, const gg_heat_layout *l, density d, doub
   const double distant = 4 * M_PI / 3 * d.frequency;
   for (int m = 0; m < l->n; m++) {
     const double pressed = mean[l->diverged + m], projected = mean[l->projected + m];
-    s[0][m] = (1 + d.y) * pressed - (gg_heat_degree[m] + 1) / 2. * projected + distant * mean[l->distant_T + m];
+    s[0][m] =
+        (1 + d.y) * pressed - (gg_heat_functions[m].degree + 1) / 2. * projected + distant * mean[l->distant_T + m];
     s[1][m] = (1 + d.y * (2 + d.slope)) * pressed - projected + (1 + d.slope / 2) * distant * mean[l->distant_n + m];
   }
 }

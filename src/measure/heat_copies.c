@@ -7,8 +7,7 @@
 
 #include "base/memory.h"
 
-enum { C1, C2, C3, SPINS, FAST_SPINS, ALONG, FAST_ALONG, ACROSS }; /* functions b */
-enum { SPIN = 3, WEIGHTS = 6 };                                    /* of a grain */
+enum { SPIN = 3, WEIGHTS = 6 }; /* of a grain */
 
 static double inertia_of(const gg_model *m)
 {
@@ -23,7 +22,7 @@ gg_heat_layout gg_measure_heat_layout(const gg_model *m)
   l.overlap = l.carried + 2, l.at_lag = l.overlap + n * n;
   l.fading = 1, l.kept = 2, l.flux[0] = 2 + n * n, l.flux[1] = l.flux[0] + f * n, l.lag = l.flux[1] + f * n;
   l.channels = l.at_lag + l.lag;
-  l.steps = n == GG_HEAT_SMOOTH ? 4 : GG_HEAT_STEPS; /* with 4 kappa_r of rough grains is 1 % low */
+  l.steps = n == GG_HEAT_SMOOTH ? 4 : GG_HEAT_STEPS; /* with 4 kappa_r is 0.2 % low */
   return l;
 }
 
@@ -40,43 +39,6 @@ void gg_measure_heat_copies_clear(gg_heat_copies *d)
   free(d->grain);
 }
 
-static double dot(const double *a, const double *b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static double crossed(const double *a, const double *b, int axis)
-{
-  const int j = (axis + 1) % 3, k = (axis + 2) % 3;
-  return a[j] * b[k] - a[k] * b[j];
-}
-
-/* A component of b, C = |c|. */
-static inline void functions(int n, double C, const double *c, const double *s, int axis, double *b)
-{
-  double p = c[axis];
-  for (int k = C1; k <= C3; k++) b[k] = p *= C;
-  if (n == GG_HEAT_SMOOTH) return;
-  b[SPINS] = c[axis] * dot(s, s);
-  b[ALONG] = s[axis] * dot(c, s);
-  b[FAST_SPINS] = C * b[SPINS], b[FAST_ALONG] = C * b[ALONG];
-  b[ACROSS] = crossed(s, c, axis);
-}
-
-/* What it grows by along (dc, ds). */
-static void slopes(int n, const double *c, const double *s, const double *dc, const double *ds, int axis, double *b)
-{
-  const double C = sqrt(dot(c, c)), along = dot(c, dc) / (C * C);
-  double p = 1;
-  for (int k = C1; k <= C3; k++) p *= C, b[k] = p * (dc[axis] + (k + 1) * along * c[axis]);
-  if (n == GG_HEAT_SMOOTH) return;
-  b[SPINS] = dc[axis] * dot(s, s) + 2 * c[axis] * dot(s, ds);
-  b[ALONG] = ds[axis] * dot(c, s) + s[axis] * (dot(dc, s) + dot(c, ds));
-  b[FAST_SPINS] = C * (b[SPINS] + along * c[axis] * dot(s, s));
-  b[FAST_ALONG] = C * (b[ALONG] + along * s[axis] * dot(c, s));
-  b[ACROSS] = crossed(ds, c, axis) + crossed(s, dc, axis);
-}
-
 /* Where all grains share a fixed energy, D degrees of freedom of it, <C^j> is lower by j (j - 2)/(4 D) (sonine.c). */
 static double shared(const gg_heat_copies *d, int j)
 {
@@ -86,21 +48,24 @@ static double shared(const gg_heat_copies *d, int j)
 static void add_moments(const gg_heat_copies *d, double *bin)
 {
   const gg_heat_layout *l = &d->at;
-  double projected[GG_HEAT_ORDERS] = {0}, diverged[GG_HEAT_ORDERS] = {0}, unit = 1 / (3 * (double)d->model.n);
+  double projected[GG_HEAT_ORDERS] = {0}, diverged[GG_HEAT_ORDERS] = {0}, factor[GG_HEAT_ORDERS],
+         unit = 1 / (3 * (double)d->model.n);
   for (int i = 0; i < d->model.n; i++) {
-    const double *c = d->grain + i * d->size, *s = c + SPIN, square = dot(c, c), C = sqrt(square);
+    const double *c = d->grain + i * d->size, *s = c + SPIN, square = gg_heat_dot(c, c), C = sqrt(square);
     double p = 1;
-    for (int k = C1; k <= C3; k++) p *= C, projected[k] += p * square, diverged[k] += (4 + k) * p;
+    for (int k = 0; k < GG_HEAT_SMOOTH; k++) p *= C, projected[k] += p * square, diverged[k] += (4 + k) * p;
     if (l->n == GG_HEAT_SMOOTH) continue;
-    const double spins = dot(s, s), both = dot(c, s);
-    projected[SPINS] += square * spins, diverged[SPINS] += 3 * spins;
-    projected[ALONG] += both * both, diverged[ALONG] += spins;
-    projected[FAST_SPINS] += C * square * spins, diverged[FAST_SPINS] += 4 * C * spins;
-    projected[FAST_ALONG] += C * both * both, diverged[FAST_ALONG] += C * spins + both * both / C;
+    const double spins = gg_heat_dot(s, s), both = gg_heat_dot(c, s);
+    gg_heat_factors(C, sqrt(spins), factor);
+    for (int k = GG_HEAT_SMOOTH; k < l->n; k++) {
+      const gg_heat_function f = gg_heat_functions[k];
+      const double along[] = {square, both * both, 0}, turned[] = {3 + f.speed, spins + f.speed * along[1] / square, 0};
+      projected[k] += factor[k] * along[f.vector], diverged[k] += factor[k] * turned[f.vector];
+    }
   }
   for (int k = 0; k < l->n; k++) {
-    bin[l->projected + k] += unit * projected[k] * (k <= C3 ? shared(d, k + 3) : 1);
-    bin[l->diverged + k] += unit * diverged[k] * (k <= C3 ? shared(d, k + 1) : 1);
+    bin[l->projected + k] += unit * projected[k] * (k < GG_HEAT_SMOOTH ? shared(d, k + 3) : 1);
+    bin[l->diverged + k] += unit * diverged[k] * (k < GG_HEAT_SMOOTH ? shared(d, k + 1) : 1);
   }
 }
 
@@ -160,9 +125,9 @@ static void add_meeting(const gg_heat_copies *d, const meeting *m, int axis, dou
   double before[GG_HEAT_ORDERS], after[GG_HEAT_ORDERS], along[GG_HEAT_ORDERS], c[3], dc[3], ds[3], carried[2];
   for (int k = 0; k < 3; k++) c[k] = -partner[k];
   kick(&d->model, d->K, axis, c, spin, dc, ds);
-  functions(l->n, sqrt(dot(m->c[0], m->c[0])), m->c[0], m->s[0], axis, before);
-  functions(l->n, sqrt(dot(m->after_c, m->after_c)), m->after_c, m->after_s, axis, after);
-  slopes(l->n, m->after_c, m->after_s, dc, ds, axis, along);
+  gg_heat_values(l->n, sqrt(gg_heat_dot(m->c[0], m->c[0])), m->c[0], m->s[0], axis, before);
+  gg_heat_values(l->n, sqrt(gg_heat_dot(m->after_c, m->after_c)), m->after_c, m->after_s, axis, after);
+  gg_heat_slopes(l->n, m->after_c, m->after_s, dc, ds, axis, along);
   tilt(d, m, axis, carried);
   for (int k = 0; k < l->n; k++) {
     const double change = after[k] - before[k];
@@ -193,9 +158,9 @@ static void copy(gg_heat_copies *d, const gg_snapshot *s, double T)
   for (size_t i = 0; i < s->n; i++) {
     double *g = d->grain + i * (size_t)d->size, b[GG_HEAT_ORDERS];
     for (int a = 0; a < 3; a++) g[a] = s->c[a][i] * unit, g[SPIN + a] = n == GG_HEAT_SMOOTH ? 0 : s->s[a][i] * unit;
-    const double C = sqrt(dot(g, g));
+    const double C = sqrt(gg_heat_dot(g, g));
     for (int a = 0; a < 3; a++) {
-      functions(n, C, g, g + SPIN, a, b);
+      gg_heat_values(n, C, g, g + SPIN, a, b);
       for (int k = 0; k < n; k++) g[WEIGHTS + 3 * k + a] = b[k], d->momentum[k] += g[a] * b[k] / (3 * (double)s->n);
     }
   }
@@ -209,15 +174,18 @@ static void copy(gg_heat_copies *d, const gg_snapshot *s, double T)
 /* Adds <b_m w_n> of a grain, and <C w_n> before them. */
 static inline void add_overlap(int n, const double *g, double sum[][GG_HEAT_ORDERS])
 {
-  const double *s = g + SPIN, C = sqrt(dot(g, g)), spins = dot(s, s), both = dot(g, s);
+  const double *s = g + SPIN, C = sqrt(gg_heat_dot(g, g)), both = gg_heat_dot(g, s);
+  double factor[GG_HEAT_ORDERS], across[3];
+  if (n > GG_HEAT_SMOOTH) {
+    gg_heat_factors(C, sqrt(gg_heat_dot(s, s)), factor);
+    for (int a = 0; a < 3; a++) across[a] = gg_heat_crossed(s, g, a);
+  }
   for (int k = 0; k < n; k++) {
     const double *w = g + WEIGHTS + 3 * k;
-    double p = dot(g, w);
-    if (n == GG_HEAT_ORDERS) {
-      const double spun = p * spins, turned = dot(s, w) * both;
-      sum[1 + SPINS][k] += spun, sum[1 + FAST_SPINS][k] += C * spun;
-      sum[1 + ALONG][k] += turned, sum[1 + FAST_ALONG][k] += C * turned;
-      for (int a = 0; a < 3; a++) sum[1 + ACROSS][k] += crossed(s, g, a) * w[a];
+    double p = gg_heat_dot(g, w);
+    if (n > GG_HEAT_SMOOTH) {
+      const double part[] = {p, gg_heat_dot(s, w) * both, gg_heat_dot(across, w)};
+      for (int m = GG_HEAT_SMOOTH; m < n; m++) sum[1 + m][k] += factor[m] * part[gg_heat_functions[m].vector];
     }
     for (int m = 0; m <= GG_HEAT_SMOOTH; m++, p *= C) sum[m][k] += p;
   }
@@ -231,7 +199,7 @@ static double overlap(const gg_heat_copies *d, double *to)
   double squares = 0, sum[GG_HEAT_ORDERS + 1][GG_HEAT_ORDERS] = {{0}};
   for (int i = 0; i < many; i++) {
     const double *g = d->grain + i * d->size;
-    squares += dot(g, g);
+    squares += gg_heat_dot(g, g);
     if (n == GG_HEAT_SMOOTH)
       add_overlap(GG_HEAT_SMOOTH, g, sum);
     else
@@ -240,7 +208,8 @@ static double overlap(const gg_heat_copies *d, double *to)
   const double T = squares / (3 * (double)many), unit = 1 / (3 * (double)many);
   for (int m = 0; m < n; m++)
     for (int k = 0; k < n; k++)
-      to[m * n + k] = unit * (pow(T, -gg_heat_degree[m] / 2.) * sum[m + 1][k] - d->momentum[m] / sqrt(T) * sum[0][k]);
+      to[m * n + k] =
+          unit * (pow(T, -gg_heat_functions[m].degree / 2.) * sum[m + 1][k] - d->momentum[m] / sqrt(T) * sum[0][k]);
   return T;
 }
 
@@ -253,8 +222,8 @@ static void fluxes(const gg_heat_copies *d, gg_rng *rng, double T, const double 
   const uint32_t many = (uint32_t)d->model.n;
   memset(flux, 0, GG_HEAT_FLUXES * sizeof *flux);
   for (int k = 0; k < l->n; k++) {
-    flux[GG_HEAT_TRANSLATION][k] = overlaps[C2 * l->n + k] / 2;
-    if (l->fluxes > 1) flux[GG_HEAT_ROTATION][k] = K / 2 * overlaps[SPINS * l->n + k];
+    flux[GG_HEAT_TRANSLATION][k] = overlaps[GG_HEAT_ENERGY * l->n + k] / 2;
+    if (l->fluxes > 1) flux[GG_HEAT_ROTATION][k] = K / 2 * overlaps[GG_HEAT_SPIN_ENERGY * l->n + k];
   }
   if (l->fluxes < GG_HEAT_FLUXES) return;
   const double unit = -frequency / (2 * 6 * (double)many * T * sqrt(T));
@@ -273,15 +242,15 @@ static void fluxes(const gg_heat_copies *d, gg_rng *rng, double T, const double 
 /* Of rough grains: the tangential impulse, and what it does to spins; `normal` is half of c12's along k. */
 static void rub(const gg_heat_copies *d, double *a, double *b, const double c12[3], const double normal[3])
 {
-  const double length = sqrt(dot(normal, normal)), eta2 = d->model.contact[0][0].jt;
+  const double length = sqrt(gg_heat_dot(normal, normal)), eta2 = d->model.contact[0][0].jt;
   double J[3], spins[3];
   for (int i = 0; i < 3; i++) spins[i] = a[SPIN + i] + b[SPIN + i];
   for (int i = 0; i < 3; i++) {
-    J[i] = eta2 * (c12[i] - normal[i] - crossed(normal, spins, i) / length);
+    J[i] = eta2 * (c12[i] - normal[i] - gg_heat_crossed(normal, spins, i) / length);
     a[i] -= J[i], b[i] += J[i];
   }
   for (int i = 0; i < 3; i++) {
-    const double twist = crossed(normal, J, i) / (length * d->K);
+    const double twist = gg_heat_crossed(normal, J, i) / (length * d->K);
     a[SPIN + i] -= twist, b[SPIN + i] -= twist;
   }
 }
@@ -322,7 +291,7 @@ static double step(gg_heat_copies *d, gg_rng *rng)
     double *a = d->grain + (size_t)i * (size_t)d->size, *b = d->grain + (size_t)(j < i ? j : j + 1) * (size_t)d->size;
     double c12[3];
     for (int k = 0; k < 3; k++) c12[k] = a[k] - b[k];
-    const double speed = sqrt(dot(c12, c12)), p = fmin(speed / majorant, 0.9);
+    const double speed = sqrt(gg_heat_dot(c12, c12)), p = fmin(speed / majorant, 0.9);
     if (gg_rng_uniform(rng) < p)
       collide(d, a, b, c12, speed, rng);
     else

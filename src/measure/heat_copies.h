@@ -4,21 +4,19 @@
  * rejected, of probability p, takes w_2 p/(1 - p) from w_1, and w_1 p/(1 - p) from w_2. Their average is the linearised
  * collision operator (H.A. Al-Mohssen and N.G. Hadjiconstantinou, J. Comput. Phys. 229 (2010) 4481), but the variance
  * grows with every collision. After some steps f1 is therefore expanded anew, as f0 sum_n s_n b_n, with
- * the moments <b_m f1> that it has; the sources likewise. The b_n, without their momentum, are C |C|^n. Rough grains
- * also have C s^2 and s (C.s), each also times |C|, and s x C. Longer lags follow by repetition. What an expansion
- * leaves out has decayed by then: the curves show what they do. */
+ * the moments <b_m f1> that it has; the sources likewise. The b_n, without their momentum: heat_functions.h. Longer
+ * lags follow by repetition. What an expansion leaves out has decayed by then: the curves show what they do. */
 #ifndef GG_HEAT_COPIES_H
 #define GG_HEAT_COPIES_H
 
 #include "base/error.h"
 #include "common/rng.h"
 #include "measure/grain_snapshot.h"
+#include "measure/heat_functions.h"
 
-enum { GG_HEAT_SMOOTH = 3, GG_HEAT_ORDERS = 8, GG_HEAT_FLUXES = 4, GG_HEAT_STEPS = 8 };
+enum { GG_HEAT_FLUXES = 4, GG_HEAT_STEPS = 6 };
 /* Fluxes, of which smooth grains have the first: of energy with grains, and through collisions. */
 enum { GG_HEAT_TRANSLATION, GG_HEAT_ROTATION, GG_HEAT_CARRIED_TRANSLATION, GG_HEAT_CARRIED_ROTATION };
-/* Of the functions b, those of smooth grains first. */
-static const int gg_heat_degree[GG_HEAT_ORDERS] = {2, 3, 4, 3, 4, 3, 4, 2};
 
 /* Where a row has, of n functions b: <C.b>/3, <d/dC . b>/3; averages over pairs, for partners at a distance; energy
  * that is carried so; <b_m b_n>; and a lag. Of a lag u: u, e^(zeta u/2), <b_m(u) b_n>, and the integral of <q b_n> up

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Conductivity: snapshots of Maxwellian grains have that of elastic spheres, 1.025218 of first Sonine order where they
  * are dilute (Chapman & Cowling 1970, 10.21), and with Enskog's two factors and his transfer where they are dense; no
- * heat flows along gradients of their density; the last point of the curve is the mean of the rows. */
+ * heat flows along gradients of their density; the last point of the curve is the mean of the rows. Functions in which
+ * f1 is expanded: degrees, slopes against differences, and <C.b> = <d/dC . b> of Maxwellian grains. */
 #include "curve_test.h"
+#include "measure/heat_copies.h"
 
 enum { N = 2000, SAMPLES = 6000 };
 
@@ -77,6 +79,63 @@ static void rows(void **state)
   o->destroy(self);
 }
 
+static double component(const double x[6], int axis, int k)
+{
+  double b[GG_HEAT_ORDERS];
+  gg_heat_values(GG_HEAT_ORDERS, sqrt(gg_heat_dot(x, x)), x, x + 3, axis, b);
+  return b[k];
+}
+
+static void functions(void **state)
+{
+  (void)state;
+  const double x[6] = {0.3, -0.7, 1.1, 0.8, 0.5, -0.4}, dx[6] = {-0.2, 0.9, 0.4, 0.6, -1.3, 0.7}, h = 1e-4;
+  double slope[GG_HEAT_ORDERS], twice[6], more[6], less[6];
+  for (int i = 0; i < 6; i++) twice[i] = 2 * x[i], more[i] = x[i] + h * dx[i], less[i] = x[i] - h * dx[i];
+  for (int axis = 0; axis < 3; axis++) {
+    gg_heat_slopes(GG_HEAT_ORDERS, x, x + 3, dx, dx + 3, axis, slope);
+    for (int k = 0; k < GG_HEAT_ORDERS; k++) {
+      const double difference = (component(more, axis, k) - component(less, axis, k)) / (2 * h);
+      assert_true(fabs(slope[k] - difference) < 1e-6);
+      assert_true(fabs(component(twice, axis, k) / component(x, axis, k) - pow(2, gg_heat_functions[k].degree)) < 1e-9);
+    }
+  }
+}
+
+/* Spins half as fast as velocities: a Maxwellian, which needs no equipartition here. */
+static void divergences(void **state)
+{
+  (void)state;
+  enum { ROWS = 40 };
+  const gg_model m = model(GG_HCS, GG_DSMC, 0, 0.5);
+  const gg_heat_layout l = gg_measure_heat_layout(&m);
+  double sum[GG_HEAT_ORDERS] = {0}, squares[GG_HEAT_ORDERS] = {0}, *row = calloc(GG_HEAT_MOST, sizeof *row);
+  gg_heat_copies copies;
+  gg_snapshot s;
+  gg_rng r = gg_common_rng_seed(19, 0);
+  assert_int_equal(gg_measure_heat_copies_make(&copies, &m, NULL), GG_OK);
+  assert_int_equal(gg_measure_snapshot_init(&s, &m, true, NULL), GG_OK);
+  for (int i = 0; i < ROWS; i++) {
+    maxwellian(&s, &r, i);
+    for (int a = 0; a < 3; a++)
+      for (size_t k = 0; k < s.n; k++) s.s[a][k] = 0.35 * gg_common_rng_normal(&r);
+    memset(row, 0, GG_HEAT_MOST * sizeof *row);
+    gg_measure_heat_copies_follow(&copies, &s, &r, row);
+    for (int k = 0; k < l.n; k++) {
+      const double off = row[l.diverged + k] - row[l.projected + k];
+      sum[k] += off, squares[k] += off * off;
+    }
+  }
+  for (int k = 0; k < l.n; k++) {
+    const double mean = sum[k] / ROWS, error = sqrt((squares[k] / ROWS - mean * mean) / (ROWS - 1));
+    print_message("# function %d: %.5f +- %.5f of %.4f\n", k, mean, error, row[l.diverged + k]);
+    assert_true(error <= 0.01 * fabs(row[l.diverged + k]) && fabs(mean) <= 4 * error);
+  }
+  gg_measure_snapshot_clear(&s);
+  gg_measure_heat_copies_clear(&copies);
+  free(row);
+}
+
 static void refused(void **state)
 {
   (void)state;
@@ -86,12 +145,14 @@ static void refused(void **state)
                  sheared = model(GG_USF, GG_DSMC, 0.1, -1);
   assert_null(gg_measure_conductivity.refuses(&fine));
   assert_null(gg_measure_conductivity.refuses(&rough));
-  const gg_model * not [] = {&md, &dense, &rough_md, &heated, &sheared};
+  assert_null(gg_measure_conductivity.refuses(&dense));
+  const gg_model * not [] = {&md, &rough_md, &heated, &sheared};
   for (size_t i = 0; i < sizeof not / sizeof *not ; i++) assert_non_null(gg_measure_conductivity.refuses(not [i]));
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic), cmocka_unit_test(rows), cmocka_unit_test(refused)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic), cmocka_unit_test(rows), cmocka_unit_test(functions),
+                                     cmocka_unit_test(divergences), cmocka_unit_test(refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
