@@ -57,6 +57,12 @@ enum {
 };
 static const double good = 1e-4;
 
+static void put_marginals(gg_hermite_shear *h, solution *x)
+{
+  for (int i = 0; i < h->gas.n_species; i++)
+    for (int a = 0; a < 3; a++) x->marginal[i][a] = gg_hermite_component_of(&h->op.basis, &h->state[i], a);
+}
+
 static gg_status sheared(const gg_model *m, series *s, gg_error *err)
 {
   gg_hermite_shear h;
@@ -67,11 +73,11 @@ static gg_status sheared(const gg_model *m, series *s, gg_error *err)
   for (int degree = FIRST_DEGREE; degree <= last && status == GG_OK; degree += 2) {
     if (degree > GOOD_DEGREE && last_step(s, m->n_species) < good) break;
     status = gg_hermite_shear_solve(&h, degree, err);
-    if (status != GG_OK) break;
-    solution *x = next(s);
-    for (int i = 0; i < m->n_species; i++)
-      for (int a = 0; a < 3; a++) x->marginal[i][a] = gg_hermite_component_of(&h.op.basis, &h.state[i], a);
+    if (status == GG_OK) put_marginals(&h, next(s));
   }
+  bool widened = false;
+  if (status == GG_OK) status = gg_hermite_shear_widen(&h, &widened, err);
+  if (widened) put_marginals(&h, next(s));
   gg_hermite_shear_end(&h);
   return status;
 }

@@ -35,7 +35,8 @@ static double paired_error(const gg_rungs *r, gg_quantity q)
 
 double gg_hermite_convergence_error_of(const gg_rungs *r, gg_quantity q)
 {
-  return r->paired ? paired_error(r, q) : last_change(r, q);
+  const double of_degree = r->paired ? paired_error(r, q) : last_change(r, q);
+  return r->widened ? hypot(of_degree, r->wide.value[q] - r->answer[0].value[q]) : of_degree;
 }
 
 double gg_hermite_convergence_change(const gg_rungs *r, gg_quantity q)
@@ -45,14 +46,14 @@ double gg_hermite_convergence_change(const gg_rungs *r, gg_quantity q)
 
 void gg_hermite_convergence_take(const gg_rungs *r, gg_quantity q, gg_theory_answer *a)
 {
-  a->value[q] = r->answer[0].value[q];
+  a->value[q] = r->widened ? r->wide.value[q] : r->answer[0].value[q];
   a->error[q] = gg_hermite_convergence_error_of(r, q);
 }
 
 gg_status gg_hermite_convergence_finish(const gg_rungs *r, const char *theory, gg_quantity judge, double least,
                                         gg_theory_answer *a, gg_error *err)
 {
-  *a = r->answer[0];
+  *a = r->widened ? r->wide : r->answer[0];
   for (int q = 0; q < GG_N_QUANTITIES; q++) a->error[q] = gg_hermite_convergence_error_of(r, (gg_quantity)q);
   double left = r->n < 2 ? INFINITY : a->error[judge] / fmax(fabs(a->value[judge]), least);
   if (left < (r->poor > 0 ? r->poor : 0.01)) return GG_OK;

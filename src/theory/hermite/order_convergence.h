@@ -9,8 +9,10 @@
 typedef struct gg_rungs {
   gg_theory_answer answer[4]; /* the last first */
   int n;
-  bool paired; /* degrees 4, 6, 8, ... of a sheared gas */
-  double poor; /* relative error from which on there is no answer; 0: 0.01 */
+  bool paired;           /* degrees 4, 6, 8, ... of a sheared gas */
+  double poor;           /* relative error from which on there is no answer; 0: 0.01 */
+  bool widened;          /* the last degree has another answer, about wider Gaussians: */
+  gg_theory_answer wide; /* it counts, and what it changed is an error */
 } gg_rungs;
 
 /* Room for the next answer, all of it NaN. */

@@ -60,16 +60,16 @@ void gg_hermite_shear_end(gg_hermite_shear *h)
 }
 
 /* About the Gaussian that the moments ask for. */
-static gg_status centre(const gg_hermite_basis *b, gg_hermite_state *s, gg_error *err)
+static gg_status centre(const gg_hermite_basis *b, gg_hermite_state *s, double width, gg_error *err)
 {
   double M[3][3], L[3][3];
   gg_hermite_second_moments(b, s, M);
-  s->width = GG_HERMITE_WIDTH;
+  s->width = width;
   if (!gg_hermite_gaussian(s->width, M, L)) return gg_base_fail(err, GG_FAILED, "no steady state was found");
   return gg_hermite_expand_anew(b, s, L, err);
 }
 
-static bool has_drag(const gg_hermite_gas *gas)
+bool gg_hermite_has_drag(const gg_hermite_gas *gas)
 {
   for (int i = 0; i < gas->n_species; i++)
     if (!(gas->drag[i] > 0)) return false;
@@ -156,13 +156,30 @@ static gg_status try_newton(gg_hermite_shear *h, gg_error *err)
   return fabs(moved) < 0.1 ? status : follow_drag(h, err);
 }
 
+static gg_status centre_all(gg_hermite_shear *h, const double width[], gg_error *err)
+{
+  for (int i = 0; i < h->gas.n_species; i++) GG_TRY(centre(&h->op.basis, &h->state[i], width[i], err));
+  return GG_OK;
+}
+
+gg_status gg_hermite_shear_about(gg_hermite_shear *h, const double width[], gg_error *err)
+{
+  const double T = gg_hermite_temperature(&h->op.basis, &h->gas, h->state), most = 0.2;
+  GG_TRY(centre_all(h, width, err));
+  GG_TRY(gg_hermite_newton(&h->op, &h->gas, h->state, NULL, err));
+  const double moved = log(gg_hermite_temperature(&h->op.basis, &h->gas, h->state) / T);
+  return fabs(moved) < most ? GG_OK : gg_base_fail(err, GG_FAILED, "no steady state was found");
+}
+
 /* Functions are ordered by degree: those of the last degree keep their places, and the new ones are 0. */
 gg_status gg_hermite_shear_solve(gg_hermite_shear *h, int degree, gg_error *err)
 {
+  double width[GG_MAX_SPECIES];
+  for (int i = 0; i < GG_MAX_SPECIES; i++) width[i] = GG_HERMITE_WIDTH;
   gg_hermite_operator_clear(&h->op);
   GG_TRY(gg_hermite_operator_make(&h->op, degree, GG_HERMITE_DECAY, false, err));
   GG_TRY(gg_hermite_operator_hold(&h->op, h->gas.n_species, err));
-  for (int i = 0; i < h->gas.n_species; i++) GG_TRY(centre(&h->op.basis, &h->state[i], err));
-  if (!has_drag(&h->gas)) return gg_hermite_newton(&h->op, &h->gas, h->state, NULL, err);
+  GG_TRY(centre_all(h, width, err));
+  if (!gg_hermite_has_drag(&h->gas)) return gg_hermite_newton(&h->op, &h->gas, h->state, NULL, err);
   return try_newton(h, err);
 }

@@ -20,4 +20,14 @@ void gg_hermite_shear_end(gg_hermite_shear *shear);
 /* The steady state at this degree (even, from 4 on; not below that of the last call). */
 gg_status gg_hermite_shear_solve(gg_hermite_shear *shear, int degree, gg_error *err);
 
+/* The same at the present degree about Gaussians of other widths, by species, if its temperature is close. */
+gg_status gg_hermite_shear_about(gg_hermite_shear *shear, const double width[], gg_error *err);
+
+/* widening.c: the same at the present degree about Gaussians that are wide enough for the tails of grains in a bath.
+ * `widened`: they had to be wider. GG_FAILED where no width is enough. */
+bool gg_hermite_shear_has_tails(gg_hermite_shear *shear); /* so that Gaussians have to be wider */
+gg_status gg_hermite_shear_widen(gg_hermite_shear *shear, bool *widened, gg_error *err);
+
+bool gg_hermite_has_drag(const gg_hermite_gas *gas);
+
 #endif

@@ -112,12 +112,17 @@ static gg_status refuse(const gg_model *m, const char *why, gg_error *err)
 static gg_status climb(gg_hermite_shear *h, gg_rungs *rungs, gg_rungs *slow, gg_error *err)
 {
   for (int degree = FIRST_DEGREE; degree <= last_degree[h->gas.n_species]; degree += 2) {
-    if (degree > GOOD_DEGREE && gg_hermite_convergence_change(rungs, GG_Q_TEMPERATURE) < good) break;
+    if (degree > GOOD_DEGREE && gg_hermite_convergence_change(rungs, GG_Q_TEMPERATURE) < good &&
+        !gg_hermite_shear_has_tails(h))
+      break;
     gg_error why;
     if (gg_hermite_shear_solve(h, degree, &why) != GG_OK) return refuse(h->model, why.message, err);
     answer(h, gg_hermite_convergence_next(rungs));
     if (degree <= SPECTRUM_DEGREE) answer_relaxation(h, gg_hermite_convergence_next(slow));
   }
+  gg_error why;
+  if (gg_hermite_shear_widen(h, &rungs->widened, &why) != GG_OK) return refuse(h->model, why.message, err);
+  if (rungs->widened) answer(h, &rungs->wide);
   return GG_OK;
 }
 

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* In a cold suspension few grains have collided of late, and those are much hotter than the rest: kurtoses reach 20. A
+ * Hermite series about a Gaussian of the temperature width x T converges in the mean square for Gaussians less than
+ * twice as hot. Where some grains are hotter it hardly changes from degree to degree, however far the limit is. Few
+ * grains that carry the fourth moment have about T times this moment over that of a Gaussian. So the width is that
+ * ratio, which itself depends on the width. */
+#include <math.h>
+
+#include "theory/hermite/shear.h"
+
+/* Widths whose solutions are sought; by how much less than what is asked for is enough, of the first and of others. */
+enum { MOST_WIDTHS = 4 };
+static const double first_enough = 1.2, enough = 1.1;
+
+static double fourth_x(const double C[3])
+{
+  return C[0] * C[0] * C[0] * C[0];
+}
+
+static double fourth_y(const double C[3])
+{
+  return C[1] * C[1] * C[1] * C[1];
+}
+
+static double fourth_z(const double C[3])
+{
+  return C[2] * C[2] * C[2] * C[2];
+}
+
+/* Of a species: as much wider than its tails ask for as Gaussians are elsewhere. */
+static double width_for(const gg_hermite_basis *b, const gg_hermite_state *s)
+{
+  static gg_hermite_function *const fourth[] = {fourth_x, fourth_y, fourth_z};
+  double M[3][3], ratio = 0;
+  gg_hermite_second_moments(b, s, M);
+  for (int a = 0; a < 3; a++) ratio += gg_hermite_mean(b, s, fourth[a]) / (9 * M[a][a] * M[a][a]);
+  return GG_HERMITE_WIDTH * fmax(ratio, 1);
+}
+
+/* Secant: towards the width that asks for itself, from one that asks for `asked`; `before`: those of the last one. */
+static double next_width(double width, double asked, double width_before, double asked_before)
+{
+  const double most = 0.8;
+  const double slope = width == width_before ? 0 : (asked - asked_before) / (width - width_before);
+  return width + (asked - width) / (1 - fmin(fmax(slope, 0), most));
+}
+
+bool gg_hermite_shear_has_tails(gg_hermite_shear *h)
+{
+  bool tails = false;
+  for (int i = 0; i < h->gas.n_species && gg_hermite_has_drag(&h->gas); i++)
+    tails = tails || width_for(&h->op.basis, &h->state[i]) > first_enough * h->state[i].width;
+  return tails;
+}
+
+gg_status gg_hermite_shear_widen(gg_hermite_shear *h, bool *widened, gg_error *err)
+{
+  const int n = h->gas.n_species;
+  double width[GG_MAX_SPECIES], last[GG_MAX_SPECIES], asked_last[GG_MAX_SPECIES];
+  *widened = gg_hermite_shear_has_tails(h);
+  for (int k = 0; *widened && k <= MOST_WIDTHS; k++) {
+    double off = 0;
+    for (int i = 0; i < n; i++) {
+      const double now = h->state[i].width, asked = width_for(&h->op.basis, &h->state[i]);
+      off = fmax(off, asked / now);
+      width[i] = next_width(now, asked, k ? last[i] : now, k ? asked_last[i] : asked);
+      last[i] = now, asked_last[i] = asked;
+    }
+    if (k && off < enough) return GG_OK;
+    if (k < MOST_WIDTHS) GG_TRY(gg_hermite_shear_about(h, width, err));
+  }
+  return !*widened ? GG_OK : gg_base_fail(err, GG_FAILED, "few grains are so hot that no Gaussian is wide enough");
+}
