@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from typing import Optional
 
 from . import _c, tables
-from .curves import curves_of
-from .errors import NotFound, check, encode, lib, look_up, new_error, owned_text, text
+from .curves import curves_by_name, curves_of
+from .errors import ByName, NotFound, check, encode, lib, look_up, new_error, owned_text, text
 from .estimate import Estimate
 from .result import Result, bytes_of, from_bytes, iter_texts
 from .scene import Scene
@@ -116,7 +116,8 @@ class Row:
 
     @property
     def theory(self) -> dict[str, float]:
-        return {name: theory[self.name] for name, theory in self._comparison.theories.items() if self.name in theory}
+        return ByName.of(f"theory of {self.name}", {name: theory[self.name] for name, theory
+                                                    in self._comparison.theories.items() if self.name in theory})
 
     @property
     def deviation(self) -> dict[str, float]:
@@ -195,7 +196,7 @@ class Comparison(Mapping):
     @property
     def theories(self) -> dict[str, Theory]:
         """All theories by name; those that do not apply have a `reason`."""
-        found, info, error = {}, new("gg_theory_info"), new_error()
+        found, info, error = ByName.of("theory", {}), new("gg_theory_info"), new_error()
         while lib.gg_comparison_theory(self._pointer, len(found), info, error) == lib.GG_OK:
             theory = Theory(self, info)
             found[theory.name] = theory
@@ -205,7 +206,7 @@ class Comparison(Mapping):
     def curves(self) -> dict[str, CurveSet]:
         """Curves by name; each a dict of Curve by "md", "dsmc" and name of theory."""
         sources = {"md": self.md, "dsmc": self.dsmc, **self.theories}
-        found = {}
+        found = curves_by_name({})
         for source, result in sources.items():
             for name, curve in (result.curves if result is not None else {}).items():
                 found.setdefault(name, CurveSet(name))[source] = curve

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from . import _c
-from .errors import lib, new_error
+from .errors import ByName, lib, new_error
 from .estimate import Estimate
 from .structs import array, new, value
 
@@ -53,9 +53,13 @@ def _numbers(result, i):
         k += 1
 
 
+def curves_by_name(curves):
+    return ByName.of("curve", curves, "; add the observable to the scene's key measure")
+
+
 def curves_of(get, numbers_of=lambda i: ()):
     """All curves by name, from gg_result_curve and its like."""
-    found, i, error, data = {}, 0, new_error(), new("gg_curve_data")
+    found, i, error, data = curves_by_name({}), 0, new_error(), new("gg_curve_data")
     while get(i, data, error) == lib.GG_OK:
         curve = Curve(data, numbers_of(i))
         found[curve.name] = curve

@@ -68,6 +68,30 @@ def look_up(function, *arguments):
         raise NotFound(str(error)) from None
 
 
+def not_found(what, name, known, none=""):
+    """The NotFound for a name that is not among the known ones. none: what to do where there are none."""
+    words = [ffi.new("char[]", encode(word)) for word in known]
+    near = text(lib.gg_nearest_word(encode(str(name)), ffi.new("char *[]", words + [ffi.NULL])))
+    there_are = ", ".join(list(known)[:40]) + ", ..." * (len(known) > 40) or f"none{none}"
+    return NotFound(f"there is no {what} called {name!r}; "
+                    + (f"did you mean {near!r}?" if near else f"there are: {there_are}"))
+
+
+class ByName(dict):
+    """A dict that says what there is where a name is missing."""
+
+    what = none = ""
+
+    @classmethod
+    def of(cls, what, content, none=""):
+        made = cls(content)
+        made.what, made.none = what, none
+        return made
+
+    def __missing__(self, name):
+        raise not_found(self.what, name, self, self.none)
+
+
 def encode(value, what="text"):
     """str, bytes or a path as the C string of a call."""
     if hasattr(value, "__fspath__"):

@@ -172,6 +172,8 @@ def define_observable(name, quantities=None, *, doc=None, state=0, collision=Non
     The function takes a Sample and returns a number, a list, or a dict of numbers by quantity, in units of results.
     Replicas call it from several threads. scene.add() registers the observable.
     """
+    if not isinstance(name, str):
+        raise TypeError('define_observable: give a name first: @define_observable("skew")')
     if quantities is None:
         quantities = [name]
     quantities = dict(quantities) if isinstance(quantities, dict) else {quantity: "1" for quantity in quantities}

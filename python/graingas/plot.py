@@ -117,7 +117,7 @@ def _reference(row):
 def plot_comparison(comparison, quantities=None, ax=None):
     """Each solver over md (or dsmc), quantity by quantity."""
     ax = new_axes(ax)
-    names = quantities or _main_quantities(comparison)
+    names = [quantities] if isinstance(quantities, str) else quantities or _main_quantities(comparison)
     reference = [_reference(comparison[name]).mean for name in names]
     x = np.arange(len(names))
     for i, engine in enumerate(("md", "dsmc")):

@@ -279,8 +279,10 @@ def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines:
     Sheared gases, too: velocities are those about the flow. Free cooling is not rescaled: not beyond 100 decades.
     Ctrl-C ends it within 0.1 s, also while gases are made (a million grains: 0.5 s), and raises KeyboardInterrupt.
     """
+    if "engine" in keys:
+        raise BadInput(f"relax: engine has no effect; give engines={keys['engine']!r}")
     scene = as_scene(scene).copy(**keys)
-    if int(points) != points or points < 2 or not 0 < until < np.inf:
+    if isinstance(until, str) or int(points) != points or points < 2 or not 0 < until < np.inf:
         raise BadInput("relax: allowed: points of 2 or more, until above 0")
     if int(replicas) != replicas or replicas < 2:
         raise BadInput(f"replicas: {replicas!r} is not allowed; allowed: a whole number of 2 or more")

@@ -6,7 +6,7 @@ import os
 from typing import Any
 
 from . import _c, calls, catalogue, yaml
-from .errors import BadInput, check, encode, lib, owned_text, text
+from .errors import BadInput, check, encode, lib, not_found, owned_text, text
 from .handles import Handle
 from .structs import Record, new, values
 
@@ -263,9 +263,13 @@ class Scene:
     def help(self, key: str) -> None:
         """Prints what a key means, its unit, allowed values, default and value."""
         key = SHORT.get(key, key)
+        try:
+            value = self.text_of(key)
+        except BadInput:
+            raise not_found("key", key, KEYS) from None
         if key in KEYS:
             print(_documentation(key))
-        print(f"Value: {self.text_of(key)}")
+        print(f"Value: {value}")
 
     def __reduce__(self):
         if self._extensions:

@@ -88,6 +88,7 @@ TYPES = [
     (lambda: gg.export(3, "x"), TypeError), (lambda: gg.export(__file__, "x"), gg.BadFile),
     (lambda: gg.theories(scene(), 3), TypeError),
     (lambda: gg.theory(scene(), 3), TypeError), (lambda: gg.theory(scene(), "\0"), gg.BadInput),
+    (lambda: gg.define_observable(lambda s: 0), TypeError),
     (lambda: gg.define_observable("a")(3), TypeError), (lambda: gg.define_theory("a", "N1")(None), TypeError),
     (lambda: gg.define_law(3), TypeError), (lambda: gg.define_law("abc"), TypeError),
     (lambda: gg.define_law(np.zeros((2, 3, 4))), gg.BadInput), (lambda: gg.define_law(([], [])), gg.BadInput),

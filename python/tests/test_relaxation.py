@@ -100,6 +100,7 @@ def test_pictures_and_tables():
 @pytest.mark.parametrize("wrong, word", [
     (dict(replicas=1), "replicas"), (dict(points=1), "points"), (dict(until=0), "until"),
     (dict(engines=["lattice"]), "lattice"),
+    (dict(until="a"), "until"), (dict(engine="md"), "give engines='md'"),
     (dict(until=float("inf")), "until"), (dict(engines="lattice"), "lattice"), (dict(start={"a2": float("nan")}), "a2"),
     (dict(start={"a2": 0.6}), "a2"), (dict(start={"temperature": -1}), "temperature"),
     (dict(start={"temperature": [1, 2]}), "species"), (dict(protocol=[(2, {"bath.drag": 1})]), "time 2"),

@@ -215,3 +215,21 @@ def test_curves_by_local_density_are_read_back():
     made = gg.run(scene, output="local.h5")
     found = gg.read("local.h5").curves
     assert "local_distribution_Cx_0.5" in found and set(found) == set(made.curves)
+
+
+@pytest.mark.parametrize("use, words", [
+    (lambda c: c["temperatur"], "no quantity called 'temperatur'; did you mean 'temperature'?"),
+    (lambda c: c.md["presure"], "no quantity called 'presure'; did you mean 'pressure'?"),
+    (lambda c: c.theories["lun"], "no theory called 'lun'; did you mean 'lun1991'?"),
+    (lambda c: c["temperature"].theory["lun"], "no theory of temperature called 'lun'; did you mean 'lun1991'?"),
+    (lambda c: c.curves["velocity_distribution_x"], "no curve called 'velocity_distribution_x'; did you mean"),
+    (lambda c: c.md.curves["g"], "no curve called 'g'; there are: "),
+    (lambda c: gg.theories(c.scene).theories["lun1991"].curves["g"], "there are: none; add the observable to the scene's key measure"),
+    (lambda c: c.scene.help("colision.e"), "no key called 'colision.e'; did you mean 'collision.e'?"),
+])
+def test_wrong_names(comparison, use, words):
+    """What is not there is a KeyError that says what there is."""
+    with pytest.raises(KeyError) as caught:
+        use(comparison)
+    assert words in str(caught.value)
+    assert comparison.curves.get("g") is None and "g" not in comparison.curves

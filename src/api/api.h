@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "common/scene.h"
 #include "measure/curve.h"
+#include "run/result.h"
 
 /* A missing argument is an answer, not a crash. */
 #define GG_NEED(...) GG_CHECK_ARGUMENTS(#__VA_ARGS__, __VA_ARGS__)
@@ -23,6 +24,9 @@ gg_status gg_api_arguments_check(const char *function, const char *names, const 
 
 /* scene.c: a copy of the scene, complete and checked: what every use of a scene begins with. */
 gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *err);
+
+/* text.c: GG_BAD_INPUT, with the name among these that may be meant. */
+gg_status gg_api_no_quantity(const gg_quantity_rows *rows, const char *name, gg_error *err);
 
 /* text.c: an engine by its name; a document as text, whose reference it takes. */
 gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *err);

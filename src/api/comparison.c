@@ -128,8 +128,7 @@ static gg_status find(const gg_comparison *c, const char *name, gg_quantity *q, 
 {
   const gg_quantity_row *row = gg_run_rows_find(&c->rows, name);
   *q = row ? row->quantity : GG_MOST_QUANTITIES;
-  if (!row) return gg_base_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name);
-  return GG_OK;
+  return row ? GG_OK : gg_api_no_quantity(&c->rows, name, err);
 }
 
 gg_status gg_comparison_at(const gg_comparison *comparison, size_t i, gg_comparison_row *row, gg_error *err)

@@ -16,7 +16,7 @@
 static gg_status find(const gg_result *r, const char *name, const gg_quantity_row **row, gg_error *err)
 {
   *row = gg_run_rows_find(&r->rows, name);
-  return *row ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name);
+  return *row ? GG_OK : gg_api_no_quantity(&r->rows, name, err);
 }
 
 static gg_measurement measurement(const gg_result *r, const gg_quantity_row *row)

@@ -75,6 +75,14 @@ const char *gg_nearest_word(const char *word, const char *const *known)
   return nearest.best;
 }
 
+gg_status gg_api_no_quantity(const gg_quantity_rows *rows, const char *name, gg_error *err)
+{
+  gg_nearest nearest = {.word = name};
+  for (int i = 0; i < rows->n; i++) gg_base_spelling_try(&nearest, rows->row[i].name);
+  if (!nearest.best) return gg_base_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'", name);
+  return gg_base_fail(err, GG_BAD_INPUT, "there is no quantity called '%.60s'; did you mean '%s'?", name, nearest.best);
+}
+
 void gg_text_make_printable(char *text)
 {
   if (text) gg_base_text_make_printable(text);

@@ -236,7 +236,8 @@ static void missing_quantities(void **state)
   gg_measurement m;
   size_t n;
   assert_ok(gg_run(s, NULL, &r, &err));
-  assert_refused(gg_result_get(r, "temperatur", NULL, NULL, &err), "no quantity called 'temperatur'");
+  assert_refused(gg_result_get(r, "temperatur", NULL, NULL, &err),
+                 "no quantity called 'temperatur'; did you mean 'temperature'?");
   assert_refused(gg_result_get(r, "temperature_ratio", NULL, NULL, &err), "cannot be had here: ");
   assert_ok(gg_result_find(r, "temperature_ratio", &m, &err));
   assert_true(isnan(m.mean) && m.reason && m.reason[0]);
