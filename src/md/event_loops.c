@@ -4,8 +4,8 @@
 
 #include <assert.h>
 
-/* Their names, searches and boundaries, as in meson.build; each for one species, and for a mixture; between walls the
- * latter serves both. */
+/* Their names, searches and boundaries, as in meson.build; each for one species, and for a mixture; between walls, and
+ * in sets compiled quickly (GG_MD_ENTRY_...), the latter serves both. */
 #define EACH_INSTANCE(X, BOTH, set)                                                                                    \
   X(cells_periodic, GG_MD_PLAIN_CELLS, GG_MD_PERIODIC, set)                                                            \
   BOTH(cells_walled, GG_MD_PLAIN_CELLS, GG_MD_WALLED, set)                                                             \
@@ -30,7 +30,7 @@
   [kind][boundary] = {&gg_md_kernel_##name##_mixture_##set, &gg_md_kernel_##name##_mixture_##set},
 
 #define DECLARE_SET(id, set) EACH_INSTANCE(DECLARE, DECLARE_BOTH, set)
-#define TABLE(id, set) [id] = {EACH_INSTANCE(ENTRY, ENTRY_BOTH, set)},
+#define TABLE(id, set) [id] = {EACH_INSTANCE(GG_MD_ENTRY_##set, ENTRY_BOTH, set)},
 
 GG_EACH_COMPILED_SET(DECLARE_SET)
 extern const gg_md_kernel gg_md_kernel_plain_cells, gg_md_kernel_plain_rows;
