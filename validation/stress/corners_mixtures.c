@@ -64,6 +64,7 @@ static const corner corners[] = {
               "diameter: 1.3}, {fraction: 0.0625, diameter: 1.4}, {fraction: 0.0625, diameter: 1.5}, {fraction: "
               "0.0625, diameter: 1.6}, "
               "{fraction: 0.0625, diameter: 1.7}, {fraction: 0.0625, diameter: 1.8}]}",
+     .collisions = 20,
      .quick = true},
     {.name = "smooth among rough",
      .scene = "{flow: usf, phi: 0.2, particles: 300, collision: {e: 0.8, beta: {11: -1, 12: 0, 22: 1}}, species: "
@@ -80,13 +81,13 @@ static const corner corners[] = {
     {.name = "masses 1 : 1e6: means",
      .scene =
          "{flow: hss, phi: 0.01, particles: 1000, species: [{fraction: 0.5}, {fraction: 0.5, mass: 1e6}], collision: "
-         "{e: 0.9}, run: {collisions: 2000}}",
+         "{e: 0.9}, dsmc: {particles: 2000}, run: {collisions: 2000}}",
      .agrees = "partial_temperature_ratio",
      .collisions = 5,
      .quick = true},
     {.name = "diameters 1 : 10: means",
      .scene = "{flow: hss, phi: 0.01, particles: 1000, species: [{fraction: 0.9}, {fraction: 0.1, diameter: 10, mass: "
-              "1000}], collision: {e: 0.8}, run: {collisions: 1000}}",
+              "1000}], collision: {e: 0.8}, dsmc: {particles: 2000}, run: {collisions: 1000}}",
      .agrees = "partial_temperature_ratio",
      .collisions = 5,
      .quick = true},
