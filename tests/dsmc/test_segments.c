@@ -144,7 +144,7 @@ static void planted_rates(void **state)
     /* A collision for every 4000 grains in an interval, and for every 500 in a pair if it has them all: few second
      * ones. */
     const double rate = M_PI * gg_dsmc_cross_section(d, 0, 0) * pairs, dt = PLANTED / 4000. / rate;
-    for (int block = 0; block < 1500; block++) {
+    for (int block = 0; block < 1100; block++) {
       uint64_t before = d->now.collisions;
       for (int k = 0; k < 3 * SEGMENTS; k++) { /* whole schedules, however many rounds an interval has */
         plant(d, &plans[i]);
@@ -204,7 +204,7 @@ static void segments_mix(void **state)
 {
   (void)state;
   lab_mean a2[2][3] = {{{0}}}, time[2][3] = {{{0}}};
-  for (int seed = 0; seed < 100; seed++) {
+  for (int seed = 0; seed < 50; seed++) {
     mix(GG_DSMC_PLAIN, seed, a2[0], time[0]);
     mix(GG_DSMC_BLOCKS, seed + 100, a2[1], time[1]);
   }

@@ -91,7 +91,7 @@ static void sheared_turns(void **state)
     const double t = stretch(g, k ? 12 : 1), C = 1 / tanh(gamma * t);
     lab_mean M[3] = {{0}}, theta = {0}, spin = {0};
     advance(g, 5);
-    for (int i = 0; i < 200; i++) {
+    for (int i = 0; i < 80; i++) {
       lab_view v = {0};
       for (int s = 0; s < 10; s++) {
         advance(g, 0.37);
@@ -186,7 +186,7 @@ static void against_theory(gg_model m)
   lab_mean T = {0}, theta = {0};
   const double free_time = 1 / gg_common_model_collision_rate(&m, m.temperature0);
   advance(g, 30 * free_time);
-  for (int i = 0; i < 60; i++) {
+  for (int i = 0; i < 24; i++) {
     lab_view v = {0};
     for (int s = 0; s < 10; s++) {
       advance(g, 1.5 * free_time);
