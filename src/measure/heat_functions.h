@@ -2,7 +2,7 @@
 /* Functions b in which f1/f0 is expanded: a vector times |C|^speed |s|^spin, s the velocity of the surface. Smooth
  * grains have the first three. The tangential impulse goes as the speed of the surface, so partners at a distance add
  * odd powers of |s| to the source: without these and C C^2 s^2, kappa_r of dense grains is 0.8 to 2.8 % low. With 18
- * more, up to degree 6, no conductivity changes by 0.2 %. */
+ * more, up to degree 6, no conductivity of two dense states changes by 0.2 %. */
 #ifndef GG_HEAT_FUNCTIONS_H
 #define GG_HEAT_FUNCTIONS_H
 
