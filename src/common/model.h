@@ -77,6 +77,7 @@ typedef struct gg_model {
 
   const gg_extension *extension; /* borrowed from the scene */
   const gg_stop *stop;           /* borrowed from the caller of the engine: no physics; NULL: nothing stops it */
+  int threads;                   /* that may share its start, the caller's included: no physics; 0: one */
 
   double stress_unit; /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */
 } gg_model;

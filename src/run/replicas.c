@@ -259,6 +259,7 @@ gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const 
   pthread_mutex_init(&all->lock, NULL);
   all->stop = (gg_stop){is_stopped, all};
   all->model.stop = &all->stop;
+  all->model.threads = threads_each(threads, all->n);
   gg_status status = open_tasks(all, threads, err);
   if (status == GG_OK) status = create_or_restore(all, resume, err);
   if (status == GG_INTERRUPTED && all->stopped == GG_OUT_OF_TIME)

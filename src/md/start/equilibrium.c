@@ -65,6 +65,7 @@ static gg_status melt(const gg_model *elastic, uint64_t seed, uint64_t stream, p
   gg_engine *engine;
   double elapsed;
   GG_TRY(gg_md_ops.create(elastic, seed, stream, &engine, err));
+  engine->ops->threads(engine, elastic->threads);
   const double time = DIAMETERS * gg_common_model_widest(elastic) / sqrt(elastic->temperature0);
   const uint64_t collisions = (uint64_t)ceil(collisions_needed(elastic->phi) * (double)elastic->n / 2);
   gg_status status = engine->ops->advance(engine, time, collisions, &elapsed, err);

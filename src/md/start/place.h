@@ -6,6 +6,7 @@
 #include <stdbool.h>
 
 #include "base/cancellation.h"
+#include "base/thread_pool.h"
 #include "common/model.h"
 #include "common/rng.h"
 #include "md/cell_grid.h"
@@ -22,12 +23,12 @@ typedef struct gg_md_packing {
   const double *diameter;
   gg_md_cells cells; /* none in boxes below three cells across: then all pairs are tried */
   const gg_stop *stop;
-  uint64_t tried; /* grains, over all sweeps */
+  gg_thread_pool *pool; /* shares large boxes; NULL: one thread */
+  uint64_t tried;       /* grains, over all sweeps */
 } gg_md_packing;
 
-/* Order points along a space-filling curve; `id` (may be NULL) receives which one each was. */
-gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t *id, uint32_t n, const gg_stop *stop,
-                           gg_error *err);
+/* Order centres along a space-filling curve; `id` (may be NULL) receives which one each was. */
+gg_status gg_md_place_sort(gg_md_packing *p, uint32_t *id, gg_error *err);
 /* n of the sites of a face-centred lattice that fills the box. */
 void gg_md_place_lattice(const gg_md_box *box, uint32_t n, gg_rng *rng, gg_vec *r);
 /* By what share of a diameter grains are pushed beyond contact: denser systems leave less room. */

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
+#include "base/thread_pool.h"
 #include "md/start/place.h"
 
 /* Spread the low 21 bits of x to every third bit. */
@@ -19,7 +20,6 @@ static uint64_t spread(uint64_t x)
 
 typedef struct keyed {
   uint64_t key;
-  gg_vec r;
   uint32_t id;
 } keyed;
 
@@ -29,56 +29,75 @@ static int by_key(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Merge two sorted neighbours, `middle` and `end - middle` of them; equal ones stay in their order. */
+/* Two sorted parts, of `middle` and `end - middle` of them; equal ones stay in their order. */
 static void merge(const keyed *from, uint32_t middle, uint32_t end, keyed *to)
 {
   for (uint32_t i = 0, j = middle, k = 0; k < end; k++)
     to[k] = j == end || (i < middle && from[i].key <= from[j].key) ? from[i++] : from[j++];
 }
 
-static uint32_t lesser(uint32_t a, uint32_t b)
+static uint32_t lesser(uint64_t a, uint64_t b)
 {
-  return a < b ? a : b;
+  return (uint32_t)(a < b ? a : b);
 }
 
-enum { PORTION = 1 << 15 }; /* sorted between two looks at whether to stop: some milliseconds */
+/* Sorted between two looks at whether to stop: some milliseconds; threads share portions and merges. */
+enum { PORTION = 1 << 15, PARTS = 16 };
 
-/* In portions, which are merged; where it ends in *sorted, of the two. */
-static bool sort(keyed *a, keyed *b, uint32_t n, const gg_stop *stop, const keyed **sorted)
+typedef struct sorting {
+  const gg_md_packing *p;
+  keyed *from, *to;
+  uint64_t length; /* of sorted portions */
+} sorting;
+
+static void sort_portions(void *context, int k)
 {
-  for (uint32_t at = 0; at < n; at += PORTION) {
-    if (at > 0 && gg_stop_asked(stop)) return false;
-    qsort(a + at, lesser(n - at, PORTION), sizeof *a, by_key);
-  }
-  for (uint32_t length = PORTION; length < n; length *= 2) {
-    for (uint32_t at = 0; at < n; at += 2 * length) {
-      if (gg_stop_asked(stop)) return false;
-      merge(a + at, lesser(n - at, length), lesser(n - at, 2 * length), b + at);
-    }
-    keyed *other = a;
-    a = b, b = other;
-  }
-  *sorted = a;
-  return true;
+  const sorting *s = context;
+  const uint64_t n = s->p->n;
+  for (uint64_t at = (uint64_t)k * PORTION; at < n && !gg_stop_asked(s->p->stop); at += PARTS * PORTION)
+    qsort(s->from + at, lesser(n - at, PORTION), sizeof *s->from, by_key);
 }
 
-gg_status gg_md_place_sort(const gg_md_box *box, gg_vec *r, uint32_t *id, uint32_t n, const gg_stop *stop,
-                           gg_error *err)
+static void merge_portions(void *context, int k)
 {
-  keyed *room = gg_base_array_new(2 * (size_t)n, sizeof *room, err);
-  const keyed *sorted;
-  if (!room) return GG_FAILED;
-  double longest = fmax(box->edge[0], fmax(box->edge[1], box->edge[2])), scale = 0x1p21 / longest;
-  for (uint32_t i = 0; i < n; i++) {
+  const sorting *s = context;
+  const uint64_t n = s->p->n, both = 2 * s->length;
+  for (uint64_t at = (uint64_t)k * both; at < n && !gg_stop_asked(s->p->stop); at += PARTS * both)
+    merge(s->from + at, lesser(n - at, s->length), lesser(n - at, both), s->to + at);
+}
+
+/* In portions, which are merged; ends in s->from. */
+static void sort(sorting *s)
+{
+  gg_base_thread_pool_for(s->p->pool, PARTS, sort_portions, s);
+  for (s->length = PORTION; s->length < s->p->n; s->length *= 2) {
+    gg_base_thread_pool_for(s->p->pool, PARTS, merge_portions, s);
+    keyed *other = s->from;
+    s->from = s->to, s->to = other;
+  }
+}
+
+gg_status gg_md_place_sort(gg_md_packing *p, uint32_t *id, gg_error *err)
+{
+  const double *edge = p->box.edge, scale = 0x1p21 / fmax(edge[0], fmax(edge[1], edge[2]));
+  keyed *room = gg_base_array_new(2 * (size_t)p->n, sizeof *room, err);
+  gg_vec *r = gg_base_array_new(p->n, sizeof *r, err);
+  const bool made = room && r;
+  for (uint32_t i = 0; made && i < p->n; i++) {
     uint64_t key = 0;
-    for (int a = 0; a < 3; a++) key |= spread((uint64_t)(gg_along(&r[i], a) * scale)) << a;
-    room[i] = (keyed){key, r[i], i};
+    for (int a = 0; a < 3; a++) key |= spread((uint64_t)(gg_along(&p->r[i], a) * scale)) << a;
+    room[i] = (keyed){key, i};
+    r[i] = p->r[i];
   }
-  bool whole = sort(room, room + n, n, stop, &sorted);
-  for (uint32_t i = 0; whole && i < n; i++) {
-    r[i] = sorted[i].r;
-    if (id) id[i] = sorted[i].id;
+  sorting s = {p, room, room + p->n, 0};
+  if (made) sort(&s);
+  const bool whole = made && !gg_stop_asked(p->stop);
+  for (uint32_t i = 0; whole && i < p->n; i++) {
+    p->r[i] = r[s.from[i].id];
+    if (id) id[i] = s.from[i].id;
   }
   free(room);
+  free(r);
+  if (!made) return GG_FAILED;
   return whole ? GG_OK : gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
 }

@@ -37,7 +37,7 @@ static gg_status relax(const gg_md *e, gg_md_packing *p, gg_rng *rng, gg_error *
   GG_TRY(push_apart(p, e->model.phi, &free, err));
   if (free) return GG_OK;
   gg_md_place_lattice(&e->box, e->n, rng, p->r);
-  GG_TRY(gg_md_place_sort(&e->box, p->r, NULL, e->n, p->stop, err));
+  GG_TRY(gg_md_place_sort(p, NULL, err));
   GG_TRY(push_apart(p, e->model.phi, &free, err));
   if (free) return GG_OK;
   return gg_base_fail(
@@ -62,38 +62,31 @@ static void deal_species(gg_md *e, double *diameter, gg_rng *rng)
 }
 
 /* Centres from outside, checked. They stand in memory along a space-filling curve, like those of a fresh start. */
-static gg_status place_given(gg_md *e, const gg_grain_arrays *given, gg_vec *r, double *diameter, gg_error *err)
+static gg_status place_given(gg_md *e, const gg_grain_arrays *given, gg_md_packing *p, double *diameter, gg_error *err)
 {
-  for (uint32_t i = 0; i < e->n; i++) r[i] = (gg_vec){given->r[3 * i], given->r[3 * i + 1], given->r[3 * i + 2]};
-  GG_TRY(gg_md_place_sort(&e->box, r, e->id, e->n, e->model.stop, err));
+  for (uint32_t i = 0; i < e->n; i++) p->r[i] = (gg_vec){given->r[3 * i], given->r[3 * i + 1], given->r[3 * i + 2]};
+  GG_TRY(gg_md_place_sort(p, e->id, err));
   for (uint32_t i = 0; i < e->n; i++) {
-    e->grain[i].r = r[i];
+    e->grain[i].r = p->r[i];
     e->grain[i].species = given->species ? (uint32_t)given->species[e->id[i]] : 0;
     diameter[i] = e->model.diameter[e->grain[i].species];
   }
-  gg_md_packing p = {.box = e->box, .model = &e->model, .n = e->n, .r = r, .diameter = diameter};
-  p.stop = e->model.stop;
-  gg_status status = make_cells(e, &p, err);
-  if (status == GG_OK) status = gg_md_place_check(&p, e->id, err);
-  gg_md_cells_free(&p.cells);
-  return status;
+  GG_TRY(make_cells(e, p, err));
+  return gg_md_place_check(p, e->id, err);
 }
 
-static gg_status place(gg_md *e, gg_rng *rng, gg_vec *r, double *diameter, gg_error *err)
+static gg_status place(gg_md *e, gg_rng *rng, gg_md_packing *p, double *diameter, gg_error *err)
 {
   for (uint32_t i = 0; i < e->n; i++)
-    for (int a = 0; a < 3; a++) *gg_component(&r[i], a) = gg_rng_uniform(rng) * e->box.edge[a];
-  GG_TRY(gg_md_place_sort(&e->box, r, NULL, e->n, e->model.stop, err));
+    for (int a = 0; a < 3; a++) *gg_component(&p->r[i], a) = gg_rng_uniform(rng) * e->box.edge[a];
+  GG_TRY(gg_md_place_sort(p, NULL, err));
   deal_species(e, diameter, rng);
-  gg_md_packing p = {.box = e->box, .model = &e->model, .n = e->n, .r = r, .diameter = diameter};
-  p.stop = e->model.stop;
-  gg_status status = relax(e, &p, rng, err);
-  gg_md_cells_free(&p.cells);
+  GG_TRY(relax(e, p, rng, err));
   for (uint32_t i = 0; i < e->n; i++) {
-    e->grain[i].r = r[i];
+    e->grain[i].r = p->r[i];
     e->id[i] = i;
   }
-  return status;
+  return GG_OK;
 }
 
 /* How much faster the upper wall is than the lower one. */
@@ -161,18 +154,28 @@ static void take_motion(gg_md *e, const gg_grain_arrays *given)
   }
 }
 
+static gg_status place_all(gg_md *e, const gg_grain_arrays *given, gg_rng *rng, gg_error *err)
+{
+  gg_vec *r = gg_base_array_new(e->n, sizeof *r, err);
+  double *diameter = gg_base_array_new(e->n, sizeof *diameter, err);
+  gg_status status = r && diameter ? GG_OK : GG_FAILED;
+  gg_md_packing p = {.box = e->box, .model = &e->model, .n = e->n, .r = r, .diameter = diameter};
+  p.stop = e->model.stop;
+  if (gg_md_place_has_lists(&p)) p.pool = gg_base_thread_pool_new(e->model.threads);
+  if (status == GG_OK)
+    status = given && given->r ? place_given(e, given, &p, diameter, err) : place(e, rng, &p, diameter, err);
+  gg_base_thread_pool_free(p.pool);
+  gg_md_cells_free(&p.cells);
+  free(r);
+  free(diameter);
+  return status;
+}
+
 gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, const gg_grain_arrays *given, gg_error *err)
 {
   gg_rng rng = gg_common_rng_seed(seed, stream + GG_STREAM_START);
   e->k.rng = gg_common_rng_seed(seed, stream + GG_STREAM_ENGINE);
-  gg_vec *r = gg_base_array_new(e->n, sizeof *r, err);
-  double *diameter = gg_base_array_new(e->n, sizeof *diameter, err);
-  gg_status status = r && diameter ? GG_OK : GG_FAILED;
-  if (status == GG_OK)
-    status = given && given->r ? place_given(e, given, r, diameter, err) : place(e, &rng, r, diameter, err);
-  free(r);
-  free(diameter);
-  GG_TRY(status);
+  GG_TRY(place_all(e, given, &rng, err));
   set_velocities(e, &rng, e->model.temperature0);
   set_spins(e, &rng, e->model.ratio0 * e->model.temperature0);
   if (given) take_motion(e, given);
