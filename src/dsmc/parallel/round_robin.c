@@ -19,6 +19,9 @@
  * another would (4000 of one species cost less still, but segments of different temperatures then mix by fits and
  * starts). */
 static const double worth_one_species = 1200, worth_mixture = 2400;
+/* And candidates for each of their blocks, which is the number above with 80 000 grains: of more, a block that has come
+ * into the cache takes part in two on average before the next pair of segments evicts it. */
+static const double worth_a_block = 0.48;
 /* Candidates of a round that other threads are woken for. */
 static const double worth_waking = 400;
 
@@ -292,6 +295,16 @@ static double expected_of(const gg_dsmc *d, const species_pair *s, double time)
          gg_dsmc_candidates_per_unit(s->path, s->features, s->common.one, s->common.two);
 }
 
+/* Candidates that a round should have. */
+static double worth_a_round(const gg_dsmc *d)
+{
+  const int segments = d->ensemble.segments;
+  size_t blocks = 0;
+  for (int i = 0; i < d->model.n_species; i++) blocks += d->ensemble.of[i].n_blocks;
+  const double least = d->model.n_species == 1 ? worth_one_species : worth_mixture;
+  return 0.5 * segments * fmax(least, worth_a_block * 2 * (double)blocks / segments);
+}
+
 void gg_dsmc_collide_segments(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_splitting splitting)
 {
   const int segments = d->ensemble.segments, pairs = gg_pairs_of(d->model.n_species);
@@ -304,8 +317,7 @@ void gg_dsmc_collide_segments(gg_dsmc *d, double dt, double strain, double span,
     r.species[q] = species_pair_of(d, s.i, s.j);
     expected += expected_of(d, &r.species[q], dt);
   }
-  const double worth_a_round = 0.5 * segments * (pairs == 1 ? worth_one_species : worth_mixture);
-  const int n_rounds = (int)fmax(1, fmin(expected / worth_a_round, segments));
+  const int n_rounds = (int)fmax(1, fmin(expected / worth_a_round(d), segments));
   const int sweeps = gg_dsmc_sweeps_of_part(&d->now.step, splitting, dt, n_rounds);
   r.n_substeps = gg_dsmc_list_substeps(pairs, splitting, sweeps, substep);
   r.each = span / n_rounds;
