@@ -10,6 +10,7 @@
 #include "common/engine.h"
 #include "common/extension.h"
 #include "run/replicas.h"
+#include "scene/fields.h"
 
 struct gg_session {
   gg_busy busy;
@@ -38,6 +39,7 @@ static void note_progress(void *context, const gg_progress *progress)
 static gg_status make(gg_session *s, const gg_scene *scene, gg_error *err)
 {
   GG_TRY(gg_api_scene_finish(scene, &s->scene, err));
+  if (!gg_scene_is_given(&s->scene, "run.replicas")) s->scene.run.replicas = 1;
   if (s->scene.run.replicas != 1)
     return gg_base_fail(err, GG_BAD_INPUT, "run.replicas: %lld; a session has 1, gg_run takes more",
                         (long long)s->scene.run.replicas);

@@ -31,6 +31,9 @@ enum { GG_LEAST_ENSEMBLE = 5000 };
  * requested for a rate that has no steady value. */
 enum { GG_COLLISIONS_FOLLOWED = 400 };
 
+/* By default, of a gas that is followed for run.duration. */
+enum { GG_REPLICAS_FOLLOWED = 8 };
+
 typedef struct gg_species {
   double fraction, diameter, mass, inertia; /* mole fraction; user's units; K = 4I/(m d^2) */
   double drag;                              /* of a bath, over bath.drag */

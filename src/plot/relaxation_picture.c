@@ -49,6 +49,13 @@ static void add_blocks(gg_chart_series *to, const gg_stored_series *d, size_t n,
   }
 }
 
+/* For run.duration: there is no averaging window, and results are those at the end. */
+static bool is_followed(const gg_stored_engine *e)
+{
+  const json_t *run = json_object_get(json_object_get(e->document, "scene"), "run");
+  return json_is_number(json_object_get(run, "duration"));
+}
+
 static void add_mean(gg_plot_sheet *s, const gg_stored_engine *e, gg_quantity q, gg_chart_series like)
 {
   const json_t *mean = json_object_get(result_of(e, gg_common_quantity_name(q)), "mean");
@@ -68,7 +75,7 @@ static double add_quantity(gg_plot_sheet *s, const gg_stored_engine *e, gg_quant
   if (!series) return 0;
   add_blocks(series, d, n, q == GG_Q_P_XY ? -1 : 1);
   series->error = NULL;
-  add_mean(s, e, q, like);
+  if (!is_followed(e)) add_mean(s, e, q, like);
   return d->time[n - 1];
 }
 
@@ -100,11 +107,12 @@ static void add_panel(gg_plot_sheet *s, const gg_stored_engine *e, const char *w
     end = fmax(end, add_quantity(s, e, q[k], label[k]));
   }
   p->own_legend = true, p->share = share;
-  p->title = gg_plot_sheet_add_text(s, "%s: %s (shaded: averaging window)", e->name, what);
+  const bool followed = is_followed(e);
+  p->title = gg_plot_sheet_add_text(s, "%s: %s%s", e->name, what, followed ? "" : " (shaded: averaging window)");
   p->x = (gg_chart_axis){.label = "time", .unit = time_unit(e)};
   p->y = (gg_chart_axis){.label = what, .unit = unit_of(e, q[0])};
   set_axes(p, end);
-  for (int side = 0; side < 2; side++) p->shade[side] = fmin(e->window[side], end);
+  for (int side = 0; side < 2 && !followed; side++) p->shade[side] = fmin(e->window[side], end);
 }
 
 bool gg_plot_has_stresses(const gg_stored_engine *e)

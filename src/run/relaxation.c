@@ -92,6 +92,7 @@ double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model
   const uint64_t n = gg_run_relaxation_samples(scene);
   gg_relaxing x = gg_theory_relaxation_start(model);
   x.work /= 2; /* every run begins with this */
+  x.stride = 1.5;
   double sum = 0, T = x.T;
   int made = 0;
   gg_model *now = malloc(sizeof *now);

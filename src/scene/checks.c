@@ -60,6 +60,8 @@ void gg_scene_fill_in(gg_scene *s)
   if (flow->wall_temperature[0] > 0 && !gg_scene_is_given(s, "walls.temperature"))
     memcpy(s->walls.temperature, flow->wall_temperature, sizeof s->walls.temperature);
   s->measure |= flow->measure;
+  /* Errors of a gas that is followed in time come from its replicas. */
+  if (s->run.duration != GG_AUTO && !gg_scene_is_given(s, "run.replicas")) s->run.replicas = GG_REPLICAS_FOLLOWED;
 }
 
 #define TAKES(name, thermostat)                                                                                        \

@@ -246,7 +246,7 @@ static gg_status estimate_point(const gg_sweep *sweep, gg_scene *scene, double *
     int64_t n = replicas_for(&f, warmup, sweep->settings.longest);
     if (n > replicas) replicas = n;
   }
-  if (!chosen) scene->run.replicas = replicas;
+  if (!chosen && replicas > scene->run.replicas) scene->run.replicas = replicas;
   if (some == GG_OK && does == GG_DOES_COMPARE) GG_TRY(add_theories(scene, seconds, err));
   return some;
 }

@@ -144,7 +144,7 @@ static double collision_rate(const gg_model *m, const gg_gaussian_rates *r)
 #define SECONDS 2e-4 /* of a step, over the square of the number of species */
 #define LONG 1e5     /* relaxations are shorter, over the fastest rate; longer times show rounding */
 
-/* Runge and Kutta's fourth order, in steps of half of what is fastest. */
+/* Runge and Kutta's fourth order, in strides of what is fastest. */
 void gg_theory_gaussian_relax(const gg_model *m, double time, gg_relaxing *x)
 {
   gg_gaussian *state = x->of;
@@ -154,7 +154,7 @@ void gg_theory_gaussian_relax(const gg_model *m, double time, gg_relaxing *x)
     rates_at(m, state, &r[0]);
     const double most = fastest(m, state, &r[0]);
     const bool settled = is_settled(m, state, &r[0], fmin(time, LONG / most));
-    const double dt = settled ? time : fmin(time, 0.5 / most);
+    const double dt = settled ? time : fmin(time, (x->stride > 0 ? x->stride : 0.5) / most);
     x->collisions += dt * collision_rate(m, &r[0]);
     x->work -= SECONDS * m->n_species * m->n_species;
     if (settled || !(dt > 0) || x->work < 0) return;

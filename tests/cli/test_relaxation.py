@@ -8,6 +8,7 @@ import re
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 
 import h5py
@@ -232,6 +233,30 @@ def test_after_changes():
     collided = float(re.search(r"([\d.]+) ([kM]) collisions", done.out).group(1)) * (1e3 if " k collisions" in done.out else 1e6)
     expected = collisions_told(ELASTIC % "dsmc") * 16 * 5000 / 2
     check(abs(expected / collided - 1) < 0.05, expected, collided)
+
+
+def test_default_replicas():
+    """A gas that is followed has eight replicas unless the scene says how many, so values have errors; its picture has no
+    averaging window, which that of a steady gas has."""
+    scene = "{flow: hss, engine: dsmc, phi: 0.1, dsmc: {particles: 1000}, thermostat: bath, run: {%s}}"
+    folder = tempfile.mkdtemp()
+    with open(os.path.join(folder, "gnuplot"), "w") as file:
+        file.write("#!/bin/sh\ncat >> drawn.txt\nexit 1\n")
+    os.chmod(os.path.join(folder, "gnuplot"), 0o755)
+    for length, shaded in ("duration: 5", False), ("collisions: 50", True):
+        done = run("run", "scene.yaml", "--quiet", "--json", "--output", "r.h5", scene=scene % length)
+        check(done.code == 0 and "(?)" not in done.out, done.err)
+        results = json.loads(done.out)
+        check(results["scene"]["run"]["replicas"] == (1 if shaded else 8), results["scene"]["run"])
+        check(results["results"]["temperature"]["stderr"] > 0, results["results"]["temperature"])
+        if os.path.exists("drawn.txt"):
+            os.remove("drawn.txt")
+        path, os.environ["PATH"] = os.environ["PATH"], folder + ":" + os.environ["PATH"]
+        run("plot", "r.h5")
+        os.environ["PATH"] = path
+        with open("drawn.txt") as file:
+            drawn = file.read()
+        check(("averaging window" in drawn) == shaded and "temperature" in drawn, drawn[:2000])
 
 
 def test_theory_ends():
