@@ -53,6 +53,16 @@ def test_h5py():
     check("samples until" in out and 0.2 < T < 0.6, out)
 
 
+def test_crossing():
+    """1 + e^(-0.4 t) and 2 - 1.5 e^(-0.4 t) cross at ln(2.5)/0.4."""
+    files()
+    done = subprocess.run(["sh", "-ec", blocks("sh")["Crossing"]], cwd=FOLDER.name, capture_output=True, text=True,
+                          timeout=100 * PATIENCE, env=dict(os.environ, PATH=FOLDER.name + ":" + os.environ["PATH"]))
+    check(done.returncode == 0, done.stderr)
+    when, error = map(float, re.findall(r"[\d.]+", recipe("Crossing")[0]))
+    check(abs(when - 2.2907) < 5 * error and error < 0.05, when, error)
+
+
 def test_pandas():
     out, _ = recipe("pandas")
     check("stderr" in out and "enskog_hermite" in out, out)
@@ -96,7 +106,7 @@ def test_gsd():
 
 
 def test_every_recipe_is_tried():
-    check(sorted(blocks("python")) == sorted(["h5py", "pandas", "xarray", "ASE", "MDAnalysis", "GSD"]), list(blocks("python")))
+    check(sorted(blocks("python")) == sorted(["h5py", "Crossing", "pandas", "xarray", "ASE", "MDAnalysis", "GSD"]), list(blocks("python")))
 
 
 if __name__ == "__main__":
