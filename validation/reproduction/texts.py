@@ -27,6 +27,7 @@ def format_number(mean, error, bare=False):
     if f"{error:.0e}"[0] == "1" and not bare:
         digits += 1
     digits = max(digits, 0)
+    mean = round(mean, digits) + 0.0  # no "-0.0"
     return f"{mean:.{digits}f}" if bare else f"{mean:.{digits}f}({error * 10**digits:.0f})"
 
 
