@@ -134,7 +134,7 @@ def test_yaml_reads_what_it_writes(value):
 NOT_CALLED = """
 gg_callback_fail: exceptions come out of the call
 gg_comparison_departure gg_result_get gg_result_unit: rows and estimates have it
-gg_nearest_word gg_text_make_printable: for programs with words of their own
+gg_text_make_printable: for programs with words of their own
 gg_page_write gg_plot: pictures are those of matplotlib; the page is a command
 gg_session_advance gg_session_free gg_session_get_progress gg_session_new gg_session_result: threads take their place
 gg_simulation_record: events() stores all collisions of a step, however many
