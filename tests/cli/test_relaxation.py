@@ -207,9 +207,9 @@ def test_fast_gas():
     """Theory beside a gas that comes to collide 10^4 times as often arrives at the steady state; where it takes too long
     its curve ends, and results are there in seconds. info counts the collisions of either, and of mixtures."""
     common = "{engine: dsmc, phi: 0.05, dsmc: {particles: 100}, "
-    fast = common + "flow: usf, collision: {e: 0.8}, protocol: [{at: 2, shear_rate: 500}], run: {duration: 4}}"
-    endless = common + "flow: usf, temperature: 1, collision: {e: 1}, run: {duration: 200}}"
-    mixture = common + "flow: hcs, collision: {e: 0.7}, species: [{fraction: 0.5}, {fraction: 0.5, mass: 10}], run: {duration: 200}}"
+    fast = common + "flow: usf, collision: {e: 0.8}, protocol: [{at: 2, shear_rate: 500}], run: {replicas: 1, duration: 4}}"
+    endless = common + "flow: usf, temperature: 1, collision: {e: 1}, run: {replicas: 1, duration: 200}}"
+    mixture = common + "flow: hcs, collision: {e: 0.7}, species: [{fraction: 0.5}, {fraction: 0.5, mass: 10}], run: {replicas: 1, duration: 200}}"
     for scene, ends in (fast, False), (endless, True), (mixture, False):
         done = run("run", "scene.yaml", "--quiet", "--output", "q.h5", scene=scene, timeout=30)
         check(done.code == 0, done.err)
