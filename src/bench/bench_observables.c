@@ -127,7 +127,7 @@ static const char caption[] =
 
 static const double densities[] = {0.01, 0.3};
 static const int64_t sizes[] = {500, 4000, 32000}, quick_sizes[] = {500, 2000, 4000};
-enum { N_DENSITIES = 2, N_SIZES = 3, N_CASES = 2 * N_DENSITIES * N_SIZES };
+enum { N_DENSITIES = 2, N_SIZES = 3 };
 
 /* An engine at a density and a size: a column each. */
 typedef struct setting {
@@ -136,10 +136,27 @@ typedef struct setting {
   int64_t n;
 } setting;
 
-static setting setting_of(const gg_bench *b, int i)
+static const int64_t *sizes_of(const gg_bench *b)
 {
-  return (setting){(gg_engine_kind)(i / (N_DENSITIES * N_SIZES)), densities[i / N_SIZES % N_DENSITIES],
-                   (b->options->quick ? quick_sizes : sizes)[i % N_SIZES]};
+  return b->options->quick ? quick_sizes : sizes;
+}
+
+/* How many: those that `smaller` makes alike are one. */
+static int n_sizes_of(const gg_bench *b)
+{
+  int64_t grains[N_SIZES];
+  int n = 0;
+  for (int k = 0; k < N_SIZES; k++) {
+    grains[k] = gg_bench_scene(b, GG_MD, densities[0], sizes_of(b)[k]).particles;
+    n += k == 0 || grains[k] != grains[k - 1];
+  }
+  return n;
+}
+
+static setting setting_of(const gg_bench *b, int n_sizes, int i)
+{
+  return (setting){(gg_engine_kind)(i / (N_DENSITIES * n_sizes)), densities[i / n_sizes % N_DENSITIES],
+                   sizes_of(b)[i % n_sizes + N_SIZES - n_sizes]};
 }
 
 static bool find_scene_with(const gg_bench *b, const setting *c, const gg_observable *o, double beta, gg_scene *scene)
@@ -175,7 +192,7 @@ static gg_status measure(gg_bench *b, gg_bench_table *table, int row, int i, con
 {
   gg_scene scene;
   cost_of_observable cost;
-  setting c = setting_of(b, i);
+  setting c = setting_of(b, n_sizes_of(b), i);
   gg_bench_table_put(table, row, 1 + i, "-");
   if (!find_scene(b, &c, o, &scene)) return GG_OK;
   GG_TRY(measure_cost(&scene, o, b->options->quick ? 10 : 30, repeats_of(b, c.n),
@@ -194,13 +211,14 @@ gg_status gg_bench_observables(gg_bench *b, gg_error *err)
   gg_bench_table *table = gg_bench_table_new(b, "observables", caption, 1, err);
   if (!table) return GG_FAILED;
   gg_bench_table_column(table, false, "observable");
-  for (int i = 0; i < N_CASES; i++) {
-    setting c = setting_of(b, i);
+  const int n_sizes = n_sizes_of(b), n_cases = 2 * N_DENSITIES * n_sizes;
+  for (int i = 0; i < n_cases; i++) {
+    setting c = setting_of(b, n_sizes, i);
     gg_bench_table_column(table, true, "%s phi %g N %lld", gg_run_engine_ops_of(c.engine)->name, c.phi, (long long)c.n);
   }
   for (int k = 0; gg_measure_observables[k]; k++) {
     const int row = gg_bench_table_row(table, "%s", gg_measure_observables[k]->name);
-    for (int i = 0; i < N_CASES; i++) GG_TRY(measure(b, table, row, i, gg_measure_observables[k], err));
+    for (int i = 0; i < n_cases; i++) GG_TRY(measure(b, table, row, i, gg_measure_observables[k], err));
     gg_bench_tell(b, "%s done", gg_measure_observables[k]->name);
   }
   return GG_OK;
