@@ -186,7 +186,7 @@ static bool fill_part(const gg_md_pair_lists *l, gg_md_pair_part *part)
   size_t n = 0;
   part->n_across = 0;
   for (uint32_t i = part->first; i < part->end; i++) {
-    if (i % GG_MD_PLACE_BETWEEN_LOOKS == 0 && (part->stopped = gg_stop_asked(l->p->stop))) return true;
+    if (i % GG_MD_PLACE_BETWEEN_LOOKS == 0 && (part->stopped = gg_md_place_is_stopped(l->p))) return true;
     const size_t from = part->from[i - part->first] = n;
     const int32_t c = (int32_t)l->cell[i], at[3] = {c % l->n[0], c / l->n[0] % l->n[1], c / (l->n[0] * l->n[1])};
     const gg_md_listed self = l->listed[l->rank[i]];

@@ -44,7 +44,7 @@ static void try_pair(sweep *s, uint32_t i, uint32_t j)
 /* Asked at every grain, it looks at some, counted over all sweeps: what is placed at once is placed. */
 static bool is_stopped(sweep *s)
 {
-  if (++s->p->tried % BETWEEN_LOOKS == 0 && gg_stop_asked(s->p->stop)) s->status = GG_INTERRUPTED;
+  if (++s->p->tried % BETWEEN_LOOKS == 0 && gg_md_place_is_stopped(s->p)) s->status = GG_INTERRUPTED;
   return s->status != GG_OK;
 }
 

@@ -3,6 +3,7 @@
 #ifndef GG_MD_START_PLACE_H
 #define GG_MD_START_PLACE_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 
 #include "base/cancellation.h"
@@ -23,9 +24,17 @@ typedef struct gg_md_packing {
   const double *diameter;
   gg_md_cells cells; /* none in boxes below three cells across: then all pairs are tried */
   const gg_stop *stop;
+  atomic_bool stopped;  /* the caller said so, and is not asked again */
   gg_thread_pool *pool; /* shares large boxes; NULL: one thread */
   uint64_t tried;       /* grains, over all sweeps */
 } gg_md_packing;
+
+/* From any thread that shares it. */
+static inline bool gg_md_place_is_stopped(gg_md_packing *p)
+{
+  if (!atomic_load(&p->stopped) && gg_stop_asked(p->stop)) atomic_store(&p->stopped, true);
+  return atomic_load(&p->stopped);
+}
 
 /* Order centres along a space-filling curve; `id` (may be NULL) receives which one each was. */
 gg_status gg_md_place_sort(gg_md_packing *p, uint32_t *id, gg_error *err);

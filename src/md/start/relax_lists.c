@@ -83,9 +83,9 @@ static void sweep_part(void *context, int k)
   relaxation *x = context;
   const gg_md_pair_part *part = &x->lists.part[k];
   found *f = &x->part[k];
-  *f = (found){.stopped = gg_stop_asked(x->lists.p->stop)};
+  *f = (found){.stopped = gg_md_place_is_stopped(x->lists.p)};
   for (uint32_t i = part->first; i < part->end && !f->stopped; i++) {
-    if (i % GG_MD_PLACE_BETWEEN_LOOKS == 0 && (f->stopped = gg_stop_asked(x->lists.p->stop))) return;
+    if (i % GG_MD_PLACE_BETWEEN_LOOKS == 0 && (f->stopped = gg_md_place_is_stopped(x->lists.p))) return;
     const bool tried = is_tried(x, i);
     const size_t *from = &part->from[i - part->first];
     for (size_t m = from[0]; m < from[1]; m++) {

@@ -45,16 +45,22 @@ static uint32_t lesser(uint64_t a, uint64_t b)
 enum { PORTION = 1 << 15, PARTS = 16 };
 
 typedef struct sorting {
-  const gg_md_packing *p;
+  gg_md_packing *p;
   keyed *from, *to;
   uint64_t length; /* of sorted portions */
 } sorting;
+
+/* Systems of one portion do not look. */
+static bool is_stopped(const sorting *s)
+{
+  return s->p->n > PORTION && gg_md_place_is_stopped(s->p);
+}
 
 static void sort_portions(void *context, int k)
 {
   const sorting *s = context;
   const uint64_t n = s->p->n;
-  for (uint64_t at = (uint64_t)k * PORTION; at < n && !gg_stop_asked(s->p->stop); at += PARTS * PORTION)
+  for (uint64_t at = (uint64_t)k * PORTION; at < n && !is_stopped(s); at += PARTS * PORTION)
     qsort(s->from + at, lesser(n - at, PORTION), sizeof *s->from, by_key);
 }
 
@@ -62,7 +68,7 @@ static void merge_portions(void *context, int k)
 {
   const sorting *s = context;
   const uint64_t n = s->p->n, both = 2 * s->length;
-  for (uint64_t at = (uint64_t)k * both; at < n && !gg_stop_asked(s->p->stop); at += PARTS * both)
+  for (uint64_t at = (uint64_t)k * both; at < n && !is_stopped(s); at += PARTS * both)
     merge(s->from + at, lesser(n - at, s->length), lesser(n - at, both), s->to + at);
 }
 
@@ -91,7 +97,7 @@ gg_status gg_md_place_sort(gg_md_packing *p, uint32_t *id, gg_error *err)
   }
   sorting s = {p, room, room + p->n, 0};
   if (made) sort(&s);
-  const bool whole = made && !gg_stop_asked(p->stop);
+  const bool whole = made && !is_stopped(&s);
   for (uint32_t i = 0; whole && i < p->n; i++) {
     p->r[i] = r[s.from[i].id];
     if (id) id[i] = s.from[i].id;
