@@ -131,7 +131,7 @@ static int lose_at_the_end(void *context)
 {
   loss *l = context;
   pthread_mutex_lock(&l->mailbox->lock);
-  if (l->mailbox->die_when == 0) l->mailbox->die_when = mailbox_seconds() + 1.98;
+  if (l->mailbox->die_when == 0) l->mailbox->die_when = mailbox_seconds() + 0.98;
   pthread_mutex_unlock(&l->mailbox->lock);
   return 0;
 }
@@ -152,7 +152,7 @@ static void lost_after_the_stop(void **state)
   gg_result *result = NULL;
   gg_result_info info;
   gg_scene *scene = scene_of("{flow: usf, phi: 0.1, particles: 100, run: {collisions: 100, warmup: 1.0e9, replicas: 2, "
-                             "time_limit: 2}}");
+                             "time_limit: 1}}");
   gg_run_options options = {.context = &l, .progress = note_collisions, .stop = lose_at_the_end};
   assert_int_equal(run(&p, 2, 1, scene, options, &result), GG_FAILED);
   assert_true(p.lost[1] && p.warned == 1 && p.sent[1] > 2); /* one of which says how far it is */
@@ -207,10 +207,10 @@ static void checkpoints_on_the_way(void **state)
   mailbox p = {0};
   gg_scene *scene = scene_of(scenes[0]);
   gg_result *one, *several = NULL;
-  assert_ok(gg_scene_set(scene, "run.collisions", "6000", &err));
+  assert_ok(gg_scene_set(scene, "run.collisions", "2000", &err));
   one = alone(scene);
   assert_ok(gg_scene_set(scene, "output.checkpoint_every", "0.01", &err));
-  assert_ok(gg_scene_set(scene, "output.trajectory_every", "500", &err)); /* the first replica stays here for it */
+  assert_ok(gg_scene_set(scene, "output.trajectory_every", "160", &err)); /* the first replica stays here for it */
   gg_run_options options = {.checkpoint = "t_often.h5", .output = "t_often_out.h5", .stored = count_stored};
   assert_int_equal(run(&p, 3, 1, scene, options, &several), GG_OK);
   assert_same(one, several);
@@ -277,9 +277,8 @@ static void goes_on_alone(void **state)
 {
   (void)state;
   gg_error err;
-  gg_scene *scene =
-      scene_of("{flow: usf, phi: 0.1, particles: 100, run: {collisions: 300, warmup: 12000, replicas: 4}, "
-               "output: {checkpoint_every: 0.15}}");
+  gg_scene *scene = scene_of("{flow: usf, phi: 0.1, particles: 100, run: {collisions: 100, warmup: 4000, replicas: 4}, "
+                             "output: {checkpoint_every: 0.05}}");
   mailbox p = {0};
   watcher shared = {.stop_at = 3}, alone = {0};
   gg_result *part = NULL, *rest = NULL;
