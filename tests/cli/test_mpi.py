@@ -15,9 +15,9 @@ from tap import GRAINGAS, PATIENCE, SANITIZERS, Skip, check, main, run
 
 BARE = os.environ["GRAINGAS_WITHOUT_MPI"]
 BOUND = 100 * PATIENCE  # s
-SCENE = """{flow: usf, phi: 0.1, particles: 200, run: {collisions: 600, replicas: 4},
+SCENE = """{flow: usf, phi: 0.1, particles: 200, run: {collisions: 200, replicas: 4},
 measure: [rheology, velocity_distributions], output: {checkpoint_every: 0}}"""
-LONG = ("--set", "run.collisions=2000", "--set", "output.checkpoint_every=0.2")
+LONG = ("--set", "run.collisions=1000", "--set", "output.checkpoint_every=0.1")
 
 
 def mpirun(ranks, *args, options=(), program=GRAINGAS):
@@ -186,7 +186,7 @@ def test_message_in_parts():
 
 SWEEP = """{flow: usf, phi: 0.1, particles: 100, run: {collisions: 150, warmup: 20, replicas: 2},
 vary: {collision.e: [0.7, 0.8, 0.9], engine: [md, dsmc]}}"""
-LONGER = "--set", "run.collisions=2500"  # some seconds: a process is killed on the way
+LONGER = "--set", "run.collisions=1200"  # a second: a process is killed on the way
 
 
 def table_of(folder, *args):

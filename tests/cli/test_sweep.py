@@ -220,7 +220,8 @@ def test_lines_of_a_picture():
 def test_deviations_in_a_picture():
     """Relative to a theory: its own line is zero, others lie off it as the table says; chosen theories, logarithmic
     axes and the title; lines have twenty-five points more than the table, which a second picture reads."""
-    write(SWEEP.replace("replicas: 2}", "replicas: 2}\nsweep: {does: theory}").replace("  phi: [0.05, 0.1]\n", ""))
+    write(SWEEP.replace("replicas: 2}", "replicas: 2}\nsweep: {does: theory}").replace("  phi: [0.05, 0.1]\n", "").replace(
+        "[0.7, 0.8, 0.9]", "[0.9, 0.95]"))  # the solver takes half as long as at 0.7
     check(run("sweep", "s.yaml", "--quiet").code == 0)
     args = ("sweep", "s.yaml", "--collect", "--quiet", "--over", "collision.e", "--show", "temperature", "--theories", "lun1991")
     done = run(*args, "--relative-to", "enskog_hermite", "--log", "xy")
@@ -253,7 +254,7 @@ def kill_and_go_on(folder, threads, rng, extra=()):
         child = subprocess.Popen([GRAINGAS, "sweep", "s.yaml", "--quiet", "--output", folder, "--threads", threads,
                                   *extra], stderr=subprocess.PIPE, text=True)
         try:
-            child.wait(timeout=rng.uniform(0.1, 0.8) * (1 + kills / 10))
+            child.wait(timeout=rng.uniform(0.05, 0.4) * (1 + kills / 10))
             check(child.returncode == 0, child.stderr.read())
             return kills
         except subprocess.TimeoutExpired:
@@ -266,7 +267,7 @@ def kill_and_go_on(folder, threads, rng, extra=()):
 
 def test_killed():
     """kill -9 at any moment; then the same numbers as of a sweep that was left alone, and nothing but results."""
-    write(SWEEP.replace("150", "600"))
+    write(SWEEP.replace("150", "300"))
     check(run("sweep", "s.yaml", "--output", "whole.sweep", "--threads", "2").code == 0)
     whole = collected("whole.sweep")
     rng = random.Random(18)
@@ -274,7 +275,7 @@ def test_killed():
     check(kills > 1, kills)
     check(collected("a.sweep") == whole)
     check(all(name.endswith(".h5") and len(name) == 19 for name in points_in("a.sweep")), points_in("a.sweep"))
-    kill_and_go_on("b.sweep", "1", rng, ("--set", "output.checkpoint_every=0.05"))
+    kill_and_go_on("b.sweep", "1", rng, ("--set", "output.checkpoint_every=0.025"))
     check(collected("b.sweep") == whole)
     check(all(len(name) == 19 for name in points_in("b.sweep")), points_in("b.sweep"))
     before = {f: os.stat(f).st_mtime_ns for f in glob.glob("a.sweep/*")}  # sweep.yaml, too
