@@ -186,7 +186,7 @@ static bool fill_part(const gg_md_pair_lists *l, gg_md_pair_part *part)
   size_t n = 0;
   part->n_across = 0;
   for (uint32_t i = part->first; i < part->end; i++) {
-    if (i % GG_MD_PLACE_BETWEEN_LOOKS == 0 && (part->stopped = gg_md_place_is_stopped(l->p))) return true;
+    if (i % GG_MD_PLACE_BETWEEN_LOOKS == 0 && gg_md_place_is_stopped(l->p)) return true;
     const size_t from = part->from[i - part->first] = n;
     const int32_t c = (int32_t)l->cell[i], at[3] = {c % l->n[0], c / l->n[0] % l->n[1], c / (l->n[0] * l->n[1])};
     const gg_md_listed self = l->listed[l->rank[i]];
@@ -213,8 +213,7 @@ gg_status gg_md_pair_lists_fill(gg_md_pair_lists *l, gg_error *err)
   count_cells(l);
   gg_base_thread_pool_for(l->p->pool, PARTS, order, l);
   gg_base_thread_pool_for(l->p->pool, PARTS, fill, l);
-  for (int k = 0; k < PARTS; k++)
-    if (l->part[k].stopped) return gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
+  if (l->p->stopped) return gg_md_place_interrupted(err);
   for (int k = 0; k < PARTS; k++)
     if (l->part[k].failed) return gg_base_out_of_memory_for(err, "the lists of grains that overlap");
   return GG_OK;

@@ -15,7 +15,7 @@ typedef struct gg_md_pair_part {
   uint32_t *neighbour;
   uint32_t (*across)[2]; /* pairs with grains of other parts */
   size_t room, n_across, room_across;
-  bool failed, stopped; /* no memory; interrupted */
+  bool failed; /* no memory */
 } gg_md_pair_part;
 
 /* A grain where it stands when lists are made, in the order of cells. */

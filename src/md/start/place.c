@@ -41,6 +41,11 @@ static void try_pair(sweep *s, uint32_t i, uint32_t j)
   p->r[j] = gg_axpy(push, dr, p->r[j]);
 }
 
+gg_status gg_md_place_interrupted(gg_error *err)
+{
+  return gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
+}
+
 /* Asked at every grain, it looks at some, counted over all sweeps: what is placed at once is placed. */
 static bool is_stopped(sweep *s)
 {
@@ -120,7 +125,7 @@ static gg_status sweep_all(sweep *s, gg_error *err)
     sweep_cells(s);
   else
     sweep_small(s);
-  if (s->status == GG_INTERRUPTED) return gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
+  if (s->status == GG_INTERRUPTED) return gg_md_place_interrupted(err);
   if (s->status == GG_FAILED) return gg_base_out_of_memory_for(err, "the grid of cells");
   return GG_OK;
 }

@@ -36,6 +36,9 @@ static inline bool gg_md_place_is_stopped(gg_md_packing *p)
   return atomic_load(&p->stopped);
 }
 
+/* GG_INTERRUPTED, and why. */
+gg_status gg_md_place_interrupted(gg_error *err);
+
 /* Order centres along a space-filling curve; `id` (may be NULL) receives which one each was. */
 gg_status gg_md_place_sort(gg_md_packing *p, uint32_t *id, gg_error *err);
 /* n of the sites of a face-centred lattice that fills the box. */

@@ -21,7 +21,6 @@ enum { LISTED_SWEEPS = 4 };
 typedef struct found {
   uint64_t overlaps;
   double farthest2; /* from where grains were when lists were made */
-  bool stopped;
 } __attribute__((aligned(64))) found;
 
 typedef struct relaxation {
@@ -83,9 +82,10 @@ static void sweep_part(void *context, int k)
   relaxation *x = context;
   const gg_md_pair_part *part = &x->lists.part[k];
   found *f = &x->part[k];
-  *f = (found){.stopped = gg_md_place_is_stopped(x->lists.p)};
-  for (uint32_t i = part->first; i < part->end && !f->stopped; i++) {
-    if (i % GG_MD_PLACE_BETWEEN_LOOKS == 0 && (f->stopped = gg_md_place_is_stopped(x->lists.p))) return;
+  *f = (found){0};
+  for (uint32_t i = part->first; i < part->end; i++) {
+    const bool looks = i == part->first || i % GG_MD_PLACE_BETWEEN_LOOKS == 0;
+    if (looks && gg_md_place_is_stopped(x->lists.p)) return;
     const bool tried = is_tried(x, i);
     const size_t *from = &part->from[i - part->first];
     for (size_t m = from[0]; m < from[1]; m++) {
@@ -114,9 +114,9 @@ static gg_status sweep(relaxation *x, int number, bool pushing, gg_error *err)
   x->pushing = pushing;
   x->overlaps = 0;
   gg_base_thread_pool_for(x->lists.p->pool, GG_MD_PLACE_PARTS, sweep_part, x);
+  if (x->lists.p->stopped) return gg_md_place_interrupted(err);
   sweep_across(x);
   for (int k = 0; k <= GG_MD_PLACE_PARTS; k++) {
-    if (x->part[k].stopped) return gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
     x->overlaps += x->part[k].overlaps;
     x->farthest2 = fmax(x->farthest2, x->part[k].farthest2);
   }

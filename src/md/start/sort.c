@@ -105,5 +105,5 @@ gg_status gg_md_place_sort(gg_md_packing *p, uint32_t *id, gg_error *err)
   free(room);
   free(r);
   if (!made) return GG_FAILED;
-  return whole ? GG_OK : gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
+  return whole ? GG_OK : gg_md_place_interrupted(err);
 }
