@@ -77,7 +77,7 @@ static gg_status sheared(const gg_model *m, series *s, gg_error *err)
   }
   bool widened = false;
   if (status == GG_OK) status = gg_hermite_shear_widen(&h, &widened, err);
-  if (widened) put_marginals(&h, next(s));
+  if (status == GG_OK && widened) put_marginals(&h, next(s));
   gg_hermite_shear_end(&h);
   return status;
 }
