@@ -9,7 +9,7 @@
 #include <math.h>
 
 enum { GG_HEAT_SMOOTH = 3, GG_HEAT_ORDERS = 12 };
-enum { GG_HEAT_VELOCITY, GG_HEAT_ALONG_SPIN, GG_HEAT_ACROSS, GG_HEAT_VECTORS };
+enum { GG_HEAT_VELOCITY, GG_HEAT_ALONG_SPIN, GG_HEAT_ACROSS };
 typedef struct gg_heat_function {
   int vector, speed, spin, degree;
 } gg_heat_function;
