@@ -10,25 +10,25 @@ static const char *const large[] = {"{flow: usf, engine: md, phi: 0.5, particles
                                     "{flow: couette, engine: md, phi: 0.1, particles: 10000, collision: {e: 0.9}}",
                                     "{flow: hcs, engine: md, phi: 0.1, particles: 10000, collision: {e: 0.9}}"};
 
-typedef struct patience {
+typedef struct poll_count {
   int polls, most; /* stops at this poll and later ones */
-} patience;
+} poll_count;
 
 static int stop(void *context)
 {
-  patience *p = context;
+  poll_count *p = context;
   return ++p->polls >= p->most;
 }
 
-static gg_start_options lasting(patience *p, int most)
+static gg_start_options lasting(poll_count *p, int most)
 {
-  *p = (patience){0, most};
+  *p = (poll_count){0, most};
   return (gg_start_options){.stop = stop, .context = p};
 }
 
 static int never(void *context)
 {
-  patience *p = context;
+  poll_count *p = context;
   p->polls++;
   return 0;
 }
@@ -46,7 +46,7 @@ static void interrupted(void **state)
 {
   (void)state;
   gg_error err;
-  patience p;
+  poll_count p;
   for (size_t i = 0; i < sizeof large / sizeof *large; i++) {
     gg_scene *s = scene_of(large[i]);
     gg_simulation *m = NULL, *other = NULL;
@@ -75,7 +75,7 @@ static void small_ones_are_asked_once(void **state)
 {
   (void)state;
   gg_error err;
-  patience p;
+  poll_count p;
   for (int dsmc = 0; dsmc < 2; dsmc++) {
     gg_scene *s = scene_of(small);
     assert_ok(gg_scene_set(s, "engine", dsmc ? "dsmc" : "md", &err));
@@ -94,7 +94,7 @@ static void from_grains(void **state)
 {
   (void)state;
   gg_error err;
-  patience p;
+  poll_count p;
   gg_scene *s = scene_of(large[0]);
   gg_simulation *m = NULL, *next = NULL;
   gg_simulation_state now;
@@ -112,7 +112,7 @@ static void from_grains(void **state)
   /* A change of the grains, too, by the callback for advances; then nothing has changed. */
   uint64_t before, after;
   assert_ok(gg_simulation_hash(m, &before, &err));
-  p = (patience){0, 3};
+  p = (poll_count){0, 3};
   assert_ok(gg_simulation_on_stop(m, stop, &p, &err));
   assert_int_equal(gg_simulation_set_grains(m, &grains, n, &err), GG_INTERRUPTED);
   assert_int_equal(gg_simulation_set(m, "collision.e", "0.8", &err), GG_INTERRUPTED);

@@ -8,7 +8,7 @@
 
 #include "theory/hermite/shear.h"
 
-/* Widths whose solutions are sought; by how much less than what is asked for is enough, of the first and of others. */
+/* Widths whose solutions are sought; how many times a width tails may need, of the first and of others. */
 enum { MOST_WIDTHS = 4 };
 static const double first_enough = 1.2, enough = 1.1;
 
