@@ -19,7 +19,7 @@ enum { PER_TENSOR = 4, MAX_STEPS = 200, MAX_ATTEMPTS = 4, RELAXATION_STEPS = 100
 static const double converged = 1e-13, nearby = 1e-5, relaxation_step = 0.3;
 
 /* Of ln T: a steady state that is so near is the one that a gas in a bath goes to. Processor time of that way. */
-static const double near_by = 0.1, seconds_to_follow = 1;
+static const double near_by = 0.1, seconds_to_follow = 0.3;
 
 /* Weight of relative residuals, of the balance of energy and of shear stresses. Nearly elastic grains do not shear
  * fast: with s the ratio of the shear rate to that of collisions these equations are, in units of T, of order s^2 and
