@@ -17,7 +17,7 @@ static const gg_quantity conductivities[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED,
                                              GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC,
                                              GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED};
 
-static gg_result *run(double e, double beta, double phi)
+static gg_result *run(double e, double beta, double phi, double collisions)
 {
   gg_scene s = gg_scene_defaults();
   gg_result *r = NULL;
@@ -25,7 +25,7 @@ static gg_result *run(double e, double beta, double phi)
   s.flow = GG_HCS, s.engine = GG_DSMC, s.phi = phi, s.collision.e[0] = e, s.collision.beta[0] = beta;
   s.measure |= GG_MEASURE_CONDUCTIVITY;
   s.dsmc.particles = 10000;
-  s.run.collisions = 2500;
+  s.run.collisions = collisions;
   gg_status status = gg_run_scene(&s, NULL, 1, NULL, &r, &err);
   if (status != GG_OK) print_message("%s\n", err.message);
   assert_int_equal(status, GG_OK);
@@ -46,7 +46,7 @@ static double answer(const gg_result *r, const char *theory, gg_quantity q)
 
 static void expect(double e, double phi)
 {
-  gg_result *r = run(e, -1, phi);
+  gg_result *r = run(e, -1, phi, 1500);
   const double kappa = r->value[conductivities[0]].mean;
   for (int k = 0; k < 3; k++) {
     const gg_estimate *v = &r->value[conductivities[k]];
@@ -83,7 +83,7 @@ static void rough(void **state)
                                   GG_Q_ROTATIONAL_DIFFUSIVE_CONDUCTIVITY_REDUCED};
   static const double e[] = {1, 0.9, 0.9}, beta[] = {1, 0.5, 0.5}, phi[] = {0, 0, 0.2};
   for (int k = 0; k < 3; k++) {
-    gg_result *r = run(e[k], beta[k], phi[k]);
+    gg_result *r = run(e[k], beta[k], phi[k], 1000);
     const gg_theory_answer right = answers(r, "enskog_hermite");
     for (int i = 0; i < 5; i++) {
       const gg_estimate *v = &r->value[q[i]];
