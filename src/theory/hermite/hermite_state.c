@@ -145,3 +145,24 @@ double gg_hermite_mean(const gg_hermite_basis *b, const gg_hermite_state *s, gg_
       }
   return sum;
 }
+
+static double fourth_x(const double C[3])
+{
+  return C[0] * C[0] * C[0] * C[0];
+}
+
+static double fourth_y(const double C[3])
+{
+  return C[1] * C[1] * C[1] * C[1];
+}
+
+static double fourth_z(const double C[3])
+{
+  return C[2] * C[2] * C[2] * C[2];
+}
+
+double gg_hermite_fourth_moment(const gg_hermite_basis *b, const gg_hermite_state *s, int axis)
+{
+  static gg_hermite_function *const fourth[] = {fourth_x, fourth_y, fourth_z};
+  return gg_hermite_mean(b, s, fourth[axis]);
+}

@@ -32,5 +32,7 @@ gg_status gg_hermite_expand_anew(const gg_hermite_basis *basis, gg_hermite_state
 /* Mean of a polynomial of C, of degree up to N + 3, over the distribution. */
 typedef double gg_hermite_function(const double C[3]);
 double gg_hermite_mean(const gg_hermite_basis *basis, const gg_hermite_state *state, gg_hermite_function *function);
+/* <C_axis^4>. */
+double gg_hermite_fourth_moment(const gg_hermite_basis *basis, const gg_hermite_state *state, int axis);
 
 #endif

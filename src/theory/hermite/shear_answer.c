@@ -28,30 +28,14 @@ static gg_stress stress_of(double factor, double P[3][3])
   return (gg_stress){factor * P[0][0], factor * P[1][1], factor * P[2][2], factor * P[0][1], factor * P[1][0]};
 }
 
-static double fourth_x(const double C[3])
-{
-  return C[0] * C[0] * C[0] * C[0];
-}
-
-static double fourth_y(const double C[3])
-{
-  return C[1] * C[1] * C[1] * C[1];
-}
-
-static double fourth_z(const double C[3])
-{
-  return C[2] * C[2] * C[2] * C[2];
-}
-
 /* Of the velocities of all grains. */
 static void answer_kurtoses(gg_hermite_shear *h, double M[3][3], gg_theory_answer *a)
 {
-  static gg_hermite_function *const fourth[] = {fourth_x, fourth_y, fourth_z};
   const gg_quantity kurtosis[] = {GG_Q_KURTOSIS_CX, GG_Q_KURTOSIS_CY, GG_Q_KURTOSIS_CZ};
   for (int k = 0; k < 3; k++) {
     double sum = 0;
     for (int i = 0; i < h->gas.n_species; i++)
-      sum += h->gas.fraction[i] * gg_hermite_mean(&h->op.basis, &h->state[i], fourth[k]);
+      sum += h->gas.fraction[i] * gg_hermite_fourth_moment(&h->op.basis, &h->state[i], k);
     a->value[kurtosis[k]] = sum / (M[k][k] * M[k][k]);
   }
 }

@@ -12,28 +12,12 @@
 enum { MOST_WIDTHS = 4 };
 static const double first_enough = 1.2, enough = 1.1;
 
-static double fourth_x(const double C[3])
-{
-  return C[0] * C[0] * C[0] * C[0];
-}
-
-static double fourth_y(const double C[3])
-{
-  return C[1] * C[1] * C[1] * C[1];
-}
-
-static double fourth_z(const double C[3])
-{
-  return C[2] * C[2] * C[2] * C[2];
-}
-
 /* Of a species: as much wider than its tails ask for as Gaussians are elsewhere. */
 static double width_for(const gg_hermite_basis *b, const gg_hermite_state *s)
 {
-  static gg_hermite_function *const fourth[] = {fourth_x, fourth_y, fourth_z};
   double M[3][3], ratio = 0;
   gg_hermite_second_moments(b, s, M);
-  for (int a = 0; a < 3; a++) ratio += gg_hermite_mean(b, s, fourth[a]) / (9 * M[a][a] * M[a][a]);
+  for (int a = 0; a < 3; a++) ratio += gg_hermite_fourth_moment(b, s, a) / (9 * M[a][a] * M[a][a]);
   return GG_HERMITE_WIDTH * fmax(ratio, 1);
 }
 
