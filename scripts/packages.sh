@@ -63,13 +63,13 @@ install_missing() {
     as_root=sudo
   fi
   echo "Installing Debian packages:$missing" >&2
-  log=$(mktemp)
-  if ! { $as_root apt-get update -q && $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing; } >"$log" 2>&1; then
-    tail -n 20 "$log" >&2
-    echo "apt-get could not install:$missing (all it said: $log)" >&2
+  apt_log=$(mktemp)
+  if ! { $as_root apt-get update -q && $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing; } >"$apt_log" 2>&1; then
+    tail -n 20 "$apt_log" >&2
+    echo "apt-get could not install:$missing (all it said: $apt_log)" >&2
     return 1
   fi
-  rm -f "$log"
+  rm -f "$apt_log"
 }
 
 # Is it there, for the compiler and the python that the build takes?
