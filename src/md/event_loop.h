@@ -27,11 +27,12 @@ GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s)
   gg_md_queue_insert(&e->queue, e->node, s->grain);
 }
 
+/* Its record stands at the present time, and is not written: at a start threads predict side by side. */
 GG_INLINE void gg_md_search_anew(gg_md *e, gg_md_search *s, uint32_t i)
 {
   e->node[i].collision = INFINITY;
   e->node[i].partner = GG_MD_NONE;
-  gg_md_begin_search(s, i, gg_md_synchronise(e, i), INFINITY, GG_MD_NONE);
+  gg_md_begin_search(s, i, &e->grain[i], INFINITY, GG_MD_NONE);
   gg_md_search_all(e, s);
 }
 
@@ -51,6 +52,7 @@ static __attribute__((noinline)) void gg_md_predict(gg_md *e, uint32_t i)
 /* The partner has collided since. */
 GG_INLINE void gg_md_re_predict(gg_md *e, uint32_t i)
 {
+  gg_md_synchronise(e, i);
   if (PREDICTS_IN_PLACE)
     gg_md_predict_in_place(e, i);
   else

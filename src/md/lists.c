@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* All lists anew: the searches of search/list_update.h for any boundary and mixture. */
 #include "md/search/list_update.h"
+#include "md/start/all_grains.h"
 
 /* Lists of some grains from cells that are there, all skins being new. False: some list is too long. */
 static bool fill_lists(gg_md *e, uint32_t from, uint32_t to)
@@ -20,12 +21,9 @@ bool gg_md_build_lists(gg_md *e, const gg_stop *stop)
 {
   for (uint32_t i = 0; i < e->n; i++) gg_md_new_skin(e, i);
   gg_md_fill_grid(e);
-  for (uint32_t from = 0; from < e->n;) {
-    if (stop && gg_stop_asked(stop)) return false;
-    const uint32_t to = e->n - from > GG_MD_GRAINS_BETWEEN_LOOKS ? from + GG_MD_GRAINS_BETWEEN_LOOKS : e->n;
-    const bool fit = fill_lists(e, from, to);
-    if (!fit) gg_md_set_skins(e, 0.95 * e->search.lists.radius);
-    from = fit ? to : 0;
-  }
-  return true;
+  gg_md_all_grains how;
+  while ((how = gg_md_for_all_grains(e, fill_lists, stop)) == GG_MD_IN_VAIN)
+    gg_md_set_skins(e, 0.95 * e->search.lists.radius);
+  e->out_of_memory |= how == GG_MD_NO_MEMORY;
+  return how == GG_MD_ALL_DONE;
 }

@@ -8,6 +8,7 @@
 #include "md/md_engine.h"
 #include "md/md_thermostat.h"
 #include "md/parallel/parallel.h"
+#include "md/start/all_grains.h"
 
 /* A fall gives its grains a temperature of its own, whatever they start from: m g times some of the height, where that
  * is much more. Events that come much faster than guessed wait in one bucket, all of them, for the whole first epoch.
@@ -26,19 +27,25 @@ static double guess_event_rate(const gg_md *e, double T)
   return e->n * fmax(rate, 1e-300);
 }
 
-static gg_status stopped_at_start(gg_error *err)
+static gg_status stopped_at_start(const gg_md *e, gg_error *err)
 {
+  if (e->out_of_memory) return gg_base_out_of_memory_for(err, "the start of md");
   return gg_base_fail(err, GG_INTERRUPTED, "md: stopped at the start");
 }
 
-/* Of a large system it takes a while. */
+static bool predict_some(gg_md *e, uint32_t from, uint32_t to)
+{
+  e->kernel->predict(e, from, to);
+  return true;
+}
+
 static gg_status predict_all(gg_md *e, gg_error *err)
 {
-  for (uint32_t from = 0, to; from < e->n; from = to) {
-    to = e->n - from > GG_MD_GRAINS_BETWEEN_LOOKS ? from + GG_MD_GRAINS_BETWEEN_LOOKS : e->n;
-    if (from > 0 && gg_stop_asked(e->model.stop)) return stopped_at_start(err);
-    e->kernel->predict(e, from, to);
-  }
+  for (uint32_t i = 0; i < e->n; i++) e->node[i].time = INFINITY;
+  const gg_md_all_grains how = gg_md_for_all_grains(e, predict_some, e->model.stop);
+  e->out_of_memory |= how == GG_MD_NO_MEMORY;
+  if (how != GG_MD_ALL_DONE) return stopped_at_start(e, err);
+  for (uint32_t i = 0; i < e->n; i++) gg_md_queue_insert(&e->queue, e->node, i);
   return GG_OK;
 }
 
@@ -48,7 +55,7 @@ gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
   if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
   GG_TRY(gg_md_kicks_make(e, err));
   if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) {
-    if (!gg_md_build_lists(e, e->model.stop)) return stopped_at_start(err);
+    if (!gg_md_build_lists(e, e->model.stop)) return stopped_at_start(e, err);
   } else {
     gg_md_enter_grid(e);
     if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
@@ -62,10 +69,6 @@ gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
   gg_md_select(e);
   gg_md_thermostat_begin(e);
   gg_md_kicks_begin(e);
-  for (uint32_t i = 0; i < e->n; i++) {
-    e->node[i].time = INFINITY;
-    gg_md_queue_insert(&e->queue, e->node, i);
-  }
   return predict_all(e, err);
 }
 

@@ -15,7 +15,7 @@
 /* Buckets of a window for each slab: so few that its log stays in the cache. Windows of an epoch at least: in shorter
  * ones fewer events depend on one that was put off. Buckets at least; layers of cells that a slab has at least; windows
  * between looks at whether to stop; events after a cancelled window without any; spans of events of which one goes the
- * slower way, to see whether it still is. */
+ * slower way, to see whether it still is, for so many events at most. */
 enum {
   BUCKETS_OF_A_SLAB = 96,
   FEWEST_WINDOWS = 128,
@@ -23,7 +23,8 @@ enum {
   FEWEST_LAYERS = 6,
   WINDOWS_BETWEEN_LOOKS = 16,
   SERIAL_EVENTS = 1 << 15,
-  TRIALS = 16
+  TRIALS = 16,
+  TRIAL_EVENTS = 1 << 17
 };
 
 #define FASTER 0.95
@@ -61,8 +62,7 @@ static void free_slab(gg_md_slab *s)
     for (int k = 0; k < GG_MD_LOG_PARTS; k++) free(((gg_md_growing *)log)[k].item);
     for (int k = 0; k < GG_MD_MOST_SLABS; k++) free(s->moves[phase][k].item);
   }
-  if (s->view) free(s->view->candidates);
-  free(s->view);
+  gg_md_view_free(s->view);
 }
 
 void gg_md_parallel_free(gg_md *e)
@@ -99,11 +99,8 @@ static bool make_slab(gg_md_parallel *p, int k)
   s->all = p;
   s->self = k;
   s->mark = (uint32_t)k;
-  s->view = aligned_alloc(64, (sizeof *s->view + 63) / 64 * 64);
-  if (!s->view) return false;
-  memset(s->view, 0, sizeof *s->view);
-  s->view->candidates = gg_md_new_pages(2 * GG_MD_CANDIDATES_APART, sizeof *s->view->candidates, NULL);
-  return s->view->candidates != NULL;
+  s->view = gg_md_view_new();
+  return s->view != NULL;
 }
 
 static uint32_t smaller(uint32_t a, uint32_t b)
@@ -158,15 +155,11 @@ static void note_layers(void *context, int self)
   for (uint64_t i = from; i < to; i++) gg_md_note_layer(p, e, (uint32_t)i);
 }
 
-/* The engine as it is now, with an event queue that takes in nothing: its bucket of any time is beyond the last. */
 static void renew_view(gg_md_slab *s)
 {
-  uint32_t *const candidates = s->view->candidates;
-  *s->view = *s->all->engine;
-  s->view->candidates = candidates;
-  s->view->queue = (gg_md_queue){.inverse_width = NAN, .n_buckets = 1, .due = s->pair};
+  gg_md_view_renew(s->view, s->all->engine);
+  s->view->queue.due = s->pair;
   s->view->look_at = 1;
-  s->view->is_view = s->view->cells.fixed = true;
   s->view->k.collisions_left = UINT64_MAX / 2;
   s->view->k.stop = INFINITY;
 }
@@ -206,7 +199,7 @@ static void begin_trial(gg_md_parallel *p)
   else
     t->serial = ++t->number % TRIALS == 0 ? !faster : faster;
   t->from = events;
-  t->until = events + p->engine->n / 2;
+  t->until = events + (t->serial == faster ? p->engine->n / 2 : smaller(p->engine->n / 2, TRIAL_EVENTS));
   t->began = now;
 }
 

@@ -21,6 +21,12 @@ void gg_md_parallel_free(gg_md *e);
  * none. */
 bool gg_md_run_windows(gg_md *e);
 
+/* The engine as it is now, for work beside others: with candidates of its own, and an event queue that takes in
+ * nothing. Renewed where memory is there. */
+gg_md *gg_md_view_new(void);
+void gg_md_view_renew(gg_md *view, const gg_md *engine);
+void gg_md_view_free(gg_md *view);
+
 /* Processor time of the other threads so far, in seconds. */
 double gg_md_parallel_cpu(const gg_md *e);
 
