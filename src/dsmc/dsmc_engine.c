@@ -80,7 +80,10 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   GG_TRY(gg_dsmc_allocate(model, &d, err));
   if (d->schedule) gg_dsmc_schedule_start(d->schedule, seed, stream);
   gg_rng start = gg_common_rng_seed(seed, stream + GG_STREAM_START);
-  gg_dsmc_ensemble_start(model, &d->ensemble, &start);
+  if (!gg_dsmc_ensemble_start(model, &d->ensemble, &start)) {
+    gg_dsmc_destroy(&d->base);
+    return gg_base_fail(err, GG_INTERRUPTED, "dsmc: stopped at the start");
+  }
   d->now.rng = gg_common_rng_seed(seed, stream + GG_STREAM_ENGINE);
   gg_dsmc_rng_lanes_seed(&d->now.lanes, seed, stream + GG_STREAM_LANES);
   gg_dsmc_synchronise(d);

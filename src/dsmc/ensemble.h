@@ -34,8 +34,8 @@ gg_status gg_dsmc_ensemble_new(const gg_model *model, gg_dsmc_ensemble *e, gg_er
 void gg_dsmc_ensemble_free(gg_dsmc_ensemble *e);
 
 /* ensemble_start.c: Maxwellians at the model's temperature0 and ratio0; the mean spin of a sheared dense gas is
- * -rate/2. */
-void gg_dsmc_ensemble_start(const gg_model *model, gg_dsmc_ensemble *e, gg_rng *rng);
+ * -rate/2. False: model->stop ended it. */
+bool gg_dsmc_ensemble_start(const gg_model *model, gg_dsmc_ensemble *e, gg_rng *rng);
 
 /* C_x -= strain C_y for every grain, all times `scale`, less the velocity `centre`: rounding feeds the motion of the
  * centre of mass, and cooling or a thermostat would let it grow relative to the thermal speed without bound. Returns

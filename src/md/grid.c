@@ -21,6 +21,7 @@ gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
   /* Such cells hold four or five grains on average: room for fifteen at once, before the lists take theirs. */
   GG_TRY(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model) + 2 * radius, err));
   if (!gg_md_cells_grow(&e->cells)) return gg_base_out_of_memory_for(err, "the grid of cells");
+  GG_TRY(gg_md_look(e, err)); /* memory of a gigabyte is cleared for a while */
   GG_TRY(gg_md_allocate_lists(e, err));
   gg_md_set_skins(e, radius);
   return gg_md_note_surfaces(e, err);

@@ -39,6 +39,11 @@ static bool predict_some(gg_md *e, uint32_t from, uint32_t to)
   return true;
 }
 
+gg_status gg_md_look(const gg_md *e, gg_error *err)
+{
+  return e->n > GG_MD_GRAINS_BETWEEN_LOOKS && gg_stop_asked(e->model.stop) ? stopped_at_start(e, err) : GG_OK;
+}
+
 static gg_status predict_all(gg_md *e, gg_error *err)
 {
   for (uint32_t i = 0; i < e->n; i++) e->node[i].time = INFINITY;
@@ -54,12 +59,15 @@ gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
 {
   if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
   GG_TRY(gg_md_kicks_make(e, err));
+  GG_TRY(gg_md_look(e, err));
   if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) {
     if (!gg_md_build_lists(e, e->model.stop)) return stopped_at_start(e, err);
   } else {
     gg_md_enter_grid(e);
+    GG_TRY(gg_md_look(e, err));
     if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
   }
+  GG_TRY(gg_md_look(e, err));
   const double early = gg_md_early_temperature(e, T); /* to guess by */
   e->k.mean_free_time = 1 / fmax(gg_common_model_collision_rate(&e->model, early), 1e-300);
   gg_md_begin_contact_time(e, T);
@@ -69,6 +77,7 @@ gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
   gg_md_select(e);
   gg_md_thermostat_begin(e);
   gg_md_kicks_begin(e);
+  GG_TRY(gg_md_look(e, err));
   return predict_all(e, err);
 }
 

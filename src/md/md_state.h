@@ -189,6 +189,8 @@ gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, const gg_grain_a
 /* md_engine.c: make grains with places, velocities and spins ready to run; keeps a grid that is there already. `T`: of
  * about which temperature they are. */
 gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err);
+/* Between two parts of the start of a large system: GG_INTERRUPTED if it is to stop. */
+gg_status gg_md_look(const gg_md *e, gg_error *err);
 gg_status gg_md_begin(gg_md *e, gg_error *err); /* at the model's */
 
 /* select_search.c: the largest distance at which two grains touch. */

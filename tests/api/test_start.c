@@ -5,10 +5,12 @@
 
 static const char small[] = "{flow: usf, phi: 0.1, particles: 200, dsmc: {particles: 200}, collision: {e: 0.9}}";
 /* Large periodic boxes have lists of pairs while grains are pushed apart, and dense ones neighbour lists later; between
- * walls cells. Elastic grains first collide for a while. */
+ * walls cells. Elastic grains first collide for a while. Monte Carlo draws velocities. */
 static const char *const large[] = {"{flow: usf, engine: md, phi: 0.5, particles: 50000, collision: {e: 0.9}}",
                                     "{flow: couette, engine: md, phi: 0.1, particles: 10000, collision: {e: 0.9}}",
-                                    "{flow: hcs, engine: md, phi: 0.1, particles: 10000, collision: {e: 0.9}}"};
+                                    "{flow: hcs, engine: md, phi: 0.1, particles: 10000, collision: {e: 0.9}}",
+                                    "{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 500000}}",
+                                    "{flow: couette, engine: dsmc, phi: 0.1, dsmc: {particles: 500000}}"};
 
 typedef struct poll_count {
   int polls, most; /* stops at this poll and later ones */

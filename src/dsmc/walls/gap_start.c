@@ -124,14 +124,19 @@ static gg_vec *motion_of(gg_dsmc_gap_grains *g, bool spin, size_t i)
   return spin ? &g->s[i] : &g->at[i].c;
 }
 
+/* Grains between looks at whether to stop: some milliseconds. */
+enum { BETWEEN_LOOKS = 1 << 15 };
+
 /* Gaussian, exactly of the energy 3 N T/2, velocities at rest as a whole; `weight` of a species is its mass or moment
  * of inertia. */
-static void set_motion(gg_dsmc_gap *d, bool spin, const double *weight, double T, gg_rng *rng)
+static gg_status set_motion(gg_dsmc_gap *d, bool spin, const double *weight, double T, gg_rng *rng, gg_error *err)
 {
   const size_t n = (size_t)d->model.n;
   gg_vec momentum = {0, 0, 0};
   double all = 0, energy = 0;
   for (size_t i = 0; i < n; i++) {
+    if (i % BETWEEN_LOOKS == BETWEEN_LOOKS - 1 && gg_stop_asked(d->model.stop))
+      return gg_base_fail(err, GG_INTERRUPTED, "dsmc: stopped at the start");
     const double w = weight[d->grains.species[i]];
     gg_vec *v = motion_of(&d->grains, spin, i);
     *v = gg_scale(sqrt(T / w), gg_common_rng_normal_vec(rng));
@@ -145,6 +150,7 @@ static void set_motion(gg_dsmc_gap *d, bool spin, const double *weight, double T
   }
   const double scale = energy > 0 ? sqrt(3 * (double)n * T / energy) : 0;
   for (size_t i = 0; i < n; i++) *motion_of(&d->grains, spin, i) = gg_scale(scale, *motion_of(&d->grains, spin, i));
+  return GG_OK;
 }
 
 /* The laminar profile between walls that move. */
@@ -225,9 +231,9 @@ gg_status gg_dsmc_gap_start(gg_dsmc_gap *d, uint64_t seed, uint64_t stream, cons
   for (int i = 0; i < m->n_species; i++) inertia[i] = m->inertia[i] * m->mass[i];
   seed_streams(&d->now.streams, seed, stream + GG_STREAM_SEGMENTS);
   place_grains(d, &rng);
-  set_motion(d, false, m->mass, m->temperature0, &rng);
+  GG_TRY(set_motion(d, false, m->mass, m->temperature0, &rng, err));
   add_flow(d);
-  if (d->grains.s) set_motion(d, true, inertia, m->ratio0 * m->temperature0, &rng);
+  if (d->grains.s) GG_TRY(set_motion(d, true, inertia, m->ratio0 * m->temperature0, &rng, err));
   if (given) GG_TRY(take_grains(d, given, err));
   begin(d);
   if (!(d->now.temperature > 0 && d->now.temperature < 1e300))

@@ -79,6 +79,7 @@ static gg_status place(gg_md *e, gg_rng *rng, gg_md_packing *p, double *diameter
 {
   for (uint32_t i = 0; i < e->n; i++)
     for (int a = 0; a < 3; a++) *gg_component(&p->r[i], a) = gg_rng_uniform(rng) * e->box.edge[a];
+  GG_TRY(gg_md_look(e, err));
   GG_TRY(gg_md_place_sort(p, NULL, err));
   deal_species(e, diameter, rng);
   GG_TRY(relax(e, p, rng, err));
@@ -175,9 +176,12 @@ gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, const gg_grain_a
 {
   gg_rng rng = gg_common_rng_seed(seed, stream + GG_STREAM_START);
   e->k.rng = gg_common_rng_seed(seed, stream + GG_STREAM_ENGINE);
+  GG_TRY(gg_md_look(e, err));
   GG_TRY(place_all(e, given, &rng, err));
+  GG_TRY(gg_md_look(e, err));
   set_velocities(e, &rng, e->model.temperature0);
+  GG_TRY(gg_md_look(e, err));
   set_spins(e, &rng, e->model.ratio0 * e->model.temperature0);
   if (given) take_motion(e, given);
-  return GG_OK;
+  return gg_md_look(e, err);
 }
