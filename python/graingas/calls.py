@@ -2,7 +2,8 @@
 """Long calls: without Python's lock, in a thread, interruptible.
 
 The main thread waits on an Event, never in Thread.join: before Python 3.12 an interrupted join takes the thread for
-dead. Ctrl-C sets an integer that the library reads several times a second without Python."""
+dead. Ctrl-C sets an integer that the library reads several times a second without Python. Calls that change nothing
+are left behind then (left_behind)."""
 import threading
 
 from . import _c
@@ -84,8 +85,26 @@ def interruptible(function, call, poll=None):
     return _outcome(task, call)
 
 
+def left_behind(function, call=None, words=""):
+    """function() in a thread that Ctrl-C leaves behind: KeyboardInterrupt(words) comes at once, call (if any) is
+    stopped, and what the thread still makes is dropped. For functions that only read, or make something new."""
+    task = _Task(function, call)
+    if threading.current_thread() is not threading.main_thread():  # Ctrl-C comes to the main one alone
+        task.work()
+        return _outcome(task, call)
+    try:
+        threading.Thread(target=task.work, daemon=True, name="graingas").start()
+        while not task.done.wait(PERIOD):  # without end, a signal just before it would come late
+            pass
+    except KeyboardInterrupt:
+        if call is not None:
+            call.interrupt()
+        raise KeyboardInterrupt(words) from None
+    return _outcome(task, call)
+
+
 def _outcome(task, call):
-    if call.error is not None:
+    if call is not None and call.error is not None:
         raise call.error
     if task.error is not None:
         raise task.error

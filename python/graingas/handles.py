@@ -3,10 +3,12 @@
 import threading
 from contextlib import contextmanager
 
-from . import _c
+from . import _c, calls
 from .errors import BadInput, Busy
 
 ffi = _c.ffi
+
+LEFT = 60  # seconds to wait for a call that Ctrl-C has left behind
 
 
 class Handle:
@@ -15,19 +17,35 @@ class Handle:
     def __init__(self, pointer, free, what):
         self._pointer, self._what = ffi.gc(pointer, free), what
         self._lock = threading.Lock()
+        self._left = False  # whether a call may still read
 
     @contextmanager
     def held(self, patience=0):
         """The pointer, for the duration of a call. patience: seconds to wait for another thread."""
+        if self._left:
+            patience = LEFT
         if not (self._lock.acquire(timeout=patience) if patience else self._lock.acquire(blocking=False)):
             raise Busy(f"this {self._what} is in use by another thread, or by the call whose callback uses it; "
                        f"use it after that call, or use another one")
         try:
+            self._left = False
             if self._pointer is None:
                 raise BadInput(f"this {self._what} is closed")
             yield self._pointer
         finally:
             self._lock.release()
+
+    def read(self, function):
+        """function(pointer), which changes nothing, in a thread: Ctrl-C leaves it behind, and later calls wait for its
+        end."""
+        def work():
+            with self.held() as pointer:
+                return function(pointer)
+        try:
+            return calls.left_behind(work)
+        except KeyboardInterrupt:
+            self._left = True
+            raise
 
     def close(self):
         """Frees the memory. Later calls raise BadInput; closing twice does nothing."""

@@ -117,15 +117,19 @@ def compare(scene, threads: Optional[int] = 1, output=None, checkpoint=None, res
                      {"output": output, "checkpoint": checkpoint, "resume": resume})
 
 
-def read(path) -> Union[Result, Comparison]:
-    """A result file: a Result of one engine's run, or a Comparison. Raises BadFile. Warns
-    if another program has changed it."""
+def _read(path):
     try:
-        found = read_result(path)
+        return read_result(path)
     except BadInput as error:
         if "gg_comparison_read" not in str(error):
             raise
-        found = read_comparison(path)
+        return read_comparison(path)
+
+
+def read(path) -> Union[Result, Comparison]:
+    """A result file: a Result of one engine's run, or a Comparison. Raises BadFile. Warns
+    if another program has changed it."""
+    found = calls.left_behind(lambda: _read(path))
     notice = ffi.new("char[]", 1024)
     check(lib.gg_result_file_notice, encode(path, "file name"), notice, len(notice))
     if text(notice):

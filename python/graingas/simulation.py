@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from typing import Any, Callable, Iterator, Optional
 
 import numpy as np
@@ -115,8 +115,8 @@ class Simulation:
 
     The same scene, seed and stream give the same trajectory, bit for bit. Numbers have the units of results. One thread
     at a time may use a simulation: other uses, also from its own callback, raise Busy. Ctrl-C ends an advance within
-    0.1 s and raises KeyboardInterrupt; the simulation can be advanced further. It ends a start, too: within 0.1 s up to
-    100 000 grains of md, 0.5 s a million.
+    0.1 s and raises KeyboardInterrupt; the simulation can be advanced further. It ends a start, too, and copying and
+    loading.
     """
 
     def __init__(self, scene, stream: int = 0, *, positions=None, velocities=None, spins=None, species=None):
@@ -124,7 +124,11 @@ class Simulation:
         if followed(scene):
             warnings.warn(f"{followed(scene)} of the scene: no effect on a Simulation; run() follows it", stacklevel=2)
         grains = grains_from(None, position=positions, velocity=velocities, spin=spins, species=species)
-        self._adopt(_started(scene, stream, calls.Call(), *grains), scene)
+        self._start(scene, stream, calls.Call(), *grains)
+
+    def _start(self, scene, stream, call, *grains, together=None):
+        calls.left_behind(lambda: self._adopt(_started(scene, stream, call, *grains), scene, together), call,
+                          "the simulation was not started")
 
     def _adopt(self, pointer, scene, together=None):
         self._scene = Scene._copy_of(lib.gg_simulation_scene(pointer), scene._extensions if scene else ())
@@ -137,7 +141,7 @@ class Simulation:
     def _one_of(cls, scene, stream, together):
         """One of several that are stopped together, from their start to their last advance: their calls are one Call."""
         made = cls.__new__(cls)
-        made._adopt(_started(scene, stream, together), scene, together)
+        made._start(scene, stream, together, together=together)
         return made
 
     @classmethod
@@ -287,37 +291,51 @@ class Simulation:
         return Record(**values(sums))
 
     def save(self, path) -> None:
-        """Writes everything needed to continue with bit-identical results."""
+        """Writes everything needed to continue with bit-identical results. The file appears whole or not at all."""
         with self._handle.held() as pointer:
             check(lib.gg_simulation_save, pointer, encode(path, "file name"))
 
     @classmethod
     def load(cls, path, scene=None) -> Simulation:
         """A saved simulation, without its callbacks. scene: the scene that was saved; None: the stored one."""
-        made = ffi.new("gg_simulation **")
-        with _scene_or_null(scene) as (scene, pointer):
-            check(lib.gg_simulation_load, encode(path, "file name"), pointer, made)
-        return cls._from_pointer(made[0], scene)
+        path = encode(path, "file name")
+
+        def load(pointer):
+            made = ffi.new("gg_simulation **")
+            check(lib.gg_simulation_load, path, pointer, made)
+            return made[0]
+        return cls._read(load, scene)
 
     def to_bytes(self) -> bytes:
         """What save() writes, in memory."""
-        with self._handle.held() as pointer:
-            return bytes_of(lib.gg_simulation_to_bytes, pointer)
+        return self._handle.read(lambda pointer: bytes_of(lib.gg_simulation_to_bytes, pointer))
 
     @classmethod
     def from_bytes(cls, content: bytes, scene=None) -> Simulation:
         """A simulation from the bytes of a saved file or of to_bytes(); scene as for load(). Raises BadFile if they are
         damaged."""
-        with _scene_or_null(scene) as (scene, pointer):
-            made = from_bytes(lib.gg_simulation_from_bytes, "gg_simulation **", content, pointer)
-        return cls._from_pointer(made, scene)
+        return cls._read(lambda pointer: from_bytes(lib.gg_simulation_from_bytes, "gg_simulation **", content, pointer),
+                         scene)
+
+    @classmethod
+    def _read(cls, function, scene):
+        """The simulation that function(pointer of a scene or NULL) reads."""
+        scene = scene if scene is None else as_scene(scene).copy()
+
+        def work():
+            with nullcontext(ffi.NULL) if scene is None else scene.held() as pointer:
+                return cls._from_pointer(function(pointer), scene)
+        return calls.left_behind(work)
 
     def copy(self) -> Simulation:
         """A copy that continues with the same bits, without the callback."""
-        made = ffi.new("gg_simulation **")
-        with self._handle.held() as pointer:
+        scene = self._scene
+
+        def copy(pointer):
+            made = ffi.new("gg_simulation **")
             check(lib.gg_simulation_copy, pointer, made)
-        return Simulation._from_pointer(made[0], self._scene)
+            return Simulation._from_pointer(made[0], scene)
+        return self._handle.read(copy)
 
     def __reduce__(self):
         return Simulation.from_bytes, (self.to_bytes(), self._scene)
@@ -343,41 +361,25 @@ class Simulation:
                 f"{state.collisions} collisions>")
 
 
-@contextmanager
-def _scene_or_null(scene):
-    """A copy of a scene with its pointer; None with NULL."""
-    if scene is None:
-        yield None, ffi.NULL
-        return
-    scene = as_scene(scene).copy()
-    with scene.held() as pointer:
-        yield scene, pointer
-
-
-def _interruptible(function, call, after="the simulation can be advanced further"):
+def _interruptible(function, call):
     """function(error), a call of the library that may take long; raises what it reports."""
     error = new_error()
     status = calls.interruptible(lambda: function(error), call)
     if call.interrupted:
-        raise KeyboardInterrupt(after)
+        raise KeyboardInterrupt("the simulation can be advanced further")
     if status != lib.GG_OK:
         raise exception(status, error)
 
 
 def _started(scene, stream, call, grains=None, kept=(), n=0):
-    """The pointer of a new simulation; Ctrl-C ends the start."""
+    """The pointer of a new simulation; the call can stop its start."""
     made, options = ffi.new("gg_simulation **"), new("gg_start_options")
     options.stream, options.context, options.stop = _stream(stream), call.c, ffi.addressof(lib, "ggpy_stop")
     with scene.held() as pointer, serving(scene, call):
-        def start(error):
-            if kept:
-                return lib.gg_simulation_from_grains(pointer, grains, n, options, made, error)
-            return lib.gg_simulation_new(pointer, options, made, error)
-        try:
-            _interruptible(start, call, "the simulation was not started")
-        except BaseException:
-            lib.gg_simulation_free(made[0])
-            raise
+        if kept:
+            check(lib.gg_simulation_from_grains, pointer, grains, n, options, made)
+        else:
+            check(lib.gg_simulation_new, pointer, options, made)
     return made[0]
 
 

@@ -19,11 +19,12 @@ ffi = _c.ffi
 def _evaluate(scene, name):
     call, made = calls.Call(), ffi.new("gg_comparison **")
     word = ffi.NULL if name is None else encode(name, "theory")
-    with serving(scene, call), scene.held() as pointer:
-        calls.interruptible(lambda: check(lib.gg_theories_evaluate, pointer, word, made), call)
-    if call.interrupted:
-        raise KeyboardInterrupt
-    return Comparison(made[0], scene=scene)
+
+    def work():
+        with serving(scene, call), scene.held() as pointer:
+            check(lib.gg_theories_evaluate, pointer, word, made)
+        return Comparison(made[0], scene=scene)
+    return calls.left_behind(work, call)
 
 
 def theories(scene, *results) -> Comparison:

@@ -218,6 +218,30 @@ def test_interrupted_start():
     assert interrupted_start(gg.Simulation) == "the simulation was not started"
 
 
+def test_interrupted_copies_and_files(sim):
+    """Ctrl-C leaves such calls behind; the simulation is as it was."""
+    sim.save("sim.h5")
+    content, before = sim.to_bytes(), sim.hash
+    for function in (sim.copy, sim.to_bytes, lambda: gg.Simulation.load("sim.h5"),
+                     lambda: gg.Simulation.from_bytes(content)):
+        threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        with pytest.raises(KeyboardInterrupt):
+            while True:
+                function()
+    assert sim.hash == before == gg.Simulation.load("sim.h5").hash
+    sim.collide(10)
+
+
+def test_later_calls_wait_for_one_that_was_left_behind(sim):
+    may_end = threading.Event()
+    threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        sim._handle.read(lambda pointer: may_end.wait(60))  # without Ctrl-C
+    threading.Timer(0.2, may_end.set).start()
+    sim.collide(10)
+    assert may_end.is_set()
+
+
 def test_interrupted_start_of_several():
     interrupted_start(lambda scene: gg.relax(scene, 1, points=2, replicas=50, threads=2, engines="md"))
     assert not [thread for thread in threading.enumerate() if thread.name == "graingas"]

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Theories alone: numbers in closed form, grids, and what does not apply."""
 import math
+import os
+import signal
+import threading
 
 import numpy as np
 import pytest
@@ -85,3 +88,12 @@ def test_results_beside_theories():
     assert alone["temperature"].theory == gg.theories(md.scene)["temperature"].theory
     with pytest.raises(gg.BadInput, match="another scene"):
         gg.theories(md.scene.copy(phi=0.2), md)
+
+
+def test_interrupted(shear):
+    """One point takes a second, all a quarter of an hour."""
+    mixture = gg.Scene(flow="usf", phi=0.3, species=[{"fraction": f, "diameter": d} for f, d in ((0.5, 1), (0.3, 2), (0.2, 3))])
+    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        gg.scan(mixture, e=np.linspace(0.5, 1, 1000))
+    assert gg.theory(shear, "lun1991")["temperature"] > 0
