@@ -27,3 +27,11 @@ from .theory import Grid, scan, theories, theory
 from .trajectory import Trajectory, trajectory
 
 __version__ = text(_c.lib.gg_version())
+
+__all__ = [  # what help(graingas) shows
+    "BadFile", "BadInput", "Busy", "catalogue", "compare", "Comparison", "Curve", "define_law", "define_observable",
+    "define_theory", "DoesNotApply", "Estimate", "export", "GraingasError", "Grains", "Grid", "NotFound",
+    "PartialResult", "plot", "read", "relax", "Relaxation", "Result", "run", "RunFailed", "scan", "Scene",
+    "Simulation", "Sweep", "sweep", "theories", "Theory", "theory", "TimeSeries", "Trajectory", "trajectory",
+    "validate", "Verdict",
+]

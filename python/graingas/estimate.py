@@ -2,6 +2,7 @@
 """Means with their standard errors."""
 from __future__ import annotations
 
+import functools
 import math
 
 from . import _c
@@ -18,6 +19,16 @@ def format_estimate(mean, error):
     return text(buffer)
 
 
+def _with_number(method):
+    """Arrays, and what is no number, are left to the other operand."""
+    @functools.wraps(method)
+    def operator(self, other):
+        if isinstance(other, str) or getattr(other, "ndim", 0) or not hasattr(other, "__float__"):
+            return NotImplemented
+        return method(self, other)
+    return operator
+
+
 class Estimate:
     """A mean with its standard error.
 
@@ -28,7 +39,7 @@ class Estimate:
     u             the same as a number of uncertainties, correlated with the means of the run whose `u` was used before.
                   Of two means every combination has the error of the operators below; of more, nearly
 
-    + - * / and ** give estimates. Errors add up linearly: means of different runs are independent, those of one run have
+    + - * / ** and np.sqrt give estimates. Errors add up linearly: means of different runs are independent, those of one run have
     a covariance. The error is NaN where that is not known, and where a sum of several means nearly cancels.
     """
 
@@ -82,31 +93,42 @@ class Estimate:
         made._terms = terms
         return made
 
+    @_with_number
     def __add__(self, other):
         return self._combined(other, self.mean + float(other), 1, 1, self.unit)
 
+    @_with_number
     def __sub__(self, other):
         return self._combined(other, self.mean - float(other), 1, -1, self.unit)
 
+    @_with_number
     def __rsub__(self, other):
         return self._combined(None, float(other) - self.mean, -1, 0, self.unit)
 
+    @_with_number
     def __mul__(self, other):
         b = float(other)
         return self._combined(other, self.mean * b, b, self.mean, _unit(self, other, " "))
 
+    @_with_number
     def __truediv__(self, other):
         b = float(other)
         return self._combined(other, self.mean / b, 1 / b, -self.mean / b**2, _unit(self, other, " / "))
 
+    @_with_number
     def __rtruediv__(self, other):
         a = float(other)
         return self._combined(None, a / self.mean, -a / self.mean**2, 0, f"1 / ({self.unit})" if self.unit != "1" else "1")
 
+    @_with_number
     def __pow__(self, power):
         power = float(power)
         unit = f"({self.unit})^{power:g}" if self.unit != "1" else "1"
         return self._combined(None, self.mean**power, power * self.mean ** (power - 1), 0, unit)
+
+    def sqrt(self):
+        """For np.sqrt."""
+        return self**0.5
 
     def __neg__(self):
         return self._combined(None, -self.mean, -1, 0, self.unit)

@@ -58,6 +58,8 @@ def grains_from(n, **arrays):
 
 def _checked(name, values, n):
     kind = "i4" if name == "species" else "f8"
+    if np.iscomplexobj(values):
+        raise BadInput(f"{name}: expected an array of real numbers")
     try:
         found = np.ascontiguousarray(values, kind)
     except (TypeError, ValueError, OverflowError):

@@ -98,7 +98,7 @@ def run(scene, threads: Optional[int] = 1, output=None, checkpoint=None, resume=
 
     scene        a Scene, a file name, YAML text, or a dict
     threads      for replicas and large Monte Carlo ensembles; None: all processors. Results do not depend on it.
-    output       result file to write (HDF5)
+    output       result file to write (HDF5); a run that Ctrl-C ends writes none: result.write(path) does
     checkpoint   file to keep checkpoints in; the run writes one when it is interrupted
     resume       checkpoint to continue from, bit for bit
     progress     True, False, None (a bar where a person sees it), or a function of a report

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from typing import Any
 
 from . import _c, calls, catalogue, yaml
-from .errors import BadInput, check, encode, lib, not_found, owned_text, text
+from .errors import BadInput, check, encode, lib, look_up, not_found, owned_text, text
 from .handles import Handle
 from .structs import Record, new, values
 
@@ -54,7 +55,7 @@ class _Member:
         owner[self.key] = value
 
 
-class Group:
+class Group(Mapping):
     """The keys of a scene that begin with one word: scene.collision.e is scene["collision.e"]."""
 
     __slots__ = ("_scene", "_name")
@@ -66,27 +67,39 @@ class Group:
     def __dir__(self):
         return [key.partition(".")[2] for key in KEYS if key.startswith(self._name + ".")]
 
+    def __getitem__(self, name):
+        return self._scene[f"{self._name}.{name}"]
+
+    def __setitem__(self, name, value):
+        self._scene[f"{self._name}.{name}"] = value
+
+    def __iter__(self):
+        return iter(dir(self))
+
+    def __len__(self):
+        return len(dir(self))
+
     def __getattr__(self, name):
         try:
-            return self._scene[f"{self._name}.{name}"]
+            return self[name]
         except BadInput as error:
             raise AttributeError(str(error)) from None
 
     def __setattr__(self, name, value):
-        self._scene[f"{self._name}.{name}"] = value
+        self[name] = value
 
     def __repr__(self):
         return "\n".join(f"{self._name}.{name}: {getattr(self, name)}" for name in dir(self))
 
 
-class Scene:
+class Scene(Mapping):
     """What to simulate: a YAML file or YAML text, and keys.
 
     Scene("usf.yaml", e=0.8)
     Scene("flow: usf\\nphi: 0.1")
     Scene(flow="usf", phi=0.1, collision={"e": 0.9, "beta": 0})
 
-    Keys are items and attributes: s["collision.e.12"] = 0.8, s.collision.beta = 0, s.phi. Short names: e, beta and mu
+    A mapping over the keys, which are attributes, too: s["collision.e.12"] = 0.8, s.collision.beta = 0, s.phi. Short names: e, beta and mu
     of collisions, and last words that only one key has (s.seed). Values are numbers, texts, lists, dicts for pairs of
     species ({12: 0.8}), and None for `none`, in the units of the scene. `Scene.phi.__doc__` and `s.help("phi")` explain
     a key. Raises BadInput with the allowed values, BadFile.
@@ -132,8 +145,14 @@ class Scene:
         """Value of a key in force, as YAML of one line."""
         buffer = ffi.new("char[]", 65536)
         with self.held() as scene:
-            check(lib.gg_scene_get, scene, encode(key, "key"), buffer, len(buffer))
+            look_up(lib.gg_scene_get, scene, encode(key, "key"), buffer, len(buffer))
         return text(buffer)
+
+    def __iter__(self):
+        return iter(KEYS)
+
+    def __len__(self):
+        return len(KEYS)
 
     def __setitem__(self, key, value):
         if not isinstance(key, str):
@@ -310,6 +329,9 @@ def _load(source, changes):
         keys = {key: yaml.write(value) for key, value in changes.items() if key in KEYS}
         for key in keys:
             del changes[key]
+        for key in changes if not keys else ():
+            if key.rpartition(".")[0] not in KEYS:  # of pairs of species
+                raise not_found("key", key, KEYS)
         check(lib.gg_scene_parse, encode(yaml.nested(keys), "scene"), b"scene", made)
     elif isinstance(source, Scene):
         with source.held() as scene:
@@ -336,6 +358,8 @@ def as_scene(source):
         return source
     if source is None:
         raise BadInput("a scene is missing")
+    if not isinstance(source, (str, bytes, dict, os.PathLike)):
+        raise TypeError(f"scene: expected a Scene, a file name, YAML text or a dict, not {type(source).__name__}")
     return Scene(source)
 
 

@@ -14,7 +14,7 @@ from .grains import Grains, copy_grains, grains_from
 from .handles import Handle
 from .result import bytes_of, from_bytes
 from .run import serving
-from .scene import SHORT, Scene, as_scene
+from .scene import GROUPS, KEYS, SHORT, Scene, as_scene
 from .structs import Record, array, dtype, new, values
 
 ffi = _c.ffi
@@ -129,6 +129,11 @@ class Simulation:
     def _start(self, scene, stream, call, *grains, together=None):
         calls.left_behind(lambda: self._adopt(_started(scene, stream, call, *grains), scene, together), call,
                           "the simulation was not started")
+
+    def __setattr__(self, name, value):
+        if (name in KEYS or name in GROUPS or name in SHORT) and not hasattr(Simulation, name):
+            raise AttributeError(f"{name} is a key of the scene; change it by sim[{SHORT.get(name, name)!r}]")
+        object.__setattr__(self, name, value)
 
     def _adopt(self, pointer, scene, together=None):
         self._scene = Scene._copy_of(lib.gg_simulation_scene(pointer), scene._extensions if scene else ())

@@ -7,9 +7,9 @@ import math
 
 import numpy as np
 
-from . import _c, calls, yaml
+from . import _c, calls, catalogue, yaml
 from .comparison import Comparison, Theory
-from .errors import BadInput, NotFound, check, encode, lib
+from .errors import BadInput, NotFound, check, encode, lib, not_found
 from .run import serving
 from .scene import SHORT, as_scene
 
@@ -116,6 +116,7 @@ def scan(scene, vary=None, *, theories=None, quantities=None, **keys):
     scene, axes = as_scene(scene).copy(), grid_keys(vary, keys)
     if not axes:
         raise BadInput("scan: give at least one key to vary, e.g. e=[0.5, 0.7, 0.9]")
+    theories, quantities = _listed(theories), _listed(quantities)
     for extra in theories or ():
         if hasattr(extra, "add_to") and extra not in scene._extensions:
             scene.add(extra)
@@ -123,6 +124,11 @@ def scan(scene, vary=None, *, theories=None, quantities=None, **keys):
     points = [_answers(scene.copy(), dict(zip(axes, point)), names) for point in itertools.product(*axes.values())]
     names = names or list(dict.fromkeys(name for answers, _ in points for name in answers))
     return as_xarray(_grid(axes, names, points, quantities))
+
+
+def _listed(names):
+    """One name, or one theory, as a list."""
+    return [names] if isinstance(names, str) or hasattr(names, "add_to") else names
 
 
 def _answers(scene, point, names):
@@ -138,6 +144,9 @@ def _answers(scene, point, names):
 def _grid(axes, names, points, quantities):
     shape = (*map(len, axes.values()), len(names))
     units = {name: unit for _, some in points for name, unit in some.items()}
+    for name in quantities or ():
+        if name not in units and name not in catalogue.quantities():
+            raise not_found("quantity", name, units)
     wanted = quantities or [name for name in units if any(name in a for answers, _ in points for a in answers.values())]
     arrays = {}
     for quantity in wanted:

@@ -28,7 +28,7 @@ def write(value):
         return "[" + ", ".join(map(write, value)) + "]"
     if hasattr(value, "mean") and hasattr(value, "error"):
         return _number(float(value.mean))
-    raise TypeError(f"a {type(value).__name__} is no value of a scene key")
+    raise TypeError(f"a value of type {type(value).__name__} is no value of a scene key")
 
 
 def _number(value):

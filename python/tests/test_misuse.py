@@ -74,6 +74,7 @@ TYPES = [
     (lambda: gg.Simulation(scene(), velocities=np.zeros((0, 3))), gg.BadInput),
     (lambda: gg.Simulation(scene(), positions=np.full((100, 3), np.nan), velocities=np.zeros((100, 3))), gg.BadInput),
     (lambda: simulation().set_grains(velocities=np.zeros((99, 3))), gg.BadInput),
+    (lambda: simulation().set_grains(velocities=np.zeros((100, 3), complex)), gg.BadInput),
     (lambda: simulation().set_grains(positions=np.zeros((100, 3))), gg.BadInput),
     (lambda: simulation().set_grains(velocities=np.full((100, 3), np.inf)), gg.BadInput),
     (lambda: simulation().set_grains(species=np.full(100, 7)), gg.BadInput),

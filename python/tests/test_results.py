@@ -116,6 +116,17 @@ def test_estimates_by_hand():
     assert str(gg.Estimate(1.234, 0.0041)) == "1.2340(41)" and f"{a:.2f}" == "2.00"
 
 
+def test_estimates_and_numpy():
+    a, x = gg.Estimate(2.0, 0.3), np.array([1.0, 2.0])
+    for left, right in ((a * x, x * a), (a + x, x + a), (a - x, -(x - a)), (a / x, 1 / (x / a))):
+        assert [e.mean for e in left] == [e.mean for e in right]
+        assert [e.error for e in left] == pytest.approx([e.error for e in right])
+    assert (a * x)[1].error == pytest.approx(0.6)
+    assert np.sqrt(a).mean == math.sqrt(2) and np.sqrt(a).error == pytest.approx(0.3 / (2 * math.sqrt(2)))
+    with pytest.raises(TypeError):
+        a + "1"
+
+
 def test_estimates_of_one_run_are_correlated(comparison):
     """Covariances enter: p/(nT) from p and T has the error of its own series, as independent numbers five times that."""
     md = comparison.md

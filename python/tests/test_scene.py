@@ -66,7 +66,25 @@ def test_completion_and_help(capsys):
     assert all(SHORT[word].endswith("." + word) for word in SHORT)
 
 
+def test_scene_is_a_mapping():
+    s = gg.Scene(flow="usf", phi=0.1)
+    assert list(s) == list(KEYS) == list(dict(s)) and len(s) == len(KEYS)
+    assert "phi" in s and "phy" not in s and s.get("phi") == 0.1 and s.get("phy", 3) == 3
+    assert dict(s.collision)["e"] == s.collision["e"] == s.e and "e" in s.collision and "d" not in s.collision
+    s.collision["beta"] = 0.5
+    assert s["collision.beta"] == 0.5
+    with pytest.raises(KeyError):
+        s["phy"]
+
+
+def test_names_of_the_module():
+    """help(graingas) shows what __all__ has."""
+    things = [name for name, thing in vars(gg).items() if callable(thing) and not name.startswith("_") and name != "text"]
+    assert sorted(things + ["catalogue", "plot"]) == sorted(gg.__all__)
+
+
 @pytest.mark.parametrize("wrong, words", [
+    (lambda s: gg.Scene(colision={"e": 0.8}), "did you mean 'collision"), (lambda s: gg.Scene(collision={"ee": 1}), "collision.ee"),
     (lambda s: setattr(s, "phy", 1), "did you mean 'phi'"), (lambda s: setattr(s, "e", 3), "from 0 to 1"),
     (lambda s: s.__setitem__("collision.e", "x"), "collision.e"), (lambda s: s["nothing"], "nothing"),
     (lambda s: gg.Scene("flow: usf\nphi: 2"), "scene:2"), (lambda s: gg.Scene("flow: usf").check(), "phi is missing")])
@@ -86,6 +104,9 @@ def test_missing_file_and_attribute():
         gg.Scene("nowhere.yaml")
     assert issubclass(gg.BadFile, OSError) and issubclass(gg.BadInput, ValueError)
     assert not hasattr(gg.Scene(flow="usf", phi=0.1), "shape")
+    for wrong in 3, [gg.Scene("flow: usf")]:
+        with pytest.raises(TypeError, match="expected a Scene, a file name"):
+            gg.run(wrong)
 
 
 def test_failed_change_leaves_the_scene():

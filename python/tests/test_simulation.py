@@ -124,6 +124,15 @@ def test_other_keys_stay(sim, key, value, words):
     assert (sim.hash, sim.scene) == before
 
 
+def test_keys_are_no_attributes(sim):
+    with pytest.raises(AttributeError, match=r"sim\['collision.e'\]"):
+        sim.e = 0.8
+    with pytest.raises(AttributeError):
+        sim.time = 0
+    sim.label = "mine"
+    assert sim["collision.e"] == 0.9
+
+
 def test_own_law_stays_when_keys_change(short):
     asked = []
     sim = gg.Simulation(short.copy().add(gg.define_law(lambda g: asked.append(g) or 0.9)))

@@ -65,6 +65,15 @@ def test_scan_without_xarray(shear, monkeypatch):
     assert isinstance(found, gg.Grid) and found.dims == ("collision.e", "theory") and found["temperature"].shape == (2, 1)
 
 
+def test_scan_of_one_name(shear):
+    found = gg.scan(shear, e=[0.5, 0.9], theories="lun1991", quantities="temperature")
+    assert found["temperature"].shape == (2, 1) and not np.isnan(found["temperature"]).any()
+    with pytest.raises(gg.NotFound, match="did you mean 'temperature'"):
+        gg.scan(shear, e=[0.5], theories="lun1991", quantities=["temprature"])
+    nothing = gg.scan(shear, e=[0.5], theories="lun1991", quantities=["wall_heat_flux"])
+    assert np.isnan(nothing["wall_heat_flux"]).all()
+
+
 def test_scan_of_words_and_pairs(shear):
     pytest.importorskip("xarray")
     found = gg.scan(shear, contact_value=["carnahan_starling", "lun_savage"], theories=["lun1991"])
