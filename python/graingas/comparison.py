@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Optional
 
-from . import _c, tables
+from . import _c, calls, tables
 from .curves import curves_by_name, curves_of
 from .errors import ByName, NotFound, check, encode, lib, look_up, new_error, owned_text, text
 from .estimate import Estimate
@@ -237,7 +237,7 @@ class Comparison(Mapping):
 
     def to_bytes(self) -> bytes:
         """The file in memory; Comparison.from_bytes(content) reads it."""
-        return bytes_of(lib.gg_comparison_to_bytes, self._pointer)
+        return calls.left_behind(lambda: bytes_of(lib.gg_comparison_to_bytes, self._pointer))
 
     @classmethod
     def from_bytes(cls, content: bytes, partial: Optional[str] = None) -> Comparison:

@@ -35,11 +35,11 @@ class Handle:
         finally:
             self._lock.release()
 
-    def read(self, function):
+    def read(self, function, patience=0):
         """function(pointer), which changes nothing, in a thread: Ctrl-C leaves it behind, and later calls wait for its
         end."""
         def work():
-            with self.held() as pointer:
+            with self.held(patience) as pointer:
                 return function(pointer)
         try:
             return calls.left_behind(work)

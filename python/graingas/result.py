@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Optional
 
-from . import _c, tables
+from . import _c, calls, tables
 from .correlated import Correlated
 from .curves import Curve, result_curves
 from .errors import check, encode, lib, look_up, new_error, owned_text, text
@@ -127,7 +127,7 @@ class Result(Mapping):
 
     def to_bytes(self) -> bytes:
         """The file in memory; Result.from_bytes(content) reads it."""
-        return bytes_of(lib.gg_result_to_bytes, self._pointer)
+        return calls.left_behind(lambda: bytes_of(lib.gg_result_to_bytes, self._pointer))
 
     @classmethod
     def from_bytes(cls, content: bytes, partial: Optional[str] = None) -> Result:

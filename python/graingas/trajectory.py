@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from . import _c
+from . import _c, calls
 from .errors import check, encode, lib
 from .grains import Grains
 from .handles import Handle
@@ -54,9 +54,13 @@ class Trajectory:
     """Frames of a result file, a sequence; one at a time is in memory. Of a comparison they are md's."""
 
     def __init__(self, path):
-        made = ffi.new("gg_trajectory **")
-        check(lib.gg_trajectory_open, encode(path, "file name"), made)
-        self._handle = Handle(made[0], lib.gg_trajectory_free, "trajectory")
+        path = encode(path, "file name")
+
+        def open_it():
+            made = ffi.new("gg_trajectory **")
+            check(lib.gg_trajectory_open, path, made)
+            return Handle(made[0], lib.gg_trajectory_free, "trajectory")
+        self._handle = calls.left_behind(open_it)
         with self._handle.held() as pointer:
             self._scene = Scene._copy_of(lib.gg_trajectory_scene(pointer))
         walls = self._scene["flow"] in ("couette", "poiseuille", "chute")
@@ -77,8 +81,7 @@ class Trajectory:
         n = len(self)
         if not -n <= k < n:
             raise IndexError(f"frame {k}: the trajectory has {n} frames")
-        with self._handle.held(1) as pointer:
-            return self._frame(pointer, k % n)
+        return self._handle.read(lambda pointer: self._frame(pointer, k % n), 1)
 
     def _frame(self, pointer, k):
         state = new("gg_simulation_state")
