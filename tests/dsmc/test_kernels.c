@@ -314,7 +314,7 @@ static void rules_agree(gg_law_kind law)
 {
   for (int friction = 0; friction < 2; friction++)
     for (int species = 1; species <= 2; species++) {
-      gg_scene s = lab_scene(GG_USF, 0.3, 0.8, law && !friction ? -1 : 0.3, 5000);
+      gg_scene s = lab_scene(GG_USF, 0.3, 0.8, law && !friction ? -1 : 0.3, 2500);
       s.collision.law = law;
       if (friction) s.collision.mu[0] = s.collision.mu[1] = 0.2;
       s.n_species = species;
