@@ -83,14 +83,12 @@ static const corner corners[] = {
          "{flow: hss, phi: 0.01, particles: 1000, species: [{fraction: 0.5}, {fraction: 0.5, mass: 1e6}], collision: "
          "{e: 0.9}, dsmc: {particles: 2000}, run: {collisions: 2000}}",
      .agrees = "partial_temperature_ratio",
-     .collisions = 5,
-     .quick = true},
+     .collisions = 5},
     {.name = "diameters 1 : 10: means",
      .scene = "{flow: hss, phi: 0.01, particles: 1000, species: [{fraction: 0.9}, {fraction: 0.1, diameter: 10, mass: "
               "1000}], collision: {e: 0.8}, dsmc: {particles: 2000}, run: {collisions: 1000}}",
      .agrees = "partial_temperature_ratio",
-     .collisions = 5,
-     .quick = true},
+     .collisions = 5},
 };
 
 const corner_table corners_of_mixtures = {"mixtures", corners, sizeof corners / sizeof *corners};
