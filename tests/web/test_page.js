@@ -12,6 +12,8 @@ const { find, Browser } = require("./chromium.js"),
 
 const file = process.env.PAGE,
   quick = 120;
+/* Half a minute until their means are there: with QUICK they are left out where each lesson is waited for. */
+const LONG = ["normal_stress", "clustering"];
 const LESSONS = Object.keys(strings("en")).filter((key) => /^lesson_.*_question$/.test(key)).map((key) => key.slice(7, -9));
 const wait = (ms) => new Promise((r) => setTimeout(r, ms));
 let browser;
@@ -126,7 +128,7 @@ const tests = {
 
   "every lesson runs": async () => {
     const tab = await open("#lesson=haff");
-    for (const name of LESSONS) {
+    for (const name of LESSONS.filter((name) => !LONG.includes(name) || !process.env.QUICK)) {
       await tab.value(`byId("lesson-${name}").click()`);
       await tab.until(`S().lesson === "${name}" && now.frame && now.frame.md.collisions > 100 && S().means && (S().means.progress.md || S().means.progress.dsmc)`, quick);
       assert.strictEqual(await banner(tab), "", name);
