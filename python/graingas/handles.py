@@ -17,18 +17,17 @@ class Handle:
     def __init__(self, pointer, free, what):
         self._pointer, self._what = ffi.gc(pointer, free), what
         self._lock = threading.Lock()
-        self._left = False  # whether a call may still read
+        self._left = []  # of each call that Ctrl-C left behind, the event of its end
 
     @contextmanager
     def held(self, patience=0):
         """The pointer, for the duration of a call. patience: seconds to wait for another thread."""
-        if self._left:
+        if not all(ended.is_set() for ended in self._left):
             patience = LEFT
         if not (self._lock.acquire(timeout=patience) if patience else self._lock.acquire(blocking=False)):
             raise Busy(f"this {self._what} is in use by another thread, or by the call whose callback uses it; "
                        f"use it after that call, or use another one")
         try:
-            self._left = False
             if self._pointer is None:
                 raise BadInput(f"this {self._what} is closed")
             yield self._pointer
@@ -38,13 +37,18 @@ class Handle:
     def read(self, function, patience=0):
         """function(pointer), which changes nothing, in a thread: Ctrl-C leaves it behind, and later calls wait for its
         end."""
+        ended = threading.Event()
+
         def work():
-            with self.held(patience) as pointer:
-                return function(pointer)
+            try:
+                with self.held(patience) as pointer:
+                    return function(pointer)
+            finally:
+                ended.set()
         try:
             return calls.left_behind(work)
         except KeyboardInterrupt:
-            self._left = True
+            self._left = [other for other in self._left if not other.is_set()] + [ended]
             raise
 
     def close(self):

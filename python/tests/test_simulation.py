@@ -251,6 +251,31 @@ def test_later_calls_wait_for_one_that_was_left_behind(sim):
     assert may_end.is_set()
 
 
+def test_calls_left_behind_before_they_begin(sim, monkeypatch):
+    """Ctrl-C before the thread takes the simulation: another call waits for it none the less."""
+    begins, threads = threading.Event(), []
+
+    def interrupted(work):
+        def late():
+            begins.wait(60)
+            work()
+        threads.append(threading.Thread(target=late))
+        threads[-1].start()
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(gg.calls, "left_behind", interrupted)
+        for _ in range(2):
+            with pytest.raises(KeyboardInterrupt):
+                sim._handle.read(lambda pointer: time.sleep(0.2))
+    begins.set()
+    while not sim._handle._lock.locked():
+        time.sleep(0.001)
+    sim.collide(10)
+    for thread in threads:
+        thread.join()
+
+
 def test_interrupted_start_of_several():
     interrupted_start(lambda scene: gg.relax(scene, 1, points=2, replicas=50, threads=2, engines="md"))
     assert not [thread for thread in threading.enumerate() if thread.name == "graingas"]
