@@ -26,11 +26,17 @@ void gg_measure_curves_clear(gg_curves *list)
   *list = (gg_curves){0};
 }
 
+/* Megabytes, of which little is used: a place is cleared when it is taken. */
+static bool has_places(gg_curves *list)
+{
+  if (!list->curve) list->curve = malloc(GG_MOST_CURVES * sizeof *list->curve);
+  return list->curve;
+}
+
 /* The next free place with arrays for n points; NULL if there is no room for it. */
 static gg_curve *new_curve(gg_curves *list, size_t n)
 {
-  if (!list->curve) list->curve = calloc(GG_MOST_CURVES, sizeof *list->curve);
-  if (!list->curve || list->n == GG_MOST_CURVES || list->failed) return NULL;
+  if (!has_places(list) || list->n == GG_MOST_CURVES || list->failed) return NULL;
   gg_curve *c = &list->curve[list->n];
   *c = (gg_curve){.samples = list->samples, .n = n};
   snprintf(c->group, sizeof c->group, "%s", list->group ? list->group : "");
@@ -211,8 +217,7 @@ static void withhold(gg_curves *full)
 /* Move the curves of one list to the end of another. */
 static bool append(gg_curves *to, gg_curves *from)
 {
-  if (!to->curve) to->curve = calloc(GG_MOST_CURVES, sizeof *to->curve);
-  if (!to->curve || to->n + from->n > GG_MOST_CURVES) return false;
+  if (!has_places(to) || to->n + from->n > GG_MOST_CURVES) return false;
   memcpy(to->curve + to->n, from->curve, (size_t)from->n * sizeof *from->curve);
   to->n += from->n;
   from->n = 0;
