@@ -33,6 +33,13 @@ typedef struct gg_dsmc_moments {
 gg_status gg_dsmc_ensemble_new(const gg_model *model, gg_dsmc_ensemble *e, gg_error *err);
 void gg_dsmc_ensemble_free(gg_dsmc_ensemble *e);
 
+/* Does model->stop end a start at grain i? Also between walls. It is read every few milliseconds. */
+static inline bool gg_dsmc_start_is_stopped(const gg_model *model, size_t i)
+{
+  enum { BETWEEN_LOOKS = 1 << 15 };
+  return i % BETWEEN_LOOKS == BETWEEN_LOOKS - 1 && gg_stop_asked(model->stop);
+}
+
 /* ensemble_start.c: Maxwellians at the model's temperature0 and ratio0; the mean spin of a sheared dense gas is
  * -rate/2. False: model->stop ended it. */
 bool gg_dsmc_ensemble_start(const gg_model *model, gg_dsmc_ensemble *e, gg_rng *rng);

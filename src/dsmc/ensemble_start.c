@@ -29,21 +29,13 @@ static void start_spins(const gg_model *model, gg_dsmc_ensemble *e)
   }
 }
 
-/* Grains between looks at whether to stop: some milliseconds. */
-enum { BETWEEN_LOOKS = 1 << 15 };
-
-static bool is_stopped(const gg_model *model, uint32_t a)
-{
-  return a % BETWEEN_LOOKS == BETWEEN_LOOKS - 1 && gg_stop_asked(model->stop);
-}
-
 bool gg_dsmc_ensemble_start(const gg_model *model, gg_dsmc_ensemble *e, gg_rng *rng)
 {
   for (int i = 0; i < e->n_species; i++) {
     gg_dsmc_population *p = &e->of[i];
     double speed = sqrt(model->temperature0 / p->mass), spin = sqrt(model->ratio0 * model->temperature0 / p->mass);
     for (uint32_t a = 0; a < p->n; a++) {
-      if (is_stopped(model, a)) return false;
+      if (gg_dsmc_start_is_stopped(model, a)) return false;
       gg_dsmc_block_set(p, p->c, a, gg_scale(speed, gg_common_rng_normal_vec(rng)));
       if (p->s) gg_dsmc_block_set(p, p->s, a, gg_scale(spin / sqrt(p->inertia), gg_common_rng_normal_vec(rng)));
     }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "dsmc/ensemble.h"
 #include "dsmc/walls/gap.h"
 
 /* Each on one cache line, and one more: an empty cell may begin behind the last. */
@@ -124,9 +125,6 @@ static gg_vec *motion_of(gg_dsmc_gap_grains *g, bool spin, size_t i)
   return spin ? &g->s[i] : &g->at[i].c;
 }
 
-/* Grains between looks at whether to stop: some milliseconds. */
-enum { BETWEEN_LOOKS = 1 << 15 };
-
 /* Gaussian, exactly of the energy 3 N T/2, velocities at rest as a whole; `weight` of a species is its mass or moment
  * of inertia. */
 static gg_status set_motion(gg_dsmc_gap *d, bool spin, const double *weight, double T, gg_rng *rng, gg_error *err)
@@ -135,8 +133,7 @@ static gg_status set_motion(gg_dsmc_gap *d, bool spin, const double *weight, dou
   gg_vec momentum = {0, 0, 0};
   double all = 0, energy = 0;
   for (size_t i = 0; i < n; i++) {
-    if (i % BETWEEN_LOOKS == BETWEEN_LOOKS - 1 && gg_stop_asked(d->model.stop))
-      return gg_base_fail(err, GG_INTERRUPTED, "dsmc: stopped at the start");
+    if (gg_dsmc_start_is_stopped(&d->model, i)) return gg_base_fail(err, GG_INTERRUPTED, "dsmc: stopped at the start");
     const double w = weight[d->grains.species[i]];
     gg_vec *v = motion_of(&d->grains, spin, i);
     *v = gg_scale(sqrt(T / w), gg_common_rng_normal_vec(rng));
