@@ -88,7 +88,26 @@ static void name_row(const char *table, json_t *members, char *name, size_t size
   }
 }
 
-json_t *gg_bench_table_add(gg_bench_table *s, gg_bench_value v, const char *format, ...)
+/* Where and when a row was measured, and by which build. */
+static json_t *origin(void)
+{
+  char processor[200], date[32];
+  gg_base_machine_processor(processor, sizeof processor);
+  gg_base_machine_date(date, sizeof date);
+  return json_pack("{s:{s:s, s:I}, s:s, s:s, s:s}", "machine", "cpu", processor, "cores",
+                   (json_int_t)gg_base_machine_cores(), "version", gg_base_build_version, "instructions",
+                   gg_simd_instructions_name(gg_simd_instructions_best()), "time", date);
+}
+
+static void record(const gg_bench *b, const json_t *row)
+{
+  if (!b->options->record || gg_base_memory_failures() != b->failures) return;
+  char *line = gg_base_json_text(row, JSON_COMPACT | JSON_REAL_PRECISION(12));
+  if (line) b->options->record(b->options->context, line);
+  free(line);
+}
+
+void gg_bench_table_add(const gg_bench *b, gg_bench_table *s, gg_bench_value v, json_t *more, const char *format, ...)
 {
   char name[200];
   va_list list;
@@ -100,8 +119,10 @@ json_t *gg_bench_table_add(gg_bench_table *s, gg_bench_value v, const char *form
                           gg_bench_number(v.value), "lowest", gg_bench_number(v.lowest), "highest",
                           gg_bench_number(v.highest), "repeats", v.repeats, "threads", v.threads > 1 ? v.threads : 1);
   json_object_update_new(row, members);
+  if (more) json_object_update_new(row, more);
+  json_object_update_new(row, origin());
+  record(b, row);
   json_array_append_new(s->rows, row);
-  return row;
 }
 
 void gg_bench_tell(const gg_bench *b, const char *format, ...)
@@ -161,35 +182,17 @@ static gg_status refuse(const char *word, gg_error *err)
                       word, allowed);
 }
 
-/* Where and when all rows were measured, and by which build. */
-static void sign(gg_bench *b)
-{
-  size_t k;
-  json_t *row;
-  char processor[200], date[32];
-  gg_base_machine_processor(processor, sizeof processor);
-  gg_base_machine_date(date, sizeof date);
-  json_t *origin = json_pack("{s:{s:s, s:I}, s:s, s:s, s:s}", "machine", "cpu", processor, "cores",
-                             (json_int_t)gg_base_machine_cores(), "version", gg_base_build_version, "instructions",
-                             gg_simd_instructions_name(gg_simd_instructions_best()), "time", date);
-  for (int i = 0; i < b->n_tables; i++)
-    json_array_foreach(b->table[i]->rows, k, row) gg_base_json_put(json_object_update(row, origin));
-  json_decref(origin);
-}
-
 gg_status gg_bench_run(gg_bench *b, const char *subject, const gg_bench_options *options, gg_error *err)
 {
   int i = 0;
-  const unsigned before = gg_base_memory_failures();
-  *b = (gg_bench){.options = options};
+  *b = (gg_bench){.options = options, .failures = gg_base_memory_failures()};
   while (i < N_SUBJECTS && (subject ? !subjects[i].name || strcmp(subject, subjects[i].name) != 0 : i > 0)) i++;
   if (i == N_SUBJECTS) return refuse(subject, err);
   if (options->picture && subjects[i].run != gg_bench_error)
     return gg_base_fail(err, GG_BAD_INPUT, "bench: --picture is for bench error, which has one");
   GG_TRY(take_seed(b, err));
   const gg_status status = subjects[i].run(b, err);
-  sign(b);
-  if (gg_base_memory_failures() != before) return b->measured = false, gg_base_out_of_memory(err);
+  if (gg_base_memory_failures() != b->failures) return b->measured = false, gg_base_out_of_memory(err);
   b->measured |= status == GG_OK;
   return status;
 }
@@ -201,19 +204,4 @@ void gg_bench_clear(gg_bench *b)
     free(b->table[i]);
   }
   *b = (gg_bench){0};
-}
-
-char *gg_bench_record(const gg_bench *b)
-{
-  size_t k;
-  json_t *row;
-  char *record, *line;
-  FILE *out = gg_base_memory_stream_open(&record);
-  for (int i = 0; out && i < b->n_tables; i++) json_array_foreach(b->table[i]->rows, k, row)
-    {
-      line = gg_base_json_text(row, JSON_COMPACT | JSON_REAL_PRECISION(12));
-      if (line) fprintf(out, "%s\n", line);
-      free(line);
-    }
-  return gg_base_memory_stream_close(out, &record) ? record : NULL;
 }

@@ -32,6 +32,8 @@ typedef struct gg_bench_options {
   const char *const *override; /* "KEY=VALUE" of a scene; only run.seed matters */
   void *context;
   void (*tell)(void *context, const char *line); /* progress, a line in place of the last; NULL: not wanted */
+  /* A row of the record as JSON in one line, as soon as it is measured; NULL: not wanted. */
+  void (*record)(void *context, const char *line);
 } gg_bench_options;
 
 /* What a row of the record is about. NaN is null there: not known. */
@@ -45,7 +47,8 @@ enum { GG_BENCH_TABLES = 24 };
 typedef struct gg_bench {
   const gg_bench_options *options;
   uint64_t seed;
-  bool measured; /* the tables are whole, whatever became of the picture */
+  unsigned failures; /* of memory, before it began */
+  bool measured;     /* the tables are whole, whatever became of the picture */
   int n_tables;
   gg_bench_table *table[GG_BENCH_TABLES];
 } gg_bench;
@@ -53,8 +56,6 @@ typedef struct gg_bench {
 /* Measure a subject: "md", "dsmc", "observables", "error"; NULL for the overview. Clear *bench whatever comes of it. */
 gg_status gg_bench_run(gg_bench *bench, const char *subject, const gg_bench_options *options, gg_error *err);
 void gg_bench_clear(gg_bench *bench);
-/* The record: all rows as JSON, a line each; to be freed. NULL if out of memory. */
-char *gg_bench_record(const gg_bench *bench);
 
 /* Two files of such lines set against each other, as text, or as lines of JSON; to be freed, NULL if there is none.
  * GG_FAILED, beside the text: rows are slower by more than `limit` per cent beyond their spread; negative: no limit. */
@@ -71,9 +72,10 @@ gg_bench_table *gg_bench_table_new(gg_bench *bench, const char *key, const char 
 int gg_bench_table_column(gg_bench_table *table, bool right, const char *format, ...) GG_PRINTF(3, 4);
 int gg_bench_table_row(gg_bench_table *table, const char *format, ...) GG_PRINTF(2, 3);
 void gg_bench_table_put(gg_bench_table *table, int row, int column, const char *format, ...) GG_PRINTF(4, 5);
-/* A row of the record; the format, which is json_pack's, has what makes up its name. Returns the row for more members,
- * the table's; NULL: out of memory. */
-json_t *gg_bench_table_add(gg_bench_table *table, gg_bench_value value, const char *format, ...);
+/* A row of the record; the format, which is json_pack's, has what makes up its name. `more`: further members, the
+ * row's from then on; NULL: none. */
+void gg_bench_table_add(const gg_bench *bench, gg_bench_table *table, gg_bench_value value, json_t *more,
+                        const char *format, ...);
 json_t *gg_bench_number(double x); /* null where it is not finite */
 void gg_bench_tell(const gg_bench *bench, const char *format, ...) GG_PRINTF(2, 3);
 /* The defaults with this bench's seed; and seconds of a stretch: less where the options say so. */

@@ -155,8 +155,8 @@ static const char *engine_name(const engine_bench *e)
   return gg_run_engine_ops_of(e->engine)->name;
 }
 
-static void put_rate(gg_bench_table *t, const engine_bench *e, int row, int column, double phi, int64_t n,
-                     const gg_throughput *r)
+static void put_rate(const gg_bench *b, gg_bench_table *t, const engine_bench *e, int row, int column, double phi,
+                     int64_t n, const gg_throughput *r)
 {
   const bool is_md = e->engine == GG_MD;
   const gg_bench_value v = gg_bench_throughput_value(r, !is_md, e->unit);
@@ -165,7 +165,8 @@ static void put_rate(gg_bench_table *t, const engine_bench *e, int row, int colu
                        1e9 / v.value);
   else
     gg_bench_table_put(t, row, column, "%.2f (%.2f - %.2f)", v.value, v.lowest, v.highest);
-  gg_bench_table_add(t, v, "{s:s, s:f, s:I}", "engine", engine_name(e), "phi", phi, "particles", (json_int_t)n);
+  gg_bench_table_add(b, t, v, NULL, "{s:s, s:f, s:I}", "engine", engine_name(e), "phi", phi, "particles",
+                     (json_int_t)n);
 }
 
 /* The plain scene by size, a column a density. */
@@ -183,7 +184,7 @@ static gg_status measure_rates(gg_bench *b, const engine_bench *e, gg_error *err
       const gg_scene s = timed_scene(b, e, 0, e->densities[d], e->sizes[i]).scene;
       GG_TRY(gg_bench_throughput_measure(&s, false, warmup_of(e, e->sizes[i], quick), quick ? 3 : 7,
                                          gg_bench_seconds(b, quick ? 0.3 : 1), &r, err));
-      put_rate(t, e, row, 1 + d, e->densities[d], e->sizes[i], &r);
+      put_rate(b, t, e, row, 1 + d, e->densities[d], e->sizes[i], &r);
       gg_bench_tell(b, "phi %g N %lld: %.3g M/s", e->densities[d], (long long)e->sizes[i], r.rate * 1e-6);
     }
   }
@@ -191,8 +192,8 @@ static gg_status measure_rates(gg_bench *b, const engine_bench *e, gg_error *err
 }
 
 /* What is measured are rates; times, of dsmc, are their inverse. */
-static void put_ratio(gg_bench_table *t, const engine_bench *e, int column, double phi, int64_t n, int kind,
-                      const gg_timing *r)
+static void put_ratio(const gg_bench *b, gg_bench_table *t, const engine_bench *e, int column, double phi, int64_t n,
+                      int kind, const gg_timing *r)
 {
   const bool is_md = e->engine == GG_MD;
   const feature *f = &e->features[kind];
@@ -205,10 +206,10 @@ static void put_ratio(gg_bench_table *t, const engine_bench *e, int column, doub
     gg_bench_table_put(t, kind, column, "%.2f (%.2f - %.2f)", ratio, least, largest);
   else
     gg_bench_table_put(t, kind, column, "%.2f (%.2f - %.2f) %.1f ns", ratio, least, largest, v.value);
-  json_t *row = gg_bench_table_add(t, v, "{s:s, s:s, s:f, s:I}", "engine", engine_name(e), "scene", f->name, "phi", phi,
-                                   "particles", (json_int_t)n);
-  json_object_update_new(row, json_pack("{s:s, s:f, s:f, s:f}", "against", f->against, "ratio", ratio, "ratio_lowest",
-                                        least, "ratio_highest", largest));
+  json_t *beside = json_pack("{s:s, s:f, s:f, s:f}", "against", f->against, "ratio", ratio, "ratio_lowest", least,
+                             "ratio_highest", largest);
+  gg_bench_table_add(b, t, v, beside, "{s:s, s:s, s:f, s:I}", "engine", engine_name(e), "scene", f->name, "phi", phi,
+                     "particles", (json_int_t)n);
 }
 
 /* Scenes with a feature against those without, at one size; a row each. */
@@ -232,7 +233,7 @@ static gg_status measure_ratios(gg_bench *b, const engine_bench *e, gg_error *er
     for (int k = 0; k < e->n_features; k++) c[k] = timed_scene(b, e, k, phi, n);
     GG_TRY(gg_bench_throughput_compare(c, e->n_features, warmup_of(e, n, quick), quick ? 5 : 9,
                                        gg_bench_seconds(b, quick ? 0.1 : e->ratio_seconds), r, err));
-    for (int k = 0; k < e->n_features; k++) put_ratio(t, e, column, phi, n, k, &r[k]);
+    for (int k = 0; k < e->n_features; k++) put_ratio(b, t, e, column, phi, n, k, &r[k]);
     gg_bench_tell(b, "ratios at phi %g N %lld done", phi, (long long)n);
   }
   return GG_OK;
@@ -352,15 +353,16 @@ static const two_ways threads = {
   }
 static const two_ways threads_of_md[] = {THREADS_OF_MD("threads", 0.3), THREADS_OF_MD("threads, dense", 0.5)};
 
-static void add_two(gg_bench_table *t, const two_ways *w, int k, int64_t n, const gg_timing r[2], int used)
+static void add_two(const gg_bench *b, gg_bench_table *t, const two_ways *w, int k, int64_t n, const gg_timing r[2],
+                    int used)
 {
   gg_bench_value v = gg_bench_throughput_value(&r[1].own, true, used > 1 ? gg_bench_by_the_clock : dsmc.unit);
   v.threads = used;
-  json_t *row = gg_bench_table_add(t, v, "{s:s, s:s, s:f, s:I}", "engine", engine_name(w->of), "scene", w->kinds[k],
-                                   "phi", w->phi, "particles", (json_int_t)n);
-  json_object_update_new(row, json_pack("{s:f, s:f, s:f, s:f, s:f}", "other", 1e9 / r[0].own.rate, "ratio", r[1].ratio,
-                                        "ratio_lowest", r[1].lowest, "ratio_highest", r[1].highest, "processors",
-                                        r[1].own.processors));
+  json_t *beside =
+      json_pack("{s:f, s:f, s:f, s:f, s:f}", "other", 1e9 / r[0].own.rate, "ratio", r[1].ratio, "ratio_lowest",
+                r[1].lowest, "ratio_highest", r[1].highest, "processors", r[1].own.processors);
+  gg_bench_table_add(b, t, v, beside, "{s:s, s:s, s:f, s:I}", "engine", engine_name(w->of), "scene", w->kinds[k], "phi",
+                     w->phi, "particles", (json_int_t)n);
 }
 
 static gg_status measure_two(gg_bench *b, const two_ways *w, int used, gg_error *err)
@@ -382,7 +384,7 @@ static gg_status measure_two(gg_bench *b, const two_ways *w, int used, gg_error 
       GG_TRY(gg_bench_throughput_compare(way, 2, w->warmup[quick], w->repeats[quick],
                                          gg_bench_seconds(b, w->seconds[quick]), r, err));
       w->put(t, k, column, r, used);
-      add_two(t, w, k, n, r, used);
+      add_two(b, t, w, k, n, r, used);
     }
     if (used > 1)
       gg_bench_tell(b, "%d %s, N %lld done", used, w->done, (long long)n);
@@ -421,15 +423,16 @@ static const struct {
   double beta, mu;
 } kernels[] = {{"smooth", -1, INFINITY}, {"rough", 0, INFINITY}, {"frictional", 0.4, 0.123}};
 
-static void put_overview(gg_bench_table *t, const char *engine, double phi, int64_t n, const gg_throughput *r)
+static void put_overview(const gg_bench *b, gg_bench_table *t, const char *engine, double phi, int64_t n,
+                         const gg_throughput *r)
 {
   const int row = gg_bench_table_row(t, "%s", engine);
   gg_bench_table_put(t, row, 1, "%g", phi);
   gg_bench_table_put(t, row, 2, "%lld", (long long)n);
   for (int k = 0; k < COUNT(kernels); k++) {
     gg_bench_table_put(t, row, 3 + k, "%.3g M/s (%.0f ns)", r[k].rate * 1e-6, 1e9 / r[k].rate);
-    gg_bench_table_add(t, gg_bench_throughput_value(&r[k], false, md.unit), "{s:s, s:s, s:f, s:I}", "engine", engine,
-                       "kernel", kernels[k].name, "phi", phi, "particles", (json_int_t)n);
+    gg_bench_table_add(b, t, gg_bench_throughput_value(&r[k], false, md.unit), NULL, "{s:s, s:s, s:f, s:I}", "engine",
+                       engine, "kernel", kernels[k].name, "phi", phi, "particles", (json_int_t)n);
   }
 }
 
@@ -446,7 +449,7 @@ static gg_status measure_overview(gg_bench *b, gg_bench_table *t, gg_engine_kind
     GG_TRY(
         gg_bench_throughput_measure(&s, true, 20, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.2 : 0.6), &r[k], err));
   }
-  put_overview(t, name, phi, n, r);
+  put_overview(b, t, name, phi, n, r);
   gg_bench_tell(b, "%s phi %g N %lld done", name, phi, (long long)n);
   return GG_OK;
 }

@@ -207,15 +207,15 @@ static json_t *two(double x, double y)
 }
 
 /* A row of the record, about a mean in a state, by a way of measuring it. */
-static json_t *add_row(gg_bench_table *table, const gg_error_state *s, int q, const char *by, const char *unit,
-                       double value, int seeds)
+static void add_row(const gg_bench *b, gg_bench_table *table, const gg_error_state *s, int q, const char *by,
+                    const char *unit, double value, int seeds, json_t *more)
 {
-  return gg_bench_table_add(table, (gg_bench_value){unit, value, NAN, NAN, seeds, 1}, "{s:s, s:f, s:f, s:b, s:s, s:s}",
-                            "flow", gg_flow_of(s->flow)->word, "phi", s->phi, "e", s->e, "rough", s->rough, "quantity",
-                            name_of(s, q), "way", by);
+  gg_bench_table_add(b, table, (gg_bench_value){unit, value, NAN, NAN, seeds, 1}, more,
+                     "{s:s, s:f, s:f, s:b, s:s, s:s}", "flow", gg_flow_of(s->flow)->word, "phi", s->phi, "e", s->e,
+                     "rough", s->rough, "quantity", name_of(s, q), "way", by);
 }
 
-static void add_course(gg_bench_table *table, const gg_error_state *s, int q, int i)
+static void add_course(const gg_bench *b, gg_bench_table *table, const gg_error_state *s, int q, int i)
 {
   const gg_course *c = &s->course[i];
   json_t *t = json_array(), *error = json_array(), *uncertain = json_array();
@@ -229,17 +229,17 @@ static void add_course(gg_bench_table *table, const gg_error_state *s, int q, in
   for (int k = 0; k < N_TARGETS; k++)
     json_array_append_new(until, gg_bench_number(gg_bench_seconds_to(s, i, q, targets[k])));
   const gg_way *way = &gg_bench_error_methods[i];
-  json_t *row = add_row(table, s, q, way->name, "CPU seconds to an error of 1 %",
-                        gg_bench_seconds_to(s, i, q, targets[0]), c->seeds);
-  json_object_update_new(
-      row, json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "engine",
-                     way->engine == GG_MD ? "md" : "dsmc", "particles", (json_int_t)way->n, "warmup_seconds",
-                     gg_bench_number(c->warmup), "error_of_a_second", gg_bench_number(s->noise[i][q]), "floor",
-                     gg_bench_number(s->floor[i][q]), "floor_stderr", gg_bench_number(s->shift_error[i][q]), "seconds",
-                     t, "relative_error", error, "stderr", uncertain, "seconds_to_0.01_0.001_0.0001", until));
+  json_t *course =
+      json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "engine", way->engine == GG_MD ? "md" : "dsmc",
+                "particles", (json_int_t)way->n, "warmup_seconds", gg_bench_number(c->warmup), "error_of_a_second",
+                gg_bench_number(s->noise[i][q]), "floor", gg_bench_number(s->floor[i][q]), "floor_stderr",
+                gg_bench_number(s->shift_error[i][q]), "seconds", t, "relative_error", error, "stderr", uncertain,
+                "seconds_to_0.01_0.001_0.0001", until);
+  add_row(b, table, s, q, way->name, "CPU seconds to an error of 1 %", gg_bench_seconds_to(s, i, q, targets[0]),
+          c->seeds, course);
 }
 
-static void put_floors(gg_bench_table *table, int row, const gg_error_state *s, int q)
+static void put_floors(const gg_bench *b, gg_bench_table *table, int row, const gg_error_state *s, int q)
 {
   const gg_by_size *md = &s->size[GG_MD][q], *dsmc = &s->size[GG_DSMC][q];
   const gg_course_end one = gg_bench_error_course_last(&s->course[DOUBLE], q),
@@ -254,14 +254,14 @@ static void put_floors(gg_bench_table *table, int row, const gg_error_state *s, 
   if (isfinite(s->step_order[q])) gg_bench_table_put(table, row, 8, "%.1f", s->step_order[q]);
   gg_bench_table_put(table, row, 9, "%+.1e +- %.0e", single, e);
   const double coefficient = s->step_coefficient[q], uncertain = s->step_coefficient_error[q];
-  json_t *json =
-      add_row(table, s, q, s->source[GG_DSMC][q], "relative error of the truth", s->truth_error[GG_DSMC][q] / unit, 1);
-  json_object_update_new(
-      json, json_pack("{s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o}", "truth", gg_bench_number(s->truth[GG_DSMC][q]),
-                      "truth_error", gg_bench_number(s->truth_error[GG_DSMC][q]), "source", s->source[GG_DSMC][q],
-                      "dsmc_times_N", two(dsmc->per_grain / unit, dsmc->per_grain_error / unit), "md_times_N",
-                      two(md->per_grain / unit, md->per_grain_error / unit), "step", two(coefficient, uncertain),
-                      "step_order", gg_bench_number(s->step_order[q]), "single", two(single, e)));
+  json_t *floors =
+      json_pack("{s:o, s:o, s:s, s:o, s:o, s:o, s:o, s:o}", "truth", gg_bench_number(s->truth[GG_DSMC][q]),
+                "truth_error", gg_bench_number(s->truth_error[GG_DSMC][q]), "source", s->source[GG_DSMC][q],
+                "dsmc_times_N", two(dsmc->per_grain / unit, dsmc->per_grain_error / unit), "md_times_N",
+                two(md->per_grain / unit, md->per_grain_error / unit), "step", two(coefficient, uncertain),
+                "step_order", gg_bench_number(s->step_order[q]), "single", two(single, e));
+  add_row(b, table, s, q, s->source[GG_DSMC][q], "relative error of the truth", s->truth_error[GG_DSMC][q] / unit, 1,
+          floors);
 }
 
 static gg_bench_table *new_seconds(gg_bench *b, const gg_error_state *s, bool first, gg_error *err)
@@ -295,12 +295,12 @@ static gg_status put_state(gg_bench *b, const gg_error_state *s, bool first, gg_
     if (!has(s, q)) continue;
     put_seconds(seconds, gg_bench_table_row(seconds, "%s", name_of(s, q)), s, q);
     for (int i = 0; i < GG_WAYS; i++)
-      if (s->done[i]) add_course(seconds, s, q, i);
+      if (s->done[i]) add_course(b, seconds, s, q, i);
   }
   return GG_OK;
 }
 
-static void put_state_floors(gg_bench_table *floors, const gg_error_state *s)
+static void put_state_floors(const gg_bench *b, gg_bench_table *floors, const gg_error_state *s)
 {
   char name[GG_BENCH_CELL];
   gg_bench_error_state_name(s, name, sizeof name);
@@ -308,7 +308,7 @@ static void put_state_floors(gg_bench_table *floors, const gg_error_state *s)
     if (!has(s, q)) continue;
     const int row = gg_bench_table_row(floors, "%s", name);
     gg_bench_table_put(floors, row, 1, "%s", name_of(s, q));
-    put_floors(floors, row, s, q);
+    put_floors(b, floors, row, s, q);
   }
 }
 
@@ -341,7 +341,7 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
   }
   gg_bench_table *floors = new_floors(b, err);
   if (!floors) return GG_FAILED;
-  for (int i = 0; i < n; i++) put_state_floors(floors, &s[i]);
+  for (int i = 0; i < n; i++) put_state_floors(b, floors, &s[i]);
   b->measured = true;
   return drawn;
 }

@@ -199,10 +199,10 @@ static gg_status measure(gg_bench *b, gg_bench_table *table, int row, int i, con
                       gg_bench_seconds(b, b->options->quick ? 0.01 : 0.15), &cost, err));
   gg_bench_table_put(table, row, 1 + i, "%.0f %% (%.0f - %.0f)", 100 * cost.overhead, 100 * cost.lowest,
                      100 * cost.highest);
-  json_t *added = gg_bench_table_add(table, cost.ns, "{s:s, s:s, s:f, s:I}", "observable", o->name, "engine",
-                                     gg_run_engine_ops_of(c.engine)->name, "phi", c.phi, "particles", (json_int_t)c.n);
-  json_object_update_new(added, json_pack("{s:f, s:f, s:f}", "overhead", cost.overhead, "overhead_lowest", cost.lowest,
-                                          "overhead_highest", cost.highest));
+  json_t *overhead = json_pack("{s:f, s:f, s:f}", "overhead", cost.overhead, "overhead_lowest", cost.lowest,
+                               "overhead_highest", cost.highest);
+  gg_bench_table_add(b, table, cost.ns, overhead, "{s:s, s:s, s:f, s:I}", "observable", o->name, "engine",
+                     gg_run_engine_ops_of(c.engine)->name, "phi", c.phi, "particles", (json_int_t)c.n);
   return GG_OK;
 }
 

@@ -99,8 +99,8 @@ gg_status gg_bench_scenes(gg_bench *b, gg_error *err)
     gg_bench_table_put(t, row, 2, "%g", s->phi);
     gg_bench_table_put(t, row, 3, "%lld", (long long)s->n);
     gg_bench_table_put(t, row, 4, "%.3g (%.3g - %.3g)", v.value, v.lowest, v.highest);
-    gg_bench_table_add(t, v, "{s:s, s:s, s:f, s:I}", "engine", engine, "scene", s->name, "phi", s->phi, "particles",
-                       (json_int_t)s->n);
+    gg_bench_table_add(b, t, v, NULL, "{s:s, s:s, s:f, s:I}", "engine", engine, "scene", s->name, "phi", s->phi,
+                       "particles", (json_int_t)s->n);
     gg_bench_tell(b, "%s, %s done", engine, s->name);
   }
   return t ? GG_OK : GG_FAILED;

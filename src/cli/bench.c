@@ -31,19 +31,18 @@ static int print_table(const gg_bench_table *s)
   return GG_OK;
 }
 
-static int print_record(const gg_bench *b)
+/* At once: a bench that is cut short leaves the rows that it has measured. */
+static void print_row(void *context, const char *row)
 {
-  char *text = gg_bench_record(b);
-  if (!text) return gg_cli_fail(GG_FAILED, "out of memory");
-  fputs(text, stdout);
-  free(text);
-  return GG_OK;
+  gg_cli_line_clear(context);
+  printf("%s\n", row);
+  fflush(stdout);
 }
 
-static int print(const gg_bench *b, bool json)
+static int print(const gg_bench *b)
 {
-  int code = json ? print_record(b) : GG_OK;
-  for (int i = 0; i < b->n_tables && !json && code == GG_OK; i++) {
+  int code = GG_OK;
+  for (int i = 0; i < b->n_tables && code == GG_OK; i++) {
     if (i) putchar('\n');
     code = print_table(b->table[i]);
   }
@@ -72,7 +71,8 @@ static int measure(const gg_options *o)
                             .n_overrides = o->n_overrides,
                             .override = o->override,
                             .context = &line,
-                            .tell = tell};
+                            .tell = tell,
+                            .record = o->json ? print_row : NULL};
   gg_bench b;
   gg_error err;
   if (o->more[0])
@@ -80,7 +80,7 @@ static int measure(const gg_options *o)
   gg_cli_line_start(&line, o->quiet);
   const gg_status status = gg_bench_run(&b, o->input, &asked, &err);
   gg_cli_line_clear(&line);
-  int code = b.measured ? print(&b, o->json) : GG_OK;
+  int code = b.measured && !o->json ? print(&b) : GG_OK;
   if (status != GG_OK) code = gg_cli_report(&err);
   gg_bench_clear(&b);
   return code;

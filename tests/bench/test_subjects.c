@@ -16,6 +16,7 @@
 #include "graingas.h"
 
 static int told;
+static json_t *recorded; /* rows of the present bench, as they came */
 static int full_too = 1;
 
 static void tell(void *context, const char *line)
@@ -23,6 +24,23 @@ static void tell(void *context, const char *line)
   (void)context;
   assert_true(*line && !strchr(line, '\n'));
   told++;
+}
+
+static void record(void *context, const char *line)
+{
+  (void)context;
+  assert_null(strchr(line, '\n'));
+  json_array_append_new(recorded, json_loads(line, 0, NULL));
+}
+
+/* Of the overview: every size is followed by its rows, which are written before the next is measured. */
+static void tell_after_rows(void *context, const char *line)
+{
+  static size_t before;
+  if (!told) before = 0;
+  assert_true(json_array_size(recorded) > before);
+  before = json_array_size(recorded);
+  tell(context, line);
 }
 
 static double of(const json_t *row, const char *key)
@@ -102,29 +120,31 @@ static void begin(gg_bench *b, gg_bench_options *o, const char *subject)
 {
   gg_error err;
   told = 0;
+  recorded = json_array();
+  o->record = record;
   if (gg_bench_run(b, subject, o, &err) != GG_OK) fail_msg("%s", err.message);
 }
 
-/* The record has every row in a line, with a name of its own, where and when it was measured and by which build. */
+/* The record has every row in a line, with a name of its own, where and when it was measured and by which build, and
+ * nothing else. */
 static void end(gg_bench *b)
 {
-  char *text = gg_bench_record(b), *rest = text, *line;
-  json_t *names = json_object();
-  size_t rows = 0;
-  for (int i = 0; i < b->n_tables; i++) rows += json_array_size(b->table[i]->rows);
-  while ((line = strtok_r(rest, "\n", &rest))) {
-    json_t *row = json_loads(line, 0, NULL);
+  json_t *names = json_object(), *row;
+  size_t rows = 0, i;
+  for (int t = 0; t < b->n_tables; t++) rows += json_array_size(b->table[t]->rows);
+  assert_int_equal(json_array_size(recorded), rows);
+  json_array_foreach(recorded, i, row)
+  {
     const json_t *machine = json_object_get(row, "machine");
     assert_true(json_is_string(json_object_get(machine, "cpu")) && of(machine, "cores") >= 1);
     assert_true(is_word(row, "version", gg_version()));
     assert_true(json_is_string(json_object_get(row, "instructions")));
     assert_int_equal(strlen(json_string_value(json_object_get(row, "time"))), strlen("2024-05-31T12:00:00Z"));
-    json_object_set(names, json_string_value(json_object_get(row, "name")), json_true());
-    json_decref(row);
+    json_object_set(names, json_string_value(json_object_get(row, "name")), row);
   }
   if (json_object_size(names) != rows) fail_msg("%zu names of %zu rows", json_object_size(names), rows);
   json_decref(names);
-  free(text);
+  json_decref(recorded);
   gg_bench_clear(b);
   assert_int_equal(b->n_tables, 0);
 }
@@ -160,7 +180,7 @@ static void overview(void **state)
   (void)state;
   gg_bench b;
   for (int quick = !full_too; quick < 2; quick++) {
-    gg_bench_options o = {.quick = quick, .smaller = 200, .tell = tell};
+    gg_bench_options o = {.quick = quick, .smaller = 200, .tell = tell_after_rows};
     begin(&b, &o, NULL);
     const gg_bench_table *s = table_of(&b, "throughput");
     assert_whole(s, NULL);

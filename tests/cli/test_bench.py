@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """graingas bench compare: ratios of planted records, what is beyond their spread, the limit and its exit code."""
 import json
+import subprocess
 import sys
+import time
 
-from tap import check, main, run
+from tap import GRAINGAS, PATIENCE, check, main, run
 
 RATE, TIME = "collisions per CPU-second", "ns per collision"
 
@@ -76,6 +78,22 @@ def test_rows_that_are_compared():
            ("threads", TIME, 1, 1, 1, {"threads": 2}), ("null", TIME, 1, 1, 1), ("zero", TIME, 1, 1, 1))
     got = ratios()
     check(list(got) == ["x"] and got["x"]["value"] == 2, got)
+
+
+def test_cut_short():
+    """Killed as soon as it has measured something, it leaves whole rows; bench compare reads them."""
+    with open("cut.json", "w") as out:
+        bench = subprocess.Popen([GRAINGAS, "bench", "--quick", "--json", "--quiet"], stdout=out)
+    until = time.monotonic() + 60 * PATIENCE
+    while not open("cut.json").read() and bench.poll() is None and time.monotonic() < until:
+        time.sleep(0.01)
+    bench.kill()
+    check(bench.wait() < 0, "it ended before it was killed")
+    text = open("cut.json").read()
+    rows = [json.loads(line) for line in text.splitlines()]
+    check(text.endswith("\n") and rows and all(r["value"] > 0 and r["version"] for r in rows), text)
+    done = run("bench", "compare", "cut.json", "cut.json")
+    check(done.code == 0 and f"\n{len(rows)} rows in both with repeats" in done.out, done.out, done.err)
 
 
 def test_refused():
