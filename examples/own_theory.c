@@ -28,7 +28,7 @@ int main(void)
   mine.quantities = quantities;
   mine.evaluate = maxwellian;
   if (gg_scene_parse("{flow: hcs, phi: 0.1, collision: {e: 0.8}}", "scene", &scene, &err) ||
-      gg_scene_add_theory(scene, &mine, &err) || gg_theories_evaluate(scene, NULL, &theories, &err))
+      gg_scene_add_theory(scene, &mine, &err) || gg_theories_evaluate(scene, NULL, NULL, NULL, &theories, &err))
     fprintf(stderr, "%s\n", err.message);
   for (int i = 0; theories && i < 2; i++) {
     double zeta = 0;

@@ -15,7 +15,7 @@ int main(void)
     double eta, error, theory;
     if (gg_scene_set(scene, "collision.e", values[i], &err) || gg_run(scene, NULL, &result, &err) ||
         gg_result_get(result, "shear_viscosity", &eta, &error, &err) ||
-        gg_theories_evaluate(scene, "grad", &theories, &err) ||
+        gg_theories_evaluate(scene, "grad", NULL, NULL, &theories, &err) ||
         gg_comparison_theory_value(theories, "grad", "shear_viscosity", &theory, NULL, &err))
       fprintf(stderr, "%s\n", err.message);
     else

@@ -1042,15 +1042,17 @@ GG_API gg_status gg_compare(const gg_scene *scene, const gg_run_options *options
 
 /**
  * Evaluate theories without simulation: those that are named, and no other. A formula takes microseconds, the
- * noise-free solver up to a second. Theories that do not apply have a reason in gg_comparison_theory().
+ * noise-free solver up to three seconds. Theories that do not apply have a reason in gg_comparison_theory().
  * @param scene the scene; with a protocol the gas after the last change
  * @param theory names of theories, separated by commas: "lun1991", "lun1991,grad"; NULL: all
+ * @param stop polled several times a second, on this thread; returns non-zero to interrupt; may be NULL
+ * @param context passed to the callback
  * @param comparison receives the answers, to be freed by gg_comparison_free()
  * @param err receives the message on failure; may be NULL
- * @return GG_OK, also if none applies; GG_BAD_INPUT, also for an unknown name
+ * @return GG_OK, also if none applies; GG_BAD_INPUT, also for an unknown name; GG_INTERRUPTED by stop
  */
-GG_API gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, gg_comparison **comparison,
-                                      gg_error *err);
+GG_API gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, int (*stop)(void *context),
+                                      void *context, gg_comparison **comparison, gg_error *err);
 
 /**
  * Free a comparison.

@@ -4,6 +4,7 @@ import math
 import os
 import signal
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -106,3 +107,27 @@ def test_interrupted(shear):
     with pytest.raises(KeyboardInterrupt):
         gg.scan(mixture, e=np.linspace(0.5, 1, 1000))
     assert gg.theory(shear, "lun1991")["temperature"] > 0
+
+
+def test_what_is_left_behind_stops(monkeypatch):
+    """Ctrl-C stops the library's part of a theory, which ends without an answer; in a comparison nothing runs."""
+    rough = gg.Scene(flow="hcs", phi=0.3, e=0.7, beta=-0.5, particles=100)
+    ended, check = [], gg.theory.__globals__["check"]
+
+    def noted(function, *arguments):
+        try:
+            return check(function, *arguments)
+        except BaseException as error:
+            ended.append(error)
+            raise
+    monkeypatch.setitem(gg.theory.__globals__, "check", noted)
+    threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        while True:  # each takes three seconds of processor time
+            gg.theory(rough, "enskog_hermite")
+    while any(thread.name == "graingas" for thread in threading.enumerate()):
+        time.sleep(0.01)
+    assert [str(error) for error in ended] == ["enskog_hermite: interrupted"]
+    threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        gg.compare(rough, progress=False)

@@ -45,13 +45,29 @@ static gg_status choose(const gg_model *model, const char *names, bool wanted[GG
   return GG_OK;
 }
 
-static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *theory, gg_model *model, gg_error *err)
+/* A request of the caller's to stop, once made, holds. */
+typedef struct request {
+  int (*stop)(void *context);
+  void *context;
+  bool made;
+} request;
+
+static bool is_requested(void *context)
+{
+  request *r = context;
+  if (!r->made && r->stop && r->stop(r->context)) r->made = true;
+  return r->made;
+}
+
+static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *theory, const gg_stop *stop,
+                          gg_model *model, gg_error *err)
 {
   gg_scene finished;
   GG_TRY(gg_api_scene_finish(scene, &finished, err));
   c->scene = finished;
   gg_common_extension_hold(c->scene.extension);
   GG_TRY(gg_run_relaxation_end_model(&c->scene, model, err));
+  model->stop = stop;
   bool wanted[GG_MOST_THEORIES] = {false};
   if (theory) GG_TRY(choose(model, theory, wanted, err));
   GG_TRY(gg_run_compare_theories(model, theory ? wanted : NULL, c, err));
@@ -60,12 +76,15 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   return gg_base_memory_check(before, GG_OK, err);
 }
 
-gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, gg_comparison **comparison, gg_error *err)
+gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, int (*stop)(void *context), void *context,
+                               gg_comparison **comparison, gg_error *err)
 {
   GG_NEED(scene, comparison);
+  request asked = {stop, context, false};
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   gg_model *model = c ? gg_base_array_new(1, sizeof *model, err) : NULL;
-  gg_status status = model ? evaluate(c, scene, theory, model, err) : GG_FAILED;
+  gg_status status = model ? evaluate(c, scene, theory, &(gg_stop){is_requested, &asked}, model, err) : GG_FAILED;
+  status = gg_base_callback_settle(status, err);
   free(model);
   if (status == GG_OK)
     *comparison = c;

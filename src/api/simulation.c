@@ -14,8 +14,16 @@
 
 static bool is_stopped(void *context)
 {
-  const gg_simulation *s = context;
-  return gg_base_busy_is_freed(&s->busy) || (s->asks && s->asks(s->asks_context));
+  gg_simulation *s = context;
+  if (gg_base_busy_is_freed(&s->busy) || atomic_load(&s->stopped)) return true;
+  if (s->asks && s->asks(s->asks_context)) atomic_store(&s->stopped, true);
+  return atomic_load(&s->stopped);
+}
+
+gg_status gg_api_simulation_check_stop(gg_simulation *s, gg_error *err)
+{
+  atomic_store(&s->stopped, false);
+  return gg_stop_asked(&s->stop) ? gg_base_fail(err, GG_INTERRUPTED, "stopped by its caller") : GG_OK;
 }
 
 static void destroy(void *simulation)
@@ -31,7 +39,9 @@ void gg_simulation_free(gg_simulation *s)
   if (s) gg_base_busy_free(&s->busy);
 }
 
-gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simulation, gg_error *err)
+/* Small systems start before the engine looks whether to stop, and no theory may. */
+gg_status gg_api_simulation_prepare(const gg_scene *scene, int (*stop)(void *context), void *context,
+                                    gg_simulation **simulation, gg_error *err)
 {
   gg_simulation *s = gg_base_array_new(1, sizeof *s, err);
   if (!s) return GG_FAILED;
@@ -48,7 +58,10 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simul
   s->stop = (gg_stop){is_stopped, s};
   s->model.stop = &s->stop;
   s->model.cuts_steps = true;
-  if (s->scene.temperature == GG_AUTO) status = gg_run_start_near_steady(&s->model, err);
+  s->asks = stop, s->asks_context = context;
+  status = gg_api_simulation_check_stop(s, err);
+  if (status == GG_OK && s->scene.temperature == GG_AUTO) status = gg_run_start_near_steady(&s->model, err);
+  status = gg_base_callback_settle(status, err);
   if (status == GG_OK)
     *simulation = s;
   else
@@ -72,21 +85,10 @@ gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err)
   return s;
 }
 
-static gg_status check_stop(const gg_simulation *s, gg_error *err)
-{
-  return gg_stop_asked(&s->stop) ? gg_base_fail(err, GG_INTERRUPTED, "stopped by its caller") : GG_OK;
-}
-
-/* Small systems start before the engine looks whether to stop. */
-gg_status gg_api_simulation_begin(gg_simulation *s, const gg_start_options *options, gg_error *err)
-{
-  if (options) s->asks = options->stop, s->asks_context = options->context;
-  return check_stop(s, err);
-}
-
 gg_status gg_api_simulation_started(gg_simulation *s, gg_status status, gg_simulation **simulation, gg_error *err)
 {
   s->asks = NULL; /* that of the start */
+  atomic_store(&s->stopped, false);
   status = gg_base_callback_settle(status, err);
   if (status != GG_OK) {
     gg_simulation_free(s);
@@ -104,12 +106,10 @@ gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options *optio
   gg_simulation *s;
   gg_scene at_start = *scene; /* it may be that of a simulation whose shear rate has changed */
   at_start.clock_rate = GG_AUTO;
-  GG_TRY(gg_api_simulation_prepare(&at_start, &s, err));
-  const uint64_t stream = options ? options->stream : 0;
-  gg_status status = gg_api_simulation_begin(s, options, err);
-  if (status == GG_OK)
-    status = gg_run_engine_ops_of(s->scene.engine)
-                 ->create(&s->model, s->scene.run.seed, stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
+  const gg_start_options none = {0}, *o = options ? options : &none;
+  GG_TRY(gg_api_simulation_prepare(&at_start, o->stop, o->context, &s, err));
+  gg_status status = gg_run_engine_ops_of(s->scene.engine)
+                         ->create(&s->model, s->scene.run.seed, o->stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
   return gg_api_simulation_started(s, status, simulation, err);
 }
 
@@ -180,7 +180,7 @@ static gg_status advance_once(gg_simulation *s, double *time, uint64_t *most, gg
 static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
 {
   GG_TRY(settle_callback(s, err)); /* of an advance that was stopped */
-  gg_status status = check_stop(s, err);
+  gg_status status = gg_api_simulation_check_stop(s, err);
   if (status == GG_OK) status = advance_once(s, time, most, err);
   return gg_base_callback_settle(status, err);
 }

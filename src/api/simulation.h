@@ -3,6 +3,8 @@
 #ifndef GG_API_SIMULATION_H
 #define GG_API_SIMULATION_H
 
+#include <stdatomic.h>
+
 #include "api/api.h"
 #include "base/busy.h"
 #include "common/engine.h"
@@ -30,6 +32,7 @@ struct gg_simulation {
     size_t size, capacity, *n;
   } record;
   int (*asks)(void *context); /* whether to stop; NULL: never */
+  atomic_bool stopped;        /* it did, of the present work */
   void *asks_context;
   gg_stop stop;        /* what the model's points to */
   double stretch_from; /* the engine's time at the start of the stretch that clock.time is the start of */
@@ -44,17 +47,18 @@ double gg_api_simulation_strain(const gg_simulation *s);
 /* Take the engine's sums over collisions into the clock's. */
 void gg_api_simulation_collect(gg_simulation *s);
 
-/* An empty one for a finished scene, without an engine yet. */
-gg_status gg_api_simulation_prepare(const gg_scene *scene, gg_simulation **simulation, gg_error *err);
-/* Before its engine is made: the caller's options, NULL or not; GG_INTERRUPTED if they stop it already. */
-gg_status gg_api_simulation_begin(gg_simulation *s, const gg_start_options *options, gg_error *err);
-/* After that, which ended with this status: *simulation is the new one, or it is freed. */
+/* An empty one for a scene, without an engine yet; `stop` (NULL: never) is asked from here on. */
+gg_status gg_api_simulation_prepare(const gg_scene *scene, int (*stop)(void *context), void *context,
+                                    gg_simulation **simulation, gg_error *err);
+/* Once its engine is made, which ended with this status: *simulation is the new one, or it is freed. */
 gg_status gg_api_simulation_started(gg_simulation *s, gg_status status, gg_simulation **simulation, gg_error *err);
 
 /* simulation.c: one with the scene, model and clock of another, without engine and callbacks; NULL: out of memory. */
 gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err);
 /* Show the collisions of an engine that is to take the place of the simulation's, as the present one does. */
 gg_status gg_api_simulation_watch(gg_simulation *s, gg_engine *engine, gg_error *err);
+/* Before work that may be stopped: GG_INTERRUPTED where it is to stop already. */
+gg_status gg_api_simulation_check_stop(gg_simulation *s, gg_error *err);
 /* simulation_grains.c: continue with another engine, of this model; with these grains; members that are NULL stay.
  * On failure nothing changes. */
 gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, const gg_grains *grains, gg_error *err);

@@ -82,7 +82,7 @@ static gg_status load(const gg_archive *a, const char *path, const gg_scene *sce
   GG_TRY(stored_scene(a, path, &stored, err));
   gg_scene settled = scene ? *scene : stored;
   GG_TRY(gg_scene_resumption_settle(&settled, a, err));
-  GG_TRY(gg_api_simulation_prepare(&settled, &s, err));
+  GG_TRY(gg_api_simulation_prepare(&settled, NULL, NULL, &s, err));
   gg_status status = take_all(s, a, err);
   if (status == GG_OK)
     *simulation = s;

@@ -135,9 +135,9 @@ gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grai
   gg_scene counted;
   GG_TRY(with_number(scene, n, &counted, err));
   counted.clock_rate = GG_AUTO; /* units of this start */
-  GG_TRY(gg_api_simulation_prepare(&counted, &s, err));
-  gg_status status = gg_api_simulation_begin(s, options, err);
-  if (status == GG_OK) status = create(s, grains, n, options ? options->stream : 0, err);
+  const gg_start_options none = {0}, *o = options ? options : &none;
+  GG_TRY(gg_api_simulation_prepare(&counted, o->stop, o->context, &s, err));
+  gg_status status = create(s, grains, n, o->stream, err);
   return gg_api_simulation_started(s, status, simulation, err);
 }
 
@@ -147,6 +147,7 @@ gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, co
   const gg_engine_ops *ops = s->engine->ops;
   gg_engine *engine = NULL;
   gg_engine_grains a = {0};
+  atomic_store(&s->stopped, false);
   gg_status status = gg_run_engine_grains_make(&a, n, err);
   if (status == GG_OK) {
     gg_run_engine_grains_read(s->engine, model, &a);
@@ -248,7 +249,7 @@ gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const ch
   gg_status status = gg_scene_override(&changed, key, value, err);
   gg_base_c_locale_leave(before);
   if (status == GG_OK && strcmp(key, "shear_rate") == 0) status = check_shear_rate(&changed, err);
-  if (status == GG_OK) status = gg_api_simulation_prepare(&changed, &next, err);
+  if (status == GG_OK) status = gg_api_simulation_prepare(&changed, NULL, NULL, &next, err);
   if (status == GG_OK) status = change(simulation, next, key, err);
   gg_simulation_free(next);
   return status;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cancellation of long work: poll here and end early on request. Engines poll several times a second, also at their
- * start. */
+ * start, and so do theories that take long. */
 #ifndef GG_STOP_H
 #define GG_STOP_H
 
@@ -10,7 +10,7 @@
 #include "base/error.h"
 
 typedef struct gg_stop {
-  bool (*asked)(void *context); /* from any thread that works */
+  bool (*asked)(void *context); /* from any thread that works; once true, it stays so until the work has ended */
   void *context;
 } gg_stop;
 
@@ -25,6 +25,12 @@ gg_status gg_base_callback_settle(gg_status status, gg_error *err);
 static inline bool gg_stop_asked(const gg_stop *stop)
 {
   return gg_base_callback_failed() || (stop && stop->asked(stop->context));
+}
+
+/* Between two parts of long work. */
+static inline gg_status gg_stop_check(const gg_stop *stop, gg_error *err)
+{
+  return gg_stop_asked(stop) ? gg_base_fail(err, GG_INTERRUPTED, "interrupted") : GG_OK;
 }
 
 #endif

@@ -26,7 +26,7 @@ int gg_cli_theory_main(const gg_command *command, int argc, char **argv)
   gg_comparison *c = NULL;
   int code = gg_cli_scene_begin(command, argc, argv, &o, &scene);
   if (code != GG_CLI_GO_ON) return code;
-  gg_status status = gg_theories_evaluate(scene, o.theories, &c, &err);
+  gg_status status = gg_theories_evaluate(scene, o.theories, NULL, NULL, &c, &err);
   if (status == GG_OK) status = print(&o, c, &err);
   gg_comparison_free(c);
   return gg_cli_scene_end(&o, scene, status, &err);

@@ -44,9 +44,8 @@ static gg_status make_model(const gg_scene *scene, const gg_model *model, int ch
   gg_scene then;
   GG_TRY(gg_scene_protocol_apply(scene, changes, &then, err));
   then.md.raised = scene->md.raised;
-  GG_TRY(gg_run_start_make(&then, NULL, changed, err));
+  GG_TRY(gg_run_start_make(&then, NULL, model->stop, changed, err));
   GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(changed, err));
-  changed->stop = model->stop;
   return gg_run_is_same_gas(model, changed)
              ? GG_OK
              : gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': at %g: this value of %s needs other grains or units",

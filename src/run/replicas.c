@@ -235,6 +235,22 @@ static gg_status check_until(const gg_replicas *all, gg_error *err)
   return GG_OK;
 }
 
+static gg_status prepare(gg_replicas *all, const gg_archive *resume, gg_error *err)
+{
+  const gg_scene *scene = &all->scene;
+  const gg_model *made = all->callbacks && !resume && scene->md.raised == GG_AUTO ? all->callbacks->model : NULL;
+  if (resume) GG_TRY(gg_scene_resumption_settle(&all->scene, resume, err));
+  GG_TRY(gg_run_start_make(scene, made, &all->stop, &all->model, err));
+  GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(&all->model, err));
+  GG_TRY(check_until(all, err));
+  GG_TRY(gg_run_relaxation_check(scene, &all->model, err));
+  all->criteria = gg_run_criteria_of(scene, &all->model);
+  const gg_cost_estimate cost = gg_run_cost_estimate(scene, &all->model, scene->engine);
+  GG_TRY(gg_run_cost_check_memory(&cost, gg_run_engine_ops_of(scene->engine)->name, scene->run.replicas, err));
+  all->replica = gg_base_array_new((size_t)all->n, sizeof *all->replica, err);
+  return all->replica ? GG_OK : GG_FAILED;
+}
+
 gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
                                  const gg_run_callbacks *callbacks, gg_error *err)
 {
@@ -244,23 +260,11 @@ gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const 
   all->callbacks = callbacks;
   all->started = all->last_checkpoint = gg_base_clock_wall();
   all->last.relative_error = NAN; /* nothing is estimated yet */
-  if (resume) GG_TRY(gg_scene_resumption_settle(&all->scene, resume, err));
-  scene = &all->scene;
-  GG_TRY(gg_run_start_make(scene, callbacks && !resume && scene->md.raised == GG_AUTO ? callbacks->model : NULL,
-                           &all->model, err));
-  GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(&all->model, err));
-  GG_TRY(check_until(all, err));
-  GG_TRY(gg_run_relaxation_check(scene, &all->model, err));
-  all->criteria = gg_run_criteria_of(scene, &all->model);
-  const gg_cost_estimate cost = gg_run_cost_estimate(scene, &all->model, scene->engine);
-  GG_TRY(gg_run_cost_check_memory(&cost, gg_run_engine_ops_of(scene->engine)->name, scene->run.replicas, err));
-  all->replica = gg_base_array_new((size_t)all->n, sizeof *all->replica, err);
-  if (!all->replica) return GG_FAILED;
   pthread_mutex_init(&all->lock, NULL);
   all->stop = (gg_stop){is_stopped, all};
-  all->model.stop = &all->stop;
+  gg_status status = prepare(all, resume, err);
   all->model.threads = threads_each(threads, all->n);
-  gg_status status = open_tasks(all, threads, err);
+  if (status == GG_OK) status = open_tasks(all, threads, err);
   if (status == GG_OK) status = create_or_restore(all, resume, err);
   if (status == GG_INTERRUPTED && all->stopped == GG_OUT_OF_TIME)
     status = gg_base_fail(err, GG_FAILED, "%s: time limit reached before the start was done",
@@ -300,8 +304,8 @@ void gg_run_replicas_clear(gg_replicas *all)
   for (int i = 0; all->replica && i < all->n; i++) gg_run_replica_clear(&all->replica[i]);
   free(all->replica);
   all->replica = NULL;
-  if (all->model.stop) pthread_mutex_destroy(&all->lock);
-  all->model.stop = NULL;
+  if (all->stop.asked) pthread_mutex_destroy(&all->lock);
+  all->stop.asked = NULL;
 }
 
 uint64_t gg_run_replicas_least(const gg_replicas *all)

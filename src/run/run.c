@@ -73,6 +73,7 @@ static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
   if (!c->theory[i].applies) return GG_OK;
   const unsigned before = gg_base_memory_failures();
   gg_status status = gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &why);
+  if (status == GG_INTERRUPTED) return gg_base_fail(err, status, "%s", why.message);
   if (gg_base_memory_failures() != before)
     return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
   if (status == GG_FAILED) gg_base_string_list_add(&c->warnings, "%s: no curves: %s", theory->name, why.message);
@@ -97,6 +98,7 @@ static gg_status compare_theories(const gg_model *model, const bool *wanted, gg_
     gg_status status = gg_theory_evaluate(theory, theory->own ? start : model, &c->theory[n].answer, &why);
     if (gg_base_memory_failures() != before)
       return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
+    if (status == GG_INTERRUPTED) return gg_base_fail(err, status, "%s", why.message);
     if (theory->own && status == GG_FAILED)
       gg_base_string_list_add(&c->warnings, "%s failed: %s", theory->name, why.message);
     c->theory[n].theory = theory;
@@ -115,6 +117,7 @@ gg_status gg_run_compare_theories(const gg_model *model, const bool *wanted, gg_
   gg_run_rows_make(&c->model, &c->rows);
   c->n_theories = 0;
   gg_status status = compare_theories(model, wanted, start, c, err);
+  c->model.stop = NULL; /* it ends with the call */
   free(start);
   return status;
 }
@@ -271,11 +274,14 @@ static gg_status make_model(const gg_scene *scene, gg_engine_kind kind, const gg
 }
 
 /* Of a gas that is followed theories describe the state that it comes to: after all changes. */
-static gg_status compare_theories_at_end(const gg_scene *scene, const gg_model *start, gg_comparison *c, gg_error *err)
+static gg_status compare_theories_at_end(const gg_scene *scene, const gg_model *start, const gg_stop *stop,
+                                         gg_comparison *c, gg_error *err)
 {
-  if (!*scene->protocol[0].key) return gg_run_compare_theories(start, NULL, c, err);
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
-  gg_status status = model ? gg_run_relaxation_end_model(scene, model, err) : GG_FAILED;
+  if (!model) return GG_FAILED;
+  *model = *start;
+  gg_status status = *scene->protocol[0].key ? gg_run_relaxation_end_model(scene, model, err) : GG_OK;
+  model->stop = stop;
   if (status == GG_OK) status = gg_run_compare_theories(model, NULL, c, err);
   free(model);
   return status;
@@ -286,7 +292,8 @@ static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, 
 {
   GG_TRY(make_model(scene, GG_MD, callbacks, &model[GG_MD], err));
   const bool dsmc = make_model(scene, GG_DSMC, callbacks, &model[GG_DSMC], NULL) == GG_OK;
-  GG_TRY(compare_theories_at_end(scene, &model[GG_MD], c, err));
+  const gg_stop stop = {callbacks ? callbacks->interrupted : NULL, callbacks ? callbacks->context : NULL};
+  GG_TRY(compare_theories_at_end(scene, &model[GG_MD], stop.asked ? &stop : NULL, c, err));
 
   pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
   gg_archive latest[2] = {{0}, {0}};

@@ -8,7 +8,7 @@
 #include "theory/theory_list.h"
 
 typedef struct gg_run_scheduler gg_run_scheduler; /* run/scheduler.h */
-struct gg_replica; /* run/replica.h */
+struct gg_replica;                                /* run/replica.h */
 
 /* Callbacks of the caller during a run; every member may be NULL. Calls come from threads of the run, never
  * two at once. */
@@ -40,7 +40,8 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
  * the start depends on it. */
 gg_status gg_run_start_near_steady(gg_model *model, gg_error *err);
 /* The model of a run of the scene's engine, `made` or made here (NULL), with the temperature that it starts from. */
-gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, gg_model *model, gg_error *err);
+gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, const gg_stop *stop, gg_model *model,
+                            gg_error *err);
 
 /* How far a run's archive is; GG_BAD_FILE of any other. */
 gg_status gg_run_how_far(const gg_archive *archive, gg_checkpoint_part *part, gg_error *err);

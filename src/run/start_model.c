@@ -26,6 +26,7 @@ static gg_status try_theories(gg_model *model, gg_model *constant, gg_error *err
     const unsigned before = gg_base_memory_failures();
     gg_status status = theory ? gg_theory_evaluate(theory, constant, &answer, &why) : GG_BAD_INPUT;
     if (gg_base_memory_failures() != before) return gg_base_out_of_memory_for(err, "%s", best_first[i]);
+    if (status == GG_INTERRUPTED) return gg_base_fail(err, status, "%s", why.message);
     if (status != GG_OK) continue;
     double T = answer.value[GG_Q_TEMPERATURE], ratio = answer.value[GG_Q_TEMPERATURE_RATIO];
     if (!(T > 0)) continue;
@@ -60,12 +61,14 @@ gg_status gg_run_start_near_steady(gg_model *model, gg_error *err)
   return GG_OK;
 }
 
-gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, gg_model *model, gg_error *err)
+gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, const gg_stop *stop, gg_model *model,
+                            gg_error *err)
 {
   if (made)
     *model = *made;
   else
     GG_TRY(gg_common_model_make(scene, scene->engine, model, err));
+  model->stop = stop;
   if (scene->temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(model, err));
   gg_common_model_set_ratio(scene, model);
   return GG_OK;

@@ -96,6 +96,7 @@ static gg_status conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
   const gg_heating heating = {.kind = GG_HEATING_COOLS};
   for (int degree = GOOD_DEGREE; degree <= LAST_DEGREE; degree += 2) {
     gg_hermite_isotropic h;
+    GG_TRY(gg_stop_check(m->stop, err));
     GG_TRY(gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, &heating, err));
     gg_status status = answer_heat(m, &h, gg_hermite_convergence_next(&rungs), err);
     gg_hermite_isotropic_end(&h);
@@ -117,6 +118,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
     if (degree > GOOD_DEGREE && gg_hermite_convergence_change(&rungs, GG_Q_COOLING_RATE) < good) break;
     gg_hermite_isotropic h;
     gg_error why;
+    GG_TRY(gg_stop_check(m->stop, err));
     gg_status status = gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, &heating, &why);
     if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
     gg_theory_answer *rung = gg_hermite_convergence_next(&rungs);

@@ -150,7 +150,7 @@ void gg_theory_gaussian_relax(const gg_model *m, double time, gg_relaxing *x)
   gg_gaussian *state = x->of;
   gg_gaussian_rates r[4];
   gg_gaussian at[GG_MAX_SPECIES];
-  while (time > 0) {
+  while (time > 0 && !(x->stop && gg_stop_asked(x->stop))) {
     rates_at(m, state, &r[0]);
     const double most = fastest(m, state, &r[0]);
     const bool settled = is_settled(m, state, &r[0], fmin(time, LONG / most));

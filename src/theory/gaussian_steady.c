@@ -167,6 +167,7 @@ static int residual(const gsl_vector *x, void *params, gsl_vector *f)
   const closure *c = params;
   gg_gaussian state[GG_MAX_SPECIES];
   gg_production p;
+  if (gg_stop_asked(c->model->stop)) return GSL_EBADFUNC;
   unpack(c, x, state);
   production(c->model, state, &p);
   const gg_gaussian *change = p.change;
@@ -238,7 +239,7 @@ static void relax(const closure *c, gsl_vector *x, int steps)
   gg_production p;
   const gg_gaussian *change = p.change;
   unpack(c, x, state);
-  for (int step = 0; step < steps; step++) {
+  for (int step = 0; step < steps && !gg_stop_asked(c->model->stop); step++) {
     production(c->model, state, &p);
     for (int i = 0; i < c->model->n_species; i++) {
       for (int a = 0; a < 9; a++) {
@@ -313,10 +314,10 @@ static double slowest_drag(const gg_model *m)
 static double follow(const closure *c, gsl_multiroot_fsolver *solver, gsl_multiroot_function *f, gsl_vector *x)
 {
   const double forgetting = 10, drag = slowest_drag(c->model);
-  gg_relaxing gas = {.work = seconds_to_follow};
+  gg_relaxing gas = {.work = seconds_to_follow, .stop = c->model->stop};
   double stretch = 1 / c->model->shear_rate, time = 0, left = INFINITY;
   gg_theory_gaussian_start(c->model, gas.of);
-  for (; gas.work > 0 && !(left < converged); stretch *= 1.5) {
+  for (; gas.work > 0 && !(left < converged) && !gg_stop_asked(gas.stop); stretch *= 1.5) {
     gg_gaussian before[GG_MAX_SPECIES];
     memcpy(before, gas.of, sizeof before);
     gg_theory_gaussian_relax(c->model, stretch, &gas);

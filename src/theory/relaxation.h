@@ -12,6 +12,7 @@ typedef struct gg_relaxing {
   double collisions;              /* of a grain, so far */
   double work;                    /* seconds of processor time left, about; without any, all is NaN */
   double stride;                  /* of moments, over the fastest rate; 0: 0.5. A coarse way is stable up to 2 */
+  const gg_stop *stop;            /* ends a way on its way, in vain; NULL: nothing does */
 } gg_relaxing;
 
 /* "first Sonine", "two Maxwellians", "Maxwellians" of mixtures, "Gaussian closure"; NULL: not of this model. */

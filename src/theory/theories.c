@@ -61,9 +61,21 @@ static gg_status check_law(const gg_theory *theory, const gg_model *model, gg_er
                       theory->name, model->law.name);
 }
 
-gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
+static void clear(gg_theory_answer *answer)
 {
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
+}
+
+/* What was stopped has no answer, whatever it made of its parts. */
+static gg_status finish(const gg_theory *theory, const gg_model *model, gg_status status, gg_error *err)
+{
+  if (!gg_stop_asked(model->stop)) return status;
+  return gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", theory->name);
+}
+
+gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
+{
+  clear(answer);
   GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
   GG_TRY(check_bath(theory, model, err));
@@ -72,6 +84,8 @@ gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_
   gg_status status = theory->own ? gg_theory_user_theory_evaluate(theory->own, model, answer, err)
                                  : theory->evaluate(model, answer, err);
   gg_base_gsl_leave();
+  status = finish(theory, model, status, err);
+  if (status == GG_INTERRUPTED) clear(answer);
   if (gg_base_memory_failures() != before) status = gg_base_out_of_memory(err);
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */
   return status;
@@ -89,6 +103,7 @@ gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsig
   gg_base_gsl_enter();
   gg_status status = theory->curves(model, measure, list, err);
   gg_base_gsl_leave();
+  status = finish(theory, model, status, err);
   if (gg_base_memory_failures() != before) status = gg_base_out_of_memory(err);
   list->group = NULL; /* every curve has its own copy */
   if (status != GG_OK) gg_measure_curves_clear(list);

@@ -33,7 +33,7 @@ typedef struct gg_theory {
   unsigned flows;          /* that it describes, a sum of GG_FLOW_BIT; 0: it looks for itself */
   bool baths;              /* does it describe gases in a bath, too? */
   /* Of those flows alone: GG_OK with the answer, or GG_BAD_INPUT with the reason why the theory does not apply to this
-   * model. */
+   * model. One that takes longer than a tenth of a second asks model->stop between its parts, and fails anyhow. */
   gg_status (*evaluate)(const gg_model *model, gg_theory_answer *answer, gg_error *err);
   /* Why this model is beyond what the theory was made for, though it answers; NULL (also the function) within it. */
   const char *(*beyond)(const gg_model *model);
@@ -62,7 +62,7 @@ gg_status gg_theory_user_theory_evaluate(const gg_theory_definition *theory, con
 /* What of the above applies, NULL if nothing does. */
 const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model);
 
-/* Evaluate with every value preset to NaN. */
+/* Evaluate with every value preset to NaN. GG_INTERRUPTED, without answers, where model->stop asks for it. */
 gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err);
 
 /* Its curves, if it has some, for a model that it describes; after a failure there are none. To be cleared. */

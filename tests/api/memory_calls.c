@@ -139,14 +139,14 @@ static gg_status compare(things *t, gg_error *err)
 static gg_status theories(things *t, gg_error *err)
 {
   STEP(gg_scene_parse(simple_text, "simple", &t->other, err));
-  STEP(gg_theories_evaluate(t->other, NULL, &t->comparison, err));
+  STEP(gg_theories_evaluate(t->other, NULL, NULL, NULL, &t->comparison, err));
   return gg_comparison_to_json(t->comparison, &t->text[0], err);
 }
 
 static gg_status theories_rough(things *t, gg_error *err)
 {
   STEP(gg_scene_set(t->scene, "collision", "{e: 0.9, beta: 0}", err));
-  STEP(gg_theories_evaluate(t->scene, NULL, &t->comparison, err));
+  STEP(gg_theories_evaluate(t->scene, NULL, NULL, NULL, &t->comparison, err));
   return gg_comparison_to_json(t->comparison, &t->text[0], err);
 }
 

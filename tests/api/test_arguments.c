@@ -164,9 +164,9 @@ static void comparisons(void **state)
   gg_remark remark;
   double x;
   char *text;
-  assert_ok(gg_theories_evaluate(s, NULL, &c, &err));
-  assert_missing(gg_theories_evaluate(NULL, NULL, &other, &err));
-  assert_missing(gg_theories_evaluate(s, NULL, NULL, &err));
+  assert_ok(gg_theories_evaluate(s, NULL, NULL, NULL, &c, &err));
+  assert_missing(gg_theories_evaluate(NULL, NULL, NULL, NULL, &other, &err));
+  assert_missing(gg_theories_evaluate(s, NULL, NULL, NULL, NULL, &err));
   assert_missing(gg_compare(NULL, NULL, &other, &err));
   assert_missing(gg_compare(s, NULL, NULL, &err));
   assert_null(gg_comparison_result(NULL, "md"));
@@ -316,15 +316,15 @@ static void unknown_names(void **state)
   gg_remark remark;
   double x;
   size_t n;
-  assert_refused(gg_theories_evaluate(s, "grade", &other, &err), "there is no theory called 'grade'");
+  assert_refused(gg_theories_evaluate(s, "grade", NULL, NULL, &other, &err), "there is no theory called 'grade'");
   assert_null(other);
-  assert_ok(gg_theories_evaluate(s, "lun1991", &other, &err)); /* that one alone */
+  assert_ok(gg_theories_evaluate(s, "lun1991", NULL, NULL, &other, &err)); /* that one alone */
   assert_ok(gg_comparison_theory(other, 0, &theory, &err));
   assert_string_equal(theory.name, "lun1991");
   assert_refused(gg_comparison_theory(other, 1, &theory, &err), "");
   assert_refused(gg_comparison_write(other, "none.h5", &err), "nothing was simulated");
   gg_comparison_free(other);
-  assert_ok(gg_theories_evaluate(s, NULL, &c, &err));
+  assert_ok(gg_theories_evaluate(s, NULL, NULL, NULL, &c, &err));
   assert_refused(gg_comparison_theory_value(c, "grade", "N1", &x, NULL, &err),
                  "there is no theory called 'grade' here");
   assert_refused(gg_comparison_theory_value(c, "grad", "N7", &x, NULL, &err), "there is no quantity called 'N7'");

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A callback that fails with a reason ends the call that it came from, of every kind of callback. */
+/* A callback that fails with a reason ends the call that it came from, of every kind of callback; and theories look
+ * often whether to stop. */
 #include <stdatomic.h>
 #include <stdbool.h>
 
@@ -151,7 +152,7 @@ static void theories(void **state)
       s, &(gg_theory_definition){.name = "mine", .n_quantities = 1, .quantities = quantity, .evaluate = evaluate},
       &err));
   arm(0);
-  assert_ok(gg_theories_evaluate(s, "mine", &c, &err));
+  assert_ok(gg_theories_evaluate(s, "mine", NULL, NULL, &c, &err));
   assert_string_equal(gg_comparison_warning(c, 0), "mine failed: the disk of ? fell over");
   gg_comparison_free(c);
   gg_scene_free(s);
@@ -237,11 +238,90 @@ static void reports(void **state)
   gg_scene_free(s);
 }
 
+/* Asks once, at the `bad`-th time, to stop. */
+static int stops_once(void *context)
+{
+  (void)context;
+  return atomic_fetch_add(&calls, 1) == bad;
+}
+
+/* In the solvers that take seconds: each looks often, and what it stops has no answer. */
+static void theories_that_stop(void **state)
+{
+  (void)state;
+  const struct {
+    const char *scene, *theory;
+    int most; /* looks before one that stops it */
+  } tries[] = {
+      {"flow: hcs, phi: 0.3, collision: {e: 0.7, beta: -0.5}", "enskog_hermite", 2000},
+      {"flow: usf, phi: 0.3, collision: {e: 0.7}, species: [{fraction: 0.4}, {fraction: 0.3, diameter: 0.7}, "
+       "{fraction: 0.3, diameter: 1.2}]",
+       "enskog_hermite", 500},
+      {"flow: hcs, phi: 0.3, collision: {e: 0.7}, species: [{fraction: 0.5}, {fraction: 0.5, diameter: 0.7}]",
+       "enskog_hermite", 100},
+      {"flow: usf, phi: 0.3, collision: {e: 0.7, beta: 0}, species: [{fraction: 0.5}, {fraction: 0.5, diameter: 0.7}]",
+       "gaussian_closure", 20},
+  };
+  for (size_t k = 0; k < sizeof tries / sizeof *tries; k++) {
+    gg_error err;
+    char text[400];
+    snprintf(text, sizeof text, "{%s}", tries[k].scene);
+    gg_scene *s = scene_of(text);
+    gg_comparison *c = NULL;
+    for (int part = 0; part < 4; part++) {
+      arm(part * tries[k].most / 3);
+      assert_int_equal(gg_theories_evaluate(s, tries[k].theory, stops_once, NULL, &c, &err), GG_INTERRUPTED);
+      assert_null(c);
+      assert_int_equal(atomic_load(&calls), bad + 1); /* it ended there */
+    }
+    gg_scene_free(s);
+  }
+}
+
+/* Theories come before the engines of a comparison, and in a sweep by themselves; the start of a run is at a theory. */
+static void calls_that_stop_in_theories(void **state)
+{
+  (void)state;
+  gg_error err;
+  const char *const scene = "{flow: usf, phi: 0.3, collision: {e: 0.7}, species: [{fraction: 0.5}, {fraction: 0.5, "
+                            "diameter: 0.7}], particles: 200, run: {collisions: 40}%s}";
+  char text[400];
+  snprintf(text, sizeof text, scene, "");
+  gg_scene *s = scene_of(text);
+  gg_comparison *c = NULL;
+  gg_simulation *sim = NULL;
+  arm(500);
+  assert_int_equal(gg_compare(s, &(gg_run_options){.stop = stops_once}, &c, &err), GG_INTERRUPTED);
+  assert_null(c);
+  arm(5);
+  assert_int_equal(gg_simulation_new(s, &(gg_start_options){.stop = stops_once}, &sim, &err), GG_INTERRUPTED);
+  assert_null(sim);
+  snprintf(text, sizeof text, scene, ", vary: {collision.e: [0.8, 0.9]}, sweep: {does: theory}");
+  gg_sweep *w = NULL;
+  assert_ok(gg_sweep_parse(text, "test", &w, &err));
+  arm(1);
+  assert_int_equal(gg_sweep_run(w, "t_stopped", &(gg_sweep_options){.stop = stops_once}, &err), GG_INTERRUPTED);
+  for (size_t i = 0; i < gg_sweep_points(w); i++) {
+    gg_point_state found;
+    assert_ok(gg_sweep_find(w, "t_stopped", i, &found, NULL, &err));
+    assert_int_equal(found, GG_POINT_MISSING);
+  }
+  gg_sweep_free(w);
+  gg_scene_free(s);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(observables), cmocka_unit_test(laws),   cmocka_unit_test(runs),    cmocka_unit_test(theories),
-      cmocka_unit_test(simulations), cmocka_unit_test(sweeps), cmocka_unit_test(reports),
+      cmocka_unit_test(observables),
+      cmocka_unit_test(laws),
+      cmocka_unit_test(runs),
+      cmocka_unit_test(theories),
+      cmocka_unit_test(simulations),
+      cmocka_unit_test(sweeps),
+      cmocka_unit_test(reports),
+      cmocka_unit_test(theories_that_stop),
+      cmocka_unit_test(calls_that_stop_in_theories),
   };
   cmocka_set_message_output(CM_OUTPUT_TAP);
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);

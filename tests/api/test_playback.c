@@ -144,7 +144,7 @@ static gg_comparison *theories_of(const char *yaml)
   gg_error err;
   gg_comparison *c = NULL;
   gg_scene *s = scene_of(yaml);
-  assert_ok(gg_theories_evaluate(s, NULL, &c, &err));
+  assert_ok(gg_theories_evaluate(s, NULL, NULL, NULL, &c, &err));
   gg_scene_free(s);
   return c;
 }

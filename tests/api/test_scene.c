@@ -52,7 +52,7 @@ static void used_incomplete(void **state)
   assert_refused(gg_run(s, NULL, &r, &err), "flow is missing");
   assert_refused(gg_simulation_new(s, NULL, &m, &err), "flow is missing");
   assert_refused(gg_compare(s, NULL, &c, &err), "flow is missing");
-  assert_refused(gg_theories_evaluate(s, NULL, &c, &err), "flow is missing");
+  assert_refused(gg_theories_evaluate(s, NULL, NULL, NULL, &c, &err), "flow is missing");
   assert_ok(gg_scene_set(s, "flow", "chute", &err));
   assert_ok(gg_scene_check(s, &err));
   assert_ok(gg_scene_set(s, "gravity", "[0, 0, 0]", &err));

@@ -371,7 +371,7 @@ static void facts_of_the_start(void **state)
     assert_ok(gg_scene_add_theory(s, &theory, &err));
     gg_comparison *c = NULL;
     gg_simulation *m = NULL;
-    assert_ok(gg_theories_evaluate(s, "noting", &c, &err));
+    assert_ok(gg_theories_evaluate(s, "noting", NULL, NULL, &c, &err));
     assert_ok(gg_simulation_new(s, NULL, &m, &err));
     gg_simulation_state now = state_of(m);
     double T = now.temperature;

@@ -73,6 +73,7 @@ static void interrupted(void **state)
   }
 }
 
+/* Theories, which look by themselves, have no part in a start from a given temperature. */
 static void small_ones_are_asked_once(void **state)
 {
   (void)state;
@@ -81,6 +82,7 @@ static void small_ones_are_asked_once(void **state)
   for (int dsmc = 0; dsmc < 2; dsmc++) {
     gg_scene *s = scene_of(small);
     assert_ok(gg_scene_set(s, "engine", dsmc ? "dsmc" : "md", &err));
+    assert_ok(gg_scene_set(s, "temperature", "1", &err));
     gg_simulation *m = NULL;
     gg_start_options options = lasting(&p, 1);
     assert_int_equal(gg_simulation_new(s, &options, &m, &err), GG_INTERRUPTED);

@@ -63,7 +63,7 @@ static void by_name(void **state)
   }
   gg_comparison *all = NULL, *c = NULL;
   gg_theory_info info;
-  assert_ok(gg_theories_evaluate(s, NULL, &all, &err));
+  assert_ok(gg_theories_evaluate(s, NULL, NULL, NULL, &all, &err));
   assert_true(evaluations > 10 && calls[0] == 1 && calls[1] == 1);
 
   const struct {
@@ -75,7 +75,7 @@ static void by_name(void **state)
                {"grad,grad", 1, 0, 0, {"grad"}},  {"haff1983", 1, 0, 0, {"haff1983"}}}; /* which does not apply */
   for (size_t k = 0; k < sizeof tries / sizeof *tries; k++) {
     evaluations = curve_evaluations = calls[0] = calls[1] = 0;
-    assert_ok(gg_theories_evaluate(s, tries[k].names, &c, &err));
+    assert_ok(gg_theories_evaluate(s, tries[k].names, NULL, NULL, &c, &err));
     assert_int_equal(evaluations, tries[k].n + tries[k].second); /* facts of the start need a temperature */
     assert_true(calls[0] == tries[k].first && calls[1] == tries[k].second);
     int apply = 0;
@@ -90,8 +90,8 @@ static void by_name(void **state)
     gg_comparison_free(c);
   }
   evaluations = 0;
-  assert_refused(gg_theories_evaluate(s, "lun1992", &c, &err), "'lun1992'; did you mean 'lun1991'?");
-  assert_refused(gg_theories_evaluate(s, "lun1991,", &c, &err), "there is no theory called ''");
+  assert_refused(gg_theories_evaluate(s, "lun1992", NULL, NULL, &c, &err), "'lun1992'; did you mean 'lun1991'?");
+  assert_refused(gg_theories_evaluate(s, "lun1991,", NULL, NULL, &c, &err), "there is no theory called ''");
   assert_int_equal(evaluations, 0);
   gg_comparison_free(all);
   gg_scene_free(s);

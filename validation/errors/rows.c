@@ -54,7 +54,7 @@ static gg_status simulate(const gg_scene *scene, size_t n, double *y[SERIES], bo
 {
   gg_model model;
   gg_replica r;
-  GG_TRY(gg_run_start_make(scene, NULL, &model, err));
+  GG_TRY(gg_run_start_make(scene, NULL, NULL, &model, err));
   gg_stopping_criteria plan = gg_run_criteria_of(scene, &model);
   GG_TRY(gg_run_replica_create(&r, scene, &model, 0, err));
   gg_status status = gg_run_replica_advance(&r, plan.warmup, true, NULL, err);

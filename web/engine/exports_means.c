@@ -44,7 +44,7 @@ PAGE char *page_session_json(gg_session *session)
 PAGE gg_comparison *page_comparison(const gg_scene *scene)
 {
   gg_comparison *comparison = NULL;
-  return gg_theories_evaluate(scene, NULL, &comparison, &page_why) == GG_OK ? comparison : NULL;
+  return gg_theories_evaluate(scene, NULL, NULL, NULL, &comparison, &page_why) == GG_OK ? comparison : NULL;
 }
 PAGE void page_comparison_free(gg_comparison *comparison)
 {
@@ -89,7 +89,7 @@ PAGE double page_cooling(const gg_comparison *comparison, const char *theory, do
 /* One engine's beside the theories, which its file has not. */
 static gg_status beside_theories(gg_result *result, gg_comparison **comparison)
 {
-  gg_status status = gg_theories_evaluate(gg_result_scene(result), NULL, comparison, &page_why);
+  gg_status status = gg_theories_evaluate(gg_result_scene(result), NULL, NULL, NULL, comparison, &page_why);
   if (status == GG_OK) status = gg_comparison_take(*comparison, result, &page_why);
   return status;
 }

@@ -6,7 +6,7 @@
 
 gg_hermite_gas gg_hermite_gas_of(const gg_model *m)
 {
-  gg_hermite_gas gas = {.n_species = m->n_species};
+  gg_hermite_gas gas = {.n_species = m->n_species, .stop = m->stop};
   for (int i = 0; i < m->n_species; i++) {
     gas.fraction[i] = gg_theory_fraction(m, i), gas.mass[i] = m->mass[i];
     gas.drag[i] = m->bath.drag[i], gas.diffusion[i] = m->bath.noise[i] / 2;

@@ -88,6 +88,7 @@ static gg_status one_isotropic(const gg_model *m, series *s, gg_error *err)
   const gg_heating heating = gg_theory_heating_of(m);
   for (int degree = FIRST_DEGREE; degree <= ISOTROPIC_DEGREE; degree += 2) {
     gg_hermite_isotropic h;
+    GG_TRY(gg_stop_check(m->stop, err));
     GG_TRY(gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, &heating, err));
     solution *x = next(s);
     x->share[0] = 1;

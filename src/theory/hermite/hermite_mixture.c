@@ -184,8 +184,12 @@ static gg_status iterate(gg_solver *s, gg_error *err)
   for (int move = 0; move < MOST_MOVES; move++) {
     double left = INFINITY;
     for (int i = 0; i < s->species; i++)
-      for (int j = 0; j < s->species; j++) GG_TRY(make_normal(s, i, j, err));
+      for (int j = 0; j < s->species; j++) {
+        GG_TRY(gg_stop_check(s->model->stop, err));
+        GG_TRY(make_normal(s, i, j, err));
+      }
     for (int k = 0; k < MOST_ITERATIONS; k++) {
+      GG_TRY(gg_stop_check(s->model->stop, err));
       left = step(s, &rate);
       if (left < converged || left == INFINITY) break;
     }

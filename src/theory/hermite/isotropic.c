@@ -115,7 +115,7 @@ static double newton_step(gg_hermite_isotropic *h, gg_isotropic_work *w, double 
   double projected[HALVES], most = 0;
   heat(&h->gas, gg_theory_heating_at(heating, 0, h->heating));
   gg_hermite_isotropic_expand(b, alpha, h->state.a);
-  gg_hermite_operator_at(&h->op, &h->gas, &h->state, w->R, w->jacobian);
+  if (!gg_hermite_operator_at(&h->op, &h->gas, &h->state, w->R, w->jacobian)) return INFINITY;
   project(b, w->R, projected);
   for (int l = 1; l <= half; l++) gsl_vector_set(w->x, (size_t)l - 1, projected[l]);
   linearise(h, w, heating, 0);

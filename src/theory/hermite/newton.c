@@ -163,7 +163,7 @@ static gg_status iterate(gg_hermite_operator *op, const gg_hermite_gas *given, g
   bool anew = !w->factorised;
   for (int i = 0; i < MOST_ITERATIONS; i++) {
     if (pin) set_bath(pin, gas);
-    gg_hermite_operator_at(op, gas, s, w->R, anew ? w->jacobian : NULL);
+    if (!gg_hermite_operator_at(op, gas, s, w->R, anew ? w->jacobian : NULL)) break;
     w->factorised = !anew || factorise(w);
     if (!w->factorised || !solve(w, w->R)) break;
     if ((pin && !pinned(op, gas, s, w, pin, &change)) || !step(&op->basis, s, w, L)) break;

@@ -210,13 +210,14 @@ static void add_species(gg_hermite_operator *op, const gg_hermite_gas *gas, int 
   rotate_back(op, own, w, R, jacobian ? jacobian + i * op->basis.n : NULL, stride);
 }
 
-void gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state, double *R,
+bool gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state, double *R,
                             double *jacobian)
 {
   size_t n = (size_t)op->basis.n, all = n * (size_t)gas->n_species;
   memset(R, 0, all * sizeof *R);
   if (jacobian) memset(jacobian, 0, all * all * sizeof *jacobian);
   for (int k = 0; k < op->n_directions; k++) {
+    if (gg_stop_asked(gas->stop)) return false;
     gg_hermite_look(op, gas->n_species, state, op->direction[k]);
     for (int i = 0; i < gas->n_species; i++) damp(op, &op->room->view[i]);
     for (size_t i = 0; i < (size_t)gas->n_species; i++)
@@ -225,4 +226,5 @@ void gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, 
   for (size_t i = 0; i < (size_t)gas->n_species; i++)
     gg_hermite_add_streaming(op, gas, (int)i, &state[i], R + i * n, jacobian ? jacobian + i * n * (all + 1) : NULL,
                              all);
+  return true;
 }

@@ -23,6 +23,7 @@ typedef struct gg_hermite_impact {
 /* What collides and streams. */
 typedef struct gg_hermite_gas {
   int n_species;
+  const gg_stop *stop; /* borrowed from the model: no physics */
   double fraction[GG_MAX_SPECIES], mass[GG_MAX_SPECIES];
   gg_hermite_impact impact[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* of a grain of the first species */
   double stream[3][3];                                      /* A of dC/dt = -A C between collisions; A_xy: shear rate */
@@ -54,8 +55,8 @@ void gg_hermite_operator_clear(gg_hermite_operator *op);
 gg_status gg_hermite_operator_hold(gg_hermite_operator *op, int n_species, gg_error *err);
 
 /* R, n of each species one after another, and where `jacobian` is not NULL, by rows of n_species x n, dR_r/da_s. a_0
- * is 1, R_0 means nothing. */
-void gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state, double *R,
+ * is 1, R_0 means nothing. False: gas->stop ended it. */
+bool gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state, double *R,
                             double *jacobian);
 
 /* The share of streaming and diffusion in these of one species, added; rows of the Jacobian are `stride` apart. */

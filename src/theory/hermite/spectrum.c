@@ -72,7 +72,7 @@ static int slower(const void *one, const void *two)
 static bool find(gg_spectrum *s, gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state,
                  gg_hermite_mode *mode)
 {
-  gg_hermite_operator_at(op, gas, state, s->R, s->jacobian);
+  if (!gg_hermite_operator_at(op, gas, state, s->R, s->jacobian)) return false;
   fill(s, op, (size_t)(gas->n_species * op->basis.n));
   if (!divide(s) || gsl_eigen_nonsymm(s->J, s->value, s->work) != GSL_SUCCESS) return false;
   for (size_t i = 0; i < s->J->size1; i++) {

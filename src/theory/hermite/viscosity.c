@@ -59,13 +59,14 @@ static gg_hermite_gas sheared(const gg_response *r, double rate)
 }
 
 /* What the shear does to f0: half the difference of R at the two signs, over the shear rate. */
-static void source(gg_response *r)
+static bool source(gg_response *r)
 {
   for (int sign = -1; sign <= 1; sign += 2) {
     gg_hermite_gas gas = sheared(r, sign * small);
-    gg_hermite_operator_at(&r->op, &gas, r->base, sign < 0 ? r->other : r->R, NULL);
+    if (!gg_hermite_operator_at(&r->op, &gas, r->base, sign < 0 ? r->other : r->R, NULL)) return false;
   }
   for (int i = 0; i < r->all; i++) r->R[i] = (r->R[i] - r->other[i]) / (2 * small);
+  return true;
 }
 
 /* d<psi_r>/dt of f1 itself where it fades: sum_s < psi_r Ho_s > a_s. */
@@ -136,9 +137,8 @@ gg_status gg_hermite_viscosity_of(const gg_hermite_gas *gas, gg_hermite_state *s
   gg_status status = make(&r, degree, err);
   if (status == GG_OK) {
     gg_base_gsl_enter();
-    gg_hermite_operator_at(&r.op, gas, state, r.other, r.jacobian);
-    source(&r);
-    if (!solve(&r, fading)) status = gg_base_fail(err, GG_FAILED, "no linear response was found");
+    const bool whole = gg_hermite_operator_at(&r.op, gas, state, r.other, r.jacobian) && source(&r);
+    if (!whole || !solve(&r, fading)) status = gg_base_fail(err, GG_FAILED, "no linear response was found");
     gg_base_gsl_leave();
   }
   if (status == GG_OK) v->kinetic = kinetic(&r), v->total = v->kinetic - transfer(&r);

@@ -114,11 +114,12 @@ static gg_status make_means(tangent *t, int tests, const gg_rough_choice *decays
   return status;
 }
 
-static void combine(gg_rough_direction *d, const tangent *t)
+static gg_status combine(gg_rough_direction *d, const tangent *t, const gg_stop *stop, gg_error *err)
 {
   const int tests = pairs_up_to(d->tests), trials = pairs_up_to(d->trials), n = t->most + 1;
   for (int s = 0, one = 0; one < trials; s++)
-    for (int k = 0; k <= s; k++, one++)
+    for (int k = 0; k <= s; k++, one++) {
+      GG_TRY(gg_stop_check(stop, err));
       for (int r = 0, two = 0; two < trials; r++)
         for (int l = 0; l <= r; l++, two++) {
           double product[MOST] = {0};
@@ -131,6 +132,8 @@ static void combine(gg_rough_direction *d, const tangent *t)
             d->along[0][(m * trials + one) * trials + two] = d->along[1][(m * trials + two) * trials + one] = sum;
           }
         }
+    }
+  return GG_OK;
 }
 
 static gg_status make_along(gg_rough_direction *d, const gg_rough_gas *gas, double ratio, const gg_rough_choice *decays,
@@ -148,7 +151,7 @@ static gg_status make_along(gg_rough_direction *d, const gg_rough_gas *gas, doub
     make_polynomials(&t, d->trials);
     status = make_means(&t, d->tests, decays, err);
   }
-  if (status == GG_OK) combine(d, &t);
+  if (status == GG_OK) status = combine(d, &t, gas->stop, err);
   free(t.mean);
   free(t.poly[0]);
   free(t.poly[1]);

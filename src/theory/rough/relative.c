@@ -141,14 +141,17 @@ static gg_status add_all(gg_rough_relative *r, gg_relative_work *w, const gg_rou
     double s = sqrt(1 - k[2] * k[2]);
     k[0] = s * cos(angle), k[1] = s * sin(angle);
     set_direction(r, w, gas, weight, k, 8 * wz[i] * M_PI / AZIMUTH, lane);
-    if (lane == GG_ROUGH_LANES - 1) gg_rough_eight_add(&w->eight, r->W);
+    if (lane < GG_ROUGH_LANES - 1) continue;
+    GG_TRY(gg_stop_check(gas->stop, err));
+    gg_rough_eight_add(&w->eight, r->W);
   }
   return GG_OK;
 }
 
-static gg_status make(gg_rough_relative *r, gg_relative_work *w, int degree, bool factored, gg_error *err)
+static gg_status make(gg_rough_relative *r, gg_relative_work *w, const gg_rough_gas *gas, int degree, bool factored,
+                      gg_error *err)
 {
-  *r = (gg_rough_relative){0};
+  *r = (gg_rough_relative){.stop = gas->stop};
   GG_TRY(gg_rough_functions_make(&r->f, degree, err));
   size_t n = (size_t)r->f.n;
   r->rate = calloc(10 * n, sizeof *r->rate);
@@ -165,7 +168,7 @@ gg_status gg_rough_relative_make(gg_rough_relative *r, const gg_rough_gas *gas, 
                                  int degree, bool one_direction, gg_error *err)
 {
   gg_relative_work w = {0};
-  gg_status status = make(r, &w, degree, false, err);
+  gg_status status = make(r, &w, gas, degree, false, err);
   if (status == GG_OK) status = add_all(r, &w, gas, weight, one_direction, err);
   clear_work(&w);
   if (status != GG_OK) gg_rough_relative_clear(r);
@@ -177,7 +180,7 @@ gg_status gg_rough_relative_isotropic(gg_rough_relative *r, const gg_rough_gas *
 {
   gg_relative_work w = {0};
   double k[3] = {0, 0, 1};
-  gg_status status = make(r, &w, degree, true, err);
+  gg_status status = make(r, &w, gas, degree, true, err);
   if (status == GG_OK) {
     gg_rough_collision c = gg_rough_collision_at(gas, weight, k);
     make_flux(&r->f, &w, &c);

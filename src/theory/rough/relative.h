@@ -14,6 +14,7 @@ typedef struct gg_rough_relative {
   gg_rough_factors *factors; /* of one direction */
   double *rate;              /* int dk < g_n Ho_S > */
   double *J[3][3];           /* int dk k_i < g_n J_j Ho_S > */
+  const gg_stop *stop;       /* that of the gas */
 } gg_rough_relative;
 
 /* one_direction: k = z alone, of weight 4 pi, instead of the sphere. */

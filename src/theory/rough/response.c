@@ -105,13 +105,14 @@ static gg_status meet(const response *r, int c, double amount, const double *x, 
   const gg_rough_tensors *t = &r->t;
   sparse partner;
   if (!pick(r, x, &partner)) return gg_base_out_of_memory(err);
-  for (int k = 0; k < t->many[c]; k++) {
+  gg_status status = GG_OK;
+  for (int k = 0; k < t->many[c] && (status = gg_stop_check(r->s->gas.stop, err)) == GG_OK; k++) {
     const double rate =
         amount * r->s->gas.frequency * t->share[c] * both(&r->by, index_of(r, t->place[c][k]), &r->base, &partner);
     for (int m = 0; m < t->n; m++) rows[m] += rate * t->of[c][m * t->many[c] + k];
   }
   free(partner.term);
-  return GG_OK;
+  return status;
 }
 
 /* d<psi_test>/dt of f0 and a small part of `place`, by collisions. */
@@ -142,11 +143,12 @@ static double streamed(const response *r, const int *test, int place)
   return sum;
 }
 
-static void add_component(response *r, int c, double *column)
+static gg_status add_component(response *r, int c, double *column, gg_error *err)
 {
   const gg_rough_tensors *t = &r->t;
   const int many = t->many[c];
   for (int q = 0; q < many; q++) {
+    GG_TRY(gg_stop_check(r->s->gas.stop, err));
     memset(column, 0, 2 * (size_t)t->n * sizeof *column);
     for (int k = 0; k < many; k++) {
       const int *test = index_of(r, t->place[c][k]), place = t->place[c][q];
@@ -164,6 +166,7 @@ static void add_component(response *r, int c, double *column)
         r->M[m * t->n + n] += column[m] * of, r->overlap[m * t->n + n] += column[t->n + m] * of;
       }
   }
+  return GG_OK;
 }
 
 /* f0 as the state has it, with room for what streaming makes of it. */
@@ -201,7 +204,7 @@ static gg_status make(response *r, const gg_rough_steady *s, int rank, double ph
     r->f0 = r->rows[2] + n, r->gradient = r->f0 + all, r->x = r->gradient + all, r->y = r->x + all;
     status = take_state(r, err);
   }
-  for (int c = 0; c < r->t.components && status == GG_OK; c++) add_component(r, c, column);
+  for (int c = 0; c < r->t.components && status == GG_OK; c++) status = add_component(r, c, column, err);
   free(column);
   return status;
 }

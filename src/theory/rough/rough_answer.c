@@ -42,7 +42,8 @@ static gg_rough_steady begin(const gg_model *m, const gg_rough_choice *choice)
                                    .eta1 = m->contact[0][0].jn,
                                    .eta2 = m->contact[0][0].jt,
                                    .K = m->inertia[0],
-                                   .shear = m->boltzmann ? 0 : sigma * m->shear_rate}};
+                                   .shear = m->boltzmann ? 0 : sigma * m->shear_rate,
+                                   .stop = m->stop}};
 }
 
 static double mean(const gg_rough_steady *s, const double *functional)

@@ -5,6 +5,7 @@
 #ifndef GG_ROUGH_COLLISION_H
 #define GG_ROUGH_COLLISION_H
 
+#include "base/cancellation.h"
 #include "theory/rough/functions.h"
 
 /* The Gaussian of the expansion: C = L c, s = spin z + S o, lower triangular. */
@@ -14,10 +15,11 @@ typedef struct gg_rough_weight {
 
 /* What collides. */
 typedef struct gg_rough_gas {
-  double frequency;  /* n chi sigma^2 */
-  double eta1, eta2; /* J = eta2 g + (eta1 - eta2) k g_n */
-  double K;          /* 4I/(m d^2) */
-  double shear;      /* sigma times shear rate: the flow between two centres; 0 in the Boltzmann limit */
+  double frequency;    /* n chi sigma^2 */
+  double eta1, eta2;   /* J = eta2 g + (eta1 - eta2) k g_n */
+  double K;            /* 4I/(m d^2) */
+  double shear;        /* sigma times shear rate: the flow between two centres; 0 in the Boltzmann limit */
+  const gg_stop *stop; /* borrowed from the model: no physics */
 } gg_rough_gas;
 
 typedef struct gg_rough_collision {

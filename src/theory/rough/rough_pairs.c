@@ -245,18 +245,20 @@ static gg_status make_form(gg_rough_form *form, const gg_rough_relative *relativ
   gg_covers covers = {0};
   make_halves(&halves, relative->f.degree);
   gg_spread s = {form, relative, &halves, &covers, malloc((size_t)form->n_tests * sizeof(double))};
-  bool fine = s.row && make_covers(&covers, form, &relative->f, &halves);
-  for (int p = 0; p < form->n_pairs && fine; p++) {
+  const bool fine = s.row && make_covers(&covers, form, &relative->f, &halves);
+  gg_status status = fine ? GG_OK : gg_base_out_of_memory(err);
+  for (int p = 0; p < form->n_pairs && status == GG_OK; p++) {
     gg_rough_pair pair = form->pair[p];
     memset(s.row, 0, (size_t)form->n_tests * sizeof *s.row);
     add_product(&s, pair.one, pair.two);
     if (pair.one != pair.two) add_product(&s, pair.two, pair.one);
     gg_rough_test(form, s.row, form->B + (size_t)p * (size_t)form->n);
+    status = gg_stop_check(relative->stop, err);
   }
   free(s.row);
   free(covers.from);
   free(covers.cover);
-  return fine ? GG_OK : gg_base_out_of_memory(err);
+  return status;
 }
 
 gg_status gg_rough_form_make(gg_rough_form *form, const gg_rough_relative *relative, int degree, bool isotropic,
