@@ -283,8 +283,8 @@ static void calls_that_stop_in_theories(void **state)
 {
   (void)state;
   gg_error err;
-  const char *const scene = "{flow: usf, phi: 0.3, collision: {e: 0.7}, species: [{fraction: 0.5}, {fraction: 0.5, "
-                            "diameter: 0.7}], particles: 200, run: {collisions: 40}%s}";
+  const char *const scene = "{flow: usf, phi: 0.3, collision: {e: 0.7}, species: [{fraction: 0.4}, {fraction: 0.3, "
+                            "diameter: 0.7}, {fraction: 0.3, diameter: 1.2}], particles: 200, run: {collisions: 40}%s}";
   char text[400];
   snprintf(text, sizeof text, scene, "");
   gg_scene *s = scene_of(text);

@@ -101,6 +101,12 @@ static void in_pieces(void **state)
   gg_scene_free(other);
 }
 
+static int at_first(void *context, const gg_progress *progress)
+{
+  (void)context, (void)progress;
+  return 1;
+}
+
 static int at_once(void *context)
 {
   (void)context;
@@ -335,7 +341,11 @@ static void part_comparisons(void **state)
   assert_non_null(strstr(gg_comparison_refusal(c, "md"), "phi"));
   assert_non_null(gg_comparison_result(c, "dsmc"));
   gg_comparison_free(c);
+  c = NULL;
   assert_int_equal(gg_compare(s, &(gg_run_options){.stop = at_once}, &c, &err), GG_INTERRUPTED);
+  assert_null(c); /* in a theory */
+  assert_ok(gg_scene_set(s, "run.collisions", "100000", &err));
+  assert_int_equal(gg_compare(s, &(gg_run_options){.progress = at_first}, &c, &err), GG_INTERRUPTED);
   assert_non_null(gg_comparison_result(c, "dsmc"));
   gg_comparison_free(c);
   gg_scene_free(s);
