@@ -397,11 +397,14 @@ GG_API gg_status gg_simulation_set_grains(gg_simulation *simulation, const gg_gr
 /**
  * Copy a simulation. Both continue with the same bits. Callbacks are not copied.
  * @param simulation the simulation
+ * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
+ * @param context passed to the callback
  * @param copy receives the copy, to be freed by gg_simulation_free()
  * @param err receives the message on failure; may be NULL
- * @return GG_OK; GG_FAILED if memory is insufficient
+ * @return GG_OK; GG_FAILED if memory is insufficient; GG_INTERRUPTED by stop
  */
-GG_API gg_status gg_simulation_copy(const gg_simulation *simulation, gg_simulation **copy, gg_error *err);
+GG_API gg_status gg_simulation_copy(const gg_simulation *simulation, int (*stop)(void *context), void *context,
+                                    gg_simulation **copy, gg_error *err);
 
 /**
  * Hash of the state: the number of collisions and everything that gg_simulation_get_grains() copies, to the last bit.
@@ -508,42 +511,54 @@ GG_API const gg_scene *gg_simulation_scene(const gg_simulation *simulation);
  * before is kept as path.1.
  * @param simulation the simulation
  * @param path file name
+ * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
+ * @param context passed to the callback
  * @param err receives the message on failure; may be NULL
- * @return GG_OK; GG_BAD_FILE
+ * @return GG_OK; GG_BAD_FILE; GG_INTERRUPTED by stop: the files are as they were
  */
-GG_API gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, gg_error *err);
+GG_API gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, int (*stop)(void *context),
+                                    void *context, gg_error *err);
 
 /**
  * Read a saved simulation. Callbacks have to be set again.
  * @param path file name
  * @param scene the scene that was saved (stopping criteria and output may differ); NULL: the stored one
+ * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
+ * @param context passed to the callback
  * @param simulation receives the simulation, to be freed by gg_simulation_free()
  * @param err receives the message on failure; may be NULL
- * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT names a difference of the scene
+ * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT names a difference of the scene; GG_INTERRUPTED by stop
  */
-GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_simulation **simulation, gg_error *err);
+GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, int (*stop)(void *context), void *context,
+                                    gg_simulation **simulation, gg_error *err);
 
 /**
  * The file of a simulation as bytes in memory: what gg_simulation_save() writes.
  * @param simulation the simulation
+ * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
+ * @param context passed to the callback
  * @param bytes receives the bytes, to be freed with free()
  * @param size receives their number
  * @param err receives the message on failure; may be NULL
- * @return GG_OK, or an error status
+ * @return GG_OK, or an error status; GG_INTERRUPTED by stop
  */
-GG_API gg_status gg_simulation_to_bytes(const gg_simulation *simulation, void **bytes, size_t *size, gg_error *err);
+GG_API gg_status gg_simulation_to_bytes(const gg_simulation *simulation, int (*stop)(void *context), void *context,
+                                        void **bytes, size_t *size, gg_error *err);
 
 /**
  * A simulation from such bytes, or from those of a file that graingas wrote.
  * @param bytes the bytes
  * @param size their number
  * @param scene as for gg_simulation_load(); may be NULL
+ * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
+ * @param context passed to the callback
  * @param simulation receives the simulation, to be freed by gg_simulation_free()
  * @param err receives the message on failure; may be NULL
- * @return GG_OK; GG_BAD_FILE for bytes that are cut off or changed
+ * @return GG_OK; GG_BAD_FILE for bytes that are cut off or changed; GG_INTERRUPTED by stop
  */
 GG_API gg_status gg_simulation_from_bytes(const void *bytes, size_t size, const gg_scene *scene,
-                                          gg_simulation **simulation, gg_error *err);
+                                          int (*stop)(void *context), void *context, gg_simulation **simulation,
+                                          gg_error *err);
 
 /* ---- More than one process ----
  * Several processes, on one machine or many, can share the replicas of runs and comparisons. One of them, rank 0, calls
@@ -652,7 +667,8 @@ typedef struct gg_result gg_result; /* of one engine's run */
  * @param result receives the result, to be freed by gg_result_free()
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED: ended before the criteria, the result has what there is; GG_INTERRUPTED: a callback
- *   stopped it within half a second, results so far (none while a large system is placed), no
+ *   stopped it within half a second, results so far (none while a large system is placed, or theories of a
+ *   comparison are evaluated), no
  *   output is written, the checkpoint can be resumed; GG_BAD_FILE: a checkpoint or
  *   the output could not be written
  */

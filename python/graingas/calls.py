@@ -30,6 +30,11 @@ class Call:
     def stop(self):
         self.c.stop = 1
 
+    @property
+    def stopping(self):
+        """For the library: the function that says whether to stop, and its context."""
+        return ffi.addressof(lib, "ggpy_stop"), self.c
+
     def fail(self, error):
         """An exception of a callback: the call ends, and raises it."""
         if self.error is None:

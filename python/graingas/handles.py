@@ -34,9 +34,9 @@ class Handle:
         finally:
             self._lock.release()
 
-    def read(self, function, patience=0):
-        """function(pointer), which changes nothing, in a thread: Ctrl-C leaves it behind, and later calls wait for its
-        end."""
+    def read(self, function, patience=0, call=None):
+        """function(pointer), which changes nothing, in a thread: Ctrl-C leaves it behind and stops call (if any), and
+        later calls wait for its end."""
         ended = threading.Event()
 
         def work():
@@ -46,7 +46,7 @@ class Handle:
             finally:
                 ended.set()
         try:
-            return calls.left_behind(work)
+            return calls.left_behind(work, call)
         except KeyboardInterrupt:
             self._left = [other for other in self._left if not other.is_set()] + [ended]
             raise

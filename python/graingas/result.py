@@ -178,10 +178,10 @@ def iter_texts(get):
         i += 1
 
 
-def bytes_of(function, pointer):
+def bytes_of(function, pointer, *more):
     """What a gg_..._to_bytes gives."""
     made, size = ffi.new("void **"), ffi.new("size_t *")
-    check(function, pointer, made, size)
+    check(function, pointer, *more, made, size)
     try:
         return bytes(ffi.buffer(made[0], size[0]))
     finally:

@@ -115,8 +115,8 @@ class Simulation:
 
     The same scene, seed and stream give the same trajectory, bit for bit. Numbers have the units of results. One thread
     at a time may use a simulation: other uses, also from its own callback, raise Busy. Ctrl-C ends an advance within
-    0.1 s and raises KeyboardInterrupt; the simulation can be advanced further. It ends a start, too, and copying and
-    loading.
+    0.1 s and raises KeyboardInterrupt; the simulation can be advanced further. It ends a start, too, and copying,
+    saving and loading.
     """
 
     def __init__(self, scene, stream: int = 0, *, positions=None, velocities=None, spins=None, species=None):
@@ -297,50 +297,52 @@ class Simulation:
 
     def save(self, path) -> None:
         """Writes everything needed to continue with bit-identical results. The file appears whole or not at all."""
+        path, call = encode(path, "file name"), calls.Call()
         with self._handle.held() as pointer:
-            check(lib.gg_simulation_save, pointer, encode(path, "file name"))
+            _interruptible(lambda error: lib.gg_simulation_save(pointer, path, *call.stopping, error), call,
+                           "the file is whole, or as it was")
 
     @classmethod
     def load(cls, path, scene=None) -> Simulation:
         """A saved simulation, without its callbacks. scene: the scene that was saved; None: the stored one."""
         path = encode(path, "file name")
 
-        def load(pointer):
+        def load(*more):
             made = ffi.new("gg_simulation **")
-            check(lib.gg_simulation_load, path, pointer, made)
+            check(lib.gg_simulation_load, path, *more, made)
             return made[0]
         return cls._read(load, scene)
 
     def to_bytes(self) -> bytes:
         """What save() writes, in memory."""
-        return self._handle.read(lambda pointer: bytes_of(lib.gg_simulation_to_bytes, pointer))
+        call = calls.Call()
+        return self._handle.read(lambda pointer: bytes_of(lib.gg_simulation_to_bytes, pointer, *call.stopping), call=call)
 
     @classmethod
     def from_bytes(cls, content: bytes, scene=None) -> Simulation:
         """A simulation from the bytes of a saved file or of to_bytes(); scene as for load(). Raises BadFile if they are
         damaged."""
-        return cls._read(lambda pointer: from_bytes(lib.gg_simulation_from_bytes, "gg_simulation **", content, pointer),
-                         scene)
+        return cls._read(lambda *more: from_bytes(lib.gg_simulation_from_bytes, "gg_simulation **", content, *more), scene)
 
     @classmethod
     def _read(cls, function, scene):
-        """The simulation that function(pointer of a scene or NULL) reads."""
-        scene = scene if scene is None else as_scene(scene).copy()
+        """The simulation that function(pointer of a scene or NULL, *call.stopping) reads."""
+        scene, call = scene if scene is None else as_scene(scene).copy(), calls.Call()
 
         def work():
             with nullcontext(ffi.NULL) if scene is None else scene.held() as pointer:
-                return cls._from_pointer(function(pointer), scene)
-        return calls.left_behind(work)
+                return cls._from_pointer(function(pointer, *call.stopping), scene)
+        return calls.left_behind(work, call)
 
     def copy(self) -> Simulation:
         """A copy that continues with the same bits, without the callback."""
-        scene = self._scene
+        scene, call = self._scene, calls.Call()
 
         def copy(pointer):
             made = ffi.new("gg_simulation **")
-            check(lib.gg_simulation_copy, pointer, made)
+            check(lib.gg_simulation_copy, pointer, *call.stopping, made)
             return Simulation._from_pointer(made[0], scene)
-        return self._handle.read(copy)
+        return self._handle.read(copy, call=call)
 
     def __reduce__(self):
         return Simulation.from_bytes, (self.to_bytes(), self._scene)
@@ -366,12 +368,12 @@ class Simulation:
                 f"{state.collisions} collisions>")
 
 
-def _interruptible(function, call):
-    """function(error), a call of the library that may take long; raises what it reports."""
+def _interruptible(function, call, words="the simulation can be advanced further"):
+    """function(error), a call of the library that may take long; raises what it reports. words: of Ctrl-C."""
     error = new_error()
     status = calls.interruptible(lambda: function(error), call)
     if call.interrupted:
-        raise KeyboardInterrupt("the simulation can be advanced further")
+        raise KeyboardInterrupt(words)
     if status != lib.GG_OK:
         raise exception(status, error)
 

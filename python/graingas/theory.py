@@ -22,7 +22,7 @@ def _evaluate(scene, name):
 
     def work():
         with serving(scene, call), scene.held() as pointer:
-            check(lib.gg_theories_evaluate, pointer, word, ffi.addressof(lib, "ggpy_stop"), call.c, made)
+            check(lib.gg_theories_evaluate, pointer, word, *call.stopping, made)
         return Comparison(made[0], scene=scene)
     return calls.left_behind(work, call)
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Simulations: conservation, the same bits from copies, collisions by callback and in bulk, Ctrl-C, trajectories."""
 import os
+import pathlib
 import pickle
 import signal
 import threading
@@ -241,6 +242,36 @@ def test_interrupted_copies_and_files(sim):
     sim.collide(10)
 
 
+def test_what_is_left_behind_is_stopped(sim, monkeypatch):
+    """The library's part of such calls, and a save, ends at its next look; the file stays as it was."""
+    sim.save("sim.h5")
+    content, hash = sim.to_bytes(), sim.hash
+    sim.collide(100)
+    begin = gg.calls.Call.__init__
+    with monkeypatch.context() as patch:
+        patch.setattr(gg.calls.Call, "__init__", lambda self: (begin(self), self.stop())[0])
+        for function in (sim.copy, sim.to_bytes, lambda: sim.save("sim.h5"), lambda: gg.Simulation.load("sim.h5"),
+                         lambda: gg.Simulation.from_bytes(content)):
+            with pytest.raises(gg.GraingasError, match="interrupted|stopped"):
+                function()
+    assert gg.Simulation.load("sim.h5").hash == hash != sim.hash
+    for kept in pathlib.Path(".").iterdir():
+        assert "tmp" not in kept.name
+
+
+def test_interrupted_save():
+    sim = gg.Simulation(gg.Scene(flow="usf", phi=0.3, particles=50000, e=0.9, engine="dsmc", **{"dsmc.particles": 50000}))
+    sim.save("large.h5")
+    before = sim.hash
+    sim.collide(100)
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt, match="whole, or as it was"):
+        while True:
+            sim.save("large.h5")
+    assert gg.Simulation.load("large.h5").hash in (before, sim.hash)
+    sim.collide(10)
+
+
 def test_later_calls_wait_for_one_that_was_left_behind(sim):
     may_end = threading.Event()
     threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
@@ -255,7 +286,7 @@ def test_calls_left_behind_before_they_begin(sim, monkeypatch):
     """Ctrl-C before the thread takes the simulation: another call waits for it none the less."""
     begins, threads = threading.Event(), []
 
-    def interrupted(work):
+    def interrupted(work, _):
         def late():
             begins.wait(60)
             work()

@@ -32,6 +32,15 @@ gg_status gg_api_no_quantity(const gg_quantity_rows *rows, const char *name, gg_
 gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *err);
 gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err);
 
+/* text.c: a caller's function that may ask to stop (NULL: it never does); its request, once made, holds. For the
+ * `asked` of a gg_stop. */
+typedef struct gg_api_request {
+  int (*stop)(void *context);
+  void *context;
+  bool made;
+} gg_api_request;
+bool gg_api_is_requested(void *request);
+
 /* result.c: what a user sees of a curve. */
 gg_curve_data gg_api_curve_view(const gg_curve *curve);
 

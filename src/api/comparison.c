@@ -45,20 +45,6 @@ static gg_status choose(const gg_model *model, const char *names, bool wanted[GG
   return GG_OK;
 }
 
-/* A request of the caller's to stop, once made, holds. */
-typedef struct request {
-  int (*stop)(void *context);
-  void *context;
-  bool made;
-} request;
-
-static bool is_requested(void *context)
-{
-  request *r = context;
-  if (!r->made && r->stop && r->stop(r->context)) r->made = true;
-  return r->made;
-}
-
 static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *theory, const gg_stop *stop,
                           gg_model *model, gg_error *err)
 {
@@ -80,10 +66,11 @@ gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, int (*
                                gg_comparison **comparison, gg_error *err)
 {
   GG_NEED(scene, comparison);
-  request asked = {stop, context, false};
+  gg_api_request request = {stop, context, false};
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   gg_model *model = c ? gg_base_array_new(1, sizeof *model, err) : NULL;
-  gg_status status = model ? evaluate(c, scene, theory, &(gg_stop){is_requested, &asked}, model, err) : GG_FAILED;
+  gg_status status =
+      model ? evaluate(c, scene, theory, &(gg_stop){gg_api_is_requested, &request}, model, err) : GG_FAILED;
   status = gg_base_callback_settle(status, err);
   free(model);
   if (status == GG_OK)

@@ -45,7 +45,7 @@ static gg_status tell(const gg_archive *a, const char *path, const gg_scene *sce
     info->part[0].engine = gg_run_engine_ops_of(scene->engine)->name;
     return gg_run_how_far(a, &info->part[0], err);
   }
-  GG_TRY(gg_simulation_load(path, NULL, &simulation, err));
+  GG_TRY(gg_simulation_load(path, NULL, NULL, NULL, &simulation, err));
   describe_simulation(simulation, info);
   return GG_OK;
 }

@@ -20,6 +20,12 @@ static bool is_stopped(void *context)
   return atomic_load(&s->stopped);
 }
 
+void gg_api_simulation_forget_stop(gg_simulation *s)
+{
+  s->asks = NULL;
+  atomic_store(&s->stopped, false);
+}
+
 gg_status gg_api_simulation_check_stop(gg_simulation *s, gg_error *err)
 {
   atomic_store(&s->stopped, false);
@@ -87,8 +93,7 @@ gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err)
 
 gg_status gg_api_simulation_started(gg_simulation *s, gg_status status, gg_simulation **simulation, gg_error *err)
 {
-  s->asks = NULL; /* that of the start */
-  atomic_store(&s->stopped, false);
+  gg_api_simulation_forget_stop(s);
   status = gg_base_callback_settle(status, err);
   if (status != GG_OK) {
     gg_simulation_free(s);

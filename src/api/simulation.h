@@ -57,6 +57,8 @@ gg_status gg_api_simulation_started(gg_simulation *s, gg_status status, gg_simul
 gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err);
 /* Show the collisions of an engine that is to take the place of the simulation's, as the present one does. */
 gg_status gg_api_simulation_watch(gg_simulation *s, gg_engine *engine, gg_error *err);
+/* After a start: what asked to stop it was of that alone. */
+void gg_api_simulation_forget_stop(gg_simulation *s);
 /* Before work that may be stopped: GG_INTERRUPTED where it is to stop already. */
 gg_status gg_api_simulation_check_stop(gg_simulation *s, gg_error *err);
 /* simulation_grains.c: continue with another engine, of this model; with these grains; members that are NULL stay.

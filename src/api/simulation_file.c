@@ -24,29 +24,40 @@ static gg_status put_all(const gg_simulation *s, gg_archive *a, gg_error *err)
   return status == GG_OK ? s->engine->ops->save(s->engine, a, err) : status;
 }
 
-gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, gg_error *err)
+gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, int (*stop)(void *context),
+                             void *context, gg_error *err)
 {
   GG_NEED(simulation, path);
   GG_USE_READING(simulation);
-  gg_archive archive = {0};
+  gg_api_request request = {stop, context, false};
+  gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
   locale_t before = gg_base_c_locale_enter();
   gg_status status = put_all(simulation, &archive, err);
   if (status == GG_OK) status = gg_files_checkpoint_write(path, false, &archive, &simulation->scene, err);
   gg_base_c_locale_leave(before);
   gg_base_archive_clear(&archive);
-  return status;
+  return gg_base_callback_settle(status, err);
 }
 
-gg_status gg_simulation_to_bytes(const gg_simulation *simulation, void **bytes, size_t *size, gg_error *err)
+gg_status gg_simulation_to_bytes(const gg_simulation *simulation, int (*stop)(void *context), void *context,
+                                 void **bytes, size_t *size, gg_error *err)
 {
   GG_NEED(simulation, bytes, size);
   GG_USE_READING(simulation);
-  gg_archive archive = {0};
+  gg_api_request request = {stop, context, false};
+  gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
+  void *made = NULL;
+  size_t length = 0;
   locale_t before = gg_base_c_locale_enter();
   gg_status status = put_all(simulation, &archive, err);
-  if (status == GG_OK) status = gg_files_checkpoint_to_bytes(&archive, &simulation->scene, bytes, size, err);
+  if (status == GG_OK) status = gg_files_checkpoint_to_bytes(&archive, &simulation->scene, &made, &length, err);
   gg_base_c_locale_leave(before);
   gg_base_archive_clear(&archive);
+  status = gg_base_callback_settle(status, err);
+  if (status == GG_OK)
+    *bytes = made, *size = length;
+  else
+    free(made);
   return status;
 }
 
@@ -74,16 +85,18 @@ static gg_status take_all(gg_simulation *s, const gg_archive *a, gg_error *err)
   return gg_run_engine_ops_of(s->scene.engine)->restore(&s->model, a, &s->engine, err);
 }
 
-static gg_status load(const gg_archive *a, const char *path, const gg_scene *scene, gg_simulation **simulation,
-                      gg_error *err)
+static gg_status load(const gg_archive *a, const char *path, const gg_scene *scene, gg_api_request *request,
+                      gg_simulation **simulation, gg_error *err)
 {
   gg_scene stored;
   gg_simulation *s;
   GG_TRY(stored_scene(a, path, &stored, err));
   gg_scene settled = scene ? *scene : stored;
   GG_TRY(gg_scene_resumption_settle(&settled, a, err));
-  GG_TRY(gg_api_simulation_prepare(&settled, NULL, NULL, &s, err));
+  GG_TRY(gg_api_simulation_prepare(&settled, request->stop, request->context, &s, err));
   gg_status status = take_all(s, a, err);
+  gg_api_simulation_forget_stop(s);
+  status = gg_base_callback_settle(status, err);
   if (status == GG_OK)
     *simulation = s;
   else
@@ -91,26 +104,29 @@ static gg_status load(const gg_archive *a, const char *path, const gg_scene *sce
   return status;
 }
 
-gg_status gg_simulation_load(const char *path, const gg_scene *scene, gg_simulation **simulation, gg_error *err)
+gg_status gg_simulation_load(const char *path, const gg_scene *scene, int (*stop)(void *context), void *context,
+                             gg_simulation **simulation, gg_error *err)
 {
   GG_NEED(path, simulation);
-  gg_archive archive = {0};
+  gg_api_request request = {stop, context, false};
+  gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
   bool older = false;
   gg_status status = gg_files_checkpoint_read(path, false, &archive, &older, err);
   if (status == GG_OK && older)
     status = gg_base_fail(err, GG_BAD_FILE, "%s: is damaged or missing; the earlier one is intact: %s.1", path, path);
-  if (status == GG_OK) status = load(&archive, path, scene, simulation, err);
+  if (status == GG_OK) status = load(&archive, path, scene, &request, simulation, err);
   gg_base_archive_clear(&archive);
-  return status;
+  return gg_base_callback_settle(status, err);
 }
 
-gg_status gg_simulation_from_bytes(const void *bytes, size_t size, const gg_scene *scene, gg_simulation **simulation,
-                                   gg_error *err)
+gg_status gg_simulation_from_bytes(const void *bytes, size_t size, const gg_scene *scene, int (*stop)(void *context),
+                                   void *context, gg_simulation **simulation, gg_error *err)
 {
   GG_NEED(bytes, simulation);
-  gg_archive archive = {0};
+  gg_api_request request = {stop, context, false};
+  gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
   gg_status status = gg_files_checkpoint_from_bytes(bytes, size, &archive, err);
-  if (status == GG_OK) status = load(&archive, "the bytes", scene, simulation, err);
+  if (status == GG_OK) status = load(&archive, "the bytes", scene, &request, simulation, err);
   gg_base_archive_clear(&archive);
-  return status;
+  return gg_base_callback_settle(status, err);
 }

@@ -180,17 +180,22 @@ gg_status gg_simulation_set_grains(gg_simulation *simulation, const gg_grains *g
   return gg_api_simulation_continue(simulation, &simulation->model, grains, err);
 }
 
-gg_status gg_simulation_copy(const gg_simulation *simulation, gg_simulation **copy, gg_error *err)
+gg_status gg_simulation_copy(const gg_simulation *simulation, int (*stop)(void *context), void *context,
+                             gg_simulation **copy, gg_error *err)
 {
   GG_NEED(simulation, copy);
   GG_USE_READING(simulation);
   gg_archive archive = {0};
   gg_simulation *s = gg_api_simulation_like(simulation, err);
   if (!s) return GG_FAILED;
+  s->asks = stop, s->asks_context = context;
+  archive.stop = &s->stop;
   const gg_engine_ops *ops = simulation->engine->ops;
   gg_status status = ops->save(simulation->engine, &archive, err);
   if (status == GG_OK) status = ops->restore(&s->model, &archive, &s->engine, err);
   gg_base_archive_clear(&archive);
+  gg_api_simulation_forget_stop(s);
+  status = gg_base_callback_settle(status, err);
   if (status == GG_OK)
     *copy = s;
   else

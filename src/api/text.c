@@ -43,6 +43,13 @@ gg_status gg_api_size_check(const char *function, const char *type, size_t size,
                       function, type, size, own, gg_base_build_version);
 }
 
+bool gg_api_is_requested(void *request)
+{
+  gg_api_request *r = request;
+  if (!r->made && r->stop && r->stop(r->context)) r->made = true;
+  return r->made;
+}
+
 gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *err)
 {
   for (int k = 0; k < 2; k++)

@@ -12,6 +12,11 @@ size_t gg_base_archive_item_size(gg_item_type type)
   return type == GG_ITEM_U8 ? 1 : type == GG_ITEM_F32 ? 4 : 8;
 }
 
+static gg_status look(const gg_archive *a, gg_error *err)
+{
+  return a->stop ? gg_stop_check(a->stop, err) : GG_OK;
+}
+
 static gg_status grow(gg_archive *a, gg_error *err)
 {
   if (a->n_items < a->capacity) return GG_OK;
@@ -26,6 +31,7 @@ static gg_status grow(gg_archive *a, gg_error *err)
 gg_status gg_base_archive_put(gg_archive *a, const char *name, gg_item_type type, const void *data, size_t count,
                               gg_error *err)
 {
+  GG_TRY(look(a, err));
   if (gg_base_archive_find(a, name)) return gg_base_fail(err, GG_FAILED, "checkpoint item '%s' was put twice", name);
   GG_TRY(grow(a, err));
   gg_item item = {.type = type, .count = count};
@@ -48,9 +54,11 @@ gg_status gg_base_archive_get(const gg_archive *a, const char *name, gg_item_typ
                               gg_error *err)
 {
   const gg_item *item = gg_base_archive_find(a, name);
+  GG_TRY(look(a, err));
   if (!item)
     return gg_base_fail(err, GG_BAD_FILE,
-                        "the checkpoint lacks '%s': another version wrote it, or it belongs to another kind of run", name);
+                        "the checkpoint lacks '%s': another version wrote it, or it belongs to another kind of run",
+                        name);
   if (item->type != type)
     return gg_base_fail(err, GG_BAD_FILE, "the checkpoint's '%s' holds numbers of another type than is needed", name);
   if (item->count != count)
@@ -64,7 +72,7 @@ void gg_base_archive_clear(gg_archive *a)
 {
   for (size_t i = 0; i < a->n_items; i++) free(a->items[i].data);
   free(a->items);
-  *a = (gg_archive){0};
+  *a = (gg_archive){.stop = a->stop};
 }
 
 gg_status gg_base_archive_nest(gg_archive *to, const char *prefix, const gg_archive *from, gg_error *err)

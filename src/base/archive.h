@@ -4,7 +4,7 @@
 #ifndef GG_ARCHIVE_H
 #define GG_ARCHIVE_H
 
-#include "base/error.h"
+#include "base/cancellation.h"
 
 typedef enum gg_item_type {
   GG_ITEM_F64,
@@ -25,6 +25,7 @@ typedef struct gg_item {
 typedef struct gg_archive {
   gg_item *items;
   size_t n_items, capacity;
+  const gg_stop *stop; /* borrowed: asked at every item that goes in or out; NULL: never */
 } gg_archive;
 
 size_t gg_base_archive_item_size(gg_item_type type);

@@ -111,10 +111,13 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   if (gg_md_search_has_rows(e->search.kind)) GG_TRY(gg_md_make_rows(e, err));
   gg_md_queue_reset(&e->queue, b.bucket_width);
   const unsigned before = gg_base_memory_failures();
+  GG_TRY(gg_md_look(e, err));
   const char *wrong = gg_md_wrong_grains(e);
   if (gg_base_memory_failures() != before) return gg_base_out_of_memory_for(err, "reading the checkpoint of md");
   if (wrong) return refuse(wrong, err);
+  GG_TRY(gg_md_look(e, err));
   if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
+  GG_TRY(gg_md_look(e, err));
   GG_TRY(gg_md_kicks_make(e, err));
   e->queue.current = b.current_bucket;
   for (uint32_t i = 0; i < e->n; i++) gg_md_queue_insert(&e->queue, e->node, i);

@@ -70,11 +70,11 @@ static gg_status steps_dsmc(things *t, gg_error *err)
 static gg_status save(things *t, gg_error *err)
 {
   STEP(steps(t, err));
-  STEP(gg_simulation_save(t->simulation, "saved.h5", err));
+  STEP(gg_simulation_save(t->simulation, "saved.h5", NULL, NULL, err));
   gg_simulation_free(t->simulation);
   gg_trajectory_free(t->trajectory);
   t->simulation = NULL;
-  STEP(gg_simulation_load("saved.h5", NULL, &t->simulation, err));
+  STEP(gg_simulation_load("saved.h5", NULL, NULL, NULL, &t->simulation, err));
   return gg_checkpoint_about("saved.h5", &(gg_checkpoint_info){0}, NULL, err);
 }
 
@@ -83,10 +83,10 @@ static gg_status save_to_bytes(things *t, gg_error *err)
   void *bytes;
   size_t size;
   STEP(steps(t, err));
-  STEP(gg_simulation_to_bytes(t->simulation, &bytes, &size, err));
+  STEP(gg_simulation_to_bytes(t->simulation, NULL, NULL, &bytes, &size, err));
   gg_simulation_free(t->simulation);
   t->simulation = NULL;
-  const gg_status read = gg_simulation_from_bytes(bytes, size, NULL, &t->simulation, err);
+  const gg_status read = gg_simulation_from_bytes(bytes, size, NULL, NULL, NULL, &t->simulation, err);
   free(bytes);
   return read;
 }

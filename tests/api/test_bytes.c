@@ -94,15 +94,15 @@ static void simulations(void **state)
   size_t size = 0, file_size = 0;
   assert_ok(gg_simulation_new(s, NULL, &m, &err));
   assert_ok(gg_simulation_collide(m, 500, &err));
-  assert_ok(gg_simulation_to_bytes(m, &bytes, &size, &err));
-  assert_ok(gg_simulation_save(m, "t_saved.h5", &err));
+  assert_ok(gg_simulation_to_bytes(m, NULL, NULL, &bytes, &size, &err));
+  assert_ok(gg_simulation_save(m, "t_saved.h5", NULL, NULL, &err));
   static unsigned char file[1 << 20];
   FILE *in = fopen("t_saved.h5", "rb");
   assert_non_null(in);
   file_size = fread(file, 1, sizeof file, in);
   fclose(in);
-  assert_ok(gg_simulation_from_bytes(bytes, size, NULL, &back, &err));
-  assert_ok(gg_simulation_from_bytes(file, file_size, s, &again, &err));
+  assert_ok(gg_simulation_from_bytes(bytes, size, NULL, NULL, NULL, &back, &err));
+  assert_ok(gg_simulation_from_bytes(file, file_size, s, NULL, NULL, &again, &err));
   double v[3][300];
   gg_simulation *const all[] = {m, back, again};
   for (int k = 0; k < 3; k++) {
@@ -111,8 +111,8 @@ static void simulations(void **state)
     assert_memory_equal(v[k], v[0], sizeof v[0]);
   }
   gg_scene *denser = scene_of("{flow: usf, phi: 0.2, particles: 100}");
-  assert_refused(gg_simulation_from_bytes(bytes, size, denser, &none, &err), "phi");
-  assert_damaged_refused(gg_simulation_from_bytes(copy, length, NULL, &none, &err), bytes, size);
+  assert_refused(gg_simulation_from_bytes(bytes, size, denser, NULL, NULL, &none, &err), "phi");
+  assert_damaged_refused(gg_simulation_from_bytes(copy, length, NULL, NULL, NULL, &none, &err), bytes, size);
   assert_null(none);
   free(bytes);
   for (int k = 0; k < 3; k++) gg_simulation_free(all[k]);

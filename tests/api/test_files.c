@@ -151,21 +151,21 @@ static void checkpoints_of_others(void **state)
   gg_result *r = NULL;
   gg_comparison *c = NULL;
   gg_simulation *m = NULL;
-  gg_run_options options = {.checkpoint = "t_both.h5", .stop = stop_now, .context = &left};
+  gg_run_options options = {.checkpoint = "t_both.h5", .progress = stop_in_averaging};
   assert_int_equal(gg_compare(s, &options, &c, &err), GG_INTERRUPTED);
-  left = 3, options.checkpoint = "t_one.h5";
+  options = (gg_run_options){.checkpoint = "t_one.h5", .stop = stop_now, .context = &left};
   assert_int_equal(gg_run(s, &options, &r, &err), GG_INTERRUPTED);
   gg_comparison_free(c);
   gg_result_free(r);
   r = NULL, c = NULL;
   assert_ok(gg_simulation_new(s, NULL, &m, &err));
-  assert_ok(gg_simulation_save(m, "t_simulation.h5", &err));
+  assert_ok(gg_simulation_save(m, "t_simulation.h5", NULL, NULL, &err));
   gg_simulation_free(m);
   m = NULL;
   assert_refused(gg_run(s, &(gg_run_options){.resume = "t_both.h5"}, &r, &err), "one of a comparison");
   assert_refused(gg_run(s, &(gg_run_options){.resume = "t_simulation.h5"}, &r, &err), "a saved simulation");
   assert_refused(gg_compare(s, &(gg_run_options){.resume = "t_one.h5"}, &c, &err), "not one of a comparison");
-  assert_refused(gg_simulation_load("t_one.h5", NULL, &m, &err), "not a saved simulation");
+  assert_refused(gg_simulation_load("t_one.h5", NULL, NULL, NULL, &m, &err), "not a saved simulation");
   assert_true(!r && !c && !m);
   gg_scene_free(s);
 }

@@ -84,7 +84,7 @@ static void read_back(void **state)
     const int sheared = strstr(yaml, "usf") && given == &all;
     assert_ok(gg_simulation_collide(m, 500, &err));
     assert_ok(gg_simulation_get_grains(m, given, &err));
-    assert_ok(gg_simulation_copy(m, &set[0], &err));
+    assert_ok(gg_simulation_copy(m, NULL, NULL, &set[0], &err));
     if (!sheared) set[1] = simulation_of(yaml), set[2] = from_grains(yaml, given, n);
     for (int i = 0; i < 3 && set[i]; i++) {
       const gg_simulation_state before = state_of(set[i]);
@@ -115,7 +115,7 @@ static void copies(void **state)
     gg_simulation *m = simulation_of(gases[k].yaml), *copy = NULL;
     gg_simulation_sums sums[2];
     assert_ok(gg_simulation_collide(m, 1777, &err));
-    assert_ok(gg_simulation_copy(m, &copy, &err));
+    assert_ok(gg_simulation_copy(m, NULL, NULL, &copy, &err));
     const uint64_t there = hash_of(copy);
     assert_true(there == hash_of(m));
     assert_ok(gg_simulation_collide(m, 1500, &err));
@@ -363,7 +363,7 @@ static void events_in_bulk(void **state)
     gg_error err;
     gg_simulation *m = simulation_of(gases[k].yaml), *other = NULL;
     size_t n = 1;
-    assert_ok(gg_simulation_copy(m, &other, &err));
+    assert_ok(gg_simulation_copy(m, NULL, NULL, &other, &err));
     n_seen = 0;
     memset(seen, 0, sizeof seen);
     memset(recorded, 0, sizeof recorded);
@@ -414,8 +414,8 @@ static void changed_on_the_way(void **state)
     assert_refused(gg_simulation_set(m, "phi", "0.2", &err), "cannot be changed on the way");
     assert_true(hash_of(m) == there);
     gg_simulation *loaded = NULL;
-    assert_ok(gg_simulation_save(m, "t_changed.h5", &err));
-    assert_ok(gg_simulation_load("t_changed.h5", NULL, &loaded, &err));
+    assert_ok(gg_simulation_save(m, "t_changed.h5", NULL, NULL, &err));
+    assert_ok(gg_simulation_load("t_changed.h5", NULL, NULL, NULL, &loaded, &err));
     assert_ok(gg_simulation_collide(m, 1000, &err));
     assert_ok(gg_simulation_collide(loaded, 1000, &err));
     assert_true(hash_of(m) == hash_of(loaded));
@@ -482,8 +482,8 @@ static void shear_rates_on_the_way(void **state)
     assert_true(fabs(changed.temperature / before.temperature - 1) < 1e-9); /* velocities about the flow stay */
     assert_true(fabs(changed.image_offset - before.image_offset) < 1e-9);
     assert_ok(gg_simulation_advance(m, 4, &err));
-    assert_ok(gg_simulation_save(m, "t_sheared.h5", &err));
-    assert_ok(gg_simulation_load("t_sheared.h5", NULL, &loaded, &err));
+    assert_ok(gg_simulation_save(m, "t_sheared.h5", NULL, NULL, &err));
+    assert_ok(gg_simulation_load("t_sheared.h5", NULL, NULL, NULL, &loaded, &err));
     assert_ok(gg_simulation_set(m, "shear_rate", "1.5", &err));
     assert_ok(gg_simulation_set(loaded, "shear_rate", "1.5", &err));
     assert_ok(gg_simulation_collide(m, 1000, &err));

@@ -44,7 +44,7 @@ static void refused_everywhere(gg_simulation *m, const char *words)
   assert_refused(gg_simulation_get_grains(m, &none, &err), words);
   assert_refused(gg_simulation_hash(m, &hash, &err), words);
   assert_refused(gg_simulation_take_sums(m, &sums, &err), words);
-  assert_refused(gg_simulation_save(m, "t_never.h5", &err), words);
+  assert_refused(gg_simulation_save(m, "t_never.h5", NULL, NULL, &err), words);
   assert_refused(gg_simulation_set(m, "collision.e", "0.5", &err), words);
   assert_refused(gg_simulation_record(m, NULL, 0, NULL, &err), words);
 }

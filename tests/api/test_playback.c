@@ -126,7 +126,7 @@ static void refused(void **state)
   gg_simulation *m = NULL;
   gg_scene *s = scene_of(COOLING);
   assert_ok(gg_simulation_new(s, NULL, &m, &err));
-  assert_ok(gg_simulation_save(m, "t_checkpoint.h5", &err));
+  assert_ok(gg_simulation_save(m, "t_checkpoint.h5", NULL, NULL, &err));
   assert_no_trajectory("t_checkpoint.h5", GG_BAD_FILE, "it is a checkpoint");
   gg_simulation_free(m);
   gg_scene_free(s);

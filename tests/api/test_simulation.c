@@ -253,8 +253,8 @@ static void saved_and_loaded(void **state)
   gg_error err;
   gg_simulation *m = simulation_of(ROUGH), *again = NULL;
   assert_ok(gg_simulation_collide(m, 3000, &err));
-  assert_ok(gg_simulation_save(m, "t_saved.h5", &err));
-  assert_ok(gg_simulation_load("t_saved.h5", NULL, &again, &err));
+  assert_ok(gg_simulation_save(m, "t_saved.h5", NULL, NULL, &err));
+  assert_ok(gg_simulation_load("t_saved.h5", NULL, NULL, NULL, &again, &err));
   gg_simulation *both[] = {m, again};
   static double first[3 * MOST];
   gg_simulation_state now[2];
@@ -273,7 +273,7 @@ static void saved_and_loaded(void **state)
   again = NULL;
   gg_scene *other = scene_of(ROUGH);
   assert_ok(gg_scene_set(other, "collision.e", "0.8", &err));
-  assert_refused(gg_simulation_load("t_saved.h5", other, &again, &err), "collision.e differs");
+  assert_refused(gg_simulation_load("t_saved.h5", other, NULL, NULL, &again, &err), "collision.e differs");
   assert_ok(gg_scene_set(other, "collision.e", "0.9", &err));
   const char *const words[][3] = {{"engine", "dsmc", "engine differs (there md, here dsmc)"},
                                   {"flow", "hcs", "flow differs (there usf, here hcs)"},
@@ -284,7 +284,7 @@ static void saved_and_loaded(void **state)
   for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
     gg_scene *changed = scene_of(ROUGH);
     assert_ok(gg_scene_set(changed, words[k][0], words[k][1], &err));
-    assert_refused(gg_simulation_load("t_saved.h5", changed, &again, &err), words[k][2]);
+    assert_refused(gg_simulation_load("t_saved.h5", changed, NULL, NULL, &again, &err), words[k][2]);
     gg_scene_free(changed);
   }
   gg_checkpoint_info about;
@@ -297,9 +297,9 @@ static void saved_and_loaded(void **state)
   assert_true(strtod(phi, NULL) > 0);
   gg_scene_free(stored);
   assert_int_equal(gg_checkpoint_about("t_nowhere.h5", &about, NULL, &err), GG_BAD_FILE);
-  assert_ok(gg_simulation_load("t_saved.h5", other, &again, &err));
+  assert_ok(gg_simulation_load("t_saved.h5", other, NULL, NULL, &again, &err));
   gg_simulation_free(again);
-  assert_int_equal(gg_simulation_load("t_nowhere.h5", NULL, &again, &err), GG_BAD_FILE);
+  assert_int_equal(gg_simulation_load("t_nowhere.h5", NULL, NULL, NULL, &again, &err), GG_BAD_FILE);
   gg_scene_free(other);
   gg_simulation_free(m);
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A start that takes long can be interrupted, at any of its polls, and leaves nothing behind; the callback of a start
- * is of that start alone, and does not change it. */
+ * is of that start alone, and does not change it. So can copies, and what is saved and loaded. */
+#include <unistd.h>
+
 #include "api_test.h"
 
 static const char small[] = "{flow: usf, phi: 0.1, particles: 200, dsmc: {particles: 200}, collision: {e: 0.9}}";
@@ -73,7 +75,6 @@ static void interrupted(void **state)
   }
 }
 
-/* Theories, which look by themselves, have no part in a start from a given temperature. */
 static void small_ones_are_asked_once(void **state)
 {
   (void)state;
@@ -82,7 +83,6 @@ static void small_ones_are_asked_once(void **state)
   for (int dsmc = 0; dsmc < 2; dsmc++) {
     gg_scene *s = scene_of(small);
     assert_ok(gg_scene_set(s, "engine", dsmc ? "dsmc" : "md", &err));
-    assert_ok(gg_scene_set(s, "temperature", "1", &err));
     gg_simulation *m = NULL;
     gg_start_options options = lasting(&p, 1);
     assert_int_equal(gg_simulation_new(s, &options, &m, &err), GG_INTERRUPTED);
@@ -128,6 +128,79 @@ static void from_grains(void **state)
   gg_scene_free(s);
 }
 
+enum { COPY, SAVE, LOAD, TO_BYTES, FROM_BYTES, WAYS };
+
+typedef struct things {
+  gg_simulation *from, *made;
+  void *bytes, *made_bytes;
+  size_t size, made_size;
+} things;
+
+static gg_status call(things *t, int way, int (*asks)(void *context), poll_count *p)
+{
+  gg_error err;
+  t->made = NULL, t->made_bytes = NULL;
+  switch (way) {
+  case COPY: return gg_simulation_copy(t->from, asks, p, &t->made, &err);
+  case SAVE: return gg_simulation_save(t->from, "t_start.h5", asks, p, &err);
+  case LOAD: return gg_simulation_load("t_start.h5", NULL, asks, p, &t->made, &err);
+  case TO_BYTES: return gg_simulation_to_bytes(t->from, asks, p, &t->made_bytes, &t->made_size, &err);
+  default: return gg_simulation_from_bytes(t->bytes, t->size, NULL, asks, p, &t->made, &err);
+  }
+}
+
+/* What is made is the same as without a callback, which is of that call alone. */
+static void assert_same(things *t)
+{
+  gg_error err;
+  poll_count p = {0, 0};
+  if (t->made_bytes) assert_ok(gg_simulation_from_bytes(t->made_bytes, t->made_size, NULL, NULL, NULL, &t->made, &err));
+  free(t->made_bytes);
+  if (!t->made) return;
+  gg_simulation *other = NULL;
+  assert_ok(gg_simulation_from_bytes(t->bytes, t->size, NULL, never, &p, &other, &err));
+  const int polls = p.polls;
+  assert_ok(gg_simulation_collide(other, 100, &err));
+  assert_int_equal(p.polls, polls);
+  assert_ok(gg_simulation_collide(t->made, 100, &err));
+  assert_true(hash_of(t->made) == hash_of(other));
+}
+
+static void copies_and_files(void **state)
+{
+  (void)state;
+  const int of[] = {0, 3};
+  for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+    gg_error err;
+    poll_count p;
+    things t = {0};
+    gg_scene *s = scene_of(large[of[k]]);
+    assert_ok(gg_simulation_new(s, NULL, &t.from, &err));
+    assert_ok(gg_simulation_to_bytes(t.from, NULL, NULL, &t.bytes, &t.size, &err));
+    for (int way = 0; way < WAYS; way++) {
+      p = (poll_count){0, 0};
+      assert_int_equal(call(&t, way, never, &p), GG_OK);
+      const int polls = p.polls;
+      assert_true(polls > 8);
+      assert_same(&t);
+      for (int i = 0; i < 5; i++) {
+        p = (poll_count){0, 1 + i * (polls - 1) / 4};
+        assert_int_equal(call(&t, way, stop, &p), GG_INTERRUPTED);
+        assert_true(!t.made && !t.made_bytes);
+        assert_int_equal(p.polls, p.most);
+      }
+    }
+    assert_int_equal(call(&t, LOAD, NULL, NULL), GG_OK); /* the file is whole */
+    assert_same(&t);
+    assert_int_equal(access("t_start.h5.1", F_OK), -1); /* and the saves that were stopped did not touch it */
+    assert_int_equal(access("t_start.h5.graingas-tmp", F_OK), -1);
+    remove("t_start.h5");
+    free(t.bytes);
+    gg_simulation_free(t.from);
+    gg_scene_free(s);
+  }
+}
+
 static int fails(void *context)
 {
   (void)context;
@@ -167,7 +240,7 @@ static void streams(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(interrupted), cmocka_unit_test(small_ones_are_asked_once),
-                                     cmocka_unit_test(from_grains), cmocka_unit_test(reason),
-                                     cmocka_unit_test(streams)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
+                                     cmocka_unit_test(from_grains), cmocka_unit_test(copies_and_files),
+                                     cmocka_unit_test(reason),      cmocka_unit_test(streams)};
+  return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -36,10 +36,15 @@ static hid_t type_of(gg_item_type type)
   return H5T_NATIVE_UINT8;
 }
 
+static bool is_stopped(const gg_archive *a)
+{
+  return a->stop && gg_stop_asked(a->stop);
+}
+
 /* Items are numbered, so that they come back in order; their names are attributes. */
 static void write_items(gg_h5 *h, const gg_archive *a)
 {
-  for (size_t i = 0; i < a->n_items; i++) {
+  for (size_t i = 0; i < a->n_items && !is_stopped(a); i++) {
     const gg_item *item = &a->items[i];
     char path[48];
     hsize_t count = item->count;
@@ -50,7 +55,8 @@ static void write_items(gg_h5 *h, const gg_archive *a)
   }
 }
 
-static void *make_image(const char *path, const gg_archive *a, const gg_scene *scene, size_t *size, gg_error *err)
+static gg_status make_image(const char *path, const gg_archive *a, const gg_scene *scene, void **image, size_t *size,
+                            gg_error *err)
 {
   gg_h5 h;
   uint64_t n = a->n_items;
@@ -64,12 +70,15 @@ static void *make_image(const char *path, const gg_archive *a, const gg_scene *s
   gg_h5_attribute(&h, "/checkpoint/version", "layout", H5T_NATIVE_INT, &layout, 0);
   gg_h5_attribute(&h, "/checkpoint", "items", H5T_NATIVE_UINT64, &n, 0);
   write_items(&h, a);
-  void *image = gg_h5_image(&h, size);
+  *image = is_stopped(a) ? NULL : gg_h5_image(&h, size);
   gg_h5_close(&h);
   free(yaml);
-  if (gg_h5_status(&h, path, "written", err) == GG_OK) return image;
-  free(image);
-  return NULL;
+  gg_status status = gg_h5_status(&h, path, "written", err);
+  if (is_stopped(a)) status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", path);
+  if (status == GG_OK) return status;
+  free(*image);
+  *image = NULL;
+  return status;
 }
 
 /* The one before gives way only once this one is safe on the disk. A disk error is reported once: who asks again
@@ -92,12 +101,13 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
   size_t size = 0;
   GG_TRY(locked ? gg_base_atomic_open_locked(&file, path, err) : gg_base_atomic_open(&file, path, err));
   file.repeated = locked;
-  void *image = make_image(path, a, scene, &size, err);
-  gg_status status = image ? GG_OK : GG_BAD_FILE;
+  void *image = NULL;
+  gg_status status = make_image(path, a, scene, &image, &size, err);
   if (image && file.place.stream)
     status = gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, path);
   if (status == GG_OK) status = gg_files_checksum_trailer_write(&file, image, size, err);
   free(image);
+  if (status == GG_OK && is_stopped(a)) status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", path);
   if (status == GG_OK && keep) status = keep_before(&file, err);
   if (status == GG_OK) return gg_base_atomic_commit(&file, err);
   gg_base_atomic_abandon(&file);
@@ -168,8 +178,9 @@ gg_status gg_files_checkpoint_to_bytes(const gg_archive *a, const gg_scene *scen
                                        gg_error *err)
 {
   size_t image_size = 0;
-  void *image = make_image("the simulation", a, scene, &image_size, err);
-  if (!image) return GG_FAILED;
+  void *image = NULL;
+  gg_status status = make_image("the simulation", a, scene, &image, &image_size, err);
+  if (status != GG_OK) return status == GG_INTERRUPTED ? status : GG_FAILED;
   if (!(image = gg_files_checksum_trailer_append(image, image_size, err))) return GG_FAILED;
   *bytes = image, *size = image_size + GG_TRAILER_SIZE;
   return GG_OK;
