@@ -39,8 +39,10 @@ class Estimate:
     u             the same as a number of uncertainties, correlated with the means of the run whose `u` was used before.
                   Of two means every combination has the error of the operators below; of more, nearly
 
-    + - * / ** and np.sqrt give estimates. Errors add up linearly: means of different runs are independent, those of one run have
-    a covariance. The error is NaN where that is not known, and where a sum of several means nearly cancels.
+    + - * / ** and np.sqrt give estimates. Errors add up linearly: means of different runs are independent, those of one
+    run have a covariance. The error is NaN where that is not known, and where a sum of several means nearly cancels.
+    float(), and so functions of `math`, take the mean alone, without its error: use np.sqrt or ** 0.5, and for other
+    functions `u` with uncertainties.umath.
     """
 
     __slots__ = ("name", "mean", "error", "unit", "tau", "tau_unit", "samples", "reason", "symbol", "_source", "_terms")

@@ -48,10 +48,10 @@ def thread_count(threads):
     return int(threads)
 
 
-def _options(call, threads, files):
+def _options(call, threads, accept_version, files):
     """The struct; call.keep has what has to outlive it."""
     options = new("gg_run_options")
-    options.threads = thread_count(threads)
+    options.threads, options.accept_version = thread_count(threads), bool(accept_version)
     options.context, options.stop = call.c, ffi.addressof(lib, "ggpy_stop")
     options.progress, options.warn = lib.ggpy_progress, lib.ggpy_warn
     call.keep.append(ffi.new("char[]", b"graingas (Python)"))
@@ -80,10 +80,10 @@ def _finish(call, status, error, made):
     return made
 
 
-def _long_run(function, kind, engines, scene, threads, progress, files):
+def _long_run(function, kind, engines, scene, threads, progress, accept_version, files):
     scene = as_scene(scene).copy()
     call, error = calls.Call(), new_error()
-    options = _options(call, threads, files)
+    options = _options(call, threads, accept_version, files)
     made = ffi.new(kind + " **")
     with serving(scene, call), reporting(progress, engines) as report:
         with scene.held() as pointer:
@@ -93,7 +93,7 @@ def _long_run(function, kind, engines, scene, threads, progress, files):
 
 
 def run(scene, threads: Optional[int] = 1, output=None, checkpoint=None, resume=None,
-        progress: Union[bool, None, Callable] = None) -> Result:
+        progress: Union[bool, None, Callable] = None, accept_version: bool = False) -> Result:
     """Runs the scene's engine until its stopping criteria are met; returns a Result.
 
     scene        a Scene, a file name, YAML text, or a dict
@@ -102,18 +102,20 @@ def run(scene, threads: Optional[int] = 1, output=None, checkpoint=None, resume=
     checkpoint   file to keep checkpoints in; the run writes one when it is interrupted
     resume       checkpoint to continue from, bit for bit
     progress     True, False, None (a bar where a person sees it), or a function of a report
+    accept_version
+                 also resume a checkpoint of another build of graingas, whose numbers may differ
 
     Ctrl-C ends the run within 0.1 s and returns what there is, with a warning PartialResult and `partial` set; a run
     that ends before its criteria likewise. Raises BadInput, BadFile, RunFailed, and what a callback raised.
     """
-    return _long_run(lib.gg_run, "gg_result", 1, scene, threads, progress,
+    return _long_run(lib.gg_run, "gg_result", 1, scene, threads, progress, accept_version,
                      {"output": output, "checkpoint": checkpoint, "resume": resume})
 
 
 def compare(scene, threads: Optional[int] = 1, output=None, checkpoint=None, resume=None,
-            progress: Union[bool, None, Callable] = None) -> Comparison:
+            progress: Union[bool, None, Callable] = None, accept_version: bool = False) -> Comparison:
     """Runs both engines and evaluates every theory; returns a Comparison. Parameters and errors are those of run()."""
-    return _long_run(lib.gg_compare, "gg_comparison", 2, scene, threads, progress,
+    return _long_run(lib.gg_compare, "gg_comparison", 2, scene, threads, progress, accept_version,
                      {"output": output, "checkpoint": checkpoint, "resume": resume})
 
 

@@ -99,10 +99,10 @@ class Scene(Mapping):
     Scene("flow: usf\\nphi: 0.1")
     Scene(flow="usf", phi=0.1, collision={"e": 0.9, "beta": 0})
 
-    A mapping over the keys, which are attributes, too: s["collision.e.12"] = 0.8, s.collision.beta = 0, s.phi. Short names: e, beta and mu
-    of collisions, and last words that only one key has (s.seed). Values are numbers, texts, lists, dicts for pairs of
-    species ({12: 0.8}), and None for `none`, in the units of the scene. `Scene.phi.__doc__` and `s.help("phi")` explain
-    a key. Raises BadInput with the allowed values, BadFile.
+    A mapping over the keys, which are attributes, too: s["collision.e.12"] = 0.8, s.collision.beta = 0, s.phi. Short
+    names: e, beta and mu of collisions, and last words that only one key has (s.seed). Values are numbers, texts,
+    lists, dicts for pairs of species ({12: 0.8}), and None for `none`, in the units of the scene. `Scene.phi.__doc__`
+    and `s.help("phi")` explain a key. Raises BadInput with the allowed values, BadFile.
     """
 
     def __init__(self, source=None, **keys):

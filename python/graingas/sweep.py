@@ -118,10 +118,11 @@ class Sweep:
             raise exception(status, error)
         return found
 
-    def run(self, threads=1, progress=None) -> Sweep:
-        """Runs the points that are not finished. Ctrl-C and what falls short: as sweep()."""
+    def run(self, threads=1, progress=None, accept_version=False) -> Sweep:
+        """Runs the points that are not finished. accept_version: points of another build of graingas are finished, too,
+        though its numbers may differ. Ctrl-C and what falls short: as sweep()."""
         call, error, options = calls.Call(), new_error(), new("gg_sweep_options")
-        options.threads, options.context = thread_count(threads), call.c
+        options.threads, options.context, options.accept_version = thread_count(threads), call.c, bool(accept_version)
         call.keep.append(ffi.new("char[]", b"graingas (Python)"))
         options.command, options.stop = call.keep[-1], ffi.addressof(lib, "ggpy_stop")
         options.progress, options.ended, options.warn = lib.ggpy_sweep_progress, lib.ggpy_sweep_ended, lib.ggpy_warn
@@ -292,7 +293,8 @@ def _yaml(scene, axes, does, seeds):
     return f"{yaml.nested(kept)}vary: {{{lists}}}\nsweep: {{does: {does}, seeds: {seeds}}}\n"
 
 
-def sweep(scene, vary=None, *, does="run", folder=None, threads=1, seeds="independent", progress=None, **keys) -> Sweep:
+def sweep(scene, vary=None, *, does="run", folder=None, threads=1, seeds="independent", progress=None, accept_version=False,
+          **keys) -> Sweep:
     """Runs, compares, or evaluates theories at every point of a grid: sweep(s, e=[0.7, 0.9], does="compare").
 
     vary, keys   values of each key; {"collision.e.12": [...]} for keys with dots
@@ -301,6 +303,8 @@ def sweep(scene, vary=None, *, does="run", folder=None, threads=1, seeds="indepe
                  temporary folder, removed with the Sweep
     seeds        "independent", or "common": run.seed of the scene for all points
     threads      for points and replicas; None: all processors
+    accept_version
+                 keep points of another build of graingas, whose numbers may differ
 
     Ctrl-C returns what there is, with a warning PartialResult and `partial` set; so do points that ended before their
     stopping criteria. Raises BadInput, which names the first point that cannot be simulated; BadFile.
@@ -310,7 +314,7 @@ def sweep(scene, vary=None, *, does="run", folder=None, threads=1, seeds="indepe
         raise BadInput("sweep: give at least one key to vary, e.g. e=[0.5, 0.7, 0.9]")
     if scene._extensions:
         raise BadInput("sweep: its points are files, which hold no Python functions; use scan(), or run() in a loop")
-    return Sweep.parse(_yaml(scene, axes, encode(does, "does").decode(), seeds), folder).run(threads, progress)
+    return Sweep.parse(_yaml(scene, axes, encode(does, "does").decode(), seeds), folder).run(threads, progress, accept_version)
 
 
 def validate(source=None, *, quick=False, folder=None, threads=1, progress=None, page=None, picture=None) -> Verdict:

@@ -122,6 +122,7 @@ def test_estimates_and_numpy():
         assert [e.mean for e in left] == [e.mean for e in right]
         assert [e.error for e in left] == pytest.approx([e.error for e in right])
     assert (a * x)[1].error == pytest.approx(0.6)
+    assert type(math.sqrt(a)) is float and "without its error" in gg.Estimate.__doc__
     assert np.sqrt(a).mean == math.sqrt(2) and np.sqrt(a).error == pytest.approx(0.3 / (2 * math.sqrt(2)))
     with pytest.raises(TypeError):
         a + "1"

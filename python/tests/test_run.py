@@ -3,12 +3,15 @@
 import json
 import os
 import signal
+import struct
 import subprocess
 import threading
 import time
+import zlib
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 import multiprocessing
 
+import numpy as np
 import pytest
 
 import graingas as gg
@@ -86,6 +89,23 @@ def test_interrupted_run_can_be_resumed(short):
     with pytest.warns(gg.PartialResult):
         gg.run(short, checkpoint="c.h5")
     assert means(gg.run(short, resume="c.h5")) == whole
+
+
+def test_checkpoint_of_another_build(short):
+    h5py = pytest.importorskip("h5py")
+    short["run.collisions"] = 60000
+    interrupt_after(0.5)
+    with pytest.warns(gg.PartialResult):
+        gg.run(short, checkpoint="c.h5")
+    short["run.collisions"] = 100
+    with h5py.File("c.h5", "r+") as file:
+        file["checkpoint/version"].attrs["identity"] = np.bytes_("another")
+    with open("c.h5", "r+b") as file:  # its checksum
+        content = file.read()
+        file.write(b"gg-crc32" + struct.pack("<QI", len(content), zlib.crc32(content)))
+    with pytest.raises(gg.BadFile, match=r"--accept-version \(in programs accept_version\)"):
+        gg.run(short, resume="c.h5")
+    assert gg.run(short, resume="c.h5", accept_version=True)["temperature"].mean > 0
 
 
 def test_ended_before_its_criteria():

@@ -376,7 +376,7 @@ static void report_aside(const sweep_run *all, size_t other, size_t damaged)
   snprintf(text, sizeof text,
            "%zu points are by another build of graingas, %zu are damaged: they run again, and their files stay as "
            "*.old.h5%s",
-           other, damaged, other ? "; --accept-version keeps points of other builds" : "");
+           other, damaged, other ? "; --accept-version (in programs accept_version) keeps points of other builds" : "");
   all->options.warn(all->options.context, text);
 }
 

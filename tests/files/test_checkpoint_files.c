@@ -122,7 +122,7 @@ static void checkpoint_of_another_build(void **state)
   snprintf(
       expected, sizeof expected,
       "c.h5: cannot be read: graingas %s (build %s, layout %d) wrote it, and this is graingas %s (build %s, layout "
-      "%d): numbers may differ; --accept-version resumes it anyway",
+      "%d): numbers may differ; --accept-version (in programs accept_version) resumes it anyway",
       gg_base_build_version, other, GG_CHECKPOINT_LAYOUT, gg_base_build_version, gg_base_build_identity,
       GG_CHECKPOINT_LAYOUT);
   assert_string_equal(err.message, expected);

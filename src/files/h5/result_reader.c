@@ -30,8 +30,9 @@ void gg_files_checkpoint_check_version(struct gg_h5_in *h, bool any_build)
            "graingas %.40s (build %.20s, layout %lld) wrote it, and this is graingas %s (build %s, layout %d): %s",
            version, identity ? identity : "unknown", (long long)layout, gg_base_build_version, gg_base_build_identity,
            GG_CHECKPOINT_LAYOUT,
-           layout != GG_CHECKPOINT_LAYOUT ? "only a checkpoint of the same layout can be resumed"
-                                          : "numbers may differ; --accept-version resumes it anyway");
+           layout != GG_CHECKPOINT_LAYOUT
+               ? "only a checkpoint of the same layout can be resumed"
+               : "numbers may differ; --accept-version (in programs accept_version) resumes it anyway");
   if (layout != GG_CHECKPOINT_LAYOUT || (!same && !any_build)) gg_h5_in_failed(h, why);
   free(identity);
   free(version);
