@@ -18,9 +18,16 @@ static void clear_curve(gg_curve *c)
   free(c->reference);
 }
 
-void gg_measure_curves_clear(gg_curves *list)
+/* Its places stay. */
+static void empty(gg_curves *list)
 {
   for (int i = 0; i < list->n; i++) clear_curve(&list->curve[i]);
+  list->n = 0;
+}
+
+void gg_measure_curves_clear(gg_curves *list)
+{
+  empty(list);
   clear_curve(&list->spare);
   free(list->curve);
   *list = (gg_curves){0};
@@ -163,21 +170,21 @@ static void evaluate(const pooled *p, const double *without, gg_curves_of *of, c
 /* Every block left out in turn; blocks of a run are neighbours in time, those of different runs are not. */
 static bool leave_one_out(const pooled *p, gg_curves_of *of, const void *self, const gg_curves *full, gg_jackknife *j)
 {
-  for (size_t r = 0; r < p->n_runs; r++) {
+  gg_curves part = {.model = full->model, .group = full->group};
+  for (size_t r = 0; r < p->n_runs && !part.failed; r++) {
     gg_statistics_jackknife_cut(j);
-    for (size_t b = 0; b < p->bins[r]->blocks; b++) {
-      gg_curves part = {.model = full->model, .group = full->group};
+    for (size_t b = 0; b < p->bins[r]->blocks && !part.failed; b++) {
       evaluate(p, gg_bins_block(p->bins[r], b), of, self, &part);
-      bool whole = !part.failed;
-      if (whole) {
+      if (!part.failed) {
         differences(full, &part, gg_statistics_jackknife_next(j));
         gg_statistics_jackknife_add(j);
       }
-      gg_measure_curves_clear(&part);
-      if (!whole) return false;
+      empty(&part);
     }
   }
-  return true;
+  bool whole = !part.failed;
+  gg_measure_curves_clear(&part);
+  return whole;
 }
 
 static void put_errors(gg_curves *full, const gg_jackknife *j, double memory)
