@@ -10,6 +10,35 @@
 
 #include "base/memory.h"
 
+/* The sum over lags needs few of them, as a rule: they are added up as they are, and taken from transforms of the whole
+ * series only where it goes on. Beyond some 300 lags transforms would be faster from the start. */
+enum { FEWEST = 64, FEW = 256, LANES = 8 };
+
+typedef double two __attribute__((vector_size(16)));
+typedef double two_there __attribute__((vector_size(16), may_alias, aligned(8)));
+
+/* a_i b_(i+k) of n rows is added to lane k. */
+static void add_lanes(const double *a, const double *b, size_t n, double *lane)
+{
+  two sum[LANES / 2] = {0};
+  size_t i = 0;
+  for (; i + LANES <= n; i++)
+    for (int k = 0; k < LANES / 2; k++) sum[k] += (two){a[i], a[i]} * *(const two_there *)(b + i + 2 * k);
+  for (int k = 0; k < LANES; k++) lane[k] += sum[k / 2][k % 2];
+  for (; i < n; i++)
+    for (size_t k = 0; i + k < n; k++) lane[k] += a[i] * b[i + k];
+}
+
+/* Products of rows at lags from .. to - 1, on average over the pairs there are. */
+static void add_products(const double *x, size_t n, size_t n_runs, size_t from, size_t to, double *covariance)
+{
+  for (size_t t = from; t < to && t < n; t += LANES) {
+    double lane[LANES] = {0};
+    for (size_t r = 0; r < n_runs; r++) add_lanes(x + r * n, x + r * n + t, n - t, lane);
+    for (size_t k = 0; k < LANES && t + k < n; k++) covariance[t + k] = lane[k] / (double)(n - t - k);
+  }
+}
+
 /* Transforms of powers of two in place, GSL's: nothing is planned, allocated or shared, as FFTW would (which ends the
  * program where its planner gets no memory). Half-complex: the real parts from the front, the imaginary ones from the
  * back. */
@@ -56,15 +85,16 @@ static bool is_noise(const double *covariance, size_t t, double shift)
   return t > 1 && covariance[t - 1] + covariance[t] + 2 * shift <= 0;
 }
 
-/* rho from covariances, its sum and where that ends, at `reach` lags or later. Anticorrelated series: do not claim less
- * than independent samples have. */
-static void sum_to_window(const double *covariance, size_t n, double shift, size_t reach, gg_correlation *c)
+/* rho from covariances, its sum and where that ends, at `reach` lags or later: false if that is not before lag n.
+ * Anticorrelated series: do not claim less than independent samples have. */
+static bool sum_to_window(const double *covariance, size_t n, double shift, size_t reach, gg_correlation *c)
 {
   double moment = 0;
+  size_t t = 1;
   *c = (gg_correlation){.time = 0.5, .slow = 0.5, .rho = c->rho};
   c->rho[0] = 1;
-  if (!(covariance[0] + shift > 0)) return;
-  for (size_t t = 1; t < n && (t <= reach || (double)c->window <= WINDOW * c->time); t++) {
+  if (!(covariance[0] + shift > 0)) return true;
+  for (; t < n && (t <= reach || (double)c->window <= WINDOW * c->time); t++) {
     if (t > reach && is_noise(covariance, t, shift)) break;
     c->rho[t] = (covariance[t] + shift) / (covariance[0] + shift);
     c->time += c->rho[t];
@@ -73,35 +103,48 @@ static void sum_to_window(const double *covariance, size_t n, double shift, size
   }
   if (c->time < 0.5) *c = (gg_correlation){.time = 0.5, .slow = 0.5, .rho = c->rho};
   c->slow = fmax(c->time, moment / c->time);
+  return t < n;
 }
 
-static void sum(const double *covariance, size_t n, size_t n_runs, size_t reach, gg_correlation *c)
+static bool sum(const double *covariance, size_t n, size_t rows, size_t reach, gg_correlation *c)
 {
   double shift = 0;
+  bool ends = true;
   for (int round = 0; round < ROUNDS; round++) {
-    sum_to_window(covariance, n, shift, reach, c);
-    shift = 2 * c->time * (covariance[0] + shift) / (double)(n * n_runs);
+    ends = sum_to_window(covariance, n, shift, reach, c) && ends;
+    shift = 2 * c->time * (covariance[0] + shift) / (double)rows;
   }
+  return ends;
 }
 
-static gg_status correlate(transform *f, const double *x, size_t n, size_t n_runs, double memory, gg_correlation *c,
-                           gg_error *err)
+/* False if more covariances are needed than these at lags below n. */
+static bool integrate(const double *covariance, size_t n, size_t rows, double memory, gg_correlation *c)
 {
-  double *power = gg_base_array_new(f->length / 2 + 1, sizeof *power, err);
-  if (!power) return GG_FAILED;
-  for (size_t r = 0; r < n_runs; r++) add_power(f, x + r * n, n, power);
-  memset(f->data, 0, f->length * sizeof *f->data);
-  memcpy(f->data, power, (f->length / 2 + 1) * sizeof *power);
-  free(power);
-  gsl_fft_halfcomplex_radix2_backward(f->data, 1, f->length);
-  double *covariance = f->data;
-  for (size_t t = 0; t < n; t++) covariance[t] /= (double)(n - t); /* pairs at a lag t */
-  sum(covariance, n, n_runs, 0, c);
+  bool ends = sum(covariance, n, rows, 0, c);
   if (memory > LONGER * c->time) {
-    sum(covariance, n, n_runs, (size_t)ceil(REACH * memory), c);
+    ends = sum(covariance, n, rows, (size_t)ceil(REACH * memory), c) && ends;
     c->memory = memory;
   }
-  return GG_OK;
+  return ends;
+}
+
+static gg_status by_transforms(const double *x, size_t n, size_t n_runs, double memory, gg_correlation *c,
+                               gg_error *err)
+{
+  transform f;
+  GG_TRY(transform_make(&f, n, err));
+  double *power = gg_base_array_new(f.length / 2 + 1, sizeof *power, err);
+  if (power) {
+    for (size_t r = 0; r < n_runs; r++) add_power(&f, x + r * n, n, power);
+    memset(f.data, 0, f.length * sizeof *f.data);
+    memcpy(f.data, power, (f.length / 2 + 1) * sizeof *power);
+    gsl_fft_halfcomplex_radix2_backward(f.data, 1, f.length);
+    for (size_t t = 0; t < n; t++) f.data[t] /= (double)(n - t); /* pairs at a lag t */
+    integrate(f.data, n, n * n_runs, memory, c);
+  }
+  free(f.data);
+  free(power);
+  return power ? GG_OK : GG_FAILED;
 }
 
 gg_status gg_statistics_correlation_of(const double *x, size_t n, size_t n_runs, double memory, gg_correlation *c,
@@ -112,12 +155,12 @@ gg_status gg_statistics_correlation_of(const double *x, size_t n, size_t n_runs,
   if (!c->rho) return GG_FAILED;
   c->rho[0] = 1;
   if (n < 2 || n * n_runs < 4) return GG_OK;
-  transform f;
-  gg_status status = transform_make(&f, n, err);
-  if (status == GG_OK) {
-    status = correlate(&f, x, n, n_runs, memory, c, err);
-    free(f.data);
+  double covariance[FEW];
+  for (size_t from = 0, to = FEWEST; to <= FEW; from = to, to *= 4) {
+    add_products(x, n, n_runs, from, to, covariance);
+    if (integrate(covariance, to < n ? to : n, n * n_runs, memory, c) || n <= to) return GG_OK;
   }
+  gg_status status = by_transforms(x, n, n_runs, memory, c, err);
   if (status != GG_OK) gg_statistics_correlation_clear(c);
   return status;
 }

@@ -10,13 +10,20 @@
 #include "base/memory.h"
 #include "statistics/autocorrelation.h"
 
+double gg_statistics_mean(const double *y, size_t n)
+{
+  double lane[4] = {0};
+  for (size_t i = 0; i < n; i++) lane[i % 4] += y[i] - y[0];
+  return y[0] + (lane[0] + lane[1] + (lane[2] + lane[3])) / (double)n;
+}
+
 /* Means over equal blocks, none across the end of a run; returns how many. */
 static size_t block_means(const double *y, size_t n, size_t n_runs, size_t length, double *means)
 {
   size_t per_run = n / length, count = 0;
   for (size_t r = 0; r < n_runs; r++)
     for (size_t b = 0; b < per_run; b++) /* the rows left over are those nearest to the start */
-      means[count++] = gsl_stats_mean(y + r * n + (n - per_run * length) + b * length, 1, length);
+      means[count++] = gg_statistics_mean(y + r * n + (n - per_run * length) + b * length, length);
   return count;
 }
 
@@ -57,7 +64,7 @@ gg_status gg_statistics_estimate_made_of(const double *y, size_t n, size_t n_run
   *out = (gg_mean){.mean = NAN, .error = NAN, .scatter = NAN, .correlation_rows = 0.5};
   size_t total = n * n_runs;
   if (total == 0) return GG_OK;
-  out->mean = gsl_stats_mean(y, 1, total);
+  out->mean = gg_statistics_mean(y, total);
   if (total < 4) return GG_OK;
   double *work = gg_base_array_new(total, sizeof *work, err);
   if (!work) return GG_FAILED;

@@ -52,6 +52,9 @@ gg_status gg_statistics_response_blocks(const gg_series *const *series, size_t n
                                         size_t offset, size_t channels, gg_function f, const gg_model *model,
                                         size_t length, double *blocks, gg_error *err);
 
+/* Mean of n >= 1 numbers; of equal ones, exactly that. (GSL's divides a long double for each.) */
+double gg_statistics_mean(const double *y, size_t n);
+
 /* gg_statistics_estimate_mean for a scalar series, n_runs stretches of n rows end to end. */
 gg_status gg_statistics_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err);
 /* Likewise for one that is made of a slower one, of this correlation time in rows (gg_statistics_correlation_of). */

@@ -7,7 +7,6 @@
 #include "base/memory.h"
 
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_statistics_double.h>
 
 /* Copy rows [from, from + m) of every run. */
 static void cut(const double *y, size_t n, size_t n_runs, size_t from, size_t m, double *to)
@@ -35,9 +34,9 @@ static void compare_beginning(const double *y, size_t n, size_t n_runs, size_t l
   if (count < 3) return;
   for (size_t r = 0; r < n_runs; r++) {
     const double *run = y + r * n;
-    first += gsl_stats_mean(run, 1, length) / (double)n_runs;
+    first += gg_statistics_mean(run, length) / (double)n_runs;
     for (size_t b = 0; b < per_run; b++) {
-      double block = gsl_stats_mean(run + n - (b + 1) * length, 1, length), before = mean;
+      double block = gg_statistics_mean(run + n - (b + 1) * length, length), before = mean;
       mean += (block - mean) / (double)(r * per_run + b + 1);
       squares += (block - before) * (block - mean);
     }
