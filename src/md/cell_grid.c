@@ -17,9 +17,8 @@ void gg_md_cells_count(const gg_md_box *box, double width, int32_t n[3])
   }
 }
 
-gg_status gg_md_cells_make(gg_md_cells *c, const gg_md_box *box, const int32_t n[3], double reach, gg_error *err)
+static gg_status make(gg_md_cells *c, const gg_md_box *box, const int32_t n[3], gg_error *err)
 {
-  *c = (gg_md_cells){.reach = reach};
   size_t total = 1;
   for (int a = 0; a < 3; a++) {
     c->n[a] = n[a];
@@ -33,9 +32,22 @@ gg_status gg_md_cells_make(gg_md_cells *c, const gg_md_box *box, const int32_t n
     for (int32_t k = -2; k <= n[a] + 1; k++) part[k + 2] = (uint32_t)((k + 2 * n[a]) % n[a] * each);
     c->part[a] = part + 2;
   }
-  c->stride = FEWEST_WORDS;
   c->cell = gg_md_new_lines(total * c->stride + MOST_BEHIND, sizeof *c->cell, err);
   return c->cell ? GG_OK : GG_FAILED;
+}
+
+gg_status gg_md_cells_make(gg_md_cells *c, const gg_md_box *box, const int32_t n[3], double reach, gg_error *err)
+{
+  *c = (gg_md_cells){.reach = reach, .stride = FEWEST_WORDS};
+  return make(c, box, n, err);
+}
+
+gg_status gg_md_cells_make_small(gg_md_cells *c, const gg_md_box *box, const int32_t n[3], double reach,
+                                 uint32_t grains, gg_error *err)
+{
+  *c = (gg_md_cells){.reach = reach, .stride = GG_MD_SMALL_CELL};
+  c->next = gg_md_new_lines(grains, sizeof *c->next, err);
+  return c->next ? make(c, box, n, err) : GG_FAILED;
 }
 
 static size_t total_of(const gg_md_cells *c)
@@ -49,14 +61,21 @@ void gg_md_cells_clear(gg_md_cells *c)
   for (size_t k = 0; k < total; k++) c->cell[k * c->stride] = 0;
 }
 
+/* Small ones with their lists hold as many as cells of eight words. */
 bool gg_md_cells_grow(gg_md_cells *c)
 {
   if (c->fixed) return false;
-  size_t total = total_of(c), stride = 2 * c->stride;
-  uint32_t *cell = gg_md_new_lines(total * stride + MOST_BEHIND, sizeof *cell, NULL);
+  size_t total = total_of(c), stride = 2 * (c->next ? FEWEST_WORDS : c->stride);
+  uint32_t *cell = gg_md_new_lines(total * stride + MOST_BEHIND, sizeof *cell, NULL), found[GG_MD_MOST_IN_SMALL];
   if (!cell) return false;
-  for (size_t k = 0; k < total; k++) memcpy(cell + k * stride, c->cell + k * c->stride, c->stride * sizeof *cell);
+  for (size_t k = 0; k < total; k++) {
+    const uint32_t *old = c->cell + k * c->stride;
+    cell[k * stride] = old[0];
+    memcpy(cell + k * stride + 1, gg_md_cell_members(c, old, found), old[0] * sizeof *cell);
+  }
   free(c->cell);
+  free(c->next);
+  c->next = NULL;
   c->cell = cell;
   c->stride = (uint32_t)stride;
   return true;
@@ -65,6 +84,7 @@ bool gg_md_cells_grow(gg_md_cells *c)
 void gg_md_cells_free(gg_md_cells *c)
 {
   free(c->cell);
+  free(c->next);
   for (int a = 0; a < 3; a++)
     if (c->part[a]) free(c->part[a] - 2);
   *c = (gg_md_cells){0};

@@ -27,6 +27,13 @@ gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
   return gg_md_note_surfaces(e, err);
 }
 
+gg_status gg_md_make_cells(gg_md *e, const int32_t n[3], double reach, gg_error *err)
+{
+  if (gg_md_has_small_cells(&e->model, e->search.kind))
+    return gg_md_cells_make_small(&e->cells, &e->box, n, reach, e->n, err);
+  return gg_md_cells_make(&e->cells, &e->box, n, reach, err);
+}
+
 gg_status gg_md_make_grid(gg_md *e, gg_error *err)
 {
   double radius;
@@ -34,7 +41,7 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err)
   const gg_md_search_kind kind = gg_md_search_select(&e->model, &radius, n);
   if (kind == GG_MD_NEIGHBOUR_LISTS) return gg_md_make_lists(e, radius, err);
   e->search.kind = kind;
-  GG_TRY(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model), err));
+  GG_TRY(gg_md_make_cells(e, n, gg_md_reach(&e->model), err));
   GG_TRY(gg_md_note_surfaces(e, err));
   if (!gg_md_search_has_rows(kind)) return GG_OK;
   GG_TRY(gg_md_make_rows(e, err));

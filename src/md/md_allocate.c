@@ -120,6 +120,8 @@ static double bytes_of_cells(const gg_model *m, gg_md_search_kind kind, const in
 {
   const double mean = grains_per_cell(m, kind, n), fullest = mean + 5 * sqrt(mean);
   double words = kind == GG_MD_NEIGHBOUR_LISTS ? 16 : 8;
+  if (gg_md_has_small_cells(m, kind))
+    return ((double)n[0] * n[1] * n[2] * GG_MD_SMALL_CELL + (double)m->n) * sizeof(uint32_t);
   while (words - 1 < fullest) words *= 2;
   return (double)n[0] * n[1] * n[2] * words * sizeof(uint32_t);
 }

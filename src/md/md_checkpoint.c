@@ -106,7 +106,7 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) GG_TRY(get_lists(e, a, b.skin_radius, err));
   e->k = b.counts;
   e->box.offset0 = b.offset0;
-  GG_TRY(gg_md_cells_make(&e->cells, &e->box, b.cells, gg_md_reach(&e->model) + 2 * b.skin_radius, err));
+  GG_TRY(gg_md_make_cells(e, b.cells, gg_md_reach(&e->model) + 2 * b.skin_radius, err));
   GG_TRY(gg_md_note_surfaces(e, err));
   if (gg_md_search_has_rows(e->search.kind)) GG_TRY(gg_md_make_rows(e, err));
   gg_md_queue_reset(&e->queue, b.bucket_width);

@@ -199,11 +199,14 @@ double gg_md_reach(const gg_model *model);
 gg_md_search_kind gg_md_search_select(const gg_model *model, double *radius, int32_t n[3]);
 /* Cells for the centres of lists: only in boxes of at least three cells, no nearest image in doubt. */
 bool gg_md_fit_lists(const gg_model *model, double radius, int32_t n[3]);
+/* Are its cells small (cell_grid.h)? */
+bool gg_md_has_small_cells(const gg_model *model, gg_md_search_kind kind);
 /* Cells that are crossed in a collision's time, all grains together. */
 double gg_md_crossings_per_collision(const gg_model *model);
 
-/* grid.c: the grid that suits the model. */
+/* grid.c: the grid that suits the model; its cells, so many, for e->search.kind. */
 gg_status gg_md_make_grid(gg_md *e, gg_error *err);
+gg_status gg_md_make_cells(gg_md *e, const int32_t n[3], double reach, gg_error *err);
 /* Neighbour lists with skins of this radius, if the box is wide enough for them; else nothing. */
 gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
 void gg_md_set_skins(gg_md *e, double radius);

@@ -17,7 +17,8 @@
 #define MOST_UNEQUAL_LISTED 2.0
 #define GRAINS_PER_CELL 0.7
 #define NARROW_FROM 0.25
-enum { FEWEST_OVERLAPPING = 6 };
+/* Cells of one contact distance are small from so many grains on: below, the cache holds larger ones as well. */
+enum { FEWEST_OVERLAPPING = 6, FEWEST_IN_SMALL = 30000 };
 
 double gg_md_reach(const gg_model *m)
 {
@@ -101,6 +102,13 @@ gg_md_search_kind gg_md_search_select(const gg_model *m, double *radius, int32_t
   fit_cells(m, n);
   bool comoving = m->shear_rate != 0 && n[0] >= GG_MD_FEWEST_COMOVING && n[1] >= 4 && n[2] >= 4;
   return comoving ? GG_MD_COMOVING_ROWS : GG_MD_PLAIN_CELLS;
+}
+
+bool gg_md_has_small_cells(const gg_model *m, gg_md_search_kind kind)
+{
+  if (kind != GG_MD_PLAIN_CELLS && kind != GG_MD_COMOVING_ROWS) return false;
+  const bool unequal = gg_common_model_widest(m) > NEARLY_EQUAL * gg_common_model_narrowest(m);
+  return m->n >= FEWEST_IN_SMALL && m->phi >= NARROW_FROM && !m->walled && !unequal;
 }
 
 double gg_md_crossings_per_collision(const gg_model *m)

@@ -21,6 +21,18 @@ GG_INLINE uint32_t gg_word_of_mask(uint16_t mask)
 }
 #endif
 
+GG_INLINE uint32_t gg_words_equal4(const uint32_t *words, uint32_t one)
+{
+#if defined(__AVX2__)
+  __m128i equal = _mm_cmpeq_epi32(_mm_loadu_si128((const __m128i *)words), _mm_set1_epi32((int)one));
+  return (uint32_t)_mm_movemask_ps(_mm_castsi128_ps(equal));
+#else
+  uint32_t equal = 0;
+  for (int k = 0; k < 4; k++) equal |= (uint32_t)(words[k] == one) << k;
+  return equal;
+#endif
+}
+
 GG_INLINE uint32_t gg_words_equal8(const uint32_t *words, uint32_t one)
 {
 #if defined(__AVX512VL__)

@@ -120,10 +120,11 @@ static void undo_list(gg_md *e, uint32_t i, const gg_md_saved_list *was)
 /* If it is there: in a cell that was full it is not. */
 static void leave_cell(const gg_md_cells *c, size_t index, uint32_t i)
 {
-  uint32_t *cell = c->cell + index * c->stride;
-  for (uint32_t k = 1; k <= cell[0]; k++)
-    if (cell[k] == i) {
-      cell[k] = cell[cell[0]--];
+  uint32_t *cell = c->cell + index * c->stride, found[GG_MD_MOST_IN_SMALL];
+  const uint32_t *who = gg_md_cell_members(c, cell, found);
+  for (uint32_t k = 0; k < cell[0]; k++)
+    if (who[k] == i) {
+      gg_md_cell_remove_from(c, cell, i);
       return;
     }
 }
@@ -141,7 +142,7 @@ static void change_cells(const gg_md *e, uint32_t i, bool enters)
     const size_t index = in.index[__builtin_ctz(which)];
     uint32_t *cell = e->cells.cell + index * e->cells.stride;
     if (enters)
-      cell[++cell[0]] = i;
+      gg_md_cell_put(&e->cells, cell, i);
     else
       leave_cell(&e->cells, index, i);
   }

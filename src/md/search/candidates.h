@@ -30,11 +30,43 @@ GG_INLINE uint32_t *gg_md_append_large(uint32_t *end, const uint32_t *cell)
   return end + count;
 }
 
-/* Of cells of eight words. */
-GG_INLINE uint32_t gg_md_append_small(uint32_t *candidates, uint32_t n, const uint32_t *cell)
+/* Of which size cells are: a constant of each copy of a search. Small cells are read as if none had an overflow list;
+ * if one has, all are read again as overfull ones. */
+typedef enum gg_md_cell_size {
+  GG_MD_SMALL_CELLS,
+  GG_MD_OVERFULL_CELLS,
+  GG_MD_EIGHT_WORDS,
+  GG_MD_LARGE_CELLS
+} gg_md_cell_size;
+
+/* The candidates of cells that are searched: how many so far, and the bits of all small cells' counts. */
+typedef struct gg_md_gathered {
+  uint32_t *candidates, n, counts;
+} gg_md_gathered;
+
+GG_INLINE void gg_md_gather_cell(gg_md_gathered *g, const gg_md_cells *c, const uint32_t *cell, gg_md_cell_size size)
 {
-  memcpy(candidates + n, cell + 1, 8 * sizeof *cell);
-  return n + cell[0];
+  uint32_t *to = g->candidates + g->n;
+  if (size == GG_MD_SMALL_CELLS) {
+    memcpy(to, cell + 1, GG_MD_SMALL_CELL * sizeof *cell);
+    g->counts |= cell[0];
+    g->n += cell[0];
+  } else if (size == GG_MD_OVERFULL_CELLS) {
+    g->n += gg_md_small_cell_list(c, cell, to);
+  } else if (size == GG_MD_EIGHT_WORDS) {
+    memcpy(to, cell + 1, 8 * sizeof *cell);
+    g->n += cell[0];
+  } else {
+    g->n = gg_md_append_cell(g->candidates, g->n, cell);
+  }
+}
+
+/* False: some small cell has an overflow list. */
+GG_INLINE bool gg_md_keep_gathered(gg_md_search *s, const gg_md_gathered *g)
+{
+  if (__builtin_expect(g->counts > GG_MD_SIDE_BY_SIDE, 0)) return false;
+  s->n_candidates = g->n;
+  return true;
 }
 
 /* Is there room for so many full cells? */

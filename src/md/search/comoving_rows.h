@@ -24,6 +24,7 @@ enum {
   KNOWS_IMAGES = true,
   FEW_MEET = false,
   CACHED = 6000,
+  SMALL_CELLS = true,
   PREDICTS_IN_PLACE = false
 };
 
@@ -48,8 +49,10 @@ GG_INLINE void gg_md_try_row(const gg_md *e, gg_md_search *s, const uint32_t *ro
   for (int k = range[0]; k <= range[1]; k++) {
     const uint32_t *cell = row + (size_t)x[k] * e->cells.stride;
     if (IS_SIMD && gg_md_take_cell(s, cell)) continue;
-    for (uint32_t m = 1; m <= cell[0]; m++)
-      if (cell[m] != s->grain) gg_md_try_nearest(e, s, cell[m]);
+    uint32_t found[GG_MD_MOST_IN_SMALL];
+    const uint32_t *who = gg_md_cell_members(&e->cells, cell, found);
+    for (uint32_t m = 0; m < cell[0]; m++)
+      if (who[m] != s->grain) gg_md_try_nearest(e, s, who[m]);
   }
 }
 
@@ -60,30 +63,41 @@ typedef struct gg_md_rows_seen {
 
 /* Cells x[from..to] of the rows that begin with `row` in each layer. Row by row there are so few addresses that all are
  * in registers. */
-GG_INLINE uint32_t gg_md_take_row(uint32_t *candidates, uint32_t n, const uint32_t *row, const uint32_t *const layer[3],
-                                  const uint32_t *x, const int range[2], const int deep[2], size_t stride)
+GG_INLINE void gg_md_take_row(gg_md_gathered *found, const gg_md_cells *c, const uint32_t *row,
+                              const uint32_t *const layer[3], const uint32_t *x, const int range[2], const int deep[2],
+                              size_t stride, gg_md_cell_size size)
 {
   size_t step[4];
   for (int k = range[0]; k <= range[1]; k++) step[k - range[0]] = x[k] * stride;
   for (int m = deep[0]; m <= deep[1]; m++)
-    for (int k = 0; k <= range[1] - range[0]; k++) {
-      const uint32_t *cell = layer[m + 1] + (size_t)*row * stride + step[k];
-      n = stride == 8 ? gg_md_append_small(candidates, n, cell) : gg_md_append_cell(candidates, n, cell);
-    }
-  return n;
+    for (int k = 0; k <= range[1] - range[0]; k++)
+      gg_md_gather_cell(found, c, layer[m + 1] + (size_t)*row * stride + step[k], size);
 }
 
 /* All of a window, for which there is room: what does not change is in local variables (gg_md_take_rows). */
-GG_INLINE void gg_md_take_window(const gg_md *e, gg_md_search *s, const gg_md_rows_seen *seen, const gg_md_window *w,
-                                 size_t stride)
+GG_INLINE bool gg_md_take_window(const gg_md *e, gg_md_search *s, const gg_md_rows_seen *seen, const gg_md_window *w,
+                                 size_t stride, gg_md_cell_size size)
 {
+  const gg_md_cells *c = &e->cells;
   const uint32_t *z = seen->z, y[3] = {seen->y[-1], seen->y[0], seen->y[1]}, *layer[3];
-  for (int m = w->deep[0]; m <= w->deep[1]; m++) layer[m + 1] = e->cells.cell + z[m] * stride;
-  uint32_t n = s->n_candidates;
-  n = gg_md_take_row(s->candidates, n, y + 1, layer, seen->own, w->own, w->deep, stride);
-  n = gg_md_take_row(s->candidates, n, y + 2, layer, seen->above, w->above, w->deep, stride);
-  n = gg_md_take_row(s->candidates, n, y, layer, seen->below, w->below, w->deep, stride);
-  s->n_candidates = n;
+  for (int m = w->deep[0]; m <= w->deep[1]; m++) layer[m + 1] = c->cell + z[m] * stride;
+  gg_md_gathered found = {s->candidates, s->n_candidates, 0};
+  gg_md_take_row(&found, c, y + 1, layer, seen->own, w->own, w->deep, stride, size);
+  gg_md_take_row(&found, c, y + 2, layer, seen->above, w->above, w->deep, stride, size);
+  gg_md_take_row(&found, c, y, layer, seen->below, w->below, w->deep, stride, size);
+  return gg_md_keep_gathered(s, &found);
+}
+
+static __attribute__((noinline, cold, unused)) void
+gg_md_take_overfull_window(const gg_md *e, gg_md_search *s, const gg_md_rows_seen *seen, const gg_md_window *w)
+{
+  gg_md_take_window(e, s, seen, w, GG_MD_SMALL_CELL, GG_MD_OVERFULL_CELLS);
+}
+
+GG_INLINE void gg_md_take_small_window(const gg_md *e, gg_md_search *s, const gg_md_rows_seen *seen,
+                                       const gg_md_window *w)
+{
+  if (!gg_md_take_window(e, s, seen, w, GG_MD_SMALL_CELL, GG_MD_SMALL_CELLS)) gg_md_take_overfull_window(e, s, seen, w);
 }
 
 GG_INLINE void gg_md_scan_window(const gg_md *e, gg_md_search *s, gg_md_window window)
@@ -100,10 +114,12 @@ GG_INLINE void gg_md_scan_window(const gg_md *e, gg_md_search *s, gg_md_window w
   s->regular = (uint32_t)(at[1] - 1) < layers;
   s->inside = s->regular & ((uint32_t)(at[2] - 1) < deep);
   if (IS_SIMD && gg_md_has_room(e, 33)) {
-    if (c->stride == 8)
-      gg_md_take_window(e, s, &seen, &window, 8);
+    if (c->stride == GG_MD_SMALL_CELL)
+      gg_md_take_small_window(e, s, &seen, &window);
+    else if (c->stride == 8)
+      gg_md_take_window(e, s, &seen, &window, 8, GG_MD_EIGHT_WORDS);
     else
-      gg_md_take_window(e, s, &seen, &window, c->stride);
+      gg_md_take_window(e, s, &seen, &window, c->stride, GG_MD_LARGE_CELLS);
     return;
   }
   for (int m = window.deep[0]; m <= window.deep[1]; m++) {

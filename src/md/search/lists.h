@@ -21,6 +21,7 @@ enum {
   KNOWS_IMAGES = false,
   FEW_MEET = false,
   CACHED = 6000,
+  SMALL_CELLS = false,
   PREDICTS_IN_PLACE = true
 };
 

@@ -8,6 +8,7 @@
  *   KNOWS_IMAGES   does a search know whether all candidates are in the grain's own image of the box?
  *   FEW_MEET       of those tried: worth a test whether anybody of a batch is in the way at all?
  *   CACHED         so many grains are in the cache anyway: nothing needs to be prefetched
+ *   SMALL_CELLS    may cells be small (cell_grid.h)?
  *   PREDICTS_IN_PLACE   is a stale event re-predicted within the loop, or by a call (1 to 3 % either way)? */
 #ifndef GG_MD_NEIGHBOUR_SEARCH_H
 #define GG_MD_NEIGHBOUR_SEARCH_H
@@ -53,7 +54,11 @@ GG_INLINE bool gg_md_is_velocity(gg_md *e, const gg_md_grain *g)
 
 GG_INLINE void gg_md_leave_cell(gg_md *e, uint32_t i)
 {
-  gg_md_cell_remove(gg_md_cell_at(&e->cells, e->node[i].cell), i);
+  uint32_t *cell = gg_md_cell_at(&e->cells, e->node[i].cell);
+  if (SMALL_CELLS && !IS_WALLED)
+    gg_md_cell_remove_from(&e->cells, cell, i);
+  else
+    gg_md_cell_remove(cell, i);
 }
 
 GG_INLINE void gg_md_enter_cell(gg_md *e, uint32_t i)

@@ -11,6 +11,7 @@ enum {
   KNOWS_IMAGES = false,
   FEW_MEET = true,
   CACHED = 20000,
+  SMALL_CELLS = false,
   PREDICTS_IN_PLACE = false
 };
 

@@ -19,6 +19,7 @@ enum {
   KNOWS_IMAGES = true,
   FEW_MEET = false,
   CACHED = 6000,
+  SMALL_CELLS = true,
   PREDICTS_IN_PLACE = true
 };
 
@@ -42,8 +43,10 @@ GG_INLINE void gg_md_scan_row(const gg_md *e, gg_md_search *s, int32_t from, int
     while (x >= c->n[0]) x -= c->n[0], here.x += e->box.edge[0];
     const uint32_t *cell = row + (size_t)x * c->stride;
     if (IS_SIMD && gg_md_take_cell(s, cell)) continue;
-    for (uint32_t m = 1; m <= cell[0]; m++)
-      if (cell[m] != s->grain) gg_md_try_pair(e, s, cell[m], here, image_velocity);
+    uint32_t found[GG_MD_MOST_IN_SMALL];
+    const uint32_t *who = gg_md_cell_members(c, cell, found);
+    for (uint32_t m = 0; m < cell[0]; m++)
+      if (who[m] != s->grain) gg_md_try_pair(e, s, who[m], here, image_velocity);
   }
 }
 
@@ -97,10 +100,10 @@ GG_INLINE bool gg_md_is_inside(const gg_md *e, const int32_t at[3])
          ((uint32_t)(at[2] - 1) < (uint32_t)(n[2] - 2));
 }
 
-/* The cells from `from` to `to` relative to `at`, where no wall stands. All that does not change is
- * in local variables: to the compiler, what goes into `candidates` might overwrite the rest. */
-GG_INLINE void gg_md_take_rows(const gg_md *e, gg_md_search *s, const int32_t at[3], const int from[3], const int to[3],
-                               bool small)
+/* The cells from `from` to `to` relative to `at`, where no wall stands; false: a small one has an overflow list. All
+ * that does not change is in local variables: to the compiler, what goes into `candidates` might overwrite the rest. */
+GG_INLINE bool gg_md_take_rows(const gg_md *e, gg_md_search *s, const int32_t at[3], const int from[3], const int to[3],
+                               gg_md_cell_size size)
 {
   const gg_md_cells *c = &e->cells;
   const uint32_t *x = c->part[0] + at[0], *y = c->part[1] + at[1], *z = c->part[2] + at[2];
@@ -109,14 +112,23 @@ GG_INLINE void gg_md_take_rows(const gg_md *e, gg_md_search *s, const int32_t at
   for (int k = from[0]; k <= to[0]; k++) step[k + 1] = x[k] * stride;
   for (int m = from[2]; m <= to[2]; m++)
     for (int l = from[1]; l <= to[1]; l++) row[m + 1][l + 1] = c->cell + (size_t)(z[m] + y[l]) * stride;
-  uint32_t n = s->n_candidates;
+  gg_md_gathered found = {s->candidates, s->n_candidates, 0};
   for (int m = from[2]; m <= to[2]; m++)
     for (int l = from[1]; l <= to[1]; l++)
-      for (int k = from[0]; k <= to[0]; k++) {
-        const uint32_t *cell = row[m + 1][l + 1] + step[k + 1];
-        n = small ? gg_md_append_small(s->candidates, n, cell) : gg_md_append_cell(s->candidates, n, cell);
-      }
-  s->n_candidates = n;
+      for (int k = from[0]; k <= to[0]; k++) gg_md_gather_cell(&found, c, row[m + 1][l + 1] + step[k + 1], size);
+  return gg_md_keep_gathered(s, &found);
+}
+
+static __attribute__((noinline, cold, unused)) void
+gg_md_take_overfull_rows(const gg_md *e, gg_md_search *s, const int32_t at[3], const int from[3], const int to[3])
+{
+  gg_md_take_rows(e, s, at, from, to, GG_MD_OVERFULL_CELLS);
+}
+
+GG_INLINE void gg_md_take_small_rows(const gg_md *e, gg_md_search *s, const int32_t at[3], const int from[3],
+                                     const int to[3])
+{
+  if (!gg_md_take_rows(e, s, at, from, to, GG_MD_SMALL_CELLS)) gg_md_take_overfull_rows(e, s, at, from, to);
 }
 
 static __attribute__((noinline, unused)) void
@@ -124,7 +136,7 @@ gg_md_take_rows_at_wall(const gg_md *e, gg_md_search *s, const int32_t at[3], co
 {
   const int lower[3] = {from[0], gg_md_is_wall_below(e, at) && from[1] < 0 ? 0 : from[1], from[2]};
   const int upper[3] = {to[0], gg_md_is_wall_above(e, at) && to[1] > 0 ? 0 : to[1], to[2]};
-  gg_md_take_rows(e, s, at, lower, upper, false);
+  gg_md_take_rows(e, s, at, lower, upper, GG_MD_LARGE_CELLS);
 }
 
 /* Those of them that are in the box, in SIMD kernels; false: there may be no room for all. */
@@ -133,10 +145,12 @@ GG_INLINE bool gg_md_take_box(const gg_md *e, gg_md_search *s, const int32_t at[
   if (!IS_SIMD || !gg_md_has_room(e, 27)) return false;
   if (gg_md_is_wall_below(e, at) || gg_md_is_wall_above(e, at))
     gg_md_take_rows_at_wall(e, s, at, from, to);
+  else if (!IS_WALLED && e->cells.stride == GG_MD_SMALL_CELL)
+    gg_md_take_small_rows(e, s, at, from, to);
   else if (e->cells.stride == 8)
-    gg_md_take_rows(e, s, at, from, to, true);
+    gg_md_take_rows(e, s, at, from, to, GG_MD_EIGHT_WORDS);
   else
-    gg_md_take_rows(e, s, at, from, to, false);
+    gg_md_take_rows(e, s, at, from, to, GG_MD_LARGE_CELLS);
   s->inside = gg_md_is_inside(e, at);
   return true;
 }
