@@ -283,6 +283,36 @@ static void stopped_and_left(void **state)
   md_destroy(cut);
 }
 
+static bool at_once(void *context)
+{
+  (void)context;
+  return true;
+}
+
+/* A run that is being stopped, for a checkpoint, restores replicas of other processes all the same; whoever reads the
+ * archive is asked. */
+static void restored_while_stopped(void **state)
+{
+  (void)state;
+  const gg_stop stop = {at_once, NULL};
+  gg_model m = md_model((md_case){GG_EQUILIBRIUM, 2 * GG_MD_GRAINS_BETWEEN_LOOKS, 0.1, 1, -1, INFINITY, {0}});
+  gg_md *e = md_create(&m, 1);
+  gg_engine *back = NULL;
+  gg_archive a = {0};
+  gg_error err;
+  double gone;
+  assert_int_equal(gg_md_ops.save(&e->base, &a, &err), GG_OK);
+  m.stop = &stop;
+  assert_int_equal(gg_md_ops.restore(&m, &a, &back, &err), GG_OK);
+  assert_int_equal(md_hash(e), md_hash((gg_md *)back));
+  assert_int_equal(gg_md_ops.advance(back, INFINITY, 100000, &gone, &err), GG_INTERRUPTED);
+  md_destroy((gg_md *)back);
+  m.stop = NULL, a.stop = &stop;
+  assert_int_equal(gg_md_ops.restore(&m, &a, &back, &err), GG_INTERRUPTED);
+  gg_base_archive_clear(&a);
+  md_destroy(e);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(saved_and_restored),
@@ -292,6 +322,7 @@ int main(void)
                                      cmocka_unit_test(rescaled),
                                      cmocka_unit_test(stopped),
                                      cmocka_unit_test(stopped_while_heated),
-                                     cmocka_unit_test(stopped_and_left)};
+                                     cmocka_unit_test(stopped_and_left),
+                                     cmocka_unit_test(restored_while_stopped)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
