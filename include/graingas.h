@@ -667,10 +667,8 @@ typedef struct gg_result gg_result; /* of one engine's run */
  * @param result receives the result, to be freed by gg_result_free()
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED: ended before the criteria, the result has what there is; GG_INTERRUPTED: a callback
- *   stopped it within half a second, results so far (none while a large system is placed, or theories of a
- *   comparison are evaluated), no
- *   output is written, the checkpoint can be resumed; GG_BAD_FILE: a checkpoint or
- *   the output could not be written
+ *   stopped it within half a second, results so far (none while a large system is placed), no output is written, the
+ *   checkpoint can be resumed; GG_BAD_FILE: a checkpoint or the output could not be written
  */
 GG_API gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err);
 
@@ -1051,7 +1049,7 @@ typedef struct gg_comparison gg_comparison;
  * @param options NULL: default options
  * @param comparison receives the comparison, to be freed by gg_comparison_free()
  * @param err receives the message on failure; may be NULL
- * @return as gg_run()
+ * @return as gg_run(); GG_INTERRUPTED while theories are evaluated: no comparison, nothing to resume
  */
 GG_API gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_comparison **comparison,
                             gg_error *err);

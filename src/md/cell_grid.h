@@ -26,9 +26,8 @@ typedef struct gg_md_cells {
   uint32_t stride;   /* a multiple of 8; 4: small cells */
   bool fixed;        /* others are at work in them: they do not grow */
   uint32_t *part[3]; /* an index -2 .. n + 1 along an axis: its share of the cell's number, wrapped */
-  uint32_t
-      *cell; /* stride words a cell, x fastest: how many grains, then who; readable beyond the last (cell_frame.c) */
-  uint32_t *next; /* of small cells: whom a grain leads to in an overflow list; NULL: they are not small */
+  uint32_t *cell;    /* stride words a cell, x fastest: how many grains, then who; readable beyond the last */
+  uint32_t *next;    /* of small cells: whom a grain leads to in an overflow list; NULL: they are not small */
 } gg_md_cells;
 
 /* A grid of n[] cells on the box, empty. */
