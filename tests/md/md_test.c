@@ -59,7 +59,7 @@ double md_collide(gg_md *e, uint64_t collisions)
 }
 
 /* FNV-1a. */
-static uint64_t mix(uint64_t h, const void *data, size_t bytes)
+uint64_t md_mix(uint64_t h, const void *data, size_t bytes)
 {
   const uint8_t *p = data;
   for (size_t k = 0; k < bytes; k++) h = (h ^ p[k]) * 0x100000001b3u;
@@ -72,13 +72,13 @@ uint64_t md_hash(const gg_md *e)
   for (uint32_t i = 0; i < e->n; i++) {
     const gg_md_grain *g = &e->grain[i];
     const uint32_t both = 2 * g->counter + g->species; /* as the hashes that are stored have it */
-    h = mix(h, &g->r, sizeof g->r + sizeof g->v + sizeof g->t);
-    h = mix(h, &both, sizeof both);
-    h = mix(h, &e->node[i].time, 2 * sizeof(double));
-    if (e->spin) h = mix(h, &e->spin[i], sizeof e->spin[i]);
+    h = md_mix(h, &g->r, sizeof g->r + sizeof g->v + sizeof g->t);
+    h = md_mix(h, &both, sizeof both);
+    h = md_mix(h, &e->node[i].time, 2 * sizeof(double));
+    if (e->spin) h = md_mix(h, &e->spin[i], sizeof e->spin[i]);
   }
-  h = mix(h, &e->k.now, sizeof e->k.now);
-  return mix(h, &e->k.collisions, sizeof e->k.collisions);
+  h = md_mix(h, &e->k.now, sizeof e->k.now);
+  return md_mix(h, &e->k.collisions, sizeof e->k.collisions);
 }
 
 typedef struct separation {
@@ -370,4 +370,14 @@ double md_energy(const gg_md *e)
     if (e->spin) sum += 0.5 * K * m * gg_dot(e->spin[i], e->spin[i]);
   }
   return sum;
+}
+
+uint64_t md_hash_all(gg_md *e)
+{
+  gg_collision_sums sums;
+  gg_md_ops.take_sums(&e->base, &sums);
+  uint64_t h = md_mix(md_hash(e), &sums, sizeof sums);
+  h = md_mix(h, &e->k.events, sizeof e->k.events);
+  h = md_mix(h, &e->k.treated, sizeof e->k.treated);
+  return md_mix(h, &e->k.worst_overlap, sizeof e->k.worst_overlap);
 }

@@ -31,6 +31,9 @@ void md_destroy(gg_md *e);
 double md_collide(gg_md *e, uint64_t collisions);
 /* Everything that decides how a run goes on, in 64 bits. */
 uint64_t md_hash(const gg_md *e);
+/* Of the state, the sums, which are taken, and the counts; and one more thing into a hash. */
+uint64_t md_hash_all(gg_md *e);
+uint64_t md_mix(uint64_t hash, const void *data, size_t bytes);
 
 /* The next collision, by trying every image of every pair in long double from the present state, no further
  * than `horizon` ahead. INFINITY if there is none. */

@@ -48,24 +48,6 @@ static gg_model model_of(int k)
   return md_model_of(&s);
 }
 
-static uint64_t mix(uint64_t h, const void *data, size_t bytes)
-{
-  const uint8_t *p = data;
-  for (size_t k = 0; k < bytes; k++) h = (h ^ p[k]) * 0x100000001b3u;
-  return h;
-}
-
-/* The state, the sums, which are taken, and the counts. */
-static uint64_t hash_of(gg_md *e)
-{
-  gg_collision_sums sums;
-  gg_md_ops.take_sums(&e->base, &sums);
-  uint64_t h = mix(md_hash(e), &sums, sizeof sums);
-  h = mix(h, &e->k.events, sizeof e->k.events);
-  h = mix(h, &e->k.treated, sizeof e->k.treated);
-  return mix(h, &e->k.worst_overlap, sizeof e->k.worst_overlap);
-}
-
 static gg_md *create(const gg_model *m, int threads)
 {
   gg_md *e = md_create(m, 7);
@@ -79,7 +61,7 @@ static uint64_t run(const gg_model *m, int threads, uint64_t collisions, gg_md_w
 {
   gg_md *e = create(m, threads);
   md_collide(e, collisions);
-  const uint64_t h = hash_of(e);
+  const uint64_t h = md_hash_all(e);
   if (threads > 1) *counts = e->parallel->counts;
   md_destroy(e);
   return h;
@@ -121,8 +103,8 @@ static uint64_t run_in_parts(gg_md *e)
     const uint64_t most = k % 2 ? 3001 : UINT64_MAX;
     if (gg_md_ops.advance(&e->base, k % 2 ? INFINITY : 0.05, most, &elapsed, &err) != GG_OK)
       fail_msg("%s", err.message);
-    const uint64_t part[3] = {h, hash_of(e), e->queue.current};
-    h = mix(mix(0, part, sizeof part), &elapsed, sizeof elapsed);
+    const uint64_t part[3] = {h, md_hash_all(e), e->queue.current};
+    h = md_mix(md_mix(0, part, sizeof part), &elapsed, sizeof elapsed);
   }
   return h;
 }
@@ -153,8 +135,8 @@ static void cuts_and_resumes(void **state)
     md_collide(serial, 20000);
     md_collide(two, 20000);
     md_collide(one, 20000);
-    const uint64_t h = hash_of(serial);
-    if (hash_of(two) != h || hash_of(one) != h) fail_msg("case %d", k);
+    const uint64_t h = md_hash_all(serial);
+    if (md_hash_all(two) != h || md_hash_all(one) != h) fail_msg("case %d", k);
     md_destroy(serial);
     md_destroy(two);
     md_destroy(one);
@@ -202,7 +184,7 @@ static void adapts(void **state)
   gg_md_share(shared, 2, true);
   md_collide(serial, 40000);
   md_collide(shared, 40000);
-  assert_int_equal(hash_of(serial), hash_of(shared));
+  assert_int_equal(md_hash_all(serial), md_hash_all(shared));
   const gg_md_trial *t = &shared->parallel->trial;
   assert_true(t->cost[0] > 0 && t->cost[1] > 0 && shared->parallel->counts.events > 0);
   md_destroy(serial);

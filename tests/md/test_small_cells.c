@@ -112,21 +112,6 @@ static gg_md *create(const gg_model *m, double width, bool small)
   return e;
 }
 
-static uint64_t mix(uint64_t h, const void *data, size_t bytes)
-{
-  const uint8_t *p = data;
-  for (size_t k = 0; k < bytes; k++) h = (h ^ p[k]) * 0x100000001b3u;
-  return h;
-}
-
-/* The state, the sums, which are taken, and the number of events. */
-static uint64_t hash_of(gg_md *e)
-{
-  gg_collision_sums sums;
-  gg_md_ops.take_sums(&e->base, &sums);
-  return mix(mix(md_hash(e), &sums, sizeof sums), &e->k.events, sizeof e->k.events);
-}
-
 static uint32_t overfull(const gg_md *e)
 {
   uint32_t n = 0;
@@ -142,7 +127,7 @@ static uint64_t run(const gg_model *m, int k, bool small, const gg_md_kernel *ke
   gg_md_select(e);
   if (kernel) e->kernel = kernel;
   md_collide(e, COLLISIONS);
-  const uint64_t h = hash_of(e);
+  const uint64_t h = md_hash_all(e);
   assert_int_equal(md_misplaced(e), 0);
   assert_true(overfull(e) > 10);
   md_destroy(e);
@@ -179,7 +164,7 @@ static void leave_all_bits_to_threads(void **state)
       gg_md *e = create(&m, cases[k].width, true);
       gg_md_share(e, threads, false);
       md_collide(e, 3 * COLLISIONS);
-      const uint64_t h = hash_of(e);
+      const uint64_t h = md_hash_all(e);
       serial = threads == 1 ? h : serial;
       if (h != serial) fail_msg("case %d, %d threads", k, threads);
       assert_int_equal(e->cells.stride, cases[k].grow ? 16 : 4);
