@@ -8,8 +8,8 @@
 static const char *maxwellian(void *context, const gg_facts *facts, double *values)
 {
   (void)context;
-  if (strcmp(facts->flow, "hcs") != 0) return "it describes free cooling";
-  if (facts->n_species > 1 || facts->pairs[0].beta != -1) return "it describes smooth grains of one species";
+  if (strcmp(facts->flow, "hcs") != 0) return "describes free cooling";
+  if (facts->n_species > 1 || facts->pairs[0].beta != -1) return "describes smooth grains of one species";
   values[0] = 5.0 / 12 * facts->pairs[0].contact_value * (1 - facts->pairs[0].e * facts->pairs[0].e);
   return NULL;
 }

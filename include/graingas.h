@@ -1801,7 +1801,7 @@ typedef struct gg_facts {
 
 /* `evaluate` sets one number for each of `quantities`, which are names of graingas or of the scene's own observables,
  * and returns NULL. All numbers are preset to NaN: no answer. If the theory does not apply, it returns the reason, a
- * text as for gg_callback_fail(). */
+ * text as for gg_callback_fail() that continues the name: "describes free cooling". */
 typedef struct gg_theory_definition {
   const char *name;
   const char *title, *citation, *assumptions; /* a line each; may be NULL */

@@ -20,7 +20,7 @@ VIEW = dtype("gg_collision_view")
 
 
 class DoesNotApply(Exception):
-    """Raised by a theory: the reason why it does not apply to a scene."""
+    """Raised by a theory: the reason why it does not apply to a scene, which continues its name: "describes free cooling"."""
 
 
 class Extension:
@@ -251,7 +251,8 @@ def define_theory(name, quantities, *, title=None, citation=None, assumptions=No
                  contact_value), in units of results
 
     The function returns a number, a list, or a dict of numbers by quantity; or a text, or raises DoesNotApply: the
-    reason why it does not apply. scene.add() registers the theory; theory() and scan() take it as it is.
+    reason why it does not apply, which continues the name ("describes free cooling"). scene.add() registers the theory;
+    theory() and scan() take it as it is.
     """
     quantities = [quantities] if isinstance(quantities, str) else quantities
 
