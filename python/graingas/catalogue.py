@@ -44,9 +44,13 @@ def observables():
     return table(lib.GG_CATALOGUE_OBSERVABLES)
 
 
-def quantities():
-    """Quantities of results: name, unit, doc, symbol, formula (LaTeX), when they have a mean."""
-    return table(lib.GG_CATALOGUE_QUANTITIES)
+def quantities(scene=None):
+    """Quantities of results: name, unit (of results of the scene; None: under shear), doc, symbol, formula (LaTeX), when
+    they have a mean."""
+    if scene is None:
+        return table(lib.GG_CATALOGUE_QUANTITIES)
+    with scene.held() as pointer:
+        return table(lib.GG_CATALOGUE_QUANTITIES, pointer)
 
 
 def theories():

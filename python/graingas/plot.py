@@ -8,6 +8,8 @@ import re
 
 import numpy as np
 
+from . import catalogue
+
 # Okabe and Ito's colours, told apart by the colour-blind: md, dsmc, then the theories.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
 MARKERS = "os^vD<>"
@@ -59,6 +61,13 @@ def label(name, unit=None):
     return name if unit in (None, "", "1") else f"{name} [{unit_text(unit)}]"
 
 
+def units(scene):
+    """Units of results of a scene by quantity, and of "time"."""
+    found = {name: entry.unit for name, entry in catalogue.quantities(scene).items()}
+    rate = found["collision_rate"]
+    return {**found, "time": "d/v_0" if rate == "v_0/d" else f"1/{rate}" if " " not in rate else f"1/({rate})"}
+
+
 def errors(values):
     """Error bars; none where the error is unknown."""
     return np.nan_to_num(np.asarray(values, float), posinf=0)
@@ -69,7 +78,8 @@ def plot_history(result, quantity, ax=None, **style):
     ax = new_axes(ax)
     time, values = result.history(quantity)
     ax.plot(time, values, **{"label": result.engine, "linewidth": 0.8, **style})
-    ax.set(xlabel="time", ylabel=label(quantity, result.find(quantity).unit))
+    unit = units(result.scene)
+    ax.set(xlabel=label("time", unit["time"]), ylabel=label(quantity, result.find(quantity).unit))
     return ax
 
 

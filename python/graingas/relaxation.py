@@ -8,8 +8,8 @@ from typing import Optional, Sequence
 import numpy as np
 
 from . import calls
-from .errors import BadInput
-from .plot import COLOURS, DASHES, label, legend, new_axes, styled
+from .errors import BadInput, not_found
+from .plot import COLOURS, DASHES, label, legend, new_axes, styled, units
 from .run import thread_count
 from .scene import as_scene
 from .simulation import Simulation, followed
@@ -59,7 +59,7 @@ class Relaxation:
     def __getitem__(self, quantity):
         """Engine -> TimeSeries."""
         if quantity not in self.quantities:
-            raise KeyError(f"no curve of {quantity!r}; there are: {', '.join(self.quantities)}")
+            raise not_found("curve", quantity, self.quantities)
         return {engine: of[quantity] for engine, of in self._series.items()}
 
     def z(self, quantity):
@@ -99,7 +99,8 @@ class Relaxation:
                             color=line.get_color(), alpha=0.25, linewidth=0)
         for at, changes in self.protocol:
             ax.axvline(at, color="0.7", linewidth=0.6, zorder=0)
-        ax.set(xlabel="time", ylabel=label(quantity))
+        unit = units(self.scene)
+        ax.set(xlabel=label("time", unit["time"]), ylabel=label(quantity, unit[quantity]))
         legend(ax)
         return ax
 

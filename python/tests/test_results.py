@@ -101,6 +101,7 @@ def test_pictures(comparison):
         assert isinstance(ax, matplotlib.axes.Axes) and ax.get_ylabel()
         ax.figure.savefig(f"{i}.pdf")
     assert dict(matplotlib.rcParams) == before
+    assert comparison.md.plot("temperature").get_xlabel() == r"time [$1/\gamma$]"
     ax = matplotlib.pyplot.figure().add_subplot()
     assert comparison.plot(["temperature", "N1"], ax=ax) is ax and len(ax.get_xticks()) == 2
 
