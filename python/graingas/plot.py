@@ -9,6 +9,8 @@ import re
 import numpy as np
 
 from . import catalogue
+from .errors import not_found
+from .scene import SHORT
 
 # Okabe and Ito's colours, told apart by the colour-blind: md, dsmc, then the theories.
 COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
@@ -156,9 +158,14 @@ def _lines(grid, over):
         yield solver, keys, tuple(slice(None) if dim == over else at[dim] for dim in grid.dims)
 
 
-def _longest(grid):
+def _axis(grid, over):
+    """The varied key along x; None: the one with the most values."""
     keys = [dim for dim in grid.dims if dim != "solver"]
-    return max(keys, key=lambda dim: len(grid.coords[dim]))
+    if over is None:
+        return max(keys, key=lambda dim: len(grid.coords[dim]))
+    if SHORT.get(over, over) not in keys:
+        raise not_found("varied key", over, keys)
+    return SHORT.get(over, over)
 
 
 def _relative(grid, quantity, solver):
@@ -168,16 +175,17 @@ def _relative(grid, quantity, solver):
         return mean, error
     solvers = grid.coords["solver"]
     if solver not in solvers:
-        from .errors import NotFound
-        raise NotFound(f"relative_to: there is no solver {solver!r}; there are {', '.join(solvers)}")
+        raise not_found("solver", solver, solvers)
     base = np.take(mean, [solvers.index(solver)], -1)
     return mean / base, error / abs(base)
 
 
 @styled
 def plot_sweep(grid, quantity, over=None, relative_to=None, ax=None):
+    over = _axis(grid, over)
+    if quantity not in grid.units:
+        raise not_found("quantity", quantity, [name for name in grid.values if not name.endswith("_error")])
     ax = new_axes(ax)
-    over = over or _longest(grid)
     mean, error = _relative(grid, quantity, relative_to)
     solvers = grid.coords["solver"]
     combinations = []

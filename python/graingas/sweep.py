@@ -18,7 +18,7 @@ from .result import Result
 from .run import read, reporting, thread_count
 from .scene import Scene, as_scene
 from .structs import Record, new, values
-from .theory import Grid, grid_keys
+from .theory import Grid, grid_keys, merged
 
 ffi = _c.ffi
 
@@ -175,11 +175,12 @@ class Sweep:
         found = [(i, list(_rows(point.read()))) for i, point in enumerate(self) if point.state != "missing"]
         solvers = list(dict.fromkeys(row["solver"] for _, rows in found for row in rows))
         shape = tuple(map(len, self.axes.values()))
-        arrays, units = {}, {}
+        units = merged({row["quantity"]: row["unit"]} for _, rows in found for row in rows)
+        units.update({name + "_error": unit for name, unit in units.items()})
+        arrays = {}
         for i, rows in found:
             for row in rows:
                 at = (*np.unravel_index(i, shape), solvers.index(row["solver"]))
-                units[row["quantity"]] = units[row["quantity"] + "_error"] = row["unit"]
                 for name, number in (row["quantity"], row["mean"]), (row["quantity"] + "_error", row["error"]):
                     arrays.setdefault(name, np.full((*shape, len(solvers)), math.nan))[at] = number
         return Grid([*self.axes, "solver"], {**self.axes, "solver": solvers}, arrays, units)

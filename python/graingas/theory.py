@@ -16,7 +16,8 @@ from .scene import SHORT, as_scene
 ffi = _c.ffi
 
 
-def _evaluate(scene, name):
+def _evaluate(scene, name=None):
+    """All theories, or those of these names. Raises NotFound for an unknown one."""
     call, made = calls.Call(), ffi.new("gg_comparison **")
     word = ffi.NULL if name is None else encode(name, "theory")
 
@@ -24,13 +25,18 @@ def _evaluate(scene, name):
         with serving(scene, call), scene.held() as pointer:
             check(lib.gg_theories_evaluate, pointer, word, *call.stopping, made)
         return Comparison(made[0], scene=scene)
-    return calls.left_behind(work, call)
+    try:
+        return calls.left_behind(work, call)
+    except BadInput as error:
+        if "there is no theory called" in str(error):
+            raise NotFound(str(error)) from None
+        raise
 
 
 def theories(scene, *results) -> Comparison:
     """Answers of all theories, as a Comparison without simulations, or with results of the same scene:
     theories(r.scene, r). Raises BadInput if a result has another scene."""
-    found = _evaluate(as_scene(scene).copy(), None)
+    found = _evaluate(as_scene(scene).copy())
     for result in results:
         found._take(result)
     return found
@@ -47,13 +53,7 @@ def theory(scene, name) -> Theory:
         if name not in scene._extensions:
             scene.add(name)
         name = name.name
-    try:
-        found = _evaluate(scene, name).theories
-    except BadInput as error:
-        if "theory" in str(error):
-            raise NotFound(str(error)) from None
-        raise
-    return found[name]
+    return _evaluate(scene, name).theories[name]
 
 
 class Grid:
@@ -126,6 +126,14 @@ def scan(scene, vary=None, *, theories=None, quantities=None, **keys):
     return as_xarray(_grid(axes, names, points, quantities))
 
 
+def merged(units):
+    """Units by quantity of several scenes: "gamma or v_0/d" where they differ."""
+    found = {}
+    for name, unit in dict.fromkeys(pair for some in units for pair in some.items()):
+        found[name] = f"{found[name]} or {unit}" if name in found else unit
+    return found
+
+
 def _listed(names):
     """One name, or one theory, as a list."""
     return [names] if isinstance(names, str) or hasattr(names, "add_to") else names
@@ -143,7 +151,7 @@ def _answers(scene, point, names):
 
 def _grid(axes, names, points, quantities):
     shape = (*map(len, axes.values()), len(names))
-    units = {name: unit for _, some in points for name, unit in some.items()}
+    units = merged(some for _, some in points)
     for name in quantities or ():
         if name not in units and name not in catalogue.quantities():
             raise not_found("quantity", name, units)

@@ -48,8 +48,12 @@ def test_comparisons_theories_and_pictures(short):
     assert {"md", "dsmc", "lun1991"} <= set(compared.grid().coords["solver"])
     ax = compared.plot("temperature", relative_to="enskog_hermite")
     assert "enskog_hermite" in ax.get_ylabel() and ax.get_xlabel() == "collision.e"
-    with pytest.raises(gg.NotFound):
-        compared.plot(relative_to="nobody")
+    assert compared.plot(over="e").get_xlabel() == "collision.e"
+    for wrong in {"relative_to": "nobody"}, {"over": "beta"}, {"quantity": "temprature"}:
+        with pytest.raises(gg.NotFound):
+            compared.plot(**wrong)
+    flows = gg.sweep(short, flow=["usf", "hcs"], does="theory").grid().units
+    assert flows["temperature"] == flows["temperature_error"] == "d^2 gamma^2 or v_0^2" and flows["N1"] == "1"
     theories = gg.sweep(short, e=[0.8, 0.9], does="theory")
     assert "md" not in theories.grid().coords["solver"]
     assert theories[0].read().theories["lun1991"]["temperature"] == compared[0].read().theories["lun1991"]["temperature"]

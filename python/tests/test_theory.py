@@ -58,6 +58,8 @@ def test_scan(shear):
     at = found["temperature"].sel({"collision.e": es[1], "phi": 0.2, "theory": "lun1991_lun_savage"})
     assert float(at) == gg.theory(shear.copy(e=es[1], phi=0.2), "lun1991_lun_savage")["temperature"]
     assert found["temperature"].attrs["units"] == "d^2 gamma^2"
+    flows = gg.scan(shear, flow=["usf", "hcs"], theories=["lun1991", "haff1983"], quantities=["temperature", "N1"])
+    assert flows["temperature"].attrs["units"] == "d^2 gamma^2 or v_0^2" and flows["N1"].attrs["units"] == "1"
 
 
 def test_scan_without_xarray(shear, monkeypatch):
@@ -71,6 +73,8 @@ def test_scan_of_one_name(shear):
     assert found["temperature"].shape == (2, 1) and not np.isnan(found["temperature"]).any()
     with pytest.raises(gg.NotFound, match="did you mean 'temperature'"):
         gg.scan(shear, e=[0.5], theories="lun1991", quantities=["temprature"])
+    with pytest.raises(gg.NotFound, match="did you mean 'lun1991'"):
+        gg.scan(shear, e=[0.5], theories=["lun199"])
     nothing = gg.scan(shear, e=[0.5], theories="lun1991", quantities=["wall_heat_flux"])
     assert np.isnan(nothing["wall_heat_flux"]).all()
 
