@@ -209,9 +209,9 @@ class Verdict(dict):
         self._words = words
 
     @property
-    def agrees(self) -> bool:
-        """Whether dsmc and the noise-free solution agree within chance."""
-        return self["dsmc"]["agrees"]
+    def agrees(self) -> bool | None:
+        """Whether dsmc and the noise-free solution agree within chance; None: there is nothing to compare."""
+        return self["dsmc"]["agrees"] if self["dsmc"]["values"] else None
 
     def __str__(self):
         return self._words
