@@ -290,7 +290,8 @@ class Comparison(Mapping):
             cells = [str(getattr(row, engine)) if not math.isnan(getattr(row, engine).mean) else "" for engine in engines]
             z = [""] if math.isnan(row.z) else [f"{row.z:+.1f}{'!' if row.beyond else ''}"]
             answers = [tables.number(theory[name]) if name in theory else "" for theory in theories.values()]
-            rows.append([name, row.unit, *cells, *(z if len(engines) == 2 else []), *answers])
+            if any(cells) or any(answers):
+                rows.append([name, row.unit, *cells, *(z if len(engines) == 2 else []), *answers])
         return head, rows
 
     def __repr__(self):
