@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import inspect
 import math
+import re
 from collections import deque
 
 import numpy as np
@@ -300,6 +301,7 @@ def define_law(law, name="own") -> Law:
     Speeds have the units of results. The function is called at every collision; a table is the fastest.
     """
     if hasattr(law, "address"):
+        _check_signature(str(getattr(law, "_sig", "")))
         made = Law(name, law)
         made.address = int(law.address)
     elif callable(law):
@@ -309,6 +311,13 @@ def define_law(law, name="own") -> Law:
         made = Law(name, None)
         made.table = _law_table(law)
     return made
+
+
+def _check_signature(found):
+    """That of a numba.cfunc: with another one the library would read other registers."""
+    if found and not re.fullmatch(r"\(\S+\*, float64, int32, int32\) -> float64", found):
+        raise TypeError(f'define_law: the compiled function is {found}; expected '
+                        'numba.cfunc("float64(voidptr, float64, int32, int32)")')
 
 
 def _positional(function):

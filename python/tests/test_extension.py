@@ -99,6 +99,9 @@ def test_compiled_law(short):
         return 0.7
     compiled = gg.run(short.copy().add(gg.define_law(law)))["temperature"]
     assert compiled.mean == gg.run(short.copy().add(gg.define_law(lambda g: 0.7)))["temperature"].mean
+    for wrong, function in ("float32(float32)", lambda g: 0.7), ("float64(float64, int32, int32)", lambda g, i, j: 0.7):
+        with pytest.raises(TypeError, match="float64.voidptr"):
+            gg.define_law(numba.cfunc(wrong)(function))
 
 
 def test_law_in_a_simulation(short):
