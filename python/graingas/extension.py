@@ -64,7 +64,7 @@ def _first_line(function):
 class Sample:
     """What an observable is shown at the end of a sampling interval, valid during the call only.
 
-    time, elapsed, n, n_species, volume, collisions, dissipation, box (3), stress (xx, yy, zz, xy, yx)
+    time, elapsed, n, n_species, volume, collisions, dissipation, box (3), stress (3, 3; collisional: xx, yy, zz, xy, yx)
     position (n, 3; None in dsmc), velocity (n, 3; peculiar), spin (n, 3; None for smooth grains), species (n,),
     mass, diameter, inertia (of each species)
     """

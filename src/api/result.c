@@ -135,7 +135,12 @@ gg_status gg_result_history(const gg_result *result, const char *quantity, size_
     if (value) *value = result->history.value[k];
     return GG_OK;
   }
-  return gg_base_fail(err, GG_BAD_INPUT, "'%s' is not followed in time", quantity);
+  char followed[300] = "";
+  for (int k = 0; k < GG_N_HISTORY; k++)
+    if (result->history.value[k])
+      gg_base_text_append(followed, sizeof followed, "%s%s", *followed ? ", " : "",
+                          gg_common_quantity_name(gg_common_quantity_of_history(k)));
+  return gg_base_fail(err, GG_BAD_INPUT, "'%s' is not followed in time; allowed: %s", quantity, followed);
 }
 
 /* NULL with the message after the last. */

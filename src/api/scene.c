@@ -214,7 +214,8 @@ gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)
   if (strcmp(use, "compare") == 0) {
     uses |= GG_USE_MD | GG_USE_DSMC;
   } else if (strcmp(use, "theory") != 0) {
-    GG_TRY(gg_api_engine_find(use, &kind, err));
+    if (gg_api_engine_find(use, &kind, NULL) != GG_OK)
+      return gg_base_fail(err, GG_BAD_INPUT, "use '%.40s' is not allowed; allowed: md, dsmc, compare, theory", use);
     uses = 1u << kind;
   }
   GG_TRY(gg_api_scene_finish(scene, &finished, err));

@@ -352,6 +352,7 @@ static void unknown_names(void **state)
   assert_missing(gg_scene_warnings(NULL, "md", line, NULL, &err));
   assert_missing(gg_scene_warnings(s, NULL, line, NULL, &err));
   assert_missing(gg_scene_warnings(s, "md", NULL, NULL, &err));
+  assert_refused(gg_scene_warnings(s, "both", line, NULL, &err), "allowed: md, dsmc, compare, theory");
   assert_ok(gg_scene_set(s, "run", "{collisions: 200}", &err));
   assert_ok(gg_run(s, NULL, &r, &err));
   assert_refused(gg_result_get(r, "N7", &x, NULL, &err), "there is no quantity called 'N7'");

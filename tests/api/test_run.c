@@ -249,7 +249,7 @@ static void missing_quantities(void **state)
   assert_true(isnan(m.mean) && m.reason && m.reason[0]);
   assert_null(gg_result_unit(r, "temperature_ratio"));
   assert_string_equal(gg_result_unit(r, "temperature"), "d^2 gamma^2");
-  assert_refused(gg_result_history(r, "N1", &n, NULL, NULL, &err), "not followed");
+  assert_refused(gg_result_history(r, "N1", &n, NULL, NULL, &err), "not followed in time; allowed: temperature, ");
   const char *const followed[] = {"temperature",
                                   "rotational_temperature",
                                   "temperature_ratio",
