@@ -120,9 +120,15 @@ class Observable(Extension):
             definition.collision = lib.ggpy_view
         check(lib.gg_scene_add_observable, scene, definition)
 
-    def state_array(self, pointer):
-        """The state of a replica, in place."""
-        return np.frombuffer(ffi.buffer(pointer, 8 * self.state)) if self.state else None
+    def call(self, function, view, pointer):
+        """function(view), or function(view, state) on a copy of a replica's state, which a function may keep."""
+        if not self.state:
+            return function(view)
+        memory = np.frombuffer(ffi.buffer(pointer, 8 * self.state))
+        state = memory.copy()
+        found = function(view, state)
+        memory[:] = state
+        return found
 
     def store(self, found, into):
         """What the function returned, as one number a quantity."""
@@ -144,8 +150,7 @@ def ggpy_sample(context, state, pointer, into):
     try:
         sample = Sample(pointer)
         try:
-            arguments = (sample, observable.state_array(state)) if observable.state else (sample,)
-            observable.store(observable.function(*arguments), into)
+            observable.store(observable.call(observable.function, sample, state), into)
         finally:
             sample.close()
     except BaseException as error:
@@ -156,8 +161,7 @@ def ggpy_sample(context, state, pointer, into):
 def ggpy_view(context, state, pointer):
     observable = ffi.from_handle(context)
     try:
-        view = copy_of(pointer, VIEW)
-        observable.collision(*((view, observable.state_array(state)) if observable.state else (view,)))
+        observable.call(observable.collision, copy_of(pointer, VIEW), state)
     except BaseException as error:
         observable.fail(error)
 

@@ -181,6 +181,22 @@ def test_from_own_observable():
         inner.kept.velocity
 
 
+def test_state_that_is_kept():
+    """Of an observable: large enough for its memory to be returned to the system after the run."""
+    kept = []
+
+    @gg.define_observable("counter", state=100000)
+    def counter(sample, state):
+        state[0] += 1
+        kept.append(state)
+        return state[0]
+    gg.run(scene().add(counter))
+    gc.collect()
+    for i, state in enumerate(kept):
+        assert state[0] == i + 1
+        state[:] = 1.5
+
+
 def test_own_law_uses_the_simulation():
     uses = []
 
