@@ -83,7 +83,7 @@ def _finish(call, status, error, made):
 def _long_run(function, kind, engines, scene, threads, progress, accept_version, files):
     scene = as_scene(scene).copy()
     call, error = calls.Call(), new_error()
-    options = _options(call, threads, accept_version, files)
+    options = _options(call, threads, accept_version, {**files, "input": scene._file})
     made = ffi.new(kind + " **")
     with serving(scene, call), reporting(progress, engines) as report:
         with scene.held() as pointer:

@@ -108,26 +108,27 @@ class Scene(Mapping):
     def __init__(self, source=None, **keys):
         changes = _flatten(keys)
         pointer = _load(source, changes)
-        self._adopt(pointer, source._extensions if isinstance(source, Scene) else ())
+        self._adopt(pointer, source._extensions if isinstance(source, Scene) else (), _file_of(source))
         for key, value in changes.items():
             self[key] = value
 
-    def _adopt(self, pointer, extensions):
+    def _adopt(self, pointer, extensions, file=None):
         object.__setattr__(self, "_handle", Handle(pointer, lib.gg_scene_free, "scene"))
         object.__setattr__(self, "_extensions", list(extensions))
+        object.__setattr__(self, "_file", file)  # that it was read from, which no output may replace
 
     @classmethod
-    def _from_pointer(cls, pointer, extensions=()):
+    def _from_pointer(cls, pointer, extensions=(), file=None):
         made = cls.__new__(cls)
-        made._adopt(pointer, extensions)
+        made._adopt(pointer, extensions, file)
         return made
 
     @classmethod
-    def _copy_of(cls, pointer, extensions=()):
+    def _copy_of(cls, pointer, extensions=(), file=None):
         """A scene that the library lends."""
         copy = ffi.new("gg_scene **")
         check(lib.gg_scene_copy, pointer, copy)
-        return cls._from_pointer(copy[0], extensions)
+        return cls._from_pointer(copy[0], extensions, file)
 
     def held(self):
         return self._handle.held(PATIENCE)
@@ -174,7 +175,7 @@ class Scene(Mapping):
             raise AttributeError(str(error)) from None
 
     def __setattr__(self, name, value):
-        if name in ("_handle", "_extensions"):
+        if name in ("_handle", "_extensions", "_file"):
             raise AttributeError(f"{name} cannot be set")
         self[name] = value
 
@@ -220,7 +221,7 @@ class Scene(Mapping):
     def copy(self, **keys) -> Scene:
         """A copy with some keys changed, and with the observables, theories and law of the scene."""
         with self.held() as scene:
-            copy = Scene._copy_of(scene, self._extensions)
+            copy = Scene._copy_of(scene, self._extensions, self._file)
         for key, value in _flatten(keys).items():
             copy[key] = value
         return copy
@@ -338,11 +339,21 @@ def _load(source, changes):
             check(lib.gg_scene_copy, scene, made)
     elif isinstance(source, dict):
         check(lib.gg_scene_parse, encode(yaml.nested({k: yaml.write(v) for k, v in _flatten(source).items()})), b"scene", made)
-    elif isinstance(source, str) and (":" in source or "\n" in source) and not _is_file(source):
+    elif _is_text(source):
         check(lib.gg_scene_parse, encode(source, "scene"), b"scene", made)
     else:
         check(lib.gg_scene_load, encode(source, "file name"), made)
     return made[0]
+
+
+def _is_text(source):
+    return isinstance(source, str) and (":" in source or "\n" in source) and not _is_file(source)
+
+
+def _file_of(source):
+    if isinstance(source, Scene):
+        return source._file
+    return None if source is None or isinstance(source, dict) or _is_text(source) else os.path.abspath(source)
 
 
 def _is_file(name):

@@ -21,6 +21,20 @@ def means(result):
     return {name: estimate.mean for name, estimate in result.items()}
 
 
+def test_no_output_replaces_the_scene(short):
+    """Its file, also by another name of it, and that of a copy."""
+    text = short.to_yaml()
+    with open("s.yaml", "w", encoding="utf-8") as file:
+        file.write(text)
+    scene = gg.Scene("s.yaml")
+    for call in (lambda: gg.run("s.yaml", output="./s.yaml"), lambda: gg.run(scene.copy(e=0.8), output="s.yaml"),
+                 lambda: gg.compare(gg.Scene(scene), checkpoint=os.path.abspath("s.yaml"))):
+        with pytest.raises(gg.BadInput, match="the scene"):
+            call()
+    with open("s.yaml", encoding="utf-8") as file:
+        assert file.read() == text
+
+
 def test_numbers_are_those_of_the_command(short):
     with open("s.yaml", "w", encoding="utf-8") as file:
         file.write(short.to_yaml())
