@@ -82,6 +82,9 @@ def plot_history(result, quantity, ax=None, **style):
     ax.plot(time, values, **{"label": result.engine, "linewidth": 0.8, **style})
     unit = units(result.scene)
     ax.set(xlabel=label("time", unit["time"]), ylabel=label(quantity, result.find(quantity).unit))
+    known = values[np.isfinite(values)]
+    if len(known) and 0 < 100 * known.min() < known.max():  # free cooling: a power of time
+        ax.set(xscale="log", yscale="log")
     return ax
 
 

@@ -108,6 +108,12 @@ def test_pictures(comparison):
     assert comparison.plot(["temperature", "N1"], ax=ax) is ax and len(ax.get_xticks()) == 2
 
 
+def test_picture_of_cooling(short):
+    pytest.importorskip("matplotlib")
+    ax = gg.run(short.copy(flow="hcs", e=0.5)).plot()
+    assert (ax.get_xscale(), ax.get_yscale()) == ("log", "log") and ax.get_xlabel() == "time [$d/v_0$]"
+
+
 def test_estimates_by_hand():
     a, b = gg.Estimate(2.0, 0.3), gg.Estimate(5.0, 0.4)
     assert ((a + b).mean, (a + b).error) == (7, pytest.approx(0.5))
