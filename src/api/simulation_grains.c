@@ -66,7 +66,9 @@ static gg_status check_spins(const gg_model *m, const double *spin, size_t n, gg
 
 static gg_status check(const gg_model *m, const gg_grains *g, size_t n, gg_error *err)
 {
-  if (n != (size_t)m->n) return gg_base_fail(err, GG_BAD_INPUT, "%zu grains; the scene has %lld", n, (long long)m->n);
+  if (n != (size_t)m->n)
+    return gg_base_fail(err, GG_BAD_INPUT, "%zu grains; the scene has %lld (%s)", n, (long long)m->n,
+                        m->homogeneous ? "dsmc.particles" : "particles");
   if (g->position && m->homogeneous)
     return gg_base_fail(err, GG_BAD_INPUT, "dsmc is spatially homogeneous: it takes no positions");
   GG_TRY(check_numbers("position", g->position, n, err));

@@ -271,7 +271,7 @@ static void refusals(void **state)
   gg_simulation *m = simulation_of("{flow: hcs, phi: 0.001, particles: 50}");
   const double edge = state_of(m).box[0];
   assert_ok(gg_simulation_get_grains(m, &all, &err));
-  refused(m, &all, 49, "49 grains; the scene has 50");
+  refused(m, &all, 49, "49 grains; the scene has 50 (particles)");
   velocity[7] = NAN;
   refused(m, &all, 50, "velocity of grain 2: nan along y");
   velocity[7] = 1e80;
@@ -320,6 +320,7 @@ static void refusals(void **state)
 
   m = simulation_of(gases[7].yaml);
   refused(m, &all, 203, "it takes no positions");
+  refused(m, &all, 202, "202 grains; the scene has 203 (dsmc.particles)");
   memset(velocity, 0, sizeof velocity);
   assert_ok(gg_simulation_get_grains(m, &moving2, &err));
   const gg_grains rest = {NULL, velocity, NULL, NULL};
