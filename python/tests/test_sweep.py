@@ -79,6 +79,9 @@ def test_validate():
     assert gg.Verdict({"dsmc": {"agrees": False, "values": 9}}, "").agrees is False
     again = gg.Sweep.load("g")
     assert [point.state for point in again] == ["done"] * 2 and again.does == "compare" and again.validate() == verdict
+    for sweep, file in (again, "g/sweep.yaml"), (gg.Sweep.load("grid.yaml", does="compare", folder="g"), "./grid.yaml"):
+        with pytest.raises(gg.BadInput, match="overwritten by its own page"):
+            sweep.validate(page=file)
     assert again.axes == {"collision.e": [0.8, 0.9]}
     assert gg.Sweep.load("grid.yaml").does == "run" and gg.Sweep.load("grid.yaml", does="theory").does == "theory"
 

@@ -25,7 +25,7 @@ char *gg_cli_options_beside(const gg_options *o, const char *suffix)
   return gg_cli_path_with_suffix(strcmp(o->input, "-") == 0 ? "stdin" : slash ? slash + 1 : o->input, suffix);
 }
 
-static bool same_file(const char *a, const char *b)
+bool gg_cli_file_is_same(const char *a, const char *b)
 {
   struct stat one, two;
   return stat(a, &one) == 0 && stat(b, &two) == 0 && one.st_dev == two.st_dev && one.st_ino == two.st_ino;
@@ -35,7 +35,7 @@ char *gg_cli_options_output(const gg_options *o, const char *suffix, gg_error *e
 {
   char *output = o->output ? strdup(o->output) : gg_cli_options_beside(o, suffix);
   if (!output) gg_cli_refuse(err, GG_FAILED, "out of memory");
-  if (!output || !same_file(output, o->input)) return output;
+  if (!output || !gg_cli_file_is_same(output, o->input)) return output;
   gg_cli_refuse(err, GG_BAD_INPUT, "%s: would be overwritten by its own result; choose another --output", o->input);
   free(output);
   return NULL;

@@ -13,6 +13,8 @@ char *gg_cli_options_beside(const gg_options *options, const char *suffix);
 /* "results: usf.h5", and whether an older one was there. */
 void gg_cli_report_written(const gg_options *options, const char *what, const char *path, bool replaced);
 bool gg_cli_file_exists(const char *path);
+/* Both are there, under whatever names. */
+bool gg_cli_file_is_same(const char *a, const char *b);
 /* A device or a pipe: no file results, and none beside it. */
 bool gg_cli_file_is_device(const char *path);
 /* `path` with another ending, or with one where it had none; to be freed. */

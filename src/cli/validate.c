@@ -76,6 +76,8 @@ static int check_together(const gg_options *o)
     return gg_cli_fail(GG_BAD_INPUT, "option '--quick' is for the standard grid, without a file");
   if (o->point && o->page) return gg_cli_fail(GG_BAD_INPUT, "options '--point' and '--page' do not go together");
   if (o->json && o->list) return gg_cli_fail(GG_BAD_INPUT, "options '--list' and '--json' do not go together");
+  if (o->page && o->input && gg_cli_file_is_same(o->page, o->input))
+    return gg_cli_fail(GG_BAD_INPUT, "%s: would be overwritten by its own page; choose another --page", o->input);
   if (o->point && o->list) return gg_cli_fail(GG_BAD_INPUT, "options '--list' and '--point' do not go together");
   return GG_CLI_GO_ON;
 }

@@ -141,9 +141,11 @@ def test_a_planted_deviation():
 def test_options():
     for args, words in ((("--quick",), "without a file"), (("--point", "1", "--page", "p.md"), "do not go together"),
                         (("--point", "9"), "from 1 to 8"), (("--show", "colour"), "no point has a quantity 'colour'"),
-                        (("--picture", "maps.bmp"), "not .bmp")):
+                        (("--page", "./g.yaml"), "overwritten by its own page"), (("--picture", "maps.bmp"), "not .bmp")):
         done = validated(*args)
         check(done.code == 2 and words in done.err, args, done.code, done.err)
+    with open("g.yaml") as f:
+        check(f.read() == GRID, "the sweep's file is as it was")
     done = run("validate", "--list")
     check(done.code == 0 and "compare at 144 points" in done.out, done.out[-200:], done.err)
     done = run("validate", "--quick", "--list")
