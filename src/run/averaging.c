@@ -20,20 +20,16 @@ static void give_back(void)
 #endif
 }
 
-static gg_status store_checkpoint(gg_replicas *all, gg_error *err)
+gg_status gg_run_replicas_store(gg_replicas *all, gg_error *err)
 {
   gg_archive archive = {0};
+  if (!all->callbacks || !all->callbacks->checkpoint) return GG_OK;
   gg_status status = gg_run_replicas_save(all, &archive, err);
   if (status == GG_OK) status = all->callbacks->checkpoint(all->callbacks->context, &archive, err);
   gg_base_archive_clear(&archive);
   give_back();
   all->last_checkpoint = gg_base_clock_wall();
   return status;
-}
-
-static bool checkpoints(const gg_replicas *all)
-{
-  return all->callbacks && all->callbacks->checkpoint;
 }
 
 /* Sampling intervals follow the collision rate before averaging, and where the temperature never stands still. */
@@ -104,11 +100,11 @@ static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
     if (gg_run_replicas_are_level(all)) all->state.due += step(all, due - all->state.due);
     gg_status status = gg_run_replicas_advance(all, next_of(all), adapts(all), pauses_for_checkpoint, err);
     if (status == GG_INTERRUPTED && is_over(all)) return GG_OK;
-    if (status == GG_INTERRUPTED && checkpoints(all)) GG_TRY(store_checkpoint(all, err));
+    if (status == GG_INTERRUPTED) GG_TRY(gg_run_replicas_store(all, err));
     if (status != GG_OK) return status;
     if (gg_run_replicas_are_level(all)) check_arrest(all);
     gg_run_replicas_report_progress(all, false);
-    if (gg_run_replicas_checkpoint_is_due(all)) GG_TRY(store_checkpoint(all, err));
+    if (gg_run_replicas_checkpoint_is_due(all)) GG_TRY(gg_run_replicas_store(all, err));
     if (is_over(all)) return GG_OK;
   }
   return GG_OK;
@@ -195,5 +191,5 @@ gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err)
     }
   }
   gg_run_replicas_report_progress(all, true);
-  return checkpoints(all) ? store_checkpoint(all, err) : GG_OK; /* over before its time */
+  return gg_run_replicas_store(all, err); /* over before its time */
 }

@@ -91,6 +91,7 @@ double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model
   const uint64_t n = gg_run_relaxation_samples(scene);
   gg_relaxing x = gg_theory_relaxation_start(model);
   x.work /= 2; /* every run begins with this */
+  x.stop = model->stop;
   x.stride = 1.5;
   double sum = 0, T = x.T;
   int made = 0;
@@ -145,22 +146,35 @@ gg_mean gg_run_relaxation_end(const gg_replicas *all, gg_quantity q)
   return over_replicas(all, &f, r->offset[k], r->series.n - 1);
 }
 
+#define LITTLE 0.05 /* seconds of processor time: who interrupts a run waits for its result */
+
 /* What kinetic theory has at each of the times, from the temperatures of the start on; NaN after a change to a gas that
- * it has nothing for. */
+ * it has nothing for, and of an interrupted run where it takes long. */
 static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *err)
 {
   const gg_scene *s = &all->scene;
+  const gg_run_callbacks *of = all->callbacks;
+  const gg_stop stop = {of ? of->interrupted : NULL, of ? of->context : NULL}; /* no time limit */
+  const bool interrupted = stop.asked && gg_stop_asked(&stop);
   gg_relaxing x = gg_theory_relaxation_start(&all->model);
+  if (interrupted) x.work = LITTLE;
+  x.stop = stop.asked && !interrupted ? &stop : NULL;
   int changes = 0;
   gg_status status = GG_OK;
-  gg_model *model = gg_base_array_new(1, sizeof *model, err);
+  gg_model *model = gg_base_array_new(2, sizeof *model, err), *start = model + 1;
   if (!model) return GG_FAILED;
+  *start = all->model;
+  start->stop = stop.asked ? &stop : NULL;
   for (size_t k = 0; status == GG_OK && k < all->replica[0].series.n; k++) {
     if (k > 0) gg_theory_relax(model, gg_run_relaxation_time(s, k) - gg_run_relaxation_time(s, k - 1), &x);
+    if (x.stop) status = gg_stop_check(x.stop, err);
     at[k] = x;
-    if (k > 0 && changes == gg_scene_protocol_count(s, user_time(s, k))) continue;
-    status = gg_run_relaxation_model(s, &all->model, k, model, &changes, err);
-    if (status == GG_OK && !gg_theory_relaxation_name(model)) x = gg_theory_relaxation_lost();
+    if (status != GG_OK || (k > 0 && changes == gg_scene_protocol_count(s, user_time(s, k)))) continue;
+    status = gg_run_relaxation_model(s, start, k, model, &changes, err);
+    if (status == GG_INTERRUPTED && interrupted)
+      status = GG_OK, x = gg_theory_relaxation_lost();
+    else if (status == GG_OK && !gg_theory_relaxation_name(model))
+      x = gg_theory_relaxation_lost();
   }
   free(model);
   return status;

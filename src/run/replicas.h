@@ -121,6 +121,8 @@ gg_status gg_run_replicas_advance(gg_replicas *all, uint64_t due, bool adapt, bo
 
 /* averaging.c: warm-up and averaging, until the stopping criteria are met or the time limit. */
 gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err);
+/* A checkpoint to the caller's callback, if there is one. */
+gg_status gg_run_replicas_store(gg_replicas *all, gg_error *err);
 /* progress.c: report to the caller's callback, if there is one; `over`: the run is. */
 void gg_run_replicas_report_progress(gg_replicas *all, bool over);
 bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all);

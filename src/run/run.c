@@ -30,7 +30,9 @@ static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
 static gg_status run_replicas(gg_replicas *all, gg_result **out, gg_error *err)
 {
   gg_status status = gg_run_replicas_run(all, err);
-  if (status == GG_OK) status = report(all, out, err);
+  const bool ended = status == GG_OK;
+  if (ended) status = report(all, out, err);
+  if (ended && status == GG_INTERRUPTED && gg_run_replicas_store(all, err) != GG_OK) status = GG_BAD_FILE;
   bool cut_short = status == GG_INTERRUPTED || status == GG_BAD_FILE; /* a checkpoint that cannot be written */
   if (cut_short) report(all, out, NULL);
   if (status == GG_INTERRUPTED && *out) gg_run_result_warn(*out, "interrupted: these are the results so far");

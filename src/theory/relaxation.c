@@ -113,7 +113,8 @@ static void relax_moments(const gg_model *m, double time, gg_relaxing *x)
 static void relax_temperatures(const gg_model *m, double time, gg_relaxing *x)
 {
   const double seconds = 1e-6; /* of a step */
-  while (time > 0 && x->work >= 0) {
+  for (unsigned k = 1; time > 0 && x->work >= 0; k++) {
+    if (k % 1024 == 0 && x->stop && gg_stop_asked(x->stop)) return;
     const double rate = gg_common_model_collision_rate(m, x->T);
     const double fastest =
         rate + 2 * fabs(drag_of(m)) + noise_of(m) / x->T + (m->bath.on ? 2 * m->bath.spin_drag[0] : 0);

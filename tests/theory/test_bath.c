@@ -227,6 +227,30 @@ static void start_decides(void **state)
   }
 }
 
+static bool loses_patience(void *bears)
+{
+  return (*(int *)bears)-- <= 0;
+}
+
+/* Temperatures in many short steps, moments in long ones: both look on their way whether to stop, and end there. */
+static void ways_that_stop(void **state)
+{
+  (void)state;
+  const gg_flow flows[] = {GG_HSS, GG_USF};
+  for (int k = 0; k < 2; k++) {
+    gg_scene s = bath(flows[k], 0.005, 0.9, -1, 0.18, 0.01);
+    s.temperature = 400;
+    const gg_model m = model_of(&s);
+    int bears = 10;
+    const gg_stop stop = {loses_patience, &bears};
+    gg_relaxing x = gg_theory_relaxation_start(&m);
+    x.stop = &stop;
+    gg_theory_relax(&m, 5000, &x);
+    assert_int_equal(bears, -1);
+    assert_true(x.work > 0);
+  }
+}
+
 /* A sheared suspension has a hot and a cold state at one drag, beside Monte Carlo of 100 000 grains. In the cold one
  * few grains are much hotter than the rest: about Gaussians of usual width the solver is 3 % low at drag .18. At .16
  * Monte Carlo has no cold state. */
@@ -274,7 +298,8 @@ int main(void)
       cmocka_unit_test(balance),     cmocka_unit_test(elastic),       cmocka_unit_test(rotation),
       cmocka_unit_test(white_noise), cmocka_unit_test(gaussian_rate), cmocka_unit_test(sheared),
       cmocka_unit_test(energy),      cmocka_unit_test(mixtures),      cmocka_unit_test(relaxation),
-      cmocka_unit_test(two_states),  cmocka_unit_test(start_decides), cmocka_unit_test(refused),
+      cmocka_unit_test(two_states),  cmocka_unit_test(start_decides), cmocka_unit_test(ways_that_stop),
+      cmocka_unit_test(refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

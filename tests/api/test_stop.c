@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What lasts looks often whether to stop, also before and after the work of an engine; what was stopped leaves no file.
+ * Counted in looks, not in time. */
+#include <stdbool.h>
+
+#include "api_test.h"
+
+typedef struct patience {
+  const char *checkpoint;
+  int looks, samples;
+  int from;  /* sample from whose end on looks count */
+  int bears; /* looks before it stops */
+} patience;
+
+static int loses_patience(void *context)
+{
+  patience *p = context;
+  return p->samples >= p->from && p->looks++ >= p->bears;
+}
+
+static void count_sample(void *context, void *state, const gg_sample *now, double *values)
+{
+  (void)state;
+  patience *p = context;
+  p->samples++;
+  values[0] = now->velocity[0];
+}
+
+/* Followed for so long that kinetic theory has to be followed for its second or two, and md hardly works. */
+static gg_status follow(patience *p, const char *yaml, gg_result **r, gg_error *err)
+{
+  static const gg_quantity_definition q = {"one", "1", "a number"};
+  gg_scene *s = scene_of(yaml);
+  gg_status status = gg_scene_add_observable(
+      s,
+      &(gg_observable_definition){
+          .name = "own", .n_quantities = 1, .quantities = &q, .sample = count_sample, .context = p},
+      err);
+  if (status == GG_OK)
+    status = gg_run(s, &(gg_run_options){.stop = loses_patience, .checkpoint = p->checkpoint, .context = p}, r, err);
+  gg_scene_free(s);
+  return status;
+}
+
+/* Long beside what the engine does of it. */
+static const char followed[] =
+    "{flow: hcs, engine: dsmc, phi: 0.05, dsmc: {particles: 40}, collision: {e: 0.9}, run: {duration: 30000}, "
+    "species: [{fraction: 0.4}, {fraction: 0.3, mass: 2}, {fraction: 0.2, mass: 3}, {fraction: 0.1, mass: 4}]}";
+
+/* An estimate of the cost comes before the engine. */
+static void before_followed_runs(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_result *r = NULL;
+  patience p = {.bears = 100};
+  assert_int_equal(follow(&p, followed, &r, &err), GG_INTERRUPTED);
+  assert_int_equal(p.samples, 0);
+  gg_result_free(r);
+}
+
+static bool has_theory(const gg_result *r)
+{
+  gg_error err;
+  gg_curve_data c;
+  for (size_t k = 0; gg_result_curve(r, k, &c, &err) == GG_OK; k++)
+    if (c.law && !isnan(c.law[c.n - 1])) return true;
+  return false;
+}
+
+/* The curves' theory comes after it: a run that is stopped there has its result, without what would last, and can be
+ * resumed. */
+static void after_followed_runs(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_result *r = NULL;
+  patience whole = {.bears = 1 << 30}, p;
+  assert_ok(follow(&whole, followed, &r, &err));
+  assert_true(has_theory(r));
+  gg_result_free(r);
+  for (int part = 0; part < 3; part++) {
+    r = NULL;
+    p = (patience){.from = whole.samples, .bears = 100 + 50 * part, .checkpoint = "t_end.h5"};
+    assert_int_equal(follow(&p, followed, &r, &err), GG_INTERRUPTED);
+    assert_int_equal(p.samples, whole.samples);
+    assert_non_null(r);
+    assert_false(has_theory(r));
+    gg_result_free(r);
+    assert_int_equal(unlink("t_end.h5"), 0);
+  }
+}
+
+/* What takes no time is there: of a run that is stopped on its way, too. */
+static void short_theory_of_stopped_runs(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_result *r = NULL;
+  patience p = {.from = 50};
+  assert_int_equal(
+      follow(&p,
+             "{flow: hcs, engine: dsmc, phi: 0.05, dsmc: {particles: 4000}, collision: {e: 0.9}, run: {duration: 300}}",
+             &r, &err),
+      GG_INTERRUPTED);
+  assert_true(has_theory(r));
+  gg_result_free(r);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(before_followed_runs),
+      cmocka_unit_test(after_followed_runs),
+      cmocka_unit_test(short_theory_of_stopped_runs),
+  };
+  return cmocka_run_group_tests(tests, enter_folder, leave_folder);
+}
