@@ -930,10 +930,13 @@ GG_API gg_status gg_result_to_json(const gg_result *result, char **text, gg_erro
  * Write the HDF5 (H5MD) result file; it appears whole or not at all.
  * @param result the result
  * @param path file name
+ * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
+ * @param context passed to stop
  * @param err receives the message on failure; may be NULL
- * @return GG_OK; GG_BAD_FILE
+ * @return GG_OK; GG_BAD_FILE; GG_INTERRUPTED by stop
  */
-GG_API gg_status gg_result_write(const gg_result *result, const char *path, gg_error *err);
+GG_API gg_status gg_result_write(const gg_result *result, const char *path, int (*stop)(void *context), void *context,
+                                 gg_error *err);
 
 /**
  * Read a result file. User-defined quantities keep their names, not their callbacks.
@@ -1262,10 +1265,13 @@ GG_API gg_status gg_comparison_to_json(const gg_comparison *comparison, char **t
  * Write the HDF5 file of a comparison; it appears whole or not at all.
  * @param comparison the comparison
  * @param path file name
+ * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
+ * @param context passed to stop
  * @param err receives the message on failure; may be NULL
- * @return GG_OK; GG_BAD_FILE
+ * @return GG_OK; GG_BAD_FILE; GG_INTERRUPTED by stop
  */
-GG_API gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, gg_error *err);
+GG_API gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, int (*stop)(void *context),
+                                     void *context, gg_error *err);
 
 /**
  * Read the file of a comparison, or of a run as a comparison of one.
@@ -1538,6 +1544,7 @@ typedef struct gg_validating {
   void (*warn)(void *context,
                const char *message); /* of maps that cannot be drawn, and of other builds; NULL: nobody */
   int json;                          /* not 0: the verdict is one JSON document, for programs */
+  int (*stop)(void *context);        /* polled between points and between maps; returns non-zero to interrupt */
 } gg_validating;
 
 /**
@@ -1552,7 +1559,8 @@ typedef struct gg_validating {
  * NULL
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED where dsmc and the noise-free solution disagree beyond chance (one grid in 1000 without any
- * fault does), or no point is finished; GG_BAD_INPUT if the sweep does not compare
+ * fault does), or no point is finished; GG_BAD_INPUT if the sweep does not compare; GG_INTERRUPTED by options->stop:
+ * there is no page, maps that were drawn stay
  */
 GG_API gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_validating *options,
                                    void (*written)(void *context, const char *file), void *context, char **verdict,
@@ -1573,12 +1581,16 @@ GG_API const char *gg_standard_grid(int quick);
  * @param format "svg", "png" or "pdf"; NULL: from the file name
  * @param width width on paper, "86mm" (mm, cm, in, pt); NULL: for a screen
  * @param drawn called with each file name; may be NULL
- * @param context passed to the callback
+ * @param stop polled between pictures and several times a second while theories are evaluated; returns non-zero to
+ *   interrupt; may be NULL
+ * @param context passed to the callbacks
  * @param err receives the message on failure; may be NULL
- * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT if a picture is the result file
+ * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT if a picture is the result file; GG_INTERRUPTED by stop: pictures that were
+ *   drawn stay
  */
 GG_API gg_status gg_plot(const char *result_file, const char *picture, const char *format, const char *width,
-                         void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
+                         void (*drawn)(void *context, const char *picture), int (*stop)(void *context), void *context,
+                         gg_error *err);
 
 enum {                        /* what gg_export writes */
        GG_EXPORT_RESULTS = 1, /* PREFIX.csv: a line a quantity */
@@ -1597,14 +1609,16 @@ enum {                        /* what gg_export writes */
  * @param parts a sum of GG_EXPORT_...
  * @param written called with each file name; may be NULL
  * @param progress called after each frame of a trajectory with the share of it that is written; may be NULL
+ * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
  * @param context passed to the callbacks
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT if a file is the result, or the prefix is a device or pipe; GG_FAILED if
- *   the result has none of the parts
+ *   the result has none of the parts; GG_INTERRUPTED by stop: no file is written or replaced
  */
 GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                            void (*written)(void *context, const char *file),
-                           void (*progress)(void *context, double share), void *context, gg_error *err);
+                           void (*progress)(void *context, double share), int (*stop)(void *context), void *context,
+                           gg_error *err);
 
 /**
  * Warnings about a readable result file: another program has changed it, or a newer graingas wrote it.
@@ -1922,6 +1936,9 @@ GG_API gg_status gg_sweep_run_point_sized(gg_sweep *sweep, const char *folder, s
 GG_API gg_status gg_sweep_collect_sized(gg_sweep *sweep, const char *folder, const char *prefix,
                                         const gg_collecting *options, void (*written)(void *context, const char *file),
                                         void *context, gg_error *err, size_t options_size);
+GG_API gg_status gg_sweep_validate_sized(gg_sweep *sweep, const char *folder, const gg_validating *options,
+                                         void (*written)(void *context, const char *file), void *context,
+                                         char **verdict, gg_error *err, size_t options_size);
 GG_API gg_status gg_catalogue_entry_sized(gg_catalogue list, size_t i, const gg_scene *scene, gg_entry *entry,
                                           gg_error *err, size_t entry_size);
 GG_API gg_status gg_catalogue_word_sized(const char *key, size_t i, gg_entry *entry, gg_error *err, size_t entry_size);
@@ -1965,6 +1982,7 @@ GG_API gg_status gg_simulation_record_sized(gg_simulation *simulation, gg_collis
 #define gg_sweep_run(...) gg_sweep_run_sized(__VA_ARGS__, sizeof(gg_sweep_options))
 #define gg_sweep_run_point(...) gg_sweep_run_point_sized(__VA_ARGS__, sizeof(gg_sweep_options))
 #define gg_sweep_collect(...) gg_sweep_collect_sized(__VA_ARGS__, sizeof(gg_collecting))
+#define gg_sweep_validate(...) gg_sweep_validate_sized(__VA_ARGS__, sizeof(gg_validating))
 #define gg_catalogue_entry(...) gg_catalogue_entry_sized(__VA_ARGS__, sizeof(gg_entry))
 #define gg_catalogue_word(...) gg_catalogue_word_sized(__VA_ARGS__, sizeof(gg_entry))
 #define gg_scene_add_observable(...) gg_scene_add_observable_sized(__VA_ARGS__, sizeof(gg_observable_definition))

@@ -7,6 +7,7 @@ are left behind then (left_behind)."""
 import threading
 
 from . import _c
+from .errors import exception, new_error
 
 ffi, lib = _c.ffi, _c.lib
 
@@ -24,6 +25,7 @@ class Call:
         self.interrupted = False
         self.progress = {}  # of each engine, the last report
         self.warnings = []
+        self.lines = []
         self.events = []
         self.keep = []  # texts and arrays that the library reads during the call
 
@@ -90,6 +92,16 @@ def interruptible(function, call, poll=None):
     return _outcome(task, call)
 
 
+def finished(function, call, words):
+    """function(error), a call of the library that may take long; raises what it reports. words: of Ctrl-C."""
+    error = new_error()
+    status = interruptible(lambda: function(error), call)
+    if call.interrupted:
+        raise KeyboardInterrupt(words)
+    if status != lib.GG_OK:
+        raise exception(status, error)
+
+
 def left_behind(function, call=None, words=""):
     """function() in a thread that Ctrl-C leaves behind: KeyboardInterrupt(words) comes at once, call (if any) is
     stopped, and what the thread still makes is dropped. For functions that only read, or make something new."""
@@ -123,4 +135,4 @@ def ggpy_warn(context, message):
 
 @ffi.def_extern(onerror=lambda *_: None)
 def ggpy_line(context, message):
-    ffi.from_handle(context).append(ffi.string(message).decode("utf-8", "replace"))
+    of(context).lines.append(ffi.string(message).decode("utf-8", "replace"))

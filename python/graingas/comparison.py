@@ -10,7 +10,7 @@ from . import _c, calls, tables
 from .curves import curves_by_name, curves_of
 from .errors import ByName, NotFound, check, encode, lib, look_up, new_error, owned_text, text
 from .estimate import Estimate
-from .result import Result, bytes_of, from_bytes, iter_texts
+from .result import Result, bytes_of, from_bytes, iter_texts, write
 from .scene import Scene
 from .structs import Record, new, values
 
@@ -258,8 +258,8 @@ class Comparison(Mapping):
             raise
 
     def write(self, path) -> None:
-        """Writes the HDF5 file; it appears whole or not at all."""
-        check(lib.gg_comparison_write, self._pointer, encode(path, "file name"))
+        """Writes the HDF5 file; it appears whole or not at all, also after Ctrl-C."""
+        write(lib.gg_comparison_write, self._pointer, path)
 
     def _columns(self):
         theories = {name: theory for name, theory in self.theories.items() if theory.reason is None and len(theory)}

@@ -137,8 +137,8 @@ class Result(Mapping):
         return found
 
     def write(self, path) -> None:
-        """Writes the HDF5 (H5MD) file; it appears whole or not at all."""
-        check(lib.gg_result_write, self._pointer, encode(path, "file name"))
+        """Writes the HDF5 (H5MD) file; it appears whole or not at all, also after Ctrl-C."""
+        write(lib.gg_result_write, self._pointer, path)
 
     def to_dataframe(self):
         """A row for each quantity: mean, error, unit, tau, samples."""
@@ -188,6 +188,12 @@ def bytes_of(function, pointer, *more):
         lib.free(made[0])
 
 
+def write(function, pointer, path):
+    """What a gg_..._write does."""
+    path, call = encode(path, "file name"), calls.Call()
+    calls.finished(lambda error: function(pointer, path, *call.stopping, error), call, "the file is whole, or as it was")
+
+
 def from_bytes(function, kind, content, *more):
     """The handle that a gg_..._from_bytes makes."""
     made = ffi.new(kind)
@@ -203,9 +209,11 @@ def read_result(path):
 
 def export(path, prefix, *, results=True, curves=True, trajectory=True) -> list[str]:
     """Writes tables (CSV) and the trajectory (extended XYZ) of a result file: PREFIX.csv, PREFIX_....csv, PREFIX.xyz.
-    Returns the file names. Raises BadFile; RunFailed if the result has none of the parts."""
+    Returns the file names. Raises BadFile; RunFailed if the result has none of the parts. Ctrl-C: all files are there, or
+    none."""
     parts = results * lib.GG_EXPORT_RESULTS + curves * lib.GG_EXPORT_CURVES + trajectory * lib.GG_EXPORT_TRAJECTORY
-    names = []
-    context = ffi.new_handle(names)
-    check(lib.gg_export, encode(path, "file name"), encode(prefix, "prefix"), parts, lib.ggpy_line, ffi.NULL, context)
-    return names
+    path, prefix, call = encode(path, "file name"), encode(prefix, "prefix"), calls.Call()
+    stop, context = call.stopping
+    calls.finished(lambda error: lib.gg_export(path, prefix, parts, lib.ggpy_line, ffi.NULL, stop, context, error), call,
+                   "all files are there, or none")
+    return call.lines

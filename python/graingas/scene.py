@@ -266,11 +266,9 @@ class Scene(Mapping):
         return Record(**values(needs))
 
     def _lines(self, function, word):
-        lines = []
-        handle = ffi.new_handle(lines)
-        with self.held() as scene:
-            check(function, scene, encode(word), lib.ggpy_line, handle)
-        return lines
+        call = calls.Call()  # in a thread: an exception of Ctrl-C would be lost in the callback
+        self._handle.read(lambda scene: check(function, scene, encode(word), lib.ggpy_line, call.c), PATIENCE)
+        return call.lines
 
     def warnings(self, use: str = "theory") -> list[str]:
         """Keys that the scene gives and that have no effect: "md", "dsmc", "compare" or "theory"."""

@@ -19,6 +19,8 @@ from .structs import Record, array, dtype, new, values
 
 ffi = _c.ffi
 
+ADVANCED = "the simulation can be advanced further"  # words of Ctrl-C
+
 EVENT = dtype("gg_collision_event")
 
 
@@ -172,7 +174,7 @@ class Simulation:
             watcher.install(pointer)
             watcher.call = call
             try:
-                _interruptible(lambda error: function(pointer, amount, error), call)
+                calls.finished(lambda error: function(pointer, amount, error), call, ADVANCED)
             finally:
                 if watcher.finished():
                     check(lib.gg_simulation_on_collision, pointer, ffi.NULL, ffi.NULL)
@@ -229,7 +231,7 @@ class Simulation:
         name, value = encode(key, "key"), encode(yaml.write(value), key)
         with self._in_use() as (pointer, call):
             try:
-                _interruptible(lambda error: lib.gg_simulation_set(pointer, name, value, error), call)
+                calls.finished(lambda error: lib.gg_simulation_set(pointer, name, value, error), call, ADVANCED)
             finally:  # Ctrl-C may come after the change
                 self._scene = Scene._copy_of(lib.gg_simulation_scene(pointer), self._scene._extensions)
 
@@ -269,7 +271,7 @@ class Simulation:
         n = self.state.grains
         grains, kept, _ = grains_from(n, position=positions, velocity=velocities, spin=spins, species=species)
         with self._in_use() as (pointer, call):
-            _interruptible(lambda error: lib.gg_simulation_set_grains(pointer, grains, n, error), call)
+            calls.finished(lambda error: lib.gg_simulation_set_grains(pointer, grains, n, error), call, ADVANCED)
         del kept
 
     @property
@@ -299,7 +301,7 @@ class Simulation:
         """Writes everything needed to continue with bit-identical results. The file appears whole or not at all."""
         path, call = encode(path, "file name"), calls.Call()
         with self._handle.held() as pointer:
-            _interruptible(lambda error: lib.gg_simulation_save(pointer, path, *call.stopping, error), call,
+            calls.finished(lambda error: lib.gg_simulation_save(pointer, path, *call.stopping, error), call,
                            "the file is whole, or as it was")
 
     @classmethod
@@ -366,16 +368,6 @@ class Simulation:
             return f"<graingas.Simulation: {error}>"
         return (f"<graingas.Simulation: {self._scene.title}; {state.grains} grains, time {state.time:g}, "
                 f"{state.collisions} collisions>")
-
-
-def _interruptible(function, call, words="the simulation can be advanced further"):
-    """function(error), a call of the library that may take long; raises what it reports. words: of Ctrl-C."""
-    error = new_error()
-    status = calls.interruptible(lambda: function(error), call)
-    if call.interrupted:
-        raise KeyboardInterrupt(words)
-    if status != lib.GG_OK:
-        raise exception(status, error)
 
 
 def _started(scene, stream, call, grains=None, kept=(), n=0):

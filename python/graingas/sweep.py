@@ -67,7 +67,7 @@ class Sweep:
         self._handle, self.axes = Handle(pointer, lib.gg_sweep_free, "sweep"), axes
         self._temporary = tempfile.TemporaryDirectory(prefix="graingas-sweep-") if folder is None else None
         self.folder = self._temporary.name if folder is None else str(folder)
-        self.partial = None
+        self.partial, self._interrupted = None, False
 
     @classmethod
     def parse(cls, source, folder=None, name="sweep") -> Sweep:
@@ -99,24 +99,16 @@ class Sweep:
 
         page      Markdown file to write, with maps, counts and tables
         picture   SVG, PNG or PDF: the maps alone, drawn by gnuplot
+        Ctrl-C raises KeyboardInterrupt at once; a map that is being drawn is finished in the background.
         Raises BadInput if the sweep does not compare; RunFailed if no point is finished.
         """
         kept = {name: ffi.new("char[]", encode(path, name)) for name, path in (("page", page), ("picture", picture)) if path}
-        lines = []
-        with self._handle.held() as pointer:
-            document = self._verdict(pointer, {"json": 1, **kept}, lines)
-            return Verdict(json.loads(document), self._verdict(pointer, {}, lines))
+        folder, call = encode(self.folder, "folder"), calls.Call()
 
-    def _verdict(self, pointer, settings, lines):
-        options, made, error = new("gg_validating"), ffi.new("char **"), new_error()
-        for name, value in settings.items():
-            setattr(options, name, value)
-        context = ffi.new_handle(lines)
-        status = lib.gg_sweep_validate(pointer, encode(self.folder, "folder"), options, lib.ggpy_line, context, made, error)
-        found = owned_text(made)
-        if status not in (lib.GG_OK, lib.GG_FAILED) or found is None:
-            raise exception(status, error)
-        return found
+        def work(pointer):
+            words = _verdict(pointer, folder, call, {})
+            return Verdict(json.loads(_verdict(pointer, folder, call, {"json": 1, **kept})), words)
+        return self._handle.read(work, call=call)
 
     def run(self, threads=1, progress=None, accept_version=False) -> Sweep:
         """Runs the points that are not finished. accept_version: points of another build of graingas are finished, too,
@@ -134,6 +126,7 @@ class Sweep:
             warnings.warn(line, stacklevel=4)
         if status not in (lib.GG_OK, lib.GG_FAILED, lib.GG_INTERRUPTED):
             raise exception(status, error)
+        self._interrupted = call.interrupted
         if status != lib.GG_OK:
             self.partial = "\n".join([text(error.message), *call.events])
             warnings.warn(self.partial, PartialResult, stacklevel=3)
@@ -217,6 +210,18 @@ class Verdict(dict):
         return self._words
 
     __repr__ = _repr_markdown_ = __str__
+
+
+def _verdict(pointer, folder, call, settings):
+    options, made, error = new("gg_validating"), ffi.new("char **"), new_error()
+    options.stop, context = call.stopping
+    for name, value in settings.items():
+        setattr(options, name, value)
+    status = lib.gg_sweep_validate(pointer, folder, options, lib.ggpy_line, context, made, error)
+    found = owned_text(made)
+    if status not in (lib.GG_OK, lib.GG_FAILED) or found is None:
+        raise exception(status, error)
+    return found
 
 
 def _names(pointer):
@@ -323,10 +328,14 @@ def validate(source=None, *, quick=False, folder=None, threads=1, progress=None,
 
     source   file of a sweep, or its folder; None: the standard grid, uniform shear over density and restitution
     quick    the small standard grid
-    Other arguments, Ctrl-C and errors: as for sweep() and Sweep.validate().
+    Ctrl-C during the runs: the verdict on what there is, with a warning PartialResult; KeyboardInterrupt if that is
+    nothing. Other arguments and errors: as for sweep() and Sweep.validate().
     """
     if source is None:
         found = Sweep.parse(text(lib.gg_standard_grid(quick)), folder, "the standard grid")
     else:
         found = Sweep.load(source, folder, "compare")
-    return found.run(threads, progress).validate(page, picture)
+    found.run(threads, progress)
+    if found._interrupted and all(point.state == "missing" for point in found):
+        raise KeyboardInterrupt(found.partial)
+    return found.validate(page, picture)

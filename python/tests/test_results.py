@@ -2,7 +2,10 @@
 """Results and comparisons: the numbers of the library's own document and file, tables, arithmetic, pickles, pictures."""
 import json
 import math
+import os
 import pickle
+import signal
+import threading
 
 import numpy as np
 import pytest
@@ -206,6 +209,21 @@ def test_bytes_are_the_file(comparison):
     assert list(made) == list(comparison)
     again = gg.Result.from_bytes(comparison.md.to_bytes())
     assert again["N1"].mean == comparison.md["N1"].mean
+
+
+@pytest.mark.parametrize("what", ["write", "compared", "export"])
+def test_interrupted_files(comparison, what):
+    comparison.md.write("r.h5")
+    function = {"write": lambda: comparison.md.write("w.h5"), "compared": lambda: comparison.write("w.h5"),
+                "export": lambda: gg.export("r.h5", "w")}[what]
+    function()
+    before = {name: os.path.getsize(name) for name in os.listdir()}
+    threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt, match="whole, or as it was|all files are there, or none"):
+        for _ in range(10000):
+            function()
+    assert {name: os.path.getsize(name) for name in os.listdir()} == before
+    function()
 
 
 def test_export(comparison):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sweeps: every point is the run it says, tables and cubes, resumed folders."""
 import os
+import signal
+import warnings
 
 import pytest
 
@@ -84,6 +86,51 @@ def test_validate():
             sweep.validate(page=file)
     assert again.axes == {"collision.e": [0.8, 0.9]}
     assert gg.Sweep.load("grid.yaml").does == "run" and gg.Sweep.load("grid.yaml", does="theory").does == "theory"
+
+
+def interrupt(*_):
+    os.kill(os.getpid(), signal.SIGINT)
+
+
+def test_interrupted_validation(endless):
+    """Without a point KeyboardInterrupt, else the verdict on what there is."""
+    grid = endless.to_yaml() + "vary: {collision.e: [0.8, 0.9]}\nsweep: {does: compare}\n"
+    with open("endless.yaml", "w") as file:
+        file.write(grid)
+    with pytest.warns(gg.PartialResult), pytest.raises(KeyboardInterrupt, match="interrupted"):
+        gg.validate("endless.yaml", folder="g", progress=interrupt)
+    with open("grid.yaml", "w") as file:
+        file.write(GRID + "sweep: {does: compare}\n")
+    found = gg.Sweep.load("grid.yaml", "h", "compare").run()
+    os.remove(found[1].file)
+    with pytest.MonkeyPatch.context() as patch, warnings.catch_warnings(record=True) as told:
+        patch.setattr(gg.Sweep, "run", lambda sweep, *_: interrupted_run(sweep))
+        verdict = gg.validate("grid.yaml", folder="h")
+    assert verdict and not told and [point.state for point in found] == ["done", "missing"]
+
+
+def interrupted_run(sweep):
+    sweep._interrupted, sweep.partial = True, "interrupted"
+    return sweep
+
+
+def test_interrupted_verdict(monkeypatch):
+    """Ctrl-C while points are read leaves no page, and the sweep can be used."""
+    with open("grid.yaml", "w") as file:
+        file.write(GRID + "sweep: {does: compare}\n")
+    found = gg.Sweep.load("grid.yaml", "g", "compare").run()
+    wait = gg.calls.threading.Event.wait
+    sent = []
+
+    def interrupted(event, *seconds):
+        if not sent:
+            sent.append(interrupt())
+        return wait(event, *seconds)
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        patch.setattr(gg.calls.threading.Event, "wait", interrupted)
+        found.validate(page="page.md")
+    assert found.validate()
+    assert not os.path.exists("page.md")
 
 
 @pytest.mark.parametrize("wrong, kind", [

@@ -294,16 +294,20 @@ static gg_status first_of(const gg_comparison *c, const char *path, const gg_res
   return *one ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "%s: not written: nothing was simulated", path);
 }
 
-gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, gg_error *err)
+gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, int (*stop)(void *context),
+                              void *context, gg_error *err)
 {
   GG_NEED(comparison, path);
   gg_result_file file;
+  gg_api_request request = {stop, context, false};
   const gg_result *one;
   GG_TRY(first_of(comparison, path, &one, err));
-  if (comparison->of_one) return gg_result_write(one, path, err);
+  if (comparison->of_one) return gg_result_write(one, path, stop, context, err);
   GG_TRY(
       gg_files_result_file_open(&file, path, one->origin.command ? one->origin.command : "gg_comparison_write", err));
-  return gg_files_result_file_finish_comparison(&file, comparison, err);
+  file.file.stop = (gg_stop){gg_api_is_requested, &request};
+  file.stop = &file.file.stop;
+  return gg_base_callback_settle(gg_files_result_file_finish_comparison(&file, comparison, err), err);
 }
 
 gg_status gg_comparison_to_bytes(const gg_comparison *comparison, void **bytes, size_t *size, gg_error *err)

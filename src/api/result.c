@@ -225,13 +225,17 @@ gg_status gg_result_to_json(const gg_result *result, char **text, gg_error *err)
   return gg_api_text_copy(gg_files_run_document(result), text, err);
 }
 
-gg_status gg_result_write(const gg_result *result, const char *path, gg_error *err)
+gg_status gg_result_write(const gg_result *result, const char *path, int (*stop)(void *context), void *context,
+                          gg_error *err)
 {
   GG_NEED(result, path);
   gg_result_file file;
   const char *command = result->origin.command ? result->origin.command : "gg_result_write";
+  gg_api_request request = {stop, context, false};
   GG_TRY(gg_files_result_file_open(&file, path, command, err));
-  return gg_files_result_file_finish_run(&file, result, err);
+  file.file.stop = (gg_stop){gg_api_is_requested, &request};
+  file.stop = &file.file.stop;
+  return gg_base_callback_settle(gg_files_result_file_finish_run(&file, result, err), err);
 }
 
 gg_status gg_result_to_bytes(const gg_result *result, void **bytes, size_t *size, gg_error *err)
@@ -276,7 +280,8 @@ gg_status gg_result_from_bytes(const void *bytes, size_t size, gg_result **resul
 }
 
 gg_status gg_plot(const char *result_file, const char *picture, const char *format, const char *width,
-                  void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
+                  void (*drawn)(void *context, const char *picture), int (*stop)(void *context), void *context,
+                  gg_error *err)
 {
   GG_NEED(result_file, picture);
   if (gg_base_path_is_same_file(result_file, picture))
@@ -284,13 +289,16 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
                         picture);
   gg_plot_paper paper;
   gg_stored_result stored;
+  gg_api_request request = {stop, context, false};
   GG_TRY(gg_plot_paper_choose(&paper, picture, format, width, err));
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
   const unsigned before = gg_base_memory_failures();
   gg_status status = gg_plot_pages_check(&stored, &paper, result_file, picture, err);
   if (status == GG_OK) status = gg_plot_result_draw(&stored, &paper, picture, err);
   if (status == GG_OK && drawn) drawn(context, picture);
-  if (status == GG_OK) status = gg_plot_pages_draw(&stored, &paper, picture, drawn, context, err);
+  if (status == GG_OK)
+    status =
+        gg_plot_pages_draw(&stored, &paper, picture, drawn, context, &(gg_stop){gg_api_is_requested, &request}, err);
   gg_files_stored_result_clear(&stored);
   status = gg_base_callback_settle(status, err);
   return gg_base_memory_check(before, status, err); /* a picture that lacks its title */
@@ -305,9 +313,10 @@ gg_status gg_result_file_notice(const char *result_file, char *text, size_t size
 
 gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                     void (*written)(void *context, const char *file), void (*progress)(void *context, double share),
-                    void *context, gg_error *err)
+                    int (*stop)(void *context), void *context, gg_error *err)
 {
   GG_NEED(result_file, prefix);
+  gg_api_request request = {stop, context, false};
   const char *slash = strrchr(prefix, '/'), *name = slash ? slash + 1 : prefix;
   if (!*name) return gg_base_fail(err, GG_BAD_INPUT, "'%s': the files need a prefix to their names", prefix);
   if (!(parts & GG_EXPORT_ALL) || parts & ~(unsigned)GG_EXPORT_ALL)
@@ -315,7 +324,8 @@ gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                         result_file, parts);
   gg_stored_result stored;
   GG_TRY(gg_files_stored_result_read(&stored, result_file, err));
-  gg_status status = gg_files_export_result(&stored, result_file, prefix, parts, written, progress, context, err);
+  gg_status status = gg_files_export_result(&stored, result_file, prefix, parts, written, progress, context,
+                                            &(gg_stop){gg_api_is_requested, &request}, err);
   gg_files_stored_result_clear(&stored);
   return gg_base_callback_settle(status, err);
 }

@@ -14,3 +14,7 @@ GG_READS(gg_sweep_collect, gg_collecting, options,
          (gg_sweep * sweep, const char *folder, const char *prefix, const gg_collecting *options,
           void (*written)(void *context, const char *file), void *context, gg_error *err, size_t size),
          (sweep, folder, prefix, options, written, context, err))
+GG_READS(gg_sweep_validate, gg_validating, options,
+         (gg_sweep * sweep, const char *folder, const gg_validating *options,
+          void (*written)(void *context, const char *file), void *context, char **verdict, gg_error *err, size_t size),
+         (sweep, folder, options, written, context, verdict, err))

@@ -76,7 +76,7 @@ static gg_status evaluate_lines(const collecting *c, const char *folder, gg_pict
                          : gg_base_path_write_error(folder, strerror(ENAMETOOLONG), &why);
   if (status == GG_OK) {
     status = gg_sweep_run(lines->sweep, path, &options, &why);
-    gg_sweep_point_table_read(&lines->table, lines->sweep, path, &unread);
+    gg_sweep_point_table_read(&lines->table, lines->sweep, path, NULL, &unread);
   }
   if (status == GG_INTERRUPTED) return gg_base_fail(err, status, "%s", why.message);
   if (!lines->table.n && o->warn) {
@@ -111,7 +111,7 @@ static gg_status write_all(collecting *c, const char *folder, gg_error *err)
 {
   const char *command = c->options.command ? c->options.command : "the graingas library";
   GG_TRY(check_places(c, err));
-  GG_TRY(gg_sweep_point_table_read(&c->table, c->sweep, folder, err));
+  GG_TRY(gg_sweep_point_table_read(&c->table, c->sweep, folder, NULL, err));
   warn_of_builds(c);
   GG_TRY(gg_sweep_point_table_write_csv(&c->table, c->sweep, c->csv, err));
   report_file(c, c->csv);

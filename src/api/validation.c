@@ -33,6 +33,8 @@ gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_valida
   static const gg_validating none = {0};
   const gg_validating *o = options ? options : &none;
   gg_point_table table;
+  gg_api_request request = {o->stop, context, false};
+  const gg_stop stop = {gg_api_is_requested, &request};
   *verdict = NULL;
   GG_TRY(gg_sweep_check(sweep, err));
   if (sweep->settings.does != GG_DOES_COMPARE)
@@ -43,10 +45,10 @@ gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_valida
                         sweep->name);
   if (o->picture) GG_TRY(gg_plot_paper_check(o->picture, o->width, err));
   GG_C_LOCALE;
-  gg_status status = gg_sweep_point_table_read(&table, sweep, folder, err);
+  gg_status status = gg_sweep_point_table_read(&table, sweep, folder, &stop, err);
   if (status == GG_OK) {
     warn_of_builds(&table, o, context);
-    status = gg_sweep_validate_table(&table, sweep, o, written, context, verdict, err);
+    status = gg_sweep_validate_table(&table, sweep, o, written, context, &stop, verdict, err);
   }
   gg_sweep_point_table_clear(&table);
   status = gg_base_callback_settle(status, err);

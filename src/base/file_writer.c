@@ -8,11 +8,12 @@
 
 void gg_base_file_writer_begin(gg_file_writer *out, gg_atomic_file *file, gg_error *err)
 {
-  out->file = file, out->err = err, out->status = GG_OK, out->used = 0;
+  out->file = file, out->err = err, out->status = GG_OK, out->stop = NULL, out->used = 0;
 }
 
 static void flush(gg_file_writer *out)
 {
+  if (out->status == GG_OK && out->stop) out->status = gg_stop_check(out->stop, out->err);
   if (out->status == GG_OK) out->status = gg_base_atomic_write(out->file, out->buffer, out->used, out->err);
   out->used = 0;
 }

@@ -12,6 +12,7 @@ typedef struct gg_file_writer {
   gg_atomic_file *file;
   gg_error *err; /* receives the first failure; may be NULL */
   gg_status status;
+  const gg_stop *stop; /* polled before each write; set after the beginning; NULL: never */
   size_t used;
   char buffer[1 << 15];
 } gg_file_writer;

@@ -118,7 +118,7 @@ static int export_parts(const gg_options *o)
   allow_many_files();
   gg_cli_print_notice(o->input);
   gg_cli_line_start(&c.line, o->quiet);
-  gg_status status = gg_export(o->input, prefix, parts, print_file, show_progress, &c, &err);
+  gg_status status = gg_export(o->input, prefix, parts, print_file, show_progress, NULL, &c, &err);
   gg_cli_line_clear(&c.line);
   if (status == GG_OK && c.grains) print_if_heights(o->input);
   code = status == GG_OK ? GG_OK : gg_cli_report(&err);

@@ -23,7 +23,8 @@ static int draw(const gg_options *o)
   char *picture = gg_cli_options_output(o, suffix, &err);
   if (!picture) return gg_cli_report(&err);
   gg_cli_print_notice(o->input);
-  int code = gg_plot(o->input, picture, o->format, o->width, tell, &quiet, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
+  int code =
+      gg_plot(o->input, picture, o->format, o->width, tell, NULL, &quiet, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
   free(picture);
   return code;
 }

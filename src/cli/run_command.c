@@ -242,7 +242,7 @@ static gg_status draw(const gg_run_command *r, gg_error *err)
 {
   if (!r->picture) return GG_OK;
   drawing d = {r, gg_cli_file_exists(r->picture)};
-  gg_status status = gg_plot(r->output, r->picture, NULL, r->options.width, report_picture, &d, err);
+  gg_status status = gg_plot(r->output, r->picture, NULL, r->options.width, report_picture, is_interrupted, &d, err);
   if (status != GG_FAILED || r->options.picture) return status;
   fprintf(stderr, "warning: no picture: %s\n", err->message);
   return GG_OK;

@@ -289,6 +289,7 @@ typedef struct job {
   bool failed; /* out of memory */
   void (*progress)(void *context, double share);
   void *context;
+  const gg_stop *stop;
   target target[MOST_TARGETS];
 } job;
 
@@ -451,6 +452,7 @@ static gg_status write_target(job *j, target *t, gg_error *err)
   gg_file_writer out;
   gg_status status = GG_OK;
   gg_base_file_writer_begin(&out, &t->file, err);
+  out.stop = j->stop;
   if (t->content == CURVE) put_curve(&out, t->curve);
   if (t->content == NUMBERS) put_curve_numbers(&out, j->stored);
   if (t->content == RESULTS && j->stored->comparison) put_comparison(&out, j->stored);
@@ -466,6 +468,7 @@ static gg_status write_all(job *j, gg_error *err)
   locale_t before = gg_base_c_locale_enter();
   for (size_t i = 0; i < j->n && status == GG_OK; i++) status = write_target(j, &j->target[i], err);
   gg_base_c_locale_leave(before);
+  if (status == GG_OK) status = gg_stop_check(j->stop, err);
   if (status == GG_OK) status = check_replaced(j, err);
   for (size_t i = 0; i < j->n && status == GG_OK; i++) status = gg_base_atomic_commit(&j->target[i].file, err);
   return status;
@@ -483,11 +486,12 @@ static void clear(job *j)
 
 gg_status gg_files_export_result(const gg_stored_result *stored, const char *path, const char *prefix, unsigned parts,
                                  void (*written)(void *context, const char *file),
-                                 void (*progress)(void *context, double share), void *context, gg_error *err)
+                                 void (*progress)(void *context, double share), void *context, const gg_stop *stop,
+                                 gg_error *err)
 {
   job *j = gg_base_array_new(1, sizeof *j, err);
   if (!j) return GG_FAILED;
-  j->stored = stored, j->prefix = prefix, j->progress = progress, j->context = context;
+  j->stored = stored, j->prefix = prefix, j->progress = progress, j->context = context, j->stop = stop;
   gg_status status = check_prefix(prefix, err);
   if (status == GG_OK) status = plan(j, path, parts, err);
   if (status == GG_OK) status = open_all(j, path, err);

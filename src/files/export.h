@@ -9,10 +9,11 @@
 /* The files that the result of this path comes to, all of them or none: PREFIX.csv, one of each curve,
  * PREFIX_numbers.csv and PREFIX.xyz; `parts` (GG_EXPORT_...) says which. GG_FAILED if the result has nothing of what
  * was requested. `written` (may be NULL) is called with the name of each, `progress` (may be NULL) with the share of
- * the trajectory that is written. */
+ * the trajectory that is written. `stop` ends it: no file is replaced then. */
 gg_status gg_files_export_result(const gg_stored_result *stored, const char *path, const char *prefix, unsigned parts,
                                  void (*written)(void *context, const char *file),
-                                 void (*progress)(void *context, double share), void *context, gg_error *err);
+                                 void (*progress)(void *context, double share), void *context, const gg_stop *stop,
+                                 gg_error *err);
 
 /* One frame of extended XYZ, the text format of OVITO and ASE: how many grains, a line on cell, columns, time and
  * units, a line a grain. Each frame has the cell of its instant. Under shear its second edge leans, and the images of

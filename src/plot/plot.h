@@ -38,9 +38,10 @@ bool gg_plot_snapshot_has(const gg_stored_result *stored);
 /* Pages are further pictures beside the given name: PICTURE_snapshot.svg if the file holds grains with positions, and
  * one for each observable that left curves: PICTURE_<observable>.svg, for comparisons
  * PICTURE_<engine>_<observable>.svg but for profiles, which have both engines. `drawn` (may be NULL) is called with the
- * name of each. */
+ * name of each; `stop` ends it between two, and while theories are evaluated. */
 gg_status gg_plot_pages_draw(const gg_stored_result *stored, const gg_plot_paper *paper, const char *picture,
-                             void (*drawn)(void *context, const char *picture), void *context, gg_error *err);
+                             void (*drawn)(void *context, const char *picture), void *context, const gg_stop *stop,
+                             gg_error *err);
 /* Before anything is drawn: could all of them be written, and is none the result's own file? */
 gg_status gg_plot_pages_check(const gg_stored_result *stored, const gg_plot_paper *paper, const char *file,
                               const char *picture, gg_error *err);
@@ -77,7 +78,7 @@ void gg_plot_page_place(FILE *script, gg_panel panel);
 
 /* Curves of theories for what the result measured, as under GG_THEORY_CURVES of documents; a new reference. It may take
  * a second or two where they are not stored. */
-json_t *gg_plot_theory_curves(const gg_stored_result *stored);
+json_t *gg_plot_theory_curves(const gg_stored_result *stored, const gg_stop *stop);
 
 /* Okabe and Ito's colours, distinguished by the colour-blind: md, dsmc, then the theories. */
 extern const char *const gg_plot_colours[];

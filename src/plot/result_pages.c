@@ -107,7 +107,8 @@ gg_status gg_plot_pages_check(const gg_stored_result *stored, const gg_plot_pape
 }
 
 gg_status gg_plot_pages_draw(const gg_stored_result *stored, const gg_plot_paper *paper, const char *picture,
-                             void (*drawn)(void *context, const char *picture), void *context, gg_error *err)
+                             void (*drawn)(void *context, const char *picture), void *context, const gg_stop *stop,
+                             gg_error *err)
 {
   bool there;
   page_list pages;
@@ -118,9 +119,11 @@ gg_status gg_plot_pages_draw(const gg_stored_result *stored, const gg_plot_paper
   for (int i = 0; i < pages.n; i++) {
     const page *p = &pages.page[i];
     gg_error later, *reported = status == GG_OK ? err : &later;
-    if (p->group && !theories) theories = gg_plot_theory_curves(stored);
-    gg_status done = p->group ? draw_curves(stored, p, theories, paper, reported)
-                              : gg_plot_snapshot_draw(stored, paper, p->path, &there, reported);
+    if (p->group && !theories) theories = gg_plot_theory_curves(stored, stop);
+    gg_status done = gg_stop_check(stop, reported);
+    if (done == GG_OK)
+      done = p->group ? draw_curves(stored, p, theories, paper, reported)
+                      : gg_plot_snapshot_draw(stored, paper, p->path, &there, reported);
     if (done == GG_OK && drawn) drawn(context, p->path);
     if (status == GG_OK) status = done;
   }

@@ -18,13 +18,14 @@ static bool has_law_of_its_own(const json_t *document)
   return false;
 }
 
-static json_t *from_scene(const char *yaml, gg_engine_kind engine)
+static json_t *from_scene(const char *yaml, gg_engine_kind engine, const gg_stop *stop)
 {
   gg_model model;
   gg_scene scene = gg_scene_defaults();
   json_t *all = json_object();
   if (gg_scene_read(&scene, yaml, strlen(yaml), "scene", NULL) != GG_OK) return all;
   if (gg_common_model_make(&scene, engine, &model, NULL) != GG_OK) return all;
+  model.stop = stop;
   for (const gg_theory *const *t = gg_theory_theories; *t; t++) {
     gg_curves curves;
     if (gg_theory_curves(*t, &model, scene.measure, &curves, NULL) != GG_OK) continue;
@@ -34,10 +35,10 @@ static json_t *from_scene(const char *yaml, gg_engine_kind engine)
   return all;
 }
 
-json_t *gg_plot_theory_curves(const gg_stored_result *stored)
+json_t *gg_plot_theory_curves(const gg_stored_result *stored, const gg_stop *stop)
 {
   json_t *there = json_object_get(stored->document, GG_THEORY_CURVES);
   if (there) return json_incref(there);
   if (stored->comparison || has_law_of_its_own(stored->document)) return json_object();
-  return from_scene(stored->scene, stored->engine[GG_MD].name ? GG_MD : GG_DSMC);
+  return from_scene(stored->scene, stored->engine[GG_MD].name ? GG_MD : GG_DSMC, stop);
 }

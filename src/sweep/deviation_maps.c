@@ -209,6 +209,7 @@ static gg_status draw_all(maps *m, void (*drawn)(void *, const char *, const cha
     if (!has_quantity(m->view, word) && m->choice->show)
       return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%s'", word);
     if (!has_quantity(m->view, word)) continue;
+    GG_TRY(gg_stop_check(m->choice->stop, err));
     char *picture = gg_plot_page_name(m->choice->picture, "", word, &paper);
     if (!picture) return gg_base_out_of_memory(err);
     gg_status status = draw_quantity(m, word, picture, err);

@@ -11,6 +11,7 @@ typedef struct gg_map_choice { /* NULL: chosen */
   const char *theories;        /* theories, with commas; default: lun1991 and the sweep's own */
   const char *picture;         /* "grid.svg": grid_temperature.svg and on */
   const char *width;
+  const gg_stop *stop; /* polled before each picture */
 } gg_map_choice;
 
 /* Calls `drawn` with the name of each picture and its quantity. GG_BAD_INPUT: more cells than a page has room for. */

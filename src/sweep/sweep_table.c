@@ -179,12 +179,16 @@ static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char 
   return status;
 }
 
-gg_status gg_sweep_point_table_read(gg_point_table *t, const gg_sweep *sweep, const char *folder, gg_error *err)
+gg_status gg_sweep_point_table_read(gg_point_table *t, const gg_sweep *sweep, const char *folder, const gg_stop *stop,
+                                    gg_error *err)
 {
   *t = (gg_point_table){0};
   t->document = gg_base_array_new(sweep->n, sizeof *t->document, err);
   if (!t->document) return GG_FAILED;
-  for (size_t i = 0; i < sweep->n; i++) GG_TRY(add_point(t, sweep, folder, i, err));
+  for (size_t i = 0; i < sweep->n; i++) {
+    GG_TRY(gg_stop_check(stop, err));
+    GG_TRY(add_point(t, sweep, folder, i, err));
+  }
   if (!t->n_documents)
     return gg_base_fail(err, GG_FAILED, "%s: none of the sweep's %zu points is there", folder, sweep->n);
   return GG_OK;

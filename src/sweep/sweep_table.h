@@ -39,8 +39,10 @@ typedef struct gg_point_table {
   gg_string_list texts;  /* and causes to these */
 } gg_point_table;
 
-/* From all files that there are; GG_FAILED if there is none. To be cleared, also on failure. */
-gg_status gg_sweep_point_table_read(gg_point_table *table, const gg_sweep *sweep, const char *folder, gg_error *err);
+/* From all files that there are; GG_FAILED if there is none. `stop` is polled between two. To be cleared, also on
+ * failure. */
+gg_status gg_sweep_point_table_read(gg_point_table *table, const gg_sweep *sweep, const char *folder,
+                                    const gg_stop *stop, gg_error *err);
 void gg_sweep_point_table_clear(gg_point_table *table);
 
 /* Whole or not at all; columns: the point's number, a column a varied key, then method, quantity, mean, error, unit,
@@ -86,8 +88,8 @@ gg_status gg_sweep_picture_check(const gg_point_table *table, const gg_sweep *sw
 
 gg_status gg_sweep_point_table_draw(const gg_point_table *table, const gg_sweep *sweep, const gg_picture_choice *choice,
                                     const char *picture, const char *width, gg_error *err);
-/* picture_rows.c: the theories at twenty-five values of the axis, for each combination; to be run, read and freed. *lines is
- * NULL where there are none: keys change with that of the axis, or it takes whole numbers. */
+/* picture_rows.c: the theories at twenty-five values of the axis, for each combination; to be run, read and freed.
+ * *lines is NULL where there are none: keys change with that of the axis, or it takes whole numbers. */
 gg_status gg_sweep_lines_make(const gg_sweep *sweep, const gg_picture_axis *axis, gg_sweep **lines, gg_error *err);
 void gg_sweep_lines_free(gg_sweep *lines, const gg_picture_axis *axis);
 

@@ -18,6 +18,7 @@ typedef struct validating {
   const gg_validating *options;
   void (*written)(void *context, const char *file);
   void *context;
+  const gg_stop *stop;
   FILE *maps; /* the page's part that shows them; NULL: no page */
 } validating;
 
@@ -41,11 +42,11 @@ static void note_map(void *context, const char *picture, const char *quantity)
 static gg_status draw_maps(validating *v, const gg_grid_view *view, gg_error *err)
 {
   const gg_validating *o = v->options;
-  const gg_map_choice choice = {o->show, o->theories, o->picture, o->width};
+  const gg_map_choice choice = {o->show, o->theories, o->picture, o->width, v->stop};
   if (!o->picture) return GG_OK;
   gg_status status = gg_sweep_deviation_maps_draw(view, &choice, note_map, v, err);
   const bool chosen = o->show || o->theories || o->width;
-  if (status == GG_OK || chosen || status == GG_BAD_FILE || !o->warn) return status;
+  if (status == GG_OK || chosen || status == GG_BAD_FILE || status == GG_INTERRUPTED || !o->warn) return status;
   o->warn(v->context, err ? err->message : "there are no maps");
   return GG_OK;
 }
@@ -122,6 +123,7 @@ static gg_status draw(validating *v, const gg_grid_view *view, const gg_point_ta
   if (!(v->maps = gg_base_memory_stream_open(&maps))) return gg_base_out_of_memory(err);
   gg_status status = draw_maps(v, view, err);
   if (!gg_base_memory_stream_close(v->maps, &maps)) return gg_base_out_of_memory(err);
+  if (status == GG_OK) status = gg_stop_check(v->stop, err);
   if (status == GG_OK && v->options->page) {
     status = write_page(v->options, t, maps, verdict, err);
     if (status == GG_OK && v->written) v->written(v->context, v->options->page);
@@ -145,11 +147,11 @@ static gg_status validate(validating *v, const gg_grid_view *view, const gg_poin
 }
 
 gg_status gg_sweep_validate_table(const gg_point_table *t, const gg_sweep *sweep, const gg_validating *options,
-                                  void (*written)(void *context, const char *file), void *context, char **text,
-                                  gg_error *err)
+                                  void (*written)(void *context, const char *file), void *context, const gg_stop *stop,
+                                  char **text, gg_error *err)
 {
   gg_grid_view view;
-  validating v = {.options = options, .written = written, .context = context};
+  validating v = {.options = options, .written = written, .context = context, .stop = stop};
   GG_TRY(gg_sweep_grid_view_make(&view, t, sweep, err));
   gg_status status = validate(&v, &view, t, text, err);
   gg_sweep_grid_view_clear(&view);

@@ -7,7 +7,7 @@
 
 /* Verdict as Markdown in *text, to be freed, also with GG_FAILED where dsmc and the noise-free solution disagree. */
 gg_status gg_sweep_validate_table(const gg_point_table *table, const gg_sweep *sweep, const gg_validating *options,
-                                  void (*written)(void *context, const char *file), void *context, char **text,
-                                  gg_error *err);
+                                  void (*written)(void *context, const char *file), void *context, const gg_stop *stop,
+                                  char **text, gg_error *err);
 
 #endif

@@ -211,13 +211,13 @@ static gg_status play(things *t, gg_error *err)
 
 static gg_status export(things *t, gg_error *err)
 {
-  return gg_export("there.h5", "new", GG_EXPORT_ALL, tell_file, NULL, t, err);
+  return gg_export("there.h5", "new", GG_EXPORT_ALL, tell_file, NULL, NULL, t, err);
 }
 
 static gg_status plot(things *t, gg_error *err)
 {
   t->written = true; /* a page that fails keeps none of the others from being drawn */
-  return gg_plot("there.h5", "new.svg", NULL, NULL, tell_file, t, err);
+  return gg_plot("there.h5", "new.svg", NULL, NULL, tell_file, NULL, t, err);
 }
 
 static gg_status extend(things *t, gg_error *err)

@@ -131,8 +131,8 @@ static void results(void **state)
   assert_missing(gg_result_grains(r, NULL, &err));
   assert_missing(gg_result_to_json(NULL, &text, &err));
   assert_missing(gg_result_to_json(r, NULL, &err));
-  assert_missing(gg_result_write(NULL, "x", &err));
-  assert_missing(gg_result_write(r, NULL, &err));
+  assert_missing(gg_result_write(NULL, "x", NULL, NULL, &err));
+  assert_missing(gg_result_write(r, NULL, NULL, NULL, &err));
   assert_missing(gg_result_read(NULL, &other, &err));
   assert_missing(gg_result_read("x", NULL, &err));
   void *bytes = NULL;
@@ -191,8 +191,8 @@ static void comparisons(void **state)
   assert_missing(gg_comparison_remark(c, 0, NULL, &err));
   assert_missing(gg_comparison_to_json(NULL, &text, &err));
   assert_missing(gg_comparison_to_json(c, NULL, &err));
-  assert_missing(gg_comparison_write(NULL, "x", &err));
-  assert_missing(gg_comparison_write(c, NULL, &err));
+  assert_missing(gg_comparison_write(NULL, "x", NULL, NULL, &err));
+  assert_missing(gg_comparison_write(c, NULL, NULL, NULL, &err));
   assert_missing(gg_comparison_read(NULL, &other, &err));
   assert_missing(gg_comparison_read("x", NULL, &err));
   void *bytes = NULL;
@@ -203,10 +203,10 @@ static void comparisons(void **state)
   assert_missing(gg_comparison_from_bytes(NULL, 1, &other, &err));
   assert_missing(gg_comparison_from_bytes("x", 1, NULL, &err));
   assert_null(bytes);
-  assert_missing(gg_plot(NULL, "x.svg", NULL, NULL, NULL, NULL, &err));
-  assert_missing(gg_plot("x", NULL, NULL, NULL, NULL, NULL, &err));
-  assert_missing(gg_export(NULL, "x", GG_EXPORT_ALL, NULL, NULL, NULL, &err));
-  assert_missing(gg_export("x", NULL, GG_EXPORT_ALL, NULL, NULL, NULL, &err));
+  assert_missing(gg_plot(NULL, "x.svg", NULL, NULL, NULL, NULL, NULL, &err));
+  assert_missing(gg_plot("x", NULL, NULL, NULL, NULL, NULL, NULL, &err));
+  assert_missing(gg_export(NULL, "x", GG_EXPORT_ALL, NULL, NULL, NULL, NULL, &err));
+  assert_missing(gg_export("x", NULL, GG_EXPORT_ALL, NULL, NULL, NULL, NULL, &err));
   char notice[8];
   assert_missing(gg_result_file_notice(NULL, notice, sizeof notice, &err));
   assert_missing(gg_result_file_notice("x", NULL, 8, &err));
@@ -322,7 +322,7 @@ static void unknown_names(void **state)
   assert_ok(gg_comparison_theory(other, 0, &theory, &err));
   assert_string_equal(theory.name, "lun1991");
   assert_refused(gg_comparison_theory(other, 1, &theory, &err), "");
-  assert_refused(gg_comparison_write(other, "none.h5", &err), "nothing was simulated");
+  assert_refused(gg_comparison_write(other, "none.h5", NULL, NULL, &err), "nothing was simulated");
   gg_comparison_free(other);
   assert_ok(gg_theories_evaluate(s, NULL, NULL, NULL, &c, &err));
   assert_refused(gg_comparison_theory_value(c, "grade", "N1", &x, NULL, &err),
@@ -361,11 +361,12 @@ static void unknown_names(void **state)
   assert_refused(gg_result_curve_number(r, 0, 0, &m, &err), "");
   assert_null(gg_result_unit(r, "N7"));
   gg_result_free(r);
-  assert_refused(gg_plot("same.svg", "same.svg", NULL, NULL, NULL, NULL, &err),
+  assert_refused(gg_plot("same.svg", "same.svg", NULL, NULL, NULL, NULL, NULL, &err),
                  "would be both the result and its picture");
-  assert_refused(gg_export("x.h5", "x", 0, NULL, NULL, NULL, &err), "0 is not a set of parts to export");
-  assert_refused(gg_export("x.h5", "x", ~0u, NULL, NULL, NULL, &err), "is not a set of parts to export");
-  assert_refused(gg_export("x.h5", "folder/", GG_EXPORT_ALL, NULL, NULL, NULL, &err), "need a prefix to their names");
+  assert_refused(gg_export("x.h5", "x", 0, NULL, NULL, NULL, NULL, &err), "0 is not a set of parts to export");
+  assert_refused(gg_export("x.h5", "x", ~0u, NULL, NULL, NULL, NULL, &err), "is not a set of parts to export");
+  assert_refused(gg_export("x.h5", "folder/", GG_EXPORT_ALL, NULL, NULL, NULL, NULL, &err),
+                 "need a prefix to their names");
   gg_scene_free(s);
 }
 

@@ -226,7 +226,7 @@ static void reports(void **state)
   arm(0);
   assert_callback_failed(gg_scene_describe(s, "md", line, NULL, &err));
   assert_ok(gg_run(s, &(gg_run_options){.output = "t_run.h5"}, &r, &err));
-  assert_callback_failed(gg_export("t_run.h5", "t_run", GG_EXPORT_ALL, line, NULL, NULL, &err));
+  assert_callback_failed(gg_export("t_run.h5", "t_run", GG_EXPORT_ALL, line, NULL, NULL, NULL, &err));
   assert_ok(gg_sweep_parse("{flow: usf, phi: 0.1, vary: {collision.e: [0.8, 0.9]}, sweep: {does: theory}}", "test", &w,
                            &err));
   assert_ok(gg_sweep_run(w, "t_theory", NULL, &err));

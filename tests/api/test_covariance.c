@@ -59,7 +59,7 @@ static void stored(void **state)
   snprintf(yaml, sizeof yaml, CHEAP, 2);
   gg_result *r = run_of(yaml, "t_covariance.h5"), *back = NULL, *twice = NULL;
   assert_ok(gg_result_read("t_covariance.h5", &back, &err));
-  assert_ok(gg_result_write(back, "t_again.h5", &err));
+  assert_ok(gg_result_write(back, "t_again.h5", NULL, NULL, &err));
   assert_ok(gg_result_read("t_again.h5", &twice, &err));
   const double here = covariance(r, "P_xy", "pressure");
   assert_true(here == covariance(back, "P_xy", "pressure") && here == covariance(twice, "P_xy", "pressure"));

@@ -41,7 +41,7 @@ static void stopped_anywhere(void **state)
       assert_non_null(part);
       assert_ok(gg_result_to_json(part, &text, &err));
       free(text);
-      assert_ok(gg_result_write(part, "t_part.h5", &err));
+      assert_ok(gg_result_write(part, "t_part.h5", NULL, NULL, &err));
       gg_result_free(part);
       assert_ok(gg_result_read("t_part.h5", &part, &err));
       gg_result_free(part);
@@ -75,7 +75,7 @@ static void a_single_sample(void **state)
   assert_int_equal(gg_run(s, &(gg_run_options){.progress = stop_in_averaging}, &r, &err), GG_INTERRUPTED);
   assert_ok(gg_result_find(r, "temperature", &m, &err));
   assert_true(m.mean > 0 && isnan(m.error) && m.samples == 1);
-  assert_ok(gg_result_write(r, "t_single.h5", &err));
+  assert_ok(gg_result_write(r, "t_single.h5", NULL, NULL, &err));
   gg_result_free(r);
   gg_scene_free(s);
 }

@@ -219,7 +219,7 @@ static void written_and_read(void **state)
   assert_ok(gg_result_grains(r, &(gg_grains){one, NULL, NULL, NULL}, &err));
   assert_ok(gg_result_grains(back, &(gg_grains){two, NULL, spin, NULL}, &err));
   assert_memory_equal(one, two, sizeof one);
-  assert_ok(gg_result_write(back, "t_again.h5", &err));
+  assert_ok(gg_result_write(back, "t_again.h5", NULL, NULL, &err));
   assert_ok(gg_result_read("t_again.h5", &twice, &err));
   same_means(r, twice);
   same_text(r, twice);
@@ -393,7 +393,7 @@ static void theories(void **state)
   assert_true(!info.reason && strstr(info.citation, "1999") && info.title && info.assumptions);
   assert_int_equal(gg_comparison_theory(one, 1, &info, &err), GG_BAD_INPUT);
   assert_refused(gg_theories_evaluate(s, "newton", NULL, NULL, &one, &err), "no theory called 'newton'");
-  assert_refused(gg_comparison_write(all, "t_theory.h5", &err), "nothing was simulated");
+  assert_refused(gg_comparison_write(all, "t_theory.h5", NULL, NULL, &err), "nothing was simulated");
   char *text = NULL;
   assert_ok(gg_comparison_to_json(all, &text, &err));
   assert_non_null(strstr(text, "\"garzo_dufty1999\""));

@@ -107,12 +107,109 @@ static void short_theory_of_stopped_runs(void **state)
   gg_result_free(r);
 }
 
+/* Of calls that make files. */
+typedef gg_status (*call_with_files)(patience *p, gg_error *err);
+
+static gg_status write_result(patience *p, gg_error *err)
+{
+  gg_result *r = NULL;
+  gg_status status = gg_result_read("t_run.h5", &r, err);
+  if (status == GG_OK) status = gg_result_write(r, "t_made.h5", loses_patience, p, err);
+  gg_result_free(r);
+  return status;
+}
+
+static gg_status write_comparison(patience *p, gg_error *err)
+{
+  gg_comparison *c = NULL;
+  gg_status status = gg_comparison_read("t_both.h5", &c, err);
+  if (status == GG_OK) status = gg_comparison_write(c, "t_made.h5", loses_patience, p, err);
+  gg_comparison_free(c);
+  return status;
+}
+
+static gg_status export_result(patience *p, gg_error *err)
+{
+  return gg_export("t_run.h5", "t_made", GG_EXPORT_ALL, NULL, NULL, loses_patience, p, err);
+}
+
+static gg_status draw_curves(patience *p, gg_error *err)
+{
+  return gg_plot("t_run.h5", "t_made.svg", NULL, NULL, NULL, loses_patience, p, err);
+}
+
+static bool is_made(void)
+{
+  return access("t_made.h5", F_OK) == 0 || access("t_made.csv", F_OK) == 0 || access("t_made.xyz", F_OK) == 0;
+}
+
+/* They end where they are stopped, at every stage, and leave no file. Pictures are drawn one after the other. */
+static void files(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_result *r = NULL;
+  gg_comparison *c = NULL;
+  gg_scene *s = scene_of("{flow: usf, phi: 0.1, particles: 5000, dsmc: {particles: 2000}, run: {collisions: 40}, "
+                         "measure: [rheology, velocity_distributions], output: {trajectory_every: 20}}");
+  assert_ok(gg_run(s, &(gg_run_options){.output = "t_run.h5"}, &r, &err));
+  gg_result_free(r);
+  gg_scene_free(s);
+  s = scene_of("{flow: usf, phi: 0.1, particles: 200, run: {collisions: 40}}");
+  assert_ok(gg_compare(s, &(gg_run_options){.output = "t_both.h5"}, &c, &err));
+  gg_comparison_free(c);
+  gg_scene_free(s);
+  const struct {
+    call_with_files call;
+    int least; /* looks of the whole call */
+    bool keeps;
+  } tries[] = {
+      {write_result, 50, false}, {write_comparison, 50, false}, {export_result, 20, false}, {draw_curves, 100, true}};
+  for (size_t k = 0; k < sizeof tries / sizeof *tries; k++) {
+    patience whole = {.bears = 1 << 30};
+    assert_ok(tries[k].call(&whole, &err));
+    assert_true(whole.looks >= tries[k].least);
+    for (int part = 0; part < 4; part++) {
+      patience p = {.bears = part * (whole.looks - 1) / 3};
+      assert_int_equal(system("rm -f t_made*"), 0);
+      assert_int_equal(tries[k].call(&p, &err), GG_INTERRUPTED);
+      assert_int_equal(p.looks, p.bears + 1);
+      assert_true(tries[k].keeps || !is_made());
+    }
+  }
+}
+
+/* Between points, and before the page. */
+static void validation(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_sweep *w = NULL;
+  char *verdict = NULL;
+  assert_ok(gg_sweep_parse("{flow: usf, phi: 0.1, particles: 100, dsmc: {particles: 200}, run: {collisions: 40}, vary: "
+                           "{collision.e: [0.8, 0.9]}, sweep: {does: compare}}",
+                           "test", &w, &err));
+  gg_sweep_run(w, "t_grid", NULL, &err);
+  for (int k = 0; k < 3; k++) {
+    patience p = {.bears = k};
+    assert_int_equal(gg_sweep_validate(w, "t_grid", &(gg_validating){.page = "t_page.md", .stop = loses_patience}, NULL,
+                                       &p, &verdict, &err),
+                     GG_INTERRUPTED);
+    assert_null(verdict);
+    assert_int_equal(p.looks, k + 1);
+    assert_int_not_equal(access("t_page.md", F_OK), 0);
+  }
+  gg_sweep_free(w);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(before_followed_runs),
       cmocka_unit_test(after_followed_runs),
       cmocka_unit_test(short_theory_of_stopped_runs),
+      cmocka_unit_test(files),
+      cmocka_unit_test(validation),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -77,7 +77,7 @@ static void read_back(void **state)
   gg_scene_free(s);
   assert_non_null(c[0]);
   assert_ok(gg_comparison_read("t_own.h5", &c[1], &err));
-  assert_ok(gg_comparison_write(c[1], "t_own_again.h5", &err));
+  assert_ok(gg_comparison_write(c[1], "t_own_again.h5", NULL, NULL, &err));
   assert_ok(gg_comparison_read("t_own_again.h5", &c[2], &err));
   gg_measurement md[3], dsmc, none;
   double z[3], value, deviation[3];
@@ -120,7 +120,7 @@ static void read_back_run(void **state)
   assert_ok(gg_comparison_read("t_own.h5", &c, &err));
   assert_ok(gg_result_get(gg_comparison_result(c, "dsmc"), "my_T", &mean[1], NULL, &err));
   assert_true(mean[0] == mean[1]);
-  assert_ok(gg_comparison_write(c, "t_own.h5", &err));
+  assert_ok(gg_comparison_write(c, "t_own.h5", NULL, NULL, &err));
   assert_ok(gg_result_read("t_own.h5", &back, &err));
   assert_ok(gg_result_get(back, "my_T", &mean[1], NULL, &err));
   assert_true(mean[0] == mean[1]);

@@ -36,7 +36,7 @@ static void run_round_trip(void **state)
   gg_error err = {0};
   gg_result *r = planted_result(GG_MD);
   gg_stored_result s;
-  assert_int_equal(gg_result_write(r, "r.h5", &err), GG_OK);
+  assert_int_equal(gg_result_write(r, "r.h5", NULL, NULL, &err), GG_OK);
   assert_int_equal(gg_files_stored_result_read(&s, "r.h5", &err), GG_OK);
   assert_false(s.comparison);
   assert_string_equal(s.version, gg_version());
@@ -136,14 +136,14 @@ static void failing_writes(void **state)
   (void)state;
   gg_error err = {0};
   gg_result *r = planted_result(GG_MD);
-  assert_int_equal(gg_result_write(r, "nowhere/r.h5", &err), GG_BAD_FILE);
+  assert_int_equal(gg_result_write(r, "nowhere/r.h5", NULL, NULL, &err), GG_BAD_FILE);
   assert_string_equal(err.message, "nowhere/r.h5: cannot be written: No such file or directory");
   mkdir("folder.h5", 0777);
-  assert_int_equal(gg_result_write(r, "folder.h5", &err), GG_BAD_FILE);
+  assert_int_equal(gg_result_write(r, "folder.h5", NULL, NULL, &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, "Is a directory"));
   rmdir("folder.h5");
-  assert_int_equal(gg_result_write(r, "/proc/r.h5", &err), GG_BAD_FILE);
-  assert_int_equal(gg_result_write(r, "old.h5", &err), GG_OK);
+  assert_int_equal(gg_result_write(r, "/proc/r.h5", NULL, NULL, &err), GG_BAD_FILE);
+  assert_int_equal(gg_result_write(r, "old.h5", NULL, NULL, &err), GG_OK);
   struct rlimit whole, small;
   struct stat before, after;
   stat("old.h5", &before);
@@ -151,7 +151,7 @@ static void failing_writes(void **state)
   small = whole;
   small.rlim_cur = 20000;
   setrlimit(RLIMIT_FSIZE, &small);
-  gg_status status = gg_result_write(r, "old.h5", &err);
+  gg_status status = gg_result_write(r, "old.h5", NULL, NULL, &err);
   setrlimit(RLIMIT_FSIZE, &whole);
   assert_int_equal(status, GG_BAD_FILE);
   assert_string_equal(err.message, "old.h5: cannot be written: File too large");
@@ -219,10 +219,11 @@ static void *write_and_read(void *number)
   intptr_t wrong = 0;
   snprintf(own, sizeof own, "own%d.h5", *(int *)number);
   for (int i = 0; i < 20; i++) {
-    bool read = gg_result_write(r, own, &err) == GG_OK && gg_files_stored_result_read(&s, own, &err) == GG_OK;
+    bool read =
+        gg_result_write(r, own, NULL, NULL, &err) == GG_OK && gg_files_stored_result_read(&s, own, &err) == GG_OK;
     wrong += !read || !gg_files_stored_series_find(&s.engine[GG_MD], "temperature");
     if (read) gg_files_stored_result_clear(&s);
-    gg_status status = gg_result_write(r, "one.h5", &err);
+    gg_status status = gg_result_write(r, "one.h5", NULL, NULL, &err);
     wrong += status != GG_OK && !(status == GG_BAD_FILE && strstr(err.message, "another process is writing it"));
   }
   gg_result_free(r);

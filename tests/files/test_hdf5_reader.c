@@ -380,7 +380,7 @@ static void words(void **state)
   static const uint64_t bad[] = {0, 1, 7, 0x7FFFFFFFFFFFFFFF, UINT64_MAX, 0xFFFFFFFF, 96, 800};
   gg_error err = {0};
   gg_result *r = planted_result(GG_MD);
-  assert_int_equal(gg_result_write(r, "f.h5", &err), GG_OK);
+  assert_int_equal(gg_result_write(r, "f.h5", NULL, NULL, &err), GG_OK);
   gg_result_free(r);
   struct stat about;
   int fd = open("f.h5", O_RDWR), refused = 0;

@@ -143,7 +143,7 @@ static bool draw_as(gg_result *r, gg_plot_format format)
   gg_error err = {0};
   gg_stored_result stored;
   bool drawn = false;
-  if (gg_result_write(r, "r.h5", &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_result_write(r, "r.h5", NULL, NULL, &err) != GG_OK) fail_msg("%s", err.message);
   if (gg_files_stored_result_read(&stored, "r.h5", &err) != GG_OK) fail_msg("%s", err.message);
   const char *picture = format == GG_PLOT_PNG ? "r.png" : format == GG_PLOT_PDF ? "r.pdf" : "r.svg";
   const gg_plot_paper paper = {.format = format};
@@ -234,7 +234,8 @@ static gg_result *gas_of(size_t n, double phi, bool mixed)
   gg_scene *s = &r->scene;
   s->flow = GG_USF, s->phi = phi, s->particles = (int64_t)n;
   if (mixed)
-    s->n_species = 2, s->species[0] = (gg_species){0.5, 1, 1, 0.4, 1}, s->species[1] = (gg_species){0.5, 0.5, 1, 0.4, 1};
+    s->n_species = 2, s->species[0] = (gg_species){0.5, 1, 1, 0.4, 1},
+    s->species[1] = (gg_species){0.5, 0.5, 1, 0.4, 1};
   gg_error err = {0};
   if (gg_common_model_make(s, GG_MD, &r->model, &err) != GG_OK) fail_msg("%s", err.message);
   gg_frame *f = &r->final;

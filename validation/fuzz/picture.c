@@ -83,7 +83,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     gg_plot_paper paper;
     if (gg_plot_paper_choose(&paper, name, NULL, widths[data[0] / 9 % 2], &err) == GG_OK &&
         gg_plot_result_draw(&s, &paper, name, &err) == GG_OK)
-      gg_plot_pages_draw(&s, &paper, name, NULL, NULL, &err);
+      gg_plot_pages_draw(&s, &paper, name, NULL, NULL, NULL, &err);
   }
   gg_files_stored_result_clear(&s);
   return 0;

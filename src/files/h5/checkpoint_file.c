@@ -44,7 +44,7 @@ static bool is_stopped(const gg_archive *a)
 /* Items are numbered, so that they come back in order; their names are attributes. */
 static void write_items(gg_h5 *h, const gg_archive *a)
 {
-  for (size_t i = 0; i < a->n_items && !is_stopped(a); i++) {
+  for (size_t i = 0; i < a->n_items; i++) {
     const gg_item *item = &a->items[i];
     char path[48];
     hsize_t count = item->count;
@@ -63,6 +63,7 @@ static gg_status make_image(const char *path, const gg_archive *a, const gg_scen
   const int layout = GG_CHECKPOINT_LAYOUT;
   char *yaml = gg_scene_yaml(scene);
   gg_h5_create_in_memory(&h);
+  h.stop = a->stop;
   if (!yaml) gg_h5_failed(&h, "out of memory");
   gg_h5_text(&h, "/checkpoint/scene", yaml ? yaml : "");
   gg_h5_text(&h, "/checkpoint/version", gg_base_build_version);
@@ -70,11 +71,10 @@ static gg_status make_image(const char *path, const gg_archive *a, const gg_scen
   gg_h5_attribute(&h, "/checkpoint/version", "layout", H5T_NATIVE_INT, &layout, 0);
   gg_h5_attribute(&h, "/checkpoint", "items", H5T_NATIVE_UINT64, &n, 0);
   write_items(&h, a);
-  *image = is_stopped(a) ? NULL : gg_h5_image(&h, size);
+  *image = gg_h5_image(&h, size);
   gg_h5_close(&h);
   free(yaml);
   gg_status status = gg_h5_status(&h, path, "written", err);
-  if (is_stopped(a)) status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", path);
   if (status == GG_OK) return status;
   free(*image);
   *image = NULL;

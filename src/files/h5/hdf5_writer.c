@@ -35,6 +35,13 @@ void gg_h5_failed(gg_h5 *h, const char *what)
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, find_cause, h);
 }
 
+/* Whether there is nothing more to be done. */
+static bool is_over(gg_h5 *h)
+{
+  if (!h->failed && h->stop && gg_stop_asked(h->stop)) h->failed = h->interrupted = true;
+  return h->failed;
+}
+
 static void start(gg_h5 *h)
 {
   *h = (gg_h5){.file = -1};
@@ -76,7 +83,7 @@ void gg_h5_create(gg_h5 *h, const char *path)
 
 void *gg_h5_image(gg_h5 *h, size_t *size)
 {
-  if (h->failed) return NULL;
+  if (is_over(h)) return NULL;
   ssize_t needed = H5Fflush(h->file, H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(h->file, NULL, 0);
   void *image = needed > 0 ? malloc((size_t)needed) : NULL;
   if (!image || H5Fget_file_image(h->file, image, (size_t)needed) < 0) {
@@ -97,6 +104,7 @@ void gg_h5_close(gg_h5 *h)
 
 gg_status gg_h5_status(const gg_h5 *h, const char *path, const char *verb, gg_error *err)
 {
+  if (h->interrupted) return gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", path);
   return h->failed ? gg_base_fail(err, GG_BAD_FILE, "%s: cannot be %s: %s", path, verb, h->why) : GG_OK;
 }
 
@@ -167,7 +175,7 @@ static hid_t new_dataset(gg_h5 *h, const char *path, hid_t type, hid_t space, hi
 
 static void write_dataset(gg_h5 *h, const char *path, hid_t type, hid_t space, const void *data)
 {
-  hid_t dataset = h->failed ? -1 : new_dataset(h, path, type, space, H5P_DEFAULT);
+  hid_t dataset = is_over(h) ? -1 : new_dataset(h, path, type, space, H5P_DEFAULT);
   if (dataset >= 0) {
     if (H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) gg_h5_failed(h, path);
     if (H5Dclose(dataset) < 0) gg_h5_failed(h, path);
@@ -294,7 +302,7 @@ void gg_h5_rows_create(gg_h5 *h, gg_h5_rows *rows, const char *path, hid_t type,
 
 void gg_h5_rows_append(gg_h5 *h, gg_h5_rows *rows, const void *data)
 {
-  if (h->failed) return;
+  if (is_over(h)) return;
   int rank = rows->row_rank + 1;
   hsize_t from[3] = {rows->n}, size[3] = {1, rows->row[0], rows->row[1]};
   hsize_t whole[3] = {rows->n + 1, rows->row[0], rows->row[1]};

@@ -8,11 +8,12 @@
 #include <hdf5.h>
 #include <stdbool.h>
 
-#include "base/error.h"
+#include "base/cancellation.h"
 
 typedef struct gg_h5 {
   hid_t file;
-  bool failed;
+  bool failed, interrupted;
+  const gg_stop *stop; /* polled before each array and text; set after the file is made; NULL: never */
   char why[256];
   char path[2][256]; /* of gg_h5_path */
   int last;
@@ -26,7 +27,7 @@ void gg_h5_create(gg_h5 *h, const char *path);
 /* The bytes of a file made in memory, to be freed. */
 void *gg_h5_image(gg_h5 *h, size_t *size);
 void gg_h5_close(gg_h5 *h);
-/* GG_BAD_FILE "path: cannot be `verb`: why" if anything failed. */
+/* GG_BAD_FILE "path: cannot be `verb`: why" if anything failed; GG_INTERRUPTED by stop. */
 gg_status gg_h5_status(const gg_h5 *h, const char *path, const char *verb, gg_error *err);
 
 /* A path in the file; the last two stay. */

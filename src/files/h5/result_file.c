@@ -293,6 +293,7 @@ static gg_status create(gg_result_file *f, bool streaming, gg_error *err)
     gg_h5_create(&w->h, f->file.temporary);
   else
     gg_h5_create_in_memory(&w->h);
+  w->h.stop = f->stop;
   f->now = w;
   return GG_OK;
 }
@@ -350,6 +351,8 @@ static gg_status finish(gg_result_file *f, gg_error *err)
     status = w->streaming ? append_trailer(f, err) : gg_files_checksum_trailer_write(&f->file, image, size, err);
   free(image);
   forget(f);
+  if (status == GG_OK && f->stop && gg_stop_asked(f->stop))
+    status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", f->file.path);
   if (status == GG_OK) return gg_base_atomic_commit(&f->file, err);
   gg_base_atomic_abandon(&f->file);
   return status;

@@ -24,6 +24,7 @@ typedef struct gg_result_file {
   gg_atomic_file file;
   const char *command;   /* the command line, for the record */
   const gg_scene *scene; /* whose `output` says what of frames is stored; NULL: all of it */
+  const gg_stop *stop;   /* ends the writing; NULL: nothing does */
   bool in_memory;        /* left in `bytes` instead */
   void *bytes;           /* of the finished file, to be freed */
   size_t size;
