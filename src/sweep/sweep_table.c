@@ -387,7 +387,7 @@ static gg_status write_image(gg_h5 *h, const char *path, gg_error *err)
   gg_status status = gg_h5_status(h, path, "written", err);
   if (status == GG_OK) status = gg_base_atomic_open(&file, path, err);
   if (status != GG_OK) return free(image), status;
-  status = gg_files_checksum_trailer_write(&file, image, size, err);
+  status = gg_files_checksum_trailer_write(&file, image, size, NULL, err);
   free(image);
   if (status == GG_OK) return gg_base_atomic_commit(&file, err);
   gg_base_atomic_abandon(&file);

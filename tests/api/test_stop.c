@@ -179,6 +179,30 @@ static void files(void **state)
   }
 }
 
+static int looks_of_write(const char *yaml)
+{
+  gg_error err;
+  gg_result *r = NULL;
+  gg_scene *s = scene_of(yaml);
+  patience p = {.bears = 1 << 30};
+  assert_ok(gg_run(s, NULL, &r, &err));
+  assert_ok(gg_result_write(r, "t_made.h5", loses_patience, &p, &err));
+  gg_result_free(r);
+  gg_scene_free(s);
+  return p.looks;
+}
+
+/* A large file goes to the disk by parts: it has 3 MB of velocities and numbers of its grains. */
+static void large_file(void **state)
+{
+  (void)state;
+  const int small =
+                looks_of_write("{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 100}, run: {collisions: 40}}"),
+            large =
+                looks_of_write("{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 100000}, run: {collisions: 40}}");
+  assert_true(large >= small + 3);
+}
+
 /* Between points, and before the page. */
 static void validation(void **state)
 {
@@ -209,6 +233,7 @@ int main(void)
       cmocka_unit_test(after_followed_runs),
       cmocka_unit_test(short_theory_of_stopped_runs),
       cmocka_unit_test(files),
+      cmocka_unit_test(large_file),
       cmocka_unit_test(validation),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);

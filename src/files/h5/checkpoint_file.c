@@ -105,7 +105,7 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
   gg_status status = make_image(path, a, scene, &image, &size, err);
   if (image && file.place.stream)
     status = gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, path);
-  if (status == GG_OK) status = gg_files_checksum_trailer_write(&file, image, size, err);
+  if (status == GG_OK) status = gg_files_checksum_trailer_write(&file, image, size, a->stop, err);
   free(image);
   if (status == GG_OK && is_stopped(a)) status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", path);
   if (status == GG_OK && keep) status = keep_before(&file, err);

@@ -39,11 +39,19 @@ void gg_files_checksum_trailer_of(const void *data, size_t size, unsigned char t
   fill(trailer, size, sum);
 }
 
-gg_status gg_files_checksum_trailer_write(gg_atomic_file *file, const void *data, size_t size, gg_error *err)
+gg_status gg_files_checksum_trailer_write(gg_atomic_file *file, const void *data, size_t size, const gg_stop *stop,
+                                          gg_error *err)
 {
   unsigned char trailer[GG_TRAILER_SIZE];
-  gg_files_checksum_trailer_of(data, size, trailer);
-  GG_TRY(gg_base_atomic_write(file, data, size, err));
+  const unsigned char *at = data;
+  uLong sum = crc32(0, NULL, 0);
+  for (size_t left = size, now; left > 0; at += now, left -= now) {
+    now = left < BLOCK ? left : BLOCK;
+    if (stop && gg_stop_asked(stop)) return gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", file->path);
+    sum = crc32(sum, at, (uInt)now);
+    GG_TRY(gg_base_atomic_write(file, at, now, err));
+  }
+  fill(trailer, size, sum);
   return gg_base_atomic_write(file, trailer, sizeof trailer, err);
 }
 

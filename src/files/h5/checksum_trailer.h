@@ -16,8 +16,9 @@ enum { GG_TRAILER_SIZE = 20, GG_TRAILER_SMALL = 1 << 20 };
 
 /* Of bytes in memory. */
 void gg_files_checksum_trailer_of(const void *data, size_t size, unsigned char trailer[GG_TRAILER_SIZE]);
-/* Bytes in memory with their checksum into a file. */
-gg_status gg_files_checksum_trailer_write(gg_atomic_file *file, const void *data, size_t size, gg_error *err);
+/* Bytes in memory with their checksum into a file; `stop` (may be NULL) is polled for each megabyte. */
+gg_status gg_files_checksum_trailer_write(gg_atomic_file *file, const void *data, size_t size, const gg_stop *stop,
+                                          gg_error *err);
 /* The bytes with their checksum behind them, to be freed. */
 void *gg_files_checksum_trailer_append(void *data, size_t size, gg_error *err);
 /* Likewise read: NULL if they are what was written, with the size before the checksum; otherwise why not. */

@@ -348,7 +348,8 @@ static gg_status finish(gg_result_file *f, gg_error *err)
     return status;
   }
   if (status == GG_OK)
-    status = w->streaming ? append_trailer(f, err) : gg_files_checksum_trailer_write(&f->file, image, size, err);
+    status =
+        w->streaming ? append_trailer(f, err) : gg_files_checksum_trailer_write(&f->file, image, size, f->stop, err);
   free(image);
   forget(f);
   if (status == GG_OK && f->stop && gg_stop_asked(f->stop))
