@@ -755,7 +755,7 @@ typedef struct gg_measurement {
   const char *unit;
   const char *reason;                /* why there is no mean; NULL if there is one; "" if it was not requested */
   const char *correlation_time_unit; /* of time; "collisions a grain" if the gas cools or heats up for ever */
-  const char *symbol;                /* as in pictures: "T", "P_{xy}"; NULL for a number derived from a curve */
+  const char *symbol;                /* LaTeX: "T", "P_{xy}"; NULL: none, as of a number of a curve or of your own */
 } gg_measurement;
 
 /**
@@ -1151,10 +1151,10 @@ typedef struct gg_departure {
 GG_API gg_status gg_comparison_departure(const gg_comparison *comparison, const char *engine, const char *quantity,
                                          gg_departure *departure, gg_error *err);
 
-typedef struct gg_comparison_row { /* one quantity; arrays: md, dsmc */
-  const char *name, *symbol, *unit;
-  double mean[2], error[2]; /* standard errors; NaN: none */
-  double z;                 /* this and `beyond`: see gg_comparison_agreement() */
+typedef struct gg_comparison_row {  /* one quantity; arrays: md, dsmc */
+  const char *name, *symbol, *unit; /* symbol: LaTeX; NULL of a quantity of your own */
+  double mean[2], error[2];         /* standard errors; NaN: none */
+  double z;                         /* this and `beyond`: see gg_comparison_agreement() */
   int beyond;
   gg_departure departure[2];
 } gg_comparison_row;
@@ -1651,7 +1651,7 @@ typedef struct gg_entry { /* NULL or "": not in this table */
   const char *formula; /* of a quantity: its definition, as LaTeX has it */
   const char *missing; /* of a quantity: why the scene has no mean of it; NULL: it has one, or no scene is given */
   const char *answers; /* of a theory: names of quantities, separated by blanks */
-  char symbol[48];     /* of a quantity, as pictures have it: "T", "P_{xy}" */
+  char symbol[48];     /* of a quantity, LaTeX: "T", "\\kappa_{rh}"; "" of your own */
   int headline;        /* of a quantity: run.relative_error applies to it in the scene */
   char when[256];      /* when a key has an effect, a quantity has a mean, which flows a theory describes */
 } gg_entry;

@@ -45,8 +45,8 @@ def observables():
 
 
 def quantities(scene=None):
-    """Quantities of results: name, unit (of results of the scene; None: under shear), doc, symbol, formula (LaTeX), when
-    they have a mean."""
+    """Quantities of results: name, unit (of results of the scene; None: under shear), doc, symbol and formula (LaTeX),
+    when they have a mean."""
     if scene is None:
         return table(lib.GG_CATALOGUE_QUANTITIES)
     with scene.held() as pointer:

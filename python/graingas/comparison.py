@@ -94,6 +94,7 @@ class Theory(Mapping):
 class Row:
     """One quantity of a comparison.
 
+    symbol      LaTeX; None of a quantity of your own
     md, dsmc    Estimates; without a mean where the engine has none
     z           (md - dsmc) over the combined standard error
     beyond      whether md differs from Enskog's equation by more than expected
@@ -112,7 +113,8 @@ class Row:
         result = getattr(self._comparison, engine)
         if result is not None:
             return result.find(self.name)
-        return Estimate(row.mean[i], row.error[i], self.unit, self.name, reason=self._comparison.refusals.get(engine))
+        return Estimate(row.mean[i], row.error[i], self.unit, self.name, symbol=self.symbol,
+                        reason=self._comparison.refusals.get(engine))
 
     @property
     def theory(self) -> dict[str, float]:

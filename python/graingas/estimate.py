@@ -36,6 +36,7 @@ class Estimate:
     tau           correlation time, in `tau_unit`; NaN: unknown
     samples       number of samples
     reason        why there is no mean; None if there is one
+    symbol        of the quantity, LaTeX: f"${e.symbol}$"; None: a number of a curve or a quantity of your own
     u             the same as a number of uncertainties, correlated with the means of the run whose `u` was used before.
                   Of two means every combination has the error of the operators below; of more, nearly
 

@@ -59,8 +59,14 @@ def unit_text(unit):
     return f"${greek}$" if re.fullmatch(r"[\w^\\ /()]+", greek) else unit
 
 
-def label(name, unit=None):
-    return name if unit in (None, "", "1") else f"{name} [{unit_text(unit)}]"
+def symbol_text(name, symbol=None):
+    """A symbol as mathematics; without one the name."""
+    return f"${symbol}$" if symbol else name
+
+
+def label(name, unit=None, symbol=None):
+    text = symbol_text(name, symbol)
+    return text if unit in (None, "", "1") else f"{text} [{unit_text(unit)}]"
 
 
 def units(scene):
@@ -81,7 +87,8 @@ def plot_history(result, quantity, ax=None, **style):
     time, values = result.history(quantity)
     ax.plot(time, values, **{"label": result.engine, "linewidth": 0.8, **style})
     unit = units(result.scene)
-    ax.set(xlabel=label("time", unit["time"]), ylabel=label(quantity, result.find(quantity).unit))
+    found = result.find(quantity)
+    ax.set(xlabel=label("time", unit["time"]), ylabel=label(quantity, found.unit, found.symbol))
     known = values[np.isfinite(values)]
     if len(known) and 0 < 100 * known.min() < known.max():  # free cooling: a power of time
         ax.set(xscale="log", yscale="log")
@@ -145,7 +152,9 @@ def plot_comparison(comparison, quantities=None, ax=None):
         ratios = [theory[name] / m if name in theory else np.nan for name, m in zip(names, reference)]
         ax.plot(x, ratios, "_", markersize=9, color=COLOURS[i % 7], label=theory.name)
     ax.axhline(1, color="grey", linewidth=0.5)
-    ax.set_xticks(x, names, rotation=60, ha="right")
+    ax.set_xticks(x, [symbol_text(name, comparison[name].symbol) for name in names])
+    if not all(comparison[name].symbol for name in names):  # names would run into each other
+        ax.tick_params("x", rotation=60)
     ax.set(ylabel="ratio to md" if comparison.md is not None else "ratio to dsmc")
     legend(ax)
     return ax
@@ -200,6 +209,8 @@ def plot_sweep(grid, quantity, over=None, relative_to=None, ax=None):
         style = dict(fmt=MARKERS[form % 7], mfc="none") if solver in ("md", "dsmc") else dict(fmt=DASHES[form % 4])
         ax.errorbar(grid.coords[over], mean[at], errors(error[at]), color=COLOURS[colour % 7],
                     label=f"{solver}, {keys}" if keys else solver, **style)
-    ax.set(xlabel=over, ylabel=f"{quantity} / {relative_to}" if relative_to else label(quantity, grid.units[quantity]))
+    symbol = getattr(catalogue.quantities().get(quantity), "symbol", None)
+    ax.set(xlabel=over, ylabel=f"{symbol_text(quantity, symbol)} / {relative_to}" if relative_to
+           else label(quantity, grid.units[quantity], symbol))
     legend(ax)
     return ax

@@ -7,7 +7,7 @@ from typing import Optional, Sequence
 
 import numpy as np
 
-from . import calls
+from . import calls, catalogue
 from .errors import BadInput, not_found
 from .plot import COLOURS, DASHES, label, legend, new_axes, styled, units
 from .run import thread_count
@@ -100,7 +100,7 @@ class Relaxation:
         for at, changes in self.protocol:
             ax.axvline(at, color="0.7", linewidth=0.6, zorder=0)
         unit = units(self.scene)
-        ax.set(xlabel=label("time", unit["time"]), ylabel=label(quantity, unit[quantity]))
+        ax.set(xlabel=label("time", unit["time"]), ylabel=label(quantity, unit[quantity], catalogue.quantities(self.scene)[quantity].symbol))
         legend(ax)
         return ax
 

@@ -89,8 +89,8 @@ def test_pictures_and_tables():
     found = gg.relax(bath(beta=0.5), 1, points=5, replicas=2, protocol=[(0.5, {"bath.temperature": 1})])
     ax = found.plot("temperature_ratio")
     assert len(ax.lines) == 3 and [t.get_text() for t in ax.get_legend().texts] == ["md", "dsmc"]
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("time [$d/v_0$]", "temperature_ratio")
-    assert found.plot().get_ylabel() == "temperature [$v_0^2$]"
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("time [$d/v_0$]", r"$\theta/T$")
+    assert found.plot().get_ylabel() == "$T$ [$v_0^2$]"
     with pytest.raises(gg.NotFound, match="did you mean 'temperature'"):
         found.plot("temprature")
     table = found.to_dataframe()

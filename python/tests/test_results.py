@@ -106,9 +106,22 @@ def test_pictures(comparison):
         assert isinstance(ax, matplotlib.axes.Axes) and ax.get_ylabel()
         ax.figure.savefig(f"{i}.pdf")
     assert dict(matplotlib.rcParams) == before
-    assert comparison.md.plot("temperature").get_xlabel() == r"time [$1/\gamma$]"
+    ax = comparison.md.plot("temperature")
+    assert (ax.get_xlabel(), ax.get_ylabel()) == (r"time [$1/\gamma$]", r"$T$ [$d^2 \gamma^2$]")
     ax = matplotlib.pyplot.figure().add_subplot()
-    assert comparison.plot(["temperature", "N1"], ax=ax) is ax and len(ax.get_xticks()) == 2
+    assert comparison.plot(["temperature", "N1"], ax=ax) is ax
+    assert [tick.get_text() for tick in ax.get_xticklabels()] == ["$T$", "$N_1$"]
+
+
+def test_symbols_are_latex(comparison):
+    """Of every quantity, species of mixtures too; matplotlib reads them as mathematics."""
+    mathtext = pytest.importorskip("matplotlib.mathtext")
+    mixture = gg.Scene(flow="hcs", phi=0.1, species=[{"fraction": 0.25, "mass": k + 1} for k in range(4)])
+    found = gg.catalogue.quantities(mixture)
+    assert found["temperature_4"].symbol == "T_{4}" and found["rotational_conductivity"].symbol == r"\kappa_{rh}"
+    for entry in found.values():
+        mathtext.MathTextParser("path").parse(f"${entry.symbol}$")
+    assert all(comparison[name].symbol == row.md.symbol == found[name].symbol for name, row in comparison.items())
 
 
 def test_picture_of_cooling(short):

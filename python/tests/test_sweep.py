@@ -49,7 +49,7 @@ def test_comparisons_theories_and_pictures(short):
     compared = gg.sweep(short, e=[0.8, 0.9], does="compare")
     assert {"md", "dsmc", "lun1991"} <= set(compared.grid().coords["solver"])
     ax = compared.plot("temperature", relative_to="enskog_hermite")
-    assert "enskog_hermite" in ax.get_ylabel() and ax.get_xlabel() == "collision.e"
+    assert ax.get_ylabel() == "$T$ / enskog_hermite" and ax.get_xlabel() == "collision.e"
     assert compared.plot(over="e").get_xlabel() == "collision.e"
     for wrong in {"relative_to": "nobody"}, {"over": "beta"}, {"quantity": "temprature"}:
         with pytest.raises(gg.NotFound):

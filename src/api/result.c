@@ -30,7 +30,7 @@ static gg_measurement measurement(const gg_result *r, const gg_quantity_row *row
                           .unit = row->unit,
                           .reason = isnan(e->mean) ? e->reason : NULL,
                           .correlation_time_unit = r->correlation_time_unit,
-                          .symbol = row->symbol};
+                          .symbol = *row->symbol ? row->symbol : NULL};
 }
 
 gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measurement *found, gg_error *err)

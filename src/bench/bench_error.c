@@ -91,7 +91,7 @@ static void fill(const gg_error_state *s, int q, page *p, gg_chart_panel *panel)
       add_theory(s->theory[k].name, s->theory[k].error[q], ends, &p->curve[i][n], &p->series[i][n]);
       n++;
     }
-  gg_common_quantity_symbol(gg_bench_error_quantities(s->flow)[q], p->name[i], sizeof p->name[i]);
+  gg_common_quantity_enhanced(gg_bench_error_quantities(s->flow)[q], p->name[i], sizeof p->name[i]);
   *panel = (gg_chart_panel){.title = p->name[i],
                             .x = {"processor time", "s", true, 0, 0},
                             .y = {"relative error", NULL, true, 0, 0},

@@ -93,7 +93,7 @@ static const char *label_of(gg_plot_sheet *s, const char *name, bool wordy)
   gg_quantity q = gg_common_quantity_find(name);
   if (q < GG_N_QUANTITIES) {
     const char *word = gg_common_quantity_word(q);
-    gg_common_quantity_symbol(q, text, sizeof text);
+    gg_common_quantity_enhanced(q, text, sizeof text);
     return gg_plot_sheet_add_text(s, "%s%s%s", wordy ? word : "", wordy && *word ? "\\n" : "", text);
   }
   for (const char *c = name; *c && used + 4 < sizeof text; c++)

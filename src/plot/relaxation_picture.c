@@ -102,7 +102,7 @@ static void add_panel(gg_plot_sheet *s, const gg_stored_engine *e, const char *w
   gg_chart_panel *p = gg_plot_sheet_add_panel(s);
   if (!p) return;
   for (int k = 0; k < n; k++) {
-    gg_common_quantity_symbol(q[k], symbol, sizeof symbol);
+    gg_common_quantity_enhanced(q[k], symbol, sizeof symbol);
     label[k] = gg_plot_sheet_add_text(s, "%s%s", q[k] == GG_Q_P_XY ? "-" : "", symbol);
     end = fmax(end, add_quantity(s, e, q[k], label[k]));
   }

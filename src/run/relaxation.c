@@ -203,11 +203,12 @@ static void add_curve(const gg_replicas *all, const gg_quantity_row *row, const 
                       const gg_relaxing *theory, size_t first, gg_curves *list)
 {
   const gg_replica *r = &all->replica[0];
-  char name[64], panel[80];
+  char name[64], symbol[32], panel[64];
+  gg_common_quantity_enhanced(row->quantity, symbol, sizeof symbol);
   snprintf(name, sizeof name, first ? "%.36s_after_changes" : "%.36s_in_time", row->name);
-  snprintf(panel, sizeof panel, first ? "%s after the last change" : "%s", row->symbol);
+  snprintf(panel, sizeof panel, first ? "%s after the last change" : "%s", symbol);
   gg_curve *c = gg_measure_curve_add(list, r->series.n - first, name, panel, "measured");
-  gg_measure_curve_axes(c, "t", gg_measure_curve_unit(&all->model, "time"), row->symbol, row->unit);
+  gg_measure_curve_axes(c, "t", gg_measure_curve_unit(&all->model, "time"), symbol, row->unit);
   c->samples = (uint64_t)all->n;
   const bool beside = theory && !isnan(theory_of(theory, row->quantity, &all->model));
   if (beside) gg_measure_curve_beside(c, gg_theory_relaxation_name(&all->model), gg_measure_curve_level, &(double){0});

@@ -41,10 +41,7 @@ void gg_run_rows_make(const gg_model *m, gg_quantity_rows *rows)
     gg_quantity_row *r = &rows->row[i];
     *r = (gg_quantity_row){q, gg_common_quantity_name_in(m, q), gg_common_quantity_unit(q, m),
                            gg_common_quantity_doc_in(m, q), ""};
-    if (q < GG_N_QUANTITIES)
-      gg_common_quantity_symbol(q, r->symbol, sizeof r->symbol);
-    else
-      snprintf(r->symbol, sizeof r->symbol, "%s", r->name);
+    if (q < GG_N_QUANTITIES) gg_common_quantity_symbol(q, r->symbol, sizeof r->symbol);
   }
 }
 

@@ -24,7 +24,7 @@ bool gg_run_quantity_counts_in_collisions(const gg_model *model);
 typedef struct gg_quantity_row {
   gg_quantity quantity;
   const char *name, *unit, *doc;
-  char symbol[48]; /* as pictures have it; of a user-defined quantity its name */
+  char symbol[48]; /* LaTeX; "" of a user-defined quantity */
 } gg_quantity_row;
 
 typedef struct gg_quantity_rows { /* in the order in which they are shown */

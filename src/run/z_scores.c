@@ -168,7 +168,7 @@ void gg_run_comparison_row(const gg_comparison *c, const gg_quantity_row *named,
 {
   const gg_quantity q = named->quantity;
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
-  *row = (gg_comparison_row){.name = named->name, .symbol = named->symbol, .unit = named->unit};
+  *row = (gg_comparison_row){.name = named->name, .symbol = *named->symbol ? named->symbol : NULL, .unit = named->unit};
   for (int k = 0; k < 2; k++) {
     const gg_estimate *e = estimate_of(c->by_engine[k], named);
     row->mean[k] = e ? e->mean : NAN, row->error[k] = e ? e->error : NAN;

@@ -240,7 +240,7 @@ static void name_y(drawing *d, size_t p)
   char symbol[64], method[96];
   const gg_quantity q = gg_common_quantity_find(d->quantity[p]);
   if (q < GG_N_QUANTITIES)
-    gg_common_quantity_symbol(q, symbol, sizeof symbol);
+    gg_common_quantity_enhanced(q, symbol, sizeof symbol);
   else
     snprintf(symbol, sizeof symbol, "%s", d->quantity[p]);
   gg_plot_method_name(d->choice->relative_to ? d->choice->relative_to : "", method, sizeof method);

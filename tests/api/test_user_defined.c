@@ -85,6 +85,7 @@ static void read_back(void **state)
     const gg_result *r = gg_comparison_result(c[k], "md");
     assert_ok(gg_result_find(r, "my_T", &md[k], &err));
     assert_string_equal(md[k].unit, "d\xc2\xb2 gamma\xc2\xb2");
+    assert_null(md[k].symbol);
     assert_true(md[k].mean == md[0].mean && md[k].error == md[0].error && md[k].samples == md[0].samples);
     assert_ok(gg_result_find(gg_comparison_result(c[k], "dsmc"), "my_T", &dsmc, &err));
     assert_true(dsmc.mean != md[k].mean);

@@ -15,7 +15,7 @@
 static void names(void **state)
 {
   (void)state;
-  char symbol[24];
+  char symbol[48];
   for (int q = 0; q < GG_N_QUANTITIES; q++) {
     assert_int_equal(gg_common_quantity_find(gg_common_quantity_name((gg_quantity)q)), q);
     assert_true(strlen(gg_common_quantity_doc((gg_quantity)q)) > 5);
