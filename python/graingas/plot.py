@@ -152,9 +152,10 @@ def plot_comparison(comparison, quantities=None, ax=None):
         ratios = [theory[name] / m if name in theory else np.nan for name, m in zip(names, reference)]
         ax.plot(x, ratios, "_", markersize=9, color=COLOURS[i % 7], label=theory.name)
     ax.axhline(1, color="grey", linewidth=0.5)
-    ax.set_xticks(x, [symbol_text(name, comparison[name].symbol) for name in names])
-    if not all(comparison[name].symbol for name in names):  # names would run into each other
-        ax.tick_params("x", rotation=60)
+    texts = [symbol_text(name, comparison[name].symbol) for name in names]
+    letters = max(len(re.sub(r"\\[a-zA-Z]+", "x", text).translate(dict.fromkeys(b"${}^"))) for text in texts)
+    crowded = letters * len(texts) > 60  # in the width of a column they would run into each other
+    ax.set_xticks(x, texts, **(dict(rotation=60, ha="right") if crowded else {}))
     ax.set(ylabel="ratio to md" if comparison.md is not None else "ratio to dsmc")
     legend(ax)
     return ax
