@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs: the command's numbers, progress, threads, Ctrl-C, checkpoints, files, processes."""
 import json
+import math
 import os
 import signal
 import struct
@@ -78,11 +79,24 @@ def interrupt_after(seconds):
     return sent
 
 
+def interrupt_with_means(engines):
+    """A function for progress: SIGINT, once that many engines have means with errors. And when it was sent."""
+    known, sent = set(), []
+
+    def progress(report):
+        if math.isfinite(report.relative_error):
+            known.add(report.engine)
+        if len(known) == engines and not sent:
+            sent.append(time.monotonic())
+            os.kill(os.getpid(), signal.SIGINT)
+    return progress, sent
+
+
 @pytest.mark.parametrize("function", [gg.run, gg.compare])
 def test_interrupted_run_keeps_what_there_is(endless, function):
-    sent = interrupt_after(1.5)
+    progress, sent = interrupt_with_means(1 if function is gg.run else 2)
     with pytest.warns(gg.PartialResult):
-        result = function(endless, threads=2)
+        result = function(endless, threads=2, progress=progress)
     assert time.monotonic() - sent[0] < 0.5  # 0.02 s on an idle machine
     assert "interrupted" in result.partial
     md = result.md if function is gg.compare else result
