@@ -116,6 +116,7 @@ static const corner corners[] = {
      .quick = true},
     {.name = "Couette, gap of 100 widths",
      .scene = "{flow: couette, phi: 0.1, particles: 1000, aspect: [1, 100, 1], walls: {e: 0.9}}",
+     .collisions = 20,
      .quick = true},
     {.name = "Couette, masses 1 : 1e6, rough",
      .scene = "{flow: couette, phi: 0.1, particles: 400, collision: {beta: 0}, species: [{fraction: 0.5}, {fraction: "
@@ -153,8 +154,7 @@ static const corner corners[] = {
      .scene =
          "{flow: hss, thermostat: white_noise, phi: 3e-4, particles: 1000, collision: {e: 0}, run: {collisions: 600}}",
      .agrees = "cooling_rate",
-     .collisions = 5,
-     .quick = true},
+     .collisions = 5},
 };
 
 const corner_table corners_of_drives = {"drives", corners, sizeof corners / sizeof *corners};

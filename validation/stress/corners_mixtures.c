@@ -54,7 +54,8 @@ static const corner corners[] = {
      .collisions = 300,
      .quick = true},
     {.name = "16 species",
-     .scene = "{flow: usf, phi: 0.2, particles: 640, collision: {e: 0.8, beta: 0.2}, species: [{fraction: 0.0625}, "
+     .scene = "{flow: usf, phi: 0.2, particles: 640, temperature: 1, collision: {e: 0.8, beta: 0.2}, species: "
+              "[{fraction: 0.0625}, "
               "{fraction: 0.0625, "
               "mass: 2}, "
               "{fraction: 0.0625, mass: 3}, {fraction: 0.0625, mass: 4}, {fraction: 0.0625, mass: 5}, {fraction: "
