@@ -481,7 +481,7 @@ static void column(double phi, double height, double g_over_T, int samples)
 static void columns_carry_their_weight(void **state)
 {
   (void)state;
-  column(0, 4, 0.5, 40);
+  column(0, 4, 0.5, 15);
   column(0.1, 15, 0.1, 10);
   column(0.3, 12, 0.1, 20);
 }

@@ -161,7 +161,7 @@ static gg_result *run_of(gg_engine_kind engine, gg_flow flow, double phi, double
   s.engine = engine, s.flow = flow, s.phi = phi, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = e, s.collision.beta[q] = beta;
   s.walls.temperature[0] = T, s.walls.temperature[1] = flow == GG_FOURIER ? 0.5 * T : T;
-  s.run.collisions = engine == GG_MD ? 8000 : 6000, s.run.warmup = engine == GG_MD ? 1000 : 500;
+  s.run.collisions = engine == GG_MD ? 8000 : phi > 0 ? 4000 : 6000, s.run.warmup = engine == GG_MD ? 1000 : 500;
   s.measure |= GG_MEASURE_PROFILES | GG_MEASURE_FLUXES;
   return ct_run(s);
 }
