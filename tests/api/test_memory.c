@@ -4,7 +4,7 @@
  * with GG_OK and the whole answer, or with an error that says so; nothing leaks; no file is left half-written. (Blocks
  * that HDF5 and FFTW keep for themselves are not called leaks: they keep them on success, too.)
  *
- * Here some k of each call, twice as many at night. By hand: MEMORY_TRIES=0 all, MEMORY_ONLY=word some calls,
+ * Here some k of each call, three times as many at night. By hand: MEMORY_TRIES=0 all, MEMORY_ONLY=word some calls,
  * MEMORY_AT=k one, MEMORY_LAST=1 all later ones fail, too, MEMORY_IN=library (failing_malloc.h), MEMORY_HERE=1 all in
  * this process, for a debugger. */
 #include <dirent.h>
@@ -179,7 +179,7 @@ static bool try_all(const memory_call *call, outcome *shared)
 {
   const char *in = getenv("MEMORY_IN");
   const bool last = getenv("MEMORY_LAST");
-  uint64_t tries = number_of("MEMORY_TRIES", 12), only = number_of("MEMORY_AT", 0);
+  uint64_t tries = number_of("MEMORY_TRIES", 8), only = number_of("MEMORY_AT", 0);
   fork_one(call, 0, false, in, shared); /* to know the answer, and how many there are */
   const uint64_t all = shared->calls, step = tries && all > tries ? all / tries : 1;
   uint64_t done = 0, clean = 0, harmless = 0, ended = 0, bad = shared->wrong != 0;

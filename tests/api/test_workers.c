@@ -230,7 +230,7 @@ static void checkpoint_due_at_the_start(void **state)
 {
   (void)state;
   mailbox p = {0};
-  gg_scene *scene = scene_of("{flow: usf, phi: 0.5, particles: 20000, run: {collisions: 1, warmup: 1, replicas: 2}, "
+  gg_scene *scene = scene_of("{flow: usf, phi: 0.5, particles: 8000, run: {collisions: 1, warmup: 1, replicas: 2}, "
                              "output: {checkpoint_every: 1.0e-3}}");
   gg_result *several = NULL;
   gg_run_options options = {.checkpoint = "t_start.h5"};
