@@ -354,7 +354,7 @@ def test_small_stack():
     if SANITIZERS != "none":
         raise Skip("sanitizers need more")
     common = "phi: 0.2\nparticles: 100\ndsmc: {particles: 200}\nrun: {collisions: 40, warmup: 5, replicas: 2}\n"
-    mixture = "species: [{fraction: 0.3}, {fraction: 0.3, diameter: 1.3, mass: 2}, {fraction: 0.4, mass: 3}]\n"
+    mixture = "species: [{fraction: 0.3}, {fraction: 0.7, diameter: 1.3, mass: 2}]\n"  # theories of three take twice as long
     scenes = [f"flow: {flow}\n" + common + more for flow in ("usf", "hcs", "small_shear") for more in ("", mixture)]
     scenes += ["flow: usf\ncollision: {e: 0.8, beta: 0}\n" + common, "flow: usf\ncollision: {e: 0.8, beta: 0, mu: 0.3}\n" + common,
                "flow: couette\ncollision: {e: 0.9, beta: 0}\nmeasure: [rheology, profiles, cells]\n" + common,

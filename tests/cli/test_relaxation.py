@@ -291,7 +291,7 @@ def test_out_of_time():
 def test_long_start():
     """A start that takes long shows that grains are placed, and ends with the time limit."""
     done = run("run", "scene.yaml", "--output", "d.h5", scene="{flow: hcs, phi: 0.6, particles: 100000, collision: "
-               "{e: 0.9}, run: {duration: 10, replicas: 1, time_limit: 2}}")
+               "{e: 0.9}, run: {duration: 10, replicas: 1, time_limit: 1}}")
     check(done.code == 1 and "time limit reached before the start was done" in done.err, done.code, done.err)
     check("md places grains, limit in " in done.err, done.err)
 
