@@ -192,13 +192,14 @@ static void limits_of_rough_grains(void **state)
 }
 
 /* Rough grains that cool, whose spins have long tails, against Monte Carlo runs of 10^8 and more collisions (their own
- * errors below 0.1 %): theta/T within 0.3 %, and within what is stated; fast spins (theta/T = 206) included. */
+ * errors below 0.1 %): theta/T within 0.3 %, and within what is stated; fast spins (theta/T = 206) included. The other
+ * two nightly. */
 static void cooling_of_rough_grains(void **state)
 {
   (void)state;
-  const double e[] = {0.7, 0.8, 0.7, 0.7}, beta[] = {-0.5, -0.5, -0.7, -0.9};
-  const double ratio[] = {3.5401, 1.2909, 14.949, 206.06};
-  for (int i = 0; i < 4; i++) {
+  const double e[] = {0.7, 0.7, 0.8, 0.7}, beta[] = {-0.5, -0.9, -0.5, -0.7};
+  const double ratio[] = {3.5401, 206.06, 1.2909, 14.949};
+  for (int i = 0; i < (getenv("NIGHTLY") ? 4 : 2); i++) {
     gg_model m = model_for(GG_HCS, 0, e[i], beta[i]);
     gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &m);
     double said = a.value[GG_Q_TEMPERATURE_RATIO], error = a.error[GG_Q_TEMPERATURE_RATIO];

@@ -65,12 +65,12 @@ static void sheared_mixtures(void **state)
   assert_close(b.value[GG_Q_DISSIPATION], -b.value[GG_Q_P_XY], 1e-7);
 }
 
-/* What is stated covers the difference from a higher degree, and is small. */
+/* What is stated covers the difference from a higher degree, and is small; of the dilute gas nightly. */
 static void errors_of_mixtures_are_honest(void **state)
 {
   (void)state;
-  const double phi[] = {0, 0.3}, e[] = {0.8, 0.8}, most[] = {2e-4, 2e-4};
-  for (int i = 0; i < 2; i++) {
+  const double phi[] = {0.3, 0}, e[] = {0.8, 0.8}, most[] = {2e-4, 2e-4};
+  for (int i = 0; i < (getenv("NIGHTLY") ? 2 : 1); i++) {
     gg_model m = mixture_for(GG_USF, phi[i], e[i], -1, 10, 1.5, 1);
     gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &m);
     gg_hermite_shear h;
@@ -112,18 +112,18 @@ static gg_model drawn(int k)
 
 /* Where the last step of N1 happens to be small: degree 14 is within twice the error, which is not far too large
  * either. Of 90 scenes drawn likewise no quantity was off by more than 1.6 errors, half of
- * all by more than 0.2. */
+ * all by more than 0.2. The other two nightly. */
 static void errors_do_not_vanish_by_chance(void **state)
 {
   (void)state;
   static const struct {
     int drawn;
     double N1, kurtosis_x, kurtosis_y; /* degree 14 */
-  } at[] = {{38, 0.613806541056, 3.68033356207, 3.59682670098},
-            {35, 1.00449861098, 3.62615692589, 4.13185751157},
-            {4, 1.32792721759, 3.85378562518, 4.75005066182},
-            {42, 0.914444403596, 3.54484049992, 3.5981280545}};
-  for (size_t i = 0; i < sizeof at / sizeof *at; i++) {
+  } at[] = {{4, 1.32792721759, 3.85378562518, 4.75005066182},
+            {42, 0.914444403596, 3.54484049992, 3.5981280545},
+            {38, 0.613806541056, 3.68033356207, 3.59682670098},
+            {35, 1.00449861098, 3.62615692589, 4.13185751157}};
+  for (size_t i = 0; i < (getenv("NIGHTLY") ? sizeof at / sizeof *at : 2); i++) {
     gg_model m = drawn(at[i].drawn);
     gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &m);
     const gg_quantity q[] = {GG_Q_N1, GG_Q_KURTOSIS_CX, GG_Q_KURTOSIS_CY};
