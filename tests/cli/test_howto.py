@@ -81,14 +81,15 @@ def table(text):
 
 
 def test_values_to_check_programs_by():
-    """Each state of the page again, another seed, errors of 0.7 %: within four errors, and Enskog's digits the same."""
+    """Each state of the page again, another seed, errors of 0.5 %: within four errors, and Enskog's digits the same. In
+    ./check two of them."""
     text = page("check_your_program")
     commands = re.findall(r"^graingas compare .*? --output (\S+)\.h5$", text, re.MULTILINE)
     lines = {name: re.search(rf"^(graingas compare .*?) \$more --output {re.escape(name)}\.h5$", text, re.MULTILINE)[1] for name in commands}
     tables = {name: table(rows) for name, rows in re.findall(r"<!-- table of: (\S+)\.h5;.*?-->\n((?:\|.*\n)+)", text)}
     check(len(lines) == 8 and sorted(lines) == sorted(tables), sorted(lines), sorted(tables))
-    for name, line in lines.items():
-        done = shell(line + " --set run.relative_error=0.007 --set run.collisions=20000 --set run.seed=77 --quiet --picture none --json --output x.h5")
+    for name, line in lines.items() if "NIGHTLY" in os.environ else list(lines.items())[::4]:
+        done = shell(line + " --set run.relative_error=0.005 --set run.collisions=20000 --set run.seed=77 --quiet --picture none --json --output x.h5")
         check(done.returncode == 0, line, done.stderr)
         found = json.loads(done.stdout)
         for quantity, (_, md, dsmc, z, enskog) in tables[name].items():
