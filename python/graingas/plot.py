@@ -69,11 +69,10 @@ def label(name, unit=None, symbol=None):
     return text if unit in (None, "", "1") else f"{text} [{unit_text(unit)}]"
 
 
-def units(scene):
-    """Units of results of a scene by quantity, and of "time"."""
-    found = {name: entry.unit for name, entry in catalogue.quantities(scene).items()}
-    rate = found["collision_rate"]
-    return {**found, "time": "d/v_0" if rate == "v_0/d" else f"1/{rate}" if " " not in rate else f"1/({rate})"}
+def time_label(quantities):
+    """The unit of time is that of a rate, inverted. quantities: of the scene's results."""
+    rate = quantities["collision_rate"].unit
+    return label("time", "d/v_0" if rate == "v_0/d" else f"1/{rate}" if " " not in rate else f"1/({rate})")
 
 
 def errors(values):
@@ -86,9 +85,8 @@ def plot_history(result, quantity, ax=None, **style):
     ax = new_axes(ax)
     time, values = result.history(quantity)
     ax.plot(time, values, **{"label": result.engine, "linewidth": 0.8, **style})
-    unit = units(result.scene)
     found = result.find(quantity)
-    ax.set(xlabel=label("time", unit["time"]), ylabel=label(quantity, found.unit, found.symbol))
+    ax.set(xlabel=time_label(catalogue.quantities(result.scene)), ylabel=label(quantity, found.unit, found.symbol))
     known = values[np.isfinite(values)]
     if len(known) and 0 < 100 * known.min() < known.max():  # free cooling: a power of time
         ax.set(xscale="log", yscale="log")

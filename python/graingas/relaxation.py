@@ -9,7 +9,7 @@ import numpy as np
 
 from . import calls, catalogue
 from .errors import BadInput, not_found
-from .plot import COLOURS, DASHES, label, legend, new_axes, styled, units
+from .plot import COLOURS, DASHES, label, legend, new_axes, styled, time_label
 from .run import thread_count
 from .scene import as_scene
 from .simulation import Simulation, followed
@@ -99,8 +99,8 @@ class Relaxation:
                             color=line.get_color(), alpha=0.25, linewidth=0)
         for at, changes in self.protocol:
             ax.axvline(at, color="0.7", linewidth=0.6, zorder=0)
-        unit = units(self.scene)
-        ax.set(xlabel=label("time", unit["time"]), ylabel=label(quantity, unit[quantity], catalogue.quantities(self.scene)[quantity].symbol))
+        known = catalogue.quantities(self.scene)
+        ax.set(xlabel=time_label(known), ylabel=label(quantity, known[quantity].unit, known[quantity].symbol))
         legend(ax)
         return ax
 

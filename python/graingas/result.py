@@ -191,7 +191,7 @@ def bytes_of(function, pointer, *more):
 def write(function, pointer, path):
     """What a gg_..._write does."""
     path, call = encode(path, "file name"), calls.Call()
-    calls.finished(lambda error: function(pointer, path, *call.stopping, error), call, "the file is whole, or as it was")
+    calls.finished(lambda error: function(pointer, path, *call.stopping, error), call, "the file is whole or unchanged")
 
 
 def from_bytes(function, kind, content, *more):

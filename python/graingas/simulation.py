@@ -302,7 +302,7 @@ class Simulation:
         path, call = encode(path, "file name"), calls.Call()
         with self._handle.held() as pointer:
             calls.finished(lambda error: lib.gg_simulation_save(pointer, path, *call.stopping, error), call,
-                           "the file is whole, or as it was")
+                           "the file is whole or unchanged")
 
     @classmethod
     def load(cls, path, scene=None) -> Simulation:

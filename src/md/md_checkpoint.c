@@ -125,8 +125,8 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   return GG_OK;
 }
 
-/* Whoever reads it is asked whether to stop, not the run, which stops replicas for a checkpoint: one that comes back
- * from another process then has to be whole. */
+/* Polls the archive's `stop`, not the run's, which stops replicas for a checkpoint: one that comes back from another
+ * process then has to be whole. */
 gg_status gg_md_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
 {
   gg_md *e;

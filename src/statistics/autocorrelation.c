@@ -11,7 +11,7 @@
 #include "base/memory.h"
 
 /* The sum over lags needs few of them, as a rule: they are added up as they are, and taken from transforms of the whole
- * series only where it goes on. Beyond some 300 lags transforms would be faster from the start. */
+ * series only where it needs more. Beyond some 300 lags transforms would be faster from the start. */
 enum { FEWEST = 64, FEW = 256, LANES = 8 };
 
 typedef double two __attribute__((vector_size(16)));

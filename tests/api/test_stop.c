@@ -1,33 +1,33 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What lasts looks often whether to stop, also before and after the work of an engine; what was stopped leaves no file.
- * Counted in looks, not in time. */
+/* What lasts polls `stop` often, also before and after the work of an engine; what was stopped leaves no file.
+ * Counted in polls, not in time. */
 #include <stdbool.h>
 
 #include "api_test.h"
 
-typedef struct patience {
+typedef struct polling {
   const char *checkpoint;
-  int looks, samples;
-  int from;  /* sample from whose end on looks count */
-  int bears; /* looks before it stops */
-} patience;
+  int polls, samples;
+  int from;    /* sample from whose end on polls count */
+  int allowed; /* polls before it stops */
+} polling;
 
-static int loses_patience(void *context)
+static int is_enough(void *context)
 {
-  patience *p = context;
-  return p->samples >= p->from && p->looks++ >= p->bears;
+  polling *p = context;
+  return p->samples >= p->from && p->polls++ >= p->allowed;
 }
 
 static void count_sample(void *context, void *state, const gg_sample *now, double *values)
 {
   (void)state;
-  patience *p = context;
+  polling *p = context;
   p->samples++;
   values[0] = now->velocity[0];
 }
 
 /* Followed for so long that kinetic theory has to be followed for its second or two, and md hardly works. */
-static gg_status follow(patience *p, const char *yaml, gg_result **r, gg_error *err)
+static gg_status follow(polling *p, const char *yaml, gg_result **r, gg_error *err)
 {
   static const gg_quantity_definition q = {"one", "1", "a number"};
   gg_scene *s = scene_of(yaml);
@@ -37,7 +37,7 @@ static gg_status follow(patience *p, const char *yaml, gg_result **r, gg_error *
           .name = "own", .n_quantities = 1, .quantities = &q, .sample = count_sample, .context = p},
       err);
   if (status == GG_OK)
-    status = gg_run(s, &(gg_run_options){.stop = loses_patience, .checkpoint = p->checkpoint, .context = p}, r, err);
+    status = gg_run(s, &(gg_run_options){.stop = is_enough, .checkpoint = p->checkpoint, .context = p}, r, err);
   gg_scene_free(s);
   return status;
 }
@@ -53,7 +53,7 @@ static void before_followed_runs(void **state)
   (void)state;
   gg_error err;
   gg_result *r = NULL;
-  patience p = {.bears = 100};
+  polling p = {.allowed = 100};
   assert_int_equal(follow(&p, followed, &r, &err), GG_INTERRUPTED);
   assert_int_equal(p.samples, 0);
   gg_result_free(r);
@@ -75,13 +75,13 @@ static void after_followed_runs(void **state)
   (void)state;
   gg_error err;
   gg_result *r = NULL;
-  patience whole = {.bears = 1 << 30}, p;
+  polling whole = {.allowed = 1 << 30}, p;
   assert_ok(follow(&whole, followed, &r, &err));
   assert_true(has_theory(r));
   gg_result_free(r);
   for (int part = 0; part < 3; part++) {
     r = NULL;
-    p = (patience){.from = whole.samples, .bears = 100 + 50 * part, .checkpoint = "t_end.h5"};
+    p = (polling){.from = whole.samples, .allowed = 100 + 50 * part, .checkpoint = "t_end.h5"};
     assert_int_equal(follow(&p, followed, &r, &err), GG_INTERRUPTED);
     assert_int_equal(p.samples, whole.samples);
     assert_non_null(r);
@@ -97,7 +97,7 @@ static void short_theory_of_stopped_runs(void **state)
   (void)state;
   gg_error err;
   gg_result *r = NULL;
-  patience p = {.from = 50};
+  polling p = {.from = 50};
   assert_int_equal(
       follow(&p,
              "{flow: hcs, engine: dsmc, phi: 0.05, dsmc: {particles: 4000}, collision: {e: 0.9}, run: {duration: 300}}",
@@ -108,34 +108,34 @@ static void short_theory_of_stopped_runs(void **state)
 }
 
 /* Of calls that make files. */
-typedef gg_status (*call_with_files)(patience *p, gg_error *err);
+typedef gg_status (*call_with_files)(polling *p, gg_error *err);
 
-static gg_status write_result(patience *p, gg_error *err)
+static gg_status write_result(polling *p, gg_error *err)
 {
   gg_result *r = NULL;
   gg_status status = gg_result_read("t_run.h5", &r, err);
-  if (status == GG_OK) status = gg_result_write(r, "t_made.h5", loses_patience, p, err);
+  if (status == GG_OK) status = gg_result_write(r, "t_made.h5", is_enough, p, err);
   gg_result_free(r);
   return status;
 }
 
-static gg_status write_comparison(patience *p, gg_error *err)
+static gg_status write_comparison(polling *p, gg_error *err)
 {
   gg_comparison *c = NULL;
   gg_status status = gg_comparison_read("t_both.h5", &c, err);
-  if (status == GG_OK) status = gg_comparison_write(c, "t_made.h5", loses_patience, p, err);
+  if (status == GG_OK) status = gg_comparison_write(c, "t_made.h5", is_enough, p, err);
   gg_comparison_free(c);
   return status;
 }
 
-static gg_status export_result(patience *p, gg_error *err)
+static gg_status export_result(polling *p, gg_error *err)
 {
-  return gg_export("t_run.h5", "t_made", GG_EXPORT_ALL, NULL, NULL, loses_patience, p, err);
+  return gg_export("t_run.h5", "t_made", GG_EXPORT_ALL, NULL, NULL, is_enough, p, err);
 }
 
-static gg_status draw_curves(patience *p, gg_error *err)
+static gg_status draw_curves(polling *p, gg_error *err)
 {
-  return gg_plot("t_run.h5", "t_made.svg", NULL, NULL, NULL, loses_patience, p, err);
+  return gg_plot("t_run.h5", "t_made.svg", NULL, NULL, NULL, is_enough, p, err);
 }
 
 static bool is_made(void)
@@ -161,35 +161,35 @@ static void files(void **state)
   gg_scene_free(s);
   const struct {
     call_with_files call;
-    int least; /* looks of the whole call */
+    int least; /* polls of the whole call */
     bool keeps;
   } tries[] = {
       {write_result, 50, false}, {write_comparison, 50, false}, {export_result, 20, false}, {draw_curves, 100, true}};
   for (size_t k = 0; k < sizeof tries / sizeof *tries; k++) {
-    patience whole = {.bears = 1 << 30};
+    polling whole = {.allowed = 1 << 30};
     assert_ok(tries[k].call(&whole, &err));
-    assert_true(whole.looks >= tries[k].least);
+    assert_true(whole.polls >= tries[k].least);
     for (int part = 0; part < 4; part++) {
-      patience p = {.bears = part * (whole.looks - 1) / 3};
+      polling p = {.allowed = part * (whole.polls - 1) / 3};
       assert_int_equal(system("rm -f t_made*"), 0);
       assert_int_equal(tries[k].call(&p, &err), GG_INTERRUPTED);
-      assert_int_equal(p.looks, p.bears + 1);
+      assert_int_equal(p.polls, p.allowed + 1);
       assert_true(tries[k].keeps || !is_made());
     }
   }
 }
 
-static int looks_of_write(const char *yaml)
+static int polls_of_write(const char *yaml)
 {
   gg_error err;
   gg_result *r = NULL;
   gg_scene *s = scene_of(yaml);
-  patience p = {.bears = 1 << 30};
+  polling p = {.allowed = 1 << 30};
   assert_ok(gg_run(s, NULL, &r, &err));
-  assert_ok(gg_result_write(r, "t_made.h5", loses_patience, &p, &err));
+  assert_ok(gg_result_write(r, "t_made.h5", is_enough, &p, &err));
   gg_result_free(r);
   gg_scene_free(s);
-  return p.looks;
+  return p.polls;
 }
 
 /* A large file goes to the disk by parts: it has 3 MB of velocities and numbers of its grains. */
@@ -197,9 +197,9 @@ static void large_file(void **state)
 {
   (void)state;
   const int small =
-                looks_of_write("{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 100}, run: {collisions: 40}}"),
+                polls_of_write("{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 100}, run: {collisions: 40}}"),
             large =
-                looks_of_write("{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 100000}, run: {collisions: 40}}");
+                polls_of_write("{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 100000}, run: {collisions: 40}}");
   assert_true(large >= small + 3);
 }
 
@@ -215,12 +215,12 @@ static void validation(void **state)
                            "test", &w, &err));
   gg_sweep_run(w, "t_grid", NULL, &err);
   for (int k = 0; k < 3; k++) {
-    patience p = {.bears = k};
-    assert_int_equal(gg_sweep_validate(w, "t_grid", &(gg_validating){.page = "t_page.md", .stop = loses_patience}, NULL,
-                                       &p, &verdict, &err),
+    polling p = {.allowed = k};
+    assert_int_equal(gg_sweep_validate(w, "t_grid", &(gg_validating){.page = "t_page.md", .stop = is_enough}, NULL, &p,
+                                       &verdict, &err),
                      GG_INTERRUPTED);
     assert_null(verdict);
-    assert_int_equal(p.looks, k + 1);
+    assert_int_equal(p.polls, k + 1);
     assert_int_not_equal(access("t_page.md", F_OK), 0);
   }
   gg_sweep_free(w);
