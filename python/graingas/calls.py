@@ -55,11 +55,17 @@ def of(context):
 
 class _Task:
     def __init__(self, function, call):
-        self.function, self.done = function, threading.Event()
+        self.function, self.done, self.first = function, threading.Event(), threading.Lock()
         self.call = call  # lives as long as the thread
         self.value = self.error = None
 
+    def cancel(self):
+        """Whether work has not begun; then it never does. A thread may begin after the Ctrl-C that came as it started."""
+        return self.first.acquire(blocking=False)
+
     def work(self):
+        if not self.first.acquire(blocking=False):
+            return
         try:
             self.value = self.function()
         except BaseException as error:
@@ -83,11 +89,11 @@ def interruptible(function, call, poll=None):
                 poll(call)
         except KeyboardInterrupt:
             call.interrupt()
-            if thread.ident is None:
+            if task.cancel():
                 raise
         except BaseException as error:
             call.fail(error)
-            if thread.ident is None:
+            if task.cancel():
                 raise
     return _outcome(task, call)
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the tests share: scenes that take a fraction of a second, and a folder of their own."""
 import os
+import signal
+import threading
 
 import pytest
 
@@ -24,6 +26,21 @@ def short():
     """Rough grains under shear: md takes 0.1 s."""
     return gg.Scene(flow="usf", phi=0.1, particles=200, collision={"e": 0.9, "beta": 0},
                     run={"collisions": 300, "warmup": 50})
+
+
+@pytest.fixture
+def words_of_ctrl_c():
+    """A function that repeats another until Ctrl-C: the words of its KeyboardInterrupt. Ctrl-C between two calls, which
+    has none, is tried again."""
+    def words(function):
+        for _ in range(20):
+            threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+            with pytest.raises(KeyboardInterrupt) as raised:
+                while True:
+                    function()
+            if str(raised.value):
+                return str(raised.value)
+    return words
 
 
 @pytest.fixture
