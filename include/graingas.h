@@ -25,7 +25,9 @@
  *
  * Units are those of results (gg_catalogue_entry() gives them): lengths in the diameter d and masses in the mass m of
  * species 1; sheared flows in units of the shear rate gamma (couette: of 2 walls.speed/L_y, its mean), others in the
- * initial thermal speed v_0 = sqrt(2T/m), which between walls at rest is a diameter per unit of time of the scene.
+ * initial thermal speed v_0 = sqrt(2T/m); between walls at rest, in a bath and with a given noise_strength or
+ * gaussian_rate v_0 is a diameter per unit of time of the scene. Keys of scenes are in the scene's units of length, mass
+ * and time, temperatures among them in mass x velocity^2.
  * Stresses, and energies per volume, are in rho_p d^2 gamma^2 or rho_p v_0^2 with rho_p = 6m/(pi d^3). Temperatures are
  * <C.C>/3, C the velocity relative to the imposed flow; of mixtures m<C.C>/3, m in that of species 1. Where phi = 0,
  * n d^2 = 1 sets the length.

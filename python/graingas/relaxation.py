@@ -133,42 +133,12 @@ def _now(sim, rough):
     return state.time, found
 
 
-def _weight(square, b):
-    """By how much a distribution of velocities of this square is above a Maxwellian."""
-    return np.maximum(1 + b * (square ** 2 / 8 - 5 * square / 4 + 15 / 8), 0)
-
-
-def _coefficient(a2):
-    """The b of _weight whose distribution has this a2; where it is nowhere cut off, a2 itself."""
-    v = np.linspace(0.005, 8.995, 900)
-    low, high = -30.0, 0.8
-    for _ in range(60):
-        b = (low + high) / 2
-        f = v ** 2 * np.exp(-v ** 2 / 2) * _weight(v ** 2, b)
-        low, high = (b, high) if 0.6 * (f * v ** 4).sum() * f.sum() / (f * v ** 2).sum() ** 2 - 1 < a2 else (low, b)
-    return b
-
-
-def _sonine(rng, n, a2):
-    """Velocities (n, 3) with this a2, isotropic."""
-    b, found = _coefficient(a2), []
-    # The polynomial is -5/4 at v^2 = 5, and 152 at 40, beyond which a Maxwellian has one velocity of 10^8.
-    most = 1 + max(152 * b, -1.25 * b)
-    while sum(map(len, found)) < n:
-        v = rng.normal(size=(4 * n, 3))
-        found.append(v[rng.random(4 * n) * most < _weight((v ** 2).sum(axis=1), b)])
-    return np.concatenate(found)[:n]
-
-
-def _prepare(sim, start, rng):
-    """Velocities as asked, about a mean of zero. The spins stay."""
+def _set_temperatures(sim, wanted):
+    """Scale the velocities of each species, about a mean of zero, to its temperature (unit of results)."""
     grains, species = sim.grains, sim.species
     velocity = np.array(grains.velocity)
-    kind = np.zeros(len(velocity), int) if grains.species is None else np.asarray(grains.species)
+    kind = np.asarray(grains.species)
     mass = np.array([s.mass for s in species])[kind][:, None]
-    wanted = np.broadcast_to(start.get("temperature", [s.temperature for s in species]), len(species))
-    if "a2" in start:
-        velocity = _sonine(rng, len(velocity), float(start["a2"]))
     for _ in range(5):  # the mean that is taken off changes temperatures, by 1/N each time
         velocity -= (mass * velocity).sum(axis=0) / mass.sum()
         for k, T in enumerate(wanted):
@@ -189,8 +159,8 @@ def _settle(sim):
 class _Replicas:
     """Replicas of one engine, several at a time."""
 
-    def __init__(self, scene, time, protocol, start):
-        self.scene, self.time, self.start, self.protocol = scene, time, start, protocol
+    def __init__(self, scene, time, protocol, ratios):
+        self.scene, self.time, self.ratios, self.protocol = scene, time, ratios, protocol
         self.call = calls.Call()  # of all
 
     def run(self, n, threads):
@@ -205,14 +175,14 @@ class _Replicas:
 
     def _one(self, stream):
         with Simulation._one_of(self.scene, stream, self.call) as sim:
-            return self._follow(sim, stream)
+            return self._follow(sim)
 
-    def _follow(self, sim, stream):
+    def _follow(self, sim):
         _settle(sim)
-        if self.start:
-            _prepare(sim, self.start, np.random.default_rng([stream, 1]))
+        if self.ratios is not None:
+            _set_temperatures(sim, self.ratios * sim.state.temperature)
         begin, at, rows, changes = sim.time, [], [], list(self.protocol)
-        rough = bool(sim.grains.spin.any())  # those of smooth grains are 0
+        rough = not catalogue.quantities(self.scene)["temperature_ratio"].missing
         for t in self.time:
             while changes and changes[0][0] <= t:
                 when, keys = changes.pop(0)
@@ -249,16 +219,24 @@ def _checked_protocol(protocol, until):
     return found
 
 
-def _check_start(start, species):
-    unknown = set(start) - {"temperature", "a2"}
+STARTS = ("temperature", "rotational_temperature", "a2", "spin")
+
+
+def _starting(scene, start):
+    """The scene with this start, and T_i/T of its species where they are given; else None."""
+    start = dict(start or {})
+    unknown = sorted(set(start) - set(STARTS))
     if unknown:
-        raise BadInput(f"start: key {sorted(unknown)[0]!r} is not allowed; allowed: temperature, a2")
-    if "a2" in start and not -0.3 <= float(start["a2"]) <= 0.5:
-        raise BadInput(f"start: a2 {start['a2']!r} is not allowed; allowed: from -0.3 to 0.5")
-    T = np.atleast_1d(np.asarray(start.get("temperature", 1.0), float))
-    if T.shape not in ((1,), (species,)) or not (np.isfinite(T).all() and (T > 0).all()):
-        raise BadInput(f"start: temperature {start['temperature']!r} is not allowed; allowed: a number above 0, or one for "
-                       f"each of the {species} species")
+        raise BadInput(f"start: key {unknown[0]!r} is not allowed; allowed: {', '.join(STARTS)}")
+    ratios = None
+    if np.ndim(start.get("temperature", 1)):
+        T, species = np.asarray(start["temperature"], float), scene.species
+        if T.shape != (len(species),) or not (np.isfinite(T).all() and (T > 0).all()):
+            raise BadInput(f"start: temperature {start['temperature']!r} is not allowed; allowed: a number above 0, or one "
+                           f"for each of the {len(species)} species")
+        mean = float(np.average(T, weights=[s["fraction"] for s in species]))
+        start["temperature"], ratios = mean, T / mean
+    return scene.copy(**{f"start.{key}": value for key, value in start.items()}), ratios
 
 
 def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines: Sequence[str] = ENGINES,
@@ -272,9 +250,8 @@ def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines:
     replicas     of each engine, at least 2: bands and errors come from them
     protocol     [(time, {"bath.temperature": 2, ...}), ...]: keys changed on the way, those of Simulation[...]; times
                  in their order, between 0 and until
-    start        {"temperature": T or [T_1, T_2, ...], "a2": a2}: in units of results. T of species are m <v^2>/3. a2,
-                 from -0.3 to 0.5: a Maxwellian times 1 + b S_2, or 0 where that is below, of this a2. Without it the
-                 scene's start
+    start        keys of start in scenes, in the scene's units: {"temperature": T, "rotational_temperature": theta,
+                 "a2": a2, "spin": omega_z}; instead of T also those of the species, [T_1, T_2, ...]
     threads      replicas at a time; None: all processors
 
     Sheared gases, too: velocities are those about the flow. Free cooling is not rescaled: not beyond 100 decades.
@@ -296,11 +273,11 @@ def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines:
     given = followed(scene)
     if given:
         raise BadInput(f"relax: the scene gives {given}, which run() follows; leave it out, and give until and protocol")
-    _check_start(start or {}, max(len(scene.species), 1))
+    scene, ratios = _starting(scene, start)
     time, protocol = np.linspace(0, until, int(points)), _checked_protocol(protocol, until)
     series = {}
     for engine in engines:
-        replica = _Replicas(scene.copy(engine=engine), time, protocol, start or {})
+        replica = _Replicas(scene.copy(engine=engine), time, protocol, ratios)
         found = replica.run(int(replicas), thread_count(threads))
         series[engine] = {q: TimeSeries(values) for q, values in found.items()}
     return Relaxation(scene, time, series, protocol)

@@ -38,17 +38,33 @@ def test_starts_are_as_asked():
     scene = gg.Scene(flow="hcs", phi=0.05, e=0.9, particles=500)
     scene["dsmc.particles"] = 20000
     found = gg.relax(scene, 0.02, points=2, replicas=4, engines=["dsmc"], start={"temperature": 3, "a2": 0.1})
-    series = found["a2"]["dsmc"]
-    assert found["temperature"]["dsmc"].mean[0] == pytest.approx(3)
+    assert found["temperature"]["dsmc"].mean[0] == pytest.approx(0.5)  # v_0 is made of it
     assert found.quantities == ["temperature", "a2"]
-    for a2 in -0.3, -0.1, 0.1, 0.5:
+    heated = gg.relax(bath(), 0.02, points=2, replicas=4, engines=["dsmc"], start={"temperature": 3})
+    assert heated["temperature"]["dsmc"].mean[0] == pytest.approx(3)
+    for a2 in -0.35, -0.1, 0.1, 0.5:
         many = gg.relax(scene, 0.001, points=2, replicas=16, engines=["dsmc"], start={"a2": a2})["a2"]["dsmc"]
         assert many.mean[0] == pytest.approx(a2, abs=4 * many.stderr[0]) and many.stderr[0] < 0.004, (a2, many.mean)
     scene.species = [{"fraction": 0.5}, {"fraction": 0.5, "mass": 5}]
     mixed = gg.relax(scene, 0.02, points=2, replicas=2, start={"temperature": [1, 4]})
     for engine in "md", "dsmc":
-        assert mixed["temperature_1"][engine].mean[0] == pytest.approx(1)
-        assert mixed["temperature_2"][engine].mean[0] == pytest.approx(4)
+        assert mixed["temperature_1"][engine].mean[0] == pytest.approx(1 / 5)
+        assert mixed["temperature_2"][engine].mean[0] == pytest.approx(4 / 5)
+
+
+def test_spins_start_as_asked():
+    """Cooling of rough grains from spins at rest, or turning about z."""
+    scene = gg.Scene(flow="hcs", phi=0.05, e=0.9, beta=0, particles=500)
+    scene["dsmc.particles"] = 500
+    for keys in {"rotational_temperature": 0}, {"temperature": 2, "rotational_temperature": 3}:
+        found = gg.relax(scene, 0.02, points=2, replicas=2, start=keys)
+        for engine in "md", "dsmc":
+            ratio = keys["rotational_temperature"] / keys.get("temperature", 0.5)
+            assert found["temperature_ratio"][engine].mean[0] == pytest.approx(ratio, rel=0.01)
+    for engine in "md", "dsmc":
+        sim = gg.Simulation(scene.copy(engine=engine, **{"start.spin": 4}))
+        assert sim.grains.spin[:, 2].mean() == pytest.approx(4, abs=0.2)
+        assert sim.grains.spin[:, 0].mean() == pytest.approx(0, abs=0.2)
 
 
 def test_cooling_is_that_of_haff():
@@ -56,10 +72,10 @@ def test_cooling_is_that_of_haff():
     phi, e = 0.05, 0.95
     scene = gg.Scene(flow="hcs", phi=phi, e=e, particles=500)
     scene["dsmc.particles"] = 5000
-    found = gg.relax(scene, 20, points=21, replicas=24, start={"temperature": 1}, threads=None)
+    found = gg.relax(scene, 20, points=21, replicas=24, threads=None)
     rate = 4 / 3 * np.pi ** 0.5 * (6 * phi / np.pi) * (1 - phi / 2) / (1 - phi) ** 3 * (1 - e ** 2)
     for engine, series in found["temperature"].items():
-        slope = (series.mean[1:] ** -0.5 - 1) / found.time[1:]
+        slope = (series.mean[1:] ** -0.5 - series.mean[0] ** -0.5) / found.time[1:]
         assert np.abs(slope[2:] / (rate / 2) - 1).max() < 0.02, (engine, slope, rate / 2)
     assert np.abs(found.z("temperature")[1:]).max() < 4.5
 
@@ -106,11 +122,11 @@ def test_pictures_and_tables():
     (dict(engines=["lattice"]), "lattice"),
     (dict(until="a"), "until"), (dict(engine="md"), "give engines='md'"),
     (dict(until=float("inf")), "until"), (dict(engines="lattice"), "lattice"), (dict(start={"a2": float("nan")}), "a2"),
-    (dict(start={"a2": 0.6}), "a2"), (dict(start={"temperature": -1}), "temperature"),
+    (dict(start={"a2": -0.4}), "a2"), (dict(start={"temperature": -1}), "temperature"),
     (dict(start={"temperature": [1, 2]}), "species"), (dict(protocol=[(2, {"bath.drag": 1})]), "time 2"),
     (dict(protocol=[(0, {"bath.drag": 1})]), "time 0"), (dict(protocol=[(1, {"bath.drag": 1})]), "time 1"),
     (dict(protocol=[(0.5, {})]), "names no key"), (dict(protocol=[(0.5, {"bath.drag": 1}), (0.2, {"bath.drag": 2})]), "order of times"),
-    (dict(flow="couette"), "walls"), (dict(start={"spin": 1}), "spin"), (dict(protocol=[3]), "protocol"), (dict(protocol=[(0.5, {"phi": 0.2})]), "phi")])
+    (dict(flow="couette"), "walls"), (dict(start={"spins": 1}), "spin"), (dict(protocol=[3]), "protocol"), (dict(protocol=[(0.5, {"phi": 0.2})]), "phi")])
 def test_refusals(wrong, word):
     with pytest.raises(gg.BadInput, match=word):
         gg.relax(gg.Scene(phi=0.1, flow="couette") if "flow" in wrong else bath(),

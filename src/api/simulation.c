@@ -66,7 +66,7 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, int (*stop)(void *con
   s->model.cuts_steps = true;
   s->asks = stop, s->asks_context = context;
   status = gg_api_simulation_check_stop(s, err);
-  if (status == GG_OK && s->scene.temperature == GG_AUTO) status = gg_run_start_near_steady(&s->model, err);
+  if (status == GG_OK && s->scene.start.temperature == GG_AUTO) status = gg_run_start_near_steady(&s->model, err);
   status = gg_base_callback_settle(status, err);
   if (status == GG_OK)
     *simulation = s;

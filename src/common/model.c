@@ -84,6 +84,13 @@ static void set_box(gg_model *m, const gg_scene *s)
   for (int a = 0; a < 3; a++) m->box[a] = md.box[a] * (a == 1 ? 1 : sqrt(m->volume / md.volume));
 }
 
+static void set_units(gg_model *m, const gg_scene *s)
+{
+  const gg_species *one = &s->species[0];
+  m->unit = (gg_units){one->diameter, one->mass, 1 / gg_scene_clock_rate(s)};
+  if (gg_flow_has_moving_walls(s->flow)) m->unit.time = m->box[1] * one->diameter / (2 * s->walls.speed);
+}
+
 static double chi_of(const gg_model *m, const gg_scene *s, int i, int j)
 {
   if (m->boltzmann) return 1;
@@ -161,11 +168,11 @@ static void set_pairs(gg_model *m, const gg_scene *s)
 /* Smooth grains have no spin to take up what a rough wall gives: it acts on their centres (with beta_w = 0 the flat
  * wall of type A of Campbell, J. Fluid Mech. 247 (1993) 111). With spins that nothing else changes, the torques of both
  * walls would have to cancel in a steady state, and with them the shear stress. */
-static gg_status set_walls(gg_model *m, const gg_scene *s, double time_unit, gg_error *err)
+static gg_status set_walls(gg_model *m, const gg_scene *s, gg_error *err)
 {
   bool spinless = m->rule == GG_SMOOTH;
   m->elastic_grains = m->elastic;
-  GG_TRY(gg_common_surfaces_make(s, !spinless, time_unit, m, err));
+  GG_TRY(gg_common_surfaces_make(s, !spinless, m, err));
   m->walled = m->n_surfaces > 0;
   m->wall_rule = m->walled ? gg_common_rule_select(s->walls.beta, s->walls.mu) : GG_SMOOTH;
   bool lossy = m->wall_rule == GG_FRICTIONAL || (m->wall_rule == GG_ROUGH && s->walls.beta < 1);
@@ -198,18 +205,21 @@ static double temperature_of_walls(const gg_model *m)
 static double guess_unbathed_temperature(const gg_model *m)
 {
   const double walls = temperature_of_walls(m);
+  const double g = sqrt(m->gravity[0] * m->gravity[0] + m->gravity[1] * m->gravity[1] + m->gravity[2] * m->gravity[2]),
+               fall = g / 2; /* of grains that fell by a diameter */
   if (gg_flow_is_timed_by_shear(m->flow)) return fmax(guess_sheared_temperature(m), walls);
-  return walls > 0 ? walls : 0.5;
+  return walls > 0 ? walls : fall > 0 ? fall : 0.5;
 }
 
 /* With a restitution law, temperature and mean impact speed depend on each other. */
 static void guess_temperature(gg_model *m, const gg_scene *s, bool sheared)
 {
-  double speed = sheared ? gg_scene_clock_rate(s) * s->species[0].diameter : 1;
+  const bool follows = s->clock_rate != GG_AUTO || !gg_scene_scales_with_start(s),
+             given = s->start.temperature != GG_AUTO && follows;
   for (int round = 0; round < (m->law.name ? 5 : 1); round++) {
     m->temperature0 = guess_unbathed_temperature(m);
     if (m->bath.on) m->temperature0 = gg_common_thermostat_balance(m, sheared ? m->temperature0 : 0);
-    if ((sheared || m->bath.on) && s->temperature != GG_AUTO) m->temperature0 = s->temperature / (speed * speed);
+    if (given) m->temperature0 = gg_units_temperature(m->unit, s->start.temperature);
     gg_common_model_at(m, m->temperature0);
   }
 }
@@ -224,9 +234,8 @@ static double guess_ratio(const gg_model *m)
 
 void gg_common_model_set_ratio(const gg_scene *s, gg_model *m)
 {
-  const double speed = m->shear_rate != 0 ? gg_scene_clock_rate(s) * s->species[0].diameter : 1;
-  if (s->rotational_temperature != GG_AUTO && m->rule != GG_SMOOTH && (m->shear_rate != 0 || m->bath.on))
-    m->ratio0 = s->rotational_temperature / (speed * speed) / m->temperature0;
+  if (s->start.rotational_temperature != GG_AUTO && m->rule != GG_SMOOTH)
+    m->ratio0 = gg_units_temperature(m->unit, s->start.rotational_temperature) / m->temperature0;
 }
 
 static int64_t grains_of(const gg_scene *s, gg_engine_kind engine)
@@ -263,22 +272,25 @@ static gg_status check_scales(const gg_scene *s, gg_error *err)
   }
   GG_TRY(check_unequal("mass", mass[0], mass[1], MOST_UNEQUAL_MASSES, err));
   GG_TRY(check_unequal("diameter", diameter[0], diameter[1], MOST_UNEQUAL_DIAMETERS, err));
-  if (!gg_flow_is_sheared(s->flow) || s->temperature == GG_AUTO) return GG_OK;
-  double speed = gg_scene_clock_rate(s) * s->species[0].diameter, T = s->temperature / (speed * speed);
-  if (T >= starts_within[0] && T <= starts_within[1]) return GG_OK;
-  return gg_base_fail(
-      err, GG_BAD_INPUT,
-      "temperature: %g is %.3g (diameter x shear_rate)^2; allowed in sheared flows: from %g to %g of that, "
-      "here %.3g to %.3g, or auto",
-      s->temperature, T, starts_within[0], starts_within[1], starts_within[0] * speed * speed,
-      starts_within[1] * speed * speed);
+  return GG_OK;
 }
 
-/* collision.speed in units of results: `unit` times that of the user. */
-static void set_reference_speed(gg_model *m, const gg_scene *s, double unit)
+static gg_status check_start(const gg_model *m, const gg_scene *s, gg_error *err)
+{
+  if (!gg_flow_is_sheared(s->flow) || s->start.temperature == GG_AUTO) return GG_OK;
+  const double T = gg_units_temperature(m->unit, s->start.temperature), unit = s->start.temperature / T;
+  if (T >= starts_within[0] && T <= starts_within[1]) return GG_OK;
+  return gg_base_fail(err, GG_BAD_INPUT,
+                      "start.temperature: %g is %.3g mass x (diameter x shear_rate)^2; allowed in sheared flows: from "
+                      "%g to %g of that, here %.3g to %.3g, or auto",
+                      s->start.temperature, T, starts_within[0], starts_within[1], starts_within[0] * unit,
+                      starts_within[1] * unit);
+}
+
+static void set_reference_speed(gg_model *m, const gg_scene *s)
 {
   if (s->collision.speed == GG_AUTO) return;
-  for (int p = 0; p < gg_pairs_of(s->n_species); p++) m->law.scale[p] /= s->collision.speed * unit;
+  for (int p = 0; p < gg_pairs_of(s->n_species); p++) m->law.scale[p] /= gg_units_velocity(m->unit, s->collision.speed);
 }
 
 /* The user-defined law, or that of collision.law: its units of speed are such that e is collision.e at collision.speed.
@@ -302,18 +314,18 @@ static gg_status set_law(gg_model *m, const gg_scene *s, gg_error *err)
 
 /* The bath of thermostat: bath; also white noise of a given strength, and a Gaussian thermostat of a given rate, which
  * is a negative drag. */
-static gg_status set_bath(gg_model *m, const gg_scene *s, double time_unit, gg_error *err)
+static gg_status set_bath(gg_model *m, const gg_scene *s, gg_error *err)
 {
   gg_bath *b = &m->bath;
-  const double speed = m->shear_rate != 0 ? time_unit / s->species[0].diameter : 1,
-               T = s->bath.temperature * speed * speed;
+  const double time = m->unit.time, T = gg_units_temperature(m->unit, s->bath.temperature),
+               noise_strength = gg_units_velocity(m->unit, gg_units_velocity(m->unit, s->noise_strength)) * time;
   const bool bath = s->thermostat == GG_BATH;
   const bool rate = s->thermostat == GG_GAUSSIAN && s->gaussian_rate != GG_AUTO && !m->linear_response;
   const bool noise = s->thermostat == GG_WHITE_NOISE && s->noise_strength != GG_AUTO;
   b->on = bath || rate || noise;
   for (int i = 0; i < m->n_species && b->on; i++) {
-    b->drag[i] = bath ? s->bath.drag * s->species[i].drag * time_unit : rate ? -s->gaussian_rate * time_unit / 2 : 0;
-    b->noise[i] = bath ? 2 * b->drag[i] * T / m->mass[i] : noise ? s->noise_strength * speed * speed * time_unit : 0;
+    b->drag[i] = bath ? s->bath.drag * s->species[i].drag * time : rate ? -s->gaussian_rate * time / 2 : 0;
+    b->noise[i] = bath ? 2 * b->drag[i] * T / m->mass[i] : noise ? noise_strength : 0;
     if (!bath || m->rule == GG_SMOOTH) continue;
     b->spin_drag[i] = s->bath.rotation * b->drag[i];
     b->spin_noise[i] = 2 * b->spin_drag[i] * T / (m->mass[i] * m->inertia[i]);
@@ -348,15 +360,13 @@ gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_mode
   set_composition(m, s);
   GG_TRY(check_grains(m, s, err));
   set_box(m, s);
+  set_units(m, s);
+  GG_TRY(check_start(m, s, err));
   set_pairs(m, s);
   m->shear_rate = sheared ? s->shear_rate / gg_scene_clock_rate(s) : 0;
-  /* One unit of time in the user's unit: 1/shear_rate, wall shear included; thermal flows have no other clock. */
-  double time_unit = 1;
-  if (sheared) time_unit = 1 / gg_scene_clock_rate(s);
-  if (gg_flow_has_moving_walls(s->flow)) time_unit = m->box[1] * s->species[0].diameter / (2 * s->walls.speed);
-  GG_TRY(set_walls(m, s, time_unit, err));
-  set_reference_speed(m, s, sheared || m->walled ? time_unit / s->species[0].diameter : 1);
-  for (int a = 0; a < 3; a++) m->gravity[a] = s->gravity[a] * time_unit * time_unit / s->species[0].diameter;
+  GG_TRY(set_walls(m, s, err));
+  set_reference_speed(m, s);
+  for (int a = 0; a < 3; a++) m->gravity[a] = gg_units_velocity(m->unit, s->gravity[a]) * m->unit.time;
   m->contact_time = m->elastic                      ? 0
                     : s->md.contact_time != GG_AUTO ? s->md.contact_time
                     : s->md.raised != GG_AUTO       ? s->md.raised
@@ -369,9 +379,11 @@ gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_mode
   m->frame_cells = (int)s->frame_cells;
   m->single = engine == GG_DSMC && s->dsmc.precision == GG_SINGLE;
   m->ratio0 = guess_ratio(m);
-  GG_TRY(set_bath(m, s, time_unit, err));
+  GG_TRY(set_bath(m, s, err));
   guess_temperature(m, s, sheared);
   gg_common_model_set_ratio(s, m);
+  m->a2_0 = s->start.a2;
+  m->spin0 = s->start.spin == GG_AUTO ? 2 * gg_model_rolling(m, 0) : s->start.spin * m->unit.time;
   m->steady = !m->linear_response && !(m->elastic && sheared && !(m->bath.drag[0] > 0));
   m->stress_unit = m->boltzmann ? 1 : M_PI / 6;
   return GG_OK;

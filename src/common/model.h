@@ -3,7 +3,9 @@
  * room for any number of species; engines copy what their kernels read into arrays as small as the scene needs.
  *
  * Units: length d of species 1, mass m of species 1; time 1/shear_rate (of the start) in sheared and walled-shear
- * flows, else d/v_0 with v_0 = sqrt(2 T_0/m), so that T_0 = <C.C>/3 = 1/2. These are the units of every result, too.
+ * flows, else d/v_0. v_0 = sqrt(2 T_0/m) with the temperature of the start in gases that cool, are in equilibrium or
+ * keep that temperature, so that T_0 = 1/2; between resting walls, in a bath, and with a given noise or rate it is one
+ * diameter per unit of time of the scene. These are the units of every result, too.
  * Boltzmann limit (phi = 0): n d^2 = 1 sets the length; formally n = d = chi = 1, and nothing of collisional transfer.
  *
  * Spins are surface velocities s = (d/2) omega throughout (see common/collision.h). */
@@ -23,7 +25,23 @@ typedef struct gg_bath {
   double drag[GG_MAX_SPECIES], noise[GG_MAX_SPECIES], spin_drag[GG_MAX_SPECIES], spin_noise[GG_MAX_SPECIES];
 } gg_bath;
 
+/* The units of the model in those of the scene. */
+typedef struct gg_units {
+  double length, mass, time;
+} gg_units;
+
+/* A velocity, and a temperature (mass x velocity^2), of the scene in units of the model. */
+static inline double gg_units_velocity(gg_units unit, double velocity)
+{
+  return velocity * unit.time / unit.length;
+}
+static inline double gg_units_temperature(gg_units unit, double temperature)
+{
+  return gg_units_velocity(unit, gg_units_velocity(unit, temperature)) / unit.mass;
+}
+
 typedef struct gg_model {
+  gg_units unit;
   gg_flow flow;
   gg_thermostat thermostat;
   gg_rule rule;         /* the most complex rule that any collision of the scene needs */
@@ -69,6 +87,8 @@ typedef struct gg_model {
 
   double temperature0; /* <C.C>/3 that a run starts from (mass-averaged for mixtures: sum x_i m_i <C.C>_i/3) */
   double ratio0;       /* theta/T that a run starts from */
+  double a2_0;         /* fourth cumulant of the velocities that a run starts from */
+  double spin0;        /* mean spin along z that a run starts from, angular velocity; see gg_model_starting_spin */
   double contact_time; /* of the contact-time rule, in units of gg_common_model_contact_unit; 0: off */
   double time_step;    /* dsmc, in mean free times per grain; GG_AUTO */
   bool cuts_steps;     /* dsmc: a given step, too, ends with an advance: it is followed in time, or stepped */
@@ -93,6 +113,12 @@ static inline bool gg_model_keeps_temperature(const gg_model *model)
 static inline double gg_model_rolling(const gg_model *m, int species)
 {
   return m->boltzmann ? 0 : -m->shear_rate * m->diameter[species] / 4;
+}
+
+/* Mean surface velocity along z of the grains of a species at the start. */
+static inline double gg_model_starting_spin(const gg_model *m, int species)
+{
+  return m->spin0 * (m->boltzmann ? 1 : m->diameter[species] / 2);
 }
 
 /* theta/T at the start, of a scene that gives its rotational temperature; else it stays. */
@@ -152,9 +178,9 @@ double gg_common_model_species_rate(const gg_model *model, int i, double T);
 double gg_common_model_nu0(const gg_model *model, double T);
 
 /* surface/surfaces.c: the surfaces of this scene; box, composition and gravity of the model are known. Grains without
- * spins are acted on at their centres. `time_unit` of the model in the user's. GG_BAD_INPUT where they leave no room
+ * spins are acted on at their centres. GG_BAD_INPUT where they leave no room
  * for the gas. */
-gg_status gg_common_surfaces_make(const gg_scene *scene, bool spins, double time_unit, gg_model *model, gg_error *err);
+gg_status gg_common_surfaces_make(const gg_scene *scene, bool spins, gg_model *model, gg_error *err);
 
 /* The plain or other surface at the upper (1) or lower (-1) end of an axis; NULL: none. */
 const gg_surface *gg_surface_at(const gg_model *model, int axis, double side);

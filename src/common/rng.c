@@ -55,3 +55,11 @@ uint64_t gg_common_rng_poisson(gg_rng *r, double mean)
   gsl_rng adapter = {&stream_type, r};
   return gsl_ran_poisson(&adapter, mean);
 }
+
+gg_vec gg_common_rng_velocity(gg_rng *r, double a2)
+{
+  if (a2 == 0) return gg_common_rng_normal_vec(r);
+  gsl_rng adapter = {&stream_type, r};
+  const double shape = 0.6 / (0.4 + a2), speed = sqrt(3 / shape * gsl_ran_gamma(&adapter, shape, 1));
+  return gg_scale(gg_agreed(speed, GG_AGREED_FUNCTION), gg_rng_direction(r));
+}

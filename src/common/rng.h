@@ -75,6 +75,9 @@ GG_INLINE gg_vec gg_rng_direction(gg_rng *r)
 /* Standard normal (GSL's ziggurat on this stream). */
 double gg_common_rng_normal(gg_rng *r);
 gg_vec gg_common_rng_normal_vec(gg_rng *r);
+/* Isotropic velocity of unit variance in each component, with the fourth cumulant a2: v^2 has the gamma distribution of
+ * shape 0.6/(0.4 + a2). Maxwellian at a2 = 0. */
+gg_vec gg_common_rng_velocity(gg_rng *r, double a2);
 /* Poisson count of this mean, up to 2^31 (GSL's). */
 uint64_t gg_common_rng_poisson(gg_rng *r, double mean);
 

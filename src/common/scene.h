@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The scene: the user's input, in the user's units. Plain data; the field table of src/scene/fields.c holds the
- * default of every member, reads, checks, prints and documents it. */
+/* The scene: the user's input. Every number is in the user's own units of length, mass and time; temperatures are mass
+ * x velocity^2. Plain data; the field table of src/scene/fields.c holds the default of every member, reads, checks,
+ * prints and documents it. */
 #ifndef GG_SCENE_H
 #define GG_SCENE_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -61,12 +63,15 @@ struct gg_scene {
   double phi;
   int64_t particles;
   double shear_rate;
-  double clock_rate; /* whose inverse is the unit of time under shear: the shear rate of the start; GG_AUTO: shear_rate.
-                      * No key: set where that changes on the way */
-  double temperature;            /* initial <C.C>/3 in the user's units, or GG_AUTO */
-  double rotational_temperature; /* the same of theta */
-  double aspect[3];              /* shape of the box, relative edges */
-  struct {                       /* by pair of species: gg_pair */
+  double clock_rate; /* inverse of the model's unit of time, of a gas whose keys change on the way: it keeps that of its
+                      * start. GG_AUTO: see gg_scene_clock_rate. No key */
+  struct {
+    double temperature, rotational_temperature; /* or GG_AUTO */
+    double a2;                                  /* fourth cumulant of the velocities */
+    double spin;                                /* mean angular velocity along z, or GG_AUTO: rolling with the shear */
+  } start;
+  double aspect[3]; /* shape of the box, relative edges */
+  struct {          /* by pair of species: gg_pair */
     double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
     gg_law_kind law;
     double speed; /* at which e is e, with a law; in the user's units, or GG_AUTO */
@@ -117,10 +122,24 @@ struct gg_scene {
   uint64_t given;          /* keys that the user gave: a bit per row of the field table */
 };
 
-/* The shear rate whose inverse is the unit of time. */
-static inline double gg_scene_clock_rate(const gg_scene *scene)
+/* Is the temperature of the start the only scale of velocities? Then it makes the unit v_0. */
+static inline bool gg_scene_scales_with_start(const gg_scene *s)
 {
-  return scene->clock_rate == GG_AUTO ? scene->shear_rate : scene->clock_rate;
+  const bool driven = s->thermostat == GG_BATH || (s->thermostat == GG_GAUSSIAN && s->gaussian_rate != GG_AUTO) ||
+                      (s->thermostat == GG_WHITE_NOISE && s->noise_strength != GG_AUTO);
+  return !driven && !gg_flow_is_sheared(s->flow) && !gg_flow_is_walled(s->flow);
+}
+
+/* Inverse of the model's unit of time in flows without moving walls: the shear rate; v_0/d with v_0^2 = 2 T/m of the
+ * start where that temperature is given and the only scale; else 1 of the user's, v_0 being a diameter per unit of
+ * time.
+ */
+static inline double gg_scene_clock_rate(const gg_scene *s)
+{
+  if (s->clock_rate != GG_AUTO) return s->clock_rate;
+  if (gg_flow_is_sheared(s->flow)) return s->shear_rate;
+  if (s->start.temperature == GG_AUTO || !gg_scene_scales_with_start(s)) return 1;
+  return sqrt(2 * s->start.temperature / s->species[0].mass) / s->species[0].diameter;
 }
 
 /* From its start in time, instead of means of a steady state. */

@@ -43,6 +43,16 @@ double gg_common_thermostat_noise(const gg_model *m)
   return loss_per_grain(m) / (1.5 * mass);
 }
 
+/* A power of two near the temperature of the balance, so that bisection scales with the units, bit for bit: that of
+ * shear, of drag against noise, or of heating against the loss. */
+static double temperature_near(double sheared, double noise, double drag, double loss)
+{
+  if (sheared > 0) return ldexp(1, ilogb(sheared));
+  if (drag > 0 && noise > 0) return ldexp(1, ilogb(noise / drag));
+  if (drag < 0 && loss > 0) return ldexp(1, 2 * ilogb(-drag / loss));
+  return noise > 0 && loss > 0 ? ldexp(1, (int)floor(ilogb(noise / loss) * 2. / 3)) : 1;
+}
+
 /* Per grain and time: what noise brings, what drag takes at T = 1, and the loss at T = 1. Between them the balance
  * falls through zero once: T by bisection, in square roots alone. */
 double gg_common_thermostat_balance(const gg_model *m, double sheared)
@@ -53,7 +63,8 @@ double gg_common_thermostat_balance(const gg_model *m, double sheared)
     noise += 1.5 * share * m->mass[i] * m->bath.noise[i];
     drag += 3 * share * m->bath.drag[i];
   }
-  double low = 1e-100, high = 1e100;
+  const double near = temperature_near(sheared, noise, drag, loss);
+  double low = 1e-100 * near, high = 1e100 * near;
   for (int round = 0; round < 60; round++) {
     const double T = sqrt(low) * sqrt(high);
     if (noise + loss * sheared * sqrt(T) > (drag + loss * sqrt(T)) * T)

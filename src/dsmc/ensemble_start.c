@@ -4,8 +4,8 @@
 
 #include "dsmc/ensemble.h"
 
-/* Exactly at theta, sum K m s^2 = 3 N theta: perfectly rough grains keep their total energy for ever. To them comes the
- * spin of the vorticity, s = (d/2) omega. */
+/* Exactly at theta, sum K m s^2 = 3 N theta: perfectly rough grains keep their total energy for ever. The mean spin is
+ * added, that of the vorticity by default. */
 static void start_spins(const gg_model *model, gg_dsmc_ensemble *e)
 {
   double energy = 0, grains = 0;
@@ -20,7 +20,7 @@ static void start_spins(const gg_model *model, gg_dsmc_ensemble *e)
   double factor = energy > 0 ? sqrt(3 * grains * model->ratio0 * model->temperature0 / energy) : 0;
   for (int i = 0; i < e->n_species; i++) {
     gg_dsmc_population *p = &e->of[i];
-    double mean_spin = model->boltzmann ? 0 : -model->shear_rate * model->diameter[i] / 4;
+    double mean_spin = gg_model_starting_spin(model, i);
     for (uint32_t a = 0; p->s && a < p->n; a++) {
       gg_vec s = gg_scale(factor, gg_dsmc_block_get(p, p->s, a));
       s.z += mean_spin;
@@ -36,7 +36,7 @@ bool gg_dsmc_ensemble_start(const gg_model *model, gg_dsmc_ensemble *e, gg_rng *
     double speed = sqrt(model->temperature0 / p->mass), spin = sqrt(model->ratio0 * model->temperature0 / p->mass);
     for (uint32_t a = 0; a < p->n; a++) {
       if (gg_dsmc_start_is_stopped(model, a)) return false;
-      gg_dsmc_block_set(p, p->c, a, gg_scale(speed, gg_common_rng_normal_vec(rng)));
+      gg_dsmc_block_set(p, p->c, a, gg_scale(speed, gg_common_rng_velocity(rng, model->a2_0)));
       if (p->s) gg_dsmc_block_set(p, p->s, a, gg_scale(spin / sqrt(p->inertia), gg_common_rng_normal_vec(rng)));
     }
   }

@@ -36,7 +36,7 @@ uint64_t gg_run_relaxation_samples(const gg_scene *s)
 
 double gg_run_relaxation_time(const gg_scene *s, uint64_t k)
 {
-  return user_time(s, k) * (gg_flow_is_sheared(s->flow) ? gg_scene_clock_rate(s) : 1);
+  return user_time(s, k) * gg_scene_clock_rate(s);
 }
 
 static gg_status make_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed, gg_error *err)
@@ -81,7 +81,8 @@ static double steady_temperature(const gg_scene *scene, const gg_model *m, doubl
 {
   gg_scene start = *scene;
   gg_model steady;
-  start.temperature = GG_AUTO;
+  start.clock_rate = gg_scene_clock_rate(scene);
+  start.start.temperature = GG_AUTO;
   const bool known = m->steady && !gg_flow_cools(m->flow);
   return known && gg_common_model_make(&start, scene->engine, &steady, NULL) == GG_OK ? steady.temperature0 : last;
 }

@@ -87,7 +87,7 @@ static gg_status compare_theories(const gg_model *model, const bool *wanted, gg_
                                   gg_error *err)
 {
   const gg_theory *theory;
-  bool started = c->scene.temperature != GG_AUTO;
+  bool started = c->scene.start.temperature != GG_AUTO;
   for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)); i++) {
     gg_error why = {0};
     if (wanted && !wanted[i]) continue;

@@ -73,7 +73,7 @@ gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, const g
   else
     GG_TRY(gg_common_model_make(scene, scene->engine, model, err));
   model->stop = stop;
-  if (scene->temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(model, err));
+  if (scene->start.temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(model, err));
   gg_common_model_set_ratio(scene, model);
   return GG_OK;
 }

@@ -154,9 +154,24 @@ static gg_status check_friction(const gg_scene *s, gg_error *err)
   return GG_OK;
 }
 
-static bool can_be_followed(gg_flow flow)
+/* Does the gas start as the scene says? Between walls and in sweeps of the shear rate the flow decides. */
+static bool takes_start(gg_flow flow)
 {
   return !gg_flow_is_walled(flow) && !gg_flow_of(flow)->linear_response;
+}
+
+static gg_status check_start(const gg_scene *s, gg_error *err)
+{
+  const gg_scene defaults = gg_scene_defaults();
+  char flows[160];
+  gg_common_flow_list(takes_start, flows, sizeof flows);
+  for (const gg_field *f = gg_scene_fields; f->key && !takes_start(s->flow); f++) {
+    const char *here = (const char *)s + f->offset, *usual = (const char *)&defaults + f->offset;
+    if ((f->when & GG_IF_STARTED) && memcmp(here, usual, sizeof(double)) != 0)
+      return gg_base_fail(err, GG_BAD_INPUT, "key '%s': flow: %s has a start of its own; allowed in flow: %s", f->key,
+                          gg_flow_of(s->flow)->word, flows);
+  }
+  return GG_OK;
 }
 
 /* Each change has to leave a valid scene. */
@@ -182,8 +197,8 @@ static gg_status check_protocol(const gg_scene *s, gg_error *err)
 static gg_status check_duration(const gg_scene *s, gg_error *err)
 {
   char flows[160];
-  if (!gg_scene_is_followed(s) || can_be_followed(s->flow)) return check_protocol(s, err);
-  gg_common_flow_list(can_be_followed, flows, sizeof flows);
+  if (!gg_scene_is_followed(s) || takes_start(s->flow)) return check_protocol(s, err);
+  gg_common_flow_list(takes_start, flows, sizeof flows);
   return gg_base_fail(err, GG_BAD_INPUT, "run.duration does not go with flow: %s; use flow: %s",
                       gg_flow_of(s->flow)->word, flows);
 }
@@ -203,6 +218,7 @@ gg_status gg_scene_finish(gg_scene *s, gg_error *err)
                         "key 'output.fields': velocity is missing, which frames always hold; add it to the list");
   gg_scene_fill_in(s);
   GG_TRY(check_friction(s, err));
+  GG_TRY(check_start(s, err));
   GG_TRY(check_cells(s, err));
   GG_TRY(check_flow(s, err));
   return check_duration(s, err);
@@ -279,8 +295,7 @@ static const struct {
     {GG_IF_BATH, "but with thermostat: bath", NULL, "", "thermostat bath"},
     {GG_IF_GAUSSIAN, "but with thermostat: gaussian in flow: hss", NULL, "", "thermostat gaussian in flow hss"},
     {GG_IF_NOISE, "but with thermostat: white_noise", NULL, "", "thermostat white_noise"},
-    {GG_IF_TEMPERED, "but under shear, or with a bath, gaussian_rate or noise_strength", NULL, "",
-     "shear, a bath, gaussian_rate or noise_strength"},
+    {GG_IF_STARTED, "but in flow: ", takes_start, "", NULL},
     {GG_IF_THERMAL_WALLS, "while walls.temperature is none", NULL, "", "walls.temperature is given"},
     {GG_IF_ACCOMMODATION, "while walls.accommodation is 0", NULL, "", "walls.accommodation is not 0"},
     {GG_IF_WALL_RULE, "while every contact with a wall is by its temperature: walls.accommodation is 1", NULL, "",
@@ -344,10 +359,6 @@ static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
   case GG_IF_BATH: return s->thermostat == GG_BATH;
   case GG_IF_GAUSSIAN: return s->thermostat == GG_GAUSSIAN && gg_flow_is_heated(s->flow);
   case GG_IF_NOISE: return s->thermostat == GG_WHITE_NOISE;
-  case GG_IF_TEMPERED:
-    return gg_flow_is_sheared(s->flow) || s->thermostat == GG_BATH ||
-           (holds(GG_IF_GAUSSIAN, s, uses) && s->gaussian_rate != GG_AUTO) ||
-           (holds(GG_IF_NOISE, s, uses) && s->noise_strength != GG_AUTO);
   default: return true;
   }
 }

@@ -77,7 +77,7 @@ const gg_field gg_scene_fields[] = {
     {"bath.drag", GG_FIELD_NUMBER, AT(bath.drag), 0, LARGE, true, .by_default = 1, .unit = "1/time",
      .doc = "drag coefficient: velocities relative to the imposed flow decay at this rate", .when = GG_IF_BATH,
      .also = "damping"},
-    {"bath.temperature", GG_FIELD_NUMBER, AT(bath.temperature), 0, LARGE, .by_default = 1, .unit = "velocity^2",
+    {"bath.temperature", GG_FIELD_NUMBER, AT(bath.temperature), 0, LARGE, .by_default = 1, .unit = "mass velocity^2",
      .doc = "temperature that the bath alone would give; 0: drag alone, which needs shear", .when = GG_IF_BATH,
      .also = "T_b"},
     {"bath.rotation", GG_FIELD_NUMBER, AT(bath.rotation), 0, LARGE,
@@ -101,11 +101,19 @@ const gg_field gg_scene_fields[] = {
      .when = GG_IF_COUNTED, .also = "N grains number n_particles num_particles"},
     {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), SMALL, LARGE, .by_default = 1, .unit = "1/time",
      .doc = "imposed shear rate", .when = GG_IF_SHEARED, .also = "gamma gamma_dot rate shear"},
-    {"temperature", GG_FIELD_NUMBER, AT(temperature), 1e-100, 1e100, false, AUTO, .unit = "velocity^2",
-     .doc = "initial temperature, <C.C>/3; auto: near the steady state", .when = GG_IF_TEMPERED, .also = "T T0"},
-    {"rotational_temperature", GG_FIELD_NUMBER, AT(rotational_temperature), 0, 1e100, false, AUTO, .unit = "velocity^2",
-     .doc = "initial rotational temperature; auto: near the steady state", .when = GG_IF_TEMPERED | GG_IF_ROUGH,
-     .also = "theta"},
+    {"start.temperature", GG_FIELD_NUMBER, AT(start.temperature), 1e-100, 1e100, false, AUTO, .unit = "mass velocity^2",
+     .doc = "initial temperature, <m C.C>/3; auto: near the steady state, and where the gas keeps or loses its initial "
+            "temperature the one that makes v_0 a diameter per unit of time",
+     .when = GG_IF_STARTED, .also = "T T0 temp", .older = "temperature"},
+    {"start.rotational_temperature", GG_FIELD_NUMBER, AT(start.rotational_temperature), 0, 1e100, false, AUTO,
+     .unit = "mass velocity^2", .doc = "initial rotational temperature; auto: near the steady state",
+     .when = GG_IF_STARTED | GG_IF_ROUGH, .also = "theta", .older = "rotational_temperature"},
+    {"start.a2", GG_FIELD_NUMBER, AT(start.a2), -0.39, 2,
+     .doc = "initial fourth cumulant of the velocities: C^2 has the gamma distribution of shape 0.6/(0.4 + a2)",
+     .when = GG_IF_STARTED},
+    {"start.spin", GG_FIELD_NUMBER, AT(start.spin), -LARGE, LARGE, false, AUTO, .unit = "1/time",
+     .doc = "initial mean angular velocity along z; auto: -shear_rate/2 under shear, else 0",
+     .when = GG_IF_STARTED | GG_IF_ROUGH},
     {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .by_default = 1,
      .doc = "shape of the box: ratio of its edges x : y : z", .when = GG_IF_BOXED, .also = "box"},
     {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .by_default = 0.9,
@@ -128,9 +136,9 @@ const gg_field gg_scene_fields[] = {
      .when = GG_IF_WALLED | GG_IF_WALL_RULE | GG_IF_WALL_FRICTION},
     {"walls.mu", GG_FIELD_NUMBER, AT(walls.mu), 0, INFINITY, .by_default = INFINITY,
      .doc = "Coulomb friction coefficient at walls", .when = GG_IF_WALLED | GG_IF_WALL_RULE | GG_IF_WALL_BETA},
-    {"walls.temperature", GG_FIELD_ENDS, AT(walls.temperature), SMALL, LARGE, false, NONE, .unit = "velocity^2",
+    {"walls.temperature", GG_FIELD_ENDS, AT(walls.temperature), SMALL, LARGE, false, NONE, .unit = "mass velocity^2",
      .doc = "temperature of the walls, of both or [lower, upper]: grains that touch leave with velocities and spins of "
-            "a gas of it (times the mass of species 1); none: by walls.e, beta and mu",
+            "a gas of it; none: by walls.e, beta and mu",
      .when = GG_IF_WALLED | GG_IF_ACCOMMODATION},
     {"walls.accommodation", GG_FIELD_NUMBER, AT(walls.accommodation), 0, 1, .by_default = 1,
      .doc = "share of contacts in which a wall of a given temperature does so; the others are by walls.e, beta and mu",
@@ -278,7 +286,7 @@ size_t gg_scene_field_count(const gg_field *f)
 static int find(const gg_field *fields, const char *key)
 {
   for (int i = 0; fields[i].key; i++)
-    if (strcmp(fields[i].key, key) == 0) return i;
+    if (strcmp(fields[i].key, key) == 0 || (fields[i].older && strcmp(fields[i].older, key) == 0)) return i;
   return -1;
 }
 
@@ -329,7 +337,7 @@ bool gg_scene_is_given(const gg_scene *scene, const char *key)
   return id >= 0 && scene->given >> id & 1;
 }
 
-const char *const gg_scene_sections[] = {"bath", "collision", "walls", "run", "md", "dsmc", "output", NULL};
+const char *const gg_scene_sections[] = {"bath", "start", "collision", "walls", "run", "md", "dsmc", "output", NULL};
 
 bool gg_scene_is_section(const char *name)
 {

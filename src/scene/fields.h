@@ -59,7 +59,7 @@ enum {
   GG_IF_BATH = 1u << 21,
   GG_IF_GAUSSIAN = 1u << 22,
   GG_IF_NOISE = 1u << 23,
-  GG_IF_TEMPERED = 1u << 24,
+  GG_IF_STARTED = 1u << 24,
   GG_IF_THERMAL_WALLS = 1u << 25,
   GG_IF_WALL_RULE = 1u << 26,
   GG_IF_ACCOMMODATION = 1u << 27,
@@ -80,12 +80,13 @@ typedef struct gg_field {
   const gg_word *words;
   gg_word (*word)(int i);
   const char *unit, *doc;
-  unsigned when;    /* GG_IF_...: unless all of them hold, the key has no effect; 0: it always has */
-  const char *also; /* what others call it, for messages: words separated by blanks */
-  bool may_change;  /* between the parts of a run that is resumed: it touches neither trajectory nor means */
+  unsigned when;     /* GG_IF_...: unless all of them hold, the key has no effect; 0: it always has */
+  const char *also;  /* what others call it, for messages: words separated by blanks */
+  const char *older; /* earlier spelling, which is accepted; NULL: none */
+  bool may_change;   /* between the parts of a run that is resumed: it touches neither trajectory nor means */
 } gg_field;
 
-enum { GG_MAX_FIELDS = 56 };                     /* as many bits of gg_scene.given are used */
+enum { GG_MAX_FIELDS = 60 };                     /* as many bits of gg_scene.given are used */
 extern const gg_field gg_scene_fields[];         /* ends with a NULL key */
 extern const gg_field gg_scene_species_fields[]; /* likewise */
 extern const gg_word

@@ -115,6 +115,11 @@ json_t *gg_scene_schema_of(const gg_field *fields)
       properties = json_object_get(json_object_get(properties, section), "properties");
     }
     json_object_set_new(properties, dot ? dot + 1 : f->key, field_schema(f));
+    if (f->older) {
+      json_t *older = field_schema(f);
+      json_object_set_new(older, "deprecated", json_true());
+      json_object_set_new(json_object_get(whole, "properties"), f->older, older);
+    }
   }
   return whole;
 }

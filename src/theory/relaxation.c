@@ -29,7 +29,7 @@ const char *gg_theory_relaxation_name(const gg_model *m)
 gg_relaxing gg_theory_relaxation_start(const gg_model *m)
 {
   const double theta = m->rule == GG_SMOOTH ? 0 : m->ratio0 * m->temperature0;
-  gg_relaxing x = {.T = m->temperature0, .theta = theta, .work = 2};
+  gg_relaxing x = {.T = m->temperature0, .theta = theta, .a2 = m->rule == GG_SMOOTH ? m->a2_0 : 0, .work = 2};
   if (!gg_theory_gaussian_relaxes(m)) return x;
   gg_theory_gaussian_start(m, x.of);
   x.P_xy = m->shear_rate != 0 ? gg_theory_gaussian_shear_stress(m, x.of) : 0;

@@ -329,13 +329,13 @@ static void scales(void **state)
   s.phi = 1e-20;
   assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, &err), GG_OK);
   assert_true(isfinite(m.temperature0) && isfinite(m.volume) && m.density > 0);
-  s.phi = 0.1, s.shear_rate = 1e-3, s.temperature = 1e-13;
+  s.phi = 0.1, s.shear_rate = 1e-3, s.start.temperature = 1e-13;
   refused(&s, "here 1e-12 to 1e+24");
-  s.temperature = 1e25;
+  s.start.temperature = 1e25;
   refused(&s, "here 1e-12 to 1e+24");
-  s.temperature = 1.01e-12;
+  s.start.temperature = 1.01e-12;
   assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, &err), GG_OK);
-  s.temperature = GG_AUTO, s.n_species = 2;
+  s.start.temperature = GG_AUTO, s.n_species = 2;
   s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
   s.species[1].mass = 2e12;
   refused(&s, "values of mass in a ratio of 1 : 2e+12");

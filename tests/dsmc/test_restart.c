@@ -64,7 +64,7 @@ static void restarts_while_it_warms(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_USF, 0.3, 1, -1, 100);
-  s.temperature = 1e-6;
+  s.start.temperature = 1e-6;
   gg_model m = lab_model(&s);
   gg_engine *e = lab_engine(&m, 11);
   gg_error err = {0};

@@ -77,7 +77,7 @@ static void dragged(double step, double asked_error, int blocks, lab_mean *mean,
 {
   gg_scene s = lab_scene(GG_USF, 0.3, 0.9, -1, 20000);
   s.thermostat = GG_BATH, s.bath.drag = 2, s.bath.temperature = 0;
-  s.temperature = 0.0308;
+  s.start.temperature = 0.0308;
   s.dsmc.time_step = step;
   gg_model m = lab_model(&s);
   m.asked_error = asked_error;

@@ -137,7 +137,7 @@ static void heated_shear(void **state)
   for (int k = 0; k < 2; k++) {
     gg_scene s = scene_of(0.9, -1, INFINITY);
     s.flow = GG_HEATED_SHEAR, s.thermostat = GG_WHITE_NOISE;
-    s.temperature = temperature[k], s.run.relative_error = 0.03;
+    s.start.temperature = temperature[k], s.run.relative_error = 0.03;
     gg_result *md = run(s, GG_MD), *dsmc = run(s, GG_DSMC);
     assert_true(worst_z(md, dsmc, false) < 4);
     const gg_estimate *balance =

@@ -44,8 +44,9 @@ static void flows(void **state)
   gg_common_flow_list(gg_flow_is_sheared, words, sizeof words);
   snprintf(expected, sizeof expected, "shear_rate has no effect but in flow: %s", words);
   assert_line("{flow: hcs, phi: 0.1, shear_rate: 2}", BOTH, expected);
-  assert_line("{flow: hss, phi: 0.1, temperature: 3}", BOTH,
-              "temperature has no effect but under shear, or with a bath, gaussian_rate or noise_strength");
+  assert_line("{flow: hss, phi: 0.1, start: {temperature: 3}}", BOTH, NULL);
+  assert_line("{flow: hcs, phi: 0.1, rotational_temperature: 3}", BOTH,
+              "start.rotational_temperature has no effect on smooth grains, which do not spin");
   assert_line("{flow: hss, phi: 0.1, gaussian_rate: 2, temperature: 3}", BOTH, NULL);
   assert_line("{flow: hss, phi: 0.1, thermostat: bath, bath: {drag: 2}, temperature: 3}", BOTH, NULL);
   assert_line("{flow: hss, phi: 0.1, bath: {drag: 2}}", BOTH, "bath.drag has no effect but with thermostat: bath");

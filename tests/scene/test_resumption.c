@@ -95,7 +95,7 @@ static void both_values(void **state)
   refused(&before, &now, "aspect differs (there 1, 1, 1, here 1, 2, 1)");
   now = before, now.collision.mu[0] = 0.5;
   refused(&before, &now, "collision.mu differs (there inf, here 0.5)");
-  now = before, now.temperature = 2;
+  now = before, now.start.temperature = 2;
   refused(&before, &now, "temperature differs (there auto, here 2)");
   now = before, now.measure |= GG_MEASURE_CELLS;
   refused(&before, &now, "measure differs (there rheology, here rheology, cells)");

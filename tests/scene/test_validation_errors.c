@@ -140,7 +140,7 @@ static void suggestions(void **state)
       {"collision: {r: 1}", "no such key; under collision there are e, beta, mu"},
       {"shear: 1", "did you mean 'shear_rate'?"},
       {"density: 1", "did you mean 'phi'?"},
-      {"temp: 1", "did you mean 'temperature'?"},
+      {"temp: 1", "did you mean 'start.temperature'?"},
       {"run: {k0: 1}",
        "under run there are relative_error, until, collisions, time_limit, duration, warmup, replicas, seed"},
       {"run: {error: 1}", "did you mean 'run.relative_error'?"},
@@ -256,6 +256,10 @@ static void combinations(void **state)
   assert_refused("flow: usf\nphi: 0.3\nsmall_shear: on\n",
                  "s.yaml:3: key 'small_shear': is a flow of its own: write flow: small_shear instead of flow: usf");
   assert_refused("flow: usf\nphi: 0.3\ngravity: [0, -1, 0]\n", "gravity needs a flow with walls");
+  assert_refused("flow: couette\nphi: 0.3\nstart: {temperature: 1}\n",
+                 "key 'start.temperature': flow: couette has a start of its own; allowed in flow: equilibrium, usf, ");
+  assert_refused("flow: small_shear\nphi: 0.3\nstart: {a2: 0.1}\n", "key 'start.a2': flow: small_shear has");
+  assert_refused("flow: usf\nphi: 0.3\ntemperature: 2\nstart: {temperature: 1}\n", "is given twice, first on line 3");
   const char thermal[] = "flow: fourier needs walls.temperature, e.g. [1, 0.5], and walls.accommodation above 0";
   assert_refused("flow: fourier\nphi: 0.3\nwalls: {temperature: none}\n", thermal);
   assert_refused("flow: fourier\nphi: 0.3\nwalls: {accommodation: 0}\n", thermal);

@@ -217,7 +217,7 @@ static void start_decides(void **state)
   const double starts[] = {3, 5, 6, 400};
   for (size_t k = 0; k < sizeof starts / sizeof *starts; k++) {
     gg_scene s = bath(GG_USF, 0.005, 0.9, -1, 0.18, 0.01);
-    s.temperature = starts[k];
+    s.start.temperature = starts[k];
     gg_model m = model_of(&s);
     const double T = value_of(&gg_theory_gaussian_closure, &m, GG_Q_TEMPERATURE);
     gg_relaxing x = gg_theory_relaxation_start(&m);
@@ -239,7 +239,7 @@ static void ways_that_stop(void **state)
   const gg_flow flows[] = {GG_HSS, GG_USF};
   for (int k = 0; k < 2; k++) {
     gg_scene s = bath(flows[k], 0.005, 0.9, -1, 0.18, 0.01);
-    s.temperature = 400;
+    s.start.temperature = 400;
     const gg_model m = model_of(&s);
     int bears = 10;
     const gg_stop stop = {loses_patience, &bears};
@@ -263,7 +263,7 @@ static void two_states(void **state)
       {100, 0.18, 78.03, 0.22, 0.005}, {0.01, 0.2, 0.08289, 8e-5, 0.005}, {0.01, 0.18, 0.1220, 0.0003, 0.015}};
   for (size_t k = 0; k < (getenv("NIGHTLY") ? sizeof states / sizeof *states : 2); k++) {
     gg_scene s = bath(GG_USF, 0.005, 0.9, -1, states[k].drag, 0.01);
-    s.temperature = states[k].start;
+    s.start.temperature = states[k].start;
     const gg_model m = model_of(&s);
     const gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &m);
     const double T = a.value[GG_Q_TEMPERATURE], error = a.error[GG_Q_TEMPERATURE], off = fabs(T - states[k].T);
@@ -272,7 +272,7 @@ static void two_states(void **state)
     assert_true(a.value[GG_Q_RELAXATION_RATE] > 0); /* and it is stable */
   }
   gg_scene s = bath(GG_USF, 0.005, 0.9, -1, 0.16, 0.01);
-  s.temperature = 0.01;
+  s.start.temperature = 0.01;
   gg_model m = model_of(&s);
   assert_refused(&gg_theory_enskog_hermite, &m, "no steady state was found");
 }

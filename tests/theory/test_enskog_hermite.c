@@ -228,11 +228,11 @@ static void heated_shear(void **state)
 {
   (void)state;
   gg_scene s = scene_of(GG_HEATED_SHEAR, 0.1, 0.8, -1);
-  s.temperature = 1e-4;
+  s.start.temperature = 1e-4;
   gg_model cold = model_of(&s), sheared = model_for(GG_USF, 0.1, 0.8, -1);
   gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &cold), b = answer_of(&gg_theory_enskog_hermite, &sheared);
   assert_close(a.value[GG_Q_TEMPERATURE], b.value[GG_Q_TEMPERATURE], 1e-5);
-  s.temperature = 1e4;
+  s.start.temperature = 1e4;
   gg_model hot = model_of(&s);
   gg_scene rest = scene_of(GG_HSS, 0.1, 0.8, -1);
   rest.thermostat = GG_WHITE_NOISE;

@@ -48,18 +48,17 @@ static gg_surface end_of_gap(const gg_model *m, double side, double speed)
                       .velocity = {side * speed, 0, 0}};
 }
 
-static void set_temperature(gg_surface *wall, const gg_scene *s, double speed_unit)
+static void set_temperature(gg_surface *wall, const gg_scene *s, gg_units unit)
 {
   const double T = s->walls.temperature[wall->side > 0];
   if (T == GG_AUTO || s->walls.accommodation == 0) return;
-  wall->temperature = T * speed_unit * speed_unit;
+  wall->temperature = gg_units_temperature(unit, T);
   wall->accommodation = s->walls.accommodation;
 }
 
-gg_status gg_common_surfaces_make(const gg_scene *s, bool spins, double time_unit, gg_model *m, gg_error *err)
+gg_status gg_common_surfaces_make(const gg_scene *s, bool spins, gg_model *m, gg_error *err)
 {
-  const double unit = time_unit / s->species[0].diameter;
-  double speed = gg_flow_has_moving_walls(s->flow) ? s->walls.speed * unit : 0;
+  double speed = gg_flow_has_moving_walls(s->flow) ? gg_units_velocity(m->unit, s->walls.speed) : 0;
   bool open = gg_flow_of(s->flow)->may_be_open && s->walls.top == GG_OPEN_TOP;
   m->n_surfaces = 0;
   if (!gg_flow_is_walled(s->flow)) return GG_OK;
@@ -77,7 +76,7 @@ gg_status gg_common_surfaces_make(const gg_scene *s, bool spins, double time_uni
   for (double side = -1; side <= (open ? -1 : 1); side += 2) {
     gg_surface wall = end_of_gap(m, side, speed);
     set_shape(&wall, s, m);
-    set_temperature(&wall, s, unit);
+    set_temperature(&wall, s, m->unit);
     add(m, s, spins, wall);
   }
   return check_room(m, err);

@@ -97,14 +97,15 @@ static double wall_shear(const gg_md *e)
   return lower && upper ? upper->velocity.x - lower->velocity.x : 0;
 }
 
-/* Gaussian velocities, at rest as a whole, and exactly at temperature T: sum m c^2 = 3 N T. */
+/* Velocities of the model's fourth cumulant, Gaussian by default, at rest as a whole, and exactly at temperature T: sum
+ * m c^2 = 3 N T. */
 static void set_velocities(gg_md *e, gg_rng *rng, double T)
 {
   gg_vec momentum = {0, 0, 0};
   double mass = 0, energy = 0;
   for (uint32_t i = 0; i < e->n; i++) {
     double m = e->model.mass[gg_md_species_of(&e->grain[i])];
-    e->grain[i].v = gg_scale(sqrt(T / m), gg_common_rng_normal_vec(rng));
+    e->grain[i].v = gg_scale(sqrt(T / m), gg_common_rng_velocity(rng, e->model.a2_0));
     momentum = gg_axpy(m, e->grain[i].v, momentum);
     mass += m;
   }
@@ -123,7 +124,7 @@ static void set_velocities(gg_md *e, gg_rng *rng, double T)
 }
 
 /* Gaussian spins, exactly at theta, sum K m s^2 = 3 N theta: perfectly rough grains keep their total energy for ever.
- * To them comes the spin of the vorticity. */
+ * The mean spin is added, that of the vorticity by default. */
 static void set_spins(gg_md *e, gg_rng *rng, double theta)
 {
   double energy = 0;
@@ -137,7 +138,7 @@ static void set_spins(gg_md *e, gg_rng *rng, double theta)
   double scale = energy > 0 ? sqrt(3 * e->n * theta / energy) : 0;
   for (uint32_t i = 0; i < e->n; i++) {
     e->spin[i] = gg_scale(scale, e->spin[i]);
-    e->spin[i].z -= 0.25 * e->model.diameter[gg_md_species_of(&e->grain[i])] * e->model.shear_rate;
+    e->spin[i].z += gg_model_starting_spin(&e->model, gg_md_species_of(&e->grain[i]));
   }
 }
 

@@ -63,7 +63,7 @@ static gg_status make_model(remote_run *r, const void *block, size_t size)
   GG_TRY(gg_common_model_make(&r->scene, r->scene.engine, &r->model, &r->err));
   r->stop = (gg_stop){is_stopped, r};
   r->model.stop = &r->stop;
-  return r->scene.temperature == GG_AUTO ? gg_run_start_near_steady(&r->model, &r->err) : GG_OK;
+  return r->scene.start.temperature == GG_AUTO ? gg_run_start_near_steady(&r->model, &r->err) : GG_OK;
 }
 
 static gg_status begin(worker_process *s, const gg_run_message *m, const void *block, size_t size, gg_error *err)
