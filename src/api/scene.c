@@ -12,9 +12,9 @@
 #include "common/ensemble_size.h"
 #include "common/extension.h"
 #include "files/text_format.h"
-#include "measure/observable.h"
 #include "run/cost_estimate.h"
 #include "run/default_size.h"
+#include "run/replica.h"
 #include "scene/scene_reader.h"
 #include "theory/goldhirsch_zanetti1993.h"
 
@@ -160,18 +160,6 @@ gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene
   return GG_OK;
 }
 
-static void describe_unmeasured(const gg_scene *scene, const gg_model *model,
-                                void (*line)(void *context, const char *text), void *context)
-{
-  for (int i = 0; gg_measure_observables[i]; i++) {
-    const gg_observable *o = gg_measure_observables[i];
-    const char *why = scene->measure & o->flag && o->refuses ? o->refuses(model) : NULL;
-    char text[200];
-    snprintf(text, sizeof text, "%s is not measured: %s", o->name, why ? why : "");
-    if (why) line(context, text);
-  }
-}
-
 gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*line)(void *context, const char *text),
                             void *context, gg_error *err)
 {
@@ -195,11 +183,11 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   }
   char stable[200];
   if (gg_theory_stable_size(&model, stable, sizeof stable)) line(context, stable);
-  describe_unmeasured(&finished, &model, line, context);
+  gg_status status = gg_run_unmeasured(&finished, &model, line, context, err);
   gg_cost_estimate cost = gg_run_cost_estimate(&finished, &model, kind);
   gg_run_cost_report(&cost, finished.run.replicas, line, context);
   gg_common_extension_release(held);
-  return gg_base_callback_settle(GG_OK, err);
+  return gg_base_callback_settle(status, err);
 }
 
 gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)(void *context, const char *text),

@@ -52,18 +52,22 @@ static gg_status make_model(const gg_scene *scene, const gg_model *model, int ch
                             scene->protocol[changes - 1].at, scene->protocol[changes - 1].key);
 }
 
-gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, uint64_t k, gg_model *changed,
-                                  int *changes, gg_error *err)
+int gg_run_relaxation_changes(const gg_scene *scene, uint64_t k)
 {
-  *changes = gg_scene_protocol_count(scene, user_time(scene, k));
-  return *changes ? make_model(scene, model, *changes, changed, err) : (*changed = *model, GG_OK);
+  return gg_scene_protocol_count(scene, user_time(scene, k));
 }
 
-gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_model *model, gg_error *err)
+gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed,
+                                  gg_error *err)
+{
+  return changes ? make_model(scene, model, changes, changed, err) : (*changed = *model, GG_OK);
+}
+
+gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err)
 {
   gg_scene end;
   GG_TRY(gg_scene_protocol_apply(scene, gg_scene_protocol_count(scene, INFINITY), &end, err));
-  return gg_common_model_make(&end, GG_MD, model, err);
+  return gg_common_model_make(&end, engine, model, err);
 }
 
 gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, gg_error *err)
@@ -119,7 +123,8 @@ double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model
   return sum;
 }
 
-/* Of the gas at present: what is followed in time does not depend on what may change. */
+/* By the model at present: what is followed in time does not depend on what may change, and other values are of the
+ * end. */
 static double value_at(const gg_replicas *all, const gg_function *f, size_t offset, int replica, size_t row)
 {
   const gg_replica *r = &all->replica[replica];
@@ -170,8 +175,9 @@ static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *er
     if (k > 0) gg_theory_relax(model, gg_run_relaxation_time(s, k) - gg_run_relaxation_time(s, k - 1), &x);
     if (x.stop) status = gg_stop_check(x.stop, err);
     at[k] = x;
-    if (status != GG_OK || (k > 0 && changes == gg_scene_protocol_count(s, user_time(s, k)))) continue;
-    status = gg_run_relaxation_model(s, start, k, model, &changes, err);
+    if (status != GG_OK || (k > 0 && changes == gg_run_relaxation_changes(s, k))) continue;
+    changes = gg_run_relaxation_changes(s, k);
+    status = gg_run_relaxation_model(s, start, changes, model, err);
     if (status == GG_INTERRUPTED && interrupted)
       status = GG_OK, x = gg_theory_relaxation_lost();
     else if (status == GG_OK && !gg_theory_relaxation_name(model))

@@ -15,6 +15,12 @@
 #include "run/replicas.h"
 #include "scene/fields.h"
 
+/* The gas that values are of: at the end of a run that is followed, after its changes so far. */
+static const gg_model *gas_of(const gg_replicas *all)
+{
+  return &all->replica[0].model;
+}
+
 /* Why a quantity is not there: the scene has none of it, or nothing that was requested measures it. */
 static const char *why_missing(const gg_replicas *all, gg_quantity q)
 {
@@ -23,7 +29,7 @@ static const char *why_missing(const gg_replicas *all, gg_quantity q)
   if (all->replica[0].n_observables == 0) return "nothing is measured in this scene";
   if (all->model.linear_response && (gg_common_quantity_mask(q) & GG_NEEDS_LINEAR_RESPONSE))
     return "too short: the averaging has less than a sweep of the reduced shear rate";
-  const char *reason = gg_common_quantity_missing(&all->model, q);
+  const char *reason = gg_common_quantity_missing(gas_of(all), q);
   return reason ? reason : "not measured in this scene";
 }
 
@@ -45,7 +51,7 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
     const gg_quantity q = result->rows.row[i].quantity;
     gg_estimate *e = &result->value[q];
     *e = (gg_estimate){.mean = NAN, .error = NAN, .correlation_time = NAN};
-    if (!all->model.steady && !(gg_common_quantity_mask(q) & GG_KEPT_HEATING)) {
+    if (!gas_of(all)->steady && !(gg_common_quantity_mask(q) & GG_KEPT_HEATING)) {
       snprintf(e->reason, sizeof e->reason,
                all->model.linear_response ? "its temperature rises and falls"
                                           : "no steady state: the gas heats up; see the history");
@@ -300,14 +306,15 @@ static gg_status report_one(const gg_replicas *all, int k, double memory, gg_res
   return status;
 }
 
+static void warn_of_unmeasured(void *result, const char *text)
+{
+  gg_run_result_warn(result, "%s", text);
+}
+
 static gg_status report_curves(const gg_replicas *all, gg_result *result, gg_error *err)
 {
   result->curves = (gg_curves){.model = &result->model};
-  for (int i = 0; gg_measure_observables[i]; i++) {
-    const gg_observable *o = gg_measure_observables[i];
-    const char *why = all->scene.measure & o->flag && o->refuses ? o->refuses(&all->model) : NULL;
-    if (why) gg_run_result_warn(result, "%s is not measured: %s", o->name, why);
-  }
+  GG_TRY(gg_run_unmeasured(&all->scene, &all->model, warn_of_unmeasured, result, err));
   gg_slow_modes slow;
   GG_TRY(gg_run_replicas_slow_modes(all, &slow, err));
   for (int k = 0; k < all->replica[0].n_observables; k++)
