@@ -71,6 +71,7 @@ static void set_size(gg_model *m, const gg_scene *s)
   m->volume = (double)m->n / m->density;
   double shape = s->aspect[0] * s->aspect[1] * s->aspect[2];
   for (int a = 0; a < 3; a++) m->box[a] = s->aspect[a] * gg_root(m->volume / shape, 3);
+  m->length = cbrt(m->volume);
 }
 
 /* Between walls Monte Carlo has the gap that `particles` grains have in md, to the last bit, and more area. */
@@ -82,6 +83,7 @@ static void set_box(gg_model *m, const gg_scene *s)
   set_composition(&md, s);
   set_size(&md, s);
   for (int a = 0; a < 3; a++) m->box[a] = md.box[a] * (a == 1 ? 1 : sqrt(m->volume / md.volume));
+  m->length = md.length;
 }
 
 static void set_units(gg_model *m, const gg_scene *s)

@@ -64,6 +64,7 @@ typedef struct gg_model {
 
   double phi, density;   /* density: n d_1^3, 1 in the Boltzmann limit */
   double box[3], volume; /* edges, volume = n/density */
+  double length;         /* cube root of the volume; between walls of that in md, whatever the ensemble's size */
   double shear_rate;     /* 1 if sheared, until it changes on the way; else 0 */
   double gravity[3];
   gg_bath bath;

@@ -182,7 +182,7 @@ static void put_numbers(gg_curve *c, const gg_model *m, int kind, const double *
   } else {
     gg_measure_curve_put_number(c, kind == PATH ? "mean_free_path" : "mean_free_path_laboratory", mean, length);
     if (!m->ensemble) /* an ensemble without a box has no width */
-      gg_measure_curve_put_number(c, kind == PATH ? "knudsen" : "knudsen_laboratory", mean / cbrt(m->volume), "1");
+      gg_measure_curve_put_number(c, kind == PATH ? "knudsen" : "knudsen_laboratory", mean / m->length, "1");
   }
   gg_measure_curve_put_number(c, "second_moment_over_mean_squared", dispersion, "1");
 }

@@ -35,9 +35,11 @@ static const gg_word precisions[] = {
 static const gg_word stored_precisions[] = {{"double", GG_DOUBLE, "relative precision 1e-16"},
                                             {"single", GG_SINGLE, "relative precision 1e-7, half the size"},
                                             {0}};
-static const gg_word frames_after[] = {{"start", GG_AFTER_START, "from the start of the run"},
-                                       {"warmup", GG_AFTER_WARMUP, "from where averaging begins first"},
-                                       {0}};
+static const gg_word frames_after[] = {
+    {"start", GG_AFTER_START, "from the start of the run"},
+    {"warmup", GG_AFTER_WARMUP,
+     "from where the averaging behind the results begins; trials that a trend ended are left out"},
+    {0}};
 static const gg_word stored_fields[] = {{"position", GG_FIELDS_POSITION, "positions, which md has"},
                                         {"velocity", GG_FIELDS_VELOCITY, "velocities; always stored"},
                                         {"spin", GG_FIELDS_SPIN, "angular velocities of rough grains"},

@@ -177,7 +177,7 @@ void gg_theory_answer_collisions(const gg_model *m, const double T[], gg_theory_
   a->value[GG_Q_COLLISION_RATE] = rate;
   a->value[GG_Q_MEAN_FREE_PATH] = speed / rate;
   /* The box has no size in the Boltzmann limit. */
-  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = speed / rate / cbrt(m->volume);
+  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = speed / rate / m->length;
 }
 
 void gg_theory_answer_collisions_one(const gg_model *m, double T, gg_theory_answer *a)

@@ -67,8 +67,8 @@ static void mixture(void **state)
   near(m.chi[GG_12], gg_common_contact_value_of(GG_CARNAHAN_STARLING, 0.2), 1e-13);
 }
 
-/* Between walls Monte Carlo's gap has the height of md's, to the last bit, also where its grains have other fractions;
- * the box holds the solid fraction. */
+/* Between walls Monte Carlo's gap has the height of md's, and Kn the length, to the last bit, also where its grains
+ * have other fractions; the box holds the solid fraction. */
 static void gap_is_that_of_md(void **state)
 {
   (void)state;
@@ -84,6 +84,7 @@ static void gap_is_that_of_md(void **state)
     s.engine = GG_DSMC;
     const gg_model dsmc = make(&s);
     assert_true(md.box[1] == dsmc.box[1]);
+    assert_true(dsmc.length == md.length && md.length == cbrt(md.volume)); /* that Kn is measured by */
     near(dsmc.box[0] * dsmc.box[1] * dsmc.box[2], dsmc.volume, 1e-13);
     near(dsmc.box[0] / dsmc.box[2], s.aspect[0] / s.aspect[2], 1e-14);
   }

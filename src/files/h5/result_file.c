@@ -373,6 +373,7 @@ static void write_document(gg_result_file *f, const gg_scene *scene, json_t *doc
 static void write_last_frame(gg_result_file *f, const gg_result *r)
 {
   gg_result_writer *w = f->now;
+  if (r->scene.output.after == GG_AFTER_WARMUP) gg_h5_particles_drop(&w->h, &w->particles, r->window_step);
   bool fresh = !w->particles.started || r->final.step > w->particles.last_step;
   w->particles.scene = &r->scene;
   if (r->final.n && r->final.velocity && fresh) gg_h5_particles_append(&w->h, &w->particles, &r->model, &r->final);
