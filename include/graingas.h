@@ -20,8 +20,9 @@
  * gg_simulation_on_collision() and gg_simulation_on_stop() are allowed and take effect at once. A handle that is freed
  * while a call uses it lives until that call returns; advances return as soon as they can, with GG_INTERRUPTED.
  *
- * Loading the library replaces jansson's allocator for the whole process, in order to notice failed allocations. A
- * program that has set its own keeps it.
+ * The library leaves what belongs to the process as it is: locale, signal handlers, allocators of other libraries. The
+ * exception is GSL's error handler, which is the library's own during calls that use GSL. Numbers in texts have a decimal
+ * point in every locale.
  *
  * Units are those of results (gg_catalogue_entry() gives them): lengths in the diameter d and masses in the mass m of
  * species 1; sheared flows in units of the shear rate gamma (couette: of 2 walls.speed/L_y, its mean), others in the

@@ -164,7 +164,7 @@ class Scene(Mapping):
                 self[f"{key}.{name}"] = part
             return
         with self.held() as scene:
-            check(lib.gg_scene_set, scene, encode(key, "key"), encode(yaml.write(value), key))
+            check(lib.gg_scene_set, scene, encode(key, "key"), encode(_yaml_of(key, value), key))
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
@@ -321,11 +321,18 @@ def _flatten(keys):
     return flat
 
 
+def _yaml_of(key, value):
+    """The value of a key as YAML. The name of a file is a text, not YAML."""
+    if getattr(KEYS.get(key), "type", None) == "file" and isinstance(value, (str, os.PathLike)):
+        return yaml.quote(os.fspath(value))
+    return yaml.write(value)
+
+
 def _load(source, changes):
     """The C scene of a file, a text, or of the keys alone, which it takes out of `changes`."""
     made = ffi.new("gg_scene **")
     if source is None:
-        keys = {key: yaml.write(value) for key, value in changes.items() if key in KEYS}
+        keys = {key: _yaml_of(key, value) for key, value in changes.items() if key in KEYS}
         for key in keys:
             del changes[key]
         for key in changes if not keys else ():
@@ -336,7 +343,7 @@ def _load(source, changes):
         with source.held() as scene:
             check(lib.gg_scene_copy, scene, made)
     elif isinstance(source, dict):
-        check(lib.gg_scene_parse, encode(yaml.nested({k: yaml.write(v) for k, v in _flatten(source).items()})), b"scene", made)
+        check(lib.gg_scene_parse, encode(yaml.nested({k: _yaml_of(k, v) for k, v in _flatten(source).items()})), b"scene", made)
     elif _is_text(source):
         check(lib.gg_scene_parse, encode(source, "scene"), b"scene", made)
     else:

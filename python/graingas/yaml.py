@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Values of scene keys: from Python to YAML of one line, and back."""
+import json
 import math
 import re
 
 import numpy as np
 
-TOKEN = re.compile(r"\s*([][{},:]|[^][{},:\s][^][{},:]*)")
+TOKEN = re.compile(r'\s*([][{},:]|"(?:[^"\\]|\\.)*"|[^][{},:\s][^][{},:]*)')
 
 
 def write(value):
@@ -32,7 +33,15 @@ def write(value):
 
 
 def _number(value):
-    return "inf" if value == math.inf else "-inf" if value == -math.inf else repr(value)
+    if math.isinf(value):
+        return "inf" if value > 0 else "-inf"
+    digits, mark, exponent = repr(value).partition("e")
+    return f"{digits}.0e{exponent}" if mark and "." not in digits else repr(value)  # "1e-07" is a text to YAML 1.1
+
+
+def quote(text):
+    """The text itself, whatever YAML reads in it: in double quotes."""
+    return '"' + "".join("\\" + c if c in '"\\' else c if c.isprintable() else f"\\U{ord(c):08x}" for c in text) + '"'
 
 
 def read(text):
@@ -45,6 +54,8 @@ def read(text):
 
 def _scalar(text):
     text = text.strip()
+    if text[:1] == '"':
+        return json.loads(text)
     for kind in int, float:
         try:
             return kind(text)

@@ -36,6 +36,31 @@ def test_ways_to_a_key():
     assert s.run.seed == s.seed == 7
 
 
+HOSTILE = ["run #1.csv", "! a.csv", "a: b.csv", "[a, b].csv", "{a}.csv", "*a.csv", "'a'.csv", '"a" \\n.csv', " a.csv", "5.csv",
+           "~.csv", "- a.csv", "grün #2.csv"]
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_names_are_texts(name):
+    """Not YAML: given by any way and written by any way, a name is the same."""
+    for s in (gg.Scene(flow="usf", phi=0.1, log=name), gg.Scene({"flow": "usf", "phi": 0.1, "output": {"log": name}}),
+              gg.Scene(flow="usf", phi=0.1).copy(**{"output.log": name})):
+        assert s["output.log"] == s.log == name
+        assert gg.Scene(s.to_yaml()).log == gg.Scene(s.to_yaml(all=True)).log == gg.Scene(s.to_json()).log == name
+        assert pickle.loads(pickle.dumps(s)).log == name
+
+
+def test_other_readers_read_the_same():
+    """PyYAML is one of version 1.1, where 1e-07 is a text."""
+    other = pytest.importorskip("yaml")
+    s = gg.Scene(flow="usf", phi=1e-07, e=0.5, log="run #1.csv", relative_error=1e-5)
+    for text in s.to_yaml(), s.to_yaml(all=True):
+        read = other.safe_load(text)
+        assert (read["phi"], read["output"]["log"], read["run"]["relative_error"]) == (1e-07, "run #1.csv", 1e-5)
+    for value in 1e-07, -1e-09, 1.5e-10, 1e22, 0.1:
+        assert other.safe_load(yaml.write(value)) == yaml.read(yaml.write(value)) == value
+
+
 @pytest.mark.parametrize("key, value", [
     ("phi", 1 / 3), ("particles", 12345), ("flow", "hcs"), ("measure", ["rheology", "orientation"]),
     ("aspect", [1, 2, 0.5]), ("collision.mu", math.inf), ("run.time_limit", None), ("thermostat", "none"),

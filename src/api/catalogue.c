@@ -36,7 +36,6 @@ static const gg_field *field_at(const gg_field *fields, size_t i)
 /* What a key holds; without a scene its default, which flow and phi have not. */
 static void put_value(const gg_field *f, const void *base, const gg_scene *scene, gg_entry *entry)
 {
-  GG_C_LOCALE;
   json_t *value = gg_scene_field_json(f, base, scene);
   gg_scene_flow_style_text(value, entry->value, sizeof entry->value);
   json_decref(value);

@@ -340,10 +340,8 @@ gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_er
 {
   GG_NEED(path, comparison);
   gg_stored_result stored;
-  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_files_stored_result_read(&stored, path, err);
   status = restore(status, &stored, comparison, err);
-  gg_base_c_locale_leave(before);
   return status;
 }
 
@@ -351,9 +349,7 @@ gg_status gg_comparison_from_bytes(const void *bytes, size_t size, gg_comparison
 {
   GG_NEED(bytes, comparison);
   gg_stored_result stored;
-  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_files_stored_result_from_bytes(&stored, bytes, size, err);
   status = restore(status, &stored, comparison, err);
-  gg_base_c_locale_leave(before);
   return status;
 }

@@ -112,6 +112,9 @@ static gg_status check_theory(const gg_extension *x, const gg_theory_definition 
     const char *q = t->quantities[k];
     if (!q || !(is_shared(q) || is_user_defined(x, q)))
       return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no quantity called '%.60s'", t->name, q ? q : "");
+    for (int j = 0; j < k; j++)
+      if (strcmp(t->quantities[j], q) == 0)
+        return gg_base_fail(err, GG_BAD_INPUT, "%s: the quantity '%s' is given twice", t->name, q);
   }
   return GG_OK;
 }

@@ -139,7 +139,6 @@ static gg_status log_sample(void *context, const gg_replica *r, gg_error *err)
   gg_sample_log *log = &((gg_run_call *)context)->samples;
   char *text = NULL;
   size_t size = 0;
-  GG_C_LOCALE;
   GG_TRY(add_to_sums(log, r, err));
   if (r->clock.samples <= log->state.sample)
     GG_TRY(cut(log, r->clock.samples - 1, err)); /* begun anew after a collapse */

@@ -47,7 +47,6 @@ static gg_status read_text(const char *yaml, size_t length, const char *name, co
                            gg_error *err)
 {
   gg_scene made = gg_scene_defaults();
-  GG_C_LOCALE;
   GG_TRY(gg_scene_read(&made, yaml, length, name, err));
   gg_status status = gg_api_scene_theories_add(&made, yaml, length, name, path, err);
   if (status == GG_OK) status = publish(&made, scene, err);
@@ -87,7 +86,6 @@ void gg_scene_free(gg_scene *scene)
 gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_error *err)
 {
   GG_NEED(scene, key, value);
-  GG_C_LOCALE;
   return gg_scene_override(scene, key, value, err);
 }
 
@@ -95,7 +93,6 @@ gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_
 {
   GG_NEED(scene, key, text);
   const gg_scene filled = filled_in(scene);
-  GG_C_LOCALE;
   const unsigned outer = gg_base_memory_failures();
   json_t *value = gg_scene_key_json(&filled, key);
   if (value) gg_scene_flow_style_text(value, text, size);
@@ -115,7 +112,6 @@ gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err)
 {
   GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
-  GG_C_LOCALE;
   char *yaml = gg_scene_yaml(&filled);
   if (!yaml) return gg_base_out_of_memory(err);
   *text = yaml;
@@ -133,7 +129,6 @@ gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_erro
 {
   GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
-  GG_C_LOCALE;
   gg_files_scene_title(&filled, NULL, text, size);
   return GG_OK;
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "api/api.h"
 #include "base/memory.h"
@@ -83,6 +84,9 @@ static gg_status read_points(const char *path, gg_points_theory **made, char ***
 {
   char *text;
   size_t length;
+  struct stat about;
+  if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) /* a pipe would block whoever reads the scene */
+    return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: it is no file", path);
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
   gg_status status =
       length > GG_SCENE_MAX_BYTES ? gg_base_fail(err, GG_BAD_INPUT, "%s: is larger than 1 MiB", path) : GG_OK;

@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "base/archive.h"
+#include "base/file_writer.h"
 #include "base/text.h"
 #include "common/scene.h"
 
@@ -142,6 +143,13 @@ void gg_scene_flow_style_text(const json_t *value, char *text, size_t size);
 char *gg_scene_yaml(const gg_scene *scene);
 /* JSON of a scene, or of a part of its keys, as YAML. */
 void gg_scene_yaml_print(FILE *out, const json_t *scene);
+
+/* yaml_text.c: what any reader of YAML takes for the same text or number. */
+
+/* A text, in double quotes where it would be something else without; always in quotes. */
+void gg_scene_yaml_text_print(FILE *out, const char *text);
+void gg_scene_yaml_quoted_print(FILE *out, const char *text);
+void gg_scene_yaml_number(double value, char text[GG_NUMBER_TEXT]);
 
 /* protocol.c: changes on the way. */
 

@@ -86,6 +86,7 @@ def test_refused():
                             ("mine:", "grad:", "scene.yaml:7: key 'theories.grad': theory: the name 'grad' is taken"),
                             ("points.csv", "none.csv", "scene.yaml:8: key 'theories.table': none.csv: cannot be read"),
                             ("points.csv", "[1]", "scene.yaml:8: key 'theories.table': formulas are expected"),
+                            ("N1:", "temperature:", "scene.yaml:7: key 'theories.mine': mine: the quantity 'temperature' is given"),
                             ("  table: points.csv", "  mine: points.csv", "'mine' is taken")):
         done = theories(SCENE.replace(old, new))
         check(done.code == 2 and words in done.err and not done.out, done.code, done.err, words)
@@ -94,9 +95,34 @@ def test_refused():
                           ("phi,temperature\n0.1,2,3\n", "points.csv:2: 2 numbers are needed"),
                           ("phi,temperature\n0.1,x\n", "points.csv:2: column 2 is not a number"),
                           ("phi,temperature\n", "has no row"), ("phi,temperature", "has no row"),
-                          ("phi,phi," * 40 + "N1\n", "has two columns"), ("", "has to name parameters")):
+                          ("phi,phi,N1\n", "'phi' has two columns"), ("e,collision.e,N1\n", "'collision.e' has two columns"),
+                          ("phi,N1,N2,N1\n", "'N1' has two columns"), ("walls.e,N1\n0.9,2\n", "column 'walls.e'"),
+                          ("phi,species.3.inertia,N1\n", "column 'species.3.inertia'"), ("e.12,N1\n", "column 'e.12'"), ("", "has to name parameters")):
         done = theories(SCENE, points)
         check(done.code == 2 and words in done.err, points, done.code, done.err)
+
+
+def test_no_table():
+    """What stands where the table should be blocks nobody: it is named, by every command that reads the scene."""
+    os.mkfifo("pipe.csv")
+    os.mkdir("folder.csv")
+    os.symlink("pipe.csv", "link.csv")
+    for name in "pipe.csv", "folder.csv", "link.csv", "/dev/zero":
+        scene = SCENE.replace("points.csv", name)
+        for command in "theory", "info", "run":
+            done = run(command, "scene.yaml", scene=scene, timeout=10)
+            check(done.code == 2 and f"{name}: cannot be read: it is no file" in done.err, command, name, done.err)
+        done = run("sweep", "sweep.yaml", "--list", scene=scene + "vary: {phi: [0.1, 0.2]}\n", name="sweep.yaml", timeout=10)
+        check(done.code == 2 and "it is no file" in done.err, done.err)
+
+
+def test_keys_as_columns():
+    """A column may have the key of a scene; of a mixture each pair its own."""
+    table = "collision.e.12,K_2,species.1.inertia,N1\n0.8,0.3,0.4,7\n0.9,0.3,0.4,8\n"
+    mixture = "species:\n - {fraction: 0.5}\n - {fraction: 0.5, mass: 2, inertia: 0.3}\n"
+    scene = SCENE.replace("e: 0.9", "e: {11: 0.7, 12: 0.8, 22: 0.9}") + mixture
+    done = theories(scene, table)
+    check(json.loads(done.out)["theory"]["table"]["N1"]["mean"] == 7, done.out[-900:])
 
 
 if __name__ == "__main__":
