@@ -69,7 +69,7 @@ def test_values_of_pandas():
     assert found["phi"].values.tolist() == [0.125, 0.25] and found["collision.e"].values.tolist() == [0.5, 0.75]
 
 
-TEXTS = ["hcs\noutput: {log: x}", "usf, phi: 0.4", "usf}", "usf # x", "usf: x", "[usf], particles: [9", "\"usf\", phi: 0.4",
+TEXTS = ["hcs\noutput: {log: x.csv}", "5, seed: 9", "0.1\nparticles: 9", "usf, phi: 0.4", "usf}", "usf # x", "usf: x", "[usf], particles: [9", "\"usf\", phi: 0.4",
          "&a usf", "!x usf", "usf\tparticles: 9", "{a: b}, particles: 9", "usf\r\nparticles: 9", "[it's ], particles: [9's]"]
 
 
