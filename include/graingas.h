@@ -168,7 +168,7 @@ GG_API gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text
 GG_API gg_status gg_scene_check(const gg_scene *scene, gg_error *err);
 
 /**
- * Every key with the value in force, as YAML that gg_scene_parse() reads back.
+ * Every key with the value in force, as YAML that gg_scene_parse() reads back, with the theories of its text.
  * @param scene the scene
  * @param text receives the text, to be freed with free()
  * @param err receives the message on failure; may be NULL
@@ -177,7 +177,7 @@ GG_API gg_status gg_scene_check(const gg_scene *scene, gg_error *err);
 GG_API gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err);
 
 /**
- * Every key with the value in force, as JSON that gg_scene_parse() reads back.
+ * Every key with the value in force, as JSON that gg_scene_parse() reads back, with the theories of its text.
  * @param scene the scene
  * @param text receives the text, to be freed with free()
  * @param err receives the message on failure; may be NULL
@@ -314,6 +314,7 @@ typedef struct gg_simulation_state {
   double strain;                 /* shear rate times time, also of one that changed; 0 without shear */
   double image_offset;           /* md, sheared: the box above is displaced so far along x, from 0 to box[0] */
   double box[3];                 /* edges; 0 where there is none (dsmc without walls) */
+  int periodic[3];               /* the box repeats along x, y, z; 0: walls or open ends, or no box */
 } gg_simulation_state;
 
 /**
@@ -1638,7 +1639,7 @@ GG_API gg_status gg_result_file_notice(const char *result_file, char *text, size
 typedef enum gg_catalogue {
   GG_CATALOGUE_KEYS,         /* of scenes: name, type, unit, doc, allowed, value, given, when */
   GG_CATALOGUE_SPECIES_KEYS, /* of one species: the same */
-  GG_CATALOGUE_FLOWS,        /* name, doc */
+  GG_CATALOGUE_FLOWS,        /* name, doc, traits */
   GG_CATALOGUE_ENGINES,      /* name, doc */
   GG_CATALOGUE_OBSERVABLES,  /* words under `measure`: name, doc */
   GG_CATALOGUE_QUANTITIES,   /* name, unit, doc, symbol, formula, missing, headline, when */
@@ -1657,6 +1658,7 @@ typedef struct gg_entry { /* NULL or "": not in this table */
   char symbol[48];     /* of a quantity, LaTeX: "T", "\\kappa_{rh}"; "" of your own */
   int headline;        /* of a quantity: run.relative_error applies to it in the scene */
   char when[256];      /* when a key has an effect, a quantity has a mean, which flows a theory describes */
+  char traits[64];     /* of a flow, separated by blanks: sheared, walls, moving_walls, cools, falls, may_fall */
 } gg_entry;
 
 /**

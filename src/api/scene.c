@@ -6,6 +6,7 @@
 
 #include "api/api.h"
 #include "api/scene_theories.h"
+#include "base/checked_json.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "common/engine.h"
@@ -108,12 +109,32 @@ gg_status gg_scene_check(const gg_scene *scene, gg_error *err)
   return gg_api_scene_finish(scene, &copy, err);
 }
 
+/* As JSON, which YAML reads. */
+static gg_status append_theories(const gg_scene *scene, char **yaml)
+{
+  const unsigned before = gg_base_memory_failures();
+  json_t *theories = gg_base_json_end(before, gg_api_scene_theories_json(scene));
+  char *text = theories && json_object_size(theories) > 0 ? gg_base_json_text(theories, 0) : NULL;
+  json_decref(theories);
+  if (!text) return gg_base_memory_failures() == before ? GG_OK : GG_FAILED;
+  const size_t size = strlen(*yaml) + strlen(text) + sizeof "theories: \n";
+  char *whole = gg_base_array_new(size, 1, NULL);
+  if (whole) {
+    snprintf(whole, size, "%stheories: %s\n", *yaml, text);
+    free(*yaml);
+    *yaml = whole;
+  }
+  free(text);
+  return whole ? GG_OK : GG_FAILED;
+}
+
 gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err)
 {
   GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
   char *yaml = gg_scene_yaml(&filled);
-  if (!yaml) return gg_base_out_of_memory(err);
+  gg_status status = yaml ? append_theories(&filled, &yaml) : GG_FAILED;
+  if (status != GG_OK) return free(yaml), gg_base_out_of_memory(err);
   *text = yaml;
   return GG_OK;
 }
@@ -122,7 +143,11 @@ gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err)
 {
   GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
-  return gg_api_text_copy(gg_scene_json(&filled), text, err);
+  const unsigned before = gg_base_memory_failures();
+  json_t *root = gg_scene_json(&filled), *theories = gg_api_scene_theories_json(scene);
+  if (root && json_object_size(theories) > 0) json_object_set(root, "theories", theories);
+  json_decref(theories);
+  return gg_api_text_copy(gg_base_json_end(before, root), text, err);
 }
 
 gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_error *err)

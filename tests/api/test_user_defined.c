@@ -336,6 +336,11 @@ static void theories_refused(void **state)
   assert_refused(gg_scene_add_theory(s, &t, &err), "`evaluate` is missing");
   t.evaluate = say_nothing, t.name = "grad";
   assert_refused(gg_scene_add_theory(s, &t, &err), "taken");
+  const char *const columns[] = {"md", "Z", "unit", "dsmc_stderr", "mine_error"};
+  for (int k = 0; k < 5; k++) {
+    t.name = columns[k];
+    assert_refused(gg_scene_add_theory(s, &t, &err), "reserved for columns of tables");
+  }
   t.name = name;
   for (int k = 0; k < 8; k++) {
     snprintf(name, sizeof name, "mine_%d", k);
