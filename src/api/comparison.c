@@ -52,7 +52,7 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   GG_TRY(gg_api_scene_finish(scene, &finished, err));
   c->scene = finished;
   gg_common_extension_hold(c->scene.extension);
-  GG_TRY(gg_run_relaxation_end_model(&c->scene, model, err));
+  GG_TRY(gg_run_relaxation_end_model(&c->scene, true, model, err));
   model->stop = stop;
   bool wanted[GG_MOST_THEORIES] = {false};
   if (theory) GG_TRY(choose(model, theory, wanted, err));

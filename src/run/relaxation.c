@@ -59,11 +59,11 @@ gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, 
   return *changes ? make_model(scene, model, *changes, changed, err) : (*changed = *model, GG_OK);
 }
 
-gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_model *model, gg_error *err)
+gg_status gg_run_relaxation_end_model(const gg_scene *scene, bool alone, gg_model *model, gg_error *err)
 {
   gg_scene end;
   GG_TRY(gg_scene_protocol_apply(scene, gg_scene_protocol_count(scene, INFINITY), &end, err));
-  return gg_common_model_make(&end, GG_MD, model, err);
+  return alone ? gg_common_model_for_theories(&end, model, err) : gg_common_model_make(&end, GG_MD, model, err);
 }
 
 gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, gg_error *err)

@@ -19,8 +19,9 @@ gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, 
 gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, gg_error *err);
 /* Collisions a grain up to the end, about. */
 double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model);
-/* What theories describe: the gas after the last change. */
-gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_model *model, gg_error *err);
+/* What theories describe: the gas after the last change; `alone`: not beside grains, of which there are whole numbers.
+ */
+gg_status gg_run_relaxation_end_model(const gg_scene *scene, bool alone, gg_model *model, gg_error *err);
 
 /* Values at the end, over replicas; and the curves of what is followed. */
 gg_mean gg_run_relaxation_end(const gg_replicas *all, gg_quantity q);
