@@ -1563,7 +1563,7 @@ typedef struct gg_validating {
  * NULL
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED where dsmc and the noise-free solution disagree beyond chance (one grid in 1000 without any
- * fault does), or no point is finished; GG_BAD_INPUT if the sweep does not compare; GG_INTERRUPTED by options->stop:
+ * fault does), where nothing was judged (no point has a steady dsmc and a noise-free solution), or no point is finished; GG_BAD_INPUT if the sweep does not compare; GG_INTERRUPTED by options->stop:
  * there is no page, maps that were drawn stay
  */
 GG_API gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_validating *options,
@@ -1845,8 +1845,8 @@ typedef double gg_restitution(void *context, double normal_speed, int species_1,
 
 /**
  * Set a restitution law for collisions between grains, in place of collision.e and collision.law. It is tested at
- * speeds from 1e-9 to 1e9. Values out of range during a run are clamped. dsmc leaves its fast kernels; theories of
- * constant e do not apply. A resumed run needs the same law, by name.
+ * speeds from 1e-9 to 1e9. Values out of range during a run are clamped (NaN: 0), and the result counts them and warns.
+ * dsmc leaves its fast kernels; theories of constant e do not apply. A resumed run needs the same law, by name.
  * @param scene the scene
  * @param name name of the law
  * @param law the law; NULL: back to collision.e

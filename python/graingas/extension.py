@@ -360,7 +360,8 @@ def define_law(law, name="own") -> Law:
           a pair of arrays, ascending speeds and values of e: linear between them, constant beyond;
           a numba.cfunc("float64(voidptr, float64, int32, int32)"): context, speed, species, compiled
 
-    Speeds have the units of results. The function is called at every collision; a table is the fastest.
+    Speeds have the units of results. The function is called at every collision; a table is the fastest. A value that is
+    no number from 0 to 1 is clamped (NaN: 0), counted in the result and warned of.
     """
     if hasattr(law, "address"):
         _check_signature(str(getattr(law, "_sig", "")))

@@ -204,7 +204,7 @@ class Verdict(dict):
     @property
     def agrees(self) -> bool | None:
         """Whether dsmc and the noise-free solution agree within chance; None: there is nothing to compare."""
-        return self["dsmc"]["agrees"] if self["dsmc"]["values"] else None
+        return self["dsmc"]["agrees"]
 
     def __str__(self):
         return self._words

@@ -52,7 +52,9 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   GG_TRY(gg_api_scene_finish(scene, &finished, err));
   c->scene = finished;
   gg_common_extension_hold(c->scene.extension);
-  GG_TRY(gg_run_relaxation_end_model(&c->scene, GG_MD, model, err));
+  gg_scene end;
+  GG_TRY(gg_run_relaxation_end_scene(&c->scene, &end, err));
+  GG_TRY(gg_common_model_for_theories(&end, model, err));
   model->stop = stop;
   bool wanted[GG_MOST_THEORIES] = {false};
   if (theory) GG_TRY(choose(model, theory, wanted, err));

@@ -18,7 +18,7 @@ typedef struct gg_dsmc_state {
   gg_rng rng;
   gg_dsmc_rng_lanes lanes;
   double time, temperature, fastest; /* temperature and largest speed: when the ensemble was last synchronised */
-  uint64_t collisions, candidates, overflows;
+  uint64_t collisions, candidates, overflows, clamped;
   double remainder[GG_PAIRS]; /* fractional remainder of candidates, carried over */
   double strain;              /* accumulated shear strain, rate x time, that stored velocities have still to stream */
   double unsynchronised;      /* time since the ensemble was last synchronised */

@@ -286,6 +286,15 @@ static double first_sonine(const gg_model *m, int i, const double *bins)
   return T[i] / rate;
 }
 
+/* Known in equilibrium alone: walls, shear and what heats a gas change its vortices, and Enskog's equation has none. */
+static double lacking_of_box(const gg_model *m, int species, const double *bin)
+{
+  double T = 0;
+  for (int a = 0; a < 3; a++) T += m->mass[species] * gg_lag_mean(bin, 0, GG_LAG_CC + a) / 3;
+  const bool known = gg_flow_of(m->flow)->conserves && !m->homogeneous && !m->boltzmann;
+  return known ? gg_measure_long_time_tail_lacking(m, T) : NAN;
+}
+
 static void put_component(const diffusion *d, int species, int a, const double *bin, gg_curves *list)
 {
   const gg_model *m = d->model;
@@ -313,6 +322,10 @@ static void put_component(const diffusion *d, int species, int a, const double *
   const char *coefficient = m->shear_rate != 0 ? "d^2 gamma" : "d v_0";
   gg_measure_curve_put_truncated(c, "diffusion_green_kubo", D.green_kubo.D, D.green_kubo.unsure, coefficient);
   gg_measure_curve_put_truncated(c, "long_time_tail", D.green_kubo.tail, D.green_kubo.unsure, coefficient);
+  const double lacking = lacking_of_box(m, species, bin);
+  if (!isnan(lacking))
+    gg_measure_curve_put_truncated(c, "diffusion_infinite_system", D.green_kubo.D + lacking, D.green_kubo.unsure,
+                                   coefficient);
   const double theory = first_sonine(m, species, bin - species * GG_LAGS * GG_LAG_WIDTH);
   if (!isnan(theory)) gg_measure_curve_put_setting(c, "diffusion_first_sonine", theory, coefficient);
   gg_measure_curve_put_truncated(r, "diffusion_einstein", D.einstein.D, D.einstein.unsure, coefficient);

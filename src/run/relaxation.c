@@ -63,10 +63,15 @@ gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, 
   return changes ? make_model(scene, model, changes, changed, err) : (*changed = *model, GG_OK);
 }
 
+gg_status gg_run_relaxation_end_scene(const gg_scene *scene, gg_scene *end, gg_error *err)
+{
+  return gg_scene_protocol_apply(scene, gg_scene_protocol_count(scene, INFINITY), end, err);
+}
+
 gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err)
 {
   gg_scene end;
-  GG_TRY(gg_scene_protocol_apply(scene, gg_scene_protocol_count(scene, INFINITY), &end, err));
+  GG_TRY(gg_run_relaxation_end_scene(scene, &end, err));
   return gg_common_model_make(&end, engine, model, err);
 }
 

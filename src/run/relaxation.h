@@ -20,7 +20,8 @@ gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, 
 gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, gg_error *err);
 /* Collisions a grain up to the end, about. */
 double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model);
-/* The gas after the last change: what theories describe, and observables measure. */
+/* The scene after the last change, and its model: what theories describe, and observables measure. */
+gg_status gg_run_relaxation_end_scene(const gg_scene *scene, gg_scene *end, gg_error *err);
 gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err);
 
 /* Values at the end, over replicas; and the curves of what is followed. */

@@ -122,6 +122,7 @@ static void report_effort(const gg_replicas *all, gg_result *result)
     }
     sum->collisions += s.collisions, sum->events += s.events;
     sum->treated += s.treated, sum->wall_treated += s.wall_treated, sum->overflows += s.overflows;
+    sum->clamped += s.clamped;
     sum->overfilled = fmax(sum->overfilled, s.overfilled);
     sum->worst_overlap = fmax(sum->worst_overlap, s.worst_overlap);
     if (all->state.averaging) {
@@ -262,6 +263,12 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
     gg_run_result_warn(result, "collision.e was not in force, but " GG_OWN_LAW " '%s'", all->model.law.name);
   else if (all->model.law.e)
     gg_run_result_warn(result, "in force was " GG_OWN_LAW " '%s'", all->model.law.name);
+  if (s->clamped)
+    gg_run_result_warn(
+        result,
+        GG_OWN_LAW " '%s' gave no number from 0 to 1 at the speeds of %llu collisions (%.2g %%), which took the "
+                   "nearer of 0 and 1 (NaN: 0)",
+        all->model.law.name, (unsigned long long)s->clamped, 100 * (double)s->clamped / (double)s->collisions);
   if (result->steadiness != GG_STEADY && !gg_scene_is_followed(&all->scene))
     gg_run_result_warn(result, "not a steady mean: %s", result->steadiness_text);
   if (result->steadiness == GG_STEADY && !c->trusted)

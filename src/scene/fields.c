@@ -224,8 +224,9 @@ const gg_field gg_scene_fields[] = {
 };
 
 const gg_field gg_scene_species_fields[] = {
-    {"fraction", GG_FIELD_NUMBER, offsetof(gg_species, fraction), 0, 1, true, .by_default = 1,
-     .doc = "mole fraction n_i/n", .also = "concentration"},
+    {"fraction", GG_FIELD_NUMBER, offsetof(gg_species, fraction), 0, LARGE, true, .by_default = 1,
+     .doc = "mole fraction n_i/n, or a weight: fractions are divided by their sum; left out: an equal part",
+     .besides = "leave out a species without grains", .also = "concentration"},
     {"diameter", GG_FIELD_NUMBER, offsetof(gg_species, diameter), SMALL, LARGE, .by_default = 1, .unit = "length",
      .doc = "diameter of a grain", .also = "d size radius"},
     {"mass", GG_FIELD_NUMBER, offsetof(gg_species, mass), SMALL, LARGE, .by_default = 1, .unit = "mass",
@@ -396,6 +397,7 @@ static void number_allowed(const gg_field *f, const char *what, char *text, size
   else
     snprintf(text, size, "%s from %s to %s", what, min, max);
   if (f->special) gg_base_text_append(text, size, ", or %s", f->special);
+  if (f->besides) gg_base_text_append(text, size, " (%s)", f->besides);
 }
 
 void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)

@@ -81,10 +81,11 @@ typedef struct gg_field {
   const gg_word *words;
   gg_word (*word)(int i);
   const char *unit, *doc;
-  unsigned when;     /* GG_IF_...: unless all of them hold, the key has no effect; 0: it always has */
-  const char *also;  /* what others call it, for messages: words separated by blanks */
-  const char *older; /* earlier spelling, which is accepted; NULL: none */
-  bool may_change;   /* between the parts of a run that is resumed: it touches neither trajectory nor means */
+  const char *besides; /* of numbers: what to do in place of a value that is not allowed */
+  unsigned when;       /* GG_IF_...: unless all of them hold, the key has no effect; 0: it always has */
+  const char *also;    /* what others call it, for messages: words separated by blanks */
+  const char *older;   /* earlier spelling, which is accepted; NULL: none */
+  bool may_change;     /* between the parts of a run that is resumed: it touches neither trajectory nor means */
 } gg_field;
 
 enum { GG_MAX_FIELDS = 60 };                     /* as many bits of gg_scene.given are used */
@@ -175,7 +176,8 @@ gg_status gg_scene_finish(gg_scene *scene, gg_error *err);
 /* What a scene is used for: a sum of these. */
 enum { GG_USE_MD = 1u << GG_MD, GG_USE_DSMC = 1u << GG_DSMC, GG_USE_THEORY = 1u << 2 };
 /* Keys that the scene gives and that have no effect in it, a line for each reason: "walls.e, walls.beta have no effect
- * ...". Keys with their default values are left out. `scene` is finished, `uses` a sum of GG_USE_... */
+ * ...". Keys with their default values are left out. A last line states what fractions become that do not sum to 1.
+ * `scene` is finished, `uses` a sum of GG_USE_... */
 void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_string_list *lines);
 
 /* resumption.c: a checkpoint keeps every key but those that `may_change`, and the name of what the program added to

@@ -498,7 +498,6 @@ static gg_status read_species(const input *in)
   if (in->node->type != YAML_SEQUENCE_NODE) return reject_value(in);
   const ptrdiff_t n = length_of(in->node);
   gg_scene *scene = in->r->scene;
-  double total = 0;
   if (n < 1 || n > GG_MAX_SPECIES)
     return gg_scene_reject(in->r, in->node, in->key, "%td species are given; allowed: 1 to %d", n, GG_MAX_SPECIES);
   for (int i = 0; i < n; i++) {
@@ -508,11 +507,7 @@ static gg_status read_species(const input *in)
       return gg_scene_reject(in->r, map, in->key, "a species is a map with fraction, diameter, mass, inertia and drag");
     GG_TRY(gg_scene_read_map(in->r, in->key, map, gg_scene_species_fields, NULL, &one));
     scene->species[i] = one;
-    total += one.fraction;
   }
-  if (fabs(total - 1) > 1e-9)
-    return gg_scene_reject(in->r, in->node, in->key, "the fractions sum to %.10g; they must sum to 1 (within 1e-9)",
-                           total);
   scene->n_species = (int)n;
   return GG_OK;
 }

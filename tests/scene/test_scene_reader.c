@@ -100,11 +100,40 @@ static void overrides(void **state)
   assert_int_equal(gg_scene_set(s, "flow", "hcs", &err), GG_OK);
   before.flow = GG_HCS;
   assert_memory_equal(s, &before, sizeof before);
+  /* Weights are normalised in what is made of a scene, not between two changes of it. */
   assert_int_equal(gg_scene_set(s, "species.1.fraction", "0.1", &err), GG_OK);
-  assert_int_equal(gg_scene_check(s, &err), GG_BAD_INPUT); /* they no longer sum to 1 ... */
+  assert_int_equal(gg_scene_check(s, &err), GG_OK);
   assert_int_equal(gg_scene_set(s, "species.2.fraction", "0.9", &err), GG_OK);
-  assert_int_equal(gg_scene_check(s, &err), GG_OK); /* ... and do again */
+  assert_true(s->species[0].fraction == 0.1 && s->species[1].fraction == 0.9);
   gg_scene_free(s);
+}
+
+static void assert_fractions(const char *species, const double *x)
+{
+  char yaml[400], *again;
+  gg_error err = {0};
+  snprintf(yaml, sizeof yaml, "{flow: usf, phi: 0.3, species: %s}", species);
+  const gg_scene s = parse(yaml);
+  for (int i = 0; i < s.n_species; i++) assert_true(fabs(s.species[i].fraction - x[i]) < 4e-16);
+  assert_int_equal(gg_scene_to_yaml(&s, &again, &err), GG_OK);
+  const gg_scene t = parse(again);
+  for (int i = 0; i < s.n_species; i++) assert_true(s.species[i].fraction == t.species[i].fraction);
+  free(again);
+}
+
+/* Fractions are weights: what is made of the scene has those that sum to 1, and reads back the same to the last bit. */
+static void weights(void **state)
+{
+  (void)state;
+  const double third[] = {1 / 3., 1 / 3., 1 / 3.}, quarters[] = {0.25, 0.75}, tenth[] = {0.1, 0.9};
+  assert_fractions("[{fraction: 0.333}, {fraction: 0.333}, {fraction: 0.333}]", third);
+  assert_fractions("[{fraction: 0.3333333432674408}, {fraction: 0.3333333432674408}, {fraction: 0.3333333432674408}]",
+                   third); /* single precision */
+  assert_fractions("[{}, {}, {}]", third);
+  assert_fractions("[{fraction: 1}, {fraction: 3}]", quarters);
+  assert_fractions("[{fraction: 25}, {fraction: 75}]", quarters);
+  assert_fractions("[{fraction: 0.1}, {fraction: 0.9}]", tenth);
+  assert_true(parse("{flow: usf, phi: 0.3, species: [{fraction: 0.1}, {fraction: 0.9}]}").species[1].fraction == 0.9);
 }
 
 /* Pairs by their names, in either order; those left out take `other`. */
@@ -296,13 +325,10 @@ static void older_words(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(reads_every_key),
-      cmocka_unit_test(defaults),
-      cmocka_unit_test(overrides),
-      cmocka_unit_test(round_trip),
-      cmocka_unit_test(mutations),
-      cmocka_unit_test(table_is_sound),
-      cmocka_unit_test(pairs_of_many_species),
+      cmocka_unit_test(reads_every_key), cmocka_unit_test(defaults),
+      cmocka_unit_test(overrides),       cmocka_unit_test(round_trip),
+      cmocka_unit_test(mutations),       cmocka_unit_test(table_is_sound),
+      cmocka_unit_test(weights),         cmocka_unit_test(pairs_of_many_species),
       cmocka_unit_test(older_words),
       cmocka_unit_test(names_of_files),
       cmocka_unit_test(texts_of_any_bytes),
