@@ -15,6 +15,7 @@ typedef struct fake_plan {
   double trend;      /* relative growth of T per collision per grain */
   double treated;    /* share of collisions under the contact-time rule */
   double seconds;    /* wall time that an advance takes */
+  bool counted;      /* collisions are counts, Poisson's, that the rate is the mean of */
 } fake_plan;
 
 extern fake_plan fake;
