@@ -41,6 +41,14 @@ static void destroy(gg_engine *e)
   free(e);
 }
 
+/* Knuth, The Art of Computer Programming 2 (1969), 3.4.1 F(3). */
+static uint64_t poisson(gg_rng *rng, double mean)
+{
+  uint64_t n = 0;
+  for (double p = gg_rng_uniform(rng); p > exp(-mean); p *= gg_rng_uniform(rng)) n++;
+  return n;
+}
+
 static gg_status advance(gg_engine *base, double dt, uint64_t most, double *elapsed, gg_error *err)
 {
   (void)most, (void)err;
@@ -49,7 +57,8 @@ static gg_status advance(gg_engine *base, double dt, uint64_t most, double *elap
   for (int k = 0; k < 3; k++)
     e->now.noise[k] = keep * e->now.noise[k] + sqrt(1 - keep * keep) * gg_common_rng_normal(&e->now.rng);
   e->now.age += step, e->now.time += dt;
-  uint64_t collisions = (uint64_t)llround(step * (double)e->model.n / 2);
+  const double expected = step * (double)e->model.n / 2;
+  uint64_t collisions = fake.counted ? poisson(&e->now.rng, expected) : (uint64_t)llround(expected);
   e->now.collisions += collisions;
   e->sums.collisions[0] += collisions;
   double stress = e->model.volume * dt * (1 + fake.noise * e->now.noise[2]);
