@@ -133,7 +133,7 @@ gg_status gg_api_files_check(const gg_run_call *r, gg_error *err)
                       {frames, "the frames beside the checkpoint", "checkpoint"},
                       {o->resume, "the checkpoint to resume from", NULL},
                       {third, "the checkpoint before it", NULL},
-                      {*r->scene.output.log ? r->scene.output.log : NULL, "the log", "output.log"},
+                      {r->samples.path, "the log", "output.log"},
                       {o->input, "the scene", NULL},
                       {NULL, NULL, NULL}};
   gg_status status = check_pairs(all, sizeof all / sizeof *all - 1, err);

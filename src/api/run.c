@@ -164,6 +164,7 @@ static gg_status begin(gg_run_call *r, const gg_scene *scene, const gg_run_optio
                                     .model = &r->model};
   GG_TRY(gg_api_scene_finish(scene, &r->scene, err));
   GG_TRY(gg_common_model_make(&r->scene, r->scene.engine, &r->model, err));
+  GG_TRY(gg_api_log_name(r, err));
   GG_TRY(gg_api_files_check(r, err));
   GG_TRY(begin_checkpoints(r, err));
   if (r->options.output) GG_TRY(gg_files_result_file_open(&r->file, r->options.output, r->options.command, err));

@@ -15,9 +15,9 @@ enum { GG_TEMPORARY_CHECKPOINT, GG_TEMPORARY_BEFORE, GG_TEMPORARY_FRAMES, GG_TEM
 
 /* run_log.c: the rows of output.log. */
 typedef struct gg_sample_log {
-  int fd;           /* -1: none */
-  const char *path; /* the scene's */
-  bool json;        /* a JSON object a line; else CSV */
+  int fd;     /* -1: none */
+  char *path; /* NULL: none */
+  bool json;  /* a JSON object a line; else CSV */
   gg_file_lock lock;
   struct gg_sample_log_state { /* plain data: saved as bytes */
     uint64_t sample, rows;     /* of the last row; rows in the sums: since averaging began */
@@ -68,7 +68,9 @@ gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const
 gg_status gg_api_files_check(const gg_run_call *run, gg_error *err);
 gg_status gg_api_picture_check(const gg_run_call *run, gg_error *err);
 
-/* Before the run: opens the log that the scene names, and cuts it to what the checkpoint to resume from has. */
+/* The log that the scene names: beside the output, unless its path is absolute or the output is a device or a pipe. */
+gg_status gg_api_log_name(gg_run_call *run, gg_error *err);
+/* Before the run: opens it, and cuts it to what the checkpoint to resume from has. */
 gg_status gg_api_log_begin(gg_run_call *run, gg_error *err);
 gg_status gg_api_log_mark(const gg_run_call *run, gg_archive *archive, gg_error *err);
 void gg_api_log_end(gg_run_call *run);

@@ -3,6 +3,7 @@
  * of its last row and the sums of its means, so that a resumed run cuts what came after and continues the same file. */
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -176,17 +177,56 @@ static gg_status open_file(gg_sample_log *log, const char *path, gg_error *err)
   return status;
 }
 
+gg_status gg_api_log_name(gg_run_call *r, gg_error *err)
+{
+  const char *name = r->scene.output.log, *output = r->options.output;
+  gg_output_path place = {0};
+  if (!*name) return GG_OK;
+  if (output) GG_TRY(gg_base_output_path_find(&place, output, err));
+  const char *slash = output && *name != '/' && !place.stream ? strrchr(output, '/') : NULL;
+  gg_base_output_path_clear(&place);
+  if (asprintf(&r->samples.path, "%.*s%s", slash ? (int)(slash - output) + 1 : 0, output ? output : "", name) < 0)
+    r->samples.path = NULL;
+  return r->samples.path ? GG_OK : gg_base_out_of_memory(err);
+}
+
+static uint64_t count_rows(const gg_sample_log *log)
+{
+  char *line = NULL;
+  size_t size = 0;
+  uint64_t n = 0;
+  const int fd = dup(log->fd);
+  FILE *in = fd >= 0 ? fdopen(fd, "r") : NULL;
+  while (in && getline(&line, &size, in) > 0) n += sample_of(line, log->json) > 0;
+  free(line);
+  if (in) fclose(in);
+  return n;
+}
+
+/* Whoever has repeated a command by mistake can stop it. */
+static void warn_of_replacing(const gg_run_call *r)
+{
+  const gg_sample_log *log = &r->samples;
+  const uint64_t n = r->options.warn && log->state.sample == 0 ? count_rows(log) : 0;
+  char *text = NULL;
+  if (n == 0) return;
+  if (asprintf(&text, "%s holds %" PRIu64 " rows of an earlier run, and is replaced", log->path, n) < 0) return;
+  gg_base_text_make_printable(text);
+  r->options.warn(r->options.context, text);
+  free(text);
+}
+
 gg_status gg_api_log_begin(gg_run_call *r, gg_error *err)
 {
   gg_sample_log *log = &r->samples;
-  log->path = r->scene.output.log;
-  if (!*log->path || r->comparison) return GG_OK;
+  if (!log->path || r->comparison) return GG_OK;
   const char *ending = strrchr(log->path, '.');
   log->json = ending && strcmp(ending, ".jsonl") == 0;
   GG_TRY(open_file(log, log->path, err));
   GG_TRY(check_ours(log, err));
   GG_TRY(restore(log, &r->resume, err));
   r->callbacks.sample = log_sample;
+  warn_of_replacing(r);
   return cut(log, log->state.sample, err);
 }
 
@@ -202,5 +242,6 @@ void gg_api_log_end(gg_run_call *r)
 {
   if (r->samples.fd >= 0) close(r->samples.fd);
   free(r->samples.sum);
+  free(r->samples.path);
   gg_base_file_lock_release(&r->samples.lock);
 }

@@ -169,7 +169,8 @@ static gg_status do_point(controller *c, gg_error *err)
   options.output = gg_sweep_point_path(all->folder, id_of(c), ".work.h5", work);
   gg_status status = gg_sweep_resolve(all->sweep, c->item->i, &scene, err);
   if (status != GG_OK) return status;
-  *scene.output.log = '\0'; /* one file for all points */
+  if (*scene.output.log) note_warning(c, "output.log has no effect in a sweep: it is one file, and points are many");
+  *scene.output.log = '\0';
   if (all->sweep->settings.does == GG_DOES_THEORY) return evaluate(c, &scene, &options, err);
   if (!(scene.output.checkpoint_every > 0)) return simulate(c, &scene, &options, &lost, err);
   options.checkpoint = gg_sweep_point_path(all->folder, id_of(c), ".checkpoint.h5", checkpoint);

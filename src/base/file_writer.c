@@ -58,7 +58,7 @@ static void begin_cell(gg_csv *csv)
 static bool is_formula(const char *text)
 {
   char *end;
-  return *text && strchr("=+-@", *text) && (strtod(text, &end), end == text || *end);
+  return *text && strchr("=+-@\t\r", *text) && (strtod(text, &end), end == text || *end);
 }
 
 void gg_base_csv_text(gg_csv *csv, const char *text)

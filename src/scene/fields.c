@@ -218,7 +218,7 @@ const gg_field gg_scene_fields[] = {
      .may_change = true},
     {"output.log", GG_FIELD_FILE, AT(output.log), .words = log_endings, .special = "none",
      .doc = "file to which a run appends a row for each sample of its first replica: time, collisions, headline "
-            "quantities and their means so far",
+            "quantities and their means so far; beside the result, unless its path is absolute",
      .when = GG_IF_ONE_ENGINE, .may_change = true},
     {0},
 };

@@ -9,6 +9,7 @@ import traceback
 
 GRAINGAS = os.path.abspath(os.environ["GRAINGAS"])
 SANITIZERS = os.environ.get("SANITIZERS", "none")  # that it is built with
+os.environ.pop("COLUMNS", None)  # of the terminal of whoever runs the tests: texts are 80 wide
 PATIENCE = float(os.environ.get("PATIENCE", 1 if SANITIZERS == "none" else 20))  # with a slow build, or a busy machine
 
 

@@ -132,12 +132,50 @@ def test_what_is_no_log_stays():
     check(int(rows()[-1]["sample"]) == len(rows()))
 
 
+def test_beside_the_result():
+    """A log goes where its result goes, unless its path is absolute; so do the rows of a run that is resumed."""
+    os.makedirs("there/deeper")
+    scene = SCENE % ("dsmc", 100, 1)
+    for output, log in (("there/a.h5", "there/run.csv"), ("./a.h5", "run.csv"), ("/dev/null", "run.csv"),
+                        ("there/deeper/../b.h5", "there/run.csv"), (os.path.abspath("there/c.h5"), "there/run.csv")):
+        done = run("run", "scene.yaml", "--quiet", "--output", output, scene=scene)
+        check(done.code == 0 and os.path.exists(log), output, done.err)
+        os.remove(log)
+        check(not os.path.exists("run.csv") and not os.path.exists("there/run.csv"), output)
+    for name in os.path.abspath("there/own.csv"), "deeper/own.csv":
+        done = run("run", "scene.yaml", "--quiet", "--set", f"output.log={name}", "--output", "there/a.h5")
+        check(done.code == 0 and os.path.exists(os.path.join("there", name)) and not os.path.exists("run.csv"), done.err)
+    done = run("run", "scene.yaml", "--quiet", "--set", "output.log=a.csv", "--output", "there/a.csv")
+    check(done.code == 2 and "there/a.csv: would be both" in done.err, done.err)
+    long = ["run", "scene.yaml", "--quiet", "--output", "there/d.h5", "--set", "run.collisions=4000", "--set", "output.checkpoint_every=0.02"]
+    stopped = run(*long, "--set", "run.time_limit=0.05")
+    check(stopped.code == 1 and os.path.exists("there/d.checkpoint.h5"), stopped.err)
+    before = len(rows("there/run.csv"))
+    done = run(*long, "--set", "run.time_limit=none", "--resume", "there/d.checkpoint.h5")
+    check(done.code == 0 and "earlier run" not in done.err and not os.path.exists("run.csv"), done.err)
+    found = rows("there/run.csv")
+    check(len(found) > before > 0 and [int(r["sample"]) for r in found] == list(range(1, len(found) + 1)))
+
+
+def test_replaced_with_a_word():
+    """The log of an earlier run is replaced, and the user hears of it before the run."""
+    for name in "run.csv", "run.jsonl":
+        args = ["run", "scene.yaml", "--quiet", "--set", f"output.log={name}"]
+        first = run(*args, scene=SCENE % ("dsmc", 100, 1))
+        check(first.code == 0 and "earlier run" not in first.err, first.err)
+        with open(name, encoding="utf-8") as file:
+            n = len(file.readlines()) - name.endswith("csv")
+        second = run(*args)
+        check(second.code == 0 and f"warning: {name} holds {n} rows of an earlier run, and is replaced" in second.err, second.err)
+
+
 def test_off_and_elsewhere():
-    """Without the key no file; a comparison warns; the points of a sweep keep none."""
+    """Without the key no file; a comparison and a sweep, whose points keep none, warn."""
     done = run("compare", "scene.yaml", "--quiet", "--picture", "none", "--output", "c.h5", scene=SCENE % ("md", 100, 1))
     check(done.code in (0, 1) and "output.log has no effect in a comparison" in done.err and "run.csv" not in done.new, done.err)
     done = run("sweep", "scene.yaml", "--vary", "collision.e=0.8,0.9", "--quiet")
     check(done.code in (0, 1) and not os.path.exists("run.csv"), done.err)
+    check(done.err.count("output.log has no effect in a sweep") == 1, done.err)
     check(run("run", "scene.yaml", "--quiet", "--set", "output.log=none").code == 0 and not os.path.exists("run.csv"))
     check("none" in run("info", "scene.yaml", "--set", "output.log=none").out)
 

@@ -35,28 +35,36 @@ void gg_h5_failed(gg_h5 *h, const char *what)
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, find_cause, h);
 }
 
+/* HDF5 crashes where some of its allocations fail: not even the error is its own then. */
+static bool has_room(gg_h5 *h)
+{
+  if (gg_base_memory_is_room()) return true;
+  h->failed = true;
+  snprintf(h->why, sizeof h->why, "out of memory");
+  return false;
+}
+
 /* Whether there is nothing more to be done. */
 static bool is_over(gg_h5 *h)
 {
   if (!h->failed && h->stop && gg_stop_asked(h->stop)) h->failed = h->interrupted = true;
-  return h->failed;
+  return h->failed || !has_room(h);
 }
 
-static void start(gg_h5 *h)
+/* False, with the reason: the first call initialises HDF5. */
+static bool start(gg_h5 *h)
 {
   *h = (gg_h5){.file = -1};
+  if (!has_room(h)) return false;
   errno = 0;
   H5Eget_auto2(H5E_DEFAULT, &h->print, &h->print_data);
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+  return h->silenced = true;
 }
 
 static void create(gg_h5 *h, const char *path, bool in_memory)
 {
-  start(h);
-  if (!gg_base_memory_is_room()) {
-    gg_h5_failed(h, "out of memory");
-    return;
-  }
+  if (!start(h)) return;
   hid_t access = H5Pcreate(H5P_FILE_ACCESS);
   bool ready = H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 &&
                /* the form that hdf5_reader.h reads */
@@ -98,7 +106,8 @@ void *gg_h5_image(gg_h5 *h, size_t *size)
 void gg_h5_close(gg_h5 *h)
 {
   if (h->file >= 0 && H5Fclose(h->file) < 0) gg_h5_failed(h, "HDF5 cannot close it");
-  H5Eset_auto2(H5E_DEFAULT, h->print, h->print_data);
+  if (h->silenced) H5Eset_auto2(H5E_DEFAULT, h->print, h->print_data);
+  h->silenced = false;
   h->file = -1;
 }
 
@@ -132,7 +141,7 @@ const char *gg_h5_path(gg_h5 *h, const char *format, ...)
 
 void gg_h5_group(gg_h5 *h, const char *path)
 {
-  if (h->failed || exists(h, path)) return;
+  if (is_over(h) || exists(h, path)) return;
   hid_t links = H5Pcreate(H5P_LINK_CREATE);
   H5Pset_create_intermediate_group(links, 1);
   hid_t group = H5Gcreate2(h->file, path, links, H5P_DEFAULT, H5P_DEFAULT);
@@ -143,7 +152,7 @@ void gg_h5_group(gg_h5 *h, const char *path)
 
 void gg_h5_link(gg_h5 *h, const char *target, const char *path)
 {
-  if (h->failed) return;
+  if (is_over(h)) return;
   hid_t links = H5Pcreate(H5P_LINK_CREATE);
   H5Pset_create_intermediate_group(links, 1);
   if (H5Lcreate_hard(h->file, target, h->file, path, links, H5P_DEFAULT) < 0) gg_h5_failed(h, path);
@@ -220,7 +229,7 @@ void gg_h5_numbers(gg_h5 *h, const char *path, const double *values, size_t n, c
 
 void gg_h5_attribute(gg_h5 *h, const char *object, const char *name, hid_t type, const void *values, size_t n)
 {
-  if (h->failed) return;
+  if (is_over(h)) return;
   hsize_t count = n;
   hid_t space = n ? H5Screate_simple(1, &count, NULL) : H5Screate(H5S_SCALAR);
   hid_t attribute = H5Acreate_by_name(h->file, object, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
@@ -289,7 +298,7 @@ static void chunk_of(const gg_h5_rows *rows, hsize_t *chunk)
 void gg_h5_rows_create(gg_h5 *h, gg_h5_rows *rows, const char *path, hid_t type, int row_rank, const hsize_t *row)
 {
   *rows = (gg_h5_rows){.dataset = -1, .type = type, .row_rank = row_rank};
-  if (h->failed) return;
+  if (is_over(h)) return;
   hsize_t dims[3] = {0}, most[3] = {H5S_UNLIMITED}, chunk[3];
   for (int a = 0; a < row_rank; a++) rows->row[a] = dims[a + 1] = most[a + 1] = row[a];
   chunk_of(rows, chunk);

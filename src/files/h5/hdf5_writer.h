@@ -12,7 +12,7 @@
 
 typedef struct gg_h5 {
   hid_t file;
-  bool failed, interrupted;
+  bool failed, interrupted, silenced; /* silenced: HDF5 prints no errors */
   const gg_stop *stop; /* polled before each array and text; set after the file is made; NULL: never */
   char why[256];
   char path[2][256]; /* of gg_h5_path */
