@@ -86,15 +86,30 @@ static double pace_of_md(const gg_model *m)
   return cells * cache * crowding(m) * cost_of_kicks(m) * (m->walled ? 1.2 : 1);
 }
 
-/* Between walls grains fly, too. Small ensembles, and those with a law of restitution, take collisions one by one; each
- * pair of species is a sweep of its own; noise is drawn. */
+/* Nanoseconds a collision of two species: one by one where either has too few grains for blocks of eight
+ * (gg_dsmc_choose_path), or where a law of restitution is the user's. */
+static double pace_of_pair(const gg_model *m, int i, int j)
+{
+  enum { FEWEST_IN_BLOCKS = 793 }; /* a hundred blocks */
+  const bool blocks = m->n_of[i] >= FEWEST_IN_BLOCKS && m->n_of[j] >= FEWEST_IN_BLOCKS && !m->law.e;
+  return blocks ? (m->rule == GG_SMOOTH ? 12 : 18) * (1 + 0.5 * exp(-(double)m->n / 1000)) : 330;
+}
+
+/* Between walls grains fly, too. Each pair of species is a sweep of its own, with its share of the collisions; noise is
+ * drawn. */
 static double pace_of_dsmc(const gg_model *m)
 {
-  const double n = (double)m->n, pairs = 0.5 + 0.5 * m->n_species;
+  double sum = 0, rates = 0;
   if (m->walled) return m->rule == GG_SMOOTH ? 150 : 200;
-  if (n < 320 * m->n_species || m->law.e) return 330;
-  return (m->rule == GG_SMOOTH ? 12 : 18) * (1 + 0.5 * exp(-n / 1000)) * pairs +
-         (m->thermostat == GG_WHITE_NOISE || m->bath.on ? 30 : 0);
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < m->n_species; j++) {
+      const int q = gg_pair(i, j);
+      const double rate = m->fraction[i] * m->fraction[j] * m->sigma[q] * m->sigma[q] * m->chi[q] *
+                          sqrt(1 / m->mass[i] + 1 / m->mass[j]);
+      sum += rate * pace_of_pair(m, i, j), rates += rate;
+    }
+  const double pairs = 0.5 + 0.5 * m->n_species;
+  return sum / rates * pairs + (m->thermostat == GG_WHITE_NOISE || m->bath.on ? 30 : 0);
 }
 
 static double mesh_points(const gg_model *m)
@@ -148,13 +163,29 @@ static double for_stress(const gg_model *m)
   return m->shear_rate != 0 ? 130 : 5;
 }
 
-/* Collisions a grain until the least exact headline quantity is known: the stress, or the temperature of all, which
- * fluctuates by sqrt(2/3N) and is forgotten in a relaxation time. */
-static double for_error(const gg_scene *scene, const gg_model *m, double error)
+/* N error^2 of a quantity that is small beside what it is made of, by collisions a grain: N1 and N2 scatter by sqrt(12)
+ * beside the pressure, a2 by sqrt(2.5), whatever their means, for which theories stand. 0: of no such quantity. */
+static double for_small(const gg_model *m, gg_quantity q)
 {
-  const double grains = (double)m->n * (double)scene->run.replicas;
-  const double stress = for_stress(m), slow = 2 * gg_common_model_relaxation(m) * 2 / 3.0;
-  return fmax(stress, slow) / (grains * error * error);
+  const bool difference = gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
+  const gg_theory *theory = difference ? &gg_theory_gaussian_closure : &gg_theory_garzo_dufty1999;
+  gg_theory_answer answer;
+  if (!difference && q != GG_Q_A2) return 0;
+  if (gg_theory_evaluate(theory, m, &answer, NULL) != GG_OK || !isfinite(answer.value[q])) return 0;
+  return (difference ? 12 : 2.5) / (answer.value[q] * answer.value[q]);
+}
+
+/* Collisions a grain until the least exact quantity is known that has an error to reach: the stress, or the temperature
+ * of all, which fluctuates by sqrt(2/3N) and is forgotten in a relaxation time. */
+static double for_error(const gg_scene *scene, const gg_model *m)
+{
+  const double usual = fmax(for_stress(m), 2 * gg_common_model_relaxation(m) * 2 / 3.0);
+  double most = 0;
+  for (gg_quantity q = 0; q < GG_N_QUANTITIES; q++) {
+    const double error = gg_run_criteria_error_of(scene, m, q);
+    if (isfinite(error)) most = fmax(most, fmax(usual, for_small(m, q)) / (error * error));
+  }
+  return most / ((double)m->n * (double)scene->run.replicas);
 }
 
 static void plan_time(gg_cost_estimate *f, const gg_scene *scene, const gg_model *m)
@@ -164,7 +195,7 @@ static void plan_time(gg_cost_estimate *f, const gg_scene *scene, const gg_model
   const bool followed = gg_scene_is_followed(scene);
   if (followed) window = gg_run_relaxation_collisions(scene, m);
   if (p.relative_error > 0 && !followed) {
-    double least = (double)p.least * GG_SAMPLING_INTERVAL, needed = for_error(scene, m, p.relative_error);
+    double least = (double)p.least * GG_SAMPLING_INTERVAL, needed = for_error(scene, m);
     needed = fmax(1.5 * least, 1.15 * needed);
     window = p.most ? fmin(window, needed) : needed;
     f->to_an_error = true;

@@ -433,6 +433,49 @@ static void correlation_times(void **state)
   }
 }
 
+/* What a run is expected to need: collisions up to a requested error, also of quantities that are small beside what
+ * they are made of (N1, a2); time a collision where a species has too few grains for blocks of eight. */
+static void needs(void **state)
+{
+  (void)state;
+  static const struct {
+    const char *scene;
+    double factor; /* that collisions are within */
+  } scenes[] = {
+      {"{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 1000}, run: {relative_error: 0.03}}", 4},
+      {"{flow: usf, engine: dsmc, phi: 0.1, collision: {e: 0.98}, dsmc: {particles: 1000}, run: {until: {N1: 0.05}}}",
+       3},
+      {"{flow: hcs, engine: dsmc, phi: 0.1, dsmc: {particles: 1000}, run: {until: {a2: 0.03}}}", 3},
+  };
+  gg_error err;
+  for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
+    gg_scene *s = scene_of(scenes[k].scene);
+    gg_scene_needs n;
+    gg_result *r = NULL;
+    gg_result_info info;
+    assert_ok(gg_scene_get_needs(s, "dsmc", &n, &err));
+    assert_ok(gg_run(s, NULL, &r, &err));
+    assert_ok(gg_result_get_info(r, &info, &err));
+    const double took = 2 * (double)info.total_collisions / 1000;
+    print_message("# %.0f collisions a grain, expected %.0f\n", took, n.collisions_per_grain);
+    assert_true(n.collisions_per_grain < scenes[k].factor * took && took < scenes[k].factor * n.collisions_per_grain);
+    gg_result_free(r);
+    gg_scene_free(s);
+  }
+  double seconds[3];
+  for (int k = 0; k < 3; k++) {
+    gg_scene *s =
+        scene_of("{flow: usf, phi: 0.1, species: [{fraction: 0.5}, {fraction: 0.5}], run: {collisions: 500}}");
+    gg_scene_needs n;
+    if (k == 1) assert_ok(gg_scene_set(s, "species", "[{fraction: 0.9}, {fraction: 0.1, diameter: 4}]", &err));
+    if (k == 2) assert_ok(gg_scene_set(s, "dsmc.particles", "500", &err));
+    assert_ok(gg_scene_get_needs(s, "dsmc", &n, &err));
+    seconds[k] = n.cpu_seconds / n.collisions_per_grain / (k == 2 ? 500 : 5000);
+    gg_scene_free(s);
+  }
+  assert_true(seconds[1] > 5 * seconds[0] && seconds[2] > 10 * seconds[0]);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -447,6 +490,7 @@ int main(void)
       cmocka_unit_test(theories),
       cmocka_unit_test(theories_after_changes),
       cmocka_unit_test(correlation_times),
+      cmocka_unit_test(needs),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

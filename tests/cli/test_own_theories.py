@@ -125,6 +125,18 @@ def test_wrong_grammar():
         check(done.code == 2 and "theories.t" in done.err, repr(text), done.code, done.err)
 
 
+def test_theories_have_no_grains():
+    """A fraction of half a grain in a thousand, also in a sweep: exact, and no number of grains changes an answer."""
+    scene = "flow: usf\nphi: 0.1\nspecies: [{fraction: 0.0005}, {fraction: 0.9995, mass: 2}]\ntheories: {x: {N1: x_1, N2: x_2}}\n"
+    answers = [run("theory", "-", "--json", "--set", f"particles={n}", typed=scene) for n in (1000, 8000)]
+    check(all(done.code == 0 for done in answers), answers[0].err)
+    few, many = (json.loads(done.out)["theory"] for done in answers)
+    check(few["x"]["N1"]["mean"] == 0.0005 and few["x"]["N2"]["mean"] == 0.9995, few["x"])
+    check(few["enskog_hermite"]["temperature"] == many["enskog_hermite"]["temperature"], few, many)
+    done = run("sweep", "s.yaml", "--vary", "phi=0.1,0.2", scene=scene + "sweep: {does: theory}\n", name="s.yaml")
+    check(done.code == 0, done.err)
+
+
 def test_another_folder():
     """The table lies beside the scene, wherever the command is typed."""
     os.mkdir("there")
