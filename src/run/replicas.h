@@ -19,9 +19,9 @@ typedef struct gg_stopping_criteria { /* stopping criteria, settled before the r
 /* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
 enum { GG_LEAST_CORRELATION_TIMES = 20 };
 /* Nor one of less than this many decay times of a mode across a gap between walls that shifts results itself: a time
- * that short windows show too short, by half at 20. Of a mode whose square alone does: a part of it has changed sides
- * often. */
-enum { GG_LEAST_SLOW_TIMES = 50, GG_LEAST_ODD_TIMES = 10 };
+ * that short windows show too short, by half at 20. A mode that results follow by its square alone needs fewer: the
+ * square forgets in half the time. */
+enum { GG_LEAST_SLOW_TIMES = 50, GG_LEAST_ODD_TIMES = 20 };
 
 typedef struct gg_convergence { /* of the present averaging window */
   double relative_error;        /* of the worst quantity with a requested error, in units of its requested error:

@@ -96,7 +96,7 @@ static void short_window(void **state)
     int mode;
     double times, remembered;
     bool steady;
-  } windows[] = {{SPREAD, 200, 1, true}, {SPREAD, 5, 1, false}, {MOMENTUM, 40, 0.5, true}, {MOMENTUM, 5, 0.5, false}};
+  } windows[] = {{SPREAD, 200, 1, true}, {SPREAD, 5, 1, false}, {MOMENTUM, 80, 0.5, true}, {MOMENTUM, 5, 0.5, false}};
   gg_rng r = gg_common_rng_seed(32, 0);
   for (int k = 0; k < 4; k++) {
     gg_replicas all;
