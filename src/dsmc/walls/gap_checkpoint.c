@@ -103,9 +103,10 @@ static bool are_cells(const gg_dsmc_gap *d)
   if (!are_between(c->counted, n * species, 0, 1e300) || !are_between(c->mean, n * species, 0, grains * (1 + 1e-9)) ||
       !are_between(c->hits, n, 0, 1e300))
     return false;
+  /* chi N g_n over the thermal speed, where one grain has all energy; a larger one would keep a step busy for hours. */
+  const double most = 1e4 * grains * sqrt(grains);
   for (size_t k = 0; k < n * species * species; k++)
-    if (!is_between(c->majorant[k].now, 0, 1e9 * grains) || !is_between(c->majorant[k].before, 0, 1e9 * grains))
-      return false;
+    if (!is_between(c->majorant[k].now, 0, most) || !is_between(c->majorant[k].before, 0, most)) return false;
   return true;
 }
 
