@@ -67,8 +67,8 @@ static bool is_state(const gg_dsmc_gap *d)
   const double crossing = d->model.box[1] / sqrt(s->temperature);
   return is_between(s->temperature, 1e-300, 1e300) && is_between(s->step, 1e-300, crossing) &&
          is_between(s->owed, 0, 1e5 * crossing) && is_between(s->rate, 0, 1e300) && is_between(s->all_rate, 0, 1e300) &&
-         is_between(s->time, -1e300, 1e300) && is_between(s->unmeasured, 0, 1e300) && is_between(s->gone, 0, 1e300) &&
-         s->asked >= 0 && s->keeps_sums <= 1;
+         is_between(s->time, -1e300, 1e300) && is_between(s->unmeasured, 0, 1e300) && is_between(s->overfilled, 0, 1) &&
+         is_between(s->gone, 0, 1e300) && s->asked >= 0 && s->keeps_sums <= 1;
 }
 
 /* Heights between the walls, speeds of about the temperature, each grain once. */
