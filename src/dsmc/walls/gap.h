@@ -42,11 +42,11 @@ typedef struct gg_dsmc_gap_cells {
   uint32_t *start_below;
   uint32_t *next; /* [parts x stride]: of each part (below) the grains of each, then the place of its next one */
   size_t stride;
-  double *counted;   /* [n x species]: grains x time, since the last measurement */
-  double *mean;      /* [n x species]: mean number of grains, over about a thermal flight of a diameter */
-  double *hits;      /* [n]: grains that collided since the last measurement */
-  double *chi;       /* [pairs x 2n]: contact value between the middles of cells a and b, at a + b + 1 */
-  double *kernel;    /* [species x (reach + 1)]: what share of a cell's grains fills the place half cells away */
+  double *counted; /* [n x species]: grains x time, since the last measurement */
+  double *mean;    /* [n x species]: mean number of grains, over about a thermal flight of a diameter */
+  double *hits;    /* [n]: grains that collided since the last measurement */
+  double *chi;     /* [pairs x 2n]: contact value between the middles of cells a and b, at a + b + 1 */
+  double *kernel;  /* [species x (reach + 1)]: what share of a cell's grains fills the place half cells away */
   gg_dsmc_majorant *majorant; /* [n x species x species]: of chi N g_n, N in the partner's cell */
 } gg_dsmc_gap_cells;
 
