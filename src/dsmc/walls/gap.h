@@ -42,12 +42,11 @@ typedef struct gg_dsmc_gap_cells {
   uint32_t *start_below;
   uint32_t *next; /* [parts x stride]: of each part (below) the grains of each, then the place of its next one */
   size_t stride;
-  double *counted;   /* [n x species]: grains x time, since the last measurement */
-  double *mean;      /* [n x species]: mean number of grains, over about a crossing of the gap */
-  double *hits;      /* [n]: grains that collided since the last measurement */
-  double *chi;       /* [pairs x 2n]: contact value between the middles of cells a and b, at a + b + 1 */
-  double *kernel;    /* [species x (reach + 1)]: what share of a cell's grains fills the place half cells away */
-  double overfilled; /* share of grains where contact values are held down, over about a crossing */
+  double *counted; /* [n x species]: grains x time, since the last measurement */
+  double *mean;    /* [n x species]: mean number of grains, over about a thermal flight of a diameter */
+  double *hits;    /* [n]: grains that collided since the last measurement */
+  double *chi;     /* [pairs x 2n]: contact value between the middles of cells a and b, at a + b + 1 */
+  double *kernel;  /* [species x (reach + 1)]: what share of a cell's grains fills the place half cells away */
   gg_dsmc_majorant *majorant; /* [n x species x species]: of chi N g_n, N in the partner's cell */
 } gg_dsmc_gap_cells;
 
@@ -77,6 +76,7 @@ typedef struct gg_dsmc_gap_state {
   double all_rate;    /* collisions per time */
   double temperature; /* sum m c^2/(3N), the flow included: the scale of majorants */
   double unmeasured;  /* time since the last measurement */
+  double overfilled;  /* share of grains where contact values are held down, over about a crossing of the gap */
   uint64_t steps, collisions, candidates, overflows, rests, clamped;
   uint64_t keeps_sums;
   gg_collision_sums transfer;
@@ -144,8 +144,8 @@ double gg_dsmc_gap_cell_width(const gg_model *model);
 double gg_dsmc_gap_free_times(const gg_model *model);
 /* Order the grains by cell, after a flight. */
 void gg_dsmc_gap_sort(gg_dsmc_gap *d);
-/* Contact values of the present mean numbers. */
-void gg_dsmc_gap_set_chi(gg_dsmc_gap *d);
+/* Contact values of the present mean numbers; how many grains are where contact values are held down. */
+double gg_dsmc_gap_set_chi(gg_dsmc_gap *d);
 /* After some steps: mean numbers, contact values, temperature, the next step. */
 void gg_dsmc_gap_measure(gg_dsmc_gap *d);
 void gg_dsmc_gap_choose_step(gg_dsmc_gap *d);

@@ -197,7 +197,7 @@ static void filling_at(const gg_dsmc_gap *d, int place, double *filled, double *
   }
 }
 
-void gg_dsmc_gap_set_chi(gg_dsmc_gap *d)
+double gg_dsmc_gap_set_chi(gg_dsmc_gap *d)
 {
   const gg_model *m = &d->model;
   gg_dsmc_gap_cells *c = &d->cells;
@@ -219,7 +219,7 @@ void gg_dsmc_gap_set_chi(gg_dsmc_gap *d)
                 : gg_common_contact_value_mixture(
                       filled, over_d, 2 * m->diameter[i] * m->diameter[j] / (m->diameter[i] + m->diameter[j]));
   }
-  c->overfilled = beyond / (double)m->n;
+  return beyond;
 }
 
 /* Longer than this share of a thermal crossing of the gap no step is, whether grains collide or not. */
@@ -269,12 +269,17 @@ static double temperature_of(const gg_dsmc_gap *d)
   return sum / (3 * (double)d->model.n);
 }
 
+/* Enskog's contact value is that of the present density, so mean numbers forget within a thermal flight of a diameter.
+ * A longer memory lowers noise of contact values, but then the pressure answers late to waves of density across the
+ * gap, and these grow: at phi = 0.3 with 3000 grains, a memory of a crossing of 12 diameters raises the shear rate of
+ * the core of a Couette flow by 2 %, one of four crossings by 5 %. */
 void gg_dsmc_gap_measure(gg_dsmc_gap *d)
 {
   gg_dsmc_gap_cells *c = &d->cells;
   gg_dsmc_gap_state *s = &d->now;
   const int species = d->model.n_species;
-  const double t = s->unmeasured, memory = d->model.box[1] / sqrt(s->temperature), share = t / (t + memory);
+  const double t = s->unmeasured, speed = sqrt(s->temperature), crossing = d->model.box[1] / speed;
+  const double share = t / (t + gg_common_model_widest(&d->model) / speed);
   double hits = 0, squares = 0;
   for (int a = 0; a < c->n; a++) {
     double grains = 0;
@@ -292,5 +297,6 @@ void gg_dsmc_gap_measure(gg_dsmc_gap *d)
   s->temperature = temperature_of(d);
   s->unmeasured = 0;
   gg_dsmc_gap_choose_step(d);
-  gg_dsmc_gap_set_chi(d);
+  const double overfilled = gg_dsmc_gap_set_chi(d) / (double)d->model.n;
+  s->overfilled += t / (t + crossing) * (overfilled - s->overfilled);
 }

@@ -67,8 +67,8 @@ static bool is_state(const gg_dsmc_gap *d)
   const double crossing = d->model.box[1] / sqrt(s->temperature);
   return is_between(s->temperature, 1e-300, 1e300) && is_between(s->step, 1e-300, crossing) &&
          is_between(s->owed, 0, 1e5 * crossing) && is_between(s->rate, 0, 1e300) && is_between(s->all_rate, 0, 1e300) &&
-         is_between(s->time, -1e300, 1e300) && is_between(s->unmeasured, 0, 1e300) && is_between(s->gone, 0, 1e300) &&
-         s->asked >= 0 && s->keeps_sums <= 1;
+         is_between(s->time, -1e300, 1e300) && is_between(s->unmeasured, 0, 1e300) && is_between(s->overfilled, 0, 1) &&
+         is_between(s->gone, 0, 1e300) && s->asked >= 0 && s->keeps_sums <= 1;
 }
 
 /* Heights between the walls, speeds of about the temperature, each grain once. */
@@ -103,9 +103,10 @@ static bool are_cells(const gg_dsmc_gap *d)
   if (!are_between(c->counted, n * species, 0, 1e300) || !are_between(c->mean, n * species, 0, grains * (1 + 1e-9)) ||
       !are_between(c->hits, n, 0, 1e300))
     return false;
+  /* chi N g_n over the thermal speed, where one grain has all energy; a larger one would keep a step busy for hours. */
+  const double most = 1e4 * grains * sqrt(grains);
   for (size_t k = 0; k < n * species * species; k++)
-    if (!is_between(c->majorant[k].now, 0, 1e9 * grains) || !is_between(c->majorant[k].before, 0, 1e9 * grains))
-      return false;
+    if (!is_between(c->majorant[k].now, 0, most) || !is_between(c->majorant[k].before, 0, most)) return false;
   return true;
 }
 

@@ -154,7 +154,7 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .clamped = s->clamped,
                              .wall_treated = s->rests,
                              .others_cpu = gg_base_thread_pool_cpu(const_gap_of(engine)->pool),
-                             .overfilled = const_gap_of(engine)->cells.overfilled,
+                             .overfilled = s->overfilled,
                              .time_step = s->step,
                              .time_step_bias = GG_GAP_BIAS_OF_STEP * h * h};
 }
