@@ -20,8 +20,9 @@
  * gg_simulation_on_collision() and gg_simulation_on_stop() are allowed and take effect at once. A handle that is freed
  * while a call uses it lives until that call returns; advances return as soon as they can, with GG_INTERRUPTED.
  *
- * Loading the library replaces jansson's allocator for the whole process, in order to notice failed allocations. A
- * program that has set its own keeps it.
+ * The library leaves what belongs to the process as it is: locale, signal handlers, allocators of other libraries. The
+ * exception is GSL's error handler, which is the library's own during calls that use GSL. Numbers in texts have a decimal
+ * point in every locale.
  *
  * Units are those of results (gg_catalogue_entry() gives them): lengths in the diameter d and masses in the mass m of
  * species 1; sheared flows in units of the shear rate gamma (couette: of 2 walls.speed/L_y, its mean), others in the
@@ -167,7 +168,7 @@ GG_API gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text
 GG_API gg_status gg_scene_check(const gg_scene *scene, gg_error *err);
 
 /**
- * Every key with the value in force, as YAML that gg_scene_parse() reads back.
+ * Every key with the value in force, as YAML that gg_scene_parse() reads back, with the theories of its text.
  * @param scene the scene
  * @param text receives the text, to be freed with free()
  * @param err receives the message on failure; may be NULL
@@ -176,7 +177,7 @@ GG_API gg_status gg_scene_check(const gg_scene *scene, gg_error *err);
 GG_API gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err);
 
 /**
- * Every key with the value in force, as JSON that gg_scene_parse() reads back.
+ * Every key with the value in force, as JSON that gg_scene_parse() reads back, with the theories of its text.
  * @param scene the scene
  * @param text receives the text, to be freed with free()
  * @param err receives the message on failure; may be NULL
@@ -313,6 +314,7 @@ typedef struct gg_simulation_state {
   double strain;                 /* shear rate times time, also of one that changed; 0 without shear */
   double image_offset;           /* md, sheared: the box above is displaced so far along x, from 0 to box[0] */
   double box[3];                 /* edges; 0 where there is none (dsmc without walls) */
+  int periodic[3];               /* the box repeats along x, y, z; 0: walls or open ends, or no box */
 } gg_simulation_state;
 
 /**
@@ -1561,7 +1563,7 @@ typedef struct gg_validating {
  * NULL
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED where dsmc and the noise-free solution disagree beyond chance (one grid in 1000 without any
- * fault does), or no point is finished; GG_BAD_INPUT if the sweep does not compare; GG_INTERRUPTED by options->stop:
+ * fault does), where nothing was judged (no point has a steady dsmc and a noise-free solution), or no point is finished; GG_BAD_INPUT if the sweep does not compare; GG_INTERRUPTED by options->stop:
  * there is no page, maps that were drawn stay
  */
 GG_API gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_validating *options,
@@ -1637,7 +1639,7 @@ GG_API gg_status gg_result_file_notice(const char *result_file, char *text, size
 typedef enum gg_catalogue {
   GG_CATALOGUE_KEYS,         /* of scenes: name, type, unit, doc, allowed, value, given, when */
   GG_CATALOGUE_SPECIES_KEYS, /* of one species: the same */
-  GG_CATALOGUE_FLOWS,        /* name, doc */
+  GG_CATALOGUE_FLOWS,        /* name, doc, traits */
   GG_CATALOGUE_ENGINES,      /* name, doc */
   GG_CATALOGUE_OBSERVABLES,  /* words under `measure`: name, doc */
   GG_CATALOGUE_QUANTITIES,   /* name, unit, doc, symbol, formula, missing, headline, when */
@@ -1656,6 +1658,7 @@ typedef struct gg_entry { /* NULL or "": not in this table */
   char symbol[48];     /* of a quantity, LaTeX: "T", "\\kappa_{rh}"; "" of your own */
   int headline;        /* of a quantity: run.relative_error applies to it in the scene */
   char when[256];      /* when a key has an effect, a quantity has a mean, which flows a theory describes */
+  char traits[64];     /* of a flow, separated by blanks: sheared, walls, moving_walls, cools, falls, may_fall */
 } gg_entry;
 
 /**
@@ -1842,8 +1845,8 @@ typedef double gg_restitution(void *context, double normal_speed, int species_1,
 
 /**
  * Set a restitution law for collisions between grains, in place of collision.e and collision.law. It is tested at
- * speeds from 1e-9 to 1e9. Values out of range during a run are clamped. dsmc leaves its fast kernels; theories of
- * constant e do not apply. A resumed run needs the same law, by name.
+ * speeds from 1e-9 to 1e9. Values out of range during a run are clamped (NaN: 0), and the result counts them and warns.
+ * dsmc leaves its fast kernels; theories of constant e do not apply. A resumed run needs the same law, by name.
  * @param scene the scene
  * @param name name of the law
  * @param law the law; NULL: back to collision.e

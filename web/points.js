@@ -246,6 +246,12 @@ export function gather(texts) {
 
 /* ---- CSV: a row a point, a column a quantity ---- */
 
+/* As the library writes texts (src/base/file_writer.c): a spreadsheet would compute one that begins like a formula. */
+function csvCell(value) {
+  const text = String(value),
+    safe = /^[=+\-@\t\r]/.test(text) && !Number.isFinite(Number(text)) ? `'${text}` : text;
+  return /[",\r\n]/.test(safe) ? `"${safe.replace(/"/g, '""')}"` : safe;
+}
 export function pointsCsv(points) {
   const columns = ENGINES.flatMap((engine) => QUANTITIES.filter((q) => points.some((one) => one[engine] && one[engine][q])).flatMap((q) => [`${engine}_${q}`, `${engine}_${q}_error`])),
     numberAt = (one, column) => {
@@ -253,7 +259,7 @@ export function pointsCsv(points) {
         found = one[engine] && one[engine][q];
       return found ? found[isError ? 1 : 0] : "";
     };
-  return `${[["slider", "value", "seed", ...columns, "name"], ...points.map((one) => [one.slider, one.x, one.seed, ...columns.map((column) => numberAt(one, column)), one.from])].map((row) => row.join(",")).join("\n")}\n`;
+  return `${[["slider", "value", "seed", ...columns, "name"], ...points.map((one) => [one.slider, one.x, one.seed, ...columns.map((column) => numberAt(one, column)), one.from])].map((row) => row.map(csvCell).join(",")).join("\n")}\n`;
 }
 /* Those of a file; none if it is no such table. */
 export function pointsOf(text, file) {
@@ -263,7 +269,7 @@ export function pointsOf(text, file) {
   return rows
     .map((row) => {
       const from = tidyFrom(row[head.indexOf("name")] || "") || whose,
-        point = { slider: row[0], x: Number(row[1]), seed: row[2], from, md: {}, dsmc: {} };
+        point = { slider: row[0], x: Number(row[1]), seed: /^\d{1,19}$/.test(row[2]) ? row[2] : "", from, md: {}, dsmc: {} };
       head.forEach((column, i) => {
         const found = /^(md|dsmc)_(.*?)(_error)?$/.exec(column);
         if (!found || !QUANTITIES.includes(found[2]) || row[i] === "" || row[i] === undefined) return;

@@ -35,8 +35,13 @@ def keys():
 
 
 def flows():
-    """Flows: name, doc."""
+    """Flows: name, doc, traits (words separated by blanks: sheared, walls, moving_walls, cools, falls, may_fall)."""
     return table(lib.GG_CATALOGUE_FLOWS)
+
+
+def traits(flow):
+    """Words of the table of flows about a flow: {"walls", "may_fall"}."""
+    return set(flows()[flow].traits.split())
 
 
 def observables():

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Optional
 
 from . import _c, calls, tables
+from .arguments import real
 from .curves import curves_by_name, curves_of
 from .errors import ByName, NotFound, check, encode, lib, look_up, new_error, owned_text, text
 from .estimate import Estimate
@@ -60,7 +61,7 @@ class Theory(Mapping):
         def at(t):
             check(lib.gg_comparison_theory_cooling, self._comparison._pointer, name, t, found)
             return found[0]
-        return np.vectorize(at, otypes=[float])(time) if np.ndim(time) else at(float(time))
+        return np.vectorize(at, otypes=[float])(time) if np.ndim(time) else at(real(time, "time"))
 
     @property
     def curves(self):

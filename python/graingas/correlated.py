@@ -14,31 +14,37 @@ class Correlated:
     half of the variance that is left is independent, so that no difference vanishes by chance.
     """
 
-    def __init__(self, find, covariance):
-        self._find, self._covariance = find, covariance
-        self._made, self._before, self._shares, self._independent = {}, [], [], []
+    _of_runs = {}  # by identity: a run that is read twice is one run
 
-    def number(self, name):
+    def __init__(self):
+        self._made, self._before, self._shares, self._independent = {}, {}, [], []
+
+    @classmethod
+    def of(cls, identity):
+        """Those of the run with this identity."""
+        return cls._of_runs.setdefault(identity, cls())
+
+    def number(self, estimate):
         """None: the error of this mean is unknown."""
-        if name not in self._made:
-            estimate = self._find(name)
+        key = estimate._curve, estimate.name
+        if key not in self._made:
             if math.isnan(estimate.error):
                 return None
-            self._made[name] = self._make(estimate)
-        return self._made[name]
+            self._made[key] = self._make(estimate, key)
+        return self._made[key]
 
-    def _make(self, estimate):
+    def _make(self, estimate, key):
         from uncertainties import ufloat
         share = _share(self._shares, self._coefficients(estimate))
         self._independent.append(ufloat(0, 1))
         self._shares = [*(np.append(row, 0) for row in self._shares), share]
-        self._before.append(estimate)
+        self._before[key] = estimate.error
         return estimate.mean + estimate.error * sum(x * z for x, z in zip(share, self._independent))
 
     def _coefficients(self, estimate):
         """Correlation coefficients with the earlier means; unknown ones are 0."""
-        errors = np.array([estimate.error * other.error for other in self._before])
-        table = np.array([self._covariance(estimate.name, other.name) for other in self._before])
+        errors = np.array([estimate.error * error for error in self._before.values()])
+        table = np.array([estimate._covariance_with(curve, name) for curve, name in self._before])
         return np.clip(np.nan_to_num(table / np.where(errors > 0, errors, 1)), -1, 1)
 
 

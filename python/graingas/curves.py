@@ -46,10 +46,10 @@ class Curve:
         return plot_curve(self, ax, **style)
 
 
-def _numbers(result, i):
+def _numbers(result, i, curve):
     k, found, error = 0, new("gg_measurement"), new_error()
-    while lib.gg_result_curve_number(result, i, k, found, error) == lib.GG_OK:
-        yield Estimate._of(found)
+    while lib.gg_result_curve_number(result._pointer, i, k, found, error) == lib.GG_OK:
+        yield Estimate._of(found, result, curve)
         k += 1
 
 
@@ -57,15 +57,16 @@ def curves_by_name(curves):
     return ByName.of("curve", curves, "; add the observable to the scene's key measure")
 
 
-def curves_of(get, numbers_of=lambda i: ()):
+def curves_of(get, numbers_of=lambda i, curve: ()):
     """All curves by name, from gg_result_curve and its like."""
     found, i, error, data = curves_by_name({}), 0, new_error(), new("gg_curve_data")
     while get(i, data, error) == lib.GG_OK:
-        curve = Curve(data, numbers_of(i))
+        curve = Curve(data, numbers_of(i, value(data.name)))
         found[curve.name] = curve
         i += 1
     return found
 
 
 def result_curves(result):
-    return curves_of(lambda i, data, error: lib.gg_result_curve(result, i, data, error), lambda i: _numbers(result, i))
+    return curves_of(lambda i, data, error: lib.gg_result_curve(result._pointer, i, data, error),
+                     lambda i, curve: _numbers(result, i, curve))

@@ -4,14 +4,17 @@
 An exception in such a function ends every call that uses it at the time, and comes out of that call."""
 from __future__ import annotations
 
+import importlib
 import inspect
 import math
 import re
+import sys
 from collections import deque
 
 import numpy as np
 
 from . import _c
+from .arguments import whole
 from .errors import BadInput, check, encode, lib
 from .structs import Record, array, copy_of, dtype, new, value, values
 
@@ -26,7 +29,7 @@ class DoesNotApply(Exception):
 
 class Extension:
     """What define_observable(), define_theory() and define_law() return: scene.add() registers it, and calling it calls
-    the function."""
+    the function. Pickles name it, or its function, by module and name, so it has to be at the top level of a module."""
 
     def __init__(self, name, function):
         self.name, self.function = name, function
@@ -49,8 +52,55 @@ class Extension:
         for call in list(self.calls):
             call.fail(error)
 
+    def _recipe(self):
+        """What makes it again: a function, and its arguments."""
+        raise NotImplementedError
+
+    def __eq__(self, other):
+        return self is other or type(self) is type(other) and self._recipe() == other._recipe()
+
+    def __hash__(self):
+        return hash((type(self), self.name))
+
+    def __reduce__(self):
+        """By its name in the module of its function, as pickles name functions; else by the names of its functions."""
+        module = getattr(self.function, "__module__", None)
+        name = next((name for name, thing in vars(sys.modules.get(module, self)).items() if thing is self), None)
+        if name is not None:
+            return _at, (module, name)
+        make, arguments = self._recipe()
+        return _made_again, (make, [_Name.of(self, part) if callable(part) else part for part in arguments])
+
     def __repr__(self):
         return f"<graingas {type(self).__name__.lower()} {self.name}>"
+
+
+def _at(module, path):
+    """The object of this name in a module."""
+    found = importlib.import_module(module)
+    for name in path.split("."):
+        found = getattr(found, name)
+    return found
+
+
+class _Name(tuple):
+    """Module and name of a function in a pickle."""
+
+    @classmethod
+    def of(cls, extension, function):
+        module, path = getattr(function, "__module__", None), getattr(function, "__qualname__", None)
+        try:
+            found = _at(module, path)
+        except (ImportError, AttributeError, TypeError):
+            found = None
+        if getattr(found, "function", found) is not function:
+            raise TypeError(f"{extension!r} cannot be pickled: its function {path or function!r} has no name in a module; "
+                            "define it at the top level of one, without lambda")
+        return cls((module, path))
+
+
+def _made_again(make, arguments):
+    return make(*(_at(*part) if isinstance(part, _Name) else part for part in arguments))
 
 
 def _one_line(words):
@@ -105,7 +155,10 @@ class Observable(Extension):
 
     def __init__(self, name, function, quantities, doc, state, collision):
         super().__init__(name, function)
-        self.quantities, self.state, self.collision, self._doc = quantities, int(state), collision, doc
+        self.quantities, self.state, self.collision, self._doc = quantities, state, collision, doc
+
+    def _recipe(self):
+        return Observable, [self.name, self.function, self.quantities, self._doc, self.state, self.collision]
 
     def add_to(self, scene):
         table = ffi.new("gg_quantity_definition[]", len(self.quantities))
@@ -183,8 +236,7 @@ def define_observable(name, quantities=None, *, doc=None, state=0, collision=Non
         quantities = [name]
     quantities = dict(quantities) if isinstance(quantities, dict) else {quantity: "1" for quantity in quantities}
 
-    if isinstance(state, bool) or int(state) != state or not 0 <= state < 2**20:
-        raise BadInput(f"state: {state!r} is not allowed; allowed: a whole number from 0 to 1048575")
+    state = whole(state, "state", 0, 2**20 - 1, "a whole number from 0 to 1048575")
 
     def make(function):
         _need_function(function, "define_observable")
@@ -205,6 +257,9 @@ class Definition(Extension):
         self.quantities = list(quantities)
         self._texts = {"title": title, "citation": citation, "assumptions": assumptions}
         self._reasons = deque(maxlen=256)  # texts that the library reads after the function
+
+    def _recipe(self):
+        return Definition, [self.name, self.function, self.quantities, *self._texts.values()]
 
     def add_to(self, scene):
         definition = new("gg_theory_definition")
@@ -284,6 +339,9 @@ class Law(Extension):
     table = address = None
     takes_species = False
 
+    def _recipe(self):
+        return define_law, [self.function if self.table is None else [column.tolist() for column in self.table], self.name]
+
 
 @ffi.def_extern(error=1.0, onerror=lambda *_: None)
 def ggpy_law(context, speed, first, second):
@@ -302,7 +360,8 @@ def define_law(law, name="own") -> Law:
           a pair of arrays, ascending speeds and values of e: linear between them, constant beyond;
           a numba.cfunc("float64(voidptr, float64, int32, int32)"): context, speed, species, compiled
 
-    Speeds have the units of results. The function is called at every collision; a table is the fastest.
+    Speeds have the units of results. The function is called at every collision; a table is the fastest. A value that is
+    no number from 0 to 1 is clamped (NaN: 0), counted in the result and warned of.
     """
     if hasattr(law, "address"):
         _check_signature(str(getattr(law, "_sig", "")))

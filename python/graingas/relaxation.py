@@ -8,6 +8,7 @@ from typing import Optional, Sequence
 import numpy as np
 
 from . import calls, catalogue
+from .arguments import real, refused, whole
 from .errors import BadInput, not_found
 from .plot import COLOURS, DASHES, label, legend, new_axes, styled, time_label
 from .run import thread_count
@@ -206,7 +207,7 @@ def _checked_protocol(protocol, until):
     for change in protocol or ():
         try:
             at, keys = change
-            at, keys = float(at), dict(keys)
+            at, keys = real(at, "protocol"), dict(keys)
         except (TypeError, ValueError):
             raise BadInput(f"protocol: {change!r} is not allowed; allowed: (time, {{key: value, ...}})") from None
         if not 0 < at < until:
@@ -260,24 +261,24 @@ def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines:
     if "engine" in keys:
         raise BadInput(f"relax: engine has no effect; give engines={keys['engine']!r}")
     scene = as_scene(scene).copy(**keys)
-    if isinstance(until, str) or int(points) != points or points < 2 or not 0 < until < np.inf:
-        raise BadInput("relax: allowed: points of 2 or more, until above 0")
-    if int(replicas) != replicas or replicas < 2:
-        raise BadInput(f"replicas: {replicas!r} is not allowed; allowed: a whole number of 2 or more")
+    until = real(until, "until", "a number above 0")
+    if until <= 0:
+        raise refused("until", until, "a number above 0")
+    points, replicas = whole(points, "points", 2, 10**7), whole(replicas, "replicas", 2, 10**7)
     engines = [engines] if isinstance(engines, str) else list(engines)
     wrong = [e for e in engines if e not in ENGINES]
     if wrong or not engines:
         raise BadInput(f"engines: {wrong[0] if wrong else engines!r} is not allowed; allowed: md, dsmc")
-    if scene["flow"] in ("couette", "poiseuille", "chute", "fourier"):
+    if "walls" in catalogue.traits(scene["flow"]):
         raise BadInput(f"relax: flow: {scene['flow']} has walls, and another temperature at each height")
     given = followed(scene)
     if given:
         raise BadInput(f"relax: the scene gives {given}, which run() follows; leave it out, and give until and protocol")
     scene, ratios = _starting(scene, start)
-    time, protocol = np.linspace(0, until, int(points)), _checked_protocol(protocol, until)
+    time, protocol = np.linspace(0, until, points), _checked_protocol(protocol, until)
     series = {}
     for engine in engines:
         replica = _Replicas(scene.copy(engine=engine), time, protocol, ratios)
-        found = replica.run(int(replicas), thread_count(threads))
+        found = replica.run(replicas, thread_count(threads))
         series[engine] = {q: TimeSeries(values) for q, values in found.items()}
     return Relaxation(scene, time, series, protocol)

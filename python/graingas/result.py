@@ -2,6 +2,7 @@
 """Results of one engine's run."""
 from __future__ import annotations
 
+import hashlib
 import math
 from collections import namedtuple
 from collections.abc import Mapping
@@ -9,7 +10,6 @@ from functools import cached_property
 from typing import Optional
 
 from . import _c, calls, tables
-from .correlated import Correlated
 from .curves import Curve, result_curves
 from .errors import check, encode, lib, look_up, new_error, owned_text, text
 from .estimate import Estimate
@@ -48,6 +48,16 @@ class Result(Mapping):
             yield Estimate._of(found, self)
             i += 1
 
+    @cached_property
+    def identity(self) -> str:
+        """Hash of the numbers of the run. Results with one identity are one run: read twice, copied, or run again with
+        the same seed."""
+        digest = hashlib.blake2b(self.engine.encode(), digest_size=16)
+        for e in self._all():
+            if not math.isnan(e.mean):
+                digest.update(f"{e.name} {e.mean.hex()} {e.error.hex()} {e.samples}\n".encode())
+        return digest.hexdigest()
+
     def __iter__(self):
         return (estimate.name for estimate in self._all() if not math.isnan(estimate.mean))
 
@@ -72,9 +82,10 @@ class Result(Mapping):
         look_up(lib.gg_result_covariance, self._pointer, encode(quantity, "quantity"), encode(other, "quantity"), found)
         return found[0]
 
-    @cached_property
-    def _correlated(self):
-        return Correlated(self.find, self._covariance)
+    def _row(self, quantity):
+        """Covariances with all means where they are known."""
+        found = {name: self._covariance(quantity, name) for name in self}
+        return {name: number for name, number in found.items() if math.isfinite(number)}
 
     @property
     def info(self) -> Record:
@@ -111,7 +122,7 @@ class Result(Mapping):
     @property
     def curves(self) -> dict[str, Curve]:
         """Curves by name."""
-        return result_curves(self._pointer)
+        return result_curves(self)
 
     @property
     def grains(self) -> Grains:

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from typing import Callable, Optional, Union
 
 from . import _c, calls
+from .arguments import whole
 from .comparison import Comparison, read_comparison
 from .errors import BadInput, PartialResult, check, encode, exception, lib, new_error, text
 from .progress import reporter
@@ -43,9 +44,7 @@ def thread_count(threads):
     """A number of threads; None: all processors."""
     if threads is None:
         return lib.gg_processors()
-    if isinstance(threads, bool) or int(threads) != threads or not 1 <= threads <= 10000:
-        raise BadInput(f"threads: {threads!r} is not allowed; allowed: a whole number from 1 to 10000, or None for all")
-    return int(threads)
+    return whole(threads, "threads", 1, 10000, "a whole number from 1 to 10000, or None for all")
 
 
 def _options(call, threads, accept_version, files):

@@ -2,7 +2,9 @@
 """Scenes: what to simulate."""
 from __future__ import annotations
 
+import json
 import os
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -100,8 +102,9 @@ class Scene(Mapping):
     Scene(flow="usf", phi=0.1, collision={"e": 0.9, "beta": 0})
 
     A mapping over the keys, which are attributes, too: s["collision.e.12"] = 0.8, s.collision.beta = 0, s.phi. Short
-    names: e, beta and mu of collisions, and last words that only one key has (s.seed). Values are numbers, texts,
-    lists, dicts for pairs of species ({12: 0.8}), and None for `none`, in the units of the scene. `Scene.phi.__doc__`
+    names: e, beta and mu of collisions, and last words that only one key has (s.seed). Values are numbers (also
+    Decimal, Fraction and those of numpy), texts, lists (also range, arrays, pandas.Series), dicts for pairs of species
+    ({12: 0.8}), and None for `none`, in the units of the scene. s["theories"] has the theories of the text. `Scene.phi.__doc__`
     and `s.help("phi")` explain a key. Raises BadInput with the allowed values, BadFile.
     """
 
@@ -137,6 +140,8 @@ class Scene(Mapping):
         key = SHORT.get(key, key)
         if key in GROUPS:
             return Group(self, key)
+        if key == "theories":
+            return json.loads(self.to_json()).get(key, {})
         value = yaml.read(self.text_of(key))
         if value == "none" and getattr(KEYS.get(key), "type", None) in ("number", "integer"):
             return None
@@ -163,8 +168,11 @@ class Scene(Mapping):
             for name, part in value.items():
                 self[f"{key}.{name}"] = part
             return
+        if key == "theories":
+            raise BadInput("theories: of a scene that is read they cannot be changed; give them to Scene(), or use "
+                           "define_theory() and add()")
         with self.held() as scene:
-            check(lib.gg_scene_set, scene, encode(key, "key"), encode(yaml.write(value), key))
+            check(lib.gg_scene_set, scene, encode(key, "key"), encode(_written(key, value), key))
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
@@ -198,16 +206,22 @@ class Scene(Mapping):
             return [key for key, entry in catalogue.table(lib.GG_CATALOGUE_KEYS, scene).items() if entry.given]
 
     def to_yaml(self, all: bool = False) -> str:
-        """YAML of the keys that were given; all=True: of every key with the value in force."""
+        """YAML of the keys that were given; all=True: of every key with the value in force. With the theories that the
+        text of the scene gives; not with what add() registered."""
         if not all:
-            return yaml.nested({key: self.text_of(key) for key in self._given_names()})
+            return yaml.nested(self._given_texts())
         made = ffi.new("char **")
         with self.held() as scene:
             check(lib.gg_scene_to_yaml, scene, made)
         return owned_text(made)
 
+    def _given_texts(self):
+        """What was given as YAML by key, theories last: JSON is YAML, too."""
+        found, theories = {key: self.text_of(key) for key in self._given_names()}, self["theories"]
+        return {**found, "theories": json.dumps(theories, ensure_ascii=False)} if theories else found
+
     def to_json(self) -> str:
-        """Every key with the value in force, as JSON that Scene() reads."""
+        """Every key with the value in force, as JSON that Scene() reads; theories as to_yaml()."""
         made = ffi.new("char **")
         with self.held() as scene:
             check(lib.gg_scene_to_json, scene, made)
@@ -290,17 +304,34 @@ class Scene(Mapping):
         print(f"Value: {value}")
 
     def __reduce__(self):
-        if self._extensions:
-            raise TypeError("a scene with observables, theories or a law from Python functions cannot be pickled")
-        return Scene, (self.to_yaml(),)
+        return _restored, (self.to_yaml(), self._extensions, self._file)
+
+    def __copy__(self):
+        return self.copy()
+
+    def __deepcopy__(self, memo):
+        return self.copy()
 
     def __eq__(self, other):
-        return isinstance(other, Scene) and self.to_yaml(all=True) == other.to_yaml(all=True)
+        return isinstance(other, Scene) and self.to_yaml(all=True) == other.to_yaml(all=True) and \
+            self._extensions == other._extensions
 
     __hash__ = None
 
     def __repr__(self):
         return f"<graingas.Scene: {self.title}>"
+
+
+def _restored(text, extensions, file):
+    scene = Scene(text)
+    object.__setattr__(scene, "_file", file)
+    return scene.add(*extensions)
+
+
+def _written(key, value):
+    """A value as YAML. A file may have any name, but that of a word of the key: none."""
+    word = getattr(KEYS.get(key), "type", None) == "file" and isinstance(value, (str, os.PathLike)) and value != "none"
+    return yaml.quoted(os.fspath(value)) if word else yaml.write(value)
 
 
 def _get(scene, key):
@@ -325,7 +356,7 @@ def _load(source, changes):
     """The C scene of a file, a text, or of the keys alone, which it takes out of `changes`."""
     made = ffi.new("gg_scene **")
     if source is None:
-        keys = {key: yaml.write(value) for key, value in changes.items() if key in KEYS}
+        keys = {key: _written(key, value) for key, value in changes.items() if key in KEYS or key == "theories"}
         for key in keys:
             del changes[key]
         for key in changes if not keys else ():
@@ -336,7 +367,8 @@ def _load(source, changes):
         with source.held() as scene:
             check(lib.gg_scene_copy, scene, made)
     elif isinstance(source, dict):
-        check(lib.gg_scene_parse, encode(yaml.nested({k: yaml.write(v) for k, v in _flatten(source).items()})), b"scene", made)
+        keys = {key: _written(key, value) for key, value in _flatten(source).items()}
+        check(lib.gg_scene_parse, encode(yaml.nested(keys), "scene"), b"scene", made)
     elif _is_text(source):
         check(lib.gg_scene_parse, encode(source, "scene"), b"scene", made)
     else:
@@ -345,7 +377,11 @@ def _load(source, changes):
 
 
 def _is_text(source):
-    return isinstance(source, str) and (":" in source or "\n" in source) and not _is_file(source)
+    """YAML, not the name of a file: several lines, or a key and its value, or a map. A name may have colons, too."""
+    if not isinstance(source, str) or _is_file(source):
+        return False
+    return "\n" in source or source.lstrip()[:1] == "{" or \
+        bool(re.search(r":(\s|$)", source)) and not source.endswith((".yaml", ".yml", ".json"))
 
 
 def _file_of(source):

@@ -9,6 +9,7 @@ from typing import Any, Callable, Iterator, Optional
 import numpy as np
 
 from . import _c, calls, yaml
+from .arguments import real, whole
 from .errors import BadInput, check, encode, exception, lib, new_error, text
 from .grains import Grains, copy_grains, grains_from
 from .handles import Handle
@@ -181,17 +182,17 @@ class Simulation:
 
     def advance(self, time: float) -> Simulation:
         """Advances by a time. Raises RunFailed: inelastic collapse."""
-        self._advance(lib.gg_simulation_advance, float(time))
+        self._advance(lib.gg_simulation_advance, real(time, "time"))
         return self
 
     def collide(self, collisions: int) -> Simulation:
         """Advances by a number of collisions between grains; each counts once."""
-        self._advance(lib.gg_simulation_collide, _count(collisions, "collisions"))
+        self._advance(lib.gg_simulation_collide, whole(collisions, "collisions"))
         return self
 
     def frames(self, every: float, n: Optional[int] = None) -> Iterator[Simulation]:
         """Advances by `every`, n times (None: without end): for sim in sim.frames(0.1, 50)."""
-        k = 0
+        k, every, n = 0, real(every, "every"), n if n is None else whole(n, "n")
         while n is None or k < n:
             yield self.advance(every)
             k += 1
@@ -209,7 +210,7 @@ class Simulation:
         """Advances by a number of collisions and returns them: a record array of shape (n,) with grain (2), species (2),
         k (3), velocity (3), normal_speed, impulse (3), time. Monte Carlo records its whole last step."""
         recorder = _Recorder()
-        self._advance(lib.gg_simulation_collide, _count(collisions, "collisions"), recorder)
+        self._advance(lib.gg_simulation_collide, whole(collisions, "collisions"), recorder)
         return recorder.events()
 
     @property
@@ -238,7 +239,7 @@ class Simulation:
     @property
     def state(self) -> Record:
         """time, collisions, collisions_per_grain, grains, temperature, rotational_temperature, kinetic_stress (3, 3),
-        strain, image_offset, box (3; 0 without positions)."""
+        strain, image_offset, box (3; 0 without positions), periodic (3: the box repeats along x, y, z)."""
         state = new("gg_simulation_state")
         with self._handle.held() as pointer:
             check(lib.gg_simulation_get_state, pointer, state)
@@ -373,7 +374,7 @@ class Simulation:
 def _started(scene, stream, call, grains=None, kept=(), n=0):
     """The pointer of a new simulation; the call can stop its start."""
     made, options = ffi.new("gg_simulation **"), new("gg_start_options")
-    options.stream, options.context, options.stop = _stream(stream), call.c, ffi.addressof(lib, "ggpy_stop")
+    options.stream, options.context, options.stop = whole(stream, "stream"), call.c, ffi.addressof(lib, "ggpy_stop")
     with scene.held() as pointer, serving(scene, call):
         if kept:
             check(lib.gg_simulation_from_grains, pointer, grains, n, options, made)
@@ -389,13 +390,3 @@ def species_of(function, pointer, n):
         check(function, pointer, i, state)
         found.append(Record(**values(state)))
     return found
-
-
-def _count(value, what):
-    if isinstance(value, bool) or int(value) != value or not 0 <= value < 2**63:
-        raise BadInput(f"{what}: {value!r} is not allowed; allowed: a whole number of at least 0")
-    return int(value)
-
-
-def _stream(stream):
-    return _count(stream, "stream")

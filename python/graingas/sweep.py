@@ -204,7 +204,7 @@ class Verdict(dict):
     @property
     def agrees(self) -> bool | None:
         """Whether dsmc and the noise-free solution agree within chance; None: there is nothing to compare."""
-        return self["dsmc"]["agrees"] if self["dsmc"]["values"] else None
+        return self["dsmc"]["agrees"]
 
     def __str__(self):
         return self._words
@@ -294,9 +294,9 @@ def ggpy_sweep_ended(context, i, status, file, message):
 
 def _yaml(scene, axes, does, seeds):
     """The sweep as a file: a scene with the maps `vary` and `sweep`."""
-    lists = ", ".join(f"{key}: [{', '.join(map(yaml.write, axis))}]" for key, axis in axes.items())
-    kept = {key: scene.text_of(key) for key in scene.given() if key not in axes}
-    return f"{yaml.nested(kept)}vary: {{{lists}}}\nsweep: {{does: {does}, seeds: {seeds}}}\n"
+    lists, how = yaml.write(axes), yaml.write({"does": does, "seeds": seeds})
+    kept = {key: words for key, words in scene._given_texts().items() if key not in axes}
+    return f"{yaml.nested(kept)}vary: {lists}\nsweep: {how}\n"
 
 
 def sweep(scene, vary=None, *, does="run", folder=None, threads=1, seeds="independent", progress=None, accept_version=False,
@@ -319,7 +319,9 @@ def sweep(scene, vary=None, *, does="run", folder=None, threads=1, seeds="indepe
     if not axes:
         raise BadInput("sweep: give at least one key to vary, e.g. e=[0.5, 0.7, 0.9]")
     if scene._extensions:
-        raise BadInput("sweep: its points are files, which hold no Python functions; use scan(), or run() in a loop")
+        names = ", ".join(extension.name for extension in scene._extensions)
+        raise BadInput(f"sweep: its points are files, which hold nothing that add() registered ({names}); give theories as "
+                       "formulas under `theories`, or use scan(), or run() for each point")
     return Sweep.parse(_yaml(scene, axes, encode(does, "does").decode(), seeds), folder).run(threads, progress, accept_version)
 
 

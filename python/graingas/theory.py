@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import itertools
 import math
+import numbers
+from decimal import Decimal
 
 import numpy as np
 
@@ -100,8 +102,14 @@ def grid_keys(vary, short):
         values = values.tolist() if isinstance(values, np.ndarray) else list(values)
         if not values:
             raise BadInput(f"key '{key}': the list of values is empty")
-        found[SHORT.get(key, key)] = values
+        found[SHORT.get(key, key)] = list(map(_plain, values))
     return found
+
+
+def _plain(value):
+    """Decimal, Fraction and their like as int or float."""
+    is_number = isinstance(value, (numbers.Number, Decimal)) and not isinstance(value, (bool, complex))
+    return yaml.read(yaml.write(value)) if is_number else value
 
 
 def scan(scene, vary=None, *, theories=None, quantities=None, **keys):

@@ -20,12 +20,17 @@ ELEMENTS = "H He Li Be B C N O F Ne Na Mg Al Si P S".split()  # of the species, 
 class Frame:
     """One frame: `state` (as of Simulation.state), `grains`, `species`."""
 
-    def __init__(self, state, grains, species, periodic):
-        self.state, self.grains, self.species, self.periodic = state, grains, species, periodic
+    def __init__(self, state, grains, species):
+        self.state, self.grains, self.species = state, grains, species
 
     @property
     def time(self) -> float:
         return self.state.time
+
+    @property
+    def periodic(self) -> tuple:
+        """Whether the cell repeats along x, y, z; it does not across walls."""
+        return tuple(map(bool, self.state.periodic))
 
     @property
     def cell(self) -> np.ndarray:
@@ -63,8 +68,6 @@ class Trajectory:
         self._handle = calls.left_behind(open_it)
         with self._handle.held() as pointer:
             self._scene = Scene._copy_of(lib.gg_trajectory_scene(pointer))
-        walls = self._scene["flow"] in ("couette", "poiseuille", "chute")
-        self._periodic = (True, not walls, True)
 
     @property
     def scene(self) -> Scene:
@@ -89,7 +92,7 @@ class Trajectory:
         grains = Grains(state.grains)
         check(lib.gg_trajectory_frame, pointer, k, state, grains._struct())
         species = species_of(lib.gg_trajectory_get_species, pointer, int(grains.species.max(initial=0)) + 1)
-        return Frame(Record(**values(state)), grains, species, self._periodic)
+        return Frame(Record(**values(state)), grains, species)
 
     def to_ase(self) -> list:
         """All frames as ase.Atoms."""

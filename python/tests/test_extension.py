@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Own observables, theories and laws: their numbers, their exceptions, and the same runs from tables and functions."""
+import copy
+import pickle
+
 import numpy as np
 import pytest
 
@@ -17,6 +20,70 @@ def test_observable_measures_what_the_library_does(short):
     assert result["second"].mean == pytest.approx(result["temperature"].mean, rel=1e-9)
     assert result["second"].error == pytest.approx(result["temperature"].error, rel=1e-6)
     assert (result["second"].unit, result["second"].symbol) == ("1", None)
+
+
+@gg.define_theory("ours", "temperature")
+def ours(facts):
+    return facts.phi * facts.pairs[0][0].e
+
+
+def falling(g):
+    return 0.9 if g < 1 else 0.8
+
+
+LAW = gg.define_law(falling)
+UNNAMED = gg.define_law(lambda g: 0.9)
+
+
+def test_importable_functions_pickle(short):
+    """By name, or the function by its name; tables with their numbers. The runs are the same."""
+    for extensions in [second], [second, ours], [LAW], [UNNAMED], [gg.define_law(falling, "again")], \
+            [gg.define_observable("third", {"x": "d"})(falling_sample)], [gg.define_law(([0, 1, 5], [0.95, 0.9, 0.8]))]:
+        s = short.copy().add(*extensions)
+        t = pickle.loads(pickle.dumps(s))
+        assert t == s and t != short and [e.name for e in t._extensions] == [e.name for e in extensions]
+        one, other = gg.run(s), gg.run(t)
+        assert one.identity == other.identity and list(one) == list(other)
+    assert pickle.loads(pickle.dumps(second)) is second and pickle.loads(pickle.dumps(UNNAMED)) is UNNAMED
+    sim = gg.Simulation(short.copy().add(LAW))
+    assert pickle.loads(pickle.dumps(sim)).collide(200).hash == sim.collide(200).hash
+
+
+def falling_sample(sample):
+    return sample.velocity[0, 0]
+
+
+def test_functions_without_a_name_do_not_pickle(short):
+    def inner(sample):
+        return 0
+    for extension in gg.define_observable("a")(inner), gg.define_theory("a", "N1")(lambda f: 0), gg.define_law(lambda g: 0.9), \
+            gg.define_observable("a", collision=lambda view: None)(falling_sample):
+        with pytest.raises(TypeError, match="top level"):
+            pickle.dumps(short.copy().add(extension))
+
+
+def test_copies_keep_functions(short):
+    """copy, too, of functions that have no name."""
+    s = short.add(gg.define_law(lambda g: 0.8), second)
+    for t in copy.copy(s), copy.deepcopy(s), s.copy():
+        assert t == s and gg.run(t).identity == gg.run(s).identity
+    with pytest.raises(gg.BadInput, match=r"own, second.*formulas"):
+        gg.sweep(s, e=[0.9])
+
+
+@pytest.mark.parametrize("name", ["md", "dsmc", "z", "Z", "unit", "quantity", "md_error", "dsmc_x", "mine_error", "beyond_expected"])
+def test_names_of_columns_are_no_names_of_theories(short, name):
+    """to_dataframe()["md"] is md's: such a theory is refused, from Python and in the text of a scene."""
+    with pytest.raises(gg.BadInput, match="reserved"):
+        gg.theory(short, gg.define_theory(name, "N1")(lambda facts: 0))
+    with pytest.raises(gg.BadInput, match="reserved"):
+        gg.Scene(f"flow: usf\nphi: 0.1\ntheories: {{{name}: {{N1: phi}}}}")
+
+
+def test_names_of_errors_are_no_names_of_quantities(short):
+    """Grids call the error of temperature temperature_error."""
+    with pytest.raises(gg.BadInput, match="reserved"):
+        short.add(gg.define_observable("mine", ["temperature_error"])(falling_sample))
 
 
 @pytest.mark.parametrize("engine", ["md", "dsmc"])

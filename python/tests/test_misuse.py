@@ -102,9 +102,36 @@ TYPES = [
     (lambda: gg.run(scene().add(gg.define_observable("a" * 1000)(lambda s: 0))), gg.BadInput),
     (lambda: gg.theory(scene(), gg.define_theory("a", "N1")(lambda f: "x" * 10**6)).reason.nothing, AttributeError),
     (lambda: gg.sweep(scene(), e=[0.9], folder="\0"), gg.BadInput),
-    (lambda: gg.sweep(scene(), e=[object()]), TypeError),
+    (lambda: gg.sweep(scene(), e=[object()]), TypeError), (lambda: gg.sweep(scene(), e=[0.9], does="run}\nphi: 0.2"), gg.BadInput),
+    (lambda: gg.sweep(scene(), e=[0.9], seeds="common, does: theory"), gg.BadInput),
     (lambda: pickle.dumps(scene().add(gg.define_law(lambda g: 0.9))), TypeError),
 ]
+
+NUMBERS = [float("nan"), float("inf"), None, "x", "2", 1 + 2j, [1], 10**400, object()]
+WHOLE = [*NUMBERS, 1.5, -1, True]
+TAKES = {
+    "time": (NUMBERS, lambda x: simulation().advance(x)), "every": (NUMBERS, lambda x: next(simulation().frames(x))),
+    "collisions": (WHOLE, lambda x: simulation().collide(x)), "of events": (WHOLE, lambda x: simulation().events(x)),
+    "stream": (WHOLE, lambda x: gg.Simulation(scene(), stream=x)), "state": (WHOLE, lambda x: gg.define_observable("a", state=x)),
+    "n": ([x for x in WHOLE if x is not None], lambda x: next(simulation().frames(1, x))),
+    "threads": ([0, *(x for x in WHOLE if x is not None)], lambda x: gg.run(scene(), threads=x)),
+    "of a sweep": ([0, *(x for x in WHOLE if x is not None)], lambda x: gg.sweep(scene(), e=[0.9], threads=x)),
+    "points": ([1, *WHOLE], lambda x: gg.relax(scene(), 1, points=x)), "replicas": ([1, *WHOLE], lambda x: gg.relax(scene(), 1, replicas=x)),
+    "until": ([0, -1, *NUMBERS], lambda x: gg.relax(scene(), x)),
+    "protocol": (NUMBERS, lambda x: gg.relax(scene(), 2, protocol=[(x, {"collision.e": 0.5})]))}
+
+
+@pytest.mark.parametrize("argument", TAKES)
+def test_numbers_as_arguments(argument):
+    """What is no number, or one that is not allowed, is named with the argument: no raw error of a conversion."""
+    values, use = TAKES[argument]
+    for value in values:
+        with pytest.raises((gg.BadInput, TypeError)) as raised:
+            use(value)
+        words = str(raised.value)
+        named = words.startswith(argument.removeprefix("of ").replace("events", "collisions").replace("a sweep", "threads"))
+        assert named and ("allowed: " in words or "expected a" in words), (value, words)
+
 
 CLOSED = [
     (lambda: closed().advance(1), gg.BadInput), (lambda: closed().collide(1), gg.BadInput),

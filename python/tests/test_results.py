@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Results and comparisons: the numbers of the library's own document and file, tables, arithmetic, pickles, pictures."""
+import copy
+import itertools
 import json
 import math
 import os
@@ -9,6 +11,7 @@ import numpy as np
 import pytest
 
 import graingas as gg
+from graingas import units
 
 
 def test_numbers_are_those_of_the_document(comparison):
@@ -161,8 +164,9 @@ def test_estimates_of_one_run_are_correlated(comparison):
     assert md.covariance("pressure", "pressure") == pytest.approx(p.error**2)
     assert md.covariance("pressure", "temperature") == md.covariance("temperature", "pressure") > 0
     assert (p - md["pressure"]).error == 0 and (p / T * T).error == pytest.approx(p.error)
-    expected = p.error**2 + T.error**2 + 2 * md.covariance("pressure", "temperature")
-    assert (p + T).error == pytest.approx(math.sqrt(expected))
+    P_xx = md["P_xx"]
+    expected = p.error**2 + P_xx.error**2 + 2 * md.covariance("pressure", "P_xx")
+    assert (p + P_xx).error == pytest.approx(math.sqrt(expected))
     of_both = p.error**2 + comparison.dsmc["pressure"].error**2
     assert (p - comparison.dsmc["pressure"]).error == pytest.approx(math.sqrt(of_both))
     with pytest.raises(gg.NotFound):
@@ -182,22 +186,27 @@ def test_uncertainties(comparison):
     assert isinstance(u, uncertainties.core.AffineScalarFunc)
 
 
+@pytest.fixture
+def fresh():
+    """No number of uncertainties was used before."""
+    gg.estimate.Correlated._of_runs.clear()
+
+
 @pytest.mark.parametrize("a, b", [("temperature", "pressure"), ("P_xx", "P_yy"), ("collision_rate", "temperature"),
                                   ("N1", "N2"), ("P_xy", "shear_viscosity"), ("rotational_temperature", "temperature")])
-def test_uncertainties_of_two_means_are_exact(comparison, a, b):
+def test_uncertainties_of_two_means_are_exact(comparison, fresh, a, b):
     """Sum, product and ratio of the first two means used have the errors that their covariance gives."""
     pytest.importorskip("uncertainties")
-    md = pickle.loads(pickle.dumps(comparison.md))
-    a, b = md[a], md[b]
+    a, b = comparison.md[a], comparison.md[b]
+    b.unit = a.unit
     for ours, theirs in (a + b, a.u + b.u), (a * b, a.u * b.u), (a / b, a.u / b.u):
         assert theirs.s == pytest.approx(ours.error, rel=1e-6), ours
 
 
-def test_uncertainties_of_many_means(comparison):
+def test_uncertainties_of_many_means(comparison, fresh):
     """Each keeps its error. A mean has exactly the covariance with the earlier one that correlates most with it."""
     uncertainties = pytest.importorskip("uncertainties")
-    md = pickle.loads(pickle.dumps(comparison.md))
-    used = []
+    md, used = comparison.md, []
     for e in md.values():
         if not e.error > 0:
             continue
@@ -211,6 +220,155 @@ def test_uncertainties_of_many_means(comparison):
             assert any(found[b] == pytest.approx(rho[b], abs=1e-9) for b in found)
         used.append(e)
     assert len(used) > 20
+
+
+def again(what):
+    return pickle.loads(pickle.dumps(what))
+
+
+WAYS = {"read": lambda r: (gg.read("r.h5"), gg.read("r.h5")), "kept": lambda r: (r, gg.read("r.h5")),
+        "pickled": lambda r: (again(r), again(r)), "copied": lambda r: (copy.deepcopy(r), copy.copy(r)),
+        "pickled means": lambda r: ({name: again(e) for name, e in r.items()}, {name: again(e) for name, e in r.items()}),
+        "copied means": lambda r: (copy.deepcopy(dict(r)), r),
+        "pickled together": lambda r: again((dict(r), dict(r)))}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_one_run_twice_is_one_run(comparison, way):
+    """A mean less itself is 0 without error, and a ratio has the error that the covariance gives."""
+    comparison.md.write("r.h5")
+    here = comparison.md
+    a, b = WAYS[way](here)
+    for name in "pressure", "temperature", "N1":
+        assert ((a[name] - b[name]).mean, (a[name] - b[name]).error) == (0, 0)
+    for one, other in ("P_xy", "pressure"), ("rotational_temperature", "temperature"):
+        found, expected = a[one] / b[other], here[one] / here[other]
+        assert found.error == pytest.approx(expected.error, rel=1e-12)
+    independent = math.hypot(here["pressure"].error / here["pressure"].mean, here["temperature"].error / here["temperature"].mean)
+    assert (a["pressure"] / b["temperature"]).error < 0.4 * independent * (a["pressure"] / b["temperature"]).mean
+
+
+def test_identity_of_runs(comparison, short):
+    """The same for one run by every way, and for the same scene and seed; others for another seed or engine."""
+    md = comparison.md
+    md.write("r.h5")
+    same = {md.identity, gg.read("r.h5").identity, again(md).identity, again(comparison).md.identity}
+    assert same == {md.identity} and comparison.dsmc.identity != md.identity
+    one, two, other = gg.run(short), gg.run(short, threads=2), gg.run(short.copy(seed=7))
+    assert one.identity == two.identity != other.identity
+    assert (one["N1"] - two["N1"]).error == 0
+    assert (one["N1"] - other["N1"]).error == pytest.approx(math.hypot(one["N1"].error, other["N1"].error))
+
+
+def test_pickled_means_are_small(comparison):
+    """A pickle of a mean has covariances, not the result; combinations and copies keep what they are made of."""
+    md = comparison.md
+    whole, one = len(pickle.dumps(md)), len(pickle.dumps(md["temperature"]))
+    assert one < 5000 < 20 * one < whole
+    ratio = md["pressure"] / md["temperature"]
+    assert (again(ratio) - ratio).error == pytest.approx(0, abs=1e-9 * ratio.error)
+    assert (again(ratio) * md["temperature"]).error == pytest.approx(md["pressure"].error)
+    own = gg.Estimate(2.0, 0.3)
+    assert (again(own) - own).error == (copy.copy(own) - own).error == 0 and (gg.Estimate(2.0, 0.3) - own).error > 0.4
+    for name in "tau", "tau_unit", "samples", "unit", "symbol", "reason", "name":
+        assert getattr(again(md["N1"]), name) == getattr(md["N1"], name)
+
+
+def test_uncertainties_of_one_run_twice(comparison):
+    pytest.importorskip("uncertainties")
+    md = comparison.md
+    md.write("r.h5")
+    x, y = gg.read("r.h5")["P_xy"].u, again(md["P_xy"]).u
+    assert (x - y).s == 0 and x.s == pytest.approx(md["P_xy"].error)
+    own = gg.Estimate(2.0, 0.3)
+    assert (own.u - own.u).s == 0 and own.u.s == pytest.approx(0.3)
+
+
+def test_numbers_of_curves_are_of_the_run(short):
+    """The same number twice is one number; its covariance with others is unknown."""
+    result = gg.run(short.copy(measure=["rheology", "diffusion"], **{"run.collisions": 600}))
+
+    def number():
+        return next(n for curve in result.curves.values() for n in curve.numbers.values() if n.error > 0)
+    assert (number() - number()).error == 0 and (again(number()) - number()).error == 0
+    assert math.isnan((number() * result["temperature"]).error)
+
+
+def test_comparisons_take_the_mean():
+    """< > == max sorted round compare the numbers, as float() does; means of unlike units are not compared."""
+    a, b, c = gg.Estimate(2.0, 0.3), gg.Estimate(5.0, 0.4), gg.Estimate(2.0, 0.1)
+    assert a < b and b > a and a <= c and a >= c and a == c and a != b and a > 1 and 3 > a and not a > 2 and a == 2
+    assert max(a, b) is b and sorted([b, a]) == [a, b] and min([b, a, 3]) is a and hash(a) == hash(2.0)
+    assert round(gg.Estimate(5.5421, 0.1), 2) == 5.54 and isinstance(round(a), int)
+    assert (np.array([1.0, 3.0]) > a).tolist() == [False, True] and (a == "2") is False and a != gg.Estimate(2.0, 0.3, "d")
+    with pytest.raises(TypeError):
+        a < "3"
+    for wrong in (lambda: a < gg.Estimate(1, 1, "d"), lambda: max(a, gg.Estimate(3, 1, "d"))):
+        with pytest.raises(gg.BadInput, match="units differ"):
+            wrong()
+
+
+@pytest.mark.parametrize("form, text", [("", "5.542(12)"), (".3", "5.54"), (".3f", "5.542"), (".2e", "5.54e+00"),
+                                        ("12", "5.542(12)   "), (">12", "   5.542(12)"), ("s", "5.542(12)"),
+                                        (".4s", "5.54"), ("g", "5.542"), ("+.1f", "+5.5"), (".0%", "554%")])
+def test_formats(form, text):
+    assert format(gg.Estimate(5.542, 0.012), form) == text
+
+
+def test_functions_of_numpy():
+    """Their errors are those of derivatives; log and log10 of a number with a unit are of the number in this unit."""
+    a = gg.Estimate(2.0, 0.3, "d")
+    assert (np.log(a).mean, np.log(a).error, np.log(a).unit) == (math.log(2), pytest.approx(0.15), "1")
+    assert (np.log10(a).mean, np.log10(a).error) == pytest.approx((math.log10(2), 0.15 / math.log(10)))
+    ratio = a / gg.Estimate(4.0, 0.0, "d")
+    assert (np.exp(ratio).mean, np.exp(ratio).error) == pytest.approx((math.exp(0.5), 0.075 * math.exp(0.5)))
+    assert (np.log(a) - np.log(a)).error == 0 and math.isnan(np.log(gg.Estimate(-1.0, 0.1)).mean)
+    assert np.sqrt(a).unit == "d^0.5" and math.isnan(np.sqrt(gg.Estimate(-1.0, 0.1)).mean)
+    with pytest.raises(gg.BadInput, match="exp"):
+        np.exp(a)
+
+
+def test_powers_of_estimates():
+    """The error of the exponent enters, against differences; a plain exponent has none."""
+    x, y = gg.Estimate(2.0, 0.03), gg.Estimate(3.0, 0.05)
+    expected = math.hypot(12 * 0.03, 8 * math.log(2) * 0.05)
+    assert ((x**y).mean, (x**y).error) == (8, pytest.approx(expected))
+    assert (2**y).error == pytest.approx(8 * math.log(2) * 0.05) and (x**3).error == pytest.approx(12 * 0.03)
+    assert (x**x).error == pytest.approx(4 * (1 + math.log(2)) * 0.03)
+    with pytest.raises(gg.BadInput, match="unit"):
+        x ** gg.Estimate(3.0, 0.05, "d")
+
+
+def test_units(comparison):
+    """Products and ratios cancel; sums of unlike units are refused, plain numbers have the unit of the mean."""
+    p, T, N1 = (comparison.md[name] for name in ("pressure", "temperature", "N1"))
+    assert (p.unit, T.unit) == ("rho_p d^2 gamma^2", "d^2 gamma^2")
+    assert ((p / T).unit, (p / T * T).unit, np.sqrt(T).unit, (T**2).unit) == ("rho_p", p.unit, "d gamma", "d^4 gamma^4")
+    assert ((1 / T).unit, (T / T).unit, (N1 * T).unit) == ("1/(d^2 gamma^2)", "1", T.unit)
+    assert (p / T * T - p).error == pytest.approx(0, abs=1e-12) and (T - 1).unit == (2 + T).unit == T.unit
+    for wrong in (lambda: p + T, lambda: T - N1, lambda: N1 + T):
+        with pytest.raises(gg.BadInput, match="units differ"):
+            wrong()
+
+
+@pytest.mark.parametrize("a, b", [("gamma/(n d^2)", "1/(n d^2/gamma)"), ("n m (gamma/(n d^2))^2", "m gamma^2/(n d^4)"),
+                                  ("n m v_0^3 (n d^2)", "n^2 d^2 m v_0^3"), ("1", ""), ("v_0/d", "v_0 d^-1")])
+def test_units_are_products(a, b):
+    assert units.alike(a, b) and units.alike(units.product(a, "K"), units.product("K", b))
+    assert units.ratio(a, b) == "1" and units.alike(units.power(units.power(a, 1 / 3), 3), a)
+
+
+@pytest.mark.parametrize("odd", ["a)(", "(a", "a^", "^2", "/", "a^b", "10 m", "furlong"])
+def test_units_that_are_no_products(odd):
+    assert units.ratio(odd, odd) == "1" and not units.alike(odd, "d") and units.product(odd, "1") == odd
+
+
+def test_every_unit_of_the_library_is_a_product():
+    """Written and read again it is the same."""
+    for flow, phi in itertools.product(("usf", "hcs", "couette"), (0, 0.1)):
+        scene = gg.Scene(flow=flow, phi=phi, engine="dsmc" if not phi else "md")
+        for entry in gg.catalogue.quantities(scene).values() if phi or flow != "couette" else ():
+            assert units.parse(units.write(units.parse(entry.unit))) == units.parse(entry.unit), entry.unit
 
 
 def test_bytes_are_the_file(comparison):

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scenes: keys by every way to write them, their help, errors with the library's words, copies and pickles."""
+import copy
 import math
 import os
 import pickle
 import re
+from decimal import Decimal
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -36,14 +39,88 @@ def test_ways_to_a_key():
     assert s.run.seed == s.seed == 7
 
 
+HOSTILE = ["run #1.csv", "! a.csv", "a: b.csv", "[a, b].csv", "{a}.csv", "*a.csv", "'a'.csv", '"a" \\n.csv', " a.csv", "5.csv",
+           "~.csv", "- a.csv", "grün #2.csv"]
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_names_are_texts(name):
+    """Not YAML: given by any way and written by any way, a name is the same."""
+    for s in (gg.Scene(flow="usf", phi=0.1, log=name), gg.Scene({"flow": "usf", "phi": 0.1, "output": {"log": name}}),
+              gg.Scene(flow="usf", phi=0.1).copy(**{"output.log": name})):
+        assert s["output.log"] == s.log == name
+        assert gg.Scene(s.to_yaml()).log == gg.Scene(s.to_yaml(all=True)).log == gg.Scene(s.to_json()).log == name
+        assert pickle.loads(pickle.dumps(s)).log == name
+
+
+def test_other_readers_read_the_same():
+    """PyYAML is one of version 1.1, where 1e-07 is a text."""
+    other = pytest.importorskip("yaml")
+    s = gg.Scene(flow="usf", phi=1e-07, e=0.5, log="run #1.csv", relative_error=1e-5)
+    for text in s.to_yaml(), s.to_yaml(all=True):
+        read = other.safe_load(text)
+        assert (read["phi"], read["output"]["log"], read["run"]["relative_error"]) == (1e-07, "run #1.csv", 1e-5)
+    for value in 1e-07, -1e-09, 1.5e-10, 1e22, 0.1:
+        assert other.safe_load(yaml.write(value)) == yaml.read(yaml.write(value)) == value
+
+
 @pytest.mark.parametrize("key, value", [
     ("phi", 1 / 3), ("particles", 12345), ("flow", "hcs"), ("measure", ["rheology", "orientation"]),
     ("aspect", [1, 2, 0.5]), ("collision.mu", math.inf), ("run.time_limit", None), ("thermostat", "none"),
-    ("phi", np.float64(0.1)), ("aspect", np.array([1.0, 2.0, 3.0])), ("particles", np.int64(500))])
+    ("phi", np.float64(0.1)), ("aspect", np.array([1.0, 2.0, 3.0])), ("particles", np.int64(500)), ("phi", 1e-7)])
 def test_values_return(key, value):
     s = gg.Scene(flow="usf", phi=0.1)
     s[key] = value
     assert s[key] == (value.tolist() if isinstance(value, np.ndarray) else value)
+
+
+@pytest.mark.parametrize("key, value, expected", [
+    ("phi", Decimal("0.1"), 0.1), ("phi", Fraction(1, 8), 0.125), ("phi", np.float32(0.125), 0.125), ("phi", np.array(0.2), 0.2),
+    ("aspect", range(1, 4), [1, 2, 3]), ("aspect", (1, Fraction(1, 2), Decimal(2)), [1, 0.5, 2]), ("measure", {"rheology"}, ["rheology"]),
+    ("phi", gg.Estimate(0.1, 0.01), 0.1), ("collision", {"e": Decimal("0.8")}, None), ("phi", "0.2", 0.2),
+    ("measure", "[rheology, orientation]", ["rheology", "orientation"])])
+def test_numbers_and_lists_of_other_kinds(key, value, expected):
+    s = gg.Scene(flow="usf", phi=0.3)
+    s[key] = value
+    assert gg.Scene(**{"flow": "usf", "phi": 0.3, key: value}) == s == gg.Scene({"flow": "usf", "phi": 0.3, key: value})
+    assert s.e == 0.8 if expected is None else s[key] == expected
+
+
+def test_values_of_pandas():
+    pandas = pytest.importorskip("pandas")
+    s = gg.Scene(flow="usf", phi=0.1, aspect=pandas.Series([1.0, 2.0, 0.5]), measure=pandas.Series(["rheology", "orientation"]))
+    assert s.aspect == [1, 2, 0.5] and s.measure == ["rheology", "orientation"]
+    found = gg.scan(s, e=pandas.Series([0.5, 0.75]), phi=[Fraction(1, 8), Decimal("0.25")], theories=["lun1991"])
+    assert found["phi"].values.tolist() == [0.125, 0.25] and found["collision.e"].values.tolist() == [0.5, 0.75]
+
+
+TEXTS = ["hcs\noutput: {log: x.csv}", "5, seed: 9", "0.1\nparticles: 9", "usf, phi: 0.4", "usf}", "usf # x", "usf: x", "[usf], particles: [9", "\"usf\", phi: 0.4",
+         "&a usf", "!x usf", "usf\tparticles: 9", "{a: b}, particles: 9", "usf\r\nparticles: 9", "[it's ], particles: [9's]"]
+
+
+@pytest.mark.parametrize("words", TEXTS)
+def test_a_text_brings_in_no_other_key(words):
+    """Whatever a value contains, it is the value of its key: as a keyword, in a dict, of a group, set later."""
+    for make in (lambda: gg.Scene(flow=words, phi=0.1), lambda: gg.Scene({"flow": words, "phi": 0.1}),
+                 lambda: gg.Scene(flow="usf", phi=0.1, run={"warmup": words}), lambda: gg.Scene(flow="usf", phi=words),
+                 lambda: gg.Scene({"flow": "usf", words: 0.1}), lambda: gg.Scene(flow="usf", phi=0.1).copy(thermostat=words)):
+        with pytest.raises(gg.BadInput):
+            make()
+
+
+NAMES = ["run #1.csv", "! a.csv", "[a].csv", "a: b.csv", "{a}.csv", "- a.csv", "'a'.csv", '"a".csv', "a b.csv", "*a.csv", "&a.csv",
+         "%a.csv", "@a.csv", "`a.csv", "a,b.csv", "é.csv", "[a, b.csv", "a\\b.csv", "~.csv", "1e3.csv", "? a.csv"]
+
+
+def test_names_of_files_are_texts():
+    """A run writes its log to the file of this name, however the name is given."""
+    scene = gg.Scene(flow="usf", phi=0.1, particles=20, run={"collisions": 5, "warmup": 1})
+    for name in NAMES:
+        makers = (lambda: gg.Scene(scene, output={"log": name}), lambda: scene.copy(**{"output.log": name}),
+                  lambda: gg.Scene(**{**dict(scene.given()), "output.log": name}))
+        gg.run(makers[len(name) % 3]())
+        assert os.listdir() == [name]
+        os.remove(name)
 
 
 def test_pairs_of_species():
@@ -99,6 +176,18 @@ def test_file_name_with_a_colon():
     assert gg.Scene("a: b.yaml").phi == 0.2
 
 
+@pytest.mark.parametrize("name", ["2026-11-28T17:30/usf.yaml", "a: b.yaml", "C:usf", "https://example.org/usf.yaml", "a:b"])
+def test_file_name_with_a_colon_that_is_not_there(name):
+    """It is a missing file, not a text."""
+    with pytest.raises(gg.BadFile, match="cannot|no such|No such"):
+        gg.Scene(name)
+
+
+def test_texts_of_one_line():
+    assert gg.Scene("{flow: usf, phi: 0.1}") == gg.Scene("flow: usf\nphi: 0.1") == gg.Scene('{"flow": "usf", "phi": 0.1}')
+    assert gg.Scene("flow: usf").flow == "usf"
+
+
 def test_missing_file_and_attribute():
     with pytest.raises(gg.BadFile, match="nowhere.yaml"):
         gg.Scene("nowhere.yaml")
@@ -129,6 +218,73 @@ def test_pickle_keeps_what_is_given(examples):
             s = gg.Scene(os.path.join(examples, name))
             t = pickle.loads(pickle.dumps(s))
             assert t == s and t.given() == s.given(), name
+
+
+MINE = {"mine": {"temperature": "phi*e", "N1": "-phi/2"}}
+
+
+def with_theories():
+    with open("points.csv", "w", encoding="utf-8") as file:
+        file.write("phi,temperature\n0.1,3.5\n")
+    with open("scene.yaml", "w", encoding="utf-8") as file:
+        file.write("flow: usf\nphi: 0.1\ntheories:\n  mine: {temperature: phi*e, N1: -phi/2}\n  table: points.csv\n")
+    return gg.Scene("scene.yaml")
+
+
+COPIES = {"copy()": lambda s: s.copy(), "pickle": lambda s: pickle.loads(pickle.dumps(s)), "copy": copy.copy, "deepcopy": copy.deepcopy,
+          "yaml": lambda s: gg.Scene(s.to_yaml()), "all": lambda s: gg.Scene(s.to_yaml(all=True)), "json": lambda s: gg.Scene(s.to_json()),
+          "scene": gg.Scene, "simulation": lambda s: gg.Simulation(s).scene,
+          "pickled simulation": lambda s: pickle.loads(pickle.dumps(gg.Simulation(s))).scene}
+
+
+@pytest.mark.parametrize("way", COPIES)
+def test_theories_of_the_text_stay(way):
+    """Formulas and tables answer in every copy, also from another folder."""
+    s = with_theories()
+    s.particles = 100
+    os.mkdir("elsewhere")
+    os.chdir("elsewhere")
+    t = COPIES[way](s)
+    if "simulation" not in way:  # a simulation has its seed and sizes given
+        assert t == s
+    assert t.theories == {**MINE, "table": os.path.realpath("../points.csv")}
+    assert gg.theory(t, "mine")["temperature"] == pytest.approx(0.09) and gg.theory(t, "table")["temperature"] == 3.5
+
+
+def test_theories_as_keys():
+    """As keyword, in a dict, beside other texts; equality sees them."""
+    keyword, table = gg.Scene(flow="usf", phi=0.1, theories=MINE), gg.Scene({"flow": "usf", "phi": 0.1, "theories": MINE})
+    without, other = gg.Scene(flow="usf", phi=0.1), gg.Scene(flow="usf", phi=0.1, theories={"mine": {"temperature": "phi"}})
+    assert keyword == table != without and keyword != other and without.theories == {}
+    with pytest.raises(gg.BadInput, match="add"):
+        without.theories = MINE
+
+
+def test_theories_of_the_text_in_a_sweep():
+    """The points have them, also those that the folder gives back."""
+    gg.sweep(with_theories(), e=[0.5, 0.7], does="theory", folder="u")
+    found = gg.Sweep.load("u")
+    assert [point.read().theories["mine"]["temperature"] for point in found] == pytest.approx([0.05, 0.07])
+    assert [point.read().theories["table"]["temperature"] for point in found] == [3.5, 3.5]
+
+
+def test_flows_of_the_page_are_those_of_the_library():
+    """What web/flows.js and web/controls.js say of flows is in the library's table: walls, shear, gravity."""
+    flows = gg.catalogue.flows()
+    assert flows["couette"].traits == "walls moving_walls may_fall" and flows["usf"].traits == "sheared"
+    with open(os.path.join(SOURCE, "web", "flows.js"), encoding="utf-8") as file:
+        page = file.read()
+    with open(os.path.join(SOURCE, "web", "controls.js"), encoding="utf-8") as file:
+        controls = file.read()
+    walled = re.search(r"WALLED = \[(.*?)\]", page)[1]
+    assert set(re.findall(r"\w+", walled)) == {name for name in flows if "walls" in gg.catalogue.traits(name)}
+    sheared = re.search(r"sheared = .*?/(\S+)/\.test", page)[1]
+    assert {name for name in flows if re.search(sheared, name)} == {name for name in flows if "sheared" in gg.catalogue.traits(name)}
+    assert set(re.findall(r"\w+", re.search(r"FLOWS = \[(.*?)\]", controls)[1])) <= set(flows)
+    gravity = dict(re.findall(r'(\w+): "(\[.*?\])"', re.search(r"GRAVITY = \{(.*?)\};", controls)[1]))
+    assert set(gravity) == {name for name in flows if "falls" in gg.catalogue.traits(name)}
+    for name, value in gravity.items():
+        assert gg.Scene(flow=name, phi=0.1).gravity == yaml.read(value)
 
 
 def test_words_about_a_scene():

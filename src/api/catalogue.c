@@ -36,7 +36,6 @@ static const gg_field *field_at(const gg_field *fields, size_t i)
 /* What a key holds; without a scene its default, which flow and phi have not. */
 static void put_value(const gg_field *f, const void *base, const gg_scene *scene, gg_entry *entry)
 {
-  GG_C_LOCALE;
   json_t *value = gg_scene_field_json(f, base, scene);
   gg_scene_flow_style_text(value, entry->value, sizeof entry->value);
   json_decref(value);
@@ -123,6 +122,26 @@ static gg_status quantity_entry(size_t i, const gg_scene *scene, gg_entry *entry
   return GG_OK;
 }
 
+static void put_trait(gg_entry *entry, bool has, const char *word)
+{
+  if (has) gg_base_text_append(entry->traits, sizeof entry->traits, "%s%s", *entry->traits ? " " : "", word);
+}
+
+static gg_status flow_entry(size_t i, gg_entry *entry, gg_error *err)
+{
+  GG_TRY(word_entry("flow", i, entry, err));
+  gg_flow flow = 0;
+  while (strcmp(gg_flow_of(flow)->word, entry->name) != 0) flow++;
+  const gg_flow_row *row = gg_flow_of(flow);
+  put_trait(entry, gg_flow_is_sheared(flow), "sheared");
+  put_trait(entry, gg_flow_is_walled(flow), "walls");
+  put_trait(entry, gg_flow_has_moving_walls(flow), "moving_walls");
+  put_trait(entry, gg_flow_cools(flow), "cools");
+  put_trait(entry, row->falling == GG_ALWAYS_FALLS, "falls");
+  put_trait(entry, row->falling == GG_MAY_FALL, "may_fall");
+  return GG_OK;
+}
+
 static void put_flows(unsigned flows, gg_entry *entry)
 {
   for (int f = 0; f < GG_N_FLOWS; f++)
@@ -164,7 +183,7 @@ gg_status gg_catalogue_entry(gg_catalogue catalogue, size_t i, const gg_scene *s
   switch (catalogue) {
   case GG_CATALOGUE_KEYS: return key_entry(i, scene, entry, err);
   case GG_CATALOGUE_SPECIES_KEYS: return species_key_entry(i, entry, err);
-  case GG_CATALOGUE_FLOWS: return word_entry("flow", i, entry, err);
+  case GG_CATALOGUE_FLOWS: return flow_entry(i, entry, err);
   case GG_CATALOGUE_ENGINES: return word_entry("engine", i, entry, err);
   case GG_CATALOGUE_OBSERVABLES: return observable_entry(i, scene, entry, err);
   case GG_CATALOGUE_QUANTITIES: return quantity_entry(i, scene, entry, err);

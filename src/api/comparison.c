@@ -52,7 +52,9 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   GG_TRY(gg_api_scene_finish(scene, &finished, err));
   c->scene = finished;
   gg_common_extension_hold(c->scene.extension);
-  GG_TRY(gg_run_relaxation_end_model(&c->scene, model, err));
+  gg_scene end;
+  GG_TRY(gg_run_relaxation_end_scene(&c->scene, &end, err));
+  GG_TRY(gg_common_model_for_theories(&end, model, err));
   model->stop = stop;
   bool wanted[GG_MOST_THEORIES] = {false};
   if (theory) GG_TRY(choose(model, theory, wanted, err));
@@ -340,10 +342,8 @@ gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_er
 {
   GG_NEED(path, comparison);
   gg_stored_result stored;
-  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_files_stored_result_read(&stored, path, err);
   status = restore(status, &stored, comparison, err);
-  gg_base_c_locale_leave(before);
   return status;
 }
 
@@ -351,9 +351,7 @@ gg_status gg_comparison_from_bytes(const void *bytes, size_t size, gg_comparison
 {
   GG_NEED(bytes, comparison);
   gg_stored_result stored;
-  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_files_stored_result_from_bytes(&stored, bytes, size, err);
   status = restore(status, &stored, comparison, err);
-  gg_base_c_locale_leave(before);
   return status;
 }

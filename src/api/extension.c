@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/text.h"
 #include "common/scene.h"
@@ -41,10 +42,20 @@ static bool is_user_defined(const gg_extension *x, const char *quantity)
   return false;
 }
 
+/* Tables call the error of NAME so. */
+static bool is_error(const char *name)
+{
+  const size_t length = strlen(name);
+  return length >= 6 && strcasecmp(name + length - 6, "_error") == 0;
+}
+
 static gg_status check_quantity(const gg_extension *x, const gg_observable_definition *o, int index, gg_error *err)
 {
   const gg_quantity_definition *q = &o->quantities[index];
   GG_TRY(check_name("quantity", q->name, err));
+  if (is_error(q->name))
+    return gg_base_fail(err, GG_BAD_INPUT, "quantity: the name '%s' is reserved: tables call errors ..._error",
+                        q->name);
   GG_TRY(check_text(q->name, q->unit, MOST_LETTERS, err));
   GG_TRY(check_text(q->name, q->doc, MOST_TEXT, err));
   bool taken = is_shared(q->name) || is_user_defined(x, q->name);
@@ -92,12 +103,28 @@ gg_status gg_scene_add_observable(gg_scene *scene, const gg_observable_definitio
   return replace(scene, gg_common_extension_with_observable(scene->extension, o, err));
 }
 
+/* Tables have columns of these names beside those of theories: md, md_error, NAME_error, z and so on. */
+static bool is_column(const char *name)
+{
+  static const char *const words[] = {"quantity",       "unit", "md", "dsmc", "z", "correlation_time_unit",
+                                      "beyond_expected"};
+  bool found = strncasecmp(name, "md_", 3) == 0 || strncasecmp(name, "dsmc_", 5) == 0 || is_error(name);
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++) found |= strcasecmp(words[i], name) == 0;
+  return found;
+}
+
 static gg_status check_theory(const gg_extension *x, const gg_theory_definition *t, gg_error *err)
 {
   if (!t) return gg_base_fail(err, GG_BAD_INPUT, "theory: the definition is missing");
   GG_TRY(check_name("theory", t->name, err));
   const char *const texts[] = {t->title, t->citation, t->assumptions};
   for (int k = 0; k < 3; k++) GG_TRY(check_text(t->name, texts[k], MOST_TEXT, err));
+  if (is_column(t->name))
+    return gg_base_fail(
+        err, GG_BAD_INPUT,
+        "theory: the name '%s' is reserved for columns of tables; not allowed: quantity, unit, md, dsmc, z, "
+        "correlation_time_unit, beyond_expected, md_..., dsmc_..., ..._error",
+        t->name);
   bool taken = gg_theory_find(t->name) != NULL;
   for (int k = 0; k < gg_common_extension_theories(x); k++)
     taken |= strcmp(gg_common_extension_theory(x, k)->name, t->name) == 0;
@@ -112,6 +139,9 @@ static gg_status check_theory(const gg_extension *x, const gg_theory_definition 
     const char *q = t->quantities[k];
     if (!q || !(is_shared(q) || is_user_defined(x, q)))
       return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no quantity called '%.60s'", t->name, q ? q : "");
+    for (int j = 0; j < k; j++)
+      if (strcmp(t->quantities[j], q) == 0)
+        return gg_base_fail(err, GG_BAD_INPUT, "%s: the quantity '%s' is given twice", t->name, q);
   }
   return GG_OK;
 }

@@ -45,6 +45,7 @@ void gg_api_moments_state(const gg_moments *m, double unit, gg_simulation_state 
   state->collisions_per_grain = 2 * (double)state->collisions / n;
   state->temperature = gg_api_moments_temperature(m) * unit * unit;
   state->rotational_temperature = rotational_temperature_of(m) * unit * unit;
+  for (int a = 0; a < 3; a++) state->periodic[a] = !gg_common_surface_is_closed(model, a);
   for (int a = 0; a < 3; a++)
     for (int b = 0; b < 3; b++) state->kinetic_stress[a][b] = stress * m->cc[a][b];
 }

@@ -8,7 +8,6 @@
 #include "api/simulation.h"
 #include "base/busy.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "files/h5/result_reader.h"
 #include "files/h5/result_restore.h"
 #include "scene/fields.h"
@@ -25,11 +24,9 @@ struct gg_trajectory {
 static gg_status read_scene(gg_trajectory *t, const char *path, gg_error *err)
 {
   gg_stored_result stored;
-  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_files_stored_result_read(&stored, path, err);
   if (status == GG_OK)
     status = gg_files_stored_scene(&stored, stored.engine[GG_MD].name ? GG_MD : GG_DSMC, &t->scene, &t->model, err);
-  gg_base_c_locale_leave(before);
   gg_files_stored_result_clear(&stored);
   return status;
 }

@@ -259,10 +259,8 @@ gg_status gg_result_read(const char *path, gg_result **result, gg_error *err)
 {
   GG_NEED(path, result);
   gg_stored_result stored;
-  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_files_stored_result_read(&stored, path, err);
   if (status == GG_OK) status = restore(&stored, path, result, err);
-  gg_base_c_locale_leave(before);
   gg_files_stored_result_clear(&stored);
   return status;
 }
@@ -271,10 +269,8 @@ gg_status gg_result_from_bytes(const void *bytes, size_t size, gg_result **resul
 {
   GG_NEED(bytes, result);
   gg_stored_result stored;
-  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_files_stored_result_from_bytes(&stored, bytes, size, err);
   if (status == GG_OK) status = restore(&stored, "the bytes", result, err);
-  gg_base_c_locale_leave(before);
   gg_files_stored_result_clear(&stored);
   return status;
 }

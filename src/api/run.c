@@ -44,13 +44,11 @@ static bool is_stopped(void *context)
 static gg_status store_checkpoint(void *context, gg_archive *archive, gg_error *err)
 {
   gg_run_call *r = context;
-  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_api_trajectory_mark(r, archive, err);
   if (status == GG_OK) status = gg_api_log_mark(r, archive, err);
   if (status == GG_OK)
     status = r->log.place ? gg_files_checkpoint_replace(r->options.checkpoint, archive, &r->scene, err)
                           : gg_files_checkpoint_write(r->options.checkpoint, true, archive, &r->scene, err);
-  gg_base_c_locale_leave(before);
   if (status != GG_OK) return status;
   r->stored = true;
   GG_TRY(gg_files_frame_log_put_in_place(&r->log, err));

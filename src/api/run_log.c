@@ -85,13 +85,14 @@ static void put_names(FILE *out, const gg_quantity *list, int n, bool temperatur
   fputc('\n', out);
 }
 
-/* Values of the interval before the sample, and means over the averaging window so far. */
-static void put_row(FILE *out, const gg_sample_log *log, const gg_replica *r)
+/* Values of the interval before the sample, and means over the averaging window so far. Columns are those of the start,
+ * whatever the protocol changes: what the present gas has not is empty. */
+static void put_row(FILE *out, const gg_sample_log *log, const gg_model *start, const gg_replica *r)
 {
   gg_quantity list[GG_N_QUANTITIES];
   gg_function f;
-  const int n = gg_run_headline_quantities(&r->model, list);
-  const bool temperature = !gg_model_keeps_temperature(&r->model);
+  const int n = gg_run_headline_quantities(start, list);
+  const bool temperature = !gg_model_keeps_temperature(start);
   if (!log->json && lseek(log->fd, 0, SEEK_END) == 0) put_names(out, list, n, temperature);
   fprintf(out, "%s%llu", log->json ? json_begins : "", (unsigned long long)r->clock.samples);
   put_number(out, log, "time", "", r->clock.time);
@@ -138,13 +139,12 @@ static gg_status log_sample(void *context, const gg_replica *r, gg_error *err)
   gg_sample_log *log = &((gg_run_call *)context)->samples;
   char *text = NULL;
   size_t size = 0;
-  GG_C_LOCALE;
   GG_TRY(add_to_sums(log, r, err));
   if (r->clock.samples <= log->state.sample)
     GG_TRY(cut(log, r->clock.samples - 1, err)); /* begun anew after a collapse */
   FILE *out = open_memstream(&text, &size);
   if (!out) return gg_base_out_of_memory(err);
-  put_row(out, log, r);
+  put_row(out, log, &((const gg_run_call *)context)->model, r);
   gg_status status = fclose(out) == 0 ? append(log, text, size, err) : gg_base_out_of_memory(err);
   free(text);
   log->state.sample = r->clock.samples;

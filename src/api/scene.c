@@ -6,15 +6,16 @@
 
 #include "api/api.h"
 #include "api/scene_theories.h"
+#include "base/checked_json.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "common/engine.h"
 #include "common/ensemble_size.h"
 #include "common/extension.h"
 #include "files/text_format.h"
-#include "measure/observable.h"
 #include "run/cost_estimate.h"
 #include "run/default_size.h"
+#include "run/replica.h"
 #include "scene/scene_reader.h"
 #include "theory/goldhirsch_zanetti1993.h"
 
@@ -47,7 +48,6 @@ static gg_status read_text(const char *yaml, size_t length, const char *name, co
                            gg_error *err)
 {
   gg_scene made = gg_scene_defaults();
-  GG_C_LOCALE;
   GG_TRY(gg_scene_read(&made, yaml, length, name, err));
   gg_status status = gg_api_scene_theories_add(&made, yaml, length, name, path, err);
   if (status == GG_OK) status = publish(&made, scene, err);
@@ -87,7 +87,6 @@ void gg_scene_free(gg_scene *scene)
 gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_error *err)
 {
   GG_NEED(scene, key, value);
-  GG_C_LOCALE;
   return gg_scene_override(scene, key, value, err);
 }
 
@@ -95,7 +94,6 @@ gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_
 {
   GG_NEED(scene, key, text);
   const gg_scene filled = filled_in(scene);
-  GG_C_LOCALE;
   const unsigned outer = gg_base_memory_failures();
   json_t *value = gg_scene_key_json(&filled, key);
   if (value) gg_scene_flow_style_text(value, text, size);
@@ -111,13 +109,32 @@ gg_status gg_scene_check(const gg_scene *scene, gg_error *err)
   return gg_api_scene_finish(scene, &copy, err);
 }
 
+/* As JSON, which YAML reads. */
+static gg_status append_theories(const gg_scene *scene, char **yaml)
+{
+  const unsigned before = gg_base_memory_failures();
+  json_t *theories = gg_base_json_end(before, gg_api_scene_theories_json(scene));
+  char *text = theories && json_object_size(theories) > 0 ? gg_base_json_text(theories, 0) : NULL;
+  json_decref(theories);
+  if (!text) return gg_base_memory_failures() == before ? GG_OK : GG_FAILED;
+  const size_t size = strlen(*yaml) + strlen(text) + sizeof "theories: \n";
+  char *whole = gg_base_array_new(size, 1, NULL);
+  if (whole) {
+    snprintf(whole, size, "%stheories: %s\n", *yaml, text);
+    free(*yaml);
+    *yaml = whole;
+  }
+  free(text);
+  return whole ? GG_OK : GG_FAILED;
+}
+
 gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err)
 {
   GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
-  GG_C_LOCALE;
   char *yaml = gg_scene_yaml(&filled);
-  if (!yaml) return gg_base_out_of_memory(err);
+  gg_status status = yaml ? append_theories(&filled, &yaml) : GG_FAILED;
+  if (status != GG_OK) return free(yaml), gg_base_out_of_memory(err);
   *text = yaml;
   return GG_OK;
 }
@@ -126,14 +143,17 @@ gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err)
 {
   GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
-  return gg_api_text_copy(gg_scene_json(&filled), text, err);
+  const unsigned before = gg_base_memory_failures();
+  json_t *root = gg_scene_json(&filled), *theories = gg_api_scene_theories_json(scene);
+  if (root && json_object_size(theories) > 0) json_object_set(root, "theories", theories);
+  json_decref(theories);
+  return gg_api_text_copy(gg_base_json_end(before, root), text, err);
 }
 
 gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_error *err)
 {
   GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
-  GG_C_LOCALE;
   gg_files_scene_title(&filled, NULL, text, size);
   return GG_OK;
 }
@@ -160,18 +180,6 @@ gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene
   return GG_OK;
 }
 
-static void describe_unmeasured(const gg_scene *scene, const gg_model *model,
-                                void (*line)(void *context, const char *text), void *context)
-{
-  for (int i = 0; gg_measure_observables[i]; i++) {
-    const gg_observable *o = gg_measure_observables[i];
-    const char *why = scene->measure & o->flag && o->refuses ? o->refuses(model) : NULL;
-    char text[200];
-    snprintf(text, sizeof text, "%s is not measured: %s", o->name, why ? why : "");
-    if (why) line(context, text);
-  }
-}
-
 gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*line)(void *context, const char *text),
                             void *context, gg_error *err)
 {
@@ -195,11 +203,11 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   }
   char stable[200];
   if (gg_theory_stable_size(&model, stable, sizeof stable)) line(context, stable);
-  describe_unmeasured(&finished, &model, line, context);
+  gg_status status = gg_run_unmeasured(&finished, &model, line, context, err);
   gg_cost_estimate cost = gg_run_cost_estimate(&finished, &model, kind);
   gg_run_cost_report(&cost, finished.run.replicas, line, context);
   gg_common_extension_release(held);
-  return gg_base_callback_settle(GG_OK, err);
+  return gg_base_callback_settle(status, err);
 }
 
 gg_status gg_scene_warnings(const gg_scene *scene, const char *use, void (*line)(void *context, const char *text),

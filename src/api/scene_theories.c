@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "api/scene_theories.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "api/api.h"
+#include "base/checked_json.h"
 #include "base/memory.h"
+#include "base/printable.h"
 #include "scene/scene_reader.h"
 #include "theory/formula.h"
 
@@ -25,12 +29,27 @@ static gg_status reject(const gg_scene_reader *r, const yaml_node_t *node, const
   return gg_scene_reject(r, node, key, "%.900s", why->message);
 }
 
-/* Register it; the head of the extension owns `context` from then on. */
-static gg_status add(gg_scene *scene, const gg_theory_definition *definition, gg_error *err)
+/* Register it; the head of the extension owns `context` from then on. `source`: what the scene's text gives, which the
+ * call takes over. */
+static gg_status add(gg_scene *scene, const gg_theory_definition *definition, json_t *source, gg_error *err)
 {
-  GG_TRY(gg_scene_add_theory(scene, definition, err));
+  char *text = source ? gg_base_json_text(source, JSON_ENCODE_ANY) : NULL;
+  json_decref(source);
+  gg_status status = text ? gg_scene_add_theory(scene, definition, err) : gg_base_out_of_memory(err);
+  if (status != GG_OK) return free(text), status;
   gg_common_extension_keep(scene->extension, definition->context);
+  gg_common_extension_set_source(scene->extension, text);
   return GG_OK;
+}
+
+/* The formulas as the scene's text gives them; NULL: out of memory. */
+static json_t *source_of(const gg_scene_reader *r, const yaml_node_t *map)
+{
+  const unsigned before = gg_base_memory_failures();
+  json_t *source = json_object();
+  for (gg_scene_entry e = {0}; gg_scene_entry_next(r, map, &e);)
+    json_object_set_new(source, e.word, json_string(gg_scene_scalar(e.value)));
+  return gg_base_json_end(before, source);
 }
 
 static gg_status read_formulas(const theories_reader *t, const char *key, const yaml_node_t *map,
@@ -66,7 +85,8 @@ static gg_status add_formulas(const theories_reader *t, const char *key, const c
                                            .quantities = quantity,
                                            .evaluate = gg_theory_formula_evaluate,
                                            .context = made};
-  if (status == GG_OK) status = add(t->scene, &definition, &why) == GG_OK ? GG_OK : reject(&t->reader, map, key, &why);
+  if (status == GG_OK && add(t->scene, &definition, source_of(&t->reader, map), &why) != GG_OK)
+    status = reject(&t->reader, map, key, &why);
   if (status != GG_OK) free(made);
   return status;
 }
@@ -79,10 +99,24 @@ static void find_file(const char *scene, const char *file, char path[PATH_MAX])
   if (snprintf(path, PATH_MAX, "%.*s%s", folder, folder ? scene : "", file) >= PATH_MAX) *path = '\0';
 }
 
+/* The path from every folder, null if it is no text; NULL: out of memory. */
+static json_t *absolute(const char *path)
+{
+  char *whole = realpath(path, NULL);
+  if (!whole && errno == ENOMEM) return NULL;
+  const char *name = whole ? whole : path;
+  json_t *source = gg_base_text_is_printable(name) ? json_string(name) : json_null();
+  free(whole);
+  return source;
+}
+
 static gg_status read_points(const char *path, gg_points_theory **made, char ***quantity, char **names, gg_error *err)
 {
   char *text;
   size_t length;
+  struct stat about;
+  if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) /* a pipe would block whoever reads the scene */
+    return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: it is no file", path);
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
   gg_status status =
       length > GG_SCENE_MAX_BYTES ? gg_base_fail(err, GG_BAD_INPUT, "%s: is larger than 1 MiB", path) : GG_OK;
@@ -109,7 +143,8 @@ static gg_status add_points(const theories_reader *t, const char *key, const cha
                                            .quantities = (const char *const *)quantity,
                                            .evaluate = gg_theory_points_evaluate,
                                            .context = made};
-  gg_status status = add(t->scene, &definition, &why) == GG_OK ? GG_OK : reject(&t->reader, node, key, &why);
+  gg_status status =
+      add(t->scene, &definition, absolute(path), &why) == GG_OK ? GG_OK : reject(&t->reader, node, key, &why);
   if (status != GG_OK) free(made);
   free(quantity);
   free(names);
@@ -146,6 +181,18 @@ static gg_status use(gg_scene_reader *r, const char *key, const yaml_node_t *roo
     map = e.value;
   }
   return map ? add_all(t, map) : GG_OK;
+}
+
+json_t *gg_api_scene_theories_json(const gg_scene *scene)
+{
+  json_t *theories = json_object();
+  for (int i = 0; i < gg_common_extension_theories(scene->extension); i++) {
+    const char *name = gg_common_extension_theory(scene->extension, i)->name;
+    const char *source = gg_common_extension_theory_source(scene->extension, i);
+    json_t *value = source ? gg_base_json_made(json_loads(source, JSON_DECODE_ANY, NULL)) : json_null();
+    if (!json_is_null(value)) json_object_set_new(theories, name, value);
+  }
+  return theories;
 }
 
 gg_status gg_api_scene_theories_add(gg_scene *scene, const char *yaml, size_t length, const char *name,

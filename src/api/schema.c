@@ -3,7 +3,6 @@
 #include "api/api.h"
 #include "base/checked_json.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "scene/fields.h"
 #include "sweep/sweep.h"
 
@@ -34,7 +33,6 @@ gg_status gg_scene_begin(const char *flow, char **text, gg_error *err)
     gg_scene_field_allowed(&f, allowed, sizeof allowed);
     return gg_base_fail(err, GG_BAD_INPUT, "there is no flow '%.60s': %s", flow, allowed);
   }
-  GG_C_LOCALE;
   *text = gg_scene_template((gg_flow)word.value);
   return *text ? GG_OK : gg_base_out_of_memory(err);
 }

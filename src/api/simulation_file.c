@@ -5,7 +5,6 @@
 
 #include "api/simulation.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "files/h5/checkpoint_file.h"
 #include "scene/scene_reader.h"
 
@@ -31,10 +30,8 @@ gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, 
   GG_USE_READING(simulation);
   gg_api_request request = {stop, context, false};
   gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
-  locale_t before = gg_base_c_locale_enter();
   gg_status status = put_all(simulation, &archive, err);
   if (status == GG_OK) status = gg_files_checkpoint_write(path, false, &archive, &simulation->scene, err);
-  gg_base_c_locale_leave(before);
   gg_base_archive_clear(&archive);
   return gg_base_callback_settle(status, err);
 }
@@ -48,10 +45,8 @@ gg_status gg_simulation_to_bytes(const gg_simulation *simulation, int (*stop)(vo
   gg_archive archive = {.stop = &(gg_stop){gg_api_is_requested, &request}};
   void *made = NULL;
   size_t length = 0;
-  locale_t before = gg_base_c_locale_enter();
   gg_status status = put_all(simulation, &archive, err);
   if (status == GG_OK) status = gg_files_checkpoint_to_bytes(&archive, &simulation->scene, &made, &length, err);
-  gg_base_c_locale_leave(before);
   gg_base_archive_clear(&archive);
   status = gg_base_callback_settle(status, err);
   if (status == GG_OK)
@@ -70,10 +65,7 @@ static gg_status stored_scene(const gg_archive *a, const char *path, gg_scene *s
                         "gg_run_options.resume)",
                         path);
   *scene = gg_scene_defaults();
-  locale_t before = gg_base_c_locale_enter();
-  gg_status status = gg_scene_read(scene, yaml->data, yaml->count, path, err);
-  gg_base_c_locale_leave(before);
-  return status;
+  return gg_scene_read(scene, yaml->data, yaml->count, path, err);
 }
 
 static gg_status take_all(gg_simulation *s, const gg_archive *a, gg_error *err)

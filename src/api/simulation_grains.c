@@ -7,7 +7,6 @@
 
 #include "api/simulation.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "common/extension.h"
 #include "common/rng.h"
 #include "run/engine_grains.h"
@@ -125,7 +124,6 @@ static gg_status with_number(const gg_scene *scene, size_t n, gg_scene *counted,
   *counted = *scene;
   if (gg_scene_is_given(scene, key) || gg_scene_is_given(scene, "particles")) return GG_OK;
   snprintf(number, sizeof number, "%zu", n);
-  GG_C_LOCALE;
   return gg_scene_override(counted, key, number, err);
 }
 
@@ -252,9 +250,7 @@ gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const ch
   gg_scene changed = simulation->scene;
   changed.clock_rate = gg_scene_clock_rate(&simulation->scene);
   gg_simulation *next = NULL;
-  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_scene_override(&changed, key, value, err);
-  gg_base_c_locale_leave(before);
   if (status == GG_OK && strcmp(key, "shear_rate") == 0) status = check_shear_rate(&changed, err);
   if (status == GG_OK) status = gg_api_simulation_prepare(&changed, NULL, NULL, &next, err);
   if (status == GG_OK) status = change(simulation, next, key, err);

@@ -57,7 +57,10 @@ gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation
                                  .strain = gg_api_simulation_strain(simulation),
                                  .image_offset = engine.offset};
   gg_api_moments_state(&m, gg_api_simulation_unit(simulation), state);
-  for (int a = 0; a < 3; a++) state->box[a] = model->homogeneous ? 0 : model->box[a];
+  for (int a = 0; a < 3; a++) {
+    state->box[a] = model->homogeneous ? 0 : model->box[a];
+    state->periodic[a] &= !model->homogeneous;
+  }
   return GG_OK;
 }
 

@@ -9,7 +9,6 @@
 #include "api/api.h"
 #include "api/scene_theories.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "common/extension.h"
 #include "scene/scene_reader.h"
 #include "sweep/sweep_table.h"
@@ -47,7 +46,6 @@ static gg_status read_text(const char *yaml, size_t length, const char *name, co
 {
   gg_sweep *made = new_sweep(name, err);
   if (!made) return GG_FAILED;
-  GG_C_LOCALE;
   gg_status status = gg_sweep_read_text(made, yaml, length, name, err);
   if (status == GG_OK) status = gg_api_scene_theories_add(&made->base, yaml, length, name, path, err);
   if (status == GG_OK)
@@ -89,7 +87,6 @@ gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_e
   GG_TRY(check_open(sweep, err));
   if (gg_sweep_varies(sweep, key))
     return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied: each point sets its own value", key);
-  GG_C_LOCALE;
   return strncmp(key, "sweep.", 6) == 0 ? gg_sweep_settings_set(&sweep->settings, key, value, err)
                                         : gg_scene_override(&sweep->base, key, value, err);
 }
@@ -101,7 +98,6 @@ gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg
   gg_values list = {0};
   snprintf(list.key, sizeof list.key, "%s", key);
   GG_TRY(check_open(sweep, err));
-  GG_C_LOCALE;
   gg_status status = gg_sweep_values_parse(&list, values, err);
   if (status == GG_OK && list.range)
     status =
@@ -118,7 +114,6 @@ gg_status gg_sweep_check(gg_sweep *sweep, gg_error *err)
 {
   GG_NEED(sweep);
   GG_USE_ALONE(sweep);
-  GG_C_LOCALE;
   return gg_sweep_check_points(sweep, err);
 }
 
@@ -144,7 +139,6 @@ static gg_status check_point(const gg_sweep *sweep, size_t i, gg_error *err)
 static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
 {
   GG_TRY(check_point(sweep, i, err));
-  GG_C_LOCALE;
   return gg_sweep_resolve(sweep, i, scene, err);
 }
 
@@ -189,6 +183,5 @@ gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **tex
   GG_NEED(sweep, folder, text);
   GG_USE_READING(sweep);
   GG_TRY(check_point(sweep, 0, err));
-  GG_C_LOCALE;
   return gg_api_text_copy(gg_sweep_document(sweep, folder), text, err);
 }

@@ -8,7 +8,6 @@
 #include "api/api.h"
 #include "base/atomic_file.h"
 #include "base/cancellation.h"
-#include "base/text.h"
 #include "sweep/sweep_table.h"
 
 typedef struct collecting {
@@ -142,7 +141,6 @@ gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *pref
   GG_TRY(name_tables(&c, prefix, err));
   c.picture = c.options.picture ? c.options.picture : c.svg;
   if (strcmp(c.picture, "none") == 0) c.picture = NULL;
-  GG_C_LOCALE;
   gg_status status = write_all(&c, folder, err);
   gg_sweep_point_table_clear(&c.table);
   return gg_base_callback_settle(status, err);

@@ -167,9 +167,7 @@ static gg_status do_point(controller *c, gg_error *err)
                             .stop = is_stopped,
                             .warn = note_warning};
   options.output = gg_sweep_point_path(all->folder, id_of(c), ".work.h5", work);
-  locale_t before = gg_base_c_locale_enter();
   gg_status status = gg_sweep_resolve(all->sweep, c->item->i, &scene, err);
-  gg_base_c_locale_leave(before);
   if (status != GG_OK) return status;
   *scene.output.log = '\0'; /* one file for all points */
   if (all->sweep->settings.does == GG_DOES_THEORY) return evaluate(c, &scene, &options, err);

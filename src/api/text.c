@@ -9,7 +9,6 @@
 #include "base/cancellation.h"
 #include "base/memory.h"
 #include "base/spelling.h"
-#include "base/text.h"
 #include "common/engine.h"
 #include "files/result_document.h"
 #include "files/text_format.h"
@@ -59,7 +58,6 @@ gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *e
 
 gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err)
 {
-  GG_C_LOCALE;
   char *made = document ? gg_files_document_text(document) : NULL;
   json_decref(document);
   if (!made) return gg_base_out_of_memory(err);
@@ -70,7 +68,6 @@ gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err)
 void gg_format_estimate(double mean, double error, char *text, size_t size)
 {
   if (!text || !size) return;
-  GG_C_LOCALE;
   gg_files_estimate_format(mean, error, text, size);
 }
 

@@ -7,7 +7,6 @@
 
 #include "api/api.h"
 #include "base/output_path.h"
-#include "base/text.h"
 #include "plot/plot.h"
 #include "sweep/standard_grid.h"
 
@@ -44,7 +43,6 @@ gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_valida
     return gg_base_fail(err, GG_BAD_INPUT, "%s: would be overwritten by its own page; choose another page",
                         sweep->name);
   if (o->picture) GG_TRY(gg_plot_paper_check(o->picture, o->width, err));
-  GG_C_LOCALE;
   gg_status status = gg_sweep_point_table_read(&table, sweep, folder, &stop, err);
   if (status == GG_OK) {
     warn_of_builds(&table, o, context);

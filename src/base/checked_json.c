@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 
 #include "base/text.h"
@@ -59,6 +60,7 @@ json_t *gg_base_json_read(const char *text, const char **why)
 {
   source s = {.text = text};
   errno = 0;
+  GG_C_LOCALE; /* jansson knows decimal points of one byte only */
   json_t *document = json_load_callback(next_letter, &s, 0, NULL);
   s.lacked |= errno == ENOMEM;
   if (s.lacked) {
@@ -70,10 +72,21 @@ json_t *gg_base_json_read(const char *text, const char **why)
   return document;
 }
 
+json_t *gg_base_json_format(const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  GG_C_LOCALE;
+  json_t *text = json_vsprintf(format, args);
+  va_end(args);
+  return text;
+}
+
 /* Into a stream that reports what was lost: json_dumps leaves out keys that it has no room for. */
 char *gg_base_json_text(const json_t *value, size_t flags)
 {
   char *text = NULL;
+  GG_C_LOCALE;
   FILE *out = gg_base_memory_stream_open(&text);
   const bool whole = out && value && json_dumpf(value, out, flags) == 0;
   if (!gg_base_memory_stream_close(out, &text) || whole) return text;

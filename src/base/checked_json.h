@@ -22,6 +22,9 @@ json_t *gg_base_json_read(const char *text, const char **why);
 const char *gg_base_json_string(const json_t *object, const char *key);
 double gg_base_json_number(const json_t *object, const char *key);
 
+/* json_sprintf, with a decimal point in every locale. */
+json_t *gg_base_json_format(const char *format, ...) GG_PRINTF(1, 2);
+
 /* json_dumps, which cuts the text off where it has no room for it; to be freed, NULL: out of memory. */
 char *gg_base_json_text(const json_t *value, size_t flags);
 
@@ -30,7 +33,7 @@ char *gg_base_json_text(const json_t *value, size_t flags);
 #define json_real(x) gg_base_json_made(json_real(x))
 #define json_integer(x) gg_base_json_made(json_integer(x))
 #define json_string(x) gg_base_json_made(json_string(x))
-#define json_sprintf(...) gg_base_json_made(json_sprintf(__VA_ARGS__))
+#define json_sprintf(...) gg_base_json_made(gg_base_json_format(__VA_ARGS__))
 #define json_pack(...) gg_base_json_made(json_pack(__VA_ARGS__))
 #define json_object_set(...) gg_base_json_put(json_object_set(__VA_ARGS__))
 #define json_object_set_new(...) gg_base_json_put(json_object_set_new(__VA_ARGS__))

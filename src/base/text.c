@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/text.h"
 
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -141,18 +142,22 @@ void gg_base_text_append(char *text, size_t size, const char *format, ...)
   va_end(args);
 }
 
-locale_t gg_base_c_locale_enter(void)
+/* One for the whole process: a constant of the C library, which takes no memory and is not freed. */
+static locale_t c_locale;
+static pthread_once_t made = PTHREAD_ONCE_INIT;
+
+static void make_c_locale(void)
 {
-  locale_t copy = duplocale(uselocale((locale_t)0));
-  locale_t c = copy ? newlocale(LC_NUMERIC_MASK, "C", copy) : (locale_t)0; /* which becomes the copy */
-  if (!c && copy) freelocale(copy);
-  if (!c) c = newlocale(LC_ALL_MASK, "C", (locale_t)0); /* takes no memory */
-  return c ? uselocale(c) : (locale_t)0;
+  c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
 }
 
-void gg_base_c_locale_leave(locale_t before)
+locale_t gg_base_c_locale_enter(void)
 {
-  if (!before) return;
-  locale_t c = uselocale(before);
-  if (c != LC_GLOBAL_LOCALE) freelocale(c);
+  pthread_once(&made, make_c_locale);
+  return c_locale ? uselocale(c_locale) : (locale_t)0;
+}
+
+void gg_base_c_locale_leave(const locale_t *before)
+{
+  if (*before) uselocale(*before);
 }

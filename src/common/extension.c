@@ -23,6 +23,7 @@ struct gg_extension {
   char *text; /* strings and tables of all these: one block, filled up to `used` */
   size_t used;
   void *owned;
+  char *source; /* of the theory; NULL: none */
 };
 
 /* Room for a copy of a string; 8 bytes more for the alignment of what follows. */
@@ -127,6 +128,11 @@ void gg_common_extension_keep(gg_extension *x, void *owned)
   x->owned = owned;
 }
 
+void gg_common_extension_set_source(gg_extension *x, char *source)
+{
+  x->source = source;
+}
+
 gg_extension *gg_common_extension_hold(gg_extension *x)
 {
   if (x) atomic_fetch_add(&x->holders, 1);
@@ -140,6 +146,7 @@ void gg_common_extension_release(gg_extension *x)
     free(x->face);
     free(x->text);
     free(x->owned);
+    free(x->source);
     free(x);
     x = before;
   }
@@ -186,6 +193,12 @@ const struct gg_theory *gg_common_extension_face(const gg_extension *x, int inde
 {
   x = theory_link(x, index);
   return x ? x->face : NULL;
+}
+
+const char *gg_common_extension_theory_source(const gg_extension *x, int index)
+{
+  x = theory_link(x, index);
+  return x ? x->source : NULL;
 }
 
 gg_restitution_law gg_common_extension_law(const gg_extension *x)

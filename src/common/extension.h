@@ -26,6 +26,9 @@ gg_extension *gg_common_extension_with_law(gg_extension *before, const gg_restit
 
 /* The head frees `owned` (from malloc) when it goes: what its callbacks have as their context. */
 void gg_common_extension_keep(gg_extension *x, void *owned);
+/* What a scene's text gives as the theory of the head, as JSON: {"temperature": "phi*e"} or "points.csv". The head
+ * frees `source` (from malloc). */
+void gg_common_extension_set_source(gg_extension *x, char *source);
 
 /* Both take NULL, too: a scene without extension. */
 gg_extension *gg_common_extension_hold(gg_extension *x);
@@ -39,6 +42,8 @@ const gg_quantity_definition *gg_common_extension_quantity(const gg_extension *x
 int gg_common_extension_theories(const gg_extension *x);
 const gg_theory_definition *gg_common_extension_theory(const gg_extension *x, int index);
 const struct gg_theory *gg_common_extension_face(const gg_extension *x, int index);
+/* NULL: a program defines the theory. */
+const char *gg_common_extension_theory_source(const gg_extension *x, int index);
 /* The latest law; e NULL if there is none. */
 gg_restitution_law gg_common_extension_law(const gg_extension *x);
 

@@ -42,11 +42,21 @@ static gg_status check_grains(const gg_model *m, const gg_scene *s, gg_error *er
   return GG_OK;
 }
 
-static void set_composition(gg_model *m, const gg_scene *s)
+/* Theories alone (not `counted`) have no grains. */
+static void set_fractions(gg_model *m, const gg_scene *s, bool counted)
+{
+  double total = 0;
+  if (counted) deal_grains(m, s);
+  for (int i = 0; i < m->n_species; i++) total += s->species[i].fraction;
+  for (int i = 0; i < m->n_species; i++)
+    m->fraction[i] = counted ? (double)m->n_of[i] / (double)m->n : s->species[i].fraction / total;
+}
+
+static void set_composition(gg_model *m, const gg_scene *s, bool counted)
 {
   const gg_species *one = &s->species[0];
   m->n_species = s->n_species;
-  deal_grains(m, s);
+  set_fractions(m, s, counted);
   for (int i = 0; i < GG_MAX_SPECIES; i++) {
     const gg_species *sp = &s->species[i < s->n_species ? i : 0];
     m->diameter[i] = sp->diameter / one->diameter;
@@ -55,11 +65,11 @@ static void set_composition(gg_model *m, const gg_scene *s)
   }
 }
 
-/* <x d^p> over the grains there are. */
+/* <d^p> over all grains. */
 static double mean_power(const gg_model *m, int p)
 {
   double sum = 0;
-  for (int i = 0; i < m->n_species; i++) sum += (double)m->n_of[i] / (double)m->n * gg_power(m->diameter[i], p);
+  for (int i = 0; i < m->n_species; i++) sum += m->fraction[i] * gg_power(m->diameter[i], p);
   return sum;
 }
 
@@ -68,9 +78,11 @@ static void set_size(gg_model *m, const gg_scene *s)
   m->phi = s->phi;
   m->boltzmann = s->phi == 0;
   m->density = m->boltzmann ? 1 : 6 * s->phi / (M_PI * mean_power(m, 3));
+  for (int i = 0; i < m->n_species; i++) m->number_density[i] = gg_model_part(m, m->density, i);
   m->volume = (double)m->n / m->density;
   double shape = s->aspect[0] * s->aspect[1] * s->aspect[2];
   for (int a = 0; a < 3; a++) m->box[a] = s->aspect[a] * gg_root(m->volume / shape, 3);
+  m->length = cbrt(m->volume);
 }
 
 /* Between walls Monte Carlo has the gap that `particles` grains have in md, to the last bit, and more area. */
@@ -79,9 +91,10 @@ static void set_box(gg_model *m, const gg_scene *s)
   gg_model md = {.n = s->particles};
   set_size(m, s);
   if (!m->ensemble || !gg_flow_is_walled(s->flow)) return;
-  set_composition(&md, s);
+  set_composition(&md, s, true);
   set_size(&md, s);
   for (int a = 0; a < 3; a++) m->box[a] = md.box[a] * (a == 1 ? 1 : sqrt(m->volume / md.volume));
+  m->length = md.length;
 }
 
 static void set_units(gg_model *m, const gg_scene *s)
@@ -123,7 +136,7 @@ void gg_common_model_at(gg_model *m, double T)
   for (int i = 0; m->law.name && i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
       double speed = sqrt(M_PI / 2 * T * (1 / m->mass[i] + 1 / m->mass[j]));
-      set_restitution(m, i, j, gg_common_law_at(&m->law, speed, i, j));
+      set_restitution(m, i, j, gg_common_law_at(&m->law, speed, i, j, NULL));
     }
 }
 
@@ -342,7 +355,7 @@ static gg_status set_bath(gg_model *m, const gg_scene *s, gg_error *err)
   return GG_OK;
 }
 
-gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, gg_error *err)
+static gg_status make(const gg_scene *s, gg_engine_kind engine, bool counted, gg_model *m, gg_error *err)
 {
   if (s->phi < 0) return gg_base_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
   GG_TRY(check_scales(s, err));
@@ -357,8 +370,8 @@ gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_mode
   m->homogeneous = m->ensemble && !gg_flow_is_walled(s->flow);
   m->contact_value = s->contact_value;
   m->n = grains_of(s, engine);
-  set_composition(m, s);
-  GG_TRY(check_grains(m, s, err));
+  set_composition(m, s, counted);
+  if (counted) GG_TRY(check_grains(m, s, err));
   set_box(m, s);
   set_units(m, s);
   GG_TRY(check_start(m, s, err));
@@ -387,6 +400,16 @@ gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_mode
   m->steady = !m->linear_response && !(m->elastic && sheared && !(m->bath.drag[0] > 0));
   m->stress_unit = m->boltzmann ? 1 : M_PI / 6;
   return GG_OK;
+}
+
+gg_status gg_common_model_make(const gg_scene *s, gg_engine_kind engine, gg_model *m, gg_error *err)
+{
+  return make(s, engine, true, m, err);
+}
+
+gg_status gg_common_model_for_theories(const gg_scene *s, gg_model *m, gg_error *err)
+{
+  return make(s, GG_MD, false, m, err);
 }
 
 const char *gg_common_model_contact_unit(const gg_model *m)

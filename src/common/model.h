@@ -56,7 +56,9 @@ typedef struct gg_model {
 
   int64_t n; /* grains (of the engine's kind: `dsmc.particles` may differ from `particles`) */
   int n_species;
-  int64_t n_of[GG_MAX_SPECIES];
+  int64_t n_of[GG_MAX_SPECIES];          /* 0 in a model for theories alone */
+  double fraction[GG_MAX_SPECIES];       /* n_i/n: of the grains there are; for theories alone, exactly the scene's */
+  double number_density[GG_MAX_SPECIES]; /* n_i d_1^3 */
   double diameter[GG_MAX_SPECIES], mass[GG_MAX_SPECIES], inertia[GG_MAX_SPECIES]; /* inertia: K = 4I/(m d^2) */
 
   gg_frame_kind frame; /* of peculiar velocities; imposed where there are walls, or no box */
@@ -64,6 +66,7 @@ typedef struct gg_model {
 
   double phi, density;   /* density: n d_1^3, 1 in the Boltzmann limit */
   double box[3], volume; /* edges, volume = n/density */
+  double length;         /* cube root of the volume; between walls of that in md, whatever the ensemble's size */
   double shear_rate;     /* 1 if sheared, until it changes on the way; else 0 */
   double gravity[3];
   gg_bath bath;
@@ -109,6 +112,12 @@ static inline bool gg_model_keeps_temperature(const gg_model *model)
   return model->steady && !gg_flow_cools(model->flow);
 }
 
+/* x n_i/n, of whole numbers of grains without the rounding of the fraction. */
+static inline double gg_model_part(const gg_model *m, double x, int i)
+{
+  return m->n_of[i] ? x * (double)m->n_of[i] / (double)m->n : x * m->fraction[i];
+}
+
 /* Surface velocity of a grain that rolls with the imposed shear; 0 in the Boltzmann limit, beside thermal ones. */
 static inline double gg_model_rolling(const gg_model *m, int species)
 {
@@ -127,6 +136,9 @@ void gg_common_model_set_ratio(const gg_scene *scene, gg_model *model);
 /* Build it for the engine the caller means to use (it fixes the number of grains). temperature0 and ratio0 get
  * order-of- magnitude guesses, which a caller may improve before creating an engine. */
 gg_status gg_common_model_make(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err);
+
+/* The same for theories alone, which have no grains: fractions are the scene's, however small. */
+gg_status gg_common_model_for_theories(const gg_scene *scene, gg_model *model, gg_error *err);
 
 /* With a restitution law: e and contacts at the mean normal speed at impact of Maxwellians at temperature T. */
 void gg_common_model_at(gg_model *model, double T);

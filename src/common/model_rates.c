@@ -12,7 +12,7 @@
 static double rate_of(const gg_model *m, double share, int i, int j, double T)
 {
   int o = gg_pair(i, j);
-  double nj = m->density * (double)m->n_of[j] / (double)m->n;
+  double nj = m->number_density[j];
   double spread = T * (1 / m->mass[i] + 1 / m->mass[j]); /* <c12_x^2> */
   return share * nj * m->sigma[o] * m->sigma[o] * m->chi[o] * sqrt(8 * M_PI * spread);
 }
@@ -68,7 +68,7 @@ static void fill(const gg_model *m, gsl_matrix *S)
   gsl_matrix_set_zero(S);
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
-      const double xi = (double)m->n_of[i] / (double)m->n, xj = (double)m->n_of[j] / (double)m->n;
+      const double xi = m->fraction[i], xj = m->fraction[j];
       if (i == j) continue;
       const double k = exchange_rate(m, i, j);
       *gsl_matrix_ptr(S, (size_t)i, (size_t)i) += xj * k;
@@ -149,7 +149,7 @@ double gg_common_model_collision_rate(const gg_model *m, double T)
 {
   double rate = 0;
   for (int i = 0; i < m->n_species; i++)
-    for (int j = 0; j < m->n_species; j++) rate += rate_of(m, (double)m->n_of[i] / (double)m->n, i, j, T);
+    for (int j = 0; j < m->n_species; j++) rate += rate_of(m, m->fraction[i], i, j, T);
   return rate;
 }
 
@@ -173,7 +173,7 @@ double gg_common_model_nu0(const gg_model *m, double T)
   double sum = 0, weight = 0;
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < i; j++) {
-      double pairs = (double)m->n_of[i] * (double)m->n_of[j];
+      double pairs = m->fraction[i] * m->fraction[j];
       sum += pairs * unlike_rate(m, i, j, T), weight += pairs;
     }
   return sum / weight;

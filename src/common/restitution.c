@@ -38,11 +38,13 @@ double gg_common_law_speed_of(gg_law_kind kind, double loss)
   return sqrt(low * high);
 }
 
-double gg_common_law_at(const gg_restitution_law *law, double speed, int species_1, int species_2)
+double gg_common_law_at(const gg_restitution_law *law, double speed, int species_1, int species_2, uint64_t *clamped)
 {
   if (!law->e) return 1 - gg_common_law_loss(law->kind, law->scale[gg_pair(species_1, species_2)] * speed);
   double e = law->e(law->context, speed, species_1, species_2);
-  return e < 1 ? (e > 0 ? e : 0) : e >= 1 ? 1 : 0;
+  if (e >= 0 && e <= 1) return e;
+  if (clamped) ++*clamped;
+  return e > 1 ? 1 : 0;
 }
 
 double gg_common_law_from_table(void *context, double speed, int species_1, int species_2)

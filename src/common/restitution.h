@@ -17,16 +17,18 @@ typedef struct gg_restitution_law {
   double scale[GG_PAIRS]; /* the law's unit of speed over that of results, inverse: u = scale g; by gg_pair */
 } gg_restitution_law;
 
-/* e of two species at a speed in the units of results, clamped to 0 and 1. */
-double gg_common_law_at(const gg_restitution_law *law, double normal_speed, int species_1, int species_2);
+/* e of two species at a speed in the units of results. A user's law that gives no number from 0 to 1 there is clamped
+ * (NaN: 0), and *clamped counts it (NULL: nobody). */
+double gg_common_law_at(const gg_restitution_law *law, double normal_speed, int species_1, int species_2,
+                        uint64_t *clamped);
 
 /* Of laws that are built in: the word; 1 - e at a speed in the law's units; the speed at which that is so much. */
 const char *gg_common_law_name(gg_law_kind kind);
 double gg_common_law_loss(gg_law_kind kind, double u);
 double gg_common_law_speed_of(gg_law_kind kind, double loss);
 
-/* A built-in law takes collision.e from here to there, or 1: nearer to 1 the speeds of a gas would lie below the table of
- * losses (laws/loss_table.h), which has no smaller loss. */
+/* A built-in law takes collision.e from here to there, or 1: nearer to 1 the speeds of a gas would lie below the table
+ * of losses (laws/loss_table.h), which has no smaller loss. */
 #define GG_LAW_LEAST_E 0.01
 #define GG_LAW_MOST_E 0.99999
 

@@ -37,7 +37,7 @@ enum { GG_COLLISIONS_FOLLOWED = 400 };
 enum { GG_REPLICAS_FOLLOWED = 8 };
 
 typedef struct gg_species {
-  double fraction, diameter, mass, inertia; /* mole fraction; user's units; K = 4I/(m d^2) */
+  double fraction, diameter, mass, inertia; /* mole fraction (as given: a weight); user's units; K = 4I/(m d^2) */
   double drag;                              /* of a bath, over bath.drag */
 } gg_species;
 
@@ -78,6 +78,7 @@ struct gg_scene {
   } collision;
   int n_species;
   gg_species species[GG_MAX_SPECIES];
+  double weights; /* what the fractions summed to before they were normalised; 0: they summed to 1. No key */
   struct {
     double e, beta, mu, speed, ridges;
     double temperature[2]; /* lower, upper, in the user's units; GG_AUTO: none */

@@ -25,13 +25,13 @@ static double loss_per_collision(const gg_model *m, int i, int j)
 /* Energy that collisions destroy, per grain and time. */
 static double loss_per_grain(const gg_model *m)
 {
-  double loss = 0, n = (double)m->n;
+  double loss = 0;
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
       int o = gg_pair(i, j);
       double spread = m->temperature0 * (1 / m->mass[i] + 1 / m->mass[j]);
       double rate = m->sigma[o] * m->sigma[o] * m->chi[o] * sqrt(8 * M_PI * spread) * m->density / 2;
-      loss += (double)m->n_of[i] / n * (double)m->n_of[j] / n * rate * loss_per_collision(m, i, j);
+      loss += gg_model_part(m, m->fraction[i], j) * rate * loss_per_collision(m, i, j);
     }
   return loss;
 }
@@ -39,7 +39,7 @@ static double loss_per_grain(const gg_model *m)
 double gg_common_thermostat_noise(const gg_model *m)
 {
   double mass = 0;
-  for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i] / (double)m->n;
+  for (int i = 0; i < m->n_species; i++) mass += gg_model_part(m, m->mass[i], i);
   return loss_per_grain(m) / (1.5 * mass);
 }
 
@@ -59,7 +59,7 @@ double gg_common_thermostat_balance(const gg_model *m, double sheared)
 {
   double noise = 0, drag = 0, loss = loss_per_grain(m) / (m->temperature0 * sqrt(m->temperature0));
   for (int i = 0; i < m->n_species; i++) {
-    const double share = (double)m->n_of[i] / (double)m->n;
+    const double share = m->fraction[i];
     noise += 1.5 * share * m->mass[i] * m->bath.noise[i];
     drag += 3 * share * m->bath.drag[i];
   }

@@ -18,11 +18,11 @@ typedef struct gg_dsmc_state {
   gg_rng rng;
   gg_dsmc_rng_lanes lanes;
   double time, temperature, fastest; /* temperature and largest speed: when the ensemble was last synchronised */
-  uint64_t collisions, candidates, overflows;
+  uint64_t collisions, candidates, overflows, clamped;
   double remainder[GG_PAIRS]; /* fractional remainder of candidates, carried over */
   double strain;              /* accumulated shear strain, rate x time, that stored velocities have still to stream */
   double unsynchronised;      /* time since the ensemble was last synchronised */
-  gg_vec centre;              /* velocity of the centre of mass then */
+  gg_vec centre;              /* velocity of the centre of mass then; in a bath now, as stored */
   gg_dsmc_time_step step;
   double kept; /* energy of centres that a Gaussian thermostat keeps, where it is not that of collisions */
   double lost; /* energy destroyed that the Gaussian thermostat has not given back */

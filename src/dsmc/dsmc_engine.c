@@ -117,6 +117,7 @@ static void take_over(gg_dsmc *d, const gg_dsmc *before)
   s->collisions = b->collisions;
   s->candidates = b->candidates;
   s->overflows = b->overflows;
+  s->clamped = b->clamped;
   s->power = b->power;
   if (d->schedule && before->schedule) memcpy(d->schedule, before->schedule, gg_dsmc_schedule_size(d->model.n_species));
 }
@@ -180,6 +181,7 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .collisions = s->collisions,
                              .events = s->candidates,
                              .overflows = s->overflows,
+                             .clamped = s->clamped,
                              .time_step = s->step.splitting,
                              .time_step_bias = s->step.bias,
                              .others_cpu = gg_base_thread_pool_cpu(const_dsmc_of(engine)->ensemble.pool)};

@@ -77,30 +77,37 @@ typedef struct kicking {
   gg_dsmc_kick_map centre[GG_MAX_SPECIES], spin[GG_MAX_SPECIES];
   bool turns; /* do spins get kicks, too? */
   gg_dsmc_rng_lanes *lanes;
+  gg_dsmc_block sum[GG_DSMC_MAX_SEGMENTS][GG_MAX_SPECIES]; /* of the kicked velocities, by lane */
 } kicking;
 
-/* What is not a grain stays at rest. */
-static void clear_rest(const gg_dsmc_population *p, void *blocks)
+/* What is not a grain stays at rest, and is not part of the sum. */
+static void clear_rest(const gg_dsmc_population *p, void *blocks, gg_dsmc_block *sum)
 {
-  for (size_t a = (size_t)p->n; a < p->n_blocks * GG_DSMC_LANES; a++)
+  for (size_t a = (size_t)p->n; a < p->n_blocks * GG_DSMC_LANES; a++) {
+    const gg_vec v = gg_dsmc_block_get(p, blocks, (uint32_t)a);
+    const size_t l = a % GG_DSMC_LANES;
+    sum->x[l] -= v.x, sum->y[l] -= v.y, sum->z[l] -= v.z;
     gg_dsmc_block_set(p, blocks, (uint32_t)a, (gg_vec){0, 0, 0});
+  }
 }
 
 static void kick_segment(void *context, int part)
 {
-  const kicking *w = context;
+  kicking *w = context;
   const int segment = gg_dsmc_segment_in(w->e->segments, w->e->grouping, part);
   for (int i = 0; i < w->e->n_species; i++) {
     gg_dsmc_population *p = &w->e->of[i];
     gg_dsmc_range r = gg_dsmc_segment(p, w->e->segments, segment);
     const bool turns = w->turns && p->s, last = segment == w->e->segments - 1;
+    gg_dsmc_block sum = {{0}, {0}, {0}}, spins = sum;
     w->e->kernels->kick(gg_dsmc_blocks_at(p, p->c, r.first), p->single, p->speed_bound + r.first, r.n, w->strain,
-                        &w->centre[i], w->e->bound_scale, &w->lanes[segment]);
+                        &w->centre[i], w->e->bound_scale, &w->lanes[segment], &sum);
     if (turns)
       w->e->kernels->kick(gg_dsmc_blocks_at(p, p->s, r.first), p->single, NULL, r.n, 0, &w->spin[i], 1,
-                          &w->lanes[segment]);
-    if (last) clear_rest(p, p->c);
-    if (last && turns) clear_rest(p, p->s);
+                          &w->lanes[segment], &spins);
+    if (last) clear_rest(p, p->c, &sum);
+    if (last && turns) clear_rest(p, p->s, &spins);
+    w->sum[segment][i] = sum;
   }
 }
 
@@ -119,7 +126,24 @@ void gg_dsmc_thermostat_kick(gg_dsmc_ensemble *e, double strain, double variance
   kick(&w);
 }
 
-void gg_dsmc_thermostat_bath(gg_dsmc_ensemble *e, const gg_model *m, const gg_dsmc_bath_step *step,
+/* Of the centre of mass, in stored velocities. */
+static gg_vec velocity_of_centre(const kicking *w)
+{
+  gg_vec momentum = {0, 0, 0};
+  double mass = 0;
+  for (int i = 0; i < w->e->n_species; i++) {
+    const gg_dsmc_population *p = &w->e->of[i];
+    for (int segment = 0; segment < w->e->segments; segment++)
+      for (int l = 0; l < GG_DSMC_LANES; l++) {
+        const gg_dsmc_block *sum = &w->sum[segment][i];
+        momentum = gg_axpy(p->mass, (gg_vec){sum->x[l], sum->y[l], sum->z[l]}, momentum);
+      }
+    mass += p->mass * (double)p->n;
+  }
+  return gg_scale(1 / mass, momentum);
+}
+
+void gg_dsmc_thermostat_bath(gg_dsmc_ensemble *e, const gg_model *m, const gg_dsmc_bath_step *step, gg_vec *centre,
                              gg_dsmc_rng_lanes *lanes)
 {
   const gg_bath *b = &m->bath;
@@ -131,11 +155,13 @@ void gg_dsmc_thermostat_bath(gg_dsmc_ensemble *e, const gg_model *m, const gg_ds
     w.centre[i] = (gg_dsmc_kick_map){.factor = r.decay,
                                      .size = sqrt(b->noise[i] * r.spread),
                                      .widening = sqrt(1 + rate * rate * r.width),
-                                     .lean = step->begin + rate * r.mean};
+                                     .lean = step->begin + rate * r.mean,
+                                     .drift = gg_scale(-r.decay, *centre)};
     w.spin[i] = (gg_dsmc_kick_map){.factor = s.decay,
                                    .size = sqrt(b->spin_noise[i] * s.spread),
                                    .widening = 1,
-                                   .drift = (1 - s.decay) * gg_model_rolling(m, i)};
+                                   .drift = {.z = (1 - s.decay) * gg_model_rolling(m, i)}};
   }
   kick(&w);
+  *centre = velocity_of_centre(&w);
 }

@@ -24,8 +24,12 @@ typedef struct gg_dsmc_bath_step {
   double begin, strain, dt;
 } gg_dsmc_bath_step;
 /* What drag, noise and shear do together in the step, exactly (an Ornstein-Uhlenbeck process): in stored velocities,
- * which streaming leaves alone, drag is a factor, and a kick along y at a later strain is one along x as well. */
-void gg_dsmc_thermostat_bath(gg_dsmc_ensemble *e, const gg_model *model, const gg_dsmc_bath_step *step,
+ * which streaming leaves alone, drag is a factor, and a kick along y at a later strain is one along x as well.
+ *
+ * `centre`, the stored velocity of the centre of mass, is taken off before; afterwards it is what the kicks of this
+ * step alone gave it, at most T/N per component. Taken off after drag has damped it, it would be overcompensated: with
+ * a decay d by a factor 1/d, without bound. */
+void gg_dsmc_thermostat_bath(gg_dsmc_ensemble *e, const gg_model *model, const gg_dsmc_bath_step *step, gg_vec *centre,
                              gg_dsmc_rng_lanes *lanes);
 
 #endif

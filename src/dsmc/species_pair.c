@@ -53,6 +53,7 @@ void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *pass)
   s->collisions += pass->collisions;
   s->candidates += pass->tried;
   s->overflows += pass->overflows;
+  s->clamped += pass->clamped;
   s->transfer.collisions[pair] += pass->collisions;
   s->lost += pass->loss;
   if (!s->sums) return;

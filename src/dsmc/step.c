@@ -7,7 +7,9 @@ void gg_dsmc_synchronise(gg_dsmc *d)
 {
   gg_dsmc_state *s = &d->now;
   double unit = s->temperature > 0 ? s->temperature : d->model.temperature0;
-  gg_dsmc_moments m = gg_dsmc_ensemble_synchronise(&d->ensemble, s->strain, 1, s->centre, unit);
+  /* A bath changes the velocity of the centre at every step, and takes it off itself. */
+  const gg_vec none = {0, 0, 0}, off = d->thermostat == GG_BATH ? none : s->centre;
+  gg_dsmc_moments m = gg_dsmc_ensemble_synchronise(&d->ensemble, s->strain, 1, off, unit);
   s->temperature = m.temperature;
   s->fastest = m.fastest;
   s->centre = m.centre;
@@ -32,7 +34,7 @@ static void heat(gg_dsmc *d, double dt, double strain, double half)
   gg_dsmc_rng_lanes *lanes = d->schedule ? d->schedule->lanes : &d->now.lanes;
   if (d->thermostat == GG_BATH) {
     const gg_dsmc_bath_step step = {d->now.strain, strain, dt};
-    gg_dsmc_thermostat_bath(&d->ensemble, &d->model, &step, lanes);
+    gg_dsmc_thermostat_bath(&d->ensemble, &d->model, &step, &d->now.centre, lanes);
   } else {
     gg_dsmc_thermostat_kick(&d->ensemble, strain, d->noise * dt, lanes);
   }

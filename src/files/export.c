@@ -9,7 +9,6 @@
 
 #include "base/checked_json.h"
 #include "base/memory.h"
-#include "base/text.h"
 #include "common/engine.h"
 #include "common/species.h"
 #include "files/curve_table.h"
@@ -465,9 +464,7 @@ static gg_status write_target(job *j, target *t, gg_error *err)
 static gg_status write_all(job *j, gg_error *err)
 {
   gg_status status = GG_OK;
-  locale_t before = gg_base_c_locale_enter();
   for (size_t i = 0; i < j->n && status == GG_OK; i++) status = write_target(j, &j->target[i], err);
-  gg_base_c_locale_leave(before);
   if (status == GG_OK) status = gg_stop_check(j->stop, err);
   if (status == GG_OK) status = check_replaced(j, err);
   for (size_t i = 0; i < j->n && status == GG_OK; i++) status = gg_base_atomic_commit(&j->target[i].file, err);

@@ -5,18 +5,23 @@
 #include "md/md_engine.h"
 #include "md/md_state.h"
 
+/* Along a periodic edge a grain in a narrower box would meet two images of another; between walls two grains could not
+ * pass each other, which neither the start nor the cells provide for. */
 static gg_status check_box(const gg_model *m, gg_error *err)
 {
+  static const char *const edges[] = {"box edge along x", "box edge along y", "box edge along z"};
   double widest = gg_common_model_widest(m), least = 2 * widest * (1 + 1e-9);
   for (int a = 0; a < 3; a++) {
     if (m->box[a] >= least) continue;
-    double shrink = least / m->box[a], cube = shrink * shrink * shrink;
-    return gg_base_fail(
-        err, GG_BAD_INPUT,
-        "particles: with particles = %lld and phi = %g the box edge along %c is %.4g diameters; a grain would "
-        "meet two images of another below %.4g. Allowed here: particles >= %.0f, or phi <= %.4g",
-        (long long)m->n, m->phi, "xyz"[a], m -> box[a] / m -> diameter[0], least / m -> diameter[0],
-        ceil((double)m->n * cube), m -> phi / cube);
+    const double shrink = least / m->box[a], cube = shrink * shrink * shrink;
+    const bool gap = a == 1 && m->walled;
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "particles: with particles = %lld and phi = %g the %s is %.4g diameters; below %.4g %s. "
+                        "Allowed here: particles >= %.0f, or phi <= %.4g, or aspect with a longer edge along %c",
+                        (long long)m->n, m->phi, gap ? "gap between the walls" : edges[a], m->box[a] / m->diameter[0],
+                        least / m->diameter[0],
+                        gap ? "grains could not pass each other" : "a grain would meet two images of another",
+                        ceil((double)m->n * cube), m->phi / cube, "xyz"[a]);
   }
   return GG_OK;
 }

@@ -112,6 +112,7 @@ static void take_over(gg_md *e, const gg_md *before)
   k->events = k->epoch_events = e->check_at = before->k.events;
   k->treated = before->k.treated;
   k->wall_treated = before->k.wall_treated;
+  k->clamped = before->k.clamped;
   k->worst_overlap = before->k.worst_overlap;
   k->power = before->k.power;
   k->rng = before->k.rng;
@@ -270,6 +271,7 @@ static void state(const gg_engine *engine, gg_engine_state *s)
                          .treated = e->k.treated,
                          .offset = gg_md_offset(&e->box, e->k.now),
                          .wall_treated = e->k.wall_treated,
+                         .clamped = e->k.clamped,
                          .worst_overlap = e->k.worst_overlap,
                          .others_cpu = gg_md_parallel_cpu(e)};
 }

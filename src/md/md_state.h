@@ -115,7 +115,7 @@ typedef struct gg_md_counts {
   double mean_free_time;   /* present mean free time per grain */
   double window_time;      /* since mean_free_time was last measured, with so many collisions */
   uint64_t window_collisions, epoch_events, epoch_collisions; /* the latter two: counts at the epoch's start */
-  uint64_t collisions, events, treated, wall_treated;
+  uint64_t collisions, events, treated, wall_treated, clamped;
   double worst_overlap;
   gg_rng rng;
   double next_kick;        /* epoch time of the earliest turn; INFINITY: no kicks */

@@ -60,13 +60,12 @@ GG_INLINE double gg_md_kinetic_loss(const gg_contact *c, gg_vec was1, gg_vec was
 }
 
 /* The contact of this pair at this speed, outside and in units of the start. */
-GG_INLINE gg_contact gg_md_contact_by_law(const gg_md *e, const gg_contact *contact, double gn, int a, int b,
-                                          uint32_t number)
+GG_INLINE gg_contact gg_md_contact_by_law(gg_md *e, const gg_contact *contact, double gn, int a, int b, uint32_t number)
 {
   gg_contact at = *contact;
   const gg_restitution_law *law = &e->model.law;
   double speed = ldexp(gn * e->k.scale, -e->k.power),
-         restitution = law->e ? gg_common_law_at(law, speed, a, b)
+         restitution = law->e ? gg_common_law_at(law, speed, a, b, &e->k.clamped)
                               : 1 - gg_loss_at(e->losses->loss, law->scale[gg_pair(a, b)] * speed);
   at.jn = gg_md_contact_normal_coefficient(contact, restitution, number);
   return at;

@@ -46,7 +46,7 @@ typedef struct cell {                  /* sums over its grains; between walls C 
 } cell;
 
 typedef struct cells {
-  gg_model model;
+  const gg_model *model;
   gg_cell_grid grid;
   cell *cell;
 } cells;
@@ -66,7 +66,7 @@ static void *create(const gg_model *m, gg_error *err)
 {
   cells *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
-  d->model = *m;
+  d->model = m;
   d->grid = gg_measure_cell_grid_of(m);
   d->cell = gg_base_array_new((size_t)count_of(d), sizeof *d->cell, err);
   if (d->cell) return d;
@@ -152,9 +152,8 @@ static void add_grain(const gg_model *m, const gg_snapshot *s, const shares *of,
 static void sort_grains(cells *d, const gg_snapshot *s)
 {
   memset(d->cell, 0, (size_t)count_of(d) * sizeof *d->cell);
-  shares of = shares_of(&d->model, s);
-  for (size_t i = 0; i < s->n; i++)
-    add_grain(&d->model, s, &of, i, &d->cell[gg_measure_cell_grid_cell(&d->grid, s, i)]);
+  shares of = shares_of(d->model, s);
+  for (size_t i = 0; i < s->n; i++) add_grain(d->model, s, &of, i, &d->cell[gg_measure_cell_grid_cell(&d->grid, s, i)]);
 }
 
 static void merge(cell *to, const cell *from)
@@ -230,7 +229,7 @@ static double mean_x(const cell *c)
 /* Of inner rows only where the rows beyond the boundary are walls or slide. */
 static void add_shear_rate(const cells *d, int x, int y, int z, double root_T, double *bin)
 {
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   bool open = m->shear_rate == 0 && !gg_flow_is_walled(m->flow);
   if (!open && (y == 0 || y == d->grid.n[1] - 1)) return;
   double height = m->box[1] / d->grid.n[1];
@@ -312,7 +311,7 @@ static double thrown(double x, const double *p)
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const cells *d = self;
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   double unit = m->phi * count_of(d) / (double)m->n, snapshots = bin[SNAPSHOTS];
   gg_curve *c =
       put(list, "cell_density", "local solid fraction", "φ", DENSITY_BINS, 0, unit, bin + DENSITY, bin[N_DENSITY]);

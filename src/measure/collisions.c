@@ -25,7 +25,7 @@ enum { COS_BINS = 50, PLANE_BINS = 72 };
 enum { COLLISIONS, FABRIC, COSINES = FABRIC + 4, PLANE = COSINES + COS_BINS, ANGLES = PLANE + PLANE_BINS };
 
 typedef struct collisions {
-  gg_model model;
+  const gg_model *model;
   double unit[KINDS]; /* one over the expected mean time and path between collisions */
   bool has[KINDS];
   size_t width;
@@ -33,14 +33,11 @@ typedef struct collisions {
   double sums[];                  /* since the last snapshot: angles, then the flights of each species */
 } collisions;
 
-static void *create(const gg_model *m, gg_error *err)
+/* Of the present gas. */
+static void set_kinds(collisions *d)
 {
-  size_t width = ANGLES + (size_t)(m->n_species * KINDS * FLIGHT);
-  collisions *d = gg_base_array_new(1, sizeof *d + width * sizeof *d->sums, err);
-  if (!d) return NULL;
+  const gg_model *m = d->model;
   double rate = gg_common_model_collision_rate(m, m->temperature0), speed = sqrt(8 * m->temperature0 / M_PI);
-  d->model = *m;
-  d->width = width;
   d->unit[TIME] = rate;
   d->unit[PATH] = d->unit[LABORATORY] = rate / speed;
   /* A time has a meaning where the temperature stays; under md's Gaussian thermostat the engine's clock is not that of
@@ -49,6 +46,16 @@ static void *create(const gg_model *m, gg_error *err)
   d->has[TIME] = gg_model_keeps_temperature(m) && !other_clock; /* else it changes with T */
   d->has[PATH] = gg_common_thermostat_of(m) == GG_NO_THERMOSTAT && !gg_flow_is_walled(m->flow);
   d->has[LABORATORY] = d->has[PATH] && m->steady && m->shear_rate != 0 && !m->homogeneous;
+}
+
+static void *create(const gg_model *m, gg_error *err)
+{
+  size_t width = ANGLES + (size_t)(m->n_species * KINDS * FLIGHT);
+  collisions *d = gg_base_array_new(1, sizeof *d + width * sizeof *d->sums, err);
+  if (!d) return NULL;
+  d->model = m;
+  d->width = width;
+  set_kinds(d);
   return d;
 }
 
@@ -96,7 +103,7 @@ static double peculiar_path(gg_vec c, double rate, double t)
 #define FIRST_COLLISIONS 12 /* a grain; exp(-12) of the grains have had none */
 static bool flights_count(collisions *d, int species)
 {
-  uint64_t enough = FIRST_COLLISIONS * (uint64_t)d->model.n_of[species];
+  uint64_t enough = FIRST_COLLISIONS * (uint64_t)d->model->n_of[species];
   if (d->first[species] == enough) return true;
   d->first[species]++;
   return false;
@@ -104,7 +111,7 @@ static bool flights_count(collisions *d, int species)
 
 static void add_flights(collisions *d, const gg_collision_record *m, int which)
 {
-  double t = m->since[which], rate = d->model.shear_rate, *to = d->sums + ANGLES + m->species[which] * KINDS * FLIGHT;
+  double t = m->since[which], rate = d->model->shear_rate, *to = d->sums + ANGLES + m->species[which] * KINDS * FLIGHT;
   gg_vec c = m->c[which];
   if (!(t < INFINITY)) return;
   if (d->has[TIME]) add_flight(to + TIME * FLIGHT, t, d->unit[TIME]);
@@ -161,6 +168,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 static void restart(void *self)
 {
   collisions *d = self;
+  set_kinds(d);
   memset(d->sums, 0, d->width * sizeof *d->sums);
 }
 
@@ -174,7 +182,7 @@ static void put_numbers(gg_curve *c, const gg_model *m, int kind, const double *
   } else {
     gg_measure_curve_put_number(c, kind == PATH ? "mean_free_path" : "mean_free_path_laboratory", mean, length);
     if (!m->ensemble) /* an ensemble without a box has no width */
-      gg_measure_curve_put_number(c, kind == PATH ? "knudsen" : "knudsen_laboratory", mean / cbrt(m->volume), "1");
+      gg_measure_curve_put_number(c, kind == PATH ? "knudsen" : "knudsen_laboratory", mean / m->length, "1");
   }
   gg_measure_curve_put_number(c, "second_moment_over_mean_squared", dispersion, "1");
 }
@@ -184,7 +192,7 @@ static void put_flight(const collisions *d, gg_curves *list, int kind, int speci
   static const char *const names[] = {"free_time", "free_path", "free_path_laboratory"};
   static const char *const panels[] = {"time between collisions", "free path", "free path"};
   static const char *const labels[] = {"", "peculiar", "laboratory"};
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   const char *unit = gg_measure_curve_unit(m, kind == TIME ? "time" : "length");
   char name[48], label[24], inverse[40];
   bool two = m->n_species > 1;
@@ -223,9 +231,9 @@ static void put_angles(const collisions *d, gg_curves *list, const double *bin)
     c->value[i] = bin[COSINES + i] * COS_BINS / bin[COLLISIONS];
   }
   gg_measure_curve_beside(c, "molecular chaos", twice, NULL);
-  c = gg_measure_curve_add(list, PLANE_BINS, "collision_angle",
-                           d->model.shear_rate != 0 ? "angle of k in the plane of shear" : "angle of k in the plane xy",
-                           "");
+  c = gg_measure_curve_add(
+      list, PLANE_BINS, "collision_angle",
+      d->model->shear_rate != 0 ? "angle of k in the plane of shear" : "angle of k in the plane xy", "");
   gg_measure_curve_axes(c, "θ_c/π", "1", "P", "1");
   for (int i = 0; i < (int)c->n; i++) {
     c->x[i] = (i + 0.5) / PLANE_BINS;
@@ -240,7 +248,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   const collisions *d = self;
   put_angles(d, list, bin);
   for (int kind = 0; kind < KINDS; kind++)
-    for (int k = 0; k < d->model.n_species && d->has[kind]; k++)
+    for (int k = 0; k < d->model->n_species && d->has[kind]; k++)
       put_flight(d, list, kind, k, bin + ANGLES + (k * KINDS + kind) * FLIGHT);
 }
 

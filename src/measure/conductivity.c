@@ -236,10 +236,10 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   memcpy(mean, bin, (size_t)l->at_lag * sizeof *mean);
   for (size_t i = 0; i < (size_t)d->copies.at.steps; i++) {
     memcpy(mean + l->at_lag, bin + l->at_lag + (int)i * l->lag, (size_t)l->lag * sizeof *mean);
-    const heat h = heat_of(mean, &d->copies.model, false);
+    const heat h = heat_of(mean, d->copies.model, false);
     const double value[2] = {h.conductivity, h.diffusive};
     for (int q = 0; q < 2 && c[q]->n; q++)
-      c[q]->x[i] = mean[l->at_lag + l->time] * gg_common_model_nu0(&d->copies.model, 1), c[q]->value[i] = value[q];
+      c[q]->x[i] = mean[l->at_lag + l->time] * gg_common_model_nu0(d->copies.model, 1), c[q]->value[i] = value[q];
   }
 }
 

@@ -55,7 +55,7 @@ enum { DOUBLES = sizeof(slab) / sizeof(double), WALLS = sizeof(walls) / sizeof(d
 #define NEVER (-1.0)
 
 typedef struct fluxes {
-  gg_model model;
+  const gg_model *model;
   int slabs;
   struct {         /* since the last snapshot */
     double begins; /* the engine's time of that; NEVER */
@@ -79,7 +79,7 @@ static void restart(void *self)
 static void *create(const gg_model *m, gg_error *err)
 {
   fluxes *d = gg_base_array_new(1, sizeof *d, err);
-  if (d) *d = (fluxes){.model = *m, .slabs = gg_measure_gap_slabs(m), .since.begins = NEVER};
+  if (d) *d = (fluxes){.model = m, .slabs = gg_measure_gap_slabs(m), .since.begins = NEVER};
   return d;
 }
 
@@ -99,7 +99,7 @@ static void add_interval(void *self, const gg_interval *in)
 {
   fluxes *d = self;
   d->since.walls.interval += in->elapsed;
-  for (int w = 0; w < d->model.n_surfaces; w++) d->since.walls.heat[w] += in->transfer->surface[w].loss;
+  for (int w = 0; w < d->model->n_surfaces; w++) d->since.walls.heat[w] += in->transfer->surface[w].loss;
 }
 
 /* What passes over the line from 1 to 2; spin: angular momentum about z. */
@@ -153,8 +153,8 @@ static gain gain_of(const gg_model *m, const gg_collision_record *c, int which)
 
 static void add_contact(fluxes *d, const gg_collision_record *c, double from, double to)
 {
-  const gain one = gain_of(&d->model, c, 0);
-  const double radius = 0.5 * d->model.diameter[c->species[0]];
+  const gain one = gain_of(d->model, c, 0);
+  const double radius = 0.5 * d->model->diameter[c->species[0]];
   transfer t = {
       {radius * c->k.x, c->height[1] - c->height[0], radius * c->k.z}, c->J, {-one.energy[0], -one.energy[1]}, 0};
   spread(d, from, to, &t);
@@ -163,14 +163,14 @@ static void add_contact(fluxes *d, const gg_collision_record *c, double from, do
 static void add_collision(void *self, const gg_collision_record *c)
 {
   fluxes *d = self;
-  const double per_slab = d->slabs / d->model.box[1], middle = 0.5 * d->slabs;
+  const double per_slab = d->slabs / d->model->box[1], middle = 0.5 * d->slabs;
   const double from = c->height[0] * per_slab + middle, to = c->height[1] * per_slab + middle;
   if (c->wall) {
     add_contact(d, c, from, to);
     return;
   }
-  const gain one = gain_of(&d->model, c, 0), two = gain_of(&d->model, c, 1);
-  const double sigma = d->model.boltzmann ? 0 : d->model.sigma[gg_pair(c->species[0], c->species[1])];
+  const gain one = gain_of(d->model, c, 0), two = gain_of(d->model, c, 1);
+  const double sigma = d->model->boltzmann ? 0 : d->model->sigma[gg_pair(c->species[0], c->species[1])];
   transfer t = {
       {sigma * c->k.x, c->height[1] - c->height[0], sigma * c->k.z}, c->J, {0, 0}, 0.5 * (two.spin - one.spin)};
   double lost = 0;
@@ -179,7 +179,7 @@ static void add_collision(void *self, const gg_collision_record *c)
     lost -= one.energy[k] + two.energy[k];
   }
   spread(d, from, to, &t);
-  if (!gg_common_pair_loses(&d->model, c->species[0], c->species[1])) return; /* rounding alone */
+  if (!gg_common_pair_loses(d->model, c->species[0], c->species[1])) return; /* rounding alone */
   lose(d, from, 0.5 * lost);
   lose(d, to, 0.5 * lost);
 }
@@ -219,7 +219,7 @@ static void add_collisions(fluxes *d, double now, slab *slabs)
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   fluxes *d = self;
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   slab *slabs = (slab *)(void *)bin;
   add_collisions(d, s->time, slabs);
   for (size_t g = 0; g < s->n; g++) {
@@ -313,10 +313,10 @@ static profile profile_of(const fluxes *d, const slab *slabs, int i)
 {
   const slab *at = &slabs[i];
   const passed *by = &at->by;
-  const double volume = d->model.volume / d->slabs, time = ((const walls *)(const void *)&slabs[d->slabs])->time;
-  const double each = d->model.stress_unit / volume, rate = each / time;
+  const double volume = d->model->volume / d->slabs, time = ((const walls *)(const void *)&slabs[d->slabs])->time;
+  const double each = d->model->stress_unit / volume, rate = each / time;
   const line U = line_at(d, slabs, i, false), W = line_at(d, slabs, i, true);
-  const bool spins = d->model.rule != GG_SMOOTH;
+  const bool spins = d->model->rule != GG_SMOOTH;
   profile p = {{{0}}, 0};
   double(*of)[PARTS] = p.of;
   of[XX][KINETIC] = square_about(&at->flow, &U, 0, at->flow.xx);
@@ -346,9 +346,10 @@ static profile profile_of(const fluxes *d, const slab *slabs, int i)
 static void add_sources(const fluxes *d, const slab *slabs, int i, bool upper, double *power, double *loss)
 {
   const slab *at = &slabs[i];
-  const double volume = d->model.volume / d->slabs, time = ((const walls *)(const void *)&slabs[d->slabs])->time;
-  const double unit = d->model.stress_unit / volume, sign = upper ? 1 : -1;
-  for (int b = 0; b < 3; b++) *power += unit * d->model.gravity[b] * (0.5 * at->flow.w[0][b] + sign * at->flow.w[1][b]);
+  const double volume = d->model->volume / d->slabs, time = ((const walls *)(const void *)&slabs[d->slabs])->time;
+  const double unit = d->model->stress_unit / volume, sign = upper ? 1 : -1;
+  for (int b = 0; b < 3; b++)
+    *power += unit * d->model->gravity[b] * (0.5 * at->flow.w[0][b] + sign * at->flow.w[1][b]);
   *loss += unit / time * (0.5 * at->by.loss[0] + sign * at->by.loss[1]);
 }
 
@@ -356,7 +357,7 @@ static void add_sources(const fluxes *d, const slab *slabs, int i, bool upper, d
  * of dq/dy - work + loss. */
 static void terms_of(const fluxes *d, const slab *slabs, const profile *p, int i, double term[TERMS])
 {
-  const double height = d->model.box[1] / d->slabs;
+  const double height = d->model->box[1] / d->slabs;
   double power = 0, loss = 0, heat[2];
   for (int k = 0; k < 2; k++) {
     add_sources(d, slabs, i + k, k == 0, &power, &loss);
@@ -414,15 +415,15 @@ static gg_curve *new_curve(const fluxes *d, gg_curves *list, size_t n, const cha
                            const char *label, const char *unit)
 {
   gg_curve *c = gg_measure_curve_add(list, n, name, panel, label);
-  gg_measure_curve_axes(c, "y", gg_measure_curve_unit(&d->model, "length"), panel, unit);
-  c->folded = gg_wall_symmetry_of(&d->model) != GG_NO_SYMMETRY;
+  gg_measure_curve_axes(c, "y", gg_measure_curve_unit(d->model, "length"), panel, unit);
+  c->folded = gg_wall_symmetry_of(d->model) != GG_NO_SYMMETRY;
   return c;
 }
 
 /* Heat through a wall, upwards. */
 static void put_walls(const fluxes *d, const walls *sums, gg_curve *c)
 {
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   double heat[GG_MOST_SURFACES];
   for (int w = 0; w < m->n_surfaces; w++) heat[w] = m->surface[w].side * sums->heat[w];
   for (int w = 0; w < m->n_surfaces; w++) {
@@ -438,7 +439,7 @@ static void put_walls(const fluxes *d, const walls *sums, gg_curve *c)
 static void put_kind(const fluxes *d, const profile *p, int kind, int part, const walls *sums, gg_curves *list)
 {
   static const char *const suffix[PARTS] = {"_kinetic", "_collisional", ""}, *const mark[PARTS] = {", k", ", c", ""};
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   char name[48], label[24], unit[40];
   snprintf(name, sizeof name, "profile_%s%s", kinds[kind].name, suffix[part]);
   snprintf(label, sizeof label, "%s%s", kinds[kind].label, mark[part]);
@@ -457,14 +458,14 @@ static void put_terms(const fluxes *d, const slab *slabs, const profile *p, gg_c
 {
   for (int t = 0; t < TERMS; t++) {
     gg_curve *c = new_curve(d, list, (size_t)d->slabs - 1, terms[t].name, "balance of energy", terms[t].label,
-                            gg_common_quantity_unit(GG_Q_DISSIPATION, &d->model));
+                            gg_common_quantity_unit(GG_Q_DISSIPATION, d->model));
     for (size_t i = 0; i < c->n; i++) {
       double term[TERMS];
       terms_of(d, slabs, p, (int)i, term);
-      c->x[i] = ((double)i + 1) * d->model.box[1] / d->slabs;
+      c->x[i] = ((double)i + 1) * d->model->box[1] / d->slabs;
       c->value[i] = term[t];
     }
-    fold(&d->model, c->value, c->n, 1);
+    fold(d->model, c->value, c->n, 1);
   }
 }
 
@@ -475,7 +476,7 @@ static void curves(const void *self, const double *mean, gg_curves *list)
   profile p[GG_MOST_GAP_SLABS];
   for (int i = 0; i < d->slabs; i++) p[i] = profile_of(d, slabs, i);
   for (int kind = 0; kind < KINDS; kind++)
-    for (int part = PARTS - 1; part >= 0 && (!kinds[kind].spins || d->model.rule != GG_SMOOTH); part--)
+    for (int part = PARTS - 1; part >= 0 && (!kinds[kind].spins || d->model->rule != GG_SMOOTH); part--)
       put_kind(d, p, kind, part, (const walls *)(const void *)&slabs[d->slabs], list);
   put_terms(d, slabs, p, list);
 }

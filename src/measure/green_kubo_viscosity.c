@@ -27,7 +27,7 @@ typedef struct memory { /* what one sample leaves for the next */
 } memory;
 
 typedef struct viscosity {
-  gg_model model;
+  const gg_model *model;
   double cc, cxcy; /* mass-weighted sums over the grains */
   memory memory;
   gg_species_scratch scratch;
@@ -47,7 +47,7 @@ static size_t width(const gg_model *m)
 static void *create(const gg_model *model, gg_error *err)
 {
   viscosity *v = gg_base_array_new(1, sizeof *v, err);
-  if (v) v->model = *model;
+  if (v) v->model = model;
   return v;
 }
 
@@ -69,7 +69,7 @@ static void add_chunk(void *self, const gg_chunk *chunk)
   viscosity *v = self;
   gg_chunk grains = *chunk;
   for (int a = 0; a < 3 && chunk->whole_c[0]; a++) grains.c[a] = chunk->whole_c[a]; /* whatever the scene's frame */
-  for (int i = 0; i < v->model.n_species; i++) {
+  for (int i = 0; i < v->model->n_species; i++) {
     gg_species_view g = gg_measure_species_chunk(&grains, i, &v->scratch);
     double cc = 0, cxcy = 0;
     for (size_t k = 0; k < g.n; k++) {
@@ -77,8 +77,8 @@ static void add_chunk(void *self, const gg_chunk *chunk)
       cc += x * x + y * y + z * z;
       cxcy += x * y;
     }
-    v->cc += v->model.mass[i] * cc;
-    v->cxcy += v->model.mass[i] * cxcy;
+    v->cc += v->model->mass[i] * cc;
+    v->cxcy += v->model->mass[i] * cxcy;
   }
 }
 
@@ -105,7 +105,7 @@ static bool counts(const viscosity *v, const gg_linear_response *range, double a
 static void finish(void *self, const gg_interval *in, double *row)
 {
   viscosity *v = self;
-  const gg_model *m = &v->model;
+  const gg_model *m = v->model;
   double T = v->cc / (3 * (double)m->n), T0 = v->memory.last_temperature * in->velocity_factor * in->velocity_factor;
   v->memory.last_temperature = T;
   v->memory.since = in->velocity_factor == 1 ? v->memory.since + 1 : 0;
@@ -116,7 +116,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   put(&range, a, -v->cxcy / ((double)m->n * T), row + KINETIC);
   if (m->boltzmann) return;
   double impulse = 0, root = mean_root(T0, T), mean_T = root * root;
-  for (int q = 0; q < gg_pairs_of(v->model.n_species); q++) impulse += in->transfer->stress[q][0][1];
+  for (int q = 0; q < gg_pairs_of(v->model->n_species); q++) impulse += in->transfer->stress[q][0][1];
   double stress = impulse / (m->volume * in->elapsed * m->density * mean_T);
   put(&range, gg_common_reduced_shear_rate(m, mean_T), -stress, row + COLLISIONAL);
 }

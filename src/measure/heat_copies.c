@@ -28,7 +28,7 @@ gg_heat_layout gg_measure_heat_layout(const gg_model *m)
 
 gg_status gg_measure_heat_copies_make(gg_heat_copies *d, const gg_model *model, gg_error *err)
 {
-  *d = (gg_heat_copies){.model = *model, .at = gg_measure_heat_layout(model), .K = inertia_of(model)};
+  *d = (gg_heat_copies){.model = model, .at = gg_measure_heat_layout(model), .K = inertia_of(model)};
   d->size = WEIGHTS + 3 * d->at.n;
   d->grain = gg_base_array_new((size_t)model->n, (size_t)d->size * sizeof *d->grain, err);
   return d->grain ? GG_OK : GG_FAILED;
@@ -42,15 +42,15 @@ void gg_measure_heat_copies_clear(gg_heat_copies *d)
 /* Where all grains share a fixed energy, D degrees of freedom of it, <C^j> is lower by j (j - 2)/(4 D) (sonine.c). */
 static double shared(const gg_heat_copies *d, int j)
 {
-  return 1 + j * (j - 2) / (4 * 3 * (double)(d->model.n - 1));
+  return 1 + j * (j - 2) / (4 * 3 * (double)(d->model->n - 1));
 }
 
 static void add_moments(const gg_heat_copies *d, double *bin)
 {
   const gg_heat_layout *l = &d->at;
   double projected[GG_HEAT_ORDERS] = {0}, diverged[GG_HEAT_ORDERS] = {0}, factor[GG_HEAT_ORDERS],
-         unit = 1 / (3 * (double)d->model.n);
-  for (int i = 0; i < d->model.n; i++) {
+         unit = 1 / (3 * (double)d->model->n);
+  for (int i = 0; i < d->model->n; i++) {
     const double *c = d->grain + i * d->size, *s = c + SPIN, square = gg_heat_dot(c, c), C = sqrt(square);
     double p = 1;
     for (int k = 0; k < GG_HEAT_SMOOTH; k++) p *= C, projected[k] += p * square, diverged[k] += (4 + k) * p;
@@ -95,7 +95,7 @@ static inline meeting meet(const gg_heat_copies *d, const double *one, const dou
   meeting m = {{a, b}, {a + SPIN, b + SPIN}, a[axis] - b[axis], {0}, {0}, {0}};
   double c[3], s[3], dc[3], ds[3];
   for (int k = 0; k < 3; k++) c[k] = a[k] - b[k], s[k] = a[SPIN + k] + b[SPIN + k];
-  kick(&d->model, K, axis, c, s, dc, ds);
+  kick(d->model, K, axis, c, s, dc, ds);
   for (int k = 0; k < 3; k++) {
     m.after_c[k] = a[k] + dc[k], m.after_s[k] = a[SPIN + k] + ds[k];
     m.energy[0] += dc[k] * (a[k] + dc[k] / 2), m.energy[1] += K * ds[k] * (a[SPIN + k] + ds[k] / 2);
@@ -109,7 +109,7 @@ static void tilt(const gg_heat_copies *d, const meeting *m, int axis, double *of
   const double K = d->K, *a = m->c[0], *b = m->c[1], *s = m->s[0], *t = m->s[1];
   double c[3], w[3], dc[3], ds[3];
   for (int k = 0; k < 3; k++) c[k] = -a[k] - b[k], w[k] = t[k] - s[k];
-  kick(&d->model, K, axis, c, w, dc, ds);
+  kick(d->model, K, axis, c, w, dc, ds);
   of[0] = m->energy[0] * c[axis], of[1] = m->energy[1] * c[axis];
   for (int k = 0; k < 3; k++) { /* of (x'^2 - x^2)/2, x growing by -x */
     of[0] += m->g * (m->after_c[k] * (dc[k] - a[k]) + a[k] * a[k]);
@@ -124,7 +124,7 @@ static void add_meeting(const gg_heat_copies *d, const meeting *m, int axis, dou
   const double *partner = m->c[1], *spin = m->s[1];
   double before[GG_HEAT_ORDERS], after[GG_HEAT_ORDERS], along[GG_HEAT_ORDERS], c[3], dc[3], ds[3], carried[2];
   for (int k = 0; k < 3; k++) c[k] = -partner[k];
-  kick(&d->model, d->K, axis, c, spin, dc, ds);
+  kick(d->model, d->K, axis, c, spin, dc, ds);
   gg_heat_values(l->n, sqrt(gg_heat_dot(m->c[0], m->c[0])), m->c[0], m->s[0], axis, before);
   gg_heat_values(l->n, sqrt(gg_heat_dot(m->after_c, m->after_c)), m->after_c, m->after_s, axis, after);
   gg_heat_slopes(l->n, m->after_c, m->after_s, dc, ds, axis, along);
@@ -140,7 +140,7 @@ static void add_meeting(const gg_heat_copies *d, const meeting *m, int axis, dou
 /* Pairs at a random distance in the ensemble's order. */
 static void add_pairs(const gg_heat_copies *d, gg_rng *rng, double *bin)
 {
-  const uint32_t n = (uint32_t)d->model.n, shift = 1 + gg_rng_below(rng, n - 1), size = (uint32_t)d->size;
+  const uint32_t n = (uint32_t)d->model->n, shift = 1 + gg_rng_below(rng, n - 1), size = (uint32_t)d->size;
   const double w = 1 / (6 * (double)n);
   for (uint32_t i = 0; i < n; i++)
     for (int k = 0; k < 3; k++) {
@@ -195,7 +195,7 @@ static inline void add_overlap(int n, const double *g, double sum[][GG_HEAT_ORDE
  * average, but noise. */
 static double overlap(const gg_heat_copies *d, double *to)
 {
-  const int many = d->model.n, n = d->at.n;
+  const int many = d->model->n, n = d->at.n;
   double squares = 0, sum[GG_HEAT_ORDERS + 1][GG_HEAT_ORDERS] = {{0}};
   for (int i = 0; i < many; i++) {
     const double *g = d->grain + i * d->size;
@@ -217,9 +217,9 @@ static double overlap(const gg_heat_copies *d, double *to)
 static void fluxes(const gg_heat_copies *d, gg_rng *rng, double T, const double *overlaps,
                    double (*flux)[GG_HEAT_ORDERS])
 {
-  const double K = d->K, frequency = 4 * M_PI / 3 * d->model.density * d->model.chi[0];
+  const double K = d->K, frequency = 4 * M_PI / 3 * d->model->density * d->model->chi[0];
   const gg_heat_layout *l = &d->at;
-  const uint32_t many = (uint32_t)d->model.n;
+  const uint32_t many = (uint32_t)d->model->n;
   memset(flux, 0, GG_HEAT_FLUXES * sizeof *flux);
   for (int k = 0; k < l->n; k++) {
     flux[GG_HEAT_TRANSLATION][k] = overlaps[GG_HEAT_ENERGY * l->n + k] / 2;
@@ -242,7 +242,7 @@ static void fluxes(const gg_heat_copies *d, gg_rng *rng, double T, const double 
 /* Of rough grains: the tangential impulse, and what it does to spins; `normal` is half of c12's along k. */
 static void rub(const gg_heat_copies *d, double *a, double *b, const double c12[3], const double normal[3])
 {
-  const double length = sqrt(gg_heat_dot(normal, normal)), eta2 = d->model.contact[0][0].jt;
+  const double length = sqrt(gg_heat_dot(normal, normal)), eta2 = d->model->contact[0][0].jt;
   double J[3], spins[3];
   for (int i = 0; i < 3; i++) spins[i] = a[SPIN + i] + b[SPIN + i];
   for (int i = 0; i < 3; i++) {
@@ -260,7 +260,7 @@ static void rub(const gg_heat_copies *d, double *a, double *b, const double c12[
 static void collide(const gg_heat_copies *d, double *a, double *b, const double c12[3], double speed, gg_rng *rng)
 {
   const gg_vec r = gg_rng_direction(rng);
-  const double turned[3] = {r.x, r.y, r.z}, eta = d->model.contact[0][0].jn;
+  const double turned[3] = {r.x, r.y, r.z}, eta = d->model->contact[0][0].jn;
   double normal[3];
   for (int k = 0; k < 3; k++) {
     normal[k] = (c12[k] - speed * turned[k]) / 2;
@@ -284,8 +284,8 @@ static const double majorant = 12;
 /* As many candidates as grains; returns the time that they are worth. */
 static double step(gg_heat_copies *d, gg_rng *rng)
 {
-  const uint32_t n = (uint32_t)d->model.n;
-  const double sigma = d->model.sigma[0];
+  const uint32_t n = (uint32_t)d->model->n;
+  const double sigma = d->model->sigma[0];
   for (uint32_t candidate = 0; candidate < n; candidate++) {
     const uint32_t i = gg_rng_below(rng, n), j = gg_rng_below(rng, n - 1);
     double *a = d->grain + (size_t)i * (size_t)d->size, *b = d->grain + (size_t)(j < i ? j : j + 1) * (size_t)d->size;
@@ -297,7 +297,7 @@ static double step(gg_heat_copies *d, gg_rng *rng)
     else
       reject(d, a, b, p / (1 - p));
   }
-  return 2 / ((1 - 1. / n) * M_PI * d->model.density * d->model.chi[0] * sigma * sigma * majorant);
+  return 2 / ((1 - 1. / n) * M_PI * d->model->density * d->model->chi[0] * sigma * sigma * majorant);
 }
 
 /* The lags, one behind the other. Time from step to step: the gas cools as 1/(1 + rate t). Integrals by trapezes, with
@@ -341,6 +341,6 @@ void gg_measure_heat_copies_follow(gg_heat_copies *d, const gg_snapshot *s, gg_r
 {
   copy(d, s, temperature_of(s));
   add_moments(d, row);
-  if (!d->model.boltzmann) add_pairs(d, rng, row);
+  if (!d->model->boltzmann) add_pairs(d, rng, row);
   follow(d, rng, row + d->at.overlap, row + d->at.at_lag);
 }

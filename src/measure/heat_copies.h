@@ -33,7 +33,7 @@ enum {
 gg_heat_layout gg_measure_heat_layout(const gg_model *model);
 
 typedef struct gg_heat_copies {
-  gg_model model;
+  const gg_model *model;
   gg_heat_layout at;
   double *grain;                   /* by grain: C, s, weights for every b_n and component */
   int size;                        /* of a grain */

@@ -34,7 +34,7 @@ typedef struct growth {                          /* of the moments in an interva
 } growth;
 
 typedef struct helfand {
-  gg_model model;
+  const gg_model *model;
   double row[CHANNELS], pressed; /* expected of a third of the trace, over T and time */
   struct memory {
     uint64_t snapshots;
@@ -53,7 +53,7 @@ static void *create(const gg_model *model, gg_error *err)
 {
   helfand *h = gg_base_array_new(1, sizeof *h, err);
   if (!h) return NULL;
-  h->model = *model;
+  h->model = model;
   h->pressed = (double)model->n;
   for (int i = 0; i < model->n_species; i++)
     for (int j = 0; j < model->n_species; j++) {
@@ -107,9 +107,9 @@ static void add_collision(void *self, const gg_collision_record *c)
   helfand *h = self;
   struct memory *memory = &h->memory;
   if (memory->snapshots == 0) return;
-  const double one = h->model.mass[c->species[0]], two = h->model.mass[c->species[1]];
+  const double one = h->model->mass[c->species[0]], two = h->model->mass[c->species[1]];
   const gg_vec J = c->J, after[2] = {gg_sub(c->c[0], gg_scale(1 / one, J)), gg_add(c->c[1], gg_scale(1 / two, J))};
-  const gg_vec way = gg_scale(h->model.sigma[gg_pair(c->species[0], c->species[1])], c->k);
+  const gg_vec way = gg_scale(h->model->sigma[gg_pair(c->species[0], c->species[1])], c->k);
   const double energy = gg_dot(J, c->c[1]) + gg_dot(J, J) / (2 * two);
   const double jump[MOMENTS] = {energy * way.x,
                                 energy * way.y,
@@ -185,7 +185,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   struct memory *memory = &h->memory;
   double flux[MOMENTS] = {0};
   for (size_t i = 0; i < s->n; i++)
-    add_flux(h->model.mass[gg_snapshot_species(s, i)], (gg_vec){s->c[0][i], s->c[1][i], s->c[2][i]}, 1, flux);
+    add_flux(h->model->mass[gg_snapshot_species(s, i)], (gg_vec){s->c[0][i], s->c[1][i], s->c[2][i]}, 1, flux);
   if (memory->snapshots > 0) {
     fly(memory, s->time);
     growth *latest = &memory->last[memory->snapshots % (LAGS + 1)];
@@ -273,20 +273,20 @@ static void put(const helfand *h, const double *bin, int product, const char *na
 {
   gg_curve *c = gg_measure_curve_add(list, LAGS + 1, name, panel, label);
   gg_measure_curve_axes(c, "ν_0 t", "1", label, "1");
-  const double step = bin[TIME] / bin[COUNT] * gg_common_model_nu0(&h->model, bin[TEMPERATURE] / bin[COUNT]);
+  const double step = bin[TIME] / bin[COUNT] * gg_common_model_nu0(h->model, bin[TEMPERATURE] / bin[COUNT]);
   double sum = 0;
   for (int lag = 0; lag <= LAGS && c->n; lag++) {
     const double *at = bin + SUMS + lag * AT_LAG;
     sum += at[1 + product] / at[0];
     c->x[lag] = (lag + 0.5) * step;
-    c->value[lag] = reduced(bin, &h->model, product, bin[COUNT] * sum - without_mean(bin, product, lag));
+    c->value[lag] = reduced(bin, h->model, product, bin[COUNT] * sum - without_mean(bin, product, lag));
   }
 }
 
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const helfand *h = self;
-  if (!gg_common_model_missing(&h->model, GG_NEEDS_HEAT_FLUX))
+  if (!gg_common_model_missing(h->model, GG_NEEDS_HEAT_FLUX))
     put(h, bin, KAPPA, "thermal_conductivity_up_to", "thermal conductivity", "κ*", list);
   put(h, bin, ETA, "viscosity_up_to", "viscosity", "η*", list);
   put(h, bin, BULK, "bulk_viscosity_up_to", "bulk viscosity", "η_b*", list);

@@ -26,7 +26,7 @@ typedef struct state {
 } state;
 
 typedef struct impact_speed {
-  gg_model model;
+  const gg_model *model;
   state state;
 } impact_speed;
 
@@ -39,7 +39,7 @@ static const char *refuses(const gg_model *m)
 static void *create(const gg_model *m, gg_error *err)
 {
   impact_speed *d = gg_base_array_new(1, sizeof *d, err);
-  if (d) d->model = *m;
+  if (d) d->model = m;
   return d;
 }
 
@@ -90,8 +90,8 @@ static void add_snapshot(void *self, const gg_snapshot *g, double *bin)
   for (int i = 0; i < WIDTH_OF_ALL; i++) bin[i] += s->sums[i];
   memset(s->sums, 0, sizeof s->sums);
   double before = s->total;
-  s->total = take_temperatures(&d->model, g, s->over_m);
-  bool lasts = d->model.steady && !gg_flow_cools(d->model.flow);
+  s->total = take_temperatures(d->model, g, s->over_m);
+  bool lasts = d->model->steady && !gg_flow_cools(d->model->flow);
   s->fall = lasts ? 0 : before > 0 && s->collisions > 0 ? log(before / s->total) / s->collisions : NAN;
   s->collisions = 0;
 }
@@ -106,7 +106,7 @@ static void begin_burst(void *self)
 static void rescaled(void *self, double factor)
 {
   impact_speed *d = self;
-  for (int i = 0; i < d->model.n_species; i++) d->state.over_m[i] *= factor * factor;
+  for (int i = 0; i < d->model->n_species; i++) d->state.over_m[i] *= factor * factor;
   d->state.total *= factor * factor;
 }
 
@@ -118,7 +118,7 @@ static double maxwellian(double x, const double *none)
 
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
-  const bool mixture = ((const impact_speed *)self)->model.n_species > 1;
+  const bool mixture = ((const impact_speed *)self)->model->n_species > 1;
   gg_curve *c = gg_measure_curve_add(list, BINS, "impact_speed", "normal speed at impact", "");
   gg_measure_curve_axes(c, mixture ? "√2 g_n/s" : "g_n/√T", "1", "P", "1");
   for (int i = 0; i < (int)c->n; i++) {

@@ -23,7 +23,7 @@ typedef struct cell {
 } cell;
 
 typedef struct local {
-  gg_model model;
+  const gg_model *model;
   gg_cell_grid grid;
   int vectors;
   cell *cell;
@@ -44,7 +44,7 @@ static void *create(const gg_model *m, gg_error *err)
 {
   local *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
-  d->model = *m;
+  d->model = m;
   d->vectors = m->rule == GG_SMOOTH ? 1 : VECTORS;
   d->grid = gg_measure_frame_grid_of(m);
   d->cell = gg_base_array_new(gg_measure_cell_grid_cells(&d->grid), sizeof *d->cell, err);
@@ -60,7 +60,7 @@ static void *create(const gg_model *m, gg_error *err)
 static size_t bins(const void *self)
 {
   const local *d = self;
-  return (size_t)(d->model.n_species * d->vectors * CLASSES) * GG_HISTOGRAM;
+  return (size_t)(d->model->n_species * d->vectors * CLASSES) * GG_HISTOGRAM;
 }
 
 static double *histogram_of(const local *d, double *bin, int species, int vector, int class)
@@ -80,7 +80,7 @@ static double component(const gg_snapshot *s, int vector, size_t i)
 
 static void sort_grains(local *d, const gg_snapshot *s)
 {
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   memset(d->cell, 0, gg_measure_cell_grid_cells(&d->grid) * sizeof *d->cell);
   for (size_t i = 0; i < s->n; i++) {
     int k = gg_snapshot_species(s, i);
@@ -98,7 +98,7 @@ static void sort_grains(local *d, const gg_snapshot *s)
 static double about_cell(const local *d, const gg_snapshot *s, int v, size_t i)
 {
   const cell *c = &d->cell[d->at[i]];
-  double w = weight_of(&d->model, gg_snapshot_species(s, i), v), left = c->weight[v] - w;
+  double w = weight_of(d->model, gg_snapshot_species(s, i), v), left = c->weight[v] - w;
   return left > 1e-9 * w ? (component(s, v, i) - c->sum[v] / c->weight[v]) * sqrt(c->weight[v] / left) : NAN;
 }
 
@@ -106,14 +106,14 @@ static double about_cell(const local *d, const gg_snapshot *s, int v, size_t i)
  * cells already, spins plus a mean of the box. */
 static void take_values(local *d, const gg_snapshot *s, int v, gg_scale_of scale[GG_MAX_SPECIES])
 {
-  const bool framed = d->model.frame != GG_FRAME_IMPOSED;
+  const bool framed = d->model->frame != GG_FRAME_IMPOSED;
   double sum[GG_MAX_SPECIES] = {0}, squares[GG_MAX_SPECIES] = {0}, n[GG_MAX_SPECIES] = {0};
   for (size_t i = 0; i < s->n; i++) {
     int k = gg_snapshot_species(s, i);
     double x = d->value[v][i] = framed ? component(s, v, i) : about_cell(d, s, v, i);
     if (isfinite(x)) sum[k] += x, squares[k] += x * x, n[k]++;
   }
-  for (int k = 0; k < d->model.n_species; k++) {
+  for (int k = 0; k < d->model->n_species; k++) {
     double mean = framed ? sum[k] / n[k] : 0;
     scale[k] = (gg_scale_of){mean, sqrt(squares[k] / n[k] - mean * mean)};
   }
@@ -127,7 +127,7 @@ static bool belongs(double density, int class)
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   local *d = self;
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   double mean = 6 / M_PI * m->phi * m->volume / (double)gg_measure_cell_grid_cells(&d->grid); /* sum of d^3 in a cell */
   sort_grains(d, s);
   for (int v = 0; v < d->vectors; v++) {
@@ -148,8 +148,8 @@ static void put(const local *d, gg_curves *list, int species, int vector, int j,
 {
   static const char *const plain[] = {"Cx", "Wz"}, *const written[] = {"C_x", "Ω_z"};
   char name[48], panel[48], label[24], argument[24], class[16] = "all", tail[16] = "", of[24] = "";
-  double phi = d->model.phi * (j == ALL ? 1 : centre[j]);
-  if (d->model.n_species > 1) {
+  double phi = d->model->phi * (j == ALL ? 1 : centre[j]);
+  if (d->model->n_species > 1) {
     snprintf(tail, sizeof tail, "_%d", species + 1);
     snprintf(of, sizeof of, " of species %d", species + 1);
   }
@@ -168,7 +168,7 @@ static void put(const local *d, gg_curves *list, int species, int vector, int j,
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const local *d = self;
-  for (int k = 0; k < d->model.n_species; k++)
+  for (int k = 0; k < d->model->n_species; k++)
     for (int v = 0; v < d->vectors; v++)
       for (int j = 0; j < CLASSES; j++, bin += GG_HISTOGRAM) put(d, list, k, v, j, bin);
 }

@@ -13,21 +13,31 @@ static double one_fluid(const gg_model *m, const double of_pair[GG_PAIRS], int p
   return sum;
 }
 
-/* D + nu: 1.019 and 1.016 are the ratios of the full to the first Sonine approximation (Chapman & Cowling). */
-static double vorticity_diffusion(const gg_model *m, double T, double mass)
+/* 1.019 and 1.016 are the ratios of the full to the first Sonine approximation (Chapman & Cowling). */
+static double self_diffusion(const gg_model *m, double T, double mass)
 {
-  double chi = one_fluid(m, m->chi, 1), area = one_fluid(m, m->sigma, 2), x = m->phi * chi, v = sqrt(T / mass / M_PI);
-  double D = 1.019 * 3 / (8 * m->density * area * chi) * v;
-  double nu0 = 1.016 * 5 / (16 * m->density * area) * v;
-  return D + nu0 * ((1 + 1.6 * x) * (1 + 1.6 * x) / chi + 768 / (25 * M_PI) * x * m->phi);
+  return 1.019 * 3 / (8 * m->density * one_fluid(m, m->sigma, 2) * one_fluid(m, m->chi, 1)) * sqrt(T / mass / M_PI);
+}
+
+static double kinematic_viscosity(const gg_model *m, double T, double mass)
+{
+  const double chi = one_fluid(m, m->chi, 1), x = m->phi * chi;
+  const double dilute = 1.016 * 5 / (16 * m->density * one_fluid(m, m->sigma, 2)) * sqrt(T / mass / M_PI);
+  return dilute * ((1 + 1.6 * x) * (1 + 1.6 * x) / chi + 768 / (25 * M_PI) * x * m->phi);
+}
+
+static double mass_of_all(const gg_model *m)
+{
+  double mass = 0;
+  for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i];
+  return mass;
 }
 
 gg_long_time_tail gg_measure_long_time_tail_of(const gg_model *m, double T)
 {
-  double mass = 0;
-  for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i];
+  const double mass = mass_of_all(m), mean = mass / (double)m->n;
   gg_long_time_tail tail = {.strength = 2.0 / 3 * T / mass, .amplitude = 1, .tolerance = 0.3};
-  double kappa = vorticity_diffusion(m, T, mass / (double)m->n);
+  double kappa = self_diffusion(m, T, mean) + kinematic_viscosity(m, T, mean);
   for (int a = 0; a < 3; a++) tail.rate[a] = kappa * pow(2 * M_PI / m->box[a], 2);
   return tail;
 }
@@ -66,6 +76,31 @@ double gg_measure_long_time_tail_beyond(const gg_long_time_tail *tail, double t)
     sum += weight * at * modes(tail, at);
   }
   return tail->strength * sum * step / 3;
+}
+
+/* The integral over all times of what the modes of an endless gas have more than those of the box, at a rate of 1 for
+ * k = 1. Of both the sum over k is (pi/t)^(3/2) over the edges' rates at first, so that the box lacks the mode k = 0
+ * alone; in the end it lacks all of them. In ln t by Simpson's rule, with what comes before and after. */
+static double lacking_of_box(const gg_long_time_tail *tail)
+{
+  enum { STEPS = 256 };
+  const double *rate = tail->rate, slowest = fmin(fmin(rate[0], rate[1]), rate[2]),
+               fastest = fmax(fmax(rate[0], rate[1]), rate[2]);
+  const double from = 0.05 / fastest, to = 30 / slowest, step = log(to / from) / STEPS;
+  const double free = sqrt(M_PI / rate[0]) * sqrt(M_PI / rate[1]) * sqrt(M_PI / rate[2]);
+  double sum = 0;
+  for (int i = 0; i <= STEPS; i++) {
+    const double t = from * exp(i * step), weight = i == 0 || i == STEPS ? 1 : i % 2 ? 4 : 2;
+    sum += weight * t * (free * pow(t, -1.5) - modes(tail, t));
+  }
+  return from + sum * step / 3 + 2 * free / sqrt(to);
+}
+
+double gg_measure_long_time_tail_lacking(const gg_model *m, double T)
+{
+  gg_long_time_tail tail = gg_measure_long_time_tail_of(m, T);
+  for (int a = 0; a < 3; a++) tail.rate[a] = pow(2 * M_PI / m->box[a], 2);
+  return tail.strength * lacking_of_box(&tail) / kinematic_viscosity(m, T, mass_of_all(m) / (double)m->n);
 }
 
 gg_coefficient gg_measure_long_time_tail_coefficient(const gg_long_time_tail *tail, const gg_running *at, int n)

@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* An observable: a plug-in that turns what an engine shows (its grains, its sums over collisions) into a row of numbers
  * a sample, and channel means into named quantities; or adds to bins, from which curves follow; or both. It knows
- * nothing of engines' insides, files or pictures. A new one is a file and a line in common/observables.h. */
+ * nothing of engines' insides, files or pictures. A new one is a file and a line in common/observables.h.
+ *
+ * It borrows the model of its gas. Where a gas is followed in time the scene's `protocol` changes that model in place,
+ * between two samples: coefficients of collisions, bath, thermostat, shear rate, and what follows from them
+ * (gg_run_is_same_gas: grains, box and units stay). Bins begin anew then, and `restart` is called. So an observable
+ * keeps no copy of what may change, but for what it derives in `restart`. */
 #ifndef GG_OBSERVABLE_H
 #define GG_OBSERVABLE_H
 
@@ -36,15 +41,16 @@ typedef struct gg_derived {
   }
 
 typedef struct gg_observable {
-  const char *name; /* the word under `measure` in a scene */
-  unsigned flag;    /* GG_MEASURE_... */
-  void *(*create)(const gg_model *model, gg_error *err);
+  const char *name;                                      /* the word under `measure` in a scene */
+  unsigned flag;                                         /* GG_MEASURE_... */
+  void *(*create)(const gg_model *model, gg_error *err); /* borrows the model */
   void (*destroy)(void *self);
   /* Plain bytes that one sample leaves for the next: what a checkpoint keeps. NULL if there are none. */
   void *(*memory)(void *self, size_t *bytes);
   /* Can these bytes, read from a file, be its memory? Where it holds indices; NULL: all can. */
   bool (*is_memory)(const void *self);
-  /* Why this model cannot have it at all; NULL (also the function itself) if it can. */
+  /* Why this model cannot have it at all; NULL (also the function itself) if it can. A gas that comes to one which has
+   * it is not shown to it before. */
   const char *(*refuses)(const gg_model *model);
 
   /* Rows: quantities. Every sample is begin, then all grains in chunks (or blocks), then finish, which writes the row.
@@ -81,15 +87,21 @@ typedef struct gg_observable {
   bool of_walls_too;                               /* also with every contact with a surface (record's `wall`) */
   bool (*wants_collisions)(const gg_model *model); /* does it want them of this model? NULL: of all */
   /* It does with the collisions of some bursts, where showing them slows the engine down many times over; called when
-   * one begins. Snapshots are then added in bursts only. NULL: it is to have every collision. */
+   * one begins, and after a change of the model: the engine knows of no contacts before. Snapshots are then added in
+   * bursts only. NULL: it is to have every collision. */
   void (*begin_burst)(void *self);
   /* All velocities have just been multiplied by this: told before the next collision, where it has add_collision. */
   void (*rescaled)(void *self, double factor);
-  void (*restart)(void *self); /* averaging begins (anew): forget earlier snapshots; NULL if there is nothing to forget
-                                */
+  /* Averaging begins (anew), or the model has changed: forget earlier snapshots. NULL if there is nothing to forget. */
+  void (*restart)(void *self);
   gg_curves_of *curves;
 } gg_observable;
 
+/* Does this model have it? */
+static inline bool gg_measure_observable_applies(const gg_observable *o, const gg_model *model)
+{
+  return !o->refuses || !o->refuses(model);
+}
 /* Is it to be shown the collisions of this model? */
 bool gg_measure_observable_wants_collisions(const gg_observable *o, const gg_model *model);
 

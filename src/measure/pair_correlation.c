@@ -29,7 +29,7 @@ enum { COLLISIONS, BEFORE, AFTER, ELAPSED, CONTACT };
 #define SLOW 0.1   /* normal speeds below this share of the mean are averaged over */
 
 typedef struct pair_correlation {
-  gg_model model;
+  const gg_model *model;
   gg_pairs pairs;
   int n_pairs, bins;      /* of each g_ij */
   double sigma[GG_PAIRS]; /* where they begin */
@@ -54,7 +54,7 @@ static void *create(const gg_model *m, gg_error *err)
 {
   pair_correlation *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
-  d->model = *m;
+  d->model = m;
   d->n_pairs = gg_pairs_of(m->n_species);
   double widest = gg_common_model_widest(m), reach = gg_measure_pairs_longest_reach(m);
   d->bins = (int)fmin(floor((reach - widest) / WIDTH), MOST_BINS);
@@ -117,7 +117,7 @@ static double inverse_speed(double g, double s)
 static void add_collision(void *self, const gg_collision_record *c)
 {
   pair_correlation *d = self;
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   int q = gg_pair(c->species[0], c->species[1]);
   double before = gg_dot(c->k, c->c12), over_mass = 1 / m->mass[c->species[0]] + 1 / m->mass[c->species[1]];
   double after = gg_dot(c->k, c->J) * over_mass - before;
@@ -177,10 +177,10 @@ static double take_temperatures(pair_correlation *d, const gg_snapshot *s)
   double energy[GG_MAX_SPECIES] = {0}, all = 0;
   for (size_t i = 0; i < s->n; i++)
     energy[gg_snapshot_species(s, i)] += s->c[0][i] * s->c[0][i] + s->c[1][i] * s->c[1][i] + s->c[2][i] * s->c[2][i];
-  for (int i = 0; i < d->model.n_species; i++) {
+  for (int i = 0; i < d->model->n_species; i++) {
     all += energy[i];
-    for (int j = i; j < d->model.n_species; j++) {
-      double T = energy[i] / (3 * (double)d->model.n_of[i]) + energy[j] / (3 * (double)d->model.n_of[j]);
+    for (int j = i; j < d->model->n_species; j++) {
+      double T = energy[i] / (3 * (double)d->model->n_of[i]) + energy[j] / (3 * (double)d->model->n_of[j]);
       d->since.speed[gg_pair(i, j)] = sqrt(2 * T / M_PI);
     }
   }
@@ -211,7 +211,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 /* The rate counts pairs of a grain with the N - 1 others. */
 static void put_rate(const pair_correlation *d, gg_curve *c, const double *extra, double speed)
 {
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   if (m->n_species > 1 || !gg_model_keeps_temperature(m)) return;
   double rate = 2 * extra[RATE_COLLISIONS] / ((double)m->n * extra[TIME]), T = extra[TEMPERATURE] / extra[SNAPSHOTS];
   double others = (double)(m->n - 1) / m->volume, value = rate / (4 * others * sqrt(M_PI * T));
@@ -223,7 +223,7 @@ static void put_rate(const pair_correlation *d, gg_curve *c, const double *extra
 static void put_contact(const pair_correlation *d, int q, gg_curve *c, const double *bin, double pairs)
 {
   const double *sum = bin + d->n_pairs * d->bins + q * CONTACT;
-  double sphere = 4 * M_PI * d->sigma[q] * d->sigma[q], half = 0.5 * pairs / d->model.volume;
+  double sphere = 4 * M_PI * d->sigma[q] * d->sigma[q], half = 0.5 * pairs / d->model->volume;
   double before = sum[BEFORE] / (sphere * half * sum[ELAPSED]), after = sum[AFTER] / (sphere * half * sum[ELAPSED]);
   if (isinf(after)) after = NAN;
   double speed = sum[COLLISIONS] / sum[BEFORE];
@@ -237,7 +237,7 @@ static void put_contact(const pair_correlation *d, int q, gg_curve *c, const dou
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const pair_correlation *d = self;
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   for (int i = 0; i < m->n_species; i++)
     for (int j = i; j < m->n_species; j++) {
       int q = gg_pair(i, j);

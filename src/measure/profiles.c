@@ -23,7 +23,7 @@ enum { VOLUME, GRAINS, OMEGA, FLOW, ROLLING = FLOW + MOTION, SLAB = ROLLING + MO
 enum { TIME, IMPULSE, WALLS = IMPULSE + 3 * GG_MOST_SURFACES, MOST_BINS = GG_MOST_GAP_SLABS * SLAB + WALLS };
 
 typedef struct profiles {
-  gg_model model;
+  const gg_model *model;
   int slabs;
   double walls[WALLS]; /* since the last snapshot */
 } profiles;
@@ -36,7 +36,7 @@ static const char *refuses(const gg_model *m)
 static void *create(const gg_model *m, gg_error *err)
 {
   profiles *d = gg_base_array_new(1, sizeof *d, err);
-  if (d) *d = (profiles){.model = *m, .slabs = gg_measure_gap_slabs(m)};
+  if (d) *d = (profiles){.model = m, .slabs = gg_measure_gap_slabs(m)};
   return d;
 }
 
@@ -61,7 +61,7 @@ static void add_interval(void *self, const gg_interval *in)
 {
   profiles *d = self;
   d->walls[TIME] += in->elapsed;
-  for (int w = 0; w < d->model.n_surfaces; w++)
+  for (int w = 0; w < d->model->n_surfaces; w++)
     for (int a = 0; a < 3; a++) d->walls[IMPULSE + 3 * w + a] += in->transfer->surface[w].impulse[a];
 }
 
@@ -77,7 +77,7 @@ static void add_motion(double *sum, double weight, double height, const double v
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
   profiles *d = self;
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   for (int k = 0; k < WALLS; k++) bin[d->slabs * SLAB + k] += d->walls[k];
   restart(d);
   for (size_t i = 0; i < s->n; i++) {
@@ -114,7 +114,7 @@ static void slab_image(gg_wall_symmetry symmetry, const double *at, double *to)
 /* The mean of all sums and of their image; without a symmetry a copy. */
 static void fold(const profiles *d, const double *bin, double *to)
 {
-  gg_wall_symmetry symmetry = gg_wall_symmetry_of(&d->model);
+  gg_wall_symmetry symmetry = gg_wall_symmetry_of(d->model);
   const double *walls = bin + d->slabs * SLAB;
   double *folded = to + d->slabs * SLAB;
   memcpy(to, bin, bins(d) * sizeof *to);
@@ -124,8 +124,8 @@ static void fold(const profiles *d, const double *bin, double *to)
     slab_image(symmetry, bin + (d->slabs - 1 - i) * SLAB, image);
     for (int k = 0; k < SLAB; k++) to[i * SLAB + k] = 0.5 * (bin[i * SLAB + k] + image[k]);
   }
-  for (int w = 0; w < d->model.n_surfaces; w++) {
-    const double *own = walls + IMPULSE + 3 * w, *other = walls + IMPULSE + 3 * gg_surface_image(&d->model, w);
+  for (int w = 0; w < d->model->n_surfaces; w++) {
+    const double *own = walls + IMPULSE + 3 * w, *other = walls + IMPULSE + 3 * gg_surface_image(d->model, w);
     for (int a = 0; a < 3; a++)
       folded[IMPULSE + 3 * w + a] = 0.5 * (own[a] + gg_wall_image(symmetry, false, a) * other[a]);
   }
@@ -254,7 +254,7 @@ static void put_walls(const gg_model *m, const double *bin, const double *walls,
 static void curves(const void *self, const double *mean, gg_curves *list)
 {
   const profiles *d = self;
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   double bin[MOST_BINS];
   fold(d, mean, bin);
   double height = m->box[1] / d->slabs, volume = m->box[0] * m->box[2] * height;

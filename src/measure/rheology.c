@@ -25,7 +25,7 @@ typedef struct memory {
 enum { WAVES_EVERY = 10 };
 
 typedef struct rheology {
-  gg_model model;
+  const gg_model *model;
   gg_velocity_moments moments[GG_MAX_SPECIES];
   bool quick;
   memory memory;
@@ -44,7 +44,7 @@ static void *create(const gg_model *model, gg_error *err)
 {
   rheology *r = gg_base_array_new(1, sizeof *r, err);
   if (!r) return NULL;
-  r->model = *model;
+  r->model = model;
   return r;
 }
 
@@ -65,7 +65,7 @@ static void begin(void *self)
   const double T = r->memory.last_temperature;
   r->energy = r->momentum[0] = r->momentum[1] = r->shear_stress = 0;
   r->quick = T > 0x1p-60 && T < 0x1p60; /* squares of velocities will be far from what single precision cannot hold */
-  for (int i = 0; i < r->model.n_species; i++) {
+  for (int i = 0; i < r->model->n_species; i++) {
     r->moments[i] = (gg_velocity_moments){0};
     memcpy(r->moments[i].mean_spin, r->memory.mean_spin[i], sizeof r->memory.mean_spin[i]);
   }
@@ -74,13 +74,13 @@ static void begin(void *self)
 static bool wants_positions(const void *self)
 {
   const rheology *r = self;
-  return gg_measure_has_long_waves(&r->model) && r->memory.samples % WAVES_EVERY == 0;
+  return gg_measure_has_long_waves(r->model) && r->memory.samples % WAVES_EVERY == 0;
 }
 
 /* Between walls and about cells: the energy of the grains as they are, their flow included. */
 static void add_whole(rheology *r, const gg_chunk *chunk)
 {
-  const gg_model *m = &r->model;
+  const gg_model *m = r->model;
   for (size_t k = 0; k < chunk->n; k++) {
     int i = chunk->species ? chunk->species[k] : 0;
     double cc = 0, ss = 0;
@@ -96,12 +96,12 @@ static void add_whole(rheology *r, const gg_chunk *chunk)
 static double energy_of_moments(const rheology *r)
 {
   double energy = 0;
-  for (int i = 0; i < r->model.n_species; i++) {
+  for (int i = 0; i < r->model->n_species; i++) {
     const gg_velocity_moments *m = &r->moments[i];
     double squares = 0;
     for (int a = 0; a < 3; a++)
-      squares += m->cc[a] + r->model.inertia[i] * (m->ww[a] + m->n * m->mean_spin[a] * m->mean_spin[a]);
-    energy += 0.5 * r->model.mass[i] * squares;
+      squares += m->cc[a] + r->model->inertia[i] * (m->ww[a] + m->n * m->mean_spin[a] * m->mean_spin[a]);
+    energy += 0.5 * r->model->mass[i] * squares;
   }
   return energy;
 }
@@ -113,9 +113,9 @@ static void add_chunk(void *self, const gg_chunk *chunk)
   if (chunk->r[0] && wants_positions(r)) {
     gg_chunk grains = *chunk; /* structure, whatever the frame */
     for (int a = 0; a < 3 && chunk->whole_c[0]; a++) grains.c[a] = chunk->whole_c[a];
-    gg_measure_long_waves_add(&r->waves, &r->model, &grains);
+    gg_measure_long_waves_add(&r->waves, r->model, &grains);
   }
-  for (int i = 0; i < r->model.n_species; i++) {
+  for (int i = 0; i < r->model->n_species; i++) {
     gg_species_view v = gg_measure_species_chunk(chunk, i, &r->scratch);
     gg_velocity_moment_view grains = {
         v.n, GG_VELOCITY_MOMENT_LANES, 0, {v.c[0], v.c[1], v.c[2]}, {v.s[0], v.s[1], v.s[2]}};
@@ -138,11 +138,11 @@ static void add_blocks(void *self, const gg_block_run *run)
 static double temperature(const rheology *r)
 {
   double sum = 0;
-  for (int i = 0; i < r->model.n_species; i++) {
+  for (int i = 0; i < r->model->n_species; i++) {
     const gg_velocity_moments *m = &r->moments[i];
-    sum += r->model.mass[i] * (m->cc[0] + m->cc[1] + m->cc[2]);
+    sum += r->model->mass[i] * (m->cc[0] + m->cc[1] + m->cc[2]);
   }
-  return sum / (3 * (double)r->model.n);
+  return sum / (3 * (double)r->model->n);
 }
 
 static void put_moments(const rheology *r, int species, double T, double *ch)
@@ -156,7 +156,7 @@ static void put_moments(const rheology *r, int species, double T, double *ch)
   ch[CH_CXY] = m->cxcy * second;
   ch[CH_CCCC] = m->cccc * fourth;
   ch[CH_SPEED] = m->speed / (m->n * sqrt(T));
-  if (r->model.rule == GG_SMOOTH) return;
+  if (r->model->rule == GG_SMOOTH) return;
   ch[CH_SPIN_Z] = m->mean_spin[2] / sqrt(T);
   for (int a = 0; a < 3; a++) {
     ch[CH_W2X + a] = m->ww[a] * second;
@@ -180,10 +180,10 @@ static haff haff_integrals(double T0, double T1, double dt)
 
 static void put_rates(const rheology *r, const gg_interval *in, haff h, double *row)
 {
-  const gg_model *m = &r->model;
+  const gg_model *m = r->model;
   const gg_collision_sums *t = in->transfer;
   double collisions = 0, loss = 0, p[3][3] = {{0}};
-  for (int q = 0; q < gg_pairs_of(r->model.n_species); q++) {
+  for (int q = 0; q < gg_pairs_of(r->model->n_species); q++) {
     collisions += (double)t->collisions[q];
     loss += t->loss[q];
     for (int a = 0; a < 3; a++)
@@ -201,7 +201,7 @@ static void put_rates(const rheology *r, const gg_interval *in, haff h, double *
  * the other. 1 where the temperature stays, and in free cooling, where both are scaled by that of their own time. */
 static double speed_during(const rheology *r, double T0, double T1, double dt)
 {
-  if (gg_model_keeps_temperature(&r->model) || gg_flow_cools(r->model.flow) || !(T0 > 0 && T1 > 0)) return 1;
+  if (gg_model_keeps_temperature(r->model) || gg_flow_cools(r->model->flow) || !(T0 > 0 && T1 > 0)) return 1;
   return haff_integrals(T0, T1, dt).root / (dt * sqrt(T1));
 }
 
@@ -217,7 +217,7 @@ static double drag_of(const gg_model *m, const gg_surface *wall)
  * trapezoidal rule: momenta change little from sample to sample. */
 static void put_energy(rheology *r, const gg_interval *in, double *row)
 {
-  const gg_model *m = &r->model;
+  const gg_model *m = r->model;
   const double g[2] = {m->gravity[0], m->gravity[1]};
   double energy = m->walled || m->frame ? r->energy : energy_of_moments(r), f = in->velocity_factor;
   double work = 0, loss = 0, drag = 0, push = 0, heat = 0;
@@ -244,7 +244,7 @@ static void put_energy(rheology *r, const gg_interval *in, double *row)
 static void put_waves(rheology *r, double *row)
 {
   if (r->waves.matter_squares > 0)
-    gg_measure_long_waves_finish(&r->waves, &r->model, &r->memory.density_waves, &r->memory.momentum_waves);
+    gg_measure_long_waves_finish(&r->waves, r->model, &r->memory.density_waves, &r->memory.momentum_waves);
   r->memory.samples++;
   row[CH_DENSITY_WAVES] = r->memory.density_waves, row[CH_MOMENTUM_WAVES] = r->memory.momentum_waves;
 }
@@ -252,8 +252,8 @@ static void put_waves(rheology *r, double *row)
 static void finish(void *self, const gg_interval *in, double *row)
 {
   rheology *r = self;
-  bool cooling = gg_flow_cools(r->model.flow);
-  for (int i = 0; i < r->model.n_species; i++) {
+  bool cooling = gg_flow_cools(r->model->flow);
+  for (int i = 0; i < r->model->n_species; i++) {
     gg_measure_velocity_moments_centre(&r->moments[i]);
     memcpy(r->memory.mean_spin[i], r->moments[i].mean_spin, sizeof r->memory.mean_spin[i]);
   }
@@ -265,13 +265,13 @@ static void finish(void *self, const gg_interval *in, double *row)
   row[CH_LN_T] = log(T) - 2 * M_LN2 * r->memory.log2_scale;
   row[CH_T2] = cooling ? 1 : T * T;
   double *of_species = row + CH_SPECIES;
-  const size_t width = gg_rheology_species_width(&r->model);
-  for (int i = 0; i < r->model.n_species; i++) put_moments(r, i, cooling ? T : 1, of_species + (size_t)i * width);
+  const size_t width = gg_rheology_species_width(r->model);
+  for (int i = 0; i < r->model->n_species; i++) put_moments(r, i, cooling ? T : 1, of_species + (size_t)i * width);
   if (!(in->elapsed > 0)) return; /* the start has no rates */
   haff h = cooling ? haff_integrals(T0, T, in->elapsed) : (haff){in->elapsed, in->elapsed, 0};
   put_rates(r, in, h, row);
   double during = speed_during(r, T0, T, in->elapsed);
-  for (int i = 0; i < r->model.n_species; i++) of_species[(size_t)i * width + CH_SPEED] *= during;
+  for (int i = 0; i < r->model->n_species; i++) of_species[(size_t)i * width + CH_SPEED] *= during;
 }
 
 static double log_temperature(const double *row)

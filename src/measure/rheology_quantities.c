@@ -126,7 +126,7 @@ static double mean_free_path(const double *a, const gg_model *m)
 }
 static double knudsen(const double *a, const gg_model *m)
 {
-  return mean_free_path(a, m) / cbrt(m->volume);
+  return mean_free_path(a, m) / m->length;
 }
 COLLISIONAL(dissipation, CH_LOSS)
 COLLISIONAL(wall_dissipation, CH_WALL_LOSS)

@@ -15,7 +15,7 @@
 enum { SLABS = 6 };
 
 typedef struct by_slab {
-  gg_model model;
+  const gg_model *model;
   int vectors; /* C, and Omega if there are spins */
 } by_slab;
 
@@ -27,14 +27,14 @@ static const char *refuses(const gg_model *m)
 static void *create(const gg_model *m, gg_error *err)
 {
   by_slab *d = gg_base_array_new(1, sizeof *d, err);
-  if (d) *d = (by_slab){.model = *m, .vectors = m->rule == GG_SMOOTH ? 1 : 2};
+  if (d) *d = (by_slab){.model = m, .vectors = m->rule == GG_SMOOTH ? 1 : 2};
   return d;
 }
 
 static size_t bins(const void *self)
 {
   const by_slab *d = self;
-  return (size_t)(d->model.n_species * d->vectors * SLABS * 3) * GG_HISTOGRAM;
+  return (size_t)(d->model->n_species * d->vectors * SLABS * 3) * GG_HISTOGRAM;
 }
 
 static size_t place_of(const by_slab *d, int species, int vector, int slab, int axis)
@@ -60,7 +60,7 @@ static void take_units(const by_slab *d, const gg_snapshot *s, int vector, doubl
     const int k = gg_snapshot_species(s, i);
     squares[k] += gg_dot(v, v), grains[k]++;
   }
-  for (int k = 0; k < d->model.n_species; k++) unit[k] = sqrt(squares[k] / (3 * grains[k]));
+  for (int k = 0; k < d->model->n_species; k++) unit[k] = sqrt(squares[k] / (3 * grains[k]));
 }
 
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
@@ -70,7 +70,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
     double unit[GG_MAX_SPECIES];
     take_units(d, s, vector, unit);
     for (size_t i = 0; i < s->n; i++) {
-      const int slab = (int)floor(s->r[1][i] / d->model.box[1] * SLABS), k = gg_snapshot_species(s, i);
+      const int slab = (int)floor(s->r[1][i] / d->model->box[1] * SLABS), k = gg_snapshot_species(s, i);
       if (slab < 0 || slab >= SLABS || !(unit[k] > 0)) continue; /* above an open top; all at rest */
       const gg_vec v = gg_scale(1 / unit[k], peculiar(s, vector, i));
       double *to = bin + place_of(d, k, vector, slab, 0);
@@ -82,7 +82,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 /* The histogram of a slab; where the gap is its own image, with that of the image, in which x is `sign` times x. */
 static void fold(const by_slab *d, const double *bin, int species, int vector, int slab, int axis, double *to)
 {
-  const gg_wall_symmetry symmetry = gg_wall_symmetry_of(&d->model);
+  const gg_wall_symmetry symmetry = gg_wall_symmetry_of(d->model);
   const double *own = bin + place_of(d, species, vector, slab, axis),
                *other = bin + place_of(d, species, vector, SLABS - 1 - slab, axis);
   for (int k = 0; k < GG_HISTOGRAM; k++) to[k] = own[k];
@@ -95,10 +95,10 @@ static void fold(const by_slab *d, const double *bin, int species, int vector, i
 static void put(const by_slab *d, gg_curves *list, int species, int vector, int slab, int axis, const double *bin)
 {
   const char *what = vector ? "W" : "C", *greek = vector ? "Ω" : "C";
-  const double from = d->model.box[1] * slab / SLABS, to = d->model.box[1] * (slab + 1) / SLABS;
+  const double from = d->model->box[1] * slab / SLABS, to = d->model->box[1] * (slab + 1) / SLABS;
   char name[48], panel[64], label[48], argument[24], tail[16] = "", of[24] = "";
   double sum[GG_HISTOGRAM];
-  if (d->model.n_species > 1) {
+  if (d->model->n_species > 1) {
     snprintf(tail, sizeof tail, "_%d", species + 1);
     snprintf(of, sizeof of, " of species %d", species + 1);
   }
@@ -109,7 +109,7 @@ static void put(const by_slab *d, gg_curves *list, int species, int vector, int 
   fold(d, bin, species, vector, slab, axis, sum);
   const double sigma = gg_measure_histogram_sigma(sum); /* NaN where no grain ever was */
   gg_curve *c = gg_measure_histogram_put(list, name, panel, label, sum, sigma, 0);
-  c->folded = gg_wall_symmetry_of(&d->model) != GG_NO_SYMMETRY;
+  c->folded = gg_wall_symmetry_of(d->model) != GG_NO_SYMMETRY;
   gg_measure_curve_axes(c, argument, "1", "P/P(0)", "1");
   gg_measure_curve_put_number(c, "variance_over_mean", sigma * sigma, "1");
 }
@@ -118,8 +118,8 @@ static void put(const by_slab *d, gg_curves *list, int species, int vector, int 
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const by_slab *d = self;
-  const int slabs = gg_wall_symmetry_of(&d->model) == GG_NO_SYMMETRY ? SLABS : SLABS / 2;
-  for (int k = 0; k < d->model.n_species; k++)
+  const int slabs = gg_wall_symmetry_of(d->model) == GG_NO_SYMMETRY ? SLABS : SLABS / 2;
+  for (int k = 0; k < d->model->n_species; k++)
     for (int v = 0; v < d->vectors; v++)
       for (int axis = 0; axis < 3; axis++)
         for (int slab = 0; slab < slabs; slab++) put(d, list, k, v, slab, axis, bin);

@@ -89,7 +89,7 @@ void gg_measure_sonine_polynomial_put(gg_curves *list, const gg_model *m, int k,
 }
 
 typedef struct sonine {
-  gg_model model;
+  const gg_model *model;
 } sonine;
 
 static const char *refuses(const gg_model *m)
@@ -101,13 +101,13 @@ static const char *refuses(const gg_model *m)
 static void *create(const gg_model *m, gg_error *err)
 {
   sonine *d = gg_base_array_new(1, sizeof *d, err);
-  if (d) d->model = *m;
+  if (d) d->model = m;
   return d;
 }
 
 static size_t bins(const void *self)
 {
-  return (size_t)((const sonine *)self)->model.n_species * SET;
+  return (size_t)((const sonine *)self)->model->n_species * SET;
 }
 
 static double square(const gg_snapshot *s, size_t i)
@@ -117,7 +117,7 @@ static double square(const gg_snapshot *s, size_t i)
 
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 {
-  const gg_model *m = &((const sonine *)self)->model;
+  const gg_model *m = ((const sonine *)self)->model;
   double T[GG_MAX_SPECIES] = {0}, total = 0; /* T_i/m_i; sum of m C^2/3 */
   for (size_t i = 0; i < s->n; i++) T[gg_snapshot_species(s, i)] += square(s, i) / 3;
   for (int k = 0; k < m->n_species; k++) total += m->mass[k] * T[k], T[k] /= (double)m->n_of[k];
@@ -155,7 +155,7 @@ static void put_species(const gg_model *m, int k, const double *bin, gg_curves *
 
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
-  const gg_model *m = &((const sonine *)self)->model;
+  const gg_model *m = ((const sonine *)self)->model;
   for (int k = 0; k < m->n_species; k++) put_species(m, k, bin + k * SET, list);
 }
 

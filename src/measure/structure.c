@@ -15,7 +15,7 @@ enum { COUNT, WAVE, DENSITY, LONGITUDINAL, TRANSVERSE, RADIAL }; /* a radial bin
 enum { AXIS_COUNT, AXIS_DENSITY, AXIS };                         /* a mode along an axis */
 
 typedef struct structure {
-  gg_model model;
+  const gg_model *model;
   gg_mesh mesh;
   int most;         /* modes along each edge */
   gg_mode *mode[4]; /* of density and momentum: (2 most + 1)^2 (most + 1) */
@@ -41,7 +41,7 @@ static void *create(const gg_model *m, gg_error *err)
 {
   structure *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
-  d->model = *m;
+  d->model = m;
   int n = gg_measure_mesh_points_along(m);
   d->most = n / 4;
   bool whole = gg_measure_mesh_init(&d->mesh, n, err) == GG_OK;
@@ -63,7 +63,7 @@ enum { EVERY = 32 };
 static int every_of(const void *self)
 {
   const structure *d = self;
-  double points = (double)d->mesh.n * d->mesh.n * d->mesh.n / (double)d->model.n;
+  double points = (double)d->mesh.n * d->mesh.n * d->mesh.n / (double)d->model->n;
   return EVERY * (int)fmax(1, ceil(points / GG_MESH_POINTS_PER_GRAIN));
 }
 
@@ -88,8 +88,8 @@ static double spacing(const gg_model *m)
 
 static void add_mode(const structure *d, size_t at, gg_vec k, int nx, double scale, double *bin)
 {
-  double n = (double)d->model.n, length = sqrt(gg_dot(k, k)), weight = nx ? 2 : 1; /* -k is not stored */
-  int b = (int)(length / spacing(&d->model) - 0.5);
+  double n = (double)d->model->n, length = sqrt(gg_dot(k, k)), weight = nx ? 2 : 1; /* -k is not stored */
+  int b = (int)(length / spacing(d->model) - 0.5);
   if (b < 0 || b >= d->most) return;
   gg_mode x = d->mode[1][at], y = d->mode[2][at], z = d->mode[3][at];
   gg_mode along = {(k.x * x.re + k.y * y.re + k.z * z.re) / length, (k.x * x.im + k.y * y.im + k.z * z.im) / length};
@@ -109,7 +109,7 @@ static double transform_fields(structure *d, const gg_snapshot *s, const gg_imag
   keep_modes(d, 0);
   for (int a = 0; a < 3; a++) {
     for (size_t i = 0; i < s->n; i++) {
-      d->momentum[i] = d->model.mass[gg_snapshot_species(s, i)] * s->c[a][i];
+      d->momentum[i] = d->model->mass[gg_snapshot_species(s, i)] * s->c[a][i];
       sum += d->momentum[i] * d->momentum[i];
     }
     gg_measure_mesh_transform(&d->mesh, s, box, d->momentum);
@@ -122,7 +122,7 @@ static double density_of(const structure *d, int x, int y, int z)
 {
   size_t across = 2 * (size_t)d->most + 1;
   size_t at = ((size_t)(z + d->most) * across + (size_t)(y + d->most)) * ((size_t)d->most + 1) + (size_t)x;
-  return square(d->mode[0][at]) / (double)d->model.n;
+  return square(d->mode[0][at]) / (double)d->model->n;
 }
 
 static void add_axes(const structure *d, const gg_images *box, double *bin)
@@ -155,7 +155,7 @@ static gg_curve *start(const structure *d, gg_curves *list, const char *name, co
 {
   gg_curve *c = gg_measure_curve_add(list, (size_t)d->most, name, panel, label);
   char unit[40];
-  snprintf(unit, sizeof unit, "1/%.30s", gg_measure_curve_unit(&d->model, "length"));
+  snprintf(unit, sizeof unit, "1/%.30s", gg_measure_curve_unit(d->model, "length"));
   gg_measure_curve_axes(c, "k", unit, y_name, "1");
   return c;
 }
@@ -173,7 +173,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
     gg_curve *c = start(d, list, radial[r].name, radial[r].panel, radial[r].label, radial[r].y_name);
     for (size_t i = 0; i < c->n; i++) {
       const double *at = bin + i * RADIAL;
-      c->x[i] = at[COUNT] > 0 ? at[WAVE] / at[COUNT] : ((double)i + 1) * spacing(&d->model);
+      c->x[i] = at[COUNT] > 0 ? at[WAVE] / at[COUNT] : ((double)i + 1) * spacing(d->model);
       c->value[i] = at[COUNT] > 0 ? at[radial[r].channel] / at[COUNT] : NAN;
     }
     if (radial[r].channel != DENSITY)
@@ -186,7 +186,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
     gg_curve *c = start(d, list, name, "structure factor", label, "S");
     for (size_t i = 0; i < c->n; i++) {
       const double *at = bin + d->most * RADIAL + (a * d->most + (int)i) * AXIS;
-      c->x[i] = 2 * M_PI * ((double)i + 1) / d->model.box[a];
+      c->x[i] = 2 * M_PI * ((double)i + 1) / d->model->box[a];
       c->value[i] = at[AXIS_DENSITY] / at[AXIS_COUNT];
     }
   }

@@ -18,7 +18,7 @@ typedef struct memory {
 } memory;
 
 typedef struct own {
-  gg_model model;
+  const gg_model *model;
   memory *memory;
   size_t memory_bytes;
   triple *position, *velocity, *spin; /* NULL where there are none */
@@ -28,7 +28,7 @@ typedef struct own {
 
 static const gg_observable_definition *definition(const own *o, int k)
 {
-  return gg_common_extension_observable(o->model.extension, k);
+  return gg_common_extension_observable(o->model->extension, k);
 }
 
 /* On a boundary where anything may stand. */
@@ -60,7 +60,7 @@ static void *create(const gg_model *model, gg_error *err)
 {
   own *o = gg_base_array_new(1, sizeof *o, err);
   if (!o) return NULL;
-  o->model = *model;
+  o->model = model;
   size_t n = (size_t)model->n, bytes = rounded(sizeof *o->memory);
   for (int k = 0; k < gg_common_extension_observables(model->extension); k++)
     bytes += rounded(definition(o, k)->state_size);
@@ -101,7 +101,7 @@ static void add_chunk(void *self, const gg_chunk *chunk)
 {
   own *o = self;
   const double *const *spin = chunk->whole_s[0] ? chunk->whole_s : chunk->s;
-  for (size_t i = 0; i < chunk->n && o->n < (size_t)o->model.n; i++) {
+  for (size_t i = 0; i < chunk->n && o->n < (size_t)o->model->n; i++) {
     size_t at = chunk->id ? (size_t)chunk->id[i] : o->n;
     o->n++;
     o->species[at] = chunk->species ? chunk->species[i] : 0;
@@ -119,7 +119,7 @@ static void convert(own *o)
 {
   double v = 1 / o->memory->scale;
   for (size_t i = 0; i < o->n; i++) {
-    double spin = v * (o->model.boltzmann ? 1 : 2 / o->model.diameter[o->species[i]]);
+    double spin = v * (o->model->boltzmann ? 1 : 2 / o->model->diameter[o->species[i]]);
     for (int a = 0; a < 3; a++) {
       o->velocity[i][a] *= v;
       if (o->spin) o->spin[i][a] *= spin;
@@ -129,7 +129,7 @@ static void convert(own *o)
 
 static gg_sample sample_of(const own *o, const gg_interval *in)
 {
-  const gg_model *m = &o->model;
+  const gg_model *m = o->model;
   double v = 1 / o->memory->scale, elapsed = in->elapsed * o->memory->scale;
   double unit = m->stress_unit / (m->volume * elapsed);
   gg_sample s = {.time = o->memory->time,
@@ -161,7 +161,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   if (!(in->elapsed > 0)) return; /* the very first sample makes no row */
   convert(o);
   const gg_sample sample = sample_of(o, in);
-  for (int k = 0; k < gg_common_extension_observables(o->model.extension); k++) {
+  for (int k = 0; k < gg_common_extension_observables(o->model->extension); k++) {
     const gg_observable_definition *d = definition(o, k);
     for (int i = 0; i < d->n_quantities; i++) row[i] = NAN;
     d->sample(d->context, state_of(o, k), &sample, row);
@@ -172,7 +172,7 @@ static void finish(void *self, const gg_interval *in, double *row)
 static void rescaled(void *self, double factor)
 {
   own *o = self;
-  if (!o->model.linear_response) o->memory->scale *= factor;
+  if (!o->model->linear_response) o->memory->scale *= factor;
 }
 
 static void put(double to[3], gg_vec v, double scale)
@@ -190,7 +190,7 @@ static void add_collision(void *self, const gg_collision_record *collision)
   put(view.normal, collision->k, 1);
   put(view.relative_velocity, collision->c12, 1 / scale);
   for (int i = 0; i < 2; i++) put(view.velocity[i], collision->c[i], 1 / scale);
-  for (int k = 0; k < gg_common_extension_observables(o->model.extension); k++) {
+  for (int k = 0; k < gg_common_extension_observables(o->model->extension); k++) {
     const gg_observable_definition *d = definition(o, k);
     if (d->collision) d->collision(d->context, state_of(o, k), &view);
   }

@@ -31,7 +31,7 @@ typedef struct motion {
 } motion;
 
 typedef struct correlations {
-  gg_model model;
+  const gg_model *model;
   gg_pairs pairs;
   int bins;
   bool spins, local;
@@ -52,7 +52,7 @@ static void *create_of(const gg_model *m, bool local, gg_error *err)
 {
   correlations *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
-  d->model = *m;
+  d->model = m;
   double reach = gg_measure_pairs_longest_reach(m);
   d->bins = (int)fmin(floor(reach / SPACING), MOST_BINS);
   d->spins = m->rule != GG_SMOOTH;
@@ -117,8 +117,8 @@ static void mean_spins(const correlations *d, const gg_snapshot *s, double mean[
   memset(mean, 0, GG_MAX_SPECIES * sizeof *mean);
   for (size_t i = 0; i < s->n; i++)
     for (int a = 0; a < 3; a++) mean[gg_snapshot_species(s, i)][a] += gg_snapshot_omega(s, a, i);
-  for (int k = 0; k < d->model.n_species; k++)
-    for (int a = 0; a < 3; a++) mean[k][a] /= (double)d->model.n_of[k];
+  for (int k = 0; k < d->model->n_species; k++)
+    for (int a = 0; a < 3; a++) mean[k][a] /= (double)d->model->n_of[k];
 }
 
 static void take_motion(const correlations *d, const gg_snapshot *s, size_t i, double mean[GG_MAX_SPECIES][3],
@@ -185,7 +185,7 @@ static double of_no_momentum(const gg_model *m)
 static void put(const correlations *d, gg_curves *list, const char *name, const char *panel, const char *label,
                 const double *bin, int width, int channel, double norm)
 {
-  const gg_model *m = &d->model;
+  const gg_model *m = d->model;
   int first = (int)(gg_common_model_narrowest(m) / SPACING);
   if (d->bins <= first) return;
   char full[64];

@@ -355,11 +355,7 @@ gg_status gg_plot_chart_draw_on(const gg_chart *c, const gg_plot_paper *paper, c
   if (!c->n || c->n > MOST_PANELS) return gg_base_fail(err, GG_BAD_INPUT, "%s: there is nothing to draw", picture);
   layout *l = lay_out(c, paper->width);
   FILE *s = l ? gg_base_memory_stream_open(&script) : NULL;
-  if (s) {
-    locale_t before = gg_base_c_locale_enter();
-    print_page(s, c, l, paper);
-    gg_base_c_locale_leave(before);
-  }
+  if (s) print_page(s, c, l, paper);
   free(l);
   if (!s || !gg_base_memory_stream_close(s, &script)) return gg_base_out_of_memory(err);
   gg_status status = gg_plot_gnuplot_run(script, NULL, picture, err);

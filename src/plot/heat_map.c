@@ -261,7 +261,6 @@ static heat_page lay_out(const gg_heat_map *m, double width, FILE *script)
 
 static void draw(const gg_heat_map *m, const gg_plot_paper *paper, FILE *script)
 {
-  GG_C_LOCALE;
   const heat_page p = lay_out(m, paper->width, script);
   gg_plot_page_open(script, m->title, paper, p.size[0], p.size[1]);
   for (size_t row = 0; row < m->rows; row++)

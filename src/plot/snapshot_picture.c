@@ -201,11 +201,7 @@ static gg_status draw_page(const gg_stored_result *stored, const gg_plot_grains 
                      .script = gg_base_memory_stream_open(&script),
                      .over = svg ? gg_base_memory_stream_open(&over) : NULL};
   bool drawn = p.script && (!svg || p.over);
-  if (drawn) {
-    locale_t before = gg_base_c_locale_enter();
-    drawn = draw(&p, stored, s);
-    gg_base_c_locale_leave(before);
-  }
+  if (drawn) drawn = draw(&p, stored, s);
   drawn &= gg_base_memory_stream_close(p.script, &script);
   if (svg) drawn &= gg_base_memory_stream_close(p.over, &over);
   gg_status status = drawn ? gg_plot_gnuplot_run(script, over, picture, err) : gg_base_out_of_memory(err);

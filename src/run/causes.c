@@ -172,17 +172,39 @@ static bool correlated(const difference *d, char *text, size_t size)
   return true;
 }
 
+/* hss, e = 0.8, phi = 0.1: md's rate of collisions is 1.2, 4.9 and 9.8 % above Enskog's where a grain goes 1.8, 0.49
+ * and 0.2 diameters until the bath turns it; T agrees. */
+#define FAR_WAY 3
+static bool meets_again(const difference *d, char *text, size_t size)
+{
+  const gg_model *m = d->model;
+  const double T = d->md->value[GG_Q_TEMPERATURE].mean;
+  const bool of_collisions = d->q == GG_Q_COLLISION_RATE || d->q == GG_Q_MEAN_FREE_PATH || d->q == GG_Q_KNUDSEN;
+  const double way = sqrt(isfinite(T) ? T : m->temperature0) / m->bath.drag[0];
+  if (!(d->homogeneous && m->thermostat == GG_BATH && m->shear_rate == 0 && of_collisions && way < FAR_WAY &&
+        d->by * (d->q == GG_Q_COLLISION_RATE ? 1 : -1) > 0 && fabs(d->by) < 0.4))
+    return false;
+  snprintf(
+      text, size,
+      "the bath turns a grain after sqrt(T)/drag = %.2g d, so that grains that have met meet again: md collides more "
+      "often than Enskog's equation has, at phi = 0.1 by 5 %% where that way is 0.5 d, by 10 %% at 0.2 d",
+      way);
+  return true;
+}
+
 static bool at_walls(const difference *d, char *text, size_t size)
 {
   if (!d->model->walled || fabs(d->by) > 0.3) return false;
   snprintf(text, size,
-           "near walls grains that have collided meet again after one returns from the wall, and dense layers order "
-           "along it: Enskog's equation leaves out both");
+           "near walls grains meet again after one returns from the wall, which Enskog's equation leaves out, and "
+           "layers order "
+           "along it, which Monte Carlo has shallower: at phi = 0.3 the first minimum is 0.27 in it, 0.24 in md");
   return true;
 }
 
-static cause *const causes_known[] = {not_steady, about_cells,      structured, waves_respond, may_be_structured,
-                                      treated,    number_of_grains, hot_spins,  correlated,    at_walls};
+static cause *const causes_known[] = {not_steady,        about_cells, structured,       waves_respond,
+                                      may_be_structured, treated,     number_of_grains, hot_spins,
+                                      correlated,        meets_again, at_walls};
 
 static const char unknown[] = "no known cause";
 

@@ -130,9 +130,9 @@ static gg_status test_wandering(const gg_replicas *all, gg_convergence *c, gg_er
 {
   gg_slow_modes w;
   GG_TRY(gg_run_replicas_slow_modes(all, &w, err));
-  c->slow_mode = w.mode, c->slow_mode_time = w.time;
+  c->slow_mode = w.mode, c->slow_mode_time = w.mode_time, c->slow_mode_least = w.least;
   double sampled = (double)(all->state.due - all->state.window_at) * all->n;
-  if (w.mode >= 0 && sampled < GG_LEAST_SLOW_TIMES * w.time) c->trusted = false;
+  if (w.mode >= 0 && sampled < w.least * w.mode_time) c->trusted = false;
   return GG_OK;
 }
 

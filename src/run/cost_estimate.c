@@ -12,6 +12,7 @@
 #include "measure/mesh.h"
 #include "measure/observable.h"
 #include "run/relaxation.h"
+#include "run/replica.h"
 #include "run/replicas.h"
 #include "theory/theory_list.h"
 
@@ -49,9 +50,11 @@ static const struct needs *needs_of(unsigned flag)
   return &nothing;
 }
 
-static bool is_measured(const gg_observable *o, const gg_scene *scene, const gg_model *m)
+/* Flags; all that are requested where memory is short. */
+static unsigned measured(const gg_scene *scene, const gg_model *m)
 {
-  return (scene->measure & o->flag) && !(o->refuses && o->refuses(m));
+  unsigned flags;
+  return gg_run_measured(scene, m, &flags, NULL) == GG_OK ? flags : scene->measure;
 }
 
 /* Cells are as wide as the largest grain: how many more grains there are in one than of equal ones. */
@@ -117,9 +120,10 @@ static double bytes_of(const gg_observable *o, const gg_model *m)
 static void add_observables(gg_cost_estimate *f, const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
 {
   double vectors = 0;
+  const unsigned flags = measured(scene, m);
   for (int i = 0; gg_measure_observables[i]; i++) {
     const gg_observable *o = gg_measure_observables[i];
-    if (!is_measured(o, scene, m)) continue;
+    if (!(flags & o->flag)) continue;
     if (o->bins) vectors = fmax(vectors, (m->rule != GG_SMOOTH ? 2 : 1) + (o->positions && !m->homogeneous ? 1.5 : 0));
     f->observables += bytes_of(o, m);
     const double ns = added_ns(o, m, engine);
@@ -225,20 +229,12 @@ gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, 
 /* Below this solid fraction Monte Carlo is exact within the errors of any run. */
 #define DILUTE 0.002
 
-static bool measures_all(const gg_scene *scene, const gg_model *m)
-{
-  for (int i = 0; gg_measure_observables[i]; i++)
-    if ((scene->measure & gg_measure_observables[i]->flag) && !is_measured(gg_measure_observables[i], scene, m))
-      return false;
-  return true;
-}
-
 double gg_run_cost_dilute(const gg_scene *scene, const gg_model *md)
 {
   double ratio = 0;
   gg_model *m = md->phi < DILUTE ? malloc(sizeof *m) : NULL;
   if (m && gg_common_model_make(scene, GG_DSMC, m, NULL) == GG_OK &&
-      gg_run_engine_ops_of(GG_DSMC)->accepts(m, NULL) == GG_OK && measures_all(scene, m))
+      gg_run_engine_ops_of(GG_DSMC)->accepts(m, NULL) == GG_OK && measured(scene, m) == scene->measure)
     ratio = pace_of_md(md) / pace_of_dsmc(m);
   free(m);
   return ratio;

@@ -48,9 +48,9 @@ static bool shrinks(const gg_scene *s, double stable)
 
 int64_t gg_run_default_size(const gg_scene *s)
 {
-  const double stable = stable_size(s), least = least_size(s);
-  if (!(stable >= least && shrinks(s, stable))) return gg_scene_defaults().particles;
-  return (int64_t)fmax(least, 10 * floor((responds(s) ? SHARE_OF_STABLE_SHEARED : SHARE_OF_STABLE) * stable / 10));
+  const double stable = stable_size(s), share = responds(s) ? SHARE_OF_STABLE_SHEARED : SHARE_OF_STABLE;
+  if (!shrinks(s, stable)) return gg_scene_defaults().particles;
+  return (int64_t)fmax(least_size(s), 10 * floor(share * stable / 10));
 }
 
 void gg_run_default_size_reason(const gg_scene *s, char *text, size_t size)
@@ -61,10 +61,11 @@ void gg_run_default_size_reason(const gg_scene *s, char *text, size_t size)
   if (stable >= least_size(s))
     snprintf(text, size, "automatic: the box stays homogeneous, as it does up to about %.0f grains", stable);
   else
-    snprintf(text, size,
-             "default: no homogeneous box is large enough (at least %.0f grains): beyond about %.0f vortices and "
-             "clusters grow",
-             least_size(s), stable);
+    snprintf(
+        text, size,
+        "automatic, the smallest: vortices and clusters grow beyond about %.0f grains, and boxes below %.0f are too "
+        "narrow",
+        stable, least_size(s));
 }
 
 void gg_run_scene_fill_in(gg_scene *s)

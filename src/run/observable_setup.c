@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a replica is sampled with: the observables that the scene asks for, their bins, their memories. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "measure/observable.h"
 #include "measure/wall_modes.h"
+#include "run/relaxation.h"
 #include "run/replica.h"
+#include "scene/fields.h"
 
 /* Its channels begin at *width, which grows by what it has. */
 static gg_status attach_one(gg_replica *r, const gg_observable *o, size_t *width, gg_error *err)
@@ -23,6 +26,64 @@ static gg_status attach_one(gg_replica *r, const gg_observable *o, size_t *width
   return o->bins ? gg_statistics_bins_init(&r->bins[k], o->bins(r->self[k]), err) : GG_OK;
 }
 
+/* A requested observable, and the gas that it is to measure. */
+typedef void visit_requested(void *context, const gg_observable *o, const gg_model *gas);
+
+/* A gas that is followed in time is measured after its last change. */
+static gg_status each_requested(const gg_scene *scene, const gg_model *model, visit_requested *visit, void *context,
+                                gg_error *err)
+{
+  const gg_engine_kind engine = model->ensemble ? GG_DSMC : GG_MD; /* that of the scene may be another */
+  const bool changes = gg_scene_protocol_count(scene, INFINITY) > 0;
+  gg_model *end = changes ? gg_base_array_new(1, sizeof *end, err) : NULL;
+  if (changes && !end) return GG_FAILED;
+  gg_status status = changes ? gg_run_relaxation_end_model(scene, engine, end, err) : GG_OK;
+  for (int i = 0; gg_measure_observables[i] && status == GG_OK; i++)
+    if (scene->measure & gg_measure_observables[i]->flag) visit(context, gg_measure_observables[i], end ? end : model);
+  free(end);
+  return status;
+}
+
+static void add_flag(void *flags, const gg_observable *o, const gg_model *gas)
+{
+  if (gg_measure_observable_applies(o, gas)) *(unsigned *)flags |= o->flag;
+}
+
+gg_status gg_run_measured(const gg_scene *scene, const gg_model *model, unsigned *flags, gg_error *err)
+{
+  *flags = 0;
+  return each_requested(scene, model, add_flag, flags, err);
+}
+
+typedef struct reasons {
+  void (*line)(void *context, const char *text);
+  void *context;
+} reasons;
+
+static void report_reason(void *context, const gg_observable *o, const gg_model *gas)
+{
+  const reasons *to = context;
+  char text[200];
+  if (gg_measure_observable_applies(o, gas)) return;
+  snprintf(text, sizeof text, "%s is not measured: %s", o->name, o->refuses(gas));
+  to->line(to->context, text);
+}
+
+gg_status gg_run_unmeasured(const gg_scene *scene, const gg_model *model, void (*line)(void *context, const char *text),
+                            void *context, gg_error *err)
+{
+  return each_requested(scene, model, report_reason, &(reasons){line, context}, err);
+}
+
+static gg_status attach_all(gg_replica *r, const gg_scene *scene, size_t *width, gg_error *err)
+{
+  unsigned flags;
+  GG_TRY(gg_run_measured(scene, &r->model, &flags, err));
+  for (int i = 0; gg_measure_observables[i]; i++)
+    if (flags & gg_measure_observables[i]->flag) GG_TRY(attach_one(r, gg_measure_observables[i], width, err));
+  return GG_OK;
+}
+
 gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene, gg_error *err)
 {
   size_t width = 0;
@@ -32,12 +93,10 @@ gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene,
   if ((own || scene->measure & ~GG_MEASURE_RHEOLOGY) && !(scene->measure & GG_MEASURE_RHEOLOGY))
     return gg_base_fail(err, GG_BAD_INPUT,
                         "measure: add rheology: by it a run knows when the gas is steady and the run is done");
-  for (int i = 0; gg_measure_observables[i]; i++) {
-    const gg_observable *o = gg_measure_observables[i];
-    if (!(scene->measure & o->flag) || (o->refuses && o->refuses(&r->model))) continue;
-    GG_TRY(attach_one(r, o, &width, err));
-    if (o->bins) curves = true;
-    if (o->positions && !r->model.homogeneous) positions = true;
+  GG_TRY(attach_all(r, scene, &width, err));
+  for (int k = 0; k < r->n_observables; k++) {
+    if (r->observable[k]->bins) curves = true;
+    if (r->observable[k]->positions && !r->model.homogeneous) positions = true;
   }
   if (own) GG_TRY(attach_one(r, own, &width, err));
   r->wall_modes_at = width;

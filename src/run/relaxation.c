@@ -52,18 +52,27 @@ static gg_status make_model(const gg_scene *scene, const gg_model *model, int ch
                             scene->protocol[changes - 1].at, scene->protocol[changes - 1].key);
 }
 
-gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, uint64_t k, gg_model *changed,
-                                  int *changes, gg_error *err)
+int gg_run_relaxation_changes(const gg_scene *scene, uint64_t k)
 {
-  *changes = gg_scene_protocol_count(scene, user_time(scene, k));
-  return *changes ? make_model(scene, model, *changes, changed, err) : (*changed = *model, GG_OK);
+  return gg_scene_protocol_count(scene, user_time(scene, k));
 }
 
-gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_model *model, gg_error *err)
+gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed,
+                                  gg_error *err)
+{
+  return changes ? make_model(scene, model, changes, changed, err) : (*changed = *model, GG_OK);
+}
+
+gg_status gg_run_relaxation_end_scene(const gg_scene *scene, gg_scene *end, gg_error *err)
+{
+  return gg_scene_protocol_apply(scene, gg_scene_protocol_count(scene, INFINITY), end, err);
+}
+
+gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err)
 {
   gg_scene end;
-  GG_TRY(gg_scene_protocol_apply(scene, gg_scene_protocol_count(scene, INFINITY), &end, err));
-  return gg_common_model_make(&end, GG_MD, model, err);
+  GG_TRY(gg_run_relaxation_end_scene(scene, &end, err));
+  return gg_common_model_make(&end, engine, model, err);
 }
 
 gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, gg_error *err)
@@ -119,23 +128,42 @@ double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model
   return sum;
 }
 
-/* Of the gas at present: what is followed in time does not depend on what may change. */
-static double value_at(const gg_replicas *all, const gg_function *f, size_t offset, int replica, size_t row)
+static double itself(const double *value, const gg_model *m)
 {
-  const gg_replica *r = &all->replica[replica];
-  return gg_function_value(*f, gg_series_row(&r->series, row) + offset, &r->model);
+  (void)m;
+  return *value;
 }
 
-static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, size_t offset, size_t row)
+/* A function of the history has its quantity from a logarithm, of which the mean would be a geometric one. */
+static bool is_of_one_row(const gg_observable *o, const gg_function *f)
 {
-  double sum = 0, squares = 0, n = all->n;
-  for (int i = 0; i < all->n; i++) sum += value_at(all, f, offset, i, row);
-  const double mean = sum / n;
-  for (int i = 0; i < all->n; i++) {
-    const double d = value_at(all, f, offset, i, row) - mean;
-    squares += d * d;
+  for (const gg_derived *d = o->history; d && d->quantity != GG_MOST_QUANTITIES; d++)
+    if (f->of ? d->of == f->of : d->each == f->each) return true;
+  return false;
+}
+
+/* Over the sample `row` of all replicas, of a function of the channels of observable k. Of the gas at present: what is
+ * followed in time does not depend on what may change. NaN where memory fails: run.c sees that. */
+static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, int k, size_t row)
+{
+  const size_t n = (size_t)all->n;
+  const gg_replica *first = all->replica;
+  const bool one = is_of_one_row(first->observable[k], f);
+  const size_t channels = one ? 1 : first->observable[k]->width(&first->model);
+  gg_mean m = {.mean = NAN, .error = NAN, .correlation_rows = NAN};
+  double *value = gg_base_array_new(n + 2 * channels, sizeof *value, NULL);
+  const double **of = gg_base_array_new(n, sizeof *of, NULL);
+  for (size_t i = 0; value && of && i < n; i++) {
+    const gg_replica *r = &all->replica[i];
+    of[i] = gg_series_row(&r->series, row) + r->offset[k];
+    if (one) value[i] = gg_function_value(*f, of[i], &r->model), of[i] = &value[i];
   }
-  return (gg_mean){.mean = mean, .error = n > 1 ? sqrt(squares / (n * (n - 1))) : NAN, .correlation_rows = NAN};
+  if (value && of)
+    m = gg_statistics_estimate_over_runs(of, n, channels, one ? (gg_function){.of = itself} : *f, &first->model,
+                                         value + n);
+  free(of);
+  free(value);
+  return m;
 }
 
 gg_mean gg_run_relaxation_end(const gg_replicas *all, gg_quantity q)
@@ -144,7 +172,7 @@ gg_mean gg_run_relaxation_end(const gg_replicas *all, gg_quantity q)
   const gg_replica *r = &all->replica[0];
   const int k = gg_run_replica_find_function(r, q, &f);
   if (k < 0 || r->series.n < 2) return (gg_mean){.mean = NAN, .error = NAN, .correlation_rows = NAN};
-  return over_replicas(all, &f, r->offset[k], r->series.n - 1);
+  return over_replicas(all, &f, k, r->series.n - 1);
 }
 
 #define LITTLE 0.05 /* seconds of processor time: who interrupts a run waits for its result */
@@ -170,8 +198,9 @@ static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *er
     if (k > 0) gg_theory_relax(model, gg_run_relaxation_time(s, k) - gg_run_relaxation_time(s, k - 1), &x);
     if (x.stop) status = gg_stop_check(x.stop, err);
     at[k] = x;
-    if (status != GG_OK || (k > 0 && changes == gg_scene_protocol_count(s, user_time(s, k)))) continue;
-    status = gg_run_relaxation_model(s, start, k, model, &changes, err);
+    if (status != GG_OK || (k > 0 && changes == gg_run_relaxation_changes(s, k))) continue;
+    changes = gg_run_relaxation_changes(s, k);
+    status = gg_run_relaxation_model(s, start, changes, model, err);
     if (status == GG_INTERRUPTED && interrupted)
       status = GG_OK, x = gg_theory_relaxation_lost();
     else if (status == GG_OK && !gg_theory_relaxation_name(model))
@@ -217,7 +246,7 @@ static void add_curve(const gg_replicas *all, const gg_quantity_row *row, const 
     c->reference[i] = theory_of(&theory[first + i], row->quantity, &all->model);
   double least = INFINITY, most = -INFINITY;
   for (size_t i = 0; i < c->n; i++) {
-    const gg_mean m = over_replicas(all, f, r->offset[0], first + i);
+    const gg_mean m = over_replicas(all, f, 0, first + i);
     const bool unknown = first + i == 0 && row->quantity == GG_Q_P_XY; /* the start has no collisions */
     least = fmin(least, m.mean), most = fmax(most, m.mean);
     c->x[i] = gg_run_relaxation_time(&all->scene, first + i);

@@ -11,16 +11,18 @@
 uint64_t gg_run_relaxation_samples(const gg_scene *scene);
 double gg_run_relaxation_time(const gg_scene *scene, uint64_t k);
 
-/* The model after the changes up to sample k; GG_BAD_INPUT where a value needs another gas than `model`. *changes is
- * their number. */
-gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, uint64_t k, gg_model *changed,
-                                  int *changes, gg_error *err);
+/* How many changes there are up to sample k; and the model after so many, with GG_BAD_INPUT where a value needs another
+ * gas than `model`. */
+int gg_run_relaxation_changes(const gg_scene *scene, uint64_t k);
+gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed,
+                                  gg_error *err);
 /* That of all changes, before the run begins. */
 gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, gg_error *err);
 /* Collisions a grain up to the end, about. */
 double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model);
-/* What theories describe: the gas after the last change. */
-gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_model *model, gg_error *err);
+/* The scene after the last change, and its model: what theories describe, and observables measure. */
+gg_status gg_run_relaxation_end_scene(const gg_scene *scene, gg_scene *end, gg_error *err);
+gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err);
 
 /* Values at the end, over replicas; and the curves of what is followed. */
 gg_mean gg_run_relaxation_end(const gg_replicas *all, gg_quantity q);

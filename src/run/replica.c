@@ -11,6 +11,7 @@
 #include "common/rng.h"
 #include "run/engine_grains.h"
 #include "run/relaxation.h"
+#include "scene/fields.h"
 
 /* Without a warm-up the window is open from the start. */
 static bool leaves_out_warmup(const gg_scene *scene)
@@ -251,20 +252,21 @@ static gg_status change(gg_replica *r, const gg_model *model, gg_error *err)
   GG_TRY(gg_run_engine_continue(r->engine, model, &next, err));
   r->engine->ops->destroy(r->engine);
   r->engine = next;
-  r->model = *model;
-  r->shown = GG_OBSERVED_UNSET;
+  r->model = *model; /* which the observables borrow */
+  gg_run_replica_change_curves(r);
   return GG_OK;
 }
 
 static gg_status change_if_due(gg_replica *r, gg_error *err)
 {
-  int changes = 0;
   if (!gg_scene_is_followed(&r->scene)) return GG_OK;
+  const int changes = gg_run_relaxation_changes(&r->scene, r->clock.samples);
+  if (changes == r->clock.changes) return GG_OK;
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
   if (!model) return GG_FAILED;
-  gg_status status = gg_run_relaxation_model(&r->scene, &r->model, r->clock.samples, model, &changes, err);
-  if (status == GG_OK && changes != r->clock.changes) status = change(r, model, err);
-  r->clock.changes = changes;
+  gg_status status = gg_run_relaxation_model(&r->scene, &r->model, changes, model, err);
+  if (status == GG_OK) status = change(r, model, err);
+  if (status == GG_OK) r->clock.changes = changes;
   free(model);
   return status;
 }
@@ -274,6 +276,7 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   double elapsed;
   uint64_t happened;
   const double before = r->clock.temperature;
+  GG_TRY(change_if_due(r, err)); /* a change that was interrupted */
   if (gg_scene_is_followed(&r->scene) && !r->clock.part) aim(r);
   GG_TRY(advance_interval(r, adapt, &elapsed, &happened, err));
   gg_run_replica_sample_row(r, elapsed);
@@ -356,14 +359,15 @@ static gg_status check_clock(const gg_replica *r, gg_error *err)
   return good ? GG_OK : gg_base_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the clock of a replica");
 }
 
-/* With what the protocol has changed up to the last sample. */
+/* With what the protocol had changed. */
 static gg_status restore_model(gg_replica *r, gg_error *err)
 {
-  int changes;
-  if (!gg_scene_is_followed(&r->scene)) return GG_OK;
+  const int64_t changes = r->clock.changes;
+  if (changes < 0 || changes > gg_scene_protocol_count(&r->scene, INFINITY))
+    return gg_base_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the protocol of a replica");
+  if (!changes) return GG_OK;
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
-  gg_status status =
-      model ? gg_run_relaxation_model(&r->scene, &r->model, r->clock.samples, model, &changes, err) : GG_FAILED;
+  gg_status status = model ? gg_run_relaxation_model(&r->scene, &r->model, (int)changes, model, err) : GG_FAILED;
   if (status == GG_OK) r->model = *model;
   free(model);
   return status;
@@ -378,10 +382,10 @@ gg_status gg_run_replica_restore(gg_replica *r, const gg_archive *a, const gg_sc
   r->trajectory_every = index == 0 ? scene->output.trajectory_every : 0;
   r->logged = index == 0 && *scene->output.log;
   r->frames_of_window = leaves_out_warmup(scene);
-  gg_status status = gg_run_replica_setup_observables(r, scene, err);
-  if (status == GG_OK) status = gg_base_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
-  if (status == GG_OK) status = check_clock(r, err);
+  gg_status status = gg_base_archive_get(a, "replica/clock", GG_ITEM_U8, &r->clock, sizeof r->clock, err);
   if (status == GG_OK) status = restore_model(r, err);
+  if (status == GG_OK) status = gg_run_replica_setup_observables(r, scene, err);
+  if (status == GG_OK) status = check_clock(r, err);
   if (status == GG_OK) status = gg_run_engine_ops_of(scene->engine)->restore(&r->model, a, &r->engine, err);
   if (status == GG_OK) status = gg_statistics_series_restore(&r->series, a, err);
   if (status == GG_OK) status = gg_run_replica_restore_observables(r, a, err);

@@ -84,6 +84,11 @@ gg_status gg_run_replica_open_window(gg_replica *r, gg_error *err);
 /* observable_setup.c: the observables that the scene asks for, with their bins; and their part of a checkpoint. */
 gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene, gg_error *err);
 void gg_run_replica_clear_observables(gg_replica *r);
+/* Flags of the requested observables that the gas of the scene can have, `model` at its start; and a line for each
+ * other one. */
+gg_status gg_run_measured(const gg_scene *scene, const gg_model *model, unsigned *flags, gg_error *err);
+gg_status gg_run_unmeasured(const gg_scene *scene, const gg_model *model, void (*line)(void *context, const char *text),
+                            void *context, gg_error *err);
 gg_status gg_run_replica_save_observables(const gg_replica *r, gg_archive *archive, gg_error *err);
 gg_status gg_run_replica_restore_observables(gg_replica *r, const gg_archive *archive, gg_error *err);
 
@@ -91,6 +96,8 @@ gg_status gg_run_replica_restore_observables(gg_replica *r, const gg_archive *ar
 void gg_run_replica_sample_row(gg_replica *r, double elapsed);
 void gg_run_replica_sample_curves(gg_replica *r, int part, double part_elapsed);
 void gg_run_replica_restart_curves(gg_replica *r);
+/* The model has changed, and the engine is another: curves are of the new gas alone. */
+void gg_run_replica_change_curves(gg_replica *r);
 
 /* sampling.c, before an interval of the window: whether the engine reports its collisions to the observables that need
  * them. Always, unless that slows the engine down many times over and the observables accept bursts. A burst is so many

@@ -18,9 +18,10 @@ typedef struct gg_stopping_criteria { /* stopping criteria, settled before the r
 
 /* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
 enum { GG_LEAST_CORRELATION_TIMES = 20 };
-/* Nor one of less than this many decay times of the slowest mode across a gap between walls: a time that short windows
- * show too short, by half at 20. */
-enum { GG_LEAST_SLOW_TIMES = 50 };
+/* Nor one of less than this many decay times of a mode across a gap between walls that shifts results itself: a time
+ * that short windows show too short, by half at 20. Of a mode whose square alone does: a part of it has changed sides
+ * often. */
+enum { GG_LEAST_SLOW_TIMES = 50, GG_LEAST_ODD_TIMES = 10 };
 
 typedef struct gg_convergence { /* of the present averaging window */
   double relative_error;        /* of the worst quantity with a requested error, in units of its requested error:
@@ -34,8 +35,9 @@ typedef struct gg_convergence { /* of the present averaging window */
   gg_quantity trending_quantity;
   double trend_z, trend_relative; /* ... by so many errors, and by this share of its mean */
   double trend_share;             /* of the window: the part that differs from later; its first third or less */
-  int slow_mode;                  /* between walls: the slowest mode across the gap that shifts results; -1 without */
-  double slow_mode_time;          /* over what time it forgets, in samples */
+  int slow_mode;         /* between walls: the mode across the gap that asks for the longest window; -1 without */
+  double slow_mode_time; /* over what time it forgets, in samples */
+  int slow_mode_least;   /* of these times that a window has to have */
 } gg_convergence;
 
 typedef struct gg_replicas {
@@ -144,12 +146,13 @@ gg_status gg_run_replicas_blocks(const gg_replicas *all, gg_quantity q, size_t l
 /* correlations.c: of the quantities in result->correlations, whose errors are known. */
 gg_status gg_run_replicas_correlations(const gg_replicas *all, gg_result *result, gg_error *err);
 
-/* slow_modes.c: what slow_mode slowly across the gap between walls, over the window. */
+/* slow_modes.c: what moves slowly across the gap between walls, over the window. Times in samples. */
 typedef struct gg_slow_modes {
-  int mode;    /* the slowest that shifts results (measure/wall_modes.h); -1 without walls */
-  double time; /* over which it forgets, in samples */
-  double
-      mean_time; /* of all modes that shift results: the slowest of several estimates is mostly one that is too long */
+  int mode;         /* the one that asks for the longest window (measure/wall_modes.h); -1 without walls */
+  double mode_time; /* over which it forgets */
+  int least;        /* of these times that a window has to have */
+  double time; /* the longest over which results remember a mode: half its decay time where they follow its square */
+  double mean_time; /* that of all modes: the slowest of several estimates is mostly one that is too long */
   /* Walls alike: how far from the middle the centre of mass was on average, and that mean's share in the mean square.
    */
   double aside, aside_share;

@@ -15,6 +15,12 @@
 #include "run/replicas.h"
 #include "scene/fields.h"
 
+/* The gas that values are of: at the end of a run that is followed, after its changes so far. */
+static const gg_model *gas_of(const gg_replicas *all)
+{
+  return &all->replica[0].model;
+}
+
 /* Why a quantity is not there: the scene has none of it, or nothing that was requested measures it. */
 static const char *why_missing(const gg_replicas *all, gg_quantity q)
 {
@@ -23,7 +29,7 @@ static const char *why_missing(const gg_replicas *all, gg_quantity q)
   if (all->replica[0].n_observables == 0) return "nothing is measured in this scene";
   if (all->model.linear_response && (gg_common_quantity_mask(q) & GG_NEEDS_LINEAR_RESPONSE))
     return "too short: the averaging has less than a sweep of the reduced shear rate";
-  const char *reason = gg_common_quantity_missing(&all->model, q);
+  const char *reason = gg_common_quantity_missing(gas_of(all), q);
   return reason ? reason : "not measured in this scene";
 }
 
@@ -45,7 +51,7 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
     const gg_quantity q = result->rows.row[i].quantity;
     gg_estimate *e = &result->value[q];
     *e = (gg_estimate){.mean = NAN, .error = NAN, .correlation_time = NAN};
-    if (!all->model.steady && !(gg_common_quantity_mask(q) & GG_KEPT_HEATING)) {
+    if (!gas_of(all)->steady && !(gg_common_quantity_mask(q) & GG_KEPT_HEATING)) {
       snprintf(e->reason, sizeof e->reason,
                all->model.linear_response ? "its temperature rises and falls"
                                           : "no steady state: the gas heats up; see the history");
@@ -109,12 +115,14 @@ static void report_effort(const gg_replicas *all, gg_result *result)
     gg_engine_state s;
     r->engine->ops->state(r->engine, &s);
     if (i == 0) { /* in units of the start, whatever the engine's velocities have been multiplied by since */
+      result->window_step = r->clock.window_collisions;
       sum->time = r->clock.time, sum->time_step_bias = s.time_step_bias;
       sum->particles_bias = all->model.ensemble ? gg_common_ensemble_bias(&all->model) : 0;
       sum->time_step = ldexp(s.time_step, (int)r->clock.power);
     }
     sum->collisions += s.collisions, sum->events += s.events;
     sum->treated += s.treated, sum->wall_treated += s.wall_treated, sum->overflows += s.overflows;
+    sum->clamped += s.clamped;
     sum->overfilled = fmax(sum->overfilled, s.overfilled);
     sum->worst_overlap = fmax(sum->worst_overlap, s.worst_overlap);
     if (all->state.averaging) {
@@ -139,6 +147,51 @@ static void warn_if_few(const gg_replicas *all, gg_result *result)
                      "error: give dsmc.particles %.2g or more, or auto",
                      (long long)all->model.n, 100 * bias, most < 0.5 ? "a quarter" : "half",
                      bias / (most * asked) * (double)all->model.n);
+}
+
+/* Below, means are those of so few grains, in either engine: T of a sheared gas of 5 is 17 % low. */
+enum { FEW_GRAINS = 100 };
+
+static void warn_if_very_few(const gg_replicas *all, gg_result *result)
+{
+  const gg_model *m = &all->model;
+  if (m->n >= FEW_GRAINS || (m->ensemble && all->criteria.relative_error > 0)) return; /* warn_if_few has it */
+  gg_run_result_warn(
+      result, "%lld grains are few: means may lie up to %.2g %% off those of many (1/N); give %s %d or more",
+      (long long)m->n, 100 * gg_common_ensemble_bias(m), m->ensemble ? "dsmc.particles" : "particles", FEW_GRAINS);
+}
+
+/* Freezing and melting fractions of hard spheres: Hoover & Ree, J. Chem. Phys. 49 (1968) 3609. md starts from random
+ * places, and crystals seldom form within a run. Shear and unlike diameters keep grains from ordering. */
+#define FREEZING 0.494
+
+static void warn_if_undercooled(gg_result *result)
+{
+  const gg_model *m = &result->model;
+  const bool alike = gg_common_model_widest(m) == gg_common_model_narrowest(m);
+  if (m->homogeneous || m->walled || m->shear_rate != 0 || !alike || !(m->phi > FREEZING)) return;
+  gg_run_result_warn(result,
+                     "phi %.3g is above freezing (%.3g), where spheres of one diameter would crystallise; the run "
+                     "starts from random places, and its means are those of the metastable fluid",
+                     m->phi, FREEZING);
+}
+
+/* Work and noise less drag, loss and growth, measured apart, cancel but for errors. What splitting of steps and kicks
+ * leaves in a right run is less than LEAST_IMBALANCE. */
+#define MOST_ERRORS 5
+#define LEAST_IMBALANCE 0.005
+
+static void warn_if_unbalanced(gg_result *result)
+{
+  const gg_estimate *e = &result->value[GG_Q_ENERGY_BALANCE];
+  const double off = fabs(e->mean - 1);
+  if (!(off > LEAST_IMBALANCE && off > MOST_ERRORS * e->error)) return;
+  gg_run_result_warn(
+      result,
+      "energy is not balanced: energy_balance is %.4g +- %.2g where it must be 1, %.1f errors off; means "
+      "are biased%s",
+      e->mean, e->error, off / e->error,
+      result->model.ensemble ? "; give dsmc.time_step a smaller value or dsmc.particles a larger one" : "");
 }
 
 /* What the longest waves of the box show; where they show nothing, normal stresses may: at rest or cooling, a
@@ -210,6 +263,12 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
     gg_run_result_warn(result, "collision.e was not in force, but " GG_OWN_LAW " '%s'", all->model.law.name);
   else if (all->model.law.e)
     gg_run_result_warn(result, "in force was " GG_OWN_LAW " '%s'", all->model.law.name);
+  if (s->clamped)
+    gg_run_result_warn(
+        result,
+        GG_OWN_LAW " '%s' gave no number from 0 to 1 at the speeds of %llu collisions (%.2g %%), which took the "
+                   "nearer of 0 and 1 (NaN: 0)",
+        all->model.law.name, (unsigned long long)s->clamped, 100 * (double)s->clamped / (double)s->collisions);
   if (result->steadiness != GG_STEADY && !gg_scene_is_followed(&all->scene))
     gg_run_result_warn(result, "not a steady mean: %s", result->steadiness_text);
   if (result->steadiness == GG_STEADY && !c->trusted)
@@ -243,6 +302,9 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
         result, "the Monte Carlo time step may bias results by %.2g %%, more than a fifth of the requested error",
         100 * s->time_step_bias);
   warn_if_few(all, result);
+  warn_if_very_few(all, result);
+  warn_if_undercooled(result);
+  warn_if_unbalanced(result);
 }
 
 #define STRONG 0.6
@@ -300,14 +362,15 @@ static gg_status report_one(const gg_replicas *all, int k, double memory, gg_res
   return status;
 }
 
+static void warn_of_unmeasured(void *result, const char *text)
+{
+  gg_run_result_warn(result, "%s", text);
+}
+
 static gg_status report_curves(const gg_replicas *all, gg_result *result, gg_error *err)
 {
   result->curves = (gg_curves){.model = &result->model};
-  for (int i = 0; gg_measure_observables[i]; i++) {
-    const gg_observable *o = gg_measure_observables[i];
-    const char *why = all->scene.measure & o->flag && o->refuses ? o->refuses(&all->model) : NULL;
-    if (why) gg_run_result_warn(result, "%s is not measured: %s", o->name, why);
-  }
+  GG_TRY(gg_run_unmeasured(&all->scene, &all->model, warn_of_unmeasured, result, err));
   gg_slow_modes slow;
   GG_TRY(gg_run_replicas_slow_modes(all, &slow, err));
   for (int k = 0; k < all->replica[0].n_observables; k++)

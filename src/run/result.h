@@ -98,7 +98,8 @@ struct gg_result {
   gg_correlations correlations;
   gg_history history;
   gg_curves curves;
-  gg_frame final; /* the first replica's last state */
+  gg_frame final;       /* the first replica's last state */
+  uint64_t window_step; /* as gg_frame.step: where its averaging window begins; 0 of a run that had no warm-up */
   gg_effort averaging, total;
   gg_engine_state engine_state; /* counts summed over replicas */
   gg_string_list warnings;

@@ -282,7 +282,7 @@ static gg_status compare_theories_at_end(const gg_scene *scene, const gg_model *
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
   if (!model) return GG_FAILED;
   *model = *start;
-  gg_status status = *scene->protocol[0].key ? gg_run_relaxation_end_model(scene, model, err) : GG_OK;
+  gg_status status = *scene->protocol[0].key ? gg_run_relaxation_end_model(scene, GG_MD, model, err) : GG_OK;
   model->stop = stop;
   if (status == GG_OK) status = gg_run_compare_theories(model, NULL, c, err);
   free(model);

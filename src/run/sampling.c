@@ -159,7 +159,8 @@ void gg_run_replica_sample_row(gg_replica *r, double elapsed)
 static bool is_due(const gg_replica *r, int k, int part)
 {
   const gg_observable *o = r->observable[k];
-  if (!o->bins || (gg_measure_observable_wants_collisions(o, &r->model) && r->shown != GG_OBSERVED)) return false;
+  if (!o->bins || !gg_measure_observable_applies(o, &r->model)) return false;
+  if (gg_measure_observable_wants_collisions(o, &r->model) && r->shown != GG_OBSERVED) return false;
   return o->parts > 1 || (part == r->parts && r->clock.window_samples % (uint64_t)r->every[k] == 0);
 }
 
@@ -201,4 +202,13 @@ void gg_run_replica_restart_curves(gg_replica *r)
     gg_statistics_bins_restart(&r->bins[k]);
     if (r->observable[k]->restart) r->observable[k]->restart(r->self[k]);
   }
+}
+
+void gg_run_replica_change_curves(gg_replica *r)
+{
+  r->shown = GG_OBSERVED_UNSET;
+  if (!r->clock.averaging) return;
+  gg_run_replica_restart_curves(r);
+  for (int k = 0; k < r->n_observables; k++)
+    if (r->observable[k]->begin_burst) r->observable[k]->begin_burst(r->self[k]);
 }

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Between walls a dense core slow_mode to and fro, grows and shrinks, for longer than any mean over all grains
- * remembers. The long waves across the gap (measure/wall_modes.h) show for how long. Where the walls are alike, what is
- * reported is even under the symmetry of the flow: modes that are odd do not shift it, but a core that keeps to one
- * side is to be seen. */
+/* Between walls a dense core moves to and fro, grows and shrinks, for longer than any mean over all grains remembers.
+ * The long waves across the gap (measure/wall_modes.h) show for how long. Where the walls are alike, what is reported
+ * is even under the symmetry of the flow: it follows even modes, and the squares of odd ones. A square forgets in half
+ * the time. The slowest mode of all is often odd: the gas drifts along the walls with one of them. Normal stresses,
+ * free paths and fourth moments follow its square closely. A core that keeps to one side is to be seen, too. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,6 +40,16 @@ static double mean_square(const double *y, size_t n)
   return sum;
 }
 
+/* A mode with this decay time: does it ask for the longest window, or do results remember it longest? */
+static void note(gg_slow_modes *w, int mode, bool odd, double time)
+{
+  const int least = odd ? GG_LEAST_ODD_TIMES : GG_LEAST_SLOW_TIMES;
+  const double remembered = odd ? time / 2 : time;
+  if (least * time > w->least * w->mode_time) w->mode = mode, w->mode_time = time, w->least = least;
+  w->time = fmax(w->time, remembered);
+  w->mean_time += remembered;
+}
+
 gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *w, gg_error *err)
 {
   *w = (gg_slow_modes){.mode = -1};
@@ -48,18 +60,16 @@ gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *w, g
   size_t parts = rows / per_part;
   double *y = gg_base_array_new(parts * (size_t)all->n, sizeof *y, err);
   if (!y) return GG_FAILED;
-  int even = 0;
+  const double part = (double)per_part * (double)s->per_row;
   for (int k = 0; k < modes; k++) {
-    double mean = gather(all, k, parts, per_part, y);
-    if (!gg_measure_wall_mode_is_odd(&all->model, k)) {
-      double time = gg_statistics_decay_time(y, parts, (size_t)all->n) * (double)per_part * (double)s->per_row;
-      if (time > w->time) w->mode = k, w->time = time;
-      w->mean_time += (time - w->mean_time) / ++even;
-    } else if (k == GG_WALL_CENTRE) {
-      double squares = mean_square(y, parts * (size_t)all->n);
-      w->aside = mean, w->aside_share = squares > 0 ? mean * mean / squares : 0;
-    }
+    const bool odd = gg_measure_wall_mode_is_odd(&all->model, k);
+    const double mean = gather(all, k, parts, per_part, y);
+    note(w, k, odd, gg_statistics_decay_time(y, parts, (size_t)all->n) * part);
+    if (!odd || k != GG_WALL_CENTRE) continue;
+    const double squares = mean_square(y, parts * (size_t)all->n);
+    w->aside = mean, w->aside_share = squares > 0 ? mean * mean / squares : 0;
   }
+  w->mean_time /= modes;
   free(y);
   return GG_OK;
 }

@@ -84,12 +84,12 @@ void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_converge
     snprintf(text, size,
              "too short to tell: averaged over %.1f correlation times of the slowest quantity, %d are needed",
              (double)window / c->slowest, GG_LEAST_CORRELATION_TIMES);
-  } else if (c->slow_mode >= 0 && sampled < GG_LEAST_SLOW_TIMES * c->slow_mode_time) {
+  } else if (c->slow_mode >= 0 && sampled < c->slow_mode_least * c->slow_mode_time) {
     snprintf(text, size,
              "too short to tell: one mode dominates, %s, which wanders with a correlation time of %.2g collisions a "
              "grain; averaged over %.1f of these, %d are needed",
              gg_measure_wall_mode_name(c->slow_mode), c->slow_mode_time * GG_SAMPLING_INTERVAL,
-             sampled / c->slow_mode_time, GG_LEAST_SLOW_TIMES);
+             sampled / c->slow_mode_time, c->slow_mode_least);
   } else {
     result->steadiness = GG_STEADY;
     snprintf(text, size, "no trend over %.0f collisions a grain, %.0f correlation times of the slowest quantity",

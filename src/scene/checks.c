@@ -43,10 +43,21 @@ static bool walls_are_thermal(const gg_scene *s)
   return s->walls.temperature[0] != GG_AUTO && s->walls.accommodation > 0;
 }
 
+/* Mole fractions from weights. A sum of 1 within rounding stays: what was normalised is read back to the last bit. */
+static void normalise_fractions(gg_scene *s)
+{
+  double total = 0;
+  for (int i = 0; i < s->n_species; i++) total += s->species[i].fraction;
+  if (fabs(total - 1) <= 1e-14) return;
+  for (int i = 0; i < s->n_species; i++) s->species[i].fraction /= total;
+  s->weights = total;
+}
+
 /* Defaults that depend on the flow come from its row. */
 void gg_scene_fill_in(gg_scene *s)
 {
   const gg_flow_row *flow = gg_flow_of(s->flow);
+  normalise_fractions(s);
   if (!gg_scene_is_given(s, "collision.e")) {
     double e = flow->conserves ? 1 : gg_scene_defaults().collision.e[0];
     for (int p = 0; p < GG_PAIRS; p++) s->collision.e[p] = e;
@@ -208,11 +219,6 @@ gg_status gg_scene_finish(gg_scene *s, gg_error *err)
   if (!gg_scene_is_given(s, "flow")) return gg_base_fail(err, GG_BAD_INPUT, "flow is missing, e.g. flow: usf");
   if (!gg_scene_is_given(s, "phi"))
     return gg_base_fail(err, GG_BAD_INPUT, "phi is missing: give the solid fraction, e.g. phi: 0.3");
-  double total = 0;
-  for (int i = 0; i < s->n_species; i++) total += s->species[i].fraction;
-  if (fabs(total - 1) > 1e-9)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "key 'species': the fractions sum to %.10g; they must sum to 1 (within 1e-9)", total);
   if (!(s->output.fields & GG_FIELDS_VELOCITY))
     return gg_base_fail(err, GG_BAD_INPUT,
                         "key 'output.fields': velocity is missing, which frames always hold; add it to the list");
@@ -453,6 +459,21 @@ static void add_species(group *groups, const gg_scene *scene, unsigned uses, con
     }
 }
 
+/* Fractions below 1 whose sum is far from 1 may be mole fractions of which one was forgotten: state what they become.
+ * Weights such as 1 and 2, and decimals such as .333, pass. */
+static void add_weights(const gg_scene *s, gg_string_list *lines)
+{
+  enum { ROUNDING_PERCENT = 5 };
+  char list[400] = "";
+  if (s->weights == 0 || fabs(s->weights - 1) <= ROUNDING_PERCENT / 100.) return;
+  for (int i = 0; i < s->n_species; i++) {
+    if (s->species[i].fraction * s->weights >= 1) return;
+    gg_base_text_append(list, sizeof list, "%s%.4g", i ? ", " : "", s->species[i].fraction);
+  }
+  gg_base_string_list_add(lines, "species: the fractions sum to %.4g and count as weights: the mole fractions are %s",
+                          s->weights, list);
+}
+
 void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_string_list *lines)
 {
   const gg_scene defaults = gg_scene_defaults();
@@ -473,4 +494,5 @@ void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_string_l
     add_key(groups, "under an open top", "walls.temperature of the upper wall");
   for (const group *g = groups; g->n; g++)
     gg_base_string_list_add(lines, "%s %s no effect %s", g->keys, g->n > 1 ? "have" : "has", g->reason);
+  add_weights(scene, lines);
 }

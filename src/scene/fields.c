@@ -35,9 +35,11 @@ static const gg_word precisions[] = {
 static const gg_word stored_precisions[] = {{"double", GG_DOUBLE, "relative precision 1e-16"},
                                             {"single", GG_SINGLE, "relative precision 1e-7, half the size"},
                                             {0}};
-static const gg_word frames_after[] = {{"start", GG_AFTER_START, "from the start of the run"},
-                                       {"warmup", GG_AFTER_WARMUP, "from where averaging begins first"},
-                                       {0}};
+static const gg_word frames_after[] = {
+    {"start", GG_AFTER_START, "from the start of the run"},
+    {"warmup", GG_AFTER_WARMUP,
+     "from where the averaging behind the results begins; trials that a trend ended are left out"},
+    {0}};
 static const gg_word stored_fields[] = {{"position", GG_FIELDS_POSITION, "positions, which md has"},
                                         {"velocity", GG_FIELDS_VELOCITY, "velocities; always stored"},
                                         {"spin", GG_FIELDS_SPIN, "angular velocities of rough grains"},
@@ -222,8 +224,9 @@ const gg_field gg_scene_fields[] = {
 };
 
 const gg_field gg_scene_species_fields[] = {
-    {"fraction", GG_FIELD_NUMBER, offsetof(gg_species, fraction), 0, 1, true, .by_default = 1,
-     .doc = "mole fraction n_i/n", .also = "concentration"},
+    {"fraction", GG_FIELD_NUMBER, offsetof(gg_species, fraction), 0, LARGE, true, .by_default = 1,
+     .doc = "mole fraction n_i/n, or a weight: fractions are divided by their sum; left out: an equal part",
+     .besides = "leave out a species without grains", .also = "concentration"},
     {"diameter", GG_FIELD_NUMBER, offsetof(gg_species, diameter), SMALL, LARGE, .by_default = 1, .unit = "length",
      .doc = "diameter of a grain", .also = "d size radius"},
     {"mass", GG_FIELD_NUMBER, offsetof(gg_species, mass), SMALL, LARGE, .by_default = 1, .unit = "mass",
@@ -394,6 +397,7 @@ static void number_allowed(const gg_field *f, const char *what, char *text, size
   else
     snprintf(text, size, "%s from %s to %s", what, min, max);
   if (f->special) gg_base_text_append(text, size, ", or %s", f->special);
+  if (f->besides) gg_base_text_append(text, size, " (%s)", f->besides);
 }
 
 void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)

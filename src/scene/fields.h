@@ -9,6 +9,7 @@
 #include <stdio.h>
 
 #include "base/archive.h"
+#include "base/file_writer.h"
 #include "base/text.h"
 #include "common/scene.h"
 
@@ -80,10 +81,11 @@ typedef struct gg_field {
   const gg_word *words;
   gg_word (*word)(int i);
   const char *unit, *doc;
-  unsigned when;     /* GG_IF_...: unless all of them hold, the key has no effect; 0: it always has */
-  const char *also;  /* what others call it, for messages: words separated by blanks */
-  const char *older; /* earlier spelling, which is accepted; NULL: none */
-  bool may_change;   /* between the parts of a run that is resumed: it touches neither trajectory nor means */
+  const char *besides; /* of numbers: what to do in place of a value that is not allowed */
+  unsigned when;       /* GG_IF_...: unless all of them hold, the key has no effect; 0: it always has */
+  const char *also;    /* what others call it, for messages: words separated by blanks */
+  const char *older;   /* earlier spelling, which is accepted; NULL: none */
+  bool may_change;     /* between the parts of a run that is resumed: it touches neither trajectory nor means */
 } gg_field;
 
 enum { GG_MAX_FIELDS = 60 };                     /* as many bits of gg_scene.given are used */
@@ -143,6 +145,13 @@ char *gg_scene_yaml(const gg_scene *scene);
 /* JSON of a scene, or of a part of its keys, as YAML. */
 void gg_scene_yaml_print(FILE *out, const json_t *scene);
 
+/* yaml_text.c: what any reader of YAML takes for the same text or number. */
+
+/* A text, in double quotes where it would be something else without; always in quotes. */
+void gg_scene_yaml_text_print(FILE *out, const char *text);
+void gg_scene_yaml_quoted_print(FILE *out, const char *text);
+void gg_scene_yaml_number(double value, char text[GG_NUMBER_TEXT]);
+
 /* protocol.c: changes on the way. */
 
 /* May this key be changed? It changes neither units nor box nor grains. In words for messages: */
@@ -167,7 +176,8 @@ gg_status gg_scene_finish(gg_scene *scene, gg_error *err);
 /* What a scene is used for: a sum of these. */
 enum { GG_USE_MD = 1u << GG_MD, GG_USE_DSMC = 1u << GG_DSMC, GG_USE_THEORY = 1u << 2 };
 /* Keys that the scene gives and that have no effect in it, a line for each reason: "walls.e, walls.beta have no effect
- * ...". Keys with their default values are left out. `scene` is finished, `uses` a sum of GG_USE_... */
+ * ...". Keys with their default values are left out. A last line states what fractions become that do not sum to 1.
+ * `scene` is finished, `uses` a sum of GG_USE_... */
 void gg_scene_ineffective_keys(const gg_scene *scene, unsigned uses, gg_string_list *lines);
 
 /* resumption.c: a checkpoint keeps every key but those that `may_change`, and the name of what the program added to

@@ -164,14 +164,14 @@ json_t *gg_scene_json(const gg_scene *scene)
 /* A JSON value on one line, as YAML flow style. */
 static void print_flow_style(FILE *out, const json_t *value)
 {
-  char text[40];
+  char text[GG_NUMBER_TEXT];
   const char *key;
   json_t *member;
   size_t i = 0;
   switch (json_typeof(value)) {
-  case JSON_REAL: gg_scene_number_format(json_real_value(value), text, sizeof text), fputs(text, out); return;
+  case JSON_REAL: gg_scene_yaml_number(json_real_value(value), text), fputs(text, out); return;
   case JSON_INTEGER: fprintf(out, "%" JSON_INTEGER_FORMAT, json_integer_value(value)); return;
-  case JSON_STRING: fputs(json_string_value(value), out); return;
+  case JSON_STRING: gg_scene_yaml_text_print(out, json_string_value(value)); return;
   case JSON_ARRAY:
     fputc('[', out);
     json_array_foreach(value, i, member) fputs(i ? ", " : "", out), print_flow_style(out, member);

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/memory.h"
 #include "base/spelling.h"
 #include "common/quantity.h"
 #include "scene/scene_reader.h"
@@ -222,8 +223,8 @@ static bool parse_number(const char *text, double *value)
     if (strcmp(text, infinities[i]) == 0) return *value = INFINITY, true;
   char *end;
   if (!*text || text[strspn(text, "0123456789+-.eE")]) return false;
-  errno = 0; /* too large or too small for a double: neither infinity nor 0 was meant */
-  *value = strtod(text, &end);
+  errno = 0;                         /* too large or too small for a double: neither infinity nor 0 was meant */
+  *value = strtod(text, &end) + 0.0; /* -0 is 0 */
   return *end == '\0' && errno == 0;
 }
 
@@ -350,6 +351,17 @@ static gg_status read_ends(const input *in, double *value)
   return GG_OK;
 }
 
+/* As the program writes the value: 2.0 and 2 are one to whatever compares scenes. */
+static gg_status keep_change(const char *key, const gg_field *member, const gg_scene *scene, gg_change *change,
+                             gg_error *err)
+{
+  json_t *value = gg_scene_field_json(member, scene, scene);
+  snprintf(change->key, sizeof change->key, "%s", key);
+  gg_scene_flow_style_text(value, change->value, sizeof change->value);
+  json_decref(value);
+  return value ? GG_OK : gg_base_out_of_memory(err);
+}
+
 static gg_status read_change(const input *in, const gg_scene_entry *e, gg_change *change)
 {
   gg_field member;
@@ -364,10 +376,9 @@ static gg_status read_change(const input *in, const gg_scene_entry *e, gg_change
   if (!value || strlen(value) >= GG_CHANGE_TEXT || strlen(e->word) >= GG_CHANGE_TEXT)
     return gg_scene_reject(in->r, e->value, e->word, "on the way it takes one number or word");
   const gg_scene before = *tried;
-  const gg_status status = gg_scene_read_value(in->r, &member, e->word, e->value, tried);
+  gg_status status = gg_scene_read_value(in->r, &member, e->word, e->value, tried);
+  if (status == GG_OK) status = keep_change(e->word, &member, tried, change, in->r->err);
   *tried = before;
-  snprintf(change->key, sizeof change->key, "%s", e->word);
-  snprintf(change->value, sizeof change->value, "%s", value);
   return status;
 }
 
@@ -487,7 +498,6 @@ static gg_status read_species(const input *in)
   if (in->node->type != YAML_SEQUENCE_NODE) return reject_value(in);
   const ptrdiff_t n = length_of(in->node);
   gg_scene *scene = in->r->scene;
-  double total = 0;
   if (n < 1 || n > GG_MAX_SPECIES)
     return gg_scene_reject(in->r, in->node, in->key, "%td species are given; allowed: 1 to %d", n, GG_MAX_SPECIES);
   for (int i = 0; i < n; i++) {
@@ -497,11 +507,7 @@ static gg_status read_species(const input *in)
       return gg_scene_reject(in->r, map, in->key, "a species is a map with fraction, diameter, mass, inertia and drag");
     GG_TRY(gg_scene_read_map(in->r, in->key, map, gg_scene_species_fields, NULL, &one));
     scene->species[i] = one;
-    total += one.fraction;
   }
-  if (fabs(total - 1) > 1e-9)
-    return gg_scene_reject(in->r, in->node, in->key, "the fractions sum to %.10g; they must sum to 1 (within 1e-9)",
-                           total);
   scene->n_species = (int)n;
   return GG_OK;
 }

@@ -49,13 +49,11 @@ static double neighbours(const gg_correlation *c, size_t n, size_t length)
   return sqrt(fmax(whole / block, c->memory > 0 ? LEAST_OF_VARIANCE : 1));
 }
 
-/* An error from few blocks is itself uncertain: within one of them lies the truth less often than for a normal
- * variable, and the mean square of deviation over error is above 1. Of Student's t with 15 degrees 1.03 times the error
- * holds 68 %, 1.09 times 95 % where 1.96 would; this is between. In windows of less than 40 times of the slowest mode
- * there is more to allow for: chosen on autoregressive series (validation/errors). */
+/* In windows of less than 40 times of the slowest mode there is more to allow for than few blocks: chosen on
+ * autoregressive series (validation/errors). */
 static double small_sample(const gg_correlation *c, size_t blocks, size_t total)
 {
-  return 1 + fmax(1 / (double)(blocks - 1), 2.5 * c->slow / (double)total);
+  return fmax(gg_statistics_student(blocks), 1 + 2.5 * c->slow / (double)total);
 }
 
 gg_status gg_statistics_estimate_made_of(const double *y, size_t n, size_t n_runs, double memory, gg_mean *out,
@@ -231,4 +229,25 @@ gg_status gg_statistics_response_blocks(const gg_series *const *series, size_t n
   block_means(p.y, a.n, n_runs, length, blocks);
   free(p.y);
   return GG_OK;
+}
+
+gg_mean gg_statistics_estimate_over_runs(const double *const *row, size_t n_runs, size_t channels, gg_function f,
+                                         const gg_model *model, double *scratch)
+{
+  double *mean = scratch, *rest = scratch + channels, sum = 0, squares = 0;
+  const double n = (double)n_runs;
+  memset(mean, 0, channels * sizeof *mean);
+  for (size_t r = 0; r < n_runs; r++)
+    for (size_t k = 0; k < channels; k++) mean[k] += row[r][k] / n;
+  gg_mean m = {.mean = gg_function_value(f, mean, model), .error = NAN, .scatter = NAN, .correlation_rows = NAN};
+  if (n_runs < 2) return m;
+  for (size_t r = 0; r < n_runs; r++) {
+    for (size_t k = 0; k < channels; k++) rest[k] = mean[k] + (mean[k] - row[r][k]) / (n - 1);
+    const double d = gg_function_value(f, rest, model) - m.mean;
+    sum += d, squares += d * d;
+  }
+  m.blocks = n_runs;
+  m.scatter = sqrt((n - 1) / n * fmax(squares - sum * sum / n, 0));
+  m.error = m.scatter * gg_statistics_student(n_runs);
+  return m;
 }

@@ -52,6 +52,23 @@ gg_status gg_statistics_response_blocks(const gg_series *const *series, size_t n
                                         size_t offset, size_t channels, gg_function f, const gg_model *model,
                                         size_t length, double *blocks, gg_error *err);
 
+/* Factor on an error that is taken from the scatter of n >= 2 independent numbers: the scatter itself is uncertain.
+ * With this factor the mean square of deviation over error is 1.02 for 8 numbers, 1.00 for 16 and more; without it is
+ * that of Student's t, (n - 1)/(n - 3). Mean +- error then holds the truth in 72 % of cases for 8 numbers and in 70 %
+ * for 16, mean +- 1.96 error in 95 %. The expansion of sqrt((n - 1)/(n - 3)) in 1/(n - 1): finite for 2 and 3 numbers,
+ * too. */
+static inline double gg_statistics_student(size_t n)
+{
+  const double x = 1 / (double)(n - 1);
+  return 1 + x * (1 + 1.5 * x);
+}
+
+/* f at one instant over n_runs independent runs: its value for the means of their rows, and its error by leaving out
+ * one run at a time. A function of the means, and not the mean of f: of a ratio to a rate that counts a few collisions
+ * in each run, the latter is biased, and scatters without bound. `scratch`: 2 x channels. NaN error of one run. */
+gg_mean gg_statistics_estimate_over_runs(const double *const *row, size_t n_runs, size_t channels, gg_function f,
+                                         const gg_model *model, double *scratch);
+
 /* Mean of n >= 1 numbers; of equal ones, exactly that. (GSL's divides a long double for each.) */
 double gg_statistics_mean(const double *y, size_t n);
 

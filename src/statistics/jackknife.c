@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "statistics/estimator.h"
 
 /* How many points of its curve a number has beside it: four would make errors of exponents a little better, and of
  * moments, which remember longer than most points, too small. */
@@ -105,7 +106,8 @@ double gg_statistics_jackknife_errors(const gg_jackknife *j, size_t from, size_t
     double r = count > 0 ? fmin(fmax(sum / count, 0), STRONGEST) : 0, more = (1 + r) / (1 - r);
     if (memory > LEAST_MEMORY && count > 0) more = with_slow_mode(j, sum / count - 1 / blocks, memory);
     double variance = (blocks - 1) / blocks * fmax(scatter(j, from + i), 0) * more;
-    error[i] = blocks > 1 ? sqrt(variance) + 0 * j->sum[from + i] : NAN; /* NaN stays NaN */
+    const double scatter_error = sqrt(variance) + 0 * j->sum[from + i]; /* NaN stays NaN */
+    error[i] = blocks > 1 ? scatter_error * gg_statistics_student(j->blocks) : NAN;
     if (isfinite(own)) all += own, known++;
   }
   return known ? all / (double)known : NAN;

@@ -2,7 +2,8 @@
 /* Standard errors of anything that follows from blocks of samples: leave out one block at a time (the jackknife:
  * Quenouille 1956, Tukey 1958). Blocks that are not much longer than a correlation time depend on their neighbours in
  * time; from the correlation r of neighbouring blocks the variance is taken larger by (1 + r)/(1 - r), as it is for a
- * chain in which correlation fades by the factor r from block to block. */
+ * chain in which correlation fades by the factor r from block to block. Errors have the factor of few blocks that every
+ * error has (gg_statistics_student). */
 #ifndef GG_JACKKNIFE_H
 #define GG_JACKKNIFE_H
 

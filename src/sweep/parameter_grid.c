@@ -63,7 +63,7 @@ static gg_status add_steps(gg_values *v, double first, double step, size_t n, gg
     double x = first + (double)i * step;
     if (fabs(x) < 1e-12 * fabs(step)) x = 0;
     snprintf(text, sizeof text, "%.*g", whole ? 17 : 12, x);
-    gg_scene_number_format(strtod(text, NULL), text, sizeof text);
+    gg_scene_yaml_number(strtod(text, NULL), text);
     GG_TRY(gg_sweep_values_add(v, text, err));
   }
   return GG_OK;
@@ -254,7 +254,7 @@ static char *draw(const gg_values *v, gg_rng *rng)
   double u = gg_rng_uniform(rng);
   if (!v->range) return strdup(v->text[(size_t)(u * (double)v->n)]);
   if (is_whole(v->key))
-    gg_scene_number_format(floor(v->low + u * (v->high - v->low + 1)), text, sizeof text);
+    gg_scene_yaml_number(floor(v->low + u * (v->high - v->low + 1)), text);
   else
     snprintf(text, sizeof text, "%.6g", v->low + u * (v->high - v->low)); /* as many digits as people read */
   return strdup(text);

@@ -222,7 +222,7 @@ static int64_t replicas_for(const gg_cost_estimate *f, double warmup, double lon
 static gg_status add_theories(const gg_scene *scene, double *seconds, gg_error *err)
 {
   gg_model model;
-  GG_TRY(gg_common_model_make(scene, GG_MD, &model, err));
+  GG_TRY(gg_common_model_for_theories(scene, &model, err));
   *seconds += gg_run_cost_of_theories(&model);
   return GG_OK;
 }

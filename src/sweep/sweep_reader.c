@@ -103,11 +103,10 @@ static void print_node(const gg_scene_reader *r, const yaml_node_t *node, FILE *
   if (ftell(out) > LONGEST_VALUE) return;
   if (node->type == YAML_SCALAR_NODE) {
     const char *text = (const char *)node->data.scalar.value;
-    bool plain = node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
-    if (plain) fputs(text, out);
-    if (!plain) fputc('\'', out);
-    for (; !plain && *text; text++) fputs(*text == '\'' ? "''" : (char[]){*text, '\0'}, out);
-    if (!plain) fputc('\'', out);
+    if (node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE)
+      fputs(text, out);
+    else
+      gg_scene_yaml_quoted_print(out, text);
   } else if (node->type == YAML_SEQUENCE_NODE) {
     fputc('[', out);
     for (yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; i++) {

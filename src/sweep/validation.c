@@ -142,6 +142,11 @@ static gg_status validate(validating *v, const gg_grid_view *view, const gg_poin
     free(*text);
     GG_TRY(write_json(view, &agreement, v->options->repeat, text, err));
   }
+  if (!agreement.n_values)
+    return gg_base_fail(err, GG_FAILED,
+                        "nothing was judged: of %zu points with a result %zu have no noise-free solution, and dsmc is "
+                        "not steady at %zu others",
+                        t->n_documents, agreement.unanswered, agreement.unsteady);
   if (!agreement.fails) return GG_OK;
   return gg_base_fail(err, GG_FAILED, "dsmc and the noise-free solution disagree beyond chance");
 }

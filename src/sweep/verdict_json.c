@@ -40,7 +40,8 @@ static json_t *agreement_json(const gg_agreement *a)
                                     "mean_z2", number(r->variance), "mean_z2_allowed", number(r->most_variance),
                                     "largest_z", number(r->largest), "fails", r->fails));
   }
-  return json_pack("{s:b, s:I, s:I, s:I, s:I, s:o, s:o}", "agrees", !a->fails, "points", (json_int_t)a->n_points,
+  json_t *agrees = a->n_values ? json_boolean(!a->fails) : json_null(); /* nothing judged is no agreement */
+  return json_pack("{s:o, s:I, s:I, s:I, s:I, s:o, s:o}", "agrees", agrees, "points", (json_int_t)a->n_points,
                    "values", (json_int_t)a->n_values, "without_solution", (json_int_t)a->unanswered, "not_steady",
                    (json_int_t)a->unsteady, "z_allowed", number(a->most), "quantities", rows);
 }

@@ -111,7 +111,7 @@ void gg_theory_answer_critical_lengths(const gg_model *m, double ratio, gg_theor
 
 double gg_theory_fraction(const gg_model *m, int species)
 {
-  return (double)m->n_of[species] / (double)m->n;
+  return m->fraction[species];
 }
 
 static gg_stress stress_sum(gg_stress a, gg_stress b)
@@ -177,7 +177,7 @@ void gg_theory_answer_collisions(const gg_model *m, const double T[], gg_theory_
   a->value[GG_Q_COLLISION_RATE] = rate;
   a->value[GG_Q_MEAN_FREE_PATH] = speed / rate;
   /* The box has no size in the Boltzmann limit. */
-  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = speed / rate / cbrt(m->volume);
+  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = speed / rate / m->length;
 }
 
 void gg_theory_answer_collisions_one(const gg_model *m, double T, gg_theory_answer *a)
@@ -192,7 +192,7 @@ void gg_theory_answer_collisions_one(const gg_model *m, double T, gg_theory_answ
  * One species: nu = 4 n d^2 chi sqrt(pi T), l = d/(6 sqrt(2) phi chi). */
 double gg_theory_pair_collision_rate(const gg_model *m, int i, int j, const double T[])
 {
-  double nj = m->density * (double)m->n_of[j] / (double)m->n, sigma = m->sigma[gg_pair(i, j)];
+  double nj = m->number_density[j], sigma = m->sigma[gg_pair(i, j)];
   return nj * sigma * sigma * m->chi[gg_pair(i, j)] * sqrt(8 * M_PI * (T[i] / m->mass[i] + T[j] / m->mass[j]));
 }
 

@@ -27,7 +27,7 @@ static void answer_flights(const gg_model *m, double rate, double speed, gg_theo
 {
   a->value[GG_Q_COLLISION_RATE] = rate;
   a->value[GG_Q_MEAN_FREE_PATH] = speed / rate;
-  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = speed / rate / cbrt(m->volume);
+  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = speed / rate / m->length;
 }
 
 static double fourth(const double C[3])

@@ -101,14 +101,18 @@ const char *gg_theory_points_evaluate(void *theory, const gg_facts *facts, doubl
   return "has no row for this scene in its table";
 }
 
-/* Index of the parameter, also as "collision.e"; -1: a quantity. */
+/* Index of the parameter, also by its key in a scene; -1: none. */
 static int find_parameter(const char *name)
 {
-  const char *dot = strrchr(name, '.');
-  const char *word = dot ? dot + 1 : name;
-  if (strcmp(word, "inertia") == 0) word = "K";
+  static const char *const keys[][2] = {
+      {"inertia", "K"},           {"species.1.inertia", "K"},       {"species.2.inertia", "K_2"},
+      {"collision.e", "e"},       {"collision.e.12", "e_12"},       {"collision.e.22", "e_22"},
+      {"collision.beta", "beta"}, {"collision.beta.12", "beta_12"}, {"collision.beta.22", "beta_22"},
+      {"collision.mu", "mu"},     {"collision.mu.12", "mu_12"},     {"collision.mu.22", "mu_22"}};
+  for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+    if (strcmp(keys[i][0], name) == 0) name = keys[i][1];
   for (int k = 0; gg_theory_parameters[k]; k++)
-    if (strcmp(gg_theory_parameters[k], word) == 0) return k;
+    if (strcmp(gg_theory_parameters[k], name) == 0) return k;
   return -1;
 }
 
@@ -119,20 +123,35 @@ typedef struct head {
   char *quantity[MOST_COLUMNS];
 } head;
 
+/* Of a parameter or of a quantity, each once; what it is is entered. */
+static gg_status read_column(char *word, const char *name, head *h, int *parameter, gg_error *err)
+{
+  *parameter = find_parameter(word);
+  if (h->n == MOST_COLUMNS) return gg_base_fail(err, GG_BAD_INPUT, "%s: more than %d columns", name, MOST_COLUMNS);
+  if (*parameter < 0 && strchr(word, '.'))
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: column '%.60s': this key is no parameter of a table", name, word);
+  bool twice = false;
+  for (int k = 0; k < h->n_keys; k++) twice |= h->key[k] == *parameter;
+  for (int k = 0; k < h->n_quantities; k++) twice |= strcmp(h->quantity[k], word) == 0;
+  if (twice) return gg_base_fail(err, GG_BAD_INPUT, "%s: '%.60s' has two columns", name, word);
+  if (*parameter < 0)
+    h->of[h->n] = h->n_quantities, h->quantity[h->n_quantities++] = word;
+  else
+    h->of[h->n] = h->n_keys, h->key[h->n_keys++] = *parameter;
+  h->n++;
+  return GG_OK;
+}
+
 /* Cuts the line into its names, in place. */
 static gg_status read_head(char *line, const char *name, head *h, gg_error *err)
 {
-  int parameter[MOST_COLUMNS];
+  int parameter[MOST_COLUMNS + 1];
   char *rest = line;
   *h = (head){0};
-  for (char *word; (word = strsep(&rest, ",")); h->n++) {
+  for (char *word; (word = strsep(&rest, ","));) {
+    word += strspn(word, " \t");
     word[strcspn(word, "\r \t")] = '\0';
-    if (h->n == MOST_COLUMNS) return gg_base_fail(err, GG_BAD_INPUT, "%s: more than %d columns", name, MOST_COLUMNS);
-    parameter[h->n] = find_parameter(word);
-    if (parameter[h->n] < 0) h->of[h->n] = h->n_quantities, h->quantity[h->n_quantities++] = word;
-    if (parameter[h->n] >= 0 && h->n_keys == GG_THEORY_PARAMETERS)
-      return gg_base_fail(err, GG_BAD_INPUT, "%s: a parameter has two columns", name);
-    if (parameter[h->n] >= 0) h->of[h->n] = h->n_keys, h->key[h->n_keys++] = parameter[h->n];
+    GG_TRY(read_column(word, name, h, &parameter[h->n], err));
   }
   for (int k = 0; k < h->n; k++)
     if (parameter[k] < 0) h->of[k] += h->n_keys;

@@ -30,7 +30,8 @@ const char *gg_theory_formula_evaluate(void *theory, const gg_facts *facts, doub
 const char *gg_theory_points_evaluate(void *theory, const gg_facts *facts, double *values);
 
 /* A table from text: a line of names, parameters and quantities in any order, then numbers, with commas; an empty cell
- * is no answer. A parameter may have its scene's name, collision.e. *quantity (to be freed) has the names of `n`
+ * is no answer. A parameter may have its key in scenes, collision.e; other keys
+ * (walls.e) are an error, and so is a name with two columns. *quantity (to be freed) has the names of `n`
  * quantities, which are in *names (to be freed). */
 gg_status gg_theory_points_read(const char *text, const char *name, gg_points_theory **theory, char ***quantity,
                                 char **names, gg_error *err);

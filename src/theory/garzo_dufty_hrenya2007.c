@@ -37,8 +37,7 @@ static gg_model model_at(const gg_model *base, bool dense, const double n[GG_BIN
 {
   gg_model m = *base;
   m.density = n[0] + n[1];
-  m.n = INT64_C(1) << 50;
-  m.n_of[0] = (int64_t)(n[0] / m.density * (double)m.n), m.n_of[1] = m.n - m.n_of[0];
+  for (int i = 0; i < GG_BINARY; i++) m.number_density[i] = n[i], m.fraction[i] = n[i] / m.density;
   if (!dense) return m;
   double xi[4] = {0};
   for (int i = 0; i < GG_BINARY; i++)

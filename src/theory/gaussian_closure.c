@@ -56,7 +56,7 @@ static void report(const gg_model *m, const gg_gaussian state[], gg_theory_answe
   gg_theory_answer_stress(m, a->value[GG_Q_TEMPERATURE], stress_of(Pk), stress_of(r.Pc), a);
   a->value[GG_Q_COLLISION_RATE] = frequency;
   a->value[GG_Q_MEAN_FREE_PATH] = speed / frequency;
-  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = speed / frequency / cbrt(m->volume);
+  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = speed / frequency / m->length;
   a->value[GG_Q_DISSIPATION] = m->bath.on ? m->stress_unit * r.loss : -a->value[GG_Q_P_XY] * m->shear_rate;
 }
 

@@ -171,7 +171,7 @@ static void add_spin(const pair *p, const impulse *f, double w, gg_gaussian *cha
 
 static double number_density(const gg_model *m, int i)
 {
-  return m->density * (double)m->n_of[i] / (double)m->n;
+  return m->number_density[i];
 }
 
 static void add_pair(const gg_model *m, const gg_gaussian *state, int i, int j, gg_vec k, double w,

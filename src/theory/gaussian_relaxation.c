@@ -28,8 +28,7 @@ void gg_theory_gaussian_start(const gg_model *m, gg_gaussian state[])
 static double energy_of(const gg_model *m, const gg_gaussian state[])
 {
   double sum = 0;
-  for (int i = 0; i < m->n_species; i++)
-    sum += (double)m->n_of[i] / (double)m->n * m->mass[i] * gg_theory_trace(state[i].M);
+  for (int i = 0; i < m->n_species; i++) sum += m->fraction[i] * m->mass[i] * gg_theory_trace(state[i].M);
   return sum;
 }
 
@@ -137,7 +136,7 @@ static bool is_settled(const gg_model *m, const gg_gaussian state[], const gg_ga
 static double collision_rate(const gg_model *m, const gg_gaussian_rates *r)
 {
   double sum = 0;
-  for (int i = 0; i < m->n_species; i++) sum += (double)m->n_of[i] / (double)m->n * r->frequency[i];
+  for (int i = 0; i < m->n_species; i++) sum += m->fraction[i] * r->frequency[i];
   return sum;
 }
 
@@ -173,7 +172,6 @@ double gg_theory_gaussian_shear_stress(const gg_model *m, const gg_gaussian stat
   gg_gaussian_rates r;
   gg_theory_gaussian_rates_at(m, state, &r);
   double stress = r.Pc.at[0][1];
-  for (int i = 0; i < m->n_species; i++)
-    stress += m->density * (double)m->n_of[i] / (double)m->n * m->mass[i] * state[i].M.at[0][1];
+  for (int i = 0; i < m->n_species; i++) stress += m->number_density[i] * m->mass[i] * state[i].M.at[0][1];
   return m->stress_unit * stress;
 }

@@ -195,7 +195,7 @@ static closure closure_of(const gg_model *m)
   gg_lun_functions lun = gg_theory_lun_functions_at((gg_lun_state){m->density, m->phi, m->chi[0], grain, ratio});
   for (int i = 0; i < m->n_species; i++) {
     mass += gg_theory_fraction(m, i) * m->mass[i];
-    if (m->n_of[i] > m->n_of[c.most]) c.most = i;
+    if (m->fraction[i] > m->fraction[c.most]) c.most = i;
   }
   c.T = mass * lun.f2 / lun.f5;
   if (m->bath.on || !(c.T > 0 && isfinite(c.T))) c.T = m->temperature0;

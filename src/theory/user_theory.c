@@ -36,7 +36,7 @@ static const char *word_of_thermostat(gg_thermostat thermostat)
 static void describe_species(const gg_model *m, gg_species_facts *species, gg_pair_facts *pairs)
 {
   for (int i = 0; i < m->n_species; i++) {
-    species[i] = (gg_species_facts){(double)m->n_of[i] / (double)m->n, m->diameter[i], m->mass[i], m->inertia[i]};
+    species[i] = (gg_species_facts){m->fraction[i], m->diameter[i], m->mass[i], m->inertia[i]};
     for (int j = 0; j < m->n_species; j++) {
       int o = gg_pair(i, j);
       pairs[m->n_species * i + j] = (gg_pair_facts){m->e[o], m->beta[o], m->mu[o], m->sigma[o], m->chi[o]};

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs and their files: what is stopped at any moment goes on to the same end; what cannot be written is said, and no
  * result is lost for it. */
-#include <locale.h>
 #include <sys/stat.h>
 
 #include "api_test.h"
@@ -300,38 +299,13 @@ static void progress_counts_all_replicas(void **state)
   gg_scene_free(s);
 }
 
-/* A program with a decimal comma of its own. */
-static void decimal_comma(void **state)
-{
-  (void)state;
-  gg_error err;
-  if (system("localedef -i de_DE -f UTF-8 ./t_de >/dev/null 2>&1") != 0 || setenv("LOCPATH", ".", 1) != 0 ||
-      !setlocale(LC_ALL, "t_de"))
-    skip();
-  char text[40];
-  gg_scene *s = scene_of(SHEAR);
-  gg_result *r = NULL, *back = NULL;
-  gg_comparison *c = NULL;
-  gg_run(s, &(gg_run_options){.output = "t_comma.h5"}, &r, &err);
-  assert_ok(gg_result_read("t_comma.h5", &back, &err));
-  assert_ok(gg_comparison_read("t_comma.h5", &c, &err));
-  assert_ok(gg_scene_get(gg_result_scene(back), "phi", text, sizeof text, &err));
-  assert_string_equal(text, "0.1");
-  setlocale(LC_ALL, "C");
-  gg_comparison_free(c);
-  gg_result_free(back);
-  gg_result_free(r);
-  gg_scene_free(s);
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(stopped_anywhere),       cmocka_unit_test(a_single_sample),
       cmocka_unit_test(unwritable_checkpoints), cmocka_unit_test(one_path_for_two),
       cmocka_unit_test(checkpoints_of_others),  cmocka_unit_test(progress_counts_all_replicas),
-      cmocka_unit_test(decimal_comma),          cmocka_unit_test(stopped_at_the_end),
-      cmocka_unit_test(logs_of_frames),
+      cmocka_unit_test(stopped_at_the_end),     cmocka_unit_test(logs_of_frames),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

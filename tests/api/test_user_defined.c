@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a program adds to a scene, by the public interface alone: found again in files, right in a cooling gas, refused
  * where it would spoil files. */
+#include <stdatomic.h>
 #include <stdbool.h>
 
 #include "api_test.h"
@@ -183,6 +184,59 @@ static void law_noted(void **state)
   }
 }
 
+/* Right at the speeds at which laws are tried, which are powers of 10^(1/4); between two of them NaN, or 5. */
+static double patchy(void *bad, double speed, int one, int two)
+{
+  const bool nan = speed > 1.35 && speed < 1.5;
+  const bool large = speed > 1.5 && speed < 1.7 && one == two;
+  if (nan || large) atomic_fetch_add((atomic_ullong *)bad, 1);
+  return nan ? NAN : large ? 5 : 0.9;
+}
+
+/* What a law gives that is no number from 0 to 1 is clamped and counted: every engine and boundary, threads, replicas
+ * and species; the result has the number, a warning says it, also read back. */
+static void clamped_laws(void **state)
+{
+  (void)state;
+  static const char *const scenes[] = {
+      "{flow: usf, engine: md, phi: 0.1, particles: 300, run: {collisions: 60, warmup: 0, replicas: 2}}",
+      "{flow: hss, engine: md, phi: 0.1, particles: 300, run: {collisions: 60, warmup: 0}, species: [{mass: 1}, {mass: "
+      "2}]}",
+      "{flow: couette, engine: md, phi: 0.1, particles: 300, run: {collisions: 60, warmup: 0}}",
+      "{flow: usf, engine: dsmc, phi: 0.1, run: {collisions: 60, warmup: 0}}",
+      "{flow: usf, engine: dsmc, phi: 0.1, collision: {beta: 0}, run: {collisions: 60, warmup: 0}, dsmc: {particles: "
+      "12000}}",
+      "{flow: hss, engine: dsmc, phi: 0.1, run: {collisions: 60, warmup: 0, replicas: 2}, species: [{mass: 1}, {mass: "
+      "2}]}",
+      "{flow: couette, engine: dsmc, phi: 0.1, run: {collisions: 30, warmup: 0}, dsmc: {particles: 12000}}",
+  };
+  gg_error err;
+  for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
+    gg_scene *s = scene_of(scenes[k]);
+    gg_result *r[2] = {NULL};
+    atomic_ullong bad = 0;
+    assert_ok(gg_scene_set_restitution(s, "patchy", patchy, &bad, &err));
+    gg_run(s, &(gg_run_options){.output = "t_patchy.h5", .threads = 2}, &r[0], &err);
+    assert_non_null(r[0]);
+    assert_ok(gg_result_read("t_patchy.h5", &r[1], &err));
+    for (int i = 0; i < 2; i++) {
+      char number[60], *text;
+      const char *warning;
+      bool said = false;
+      snprintf(number, sizeof number, "\"law_clamped\": %llu", bad);
+      assert_ok(gg_result_to_json(r[i], &text, &err));
+      if (!bad || !strstr(text, number))
+        fail_msg("%s: %s is missing: %.60s", scenes[k], number, strstr(text, "\"law_clamped"));
+      free(text);
+      snprintf(number, sizeof number, "at the speeds of %llu collisions", bad);
+      for (size_t w = 0; (warning = gg_result_warning(r[i], w)); w++) said |= strstr(warning, number) != NULL;
+      assert_true(said);
+      gg_result_free(r[i]);
+    }
+    gg_scene_free(s);
+  }
+}
+
 typedef struct impacts {
   double sum, count, least, most; /* of the ratio of <(k.g)^2> to T, over all intervals while averaging */
 } impacts;
@@ -336,6 +390,11 @@ static void theories_refused(void **state)
   assert_refused(gg_scene_add_theory(s, &t, &err), "`evaluate` is missing");
   t.evaluate = say_nothing, t.name = "grad";
   assert_refused(gg_scene_add_theory(s, &t, &err), "taken");
+  const char *const columns[] = {"md", "Z", "unit", "dsmc_stderr", "mine_error"};
+  for (int k = 0; k < 5; k++) {
+    t.name = columns[k];
+    assert_refused(gg_scene_add_theory(s, &t, &err), "reserved for columns of tables");
+  }
   t.name = name;
   for (int k = 0; k < 8; k++) {
     snprintf(name, sizeof name, "mine_%d", k);
@@ -447,7 +506,7 @@ int main(void)
       cmocka_unit_test(read_back),    cmocka_unit_test(read_back_run),    cmocka_unit_test(theories_under_a_law),
       cmocka_unit_test(cooling),      cmocka_unit_test(spoiling),         cmocka_unit_test(law_noted),
       cmocka_unit_test(listed),       cmocka_unit_test(theories_refused), cmocka_unit_test(observables_refused),
-      cmocka_unit_test(laws_refused), cmocka_unit_test(reason_in_latin1),
+      cmocka_unit_test(laws_refused), cmocka_unit_test(clamped_laws),     cmocka_unit_test(reason_in_latin1),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

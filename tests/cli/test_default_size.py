@@ -37,11 +37,11 @@ def test_every_command_has_it():
     check(f"{N} grains, automatic: the box stays homogeneous" in text.out, text.out)
 
 
-def test_no_box_is_large_enough():
+def test_no_homogeneous_box_is_large_enough():
     about = run("info", "scene.yaml", scene=NONE_FITS, columns=300).out
-    check("number of grains: default: no homogeneous box is large enough" in about, about)
+    check("number of grains: automatic, the smallest: vortices and clusters grow beyond about" in about, about)
     found = run("compare", "scene.yaml", "--quiet", "--output", "r.h5", columns=300)
-    check("1000 grains, default: no homogeneous box is large enough (at least 500 grains)" in found.out, found.out)
+    check("500 grains, automatic, the smallest: vortices and clusters grow beyond about" in found.out, found.out)
 
 
 def test_a_given_number_is_kept():

@@ -5,6 +5,8 @@ import csv
 import json
 import math
 import os
+import random
+import re
 
 from tap import check, main, run
 
@@ -43,6 +45,84 @@ def test_answers():
     check("mine is a formula for one species" in done.out, done.out[-900:])
     done = theories(SCENE.replace('"5/2*(1-e)"', "m_2*x_1") + mixture)
     check(abs(json.loads(done.out)["theory"]["mine"]["N1"]["mean"] - 1) < 1e-12)
+
+
+MIXTURE = """flow: usf
+phi: 0.12
+collision: {e: {11: 0.9, 12: 0.8, 22: 0.7}, beta: {11: 0.1, 12: -0.2, 22: -0.3}, mu: {11: 0.4, 12: 0.5, 22: 0.6}}
+species: [{fraction: 0.3, diameter: 1, mass: 1, inertia: 0.35}, {fraction: 0.7, diameter: 1.5, mass: 2.5, inertia: 0.45}]
+"""
+PARAMETERS = {"phi": 0.12, "gamma": 1.0, "e": 0.9, "beta": 0.1, "mu": 0.4, "K": 0.35, "K_2": 0.45, "e_12": 0.8, "e_22": 0.7,
+              "beta_12": -0.2, "beta_22": -0.3, "mu_12": 0.5, "mu_22": 0.6, "x_1": 0.3, "x_2": 0.7, "m_1": 1.0, "m_2": 2.5,
+              "sigma_1": 1.0, "sigma_2": 1.5, "sigma_12": 1.25}
+FUNCTIONS = {"ln": math.log, "log10": math.log10, "exp": math.exp, "sqrt": math.sqrt, "abs": math.fabs, "sin": math.sin,
+             "cos": math.cos}
+QUANTITIES = ("temperature", "pressure", "shear_viscosity", "N1", "N2", "P_xx", "P_yy", "P_zz", "P_xy", "P_yx", "collision_rate",
+              "mean_free_path", "knudsen", "kurtosis_Cx", "kurtosis_Cy", "kurtosis_Cz")
+
+
+def formula(r, depth):
+    """A random formula as a text, with brackets only where chance puts them."""
+    kind = r.random() if depth else 0
+    blank = lambda: " " * r.randrange(2)
+    if kind < 0.25:
+        return r.choice((r.choice(list(PARAMETERS)), r.choice(list(PARAMETERS)), r.choice(("pi", "2", "0.5", ".25", "3.", "1e-2", "1.5E+1"))))
+    if kind < 0.35:
+        return f"{r.choice(list(FUNCTIONS))}{blank()}({blank()}{formula(r, depth - 1)}{blank()})"
+    if kind < 0.45:
+        return f"{r.choice('+-')}{blank()}{formula(r, depth - 1)}"
+    if kind < 0.6:
+        return f"({blank()}{formula(r, depth - 1)})"
+    return f"{formula(r, depth - 1)}{blank()}{r.choice('++--**//^')}{blank()}{formula(r, depth - 1)}"
+
+
+def by_python(text):
+    """The value by Python's own grammar; None: not a number. Where Python stops at an infinity graingas may go on."""
+    number = r"(?<![\w.])(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?"  # whole ones, too, are floating-point numbers
+    text = re.sub(number, lambda m: repr(float(m[0])), text).replace("^", "**").strip()
+    try:
+        value = eval(text, {"__builtins__": {}}, {**PARAMETERS, **FUNCTIONS, "pi": math.pi})  # pylint: disable=eval-used
+    except (ZeroDivisionError, OverflowError, ValueError, TypeError):
+        return "unknown"
+    return value if isinstance(value, float) and math.isfinite(value) else None
+
+
+def values_of(formulas):
+    """Those of graingas, in the order of the formulas; None: there is none."""
+    parts = [formulas[k:k + len(QUANTITIES)] for k in range(0, len(formulas), len(QUANTITIES))]
+    scene = MIXTURE + "theories:\n"
+    for k, part in enumerate(parts):
+        names = [*part] + ["m_2"] * (len(QUANTITIES) - len(part))  # each theory names the second species
+        scene += f"  t{k}: " + json.dumps(dict(zip(QUANTITIES, names))) + "\n"
+    done = run("theory", "-", "--json", typed=scene)
+    check(done.code == 0, done.err, scene)
+    theory = json.loads(done.out)["theory"]
+    found = [theory.get(f"t{k}", {}).get(q, {}).get("mean") for k in range(len(parts)) for q in QUANTITIES]
+    return found[:len(formulas)]
+
+
+def test_expressions_against_python():
+    """Each parameter, then random formulas of all operators and functions: the same bits as by Python's eval()."""
+    check(values_of(list(PARAMETERS)) == list(PARAMETERS.values()), values_of(list(PARAMETERS)))
+    r = random.Random(59)
+    texts = [t for t in (formula(r, 5) for _ in range(1500)) if 8 < len(t) < 120][:360]
+    compared = 0
+    for k in range(0, len(texts), 120):
+        part = texts[k:k + 120]
+        for text, found in zip(part, values_of(part)):
+            expected = by_python(text)
+            if expected != "unknown":
+                check(found == expected, repr(text), found, expected)
+                compared += expected is not None
+    check(compared > 200, compared)
+    check(values_of(["1/(e-e)", "ln(-1)", "(-1)^0.5", "exp(1000)", "0/0 + m_2"]) == [None] * 5)
+
+
+def test_wrong_grammar():
+    """What Python does not read, either."""
+    for text in ("2 3", "2(3)", "sin 1", "(1", "1)", "1 +", "* 2", "2 ^", "1..2", "sin()", "pi pi", "", "2e", "e e", "1,2"):
+        done = run("theory", "-", "--json", typed=MIXTURE + "theories: {t: {N1: " + json.dumps(text) + "}}\n")
+        check(done.code == 2 and "theories.t" in done.err, repr(text), done.code, done.err)
 
 
 def test_another_folder():
@@ -86,6 +166,7 @@ def test_refused():
                             ("mine:", "grad:", "scene.yaml:7: key 'theories.grad': theory: the name 'grad' is taken"),
                             ("points.csv", "none.csv", "scene.yaml:8: key 'theories.table': none.csv: cannot be read"),
                             ("points.csv", "[1]", "scene.yaml:8: key 'theories.table': formulas are expected"),
+                            ("N1:", "temperature:", "scene.yaml:7: key 'theories.mine': mine: the quantity 'temperature' is given"),
                             ("  table: points.csv", "  mine: points.csv", "'mine' is taken")):
         done = theories(SCENE.replace(old, new))
         check(done.code == 2 and words in done.err and not done.out, done.code, done.err, words)
@@ -94,9 +175,34 @@ def test_refused():
                           ("phi,temperature\n0.1,2,3\n", "points.csv:2: 2 numbers are needed"),
                           ("phi,temperature\n0.1,x\n", "points.csv:2: column 2 is not a number"),
                           ("phi,temperature\n", "has no row"), ("phi,temperature", "has no row"),
-                          ("phi,phi," * 40 + "N1\n", "has two columns"), ("", "has to name parameters")):
+                          ("phi,phi,N1\n", "'phi' has two columns"), ("e,collision.e,N1\n", "'collision.e' has two columns"),
+                          ("phi,N1,N2,N1\n", "'N1' has two columns"), ("walls.e,N1\n0.9,2\n", "column 'walls.e'"),
+                          ("phi,species.3.inertia,N1\n", "column 'species.3.inertia'"), ("e.12,N1\n", "column 'e.12'"), ("", "has to name parameters")):
         done = theories(SCENE, points)
         check(done.code == 2 and words in done.err, points, done.code, done.err)
+
+
+def test_no_table():
+    """What stands where the table should be blocks nobody: it is named, by every command that reads the scene."""
+    os.mkfifo("pipe.csv")
+    os.mkdir("folder.csv")
+    os.symlink("pipe.csv", "link.csv")
+    for name in "pipe.csv", "folder.csv", "link.csv", "/dev/zero":
+        scene = SCENE.replace("points.csv", name)
+        for command in "theory", "info", "run":
+            done = run(command, "scene.yaml", scene=scene, timeout=10)
+            check(done.code == 2 and f"{name}: cannot be read: it is no file" in done.err, command, name, done.err)
+        done = run("sweep", "sweep.yaml", "--list", scene=scene + "vary: {phi: [0.1, 0.2]}\n", name="sweep.yaml", timeout=10)
+        check(done.code == 2 and "it is no file" in done.err, done.err)
+
+
+def test_keys_as_columns():
+    """A column may have the key of a scene; of a mixture each pair its own."""
+    table = "collision.e.12,K_2,species.1.inertia,N1\n0.8,0.3,0.4,7\n0.9,0.3,0.4,8\n"
+    mixture = "species:\n - {fraction: 0.5}\n - {fraction: 0.5, mass: 2, inertia: 0.3}\n"
+    scene = SCENE.replace("e: 0.9", "e: {11: 0.7, 12: 0.8, 22: 0.9}") + mixture
+    done = theories(scene, table)
+    check(json.loads(done.out)["theory"]["table"]["N1"]["mean"] == 7, done.out[-900:])
 
 
 if __name__ == "__main__":

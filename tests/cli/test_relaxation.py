@@ -109,6 +109,67 @@ def test_shear_rate_scales():
             check(np.abs(slid - np.round(slid)).max() < 1e-9, slid)
 
 
+def number(path, name, what):
+    """Mean, error."""
+    with h5py.File(path) as file:
+        group = file[f"graingas/curves/{name}/numbers/{what}"]
+        return np.array([group["mean"][()], group["stderr"][()]])
+
+
+def test_diffusion_after_change():
+    """Three times the shear rate: D three times as large, the same free paths in the laboratory. Displacements and
+    velocities of the laboratory are those of the present flow."""
+    scene = """{flow: usf, engine: md, phi: 0.1, particles: 200, collision: {e: 0.7}, run: {duration: %g, replicas: 8},
+        measure: [rheology, diffusion, collisions], protocol: %s}"""
+    for path, text in ("d3.h5", scene % (20, "[{at: 2, shear_rate: 3}]")), ("d1.h5", scene % (35, "[]")):
+        done = run("run", "scene.yaml", "--quiet", "--output", path, scene=text)
+        check(done.code == 0, done.err)
+    for name, what, power, sight in (("velocity_autocorrelation_Cx", "diffusion_green_kubo", 3, 2.5),
+                                     ("displacement_squared_x", "diffusion_einstein", 3, 5),
+                                     ("free_path_laboratory", "mean_free_path_laboratory", 1, 0.05)):
+        (changed, error), reference = number("d3.h5", name, what), power * number("d1.h5", name, what)
+        error = np.hypot(error, reference[1])
+        check(abs(changed - reference[0]) < 4 * error < sight, name, changed, reference, error)
+
+
+def test_conductivity_after_change():
+    """Heat conductivity of the gas after the change, from e = 0.98 to 0.4: that of theory."""
+    scene = """{flow: hcs, engine: dsmc, phi: 0.3, collision: {e: 0.98}, dsmc: {particles: 4000},
+        run: {duration: 12, replicas: 8}, protocol: [{at: 3, collision.e: 0.4}], measure: [rheology, conductivity]}"""
+    done, theory = (run(command, "scene.yaml", "--json", "--quiet", scene=scene) for command in ("run", "theory"))
+    check(done.code == 0 and theory.code == 0, done.err, theory.err)
+    name = "thermal_conductivity_reduced"
+    found = json.loads(done.out)["results"][name]
+    theory = json.loads(theory.out)["theory"]["enskog_hermite"][name]["mean"]
+    check(abs(found["mean"] - theory) < 4 * found["stderr"] < 0.3 * theory, found, theory)
+
+
+def test_gas_that_has_it():
+    """What can be measured after the last change is measured; what cannot is not, and `info` and the run say so."""
+    scene = """{flow: usf, engine: md, phi: 0.1, particles: 100, collision: {e: %s}, run: {duration: 10},
+        measure: [rheology, diffusion], protocol: [{at: 5, collision.e: %s}]}"""
+    for one, two in (1, 0.8), (0.8, 1):
+        told = "diffusion is not measured: a gas that heats up has no stationary velocity correlation"
+        for command in "info", "run":
+            arguments = [] if command == "info" else ["--output", "g.h5"]
+            done = run(command, "scene.yaml", *arguments, scene=scene % (one, two))
+            check(done.code == 0 and (told in " ".join((done.out + done.err).split())) == (two == 1), command, one, two, done.out)
+        with h5py.File("g.h5") as file:
+            check(("displacement_squared_x" in file["graingas/curves"]) == (two < 1), list(file["graingas/curves"]))
+
+
+def test_log_columns():
+    """A log keeps its columns, whatever quantities the present thermostat has."""
+    scene = """{flow: hss, engine: dsmc, phi: 0.1, collision: {e: 0.8}, dsmc: {particles: 300}, thermostat: gaussian,
+        run: {duration: 10, replicas: 2}, output: {log: l.csv},
+        protocol: [{at: 5, thermostat: bath, bath.drag: 0.2, bath.temperature: 1}]}"""
+    done = run("run", "scene.yaml", "--quiet", "--output", "l.h5", scene=scene)
+    check(done.code == 0, done.err)
+    with open("l.csv") as file:
+        widths = [line.count(",") for line in file]
+    check(len(widths) == 101 and len(set(widths)) == 1, widths)
+
+
 def test_given_step():
     """A step of Monte Carlo that is longer than the time from one sample to the next ends with it."""
     done = run("run", "scene.yaml", "--quiet", "--output", "s.h5", "--set", "dsmc.time_step=1", scene=ELASTIC % "dsmc")

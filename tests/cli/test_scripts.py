@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""quickstart and check where there is no apt-get: what is missing is named, with the packages of the system."""
+"""quickstart and check where there is no apt-get: what is missing is named, with the packages of the system. What a
+build calls itself, and what changes its identity."""
 import os
 import shutil
 import subprocess
@@ -90,6 +91,62 @@ def test_steps_ask_for_what_they_need():
     check(unit.returncode == 1 and whole.returncode == 1)
     check("cmocka" in unit.stderr and "clang" not in unit.stderr, unit.stderr)
     check("cmocka" in whole.stderr and "clang" in whole.stderr and "MDAnalysis" not in whole.stderr, whole.stderr)
+
+
+def identity(tree):
+    return subprocess.run([sys.executable, f"{tree}/scripts/build-identity", tree], capture_output=True, text=True, check=True).stdout
+
+
+def test_identity_has_all_that_makes_numbers():
+    """One byte in any folder of the sources; not what prints, draws or times results."""
+    shutil.copytree(os.path.join(SOURCE, "src"), "tree/src", dirs_exist_ok=True)
+    os.makedirs("tree/scripts", exist_ok=True)
+    shutil.copy(os.path.join(SOURCE, "scripts/build-identity"), "tree/scripts")
+    before, others = identity("tree"), []
+    for folder in sorted(os.listdir("tree/src")):
+        name = next(os.path.join(path, n) for path, _, names in sorted(os.walk(f"tree/src/{folder}")) for n in sorted(names)
+                    if n.endswith((".c", ".h")))
+        with open(name, "a", encoding="utf-8") as file:
+            file.write("\n")
+        others += [folder] if identity("tree") == before else []
+        os.truncate(name, os.path.getsize(name) - 1)
+    check(others == ["bench", "cli", "plot"], "no change of these changes the identity", others)
+    check(identity("tree") == before and len(before.strip()) == 16, before)
+
+
+def version(tree, *more, **env):
+    done = subprocess.run(["sh", f"{tree}/scripts/version", "0.1.0", *more], capture_output=True, text=True, check=True,
+                          env={**os.environ, "GIT_CONFIG_GLOBAL": "/dev/null", **env})
+    check(done.stderr == "", done.stderr)
+    return done.stdout.strip()
+
+
+def test_what_a_build_calls_itself():
+    """The commit; where git names none, as in the tree of another user, a hash of the sources, and why."""
+    shutil.copytree(os.path.join(SOURCE, "src/base"), "clone/src/base")
+    os.mkdir("clone/scripts")
+    for name in "version", "build-identity":
+        shutil.copy(os.path.join(SOURCE, "scripts", name), "clone/scripts")
+    unnamed = "0.1.0+unknown." + identity("clone")[:8]
+    check(version("clone") == unnamed and "not a git repository" in version("clone", "why"), version("clone", "why"))
+    with open("clone/src/base/text.c", "a", encoding="utf-8") as file:
+        file.write("\n")
+    check(version("clone") != unnamed, "other sources have another name")
+    if not shutil.which("git"):
+        return
+    git = ["git", "-C", "clone", "-c", "user.name=a", "-c", "user.email=a@b"]
+    for command in ["init", "-q"], ["add", "."], ["commit", "-q", "-m", "all"]:
+        subprocess.run([*git, *command], check=True)
+    commit = subprocess.run([*git, "rev-parse", "--short=8", "HEAD"], capture_output=True, text=True, check=True).stdout.strip()
+    check(version("clone") == "0.1.0+g" + commit and version("clone", "why") == "", version("clone"))
+    another = {"GIT_TEST_ASSUME_DIFFERENT_OWNER": "1"}
+    check(version("clone", **another).startswith("0.1.0+unknown."), version("clone", **another))
+    check("dubious ownership" in version("clone", "why", **another), version("clone", "why", **another))
+    subprocess.run([*git, "tag", "v0.1.0"], check=True)
+    check(version("clone") == "0.1.0")
+    with open("clone/src/base/text.c", "a", encoding="utf-8") as file:
+        file.write("\n")
+    check(version("clone") == f"0.1.0+g{commit}.dirty", version("clone"))
 
 
 if __name__ == "__main__":

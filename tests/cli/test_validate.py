@@ -110,18 +110,36 @@ def test_the_verdict_by_hand():
     check(abs(float(engine["seconds"]) / total - 1) < 1e-12, engine["seconds"], total)
 
 
-def plant(path):
-    """A dsmc whose temperature is a fifth too large, in a file that is whole."""
-    result = json.loads(run("info", path, "--json").out)["dsmc"]["results"]["temperature"]
+def forge(path, *changes):
+    """Replaces texts of a point's file by others of the same length; the file is whole again."""
     with open(path, "rb") as f:
         body = f.read()
     body = body[:body.rindex(b"gg-crc32")]
-    mean = next(t for t in (("%%.%dg" % n % result["mean"]).encode() for n in (17, 16, 15)) if t in body)
-    planted = (b"%.17g" % (1.2 * result["mean"]) + b"0" * 20)[:len(mean)]
-    check(mean.count(b".") == 1 and planted.index(b".") < len(planted) - 1, mean, planted)
-    body = body.replace(mean, planted)
+    for old, new in changes:
+        check(old in body and len(old) == len(new), old, new)
+        body = body.replace(old, new)
     with open(path, "wb") as f:
         f.write(body + b"gg-crc32" + struct.pack("<QI", len(body), zlib.crc32(body)))
+
+
+def number_for(path, old, new):
+    """The text of a number in a point's file, and one of the same length for another number."""
+    with open(path, "rb") as f:
+        body = f.read()
+    there = next(t for t in (("%%.%dg" % n % old).encode() for n in (17, 16, 15)) if t in body)
+    planted = (b"%.17g" % new + b"0" * 20)[:len(there)]
+    check(planted.count(b".") == 1 and b"e" not in there + planted and abs(float(planted) / new - 1) < 1e-9, there, planted)
+    return there, planted
+
+
+def stored(path):
+    return json.loads(run("info", path, "--json").out)
+
+
+def plant(path):
+    """A dsmc whose temperature is a fifth too large, in a file that is whole."""
+    mean = stored(path)["dsmc"]["results"]["temperature"]["mean"]
+    forge(path, number_for(path, mean, 1.2 * mean))
 
 
 def test_a_planted_deviation():
@@ -136,6 +154,80 @@ def test_a_planted_deviation():
     check("| temperature " in done.out.split("The largest z:")[1].splitlines()[4], done.out)
     with open("g.md") as f:
         check("disagree beyond chance" in f.read(), "a page also where it fails")
+
+
+SCORES = {"temperature": (2.5, -1.5, 0.5, -3.25), "pressure": (-4.0, -5.0, -5.6, -6.0), "shear_viscosity": (1.0, 1.25, -1.0, 7.5)}
+
+
+def forged_points():
+    """The grid's folder, in which z-scores of dsmc at the four smooth points are SCORES, and md's temperature is off by
+    -30, -3, +0.5 and +10 %: (mean, truth) of md by point."""
+    check(validated("--picture", "none").code == 0)
+    listed = json.loads(run("sweep", "g.yaml", "--list", "--json").out)["points"]
+    md = {}
+    for number, point in enumerate(listed, 1):
+        path = "g.sweep/" + point["name"] + ".h5"
+        document = stored(path)
+        if "enskog_hermite" not in document["theory"] or "temperature" not in document["theory"]["enskog_hermite"]:
+            continue
+        solution, k, changes = document["theory"]["enskog_hermite"], len(md), []
+        for quantity, scores in SCORES.items():
+            result, truth = document["dsmc"]["results"][quantity], solution[quantity]
+            scatter = (result["stderr"]**2 + (truth.get("error") or 0)**2)**.5
+            changes.append(number_for(path, result["mean"], truth["mean"] + scores[k] * scatter))
+        result, truth = document["md"]["results"]["temperature"], solution["temperature"]["mean"]
+        md[number] = (-0.3, -0.03, 0.005, 0.1)[k]
+        changes.append(number_for(path, result["mean"], truth * (1 + md[number])))
+        forge(path, *changes)
+    check(len(md) == 4, md)
+    return md
+
+
+def test_z_of_both_signs():
+    """A folder made by hand: mean and mean square of z, the largest, what fails, the list of the worst and the counts
+    keep their signs, in the document and in the table."""
+    md = forged_points()
+    done = validated("--picture", "none", "--json")
+    check(done.code == 1 and "disagree beyond chance" in done.err, done.code, done.err)
+    verdict = json.loads(done.out)
+    rows = {row["quantity"]: row for row in verdict["dsmc"]["quantities"]}
+    check(verdict["dsmc"]["agrees"] is False and verdict["dsmc"]["points"] == 4, verdict["dsmc"])
+    for quantity, scores in SCORES.items():
+        row = rows[quantity]
+        for name, value in (("points", 4), ("mean_z", sum(scores) / 4), ("mean_z2", sum(z * z for z in scores) / 4),
+                            ("largest_z", max(map(abs, scores)))):
+            check(abs(row[name] - value) < 1e-6, quantity, name, row[name], value)
+        check(row["fails"] == (abs(row["mean_z"]) > row["mean_z_allowed"] or row["mean_z2"] > row["mean_z2_allowed"]
+                               or row["largest_z"] > verdict["dsmc"]["z_allowed"]), row)
+    check(rows["pressure"]["fails"] and rows["pressure"]["mean_z"] < 0 and not rows["temperature"]["fails"], rows)
+    worst = {(row["quantity"], row["point"]): row["z"] for row in verdict["largest_z"]}
+    points = sorted(md)
+    check(abs(worst["pressure", points[2]] + 5.6) < 1e-6 and abs(worst["shear_viscosity", points[3]] - 7.5) < 1e-6, worst)
+    sizes = [abs(row["z"]) for row in verdict["largest_z"]]
+    check(sizes == sorted(sizes, reverse=True) and len(sizes) == 4, sizes)
+    counts = next(row for row in verdict["deviations"] if (row["method"], row["quantity"]) == ("md", "temperature"))
+    check(abs(counts["largest"] + 0.3) < 1e-9 and counts["where"]["point"] == points[0] and counts["beyond"]["0.2"] == 1, counts)
+    text = validated("--picture", "none").out
+    lines = text.splitlines()
+    cells = [cell.strip() for cell in next(line for line in lines if line.startswith("| pressure !")).split("|")]
+    check(cells[3] == "-5.15" and cells[5] == "27.09" and cells[7] == "6.0", cells)
+    first = [[cell.strip() for cell in line.split("|")] for line in lines[lines.index("The largest z:"):] if "`graingas" in line]
+    check([(row[1], row[2]) for row in first[:2]] == [("+7.5", "shear_viscosity"), ("-5.6", "pressure")], first[:2])
+    with open("g.sweep.csv") as f:
+        z = {(int(r["point"]), r["quantity"]): float(r["z"]) for r in csv.DictReader(f) if r["method"] == "dsmc" and r["z"]}
+    for quantity, scores in SCORES.items():
+        check(all(abs(z[point, quantity] - scores[k]) < 1e-6 for k, point in enumerate(points)), quantity, z)
+
+
+def test_nothing_judged():
+    """Where no point has both a steady dsmc and a noise-free solution there is no agreement: null, and a failure."""
+    check(validated("--picture", "none").code == 0)
+    for point in json.loads(run("sweep", "g.yaml", "--list", "--json").out)["points"]:
+        forge("g.sweep/" + point["name"] + ".h5", (b'"steady": true', b'"steady":false'))
+    done = validated("--picture", "none", "--json")
+    verdict = json.loads(done.out)["dsmc"]
+    check(verdict["agrees"] is None and verdict["values"] == 0 and verdict["not_steady"] == 4, verdict)
+    check(done.code == 1 and "nothing was judged: of 8 points with a result 4 have no noise-free solution" in done.err, done.err)
 
 
 def test_options():

@@ -67,8 +67,34 @@ static void mixture(void **state)
   near(m.chi[GG_12], gg_common_contact_value_of(GG_CARNAHAN_STARLING, 0.2), 1e-13);
 }
 
-/* Between walls Monte Carlo's gap has the height of md's, to the last bit, also where its grains have other fractions;
- * the box holds the solid fraction. */
+/* Theories alone have no grains: a fraction is that of the scene, also where it is half a grain of a run, and nothing
+ * depends on the number of grains. */
+static void theories_have_no_grains(void **state)
+{
+  (void)state;
+  gg_scene s = gg_scene_defaults();
+  gg_model m, many;
+  gg_error err = {0};
+  s.phi = 0.2, s.n_species = 3;
+  s.species[0] = (gg_species){0.0005, 1, 1, 0.4, 1};
+  s.species[1] = (gg_species){1 / 3., 2, 3, 0.4, 1};
+  s.species[2] = (gg_species){1 - 0.0005 - 1 / 3., 1.5, 1, 0.4, 1};
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_common_model_for_theories(&s, &m, &err), GG_OK);
+  double solid = 0;
+  for (int i = 0; i < 3; i++) {
+    near(m.fraction[i], s.species[i].fraction, 1e-15);
+    solid += M_PI / 6 * m.number_density[i] * pow(m.diameter[i], 3);
+  }
+  near(solid, 0.2, 1e-14);
+  s.particles = 77;
+  assert_int_equal(gg_common_model_for_theories(&s, &many, &err), GG_OK);
+  near(gg_common_model_collision_rate(&many, 1), gg_common_model_collision_rate(&m, 1), 0);
+  near(gg_common_model_relaxation(&many), gg_common_model_relaxation(&m), 0);
+}
+
+/* Between walls Monte Carlo's gap has the height of md's, and Kn the length, to the last bit, also where its grains
+ * have other fractions; the box holds the solid fraction. */
 static void gap_is_that_of_md(void **state)
 {
   (void)state;
@@ -84,6 +110,7 @@ static void gap_is_that_of_md(void **state)
     s.engine = GG_DSMC;
     const gg_model dsmc = make(&s);
     assert_true(md.box[1] == dsmc.box[1]);
+    assert_true(dsmc.length == md.length && md.length == cbrt(md.volume)); /* that Kn is measured by */
     near(dsmc.box[0] * dsmc.box[1] * dsmc.box[2], dsmc.volume, 1e-13);
     near(dsmc.box[0] / dsmc.box[2], s.aspect[0] / s.aspect[2], 1e-14);
   }
@@ -348,6 +375,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(units_drop_out),
       cmocka_unit_test(mixture),
+      cmocka_unit_test(theories_have_no_grains),
       cmocka_unit_test(gap_is_that_of_md),
       cmocka_unit_test(equations_of_state),
       cmocka_unit_test(kinds),

@@ -129,18 +129,19 @@ static void reference_speed(void **state)
   (void)state;
   gg_scene s = viscoelastic(GG_USF);
   gg_model m = model_of(&s);
-  assert_true(fabs(gg_common_law_at(&m.law, 1, 0, 0) - 0.9) < 1e-12);
+  assert_true(fabs(gg_common_law_at(&m.law, 1, 0, 0, NULL) - 0.9) < 1e-12);
   s.shear_rate = 4, s.species[0].diameter = 0.5, s.collision.speed = 6; /* 3 d gamma */
   s.species[0].fraction = s.species[1].fraction = 0.5;
   s.n_species = 2, s.collision.e[GG_12] = 0.8, s.collision.e[GG_22] = 1;
   m = model_of(&s);
-  assert_true(fabs(gg_common_law_at(&m.law, 3, 0, 0) - 0.9) < 1e-12 &&
-              fabs(gg_common_law_at(&m.law, 3, 1, 0) - 0.8) < 1e-12);
-  assert_true(gg_common_law_at(&m.law, 3, 1, 1) == 1 && gg_common_law_at(&m.law, 0.3, 0, 0) > 0.93 && !m.elastic);
+  assert_true(fabs(gg_common_law_at(&m.law, 3, 0, 0, NULL) - 0.9) < 1e-12 &&
+              fabs(gg_common_law_at(&m.law, 3, 1, 0, NULL) - 0.8) < 1e-12);
+  assert_true(gg_common_law_at(&m.law, 3, 1, 1, NULL) == 1 && gg_common_law_at(&m.law, 0.3, 0, 0, NULL) > 0.93 &&
+              !m.elastic);
   s = viscoelastic(GG_HCS);
   s.species[0].diameter = 7, s.collision.speed = 0.5; /* v_0 */
   m = model_of(&s);
-  assert_true(fabs(gg_common_law_at(&m.law, 0.5, 0, 0) - 0.9) < 1e-12);
+  assert_true(fabs(gg_common_law_at(&m.law, 0.5, 0, 0, NULL) - 0.9) < 1e-12);
 }
 
 /* Theories of a constant e say that they do not apply; so does the linear response; and e must be one that the law has.

@@ -104,7 +104,7 @@ static void hold_to_law(void *context, const gg_collision_record *r)
   const int i = r->species[0], j = r->species[1];
   const double gn = gg_dot(r->k, r->c12), reduced = 1 / (1 / m->mass[i] + 1 / m->mass[j]);
   const double e = gg_dot(r->k, r->J) / (reduced * gn) - 1;
-  x->worst = fmax(x->worst, fabs(e - gg_common_law_at(&m->law, gn, i, j)));
+  x->worst = fmax(x->worst, fabs(e - gg_common_law_at(&m->law, gn, i, j, NULL)));
   x->slowest = fmin(x->slowest, gn), x->fastest = fmax(x->fastest, gn);
 }
 

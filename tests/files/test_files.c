@@ -129,6 +129,41 @@ static void trajectory(void **state)
   remove_all();
 }
 
+/* Frames of averaging that was given up are not in the file: `after: warmup` keeps those of the last window. */
+static void frames_of_the_window(void **state)
+{
+  (void)state;
+  for (uint64_t window = 0; window <= 150; window += 50) {
+    gg_error err = {0};
+    gg_result *r = planted_result(GG_MD);
+    gg_result_file f;
+    size_t n, m;
+    r->scene.output.after = GG_AFTER_WARMUP, r->window_step = window;
+    assert_int_equal(gg_files_result_file_open(&f, "t.h5", "x", &err), GG_OK);
+    for (uint64_t step = 0; step <= 100; step += 50) {
+      gg_frame frame = planted_frame(step, true);
+      assert_int_equal(gg_files_result_file_frame(&f, &r->model, &frame, &err), GG_OK);
+      gg_run_frame_free(&frame);
+    }
+    assert_int_equal(gg_files_result_file_finish_run(&f, r, &err), GG_OK);
+    gg_h5_in h;
+    gg_h5_open(&h, "t.h5");
+    double *x = gg_h5_read_array(&h, "/particles/grains/position/value", GG_ITEM_F64, &n);
+    double *time = gg_h5_read_array(&h, "/particles/grains/box/edges/time", GG_ITEM_F64, &m);
+    const size_t kept = window >= 50 ? 1 : 2; /* of 50 and 100; the last state is there in any case */
+    assert_int_equal(m, kept);
+    assert_int_equal(n, kept * 3 * PLANTED_GRAINS);
+    for (size_t k = 0; k < kept; k++)
+      assert_true(fabs(x[k * PLANTED_GRAINS * 3 + 1] - 0.05 * (double)(3 - kept + k) - 0.1) < 1e-12);
+    assert_true(time[kept - 1] == 50);
+    free(x);
+    free(time);
+    gg_h5_in_close(&h);
+    gg_result_free(r);
+    remove_all();
+  }
+}
+
 /* No room, no folder, a folder in the way: the message names file and cause, nothing new is left, the old file stays.
  */
 static void failing_writes(void **state)
@@ -291,11 +326,11 @@ static void hdf5_stays_as_it_was(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(run_round_trip),       cmocka_unit_test(comparison_round_trip),
-      cmocka_unit_test(trajectory),           cmocka_unit_test(failing_writes),
-      cmocka_unit_test(failing_trajectory),   cmocka_unit_test(unreadable_results),
-      cmocka_unit_test(threads_at_once),      cmocka_unit_test(two_in_memory),
-      cmocka_unit_test(hdf5_stays_as_it_was),
+      cmocka_unit_test(run_round_trip),     cmocka_unit_test(comparison_round_trip),
+      cmocka_unit_test(trajectory),         cmocka_unit_test(frames_of_the_window),
+      cmocka_unit_test(failing_writes),     cmocka_unit_test(failing_trajectory),
+      cmocka_unit_test(unreadable_results), cmocka_unit_test(threads_at_once),
+      cmocka_unit_test(two_in_memory),      cmocka_unit_test(hdf5_stays_as_it_was),
   };
   H5dont_atexit();
   return cmocka_run_group_tests(tests, enter, leave);

@@ -204,7 +204,8 @@ static void refused(void **state)
 {
   (void)state;
   refuse((md_case){GG_USF, 2, 0.3, 0.9, -1, INFINITY, {0}}, "particles");
-  refuse((md_case){GG_USF, 100, 0.3, 0.9, -1, INFINITY, {60, 1, 1}}, "particles");
+  refuse((md_case){GG_USF, 100, 0.3, 0.9, -1, INFINITY, {60, 1, 1}}, "two images of another");
+  refuse((md_case){GG_COUETTE, 100, 0.1, 0.9, -1, INFINITY, {12, 1, 12}}, "gap between the walls is 1.538 diameters");
   refuse((md_case){GG_USF, 100, 0, 0.9, -1, INFINITY, {0}}, "phi");
   refuse((md_case){GG_USF, 100, 0.7, 0.9, -1, INFINITY, {0}}, "phi");
   refuse((md_case){GG_USF, 1, 0.1, 0.9, -1, INFINITY, {0}}, "particles");

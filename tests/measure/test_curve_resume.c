@@ -1,18 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A run interrupted while it averages, and resumed from its checkpoint, leaves the same curves to the last bit as one
- * that was not: bins, origins in time, and counters all go through the checkpoint. Two replicas,
- * both engines. */
+/* A run that is interrupted while it averages, and resumed from its checkpoint, leaves the same curves and means to the
+ * last bit as one that was not: bins, origins in time, and counters all go through the checkpoint, and what a protocol
+ * has changed is in force again. Every observable, both engines, two replicas; before, between and after changes. */
 #include "curve_test.h"
+#include "run/replica.h"
+#include "scene/scene_reader.h"
 
+/* Frames are at the same places of every run; questions are not. */
 typedef struct stop {
-  int left; /* questions until the interruption; negative: never */
+  int left; /* frames of the first replica until the interruption */
   gg_archive saved;
 } stop;
 
+static gg_status count_frame(void *context, const gg_frame *frame, gg_error *err)
+{
+  (void)frame, (void)err;
+  ((stop *)context)->left--;
+  return GG_OK;
+}
+
 static bool interrupted(void *context)
 {
-  stop *s = context;
-  return s->left >= 0 && s->left-- == 0;
+  return ((stop *)context)->left <= 0;
 }
 
 static gg_status keep(void *context, gg_archive *archive, gg_error *err)
@@ -26,43 +35,119 @@ static gg_status keep(void *context, gg_archive *archive, gg_error *err)
   return status;
 }
 
-static void resume(gg_engine_kind engine, int curves)
+static gg_scene read_scene(const char *yaml, gg_engine_kind engine)
 {
-  gg_scene scene = gg_scene_defaults();
-  scene.engine = engine, scene.phi = 0.1, scene.particles = 200, scene.dsmc.particles = 900, scene.run.replicas = 2;
-  for (int q = 0; q < GG_PAIRS; q++) scene.collision.beta[q] = 0;
-  scene.run.collisions = 150, scene.run.warmup = 20;
-  scene.output.checkpoint_every = 1e6;
-  for (int i = 0; gg_measure_observables[i]; i++) scene.measure |= gg_measure_observables[i]->flag;
-  gg_result *whole = ct_run(scene), *resumed = NULL;
-  stop s = {.left = 97};
-  gg_run_callbacks hooks = {.context = &s, .interrupted = interrupted, .checkpoint = keep};
+  gg_scene s = gg_scene_defaults();
   gg_error err = {0};
-  assert_int_equal(gg_run_scene(&scene, NULL, 1, &hooks, &resumed, &err), GG_INTERRUPTED);
+  if (gg_scene_read(&s, yaml, strlen(yaml), "test", &err) != GG_OK) fail_msg("%s", err.message);
+  s.engine = engine, s.run.replicas = 2, s.output.checkpoint_every = 1e6, s.output.trajectory_every = 2;
+  for (int i = 0; gg_measure_observables[i]; i++) s.measure |= gg_measure_observables[i]->flag;
+  if (gg_scene_finish(&s, &err) != GG_OK) fail_msg("%s", err.message);
+  return s;
+}
+
+static void compare(const gg_result *a, const gg_result *b)
+{
+  for (int i = 0; i < a->rows.n; i++) {
+    const gg_estimate *one = &a->value[a->rows.row[i].quantity], *two = &b->value[a->rows.row[i].quantity];
+    if (memcmp(&one->mean, &two->mean, sizeof one->mean) != 0 ||
+        memcmp(&one->error, &two->error, sizeof one->error) != 0)
+      fail_msg("%s: %.9g +- %.9g, expected %.9g +- %.9g", a->rows.row[i].name, two->mean, two->error, one->mean,
+               one->error);
+  }
+  assert_int_equal(a->curves.n, b->curves.n);
+  for (int k = 0; k < a->curves.n; k++) {
+    const gg_curve *c = &a->curves.curve[k], *d = &b->curves.curve[k];
+    assert_string_equal(c->name, d->name);
+    assert_int_equal(c->samples, d->samples);
+    if (memcmp(c->value, d->value, c->n * sizeof(double)) != 0 ||
+        memcmp(c->error, d->error, c->n * sizeof(double)) != 0)
+      fail_msg("%s differs", c->name);
+    for (int i = 0; i < c->n_numbers; i++)
+      assert_memory_equal(&c->number[i].value, &d->number[i].value, sizeof(double));
+  }
+}
+
+/* Interrupted after a share of all frames. */
+static void resume(const gg_scene *scene, const gg_result *whole, int frames, double share)
+{
+  gg_result *resumed = NULL;
+  gg_error err = {0};
+  stop s = {.left = (int)(share * frames)};
+  gg_run_callbacks hooks = {.context = &s, .frame = count_frame, .interrupted = interrupted, .checkpoint = keep};
+  assert_int_equal(gg_run_scene(scene, NULL, 1, &hooks, &resumed, &err), GG_INTERRUPTED);
   assert_non_null(resumed); /* the results so far */
   gg_result_free(resumed);
   resumed = NULL;
   assert_true(s.saved.n_items > 0);
-  if (gg_run_scene(&scene, &s.saved, 1, NULL, &resumed, &err) != GG_OK) fail_msg("%s", err.message);
-  assert_int_equal(whole->curves.n, resumed->curves.n);
-  assert_true(whole->curves.n > curves);
-  for (int k = 0; k < whole->curves.n; k++) {
-    const gg_curve *a = &whole->curves.curve[k], *b = &resumed->curves.curve[k];
-    assert_string_equal(a->name, b->name);
-    assert_int_equal(a->samples, b->samples);
-    assert_memory_equal(a->value, b->value, a->n * sizeof(double));
-    assert_memory_equal(a->error, b->error, a->n * sizeof(double));
-  }
-  gg_result_free(whole);
+  hooks = (gg_run_callbacks){.context = &s, .frame = count_frame};
+  if (gg_run_scene(scene, &s.saved, 1, &hooks, &resumed, &err) != GG_OK) fail_msg("%s", err.message);
+  compare(whole, resumed);
   gg_result_free(resumed);
   gg_base_archive_clear(&s.saved);
 }
 
+/* Returns the flags of what is measured. */
+static unsigned measured(const gg_scene *scene)
+{
+  gg_model m;
+  unsigned flags;
+  assert_int_equal(gg_common_model_make(scene, scene->engine, &m, NULL), GG_OK);
+  assert_int_equal(gg_run_measured(scene, &m, &flags, NULL), GG_OK);
+  return flags;
+}
+
+static unsigned resume_scene(const char *yaml, gg_engine_kind engine)
+{
+  enum { MOST = 1 << 30 };
+  gg_scene scene = read_scene(yaml, engine);
+  gg_result *whole = NULL;
+  gg_error err = {0};
+  stop s = {.left = MOST};
+  gg_run_callbacks hooks = {.context = &s, .frame = count_frame};
+  if (gg_run_scene(&scene, NULL, 1, &hooks, &whole, &err) != GG_OK) fail_msg("%s", err.message);
+  assert_true(whole->curves.n > 0);
+  const int frames = MOST - s.left;
+  resume(&scene, whole, frames, 0.9);
+  if (gg_scene_is_followed(&scene)) resume(&scene, whole, frames, 0.3); /* before the last change */
+  gg_result_free(whole);
+  return measured(&scene);
+}
+
+#define MD 1
+#define DSMC 2
+#define FEW "particles: 60, dsmc: {particles: 200}"
+
+static const struct {
+  const char *yaml;
+  int engines;
+} scenes[] = {
+    {"{flow: usf, phi: 0.1, temperature: 1, collision: {e: 0.8, beta: 0}, " FEW ", run: {collisions: 60, warmup: 10}}",
+     MD | DSMC},
+    {"{flow: hcs, phi: 0.1, collision: {e: 0.8}, " FEW ", run: {collisions: 60, warmup: 20}}", DSMC},
+    {"{flow: hcs, phi: 0.1, collision: {e: 1}, " FEW ", run: {collisions: 60, warmup: 10}}", MD},
+    {"{flow: small_shear, phi: 0.1, collision: {e: 0.8}, " FEW ", run: {collisions: 60, warmup: 10}}", DSMC},
+    {"{flow: couette, phi: 0.1, collision: {e: 0.9, beta: 0}, " FEW ", run: {collisions: 60, warmup: 10}}", MD | DSMC},
+    {"{flow: usf, phi: 0.1, temperature: 1, collision: {e: 0.8, beta: 0, law: viscoelastic, speed: 1}, " FEW
+     ", run: {duration: 40}, "
+     "protocol: [{at: 8, shear_rate: 2}, {at: 20.3, collision.beta: 0.5, collision.e: 0.7}]}",
+     MD | DSMC},
+    {"{flow: hcs, phi: 0.1, collision: {e: 1}, " FEW ", run: {duration: 30}, protocol: [{at: 9, collision.e: 0.7}]}",
+     DSMC},
+    {"{flow: hcs, phi: 0.1, collision: {e: 0.9}, " FEW ", run: {duration: 60}, protocol: [{at: 20, collision.e: 1}]}",
+     MD},
+};
+
 static void same_curves(void **state)
 {
   (void)state;
-  resume(GG_MD, 40);
-  resume(GG_DSMC, 15);
+  unsigned flags = 0;
+  for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
+    for (gg_engine_kind engine = 0; engine <= GG_DSMC; engine++)
+      if (scenes[i].engines & (engine == GG_MD ? MD : DSMC)) flags |= resume_scene(scenes[i].yaml, engine);
+  for (int i = 0; gg_measure_observables[i]; i++)
+    if (!(flags & gg_measure_observables[i]->flag))
+      fail_msg("%s was measured in no scene", gg_measure_observables[i]->name);
 }
 
 /* Observables other than rheology do not run alone, and say so. */

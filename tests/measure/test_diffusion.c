@@ -110,7 +110,41 @@ static void planted_tail(void **state)
   }
 }
 
-static void diffuse(double phi, int64_t n, double collisions, double T_and_D[5])
+/* Of a cube 2.837297 T/(6 pi eta L), eta of elastic grains by Enskog (Chapman & Cowling, 16.41 and the 1.016 of the
+ * higher approximations); of another box the sum over its modes, here by brute force. */
+static void lacking_of_boxes(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 3; k++) {
+    gg_scene s = gg_scene_defaults();
+    gg_model m;
+    const double T = 0.7;
+    s.flow = GG_EQUILIBRIUM, s.phi = 0.3, s.particles = 300, s.aspect[1] = k == 1 ? 2 : 1, s.aspect[2] = k == 2 ? 3 : 1;
+    for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
+    assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+    const double n = m.density, chi = m.chi[0], b = 1.6 * m.phi * chi, is = gg_measure_long_time_tail_lacking(&m, T);
+    const double eta =
+        1.016 * 5 / 16. * sqrt(T / M_PI) * ((1 + b) * (1 + b) / chi + 768 / (25 * M_PI) * m.phi * m.phi * chi);
+    double expected = 2.837297 * T / (6 * M_PI * eta * m.box[0]);
+    if (k) { /* (2/3) T/eta (integral - sum over k /= 0)/k^2, both with a Gaussian cut at wave vectors 1/width */
+      const double width = 0.12 * m.box[0];
+      enum { MOST = 40 };
+      double sum = 0, whole = 1 / (4 * pow(M_PI, 1.5) * width);
+      for (int x = -MOST; x <= MOST; x++)
+        for (int y = -MOST; y <= MOST; y++)
+          for (int z = -MOST; z <= MOST; z++) {
+            const double k2 =
+                pow(2 * M_PI * x / m.box[0], 2) + pow(2 * M_PI * y / m.box[1], 2) + pow(2 * M_PI * z / m.box[2], 2);
+            if (k2 > 0) sum += exp(-k2 * width * width) / k2;
+          }
+      /* the cut takes width^2 per mode that is not there, k = 0 */
+      expected = 2 / 3. * T / eta * (whole - sum / m.volume + width * width / m.volume);
+    }
+    assert_true(fabs(n * m.volume - 300) < 1e-9 && fabs(is / expected - 1) < (k ? 1e-5 : 1e-6));
+  }
+}
+
+static void diffuse(double phi, int64_t n, double collisions, double T_and_D[7])
 {
   gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = phi, s.particles = n;
@@ -118,16 +152,17 @@ static void diffuse(double phi, int64_t n, double collisions, double T_and_D[5])
   s.run.collisions = collisions;
   s.measure |= GG_MEASURE_DIFFUSION;
   gg_result *r = ct_run(s);
-  double mean[2] = {0, 0}, variance[2] = {0, 0};
+  static const char *const numbers[] = {"diffusion_green_kubo", "diffusion_einstein", "diffusion_infinite_system"};
+  double mean[3] = {0, 0, 0}, variance[3] = {0, 0, 0};
   for (int a = 0; a < 3; a++)
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 3; k++) {
       char name[64];
-      snprintf(name, sizeof name, k ? "displacement_squared_%c" : "velocity_autocorrelation_C%c", "xyz"[a]);
-      gg_curve_number p = ct_number(ct_find(&r->curves, name), k ? "diffusion_einstein" : "diffusion_green_kubo");
+      snprintf(name, sizeof name, k == 1 ? "displacement_squared_%c" : "velocity_autocorrelation_C%c", "xyz"[a]);
+      gg_curve_number p = ct_number(ct_find(&r->curves, name), numbers[k]);
       mean[k] += p.value / 3, variance[k] += p.error * p.error / 9;
     }
   T_and_D[0] = r->value[GG_Q_TEMPERATURE].mean;
-  for (int k = 0; k < 2; k++) T_and_D[1 + 2 * k] = mean[k], T_and_D[2 + 2 * k] = sqrt(variance[k]);
+  for (int k = 0; k < 3; k++) T_and_D[1 + 2 * k] = mean[k], T_and_D[2 + 2 * k] = sqrt(variance[k]);
   gg_result_free(r);
 }
 
@@ -136,7 +171,7 @@ static void diffuse(double phi, int64_t n, double collisions, double T_and_D[5])
 static void dilute_gas(void **state)
 {
   (void)state;
-  double is[5];
+  double is[7];
   diffuse(0.02, 1000, 1500, is);
   double n = 0.02 * 6 / M_PI, chi = 0.99 / pow(0.98, 3), expected = 1.01896 * 3 / (8 * n * chi) * sqrt(is[0] / M_PI);
   ct_expect("D, Green and Kubo", is[1], hypot(is[2], 0.004 * expected), expected, 0.1 * expected);
@@ -149,12 +184,23 @@ static void dilute_gas(void **state)
 static void dense_gas(void **state)
 {
   (void)state;
-  double is[5], n = 0.5;
+  double is[7], n = 0.5;
   diffuse(M_PI / 12, 500, 8000, is);
   double expected = 3 / (8 * n) * sqrt(is[0] / M_PI) * (1 - n / 1.09) * (1 + n * n * (0.4 - 0.83 * n * n));
   ct_expect("D, Green and Kubo", is[1], hypot(is[2], 0.01 * expected), expected, 0.05 * expected);
   ct_expect("D, Einstein", is[3], hypot(is[4], 0.01 * expected), expected, 0.05 * expected);
   ct_expect("D, both", is[1], hypot(is[2], is[4]), is[3], 0.03 * expected);
+}
+
+/* D of 250 grains is 7 % below that of 2000, by their boxes; that of the infinite system is one. */
+static void boxes_of_two_sizes(void **state)
+{
+  (void)state;
+  double small[7], large[7];
+  diffuse(M_PI / 12, 250, 12000, small);
+  diffuse(M_PI / 12, 2000, 1500, large);
+  assert_true(large[1] - small[1] > 5 * hypot(large[2], small[2]));
+  ct_expect("D of the infinite system", small[5], hypot(small[6], large[6]), large[5], 0.04 * large[5]);
 }
 
 /* Free paths longer than the box: the larger of two kinds of grains collides several times between two snapshots. The
@@ -197,8 +243,10 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(walkers),
       cmocka_unit_test(planted_tail),
+      cmocka_unit_test(lacking_of_boxes),
       cmocka_unit_test(dilute_gas),
       cmocka_unit_test(dense_gas),
+      cmocka_unit_test(boxes_of_two_sizes),
       cmocka_unit_test(box_shorter_than_free_paths),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

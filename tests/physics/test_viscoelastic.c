@@ -69,7 +69,7 @@ static double cooling_rate(const gg_model *m, double T)
 {
   double lost = 0, all = 0;
   for (double y = 0.0025; y < 8; y += 0.005) { /* g/sqrt(4T) */
-    double g = y * sqrt(4 * T), e = gg_common_law_at(&m->law, g, 0, 0), weight = y * exp(-y * y);
+    double g = y * sqrt(4 * T), e = gg_common_law_at(&m->law, g, 0, 0, NULL), weight = y * exp(-y * y);
     lost += weight * 0.25 * (1 - e * e) * g * g, all += weight;
   }
   return gg_common_model_collision_rate(m, T) / 2 * (lost / all) / (1.5 * T);

@@ -41,6 +41,14 @@ static void destroy(gg_engine *e)
   free(e);
 }
 
+/* Knuth, The Art of Computer Programming 2 (1969), 3.4.1 F(3). */
+static uint64_t poisson(gg_rng *rng, double mean)
+{
+  uint64_t n = 0;
+  for (double p = gg_rng_uniform(rng); p > exp(-mean); p *= gg_rng_uniform(rng)) n++;
+  return n;
+}
+
 static gg_status advance(gg_engine *base, double dt, uint64_t most, double *elapsed, gg_error *err)
 {
   (void)most, (void)err;
@@ -49,13 +57,14 @@ static gg_status advance(gg_engine *base, double dt, uint64_t most, double *elap
   for (int k = 0; k < 3; k++)
     e->now.noise[k] = keep * e->now.noise[k] + sqrt(1 - keep * keep) * gg_common_rng_normal(&e->now.rng);
   e->now.age += step, e->now.time += dt;
-  uint64_t collisions = (uint64_t)llround(step * (double)e->model.n / 2);
+  const double expected = step * (double)e->model.n / 2;
+  uint64_t collisions = fake.counted ? poisson(&e->now.rng, expected) : (uint64_t)llround(expected);
   e->now.collisions += collisions;
   e->sums.collisions[0] += collisions;
   double stress = e->model.volume * dt * (1 + fake.noise * e->now.noise[2]);
   for (int a = 0; a < 3; a++) e->sums.stress[0][a][a] += stress;
   e->sums.stress[0][0][1] -= 0.5 * stress, e->sums.stress[0][1][0] -= 0.5 * stress;
-  e->sums.loss[0] += 0.5 * stress;
+  e->sums.loss[0] += 0.5 * stress * (1 - fake.unpaid);
   *elapsed = dt;
   if (fake.seconds > 0) nanosleep(&(struct timespec){0, (long)(fake.seconds * 1e9)}, NULL);
   return GG_OK;
@@ -89,14 +98,16 @@ static void snapshot(gg_engine *base, bool positions, gg_visit *visit, void *con
   double T = fake.T * (1 + fake.noise * e->now.noise[0] + fake.trend * e->now.age);
   double theta = fake.theta * (1 + fake.noise * e->now.noise[1] + fake.start * exp(-e->now.age / fake.relaxation));
   double c[3][GG_CHUNK], s[3][GG_CHUNK];
+  uint8_t species[GG_CHUNK];
   size_t n = (size_t)e->model.n;
+  for (size_t i = 0; i < n; i++) species[i] = i >= (size_t)e->model.n_of[0];
   for (size_t i = 0; i < n; i++)
     for (int a = 0; a < 3; a++) {
       double sign = (i >> a) & 1 ? 1 : -1;
       c[a][i] = sign * sqrt(T);
       s[a][i] = sign * sqrt(theta / e->model.inertia[0]);
     }
-  gg_chunk chunk = {.n = n, .c = {c[0], c[1], c[2]}};
+  gg_chunk chunk = {.n = n, .c = {c[0], c[1], c[2]}, .species = e->model.n_species > 1 ? species : NULL};
   if (e->model.rule != GG_SMOOTH)
     for (int a = 0; a < 3; a++) chunk.s[a] = s[a];
   visit(context, &chunk);

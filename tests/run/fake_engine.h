@@ -14,7 +14,9 @@ typedef struct fake_plan {
   double noise;      /* relative, of T and theta: autoregressive over 10 collisions per grain */
   double trend;      /* relative growth of T per collision per grain */
   double treated;    /* share of collisions under the contact-time rule */
+  double unpaid;     /* share of the work of shear that collisions do not lose */
   double seconds;    /* wall time that an advance takes */
+  bool counted;      /* collisions are counts, Poisson's, that the rate is the mean of */
 } fake_plan;
 
 extern fake_plan fake;

@@ -31,6 +31,7 @@ static void set_scene(const scene_of *of, gg_comparison *c)
   *c = (gg_comparison){.by_engine = {&md, &dsmc}};
   assert_int_equal(gg_common_model_make(&s, GG_MD, &c->model, &err), GG_OK);
   gg_run_rows_make(&c->model, &c->rows);
+  md.rows = dsmc.rows = c->rows;
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) md.value[q] = dsmc.value[q] = (gg_estimate){.mean = NAN, .error = NAN};
   md.steadiness = GG_STEADY, md.engine_state = (gg_engine_state){.collisions = 1000000};
   md.model = c->model;
@@ -160,6 +161,28 @@ static void nothing_measured(void **state)
   assert_int_equal(causes.n, 0);
 }
 
+/* In a bath that turns grains within some diameters md collides more often; T and other signs have nothing of it. */
+static void strong_drag(void **state)
+{
+  (void)state;
+  for (int strong = 0; strong < 2; strong++)
+    for (int more = 0; more < 2; more++) {
+      gg_comparison c;
+      gg_causes causes;
+      set_scene(&(scene_of){GG_HSS, 0.1, 0.8, -1, INFINITY, 1}, &c);
+      c.model.thermostat = GG_BATH, c.model.bath.on = true, c.model.bath.drag[0] = strong ? 2 : 0.02;
+      gg_run_rows_make(&c.model, &c.rows);
+      set_waves(1, 1, 0);
+      plant(GG_Q_COLLISION_RATE, more ? 0.15 : -0.15);
+      gg_run_causes_find(&c, &causes);
+      assert_int_equal(says(&causes, "sqrt(T)/drag = 0.35 d"), strong && more);
+      plant(GG_Q_COLLISION_RATE, 0);
+      plant(GG_Q_TEMPERATURE, 0.15);
+      gg_run_causes_find(&c, &causes);
+      assert_false(says(&causes, "sqrt(T)/drag"));
+    }
+}
+
 /* The error of the waves counts: a few samples of a homogeneous gas tell nothing. */
 static void structure_is_told_from_noise(void **state)
 {
@@ -177,7 +200,7 @@ static void structure_is_told_from_noise(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(grid), cmocka_unit_test(clustered_and_swirling),
-                                     cmocka_unit_test(nothing_measured),
+                                     cmocka_unit_test(nothing_measured), cmocka_unit_test(strong_drag),
                                      cmocka_unit_test(structure_is_told_from_noise)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

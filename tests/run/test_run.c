@@ -49,6 +49,75 @@ static void planted_means(void **state)
   gg_result_free(r);
 }
 
+static bool warns(const gg_scene *s, const char *words)
+{
+  gg_result *r = run(s, GG_OK);
+  bool found = false;
+  for (size_t i = 0; i < r->warnings.n; i++) found |= strstr(r->warnings.text[i], words) != NULL;
+  gg_result_free(r);
+  return found;
+}
+
+/* Work that collisions do not lose, in either engine: said from five errors on. */
+static void unbalanced(void **state)
+{
+  (void)state;
+  for (int engine = GG_MD; engine <= GG_DSMC; engine++) {
+    gg_scene s = planted_scene(0);
+    s.engine = (gg_engine_kind)engine, s.run.relative_error = 0.003;
+    if (engine == GG_DSMC) s.dsmc.particles = s.particles;
+    assert_false(warns(&s, "energy is not balanced"));
+    fake.unpaid = 0.1;
+    assert_true(warns(&s, "energy is not balanced: energy_balance is 1.1"));
+    fake.unpaid = -0.1;
+    assert_true(warns(&s, "energy is not balanced: energy_balance is 0.9"));
+  }
+}
+
+/* So few grains that means are theirs: in either engine, where no error that was requested says it already. */
+static void few_grains(void **state)
+{
+  (void)state;
+  for (int engine = GG_MD; engine <= GG_DSMC; engine++)
+    for (int64_t n = 40; n <= 160; n += 120) {
+      gg_scene s = planted_scene(0);
+      s.engine = (gg_engine_kind)engine, s.particles = n, s.run.collisions = 400;
+      if (engine == GG_DSMC) s.dsmc.particles = n;
+      assert_int_equal(warns(&s, "40 grains are few"), n == 40);
+      s.run.collisions = GG_AUTO, s.run.relative_error = 0.003;
+      assert_int_equal(warns(&s, "40 grains are few"), n == 40 && engine == GG_MD);
+      if (engine == GG_DSMC) assert_true(warns(&s, "grains biases means"));
+    }
+}
+
+/* Spheres of one diameter at rest above freezing, from random places. */
+static void undercooled(void **state)
+{
+  (void)state;
+  static const struct {
+    gg_flow flow;
+    double phi, diameter;
+    gg_engine_kind engine;
+    bool expected;
+  } cases[] = {{GG_EQUILIBRIUM, 0.5, 1, GG_MD, true},
+               {GG_EQUILIBRIUM, 0.49, 1, GG_MD, false},
+               {GG_EQUILIBRIUM, 0.5, 1.2, GG_MD, false},
+               {GG_EQUILIBRIUM, 0.5, 1, GG_DSMC, false},
+               {GG_USF, 0.5, 1, GG_MD, false}};
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    gg_scene s = planted_scene(-1);
+    s.flow = cases[i].flow, s.phi = cases[i].phi, s.engine = cases[i].engine, s.run.collisions = 400;
+    s.dsmc.particles = s.particles;
+    if (cases[i].flow == GG_EQUILIBRIUM) s.collision.e[0] = 1;
+    if (cases[i].diameter != 1) {
+      s.n_species = 2;
+      s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.5, cases[i].diameter, 1, 0.4, 1};
+      for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = s.collision.e[0], s.collision.beta[p] = s.collision.beta[0];
+    }
+    assert_int_equal(warns(&s, "above freezing"), cases[i].expected);
+  }
+}
+
 /* Where nothing is measured nobody can tell. */
 static void nothing_measured(void **state)
 {
@@ -378,19 +447,14 @@ static void time_limit(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted_means),
-      cmocka_unit_test(nothing_measured),
-      cmocka_unit_test(slow_relaxation),
-      cmocka_unit_test(nearly_smooth),
-      cmocka_unit_test(endless_trend),
-      cmocka_unit_test(heating),
-      cmocka_unit_test(ends),
-      cmocka_unit_test(replicas),
-      cmocka_unit_test(resume),
-      cmocka_unit_test(other_scene),
-      cmocka_unit_test(trajectory),
-      cmocka_unit_test(time_limit),
-      cmocka_unit_test(hooks_one_at_a_time),
+      cmocka_unit_test(planted_means),    cmocka_unit_test(unbalanced),
+      cmocka_unit_test(few_grains),       cmocka_unit_test(undercooled),
+      cmocka_unit_test(nothing_measured), cmocka_unit_test(slow_relaxation),
+      cmocka_unit_test(nearly_smooth),    cmocka_unit_test(endless_trend),
+      cmocka_unit_test(heating),          cmocka_unit_test(ends),
+      cmocka_unit_test(replicas),         cmocka_unit_test(resume),
+      cmocka_unit_test(other_scene),      cmocka_unit_test(trajectory),
+      cmocka_unit_test(time_limit),       cmocka_unit_test(hooks_one_at_a_time),
       cmocka_unit_test(arrest_share),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -37,6 +37,16 @@ static void assert_line(const char *yaml, unsigned uses, const char *expected)
   gg_base_string_list_clear(&lines);
 }
 
+/* Not a key without effect, but a line of the same list: fractions that may have lost a species. */
+static void forgotten_fractions(void **state)
+{
+  (void)state;
+  assert_line("{flow: usf, phi: 0.1, species: [{fraction: 0.3}, {fraction: 0.5}]}", BOTH,
+              "species: the fractions sum to 0.8 and count as weights: the mole fractions are 0.375, 0.625");
+  assert_line("{flow: usf, phi: 0.1, species: [{fraction: 0.333}, {fraction: 0.333}, {fraction: 0.333}]}", BOTH, NULL);
+  assert_line("{flow: usf, phi: 0.1, species: [{fraction: 1}, {fraction: 0.5}]}", BOTH, NULL);
+}
+
 static void flows(void **state)
 {
   (void)state;
@@ -197,7 +207,8 @@ static void protocol(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(flows),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(forgotten_fractions),
+                                     cmocka_unit_test(flows),
                                      cmocka_unit_test(engines),
                                      cmocka_unit_test(grains),
                                      cmocka_unit_test(asked_errors),

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "scene/fields.h"
+#include "scene/scene_reader.h"
 
 static gg_scene scene_of(void)
 {
@@ -83,6 +84,30 @@ static void refused(const gg_scene *before, const gg_scene *now, const char *exp
   if (!strstr(err.message, expected)) fail_msg("'%s' is not in '%s'", expected, err.message);
 }
 
+/* Spellings of one value are one value. */
+static void other_spellings(void **state)
+{
+  static const char *const pairs[][3] = {
+      {"shear_rate", "2", "2.0"},
+      {"gravity", "[0, -1, 0]", "[-0.0, -1e0, 0.00]"},
+      {"collision.mu", "inf", ".inf"},
+      {"run.seed", "1000", "1e3"},
+      {"protocol", "[{at: 5, shear_rate: 2}]", "[{at: 5.0, shear_rate: 2.0}]"},
+      {"protocol", "[{at: 5, collision.e: 0.5}]", "[{at: 5e0, collision.e: +.50}]"},
+      {"protocol", "[{at: 5, collision.mu.12: inf}]", "[{at: 5, collision.mu.12: .inf}]"},
+      {"protocol", "[{at: 5, thermostat: bath}]", "[{thermostat: \"bath\", at: 5}]"},
+  };
+  (void)state;
+  for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+    gg_error err = {0};
+    gg_scene before = scene_of(), now = before;
+    assert_int_equal(gg_scene_override(&before, pairs[i][0], pairs[i][1], &err), GG_OK);
+    if (gg_scene_override(&now, pairs[i][0], pairs[i][2], &err) != GG_OK) fail_msg("%s", err.message);
+    if (resume(&before, &now, &err) != GG_OK) fail_msg("%s: %s", pairs[i][2], err.message);
+    assert_memory_equal(&before, &now, sizeof now);
+  }
+}
+
 static void both_values(void **state)
 {
   (void)state;
@@ -113,6 +138,7 @@ static void both_values(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_key), cmocka_unit_test(both_values)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_key), cmocka_unit_test(other_spellings),
+                                     cmocka_unit_test(both_values)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -100,11 +100,40 @@ static void overrides(void **state)
   assert_int_equal(gg_scene_set(s, "flow", "hcs", &err), GG_OK);
   before.flow = GG_HCS;
   assert_memory_equal(s, &before, sizeof before);
+  /* Weights are normalised in what is made of a scene, not between two changes of it. */
   assert_int_equal(gg_scene_set(s, "species.1.fraction", "0.1", &err), GG_OK);
-  assert_int_equal(gg_scene_check(s, &err), GG_BAD_INPUT); /* they no longer sum to 1 ... */
+  assert_int_equal(gg_scene_check(s, &err), GG_OK);
   assert_int_equal(gg_scene_set(s, "species.2.fraction", "0.9", &err), GG_OK);
-  assert_int_equal(gg_scene_check(s, &err), GG_OK); /* ... and do again */
+  assert_true(s->species[0].fraction == 0.1 && s->species[1].fraction == 0.9);
   gg_scene_free(s);
+}
+
+static void assert_fractions(const char *species, const double *x)
+{
+  char yaml[400], *again;
+  gg_error err = {0};
+  snprintf(yaml, sizeof yaml, "{flow: usf, phi: 0.3, species: %s}", species);
+  const gg_scene s = parse(yaml);
+  for (int i = 0; i < s.n_species; i++) assert_true(fabs(s.species[i].fraction - x[i]) < 4e-16);
+  assert_int_equal(gg_scene_to_yaml(&s, &again, &err), GG_OK);
+  const gg_scene t = parse(again);
+  for (int i = 0; i < s.n_species; i++) assert_true(s.species[i].fraction == t.species[i].fraction);
+  free(again);
+}
+
+/* Fractions are weights: what is made of the scene has those that sum to 1, and reads back the same to the last bit. */
+static void weights(void **state)
+{
+  (void)state;
+  const double third[] = {1 / 3., 1 / 3., 1 / 3.}, quarters[] = {0.25, 0.75}, tenth[] = {0.1, 0.9};
+  assert_fractions("[{fraction: 0.333}, {fraction: 0.333}, {fraction: 0.333}]", third);
+  assert_fractions("[{fraction: 0.3333333432674408}, {fraction: 0.3333333432674408}, {fraction: 0.3333333432674408}]",
+                   third); /* single precision */
+  assert_fractions("[{}, {}, {}]", third);
+  assert_fractions("[{fraction: 1}, {fraction: 3}]", quarters);
+  assert_fractions("[{fraction: 25}, {fraction: 75}]", quarters);
+  assert_fractions("[{fraction: 0.1}, {fraction: 0.9}]", tenth);
+  assert_true(parse("{flow: usf, phi: 0.3, species: [{fraction: 0.1}, {fraction: 0.9}]}").species[1].fraction == 0.9);
 }
 
 /* Pairs by their names, in either order; those left out take `other`. */
@@ -162,6 +191,93 @@ static void round_trip(void **state)
   free(yaml);
 }
 
+/* A name means itself, whatever it means to YAML: in the scene that is written, and from the key's value set again. */
+static void names_of_files(void **state)
+{
+  static const char *const names[] = {
+      "run #1.csv", "! a.csv",    "!!int 5.csv", "#.csv",      "a: b.csv",   "a:.csv",
+      "- a.csv",    "-.csv",      "--- a.csv",   "? a.csv",    "[a].csv",    "[a, b].csv",
+      "{a: b}.csv", "}.csv",      "*a.csv",      "&a b.csv",   "%a.csv",     "@a.csv",
+      "`a.csv",     "| a.csv",    "> a.csv",     "'a'.csv",    "\"a\".csv",  "a\\nb.csv",
+      "a, b.csv",   " a.csv",     "a  b.csv",    "~.csv",      "5.csv",      "1e5.csv",
+      "=a.csv",     "true.csv",   "none.csv",    "/tmp/a.csv", "../a b.csv", "gr\303\274n #2.csv",
+      "... .csv",   "a.csv\\.csv"};
+  (void)state;
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    gg_error err = {0};
+    char text[GG_FILE_NAME];
+    gg_scene s = parse("flow: usf\nphi: 0.1\n"), set = s;
+    snprintf(s.output.log, sizeof s.output.log, "%s", names[i]);
+    char *yaml = gg_scene_yaml(&s);
+    const gg_scene again = parse(yaml);
+    assert_string_equal(again.output.log, names[i]);
+    assert_int_equal(gg_scene_get(&s, "output.log", text, sizeof text, &err), GG_OK);
+    if (gg_scene_set(&set, "output.log", text, &err) != GG_OK) fail_msg("%s: %s", text, err.message);
+    assert_string_equal(set.output.log, names[i]);
+    free(yaml);
+  }
+}
+
+/* Any text at all, read by libyaml alone. */
+static void texts_of_any_bytes(void **state)
+{
+  static const char *const texts[] = {"",
+                                      "yes",
+                                      "Off",
+                                      "NULL",
+                                      "y",
+                                      "usf",
+                                      "1:30",
+                                      ".inf",
+                                      "a\nb",
+                                      "a\tb",
+                                      "\x01\x7f",
+                                      "\302\205",
+                                      "\342\200\250 \342\200\251",
+                                      "\357\273\277a",
+                                      "\360\237\230\200"};
+  (void)state;
+  for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+    char *yaml = NULL;
+    FILE *out = gg_base_memory_stream_open(&yaml);
+    gg_scene_yaml_text_print(out, texts[i]);
+    assert_true(gg_base_memory_stream_close(out, &yaml));
+    yaml_parser_t parser;
+    yaml_document_t document;
+    yaml_parser_initialize(&parser);
+    yaml_parser_set_input_string(&parser, (const unsigned char *)yaml, strlen(yaml));
+    if (!yaml_parser_load(&parser, &document)) fail_msg("%s: %s", yaml, parser.problem);
+    const yaml_node_t *node = yaml_document_get_root_node(&document);
+    assert_string_equal(node->data.scalar.value, texts[i]);
+    assert_int_equal(node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE, strcmp(texts[i], "usf") == 0);
+    yaml_document_delete(&document);
+    yaml_parser_delete(&parser);
+    free(yaml);
+  }
+}
+
+/* As the pattern of YAML 1.1 has them: a point, and a sign in the exponent. */
+static void numbers_of_yaml_1_1(void **state)
+{
+  static const struct {
+    double x;
+    const char *text;
+  } rows[] = {{1e-07, "1.0e-07"}, {-1e-07, "-1.0e-07"}, {1.25e-09, "1.25e-09"}, {1e+22, "1.0e+22"}, {0.1, "0.1"}};
+  (void)state;
+  for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+    char text[GG_NUMBER_TEXT], phi[60];
+    gg_error err = {0};
+    gg_scene_yaml_number(rows[i].x, text);
+    assert_string_equal(text, rows[i].text);
+    assert_true(strtod(text, NULL) == rows[i].x);
+    if (rows[i].x < 0 || rows[i].x > 0.5) continue;
+    gg_scene s = parse("flow: usf\nphi: 0.1\n");
+    assert_int_equal(gg_scene_set(&s, "phi", rows[i].text, &err), GG_OK);
+    assert_int_equal(gg_scene_get(&s, "phi", phi, sizeof phi, &err), GG_OK);
+    assert_string_equal(phi, rows[i].text);
+  }
+}
+
 /* Fuzz: a scene with any one byte changed is read or refused, never worse (run under a sanitizer to see). */
 static void mutations(void **state)
 {
@@ -209,14 +325,14 @@ static void older_words(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(reads_every_key),
-      cmocka_unit_test(defaults),
-      cmocka_unit_test(overrides),
-      cmocka_unit_test(round_trip),
-      cmocka_unit_test(mutations),
-      cmocka_unit_test(table_is_sound),
-      cmocka_unit_test(pairs_of_many_species),
+      cmocka_unit_test(reads_every_key), cmocka_unit_test(defaults),
+      cmocka_unit_test(overrides),       cmocka_unit_test(round_trip),
+      cmocka_unit_test(mutations),       cmocka_unit_test(table_is_sound),
+      cmocka_unit_test(weights),         cmocka_unit_test(pairs_of_many_species),
       cmocka_unit_test(older_words),
+      cmocka_unit_test(names_of_files),
+      cmocka_unit_test(texts_of_any_bytes),
+      cmocka_unit_test(numbers_of_yaml_1_1),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

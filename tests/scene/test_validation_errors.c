@@ -242,8 +242,9 @@ static void combinations(void **state)
   (void)state;
   assert_refused("phi: 0.3\n", "flow is missing");
   assert_refused("flow: usf\n", "phi is missing");
-  assert_refused("flow: usf\nphi: 0.3\nspecies: [{fraction: 0.4}, {fraction: 0.5}]\n",
-                 "sum to 0.9; they must sum to 1");
+  assert_refused("flow: usf\nphi: 0.3\nspecies: [{fraction: 0}, {fraction: 1}]\n",
+                 "allowed: a number above 0, at most 1e+30 (leave out a species without grains)");
+  assert_refused("flow: usf\nphi: 0.3\nspecies: [{fraction: -1}, {fraction: 1}]\n", "leave out a species");
   assert_refused("flow: usf\nphi: 0.3\nspecies: [{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}]\n",
                  "17 species are given; allowed: 1 to 16");
   assert_refused("flow: usf\nphi: 0.3\nspecies: []\n", "0 species");

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The jackknife over blocks whose scatter and correlation are known. */
 #include "planted.h"
+#include "statistics/estimator.h"
 #include "statistics/jackknife.h"
 
 enum { BLOCKS = 24 };
@@ -16,8 +17,8 @@ static void add_mean(gg_jackknife *j, const double *x, size_t n)
   }
 }
 
-/* Blocks that alternate allow for no correlation: the error is the textbook one, and the correlation comes out near -1.
- */
+/* Blocks that alternate allow for no correlation: the error is the textbook one with Student's factor, and the
+ * correlation comes out near -1. */
 static void textbook_error(void **state)
 {
   (void)state;
@@ -29,7 +30,7 @@ static void textbook_error(void **state)
   assert_int_equal(gg_statistics_jackknife_init(&j, 1, NULL), GG_OK);
   add_mean(&j, x, BLOCKS);
   double correlation = gg_statistics_jackknife_errors(&j, 0, 1, 0, NAN, &error);
-  double textbook = sqrt((squares - sum * sum / BLOCKS) / BLOCKS / (BLOCKS - 1));
+  double textbook = sqrt((squares - sum * sum / BLOCKS) / BLOCKS / (BLOCKS - 1)) * gg_statistics_student(BLOCKS);
   assert_true(fabs(error / textbook - 1) < 1e-12);
   assert_true(correlation < -0.8 && correlation > -1.1);
   gg_statistics_jackknife_clear(&j);
@@ -83,7 +84,9 @@ static void beside_a_curve(void **state)
     alone += error[0] * error[0] * BLOCKS / REPEATS, beside += error[1] * error[1] * BLOCKS / REPEATS;
     gg_statistics_jackknife_clear(&j);
   }
-  print_message("# error^2 %.3f of the variance of the mean, %.3f beside a curve\n", alone, beside);
+  alone /= pow(gg_statistics_student(BLOCKS), 2), beside /= pow(gg_statistics_student(BLOCKS), 2);
+  print_message("# error^2 %.3f of the variance of the mean, %.3f beside a curve, Student's factor apart\n", alone,
+                beside);
   assert_true(beside > 1 && beside < 1.12 && alone > beside + 0.1);
 }
 

@@ -211,6 +211,14 @@ const tests = {
     const [read] = m.points.pointsOf(text, "class.csv");
     assert.deepStrictEqual([read.x, read.md, read.dsmc, read.from], [0.8, { N1: [0.5, 0.01] }, { N1: [0.52, 0.02], temperature: [1.5, 0.1] }, "class"]);
     assert.deepStrictEqual(m.points.pointsOf("a,b\n1,2\n", "x.csv"), []);
+    /* what a spreadsheet would compute: not read as a seed, written as a text; numbers are numbers */
+    for (const bad of ["=cmd|' /C calc'!A0", "+1+1", "-1+1", "@SUM(A1)", "1e3", "\t=1"]) {
+      assert.strictEqual(m.points.pointsOf(text.replace(",3,", `,${bad},`), "class.csv")[0].seed, "", bad);
+      const [, row] = m.points.pointsCsv([{ ...point, seed: bad }]).split("\n");
+      assert.strictEqual(row.split(",")[2], (/^1/.test(bad) ? "" : "'") + bad);
+    }
+    assert.strictEqual(m.points.pointsOf(text, "class.csv")[0].seed, "3");
+    assert.match(m.points.pointsCsv([{ ...point, from: '=1,"x"', md: { N1: [-0.5, 0.01] } }]), /^e,0\.8,3,-0\.5,0\.01,.*,"'=1,""x"""$/m);
   },
   "points go into a link and come back": () => {
     const { pointsText, pointsFrom, tidyName } = m.points,

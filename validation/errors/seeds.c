@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Do the errors of whole runs hold? seeds SCENE.yaml [--seeds N] [--set KEY=VALUE ...] [--truth QUANTITY=VALUE ...]
- * runs a scene N (200) times, seeds 1 to N, one thread, and prints a line for each mean, for each curve (all its points
- * together) and for each number read off a curve: how many runs have it, the per cent of them that lie within the
- * stated error and within 1.96 of it of the truth, the mean square of deviation over error and that mean's own standard
- * error (of a curve as if all points moved together), the mean deviation over the root mean square error, and the
- * stated over the true error. The truth is the one given, or else the mean over all runs (deviations are then enlarged
- * by the share that each run has in it). Then how many runs were called steady, and how many of those have a mean that
- * is off by more than four errors; mean samples and seconds of a run. Exit code 0; 1: a run failed; 2: the command line
- * is wrong. */
+ * [--bounds NAME[,NAME ...]=LOW:HIGH ...] runs a scene N (200) times, seeds 1 to N, one thread, and prints a line for
+ * each mean, for each curve (all its points together) and for each number read off a curve: how many runs have it, the
+ * per cent of them that lie within the stated error and within 1.96 of it of the truth, the mean square of deviation
+ * over error and that mean's own standard error (of a curve as if all points moved together), the mean deviation over
+ * the root mean square error, and the stated over the true error. The truth is the one given, or else the mean over all
+ * runs (deviations are then enlarged by the share that each run has in it). Then how many runs were called steady, and
+ * how many of those have a mean that is off by more than four errors; mean samples and seconds of a run. --bounds: the
+ * mean of z^2 over these lines has to lie between the two. Exit code 0; 1: a run failed, or z^2 is out of bounds; 2:
+ * the command line is wrong. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,13 +18,19 @@
 #include "run/run.h"
 #include "scene/scene_reader.h"
 
-enum { MOST_NUMBERS = 20000, MOST_TRUTHS = 16 };
+enum { MOST_NUMBERS = 20000, MOST_TRUTHS = 16, MOST_BOUNDS = 16 };
 
 typedef struct item {
   char name[100];
   size_t first, n; /* of the numbers of a run */
   double truth;    /* NaN: the mean over runs */
+  double z2;       /* NaN: too few runs have it */
 } item;
+
+typedef struct bounds {
+  char names[120];
+  double low, high;
+} bounds;
 
 typedef struct campaign {
   gg_scene scene;
@@ -37,6 +44,8 @@ typedef struct campaign {
     char name[60];
     double value;
   } truth[MOST_TRUTHS];
+  int n_bounds;
+  bounds bounds[MOST_BOUNDS];
 } campaign;
 
 static double truth_of(const campaign *c, const char *name)
@@ -58,7 +67,7 @@ static void begin_item(cursor *k, const char *name, size_t n)
   campaign *c = k->c;
   if (k->seed == 0) {
     c->item = realloc(c->item, (size_t)(c->items + 1) * sizeof *c->item);
-    c->item[c->items] = (item){.first = k->at, .n = n, .truth = truth_of(c, name)};
+    c->item[c->items] = (item){.first = k->at, .n = n, .truth = truth_of(c, name), .z2 = NAN};
     snprintf(c->item[c->items++].name, sizeof c->item->name, "%s", name);
   }
   k->at = c->item[k->item].first;
@@ -141,7 +150,7 @@ static double mean_over_runs(const campaign *c, size_t number)
   return sum / n;
 }
 
-static void report(const campaign *c)
+static void report(campaign *c)
 {
   printf("%-44s %6s %5s %5s %6s %5s %6s %6s\n", "#", "runs", "68.27", "95", "z^2", "+-", "bias", "claim");
   for (int i = 0; i < c->items; i++) {
@@ -149,7 +158,7 @@ static void report(const campaign *c)
     const item *t = &c->item[i];
     for (size_t k = 0; k < t->n; k++) add_number(c, t, t->first + k, &s);
     if (s.n == 0) continue;
-    double z2 = s.z2 / s.n;
+    double z2 = c->item[i].z2 = s.z2 / s.n;
     printf("%-44s %6.0f %5.1f %5.1f %6.3f %5.3f %+6.3f %6.3f", t->name, s.n, 100 * s.in68 / s.n, 100 * s.in95 / s.n, z2,
            sqrt(fmax(s.z4 / s.n - z2 * z2, 0) / c->seeds), s.bias / s.n, sqrt(s.error2 / s.deviation2));
     if (t->n == 1 && !isfinite(t->truth)) printf("  mean %.8g", mean_over_runs(c, t->first));
@@ -159,9 +168,40 @@ static void report(const campaign *c)
   printf("# %d of %d steady; %.0f samples, %.3f s a run\n", c->steady, c->seeds, c->samples, c->seconds);
 }
 
+/* NaN where a name is that of no line. */
+static double mean_z2(const campaign *c, const bounds *b)
+{
+  char names[sizeof b->names], *rest = names;
+  double sum = 0, n = 0;
+  snprintf(names, sizeof names, "%s", b->names);
+  for (const char *name; (name = strsep(&rest, ","));) {
+    double z2 = NAN;
+    for (int i = 0; i < c->items; i++)
+      if (strcmp(c->item[i].name, name) == 0) z2 = c->item[i].z2;
+    sum += z2, n++;
+  }
+  return sum / n;
+}
+
+static bool is_within_bounds(const campaign *c)
+{
+  bool all = true;
+  for (int i = 0; i < c->n_bounds; i++) {
+    const bounds *b = &c->bounds[i];
+    const double z2 = mean_z2(c, b);
+    const bool good = z2 >= b->low && z2 <= b->high;
+    printf("# z^2 of %s: %.3f, %s %g to %g\n", b->names, z2, good ? "within" : "OUT OF", b->low, b->high);
+    all = all && good;
+  }
+  return all;
+}
+
 static int usage(const char *why)
 {
-  fprintf(stderr, "%s\nseeds SCENE.yaml [--seeds N] [--set KEY=VALUE ...] [--truth QUANTITY=VALUE ...]\n", why);
+  fprintf(stderr,
+          "%s\nseeds SCENE.yaml [--seeds N] [--set KEY=VALUE ...] [--truth QUANTITY=VALUE ...] "
+          "[--bounds NAME[,NAME ...]=LOW:HIGH ...]\n",
+          why);
   return 2;
 }
 
@@ -175,12 +215,22 @@ static bool split(const char *text, char *key, size_t size, const char **value)
   return true;
 }
 
+static bool take_bounds(campaign *c, const char *argument)
+{
+  bounds *b = &c->bounds[c->n_bounds];
+  const char *value;
+  if (c->n_bounds == MOST_BOUNDS || !split(argument, b->names, sizeof b->names, &value)) return false;
+  c->n_bounds++;
+  return sscanf(value, "%lf:%lf", &b->low, &b->high) == 2;
+}
+
 /* One option with its value; false: there is none such, or it is wrong. */
 static bool take(campaign *c, const char *option, const char *argument, gg_error *err)
 {
   char key[60];
   const char *value;
   if (strcmp(option, "--seeds") == 0) return (c->seeds = atoi(argument)) >= 3;
+  if (strcmp(option, "--bounds") == 0) return take_bounds(c, argument);
   if (!split(argument, key, sizeof key, &value)) return false;
   if (strcmp(option, "--set") == 0) return gg_scene_override(&c->scene, key, value, err) == GG_OK;
   if (strcmp(option, "--truth") != 0 || c->truths == MOST_TRUTHS) return false;
@@ -223,6 +273,7 @@ int main(int argc, char **argv)
   int short_of = run_all(&c);
   if (short_of >= 0) report(&c);
   if (short_of > 0) printf("# %d runs ended short of what was asked\n", short_of);
+  good = short_of >= 0 && is_within_bounds(&c);
   free(c.value), free(c.error), free(c.item), free(c.called_steady);
-  return short_of < 0;
+  return good ? 0 : 1;
 }

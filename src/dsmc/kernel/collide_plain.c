@@ -47,11 +47,12 @@ static void sums(gg_dsmc_features features, gg_dsmc_pass *pass, const gg_contact
 }
 
 /* The contact at this speed, by the law of restitution. */
-static gg_contact contact_at(const gg_dsmc_pass *pass, double gn)
+static gg_contact contact_at(gg_dsmc_pass *pass, double gn)
 {
   gg_contact c = pass->contact;
-  double e = pass->law ? gg_common_law_at(pass->law, gn * pass->law_unit, pass->species[0], pass->species[1])
-                       : 1 - gg_loss_at(pass->losses->loss, gn * pass->loss_scale);
+  double e = pass->law
+                 ? gg_common_law_at(pass->law, gn * pass->law_unit, pass->species[0], pass->species[1], &pass->clamped)
+                 : 1 - gg_loss_at(pass->losses->loss, gn * pass->loss_scale);
   c.jn = (1 + e) / gg_inverse_mr(&c);
   return c;
 }

@@ -35,9 +35,11 @@ GG_INLINE gg_vd3 store(void *blocks, bool single, size_t b, int at, gg_vd3 v)
 }
 
 GG_INLINE void kick(void *c, bool single, float *speed_bound, size_t n, double strain, gg_dsmc_kick_map map,
-                    double bound_scale, gg_dsmc_rng_lanes *lanes)
+                    double bound_scale, gg_dsmc_rng_lanes *lanes, gg_dsmc_block *sum)
 {
   const double per_scale = gg_dsmc_per_bound(bound_scale);
+  gg_vd3 all[GG_PARTS];
+  for (int part = 0; part < GG_PARTS; part++) all[part] = load(sum, false, 0, part * GG_WIDTH);
   gg_dsmc_lane_rng rng;
   gg_dsmc_lane_rng_load(&rng, lanes);
   for (size_t b = 0; b < n; b++)
@@ -47,22 +49,25 @@ GG_INLINE void kick(void *c, bool single, float *speed_bound, size_t n, double s
       gg_dsmc_lane_normal(&rng, part, &x, &y);
       gg_dsmc_lane_normal(&rng, part, &z, &spare);
       gg_vd3 v = load(c, single, b, at);
-      v.x = map.factor * v.x + map.size * (map.widening * x + map.lean * y);
-      v.y = map.factor * v.y + map.size * y;
-      v.z = map.factor * v.z + map.size * z + map.drift;
+      v.x = map.factor * v.x + map.size * (map.widening * x + map.lean * y) + map.drift.x;
+      v.y = map.factor * v.y + map.size * y + map.drift.y;
+      v.z = map.factor * v.z + map.size * z + map.drift.z;
       v = store(c, single, b, at, v);
+      all[part] = (gg_vd3){all[part].x + v.x, all[part].y + v.y, all[part].z + v.z};
       if (!speed_bound) continue;
       v.x -= strain * v.y;
       gg_dsmc_note_speed_bound(&speed_bound[b], at, gg_vd3_dot(v, v), per_scale);
     }
+  for (int part = 0; part < GG_PARTS; part++) store(sum, false, 0, part * GG_WIDTH, all[part]);
   gg_dsmc_lane_rng_save(&rng, lanes);
 }
 
 void NAME(gg_dsmc_kick, GG_INSTRUCTIONS)(void *c, bool single, float *speed_bound, size_t n, double strain,
-                                         const gg_dsmc_kick_map *map, double bound_scale, gg_dsmc_rng_lanes *lanes)
+                                         const gg_dsmc_kick_map *map, double bound_scale, gg_dsmc_rng_lanes *lanes,
+                                         gg_dsmc_block *sum)
 {
   if (single)
-    kick(c, true, speed_bound, n, strain, *map, bound_scale, lanes);
+    kick(c, true, speed_bound, n, strain, *map, bound_scale, lanes, sum);
   else
-    kick(c, false, speed_bound, n, strain, *map, bound_scale, lanes);
+    kick(c, false, speed_bound, n, strain, *map, bound_scale, lanes, sum);
 }

@@ -85,7 +85,7 @@ typedef struct gg_dsmc_pass {
   double bound_scale, bound_margin;
   /* handed back */
   uint64_t tried; /* candidate pairs of grains */
-  uint64_t collisions, overflows;
+  uint64_t collisions, overflows, clamped;
   double largest;            /* largest g_n of a candidate */
   double stress[3][3], loss; /* if kept */
 } gg_dsmc_pass;

@@ -17,16 +17,18 @@ typedef struct gg_dsmc_block_sums {
 typedef void gg_dsmc_synchronise_blocks(void *c, float *speed_bound, size_t n, double strain, double scale,
                                         gg_vec centre, double bound_scale, gg_dsmc_block_sums *sums);
 
-/* x = factor x + size (widening n_x + lean n_y), y and z = factor (y, z) + size (n_y, n_z), z += drift, with normal n.
+/* x = factor x + size (widening n_x + lean n_y), y and z = factor (y, z) + size (n_y, n_z), all + drift, with normal n.
  */
 typedef struct gg_dsmc_kick_map {
-  double factor, size, widening, lean, drift;
+  double factor, size, widening, lean;
+  gg_vec drift;
 } gg_dsmc_kick_map;
 
-/* That of full blocks stored with `strain`; speed bounds, in units of `bound_scale`, where there are any. Computed in
- * double. */
+/* That of full blocks stored with `strain`, whose sum is added to `sum` lane by lane; speed bounds, in units of
+ * `bound_scale`, where there are any. Computed in double. */
 typedef void gg_dsmc_kick_blocks(void *c, bool single, float *speed_bound, size_t n, double strain,
-                                 const gg_dsmc_kick_map *map, double bound_scale, gg_dsmc_rng_lanes *lanes);
+                                 const gg_dsmc_kick_map *map, double bound_scale, gg_dsmc_rng_lanes *lanes,
+                                 gg_dsmc_block *sum);
 
 #define GG_DSMC_DECLARE_SYNCHRONISE(set, name)                                                                         \
   gg_dsmc_synchronise_blocks gg_dsmc_synchronise_##name, gg_dsmc_synchronise_single_##name;                            \

@@ -96,6 +96,7 @@ static void add(gg_dsmc_pass *sum, const gg_dsmc_pass *pass)
   sum->tried += pass->tried;
   sum->collisions += pass->collisions;
   sum->overflows += pass->overflows;
+  sum->clamped += pass->clamped;
   sum->largest = fmax(sum->largest, pass->largest);
   sum->loss += pass->loss;
   for (int a = 0; a < 3; a++)

@@ -64,7 +64,7 @@ typedef struct gg_dsmc_gap_streams {
 /* Cells [first, end), how many cells come before them in a step, and what their collisions leave. */
 typedef struct gg_dsmc_gap_slab {
   int first, end, turn;
-  uint64_t collisions, candidates, overflows;
+  uint64_t collisions, candidates, overflows, clamped;
   gg_collision_sums transfer;
 } __attribute__((aligned(64))) gg_dsmc_gap_slab;
 
@@ -77,7 +77,7 @@ typedef struct gg_dsmc_gap_state {
   double all_rate;    /* collisions per time */
   double temperature; /* sum m c^2/(3N), the flow included: the scale of majorants */
   double unmeasured;  /* time since the last measurement */
-  uint64_t steps, collisions, candidates, overflows, rests;
+  uint64_t steps, collisions, candidates, overflows, rests, clamped;
   uint64_t keeps_sums;
   gg_collision_sums transfer;
   /* Of the present advance, which may have been stopped: its length, and what of it has gone; the last collision. */

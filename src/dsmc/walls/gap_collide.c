@@ -40,8 +40,8 @@ static gg_contact contact_of(const gg_dsmc_gap *d, const pass *p, double gn)
 {
   gg_contact c = p->contact;
   const gg_restitution_law *law = &d->model.law;
-  const double e =
-      law->e ? gg_common_law_at(law, gn, p->one, p->two) : 1 - gg_loss_at(d->losses->loss, law->scale[p->pair] * gn);
+  const double e = law->e ? gg_common_law_at(law, gn, p->one, p->two, &p->slab->clamped)
+                          : 1 - gg_loss_at(d->losses->loss, law->scale[p->pair] * gn);
   c.jn = (1 + e) / gg_inverse_mr(&c);
   return c;
 }
@@ -356,7 +356,8 @@ static void add_sums(gg_dsmc_gap *d, gg_dsmc_gap_slab *slab)
   gg_dsmc_gap_state *s = &d->now;
   gg_collision_sums *to = &s->transfer, *from = &slab->transfer;
   s->collisions += slab->collisions, s->candidates += slab->candidates, s->overflows += slab->overflows;
-  slab->collisions = slab->candidates = slab->overflows = 0;
+  s->clamped += slab->clamped;
+  slab->collisions = slab->candidates = slab->overflows = slab->clamped = 0;
   for (int p = 0; p < gg_pairs_of(d->model.n_species); p++) {
     to->collisions[p] += from->collisions[p];
     to->loss[p] += from->loss[p];

@@ -90,6 +90,7 @@ static void take_over(gg_dsmc_gap *d, const gg_dsmc_gap *before)
   s->candidates = b->candidates;
   s->overflows = b->overflows;
   s->rests = b->rests;
+  s->clamped = b->clamped;
 }
 
 static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stream, const gg_grain_arrays *grains,
@@ -150,6 +151,7 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .collisions = s->collisions,
                              .events = s->candidates,
                              .overflows = s->overflows,
+                             .clamped = s->clamped,
                              .wall_treated = s->rests,
                              .others_cpu = gg_base_thread_pool_cpu(const_gap_of(engine)->pool),
                              .overfilled = const_gap_of(engine)->cells.overfilled,

@@ -300,19 +300,50 @@ void gg_h5_rows_create(gg_h5 *h, gg_h5_rows *rows, const char *path, hid_t type,
   H5Pclose(properties);
 }
 
+static void set_rows(gg_h5 *h, gg_h5_rows *rows, hsize_t n)
+{
+  const hsize_t whole[3] = {n, rows->row[0], rows->row[1]};
+  if (H5Dset_extent(rows->dataset, whole) < 0) gg_h5_failed(h, "an array cannot grow or shrink");
+  rows->n = n;
+}
+
+/* Write row `at` (`write`), or read it. */
+static void move_row(gg_h5 *h, const gg_h5_rows *rows, hsize_t at, bool write, void *data)
+{
+  const hsize_t from[3] = {at}, size[3] = {1, rows->row[0], rows->row[1]};
+  hid_t file = H5Dget_space(rows->dataset), memory = H5Screate_simple(rows->row_rank + 1, size, NULL);
+  H5Sselect_hyperslab(file, H5S_SELECT_SET, from, NULL, size, NULL);
+  herr_t moved = write ? H5Dwrite(rows->dataset, rows->type, memory, file, H5P_DEFAULT, data)
+                       : H5Dread(rows->dataset, rows->type, memory, file, H5P_DEFAULT, data);
+  if (moved < 0) gg_h5_failed(h, write ? "an array cannot grow" : "an array cannot be read back");
+  H5Sclose(file);
+  H5Sclose(memory);
+}
+
 void gg_h5_rows_append(gg_h5 *h, gg_h5_rows *rows, const void *data)
 {
   if (is_over(h)) return;
-  int rank = rows->row_rank + 1;
-  hsize_t from[3] = {rows->n}, size[3] = {1, rows->row[0], rows->row[1]};
-  hsize_t whole[3] = {rows->n + 1, rows->row[0], rows->row[1]};
-  if (H5Dset_extent(rows->dataset, whole) < 0) gg_h5_failed(h, "an array cannot grow");
-  hid_t file = H5Dget_space(rows->dataset), memory = H5Screate_simple(rank, size, NULL);
-  H5Sselect_hyperslab(file, H5S_SELECT_SET, from, NULL, size, NULL);
-  if (H5Dwrite(rows->dataset, rows->type, memory, file, H5P_DEFAULT, data) < 0) gg_h5_failed(h, "an array cannot grow");
-  H5Sclose(file);
-  H5Sclose(memory);
-  rows->n++;
+  set_rows(h, rows, rows->n + 1);
+  move_row(h, rows, rows->n - 1, true, (void *)(uintptr_t)data);
+}
+
+void gg_h5_rows_read(gg_h5 *h, const gg_h5_rows *rows, size_t row, void *data)
+{
+  if (!is_over(h)) move_row(h, rows, row, false, data);
+}
+
+void gg_h5_rows_drop(gg_h5 *h, gg_h5_rows *rows, size_t n)
+{
+  size_t size = H5Tget_size(rows->type);
+  for (int a = 0; a < rows->row_rank; a++) size *= rows->row[a];
+  void *row = malloc(size);
+  if (!row) gg_h5_failed(h, "out of memory");
+  for (hsize_t i = n; row && i < rows->n && !is_over(h); i++) {
+    move_row(h, rows, i, false, row);
+    if (!h->failed) move_row(h, rows, i - n, true, row);
+  }
+  free(row);
+  if (!is_over(h)) set_rows(h, rows, rows->n - n);
 }
 
 /* What HDF5 kept of the rows is written only now: where that fails, zeros stand in its place. */

@@ -60,6 +60,9 @@ typedef struct gg_h5_rows {
 } gg_h5_rows;
 void gg_h5_rows_create(gg_h5 *h, gg_h5_rows *rows, const char *path, hid_t type, int row_rank, const hsize_t *row);
 void gg_h5_rows_append(gg_h5 *h, gg_h5_rows *rows, const void *data);
+void gg_h5_rows_read(gg_h5 *h, const gg_h5_rows *rows, size_t row, void *data);
+/* Remove the first `n` rows. */
+void gg_h5_rows_drop(gg_h5 *h, gg_h5_rows *rows, size_t n);
 void gg_h5_rows_close(gg_h5 *h, gg_h5_rows *rows);
 
 /* Record a failure of one's own, or HDF5's latest one. */

@@ -181,9 +181,28 @@ void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model,
   free(sorted);
 }
 
+enum { ARRAYS = 6 };
+static gg_h5_rows *array_of(gg_h5_particles *p, int i)
+{
+  gg_h5_rows *const all[ARRAYS] = {&p->step, &p->time, &p->edges, &p->position, &p->velocity, &p->spin};
+  return all[i];
+}
+
+void gg_h5_particles_drop(gg_h5 *h, gg_h5_particles *p, uint64_t step)
+{
+  if (!p->started || h->failed) return;
+  size_t n = 0;
+  for (uint64_t at = 0; n < p->step.n && !h->failed; n++) {
+    gg_h5_rows_read(h, &p->step, n, &at);
+    if (at > step) break;
+  }
+  for (int i = 0; n && i < ARRAYS; i++)
+    if (array_of(p, i)->dataset >= 0) gg_h5_rows_drop(h, array_of(p, i), n);
+  if (!p->step.n) p->last_step = 0;
+}
+
 void gg_h5_particles_close(gg_h5 *h, gg_h5_particles *p)
 {
   if (!p->started) return;
-  gg_h5_rows *const all[] = {&p->step, &p->time, &p->edges, &p->position, &p->velocity, &p->spin};
-  for (size_t i = 0; i < sizeof all / sizeof *all; i++) gg_h5_rows_close(h, all[i]);
+  for (int i = 0; i < ARRAYS; i++) gg_h5_rows_close(h, array_of(p, i));
 }

@@ -18,6 +18,8 @@ typedef struct gg_h5_particles {
 
 /* Store one frame more; the first one lays out the groups. */
 void gg_h5_particles_append(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_frame *frame);
+/* Remove the frames up to this step. */
+void gg_h5_particles_drop(gg_h5 *h, gg_h5_particles *p, uint64_t step);
 void gg_h5_particles_close(gg_h5 *h, gg_h5_particles *p);
 
 #endif

@@ -373,6 +373,7 @@ static void write_document(gg_result_file *f, const gg_scene *scene, json_t *doc
 static void write_last_frame(gg_result_file *f, const gg_result *r)
 {
   gg_result_writer *w = f->now;
+  if (r->scene.output.after == GG_AFTER_WARMUP) gg_h5_particles_drop(&w->h, &w->particles, r->window_step);
   bool fresh = !w->particles.started || r->final.step > w->particles.last_step;
   w->particles.scene = &r->scene;
   if (r->final.n && r->final.velocity && fresh) gg_h5_particles_append(&w->h, &w->particles, &r->model, &r->final);
@@ -382,12 +383,10 @@ gg_status gg_files_result_file_finish_run(gg_result_file *f, const gg_result *re
 {
   f->scene = &result->scene;
   GG_TRY(create(f, false, err));
-  locale_t before = gg_base_c_locale_enter();
   write_document(f, &result->scene, gg_files_run_document(result));
   gg_h5_text_attribute(&f->now->h, "/graingas", "kind", "run");
   write_engine(&f->now->h, "/graingas", "/observables/", result);
   write_last_frame(f, result);
-  gg_base_c_locale_leave(before);
   return finish(f, err);
 }
 
@@ -396,13 +395,11 @@ gg_status gg_files_result_file_finish_comparison(gg_result_file *f, const gg_com
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
   f->scene = &c->scene;
   GG_TRY(create(f, false, err));
-  locale_t before = gg_base_c_locale_enter();
   write_document(f, &c->scene, gg_files_comparison_document(c));
   gg_h5_text_attribute(&f->now->h, "/graingas", "kind", "compare");
   if (md) write_engine(&f->now->h, "/graingas/md", "/observables/md_", md);
   if (dsmc) write_engine(&f->now->h, "/graingas/dsmc", "/observables/dsmc_", dsmc);
   write_theories(&f->now->h, c);
   if (md || dsmc) write_last_frame(f, md ? md : dsmc);
-  gg_base_c_locale_leave(before);
   return finish(f, err);
 }

@@ -208,7 +208,8 @@ static void restore_effort(gg_result *r, const json_t *document)
                                       .collisions = r->total.collisions,
                                       .events = count(state, "events"),
                                       .treated = count(state, "contact_time_collisions"),
-                                      .overflows = count(state, "majorant_overflows")};
+                                      .overflows = count(state, "majorant_overflows"),
+                                      .clamped = count(state, "law_clamped")};
   if (json_object_get(state, "contact_time"))
     r->scene.md.raised = r->model.contact_time = gg_base_json_number(state, "contact_time");
   if (json_object_get(state, "worst_overlap"))

@@ -69,7 +69,7 @@ static void answer(gg_hermite_shear *h, gg_theory_answer *a)
                           a);
   a->value[GG_Q_COLLISION_RATE] = sums.rate;
   a->value[GG_Q_MEAN_FREE_PATH] = sums.speed / sums.rate;
-  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = sums.speed / sums.rate / cbrt(m->volume);
+  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = sums.speed / sums.rate / m->length;
   a->value[GG_Q_DISSIPATION] = m->stress_unit * m->density * sums.loss;
   answer_kurtoses(h, velocities, a);
 }

@@ -84,7 +84,7 @@ static void answer_flights(const gg_model *m, double rate, double mean_speed, gg
 {
   a->value[GG_Q_COLLISION_RATE] = rate;
   a->value[GG_Q_MEAN_FREE_PATH] = mean_speed / rate;
-  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = mean_speed / rate / cbrt(m->volume);
+  if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = mean_speed / rate / m->length;
 }
 
 /* Energy per grain that a bath brings. */

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/decimal_point.h"
+
+#include "base/text.h"
+
+#undef vsnprintf
+#undef vfprintf
+#undef vasprintf
+#undef strtod
+
+int gg_base_vsnprintf(char *text, size_t size, const char *format, va_list args)
+{
+  GG_C_LOCALE;
+  return vsnprintf(text, size, format, args);
+}
+
+int gg_base_snprintf(char *text, size_t size, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  const int n = gg_base_vsnprintf(text, size, format, args);
+  va_end(args);
+  return n;
+}
+
+int gg_base_vfprintf(FILE *out, const char *format, va_list args)
+{
+  GG_C_LOCALE;
+  return vfprintf(out, format, args);
+}
+
+int gg_base_fprintf(FILE *out, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  const int n = gg_base_vfprintf(out, format, args);
+  va_end(args);
+  return n;
+}
+
+int gg_base_vasprintf(char **text, const char *format, va_list args)
+{
+  GG_C_LOCALE;
+  return vasprintf(text, format, args);
+}
+
+int gg_base_asprintf(char **text, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  const int n = gg_base_vasprintf(text, format, args);
+  va_end(args);
+  return n;
+}
+
+int gg_base_sscanf(const char *text, const char *format, ...)
+{
+  va_list args;
+  va_start(args, format);
+  GG_C_LOCALE;
+  const int n = vsscanf(text, format, args);
+  va_end(args);
+  return n;
+}
+
+double gg_base_strtod(const char *text, char **end)
+{
+  GG_C_LOCALE;
+  return strtod(text, end);
+}

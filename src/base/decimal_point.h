@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Numbers have a decimal point in every text that the library reads or writes, whatever locale the calling program has
+ * chosen, and on every thread. meson.build includes this before the first line of each file of the library: these calls
+ * of the C library then run in the C locale, and none can be forgotten. They call nobody else, so callbacks keep the
+ * locale of the program. JSON: base/checked_json.h. */
+#ifndef GG_DECIMAL_POINT_H
+#define GG_DECIMAL_POINT_H
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#define GG_FORMATS(of, first) __attribute__((format(printf, of, first)))
+int gg_base_snprintf(char *text, size_t size, const char *format, ...) GG_FORMATS(3, 4);
+int gg_base_vsnprintf(char *text, size_t size, const char *format, va_list args) GG_FORMATS(3, 0);
+int gg_base_fprintf(FILE *out, const char *format, ...) GG_FORMATS(2, 3);
+int gg_base_vfprintf(FILE *out, const char *format, va_list args) GG_FORMATS(2, 0);
+int gg_base_asprintf(char **text, const char *format, ...) GG_FORMATS(2, 3);
+int gg_base_vasprintf(char **text, const char *format, va_list args) GG_FORMATS(2, 0);
+int gg_base_sscanf(const char *text, const char *format, ...) __attribute__((format(scanf, 2, 3)));
+double gg_base_strtod(const char *text, char **end);
+
+#define snprintf gg_base_snprintf
+#define vsnprintf gg_base_vsnprintf
+#define fprintf gg_base_fprintf
+#define vfprintf gg_base_vfprintf
+#define asprintf gg_base_asprintf
+#define vasprintf gg_base_vasprintf
+#define sscanf gg_base_sscanf
+#define strtod gg_base_strtod
+
+#endif
