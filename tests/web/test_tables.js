@@ -42,22 +42,21 @@ const parts = {
   "units are the terminal's": () => {
     const { typeset } = m.words,
       { temperatureUnit, timeUnit, speedUnit, spinUnit } = m.charts;
-    for (const [scene, time, speed, spin] of [
-      ["{flow: usf, phi: 0.1, collision: {e: 0.9}}", "1/γ", "d γ", "γ"],
-      ["{flow: heated_shear, phi: 0.1, collision: {e: 0.9}}", "1/γ", "d γ", "γ"],
-      ["{flow: usf, phi: 0, collision: {e: 0.9}}", "1/γ", "γ/(n d²)", "γ"],
-      ["{flow: hcs, phi: 0.1, collision: {e: 0.9}}", "d/v₀", "v₀", "v₀/d"],
-      ["{flow: hcs, phi: 0, collision: {e: 0.9}}", "1/(n d² v₀)", "v₀", "v₀/d"],
-      ["{flow: hss, phi: 0.1, collision: {e: 0.9}}", "d/v₀", "v₀", "v₀/d"],
-    ]) {
-      const told = JSON.parse(terminal(scene, "theory", "--json", "--all")),
-        [unit] = Object.values(told.theory).flatMap((one) => (one.temperature ? [one.temperature.unit] : []));
-      if (!/hcs/.test(scene)) assert.strictEqual(temperatureUnit(told.scene), typeset(unit).replace(/\u202f/g, " "), scene);
-      else assert.strictEqual(temperatureUnit(told.scene), "v₀²");
-      assert.deepStrictEqual([timeUnit(told.scene), speedUnit(told.scene), spinUnit(told.scene)], [time, speed, spin], scene);
+    for (const phi of [0.1, 0]) {
+      const told = JSON.parse(terminal(`{flow: usf, phi: ${phi}, collision: {e: 0.9}}`, "theory", "--theory", "lun1991", "--json"));
+      assert.strictEqual(temperatureUnit(told.scene), typeset(told.theory.lun1991.temperature.unit).replace(/\u202f/g, " "));
     }
-    assert.deepStrictEqual([temperatureUnit({ flow: "couette", phi: 0.1 }), timeUnit({ flow: "couette", phi: 0.1 }), timeUnit({ flow: "small_shear", phi: 0.1 })], ["d² γ²", "1/γ", "1/γ"]);
-    for (const flow of ["poiseuille", "chute", "fourier"]) assert.deepStrictEqual([temperatureUnit({ flow }), timeUnit({ flow, phi: 0.1 })], ["v₀²", "d/v₀"]);
+    for (const [flow, phi, ...wanted] of [
+      ["usf", 0.1, "1/γ", "d γ", "γ", "d² γ²"],
+      ["heated_shear", 0.1, "1/γ", "d γ", "γ", "d² γ²"],
+      ["small_shear", 0.1, "1/γ", "d γ", "γ", "d² γ²"],
+      ["couette", 0.1, "1/γ", "d γ", "γ", "d² γ²"],
+      ["usf", 0, "1/γ", "γ/(n d²)", "γ", "(γ/(n d²))²"],
+      ["hcs", 0.1, "d/v₀", "v₀", "v₀/d", "v₀²"],
+      ["hss", 0, "1/(n d² v₀)", "v₀", "v₀/d", "v₀²"],
+      ...["equilibrium", "poiseuille", "chute", "fourier"].map((one) => [one, 0.1, "d/v₀", "v₀", "v₀/d", "v₀²"]),
+    ])
+      assert.deepStrictEqual([timeUnit, speedUnit, spinUnit, temperatureUnit].map((unit) => unit({ flow, phi })), wanted, flow);
     assert.deepStrictEqual(["rho_p v_0^2", "d^-3", "rho_p d^2 gamma^2"].map(typeset), ["ρₚ\u202fv₀²", "d⁻³", "ρₚ\u202fd²\u202fγ²"]);
   },
   "the table of both engines and the theories": () => {
