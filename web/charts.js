@@ -12,8 +12,9 @@ import { withError, number, theoryName } from "./words.js";
 export const CHARTS = ["temperature", "speeds", "velocities", "stress", "distance", "profiles"];
 const hasRate = (values) => sheared(values) || values.flow === "couette";
 export const timeUnit = (values) => (hasRate(values) ? "1/γ" : values.phi === 0 ? "1/(n d² v₀)" : "d/v₀");
-export const temperatureUnit = (values) => (hasRate(values) ? "d² γ²" : "v₀²");
-export const speedUnit = (values) => (hasRate(values) ? "d γ" : "v₀");
+/* Without excluded volume the mean free path takes the place of d. */
+export const speedUnit = (values) => (!hasRate(values) ? "v₀" : values.phi === 0 ? "γ/(n d²)" : "d γ");
+export const temperatureUnit = (values) => (!hasRate(values) ? "v₀²" : values.phi === 0 ? "(γ/(n d²))²" : "d² γ²");
 
 export const spinUnit = (values) => (hasRate(values) ? "γ" : "v₀/d");
 

@@ -25,9 +25,9 @@ export function allWarnings({ gas, means, player }) {
   const length = mean(means.theory && means.theory.goldhirsch_zanetti1993, "clustering_length");
   if (about.values.flow === "hcs" && frame && frame.md && Math.max(...frame.md.box) > length)
     add("clusters", { l: number(length, 3) });
-  const caught = means.md && means.md.engine_state && means.md.engine_state.contact_time_collisions;
-  /* both since the start */
-  if (caught > (about.values.flow === "hcs" ? 1e-4 : 1e-3) * means.md.total.collisions) add("collapse", { n: caught });
+  /* both since the start; md is null until it has means, and where it cannot run */
+  const { engine_state: { contact_time_collisions: caught } = {}, total } = means.md || {};
+  if (total && caught > (about.values.flow === "hcs" ? 1e-4 : 1e-3) * total.collisions) add("collapse", { n: caught });
   const ratio = mean(means.md && means.md.results, "temperature_ratio");
   if (
     frame &&

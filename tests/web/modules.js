@@ -1,21 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The modules of the page, bundled for node as they are for a browser. */
+/* The modules of the page in node alone: no bundler, no browser, no built page. */
 "use strict";
 const fs = require("fs"),
   os = require("os"),
   path = require("path"),
-  { execFileSync } = require("child_process");
+  { pathToFileURL } = require("url");
 
 const folder = path.resolve(__dirname, "../../web");
 
+/* A copy of the page's modules that node can import: texts as modules, too. */
+function copyTo(work) {
+  fs.mkdirSync(path.join(work, "strings"));
+  fs.writeFileSync(path.join(work, "package.json"), '{"type": "module"}');
+  for (const name of fs.readdirSync(folder).filter((one) => /\.js$/.test(one)))
+    fs.writeFileSync(path.join(work, name), fs.readFileSync(path.join(folder, name), "utf8").replace(/(from "\.\/strings\/\w+\.json)"/g, '$1.js"'));
+  for (const name of fs.readdirSync(path.join(folder, "strings")))
+    fs.writeFileSync(path.join(work, "strings", `${name}.js`), `export default ${fs.readFileSync(path.join(folder, "strings", name), "utf8")};`);
+}
 /* {chart: {ticks, ...}, ...}, each call with a state of its own. */
-function modules(names) {
+async function modules(names) {
   const work = fs.mkdtempSync(path.join(os.tmpdir(), "graingas-modules-")),
-    file = path.join(work, "all.cjs");
-  const entry = names.map((name) => `export * as ${name} from ${JSON.stringify(path.join(folder, `${name}.js`))};`).join("\n");
-  execFileSync("esbuild", ["--bundle", "--platform=node", "--log-level=error", `--outfile=${file}`], { input: entry });
-  const all = require(file);
-  fs.rmSync(work, { recursive: true });
+    all = {};
+  try {
+    copyTo(work);
+    for (const name of names) all[name] = await import(pathToFileURL(path.join(work, `${name}.js`)).href);
+  } finally {
+    fs.rmSync(work, { recursive: true });
+  }
   return all;
 }
 const strings = (language) => JSON.parse(fs.readFileSync(path.join(folder, "strings", `${language}.json`), "utf8"));
