@@ -12,7 +12,7 @@ import numpy as np
 
 QUOTED = re.compile(r"""\"(?:[^"\\]|\\.)*"|'(?:[^']|'')*'""")
 TOKEN = re.compile(rf"\s*({QUOTED.pattern}|[][{{}},:]|[^][{{}},:\s][^][{{}},:]*)")
-PLAIN = re.compile(r"(?!- |-$)[\w.+-]([\w.+/ -]*[\w.+/-])?")  # a text that needs no quotation marks
+PLAIN = re.compile(r"(?!- |-$)[\w.+-](([\w.+/ -]|:(?=[\w.+-]))*[\w.+/-])?")  # a text that needs no quotation marks
 
 
 def write(value):

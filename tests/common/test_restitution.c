@@ -139,7 +139,7 @@ static void reference_speed(void **state)
   assert_true(gg_common_law_at(&m.law, 3, 1, 1, NULL) == 1 && gg_common_law_at(&m.law, 0.3, 0, 0, NULL) > 0.93 &&
               !m.elastic);
   s = viscoelastic(GG_HCS);
-  s.species[0].diameter = 7, s.collision.speed = 0.5; /* v_0 */
+  s.species[0].diameter = 7, s.collision.speed = 3.5; /* v_0 is a diameter per unit of time */
   m = model_of(&s);
   assert_true(fabs(gg_common_law_at(&m.law, 0.5, 0, 0, NULL) - 0.9) < 1e-12);
 }
