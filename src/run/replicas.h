@@ -21,7 +21,7 @@ enum { GG_LEAST_CORRELATION_TIMES = 20 };
 /* Nor one of less than this many decay times of a mode across a gap between walls that shifts results itself: a time
  * that short windows show too short, by half at 20. A mode that results follow by its square alone needs fewer: the
  * square forgets in half the time. */
-enum { GG_LEAST_SLOW_TIMES = 50, GG_LEAST_ODD_TIMES = 20 };
+enum { GG_LEAST_SLOW_TIMES = 50, GG_LEAST_ODD_TIMES = 10 };
 
 typedef struct gg_convergence { /* of the present averaging window */
   double relative_error;        /* of the worst quantity with a requested error, in units of its requested error:
