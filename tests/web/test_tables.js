@@ -241,6 +241,10 @@ const parts = {
     const turned = view.of({ ...state, time: 5 + Math.PI / 4, rotationalTemperature: 1 }, grains, { by: "spin", grain: 0 });
     near(turned.marks, [0, 1, 0, 0, -1, 0], "marks", 1e-6);
     assert.deepStrictEqual(turned.one.spin, [0, 0, 2]);
+    /* about x it takes y to z, about y z to x */
+    view.marks.set([0, 1, 0, 0, 0, 1]);
+    const others = view.of({ ...state, time: 5 + Math.PI / 2, rotationalTemperature: 1 }, { ...grains, spin: [2, 0, 0, 0, 2, 0] }, { by: "spin" });
+    near(others.marks, [0, 0, 1, 1, 0, 0], "marks", 1e-6);
     /* smooth grains: spins as equipartition would have them, 3 T/I, I = .4/4 */
     const still = new m.picture.Picture(grains, kinds, {});
     still.fix(state, { ...grains, spin: [0, 0, 0, 0, 0, 0] }, kinds, 0);
@@ -295,6 +299,17 @@ const parts = {
     m.gas.now.frame = null;
     store.state = m.state.initial;
   },
+  "states come from the engines' numbers, courses of a result from its engines and quantities": async () => {
+    const HEAPF64 = Float64Array.from({ length: 30 }, (_, i) => i - 2),
+      g = await m.engines.openEngines(async () => ({ HEAPF64, UTF8ToString: String, _gg_version: () => 1, _page_simulation_new: () => 8, _page_state: () => 16 })),
+      state = new g.Simulation({ at: 8 }).state();
+    assert.deepStrictEqual(state, { time: 0, collisions: 1, collisionsPerGrain: 2, grains: 3, temperature: 4, rotationalTemperature: 5, strain: 6, imageOffset: 7, box: [8, 9, 10], kineticStress: [[11, 12, 13], [14, 15, 16], [17, 18, 19]] });
+    const file = { history: (engine, quantity) => `${engine} ${quantity}`, document: () => ({}), free() {} },
+      { courses } = m.replay.readResult({ withFile: () => ({ answer: file, gone() {} }) }, null);
+    assert.deepStrictEqual(courses, { md: { T: "md temperature", theta: "md rotational_temperature" }, dsmc: { T: "dsmc temperature", theta: "dsmc rotational_temperature" } });
+    const ghosts = ["a", "b", "c", "d", "c"].reduce((s, label, i) => m.state.reduce(s, { type: "ghost", ghost: { label, i } }), m.state.initial).ghosts;
+    assert.deepStrictEqual(ghosts.map(({ label, i }) => [label, i]), [["c", 4], ["d", 3], ["b", 1]]);
+  },
   "warnings begin where the model stops being true": () => {
     const told = (frame, means, flow = "hcs") => {
       m.gas.now.frame = { md: { box: [10, 20, 10], grains: 1200, temperature: 2, rotationalTemperature: 1, ...frame } };
@@ -326,7 +341,7 @@ const parts = {
   },
 };
 
-modules(["box", "charts", "colours", "controls", "gas", "history", "lessons", "link", "live", "measuring", "picture", "points", "save", "show", "state", "table", "warnings", "words"]).then((all) => {
+modules(["box", "charts", "colours", "controls", "engines", "gas", "history", "lessons", "link", "live", "measuring", "picture", "points", "replay", "save", "show", "state", "table", "warnings", "words"]).then((all) => {
   m = all;
   return list(parts, null);
 });
