@@ -152,7 +152,7 @@ def _settle(sim):
     """Under shear md begins where grains were pushed apart: many are left close to another, and for half a collision a
     grain collisions are several times as frequent as later. They find places; then it begins."""
     grains = sim.grains
-    if grains.position is not None and sim.scene["flow"] in ("usf", "heated_shear"):
+    if grains.position is not None and "sheared" in catalogue.traits(sim.scene["flow"]):
         sim.collide(5 * len(grains) // 2)
         sim.set_grains(velocities=grains.velocity, spins=grains.spin)
 
