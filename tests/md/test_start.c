@@ -177,6 +177,7 @@ static void above_an_open_top(void **state)
   s.walls.top = GG_OPEN_TOP, s.walls.e = 1, s.walls.beta = -1;
   s.gravity[1] = -0.05;
   gg_model m = md_model_of(&s);
+  m.temperature0 = 0.5; /* warm enough to rise above the box */
   gg_md *e = md_create(&m, 3);
   md_collide(e, 5000);
   shown seen = {.height = m.box[1]};
