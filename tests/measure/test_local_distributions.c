@@ -67,7 +67,7 @@ static void gaussian_cells(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, 0, 4096, 1);
-  gg_curves list = ct_curves(&gg_measure_local_distributions, &m, 512, gaussian, 71);
+  gg_curves list = ct_curves(&gg_measure_local_distributions, &m, 640, gaussian, 71);
   for (int k = 0; k < 6; k++) {
     char name[64];
     snprintf(name, sizeof name, "local_distribution_Cx_%s", classes[k]);

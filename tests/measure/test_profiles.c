@@ -87,7 +87,7 @@ static void folded_profiles(void **state)
   (void)state;
   for (int turned = 0; turned < 2; turned++) {
     gg_model m = ct_model(turned ? GG_COUETTE : GG_POISEUILLE, 0.2, 0, 4000, 1);
-    gg_curves list = ct_curves(&gg_measure_profiles, &m, 64, planted, 91);
+    gg_curves list = ct_curves(&gg_measure_profiles, &m, 96, planted, 91);
     double L = m.box[1], half = 0.5, one = 1, T = 1.5 + 0.25 / 3, phi = 0.2;
     const struct {
       const char *name;

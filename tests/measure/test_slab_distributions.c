@@ -133,7 +133,7 @@ static void free_molecules(void **state)
   s.aspect[1] = pow(gap / edge, 1.5);
   s.walls.temperature[0] = 1, s.walls.temperature[1] = 0.25, s.walls.accommodation = 1;
   s.measure |= GG_MEASURE_SLAB_DISTRIBUTIONS;
-  s.run.collisions = 700;
+  s.run.collisions = 800;
   gg_result *result = ct_run(s);
   for (int k = 0; k < SLABS; k += SLABS - 1) {
     expect(&result->curves, "Cy", k, "skewness", 2 / sqrt(M_PI), 0.2);
