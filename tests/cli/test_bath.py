@@ -61,7 +61,7 @@ def test_tracers():
     """Twenty heavy grains among a thousand: both engines agree, and with theory of the temperatures measured. Heavy
     inelastic grains are hotter in a bath than the gas."""
     scene = BALANCE["bath"] + GAS % 0.05 + "species: [{fraction: 0.98}, {fraction: 0.02, mass: 5, diameter: 1.5}]\n" \
-        "dsmc: {particles: 10000}\n"
+        "dsmc: {particles: 16000}\n"
     both = compared(scene)
     (md, dm, theory), (dsmc, dd, same) = (coefficient(both[e], "diffusion_green_kubo", "_2") for e in ("md", "dsmc"))
     check(abs(md - dsmc) < 5 * (dm ** 2 + dd ** 2) ** 0.5, md, dm, dsmc, dd)
