@@ -203,7 +203,7 @@ static uint64_t count_rows(const gg_sample_log *log)
   return n;
 }
 
-/* Whoever has repeated a command by mistake can stop it. */
+/* Warn before the rows of an earlier run are replaced: a command that was repeated by mistake can be stopped. */
 static void warn_of_replacing(const gg_run_call *r)
 {
   const gg_sample_log *log = &r->samples;

@@ -26,8 +26,8 @@ gg_extension *gg_common_extension_with_law(gg_extension *before, const gg_restit
 
 /* The head frees `owned` (from malloc) when it goes: what its callbacks have as their context. */
 void gg_common_extension_keep(gg_extension *x, void *owned);
-/* What a scene's text gives as the theory of the head, as JSON: {"temperature": "phi*e"} or "points.csv". The head
- * frees `source` (from malloc). */
+/* Set the source of the theory at the head, as a scene's text has it, in JSON: {"temperature": "phi*e"} or
+ * "points.csv". The head frees `source` (from malloc). */
 void gg_common_extension_set_source(gg_extension *x, char *source);
 
 /* Both take NULL, too: a scene without extension. */

@@ -80,7 +80,7 @@ typedef struct kicking {
   gg_dsmc_block sum[GG_DSMC_MAX_SEGMENTS][GG_MAX_SPECIES]; /* of the kicked velocities, by lane */
 } kicking;
 
-/* What is not a grain stays at rest, and is not part of the sum. */
+/* Keep the lanes beyond the last grain at rest, and out of the sum. */
 static void clear_rest(const gg_dsmc_population *p, void *blocks, gg_dsmc_block *sum)
 {
   for (size_t a = (size_t)p->n; a < p->n_blocks * GG_DSMC_LANES; a++) {
@@ -126,7 +126,7 @@ void gg_dsmc_thermostat_kick(gg_dsmc_ensemble *e, double strain, double variance
   kick(&w);
 }
 
-/* Of the centre of mass, in stored velocities. */
+/* Velocity of the centre of mass, in stored velocities. */
 static gg_vec velocity_of_centre(const kicking *w)
 {
   gg_vec momentum = {0, 0, 0};

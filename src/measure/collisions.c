@@ -33,7 +33,7 @@ typedef struct collisions {
   double sums[];                  /* since the last snapshot: angles, then the flights of each species */
 } collisions;
 
-/* Of the present gas. */
+/* Set the kinds of collisions from the present model. */
 static void set_kinds(collisions *d)
 {
   const gg_model *m = d->model;

@@ -31,10 +31,10 @@ gg_long_time_tail gg_measure_long_time_tail_driven(double left, double t);
 /* The integral of the tail from t to infinity. */
 double gg_measure_long_time_tail_beyond(const gg_long_time_tail *tail, double t);
 
-/* What an endless gas in equilibrium has more of D than the periodic box of the model: xi T/(6 pi eta L), xi = 2.837 in
- * a cube, T as an energy, eta of Enskog (B. Dunweg & K. Kremer, J. Chem. Phys. 99 (1993) 6983; I.-C. Yeh & G. Hummer,
- * J. Phys. Chem. B 108 (2004) 15873). The sum of the tail's modes over all times, with nu in the place of D + nu, which
- * measured D of 500 to 4000 grains want. */
+/* Difference of D between an infinite gas in equilibrium and the periodic box of the model: xi T/(6 pi eta L), xi =
+ * 2.837 in a cube, T as an energy, eta of Enskog (B. Dunweg & K. Kremer, J. Chem. Phys. 99 (1993) 6983; I.-C. Yeh & G.
+ * Hummer, J. Phys. Chem. B 108 (2004) 15873). The sum of the tail's modes over all times, with nu in the place of D +
+ * nu, which measured D of 500 to 4000 grains want. */
 double gg_measure_long_time_tail_lacking(const gg_model *model, double T);
 
 /* A coefficient as an integral up to the time t, with the noise that a time more adds: that of D(t) - D(t') has the

@@ -123,7 +123,7 @@ typedef struct head {
   char *quantity[MOST_COLUMNS];
 } head;
 
-/* Of a parameter or of a quantity, each once; what it is is entered. */
+/* Enter a column of a table: a parameter or a quantity, each once. */
 static gg_status read_column(char *word, const char *name, head *h, int *parameter, gg_error *err)
 {
   *parameter = find_parameter(word);

@@ -433,7 +433,7 @@ static void correlation_times(void **state)
   }
 }
 
-/* What a run is expected to need: collisions up to a requested error, also of quantities that are small beside what
+/* Estimates of what a run needs: collisions up to a requested error, also of quantities that are small beside what
  * they are made of (N1, a2); time a collision where a species has too few grains for blocks of eight. */
 static void needs(void **state)
 {

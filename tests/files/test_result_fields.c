@@ -284,7 +284,7 @@ static void plant_estimates(gg_result *r)
   }
 }
 
-/* The table is not symmetric, so that its rows and columns are told apart. */
+/* The table is not symmetric, so that rows and columns differ. */
 static void plant_correlations(gg_result *r)
 {
   gg_correlations *c = &r->correlations;
