@@ -193,7 +193,7 @@ static double patchy(void *bad, double speed, int one, int two)
   return nan ? NAN : large ? 5 : 0.9;
 }
 
-/* What a law gives that is no number from 0 to 1 is clamped and counted: every engine and boundary, threads, replicas
+/* A value of a law outside 0 to 1, or NaN, is clamped and counted: every engine and boundary, threads, replicas
  * and species; the result has the number, a warning says it, also read back. */
 static void clamped_laws(void **state)
 {

@@ -16,7 +16,7 @@
 #include "planted.h"
 #include "scene/scene_reader.h"
 
-/* What a file makes of a member. MD_ONLY, DSMC_ONLY: kept of results of that engine. BY_HAND: compared apart from the
+/* How a file keeps a member. MD_ONLY, DSMC_ONLY: kept of results of that engine. BY_HAND: compared apart from the
  * tables. LEFT_OUT: 0 or NaN after reading. */
 typedef enum kept { KEPT, MD_ONLY, DSMC_ONLY, BY_HAND, LEFT_OUT } kept;
 /* number and count: one or more in a row */

@@ -22,7 +22,7 @@ static const double drag_of[] = {1, 3};
 
 enum { T, THETA, SPIN, KINDS, SPECIES = 2 };
 
-/* Of each species m <C^2>/3, K m <(s - <s>)^2>/3 and the mean angular velocity along z. */
+/* Values of each species: m <C^2>/3, K m <(s - <s>)^2>/3 and the mean angular velocity along z. */
 typedef struct sums {
   double n[SPECIES], c2[SPECIES], s[SPECIES][3], s2[SPECIES];
 } sums;

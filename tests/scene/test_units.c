@@ -266,7 +266,7 @@ static int powers_of(const char *unit, const char *velocity)
   return power;
 }
 
-/* Where the unit of time is the scene's own, velocities of results scale with it. */
+/* Factor on velocities of results: they scale with the unit of time where that is the scene's own. */
 static double velocities_of(const gg_model *a, const gg_model *b, scaling by)
 {
   return b->unit.time == a->unit.time ? 1 / by.time : 1;

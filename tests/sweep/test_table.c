@@ -62,7 +62,7 @@ static gg_cli_table_row rows[ROWS];
 static char texts[ROWS][MEMBERS][24];
 static gg_sweep *sweep;
 
-/* What stands in the column of a member, as text. */
+/* Text in the column of a member. */
 static void plant(size_t i, size_t m, size_t truth)
 {
   char *at = (char *)&rows[i] + members[m].offset, *text = texts[i][m];
