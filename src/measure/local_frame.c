@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "measure/gap_slabs.h"
+
 /* A slab holds at least so many grains on average, and is at least a diameter thick. */
 enum { GRAINS_PER_SLAB = 10 };
 
@@ -138,6 +140,27 @@ void gg_measure_local_frame_make(gg_local_frame *f, const gg_slabs *slabs)
     f->flow[k] = fit_line(slab, slab->velocity, slab->moment);
     f->rolling[k] = fit_line(slab, slab->spin, slab->spin_moment);
   }
+}
+
+/* The sums of the image of a slab are added to another. */
+static void add_image(gg_slab *to, const gg_slab *from, gg_wall_symmetry symmetry)
+{
+  to->grains += from->grains, to->first += from->first, to->square += from->square;
+  to->height -= from->height, to->height_square += from->height_square;
+  for (int a = 0; a < 3; a++) {
+    const double velocity = gg_wall_image(symmetry, false, a), spin = gg_wall_image(symmetry, true, a);
+    to->velocity[a] += velocity * from->velocity[a], to->moment[a] -= velocity * from->moment[a];
+    to->spin[a] += spin * from->spin[a], to->spin_moment[a] -= spin * from->spin_moment[a];
+  }
+}
+
+void gg_measure_local_frame_of_flow(gg_local_frame *f, const gg_model *model, const gg_slabs *slabs)
+{
+  const gg_wall_symmetry symmetry = gg_wall_symmetry_of(model);
+  gg_slabs both = *slabs;
+  for (int k = 0; symmetry != GG_NO_SYMMETRY && k < slabs->n; k++)
+    add_image(&both.slab[k], &slabs->slab[slabs->n - 1 - k], symmetry);
+  gg_measure_local_frame_make(f, &both);
 }
 
 static gg_vec on_line(const gg_line *line, double height)

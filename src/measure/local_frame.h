@@ -49,6 +49,10 @@ void gg_measure_slabs_add(gg_slabs *slabs, const gg_slabs *more);
 double gg_measure_slab_temperature(const gg_slab *slab);
 
 void gg_measure_local_frame_make(gg_local_frame *frame, const gg_slabs *slabs);
+/* The frame of a flow whose sums these are: where walls are alike, of the mean of it and its image. A window's own flow
+ * has the drift of all the gas along the walls in it, which dies out more slowly than anything: velocities about that
+ * flow would have a mean square of their own in each run. */
+void gg_measure_local_frame_of_flow(gg_local_frame *frame, const gg_model *model, const gg_slabs *slabs);
 gg_vec gg_measure_local_frame_velocity(const gg_local_frame *frame, double y, gg_vec c);
 gg_vec gg_measure_local_frame_spin(const gg_local_frame *frame, double y, gg_vec s, int species);
 /* The flow velocity u(y). */

@@ -163,6 +163,6 @@ gg_status gg_run_replica_restore_observables(gg_replica *r, const gg_archive *a,
   }
   if (!r->flow) return GG_OK;
   GG_TRY(gg_base_archive_get(a, "replica/flow", GG_ITEM_U8, r->flow->window.slab, flow_bytes(r), err));
-  gg_measure_local_frame_make(&r->flow->frame, &r->flow->window);
+  gg_measure_local_frame_of_flow(&r->flow->frame, &r->model, &r->flow->window);
   return GG_OK;
 }

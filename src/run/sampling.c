@@ -118,7 +118,7 @@ static void add_grains_between_walls(gg_replica *r)
   gg_slabs now;
   gg_measure_slabs_take(&now, &r->model, r->engine);
   if (r->clock.averaging) gg_measure_slabs_add(&r->flow->window, &now);
-  gg_measure_local_frame_make(&r->flow->frame, r->clock.averaging ? &r->flow->window : &now);
+  gg_measure_local_frame_of_flow(&r->flow->frame, &r->model, r->clock.averaging ? &r->flow->window : &now);
   gg_measure_local_frame_snapshot(&r->flow->frame, r->engine, add_chunk, r);
   gg_measure_wall_modes_take(&r->model, &now, r->row + r->wall_modes_at);
 }
@@ -176,7 +176,7 @@ static void take_snapshot(gg_replica *r, int part, double part_elapsed)
   if (!gg_measure_slabs_are_empty(&r->flow->window)) return;
   gg_slabs now; /* before the first row of the window */
   gg_measure_slabs_of_snapshot(&now, s);
-  gg_measure_local_frame_make(&r->flow->frame, &now);
+  gg_measure_local_frame_of_flow(&r->flow->frame, &r->model, &now);
 }
 
 void gg_run_replica_sample_curves(gg_replica *r, int part, double part_elapsed)

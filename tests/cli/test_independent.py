@@ -200,8 +200,15 @@ def work_between_walls(store, flow):
     return work
 
 
-def about_flow(store, window):
-    """Velocities and spins about straight lines in slabs of a diameter, which all samples of a replica's window have."""
+def images(flow):
+    """Factors of the components of velocity and spin in the image that the flow is folded with; None: not folded."""
+    image = FLOWS[flow]["image"]
+    return image and (([-1, -1, 1], [-1, -1, 1]) if image == (-1, 1) else ([1, -1, 1], [-1, 1, -1]))
+
+
+def about_flow(store, window, flow):
+    """Velocities and spins about straight lines in slabs of a diameter, which all samples of a replica's window have, and
+    their images where the flow is folded."""
     height = store.position[..., 1].max() + 0.5  # of species 1, the smallest, at the wall
     slabs = max(int(min(height, N / 10)), 1)
     C, W = np.zeros_like(store.velocity), np.zeros_like(store.spin)
@@ -209,12 +216,15 @@ def about_flow(store, window):
         rows = window & (store.replica == r)
         y = store.position[rows][..., 1]
         slab = np.minimum((y / height * slabs).astype(int), slabs - 1)
-        for field, to in (store.velocity[rows], C), (store.spin[rows], W):
+        for field, to, image in zip((store.velocity[rows], store.spin[rows]), (C, W), images(flow) or (None, None)):
             left = np.zeros_like(field)
             for s in range(slabs):
-                here = slab == s
-                h, v = y[here] - y[here].mean(), field[here] - field[here].mean(0)
-                left[here] = (v - np.outer(h, h @ v) / (h @ h)) * (here.sum() / (here.sum() - 2)) ** 0.5
+                here, there = slab == s, slab == slabs - 1 - s
+                h, v = y[here], field[here]
+                if image:
+                    h, v = np.concatenate([h, height - y[there]]), np.concatenate([v, field[there] * image])
+                at, slope = straight(v, h, np.ones_like(h))
+                left[here] = (field[here] - at - np.outer(y[here], slope)) * (len(h) / (len(h) - 2)) ** 0.5
             to[rows] = left
     return C, W
 
@@ -485,16 +495,15 @@ def box_of(store, flow):
 
 def hold_profiles(store, flow, kind, curves, rows):
     """Folded: every grain and its image. Temperatures are about a straight line in each slab."""
-    image = FLOWS[flow]["image"]
+    image = images(flow)
     height = box_of(store, flow)[1]
     slabs = len(curves["profile_velocity"]["value"])
     y = store.position[rows][..., 1].ravel() / height * slabs
     s = np.tile(store.species, rows.sum())
     c, w = store.velocity[rows].reshape(-1, 3), store.spin[rows].reshape(-1, 3)
-    turned, alike = image == (-1, 1), 2 if image else 1
+    alike = 2 if image else 1
     if image:
-        c = np.concatenate([c, c * ([-1, -1, 1] if turned else [1, -1, 1])])
-        w = np.concatenate([w, w * ([-1, -1, 1] if turned else [-1, 1, -1])])
+        c, w = (np.concatenate([x, x * factors]) for x, factors in zip((c, w), image))
         y, s = np.concatenate([y, slabs - y]), np.concatenate([s, s])
     slab, mass, inertia = y.astype(int), m[s], (K * m * d * d / 4)[s]
     names = ["solid_fraction", "velocity", "temperature"] + ([] if kind == "smooth" else ["rotational_temperature", "spin_z"])
@@ -896,7 +905,7 @@ def row(flow, kind, frame):
         check(done.code == 0, done.err)
         document = json.loads(done.out)
         walled = "image" in FLOWS[flow]
-        C, W = (about_flow(store, window_of(store, replicas)) if walled else (store.velocity, store.spin) if frame == "imposed"
+        C, W = (about_flow(store, window_of(store, replicas), flow) if walled else (store.velocity, store.spin) if frame == "imposed"
                 else about_cells(store, flow, frame))
         check(document["results"]["N1"]["samples"] == window_of(store, replicas).sum(), "samples")
         hold_numbers(document["results"], expected(store, flow, kind, replicas, C, W, followed), flow, f"{flow} {kind} {replicas}")

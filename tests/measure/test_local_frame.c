@@ -156,9 +156,49 @@ static void common_motion(void **state)
   for (int a = 1; a < 3; a++) assert_true(fabs(s.square[a] / n - 1) < 5 * error);
 }
 
+static gg_model between_like_walls(void)
+{
+  gg_model m;
+  gg_scene s = gg_scene_defaults();
+  s.flow = GG_COUETTE, s.phi = 0.1, s.particles = N;
+  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  return m;
+}
+
+/* Grains that shear and all drift along, in a gas that is denser on one side: between like walls the frame is that of
+ * the shear, and of the spins that roll with it, whichever way the gas drifts. Of walls unlike (gravity along x) it has
+ * the drift, too. */
+static void drift_along_walls(void **state)
+{
+  (void)state;
+  gg_model m = between_like_walls();
+  const double H = m.box[1];
+  gg_local_frame frame;
+  gg_rng rng = gg_common_rng_seed(24, 0);
+  rough = true;
+  for (int i = 0; i < N; i++) {
+    const double u = gg_rng_uniform(&rng), y = r[1][i] = H * u * (0.5 + 0.5 * u);
+    for (int a = 0; a < 3; a++) c[a][i] = w[a][i] = 0;
+    c[0][i] = 0.3 * (y - H / 2) + 0.7, w[2][i] = -0.15, species[i] = 0;
+  }
+  for (int like = 0; like < 2; like++) {
+    m.gravity[0] = like ? 0 : 1;
+    gg_measure_slabs_take(&slabs_now, &m, &planted);
+    gg_measure_local_frame_of_flow(&frame, &m, &slabs_now);
+    for (double y = 1; y < H / 2; y += 0.7) {
+      const gg_vec low = gg_measure_local_frame_flow(&frame, y), high = gg_measure_local_frame_flow(&frame, H - y);
+      if (like) assert_true(fabs(low.x + high.x) < 1e-12 * H && fabs(low.y + high.y) < 1e-12);
+      if (!like) assert_true(fabs(low.x - 0.3 * (y - H / 2) - 0.7) < 1e-9);
+    }
+    const gg_vec spin = gg_measure_local_frame_spin(&frame, 2, (gg_vec){0, 0, -0.15}, 0);
+    assert_true(fabs(spin.z) < 1e-12);
+  }
+  rough = false;
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(planted_profile), cmocka_unit_test(planted_spins),
-                                     cmocka_unit_test(common_motion)};
+                                     cmocka_unit_test(common_motion), cmocka_unit_test(drift_along_walls)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

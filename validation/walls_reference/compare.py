@@ -48,7 +48,7 @@ def dsmc(phi, beta, wall_beta, box, rate):
     done = run("run", "scene.yaml", "--threads", "1", "--quiet", "--json", scene=json.dumps(scene), timeout=600)
     check(done.code == 0, done.err)
     result = json.loads(done.out)
-    rows = {(name, None): (result["results"][name]["value"], result["results"][name]["stderr"])
+    rows = {(name, None): (result["results"][name]["mean"], result["results"][name]["stderr"])
             for name in ("temperature",)}
     for name in PROFILES:
         curve = result["curves"].get("profile_" + name)
