@@ -62,6 +62,8 @@ extern "C" {
 
 /* ---- Status ---- */
 
+#ifndef GG_STATUS_DEFINED /* the library's own files include these lines alone */
+#define GG_STATUS_DEFINED
 typedef enum gg_status {
   GG_OK = 0,
   GG_FAILED = 1,       /* the run failed or did not reach its stopping criteria; out of memory */
@@ -74,6 +76,7 @@ typedef struct gg_error {
   gg_status status;
   char message[1024]; /* for people: what is wrong, where, what is allowed */
 } gg_error;
+#endif
 
 /**
  * Say, from within any callback (but those of gg_messages), that it failed: the call that it came from ends soon, and

@@ -14,6 +14,7 @@
 #include "graingas.h"
 #include "reference.h"
 #include "theory/theory_list.h"
+#include "scene/model_of_scene.h"
 
 enum { QUANTITIES = 3, SIZES = 6, STOPPED_N = 1000, STEPPED_N = 3000 };
 
@@ -43,7 +44,7 @@ static gg_status reference_of(const scene *c, answer *a, gg_error *err)
   gg_model m;
   gg_theory_answer t;
   s.flow = c->flow, s.phi = c->phi, s.collision.e[0] = c->e;
-  GG_TRY(gg_common_model_make(&s, GG_DSMC, &m, err));
+  GG_TRY(gg_scene_model_make(&s, GG_DSMC, &m, err));
   double last[GG_REFERENCE_NUMBERS], other[GG_REFERENCE_NUMBERS];
   if (c->flow == GG_USF) {
     if (!gg_reference_shear(&m, 16, last) || !gg_reference_shear(&m, 14, other))

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "files/h5/hdf5_writer.h"
+#include "scene/model_of_scene.h"
 #include "theory/theory_list.h"
 
 enum { MOST_PHI = 28, MOST_E = 36, QUANTITIES = 4 };
@@ -30,7 +31,7 @@ static gg_model model_at(double phi, double e)
   gg_error err;
   s.flow = GG_USF, s.phi = phi;
   s.collision.e[0] = e, s.collision.beta[0] = -1;
-  if (gg_common_model_make(&s, GG_DSMC, &m, &err) == GG_OK) return m;
+  if (gg_scene_model_make(&s, GG_DSMC, &m, &err) == GG_OK) return m;
   fprintf(stderr, "%s\n", err.message);
   exit(1);
 }

@@ -11,6 +11,7 @@
 
 #include "reference.h"
 #include "theory/theory_list.h"
+#include "scene/model_of_scene.h"
 
 enum { REFERENCE_DEGREE = 16 };
 
@@ -20,7 +21,7 @@ static bool model_at(double phi, double e, gg_model *m)
   gg_error err;
   s.flow = GG_USF, s.phi = phi;
   s.collision.e[0] = e, s.collision.beta[0] = -1;
-  return gg_common_model_make(&s, GG_DSMC, m, &err) == GG_OK;
+  return gg_scene_model_make(&s, GG_DSMC, m, &err) == GG_OK;
 }
 
 typedef struct tally {

@@ -8,9 +8,10 @@
 
 #include "base/cancellation.h"
 #include "base/error.h"
-#include "common/scene.h"
+#include "graingas.h"
 #include "measure/curve.h"
 #include "run/result.h"
+#include "scene/scene.h"
 
 /* A missing argument is an answer, not a crash. */
 #define GG_NEED(...) GG_CHECK_ARGUMENTS(#__VA_ARGS__, __VA_ARGS__)

@@ -11,6 +11,7 @@
 #include "common/quantity.h"
 #include "run/default_size.h"
 #include "run/result.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 #include "theory/theory.h"
 
@@ -106,7 +107,7 @@ static gg_status quantity_entry(size_t i, const gg_scene *scene, gg_entry *entry
   gg_model model;
   if (filled.phi < 0) filled.phi = 0.1;
   gg_scene_fill_in(&filled);
-  GG_TRY(gg_common_model_make(&filled, filled.engine, &model, err));
+  GG_TRY(gg_scene_model_make(&filled, filled.engine, &model, err));
   if (i >= (size_t)gg_common_quantity_set_of(&model)) return no_more(err);
   gg_quantity q = gg_common_quantity_at(&model, (int)i);
   *entry = (gg_entry){.name = gg_common_quantity_name_in(&model, q),

@@ -16,6 +16,7 @@
 #include "run/relaxation.h"
 #include "run/z_scores.h"
 #include "scene/fields.h"
+#include "scene/model_of_scene.h"
 #include "theory/haff1983.h"
 
 void gg_comparison_free(gg_comparison *c)
@@ -54,7 +55,7 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   gg_common_extension_hold(c->scene.extension);
   gg_scene end;
   GG_TRY(gg_run_relaxation_end_scene(&c->scene, &end, err));
-  GG_TRY(gg_common_model_for_theories(&end, model, err));
+  GG_TRY(gg_scene_model_for_theories(&end, model, err));
   model->stop = stop;
   bool wanted[GG_MOST_THEORIES] = {false};
   if (theory) GG_TRY(choose(model, theory, wanted, err));

@@ -7,9 +7,10 @@
 #include <strings.h>
 
 #include "base/text.h"
-#include "common/scene.h"
+#include "scene/scene.h"
 #include "scene/fields.h"
 #include "theory/theory.h"
+#include "graingas.h"
 
 enum { MOST_LETTERS = 40, MOST_TEXT = 500 };
 

@@ -16,6 +16,7 @@
 #include "run/cost_estimate.h"
 #include "run/scheduler.h"
 #include "scene/fields.h"
+#include "scene/model_of_scene.h"
 
 /* After every callback: one that failed stops the run, in whatever thread it was. */
 static void note_failure(gg_run_call *r)
@@ -163,7 +164,7 @@ static gg_status begin(gg_run_call *r, const gg_scene *scene, const gg_run_optio
                                     .workers = r->options.workers,
                                     .model = &r->model};
   GG_TRY(gg_api_scene_finish(scene, &r->scene, err));
-  GG_TRY(gg_common_model_make(&r->scene, r->scene.engine, &r->model, err));
+  GG_TRY(gg_scene_model_make(&r->scene, r->scene.engine, &r->model, err));
   GG_TRY(gg_api_log_name(r, err));
   GG_TRY(gg_api_files_check(r, err));
   GG_TRY(begin_checkpoints(r, err));

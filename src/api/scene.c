@@ -10,19 +10,20 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "common/engine.h"
-#include "common/ensemble_size.h"
+#include "scene/ensemble_size.h"
 #include "common/extension.h"
 #include "files/text_format.h"
 #include "run/cost_estimate.h"
 #include "run/default_size.h"
 #include "run/replica.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 #include "theory/goldhirsch_zanetti1993.h"
 
 gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *err)
 {
   *copy = *scene;
-  copy->clock_rate = GG_AUTO;
+  copy->fixed.clock_rate = GG_AUTO;
   return gg_run_scene_finish(copy, err);
 }
 
@@ -163,7 +164,7 @@ static gg_status make_model(const gg_scene *scene, const char *engine, gg_scene 
 {
   GG_TRY(gg_api_engine_find(engine, kind, err));
   GG_TRY(gg_api_scene_finish(scene, finished, err));
-  GG_TRY(gg_common_model_make(finished, *kind, model, err));
+  GG_TRY(gg_scene_model_make(finished, *kind, model, err));
   return gg_run_engine_ops_of(*kind)->accepts(model, err);
 }
 
@@ -193,7 +194,7 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   gg_run_engine_ops_of(kind)->describe(&model, line, context);
   char chosen[200] = "";
   if (model.ensemble)
-    gg_common_ensemble_size_reason(&finished, chosen, sizeof chosen);
+    gg_scene_ensemble_size_reason(&finished, chosen, sizeof chosen);
   else
     gg_run_default_size_reason(&finished, chosen, sizeof chosen);
   if (*chosen) {

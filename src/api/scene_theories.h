@@ -5,7 +5,7 @@
 
 #include <jansson.h>
 
-#include "common/scene.h"
+#include "scene/scene.h"
 
 /* Add those of the YAML text to the scene, which holds its extension; files lie beside `path` (NULL: in the current
  * folder). Nothing where the text has no such map. */

@@ -11,6 +11,7 @@
 #include "common/extension.h"
 #include "common/rng.h"
 #include "run/run.h"
+#include "scene/model_of_scene.h"
 
 static bool is_stopped(void *context)
 {
@@ -53,8 +54,8 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, int (*stop)(void *con
   if (!s) return GG_FAILED;
   gg_base_busy_init(&s->busy, "simulation", destroy, s);
   gg_status status = gg_api_scene_finish(scene, &s->scene, err);
-  s->scene.clock_rate = scene->clock_rate;
-  if (status == GG_OK) status = gg_common_model_make(&s->scene, s->scene.engine, &s->model, err);
+  s->scene.fixed.clock_rate = scene->fixed.clock_rate;
+  if (status == GG_OK) status = gg_scene_model_make(&s->scene, s->scene.engine, &s->model, err);
   if (status == GG_OK) status = gg_run_engine_ops_of(s->scene.engine)->accepts(&s->model, err);
   if (status != GG_OK) {
     free(s);
@@ -110,7 +111,7 @@ gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options *optio
   GG_NEED(scene, simulation);
   gg_simulation *s;
   gg_scene at_start = *scene; /* it may be that of a simulation whose shear rate has changed */
-  at_start.clock_rate = GG_AUTO;
+  at_start.fixed.clock_rate = GG_AUTO;
   const gg_start_options none = {0}, *o = options ? options : &none;
   GG_TRY(gg_api_simulation_prepare(&at_start, o->stop, o->context, &s, err));
   gg_status status = gg_run_engine_ops_of(s->scene.engine)

@@ -134,7 +134,7 @@ gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grai
   gg_simulation *s;
   gg_scene counted;
   GG_TRY(with_number(scene, n, &counted, err));
-  counted.clock_rate = GG_AUTO; /* units of this start */
+  counted.fixed.clock_rate = GG_AUTO; /* units of this start */
   const gg_start_options none = {0}, *o = options ? options : &none;
   GG_TRY(gg_api_simulation_prepare(&counted, o->stop, o->context, &s, err));
   gg_status status = create(s, grains, n, o->stream, err);
@@ -248,7 +248,7 @@ gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const ch
         key);
   GG_USE_ALONE(simulation);
   gg_scene changed = simulation->scene;
-  changed.clock_rate = gg_scene_clock_rate(&simulation->scene);
+  changed.fixed.clock_rate = gg_scene_clock_rate(&simulation->scene);
   gg_simulation *next = NULL;
   gg_status status = gg_scene_override(&changed, key, value, err);
   if (status == GG_OK && strcmp(key, "shear_rate") == 0) status = check_shear_rate(&changed, err);

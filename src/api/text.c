@@ -9,6 +9,7 @@
 #include "base/cancellation.h"
 #include "base/memory.h"
 #include "base/spelling.h"
+#include "base/thread_pool.h"
 #include "common/engine.h"
 #include "files/result_document.h"
 #include "files/text_format.h"
@@ -16,6 +17,11 @@
 const char *gg_version(void)
 {
   return gg_base_build_version;
+}
+
+int gg_processors(void)
+{
+  return gg_base_processors();
 }
 
 void gg_callback_fail(const char *reason)

@@ -3,8 +3,7 @@
 #ifndef GG_ERROR_H
 #define GG_ERROR_H
 
-#define GG_WITHOUT_SIZES /* inside, all structs are of one version */
-#include "graingas.h"
+#include "base/status.h" /* made of the public header (src/base/meson.build) */
 
 #define GG_PRINTF(fmt, args) __attribute__((format(printf, fmt, args)))
 

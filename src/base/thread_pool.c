@@ -58,7 +58,7 @@ static bool keep_polling(const gg_thread_pool *pool, int polls)
   return polls < pool->most_polls;
 }
 
-int gg_processors(void)
+int gg_base_processors(void)
 {
 #ifdef __linux__
   cpu_set_t set;
@@ -158,7 +158,7 @@ gg_thread_pool *gg_base_thread_pool_new(int threads)
   if (threads < 2) return NULL;
   gg_thread_pool *pool = aligned_alloc(64, (sizeof *pool + 63) / 64 * 64);
   if (!pool) return NULL;
-  *pool = (gg_thread_pool){.most_polls = gg_processors() < threads ? 0 : MOST_POLLS};
+  *pool = (gg_thread_pool){.most_polls = gg_base_processors() < threads ? 0 : MOST_POLLS};
   pthread_mutex_init(&pool->mutex, NULL);
   pthread_cond_init(&pool->work, NULL);
   pthread_cond_init(&pool->done, NULL);

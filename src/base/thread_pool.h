@@ -17,6 +17,9 @@ enum { GG_MOST_PARTS = 32 };
 /* Part number `part` of a job. */
 typedef void gg_part(void *context, int part);
 
+/* Number of processors that this process may use. */
+int gg_base_processors(void);
+
 /* A pool of so many threads, the caller's included, at most GG_MOST_PARTS. NULL for one thread, or if none can be
  * started: the caller then does the jobs itself. */
 gg_thread_pool *gg_base_thread_pool_new(int threads);

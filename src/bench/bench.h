@@ -5,7 +5,7 @@
 #define GG_BENCH_H
 
 #include "base/checked_json.h"
-#include "common/scene.h"
+#include "scene/scene.h"
 
 /* A table of text, and the same numbers as rows of the record. Subjects fill it, the command prints it. */
 enum { GG_BENCH_COLUMNS = 16, GG_BENCH_ROWS = 80, GG_BENCH_CELL = 64 };

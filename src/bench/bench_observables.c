@@ -9,6 +9,7 @@
 #include "bench/bench.h"
 #include "run/replica.h"
 #include "run/run.h"
+#include "scene/model_of_scene.h"
 
 enum { MOST_REPEATS = 32, LEAST_CYCLE = 32 };
 
@@ -45,7 +46,7 @@ static gg_status start(timed_run *c, const gg_scene *scene, unsigned measure, do
   gg_scene s = *scene;
   gg_model model;
   s.measure = measure;
-  GG_TRY(gg_common_model_make(&s, s.engine, &model, err));
+  GG_TRY(gg_scene_model_make(&s, s.engine, &model, err));
   GG_TRY(gg_run_start_near_steady(&model, err));
   GG_TRY(gg_run_replica_create(&c->replica, &s, &model, 0, err));
   GG_TRY(go_on(c, (uint64_t)(warmup / GG_SAMPLING_INTERVAL), true, err));
@@ -168,7 +169,7 @@ static bool find_scene_with(const gg_bench *b, const setting *c, const gg_observ
     if (gg_flow_of(scene->flow)->conserves) continue;
     memcpy(scene->gravity, gg_flow_of(scene->flow)->gravity, sizeof scene->gravity);
     for (int p = 0; p < GG_PAIRS; p++) scene->collision.beta[p] = beta;
-    if (gg_common_model_make(scene, c->engine, &model, NULL) != GG_OK) continue;
+    if (gg_scene_model_make(scene, c->engine, &model, NULL) != GG_OK) continue;
     if (gg_run_engine_ops_of(c->engine)->accepts(&model, NULL) != GG_OK) continue;
     if (!o->refuses || !o->refuses(&model)) return true;
   }

@@ -7,6 +7,7 @@
 #include "bench/bench.h"
 #include "bench/throughput.h"
 #include "run/run.h"
+#include "scene/model_of_scene.h"
 
 typedef struct single {
   const char *name;
@@ -59,7 +60,7 @@ static gg_status measure_start(const gg_scene *scene, int repeats, gg_bench_valu
 {
   gg_model model;
   double ns[REPEATS];
-  GG_TRY(gg_common_model_make(scene, scene->engine, &model, err));
+  GG_TRY(gg_scene_model_make(scene, scene->engine, &model, err));
   for (int i = 0; i < repeats; i++) GG_TRY(time_start(scene, &model, &ns[i], err));
   gsl_sort(ns, 1, (size_t)repeats);
   *v = (gg_bench_value){

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "run/replicas.h"
+#include "scene/model_of_scene.h"
 #include "theory/theory_list.h"
 
 const gg_quantity *gg_bench_error_quantities(gg_flow flow)
@@ -226,7 +227,7 @@ static gg_status find_truth(const gg_bench *b, gg_error_state *s, double seconds
   const gg_way long_one = {GG_DSMC, "long run", TRUTH_N, 0, false, 1};
   const gg_scene scene = scene_of(b, s, &long_one);
   gg_model m;
-  GG_TRY(gg_common_model_make(&scene, GG_DSMC, &m, err));
+  GG_TRY(gg_scene_model_make(&scene, GG_DSMC, &m, err));
   ask_theory(s, &m);
   if (wants_long_run(s, seconds)) {
     gg_bench_tell(b, "phi %g, e %g: a run of %.0f s for the truth", s->phi, s->e, LONGER * seconds);

@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "run/run.h"
+#include "scene/model_of_scene.h"
 
 enum { MOST_REPEATS = 32 };
 
@@ -99,7 +100,7 @@ static gg_status start(const gg_timed_scene *c, double warmup, timed *r, gg_erro
   const gg_scene *scene = &c->scene;
   gg_model model;
   uint64_t done;
-  GG_TRY(gg_common_model_make(scene, scene->engine, &model, err));
+  GG_TRY(gg_scene_model_make(scene, scene->engine, &model, err));
   const gg_engine_ops *ops = gg_run_engine_ops_of(scene->engine);
   GG_TRY(ops->accepts(&model, err));
   GG_TRY(gg_run_start_near_steady(&model, err));

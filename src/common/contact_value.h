@@ -3,7 +3,7 @@
 #ifndef GG_CONTACT_VALUE_H
 #define GG_CONTACT_VALUE_H
 
-#include "common/scene.h"
+#include "common/kinds.h"
 
 /* One species. Carnahan & Starling, J. Chem. Phys. 51 (1969) 635: (1 - phi/2)/(1-phi)^3;
  * Lun & Savage 1987: (1 - phi/0.64)^(-1.6); Kolafa, Labik & Malijevsky 2004 in the refit of Pieprzyk et al. 2019. */

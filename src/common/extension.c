@@ -9,6 +9,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "graingas.h"
 
 struct gg_extension {
   atomic_int holders;

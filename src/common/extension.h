@@ -6,11 +6,17 @@
 #ifndef GG_EXTENSION_H
 #define GG_EXTENSION_H
 
+#include <stddef.h>
+
 #include "common/restitution.h"
 
 enum { GG_MOST_OWN_QUANTITIES = 32, GG_MOST_OWN_THEORIES = 8 };
 
 typedef struct gg_extension gg_extension;
+/* Of the public header, which defines them. */
+typedef struct gg_quantity_definition gg_quantity_definition;
+typedef struct gg_observable_definition gg_observable_definition;
+typedef struct gg_theory_definition gg_theory_definition;
 struct gg_theory; /* of src/theory */
 
 /* A link in front of `before`, whose hold goes over to it (on failure it stays with the caller). Definitions are taken

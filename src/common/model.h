@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The model: the scene in the engines' units, everything that both engines and the theories need settled once. It has
- * room for any number of species; engines copy what their kernels read into arrays as small as the scene needs.
+/* The model: the problem in the engines' units, with everything that both engines and the theories derive from it once.
+ * scene/model_of_scene.c makes it from a scene; a program without scenes fills in the members that no function below
+ * sets and calls these in their order. It has room for any number of species; engines copy what their kernels read into
+ * arrays as small as the problem needs.
  *
  * Units: length d of species 1, mass m of species 1; time 1/shear_rate (of the start) in sheared and walled-shear
  * flows, else d/v_0. v_0 = sqrt(2 T_0/m) with the temperature of the start in gases that cool, are in equilibrium or
@@ -14,8 +16,12 @@
 
 #include "base/cancellation.h"
 #include "common/collision.h"
+#include "common/extension.h"
+#include "common/flow.h"
+#include "common/kinds.h"
+#include "common/observables.h"
 #include "common/restitution.h"
-#include "common/scene.h"
+#include "common/species.h"
 #include "common/surface/surface.h"
 
 /* What acts on every grain between collisions, relative to the imposed flow, of each species (thermostat.h):
@@ -130,15 +136,18 @@ static inline double gg_model_starting_spin(const gg_model *m, int species)
   return m->spin0 * (m->boltzmann ? 1 : m->diameter[species] / 2);
 }
 
-/* theta/T at the start, of a scene that gives its rotational temperature; else it stays. */
-void gg_common_model_set_ratio(const gg_scene *scene, gg_model *model);
-
-/* Build it for the engine the caller means to use (it fixes the number of grains). temperature0 and ratio0 get
- * order-of- magnitude guesses, which a caller may improve before creating an engine. */
-gg_status gg_common_model_make(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err);
-
-/* The same for theories alone, which have no grains: fractions are the scene's, however small. */
-gg_status gg_common_model_for_theories(const gg_scene *scene, gg_model *model, gg_error *err);
+/* Density, volume and box, from n, n_species, n_of or fraction, diameter, and the relative edges of the box. */
+void gg_common_model_set_size(gg_model *model, double phi, const double aspect[3]);
+/* Contacts, contact values and the collision rule, from e, beta and mu by pair and from contact_value. */
+void gg_common_model_set_pairs(gg_model *model);
+/* Walls of a flow that has some. Smooth grains have no spin to take up the torque of a rough wall, which acts on their
+ * centres (with beta_w = 0 the flat wall of type A of Campbell, J. Fluid Mech. 247 (1993) 111). With spins that nothing
+ * else changes, the torques of both walls would have to cancel in a steady state, and with them the shear stress.
+ * GG_BAD_INPUT: no room for the gas. */
+gg_status gg_common_model_set_walls(gg_model *model, const gg_walls *walls, gg_error *err);
+/* The start: temperature0, here or (GG_AUTO) by an order-of-magnitude estimate; ratio0 and spin0 by estimates, which the
+ * caller may improve before an engine is made; and the rest of the model: is it steady, its unit of stress. */
+void gg_common_model_set_start(gg_model *model, double temperature);
 
 /* With a restitution law: e and contacts at the mean normal speed at impact of Maxwellians at temperature T. */
 void gg_common_model_at(gg_model *model, double T);
@@ -189,10 +198,9 @@ double gg_common_model_species_rate(const gg_model *model, int i, double T);
  * of that over all unlike pairs of grains. */
 double gg_common_model_nu0(const gg_model *model, double T);
 
-/* surface/surfaces.c: the surfaces of this scene; box, composition and gravity of the model are known. Grains without
- * spins are acted on at their centres. GG_BAD_INPUT where they leave no room
- * for the gas. */
-gg_status gg_common_surfaces_make(const gg_scene *scene, bool spins, gg_model *model, gg_error *err);
+/* surface/surfaces.c: the list of surfaces, for gg_common_model_set_walls. Grains without spins are acted on at their
+ * centres. GG_BAD_INPUT where they leave no room for the gas. */
+gg_status gg_common_surfaces_make(gg_model *model, const gg_walls *walls, bool spins, gg_error *err);
 
 /* The plain or other surface at the upper (1) or lower (-1) end of an axis; NULL: none. */
 const gg_surface *gg_surface_at(const gg_model *model, int axis, double side);

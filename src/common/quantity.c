@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "common/thermostat.h"
+#include "graingas.h"
 
 enum unit {
   UNIT_NONE,

@@ -4,10 +4,16 @@
 #ifndef GG_RESTITUTION_H
 #define GG_RESTITUTION_H
 
+#include <stddef.h>
+#include <stdint.h>
+
 #include "base/error.h"
 #include "common/laws/laws.h"
 #include "common/species.h"
 #include "common/vec.h"
+
+/* The callback of the public header, which states its contract. */
+typedef double gg_restitution(void *context, double normal_speed, int species_1, int species_2);
 
 typedef struct gg_restitution_law {
   const char *name;  /* NULL: e is constant; borrowed, as `context` is */

@@ -12,6 +12,7 @@
 #include "common/engine.h"
 #include "common/species.h"
 #include "files/curve_table.h"
+#include "graingas.h"
 
 static const char *const elements[] = {"H", "He", "Li", "Be", "B",  "C",  "N", "O",
                                        "F", "Ne", "Na", "Mg", "Al", "Si", "P", "S"};

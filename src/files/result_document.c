@@ -13,6 +13,7 @@
 #include "files/curve_table.h"
 #include "run/z_scores.h"
 #include "scene/fields.h"
+#include "graingas.h"
 
 /* null for what is not finite */
 static json_t *json_number(double x)
@@ -184,7 +185,7 @@ static json_t *engine_state_json(const gg_result *r)
   json_t *state = json_pack("{s:o, s:I}", "time", json_number(s->time), "events", (json_int_t)s->events);
   if (strcmp(r->engine, "md") == 0) {
     json_object_set_new(state, "contact_time_collisions", json_integer((json_int_t)s->treated));
-    if (r->scene.md.raised != GG_AUTO) json_object_set_new(state, "contact_time", json_number(r->scene.md.raised));
+    if (r->scene.fixed.contact_time != GG_AUTO) json_object_set_new(state, "contact_time", json_number(r->scene.fixed.contact_time));
     json_object_set_new(state, "worst_overlap", json_number(s->worst_overlap));
   } else {
     json_object_set_new(state, "majorant_overflows", json_integer((json_int_t)s->overflows));

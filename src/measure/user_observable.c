@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graingas.h"
 
 typedef double triple[3];
 

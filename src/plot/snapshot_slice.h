@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "common/scene.h"
+#include "scene/scene.h"
 
 /* The grains of one frame: n positions, three coordinates each, in diameters. */
 typedef struct gg_plot_grains {

@@ -6,6 +6,7 @@
 #include "base/checked_json.h"
 #include "files/curve_table.h"
 #include "plot/plot.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 
 /* Of such a run the scene does not tell everything. */
@@ -24,7 +25,7 @@ static json_t *from_scene(const char *yaml, gg_engine_kind engine, const gg_stop
   gg_scene scene = gg_scene_defaults();
   json_t *all = json_object();
   if (gg_scene_read(&scene, yaml, strlen(yaml), "scene", NULL) != GG_OK) return all;
-  if (gg_common_model_make(&scene, engine, &model, NULL) != GG_OK) return all;
+  if (gg_scene_model_make(&scene, engine, &model, NULL) != GG_OK) return all;
   model.stop = stop;
   for (const gg_theory *const *t = gg_theory_theories; *t; t++) {
     gg_curves curves;

@@ -6,10 +6,11 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "common/scene.h"
+#include "scene/scene.h"
 #include "run/default_size.h"
 #include "run/z_scores.h"
 #include "theory/goldhirsch_zanetti1993.h"
+#include "graingas.h"
 
 /* Waves of a homogeneous gas near its instability may be a few times those of an elastic one: sheared, e = 0.5, 1000
  * grains, three times. */

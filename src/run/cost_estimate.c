@@ -14,6 +14,7 @@
 #include "run/relaxation.h"
 #include "run/replica.h"
 #include "run/replicas.h"
+#include "scene/model_of_scene.h"
 #include "theory/theory_list.h"
 
 #define PROGRAM 18e6 /* bytes: the program and its libraries */
@@ -264,7 +265,7 @@ double gg_run_cost_dilute(const gg_scene *scene, const gg_model *md)
 {
   double ratio = 0;
   gg_model *m = md->phi < DILUTE ? malloc(sizeof *m) : NULL;
-  if (m && gg_common_model_make(scene, GG_DSMC, m, NULL) == GG_OK &&
+  if (m && gg_scene_model_make(scene, GG_DSMC, m, NULL) == GG_OK &&
       gg_run_engine_ops_of(GG_DSMC)->accepts(m, NULL) == GG_OK && measured(scene, m) == scene->measure)
     ratio = pace_of_md(md) / pace_of_dsmc(m);
   free(m);

@@ -7,7 +7,7 @@
 
 #include "common/engine.h"
 #include "common/observables.h"
-#include "common/scene.h"
+#include "scene/scene.h"
 
 typedef struct gg_cost_estimate {
   double engine, observables, series; /* bytes of one replica */

@@ -6,6 +6,7 @@
 
 #include "common/model.h"
 #include "scene/fields.h"
+#include "scene/model_of_scene.h"
 #include "theory/goldhirsch_zanetti1993.h"
 
 /* At phi = 0.3 boxes of 500 are 9.6 d long: in shorter ones grains meet their own images. */
@@ -37,7 +38,7 @@ static double stable_size(const gg_scene *s)
   const bool sheared = gg_flow_is_sheared(s->flow) && !responds(s);
   if (sheared || gg_flow_is_walled(s->flow) || !(s->phi > 0)) return NAN;
   if (s->collision.law != GG_LAW_CONSTANT || gg_common_extension_law(s->extension).e) return NAN;
-  return gg_common_model_make(&usual, GG_MD, &m, NULL) == GG_OK ? gg_theory_stable_grains(&m) : NAN;
+  return gg_scene_model_make(&usual, GG_MD, &m, NULL) == GG_OK ? gg_theory_stable_grains(&m) : NAN;
 }
 
 /* Is the usual number of grains too many? */

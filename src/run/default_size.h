@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-#include "common/scene.h"
+#include "scene/scene.h"
 
 /* The number of grains of this scene if it gives none. */
 int64_t gg_run_default_size(const gg_scene *scene);

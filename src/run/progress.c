@@ -7,6 +7,7 @@
 #include "run/progress_estimate.h"
 #include "run/replicas.h"
 #include "statistics/estimator.h"
+#include "graingas.h"
 
 /* The shortest window that is tested tells an error to a fifth, a longer one better as 1/sqrt(window). The end is the
  * mean over errors that turn out so many of these smaller or larger by then; if it may well be half as far or twice, it

@@ -9,6 +9,7 @@
 #include "run/engine_grains.h"
 #include "run/replica.h"
 #include "scene/fields.h"
+#include "scene/model_of_scene.h"
 #include "theory/relaxation.h"
 
 enum { INTERVALS = 100 };
@@ -43,7 +44,7 @@ static gg_status make_model(const gg_scene *scene, const gg_model *model, int ch
 {
   gg_scene then;
   GG_TRY(gg_scene_protocol_apply(scene, changes, &then, err));
-  then.md.raised = scene->md.raised;
+  then.fixed.contact_time = scene->fixed.contact_time;
   GG_TRY(gg_run_start_make(&then, NULL, model->stop, changed, err));
   GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(changed, err));
   return gg_run_is_same_gas(model, changed)
@@ -72,7 +73,7 @@ gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_engine_kind engi
 {
   gg_scene end;
   GG_TRY(gg_run_relaxation_end_scene(scene, &end, err));
-  return gg_common_model_make(&end, engine, model, err);
+  return gg_scene_model_make(&end, engine, model, err);
 }
 
 gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, gg_error *err)
@@ -90,10 +91,10 @@ static double steady_temperature(const gg_scene *scene, const gg_model *m, doubl
 {
   gg_scene start = *scene;
   gg_model steady;
-  start.clock_rate = gg_scene_clock_rate(scene);
+  start.fixed.clock_rate = gg_scene_clock_rate(scene);
   start.start.temperature = GG_AUTO;
   const bool known = m->steady && !gg_flow_cools(m->flow);
-  return known && gg_common_model_make(&start, scene->engine, &steady, NULL) == GG_OK ? steady.temperature0 : last;
+  return known && gg_scene_model_make(&start, scene->engine, &steady, NULL) == GG_OK ? steady.temperature0 : last;
 }
 
 double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model)
@@ -112,7 +113,7 @@ double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model
     const int changes = gg_scene_protocol_count(scene, user_time(scene, k));
     gg_scene then;
     if (gg_scene_protocol_apply(scene, changes, &then, NULL) != GG_OK ||
-        (changes != made && gg_common_model_make(&then, scene->engine, now, NULL) != GG_OK))
+        (changes != made && gg_scene_model_make(&then, scene->engine, now, NULL) != GG_OK))
       break;
     const bool begins = k == 0 || changes != made;
     made = changes;

@@ -15,6 +15,7 @@
 #include "run/run.h"
 #include "run/workers/workers.h"
 #include "scene/fields.h"
+#include "graingas.h"
 
 /* The replicas in an archive: everything needed to continue bit for bit. */
 
@@ -238,7 +239,7 @@ static gg_status check_until(const gg_replicas *all, gg_error *err)
 static gg_status prepare(gg_replicas *all, const gg_archive *resume, gg_error *err)
 {
   const gg_scene *scene = &all->scene;
-  const gg_model *made = all->callbacks && !resume && scene->md.raised == GG_AUTO ? all->callbacks->model : NULL;
+  const gg_model *made = all->callbacks && !resume && scene->fixed.contact_time == GG_AUTO ? all->callbacks->model : NULL;
   if (resume) GG_TRY(gg_scene_resumption_settle(&all->scene, resume, err));
   GG_TRY(gg_run_start_make(scene, made, &all->stop, &all->model, err));
   GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(&all->model, err));
@@ -288,7 +289,7 @@ gg_status gg_run_replicas_raise(gg_replicas *all, int threads, gg_error *err)
   gg_scene scene = all->scene;
   const gg_run_callbacks *callbacks = all->callbacks;
   const double wall = all->state.wall + gg_base_clock_wall() - all->started;
-  scene.md.raised = 10 * all->model.contact_time;
+  scene.fixed.contact_time = 10 * all->model.contact_time;
   gg_run_replicas_clear(all);
   GG_TRY(gg_run_replicas_create(all, &scene, NULL, threads, callbacks, err));
   all->state.wall = wall;

@@ -6,7 +6,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "common/ensemble_size.h"
+#include "scene/ensemble_size.h"
 #include "common/linear_response.h"
 #include "run/causes.h"
 #include "run/default_size.h"
@@ -117,7 +117,7 @@ static void report_effort(const gg_replicas *all, gg_result *result)
     if (i == 0) { /* in units of the start, whatever the engine's velocities have been multiplied by since */
       result->window_step = r->clock.window_collisions;
       sum->time = r->clock.time, sum->time_step_bias = s.time_step_bias;
-      sum->particles_bias = all->model.ensemble ? gg_common_ensemble_bias(&all->model) : 0;
+      sum->particles_bias = all->model.ensemble ? gg_scene_ensemble_bias(&all->model) : 0;
       sum->time_step = ldexp(s.time_step, (int)r->clock.power);
     }
     sum->collisions += s.collisions, sum->events += s.events;
@@ -140,7 +140,7 @@ static void report_effort(const gg_replicas *all, gg_result *result)
 static void warn_if_few(const gg_replicas *all, gg_result *result)
 {
   const double bias = result->engine_state.particles_bias, asked = all->criteria.relative_error,
-               most = gg_common_ensemble_most_bias(all->model.flow);
+               most = gg_scene_ensemble_most_bias(all->model.flow);
   if (!(asked > 0 && bias > 1.001 * most * asked)) return;
   gg_run_result_warn(result,
                      "the ensemble of %lld grains biases means by up to %.2g %% (1/N), more than %s of the requested "
@@ -158,7 +158,7 @@ static void warn_if_very_few(const gg_replicas *all, gg_result *result)
   if (m->n >= FEW_GRAINS || (m->ensemble && all->criteria.relative_error > 0)) return; /* warn_if_few has it */
   gg_run_result_warn(
       result, "%lld grains are few: means may lie up to %.2g %% off those of many (1/N); give %s %d or more",
-      (long long)m->n, 100 * gg_common_ensemble_bias(m), m->ensemble ? "dsmc.particles" : "particles", FEW_GRAINS);
+      (long long)m->n, 100 * gg_scene_ensemble_bias(m), m->ensemble ? "dsmc.particles" : "particles", FEW_GRAINS);
 }
 
 /* Freezing and melting fractions of hard spheres: Hoover & Ree, J. Chem. Phys. 49 (1968) 3609. md starts from random
@@ -274,11 +274,11 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
   if (result->steadiness == GG_STEADY && !c->trusted)
     gg_run_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
                        GG_MIN_BLOCKS);
-  if (all->scene.md.raised != GG_AUTO)
+  if (all->scene.fixed.contact_time != GG_AUTO)
     gg_run_result_warn(result,
                        "md.contact_time: auto is %g here, since collisions accumulate without end at %g; grains in "
                        "lasting contact lose less energy: see how means change from one to the other",
-                       all->scene.md.raised, all->scene.md.raised / 10);
+                       all->scene.fixed.contact_time, all->scene.fixed.contact_time / 10);
   if ((double)s->treated > 1e-4 * (double)s->collisions)
     gg_run_result_warn(result, "%.3g %% of collisions fell under the contact-time rule (e = 1 within t_c)",
                        100 * (double)s->treated / (double)s->collisions);
@@ -394,7 +394,7 @@ gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *
   report_effort(all, result);
   gg_run_replicas_report_steadiness(all, &c, result);
   if (all->model.ensemble)
-    gg_common_ensemble_size_reason(&all->scene, result->ensemble_text, sizeof result->ensemble_text);
+    gg_scene_ensemble_size_reason(&all->scene, result->ensemble_text, sizeof result->ensemble_text);
   else
     gg_run_default_size_reason(&all->scene, result->ensemble_text, sizeof result->ensemble_text);
   report_warnings(all, &c, result);

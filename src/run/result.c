@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graingas.h"
 
 void gg_run_result_warn(gg_result *result, const char *format, ...)
 {

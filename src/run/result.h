@@ -7,8 +7,11 @@
 #include "common/engine.h"
 #include "common/quantity.h"
 #include "measure/observable.h"
+#include "scene/scene.h"
 
 /* One mean. `mean` is NaN where it cannot be had, and `reason` then says why (empty: not measured in this scene). */
+typedef struct gg_result gg_result; /* the handle of the public header */
+
 typedef struct gg_estimate {
   double mean, error;      /* error: standard error, correlation in time accounted for; NaN if unknown */
   double correlation_time; /* integrated autocorrelation time, in the result's unit of it */

@@ -11,6 +11,8 @@
 #include "run/relaxation.h"
 #include "run/replicas.h"
 #include "run/scheduler.h"
+#include "scene/model_of_scene.h"
+#include "graingas.h"
 
 /* Where the replicas stand as a result; it may fall short of what was requested. */
 static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
@@ -270,7 +272,7 @@ static gg_status make_model(const gg_scene *scene, gg_engine_kind kind, const gg
                             gg_model *model, gg_error *err)
 {
   const gg_model *made = callbacks && scene->engine == kind ? callbacks->model : NULL;
-  if (!made) return gg_common_model_make(scene, kind, model, err);
+  if (!made) return gg_scene_model_make(scene, kind, model, err);
   *model = *made;
   return GG_OK;
 }

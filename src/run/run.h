@@ -7,6 +7,12 @@
 #include "run/result.h"
 #include "theory/theory_list.h"
 
+/* Of the public header. */
+typedef struct gg_comparison gg_comparison;
+typedef struct gg_workers gg_workers;
+typedef struct gg_progress gg_progress;
+typedef struct gg_checkpoint_part gg_checkpoint_part;
+
 typedef struct gg_run_scheduler gg_run_scheduler; /* run/scheduler.h */
 struct gg_replica;                                /* run/replica.h */
 

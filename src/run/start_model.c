@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "common/linear_response.h"
 #include "common/portable_math.h"
+#include "scene/model_of_scene.h"
 #include "theory/theory.h"
 
 /* Linear response: at the beginning of a sweep of the reduced shear rate. */
@@ -71,9 +72,9 @@ gg_status gg_run_start_make(const gg_scene *scene, const gg_model *made, const g
   if (made)
     *model = *made;
   else
-    GG_TRY(gg_common_model_make(scene, scene->engine, model, err));
+    GG_TRY(gg_scene_model_make(scene, scene->engine, model, err));
   model->stop = stop;
   if (scene->start.temperature == GG_AUTO) GG_TRY(gg_run_start_near_steady(model, err));
-  gg_common_model_set_ratio(scene, model);
+  gg_scene_model_set_ratio(scene, model);
   return GG_OK;
 }

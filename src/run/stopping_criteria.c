@@ -2,7 +2,7 @@
 /* How long to warm up and average: from the stopping criteria and how slowly the slowest quantity relaxes. */
 #include <math.h>
 
-#include "common/ensemble_size.h"
+#include "scene/ensemble_size.h"
 #include "common/linear_response.h"
 #include "run/relaxation.h"
 #include "run/replicas.h"
@@ -79,7 +79,7 @@ double gg_run_criteria_error_of(const gg_scene *scene, const gg_model *model, gg
   for (int i = 0; i < n; i++)
     if (headline[i] == q)
       return scene->run.relative_error != GG_AUTO ? scene->run.relative_error
-                                                  : gg_common_ensemble_requested_error(scene);
+                                                  : gg_scene_ensemble_requested_error(scene);
   return INFINITY;
 }
 
@@ -94,7 +94,7 @@ gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *m
   p.least_steady = samples_for(fmax(SHORTEST_STEADY, relaxed));
   p.longest = p.least * MOST_WINDOWS;
   if (scene->run.collisions != GG_AUTO) p.most = samples_for(scene->run.collisions);
-  p.relative_error = gg_common_ensemble_requested_error(scene);
+  p.relative_error = gg_scene_ensemble_requested_error(scene);
   if (scene->run.time_limit != GG_AUTO) p.time_limit = scene->run.time_limit;
   if (gg_scene_is_followed(scene)) {
     p.warmup = 0, p.relative_error = 0, p.find_steady = false;

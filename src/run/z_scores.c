@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* z-scores of the engines, and deviations from Enskog's equation and from theories. */
 #include "run/z_scores.h"
+#include "graingas.h"
 
 #include <math.h>
 

@@ -6,6 +6,10 @@
 
 #include "run/run.h"
 
+/* Of the public header. */
+typedef struct gg_departure gg_departure;
+typedef struct gg_comparison_row gg_comparison_row;
+
 /* (a - b) over their combined standard error; NaN where either is missing. */
 double gg_run_z_score(const gg_estimate *a, const gg_estimate *b);
 

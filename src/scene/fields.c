@@ -266,7 +266,7 @@ static void set_default(const gg_field *f, void *base)
 
 gg_scene gg_scene_defaults(void)
 {
-  gg_scene scene = {.n_species = 1, .clock_rate = GG_AUTO, .md = {.raised = GG_AUTO}, .dsmc = {.chosen_for = GG_AUTO}};
+  gg_scene scene = {.n_species = 1, .fixed = {GG_AUTO, GG_AUTO, GG_AUTO}};
   for (const gg_field *f = gg_scene_fields; f->key; f++) set_default(f, &scene);
   for (int i = 0; i < GG_MAX_SPECIES; i++) {
     for (const gg_field *f = gg_scene_species_fields; f->key; f++) set_default(f, &scene.species[i]);

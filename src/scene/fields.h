@@ -11,7 +11,7 @@
 #include "base/archive.h"
 #include "base/file_writer.h"
 #include "base/text.h"
-#include "common/scene.h"
+#include "scene/scene.h"
 
 typedef enum gg_field_type {
   GG_FIELD_NUMBER,  /* double */

@@ -21,7 +21,7 @@ int gg_scene_protocol_count(const gg_scene *s, double time)
 gg_status gg_scene_protocol_apply(const gg_scene *scene, int n, gg_scene *changed, gg_error *err)
 {
   *changed = *scene;
-  changed->clock_rate = gg_scene_clock_rate(scene); /* units are those of the start */
+  changed->fixed.clock_rate = gg_scene_clock_rate(scene); /* units are those of the start */
   for (int i = 0; i < n; i++) GG_TRY(gg_scene_override(changed, scene->protocol[i].key, scene->protocol[i].value, err));
   return GG_OK;
 }

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "common/ensemble_size.h"
+#include "scene/ensemble_size.h"
 #include "scene/fields.h"
 
 /* How the value of a key stands in memory, and so in an archive. */
@@ -45,10 +45,10 @@ gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *a, gg_error
       GG_TRY(gg_base_archive_put(a, item_of(f, name), kept[f->type].type, at, kept[f->type].count, err));
   }
   GG_TRY(gg_base_archive_put(a, number_of_species, GG_ITEM_I64, &n, 1, err));
-  const double chosen_for = gg_common_ensemble_size_error(scene);
+  const double chosen_for = gg_scene_ensemble_size_error(scene);
   GG_TRY(gg_base_archive_put(a, ensemble_item, GG_ITEM_F64, &chosen_for, 1, err));
-  if (scene->md.raised != GG_AUTO) GG_TRY(gg_base_archive_put(a, raised_item, GG_ITEM_F64, &scene->md.raised, 1, err));
-  if (scene->clock_rate != GG_AUTO) GG_TRY(gg_base_archive_put(a, clock_item, GG_ITEM_F64, &scene->clock_rate, 1, err));
+  if (scene->fixed.contact_time != GG_AUTO) GG_TRY(gg_base_archive_put(a, raised_item, GG_ITEM_F64, &scene->fixed.contact_time, 1, err));
+  if (scene->fixed.clock_rate != GG_AUTO) GG_TRY(gg_base_archive_put(a, clock_item, GG_ITEM_F64, &scene->fixed.clock_rate, 1, err));
   gg_common_extension_signature(scene->extension, signature, sizeof signature);
   return gg_base_archive_put(a, extension_item, GG_ITEM_U8, signature, sizeof signature, err);
 }
@@ -132,16 +132,16 @@ static gg_status same_extension(const gg_scene *scene, const gg_archive *a, gg_e
 gg_status gg_scene_resumption_settle(gg_scene *scene, const gg_archive *a, gg_error *err)
 {
   if (gg_base_archive_find(a, raised_item))
-    GG_TRY(gg_base_archive_get(a, raised_item, GG_ITEM_F64, &scene->md.raised, 1, err));
-  if (scene->md.raised != GG_AUTO && !(scene->md.raised > 0 && scene->md.raised < 0.01))
-    return gg_base_fail(err, GG_BAD_FILE, "a contact time of %g, which no run has", scene->md.raised);
+    GG_TRY(gg_base_archive_get(a, raised_item, GG_ITEM_F64, &scene->fixed.contact_time, 1, err));
+  if (scene->fixed.contact_time != GG_AUTO && !(scene->fixed.contact_time > 0 && scene->fixed.contact_time < 0.01))
+    return gg_base_fail(err, GG_BAD_FILE, "a contact time of %g, which no run has", scene->fixed.contact_time);
   if (gg_base_archive_find(a, clock_item))
-    GG_TRY(gg_base_archive_get(a, clock_item, GG_ITEM_F64, &scene->clock_rate, 1, err));
-  if (scene->clock_rate != GG_AUTO && !(scene->clock_rate > 0 && scene->clock_rate < INFINITY))
-    return gg_base_fail(err, GG_BAD_FILE, "a unit of time of 1/%g", scene->clock_rate);
+    GG_TRY(gg_base_archive_get(a, clock_item, GG_ITEM_F64, &scene->fixed.clock_rate, 1, err));
+  if (scene->fixed.clock_rate != GG_AUTO && !(scene->fixed.clock_rate > 0 && scene->fixed.clock_rate < INFINITY))
+    return gg_base_fail(err, GG_BAD_FILE, "a unit of time of 1/%g", scene->fixed.clock_rate);
   if (!gg_base_archive_find(a, ensemble_item))
     return GG_OK; /* no archive of a run: gg_scene_resumption_check rejects it */
-  return gg_base_archive_get(a, ensemble_item, GG_ITEM_F64, &scene->dsmc.chosen_for, 1, err);
+  return gg_base_archive_get(a, ensemble_item, GG_ITEM_F64, &scene->fixed.ensemble_error, 1, err);
 }
 
 gg_status gg_scene_resumption_check(const gg_scene *scene, const gg_archive *a, gg_error *err)

@@ -4,6 +4,7 @@
 #define GG_SWEEP_FOLDER_H
 
 #include "base/atomic_file.h"
+#include "graingas.h"
 #include "sweep/sweep.h"
 
 enum { GG_POINT_NAME = 17 };

@@ -14,8 +14,10 @@
 #include "run/default_size.h"
 #include "run/replicas.h"
 #include "scene/fields.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 #include "sweep/sweep.h"
+#include "graingas.h"
 
 /* What makes a point the one that it is: a hash of its resolved scene; and whether a file holds that scene. */
 
@@ -202,7 +204,7 @@ static gg_status cost_of(const gg_scene *scene, gg_engine_kind engine, gg_cost_e
                          gg_error *err)
 {
   gg_model model;
-  GG_TRY(gg_common_model_make(scene, engine, &model, err));
+  GG_TRY(gg_scene_model_make(scene, engine, &model, err));
   GG_TRY(gg_run_engine_ops_of(engine)->accepts(&model, err));
   *cost = gg_run_cost_estimate(scene, &model, engine);
   *warmup = (double)gg_run_criteria_of(scene, &model).warmup * GG_SAMPLING_INTERVAL;
@@ -222,7 +224,7 @@ static int64_t replicas_for(const gg_cost_estimate *f, double warmup, double lon
 static gg_status add_theories(const gg_scene *scene, double *seconds, gg_error *err)
 {
   gg_model model;
-  GG_TRY(gg_common_model_for_theories(scene, &model, err));
+  GG_TRY(gg_scene_model_for_theories(scene, &model, err));
   *seconds += gg_run_cost_of_theories(&model);
   return GG_OK;
 }

@@ -8,6 +8,8 @@
 #include "common/rng.h"
 #include "scene/fields.h"
 
+typedef struct gg_sweep gg_sweep; /* the handle of the public header */
+
 typedef enum gg_does { GG_DOES_RUN, GG_DOES_COMPARE, GG_DOES_THEORY } gg_does;
 typedef enum gg_seeds { GG_SEEDS_INDEPENDENT, GG_SEEDS_COMMON } gg_seeds;
 

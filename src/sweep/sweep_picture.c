@@ -11,6 +11,7 @@
 #include "files/text_format.h"
 #include "plot/chart.h"
 #include "run/result.h"
+#include "scene/model_of_scene.h"
 #include "sweep/picture_rows.h"
 
 enum { MOST_PANELS = 6, MOST_SERIES = 64 };
@@ -149,7 +150,7 @@ static gg_status choose_quantities(drawing *d, gg_error *err)
   gg_model model;
   gg_quantity headline[GG_N_QUANTITIES];
   GG_TRY(gg_sweep_resolve(d->sweep, 0, &scene, err));
-  GG_TRY(gg_common_model_for_theories(&scene, &model, err));
+  GG_TRY(gg_scene_model_for_theories(&scene, &model, err));
   int n = gg_run_headline_quantities(&model, headline);
   for (int i = 0; i < n && d->n < 4; i++) {
     const char *name = gg_common_quantity_name_in(&model, headline[i]);

@@ -20,6 +20,7 @@
 #include "files/h5/result_file.h"
 #include "files/result_document.h"
 #include "run/result.h"
+#include "scene/model_of_scene.h"
 #include "sweep/point_deviations.h"
 #include "theory/theory.h"
 
@@ -125,7 +126,7 @@ static gg_status add_document(gg_point_table *t, gg_cli_table_row row, json_t *d
   }
   gg_model model;
   if (!scene->extension) return GG_OK;
-  GG_TRY(gg_common_model_make(scene, GG_MD, &model, err));
+  GG_TRY(gg_scene_model_make(scene, GG_MD, &model, err));
   return add_own_theories(t, row, &model, err);
 }
 

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "common/thermostat.h"
 #include "theory/theory.h"
+#include "graingas.h"
 
 gg_status gg_theory_user_theory_add(gg_extension **extension, const gg_theory_definition *t, gg_error *err)
 {

@@ -13,7 +13,9 @@
 
 #include "files/text_format.h"
 #include "run/run.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
+#include "graingas.h"
 
 static gg_scene scene_of(int flow, const char *rest)
 {
@@ -61,7 +63,7 @@ static void defaults_run(void **state)
       gg_model m;
       gg_error err = {0};
       if (gg_scene_finish(&s, &err) != GG_OK) fail_msg("%s", err.message);
-      assert_int_equal(gg_common_model_make(&s, (gg_engine_kind)engine, &m, &err), GG_OK);
+      assert_int_equal(gg_scene_model_make(&s, (gg_engine_kind)engine, &m, &err), GG_OK);
       gg_status status = gg_run_engine_ops_of((gg_engine_kind)engine)->accepts(&m, &err);
       if (gg_flow_runs_in((gg_flow)f, engine) && status != GG_OK) fail_msg("%s", err.message);
       if (gg_flow_runs_in((gg_flow)f, engine)) continue;

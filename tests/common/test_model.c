@@ -14,6 +14,7 @@
 #include "common/quantity.h"
 #include "common/rng.h"
 #include "common/thermostat.h"
+#include "scene/model_of_scene.h"
 #include "theory/mixture.h"
 
 static void near(double a, double b, double tolerance)
@@ -25,7 +26,7 @@ static gg_model make(const gg_scene *s)
 {
   gg_model m;
   gg_error err = {0};
-  gg_status status = gg_common_model_make(s, s->engine, &m, &err);
+  gg_status status = gg_scene_model_make(s, s->engine, &m, &err);
   if (status != GG_OK) fail_msg("%s", err.message);
   return m;
 }
@@ -79,8 +80,8 @@ static void theories_have_no_grains(void **state)
   s.species[0] = (gg_species){0.0005, 1, 1, 0.4, 1};
   s.species[1] = (gg_species){1 / 3., 2, 3, 0.4, 1};
   s.species[2] = (gg_species){1 - 0.0005 - 1 / 3., 1.5, 1, 0.4, 1};
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
-  assert_int_equal(gg_common_model_for_theories(&s, &m, &err), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_model_for_theories(&s, &m, &err), GG_OK);
   double solid = 0;
   for (int i = 0; i < 3; i++) {
     near(m.fraction[i], s.species[i].fraction, 1e-15);
@@ -88,7 +89,7 @@ static void theories_have_no_grains(void **state)
   }
   near(solid, 0.2, 1e-14);
   s.particles = 77;
-  assert_int_equal(gg_common_model_for_theories(&s, &many, &err), GG_OK);
+  assert_int_equal(gg_scene_model_for_theories(&s, &many, &err), GG_OK);
   near(gg_common_model_collision_rate(&many, 1), gg_common_model_collision_rate(&m, 1), 0);
   near(gg_common_model_relaxation(&many), gg_common_model_relaxation(&m), 0);
 }
@@ -214,7 +215,7 @@ static void kinds(void **state)
   assert_true(slow > 20 * gg_common_model_relaxation(&m));
   s.phi = -1;
   gg_error err;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
   assert_non_null(strstr(err.message, "phi"));
 }
 
@@ -340,7 +341,7 @@ static void refused(const gg_scene *s, const char *words)
 {
   gg_model m;
   gg_error err = {0};
-  assert_int_equal(gg_common_model_make(s, GG_DSMC, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_model_make(s, GG_DSMC, &m, &err), GG_BAD_INPUT);
   if (!strstr(err.message, words)) fail_msg("'%s' lacks '%s'", err.message, words);
 }
 
@@ -354,14 +355,14 @@ static void scales(void **state)
   const double tiny[] = {9e-21, 1e-300, 1e-308, 5e-324};
   for (int k = 0; k < 4; k++) s.phi = tiny[k], refused(&s, "allowed: from 1e-20 to 0.6, or 0");
   s.phi = 1e-20;
-  assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, &err), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_DSMC, &m, &err), GG_OK);
   assert_true(isfinite(m.temperature0) && isfinite(m.volume) && m.density > 0);
   s.phi = 0.1, s.shear_rate = 1e-3, s.start.temperature = 1e-13;
   refused(&s, "here 1e-12 to 1e+24");
   s.start.temperature = 1e25;
   refused(&s, "here 1e-12 to 1e+24");
   s.start.temperature = 1.01e-12;
-  assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, &err), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_DSMC, &m, &err), GG_OK);
   s.start.temperature = GG_AUTO, s.n_species = 2;
   s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
   s.species[1].mass = 2e12;

@@ -13,6 +13,7 @@
 #include "common/laws/loss_table.h"
 #include "common/model.h"
 #include "common/rng.h"
+#include "scene/model_of_scene.h"
 #include "theory/theory.h"
 #include "theory/theory_list.h"
 
@@ -119,7 +120,7 @@ static gg_model model_of(const gg_scene *s)
 {
   gg_model m;
   gg_error err;
-  if (gg_common_model_make(s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 
@@ -158,13 +159,13 @@ static void refusals(void **state)
     assert_non_null(strstr(err.message, "'viscoelastic'"));
   }
   s = viscoelastic(GG_SMALL_SHEAR);
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
   s = viscoelastic(GG_HCS);
   s.collision.e[0] = 0;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
   assert_non_null(strstr(err.message, "collision.e"));
   s.collision.e[0] = 1 - 1e-7; /* the table of losses has none that small */
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
   assert_non_null(strstr(err.message, "from 0.01 to 0.99999, or 1"));
 }
 

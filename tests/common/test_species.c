@@ -11,6 +11,7 @@
 
 #include "common/contact_value.h"
 #include "common/model.h"
+#include "scene/model_of_scene.h"
 
 static void pairs_are_numbered(void **state)
 {
@@ -55,23 +56,23 @@ static void grains_are_dealt(void **state)
   gg_model m;
   gg_error err;
   gg_scene s = scene_of(10, 1004);
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_OK);
   for (int i = 0; i < 10; i++) assert_int_equal(m.n_of[i], i < 4 ? 101 : 100); /* equal remainders: the first */
   s = scene_of(3, 100);
   s.species[0].fraction = 0.506, s.species[1].fraction = 0.247, s.species[2].fraction = 0.247;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_OK);
   assert_true(m.n_of[0] == 50 && m.n_of[1] == 25 && m.n_of[2] == 25);
   for (int n = 2; n <= GG_MAX_SPECIES; n++)
     for (int64_t grains = 2 * n; grains < 200; grains++) {
       s = scene_of(n, grains);
       int64_t sum = 0;
-      assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_OK);
+      assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_OK);
       for (int i = 0; i < n; i++) sum += m.n_of[i];
       assert_int_equal(sum, grains);
     }
   s = scene_of(3, 1000);
   s.species[0].fraction = 0.999, s.species[1].fraction = s.species[2].fraction = 0.0005;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
   assert_non_null(strstr(err.message, "the fraction 0.0005 of species 2 is 1 of 1000 grains; each species needs two"));
 }
 
@@ -88,8 +89,8 @@ static void cut_species_are_one(void **state)
     many.species[i].fraction = 0.05;
   }
   gg_model a, b;
-  assert_int_equal(gg_common_model_make(&two, GG_MD, &a, NULL), GG_OK);
-  assert_int_equal(gg_common_model_make(&many, GG_MD, &b, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&two, GG_MD, &a, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&many, GG_MD, &b, NULL), GG_OK);
   assert_true(fabs(a.volume - b.volume) < 1e-12 * a.volume);
   for (int i = 0; i < GG_MAX_SPECIES; i++)
     for (int j = 0; j <= i; j++) {

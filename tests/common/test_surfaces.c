@@ -16,6 +16,7 @@
 #include "common/rng.h"
 #include "common/surface/collide.h"
 #include "common/surface/shapes.h"
+#include "scene/model_of_scene.h"
 
 static const gg_surface surfaces[] = {
     {.shape = GG_SHAPE_plane, .axis = 1, .side = -1, .place = 0},
@@ -176,7 +177,7 @@ static void images(void **state)
     s.flow = GG_CHUTE, s.phi = 0.2, s.particles = 500;
     s.walls.top = k == 2 ? GG_OPEN_TOP : s.walls.top;
     s.walls.ridges = k == 1 ? 0.5 : 0;
-    assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_OK);
+    assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_OK);
     assert_int_equal(m.n_surfaces, k == 2 ? 1 : 2);
     for (int w = 0; w < m.n_surfaces; w++) assert_int_equal(gg_surface_image(&m, w), k == 2 ? -1 : 1 - w);
   }
@@ -193,23 +194,23 @@ static void room(void **state)
   const double least[] = {0.0999, 0.1};
   for (int k = 0; k < 2; k++) {
     s.walls.ridges = least[k];
-    assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), k ? GG_OK : GG_BAD_INPUT);
+    assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), k ? GG_OK : GG_BAD_INPUT);
   }
   const double length = m.box[0], gap = m.box[1];
   int refused = 0;
   for (s.walls.ridges = 0.5; s.walls.ridges < length; s.walls.ridges += 0.05) {
     double height = 0.5 * length / round(length / s.walls.ridges);
     bool fits = gap - 2 * height >= 2;
-    assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), fits ? GG_OK : GG_BAD_INPUT);
+    assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), fits ? GG_OK : GG_BAD_INPUT);
     refused += !fits;
   }
   assert_true(refused > 5);
   s.aspect[1] = 9, s.walls.ridges = 0; /* one ridge is as wide as the box, no less than half of what was asked for */
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_OK);
   s.walls.ridges = 1.99 * m.box[0];
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_OK);
   s.walls.ridges = 2.01 * m.box[0];
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
 }
 
 static gg_vec across(gg_vec v, gg_vec k)

@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "common/engine.h"
+#include "scene/model_of_scene.h"
 
 static inline gg_scene lab_scene(gg_flow flow, double phi, double e, double beta, int64_t n)
 {
@@ -30,7 +31,7 @@ static inline gg_model lab_model(const gg_scene *s)
 {
   gg_model m;
   gg_error err = {0};
-  if (gg_common_model_make(s, GG_DSMC, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(s, GG_DSMC, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "run/run.h"
+#include "scene/model_of_scene.h"
 
 enum { PLANTED_GRAINS = 40, PLANTED_SAMPLES = 50 };
 
@@ -35,7 +36,7 @@ static inline gg_result *planted_result(gg_engine_kind engine)
   r->scene = gg_scene_defaults();
   r->scene.phi = 0.3, r->scene.particles = PLANTED_GRAINS, r->scene.engine = engine;
   for (int p = 0; p < GG_PAIRS; p++) r->scene.collision.beta[p] = 0;
-  gg_common_model_make(&r->scene, engine, &r->model, NULL);
+  gg_scene_model_make(&r->scene, engine, &r->model, NULL);
   r->model.n = PLANTED_GRAINS;
   r->engine = engine == GG_MD ? "md" : "dsmc";
   gg_run_result_label(r);

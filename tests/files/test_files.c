@@ -19,6 +19,7 @@
 #include "files/h5/result_reader.h"
 #include "own_folder.h"
 #include "planted.h"
+#include "graingas.h"
 
 static double read_number(gg_h5_in *h, const char *path)
 {

@@ -19,6 +19,7 @@
 #include "files/h5/hdf5_reader.h"
 #include "files/h5/result_reader.h"
 #include "planted.h"
+#include "graingas.h"
 
 static char folder[] = "/tmp/graingas-reader-XXXXXX";
 

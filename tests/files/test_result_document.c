@@ -9,6 +9,7 @@
 
 #include "files/result_document.h"
 #include "planted.h"
+#include "graingas.h"
 
 static const char *warning_with(const json_t *document, const char *words)
 {

@@ -14,7 +14,9 @@
 #include "files/result_document.h"
 #include "own_folder.h"
 #include "planted.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
+#include "graingas.h"
 
 /* How a file keeps a member. MD_ONLY, DSMC_ONLY: kept of results of that engine. BY_HAND: compared apart from the
  * tables. LEFT_OUT: 0 or NaN after reading. */
@@ -355,7 +357,7 @@ static gg_result *plant(gg_engine_kind engine, gg_steadiness steadiness)
   gg_result *r = calloc(1, sizeof *r);
   last = 100;
   make_scene(&r->scene, engine);
-  assert_int_equal(gg_common_model_make(&r->scene, engine, &r->model, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&r->scene, engine, &r->model, NULL), GG_OK);
   r->model.law.e = law; /* so that there is a count of its values that were clamped */
   r->engine = engine == GG_MD ? "md" : "dsmc";
   gg_run_result_label(r);

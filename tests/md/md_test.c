@@ -6,6 +6,7 @@
 
 #include "common/model.h"
 #include "common/surface/shapes.h"
+#include "scene/model_of_scene.h"
 
 gg_scene md_scene(md_case c)
 {
@@ -27,7 +28,7 @@ gg_model md_model_of(const gg_scene *s)
 {
   gg_model m;
   gg_error err = {0};
-  if (gg_common_model_make(s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 

@@ -13,6 +13,7 @@
 
 #include "common/engine.h"
 #include "md/md_state.h"
+#include "scene/scene.h"
 
 typedef struct md_case {
   gg_flow flow;

@@ -17,6 +17,7 @@
 #include <time.h>
 
 #include "md_test.h"
+#include "scene/scene.h"
 
 #define LARGEST_OVERLAP 1e-11 /* contact distances */
 #define LARGEST_DRIFT 1e-11   /* of energy, relative; of momentum, in N thermal speeds */

@@ -6,6 +6,7 @@
 
 #include "common/thermostat.h"
 #include "md/kicks.h"
+#include "scene/model_of_scene.h"
 #include "theory/theory.h"
 
 static gg_model bath(gg_flow flow, double phi, double e, double beta, double drag, double T, double rotation, int64_t n)
@@ -16,7 +17,7 @@ static gg_model bath(gg_flow flow, double phi, double e, double beta, double dra
   s.particles = n;
   s.thermostat = GG_BATH;
   s.bath.drag = drag, s.bath.temperature = T, s.bath.rotation = rotation;
-  if (gg_common_model_make(&s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(&s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 
@@ -131,7 +132,7 @@ static gg_model given(gg_thermostat thermostat, double strength)
   s.particles = 500;
   s.thermostat = thermostat;
   *(thermostat == GG_GAUSSIAN ? &s.gaussian_rate : &s.noise_strength) = strength;
-  if (gg_common_model_make(&s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(&s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "md_test.h"
+#include "scene/scene.h"
 
 /* A line of three grains, the outer two closing in on the middle one. */
 static gg_md *line_of_three(double restitution, double contact_time)

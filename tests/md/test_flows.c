@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "md_test.h"
+#include "scene/scene.h"
 
 static gg_scene scene(gg_flow flow, int64_t n, double phi, double e, double beta)
 {

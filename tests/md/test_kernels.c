@@ -6,6 +6,7 @@
 #include "md_test.h"
 
 #include "md/event_loops.h"
+#include "scene/scene.h"
 
 static const int species[] = {1, 2, GG_MAX_SPECIES};
 enum { MIXTURES = sizeof species / sizeof *species };

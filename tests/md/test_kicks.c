@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "md/kicks.h"
+#include "scene/model_of_scene.h"
 
 static gg_scene heated(int64_t n, double phi, double e)
 {
@@ -26,7 +27,7 @@ static gg_model mixture(double phi, double e, int64_t one, int64_t two, double m
   s.n_species = 2;
   s.species[0].fraction = (double)one / (double)(one + two), s.species[1].fraction = (double)two / (double)(one + two);
   s.species[1].mass = mass;
-  if (gg_common_model_make(&s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(&s, GG_MD, &m, &err) != GG_OK) fail_msg("%s", err.message);
   assert_int_equal(m.n_of[0], one);
   return m;
 }

@@ -9,6 +9,7 @@
 #include "md_test.h"
 
 #include "md/row_motion.h"
+#include "scene/scene.h"
 
 enum { MOST = 160 };
 

@@ -9,6 +9,7 @@
 
 #include "md/md_engine.h"
 #include "md/parallel/slab.h"
+#include "scene/scene.h"
 #include "md_test.h"
 
 enum { MOST_THREADS = 4 };

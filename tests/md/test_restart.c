@@ -3,6 +3,7 @@
  * length has the same trajectory; rescaling by powers of two is exact; an advance that is stopped and goes on ends as
  * one that was not. */
 #include "md_test.h"
+#include "scene/scene.h"
 
 static const md_case cases[] = {
     {GG_USF, 200, 0.3, 0.9, 0, INFINITY, {0}},        {GG_USF, 200, 0.02, 0.8, 0.5, 0.3, {0}},

@@ -8,6 +8,7 @@
 #include "md/md_engine.h"
 #include "md/parallel/slab.h"
 #include "md/row_motion.h"
+#include "scene/scene.h"
 #include "md_test.h"
 
 enum { GRAINS = 40, CELLS = 27, COLLISIONS = 20000 };

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "md/start/place.h"
+#include "scene/scene.h"
 #include "md_test.h"
 
 static void check_start(md_case c)

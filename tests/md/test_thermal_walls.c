@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "md_test.h"
+#include "scene/scene.h"
 
 enum { BLOCKS = 40, SKIPPED = 5 };
 

@@ -16,6 +16,7 @@
 #include "common/rng.h"
 #include "measure/observable.h"
 #include "run/run.h"
+#include "scene/model_of_scene.h"
 
 static inline gg_model ct_model(gg_flow flow, double phi, double beta, int64_t n, int species)
 {
@@ -29,7 +30,7 @@ static inline gg_model ct_model(gg_flow flow, double phi, double beta, int64_t n
     s.species[1] = (gg_species){0.4, 1.5, 3, 0.5, 1};
   }
   gg_model m;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   return m;
 }
 

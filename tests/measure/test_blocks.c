@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "measure/rheology.h"
+#include "scene/model_of_scene.h"
 
 static gg_model model_of(gg_flow flow, double beta, int species, gg_precision precision, int64_t n)
 {
@@ -22,7 +23,7 @@ static gg_model model_of(gg_flow flow, double beta, int species, gg_precision pr
   for (int p = 0; p < GG_PAIRS; p++) s.collision.beta[p] = beta;
   gg_model m;
   gg_error err = {0};
-  if (gg_common_model_make(&s, GG_DSMC, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(&s, GG_DSMC, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 

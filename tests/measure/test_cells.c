@@ -3,6 +3,7 @@
  * and without the 1/n_c share exactly; a planted extra shear shows in the local shear rate and in the box temperature.
  */
 #include "curve_test.h"
+#include "graingas.h"
 
 #define EXTRA 0.02
 

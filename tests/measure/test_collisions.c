@@ -5,6 +5,8 @@
  * theory of gases, point by point; sheared gases meet head-on in the compressing quadrants, alike in both engines. */
 #include "curve_test.h"
 #include "measure/free_flight.h"
+#include "scene/model_of_scene.h"
+#include "graingas.h"
 
 typedef struct sums {
   gg_collision_sums by_hand;
@@ -56,7 +58,7 @@ static void adds_up(void **state)
     gg_engine *e[2];
     gg_collision_sums t;
     double gone, velocity[2] = {0, 0};
-    assert_int_equal(gg_common_model_make(&s, which, &m, NULL), GG_OK);
+    assert_int_equal(gg_scene_model_make(&s, which, &m, NULL), GG_OK);
     sums shown = {.model = &m};
     const gg_engine_ops *ops = gg_run_engine_ops_of(which);
     for (int k = 0; k < 2; k++) {

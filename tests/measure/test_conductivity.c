@@ -5,6 +5,7 @@
  * f1 is expanded: degrees, slopes against differences, and <C.b> = <d/dC . b> of Maxwellian grains. */
 #include "curve_test.h"
 #include "measure/heat_copies.h"
+#include "scene/model_of_scene.h"
 
 enum { N = 2000, SAMPLES = 6000 };
 
@@ -23,7 +24,7 @@ static gg_model model(gg_flow flow, gg_engine_kind engine, double phi, double be
   gg_scene s = gg_scene_defaults();
   gg_model m;
   s.flow = flow, s.phi = phi, s.dsmc.particles = N, s.collision.e[0] = 1, s.collision.beta[0] = beta;
-  assert_int_equal(gg_common_model_make(&s, engine, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, engine, &m, NULL), GG_OK);
   return m;
 }
 

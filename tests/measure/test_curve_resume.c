@@ -4,7 +4,9 @@
  * has changed is in force again. Every observable, both engines, two replicas; before, between and after changes. */
 #include "curve_test.h"
 #include "run/replica.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
+#include "graingas.h"
 
 /* Frames are at the same places of every run; questions are not. */
 typedef struct stop {
@@ -92,7 +94,7 @@ static unsigned measured(const gg_scene *scene)
 {
   gg_model m;
   unsigned flags;
-  assert_int_equal(gg_common_model_make(scene, scene->engine, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(scene, scene->engine, &m, NULL), GG_OK);
   assert_int_equal(gg_run_measured(scene, &m, &flags, NULL), GG_OK);
   return flags;
 }

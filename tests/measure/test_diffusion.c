@@ -7,6 +7,8 @@
 
 #include "curve_test.h"
 #include "measure/long_time_tail.h"
+#include "scene/model_of_scene.h"
+#include "graingas.h"
 
 #define STEP 0.2
 static const double keep[2] = {0.9, 0.8};
@@ -86,7 +88,7 @@ static void planted_tail(void **state)
     s.flow = GG_EQUILIBRIUM, s.phi = 0.26, s.particles = 500, s.aspect[1] = k == 2 ? 2 : 1;
     for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
     gg_model m;
-    assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+    assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
     gg_long_time_tail tail = k ? gg_measure_long_time_tail_of(&m, 0.5) : gg_measure_long_time_tail_driven(0.01, 3);
     gg_running at[10];
     double sum = 0, beyond = gg_measure_long_time_tail_beyond(&tail, 3);
@@ -121,7 +123,7 @@ static void lacking_of_boxes(void **state)
     const double T = 0.7;
     s.flow = GG_EQUILIBRIUM, s.phi = 0.3, s.particles = 300, s.aspect[1] = k == 1 ? 2 : 1, s.aspect[2] = k == 2 ? 3 : 1;
     for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
-    assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+    assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
     const double n = m.density, chi = m.chi[0], b = 1.6 * m.phi * chi, is = gg_measure_long_time_tail_lacking(&m, T);
     const double eta =
         1.016 * 5 / 16. * sqrt(T / M_PI) * ((1 + b) * (1 + b) / chi + 768 / (25 * M_PI) * m.phi * m.phi * chi);
@@ -218,7 +220,7 @@ static void box_shorter_than_free_paths(void **state)
   s.run.collisions = 1500;
   s.measure |= GG_MEASURE_DIFFUSION;
   gg_model m;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   gg_result *r = ct_run(s);
   double T = r->value[GG_Q_TEMPERATURE].mean;
   for (int i = 0; i < 2; i++) {

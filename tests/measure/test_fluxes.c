@@ -7,6 +7,8 @@
 #include "curve_test.h"
 
 #include "measure/gap_slabs.h"
+#include "scene/model_of_scene.h"
+#include "graingas.h"
 
 /* ---- Conservation */
 
@@ -56,7 +58,7 @@ static void check_conservation(const gg_scene *scene)
   gg_engine *engine;
   gg_snapshot s;
   double gone;
-  assert_int_equal(gg_common_model_make(scene, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(scene, GG_MD, &m, NULL), GG_OK);
   assert_int_equal(gg_md_ops.create(&m, 1, 1, &engine, NULL), GG_OK);
   planted p = {.o = &gg_measure_fluxes, .m = &m, .slabs = gg_measure_gap_slabs(&m)};
   p.self = p.o->create(&m, NULL);

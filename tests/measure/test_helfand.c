@@ -3,6 +3,7 @@
  * in closed form; the first point of a curve has half of them; a grain between two collisions adds its flux times the
  * time of its flight. */
 #include "curve_test.h"
+#include "scene/model_of_scene.h"
 
 enum { N = 6, SAMPLES = 40000 };
 static const double speed = 0.7, interval = 0.3;
@@ -133,7 +134,7 @@ static void refused(void **state)
       for (int engine = 0; engine <= GG_DSMC; engine++) {
         s = gg_scene_defaults();
         s.flow = (gg_flow)flow, s.phi = 0.1, s.collision.e[0] = elastic ? 1 : 0.9, s.collision.beta[0] = -1;
-        if (gg_common_model_make(&s, (gg_engine_kind)engine, &m, NULL) != GG_OK) continue;
+        if (gg_scene_model_make(&s, (gg_engine_kind)engine, &m, NULL) != GG_OK) continue;
         const bool fine = elastic && engine == GG_MD && (flow == GG_EQUILIBRIUM || flow == GG_HCS);
         assert_int_equal(helfand->refuses(&m) == NULL, fine);
       }

@@ -3,6 +3,7 @@
  * two with different temperatures, and of a gas that cools while it is sampled; elastic gases have it in both engines;
  * and of inelastic ones the mean square is what their loss of energy says. */
 #include "curve_test.h"
+#include "graingas.h"
 
 static double law(double x, const void *none)
 {

@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 #include "curve_test.h"
+#include "graingas.h"
 
 static void scatter(gg_snapshot *s, gg_rng *r)
 {

@@ -12,6 +12,7 @@
 
 #include "common/rng.h"
 #include "measure/local_frame.h"
+#include "scene/model_of_scene.h"
 
 enum { N = 1000 };
 static double r[3][N], c[3][N], w[3][N];
@@ -161,7 +162,7 @@ static gg_model between_like_walls(void)
   gg_model m;
   gg_scene s = gg_scene_defaults();
   s.flow = GG_COUETTE, s.phi = 0.1, s.particles = N;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   return m;
 }
 

@@ -11,6 +11,7 @@
 
 #include "common/rng.h"
 #include "measure/long_waves.h"
+#include "scene/model_of_scene.h"
 
 enum { N = 4096, CHUNK = 512 };
 static double r[3][N], c[3][N];
@@ -22,7 +23,7 @@ static gg_model model_of(int species)
   gg_model m;
   s.flow = GG_HCS, s.phi = 0.2, s.particles = N, s.n_species = species;
   if (species == 2) s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.5, 1.5, 3, 0.4, 1};
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   m.box[1] *= 2, m.box[2] /= 2; /* edges of their own */
   return m;
 }

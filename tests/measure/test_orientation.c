@@ -2,6 +2,7 @@
 /* Orientation: planted angles give Lambda and both histograms back, whatever the mean spin; instantaneous velocities
  * contain the flow; an engine's curve agrees with the quantity cos2_psi of rheology. */
 #include "curve_test.h"
+#include "graingas.h"
 
 #define ALIGNED 0.3
 static const double mean_spin = -2.5;

@@ -5,6 +5,8 @@
  * the rate; of inelastic grains those that separate are 1/e times as dense as those that approach, in space, too. */
 #include "curve_test.h"
 #include "measure/pairs.h"
+#include "scene/model_of_scene.h"
+#include "graingas.h"
 
 static void thrown(gg_snapshot *s, gg_rng *r, int sample)
 {
@@ -74,7 +76,7 @@ static void pairs_of_images(void **state)
     scene.phi = 0.2, scene.particles = 300;
     if (k % 2) scene.aspect[k % 3] = 1.7;
     gg_model m;
-    assert_int_equal(gg_common_model_make(&scene, GG_MD, &m, NULL), GG_OK);
+    assert_int_equal(gg_scene_model_make(&scene, GG_MD, &m, NULL), GG_OK);
     double reach = (k % 4 < 2 ? 0.35 : 1) * gg_measure_pairs_longest_reach(&m);
     gg_snapshot s;
     gg_pairs p;
@@ -110,7 +112,7 @@ static void sampled_pairs(void **state)
     scene.phi = 0.2, scene.particles = 1500;
     if (k) scene.aspect[k - 1] = 1.7;
     gg_model m;
-    assert_int_equal(gg_common_model_make(&scene, GG_MD, &m, NULL), GG_OK);
+    assert_int_equal(gg_scene_model_make(&scene, GG_MD, &m, NULL), GG_OK);
     double reach = gg_measure_pairs_longest_reach(&m), sum[SHELLS + 1] = {0}, squares[SHELLS + 1] = {0};
     gg_snapshot s;
     gg_pairs p;
@@ -363,7 +365,7 @@ static void dense(void **state)
   s.measure |= GG_MEASURE_PAIR_CORRELATION;
   gg_model m;
   gg_result *r = NULL;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   about_to_collide near = {
       .m = &m, .step = 0.1 / gg_common_model_collision_rate(&m, m.temperature0), .slow = 0.2 * sqrt(m.temperature0)};
   const gg_run_callbacks callbacks = {.context = &near, .frame = count_near};

@@ -12,6 +12,7 @@
 
 #include "common/rng.h"
 #include "measure/rheology.h"
+#include "scene/model_of_scene.h"
 
 enum { N = 500 };
 static double cx[N], cy[N], cz[N], sx[N], sy[N], sz[N];
@@ -44,7 +45,7 @@ static gg_model model_of(gg_flow flow, double beta, int species)
     s.species[1] = (gg_species){167.0 / N, 1.5, 3, 0.5, 1};
   }
   gg_model m;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   return m;
 }
 

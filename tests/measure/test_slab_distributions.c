@@ -6,6 +6,7 @@
 
 #include "curve_test.h"
 #include "measure/wall_modes.h"
+#include "graingas.h"
 
 enum { SLABS = 6 };
 

@@ -2,6 +2,7 @@
 /* Sonine deviation: speeds drawn from the first Sonine form give c and the polynomial back; a Maxwellian has none; the
  * Monte Carlo engine cools freely with the cumulant of the literature. */
 #include "curve_test.h"
+#include "graingas.h"
 
 #define C_PLANTED 0.15
 

@@ -5,6 +5,7 @@
 
 #include "curve_test.h"
 #include "measure/mesh.h"
+#include "graingas.h"
 
 static void thrown(gg_snapshot *s, gg_rng *r, int sample)
 {

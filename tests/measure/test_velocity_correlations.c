@@ -7,6 +7,7 @@
 #include "curve_test.h"
 #include "measure/cell_frame.h"
 #include "measure/pairs.h"
+#include "graingas.h"
 
 /* C_x = 2 cos(kz + phase) + noise, Omega_z = -cos(kz + phase) + noise/2, everything else noise. */
 static void wave(gg_snapshot *s, gg_rng *r, int sample)

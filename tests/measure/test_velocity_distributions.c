@@ -3,6 +3,7 @@
  * has no deviation; an elastic engine has alpha = 2, and a sheared inelastic one has not. */
 #include "curve_test.h"
 #include "measure/stretched_tail.h"
+#include "graingas.h"
 
 #include <stdio.h>
 

@@ -13,6 +13,7 @@
 #include <stdlib.h>
 
 #include "run/run.h"
+#include "graingas.h"
 
 static const gg_quantity conductivities[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED,
                                              GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC,

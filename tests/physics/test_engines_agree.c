@@ -12,6 +12,7 @@
 
 #include "run/run.h"
 #include "run/z_scores.h"
+#include "graingas.h"
 
 static gg_scene scene_of(double e, double beta, double mu)
 {

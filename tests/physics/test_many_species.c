@@ -14,7 +14,9 @@
 
 #include "run/run.h"
 #include "run/z_scores.h"
+#include "scene/model_of_scene.h"
 #include "theory/answer.h"
+#include "graingas.h"
 
 /* Medians of the tenths of exp(0.25 x), x normal. */
 static const double diameters[] = {0.663, 0.772, 0.845, 0.908, 0.969, 1.032, 1.101, 1.184, 1.296, 1.509};
@@ -103,7 +105,7 @@ static void equilibrium_of(const gg_engine_ops *ops, gg_engine_kind kind, int sp
   gg_model m;
   gg_engine *e;
   gg_error err = {0};
-  if (gg_common_model_make(&s, kind, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(&s, kind, &m, &err) != GG_OK) fail_msg("%s", err.message);
   if (ops->create(&m, 5, 0, &e, &err) != GG_OK) fail_msg("%s", err.message);
   const uint64_t each = (uint64_t)m.n; /* two collisions a grain */
   double elapsed, T[GG_MAX_SPECIES] = {0}, TT[GG_MAX_SPECIES] = {0};

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "run/run.h"
+#include "graingas.h"
 
 enum { SEEDS = 100 };
 #define ASKED 0.006

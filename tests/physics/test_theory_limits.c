@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "run/run.h"
+#include "graingas.h"
 
 static gg_result *run(double phi, double e, double beta)
 {

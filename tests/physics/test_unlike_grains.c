@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "run/run.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 
 #define GRAINS                                                                                                         \
@@ -87,7 +88,7 @@ static gg_engine *engine_of(const gg_scene *s, uint64_t seed, gg_model *m)
 {
   gg_engine *g = NULL;
   gg_error err = {0};
-  if (gg_common_model_make(s, s->engine, m, &err) != GG_OK ||
+  if (gg_scene_model_make(s, s->engine, m, &err) != GG_OK ||
       gg_run_engine_ops_of(s->engine)->create(m, seed, 0, &g, &err) != GG_OK)
     fail_msg("%s", err.message);
   return g;

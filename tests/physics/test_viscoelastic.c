@@ -14,6 +14,7 @@
 #include "common/laws/laws.h"
 #include "run/run.h"
 #include "run/z_scores.h"
+#include "scene/model_of_scene.h"
 
 static gg_scene scene_of(gg_flow flow, double phi, double e, int64_t n)
 {
@@ -30,7 +31,7 @@ static gg_model model_of(const gg_scene *s, gg_engine_kind kind)
 {
   gg_model m;
   gg_error err;
-  if (gg_common_model_make(s, kind, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(s, kind, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 

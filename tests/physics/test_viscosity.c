@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #include "run/run.h"
+#include "graingas.h"
 
 /* dsmc has twice as many grains where the reference is exact. */
 static gg_scene slow(double e, double phi, gg_thermostat thermostat)

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "run/run.h"
+#include "graingas.h"
 
 enum { SEEDS = 16, MOST = 80 };
 

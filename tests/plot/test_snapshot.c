@@ -15,6 +15,8 @@
 #include "../files/planted.h"
 #include "common/rng.h"
 #include "plot/plot.h"
+#include "scene/model_of_scene.h"
+#include "graingas.h"
 
 enum { GRAINS = 5, MOST = 64 };
 
@@ -126,7 +128,7 @@ static gg_result *result_with(gg_flow flow, const double place[GRAINS][3])
   s->aspect[0] = 1, s->aspect[1] = 2, s->aspect[2] = 1.5;
   if (flow == GG_CHUTE) s->walls.top = GG_OPEN_TOP, s->gravity[1] = -1;
   gg_error err = {0};
-  if (gg_common_model_make(s, GG_MD, &r->model, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(s, GG_MD, &r->model, &err) != GG_OK) fail_msg("%s", err.message);
   gg_frame *f = &r->final;
   f->n = GRAINS;
   f->species = calloc(GRAINS, 1);
@@ -237,7 +239,7 @@ static gg_result *gas_of(size_t n, double phi, bool mixed)
     s->n_species = 2, s->species[0] = (gg_species){0.5, 1, 1, 0.4, 1},
     s->species[1] = (gg_species){0.5, 0.5, 1, 0.4, 1};
   gg_error err = {0};
-  if (gg_common_model_make(s, GG_MD, &r->model, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(s, GG_MD, &r->model, &err) != GG_OK) fail_msg("%s", err.message);
   gg_frame *f = &r->final;
   gg_rng rng = gg_common_rng_seed(1, 0);
   gg_run_frame_free(f);

@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "scene/scene_reader.h"
+#include "graingas.h"
 
 gg_scene *scene_of(const char *yaml)
 {

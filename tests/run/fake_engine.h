@@ -5,7 +5,7 @@
 #define FAKE_ENGINE_H
 
 #include "common/engine.h"
-#include "common/scene.h"
+#include "scene/scene.h"
 
 typedef struct fake_plan {
   double T, theta;   /* steady values */

@@ -11,6 +11,7 @@
 
 #include "run/run.h"
 #include "run/z_scores.h"
+#include "scene/model_of_scene.h"
 
 typedef struct scene_of {
   gg_flow flow;
@@ -29,7 +30,7 @@ static void set_scene(const scene_of *of, gg_comparison *c)
     s.collision.e[p] = of->e, s.collision.beta[p] = of->beta, s.collision.mu[p] = of->mu;
   if (of->species == 2) s.species[0] = (gg_species){0.5, 1, 4, 0.4, 1}, s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
   *c = (gg_comparison){.by_engine = {&md, &dsmc}};
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &c->model, &err), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &c->model, &err), GG_OK);
   gg_run_rows_make(&c->model, &c->rows);
   md.rows = dsmc.rows = c->rows;
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) md.value[q] = dsmc.value[q] = (gg_estimate){.mean = NAN, .error = NAN};

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "run/replicas.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 
 static gg_stopping_criteria criteria_of(const char *yaml, gg_model *m)
@@ -16,7 +17,7 @@ static gg_stopping_criteria criteria_of(const char *yaml, gg_model *m)
   gg_error err = {0};
   gg_scene s = gg_scene_defaults();
   if (gg_scene_read(&s, yaml, strlen(yaml), "a scene", &err) != GG_OK ||
-      gg_common_model_make(&s, GG_MD, m, &err) != GG_OK)
+      gg_scene_model_make(&s, GG_MD, m, &err) != GG_OK)
     fail_msg("%s", err.message);
   return gg_run_criteria_of(&s, m);
 }

@@ -12,6 +12,7 @@
 
 #include "common/model.h"
 #include "run/default_size.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 #include "theory/goldhirsch_zanetti1993.h"
 
@@ -31,7 +32,7 @@ static double of_unstable(gg_scene s, int64_t n)
 {
   gg_model m;
   s.particles = n;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   return fmax(m.box[0], fmax(m.box[1], m.box[2])) / gg_theory_clustering_length(&m);
 }
 

@@ -11,6 +11,7 @@
 #include <cmocka.h>
 
 #include "extended.h"
+#include "graingas.h"
 
 typedef struct stopping {
   gg_archive last;

@@ -13,7 +13,9 @@
 
 #include "fake_engine.h"
 #include "run/run.h"
+#include "scene/model_of_scene.h"
 #include "statistics/estimator.h"
+#include "graingas.h"
 
 enum { INTERVALS = 100 };
 #define APART 3.0 /* collisions per grain of an interval */
@@ -35,7 +37,7 @@ static gg_scene followed(int replicas)
   s.flow = GG_EQUILIBRIUM, s.collision.e[0] = 1;
   s.particles = 8;
   s.run.replicas = replicas;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   s.run.duration = INTERVALS * APART / gg_common_model_collision_rate(&m, fake.T) / gg_scene_clock_rate(&s);
   fake.counted = true;
   return s;

@@ -13,6 +13,7 @@
 #include "dsmc/walls/gap.h"
 #include "md/md_state.h"
 #include "run/replica.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 
 static gg_scene scene_of(const char *yaml, gg_engine_kind engine)
@@ -51,7 +52,7 @@ static void planted_in(const char *yaml, gg_engine_kind engine, int what)
   gg_model m;
   gg_replica r;
   gg_error err = {0};
-  if (gg_common_model_make(&s, engine, &m, &err) != GG_OK || gg_run_engine_ops_of(engine)->accepts(&m, NULL) != GG_OK ||
+  if (gg_scene_model_make(&s, engine, &m, &err) != GG_OK || gg_run_engine_ops_of(engine)->accepts(&m, NULL) != GG_OK ||
       (what == WHAT_SPIN && m.rule == GG_SMOOTH))
     return;
   if (gg_run_replica_create(&r, &s, &m, 0, &err) != GG_OK) fail_msg("%s: %s", yaml, err.message);
@@ -110,7 +111,7 @@ static void at_its_collision(void **state)
   gg_engine *engine;
   gg_error err = {0};
   double gone;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_OK);
   assert_int_equal(gg_md_ops.create(&m, 1, 0, &engine, &err), GG_OK);
   culprit c = {(gg_md *)engine, 1234};
   assert_int_equal(gg_md_ops.set_callback(engine, spoil, &c, &err), GG_OK);

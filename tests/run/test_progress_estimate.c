@@ -12,6 +12,7 @@
 
 #include "fake_engine.h"
 #include "run/replicas.h"
+#include "graingas.h"
 
 static const gg_stopping_criteria criteria = {
     .warmup = 20, .least = 150, .longest = 75000, .relative_error = 0.01, .find_steady = true};

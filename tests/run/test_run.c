@@ -13,6 +13,7 @@
 
 #include "fake_engine.h"
 #include "run/run.h"
+#include "graingas.h"
 
 static gg_result *run(const gg_scene *s, gg_status expected)
 {

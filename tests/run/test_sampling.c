@@ -12,7 +12,9 @@
 #include <string.h>
 
 #include "run/replica.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
+#include "graingas.h"
 
 static void create(gg_replica *r, const char *yaml, gg_engine_kind engine)
 {
@@ -22,7 +24,7 @@ static void create(gg_replica *r, const char *yaml, gg_engine_kind engine)
   if (gg_scene_read(&s, yaml, strlen(yaml), "test", &err) != GG_OK || gg_scene_finish(&s, &err) != GG_OK)
     fail_msg("%s", err.message);
   s.engine = engine;
-  if (gg_common_model_make(&s, engine, &m, &err) != GG_OK || gg_run_replica_create(r, &s, &m, 0, &err) != GG_OK)
+  if (gg_scene_model_make(&s, engine, &m, &err) != GG_OK || gg_run_replica_create(r, &s, &m, 0, &err) != GG_OK)
     fail_msg("%s: %s", yaml, err.message);
 }
 

@@ -13,6 +13,7 @@
 
 #include "base/clock.h"
 #include "run/scheduler.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 
 enum { MOST = 70 };
@@ -62,7 +63,7 @@ static void open_run(run *r, gg_run_scheduler *scheduler, int n, char name, seen
   *r = (run){.scene = gg_scene_defaults(), .seen = s, .name = name, .stop = {meet, r}};
   if (gg_scene_read(&r->scene, yaml, strlen(yaml), "test", &err) != GG_OK || gg_scene_finish(&r->scene, &err) != GG_OK)
     fail_msg("%s", err.message);
-  assert_int_equal(gg_common_model_make(&r->scene, GG_DSMC, &r->model, &err), GG_OK);
+  assert_int_equal(gg_scene_model_make(&r->scene, GG_DSMC, &r->model, &err), GG_OK);
   for (int i = 0; i < n; i++)
     assert_int_equal(gg_run_replica_create(&r->replica[i], &r->scene, &r->model, i, &err), GG_OK);
   for (int i = 0; i < n; i++) r->replica[i].model.stop = &r->stop;

@@ -14,6 +14,7 @@
 #include "common/rng.h"
 #include "measure/wall_modes.h"
 #include "run/replicas.h"
+#include "scene/model_of_scene.h"
 #include "statistics/autocorrelation.h"
 
 enum { ROWS = 4096, SPREAD = 1, MOMENTUM = 2 };
@@ -23,7 +24,7 @@ static gg_model couette(void)
   gg_model m;
   gg_scene s = gg_scene_defaults();
   s.flow = GG_COUETTE, s.phi = 0.3;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   return m;
 }
 
@@ -154,12 +155,12 @@ static void parities(void **state)
   gg_model m;
   gg_scene s = gg_scene_defaults();
   s.phi = 0.1;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   assert_int_equal(gg_measure_wall_modes(&m), 0);
   static const bool turned[] = {true, false, true, false, true, true, false, true, false};
   static const bool mirrored[] = {true, false, false, true, false, true, false, true, false};
   s.flow = GG_COUETTE;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_int_equal(gg_measure_wall_mode_is_odd(&m, k), turned[k]);
   m.gravity[0] = 1;
   for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_false(gg_measure_wall_mode_is_odd(&m, k));

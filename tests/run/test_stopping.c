@@ -17,6 +17,7 @@
 #include "run/run.h"
 #include "run/z_scores.h"
 #include "scene/scene_reader.h"
+#include "graingas.h"
 
 typedef struct caller {
   gg_rng rng;

@@ -12,6 +12,7 @@
 
 #include "fake_engine.h"
 #include "run/run.h"
+#include "graingas.h"
 
 enum { RUNS = 700, MEMORY = 10 }; /* decay time of the noise, collisions a grain */
 

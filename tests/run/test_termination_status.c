@@ -11,7 +11,9 @@
 #include "run/cost_estimate.h"
 #include "run/replicas.h"
 #include "run/run.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
+#include "graingas.h"
 
 static gg_result *run(const char *yaml, gg_status expected, gg_error *err)
 {
@@ -150,7 +152,7 @@ static void dilute(void **state)
              cases[i].phi, cases[i].measure);
     assert_int_equal(gg_scene_read(&s, yaml, strlen(yaml), "test", &err), GG_OK);
     assert_int_equal(gg_scene_finish(&s, &err), GG_OK);
-    assert_int_equal(gg_common_model_make(&s, GG_MD, &m, &err), GG_OK);
+    assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_OK);
     const double ratio = gg_run_cost_dilute(&s, &m);
     assert_in_range((unsigned)ratio, (unsigned)cases[i].least, (unsigned)cases[i].most);
   }

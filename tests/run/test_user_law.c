@@ -11,6 +11,8 @@
 
 #include "extended.h"
 #include "run/z_scores.h"
+#include "scene/model_of_scene.h"
+#include "graingas.h"
 
 static double above_one(void *context, double speed, int one, int two)
 {
@@ -153,7 +155,7 @@ static void test_bad_laws(void **state)
   set_law(scene, "x", constant, &e);
   set_law(scene, NULL, NULL, NULL); /* back to a constant */
   gg_model m;
-  assert_int_equal(gg_common_model_make(scene, GG_MD, &m, &err), GG_OK);
+  assert_int_equal(gg_scene_model_make(scene, GG_MD, &m, &err), GG_OK);
   assert_true(m.law.e == NULL);
   gg_scene_free(scene);
 }

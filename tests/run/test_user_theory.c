@@ -12,6 +12,7 @@
 
 #include "extended.h"
 #include "files/result_document.h"
+#include "graingas.h"
 
 static const char *pressure_of_enskog(void *context, const gg_facts *f, double *values)
 {

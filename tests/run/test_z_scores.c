@@ -11,6 +11,8 @@
 
 #include "fake_engine.h"
 #include "run/z_scores.h"
+#include "scene/model_of_scene.h"
+#include "graingas.h"
 
 /* A comparison puts both columns and the theories side by side; z is the difference over the combined error. */
 static void comparison(void **state)
@@ -36,7 +38,7 @@ static void agreement(void **state)
   gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
   gg_comparison c = {.by_engine = {&md, &dsmc}};
   gg_scene s = planted_scene(0);
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
   gg_run_rows_make(&c.model, &c.rows);
   const struct {
     double phi, md, error;
@@ -63,7 +65,7 @@ static void departures(void **state)
   gg_comparison c = {.by_engine = {&md, &dsmc}, .n_theories = 1};
   gg_scene s = planted_scene(0);
   gg_departure d;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
   c.model.phi = 0.2;
   md.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = 2.2, .error = 0.008};
   dsmc.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = 2.1, .error = 0.1};
@@ -119,7 +121,7 @@ static void remarks(void **state)
   for (int i = 0; i < 5; i++) {
     gg_theory_remark r[GG_MOST_THEORIES];
     for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = cases[i].e;
-    assert_int_equal(gg_common_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
+    assert_int_equal(gg_scene_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
     assert_int_equal(gg_run_compare_theories(&c.model, NULL, &c, NULL), GG_OK);
     for (int k = 0; k < c.n_theories; k++) c.theory[k].applies = strcmp(c.theory[k].theory->name, "lun1991") == 0;
     for (int q = 0; q < GG_N_QUANTITIES; q++) md.value[q].mean = dsmc.value[q].mean = NAN;

@@ -11,6 +11,7 @@
 
 #include "files/h5/result_reader.h"
 #include "scene/scene_reader.h"
+#include "graingas.h"
 
 static gg_scene parse(const char *yaml)
 {

@@ -14,6 +14,7 @@
 #include "run/engine_grains.h"
 #include "run/relaxation.h"
 #include "run/run.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 #include "theory/theory.h"
 
@@ -108,7 +109,7 @@ static gg_scene scene_of(const char *yaml)
 static void model_of(const gg_scene *s, gg_model *m)
 {
   gg_error err = {0};
-  if (gg_common_model_make(s, s->engine, m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(s, s->engine, m, &err) != GG_OK) fail_msg("%s", err.message);
 }
 
 static void close_to(double a, double b, double bound, const char *what)

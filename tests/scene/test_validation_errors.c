@@ -11,6 +11,7 @@
 
 #include "base/spelling.h"
 #include "scene/scene_reader.h"
+#include "graingas.h"
 
 static gg_status read_and_finish(const char *yaml, gg_error *err)
 {

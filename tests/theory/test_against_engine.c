@@ -4,6 +4,7 @@
 #include "theory_test.h"
 
 #include "run/run.h"
+#include "graingas.h"
 
 static gg_result *run(gg_scene s)
 {

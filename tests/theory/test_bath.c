@@ -4,6 +4,7 @@
 #include "theory_test.h"
 
 #include "common/thermostat.h"
+#include "scene/model_of_scene.h"
 #include "theory/relaxation.h"
 
 static gg_scene bath(gg_flow flow, double phi, double e, double beta, double drag, double T)
@@ -283,10 +284,10 @@ static void refused(void **state)
   gg_error err;
   gg_model m;
   gg_scene s = bath(GG_HSS, 0.2, 0.8, -1, 1, 0);
-  assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_model_make(&s, GG_DSMC, &m, &err), GG_BAD_INPUT);
   s = scene_of(GG_HSS, 0.2, 1, -1);
   s.thermostat = GG_WHITE_NOISE, s.noise_strength = 1;
-  assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_scene_model_make(&s, GG_DSMC, &m, &err), GG_BAD_INPUT);
   s = bath(GG_HSS, 0.2, 0.8, -1, 1, 1);
   m = model_of(&s);
   assert_refused(&gg_theory_garzo_dufty1999, &m, "has no bath");

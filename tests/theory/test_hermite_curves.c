@@ -9,6 +9,7 @@
 #include "measure/histogram.h"
 #include "run/run.h"
 #include "theory/hermite/component.h"
+#include "graingas.h"
 
 static double square_y(const double C[3])
 {

@@ -2,6 +2,7 @@
 #include "theory_test.h"
 
 #include "common/contact_value.h"
+#include "scene/model_of_scene.h"
 
 static bool is_one_line(const char *text)
 {
@@ -170,7 +171,7 @@ static void enskog_knudsen(void **state)
   gg_scene s = scene_of(GG_EQUILIBRIUM, 0.01, 1, -1);
   s.particles = 8000;
   gg_model m;
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   assert_close(value_of(&gg_theory_enskog, &m, GG_Q_MEAN_FREE_PATH), 11.49, 5e-4);
   assert_close(cbrt(m.volume), 74.8, 1e-3);
   assert_close(value_of(&gg_theory_enskog, &m, GG_Q_KNUDSEN), 0.1536, 5e-4);

@@ -14,6 +14,7 @@
 
 #include <cmocka.h>
 
+#include "scene/model_of_scene.h"
 #include "theory/theory.h"
 #include "theory/theory_list.h"
 
@@ -38,7 +39,7 @@ static inline gg_model model_of(const gg_scene *s)
 {
   gg_model m;
   gg_error err;
-  if (gg_common_model_make(s, GG_DSMC, &m, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_scene_model_make(s, GG_DSMC, &m, &err) != GG_OK) fail_msg("%s", err.message);
   return m;
 }
 

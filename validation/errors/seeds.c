@@ -17,6 +17,7 @@
 #include "common/quantity.h"
 #include "run/run.h"
 #include "scene/scene_reader.h"
+#include "graingas.h"
 
 enum { MOST_NUMBERS = 20000, MOST_TRUTHS = 16, MOST_BOUNDS = 16 };
 

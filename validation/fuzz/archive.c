@@ -7,6 +7,7 @@
 #include "base.h"
 #include "fuzz.h"
 #include "patch.h"
+#include "graingas.h"
 
 enum { LOOKS = 6, RECORD = 1 + FUZZ_RECORD };
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "scene/scene_reader.h"
+#include "graingas.h"
 
 enum { LOOKS = 12 }; /* at whether to stop, until it does: a few samples */
 

@@ -12,6 +12,7 @@
 #include "base/checksum.h"
 #include "files/frame_log.h"
 #include "files/h5/particles.h"
+#include "scene/model_of_scene.h"
 #include "fuzz.h"
 
 enum { HEADER = 56, CHECKSUM = 48, BYTES = 8 }; /* of a record: its size, where its checksum and its bytes stand */
@@ -46,7 +47,7 @@ static uint64_t mend(uint8_t *log, size_t size)
 
 static void make_model(gg_model *model, size_t which)
 {
-  if (gg_common_model_make(&fuzz_base_of(which)->scene, fuzz_base_of(which)->scene.engine, model, NULL) != GG_OK)
+  if (gg_scene_model_make(&fuzz_base_of(which)->scene, fuzz_base_of(which)->scene.engine, model, NULL) != GG_OK)
     abort();
 }
 

@@ -6,6 +6,7 @@
 #define GG_SURFACE_RIDGES_H
 
 #include <stdbool.h>
+#include <stdint.h>
 
 #include "common/surface/surface.h"
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A surface that grains bounce off: what engine, sums, profiles and files know of a wall. The model holds a list of
- * them (common/model.h), surfaces.c makes it from a scene, and shapes.h lists the functions of a shape.
+ * them (common/model.h), made by surfaces.c, and shapes.h lists the functions of a shape.
  *
  * Surfaces bound the gas across y at least: there is no period along y where a model has any. */
 #ifndef GG_SURFACE_H
 #define GG_SURFACE_H
 
 #include "common/collision.h"
-#include "common/scene.h"
+#include "common/species.h"
 #include "common/vec.h"
 
 enum { GG_MOST_SURFACES = 6 };
@@ -27,6 +27,16 @@ typedef struct gg_surface {
   gg_contact contact[GG_MAX_SPECIES]; /* grain (1) against the surface (2) */
   gg_contact treated[GG_MAX_SPECIES]; /* the same with e = 1, for the contact-time rule */
 } gg_surface;
+
+/* The walls at both ends of y, in the model's units. */
+typedef struct gg_walls {
+  double e, beta, mu;
+  double speed;          /* of the upper wall along x; the lower one moves the other way */
+  double temperature[2]; /* lower, upper; GG_AUTO: none */
+  double accommodation;  /* fraction of contacts that leave with it */
+  int ridges;            /* half cylinders side by side along x; 0: flat */
+  bool open_top;         /* no upper wall */
+} gg_walls;
 
 /* A grain in flight: centre, velocity, acceleration. */
 typedef struct gg_flight {

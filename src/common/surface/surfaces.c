@@ -2,13 +2,13 @@
 #include "common/model.h"
 #include "common/surface/shapes.h"
 
-static void add(gg_model *m, const gg_scene *s, bool spins, gg_surface surface)
+static void add(gg_model *m, const gg_walls *walls, bool spins, gg_surface surface)
 {
   const gg_partner wall = {INFINITY, 1};
   for (int i = 0; i < GG_MAX_SPECIES; i++) {
     gg_partner grain = {m->mass[i], spins ? m->inertia[i] : INFINITY};
-    surface.contact[i] = gg_common_contact_make(grain, wall, s->walls.e, s->walls.beta, s->walls.mu);
-    surface.treated[i] = gg_common_contact_make(grain, wall, 1, s->walls.beta, s->walls.mu);
+    surface.contact[i] = gg_common_contact_make(grain, wall, walls->e, walls->beta, walls->mu);
+    surface.treated[i] = gg_common_contact_make(grain, wall, 1, walls->beta, walls->mu);
   }
   m->surface[m->n_surfaces++] = surface;
 }
@@ -27,13 +27,12 @@ static gg_status check_room(const gg_model *m, gg_error *err)
       room, m->box[1], 2 * widest);
 }
 
-/* Flat, or with half cylinders of so great a diameter that a whole number of them stands along x. */
-static void set_shape(gg_surface *wall, const gg_scene *s, const gg_model *m)
+/* Flat, or with half cylinders side by side along x. */
+static void set_shape(gg_surface *wall, int ridges, const gg_model *m)
 {
-  if (s->walls.ridges == 0) return;
-  double number = fmax(1, round(m->box[0] * s->species[0].diameter / s->walls.ridges));
+  if (ridges == 0) return;
   wall->shape = GG_SHAPE_ridges;
-  wall->radius = 0.5 * m->box[0] / number;
+  wall->radius = 0.5 * m->box[0] / ridges;
   wall->title = wall->side > 0 ? "a ridged wall above" : "a ridged wall below";
 }
 
@@ -48,36 +47,16 @@ static gg_surface end_of_gap(const gg_model *m, double side, double speed)
                       .velocity = {side * speed, 0, 0}};
 }
 
-static void set_temperature(gg_surface *wall, const gg_scene *s, gg_units unit)
+gg_status gg_common_surfaces_make(gg_model *m, const gg_walls *walls, bool spins, gg_error *err)
 {
-  const double T = s->walls.temperature[wall->side > 0];
-  if (T == GG_AUTO || s->walls.accommodation == 0) return;
-  wall->temperature = gg_units_temperature(unit, T);
-  wall->accommodation = s->walls.accommodation;
-}
-
-gg_status gg_common_surfaces_make(const gg_scene *s, bool spins, gg_model *m, gg_error *err)
-{
-  double speed = gg_flow_has_moving_walls(s->flow) ? gg_units_velocity(m->unit, s->walls.speed) : 0;
-  bool open = gg_flow_of(s->flow)->may_be_open && s->walls.top == GG_OPEN_TOP;
   m->n_surfaces = 0;
-  if (!gg_flow_is_walled(s->flow)) return GG_OK;
-  if (s->walls.ridges != 0 && (speed != 0 || s->walls.ridges < 0.1 * s->species[0].diameter))
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "walls.ridges: %g; allowed: 0 (flat), or on walls at rest at least a tenth of the diameter",
-                        s->walls.ridges);
-  const double length = m->box[0] * s->species[0].diameter;
-  if (s->walls.ridges > 2 * length)
-    return gg_base_fail(
-        err, GG_BAD_INPUT,
-        "walls.ridges: %g in a box that is %.4g long along x; allowed: up to %.4g, of which one is made that "
-        "is as wide as the box",
-        s->walls.ridges, length, 2 * length);
-  for (double side = -1; side <= (open ? -1 : 1); side += 2) {
-    gg_surface wall = end_of_gap(m, side, speed);
-    set_shape(&wall, s, m);
-    set_temperature(&wall, s, m->unit);
-    add(m, s, spins, wall);
+  if (!gg_flow_is_walled(m->flow)) return GG_OK;
+  for (double side = -1; side <= (walls->open_top ? -1 : 1); side += 2) {
+    gg_surface wall = end_of_gap(m, side, walls->speed);
+    const double T = walls->temperature[side > 0];
+    set_shape(&wall, walls->ridges, m);
+    if (T != GG_AUTO && walls->accommodation > 0) wall.temperature = T, wall.accommodation = walls->accommodation;
+    add(m, walls, spins, wall);
   }
   return check_room(m, err);
 }

@@ -5,7 +5,7 @@
 #define GG_CHECKPOINT_FILE_H
 
 #include "base/archive.h"
-#include "common/scene.h"
+#include "scene/scene.h"
 
 struct gg_h5_in;
 

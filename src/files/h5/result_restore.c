@@ -8,8 +8,10 @@
 #include "base/checked_json.h"
 #include "files/curve_table.h"
 #include "files/result_document.h"
+#include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 #include "theory/theory.h"
+#include "graingas.h"
 
 static void sample_nothing(void *context, void *state, const gg_sample *sample, double *values)
 {
@@ -211,7 +213,7 @@ static void restore_effort(gg_result *r, const json_t *document)
                                       .overflows = count(state, "majorant_overflows"),
                                       .clamped = count(state, "law_clamped")};
   if (json_object_get(state, "contact_time"))
-    r->scene.md.raised = r->model.contact_time = gg_base_json_number(state, "contact_time");
+    r->scene.fixed.contact_time = r->model.contact_time = gg_base_json_number(state, "contact_time");
   if (json_object_get(state, "worst_overlap"))
     r->engine_state.worst_overlap = gg_base_json_number(state, "worst_overlap");
   if (json_object_get(state, "time_step")) r->engine_state.time_step = gg_base_json_number(state, "time_step");
@@ -237,7 +239,7 @@ gg_status gg_files_stored_scene(const gg_stored_result *s, gg_engine_kind engine
 {
   *scene = gg_scene_defaults();
   GG_TRY(gg_scene_read(scene, s->scene, strlen(s->scene), "the stored scene", err));
-  return gg_common_model_make(scene, engine, model, err);
+  return gg_scene_model_make(scene, engine, model, err);
 }
 
 static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_kind engine, gg_error *err)

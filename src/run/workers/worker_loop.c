@@ -8,6 +8,8 @@
 #include "base/memory.h"
 #include "run/run.h"
 #include "run/workers/message.h"
+#include "scene/model_of_scene.h"
+#include "graingas.h"
 
 /* Seconds between reports of what is under way, and checks whether rank 0 lives. */
 static const double status_every = 0.5;
@@ -60,7 +62,7 @@ static remote_run *find(const worker_process *s, int64_t run)
 static gg_status make_model(remote_run *r, const void *block, size_t size)
 {
   GG_TRY(gg_run_message_scene(block, size, &r->scene, &r->err));
-  GG_TRY(gg_common_model_make(&r->scene, r->scene.engine, &r->model, &r->err));
+  GG_TRY(gg_scene_model_make(&r->scene, r->scene.engine, &r->model, &r->err));
   r->stop = (gg_stop){is_stopped, r};
   r->model.stop = &r->stop;
   return r->scene.start.temperature == GG_AUTO ? gg_run_start_near_steady(&r->model, &r->err) : GG_OK;

@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "run/workers/message.h"
+#include "graingas.h"
 
 /* Seconds: the longest silence of a rank that works, which sends its status twice a second; until all have registered;
  * between two checks which ranks are lost. */

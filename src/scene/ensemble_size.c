@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "common/ensemble_size.h"
+#include "scene/ensemble_size.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,7 +19,7 @@
 /* Beyond, memory and warm-up cost more than any error that can be reached in days requires. */
 enum { MOST_ENSEMBLE = 1000000 };
 
-double gg_common_ensemble_requested_error(const gg_scene *s)
+double gg_scene_ensemble_requested_error(const gg_scene *s)
 {
   double least = s->run.relative_error != GG_AUTO ? s->run.relative_error : INFINITY;
   for (int q = 0; q < GG_MAX_UNTIL; q++)
@@ -27,9 +27,9 @@ double gg_common_ensemble_requested_error(const gg_scene *s)
   return isfinite(least) ? least : s->run.collisions != GG_AUTO ? 0 : 0.01;
 }
 
-double gg_common_ensemble_size_error(const gg_scene *s)
+double gg_scene_ensemble_size_error(const gg_scene *s)
 {
-  return s->dsmc.chosen_for != GG_AUTO ? s->dsmc.chosen_for : gg_common_ensemble_requested_error(s);
+  return s->fixed.ensemble_error != GG_AUTO ? s->fixed.ensemble_error : gg_scene_ensemble_requested_error(s);
 }
 
 static double bias_times_n(gg_flow flow, double phi)
@@ -37,12 +37,12 @@ static double bias_times_n(gg_flow flow, double phi)
   return gg_flow_is_walled(flow) ? fmin(BIAS_TIMES_N + BIAS_BY_PHI * phi, BIAS_BETWEEN_WALLS) : BIAS_TIMES_N;
 }
 
-double gg_common_ensemble_most_bias(gg_flow flow)
+double gg_scene_ensemble_most_bias(gg_flow flow)
 {
   return gg_flow_is_walled(flow) ? SHARE_BETWEEN_WALLS : SHARE;
 }
 
-double gg_common_ensemble_bias(const gg_model *m)
+double gg_scene_ensemble_bias(const gg_model *m)
 {
   int64_t least = m->n;
   for (int i = 0; i < m->n_species; i++)
@@ -62,8 +62,8 @@ static double scarcest(const gg_scene *s)
 
 static double needed(const gg_scene *s)
 {
-  const double error = gg_common_ensemble_size_error(s);
-  return error > 0 ? ceil(bias_times_n(s->flow, s->phi) / (gg_common_ensemble_most_bias(s->flow) * error * scarcest(s)))
+  const double error = gg_scene_ensemble_size_error(s);
+  return error > 0 ? ceil(bias_times_n(s->flow, s->phi) / (gg_scene_ensemble_most_bias(s->flow) * error * scarcest(s)))
                    : 0;
 }
 
@@ -72,17 +72,17 @@ static bool is_given(const gg_scene *s)
   return s->dsmc.particles || s->particles > GG_LEAST_ENSEMBLE;
 }
 
-int64_t gg_common_ensemble_size(const gg_scene *s)
+int64_t gg_scene_ensemble_size(const gg_scene *s)
 {
   if (s->dsmc.particles) return s->dsmc.particles;
   if (is_given(s)) return s->particles;
   return (int64_t)fmin(fmax(needed(s), GG_LEAST_ENSEMBLE), MOST_ENSEMBLE);
 }
 
-void gg_common_ensemble_size_reason(const gg_scene *s, char *text, size_t size)
+void gg_scene_ensemble_size_reason(const gg_scene *s, char *text, size_t size)
 {
-  const double error = gg_common_ensemble_size_error(s), most = gg_common_ensemble_most_bias(s->flow),
-               bias = bias_times_n(s->flow, s->phi) / ((double)gg_common_ensemble_size(s) * scarcest(s));
+  const double error = gg_scene_ensemble_size_error(s), most = gg_scene_ensemble_most_bias(s->flow),
+               bias = bias_times_n(s->flow, s->phi) / ((double)gg_scene_ensemble_size(s) * scarcest(s));
   *text = 0;
   if (is_given(s)) return;
   if (!(error > 0))

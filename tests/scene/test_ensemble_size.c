@@ -10,10 +10,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "common/ensemble_size.h"
+#include "scene/ensemble_size.h"
 #include "common/model.h"
 #include "dsmc/time_step.h"
 #include "scene/fields.h"
+#include "scene/model_of_scene.h"
 
 static gg_scene scene_at(double relative_error)
 {
@@ -26,20 +27,20 @@ static void by_the_asked_error(void **state)
 {
   (void)state;
   gg_scene s = scene_at(GG_AUTO);
-  assert_int_equal(gg_common_ensemble_size(&s), GG_LEAST_ENSEMBLE); /* 1 % */
+  assert_int_equal(gg_scene_ensemble_size(&s), GG_LEAST_ENSEMBLE); /* 1 % */
   s.run.collisions = 100;
-  assert_int_equal(gg_common_ensemble_size(&s), GG_LEAST_ENSEMBLE);
+  assert_int_equal(gg_scene_ensemble_size(&s), GG_LEAST_ENSEMBLE);
   for (double error = 1e-5; error < 1e-3; error *= 1.7) {
     s = scene_at(error);
-    double bias = 2.0 / (double)gg_common_ensemble_size(&s);
+    double bias = 2.0 / (double)gg_scene_ensemble_size(&s);
     assert_true(bias <= 0.25 * error && bias > 0.249 * error);
   }
   s = scene_at(1e-9);
-  assert_int_equal(gg_common_ensemble_size(&s), 1000000);
+  assert_int_equal(gg_scene_ensemble_size(&s), 1000000);
   s = scene_at(1e-4);
-  int64_t one = gg_common_ensemble_size(&s);
+  int64_t one = gg_scene_ensemble_size(&s);
   s.n_species = 2, s.species[0].fraction = 0.9, s.species[1] = s.species[0], s.species[1].fraction = 0.1;
-  assert_true(gg_common_ensemble_size(&s) >= 10 * one - 10 && gg_common_ensemble_size(&s) <= 10 * one + 10);
+  assert_true(gg_scene_ensemble_size(&s) >= 10 * one - 10 && gg_scene_ensemble_size(&s) <= 10 * one + 10);
 }
 
 static void between_walls(void **state)
@@ -49,14 +50,14 @@ static void between_walls(void **state)
   char text[200];
   gg_scene s = scene_at(1e-3);
   s.flow = GG_COUETTE, s.phi = 0.3;
-  assert_int_equal(gg_common_ensemble_size(&s), 50000);
-  gg_common_ensemble_size_reason(&s, text, sizeof text);
+  assert_int_equal(gg_scene_ensemble_size(&s), 50000);
+  gg_scene_ensemble_size_reason(&s, text, sizeof text);
   assert_non_null(strstr(text, "bias below 0.05 %, at most half of the requested error of 0.1 %"));
   s.phi = 0.01;
-  assert_in_range(gg_common_ensemble_size(&s), 8600, 8601);
+  assert_in_range(gg_scene_ensemble_size(&s), 8600, 8601);
   s.dsmc.particles = 1000, s.phi = 0.3;
-  assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, NULL), GG_OK);
-  assert_true(fabs(gg_common_ensemble_bias(&m) - 0.025) < 1e-12);
+  assert_int_equal(gg_scene_model_make(&s, GG_DSMC, &m, NULL), GG_OK);
+  assert_true(fabs(gg_scene_ensemble_bias(&m) - 0.025) < 1e-12);
 }
 
 /* md has `particles`, whatever is asked. */
@@ -66,17 +67,17 @@ static void what_is_given(void **state)
   gg_model m;
   char text[200];
   gg_scene s = scene_at(1e-4);
-  gg_common_ensemble_size_reason(&s, text, sizeof text);
+  gg_scene_ensemble_size_reason(&s, text, sizeof text);
   assert_non_null(strstr(text, "bias below 0.0025 %, at most a quarter of the requested error of 0.01 %"));
-  assert_int_equal(gg_common_model_make(&s, GG_MD, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   assert_int_equal(m.n, s.particles);
-  assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, NULL), GG_OK);
+  assert_int_equal(gg_scene_model_make(&s, GG_DSMC, &m, NULL), GG_OK);
   assert_int_equal(m.n, 80000);
   s.particles = 20000;
-  assert_int_equal(gg_common_ensemble_size(&s), 20000);
+  assert_int_equal(gg_scene_ensemble_size(&s), 20000);
   s.dsmc.particles = 300;
-  assert_int_equal(gg_common_ensemble_size(&s), 300);
-  gg_common_ensemble_size_reason(&s, text, sizeof text);
+  assert_int_equal(gg_scene_ensemble_size(&s), 300);
+  gg_scene_ensemble_size_reason(&s, text, sizeof text);
   assert_string_equal(text, "");
 }
 
@@ -87,10 +88,10 @@ static void of_a_resumed_run(void **state)
   gg_scene first = scene_at(1e-3), then = scene_at(1e-5), last = scene_at(1e-4);
   assert_int_equal(gg_scene_resumption_put(&first, &a, NULL), GG_OK);
   assert_int_equal(gg_scene_resumption_settle(&then, &a, NULL), GG_OK);
-  assert_int_equal(gg_common_ensemble_size(&then), gg_common_ensemble_size(&first));
+  assert_int_equal(gg_scene_ensemble_size(&then), gg_scene_ensemble_size(&first));
   assert_int_equal(gg_scene_resumption_put(&then, &b, NULL), GG_OK);
   assert_int_equal(gg_scene_resumption_settle(&last, &b, NULL), GG_OK);
-  assert_int_equal(gg_common_ensemble_size(&last), gg_common_ensemble_size(&first));
+  assert_int_equal(gg_scene_ensemble_size(&last), gg_scene_ensemble_size(&first));
   gg_base_archive_clear(&a);
   gg_base_archive_clear(&b);
 }
@@ -103,7 +104,7 @@ static void steps(void **state)
   for (double error = 1e-2; error > 1e-6; error /= 3) {
     gg_scene s = scene_at(error);
     s.flow = GG_HSS, s.thermostat = GG_WHITE_NOISE, s.collision.e[0] = 0.6;
-    assert_int_equal(gg_common_model_make(&s, GG_DSMC, &m, NULL), GG_OK);
+    assert_int_equal(gg_scene_model_make(&s, GG_DSMC, &m, NULL), GG_OK);
     gg_dsmc_time_step step = gg_dsmc_time_step_choose(&m, 0.5);
     double h = step.splitting * gg_common_model_collision_rate(&m, 0.5);
     assert_true(step.bias > 0 && step.bias <= 0.2001 * error && h <= 0.2501);

@@ -11,23 +11,17 @@
 
 #include "common/extension.h"
 #include "common/flow.h"
+#include "common/kinds.h"
+#include "common/laws/laws.h"
 #include "common/observables.h"
 #include "common/species.h"
 
-typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
-typedef enum gg_precision { GG_DOUBLE, GG_SINGLE } gg_precision;
 typedef enum gg_frames_after { GG_AFTER_START, GG_AFTER_WARMUP } gg_frames_after;
 enum { GG_FIELDS_POSITION = 1, GG_FIELDS_VELOCITY = 2, GG_FIELDS_SPIN = 4, GG_FIELDS_ALL = 7 };
-/* Of peculiar velocities in flows without walls: the imposed flow, or means of cells, with it taken off first or not.
- */
-typedef enum gg_frame_kind { GG_FRAME_IMPOSED, GG_FRAME_CELLS, GG_FRAME_CELLS_LABORATORY } gg_frame_kind;
 typedef enum gg_top { GG_CLOSED_TOP, GG_OPEN_TOP } gg_top;
-typedef enum gg_contact_value { GG_CARNAHAN_STARLING, GG_LUN_SAVAGE, GG_KOLAFA } gg_contact_value;
 
 /* An ensemble of a few thousand stands for one point of the flow to better than 0.1 %; fewer only if requested. */
 enum { GG_LEAST_ENSEMBLE = 5000 };
-
-#define GG_AUTO (-1.0) /* a number that the program is to choose */
 
 /* Collisions a grain for which a gas that cools by a law of restitution is followed: no error can be
  * requested for a rate that has no steady value. */
@@ -44,6 +38,14 @@ typedef struct gg_species {
 /* At least GG_N_QUANTITIES, which only quantity.h knows. */
 enum { GG_MAX_UNTIL = 112, GG_FILE_NAME = 256 };
 
+/* Values that a run settles and then keeps, through changes of keys and a checkpoint; GG_AUTO: not settled. They are no
+ * keys. */
+typedef struct gg_scene_fixed {
+  double clock_rate;     /* inverse of the model's unit of time: that of the start, see gg_scene_clock_rate */
+  double contact_time;   /* md.contact_time: auto, after a collapse raised it */
+  double ensemble_error; /* relative error (0: none) that dsmc.particles: auto was chosen for */
+} gg_scene_fixed;
+
 /* What changes on the way: one key at one time, both as they stand in scenes. */
 enum { GG_MAX_CHANGES = 16, GG_CHANGE_TEXT = 40 };
 typedef struct gg_change {
@@ -51,6 +53,7 @@ typedef struct gg_change {
   char key[GG_CHANGE_TEXT], value[GG_CHANGE_TEXT];
 } gg_change;
 
+typedef struct gg_scene gg_scene; /* graingas.h: what the scene is for users */
 struct gg_scene {
   gg_flow flow;
   gg_engine_kind engine;
@@ -63,8 +66,6 @@ struct gg_scene {
   double phi;
   int64_t particles;
   double shear_rate;
-  double clock_rate; /* inverse of the model's unit of time, of a gas whose keys change on the way: it keeps that of its
-                      * start. GG_AUTO: see gg_scene_clock_rate. No key */
   struct {
     double temperature, rotational_temperature; /* or GG_AUTO */
     double a2;                                  /* fourth cumulant of the velocities */
@@ -96,15 +97,11 @@ struct gg_scene {
   } run;
   struct {
     double contact_time; /* in mean free times, or sqrt(d/|g_y|) under gravity; 0: off; or GG_AUTO */
-    double raised; /* what auto stands for after a collapse; GG_AUTO: there was none. No key: set by the run, of one
-                    * that is resumed from the checkpoint */
   } md;
   struct {
     double time_step;  /* in mean free times, or GG_AUTO */
     int64_t particles; /* size of the ensemble, or 0: chosen */
     gg_precision precision;
-    double chosen_for; /* relative error (0: none) by which a size is chosen; GG_AUTO: that of the run. Of a run that is
-                        * resumed it is that of its start: no key, set from the checkpoint */
   } dsmc;
   gg_change protocol[GG_MAX_CHANGES]; /* in the order of times; ends with an empty key */
   unsigned measure;                   /* GG_MEASURE_... */
@@ -120,6 +117,7 @@ struct gg_scene {
   } output;
   gg_extension *extension; /* what the user's program adds; NULL: nothing. The scene of the interface holds it, copies
                               of its values borrow it */
+  gg_scene_fixed fixed;
   uint64_t given;          /* keys that the user gave: a bit per row of the field table */
 };
 
@@ -137,7 +135,7 @@ static inline bool gg_scene_scales_with_start(const gg_scene *s)
  */
 static inline double gg_scene_clock_rate(const gg_scene *s)
 {
-  if (s->clock_rate != GG_AUTO) return s->clock_rate;
+  if (s->fixed.clock_rate != GG_AUTO) return s->fixed.clock_rate;
   if (gg_flow_is_sheared(s->flow)) return s->shear_rate;
   if (s->start.temperature == GG_AUTO || !gg_scene_scales_with_start(s)) return 1;
   return sqrt(2 * s->start.temperature / s->species[0].mass) / s->species[0].diameter;
