@@ -246,7 +246,7 @@ export function gather(texts) {
 
 /* ---- CSV: a row a point, a column a quantity ---- */
 
-/* As the library writes texts (src/base/file_writer.c): a spreadsheet would compute one that begins like a formula. */
+/* As the library writes texts (src/io/file_writer.c): a spreadsheet would compute one that begins like a formula. */
 function csvCell(value) {
   const text = String(value),
     safe = /^[=+\-@\t\r]/.test(text) && !Number.isFinite(Number(text)) ? `'${text}` : text;

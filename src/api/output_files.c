@@ -28,7 +28,7 @@ static gg_status check_pairs(const file *all, int n, gg_error *err)
 {
   for (int i = 0; i < n; i++)
     for (int j = i + 1; j < n; j++)
-      if (!may_be_same(&all[i], &all[j]) && gg_base_path_is_same_file(all[i].path, all[j].path))
+      if (!may_be_same(&all[i], &all[j]) && gg_io_path_is_same_file(all[i].path, all[j].path))
         return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both %s and %s; choose another %s", all[i].path,
                             all[i].role, all[j].role, all[i].option);
   return GG_OK;
@@ -73,7 +73,7 @@ static gg_status for_pages(const gg_run_call *r, page_check *check, const void *
 static gg_status check_apart(const char *page, const char *picture, const void *context, gg_error *err)
 {
   for (const file *f = context; f->role; f++)
-    if (gg_base_path_is_same_file(page, f->path))
+    if (gg_io_path_is_same_file(page, f->path))
       return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both %s and " GG_PAGE_BESIDE "; choose another picture",
                           page, f->role, picture);
   return GG_OK;
@@ -82,7 +82,7 @@ static gg_status check_apart(const char *page, const char *picture, const void *
 static gg_status check_page_writable(const char *page, const char *picture, const void *context, gg_error *err)
 {
   (void)picture, (void)context;
-  return gg_base_atomic_check_writable(page, GG_PICTURES_ARE, err);
+  return gg_io_atomic_check_writable(page, GG_PICTURES_ARE, err);
 }
 
 /* Whoever asks for such a name means a picture. */
@@ -111,13 +111,13 @@ gg_status gg_api_picture_check(const gg_run_call *r, gg_error *err)
   if (!o->output)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from an output file: set --output FILE.h5",
                         o->picture);
-  GG_TRY(gg_base_output_path_find(&place, o->output, err));
+  GG_TRY(gg_io_output_path_find(&place, o->output, err));
   bool stream = place.stream;
-  gg_base_output_path_clear(&place);
+  gg_io_output_path_clear(&place);
   if (stream)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture is drawn from the output file, and %s keeps none", o->picture,
                         o->output);
-  GG_TRY(gg_base_atomic_check_writable(o->picture, GG_PICTURES_ARE, err));
+  GG_TRY(gg_io_atomic_check_writable(o->picture, GG_PICTURES_ARE, err));
   return for_pages(r, check_page_writable, NULL, err);
 }
 

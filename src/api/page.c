@@ -11,7 +11,7 @@
 
 #include "api/api.h"
 #include "api/page_places.h"
-#include "base/atomic_file.h"
+#include "io/atomic_file.h"
 #include "base/memory.h"
 
 /* Where the page says which scene it begins with; NULL as JSON: its own. */
@@ -102,12 +102,12 @@ static gg_status write_parts(const char *path, const char *page, const char *sce
   const char *at = strstr(page, marker), *rest = at ? at + strlen(marker) : NULL;
   gg_atomic_file file = GG_ATOMIC_NONE;
   if (!at) return gg_base_fail(err, GG_BAD_FILE, "no page of graingas, or one that has a scene already");
-  GG_TRY(gg_base_atomic_open(&file, path, err));
-  gg_status status = gg_base_atomic_write(&file, page, (size_t)(at - page), err);
-  if (status == GG_OK) status = gg_base_atomic_write(&file, scene, strlen(scene), err);
-  if (status == GG_OK) status = gg_base_atomic_write(&file, rest, strlen(rest), err);
-  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
-  gg_base_atomic_abandon(&file);
+  GG_TRY(gg_io_atomic_open(&file, path, err));
+  gg_status status = gg_io_atomic_write(&file, page, (size_t)(at - page), err);
+  if (status == GG_OK) status = gg_io_atomic_write(&file, scene, strlen(scene), err);
+  if (status == GG_OK) status = gg_io_atomic_write(&file, rest, strlen(rest), err);
+  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
+  gg_io_atomic_abandon(&file);
   return status;
 }
 

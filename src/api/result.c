@@ -280,7 +280,7 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
                   gg_error *err)
 {
   GG_NEED(result_file, picture);
-  if (gg_base_path_is_same_file(result_file, picture))
+  if (gg_io_path_is_same_file(result_file, picture))
     return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both the result and its picture; choose another picture",
                         picture);
   gg_plot_paper paper;

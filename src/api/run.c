@@ -76,11 +76,11 @@ static gg_status lock_checkpoint(gg_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
   gg_output_path place;
-  GG_TRY(gg_base_output_path_find(&place, path, err));
+  GG_TRY(gg_io_output_path_find(&place, path, err));
   gg_status status = place.stream
                          ? gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, path)
-                         : gg_base_file_lock_take(&r->lock, place.target, path, err);
-  gg_base_output_path_clear(&place);
+                         : gg_io_file_lock_take(&r->lock, place.target, path, err);
+  gg_io_output_path_clear(&place);
   return status;
 }
 
@@ -95,7 +95,7 @@ static gg_status check_links(const gg_run_call *r, gg_error *err)
   gg_status status = before && fresh ? GG_OK : gg_base_out_of_memory(err);
   for (size_t i = 0; i < sizeof all / sizeof *all && status == GG_OK; i++)
     if (lstat(all[i], &about) == 0 && S_ISLNK(about.st_mode))
-      status = gg_base_path_write_error(
+      status = gg_io_path_write_error(
           all[i], "it is a link, and checkpoints are removed at the end: remove it, or choose another output", err);
   free(frames);
   free(before);
@@ -123,9 +123,9 @@ static gg_status name_temporaries(gg_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
   char *frames = gg_files_frame_log_path(path);
-  r->temporary[GG_TEMPORARY_CHECKPOINT] = gg_base_path_follow_links(path);
+  r->temporary[GG_TEMPORARY_CHECKPOINT] = gg_io_path_follow_links(path);
   r->temporary[GG_TEMPORARY_BEFORE] = gg_files_checkpoint_before(path);
-  r->temporary[GG_TEMPORARY_FRAMES] = frames ? gg_base_path_follow_links(frames) : NULL;
+  r->temporary[GG_TEMPORARY_FRAMES] = frames ? gg_io_path_follow_links(frames) : NULL;
   free(frames);
   for (int i = 0; i < GG_TEMPORARIES; i++)
     if (!r->temporary[i]) return gg_base_out_of_memory(err);
@@ -178,7 +178,7 @@ static void end(gg_run_call *r)
   gg_files_result_file_abandon(&r->file);
   gg_api_trajectory_end(r);
   gg_api_log_end(r);
-  gg_base_file_lock_release(&r->lock);
+  gg_io_file_lock_release(&r->lock);
   gg_base_archive_clear(&r->resume);
   for (int i = 0; i < GG_TEMPORARIES; i++) free(r->temporary[i]);
   gg_base_string_list_clear(&r->warnings);

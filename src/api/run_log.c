@@ -27,7 +27,7 @@ static uint64_t sample_of(const char *line, bool json)
 
 static gg_status write_error(const gg_sample_log *log, gg_error *err)
 {
-  return gg_base_path_write_error(log->path, strerror(errno), err);
+  return gg_io_path_write_error(log->path, strerror(errno), err);
 }
 
 /* What else is called so stays: a scene may be anybody's. */
@@ -38,7 +38,7 @@ static gg_status check_ours(const gg_sample_log *log, gg_error *err)
   const ssize_t n = pread(log->fd, there, strlen(begins), 0);
   if (n < 0) return write_error(log, err);
   if (n == 0 || strcmp(there, begins) == 0) return GG_OK;
-  return gg_base_path_write_error(log->path, "it is there, and no log of a run: remove it, or choose another name",
+  return gg_io_path_write_error(log->path, "it is there, and no log of a run: remove it, or choose another name",
                                   err);
 }
 
@@ -166,14 +166,14 @@ static gg_status restore(gg_sample_log *log, const gg_archive *a, gg_error *err)
 static gg_status open_file(gg_sample_log *log, const char *path, gg_error *err)
 {
   gg_output_path place;
-  GG_TRY(gg_base_output_path_find(&place, path, err));
-  gg_status status = place.stream ? gg_base_path_write_error(path, "it is a device or a pipe; logs are files", err)
-                                  : gg_base_file_lock_take(&log->lock, place.target, path, err);
+  GG_TRY(gg_io_output_path_find(&place, path, err));
+  gg_status status = place.stream ? gg_io_path_write_error(path, "it is a device or a pipe; logs are files", err)
+                                  : gg_io_file_lock_take(&log->lock, place.target, path, err);
   if (status == GG_OK) {
     log->fd = open(place.target, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (log->fd < 0) status = write_error(log, err);
   }
-  gg_base_output_path_clear(&place);
+  gg_io_output_path_clear(&place);
   return status;
 }
 
@@ -182,9 +182,9 @@ gg_status gg_api_log_name(gg_run_call *r, gg_error *err)
   const char *name = r->scene.output.log, *output = r->options.output;
   gg_output_path place = {0};
   if (!*name) return GG_OK;
-  if (output) GG_TRY(gg_base_output_path_find(&place, output, err));
+  if (output) GG_TRY(gg_io_output_path_find(&place, output, err));
   const char *slash = output && *name != '/' && !place.stream ? strrchr(output, '/') : NULL;
-  gg_base_output_path_clear(&place);
+  gg_io_output_path_clear(&place);
   if (asprintf(&r->samples.path, "%.*s%s", slash ? (int)(slash - output) + 1 : 0, output ? output : "", name) < 0)
     r->samples.path = NULL;
   return r->samples.path ? GG_OK : gg_base_out_of_memory(err);
@@ -243,5 +243,5 @@ void gg_api_log_end(gg_run_call *r)
   if (r->samples.fd >= 0) close(r->samples.fd);
   free(r->samples.sum);
   free(r->samples.path);
-  gg_base_file_lock_release(&r->samples.lock);
+  gg_io_file_lock_release(&r->samples.lock);
 }

@@ -108,10 +108,10 @@ static const char *base_of(const char *path)
 static gg_status check_place(const char *path, gg_error *err)
 {
   gg_output_path place;
-  GG_TRY(gg_base_output_path_find(&place, path, err));
+  GG_TRY(gg_io_output_path_find(&place, path, err));
   bool stream = place.stream;
-  gg_base_output_path_clear(&place);
-  return stream ? gg_base_path_write_error(path, "it is a device or a pipe; frames are kept in files", err) : GG_OK;
+  gg_io_output_path_clear(&place);
+  return stream ? gg_io_path_write_error(path, "it is a device or a pipe; frames are kept in files", err) : GG_OK;
 }
 
 static gg_status open_log(gg_run_call *r, const gg_frame_log *earlier, gg_error *err)
@@ -151,7 +151,7 @@ static gg_status settle(gg_run_call *r, const char *path, const char *fresh, gg_
   gg_files_frame_log_close(&log);
   if (status == GG_INTERRUPTED) return status;
   if (needed) GG_TRY(gg_files_checkpoint_remove_before(r->options.checkpoint, err));
-  if ((needed ? rename(fresh, path) : unlink(fresh)) != 0) return gg_base_path_write_error(fresh, strerror(errno), err);
+  if ((needed ? rename(fresh, path) : unlink(fresh)) != 0) return gg_io_path_write_error(fresh, strerror(errno), err);
   return GG_OK;
 }
 

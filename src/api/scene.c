@@ -6,7 +6,7 @@
 
 #include "api/api.h"
 #include "api/scene_theories.h"
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "common/engine.h"
@@ -114,8 +114,8 @@ gg_status gg_scene_check(const gg_scene *scene, gg_error *err)
 static gg_status append_theories(const gg_scene *scene, char **yaml)
 {
   const unsigned before = gg_base_memory_failures();
-  json_t *theories = gg_base_json_end(before, gg_api_scene_theories_json(scene));
-  char *text = theories && json_object_size(theories) > 0 ? gg_base_json_text(theories, 0) : NULL;
+  json_t *theories = gg_io_json_end(before, gg_api_scene_theories_json(scene));
+  char *text = theories && json_object_size(theories) > 0 ? gg_io_json_text(theories, 0) : NULL;
   json_decref(theories);
   if (!text) return gg_base_memory_failures() == before ? GG_OK : GG_FAILED;
   const size_t size = strlen(*yaml) + strlen(text) + sizeof "theories: \n";
@@ -148,7 +148,7 @@ gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err)
   json_t *root = gg_scene_json(&filled), *theories = gg_api_scene_theories_json(scene);
   if (root && json_object_size(theories) > 0) json_object_set(root, "theories", theories);
   json_decref(theories);
-  return gg_api_text_copy(gg_base_json_end(before, root), text, err);
+  return gg_api_text_copy(gg_io_json_end(before, root), text, err);
 }
 
 gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_error *err)

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 
 #include "api/api.h"
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "base/memory.h"
 #include "base/printable.h"
 #include "scene/scene_reader.h"
@@ -33,7 +33,7 @@ static gg_status reject(const gg_scene_reader *r, const yaml_node_t *node, const
  * call takes over. */
 static gg_status add(gg_scene *scene, const gg_theory_definition *definition, json_t *source, gg_error *err)
 {
-  char *text = source ? gg_base_json_text(source, JSON_ENCODE_ANY) : NULL;
+  char *text = source ? gg_io_json_text(source, JSON_ENCODE_ANY) : NULL;
   json_decref(source);
   gg_status status = text ? gg_scene_add_theory(scene, definition, err) : gg_base_out_of_memory(err);
   if (status != GG_OK) return free(text), status;
@@ -49,7 +49,7 @@ static json_t *source_of(const gg_scene_reader *r, const yaml_node_t *map)
   json_t *source = json_object();
   for (gg_scene_entry e = {0}; gg_scene_entry_next(r, map, &e);)
     json_object_set_new(source, e.word, json_string(gg_scene_scalar(e.value)));
-  return gg_base_json_end(before, source);
+  return gg_io_json_end(before, source);
 }
 
 static gg_status read_formulas(const theories_reader *t, const char *key, const yaml_node_t *map,
@@ -189,7 +189,7 @@ json_t *gg_api_scene_theories_json(const gg_scene *scene)
   for (int i = 0; i < gg_common_extension_theories(scene->extension); i++) {
     const char *name = gg_common_extension_theory(scene->extension, i)->name;
     const char *source = gg_common_extension_theory_source(scene->extension, i);
-    json_t *value = source ? gg_base_json_made(json_loads(source, JSON_DECODE_ANY, NULL)) : json_null();
+    json_t *value = source ? gg_io_json_made(json_loads(source, JSON_DECODE_ANY, NULL)) : json_null();
     if (!json_is_null(value)) json_object_set_new(theories, name, value);
   }
   return theories;

@@ -13,7 +13,7 @@ gg_status gg_api_scene_theories_add(gg_scene *scene, const char *yaml, size_t le
                                     const char *path, gg_error *err);
 
 /* The map as the scene's text gives it, tables by their whole path; empty without any. Theories that a program defines
- * are not in it. Failed allocations are counted (base/checked_json.h). */
+ * are not in it. Failed allocations are counted (io/checked_json.h). */
 json_t *gg_api_scene_theories_json(const gg_scene *scene);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What scenes and sweeps may hold, for editors and beginners. */
 #include "api/api.h"
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "base/memory.h"
 #include "scene/fields.h"
 #include "sweep/sweep.h"
@@ -51,5 +51,5 @@ gg_status gg_schema_to_json(char **text, gg_error *err)
                          json_pack("{s:s, s:s, s:[s], s:[{s:[s]}, {s:[s]}]}", "$schema",
                                    "http://json-schema.org/draft-07/schema#", "title", "A scene or a sweep of graingas",
                                    "required", "flow", "anyOf", "required", "phi", "required", "vary"));
-  return gg_api_text_copy(gg_base_json_end(before, schema), text, err);
+  return gg_api_text_copy(gg_io_json_end(before, schema), text, err);
 }

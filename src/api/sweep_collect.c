@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "base/atomic_file.h"
+#include "io/atomic_file.h"
 #include "base/cancellation.h"
 #include "sweep/sweep_table.h"
 
@@ -39,9 +39,9 @@ static void warn_of_builds(const collecting *c)
 /* Better known before than after. */
 static gg_status check_places(const collecting *c, gg_error *err)
 {
-  GG_TRY(gg_base_atomic_check_writable(c->csv, "tables are files", err));
-  GG_TRY(gg_base_atomic_check_writable(c->h5, "tables are files", err));
-  return c->picture ? gg_base_atomic_check_writable(c->picture, "pictures are files", err) : GG_OK;
+  GG_TRY(gg_io_atomic_check_writable(c->csv, "tables are files", err));
+  GG_TRY(gg_io_atomic_check_writable(c->h5, "tables are files", err));
+  return c->picture ? gg_io_atomic_check_writable(c->picture, "pictures are files", err) : GG_OK;
 }
 
 /* Values that are words have no axis, for instance: the tables are what there is to have. */
@@ -72,7 +72,7 @@ static gg_status evaluate_lines(const collecting *c, const char *folder, gg_pict
       .threads = o->threads, .command = o->command, .context = c->context, .progress = o->progress, .stop = o->stop};
   gg_status status = snprintf(path, sizeof path, "%s/lines", folder) < PATH_MAX
                          ? GG_OK
-                         : gg_base_path_write_error(folder, strerror(ENAMETOOLONG), &why);
+                         : gg_io_path_write_error(folder, strerror(ENAMETOOLONG), &why);
   if (status == GG_OK) {
     status = gg_sweep_run(lines->sweep, path, &options, &why);
     gg_sweep_point_table_read(&lines->table, lines->sweep, path, NULL, &unread);
@@ -127,7 +127,7 @@ static gg_status name_tables(collecting *c, const char *prefix, gg_error *err)
   snprintf(c->svg, PATH_MAX, "%s.svg", prefix);
   return snprintf(c->h5, PATH_MAX, "%s.h5", prefix) < PATH_MAX - 1
              ? GG_OK
-             : gg_base_path_write_error(prefix, strerror(ENAMETOOLONG), err);
+             : gg_io_path_write_error(prefix, strerror(ENAMETOOLONG), err);
 }
 
 gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collecting *options,

@@ -195,7 +195,7 @@ static void do_item(controller *c)
   } else if (status == GG_OK) {
     there = gg_sweep_point_status(all->folder, id_of(c));
   }
-  gg_base_file_lock_release(&lock);
+  gg_io_file_lock_release(&lock);
   pthread_mutex_lock(&all->lock);
   it->status = status;
   it->here = claimed;

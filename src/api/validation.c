@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "api/api.h"
-#include "base/output_path.h"
+#include "io/output_path.h"
 #include "plot/plot.h"
 #include "sweep/standard_grid.h"
 
@@ -39,7 +39,7 @@ gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_valida
   if (sweep->settings.does != GG_DOES_COMPARE)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: does: %s; validation needs does: compare", sweep->name,
                         gg_sweep_does(sweep));
-  if (gg_base_path_is_same_file(o->page, sweep->name))
+  if (gg_io_path_is_same_file(o->page, sweep->name))
     return gg_base_fail(err, GG_BAD_INPUT, "%s: would be overwritten by its own page; choose another page",
                         sweep->name);
   if (o->picture) GG_TRY(gg_plot_paper_check(o->picture, o->width, err));

@@ -2,7 +2,7 @@
 /* Numbers have a decimal point in every text that the library reads or writes, whatever locale the calling program has
  * chosen, and on every thread. meson.build includes this before the first line of each file of the library: these calls
  * of the C library then run in the C locale, and none can be forgotten. They call nobody else, so callbacks keep the
- * locale of the program. JSON: base/checked_json.h. */
+ * locale of the program. JSON: io/checked_json.h. */
 #ifndef GG_DECIMAL_POINT_H
 #define GG_DECIMAL_POINT_H
 

@@ -102,7 +102,7 @@ static json_t *origin(void)
 static void record(const gg_bench *b, const json_t *row)
 {
   if (!b->options->record || gg_base_memory_failures() != b->failures) return;
-  char *line = gg_base_json_text(row, JSON_COMPACT | JSON_REAL_PRECISION(12));
+  char *line = gg_io_json_text(row, JSON_COMPACT | JSON_REAL_PRECISION(12));
   if (line) b->options->record(b->options->context, line);
   free(line);
 }

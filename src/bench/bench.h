@@ -4,7 +4,7 @@
 #ifndef GG_BENCH_H
 #define GG_BENCH_H
 
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "scene/scene.h"
 
 /* A table of text, and the same numbers as rows of the record. Subjects fill it, the command prints it. */

@@ -22,9 +22,9 @@ typedef struct comparison {
 
 static gg_status add_line(json_t *rows, const char *path, int number, const char *line, gg_error *err)
 {
-  json_t *row = gg_base_json_read(line, NULL);
-  const char *name = gg_base_json_string(row, "name");
-  const bool good = *name && gg_base_text_is_printable(name) && *gg_base_json_string(row, "unit");
+  json_t *row = gg_io_json_read(line, NULL);
+  const char *name = gg_io_json_string(row, "name");
+  const bool good = *name && gg_base_text_is_printable(name) && *gg_io_json_string(row, "unit");
   if (good) json_object_set(rows, name, row);
   json_decref(row);
   return good
@@ -52,18 +52,18 @@ static gg_status read_rows(const char *path, json_t *rows, gg_error *err)
 static bounds time_of(const json_t *row)
 {
   static const char rate[] = "second";
-  const char *unit = gg_base_json_string(row, "unit");
+  const char *unit = gg_io_json_string(row, "unit");
   const size_t n = strlen(unit);
-  const bounds v = {gg_base_json_number(row, "value"), gg_base_json_number(row, "lowest"),
-                    gg_base_json_number(row, "highest")};
+  const bounds v = {gg_io_json_number(row, "value"), gg_io_json_number(row, "lowest"),
+                    gg_io_json_number(row, "highest")};
   if (n < sizeof rate || strcmp(unit + n + 1 - sizeof rate, rate) != 0) return v;
   return (bounds){1 / v.value, 1 / v.highest, 1 / v.lowest};
 }
 
 static bool is_same_kind(const json_t *a, const json_t *b)
 {
-  return b && strcmp(gg_base_json_string(a, "unit"), gg_base_json_string(b, "unit")) == 0 &&
-         gg_base_json_number(a, "threads") == gg_base_json_number(b, "threads");
+  return b && strcmp(gg_io_json_string(a, "unit"), gg_io_json_string(b, "unit")) == 0 &&
+         gg_io_json_number(a, "threads") == gg_io_json_number(b, "threads");
 }
 
 static void print_row(comparison *c, const char *name, bounds r, const char *word)
@@ -71,7 +71,7 @@ static void print_row(comparison *c, const char *name, bounds r, const char *wor
   if (c->json) {
     json_t *row = json_pack("{s:s, s:s, s:f, s:f, s:f, s:s}", "name", name, "unit", "time after over time before",
                             "value", r.value, "lowest", r.lowest, "highest", r.highest, "beyond_spread", word);
-    char *line = gg_base_json_text(row, JSON_COMPACT | JSON_REAL_PRECISION(12));
+    char *line = gg_io_json_text(row, JSON_COMPACT | JSON_REAL_PRECISION(12));
     if (line) fprintf(c->out, "%s\n", line);
     free(line);
     json_decref(row);
@@ -98,9 +98,9 @@ static void print_origin(FILE *out, const char *word, const char *path, json_t *
 {
   const json_t *row = json_object_iter_value(json_object_iter(rows)), *machine = json_object_get(row, "machine");
   char line[1000];
-  snprintf(line, sizeof line, "%s: %s, %s, %s, %g cores, %s, %s", word, path, gg_base_json_string(row, "version"),
-           gg_base_json_string(machine, "cpu"), gg_base_json_number(machine, "cores"),
-           gg_base_json_string(row, "instructions"), gg_base_json_string(row, "time"));
+  snprintf(line, sizeof line, "%s: %s, %s, %s, %g cores, %s, %s", word, path, gg_io_json_string(row, "version"),
+           gg_io_json_string(machine, "cpu"), gg_io_json_number(machine, "cores"),
+           gg_io_json_string(row, "instructions"), gg_io_json_string(row, "time"));
   gg_base_text_make_printable(line);
   fprintf(out, "%s\n", line);
 }

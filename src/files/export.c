@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "base/memory.h"
 #include "common/engine.h"
 #include "common/species.h"
@@ -22,49 +22,49 @@ _Static_assert(sizeof elements / sizeof *elements >= GG_MAX_SPECIES, "an element
 static void put_numbers(gg_file_writer *out, const double *x, int n, const char *before)
 {
   for (int a = 0; a < n; a++) {
-    gg_base_file_writer_put(out, a ? " " : before);
-    gg_base_file_writer_put_number(out, x[a]);
+    gg_io_file_writer_put(out, a ? " " : before);
+    gg_io_file_writer_put_number(out, x[a]);
   }
 }
 
 static void put_word(gg_file_writer *out, const char *key, const char *value)
 {
-  gg_base_file_writer_put(out, " ");
-  gg_base_file_writer_put(out, key);
-  gg_base_file_writer_put(out, "=\"");
-  gg_base_file_writer_put(out, value);
-  gg_base_file_writer_put(out, "\"");
+  gg_io_file_writer_put(out, " ");
+  gg_io_file_writer_put(out, key);
+  gg_io_file_writer_put(out, "=\"");
+  gg_io_file_writer_put(out, value);
+  gg_io_file_writer_put(out, "\"");
 }
 
 static void put_number(gg_file_writer *out, const char *key, double value)
 {
-  gg_base_file_writer_put(out, " ");
-  gg_base_file_writer_put(out, key);
-  gg_base_file_writer_put(out, "=");
-  gg_base_file_writer_put_number(out, value);
+  gg_io_file_writer_put(out, " ");
+  gg_io_file_writer_put(out, key);
+  gg_io_file_writer_put(out, "=");
+  gg_io_file_writer_put_number(out, value);
 }
 
 static void put_head(gg_file_writer *out, const gg_stored_trajectory *t, const gg_frame *f, const double *edges)
 {
   char text[64];
   snprintf(text, sizeof text, "%zu\n", f->n);
-  gg_base_file_writer_put(out, text);
+  gg_io_file_writer_put(out, text);
   put_numbers(out, edges, 9, "Lattice=\"");
-  gg_base_file_writer_put(out, "\" Properties=species:S:1:pos:R:3:velo:R:3");
-  if (f->spin) gg_base_file_writer_put(out, ":omega:R:3");
-  gg_base_file_writer_put(out, ":radius:R:1:mass:R:1:momenta:R:3:masses:R:1:id:I:1");
+  gg_io_file_writer_put(out, "\" Properties=species:S:1:pos:R:3:velo:R:3");
+  if (f->spin) gg_io_file_writer_put(out, ":omega:R:3");
+  gg_io_file_writer_put(out, ":radius:R:1:mass:R:1:momenta:R:3:masses:R:1:id:I:1");
   snprintf(text, sizeof text, "%s %s %s", t->periodic[0] ? "T" : "F", t->periodic[1] ? "T" : "F",
            t->periodic[2] ? "T" : "F");
   put_word(out, "pbc", text);
   put_number(out, "Time", f->time);
   snprintf(text, sizeof text, " collisions=%llu", (unsigned long long)f->step);
-  gg_base_file_writer_put(out, text);
+  gg_io_file_writer_put(out, text);
   put_number(out, "shear_rate", t->shear_rate);
   put_word(out, "length_unit", t->length_unit);
   put_word(out, "velocity_unit", t->velocity_unit);
   if (t->spin_unit) put_word(out, "omega_unit", t->spin_unit);
   put_word(out, "time_unit", t->time_unit);
-  gg_base_file_writer_put(out, "\n");
+  gg_io_file_writer_put(out, "\n");
 }
 
 /* Another image along x, if the cell leans away from this one. */
@@ -82,25 +82,25 @@ void gg_files_xyz_frame(gg_file_writer *out, const gg_stored_trajectory *t, cons
     const double *r = f->position + 3 * i, place[3] = {into_cell(r[0], r[1], edges), r[1], r[2]};
     const double *v = f->velocity + 3 * i, m = t->mass[i], radius_mass[2] = {0.5 * t->diameter[i], m};
     const double momentum_mass[4] = {m * v[0], m * v[1], m * v[2], m};
-    gg_base_file_writer_put(out, elements[t->species[i] < GG_MAX_SPECIES ? t->species[i] : 0]);
+    gg_io_file_writer_put(out, elements[t->species[i] < GG_MAX_SPECIES ? t->species[i] : 0]);
     put_numbers(out, place, 3, " ");
     put_numbers(out, v, 3, " ");
     if (f->spin) put_numbers(out, f->spin + 3 * i, 3, " ");
     put_numbers(out, radius_mass, 2, " ");
     put_numbers(out, momentum_mass, 4, " "); /* the names that ASE looks for; OVITO: velo and mass */
     snprintf(id, sizeof id, " %zu\n", i);
-    gg_base_file_writer_put(out, id);
+    gg_io_file_writer_put(out, id);
   }
 }
 
 static void put_words(gg_csv *csv, const char *const *words, size_t n)
 {
-  for (size_t i = 0; i < n; i++) gg_base_csv_text(csv, words[i]);
+  for (size_t i = 0; i < n; i++) gg_io_csv_text(csv, words[i]);
 }
 
 static void put_members(gg_csv *csv, const json_t *object, const char *const *keys, size_t n)
 {
-  for (size_t i = 0; i < n; i++) gg_base_csv_json(csv, json_object_get(object, keys[i]));
+  for (size_t i = 0; i < n; i++) gg_io_csv_json(csv, json_object_get(object, keys[i]));
 }
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
@@ -113,17 +113,17 @@ static void put_results(gg_file_writer *out, const gg_stored_result *stored)
   gg_csv csv = {.out = out};
   const char *name;
   json_t *one;
-  gg_base_csv_text(&csv, "quantity");
+  gg_io_csv_text(&csv, "quantity");
   put_words(&csv, keys, COUNT(keys));
   put_words(&csv, (const char *const[]){"steady", "reason"}, 2);
-  gg_base_csv_end_row(&csv);
+  gg_io_csv_end_row(&csv);
   json_object_foreach(json_object_get(stored->document, "results"), name, one)
   {
-    gg_base_csv_text(&csv, name);
+    gg_io_csv_text(&csv, name);
     put_members(&csv, one, keys, COUNT(keys));
-    gg_base_csv_json(&csv, json_object_get(stored->document, "steady"));
-    gg_base_csv_json(&csv, json_object_get(one, "reason"));
-    gg_base_csv_end_row(&csv);
+    gg_io_csv_json(&csv, json_object_get(stored->document, "steady"));
+    gg_io_csv_json(&csv, json_object_get(one, "reason"));
+    gg_io_csv_end_row(&csv);
   }
 }
 
@@ -135,10 +135,10 @@ static void put_engine_head(gg_csv *csv, const char *engine)
   char text[64];
   for (size_t i = 0; i < COUNT(told); i++) {
     snprintf(text, sizeof text, "%s_%s", engine, told[i]);
-    gg_base_csv_text(csv, text);
+    gg_io_csv_text(csv, text);
   }
   snprintf(text, sizeof text, "%s_steady", engine);
-  gg_base_csv_text(csv, text);
+  gg_io_csv_text(csv, text);
 }
 
 /* Does the theory give an error with any of its numbers? */
@@ -160,11 +160,11 @@ static void put_comparison_head(gg_csv *csv, const gg_stored_result *stored)
   put_words(csv, (const char *const[]){"correlation_time_unit", "md_dsmc_z", "beyond_expected"}, 3);
   json_object_foreach(json_object_get(stored->document, "theory"), name, theory)
   {
-    gg_base_csv_text(csv, name);
+    gg_io_csv_text(csv, name);
     snprintf(text, sizeof text, "%s_error", name);
-    if (has_errors(theory)) gg_base_csv_text(csv, text);
+    if (has_errors(theory)) gg_io_csv_text(csv, text);
   }
-  gg_base_csv_end_row(csv);
+  gg_io_csv_end_row(csv);
 }
 
 static const json_t *result_of(const gg_stored_engine *e, const char *quantity)
@@ -178,23 +178,23 @@ static void put_comparison_row(gg_csv *csv, const gg_stored_result *stored, cons
   const json_t *unit = NULL;
   json_t *theory;
   if (!quantity) return;
-  gg_base_csv_text(csv, quantity);
-  gg_base_csv_json(csv, json_object_get(row, "unit"));
+  gg_io_csv_text(csv, quantity);
+  gg_io_csv_json(csv, json_object_get(row, "unit"));
   for (int k = 0; k < 2; k++) {
     const json_t *one = result_of(&stored->engine[k], quantity);
     put_members(csv, one, told, COUNT(told));
-    gg_base_csv_json(csv, one ? json_object_get(stored->engine[k].document, "steady") : NULL);
+    gg_io_csv_json(csv, one ? json_object_get(stored->engine[k].document, "steady") : NULL);
     if (one) unit = json_object_get(one, "correlation_time_unit");
   }
-  gg_base_csv_json(csv, unit);
+  gg_io_csv_json(csv, unit);
   put_members(csv, row, (const char *const[]){"md_dsmc_z", "beyond_expected"}, 2);
   json_object_foreach(json_object_get(stored->document, "theory"), name, theory)
   {
     const json_t *said = json_object_get(theory, quantity);
-    gg_base_csv_json(csv, json_object_get(said, "mean"));
-    if (has_errors(theory)) gg_base_csv_json(csv, json_object_get(said, "error"));
+    gg_io_csv_json(csv, json_object_get(said, "mean"));
+    if (has_errors(theory)) gg_io_csv_json(csv, json_object_get(said, "error"));
   }
-  gg_base_csv_end_row(csv);
+  gg_io_csv_end_row(csv);
 }
 
 /* Of a comparison: a line a quantity, with both engines, z, and what each theory says. */
@@ -212,18 +212,18 @@ static void put_curve(gg_file_writer *out, const json_t *curve)
 {
   gg_csv csv = {.out = out};
   const json_t *law = json_object_get(curve, "reference");
-  const char *unit = gg_base_json_string(curve, "unit");
-  gg_base_csv_head(&csv, gg_base_json_string(curve, "x_name"), gg_base_json_string(curve, "x_unit"));
-  gg_base_csv_head(&csv, gg_base_json_string(curve, "y_name"), unit);
-  gg_base_csv_head(&csv, "stderr", unit);
-  if (law) gg_base_csv_head(&csv, gg_base_json_string(law, "label"), unit);
-  gg_base_csv_end_row(&csv);
+  const char *unit = gg_io_json_string(curve, "unit");
+  gg_io_csv_head(&csv, gg_io_json_string(curve, "x_name"), gg_io_json_string(curve, "x_unit"));
+  gg_io_csv_head(&csv, gg_io_json_string(curve, "y_name"), unit);
+  gg_io_csv_head(&csv, "stderr", unit);
+  if (law) gg_io_csv_head(&csv, gg_io_json_string(law, "label"), unit);
+  gg_io_csv_end_row(&csv);
   for (size_t i = 0; i < json_array_size(json_object_get(curve, "x")); i++) {
-    gg_base_csv_json(&csv, json_array_get(json_object_get(curve, "x"), i));
-    gg_base_csv_json(&csv, json_array_get(json_object_get(curve, "value"), i));
-    gg_base_csv_json(&csv, json_array_get(json_object_get(curve, "stderr"), i));
-    if (law) gg_base_csv_json(&csv, json_array_get(json_object_get(law, "value"), i));
-    gg_base_csv_end_row(&csv);
+    gg_io_csv_json(&csv, json_array_get(json_object_get(curve, "x"), i));
+    gg_io_csv_json(&csv, json_array_get(json_object_get(curve, "value"), i));
+    gg_io_csv_json(&csv, json_array_get(json_object_get(curve, "stderr"), i));
+    if (law) gg_io_csv_json(&csv, json_array_get(json_object_get(law, "value"), i));
+    gg_io_csv_end_row(&csv);
   }
 }
 
@@ -239,9 +239,9 @@ static bool put_numbers_of(gg_csv *csv, const char *whose, json_t *curves)
     {
       any = true;
       if (!csv->out) return true;
-      put_words(csv, (const char *const[]){whose, gg_base_json_string(of, "group"), curve, number}, 4);
+      put_words(csv, (const char *const[]){whose, gg_io_json_string(of, "group"), curve, number}, 4);
       put_members(csv, one, keys, COUNT(keys));
-      gg_base_csv_end_row(csv);
+      gg_io_csv_end_row(csv);
     }
   }
   return any;
@@ -256,7 +256,7 @@ static bool put_curve_numbers(gg_file_writer *out, const gg_stored_result *store
   bool any = false;
   if (out) {
     put_words(&csv, head, COUNT(head));
-    gg_base_csv_end_row(&csv);
+    gg_io_csv_end_row(&csv);
   }
   for (int k = 0; k < 2; k++)
     if (stored->engine[k].name)
@@ -366,10 +366,10 @@ static gg_status look_at(job *j, size_t i, gg_error *err)
 {
   gg_output_path place;
   target *t = &j->target[i];
-  GG_TRY(gg_base_output_path_find(&place, t->path, err));
+  GG_TRY(gg_io_output_path_find(&place, t->path, err));
   if (place.there) t->device = place.about.st_dev, t->inode = place.about.st_ino, t->filled = place.about.st_size > 0;
   bool stream = place.stream;
-  gg_base_output_path_clear(&place);
+  gg_io_output_path_clear(&place);
   if (stream)
     return gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; tables and trajectories are files", t->path);
   for (const target *k = j->target; t->inode && k < t; k++)
@@ -383,11 +383,11 @@ static gg_status look_at(job *j, size_t i, gg_error *err)
 static gg_status open_target(job *j, size_t i, const char *path, gg_error *err)
 {
   target *t = &j->target[i];
-  if (gg_base_path_is_same_file(t->path, path))
+  if (gg_io_path_is_same_file(t->path, path))
     return gg_base_fail(err, GG_BAD_INPUT,
                         "%s: would be both the result and what is exported from it; choose another prefix", t->path);
   GG_TRY(look_at(j, i, err));
-  return gg_base_atomic_open(&t->file, t->path, err);
+  return gg_io_atomic_open(&t->file, t->path, err);
 }
 
 static gg_status open_all(job *j, const char *path, gg_error *err)
@@ -451,14 +451,14 @@ static gg_status write_target(job *j, target *t, gg_error *err)
 {
   gg_file_writer out;
   gg_status status = GG_OK;
-  gg_base_file_writer_begin(&out, &t->file, err);
+  gg_io_file_writer_begin(&out, &t->file, err);
   out.stop = j->stop;
   if (t->content == CURVE) put_curve(&out, t->curve);
   if (t->content == NUMBERS) put_curve_numbers(&out, j->stored);
   if (t->content == RESULTS && j->stored->comparison) put_comparison(&out, j->stored);
   if (t->content == RESULTS && !j->stored->comparison) put_results(&out, j->stored);
   if (t->content == TRAJECTORY) status = write_trajectory(j, &out, err);
-  return status == GG_OK ? gg_base_file_writer_end(&out) : status;
+  return status == GG_OK ? gg_io_file_writer_end(&out) : status;
 }
 
 /* None is put in place before all are written. */
@@ -468,7 +468,7 @@ static gg_status write_all(job *j, gg_error *err)
   for (size_t i = 0; i < j->n && status == GG_OK; i++) status = write_target(j, &j->target[i], err);
   if (status == GG_OK) status = gg_stop_check(j->stop, err);
   if (status == GG_OK) status = check_replaced(j, err);
-  for (size_t i = 0; i < j->n && status == GG_OK; i++) status = gg_base_atomic_commit(&j->target[i].file, err);
+  for (size_t i = 0; i < j->n && status == GG_OK; i++) status = gg_io_atomic_commit(&j->target[i].file, err);
   return status;
 }
 
@@ -476,7 +476,7 @@ static void clear(job *j)
 {
   gg_files_stored_trajectory_close(&j->trajectory);
   for (size_t i = 0; i < j->n; i++) {
-    gg_base_atomic_abandon(&j->target[i].file);
+    gg_io_atomic_abandon(&j->target[i].file);
     free(j->target[i].path);
   }
   free(j);

@@ -3,7 +3,7 @@
 #ifndef GG_EXPORT_H
 #define GG_EXPORT_H
 
-#include "base/file_writer.h"
+#include "io/file_writer.h"
 #include "files/h5/result_reader.h"
 
 /* The files that the result of this path comes to, all of them or none: PREFIX.csv, one of each curve,

@@ -11,7 +11,7 @@
 
 #include "base/checksum.h"
 #include "base/memory.h"
-#include "base/output_path.h"
+#include "io/output_path.h"
 
 enum { POSITIONS = 1, SPINS = 2, SPECIES = 4 };
 static const char word[8] = "GGFRAME";
@@ -63,7 +63,7 @@ static gg_status open_file(gg_frame_log *log, const char *path, int flags)
 
 static gg_status cannot_write(const gg_frame_log *log, gg_error *err)
 {
-  return gg_base_path_write_error(log->place ? log->place : log->path, strerror(errno), err);
+  return gg_io_path_write_error(log->place ? log->place : log->path, strerror(errno), err);
 }
 
 gg_status gg_files_frame_log_open(gg_frame_log *log, const char *path, gg_error *err)
@@ -82,7 +82,7 @@ gg_status gg_files_frame_log_open_new(gg_frame_log *log, const char *path, gg_er
 {
   char *fresh = gg_files_frame_log_new_path(path), *place = strdup(path);
   bool made = fresh && place && open_file(log, fresh, O_RDWR | O_CREAT | O_EXCL) == GG_OK;
-  gg_status status = made ? GG_OK : gg_base_path_write_error(path, strerror(errno), err);
+  gg_status status = made ? GG_OK : gg_io_path_write_error(path, strerror(errno), err);
   if (!fresh || !place) *log = (gg_frame_log){.fd = -1};
   log->place = place;
   log->created = made;

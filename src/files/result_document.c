@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/build.h"
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/curve_table.h"
@@ -78,8 +78,8 @@ static void restore_numbers(gg_curve *c, const json_t *numbers)
   json_object_foreach((json_t *)(uintptr_t)numbers, name, one)
   {
     int n = c->n_numbers;
-    gg_measure_curve_put_number(c, name, gg_base_json_number(one, "mean"), gg_base_json_string(one, "unit"));
-    if (c->n_numbers > n) c->number[n].error = gg_base_json_number(one, "stderr");
+    gg_measure_curve_put_number(c, name, gg_io_json_number(one, "mean"), gg_io_json_string(one, "unit"));
+    if (c->n_numbers > n) c->number[n].error = gg_io_json_number(one, "stderr");
     if (c->n_numbers > n) c->number[n].setting = c->number[n].error == 0;
   }
 }
@@ -87,14 +87,14 @@ static void restore_numbers(gg_curve *c, const json_t *numbers)
 static gg_status restore(gg_curves *list, const char *name, const json_t *stored, gg_error *err)
 {
   const json_t *law = json_object_get(stored, "reference");
-  list->group = gg_base_json_string(stored, "group");
+  list->group = gg_io_json_string(stored, "group");
   list->samples = (uint64_t)json_integer_value(json_object_get(stored, "samples"));
   gg_curve *c = gg_measure_curve_add(list, json_array_size(json_object_get(stored, "x")), name,
-                                     gg_base_json_string(stored, "panel"), gg_base_json_string(stored, "label"));
+                                     gg_io_json_string(stored, "panel"), gg_io_json_string(stored, "label"));
   list->group = NULL; /* every curve has its own copy */
   if (list->failed) return gg_base_out_of_memory_for(err, "the curve %s", name);
-  gg_measure_curve_axes(c, gg_base_json_string(stored, "x_name"), gg_base_json_string(stored, "x_unit"),
-                        gg_base_json_string(stored, "y_name"), gg_base_json_string(stored, "unit"));
+  gg_measure_curve_axes(c, gg_io_json_string(stored, "x_name"), gg_io_json_string(stored, "x_unit"),
+                        gg_io_json_string(stored, "y_name"), gg_io_json_string(stored, "unit"));
   c->folded = json_is_true(json_object_get(stored, "folded"));
   c->log_x = json_is_true(json_object_get(stored, "log_x"));
   c->log_y = json_is_true(json_object_get(stored, "log_y"));
@@ -103,7 +103,7 @@ static gg_status restore(gg_curves *list, const char *name, const json_t *stored
   fill(c->error, c->n, json_object_get(stored, "stderr"));
   restore_numbers(c, json_object_get(stored, "numbers"));
   if (!law) return GG_OK;
-  gg_measure_curve_beside(c, gg_base_json_string(law, "label"), gg_measure_curve_level, &(double){0});
+  gg_measure_curve_beside(c, gg_io_json_string(law, "label"), gg_measure_curve_level, &(double){0});
   if (c->law_lost) return gg_base_out_of_memory_for(err, "the curve %s", name);
   if (c->reference) fill(c->reference, c->n, json_object_get(law, "value"));
   return GG_OK;
@@ -199,7 +199,7 @@ static json_t *engine_state_json(const gg_result *r)
 
 static json_t *run_document(const gg_result *r)
 {
-  if (r->origin.document) return gg_base_json_read(r->origin.document, NULL); /* as it was stored */
+  if (r->origin.document) return gg_io_json_read(r->origin.document, NULL); /* as it was stored */
   json_t *results = json_object(), *warnings = warnings_json(&r->warnings);
   for (int i = 0; i < r->rows.n; i++) {
     const gg_quantity_row *row = &r->rows.row[i];
@@ -220,12 +220,12 @@ static json_t *run_document(const gg_result *r)
 json_t *gg_files_run_document(const gg_result *r)
 {
   const unsigned before = gg_base_memory_failures();
-  return gg_base_json_end(before, run_document(r));
+  return gg_io_json_end(before, run_document(r));
 }
 
 char *gg_files_document_text(const json_t *document)
 {
-  return gg_base_json_text(document, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+  return gg_io_json_text(document, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
 }
 
 /* The documents of `compare` and `theory`. */
@@ -291,7 +291,7 @@ json_t *gg_files_theory_document(const gg_scene *scene, const gg_comparison *c)
       json_pack("{s:s, s:s, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version, "build", gg_base_build_identity,
                 "scene", gg_scene_json(scene), "theory", theory, "theories", about_json(c), "warnings", warnings);
   put_theory_curves(document, c);
-  return gg_base_json_end(before, document);
+  return gg_io_json_end(before, document);
 }
 
 /* theory/engine - 1 of every theory with an answer; left out where the engine has no mean, and
@@ -375,7 +375,7 @@ static void warn_deviations(const gg_comparison *c, json_t *warnings)
 
 static json_t *comparison_document(const gg_comparison *c)
 {
-  if (c->document) return gg_base_json_read(c->document, NULL); /* as it was stored */
+  if (c->document) return gg_io_json_read(c->document, NULL); /* as it was stored */
   json_t *warnings = warnings_json(&c->warnings), *rows = json_array();
   json_t *md = engine_json(c, GG_MD, warnings), *dsmc = engine_json(c, GG_DSMC, warnings);
   json_t *theory = theories_json(c, warnings);
@@ -395,7 +395,7 @@ static json_t *comparison_document(const gg_comparison *c)
 json_t *gg_files_comparison_document(const gg_comparison *c)
 {
   const unsigned before = gg_base_memory_failures();
-  return gg_base_json_end(before, comparison_document(c));
+  return gg_io_json_end(before, comparison_document(c));
 }
 
 enum { LONGEST_NAME = 63 };
@@ -450,7 +450,7 @@ static const char *check_value(const char *key, json_t *value)
 
 json_t *gg_files_document_read(const char *text, const char **why)
 {
-  json_t *document = gg_base_json_read(text, why);
+  json_t *document = gg_io_json_read(text, why);
   const char *wrong = document ? check_value("", document) : NULL;
   if (!wrong) return document;
   *why = wrong;

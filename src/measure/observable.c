@@ -3,7 +3,7 @@
 
 #define PLUG_IN(FLAG, word, description) &gg_measure_##word,
 const gg_observable *const gg_measure_observables[] = {GG_OBSERVABLES(PLUG_IN) NULL};
-_Static_assert(GG_N_OBSERVABLES <= 32, "a bit of gg_scene.measure for each");
+_Static_assert(GG_N_OBSERVABLES <= 32, "a bit of `measure` for each");
 
 bool gg_measure_observable_wants_collisions(const gg_observable *o, const gg_model *model)
 {

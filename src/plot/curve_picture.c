@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "files/curve_table.h"
 #include "plot/sheet.h"
 
@@ -17,7 +17,7 @@ int gg_plot_curve_groups(const json_t *document, const char **names, int most)
   json_t *curve;
   json_object_foreach(json_object_get(document, "curves"), name, curve)
   {
-    const char *group = gg_base_json_string(curve, "group");
+    const char *group = gg_io_json_string(curve, "group");
     for (k = 0; k < n && strcmp(names[k], group) != 0; k++) continue;
     if (k == n && n < most) names[n++] = group;
   }
@@ -95,8 +95,8 @@ static int groups_of(const json_t *document, const json_t *theories, const char 
   json_t *curve;
   json_object_foreach(json_object_get(document, "curves"), key, curve)
   {
-    const char *title = gg_base_json_string(curve, "panel");
-    if (strcmp(gg_base_json_string(curve, "group"), name) != 0) continue;
+    const char *title = gg_io_json_string(curve, "panel");
+    if (strcmp(gg_io_json_string(curve, "group"), name) != 0) continue;
     for (k = 0; k < n && strcmp(groups[k].title, title) != 0; k++) continue;
     if (k == n && n < GG_SHEET_PANELS) groups[n++] = (group){.title = title};
     if (k == n) continue;
@@ -119,7 +119,7 @@ static void add_laws(gg_plot_sheet *s, const group *g, const char *const *labels
     n += law[k] != NULL;
   }
   for (int k = 0; k < g->n; k++) {
-    gg_chart_series like = {.method = gg_base_json_string(law[k], "label"), .style = GG_CHART_LINE};
+    gg_chart_series like = {.method = gg_io_json_string(law[k], "label"), .style = GG_CHART_LINE};
     if (n > 1) like.group = labels[k];
     if (law[k]) add_line(s, like, g->curve[k], law[k]);
   }
@@ -163,7 +163,7 @@ static void fill_panel(gg_plot_sheet *s, gg_chart_panel *p, const group *g, cons
 {
   const char *labels[MOST_IN_PANEL];
   for (int k = 0; k < g->n; k++) {
-    const char *label = gg_base_json_string(g->curve[k], "label");
+    const char *label = gg_io_json_string(g->curve[k], "label");
     labels[k] = *label ? label : NULL;
     gg_chart_series like = {.method = engine->name,
                             .group = labels[k],
@@ -191,9 +191,9 @@ void gg_plot_sheet_add_curves(gg_plot_sheet *s, const gg_stored_engine *engine, 
     p->title =
         g->more ? gg_plot_sheet_add_text(s, "%s: the first %d of %d curves", g->title, g->n, g->n + g->more) : g->title;
     p->own_legend = true;
-    p->x = (gg_chart_axis){gg_base_json_string(first, "x_name"), gg_base_json_string(first, "x_unit"),
+    p->x = (gg_chart_axis){gg_io_json_string(first, "x_name"), gg_io_json_string(first, "x_unit"),
                            json_is_true(json_object_get(first, "log_x")), 0, 0};
-    p->y = (gg_chart_axis){gg_base_json_string(first, "y_name"), gg_base_json_string(first, "unit"),
+    p->y = (gg_chart_axis){gg_io_json_string(first, "y_name"), gg_io_json_string(first, "unit"),
                            json_is_true(json_object_get(first, "log_y")), 0, 0};
     fill_panel(s, p, g, engine, other);
   }

@@ -14,7 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
+#include "io/atomic_file.h"
 #include "base/clock.h"
 #include "base/memory.h"
 #include "plot/plot.h"
@@ -160,21 +160,21 @@ static gg_status put_over(gg_atomic_file *file, const char *over, gg_error *err)
   off_t end = end_of(file->fd, "</svg>");
   if (end < 0) return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", file->path);
   if (ftruncate(file->fd, end) != 0 || lseek(file->fd, 0, SEEK_END) != end)
-    return gg_base_path_write_error(file->path, strerror(errno), err);
-  GG_TRY(gg_base_atomic_write(file, over, strlen(over), err));
-  return gg_base_atomic_write(file, "</svg>\n", 7, err);
+    return gg_io_path_write_error(file->path, strerror(errno), err);
+  GG_TRY(gg_io_atomic_write(file, over, strlen(over), err));
+  return gg_io_atomic_write(file, "</svg>\n", 7, err);
 }
 
 gg_status gg_plot_gnuplot_run(const char *script, const char *over, const char *picture, gg_error *err)
 {
   gg_atomic_file file;
-  GG_TRY(gg_base_atomic_check_writable(picture, GG_PICTURES_ARE, err));
-  GG_TRY(gg_base_atomic_open(&file, picture, err));
+  GG_TRY(gg_io_atomic_check_writable(picture, GG_PICTURES_ARE, err));
+  GG_TRY(gg_io_atomic_open(&file, picture, err));
   gg_status status = draw(script, file.fd, err);
   if (status == GG_OK && over) status = put_over(&file, over, err);
   if (status == GG_OK && end_of(file.fd, "</svg>") < 0 && end_of(file.fd, "IEND") < 0 && end_of(file.fd, "%%EOF") < 0)
     status = gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", picture);
-  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
-  gg_base_atomic_abandon(&file);
+  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
+  gg_io_atomic_abandon(&file);
   return status;
 }

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
+#include "io/atomic_file.h"
 #include "plot/plot.h"
 
 static const char *const formats[] = {[GG_PLOT_SVG] = "svg", [GG_PLOT_PNG] = "png", [GG_PLOT_PDF] = "pdf"};
@@ -66,7 +66,7 @@ gg_status gg_plot_paper_check(const char *picture, const char *width, gg_error *
 {
   gg_plot_paper paper;
   GG_TRY(gg_plot_paper_choose(&paper, picture, NULL, width, err));
-  GG_TRY(gg_base_atomic_check_writable(picture, GG_PICTURES_ARE, err));
+  GG_TRY(gg_io_atomic_check_writable(picture, GG_PICTURES_ARE, err));
   return gg_plot_gnuplot_is_there(err);
 }
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/atomic_file.h"
+#include "io/atomic_file.h"
 #include "base/memory.h"
 #include "files/curve_table.h"
 #include "plot/sheet.h"
@@ -90,10 +90,10 @@ static gg_status list(page_list *pages, const gg_stored_result *stored, const gg
 
 static gg_status check_page(const char *path, const char *picture, const char *file, gg_error *err)
 {
-  if (gg_base_path_is_same_file(path, file))
+  if (gg_io_path_is_same_file(path, file))
     return gg_base_fail(err, GG_BAD_INPUT,
                         "%s: would be both the result and " GG_PAGE_BESIDE "; choose another picture", path, picture);
-  return gg_base_atomic_check_writable(path, GG_PICTURES_ARE, err);
+  return gg_io_atomic_check_writable(path, GG_PICTURES_ARE, err);
 }
 
 gg_status gg_plot_pages_check(const gg_stored_result *stored, const gg_plot_paper *paper, const char *file,

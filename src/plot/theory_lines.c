@@ -3,7 +3,7 @@
  * no theory, follow from its scene. */
 #include <string.h>
 
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "files/curve_table.h"
 #include "plot/plot.h"
 #include "scene/model_of_scene.h"

@@ -9,7 +9,7 @@
 #include <stdio.h>
 
 #include "base/archive.h"
-#include "base/file_writer.h"
+#include "io/file_writer.h"
 #include "base/text.h"
 #include "scene/scene.h"
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "common/quantity.h"
@@ -127,7 +127,7 @@ static json_t *value_json(const gg_field *f, const void *base, const gg_scene *s
 json_t *gg_scene_field_json(const gg_field *f, const void *base, const gg_scene *scene)
 {
   const unsigned before = gg_base_memory_failures();
-  return gg_base_json_end(before, value_json(f, base, scene));
+  return gg_io_json_end(before, value_json(f, base, scene));
 }
 
 json_t *gg_scene_key_json(const gg_scene *scene, const char *key)
@@ -158,7 +158,7 @@ json_t *gg_scene_json(const gg_scene *scene)
     }
     json_object_set_new(into, name, gg_scene_field_json(f, scene, scene));
   }
-  return gg_base_json_end(before, root);
+  return gg_io_json_end(before, root);
 }
 
 /* A JSON value on one line, as YAML flow style. */

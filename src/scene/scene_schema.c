@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "common/quantity.h"
 #include "scene/fields.h"
 

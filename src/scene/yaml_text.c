@@ -61,7 +61,7 @@ void gg_scene_yaml_text_print(FILE *out, const char *text)
 /* "1e-07" is a text to YAML 1.1: a number has a point. */
 void gg_scene_yaml_number(double value, char text[GG_NUMBER_TEXT])
 {
-  gg_base_number_format(value, text);
+  gg_io_number_format(value, text);
   char *exponent = strchr(text, 'e');
   if (!exponent || strchr(text, '.')) return;
   memmove(exponent + 2, exponent, strlen(exponent) + 1);

@@ -14,7 +14,7 @@
 
 #include "base/build.h"
 #include "base/memory.h"
-#include "base/output_path.h"
+#include "io/output_path.h"
 #include "files/h5/hdf5_reader.h"
 
 void gg_sweep_point_name(uint64_t id, char name[GG_POINT_NAME])
@@ -90,10 +90,10 @@ static gg_point_file set_aside(const char *folder, uint64_t id, const char *endi
   gg_sweep_point_path(folder, id, ".h5", result);
   gg_sweep_point_path(folder, id, ".old.h5", aside);
   if (!is_there(folder, id, ending) || check_file(path, any_build) == GG_POINT_FILE_GOOD) return GG_POINT_FILE_GOOD;
-  if (gg_base_file_lock_take(&lock, result, result, NULL) != GG_OK) return GG_POINT_FILE_GOOD;
+  if (gg_io_file_lock_take(&lock, result, result, NULL) != GG_OK) return GG_POINT_FILE_GOOD;
   gg_point_file found = is_there(folder, id, ending) ? check_file(path, any_build) : GG_POINT_FILE_GOOD;
   if (found != GG_POINT_FILE_GOOD && rename(path, aside) != 0) found = GG_POINT_FILE_GOOD;
-  gg_base_file_lock_release(&lock);
+  gg_io_file_lock_release(&lock);
   return found;
 }
 
@@ -109,15 +109,15 @@ gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_erro
   struct stat about;
   enum { LONGEST_NAME = 64 }; /* of a file in it */
   if (!*folder) return gg_base_fail(err, GG_BAD_INPUT, "the folder's name is empty: %s", holds);
-  if (strlen(folder) + LONGEST_NAME > PATH_MAX) return gg_base_path_write_error(folder, strerror(ENAMETOOLONG), err);
-  if (mkdir(folder, 0777) != 0 && errno != EEXIST) return gg_base_path_write_error(folder, strerror(errno), err);
-  if (stat(folder, &about) != 0) return gg_base_path_write_error(folder, strerror(errno), err);
+  if (strlen(folder) + LONGEST_NAME > PATH_MAX) return gg_io_path_write_error(folder, strerror(ENAMETOOLONG), err);
+  if (mkdir(folder, 0777) != 0 && errno != EEXIST) return gg_io_path_write_error(folder, strerror(errno), err);
+  if (stat(folder, &about) != 0) return gg_io_path_write_error(folder, strerror(errno), err);
   if (!S_ISDIR(about.st_mode)) {
     gg_error why;
     gg_base_fail(&why, GG_BAD_INPUT, "it is no folder; %s", holds);
-    return gg_base_path_write_error(folder, why.message, err);
+    return gg_io_path_write_error(folder, why.message, err);
   }
-  if (access(folder, W_OK | X_OK) != 0) return gg_base_path_write_error(folder, strerror(errno), err);
+  if (access(folder, W_OK | X_OK) != 0) return gg_io_path_write_error(folder, strerror(errno), err);
   return GG_OK;
 }
 
@@ -126,9 +126,9 @@ gg_status gg_sweep_point_claim(const char *folder, uint64_t id, gg_file_lock *lo
   char path[PATH_MAX];
   *lock = GG_FILE_LOCK_NONE;
   gg_sweep_point_path(folder, id, ".h5", path);
-  gg_status status = gg_base_file_lock_take(lock, path, path, err);
+  gg_status status = gg_io_file_lock_take(lock, path, path, err);
   if (status != GG_OK && lock->busy) return GG_OK;
-  if (status == GG_OK && gg_sweep_point_status(folder, id) != GG_POINT_MISSING) gg_base_file_lock_release(lock);
+  if (status == GG_OK && gg_sweep_point_status(folder, id) != GG_POINT_MISSING) gg_io_file_lock_release(lock);
   return status;
 }
 
@@ -158,9 +158,9 @@ static void remove_temporary(const char *folder, uint64_t id, const char *name)
   char path[PATH_MAX], result[PATH_MAX];
   gg_sweep_point_path(folder, id, ".h5", result);
   if (gg_sweep_point_status(folder, id) == GG_POINT_MISSING) return;
-  if (gg_base_file_lock_take(&lock, result, result, NULL) != GG_OK) return;
+  if (gg_io_file_lock_take(&lock, result, result, NULL) != GG_OK) return;
   if (snprintf(path, PATH_MAX, "%s/%s", folder, name) < PATH_MAX) unlink(path);
-  gg_base_file_lock_release(&lock);
+  gg_io_file_lock_release(&lock);
 }
 
 void gg_sweep_folder_tidy(const char *folder)

@@ -3,7 +3,7 @@
 #ifndef GG_SWEEP_FOLDER_H
 #define GG_SWEEP_FOLDER_H
 
-#include "base/atomic_file.h"
+#include "io/atomic_file.h"
 #include "graingas.h"
 #include "sweep/sweep.h"
 

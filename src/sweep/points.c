@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "base/checksum.h"
 #include "base/memory.h"
 #include "common/engine.h"
@@ -46,7 +46,7 @@ static uint64_t add_text(uint64_t sum, const char *text)
 static uint64_t add_field(uint64_t sum, const gg_field *f, const gg_scene *scene)
 {
   json_t *value = gg_scene_field_json(f, scene, scene);
-  char *text = gg_base_json_text(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
+  char *text = gg_io_json_text(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY | JSON_REAL_PRECISION(17));
   sum = add_text(add_text(sum, f->key),
                  text ? text : ""); /* no memory: the name of another point; the lack is recorded */
   free(text);

@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "base/build.h"
-#include "base/checked_json.h"
-#include "base/file_writer.h"
+#include "io/checked_json.h"
+#include "io/file_writer.h"
 #include "base/memory.h"
 #include "files/h5/checksum_trailer.h"
 #include "files/h5/hdf5_reader.h"
@@ -244,7 +244,7 @@ static void put_count(gg_csv *csv, uint64_t n)
 {
   char text[24];
   snprintf(text, sizeof text, "%" PRIu64, n);
-  gg_base_csv_text(csv, text);
+  gg_io_csv_text(csv, text);
 }
 
 static void put_cell(gg_csv *csv, const gg_cli_table_row *row, size_t c)
@@ -254,12 +254,12 @@ static void put_cell(gg_csv *csv, const gg_cli_table_row *row, size_t c)
   switch (columns[c].kind) {
   case NUMBER:
     value = isfinite(*(const double *)at) ? json_real(*(const double *)at) : NULL;
-    gg_base_csv_json(csv, value);
+    gg_io_csv_json(csv, value);
     json_decref(value);
     return;
   case WHOLE: put_count(csv, *(const uint64_t *)at); return;
-  case TRUTH: gg_base_csv_text(csv, *(const bool *)at ? "true" : "false"); return;
-  default: gg_base_csv_text(csv, text_of(row, c));
+  case TRUTH: gg_io_csv_text(csv, *(const bool *)at ? "true" : "false"); return;
+  default: gg_io_csv_text(csv, text_of(row, c));
   }
 }
 
@@ -272,37 +272,37 @@ static const char *plain_value(const char *yaml)
 static void put_head(gg_csv *csv, const gg_sweep *sweep)
 {
   const char *key;
-  gg_base_csv_text(csv, "point");
-  for (size_t k = 0; (key = gg_sweep_key(sweep, k)); k++) gg_base_csv_text(csv, key);
-  for (size_t c = 0; c < COLUMNS; c++) gg_base_csv_text(csv, columns[c].name);
-  gg_base_csv_end_row(csv);
+  gg_io_csv_text(csv, "point");
+  for (size_t k = 0; (key = gg_sweep_key(sweep, k)); k++) gg_io_csv_text(csv, key);
+  for (size_t c = 0; c < COLUMNS; c++) gg_io_csv_text(csv, columns[c].name);
+  gg_io_csv_end_row(csv);
 }
 
 static void put_row(gg_csv *csv, const gg_sweep *sweep, const gg_cli_table_row *row)
 {
   put_count(csv, row->point + 1);
   for (size_t k = 0; gg_sweep_key(sweep, k); k++)
-    gg_base_csv_text(csv, plain_value(gg_sweep_value(sweep, row->point, k)));
+    gg_io_csv_text(csv, plain_value(gg_sweep_value(sweep, row->point, k)));
   for (size_t c = 0; c < COLUMNS; c++) put_cell(csv, row, c);
-  gg_base_csv_end_row(csv);
+  gg_io_csv_end_row(csv);
 }
 
 gg_status gg_sweep_point_table_write_csv(const gg_point_table *t, const gg_sweep *sweep, const char *path,
                                          gg_error *err)
 {
   gg_atomic_file file;
-  GG_TRY(gg_base_atomic_open(&file, path, err));
+  GG_TRY(gg_io_atomic_open(&file, path, err));
   gg_file_writer *out = gg_base_array_new(1, sizeof *out, err);
-  if (!out) return gg_base_atomic_abandon(&file), GG_FAILED;
+  if (!out) return gg_io_atomic_abandon(&file), GG_FAILED;
   const unsigned before = gg_base_memory_failures();
-  gg_base_file_writer_begin(out, &file, err);
+  gg_io_file_writer_begin(out, &file, err);
   gg_csv csv = {.out = out};
   put_head(&csv, sweep);
   for (size_t i = 0; i < t->n; i++) put_row(&csv, sweep, &t->row[i]);
-  gg_status status = gg_base_memory_check(before, gg_base_file_writer_end(out), err);
+  gg_status status = gg_base_memory_check(before, gg_io_file_writer_end(out), err);
   free(out);
-  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
-  gg_base_atomic_abandon(&file);
+  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
+  gg_io_atomic_abandon(&file);
   return status;
 }
 
@@ -386,12 +386,12 @@ static gg_status write_image(gg_h5 *h, const char *path, gg_error *err)
   void *image = gg_h5_image(h, &size);
   gg_h5_close(h);
   gg_status status = gg_h5_status(h, path, "written", err);
-  if (status == GG_OK) status = gg_base_atomic_open(&file, path, err);
+  if (status == GG_OK) status = gg_io_atomic_open(&file, path, err);
   if (status != GG_OK) return free(image), status;
   status = gg_files_checksum_trailer_write(&file, image, size, NULL, err);
   free(image);
-  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
-  gg_base_atomic_abandon(&file);
+  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
+  gg_io_atomic_abandon(&file);
   return status;
 }
 
@@ -446,7 +446,7 @@ static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
   gg_sweep_point_name(sweep->point[i].id, name);
   if (gg_sweep_resolve(sweep, i, &scene, NULL) != GG_OK) { /* it was checked: there is no memory */
     json_decref(keys);
-    return gg_base_json_made(NULL);
+    return gg_io_json_made(NULL);
   }
   for (size_t k = 0; gg_sweep_key(sweep, k); k++)
     json_object_set_new(keys, gg_sweep_key(sweep, k), value_json(gg_sweep_value(sweep, i, k)));
@@ -464,7 +464,7 @@ static json_t *name_as_text(const char *name)
   char *plain = strdup(name);
   for (char *c = plain; c && *c; c++)
     if (*c & 0x80) *c = '?';
-  text = plain ? json_string(plain) : gg_base_json_made(NULL);
+  text = plain ? json_string(plain) : gg_io_json_made(NULL);
   free(plain);
   return text;
 }
@@ -474,7 +474,7 @@ json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder)
   const unsigned before = gg_base_memory_failures();
   json_t *points = json_array();
   for (size_t i = 0; i < sweep->n; i++) json_array_append_new(points, point_json(sweep, folder, i));
-  return gg_base_json_end(before, json_pack("{s:s, s:s, s:o, s:o}", "graingas", gg_base_build_version, "does",
+  return gg_io_json_end(before, json_pack("{s:s, s:s, s:o, s:o}", "graingas", gg_base_build_version, "does",
                                             gg_sweep_does_words[sweep->settings.does], "folder", name_as_text(folder),
                                             "points", points));
 }

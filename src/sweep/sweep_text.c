@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/file_writer.h"
+#include "io/file_writer.h"
 #include "base/memory.h"
 #include "sweep/folder.h"
 
@@ -69,11 +69,11 @@ static bool holds(const char *path, const char *text)
 static gg_status write_text(const char *path, const char *text, gg_error *err)
 {
   gg_atomic_file file = GG_ATOMIC_NONE;
-  gg_status status = gg_base_atomic_open_locked(&file, path, err);
+  gg_status status = gg_io_atomic_open_locked(&file, path, err);
   file.repeated = true;
-  if (status == GG_OK) status = gg_base_atomic_write(&file, text, strlen(text), err);
-  if (status == GG_OK) status = gg_base_atomic_commit(&file, err);
-  gg_base_atomic_abandon(&file);
+  if (status == GG_OK) status = gg_io_atomic_write(&file, text, strlen(text), err);
+  if (status == GG_OK) status = gg_io_atomic_commit(&file, err);
+  gg_io_atomic_abandon(&file);
   return status;
 }
 
@@ -84,10 +84,10 @@ gg_status gg_sweep_folder_note(const gg_sweep *sweep, const char *folder, gg_err
   if (!gg_sweep_folder_text_path(folder, path)) return GG_OK;
   char *text = text_of(sweep);
   if (!text) return gg_base_out_of_memory(err);
-  gg_status status = gg_base_file_lock_take(&lock, path, path, err); /* and clear up behind a dead process */
+  gg_status status = gg_io_file_lock_take(&lock, path, path, err); /* and clear up behind a dead process */
   if (status == GG_OK && !holds(path, text)) status = write_text(path, text, err);
   if (lock.busy) status = GG_OK; /* another process is writing the same */
-  gg_base_file_lock_release(&lock);
+  gg_io_file_lock_release(&lock);
   free(text);
   return status;
 }

@@ -8,7 +8,7 @@
 #include <time.h>
 
 #include "base/build.h"
-#include "base/file_writer.h"
+#include "io/file_writer.h"
 #include "base/memory.h"
 #include "files/result_document.h"
 #include "sweep/deviation_maps.h"
@@ -57,13 +57,13 @@ static void put_head(gg_file_writer *out, const gg_point_table *t)
   const time_t now = time(NULL);
   struct tm utc;
   strftime(date, sizeof date, "%Y-%m-%d", gmtime_r(&now, &utc));
-  gg_base_file_writer_put(out, "# md, dsmc, Enskog's equation and theories over a grid\n\n");
+  gg_io_file_writer_put(out, "# md, dsmc, Enskog's equation and theories over a grid\n\n");
   snprintf(line, sizeof line, "Written by `graingas validate` on %s, graingas %s. Do not edit.\n\n", date,
            gg_base_build_version);
-  gg_base_file_writer_put(out, line);
+  gg_io_file_writer_put(out, line);
   if (t->n_other_builds) {
     snprintf(line, sizeof line, "%zu points are by another build.\n\n", t->n_other_builds);
-    gg_base_file_writer_put(out, line);
+    gg_io_file_writer_put(out, line);
   }
 }
 
@@ -71,24 +71,24 @@ static gg_status write_page(const gg_validating *o, const gg_point_table *t, con
                             gg_error *err)
 {
   gg_atomic_file file;
-  GG_TRY(gg_base_atomic_open(&file, o->page, err));
+  GG_TRY(gg_io_atomic_open(&file, o->page, err));
   gg_file_writer *out = gg_base_array_new(1, sizeof *out, err);
-  if (!out) return gg_base_atomic_abandon(&file), GG_FAILED;
-  gg_base_file_writer_begin(out, &file, err);
+  if (!out) return gg_io_atomic_abandon(&file), GG_FAILED;
+  gg_io_file_writer_begin(out, &file, err);
   put_head(out, t);
-  gg_base_file_writer_put(out, verdict);
+  gg_io_file_writer_put(out, verdict);
   if (*maps)
-    gg_base_file_writer_put(out,
+    gg_io_file_writer_put(out,
                             "## Maps\n\nRelative deviations at each point, in per cent; of N1 and N2 differences. "
                             "Enskog is the noise-free solution, `enskog_hermite`. Lines between cells: 1 % "
                             "(dashed), 5 %, 20 % (thick). Hatched: below two standard errors. Red: a cross where a "
                             "run is not steady, a triangle where md is clustered or swirls, a diamond where it is "
                             "collapsed. Panels marked \"against dsmc\" have no noise-free solution.\n\n");
-  gg_base_file_writer_put(out, maps);
-  gg_status status = gg_base_file_writer_end(out);
+  gg_io_file_writer_put(out, maps);
+  gg_status status = gg_io_file_writer_end(out);
   free(out);
-  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
-  gg_base_atomic_abandon(&file);
+  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
+  gg_io_atomic_abandon(&file);
   return status;
 }
 

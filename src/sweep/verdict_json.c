@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/build.h"
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "base/memory.h"
 #include "common/quantity.h"
 #include "sweep/verdict.h"
@@ -112,7 +112,7 @@ static json_t *trouble_json(const gg_grid_view *v, gg_point_trouble *trouble)
 json_t *gg_sweep_verdict_document(const gg_grid_view *v, const gg_agreement *a, const char *repeat)
 {
   const unsigned before = gg_base_memory_failures();
-  return gg_base_json_end(before,
+  return gg_io_json_end(before,
                           json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version,
                                     "points", (json_int_t)v->sweep->n, "done", (json_int_t)v->table->n_documents,
                                     "dsmc", agreement_json(a), "largest_z", worst_json(v, repeat), "deviations",

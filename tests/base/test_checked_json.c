@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "../faults/failing_malloc.h"
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 
 static const char text[] =
     "{\"verdict\": \"too short to tell: averaged over 40 collisions a grain, the slowest mode asks for 300\", "
@@ -20,7 +20,7 @@ static const char text[] =
 static void reading(void **state)
 {
   (void)state;
-  json_t *whole = gg_base_json_read(text, NULL);
+  json_t *whole = gg_io_json_read(text, NULL);
   uint64_t faults = 1;
   size_t lost = 0;
   assert_non_null(whole);
@@ -28,7 +28,7 @@ static void reading(void **state)
     const char *why = NULL;
     const unsigned before = gg_base_memory_failures();
     failing_malloc_arm(at, 0, NULL);
-    json_t *document = gg_base_json_read(text, &why);
+    json_t *document = gg_io_json_read(text, &why);
     failing_malloc_disarm(&faults);
     assert_int_equal(gg_base_memory_failures() != before, document == NULL);
     assert_true(document ? json_equal(document, whole) : strcmp(why, "out of memory") == 0);
@@ -42,15 +42,15 @@ static void reading(void **state)
 static void writing(void **state)
 {
   (void)state;
-  json_t *whole = gg_base_json_read(text, NULL);
+  json_t *whole = gg_io_json_read(text, NULL);
   uint64_t faults = 1;
   for (uint64_t at = 1; faults; at++) {
     const unsigned before = gg_base_memory_failures();
     failing_malloc_arm(at, 0, NULL);
-    char *written = gg_base_json_text(whole, 0);
+    char *written = gg_io_json_text(whole, 0);
     failing_malloc_disarm(&faults);
     assert_int_equal(gg_base_memory_failures() != before, written == NULL);
-    json_t *again = written ? gg_base_json_read(written, NULL) : NULL;
+    json_t *again = written ? gg_io_json_read(written, NULL) : NULL;
     assert_true(!written || json_equal(again, whole));
     json_decref(again);
     free(written);

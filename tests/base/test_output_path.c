@@ -20,8 +20,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
-#include "base/output_path.h"
+#include "io/atomic_file.h"
+#include "io/output_path.h"
 
 static char folder[] = "/tmp/graingas-output-XXXXXX";
 
@@ -41,9 +41,9 @@ static void put(const char *path, const char *text)
 {
   gg_atomic_file f;
   gg_error err;
-  assert_int_equal(gg_base_atomic_open(&f, path, &err), GG_OK);
-  assert_int_equal(gg_base_atomic_write(&f, text, strlen(text), &err), GG_OK);
-  assert_int_equal(gg_base_atomic_commit(&f, &err), GG_OK);
+  assert_int_equal(gg_io_atomic_open(&f, path, &err), GG_OK);
+  assert_int_equal(gg_io_atomic_write(&f, text, strlen(text), &err), GG_OK);
+  assert_int_equal(gg_io_atomic_commit(&f, &err), GG_OK);
 }
 
 static void assert_holds(const char *path, const char *text)
@@ -68,11 +68,11 @@ static void links_are_followed(void **state)
   assert_holds("b/file", "two");
   assert_true(lstat("a/link", &about) == 0 && S_ISLNK(about.st_mode));
   assert_true(lstat("b/link", &about) == 0 && S_ISLNK(about.st_mode));
-  assert_true(gg_base_path_is_same_file("a/link", "b/../b/file") && !gg_base_path_is_same_file("a/link", "b/other"));
-  assert_true(gg_base_path_is_same_file("b/new", "a/../b/new") && !gg_base_path_is_same_file("a/new", "b/new"));
+  assert_true(gg_io_path_is_same_file("a/link", "b/../b/file") && !gg_io_path_is_same_file("a/link", "b/other"));
+  assert_true(gg_io_path_is_same_file("b/new", "a/../b/new") && !gg_io_path_is_same_file("a/new", "b/new"));
   gg_atomic_file f;
   gg_error err;
-  assert_int_equal(gg_base_atomic_open(&f, "loop", &err), GG_BAD_FILE);
+  assert_int_equal(gg_io_atomic_open(&f, "loop", &err), GG_BAD_FILE);
   unlink("b/file"), unlink("b/link"), unlink("a/link"), unlink("loop"), rmdir("a"), rmdir("b");
 }
 
@@ -87,7 +87,7 @@ static void mode_is_kept(void **state)
   put("file", "two");
   assert_true(stat("file", &about) == 0 && (about.st_mode & 07777) == 0640);
   assert_int_equal(chmod("file", 0444), 0); /* root could write it, and does not */
-  assert_int_equal(gg_base_atomic_open(&f, "file", &err), GG_BAD_FILE);
+  assert_int_equal(gg_io_atomic_open(&f, "file", &err), GG_BAD_FILE);
   assert_string_equal(err.message, "file: cannot be written: it is write-protected");
   assert_holds("file", "two");
   unlink("file");
@@ -99,12 +99,12 @@ static void one_writer_at_a_time(void **state)
   gg_atomic_file one, two;
   gg_error err;
   char own[60];
-  assert_int_equal(gg_base_atomic_open(&one, "file", &err), GG_OK);
+  assert_int_equal(gg_io_atomic_open(&one, "file", &err), GG_OK);
   assert_int_equal(symlink("file", "link"), 0);
   snprintf(own, sizeof own, "another process is writing it (process %ld on ", (long)getpid());
-  assert_int_equal(gg_base_atomic_open(&two, "link", &err), GG_BAD_FILE);
+  assert_int_equal(gg_io_atomic_open(&two, "link", &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, own));
-  gg_base_atomic_abandon(&one);
+  gg_io_atomic_abandon(&one);
   put("link", "now");
   assert_holds("file", "now");
   unlink("file"), unlink("link");
@@ -125,14 +125,14 @@ static void without_locks(void **state)
   gg_atomic_file one, two;
   gg_error err;
   no_locks = true;
-  assert_int_equal(gg_base_atomic_open(&one, "file", &err), GG_OK);
-  assert_int_equal(gg_base_atomic_write(&one, "half", 4, &err), GG_OK);
-  assert_int_equal(gg_base_atomic_open(&two, "file", &err), GG_OK);
-  assert_int_equal(gg_base_atomic_write(&two, "other", 5, &err), GG_OK);
-  assert_int_equal(gg_base_atomic_write(&one, "whole", 5, &err), GG_OK);
-  assert_int_equal(gg_base_atomic_commit(&one, &err), GG_OK);
+  assert_int_equal(gg_io_atomic_open(&one, "file", &err), GG_OK);
+  assert_int_equal(gg_io_atomic_write(&one, "half", 4, &err), GG_OK);
+  assert_int_equal(gg_io_atomic_open(&two, "file", &err), GG_OK);
+  assert_int_equal(gg_io_atomic_write(&two, "other", 5, &err), GG_OK);
+  assert_int_equal(gg_io_atomic_write(&one, "whole", 5, &err), GG_OK);
+  assert_int_equal(gg_io_atomic_commit(&one, &err), GG_OK);
   assert_holds("file", "halfwhole");
-  assert_int_equal(gg_base_atomic_commit(&two, &err), GG_OK);
+  assert_int_equal(gg_io_atomic_commit(&two, &err), GG_OK);
   assert_holds("file", "other");
   no_locks = false;
   unlink("file");
@@ -146,14 +146,14 @@ static void what_the_dead_left(void **state)
   gg_error err;
   pid_t child = fork();
   if (child == 0) {
-    if (gg_base_atomic_open(&f, "file", &err) != GG_OK || gg_base_atomic_write(&f, "half", 4, &err) != GG_OK) _exit(1);
+    if (gg_io_atomic_open(&f, "file", &err) != GG_OK || gg_io_atomic_write(&f, "half", 4, &err) != GG_OK) _exit(1);
     _exit(0); /* nothing is closed or removed */
   }
   int status;
   assert_true(waitpid(child, &status, 0) == child && status == 0);
   assert_true(access("file.graingas-tmp", F_OK) == 0 && access("file.graingas-lock", F_OK) == 0);
-  assert_int_equal(gg_base_atomic_open(&f, "file", &err), GG_OK);
-  gg_base_atomic_abandon(&f);
+  assert_int_equal(gg_io_atomic_open(&f, "file", &err), GG_OK);
+  gg_io_atomic_abandon(&f);
   assert_true(access("file.graingas-tmp", F_OK) != 0 && access("file.graingas-lock", F_OK) != 0);
 }
 
@@ -168,24 +168,24 @@ static void streams(void **state)
   if (mknod("null", S_IFCHR | 0666, makedev(1, 3)) == 0) { /* by root alone; never the system's own */
     put("null", "away");
     assert_true(stat("null", &about) == 0 && S_ISCHR(about.st_mode));
-    assert_false(gg_base_path_is_same_file("null", "null"));
+    assert_false(gg_io_path_is_same_file("null", "null"));
     unlink("null");
   }
   assert_int_equal(mkfifo("pipe", 0666), 0);
-  assert_int_equal(gg_base_atomic_open(&f, "pipe", &err), GG_BAD_FILE);
+  assert_int_equal(gg_io_atomic_open(&f, "pipe", &err), GG_BAD_FILE);
   assert_string_equal(err.message, "pipe: cannot be written: nobody reads from this pipe");
   int in = open("pipe", O_RDONLY | O_NONBLOCK);
   put("pipe", "through");
   assert_int_equal(read(in, got, sizeof got), 7);
   assert_memory_equal(got, "through", 7);
-  assert_int_equal(gg_base_atomic_open(&f, "pipe", &err), GG_OK);
+  assert_int_equal(gg_io_atomic_open(&f, "pipe", &err), GG_OK);
   close(in); /* the reader goes: no signal */
-  assert_int_equal(gg_base_atomic_write(&f, "lost", 4, &err), GG_BAD_FILE);
+  assert_int_equal(gg_io_atomic_write(&f, "lost", 4, &err), GG_BAD_FILE);
   assert_string_equal(err.message, "pipe: cannot be written: Broken pipe");
-  gg_base_atomic_abandon(&f);
-  assert_int_equal(gg_base_atomic_check_writable("pipe", "pictures are files", &err), GG_BAD_FILE);
+  gg_io_atomic_abandon(&f);
+  assert_int_equal(gg_io_atomic_check_writable("pipe", "pictures are files", &err), GG_BAD_FILE);
   assert_string_equal(err.message, "pipe: is a device or a pipe; pictures are files");
-  assert_int_equal(gg_base_atomic_open(&f, "", &err), GG_BAD_INPUT);
+  assert_int_equal(gg_io_atomic_open(&f, "", &err), GG_BAD_INPUT);
   unlink("pipe");
 }
 
@@ -213,8 +213,8 @@ static void replaced_while_looked_at(void **state)
   put("file", "one");
   assert_int_equal(pthread_create(&other, NULL, replace, NULL), 0);
   for (int i = 0; i < 20000; i++) {
-    if (gg_base_output_path_find(&place, "file", &err) != GG_OK) refused++;
-    gg_base_output_path_clear(&place);
+    if (gg_io_output_path_find(&place, "file", &err) != GG_OK) refused++;
+    gg_io_output_path_clear(&place);
   }
   found_all = true;
   assert_int_equal(pthread_join(other, &failed), 0);

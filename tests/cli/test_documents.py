@@ -136,27 +136,6 @@ def test_names():
     none(missing)
 
 
-def test_rooms():
-    """Data goes one way (docs/architecture.md): no room includes one that stands after it."""
-    order = ["base", "common", "scene", "md dsmc statistics", "measure", "theory", "run", "files", "plot", "sweep",
-             "bench", "api", "cli"]
-    after = {room: " ".join(order[i + 1:]).split() for i, rooms in enumerate(order) for room in rooms.split()}
-    after["md"] += ["dsmc", "statistics"]
-    after["dsmc"] += ["md", "statistics"]
-    after["statistics"] += ["md", "dsmc"]
-    after["theory"] += ["md", "dsmc", "statistics"]
-    after["measure"] += ["md", "dsmc"]
-    backwards, files = set(), 0
-    for room, later in after.items():
-        for path in glob.glob(os.path.join(SOURCE, "src", room, "**", "*.[hc]"), recursive=True):
-            files += 1
-            with open(path, encoding="utf-8") as source:
-                included = re.findall(r'^#include "(\w+)/', source.read(), re.MULTILINE)
-            backwards.update(f"{os.path.relpath(path, SOURCE)} includes {name}/" for name in included
-                             if name in later)
-    check(files > 200 and not backwards, "against the way the data goes:\n" + "\n".join(sorted(backwards)))
-
-
 def test_licences():
     """Source files name their licence in their first two lines; .reuse/dep5 covers the rest."""
     missing, n = set(), 0

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/file_writer.h"
+#include "io/file_writer.h"
 #include "files/export.h"
 
 typedef struct paper {
@@ -30,7 +30,7 @@ static int begin(void **state)
   p->file = GG_ATOMIC_NONE;
   p->file.fd = mkstemp(name);
   unlink(name);
-  gg_base_file_writer_begin(&p->out, &p->file, NULL);
+  gg_io_file_writer_begin(&p->out, &p->file, NULL);
   *state = p;
   return p->file.fd < 0;
 }
@@ -45,7 +45,7 @@ static int end(void **state)
 
 static const char *written(paper *p)
 {
-  assert_int_equal(gg_base_file_writer_end(&p->out), GG_OK);
+  assert_int_equal(gg_io_file_writer_end(&p->out), GG_OK);
   ssize_t n = pread(p->file.fd, p->text, sizeof p->text - 1, 0);
   assert_true(n >= 0);
   p->text[n] = '\0';
@@ -56,16 +56,16 @@ static void cells(void **state)
 {
   paper *p = *state;
   gg_csv csv = {.out = &p->out};
-  gg_base_csv_text(&csv, "plain text");
-  gg_base_csv_text(&csv, "a, b");
-  gg_base_csv_text(&csv, "so \"called\"");
-  gg_base_csv_text(&csv, NULL);
-  gg_base_csv_text(&csv, "two\nlines");
-  gg_base_csv_end_row(&csv);
-  gg_base_csv_head(&csv, "T", "d^2 gamma^2");
-  gg_base_csv_head(&csv, "e", "1");
-  gg_base_csv_head(&csv, "n", "");
-  gg_base_csv_end_row(&csv);
+  gg_io_csv_text(&csv, "plain text");
+  gg_io_csv_text(&csv, "a, b");
+  gg_io_csv_text(&csv, "so \"called\"");
+  gg_io_csv_text(&csv, NULL);
+  gg_io_csv_text(&csv, "two\nlines");
+  gg_io_csv_end_row(&csv);
+  gg_io_csv_head(&csv, "T", "d^2 gamma^2");
+  gg_io_csv_head(&csv, "e", "1");
+  gg_io_csv_head(&csv, "n", "");
+  gg_io_csv_end_row(&csv);
   assert_string_equal(written(p),
                       "plain text,\"a, b\",\"so \"\"called\"\"\",,\"two\nlines\"\r\nT [d^2 gamma^2],e,n\r\n");
 }
@@ -76,8 +76,8 @@ static void values(void **state)
   gg_csv csv = {.out = &p->out};
   json_t *list = json_pack("[f, i, b, b, s, n]", 0.1, 12000000, 1, 0, "why", 0);
   for (size_t i = 0; i <= json_array_size(list); i++)
-    gg_base_csv_json(&csv, json_array_get(list, i)); /* one is not there */
-  gg_base_csv_end_row(&csv);
+    gg_io_csv_json(&csv, json_array_get(list, i)); /* one is not there */
+  gg_io_csv_end_row(&csv);
   json_decref(list);
   assert_string_equal(written(p), "0.1,12000000,true,false,why,,\r\n");
 }
@@ -89,11 +89,11 @@ static void numbers(void **state)
   char text[GG_NUMBER_TEXT];
   (void)state;
   for (size_t i = 0; i < sizeof hard / sizeof *hard; i++) {
-    gg_base_number_format(hard[i], text);
+    gg_io_number_format(hard[i], text);
     double back = strtod(text, NULL);
     assert_memory_equal(&back, &hard[i], sizeof back);
   }
-  gg_base_number_format(0.1, text);
+  gg_io_number_format(0.1, text);
   assert_string_equal(text, "0.1");
 }
 
@@ -103,7 +103,7 @@ static void longer_than_the_buffer(void **state)
   char line[1000];
   memset(line, 'x', sizeof line);
   line[sizeof line - 1] = '\0';
-  for (int i = 0; i < 100; i++) gg_base_file_writer_put(&p->out, line);
+  for (int i = 0; i < 100; i++) gg_io_file_writer_put(&p->out, line);
   assert_int_equal(strspn(written(p), "x"), 100 * (sizeof line - 1));
 }
 
@@ -116,13 +116,13 @@ static void failure_sticks(void **state)
   p->file.path = path, p->file.fd = open("/dev/full", O_WRONLY);
   if (p->file.fd < 0) skip();
   p->out.err = &err;
-  gg_base_file_writer_put(&p->out, "something");
-  assert_int_equal(gg_base_file_writer_end(&p->out), GG_BAD_FILE);
+  gg_io_file_writer_put(&p->out, "something");
+  assert_int_equal(gg_io_file_writer_end(&p->out), GG_BAD_FILE);
   assert_non_null(strstr(err.message, "full: cannot be written"));
   close(p->file.fd);
   p->file.fd = fd; /* there would be room again, but the text has a gap */
-  gg_base_file_writer_put(&p->out, "more");
-  assert_int_equal(gg_base_file_writer_end(&p->out), GG_BAD_FILE);
+  gg_io_file_writer_put(&p->out, "more");
+  assert_int_equal(gg_io_file_writer_end(&p->out), GG_BAD_FILE);
   p->out.status = GG_OK;
   assert_string_equal(written(p), "");
 }

@@ -146,7 +146,7 @@ SLIPS = [
     ("src/files/h5/particles.c", "remainder(model->shear_rate * «model->box[1] ¦ model->box[0]» * time, model->box[0]);",
      "the tilt of the box by its length"),
     ("src/files/h5/result_restore.c", "e->coefficients[«place[i] * n + place[j] ¦ i * n + j»];", "covariances of other quantities"),
-    ("src/files/h5/result_restore.c", ".correlation_time = gg_base_json_number(stored, «\"correlation_time\" ¦ \"stderr\"»),",
+    ("src/files/h5/result_restore.c", ".correlation_time = gg_io_json_number(stored, «\"correlation_time\" ¦ \"stderr\"»),",
      "a read result's correlation time is its error"),
     ("src/files/h5/checkpoint_file.c", "if (status == GG_OK && «keep ¦ false») status = keep_before(&file, err);",
      "the checkpoint before is not kept"),

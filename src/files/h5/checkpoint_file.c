@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "base/atomic_file.h"
+#include "io/atomic_file.h"
 #include "base/build.h"
 #include "base/memory.h"
 #include "files/h5/checksum_trailer.h"
@@ -86,12 +86,12 @@ static gg_status make_image(const char *path, const gg_archive *a, const gg_scen
 static gg_status keep_before(const gg_atomic_file *file, gg_error *err)
 {
   char *before = NULL;
-  if (fsync(file->fd) != 0) return gg_base_path_write_error(file->path, strerror(errno), err);
+  if (fsync(file->fd) != 0) return gg_io_path_write_error(file->path, strerror(errno), err);
   if (asprintf(&before, "%s.1", file->place.target) < 0) return gg_base_out_of_memory(err);
   bool kept = rename(file->place.target, before) == 0 || errno == ENOENT; /* the first time there is none */
   int number = errno;
   free(before);
-  return kept ? GG_OK : gg_base_path_write_error(file->path, strerror(number), err);
+  return kept ? GG_OK : gg_io_path_write_error(file->path, strerror(number), err);
 }
 
 static gg_status write_it(const char *path, bool locked, bool keep, const gg_archive *a, const gg_scene *scene,
@@ -99,7 +99,7 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
 {
   gg_atomic_file file;
   size_t size = 0;
-  GG_TRY(locked ? gg_base_atomic_open_locked(&file, path, err) : gg_base_atomic_open(&file, path, err));
+  GG_TRY(locked ? gg_io_atomic_open_locked(&file, path, err) : gg_io_atomic_open(&file, path, err));
   file.repeated = locked;
   void *image = NULL;
   gg_status status = make_image(path, a, scene, &image, &size, err);
@@ -109,8 +109,8 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
   free(image);
   if (status == GG_OK && is_stopped(a)) status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", path);
   if (status == GG_OK && keep) status = keep_before(&file, err);
-  if (status == GG_OK) return gg_base_atomic_commit(&file, err);
-  gg_base_atomic_abandon(&file);
+  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
+  gg_io_atomic_abandon(&file);
   return status;
 }
 
@@ -199,7 +199,7 @@ gg_status gg_files_checkpoint_read(const char *path, bool any_build, gg_archive 
 
 char *gg_files_checkpoint_before(const char *path)
 {
-  char *target = gg_base_path_follow_links(path), *before = NULL;
+  char *target = gg_io_path_follow_links(path), *before = NULL;
   if (target && asprintf(&before, "%s.1", target) < 0) {
     gg_base_memory_lacked();
     before = NULL;
@@ -210,9 +210,9 @@ char *gg_files_checkpoint_before(const char *path)
 
 bool gg_files_checkpoint_is_of(const char *file, const char *path)
 {
-  if (gg_base_path_is_same_file(file, path)) return true;
+  if (gg_io_path_is_same_file(file, path)) return true;
   char *before = gg_files_checkpoint_before(path);
-  bool is = gg_base_path_is_same_file(file, before);
+  bool is = gg_io_path_is_same_file(file, before);
   free(before);
   return is;
 }

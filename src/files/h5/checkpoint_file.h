@@ -13,7 +13,7 @@ struct gg_h5_in;
  * is refused by name. 2: the scene's keys one by one; 3: spins under md's Gaussian thermostat as they are outside. */
 enum { GG_CHECKPOINT_LAYOUT = 4 };
 
-/* `locked`: the caller holds the lock of this path (base/atomic_file.h). */
+/* `locked`: the caller holds the lock of this path (io/atomic_file.h). */
 gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_archive *archive, const gg_scene *scene,
                                     gg_error *err);
 /* The first of a run that does not resume from the one at FILE: that one is not kept as FILE.1, and the FILE.1 that was

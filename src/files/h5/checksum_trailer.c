@@ -49,10 +49,10 @@ gg_status gg_files_checksum_trailer_write(gg_atomic_file *file, const void *data
     now = left < BLOCK ? left : BLOCK;
     if (stop && gg_stop_asked(stop)) return gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", file->path);
     sum = crc32(sum, at, (uInt)now);
-    GG_TRY(gg_base_atomic_write(file, at, now, err));
+    GG_TRY(gg_io_atomic_write(file, at, now, err));
   }
   fill(trailer, size, sum);
-  return gg_base_atomic_write(file, trailer, sizeof trailer, err);
+  return gg_io_atomic_write(file, trailer, sizeof trailer, err);
 }
 
 void *gg_files_checksum_trailer_append(void *data, size_t size, gg_error *err)

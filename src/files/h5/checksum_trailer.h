@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "base/atomic_file.h"
+#include "io/atomic_file.h"
 
 enum { GG_TRAILER_SIZE = 20, GG_TRAILER_SMALL = 1 << 20 };
 

@@ -252,7 +252,7 @@ typedef struct gg_result_writer {
 gg_status gg_files_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err)
 {
   *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command};
-  return gg_base_atomic_open(&f->file, path, err);
+  return gg_io_atomic_open(&f->file, path, err);
 }
 
 void gg_files_result_file_open_in_memory(gg_result_file *f, const char *command)
@@ -273,7 +273,7 @@ static void forget(gg_result_file *f)
 void gg_files_result_file_abandon(gg_result_file *f)
 {
   forget(f);
-  gg_base_atomic_abandon(&f->file);
+  gg_io_atomic_abandon(&f->file);
 }
 
 /* On the disk under its temporary name, or in memory: what is small, and what goes to a device or pipe. */
@@ -322,8 +322,8 @@ static gg_status append_trailer(gg_result_file *f, gg_error *err)
 {
   unsigned char trailer[GG_TRAILER_SIZE];
   if (gg_files_checksum_trailer_of_file(f->file.fd, trailer) != 0 || lseek(f->file.fd, 0, SEEK_END) < 0)
-    return gg_base_path_write_error(f->file.path, strerror(errno), err);
-  return gg_base_atomic_write(&f->file, trailer, sizeof trailer, err);
+    return gg_io_path_write_error(f->file.path, strerror(errno), err);
+  return gg_io_atomic_write(&f->file, trailer, sizeof trailer, err);
 }
 
 static gg_status keep_bytes(gg_result_file *f, void *image, size_t size, gg_error *err)
@@ -354,8 +354,8 @@ static gg_status finish(gg_result_file *f, gg_error *err)
   forget(f);
   if (status == GG_OK && f->stop && gg_stop_asked(f->stop))
     status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", f->file.path);
-  if (status == GG_OK) return gg_base_atomic_commit(&f->file, err);
-  gg_base_atomic_abandon(&f->file);
+  if (status == GG_OK) return gg_io_atomic_commit(&f->file, err);
+  gg_io_atomic_abandon(&f->file);
   return status;
 }
 

@@ -16,7 +16,7 @@
 #ifndef GG_RESULT_FILE_H
 #define GG_RESULT_FILE_H
 
-#include "base/atomic_file.h"
+#include "io/atomic_file.h"
 #include "run/run.h"
 
 /* Nothing that includes this needs HDF5: the page of a browser is built without (without_hdf5.c). */

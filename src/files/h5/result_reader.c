@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/build.h"
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/h5/checkpoint_file.h"

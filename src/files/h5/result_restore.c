@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 #include "files/curve_table.h"
 #include "files/result_document.h"
 #include "scene/model_of_scene.h"
@@ -113,11 +113,11 @@ static void restore_means(gg_result *r, const json_t *document)
     const char *name = r->rows.row[i].name;
     gg_estimate *e = &r->value[r->rows.row[i].quantity];
     const json_t *stored = json_object_get(results, name);
-    *e = (gg_estimate){.mean = gg_base_json_number(stored, "mean"),
-                       .error = gg_base_json_number(stored, "stderr"),
-                       .correlation_time = gg_base_json_number(stored, "correlation_time"),
+    *e = (gg_estimate){.mean = gg_io_json_number(stored, "mean"),
+                       .error = gg_io_json_number(stored, "stderr"),
+                       .correlation_time = gg_io_json_number(stored, "correlation_time"),
                        .samples = count(stored, "samples")};
-    const char *reason = gg_base_json_string(stored, "reason");
+    const char *reason = gg_io_json_string(stored, "reason");
     if (stored && isnan(e->mean) && *reason)
       snprintf(e->reason, sizeof e->reason, "%s", reason);
     else if (stored && isnan(e->mean)) /* of an older file */
@@ -203,24 +203,24 @@ static gg_status restore_frame(gg_result *r, const gg_stored_result *s, gg_error
 static void restore_effort(gg_result *r, const json_t *document)
 {
   const json_t *total = json_object_get(document, "total"), *state = json_object_get(document, "engine_state");
-  r->averaging = (gg_effort){count(document, "collisions"), gg_base_json_number(document, "cpu_seconds"), NAN};
-  r->total = (gg_effort){count(total, "collisions"), gg_base_json_number(total, "cpu_seconds"),
-                         gg_base_json_number(total, "wall_seconds")};
-  r->engine_state = (gg_engine_state){.time = gg_base_json_number(state, "time"),
+  r->averaging = (gg_effort){count(document, "collisions"), gg_io_json_number(document, "cpu_seconds"), NAN};
+  r->total = (gg_effort){count(total, "collisions"), gg_io_json_number(total, "cpu_seconds"),
+                         gg_io_json_number(total, "wall_seconds")};
+  r->engine_state = (gg_engine_state){.time = gg_io_json_number(state, "time"),
                                       .collisions = r->total.collisions,
                                       .events = count(state, "events"),
                                       .treated = count(state, "contact_time_collisions"),
                                       .overflows = count(state, "majorant_overflows"),
                                       .clamped = count(state, "law_clamped")};
   if (json_object_get(state, "contact_time"))
-    r->scene.fixed.contact_time = r->model.contact_time = gg_base_json_number(state, "contact_time");
+    r->scene.fixed.contact_time = r->model.contact_time = gg_io_json_number(state, "contact_time");
   if (json_object_get(state, "worst_overlap"))
-    r->engine_state.worst_overlap = gg_base_json_number(state, "worst_overlap");
-  if (json_object_get(state, "time_step")) r->engine_state.time_step = gg_base_json_number(state, "time_step");
+    r->engine_state.worst_overlap = gg_io_json_number(state, "worst_overlap");
+  if (json_object_get(state, "time_step")) r->engine_state.time_step = gg_io_json_number(state, "time_step");
   if (json_object_get(state, "time_step_bias"))
-    r->engine_state.time_step_bias = gg_base_json_number(state, "time_step_bias");
+    r->engine_state.time_step_bias = gg_io_json_number(state, "time_step_bias");
   if (json_object_get(state, "particles_bias"))
-    r->engine_state.particles_bias = gg_base_json_number(state, "particles_bias");
+    r->engine_state.particles_bias = gg_io_json_number(state, "particles_bias");
 }
 
 static gg_status restore_origin(gg_result *r, const gg_stored_result *s, const json_t *document, gg_error *err)
@@ -253,8 +253,8 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
   r->engine = gg_run_engine_ops_of(engine)->name;
   bool steady = json_is_true(json_object_get(e->document, "steady"));
   r->steadiness = steady ? GG_STEADY : r->model.steady || r->model.linear_response ? GG_NOT_STEADY : GG_HEATING;
-  snprintf(r->steadiness_text, sizeof r->steadiness_text, "%s", gg_base_json_string(e->document, "verdict"));
-  const char *chosen = gg_base_json_string(e->document, "particles_chosen");
+  snprintf(r->steadiness_text, sizeof r->steadiness_text, "%s", gg_io_json_string(e->document, "verdict"));
+  const char *chosen = gg_io_json_string(e->document, "particles_chosen");
   snprintf(r->ensemble_text, sizeof r->ensemble_text, "%s", chosen ? chosen : "");
   restore_warnings(r, e->document);
   restore_means(r, e->document);
@@ -284,7 +284,7 @@ gg_status gg_files_result_restore(const gg_stored_result *s, gg_engine_kind engi
 static void restore_refusal(const json_t *document, const char *theory, char *reason, size_t size)
 {
   const json_t *about = json_object_get(json_object_get(document, "theories"), theory);
-  const char *said = gg_base_json_string(about, "reason");
+  const char *said = gg_io_json_string(about, "reason");
   snprintf(reason, size, "%s", *said ? said : "it is not in the file");
 }
 
@@ -308,8 +308,8 @@ static gg_status restore_theories(gg_comparison *c, const json_t *document, gg_e
     for (int k = 0; said && k < c->rows.n; k++) {
       const gg_quantity_row *row = &c->rows.row[k];
       const json_t *one = json_object_get(said, row->name);
-      c->theory[i].answer.value[row->quantity] = gg_base_json_number(one, "mean");
-      c->theory[i].answer.error[row->quantity] = gg_base_json_number(one, "error");
+      c->theory[i].answer.value[row->quantity] = gg_io_json_number(one, "mean");
+      c->theory[i].answer.error[row->quantity] = gg_io_json_number(one, "error");
     }
   }
   for (int i = 0; i < c->n_theories; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/checked_json.h"
+#include "io/checked_json.h"
 
 #include <errno.h>
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 
-json_t *gg_base_json_end(unsigned before, json_t *document)
+json_t *gg_io_json_end(unsigned before, json_t *document)
 {
   if (document && gg_base_memory_failures() == before) return document;
   gg_base_memory_lacked();
@@ -16,25 +16,25 @@ json_t *gg_base_json_end(unsigned before, json_t *document)
   return NULL;
 }
 
-json_t *gg_base_json_made(json_t *value)
+json_t *gg_io_json_made(json_t *value)
 {
   if (!value) gg_base_memory_lacked();
   return value;
 }
 
-int gg_base_json_put(int failed)
+int gg_io_json_put(int failed)
 {
   if (failed) gg_base_memory_lacked();
   return failed;
 }
 
-const char *gg_base_json_string(const json_t *object, const char *key)
+const char *gg_io_json_string(const json_t *object, const char *key)
 {
   const char *text = json_string_value(json_object_get(object, key));
   return text ? text : "";
 }
 
-double gg_base_json_number(const json_t *object, const char *key)
+double gg_io_json_number(const json_t *object, const char *key)
 {
   const json_t *value = json_object_get(object, key);
   return json_is_number(value) ? json_number_value(value) : NAN;
@@ -56,7 +56,7 @@ static size_t next_letter(void *buffer, size_t size, void *context)
   return 1;
 }
 
-json_t *gg_base_json_read(const char *text, const char **why)
+json_t *gg_io_json_read(const char *text, const char **why)
 {
   source s = {.text = text};
   errno = 0;
@@ -72,7 +72,7 @@ json_t *gg_base_json_read(const char *text, const char **why)
   return document;
 }
 
-json_t *gg_base_json_format(const char *format, ...)
+json_t *gg_io_json_format(const char *format, ...)
 {
   va_list args;
   va_start(args, format);
@@ -83,7 +83,7 @@ json_t *gg_base_json_format(const char *format, ...)
 }
 
 /* Into a stream that reports what was lost: json_dumps leaves out keys that it has no room for. */
-char *gg_base_json_text(const json_t *value, size_t flags)
+char *gg_io_json_text(const json_t *value, size_t flags)
 {
   char *text = NULL;
   GG_C_LOCALE;

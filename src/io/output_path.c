@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/output_path.h"
+#include "io/output_path.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -17,7 +17,7 @@ enum {
   MOST_LOOKS = 20  /* that another writer may spoil, one after the other */
 };
 
-gg_status gg_base_path_write_error(const char *path, const char *why, gg_error *err)
+gg_status gg_io_path_write_error(const char *path, const char *why, gg_error *err)
 {
   return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written: %s", path, why);
 }
@@ -44,7 +44,7 @@ static char *follow_one(const char *link)
   return at;
 }
 
-char *gg_base_path_follow_links(const char *path)
+char *gg_io_path_follow_links(const char *path)
 {
   struct stat about;
   errno = 0;
@@ -88,28 +88,28 @@ static bool is_pinned(const char *target, const struct stat *about)
 static gg_status check_file(const gg_output_path *place, const char *path, gg_error *err)
 {
   if (!(place->about.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)))
-    return gg_base_path_write_error(path, "it is write-protected", err);
+    return gg_io_path_write_error(path, "it is write-protected", err);
   int fd = open(place->target, O_WRONLY | O_CLOEXEC);
-  if (fd < 0) return gg_base_path_write_error(path, strerror(errno), err);
+  if (fd < 0) return gg_io_path_write_error(path, strerror(errno), err);
   close(fd);
   if (is_pinned(place->target, &place->about))
-    return gg_base_path_write_error(path, "it belongs to another user, and only they may replace it", err);
+    return gg_io_path_write_error(path, "it belongs to another user, and only they may replace it", err);
   return GG_OK;
 }
 
 static gg_status check(gg_output_path *place, const char *path, bool named, gg_error *err)
 {
   const mode_t mode = place->about.st_mode;
-  if (S_ISDIR(mode)) return gg_base_path_write_error(path, strerror(EISDIR), err);
+  if (S_ISDIR(mode)) return gg_io_path_write_error(path, strerror(EISDIR), err);
   if (S_ISBLK(mode) || S_ISSOCK(mode))
-    return gg_base_path_write_error(path, "it is a disk or a socket, not a file", err);
+    return gg_io_path_write_error(path, "it is a disk or a socket, not a file", err);
   if (is_standard(&place->about))
-    return gg_base_path_write_error(path, "standard output is for tables and messages; choose a file", err);
+    return gg_io_path_write_error(path, "standard output is for tables and messages; choose a file", err);
   place->stream = !S_ISREG(mode);
   place->there = !place->stream;
   if (!place->there) return GG_OK;
   return named ? check_file(place, path, err)
-               : gg_base_path_write_error(path, "it is an open file without a name", err);
+               : gg_io_path_write_error(path, "it is an open file without a name", err);
 }
 
 /* What is there, and is it what stands at the end of the links? */
@@ -117,31 +117,31 @@ static gg_status look(gg_output_path *place, const char *path, bool *something, 
 {
   struct stat target;
   *something = stat(path, &place->about) == 0;
-  if (!*something && errno != ENOENT) return gg_base_path_write_error(path, strerror(errno), err);
-  place->target = gg_base_path_follow_links(path);
-  if (!place->target) return gg_base_path_write_error(path, strerror(ENOMEM), err);
+  if (!*something && errno != ENOENT) return gg_io_path_write_error(path, strerror(errno), err);
+  place->target = gg_io_path_follow_links(path);
+  if (!place->target) return gg_io_path_write_error(path, strerror(ENOMEM), err);
   *named = *something &&
            (!S_ISREG(place->about.st_mode) || (stat(place->target, &target) == 0 && is_one(&target, &place->about)));
   return GG_OK;
 }
 
 /* Between the two looks at a name another writer may have put a new file there: then both are taken again. */
-gg_status gg_base_output_path_find(gg_output_path *place, const char *path, gg_error *err)
+gg_status gg_io_output_path_find(gg_output_path *place, const char *path, gg_error *err)
 {
   *place = (gg_output_path){0};
   if (!*path) return gg_base_fail(err, GG_BAD_INPUT, "a file to write has an empty name");
   bool something = true, named = false;
   gg_status status = GG_OK;
   for (int i = 0; i < MOST_LOOKS && status == GG_OK && something && !named; i++) {
-    gg_base_output_path_clear(place);
+    gg_io_output_path_clear(place);
     status = look(place, path, &something, &named, err);
   }
   if (status == GG_OK && something) status = check(place, path, named, err);
-  if (status != GG_OK) gg_base_output_path_clear(place);
+  if (status != GG_OK) gg_io_output_path_clear(place);
   return status;
 }
 
-void gg_base_output_path_clear(gg_output_path *place)
+void gg_io_output_path_clear(gg_output_path *place)
 {
   free(place->target);
   *place = (gg_output_path){0};
@@ -151,7 +151,7 @@ void gg_base_output_path_clear(gg_output_path *place)
 static bool same_name(const char *a, const char *b)
 {
   struct stat one, two;
-  char *target[2] = {gg_base_path_follow_links(a), gg_base_path_follow_links(b)}, *folder[2] = {NULL, NULL},
+  char *target[2] = {gg_io_path_follow_links(a), gg_io_path_follow_links(b)}, *folder[2] = {NULL, NULL},
        *copy[2] = {NULL, NULL};
   bool same = target[0] && target[1];
   for (int i = 0; same && i < 2; i++) {
@@ -169,7 +169,7 @@ static bool same_name(const char *a, const char *b)
   return same;
 }
 
-bool gg_base_path_is_same_file(const char *a, const char *b)
+bool gg_io_path_is_same_file(const char *a, const char *b)
 {
   struct stat one, two;
   if (!a || !b || !*a || !*b) return false;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text into a file that appears whole or not at all (atomic_file.h), through a buffer. The first failure sticks: later
- * calls do nothing, and gg_base_file_writer_end reports it, so that a writer reads as what it writes. */
+ * calls do nothing, and gg_io_file_writer_end reports it, so that a writer reads as what it writes. */
 #ifndef GG_FILE_WRITER_H
 #define GG_FILE_WRITER_H
 
 #include <jansson.h>
 
-#include "base/atomic_file.h"
+#include "io/atomic_file.h"
 
 typedef struct gg_file_writer {
   gg_atomic_file *file;
@@ -17,16 +17,16 @@ typedef struct gg_file_writer {
   char buffer[1 << 15];
 } gg_file_writer;
 
-void gg_base_file_writer_begin(gg_file_writer *out, gg_atomic_file *file, gg_error *err);
-void gg_base_file_writer_put(gg_file_writer *out, const char *text);
+void gg_io_file_writer_begin(gg_file_writer *out, gg_atomic_file *file, gg_error *err);
+void gg_io_file_writer_put(gg_file_writer *out, const char *text);
 /* The shortest text that reads back as this number, with a decimal point in the C locale (text.h). */
-void gg_base_file_writer_put_number(gg_file_writer *out, double value);
+void gg_io_file_writer_put_number(gg_file_writer *out, double value);
 /* What is still in the buffer goes to the file. */
-gg_status gg_base_file_writer_end(gg_file_writer *out);
+gg_status gg_io_file_writer_end(gg_file_writer *out);
 
 /* The same number in `text`. */
 enum { GG_NUMBER_TEXT = 32 };
-void gg_base_number_format(double value, char text[GG_NUMBER_TEXT]);
+void gg_io_number_format(double value, char text[GG_NUMBER_TEXT]);
 
 /* Comma-separated values as RFC 4180 has them: cells quoted where they must be, lines that end with CR LF. What cannot
  * be had is an empty cell. */
@@ -37,11 +37,11 @@ typedef struct gg_csv {
 } gg_csv;
 
 /* NULL: an empty cell. A text that begins like a formula gets an apostrophe before it: spreadsheets show it as text. */
-void gg_base_csv_text(gg_csv *csv, const char *text);
+void gg_io_csv_text(gg_csv *csv, const char *text);
 /* "NAME [UNIT]", of a number without one "NAME". */
-void gg_base_csv_head(gg_csv *csv, const char *name, const char *unit);
+void gg_io_csv_head(gg_csv *csv, const char *name, const char *unit);
 /* A number, text or truth of a document; empty if it is null or not there. */
-void gg_base_csv_json(gg_csv *csv, const json_t *value);
-void gg_base_csv_end_row(gg_csv *csv);
+void gg_io_csv_json(gg_csv *csv, const json_t *value);
+void gg_io_csv_end_row(gg_csv *csv);
 
 #endif

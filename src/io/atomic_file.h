@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files that appear whole or not at all: written under a temporary name in the same folder, flushed to the disk, and
- * renamed. base/output_path.h decides what happens to an existing file at the path. Devices and pipes are written to
+ * renamed. io/output_path.h decides what happens to an existing file at the path. Devices and pipes are written to
  * directly. */
 #ifndef GG_ATOMIC_FILE_H
 #define GG_ATOMIC_FILE_H
@@ -9,7 +9,7 @@
 
 #include "base/cancellation.h"
 #include "base/error.h"
-#include "base/output_path.h"
+#include "io/output_path.h"
 
 #define GG_LOCK_SUFFIX ".graingas-lock"
 
@@ -29,9 +29,9 @@ typedef struct gg_file_lock {
 /* `target` is locked, `path` is the name in messages. GG_BAD_FILE if another run holds the lock, or if the folder is
  * not writable. The temporary file of a dead run is removed, unless the file system has no locks: then the run may be
  * alive. */
-gg_status gg_base_file_lock_take(gg_file_lock *lock, const char *target, const char *path, gg_error *err);
+gg_status gg_io_file_lock_take(gg_file_lock *lock, const char *target, const char *path, gg_error *err);
 /* Harmless if it is not held. */
-void gg_base_file_lock_release(gg_file_lock *lock);
+void gg_io_file_lock_release(gg_file_lock *lock);
 
 typedef struct gg_atomic_file {
   char *path; /* as given, for messages */
@@ -45,21 +45,21 @@ typedef struct gg_atomic_file {
 
 /* GG_BAD_FILE says why the file could not be written there, or which run is writing it. What a dead run left beside it
  * is gone after this call. */
-gg_status gg_base_atomic_open(gg_atomic_file *file, const char *path, gg_error *err);
+gg_status gg_io_atomic_open(gg_atomic_file *file, const char *path, gg_error *err);
 /* The same of a file whose lock the caller holds. */
-gg_status gg_base_atomic_open_locked(gg_atomic_file *file, const char *path, gg_error *err);
+gg_status gg_io_atomic_open_locked(gg_atomic_file *file, const char *path, gg_error *err);
 /* Append to it. */
-gg_status gg_base_atomic_write(gg_atomic_file *file, const void *data, size_t size, gg_error *err);
+gg_status gg_io_atomic_write(gg_atomic_file *file, const void *data, size_t size, gg_error *err);
 /* Flush, rename, and free; on failure the temporary file stays, unless `repeated`, and the message names it. A file
  * that is replaced leaves its mode, and its owner where the system allows it. */
-gg_status gg_base_atomic_commit(gg_atomic_file *file, gg_error *err);
+gg_status gg_io_atomic_commit(gg_atomic_file *file, gg_error *err);
 /* Remove the temporary file and free; harmless after a commit. */
-void gg_base_atomic_abandon(gg_atomic_file *file);
+void gg_io_atomic_abandon(gg_atomic_file *file);
 
 #define GG_ATOMIC_NONE ((gg_atomic_file){.fd = -1, .lock.fd = -1})
 
 /* Whether a regular file, not a device or pipe, can be written there. Checked before a long run, so that its result is
  * not lost. `why_regular` gives the reason: "pictures are files". */
-gg_status gg_base_atomic_check_writable(const char *path, const char *why_regular, gg_error *err);
+gg_status gg_io_atomic_check_writable(const char *path, const char *why_regular, gg_error *err);
 
 #endif

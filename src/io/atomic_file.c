@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/atomic_file.h"
+#include "io/atomic_file.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -16,7 +16,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "base/output_path.h"
+#include "io/output_path.h"
 
 /* "process 4711 on kepler, since 2026-11-22 08:46:42" */
 static void sign(int fd)
@@ -77,7 +77,7 @@ static gg_status try_once(gg_file_lock *l, const char *path, bool *sure, gg_erro
 {
   bool foreign;
   int fd = open_lock(l->path, &foreign);
-  if (fd < 0) return gg_base_path_write_error(path, strerror(errno), err);
+  if (fd < 0) return gg_io_path_write_error(path, strerror(errno), err);
   gg_status status = GG_OK;
   *sure = flock(fd, LOCK_EX | LOCK_NB) == 0;
   if (!*sure && !cannot_lock(errno)) {
@@ -91,10 +91,10 @@ static gg_status try_once(gg_file_lock *l, const char *path, bool *sure, gg_erro
   return status;
 }
 
-gg_status gg_base_file_lock_take(gg_file_lock *l, const char *target, const char *path, gg_error *err)
+gg_status gg_io_file_lock_take(gg_file_lock *l, const char *target, const char *path, gg_error *err)
 {
   *l = GG_FILE_LOCK_NONE;
-  if (asprintf(&l->path, "%s" GG_LOCK_SUFFIX, target) < 0) return gg_base_path_write_error(path, strerror(ENOMEM), err);
+  if (asprintf(&l->path, "%s" GG_LOCK_SUFFIX, target) < 0) return gg_io_path_write_error(path, strerror(ENOMEM), err);
   gg_status status = GG_OK;
   bool sure = false;
   while (status == GG_OK && l->fd < 0) status = try_once(l, path, &sure, err);
@@ -108,7 +108,7 @@ gg_status gg_base_file_lock_take(gg_file_lock *l, const char *target, const char
   return status;
 }
 
-void gg_base_file_lock_release(gg_file_lock *l)
+void gg_io_file_lock_release(gg_file_lock *l)
 {
   if (l->fd >= 0) {
     unlink(l->path); /* while it is still held: nobody else's is removed */
@@ -120,7 +120,7 @@ void gg_base_file_lock_release(gg_file_lock *l)
 
 static gg_status cannot(const gg_atomic_file *f, int number, gg_error *err)
 {
-  return gg_base_path_write_error(f->path, strerror(number), err);
+  return gg_io_path_write_error(f->path, strerror(number), err);
 }
 
 /* A pipe needs a reader, who may come a moment after the writer: without one, opening it would wait for ever. */
@@ -132,7 +132,7 @@ static gg_status open_stream(gg_atomic_file *f, gg_error *err)
     if (f->fd >= 0 || errno != ENXIO) break;
     nanosleep(&moment, NULL);
   }
-  if (f->fd < 0 && errno == ENXIO) return gg_base_path_write_error(f->path, "nobody reads from this pipe", err);
+  if (f->fd < 0 && errno == ENXIO) return gg_io_path_write_error(f->path, "nobody reads from this pipe", err);
   return f->fd >= 0 ? GG_OK : cannot(f, errno, err);
 }
 
@@ -164,11 +164,11 @@ static gg_status open_temporary(gg_atomic_file *f, gg_error *err)
 
 static gg_status begin(gg_atomic_file *f, const char *path, bool locked, gg_error *err)
 {
-  GG_TRY(gg_base_output_path_find(&f->place, path, err));
+  GG_TRY(gg_io_output_path_find(&f->place, path, err));
   f->path = strdup(path);
-  if (!f->path) return gg_base_path_write_error(path, strerror(ENOMEM), err);
+  if (!f->path) return gg_io_path_write_error(path, strerror(ENOMEM), err);
   if (f->place.stream) return open_stream(f, err);
-  if (!locked) GG_TRY(gg_base_file_lock_take(&f->lock, f->place.target, path, err));
+  if (!locked) GG_TRY(gg_io_file_lock_take(&f->lock, f->place.target, path, err));
   return open_temporary(f, err);
 }
 
@@ -176,16 +176,16 @@ static gg_status open_it(gg_atomic_file *f, const char *path, bool locked, gg_er
 {
   *f = GG_ATOMIC_NONE;
   gg_status status = begin(f, path, locked, err);
-  if (status != GG_OK) gg_base_atomic_abandon(f);
+  if (status != GG_OK) gg_io_atomic_abandon(f);
   return status;
 }
 
-gg_status gg_base_atomic_open(gg_atomic_file *f, const char *path, gg_error *err)
+gg_status gg_io_atomic_open(gg_atomic_file *f, const char *path, gg_error *err)
 {
   return open_it(f, path, false, err);
 }
 
-gg_status gg_base_atomic_open_locked(gg_atomic_file *f, const char *path, gg_error *err)
+gg_status gg_io_atomic_open_locked(gg_atomic_file *f, const char *path, gg_error *err)
 {
   return open_it(f, path, true, err);
 }
@@ -219,12 +219,12 @@ static bool wait_for_reader(const gg_atomic_file *f)
   return true;
 }
 
-gg_status gg_base_atomic_write(gg_atomic_file *f, const void *data, size_t size, gg_error *err)
+gg_status gg_io_atomic_write(gg_atomic_file *f, const void *data, size_t size, gg_error *err)
 {
   const char *from = data;
   while (size > 0) {
     if (f->place.stream && !wait_for_reader(f))
-      return gg_base_path_write_error(f->path, "its reader stalled, and the run was interrupted", err);
+      return gg_io_path_write_error(f->path, "its reader stalled, and the run was interrupted", err);
     ssize_t done = f->place.stream ? write_calmly(f->fd, from, size) : write(f->fd, from, size);
     if (done < 0 && (errno == EINTR || (errno == EAGAIN && f->place.stream))) continue;
     if (done < 0) return cannot(f, errno, err);
@@ -286,34 +286,34 @@ static gg_status keep(gg_atomic_file *f, int number, gg_error *err)
   return status;
 }
 
-gg_status gg_base_atomic_commit(gg_atomic_file *f, gg_error *err)
+gg_status gg_io_atomic_commit(gg_atomic_file *f, gg_error *err)
 {
   bool done = f->place.stream ? let_go(f) : put_in_place(f);
   gg_status status = done ? GG_OK : f->temporary && !f->repeated ? keep(f, errno, err) : cannot(f, errno, err);
-  gg_base_atomic_abandon(f);
+  gg_io_atomic_abandon(f);
   return status;
 }
 
-void gg_base_atomic_abandon(gg_atomic_file *f)
+void gg_io_atomic_abandon(gg_atomic_file *f)
 {
   if (f->fd >= 0) close(f->fd);
   if (f->temporary && f->fd >= 0) unlink(f->temporary);
-  gg_base_file_lock_release(&f->lock);
-  gg_base_output_path_clear(&f->place);
+  gg_io_file_lock_release(&f->lock);
+  gg_io_output_path_clear(&f->place);
   free(f->temporary);
   free(f->path);
   *f = GG_ATOMIC_NONE;
 }
 
-gg_status gg_base_atomic_check_writable(const char *path, const char *why_regular, gg_error *err)
+gg_status gg_io_atomic_check_writable(const char *path, const char *why_regular, gg_error *err)
 {
   gg_atomic_file file;
   gg_output_path place;
-  GG_TRY(gg_base_output_path_find(&place, path, err));
+  GG_TRY(gg_io_output_path_find(&place, path, err));
   bool stream = place.stream;
-  gg_base_output_path_clear(&place);
+  gg_io_output_path_clear(&place);
   if (stream) return gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; %s", path, why_regular);
-  GG_TRY(gg_base_atomic_open(&file, path, err));
-  gg_base_atomic_abandon(&file);
+  GG_TRY(gg_io_atomic_open(&file, path, err));
+  gg_io_atomic_abandon(&file);
   return GG_OK;
 }

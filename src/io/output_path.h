@@ -17,18 +17,18 @@ typedef struct gg_output_path {
 } gg_output_path;
 
 /* GG_BAD_INPUT for an empty name, GG_BAD_FILE with the reason where nothing can be written. */
-gg_status gg_base_output_path_find(gg_output_path *place, const char *path, gg_error *err);
-void gg_base_output_path_clear(gg_output_path *place);
+gg_status gg_io_output_path_find(gg_output_path *place, const char *path, gg_error *err);
+void gg_io_output_path_clear(gg_output_path *place);
 
 /* Final target of symbolic links, also if it does not exist; to be freed. NULL: none, or out of memory, which is
  * counted. */
-char *gg_base_path_follow_links(const char *path);
+char *gg_io_path_follow_links(const char *path);
 
 /* "PATH: cannot be written: WHY", GG_BAD_FILE. */
-gg_status gg_base_path_write_error(const char *path, const char *why, gg_error *err);
+gg_status gg_io_path_write_error(const char *path, const char *why, gg_error *err);
 
 /* Whether both are one file: by device and inode if they exist, otherwise by folder and name. Devices never are. False
  * if out of memory, which is counted. */
-bool gg_base_path_is_same_file(const char *a, const char *b);
+bool gg_io_path_is_same_file(const char *a, const char *b);
 
 #endif
