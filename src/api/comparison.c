@@ -284,7 +284,7 @@ gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_rem
 gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg_error *err)
 {
   GG_NEED(comparison, text);
-  bool simulated = comparison->document || comparison->by_engine[GG_MD] || comparison->by_engine[GG_DSMC];
+  bool simulated = comparison->document || gg_run_comparison_first(comparison);
   return gg_api_text_copy(simulated ? gg_files_comparison_document(comparison)
                                     : gg_files_theory_document(&comparison->scene, comparison),
                           text, err);
@@ -293,7 +293,7 @@ gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg
 /* The engine whose record a file has. */
 static gg_status first_of(const gg_comparison *c, const char *path, const gg_result **one, gg_error *err)
 {
-  *one = c->by_engine[GG_MD] ? c->by_engine[GG_MD] : c->by_engine[GG_DSMC];
+  *one = gg_run_comparison_first(c);
   return *one ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "%s: not written: nothing was simulated", path);
 }
 

@@ -26,7 +26,7 @@ static gg_status read_scene(gg_trajectory *t, const char *path, gg_error *err)
   gg_stored_result stored;
   gg_status status = gg_files_stored_result_read(&stored, path, err);
   if (status == GG_OK)
-    status = gg_files_stored_scene(&stored, stored.engine[GG_MD].name ? GG_MD : GG_DSMC, &t->scene, &t->model, err);
+    status = gg_files_stored_scene(&stored, gg_files_stored_first(&stored), &t->scene, &t->model, err);
   gg_files_stored_result_clear(&stored);
   return status;
 }

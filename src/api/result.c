@@ -252,7 +252,7 @@ static gg_status restore(const gg_stored_result *stored, const char *path, gg_re
 {
   if (stored->comparison)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: holds a comparison: read it with gg_comparison_read", path);
-  return gg_files_result_restore(stored, stored->engine[GG_MD].name ? GG_MD : GG_DSMC, result, err);
+  return gg_files_result_restore(stored, gg_files_stored_first(stored), result, err);
 }
 
 gg_status gg_result_read(const char *path, gg_result **result, gg_error *err)

@@ -201,7 +201,7 @@ static void warn_of_keys(gg_run_call *r)
   const gg_engine_kind engine = r->scene.engine;
   if (r->comparison)
     gg_scene_ineffective_keys(&r->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &r->warnings);
-  else if (gg_run_engine_ops_of(engine)->accepts(&r->model, NULL) == GG_OK)
+  else if (gg_common_engine_of(engine)->accepts(&r->model, NULL) == GG_OK)
     gg_scene_ineffective_keys(&r->scene, 1u << engine, &r->warnings);
   if (!r->comparison && engine == GG_MD) warn_if_dilute(r);
   for (size_t i = 0; i < r->warnings.n && r->options.warn; i++)
@@ -282,7 +282,7 @@ static gg_status simulate(gg_run_call *r, gg_point_call *point, const gg_scene *
     warn_of_keys(r);
     status = run_engines(r, c, err);
   }
-  bool some = c->by_engine[GG_MD] || c->by_engine[GG_DSMC] || (comparison && status == GG_OK);
+  bool some = gg_run_comparison_first(c) || (comparison && status == GG_OK);
   if (gg_base_memory_failures() != before && status == GG_OK) { /* it lacks a warning, or worse */
     status = gg_base_out_of_memory(err);
     some = false;
@@ -315,7 +315,7 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
   GG_NEED(scene, result);
   gg_comparison *made = NULL;
   gg_status status = gg_api_run_simulate(NULL, scene, options, false, &made, err);
-  for (int k = 0; made && k < 2; k++) {
+  for (int k = 0; made && k < GG_N_ENGINES; k++) {
     if (made->by_engine[k]) *result = made->by_engine[k];
     made->by_engine[k] = NULL;
   }

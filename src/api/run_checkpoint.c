@@ -11,9 +11,9 @@
 static gg_status describe_comparison(const gg_archive *a, gg_checkpoint_info *info, gg_error *err)
 {
   info->kind = "comparison";
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_N_ENGINES; k++) {
     gg_archive one = {0};
-    const char *name = gg_run_engine_ops_of((gg_engine_kind)k)->name;
+    const char *name = gg_common_engine_of(k)->name;
     gg_status status = gg_base_archive_unnest(&one, name, a, err);
     if (status == GG_OK && one.n_items) {
       info->part[k].engine = name;
@@ -42,7 +42,7 @@ static gg_status tell(const gg_archive *a, const char *path, const gg_scene *sce
     return describe_comparison(a, info, err);
   if (!gg_base_archive_find(a, "simulation/scene")) {
     info->kind = "run";
-    info->part[0].engine = gg_run_engine_ops_of(scene->engine)->name;
+    info->part[0].engine = gg_common_engine_of(scene->engine)->name;
     return gg_run_how_far(a, &info->part[0], err);
   }
   GG_TRY(gg_simulation_load(path, NULL, NULL, NULL, &simulation, err));

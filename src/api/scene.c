@@ -165,7 +165,7 @@ static gg_status make_model(const gg_scene *scene, const char *engine, gg_scene 
   GG_TRY(gg_api_engine_find(engine, kind, err));
   GG_TRY(gg_api_scene_finish(scene, finished, err));
   GG_TRY(gg_scene_model_make(finished, *kind, model, err));
-  return gg_run_engine_ops_of(*kind)->accepts(model, err);
+  return gg_common_engine_of(*kind)->accepts(model, err);
 }
 
 gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene_needs *needs, gg_error *err)
@@ -191,7 +191,7 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   gg_engine_kind kind;
   GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
   gg_extension *held = gg_common_extension_hold(finished.extension); /* `line` may free the scene */
-  gg_run_engine_ops_of(kind)->describe(&model, line, context);
+  gg_common_engine_of(kind)->describe(&model, line, context);
   char chosen[200] = "";
   if (model.ensemble)
     gg_scene_ensemble_size_reason(&finished, chosen, sizeof chosen);

@@ -44,7 +44,7 @@ static gg_status make(gg_session *s, const gg_scene *scene, gg_error *err)
     return gg_base_fail(err, GG_BAD_INPUT, "run.replicas: %lld; a session has 1, gg_run takes more",
                         (long long)s->scene.run.replicas);
   s->callbacks = (gg_run_callbacks){.context = s, .progress = note_progress, .interrupted = time_is_up};
-  s->progress = (gg_progress){.engine = gg_run_engine_ops_of(s->scene.engine)->name,
+  s->progress = (gg_progress){.engine = gg_common_engine_of(s->scene.engine)->name,
                               .phase = "warm-up",
                               .relative_error = NAN,
                               .time_left = NAN,

@@ -56,7 +56,7 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, int (*stop)(void *con
   gg_status status = gg_api_scene_finish(scene, &s->scene, err);
   s->scene.fixed.clock_rate = scene->fixed.clock_rate;
   if (status == GG_OK) status = gg_scene_model_make(&s->scene, s->scene.engine, &s->model, err);
-  if (status == GG_OK) status = gg_run_engine_ops_of(s->scene.engine)->accepts(&s->model, err);
+  if (status == GG_OK) status = gg_common_engine_of(s->scene.engine)->accepts(&s->model, err);
   if (status != GG_OK) {
     free(s);
     return status;
@@ -114,7 +114,7 @@ gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options *optio
   at_start.fixed.clock_rate = GG_AUTO;
   const gg_start_options none = {0}, *o = options ? options : &none;
   GG_TRY(gg_api_simulation_prepare(&at_start, o->stop, o->context, &s, err));
-  gg_status status = gg_run_engine_ops_of(s->scene.engine)
+  gg_status status = gg_common_engine_of(s->scene.engine)
                          ->create(&s->model, s->scene.run.seed, o->stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
   return gg_api_simulation_started(s, status, simulation, err);
 }

@@ -74,7 +74,7 @@ static gg_status take_all(gg_simulation *s, const gg_archive *a, gg_error *err)
   GG_TRY(gg_base_archive_get(a, "simulation/clock", GG_ITEM_U8, &s->clock, sizeof s->clock, err));
   if (gg_base_archive_find(a, strained_item))
     GG_TRY(gg_base_archive_get(a, strained_item, GG_ITEM_F64, &s->strained, 2, err));
-  return gg_run_engine_ops_of(s->scene.engine)->restore(&s->model, a, &s->engine, err);
+  return gg_common_engine_of(s->scene.engine)->restore(&s->model, a, &s->engine, err);
 }
 
 static gg_status load(const gg_archive *a, const char *path, const gg_scene *scene, gg_api_request *request,

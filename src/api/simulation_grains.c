@@ -95,7 +95,7 @@ static void take(const gg_model *m, const gg_grains *g, double unit, gg_engine_g
 static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uint64_t stream, gg_error *err)
 {
   const gg_model *m = &s->model;
-  const gg_engine_ops *ops = gg_run_engine_ops_of(s->scene.engine);
+  const gg_engine_ops *ops = gg_common_engine_of(s->scene.engine);
   GG_TRY(check(m, grains, n, err));
   if (m->n_species > 1 && !grains->species)
     return gg_base_fail(err, GG_BAD_INPUT, "the scene has %d species: give the species of each grain", m->n_species);
@@ -120,7 +120,7 @@ static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uin
 static gg_status with_number(const gg_scene *scene, size_t n, gg_scene *counted, gg_error *err)
 {
   char number[24];
-  const char *key = scene->engine == GG_DSMC ? "dsmc.particles" : "particles";
+  const char *key = gg_common_engine_of((int)scene->engine)->ensemble ? "dsmc.particles" : "particles";
   *counted = *scene;
   if (gg_scene_is_given(scene, key) || gg_scene_is_given(scene, "particles")) return GG_OK;
   snprintf(number, sizeof number, "%zu", n);

@@ -103,7 +103,7 @@ static gg_status evaluate(controller *c, const gg_scene *scene, const gg_run_opt
   gg_comparison *made = NULL;
   gg_result_file file;
   gg_status status = gg_theories_evaluate(scene, NULL, is_stopped, c, &made, err);
-  for (int k = 0; made && k < 2; k++) snprintf(made->refusal[k], sizeof made->refusal[k], "it was not run");
+  for (int k = 0; made && k < GG_N_ENGINES; k++) snprintf(made->refusal[k], sizeof made->refusal[k], "it was not run");
   if (status == GG_OK) status = gg_files_result_file_open(&file, options->output, options->command, err);
   if (status == GG_OK) status = gg_files_result_file_finish_comparison(&file, made, err);
   if (status == GG_OK) status = publish(c, GG_OK, err);

@@ -57,8 +57,8 @@ bool gg_api_is_requested(void *request)
 
 gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *err)
 {
-  for (int k = 0; k < 2; k++)
-    if (strcmp(gg_run_engine_ops_of((gg_engine_kind)k)->name, name) == 0) return *kind = (gg_engine_kind)k, GG_OK;
+  for (int k = 0; k < GG_N_ENGINES; k++)
+    if (strcmp(gg_common_engine_of(k)->name, name) == 0) return *kind = (gg_engine_kind)k, GG_OK;
   return gg_base_fail(err, GG_BAD_INPUT, "there is no engine called '%.40s'; there are md and dsmc", name);
 }
 

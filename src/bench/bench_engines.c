@@ -152,7 +152,7 @@ static double warmup_of(const engine_bench *e, int64_t n, bool quick)
 
 static const char *engine_name(const engine_bench *e)
 {
-  return gg_run_engine_ops_of(e->engine)->name;
+  return gg_common_engine_of(e->engine)->name;
 }
 
 static void put_rate(const gg_bench *b, gg_bench_table *t, const engine_bench *e, int row, int column, double phi,
@@ -440,7 +440,7 @@ static gg_status measure_overview(gg_bench *b, gg_bench_table *t, gg_engine_kind
                                   gg_error *err)
 {
   const bool quick = b->options->quick;
-  const char *name = gg_run_engine_ops_of(engine)->name;
+  const char *name = gg_common_engine_of(engine)->name;
   gg_throughput r[COUNT(kernels)];
   for (int k = 0; k < COUNT(kernels); k++) {
     gg_scene s = gg_bench_scene(b, engine, phi, n);

@@ -170,7 +170,7 @@ static bool find_scene_with(const gg_bench *b, const setting *c, const gg_observ
     memcpy(scene->gravity, gg_flow_of(scene->flow)->gravity, sizeof scene->gravity);
     for (int p = 0; p < GG_PAIRS; p++) scene->collision.beta[p] = beta;
     if (gg_scene_model_make(scene, c->engine, &model, NULL) != GG_OK) continue;
-    if (gg_run_engine_ops_of(c->engine)->accepts(&model, NULL) != GG_OK) continue;
+    if (gg_common_engine_of(c->engine)->accepts(&model, NULL) != GG_OK) continue;
     if (!o->refuses || !o->refuses(&model)) return true;
   }
   return false;
@@ -203,7 +203,7 @@ static gg_status measure(gg_bench *b, gg_bench_table *table, int row, int i, con
   json_t *overhead = json_pack("{s:f, s:f, s:f}", "overhead", cost.overhead, "overhead_lowest", cost.lowest,
                                "overhead_highest", cost.highest);
   gg_bench_table_add(b, table, cost.ns, overhead, "{s:s, s:s, s:f, s:I}", "observable", o->name, "engine",
-                     gg_run_engine_ops_of(c.engine)->name, "phi", c.phi, "particles", (json_int_t)c.n);
+                     gg_common_engine_of(c.engine)->name, "phi", c.phi, "particles", (json_int_t)c.n);
   return GG_OK;
 }
 
@@ -215,7 +215,7 @@ gg_status gg_bench_observables(gg_bench *b, gg_error *err)
   const int n_sizes = n_sizes_of(b), n_cases = 2 * N_DENSITIES * n_sizes;
   for (int i = 0; i < n_cases; i++) {
     setting c = setting_of(b, n_sizes, i);
-    gg_bench_table_column(table, true, "%s phi %g N %lld", gg_run_engine_ops_of(c.engine)->name, c.phi, (long long)c.n);
+    gg_bench_table_column(table, true, "%s phi %g N %lld", gg_common_engine_of(c.engine)->name, c.phi, (long long)c.n);
   }
   for (int k = 0; gg_measure_observables[k]; k++) {
     const int row = gg_bench_table_row(table, "%s", gg_measure_observables[k]->name);

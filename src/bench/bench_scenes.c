@@ -47,7 +47,7 @@ static gg_timed_scene timed_scene(const gg_bench *b, const single *s)
 
 static gg_status time_start(const gg_scene *scene, const gg_model *model, double *ns, gg_error *err)
 {
-  const gg_engine_ops *ops = gg_run_engine_ops_of(scene->engine);
+  const gg_engine_ops *ops = gg_common_engine_of(scene->engine);
   gg_engine *engine;
   const double began = gg_base_clock_cpu();
   GG_TRY(ops->create(model, scene->run.seed, 0, &engine, err));
@@ -93,7 +93,7 @@ gg_status gg_bench_scenes(gg_bench *b, gg_error *err)
   for (int k = 0; t && k < 5; k++) gg_bench_table_column(t, k > 1, "%s", head[k]);
   for (const single *s = singles; t && s < singles + N_SINGLES; s++) {
     gg_bench_value v;
-    const char *engine = gg_run_engine_ops_of(s->engine)->name;
+    const char *engine = gg_common_engine_of(s->engine)->name;
     GG_TRY(measure(b, s, &v, err));
     const int row = gg_bench_table_row(t, "%s", s->name);
     gg_bench_table_put(t, row, 1, "%s", engine);

@@ -101,7 +101,7 @@ static gg_status start(const gg_timed_scene *c, double warmup, timed *r, gg_erro
   gg_model model;
   uint64_t done;
   GG_TRY(gg_scene_model_make(scene, scene->engine, &model, err));
-  const gg_engine_ops *ops = gg_run_engine_ops_of(scene->engine);
+  const gg_engine_ops *ops = gg_common_engine_of(scene->engine);
   GG_TRY(ops->accepts(&model, err));
   GG_TRY(gg_run_start_near_steady(&model, err));
   GG_TRY(ops->create(&model, scene->run.seed, 0, &r->engine, err));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The engine interface. md and dsmc are peers behind it; other code does not test which one runs.
+/* The engine interface. md and dsmc are peers behind it: other code loops over the engines and asks what they can.
  *
  * Velocities are peculiar, C = c - shear_rate y x_hat, and spins are surface velocities s = (d/2) omega, both in model
  * units (common/model.h). Positions exist only where the engine has any. */
@@ -111,6 +111,7 @@ typedef struct gg_engine gg_engine;
 typedef struct gg_engine_ops {
   const char *name; /* "md" */
   const char *doc;  /* one line */
+  bool ensemble;    /* grains are samples of a distribution: their number is numerical, dsmc.particles */
   /* Can it run this model? GG_BAD_INPUT with a message naming the scene key otherwise. */
   gg_status (*accepts)(const gg_model *model, gg_error *err);
   /* Bytes that an engine of this model will take. */
@@ -165,7 +166,11 @@ struct gg_engine {
   const gg_engine_ops *ops; /* first member of every engine */
 };
 
-extern const gg_engine_ops gg_md_ops, gg_dsmc_ops;
-const gg_engine_ops *gg_run_engine_ops_of(gg_engine_kind kind);
+#define GG_ENGINE_OPS(KIND, name, title) extern const gg_engine_ops gg_##name##_ops;
+GG_ENGINES(GG_ENGINE_OPS)
+#undef GG_ENGINE_OPS
+
+/* engines.c: the engine of a kind. */
+const gg_engine_ops *gg_common_engine_of(int kind);
 
 #endif

@@ -3,7 +3,15 @@
 #ifndef GG_KINDS_H
 #define GG_KINDS_H
 
-typedef enum gg_engine_kind { GG_MD, GG_DSMC } gg_engine_kind;
+/* The engines, in the order in which results show them: X(KIND, name, title). A new engine is a row here, a folder, and
+ * its gg_<name>_ops (common/engine.h). Code that treats one engine in a way of its own names its kind and says why. */
+#define GG_ENGINES(X)                                                                                                  \
+  X(MD, md, "event-driven molecular dynamics")                                                                         \
+  X(DSMC, dsmc, "Enskog Monte Carlo")
+#define GG_ENGINE_KIND(KIND, name, title) GG_##KIND,
+typedef enum gg_engine_kind { GG_ENGINES(GG_ENGINE_KIND) GG_N_ENGINES } gg_engine_kind;
+#undef GG_ENGINE_KIND
+
 typedef enum gg_precision { GG_DOUBLE, GG_SINGLE } gg_precision;
 /* The flow that peculiar velocities are relative to, in flows without walls: the imposed flow, or means of cells (after
  * or before the imposed flow is subtracted). */

@@ -301,6 +301,7 @@ static void describe(const gg_model *model, void (*line)(void *context, const ch
 const gg_engine_ops gg_dsmc_ops = {
     .name = "dsmc",
     .doc = "Enskog Monte Carlo (direct simulation of the Enskog or Boltzmann equation)",
+    .ensemble = true,
     .accepts = accepts,
     .bytes = bytes,
     .create = create,

@@ -156,7 +156,7 @@ static void put_comparison_head(gg_csv *csv, const gg_stored_result *stored)
   json_t *theory;
   char text[96];
   put_words(csv, (const char *const[]){"quantity", "unit"}, 2);
-  for (int k = 0; k < 2; k++) put_engine_head(csv, gg_run_engine_ops_of((gg_engine_kind)k)->name);
+  for (int k = 0; k < GG_N_ENGINES; k++) put_engine_head(csv, gg_common_engine_of(k)->name);
   put_words(csv, (const char *const[]){"correlation_time_unit", "md_dsmc_z", "beyond_expected"}, 3);
   json_object_foreach(json_object_get(stored->document, "theory"), name, theory)
   {
@@ -180,7 +180,7 @@ static void put_comparison_row(gg_csv *csv, const gg_stored_result *stored, cons
   if (!quantity) return;
   gg_io_csv_text(csv, quantity);
   gg_io_csv_json(csv, json_object_get(row, "unit"));
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_N_ENGINES; k++) {
     const json_t *one = result_of(&stored->engine[k], quantity);
     put_members(csv, one, told, COUNT(told));
     gg_io_csv_json(csv, one ? json_object_get(stored->engine[k].document, "steady") : NULL);
@@ -258,7 +258,7 @@ static bool put_curve_numbers(gg_file_writer *out, const gg_stored_result *store
     put_words(&csv, head, COUNT(head));
     gg_io_csv_end_row(&csv);
   }
-  for (int k = 0; k < 2; k++)
+  for (int k = 0; k < GG_N_ENGINES; k++)
     if (stored->engine[k].name)
       any |= put_numbers_of(&csv, stored->engine[k].name, json_object_get(stored->engine[k].document, "curves"));
   json_object_foreach(json_object_get(stored->document, GG_THEORY_CURVES), theory, curves) any |=
@@ -323,7 +323,7 @@ static void add_curves(job *j)
 {
   const char *theory;
   json_t *curves;
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_N_ENGINES; k++) {
     const gg_stored_engine *e = &j->stored->engine[k];
     if (e->name) add_curves_of(j, j->stored->comparison ? e->name : "", json_object_get(e->document, "curves"));
   }

@@ -329,7 +329,7 @@ static void put_enskog_deviation(json_t *json, gg_engine_kind kind, const gg_dep
                  {"deviation", d->deviation},
                  {"deviation_error", d->deviation_error}};
   for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
-    snprintf(key, sizeof key, "%s_enskog_%s", gg_run_engine_ops_of(kind)->name, numbers[i].word);
+    snprintf(key, sizeof key, "%s_enskog_%s", gg_common_engine_of(kind)->name, numbers[i].word);
     if (isfinite(numbers[i].value)) json_object_set_new(json, key, json_real(numbers[i].value));
   }
 }
@@ -339,13 +339,15 @@ static json_t *row_json(const gg_comparison *c, const gg_quantity_row *named, js
 {
   gg_comparison_row row;
   gg_run_comparison_row(c, named, &row);
-  if (!isfinite(row.mean[GG_MD]) && !isfinite(row.mean[GG_DSMC])) return NULL;
+  bool some = false;
+  for (int k = 0; k < GG_N_ENGINES; k++) some |= isfinite(row.mean[k]);
+  if (!some) return NULL;
   json_t *json = json_pack("{s:s, s:s, s:o, s:b}", "quantity", row.name, "unit", row.unit, "md_dsmc_z",
                            json_number(row.z), "beyond_expected", row.beyond);
   if (!isfinite(row.z)) add_reason(warnings, "md_dsmc_z", row.name, "the mean or error of an engine is unknown");
-  for (int k = 0; k < 2; k++)
+  for (int k = 0; k < GG_N_ENGINES; k++)
     if (isfinite(row.mean[k])) put_deviations(json, c, k, named, warnings);
-  for (int k = 0; k < 2; k++) put_enskog_deviation(json, (gg_engine_kind)k, &row.departure[k]);
+  for (int k = 0; k < GG_N_ENGINES; k++) put_enskog_deviation(json, (gg_engine_kind)k, &row.departure[k]);
   return json;
 }
 
@@ -353,7 +355,7 @@ static json_t *engine_json(const gg_comparison *c, gg_engine_kind kind, json_t *
 {
   const gg_result *r = c->by_engine[kind];
   if (r) return gg_files_run_document(r);
-  json_array_append_new(warnings, json_sprintf("%s is null: %s", gg_run_engine_ops_of(kind)->name, c->refusal[kind]));
+  json_array_append_new(warnings, json_sprintf("%s is null: %s", gg_common_engine_of(kind)->name, c->refusal[kind]));
   return json_null();
 }
 
@@ -377,17 +379,19 @@ static json_t *comparison_document(const gg_comparison *c)
 {
   if (c->document) return gg_io_json_read(c->document, NULL); /* as it was stored */
   json_t *warnings = warnings_json(&c->warnings), *rows = json_array();
-  json_t *md = engine_json(c, GG_MD, warnings), *dsmc = engine_json(c, GG_DSMC, warnings);
-  json_t *theory = theories_json(c, warnings);
+  json_t *document = json_pack("{s:s, s:s, s:o}", "graingas", gg_base_build_version, "build", gg_base_build_identity,
+                               "scene", gg_scene_json(&c->scene));
+  for (int k = 0; k < GG_N_ENGINES; k++)
+    json_object_set_new(document, gg_common_engine_of(k)->name, engine_json(c, (gg_engine_kind)k, warnings));
+  json_object_set_new(document, "theory", theories_json(c, warnings));
   for (int i = 0; i < c->rows.n; i++) {
     json_t *row = row_json(c, &c->rows.row[i], warnings);
     if (row) json_array_append_new(rows, row);
   }
   warn_deviations(c, warnings);
-  json_t *document =
-      json_pack("{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version, "build",
-                gg_base_build_identity, "scene", gg_scene_json(&c->scene), "md", md, "dsmc", dsmc, "theory", theory,
-                "theories", about_json(c), "comparison", rows, "warnings", warnings);
+  json_object_set_new(document, "theories", about_json(c));
+  json_object_set_new(document, "comparison", rows);
+  json_object_set_new(document, "warnings", warnings);
   put_theory_curves(document, c);
   return document;
 }

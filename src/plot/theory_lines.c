@@ -41,5 +41,5 @@ json_t *gg_plot_theory_curves(const gg_stored_result *stored, const gg_stop *sto
   json_t *there = json_object_get(stored->document, GG_THEORY_CURVES);
   if (there) return json_incref(there);
   if (stored->comparison || has_law_of_its_own(stored->document)) return json_object();
-  return from_scene(stored->scene, stored->engine[GG_MD].name ? GG_MD : GG_DSMC, stop);
+  return from_scene(stored->scene, gg_files_stored_first(stored), stop);
 }

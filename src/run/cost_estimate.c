@@ -245,7 +245,7 @@ static void plan_file(gg_cost_estimate *f, const gg_scene *scene, const gg_model
 
 gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
 {
-  gg_cost_estimate f = {.engine = gg_run_engine_ops_of(engine)->bytes(m),
+  gg_cost_estimate f = {.engine = gg_common_engine_of(engine)->bytes(m),
                         .ns = engine == GG_MD ? pace_of_md(m) : pace_of_dsmc(m)};
   add_observables(&f, scene, m, engine);
   plan_time(&f, scene, m);
@@ -266,7 +266,7 @@ double gg_run_cost_dilute(const gg_scene *scene, const gg_model *md)
   double ratio = 0;
   gg_model *m = md->phi < DILUTE ? malloc(sizeof *m) : NULL;
   if (m && gg_scene_model_make(scene, GG_DSMC, m, NULL) == GG_OK &&
-      gg_run_engine_ops_of(GG_DSMC)->accepts(m, NULL) == GG_OK && measured(scene, m) == scene->measure)
+      gg_common_engine_of(GG_DSMC)->accepts(m, NULL) == GG_OK && measured(scene, m) == scene->measure)
     ratio = pace_of_md(md) / pace_of_dsmc(m);
   free(m);
   return ratio;

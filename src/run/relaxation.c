@@ -46,7 +46,7 @@ static gg_status make_model(const gg_scene *scene, const gg_model *model, int ch
   GG_TRY(gg_scene_protocol_apply(scene, changes, &then, err));
   then.fixed.contact_time = scene->fixed.contact_time;
   GG_TRY(gg_run_start_make(&then, NULL, model->stop, changed, err));
-  GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(changed, err));
+  GG_TRY(gg_common_engine_of(scene->engine)->accepts(changed, err));
   return gg_run_is_same_gas(model, changed)
              ? GG_OK
              : gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': at %g: this value of %s needs other grains or units",

@@ -29,7 +29,7 @@ gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_m
   r->trajectory_every = r->clock.frame_every = index == 0 ? scene->output.trajectory_every : 0;
   r->frames_of_window = leaves_out_warmup(scene);
   r->clock.velocity_factor = 1;
-  const gg_engine_ops *ops = gg_run_engine_ops_of(scene->engine);
+  const gg_engine_ops *ops = gg_common_engine_of(scene->engine);
   uint64_t stream = (uint64_t)index * GG_STREAMS_PER_REPLICA;
   gg_status status = gg_run_replica_setup_observables(r, scene, err);
   if (status == GG_OK) status = ops->create(model, scene->run.seed, stream, &r->engine, err);
@@ -386,7 +386,7 @@ gg_status gg_run_replica_restore(gg_replica *r, const gg_archive *a, const gg_sc
   if (status == GG_OK) status = restore_model(r, err);
   if (status == GG_OK) status = gg_run_replica_setup_observables(r, scene, err);
   if (status == GG_OK) status = check_clock(r, err);
-  if (status == GG_OK) status = gg_run_engine_ops_of(scene->engine)->restore(&r->model, a, &r->engine, err);
+  if (status == GG_OK) status = gg_common_engine_of(scene->engine)->restore(&r->model, a, &r->engine, err);
   if (status == GG_OK) status = gg_statistics_series_restore(&r->series, a, err);
   if (status == GG_OK) status = gg_run_replica_restore_observables(r, a, err);
   if (status == GG_OK) resume_frames(r);

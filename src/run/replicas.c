@@ -113,7 +113,7 @@ static void report_start(gg_replicas *all)
   const double now = gg_base_clock_wall(), limit = all->criteria.time_limit;
   if (now - fmax(all->started, all->start_reported) > between) {
     all->start_reported = now;
-    const gg_progress p = {.engine = gg_run_engine_ops_of(all->scene.engine)->name,
+    const gg_progress p = {.engine = gg_common_engine_of(all->scene.engine)->name,
                            .phase = "start",
                            .relative_error = NAN,
                            .time_left = NAN,
@@ -242,12 +242,12 @@ static gg_status prepare(gg_replicas *all, const gg_archive *resume, gg_error *e
   const gg_model *made = all->callbacks && !resume && scene->fixed.contact_time == GG_AUTO ? all->callbacks->model : NULL;
   if (resume) GG_TRY(gg_scene_resumption_settle(&all->scene, resume, err));
   GG_TRY(gg_run_start_make(scene, made, &all->stop, &all->model, err));
-  GG_TRY(gg_run_engine_ops_of(scene->engine)->accepts(&all->model, err));
+  GG_TRY(gg_common_engine_of(scene->engine)->accepts(&all->model, err));
   GG_TRY(check_until(all, err));
   GG_TRY(gg_run_relaxation_check(scene, &all->model, err));
   all->criteria = gg_run_criteria_of(scene, &all->model);
   const gg_cost_estimate cost = gg_run_cost_estimate(scene, &all->model, scene->engine);
-  GG_TRY(gg_run_cost_check_memory(&cost, gg_run_engine_ops_of(scene->engine)->name, scene->run.replicas, err));
+  GG_TRY(gg_run_cost_check_memory(&cost, gg_common_engine_of(scene->engine)->name, scene->run.replicas, err));
   all->replica = gg_base_array_new((size_t)all->n, sizeof *all->replica, err);
   return all->replica ? GG_OK : GG_FAILED;
 }
@@ -269,7 +269,7 @@ gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const 
   if (status == GG_OK) status = create_or_restore(all, resume, err);
   if (status == GG_INTERRUPTED && all->stopped == GG_OUT_OF_TIME)
     status = gg_base_fail(err, GG_FAILED, "%s: time limit reached before the start was done",
-                          gg_run_engine_ops_of(scene->engine)->name);
+                          gg_common_engine_of(scene->engine)->name);
   if (status != GG_OK) gg_run_replicas_clear(all);
   return status;
 }

@@ -65,7 +65,7 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   if (gg_base_memory_failures() == before || status != GG_OK) return status;
   gg_result_free(*out); /* it lacks a warning, or worse */
   *out = NULL;
-  return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", gg_run_engine_ops_of(scene->engine)->name);
+  return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", gg_common_engine_of(scene->engine)->name);
 }
 
 /* Curves of what the scene measures, so that nobody pays for others. A theory that has none here, of rough grains for
@@ -152,7 +152,8 @@ static void locked_progress(void *context, const gg_progress *progress)
   now.next = p->next;
   pthread_mutex_lock(p->lock);
   p->fraction[p->kind] = fmax(p->fraction[p->kind], now.fraction);
-  now.overall = 0.5 * (p->fraction[GG_MD] + p->fraction[GG_DSMC]);
+  now.overall = 0;
+  for (int k = 0; k < GG_N_ENGINES; k++) now.overall += p->fraction[k] / GG_N_ENGINES;
   p->callbacks->progress(p->callbacks->context, &now);
   pthread_mutex_unlock(p->lock);
 }
@@ -171,8 +172,8 @@ static gg_status store_both(part *p, const gg_archive *archive, gg_error *err)
 {
   gg_archive both = {0};
   gg_base_archive_clear(&p->latest[p->kind]);
-  gg_status status = gg_base_archive_nest(&p->latest[p->kind], gg_run_engine_ops_of(p->kind)->name, archive, err);
-  for (int k = 0; k < 2 && status == GG_OK; k++) status = gg_base_archive_append(&both, &p->latest[k], err);
+  gg_status status = gg_base_archive_nest(&p->latest[p->kind], gg_common_engine_of(p->kind)->name, archive, err);
+  for (int k = 0; k < GG_N_ENGINES && status == GG_OK; k++) status = gg_base_archive_append(&both, &p->latest[k], err);
   if (status == GG_OK) status = p->callbacks->checkpoint(p->callbacks->context, &both, err);
   gg_base_archive_clear(&both);
   return status;
@@ -230,7 +231,7 @@ static void control_part(void *context)
 
 /* One after the other, or side by side: then the tasks of both engines wait in one queue, md's controller is this
  * thread, and dsmc's one of its own, if there is one to be had. */
-static gg_status run_parts(part parts[2], bool beside, int threads, gg_error *err)
+static gg_status run_parts(part parts[GG_N_ENGINES], bool beside, int threads, gg_error *err)
 {
   gg_run_controller dsmc = {.started = false};
   const gg_run_callbacks *callbacks = parts[GG_MD].callbacks;
@@ -241,7 +242,7 @@ static gg_status run_parts(part parts[2], bool beside, int threads, gg_error *er
     GG_TRY(gg_run_scheduler_new(threads, false, &own, err));
     gg_run_scheduler_enter(scheduler = own);
   }
-  for (int k = 0; k < 2; k++) parts[k].scheduler = scheduler;
+  for (int k = 0; k < GG_N_ENGINES; k++) parts[k].scheduler = scheduler;
   const bool started = beside && gg_run_controller_start(&dsmc, control_part, &parts[GG_DSMC]);
   run_part(&parts[GG_MD]);
   if (!started && !*parts[GG_MD].broken) run_part(&parts[GG_DSMC]);
@@ -252,17 +253,26 @@ static gg_status run_parts(part parts[2], bool beside, int threads, gg_error *er
   return GG_OK;
 }
 
-static gg_status close_parts(part parts[2], gg_comparison *c, gg_error *err)
+/* No engine runs the scene: one reason, or one for each. */
+static gg_status refuse_all(const gg_comparison *c, gg_error *err)
 {
-  for (int k = 0; k < 2; k++) GG_TRY(close_part(&parts[k], err));
-  if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC] && strcmp(c->refusal[GG_MD], c->refusal[GG_DSMC]) == 0)
-    return gg_base_fail(err, GG_BAD_INPUT, "no engine can run this scene: %s", c->refusal[GG_MD]);
-  if (!c->by_engine[GG_MD] && !c->by_engine[GG_DSMC])
-    return gg_base_fail(err, GG_BAD_INPUT, "no engine can run this scene: md: %s; dsmc: %s", c->refusal[GG_MD],
-                        c->refusal[GG_DSMC]);
+  bool same = true;
+  char text[GG_N_ENGINES * 300] = "";
+  for (int k = 0; k < GG_N_ENGINES; k++) {
+    const size_t at = strlen(text);
+    same &= strcmp(c->refusal[k], c->refusal[0]) == 0;
+    snprintf(text + at, sizeof text - at, "%s%s: %s", k ? "; " : "", gg_common_engine_of(k)->name, c->refusal[k]);
+  }
+  return gg_base_fail(err, GG_BAD_INPUT, "no engine can run this scene: %s", same ? c->refusal[0] : text);
+}
+
+static gg_status close_parts(part parts[GG_N_ENGINES], gg_comparison *c, gg_error *err)
+{
+  for (int k = 0; k < GG_N_ENGINES; k++) GG_TRY(close_part(&parts[k], err));
+  if (!gg_run_comparison_first(c)) return refuse_all(c, err);
   const gg_status short_of[] = {GG_BAD_FILE, GG_INTERRUPTED, GG_FAILED};
   for (int i = 0; i < 3; i++)
-    for (int k = 0; k < 2; k++)
+    for (int k = 0; k < GG_N_ENGINES; k++)
       if (parts[k].status == short_of[i]) return gg_base_fail(err, short_of[i], "%s", parts[k].err.message);
   return GG_OK;
 }
@@ -292,7 +302,7 @@ static gg_status compare_theories_at_end(const gg_scene *scene, const gg_model *
 }
 
 static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, int threads,
-                               const gg_run_callbacks *callbacks, gg_model model[2], gg_comparison *c, gg_error *err)
+                               const gg_run_callbacks *callbacks, gg_model model[GG_N_ENGINES], gg_comparison *c, gg_error *err)
 {
   GG_TRY(make_model(scene, GG_MD, callbacks, &model[GG_MD], err));
   const bool dsmc = make_model(scene, GG_DSMC, callbacks, &model[GG_DSMC], NULL) == GG_OK;
@@ -300,19 +310,19 @@ static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, 
   GG_TRY(compare_theories_at_end(scene, &model[GG_MD], stop.asked ? &stop : NULL, c, err));
 
   pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-  gg_archive latest[2] = {{0}, {0}};
-  part parts[2];
-  double fraction[2] = {0, 0};
+  gg_archive latest[GG_N_ENGINES] = {0};
+  part parts[GG_N_ENGINES];
+  double fraction[GG_N_ENGINES] = {0};
   bool beside = threads > 1 || (callbacks && callbacks->workers), broken = false;
   gg_status status = GG_OK;
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_N_ENGINES; k++) {
     parts[k] =
         (part){.scene = *scene, .kind = (gg_engine_kind)k, .callbacks = callbacks, .comparison = c, .lock = &lock};
     parts[k].threads = beside ? (threads + 1) / 2 : 1;
     parts[k].latest = latest;
     parts[k].broken = &broken;
     parts[k].fraction = fraction;
-    const gg_engine_ops *ops = gg_run_engine_ops_of((gg_engine_kind)k);
+    const gg_engine_ops *ops = gg_common_engine_of(k);
     const char *name = ops->name;
     if (k == GG_MD || dsmc) parts[k].model = &model[k];
     if (k == GG_DSMC && !beside && dsmc && ops->accepts(&model[k], NULL) == GG_OK) parts[GG_MD].next = name;
@@ -323,7 +333,7 @@ static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, 
     status = gg_base_fail(err, GG_BAD_INPUT, "the checkpoint is not one of a comparison");
   if (status == GG_OK) status = run_parts(parts, beside, threads, err);
   if (status == GG_OK) status = close_parts(parts, c, err);
-  for (int k = 0; k < 2; k++) gg_base_archive_clear(&parts[k].resume), gg_base_archive_clear(&latest[k]);
+  for (int k = 0; k < GG_N_ENGINES; k++) gg_base_archive_clear(&parts[k].resume), gg_base_archive_clear(&latest[k]);
   pthread_mutex_destroy(&lock);
   return status;
 }
@@ -331,7 +341,7 @@ static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, 
 gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, int threads,
                                const gg_run_callbacks *callbacks, gg_comparison *c, gg_error *err)
 {
-  gg_model *model = gg_base_array_new(2, sizeof *model, err);
+  gg_model *model = gg_base_array_new(GG_N_ENGINES, sizeof *model, err);
   memset(c, 0, sizeof *c);
   c->scene = *scene;
   gg_common_extension_hold(c->scene.extension);
@@ -341,9 +351,16 @@ gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, 
   return status;
 }
 
+const gg_result *gg_run_comparison_first(const gg_comparison *c)
+{
+  for (int k = 0; k < GG_N_ENGINES; k++)
+    if (c->by_engine[k]) return c->by_engine[k];
+  return NULL;
+}
+
 void gg_run_comparison_clear(gg_comparison *c)
 {
-  for (int k = 0; k < 2; k++) gg_result_free(c->by_engine[k]);
+  for (int k = 0; k < GG_N_ENGINES; k++) gg_result_free(c->by_engine[k]);
   for (int i = 0; i < c->n_theories; i++) gg_measure_curves_clear(&c->theory[i].curves);
   gg_common_extension_release(c->scene.extension);
   gg_common_extension_release(c->own);

@@ -58,8 +58,8 @@ struct gg_comparison {
   gg_scene scene; /* holds its extension */
   gg_model model; /* md's */
   gg_quantity_rows rows;
-  gg_result *by_engine[2]; /* GG_MD, GG_DSMC; NULL where the engine cannot run the scene, with the reason below */
-  char refusal[2][256];
+  gg_result *by_engine[GG_N_ENGINES]; /* GG_MD, GG_DSMC; NULL where the engine cannot run the scene, with the reason below */
+  char refusal[GG_N_ENGINES][256];
   int n_theories;
   struct {
     const gg_theory *theory;
@@ -74,6 +74,9 @@ struct gg_comparison {
   bool of_one;             /* that file is one of a run */
   gg_extension *own;       /* names of what that file's program had brought; else NULL */
 };
+
+/* The result of the first engine that has one; NULL: none. */
+const gg_result *gg_run_comparison_first(const gg_comparison *comparison);
 
 /* `resume` (may be NULL): an archive that the checkpoint callback stored; each engine resumes from its part. Also after
  * a failure the comparison holds what there is, and is to be cleared. */

@@ -149,7 +149,7 @@ static const char *cause_of(const gg_comparison *c, const gg_theory_remark *r, d
 int gg_run_theory_remarks(const gg_comparison *c, gg_theory_remark remarks[GG_MOST_THEORIES])
 {
   gg_quantity headline[GG_N_QUANTITIES];
-  const gg_result *simulation = c->by_engine[GG_MD] ? c->by_engine[GG_MD] : c->by_engine[GG_DSMC];
+  const gg_result *simulation = gg_run_comparison_first(c);
   int n = 0, n_headline = gg_scene_is_followed(&c->scene) ? 0 : gg_run_headline_quantities(&c->model, headline);
   for (int i = 0; simulation && i < c->n_theories; i++) {
     gg_theory_remark r = {.theory = c->theory[i].theory};
@@ -170,7 +170,7 @@ void gg_run_comparison_row(const gg_comparison *c, const gg_quantity_row *named,
   const gg_quantity q = named->quantity;
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
   *row = (gg_comparison_row){.name = named->name, .symbol = *named->symbol ? named->symbol : NULL, .unit = named->unit};
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_N_ENGINES; k++) {
     const gg_estimate *e = estimate_of(c->by_engine[k], named);
     row->mean[k] = e ? e->mean : NAN, row->error[k] = e ? e->error : NAN;
     if (!gg_run_enskog_deviation(c, (gg_engine_kind)k, q, &row->departure[k]))

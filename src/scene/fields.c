@@ -16,8 +16,8 @@ static gg_word flow_word(int i)
   return i < GG_N_FLOWS ? (gg_word){gg_common_flows[i].word, i, gg_common_flows[i].doc} : (gg_word){0};
 }
 
-static const gg_word engines[] = {
-    {"md", GG_MD, "event-driven molecular dynamics"}, {"dsmc", GG_DSMC, "Enskog Monte Carlo"}, {0}};
+#define ENGINE_WORD(KIND, name, title) {#name, GG_##KIND, title},
+static const gg_word engines[] = {GG_ENGINES(ENGINE_WORD){0}};
 static const gg_word thermostats[] = {
     {"none", GG_NO_THERMOSTAT, "no thermostat; the default except in flows that need one"},
     {"gaussian", GG_GAUSSIAN, "force along the velocity that replaces the energy lost in collisions; spins get none"},

@@ -3,6 +3,7 @@
 
 #include <math.h>
 
+#include "common/engine.h"
 #include "scene/ensemble_size.h"
 
 /* Whole numbers of grains by species: the largest remainders are rounded up, among equal ones the first. */
@@ -62,7 +63,8 @@ static void set_composition(gg_model *m, const gg_scene *s, bool counted)
   }
 }
 
-/* Between walls the gap of dsmc is that of `particles` grains in md, to the last bit; its area grows with the ensemble. */
+/* Between walls the gap of dsmc is that of `particles` grains in md, to the last bit; its area grows with the ensemble.
+ */
 static void set_box(gg_model *m, const gg_scene *s)
 {
   gg_model md = {.n = s->particles};
@@ -234,19 +236,19 @@ static gg_status set_walls(gg_model *m, const gg_scene *s, gg_error *err)
 }
 
 /* What md and dsmc alone read. */
-static void set_engine(gg_model *m, const gg_scene *s, gg_engine_kind engine)
+static void set_engine(gg_model *m, const gg_scene *s)
 {
-  m->contact_time = m->elastic                            ? 0
-                    : s->md.contact_time != GG_AUTO       ? s->md.contact_time
-                    : s->fixed.contact_time != GG_AUTO    ? s->fixed.contact_time
-                    : m->gravity[1] != 0                  ? 1e-3
-                                                          : 1e-5;
+  m->contact_time = m->elastic                         ? 0
+                    : s->md.contact_time != GG_AUTO    ? s->md.contact_time
+                    : s->fixed.contact_time != GG_AUTO ? s->fixed.contact_time
+                    : m->gravity[1] != 0               ? 1e-3
+                                                       : 1e-5;
   m->time_step = s->dsmc.time_step;
   m->cuts_steps = gg_scene_is_followed(s);
   m->asked_error = gg_scene_ensemble_requested_error(s);
-  if (engine == GG_MD && !gg_flow_is_walled(s->flow)) m->frame = s->frame;
+  if (!m->ensemble && !gg_flow_is_walled(s->flow)) m->frame = s->frame;
   m->frame_cells = (int)s->frame_cells;
-  m->single = engine == GG_DSMC && s->dsmc.precision == GG_SINGLE;
+  m->single = m->ensemble && s->dsmc.precision == GG_SINGLE;
 }
 
 static void set_start(gg_model *m, const gg_scene *s)
@@ -269,9 +271,9 @@ static gg_status make(const gg_scene *s, gg_engine_kind engine, bool counted, gg
   if (m->law.name && m->linear_response)
     return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs a constant e: restitution law '%s' has a speed of its own",
                         gg_flow_of(s->flow)->word, m->law.name);
-  m->ensemble = engine == GG_DSMC;
+  m->ensemble = gg_common_engine_of((int)engine)->ensemble;
   m->homogeneous = m->ensemble && !gg_flow_is_walled(s->flow);
-  m->n = engine == GG_MD ? s->particles : gg_scene_ensemble_size(s);
+  m->n = m->ensemble ? gg_scene_ensemble_size(s) : s->particles;
   set_composition(m, s, counted);
   if (counted) GG_TRY(check_grains(m, s, err));
   set_box(m, s);
@@ -282,7 +284,7 @@ static gg_status make(const gg_scene *s, gg_engine_kind engine, bool counted, gg
   GG_TRY(set_walls(m, s, err));
   set_reference_speed(m, s);
   for (int a = 0; a < 3; a++) m->gravity[a] = gg_units_velocity(m->unit, s->gravity[a]) * m->unit.time;
-  set_engine(m, s, engine);
+  set_engine(m, s);
   GG_TRY(set_bath(m, s, err));
   set_start(m, s);
   return GG_OK;

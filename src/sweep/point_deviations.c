@@ -83,10 +83,10 @@ static void compare_row(gg_point_table *t, gg_cli_table_row *row, const gg_compa
 static gg_status restore(json_t *document, char *scene, gg_comparison *c, gg_error *err)
 {
   gg_stored_result stored = {.comparison = true, .scene = scene, .document = document};
-  for (int k = 0; k < 2; k++) {
-    static const char *const names[] = {[GG_MD] = "md", [GG_DSMC] = "dsmc"};
-    json_t *part = json_object_get(document, names[k]);
-    if (json_is_object(part)) stored.engine[k] = (gg_stored_engine){.name = names[k], .document = part};
+  for (int k = 0; k < GG_N_ENGINES; k++) {
+    const char *name = gg_common_engine_of(k)->name;
+    json_t *part = json_object_get(document, name);
+    if (json_is_object(part)) stored.engine[k] = (gg_stored_engine){.name = name, .document = part};
   }
   return gg_files_comparison_restore(&stored, c, err);
 }

@@ -205,7 +205,7 @@ static gg_status cost_of(const gg_scene *scene, gg_engine_kind engine, gg_cost_e
 {
   gg_model model;
   GG_TRY(gg_scene_model_make(scene, engine, &model, err));
-  GG_TRY(gg_run_engine_ops_of(engine)->accepts(&model, err));
+  GG_TRY(gg_common_engine_of(engine)->accepts(&model, err));
   *cost = gg_run_cost_estimate(scene, &model, engine);
   *warmup = (double)gg_run_criteria_of(scene, &model).warmup * GG_SAMPLING_INTERVAL;
   return GG_OK;
@@ -238,7 +238,7 @@ static gg_status estimate_point(const gg_sweep *sweep, gg_scene *scene, double *
   int64_t replicas = 1;
   gg_status some = GG_BAD_INPUT;
   const bool chosen = gg_scene_is_given(scene, "run.replicas");
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_N_ENGINES; k++) {
     gg_cost_estimate f;
     double warmup;
     if (does == GG_DOES_RUN && scene->engine != (gg_engine_kind)k) continue;

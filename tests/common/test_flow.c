@@ -64,7 +64,7 @@ static void defaults_run(void **state)
       gg_error err = {0};
       if (gg_scene_finish(&s, &err) != GG_OK) fail_msg("%s", err.message);
       assert_int_equal(gg_scene_model_make(&s, (gg_engine_kind)engine, &m, &err), GG_OK);
-      gg_status status = gg_run_engine_ops_of((gg_engine_kind)engine)->accepts(&m, &err);
+      gg_status status = gg_common_engine_of(engine)->accepts(&m, &err);
       if (gg_flow_runs_in((gg_flow)f, engine) && status != GG_OK) fail_msg("%s", err.message);
       if (gg_flow_runs_in((gg_flow)f, engine)) continue;
       assert_int_equal(status, GG_BAD_INPUT);

@@ -60,7 +60,7 @@ static void adds_up(void **state)
     double gone, velocity[2] = {0, 0};
     assert_int_equal(gg_scene_model_make(&s, which, &m, NULL), GG_OK);
     sums shown = {.model = &m};
-    const gg_engine_ops *ops = gg_run_engine_ops_of(which);
+    const gg_engine_ops *ops = gg_common_engine_of(which);
     for (int k = 0; k < 2; k++) {
       assert_int_equal(ops->create(&m, 5, 0, &e[k], NULL), GG_OK);
       ops->keep_sums(e[k], true);

@@ -89,7 +89,7 @@ static gg_engine *engine_of(const gg_scene *s, uint64_t seed, gg_model *m)
   gg_engine *g = NULL;
   gg_error err = {0};
   if (gg_scene_model_make(s, s->engine, m, &err) != GG_OK ||
-      gg_run_engine_ops_of(s->engine)->create(m, seed, 0, &g, &err) != GG_OK)
+      gg_common_engine_of(s->engine)->create(m, seed, 0, &g, &err) != GG_OK)
     fail_msg("%s", err.message);
   return g;
 }

@@ -39,7 +39,7 @@ static gg_engine *engine_of(const gg_model *m, gg_engine_kind kind, uint64_t see
 {
   gg_engine *g = NULL;
   gg_error err;
-  if (gg_run_engine_ops_of(kind)->create(m, seed, 0, &g, &err) != GG_OK) fail_msg("%s", err.message);
+  if (gg_common_engine_of(kind)->create(m, seed, 0, &g, &err) != GG_OK) fail_msg("%s", err.message);
   return g;
 }
 

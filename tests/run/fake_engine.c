@@ -166,10 +166,12 @@ static gg_status create(const gg_model *m, uint64_t seed, uint64_t stream, gg_en
   return GG_OK;
 }
 
-const gg_engine_ops *gg_run_engine_ops_of(gg_engine_kind kind)
+const gg_engine_ops *gg_common_engine_of(int kind)
 {
-  (void)kind;
-  return &ops;
+  static gg_engine_ops ensemble;
+  if (kind != GG_DSMC) return &ops;
+  ensemble = ops, ensemble.ensemble = true;
+  return &ensemble;
 }
 
 gg_scene planted_scene(double beta)

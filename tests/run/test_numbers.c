@@ -52,7 +52,7 @@ static void planted_in(const char *yaml, gg_engine_kind engine, int what)
   gg_model m;
   gg_replica r;
   gg_error err = {0};
-  if (gg_scene_model_make(&s, engine, &m, &err) != GG_OK || gg_run_engine_ops_of(engine)->accepts(&m, NULL) != GG_OK ||
+  if (gg_scene_model_make(&s, engine, &m, &err) != GG_OK || gg_common_engine_of(engine)->accepts(&m, NULL) != GG_OK ||
       (what == WHAT_SPIN && m.rule == GG_SMOOTH))
     return;
   if (gg_run_replica_create(&r, &s, &m, 0, &err) != GG_OK) fail_msg("%s: %s", yaml, err.message);

@@ -309,7 +309,7 @@ static void last_grains(const gg_scene *s, gg_model *m, gg_engine_grains *g)
   gg_engine *engine;
   gg_error err = {0};
   double elapsed;
-  const gg_engine_ops *ops = gg_run_engine_ops_of(s->engine);
+  const gg_engine_ops *ops = gg_common_engine_of(s->engine);
   assert_int_equal(gg_run_start_make(s, NULL, NULL, m, &err), GG_OK);
   if (ops->create(m, 1, 0, &engine, &err) != GG_OK)
     fail_msg("%s, %s: %s", gg_flow_of(s->flow)->word, ops->name, err.message);

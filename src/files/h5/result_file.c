@@ -392,14 +392,18 @@ gg_status gg_files_result_file_finish_run(gg_result_file *f, const gg_result *re
 
 gg_status gg_files_result_file_finish_comparison(gg_result_file *f, const gg_comparison *c, gg_error *err)
 {
-  const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
+  const gg_result *first = gg_run_comparison_first(c);
   f->scene = &c->scene;
   GG_TRY(create(f, false, err));
   write_document(f, &c->scene, gg_files_comparison_document(c));
   gg_h5_text_attribute(&f->now->h, "/graingas", "kind", "compare");
-  if (md) write_engine(&f->now->h, "/graingas/md", "/observables/md_", md);
-  if (dsmc) write_engine(&f->now->h, "/graingas/dsmc", "/observables/dsmc_", dsmc);
+  for (int k = 0; k < GG_N_ENGINES; k++) {
+    char group[64], observables[64];
+    snprintf(group, sizeof group, "/graingas/%s", gg_common_engine_of(k)->name);
+    snprintf(observables, sizeof observables, "/observables/%s_", gg_common_engine_of(k)->name);
+    if (c->by_engine[k]) write_engine(&f->now->h, group, observables, c->by_engine[k]);
+  }
   write_theories(&f->now->h, c);
-  if (md || dsmc) write_last_frame(f, md ? md : dsmc);
+  if (first) write_last_frame(f, first);
   return finish(f, err);
 }

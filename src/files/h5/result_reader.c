@@ -77,8 +77,8 @@ static void read_engine(gg_h5_in *h, gg_stored_engine *e, const char *group, con
 
 static void read_engines(gg_h5_in *h, gg_stored_result *s)
 {
-  for (int k = 0; k < 2; k++) {
-    const char *name = gg_run_engine_ops_of((gg_engine_kind)k)->name;
+  for (int k = 0; k < GG_N_ENGINES; k++) {
+    const char *name = gg_common_engine_of(k)->name;
     gg_stored_engine *e = &s->engine[k];
     char group[64] = "/graingas", observables[64] = "/observables/";
     json_t *document = s->document;
@@ -214,9 +214,16 @@ gg_status gg_files_stored_result_from_bytes(gg_stored_result *s, const void *byt
   return read_all(s, &in, "the bytes", err);
 }
 
+gg_engine_kind gg_files_stored_first(const gg_stored_result *s)
+{
+  int k = 0;
+  while (k < GG_N_ENGINES - 1 && !s->engine[k].name) k++;
+  return (gg_engine_kind)k;
+}
+
 void gg_files_stored_result_clear(gg_stored_result *s)
 {
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_N_ENGINES; k++) {
     free(s->engine[k].correlated);
     free(s->engine[k].coefficients);
     for (int i = 0; i < s->engine[k].n_series; i++) {

@@ -33,7 +33,7 @@ typedef struct gg_stored_result {
   bool comparison, changed;                         /* changed: by another program, since it was written */
   char *version, *command, *machine, *date, *scene; /* scene: YAML */
   json_t *document;
-  gg_stored_engine engine[2]; /* by gg_engine_kind */
+  gg_stored_engine engine[GG_N_ENGINES]; /* by gg_engine_kind */
   size_t n_frames, n_grains;  /* stored under /particles/grains */
   gg_frame last;              /* the last of them, rows in the order of the grains' numbers */
   double edge[3];             /* of its box along x, y, z; 0 where there are no positions */
@@ -45,6 +45,9 @@ void gg_files_stored_scene_update_words(char *yaml);
 
 gg_status gg_files_stored_result_read(gg_stored_result *stored, const char *path, gg_error *err);
 /* Likewise from what gg_files_result_file_open_in_memory left. */
+/* The first engine that the file has. */
+gg_engine_kind gg_files_stored_first(const gg_stored_result *stored);
+
 gg_status gg_files_stored_result_from_bytes(gg_stored_result *stored, const void *bytes, size_t size, gg_error *err);
 /* One line on what is unusual about it; "" if nothing is. */
 gg_status gg_files_stored_result_notice(const char *path, char *text, size_t size, gg_error *err);

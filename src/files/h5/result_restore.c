@@ -188,7 +188,7 @@ static gg_status restore_history(gg_result *r, const gg_stored_engine *e, gg_err
 static gg_status restore_frame(gg_result *r, const gg_stored_result *s, gg_error *err)
 {
   const gg_frame *from = &s->last;
-  bool its_own = !s->comparison || strcmp(r->engine, s->engine[GG_MD].name ? "md" : "dsmc") == 0;
+  bool its_own = !s->comparison || strcmp(r->engine, gg_common_engine_of(gg_files_stored_first(s))->name) == 0;
   if (!its_own || !from->velocity || from->n != (size_t)r->model.n) return GG_OK;
   gg_frame *to = &r->final;
   *to = (gg_frame){.time = from->time, .step = from->step, .n = from->n};
@@ -250,7 +250,7 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
   r->model.extension = r->own;
   gg_run_result_label(r);
   r->scene.engine = engine;
-  r->engine = gg_run_engine_ops_of(engine)->name;
+  r->engine = gg_common_engine_of(engine)->name;
   bool steady = json_is_true(json_object_get(e->document, "steady"));
   r->steadiness = steady ? GG_STEADY : r->model.steady || r->model.linear_response ? GG_NOT_STEADY : GG_HEATING;
   snprintf(r->steadiness_text, sizeof r->steadiness_text, "%s", gg_io_json_string(e->document, "verdict"));
@@ -336,10 +336,10 @@ static void restore_refusals(gg_comparison *c, const json_t *document)
 {
   size_t i;
   json_t *line;
-  json_array_foreach(json_object_get(document, "warnings"), i, line) for (int k = 0; k < 2; k++)
+  json_array_foreach(json_object_get(document, "warnings"), i, line) for (int k = 0; k < GG_N_ENGINES; k++)
   {
     char head[24];
-    int length = snprintf(head, sizeof head, "%s is null: ", gg_run_engine_ops_of((gg_engine_kind)k)->name);
+    int length = snprintf(head, sizeof head, "%s is null: ", gg_common_engine_of(k)->name);
     const char *said = json_string_value(line);
     if (said && strncmp(said, head, (size_t)length) == 0)
       snprintf(c->refusal[k], sizeof c->refusal[k], "%.250s", said + length);
@@ -349,7 +349,7 @@ static void restore_refusals(gg_comparison *c, const json_t *document)
 static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c, gg_error *err)
 {
   GG_TRY(gg_files_stored_scene(s, GG_MD, &c->scene, &c->model, err));
-  for (int k = 0; k < 2; k++)
+  for (int k = 0; k < GG_N_ENGINES; k++)
     if (s->engine[k].name)
       GG_TRY(gg_files_result_restore(s, (gg_engine_kind)k, &c->by_engine[k], err));
     else if (!s->comparison)
@@ -358,7 +358,7 @@ static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c,
     GG_TRY(restore_own(c, s->document, err));
     GG_TRY(restore_theories(c, s->document, err));
   } else {
-    const gg_result *one = c->by_engine[GG_MD] ? c->by_engine[GG_MD] : c->by_engine[GG_DSMC];
+    const gg_result *one = gg_run_comparison_first(c);
     c->model.extension = one ? one->model.extension : NULL;
     gg_run_rows_make(&c->model, &c->rows);
   }
