@@ -178,7 +178,7 @@ static gg_status check_start(const gg_scene *s, gg_error *err)
   gg_common_flow_list(takes_start, flows, sizeof flows);
   for (const gg_field *f = gg_scene_fields; f->key && !takes_start(s->flow); f++) {
     const char *here = (const char *)s + f->offset, *usual = (const char *)&defaults + f->offset;
-    if ((f->when & GG_IF_STARTED) && memcmp(here, usual, sizeof(double)) != 0)
+    if ((f->when & GG_BIT(GG_IF_STARTED)) && memcmp(here, usual, sizeof(double)) != 0)
       return gg_base_fail(err, GG_BAD_INPUT, "key '%s': flow: %s has a start of its own; allowed in flow: %s", f->key,
                           gg_flow_of(s->flow)->word, flows);
   }
@@ -265,60 +265,59 @@ static bool may_be_open(gg_flow flow)
 
 /* "KEY has no effect ..."; of those that depend on the flow alone, the flows stand between `otherwise` and `after`. */
 static const struct {
-  unsigned condition;
   const char *otherwise;
   bool (*flow)(gg_flow flow);
   const char *after;
   const char *when; /* the same as a condition; NULL: the flows say it */
-} conditions[] = {
-    {GG_IF_WALLED, "but between walls (flow: ", gg_flow_is_walled, ")", NULL},
-    {GG_IF_SHEARED, "but in flow: ", gg_flow_is_sheared, "", NULL},
-    {GG_IF_MOVING_WALLS, "but in flow: ", gg_flow_has_moving_walls, "", NULL},
-    {GG_IF_OPENABLE, "but in flow: ", may_be_open, "", NULL},
-    {GG_IF_MD, "with engine: dsmc", NULL, "", "engine md"},
-    {GG_IF_DSMC, "with engine: md", NULL, "", "engine dsmc"},
-    {GG_IF_COUNTED, "with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)", NULL, "",
-     "engine md; dsmc between walls, or above 5000"},
-    {GG_IF_BOXED, "with engine: dsmc, which has no box", NULL, "", "engine md, or walls"},
-    {GG_IF_ONE_ENGINE, "in a comparison; graingas run keeps trajectories and logs", NULL, "", "graingas run"},
-    {GG_IF_CONTACT_VALUE,
-     "but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0", NULL, "",
-     "one species and phi above 0, in theories, dsmc and white noise"},
-    {GG_IF_LOSSY, "where no collision loses energy", NULL, "", "collisions lose energy"},
-    {GG_IF_ERROR,
-     "but on the ensemble's size, in a gas without such means: elastic and sheared, elastic and alone, or cooling by a "
-     "law",
-     NULL, "", "the flow has headline quantities"},
-    {GG_IF_ROUGH, "on smooth grains, which do not spin", NULL, "", "rough grains"},
-    {GG_IF_LAW, "while collision.law is constant", NULL, "", "collision.law is not constant"},
-    {GG_IF_BETA, "while collision.beta is -1: smooth grains", NULL, "", "collision.beta is not -1"},
-    {GG_IF_FRICTION, "while collision.mu is 0: smooth grains", NULL, "", "collision.mu is not 0"},
-    {GG_IF_WALL_BETA, "while walls.beta is -1: smooth walls", NULL, "", "walls.beta is not -1"},
-    {GG_IF_WALL_FRICTION, "while walls.mu is 0: smooth walls", NULL, "", "walls.mu is not 0"},
-    {GG_IF_FRAMES, "while output.trajectory_every is 0", NULL, "", "output.trajectory_every is not 0"},
-    {GG_IF_UNWALLED, "between walls, where velocities are about the measured flow", NULL, "", "no walls"},
-    {GG_IF_CELLS, "while frame is imposed", NULL, "", "frame is not imposed"},
-    {GG_IF_BATH, "but with thermostat: bath", NULL, "", "thermostat bath"},
-    {GG_IF_GAUSSIAN, "but with thermostat: gaussian in flow: hss", NULL, "", "thermostat gaussian in flow hss"},
-    {GG_IF_NOISE, "but with thermostat: white_noise", NULL, "", "thermostat white_noise"},
-    {GG_IF_STARTED, "but in flow: ", takes_start, "", NULL},
-    {GG_IF_THERMAL_WALLS, "while walls.temperature is none", NULL, "", "walls.temperature is given"},
-    {GG_IF_ACCOMMODATION, "while walls.accommodation is 0", NULL, "", "walls.accommodation is not 0"},
-    {GG_IF_WALL_RULE, "while every contact with a wall is by its temperature: walls.accommodation is 1", NULL, "",
-     "walls.temperature is none, or walls.accommodation below 1"},
-    {GG_IF_AVERAGED, "while run.duration is given", NULL, "", "run.duration is none"},
-    {GG_IF_FOLLOWED, "while run.duration is none", NULL, "", "run.duration is given"},
+} conditions[GG_N_CONDITIONS] = {
+    [GG_IF_WALLED] = {"but between walls (flow: ", gg_flow_is_walled, ")", NULL},
+    [GG_IF_SHEARED] = {"but in flow: ", gg_flow_is_sheared, "", NULL},
+    [GG_IF_MOVING_WALLS] = {"but in flow: ", gg_flow_has_moving_walls, "", NULL},
+    [GG_IF_OPENABLE] = {"but in flow: ", may_be_open, "", NULL},
+    [GG_IF_MD] = {"with engine: dsmc", NULL, "", "engine md"},
+    [GG_IF_DSMC] = {"with engine: md", NULL, "", "engine dsmc"},
+    [GG_IF_COUNTED] = {"with engine: dsmc, whose ensemble has dsmc.particles (auto: at least 5000)", NULL, "",
+                       "engine md; dsmc between walls, or above 5000"},
+    [GG_IF_BOXED] = {"with engine: dsmc, which has no box", NULL, "", "engine md, or walls"},
+    [GG_IF_ONE_ENGINE] = {"in a comparison; graingas run keeps trajectories and logs", NULL, "", "graingas run"},
+    [GG_IF_CONTACT_VALUE] =
+        {"but on theories, engine: dsmc and the strength of white noise, with one species and phi above 0", NULL, "",
+         "one species and phi above 0, in theories, dsmc and white noise"},
+    [GG_IF_LOSSY] = {"where no collision loses energy", NULL, "", "collisions lose energy"},
+    [GG_IF_ERROR] = {"but on the ensemble's size, in a gas without such means: elastic and sheared, elastic and alone, "
+                     "or cooling by a "
+                     "law",
+                     NULL, "", "the flow has headline quantities"},
+    [GG_IF_ROUGH] = {"on smooth grains, which do not spin", NULL, "", "rough grains"},
+    [GG_IF_LAW] = {"while collision.law is constant", NULL, "", "collision.law is not constant"},
+    [GG_IF_BETA] = {"while collision.beta is -1: smooth grains", NULL, "", "collision.beta is not -1"},
+    [GG_IF_FRICTION] = {"while collision.mu is 0: smooth grains", NULL, "", "collision.mu is not 0"},
+    [GG_IF_WALL_BETA] = {"while walls.beta is -1: smooth walls", NULL, "", "walls.beta is not -1"},
+    [GG_IF_WALL_FRICTION] = {"while walls.mu is 0: smooth walls", NULL, "", "walls.mu is not 0"},
+    [GG_IF_FRAMES] = {"while output.trajectory_every is 0", NULL, "", "output.trajectory_every is not 0"},
+    [GG_IF_UNWALLED] = {"between walls, where velocities are about the measured flow", NULL, "", "no walls"},
+    [GG_IF_CELLS] = {"while frame is imposed", NULL, "", "frame is not imposed"},
+    [GG_IF_BATH] = {"but with thermostat: bath", NULL, "", "thermostat bath"},
+    [GG_IF_GAUSSIAN] = {"but with thermostat: gaussian in flow: hss", NULL, "", "thermostat gaussian in flow hss"},
+    [GG_IF_NOISE] = {"but with thermostat: white_noise", NULL, "", "thermostat white_noise"},
+    [GG_IF_STARTED] = {"but in flow: ", takes_start, "", NULL},
+    [GG_IF_THERMAL_WALLS] = {"while walls.temperature is none", NULL, "", "walls.temperature is given"},
+    [GG_IF_ACCOMMODATION] = {"while walls.accommodation is 0", NULL, "", "walls.accommodation is not 0"},
+    [GG_IF_WALL_RULE] = {"while every contact with a wall is by its temperature: walls.accommodation is 1", NULL, "",
+                         "walls.temperature is none, or walls.accommodation below 1"},
+    [GG_IF_AVERAGED] = {"while run.duration is given", NULL, "", "run.duration is none"},
+    [GG_IF_FOLLOWED] = {"while run.duration is none", NULL, "", "run.duration is given"},
 };
-enum { CONDITIONS = sizeof conditions / sizeof *conditions };
 
 void gg_scene_field_when(const gg_field *f, char *text, size_t size)
 {
   *text = '\0';
-  unsigned when = f->when;
-  if (when & (GG_IF_MOVING_WALLS | GG_IF_OPENABLE)) when &= ~(unsigned)GG_IF_WALLED; /* follows from the flow */
-  for (int i = 0; i < CONDITIONS; i++) {
+  uint64_t when = f->when;
+  if (when & (GG_BIT(GG_IF_MOVING_WALLS) | GG_BIT(GG_IF_OPENABLE)))
+    when &= ~GG_BIT(GG_IF_WALLED); /* follows from the flow */
+  for (int i = 0; i < GG_N_CONDITIONS; i++) {
     char flows[160];
-    if (!(when & conditions[i].condition)) continue;
+    if (!(when & GG_BIT(i))) continue;
     gg_base_text_append(text, size, "%s", *text ? "; " : "");
     if (conditions[i].flow) gg_common_flow_list(conditions[i].flow, flows, sizeof flows);
     gg_base_text_append(text, size, "%s%s", conditions[i].flow ? "flow " : "",
@@ -328,13 +327,13 @@ void gg_scene_field_when(const gg_field *f, char *text, size_t size)
 
 bool gg_scene_field_is_of(const gg_field *f, gg_flow flow)
 {
-  for (int i = 0; i < CONDITIONS; i++)
-    if ((f->when & conditions[i].condition) && conditions[i].flow && !conditions[i].flow(flow)) return false;
-  return !(f->when & GG_IF_UNWALLED) || !gg_flow_is_walled(flow);
+  for (int i = 0; i < GG_N_CONDITIONS; i++)
+    if ((f->when & GG_BIT(i)) && conditions[i].flow && !conditions[i].flow(flow)) return false;
+  return !(f->when & GG_BIT(GG_IF_UNWALLED)) || !gg_flow_is_walled(flow);
 }
 
 /* Conditions that depend on more than the flow. */
-static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
+static bool holds(gg_condition condition, const gg_scene *s, unsigned uses)
 {
   switch (condition) {
   case GG_IF_MD: return uses_md(s, uses);
@@ -370,7 +369,7 @@ static bool holds(unsigned condition, const gg_scene *s, unsigned uses)
 }
 
 /* Keys that have no effect, by the reason. Two more are of parts of keys; the last group has no keys. */
-enum { REASONS = CONDITIONS + 2 };
+enum { REASONS = GG_N_CONDITIONS + 2 };
 typedef struct group {
   char reason[160], keys[600];
   int n;
@@ -398,10 +397,10 @@ static bool differs(const gg_field *f, const void *base, const gg_scene *scene, 
 /* The reason in `text`, if the key has no effect. */
 static bool is_ineffective(const gg_field *f, const gg_scene *scene, unsigned uses, char *text, size_t size)
 {
-  for (int i = 0; i < CONDITIONS; i++) {
+  for (int i = 0; i < GG_N_CONDITIONS; i++) {
     char flows[160] = "";
-    if (!(f->when & conditions[i].condition)) continue;
-    if (conditions[i].flow ? conditions[i].flow(scene->flow) : holds(conditions[i].condition, scene, uses)) continue;
+    if (!(f->when & GG_BIT(i))) continue;
+    if (conditions[i].flow ? conditions[i].flow(scene->flow) : holds((gg_condition)i, scene, uses)) continue;
     if (conditions[i].flow) gg_common_flow_list(conditions[i].flow, flows, sizeof flows);
     return snprintf(text, size, "%s%s%s", conditions[i].otherwise, flows, conditions[i].after), true;
   }

@@ -9,8 +9,8 @@
 #include <stdio.h>
 
 #include "base/archive.h"
-#include "io/file_writer.h"
 #include "base/text.h"
+#include "io/file_writer.h"
 #include "scene/scene.h"
 
 typedef enum gg_field_type {
@@ -33,40 +33,43 @@ typedef struct gg_word {
   const char *doc;
 } gg_word;
 
-/* When a key has an effect: what a row names under `when`, a sum of these. checks.c evaluates them, in this order, and
- * has the reason why a key has none. */
-enum {
-  GG_IF_WALLED = 1u << 0,
-  GG_IF_SHEARED = 1u << 1,
-  GG_IF_MOVING_WALLS = 1u << 2,
-  GG_IF_OPENABLE = 1u << 3,
-  GG_IF_MD = 1u << 4,
-  GG_IF_DSMC = 1u << 5,
-  GG_IF_COUNTED = 1u << 6,
-  GG_IF_BOXED = 1u << 7,
-  GG_IF_ONE_ENGINE = 1u << 8,
-  GG_IF_CONTACT_VALUE = 1u << 9,
-  GG_IF_LOSSY = 1u << 10,
-  GG_IF_ERROR = 1u << 11,
-  GG_IF_ROUGH = 1u << 12,
-  GG_IF_LAW = 1u << 13,
-  GG_IF_BETA = 1u << 14,
-  GG_IF_FRICTION = 1u << 15,
-  GG_IF_WALL_BETA = 1u << 16,
-  GG_IF_WALL_FRICTION = 1u << 17,
-  GG_IF_FRAMES = 1u << 18,
-  GG_IF_UNWALLED = 1u << 19,
-  GG_IF_CELLS = 1u << 20,
-  GG_IF_BATH = 1u << 21,
-  GG_IF_GAUSSIAN = 1u << 22,
-  GG_IF_NOISE = 1u << 23,
-  GG_IF_STARTED = 1u << 24,
-  GG_IF_THERMAL_WALLS = 1u << 25,
-  GG_IF_WALL_RULE = 1u << 26,
-  GG_IF_ACCOMMODATION = 1u << 27,
-  GG_IF_AVERAGED = 1u << 28,
-  GG_IF_FOLLOWED = 1u << 29
-};
+/* Conditions for a key to have an effect. checks.c evaluates them in this order, and has the reason why a key has none.
+ */
+typedef enum gg_condition {
+  GG_IF_WALLED,
+  GG_IF_SHEARED,
+  GG_IF_MOVING_WALLS,
+  GG_IF_OPENABLE,
+  GG_IF_MD,
+  GG_IF_DSMC,
+  GG_IF_COUNTED,
+  GG_IF_BOXED,
+  GG_IF_ONE_ENGINE,
+  GG_IF_CONTACT_VALUE,
+  GG_IF_LOSSY,
+  GG_IF_ERROR,
+  GG_IF_ROUGH,
+  GG_IF_LAW,
+  GG_IF_BETA,
+  GG_IF_FRICTION,
+  GG_IF_WALL_BETA,
+  GG_IF_WALL_FRICTION,
+  GG_IF_FRAMES,
+  GG_IF_UNWALLED,
+  GG_IF_CELLS,
+  GG_IF_BATH,
+  GG_IF_GAUSSIAN,
+  GG_IF_NOISE,
+  GG_IF_STARTED,
+  GG_IF_THERMAL_WALLS,
+  GG_IF_WALL_RULE,
+  GG_IF_ACCOMMODATION,
+  GG_IF_AVERAGED,
+  GG_IF_FOLLOWED,
+  GG_N_CONDITIONS
+} gg_condition;
+#define GG_BIT(condition) (UINT64_C(1) << (condition))
+_Static_assert(GG_N_CONDITIONS <= 64, "gg_field.when has a bit for each");
 
 typedef struct gg_field {
   const char *key; /* dotted */
@@ -82,13 +85,13 @@ typedef struct gg_field {
   gg_word (*word)(int i);
   const char *unit, *doc;
   const char *besides; /* of numbers: what to do in place of a value that is not allowed */
-  unsigned when;       /* GG_IF_...: unless all of them hold, the key has no effect; 0: it always has */
+  uint64_t when;       /* sum of GG_BIT(GG_IF_...): unless all of them hold, the key has no effect; 0: it always has */
   const char *also;    /* what others call it, for messages: words separated by blanks */
   const char *older;   /* earlier spelling, which is accepted; NULL: none */
   bool may_change;     /* between the parts of a run that is resumed: it touches neither trajectory nor means */
 } gg_field;
 
-enum { GG_MAX_FIELDS = 60 };                     /* as many bits of gg_scene.given are used */
+enum { GG_MAX_FIELDS = GG_KEY_BITS };
 extern const gg_field gg_scene_fields[];         /* ends with a NULL key */
 extern const gg_field gg_scene_species_fields[]; /* likewise */
 extern const gg_word

@@ -53,6 +53,12 @@ typedef struct gg_change {
   char key[GG_CHANGE_TEXT], value[GG_CHANGE_TEXT];
 } gg_change;
 
+/* A set of keys: a bit per row of the field table. */
+enum { GG_KEY_BITS = 128 };
+typedef struct gg_scene_keys {
+  uint64_t bits[GG_KEY_BITS / 64];
+} gg_scene_keys;
+
 typedef struct gg_scene gg_scene; /* graingas.h: what the scene is for users */
 struct gg_scene {
   gg_flow flow;
@@ -118,7 +124,7 @@ struct gg_scene {
   gg_extension *extension; /* what the user's program adds; NULL: nothing. The scene of the interface holds it, copies
                               of its values borrow it */
   gg_scene_fixed fixed;
-  uint64_t given;          /* keys that the user gave: a bit per row of the field table */
+  gg_scene_keys given; /* keys that the user gave */
 };
 
 /* Is the temperature of the start the only scale of velocities? Then it makes the unit v_0. */

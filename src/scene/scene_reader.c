@@ -33,7 +33,7 @@ static gg_status apply_members(gg_scene_reader *r, const char *section, const ya
 
 static gg_status read_key(gg_scene_reader *r, int id, const gg_field *f, const char *key, const yaml_node_t *value)
 {
-  r->scene->given |= (uint64_t)1 << id;
+  r->scene->given.bits[id / 64] |= (uint64_t)1 << id % 64;
   return gg_scene_read_value(r, f, key, value, r->scene);
 }
 
