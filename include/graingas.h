@@ -72,9 +72,15 @@ typedef enum gg_status {
   GG_INTERRUPTED = 130 /* stopped by the caller */
 } gg_status;
 
+typedef enum gg_cause {
+  GG_CAUSE_OTHER,   /* the message says it */
+  GG_CAUSE_COLLAPSE /* inelastic collapse: a larger md.contact_time prevents it */
+} gg_cause;
+
 typedef struct gg_error {
   gg_status status;
   char message[1024]; /* for people: what is wrong, where, what is allowed */
+  gg_cause cause;     /* for programs that act on it */
 } gg_error;
 #endif
 

@@ -174,11 +174,14 @@ static gg_status advance_once(gg_simulation *s, double *time, uint64_t *most, gg
   *most = happened < *most ? *most - happened : 0;
   if (status == GG_OK) status = settle_callback(s, err);
   if (status != GG_OK) return status;
-  if (happened >= pile)
-    return gg_base_fail(err, GG_FAILED,
-                        "%s: inelastic collapse near time %g: collisions accumulate without end; give "
-                        "md.contact_time a larger value",
-                        s->engine->ops->name, s->clock.time);
+  if (happened >= pile) {
+    gg_base_fail(err, GG_FAILED,
+                 "%s: inelastic collapse near time %g: collisions accumulate without end; give md.contact_time a larger "
+                 "value",
+                 s->engine->ops->name, s->clock.time);
+    if (err) err->cause = GG_CAUSE_COLLAPSE;
+    return GG_FAILED;
+  }
   return rescale_if_cold(s, gg_api_simulation_temperature(s), err);
 }
 

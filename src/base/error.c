@@ -41,7 +41,7 @@ gg_status gg_base_fail(gg_error *err, gg_status status, const char *format, ...)
     vsnprintf(whole, sizeof whole, format, args);
     va_end(args);
     put(err, whole);
-    err->status = status;
+    err->status = status, err->cause = GG_CAUSE_OTHER;
   }
   return status;
 }

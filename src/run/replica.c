@@ -193,7 +193,7 @@ static double temperature_now(const gg_replica *r)
   return exp(o->log_temperature(row) + 2 * M_LN2 * (double)r->clock.power);
 }
 
-/* What is no number is so for ever: better said at once. */
+/* NaN never recovers: fail now. */
 static gg_status check_numbers(const gg_replica *r, gg_error *err)
 {
   if (isfinite(r->clock.temperature)) return GG_OK;
@@ -201,20 +201,15 @@ static gg_status check_numbers(const gg_replica *r, gg_error *err)
                       r->clock.time);
 }
 
-#define COLLAPSE "collisions accumulate without end"
-
-bool gg_run_is_collapse(const gg_error *err)
-{
-  return strstr(err->message, COLLAPSE) != NULL;
-}
-
 gg_status gg_run_replica_collapsed(const gg_replica *r, gg_error *err)
 {
   const char *unit = gg_common_model_contact_unit(&r->model), *name = r->engine->ops->name;
-  return gg_base_fail(err, GG_FAILED,
-                      "%s: " COLLAPSE " (inelastic collapse) near time %g; "
-                      "give md.contact_time a larger value (it is %g %s)",
-                      name, r->clock.time, r->model.contact_time, unit);
+  gg_base_fail(err, GG_FAILED,
+               "%s: collisions accumulate without end (inelastic collapse) near time %g; give md.contact_time a larger "
+               "value (it is %g %s)",
+               name, r->clock.time, r->model.contact_time, unit);
+  if (err) err->cause = GG_CAUSE_COLLAPSE;
+  return GG_FAILED;
 }
 
 /* An interval is over before its time where the rate has risen, as from a start in the cold: then grains are as fast as

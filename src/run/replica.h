@@ -74,9 +74,8 @@ gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, co
 /* Is the interval between samples that of grains as fast as these are? Not while it still follows a burst of collisions
  * that only lasted for a while. */
 bool gg_run_replica_settled(const gg_replica *r);
-/* Collisions accumulate without end: GG_FAILED, with what to do. Other processes send the message alone. */
+/* Report that collisions accumulate without end: GG_FAILED with GG_CAUSE_COLLAPSE. */
 gg_status gg_run_replica_collapsed(const gg_replica *r, gg_error *err);
-bool gg_run_is_collapse(const gg_error *err);
 
 /* Averaging begins at the next sample. */
 gg_status gg_run_replica_open_window(gg_replica *r, gg_error *err);

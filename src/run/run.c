@@ -54,7 +54,7 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   gg_status status = gg_run_replicas_create(all, scene, resume, threads, callbacks, err);
   bool created = status == GG_OK;
   if (created) status = run_replicas(all, out, err);
-  while (created && status == GG_FAILED && !*out && gg_run_is_collapse(err) && gg_run_replicas_can_raise(all)) {
+  while (created && status == GG_FAILED && !*out && err->cause == GG_CAUSE_COLLAPSE && gg_run_replicas_can_raise(all)) {
     status = gg_run_replicas_raise(all, threads, err);
     created = status == GG_OK;
     if (created) status = run_replicas(all, out, err);

@@ -21,8 +21,8 @@ static void describe_trend(const gg_convergence *c, double window, char *text, s
              name, 100 * c->trend_relative, fabs(c->trend_z));
 }
 
-/* Of grains with weak friction spins may lose less energy than velocities do for ever: theta/T grows by decades, and
- * scatters too much for a trend to show. */
+/* Does theta/T grow without end? With weak friction spins may lose less energy than velocities do: theta/T then grows
+ * by decades, and scatters too much for a trend to show. */
 static bool spins_run_away(const gg_result *r, double *ratio)
 {
   const gg_history *h = &r->history;
@@ -35,64 +35,125 @@ static bool spins_run_away(const gg_result *r, double *ratio)
   return false;
 }
 
-void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *c, gg_result *result)
+typedef enum verdict {
+  FOLLOWED,
+  WITHOUT_LOSS,
+  ARRESTED,
+  IN_WARMUP,
+  NOTHING_MEASURED,
+  SPINS_RUN_AWAY,
+  TRENDING,
+  NO_SAMPLE,
+  SHORTER_THAN_SLOWEST_MODE,
+  LINEAR_RESPONSE,
+  FEW_CORRELATION_TIMES,
+  ONE_MODE_DOMINATES,
+  NO_TREND
+} verdict;
+
+/* What the words need. */
+typedef struct window {
+  double samples;  /* of one replica */
+  double sampled;  /* by all replicas */
+  double happened; /* collisions per grain */
+} window;
+
+static verdict decide(const gg_replicas *all, const gg_convergence *c, const gg_result *result, window w)
 {
-  uint64_t window = all->state.due - all->state.window_at;
-  char *text = result->steadiness_text;
-  size_t size = sizeof result->steadiness_text;
-  double sampled = (double)window * all->n; /* by all replicas */
-  double happened = 2 * (double)result->averaging.collisions / ((double)all->model.n * all->n);
   double ratio;
-  result->steadiness = GG_NOT_STEADY;
-  if (gg_scene_is_followed(&all->scene)) {
-    result->steadiness = GG_HEATING;
-    char when[40] = "the end";
-    if (all->state.due < all->criteria.most)
-      snprintf(when, sizeof when, "time %.3g", gg_run_relaxation_time(&all->scene, all->state.due));
-    snprintf(text, size, "followed in time, %d replica%s: values are those at %s", all->n, all->n > 1 ? "s" : "", when);
-  } else if (!all->model.steady && !all->model.linear_response) {
-    result->steadiness = GG_HEATING;
+  if (gg_scene_is_followed(&all->scene)) return FOLLOWED;
+  if (!all->model.steady && !all->model.linear_response) return WITHOUT_LOSS;
+  if (all->state.arrest_share > 0) return ARRESTED;
+  if (!all->state.averaging) return IN_WARMUP;
+  if (all->replica[0].series.width == 0) return NOTHING_MEASURED; /* not even modes of the gap */
+  if (spins_run_away(result, &ratio)) return SPINS_RUN_AWAY;
+  if (c->trending) return TRENDING;
+  if (w.samples == 0) return NO_SAMPLE;
+  if (w.samples < (double)all->criteria.least_steady) return SHORTER_THAN_SLOWEST_MODE;
+  if (all->model.linear_response) return LINEAR_RESPONSE;
+  if (w.samples < GG_LEAST_CORRELATION_TIMES * c->slowest) return FEW_CORRELATION_TIMES;
+  if (c->slow_mode >= 0 && w.sampled < c->slow_mode_least * c->slow_mode_time) return ONE_MODE_DOMINATES;
+  return NO_TREND;
+}
+
+static void describe_followed(const gg_replicas *all, char *text, size_t size)
+{
+  char when[40] = "the end";
+  if (all->state.due < all->criteria.most)
+    snprintf(when, sizeof when, "time %.3g", gg_run_relaxation_time(&all->scene, all->state.due));
+  snprintf(text, size, "followed in time, %d replica%s: values are those at %s", all->n, all->n > 1 ? "s" : "", when);
+}
+
+static void describe_spins(const gg_result *result, char *text, size_t size)
+{
+  double ratio;
+  char beyond[32] = "infinity";
+  spins_run_away(result, &ratio);
+  if (isfinite(ratio)) snprintf(beyond, sizeof beyond, "%.2g", ratio);
+  snprintf(text, size,
+           "theta/T grows without end, and has come to %s: friction takes less from spins than collisions from "
+           "velocities",
+           beyond);
+}
+
+static void describe_linear_response(const gg_model *model, char *text, size_t size)
+{
+  const gg_linear_response s = gg_common_linear_response_of(model);
+  snprintf(text, size, "%s: reduced shear rate a* from %g to %g again and again, viscosity extrapolated to a* = 0",
+           s.cools ? "linear response of the cooling gas" : "linear response of the heated gas",
+           s.cools ? s.low : s.high, s.cools ? s.high : s.low);
+}
+
+static void describe(verdict v, const gg_replicas *all, const gg_convergence *c, const gg_result *result, window w,
+                     char *text, size_t size)
+{
+  switch (v) {
+  case FOLLOWED: describe_followed(all, text, size); return;
+  case WITHOUT_LOSS:
     snprintf(text, size, "no steady state exists: collisions lose no energy and shear heats the gas");
-  } else if (all->state.arrest_share > 0) {
+    return;
+  case ARRESTED:
     snprintf(text, size, "the grains have come to rest or nearly so: %.0f %% of collisions are contacts that last",
              100 * all->state.arrest_share);
-  } else if (!all->state.averaging) {
-    snprintf(text, size, "the run ended in its warm-up");
-  } else if (all->replica[0].series.width == 0) { /* not even modes of the gap */
-    snprintf(text, size, "unknown: nothing is measured (rheology is needed)");
-  } else if (spins_run_away(result, &ratio)) {
-    char beyond[32] = "infinity";
-    if (isfinite(ratio)) snprintf(beyond, sizeof beyond, "%.2g", ratio);
-    snprintf(text, size,
-             "theta/T grows without end, and has come to %s: friction takes less from spins than collisions from "
-             "velocities",
-             beyond);
-  } else if (c->trending) {
-    describe_trend(c, happened, text, size);
-  } else if (window == 0) {
-    snprintf(text, size, "too short to tell: no sample was averaged over");
-  } else if (window < all->criteria.least_steady) {
+    return;
+  case IN_WARMUP: snprintf(text, size, "the run ended in its warm-up"); return;
+  case NOTHING_MEASURED: snprintf(text, size, "unknown: nothing is measured (rheology is needed)"); return;
+  case SPINS_RUN_AWAY: describe_spins(result, text, size); return;
+  case TRENDING: describe_trend(c, w.happened, text, size); return;
+  case NO_SAMPLE: snprintf(text, size, "too short to tell: no sample was averaged over"); return;
+  case SHORTER_THAN_SLOWEST_MODE:
     snprintf(text, size, "too short to tell: averaged over %.0f collisions a grain, the slowest mode asks for %.0f",
-             happened, (double)all->criteria.least_steady * happened / (double)window);
-  } else if (all->model.linear_response) {
-    result->steadiness = GG_STEADY;
-    gg_linear_response s = gg_common_linear_response_of(&all->model);
-    snprintf(text, size, "%s: reduced shear rate a* from %g to %g again and again, viscosity extrapolated to a* = 0",
-             s.cools ? "linear response of the cooling gas" : "linear response of the heated gas",
-             s.cools ? s.low : s.high, s.cools ? s.high : s.low);
-  } else if ((double)window < GG_LEAST_CORRELATION_TIMES * c->slowest) {
+             w.happened, (double)all->criteria.least_steady * w.happened / w.samples);
+    return;
+  case LINEAR_RESPONSE: describe_linear_response(&all->model, text, size); return;
+  case FEW_CORRELATION_TIMES:
     snprintf(text, size,
              "too short to tell: averaged over %.1f correlation times of the slowest quantity, %d are needed",
-             (double)window / c->slowest, GG_LEAST_CORRELATION_TIMES);
-  } else if (c->slow_mode >= 0 && sampled < c->slow_mode_least * c->slow_mode_time) {
+             w.samples / c->slowest, GG_LEAST_CORRELATION_TIMES);
+    return;
+  case ONE_MODE_DOMINATES:
     snprintf(text, size,
              "too short to tell: one mode dominates, %s, which wanders with a correlation time of %.2g collisions a "
              "grain; averaged over %.1f of these, %d are needed",
              gg_measure_wall_mode_name(c->slow_mode), c->slow_mode_time * GG_SAMPLING_INTERVAL,
-             sampled / c->slow_mode_time, c->slow_mode_least);
-  } else {
-    result->steadiness = GG_STEADY;
+             w.sampled / c->slow_mode_time, c->slow_mode_least);
+    return;
+  case NO_TREND:
     snprintf(text, size, "no trend over %.0f collisions a grain, %.0f correlation times of the slowest quantity",
-             happened, (double)window / c->slowest);
+             w.happened, w.samples / c->slowest);
+    return;
   }
+}
+
+void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *c, gg_result *result)
+{
+  const double samples = (double)(all->state.due - all->state.window_at);
+  const window w = {.samples = samples,
+                    .sampled = samples * all->n,
+                    .happened = 2 * (double)result->averaging.collisions / ((double)all->model.n * all->n)};
+  const verdict v = decide(all, c, result, w);
+  result->steadiness = v == LINEAR_RESPONSE || v == NO_TREND ? GG_STEADY
+                       : v == FOLLOWED || v == WITHOUT_LOSS  ? GG_HEATING
+                                                             : GG_NOT_STEADY;
+  describe(v, all, c, result, w, result->steadiness_text, sizeof result->steadiness_text);
 }

@@ -190,7 +190,7 @@ static int wait_inside(void *context)
 static void *collide_there(void *context)
 {
   meeting *t = context;
-  gg_error err = {GG_OK, ""};
+  gg_error err = {0};
   gg_status status = gg_simulation_collide(t->m, 20000, &err);
   return status == GG_OK ? NULL : t;
 }
@@ -274,7 +274,7 @@ static int refusals;
 static void use_session(void *context, void *own, const gg_sample *sample, double *values)
 {
   (void)context, (void)own, (void)sample;
-  gg_error err = {GG_OK, ""};
+  gg_error err = {0};
   gg_result *result = NULL;
   int over;
   values[0] = 1;

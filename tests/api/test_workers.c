@@ -350,6 +350,7 @@ static void failures_come_home(void **state)
   mailbox_close(&p, 2);
   assert_int_equal(status, GG_FAILED);
   assert_non_null(strstr(other.message, "collapse"));
+  assert_int_equal(other.cause, GG_CAUSE_COLLAPSE);
   gg_result_free(r);
   gg_scene_free(scene);
 }
