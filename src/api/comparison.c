@@ -13,7 +13,7 @@
 #include "files/h5/result_file.h"
 #include "files/h5/result_restore.h"
 #include "files/result_document.h"
-#include "run/relaxation.h"
+#include "run/protocol_times.h"
 #include "run/z_scores.h"
 #include "scene/fields.h"
 #include "scene/model_of_scene.h"
@@ -54,7 +54,7 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   c->scene = finished;
   gg_common_extension_hold(c->scene.extension);
   gg_scene end;
-  GG_TRY(gg_run_relaxation_end_scene(&c->scene, &end, err));
+  GG_TRY(gg_run_protocol_end_scene(&c->scene, &end, err));
   GG_TRY(gg_scene_model_for_theories(&end, model, err));
   model->stop = stop;
   bool wanted[GG_MOST_THEORIES] = {false};

@@ -14,6 +14,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "run/replica.h"
+#include "run/series_means.h"
 
 static const char state_item[] = "log/state", sums_item[] = "log/sums";
 static const char csv_begins[] = "sample,time,", json_begins[] = "{\"sample\": ";

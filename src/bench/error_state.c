@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "run/replicas.h"
+#include "run/series_means.h"
 #include "scene/model_of_scene.h"
 #include "theory/theory_list.h"
 

@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "run/replicas.h"
+#include "run/series_means.h"
 #include "statistics/trend.h"
 
 /* A difference between earlier and later beyond this many errors is a trend: with five quantities tested a few times,
@@ -13,60 +14,9 @@
 /* ... unless it is too small to matter beside the requested error. */
 #define TREND_NEGLIGIBLE 1e-4
 
-int gg_run_replica_find_function(const gg_replica *r, gg_quantity q, gg_function *f)
-{
-  if (gg_common_quantity_missing(&r->model, q)) return -1;
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->width && gg_measure_derived_find(r->observable[k]->derived, q, f)) return k;
-  return -1;
-}
-
 static int find_function(const gg_replicas *all, gg_quantity q, gg_function *f)
 {
   return gg_run_replica_find_function(&all->replica[0], q, f);
-}
-
-/* The series of every replica; to be freed. */
-static const gg_series **series_of(const gg_replicas *all, gg_error *err)
-{
-  const gg_series **series = gg_base_array_new((size_t)all->n, sizeof *series, err);
-  for (int r = 0; series && r < all->n; r++) series[r] = &all->replica[r].series;
-  return series;
-}
-
-gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err)
-{
-  *mean = (gg_mean){.mean = NAN, .error = NAN, .correlation_rows = 0.5};
-  gg_function f;
-  const int k = find_function(all, q, &f);
-  if (k < 0) return GG_OK;
-  gg_slow_modes slow;
-  GG_TRY(gg_run_replicas_slow_modes(all, &slow, err));
-  const gg_series **series = series_of(all, err);
-  if (!series) return GG_FAILED;
-  const gg_replica *first = &all->replica[0];
-  gg_status status = gg_statistics_estimate_mean(series, (size_t)all->n, first->series.window, first->series.n,
-                                                 first->offset[k], first->observable[k]->width(&all->model), f,
-                                                 &all->model, slow.time / (double)first->series.per_row, mean, err);
-  free(series);
-  double rows = (double)gg_series_window_rows(&first->series) * all->n;
-  mean->error *= gg_run_criteria_margin(&all->criteria, mean->correlation_rows, rows);
-  return status;
-}
-
-gg_status gg_run_replicas_blocks(const gg_replicas *all, gg_quantity q, size_t length, double *blocks, gg_error *err)
-{
-  gg_function f;
-  const int k = find_function(all, q, &f);
-  if (k < 0) return GG_OK;
-  const gg_series **series = series_of(all, err);
-  if (!series) return GG_FAILED;
-  const gg_replica *first = &all->replica[0];
-  gg_status status =
-      gg_statistics_response_blocks(series, (size_t)all->n, first->series.window, first->series.n, first->offset[k],
-                                    first->observable[k]->width(&all->model), f, &all->model, length, blocks, err);
-  free(series);
-  return status;
 }
 
 /* At the end of the list, unless it is there, or not measured. */

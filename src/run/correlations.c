@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "run/replicas.h"
+#include "run/series_means.h"
 
 /* Rows of all replicas are averaged into so many: estimates of all pairs cost little, and blocks of ten correlation
  * times are longer still. */

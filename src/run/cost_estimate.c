@@ -11,7 +11,7 @@
 #include "common/thermostat.h"
 #include "measure/mesh.h"
 #include "measure/observable.h"
-#include "run/relaxation.h"
+#include "run/protocol_times.h"
 #include "run/replica.h"
 #include "run/replicas.h"
 #include "scene/model_of_scene.h"
@@ -194,7 +194,7 @@ static void plan_time(gg_cost_estimate *f, const gg_scene *scene, const gg_model
   const gg_stopping_criteria p = gg_run_criteria_of(scene, m);
   double window = (double)p.most * GG_SAMPLING_INTERVAL;
   const bool followed = gg_scene_is_followed(scene);
-  if (followed) window = gg_run_relaxation_collisions(scene, m);
+  if (followed) window = gg_run_protocol_collisions(scene, m);
   if (p.relative_error > 0 && !followed) {
     double least = (double)p.least * GG_SAMPLING_INTERVAL, needed = for_error(scene, m);
     needed = fmax(1.5 * least, 1.15 * needed);

@@ -7,7 +7,7 @@
 #include "base/memory.h"
 #include "measure/observable.h"
 #include "measure/wall_modes.h"
-#include "run/relaxation.h"
+#include "run/protocol_times.h"
 #include "run/replica.h"
 #include "scene/fields.h"
 
@@ -37,7 +37,7 @@ static gg_status each_requested(const gg_scene *scene, const gg_model *model, vi
   const bool changes = gg_scene_protocol_count(scene, INFINITY) > 0;
   gg_model *end = changes ? gg_base_array_new(1, sizeof *end, err) : NULL;
   if (changes && !end) return GG_FAILED;
-  gg_status status = changes ? gg_run_relaxation_end_model(scene, engine, end, err) : GG_OK;
+  gg_status status = changes ? gg_run_protocol_end_model(scene, engine, end, err) : GG_OK;
   for (int i = 0; gg_measure_observables[i] && status == GG_OK; i++)
     if (scene->measure & gg_measure_observables[i]->flag) visit(context, gg_measure_observables[i], end ? end : model);
   free(end);

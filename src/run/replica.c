@@ -10,7 +10,7 @@
 #include "common/linear_response.h"
 #include "common/rng.h"
 #include "run/engine_grains.h"
-#include "run/relaxation.h"
+#include "run/protocol_times.h"
 #include "scene/fields.h"
 
 /* Without a warm-up the window is open from the start. */
@@ -235,8 +235,8 @@ static gg_status check_collapse(gg_replica *r, bool adapt, double elapsed, uint6
 /* Up to the next of the times at which a gas is followed: in the engine's units, however few are left. */
 static void aim(gg_replica *r)
 {
-  const double from = gg_run_relaxation_time(&r->scene, r->clock.samples),
-               to = gg_run_relaxation_time(&r->scene, r->clock.samples + 1);
+  const double from = gg_run_protocol_time(&r->scene, r->clock.samples),
+               to = gg_run_protocol_time(&r->scene, r->clock.samples + 1);
   r->clock.interval = ldexp(fmax(to - r->clock.time, 1e-9 * (to - from)), -(int)r->clock.power);
 }
 
@@ -255,11 +255,11 @@ static gg_status change(gg_replica *r, const gg_model *model, gg_error *err)
 static gg_status change_if_due(gg_replica *r, gg_error *err)
 {
   if (!gg_scene_is_followed(&r->scene)) return GG_OK;
-  const int changes = gg_run_relaxation_changes(&r->scene, r->clock.samples);
+  const int changes = gg_run_protocol_changes(&r->scene, r->clock.samples);
   if (changes == r->clock.changes) return GG_OK;
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
   if (!model) return GG_FAILED;
-  gg_status status = gg_run_relaxation_model(&r->scene, &r->model, changes, model, err);
+  gg_status status = gg_run_protocol_model(&r->scene, &r->model, changes, model, err);
   if (status == GG_OK) status = change(r, model, err);
   if (status == GG_OK) r->clock.changes = changes;
   free(model);
@@ -362,7 +362,7 @@ static gg_status restore_model(gg_replica *r, gg_error *err)
     return gg_base_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the protocol of a replica");
   if (!changes) return GG_OK;
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
-  gg_status status = model ? gg_run_relaxation_model(&r->scene, &r->model, (int)changes, model, err) : GG_FAILED;
+  gg_status status = model ? gg_run_protocol_model(&r->scene, &r->model, (int)changes, model, err) : GG_FAILED;
   if (status == GG_OK) r->model = *model;
   free(model);
   return status;

@@ -107,12 +107,6 @@ typedef struct gg_sampling_bursts {
 gg_sampling_bursts gg_run_sampling_bursts_of(const gg_model *model);
 gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err);
 
-/* convergence.c: the observable that has a quantity, and by what function; -1 if none. */
-int gg_run_replica_find_function(const gg_replica *r, gg_quantity q, gg_function *f);
-/* replicas_report.c: how a row of the first observable (rheology, if it was requested) gives a followed quantity; also
- * one that decays, of which there is no mean. */
-bool gg_run_replica_find_history(const gg_replica *r, gg_quantity q, gg_function *f);
-
 double gg_run_replica_collisions_per_grain(const gg_replica *r);
 /* A frame of the engine as results have it: at the time since the start, velocities in units of the start. */
 void gg_run_replica_date_frame(const gg_replica *r, gg_frame *frame);

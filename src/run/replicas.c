@@ -11,7 +11,7 @@
 #include "base/clock.h"
 #include "base/memory.h"
 #include "run/cost_estimate.h"
-#include "run/relaxation.h"
+#include "run/protocol_times.h"
 #include "run/run.h"
 #include "run/workers/workers.h"
 #include "scene/fields.h"
@@ -244,7 +244,7 @@ static gg_status prepare(gg_replicas *all, const gg_archive *resume, gg_error *e
   GG_TRY(gg_run_start_make(scene, made, &all->stop, &all->model, err));
   GG_TRY(gg_common_engine_of(scene->engine)->accepts(&all->model, err));
   GG_TRY(check_until(all, err));
-  GG_TRY(gg_run_relaxation_check(scene, &all->model, err));
+  GG_TRY(gg_run_protocol_check(scene, &all->model, err));
   all->criteria = gg_run_criteria_of(scene, &all->model);
   const gg_cost_estimate cost = gg_run_cost_estimate(scene, &all->model, scene->engine);
   GG_TRY(gg_run_cost_check_memory(&cost, gg_common_engine_of(scene->engine)->name, scene->run.replicas, err));

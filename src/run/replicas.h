@@ -137,12 +137,6 @@ void gg_run_replicas_level(gg_replicas *all);
 
 /* convergence.c: how exact the means over the window are, and whether it is steady. */
 gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *convergence, gg_error *err);
-/* Mean of one quantity over the window of all replicas; NaN if no observable here has it. */
-gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err);
-
-/* Means of the linear response of a quantity that has a mean, over blocks of so many rows (statistics/estimator.h). */
-gg_status gg_run_replicas_blocks(const gg_replicas *all, gg_quantity q, size_t length, double *blocks, gg_error *err);
-
 /* correlations.c: of the quantities in result->correlations, whose errors are known. */
 gg_status gg_run_replicas_correlations(const gg_replicas *all, gg_result *result, gg_error *err);
 

@@ -10,7 +10,8 @@
 #include "common/linear_response.h"
 #include "run/causes.h"
 #include "run/default_size.h"
-#include "run/relaxation.h"
+#include "run/series_means.h"
+#include "run/time_course.h"
 #include "run/replica.h"
 #include "run/replicas.h"
 #include "scene/fields.h"
@@ -59,7 +60,7 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
     }
     gg_mean m = {.mean = NAN};
     if (followed)
-      m = gg_run_relaxation_end(all, q);
+      m = gg_run_time_course_end(all, q);
     else if (all->state.averaging)
       GG_TRY(gg_run_replicas_mean(all, q, &m, err));
     if (!isfinite(m.mean)) {
@@ -73,16 +74,6 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
     result->correlations.quantity[result->correlations.n++] = q;
   }
   return gg_run_replicas_correlations(all, result, err);
-}
-
-bool gg_run_replica_find_history(const gg_replica *r, gg_quantity q, gg_function *f)
-{
-  const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
-  if (!o || !o->history) return false;
-  const bool decays = gg_measure_derived_find(o->history, q, f);
-  const unsigned lasting = GG_NEEDS_SCALE_SHOWN | (decays ? GG_NEEDS_SCALE : 0);
-  if (gg_common_model_missing(&r->model, gg_common_quantity_mask(q) & ~lasting)) return false;
-  return decays || gg_measure_derived_find(o->derived, q, f);
 }
 
 static gg_status report_history(const gg_replicas *all, gg_result *result, gg_error *err)
@@ -376,7 +367,7 @@ static gg_status report_curves(const gg_replicas *all, gg_result *result, gg_err
   for (int k = 0; k < all->replica[0].n_observables; k++)
     if (all->replica[0].observable[k]->bins) GG_TRY(report_one(all, k, slow.mean_time, result, err));
   warn_of_one_side(&slow, result);
-  return gg_scene_is_followed(&all->scene) ? gg_run_relaxation_curves(all, result, err) : GG_OK;
+  return gg_scene_is_followed(&all->scene) ? gg_run_time_course_curves(all, result, err) : GG_OK;
 }
 
 gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *err)

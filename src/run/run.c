@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "run/relaxation.h"
+#include "run/protocol_times.h"
 #include "run/replicas.h"
 #include "run/scheduler.h"
 #include "scene/model_of_scene.h"
@@ -294,7 +294,7 @@ static gg_status compare_theories_at_end(const gg_scene *scene, const gg_model *
   gg_model *model = gg_base_array_new(1, sizeof *model, err);
   if (!model) return GG_FAILED;
   *model = *start;
-  gg_status status = *scene->protocol[0].key ? gg_run_relaxation_end_model(scene, GG_MD, model, err) : GG_OK;
+  gg_status status = *scene->protocol[0].key ? gg_run_protocol_end_model(scene, GG_MD, model, err) : GG_OK;
   model->stop = stop;
   if (status == GG_OK) status = gg_run_compare_theories(model, NULL, c, err);
   free(model);
@@ -349,13 +349,6 @@ gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, 
   gg_run_causes_find(c, &c->causes);
   free(model);
   return status;
-}
-
-const gg_result *gg_run_comparison_first(const gg_comparison *c)
-{
-  for (int k = 0; k < GG_N_ENGINES; k++)
-    if (c->by_engine[k]) return c->by_engine[k];
-  return NULL;
 }
 
 void gg_run_comparison_clear(gg_comparison *c)

@@ -5,7 +5,7 @@
 
 #include "common/linear_response.h"
 #include "measure/wall_modes.h"
-#include "run/relaxation.h"
+#include "run/protocol_times.h"
 #include "run/replicas.h"
 
 static void describe_trend(const gg_convergence *c, double window, char *text, size_t size)
@@ -80,7 +80,7 @@ static void describe_followed(const gg_replicas *all, char *text, size_t size)
 {
   char when[40] = "the end";
   if (all->state.due < all->criteria.most)
-    snprintf(when, sizeof when, "time %.3g", gg_run_relaxation_time(&all->scene, all->state.due));
+    snprintf(when, sizeof when, "time %.3g", gg_run_protocol_time(&all->scene, all->state.due));
   snprintf(text, size, "followed in time, %d replica%s: values are those at %s", all->n, all->n > 1 ? "s" : "", when);
 }
 

@@ -4,7 +4,7 @@
 
 #include "scene/ensemble_size.h"
 #include "common/linear_response.h"
-#include "run/relaxation.h"
+#include "run/protocol_times.h"
 #include "run/replicas.h"
 
 /* Relaxation times of the slowest mode: before averaging, and at least while averaging. A start within a few tens of
@@ -98,7 +98,7 @@ gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *m
   if (scene->run.time_limit != GG_AUTO) p.time_limit = scene->run.time_limit;
   if (gg_scene_is_followed(scene)) {
     p.warmup = 0, p.relative_error = 0, p.find_steady = false;
-    p.least = p.most = gg_run_relaxation_samples(scene);
+    p.least = p.most = gg_run_protocol_samples(scene);
   } else if (model->linear_response) {
     plan_linear_response(&p, scene, model);
   } else if (never_the_same(model)) { /* nothing to wait for; follow it for as long as requested, or for a while */

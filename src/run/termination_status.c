@@ -2,7 +2,7 @@
 /* Did the run reach what was requested, and why not? */
 #include <math.h>
 
-#include "run/relaxation.h"
+#include "run/protocol_times.h"
 #include "run/replicas.h"
 
 /* Collisions a grain and replica: of all the run, or of the averaging. */
@@ -63,7 +63,7 @@ static gg_status check_goal(const gg_replicas *all, const char *engine, gg_error
   const bool by_error = criteria->relative_error > 0;
   if (gg_scene_is_followed(&all->scene) && all->state.due < criteria->most)
     return gg_base_fail(err, GG_FAILED, "%s: time limit reached at time %.3g, short of run.duration", engine,
-                        gg_run_relaxation_time(&all->scene, all->state.due));
+                        gg_run_protocol_time(&all->scene, all->state.due));
   if (!all->state.averaging || (!by_error && criteria->most && window_of(all) < criteria->most))
     return gg_base_fail(err, GG_FAILED, "%s: time limit reached after %.0f collisions a grain%s", engine,
                         collisions_a_grain(all, false),

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "run/replica.h"
+#include "run/series_means.h"
 #include "scene/fields.h"
 #include "scene/scene_reader.h"
 

@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "run/engine_grains.h"
-#include "run/relaxation.h"
+#include "run/protocol_times.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
@@ -359,10 +359,10 @@ static void courses_in_time_agree(void **state)
     const gg_scene one = scene_of(followed[i]), two = scaled(&one, by);
     static gg_model a, b;
     model_of(&one, &a), model_of(&two, &b);
-    for (uint64_t k = 1; k <= gg_run_relaxation_samples(&one); k++) {
-      const double time = gg_run_relaxation_time(&one, k) * a.unit.time;
-      close_to(time * by.time, gg_run_relaxation_time(&two, k) * b.unit.time, 1e-12, followed[i]);
-      if (k == 100) close_to(time, 4 * (100. - (gg_run_relaxation_samples(&one) - 100.)) / 100, 1e-12, followed[i]);
+    for (uint64_t k = 1; k <= gg_run_protocol_samples(&one); k++) {
+      const double time = gg_run_protocol_time(&one, k) * a.unit.time;
+      close_to(time * by.time, gg_run_protocol_time(&two, k) * b.unit.time, 1e-12, followed[i]);
+      if (k == 100) close_to(time, 4 * (100. - (gg_run_protocol_samples(&one) - 100.)) / 100, 1e-12, followed[i]);
     }
     for (int n = 1; n <= gg_scene_protocol_count(&one, INFINITY); n++) {
       gg_scene then[2];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "run/relaxation.h"
+#include "run/time_course.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,127 +7,10 @@
 
 #include "base/memory.h"
 #include "run/engine_grains.h"
-#include "run/replica.h"
+#include "run/protocol_times.h"
+#include "run/series_means.h"
 #include "scene/fields.h"
-#include "scene/model_of_scene.h"
 #include "theory/relaxation.h"
-
-enum { INTERVALS = 100 };
-
-/* The k-th of the evenly spaced times and the times of changes, each once; INFINITY beyond the last. User's units. */
-static double user_time(const gg_scene *s, uint64_t k)
-{
-  double time = 0;
-  for (int even = 1, next = 0; k > 0; k--) {
-    const double at = next < gg_scene_protocol_count(s, INFINITY) ? s->protocol[next].at : INFINITY;
-    if (even > INTERVALS) return INFINITY;
-    time = fmin(at, s->run.duration * even / INTERVALS);
-    even += time == s->run.duration * even / INTERVALS;
-    next = gg_scene_protocol_count(s, time);
-  }
-  return time;
-}
-
-uint64_t gg_run_relaxation_samples(const gg_scene *s)
-{
-  uint64_t k = INTERVALS;
-  while (user_time(s, k + 1) < INFINITY) k++;
-  return k;
-}
-
-double gg_run_relaxation_time(const gg_scene *s, uint64_t k)
-{
-  return user_time(s, k) * gg_scene_clock_rate(s);
-}
-
-static gg_status make_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed, gg_error *err)
-{
-  gg_scene then;
-  GG_TRY(gg_scene_protocol_apply(scene, changes, &then, err));
-  then.fixed.contact_time = scene->fixed.contact_time;
-  GG_TRY(gg_run_start_make(&then, NULL, model->stop, changed, err));
-  GG_TRY(gg_common_engine_of(scene->engine)->accepts(changed, err));
-  return gg_run_is_same_gas(model, changed)
-             ? GG_OK
-             : gg_base_fail(err, GG_BAD_INPUT, "key 'protocol': at %g: this value of %s needs other grains or units",
-                            scene->protocol[changes - 1].at, scene->protocol[changes - 1].key);
-}
-
-int gg_run_relaxation_changes(const gg_scene *scene, uint64_t k)
-{
-  return gg_scene_protocol_count(scene, user_time(scene, k));
-}
-
-gg_status gg_run_relaxation_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed,
-                                  gg_error *err)
-{
-  return changes ? make_model(scene, model, changes, changed, err) : (*changed = *model, GG_OK);
-}
-
-gg_status gg_run_relaxation_end_scene(const gg_scene *scene, gg_scene *end, gg_error *err)
-{
-  return gg_scene_protocol_apply(scene, gg_scene_protocol_count(scene, INFINITY), end, err);
-}
-
-gg_status gg_run_relaxation_end_model(const gg_scene *scene, gg_engine_kind engine, gg_model *model, gg_error *err)
-{
-  gg_scene end;
-  GG_TRY(gg_run_relaxation_end_scene(scene, &end, err));
-  return gg_scene_model_make(&end, engine, model, err);
-}
-
-gg_status gg_run_relaxation_check(const gg_scene *scene, const gg_model *model, gg_error *err)
-{
-  gg_model *changed = gg_base_array_new(1, sizeof *changed, err);
-  gg_status status = changed ? GG_OK : GG_FAILED;
-  for (int n = 1; status == GG_OK && n <= gg_scene_protocol_count(scene, INFINITY); n++)
-    status = make_model(scene, model, n, changed, err);
-  free(changed);
-  return status;
-}
-
-/* That which a gas goes to, about; `last`: one that goes to none. */
-static double steady_temperature(const gg_scene *scene, const gg_model *m, double last)
-{
-  gg_scene start = *scene;
-  gg_model steady;
-  start.fixed.clock_rate = gg_scene_clock_rate(scene);
-  start.start.temperature = GG_AUTO;
-  const bool known = m->steady && !gg_flow_cools(m->flow);
-  return known && gg_scene_model_make(&start, scene->engine, &steady, NULL) == GG_OK ? steady.temperature0 : last;
-}
-
-double gg_run_relaxation_collisions(const gg_scene *scene, const gg_model *model)
-{
-  const uint64_t n = gg_run_relaxation_samples(scene);
-  gg_relaxing x = gg_theory_relaxation_start(model);
-  x.work /= 2; /* every run begins with this */
-  x.stop = model->stop;
-  x.stride = 1.5;
-  double sum = 0, T = x.T;
-  int made = 0;
-  gg_model *now = malloc(sizeof *now);
-  if (now) *now = *model;
-  for (uint64_t k = 0; now && k < n; k++) {
-    const double dt = gg_run_relaxation_time(scene, k + 1) - gg_run_relaxation_time(scene, k);
-    const int changes = gg_scene_protocol_count(scene, user_time(scene, k));
-    gg_scene then;
-    if (gg_scene_protocol_apply(scene, changes, &then, NULL) != GG_OK ||
-        (changes != made && gg_scene_model_make(&then, scene->engine, now, NULL) != GG_OK))
-      break;
-    const bool begins = k == 0 || changes != made;
-    made = changes;
-    const double before = x.collisions;
-    if (gg_theory_relaxation_name(now))
-      gg_theory_relax(now, dt, &x);
-    else
-      x = gg_theory_relaxation_lost();
-    T = !isnan(x.T) ? x.T : begins ? steady_temperature(&then, now, T) : T;
-    sum += isnan(x.T) ? dt * gg_common_model_collision_rate(now, T) : x.collisions - before;
-  }
-  free(now);
-  return sum;
-}
 
 static double itself(const double *value, const gg_model *m)
 {
@@ -167,7 +50,7 @@ static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, int k
   return m;
 }
 
-gg_mean gg_run_relaxation_end(const gg_replicas *all, gg_quantity q)
+gg_mean gg_run_time_course_end(const gg_replicas *all, gg_quantity q)
 {
   gg_function f;
   const gg_replica *r = &all->replica[0];
@@ -196,12 +79,12 @@ static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *er
   *start = all->model;
   start->stop = stop.asked ? &stop : NULL;
   for (size_t k = 0; status == GG_OK && k < all->replica[0].series.n; k++) {
-    if (k > 0) gg_theory_relax(model, gg_run_relaxation_time(s, k) - gg_run_relaxation_time(s, k - 1), &x);
+    if (k > 0) gg_theory_relax(model, gg_run_protocol_time(s, k) - gg_run_protocol_time(s, k - 1), &x);
     if (x.stop) status = gg_stop_check(x.stop, err);
     at[k] = x;
-    if (status != GG_OK || (k > 0 && changes == gg_run_relaxation_changes(s, k))) continue;
-    changes = gg_run_relaxation_changes(s, k);
-    status = gg_run_relaxation_model(s, start, changes, model, err);
+    if (status != GG_OK || (k > 0 && changes == gg_run_protocol_changes(s, k))) continue;
+    changes = gg_run_protocol_changes(s, k);
+    status = gg_run_protocol_model(s, start, changes, model, err);
     if (status == GG_INTERRUPTED && interrupted)
       status = GG_OK, x = gg_theory_relaxation_lost();
     else if (status == GG_OK && !gg_theory_relaxation_name(model))
@@ -250,7 +133,7 @@ static void add_curve(const gg_replicas *all, const gg_quantity_row *row, const 
     const gg_mean m = over_replicas(all, f, 0, first + i);
     const bool unknown = first + i == 0 && row->quantity == GG_Q_P_XY; /* the start has no collisions */
     least = fmin(least, m.mean), most = fmax(most, m.mean);
-    c->x[i] = gg_run_relaxation_time(&all->scene, first + i);
+    c->x[i] = gg_run_protocol_time(&all->scene, first + i);
     c->value[i] = unknown ? NAN : m.mean, c->error[i] = unknown ? NAN : m.error;
   }
   c->log_y = least > 0 && most > 30 * least;
@@ -269,11 +152,11 @@ static size_t last_change(const gg_replicas *all)
   const gg_scene *s = &all->scene;
   const int n = gg_scene_protocol_count(s, INFINITY);
   size_t k = 0;
-  while (n > 0 && k + 1 < all->replica[0].series.n && user_time(s, k) < s->protocol[n - 1].at) k++;
+  while (n > 0 && k + 1 < all->replica[0].series.n && gg_run_protocol_changes(s, k) < n) k++;
   return k;
 }
 
-gg_status gg_run_relaxation_curves(const gg_replicas *all, gg_result *result, gg_error *err)
+gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, gg_error *err)
 {
   gg_curves *list = &result->curves;
   const bool known = gg_theory_relaxation_name(&all->model) != NULL;

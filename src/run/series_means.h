@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Means of quantities over the series of all replicas. */
+#ifndef GG_RUN_SERIES_MEANS_H
+#define GG_RUN_SERIES_MEANS_H
+
+#include "run/replicas.h"
+
+/* The observable that has a quantity, and by what function; -1 if none. */
+int gg_run_replica_find_function(const gg_replica *r, gg_quantity q, gg_function *f);
+/* How a row of the first observable (rheology, if it was requested) gives a followed quantity, also one that decays and
+ * has no mean. */
+bool gg_run_replica_find_history(const gg_replica *r, gg_quantity q, gg_function *f);
+
+/* Mean over the window of all replicas; NaN if no observable here has the quantity. */
+gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err);
+
+/* Means of the linear response of a quantity that has a mean, over blocks of so many rows (statistics/estimator.h). */
+gg_status gg_run_replicas_blocks(const gg_replicas *all, gg_quantity q, size_t length, double *blocks, gg_error *err);
+
+#endif
