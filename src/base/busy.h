@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Who uses a handle of the public interface at present: one call that changes it, or any number that only read it.
+/* Guard of a handle of the public interface, in use by one call that changes it, or by any number that only read it.
  *
- * A call that comes in between, from a callback of the call in progress or from another thread, is an error and not a
+ * A call that comes in between, from a callback of the call in progress or from another thread, is an error and not
+ * a
  * crash. A handle that is freed in the meantime goes when the last call that uses it returns. */
 #ifndef GG_BUSY_H
 #define GG_BUSY_H

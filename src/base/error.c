@@ -16,8 +16,8 @@ static bool begins_letter(char c)
   return ((unsigned char)c & 0xC0) != 0x80; /* UTF-8 */
 }
 
-/* What a message has no room for is left out in the middle: it begins with a name and ends with the reason. Names of
- * files and keys may hold anything: what a terminal would act on is replaced here, for all messages. */
+/* Store a message. A long one is cut in the middle, since it begins with a name and ends with the reason. Names of
+ * files and keys may hold anything: characters that a terminal would act on are replaced here, for all messages. */
 static void put(gg_error *err, char *whole)
 {
   gg_base_text_make_printable(whole);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where and when something ran, for records. */
+/* Machine and time of a run, for records. */
 #ifndef GG_MACHINE_H
 #define GG_MACHINE_H
 

@@ -76,7 +76,7 @@ static double number_in(const char *path, const char *key)
   return value;
 }
 
-/* What is left of a group's limit; its file cache can be had back. */
+/* Memory left within a group's limit; its file cache can be reclaimed. */
 static double left_in_group(const char *folder, const char *limit, const char *usage, const char *cache)
 {
   char path[2][320];

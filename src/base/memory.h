@@ -28,7 +28,7 @@ void gg_base_memory_lacked(void);
 /* The end of a call: its status, or GG_FAILED if it was GG_OK and an allocation failed since `before`. */
 gg_status gg_base_memory_check(unsigned before, gg_status status, gg_error *err);
 
-/* Whether some megabytes are available. Checked before calls of libraries that do not check their allocations: FFTW
+/* True if some megabytes are available. Checked before calls of libraries that do not check their allocations: FFTW
  * ends the program if its planner gets no memory, HDF5 if memory is short in the midst of a file. */
 bool gg_base_memory_is_room(void);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a terminal may be shown. */
+/* Text that is safe to show on a terminal. */
 #ifndef GG_BASE_PRINTABLE_H
 #define GG_BASE_PRINTABLE_H
 
@@ -9,7 +9,7 @@
 /* Foreign texts: of files, of callbacks, of the command line. Printable is one line of UTF-8 without control characters
  * and marks of writing direction, which a terminal would act on. */
 bool gg_base_text_is_printable(const char *text);
-/* What is not printable becomes '?', in place. */
+/* Replace unprintable characters by '?', in place. */
 void gg_base_text_make_printable(char *text);
 /* A letter, then letters, digits and _, at most `longest`: the name of a quantity, a curve, a theory. */
 bool gg_base_text_is_name(const char *text, size_t longest);

@@ -22,7 +22,8 @@ static void copy_small(const char *word, size_t n, char *small)
   for (size_t i = 0; i < n; i++) small[i] = (char)letter(word, i);
 }
 
-/* Of the letters of small words. Beyond `most` it may say less than there is, but more than `most`. */
+/* Edit distance of two words. If it is larger than `most`, the result may be smaller than it, but is larger than
+ * `most`. */
 static size_t distance_up_to(const char *a, size_t n, const char *b, size_t m, size_t most)
 {
   size_t rows[3][LONGEST + 1], last = 0;

@@ -14,9 +14,9 @@
 #endif
 
 enum { MOST_THREADS = GG_MOST_PARTS - 1 }; /* beside the caller: more would never have a part */
-/* How often a thread polls for work before it sleeps, a hundred microseconds or two in all: longer than others need to
- * finish what they are at, or than the caller needs between two jobs. Where processors are fewer than threads nobody
- * polls twice: the thread that is waited for may wait for this one's processor. */
+/* Number of polls for work before a thread sleeps, one or two hundred microseconds in all: longer than others need to
+ * finish their part, or the caller between two jobs. With fewer processors than threads a thread polls once, since the
+ * thread that it waits for may need this processor. */
 enum { MOST_POLLS = 10000 };
 
 typedef struct worker {
@@ -26,8 +26,8 @@ typedef struct worker {
 } worker;
 
 struct gg_thread_pool {
-  /* Number of the job in the upper half; in the lower one a bit for each part that nobody has taken. Whoever succeeds
-   * in clearing a bit may read the job, which stays until all its parts are done. */
+  /* Number of the job in the upper half; in the lower half a bit for each part that is not taken. A thread that clears
+   * a bit may read the job, which remains until all its parts are done. */
   _Alignas(64) _Atomic uint64_t open;
   _Alignas(64) _Atomic int undone;
   _Atomic uint32_t finished; /* a bit for each part */
@@ -79,7 +79,7 @@ static uint32_t preferred(const gg_thread_pool *pool, int self)
   return (uint32_t)all;
 }
 
-/* Of these parts those that need not wait for others. */
+/* The parts among these that need not wait for others. */
 static uint32_t ready(const gg_thread_pool *pool, uint32_t parts)
 {
   const uint32_t finished = atomic_load(&pool->finished);
@@ -102,7 +102,7 @@ static int choose(const gg_thread_pool *pool, int self, uint32_t open, int polls
   return 31 - __builtin_clz(can);
 }
 
-/* What is read of the job before a bit has been cleared may be of the next: then the bit cannot be cleared. */
+/* Before a bit is cleared, the job that is read may be the next one: then clearing the bit fails. */
 static bool take_part(gg_thread_pool *pool, int self, int *part)
 {
   uint64_t open = atomic_load(&pool->open);

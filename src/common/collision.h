@@ -28,7 +28,8 @@ typedef enum gg_rule {
   GG_FRICTIONAL /* Coulomb: beta_0 while sticking, mu while sliding */
 } gg_rule;
 
-/* What two partners of given kinds need at contact; made once by gg_common_contact_make. Units: mass. */
+/* Coefficients of the collision rule for two partners of given kinds, made once by gg_common_contact_make. Units:
+ * mass. */
 typedef struct gg_contact {
   double jn;       /* m_r (1+e) */
   double jt;       /* m_t (1+beta); 0 if smooth */
@@ -73,7 +74,7 @@ GG_INLINE void gg_kick(gg_rule rule, const gg_contact *c, gg_vec k, gg_vec J, gg
   if (rule != GG_SMOOTH) gg_kick_spins(c->ik1, c->ik2, k, J, s1, s2);
 }
 
-/* What the energy that collisions destroy follows from, of one collision or summed over many of a kind. */
+/* Sums from which the energy that collisions destroy follows, for one collision or many of a kind. */
 typedef struct gg_loss_terms {
   double Jg, Jn2, J2; /* J.g, J_n^2, J.J */
 } gg_loss_terms;

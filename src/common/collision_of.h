@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the collision rule of common/collision.h says, stated once for every kind of number: one pair of grains
+/* The collision rule of common/collision.h, written once for every kind of number: one pair of grains
  * (doubles) or one a lane (registers of dsmc's kernels). Included with
  *
  *   GG_NUMBER, GG_VECTOR, GG_OF(name)    as in common/vec_of.h

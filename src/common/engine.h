@@ -136,11 +136,11 @@ typedef struct gg_engine_ops {
   void (*keep_sums)(gg_engine *engine, bool keep);
   /* Return the sums since the last read, and reset them. */
   void (*take_sums)(gg_engine *engine, gg_collision_sums *sums);
-  /* Show every collision between grains to `callback` from now on; NULL: none. What is shown costs time; a dsmc
-   * engine also leaves its block kernels, in which grains change places, until it has no callback. An engine restored
-   * from a checkpoint has to be set again, and then continues bit for bit. */
+  /* Show every collision between grains to `callback` from now on; NULL: none. The callback costs time; a dsmc engine
+   * also leaves its block kernels, in which grains change places, until it has no callback. An engine restored from a
+   * checkpoint has to be set again, and then continues bit for bit. */
   gg_status (*set_callback)(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
-  /* Whether a callback slows this engine down many times over, so that it is best set in bursts. NULL: no. */
+  /* True if a callback slows this engine down many times over, so that it is best set in bursts. NULL: it does not. */
   bool (*callback_slows)(const gg_engine *engine);
   /* Share the work out to so many threads, the caller's included; the trajectory does not depend on it. NULL where the
    * engine cannot. */

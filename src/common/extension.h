@@ -13,7 +13,7 @@
 enum { GG_MOST_OWN_QUANTITIES = 32, GG_MOST_OWN_THEORIES = 8 };
 
 typedef struct gg_extension gg_extension;
-/* Of the public header, which defines them. */
+/* The public header defines these. */
 typedef struct gg_quantity_definition gg_quantity_definition;
 typedef struct gg_observable_definition gg_observable_definition;
 typedef struct gg_theory_definition gg_theory_definition;

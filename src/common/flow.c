@@ -12,7 +12,7 @@ enum {
   BATH = 1u << GG_BATH
 };
 
-/* Those of them that a scene lacks (gg_common_quantity_missing) are left out. */
+/* Headline quantities; a scene leaves out those that it lacks (gg_common_quantity_missing). */
 #define KNOWN_BY(...) ((const int[]){__VA_ARGS__, GG_N_QUANTITIES})
 #define BY_SHEAR KNOWN_BY(GG_Q_TEMPERATURE, GG_Q_PRESSURE, GG_Q_SHEAR_VISCOSITY, GG_Q_TEMPERATURE_RATIO)
 #define BY_LOSS KNOWN_BY(GG_Q_COOLING_RATE, GG_Q_TEMPERATURE_RATIO, GG_Q_PARTIAL_TEMPERATURE_RATIO)

@@ -124,8 +124,8 @@ static double guess_sheared_temperature(const gg_model *m)
   return (m->boltzmann ? dilute : dilute + dense) * (m->shear_rate > 0 ? m->shear_rate * m->shear_rate : 1);
 }
 
-/* Of a gas that thermal walls alone warm and nothing cools: their geometric mean, at which free flights from wall to
- * wall bring and take as much. 0 without such walls. */
+/* Temperature of a gas that thermal walls alone warm and nothing cools: the geometric mean of theirs, at which free
+ * flights from wall to wall bring as much energy as they take. 0 without such walls. */
 static double temperature_of_walls(const gg_model *m)
 {
   double product = 1;

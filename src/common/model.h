@@ -24,7 +24,7 @@
 #include "common/species.h"
 #include "common/surface/surface.h"
 
-/* What acts on every grain between collisions, relative to the imposed flow, of each species (thermostat.h):
+/* Drag and noise on every grain between collisions, relative to the imposed flow, by species (thermostat.h):
  *   dC = -drag C dt + sqrt(noise) dW,   ds = -spin_drag (s - rolling) dt + sqrt(spin_noise) dW. */
 typedef struct gg_bath {
   bool on;
@@ -85,8 +85,8 @@ typedef struct gg_model {
   double chi_slope;               /* d ln chi/d ln phi of one species; 0 in the Boltzmann limit */
   gg_contact_value contact_value; /* which chi is, for other densities than phi */
   double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
-  /* Of restitution between grains (name NULL: none). With one, `e` and `contact` are those at the mean impact speed of
-   * some temperature (gg_common_model_at), for estimates, and engines evaluate the law at every collision. */
+  /* Law of restitution between grains (name NULL: none). With one, `e` and `contact` are those at the mean impact speed
+   * of some temperature (gg_common_model_at), for estimates, and engines evaluate the law at every collision. */
   gg_restitution_law law;
 
   bool walled;       /* there are surfaces: the box is closed along y, and no flow is imposed */
@@ -145,14 +145,14 @@ void gg_common_model_set_pairs(gg_model *model);
  * else changes, the torques of both walls would have to cancel in a steady state, and with them the shear stress.
  * GG_BAD_INPUT: no room for the gas. */
 gg_status gg_common_model_set_walls(gg_model *model, const gg_walls *walls, gg_error *err);
-/* The start: temperature0, here or (GG_AUTO) by an order-of-magnitude estimate; ratio0 and spin0 by estimates, which the
- * caller may improve before an engine is made; and the rest of the model: is it steady, its unit of stress. */
+/* The start: temperature0, here or (GG_AUTO) by an order-of-magnitude estimate; ratio0 and spin0 by estimates, which
+ * the caller may improve before an engine is made; and the rest of the model: is it steady, its unit of stress. */
 void gg_common_model_set_start(gg_model *model, double temperature);
 
 /* With a restitution law: e and contacts at the mean normal speed at impact of Maxwellians at temperature T. */
 void gg_common_model_at(gg_model *model, double T);
 
-/* What contact times count in, in words: under gravity that of a fall, unless it is too weak (md/contact_time.c). */
+/* Unit of contact times in words: under gravity the time of a fall, unless gravity is too weak (md/contact_time.c). */
 const char *gg_common_model_contact_unit(const gg_model *model);
 
 /* Does a wall of a temperature of its own warm or cool the gas? All walls have one, or none. */
@@ -205,7 +205,8 @@ gg_status gg_common_surfaces_make(gg_model *model, const gg_walls *walls, bool s
 /* The plain or other surface at the upper (1) or lower (-1) end of an axis; NULL: none. */
 const gg_surface *gg_surface_at(const gg_model *model, int axis, double side);
 
-/* Whether the box is closed along this axis: not periodic, no grain beyond its ends. Also without a lid. */
+/* True if the box is closed along this axis: not periodic, with no grain beyond its ends; also without an upper
+ * wall. */
 bool gg_common_surface_is_closed(const gg_model *model, int axis);
 /* Closed across y, and nothing at the upper end. */
 bool gg_common_surface_is_open_above(const gg_model *model);

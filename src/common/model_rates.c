@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What follows from a model: how fast its grains collide, and how long what relaxes takes. */
+/* Collision rates of a model, and relaxation times in collisions. */
 #include <gsl/gsl_eigen.h>
 #include <math.h>
 
@@ -17,7 +17,7 @@ static double rate_of(const gg_model *m, double share, int i, int j, double T)
   return share * nj * m->sigma[o] * m->sigma[o] * m->chi[o] * sqrt(8 * M_PI * spread);
 }
 
-/* What the collisions of i with j add to the loss A and to the exchange with the spins C, of each collision of i. */
+/* Add to the loss A and to the exchange with the spins C, per collision of i, the part from collisions of i with j. */
 static void add_shares(const gg_model *m, int i, int j, double *A, double *C)
 {
   const int o = gg_pair(i, j);
@@ -51,7 +51,7 @@ double gg_common_model_cooling(const gg_model *m)
   return fmax(fmax(loss, spins), 1);
 }
 
-/* Of Maxwellians dT_i/dt = sum_j x_j k_ij (T_j - T_i), k_ij = (8/3) m_i m_j/(m_i + m_j)^2 times the rate at which a
+/* For Maxwellians dT_i/dt = sum_j x_j k_ij (T_j - T_i), k_ij = (8/3) m_i m_j/(m_i + m_j)^2 times the rate at which a
  * grain of i meets those of j, were all grains j. Here at T = 1. */
 static double exchange_rate(const gg_model *m, int i, int j)
 {
@@ -115,8 +115,8 @@ static double in_bath(const gg_model *m, double loss)
   return 1 / ((loss > 0 ? 1.5 / loss : 0) + 2 * drag / gg_common_model_collision_rate(m, m->temperature0));
 }
 
-/* Scaled, T itself does not relax. What is left of the loss is that of some species being larger than that of others,
- * beside the exchange between them: the rates add up. */
+/* Scaled, T itself does not relax. Species lose energy at different rates, beside the exchange between them: the rates
+ * add up. */
 static double of_temperatures(const gg_model *m, double loss)
 {
   if (m->bath.on) return in_bath(m, loss);

@@ -33,7 +33,7 @@
 enum { GG_OBSERVABLES(GG_OBSERVABLE_ID) GG_N_OBSERVABLES };
 #undef GG_OBSERVABLE_ID
 
-/* What a scene asks for under `measure`: a sum of these. */
+/* Observables requested under `measure` of a scene: a sum of these. */
 #define GG_OBSERVABLE_FLAG(FLAG, word, description) GG_MEASURE_##FLAG = 1u << GG_OBSERVABLE_##FLAG,
 enum { GG_OBSERVABLES(GG_OBSERVABLE_FLAG) };
 #undef GG_OBSERVABLE_FLAG

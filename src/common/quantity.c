@@ -33,7 +33,7 @@ static const char *const unit_names[N_SCALES][N_UNITS] = {
                            "n m v_0^3 (n d^2)", "n m v_0^3"},
 };
 
-/* What a family's members are called. */
+/* Names of the members of a family. */
 #define NUMBERED(name)                                                                                                 \
   name "_1", name "_2", name "_3", name "_4", name "_5", name "_6", name "_7", name "_8", name "_9", name "_10",       \
       name "_11", name "_12", name "_13", name "_14", name "_15", name "_16"
@@ -180,7 +180,7 @@ const char *gg_common_quantity_unit(gg_quantity q, const gg_model *model)
   return unit_names[scale][row_of(q)->unit];
 }
 
-/* What a need means, and the reason where it is not met; the first that applies is given. */
+/* Check the needs in turn; the reason of the first that is not met. */
 const char *gg_common_model_missing(const gg_model *m, unsigned needs)
 {
   const bool smooth = m->rule == GG_SMOOTH, cools = gg_flow_cools(m->flow), heated = gg_flow_is_heated(m->flow);

@@ -6,8 +6,8 @@
 
 #include "common/model.h"
 
-/* What a scene must have for a quantity to have a mean (gg_common_model_missing: when it has, and the reason when not),
- * and how the quantity is treated: a row's mask is a sum of these. */
+/* Needs of a quantity, and its treatment: a row's mask is a sum of these. A need is a property that a scene must have
+ * for the quantity to have a mean; gg_common_model_missing gives the reason where it lacks one. */
 enum {
   GG_NEEDS_SPINS = 1u << 0,
   GG_NEEDS_MEAN_SPIN = 1u << 1,
@@ -276,8 +276,8 @@ const char *gg_common_quantity_enhanced(gg_quantity q, char *text, size_t size);
 const char *gg_common_quantity_word(gg_quantity q); /* for pictures: "temperature"; or "" */
 /* Quantity of that name, or GG_N_QUANTITIES. */
 gg_quantity gg_common_quantity_find(const char *name);
-/* The next one after q (first: start with -1) whose mask holds any of these; GG_N_QUANTITIES after the last. Of
- * families every member. */
+/* The next one after q (first: start with -1) whose mask holds any of these; GG_N_QUANTITIES after the last. Every
+ * member of a family counts. */
 gg_quantity gg_common_quantity_next(int q, unsigned mask);
 
 /* The mask of the row; 0 of user-defined ones. */

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "common/quantity.h"
 
-/* What symbols hold of LaTeX. A star stands high by itself, and braces without a script are no letters. */
+/* The LaTeX commands in symbols. A star is high by itself, and braces without a script are dropped. */
 static const char *const marks[][2] = {
     {"\\gamma", "γ"},  {"\\zeta", "ζ"},   {"\\eta", "η"},   {"\\theta", "θ"}, {"\\kappa", "κ"}, {"\\lambda", "λ"},
     {"\\mu", "μ"},     {"\\nu", "ν"},     {"\\xi", "ξ"},    {"\\omega", "ω"}, {"\\Psi", "Ψ"},   {"\\Omega", "Ω"},

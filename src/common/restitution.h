@@ -28,7 +28,7 @@ typedef struct gg_restitution_law {
 double gg_common_law_at(const gg_restitution_law *law, double normal_speed, int species_1, int species_2,
                         uint64_t *clamped);
 
-/* Of laws that are built in: the word; 1 - e at a speed in the law's units; the speed at which that is so much. */
+/* Built-in laws: the word; 1 - e at a speed in the law's units; the speed at which 1 - e has a given value. */
 const char *gg_common_law_name(gg_law_kind kind);
 double gg_common_law_loss(gg_law_kind kind, double u);
 double gg_common_law_speed_of(gg_law_kind kind, double loss);

@@ -75,8 +75,8 @@ double gg_common_thermostat_balance(const gg_model *m, double sheared)
   return sqrt(low) * sqrt(high);
 }
 
-/* e^-y, (1 - e^-y)/y, and of the distribution of times u in (0, 1) with weight e^(y u) the mean and variance. Where y
- * is small their differences are series. */
+/* e^-y, (1 - e^-y)/y, and of the distribution of times u in (0, 1) with weight e^(y u) the mean and variance. For small
+ * y their differences are series. */
 gg_relaxation gg_common_relaxation(double drag, double dt)
 {
   const double y = 2 * drag * dt, decay = gg_exponential(-drag * dt), y2 = y * y;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which thermostat a model has, and how strong: what both engines need to heat alike. */
+/* Thermostat of a model and its strength, so that both engines heat alike. */
 #ifndef GG_THERMOSTAT_H
 #define GG_THERMOSTAT_H
 
@@ -12,9 +12,10 @@ gg_thermostat gg_common_thermostat_of(const gg_model *model);
  * ratio0 are in balance: the loss goes as T^(3/2), the work of shear as T^(1/2). */
 double gg_common_thermostat_balance(const gg_model *model, double sheared);
 
-/* What a bath does in a time dt, exactly: velocities shrink by `decay` and get kicks of variance `spread` x noise.
- * Kicks that come in at a steady rate and decay since came at the time `mean`, on average, with the variance `width`.
- */
+/* Exact effect of a bath in a time dt: velocities shrink by `decay` and get kicks of variance `spread` x noise. Kicks
+ * arrive at a steady rate and decay afterwards; weighted by what is left of them they arrived at the time `mean` on
+ * average, with the variance `width`.
+ * */
 typedef struct gg_relaxation {
   double decay, spread, mean, width;
 } gg_relaxation;

@@ -12,7 +12,7 @@
  * "value": [], "stderr": [], "numbers": {"alpha": {"mean", "stderr", "unit"}}, "reference": {"label", "value": []}}}:
  * the last only where there is a law to see the curve beside. */
 json_t *gg_files_curves_json(const gg_curves *curves);
-/* Those of one engine or theory, appended to a list. */
+/* Append the curves of one engine or theory to a list. */
 gg_status gg_files_curves_from_json(gg_curves *list, const json_t *curves, gg_error *err);
 /* The key of documents that has those of theories, by their names. */
 #define GG_THEORY_CURVES "theory_curves"

@@ -105,8 +105,8 @@ static void put_members(gg_csv *csv, const json_t *object, const char *const *ke
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
-/* Of a run: a line a quantity, with mean, standard error, unit, samples, correlation time, and whether the run was
- * steady. */
+/* Table of a run: one line per quantity, with mean, standard error, unit, samples, correlation time, and whether the
+ * run was steady. */
 static void put_results(gg_file_writer *out, const gg_stored_result *stored)
 {
   static const char *const keys[] = {"mean", "stderr", "unit", "samples", "correlation_time", "correlation_time_unit"};
@@ -127,7 +127,7 @@ static void put_results(gg_file_writer *out, const gg_stored_result *stored)
   }
 }
 
-/* Of an engine in a comparison. */
+/* Head of the columns of an engine in a comparison. */
 static const char *const told[] = {"mean", "stderr", "samples", "correlation_time"};
 
 static void put_engine_head(gg_csv *csv, const char *engine)
@@ -197,7 +197,7 @@ static void put_comparison_row(gg_csv *csv, const gg_stored_result *stored, cons
   gg_io_csv_end_row(csv);
 }
 
-/* Of a comparison: a line a quantity, with both engines, z, and what each theory says. */
+/* Table of a comparison: one line per quantity, with both engines, z, and the value of each theory. */
 static void put_comparison(gg_file_writer *out, const gg_stored_result *stored)
 {
   gg_csv csv = {.out = out};
@@ -307,7 +307,7 @@ static void add(job *j, gg_export_content content, const json_t *curve, const ch
   j->failed |= !t->path;
 }
 
-/* Of an engine or a theory; `whose` is "" where there is but one. */
+/* Curves of an engine or a theory; `whose` is "" where there is only one. */
 static void add_curves_of(job *j, const char *whose, json_t *curves)
 {
   const char *name;
@@ -350,7 +350,7 @@ static gg_status plan(job *j, const char *path, unsigned parts, gg_error *err)
   return j->n ? GG_OK : gg_base_fail(err, GG_FAILED, "%s: nothing to export: %s", path, lack(parts));
 }
 
-/* Who names a device or a pipe wants all to go there, and nothing beside it: in /dev it would stay. */
+/* A device or a pipe gets everything, and no file is made beside it: in /dev it would remain. */
 static gg_status check_prefix(const char *prefix, gg_error *err)
 {
   struct stat about;
@@ -361,7 +361,7 @@ static gg_status check_prefix(const char *prefix, gg_error *err)
                       prefix);
 }
 
-/* What stands there already, which is to be one file for each. */
+/* Check what is there already: one file for each output. */
 static gg_status look_at(job *j, size_t i, gg_error *err)
 {
   gg_output_path place;
@@ -379,7 +379,7 @@ static gg_status look_at(job *j, size_t i, gg_error *err)
   return GG_OK;
 }
 
-/* Of two that lead to one place where nothing stands yet, the second finds it locked. */
+/* If two paths name the same new file, the second finds it locked. */
 static gg_status open_target(job *j, size_t i, const char *path, gg_error *err)
 {
   target *t = &j->target[i];
@@ -410,8 +410,8 @@ static char *read_line(const char *path, int line)
   return NULL;
 }
 
-/* What stands there is an earlier export: its head is that of what is to replace it; of a trajectory the second line
- * says what it is. */
+/* An existing file may be replaced if it is an earlier export: its head is that of the new one; a trajectory is
+ * recognised by its second line. */
 static bool is_export(const target *t)
 {
   const int line = t->content == TRAJECTORY;

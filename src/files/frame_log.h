@@ -4,9 +4,9 @@
  *
  * A record a frame: header, positions, velocities, spins, species; grains in the order of their numbers. Checksums are
  * a chain: that of the last record vouches for all before it. A checkpoint holds a mark: how many records, bytes, and
- * their checksum. What lies beyond is nobody's, and is written over; the file is never cut. For the frames of a run are
- * the same however often it is resumed: going on from an older checkpoint writes the bytes that are there already, and
- * the newer one stays good. */
+ * their checksum. Bytes beyond the mark are unused and are overwritten; the file is never cut. For the frames of a run
+ * are the same however often it is resumed: going on from an older checkpoint writes the bytes that are there already,
+ * and the newer one stays good. */
 #ifndef GG_FRAME_LOG_H
 #define GG_FRAME_LOG_H
 

@@ -7,13 +7,13 @@
 #include <string.h>
 
 #include "base/build.h"
-#include "io/checked_json.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/curve_table.h"
+#include "graingas.h"
+#include "io/checked_json.h"
 #include "run/z_scores.h"
 #include "scene/fields.h"
-#include "graingas.h"
 
 /* null for what is not finite */
 static json_t *json_number(double x)
@@ -129,7 +129,7 @@ bool gg_files_quantity_is_measured(const gg_estimate *e)
   return !isnan(e->mean) || e->reason[0];
 }
 
-/* Where the names end in "who: a, b are null: reason", less "is" or "are"; 0 where a line says something else. */
+/* Position at which the names end in "who: a, b are null: reason", before "is" or "are"; 0 for any other line. */
 static int end_of_names(const char *line, const char *who, const char *reason)
 {
   static const char null[] = " null: ";
@@ -185,7 +185,8 @@ static json_t *engine_state_json(const gg_result *r)
   json_t *state = json_pack("{s:o, s:I}", "time", json_number(s->time), "events", (json_int_t)s->events);
   if (strcmp(r->engine, "md") == 0) {
     json_object_set_new(state, "contact_time_collisions", json_integer((json_int_t)s->treated));
-    if (r->scene.fixed.contact_time != GG_AUTO) json_object_set_new(state, "contact_time", json_number(r->scene.fixed.contact_time));
+    if (r->scene.fixed.contact_time != GG_AUTO)
+      json_object_set_new(state, "contact_time", json_number(r->scene.fixed.contact_time));
     json_object_set_new(state, "worst_overlap", json_number(s->worst_overlap));
   } else {
     json_object_set_new(state, "majorant_overflows", json_integer((json_int_t)s->overflows));
@@ -230,8 +231,8 @@ char *gg_files_document_text(const json_t *document)
 
 /* The documents of `compare` and `theory`. */
 
-/* What the theories say: {"lun1991": {"temperature": {"mean":, "unit":}}}, with "error" where a theory
- * is solved numerically and tells it; those that do not apply are warnings. */
+/* Answers of the theories: {"lun1991": {"temperature": {"mean":, "unit":}}}, with "error" where a theory is solved
+ * numerically and tells it; those that do not apply are warnings. */
 static json_t *theories_json(const gg_comparison *c, json_t *warnings)
 {
   json_t *all = json_object();
@@ -316,7 +317,7 @@ static void put_deviations(json_t *json, const gg_comparison *c, int k, const gg
   json_object_set_new(json, key, all);
 }
 
-/* Of an engine against Enskog's equation solved without random numbers; keys are left out where there is none. */
+/* Deviation of an engine from Enskog's equation solved without random numbers; no key where there is none. */
 static void put_enskog_deviation(json_t *json, gg_engine_kind kind, const gg_departure *d)
 {
   char key[64];
@@ -359,7 +360,7 @@ static json_t *engine_json(const gg_comparison *c, gg_engine_kind kind, json_t *
   return json_null();
 }
 
-/* Where md differs beyond what is expected, the causes that apply; theories that are further off than expected. */
+/* Warn where md, or a theory, deviates by more than is expected, with causes. */
 static void warn_deviations(const gg_comparison *c, json_t *warnings)
 {
   gg_causes causes;
@@ -411,7 +412,8 @@ static bool is_word(const char *key)
   return *key && *key != '.' && *key != '-' && !key[strspn(key, plain)];
 }
 
-/* Of what is registered: quantities, theories; of curves some have a number behind: local_distribution_Cx_0.5. */
+/* True for names that are registered: quantities, theories, curves; some curves end with a number:
+ * local_distribution_Cx_0.5. */
 static bool is_allowed(const char *key, const char *name)
 {
   static const char *const registered[] = {"results", "theory", "theories"};
@@ -432,7 +434,7 @@ static bool make_text_printable(json_t *value)
   return good;
 }
 
-/* What is wrong with a value of that key, or with what is in it; NULL: nothing. */
+/* Error in the value of a key, or within it; NULL: none. */
 static const char *check_value(const char *key, json_t *value)
 {
   const char *name, *wrong = NULL;

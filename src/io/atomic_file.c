@@ -40,7 +40,7 @@ static gg_status in_use(int fd, const char *path, gg_error *err)
                       *who ? who : "it has just begun");
 }
 
-/* Does what was opened still stand there? Who held it before may have taken it away in between. */
+/* True if the path still names the file that was opened: its last owner may have removed it in between. */
 static bool still_there(int fd, const char *path)
 {
   struct stat mine, there;
@@ -144,12 +144,13 @@ static int create(gg_atomic_file *f, const char *whose)
     f->temporary = NULL;
     return ENOMEM;
   }
-  /* What was private is not shown while it is written anew. */
+  /* A private file stays private while it is rewritten. */
   f->fd = open(f->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, f->place.there ? 0600 : 0666);
   return f->fd >= 0 ? 0 : errno;
 }
 
-/* Where no lock could tell whether one that stands there is of somebody who lives, there is a second name. */
+/* Open the temporary file; a second name is tried where no lock can tell whether the first belongs to a living
+ * process. */
 static gg_status open_temporary(gg_atomic_file *f, gg_error *err)
 {
   int number = create(f, "");
@@ -245,7 +246,7 @@ static void sync_folder(const char *path)
   free(copy);
 }
 
-/* Who may read and write the file does not change because it is written anew. */
+/* Owner and mode of the file stay when it is replaced. */
 static void keep_owner_and_mode(const gg_atomic_file *f)
 {
   const struct stat *was = &f->place.about;

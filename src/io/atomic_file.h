@@ -43,8 +43,8 @@ typedef struct gg_atomic_file {
   bool repeated;     /* an earlier or a later one is as good: not kept where it cannot be put in place */
 } gg_atomic_file;
 
-/* GG_BAD_FILE says why the file could not be written there, or which run is writing it. What a dead run left beside it
- * is gone after this call. */
+/* GG_BAD_FILE says why the file could not be written there, or which run is writing it. Temporary files that a dead run
+ * left are removed. */
 gg_status gg_io_atomic_open(gg_atomic_file *file, const char *path, gg_error *err);
 /* The same of a file whose lock the caller holds. */
 gg_status gg_io_atomic_open_locked(gg_atomic_file *file, const char *path, gg_error *err);
@@ -58,8 +58,8 @@ void gg_io_atomic_abandon(gg_atomic_file *file);
 
 #define GG_ATOMIC_NONE ((gg_atomic_file){.fd = -1, .lock.fd = -1})
 
-/* Whether a regular file, not a device or pipe, can be written there. Checked before a long run, so that its result is
- * not lost. `why_regular` gives the reason: "pictures are files". */
+/* Check that a regular file, not a device or pipe, can be written there; called before a long run, so that its result
+ * is not lost. `why_regular` gives the reason: "pictures are files". */
 gg_status gg_io_atomic_check_writable(const char *path, const char *why_regular, gg_error *err);
 
 #endif

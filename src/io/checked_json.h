@@ -18,7 +18,7 @@ int gg_io_json_put(int failed);
 /* A text read; NULL with the reason in *why (which may be NULL). */
 json_t *gg_io_json_read(const char *text, const char **why);
 
-/* Of a member of an object: "" and NaN where it is none, or there is no object. */
+/* Value of a member of an object: "" and NaN where there is no such value, or no object. */
 const char *gg_io_json_string(const json_t *object, const char *key);
 double gg_io_json_number(const json_t *object, const char *key);
 

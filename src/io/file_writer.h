@@ -21,15 +21,15 @@ void gg_io_file_writer_begin(gg_file_writer *out, gg_atomic_file *file, gg_error
 void gg_io_file_writer_put(gg_file_writer *out, const char *text);
 /* The shortest text that reads back as this number, with a decimal point in the C locale (text.h). */
 void gg_io_file_writer_put_number(gg_file_writer *out, double value);
-/* What is still in the buffer goes to the file. */
+/* Write what is still in the buffer to the file. */
 gg_status gg_io_file_writer_end(gg_file_writer *out);
 
 /* The same number in `text`. */
 enum { GG_NUMBER_TEXT = 32 };
 void gg_io_number_format(double value, char text[GG_NUMBER_TEXT]);
 
-/* Comma-separated values as RFC 4180 has them: cells quoted where they must be, lines that end with CR LF. What cannot
- * be had is an empty cell. */
+/* Comma-separated values as RFC 4180 has them: cells quoted where they must be, lines that end with CR LF. A missing
+ * value is an empty cell. */
 
 typedef struct gg_csv {
   gg_file_writer *out;

@@ -112,7 +112,7 @@ static gg_status check(gg_output_path *place, const char *path, bool named, gg_e
                : gg_io_path_write_error(path, "it is an open file without a name", err);
 }
 
-/* What is there, and is it what stands at the end of the links? */
+/* Inspect the path: what is there, and whether it is the end of the links. */
 static gg_status look(gg_output_path *place, const char *path, bool *something, bool *named, gg_error *err)
 {
   struct stat target;

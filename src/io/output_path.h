@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What an output path refers to. One rule for every output: symbolic links are followed, a regular file is replaced by
- * a whole new one if it is writable, a character device or a pipe is written to directly, anything else is rejected. */
+/* The file, device or pipe that an output path refers to. One rule for every output: symbolic links are followed, a
+ * regular file is replaced by a whole new one if it is writable, a character device or a pipe is written to directly,
+ * anything else is rejected. */
 #ifndef GG_OUTPUT_PATH_H
 #define GG_OUTPUT_PATH_H
 
@@ -27,8 +28,8 @@ char *gg_io_path_follow_links(const char *path);
 /* "PATH: cannot be written: WHY", GG_BAD_FILE. */
 gg_status gg_io_path_write_error(const char *path, const char *why, gg_error *err);
 
-/* Whether both are one file: by device and inode if they exist, otherwise by folder and name. Devices never are. False
- * if out of memory, which is counted. */
+/* True if both paths are one file: by device and inode if they exist, otherwise by folder and name. Devices never are.
+ * False if out of memory, which is counted. */
 bool gg_io_path_is_same_file(const char *a, const char *b);
 
 #endif

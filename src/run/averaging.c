@@ -11,8 +11,7 @@
 #include <malloc.h>
 #endif
 
-/* What a checkpoint took goes back to the system: the C library would keep up to twice its size, or not, as chance has
- * it. */
+/* Return the memory of a checkpoint to the system: the C library may keep up to twice its size. */
 static void give_back(void)
 {
 #ifdef __GLIBC__
@@ -69,8 +68,8 @@ static void check_arrest(gg_replicas *all)
   s->stretch_collisions = collisions, s->stretch_treated = treated;
 }
 
-/* Samples from one report and checkpoint to the next: some tens of milliseconds. Where several processes work, these
- * come in between, and waiting for each other costs more: they go all the way, but where grains may come to rest. */
+/* Samples from one report and checkpoint to the next: some tens of milliseconds. With several processes, reports come
+ * in between, and waiting for each other costs more: the step is the whole way then, unless grains may come to rest. */
 static uint64_t step(const gg_replicas *all, uint64_t way)
 {
   if (all->tasks.remote && all->model.gravity[1] == 0) return way;

@@ -46,8 +46,9 @@ bool gg_run_structure(const gg_result *r, char *text, size_t size)
   return true;
 }
 
-/* What is to be explained. Of a gas that has structure that is the cause, and what holds in homogeneous ones is left.
- */
+/* A difference to be explained. If the gas has structure, that is the cause; causes that need a homogeneous gas are
+ * skipped.
+ * */
 typedef struct difference {
   const gg_model *model;
   const gg_result *md;
@@ -80,7 +81,7 @@ static bool not_steady(const difference *d, char *text, size_t size)
   return true;
 }
 
-/* What does not come from velocities of single grains is the same in any frame. */
+/* Quantities that do not depend on velocities of single grains are the same in any frame. */
 static bool about_cells(const difference *d, char *text, size_t size)
 {
   if (!d->model->frame || d->q == GG_Q_COLLISION_RATE || d->q == GG_Q_DISSIPATION) return false;

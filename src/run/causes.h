@@ -15,12 +15,12 @@ typedef struct gg_causes { /* a sentence each */
   char text[GG_MOST_CAUSES][320];
 } gg_causes;
 
-/* Of one quantity that is marked (gg_run_results_disagree): at least one sentence, if only that no cause is known; of
- * another quantity none. */
+/* Causes of one quantity. A marked quantity (gg_run_results_disagree) has at least one sentence, if only that no cause
+ * is known; others have none. */
 void gg_run_causes_of(const struct gg_comparison *comparison, gg_quantity q, gg_causes *causes);
 
-/* Of all that are marked, each sentence once; the last names those without a known cause. None where nothing is marked.
- */
+/* Causes of all marked quantities, each sentence once; the last sentence names quantities without a known cause.
+ * */
 void gg_run_causes_find(const struct gg_comparison *comparison, gg_causes *causes);
 
 /* "the grains have clustered: ..."; false where the gas is homogeneous, or it is unknown. Returns text. */

@@ -29,8 +29,8 @@ static int append(const gg_replicas *all, gg_quantity q, gg_quantity *list, int 
   return n;
 }
 
-/* What must not have a trend: the headline quantities and others with a requested error first (*asked of them), then
- * those that relax slowly. Returns how many. */
+/* List the quantities that must not have a trend: the headline quantities and others with a requested error first
+ * (*asked of them), then those that relax slowly. Returns how many. */
 static int monitored(const gg_replicas *all, gg_quantity *list, int *asked)
 {
   int n = gg_run_headline_quantities(&all->model, list);

@@ -38,7 +38,7 @@ static gg_status prepare(varying *v, const varyings *all, const gg_estimate *e, 
   return GG_OK;
 }
 
-/* Of the mean of a + sign b, enlarged as the errors of both are. */
+/* Variance of the mean of a + sign b, enlarged as the errors of both are. */
 static gg_status variance_of_sum(const varyings *all, const varying *a, const varying *b, int sign, double *variance,
                                  gg_error *err)
 {
@@ -58,9 +58,10 @@ static bool go_together(const varyings *all, const varying *a, const varying *b)
   return sum > 0;
 }
 
-/* Errors come from blocks of each mean's own length, enlarged by its own correlation function. Of two means that vary
- * together the difference is small, and would be lost in what these errors differ by. So the covariance is that with
- * which the difference has the variance that its own series gives; where one falls as the other rises, the sum. */
+/* Errors come from blocks of each mean's own length, enlarged by its own correlation function. If two means vary
+ * together, their difference is small, and would be lost in the inaccuracy of these errors. So the covariance is the
+ * one with which the difference has the variance that its own series gives; if one mean falls as the other rises, the
+ * sum is used. */
 static gg_status coefficient_of(const varyings *all, const varying *a, const varying *b, double *coefficient,
                                 gg_error *err)
 {

@@ -132,7 +132,7 @@ static double bytes_of(const gg_observable *o, const gg_model *m)
   return o->flag == GG_MEASURE_STRUCTURE ? bytes + 20 * mesh_points(m) : bytes; /* field, its transform, four modes */
 }
 
-/* What snapshots are gathered into, and observables keep. */
+/* Memory of snapshots and observables. */
 static void add_observables(gg_cost_estimate *f, const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
 {
   double vectors = 0;
@@ -150,9 +150,9 @@ static void add_observables(gg_cost_estimate *f, const gg_scene *scene, const gg
   f->observables += vectors * sizeof(gg_vec) * (double)m->n;
 }
 
-/* What the stress needs, times N error^2: what runs of 1000 to 4000 grains took, which is some fifty times the variance
- * of a grain's. eta* of a linear response is a slope over a*, fitted beside that of a*^3; half of each sweep of a gas
- * that cools is its beginning. */
+/* Collisions per grain that the stress needs, times N error^2, measured in runs of 1000 to 4000 grains: some fifty
+ * times the variance of one grain. eta* of a linear response is a slope over a*, fitted beside that of a*^3; half of
+ * each sweep of a gas that cools is its beginning. */
 static double for_stress(const gg_model *m)
 {
   if (m->linear_response) {

@@ -14,7 +14,7 @@ enum { LEAST_SIZE = 500, LEAST_SIZE_SHEARED = 200 };
 /* Shear waves grow without limit towards the instability: cooling, phi = 0.2, e = 0.85, they are 4.4(4) times those of
  * an elastic gas in a box of 0.99 of the stable volume, 3.0(2) at 0.88, 2.3(1) at 0.64. */
 #define SHARE_OF_STABLE 0.86
-/* Those waves answer shear, too. Viscosity at phi = 0.2, e = 0.8: 2.403(32) at 0.99 of the stable volume, 1.985(25)
+/* These waves respond to shear, too. Viscosity at phi = 0.2, e = 0.8: 2.403(32) at 0.99 of the stable volume, 1.985(25)
  * at 0.5, 1.958(27) at 0.3. */
 #define SHARE_OF_STABLE_SHEARED 0.4
 

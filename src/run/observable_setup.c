@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a replica is sampled with: the observables that the scene asks for, their bins, their memories. */
+/* Observables of a replica: those that the scene requests, their bins and their memory. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run reports while it lasts. */
+/* Progress reports of a run. */
 #include <math.h>
 #include <string.h>
 
@@ -72,7 +72,7 @@ static double log_scale(const gg_progress_estimate *o)
   return sum / weights;
 }
 
-/* What a test will find, if the error falls as 1/sqrt(window), but for some doubts. */
+/* Predict the outcome of a test: the error falls as 1/sqrt(window), with a margin. */
 static gg_window_test test_at(const gg_progress_estimate *o, const gg_stopping_criteria *criteria, uint64_t window,
                               double doubts)
 {
@@ -189,8 +189,8 @@ static double usual_end(const gg_replicas *all)
   return fmax(begins + window, 1.25 * (double)all->state.goal);
 }
 
-/* Until what was requested is reached, whatever the limit; NaN: not known. What a sample takes where curves are
- * measured is known only after some of the averaging. */
+/* Seconds until the requested errors are reached, regardless of the time limit; NaN: not known. Where curves are
+ * measured, the cost of a sample is known only after some of the averaging. */
 static double time_left(const gg_replicas *all, double due, gg_expected_end end)
 {
   double left = (end.at - due) * gg_run_progress_pace(&all->progress);

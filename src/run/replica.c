@@ -65,7 +65,7 @@ double gg_run_replica_collisions_per_grain(const gg_replica *r)
   return 2 * (double)collisions(r) / (double)r->model.n;
 }
 
-/* Of all threads that work for it. */
+/* Processor time of all threads that work for the replica. */
 static double cpu_used(const gg_replica *r)
 {
   gg_engine_state state;
@@ -110,10 +110,10 @@ static gg_status advance_interval(gg_replica *r, bool adapt, double *elapsed, ui
   return GG_OK;
 }
 
-/* Follow the rate, by at most a factor of four a time. What was counted is the rate in the middle of the interval. A
- * gas that cools or heats up for ever is slower or faster in the middle of the next one, by as much as it changed from
- * its beginning (temperature `before`) to now: late by that, samples at e = 0 would be 1.5 collisions a grain apart.
- * Elsewhere a difference of temperatures is noise. */
+/* Adapt the interval to the collision rate, by at most a factor of four at a time. The counted rate is that in the
+ * middle of the interval. A gas that cools or heats up for ever is slower or faster in the middle of the next one, by
+ * as much as it changed from its beginning (temperature `before`) to now: late by that, samples at e = 0 would be 1.5
+ * collisions a grain apart. Elsewhere a difference of temperatures is noise. */
 static void adapt_interval(gg_replica *r, double elapsed, uint64_t happened, double before)
 {
   double per_grain = 2 * (double)happened / (double)r->model.n, now = r->clock.temperature;
@@ -180,8 +180,8 @@ static gg_status emit_frame(gg_replica *r, const gg_run_callbacks *callbacks, gg
   return status;
 }
 
-/* Of the grains as the engine has them: of the last row, which tells its logarithm in units of the start, or in linear
- * response, whose sweeps continue beyond all units, T itself. As if all were well where nobody measures it. */
+/* Temperature in the engine's units, from the last row: rows hold log T in units of the start; in linear response,
+ * whose sweeps go through any scale, T itself. The starting temperature where T is not measured. */
 static double temperature_now(const gg_replica *r)
 {
   const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
@@ -212,9 +212,9 @@ gg_status gg_run_replica_collapsed(const gg_replica *r, gg_error *err)
   return GG_FAILED;
 }
 
-/* An interval is over before its time where the rate has risen, as from a start in the cold: then grains are as fast as
- * they collide. Where they collide a thousand times more often than grains of their temperature do, it is an inelastic
- * collapse that the contact-time rule was not there to prevent, and so it is after many such intervals in a row. */
+/* Detect inelastic collapse. An interval ends early where the collision rate has risen, as from a cold start; the rate
+ * then fits the temperature. A rate a thousand times that of the temperature is a collapse that no contact-time rule
+ * prevented, and so are many early ends in a row. */
 static gg_status check_collapse(gg_replica *r, bool adapt, double elapsed, uint64_t happened, gg_error *err)
 {
   enum { MOST_CUT_SHORT = 60 };
@@ -342,7 +342,7 @@ static void resume_frames(gg_replica *r)
   if (r->trajectory_every > 0 && r->clock.samples > 0) r->clock.next_frame = next_frame(r);
 }
 
-/* What was read may be anybody's: is it a clock that can continue? */
+/* Validate the restored clock. */
 static gg_status check_clock(const gg_replica *r, gg_error *err)
 {
   const struct gg_replica_clock *c = &r->clock;

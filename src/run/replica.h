@@ -49,7 +49,7 @@ typedef struct gg_replica {
     uint64_t window_collisions;
     uint64_t averaging, window_samples; /* curves are being taken; samples since */
     double next_frame, frame_every;     /* collisions per grain; of the frames requested when it was set */
-    /* Of the interval under way, where the run was stopped within it. */
+    /* The interval under way, if the run was stopped within it. */
     int64_t part;       /* in which it was stopped, from 1 on; 0: between intervals */
     double gone;        /* time of the parts before */
     double part_gone;   /* of this part */

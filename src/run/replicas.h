@@ -83,14 +83,14 @@ bool gg_run_criteria_restart(const gg_stopping_criteria *criteria, uint64_t rest
 /* Does a window of this length end the run, whatever its errors are? */
 bool gg_run_criteria_end(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window);
 
-/* What a test of the window found. A window with 64 long blocks knows its error to 9 %: it is sure. Shorter ones, with
+/* Result of a test of the window. A window with 64 long blocks knows its error to 9 %: it is sure. Shorter ones, with
  * 16 of them, do not know it to better than a fifth. */
 typedef struct gg_window_test {
   uint64_t window;
   double ratio;     /* error over the requested one; NaN: not known */
   bool exact, sure; /* as small as requested, and to be trusted */
 } gg_window_test;
-/* Whether the test ends the run. A run that tests repeatedly and stops at the first small error estimate stops where
+/* True if the test ends the run. A run that tests repeatedly and stops at the first small error estimate stops where
  * the estimate is too low. So a window that is not `sure` is extended by half its length after the first passed test,
  * and the estimate at its end counts. A sure window is not extended: its tests are few, since each is at the end
  * predicted by the last, and its estimate scatters little. (Simulated with independent blocks, without the error of the
@@ -101,10 +101,10 @@ bool gg_run_criteria_are_met(const gg_window_test *test, bool exact_before);
  * sure, to where its error should be a twentieth smaller than requested. */
 uint64_t gg_run_criteria_next_test(const gg_stopping_criteria *criteria, uint64_t restarts, const gg_window_test *last);
 
-/* By how much errors of a run that stops by them are enlarged, the others' by nothing: it stops where their estimate is
- * low. Of independent looks at autoregressive series (tests/run/test_stopping_rule.c) the mean square of deviations
- * over errors is 1.0 to 1.1 then, and 1.1 to 1.2 without; 1 % from 600 correlation times on. `correlation` and `window`
- * in one unit, over all replicas. */
+/* Factor that enlarges errors by which a run stops, since it stops where their estimate is low; 1 for other errors. In
+ * independent runs of autoregressive series (tests/run/test_stopping_rule.c) the mean square of deviations over errors
+ * is 1.0 to 1.1 then, and 1.1 to 1.2 without; 1 % from 600 correlation times on. `correlation` and `window` in one
+ * unit, over all replicas. */
 double gg_run_criteria_margin(const gg_stopping_criteria *criteria, double correlation, double window);
 
 /* create them, or restore them from `resume`, with the scheduler of the callbacks, or else one of
@@ -128,11 +128,11 @@ gg_status gg_run_replicas_store(gg_replicas *all, gg_error *err);
 /* progress.c: report to the caller's callback, if there is one; `over`: the run is. */
 void gg_run_replicas_report_progress(gg_replicas *all, bool over);
 bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all);
-/* Has every replica all->state.due samples? Where a run was stopped, some may not. */
+/* True if every replica has all->state.due samples; after a stop some may not. */
 bool gg_run_replicas_are_level(const gg_replicas *all);
 /* Samples that every replica has, of those that it is to have. */
 uint64_t gg_run_replicas_least(const gg_replicas *all);
-/* Of a run that is over: forget the samples that not every replica has, so that what there is can be reported. */
+/* After the run: drop samples that not every replica has, so that the rest can be reported. */
 void gg_run_replicas_level(gg_replicas *all);
 
 /* convergence.c: how exact the means over the window are, and whether it is steady. */

@@ -34,7 +34,7 @@ static const char *why_missing(const gg_replicas *all, gg_quantity q)
   return reason ? reason : "not measured in this scene";
 }
 
-/* Of a row of the series, in the unit of correlation times. */
+/* Length of a row of the series, in the unit of correlation times. */
 static double row_length_of(const gg_replicas *all, const gg_series *s)
 {
   size_t rows = gg_series_window_rows(s);
@@ -127,7 +127,8 @@ static void report_effort(const gg_replicas *all, gg_result *result)
   result->averaging.wall_seconds = NAN;
 }
 
-/* Of an ensemble whose size is given: one that is chosen keeps this below a share of the requested error. */
+/* Warn of few grains where the scene gives their number: a size that is chosen keeps the bias below a fraction of the
+ * requested error. */
 static void warn_if_few(const gg_replicas *all, gg_result *result)
 {
   const double bias = result->engine_state.particles_bias, asked = all->criteria.relative_error,
@@ -167,8 +168,8 @@ static void warn_if_undercooled(gg_result *result)
                      m->phi, FREEZING);
 }
 
-/* Work and noise less drag, loss and growth, measured apart, cancel but for errors. What splitting of steps and kicks
- * leaves in a right run is less than LEAST_IMBALANCE. */
+/* Work and noise less drag, loss and growth, measured apart, cancel but for errors. The splitting of steps and kicks
+ * leaves less than LEAST_IMBALANCE. */
 #define MOST_ERRORS 5
 #define LEAST_IMBALANCE 0.005
 
@@ -185,9 +186,9 @@ static void warn_if_unbalanced(gg_result *result)
       result->model.ensemble ? "; give dsmc.time_step a smaller value or dsmc.particles a larger one" : "");
 }
 
-/* What the longest waves of the box show; where they show nothing, normal stresses may: at rest or cooling, a
- * homogeneous gas has equal normal stresses. Free cooling breaks up into vortices and clusters in a box that is large
- * enough (Goldhirsch & Zanetti 1993): then means are those of that state. */
+/* Warn of structure that the longest waves of the box show, or normal stresses: at rest or cooling, a homogeneous gas
+ * has equal normal stresses. Free cooling breaks up into vortices and clusters in a box that is large enough
+ * (Goldhirsch & Zanetti 1993): then means are those of that state. */
 static void warn_if_structured(gg_result *result)
 {
   char what[240];
@@ -210,7 +211,7 @@ static void warn_if_structured(gg_result *result)
   }
 }
 
-/* Where a grain's second neighbours are its own images, the gas is one of that box alone. */
+/* In a box so narrow a grain's second neighbours are its own images. */
 #define NARROW_BOX 4.0
 
 static void warn_if_narrow(gg_result *result)
@@ -225,8 +226,8 @@ static void warn_if_narrow(gg_result *result)
       narrowest / widest);
 }
 
-/* Where every contact slides, the force along a wall is mu times that across it whatever the gas does: a flow that
- * loses more than this feeds dies, and a faster wall does not help. */
+/* If every contact slides, the force along a wall is mu times the force across it, whatever the gas does: a flow that
+ * loses more energy than this force supplies dies, and a faster wall does not help. */
 #define ALL_SLIDE 0.97
 
 static void warn_if_walls_slip(gg_result *result)

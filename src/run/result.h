@@ -19,7 +19,8 @@ typedef struct gg_estimate {
   char reason[160];
 } gg_estimate;
 
-/* Do correlation times count collisions a grain? Where the gas cools or heats up for ever, times grow without end. */
+/* True if correlation times are in collisions per grain: while a gas cools or heats up for ever, times grow without
+ * end. */
 bool gg_run_quantity_counts_in_collisions(const gg_model *model);
 
 /* Names, symbol and unit of a quantity in a scene, made once for a result or a comparison: whoever writes or prints

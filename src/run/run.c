@@ -8,13 +8,13 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graingas.h"
 #include "run/protocol_times.h"
 #include "run/replicas.h"
 #include "run/scheduler.h"
 #include "scene/model_of_scene.h"
-#include "graingas.h"
 
-/* Where the replicas stand as a result; it may fall short of what was requested. */
+/* Make a result of the present state of the replicas; it may fall short of the requested errors. */
 static gg_status report(gg_replicas *all, gg_result **out, gg_error *err)
 {
   gg_result *result = gg_base_array_new(1, sizeof *result, err);
@@ -287,7 +287,7 @@ static gg_status make_model(const gg_scene *scene, gg_engine_kind kind, const gg
   return GG_OK;
 }
 
-/* Of a gas that is followed theories describe the state that it comes to: after all changes. */
+/* Theories beside a gas that is followed in time describe its last state, after all changes. */
 static gg_status compare_theories_at_end(const gg_scene *scene, const gg_model *start, const gg_stop *stop,
                                          gg_comparison *c, gg_error *err)
 {
@@ -302,7 +302,8 @@ static gg_status compare_theories_at_end(const gg_scene *scene, const gg_model *
 }
 
 static gg_status compare_scene(const gg_scene *scene, const gg_archive *resume, int threads,
-                               const gg_run_callbacks *callbacks, gg_model model[GG_N_ENGINES], gg_comparison *c, gg_error *err)
+                               const gg_run_callbacks *callbacks, gg_model model[GG_N_ENGINES], gg_comparison *c,
+                               gg_error *err)
 {
   GG_TRY(make_model(scene, GG_MD, callbacks, &model[GG_MD], err));
   const bool dsmc = make_model(scene, GG_DSMC, callbacks, &model[GG_DSMC], NULL) == GG_OK;

@@ -7,7 +7,7 @@
 #include "run/result.h"
 #include "theory/theory_list.h"
 
-/* Of the public header. */
+/* The public header defines these. */
 typedef struct gg_comparison gg_comparison;
 typedef struct gg_workers gg_workers;
 typedef struct gg_progress gg_progress;
@@ -58,7 +58,8 @@ struct gg_comparison {
   gg_scene scene; /* holds its extension */
   gg_model model; /* md's */
   gg_quantity_rows rows;
-  gg_result *by_engine[GG_N_ENGINES]; /* GG_MD, GG_DSMC; NULL where the engine cannot run the scene, with the reason below */
+  gg_result
+      *by_engine[GG_N_ENGINES]; /* GG_MD, GG_DSMC; NULL where the engine cannot run the scene, with the reason below */
   char refusal[GG_N_ENGINES][256];
   int n_theories;
   struct {

@@ -101,7 +101,7 @@ static bool reads_blocks(const gg_replica *r)
   return all;
 }
 
-/* Where rows are made of positions, too, and the engine has any. */
+/* True if rows need positions and the engine has them. */
 static bool reads_positions(const gg_replica *r)
 {
   for (int k = 0; k < r->n_observables; k++) {

@@ -97,7 +97,7 @@ void gg_run_stop(gg_run_tasks *run);
 
 /* For run/workers. Submit one task, as it is. */
 void gg_run_task_submit(gg_run_task *task);
-/* Of a submitted task: threads here will do it; it is over, done elsewhere. */
+/* State of a submitted task: queued for local threads; finished; finished by another rank. */
 void gg_run_task_queue(gg_run_task *task);
 void gg_run_task_finish(gg_run_task *task);
 

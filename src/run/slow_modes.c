@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Between walls a dense core moves to and fro, grows and shrinks, for longer than any mean over all grains remembers.
- * The long waves across the gap (measure/wall_modes.h) show for how long. Where the walls are alike, what is reported
- * is even under the symmetry of the flow: it follows even modes, and the squares of odd ones. A square forgets in half
- * the time. The slowest mode of all is often odd: the gas drifts along the walls with one of them. Normal stresses,
- * free paths and fourth moments follow its square closely. A core that keeps to one side is to be seen, too. */
+ * The long waves across the gap (measure/wall_modes.h) show for how long. Between like walls the reported quantities
+ * are even under the symmetry of the flow: they follow even modes, and the squares of odd ones. A square forgets in
+ * half the time. The slowest mode of all is often odd: the gas drifts along the walls with one of them. Normal
+ * stresses, free paths and fourth moments follow its square closely. A core that keeps to one side is to be seen,
+ * too. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

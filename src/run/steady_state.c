@@ -51,7 +51,7 @@ typedef enum verdict {
   NO_TREND
 } verdict;
 
-/* What the words need. */
+/* Length of the averaging window. */
 typedef struct window {
   double samples;  /* of one replica */
   double sampled;  /* by all replicas */

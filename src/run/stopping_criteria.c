@@ -131,8 +131,9 @@ bool gg_run_criteria_are_met(const gg_window_test *test, bool exact_before)
   return test->exact && (test->sure || exact_before);
 }
 
-/* Where the error, which falls as 1/sqrt(window), should be exact enough: at most twice as long, as it is an estimate.
- */
+/* Window at which the error, which falls as 1/sqrt(window), should be small enough; at most twice the present one,
+ * since the error is an estimate.
+ * */
 static uint64_t expected_end(const gg_window_test *t)
 {
   double factor = fmin(fmax(1.1 * t->ratio * t->ratio, 1.1), 2);

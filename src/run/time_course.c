@@ -26,8 +26,8 @@ static bool is_of_one_row(const gg_observable *o, const gg_function *f)
   return false;
 }
 
-/* Over the sample `row` of all replicas, of a function of the channels of observable k. Of the gas at present: what is
- * followed in time does not depend on what may change. NaN where memory fails: run.c sees that. */
+/* Mean of a function of the channels of observable k over the sample `row` of all replicas, with the model of the
+ * start: no followed quantity depends on keys that may change. NaN where memory fails, which run.c reports. */
 static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, int k, size_t row)
 {
   const size_t n = (size_t)all->n;
@@ -61,8 +61,8 @@ gg_mean gg_run_time_course_end(const gg_replicas *all, gg_quantity q)
 
 #define LITTLE 0.05 /* seconds of processor time: who interrupts a run waits for its result */
 
-/* What kinetic theory has at each of the times, from the temperatures of the start on; NaN after a change to a gas that
- * it has nothing for, and of an interrupted run where it takes long. */
+/* Kinetic theory at each of the times, from the temperatures of the start; NaN after a change to a gas that no theory
+ * describes, and after an interruption. */
 static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *err)
 {
   const gg_scene *s = &all->scene;
@@ -170,7 +170,7 @@ gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, g
     const gg_quantity_row *row = &result->rows.row[i];
     if (is_shown(&all->model, row->quantity) && gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
       add_curve(all, row, &f, known ? theory : NULL, 0, list);
-    /* What follows may be small beside what went before: a picture of its own. */
+    /* The course after the last change may be small beside the one before: it gets a picture of its own. */
     if (row->quantity == GG_Q_TEMPERATURE && changed > 0 && changed + 1 < all->replica[0].series.n &&
         gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
       add_curve(all, row, &f, known ? theory : NULL, changed, list);

@@ -11,8 +11,8 @@ double gg_run_z_score(const gg_estimate *a, const gg_estimate *b)
   return error > 0 ? (a->mean - b->mean) / error : NAN;
 }
 
-/* Of enskog_hermite, with its numerical error; false where there is none, or a gas that is followed in time: it may be
- * far from the state that theories describe. */
+/* Solution of enskog_hermite with its numerical error; false where there is none, or in a gas that is followed in time,
+ * which may be far from the state that theories describe. */
 static bool enskog_solution(const gg_comparison *c, gg_quantity q, gg_estimate *solution)
 {
   if (gg_scene_is_followed(&c->scene)) return false;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where molecular dynamics, the Enskog equation and theories may differ, and why: what a comparison is to remark on. Of
- * a gas that is followed in time that is the z-score of the engines alone. */
+/* Deviations of molecular dynamics from the Enskog equation and of theories from both, with remarks on their causes.
+ * For a gas that is followed in time only the z-score of the engines. */
 #ifndef GG_Z_SCORES_H
 #define GG_Z_SCORES_H
 
 #include "run/run.h"
 
-/* Of the public header. */
+/* The public header defines these. */
 typedef struct gg_departure gg_departure;
 typedef struct gg_comparison_row gg_comparison_row;
 
@@ -18,8 +18,8 @@ double gg_run_z_score(const gg_estimate *a, const gg_estimate *b);
 bool gg_run_enskog_deviation(const gg_comparison *comparison, gg_engine_kind engine, gg_quantity q,
                              gg_departure *departure);
 
-/* What a quantity is compared with: Enskog's noise-free solution where it answers, else the mean of dsmc. False: there
- * is neither. */
+/* Reference of a quantity: Enskog's noise-free solution where it answers, else the mean of dsmc. False: there is
+ * neither. */
 typedef struct gg_reference {
   const char *method; /* "enskog_hermite", "dsmc" */
   gg_estimate value;
@@ -52,7 +52,7 @@ typedef struct gg_theory_remark {
   double deviation;
   const char *cause;
 } gg_theory_remark;
-/* Of all theories that apply, against md, or against dsmc where md was not run; returns how many. */
+/* Remarks on all theories that apply, against md, or against dsmc where md was not run; returns their number. */
 int gg_run_theory_remarks(const gg_comparison *comparison, gg_theory_remark remarks[GG_MOST_THEORIES]);
 
 /* One quantity of a comparison: both engines, and how far they are off each other and Enskog's equation. */

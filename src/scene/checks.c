@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What concerns several keys of a scene: defaults that follow the flow, combinations that are invalid anywhere, and
- * keys that have no effect beside the others. Engines reject what they cannot run
- * (gg_engine_ops.accepts). */
+/* Checks across keys of a scene: defaults that follow the flow, combinations that are invalid anywhere, and keys that
+ * have no effect beside the others. Engines reject what they cannot run (gg_engine_ops.accepts). */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +8,7 @@
 #include "common/collision.h"
 #include "scene/fields.h"
 
-/* What the collisions of a scene do, which keys depend on. */
+/* Properties of the scene's collisions that keys depend on. */
 typedef struct traits {
   bool lossy, rough, beta, friction; /* some pair of its species loses energy; spins; has beta above -1; mu above 0 */
 } traits;
@@ -118,7 +117,7 @@ static gg_status check_gravity(const gg_scene *s, gg_error *err)
   return GG_OK;
 }
 
-/* Of one or two grains about their mean little is left. */
+/* Velocities of one or two grains about their mean are nearly zero. */
 enum { LEAST_OF_CELL = 4 };
 static gg_status check_cells(const gg_scene *s, gg_error *err)
 {

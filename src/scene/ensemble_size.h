@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How many grains a Monte Carlo ensemble has, where the scene does not give it: by the requested error. */
+/* Number of grains of a Monte Carlo ensemble where the scene does not give it: chosen by the requested error. */
 #ifndef GG_ENSEMBLE_H
 #define GG_ENSEMBLE_H
 
@@ -11,7 +11,7 @@
 /* The relative error that ends a run; 0 where only collisions do. */
 double gg_scene_ensemble_requested_error(const gg_scene *scene);
 
-/* That by which the size is chosen. */
+/* The relative error by which the size is chosen. */
 double gg_scene_ensemble_size_error(const gg_scene *scene);
 int64_t gg_scene_ensemble_size(const gg_scene *scene);
 /* Means of an ensemble of this model lie off by up to this share, as 1/N. */

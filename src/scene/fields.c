@@ -65,7 +65,7 @@ static const gg_word log_endings[] = {{".csv", 0, "a table"}, {".jsonl", 0, "a J
 
 #define AT(member) offsetof(gg_scene, member)
 #define AUTO .special = "auto", .special_value = GG_AUTO, .by_default = GG_AUTO
-/* Of numbers with a unit: products and ratios of a few of them are numbers, too. */
+/* Limits of numbers with a unit: products and ratios of a few of them neither overflow nor underflow. */
 #define SMALL 1e-30
 #define LARGE 1e30
 #define NONE .special = "none", .special_value = GG_AUTO, .by_default = GG_AUTO

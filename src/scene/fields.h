@@ -80,7 +80,8 @@ typedef struct gg_field {
   const char *special; /* a word that stands for special_value: "auto", "none" */
   double special_value;
   double by_default; /* of words their value, of pairs and vectors every element; phi: GG_AUTO, must be given */
-  /* Of choices and sets: a list that ends with a NULL name, or a function that returns the i-th of another table. */
+  /* Words of choices and sets: a list that ends with a NULL name, or a function that returns the i-th of another
+   * table. */
   const gg_word *words;
   gg_word (*word)(int i);
   const char *unit, *doc;
@@ -123,7 +124,7 @@ void gg_scene_number_format(double value, char *text, size_t size);
 void gg_scene_field_when(const gg_field *field, char *text, size_t size);
 /* Does a key belong to the flow, whatever else a scene says? */
 bool gg_scene_field_is_of(const gg_field *field, gg_flow flow);
-/* What a field takes, in words: "a number from 0 to 1", "one of md, dsmc". */
+/* Values that a field takes, in words: "a number from 0 to 1", "one of md, dsmc". */
 void gg_scene_field_allowed(const gg_field *field, char *text, size_t size);
 
 /* scene_schema.c: a map with these keys as JSON Schema; the part before a dot is a map of its own. */
@@ -164,7 +165,7 @@ json_t *gg_scene_protocol_json(const gg_scene *scene);
 /* The scene after the first n changes; n of them by a time (user's units). */
 gg_status gg_scene_protocol_apply(const gg_scene *scene, int n, gg_scene *changed, gg_error *err);
 int gg_scene_protocol_count(const gg_scene *scene, double time);
-/* Whether a changed shear rate is near enough to that of the start, whose units grains keep. */
+/* Check that a changed shear rate is within a factor of 1000 of that of the start, whose units grains keep. */
 gg_status gg_scene_check_shear_rate(const gg_scene *changed, gg_error *err);
 /* Strain up to a time, both as in results; 0 without shear. */
 double gg_scene_strain(const gg_scene *scene, double time);
@@ -176,7 +177,7 @@ void gg_scene_fill_in(gg_scene *scene);
 /* The same, and reject combinations that are invalid in any engine: call it before a scene is used. */
 gg_status gg_scene_finish(gg_scene *scene, gg_error *err);
 
-/* What a scene is used for: a sum of these. */
+/* Uses of a scene: a sum of these. */
 enum { GG_USE_MD = 1u << GG_MD, GG_USE_DSMC = 1u << GG_DSMC, GG_USE_THEORY = 1u << 2 };
 /* Keys that the scene gives and that have no effect in it, a line for each reason: "walls.e, walls.beta have no effect
  * ...". Keys with their default values are left out. A last line states what fractions become that do not sum to 1.

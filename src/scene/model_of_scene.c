@@ -235,7 +235,7 @@ static gg_status set_walls(gg_model *m, const gg_scene *s, gg_error *err)
   return gg_common_model_set_walls(m, &walls, err);
 }
 
-/* What md and dsmc alone read. */
+/* Members that engines alone read. */
 static void set_engine(gg_model *m, const gg_scene *s)
 {
   m->contact_time = m->elastic                         ? 0

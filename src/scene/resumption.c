@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a checkpoint keeps of a scene, to reject another scene when the run is resumed. */
+/* The scene in a checkpoint: another scene is rejected when the run is resumed. */
 #include <stdio.h>
 #include <string.h>
 
@@ -47,8 +47,10 @@ gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *a, gg_error
   GG_TRY(gg_base_archive_put(a, number_of_species, GG_ITEM_I64, &n, 1, err));
   const double chosen_for = gg_scene_ensemble_size_error(scene);
   GG_TRY(gg_base_archive_put(a, ensemble_item, GG_ITEM_F64, &chosen_for, 1, err));
-  if (scene->fixed.contact_time != GG_AUTO) GG_TRY(gg_base_archive_put(a, raised_item, GG_ITEM_F64, &scene->fixed.contact_time, 1, err));
-  if (scene->fixed.clock_rate != GG_AUTO) GG_TRY(gg_base_archive_put(a, clock_item, GG_ITEM_F64, &scene->fixed.clock_rate, 1, err));
+  if (scene->fixed.contact_time != GG_AUTO)
+    GG_TRY(gg_base_archive_put(a, raised_item, GG_ITEM_F64, &scene->fixed.contact_time, 1, err));
+  if (scene->fixed.clock_rate != GG_AUTO)
+    GG_TRY(gg_base_archive_put(a, clock_item, GG_ITEM_F64, &scene->fixed.clock_rate, 1, err));
   gg_common_extension_signature(scene->extension, signature, sizeof signature);
   return gg_base_archive_put(a, extension_item, GG_ITEM_U8, signature, sizeof signature, err);
 }

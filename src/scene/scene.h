@@ -46,7 +46,7 @@ typedef struct gg_scene_fixed {
   double ensemble_error; /* relative error (0: none) that dsmc.particles: auto was chosen for */
 } gg_scene_fixed;
 
-/* What changes on the way: one key at one time, both as they stand in scenes. */
+/* A change during the run: one key at one time, in the text of scenes. */
 enum { GG_MAX_CHANGES = 16, GG_CHANGE_TEXT = 40 };
 typedef struct gg_change {
   double at; /* user's units */

@@ -41,7 +41,7 @@ static json_t *set_json(const gg_field *f, unsigned set)
   return list;
 }
 
-/* What most pairs have, which goes by the name of other; with as many of several, what the last pair has. */
+/* The commonest value of pairs, written as `other`; on a tie the last pair's. */
 static double commonest(const double *x)
 {
   double best = x[GG_PAIRS - 1];
@@ -54,7 +54,7 @@ static double commonest(const double *x)
   return best;
 }
 
-/* Up to two species: all three pairs. Of more: those unlike the rest. */
+/* Up to two species all three pairs are written; for more species those unlike the rest. */
 static json_t *pairs_json(const gg_field *f, const double *x, const gg_scene *scene)
 {
   const gg_scene defaults = gg_scene_defaults();

@@ -19,7 +19,8 @@ const char *gg_scene_scalar(const yaml_node_t *node)
   return node->type == YAML_SCALAR_NODE ? (const char *)node->data.scalar.value : NULL;
 }
 
-/* What a scene holds may hold line ends and the escape sequences of terminals, and be cut within a character. */
+/* Quote a word of the scene for a message: it may have line ends and escape sequences of terminals, and be cut within a
+ * character. */
 void gg_scene_quote(const char *word, char *text, size_t size)
 {
   snprintf(text, size, "%s", word);
@@ -293,7 +294,7 @@ static gg_status reject_quantity(const input *in, const gg_scene_entry *e)
   return gg_scene_reject(in->r, e->name, in->key, "no quantity '%s'; `graingas info SCENE.yaml` lists them", word);
 }
 
-/* What the map leaves out is not requested. */
+/* Quantities that are not in the map have no requested error. */
 static gg_status read_errors(const input *in, double *value)
 {
   const char *text = gg_scene_scalar(in->node);

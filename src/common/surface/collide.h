@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A grain collides with a surface, for all engines: by the collision rule, with a partner of infinite mass without
- * spin; or, of a thermal wall, in the given share of contacts, as Maxwell has it (Phil. Trans. 170 (1879) 231,
- * appendix): the wall takes the grain up, and another one leaves from a gas at rest beside it, of the wall's
- * temperature T. Of those the flux through the surface counts: along the normal the speed v_n has the distribution v_n
- * exp(-m v_n^2/2T), each other component of velocity, relative to the wall, and of spin that of a Maxwellian. So a gas
- * in equilibrium at T stays what it is. Spins at the same T: as SPARTA has the rotation of diffusely reflected
- * molecules (Plimpton et al., Phys. Fluids 31 (2019) 086101), which for spheres with three axes is a Maxwellian of the
- * spin. */
+/* Collision of a grain with a surface, for all engines: by the collision rule, with a partner of infinite mass without
+ * spin. A thermal wall re-emits the given fraction of contacts diffusely (Maxwell, Phil. Trans. 170 (1879) 231,
+ * appendix): velocities are drawn from the flux of a gas at rest relative to the wall, of the wall's temperature T. The
+ * normal speed v_n has the distribution v_n exp(-m v_n^2/2T); each tangential component of the velocity, relative to
+ * the wall, and each of the spin is Maxwellian. So a gas in equilibrium at T remains so. Spins have the same T, as the
+ * rotation of diffusely reflected molecules in SPARTA (Plimpton et al., Phys. Fluids 31 (2019) 086101). */
 #ifndef GG_SURFACE_COLLIDE_H
 #define GG_SURFACE_COLLIDE_H
 
@@ -55,7 +53,7 @@ GG_INLINE gg_surface_hit gg_surface_collide(gg_rule rule, const gg_surface *s, c
   return hit;
 }
 
-/* What the grain has less of, relative to the surface. */
+/* Energy that the grain loses, relative to the surface. */
 GG_INLINE double gg_surface_heat(const gg_contact *contact, gg_vec k, const gg_surface_hit *hit)
 {
   return hit->thermal ? hit->heat : gg_energy_loss(contact, k, hit->g, hit->J);

@@ -24,8 +24,8 @@ GG_INLINE double gg_quartic_curvature(const double c[5], double t)
   return 2 * c[2] + t * (6 * c[3] + t * 12 * c[4]);
 }
 
-/* Where the quartic (or its slope) is 0 between two times at which its signs differ: Newton's steps, halved intervals
- * where they lead astray. */
+/* Root of the quartic (or of its slope) between two times at which its signs differ: Newton's steps, and bisection
+ * where they leave the interval. */
 GG_INLINE double gg_quartic_root(const double c[5], bool of_slope, double from, double to)
 {
   bool rises = (of_slope ? gg_quartic_slope(c, to) : gg_quartic_at(c, to)) > 0;
@@ -88,7 +88,7 @@ GG_INLINE gg_vec gg_ridge_from_axis(const gg_surface *s, double k, const gg_vec 
   return (gg_vec){r->x - (k + 0.5) * 2 * s->radius, r->y - s->place, 0};
 }
 
-/* Which cylinder is nearest along x? */
+/* x of the axis of the cylinder that is nearest along x. */
 GG_INLINE double gg_ridge_at(const gg_surface *s, double x)
 {
   double k = x / (2 * s->radius), whole = (double)(int64_t)k;

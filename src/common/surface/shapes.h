@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a shape answers. Each shape is a file with these five functions, and an alternative below; a grain is a sphere
+/* Functions of a shape. Each shape is a file with these five functions, and an alternative below; a grain is a sphere
  * of the given radius about r.
  *
  *   delay         time until the grain in flight touches the surface, INFINITY: never. Touching or a little inside by

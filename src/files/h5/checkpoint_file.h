@@ -20,7 +20,7 @@ gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_arch
  * there is removed, since neither is a fall-back of this run. The caller holds the lock. */
 gg_status gg_files_checkpoint_replace(const char *path, const gg_archive *archive, const gg_scene *scene,
                                       gg_error *err);
-/* What FILE.1 is called where links lead from FILE; to be freed. NULL: nowhere, or out of memory, which is noted. */
+/* Name of FILE.1 where FILE is a link; to be freed. NULL: nowhere, or out of memory, which is noted. */
 char *gg_files_checkpoint_before(const char *path);
 /* Remove FILE.1. */
 gg_status gg_files_checkpoint_remove_before(const char *path, gg_error *err);

@@ -76,7 +76,7 @@ const char *gg_files_checksum_trailer_check(const void *data, size_t size, uint6
   return memcmp(there, wanted, sizeof wanted) == 0 ? NULL : "their checksum does not match: they are damaged";
 }
 
-/* Of the first `size` bytes. The block that they were read into, of as many if they are few, is left to be freed. */
+/* Checksum of the first `size` bytes. The block that holds them, if they are few, is to be freed by the caller. */
 static int sum_up(int fd, off_t size, unsigned char *trailer, unsigned char **block)
 {
   uLong sum = crc32(0, NULL, 0);

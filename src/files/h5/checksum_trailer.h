@@ -14,7 +14,7 @@
 
 enum { GG_TRAILER_SIZE = 20, GG_TRAILER_SMALL = 1 << 20 };
 
-/* Of bytes in memory. */
+/* Trailer of bytes in memory. */
 void gg_files_checksum_trailer_of(const void *data, size_t size, unsigned char trailer[GG_TRAILER_SIZE]);
 /* Bytes in memory with their checksum into a file; `stop` (may be NULL) is polled for each megabyte. */
 gg_status gg_files_checksum_trailer_write(gg_atomic_file *file, const void *data, size_t size, const gg_stop *stop,
@@ -23,11 +23,11 @@ gg_status gg_files_checksum_trailer_write(gg_atomic_file *file, const void *data
 void *gg_files_checksum_trailer_append(void *data, size_t size, gg_error *err);
 /* Likewise read: NULL if they are what was written, with the size before the checksum; otherwise why not. */
 const char *gg_files_checksum_trailer_check(const void *data, size_t size, uint64_t *before);
-/* Of a whole file that can be read; errno has the reason on -1. One pass over it. */
+/* Trailer of a whole readable file, in one pass; -1 with the reason in errno. */
 int gg_files_checksum_trailer_of_file(int fd, unsigned char trailer[GG_TRAILER_SIZE]);
 /* NULL: the file is what was written, or *bare: it ends without a checksum. It is open, and *size says where its
- * checksum begins. Of one of up to GG_TRAILER_SMALL bytes *whole has those before its checksum, as they were summed, to
- * be freed; of a larger one it is NULL. Otherwise why it cannot be read. */
+ * checksum begins. For a file of up to GG_TRAILER_SMALL bytes *whole has the bytes before its checksum, to be freed;
+ * for a larger one it is NULL. Otherwise the reason why the file cannot be read. */
 const char *gg_files_checksum_trailer_open(const char *path, int *fd, uint64_t *size, unsigned char **whole,
                                            bool *bare);
 

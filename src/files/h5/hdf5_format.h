@@ -50,7 +50,7 @@ typedef struct gg_h5_space {
 bool gg_h5_type_of(const unsigned char *data, size_t size, gg_h5_type *type);
 bool gg_h5_space_of(const unsigned char *data, size_t size, gg_h5_space *space);
 
-/* What chunks went through on their way into the file, in this order; 1 to 3 as HDF5 numbers them. */
+/* Filters of chunks in the order in which they were applied on writing; 1 to 3 as HDF5 numbers them. */
 enum { GG_H5_GZIP = 1, GG_H5_SHUFFLE = 2, GG_H5_FLETCHER32 = 3, GG_H5_MOST_FILTERS = 4 };
 
 /* An array, and elements of it. */
@@ -64,7 +64,7 @@ typedef struct gg_h5_array_in {
   unsigned filter[GG_H5_MOST_FILTERS];
 } gg_h5_array_in;
 bool gg_h5_array_at(gg_h5_in *in, const char *path, gg_h5_array_in *array);
-/* Rows `from` .. `from` + `n` - 1 as they stand in the file, into room of their size. Of a scalar: row 0. */
+/* Rows `from` .. `from` + `n` - 1 as they stand in the file, into room of their size. A scalar is row 0. */
 bool gg_h5_rows_of(gg_h5_in *in, const char *path, const gg_h5_array_in *array, uint64_t from, uint64_t n, void *to);
 /* Elements of a row; 0 where there is none. */
 uint64_t gg_h5_row_size(const gg_h5_space *space);

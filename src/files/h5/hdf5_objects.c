@@ -194,7 +194,7 @@ static const char *follow_trail(gg_h5_trail *t, const char *path)
   return path;
 }
 
-/* Where the k-th object of the path is, which ends at `end`. */
+/* Position of the k-th object of the path, which ends at `end`. */
 static void remember(gg_h5_trail *t, const char *path, size_t end, uint64_t at)
 {
   if (end >= sizeof t->path || t->depth == GG_H5_DEEPEST) return;

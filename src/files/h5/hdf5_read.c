@@ -216,7 +216,7 @@ static bool find_chunk(gg_h5_in *in, const gg_h5_array_in *a, const uint64_t *pl
   }
 }
 
-/* What of a chunk lies within rows from .. from + n - 1: line by line of its last dimension. */
+/* Copy the part of a chunk within rows from .. from + n - 1, line by line of its last dimension. */
 static void copy_chunk(const gg_h5_array_in *a, const uint64_t *place, const unsigned char *chunk, uint64_t from,
                        uint64_t n, unsigned char *to)
 {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Result files and checkpoints, read. HDF5 itself is not safe from files that somebody made to harm: they are read here
- * instead, and HDF5 never sees one. What graingas writes is a small part of HDF5's format, and that is read, checked
- * word by word: version 0 of the superblock, old groups and object headers, arrays in one piece or in chunks, numbers
- * and texts of fixed length. Other programs repack files: chunks may be compressed by gzip, shuffled and have
- * checksums. What else a file holds is left alone, and what is requested and is of another kind (of variable length, in
- * a newer format, compressed otherwise) is refused by name. Nothing takes more memory than the file has bytes; what is
- * compressed, 32 times as many or 64 MB.
+ * instead, and HDF5 never sees one. graingas writes a small part of HDF5's format, which is read and checked word by
+ * word: version 0 of the superblock, old groups and object headers, arrays in one piece or in chunks, numbers and texts
+ * of fixed length. Other programs repack files: chunks may be compressed by gzip, shuffled and have checksums. Other
+ * objects are ignored. A requested object of another kind (of variable length, in a newer format, compressed otherwise)
+ * is refused by name. Nothing takes more memory than the file has bytes; compressed data up to 32 times as many, or 64
+ * MB.
  *
  * The first failure sticks: later calls do nothing, and gg_h5_in_status reports it. */
 #ifndef GG_H5_READER_H
@@ -20,7 +20,7 @@
 
 enum { GG_H5_WINDOW = 4096, GG_H5_LONGEST = 160, GG_H5_DEEPEST = 8 };
 
-/* What was looked up last: most of the next lies in the same group. */
+/* The last lookup: the next one mostly is in the same group. */
 typedef struct gg_h5_trail {
   char path[GG_H5_LONGEST];
   int depth;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the elements of an array or attribute are, and how many. */
+/* Type and number of the elements of an array or attribute. */
 #include <string.h>
 
 #include "files/h5/hdf5_format.h"

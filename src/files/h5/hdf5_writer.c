@@ -44,7 +44,7 @@ static bool has_room(gg_h5 *h)
   return false;
 }
 
-/* Whether there is nothing more to be done. */
+/* True if nothing remains to be done. */
 static bool is_over(gg_h5 *h)
 {
   if (!h->failed && h->stop && gg_stop_asked(h->stop)) h->failed = h->interrupted = true;
@@ -355,7 +355,7 @@ void gg_h5_rows_drop(gg_h5 *h, gg_h5_rows *rows, size_t n)
   if (!is_over(h)) set_rows(h, rows, rows->n - n);
 }
 
-/* What HDF5 kept of the rows is written only now: where that fails, zeros stand in its place. */
+/* HDF5 writes the rows that it kept only now; if that fails, zeros are in their place. */
 void gg_h5_rows_close(gg_h5 *h, gg_h5_rows *rows)
 {
   if (rows->dataset >= 0 && H5Dclose(rows->dataset) < 0) gg_h5_failed(h, "an array cannot be closed");

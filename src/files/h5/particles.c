@@ -73,7 +73,7 @@ static void write_frame_of_reference(gg_h5 *h, bool boxed, const gg_model *model
   gg_h5_attribute(h, GRAINS "/velocity", "shear_rate", H5T_NATIVE_DOUBLE, &model->shear_rate, 0);
 }
 
-/* What does not change in time, and what the numbers mean: units, frame of reference. */
+/* Write members that do not change in time, units and frame of reference. */
 static void write_grains(gg_h5 *h, bool boxed, const gg_model *model, const gg_frame *frame, const size_t *order)
 {
   write_kinds(h, model, frame, order);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which checkpoints can be resumed. */
+/* Stored results and checkpoints, read from HDF5. */
 #include "files/h5/result_reader.h"
 
 #include <stdio.h>
@@ -14,8 +14,8 @@
 #include "files/h5/hdf5_reader.h"
 #include "files/result_document.h"
 
-/* States are saved as they stand in memory: those of another layout cannot be read. Those of another identity can, but
- * the run would continue with other physics, or have another trajectory. */
+/* Reject a checkpoint that this build cannot resume. States are saved as they are in memory: another layout cannot be
+ * read. Another identity can, but the run would continue with other physics or another trajectory. */
 void gg_files_checkpoint_check_version(struct gg_h5_in *h, bool any_build)
 {
   int64_t layout = 1; /* the first layout has no number */

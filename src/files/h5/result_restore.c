@@ -125,7 +125,7 @@ static void restore_means(gg_result *r, const json_t *document)
   }
 }
 
-/* Where the quantities of a result stand among the stored names; returns how many names there are. */
+/* Find the quantities of a result among the stored names; returns the number of names. */
 static size_t find_correlated(const gg_result *r, const char *names, gg_correlations *c, size_t *place)
 {
   size_t at = 0;
@@ -288,8 +288,8 @@ static void restore_refusal(const json_t *document, const char *theory, char *re
   snprintf(reason, size, "%s", *said ? said : "it is not in the file");
 }
 
-/* What the file's theories said, which those of today may not, nor of the stored scene: a restitution law of the
- * program's own is not in it. */
+/* Restore the answers of theories as stored. They are not computed anew: theories may have changed, and a user's
+ * restitution law is not in the stored scene. */
 static gg_status restore_theories(gg_comparison *c, const json_t *document, gg_error *err)
 {
   const json_t *all = json_object_get(document, "theory");

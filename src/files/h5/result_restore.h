@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From a result file that was read to the result that it was written from: means, history, curves, the last frame. What
- * the file does not hold (counts of events) is left at zero. */
+/* From a result file that was read to the result that it was written from: means, history, curves, the last frame.
+ * Members that the file does not hold (counts of events) are zero. */
 #ifndef GG_RESULT_RESTORE_H
 #define GG_RESULT_RESTORE_H
 
@@ -21,8 +21,8 @@ gg_status gg_files_comparison_restore(const gg_stored_result *stored, gg_compari
 /* Quantities and theories that the program which wrote a file had brought (graingas.h, "Extension"): their names and
  * units, so that what was stored of them is found again. The callbacks stayed with that program. */
 
-/* Of the `results` of an engine's document that are no shared quantities, and the `theories` (NULL: none) of a
- * comparison's that are no shared theories. *extension is NULL if there is nothing; else to be released. */
+/* User-defined quantities in the `results` of an engine's document, and user-defined theories in the `theories` (NULL:
+ * none) of a comparison. *extension is NULL if there are none; else to be released. */
 gg_status gg_files_stored_extension(const json_t *results, const json_t *theories, gg_extension **extension,
                                     gg_error *err);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What stands in for the writing half of this room where there is no HDF5: the page of a browser, which reads results
- * and writes none. Whoever asks for that is told so. */
+/* Replacement of the writing half of this room where there is no HDF5: the page in a browser reads results and writes
+ * none. Calls that write return an error. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -21,7 +21,7 @@ typedef enum gg_run_message_kind {
   GG_MESSAGE_KINDS
 } gg_run_message_kind;
 
-/* Where a replica comes from: it is created, it is in the archive after the message, or the rank still has it. */
+/* Origin of a replica: it is created, it is in the archive after the message, or the rank still has it. */
 typedef enum gg_run_origin { GG_ORIGIN_NEW, GG_ORIGIN_ARCHIVE, GG_ORIGIN_THERE } gg_run_origin;
 
 typedef struct gg_run_message {
@@ -41,7 +41,7 @@ bool gg_run_message_read(const void *block, size_t size, gg_run_message *head);
 gg_status gg_run_message_archive(const void *block, size_t size, gg_archive *archive, gg_error *err);
 gg_status gg_run_message_scene(const void *block, size_t size, gg_scene *scene, gg_error *err);
 
-/* What this program was built from, as far as the other end has to agree. */
+/* Identity of this build; both ends must have the same. */
 void gg_run_message_build(char *text, size_t size);
 
 /* A message travels by polling: microseconds of sleep until the next poll, short while messages come. */

@@ -257,7 +257,7 @@ void gg_run_distribution_changed(gg_run_tasks *tasks)
   pthread_mutex_unlock(&d->workers->lock);
 }
 
-/* What a lost rank had to do, others do again, from where the replica was when it was last here. */
+/* Give the tasks of a lost rank to others, from the last state of each replica that arrived here. */
 static void replace(distribution *d, int lost)
 {
   for (int i = 0; i < d->tasks->n; i++) {

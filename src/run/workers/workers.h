@@ -12,7 +12,7 @@ gg_run_scheduler *gg_run_workers_scheduler(gg_workers *workers);
 
 /* From now on the tasks of this run go to all ranks. */
 gg_status gg_run_distribution_open(gg_workers *workers, gg_run_tasks *tasks, gg_error *err);
-/* Of a run that was not distributed: nothing. */
+/* Does nothing for a run that was not distributed. */
 void gg_run_distribution_close(gg_run_tasks *tasks);
 /* The replicas here were changed since they came back: other ranks need them again. */
 void gg_run_distribution_changed(gg_run_tasks *tasks);
