@@ -205,8 +205,8 @@ def test_critical_lengths():
 
 
 def test_closures():
-    """The table that validation/closures makes is that of graingas theory; so is the one that stands there."""
-    folder = os.path.join(os.environ["SOURCE"], "validation")
+    """validation/noise_free/closures and its stored table have the numbers of `graingas theory`."""
+    folder = os.path.join(os.environ["SOURCE"], "validation", "noise_free")
     with open("two.yaml", "w") as f:
         f.write("flow: hcs\nvary: {phi: [0.1, 0.4], collision.e: [0.8, 1]}\nsweep: {does: theory}\n")
     done = subprocess.run([os.path.join(folder, "closures"), "two.yaml"], capture_output=True, text=True)

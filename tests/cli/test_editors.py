@@ -64,7 +64,7 @@ def test_schema():
     schema = json.loads(run("info", "--schema").out)
     jsonschema.Draft7Validator.check_schema(schema)
     validator = jsonschema.Draft7Validator(schema)
-    files = glob.glob(ROOT + "/examples/*.yaml") + [ROOT + "/validation/grid.yaml", ROOT + "/validation/closures.yaml"]
+    files = glob.glob(ROOT + "/examples/*.yaml") + [ROOT + "/validation/grid/grid.yaml", ROOT + "/validation/noise_free/closures.yaml"]
     for path in filter(os.path.exists, files):
         with open(path) as f:
             wrong = list(validator.iter_errors(plain(yaml.safe_load(f))))
