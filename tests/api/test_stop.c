@@ -143,8 +143,8 @@ static bool is_made(void)
   return access("t_made.h5", F_OK) == 0 || access("t_made.csv", F_OK) == 0 || access("t_made.xyz", F_OK) == 0;
 }
 
-/* They end where they are stopped, at every stage, and leave no file. Pictures are drawn one after the other. */
-static void files(void **state)
+/* Writes end where they are stopped, at every stage, and leave no file. Pictures are drawn one after the other. */
+static void stopped_writes_leave_no_file(void **state)
 {
   (void)state;
   gg_error err;
@@ -203,8 +203,8 @@ static void large_file(void **state)
   assert_true(large >= small + 3);
 }
 
-/* Between points, and before the page. */
-static void validation(void **state)
+/* A validation stops between points and before the page. */
+static void a_validation_stops_between_points(void **state)
 {
   (void)state;
   gg_error err;
@@ -232,9 +232,9 @@ int main(void)
       cmocka_unit_test(before_followed_runs),
       cmocka_unit_test(after_followed_runs),
       cmocka_unit_test(short_theory_of_stopped_runs),
-      cmocka_unit_test(files),
+      cmocka_unit_test(stopped_writes_leave_no_file),
       cmocka_unit_test(large_file),
-      cmocka_unit_test(validation),
+      cmocka_unit_test(a_validation_stops_between_points),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

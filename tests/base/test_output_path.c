@@ -157,7 +157,7 @@ static void what_the_dead_left(void **state)
   assert_true(access("file.graingas-tmp", F_OK) != 0 && access("file.graingas-lock", F_OK) != 0);
 }
 
-/* Devices and pipes get the bytes, and stay. */
+/* Devices and pipes receive the bytes and remain. */
 static void streams(void **state)
 {
   (void)state;

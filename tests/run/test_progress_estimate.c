@@ -133,8 +133,8 @@ static void trends_and_trust(void **state)
   assert_true(isnan(gg_run_progress_end(&o, &criteria, &s).at));
 }
 
-/* Seconds a sample of late, not of the start; marks are thinned. */
-static void pace(void **state)
+/* The pace is the seconds per sample of late, not of the start; stored marks are thinned. */
+static void the_pace_is_that_of_late_samples(void **state)
 {
   (void)state;
   gg_progress_estimate o = {0};
@@ -198,7 +198,7 @@ int main(void)
       cmocka_unit_test(to_where_it_should_end),
       cmocka_unit_test(so_many_collisions),
       cmocka_unit_test(trends_and_trust),
-      cmocka_unit_test(pace),
+      cmocka_unit_test(the_pace_is_that_of_late_samples),
       cmocka_unit_test(every_run),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
