@@ -9,7 +9,7 @@
 static const char small[] = "{flow: usf, phi: 0.1, particles: 100, dsmc: {particles: 200}, run: {collisions: 4000, "
                             "replicas: 2}}";
 
-/* Of calls to callbacks: the one that fails, from 0, and how many there were. */
+/* Index of the callback call that fails, from 0, and number of calls so far. */
 static atomic_int calls;
 static int bad;
 static bool fails(void)

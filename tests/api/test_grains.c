@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Grains from outside: what is set is read back, a copy goes on with the same bits, and starts that no scene has
- * (crystal, cluster, two temperatures) do what physics says. What cannot be is refused, and nothing has changed. */
+ * (crystal, cluster, two temperatures) do what physics says. Invalid grains are rejected and change nothing. */
 #include "api_test.h"
 
 enum { MOST = 4000 };
@@ -389,7 +389,7 @@ static void events_in_bulk(void **state)
   }
 }
 
-/* Elastic from now on: the energy stays; then it falls again. What belongs to units, box and grains is refused. */
+/* Elastic from now on: the energy stays; then it falls again. Keys of units, box and grains are rejected. */
 static void changed_on_the_way(void **state)
 {
   (void)state;

@@ -268,7 +268,7 @@ static void freed_elsewhere(void **state)
   pthread_join(thread, NULL);
 }
 
-/* Of an observable of a session. */
+/* Callback of a session's observable. */
 static gg_session *session;
 static int refusals;
 static void use_session(void *context, void *own, const gg_sample *sample, double *values)

@@ -13,7 +13,7 @@ static int count_progress(void *context, const gg_progress *now)
   return context && now->phase[0] == 'a' && now->fraction > *(double *)context;
 }
 
-/* Of a comparison: whichever engine it is told of, it never falls. */
+/* The fraction of a comparison never falls, whichever engine reports it. */
 static int follow_overall(void *context, const gg_progress *now)
 {
   double *last = context;
@@ -232,7 +232,7 @@ static void written_and_read(void **state)
   gg_scene_free(s);
 }
 
-/* What is not there is said with the reason, in every way of asking. */
+/* A missing value has its reason, by every function that returns it. */
 static void missing_quantities(void **state)
 {
   (void)state;
@@ -364,7 +364,7 @@ static double cooling_rate_of(const char *yaml)
   return zeta;
 }
 
-/* Of a gas that changes on the way theories describe what it comes to. */
+/* Theories describe the final state of a gas that changes on the way. */
 static void theories_after_changes(void **state)
 {
   (void)state;

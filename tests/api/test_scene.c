@@ -10,7 +10,7 @@ static const char *get(const gg_scene *s, const char *key)
   return text;
 }
 
-/* What is set is what is got; values that follow other keys do so until they are given. */
+/* A key that was set returns its value; values that follow other keys do so until they are given. */
 static void set_and_get(void **state)
 {
   (void)state;

@@ -437,7 +437,7 @@ static void a_stopped_simulation_continues_its_trajectory(void **state)
   }
 }
 
-/* Of three species each has its own temperature, and together they have that of the gas. */
+/* Each of three species has a temperature; together they have that of the gas. */
 static void species_one_by_one(void **state)
 {
   (void)state;

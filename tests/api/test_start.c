@@ -149,7 +149,7 @@ static gg_status call(things *t, int way, int (*asks)(void *context), poll_count
   }
 }
 
-/* What is made is the same as without a callback, which is of that call alone. */
+/* The simulation is the same as without a callback, and the callback serves that call alone. */
 static void assert_same(things *t)
 {
   gg_error err;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What lasts polls `stop` often, also before and after the work of an engine; what was stopped leaves no file.
+/* Long calls poll `stop` often, also before and after the work of an engine; a stopped call leaves no file.
  * Counted in polls, not in time. */
 #include <stdbool.h>
 
@@ -91,7 +91,7 @@ static void after_followed_runs(void **state)
   }
 }
 
-/* What takes no time is there: of a run that is stopped on its way, too. */
+/* Results that take no time are complete, also those of a run that is stopped on its way. */
 static void short_theory_of_stopped_runs(void **state)
 {
   (void)state;
@@ -107,7 +107,7 @@ static void short_theory_of_stopped_runs(void **state)
   gg_result_free(r);
 }
 
-/* Of calls that make files. */
+/* Calls that write files. */
 typedef gg_status (*call_with_files)(polling *p, gg_error *err);
 
 static gg_status write_result(polling *p, gg_error *err)

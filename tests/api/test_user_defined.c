@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a program adds to a scene, by the public interface alone: found again in files, right in a cooling gas, refused
+/* User-defined parts of a scene, by the public interface alone: found again in files, right in a cooling gas, refused
  * where it would spoil files. */
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -36,7 +36,7 @@ static const char *say_nothing(void *context, const gg_facts *facts, double *val
   return "is for fluids";
 }
 
-/* What the catalogue of a file's quantities and theories would say stands in it, too: of those that did not apply. */
+/* A file also has the catalogue entries of its quantities and theories, those that did not apply included. */
 static void assert_told(const gg_comparison *c)
 {
   gg_theory_info t = {0};

@@ -142,7 +142,7 @@ static int note_collisions(void *context, const gg_progress *now)
   return 0;
 }
 
-/* What counts of a rank lost after the stop are the replicas that it had handed over. */
+/* A rank lost after the stop contributes the replicas that it had returned. */
 static void lost_after_the_stop(void **state)
 {
   (void)state;

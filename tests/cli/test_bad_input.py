@@ -161,7 +161,7 @@ def test_foreign_characters():
 
 
 def test_page_without_a_scene():
-    """What is asked of a scene that is not there is not passed over."""
+    """Options for a scene that is missing are rejected, not ignored."""
     for option in (("--set", "phi=3"), ("--seed", "7")):
         done = run("page", *option, "--output", "page.html")
         check(done.code == 2 and "are for a scene" in done.err and not done.new, done.err)

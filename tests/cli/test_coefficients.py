@@ -51,7 +51,7 @@ def square(vector):
 
 
 def moments():
-    """Of a standard normal: on the positive half line, on the whole."""
+    """Moments of a standard normal: over the positive half line, over the whole."""
     double = [math.prod(range(n - 1, 0, -2)) for n in range(16)]
     half = [double[n] / (math.sqrt(2 * math.pi) if n % 2 else 2) for n in range(16)]
     return half, [0 if n % 2 else double[n] for n in range(16)]

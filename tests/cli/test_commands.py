@@ -21,7 +21,7 @@ def loads(done):
 
 
 def test_needs_foreseen():
-    """What info says of memory is what a run takes, within a fifth, of either engine and with observables; and a run
+    """The memory that info estimates is that of a run within a fifth, for either engine and with observables; and a run
     for which there is not enough is refused before it begins, with what it needs and what there is."""
     if SANITIZERS != "none":
         raise Skip("sanitizers take memory of their own")
@@ -198,7 +198,7 @@ def test_compare_table():
 
 
 def test_compare_lists_profiles():
-    """Of both engines at the same heights, also where their grains have other fractions or Monte Carlo has more. They
+    """Profiles of both engines are at the same heights, also if fractions differ or Monte Carlo has more grains. They
     share a picture."""
     for more in ("phi: 0.123\n", "phi: 0.1\nspecies: [{fraction: 0.667}, {fraction: 0.333, diameter: 1.5}]\n"):
         done = run("compare", "scene.yaml", "--quiet", "--picture", "c.svg",
@@ -219,7 +219,7 @@ SMOOTH = ("flow: usf\nphi: 0.3\nparticles: 1000\ncollision: {e: 0.9}\ndsmc: {par
 
 
 def departure(of, theory, row, engine):
-    """What the keys of a comparison's row are to be."""
+    """Expected keys of a row of a comparison."""
     error = (of["stderr"] ** 2 + theory["error"] ** 2) ** 0.5
     for key, value in (("z", (of["mean"] - theory["mean"]) / error), ("difference", of["mean"] - theory["mean"]),
                        ("error", error), ("deviation", of["mean"] / theory["mean"] - 1)):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What helps at the keyboard: init, JSON Schema, completion for shells; each held against what the program itself takes."""
+"""Help at the keyboard: init, JSON Schema, completion for shells; each is compared with what the program accepts."""
 import glob
 import json
 import os
@@ -19,7 +19,7 @@ def flows():
 
 
 def test_init():
-    """Of every flow a scene that is accepted, also with all its comments as keys; nothing is replaced."""
+    """init writes an accepted scene of every flow, also with all its comments as keys; it replaces no file."""
     for flow in flows():
         name = flow + ".yaml"
         check(run("init", flow).new == [name])

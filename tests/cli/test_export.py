@@ -380,7 +380,7 @@ def test_names_of_a_forged_file():
 
 
 def test_texts_of_a_forged_file():
-    """What a terminal or a spreadsheet would act on comes out as text."""
+    """Control sequences and spreadsheet formulas are written as text."""
     if not h5py:
         raise Skip("no h5py")
     import numpy

@@ -14,7 +14,7 @@ SCENE = "flow: usf\nphi: 0.2\nparticles: 500\ncollision: {e: 0.9, beta: 0}\nrun:
 
 
 class Running:
-    """A command on its way: for how long, and what it has said. What it prints goes to files: no pipe fills up."""
+    """A running command: for how long, and its output so far. Its output goes to files, so that no pipe fills up."""
 
     def __init__(self, args):
         self.begun = time.monotonic()

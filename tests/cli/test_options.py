@@ -134,7 +134,7 @@ def test_command_line_is_kept():
 
 
 def test_exit_codes():
-    """Of mistakes, also with --json: nothing on standard output. Each code that a command may leave stands in the
+    """Mistakes print nothing on standard output, also with --json. Each exit code of a command is in the
     manual (1 and 130 are met in test_commands.py and test_files.py)."""
     manual = run("--manual").out.split(".SH EXIT STATUS")[1].split(".SH")[0]
     check(re.findall(r"^\.B (\d+)", manual, re.M) == ["0", "1", "2", "3", "130"], manual)

@@ -22,7 +22,7 @@ def blocks(language):
 
 
 def files():
-    """What the recipes read, made once."""
+    """Results that the recipes read, made once."""
     if os.path.exists(os.path.join(FOLDER.name, "usf.sweep.csv")):
         return
     os.symlink(os.path.join(SOURCE, "examples"), os.path.join(FOLDER.name, "examples"))
@@ -76,7 +76,7 @@ def test_xarray():
 
 
 def same_temperature(title):
-    """Of the last frame, as from h5py."""
+    """The temperature of the last frame is that of the recipe with h5py."""
     out, T = recipe(title)
     expected = recipe("h5py")[1]
     check(abs(T / expected - 1) < 1e-4, out, expected)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""quickstart and check where there is no apt-get: what is missing is named, with the packages of the system. What a
-build calls itself, and what changes its identity."""
+"""quickstart and check where there is no apt-get: what is missing is named, with the packages of the system.
+Version of a build, and changes that alter its identity."""
 import os
 import shutil
 import subprocess

@@ -69,7 +69,7 @@ def test_comparison():
 
 
 def test_ignored():
-    """What the parent ignores (nohup, background jobs of scripts) stays ignored."""
+    """Signals that the parent ignores (nohup, background jobs of scripts) stay ignored."""
     with open("scene.yaml", "w") as f:
         f.write("{flow: usf, phi: 0.1, engine: dsmc, run: {collisions: 1e9, time_limit: %g}}" % (0.6 * PATIENCE))
     for sig in signal.SIGHUP, signal.SIGINT:
@@ -178,7 +178,7 @@ def test_time_limit_before_a_checkpoint():
 
 
 def test_stopped_within_an_interval():
-    """What a checkpoint from the midst of an interval goes on to is the run that was left alone."""
+    """A checkpoint from the middle of an interval resumes to the uninterrupted run."""
     with open("scene.yaml", "w") as f:
         f.write("{flow: hcs, phi: 1e-4, particles: 1000, run: {collisions: 10, warmup: 6}, "
                 "output: {checkpoint_every: 1000}}")

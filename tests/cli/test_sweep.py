@@ -28,7 +28,7 @@ vary:
 
 
 def points_in(folder):
-    """What is there beside the text of the sweep."""
+    """Files beside the text of the sweep."""
     return [f for f in os.listdir(folder) if f != "sweep.yaml"]
 
 

@@ -19,7 +19,7 @@ WIDTH = 44
 
 
 def on_terminal(*args, columns=WIDTH):
-    """What a command leaves on standard error, a terminal of so many columns; its exit code; standard output."""
+    """Standard error of a command, on a terminal of so many columns; its exit code; standard output."""
     near, far = pty.openpty()
     fcntl.ioctl(far, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
     seen = []
@@ -45,7 +45,7 @@ def on_terminal(*args, columns=WIDTH):
 
 
 def lines_of(text):
-    """What was shown on the one line, time after time; each is followed by an erasure of the rest."""
+    """Successive texts of the progress line; an erasure of the rest follows each."""
     return [part[:-3] for part in text.split("\r") if part.endswith("\x1b[K")]
 
 

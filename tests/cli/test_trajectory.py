@@ -228,7 +228,7 @@ def test_another_run_beside_what_is_left():
 
 
 def test_links():
-    """What they lead to is neither replaced nor removed."""
+    """Targets of links are neither replaced nor removed."""
     os.mkdir("far")
     for name in LEFT, LEFT + ".1", "scene.checkpoint.frames", "scene.checkpoint.frames.new":
         with open("far/precious", "w") as f:

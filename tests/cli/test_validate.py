@@ -220,7 +220,7 @@ def test_z_of_both_signs():
 
 
 def test_nothing_judged():
-    """Where no point has both a steady dsmc and a noise-free solution there is no agreement: null, and a failure."""
+    """Without a point that has a steady dsmc and a noise-free solution, `agrees` is null and the command fails."""
     check(validated("--picture", "none").code == 0)
     for point in json.loads(run("sweep", "g.yaml", "--list", "--json").out)["points"]:
         forge("g.sweep/" + point["name"] + ".h5", (b'"steady": true', b'"steady":false'))

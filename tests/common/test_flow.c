@@ -51,7 +51,7 @@ static void rows_are_complete(void **state)
   }
 }
 
-/* What need not be given need not be given, in any flow. */
+/* Optional keys may be missing in every flow. */
 static void defaults_run(void **state)
 {
   (void)state;

@@ -159,7 +159,7 @@ static void taken_to_another_file(void **state)
   gg_files_frame_log_close(&log);
 }
 
-/* What stands there is as it was until the new one is put in its place. */
+/* The existing log is unchanged until the new one replaces it. */
 static void put_in_place(void **state)
 {
   (void)state;

@@ -154,7 +154,7 @@ static gg_comparison compare(const gg_scene *s)
   return c;
 }
 
-/* What shear puts in is what collisions destroy. */
+/* The work of shear is the energy that collisions dissipate. */
 static void check_balance(const gg_comparison *c)
 {
   for (int k = 0; k < 2; k++) {

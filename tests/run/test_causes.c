@@ -37,7 +37,7 @@ static void set_scene(const scene_of *of, gg_comparison *c)
   md.model = c->model;
 }
 
-/* What was measured of the gas. */
+/* Measured numbers of the gas. */
 static void set_waves(double density, double momentum, uint64_t treated)
 {
   md.value[GG_Q_DENSITY_WAVES] = (gg_estimate){.mean = density, .error = 0.05 * density};
@@ -58,7 +58,7 @@ static bool says(const gg_causes *causes, const char *words)
   return false;
 }
 
-/* What each sentence claims of a difference. */
+/* Claim of each sentence about a difference. */
 static void check_claims(const gg_causes *causes, gg_quantity q, double by, bool clustered, bool swirls)
 {
   assert_int_equal(says(causes, "have clustered"), clustered);

@@ -140,7 +140,7 @@ static void keys_of_other_grains_have_no_effect(void **state)
               "md.contact_time has no effect where no collision loses energy");
 }
 
-/* Where there is no mean to know, no error can be asked of it. */
+/* A quantity without a mean rejects a requested error. */
 static void asked_errors(void **state)
 {
   (void)state;
