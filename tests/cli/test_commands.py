@@ -97,7 +97,7 @@ def test_last_progress():
             check("averaging 100 %" in last and "left" not in last, lines)
 
 
-def test_theory():
+def test_theory_answers_in_json():
     d = loads(run("theory", "scene.yaml", "--json", scene=ROUGH))
     check(d["theory"]["lun1991"]["temperature"]["unit"] == "d^2 gamma^2")
     check(d["scene"]["collision"]["beta"] == 0)
@@ -106,7 +106,7 @@ def test_theory():
     check(done.code == 0 and "lun1991" in done.out and not done.new)
 
 
-def test_run():
+def test_a_run_answers_in_json():
     for engine in "md", "dsmc":
         done = run("run", "scene.yaml", "--engine", engine, "--json", "--seed", "5", "--output", engine + ".h5",
                    scene=ROUGH)
@@ -141,7 +141,7 @@ def test_threads_share_a_large_run():
         check(text in found, key, found)
 
 
-def test_fingerprint():
+def test_a_fingerprint_is_of_the_state():
     """The same state is the same number, of either engine; after more collisions or from another seed, another one."""
     scene, found = ROUGH.replace("1000", "500"), set()
     for engine in "md", "dsmc":
@@ -158,7 +158,7 @@ def test_fingerprint():
         check(run("fingerprint", "scene.yaml", *more).code == code, more)
 
 
-def test_page():
+def test_the_page_starts_with_the_scene():
     """The page with the scene in it; where it was not built, the reason and no file."""
     done = run("page", "scene.yaml", "--output", "p.html", scene="flow: usf\nphi: 0.2\n")
     if done.code == 0:
@@ -169,7 +169,7 @@ def test_page():
         check(done.code == 3 and "--page FILE" in done.err and not os.path.exists("p.html"), done.code, done.err)
 
 
-def test_compare():
+def test_compare_has_both_engines():
     done = run("compare", "scene.yaml", "--json", scene=ROUGH)
     d = loads(done)
     check(done.new == ["scene.compare.h5", "scene.compare.svg", "scene.compare_snapshot.svg"], done.new)
@@ -227,7 +227,7 @@ def departure(of, theory, row, engine):
         check(abs(told - value) < 1e-9 * max(1, abs(value)), engine, key, told, value)
 
 
-def test_verdicts():
+def test_verdicts_separate_engines_where_correlations_do():
     """md against Enskog's equation solved without random numbers: correlations at phi = 0.3 tell them apart, at 0.01
     nothing does; nor dsmc at either. The words follow the numbers."""
     main = ("temperature", "pressure", "compressibility_factor", "shear_viscosity", "N1", "N2", "collision_rate")

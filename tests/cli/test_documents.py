@@ -40,7 +40,7 @@ def test_reference_pages():
               f"--{name}-page` prints: redirect it there")
 
 
-def test_header():
+def test_each_public_function_is_documented():
     """Every function of the public header has a comment of its own in Doxygen form, which names its parameters."""
     with open(os.path.join(SOURCE, "include", "graingas.h"), encoding="utf-8") as header:
         text = header.read()
@@ -58,7 +58,7 @@ def test_header():
     check(n > 90 and not wrong, n, "in include/graingas.h, without such a comment:\n" + "\n".join(sorted(wrong)))
 
 
-def test_versions():
+def test_one_version_stands_everywhere():
     """One version everywhere; of a release also one date."""
     text = {name: open(os.path.join(SOURCE, *name.split("/")), encoding="utf-8").read() for name in
             ("meson.build", "pyproject.toml", "CITATION.cff", "codemeta.json", "debian/changelog", "debian/control", "CHANGELOG.md", "include/graingas.h")}
@@ -87,7 +87,7 @@ def test_pictures_are_small():
     check(sizes[largest] < 5e5, largest, sizes[largest])
 
 
-def test_paths():
+def test_paths_exist():
     """src/md/queue.h, examples/usf.yaml, src/dsmc/ ...; <name> stands for any name. A word may go on after a path
     ("tests/md"), so only what looks like a path is asked for: a known room, a slash, a name."""
     missing = set()
@@ -101,7 +101,7 @@ def test_paths():
     none(missing)
 
 
-def test_links():
+def test_links_lead_somewhere():
     """Links of Markdown to files lead somewhere, from where the document stands."""
     missing = set()
     for name, text in documents().items():
@@ -122,7 +122,7 @@ def test_file_names():
     none(missing)
 
 
-def test_names():
+def test_functions_named_in_documents_exist():
     """Functions and types that documents speak of are in the code."""
     code = ""
     for folder in "src", "include":
@@ -175,7 +175,7 @@ def test_licences():
     check(n > 800, n)
 
 
-def test_comments():
+def test_comments_name_what_exists():
     """Files, functions, types and constants that comments of the code speak of are there."""
     remarks, code, files = {}, "", set()
     for folder in "src", "include", "tests", "examples", "validation":
@@ -237,7 +237,7 @@ def test_signposts_name_the_file_that_defines_what_follows():
     check(not new, "signposts that name a wrong file:\n" + "\n".join(f"{one}, of {defined[one.split(': ')[1]]}" for one in new))
 
 
-def test_commands():
+def test_commands_shown_are_valid():
     """graingas COMMAND --option --set key=value, wherever documents show it."""
     page, helps, wrong = run("--scene-page").out, {}, set()
     for name, text in documents().items():
@@ -269,7 +269,7 @@ def names_of(kind):
     return list(about), sum(all(t[k] for k in ("title", "citation", "assumptions")) for t in about.values())
 
 
-def test_observables():
+def test_each_observable_is_described():
     """Every observable has a word of description in the list of them, a section in its document, a scene that measures
     it."""
     names, described = names_of("observables")
@@ -282,7 +282,7 @@ def test_observables():
     none({f"examples: a scene that measures {name}" for name in names if not re.search(rf"\b{name}\b", scenes)})
 
 
-def test_theories():
+def test_each_theory_is_described():
     """Every theory describes itself, stands in the table of theories, and is spoken of below it."""
     names, described = names_of("theories")
     check(len(names) == described >= 18, names, described)

@@ -18,7 +18,7 @@ def flows():
     return [w["const"] for w in json.loads(done.out)["properties"]["flow"]["oneOf"]]
 
 
-def test_init():
+def test_init_writes_accepted_scenes():
     """init writes an accepted scene of every flow, also with all its comments as keys; it replaces no file."""
     for flow in flows():
         name = flow + ".yaml"
@@ -54,7 +54,7 @@ SCENES = ((True, "{flow: usf, phi: 0.1, collision: {e: {11: 0.9, other: 0.8}, be
           (False, "{flow: usf, phi: 0.1, run: {until: {colour: 0.1}}}"), (False, "{flow: usf, phi: 0.1, shear_rate: 0}"))
 
 
-def test_schema():
+def test_the_schema_accepts_what_the_program_does():
     """An editor marks what the program rejects, and nothing else: examples, sweeps of the papers' figures, and mistakes."""
     try:
         import jsonschema
@@ -93,7 +93,7 @@ def completed(*words):
     return done.stdout.split()
 
 
-def test_completion():
+def test_shells_complete_what_the_program_takes():
     for shell in "bash", "zsh", "fish":
         with open("c", "w") as f:
             f.write(run("--completion", shell).out)

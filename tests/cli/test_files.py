@@ -141,7 +141,7 @@ def test_killed_at_any_moment():
     check(code == 130 and "--resume" in err, code, err)
 
 
-def test_trajectory():
+def test_a_trajectory_is_stored_whole():
     done = run("run", "scene.yaml", "--quiet", "--set", "output.trajectory_every=20", scene=SCENE % 100)
     check(done.code in (0, 1) and done.new == ["scene.h5"], done.err)
 

@@ -948,7 +948,7 @@ def cooling(**more):
     return json.loads(done.out)
 
 
-def test_margin():
+def test_deciding_errors_have_a_margin():
     """Errors that decide when a run ends are larger by 6 tau over the length of all replicas' windows."""
     asked, fixed = cooling(relative_error=0.05, replicas=3), cooling(collisions=1000, replicas=3)
     for name, q in asked["results"].items():
@@ -970,7 +970,7 @@ def test_long_series():
         check(share - 0.15 < cpu < share + 0.15, "processor time", cpu, share)
 
 
-def test_errors():
+def test_errors_are_those_of_blocks():
     """Standard errors against those of means over blocks of samples, which are known to 8 %; of the distribution of angles
     against counting."""
     scene = scene_of("usf", "rough")
@@ -1056,7 +1056,7 @@ def conductivities(V, e, phi, pairs, rng):
     return unit * np.array([kappa * transfer - extra, kappa, -flux @ B * transfer])
 
 
-def test_conductivity():
+def test_conductivity_is_the_response_of_frames():
     """Against the response computed here from frames of the ensemble, whose scatter is the error: a2 of 20 000 grains is
     known to 0.005, kappa* to 1 %."""
     if isinstance(h5py, ImportError):
@@ -1108,7 +1108,7 @@ def moments(store):
     return kinetic, kinetic + per_row(store, jumps)
 
 
-def test_helfand():
+def test_helfand_moments_are_those_of_samples():
     """Helfand integrals of one species and of two, to the sixth interval, as double sums over samples."""
     last, trace = 6, np.eye(3).reshape(9) / 3
     for species in None, SPECIES:

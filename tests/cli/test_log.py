@@ -20,7 +20,7 @@ def rows(name="run.csv"):
         return list(csv.DictReader(file))
 
 
-def test_rows():
+def test_rows_grow_and_means_are_theirs():
     """Samples count from 1, time and collisions grow; the means begin with averaging, and are those of the values."""
     for engine in "md", "dsmc":
         done = run("run", "scene.yaml", "--json", "--quiet", scene=SCENE % (engine, 400, 1))
@@ -54,7 +54,7 @@ def test_json_lines():
         check({k: "" if v is None else f"{v:.9g}" for k, v in line.items()} == row, line, row)
 
 
-def test_cooling():
+def test_a_falling_temperature_has_a_column():
     """A falling temperature has a column, which ends with Haff's law."""
     done = run("run", "scene.yaml", "--quiet", scene="flow: hcs\nphi: 0.1\nparticles: 500\ncollision: {e: 0.9}\n"
                "run: {collisions: 400}\noutput: {log: run.csv}\n")

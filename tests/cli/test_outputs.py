@@ -58,7 +58,7 @@ def readable(path):
     check(done.code == 0, done.err)
 
 
-def test_pipes():
+def test_pipes_receive_outputs():
     scenes()
     os.mkfifo("pipe")
     os.chmod("pipe", 0o666)
@@ -75,7 +75,7 @@ def test_pipes():
         check(stat.S_ISFIFO(os.stat("pipe").st_mode))
 
 
-def test_devices():
+def test_devices_remain():
     """Nodes of our own: a mistake here would cost the system its own."""
     scenes()
     try:
@@ -115,7 +115,7 @@ def test_standard_output():
     check(done.returncode == 3 and b"choose a file" in done.stderr, done.stderr)
 
 
-def test_links():
+def test_links_are_followed():
     scenes()
     os.mkdir("far")
     os.chmod("far", 0o777)
@@ -188,7 +188,7 @@ def test_empty_names():
     refused("the name is empty", 3, "--resume", "")
 
 
-def test_pictures():
+def test_wrong_names_of_pictures_are_rejected():
     scenes()
     os.mkdir("folder.svg")
     os.mkfifo("pipe")

@@ -28,7 +28,7 @@ def theories(text, points=POINTS):
     return run("theory", "scene.yaml", "--json", scene=text)
 
 
-def test_answers():
+def test_formulas_are_evaluated():
     done = theories(SCENE)
     said = json.loads(done.out)["theory"]
     chi = (1 - 0.1 / 2) / (1 - 0.1) ** 3
@@ -172,7 +172,7 @@ def collected(text):
         return list(csv.DictReader(f))
 
 
-def test_refused():
+def test_invalid_theories_are_rejected():
     for old, new, words in (("phi^2", "psi^2", "scene.yaml:7: key 'theories.mine': '5*pi/(1152*psi^2"),
                             ("N1:", "colour:", "scene.yaml:7: key 'theories.mine': mine: there is no quantity called 'colour'"),
                             ("mine:", "grad:", "scene.yaml:7: key 'theories.grad': theory: the name 'grad' is taken"),

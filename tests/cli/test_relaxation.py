@@ -179,7 +179,7 @@ def test_given_step():
     check(np.abs(z).max() < 6 and (z ** 2).mean() < 3, np.abs(z).max(), (z ** 2).mean())
 
 
-def test_end():
+def test_values_are_those_at_the_end():
     """Values are those at the end, and theories those of the last bath."""
     scene = (ELASTIC % "md").replace("{e: 1}", "{e: 0.8}")
     done = run("compare", "scene.yaml", "--json", "--quiet", "--output", "c.h5", scene=scene)
@@ -199,7 +199,7 @@ def test_end():
     check(not told and "differs from Enskog" not in done.out and "no known cause" not in done.out, told)
 
 
-def test_compared():
+def test_a_followed_gas_is_compared_with_the_other_engine():
     """On its way a gas is compared with the other engine, not with the state that theories describe."""
     scene = (ELASTIC % "md").replace("duration: 10", "duration: 8").replace("{e: 1}", "{e: 0.8}")
     done = run("compare", "scene.yaml", "--quiet", scene=scene)
@@ -208,7 +208,7 @@ def test_compared():
     check("followed in time" in done.out and not any(word in done.out for word in words), done.out)
 
 
-def test_theory():
+def test_dsmc_follows_enskogs_equation_in_time():
     """Monte Carlo follows Enskog's equation: the first Sonine approximation and two Maxwellians are beside it in time,
     within what they leave out. In free cooling T = T_0/(1 + t/t_0)^2, with Haff's t_0."""
     smooth = (ELASTIC % "dsmc").replace("{e: 1}", "{e: 0.6}").replace("5000", "20000")
@@ -374,7 +374,7 @@ def written(path):
     return os.stat(path).st_mtime_ns if os.path.exists(path) else 0
 
 
-def test_resumed():
+def test_an_interrupted_protocol_resumes_to_the_same_bits():
     """Interrupted before, between and after changes: the same bits."""
     for engine in "md", "dsmc":
         resumed(engine, (ELASTIC % engine).replace("{e: 1}", "{e: 0.9, beta: 0}"))

@@ -227,7 +227,7 @@ def test_another_run_beside_what_is_left():
     check(not [name for name in os.listdir(".") if name.startswith("scene.checkpoint")], os.listdir("."))
 
 
-def test_links():
+def test_targets_of_links_are_kept():
     """Targets of links are neither replaced nor removed."""
     os.mkdir("far")
     for name in LEFT, LEFT + ".1", "scene.checkpoint.frames", "scene.checkpoint.frames.new":

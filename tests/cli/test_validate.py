@@ -230,7 +230,7 @@ def test_nothing_judged():
     check(done.code == 1 and "nothing was judged: of 8 points with a result 4 have no noise-free solution" in done.err, done.err)
 
 
-def test_options():
+def test_wrong_options_are_rejected():
     for args, words in ((("--quick",), "without a file"), (("--point", "1", "--page", "p.md"), "do not go together"),
                         (("--point", "9"), "from 1 to 8"), (("--show", "colour"), "no point has a quantity 'colour'"),
                         (("--page", "./g.yaml"), "overwritten by its own page"), (("--picture", "maps.bmp"), "not .bmp")):
