@@ -1045,7 +1045,7 @@ GG_API gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int 
                                            gg_error *err);
 
 /**
- * Write the teaching page, one HTML file. It is a file of each release, and is built with the sources (./check-page).
+ * Write the teaching page, one HTML file. It is a file of each release, and is built with the sources (./check --page).
  * @param page the page to be copied; NULL: the installed one, or that of the build folder of the running program
  * @param scene scene that the page starts with; NULL: its own
  * @param path file name

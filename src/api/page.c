@@ -45,7 +45,7 @@ static gg_status find_page(char page[PATH_MAX + 16], gg_error *err)
   if (access(page, R_OK) != 0)
     return gg_base_fail(err, GG_BAD_FILE,
                         "there is no page: no %s; take graingas-VERSION-page.html of the release of this version (%s), "
-                        "and name it: graingas page --page FILE; or build it from the sources: ./check-page",
+                        "and name it: graingas page --page FILE; or build it from the sources: ./check --page",
                         page, gg_version());
   if (!*folder || (is_safe(folder) && is_safe(page))) return GG_OK;
   return gg_base_fail(err, GG_BAD_FILE,

@@ -5,8 +5,8 @@
 #include <stdio.h>
 
 /* Means lie off by so much over the number of grains, those of the scarcest species: fluctuations of T lower it by half
- * their relative variance, as its rate of change bends. Measured (validation/monte_carlo_bias.c): 0.5 to 1.5 in T, the
- * stresses and the viscosity. */
+ * their relative variance, as its rate of change bends. Measured
+ * (validation/noise_free/monte_carlo_bias.c): 0.5 to 1.5 in T, the stresses and the viscosity. */
 #define BIAS_TIMES_N 2
 /* Between walls the flow fluctuates, too, and what dissipates follows: T of dense Couette flows rises by 4 to 22 of 1/N
  * (phi = 0.1 and 0.3, e = 0.5 to 0.9, N = 1000 beside 20000), of a dilute one by 0.4(0.7) (phi = 0.01). */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The grids of `graingas validate` without a file: validation/grid.yaml and grid_quick.yaml. */
+/* The grids of `graingas validate` without a file: validation/grid/grid.yaml and grid_quick.yaml. */
 #ifndef GG_STANDARD_GRID_H
 #define GG_STANDARD_GRID_H
 

@@ -45,7 +45,7 @@ static inline int enter_folder(void **state)
   return mkdtemp(door_folder) && chdir(door_folder) == 0 ? 0 : -1;
 }
 
-/* Of these tests' files, which all begin with "t_". */
+/* Remove the files of these tests, which all begin with "t_". */
 static inline int leave_folder(void **state)
 {
   (void)state;

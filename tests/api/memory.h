@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* What a call makes; all of it is freed afterwards. */
+/* Results of a call; all are freed afterwards. */
 typedef struct things {
   gg_scene *scene, *other; /* scene is there before */
   gg_result *result;

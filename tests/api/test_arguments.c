@@ -10,7 +10,7 @@ static void line(void *context, const char *text)
   (void)context, (void)text;
 }
 
-static void scenes(void **state)
+static void calls_of_scenes_reject_missing_arguments(void **state)
 {
   (void)state;
   gg_error err;
@@ -48,7 +48,7 @@ static void scenes(void **state)
   gg_scene_free(NULL);
 }
 
-static void simulations(void **state)
+static void calls_of_simulations_reject_missing_arguments(void **state)
 {
   (void)state;
   gg_error err;
@@ -90,7 +90,7 @@ static void simulations(void **state)
   gg_scene_free(s);
 }
 
-static void results(void **state)
+static void calls_of_results_reject_missing_arguments(void **state)
 {
   (void)state;
   gg_error err;
@@ -153,7 +153,7 @@ static void results(void **state)
   gg_scene_free(s);
 }
 
-static void comparisons(void **state)
+static void calls_of_comparisons_reject_missing_arguments(void **state)
 {
   (void)state;
   gg_error err;
@@ -218,7 +218,7 @@ static void comparisons(void **state)
   gg_scene_free(s);
 }
 
-static void tables(void **state)
+static void calls_of_tables_reject_missing_arguments(void **state)
 {
   (void)state;
   gg_error err;
@@ -239,7 +239,7 @@ static void file(void *context, const char *path)
   (void)context, (void)path;
 }
 
-static void sweeps(void **state)
+static void calls_of_sweeps_reject_missing_arguments(void **state)
 {
   (void)state;
   gg_error err;
@@ -409,8 +409,8 @@ static int nothing_comes(void *context, int *from, void **block, size_t *size)
   return -1;
 }
 
-/* Messages that are not whole, or of the other side, are refused before anything is sent. */
-static void messages(void **state)
+/* Incomplete messages and messages of the other side are rejected before anything is sent. */
+static void malformed_messages_are_rejected(void **state)
 {
   (void)state;
   gg_error err;
@@ -433,9 +433,14 @@ static void messages(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(scenes),      cmocka_unit_test(simulations),   cmocka_unit_test(results),
-      cmocka_unit_test(comparisons), cmocka_unit_test(tables),        cmocka_unit_test(messages),
-      cmocka_unit_test(sweeps),      cmocka_unit_test(unknown_names), cmocka_unit_test(beyond_the_ends)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(calls_of_scenes_reject_missing_arguments),
+                                     cmocka_unit_test(calls_of_simulations_reject_missing_arguments),
+                                     cmocka_unit_test(calls_of_results_reject_missing_arguments),
+                                     cmocka_unit_test(calls_of_comparisons_reject_missing_arguments),
+                                     cmocka_unit_test(calls_of_tables_reject_missing_arguments),
+                                     cmocka_unit_test(malformed_messages_are_rejected),
+                                     cmocka_unit_test(calls_of_sweeps_reject_missing_arguments),
+                                     cmocka_unit_test(unknown_names),
+                                     cmocka_unit_test(beyond_the_ends)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,7 +22,7 @@
     free(copy);                                                                                                        \
   } while (0)
 
-static void results(void **state)
+static void bytes_of_a_result_restore_it(void **state)
 {
   (void)state;
   gg_error err;
@@ -56,7 +56,7 @@ static void results(void **state)
   gg_scene_free(s);
 }
 
-static void comparisons(void **state)
+static void bytes_of_a_comparison_restore_it(void **state)
 {
   (void)state;
   gg_error err;
@@ -83,8 +83,8 @@ static void comparisons(void **state)
   gg_scene_free(s);
 }
 
-/* It goes on with the same bits; the bytes of its file do, too. */
-static void simulations(void **state)
+/* A simulation continues with the same bits from its bytes and from those of its file. */
+static void bytes_of_a_simulation_continue_with_the_same_bits(void **state)
 {
   (void)state;
   gg_error err;
@@ -122,7 +122,8 @@ static void simulations(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(results), cmocka_unit_test(comparisons),
-                                     cmocka_unit_test(simulations)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(bytes_of_a_result_restore_it),
+                                     cmocka_unit_test(bytes_of_a_comparison_restore_it),
+                                     cmocka_unit_test(bytes_of_a_simulation_continue_with_the_same_bits)};
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -9,7 +9,7 @@
 static const char small[] = "{flow: usf, phi: 0.1, particles: 100, dsmc: {particles: 200}, run: {collisions: 4000, "
                             "replicas: 2}}";
 
-/* Of calls to callbacks: the one that fails, from 0, and how many there were. */
+/* Index of the callback call that fails, from 0, and number of calls so far. */
 static atomic_int calls;
 static int bad;
 static bool fails(void)
@@ -95,7 +95,7 @@ static void assert_runs_fail(gg_scene *s, gg_run_options o, int from)
   gg_scene_free(good);
 }
 
-static void observables(void **state)
+static void a_failing_observable_ends_the_run(void **state)
 {
   (void)state;
   const gg_quantity_definition q = {.name = "mine"};
@@ -118,7 +118,7 @@ static void observables(void **state)
   }
 }
 
-static void laws(void **state)
+static void a_failing_law_ends_the_run(void **state)
 {
   (void)state;
   gg_error err;
@@ -131,7 +131,7 @@ static void laws(void **state)
   gg_scene_free(s);
 }
 
-static void runs(void **state)
+static void a_failing_callback_of_a_run_ends_it(void **state)
 {
   (void)state;
   gg_scene *s = scene_of(small);
@@ -140,8 +140,8 @@ static void runs(void **state)
   gg_scene_free(s);
 }
 
-/* The comparison of the engines stays; the theory's failure is one of its warnings. */
-static void theories(void **state)
+/* The comparison of the engines remains; the failure of the theory is one of its warnings. */
+static void a_failing_theory_is_a_warning(void **state)
 {
   (void)state;
   const char *const quantity[] = {"temperature"};
@@ -164,8 +164,8 @@ static void seen(void *context, const gg_collision_event *event)
   fails();
 }
 
-/* A simulation goes on after it. */
-static void simulations(void **state)
+/* The failed call does not end the simulation. */
+static void a_simulation_continues_after_a_failed_callback(void **state)
 {
   (void)state;
   gg_error err;
@@ -195,7 +195,7 @@ static void note(void *context, const gg_sweep_progress *now)
   sweep_progress(context, now);
 }
 
-static void sweeps(void **state)
+static void a_failing_callback_ends_a_sweep(void **state)
 {
   (void)state;
   gg_error err;
@@ -215,8 +215,8 @@ static void line(void *context, const char *text)
   fails();
 }
 
-/* Callbacks for lines and files outside runs; the next run is not affected. */
-static void reports(void **state)
+/* Callbacks for lines and files fail outside runs; the next run is not affected. */
+static void a_failing_reporter_affects_no_later_run(void **state)
 {
   (void)state;
   gg_error err;
@@ -313,13 +313,13 @@ static void calls_that_stop_in_theories(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(observables),
-      cmocka_unit_test(laws),
-      cmocka_unit_test(runs),
-      cmocka_unit_test(theories),
-      cmocka_unit_test(simulations),
-      cmocka_unit_test(sweeps),
-      cmocka_unit_test(reports),
+      cmocka_unit_test(a_failing_observable_ends_the_run),
+      cmocka_unit_test(a_failing_law_ends_the_run),
+      cmocka_unit_test(a_failing_callback_of_a_run_ends_it),
+      cmocka_unit_test(a_failing_theory_is_a_warning),
+      cmocka_unit_test(a_simulation_continues_after_a_failed_callback),
+      cmocka_unit_test(a_failing_callback_ends_a_sweep),
+      cmocka_unit_test(a_failing_reporter_affects_no_later_run),
       cmocka_unit_test(theories_that_stop),
       cmocka_unit_test(calls_that_stop_in_theories),
   };

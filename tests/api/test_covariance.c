@@ -23,9 +23,9 @@ static double covariance(const gg_result *r, const char *one, const char *other)
   return found;
 }
 
-/* Of a mean with itself its error squared; symmetric; within what the errors allow; that of a product with a number
- * follows: eta = |P_xy|/gamma. */
-static void identities(void **state)
+/* The covariance of a mean with itself is its squared error. Covariances are symmetric and within the errors, and eta =
+ * |P_xy|/gamma has that of P_xy. */
+static void covariances_meet_their_identities(void **state)
 {
   (void)state;
   gg_error err;
@@ -50,8 +50,8 @@ static void identities(void **state)
   gg_result_free(r);
 }
 
-/* A file has them, of a run and of the engines of a comparison; written once more it still has. */
-static void stored(void **state)
+/* Files of runs and comparisons keep the covariances, also when they are read and written again. */
+static void files_keep_covariances(void **state)
 {
   (void)state;
   gg_error err;
@@ -81,8 +81,8 @@ static void stored(void **state)
   gg_scene_free(s);
 }
 
-/* NaN with the reason. */
-static void missing(void **state)
+/* A missing covariance is NaN, with the reason. */
+static void a_missing_covariance_has_a_reason(void **state)
 {
   (void)state;
   gg_error err;
@@ -147,7 +147,8 @@ static void many_seeds(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(identities), cmocka_unit_test(stored), cmocka_unit_test(missing),
-                                     cmocka_unit_test(many_seeds)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(covariances_meet_their_identities),
+                                     cmocka_unit_test(files_keep_covariances),
+                                     cmocka_unit_test(a_missing_covariance_has_a_reason), cmocka_unit_test(many_seeds)};
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -140,7 +140,7 @@ static void one_path_for_two(void **state)
   gg_scene_free(s);
 }
 
-/* What a checkpoint is of is said, where it is of something else. */
+/* A checkpoint of another kind is rejected, and its kind named. */
 static void checkpoints_of_others(void **state)
 {
   (void)state;

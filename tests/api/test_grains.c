@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Grains from outside: what is set is read back, a copy goes on with the same bits, and starts that no scene has
- * (crystal, cluster, two temperatures) do what physics says. What cannot be is refused, and nothing has changed. */
+ * (crystal, cluster, two temperatures) do what physics says. Invalid grains are rejected and change nothing. */
 #include "api_test.h"
 
 enum { MOST = 4000 };
@@ -70,9 +70,9 @@ static const struct {
      0}};
 enum { GASES = sizeof gases / sizeof *gases };
 
-/* The state of a run, set in the same simulation, in another one and in a new one, is what they show. Under shear the
- * images of others stand elsewhere. */
-static void read_back(void **state)
+/* The state of a run is set in the same simulation, in another and in a new one, which then return it. Under shear the
+ * images of another simulation have another offset. */
+static void grains_set_are_the_grains_read(void **state)
 {
   (void)state;
   for (int k = 0; k < GASES; k++) {
@@ -106,8 +106,8 @@ static void read_back(void **state)
   }
 }
 
-/* A copy in the middle of a run: state, sums and all later bits are the same; they do not know of each other. */
-static void copies(void **state)
+/* A copy in the middle of a run has the same state, sums and later bits; advancing one leaves the other. */
+static void a_copy_has_the_same_later_bits(void **state)
 {
   (void)state;
   for (int k = 0; k < GASES; k++) {
@@ -148,8 +148,8 @@ static void stream_goes_on(void **state)
   gg_simulation_free(m);
 }
 
-/* Two species at 1.8 and 0.2 of the mean: elastic collisions bring them together and keep the energy. */
-static void two_temperatures(void **state)
+/* Two species start at 1.8 and 0.2 of the mean temperature: elastic collisions equalise them and keep the energy. */
+static void elastic_collisions_equalise_two_temperatures(void **state)
 {
   (void)state;
   const char *const scenes[] = {
@@ -180,8 +180,8 @@ static void two_temperatures(void **state)
   }
 }
 
-/* A compact cube in the middle of an empty box expands, with its energy; who is inside collides first. */
-static void cluster(void **state)
+/* A compact cube in the middle of an empty box expands and keeps its energy; inner grains collide first. */
+static void a_cluster_expands_with_its_energy(void **state)
 {
   (void)state;
   gg_error err;
@@ -216,8 +216,8 @@ static void cluster(void **state)
   gg_simulation_free(plain);
 }
 
-/* Near random close packing: a face-centred crystal at phi 0.6. */
-static void crystal(void **state)
+/* A face-centred crystal at phi = 0.6, near random close packing. */
+static void a_crystal_near_close_packing_is_accepted(void **state)
 {
   (void)state;
   gg_error err;
@@ -264,7 +264,7 @@ static void refused(gg_simulation *m, const gg_grains *grains, size_t n, const c
   assert_true(hash_of(m) == before);
 }
 
-static void refusals(void **state)
+static void invalid_grains_are_rejected(void **state)
 {
   (void)state;
   gg_error err;
@@ -389,7 +389,7 @@ static void events_in_bulk(void **state)
   }
 }
 
-/* Elastic from now on: the energy stays; then it falls again. What belongs to units, box and grains is refused. */
+/* Elastic from now on: the energy stays; then it falls again. Keys of units, box and grains are rejected. */
 static void changed_on_the_way(void **state)
 {
   (void)state;
@@ -515,14 +515,14 @@ int main(void)
       cmocka_unit_test(baths_on_the_way),
       cmocka_unit_test(shear_rates_on_the_way),
       cmocka_unit_test(steps_end_in_time),
-      cmocka_unit_test(read_back),
-      cmocka_unit_test(copies),
+      cmocka_unit_test(grains_set_are_the_grains_read),
+      cmocka_unit_test(a_copy_has_the_same_later_bits),
       cmocka_unit_test(stream_goes_on),
-      cmocka_unit_test(two_temperatures),
-      cmocka_unit_test(cluster),
-      cmocka_unit_test(crystal),
+      cmocka_unit_test(elastic_collisions_equalise_two_temperatures),
+      cmocka_unit_test(a_cluster_expands_with_its_energy),
+      cmocka_unit_test(a_crystal_near_close_packing_is_accepted),
       cmocka_unit_test(mean_velocity),
-      cmocka_unit_test(refusals),
+      cmocka_unit_test(invalid_grains_are_rejected),
       cmocka_unit_test(events_in_bulk),
       cmocka_unit_test(changed_on_the_way),
       cmocka_unit_test(across_the_sheared_edge),

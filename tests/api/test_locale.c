@@ -203,7 +203,7 @@ static int leave(void **state)
   return leave_folder(state);
 }
 
-static void comma(void **state)
+static void numbers_have_a_point_where_the_locale_has_a_comma(void **state)
 {
   (void)state;
   no_comma_in("de_DE", expected);
@@ -217,6 +217,7 @@ static void point_of_two_bytes(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(comma), cmocka_unit_test(point_of_two_bytes)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_have_a_point_where_the_locale_has_a_comma),
+                                     cmocka_unit_test(point_of_two_bytes)};
   return cmocka_run_group_tests(tests, write_expected, leave);
 }

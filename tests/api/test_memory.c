@@ -26,7 +26,7 @@ static bool ends_with(const char *text, const char *end)
   return n >= tail && strcmp(text + n - tail, end) == 0;
 }
 
-/* What the call left: in memory, and in files, of which those that begin with "new" are its own. */
+/* Outcome of a call: results in memory, and files; those that begin with "new" are its own. */
 static void look(const things *t, bool whole, int *litter)
 {
   struct dirent **all;
@@ -195,7 +195,7 @@ static bool try_all(const memory_call *call, outcome *shared)
   return bad == 0;
 }
 
-/* What calls go on from and read. */
+/* Files that calls resume from and read. */
 static void prepare(void)
 {
   gg_scene *scene = NULL;

@@ -268,7 +268,7 @@ static void freed_elsewhere(void **state)
   pthread_join(thread, NULL);
 }
 
-/* Of an observable of a session. */
+/* Callback of a session's observable. */
 static gg_session *session;
 static int refusals;
 static void use_session(void *context, void *own, const gg_sample *sample, double *values)
@@ -284,7 +284,7 @@ static void use_session(void *context, void *own, const gg_sample *sample, doubl
               strstr(err.message, "gg_session_advance, which uses this session") != NULL;
 }
 
-static void sessions(void **state)
+static void misused_sessions_return_errors(void **state)
 {
   (void)state;
   gg_error err;
@@ -315,7 +315,7 @@ static void point_ended(void *context, size_t i, gg_status status, const char *f
   if (i == 1) gg_sweep_free(sweep);
 }
 
-static void sweeps(void **state)
+static void misused_sweeps_return_errors(void **state)
 {
   (void)state;
   gg_error err;
@@ -329,9 +329,15 @@ static void sweeps(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(used_inside),     cmocka_unit_test(stops_watching), cmocka_unit_test(replaced_inside),
-      cmocka_unit_test(freed_inside),    cmocka_unit_test(two_threads),    cmocka_unit_test(many_readers),
-      cmocka_unit_test(freed_elsewhere), cmocka_unit_test(sessions),       cmocka_unit_test(sweeps),
+      cmocka_unit_test(used_inside),
+      cmocka_unit_test(stops_watching),
+      cmocka_unit_test(replaced_inside),
+      cmocka_unit_test(freed_inside),
+      cmocka_unit_test(two_threads),
+      cmocka_unit_test(many_readers),
+      cmocka_unit_test(freed_elsewhere),
+      cmocka_unit_test(misused_sessions_return_errors),
+      cmocka_unit_test(misused_sweeps_return_errors),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -105,7 +105,7 @@ static void assert_no_trajectory(const char *file, gg_status wanted, const char 
   if (!strstr(err.message, words) || !strstr(err.message, file)) fail_msg("'%s' lacks '%s'", err.message, words);
 }
 
-static void refused(void **state)
+static void results_without_trajectory_are_rejected(void **state)
 {
   (void)state;
   gg_error err;
@@ -152,7 +152,7 @@ static gg_comparison *theories_of(const char *yaml)
 /* It begins at the theory's temperature, falls at its rate (counted in 16/5 sqrt(pi) n d^2 sqrt(T)), in the end as
  * t^-2; and grains follow it: T of 2000 fluctuates by 1.8 % at most here (a standard error of 0.9 % at T's chi^2 of
  * 6000 numbers, twice), and a cooling gas keeps what it starts with. */
-static void cooling(void **state)
+static void a_played_cooling_gas_follows_haff(void **state)
 {
   (void)state;
   gg_error err;
@@ -199,8 +199,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(frames_and_grains),
       cmocka_unit_test(spins_of_smooth_grains),
-      cmocka_unit_test(refused),
-      cmocka_unit_test(cooling),
+      cmocka_unit_test(results_without_trajectory_are_rejected),
+      cmocka_unit_test(a_played_cooling_gas_follows_haff),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -13,7 +13,7 @@ static int count_progress(void *context, const gg_progress *now)
   return context && now->phase[0] == 'a' && now->fraction > *(double *)context;
 }
 
-/* Of a comparison: whichever engine it is told of, it never falls. */
+/* The fraction of a comparison never falls, whichever engine reports it. */
 static int follow_overall(void *context, const gg_progress *now)
 {
   double *last = context;
@@ -232,7 +232,7 @@ static void written_and_read(void **state)
   gg_scene_free(s);
 }
 
-/* What is not there is said with the reason, in every way of asking. */
+/* A missing value has its reason, by every function that returns it. */
 static void missing_quantities(void **state)
 {
   (void)state;
@@ -290,7 +290,7 @@ static void unwritable_output(void **state)
 }
 
 /* A comparison has both parts, agreement, theories with their deviations; read back it has them still. */
-static void comparisons(void **state)
+static void a_comparison_is_read_back_whole(void **state)
 {
   (void)state;
   gg_error err;
@@ -364,7 +364,7 @@ static double cooling_rate_of(const char *yaml)
   return zeta;
 }
 
-/* Of a gas that changes on the way theories describe what it comes to. */
+/* Theories describe the final state of a gas that changes on the way. */
 static void theories_after_changes(void **state)
 {
   (void)state;
@@ -375,8 +375,8 @@ static void theories_after_changes(void **state)
   assert_true(zeta > cooling_rate_of("{flow: hcs, phi: 0.1, collision: {e: 0.8}}"));
 }
 
-/* Theories alone: all, one, none of that name. */
-static void theories(void **state)
+/* Theories without engines: all, one, and a name that none has. */
+static void named_theories_alone_are_evaluated(void **state)
 {
   (void)state;
   gg_error err;
@@ -435,7 +435,7 @@ static void correlation_times(void **state)
 
 /* Estimates of what a run needs: collisions up to a requested error, also of quantities that are small beside what
  * they are made of (N1, a2); time a collision where a species has too few grains for blocks of eight. */
-static void needs(void **state)
+static void a_run_states_what_it_needs(void **state)
 {
   (void)state;
   static const struct {
@@ -485,12 +485,12 @@ int main(void)
       cmocka_unit_test(written_and_read),
       cmocka_unit_test(missing_quantities),
       cmocka_unit_test(unwritable_output),
-      cmocka_unit_test(comparisons),
+      cmocka_unit_test(a_comparison_is_read_back_whole),
       cmocka_unit_test(part_comparisons),
-      cmocka_unit_test(theories),
+      cmocka_unit_test(named_theories_alone_are_evaluated),
       cmocka_unit_test(theories_after_changes),
       cmocka_unit_test(correlation_times),
-      cmocka_unit_test(needs),
+      cmocka_unit_test(a_run_states_what_it_needs),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -10,7 +10,7 @@ static const char *get(const gg_scene *s, const char *key)
   return text;
 }
 
-/* What is set is what is got; values that follow other keys do so until they are given. */
+/* A key that was set returns its value; values that follow other keys do so until they are given. */
 static void set_and_get(void **state)
 {
   (void)state;
@@ -90,7 +90,7 @@ static void count_line(void *context, const char *text)
   ++*(int *)context;
 }
 
-static void described(void **state)
+static void a_scene_describes_how_it_will_run(void **state)
 {
   (void)state;
   gg_error err;
@@ -118,8 +118,8 @@ static gg_entry entry_of(gg_catalogue catalogue, const gg_scene *scene, const ch
   return e;
 }
 
-/* Every table has the rows that it promises, with the fields that it promises. */
-static void tables(void **state)
+/* Every table has the number of rows that it states, with all fields. */
+static void tables_have_all_rows_and_fields(void **state)
 {
   (void)state;
   gg_error err;
@@ -147,7 +147,7 @@ static void tables(void **state)
   gg_scene_free(s);
 }
 
-static void words(void **state)
+static void a_wrong_word_finds_the_nearest(void **state)
 {
   (void)state;
   const char *const known[] = {"compare", "run", "theory", NULL};
@@ -163,8 +163,12 @@ static void words(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(set_and_get), cmocka_unit_test(used_incomplete), cmocka_unit_test(to_text_and_back),
-      cmocka_unit_test(described),   cmocka_unit_test(tables),          cmocka_unit_test(words),
+      cmocka_unit_test(set_and_get),
+      cmocka_unit_test(used_incomplete),
+      cmocka_unit_test(to_text_and_back),
+      cmocka_unit_test(a_scene_describes_how_it_will_run),
+      cmocka_unit_test(tables_have_all_rows_and_fields),
+      cmocka_unit_test(a_wrong_word_finds_the_nearest),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -72,8 +72,8 @@ static uint64_t hash_of(const gg_simulation *m)
   return hash;
 }
 
-/* Another seed, another engine or one collision more is another number; the same is the same. */
-static void hashes(void **state)
+/* The hash differs with the seed, the engine and by one collision; equal states have equal hashes. */
+static void equal_states_have_equal_hashes(void **state)
 {
   (void)state;
   gg_error err;
@@ -304,8 +304,8 @@ static void saved_and_loaded(void **state)
   gg_simulation_free(m);
 }
 
-/* Streams of one seed are different; a scene that an engine cannot run is refused with the reason. */
-static void starts(void **state)
+/* Streams of one seed differ; a scene that an engine cannot run is rejected with the reason. */
+static void streams_of_one_seed_differ(void **state)
 {
   (void)state;
   gg_error err;
@@ -402,7 +402,7 @@ static int after_some(void *context)
 
 /* Stopped within a call, a simulation stands where it has come to, says so, and goes on: in md on the same trajectory.
  */
-static void stopped(void **state)
+static void a_stopped_simulation_continues_its_trajectory(void **state)
 {
   (void)state;
   gg_error err;
@@ -437,7 +437,7 @@ static void stopped(void **state)
   }
 }
 
-/* Of three species each has its own temperature, and together they have that of the gas. */
+/* Each of three species has a temperature; together they have that of the gas. */
 static void species_one_by_one(void **state)
 {
   (void)state;
@@ -487,7 +487,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(species_one_by_one),
       cmocka_unit_test(state_and_grains),
-      cmocka_unit_test(hashes),
+      cmocka_unit_test(equal_states_have_equal_hashes),
       cmocka_unit_test(cut_into_steps),
       cmocka_unit_test(times_of_collisions),
       cmocka_unit_test(collisions_of_md),
@@ -495,9 +495,9 @@ int main(void)
       cmocka_unit_test(energy_balance),
       cmocka_unit_test(cooling_over_decades),
       cmocka_unit_test(saved_and_loaded),
-      cmocka_unit_test(starts),
+      cmocka_unit_test(streams_of_one_seed_differ),
       cmocka_unit_test(facts_of_the_start),
-      cmocka_unit_test(stopped),
+      cmocka_unit_test(a_stopped_simulation_continues_its_trajectory),
       cmocka_unit_test(walls_have_names),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);

@@ -46,7 +46,7 @@ static uint64_t hash_of(gg_simulation *m)
   return hash;
 }
 
-static void interrupted(void **state)
+static void a_start_can_be_interrupted(void **state)
 {
   (void)state;
   gg_error err;
@@ -149,7 +149,7 @@ static gg_status call(things *t, int way, int (*asks)(void *context), poll_count
   }
 }
 
-/* What is made is the same as without a callback, which is of that call alone. */
+/* The simulation is the same as without a callback, and the callback serves that call alone. */
 static void assert_same(things *t)
 {
   gg_error err;
@@ -208,7 +208,7 @@ static int fails(void *context)
   return 0;
 }
 
-static void reason(void **state)
+static void a_failing_stop_gives_its_reason(void **state)
 {
   (void)state;
   gg_error err;
@@ -222,7 +222,7 @@ static void reason(void **state)
   gg_scene_free(s);
 }
 
-static void streams(void **state)
+static void stream_0_is_the_default(void **state)
 {
   (void)state;
   gg_error err;
@@ -239,8 +239,11 @@ static void streams(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(interrupted), cmocka_unit_test(small_ones_are_asked_once),
-                                     cmocka_unit_test(from_grains), cmocka_unit_test(copies_and_files),
-                                     cmocka_unit_test(reason),      cmocka_unit_test(streams)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_start_can_be_interrupted),
+                                     cmocka_unit_test(small_ones_are_asked_once),
+                                     cmocka_unit_test(from_grains),
+                                     cmocka_unit_test(copies_and_files),
+                                     cmocka_unit_test(a_failing_stop_gives_its_reason),
+                                     cmocka_unit_test(stream_0_is_the_default)};
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What lasts polls `stop` often, also before and after the work of an engine; what was stopped leaves no file.
+/* Long calls poll `stop` often, also before and after the work of an engine; a stopped call leaves no file.
  * Counted in polls, not in time. */
 #include <stdbool.h>
 
@@ -91,7 +91,7 @@ static void after_followed_runs(void **state)
   }
 }
 
-/* What takes no time is there: of a run that is stopped on its way, too. */
+/* Results that take no time are complete, also those of a run that is stopped on its way. */
 static void short_theory_of_stopped_runs(void **state)
 {
   (void)state;
@@ -107,7 +107,7 @@ static void short_theory_of_stopped_runs(void **state)
   gg_result_free(r);
 }
 
-/* Of calls that make files. */
+/* Calls that write files. */
 typedef gg_status (*call_with_files)(polling *p, gg_error *err);
 
 static gg_status write_result(polling *p, gg_error *err)
@@ -143,8 +143,8 @@ static bool is_made(void)
   return access("t_made.h5", F_OK) == 0 || access("t_made.csv", F_OK) == 0 || access("t_made.xyz", F_OK) == 0;
 }
 
-/* They end where they are stopped, at every stage, and leave no file. Pictures are drawn one after the other. */
-static void files(void **state)
+/* Writes end where they are stopped, at every stage, and leave no file. Pictures are drawn one after the other. */
+static void stopped_writes_leave_no_file(void **state)
 {
   (void)state;
   gg_error err;
@@ -203,8 +203,8 @@ static void large_file(void **state)
   assert_true(large >= small + 3);
 }
 
-/* Between points, and before the page. */
-static void validation(void **state)
+/* A validation stops between points and before the page. */
+static void a_validation_stops_between_points(void **state)
 {
   (void)state;
   gg_error err;
@@ -232,9 +232,9 @@ int main(void)
       cmocka_unit_test(before_followed_runs),
       cmocka_unit_test(after_followed_runs),
       cmocka_unit_test(short_theory_of_stopped_runs),
-      cmocka_unit_test(files),
+      cmocka_unit_test(stopped_writes_leave_no_file),
       cmocka_unit_test(large_file),
-      cmocka_unit_test(validation),
+      cmocka_unit_test(a_validation_stops_between_points),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a program adds to a scene, by the public interface alone: found again in files, right in a cooling gas, refused
+/* User-defined parts of a scene, by the public interface alone: found again in files, right in a cooling gas, refused
  * where it would spoil files. */
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -36,7 +36,7 @@ static const char *say_nothing(void *context, const gg_facts *facts, double *val
   return "is for fluids";
 }
 
-/* What the catalogue of a file's quantities and theories would say stands in it, too: of those that did not apply. */
+/* A file also has the catalogue entries of its quantities and theories, those that did not apply included. */
 static void assert_told(const gg_comparison *c)
 {
   gg_theory_info t = {0};
@@ -66,8 +66,8 @@ static void add_all(gg_scene *s)
   assert_ok(gg_scene_add_theory(s, &silent, &err));
 }
 
-/* Means, the reason of one that is not there, agreement and theory of one's own, written and read twice. */
-static void read_back(void **state)
+/* User-defined means, the reason of a missing one, z-scores and theory are the same after two writes and reads. */
+static void user_defined_results_are_read_back(void **state)
 {
   (void)state;
   gg_error err;
@@ -266,7 +266,7 @@ static void compare_T(void *context, void *state, const gg_sample *s, double *va
 
 /* The velocities of a cooling gas are brought back now and then: collisions are shown in units of the start all the
  * same, in the interval after that, too; and so are the grains that are left at the end. */
-static void cooling(void **state)
+static void collisions_of_a_cooling_gas_have_units_of_the_start(void **state)
 {
   (void)state;
   gg_error err;
@@ -295,8 +295,8 @@ static void cooling(void **state)
   }
 }
 
-/* A text that is no UTF-8 would leave no document of the run; names of `measure` are taken. */
-static void spoiling(void **state)
+/* Text that is not UTF-8 would leave no document of the run; names of built-in observables are taken. */
+static void invalid_names_are_rejected(void **state)
 {
   (void)state;
   gg_error err;
@@ -328,8 +328,8 @@ static size_t entries(gg_catalogue catalogue, const gg_scene *s, gg_entry *last)
   return n;
 }
 
-/* The catalogues of observables and theories end with the scene's own. */
-static void listed(void **state)
+/* Catalogues of observables and theories end with the user-defined ones of the scene. */
+static void catalogues_end_with_user_defined_entries(void **state)
 {
   (void)state;
   gg_entry last;
@@ -503,10 +503,18 @@ static void laws_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(read_back),    cmocka_unit_test(read_back_run),    cmocka_unit_test(theories_under_a_law),
-      cmocka_unit_test(cooling),      cmocka_unit_test(spoiling),         cmocka_unit_test(law_noted),
-      cmocka_unit_test(listed),       cmocka_unit_test(theories_refused), cmocka_unit_test(observables_refused),
-      cmocka_unit_test(laws_refused), cmocka_unit_test(clamped_laws),     cmocka_unit_test(reason_in_latin1),
+      cmocka_unit_test(user_defined_results_are_read_back),
+      cmocka_unit_test(read_back_run),
+      cmocka_unit_test(theories_under_a_law),
+      cmocka_unit_test(collisions_of_a_cooling_gas_have_units_of_the_start),
+      cmocka_unit_test(invalid_names_are_rejected),
+      cmocka_unit_test(law_noted),
+      cmocka_unit_test(catalogues_end_with_user_defined_entries),
+      cmocka_unit_test(theories_refused),
+      cmocka_unit_test(observables_refused),
+      cmocka_unit_test(laws_refused),
+      cmocka_unit_test(clamped_laws),
+      cmocka_unit_test(reason_in_latin1),
   };
   return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -59,7 +59,7 @@ static gg_result *alone(const gg_scene *scene)
   return result;
 }
 
-static void same_bits(void **state)
+static void any_number_of_ranks_gives_the_same_bits(void **state)
 {
   (void)state;
   for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
@@ -104,8 +104,8 @@ static void any_number(void **state)
   gg_scene_free(scene);
 }
 
-/* Rank 1 is lost as it says hello, as it hands over a replica that it made, at the end of the warm-up, and later. */
-static void lost(void **state)
+/* Rank 1 is lost when it registers, when it returns a replica that it created, at the end of the warm-up, and later. */
+static void the_work_of_a_lost_rank_is_repeated(void **state)
 {
   (void)state;
   gg_scene *scene = scene_of(scenes[0]);
@@ -142,7 +142,7 @@ static int note_collisions(void *context, const gg_progress *now)
   return 0;
 }
 
-/* What counts of a rank lost after the stop are the replicas that it had handed over. */
+/* A rank lost after the stop contributes the replicas that it had returned. */
 static void lost_after_the_stop(void **state)
 {
   (void)state;
@@ -167,8 +167,8 @@ static int beyond(void *context, const gg_progress *now)
   return now->phase[0] == 'a' && now->fraction > *(double *)context;
 }
 
-/* A checkpoint knows nothing of processes: three begin, two go on, one ends. */
-static void resumed(void **state)
+/* A checkpoint is independent of the number of ranks: three begin, two continue, one ends. */
+static void a_checkpoint_resumes_on_any_number_of_ranks(void **state)
 {
   (void)state;
   gg_error err;
@@ -294,8 +294,8 @@ static void goes_on_alone(void **state)
   gg_scene_free(scene);
 }
 
-/* Both engines at once share the same processes. */
-static void comparison(void **state)
+/* Both engines use the same ranks at once. */
+static void both_engines_share_the_ranks(void **state)
 {
   (void)state;
   gg_error err;
@@ -382,15 +382,15 @@ static void own_laws_stay(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(same_bits),
+      cmocka_unit_test(any_number_of_ranks_gives_the_same_bits),
       cmocka_unit_test(any_number),
-      cmocka_unit_test(lost),
+      cmocka_unit_test(the_work_of_a_lost_rank_is_repeated),
       cmocka_unit_test(lost_after_the_stop),
-      cmocka_unit_test(resumed),
+      cmocka_unit_test(a_checkpoint_resumes_on_any_number_of_ranks),
       cmocka_unit_test(checkpoints_on_the_way),
       cmocka_unit_test(checkpoint_due_at_the_start),
       cmocka_unit_test(goes_on_alone),
-      cmocka_unit_test(comparison),
+      cmocka_unit_test(both_engines_share_the_ranks),
       cmocka_unit_test(other_builds_do_not_work),
       cmocka_unit_test(failures_come_home),
       cmocka_unit_test(own_laws_stay),

@@ -53,7 +53,7 @@ static void long_names(void **state)
     }
 }
 
-static void usual(void **state)
+static void a_prefix_precedes_the_message(void **state)
 {
   (void)state;
   gg_error err;
@@ -79,7 +79,7 @@ static void foreign_texts(void **state)
   assert_true(strncmp(err.message, "b?c: a?", 7) == 0);
 }
 
-static void names(void **state)
+static void names_are_letters_digits_and_underscores(void **state)
 {
   (void)state;
   assert_true(gg_base_text_is_name("N1", 40) && gg_base_text_is_name("my_T", 4));
@@ -91,9 +91,9 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(long_names),
-      cmocka_unit_test(usual),
+      cmocka_unit_test(a_prefix_precedes_the_message),
       cmocka_unit_test(foreign_texts),
-      cmocka_unit_test(names),
+      cmocka_unit_test(names_are_letters_digits_and_underscores),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

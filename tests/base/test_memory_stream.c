@@ -22,7 +22,7 @@ static bool write_all(char **text)
   return gg_base_memory_stream_close(out, text);
 }
 
-static void whole(void **state)
+static void a_stream_holds_all_that_was_written(void **state)
 {
   (void)state;
   char *text;
@@ -75,7 +75,7 @@ static void allocations_that_fail(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(whole),
+      cmocka_unit_test(a_stream_holds_all_that_was_written),
       cmocka_unit_test(length_by_now),
       cmocka_unit_test(allocations_that_fail),
   };

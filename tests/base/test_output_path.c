@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What stands at an output's path: links are followed, who may read and write stays, one writer at a time, and nothing
+/* Existing files at an output path: links are followed, permissions stay, one writer at a time, and nothing
  * that a dead one left blocks or stays. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -157,7 +157,7 @@ static void what_the_dead_left(void **state)
   assert_true(access("file.graingas-tmp", F_OK) != 0 && access("file.graingas-lock", F_OK) != 0);
 }
 
-/* Devices and pipes get the bytes, and stay. */
+/* Devices and pipes receive the bytes and remain. */
 static void streams(void **state)
 {
   (void)state;
@@ -201,7 +201,7 @@ static void *replace(void *unused)
   return unused;
 }
 
-/* What stands at a name is looked at twice, and may have been replaced between: that is no reason to refuse it. */
+/* A file is inspected twice and may be replaced in between, which is no reason to reject it. */
 static void replaced_while_looked_at(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tests of failing writes and kills share, with validation/interruption: graingas behind the interposed library of
+"""Shared by tests of failing writes and kills and by validation/interruption: graingas behind the interposed library of
 tests/faults, what it saw, and two result files compared bit for bit."""
 import json
 import os
@@ -13,7 +13,7 @@ LIBRARY = os.path.abspath(os.environ["FAILING_WRITES"])
 
 
 class Page:
-    """What the library tells while the program runs, and after it was killed."""
+    """Report of the interposed library while the program runs, and after it was killed."""
 
     def __init__(self, path):
         self.path = path
@@ -75,7 +75,7 @@ def kill_at(child, seconds):
 
 
 def is_of_the_clock(name):
-    """What two runs of the same bits may differ in."""
+    """Fields in which two runs of the same bits may differ."""
     return name in ("/graingas/date", "/graingas/command") or name.endswith(("cpu_seconds", "wall_seconds"))
 
 
@@ -86,7 +86,7 @@ def timeless(value):
 
 
 def bits(path):
-    """Of all datasets and attributes of a file, by name; needs h5py."""
+    """Contents of all datasets and attributes of a file, by name; needs h5py."""
     import h5py
 
     found = {}

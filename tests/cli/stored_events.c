@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What cli/leaves holds results against: a run with every sample and every collision of all its replicas, and what the
+/* Reference for cli/independent: a run with every sample and every collision of all its replicas, and what the
  * C interface says of it, by the public header alone.
  *   stored_events SCENE.yaml FOLDER REPLICAS COLLISIONS [SAMPLES]
  * FOLDER/result.json: the result; interface.json: the same, asked one by one; samples.bin: what an observable is shown;

@@ -18,7 +18,7 @@ class Skip(Exception):
 
 
 class Done:
-    """What a command left: exit code, texts, and the files that are new."""
+    """Outcome of a command: exit code, texts, new files."""
 
     def __init__(self, code, out, err, new):
         self.code, self.out, self.err, self.new = code, out, err, new

@@ -116,7 +116,7 @@ def test_full_standard_output():
         check(done.returncode == 3 and "standard output cannot be written" in done.stderr, done.returncode, done.stderr)
 
 
-def test_overrides():
+def test_wrong_overrides_are_rejected():
     refused("--set colision.e=1: key 'colision.e': no such key; did you mean 'collision.e'?", 2, "run", "scene.yaml",
             "--set", "colision.e=1", scene=GOOD)
     refused("--set collision.e=2: key 'collision.e': value '2' is not allowed; allowed: a number from 0 to 1", 2,
@@ -161,7 +161,7 @@ def test_foreign_characters():
 
 
 def test_page_without_a_scene():
-    """What is asked of a scene that is not there is not passed over."""
+    """Options for a scene that is missing are rejected, not ignored."""
     for option in (("--set", "phi=3"), ("--seed", "7")):
         done = run("page", *option, "--output", "page.html")
         check(done.code == 2 and "are for a scene" in done.err and not done.new, done.err)

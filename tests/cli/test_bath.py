@@ -45,7 +45,7 @@ def coefficient(one, kind, of):
             curves[0]["diffusion_first_sonine"]["mean"])
 
 
-def test_diffusion():
+def test_dsmc_has_enskogs_diffusion():
     """Monte Carlo has Enskog's coefficient: elastic grains 1.019 times the first Sonine approximation (Chapman &
     Cowling), at finite density and at none. In a bath a grain loses its velocity to that, too."""
     for scene, most in (("flow: equilibrium\n" + GAS % 0.1, 0), ("flow: equilibrium\n" + GAS % 0, 0),
@@ -57,7 +57,7 @@ def test_diffusion():
         check(error < 0.01 * D and abs(D - expected) < 5 * error + most * theory, scene, D, error, expected)
 
 
-def test_tracers():
+def test_engines_agree_on_tracers():
     """Twenty heavy grains among a thousand: both engines agree, and with theory of the temperatures measured. Heavy
     inelastic grains are hotter in a bath than the gas."""
     scene = BALANCE["bath"] + GAS % 0.05 + "species: [{fraction: 0.98}, {fraction: 0.02, mass: 5, diameter: 1.5}]\n" \

@@ -30,7 +30,7 @@ def near(x, y):
     check(abs(x / y - 1) < 1e-9, x, y)
 
 
-def test_ratios():
+def test_ratios_are_of_times():
     """Rates and times both become ratios of times; bounds are those that the repeats allow."""
     record("a.json", ("rate", RATE, 100, 80, 110), ("time", TIME, 100, 90, 120), ("same", TIME, 5, 4, 6))
     record("b.json", ("same", TIME, 5, 4, 6), ("rate", RATE, 50, 40, 60), ("time", TIME, 50, 45, 60))
@@ -43,7 +43,7 @@ def test_ratios():
         check(got[name]["beyond_spread"] == word, got[name])
 
 
-def test_text():
+def test_a_comparison_prints_both_origins():
     """Both origins, a line a row, and the count."""
     record("a.json", ("rate", RATE, 100, 80, 110), ("same", TIME, 5, 4, 6))
     record("b.json", ("rate", RATE, 50, 40, 60), ("same", TIME, 5, 4, 6))
@@ -56,7 +56,7 @@ def test_text():
     check(lines[-1] == "2 rows in both with repeats; beyond their spread 1 slower, 0 faster", lines[-1])
 
 
-def test_limit():
+def test_slower_rows_fail_beyond_the_limit():
     """A row 30 % slower of whose spread the least is 20 % slower: within 25 %, beyond 15 %. Faster rows are not."""
     record("a.json", ("slow", TIME, 100, 99, 100), ("fast", TIME, 100, 100, 100))
     record("b.json", ("slow", TIME, 130, 120, 140), ("fast", TIME, 10, 10, 10))
@@ -96,7 +96,7 @@ def test_cut_short():
     check(done.code == 0 and f"\n{len(rows)} rows in both with repeats" in done.out, done.out, done.err)
 
 
-def test_refused():
+def test_unlike_measurements_are_rejected():
     record("a.json", ("x", TIME, 1, 1, 1))
     record("b.json", ("y", TIME, 1, 1, 1))
     record("nasty.json", ("\x1b[2J", TIME, 1, 1, 1))

@@ -51,7 +51,7 @@ def square(vector):
 
 
 def moments():
-    """Of a standard normal: on the positive half line, on the whole."""
+    """Moments of a standard normal: over the positive half line, over the whole."""
     double = [math.prod(range(n - 1, 0, -2)) for n in range(16)]
     half = [double[n] / (math.sqrt(2 * math.pi) if n % 2 else 2) for n in range(16)]
     return half, [0 if n % 2 else double[n] for n in range(16)]
@@ -142,7 +142,7 @@ def close(found, right, *what, within=1e-9):
     check(abs(found - right) <= within * max(abs(right), 1e-3), *what, found, right)
 
 
-def test_lun():
+def test_lun_has_its_published_coefficients():
     names = [["thermal_conductivity", "thermal_conductivity_cross"],
              ["rotational_conductivity_cross", "rotational_conductivity"]]
     for e, beta, phi in (0.9, 0.3, 0.3), (0.6, -0.5, 0.1), (0.95, 1, 0.45), (0.8, -1, 0.2):
@@ -204,9 +204,9 @@ def test_critical_lengths():
                 check(short < 0 < long, name, phi, e, which, short, long)
 
 
-def test_closures():
-    """The table that validation/closures makes is that of graingas theory; so is the one that stands there."""
-    folder = os.path.join(os.environ["SOURCE"], "validation")
+def test_closures_are_those_of_the_theory():
+    """validation/noise_free/closures and its stored table have the numbers of `graingas theory`."""
+    folder = os.path.join(os.environ["SOURCE"], "validation", "noise_free")
     with open("two.yaml", "w") as f:
         f.write("flow: hcs\nvary: {phi: [0.1, 0.4], collision.e: [0.8, 1]}\nsweep: {does: theory}\n")
     done = subprocess.run([os.path.join(folder, "closures"), "two.yaml"], capture_output=True, text=True)
@@ -231,7 +231,7 @@ def test_closures():
                     close(found, a.get(q, 0), phi, e, q, within=1e-7)
 
 
-def test_diffusion():
+def test_mixtures_diffuse_as_their_theories():
     """The flux of mass that keeps pace with the gradients of a cooling mixture: momentum of species 1, and how gradients
     of p and T change where zeta depends on place."""
     for masses, sizes, e in ((1, 1), (1, 1), 0.8), ((4, 1), (1.5, 1), 0.7), ((1, 8), (1, 2), 0.9), ((4, 1), (2, 1), 1):
@@ -401,7 +401,7 @@ class Expanding:
         return np.array([(w * x * x * x ** (2 * k) * L).sum(1) for k in range(1, self.K + 1)]) / (np.pi ** 0.5 / 2)
 
 
-def test_expansion():
+def test_expansion_changes_the_cooling_rate():
     """zeta_u: noise-free by more and more functions, solved anew; first order by two, linear in a_2."""
     for e, phi in (0.8, 0.3), (0.75, 0.1), (0.95, 0.4):
         scene = {"flow": "hcs", "phi": phi, "collision": {"e": e}}

@@ -21,7 +21,7 @@ def loads(done):
 
 
 def test_needs_foreseen():
-    """What info says of memory is what a run takes, within a fifth, of either engine and with observables; and a run
+    """The memory that info estimates is that of a run within a fifth, for either engine and with observables; and a run
     for which there is not enough is refused before it begins, with what it needs and what there is."""
     if SANITIZERS != "none":
         raise Skip("sanitizers take memory of their own")
@@ -97,7 +97,7 @@ def test_last_progress():
             check("averaging 100 %" in last and "left" not in last, lines)
 
 
-def test_theory():
+def test_theory_answers_in_json():
     d = loads(run("theory", "scene.yaml", "--json", scene=ROUGH))
     check(d["theory"]["lun1991"]["temperature"]["unit"] == "d^2 gamma^2")
     check(d["scene"]["collision"]["beta"] == 0)
@@ -106,7 +106,7 @@ def test_theory():
     check(done.code == 0 and "lun1991" in done.out and not done.new)
 
 
-def test_run():
+def test_a_run_answers_in_json():
     for engine in "md", "dsmc":
         done = run("run", "scene.yaml", "--engine", engine, "--json", "--seed", "5", "--output", engine + ".h5",
                    scene=ROUGH)
@@ -141,7 +141,7 @@ def test_threads_share_a_large_run():
         check(text in found, key, found)
 
 
-def test_fingerprint():
+def test_a_fingerprint_is_of_the_state():
     """The same state is the same number, of either engine; after more collisions or from another seed, another one."""
     scene, found = ROUGH.replace("1000", "500"), set()
     for engine in "md", "dsmc":
@@ -158,7 +158,7 @@ def test_fingerprint():
         check(run("fingerprint", "scene.yaml", *more).code == code, more)
 
 
-def test_page():
+def test_the_page_starts_with_the_scene():
     """The page with the scene in it; where it was not built, the reason and no file."""
     done = run("page", "scene.yaml", "--output", "p.html", scene="flow: usf\nphi: 0.2\n")
     if done.code == 0:
@@ -169,7 +169,7 @@ def test_page():
         check(done.code == 3 and "--page FILE" in done.err and not os.path.exists("p.html"), done.code, done.err)
 
 
-def test_compare():
+def test_compare_has_both_engines():
     done = run("compare", "scene.yaml", "--json", scene=ROUGH)
     d = loads(done)
     check(done.new == ["scene.compare.h5", "scene.compare.svg", "scene.compare_snapshot.svg"], done.new)
@@ -198,7 +198,7 @@ def test_compare_table():
 
 
 def test_compare_lists_profiles():
-    """Of both engines at the same heights, also where their grains have other fractions or Monte Carlo has more. They
+    """Profiles of both engines are at the same heights, also if fractions differ or Monte Carlo has more grains. They
     share a picture."""
     for more in ("phi: 0.123\n", "phi: 0.1\nspecies: [{fraction: 0.667}, {fraction: 0.333, diameter: 1.5}]\n"):
         done = run("compare", "scene.yaml", "--quiet", "--picture", "c.svg",
@@ -219,7 +219,7 @@ SMOOTH = ("flow: usf\nphi: 0.3\nparticles: 1000\ncollision: {e: 0.9}\ndsmc: {par
 
 
 def departure(of, theory, row, engine):
-    """What the keys of a comparison's row are to be."""
+    """Expected keys of a row of a comparison."""
     error = (of["stderr"] ** 2 + theory["error"] ** 2) ** 0.5
     for key, value in (("z", (of["mean"] - theory["mean"]) / error), ("difference", of["mean"] - theory["mean"]),
                        ("error", error), ("deviation", of["mean"] / theory["mean"] - 1)):
@@ -227,7 +227,7 @@ def departure(of, theory, row, engine):
         check(abs(told - value) < 1e-9 * max(1, abs(value)), engine, key, told, value)
 
 
-def test_verdicts():
+def test_verdicts_separate_engines_where_correlations_do():
     """md against Enskog's equation solved without random numbers: correlations at phi = 0.3 tell them apart, at 0.01
     nothing does; nor dsmc at either. The words follow the numbers."""
     main = ("temperature", "pressure", "compressibility_factor", "shear_viscosity", "N1", "N2", "collision_rate")

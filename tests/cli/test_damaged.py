@@ -57,17 +57,17 @@ def many():
     return int(os.environ.get("MUTATIONS", "60"))
 
 
-def test_results():
+def test_damaged_results_are_rejected():
     run("run", "scene.yaml", "--output", "r.h5", scene=SCENE)
     tried("r.h5", many(), 1, "info", "r.h5")
 
 
-def test_comparisons():
+def test_damaged_comparisons_are_rejected():
     run("compare", "scene.yaml", "--output", "c.h5", "--picture", "none", scene=SCENE)
     tried("c.h5", many(), 2, "info", "c.h5", "--json")
 
 
-def test_checkpoints():
+def test_damaged_checkpoints_are_rejected():
     for engine, seed in ("md", 3), ("dsmc", 4):
         for left in glob.glob("scene.checkpoint*"):
             os.remove(left)
@@ -156,7 +156,7 @@ def test_changed_by_h5py():
     assert_read("r.h5", CHANGED, texts)
 
 
-def test_repacked():
+def test_repacked_results_are_read():
     """Compressed by h5repack in the ways that it has; what graingas does not read is named."""
     if not shutil.which("h5repack"):
         raise Skip("no h5repack")

@@ -51,7 +51,7 @@ def test_a_given_number_is_kept():
         os.remove("scene.h5")
 
 
-def test_resumed():
+def test_a_resumed_run_keeps_its_size():
     whole = result("run", "--set", "run.collisions=1500")
     more, cuts = (), 0
     for limit in "0.1", "0.2", "0.4", "1e6":

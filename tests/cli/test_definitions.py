@@ -18,7 +18,7 @@ def lines(word):
     return text
 
 
-def test_words():
+def test_each_kind_of_word_has_entries():
     """Each kind of word has its own entries."""
     for word, parts in (("N1", ("symbol N_1", "(P_xx - P_yy)/p", "a pure number", "measured in always", "sela_goldhirsch1998")),
                         ("temperature_1", ("m_i<C.C>_i/3", "mixtures", "garzo_montanero2003")),

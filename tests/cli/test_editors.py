@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What helps at the keyboard: init, JSON Schema, completion for shells; each held against what the program itself takes."""
+"""Help at the keyboard: init, JSON Schema, completion for shells; each is compared with what the program accepts."""
 import glob
 import json
 import os
@@ -18,8 +18,8 @@ def flows():
     return [w["const"] for w in json.loads(done.out)["properties"]["flow"]["oneOf"]]
 
 
-def test_init():
-    """Of every flow a scene that is accepted, also with all its comments as keys; nothing is replaced."""
+def test_init_writes_accepted_scenes():
+    """init writes an accepted scene of every flow, also with all its comments as keys; it replaces no file."""
     for flow in flows():
         name = flow + ".yaml"
         check(run("init", flow).new == [name])
@@ -54,7 +54,7 @@ SCENES = ((True, "{flow: usf, phi: 0.1, collision: {e: {11: 0.9, other: 0.8}, be
           (False, "{flow: usf, phi: 0.1, run: {until: {colour: 0.1}}}"), (False, "{flow: usf, phi: 0.1, shear_rate: 0}"))
 
 
-def test_schema():
+def test_the_schema_accepts_what_the_program_does():
     """An editor marks what the program rejects, and nothing else: examples, sweeps of the papers' figures, and mistakes."""
     try:
         import jsonschema
@@ -64,7 +64,7 @@ def test_schema():
     schema = json.loads(run("info", "--schema").out)
     jsonschema.Draft7Validator.check_schema(schema)
     validator = jsonschema.Draft7Validator(schema)
-    files = glob.glob(ROOT + "/examples/*.yaml") + [ROOT + "/validation/grid.yaml", ROOT + "/validation/closures.yaml"]
+    files = glob.glob(ROOT + "/examples/*.yaml") + [ROOT + "/validation/grid/grid.yaml", ROOT + "/validation/noise_free/closures.yaml"]
     for path in filter(os.path.exists, files):
         with open(path) as f:
             wrong = list(validator.iter_errors(plain(yaml.safe_load(f))))
@@ -93,7 +93,7 @@ def completed(*words):
     return done.stdout.split()
 
 
-def test_completion():
+def test_shells_complete_what_the_program_takes():
     for shell in "bash", "zsh", "fish":
         with open("c", "w") as f:
             f.write(run("--completion", shell).out)

@@ -86,7 +86,7 @@ def fractions(cell, r):
     return (r[0] - y * cell[1][0]) / cell[0][0], y, r[2] / cell[2][2]
 
 
-def test_run():
+def test_a_run_is_exported_to_the_last_bit():
     for engine in "md", "dsmc":
         document = simulated(SHEARED, "--engine", engine, output=engine + ".h5")
         done = exported(engine + ".h5")
@@ -133,7 +133,7 @@ def curves(document, prefix, done):
         check(told[key]["unit"] == one["unit"], key)
 
 
-def test_comparison():
+def test_a_comparison_is_exported_whole():
     document = simulated(SHEARED, command="compare")
     done = exported("r.h5")
     _, table = rows("r.csv")
@@ -258,7 +258,7 @@ def test_sheared_trajectory():
     check(len(found) >= 6 and len(set(leans)) == len(leans) and max(abs(x) for x in leans) > 0.1, leans)
 
 
-def test_mixture():
+def test_species_of_a_mixture_are_exported():
     simulated(MIXTURE)
     done = exported("r.h5")
     found = as_stored("r.xyz", "r.h5")
@@ -268,7 +268,7 @@ def test_mixture():
     check(radii == {("H", 0.5, 1), ("He", 0.75, 2)} and "omega" not in found[0][2][0], radii)
 
 
-def test_walls():
+def test_walls_bound_the_exported_box():
     simulated(WALLED)
     exported("r.h5")
     found = as_stored("r.xyz", "r.h5")
@@ -380,7 +380,7 @@ def test_names_of_a_forged_file():
 
 
 def test_texts_of_a_forged_file():
-    """What a terminal or a spreadsheet would act on comes out as text."""
+    """Control sequences and spreadsheet formulas are written as text."""
     if not h5py:
         raise Skip("no h5py")
     import numpy
@@ -419,7 +419,7 @@ def test_parts_and_prefix():
     check(open("y.csv", "rb").read() == before)
 
 
-def test_locale():
+def test_numbers_have_a_point_in_every_locale():
     """A decimal point, whatever the user's numbers look like."""
     simulated(MIXTURE)
     os.environ["LC_ALL"] = "de_DE.UTF-8"
@@ -445,7 +445,7 @@ def refused(words, code, *args, **how):
     check(contents() == before and sorted(os.listdir(".")) == names, args, os.listdir("."))
 
 
-def test_refused():
+def test_invalid_exports_are_rejected():
     simulated(SHEARED)
     refused("export needs RESULT.h5", 2)
     refused("did you mean trajectory", 2, "r.h5", "--only", "trajectry")
@@ -507,7 +507,7 @@ def test_nothing_to_export():
     check(exported("d.h5").new == ["d.csv"])
 
 
-def test_heights():
+def test_gases_with_heights_alone_have_no_snapshot():
     """Monte Carlo between walls has heights alone: no snapshot shows them, and what is exported says so."""
     simulated(WALLED, "--engine", "dsmc", "--set", "dsmc.particles=500")
     done = exported("r.h5", "--only", "trajectory")
@@ -533,7 +533,7 @@ def test_many_files():
     check(not [name for name in os.listdir(".") if name.startswith("n")], os.listdir("."))
 
 
-def test_damaged():
+def test_damaged_files_are_not_exported():
     simulated(SHEARED)
     with open("r.h5", "r+b") as f:
         f.seek(5000)

@@ -14,7 +14,7 @@ SCENE = "flow: usf\nphi: 0.2\nparticles: 500\ncollision: {e: 0.9, beta: 0}\nrun:
 
 
 class Running:
-    """A command on its way: for how long, and what it has said. What it prints goes to files: no pipe fills up."""
+    """A running command: for how long, and its output so far. Its output goes to files, so that no pipe fills up."""
 
     def __init__(self, args):
         self.begun = time.monotonic()
@@ -141,7 +141,7 @@ def test_killed_at_any_moment():
     check(code == 130 and "--resume" in err, code, err)
 
 
-def test_trajectory():
+def test_a_trajectory_is_stored_whole():
     done = run("run", "scene.yaml", "--quiet", "--set", "output.trajectory_every=20", scene=SCENE % 100)
     check(done.code in (0, 1) and done.new == ["scene.h5"], done.err)
 

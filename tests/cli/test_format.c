@@ -8,7 +8,7 @@
 
 #include "cli/print.h"
 
-static void counts(void **state)
+static void large_counts_have_prefixes(void **state)
 {
   (void)state;
   char text[32];
@@ -30,6 +30,6 @@ static void counts(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(counts)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(large_counts_have_prefixes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

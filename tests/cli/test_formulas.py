@@ -169,7 +169,7 @@ def test_the_reader_of_tex():
     check(np.allclose(f["m"], [[-30], [8]]), f["m"])
 
 
-def test_lun1991():
+def test_lun1991_is_its_formulas():
     """T, theta/T, pressure and six coefficients of a sheared gas of rough grains."""
     phi, e, beta = 0.2, 0.85, 0.3
     found = printed("lun1991", f"{{flow: usf, phi: {phi}, collision: {{e: {e}, beta: {beta}}}, species: [{{inertia: 0.3}}]}}")
@@ -202,7 +202,7 @@ def test_garzo_dufty1999():
                  "diffusive_heat_conductivity_reduced": f["\\mu"]})
 
 
-def test_haff1983():
+def test_haff1983_is_its_formulas():
     found = printed("haff1983", "{flow: hcs, phi: 0.1, collision: {e: 0.7}}")
     same(found, {"cooling_rate": Formulas(section("haff1983"), e=0.7, **{"\\chi": chi(0.1)})["\\zeta^*"]})
 

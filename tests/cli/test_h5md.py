@@ -124,7 +124,7 @@ def test_h5py_opens_curves():
         check(0 < laws < len(d["curves"]), laws)
 
 
-def test_mdanalysis():
+def test_mdanalysis_reads_trajectories():
     (mda, h5py) = modules("MDAnalysis", "h5py")
     for command in "run", "compare":
         run(command, "scene.yaml", "--output", "scene.h5", scene=SCENE)

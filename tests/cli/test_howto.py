@@ -56,7 +56,7 @@ def test_slurm_array():
         check(re.search(rf"^(?:.*,)?{e},", rows, re.MULTILINE), e, rows[:300])
 
 
-def test_mpi():
+def test_mpi_gives_the_same_digits():
     """As without MPI, to the last digit."""
     if not shutil.which("mpirun"):
         raise Skip("mpirun is not installed")

@@ -163,11 +163,11 @@ class Followed:
 
     @staticmethod
     def turned(store):
-        """What a collision takes from the spins of both."""
+        """Angular momentum that a collision takes from both spins."""
         return np.cross(store.k, store.J)[:, None] * ((d / 2) / (K * m * d * d / 4))[store.pair][..., None]
 
     def losses(self, store):
-        """What the relative motion and both spins have less afterwards."""
+        """Energy that the relative motion and both spins lose."""
         over_m = (1 / m[store.pair]).sum(1)
         lost = (store.c12 * store.J).sum(1) - (store.J ** 2).sum(1) * over_m / 2
         turned, inertia = self.turned(store), (K * m * d * d / 4)[store.pair]
@@ -175,7 +175,7 @@ class Followed:
 
 
 def energy_growth(store):
-    """Of every sample since the one before, spins and flow included."""
+    """Growth of the energy from each sample to the next, with spins and flow."""
     inertia = (K * m * d * d / 4)[store.species]
     E = ((m[store.species] * (store.velocity ** 2).sum(2) + inertia * (store.spin ** 2).sum(2)) / 2).sum(1)
     grown = np.full(len(E), np.nan)
@@ -186,7 +186,7 @@ def energy_growth(store):
 
 
 def work_between_walls(store, flow):
-    """What moving walls do (gamma is their velocity over half the gap), and gravity: that by the trapezoidal rule."""
+    """Work of moving walls (gamma is their velocity over half the gap) and of gravity, by the trapezoidal rule."""
     if flow == "couette":
         force = store.sums[:, 12:18].reshape(-1, 2, 3)[:, :, 0]  # lower, upper
         return box_of(store, flow)[1] / 2 * (force[:, 0] - force[:, 1])
@@ -427,7 +427,7 @@ def histogram(values, bins, low, high):
 
 
 def hold_flights(store, flow, curves, replicas, followed):
-    """Of a species all count that end after twelve collisions a grain of the window."""
+    """Free flights of a species that end after twelve collisions per grain of the window."""
     inside = window_of(store, replicas)[store.event_row]
     nodes, weights = np.polynomial.legendre.leggauss(12)
     for s in range(2):
@@ -552,7 +552,7 @@ def hold_walls(store, flow, curves, replicas):
 
 
 def straight(x, h, weight):
-    """Of each component the line at + slope h with the least weighted squares: [at, slope]."""
+    """Weighted least-squares line at + slope h of each component: [at, slope]."""
     basis = np.stack([np.ones_like(h), h], 1) * weight[:, None] ** 0.5
     return np.linalg.lstsq(basis, x * weight[:, None] ** 0.5, rcond=None)[0]
 
@@ -822,7 +822,8 @@ def hold_export(name, document, store, flow, kind):
 
 
 def hold_interface(store, flow, kind, frame, C):
-    """What the C interface says: the result one by one, an observable's sample, sums and state of a simulation."""
+    """The C interface returns the same numbers: the result one by one, samples of an observable, sums and state of a
+    simulation."""
     with open("result.json") as f:
         document = json.load(f)
     with open("interface.json") as f:
@@ -956,7 +957,7 @@ def cooling(**more):
     return json.loads(done.out)
 
 
-def test_margin():
+def test_deciding_errors_have_a_margin():
     """Errors that decide when a run ends are larger by 6 tau over the length of all replicas' windows."""
     asked, fixed = cooling(relative_error=0.05, replicas=3), cooling(collisions=1000, replicas=3)
     for name, q in asked["results"].items():
@@ -978,7 +979,7 @@ def test_long_series():
         check(share - 0.15 < cpu < share + 0.15, "processor time", cpu, share)
 
 
-def test_errors():
+def test_errors_are_those_of_blocks():
     """Standard errors against those of means over blocks of samples, which are known to 8 %; of the distribution of angles
     against counting."""
     scene = scene_of("usf", "rough")
@@ -1064,7 +1065,7 @@ def conductivities(V, e, phi, pairs, rng):
     return unit * np.array([kappa * transfer - extra, kappa, -flux @ B * transfer])
 
 
-def test_conductivity():
+def test_conductivity_is_the_response_of_frames():
     """Against the response computed here from frames of the ensemble, whose scatter is the error: a2 of 20 000 grains is
     known to 0.005, kappa* to 1 %."""
     if isinstance(h5py, ImportError):
@@ -1090,7 +1091,7 @@ def test_conductivity():
 
 
 def chi(i, j, x):
-    """Of two species at contact: Boublik and Mansoori; of one Carnahan and Starling."""
+    """Contact values: Boublik and Mansoori for two species, Carnahan and Starling for one."""
     xi = [PHI * sum(x[k] * d[k] ** p for k in range(2)) / sum(x[k] * d[k] ** 3 for k in range(2)) for p in range(4)]
     y = d[i] * d[j] / (d[i] + d[j]) * xi[2] / (1 - PHI)
     return (1 + 3 * y + 2 * y * y) / (1 - PHI)
@@ -1116,8 +1117,8 @@ def moments(store):
     return kinetic, kinetic + per_row(store, jumps)
 
 
-def test_helfand():
-    """Of one species, and of two: integrals to the sixth interval, all of them in double sums over samples."""
+def test_helfand_moments_are_those_of_samples():
+    """Helfand integrals of one species and of two, to the sixth interval, as double sums over samples."""
     last, trace = 6, np.eye(3).reshape(9) / 3
     for species in None, SPECIES:
         scene = {"flow": "equilibrium", "engine": "md", "phi": PHI, "particles": N, "measure": ["rheology", "helfand"],

@@ -83,11 +83,11 @@ def in_folder(command):
     every_call(command)
 
 
-def test_run():
+def test_a_killed_run_resumes():
     in_folder(RUN)
 
 
-def test_sweep():
+def test_a_killed_sweep_resumes():
     in_folder(SWEEP)
 
 

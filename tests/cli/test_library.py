@@ -44,7 +44,7 @@ def test_installed_files():
         check(done.returncode == 0 and not done.stderr, done.stderr)
 
 
-def test_hardened():
+def test_command_and_library_are_hardened():
     """Command and library: copies are checked, stacks guarded, functions bound before anything is read."""
     if SANITIZERS != "none" or not shutil.which("readelf"):
         raise Skip("sanitizers do it, or there is no readelf")

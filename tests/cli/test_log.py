@@ -20,7 +20,7 @@ def rows(name="run.csv"):
         return list(csv.DictReader(file))
 
 
-def test_rows():
+def test_rows_grow_and_means_are_theirs():
     """Samples count from 1, time and collisions grow; the means begin with averaging, and are those of the values."""
     for engine in "md", "dsmc":
         done = run("run", "scene.yaml", "--json", "--quiet", scene=SCENE % (engine, 400, 1))
@@ -42,7 +42,8 @@ def test_rows():
 
 
 def test_json_lines():
-    """The same numbers, an object a line; NaN is null. Of replicas the first is shown, whatever the threads."""
+    """JSON lines have the same numbers, an object a line; NaN is null. The log is that of the first
+    replica for any number of threads."""
     check(run("run", "scene.yaml", "--quiet", scene=SCENE % ("dsmc", 200, 3)).code == 0)
     check(run("run", "scene.yaml", "--quiet", "--threads", "3", "--set", "output.log=run.jsonl").code == 0)
     with open("run.jsonl", encoding="utf-8") as file:
@@ -53,8 +54,8 @@ def test_json_lines():
         check({k: "" if v is None else f"{v:.9g}" for k, v in line.items()} == row, line, row)
 
 
-def test_cooling():
-    """Where the temperature falls it has a column, which ends with Haff's law."""
+def test_a_falling_temperature_has_a_column():
+    """A falling temperature has a column, which ends with Haff's law."""
     done = run("run", "scene.yaml", "--quiet", scene="flow: hcs\nphi: 0.1\nparticles: 500\ncollision: {e: 0.9}\n"
                "run: {collisions: 400}\noutput: {log: run.csv}\n")
     check(done.code == 0, done.err)

@@ -140,7 +140,7 @@ def test_interrupted_and_resumed():
     check(not os.path.exists("scene.checkpoint.h5"))
 
 
-def test_killed():
+def test_a_killed_rank_ends_the_job():
     """mpirun ends the job when a process is killed, and says so; the run goes on from its checkpoint. In the second that
     mpirun leaves it, it may have come to its end without the lost one; what it printed then may be cut short, its file
     is whole."""
@@ -208,7 +208,7 @@ def killed_sweep(folder, rank, options=()):
     return job.returncode, err
 
 
-def test_sweep():
+def test_a_sweep_runs_over_ranks():
     """Points and their replicas over ranks; a rank that is killed, with mpirun's default and with recovery."""
     with open("sweep.yaml", "w") as f:
         f.write(SWEEP)

@@ -38,7 +38,7 @@ def test_theories_by_name():
     check(done.code == 2 and "did you mean 'lun1991'?" in done.err, done.err)
 
 
-def test_order():
+def test_options_stand_anywhere():
     """Options may stand anywhere, whatever POSIX asks for; after -- there are none."""
     os.environ["POSIXLY_CORRECT"] = "1"
     for args in ("scene.yaml", "--json"), ("--json", "scene.yaml"), ("--json", "--", "scene.yaml"):
@@ -51,7 +51,7 @@ def test_order():
     del os.environ["POSIXLY_CORRECT"]
 
 
-def test_quiet():
+def test_quiet_commands_print_results_only():
     """Every command takes it, and says nothing beside its result."""
     run("run", "scene.yaml", "--quiet", scene=SCENE)
     for args in ("theory", "scene.yaml"), ("info", "scene.yaml"), ("info", "scene.h5"), ("plot", "scene.h5"):
@@ -110,7 +110,7 @@ def test_where_scenes_come_from():
     check("is an HDF5 file" in run("theory", "stdin.h5").err and run("info", "stdin.h5", "--set", "phi=1").code == 2)
 
 
-def test_numbers():
+def test_numbers_are_read_as_written():
     for text, value in ("1e3", 1000), (" 300 ", 300), ("300 # grains", 300), ("+300", 300):
         done = run("info", "scene.yaml", "--json", "--set", f"particles={text}", scene=SCENE)
         check(json.loads(done.out)["particles"] == value, text, done.err)
@@ -134,7 +134,7 @@ def test_command_line_is_kept():
 
 
 def test_exit_codes():
-    """Of mistakes, also with --json: nothing on standard output. Each code that a command may leave stands in the
+    """Mistakes print nothing on standard output, also with --json. Each exit code of a command is in the
     manual (1 and 130 are met in test_commands.py and test_files.py)."""
     manual = run("--manual").out.split(".SH EXIT STATUS")[1].split(".SH")[0]
     check(re.findall(r"^\.B (\d+)", manual, re.M) == ["0", "1", "2", "3", "130"], manual)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What stands where an output is to go is written to, replaced by a whole file, or refused before the run."""
+"""An existing file, link, device or pipe at an output is written to, replaced by a whole file, or rejected before the run."""
 import os
 import re
 import shlex
@@ -58,7 +58,7 @@ def readable(path):
     check(done.code == 0, done.err)
 
 
-def test_pipes():
+def test_pipes_receive_outputs():
     scenes()
     os.mkfifo("pipe")
     os.chmod("pipe", 0o666)
@@ -75,7 +75,7 @@ def test_pipes():
         check(stat.S_ISFIFO(os.stat("pipe").st_mode))
 
 
-def test_devices():
+def test_devices_remain():
     """Nodes of our own: a mistake here would cost the system its own."""
     scenes()
     try:
@@ -115,7 +115,7 @@ def test_standard_output():
     check(done.returncode == 3 and b"choose a file" in done.stderr, done.stderr)
 
 
-def test_links():
+def test_links_are_followed():
     scenes()
     os.mkdir("far")
     os.chmod("far", 0o777)
@@ -188,7 +188,7 @@ def test_empty_names():
     refused("the name is empty", 3, "--resume", "")
 
 
-def test_pictures():
+def test_wrong_names_of_pictures_are_rejected():
     scenes()
     os.mkdir("folder.svg")
     os.mkfifo("pipe")
@@ -226,7 +226,7 @@ def test_pictures_for_paper():
 
 
 def contents():
-    """Of all files here."""
+    """Bytes of all files in this folder."""
     kept = {}
     for name in sorted(os.listdir(".")):
         with open(name, "rb") as f:
@@ -306,7 +306,7 @@ def test_results_called_like_pictures():
 
 
 def test_names_that_are_commands():
-    """Of gnuplot or the shell: they are names."""
+    """File names with characters of gnuplot or the shell are names."""
     scenes()
     written("--output", "r.h5")
     for name in ("it's", "|touch harm #", "p\nsystem 'touch harm'\n", "`touch harm`", "phi_0.1"):
@@ -349,7 +349,7 @@ def test_texts_that_are_commands():
 
 
 def test_start_of_gnuplot_is_ours():
-    """What users have gnuplot do when it starts changes no picture; nor does a parent that waits for nobody."""
+    """Start files of gnuplot change no picture; nor does a parent that ignores its children."""
     scenes()
     written("--output", "r.h5")
     with open(".gnuplot", "w") as f:
@@ -371,7 +371,7 @@ def test_closed_streams():
 
 
 def test_how_to_go_on():
-    """What is said after an interruption can be typed."""
+    """The command printed after an interruption can be typed."""
     scenes()
     os.rename("long.yaml", "my long.yaml")
     keeps = ["--set", "output.checkpoint_every=0.02"]
@@ -432,7 +432,7 @@ def test_two_runs_at_once():
 
 
 def test_locks_of_others():
-    """What another user's dead run left is in nobody's way, either."""
+    """Files left by another user's dead run do not block a run."""
     scenes()
     for mode in 0o777, 0o1777:  # in a folder like /tmp nobody may remove it
         for user in everybody():

@@ -28,7 +28,7 @@ def theories(text, points=POINTS):
     return run("theory", "scene.yaml", "--json", scene=text)
 
 
-def test_answers():
+def test_formulas_are_evaluated():
     done = theories(SCENE)
     said = json.loads(done.out)["theory"]
     chi = (1 - 0.1 / 2) / (1 - 0.1) ** 3
@@ -119,7 +119,7 @@ def test_expressions_against_python():
 
 
 def test_wrong_grammar():
-    """What Python does not read, either."""
+    """Formulas that Python rejects, too."""
     for text in ("2 3", "2(3)", "sin 1", "(1", "1)", "1 +", "* 2", "2 ^", "1..2", "sin()", "pi pi", "", "2e", "e e", "1,2"):
         done = run("theory", "-", "--json", typed=MIXTURE + "theories: {t: {N1: " + json.dumps(text) + "}}\n")
         check(done.code == 2 and "theories.t" in done.err, repr(text), done.code, done.err)
@@ -172,7 +172,7 @@ def collected(text):
         return list(csv.DictReader(f))
 
 
-def test_refused():
+def test_invalid_theories_are_rejected():
     for old, new, words in (("phi^2", "psi^2", "scene.yaml:7: key 'theories.mine': '5*pi/(1152*psi^2"),
                             ("N1:", "colour:", "scene.yaml:7: key 'theories.mine': mine: there is no quantity called 'colour'"),
                             ("mine:", "grad:", "scene.yaml:7: key 'theories.grad': theory: the name 'grad' is taken"),
@@ -195,7 +195,7 @@ def test_refused():
 
 
 def test_no_table():
-    """What stands where the table should be blocks nobody: it is named, by every command that reads the scene."""
+    """A pipe or folder in place of the table blocks no command: each command that reads the scene names it."""
     os.mkfifo("pipe.csv")
     os.mkdir("folder.csv")
     os.symlink("pipe.csv", "link.csv")

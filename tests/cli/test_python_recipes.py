@@ -22,7 +22,7 @@ def blocks(language):
 
 
 def files():
-    """What the recipes read, made once."""
+    """Results that the recipes read, made once."""
     if os.path.exists(os.path.join(FOLDER.name, "usf.sweep.csv")):
         return
     os.symlink(os.path.join(SOURCE, "examples"), os.path.join(FOLDER.name, "examples"))
@@ -48,12 +48,12 @@ def recipe(title):
     return done.stdout, float(last[-1]) if last else None
 
 
-def test_h5py():
+def test_the_h5py_recipe_runs():
     out, T = recipe("h5py")
     check("samples until" in out and 0.2 < T < 0.6, out)
 
 
-def test_crossing():
+def test_the_crossing_recipe_finds_the_time():
     """1 + e^(-0.4 t) and 2 - 1.5 e^(-0.4 t) cross at ln(2.5)/0.4."""
     files()
     done = subprocess.run(["sh", "-ec", blocks("sh")["Crossing"]], cwd=FOLDER.name, capture_output=True, text=True,
@@ -63,12 +63,12 @@ def test_crossing():
     check(abs(when - 2.2907) < 5 * error and error < 0.05, when, error)
 
 
-def test_pandas():
+def test_the_pandas_recipe_runs():
     out, _ = recipe("pandas")
     check("stderr" in out and "enskog_hermite" in out, out)
 
 
-def test_xarray():
+def test_the_xarray_recipe_runs():
     if subprocess.run([sys.executable, "-c", "import xarray"], capture_output=True).returncode:
         raise Skip("xarray is not installed")
     out, _ = recipe("xarray")
@@ -76,21 +76,21 @@ def test_xarray():
 
 
 def same_temperature(title):
-    """Of the last frame, as from h5py."""
+    """The temperature of the last frame is that of the recipe with h5py."""
     out, T = recipe(title)
     expected = recipe("h5py")[1]
     check(abs(T / expected - 1) < 1e-4, out, expected)
 
 
-def test_ase():
+def test_the_ase_recipe_has_the_temperature():
     same_temperature("ASE")
 
 
-def test_mdanalysis():
+def test_the_mdanalysis_recipe_has_the_temperature():
     same_temperature("MDAnalysis")
 
 
-def test_gsd():
+def test_the_gsd_recipe_has_the_temperature_and_distances():
     """Also the nearest distances, by GSD's leaning cell: grains touch and do not overlap."""
     same_temperature("GSD")
     code = "import gsd.hoomd, numpy as np\n" \

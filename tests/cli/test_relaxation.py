@@ -145,7 +145,7 @@ def test_conductivity_after_change():
 
 
 def test_gas_that_has_it():
-    """What can be measured after the last change is measured; what cannot is not, and `info` and the run say so."""
+    """Observables measure after the last change what that state allows; `info` and the run name what they cannot measure."""
     scene = """{flow: usf, engine: md, phi: 0.1, particles: 100, collision: {e: %s}, run: {duration: 10},
         measure: [rheology, diffusion], protocol: [{at: 5, collision.e: %s}]}"""
     for one, two in (1, 0.8), (0.8, 1):
@@ -179,7 +179,7 @@ def test_given_step():
     check(np.abs(z).max() < 6 and (z ** 2).mean() < 3, np.abs(z).max(), (z ** 2).mean())
 
 
-def test_end():
+def test_values_are_those_at_the_end():
     """Values are those at the end, and theories those of the last bath."""
     scene = (ELASTIC % "md").replace("{e: 1}", "{e: 0.8}")
     done = run("compare", "scene.yaml", "--json", "--quiet", "--output", "c.h5", scene=scene)
@@ -199,7 +199,7 @@ def test_end():
     check(not told and "differs from Enskog" not in done.out and "no known cause" not in done.out, told)
 
 
-def test_compared():
+def test_a_followed_gas_is_compared_with_the_other_engine():
     """On its way a gas is compared with the other engine, not with the state that theories describe."""
     scene = (ELASTIC % "md").replace("duration: 10", "duration: 8").replace("{e: 1}", "{e: 0.8}")
     done = run("compare", "scene.yaml", "--quiet", scene=scene)
@@ -208,7 +208,7 @@ def test_compared():
     check("followed in time" in done.out and not any(word in done.out for word in words), done.out)
 
 
-def test_theory():
+def test_dsmc_follows_enskogs_equation_in_time():
     """Monte Carlo follows Enskog's equation: the first Sonine approximation and two Maxwellians are beside it in time,
     within what they leave out. In free cooling T = T_0/(1 + t/t_0)^2, with Haff's t_0."""
     smooth = (ELASTIC % "dsmc").replace("{e: 1}", "{e: 0.6}").replace("5000", "20000")
@@ -287,7 +287,7 @@ def test_fast_gas():
 
 
 def test_after_changes():
-    """What follows the last change is a curve of its own, and the cost counts the time that is followed."""
+    """The gas after the last change has a curve of its own, and the cost counts the followed time."""
     done = run("run", "scene.yaml", "--quiet", "--output", "k.h5", scene=ELASTIC % "dsmc")
     check(done.code == 0, done.err)
     (t, T, _), (since, tail, _) = curve("k.h5", "temperature_in_time"), curve("k.h5", "temperature_after_changes")
@@ -322,7 +322,7 @@ def test_default_replicas():
 
 
 def test_theory_ends():
-    """Where the protocol goes to a law of restitution, theory with a constant e has nothing more to say."""
+    """Theories with a constant e have no curve once the protocol changes to a law of restitution."""
     scene = ("{flow: hcs, engine: dsmc, phi: 0.1, collision: {e: 0.9}, dsmc: {particles: 1000}, "
              "run: {duration: 20, replicas: 2}, protocol: [{at: 10, collision.law: viscoelastic}]}")
     done = run("run", "scene.yaml", "--quiet", "--output", "l.h5", scene=scene)
@@ -342,7 +342,7 @@ def test_two_replicas():
 
 
 def test_out_of_time():
-    """What is short of run.duration says so, and at which time the values are."""
+    """A run shorter than run.duration reports so, and the time of its values."""
     scene = (ELASTIC % "md").replace("duration: 10", "duration: 1e9").replace("replicas: 16", "replicas: 1, time_limit: 1")
     done = run("run", "scene.yaml", "--quiet", "--output", "o.h5", "--set", "particles=100", scene=scene)
     check(done.code == 1 and "short of run.duration" in done.err and "run.collisions" not in done.err, done.code, done.err)
@@ -374,7 +374,7 @@ def written(path):
     return os.stat(path).st_mtime_ns if os.path.exists(path) else 0
 
 
-def test_resumed():
+def test_an_interrupted_protocol_resumes_to_the_same_bits():
     """Interrupted before, between and after changes: the same bits."""
     for engine in "md", "dsmc":
         resumed(engine, (ELASTIC % engine).replace("{e: 1}", "{e: 0.9, beta: 0}"))

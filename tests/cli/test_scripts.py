@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""quickstart and check where there is no apt-get: what is missing is named, with the packages of the system. What a
-build calls itself, and what changes its identity."""
+"""quickstart and check where there is no apt-get: what is missing is named, with the packages of the system.
+Version of a build, and changes that alter its identity."""
 import os
 import shutil
 import subprocess
@@ -73,7 +73,7 @@ def test_what_is_half_there_is_named():
 def test_the_page_is_built_where_it_can_be():
     """check says why the page's tests are skipped; where all is there but the sources, too; else it builds the page."""
     done = without_apt("check", fake=TOOLS)
-    check("The page's tests are skipped: emcc is not installed (./check-page installs it), node" in done.stderr,
+    check("The page's tests are skipped: emcc is not installed (./check --page installs it), node" in done.stderr,
           done.stderr)
     check("chromium is not installed" in done.stderr and not os.path.exists("tree/built"), done.stderr)
     for fetched in 1, 0:

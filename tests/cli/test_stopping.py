@@ -50,7 +50,7 @@ def stop(args, after, sig, ignore=False):
     return child.returncode, err
 
 
-def test_signals():
+def test_signals_end_a_run_with_its_results():
     for name, scene in SCENES.items():
         with open("scene.yaml", "w") as f:
             f.write(scene)
@@ -60,7 +60,7 @@ def test_signals():
             check(os.listdir(".") == ["scene.yaml"], os.listdir("."))
 
 
-def test_comparison():
+def test_a_signal_ends_a_comparison():
     with open("scene.yaml", "w") as f:
         f.write("{flow: hcs, phi: 1e-9, particles: 1000, dsmc: {time_step: 1e-9}}")
     for threads in "1", "2":
@@ -68,8 +68,8 @@ def test_comparison():
         check(code == 130 and "interrupted" in err, code, err)
 
 
-def test_ignored():
-    """What the parent ignores (nohup, background jobs of scripts) stays ignored."""
+def test_ignored_signals_stay_ignored():
+    """Signals that the parent ignores (nohup, background jobs of scripts) stay ignored."""
     with open("scene.yaml", "w") as f:
         f.write("{flow: usf, phi: 0.1, engine: dsmc, run: {collisions: 1e9, time_limit: %g}}" % (0.6 * PATIENCE))
     for sig in signal.SIGHUP, signal.SIGINT:
@@ -85,7 +85,7 @@ def test_time_limit():
         check(done.code == 1 and "time limit reached" in done.err, name, done.code, done.err)
 
 
-def test_until():
+def test_chosen_quantities_end_the_run():
     """Quantities with errors of their own: those and no others end the run; headline ones keep theirs where it is given."""
     with open("scene.yaml", "w") as f:
         f.write("{flow: usf, phi: 0.1, particles: 300}")
@@ -178,7 +178,7 @@ def test_time_limit_before_a_checkpoint():
 
 
 def test_stopped_within_an_interval():
-    """What a checkpoint from the midst of an interval goes on to is the run that was left alone."""
+    """A checkpoint from the middle of an interval resumes to the uninterrupted run."""
     with open("scene.yaml", "w") as f:
         f.write("{flow: hcs, phi: 1e-4, particles: 1000, run: {collisions: 10, warmup: 6}, "
                 "output: {checkpoint_every: 1000}}")

@@ -28,7 +28,7 @@ vary:
 
 
 def points_in(folder):
-    """What is there beside the text of the sweep."""
+    """Files beside the text of the sweep."""
     return [f for f in os.listdir(folder) if f != "sweep.yaml"]
 
 
@@ -48,7 +48,7 @@ def collected(folder):
     return rows(folder + ".csv")
 
 
-def test_list():
+def test_a_sweep_lists_its_points():
     write()
     done = run("sweep", "s.yaml", "--list", "--threads", "2")
     check(done.code == 0 and not done.new and "run at 6 points, of which 0 are done" in done.out, done.out, done.err)
@@ -83,7 +83,7 @@ def test_values_without_an_end():
         check(done.code == 2 and done.err.startswith("graingas: scene.yaml:"), vary, done.code, done.err)
 
 
-def test_places():
+def test_wrong_folders_of_a_sweep_are_rejected():
     write()
     open("taken", "w").close()
     for output, code, words in (("taken", 3, "no folder"), ("/dev/null", 3, "no folder"), ("a/b", 3, "No such file"),
@@ -111,7 +111,7 @@ def test_foreign_files_and_words():
     check(run("sweep", "s.yaml", "--collect", "--over", "flow").code != 0)
 
 
-def test_collect():
+def test_points_are_collected_in_one_table():
     write(SWEEP.replace("replicas: 2}", "replicas: 2}\nsweep: {does: compare}\ncollision: {beta: 0.5, mu: 0.3}"))
     done = run("sweep", "s.yaml", "--quiet")
     check(done.code == 0 and not done.out and not done.err and done.new == ["s.sweep"], done.out, done.err)
@@ -144,7 +144,7 @@ def test_collect():
     check(not done.out and not done.new and rows("s.sweep.csv") == before, done.out)
 
 
-def test_deviations():
+def test_rows_have_the_numbers_of_the_comparison():
     """Rows of the table have the numbers of the point's comparison, and every column one type."""
     write(SWEEP.replace("replicas: 2}", "replicas: 2}\nsweep: {does: compare}").replace(
         "collision.e: [0.7, 0.8, 0.9]\n  phi: [0.05, 0.1]", "particles: [100, 200]\n  collision.mu: [.inf, 0.1]").replace(
@@ -265,7 +265,7 @@ def kill_and_go_on(folder, threads, rng, extra=()):
             child.stderr.close()
 
 
-def test_killed():
+def test_a_killed_sweep_resumes_to_the_same_numbers():
     """kill -9 at any moment; then the same numbers as of a sweep that was left alone, and nothing but results."""
     write(SWEEP.replace("150", "300"))
     check(run("sweep", "s.yaml", "--output", "whole.sweep", "--threads", "2").code == 0)
@@ -300,7 +300,7 @@ def test_shared_folder():
     check(table == collected("alone.sweep"))
 
 
-def test_interrupted():
+def test_an_interrupted_sweep_keeps_its_points():
     write(SWEEP.replace("150", "1e9"))
     child = subprocess.Popen([GRAINGAS, "sweep", "s.yaml"], stderr=subprocess.PIPE, text=True,
                              preexec_fn=lambda: signal.signal(signal.SIGTERM, signal.SIG_DFL))
@@ -369,7 +369,7 @@ def test_failing_point():
     check({r["collision.e"] for r in collected("s.sweep")} == {"0.9", "0.95"})
 
 
-def test_slurm():
+def test_an_array_of_one_does_all_tasks():
     """An array of one does all that its tasks would do."""
     write()
     script = run("sweep", "s.yaml", "--vary", "collision.beta=-1,0", "--slurm", "--output", "my runs")

@@ -19,7 +19,7 @@ WIDTH = 44
 
 
 def on_terminal(*args, columns=WIDTH):
-    """What a command leaves on standard error, a terminal of so many columns; its exit code; standard output."""
+    """Standard error of a command, on a terminal of so many columns; its exit code; standard output."""
     near, far = pty.openpty()
     fcntl.ioctl(far, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
     seen = []
@@ -45,7 +45,7 @@ def on_terminal(*args, columns=WIDTH):
 
 
 def lines_of(text):
-    """What was shown on the one line, time after time; each is followed by an erasure of the rest."""
+    """Successive texts of the progress line; an erasure of the rest follows each."""
     return [part[:-3] for part in text.split("\r") if part.endswith("\x1b[K")]
 
 
@@ -56,7 +56,7 @@ def assert_live(text, words, columns=WIDTH):
     check("\r\x1b[K" in text, "the last is left there")
 
 
-def test_run():
+def test_a_run_shows_its_progress():
     with open("s.yaml", "w") as f:
         f.write(SCENE)
     text, code, out = on_terminal("run", "s.yaml")
@@ -68,7 +68,7 @@ def test_run():
     check("\r\x1b[K" not in quiet, quiet)
 
 
-def test_compare():
+def test_a_comparison_shows_its_progress():
     with open("s.yaml", "w") as f:
         f.write(SCENE)
     text, code, out = on_terminal("compare", "s.yaml", "--picture", "none", columns=150)
@@ -76,7 +76,7 @@ def test_compare():
     assert_live(text, r"md .*  \|  dsmc ", 150)
 
 
-def test_sweep():
+def test_a_sweep_shows_its_progress():
     with open("s.yaml", "w") as f:
         f.write(SWEEP)
     text, code, out = on_terminal("sweep", "s.yaml", "--threads", "1")

@@ -227,8 +227,8 @@ def test_another_run_beside_what_is_left():
     check(not [name for name in os.listdir(".") if name.startswith("scene.checkpoint")], os.listdir("."))
 
 
-def test_links():
-    """What they lead to is neither replaced nor removed."""
+def test_targets_of_links_are_kept():
+    """Targets of links are neither replaced nor removed."""
     os.mkdir("far")
     for name in LEFT, LEFT + ".1", "scene.checkpoint.frames", "scene.checkpoint.frames.new":
         with open("far/precious", "w") as f:

@@ -220,7 +220,7 @@ def test_z_of_both_signs():
 
 
 def test_nothing_judged():
-    """Where no point has both a steady dsmc and a noise-free solution there is no agreement: null, and a failure."""
+    """Without a point that has a steady dsmc and a noise-free solution, `agrees` is null and the command fails."""
     check(validated("--picture", "none").code == 0)
     for point in json.loads(run("sweep", "g.yaml", "--list", "--json").out)["points"]:
         forge("g.sweep/" + point["name"] + ".h5", (b'"steady": true', b'"steady":false'))
@@ -230,7 +230,7 @@ def test_nothing_judged():
     check(done.code == 1 and "nothing was judged: of 8 points with a result 4 have no noise-free solution" in done.err, done.err)
 
 
-def test_options():
+def test_wrong_options_are_rejected():
     for args, words in ((("--quick",), "without a file"), (("--point", "1", "--page", "p.md"), "do not go together"),
                         (("--point", "9"), "from 1 to 8"), (("--show", "colour"), "no point has a quantity 'colour'"),
                         (("--page", "./g.yaml"), "overwritten by its own page"), (("--picture", "maps.bmp"), "not .bmp")):

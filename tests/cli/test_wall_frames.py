@@ -83,7 +83,7 @@ def test_thin_couette():
     against_frames("couette_thin")
 
 
-def test_couette():
+def test_couette_has_the_profiles_of_its_frames():
     against_frames("couette")
 
 
@@ -91,11 +91,11 @@ def test_couette_by_monte_carlo():
     against_frames("couette", "--engine", "dsmc", "--set", "dsmc.particles=1000")
 
 
-def test_poiseuille():
+def test_poiseuille_has_the_profiles_of_its_frames():
     against_frames("poiseuille")
 
 
-def test_chute():
+def test_chute_has_the_profiles_of_its_frames():
     against_frames("chute")
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A call that changes a file fails, for every such call of a command in turn: the exit code and the message say so, what
 was there before is whole, and nothing half-written or temporary is left but what the message names. Writes that take less than they were given are
-gone on with. Of the calls the first twenty are tried and every 37th, without NIGHTLY every third of those. EVERY_KIND=1 tries all kinds of failure at every call, and prints a table (validation/interruption)."""
+continued. The test tries the first twenty calls and every 37th, without NIGHTLY a third of these. EVERY_KIND=1 tries all kinds of failure at every call, and prints a table (validation/interruption)."""
 import errno
 import os
 import shutil

@@ -203,7 +203,7 @@ static void same_bits(const pair *a, const pair *b, double tolerance)
 }
 
 /* mu -> infinity is the rough rule, bit for bit; beta -> -1 the smooth one. */
-static void limits(void **state)
+static void limits_of_mu_and_beta_are_the_simpler_rules(void **state)
 {
   (void)state;
   gg_rng r = gg_common_rng_seed(1991, 8);
@@ -259,10 +259,17 @@ static void equal_spheres(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(smooth_pairs),  cmocka_unit_test(rough_pairs),    cmocka_unit_test(frictional_pairs),
-      cmocka_unit_test(smooth_wall),   cmocka_unit_test(rough_wall),     cmocka_unit_test(frictional_wall),
-      cmocka_unit_test(friction_cone), cmocka_unit_test(critical_angle), cmocka_unit_test(limits),
-      cmocka_unit_test(time_reversal), cmocka_unit_test(equal_spheres),
+      cmocka_unit_test(smooth_pairs),
+      cmocka_unit_test(rough_pairs),
+      cmocka_unit_test(frictional_pairs),
+      cmocka_unit_test(smooth_wall),
+      cmocka_unit_test(rough_wall),
+      cmocka_unit_test(frictional_wall),
+      cmocka_unit_test(friction_cone),
+      cmocka_unit_test(critical_angle),
+      cmocka_unit_test(limits_of_mu_and_beta_are_the_simpler_rules),
+      cmocka_unit_test(time_reversal),
+      cmocka_unit_test(equal_spheres),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

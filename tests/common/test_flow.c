@@ -53,7 +53,7 @@ static void rows_are_complete(void **state)
   }
 }
 
-/* What need not be given need not be given, in any flow. */
+/* Optional keys may be missing in every flow. */
 static void defaults_run(void **state)
 {
   (void)state;
@@ -72,7 +72,7 @@ static void defaults_run(void **state)
     }
 }
 
-static void thermostats(void **state)
+static void each_flow_has_its_thermostats(void **state)
 {
   (void)state;
   static const char *const words[] = {"none", "gaussian", "white_noise", "bath"};
@@ -139,7 +139,7 @@ static bool first_three(gg_flow flow)
   return flow < 3;
 }
 
-static void lists(void **state)
+static void flows_are_listed_in_words(void **state)
 {
   (void)state;
   char text[160];
@@ -156,8 +156,11 @@ static void lists(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(rows_are_complete),   cmocka_unit_test(defaults_run), cmocka_unit_test(thermostats),
-      cmocka_unit_test(headline_quantities), cmocka_unit_test(lists),
+      cmocka_unit_test(rows_are_complete),
+      cmocka_unit_test(defaults_run),
+      cmocka_unit_test(each_flow_has_its_thermostats),
+      cmocka_unit_test(headline_quantities),
+      cmocka_unit_test(flows_are_listed_in_words),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

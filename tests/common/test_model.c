@@ -48,7 +48,7 @@ static void units_drop_out(void **state)
 
 /* A mixture: fractions counted in grains, phi met exactly by those, chi_ij reduces to Carnahan-Starling for equal
  * sizes. */
-static void mixture(void **state)
+static void a_mixture_has_its_fractions_and_contact_values(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -118,7 +118,7 @@ static void gap_is_that_of_md(void **state)
 }
 
 /* Equations of state: published numbers, and Carnahan-Starling's known distance from them. */
-static void equations_of_state(void **state)
+static void equations_of_state_have_published_numbers(void **state)
 {
   (void)state;
   const double phi[] = {0.1, 0.2, 0.3, 0.4, 0.45}, Z[] = {1.521647, 2.409403, 3.983983, 6.945460, 9.404114};
@@ -191,8 +191,8 @@ static void scaled_temperature(void **state)
   near(gg_common_model_relaxation(&m), 1 / (1 / 1.5 + 1 / loss), 1e-9);
 }
 
-/* Elastic and steady are seen as such; relaxation slows down towards beta = -1 and e = 1. */
-static void kinds(void **state)
+/* Models know whether they are elastic and steady; relaxation slows down towards beta = -1 and e = 1. */
+static void models_know_what_is_elastic_and_steady(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -317,8 +317,8 @@ static void units_of_rates(void **state)
   near(gg_common_model_nu0(&m, 3), unit * m.density * mean, 1e-14);
 }
 
-/* What is put in comes out; missing, misshapen and double items are refused; nesting keeps names apart. */
-static void archives(void **state)
+/* Archives return what was stored; missing, misshapen and double items are rejected; nested names do not collide. */
+static void archives_return_what_was_put_in(void **state)
 {
   (void)state;
   gg_archive a = {0}, b = {0}, c = {0};
@@ -345,8 +345,8 @@ static void refused(const gg_scene *s, const char *words)
   if (!strstr(err.message, words)) fail_msg("'%s' lacks '%s'", err.message, words);
 }
 
-/* Scales at which numbers would end are refused, with what is allowed; those just within make models of numbers. */
-static void scales(void **state)
+/* Units that would overflow a double are rejected with the allowed range; those just within give finite models. */
+static void scales_beyond_doubles_are_rejected(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -375,11 +375,11 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(units_drop_out),
-      cmocka_unit_test(mixture),
+      cmocka_unit_test(a_mixture_has_its_fractions_and_contact_values),
       cmocka_unit_test(theories_have_no_grains),
       cmocka_unit_test(gap_is_that_of_md),
-      cmocka_unit_test(equations_of_state),
-      cmocka_unit_test(kinds),
+      cmocka_unit_test(equations_of_state_have_published_numbers),
+      cmocka_unit_test(models_know_what_is_elastic_and_steady),
       cmocka_unit_test(sharing_of_energy),
       cmocka_unit_test(loss_to_others),
       cmocka_unit_test(scaled_temperature),
@@ -388,8 +388,8 @@ int main(void)
       cmocka_unit_test(rates_and_units),
       cmocka_unit_test(noise_replaces_losses),
       cmocka_unit_test(units_of_rates),
-      cmocka_unit_test(archives),
-      cmocka_unit_test(scales),
+      cmocka_unit_test(archives_return_what_was_put_in),
+      cmocka_unit_test(scales_beyond_doubles_are_rejected),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

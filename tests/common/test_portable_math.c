@@ -20,7 +20,7 @@ static long double power(long double x, int n)
 }
 
 /* x lies between the powers of the midpoints to the neighbours; powers of whole numbers give their root. */
-static void roots(void **state)
+static void roots_are_correctly_rounded(void **state)
 {
   (void)state;
   const int order[] = {3, 5, 10};
@@ -37,7 +37,7 @@ static void roots(void **state)
 }
 
 /* Half a unit in the last place, where a long double is sure of it; a plain product is off by several. */
-static void powers(void **state)
+static void powers_are_within_half_a_unit(void **state)
 {
   (void)state;
   gg_rng rng = gg_common_rng_seed(2, 0);
@@ -76,8 +76,8 @@ static void first_bits(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(roots),
-      cmocka_unit_test(powers),
+      cmocka_unit_test(roots_are_correctly_rounded),
+      cmocka_unit_test(powers_are_within_half_a_unit),
       cmocka_unit_test(first_bits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,7 +12,7 @@
 
 #include "common/quantity.h"
 
-static void names(void **state)
+static void names_find_their_quantities(void **state)
 {
   (void)state;
   char symbol[48];
@@ -50,8 +50,8 @@ static void of_a_scene(void **state)
   assert_int_equal(gg_common_quantity_find_in(&two, "temperature_3"), GG_MOST_QUANTITIES);
 }
 
-/* A scene that lacks one thing lacks the quantities whose mask asks for it, with its reason, and no others. */
-static void needs(void **state)
+/* A scene without one feature lacks exactly the quantities whose mask needs it, with the reason. */
+static void a_missing_need_removes_its_quantities_only(void **state)
 {
   (void)state;
   const gg_model whole = {.flow = GG_USF, .rule = GG_ROUGH, .shear_rate = 1, .n_species = 2, .linear_response = true};
@@ -96,8 +96,8 @@ static void needs(void **state)
   }
 }
 
-/* What cools has no mean, but a history. */
-static void decay(void **state)
+/* A quantity that decays has a history and no mean. */
+static void a_decaying_quantity_has_no_mean(void **state)
 {
   (void)state;
   const gg_model cooling = {.flow = GG_HCS, .rule = GG_ROUGH, .n_species = 1};
@@ -120,7 +120,8 @@ static void decay(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(names), cmocka_unit_test(of_a_scene), cmocka_unit_test(needs),
-                                     cmocka_unit_test(decay)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(names_find_their_quantities), cmocka_unit_test(of_a_scene),
+                                     cmocka_unit_test(a_missing_need_removes_its_quantities_only),
+                                     cmocka_unit_test(a_decaying_quantity_has_no_mean)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

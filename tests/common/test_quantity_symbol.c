@@ -96,8 +96,8 @@ static void enhanced_text(void **state)
   }
 }
 
-/* Also of quantities that are not listed above: LaTeX in ASCII, of which nothing is left in pictures. */
-static void latex(void **state)
+/* Symbols are LaTeX in ASCII; pictures show none of it. */
+static void symbols_are_ascii_latex(void **state)
 {
   (void)state;
   char text[48];
@@ -114,6 +114,6 @@ static void latex(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(enhanced_text), cmocka_unit_test(latex)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(enhanced_text), cmocka_unit_test(symbols_are_ascii_latex)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

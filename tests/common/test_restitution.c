@@ -55,7 +55,7 @@ static void equation_of_motion(void **state)
 }
 
 /* 1 - e = C1 x^2 - C2 x^4 - ...: the coefficients of Ramirez et al. 1999, next that of x^5, 4/15. */
-static void series(void **state)
+static void the_viscoelastic_series_has_published_coefficients(void **state)
 {
   (void)state;
   const double C1 = 1.15344, C2 = 0.6 * C1 * C1;
@@ -66,7 +66,7 @@ static void series(void **state)
   }
 }
 
-static void inverse(void **state)
+static void the_speed_of_a_loss_inverts_the_law(void **state)
 {
   (void)state;
   for (double loss = 0.001; loss <= 0.991; loss += 0.01) {
@@ -87,8 +87,8 @@ static void straight_between_speeds(void **state)
   for (int k = 0; k < 9; k++) assert_true(fabs(gg_common_law_from_table(&table, at[k], 0, 0) - value[k]) < 1e-15);
 }
 
-/* Every law: from 0 towards 1, rising, and its table within 2e-7; beyond the table its ends. */
-static void tables(void **state)
+/* The loss of each law rises from 0 towards 1; its table is within 2e-7, and constant beyond its ends. */
+static void tables_of_laws_are_within_2e_7(void **state)
 {
   (void)state;
   gg_rng rng = gg_common_rng_seed(3, 0);
@@ -145,9 +145,9 @@ static void reference_speed(void **state)
   assert_true(fabs(gg_common_law_at(&m.law, 0.5, 0, 0, NULL) - 0.9) < 1e-12);
 }
 
-/* Theories of a constant e say that they do not apply; so does the linear response; and e must be one that the law has.
+/* Theories of a constant e and the linear response reject laws; e must be a value that the law has.
  */
-static void refusals(void **state)
+static void theories_of_constant_e_reject_laws(void **state)
 {
   (void)state;
   gg_scene s = viscoelastic(GG_USF);
@@ -172,11 +172,11 @@ static void refusals(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(equation_of_motion),
-                                     cmocka_unit_test(series),
-                                     cmocka_unit_test(inverse),
-                                     cmocka_unit_test(tables),
+                                     cmocka_unit_test(the_viscoelastic_series_has_published_coefficients),
+                                     cmocka_unit_test(the_speed_of_a_loss_inverts_the_law),
+                                     cmocka_unit_test(tables_of_laws_are_within_2e_7),
                                      cmocka_unit_test(straight_between_speeds),
                                      cmocka_unit_test(reference_speed),
-                                     cmocka_unit_test(refusals)};
+                                     cmocka_unit_test(theories_of_constant_e_reject_laws)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

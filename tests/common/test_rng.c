@@ -34,7 +34,7 @@ static void uniform_and_independent(void **state)
 }
 
 /* Same seed and stream: same numbers; another seed: others. */
-static void reproducible(void **state)
+static void same_seed_and_stream_give_the_same_numbers(void **state)
 {
   (void)state;
   gg_rng a = gg_common_rng_seed(7, 3), b = gg_common_rng_seed(7, 3), c = gg_common_rng_seed(8, 3);
@@ -48,7 +48,7 @@ static void reproducible(void **state)
 }
 
 /* Unit length, no mean, isotropic second moments. */
-static void directions(void **state)
+static void directions_are_isotropic(void **state)
 {
   (void)state;
   gg_rng r = gg_common_rng_seed(2, 0);
@@ -87,8 +87,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(uniform_and_independent),
-      cmocka_unit_test(reproducible),
-      cmocka_unit_test(directions),
+      cmocka_unit_test(same_seed_and_stream_give_the_same_numbers),
+      cmocka_unit_test(directions_are_isotropic),
       cmocka_unit_test(normals_and_integers),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -91,7 +91,7 @@ static gg_region start(const gg_surface *s, gg_rng *r, gg_vec v[3], double radiu
 /* Steps are 0.0015 long in time: two contacts in one of them, where it only just dips below 0, are missed by the
  * search.
  */
-static void contacts(void **state)
+static void contacts_are_those_of_a_fine_search(void **state)
 {
   (void)state;
   gg_rng r = gg_common_rng_seed(1, 2);
@@ -118,7 +118,7 @@ static void contacts(void **state)
   }
 }
 
-static void normals(void **state)
+static void normals_are_gradients_of_the_distance(void **state)
 {
   (void)state;
   gg_rng r = gg_common_rng_seed(1, 3);
@@ -141,8 +141,8 @@ static void normals(void **state)
   }
 }
 
-/* A grain that has just bounced off, and falls back: not now, and when a search from a little later says. */
-static void leaving(void **state)
+/* A grain that has just bounced and falls back touches not at once, but when a search from a little later finds it. */
+static void a_grain_that_bounced_does_not_touch_at_once(void **state)
 {
   (void)state;
   gg_rng r = gg_common_rng_seed(1, 4);
@@ -165,9 +165,9 @@ static void leaving(void **state)
   }
 }
 
-/* Walls at both ends of the gap are images of each other, however they are shaped; a floor under an open top has none.
+/* Walls at both ends of the gap are images of each other, whatever their shape; a floor under an open top has no image.
  */
-static void images(void **state)
+static void walls_of_a_gap_are_images_of_each_other(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
@@ -183,8 +183,8 @@ static void images(void **state)
   }
 }
 
-/* Ridges of a tenth of a diameter at least; and between those of both walls two diameters are left free. */
-static void room(void **state)
+/* Ridges have at least a tenth of a diameter; between those of both walls two diameters remain free. */
+static void ridges_leave_room_for_grains(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -218,7 +218,7 @@ static gg_vec across(gg_vec v, gg_vec k)
   return gg_axpy(-gg_dot(v, k), k, v);
 }
 
-static void thermal(void **state)
+static void thermal_walls_emit_the_flux_distribution(void **state)
 {
   (void)state;
   enum { HITS = 200000 };
@@ -261,8 +261,12 @@ static void thermal(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(contacts), cmocka_unit_test(normals), cmocka_unit_test(leaving),
-      cmocka_unit_test(images),   cmocka_unit_test(room),    cmocka_unit_test(thermal),
+      cmocka_unit_test(contacts_are_those_of_a_fine_search),
+      cmocka_unit_test(normals_are_gradients_of_the_distance),
+      cmocka_unit_test(a_grain_that_bounced_does_not_touch_at_once),
+      cmocka_unit_test(walls_of_a_gap_are_images_of_each_other),
+      cmocka_unit_test(ridges_leave_room_for_grains),
+      cmocka_unit_test(thermal_walls_emit_the_flux_distribution),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -52,7 +52,7 @@ static const char *written(paper *p)
   return p->text;
 }
 
-static void cells(void **state)
+static void csv_quotes_what_needs_quotes(void **state)
 {
   paper *p = *state;
   gg_csv csv = {.out = &p->out};
@@ -70,7 +70,7 @@ static void cells(void **state)
                       "plain text,\"a, b\",\"so \"\"called\"\"\",,\"two\nlines\"\r\nT [d^2 gamma^2],e,n\r\n");
 }
 
-static void values(void **state)
+static void csv_writes_json_values(void **state)
 {
   paper *p = *state;
   gg_csv csv = {.out = &p->out};
@@ -82,7 +82,7 @@ static void values(void **state)
   assert_string_equal(written(p), "0.1,12000000,true,false,why,,\r\n");
 }
 
-static void numbers(void **state)
+static void csv_numbers_are_read_back_to_the_last_bit(void **state)
 {
   const double hard[] = {0.1, 1.0 / 3, 0.1 + 0.2, 1e-310, -1.7976931348623157e308, 1.2345678901234567e17,
                          0,   -0.0,    5e-324};
@@ -149,21 +149,21 @@ static void a_frame(void **state)
                             .time_unit = time};
   gg_frame f = {.n = 2, .time = 0.75, .step = 12, .position = position, .velocity = velocity, .spin = spin};
   gg_files_xyz_frame(&p->out, &t, &f, edges);
-  assert_string_equal(written(p),
-                      "2\nLattice=\"10 0 0 3 4 0 0 0 8\" "
-                      "Properties=species:S:1:pos:R:3:velo:R:3:omega:R:3:radius:R:1:mass:R:1:momenta:R:3:masses:R:1:id:I:1 pbc=\"T F T\" "
-                      "Time=0.75 collisions=12 shear_rate=1 length_unit=\"d\" velocity_unit=\"d gamma\" "
-                      "omega_unit=\"gamma\" time_unit=\"1/gamma\"\n"
-                      "H 11 2 3 1 2 3 0 0 0.5 0.5 1 1 2 3 1 0\n"
-                      "He 9 0 1 -1 -2 -3 0 0 -0.5 0.75 2 -2 -4 -6 2 1\n");
+  assert_string_equal(written(p), "2\nLattice=\"10 0 0 3 4 0 0 0 8\" "
+                                  "Properties=species:S:1:pos:R:3:velo:R:3:omega:R:3:radius:R:1:mass:R:1:momenta:R:3:"
+                                  "masses:R:1:id:I:1 pbc=\"T F T\" "
+                                  "Time=0.75 collisions=12 shear_rate=1 length_unit=\"d\" velocity_unit=\"d gamma\" "
+                                  "omega_unit=\"gamma\" time_unit=\"1/gamma\"\n"
+                                  "H 11 2 3 1 2 3 0 0 0.5 0.5 1 1 2 3 1 0\n"
+                                  "He 9 0 1 -1 -2 -3 0 0 -0.5 0.75 2 -2 -4 -6 2 1\n");
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test_setup_teardown(cells, begin, end),
-      cmocka_unit_test_setup_teardown(values, begin, end),
-      cmocka_unit_test(numbers),
+      cmocka_unit_test_setup_teardown(csv_quotes_what_needs_quotes, begin, end),
+      cmocka_unit_test_setup_teardown(csv_writes_json_values, begin, end),
+      cmocka_unit_test(csv_numbers_are_read_back_to_the_last_bit),
       cmocka_unit_test_setup_teardown(longer_than_the_buffer, begin, end),
       cmocka_unit_test_setup_teardown(failure_sticks, begin, end),
       cmocka_unit_test_setup_teardown(a_frame, begin, end),

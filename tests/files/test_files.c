@@ -97,7 +97,7 @@ static void comparison_round_trip(void **state)
 }
 
 /* Frames stream to the disk; a row is the same grain in every frame, in whatever order the engine shows them. */
-static void trajectory(void **state)
+static void a_row_is_the_same_grain_in_every_frame(void **state)
 {
   (void)state;
   gg_error err = {0};
@@ -327,11 +327,16 @@ static void hdf5_stays_as_it_was(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(run_round_trip),     cmocka_unit_test(comparison_round_trip),
-      cmocka_unit_test(trajectory),         cmocka_unit_test(frames_of_the_window),
-      cmocka_unit_test(failing_writes),     cmocka_unit_test(failing_trajectory),
-      cmocka_unit_test(unreadable_results), cmocka_unit_test(threads_at_once),
-      cmocka_unit_test(two_in_memory),      cmocka_unit_test(hdf5_stays_as_it_was),
+      cmocka_unit_test(run_round_trip),
+      cmocka_unit_test(comparison_round_trip),
+      cmocka_unit_test(a_row_is_the_same_grain_in_every_frame),
+      cmocka_unit_test(frames_of_the_window),
+      cmocka_unit_test(failing_writes),
+      cmocka_unit_test(failing_trajectory),
+      cmocka_unit_test(unreadable_results),
+      cmocka_unit_test(threads_at_once),
+      cmocka_unit_test(two_in_memory),
+      cmocka_unit_test(hdf5_stays_as_it_was),
   };
   H5dont_atexit();
   return cmocka_run_group_tests(tests, enter, leave);

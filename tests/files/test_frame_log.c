@@ -92,7 +92,7 @@ static gg_status open_at(gg_frame_log *log, const gg_frame_mark *mark, gg_error 
   return gg_files_frame_log_open_at(log, path, mark, NULL, err);
 }
 
-static void paths(void **state)
+static void the_log_is_named_after_the_checkpoint(void **state)
 {
   (void)state;
   const char *const pairs[][2] = {{"a/usf.checkpoint.h5", "a/usf.checkpoint.frames"},
@@ -159,7 +159,7 @@ static void taken_to_another_file(void **state)
   gg_files_frame_log_close(&log);
 }
 
-/* What stands there is as it was until the new one is put in its place. */
+/* The existing log is unchanged until the new one replaces it. */
 static void put_in_place(void **state)
 {
   (void)state;
@@ -189,8 +189,8 @@ static void refuse(const gg_frame_mark *mark, const char *what)
   assert_int_equal(log.fd, -1);
 }
 
-/* Cut at every length, and every byte changed. */
-static void damage(void **state)
+/* The log is cut at every length, and each byte is changed. */
+static void damaged_logs_are_rejected(void **state)
 {
   (void)state;
   char text[40];
@@ -242,7 +242,7 @@ static void mark_of_another(void **state)
 
 /* A mark and a record, checksums right, that claim more grains than bytes can be counted of: the size of the record,
  * counted modulo 2^64, would be that of its header. */
-static void made_to_harm(void **state)
+static void overflowing_sizes_are_rejected(void **state)
 {
   (void)state;
   const uint64_t grains[] = {UINT64_C(1) << 61, UINT64_C(1) << 40, 3};
@@ -267,7 +267,7 @@ static bool at_the_third(void *context)
   return ++*(int *)context == 3;
 }
 
-static void stopped(void **state)
+static void reading_a_log_can_be_stopped(void **state)
 {
   (void)state;
   int asked = 0;
@@ -279,8 +279,8 @@ static void stopped(void **state)
   assert_true(asked == 3 && log.fd == -1);
 }
 
-/* A disk that is full: the frame is not counted. */
-static void full(void **state)
+/* A frame that does not fit on the disk is not counted. */
+static void a_frame_on_a_full_disk_does_not_count(void **state)
 {
   (void)state;
   gg_frame_log log;
@@ -300,11 +300,16 @@ static void full(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(paths),           cmocka_unit_test(any_mark),
-      cmocka_unit_test(written_over),    cmocka_unit_test(taken_to_another_file),
-      cmocka_unit_test(put_in_place),    cmocka_unit_test(damage),
-      cmocka_unit_test(mark_of_another), cmocka_unit_test(made_to_harm),
-      cmocka_unit_test(stopped),         cmocka_unit_test(full),
+      cmocka_unit_test(the_log_is_named_after_the_checkpoint),
+      cmocka_unit_test(any_mark),
+      cmocka_unit_test(written_over),
+      cmocka_unit_test(taken_to_another_file),
+      cmocka_unit_test(put_in_place),
+      cmocka_unit_test(damaged_logs_are_rejected),
+      cmocka_unit_test(mark_of_another),
+      cmocka_unit_test(overflowing_sizes_are_rejected),
+      cmocka_unit_test(reading_a_log_can_be_stopped),
+      cmocka_unit_test(a_frame_on_a_full_disk_does_not_count),
   };
   int failed = cmocka_run_group_tests(tests, NULL, NULL);
   unlink(path), unlink(other);

@@ -96,7 +96,7 @@ static void check(gg_h5_in *in, const char *name, size_t n)
 }
 
 /* Chunks that do and do not divide the array, of one element and of all of it; whole, and row by row. */
-static void chunks(void **state)
+static void chunked_arrays_are_read_whole_and_by_rows(void **state)
 {
   (void)state;
   static const struct {
@@ -133,8 +133,9 @@ static void chunks(void **state)
   }
 }
 
-/* What other programs compress, whole and row by row; in either order, and chunks that gzip makes no smaller. */
-static void filters(void **state)
+/* Arrays that other programs compress are read whole and by rows; filters in either order, and chunks that gzip cannot
+ * shrink. */
+static void arrays_of_other_programs_are_decompressed(void **state)
 {
   (void)state;
   static const char *const all[] = {"g", "s", "f", "sg", "gs", "sgf", "fsg"};
@@ -210,8 +211,8 @@ static void bare_files(void **state)
   }
 }
 
-/* Thousands of names in one group, found in a tree of several levels; and one that is not there. */
-static void names(void **state)
+/* One group with thousands of names is a tree of several levels; a missing name is not found. */
+static void thousands_of_names_are_found(void **state)
 {
   (void)state;
   enum { MANY = 3000 };
@@ -243,7 +244,7 @@ static void names(void **state)
 }
 
 /* Numbers of every type come as those that are asked for; beyond the range of these, as its nearest end. */
-static void types(void **state)
+static void all_number_types_are_converted(void **state)
 {
   (void)state;
   const hid_t kinds[] = {H5T_STD_I8LE,  H5T_STD_U8BE,  H5T_STD_I16BE,  H5T_STD_U16LE,  H5T_STD_I32LE,  H5T_STD_U32BE,
@@ -282,8 +283,8 @@ static void types(void **state)
   gg_h5_in_close(&in);
 }
 
-/* So many that the header is in several pieces. */
-static void attributes(void **state)
+/* So many attributes that the header has several pieces. */
+static void headers_in_pieces_are_read(void **state)
 {
   (void)state;
   enum { MANY = 200 };
@@ -332,8 +333,8 @@ static void expect_refusal(const char *path, const char *words)
   if (!strstr(err.message, words)) fail_msg("%s: %s", words, err.message);
 }
 
-/* Compressed arrays, links to elsewhere, texts, newer formats. */
-static void refusals(void **state)
+/* Arrays of unknown compression, links to other files, texts and newer formats are rejected. */
+static void unsupported_files_are_rejected(void **state)
 {
   (void)state;
   const hsize_t dims = 1000, chunk = 100;
@@ -375,7 +376,7 @@ static void refusals(void **state)
 
 /* A whole result, every 13th of its words in turn replaced: it is read or refused, and nothing else happens.
  * (validation/fuzz goes on from there.) */
-static void words(void **state)
+static void replaced_words_are_read_or_rejected(void **state)
 {
   (void)state;
   static const uint64_t bad[] = {0, 1, 7, 0x7FFFFFFFFFFFFFFF, UINT64_MAX, 0xFFFFFFFF, 96, 800};
@@ -409,9 +410,14 @@ static void words(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(chunks),     cmocka_unit_test(names),           cmocka_unit_test(types),
-      cmocka_unit_test(attributes), cmocka_unit_test(refusals),        cmocka_unit_test(words),
-      cmocka_unit_test(filters),    cmocka_unit_test(damaged_filters), cmocka_unit_test(bare_files)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(chunked_arrays_are_read_whole_and_by_rows),
+                                     cmocka_unit_test(thousands_of_names_are_found),
+                                     cmocka_unit_test(all_number_types_are_converted),
+                                     cmocka_unit_test(headers_in_pieces_are_read),
+                                     cmocka_unit_test(unsupported_files_are_rejected),
+                                     cmocka_unit_test(replaced_words_are_read_or_rejected),
+                                     cmocka_unit_test(arrays_of_other_programs_are_decompressed),
+                                     cmocka_unit_test(damaged_filters),
+                                     cmocka_unit_test(bare_files)};
   return cmocka_run_group_tests(tests, enter, leave);
 }

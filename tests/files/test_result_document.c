@@ -33,7 +33,7 @@ static json_t *reread(json_t *document)
   return again;
 }
 
-static void run(void **state)
+static void a_document_of_a_run_has_its_numbers(void **state)
 {
   (void)state;
   gg_result *r = planted_result(GG_MD);
@@ -74,7 +74,7 @@ static void nulls_have_reasons(void **state)
   gg_result_free(r);
 }
 
-static void comparison(void **state)
+static void a_document_of_a_comparison_has_both_engines(void **state)
 {
   (void)state;
   gg_comparison *c = planted_comparison();
@@ -116,7 +116,7 @@ static void missing_engine(void **state)
   planted_comparison_free(c);
 }
 
-static void theory(void **state)
+static void a_document_of_theories_has_their_answers(void **state)
 {
   (void)state;
   gg_comparison *c = planted_comparison();
@@ -132,9 +132,9 @@ static void theory(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(run),        cmocka_unit_test(nulls_have_reasons),
-      cmocka_unit_test(comparison), cmocka_unit_test(missing_engine),
-      cmocka_unit_test(theory),
+      cmocka_unit_test(a_document_of_a_run_has_its_numbers),         cmocka_unit_test(nulls_have_reasons),
+      cmocka_unit_test(a_document_of_a_comparison_has_both_engines), cmocka_unit_test(missing_engine),
+      cmocka_unit_test(a_document_of_theories_has_their_answers),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

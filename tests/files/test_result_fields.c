@@ -187,7 +187,7 @@ static double *unlike_array(size_t n)
   return x;
 }
 
-/* Of truths that with this number alone is true: several structs tell them apart. */
+/* Fill a struct; only the flag number `truth` is true, so that several structs distinguish all flags. */
 static void fill(void *to, const field *table, size_t n, size_t truth)
 {
   size_t truths = 0;

@@ -16,8 +16,8 @@ static void assert_estimate(double mean, double error, const char *expected)
   assert_string_equal(text, expected);
 }
 
-/* Two digits of the error, in the last digits of the mean. */
-static void estimates(void **state)
+/* The error is two digits, in units of the last digits of the mean. */
+static void errors_stand_in_the_last_digits_of_means(void **state)
 {
   (void)state;
   assert_estimate(1.23404, 0.0041, "1.2340(41)");
@@ -40,6 +40,6 @@ static void estimates(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(estimates)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(errors_stand_in_the_last_digits_of_means)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

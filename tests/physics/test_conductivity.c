@@ -60,13 +60,13 @@ static void expect(double e, double phi)
   gg_result_free(r);
 }
 
-static void dilute(void **state)
+static void dilute_gases_have_the_noise_free_conductivity(void **state)
 {
   (void)state;
   expect(0.9, 0), expect(0.7, 0);
 }
 
-static void dense(void **state)
+static void dense_gases_have_the_noise_free_conductivity(void **state)
 {
   (void)state;
   expect(1, 0.1), expect(0.8, 0.3);
@@ -74,7 +74,7 @@ static void dense(void **state)
 
 /* Rough grains within four errors and the solution's own: perfectly rough, where first Sonine order is 7 and 10 % low,
  * and half rough, dilute and dense. */
-static void rough(void **state)
+static void rough_gases_have_the_noise_free_conductivity(void **state)
 {
   (void)state;
   static const gg_quantity q[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC,
@@ -100,7 +100,7 @@ static void rough(void **state)
 /* Of the dilute gas nightly. kappa* of 300 grains: 4.2/N low in a dilute gas (helfand.c), 2 % of a dense one that
  * molecular chaos may miss; its first Sonine order without what collisions carry would be 10 to 50 % low. Viscosities
  * likewise. */
-static void molecular_dynamics(void **state)
+static void md_has_the_noise_free_conductivity(void **state)
 {
   (void)state;
   static const gg_quantity q[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC,
@@ -160,8 +160,11 @@ static void errors_of_short_runs(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(dilute), cmocka_unit_test(dense), cmocka_unit_test(rough),
-                                     cmocka_unit_test(molecular_dynamics)},
-                          nightly[] = {cmocka_unit_test(molecular_dynamics), cmocka_unit_test(errors_of_short_runs)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(dilute_gases_have_the_noise_free_conductivity),
+                                     cmocka_unit_test(dense_gases_have_the_noise_free_conductivity),
+                                     cmocka_unit_test(rough_gases_have_the_noise_free_conductivity),
+                                     cmocka_unit_test(md_has_the_noise_free_conductivity)},
+                          nightly[] = {cmocka_unit_test(md_has_the_noise_free_conductivity),
+                                       cmocka_unit_test(errors_of_short_runs)};
   return getenv("NIGHTLY") ? cmocka_run_group_tests(nightly, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -67,19 +67,19 @@ static gg_result *agree(double e, double beta, double mu)
   return md;
 }
 
-/* And the canary: e off by 0.02 in one engine is seen. */
-static void smooth(void **state)
+/* Canary: e off by 0.02 in one engine is detected. */
+static void engines_agree_on_smooth_grains(void **state)
 {
   (void)state;
   gg_result *md = agree(0.9, -1, INFINITY), *other = run(scene_of(0.92, -1, INFINITY), GG_DSMC);
   assert_true(worst_z(md, other, false) > 6);
   gg_result_free(md), gg_result_free(other);
 }
-static void rough(void **state)
+static void engines_agree_on_rough_grains(void **state)
 {
   (void)state, gg_result_free(agree(0.9, 0, INFINITY));
 }
-static void frictional(void **state)
+static void engines_agree_on_frictional_grains(void **state)
 {
   (void)state, gg_result_free(agree(0.9, 0.4, 0.123));
 }
@@ -87,7 +87,7 @@ static void frictional(void **state)
 /* e = 0: grains keep nothing of their relative normal speed. So dilute that those that leave together do not meet
  * again.
  */
-static void no_restitution(void **state)
+static void engines_agree_at_e_0(void **state)
 {
   (void)state;
   gg_scene s = scene_of(0, -1, INFINITY);
@@ -130,8 +130,8 @@ static void heated_spins(void **state)
   }
 }
 
-/* Shear of a gas that white noise heats as well, and of one that it heats so much that shear hardly bends it. */
-static void heated_shear(void **state)
+/* White noise heats the sheared gas, once weakly, once so strongly that shear hardly matters. */
+static void engines_agree_on_heated_shear(void **state)
 {
   (void)state;
   const double temperature[] = {GG_AUTO, 20000};
@@ -151,8 +151,9 @@ static void heated_shear(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(smooth),     cmocka_unit_test(rough),        cmocka_unit_test(no_restitution),
-      cmocka_unit_test(frictional), cmocka_unit_test(heated_shear), cmocka_unit_test(heated_spins),
+      cmocka_unit_test(engines_agree_on_smooth_grains), cmocka_unit_test(engines_agree_on_rough_grains),
+      cmocka_unit_test(engines_agree_at_e_0),           cmocka_unit_test(engines_agree_on_frictional_grains),
+      cmocka_unit_test(engines_agree_on_heated_shear),  cmocka_unit_test(heated_spins),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -133,7 +133,7 @@ static void equilibrium_of(const gg_engine_ops *ops, gg_engine_kind kind, int sp
   ops->destroy(e);
 }
 
-static void equilibrium(void **state)
+static void species_share_the_temperature_in_equilibrium(void **state)
 {
   (void)state;
   for (int species = 3; species <= TEN; species += TEN - 3) {
@@ -176,7 +176,7 @@ static gg_scene sheared_scene(int species)
   return s;
 }
 
-static void sheared(void **state)
+static void engines_agree_on_sheared_mixtures(void **state)
 {
   (void)state;
   for (int species = 3; species <= TEN; species += TEN - 3) {
@@ -210,7 +210,7 @@ static void curves_of_sixteen(void **state)
   gg_result_free(r);
 }
 
-static void canary(void **state)
+static void a_wrong_mass_is_detected(void **state)
 {
   (void)state;
   gg_scene wrong = sheared_scene(3);
@@ -222,7 +222,8 @@ static void canary(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(equilibrium), cmocka_unit_test(sheared),
-                                     cmocka_unit_test(curves_of_sixteen), cmocka_unit_test(canary)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(species_share_the_temperature_in_equilibrium),
+                                     cmocka_unit_test(engines_agree_on_sheared_mixtures),
+                                     cmocka_unit_test(curves_of_sixteen), cmocka_unit_test(a_wrong_mass_is_detected)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -67,8 +67,8 @@ static void lun_rough(void **state)
   gg_result_free(r);
 }
 
-/* The closure keeps all orders of the gradient: dissipative grains, N1 too. */
-static void closure(void **state)
+/* The closure has all orders of the gradient, so it holds for dissipative grains and N1, too. */
+static void the_closure_holds_for_dissipative_grains(void **state)
 {
   (void)state;
   gg_result *r = run(0.2, 0.8, -1);
@@ -80,7 +80,7 @@ static void closure(void **state)
 /* The canary: chi 2 % off moves the temperature of a dilute gas by 4 %. Near e = 1 the temperature goes as the
  * viscosity, whose exact value in a dilute gas is 1.016034 times that of first Sonine order, which is the closure's: it
  * should lie 1.6 % low, within half a per cent. */
-static void canary(void **state)
+static void a_wrong_contact_value_is_detected(void **state)
 {
   (void)state;
   const double expected = 1 / 1.016034 - 1;
@@ -100,8 +100,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lun_smooth),
       cmocka_unit_test(lun_rough),
-      cmocka_unit_test(closure),
-      cmocka_unit_test(canary),
+      cmocka_unit_test(the_closure_holds_for_dissipative_grains),
+      cmocka_unit_test(a_wrong_contact_value_is_detected),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -137,7 +137,7 @@ static void haff_in(gg_engine_kind kind, int64_t n)
   assert_true(fabs(exp(last) - 1) < 4.5 * last_error + 0.012);
 }
 
-static void haff(void **state)
+static void cooling_follows_haff_for_viscoelastic_grains(void **state)
 {
   (void)state;
   haff_in(GG_DSMC, 20000);
@@ -155,7 +155,7 @@ static gg_comparison compare(const gg_scene *s)
   return c;
 }
 
-/* What shear puts in is what collisions destroy. */
+/* The work of shear is the energy that collisions dissipate. */
 static void check_balance(const gg_comparison *c)
 {
   for (int k = 0; k < 2; k++) {
@@ -215,7 +215,7 @@ static void dense(void)
   gg_run_comparison_clear(&by_law), gg_run_comparison_clear(&constant);
 }
 
-static void sheared(void **state)
+static void engines_agree_on_sheared_viscoelastic_grains(void **state)
 {
   (void)state;
   dilute_at(-1, INFINITY);
@@ -272,8 +272,8 @@ static void add_bits(void *context, const gg_chunk *c)
     }
 }
 
-/* A run that is saved and restored goes on bit for bit. */
-static void restart(void **state)
+/* A run that is saved and restored continues bit for bit. */
+static void a_restored_run_has_the_same_bits(void **state)
 {
   (void)state;
   for (gg_engine_kind kind = GG_MD; kind <= GG_DSMC; kind++)
@@ -298,7 +298,8 @@ static void restart(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(haff), cmocka_unit_test(sheared), cmocka_unit_test(no_collapse),
-                                     cmocka_unit_test(restart)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(cooling_follows_haff_for_viscoelastic_grains),
+                                     cmocka_unit_test(engines_agree_on_sheared_viscoelastic_grains),
+                                     cmocka_unit_test(no_collapse), cmocka_unit_test(a_restored_run_has_the_same_bits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

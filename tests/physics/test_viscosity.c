@@ -56,7 +56,7 @@ static void expect_ratio(const gg_result *r, gg_quantity over, gg_quantity under
   assert_true(fabs(ratio - value) < 4 * error && error < 0.0035 * value);
 }
 
-static void elastic(void **state)
+static void elastic_grains_have_the_exact_viscosity(void **state)
 {
   (void)state;
   gg_scene s = slow(1, 0, GG_GAUSSIAN);
@@ -88,7 +88,7 @@ static void heated_and_cooling(void **state)
  * solution, whose error is not known, 0.8417). A larger contact value lowers the kinetic part and raises the other: the
  * whole over the kinetic part grows as it does. Inelastic: the modified first Sonine order corrected by as much, within
  * 1.5 %. */
-static void dense(void **state)
+static void dense_grains_have_enskogs_viscosity(void **state)
 {
   (void)state;
   const double e[] = {1, 0.8}, exact = 1.016034, slack[] = {0, 0.015};
@@ -110,7 +110,7 @@ static void dense(void **state)
 
 /* Molecular dynamics of elastic grains at phi = 0.3, where it is Enskog's within the requested error (4.148(48) of 1000
  * grains, noise-free 4.146), and of grains that cool, in a box far from its instability (nightly). */
-static void molecular_dynamics(void **state)
+static void md_has_the_viscosity_of_enskogs_equation(void **state)
 {
   (void)state;
   const double e[] = {1, 0.95}, phi[] = {0.3, 0.1}, right[] = {4.146, 1.26};
@@ -124,7 +124,7 @@ static void molecular_dynamics(void **state)
   }
 }
 
-static void mixture(void **state)
+static void mixtures_have_the_viscosity_of_first_sonine_order(void **state)
 {
   (void)state;
   gg_scene s = slow(0.8, 0.2, GG_GAUSSIAN);
@@ -142,7 +142,7 @@ static void mixture(void **state)
 
 /* Rough grains that cool, dilute, half rough: first Sonine order within 2 %; a viscosity without the term of cooling
  * would be 13 % lower. */
-static void rough(void **state)
+static void rough_grains_have_the_viscosity_of_first_sonine_order(void **state)
 {
   (void)state;
   gg_scene s = slow(0.9, 0, GG_NO_THERMOSTAT);
@@ -158,8 +158,11 @@ static void rough(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic), cmocka_unit_test(heated_and_cooling),
-                                     cmocka_unit_test(dense),   cmocka_unit_test(molecular_dynamics),
-                                     cmocka_unit_test(mixture), cmocka_unit_test(rough)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic_grains_have_the_exact_viscosity),
+                                     cmocka_unit_test(heated_and_cooling),
+                                     cmocka_unit_test(dense_grains_have_enskogs_viscosity),
+                                     cmocka_unit_test(md_has_the_viscosity_of_enskogs_equation),
+                                     cmocka_unit_test(mixtures_have_the_viscosity_of_first_sonine_order),
+                                     cmocka_unit_test(rough_grains_have_the_viscosity_of_first_sonine_order)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

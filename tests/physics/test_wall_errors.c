@@ -60,7 +60,7 @@ static void true_errors(void **state)
   }
 }
 
-static void too_short(void **state)
+static void a_window_shorter_than_the_slow_modes_is_not_steady(void **state)
 {
   (void)state;
   gg_result *r = wide_gap(2100, 1);
@@ -71,6 +71,7 @@ static void too_short(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(true_errors), cmocka_unit_test(too_short)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(true_errors),
+                                     cmocka_unit_test(a_window_shorter_than_the_slow_modes_is_not_steady)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What tests of extended scenes have in common: scenes, two observables, two laws of restitution. */
+/* Shared by tests of extended scenes: scenes, two observables, two laws of restitution. */
 #ifndef GG_TEST_EXTENDED_H
 #define GG_TEST_EXTENDED_H
 

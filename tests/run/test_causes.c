@@ -38,7 +38,7 @@ static void set_scene(const scene_of *of, gg_comparison *c)
   md.model = c->model;
 }
 
-/* What was measured of the gas. */
+/* Measured numbers of the gas. */
 static void set_waves(double density, double momentum, uint64_t treated)
 {
   md.value[GG_Q_DENSITY_WAVES] = (gg_estimate){.mean = density, .error = 0.05 * density};
@@ -59,7 +59,7 @@ static bool says(const gg_causes *causes, const char *words)
   return false;
 }
 
-/* What each sentence claims of a difference. */
+/* Claim of each sentence about a difference. */
 static void check_claims(const gg_causes *causes, gg_quantity q, double by, bool clustered, bool swirls)
 {
   assert_int_equal(says(causes, "have clustered"), clustered);
@@ -104,7 +104,7 @@ static int check_scene(const scene_of *of)
   return marked;
 }
 
-static void grid(void **state)
+static void found_causes_apply_to_the_difference(void **state)
 {
   (void)state;
   static const double phi[] = {0.01, 0.05, 0.1, 0.2, 0.3, 0.5}, e[] = {0.5, 0.7, 0.9, 0.99};
@@ -144,7 +144,7 @@ static void clustered_and_swirling(void **state)
 }
 
 /* Results that have no waves are told by theory; a quantity that nothing explains is named. */
-static void nothing_measured(void **state)
+static void without_waves_theory_names_the_cause(void **state)
 {
   (void)state;
   gg_comparison c;
@@ -163,7 +163,7 @@ static void nothing_measured(void **state)
 }
 
 /* In a bath that turns grains within some diameters md collides more often; T and other signs have nothing of it. */
-static void strong_drag(void **state)
+static void strong_drag_explains_the_collision_rate(void **state)
 {
   (void)state;
   for (int strong = 0; strong < 2; strong++)
@@ -200,8 +200,9 @@ static void structure_is_told_from_noise(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(grid), cmocka_unit_test(clustered_and_swirling),
-                                     cmocka_unit_test(nothing_measured), cmocka_unit_test(strong_drag),
-                                     cmocka_unit_test(structure_is_told_from_noise)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(found_causes_apply_to_the_difference), cmocka_unit_test(clustered_and_swirling),
+      cmocka_unit_test(without_waves_theory_names_the_cause), cmocka_unit_test(strong_drag_explains_the_collision_rate),
+      cmocka_unit_test(structure_is_told_from_noise)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

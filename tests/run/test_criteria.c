@@ -38,7 +38,7 @@ static void wait_for_relaxation(void **state)
   assert_true(2 * (double)p.warmup >= 3 * gap && 2 * (double)p.least >= 10 * gap);
 }
 
-static void windows(void **state)
+static void windows_double_with_each_restart(void **state)
 {
   (void)state;
   const gg_stopping_criteria p = {.least = 100, .longest = 5000, .relative_error = 0.01, .find_steady = true};
@@ -58,6 +58,7 @@ static void windows(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(wait_for_relaxation), cmocka_unit_test(windows)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(wait_for_relaxation),
+                                     cmocka_unit_test(windows_double_with_each_restart)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run tells of its end: right where errors fall as 1/sqrt(window), the half of the window that it may go on for
+/* The estimated end of a run is right if errors fall as 1/sqrt(window), the half of the window that it may go on for
  * included; a fraction that never falls and is 1 at the end alone, whatever ends the run; no time where none is known.
  */
 #include <setjmp.h>
@@ -17,7 +17,7 @@
 static const gg_stopping_criteria criteria = {
     .warmup = 20, .least = 150, .longest = 75000, .relative_error = 0.01, .find_steady = true};
 
-/* Of windows that are sure of their errors from `sure_at` samples on. */
+/* Windows whose errors are known from `sure_at` samples on. */
 static gg_convergence errors_of(double scale, double window, double sure_at)
 {
   return (gg_convergence){.relative_error = scale / sqrt(window), .trusted = true, .sure_at = sure_at};
@@ -29,7 +29,7 @@ static gg_window_test test_of(double scale, uint64_t window, double sure_at)
   return (gg_window_test){window, ratio, ratio <= 1, (double)window >= sure_at};
 }
 
-/* Where such a run ends: by the rules of averaging.c, test after test. */
+/* End of such a run by the rules of averaging.c, test after test. */
 static double true_end(double scale, double sure_at)
 {
   bool exact = false;
@@ -134,8 +134,8 @@ static void trends_and_trust(void **state)
   assert_true(isnan(gg_run_progress_end(&o, &criteria, &s).at));
 }
 
-/* Seconds a sample of late, not of the start; marks are thinned. */
-static void pace(void **state)
+/* The pace is the seconds per sample of late, not of the start; stored marks are thinned. */
+static void the_pace_is_that_of_late_samples(void **state)
 {
   (void)state;
   gg_progress_estimate o = {0};
@@ -199,7 +199,7 @@ int main(void)
       cmocka_unit_test(to_where_it_should_end),
       cmocka_unit_test(so_many_collisions),
       cmocka_unit_test(trends_and_trust),
-      cmocka_unit_test(pace),
+      cmocka_unit_test(the_pace_is_that_of_late_samples),
       cmocka_unit_test(every_run),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -59,8 +59,8 @@ static bool warns(const gg_scene *s, const char *words)
   return found;
 }
 
-/* Work that collisions do not lose, in either engine: said from five errors on. */
-static void unbalanced(void **state)
+/* Work that collisions do not dissipate causes a warning from five errors on, in either engine. */
+static void an_open_energy_balance_causes_a_warning(void **state)
 {
   (void)state;
   for (int engine = GG_MD; engine <= GG_DSMC; engine++) {
@@ -75,8 +75,8 @@ static void unbalanced(void **state)
   }
 }
 
-/* So few grains that means are theirs: in either engine, where no error that was requested says it already. */
-static void few_grains(void **state)
+/* Too few grains for precise means cause a warning in either engine, unless the requested error implies one already. */
+static void too_few_grains_cause_a_warning(void **state)
 {
   (void)state;
   for (int engine = GG_MD; engine <= GG_DSMC; engine++)
@@ -91,8 +91,8 @@ static void few_grains(void **state)
     }
 }
 
-/* Spheres of one diameter at rest above freezing, from random places. */
-static void undercooled(void **state)
+/* Spheres of one diameter, at rest above freezing, started at random places. */
+static void equal_spheres_above_freezing_cause_a_warning(void **state)
 {
   (void)state;
   static const struct {
@@ -119,8 +119,8 @@ static void undercooled(void **state)
   }
 }
 
-/* Where nothing is measured nobody can tell. */
-static void nothing_measured(void **state)
+/* Without a measured quantity no state is called steady. */
+static void nothing_is_steady_where_nothing_is_measured(void **state)
 {
   (void)state;
   gg_scene s = planted_scene(0);
@@ -198,8 +198,8 @@ static void endless_trend(void **state)
   gg_result_free(r);
 }
 
-/* Elastic smooth grains under shear: followed as heating; no mean is made up. */
-static void heating(void **state)
+/* Elastic smooth grains under shear heat up: a history and no mean is reported. */
+static void elastic_shear_is_followed_as_heating(void **state)
 {
   (void)state;
   gg_scene s = planted_scene(-1);
@@ -213,7 +213,7 @@ static void heating(void **state)
 }
 
 /* `collisions` is kept to within a sample; the time limit ends a run that has no other end, short of what was asked. */
-static void ends(void **state)
+static void collisions_and_time_end_a_run(void **state)
 {
   (void)state;
   gg_scene s = planted_scene(-1);
@@ -240,7 +240,7 @@ static void same_results(const gg_result *a, const gg_result *b)
 }
 
 /* Replicas give the same result from one thread or two, and a smaller error than one. */
-static void replicas(void **state)
+static void threads_do_not_change_the_result_of_replicas(void **state)
 {
   (void)state;
   gg_scene s = planted_scene(0);
@@ -302,7 +302,7 @@ static gg_result *in_two_parts(const gg_scene *s, int stop, gg_archive *archive)
 
 /* Interrupted anywhere (warm-up, averaging, in the midst of an interval, between replicas) and resumed from its
  * checkpoint, a run ends with the same numbers to the last bit, whatever ends it. */
-static void resume(void **state)
+static void an_interrupted_run_resumes_to_the_same_bits(void **state)
 {
   (void)state;
   for (int mode = 0; mode < 2; mode++) {
@@ -369,8 +369,8 @@ static gg_status see_frame(void *context, const gg_frame *frame, gg_error *err)
   return GG_OK;
 }
 
-/* Frames are the first replica's only, in order, in a resumed run too. */
-static void trajectory(void **state)
+/* Only the first replica stores frames, in order, in a resumed run, too. */
+static void frames_are_those_of_the_first_replica(void **state)
 {
   (void)state;
   gg_scene s = planted_scene(-1);
@@ -429,8 +429,8 @@ static void hooks_one_at_a_time(void **state)
   gg_result_free(r);
 }
 
-/* The time limit keeps a checkpoint, calls what is short short, and never averages over a warm-up. */
-static void time_limit(void **state)
+/* The time limit stores a checkpoint, reports that the run is short, and never averages over the warm-up. */
+static void the_time_limit_keeps_a_checkpoint(void **state)
 {
   (void)state;
   gg_scene s = planted_scene(0);
@@ -448,14 +448,22 @@ static void time_limit(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted_means),    cmocka_unit_test(unbalanced),
-      cmocka_unit_test(few_grains),       cmocka_unit_test(undercooled),
-      cmocka_unit_test(nothing_measured), cmocka_unit_test(slow_relaxation),
-      cmocka_unit_test(nearly_smooth),    cmocka_unit_test(endless_trend),
-      cmocka_unit_test(heating),          cmocka_unit_test(ends),
-      cmocka_unit_test(replicas),         cmocka_unit_test(resume),
-      cmocka_unit_test(other_scene),      cmocka_unit_test(trajectory),
-      cmocka_unit_test(time_limit),       cmocka_unit_test(hooks_one_at_a_time),
+      cmocka_unit_test(planted_means),
+      cmocka_unit_test(an_open_energy_balance_causes_a_warning),
+      cmocka_unit_test(too_few_grains_cause_a_warning),
+      cmocka_unit_test(equal_spheres_above_freezing_cause_a_warning),
+      cmocka_unit_test(nothing_is_steady_where_nothing_is_measured),
+      cmocka_unit_test(slow_relaxation),
+      cmocka_unit_test(nearly_smooth),
+      cmocka_unit_test(endless_trend),
+      cmocka_unit_test(elastic_shear_is_followed_as_heating),
+      cmocka_unit_test(collisions_and_time_end_a_run),
+      cmocka_unit_test(threads_do_not_change_the_result_of_replicas),
+      cmocka_unit_test(an_interrupted_run_resumes_to_the_same_bits),
+      cmocka_unit_test(other_scene),
+      cmocka_unit_test(frames_are_those_of_the_first_replica),
+      cmocka_unit_test(the_time_limit_keeps_a_checkpoint),
+      cmocka_unit_test(hooks_one_at_a_time),
       cmocka_unit_test(arrest_share),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

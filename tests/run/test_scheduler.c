@@ -146,7 +146,7 @@ static void as_many_as_threads(void **state)
     }
 }
 
-static void stopped(void **state)
+static void a_stopped_run_continues_when_submitted_again(void **state)
 {
   (void)state;
   static run r;
@@ -203,7 +203,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(largest_priority_first),
       cmocka_unit_test(as_many_as_threads),
-      cmocka_unit_test(stopped),
+      cmocka_unit_test(a_stopped_run_continues_when_submitted_again),
       cmocka_unit_test(controllers_count),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -147,9 +147,9 @@ static void what_they_are(void **state)
   for (int k = 0; k < GG_MOST_WALL_MODES; k++) assert_true(fabs(row[k] - expected[k]) < 1e-12);
 }
 
-/* What waves across the gap are even: those that the symmetry of the flow leaves alone. Of homogeneous scenes and of
- * the Monte Carlo ensemble there are none, and no rows. */
-static void parities(void **state)
+/* Even modes across the gap are those that the symmetry of the flow leaves unchanged. Homogeneous scenes and the Monte
+ * Carlo ensemble have no modes and no rows. */
+static void modes_have_the_symmetry_of_the_flow(void **state)
 {
   (void)state;
   gg_model m;
@@ -173,6 +173,7 @@ static void parities(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(decay_times), cmocka_unit_test(short_window),
-                                     cmocka_unit_test(what_they_are), cmocka_unit_test(parities)};
+                                     cmocka_unit_test(what_they_are),
+                                     cmocka_unit_test(modes_have_the_symmetry_of_the_flow)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

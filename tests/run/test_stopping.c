@@ -122,7 +122,7 @@ static double now(void)
 }
 
 /* An interval that would take minutes: the time limit ends it, and what was kept goes on from there. */
-static void time_limit(void **state)
+static void the_time_limit_ends_a_long_interval(void **state)
 {
   (void)state;
   const char *const long_intervals[] = {
@@ -170,7 +170,7 @@ static void cold_start(void **state)
 
 /* Without the contact-time rule grains of e = 0 collapse in the warm-up. That is said, wherever the warm-up ends: never
  * a window without collisions, in which nothing varies. */
-static void collapse(void **state)
+static void collapse_in_the_warm_up_fails(void **state)
 {
   (void)state;
   for (int warmup = 6; warmup < 60; warmup += 17) {
@@ -242,10 +242,10 @@ static void cold_end(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(in_the_midst_of_an_interval),
-                                     cmocka_unit_test(time_limit),
+                                     cmocka_unit_test(the_time_limit_ends_a_long_interval),
                                      cmocka_unit_test(cold_start),
                                      cmocka_unit_test(cold_end),
-                                     cmocka_unit_test(collapse),
+                                     cmocka_unit_test(collapse_in_the_warm_up_fails),
                                      cmocka_unit_test(unlike_rough_grains),
                                      cmocka_unit_test(narrow_box)};
   return cmocka_run_group_tests(tests, NULL, NULL);

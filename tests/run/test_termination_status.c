@@ -29,7 +29,7 @@ static gg_result *run(const char *yaml, gg_status expected, gg_error *err)
 }
 
 /* An error that seems small in a window too short to know it was not reached, whatever ended the run. */
-static void too_short(void **state)
+static void a_short_window_reaches_no_error(void **state)
 {
   (void)state;
   gg_error err;
@@ -62,7 +62,7 @@ static void shorter_than_the_shortest_window(void **state)
   assert_int_equal(gg_run_replicas_check_end(&all, &err), GG_OK);
 }
 
-static void nothing_measured(void **state)
+static void an_error_of_nothing_fails(void **state)
 {
   (void)state;
   gg_error err;
@@ -132,9 +132,9 @@ static void spins_run_away(void **state)
   }
 }
 
-/* Of a gas so dilute that Monte Carlo is exact it is known how much less time that takes; not where it cannot measure
- * what is asked for, nor of denser ones. */
-static void dilute(void **state)
+/* For a gas so dilute that Monte Carlo is exact, the run states how much less time dsmc takes; not if dsmc cannot
+ * measure what is requested, nor for denser gases. */
+static void dilute_gases_state_the_gain_of_dsmc(void **state)
 {
   (void)state;
   static const struct {
@@ -160,10 +160,10 @@ static void dilute(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(dilute),
-                                     cmocka_unit_test(too_short),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(dilute_gases_state_the_gain_of_dsmc),
+                                     cmocka_unit_test(a_short_window_reaches_no_error),
                                      cmocka_unit_test(shorter_than_the_shortest_window),
-                                     cmocka_unit_test(nothing_measured),
+                                     cmocka_unit_test(an_error_of_nothing_fails),
                                      cmocka_unit_test(cools_by_a_law),
                                      cmocka_unit_test(time_of_the_start),
                                      cmocka_unit_test(less_than_a_sweep),

@@ -15,7 +15,7 @@
 #include "graingas.h"
 
 /* A comparison puts both columns and the theories side by side; z is the difference over the combined error. */
-static void comparison(void **state)
+static void z_is_the_difference_over_the_combined_error(void **state)
 {
   (void)state;
   gg_scene s = planted_scene(0);
@@ -32,7 +32,7 @@ static void comparison(void **state)
 
 /* Differences are marked only where they exceed four errors and what is expected at that density, and a cause is named.
  */
-static void agreement(void **state)
+static void only_unexpected_differences_are_marked(void **state)
 {
   (void)state;
   gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
@@ -56,9 +56,9 @@ static void agreement(void **state)
   }
 }
 
-/* Where Enskog's equation is solved without random numbers md is held against that, whatever dsmc's noise; so is dsmc.
- * A number about zero has a difference and no ratio, and a numerical error adds to the engine's. */
-static void departures(void **state)
+/* Both engines are compared with the noise-free solution where it exists. A number near zero has a difference and no
+ * ratio; the numerical error adds to that of the engine. */
+static void engines_are_compared_with_the_noise_free_solution(void **state)
 {
   (void)state;
   gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
@@ -104,7 +104,7 @@ static void departures(void **state)
 /* Theories are remarked on where they are off by more than four errors and more than expected: with the cause that
  * applies, be it the theory's range or, where it agrees with the Monte Carlo engine, what Enskog's equation leaves out.
  */
-static void remarks(void **state)
+static void deviating_theories_have_a_remark(void **state)
 {
   (void)state;
   const struct {
@@ -138,7 +138,9 @@ static void remarks(void **state)
 }
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(comparison), cmocka_unit_test(agreement),
-                                     cmocka_unit_test(departures), cmocka_unit_test(remarks)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(z_is_the_difference_over_the_combined_error),
+                                     cmocka_unit_test(only_unexpected_differences_are_marked),
+                                     cmocka_unit_test(engines_are_compared_with_the_noise_free_solution),
+                                     cmocka_unit_test(deviating_theories_have_a_remark)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

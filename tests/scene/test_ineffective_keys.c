@@ -47,7 +47,7 @@ static void forgotten_fractions(void **state)
   assert_line("{flow: usf, phi: 0.1, species: [{fraction: 1}, {fraction: 0.5}]}", BOTH, NULL);
 }
 
-static void flows(void **state)
+static void keys_of_other_flows_have_no_effect(void **state)
 {
   (void)state;
   char words[160], expected[240];
@@ -87,7 +87,7 @@ static void flows(void **state)
               "walls.beta has no effect while walls.mu is 0: smooth walls");
 }
 
-static void engines(void **state)
+static void keys_of_the_other_engine_have_no_effect(void **state)
 {
   (void)state;
   const char keys[] = "{flow: usf, phi: 0.1, dsmc: {time_step: 0.1, particles: 300, precision: single}, "
@@ -122,7 +122,7 @@ static void engines(void **state)
   assert_line("{flow: heated_shear, temperature: 9, phi: 0.1, contact_value: kolafa}", GG_USE_MD, NULL);
 }
 
-static void grains(void **state)
+static void keys_of_other_grains_have_no_effect(void **state)
 {
   (void)state;
   assert_line("{flow: usf, phi: 0.1, collision: {mu: 0.5, beta: -1}}", BOTH,
@@ -140,7 +140,7 @@ static void grains(void **state)
               "md.contact_time has no effect where no collision loses energy");
 }
 
-/* Where there is no mean to know, no error can be asked of it. */
+/* A quantity without a mean rejects a requested error. */
 static void asked_errors(void **state)
 {
   (void)state;
@@ -181,8 +181,8 @@ static void defaults_are_not_told(void **state)
   }
 }
 
-/* A change that has no effect until the next change of its key; and a key that has its effect after a change. */
-static void protocol(void **state)
+/* A change of a key without effect until the next change is named; a key that gains its effect by a change is not. */
+static void changes_without_effect_until_the_next_are_named(void **state)
 {
   (void)state;
 #define FOLLOWED "flow: hss, phi: 0.1, thermostat: bath, run: {duration: 20}, protocol: "
@@ -208,11 +208,11 @@ static void protocol(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(forgotten_fractions),
-                                     cmocka_unit_test(flows),
-                                     cmocka_unit_test(engines),
-                                     cmocka_unit_test(grains),
+                                     cmocka_unit_test(keys_of_other_flows_have_no_effect),
+                                     cmocka_unit_test(keys_of_the_other_engine_have_no_effect),
+                                     cmocka_unit_test(keys_of_other_grains_have_no_effect),
                                      cmocka_unit_test(asked_errors),
                                      cmocka_unit_test(defaults_are_not_told),
-                                     cmocka_unit_test(protocol)};
+                                     cmocka_unit_test(changes_without_effect_until_the_next_are_named)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -60,8 +60,8 @@ static void reads_every_key(void **state)
   assert_true(s.measure == 0 && s.output.checkpoint_every == 30 && s.output.trajectory_every == 4);
 }
 
-/* Everything but flow and phi has its default, and those that follow the flow do. */
-static void defaults(void **state)
+/* All keys but flow and phi have defaults, some of which depend on the flow. */
+static void all_keys_but_flow_and_phi_have_defaults(void **state)
 {
   (void)state;
   gg_scene s = parse("flow: usf\nphi: 0.3\n"), d = gg_scene_defaults();
@@ -77,8 +77,8 @@ static void defaults(void **state)
   assert_true(s.walls.temperature[0] == 2 && s.walls.temperature[1] == 2);
 }
 
-/* Overrides: whole keys, single pairs, members of a species; the scene stays as it was when one is refused. */
-static void overrides(void **state)
+/* Overrides set whole keys, single pairs and members of a species; a rejected one leaves the scene unchanged. */
+static void a_rejected_override_leaves_the_scene(void **state)
 {
   (void)state;
   gg_error err = {0};
@@ -122,8 +122,8 @@ static void assert_fractions(const char *species, const double *x)
   free(again);
 }
 
-/* Fractions are weights: what is made of the scene has those that sum to 1, and reads back the same to the last bit. */
-static void weights(void **state)
+/* Fractions are weights: the normalised ones sum to 1 and read back to the last bit. */
+static void fractions_are_weights(void **state)
 {
   (void)state;
   const double third[] = {1 / 3., 1 / 3., 1 / 3.}, quarters[] = {0.25, 0.75}, tenth[] = {0.1, 0.9};
@@ -279,8 +279,8 @@ static void numbers_of_yaml_1_1(void **state)
   }
 }
 
-/* Fuzz: a scene with any one byte changed is read or refused, never worse (run under a sanitizer to see). */
-static void mutations(void **state)
+/* A scene with any one byte changed is read or rejected (a sanitizer shows more). */
+static void a_changed_byte_is_read_or_rejected(void **state)
 {
   (void)state;
   const char yaml[] = "flow: usf\nphi: 0.3\ncollision: {e: {11: 0.9, 12: 1, 22: 1}}\nspecies: [{mass: 2}]\n";
@@ -326,10 +326,14 @@ static void older_words(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(reads_every_key), cmocka_unit_test(defaults),
-      cmocka_unit_test(overrides),       cmocka_unit_test(round_trip),
-      cmocka_unit_test(mutations),       cmocka_unit_test(table_is_sound),
-      cmocka_unit_test(weights),         cmocka_unit_test(pairs_of_many_species),
+      cmocka_unit_test(reads_every_key),
+      cmocka_unit_test(all_keys_but_flow_and_phi_have_defaults),
+      cmocka_unit_test(a_rejected_override_leaves_the_scene),
+      cmocka_unit_test(round_trip),
+      cmocka_unit_test(a_changed_byte_is_read_or_rejected),
+      cmocka_unit_test(table_is_sound),
+      cmocka_unit_test(fractions_are_weights),
+      cmocka_unit_test(pairs_of_many_species),
       cmocka_unit_test(older_words),
       cmocka_unit_test(names_of_files),
       cmocka_unit_test(texts_of_any_bytes),

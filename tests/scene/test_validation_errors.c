@@ -35,8 +35,8 @@ static void assert_refused(const char *yaml, const char *words)
   assert_non_null(strstr(err.message, words));
 }
 
-/* Each mistake is answered with file, line, key, value and what is allowed. */
-static void refusals(void **state)
+/* Each mistake is reported with file, line, key, value and allowed values. */
+static void mistakes_are_named_with_line_key_and_allowed_values(void **state)
 {
   (void)state;
   assert_refused("flow: usf\nphi: 0.3\ncollision:\n  e: 1.5\n",
@@ -124,9 +124,9 @@ static void unknown_keys(void **state)
   assert_refused("flow: usf\nphi: 0.3\nxyzzyplugh: 1\n", "no such key; `graingas info` lists every key");
 }
 
-/* Short, long, swapped, of other programs, in the wrong section; and what is like nothing gets no guess: it gets a
- * list. */
-static void suggestions(void **state)
+/* Misspelled keys (short, long, swapped, of other programs, in the wrong section) get a suggestion; keys like none get
+ * a list. */
+static void wrong_keys_get_the_nearest_one(void **state)
 {
   (void)state;
   const struct {
@@ -178,8 +178,8 @@ static char *repeated(const char *head, const char *one, size_t n)
   return text;
 }
 
-/* What libyaml would take minutes for is refused before it is read: a megabyte of brackets took half an hour. */
-static void limits(void **state)
+/* Input that libyaml would parse for minutes is rejected first: a megabyte of brackets takes half an hour. */
+static void input_that_takes_minutes_is_rejected_at_once(void **state)
 {
   (void)state;
   const struct {
@@ -215,8 +215,8 @@ static void limits(void **state)
   free(value);
 }
 
-/* What a scene holds does not reach the terminal as it is, and is not cut within a character. */
-static void quoting(void **state)
+/* Control characters of a scene do not reach the terminal, and text is not cut within a character. */
+static void control_characters_are_quoted(void **state)
 {
   (void)state;
   assert_refused("flow: \"a\\e[31mb\\nc\"\n", "text 'a?[31mb?c' is not allowed");
@@ -229,7 +229,7 @@ static void quoting(void **state)
   assert_refused("flow:\n\tusf\n", "s.yaml:2: is not YAML: a tab cannot indent; use blanks");
 }
 
-static void duplicates(void **state)
+static void keys_given_twice_are_rejected(void **state)
 {
   (void)state;
   assert_refused("flow: usf\nphi: 0.3\nphi: 0.2\n", "s.yaml:3: key 'phi': is given twice, first on line 2");
@@ -237,8 +237,8 @@ static void duplicates(void **state)
   assert_refused("flow: usf\nphi: 0.3\nspecies: [{mass: 1, mass: 2}]\n", "given twice");
 }
 
-/* What concerns several keys at once. */
-static void combinations(void **state)
+/* Conditions on several keys. */
+static void contradicting_keys_are_rejected(void **state)
 {
   (void)state;
   assert_refused("phi: 0.3\n", "flow is missing");
@@ -279,8 +279,8 @@ static void combinations(void **state)
   assert_taken("flow: usf\nphi: 0.3\ncollision: {mu: 0.5, beta: -1}\n");
 }
 
-/* Text that is no scene at all. */
-static void rubbish(void **state)
+/* Text that is not a scene. */
+static void text_that_is_no_scene_is_rejected(void **state)
 {
   (void)state;
   assert_refused("", "is empty");
@@ -308,9 +308,15 @@ static void edit_distance(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(refusals),     cmocka_unit_test(unknown_keys), cmocka_unit_test(suggestions),
-      cmocka_unit_test(limits),       cmocka_unit_test(quoting),      cmocka_unit_test(duplicates),
-      cmocka_unit_test(combinations), cmocka_unit_test(rubbish),      cmocka_unit_test(edit_distance),
+      cmocka_unit_test(mistakes_are_named_with_line_key_and_allowed_values),
+      cmocka_unit_test(unknown_keys),
+      cmocka_unit_test(wrong_keys_get_the_nearest_one),
+      cmocka_unit_test(input_that_takes_minutes_is_rejected_at_once),
+      cmocka_unit_test(control_characters_are_quoted),
+      cmocka_unit_test(keys_given_twice_are_rejected),
+      cmocka_unit_test(contradicting_keys_are_rejected),
+      cmocka_unit_test(text_that_is_no_scene_is_rejected),
+      cmocka_unit_test(edit_distance),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -960,7 +960,7 @@ const tests = {
 
   "axe-core finds nothing": async () => {
     const at = [process.env.AXE, path.join(__dirname, "node_modules/axe-core/axe.min.js")].find((one) => one && fs.existsSync(one));
-    if (!at) return "SKIP axe-core is not there (npm install in tests/web; ./check-page does it)";
+    if (!at) return "SKIP axe-core is not there (npm install in tests/web; ./check --page does it)";
     const axe = fs.readFileSync(at, "utf8"),
       { bytes } = resultOf(PLAYED);
     for (const [width, height, hash] of [

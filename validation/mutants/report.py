@@ -18,7 +18,7 @@ BLIND = """Not tried, as they cannot see what both sides of them share, or valid
 - a state against what it was: md/conservation; how slow collisions are treated: md/contact_time;
 - the collision rule itself: common/collision; the tables of flows, species and walls: common/flow, species, surfaces;
 - planted numbers alone: measure/curves, local_frame; statistics/*; files, the door, the command line;
-- programs that print tables and judge nothing (validation/shear_table, monte_carlo_bias, wall_errors, errors,
+- programs that print tables and judge nothing (validation/noise_free/shear_table, monte_carlo_bias, wall_errors, errors,
   definitions.py, time_left.py), or hold a theory against itself (stated_errors); validation/figures, which hold both
   engines and the theories against papers and take hours; validation/stress, fuzz, interruption and soak, which ask
   whether the program holds.

@@ -10,9 +10,11 @@ import textwrap
 import graingas as gg
 import matplotlib
 import numpy as np
+from PIL import Image
 from graingas.plot import COLOURS, DASHES, STYLE
 
 from .entry import ENGINES, THEORIES, key_label
+from .small_svg import small_svg
 from .tables import write
 
 matplotlib.use("Agg")
@@ -23,7 +25,7 @@ MARKERS = "osD^vPX"
 BROKEN = (0, (4, 1.5))  # curves of dsmc
 COLUMNS, WIDTH, HEIGHT, BESIDE = 3, 3.0, 2.4, 1.1  # panels side by side; inches, of a legend beside a panel, too
 MOST_SHOWN = 12  # snapshots
-LARGEST = 500_000  # bytes of an SVG; above it curves become pixels
+LARGEST = 120_000  # bytes of an SVG; above it curves become pixels
 
 
 MARK = r"[_^](?:\{[^{}]*\}|[^\W_])"  # a subscript or superscript
@@ -244,6 +246,17 @@ def unsettled(tables, name=str):
     return list(found)
 
 
+def _small(image, ending):
+    """SVG without what nobody sees, PNG with a palette: pictures are most of the repository."""
+    if ending == "svg":
+        return small_svg(image.getvalue().decode()).encode()
+    if ending == "png":
+        palette = io.BytesIO()
+        Image.open(image).convert("RGB").quantize(256).save(palette, format="png", optimize=True)
+        return palette.getvalue()
+    return image.getvalue()
+
+
 def draw(entry, tables, quick, base, formats):
     """Writes the picture in every format; returns the paths."""
     paths = []
@@ -253,8 +266,9 @@ def draw(entry, tables, quick, base, formats):
                 figure, image = _page(entry, tables, " (quick)" if quick else "", rasterized), io.BytesIO()
                 figure.savefig(image, format=ending, metadata={"Date": None} if ending == "svg" else None)
                 pyplot.close(figure)
-                if ending != "svg" or image.tell() <= LARGEST:
+                content = _small(image, ending)
+                if ending != "svg" or len(content) <= LARGEST:
                     break
             paths.append(f"{base}.{ending}")
-            write(paths[-1], image.getvalue())
+            write(paths[-1], content)
     return paths

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A corner of what scenes may say, as a row: the suite runs it on both engines and asks that it is right, or refused
- * with the reason. A new corner is a new row in one of the tables corners_*.c. */
+/* A corner: a scene at the end of what keys allow. The suite runs it on both engines, which compute it correctly or
+ * reject it with the reason. A new corner is a new row of the table in corners.c. */
 #ifndef STRESS_CORNER_H
 #define STRESS_CORNER_H
 
@@ -9,11 +9,15 @@
 
 #include "api/simulation.h"
 
-/* Instead of a reason: this engine is not asked. */
+/* In place of a reason: this engine does not run the corner. */
 #define NOT_RUN ""
 
+/* QUICK: part of `stress --quick`. NIGHTLY: all other runs. ONLY_BY_NAME: takes minutes, runs if it is named. */
+typedef enum selection { QUICK, NIGHTLY, ONLY_BY_NAME } selection;
+
 typedef struct corner {
-  const char *name;
+  const char *subject;   /* begins a section of the table, all else is zero; NULL: a corner */
+  const char *name;      /* NULL without a subject: end of the table */
   const char *scene;     /* YAML; `engine` is filled in, and dsmc gets as many grains as md unless it says otherwise */
   const char *refused;   /* part of the reason for which both engines refuse it; NULL: they run it, and are right */
   const char *md, *dsmc; /* the same of one of them; or NOT_RUN */
@@ -23,19 +27,13 @@ typedef struct corner {
                        * agree in a comparison (four combined errors); NULL: none is made */
   const char *apart;  /* with `agrees`: why md is another problem, so that only dsmc is held against the solution */
   void (*start)(gg_simulation *simulation); /* puts the grains elsewhere first; NULL: as they are */
-  bool quick;                               /* part of the short selection */
-  bool takes_long;                          /* more than some minutes: only where it is named */
+  selection when;
 } corner;
 
-typedef struct corner_table {
-  const char *subject;
-  const corner *corner;
-  size_t n;
-} corner_table;
-extern const corner_table corners_of_contacts, corners_of_densities, corners_of_drives, corners_of_mixtures,
-    corners_of_starts;
+/* corners.c */
+extern const corner corners[];
 
-/* What came out of one corner on one engine. */
+/* Result of one corner on one engine. */
 typedef struct finding {
   bool refused, ended; /* the scene was refused; or the engine gave up on the way */
   char reason[1024];

@@ -3,7 +3,7 @@
 """Where the hot and the cold state of a sheared suspension end (docs/howto/suspension.md), from tables of sweeps over
 bath.drag:
 
-    validation/turning_points.py TABLE.csv ... [--picture FILE.png]
+    validation/suspension/turning_points.py TABLE.csv ... [--picture FILE.png]
 
 Near a turning point drag = d - c (ln T - ln T_c)^2. The fit has d, c and T_c from the five points of a state that are
 nearest to its end, and their errors from the middle

@@ -3,7 +3,7 @@
 """N1, N2 and the kurtosis of C_x of a sheared run by the definitions of a peculiar velocity that papers leave open:
 
   graingas run SCENE.yaml --engine md --set output.trajectory_every=6 --output usf.h5
-  validation/definitions.py usf.h5 [PARTS ALONG AN EDGE ...]
+  validation/figures/definitions.py usf.h5 [PARTS ALONG AN EDGE ...]
 
 flow: velocities less the imposed flow. bins, cells: less the mean of the slab across y, or of the cell, in which the
 grain is; lab: the mean of laboratory velocities, so that the shear within a part stays in C_x. N1 and N2 are of the
