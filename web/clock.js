@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frames: the gas is asked to go on as far as the clock on the wall says. */
 import { tickPlaying } from "./files.js";
-import { leaveTrail, now, workers } from "./gas.js";
+import { leaveTrail, now } from "./gas.js";
 import { SHORTEST } from "./live.js";
 import { clicks } from "./sound.js";
 import { store } from "./state.js";
+import { workers } from "./worker_rpc.js";
 
 export const SPEEDS = [-3, -2, -1, 0, 1, 2].flatMap((k) => [+(10 ** k).toPrecision(1), +(3 * 10 ** k).toPrecision(1)]).concat(1000);
 const LONGEST = 40; /* ms of work a frame, on machines where frames come slowly */

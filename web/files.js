@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files that somebody opens or drops: a result of the terminal is played in place of the live gas, which waits; a scene
  * is run; points of a class are put beside one's own. */
-import { askMeans, askNumber, leaveTrail, now, ownScene, workers } from "./gas.js";
+import { askMeans, askNumber, leaveTrail, now, ownScene } from "./gas.js";
 import { StoredHistory } from "./history.js";
 import { t } from "./i18n.js";
 import { pointsOf } from "./points.js";
 import { store } from "./state.js";
 import { byId } from "./words.js";
+import { workers } from "./worker_rpc.js";
 
 export const FRAMES_A_SECOND = [0.5, 1, 2, 5, 10, 20, 30, 60];
 const LARGEST_FILE = 2 ** 31; /* bytes: where reading in place ends (emscripten) */

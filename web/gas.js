@@ -7,7 +7,7 @@ import { gather } from "./points.js";
 import { TemperatureHistory } from "./history.js";
 import { t } from "./i18n.js";
 import { store } from "./state.js";
-import { WorkerClient } from "./worker_rpc.js";
+import { WorkerClient, workers } from "./worker_rpc.js";
 import { byId, number } from "./words.js";
 
 export const START = LESSONS[0];
@@ -15,7 +15,6 @@ const MOST_GRAINS = 20000,
   MOST_BYTES = 6e8,
   FEWER = 2000;
 
-export const workers = { live: null, measure: null };
 export const page = { given: null }; /* the scene that the page was written with: what no address means */
 /* What comes with frames; not for the state. */
 export const now = { frame: null, frames: 0, fresh: false, want: true, step: false, owed: 0, lost: 0, behind: 0, busy: false, trail: [] };

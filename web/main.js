@@ -4,7 +4,7 @@ import { BoxView, CAMERA } from "./box.js";
 import { runClock, SPEEDS } from "./clock.js";
 import { Controls, wantedValues } from "./controls.js";
 import { endPlaying, FRAMES_A_SECOND, goTo, listenForFiles, openFile, played } from "./files.js";
-import { again, change, follow, now, openWorkers, ownScene, page, reverse, start, workers } from "./gas.js";
+import { again, change, follow, now, openWorkers, ownScene, page, reverse, start } from "./gas.js";
 import { ownLanguage, t } from "./i18n.js";
 import { lessonOf } from "./lessons.js";
 import { linkOf, linkOfPoints, pointsIn, readLink, tidyQuestion } from "./link.js";
@@ -15,6 +15,7 @@ import { begin, describe, drawFrame, parts, say, show } from "./show.js";
 import { openSound } from "./sound.js";
 import { store } from "./state.js";
 import { byId } from "./words.js";
+import { workers } from "./worker_rpc.js";
 
 function givenScene() {
   const given = JSON.parse(byId("given").textContent);

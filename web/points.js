@@ -3,11 +3,11 @@
 import { CLASS, DSMC, MD } from "./colours.js";
 import { CLOSED } from "./chart.js";
 import { CONTROLS, gridOf, rowOf, shownValue, symbolOf } from "./controls.js";
-import { workers } from "./gas.js";
 import { lessonOf } from "./lessons.js";
 import { t } from "./i18n.js";
 import { store } from "./state.js";
 import { chosenTheories, error, lineOf, mean, ranked } from "./theories.js";
+import { workers } from "./worker_rpc.js";
 import { quantityName, theoryName } from "./words.js";
 
 export const QUANTITIES = ["temperature", "temperature_ratio", "N1", "N2", "cooling_rate", "compressibility_factor", "shear_viscosity", "collision_rate"];

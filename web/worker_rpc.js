@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Calls of a worker (RPC): each job is a promise of its answer. */
+
+/* The two workers of the page: `live` runs the gas that is shown, `measure` its means and theories (gas.js opens them). */
+export const workers = { live: null, measure: null };
+
 export class WorkerClient {
   constructor(source) {
     this.worker = new Worker(source);

@@ -36,4 +36,13 @@ const texts = () =>
     .filter((name) => /\.(js|html)$/.test(name))
     .map((name) => fs.readFileSync(path.join(folder, name), "utf8"));
 
-module.exports = { modules, strings, texts, languages: fs.readdirSync(path.join(folder, "strings")).map((name) => name.replace(".json", "")) };
+/* {gas: ["controls", "flows", ...], ...}: the modules that each one imports. */
+const imports = () =>
+  Object.fromEntries(
+    fs
+      .readdirSync(folder)
+      .filter((name) => /\.js$/.test(name))
+      .map((name) => [name.slice(0, -3), [...fs.readFileSync(path.join(folder, name), "utf8").matchAll(/from "\.\/(\w+)\.js"/g)].map((found) => found[1])]),
+  );
+
+module.exports = { modules, imports, strings, texts, languages: fs.readdirSync(path.join(folder, "strings")).map((name) => name.replace(".json", "")) };

@@ -4,7 +4,7 @@
 "use strict";
 const assert = require("assert");
 const { list } = require("./tap.js"),
-  { modules, strings, texts, languages } = require("./modules.js");
+  { modules, imports, strings, texts, languages } = require("./modules.js");
 
 const NAMES = ["chart", "charts", "controls", "files", "gas", "history", "lessons", "link", "live", "measuring", "points", "save", "state", "theories", "warnings", "words", "worker_rpc"];
 globalThis.navigator ||= { language: "en" };
@@ -15,6 +15,17 @@ const gasOf = (id, about = ABOUT, more = {}) => ({ id, scene: about.brief, sets:
 const reduce = (state, type, more) => m.state.reduce(state, { type, ...more });
 
 const tests = {
+  "modules import one another in no circle": () => {
+    const of = imports(),
+      visit = (name, above) => {
+        assert.ok(!above.includes(name), `${[...above, name].join(" -> ")}`);
+        if (!visited.has(name)) for (const next of of[name]) visit(next, [...above, name]);
+        visited.add(name);
+      },
+      visited = new Set();
+    assert.ok(of.gas.includes("points"));
+    for (const name of Object.keys(of)) visit(name, []);
+  },
   "one writer: late answers, refusals, edits": () => {
     let s = m.state.initial;
     s = reduce(s, "ask", { asked: { id: 1, scene: "a", sets: {} } });

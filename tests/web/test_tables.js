@@ -123,7 +123,7 @@ const parts = {
   "theories over the slider: its keys and values, and what they answer": async () => {
     const { store } = m.state,
       asked = [];
-    m.gas.workers.measure = {
+    m.worker_rpc.workers.measure = {
       ask: async (job, { sets }) => {
         asked.push([job, sets]);
         if (asked.length === 2) throw new Error("refused");
@@ -341,7 +341,7 @@ const parts = {
   },
 };
 
-modules(["box", "charts", "colours", "controls", "engines", "gas", "history", "lessons", "link", "live", "measuring", "picture", "points", "replay", "save", "show", "state", "table", "warnings", "words"]).then((all) => {
+modules(["box", "charts", "colours", "controls", "engines", "gas", "history", "lessons", "link", "live", "measuring", "picture", "points", "replay", "save", "show", "state", "table", "warnings", "words", "worker_rpc"]).then((all) => {
   m = all;
   return list(parts, null);
 });
