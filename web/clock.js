@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Frames: the gas is asked to go on as far as the clock on the wall says. */
+/* Frames: in each, the gas advances as far as the wall clock requires. */
 import { tickPlaying } from "./files.js";
 import { leaveTrail, now } from "./gas.js";
 import { SHORTEST } from "./live.js";
@@ -8,15 +8,15 @@ import { store } from "./state.js";
 import { workers } from "./worker_rpc.js";
 
 export const SPEEDS = [-3, -2, -1, 0, 1, 2].flatMap((k) => [+(10 ** k).toPrecision(1), +(3 * 10 ** k).toPrecision(1)]).concat(1000);
-const LONGEST = 40; /* ms of work a frame, on machines where frames come slowly */
-const MOST_OWED = 1; /* seconds that the gas has yet to go on for; above they are lost */
-export const MOST_BEHIND = 0.7; /* those lost in frames one after another; from here on that is said */
+const LONGEST = 40; /* ms of work a frame, where frames come slowly */
+const MOST_OWED = 1; /* seconds by which the gas may be behind; time above is dropped */
+export const MOST_BEHIND = 0.7; /* dropped in successive frames; the page shows a warning above this */
 
 let last = 0;
 /* `draw()` the newest frame. */
 export function runClock(draw) {
   const tick = (time) => {
-    requestAnimationFrame(tick); /* first: whatever goes wrong in one frame, the next is drawn */
+    requestAnimationFrame(tick); /* first: if a frame fails, the next one is still drawn */
     const seconds = Math.min((time - (last || time)) / 1000, 0.25);
     last = time;
     const { gas, player } = store.state;
@@ -48,7 +48,7 @@ async function ask() {
   try {
     const frame = await live.ask("frame", { collisions: speed * seconds, work: Math.min(LONGEST, Math.max(SHORTEST, 500 * seconds)), colour, follow, step, arrows, grain, speeds: chart === "speeds" });
     if (gas === store.state.gas) take(frame, gas, seconds);
-    else now.want = true; /* a start came between; if it is refused, the gas before is to be seen */
+    else now.want = true; /* a start came between; if it is rejected, the previous gas is shown */
   } catch (e) {
     if (gas === store.state.gas && live === workers.live) {
       store.dispatch("banner", { banner: { text: e.message, offers: [] } });

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which gas runs: what is asked of the workers, and what becomes of their answers. */
+/* Which gas runs: calls of the workers, and how their answers enter the state. */
 import { rowOf, setsOf, shownValue, symbolOf } from "./controls.js";
 import { isWalled } from "./flows.js";
 import { LESSONS, lessonOf, nearestLesson } from "./lessons.js";
@@ -15,19 +15,19 @@ const MOST_GRAINS = 20000,
   MOST_BYTES = 6e8,
   FEWER = 2000;
 
-export const page = { given: null }; /* the scene that the page was written with: what no address means */
-/* What comes with frames; not for the state. */
+export const page = { given: null }; /* the scene that the page was built with: shown if the address names none */
+/* Data of frames, which change too often for the state. */
 export const now = { frame: null, frames: 0, fresh: false, want: true, step: false, owed: 0, lost: 0, behind: 0, busy: false, trail: [] };
 const renew = () => Object.assign(now, { frame: null, trail: [], fresh: false, want: true, owed: 0, lost: 0, behind: 0 });
 
-/* What the page holds packed: gzip as base64. Read once. */
+/* Unpack a part of the page: gzip as base64. Each part is read once. */
 async function unpack(id) {
   const packed = Uint8Array.from(atob(byId(id).textContent.trim()), (c) => c.charCodeAt(0));
   byId(id).textContent = "";
   return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
-/* Their version. The second, which measures, is waited for by those who measure. */
+/* Open both workers; the version of the first. Callers of the second, which measures, wait for it themselves. */
 let wasm = null,
   source = "";
 export async function openWorkers() {
@@ -43,7 +43,8 @@ async function openLive() {
   return (await workers.live.ask("open", { wasm })).version;
 }
 
-/* A gas that takes long to make: what is made is said, and a button ends it, with the worker, for the gas before. */
+/* If the start of a gas takes long, a banner tells how many grains are placed. Its button ends the worker and
+ * returns to the previous gas. */
 const LONG = 1500; /* ms */
 function sayMaking(n, id) {
   return setTimeout(() => {
@@ -62,7 +63,7 @@ async function stopMaking() {
 }
 
 const LONGEST_TRAIL = 400; /* frames */
-/* Where the followed grain has been; there is none without one, and after another was chosen. */
+/* The positions of the followed grain; empty without one, and after another was chosen. */
 export function leaveTrail({ picture }, grain) {
   if (now.trailOf !== grain || !picture || !picture.one) Object.assign(now, { trail: [], trailOf: grain });
   if (picture && picture.one) now.trail.push(picture.one.position);
@@ -82,13 +83,13 @@ export function change(key, value) {
   clearTimeout(edits);
   edits = setTimeout(() => again(), 120);
 }
-/* What is asked for, with more keys set. */
+/* Start the wanted gas again, with more keys set. */
 export function again(more = {}, options = {}) {
   const { scene, sets } = store.state.asked;
   return start(scene, { ...sets, ...more }, options);
 }
 
-/* Too many grains for a page? Whoever opened the link is asked first. */
+/* Are there too many grains for a page? Then a banner offers fewer grains before the gas is started. */
 function isTooLarge({ particles, bytes }, scene, sets, options, id) {
   if (options.whatever) return false;
   if (particles <= MOST_GRAINS && bytes <= MOST_BYTES) return false;
@@ -104,13 +105,13 @@ function isTooLarge({ particles, bytes }, scene, sets, options, id) {
   return true;
 }
 
-/* Whether the scene is one; if not, the gas that there was goes on, and the banner says why. `look`: what of the state
- * changes with it. */
+/* Start a scene. If the library rejects it, the present gas continues and the banner gives the reason. `look`:
+ * members of the state that change with the gas. */
 export async function start(scene, sets, options = {}) {
   const { lesson = store.state.lesson, look = {}, keepBanner = false } = options,
     id = askNumber(),
     { remember = false } = lessonOf(lesson) || {};
-  clearTimeout(edits); /* whatever a control was about to change is in it, or was of the gas before */
+  clearTimeout(edits); /* pending changes of controls are in `sets`, or belong to the previous gas */
   store.dispatch("ask", { asked: { id, scene, sets } });
   let answer,
     making = 0;
@@ -143,7 +144,7 @@ function refuse(message, sets, scene) {
   store.dispatch("refused", { text: text.slice(0, 700), keys });
 }
 
-/* The curve of the gas that goes stays in the diagram, if the next one is of its kind. */
+/* Keep the curve of the previous gas in the diagram, if the next one is of its kind. */
 function leaveGhost(next) {
   const { gas, slider, chart, player } = store.state;
   if (!gas || player || gas.lesson !== next.lesson || gas.about.values.flow !== next.about.values.flow) return;
@@ -157,7 +158,7 @@ function leaveGhost(next) {
 
 /* ---- Lessons ---- */
 
-/* How a lesson is shown. */
+/* Members of the state that a lesson sets. */
 export const lookOf = ({ speed, colour, camera, pair, chart, quantity, slider, follow }) => ({
   question: "",
   speed,
@@ -175,12 +176,12 @@ export function openLesson(name, { sets = {}, look = {} } = {}) {
   const lesson = lessonOf(name);
   return start(lesson.scene, sets, { lesson: name, look: { ...lookOf(lesson), ...look } });
 }
-/* A gas of one's own: no words beside it. */
+/* A user's own scene: no lesson text beside it. */
 export function ownScene(scene, sets = {}, look = {}) {
   return start(scene, sets, { lesson: null, look: { ghosts: [], pair: "", chart: "temperature", question: "", ...look } });
 }
 
-/* What a link asks for, or the command, or nobody. */
+/* Open the gas of a link, or of the command that wrote the page, or else the first lesson. */
 export async function follow({ scene, sets, lesson, look, points = [] }) {
   const { given } = page,
     known = lessonOf(lesson);
@@ -196,7 +197,7 @@ let said = null;
 store.subscribe((state, before) => {
   if (state.banner && !state.banner.quiet && state.banner !== before.banner) said = state.banner;
 });
-/* The first gas does not wipe away why another was not shown. */
+/* Show the banner again: the start of the first lesson cleared the reason why another gas was rejected. */
 function restoreBanner() {
   if (said) store.dispatch("banner", { banner: said });
 }

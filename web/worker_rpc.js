@@ -23,7 +23,7 @@ export class WorkerClient {
     for (const one of this.pending.values()) one.settle({ refused: message });
     this.pending.clear();
   }
-  /* No more answers. */
+  /* End the worker and reject its open promises. */
   end(message) {
     this.worker.terminate();
     this.fail((this.broken = message));

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""validation/reproduce: figures of papers. A small entry against runs and formulas of its own; entries, names, resumption,
-texts."""
+"""validation/reproduce: figures of papers. A small entry against separate runs and formulas; entries, names,
+resumption, texts.
+"""
 import csv
 import glob
 import math

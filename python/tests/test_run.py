@@ -23,7 +23,7 @@ def means(result):
 
 
 def test_no_output_replaces_the_scene(short):
-    """Its file, also by another name of it, and that of a copy."""
+    """No output replaces the scene's file, also under another name of the file, or that of a copy."""
     text = short.to_yaml()
     with open("s.yaml", "w", encoding="utf-8") as file:
         file.write(text)
@@ -80,7 +80,9 @@ def interrupt_after(seconds):
 
 
 def interrupt_with_means(engines):
-    """A function for progress: SIGINT, once that many engines have means with errors. And when it was sent."""
+    """A function for progress that sends SIGINT as soon as that many engines have means with errors; and the time of
+    sending.
+    """
     known, sent = set(), []
 
     def progress(report):

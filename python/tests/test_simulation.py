@@ -65,7 +65,7 @@ def test_copies_continue_with_the_same_bits(either):
 
 
 def test_grains_from_outside(either):
-    """Set and read back; the same grains have the same energy; overlaps are refused, the pair named."""
+    """Grains that are set are read back with the same energy; for overlaps the error names the pair."""
     g = either.grains
     arrays = {"velocities": g.velocity, "spins": g.spin, "species": g.species}
     if g.position is not None:
@@ -100,7 +100,9 @@ def test_two_temperatures_relax():
 
 
 def test_keys_change_on_the_way(either):
-    """From e = 1 on the energy stays; copies, pickles and files have the new key, earlier copies the old one."""
+    """From the change to e = 1 the energy stays; copies, pickles and files have the new key, earlier copies the old
+    one.
+    """
     before = either.copy()
     sim = gg.Simulation(gg.Scene(flow="hcs", phi=0.1, particles=200, e=0.8, engine=either.scene.engine))
     sim.collide(500)
@@ -197,7 +199,7 @@ def test_exception_of_the_callback_comes_out(either):
     either.on_collision(fail)
     with pytest.raises(ArithmeticError, match="from inside"):
         either.collide(10**9)
-    either.collide(100)  # it watches no more, and goes on
+    either.collide(100)  # it receives no collisions any more, and continues
     assert either.state.collisions >= 100
 
 
@@ -229,7 +231,7 @@ def test_interrupted_start():
 
 
 def test_interrupted_copies_and_files(sim):
-    """Ctrl-C leaves such calls behind; the simulation is as it was."""
+    """Ctrl-C does not wait for such calls; the simulation is unchanged."""
     sim.save("sim.h5")
     content, before = sim.to_bytes(), sim.hash
     for function in (sim.copy, sim.to_bytes, lambda: gg.Simulation.load("sim.h5"),
@@ -243,7 +245,7 @@ def test_interrupted_copies_and_files(sim):
 
 
 def test_what_is_left_behind_is_stopped(sim, monkeypatch):
-    """The library's part of such calls, and a save, ends at its next look; the file stays as it was."""
+    """The library's part of such calls, and a save, ends at its next check for a stop; the file is unchanged."""
     sim.save("sim.h5")
     content, hash = sim.to_bytes(), sim.hash
     sim.collide(100)
@@ -280,7 +282,7 @@ def test_later_calls_wait_for_one_that_was_left_behind(sim):
 
 
 def test_calls_left_behind_before_they_begin(sim, monkeypatch):
-    """Ctrl-C before the thread takes the simulation: another call waits for it none the less."""
+    """Ctrl-C comes before the thread takes the simulation: another call still waits for it."""
     begins, threads = threading.Event(), []
 
     def interrupted(work, _):
@@ -310,7 +312,7 @@ def test_interrupted_start_of_several():
 
 
 def test_interrupted_change():
-    """The grains are placed again; Ctrl-C before that changes nothing, after it comes out all the same."""
+    """The grains are placed again. Ctrl-C before that changes nothing; Ctrl-C after it is raised as well."""
     sim = gg.Simulation(gg.Scene(flow="usf", phi=0.3, particles=100000, e=0.9, engine="md"))
     e, done = 0.9, False
 

@@ -8,7 +8,7 @@ const fs = require("fs"),
 
 const folder = path.resolve(__dirname, "../../web");
 
-/* A copy of the page's modules that node can import: texts as modules, too. */
+/* Copy the page's modules in a form that node can import; texts become modules, too. */
 function copyTo(work) {
   fs.mkdirSync(path.join(work, "strings"));
   fs.writeFileSync(path.join(work, "package.json"), '{"type": "module"}');
@@ -17,7 +17,7 @@ function copyTo(work) {
   for (const name of fs.readdirSync(path.join(folder, "strings")))
     fs.writeFileSync(path.join(work, "strings", `${name}.js`), `export default ${fs.readFileSync(path.join(folder, "strings", name), "utf8")};`);
 }
-/* {chart: {ticks, ...}, ...}, each call with a state of its own. */
+/* {chart: {ticks, ...}, ...}; each call returns modules with a fresh state. */
 async function modules(names) {
   const work = fs.mkdtempSync(path.join(os.tmpdir(), "graingas-modules-")),
     all = {};
