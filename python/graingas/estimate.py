@@ -71,10 +71,10 @@ class Estimate:
     + - * / **, np.sqrt, np.log, np.log10 and np.exp give estimates. Errors add up linearly: means of different runs are
     independent, those of one run have a covariance, also if they were read twice, copied or pickled. The error is NaN
     where the covariance is not known, and where a sum of several means nearly cancels. + and - of unlike units raise
-    BadInput; a plain number has the unit of the estimate. < <= > >= ==, and so max() and sorted(), compare means alone:
-    whether two differ is (a - b).mean / (a - b).error. float(), round() and functions of `math` take the mean alone,
-    without its error: use the functions above, and for others `u` with uncertainties.umath. f"{e}" has the error,
-    f"{e:.3f}" is the mean.
+    BadInput; a plain number has the unit of the estimate.
+    < <= > >= ==, and so max() and sorted(), compare means alone: whether two differ is (a - b).mean / (a - b).error.
+    float(), round() and functions of `math` take the mean alone, without its error: use the functions above, and for
+    others `u` with uncertainties.umath. f"{e}" has the error, f"{e:.3f}" is the mean.
     """
 
     __slots__ = (*FIELDS, "_source", "_curve", "_terms", "_token")

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Enskog's equation itself, solved without random numbers: an expansion of the distribution about an anisotropic
- * Gaussian, all collision integrals by quadrature, the steady state by Newton's method (theory/hermite). Degree after
- * degree, so that each number tells how far it is from its limit. Rough grains: theory/rough. */
+ * Gaussian, all collision integrals by quadrature, the steady state by Newton's method (theory/hermite). The degree
+ * grows step by step, so that each number has its distance from the limit as its error. Rough grains: theory/rough. */
 #include <math.h>
 
 #include "theory/answer.h"
@@ -19,8 +19,8 @@ static const char name[] = "enskog_hermite";
 enum { FIRST_DEGREE = 4, GOOD_DEGREE = 10, LAST_DEGREE = 18, VISCOSITY_DEGREE = 8 };
 static const double good = 1e-8;
 
-/* Cooling rate, in units of the collision frequency, below which its error is not counted in its own units: of elastic
- * grains it is 0. */
+/* Cooling rate, in units of the collision frequency, below which its relative error is not counted: for elastic
+ * grains the rate is 0. */
 static const double hardly = 1e-6;
 
 static void answer_flights(const gg_model *m, double rate, double speed, gg_theory_answer *a)
@@ -56,7 +56,7 @@ static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, const g
   if (m->linear_response) return; /* no temperature of its own: it grows */
   double T = temperature_of(m, h, heating), p = m->density * T;
   gg_theory_answer_temperature(m, T, NAN, a);
-  gg_theory_answer_pressure(m, T, p, p * sums.transfer[2][2] / 3, a); /* all along the one direction: the trace */
+  gg_theory_answer_pressure(m, T, p, p * sums.transfer[2][2] / 3, a); /* one direction for all: the trace */
   answer_flights(m, sums.rate * sqrt(T), sums.speed * sqrt(T), a);
   if (!m->boltzmann)
     a->value[GG_Q_BULK_VISCOSITY_REDUCED] =
@@ -86,7 +86,7 @@ static gg_status answer_heat(const gg_model *m, const gg_hermite_isotropic *h, g
   return GG_OK;
 }
 
-/* Degree after degree of the cooling state: heat flux, whose series takes as many as there are. */
+/* Heat flux of the cooling state, degree after degree: its series needs all available degrees. */
 static gg_status conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_rungs rungs = {.n = 0};
@@ -107,8 +107,8 @@ static gg_status conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
   return GG_OK;
 }
 
-/* The isotropic state is cheap, its viscosity is not: that one up to a lower degree, from which on its series does
- * nothing any more. */
+/* The isotropic state is cheap, its viscosity is not: the viscosity is solved up to a lower degree, from which on
+ * its series no longer changes. */
 static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_rungs rungs = {.n = 0}, viscous = {.n = 0};

@@ -145,7 +145,7 @@ static gg_status answer_in(const gg_model *m, const char *theory, gg_linearisati
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = nu0 * v.kinetic / p;
   if (m->flow == GG_HCS) gg_theory_answer_critical_lengths(m, 0, a);
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = m->mass[0] * s.a[0] / (m->mass[1] * s.a[1]);
-  if (m->linear_response) return GG_OK; /* no temperature of its own: it grows */
+  if (m->linear_response) return GG_OK; /* T grows with time: no value */
   gg_theory_answer_partial_temperatures(m, s.a, a);
   gg_theory_answer_pressure(m, T, p, pc, a);
   return GG_OK;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The Jacobian of one direction: what a test changes with the a_s of the grain itself, and with those of its partner,
- * which come in by the marginal alone. */
+/* The Jacobian of one direction: derivatives of a test with respect to the a_s of the grain itself, and to those of
+ * its partner, which enter by the marginal alone. */
 #include <string.h>
 
 #include "theory/hermite/direction_workspace.h"
 
-/* K and E for one Q: by each (j,p), W of all (J,P), and sum_q Z_Qq D_jpq,s. In the order of j + p; upto[d]: how many
- * there are up to j + p = d, of which alone functions of degree d are made. */
+/* K and E for one Q: for each (j,p), W of all (J,P), and sum_q Z_Qq D_jpq,s. Ordered by j + p; upto[d]: number of
+ * pairs up to j + p = d, from which functions of degree d are made. */
 static void factors_of(const gg_hermite_operator *op, const gg_hermite_view *own, int Q, int tests, int tall,
                        int upto[])
 {
@@ -30,7 +30,7 @@ static void factors_of(const gg_hermite_operator *op, const gg_hermite_view *own
   }
 }
 
-/* X = K^T E for the tests of one Q. Rows beyond them are of the next Q, which begins anew. */
+/* X = K^T E for the tests of one Q. Rows beyond them belong to the next Q, which overwrites them. */
 static void own_share(const gg_hermite_operator *op, const gg_hermite_view *own, int Q)
 {
   const gg_hermite_basis *b = &op->basis;
@@ -64,7 +64,7 @@ static int row_of(int N, int P, int Q)
   return P + ((P + Q) % 2 ? odd_rows(N) + half * (half + 1) : half * half);
 }
 
-/* P + Q of the first of a tile; more than N where it is padding. */
+/* P + Q of the first row of a tile; more than N in the padding. */
 static int least_sum(int N, int row)
 {
   int odd = row >= odd_rows(N), sum = odd;
@@ -86,7 +86,7 @@ static void along_tangent(const gg_hermite_operator *op, const gg_hermite_view *
     }
 }
 
-/* VX += V^T X, of the tests that there are: J + P + Q even and up to N. */
+/* VX += V^T X, for the existing tests: J + P + Q even and up to N. */
 static void multiply(const gg_hermite_operator *op, int depth, const double *X)
 {
   const gg_hermite_room *r = op->room;
@@ -100,7 +100,7 @@ static void multiply(const gg_hermite_operator *op, int depth, const double *X)
   }
 }
 
-/* S[(J,P,Q),l] = sum_ij V[(i,j),(P,Q)] X[(i,j),(J,l)], less the same of the loss. */
+/* S[(J,P,Q),l] = sum_ij V[(i,j),(P,Q)] X[(i,j),(J,l)], minus the same of the loss. */
 static void partner_share(const gg_hermite_operator *op, const gg_hermite_view *own)
 {
   const gg_hermite_basis *b = &op->basis;
@@ -120,7 +120,7 @@ static void partner_share(const gg_hermite_operator *op, const gg_hermite_view *
   }
 }
 
-/* Tests of degree 2, which do not decay, anew. */
+/* Replace the rows of tests of degree 2, which do not decay. */
 static void low_own_share(const gg_hermite_operator *op, const gg_hermite_view *own, int i)
 {
   const gg_hermite_basis *b = &op->basis;

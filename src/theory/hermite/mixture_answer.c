@@ -15,7 +15,7 @@
 
 static const char name[] = "enskog_hermite";
 
-/* Half the degrees, 4 to 14; of the viscosity to 8, for so many species as it takes a second. */
+/* Half the degrees, 4 to 14; for the viscosity up to 8, and for so many species as take a second. */
 enum { FIRST = 2, LAST = 7, LAST_VISCOSITY = 4, MOST_VISCOUS = 6 };
 static const double good = 1e-8;
 
@@ -63,14 +63,14 @@ static void answer_mixture(const gg_model *m, const gg_hermite_mixture *x, gg_th
   }
   a->value[GG_Q_COOLING_RATE] = m->elastic ? 0 : gg_hermite_mixture_cooling(x, m) / gg_common_model_nu0(m, 1);
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = partial[0] / partial[1];
-  if (m->linear_response) return; /* no temperature of its own: it grows */
+  if (m->linear_response) return; /* T grows with time: no value */
   gg_theory_answer_temperature(m, T, NAN, a);
   for (int i = 0; i < m->n_species; i++) a->value[GG_Q_PARTIAL_TEMPERATURE + i] = partial[i];
   gg_theory_answer_pressure(m, T, p, p * transfer(m, x), a);
   a->value[GG_Q_COLLISION_RATE] = collision_rate(m, x) * sqrt(T);
 }
 
-/* At rest but for what heats it. */
+/* The gas at rest, with its heating. */
 static gg_hermite_gas resting(const gg_model *m, const gg_hermite_mixture *x)
 {
   gg_hermite_gas gas = gg_hermite_gas_of(m);

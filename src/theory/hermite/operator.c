@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "theory/hermite/direction_workspace.h"
 
-/* Points of the rule in k_z on (0, 1), and in azimuth on (0, pi): a quarter of the sphere stands for the whole. */
+/* Points of the rule in k_z on (0, 1), and in azimuth on (0, pi): by symmetry a quarter of the sphere is enough. */
 enum { POLAR = 5, AZIMUTH = 16, N1 = GG_HERMITE_MOST_DEGREE + 1 };
 
 static gg_hermite_room *make_room(const gg_hermite_operator *op)
@@ -189,7 +189,7 @@ static void rotate_back(const gg_hermite_operator *op, const gg_hermite_view *v,
   }
 }
 
-/* What one direction does to one species, by partners of every species. */
+/* Contribution of one direction to one species, by partners of every species. */
 static void add_species(gg_hermite_operator *op, const gg_hermite_gas *gas, int i, int direction, double *R,
                         double *jacobian, size_t stride)
 {

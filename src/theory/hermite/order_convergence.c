@@ -24,9 +24,10 @@ static double last_change(const gg_rungs *r, gg_quantity q)
   return fmax(fabs(step(r, q, 0)), fabs(step(r, q, 0) + step(r, q, 1)) / 10);
 }
 
-/* Degrees of sheared gases fall in pairs: multiples of four change much, those between them little, and any one step
- * may vanish by chance. So the last three count together. Weights: of 90 sheared mixtures of two species (phi up to
- * 0.1, e from 0.2 to 0.9) degree 14 lies at most 1.6 such errors from degrees 10 and 12 in every quantity. */
+/* Error of a quantity of sheared gases, whose degrees change in pairs: multiples of four change it much, degrees
+ * between them little, and any single step may vanish by chance. So the last three count together. Weights: in 90
+ * sheared mixtures of two species (phi up to 0.1, e from 0.2 to 0.9) degree 14 differs by at most 1.6 such errors
+ * from degrees 10 and 12 in every quantity. */
 static double paired_error(const gg_rungs *r, gg_quantity q)
 {
   const bool much = r->n % 2; /* from degree 4 on */

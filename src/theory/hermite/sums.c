@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What collisions carry: both partners by their distributions of normal velocity. */
+/* Collision sums: both partners enter by their distributions of normal velocity. */
 #include <math.h>
 #include <string.h>
 
@@ -29,7 +29,7 @@ static void add_pair(const gg_hermite_operator *op, const gg_hermite_gas *gas, i
   sums->loss += momentum * (1 - x->e) / 4 * power[3];
   for (int a = 0; a < 3; a++)
     for (int b = 0; b < 3; b++)
-      if ((a == 2) == (b == 2)) /* the others cancel between the quarters of the sphere */
+      if ((a == 2) == (b == 2)) /* the other terms cancel between the quarters of the sphere */
         sums->transfer[a][b] += momentum * x->sigma / 2 * power[2] * k[a] * k[b];
 }
 

@@ -12,7 +12,7 @@
 
 static const char name[] = "enskog_hermite";
 
-/* What is further off is not given. */
+/* Relative error above which there is no answer. */
 static const double poor = 0.05;
 
 /* Shear: plain moments about a Gaussian of the same second moments. In dilute gases their series alternates with even
@@ -20,13 +20,13 @@ static const double poor = 0.05;
 enum { FIRST_DEGREE = 4, LAST_DEGREE = 6, LAST_ISOTROPIC = 8 };
 static const gg_rough_choice moments = {.width = 1, .spin_width = 1};
 
-/* What products of degrees beyond N add, relative. */
+/* Relative contribution of products of degrees beyond N. */
 static const double left_out = 7e-4;
 
-/* Homogeneous states: spins have long tails there (kurtosis 6.3 at e = .7, beta = -.5), which tests that decay leave
- * out and a wide weight can follow. Of weights 1 to 4 times as wide as f and decays of .05 to 1 the first is best at
- * degree 8 for all beta (plain moments diverge), but where its last degree still changes theta/T by more than
- * `restless`, at e = .7 and beta from -.7 to -.3: the second, then. */
+/* Homogeneous states: spins have long tails there (kurtosis 6.3 at e = .7, beta = -.5), which tests that decay
+ * suppress and a wide weight can follow. Among weights 1 to 4 times as wide as f and decays of .05 to 1 the first
+ * choice is best at degree 8 for all beta (plain moments diverge). The second is for states in which the last degree
+ * still changes theta/T by more than `restless`, at e = .7 and beta from -.7 to -.3. */
 static const gg_rough_choice tails[] = {
     {.width = 1.1, .spin_width = 1.4, .decay = 0.1, .spin_decay = 0.07, .extra = 2},
     {.width = 1.1, .spin_width = 1.6, .decay = 0.1, .spin_decay = 0.1, .extra = 2},
@@ -87,7 +87,7 @@ static void answer_flights(const gg_model *m, double rate, double mean_speed, gg
   if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = mean_speed / rate / m->length;
 }
 
-/* Energy per grain that a bath brings. */
+/* Energy per grain that a bath supplies. */
 static double from_bath(const gg_model *m, const gg_rough_steady *s)
 {
   const gg_bath *b = &m->bath;
@@ -186,7 +186,7 @@ static void answer_isotropic(const gg_model *m, const gg_rough_steady *s, const 
   a->value[GG_Q_A2] = a->value[GG_Q_KURTOSIS_CX] / 3 - 1;
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
   a->value[GG_Q_COOLING_RATE] = cooling / gg_common_model_nu0(m, 1);
-  if (heating->kind == GG_HEATING_NOISE || m->linear_response) return; /* of a temperature that it finds itself */
+  if (heating->kind == GG_HEATING_NOISE || m->linear_response) return; /* the state determines its temperature */
   gg_theory_answer_temperature(m, T, ratio, a);
   gg_theory_answer_pressure(m, T, p, p * m->sigma[0] / 6 * mean(s, s->relative.J[2][2]),
                             a); /* one direction: the trace */
@@ -218,7 +218,7 @@ static gg_status answer_viscosity(const gg_model *m, const gg_rough_steady *s, g
   return GG_OK;
 }
 
-/* One solution after another, the weight of each from the last. */
+/* A sequence of solutions, the weight of each from the last. */
 static gg_status isotropic(const gg_model *m, gg_rough_steady *s, int degree, gg_theory_answer *a, gg_error *err)
 {
   const gg_heating heating = gg_theory_heating_of(m);
@@ -242,10 +242,10 @@ static const gg_quantity of_heat[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_TH
                                       GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED, GG_Q_ROTATIONAL_CONDUCTIVITY_REDUCED,
                                       GG_Q_ROTATIONAL_DIFFUSIVE_CONDUCTIVITY_REDUCED};
 
-/* The series of heat fluxes sways: two degrees may agree by chance, so that the change before them counts, too. It is
- * an estimate: degree 10 differs by less at e = 0.9, by up to 1.7 errors at e = 0.8, beta = 0.2, by 2.3 at e = 0.7,
- * beta = 0. What is further off than `poor`, of itself or of kappa, is not given: mu vanishes where spins do nothing.
- */
+/* Error of heat fluxes. Their series oscillates: two degrees may agree by chance, so that the change before counts,
+ * too. It is an estimate: degree 10 differs by less at e = 0.9, by up to 1.7 errors at e = 0.8, beta = 0.2, by 2.3
+ * at e = 0.7, beta = 0. There is no answer if the error is above `poor`, of the value itself or of kappa: mu
+ * vanishes where spins have no effect. */
 static void judge_heat(const gg_theory_answer *first, const gg_theory_answer *before, gg_theory_answer *now)
 {
   for (size_t k = 0; k < sizeof of_heat / sizeof *of_heat; k++) {
@@ -255,7 +255,7 @@ static void judge_heat(const gg_theory_answer *first, const gg_theory_answer *be
   }
 }
 
-/* Degree after degree; the error is what the last has changed. */
+/* Degree after degree; the error is the change by the last one. */
 static gg_status climb_isotropic(const gg_model *m, const gg_rough_choice *choice, double ratio, double limit,
                                  gg_theory_answer *a, gg_error *err)
 {
