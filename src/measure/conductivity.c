@@ -82,19 +82,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   memcpy(d->row + l->at_lag, all + l->at_lag + (l->steps - 1) * l->lag, (size_t)l->lag * sizeof *all);
 }
 
-/* Rows are made of the snapshot at the end of their interval; there is none before averaging. */
-static void begin(void *self)
-{
-  (void)self;
-}
-static void add_chunk(void *self, const gg_chunk *chunk)
-{
-  (void)self, (void)chunk;
-}
-static void add_blocks(void *self, const gg_block_run *run)
-{
-  (void)self, (void)run;
-}
+/* The row is that of the snapshot at the end of its interval; 0 before averaging. */
 static void finish(void *self, const gg_interval *in, double *row)
 {
   conductivity *d = self;
@@ -249,14 +237,12 @@ const gg_observable gg_measure_conductivity = {
     .destroy = destroy,
     .memory = memory_of,
     .refuses = refuses,
-    .width = width,
-    .begin = begin,
-    .add_chunk = add_chunk,
-    .add_blocks = add_blocks,
-    .finish = finish,
-    .derived = derived,
-    .bins = bins,
-    .every = 1,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .rows = &(const gg_observable_rows){.width = width,
+                                        .begin = begin,
+                                        .add_chunk = add_chunk,
+                                        .add_blocks = add_blocks,
+                                        .finish = finish,
+                                        .derived = derived},
+    .curves = &(const gg_observable_curves){.bins = bins, .every = 1, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.bytes = 96, .ns = {0, 180}},
 };

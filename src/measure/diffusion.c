@@ -345,13 +345,11 @@ const gg_observable gg_measure_diffusion = {
     .memory = memory,
     .is_memory = is_memory,
     .refuses = refuses,
-    .bins = bins,
-    .every = 1,
-    .parts = GG_LAG_SNAPSHOTS,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .add_collision = add_collision,
-    .wants_collisions = follows_flights,
     .restart = restart,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 1, .parts = GG_LAG_SNAPSHOTS, .add_snapshot = add_snapshot, .of_bins = curves},
+    .collisions = &(const gg_observable_collisions){.add = add_collision, .wanted = follows_flights},
+    .cost = {.bytes = 700, .ns = {120, 400}},
 };

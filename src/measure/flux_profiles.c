@@ -486,14 +486,11 @@ const gg_observable gg_measure_fluxes = {
     .create = create,
     .destroy = free,
     .refuses = refuses,
-    .bins = bins,
     .memory = memory,
-    .every = 1,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .add_interval = add_interval,
-    .add_collision = add_collision,
-    .of_walls_too = true,
     .restart = restart,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 1, .add_snapshot = add_snapshot, .add_interval = add_interval, .of_bins = curves},
+    .collisions = &(const gg_observable_collisions){.add = add_collision, .of_walls_too = true},
 };

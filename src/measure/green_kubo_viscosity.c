@@ -151,13 +151,11 @@ static const gg_derived derived[] = {
 
 const gg_observable gg_measure_viscosity = {
     GG_OBSERVABLE(VISCOSITY, viscosity),
-    .width = width,
     .create = create,
     .destroy = free,
     .memory = memory_of,
-    .begin = begin,
-    .add_chunk = add_chunk,
-    .finish = finish,
-    .derived = derived,
     .refuses = refuses,
+    .rows =
+        &(const gg_observable_rows){
+            .width = width, .begin = begin, .add_chunk = add_chunk, .finish = finish, .derived = derived},
 };

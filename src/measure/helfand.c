@@ -202,14 +202,6 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 }
 
 /* Rows are made of the snapshot at the end of their interval; there is none before averaging. */
-static void begin(void *self)
-{
-  (void)self;
-}
-static void add_chunk(void *self, const gg_chunk *chunk)
-{
-  (void)self, (void)chunk;
-}
 static void finish(void *self, const gg_interval *in, double *row)
 {
   helfand *h = self;
@@ -298,15 +290,8 @@ const gg_observable gg_measure_helfand = {
     .destroy = free,
     .memory = memory_of,
     .refuses = refuses,
-    .width = width,
-    .begin = begin,
-    .add_chunk = add_chunk,
-    .finish = finish,
-    .derived = derived,
-    .bins = bins,
-    .every = 1,
-    .add_snapshot = add_snapshot,
-    .add_collision = add_collision,
     .restart = restart,
-    .curves = curves,
+    .rows = &(const gg_observable_rows){.width = width, .finish = finish, .derived = derived},
+    .curves = &(const gg_observable_curves){.bins = bins, .every = 1, .add_snapshot = add_snapshot, .of_bins = curves},
+    .collisions = &(const gg_observable_collisions){.add = add_collision},
 };

@@ -178,10 +178,9 @@ const gg_observable gg_measure_local_distributions = {
     .create = create,
     .destroy = destroy,
     .refuses = gg_measure_needs_bulk,
-    .bins = bins,
-    .every = 4,
-    .framed = true,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 4, .framed = true, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.bytes = 25, .ns = {10, 0}},
 };

@@ -266,13 +266,12 @@ const gg_observable gg_measure_pair_correlation = {
     .destroy = destroy,
     .memory = memory,
     .refuses = gg_measure_needs_bulk,
-    .bins = bins,
-    .every = 5,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .add_interval = add_interval,
-    .add_collision = add_collision,
     .rescaled = rescaled,
     .restart = restart,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 5, .add_snapshot = add_snapshot, .add_interval = add_interval, .of_bins = curves},
+    .collisions = &(const gg_observable_collisions){.add = add_collision},
+    .cost = {.bytes = 34, .ns = {140, 0}},
 };

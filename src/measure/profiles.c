@@ -279,12 +279,11 @@ const gg_observable gg_measure_profiles = {
     .create = create,
     .destroy = free,
     .refuses = refuses,
-    .bins = bins,
     .memory = memory,
-    .every = 2,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .add_interval = add_interval,
     .restart = restart,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 2, .add_snapshot = add_snapshot, .add_interval = add_interval, .of_bins = curves},
+    .cost = {.ns = {10, 0}},
 };

@@ -130,9 +130,7 @@ const gg_observable gg_measure_slab_distributions = {
     .create = create,
     .destroy = free,
     .refuses = refuses,
-    .bins = bins,
-    .every = 4,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .curves = &(const gg_observable_curves){.bins = bins, .every = 4, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.ns = {20, 20}},
 };

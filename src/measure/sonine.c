@@ -164,9 +164,8 @@ const gg_observable gg_measure_sonine = {
     .create = create,
     .destroy = free,
     .refuses = refuses,
-    .bins = bins,
-    .every = 2,
-    .framed = true,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 2, .framed = true, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.ns = {6, 4}},
 };

@@ -205,10 +205,15 @@ static double channel(const double *mean, const gg_model *model, int k)
 
 static const gg_derived derived[] = {{GG_N_QUANTITIES, .each = channel}, GG_DERIVED_END};
 
+static const gg_observable_rows rows = {
+    .width = width, .begin = begin, .add_chunk = add_chunk, .finish = finish, .derived = derived};
+
 #define COMMON                                                                                                         \
-  .name = "own", .create = create, .destroy = destroy, .memory = memory_of, .width = width, .begin = begin,            \
-  .add_chunk = add_chunk, .finish = finish, .derived = derived, .positions = true, .rescaled = rescaled
-static const gg_observable quiet = {COMMON}, with_collisions = {COMMON, .add_collision = add_collision};
+  .name = "own", .create = create, .destroy = destroy, .memory = memory_of, .positions = true, .rescaled = rescaled,   \
+  .rows = &rows
+static const gg_observable quiet = {COMMON},
+                           with_collisions = {COMMON,
+                                              .collisions = &(const gg_observable_collisions){.add = add_collision}};
 
 const gg_observable *gg_measure_user_observables(const gg_model *model)
 {

@@ -242,12 +242,11 @@ const gg_observable gg_measure_velocity_correlations = {
     .create = create,
     .destroy = destroy,
     .refuses = gg_measure_needs_bulk,
-    .bins = bins,
-    .every = 8,
-    .framed = true,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 8, .framed = true, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.bytes = 82, .ns = {110, 0}},
 };
 
 const gg_observable gg_measure_local_velocity_correlations = {
@@ -255,9 +254,7 @@ const gg_observable gg_measure_local_velocity_correlations = {
     .create = create_local,
     .destroy = destroy,
     .refuses = gg_measure_needs_bulk,
-    .bins = bins,
-    .every = 8,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .curves = &(const gg_observable_curves){.bins = bins, .every = 8, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.bytes = 92, .ns = {110, 0}},
 };

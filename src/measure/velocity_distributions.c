@@ -136,9 +136,8 @@ const gg_observable gg_measure_velocity_distributions = {
     .create = create,
     .destroy = destroy,
     .refuses = gg_measure_needs_homogeneity,
-    .bins = bins,
-    .every = 2,
-    .framed = true,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 2, .framed = true, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.ns = {10, 6}},
 };

@@ -47,17 +47,17 @@ static inline gg_curves ct_curves(const gg_observable *o, const gg_model *m, int
     if (s.species) s.species[i] = (int64_t)(i * 7919 % s.n) >= m->n_of[0];
     if (s.id) s.id[i] = (int64_t)((i * 7919 + 5) % s.n);
   }
-  assert_int_equal(gg_statistics_bins_init(&bins, o->bins(self), NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, o->curves->bins(self), NULL), GG_OK);
   if (o->restart) o->restart(self);
   for (int k = 0; k < samples; k++) {
     fill(&s, &r, k);
-    o->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
+    o->curves->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
     gg_statistics_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
   gg_error err = {0};
-  if (gg_measure_curves_estimate(list, 1, o->curves, self, o->name, 0, &curves, &err) != GG_OK)
+  if (gg_measure_curves_estimate(list, 1, o->curves->of_bins, self, o->name, 0, &curves, &err) != GG_OK)
     fail_msg("%s", err.message);
   gg_statistics_bins_clear(&bins);
   gg_measure_snapshot_clear(&s);

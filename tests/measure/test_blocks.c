@@ -30,12 +30,12 @@ static void take_row(gg_engine *g, const gg_model *m, void *self, bool blocks, d
 {
   const gg_collision_sums transfer = {.collisions = {100, 20, 30}, .loss = {7, 5, 3}};
   const gg_interval in = {m, &transfer, elapsed, 1};
-  gg_measure_rheology.begin(self);
+  gg_measure_rheology.rows->begin(self);
   if (blocks)
-    g->ops->blocks(g, gg_measure_rheology.add_blocks, self);
+    g->ops->blocks(g, gg_measure_rheology.rows->add_blocks, self);
   else
-    g->ops->snapshot(g, false, gg_measure_rheology.add_chunk, self);
-  gg_measure_rheology.finish(self, &in, row);
+    g->ops->snapshot(g, false, gg_measure_rheology.rows->add_chunk, self);
+  gg_measure_rheology.rows->finish(self, &in, row);
 }
 
 static void add_speed(void *context, const gg_chunk *chunk)
@@ -55,7 +55,7 @@ static void same_rows_in(const gg_model *m, uint64_t seed)
   void *self[2] = {gg_measure_rheology.create(m, &err), gg_measure_rheology.create(m, &err)};
   for (int sample = 0; sample < 4; sample++) {
     for (int k = 0; k < 2; k++) take_row(g, m, self[k], k, sample ? 0.5 : 0, row[k]);
-    assert_memory_equal(row[0], row[1], gg_measure_rheology.width(m) * sizeof(double));
+    assert_memory_equal(row[0], row[1], gg_measure_rheology.rows->width(m) * sizeof(double));
     if (sample == 3) break;
     assert_int_equal(g->ops->advance(g, INFINITY, (uint64_t)m->n, &elapsed, &err),
                      GG_OK); /* ends with shear strain not yet applied */
@@ -99,9 +99,9 @@ static void far_units(void **state)
     for (int sample = 0; sample < 2; sample++) {
       const gg_collision_sums transfer = {0};
       const gg_interval in = {&m, &transfer, sample, 1};
-      gg_measure_rheology.begin(self);
-      gg_measure_rheology.add_chunk(self, &chunk);
-      gg_measure_rheology.finish(self, &in, row[u]);
+      gg_measure_rheology.rows->begin(self);
+      gg_measure_rheology.rows->add_chunk(self, &chunk);
+      gg_measure_rheology.rows->finish(self, &in, row[u]);
     }
     gg_measure_rheology.destroy(self);
   }

@@ -92,20 +92,21 @@ static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make
   gg_bins bins;
   gg_rng r = gg_common_rng_seed(32, 0);
   void *self = gg_measure_collisions.create(m, NULL);
-  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_collisions.bins(self), NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_collisions.curves->bins(self), NULL), GG_OK);
   for (int k = 0; k < samples; k++) {
     for (int i = 0; i < per_sample; i++) {
       gg_collision_record collision = {.height = {NAN, NAN}};
       make(&collision, &r);
-      gg_measure_collisions.add_collision(self, &collision);
+      gg_measure_collisions.collisions->add(self, &collision);
     }
-    gg_measure_collisions.add_snapshot(self, NULL, gg_statistics_bins_sample(&bins));
+    gg_measure_collisions.curves->add_snapshot(self, NULL, gg_statistics_bins_sample(&bins));
     gg_statistics_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
   assert_int_equal(
-      gg_measure_curves_estimate(list, 1, gg_measure_collisions.curves, self, "collisions", 0, &curves, NULL), GG_OK);
+      gg_measure_curves_estimate(list, 1, gg_measure_collisions.curves->of_bins, self, "collisions", 0, &curves, NULL),
+      GG_OK);
   gg_statistics_bins_clear(&bins);
   gg_measure_collisions.destroy(self);
   return curves;

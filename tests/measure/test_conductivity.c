@@ -56,23 +56,23 @@ static void rows(void **state)
   gg_snapshot s;
   gg_rng r = gg_common_rng_seed(18, 0);
   void *self = o->create(&m, NULL);
-  double *bin = calloc(o->bins(self), sizeof *bin), *row = calloc(o->width(&m), sizeof *row);
+  double *bin = calloc(o->curves->bins(self), sizeof *bin), *row = calloc(o->rows->width(&m), sizeof *row);
   assert_int_equal(gg_measure_snapshot_init(&s, &m, false, NULL), GG_OK);
   maxwellian(&s, &r, 0);
-  o->add_snapshot(self, &s, bin);
-  o->begin(self);
-  o->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row);
+  o->curves->add_snapshot(self, &s, bin);
+  o->rows->begin(self);
+  o->rows->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row);
   gg_curves list = {.model = &m, .curve = calloc(GG_MOST_CURVES, sizeof *list.curve)};
-  o->curves(self, bin, &list);
+  o->curves->of_bins(self, bin, &list);
   for (int k = 0; k < 2; k++) {
     gg_function f;
     assert_true(gg_measure_derived_find(
-        o->derived, k ? GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED : GG_Q_THERMAL_CONDUCTIVITY_REDUCED, &f));
+        o->rows->derived, k ? GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED : GG_Q_THERMAL_CONDUCTIVITY_REDUCED, &f));
     const gg_curve *c = &list.curve[k];
     assert_true(gg_function_value(f, row, &m) == c->value[c->n - 1]);
   }
-  o->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row); /* no snapshot: nothing */
-  for (size_t i = 0; i < o->width(&m); i++) assert_true(row[i] == 0);
+  o->rows->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row); /* no snapshot: nothing */
+  for (size_t i = 0; i < o->rows->width(&m); i++) assert_true(row[i] == 0);
   gg_measure_curves_clear(&list);
   gg_measure_snapshot_clear(&s);
   free(bin), free(row);

@@ -27,7 +27,7 @@ static double hat(const planted *p, int face, double height)
 static void show(void *context, const gg_collision_record *c)
 {
   planted *p = context;
-  p->o->add_collision(p->self, c);
+  p->o->collisions->add(p->self, c);
   *(c->wall ? &p->contacts : &p->collisions) += 1;
   for (int i = 0; i < (c->wall ? 1 : 2); i++) {
     const double m = p->m->mass[c->species[i]], I = m * p->m->inertia[c->species[i]];
@@ -60,19 +60,19 @@ static void check_conservation(const gg_scene *scene)
   assert_int_equal(gg_md_ops.create(&m, 1, 1, &engine, NULL), GG_OK);
   planted p = {.o = &gg_measure_fluxes, .m = &m, .slabs = gg_measure_gap_slabs(&m)};
   p.self = p.o->create(&m, NULL);
-  double *bins = calloc(p.o->bins(p.self), sizeof *bins);
+  double *bins = calloc(p.o->curves->bins(p.self), sizeof *bins);
   assert_true(p.self && bins);
   assert_int_equal(gg_measure_snapshot_init(&s, &m, true, NULL), GG_OK);
   assert_int_equal(gg_md_ops.set_callback(engine, show, &p, NULL), GG_OK);
   stand_still(&s, engine);
-  p.o->add_snapshot(p.self, &s, bins);
+  p.o->curves->add_snapshot(p.self, &s, bins);
   for (int k = 0; k < 3; k++) {
     assert_int_equal(gg_md_ops.advance(engine, 1, UINT64_MAX, &gone, NULL), GG_OK);
     stand_still(&s, engine);
-    p.o->add_snapshot(p.self, &s, bins);
+    p.o->curves->add_snapshot(p.self, &s, bins);
   }
   gg_curves list = {.model = &m, .samples = 4};
-  p.o->curves(p.self, bins, &list);
+  p.o->curves->of_bins(p.self, bins, &list);
   const gg_curve *left = ct_find(&list, "profile_energy_residual"), *loss = ct_find(&list, "profile_loss");
   assert_int_equal(left->n, p.slabs - 1);
   double worst = 0, most = 0, lost = 0;

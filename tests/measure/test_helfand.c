@@ -27,8 +27,8 @@ static void start(planted *p)
 {
   *p = (planted){.model = ct_model(GG_EQUILIBRIUM, 0.2, -1, N, 1)};
   p->self = helfand->create(&p->model, NULL);
-  p->bin = calloc(helfand->bins(p->self), sizeof *p->bin);
-  assert_true(p->self && p->bin && helfand->width(&p->model) <= 64);
+  p->bin = calloc(helfand->curves->bins(p->self), sizeof *p->bin);
+  assert_true(p->self && p->bin && helfand->rows->width(&p->model) <= 64);
   assert_int_equal(gg_measure_snapshot_init(&p->s, &p->model, false, NULL), GG_OK);
   helfand->restart(p->self);
 }
@@ -44,16 +44,16 @@ static void sample(planted *p)
 {
   at_rest(&p->s);
   p->s.elapsed = interval;
-  helfand->add_snapshot(p->self, &p->s, p->bin);
-  helfand->begin(p->self);
-  helfand->finish(p->self, &(gg_interval){.model = &p->model, .elapsed = interval, .velocity_factor = 1}, p->row);
-  for (size_t k = 0; k < helfand->width(&p->model); k++) p->sum[k] += p->row[k] / SAMPLES;
+  helfand->curves->add_snapshot(p->self, &p->s, p->bin);
+  helfand->rows->begin(p->self);
+  helfand->rows->finish(p->self, &(gg_interval){.model = &p->model, .elapsed = interval, .velocity_factor = 1}, p->row);
+  for (size_t k = 0; k < helfand->rows->width(&p->model); k++) p->sum[k] += p->row[k] / SAMPLES;
 }
 
 static double value(const planted *p, gg_quantity q)
 {
   gg_function f;
-  assert_true(gg_measure_derived_find(helfand->derived, q, &f));
+  assert_true(gg_measure_derived_find(helfand->rows->derived, q, &f));
   return gg_function_value(f, p->sum, &p->model);
 }
 
@@ -74,16 +74,16 @@ static void jumps(void **state)
     gg_collision_record before = now;
     p.s.time = before.time = now.time = (k + 1) * interval;
     now.k = gg_rng_direction(&rng), now.J = gg_rng_direction(&rng);
-    helfand->add_collision(p.self, &before);
-    helfand->add_collision(p.self, &now);
+    helfand->collisions->add(p.self, &before);
+    helfand->collisions->add(p.self, &now);
     sample(&p);
   }
   const gg_model *m = &p.model;
   const double T = speed * speed / 3, nu0 = gg_common_model_nu0(m, T);
   const double unit[] = {4. / 15 * nu0 / (m->density * T * T), nu0 / (m->density * T), nu0 / (m->density * T)};
   gg_curves list = {.model = m, .curve = calloc(GG_MOST_CURVES, sizeof *list.curve)};
-  for (size_t k = 0; k < helfand->bins(p.self); k++) p.bin[k] /= SAMPLES;
-  helfand->curves(p.self, p.bin, &list);
+  for (size_t k = 0; k < helfand->curves->bins(p.self); k++) p.bin[k] /= SAMPLES;
+  helfand->curves->of_bins(p.self, p.bin, &list);
   for (int k = 0; k < 3; k++) {
     const double right = unit[k] * 2 * square[k] / (interval * m->volume * T);
     const double error = right * sqrt(8 / (components[k] * SAMPLES)); /* of seven products, neighbours alike */
@@ -106,7 +106,7 @@ static void flight(void **state)
     p.s.time = last + interval;
     if (k == 11) {
       gg_collision_record hit = {.k = {1, 0, 0}, .J = {2, 0, 0}, .time = last + interval / 3};
-      helfand->add_collision(p.self, &hit); /* partner 1 gets -2, too */
+      helfand->collisions->add(p.self, &hit); /* partner 1 gets -2, too */
     }
     sample(&p);
   }

@@ -45,23 +45,23 @@ static gg_curves fed(const gg_model *m, double first, double second, double fall
   gg_rng r = gg_common_rng_seed(7, 0);
   gg_bins bins;
   void *self = gg_measure_impact_speed.create(m, NULL);
-  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_impact_speed.bins(self), NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_impact_speed.curves->bins(self), NULL), GG_OK);
   for (int i = 0; i < GRAINS; i++) p.species[i] = i >= m->n_of[0];
   gg_snapshot s = {.model = m, .n = GRAINS, .c = {p.c[0], p.c[1], p.c[2]}, .species = p.species};
   for (int k = 0; k < SAMPLES; k++) {
     for (int i = 0; i < PER_SAMPLE && k; i++) {
       gg_collision_record c = draw(&p, m, exp(-fall * (k - 1 + (i + 0.5) / PER_SAMPLE)), &r);
-      gg_measure_impact_speed.add_collision(self, &c);
+      gg_measure_impact_speed.collisions->add(self, &c);
     }
     set_speeds(&p, exp(-fall * k));
-    gg_measure_impact_speed.add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
+    gg_measure_impact_speed.curves->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
     gg_statistics_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
-  assert_int_equal(
-      gg_measure_curves_estimate(list, 1, gg_measure_impact_speed.curves, self, "impact_speed", 0, &curves, NULL),
-      GG_OK);
+  assert_int_equal(gg_measure_curves_estimate(list, 1, gg_measure_impact_speed.curves->of_bins, self, "impact_speed", 0,
+                                              &curves, NULL),
+                   GG_OK);
   gg_statistics_bins_clear(&bins);
   gg_measure_impact_speed.destroy(self);
   return curves;

@@ -229,7 +229,7 @@ static double show_interval(void *self, const gg_model *m, double v, double fall
   double elapsed = fall < 1 ? ends / log(1 / fall) : PER_INTERVAL / rate;
   for (int i = 0; i < PER_INTERVAL; i++) {
     gg_collision_record c = planted(M_SQRT2 * v * pow(fall, (i + gg_rng_uniform(r)) / PER_INTERVAL), r);
-    o->add_collision(self, &c);
+    o->collisions->add(self, &c);
   }
   return elapsed;
 }
@@ -243,7 +243,7 @@ static gg_curves planted_curves(const gg_model *m, double fall)
   void *self = o->create(m, NULL);
   double v = 1;
   assert_int_equal(gg_measure_snapshot_init(&s, m, true, NULL), GG_OK);
-  assert_int_equal(gg_statistics_bins_init(&bins, o->bins(self), NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, o->curves->bins(self), NULL), GG_OK);
   thrown(&s, &r, 1);
   o->restart(self);
   for (int k = 0; k < INTERVALS; k++) {
@@ -251,15 +251,15 @@ static gg_curves planted_curves(const gg_model *m, double fall)
     v *= fall;
     if (k % EVERY == 0) {
       all_at(&s, v * v);
-      o->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
+      o->curves->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
       gg_statistics_bins_commit(&bins);
     }
-    o->add_interval(self, &in);
+    o->curves->add_interval(self, &in);
     if (v < 0.25) v *= 4, o->rescaled(self, 4);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
-  assert_int_equal(gg_measure_curves_estimate(list, 1, o->curves, self, o->name, 0, &curves, NULL), GG_OK);
+  assert_int_equal(gg_measure_curves_estimate(list, 1, o->curves->of_bins, self, o->name, 0, &curves, NULL), GG_OK);
   gg_statistics_bins_clear(&bins);
   gg_measure_snapshot_clear(&s);
   o->destroy(self);

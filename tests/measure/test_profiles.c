@@ -162,24 +162,25 @@ static gg_curves pushed(const gg_model *m, int samples, double noise)
   gg_bins bins;
   void *self = gg_measure_profiles.create(m, NULL);
   assert_int_equal(gg_measure_snapshot_init(&s, m, true, NULL), GG_OK);
-  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_profiles.bins(self), NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_profiles.curves->bins(self), NULL), GG_OK);
   gg_collision_sums t = {.surface = {{.impulse = {1e6, 1e6, 1e6}}, {.impulse = {1e6, 1e6, 1e6}}}};
-  gg_measure_profiles.add_interval(self, &(gg_interval){m, &t, 1e3, 1});
+  gg_measure_profiles.curves->add_interval(self, &(gg_interval){m, &t, 1e3, 1});
   gg_measure_profiles.restart(self);
   for (int k = 0; k < 2 * samples; k++) {
     double time = 0.5 + 0.1 * (k % 7);
     for (int wall = 0; wall < 2; wall++)
       for (int a = 0; a < 3; a++)
         t.surface[wall].impulse[a] = P[wall][a] * m->box[0] * m->box[2] * time * (1 + noise * gg_common_rng_normal(&r));
-    gg_measure_profiles.add_interval(self, &(gg_interval){m, &t, time, 1});
+    gg_measure_profiles.curves->add_interval(self, &(gg_interval){m, &t, time, 1});
     if (k % 2 == 0) continue;
-    gg_measure_profiles.add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
+    gg_measure_profiles.curves->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
     gg_statistics_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
-  assert_int_equal(gg_measure_curves_estimate(list, 1, gg_measure_profiles.curves, self, "profiles", 0, &curves, NULL),
-                   GG_OK);
+  assert_int_equal(
+      gg_measure_curves_estimate(list, 1, gg_measure_profiles.curves->of_bins, self, "profiles", 0, &curves, NULL),
+      GG_OK);
   gg_statistics_bins_clear(&bins);
   gg_measure_snapshot_clear(&s);
   gg_measure_profiles.destroy(self);

@@ -54,7 +54,7 @@ static void take_row_of(const gg_observable *o, void *self, const gg_model *m, c
 {
   static double scaled[6][GG_CHUNK];
   const double *from[6] = {cx, cy, cz, sx, sy, sz};
-  o->begin(self);
+  o->rows->begin(self);
   for (int start = 0; start < N; start += 200) { /* unequal chunks: 200, 200, 100 */
     int n = start + 200 < N ? 200 : N - start;
     for (int k = 0; k < 6; k++)
@@ -63,10 +63,10 @@ static void take_row_of(const gg_observable *o, void *self, const gg_model *m, c
     if (m->rule != GG_SMOOTH)
       for (int a = 0; a < 3; a++) c.s[a] = scaled[3 + a];
     if (m->n_species == 2) c.species = kind + start;
-    o->add_chunk(self, &c);
+    o->rows->add_chunk(self, &c);
   }
   gg_interval in = {m, t, elapsed, 1};
-  o->finish(self, &in, row);
+  o->rows->finish(self, &in, row);
 }
 
 static void take_row(void *self, const gg_model *m, const gg_collision_sums *t, double elapsed, double factor,
@@ -78,7 +78,7 @@ static void take_row(void *self, const gg_model *m, const gg_collision_sums *t, 
 static double value(gg_quantity q, const double *row, const gg_model *m)
 {
   gg_function f;
-  assert_true(gg_measure_derived_find(gg_measure_rheology.derived, q, &f));
+  assert_true(gg_measure_derived_find(gg_measure_rheology.rows->derived, q, &f));
   return gg_function_value(f, row, m);
 }
 
@@ -286,7 +286,7 @@ static void viscosity_at_no_shear(void **state)
   for (int k = 0; k < 40; k++) {
     double a = 0.02 + 0.0025 * k, factor = first / a, T = T0 * factor * factor; /* a* goes as T^(-1/2) */
     take_row_of(&gg_measure_viscosity, self, &m, &t, k ? elapsed : 0, factor, row);
-    for (size_t c = 0; c < gg_measure_viscosity.width(&m); c++) sum[c] += row[c];
+    for (size_t c = 0; c < gg_measure_viscosity.rows->width(&m); c++) sum[c] += row[c];
     if (k && a >= 0.03) {
       double b0 = 1 / sqrt(last), b1 = 1 / sqrt(T), root = log(b1 / b0) / (b1 - b0);
       add_point(&moving, a, -xy / T0);
@@ -295,9 +295,9 @@ static void viscosity_at_no_shear(void **state)
     last = T;
   }
   gg_function f;
-  assert_true(gg_measure_derived_find(gg_measure_viscosity.derived, GG_Q_VISCOSITY_REDUCED_KINETIC, &f));
+  assert_true(gg_measure_derived_find(gg_measure_viscosity.rows->derived, GG_Q_VISCOSITY_REDUCED_KINETIC, &f));
   near(gg_function_value(f, sum, &m), slope(&moving));
-  assert_true(gg_measure_derived_find(gg_measure_viscosity.derived, GG_Q_VISCOSITY_REDUCED, &f));
+  assert_true(gg_measure_derived_find(gg_measure_viscosity.rows->derived, GG_Q_VISCOSITY_REDUCED, &f));
   near(gg_function_value(f, sum, &m) / (slope(&moving) + slope(&touching)), 1);
   gg_measure_viscosity.destroy(self);
 }
@@ -312,8 +312,8 @@ static void missing(void **state)
   assert_null(gg_common_quantity_missing(&smooth, GG_Q_TEMPERATURE));
   assert_null(gg_common_quantity_missing(&smooth, GG_Q_N1));
   assert_non_null(gg_common_quantity_missing(&smooth, GG_Q_COOLING_RATE));
-  assert_int_equal(gg_measure_rheology.width(&smooth) + CH_ROUGH_WIDTH - CH_SMOOTH_WIDTH,
-                   gg_measure_rheology.width(&rough));
+  assert_int_equal(gg_measure_rheology.rows->width(&smooth) + CH_ROUGH_WIDTH - CH_SMOOTH_WIDTH,
+                   gg_measure_rheology.rows->width(&rough));
 }
 
 int main(void)
