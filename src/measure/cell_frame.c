@@ -8,8 +8,8 @@
 #include "base/memory.h"
 
 typedef struct gg_cell_mean {
-  double mass, inertia; /* sums of m, I; then what c and omega are the means of under these weights */
-  double y;             /* likewise, of the height */
+  double mass, inertia; /* sums of m and I; then the means of c and omega with these weights */
+  double y;             /* the same for the height */
   gg_vec c, omega;
 } gg_cell_mean;
 
@@ -130,7 +130,7 @@ static void put(double *const to[3], size_t i, gg_vec v)
   to[0][i] = v.x, to[1][i] = v.y, to[2][i] = v.z;
 }
 
-/* The share that the mean of its cell leaves of a grain's variance; 0 where it is alone. */
+/* Fraction of a grain's variance that remains after subtracting the mean of its cell; 0 if it is alone. */
 static double left_of(const gg_framed *f, size_t i, bool spin)
 {
   const gg_snapshot *s = &f->snapshot;
@@ -139,7 +139,7 @@ static double left_of(const gg_framed *f, size_t i, bool spin)
   return spin ? 1 - gg_moment_of_inertia(s->model, k) / cell->inertia : 1 - s->model->mass[k] / cell->mass;
 }
 
-/* What makes up for grains alone in their cells, and for the mean of all, which the imposed flow has taken out, too. */
+/* Correction for grains alone in their cells, and for the total mean, which the imposed flow has subtracted, too. */
 static double share_of_all(const gg_framed *f)
 {
   const double n = (double)f->snapshot.n;

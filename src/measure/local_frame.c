@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* A slab holds at least so many grains on average, and is at least a diameter thick. */
+/* A slab has at least so many grains on average, and is at least a diameter thick. */
 enum { GRAINS_PER_SLAB = 10 };
 
 static int slabs_of(const gg_model *model)
@@ -93,7 +93,7 @@ void gg_measure_slabs_add(gg_slabs *slabs, const gg_slabs *more)
   for (size_t i = 0; i < (size_t)slabs->n * sizeof(gg_slab) / sizeof(double); i++) to[i] += from[i];
 }
 
-/* Sum of squares of heights about their mean; 0 where grains are too few for a line, which then is their mean alone. */
+/* Sum of squares of heights about their mean; 0 for too few grains for a line: then the line is their mean alone. */
 static double spread_of(const gg_slab *slab)
 {
   double spread = slab->grains > 0 ? slab->height_square - slab->height * slab->height / slab->grains : 0;
@@ -111,7 +111,7 @@ static gg_line fit_line(const gg_slab *slab, const double sum[3], const double m
   return line;
 }
 
-/* Grains less the parameters of the fit. */
+/* Number of grains minus the parameters of the fit. */
 static double left_of(const gg_slab *slab)
 {
   return slab->grains - (spread_of(slab) > 0 ? 2 : 1);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An observable: a plug-in that turns what an engine shows (its grains, its sums over collisions) into a row of numbers
- * a sample, and channel means into named quantities; or adds to bins, from which curves follow; or both. It knows
- * nothing of engines' insides, files or pictures. A new one is a file and a line in common/observables.h.
+/* An observable: a plug-in that turns the samples of an engine (its grains, its collision sums) into a row of
+ * numbers a sample, and channel means into named quantities; or adds to bins, from which curves follow; or both. It
+ * does not depend on engines' internals, files or pictures. A new observable is a file and a line in
+ * common/observables.h.
  *
- * It borrows the model of its gas. Where a gas is followed in time the scene's `protocol` changes that model in place,
- * between two samples: coefficients of collisions, bath, thermostat, shear rate, and what follows from them
- * (gg_run_is_same_gas: grains, box and units stay). Bins begin anew then, and `restart` is called. So an observable
- * keeps no copy of what may change, but for what it derives in `restart`. */
+ * An observable borrows the model of its gas. In a transient run the scene's `protocol` changes that model in place,
+ * between two samples: coefficients of collisions, bath, thermostat, shear rate, and the values that follow from
+ * them (gg_run_is_same_gas: grains, box and units stay). Bins are then reset, and `restart` is called. So an
+ * observable keeps no copy of members that may change, except for values that it derives in `restart`. */
 #ifndef GG_OBSERVABLE_H
 #define GG_OBSERVABLE_H
 
@@ -17,24 +18,22 @@
 #include "measure/grain_snapshot.h"
 #include "statistics/estimator.h"
 
-/* One sampling interval: sums over its collisions, and how long it lasted (0: the very first sample, which makes no
- * row).
- * velocity_factor: by what all velocities were multiplied when it began (1, but for cooling runs that were rescaled).
- */
+/* One sampling interval: sums over its collisions, and its duration (0: the first sample, which makes no row).
+ * velocity_factor: factor on all velocities at its beginning (1, but for cooling runs that were rescaled). */
 typedef struct gg_interval {
   const gg_model *model;
   const gg_collision_sums *transfer;
   double elapsed, velocity_factor;
 } gg_interval;
 
-/* A quantity as a function of this observable's channel means; or a family of them, by its first member, with `each`.
- */
+/* A quantity as a function of this observable's channel means; or a family of quantities, by its first member, with
+ * `each`. */
 typedef struct gg_derived {
   gg_quantity quantity;
   gg_of_means *of;
   gg_member_of_means *each; /* where `of` is NULL */
 } gg_derived;
-/* Ends a table of them. */
+/* End of a table of derived quantities. */
 #define GG_DERIVED_END                                                                                                 \
   {                                                                                                                    \
     GG_MOST_QUANTITIES, NULL, NULL                                                                                     \
@@ -110,47 +109,46 @@ typedef struct gg_observable {
   gg_observable_cost (*cost_of)(const gg_model *model); /* replaces `cost` if that depends on the model; else NULL */
 } gg_observable;
 
-/* Does this model have it? */
+/* Can this model have the observable? */
 static inline bool gg_measure_observable_applies(const gg_observable *o, const gg_model *model)
 {
   return !o->refuses || !o->refuses(model);
 }
-/* Is it to be shown the collisions of this model? */
+/* Does the observable need the collisions of this model? */
 bool gg_measure_observable_wants_collisions(const gg_observable *o, const gg_model *model);
 
-/* The function that gives a quantity, from such a table; false if it has none. */
+/* The function of a quantity in a table of derived quantities; false if it has none. */
 bool gg_measure_derived_find(const gg_derived *table, gg_quantity q, gg_function *f);
 
 /* Name and flag of an observable of the list in common/observables.h. */
 #define GG_OBSERVABLE(FLAG, word) .name = #word, .flag = GG_MEASURE_##FLAG
 
-/* Every observable of that list, NULL-terminated; and each by its name, gg_measure_rheology and so on. */
+/* All observables of that list, NULL-terminated; and each by its name, gg_measure_rheology and so on. */
 extern const gg_observable *const gg_measure_observables[];
 #define GG_OBSERVABLE_PLUG_IN(FLAG, word, description) extern const gg_observable gg_measure_##word;
 GG_OBSERVABLES(GG_OBSERVABLE_PLUG_IN)
 #undef GG_OBSERVABLE_PLUG_IN
 
-/* What observables ask of a model; each is the reason to refuse it, or NULL where the model has it. */
+/* Requirements of observables: each function returns the reason why a model does not meet it, or NULL. */
 static inline const char *gg_measure_needs_positions(const gg_model *m)
 {
   return !m->ensemble     ? NULL
          : m->homogeneous ? "the Monte Carlo ensemble has no positions"
                           : "the Monte Carlo ensemble has no positions along the walls";
 }
-/* The same gas everywhere: no walls. */
+/* The gas is homogeneous: no walls. */
 static inline const char *gg_measure_needs_homogeneity(const gg_model *m)
 {
   return gg_flow_is_walled(m->flow) ? "between walls the gas depends on the place; measure profiles" : NULL;
 }
-/* Both. */
+/* Positions and homogeneity. */
 static inline const char *gg_measure_needs_bulk(const gg_model *m)
 {
   const char *reason = gg_measure_needs_positions(m);
   return reason ? reason : gg_measure_needs_homogeneity(m);
 }
 
-/* Observables that the user's program brings (graingas.h, "Extension"): one plug-in for all that the model has; NULL
- * without any. */
+/* Observables of the user's program (graingas.h, "Extension"): one plug-in for all of the model; NULL without any. */
 const gg_observable *gg_measure_user_observables(const gg_model *model);
 
 #endif

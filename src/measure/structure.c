@@ -58,7 +58,8 @@ static size_t bins(const void *self)
   return (size_t)((const structure *)self)->most * (RADIAL + 3 * AXIS);
 }
 
-/* Small systems in large boxes: transforms are worth so many collisions that they come more rarely. */
+/* Samples between transforms; more in small systems in large boxes, where a transform takes the time of many
+ * collisions. */
 enum { EVERY = 32 };
 static int every_of(const void *self)
 {
@@ -80,7 +81,7 @@ static double square(gg_mode a)
   return a.re * a.re + a.im * a.im;
 }
 
-/* The shortest of the largest wave numbers along the edges sets the bins: below it all directions are there. */
+/* The smallest of the largest wave numbers along the edges sets the bins: below it all directions are available. */
 static double spacing(const gg_model *m)
 {
   return 2 * M_PI / fmax(fmax(m->box[0], m->box[1]), m->box[2]);

@@ -12,7 +12,7 @@
 
 enum { LOW = 20 }; /* bins |k| <= LOW about 0: the head */
 
-/* "C_x", "C_{x,2}": how gnuplot writes it; and "Cx", "Cx_2" for names. */
+/* "C_x", "C_{x,2}" for gnuplot; and "Cx", "Cx_2" for names. */
 typedef struct naming {
   char plain[16], label[24], argument[24];
 } naming;
@@ -65,7 +65,7 @@ void gg_measure_velocity_curves_put(gg_curves *list, gg_velocity_component which
 
 typedef struct distributions {
   int species, vectors; /* vectors: C, and Omega if there are spins */
-  double *room;         /* for the grains of one species out of several; NULL for one */
+  double *room;         /* scratch for the grains of one of several species; NULL for one */
 } distributions;
 
 static void destroy(void *self)
@@ -90,7 +90,7 @@ static size_t bins(const void *self)
   return (size_t)(d->species * d->vectors * 3) * GG_HISTOGRAM;
 }
 
-/* The values of one species: as they are where there is no other, else gathered. */
+/* The values of one species: in place if it is the only one, else gathered. */
 static size_t values_of(const distributions *d, const gg_snapshot *s, const double *x, int species,
                         const double **values)
 {

@@ -33,6 +33,7 @@ double gg_statistics_correlation_inflation(const gg_correlation *c, size_t lengt
 /* Decay time of a slow mode, from windows that are not much longer. An integral of its correlation function needs a
  * window of 50 correlation times, is too small by a factor of two for ten, and would accept short windows. The lag
  * at which the function has fallen by a factor e is better known.
+ *
  * Unit: rows, of n_runs stretches of n rows end to end, each a mode with white noise added. Result: the lag over
  * which the correlation falls by a factor e from that at lag 1, corrected for the mean being that of the rows
  * themselves; 1/2 if neighbours are not correlated; n if the correlation never falls so far. */
