@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cells: grains thrown anywhere fall into them binomially; temperatures about cell, slab and box means come out with
- * and without the 1/n_c share exactly; a planted extra shear shows in the local shear rate and in the box temperature.
- */
+/* Cells: the numbers of randomly placed grains in cells are binomial; temperatures about cell, slab and box means
+ * agree exactly with and without the 1/n_c fraction; a planted extra shear is found in the local shear rate and in
+ * the box temperature. */
 #include "curve_test.h"
 
 #define EXTRA 0.02
@@ -68,7 +68,7 @@ static void planted(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Unequal masses: the 1/n_c share is that of grains, not of mass. */
+/* Unequal masses: the fraction 1/n_c is that of grains, not of mass. */
 static void mixture(void **state)
 {
   (void)state;
@@ -82,7 +82,7 @@ static void mixture(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Grains of two sizes that all turn at one mean rate, all components of I^(1/2) omega about it alike. */
+/* Grains of two sizes that all rotate at one mean rate, with equal fluctuations of all components of I^(1/2) omega. */
 static void turning(gg_snapshot *s, gg_rng *r, int sample)
 {
   thrown(s, r, sample);
@@ -111,8 +111,8 @@ static void two_sizes(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Masses 1 and 3, the heavy grains five times as hot: what a cell's mean, which is mostly theirs, takes out of either
- * is put back. */
+/* Masses 1 and 3, the heavy grains five times as hot: the energy that subtracting a cell's mean, mostly theirs,
+ * takes from either species is restored. */
 static void unlike(gg_snapshot *s, gg_rng *r, int sample)
 {
   turning(s, r, sample);
@@ -131,7 +131,7 @@ static void two_temperatures(void **state)
   gg_model m = ct_model(GG_EQUILIBRIUM, 0.1, 0, 4000, 2);
   gg_curves list = ct_curves(&gg_measure_cells, &m, 96, unlike, 84);
   const gg_curve *T = ct_find(&list, "cell_temperature"), *W = ct_find(&list, "cell_rotational_temperature");
-  double box[2], x[2] = {0.6, 0.4}, hot[2] = {1 / 2.6, 5 / 2.6}; /* a mean over the box, too, takes a share out */
+  double box[2], x[2] = {0.6, 0.4}, hot[2] = {1 / 2.6, 5 / 2.6}; /* the mean over the box reduces it, too */
   for (int spins = 0; spins < 2; spins++) {
     double all = 0, share = 0;
     for (int k = 0; k < 2; k++) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Conductivity: snapshots of Maxwellian grains have that of elastic spheres, 1.025218 of first Sonine order where they
- * are dilute (Chapman & Cowling 1970, 10.21), and with Enskog's two factors and his transfer where they are dense; no
- * heat flows along gradients of their density; the last point of the curve is the mean of the rows. Functions in which
- * f1 is expanded: degrees, slopes against differences, and <C.b> = <d/dC . b> of Maxwellian grains. */
+/* Conductivity: snapshots of Maxwellian grains have that of elastic spheres, 1.025218 of first Sonine order if they
+ * are dilute (Chapman & Cowling 1970, 10.21), and with Enskog's two factors and his transfer if they are dense; no
+ * heat flows along gradients of their density; the last point of the curve is the mean of the rows. Functions in
+ * which f1 is expanded: degrees, slopes against differences, and <C.b> = <d/dC . b> of Maxwellian grains. */
 #include "curve_test.h"
 #include "measure/heat_copies.h"
 
@@ -71,7 +71,7 @@ static void rows(void **state)
     const gg_curve *c = &list.curve[k];
     assert_true(gg_function_value(f, row, &m) == c->value[c->n - 1]);
   }
-  o->rows->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row); /* no snapshot: nothing */
+  o->rows->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row); /* without a snapshot the row is 0 */
   for (size_t i = 0; i < o->rows->width(&m); i++) assert_true(row[i] == 0);
   gg_measure_curves_clear(&list);
   gg_measure_snapshot_clear(&s);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves of profiles of stress and heat flux: at every height what collisions and walls give to the grains is the
- * divergence of what they pass on, less their loss, to rounding, of real collisions with a floor under gravity, smooth
- * and rough, one species and two; planted grains carry the stress and heat flux of their distribution about a flow with
- * a gradient; runs: pressure and heat flux of a dense elastic gas are those of the walls at every height, the balance
- * of energy closes where grains lose energy, and the parts average to the quantities of the run. */
+/* Profiles of stress and heat flux. Conservation: at every height the divergence of the transfer equals the momentum
+ * and energy that collisions and walls give to the grains, minus the loss, to rounding: for real collisions with a
+ * floor under gravity, smooth and rough, one species and two. Planted grains have the stress and heat flux of their
+ * distribution about a flow with a gradient. Runs: pressure and heat flux of a dense elastic gas are those of the
+ * walls at every height, the balance of energy closes for inelastic grains, and the parts average to the quantities
+ * of the run. */
 #include "curve_test.h"
 
 #include "measure/gap_slabs.h"
@@ -15,7 +16,7 @@ typedef struct planted {
   void *self;
   const gg_model *m;
   int slabs, collisions, contacts;
-  double given[GG_MOST_GAP_SLABS]; /* energy to grains, with a hat about the face above the slab */
+  double given[GG_MOST_GAP_SLABS]; /* energy given to grains, with a hat about the face above the slab */
 } planted;
 
 static double hat(const planted *p, int face, double height)
@@ -38,7 +39,7 @@ static void show(void *context, const gg_collision_record *c)
   }
 }
 
-/* Grains that stand still carry nothing: what is left of the balance is what collisions do. */
+/* Grains at rest have no kinetic fluxes: the balance contains collisions alone. */
 static void stand_still(gg_snapshot *s, gg_engine *engine)
 {
   gg_measure_snapshot_take(s, engine);
@@ -49,7 +50,7 @@ static void stand_still(gg_snapshot *s, gg_engine *engine)
     }
 }
 
-/* Of elastic grains the loss is 0, not rounding. */
+/* The loss of elastic grains is 0, not rounding. */
 static void check_conservation(const gg_scene *scene)
 {
   gg_model m;
@@ -109,8 +110,8 @@ static void conservation(void **state)
 
 /* ---- Grains */
 
-/* A gas with a flow 0.4 y, temperature 1, and the heat flux of C_y (C^2 - 5) a/5: q = a n/2, by weights that are drawn
- * by acceptance (|a C_y (C^2 - 5)/5| < 1 but for rare grains); two snapshots of the gap alike. */
+/* A gas with a flow 0.4 y, temperature 1, and the heat flux of C_y (C^2 - 5) a/5: q = a n/2, by acceptance-rejection
+ * (|a C_y (C^2 - 5)/5| < 1 but for rare grains); both halves of the gap are alike. */
 static const double tilt = 0.05;
 static void fill(gg_snapshot *s, gg_rng *r, int sample)
 {
@@ -205,7 +206,7 @@ static double sum_of(const gg_curve *c)
   return sum;
 }
 
-/* Shear between thermal walls heats rough grains, collisions cool them: of each term the balance needs its all. */
+/* Shear between thermal walls heats rough grains, collisions cool them: the balance needs every term. */
 static void balance(void **state)
 {
   (void)state;
@@ -245,7 +246,7 @@ static void balance(void **state)
 static void monte_carlo(void **state)
 {
   (void)state;
-  for (int k = 0; k < (getenv("NIGHTLY") ? 2 : 1); k++) { /* of a dilute gas nightly */
+  for (int k = 0; k < (getenv("NIGHTLY") ? 2 : 1); k++) { /* the dilute gas nightly */
     gg_result *r = run_of(GG_DSMC, GG_COUETTE, k ? 0 : 0.2, 0.9, 0.2, 0.02);
     const gg_curve *left = ct_find(&r->curves, "profile_energy_residual"), *P = ct_find(&r->curves, "profile_P_yx"),
                    *p = ct_find(&r->curves, "profile_P_yy"), *u = ct_find(&r->curves, "profile_velocity");

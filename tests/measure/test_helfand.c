@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Helfand's moments: planted collisions of known jumps, each shown again in the next interval, make coefficients known
- * in closed form; the first point of a curve has half of them; a grain between two collisions adds its flux times the
- * time of its flight. */
+/* Helfand's moments: planted collisions of known jumps, each repeated in the next interval, give coefficients known
+ * in closed form; the first point of a curve has half of them; a grain between two collisions adds its flux times
+ * the time of its flight. */
 #include "curve_test.h"
 
 enum { N = 6, SAMPLES = 40000 };
@@ -57,8 +57,8 @@ static double value(const planted *p, gg_quantity q)
   return gg_function_value(f, p->sum, &p->model);
 }
 
-/* An impulse of length 1 on a grain at rest: half of 1 goes over the distance, <k_x^2>/4 = 1/12; stress k J without
- * trace: 1/18; a third of its trace: 1/27. Twice each: four times the square of one. */
+/* An impulse of length 1 on a grain at rest: half of 1 is transferred over the distance, <k_x^2>/4 = 1/12; stress k
+ * J without trace: 1/18; a third of its trace: 1/27. Twice each: four times the square of one. */
 static void jumps(void **state)
 {
   (void)state;
@@ -94,8 +94,8 @@ static void jumps(void **state)
   end(&p);
 }
 
-/* One grain is hit once, at a third of an interval, and again at its end: a flux of heat m v^3/2 along x for the rest
- * of that time, and what the impulses carry. Its square alone makes the only row that is not 0. */
+/* One grain is hit once, at a third of an interval, and again at its end: a flux of heat m v^3/2 along x for the
+ * remaining time, and the transfer of the impulses. Its square makes the only nonzero row. */
 static void flight(void **state)
 {
   (void)state;
@@ -111,7 +111,7 @@ static void flight(void **state)
     sample(&p);
   }
   const double T = speed * speed / 3, nu0 = gg_common_model_nu0(&p.model, T), n = p.model.density, kinetic = 0;
-  /* Heat: partners fly apart, +4 and -4 over 2/3 of the interval, in sum 0; 2 over the distance. Stress xx: 8 of both
+  /* Heat: partners separate, +4 and -4 over 2/3 of the interval, sum 0; 2 over the distance. Stress xx: 8 of both
    * over 2/3, 2 over the distance; without trace a third and minus a sixth: products 2/3 of the square, over 10. */
   const double xx = 8 * interval * 2 / 3, all = xx + 2, rows = 12 - 1 - 6;
   const double expected[] = {4. / 15 * nu0 / (n * T * T) * 2 * 2 / 3. / 2, nu0 / (n * T) * all * all * 2 / 30 / 2,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Normal speeds at impact: speeds planted with the law of a Maxwellian gas come back as that law, of one species, of
- * two with different temperatures, and of a gas that cools while it is sampled; elastic gases have it in both engines;
- * and of inelastic ones the mean square is what their loss of energy says. */
+/* Normal speeds of collisions: speeds planted with the law of a Maxwellian gas are recovered as that law, for one
+ * species, for two with different temperatures, and for a gas that cools while it is sampled; elastic gases have it
+ * in both engines; for inelastic ones the mean square agrees with their loss of energy. */
 #include "curve_test.h"
 
 static double law(double x, const void *none)
@@ -38,7 +38,7 @@ static gg_collision_record draw(const planted *p, const gg_model *m, double fact
   return c;
 }
 
-/* T falls by `fall` from a sample to the next, as steadily as the collisions go. */
+/* T falls by `fall` from a sample to the next, in proportion to the collisions. */
 static gg_curves fed(const gg_model *m, double first, double second, double fall)
 {
   planted p = {.over_m = {first, second}};
@@ -67,7 +67,7 @@ static gg_curves fed(const gg_model *m, double first, double second, double fall
   return curves;
 }
 
-/* Mean sqrt(pi), mean square 4, and the law point by point, which stands beside. */
+/* Mean sqrt(pi), mean square 4, and the law of the curve, point by point. */
 static void expect_maxwellian(const gg_curves *list, size_t points, double sight)
 {
   const gg_curve *c = ct_find(list, "impact_speed");
@@ -110,8 +110,8 @@ static gg_scene scene_of(gg_flow flow, gg_engine_kind engine, double e, double p
   return s;
 }
 
-/* Both engines, the dense one, too: chaos before collisions. T of a sample is conserved, with the 3N - 3 degrees of
- * freedom of a gas at rest: mean square 4 (1 + O(1/N)), as the collision rate has it. */
+/* Both engines, also a dense gas: chaos before collisions. T of a sample is conserved, with the 3N - 3 degrees of
+ * freedom of a gas at rest: mean square 4 (1 + O(1/N)), as for the collision rate. */
 static void equilibrium(void **state)
 {
   (void)state;

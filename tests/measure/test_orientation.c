@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Orientation: planted angles give Lambda and both histograms back, whatever the mean spin; instantaneous velocities
- * contain the flow; an engine's curve agrees with the quantity cos2_psi of rheology. */
+/* Orientation: planted angles are recovered in Lambda and both histograms, at any mean spin; instantaneous
+ * velocities contain the flow; an engine's curve agrees with the quantity cos2_psi of rheology. */
 #include "curve_test.h"
 
 #define ALIGNED 0.3
 static const double mean_spin = -2.5;
 
-/* A share of the grains spins along (or against) its velocity, the others anyhow; a mean spin on top. */
+/* A fraction of the grains spins along (or against) its velocity, the others in random directions; a mean spin is
+ * added. */
 static void planted(gg_snapshot *s, gg_rng *r, int sample)
 {
   (void)sample;
@@ -37,7 +38,7 @@ static void planted_angles(void **state)
   ct_expect("Lambda", p.value, p.error, ALIGNED + (1 - ALIGNED) / 3, 0.005);
   double chi2 = ct_chi2(c, 1, c->n - 1, flat, NULL);
   assert_true(chi2 > 0.4 && chi2 < 2);
-  /* the aligned ones lie in the outermost bins, but for the scatter that the mean spin of the sample leaves */
+  /* the aligned ones are in the outermost bins, but for the scatter of the sample's mean spin */
   double ends = (c->value[0] + c->value[c->n - 1]) * 0.04 - 0.04 * (1 - ALIGNED);
   assert_true(fabs(ends - ALIGNED) < 0.005);
   double sum = 0;
@@ -49,8 +50,8 @@ static void planted_angles(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Instantaneous: the flow velocity and the mean spin stay in. With a very fast flow c is along x, and Lambda becomes
- * <omega_x^2/omega^2>, drawn here on its own. */
+/* Instantaneous: the flow velocity and the mean spin are included. With a very fast flow c is along x, and Lambda
+ * becomes <omega_x^2/omega^2>, computed here separately. */
 static void planted_flow(void **state)
 {
   (void)state;
@@ -71,8 +72,8 @@ static void planted_flow(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Sheared rough grains: the same mean as rheology's within their errors, and below 1/3; md's instantaneous Lambda has
- * the flow in it. */
+/* Sheared rough grains: the same mean as rheology's within their errors, and below 1/3; md's instantaneous Lambda
+ * contains the flow. */
 static void engines(void **state)
 {
   (void)state;

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Profiles: planted flow, temperature and spin come back slab by slab, planted impulses as the stress on the walls; of
- * walls that are alike the curves are those of the flow and its image, and as much of the walls' stress is; a
- * Couette gas is antisymmetric, slips at its walls, presses and pulls them as its own stress says, and holds as much as
- * was put in. */
+/* Profiles: planted flow, temperature and spin are recovered slab by slab, planted impulses as the stress on the
+ * walls; for walls that are alike the curves are those of the flow and its image, also those of the walls' stress. A
+ * Couette gas is antisymmetric, slips at its walls, exerts its own stress on them, and contains all of its grains. */
 #include <stdio.h>
 
 #include "curve_test.h"
@@ -45,7 +44,7 @@ static void planted_profiles(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_COUETTE, 0.2, 0, 4000, 1);
-  m.gravity[1] = -1; /* below is not as above: nothing is folded */
+  m.gravity[1] = -1; /* below differs from above: nothing is folded */
   gg_curves list = ct_curves(&gg_measure_profiles, &m, 64, planted, 91);
   double L = m.box[1], theta = 0.4 * 0.5, phi = 0.2;
   const struct {
@@ -62,7 +61,7 @@ static void planted_profiles(void **state)
     double chi2 = ct_chi2(c, 0, c->n, cases[k].f, cases[k].context);
     assert_true(chi2 > 0.4 && chi2 < 2);
     assert_true(c->error[5] < 0.02);
-    assert_int_equal(c->n, 2 * round(L)); /* slabs of half a diameter, a pair of them for each */
+    assert_int_equal(c->n, 2 * round(L)); /* pairs of slabs, each half a diameter thick */
     assert_false(c->folded);
   }
   gg_curve_number p = ct_number(ct_find(&list, "profile_velocity"), "slip_upper");
@@ -79,9 +78,9 @@ static double twice_centred(double y, const void *context)
   return 2 * (y / *(const double *)context - 0.5);
 }
 
-/* The same grains between walls that are alike. Half a turn leaves of the flow what is odd about the middle, of the
- * spin what is even; a mirror the other way round. Temperatures are about the mean of both halves, from which each is
- * off by what was folded away: 1/2, of the spin y - 1/2. */
+/* The same grains between walls that are alike. Half a turn keeps the part of the flow that is odd about the middle,
+ * and the even part of the spin; a mirror the reverse. Temperatures are about the mean of both halves, from which
+ * each differs by the part that was folded away: 1/2, for the spin y - 1/2. */
 static void folded_profiles(void **state)
 {
   (void)state;
@@ -115,9 +114,9 @@ static void folded_profiles(void **state)
   }
 }
 
-/* The whole gas is carried to and fro along the walls, and remembers that for a third of the window: blocks know next
- * to nothing of it, and errors that hold it are guesses (of velocities unfolded, too small by four on average). It is
- * odd, and folded profiles do not hold it. */
+/* The whole gas oscillates along the walls, with a memory of a third of the window: blocks contain next to no
+ * information about it, and errors that include it are guesses (for unfolded velocities too small by four on
+ * average). The oscillation is odd, and folded profiles do not contain it. */
 static double carried;
 
 static void wandering(gg_snapshot *s, gg_rng *r, int sample)
@@ -151,8 +150,8 @@ static void errors_where_the_gas_wanders(void **state)
   assert_true(fabs(chi2[1] - 1.15) < 0.25 && chi2[0] > 2); /* 15 blocks make 15/13 */
 }
 
-/* Walls that take up known impulses in known times: the stress is their sum over area and time, whatever the lengths of
- * the intervals; what came before averaging began is forgotten, and two intervals may go into one snapshot. `noise`:
+/* Walls that receive known impulses in known times: the stress is their sum over area and time, at any lengths of
+ * the intervals; data from before averaging are forgotten, and two intervals may belong to one snapshot. `noise`:
  * relative scatter of the impulses of an interval. */
 static gg_curves pushed(const gg_model *m, int samples, double noise)
 {
@@ -205,7 +204,7 @@ static void wall_stress(void **state)
       if (!noisy) continue;
       ct_expect(walls[k].name, n.value, n.error, P, 0.03 * fabs(P));
       double scatter = 0.5 * fabs(P) / sqrt(2 * 6400) * sqrt(1.06); /* of both walls; unequal intervals: <t^2>/<t>^2 */
-      assert_true(fabs(n.error / scatter - 1) < 0.5); /* 16 to 32 blocks, and what they correlate by chance */
+      assert_true(fabs(n.error / scatter - 1) < 0.5);               /* 16 to 32 blocks, and chance correlations */
     }
     gg_measure_curves_clear(&list);
   }
@@ -217,7 +216,7 @@ static void couette(void **state)
   gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = GG_COUETTE, s.phi = 0.1, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.95, s.collision.beta[q] = 0;
-  s.run.collisions = 8000, s.run.warmup = 1500; /* blocks longer than the momentum of the box remembers */
+  s.run.collisions = 8000, s.run.warmup = 1500; /* blocks longer than the memory of the momentum of the box */
   s.measure |= GG_MEASURE_PROFILES;
   gg_result *r = ct_run(s);
   const gg_curve *u = ct_find(&r->curves, "profile_velocity"), *phi = ct_find(&r->curves, "profile_solid_fraction");
@@ -236,9 +235,9 @@ static void couette(void **state)
   print_message("# slip %.3f +- %.3f and %.3f +- %.3f\n", lower.value, lower.error, upper.value, upper.error);
   assert_true(upper.value > 4 * upper.error && lower.value < -4 * lower.error);
   assert_true(fabs(upper.value + lower.value) < 4 * hypot(upper.error, lower.error));
-  /* The stress of the gas averages to that of the walls, but for the layer d/2 at each wall that only contacts with it
-   * cross: P_bulk = P_wall (1 - d/L_y). P_yx is the flux along y of momentum along x; rough grains next to a wall turn,
-   * and P_xy is not the same. */
+  /* The stress of the gas averages to that of the walls, but for the layer d/2 at each wall that only contacts with
+   * it cross: P_bulk = P_wall (1 - d/L_y). P_yx is the flux along y of momentum along x; rough grains next to a wall
+   * rotate, and P_xy differs. */
   static const char *const side[] = {"lower", "upper"};
   for (int k = 0; k < 4; k++) {
     char name[32];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rheology on planted grains: every quantity against its definition written out plainly, smooth and rough, one species
- * and two, sheared and cooling. */
+/* Rheology on planted grains: every quantity against its definition, smooth and rough, one species and two, sheared
+ * and cooling. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -108,7 +108,7 @@ static void sheared_rough(void **state)
   take_row(self, &m, &t, 0, 1, row); /* the first sample, which makes no row */
   take_row(self, &m, &t, 0.5, 1, row);
   double T = 0, xx = 0, xy = 0, w = 0, mean[3] = {0}, cos2 = 0, w4 = 0, w2 = 0, w3 = 0, speed = 0;
-  double rounded = 0; /* roots are taken in single precision, each rounded up or down */
+  double rounded = 0; /* roots in single precision are rounded up or down */
   for (int i = 0; i < N; i++) {
     T += (cx[i] * cx[i] + cy[i] * cy[i] + cz[i] * cz[i]) / (3.0 * N), xx += cx[i] * cx[i] / N, xy += cx[i] * cy[i] / N;
     mean[0] += sx[i] / N, mean[1] += sy[i] / N, mean[2] += sz[i] / N;
@@ -192,7 +192,7 @@ static void two_sizes(void **state)
   gg_measure_rheology.destroy(self);
 }
 
-/* The cumulants are those of every instant, however the temperature fluctuates between samples. */
+/* The cumulants are those of every instant, also if the temperature fluctuates between samples. */
 static void fluctuating(void **state)
 {
   (void)state;
@@ -211,8 +211,8 @@ static void fluctuating(void **state)
   }
 }
 
-/* Free cooling by Haff's law between two samples: zeta* and the rate in units of the moment's temperature come out
- * exactly, however fast the gas cools. */
+/* Free cooling by Haff's law between two samples: zeta* and the rate in units of the present temperature are exact,
+ * at any cooling rate. */
 static void cooling(void **state)
 {
   (void)state;
@@ -233,7 +233,7 @@ static void cooling(void **state)
   gg_measure_rheology.destroy(self);
 }
 
-/* A gas that cools within an interval as fast as it is sheared slowly: the mean free path is the mean speed of the
+/* A gas that cools within an interval while it is sheared slowly: the mean free path is the mean speed of the
  * interval over its rate, not the speed at its end. */
 static void path_of_interval(void **state)
 {
@@ -266,8 +266,8 @@ static double slope(const cubic *c)
   return (c->y1 * c->a6 - c->y3 * c->a4) / (c->a2 * c->a6 - c->a4 * c->a4);
 }
 
-/* A gas that cools while it is sheared slowly: of the samples in the range of a*, the slope at 0 of -P_xy/(n T), whose
- * collisional part belongs to the square of the mean of sqrt(T) between the samples. */
+/* A gas that cools while it is sheared slowly: from the samples in the range of a*, the slope at 0 of -P_xy/(n T),
+ * whose collisional part belongs to the square of the mean of sqrt(T) between the samples. */
 static void viscosity_at_no_shear(void **state)
 {
   (void)state;
@@ -302,7 +302,7 @@ static void viscosity_at_no_shear(void **state)
   gg_measure_viscosity.destroy(self);
 }
 
-/* What a scene lacks is said, and only that. */
+/* Quantities that a scene does not have, and only those, have a reason. */
 static void missing(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blocks of bins: joined without loss, and restored from a checkpoint as they were. */
+/* Blocks of bins are joined without loss, and restored from a checkpoint unchanged. */
 #include <string.h>
 
 #include "planted.h"
@@ -34,7 +34,7 @@ static void joined_blocks(void **state)
   gg_statistics_bins_clear(&b);
 }
 
-/* Coarsened blocks are those that a longer window would have had; what is left over is lost, and nothing else. */
+/* Coarsened blocks are those of a longer window; only the incomplete last block is lost. */
 static void coarsened(void **state)
 {
   (void)state;
@@ -50,7 +50,7 @@ static void coarsened(void **state)
   gg_statistics_bins_clear(&b);
 }
 
-/* Saved and restored in the middle of a block, bins go on as if nothing had been. */
+/* Bins that are saved and restored in the middle of a block continue without a difference. */
 static void checkpoint(void **state)
 {
   (void)state;
@@ -71,7 +71,7 @@ static void checkpoint(void **state)
   gg_statistics_bins_clear(&b);
 }
 
-/* Bins of another width, or of another name, are not taken for these. */
+/* Bins of another width, or of another name, are rejected. */
 static void other_bins(void **state)
 {
   (void)state;

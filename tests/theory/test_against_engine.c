@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Theories that claim to solve the Enskog equation against the Monte Carlo engine that does: each within the accuracy
- * that the theory states, plus four standard errors of the run. */
+/* Theories that solve the Enskog equation agree with the Monte Carlo engine: each within its stated accuracy, plus
+ * four standard errors of the run. */
 #include "theory_test.h"
 
 #include "run/run.h"

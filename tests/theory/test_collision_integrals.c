@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The collision integrals against the collision rule itself: pairs of grains drawn from the distributions, collided by
- * the same code that both engines use. Bounds are 4.5 standard errors of the sample; about 300 numbers are tested. */
+/* The collision integrals against the collision rule itself: pairs of grains drawn from the distributions, collided
+ * by the code that both engines use. Bounds are 4.5 standard errors of the sample; about 300 numbers are tested. */
 #include "theory_test.h"
 
 #include "common/rng.h"
@@ -78,7 +78,7 @@ static void check_pair(const gg_model *m, const gg_gaussian state[], int i, int 
   }
 }
 
-/* Hide all pairs but i,j: a density of nothing. */
+/* A model without all pairs but i,j: their density is 0. */
 static gg_model only_pair(const gg_model *m, int i, int j)
 {
   gg_model one = *m;
@@ -148,7 +148,7 @@ static void sonine_rates(void **state)
     }
 }
 
-/* Energy exchanged in collisions of frictional grains, and the share that slides. */
+/* Energy exchanged in collisions of frictional grains, and the fraction that slides. */
 static void friction(void **state)
 {
   (void)state;
