@@ -40,7 +40,7 @@ static void expect_number(const gg_curve *c, const char *name, double expected, 
   ct_expect(name, p.value, p.error, expected, sight * fabs(expected));
 }
 
-static void planted(void **state)
+static void planted_cells_have_exact_temperatures(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.1, 0, 4000, 1);
@@ -69,7 +69,7 @@ static void planted(void **state)
 }
 
 /* Unequal masses: the fraction 1/n_c is that of grains, not of mass. */
-static void mixture(void **state)
+static void unlike_masses_share_by_number(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_EQUILIBRIUM, 0.1, 0, 4000, 2);
@@ -148,7 +148,7 @@ static void two_temperatures(void **state)
 }
 
 /* Every distribution integrates to one, and an elastic engine's cells have the temperature of the box. */
-static void engine(void **state)
+static void cells_of_an_engine_have_the_temperature_of_the_box(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -176,8 +176,11 @@ static void engine(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted),          cmocka_unit_test(mixture), cmocka_unit_test(two_sizes),
-      cmocka_unit_test(two_temperatures), cmocka_unit_test(engine),
+      cmocka_unit_test(planted_cells_have_exact_temperatures),
+      cmocka_unit_test(unlike_masses_share_by_number),
+      cmocka_unit_test(two_sizes),
+      cmocka_unit_test(two_temperatures),
+      cmocka_unit_test(cells_of_an_engine_have_the_temperature_of_the_box),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -327,7 +327,7 @@ static void sheared_engines(void **state)
 }
 
 /* Sweeps of the shear rate rescale all velocities repeatedly: paths are still those of the gas. */
-static void swept(void **state)
+static void rescaled_velocities_keep_paths(void **state)
 {
   (void)state;
   gg_scene s = sheared(GG_DSMC, 1, 0.1);
@@ -342,7 +342,7 @@ static void swept(void **state)
 }
 
 /* Heated gases: times in both engines if kicks heat them; with the Gaussian thermostat, in dsmc alone. No paths. */
-static void heated(void **state)
+static void heated_gases_have_times_but_no_paths(void **state)
 {
   (void)state;
   for (int k = 0; k < 4; k++) {
@@ -369,9 +369,15 @@ static void heated(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(laws_beside),        cmocka_unit_test(heated),        cmocka_unit_test(adds_up),
-      cmocka_unit_test(flights_and_angles), cmocka_unit_test(sheared_paths), cmocka_unit_test(kinetic_theory),
-      cmocka_unit_test(sheared_engines),    cmocka_unit_test(unlike_grains), cmocka_unit_test(swept),
+      cmocka_unit_test(laws_beside),
+      cmocka_unit_test(heated_gases_have_times_but_no_paths),
+      cmocka_unit_test(adds_up),
+      cmocka_unit_test(flights_and_angles),
+      cmocka_unit_test(sheared_paths),
+      cmocka_unit_test(kinetic_theory),
+      cmocka_unit_test(sheared_engines),
+      cmocka_unit_test(unlike_grains),
+      cmocka_unit_test(rescaled_velocities_keep_paths),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

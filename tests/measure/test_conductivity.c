@@ -33,7 +33,7 @@ static void expect_last(const gg_curves *list, const char *name, double value, d
   for (size_t i = 0; i < c->n; i++) ct_expect(name, c->value[i], c->error[i], value, most);
 }
 
-static void elastic(void **state)
+static void maxwellians_have_enskogs_conductivity(void **state)
 {
   (void)state;
   const double phi[] = {0, 0.3};
@@ -48,7 +48,7 @@ static void elastic(void **state)
   }
 }
 
-static void rows(void **state)
+static void last_point_is_the_mean_of_rows(void **state)
 {
   (void)state;
   const gg_model m = model(GG_HCS, GG_DSMC, 0.2, -1);
@@ -86,7 +86,7 @@ static double component(const double x[6], int axis, int k)
   return b[k];
 }
 
-static void functions(void **state)
+static void slopes_are_differences(void **state)
 {
   (void)state;
   const double x[6] = {0.3, -0.7, 1.1, 0.8, 0.5, -0.4}, dx[6] = {-0.2, 0.9, 0.4, 0.6, -1.3, 0.7}, h = 1e-4;
@@ -103,7 +103,7 @@ static void functions(void **state)
 }
 
 /* Spins half as fast as velocities: a Maxwellian, which needs no equipartition here. */
-static void divergences(void **state)
+static void divergences_are_those_of_maxwellians(void **state)
 {
   (void)state;
   enum { ROWS = 40 };
@@ -136,7 +136,7 @@ static void divergences(void **state)
   free(row);
 }
 
-static void refused(void **state)
+static void models_without_it_give_the_reason(void **state)
 {
   (void)state;
   const gg_model fine = model(GG_EQUILIBRIUM, GG_DSMC, 0.1, -1), md = model(GG_HCS, GG_MD, 0.1, -1),
@@ -152,7 +152,9 @@ static void refused(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic), cmocka_unit_test(rows), cmocka_unit_test(functions),
-                                     cmocka_unit_test(divergences), cmocka_unit_test(refused)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(maxwellians_have_enskogs_conductivity), cmocka_unit_test(last_point_is_the_mean_of_rows),
+      cmocka_unit_test(slopes_are_differences), cmocka_unit_test(divergences_are_those_of_maxwellians),
+      cmocka_unit_test(models_without_it_give_the_reason)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -47,7 +47,7 @@ static double squared(double t, const void *context)
   return sum * STEP * STEP;
 }
 
-static void walkers(void **state)
+static void walkers_have_their_known_correlations(void **state)
 {
   (void)state;
   for (int species = 1; species <= 2; species++) {
@@ -245,7 +245,7 @@ static void box_shorter_than_free_paths(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(walkers),
+      cmocka_unit_test(walkers_have_their_known_correlations),
       cmocka_unit_test(planted_tail),
       cmocka_unit_test(lacking_of_boxes),
       cmocka_unit_test(dilute_gas),

@@ -92,7 +92,7 @@ static void check_conservation(const gg_scene *scene)
   gg_md_ops.destroy(engine);
 }
 
-static void conservation(void **state)
+static void balances_are_exact(void **state)
 {
   (void)state;
   for (int k = 0; k < 10; k++) {
@@ -135,7 +135,7 @@ static double level(double x, const void *value)
   return *(const double *)value;
 }
 
-static void carried(void **state)
+static void planted_grains_have_their_kinetic_fluxes(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_CHUTE, 0.2, -1, 4000, 1);
@@ -207,7 +207,7 @@ static double sum_of(const gg_curve *c)
 }
 
 /* Shear between thermal walls heats rough grains, collisions cool them: the balance needs every term. */
-static void balance(void **state)
+static void energy_balance_closes(void **state)
 {
   (void)state;
   gg_result *r = run_of(GG_MD, GG_COUETTE, 0.2, 0.9, 0.2, 0.02);
@@ -266,8 +266,9 @@ static void monte_carlo(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(conservation), cmocka_unit_test(carried),     cmocka_unit_test(constant_fluxes),
-      cmocka_unit_test(balance),      cmocka_unit_test(monte_carlo),
+      cmocka_unit_test(balances_are_exact), cmocka_unit_test(planted_grains_have_their_kinetic_fluxes),
+      cmocka_unit_test(constant_fluxes),    cmocka_unit_test(energy_balance_closes),
+      cmocka_unit_test(monte_carlo),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -59,7 +59,7 @@ static double value(const planted *p, gg_quantity q)
 
 /* An impulse of length 1 on a grain at rest: half of 1 is transferred over the distance, <k_x^2>/4 = 1/12; stress k
  * J without trace: 1/18; a third of its trace: 1/27. Twice each: four times the square of one. */
-static void jumps(void **state)
+static void planted_jumps_give_known_coefficients(void **state)
 {
   (void)state;
   static const gg_quantity q[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_VISCOSITY_REDUCED,
@@ -96,7 +96,7 @@ static void jumps(void **state)
 
 /* One grain is hit once, at a third of an interval, and again at its end: a flux of heat m v^3/2 along x for the
  * remaining time, and the transfer of the impulses. Its square makes the only nonzero row. */
-static void flight(void **state)
+static void a_flight_adds_flux_times_time(void **state)
 {
   (void)state;
   planted p;
@@ -123,7 +123,7 @@ static void flight(void **state)
   end(&p);
 }
 
-static void refused(void **state)
+static void models_without_it_give_the_reason(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -141,6 +141,8 @@ static void refused(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(jumps), cmocka_unit_test(flight), cmocka_unit_test(refused)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(planted_jumps_give_known_coefficients),
+                                     cmocka_unit_test(a_flight_adds_flux_times_time),
+                                     cmocka_unit_test(models_without_it_give_the_reason)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -90,7 +90,7 @@ static void planted_law(void **state)
   gg_measure_curves_clear(&a), gg_measure_curves_clear(&b), gg_measure_curves_clear(&c);
 }
 
-static void refusals(void **state)
+static void models_without_it_give_the_reason(void **state)
 {
   (void)state;
   gg_model walled = ct_model(GG_COUETTE, 0.1, -1, GRAINS, 1), sheared = ct_model(GG_USF, 0.1, -1, GRAINS, 1);
@@ -112,7 +112,7 @@ static gg_scene scene_of(gg_flow flow, gg_engine_kind engine, double e, double p
 
 /* Both engines, also a dense gas: chaos before collisions. T of a sample is conserved, with the 3N - 3 degrees of
  * freedom of a gas at rest: mean square 4 (1 + O(1/N)), as for the collision rate. */
-static void equilibrium(void **state)
+static void elastic_gases_have_the_maxwellian_law(void **state)
 {
   (void)state;
   for (int kind = GG_MD; kind <= GG_DSMC; kind++) {
@@ -128,7 +128,7 @@ static void equilibrium(void **state)
 
 /* Each collision of smooth grains loses (1 - e^2) g_n^2/4: dissipation = (n/2) rate (1 - e^2)/4 <g_n^2>, the rate
  * counting a collision for both grains; so in a cooling gas zeta = rate (1 - e^2) <x^2>/12. */
-static void energy(void **state)
+static void mean_square_gives_the_loss(void **state)
 {
   (void)state;
   const double e = 0.7;
@@ -153,7 +153,8 @@ static void energy(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(planted_law), cmocka_unit_test(refusals),
-                                     cmocka_unit_test(equilibrium), cmocka_unit_test(energy)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(planted_law), cmocka_unit_test(models_without_it_give_the_reason),
+                                     cmocka_unit_test(elastic_gases_have_the_maxwellian_law),
+                                     cmocka_unit_test(mean_square_gives_the_loss)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -139,7 +139,7 @@ static gg_result *engine(double e, double phi)
   return ct_run(s);
 }
 
-static void engines(void **state)
+static void elastic_grains_have_one_maxwellian_at_every_density(void **state)
 {
   (void)state;
   gg_result *elastic = engine(1, 0.2);
@@ -163,8 +163,11 @@ static void engines(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(gaussian_cells), cmocka_unit_test(mixed_cells), cmocka_unit_test(two_sizes),
-      cmocka_unit_test(planted_halves), cmocka_unit_test(engines),
+      cmocka_unit_test(gaussian_cells),
+      cmocka_unit_test(mixed_cells),
+      cmocka_unit_test(two_sizes),
+      cmocka_unit_test(planted_halves),
+      cmocka_unit_test(elastic_grains_have_one_maxwellian_at_every_density),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

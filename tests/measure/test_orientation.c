@@ -74,7 +74,7 @@ static void planted_flow(void **state)
 
 /* Sheared rough grains: the same mean as rheology's within their errors, and below 1/3; md's instantaneous Lambda
  * contains the flow. */
-static void engines(void **state)
+static void engines_agree_with_rheology(void **state)
 {
   (void)state;
   for (int k = 0; k < 2; k++) {
@@ -97,7 +97,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(planted_angles),
       cmocka_unit_test(planted_flow),
-      cmocka_unit_test(engines),
+      cmocka_unit_test(engines_agree_with_rheology),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -285,7 +285,7 @@ static void planted_collisions(void **state)
 
 /* Sheared inelastic grains: separating over approaching is 1/e, at any spins, and the rate with the measured speed
  * is that of approaching pairs. Colliding grains are slower than Maxwellians of their temperature. */
-static void inelastic(void **state)
+static void separating_pairs_are_denser_by_1_over_e(void **state)
 {
   (void)state;
   for (int rough = 0; rough < 2; rough++) {
@@ -353,7 +353,7 @@ static gg_status count_near(void *context, const gg_frame *f, gg_error *err)
 
 /* Nightly. Heated grains, so dense and inelastic that extrapolated densities of separating pairs were 5 % low: the
  * density of approaching pairs at contact is that in space, and that of separating ones 1/e times as large. */
-static void dense(void **state)
+static void contact_density_is_that_in_space(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -388,10 +388,13 @@ static void dense(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(pairs_of_images),    cmocka_unit_test(sampled_pairs),
-                                     cmocka_unit_test(few_points),         cmocka_unit_test(ideal_gas),
-                                     cmocka_unit_test(planted_collisions), cmocka_unit_test(hard_spheres),
-                                     cmocka_unit_test(inelastic)},
-                          nightly[] = {cmocka_unit_test(dense)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(pairs_of_images),
+                                     cmocka_unit_test(sampled_pairs),
+                                     cmocka_unit_test(few_points),
+                                     cmocka_unit_test(ideal_gas),
+                                     cmocka_unit_test(planted_collisions),
+                                     cmocka_unit_test(hard_spheres),
+                                     cmocka_unit_test(separating_pairs_are_denser_by_1_over_e)},
+                          nightly[] = {cmocka_unit_test(contact_density_is_that_in_space)};
   return getenv("NIGHTLY") ? cmocka_run_group_tests(nightly, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -210,7 +210,7 @@ static void wall_stress(void **state)
   }
 }
 
-static void couette(void **state)
+static void couette_gas_agrees_with_its_walls(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -257,7 +257,7 @@ int main(void)
       cmocka_unit_test(folded_profiles),
       cmocka_unit_test(errors_where_the_gas_wanders),
       cmocka_unit_test(wall_stress),
-      cmocka_unit_test(couette),
+      cmocka_unit_test(couette_gas_agrees_with_its_walls),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

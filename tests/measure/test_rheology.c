@@ -148,7 +148,7 @@ static void sheared_rough(void **state)
 }
 
 /* Two species, smooth: partial temperatures and mass-weighted totals. */
-static void mixture(void **state)
+static void mixture_has_partial_and_total_temperatures(void **state)
 {
   (void)state;
   plant(2);
@@ -193,7 +193,7 @@ static void two_sizes(void **state)
 }
 
 /* The cumulants are those of every instant, also if the temperature fluctuates between samples. */
-static void fluctuating(void **state)
+static void cumulants_are_those_of_each_instant(void **state)
 {
   (void)state;
   plant(5);
@@ -213,7 +213,7 @@ static void fluctuating(void **state)
 
 /* Free cooling by Haff's law between two samples: zeta* and the rate in units of the present temperature are exact,
  * at any cooling rate. */
-static void cooling(void **state)
+static void cooling_rate_follows_haffs_law(void **state)
 {
   (void)state;
   plant(3);
@@ -303,7 +303,7 @@ static void viscosity_at_no_shear(void **state)
 }
 
 /* Quantities that a scene does not have, and only those, have a reason. */
-static void missing(void **state)
+static void missing_quantities_have_reasons(void **state)
 {
   (void)state;
   gg_model smooth = model_of(GG_USF, -1, 1), rough = model_of(GG_USF, 0, 1);
@@ -319,9 +319,14 @@ static void missing(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sheared_rough),         cmocka_unit_test(mixture),   cmocka_unit_test(cooling),
-      cmocka_unit_test(fluctuating),           cmocka_unit_test(two_sizes), cmocka_unit_test(path_of_interval),
-      cmocka_unit_test(viscosity_at_no_shear), cmocka_unit_test(missing),
+      cmocka_unit_test(sheared_rough),
+      cmocka_unit_test(mixture_has_partial_and_total_temperatures),
+      cmocka_unit_test(cooling_rate_follows_haffs_law),
+      cmocka_unit_test(cumulants_are_those_of_each_instant),
+      cmocka_unit_test(two_sizes),
+      cmocka_unit_test(path_of_interval),
+      cmocka_unit_test(viscosity_at_no_shear),
+      cmocka_unit_test(missing_quantities_have_reasons),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -102,7 +102,7 @@ static void images(gg_snapshot *s, gg_rng *r, int sample)
     }
 }
 
-static void folded(void **state)
+static void a_slab_and_its_image_are_one(void **state)
 {
   (void)state;
   static const char *const components[] = {"Cx", "Cy", "Cz", "Wx", "Wy", "Wz"};
@@ -149,7 +149,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(planted_slabs),
       cmocka_unit_test(two_species),
-      cmocka_unit_test(folded),
+      cmocka_unit_test(a_slab_and_its_image_are_one),
       cmocka_unit_test(free_molecules),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -76,7 +76,7 @@ static void planted_moments(void **state)
 }
 
 /* Two species, the second Maxwellian: v* of each by its own lambda_i = T/(T_i mu_ji). */
-static void mixture(void **state)
+static void each_species_has_its_own_scale(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, -1, 20000, 2);
@@ -121,7 +121,7 @@ static void few_of_a_species(void **state)
 
 /* Free cooling at e = 0.5: c = 2 a_2 = 0.0948(6) (Brey, Cubero & Ruiz-Montero 1996 and many since), and Delta
  * follows the first Sonine polynomial for most grains. */
-static void cooling(void **state)
+static void cooling_gas_has_the_published_cumulant(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -145,8 +145,11 @@ static void cooling(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted_form),     cmocka_unit_test(planted_moments), cmocka_unit_test(mixture),
-      cmocka_unit_test(few_of_a_species), cmocka_unit_test(cooling),
+      cmocka_unit_test(planted_form),
+      cmocka_unit_test(planted_moments),
+      cmocka_unit_test(each_species_has_its_own_scale),
+      cmocka_unit_test(few_of_a_species),
+      cmocka_unit_test(cooling_gas_has_the_published_cumulant),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

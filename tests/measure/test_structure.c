@@ -20,7 +20,7 @@ static void thrown(gg_snapshot *s, gg_rng *r, int sample)
 
 /* Density and a velocity, every mode up to half the limit: within 2 % of the typical mode sqrt(N) at the edge of the
  * range, 10^-3 in its inner half. */
-static void modes(void **state)
+static void mesh_modes_are_plain_sums(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.2, -1, 500, 1);
@@ -66,7 +66,7 @@ static void stripes(gg_snapshot *s, gg_rng *r, int sample)
     while (2 * gg_rng_uniform(r) > 1 + cos(4 * M_PI * s->r[0][i] / edge)) s->r[0][i] = edge * gg_rng_uniform(r);
 }
 
-static void striped(void **state)
+static void stripes_are_one_mode_along_x(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.2, -1, 500, 1);
@@ -96,7 +96,7 @@ static void sound(gg_snapshot *s, gg_rng *r, int sample)
   }
 }
 
-static void longitudinal(void **state)
+static void a_wave_along_its_direction_is_longitudinal(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.2, -1, 500, 1);
@@ -214,8 +214,11 @@ static void hard_spheres(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(modes),     cmocka_unit_test(striped),      cmocka_unit_test(longitudinal),
-      cmocka_unit_test(ideal_gas), cmocka_unit_test(hard_spheres),
+      cmocka_unit_test(mesh_modes_are_plain_sums),
+      cmocka_unit_test(stripes_are_one_mode_along_x),
+      cmocka_unit_test(a_wave_along_its_direction_is_longitudinal),
+      cmocka_unit_test(ideal_gas),
+      cmocka_unit_test(hard_spheres),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -181,7 +181,7 @@ static double conserved(double x, const void *context)
   return -1 / (*(const double *)context - 1);
 }
 
-static void equilibrium(void **state)
+static void momentum_conservation_leaves_its_correlation(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -225,7 +225,7 @@ static void level_of_a_mixture(void **state)
 }
 
 /* Inelastic shear: neighbours move together. */
-static void sheared(void **state)
+static void sheared_neighbours_move_together(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -243,8 +243,12 @@ static void sheared(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted_wave), cmocka_unit_test(sampled_pairs),      cmocka_unit_test(sampled_pairs_about_cells),
-      cmocka_unit_test(equilibrium),  cmocka_unit_test(level_of_a_mixture), cmocka_unit_test(sheared),
+      cmocka_unit_test(planted_wave),
+      cmocka_unit_test(sampled_pairs),
+      cmocka_unit_test(sampled_pairs_about_cells),
+      cmocka_unit_test(momentum_conservation_leaves_its_correlation),
+      cmocka_unit_test(level_of_a_mixture),
+      cmocka_unit_test(sheared_neighbours_move_together),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

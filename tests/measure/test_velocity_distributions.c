@@ -112,7 +112,7 @@ static gg_result *engine(double e)
 }
 
 /* The Monte Carlo engine in equilibrium: alpha = 2; sheared at e = 0.7: tails above a Gaussian's, alpha < 2. */
-static void engines(void **state)
+static void only_inelastic_shear_has_long_tails(void **state)
 {
   (void)state;
   gg_result *elastic = engine(1), *sheared = engine(0.7);
@@ -131,7 +131,7 @@ int main(void)
       cmocka_unit_test(exact_tail),
       cmocka_unit_test(gaussian_grains),
       cmocka_unit_test(stretched_grains),
-      cmocka_unit_test(engines),
+      cmocka_unit_test(only_inelastic_shear_has_long_tails),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

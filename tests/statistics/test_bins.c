@@ -35,7 +35,7 @@ static void joined_blocks(void **state)
 }
 
 /* Coarsened blocks are those of a longer window; only the incomplete last block is lost. */
-static void coarsened(void **state)
+static void coarsened_blocks_are_those_of_a_longer_window(void **state)
 {
   (void)state;
   gg_bins b;
@@ -51,7 +51,7 @@ static void coarsened(void **state)
 }
 
 /* Bins that are saved and restored in the middle of a block continue without a difference. */
-static void checkpoint(void **state)
+static void restored_bins_continue_without_a_difference(void **state)
 {
   (void)state;
   gg_bins a, b;
@@ -92,7 +92,8 @@ static void other_bins(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(joined_blocks), cmocka_unit_test(coarsened),
-                                     cmocka_unit_test(checkpoint), cmocka_unit_test(other_bins)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(joined_blocks), cmocka_unit_test(coarsened_blocks_are_those_of_a_longer_window),
+      cmocka_unit_test(restored_bins_continue_without_a_difference), cmocka_unit_test(other_bins)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -54,7 +54,7 @@ static void short_windows(void **state)
 /* The intervals mean +- error and mean +- 1.96 error contain the true value in 68.3 and 95 of 100 cases. Windows of
  * 30, 60 and 200 correlation times, 2000 of each: within 3.5 % and four errors of that count (without the error's
  * own uncertainty 62 and 90 % in the shortest). */
-static void coverage(void **state)
+static void intervals_cover_the_truth(void **state)
 {
   (void)state;
   enum { SERIES = 2000, T = 10 };
@@ -98,7 +98,7 @@ static gg_series planted_ratio(gg_rng *r, size_t n)
 
 /* A ratio of channels with common fluctuations: the common part cancels in the error, and the mean is the ratio of
  * means. */
-static void ratios(void **state)
+static void errors_of_ratios_omit_common_fluctuations(void **state)
 {
   (void)state;
   gg_rng r = gg_common_rng_seed(13, 0);
@@ -155,7 +155,7 @@ static void small_channels(void **state)
 /* Two channels of which one follows the other, as spins follow T: both are slow, the ratio is fast and returns with
  * the opposite sign. Mean square of deviation over error in windows of 400 rows, 60 times of the slow channel (0.81
  * if the sum does not extend over the memory of the parts). */
-static void followers(void **state)
+static void errors_include_the_memory_of_the_parts(void **state)
 {
   (void)state;
   enum { SERIES = 3000, N = 400, BEFORE = 100 };
@@ -183,7 +183,7 @@ static void followers(void **state)
 }
 
 /* Replicas: the pooled error is that of all rows together. */
-static void replicas(void **state)
+static void replicas_are_pooled(void **state)
 {
   (void)state;
   gg_rng r = gg_common_rng_seed(14, 0);
@@ -241,9 +241,14 @@ static void short_runs(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(honest_errors), cmocka_unit_test(short_windows),  cmocka_unit_test(coverage),
-      cmocka_unit_test(ratios),        cmocka_unit_test(small_channels), cmocka_unit_test(followers),
-      cmocka_unit_test(replicas),      cmocka_unit_test(short_runs),     cmocka_unit_test(doubt_of_slow_modes)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(honest_errors),
+                                     cmocka_unit_test(short_windows),
+                                     cmocka_unit_test(intervals_cover_the_truth),
+                                     cmocka_unit_test(errors_of_ratios_omit_common_fluctuations),
+                                     cmocka_unit_test(small_channels),
+                                     cmocka_unit_test(errors_include_the_memory_of_the_parts),
+                                     cmocka_unit_test(replicas_are_pooled),
+                                     cmocka_unit_test(short_runs),
+                                     cmocka_unit_test(doubt_of_slow_modes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -67,7 +67,7 @@ static void made_to_harm(void **state)
 }
 
 /* Coarsened rows are means of neighbours; the window still begins after the rows before it. */
-static void coarsened(void **state)
+static void coarsened_rows_are_means_of_neighbours(void **state)
 {
   (void)state;
   gg_series s;
@@ -100,7 +100,8 @@ static void window_begins_with_a_row(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(long_series), cmocka_unit_test(coarsened),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(long_series),
+                                     cmocka_unit_test(coarsened_rows_are_means_of_neighbours),
                                      cmocka_unit_test(window_begins_with_a_row), cmocka_unit_test(made_to_harm)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

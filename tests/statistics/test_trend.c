@@ -5,7 +5,7 @@
 
 /* Stationary noise has no trend (|z| > 4 in none of 200 series); an exponential relaxation of half a standard
  * deviation over the window has one. */
-static void trends(void **state)
+static void only_a_relaxation_has_a_trend(void **state)
 {
   (void)state;
   enum { N = 3000 };
@@ -33,7 +33,7 @@ static void trends(void **state)
 /* A distant start that is soon forgotten: all of it in one of 50 parts. It shifts the mean by two errors; in the
  * first third it adds as much scatter as difference, so that a comparison of thirds alone found it in no series. One
  * stretch or three; stationary skewed noise has no trend. */
-static void beginnings(void **state)
+static void a_distant_start_is_found(void **state)
 {
   (void)state;
   enum { N = 3000, T = 50, SERIES = 60 };
@@ -79,7 +79,8 @@ static void beginnings_of_replicas(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(trends), cmocka_unit_test(beginnings),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(only_a_relaxation_has_a_trend),
+                                     cmocka_unit_test(a_distant_start_is_found),
                                      cmocka_unit_test(beginnings_of_replicas)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -102,7 +102,7 @@ static void noise_free(void **state)
 }
 
 /* Free cooling: one species, and two that differ in mass. */
-static void cooling(void **state)
+static void cooling_states_agree_with_the_engine(void **state)
 {
   (void)state;
   gg_result *r = run(scene_of(GG_HCS, 0.2, 0.7, -1));
@@ -122,7 +122,7 @@ static void cooling(void **state)
 }
 
 /* Heated by white noise. */
-static void heated(void **state)
+static void heated_states_agree_with_the_engine(void **state)
 {
   (void)state;
   gg_scene s = scene_of(GG_HSS, 0, 0.6, -1);
@@ -138,8 +138,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(gaussian_closure),
       cmocka_unit_test(noise_free),
-      cmocka_unit_test(cooling),
-      cmocka_unit_test(heated),
+      cmocka_unit_test(cooling_states_agree_with_the_engine),
+      cmocka_unit_test(heated_states_agree_with_the_engine),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

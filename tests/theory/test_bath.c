@@ -21,7 +21,7 @@ static gg_theory_answer solved(const gg_scene *s)
 }
 
 /* 2 gamma (T_b - T) = zeta(T) T, zeta from the distribution; the first Sonine order is near. */
-static void balance(void **state)
+static void bath_balances_cooling(void **state)
 {
   (void)state;
   for (double drag = 0.01; drag < 100; drag *= 10)
@@ -43,7 +43,7 @@ static void balance(void **state)
 
 /* Elastic grains, smooth or perfectly rough, have the bath's temperature, and Maxwellians; with shear nearly, if the
  * bath is strong: viscous heat is gamma_dot^2 T/(2 drag) of centres in a thin gas. */
-static void elastic(void **state)
+static void elastic_grains_have_the_temperature_of_the_bath(void **state)
 {
   (void)state;
   gg_scene s = bath(GG_HSS, 0.3, 1, -1, 0.7, 3);
@@ -65,7 +65,7 @@ static void elastic(void **state)
 }
 
 /* Spins of hardly colliding grains: those of the bath, about the rolling ones. */
-static void rotation(void **state)
+static void spins_have_the_temperature_of_the_bath(void **state)
 {
   (void)state;
   gg_scene s = bath(GG_USF, 1e-2, 0.9, 0.1, 500, 3);
@@ -125,7 +125,7 @@ static void gaussian_rate(void **state)
 
 /* The limit of drag 0 under shear is the shear flow, for smooth and rough grains and mixtures; two equal species are
  * one. */
-static void sheared(void **state)
+static void shear_without_drag_is_the_shear_flow(void **state)
 {
   (void)state;
   const gg_quantity q[] = {GG_Q_TEMPERATURE, GG_Q_P_XY, GG_Q_N1, GG_Q_DISSIPATION};
@@ -144,7 +144,7 @@ static void sheared(void **state)
 }
 
 /* The work of shear and the energy from the bath balance drag and collisions. */
-static void energy(void **state)
+static void energy_from_the_bath_is_dissipated(void **state)
 {
   (void)state;
   for (int rough = 0; rough < 2; rough++) {
@@ -161,7 +161,7 @@ static void energy(void **state)
 }
 
 /* Two species of one kind are one; a heavier one with less drag has the same balance alone. */
-static void mixtures(void **state)
+static void equal_species_in_a_bath_are_one(void **state)
 {
   (void)state;
   for (int flow = 0; flow < 2; flow++) {
@@ -191,7 +191,7 @@ static void mixtures(void **state)
 }
 
 /* An Ornstein-Uhlenbeck process with kicks between steps: composed of halves, and by quadrature. */
-static void relaxation(void **state)
+static void relaxation_of_kicked_velocities_is_composed_of_steps(void **state)
 {
   (void)state;
   const double drags[] = {-2, -0.1, 1e-9, 0.1, 0.12, 0.13, 3, 40};
@@ -281,7 +281,7 @@ static void two_states(void **state)
   assert_refused(&gg_theory_enskog_hermite, &m, "no steady state was found");
 }
 
-static void refused(void **state)
+static void other_models_give_the_reason(void **state)
 {
   (void)state;
   gg_error err;
@@ -299,11 +299,19 @@ static void refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(balance),     cmocka_unit_test(elastic),       cmocka_unit_test(rotation),
-      cmocka_unit_test(white_noise), cmocka_unit_test(gaussian_rate), cmocka_unit_test(sheared),
-      cmocka_unit_test(energy),      cmocka_unit_test(mixtures),      cmocka_unit_test(relaxation),
-      cmocka_unit_test(two_states),  cmocka_unit_test(start_decides), cmocka_unit_test(ways_that_stop),
-      cmocka_unit_test(refused),
+      cmocka_unit_test(bath_balances_cooling),
+      cmocka_unit_test(elastic_grains_have_the_temperature_of_the_bath),
+      cmocka_unit_test(spins_have_the_temperature_of_the_bath),
+      cmocka_unit_test(white_noise),
+      cmocka_unit_test(gaussian_rate),
+      cmocka_unit_test(shear_without_drag_is_the_shear_flow),
+      cmocka_unit_test(energy_from_the_bath_is_dissipated),
+      cmocka_unit_test(equal_species_in_a_bath_are_one),
+      cmocka_unit_test(relaxation_of_kicked_velocities_is_composed_of_steps),
+      cmocka_unit_test(two_states),
+      cmocka_unit_test(start_decides),
+      cmocka_unit_test(ways_that_stop),
+      cmocka_unit_test(other_models_give_the_reason),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -149,7 +149,7 @@ static void sonine_rates(void **state)
 }
 
 /* Energy exchanged in collisions of frictional grains, and the fraction that slides. */
-static void friction(void **state)
+static void friction_integrals_agree_with_samples(void **state)
 {
   (void)state;
   const double mu[] = {0.05, 0.2, 1}, ratio[] = {0.3, 1, 3};
@@ -192,7 +192,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(gaussian_moments),
       cmocka_unit_test(sonine_rates),
-      cmocka_unit_test(friction),
+      cmocka_unit_test(friction_integrals_agree_with_samples),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,7 +42,7 @@ static void elastic_conductivity(void **state)
 
 /* Inelastic grains: results of a separate program (functions of x = c^2/2 on a grid of Gauss rules, no shared code),
  * and the first Sonine order: kappa within the 2.5 % of the elastic limit, mu within the effect of dissipation. */
-static void conductivities(void **state)
+static void conductivities_agree_with_a_separate_program(void **state)
 {
   (void)state;
   const struct {
@@ -271,7 +271,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(elastic_limit),
       cmocka_unit_test(elastic_conductivity),
-      cmocka_unit_test(conductivities),
+      cmocka_unit_test(conductivities_agree_with_a_separate_program),
       cmocka_unit_test(sonine_conductivities),
       cmocka_unit_test(elastic_gases_at_rest),
       cmocka_unit_test(loss_below_resolution),

@@ -178,7 +178,7 @@ static void published_source_term(void **state)
 
 /* Elastic mixture, equimolar, m = 1 and 0.1, n = sqrt(2)/3 d^-3, T = 1: Enskog shear viscosity 0.29379 (Erpenbeck,
  * Phys. Rev. A 39 (1989) 4718, in higher Sonine order). */
-static void erpenbeck(void **state)
+static void elastic_mixture_has_erpenbecks_viscosity(void **state)
 {
   (void)state;
   gg_model m = mixture_for(GG_EQUILIBRIUM, M_PI / 6 * sqrt(2) / 3, 1, -1, 10, 1, 1);
@@ -258,7 +258,7 @@ int main(void)
       cmocka_unit_test(white_noise_cumulant),
       cmocka_unit_test(mixture_numbers),
       cmocka_unit_test(published_source_term),
-      cmocka_unit_test(erpenbeck),
+      cmocka_unit_test(elastic_mixture_has_erpenbecks_viscosity),
       cmocka_unit_test(grad_smooth),
       cmocka_unit_test(grad_mixture),
       cmocka_unit_test(white_noise_temperature),

@@ -91,7 +91,7 @@ static void rates_of_santos(void **state)
 }
 
 /* Elastic perfectly rough grains share energy equally and lose none. */
-static void equipartition(void **state)
+static void perfectly_rough_elastic_grains_share_equally(void **state)
 {
   (void)state;
   gg_grain g = grain(1, 1, 0.4);
@@ -234,11 +234,16 @@ static void rough_viscosity(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cooling_ratio),          cmocka_unit_test(rates_of_santos),
-      cmocka_unit_test(equipartition),          cmocka_unit_test(friction_limits),
-      cmocka_unit_test(friction_by_quadrature), cmocka_unit_test(theory_answers),
-      cmocka_unit_test(rough_viscosity),        cmocka_unit_test(heated_by_noise),
-      cmocka_unit_test(nearly_smooth_ratios),   cmocka_unit_test(strong_friction),
+      cmocka_unit_test(cooling_ratio),
+      cmocka_unit_test(rates_of_santos),
+      cmocka_unit_test(perfectly_rough_elastic_grains_share_equally),
+      cmocka_unit_test(friction_limits),
+      cmocka_unit_test(friction_by_quadrature),
+      cmocka_unit_test(theory_answers),
+      cmocka_unit_test(rough_viscosity),
+      cmocka_unit_test(heated_by_noise),
+      cmocka_unit_test(nearly_smooth_ratios),
+      cmocka_unit_test(strong_friction),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
