@@ -297,10 +297,10 @@ export class Chart {
     }
     const at = this.X(this.at);
     set(this.rule, { x1: at, x2: at, y1: TOP, y2: this.high - BOTTOM });
-    const said = this.series.filter((s) => s.reads !== false).map((s) => [s, nearest(s, this.at)]).filter(([, y]) => Number.isFinite(y));
+    const readings = this.series.filter((s) => s.reads !== false).map((s) => [s, nearest(s, this.at)]).filter(([, y]) => Number.isFinite(y));
     this.readout.textContent = this.text("readout", {
       x: this.spec.x.names ? this.spec.x.names[Math.round(this.at)] || "" : `${this.spec.x.symbol || this.spec.x.label} = ${nice(+this.at.toPrecision(3))}`,
-      all: said.map(([s, y]) => `${s.label}: ${number(y)}`).join("; "),
+      all: readings.map(([s, y]) => `${s.label}: ${number(y)}`).join("; "),
     });
   }
 }

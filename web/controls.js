@@ -188,8 +188,8 @@ let inelastic = null; /* the values of these keys before the gas became elastic 
 
 /* The wanted value of the next gas: of a key as text, and the values that controls build on. */
 function wantedText(key) {
-  const { asked, gas } = store.state,
-    wanted = asked.sets[key];
+  const { requested, gas } = store.state,
+    wanted = requested.sets[key];
   return wanted === undefined || wanted === gas.sets[key] ? asText(valueOf(gas.about.values, key)) : wanted;
 }
 export function wantedValues() {

@@ -90,9 +90,9 @@ export async function openEngines(make, options) {
     const v = numbers(at, 20);
     return { ...named(STATE, v), box: v.slice(8, 11), kineticStress: matrix(v.slice(11)) };
   };
-  const allSpecies = (ask) => {
+  const allSpecies = (request) => {
     const found = [];
-    for (let i = 0, at; (at = ask(i)); i++) found.push(named(SPECIES, numbers(at, 6)));
+    for (let i = 0, at; (at = request(i)); i++) found.push(named(SPECIES, numbers(at, 6)));
     return found;
   };
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files that the user opens or drops: a result of the command is played in place of the live gas, which is paused; a
  * scene is run; points of a class are added to the student's own points. */
-import { askMeans, askNumber, leaveTrail, now, ownScene } from "./gas.js";
+import { requestMeans, nextRequest, recordTrail, now, ownScene } from "./gas.js";
 import { StoredHistory } from "./history.js";
 import { t } from "./i18n.js";
 import { pointsOf } from "./points.js";
@@ -45,9 +45,9 @@ async function playFile(file) {
   }
   store.dispatch("banner", { banner: { text: t("reading", { name: file.name }), offers: [], quiet: true } });
   try {
-    const { about } = await workers.live.ask("play", { file });
+    const { about } = await workers.live.request("play", { file });
     if (mine === files) beginPlaying(file, about);
-    const means = await workers.measure.ask("read", { file });
+    const means = await workers.measure.request("read", { file });
     if (mine === files && store.state.player) takeStored(means);
   } catch (e) {
     if (mine === files) refuse(e.message);
@@ -55,7 +55,7 @@ async function playFile(file) {
 }
 
 function beginPlaying(file, about) {
-  const id = askNumber(),
+  const id = nextRequest(),
     { values } = about,
     still = about.frames === 1 || matchMedia("(prefers-reduced-motion: reduce)").matches;
   Object.assign(played, { at: 0, shown: -1 });
@@ -84,10 +84,10 @@ function takeStored(means) {
 export function endPlaying() {
   if (!store.state.player) return;
   files++;
-  workers.live.ask("close").catch(() => {}); /* a worker that has ended has closed the file */
+  workers.live.request("close").catch(() => {}); /* a worker that has ended has closed the file */
   Object.assign(now, { frame: null, trail: [], fresh: false, want: true });
-  store.dispatch("back", { id: askNumber() });
-  if (!store.state.means) askMeans();
+  store.dispatch("back", { id: nextRequest() });
+  if (!store.state.means) requestMeans();
 }
 
 /* Advance by seconds of the wall clock; playing ends at the last frame. */
@@ -105,7 +105,7 @@ async function askPlayed(k) {
   const { gas, colour, arrows, grain } = store.state;
   Object.assign(now, { busy: true, want: false });
   try {
-    const frame = await workers.live.ask("played", { k, colour, arrows, grain });
+    const frame = await workers.live.request("played", { k, colour, arrows, grain });
     if (gas === store.state.gas) takePlayed(frame, k);
   } catch (e) {
     if (gas === store.state.gas) {
@@ -118,7 +118,7 @@ async function askPlayed(k) {
 }
 function takePlayed(frame, k) {
   played.shown = k;
-  leaveTrail(frame, store.state.grain);
+  recordTrail(frame, store.state.grain);
   Object.assign(now, { frame, fresh: true, frames: now.frames + 1 });
   store.state.gas.history.now = frame.md.time;
   byId("scrub").value = k;

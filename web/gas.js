@@ -17,8 +17,8 @@ const MOST_GRAINS = 20000,
 
 export const page = { given: null }; /* the scene that the page was built with: shown if the address names none */
 /* Data of frames, which change too often for the state. */
-export const now = { frame: null, frames: 0, fresh: false, want: true, step: false, owed: 0, lost: 0, behind: 0, busy: false, trail: [] };
-const renew = () => Object.assign(now, { frame: null, trail: [], fresh: false, want: true, owed: 0, lost: 0, behind: 0 });
+export const now = { frame: null, frames: 0, fresh: false, want: true, step: false, due: 0, lost: 0, behind: 0, busy: false, trail: [] };
+const renew = () => Object.assign(now, { frame: null, trail: [], fresh: false, want: true, due: 0, lost: 0, behind: 0 });
 
 /* Unpack a part of the page: gzip as base64. Each part is read once. */
 async function unpack(id) {
@@ -35,27 +35,27 @@ export async function openWorkers() {
   source = URL.createObjectURL(new Blob([await unpack("worker")], { type: "text/javascript" }));
   workers.measure = new WorkerClient(source);
   workers.measure.onmeans = takeMeans;
-  workers.measure.ask("open", { wasm }).catch((e) => store.dispatch("banner", { banner: { text: e.message, offers: [] } }));
+  workers.measure.request("open", { wasm }).catch((e) => store.dispatch("banner", { banner: { text: e.message, offers: [] } }));
   return openLive();
 }
 async function openLive() {
   workers.live = new WorkerClient(source);
-  return (await workers.live.ask("open", { wasm })).version;
+  return (await workers.live.request("open", { wasm })).version;
 }
 
 /* If the start of a gas takes long, a banner tells how many grains are placed. Its button ends the worker and
  * returns to the previous gas. */
 const LONG = 1500; /* ms */
-function sayMaking(n, id) {
+function announceStart(n, id) {
   return setTimeout(() => {
-    if (id !== store.state.asked.id) return;
+    if (id !== store.state.requested.id) return;
     const offers = store.state.player ? [] : [{ label: t("stop"), act: stopMaking }];
     store.dispatch("banner", { banner: { text: t("making", { n: n.toLocaleString(store.state.language) }), offers, quiet: true } });
   }, LONG);
 }
 async function stopMaking() {
   const { gas } = store.state;
-  askNumber();
+  nextRequest();
   workers.live.end(t("stopped"));
   await openLive();
   if (gas) await start(gas.scene, gas.sets, { lesson: gas.lesson, look: { playing: true } });
@@ -64,7 +64,7 @@ async function stopMaking() {
 
 const LONGEST_TRAIL = 400; /* frames */
 /* The positions of the followed grain; empty without one, and after another was chosen. */
-export function leaveTrail({ picture }, grain) {
+export function recordTrail({ picture }, grain) {
   if (now.trailOf !== grain || !picture || !picture.one) Object.assign(now, { trail: [], trailOf: grain });
   if (picture && picture.one) now.trail.push(picture.one.position);
   if (now.trail.length > LONGEST_TRAIL) now.trail.shift();
@@ -72,20 +72,20 @@ export function leaveTrail({ picture }, grain) {
 
 /* ---- A new gas ---- */
 
-let asks = 0,
+let requests = 0,
   edits = 0;
-export const askNumber = () => ++asks;
+export const nextRequest = () => ++requests;
 
 /* A control was moved. Changes add up until the sliders rest. */
 export function change(key, value) {
-  const { asked } = store.state;
-  store.dispatch("ask", { asked: { id: askNumber(), sets: { ...asked.sets, ...setsOf(key, value) } } });
+  const { requested } = store.state;
+  store.dispatch("request", { requested: { id: nextRequest(), sets: { ...requested.sets, ...setsOf(key, value) } } });
   clearTimeout(edits);
   edits = setTimeout(() => again(), 120);
 }
 /* Start the wanted gas again, with more keys set. */
 export function again(more = {}, options = {}) {
-  const { scene, sets } = store.state.asked;
+  const { scene, sets } = store.state.requested;
   return start(scene, { ...sets, ...more }, options);
 }
 
@@ -93,7 +93,7 @@ export function again(more = {}, options = {}) {
 function isTooLarge({ particles, bytes }, scene, sets, options, id) {
   if (options.whatever) return false;
   if (particles <= MOST_GRAINS && bytes <= MOST_BYTES) return false;
-  if (id !== store.state.asked.id) return true;
+  if (id !== store.state.requested.id) return true;
   const fewer = { ...sets, particles: String(FEWER), "dsmc.particles": "auto" };
   store.dispatch("refused", {
     text: t("tooLarge", { n: particles.toLocaleString(store.state.language), bytes: number(bytes / 1e6, 2) }),
@@ -109,19 +109,19 @@ function isTooLarge({ particles, bytes }, scene, sets, options, id) {
  * members of the state that change with the gas. */
 export async function start(scene, sets, options = {}) {
   const { lesson = store.state.lesson, look = {}, keepBanner = false } = options,
-    id = askNumber(),
+    id = nextRequest(),
     { remember = false } = lessonOf(lesson) || {};
   clearTimeout(edits); /* pending changes of controls are in `sets`, or belong to the previous gas */
-  store.dispatch("ask", { asked: { id, scene, sets } });
+  store.dispatch("request", { requested: { id, scene, sets } });
   let answer,
     making = 0;
   try {
-    const cost = await workers.live.ask("cost", { scene, sets });
+    const cost = await workers.live.request("cost", { scene, sets });
     if (isTooLarge(cost, scene, sets, options, id)) return false;
-    making = sayMaking(cost.particles, id);
-    answer = await workers.live.ask("start", { scene, sets, pair: ("pair" in look ? look.pair : store.state.pair) || null, remember });
+    making = announceStart(cost.particles, id);
+    answer = await workers.live.request("start", { scene, sets, pair: ("pair" in look ? look.pair : store.state.pair) || null, remember });
   } catch (e) {
-    if (id === asks) refuse(e.message, sets, scene);
+    if (id === requests) refuse(e.message, sets, scene);
     return false;
   } finally {
     clearTimeout(making);
@@ -131,10 +131,10 @@ export async function start(scene, sets, options = {}) {
   leaveGhost(gas);
   const quantity = about.values.flow === "hcs" && store.state.quantity === "temperature" ? { quantity: "cooling_rate" } : {}, /* T has no mean there */
     chart = store.state.chart === "profiles" && !isWalled(about.values) ? { chart: "temperature" } : {};
-  if (store.state.player) workers.live.ask("close").catch(() => {});
+  if (store.state.player) workers.live.request("close").catch(() => {});
   renew();
   store.dispatch("started", { gas, change: { lesson, ...quantity, ...chart, ...look, ...(keepBanner ? {} : { banner: null }) } });
-  askMeans();
+  requestMeans();
   return true;
 }
 
@@ -193,13 +193,13 @@ export async function follow({ scene, sets, lesson, look, points = [] }) {
   if (lesson !== null && !known) unknownLesson(lesson);
   if (gather(points) < points.length) store.dispatch("banner", { banner: { text: t("noPointsLink"), offers: [] } });
 }
-let said = null;
+let lastBanner = null;
 store.subscribe((state, before) => {
-  if (state.banner && !state.banner.quiet && state.banner !== before.banner) said = state.banner;
+  if (state.banner && !state.banner.quiet && state.banner !== before.banner) lastBanner = state.banner;
 });
 /* Show the banner again: the start of the first lesson cleared the reason why another gas was rejected. */
 function restoreBanner() {
-  if (said) store.dispatch("banner", { banner: said });
+  if (lastBanner) store.dispatch("banner", { banner: lastBanner });
 }
 function unknownLesson(wrong) {
   const near = nearestLesson(wrong);
@@ -218,11 +218,11 @@ let timer = 0,
   measuring = { job: 0, gas: 0 };
 
 /* Theories take a second: only the newest gas is measured, after the sliders rest. */
-export function askMeans() {
+export function requestMeans() {
   clearTimeout(timer);
   timer = setTimeout(async () => {
     if (asking) {
-      askMeans();
+      requestMeans();
       return;
     }
     const { gas, player } = store.state;
@@ -230,7 +230,7 @@ export function askMeans() {
     asking = true;
     measuring = { job: workers.measure.count + 1, gas: gas.id };
     try {
-      store.dispatch("means", { id: gas.id, means: await workers.measure.ask("measure", { scene: gas.scene, sets: gas.sets }) });
+      store.dispatch("means", { id: gas.id, means: await workers.measure.request("measure", { scene: gas.scene, sets: gas.sets }) });
     } catch (e) {
       store.dispatch("means", { id: gas.id, means: { failed: e.message, theory: {}, theories: {}, progress: {} } });
     }
@@ -244,6 +244,6 @@ function takeMeans(data) {
 }
 
 export async function reverse() {
-  await workers.live.ask("reverse");
+  await workers.live.request("reverse");
   now.want = true;
 }

@@ -16,12 +16,12 @@ const one = (list) => ({ read: (text) => (list.includes(text) ? text : undefined
 /* A teacher's question as plain text: no control characters, line breaks or changes of direction. */
 export const tidyQuestion = (text) => text.replace(/[\p{C}\p{Zl}\p{Zp}]+/gu, " ").trim().slice(0, 240);
 const yes = { read: (text) => text === "1", write: (value) => (value ? "1" : "0") };
-/* How the gas is shown: parameters by their place in the state. `asked`: with a question alone; lessons have their
+/* How the gas is shown: parameters by their place in the state. `withQuestion`: with a question alone; lessons have their
  * own. */
 const LOOK = {
   question: { read: (text) => tidyQuestion(text) || undefined, write: String },
-  slider: { ...one(CONTROLS.filter((row) => row.max !== undefined).map((row) => row.name)), asked: true },
-  quantity: { ...one(QUANTITIES), asked: true },
+  slider: { ...one(CONTROLS.filter((row) => row.max !== undefined).map((row) => row.name)), withQuestion: true },
+  quantity: { ...one(QUANTITIES), withQuestion: true },
   view: one(VIEWS),
   colour: one(COLOURS),
   chart: one(CHARTS),
@@ -90,8 +90,8 @@ export function linkOf(state, own = ownLanguage()) {
     for (const [key, value] of Object.entries(gas.sets)) if (key !== "run.seed") to.append("set", `${key}=${value}`);
     if (gas.sets["run.seed"] !== undefined) to.set("seed", gas.sets["run.seed"]);
   } else if (gas.scene !== page.given || Object.keys(gas.sets).length) to.set("scene", gas.about.brief);
-  for (const [name, { write, asked }] of Object.entries(LOOK))
-    if (name !== "playing" && (asked ? of.question : write(of[name]) !== write(usual[name]))) to.set(name, write(of[name]));
+  for (const [name, { write, withQuestion }] of Object.entries(LOOK))
+    if (name !== "playing" && (withQuestion ? of.question : write(of[name]) !== write(usual[name]))) to.set(name, write(of[name]));
   if (!of.playing) to.set("playing", "0");
   if (state.language !== own) to.set("language", state.language);
   const text = readable(to);

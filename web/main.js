@@ -228,12 +228,12 @@ function openSharing() {
 function showLink() {
   const here = location.protocol === "file:",
     points = byId("mine").checked ? pointsTexts(store.state, byId("me").value) : [],
-    asked = points.length ? linkOfPoints(store.state, points) : linkOf(store.state),
-    link = location.href.split("#")[0] + asked;
+    address = points.length ? linkOfPoints(store.state, points) : linkOf(store.state),
+    link = location.href.split("#")[0] + address;
   byId("me-row").hidden = !byId("mine").checked || !pointsText(store.state, "");
   byId("link").value = link;
   byId("link-words").textContent = t(points.length ? (here ? "linkPointsFile" : "linkPointsWorks") : here ? "linkFile" : "linkWorks");
-  byId("qr").replaceChildren(...(here && !points.length ? [] : qrSvg(here ? asked : link, t("qrLabel"))));
+  byId("qr").replaceChildren(...(here && !points.length ? [] : qrSvg(here ? address : link, t("qrLabel"))));
 }
 
 /* For tests, and for users of the console. */

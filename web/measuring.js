@@ -11,8 +11,8 @@ export const COOLING_TIMES = [
 export function courseOfTheories(comparison) {
   const T = {};
   for (const name of Object.keys(comparison.document().theory || {})) {
-    const said = comparison.cooling(name, COOLING_TIMES);
-    if (Number.isFinite(said[0])) T[name] = said;
+    const values = comparison.cooling(name, COOLING_TIMES);
+    if (Number.isFinite(values[0])) T[name] = values;
   }
   return { cooling: { time: COOLING_TIMES, T } };
 }

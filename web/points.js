@@ -56,13 +56,13 @@ export async function drawLines() {
   while (line.theory.length < x.length && wantsLines() && keyOf(store.state) === key) {
     const value = x[line.theory.length],
       text = row.put ? row.put(value, gas.about.values) : String(+value.toPrecision(6));
-    let said = {};
+    let answers = {};
     try {
-      said = (await workers.measure.ask("theory", { scene: gas.scene, sets: { ...gas.sets, [row.key]: text } })).theory;
+      answers = (await workers.measure.request("theory", { scene: gas.scene, sets: { ...gas.sets, [row.key]: text } })).theory;
     } catch (e) {
       /* the flow rejects this value: no theory there */
     }
-    line.theory.push(Object.fromEntries(Object.entries(said || {}).map(([name, part]) => [name, Object.fromEntries(QUANTITIES.map((q) => [q, mean(part, q)]))])));
+    line.theory.push(Object.fromEntries(Object.entries(answers || {}).map(([name, part]) => [name, Object.fromEntries(QUANTITIES.map((q) => [q, mean(part, q)]))])));
     store.dispatch("line", { key, line: { ...line } });
   }
   working = false;

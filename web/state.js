@@ -6,7 +6,7 @@ export const initial = {
   language: "en",
   view: "all" /* "box", "curve": for pages that embed it; "present": for a projector */,
   lesson: null /* its name; null: a user's own scene */,
-  asked: { id: 0, scene: "", sets: {} } /* the wanted gas: in force or pending */,
+  requested: { id: 0, scene: "", sets: {} } /* the wanted gas: in force or pending */,
   gas: null /* the gas that runs: {id, scene, sets, lesson, about, refusal, dsmcRefusal, history} */,
   means: null,
   shelf: null /* the live gas while a result is played */,
@@ -43,14 +43,14 @@ const ACTIONS = {
   look: (state, { change }) => ({ ...state, ...change }),
 
   /* A gas is requested; an edit is the same, a little earlier. */
-  ask: (state, { asked }) => ({ ...state, asked: { ...state.asked, ...asked } }),
+  request: (state, { requested }) => ({ ...state, requested: { ...state.requested, ...requested } }),
   /* A gas has started. Answers may come late: a request made meanwhile stays pending. A new flow has other theories. */
   started: (state, { gas, change }) => ({
     ...state,
     ...change,
     ...(state.shelf ? { shelf: null, player: null, playing: state.shelf.playing } : {}),
     gas,
-    asked: state.asked.id > gas.id ? state.asked : { id: gas.id, scene: gas.scene, sets: gas.sets },
+    requested: state.requested.id > gas.id ? state.requested : { id: gas.id, scene: gas.scene, sets: gas.sets },
     means: null,
     refusedKeys: [],
     theories: state.gas && state.gas.about.values.flow !== gas.about.values.flow ? null : state.theories,
@@ -58,7 +58,7 @@ const ACTIONS = {
   /* A request was rejected: the present gas continues. */
   refused: (state, { text, keys = [], offers = [] }) => ({
     ...state,
-    asked: state.gas ? { id: state.asked.id, scene: state.gas.scene, sets: state.gas.sets } : state.asked,
+    requested: state.gas ? { id: state.requested.id, scene: state.gas.scene, sets: state.gas.sets } : state.requested,
     refusedKeys: keys,
     banner: { text, offers },
   }),
@@ -79,7 +79,7 @@ const ACTIONS = {
     shelf: state.shelf || pick(state, SHELVED),
     player,
     gas,
-    asked: { id: gas.id, scene: gas.scene, sets: {} },
+    requested: { id: gas.id, scene: gas.scene, sets: {} },
     means: null,
     lesson: null,
     theories: null,
@@ -87,7 +87,7 @@ const ACTIONS = {
   }),
   back: (state, { id }) => {
     const { gas } = state.shelf;
-    return { ...state, ...state.shelf, shelf: null, player: null, asked: { id, scene: gas.scene, sets: gas.sets } };
+    return { ...state, ...state.shelf, shelf: null, player: null, requested: { id, scene: gas.scene, sets: gas.sets } };
   },
 
   ghost: (state, { ghost }) => ({ ...state, ghosts: [ghost, ...state.ghosts.filter((one) => one.label !== ghost.label)].slice(0, 3) }),

@@ -28,7 +28,7 @@ export class WorkerClient {
     this.worker.terminate();
     this.fail((this.broken = message));
   }
-  ask(job, more = {}, transfer = []) {
+  request(job, more = {}, transfer = []) {
     const id = ++this.count;
     if (this.broken) return Promise.reject(new Error(this.broken));
     return new Promise((resolve, reject) => {

@@ -51,7 +51,7 @@ async function memory(browser) {
   const used = async () => {
     await tab.send("HeapProfiler.collectGarbage");
     const { usedSize } = await tab.send("Runtime.getHeapUsage");
-    return [usedSize, ...(await Promise.all(["live", "measure"].map((who) => tab.value(`graingas.workers.${who}.ask("memory").then((a) => a.bytes)`))))].map((b) => (b / 1e6).toFixed(1)).join(", ");
+    return [usedSize, ...(await Promise.all(["live", "measure"].map((who) => tab.value(`graingas.workers.${who}.request("memory").then((a) => a.bytes)`))))].map((b) => (b / 1e6).toFixed(1)).join(", ");
   };
   await tab.until("globalThis.graingas && graingas.store.state.means && graingas.store.state.means.md", 120);
   for (let k = 0; k <= 4; k++) {

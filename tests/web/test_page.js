@@ -46,8 +46,8 @@ const PLAYED =
   "{flow: usf, phi: 0.2, particles: 300, collision: {e: 0.9, beta: 0}, output: {trajectory_every: 1}, run: {collisions: 40, warmup: 5}}";
 
 /* Delay frames by so many milliseconds, as on a slow machine. */
-const slower = (ms) => `{ const { live } = graingas.workers, ask = live.ask.bind(live); graingas.slower = ${ms};
-  live.ask = async (job, ...rest) => { const answer = await ask(job, ...rest);
+const slower = (ms) => `{ const { live } = graingas.workers, request = live.request.bind(live); graingas.slower = ${ms};
+  live.request = async (job, ...rest) => { const answer = await request(job, ...rest);
     if (job === "frame") await new Promise((r) => setTimeout(r, graingas.slower)); return answer; }; } 0`;
 
 /* Drop a file on the page, as from a folder. */
@@ -214,12 +214,12 @@ const tests = {
 
   "changes while a gas is awaited add up": async () => {
     const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.8}}"));
-    /* `asked`: resolves when the request is pending, before its answer */
-    const sent = `const { live } = graingas.workers, ask = live.ask.bind(live), asked = () => new Promise((r) => { live.ask = (job, ...rest) => { if (job === "start") setTimeout(r, 0); return ask(job, ...rest); }; });`;
-    await tab.value(`(async () => { ${sent} const first = asked(); move("phi", 0.2); await first; move("e", 0.7); })()`);
+    /* `requested`: resolves when the request is pending, before its answer */
+    const sent = `const { live } = graingas.workers, request = live.request.bind(live), requested = () => new Promise((r) => { live.request = (job, ...rest) => { if (job === "start") setTimeout(r, 0); return request(job, ...rest); }; });`;
+    await tab.value(`(async () => { ${sent} const first = requested(); move("phi", 0.2); await first; move("e", 0.7); })()`);
     await tab.until("V().collision.e === 0.7", quick);
     assert.strictEqual(await tab.value("V().phi"), 0.2);
-    await tab.value(`(async () => { ${sent} const first = asked(); move("phi", 0.15); await first; byId("restart").click(); })()`);
+    await tab.value(`(async () => { ${sent} const first = requested(); move("phi", 0.15); await first; byId("restart").click(); })()`);
     await tab.until("V().phi === 0.15 && now.frame", quick);
     await wait(500);
     assert.strictEqual(await tab.value("V().phi"), 0.15);
@@ -302,7 +302,7 @@ const tests = {
     const bad = encodeURIComponent("{flow: usf, phi: 7}"),
       good = encodeURIComponent("{flow: hcs, phi: 0.1, particles: 200, collision: {e: 0.9}}");
     const tab = await open(`#scene=${bad}`);
-    assert.match(await banner(tab), /asks for a gas that is not possible.*phi/s);
+    assert.match(await banner(tab), /requests for a gas that is not possible.*phi/s);
     assert.strictEqual(await tab.value("S().lesson"), "temperature");
     await tab.value("byId('lesson-friction').click()");
     await tab.until("S().lesson === 'friction' && V().collision.mu === 0.2 && location.hash === '#lesson=friction'", quick);
@@ -357,7 +357,7 @@ const tests = {
     server.close();
   },
 
-  "a link cannot hang a device: too many grains are asked about first": async () => {
+  "a link cannot hang a device: a banner offers fewer grains first": async () => {
     for (const n of [1000000, 5000000]) {
       const from = Date.now(),
         tab = await open(link(`{flow: hcs, phi: 0.1, particles: ${n}, collision: {e: 0.9}}`));
@@ -581,11 +581,11 @@ const tests = {
     const back = async (e) => {
       const tab = await open(`#lesson=reverse&set=collision.e=${e}&playing=0`);
       await tab.until("now.frame", quick);
-      const nearest = await tab.value(`(async () => { const { live } = graingas.workers, ask = (job, more) => live.ask(job, more);
-        await ask("frame", { collisions: 1, colour: "origin" });
-        const there = await ask("frame", { collisions: 0, colour: "origin" }); await ask("reverse");
+      const nearest = await tab.value(`(async () => { const { live } = graingas.workers, request = (job, more) => live.request(job, more);
+        await request("frame", { collisions: 1, colour: "origin" });
+        const there = await request("frame", { collisions: 0, colour: "origin" }); await request("reverse");
         let least = Infinity, f = there; const turn = there.md.time;
-        while (f.md.time < 2.05 * turn) { f = await ask("frame", { collisions: 0.001, colour: "origin" }); least = Math.min(least, f.distance); }
+        while (f.md.time < 2.05 * turn) { f = await request("frame", { collisions: 0.001, colour: "origin" }); least = Math.min(least, f.distance); }
         return [there.distance, least]; })()`);
       await silent(tab);
       return nearest;
@@ -786,7 +786,7 @@ const tests = {
     for (const name of ["smooth, sheared", "rough, sheared", "frictional, sheared", "cooling", "monte carlo, rough"]) {
       const there = JSON.parse(terminal(scenes[name], "fingerprint", "--json")).fingerprint;
       assert.strictEqual(
-        (await tab.value(`graingas.workers.live.ask("hash", { scene: ${JSON.stringify(scenes[name])}, collisions: 100000 })`)).hash,
+        (await tab.value(`graingas.workers.live.request("hash", { scene: ${JSON.stringify(scenes[name])}, collisions: 100000 })`)).hash,
         there,
         name,
       );
@@ -799,9 +799,9 @@ const tests = {
       tab = await open();
     await tab.value("byId('play').click()");
     const walk = async (pieces) =>
-      tab.value(`(async () => { const ask = (job, more) => graingas.workers.live.ask(job, more); await ask("start", { scene: ${scene}, sets: {} }); let f;
-      for (let k = 0; k < ${pieces}; k++) f = await ask("frame", { collisions: 1e-9, colour: "speed" });
-      for (;;) { f = await ask("frame", { colour: "speed", step: true }); if (f.md.collisions >= 300) break; }
+      tab.value(`(async () => { const request = (job, more) => graingas.workers.live.request(job, more); await request("start", { scene: ${scene}, sets: {} }); let f;
+      for (let k = 0; k < ${pieces}; k++) f = await request("frame", { collisions: 1e-9, colour: "speed" });
+      for (;;) { f = await request("frame", { colour: "speed", step: true }); if (f.md.collisions >= 300) break; }
       return [f.md.collisions, f.md.temperature, ...f.event.k]; })()`);
     assert.deepStrictEqual(await walk(1), await walk(50));
     await silent(tab);
@@ -915,7 +915,7 @@ const tests = {
     await silent(tab);
   },
 
-  "keyboard, and nothing moves for those who asked for that": async () => {
+  "keyboard, and nothing moves for users who prefer reduced motion": async () => {
     const tab = await open("", { media: [{ name: "prefers-reduced-motion", value: "reduce" }] });
     assert.strictEqual(await tab.value("S().playing"), false);
     assert.ok(
@@ -1004,7 +1004,7 @@ const tests = {
     const used = async () => {
       await tab.send("HeapProfiler.collectGarbage");
       const heap = (await tab.send("Runtime.getHeapUsage")).usedSize;
-      return [heap, ...(await Promise.all(["live", "measure"].map((who) => tab.value(`graingas.workers.${who}.ask("memory").then((a) => a.bytes)`))))];
+      return [heap, ...(await Promise.all(["live", "measure"].map((who) => tab.value(`graingas.workers.${who}.request("memory").then((a) => a.bytes)`))))];
     };
     await tab.until("S().means && S().means.md && Object.values(S().lines).some((one) => one.theory.length === one.x.length)", quick);
     await wait((1000 * seconds) / 3);

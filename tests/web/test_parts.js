@@ -28,16 +28,16 @@ const tests = {
   },
   "one writer: late answers, refusals, edits": () => {
     let s = m.state.initial;
-    s = reduce(s, "ask", { asked: { id: 1, scene: "a", sets: {} } });
+    s = reduce(s, "request", { requested: { id: 1, scene: "a", sets: {} } });
     s = reduce(s, "started", { gas: gasOf(1) });
     /* two requests; after the first answer the second is still pending */
-    s = reduce(s, "ask", { asked: { id: 2, scene: "b", sets: {} } });
-    s = reduce(s, "ask", { asked: { id: 3, scene: "b", sets: { phi: "0.2" } } });
+    s = reduce(s, "request", { requested: { id: 2, scene: "b", sets: {} } });
+    s = reduce(s, "request", { requested: { id: 3, scene: "b", sets: { phi: "0.2" } } });
     s = reduce(s, "started", { gas: gasOf(2) });
-    assert.deepStrictEqual([s.gas.id, s.asked.id, s.asked.sets], [2, 3, { phi: "0.2" }]);
+    assert.deepStrictEqual([s.gas.id, s.requested.id, s.requested.sets], [2, 3, { phi: "0.2" }]);
     /* rejected: the present gas is again the wanted one, and the banner gives the reason */
     s = reduce(s, "refused", { text: "no", keys: ["phi"] });
-    assert.deepStrictEqual([s.gas.id, s.asked.scene, s.asked.sets, s.banner.text, s.refusedKeys], [2, ABOUT.brief, {}, "no", ["phi"]]);
+    assert.deepStrictEqual([s.gas.id, s.requested.scene, s.requested.sets, s.banner.text, s.refusedKeys], [2, ABOUT.brief, {}, "no", ["phi"]]);
     /* means of another gas are dropped */
     assert.strictEqual(reduce(s, "means", { id: 1, means: {} }), s);
     assert.deepStrictEqual(reduce(s, "means", { id: 2, means: { x: 1 } }).means, { x: 1 });
@@ -50,7 +50,7 @@ const tests = {
     s = reduce(s, "means", { id: 1, means: { of: 2 } });
     assert.deepStrictEqual([s.lesson, s.means, s.shelf.means], [null, null, { of: 2 }]);
     s = reduce(s, "back", { id: 4 });
-    assert.deepStrictEqual([s.gas.id, s.lesson, s.chart, s.playing, s.means, s.player, s.asked.id], [1, "haff", "stress", false, { of: 2 }, null, 4]);
+    assert.deepStrictEqual([s.gas.id, s.lesson, s.chart, s.playing, s.means, s.player, s.requested.id], [1, "haff", "stress", false, { of: 2 }, null, 4]);
   },
   "who listens hears each change once, though listeners change more": () => {
     const store = new m.state.Store(),
@@ -141,23 +141,23 @@ const tests = {
     assert.strictEqual(behind(engine(2, false), engine(2, true)), true);
   },
   "time is physical: a gas that collides less often comes as far": () => {
-    const asked = [],
+    const requested = [],
       gas = Object.create(m.live.LiveGas.prototype),
-      md = { advance: (time) => asked.push(time) && true, state: () => ({ time: 0, collisionsPerGrain: 0, grains: 9 }), grains: () => null };
+      md = { advance: (time) => requested.push(time) && true, state: () => ({ time: 0, collisionsPerGrain: 0, grains: 9 }), grains: () => null };
     Object.assign(gas, { md, since: { time: 0, collisionsPerGrain: 0 }, rate: 0.1, startRate: 2, about: { values: { flow: "hcs" } }, view: { of: () => null } });
     gas.frame({ collisions: 1 });
     gas.frame({ collisions: 1, follow: true });
-    assert.deepStrictEqual(asked, [0.5, 10]);
+    assert.deepStrictEqual(requested, [0.5, 10]);
   },
   "a worker that fails tells whoever waits": async () => {
     globalThis.Worker = class {
       postMessage() {}
     };
     const client = new m.worker_rpc.WorkerClient("source"),
-      waiting = client.ask("frame");
+      waiting = client.request("frame");
     client.worker.onerror({ message: "out of memory" });
     await assert.rejects(waiting, /out of memory/);
-    await assert.rejects(client.ask("frame"), /out of memory/);
+    await assert.rejects(client.request("frame"), /out of memory/);
   },
   "errors that are not known, and those of what is conserved": () => {
     const { withError } = m.words,

@@ -122,20 +122,20 @@ const parts = {
   },
   "theories over the slider: its keys and values, and what they answer": async () => {
     const { store } = m.state,
-      asked = [];
+      requested = [];
     m.worker_rpc.workers.measure = {
-      ask: async (job, { sets }) => {
-        asked.push([job, sets]);
-        if (asked.length === 2) throw new Error("refused");
-        return { theory: { grad: { N1: { mean: 100 + asked.length }, a2: { mean: 5 } } } };
+      request: async (job, { sets }) => {
+        requested.push([job, sets]);
+        if (requested.length === 2) throw new Error("refused");
+        return { theory: { grad: { N1: { mean: 100 + requested.length }, a2: { mean: 5 } } } };
       },
     };
     store.state = { ...m.state.initial, gas: { scene: "s", sets: { phi: "0.2" }, about: { values: VALUES } }, slider: "e", means: { theory: {} } };
     await m.points.drawLines();
-    assert.deepStrictEqual(asked.map(([job, sets]) => [job, sets["collision.e"], sets.phi]), [0.5, 0.5625, 0.625, 0.6875, 0.75, 0.8125, 0.875, 0.9375, 1].map((x) => ["theory", String(x), "0.2"]));
+    assert.deepStrictEqual(requested.map(([job, sets]) => [job, sets["collision.e"], sets.phi]), [0.5, 0.5625, 0.625, 0.6875, 0.75, 0.8125, 0.875, 0.9375, 1].map((x) => ["theory", String(x), "0.2"]));
     const [[key, { x, theory }]] = Object.entries(store.state.lines);
     assert.match(key, /^e \{/);
-    near(x, asked.map(([, sets]) => +sets["collision.e"]));
+    near(x, requested.map(([, sets]) => +sets["collision.e"]));
     assert.deepStrictEqual(theory.map((one) => one.grad && one.grad.N1), [101, undefined, 103, 104, 105, 106, 107, 108, 109]);
     store.state = m.state.initial;
   },
@@ -172,7 +172,7 @@ const parts = {
     /* keys that a flow needs, and values that are restored after an elastic gas */
     const { store } = m.state,
       values = (flow, e) => ({ flow, collision: { e, beta: 0.5, mu: 0.3, law: "viscoelastic" } }),
-      at = (given) => (store.state = { ...m.state.initial, asked: { id: 1, scene: "", sets: {} }, gas: { sets: {}, about: { values: given } } });
+      at = (given) => (store.state = { ...m.state.initial, requested: { id: 1, scene: "", sets: {} }, gas: { sets: {}, about: { values: given } } });
     at(values("usf", 0.8));
     assert.deepStrictEqual(setsOf("phi", "0.2"), { phi: "0.2" });
     assert.deepStrictEqual(setsOf("flow", "chute"), { flow: "chute", thermostat: "none", gravity: "[0.1, -0.1, 0]", "walls.temperature": "none" });
@@ -328,11 +328,11 @@ const parts = {
   },
   "the gas that is seen: time by collisions, Monte Carlo to the same time": () => {
     const { LiveGas, flowOf, shownState } = m.live,
-      asked = [],
-      engine = (name, time) => ({ advance: (dt) => asked.push([name, dt]) && true, state: () => ({ time, collisionsPerGrain: time, grains: 9, temperature: 5, box: [1, 7, 1] }), grains: () => null, localTemperature: (n, high) => n * 100 + high }),
+      requested = [],
+      engine = (name, time) => ({ advance: (dt) => requested.push([name, dt]) && true, state: () => ({ time, collisionsPerGrain: time, grains: 9, temperature: 5, box: [1, 7, 1] }), grains: () => null, localTemperature: (n, high) => n * 100 + high }),
       gas = Object.assign(Object.create(LiveGas.prototype), { md: engine("md", 8), dsmc: engine("dsmc", 5.5), since: { time: 6, collisionsPerGrain: 4 }, rate: 1, startRate: 4, about: { values: { flow: "usf" } }, view: { of: () => null } });
     const frame = gas.frame({ collisions: 2 });
-    assert.deepStrictEqual(asked, [["md", 0.5], ["dsmc", 2.5]]);
+    assert.deepStrictEqual(requested, [["md", 0.5], ["dsmc", 2.5]]);
     assert.deepStrictEqual([frame.timeScale, frame.rate, gas.since.time], [1 / 4, 2, 8]);
     assert.deepStrictEqual(["usf", "small_shear", "couette", "hcs"].map((flow) => flowOf({ flow })), [1, 1, 0, 0]);
     assert.deepStrictEqual(["couette", "usf"].map((flow) => shownState(gas.md, gas.md.state(), { flow }).temperature), [907, 5]);
