@@ -86,9 +86,9 @@ static cell *cell_at(const cells *d, int x, int y, int z)
 }
 
 /* Temperatures of the species over that of all, translational and rotational. */
-typedef struct shares {
+typedef struct temperature_ratios {
   double heat[GG_MAX_SPECIES], turning[GG_MAX_SPECIES];
-} shares;
+} temperature_ratios;
 
 static void divide(const gg_model *m, const double sum[GG_MAX_SPECIES], double *share)
 {
@@ -109,9 +109,9 @@ static gg_vec velocity_of(const gg_snapshot *s, size_t i, gg_vec *omega)
   return s->frame ? gg_measure_local_frame_velocity(s->frame, s->r[1][i], c) : c;
 }
 
-static shares shares_of(const gg_model *m, const gg_snapshot *s)
+static temperature_ratios temperature_ratios_of(const gg_model *m, const gg_snapshot *s)
 {
-  shares of;
+  temperature_ratios of;
   double energy[GG_MAX_SPECIES] = {0}, rotation[GG_MAX_SPECIES] = {0}, spin[GG_MAX_SPECIES][3] = {{0}};
   for (size_t i = 0; i < s->n && m->n_species > 1; i++) {
     int k = gg_snapshot_species(s, i);
@@ -128,7 +128,7 @@ static shares shares_of(const gg_model *m, const gg_snapshot *s)
   return of;
 }
 
-static void add_grain(const gg_model *m, const gg_snapshot *s, const shares *of, size_t i, cell *c)
+static void add_grain(const gg_model *m, const gg_snapshot *s, const temperature_ratios *of, size_t i, cell *c)
 {
   int k = gg_snapshot_species(s, i);
   double mass = m->mass[k], I = gg_moment_of_inertia(m, k), diameter = m->diameter[k];
@@ -152,7 +152,7 @@ static void add_grain(const gg_model *m, const gg_snapshot *s, const shares *of,
 static void sort_grains(cells *d, const gg_snapshot *s)
 {
   memset(d->cell, 0, (size_t)count_of(d) * sizeof *d->cell);
-  shares of = shares_of(d->model, s);
+  temperature_ratios of = temperature_ratios_of(d->model, s);
   for (size_t i = 0; i < s->n; i++) add_grain(d->model, s, &of, i, &d->cell[gg_measure_cell_grid_cell(&d->grid, s, i)]);
 }
 

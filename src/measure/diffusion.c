@@ -159,7 +159,7 @@ static void add_collision(void *self, const gg_collision_record *collision)
 }
 
 /* Estimate of the displacement since the last snapshot from the velocities. */
-static gg_vec way_of(diffusion *d, size_t g, gg_vec c, const gg_snapshot *s)
+static gg_vec estimated_path(diffusion *d, size_t g, gg_vec c, const gg_snapshot *s)
 {
   if (d->until) {
     fly(d, g, c, s->time);
@@ -193,9 +193,10 @@ static void follow(diffusion *d, const gg_snapshot *s)
                  to = placed ? (gg_vec){s->r[0][i], s->r[1][i], s->r[2][i]} : (gg_vec){0, 0, 0};
     gg_vec move = {0, 0, 0};
     if (!first && !placed)
-      move = way_of(d, g, c, s);
+      move = estimated_path(d, g, c, s);
     else if (!first)
-      move = displacement(d, &b, (gg_vec){d->r[0][g], d->r[1][g], d->r[2][g]}, to, way_of(d, g, c, s), s->elapsed);
+      move =
+          displacement(d, &b, (gg_vec){d->r[0][g], d->r[1][g], d->r[2][g]}, to, estimated_path(d, g, c, s), s->elapsed);
     const double step[3] = {move.x, move.y, move.z};
     for (int a = 0; a < 3; a++) {
       if (placed) d->r[a][g] = s->r[a][i];

@@ -83,17 +83,17 @@ static inline void kick(const gg_model *m, double K, int axis, const double *c, 
 }
 
 /* A pair along an axis: grain 1 and its partner, ahead, the relative velocity; grain 1 after a collision. */
-typedef struct meeting {
+typedef struct axis_pair {
   const double *c[2], *s[2];
   double g, after_c[3], after_s[3], energy[2]; /* energy: gained, of translation and rotation */
-} meeting;
+} axis_pair;
 
-static inline meeting meet(const gg_heat_copies *d, const double *one, const double *two, int axis)
+static inline axis_pair meet(const gg_heat_copies *d, const double *one, const double *two, int axis)
 {
   const double K = d->K;
   const bool ahead = one[axis] > two[axis];
   const double *a = ahead ? one : two, *b = ahead ? two : one;
-  meeting m = {{a, b}, {a + SPIN, b + SPIN}, a[axis] - b[axis], {0}, {0}, {0}};
+  axis_pair m = {{a, b}, {a + SPIN, b + SPIN}, a[axis] - b[axis], {0}, {0}, {0}};
   double c[3], s[3], dc[3], ds[3];
   for (int k = 0; k < 3; k++) c[k] = a[k] - b[k], s[k] = a[SPIN + k] + b[SPIN + k];
   kick(d->model, K, axis, c, s, dc, ds);
@@ -105,7 +105,7 @@ static inline meeting meet(const gg_heat_copies *d, const double *one, const dou
 }
 
 /* Derivative of the energies times g, if grain 2 has more of velocity and spin by a fraction, and grain 1 less. */
-static void tilt(const gg_heat_copies *d, const meeting *m, int axis, double *of)
+static void tilt(const gg_heat_copies *d, const axis_pair *m, int axis, double *of)
 {
   const double K = d->K, *a = m->c[0], *b = m->c[1], *s = m->s[0], *t = m->s[1];
   double c[3], w[3], dc[3], ds[3];
@@ -119,7 +119,7 @@ static void tilt(const gg_heat_copies *d, const meeting *m, int axis, double *of
 }
 
 /* Add a pair: partners a diameter away have another temperature, or density. */
-static void add_meeting(const gg_heat_copies *d, const meeting *m, int axis, double w, double *bin)
+static void add_axis_pair(const gg_heat_copies *d, const axis_pair *m, int axis, double w, double *bin)
 {
   const gg_heat_layout *l = &d->at;
   const double *partner = m->c[1], *spin = m->s[1];
@@ -145,8 +145,8 @@ static void add_pairs(const gg_heat_copies *d, gg_rng *rng, double *bin)
   const double w = 1 / (6 * (double)n);
   for (uint32_t i = 0; i < n; i++)
     for (int k = 0; k < 3; k++) {
-      const meeting m = meet(d, d->grain + i * size, d->grain + (i + shift) % n * size, k);
-      add_meeting(d, &m, k, w, bin);
+      const axis_pair m = meet(d, d->grain + i * size, d->grain + (i + shift) % n * size, k);
+      add_axis_pair(d, &m, k, w, bin);
     }
 }
 
@@ -233,7 +233,7 @@ static void fluxes(const gg_heat_copies *d, gg_rng *rng, double T, const double 
   for (uint32_t i = 0; i < many; i++)
     for (int a = 0; a < 3; a++) {
       const double *one = d->grain + i * size, *two = d->grain + (i + shift) % many * size;
-      const meeting m = meet(d, one, two, a);
+      const axis_pair m = meet(d, one, two, a);
       for (int k = 0; k < l->n; k++) {
         const double w = unit * m.g * (one[WEIGHTS + 3 * k + a] + two[WEIGHTS + 3 * k + a]);
         flux[GG_HEAT_CARRIED_TRANSLATION][k] += w * m.energy[0], flux[GG_HEAT_CARRIED_ROTATION][k] += w * m.energy[1];

@@ -112,7 +112,7 @@ static gg_line fit_line(const gg_slab *slab, const double sum[3], const double m
 }
 
 /* Number of grains minus the parameters of the fit. */
-static double left_of(const gg_slab *slab)
+static double freedom_of(const gg_slab *slab)
 {
   return slab->grains - (spread_of(slab) > 0 ? 2 : 1);
 }
@@ -120,7 +120,7 @@ static double left_of(const gg_slab *slab)
 double gg_measure_slab_temperature(const gg_slab *slab)
 {
   gg_line line = fit_line(slab, slab->velocity, slab->moment);
-  double squares = slab->square, spread = spread_of(slab), left = left_of(slab);
+  double squares = slab->square, spread = spread_of(slab), left = freedom_of(slab);
   for (int a = 0; a < 3; a++)
     squares -= slab->grains * line.mean[a] * line.mean[a] + spread * line.slope[a] * line.slope[a];
   return left > 0 ? squares / (3 * left) : 0;
@@ -132,7 +132,7 @@ void gg_measure_local_frame_make(gg_local_frame *f, const gg_slabs *slabs)
   for (int i = 0; i < GG_MAX_SPECIES; i++) f->radius[i] = slabs->radius[i];
   for (int k = 0; k < f->n; k++) {
     const gg_slab *slab = &slabs->slab[k];
-    double left = left_of(slab);
+    double left = freedom_of(slab);
     f->centre[k] = slab->grains > 0 ? slab->height / slab->grains : 0;
     f->stretch[k] = left > 0 ? sqrt(slab->grains / left) : 1;
     f->flow[k] = fit_line(slab, slab->velocity, slab->moment);

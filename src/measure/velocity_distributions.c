@@ -65,12 +65,12 @@ void gg_measure_velocity_curves_put(gg_curves *list, gg_velocity_component which
 
 typedef struct distributions {
   int species, vectors; /* vectors: C, and Omega if there are spins */
-  double *room;         /* scratch for the grains of one of several species; NULL for one */
+  double *scratch;      /* scratch for the grains of one of several species; NULL for one */
 } distributions;
 
 static void destroy(void *self)
 {
-  free(((distributions *)self)->room);
+  free(((distributions *)self)->scratch);
   free(self);
 }
 
@@ -79,7 +79,7 @@ static void *create(const gg_model *m, gg_error *err)
   distributions *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
   *d = (distributions){m->n_species, m->rule == GG_SMOOTH ? 1 : 2, NULL};
-  if (m->n_species == 1 || (d->room = gg_base_array_new((size_t)m->n, sizeof(double), err))) return d;
+  if (m->n_species == 1 || (d->scratch = gg_base_array_new((size_t)m->n, sizeof(double), err))) return d;
   free(d);
   return NULL;
 }
@@ -98,10 +98,10 @@ static size_t values_of(const distributions *d, const gg_snapshot *s, const doub
   *values = x;
   if (d->species == 1) return s->n;
   for (size_t i = 0; i < s->n; i++) {
-    d->room[n] = x[i];
+    d->scratch[n] = x[i];
     n += s->species[i] == species;
   }
-  *values = d->room;
+  *values = d->scratch;
   return n;
 }
 

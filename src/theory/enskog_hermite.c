@@ -66,7 +66,7 @@ static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, const g
 static gg_status answer_viscosity(const gg_model *m, gg_hermite_isotropic *h, gg_theory_answer *a, gg_error *err)
 {
   gg_hermite_viscosity v;
-  double fading = gg_theory_thermostat_share(m) == 0.5 ? h->cooling_rate / 2 : 0, nu0 = gg_common_model_nu0(m, 1);
+  double fading = gg_theory_thermostat_factor(m) == 0.5 ? h->cooling_rate / 2 : 0, nu0 = gg_common_model_nu0(m, 1);
   GG_TRY(gg_hermite_viscosity_of(&h->gas, &h->state, h->op.basis.degree, !m->boltzmann, fading, &v, err));
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = v.kinetic * nu0;
   a->value[GG_Q_VISCOSITY_REDUCED] = v.total * nu0;
@@ -89,7 +89,7 @@ static gg_status answer_heat(const gg_model *m, const gg_hermite_isotropic *h, g
 /* Heat flux of the cooling state, degree after degree: its series needs all available degrees. */
 static gg_status conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  gg_rungs rungs = {.n = 0};
+  gg_hermite_convergence convergence = {.n = 0};
   const gg_quantity q[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC,
                            GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED};
   double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
@@ -98,12 +98,12 @@ static gg_status conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
     gg_hermite_isotropic h;
     GG_TRY(gg_stop_check(m->stop, err));
     GG_TRY(gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, &heating, err));
-    gg_status status = answer_heat(m, &h, gg_hermite_convergence_next(&rungs), err);
+    gg_status status = answer_heat(m, &h, gg_hermite_convergence_next(&convergence), err);
     gg_hermite_isotropic_end(&h);
     GG_TRY(status);
-    if (gg_hermite_convergence_change(&rungs, q[0]) < hardly) break;
+    if (gg_hermite_convergence_change(&convergence, q[0]) < hardly) break;
   }
-  for (size_t k = 0; k < sizeof q / sizeof *q; k++) gg_hermite_convergence_take(&rungs, q[k], a);
+  for (size_t k = 0; k < sizeof q / sizeof *q; k++) gg_hermite_convergence_take(&convergence, q[k], a);
   return GG_OK;
 }
 
@@ -111,17 +111,17 @@ static gg_status conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
  * its series no longer changes. */
 static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  gg_rungs rungs = {.n = 0}, viscous = {.n = 0};
+  gg_hermite_convergence convergence = {.n = 0}, viscous = {.n = 0};
   const gg_heating heating = gg_theory_heating_of(m);
   double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
   for (int degree = FIRST_DEGREE; degree <= LAST_DEGREE; degree += 2) {
-    if (degree > GOOD_DEGREE && gg_hermite_convergence_change(&rungs, GG_Q_COOLING_RATE) < good) break;
+    if (degree > GOOD_DEGREE && gg_hermite_convergence_change(&convergence, GG_Q_COOLING_RATE) < good) break;
     gg_hermite_isotropic h;
     gg_error why;
     GG_TRY(gg_stop_check(m->stop, err));
     gg_status status = gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, &heating, &why);
     if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
-    gg_theory_answer *rung = gg_hermite_convergence_next(&rungs);
+    gg_theory_answer *rung = gg_hermite_convergence_next(&convergence);
     answer_isotropic(m, &h, &heating, rung);
     if (m->flow == GG_HCS && !m->boltzmann)
       status = gg_hermite_isotropic_expansion(&h, m->sigma[0], &rung->value[GG_Q_COOLING_RATE_TRANSPORT], &why);
@@ -130,7 +130,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
     gg_hermite_isotropic_end(&h);
     if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
   }
-  GG_TRY(gg_hermite_convergence_finish(&rungs, name, GG_Q_COOLING_RATE, hardly, a, err));
+  GG_TRY(gg_hermite_convergence_finish(&convergence, name, GG_Q_COOLING_RATE, hardly, a, err));
   gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED, a);
   gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
   if (m->flow != GG_HCS) return GG_OK;

@@ -45,7 +45,7 @@ double gg_theory_a2_white_noise(double e)
   return 16 * (1 - e) * (1 - 2 * e * e) / (241 - 177 * e + 30 * e * e * (1 - e));
 }
 
-double gg_theory_thermostat_share(const gg_model *m)
+double gg_theory_thermostat_factor(const gg_model *m)
 {
   static const double share[] = {[GG_NO_THERMOSTAT] = 0.5, [GG_GAUSSIAN] = 1, [GG_WHITE_NOISE] = 0, [GG_BATH] = 0};
   return share[gg_common_thermostat_of(m)];
@@ -79,7 +79,7 @@ static void answer_viscosity(const gg_model *m, double a2, double weight, gg_the
   double e = m->e[0], y = gg_theory_phi_chi(m);
   double nu = m->chi[0] * (1 - (1 - e) * (1 - e) / 4) * (1 + weight * a2);
   double eta_k =
-      (1 - 0.4 * (1 + e) * (1 - 3 * e) * y) / (nu - gg_theory_thermostat_share(m) * a->value[GG_Q_COOLING_RATE]);
+      (1 - 0.4 * (1 + e) * (1 - 3 * e) * y) / (nu - gg_theory_thermostat_factor(m) * a->value[GG_Q_COOLING_RATE]);
   double bulk = gg_theory_bulk_viscosity(m, 1 - a2 / 16);
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = eta_k;
   a->value[GG_Q_VISCOSITY_REDUCED] = eta_k * (1 + 0.8 * (1 + e) * y) + 0.6 * bulk;

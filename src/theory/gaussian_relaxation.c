@@ -125,7 +125,7 @@ static bool is_small(gg_tensor change, gg_tensor of, double time)
 }
 
 /* Is the remaining change too small to be seen? */
-static bool is_settled(const gg_model *m, const gg_gaussian state[], const gg_gaussian_rates *r, double time)
+static bool is_steady(const gg_model *m, const gg_gaussian state[], const gg_gaussian_rates *r, double time)
 {
   for (int i = 0; i < m->n_species; i++)
     if (!is_small(r->change[i].M, state[i].M, time) || !is_small(r->change[i].Theta, state[i].Theta, time) ||
@@ -153,7 +153,7 @@ void gg_theory_gaussian_relax(const gg_model *m, double time, gg_relaxing *x)
   while (time > 0 && !(x->stop && gg_stop_asked(x->stop))) {
     rates_at(m, state, &r[0]);
     const double most = fastest(m, state, &r[0]);
-    const bool settled = is_settled(m, state, &r[0], fmin(time, LONG / most));
+    const bool settled = is_steady(m, state, &r[0], fmin(time, LONG / most));
     const double dt = settled ? time : fmin(time, (x->stride > 0 ? x->stride : 0.5) / most);
     x->collisions += dt * collision_rate(m, &r[0]);
     x->work -= SECONDS * m->n_species * m->n_species;

@@ -292,8 +292,8 @@ static double temperature_of(const gg_model *m, const gg_gaussian state[])
 
 /* The steady state next to the present one, into x; returns its residual. INFINITY if the gas does not approach it:
  * the state is unstable, or another one. */
-static double settle(const closure *c, gsl_multiroot_fsolver *solver, gsl_multiroot_function *f,
-                     const gg_gaussian before[], const gg_gaussian now[], gsl_vector *x)
+static double solve_nearby(const closure *c, gsl_multiroot_fsolver *solver, gsl_multiroot_function *f,
+                           const gg_gaussian before[], const gg_gaussian now[], gsl_vector *x)
 {
   gg_gaussian found[GG_MAX_SPECIES];
   pack(c, now, x);
@@ -326,7 +326,7 @@ static double follow(const closure *c, gsl_multiroot_fsolver *solver, gsl_multir
     time += stretch;
     const double change = log(temperature_of(c->model, gas.of) / temperature_of(c->model, before));
     if (fabs(change) < near_by && gas.collisions + 2 * drag * time > forgetting)
-      left = settle(c, solver, f, before, gas.of, x);
+      left = solve_nearby(c, solver, f, before, gas.of, x);
   }
   if (!(left < converged)) pack(c, gas.of, x);
   return left;

@@ -37,7 +37,7 @@ static double sliding_tangent(gg_grain g, double mu, double ratio)
   return g.eta2 / (mu * g.eta1) * sqrt(contact_spread(g, ratio) / 2);
 }
 
-double gg_theory_sliding_share(gg_grain g, double mu, double ratio)
+double gg_theory_sliding_fraction(gg_grain g, double mu, double ratio)
 {
   if (isinf(mu)) return 0;
   double u = sliding_tangent(g, mu, ratio);

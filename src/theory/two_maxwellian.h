@@ -17,7 +17,7 @@ gg_exchange gg_theory_exchange_at(gg_grain grain, double mu, double ratio);
 double gg_theory_cooling_at(gg_grain grain, double mu, double ratio);
 
 /* Fraction of collisions that slide. */
-double gg_theory_sliding_share(gg_grain grain, double mu, double ratio);
+double gg_theory_sliding_fraction(gg_grain grain, double mu, double ratio);
 
 /* theta/T at which rotation neither gains nor loses energy (translation driven), or at which both cool alike (free
  * cooling); NaN if there is none. */

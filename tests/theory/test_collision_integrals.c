@@ -183,7 +183,7 @@ static void friction_integrals_agree_with_samples(void **state)
     gg_exchange x = gg_theory_exchange_at(grain, mu[set / 3], r);
     check_as("translation", &tr, 1, x.translation);
     check_as("rotation", &rot, 1, x.rotation);
-    check_as("sliding", &slides, 1, gg_theory_sliding_share(grain, mu[set / 3], r));
+    check_as("sliding", &slides, 1, gg_theory_sliding_fraction(grain, mu[set / 3], r));
   }
 }
 

@@ -114,8 +114,8 @@ static void friction_limits(void **state)
     assert_close(sticky.rotation, rough.rotation, 1e-7);
     assert_close(slippery.translation, -4 * g.eta1 * (1 - g.eta1), 1e-7);
     assert_close(slippery.rotation, 0, 1e-7);
-    assert_close(gg_theory_sliding_share(g, 1e5, 0.5), 0, 1e-9);
-    assert_close(gg_theory_sliding_share(g, 1e-9, 0.5), 1, 1e-12);
+    assert_close(gg_theory_sliding_fraction(g, 1e5, 0.5), 0, 1e-9);
+    assert_close(gg_theory_sliding_fraction(g, 1e-9, 0.5), 1, 1e-12);
   }
 }
 
@@ -136,7 +136,7 @@ static void friction_by_quadrature(void **state)
     }
   Jg /= (double)n * n, JJ /= (double)n * n, slides /= (double)n * n;
   gg_exchange x = gg_theory_exchange_at(g, mu, r);
-  assert_close(slides, gg_theory_sliding_share(g, mu, r), 1e-3);
+  assert_close(slides, gg_theory_sliding_fraction(g, mu, r), 1e-3);
   assert_close(x.translation, -4 * g.eta1 * (1 - g.eta1) - Jg / (1 + r / g.K) + JJ, 1e-3);
   assert_close(x.rotation, -r / g.K * Jg / (1 + r / g.K) + JJ / g.K, 2e-3);
 }

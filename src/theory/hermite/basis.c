@@ -186,7 +186,7 @@ static void raise(int n, double axis[3][3], int i, double scale, const double *f
 }
 
 /* Within one degree the polynomials of a frame at rest are numbered in the same way, by (x, y). */
-size_t gg_hermite_rotation_room(int degree)
+size_t gg_hermite_rotation_scratch(int degree)
 {
   size_t most = (size_t)of_degree(degree);
   return 2 * most * most;

@@ -51,8 +51,8 @@ void gg_hermite_values(int degree, double x, double *value);
 void gg_hermite_values_of(int degree, int n, const double *x, double *value, int stride);
 
 /* D, n_rotated rows of `wide` >= n: Ho_s(c) = sum_q D_qs Ho_q(c'), where c'_i = axis_i . c; orthogonal, degree by
- * degree. `work`: scratch of gg_hermite_rotation_room doubles. */
+ * degree. `work`: scratch of gg_hermite_rotation_scratch doubles. */
 void gg_hermite_rotation(const gg_hermite_basis *basis, double axis[3][3], int wide, double *D, double *work);
-size_t gg_hermite_rotation_room(int degree);
+size_t gg_hermite_rotation_scratch(int degree);
 
 #endif

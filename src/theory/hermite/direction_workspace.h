@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Workspace of the operator for one direction. Rotated functions are those of the frame of the collision, which
  * differs between species. */
-#ifndef GG_HERMITE_ROOM_H
-#define GG_HERMITE_ROOM_H
+#ifndef GG_DIRECTION_WORKSPACE_H
+#define GG_DIRECTION_WORKSPACE_H
 
 #include "theory/hermite/contact_integral.h"
 #include "theory/hermite/product.h"
@@ -16,7 +16,7 @@ typedef struct gg_hermite_view {
   double *damped;                                  /* by Q, (j,p): sum_q Z_Qq t_jpq */
 } gg_hermite_view;
 
-struct gg_hermite_room {
+struct gg_hermite_workspace {
   int wide, pairs, box; /* n padded; (P,Q) padded; (N + 1)^2 */
   int n_views;
   gg_hermite_view view[GG_MAX_SPECIES];
@@ -34,12 +34,12 @@ static inline int gg_hermite_degree(gg_hermite_index index)
 }
 
 /* Set the views of every species along k. */
-void gg_hermite_look(gg_hermite_operator *op, int n_species, gg_hermite_state *state, const double k[3]);
+void gg_hermite_set_views(gg_hermite_operator *op, int n_species, gg_hermite_state *state, const double k[3]);
 
 /* Number of rows (P,Q) of products with the partner. */
 int gg_hermite_partner_rows(int N);
 
-/* Derivatives of all rotated tests of a species with respect to its own a_s: room->X. W is not changed. */
+/* Derivatives of all rotated tests of a species with respect to its own a_s: workspace->X. W is not changed. */
 void gg_hermite_differentiate_own(const gg_hermite_operator *op, const gg_hermite_view *own);
 
 /* Derivatives with respect to the a_s of the partner, for the flux added last: added to a block of the Jacobian. */

@@ -40,9 +40,9 @@ static double *lay_out(gg_hermite_flux *f)
   enum { PARTS = sizeof size / sizeof *size };
   size_t total = 0;
   for (int i = 0; i < PARTS; i++) total += (size_t)size[i];
-  double *room = calloc(total, sizeof *room), *at = room;
-  for (int i = 0; room && i < PARTS; at += size[i++]) *part[i] = at;
-  return room;
+  double *workspace = calloc(total, sizeof *workspace), *at = workspace;
+  for (int i = 0; workspace && i < PARTS; at += size[i++]) *part[i] = at;
+  return workspace;
 }
 
 gg_status gg_hermite_flux_make(gg_hermite_flux *f, int N, int tests, double decay, gg_error *err)

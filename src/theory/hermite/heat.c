@@ -72,7 +72,7 @@ static double base_at(const response *r, double x)
 }
 
 /* f0 and D along z: D is -d/dz (z phi Ho_k)/2, where d(phi Ho_k)/dz = -phi sqrt(k + 1) Ho_(k+1). */
-static void look_along(const response *r, height *h)
+static void evaluate_along(const response *r, height *h)
 {
   double value[2 * MOST];
   gg_hermite_values(2 * r->n - 1, h->z, value);
@@ -90,7 +90,7 @@ static void look(const response *r, double z, height *h)
     laguerre(1.5, z * z / 2 + r->s[k], r->n, 1, h->trial[k]);
     h->base[k] = base_at(r, z * z / 2 + r->s[k]);
   }
-  look_along(r, h);
+  evaluate_along(r, h);
   laguerre(0.5, z * z / 2, r->n, 1, h->of_trial); /* L_n^(3/2)(x + s) under exp(-s) is L_n^(1/2)(x) */
   for (int n = 0; n < r->n; n++) h->of_trial[n] *= z / sqrt(1 + n / 1.5);
 }

@@ -35,7 +35,7 @@ typedef struct gg_hermite_gas {
 gg_hermite_gas gg_hermite_gas_of(const gg_model *model);
 gg_hermite_gas gg_hermite_one(double frequency, double eta, double shear);
 
-typedef struct gg_hermite_room gg_hermite_room;
+typedef struct gg_hermite_workspace gg_hermite_workspace;
 
 typedef struct gg_hermite_operator {
   gg_hermite_basis basis;
@@ -44,7 +44,7 @@ typedef struct gg_hermite_operator {
   double *overlap;           /* < psi_m Ho_s > of an axis, m to N + 2 */
   int n_directions;
   double (*direction)[3], *weight;
-  gg_hermite_room *room; /* of one direction */
+  gg_hermite_workspace *workspace; /* of one direction */
 } gg_hermite_operator;
 
 /* `isotropic`: use one direction instead of all. This is right for the isotropic part of R if f and A are isotropic. */

@@ -94,20 +94,21 @@ static gg_status refuse(const gg_model *m, const char *why, gg_error *err)
 }
 
 /* `slow`: separate answers for the relaxation, which low degrees give well. */
-static gg_status climb(gg_hermite_shear *h, gg_rungs *rungs, gg_rungs *slow, gg_error *err)
+static gg_status solve_degrees(gg_hermite_shear *h, gg_hermite_convergence *convergence, gg_hermite_convergence *slow,
+                               gg_error *err)
 {
   for (int degree = FIRST_DEGREE; degree <= last_degree[h->gas.n_species]; degree += 2) {
-    if (degree > GOOD_DEGREE && gg_hermite_convergence_change(rungs, GG_Q_TEMPERATURE) < good &&
+    if (degree > GOOD_DEGREE && gg_hermite_convergence_change(convergence, GG_Q_TEMPERATURE) < good &&
         !gg_hermite_shear_has_tails(h))
       break;
     gg_error why;
     if (gg_hermite_shear_solve(h, degree, &why) != GG_OK) return refuse(h->model, why.message, err);
-    answer(h, gg_hermite_convergence_next(rungs));
+    answer(h, gg_hermite_convergence_next(convergence));
     if (degree <= SPECTRUM_DEGREE) answer_relaxation(h, gg_hermite_convergence_next(slow));
   }
   gg_error why;
-  if (gg_hermite_shear_widen(h, &rungs->widened, &why) != GG_OK) return refuse(h->model, why.message, err);
-  if (rungs->widened) answer(h, &rungs->wide);
+  if (gg_hermite_shear_widen(h, &convergence->widened, &why) != GG_OK) return refuse(h->model, why.message, err);
+  if (convergence->widened) answer(h, &convergence->wide);
   return GG_OK;
 }
 
@@ -115,16 +116,16 @@ gg_status gg_hermite_shear_answer(const gg_model *m, gg_theory_answer *a, gg_err
 {
   gg_hermite_shear h;
   /* Near a turning point of a gas in a bath small errors of the drag are large errors of T. */
-  gg_rungs rungs = {.paired = true, .poor = m->bath.on ? 0.1 : 0}, slow = {.n = 0};
+  gg_hermite_convergence convergence = {.paired = true, .poor = m->bath.on ? 0.1 : 0}, slow = {.n = 0};
   GG_TRY(gg_theory_require_steady_shear(m, name, err));
   gg_error why;
   if (m->n_species > MOST_SPECIES)
     return gg_theory_reject(err, name, "describes sheared grains of up to %d species; this scene has %d", MOST_SPECIES,
                             m->n_species);
   if (gg_hermite_shear_begin(&h, m, &why) != GG_OK) return refuse(m, why.message, err);
-  gg_status status = climb(&h, &rungs, &slow, err);
+  gg_status status = solve_degrees(&h, &convergence, &slow, err);
   gg_hermite_shear_end(&h);
-  if (status == GG_OK) status = gg_hermite_convergence_finish(&rungs, name, GG_Q_TEMPERATURE, 0, a, err);
+  if (status == GG_OK) status = gg_hermite_convergence_finish(&convergence, name, GG_Q_TEMPERATURE, 0, a, err);
   if (status == GG_OK) gg_hermite_convergence_take(&slow, GG_Q_RELAXATION_RATE, a);
   return status;
 }

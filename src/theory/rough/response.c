@@ -100,7 +100,7 @@ static double both(const gg_rough_direction *by, const int *test, const sparse *
 }
 
 /* rows_m += amount d<psi_m>/dt of grains of f0 that collide with partners of x, ahead. */
-static gg_status meet(const response *r, int c, double amount, const double *x, double *rows, gg_error *err)
+static gg_status add_collisions(const response *r, int c, double amount, const double *x, double *rows, gg_error *err)
 {
   const gg_rough_tensors *t = &r->t;
   sparse partner;
@@ -303,7 +303,7 @@ static gg_status heat_sources(response *r, gg_hermite_density d, gg_error *err)
       slope(r, axis, -pressed[k], r->f0, r->x);
       test(r, c, 1, r->x, r->rows[k]);
     }
-    if (r->reach > 0) GG_TRY(meet(r, 0, distant[k], of[k], r->rows[k], err));
+    if (r->reach > 0) GG_TRY(add_collisions(r, 0, distant[k], of[k], r->rows[k], err));
   }
   return GG_OK;
 }
@@ -374,7 +374,7 @@ static gg_status shear(response *r, double fading, gg_rough_viscosity *v, gg_err
       }
     test(r, c, 1, r->x, r->rows[0]);
     partner_ahead(r, E, r->x);
-    if (r->reach > 0) GG_TRY(meet(r, c, r->reach, r->x, r->rows[0], err));
+    if (r->reach > 0) GG_TRY(add_collisions(r, c, r->reach, r->x, r->rows[0], err));
     carried += r->reach / 2 * momentum_carried(r, c, -1, r->x);
   }
   GG_TRY(solve(r, fading * r->s->stream.velocity[0][0], r->rows[0], err));

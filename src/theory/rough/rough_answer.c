@@ -136,7 +136,7 @@ static bool gaussian_start(const gg_model *m, gg_rough_weight *w)
   return gg_hermite_cholesky(start[0].M.at, w->L) && gg_hermite_cholesky(start[0].Theta.at, w->S);
 }
 
-static gg_status climb(const gg_model *m, gg_rough_steady *s, gg_theory_answer rung[], gg_error *err)
+static gg_status solve_degrees(const gg_model *m, gg_rough_steady *s, gg_theory_answer rung[], gg_error *err)
 {
   gg_error why;
   for (int degree = FIRST_DEGREE; degree <= LAST_DEGREE; degree++) {
@@ -164,7 +164,7 @@ static gg_status sheared(const gg_model *m, gg_theory_answer *a, gg_error *err)
   for (int i = 0; i < 3; i++) s.stream.velocity[i][i] = m->bath.drag[0];
   s.stream.velocity[0][1] = m->shear_rate;
   if (!gaussian_start(m, &s.weight)) return gg_theory_reject(err, name, "fails here: no steady state was found");
-  gg_status status = climb(m, &s, rung, err);
+  gg_status status = solve_degrees(m, &s, rung, err);
   gg_rough_steady_clear(&s);
   GG_TRY(status);
   for (int q = 0; q < GG_N_QUANTITIES; q++) {
@@ -211,7 +211,7 @@ static gg_status answer_heat(const gg_model *m, const gg_rough_steady *s, gg_the
 static gg_status answer_viscosity(const gg_model *m, const gg_rough_steady *s, gg_theory_answer *a, gg_error *err)
 {
   gg_rough_viscosity v;
-  const double fading = gg_theory_thermostat_share(m) == 0.5, nu0 = gg_common_model_nu0(m, 1);
+  const double fading = gg_theory_thermostat_factor(m) == 0.5, nu0 = gg_common_model_nu0(m, 1);
   GG_TRY(gg_rough_viscosity_of(s, gg_theory_phi_chi(m), fading, &v, err));
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = v.kinetic * nu0;
   a->value[GG_Q_VISCOSITY_REDUCED] = v.total * nu0;
@@ -246,7 +246,7 @@ static const gg_quantity of_heat[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_TH
  * too. It is an estimate: degree 10 differs by less at e = 0.9, by up to 1.7 errors at e = 0.8, beta = 0.2, by 2.3
  * at e = 0.7, beta = 0. There is no answer if the error is above `poor`, of the value itself or of kappa: mu
  * vanishes where spins have no effect. */
-static void judge_heat(const gg_theory_answer *first, const gg_theory_answer *before, gg_theory_answer *now)
+static void set_heat_errors(const gg_theory_answer *first, const gg_theory_answer *before, gg_theory_answer *now)
 {
   for (size_t k = 0; k < sizeof of_heat / sizeof *of_heat; k++) {
     double *value = &now->value[of_heat[k]], *error = &now->error[of_heat[k]];
@@ -256,8 +256,8 @@ static void judge_heat(const gg_theory_answer *first, const gg_theory_answer *be
 }
 
 /* Degree after degree; the error is the change by the last one. */
-static gg_status climb_isotropic(const gg_model *m, const gg_rough_choice *choice, double ratio, double limit,
-                                 gg_theory_answer *a, gg_error *err)
+static gg_status converge_isotropic(const gg_model *m, const gg_rough_choice *choice, double ratio, double limit,
+                                    gg_theory_answer *a, gg_error *err)
 {
   gg_theory_answer now = nothing(), before = now, first = now;
   gg_error why;
@@ -271,7 +271,7 @@ static gg_status climb_isotropic(const gg_model *m, const gg_rough_choice *choic
   gg_rough_steady_clear(&s);
   if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
   for (int q = 0; q < GG_N_QUANTITIES; q++) now.error[q] = fabs(now.value[q] - before.value[q]);
-  judge_heat(&first, &before, &now);
+  set_heat_errors(&first, &before, &now);
   GG_TRY(refuse_poor(&now, GG_Q_TEMPERATURE_RATIO, limit, err));
   *a = now;
   return GG_OK;
@@ -283,7 +283,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
   if (isnan(ratio)) return gg_theory_reject(err, name, "finds no steady theta/T");
   gg_status status = GG_FAILED;
   for (int i = 0; i < CHOICES && status != GG_OK; i++)
-    status = climb_isotropic(m, &tails[i], ratio, i + 1 < CHOICES ? restless : poor, a, err);
+    status = converge_isotropic(m, &tails[i], ratio, i + 1 < CHOICES ? restless : poor, a, err);
   if (status == GG_OK && m->flow == GG_HCS) gg_theory_answer_critical_lengths(m, a->value[GG_Q_TEMPERATURE_RATIO], a);
   return status;
 }

@@ -91,7 +91,7 @@ static void scalar(const gg_rough_functions *f, int i, int j, int k, double *x, 
 
 typedef struct work {
   double *x, *y, *all[GG_ROUGH_COMPONENTS]; /* all: rows of f->n */
-  int room;
+  int capacity;
 } work;
 
 /* List all functions; without `work` only count them. */
