@@ -110,7 +110,7 @@ def page():
         return file.read()
 
 
-def test_page():
+def test_blocks_of_the_page_print_their_outputs():
     """Its blocks in order, in one session; every output that it shows is printed."""
     os.symlink(os.path.join(SOURCE, "examples"), "examples")
     names = execute(re.findall(r"^```python\n(.*?)^```", page(), re.MULTILINE | re.DOTALL))

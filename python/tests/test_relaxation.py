@@ -80,7 +80,7 @@ def test_cooling_is_that_of_haff():
     assert np.abs(found.z("temperature")[1:]).max() < 4.5
 
 
-def test_crossing():
+def test_crossing_has_the_error_of_parts():
     """The hotter of two rough gases is the colder one soon; the jackknife's error is that of the scatter of parts."""
     hot = bath(e=0.9, beta=0, temperature=1.2)
     hot["rotational_temperature"], hot["bath.temperature"], hot["dsmc.particles"] = 0.02, 0.05, 2000
@@ -127,7 +127,7 @@ def test_pictures_and_tables():
     (dict(protocol=[(0, {"bath.drag": 1})]), "time 0"), (dict(protocol=[(1, {"bath.drag": 1})]), "time 1"),
     (dict(protocol=[(0.5, {})]), "names no key"), (dict(protocol=[(0.5, {"bath.drag": 1}), (0.2, {"bath.drag": 2})]), "order of times"),
     (dict(flow="couette"), "walls"), (dict(start={"spins": 1}), "spin"), (dict(protocol=[3]), "protocol"), (dict(protocol=[(0.5, {"phi": 0.2})]), "phi")])
-def test_refusals(wrong, word):
+def test_wrong_arguments_are_named(wrong, word):
     with pytest.raises(gg.BadInput, match=word):
         gg.relax(gg.Scene(phi=0.1, flow="couette") if "flow" in wrong else bath(),
                  **{"until": 1, "points": 2, "replicas": 2, **{k: v for k, v in wrong.items() if k != "flow"}})
@@ -146,7 +146,7 @@ def test_followed_scenes():
         gg.Simulation(bath())
 
 
-def test_interrupted():
+def test_ctrl_c_ends_relax():
     scene = bath()
     scene["dsmc.particles"] = 200000
     timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))

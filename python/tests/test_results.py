@@ -29,7 +29,7 @@ def test_z_is_the_difference_over_the_error(comparison):
     assert difference.mean / difference.error == pytest.approx(row.z)
 
 
-def test_theories(comparison):
+def test_theories_have_numbers_deviations_and_reasons(comparison):
     lun = comparison.theories["lun1991"]
     assert comparison["temperature"].theory["lun1991"] == lun["temperature"]
     assert lun.deviation("temperature") == pytest.approx(lun["temperature"] / comparison.md["temperature"].mean - 1)
@@ -75,7 +75,7 @@ def test_curves_and_history(comparison):
         comparison.md.history("N1")
 
 
-def test_grains(comparison):
+def test_grains_are_copies(comparison):
     g = comparison.md.grains
     assert g.position.shape == g.velocity.shape == g.spin.shape == (200, 3) and g.species.shape == (200,)
     assert comparison.dsmc.grains.position is None
@@ -83,7 +83,7 @@ def test_grains(comparison):
     assert comparison.md.grains.position.max() > 1
 
 
-def test_tables(comparison):
+def test_tables_have_the_numbers(comparison):
     pandas = pytest.importorskip("pandas")
     table = comparison.to_dataframe()
     assert isinstance(table, pandas.DataFrame)
@@ -97,7 +97,7 @@ def test_tables(comparison):
     assert str(comparison["temperature"].md) in repr(comparison) and shown == rows
 
 
-def test_pictures(comparison):
+def test_pictures_are_drawn_and_written(comparison):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")
     before = dict(matplotlib.rcParams)
@@ -173,7 +173,7 @@ def test_estimates_of_one_run_are_correlated(comparison):
         md.covariance("pressur", "temperature")
 
 
-def test_uncertainties(comparison):
+def test_uncertainties_agree_with_estimates(comparison):
     uncertainties = pytest.importorskip("uncertainties")
     u = comparison["temperature"].md.u
     assert (u.n, u.s) == pytest.approx((comparison.md["temperature"].mean, comparison.md["temperature"].error))
@@ -315,7 +315,7 @@ def test_comparisons_take_the_mean():
 @pytest.mark.parametrize("form, text", [("", "5.542(12)"), (".3", "5.54"), (".3f", "5.542"), (".2e", "5.54e+00"),
                                         ("12", "5.542(12)   "), (">12", "   5.542(12)"), ("s", "5.542(12)"),
                                         (".4s", "5.54"), ("g", "5.542"), ("+.1f", "+5.5"), (".0%", "554%")])
-def test_formats(form, text):
+def test_formats_show_the_error(form, text):
     assert format(gg.Estimate(5.542, 0.012), form) == text
 
 
@@ -345,7 +345,7 @@ def test_powers_of_estimates():
         x ** gg.Estimate(3.0, 0.05, "d")
 
 
-def test_units(comparison):
+def test_units_of_products_cancel(comparison):
     """Products and ratios cancel; sums of unlike units raise an error, plain numbers have the unit of the mean."""
     p, T, N1 = (comparison.md[name] for name in ("pressure", "temperature", "N1"))
     assert (p.unit, T.unit) == ("rho_p d^2 gamma^2", "d^2 gamma^2")
@@ -398,7 +398,7 @@ def test_interrupted_files(comparison, what, words_of_ctrl_c):
     function()
 
 
-def test_export(comparison):
+def test_export_writes_the_requested_parts(comparison):
     comparison.md.write("r.h5")
     names = gg.export("r.h5", "out", trajectory=False)
     assert "out.csv" in names and not any(name.endswith(".xyz") for name in names)

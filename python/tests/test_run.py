@@ -61,7 +61,7 @@ def test_two_runs_side_by_side(short):
     assert both == [means(gg.run(short.copy(seed=seed))) for seed in (1, 2)]
 
 
-def test_processes(short):
+def test_processes_give_the_same_numbers(short):
     with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as pool:
         results = list(pool.map(gg.run, [short, short.copy(seed=2)]))
     assert means(results[0]) == means(gg.run(short))
@@ -158,7 +158,7 @@ def test_progress_is_reported_in_this_thread(endless):
     assert seen[-1].engine == "md" and 0 <= seen[0].fraction <= seen[-1].fraction <= 1
 
 
-def test_bar(short, capsys):
+def test_bar_is_shown_on_request(short, capsys):
     pytest.importorskip("tqdm")
     short["run.collisions"] = 2000
     gg.run(short, progress=True)
@@ -167,7 +167,7 @@ def test_bar(short, capsys):
     assert capsys.readouterr().err == ""
 
 
-def test_failures(short, endless):
+def test_failures_raise_their_exceptions(short, endless):
     with pytest.raises(gg.BadInput, match="phi is missing"):
         gg.run("flow: usf")
     with pytest.raises(gg.BadFile):

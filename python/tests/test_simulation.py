@@ -145,7 +145,7 @@ def test_own_law_stays_when_keys_change(short):
     assert len(asked) >= 100
 
 
-def test_streams(short):
+def test_streams_are_independent(short):
     assert gg.Simulation(short).hash == gg.Simulation(short).hash != gg.Simulation(short, stream=1).hash
 
 
@@ -203,7 +203,7 @@ def test_exception_of_the_callback_comes_out(either):
     assert either.state.collisions >= 100
 
 
-def test_interrupted(sim):
+def test_ctrl_c_ends_an_advance(sim):
     def interrupt():
         sent.append(time.monotonic())
         os.kill(os.getpid(), signal.SIGINT)
@@ -354,7 +354,7 @@ def test_sums_and_frames(sim):
     assert np.allclose(np.diff(times), 0.25)
 
 
-def test_walls():
+def test_walls_have_names():
     sim = gg.Simulation(gg.Scene(flow="couette", phi=0.1, particles=200))
     assert sim.walls[:2] == ["lower", "upper"]
 
@@ -366,7 +366,7 @@ def stored(short):
     return gg.trajectory("t.h5")
 
 
-def test_trajectory(stored):
+def test_trajectory_has_the_frames_of_the_run(stored):
     result = gg.read("t.h5")
     assert len(stored) == result.info.frames > 3 and stored.scene == result.scene
     assert np.array_equal(stored[-1].grains.velocity, result.grains.velocity)
@@ -399,7 +399,7 @@ def test_cells_are_periodic_where_the_library_says(flow):
     assert tuple(map(bool, dsmc.periodic)) == (expected if dsmc.box[0] > 0 else (False,) * 3)
 
 
-def test_ase(stored):
+def test_ase_has_energies_and_distances(stored):
     pytest.importorskip("ase")
     for frame, atoms in zip(stored, stored.to_ase()):
         assert 2 * atoms.get_kinetic_energy() / 3 / len(atoms) == pytest.approx(frame.state.temperature)

@@ -21,7 +21,7 @@ def test_points_are_runs(swept, short):
         assert point.read()["temperature"].mean == alone["temperature"].mean
 
 
-def test_tables(swept):
+def test_tables_and_cubes_agree(swept):
     pytest.importorskip("xarray")
     table, cube = swept.to_dataframe(), swept.to_xarray()
     assert cube["temperature"].dims == ("collision.e", "phi", "solver")
@@ -71,7 +71,7 @@ vary: {collision.e: [0.8, 0.9]}
 """
 
 
-def test_validate():
+def test_validate_gives_the_same_verdict_again():
     """The verdict of a grid: the document and the page; the folder has the sweep, and gives the same verdict again."""
     with open("grid.yaml", "w", encoding="utf-8") as file:
         file.write(GRID)

@@ -50,7 +50,7 @@ def test_haffs_law():
     assert haff.temperature(0) == pytest.approx(0.5)
 
 
-def test_scan(shear):
+def test_scan_has_a_number_for_each_point(shear):
     xarray = pytest.importorskip("xarray")
     es = np.linspace(0.5, 0.9, 3)
     found = gg.scan(shear, e=es, phi=[0.1, 0.2], theories=["lun1991", "lun1991_lun_savage"])
@@ -104,7 +104,7 @@ def test_results_beside_theories():
         gg.theories(md.scene.copy(phi=0.2), md)
 
 
-def test_interrupted(shear):
+def test_ctrl_c_ends_a_scan(shear):
     """One point takes a second, all take a quarter of an hour."""
     mixture = gg.Scene(flow="usf", phi=0.3, species=[{"fraction": f, "diameter": d} for f, d in ((0.5, 1), (0.3, 2), (0.2, 3))])
     threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
