@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes the C source of the module graingas._c: python3 binding.py HEADER HELPERS OUTPUT
 
-cffi in API mode. The declarations are those of include/graingas.h, so that a function that is added there is in
+cffi in API mode. The declarations are those of include/graingas.h: a function that is added there is in
 graingas._c.lib after the next build. Callbacks written in Python are declared in helpers.h, beside their C side."""
 import contextlib
 import re
@@ -15,7 +15,7 @@ def without_comments(text):
 
 
 def declarations(header):
-    """The header as cffi reads it: no comments, no preprocessor, no attributes."""
+    """The header in the form that cffi reads: no comments, no preprocessor, no attributes."""
     text = without_comments(header)
     text = re.sub(r"^[ \t]*#(.*\\\n)*.*\n", "", text, flags=re.MULTILINE)
     text = re.sub(r'extern "C" \{', "", text).replace("GG_API ", "")
@@ -29,7 +29,9 @@ def declarations(header):
 
 
 def without_triples(text):
-    """cffi 1.15 cannot check members that point to arrays (`const double (*position)[3]`): helpers.h reads them."""
+    """cffi 1.15 cannot check members that point to arrays (`const double (*position)[3]`): functions of helpers.h read
+    them.
+    """
     def partial(struct):
         body, n = re.subn(r"const double \(\*\w+\)\[3\];", "", struct.group(0))
         return body.replace("}", "...; }", 1) if n else body
@@ -43,7 +45,7 @@ def version_macros(header):
 
 
 def python_declarations(helpers):
-    """What helpers.h marks for cffi, between `/* cffi:` and `*/`."""
+    """Declarations that helpers.h marks for cffi, between `/* cffi:` and `*/`."""
     return "\n".join(re.findall(r"/\* cffi:(.*?)\*/", helpers, re.DOTALL))
 
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The C side of graingas._c: what callbacks need without Python's lock. Comments that begin with `cffi:` are
+/* The C side of graingas._c: functions that run without Python's lock. Comments that begin with `cffi:` are
  * declarations for binding.py. */
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +36,7 @@ void ggpy_forget(ggpy_watch *watch);
 extern "Python" void ggpy_collision(void *context, const gg_collision_event *event);
 */
 
-/* Who watches the collisions of a simulation: a function of Python, or a buffer that grows. */
+/* Receiver of the collisions of a simulation: a function of Python, or a buffer that grows. */
 typedef struct ggpy_watch {
   int watching;
   void *self;
@@ -47,7 +47,7 @@ typedef struct ggpy_watch {
 
 static void ggpy_collision(void *context, const gg_collision_event *event);
 
-/* A watcher that has had enough costs no more than this. */
+/* A receiver that is switched off costs no more than this test. */
 static void ggpy_show(void *context, const gg_collision_event *event)
 {
   if (((ggpy_watch *)context)->watching) ggpy_collision(((ggpy_watch *)context)->self, event);

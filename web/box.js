@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The box in three dimensions, on a canvas: x to the right along the flow, y up along its gradient; what is far is
- * painted first: edges behind the grains, grains, edges before them. */
+/* The box in three dimensions, on a canvas: x to the right along the flow, y up along its gradient. Order of
+ * painting: edges behind the grains, grains from far to near, edges before the grains. */
 import { DARK, rgb } from "./colours.js";
 import { isWalled, sheared } from "./flows.js";
 import { Spheres } from "./spheres.js";
 
 export const CAMERA = [0.45, 0.22, 1];
-const PART = 0.3, /* of the images above and below, how much is seen */
-  SIDE = 0.25; /* beyond the box along x, too */
+const PART = 0.3, /* the visible part of the images above and below */
+  SIDE = 0.25; /* the same beyond the box along x */
 const EDGES = [];
 for (let i = 0; i < 8; i++) for (const bit of [1, 2, 4]) if (!(i & bit)) EDGES.push([i, i | bit]);
 
 export class BoxView {
-  /* `turned(camera)`: somebody turned it; `picked(grain)`: clicked on one, or, null, beside all of them. */
+  /* `turned(camera)`: called after the user has rotated the box; `picked(grain)`: after a click on a grain (null:
+   * beside all grains). */
   constructor(canvas, turned, picked) {
     Object.assign(this, { canvas, turned, picked, found: [], spheres: new Spheres(), sheet: document.createElement("canvas") });
     [this.yaw, this.pitch, this.zoom] = CAMERA;
@@ -34,7 +35,7 @@ export class BoxView {
     ]);
   }
 
-  /* One finger or the mouse turns, two fingers zoom; a click that goes nowhere picks a grain. */
+  /* One finger or the mouse rotates the box, two fingers zoom; a click without movement picks a grain. */
   listen() {
     let way = Infinity;
     const c = this.canvas,
@@ -50,7 +51,7 @@ export class BoxView {
       try {
         c.setPointerCapture(e.pointerId);
       } catch (none) {
-        /* a pointer that is gone already */
+        /* the pointer has gone already */
       }
     });
     c.addEventListener("pointerup", (e) => {
@@ -59,7 +60,7 @@ export class BoxView {
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
       c.addEventListener(end, (e) => held.delete(e.pointerId));
     c.addEventListener("pointermove", (e) => {
-      if (!(e.buttons & 1)) held.delete(e.pointerId); /* it was let go where nobody saw it */
+      if (!(e.buttons & 1)) held.delete(e.pointerId); /* the button was released outside the page */
       const from = held.get(e.pointerId);
       if (!from) return;
       way += Math.hypot(e.clientX - from[0], e.clientY - from[1]);
@@ -91,7 +92,7 @@ export class BoxView {
       { passive: false },
     );
   }
-  /* The nearest to the eye of those drawn there, with some slack for fingers. */
+  /* The grain nearest to the eye among those drawn at this place, with some slack for fingers. */
   pick(x, y) {
     const ratio = this.w / this.canvas.clientWidth,
       nearest = [...this.found].reverse(),
@@ -103,7 +104,7 @@ export class BoxView {
     if (this.last) this.draw(...this.last);
   }
 
-  /* The canvas as large as it is shown. */
+  /* Make the canvas as large as it is shown. */
   fit() {
     const ratio = Math.min(window.devicePixelRatio || 1, 2),
       w = Math.round(this.canvas.clientWidth * ratio),
@@ -118,7 +119,7 @@ export class BoxView {
     this.thick = Math.max(1, ratio);
   }
 
-  /* From the box to the screen: [x, y, pixels per length, depth]. A chute is tilted so that gravity points down. */
+  /* Map the box to the screen: [x, y, pixels per length, depth]. A chute is tilted so that gravity points down. */
   aim(box, strips, [along, down] = [0, 0]) {
     const extent = Math.hypot(box[0] * (strips ? 1.25 : 1), box[1] * (strips ? 1.5 : 1), box[2]),
       away = 1.9 * extent,
@@ -138,7 +139,7 @@ export class BoxView {
         f = scale / (away - depth);
       return [right + u * f, lower - up * f, f, depth];
     };
-    /* the corners in the middle, and as large as the canvas lets it */
+    /* centre the corners, as large as the canvas allows */
     const corners = Array.from({ length: 8 }, (_, i) => this.to(i & 1 ? box[0] : 0, i & 2 ? box[1] : 0, i & 4 ? box[2] : 0)),
       ends = (k) => [Math.min(...corners.map((c) => c[k])), Math.max(...corners.map((c) => c[k]))],
       [x0, x1] = ends(0),
@@ -151,12 +152,12 @@ export class BoxView {
     this.corner = [this.rotate(1, 0, 0), this.rotate(0, 1, 0), this.rotate(0, 0, 1)];
     this.away = away;
   }
-  /* Whether the face of an axis, at its low or its high side, is seen from outside. */
+  /* Is the face of an axis, at its low or its high side, visible from outside? */
   faces(axis, high, box) {
     return this.corner[axis][2] * (high ? 1 : -1) * this.away > box[axis] / 2;
   }
 
-  /* Of a box from y0 to y1 that is shifted along x, cut at its sides; only those edges for which `which` holds. */
+  /* Edges of a box from y0 to y1 that is shifted along x, cut at its sides; only edges for which `which` holds. */
   edges(to, box, [y0, y1], [x0, x1], style, dashes, which = () => true) {
     const point = (i) => this.to(i & 1 ? x1 : x0, i & 2 ? y1 : y0, i & 4 ? box[2] : 0);
     to.strokeStyle = style;
@@ -171,7 +172,7 @@ export class BoxView {
     to.stroke();
     to.setLineDash([]);
   }
-  /* An edge is behind if both its faces are turned away. */
+  /* An edge is behind if both its faces point away from the eye. */
   isBehind(box) {
     return (i, j) => [0, 1, 2].every((axis) => ((i ^ j) >> axis) & 1 || !this.faces(axis, !!(i & (1 << axis)), box));
   }
@@ -227,14 +228,14 @@ export class BoxView {
     }
   }
 
-  /* The two of the last collision, and the line k between their centres. */
+  /* The two grains of the last collision, and the line k between their centres. */
   pair(to, event, found) {
     const both = event.grain.map((i) => found.find((one) => one[4] === i && !one[5]));
     if (both.some((one) => !one)) return;
     for (const one of both) this.ring(to, one);
     const [a, b] = both,
       away = Math.hypot(a[0] - b[0], a[1] - b[1]);
-    if (away > 4 * (a[2] + b[2])) return; /* they met across a side of the box */
+    if (away > 4 * (a[2] + b[2])) return; /* the grains collided across a side of the box */
     const dx = b[0] - a[0],
       dy = b[1] - a[1];
     to.beginPath();
@@ -243,7 +244,7 @@ export class BoxView {
     to.stroke();
   }
 
-  /* From a place of the box along a direction of it, so many pixels long. */
+  /* An arrow from a place of the box along a direction of it; its length is in pixels. */
   arrow(to, [x, y, z], [a, b, c], length) {
     const [x0, y0] = this.to(x, y, z),
       [u, up] = this.rotate(a, b, c),
@@ -263,7 +264,7 @@ export class BoxView {
     to.lineTo(x1 - ux * head + uy * head * 0.6, y1 - uy * head - ux * head * 0.6);
     to.fill();
   }
-  /* Which way the images, the walls move; which way gravity pulls. */
+  /* Arrows for the motion of images and walls, and for gravity. */
   arrows(to, box, values, strips) {
     const length = 22 * this.thick,
       moves = strips ? PART : values.flow === "couette" ? 0.06 : 0,
@@ -282,8 +283,8 @@ export class BoxView {
     }
   }
 
-  /* Every grain's velocity, or that of the one that is followed, as a line from its centre: that of the fastest at the
-   * start is a sixth of the box long. */
+  /* Every grain's velocity, or that of the followed grain, as a line from its centre. The velocity of the grain that
+   * was fastest at the start is a sixth of the box long. */
   velocities(to, picture, about, box) {
     const per = Math.min(...box) / 6 / (about.fastest || 1),
       { velocity, position, one } = picture,
@@ -311,8 +312,8 @@ export class BoxView {
     line(one.position, one.velocity);
     to.stroke();
   }
-  /* The one that is followed: its way so far, paler where it is older, and a ring. It leaves the box on one side and comes
-   * in on another: nothing is drawn across. */
+  /* The followed grain: its trail, paler where it is older, and a ring. The grain leaves the box on one side and
+   * enters on another: no line crosses the box there. */
   trail(to, trail, box, followed) {
     to.lineWidth = 2 * this.thick;
     for (let k = 1; k < trail.length; k++) {
@@ -336,7 +337,7 @@ export class BoxView {
   draw(picture, state, about, options) {
     this.last = [picture, state, about, options];
     this.fit();
-    if (!this.w || !this.h) return; /* it is not shown */
+    if (!this.w || !this.h) return; /* the box is not shown */
     const to = this.canvas.getContext("2d"),
       { box } = state,
       { values } = about,
@@ -367,7 +368,7 @@ export class BoxView {
     if (options.event) this.pair(to, options.event, found);
   }
 
-  /* Of the images: what is seen of them, with the sides of their boxes, which slide. */
+  /* Outlines of the images: their visible part, with the sides of their boxes, which slide. */
   outlines(to, box, offset) {
     const cut = (x) => Math.min((1 + SIDE) * box[0], Math.max(-SIDE * box[0], x)),
       dashes = [4 * this.thick, 4 * this.thick];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A diagram as SVG, with its legend as a list: lines, points with error bars, bands, bars. It is built once; what is new
- * moves its lines. A pointer, or the arrow keys, read it. */
+/* A diagram as SVG, with its legend as a list: lines, points with error bars, bands, bars. It is built once; an
+ * update moves its lines. A pointer or the arrow keys read values. */
 import { number, powerOfTen } from "./words.js";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -16,7 +16,7 @@ function set(element, attributes) {
     if (element.getAttribute(key) !== String(value)) element.setAttribute(key, value);
 }
 
-/* What logarithmic axes show: beyond it doubles end, and quotients of such numbers too. */
+/* The range of logarithmic axes: beyond it doubles overflow, and so do quotients of such numbers. */
 export const inLog = (x) => x >= 1e-300 && x <= 1e300;
 
 /* About five round numbers between two, or the decades and what lies between them. */
@@ -47,7 +47,7 @@ export const nice = (x, digits = 3) => {
   if (Math.abs(x) < 1e4 && Math.abs(x) >= 1e-2) return String(+x.toPrecision(digits)).replace("-", "−");
   return powerOfTen(x, digits - 2);
 };
-/* Of an axis: as many digits as tell them apart. */
+/* Labels of an axis: with as many digits as distinguish the numbers. */
 export function labels(values) {
   const all = [3, 4, 5, 6, 7].map((digits) => values.map((v) => nice(v, digits)));
   return all.find((some) => new Set(some).size === values.length) || all[4];
@@ -86,7 +86,7 @@ const SHAPES = {
 const isOpen = (shape) => shape === "cross" || shape === "dash" || shape === "plus";
 
 export class Chart {
-  /* `text(name, values)`: words for what is read. */
+  /* `text(name, values)`: the words for a value that is read. */
   constructor(figure, text) {
     Object.assign(this, { figure, text, drawn: new Map(), keys: new Map(), series: [], at: null });
     this.caption = document.createElement("figcaption");
@@ -120,8 +120,9 @@ export class Chart {
     if (this.spec) this.update(this.spec);
   }
 
-  /* series: {name, label, colour, dash, width, x, y, error and shift in pixels (of points), band (of a line), points, bars, shape, quiet: not
-   * in the legend, reads: false where the pointer does not read it}; x, y: {label, log, range, names}. */
+  /* series: {name, label, colour, dash, width, x, y, error and shift in pixels (of points), band (of a line),
+   * points, bars, shape; quiet: not in the legend; reads: false where the pointer does not read it}; x, y: {label,
+   * log, range, names}. */
   update(spec) {
     this.spec = spec;
     if (!this.wide) this.fit();
@@ -148,7 +149,7 @@ export class Chart {
     if (this.at !== null) this.read(this.at, false);
   }
 
-  /* One element for each series, in their order; those of series that are no more go. */
+  /* One element for each series, in their order; elements of removed series are deleted. */
   keep(elements, series, make_, parent) {
     const names = new Set(series.map((s) => s.name));
     for (const [name, element] of elements)
@@ -162,7 +163,7 @@ export class Chart {
     });
   }
 
-  /* Where there is nothing yet, words instead of a scale that means nothing. */
+  /* A text instead of axes while there is no data: a scale would mean nothing. */
   drawAxes(x, y, empty) {
     const key = JSON.stringify([this.xr, this.yr, x, y, empty, this.text("waiting")]);
     if (key === this.axesKey) return;
@@ -256,7 +257,7 @@ export class Chart {
     }
   }
 
-  /* ---- Reading it ---- */
+  /* ---- Reading values ---- */
 
   listen() {
     this.svg.addEventListener("pointermove", (e) => {
@@ -279,12 +280,12 @@ export class Chart {
       f = (pixel - LEFT) / (this.wide - LEFT - RIGHT);
     return this.spec.x.log ? a * (b / a) ** f : a + f * (b - a);
   }
-  /* All x where something stands, in order. */
+  /* All x that have a value, in order. */
   places() {
     const inside = (x) => x >= this.xr[0] && x <= this.xr[1];
     return [...new Set(this.series.filter((s) => s.reads !== false).flatMap((s) => Array.from(s.x)))].filter(inside).sort((a, b) => a - b);
   }
-  /* The values at an x of all series, said aloud if by keys. */
+  /* The values of all series at an x; spoken if keys were used. */
   read(x, aloud) {
     this.at = x === undefined ? null : x;
     const shown = this.at !== null && Number.isFinite(this.at) && this.X;
@@ -296,15 +297,15 @@ export class Chart {
     }
     const at = this.X(this.at);
     set(this.rule, { x1: at, x2: at, y1: TOP, y2: this.high - BOTTOM });
-    const said = this.series.filter((s) => s.reads !== false).map((s) => [s, nearest(s, this.at)]).filter(([, y]) => Number.isFinite(y));
+    const readings = this.series.filter((s) => s.reads !== false).map((s) => [s, nearest(s, this.at)]).filter(([, y]) => Number.isFinite(y));
     this.readout.textContent = this.text("readout", {
       x: this.spec.x.names ? this.spec.x.names[Math.round(this.at)] || "" : `${this.spec.x.symbol || this.spec.x.label} = ${nice(+this.at.toPrecision(3))}`,
-      all: said.map(([s, y]) => `${s.label}: ${number(y)}`).join("; "),
+      all: readings.map(([s, y]) => `${s.label}: ${number(y)}`).join("; "),
     });
   }
 }
 
-/* The value at the point that is nearest to x; none beyond its ends. */
+/* The value at the point nearest to x; none beyond the ends of the series. */
 function nearest(s, x) {
   let best = -1;
   for (let i = 0; i < s.x.length; i++)

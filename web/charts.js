@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the diagram beside the box shows: the history of the gas that is seen, the means so far, the lines of theories. */
+/* The diagram beside the box: the history of the live gas, the means so far, the lines of theories. */
 import { inLog } from "./chart.js";
 import { DSMC, GHOSTS, MD, SHARE } from "./colours.js";
 import { isWalled, sheared } from "./flows.js";
@@ -25,7 +25,7 @@ export function showChart(chart, state) {
   chart.update(kinds[state.chart](state));
 }
 
-/* Earlier runs, the newest first. */
+/* Curves of earlier runs, the newest first. */
 const ghosts = (state, log) =>
   state.ghosts
     .filter((one) => one.chart === state.chart)
@@ -55,8 +55,8 @@ function temperature(state) {
     y: { label: `T (${unit})`, log: cooling, range: cooling ? null : [0, 1.12 * highest(series)] },
   };
 }
-/* Slope -2 on logarithmic axes, for the eye: above the end of a curve that has come to a fifth of its start, and up to that
- * height. */
+/* A line of slope -2 on logarithmic axes: above the end of a curve that has fallen to a fifth of its start, and up
+ * to that height. */
 const ABOVE = 2;
 function slopeLine({ x, y }) {
   const end = x.length - 1,
@@ -64,7 +64,7 @@ function slopeLine({ x, y }) {
   if (!(y[end] < 0.2 * y[0]) || !inLog(from)) return [];
   return [{ name: "slope", label: t("slope"), colour: "#777777", width: 1.2, reads: false, x: [from, x[end]], y: [y[0], ABOVE * y[end]] }];
 }
-/* Where a result that is played stands. */
+/* A vertical line at the frame that is played. */
 function nowLine(at, series) {
   const good = series.flatMap((s) => Array.from(s.y)).filter(inLog),
     y = good.length ? [Math.min(...good), Math.max(...good)] : [0, 1];
@@ -75,8 +75,8 @@ function highest(series) {
   return all.length ? Math.max(...all) || 1 : 1;
 }
 
-/* Of a steady flow: means with their errors as bands, theories as lines across. Between walls the mean is of the steady
- * flow, which this gas has yet to come to: none is drawn across it. */
+/* A steady flow: means with their errors as bands, theories as lines across. Between walls no mean is drawn: it is
+ * that of the steady flow, which this gas has not reached yet. */
 function steadyLines(means, x, rough, values) {
   const across = [x[0], Math.max(x[x.length - 1], x[0] + 0.1)],
     out = [],
@@ -100,7 +100,7 @@ function steadyLines(means, x, rough, values) {
   return out;
 }
 
-/* Of a line on logarithmic axes the part between two x, with its end there. */
+/* The part of a line between two x, on logarithmic axes, with an interpolated end. */
 function pieceOf(x, y, from, to) {
   const end = x.findIndex((one) => one > to),
     inside = x.map((_, i) => i).filter((i) => x[i] >= from && x[i] <= to),
@@ -112,7 +112,7 @@ function pieceOf(x, y, from, to) {
   return piece;
 }
 
-/* Theories of free cooling, each with its own rate, as far as the gas has come; those that lie on each other once. */
+/* Theories of free cooling, each with its own rate, up to the present time of the gas; equal lines are drawn once. */
 export function coolingLines(means, x) {
   const { time, T } = means.cooling,
     shown = x.filter(inLog),
@@ -127,7 +127,7 @@ export function coolingLines(means, x) {
   }));
 }
 
-/* Of single grains now, beside Maxwell's distribution of the same T. */
+/* Speeds of the grains at this moment, beside Maxwell's distribution of the same T. */
 function speeds({ gas }) {
   const { frame } = now,
     found = frame && frame.speeds,
@@ -153,7 +153,7 @@ function speeds({ gas }) {
 
 function velocities({ means }) {
   const series = [],
-    /* Cx and Cy, of mixtures those of each species */
+    /* Cx and Cy; in mixtures those of each species */
     curves = (engine) =>
       Object.entries((means && means[engine] && means[engine].curves) || {})
         .map(([name, c]) => [c, /^velocity_distribution_(C([xy])(?:_(\d+))?)$/.exec(name)])
@@ -187,7 +187,7 @@ function velocities({ means }) {
   };
 }
 
-/* The three pressures along x, y and z over their mean, as they are now and as they are measured. */
+/* The three pressures along x, y and z over their mean: now and as means. */
 function stress({ means }) {
   const series = [],
     names = ["P_xx", "P_yy", "P_zz"],
@@ -220,7 +220,7 @@ function stress({ means }) {
   };
 }
 
-/* How far the grains are from where they began, or from their twins: over decades. */
+/* The distance of the grains from their start, or from their twins, over decades. */
 function distance(state) {
   const { x, y } = state.gas.history.far || { x: [], y: [] },
     twin = state.pair === "bit";
@@ -233,8 +233,8 @@ function distance(state) {
   };
 }
 
-/* Between walls: T and the solid fraction over their means, from the lower wall to the upper; lines of the grains, marks of
- * the dice. Not where centres of grains cannot be, close to the walls. */
+/* Between walls: T and the solid fraction over their means, from the lower wall to the upper; lines for md, marks
+ * for dsmc. Left out: the layers at the walls that centres of grains cannot reach. */
 function profiles({ means }) {
   const series = [];
   for (const engine of ["md", "dsmc"]) {

@@ -2,8 +2,8 @@
 /* Colours: of grains by a value from 0 to 1, of curves. */
 export const DARK = [16, 21, 26];
 
-/* Blue over red to yellow, ever lighter and so told apart without colours, too (after plasma), on a dark ground; and from
- * blue over light grey to orange, for what has two sides. */
+/* Blue over red to yellow, of growing brightness and so distinguishable without colours (after plasma), on a dark
+ * ground; and from blue over light grey to orange, for values with two signs. */
 const MAPS = {
   rising: [
     [76, 84, 232],
@@ -35,9 +35,9 @@ export const MD = "#0072B2",
   DSMC = "#C44E00",
   SHARE = "#00785a" /* the solid fraction */,
   GHOSTS = ["#8aa4b8", "#a9b6c0", "#c4ccd2"];
-/* Of the students of a class, with as many marks less one: 42 pairs. */
+/* Colours of the students of a class; their number and that of the marks have no common factor: 42 pairs. */
 export const CLASS = ["#00785a", "#a3004c", "#8a6a00", "#6a3fa0", "#9a4a10", "#3d5a80"];
-/* Of theories, in the order in which they are drawn. */
+/* Colours of theories, in the order in which they are drawn. */
 export const LINES = [
   { colour: "#00785a", dash: "8 4" },
   { colour: "#8e3a9a", dash: "2 3" },

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The controls of the scene, a row each: a key of it, as the library names it, and how it is chosen. A row has
+/* The controls of the scene, a row each: a key, as the library names it, and how it is chosen. A row has
  *   min, max, step    a slider and a number; without min and max a number alone (plain)
  *   words             a list to choose from; their names are the strings NAME_WORD
- *   box, on, off      a box that switches it on, to the text `on`, and off, to `off`
- *   get, put          where it is not the key's own value: a number (null: none) of the scene's values; and the text for
- *                     the key of a number and those values
- *   flows             where it has an effect; everywhere without */
+ *   box, on, off      a box that switches the key on, to the text `on`, and off, to `off`
+ *   get, put          where the value differs from the key's: get is a number (null: none) of the scene's values,
+ *                     put the text for the key, of a number and those values
+ *   flows             the flows in which it has an effect; all flows without it */
 import { WALLED } from "./flows.js";
 import { store } from "./state.js";
 import { t } from "./i18n.js";
@@ -13,7 +13,7 @@ import { t } from "./i18n.js";
 export const FLOWS = ["usf", "hcs", "hss", "equilibrium", "couette", "poiseuille", "chute", "fourier"];
 const GRAVITY = { chute: "[0.1, -0.1, 0]", poiseuille: "[1, 0, 0]" };
 
-/* The second species beside the first: its diameter or mass over that one's. */
+/* The diameter or mass of the second species over that of the first. */
 const ratioOf = (part) => ({
   key: "species",
   get: ({ species }) => (species.length === 2 ? species[1][part] / species[0][part] : null),
@@ -26,7 +26,7 @@ const inTwo = ({ species: [one] }) =>
     { ...one, fraction: 0.5, diameter: 2 * one.diameter, mass: 8 * one.mass },
   ]);
 
-/* How steep a chute is, in degrees, its pull being as strong as before. */
+/* The angle of a chute in degrees; the magnitude of gravity stays the same. */
 const tilt = {
   key: "gravity",
   get: ({ gravity: [along, down] }) => +((Math.atan2(along, -down) * 180) / Math.PI).toFixed(2),
@@ -58,7 +58,8 @@ export const asText = (value) => (typeof value === "object" ? JSON.stringify(val
 export const shownValue = (row, values) => (row.get ? row.get(values) : valueOf(values, row.key));
 
 export class Controls {
-  /* `change(key, value)`: somebody moved one. `wanted()`: the values that its new one is put into. */
+  /* `change(key, value)`: called after the user has changed a control. `wanted()`: the values into which the new one
+   * is put. */
   constructor(rows, change, wanted) {
     Object.assign(this, { rows, change, wanted });
     for (const row of CONTROLS) this.rows.append((row.all = row.words ? this.choice(row) : this.number(row)));
@@ -119,7 +120,7 @@ export class Controls {
     this.change(row.key, row.put && value !== "" ? row.put(Number(value), this.wanted()) : String(value));
   }
 
-  /* As the scene in force has it. */
+  /* Show the values of the scene in force. */
   show(values) {
     this.values = values;
     for (const row of CONTROLS) {
@@ -140,7 +141,7 @@ export class Controls {
     row.on_off.checked = plain || (value !== null && String(value) !== row.off(this.values));
     row.all.classList.toggle("off", !row.on_off.checked);
   }
-  /* A word that the list has not comes with the scene. */
+  /* Add a word of the scene that the list does not have. */
   showChoice(row, values) {
     const [select] = row.inputs,
       value = valueOf(values, row.key);
@@ -153,42 +154,42 @@ export class Controls {
     select.value = value;
   }
 
-  /* Those that the library refused, by the keys that its message names. */
+  /* Mark the controls whose keys are named in the library's error message. */
   refuse(keys) {
     for (const row of CONTROLS)
       if (keys.includes(row.key)) for (const input of row.inputs) input.setAttribute("aria-invalid", "true");
   }
 
-  /* The one of a lesson stands apart; the others keep their order. */
+  /* Move the control of a lesson to the front; the others keep their order. */
   pull(name, place) {
     for (const row of CONTROLS) (row.name === name ? place : this.rows).append(row.all);
     place.hidden = !name;
   }
 
-  /* Names for those who do not see where a number stands. */
+  /* Names for screen readers. */
   name() {
     for (const row of CONTROLS)
       if (row.number && !row.plain) row.number.setAttribute("aria-label", t("number", { name: t(row.name) }));
   }
 }
 
-/* The row of a name, and what stands before its value. */
+/* The row of a name, and the label before its value. */
 export const rowOf = (name) => CONTROLS.find((row) => row.name === name) || CONTROLS.find((row) => row.name === "e");
 export const symbolOf = (row) => row.symbol || t(row.name);
-/* Where theories are drawn over a slider: what it has, or the part of it that is asked for. */
+/* The range over which theories are drawn: that of the slider, or the part `wide` of it. */
 export const gridOf = (row, n = 9) => {
   const [a, b] = row.wide || [row.min, row.max];
   return Array.from({ length: n }, (_, i) => a + ((b - a) * i) / (n - 1));
 };
 
-/* Keys that would cost energy, and what they are in an elastic gas. */
+/* Keys that dissipate energy, and their values in an elastic gas. */
 const ELASTIC = { "collision.e": "1", "collision.beta": "-1", "collision.mu": "inf", "collision.law": "constant" };
-let inelastic = null; /* what the gas had before it was elastic */
+let inelastic = null; /* the values of these keys before the gas became elastic */
 
-/* What is wanted of the next gas: a key as text, and the values that controls build on. */
+/* The wanted value of the next gas: of a key as text, and the values that controls build on. */
 function wantedText(key) {
-  const { asked, gas } = store.state,
-    wanted = asked.sets[key];
+  const { requested, gas } = store.state,
+    wanted = requested.sets[key];
   return wanted === undefined || wanted === gas.sets[key] ? asText(valueOf(gas.about.values, key)) : wanted;
 }
 export function wantedValues() {
@@ -197,13 +198,13 @@ export function wantedValues() {
     try {
       values[key] = JSON.parse(wantedText(key));
     } catch (e) {
-      /* a link's own way to write it: what is in force */
+      /* a link has a form of its own: take the value in force */
     }
   return values;
 }
 
-/* The keys to be set with this one: what a flow needs, and others refuse. An elastic gas needs e = 1; the flow that comes
- * after it has again what was there before, or 0.9 where nothing was. */
+/* The keys to set together with this one: keys that a flow requires, and that other flows reject. Equilibrium
+ * requires e = 1; the flow after it gets back the previous value, or 0.9 without one. */
 export function setsOf(key, value) {
   const sets = { [key]: value };
   if (key !== "flow") return sets;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The engines as a page sees them: objects with methods, around the exports of exports_*.c. Runs in a worker, a window and
- * node. `make` is the function that the module engines.js was built as (graingas). */
+/* The engines as a page sees them: objects with methods, around the exports of exports_*.c. Runs in a worker, a
+ * window and node. `make` is the function that the module engines.js was built as (graingas). */
 
 const STATE = [
   "time",
@@ -17,7 +17,7 @@ const PROGRESS = ["fraction", "averaging", "collisions", "relativeError", "secon
 const ENTRY = ["name", "doc", "unit", "type", "allowed", "value"];
 const CATALOGUES = ["keys", "speciesKeys", "flows", "engines", "observables", "quantities", "theories"];
 
-/* What the library refuses or fails at, in its own words; status as graingas.h has it. */
+/* An error of the library with its message; status as in graingas.h. */
 export class GraingasError extends Error {
   constructor(message, status) {
     super(message);
@@ -26,7 +26,8 @@ export class GraingasError extends Error {
   }
 }
 
-/* In C it would end the text, and what follows would be left out unseen. In the words of the library's reader of YAML. */
+/* Reject NUL: in C it would end the text, and the rest would be dropped silently. The message is that of the
+ * library's reader of YAML. */
 function refuseNul(text) {
   const at = text.indexOf("\0");
   if (at < 0) return;
@@ -65,7 +66,7 @@ export async function openEngines(make, options) {
   const matrix = (v) => [v.slice(0, 3), v.slice(3, 6), v.slice(6, 9)];
   const outcome = (code) => need(code) === 1;
   const withPath = (path, call) => need(withText([path], call));
-  /* Views of the module's own memory, good until the next call of anything here: copy what is to stay. */
+  /* Views of the module's memory, valid until the next call of anything here: copy data that must stay. */
   const viewsOf = (at, n) => {
     const array = (which, per) => {
       const from = c._page_array(at, which);
@@ -89,9 +90,9 @@ export async function openEngines(make, options) {
     const v = numbers(at, 20);
     return { ...named(STATE, v), box: v.slice(8, 11), kineticStress: matrix(v.slice(11)) };
   };
-  const allSpecies = (ask) => {
+  const allSpecies = (request) => {
     const found = [];
-    for (let i = 0, at; (at = ask(i)); i++) found.push(named(SPECIES, numbers(at, 6)));
+    for (let i = 0, at; (at = request(i)); i++) found.push(named(SPECIES, numbers(at, 6)));
     return found;
   };
 
@@ -116,7 +117,7 @@ export async function openEngines(make, options) {
     title() {
       return take(c._page_scene_title(this.at));
     }
-    /* Bytes and seconds of a processor of a run by "md" or "dsmc". */
+    /* Bytes and seconds of a processor for a run by "md" or "dsmc". */
     needs(engine) {
       const [bytes, seconds] = numbers(withText([engine], (e) => c._page_scene_needs(this.at, e)), 2);
       return { bytes, seconds };
@@ -132,7 +133,7 @@ export async function openEngines(make, options) {
     }
   }
 
-  /* A gas step by step. advance and collide go on for at most so many milliseconds, and say whether they are done. */
+  /* A gas step by step. advance and collide work for at most so many milliseconds and return whether they are done. */
   class Simulation {
     constructor(scene, stream = 0) {
       this.at = need(c._page_simulation_new(scene.at, stream));
@@ -158,7 +159,7 @@ export async function openEngines(make, options) {
     state() {
       return stateAt(c._page_state(this.at));
     }
-    /* From now on grains() tells when each last collided. Of md. */
+    /* From now on grains() has the time of each grain's last collision. For md only. */
     follow() {
       need(c._page_follow(this.at));
     }
@@ -176,7 +177,7 @@ export async function openEngines(make, options) {
       need(c._page_take_grains(this.at));
       return viewsOf(this.at, doubles(need(c._page_state(this.at)), 4)[3]);
     }
-    /* Between walls, of so many grains and this height: T about the mean velocity at each place, as results have it. */
+    /* Between walls, with n grains and this height: T about the mean velocity at each place, as results have it. */
     localTemperature(grains, height) {
       need(c._page_take_grains(this.at));
       return localTemperature(this.at, grains, height);
@@ -187,18 +188,18 @@ export async function openEngines(make, options) {
     reverse() {
       need(c._page_reverse(this.at));
     }
-    /* The grains put back; `change`: one of them aside by a last bit of its place. */
+    /* Put the grains back; `change`: displace one of them by the last bit of its position. */
     nudge(change) {
       need(c._page_nudge(this.at, change));
     }
     remember() {
       need(c._page_remember(this.at));
     }
-    /* Of its grains from where they were remembered, or from those of another simulation. */
+    /* Distance of the grains from their remembered positions, or from those of another simulation. */
     distance(other = null) {
       return c._page_distance(this.at, other ? other.at : 0);
     }
-    /* Of the grains taken last: the density of speeds, in bins up to `end`. */
+    /* The density of speeds of the grains taken last, in bins up to `end`. */
     speeds(bins, end) {
       return numbers(c._page_speeds(this.at, bins, end), bins);
     }
@@ -220,12 +221,12 @@ export async function openEngines(make, options) {
     scene() {
       return new Scene(take(c._page_scene_yaml(c._page_trajectory_scene(this.at))));
     }
-    /* The k-th, from 0: its state and grains. */
+    /* The k-th frame, from 0: its state and grains. */
     frame(k) {
       const state = stateAt(c._page_trajectory_frame(this.at, k));
       return { state, grains: viewsOf(this.at, state.grains) };
     }
-    /* The same of the frame that was asked for last. */
+    /* The same for the frame that was requested last. */
     localTemperature(grains, height) {
       return localTemperature(this.at, grains, height);
     }
@@ -258,7 +259,7 @@ export async function openEngines(make, options) {
     }
   }
 
-  /* The theories, and what sessions of the same scene have found, beside each other; or a result file, by its path. */
+  /* The theories beside the results of sessions of the same scene; or a result file, by its path. */
   class Comparison {
     constructor(scene) {
       this.at = typeof scene === "string" ? withPath(scene, (at) => c._page_comparison_read(at)) : need(c._page_comparison(scene.at));
@@ -270,11 +271,11 @@ export async function openEngines(make, options) {
     document() {
       return JSON.parse(take(c._page_comparison_json(this.at)));
     }
-    /* T after these times of a gas that cools freely; NaN where the theory does not say. */
+    /* T after these times of a gas that cools freely; NaN where the theory gives no answer. */
     cooling(theory, times) {
       return withText([theory], (at) => times.map((time) => c._page_cooling(this.at, at, time)));
     }
-    /* How a quantity of "md" or "dsmc" went; null: it was not followed. */
+    /* The history of a quantity of "md" or "dsmc"; null: not recorded. */
     history(engine, quantity) {
       const at = withText([engine, quantity], (e, q) => c._page_history(this.at, e, q));
       if (!at) return null;
@@ -296,7 +297,7 @@ export async function openEngines(make, options) {
     return found;
   }
 
-  /* A file, or {name, bytes}, is read under its name, wherever it was. Nothing of it is copied in a worker. */
+  /* A file, or {name, bytes}, is read under its base name. A worker reads it without a copy. */
   let folders = 0;
   function withFile(file, call) {
     const folder = `/file${++folders}`,

@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files that somebody opens or drops: a result of the terminal is played in place of the live gas, which waits; a scene
- * is run; points of a class are put beside one's own. */
-import { askMeans, askNumber, leaveTrail, now, ownScene, workers } from "./gas.js";
+/* Files that the user opens or drops: a result of the command is played in place of the live gas, which is paused; a
+ * scene is run; points of a class are added to the student's own points. */
+import { requestMeans, nextRequest, recordTrail, now, ownScene } from "./gas.js";
 import { StoredHistory } from "./history.js";
 import { t } from "./i18n.js";
 import { pointsOf } from "./points.js";
 import { store } from "./state.js";
 import { byId } from "./words.js";
+import { workers } from "./worker_rpc.js";
 
 export const FRAMES_A_SECOND = [0.5, 1, 2, 5, 10, 20, 30, 60];
-const LARGEST_FILE = 2 ** 31; /* bytes: where reading in place ends (emscripten) */
-/* Which frame is shown; with every frame, so not in the state. */
+const LARGEST_FILE = 2 ** 31; /* bytes: the limit of reading in place (emscripten) */
+/* The frame that is shown. It changes with every frame, so it is not in the state. */
 export const played = { at: 0, shown: -1 };
 let files = 0;
 
@@ -25,7 +26,7 @@ export async function openFile(file) {
   }
   await playFile(file);
 }
-/* All tables of a class at once; of others the first. */
+/* Read all tables of a class at once; of other files the first. */
 function openFiles(files) {
   const tables = files.filter((one) => /\.csv$/i.test(one.name));
   for (const one of tables.length ? tables.slice(0, 200) : files.slice(0, 1)) openFile(one);
@@ -44,9 +45,9 @@ async function playFile(file) {
   }
   store.dispatch("banner", { banner: { text: t("reading", { name: file.name }), offers: [], quiet: true } });
   try {
-    const { about } = await workers.live.ask("play", { file });
+    const { about } = await workers.live.request("play", { file });
     if (mine === files) beginPlaying(file, about);
-    const means = await workers.measure.ask("read", { file });
+    const means = await workers.measure.request("read", { file });
     if (mine === files && store.state.player) takeStored(means);
   } catch (e) {
     if (mine === files) refuse(e.message);
@@ -54,7 +55,7 @@ async function playFile(file) {
 }
 
 function beginPlaying(file, about) {
-  const id = askNumber(),
+  const id = nextRequest(),
     { values } = about,
     still = about.frames === 1 || matchMedia("(prefers-reduced-motion: reduce)").matches;
   Object.assign(played, { at: 0, shown: -1 });
@@ -71,7 +72,7 @@ function beginPlaying(file, about) {
   });
 }
 
-/* The result's means and courses. */
+/* Show the result's means and histories. */
 function takeStored(means) {
   const { gas } = store.state;
   gas.history = new StoredHistory(gas.about.values.flow === "hcs", means.courses);
@@ -79,17 +80,17 @@ function takeStored(means) {
   store.dispatch("means", { id: gas.id, means });
 }
 
-/* The live gas again, as it was left. */
+/* Return to the live gas as it was left. */
 export function endPlaying() {
   if (!store.state.player) return;
   files++;
-  workers.live.ask("close").catch(() => {}); /* a worker that is gone has closed it */
+  workers.live.request("close").catch(() => {}); /* a worker that has ended has closed the file */
   Object.assign(now, { frame: null, trail: [], fresh: false, want: true });
-  store.dispatch("back", { id: askNumber() });
-  if (!store.state.means) askMeans();
+  store.dispatch("back", { id: nextRequest() });
+  if (!store.state.means) requestMeans();
 }
 
-/* So much further by the clock on the wall; it ends at the last frame. */
+/* Advance by seconds of the wall clock; playing ends at the last frame. */
 export function tickPlaying(seconds) {
   const { player, playing } = store.state,
     last = player.frames - 1;
@@ -104,7 +105,7 @@ async function askPlayed(k) {
   const { gas, colour, arrows, grain } = store.state;
   Object.assign(now, { busy: true, want: false });
   try {
-    const frame = await workers.live.ask("played", { k, colour, arrows, grain });
+    const frame = await workers.live.request("played", { k, colour, arrows, grain });
     if (gas === store.state.gas) takePlayed(frame, k);
   } catch (e) {
     if (gas === store.state.gas) {
@@ -117,7 +118,7 @@ async function askPlayed(k) {
 }
 function takePlayed(frame, k) {
   played.shown = k;
-  leaveTrail(frame, store.state.grain);
+  recordTrail(frame, store.state.grain);
   Object.assign(now, { frame, fresh: true, frames: now.frames + 1 });
   store.state.gas.history.now = frame.md.time;
   byId("scrub").value = k;
@@ -125,7 +126,7 @@ function takePlayed(frame, k) {
 }
 export const whichFrame = () => ({ k: Math.max(0, played.shown) + 1, n: store.state.player.frames });
 
-/* Where somebody put it. */
+/* Go to the frame that the user chose. */
 export function goTo(k) {
   const { player } = store.state;
   if (!player) return;

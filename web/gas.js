@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which gas runs: what is asked of the workers, and what becomes of their answers. */
+/* Which gas runs: calls of the workers, and how their answers enter the state. */
 import { rowOf, setsOf, shownValue, symbolOf } from "./controls.js";
 import { isWalled } from "./flows.js";
 import { LESSONS, lessonOf, nearestLesson } from "./lessons.js";
@@ -7,7 +7,7 @@ import { gather } from "./points.js";
 import { TemperatureHistory } from "./history.js";
 import { t } from "./i18n.js";
 import { store } from "./state.js";
-import { WorkerClient } from "./worker_rpc.js";
+import { WorkerClient, workers } from "./worker_rpc.js";
 import { byId, number } from "./words.js";
 
 export const START = LESSONS[0];
@@ -15,20 +15,19 @@ const MOST_GRAINS = 20000,
   MOST_BYTES = 6e8,
   FEWER = 2000;
 
-export const workers = { live: null, measure: null };
-export const page = { given: null }; /* the scene that the page was written with: what no address means */
-/* What comes with frames; not for the state. */
-export const now = { frame: null, frames: 0, fresh: false, want: true, step: false, owed: 0, lost: 0, behind: 0, busy: false, trail: [] };
-const renew = () => Object.assign(now, { frame: null, trail: [], fresh: false, want: true, owed: 0, lost: 0, behind: 0 });
+export const page = { given: null }; /* the scene that the page was built with: shown if the address names none */
+/* Data of frames, which change too often for the state. */
+export const now = { frame: null, frames: 0, fresh: false, want: true, step: false, due: 0, lost: 0, behind: 0, busy: false, trail: [] };
+const renew = () => Object.assign(now, { frame: null, trail: [], fresh: false, want: true, due: 0, lost: 0, behind: 0 });
 
-/* What the page holds packed: gzip as base64. Read once. */
+/* Unpack a part of the page: gzip as base64. Each part is read once. */
 async function unpack(id) {
   const packed = Uint8Array.from(atob(byId(id).textContent.trim()), (c) => c.charCodeAt(0));
   byId(id).textContent = "";
   return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 }
 
-/* Their version. The second, which measures, is waited for by those who measure. */
+/* Open both workers; the version of the first. Callers of the second, which measures, wait for it themselves. */
 let wasm = null,
   source = "";
 export async function openWorkers() {
@@ -36,26 +35,27 @@ export async function openWorkers() {
   source = URL.createObjectURL(new Blob([await unpack("worker")], { type: "text/javascript" }));
   workers.measure = new WorkerClient(source);
   workers.measure.onmeans = takeMeans;
-  workers.measure.ask("open", { wasm }).catch((e) => store.dispatch("banner", { banner: { text: e.message, offers: [] } }));
+  workers.measure.request("open", { wasm }).catch((e) => store.dispatch("banner", { banner: { text: e.message, offers: [] } }));
   return openLive();
 }
 async function openLive() {
   workers.live = new WorkerClient(source);
-  return (await workers.live.ask("open", { wasm })).version;
+  return (await workers.live.request("open", { wasm })).version;
 }
 
-/* A gas that takes long to make: what is made is said, and a button ends it, with the worker, for the gas before. */
+/* If the start of a gas takes long, a banner tells how many grains are placed. Its button ends the worker and
+ * returns to the previous gas. */
 const LONG = 1500; /* ms */
-function sayMaking(n, id) {
+function announceStart(n, id) {
   return setTimeout(() => {
-    if (id !== store.state.asked.id) return;
+    if (id !== store.state.requested.id) return;
     const offers = store.state.player ? [] : [{ label: t("stop"), act: stopMaking }];
     store.dispatch("banner", { banner: { text: t("making", { n: n.toLocaleString(store.state.language) }), offers, quiet: true } });
   }, LONG);
 }
 async function stopMaking() {
   const { gas } = store.state;
-  askNumber();
+  nextRequest();
   workers.live.end(t("stopped"));
   await openLive();
   if (gas) await start(gas.scene, gas.sets, { lesson: gas.lesson, look: { playing: true } });
@@ -63,8 +63,8 @@ async function stopMaking() {
 }
 
 const LONGEST_TRAIL = 400; /* frames */
-/* Where the followed grain has been; there is none without one, and after another was chosen. */
-export function leaveTrail({ picture }, grain) {
+/* The positions of the followed grain; empty without one, and after another was chosen. */
+export function recordTrail({ picture }, grain) {
   if (now.trailOf !== grain || !picture || !picture.one) Object.assign(now, { trail: [], trailOf: grain });
   if (picture && picture.one) now.trail.push(picture.one.position);
   if (now.trail.length > LONGEST_TRAIL) now.trail.shift();
@@ -72,28 +72,28 @@ export function leaveTrail({ picture }, grain) {
 
 /* ---- A new gas ---- */
 
-let asks = 0,
+let requests = 0,
   edits = 0;
-export const askNumber = () => ++asks;
+export const nextRequest = () => ++requests;
 
 /* A control was moved. Changes add up until the sliders rest. */
 export function change(key, value) {
-  const { asked } = store.state;
-  store.dispatch("ask", { asked: { id: askNumber(), sets: { ...asked.sets, ...setsOf(key, value) } } });
+  const { requested } = store.state;
+  store.dispatch("request", { requested: { id: nextRequest(), sets: { ...requested.sets, ...setsOf(key, value) } } });
   clearTimeout(edits);
   edits = setTimeout(() => again(), 120);
 }
-/* What is asked for, with more keys set. */
+/* Start the wanted gas again, with more keys set. */
 export function again(more = {}, options = {}) {
-  const { scene, sets } = store.state.asked;
+  const { scene, sets } = store.state.requested;
   return start(scene, { ...sets, ...more }, options);
 }
 
-/* Too many grains for a page? Whoever opened the link is asked first. */
+/* Are there too many grains for a page? Then a banner offers fewer grains before the gas is started. */
 function isTooLarge({ particles, bytes }, scene, sets, options, id) {
   if (options.whatever) return false;
   if (particles <= MOST_GRAINS && bytes <= MOST_BYTES) return false;
-  if (id !== store.state.asked.id) return true;
+  if (id !== store.state.requested.id) return true;
   const fewer = { ...sets, particles: String(FEWER), "dsmc.particles": "auto" };
   store.dispatch("refused", {
     text: t("tooLarge", { n: particles.toLocaleString(store.state.language), bytes: number(bytes / 1e6, 2) }),
@@ -105,23 +105,23 @@ function isTooLarge({ particles, bytes }, scene, sets, options, id) {
   return true;
 }
 
-/* Whether the scene is one; if not, the gas that there was goes on, and the banner says why. `look`: what of the state
- * changes with it. */
+/* Start a scene. If the library rejects it, the present gas continues and the banner gives the reason. `look`:
+ * members of the state that change with the gas. */
 export async function start(scene, sets, options = {}) {
   const { lesson = store.state.lesson, look = {}, keepBanner = false } = options,
-    id = askNumber(),
+    id = nextRequest(),
     { remember = false } = lessonOf(lesson) || {};
-  clearTimeout(edits); /* whatever a control was about to change is in it, or was of the gas before */
-  store.dispatch("ask", { asked: { id, scene, sets } });
+  clearTimeout(edits); /* pending changes of controls are in `sets`, or belong to the previous gas */
+  store.dispatch("request", { requested: { id, scene, sets } });
   let answer,
     making = 0;
   try {
-    const cost = await workers.live.ask("cost", { scene, sets });
+    const cost = await workers.live.request("cost", { scene, sets });
     if (isTooLarge(cost, scene, sets, options, id)) return false;
-    making = sayMaking(cost.particles, id);
-    answer = await workers.live.ask("start", { scene, sets, pair: ("pair" in look ? look.pair : store.state.pair) || null, remember });
+    making = announceStart(cost.particles, id);
+    answer = await workers.live.request("start", { scene, sets, pair: ("pair" in look ? look.pair : store.state.pair) || null, remember });
   } catch (e) {
-    if (id === asks) refuse(e.message, sets, scene);
+    if (id === requests) refuse(e.message, sets, scene);
     return false;
   } finally {
     clearTimeout(making);
@@ -131,10 +131,10 @@ export async function start(scene, sets, options = {}) {
   leaveGhost(gas);
   const quantity = about.values.flow === "hcs" && store.state.quantity === "temperature" ? { quantity: "cooling_rate" } : {}, /* T has no mean there */
     chart = store.state.chart === "profiles" && !isWalled(about.values) ? { chart: "temperature" } : {};
-  if (store.state.player) workers.live.ask("close").catch(() => {});
+  if (store.state.player) workers.live.request("close").catch(() => {});
   renew();
   store.dispatch("started", { gas, change: { lesson, ...quantity, ...chart, ...look, ...(keepBanner ? {} : { banner: null }) } });
-  askMeans();
+  requestMeans();
   return true;
 }
 
@@ -144,7 +144,7 @@ function refuse(message, sets, scene) {
   store.dispatch("refused", { text: text.slice(0, 700), keys });
 }
 
-/* The curve of the gas that goes stays in the diagram, if the next one is of its kind. */
+/* Keep the curve of the previous gas in the diagram, if the next one is of its kind. */
 function leaveGhost(next) {
   const { gas, slider, chart, player } = store.state;
   if (!gas || player || gas.lesson !== next.lesson || gas.about.values.flow !== next.about.values.flow) return;
@@ -158,7 +158,7 @@ function leaveGhost(next) {
 
 /* ---- Lessons ---- */
 
-/* How a lesson is shown. */
+/* Members of the state that a lesson sets. */
 export const lookOf = ({ speed, colour, camera, pair, chart, quantity, slider, follow }) => ({
   question: "",
   speed,
@@ -176,12 +176,12 @@ export function openLesson(name, { sets = {}, look = {} } = {}) {
   const lesson = lessonOf(name);
   return start(lesson.scene, sets, { lesson: name, look: { ...lookOf(lesson), ...look } });
 }
-/* A gas of one's own: no words beside it. */
+/* A user's own scene: no lesson text beside it. */
 export function ownScene(scene, sets = {}, look = {}) {
   return start(scene, sets, { lesson: null, look: { ghosts: [], pair: "", chart: "temperature", question: "", ...look } });
 }
 
-/* What a link asks for, or the command, or nobody. */
+/* Open the gas of a link, or of the command that wrote the page, or else the first lesson. */
 export async function follow({ scene, sets, lesson, look, points = [] }) {
   const { given } = page,
     known = lessonOf(lesson);
@@ -193,13 +193,13 @@ export async function follow({ scene, sets, lesson, look, points = [] }) {
   if (lesson !== null && !known) unknownLesson(lesson);
   if (gather(points) < points.length) store.dispatch("banner", { banner: { text: t("noPointsLink"), offers: [] } });
 }
-let said = null;
+let lastBanner = null;
 store.subscribe((state, before) => {
-  if (state.banner && !state.banner.quiet && state.banner !== before.banner) said = state.banner;
+  if (state.banner && !state.banner.quiet && state.banner !== before.banner) lastBanner = state.banner;
 });
-/* The first gas does not wipe away why another was not shown. */
+/* Show the banner again: the start of the first lesson cleared the reason why another gas was rejected. */
 function restoreBanner() {
-  if (said) store.dispatch("banner", { banner: said });
+  if (lastBanner) store.dispatch("banner", { banner: lastBanner });
 }
 function unknownLesson(wrong) {
   const near = nearestLesson(wrong);
@@ -218,11 +218,11 @@ let timer = 0,
   measuring = { job: 0, gas: 0 };
 
 /* Theories take a second: only the newest gas is measured, after the sliders rest. */
-export function askMeans() {
+export function requestMeans() {
   clearTimeout(timer);
   timer = setTimeout(async () => {
     if (asking) {
-      askMeans();
+      requestMeans();
       return;
     }
     const { gas, player } = store.state;
@@ -230,7 +230,7 @@ export function askMeans() {
     asking = true;
     measuring = { job: workers.measure.count + 1, gas: gas.id };
     try {
-      store.dispatch("means", { id: gas.id, means: await workers.measure.ask("measure", { scene: gas.scene, sets: gas.sets }) });
+      store.dispatch("means", { id: gas.id, means: await workers.measure.request("measure", { scene: gas.scene, sets: gas.sets }) });
     } catch (e) {
       store.dispatch("means", { id: gas.id, means: { failed: e.message, theory: {}, theories: {}, progress: {} } });
     }
@@ -244,6 +244,6 @@ function takeMeans(data) {
 }
 
 export async function reverse() {
-  await workers.live.ask("reverse");
+  await workers.live.request("reverse");
   now.want = true;
 }

@@ -3,10 +3,10 @@
 
 import { inLog } from "./chart.js";
 
-/* Monte Carlo that has not come to md's time, or stopped before it: what it shows is of another time. */
+/* Is dsmc behind md, or did it stop earlier? Then its values are of another time. */
 export const isLate = (dsmc, md) => !!dsmc && !!md && dsmc.time < md.time * (1 - 1e-9);
 
-/* Points of the history, ever fewer of the older ones: a bounded memory. Cooling gases have logarithmic axes. */
+/* Points of the history, fewer and fewer of the older ones: bounded memory. Cooling gases have logarithmic axes. */
 export class TemperatureHistory {
   constructor(logarithmic) {
     this.rows = [];
@@ -14,7 +14,7 @@ export class TemperatureHistory {
     this.logarithmic = logarithmic;
     this.far = { x: [], y: [], gap: 0.01 };
   }
-  /* How far the grains are from where they were, or from their twins, over collisions a grain. */
+  /* The distance of the grains from their start, or from their twins, over collisions a grain. */
   addDistance(clock, distance) {
     const { far } = this;
     if (!Number.isFinite(distance) || clock < (far.x[far.x.length - 1] ?? -1) + far.gap) return;
@@ -52,7 +52,7 @@ export class TemperatureHistory {
   }
 }
 
-/* Of a stored result, over time; a line marks the frame that is played. */
+/* The history of a stored result, over time; a line marks the frame that is played. */
 export class StoredHistory {
   constructor(logarithmic, courses = {}) {
     this.logarithmic = logarithmic;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Texts, a JSON file a language. What a language lacks, a test says. {x} is replaced by a value. */
+/* Texts, one JSON file a language. A test finds strings that a language lacks. {x} is replaced by a value. */
 import de from "./strings/de.json";
 import en from "./strings/en.json";
 import es from "./strings/es.json";
@@ -14,7 +14,7 @@ export function t(key, values = {}) {
 }
 export const has = (key) => key in LANGUAGES[store.state.language];
 
-/* The language that a page begins in where its address names none. */
+/* The language of a page whose address names none. */
 export function ownLanguage() {
   const own = (navigator.language || "en").slice(0, 2);
   return Object.keys(LANGUAGES).includes(own) ? own : "en";

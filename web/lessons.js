@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lessons: a scene, the slider that its question asks for, the curve that answers it. Their words are the strings
- * lesson_NAME, lesson_NAME_short, lesson_NAME_text and lesson_NAME_question of every language.
+/* Lessons: a scene, the slider of its question, the curve of its answer. Their words are the strings lesson_NAME,
+ * lesson_NAME_short, lesson_NAME_text and lesson_NAME_question of every language.
  *   slider     the row of CONTROLS;  chart      which diagram;  quantity   of the points that are kept; null: none
- *   speed      collisions a grain in a second at the start;  colour, camera, pair, remember (distances from the start)
- *   follow     clock and colours follow the gas: where what happens is slow and cold */
+ *   speed      collisions a grain in a second at the start;  colour, camera, pair, remember (distances from the
+ *   start)
+ *   follow     clock and colours are scaled by the present state: for lessons about a slow and cold gas */
 const lesson = (name, scene, more) => ({
   name,
   scene,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state of the page in its address, as little as says it: #lesson=haff&set=collision.e=0.8, or #scene={flow: ...}.
- * Also read after a question mark. */
+/* The state of the page in its address, as short as possible: #lesson=haff&set=collision.e=0.8, or #scene={flow:
+ * ...}. Also read after a question mark. */
 import { LANGUAGES, ownLanguage } from "./i18n.js";
 import { CHARTS } from "./charts.js";
 import { CONTROLS } from "./controls.js";
@@ -13,14 +13,15 @@ const VIEWS = ["all", "box", "curve", "present"],
   COLOURS = ["speed", "spin", "since", "along", "origin"],
   PAIRS = ["", "elastic", "bit"];
 const one = (list) => ({ read: (text) => (list.includes(text) ? text : undefined), write: String });
-/* A teacher's words: text and nothing else, no line of it hidden or turned about. */
+/* A teacher's question as plain text: no control characters, line breaks or changes of direction. */
 export const tidyQuestion = (text) => text.replace(/[\p{C}\p{Zl}\p{Zp}]+/gu, " ").trim().slice(0, 240);
 const yes = { read: (text) => text === "1", write: (value) => (value ? "1" : "0") };
-/* How it is shown: parameters by their place in the state. `asked`: with a question alone; lessons have their own. */
+/* How the gas is shown: parameters by their place in the state. `withQuestion`: with a question alone; lessons have their
+ * own. */
 const LOOK = {
   question: { read: (text) => tidyQuestion(text) || undefined, write: String },
-  slider: { ...one(CONTROLS.filter((row) => row.max !== undefined).map((row) => row.name)), asked: true },
-  quantity: { ...one(QUANTITIES), asked: true },
+  slider: { ...one(CONTROLS.filter((row) => row.max !== undefined).map((row) => row.name)), withQuestion: true },
+  quantity: { ...one(QUANTITIES), withQuestion: true },
   view: one(VIEWS),
   colour: one(COLOURS),
   chart: one(CHARTS),
@@ -56,28 +57,28 @@ export function readLink(place = location) {
   if (lessonOf(given.get("lesson")) || !look.question) for (const name of ["question", "slider", "quantity"]) delete look[name];
   return {
     scene: given.get("scene"),
-    sets: Object.fromEntries(pairs) /* whatever a key is called */,
+    sets: Object.fromEntries(pairs) /* a null prototype: any name of a key is safe */,
     lesson: given.get("lesson"),
     language: Object.keys(LANGUAGES).includes(language) ? language : null,
     look,
     points: given.getAll("points").slice(0, 200),
   };
 }
-/* The links, or parts of links, in a text: their points. */
+/* The points of all links, or parts of links, in a text. */
 export const pointsIn = (text) =>
   text.split(/\s+/).flatMap((one) => (one.includes("points=") ? readLink({ hash: `#${one.replace(/^[^#]*#/, "").replace(/^[^?=]*\?/, "")}`, search: "" }).points : []));
 
-/* Of points: what they are of, and whose. */
+/* A link with points: lesson or scene, slider, quantity, and the points. */
 export function linkOfPoints(state, texts) {
   const { lesson, gas } = state,
     to = new URLSearchParams(lesson ? { lesson } : { scene: gas.about.brief });
   for (const text of texts) to.append("points", text);
   return `#${readable(to)}`;
 }
-/* What may stand in an address as it is, so that people can read it. */
+/* Leave readable characters unescaped in an address. */
 const readable = (to) => to.toString().replace(/%(3A|3B|2C|7B|7D|5B|5D|3D|3F|7E)/g, (code) => decodeURIComponent(code));
 
-/* Of the live gas; while a result is played, of the one that waits. */
+/* A link to the live gas, also while a result is played. */
 export function linkOf(state, own = ownLanguage()) {
   const of = state.shelf ? { ...state, ...state.shelf } : state,
     lesson = lessonOf(of.lesson),
@@ -89,15 +90,15 @@ export function linkOf(state, own = ownLanguage()) {
     for (const [key, value] of Object.entries(gas.sets)) if (key !== "run.seed") to.append("set", `${key}=${value}`);
     if (gas.sets["run.seed"] !== undefined) to.set("seed", gas.sets["run.seed"]);
   } else if (gas.scene !== page.given || Object.keys(gas.sets).length) to.set("scene", gas.about.brief);
-  for (const [name, { write, asked }] of Object.entries(LOOK))
-    if (name !== "playing" && (asked ? of.question : write(of[name]) !== write(usual[name]))) to.set(name, write(of[name]));
+  for (const [name, { write, withQuestion }] of Object.entries(LOOK))
+    if (name !== "playing" && (withQuestion ? of.question : write(of[name]) !== write(usual[name]))) to.set(name, write(of[name]));
   if (!of.playing) to.set("playing", "0");
   if (state.language !== own) to.set("language", state.language);
   const text = readable(to);
   return text ? `#${text}` : "";
 }
 
-/* An entry of the history for another lesson or scene, none for the movement of a slider. */
+/* Write the address: a new entry of the history for another lesson or scene, none for a slider. */
 export function writeLink(state, step) {
   const link = linkOf(state),
     at = location.href.split("#")[0] + link;
@@ -105,6 +106,6 @@ export function writeLink(state, step) {
   try {
     history[step ? "pushState" : "replaceState"](null, "", at);
   } catch (e) {
-    /* an address too long for this browser */
+    /* the address is too long for this browser */
   }
 }

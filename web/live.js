@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The gas that is seen, in a worker: md, and dsmc beside it, or a twin of md that differs in one thing. Nothing here
- * depends on how often the page asks. */
+/* The live gas, in a worker: md, and beside it dsmc or a twin of md that differs in one thing. Results do not depend
+ * on how often the page requests frames. */
 import { GraingasError } from "./engines.js";
 import { isWalled, sheared } from "./flows.js";
 import { Picture } from "./picture.js";
@@ -17,7 +17,7 @@ export function sceneOf(g, text, sets, more = {}) {
   }
 }
 
-/* What differs from the defaults, of objects of values. */
+/* Members that differ from the defaults, of objects of values. */
 function differing(values, defaults) {
   const found = {};
   for (const [key, value] of Object.entries(values)) {
@@ -27,7 +27,7 @@ function differing(values, defaults) {
   }
   return found;
 }
-/* As YAML on one line. */
+/* A value as YAML on one line. */
 const flowStyle = (value) =>
   Array.isArray(value)
     ? `[${value.map(flowStyle).join(", ")}]`
@@ -37,7 +37,7 @@ const flowStyle = (value) =>
           .join(", ")}}`
       : String(value);
 
-/* The scene in as few words as say the same; all of it where that cannot be had. */
+/* The shortest scene with the same values; the whole scene where that fails. */
 function briefScene(g, values, yaml) {
   const read = (text, use) => {
     const scene = new g.Scene(text);
@@ -54,19 +54,19 @@ function briefScene(g, values, yaml) {
         brief = flowStyle({ ...given, ...differing(values, defaults) });
       if (read(brief, (scene) => scene.yaml()) === yaml) return brief;
     } catch (e) {
-      /* a flow that needs more than these */
+      /* a flow that needs more than these keys */
     }
   return yaml;
 }
 
-/* What the page says of a scene. */
+/* Description of a scene for the page. */
 export function aboutOf(g, scene) {
   const values = scene.values(),
     yaml = scene.yaml();
   return { values, yaml, title: scene.title(), brief: briefScene(g, values, yaml) };
 }
 
-/* How many grains, and what a run of them needs: asked before anything is made. */
+/* Number of grains, and memory of a run with them: checked before a gas is made. */
 export function costOf(g, text, sets) {
   const scene = sceneOf(g, text, sets);
   try {
@@ -76,7 +76,7 @@ export function costOf(g, text, sets) {
       try {
         bytes = Math.max(bytes, scene.needs(engine).bytes);
       } catch (e) {
-        /* an engine that cannot run it needs nothing */
+        /* an engine that cannot run the scene needs nothing */
       }
     return { particles, bytes };
   } finally {
@@ -84,20 +84,21 @@ export function costOf(g, text, sets) {
   }
 }
 
-/* What is shown of a state. Between walls T is the one that results have: the state's is of whole velocities. */
+/* The displayed state. Between walls T is that of results: the temperature of the engine's state is of whole
+ * velocities. */
 export function shownState(gas, state, values) {
-  const temperature = isWalled(values) ? gas.localTemperature(state.grains, state.box[1]) : NaN; /* none without places */
+  const temperature = isWalled(values) ? gas.localTemperature(state.grains, state.box[1]) : NaN; /* NaN in dsmc without positions */
   return Number.isFinite(temperature) ? { ...state, temperature } : state;
 }
-/* The shear rate of the flow that velocities are about. */
+/* The shear rate of the flow about which velocities are given. */
 export const flowOf = (values) => (sheared(values) ? 1 : 0);
 
 const BINS = 30;
-export const SHORTEST = 12; /* ms of work a frame: sixty of them a second leave the page some */
+export const SHORTEST = 12; /* ms of work a frame: at sixty frames a second the page has time left */
 
 export class LiveGas {
-  /* pair: null; "elastic", the same start with e = 1; "bit", the same with one last bit more. remember: distances from
-   * the start are wanted. */
+  /* pair: null; "elastic", the same start with e = 1; "bit", the same with one last bit more. remember: distances
+   * from the start are wanted. */
   constructor(g, text, sets, { pair = null, remember = false } = {}) {
     Object.assign(this, { pair, remember, refusal: null, dsmcRefusal: null, event: null, ended: null, dsmcEnded: null });
     const scene = sceneOf(g, text, sets);
@@ -134,7 +135,7 @@ export class LiveGas {
     view.fix(gas.state(), gas.grains(), gas.species(), flowOf(this.about.values));
     return view;
   }
-  /* Grains put back into both: what that rounds is the same in both. */
+  /* Put the grains back into both simulations: then both have the same rounding. */
   beginTwin(g, text, sets) {
     const elastic = this.pair === "elastic" ? { "collision.e": "1" } : {};
     this.twin = this.make(g, text, sets, { engine: "md", ...elastic }, "twinRefusal");
@@ -156,7 +157,7 @@ export class LiveGas {
     }
   }
 
-  /* Collisions a grain in the unit of time, of a gas like this one that is thrown away. */
+  /* Collisions a grain in the unit of time, of a gas like this one that is discarded. */
   firstRate(g, text, sets) {
     this.since = { time: 0, collisionsPerGrain: 0 };
     const trial = this.make(g, text, sets, { engine: this.md ? "md" : "dsmc" }, "trial");
@@ -170,7 +171,7 @@ export class LiveGas {
     }
   }
 
-  /* How often they collide now: over the last tenth of a collision a grain. */
+  /* The present collision rate: over the last tenth of a collision a grain. */
   followRate(state) {
     const done = state.collisionsPerGrain - this.since.collisionsPerGrain;
     if (done < 0.1 && done * state.grains < 200) return;
@@ -178,7 +179,7 @@ export class LiveGas {
     this.since = state;
   }
 
-  /* Go on by so long, for so many ms of work at most; is it done? */
+  /* Advance by this time, for so many ms of work at most; is it done? */
   goOn(time, work) {
     const leader = this.md || this.dsmc;
     let done = true;
@@ -192,7 +193,7 @@ export class LiveGas {
     return this.takeAlong(state.time, work) && done;
   }
 
-  /* dsmc, or the twin, to the time of md; is it there? */
+  /* Advance dsmc, or the twin, to the time of md; has it arrived? */
   takeAlong(time, work) {
     const other = this.twin || this.dsmc;
     if (!this.md || !other || this.dsmcEnded || this.ended) return true;
@@ -225,7 +226,7 @@ export class LiveGas {
     return this.md.distance(this.twin || null);
   }
 
-  /* `collisions` a grain at the start's rate, or, if it is followed, at the present one. */
+  /* `collisions` a grain at the start's rate, or, with `follow`, at the present one. */
   frame({ collisions, work = SHORTEST, colour, step, follow = false, speeds = false, arrows = false, grain = null }) {
     const rate = follow ? this.rate : this.startRate,
       done = step ? (this.step(), true) : this.goOn(collisions / rate, work);

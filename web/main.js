@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page: what people do, and what becomes of it. */
+/* The page: actions of the user, and the calls that they make. */
 import { BoxView, CAMERA } from "./box.js";
 import { runClock, SPEEDS } from "./clock.js";
 import { Controls, wantedValues } from "./controls.js";
 import { endPlaying, FRAMES_A_SECOND, goTo, listenForFiles, openFile, played } from "./files.js";
-import { again, change, follow, now, openWorkers, ownScene, page, reverse, start, workers } from "./gas.js";
+import { again, change, follow, now, openWorkers, ownScene, page, reverse, start } from "./gas.js";
 import { ownLanguage, t } from "./i18n.js";
 import { lessonOf } from "./lessons.js";
 import { linkOf, linkOfPoints, pointsIn, readLink, tidyQuestion } from "./link.js";
@@ -15,6 +15,7 @@ import { begin, describe, drawFrame, parts, say, show } from "./show.js";
 import { openSound } from "./sound.js";
 import { store } from "./state.js";
 import { byId } from "./words.js";
+import { workers } from "./worker_rpc.js";
 
 function givenScene() {
   const given = JSON.parse(byId("given").textContent);
@@ -48,7 +49,7 @@ async function main() {
   runClock(drawFrame);
 }
 
-/* ---- What people do ---- */
+/* ---- Actions of the user ---- */
 
 function play(yes) {
   if (yes && store.state.player && played.at >= store.state.player.frames - 1) played.at = 0;
@@ -72,7 +73,7 @@ function present() {
   const yes = store.state.view !== "present";
   store.look({ view: yes ? "present" : "all" });
   const done = yes ? document.documentElement.requestFullscreen?.() : document.fullscreenElement && document.exitFullscreen();
-  if (done) done.catch(() => {}); /* a page within another may not */
+  if (done) done.catch(() => {}); /* a page inside another may not enter full screen */
 }
 
 const on = (id, what, kind = "click") => byId(id).addEventListener(kind, what);
@@ -140,7 +141,7 @@ function listen() {
   });
 }
 
-/* Not where somebody types, or where a key has a meaning already. */
+/* Keys act except where the user types, or where a key has a meaning already. */
 function listenForKeys() {
   document.addEventListener("keydown", (e) => {
     const typing = e.target.closest("input, textarea, select, button, summary, dialog, a");
@@ -152,7 +153,7 @@ function listenForKeys() {
   });
 }
 
-/* ---- Taking along ---- */
+/* ---- Saving ---- */
 
 function listenForTaking() {
   const about = () => store.state.gas.about;
@@ -194,7 +195,7 @@ function listenForTaking() {
     }
   });
 }
-/* A button for each student whose points are here: it takes them out. */
+/* A button for each student whose points are here: it removes them. */
 function listStudents() {
   const names = studentsOf(store.state.points);
   byId("students-row").hidden = !names.length;
@@ -210,7 +211,7 @@ function listStudents() {
     }),
   );
 }
-/* The name that stands with one's own points; nothing without one. */
+/* The name that labels the user's own points; nothing without one. */
 const ownName = (before) => {
   const name = tidyName(byId("me").value);
   return name ? before + name.replace(/ /g, "-") : "";
@@ -222,19 +223,19 @@ function openSharing() {
   showLink();
   byId("sharing").showModal();
 }
-/* Of the experiment, or of points of it. A link to a file is of no use to others: they need the file, and what is
- * asked for after #. Of points that alone is in the code: it can be pasted. */
+/* Show a link to the experiment, or to points of it. A link to a local file does not help others: they need the
+ * file, and the part of the address after #. The QR code of points has that part alone: it can be pasted. */
 function showLink() {
   const here = location.protocol === "file:",
     points = byId("mine").checked ? pointsTexts(store.state, byId("me").value) : [],
-    asked = points.length ? linkOfPoints(store.state, points) : linkOf(store.state),
-    link = location.href.split("#")[0] + asked;
+    address = points.length ? linkOfPoints(store.state, points) : linkOf(store.state),
+    link = location.href.split("#")[0] + address;
   byId("me-row").hidden = !byId("mine").checked || !pointsText(store.state, "");
   byId("link").value = link;
   byId("link-words").textContent = t(points.length ? (here ? "linkPointsFile" : "linkPointsWorks") : here ? "linkFile" : "linkWorks");
-  byId("qr").replaceChildren(...(here && !points.length ? [] : qrSvg(here ? asked : link, t("qrLabel"))));
+  byId("qr").replaceChildren(...(here && !points.length ? [] : qrSvg(here ? address : link, t("qrLabel"))));
 }
 
-/* What tests and those who are curious on the console want. */
+/* For tests, and for users of the console. */
 globalThis.graingas = { store, workers, now, parts, start, ownScene, openFile, openSharing, describe, drawFrame, linkOf, played, save };
 main();

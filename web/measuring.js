@@ -11,13 +11,13 @@ export const COOLING_TIMES = [
 export function courseOfTheories(comparison) {
   const T = {};
   for (const name of Object.keys(comparison.document().theory || {})) {
-    const said = comparison.cooling(name, COOLING_TIMES);
-    if (Number.isFinite(said[0])) T[name] = said;
+    const values = comparison.cooling(name, COOLING_TIMES);
+    if (Number.isFinite(values[0])) T[name] = values;
   }
   return { cooling: { time: COOLING_TIMES, T } };
 }
 
-/* The means, in a worker of their own: a run of each engine in pieces, with the theories, until the scene's own end. */
+/* The means, in their own worker: a run of each engine in pieces, with the theories, until the scene's own end. */
 export class Measuring {
   constructor(g, text, sets) {
     this.sessions = {};
@@ -60,7 +60,7 @@ export class Measuring {
     }
   }
 
-  /* So many milliseconds each; is there nothing left to do? */
+  /* Run each engine for so many milliseconds; is nothing left to do? */
   goOn(milliseconds) {
     for (const one of Object.values(this.sessions)) {
       if (one.over) continue;
@@ -74,7 +74,7 @@ export class Measuring {
     return Object.values(this.sessions).every((one) => one.over);
   }
 
-  /* Everything that is known by now. An engine that has no means yet is left as it was. */
+  /* All means so far. An engine without means yet is left out. */
   means() {
     const progress = {};
     for (const [engine, one] of Object.entries(this.sessions)) {
@@ -94,7 +94,7 @@ export class Measuring {
   }
 }
 
-/* What the theories say of a scene. */
+/* The answers of the theories for a scene. */
 export function theoriesOf(g, text, sets) {
   const scene = sceneOf(g, text, sets);
   let comparison = null;

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is drawn of grains, whether they live or are played: places, colours from 0 to 1, marks that turn. */
+/* Drawing data of grains, live or played: places, colours from 0 to 1, marks that rotate. */
 export const COLOURS_END = { speed: 2, spin: 2, since: 3 }; /* root mean squares; mean free times */
 
 const rootMeanSquare = (vectors) => Math.sqrt((3 * vectors.reduce((sum, v) => sum + v * v, 0)) / vectors.length);
 
-/* Velocities along x, of a sheared gas with that of the flow; what is twice as fast as most ends the scale on both sides. */
+/* Velocities along x, of a sheared gas with that of the flow; both ends of the scale are at twice the speed of most
+ * grains. */
 const alongX = ({ position, velocity }, flow, box) => Float32Array.from({ length: velocity.length / 3 }, (_, i) => velocity[3 * i] + flow * (position[3 * i + 1] - box[1] / 2));
 const endAlong = (all) => 2.2 * Math.sqrt(all.reduce((sum, v) => sum + v * v, 0) / all.length) || 1;
 
-/* Lengths of vectors over what is the end of the scale. */
+/* Lengths of vectors over the end of the scale. */
 function lengths(vectors, end) {
   const found = new Float32Array(vectors.length / 3);
   for (let i = 0; i < found.length; i++)
@@ -16,7 +17,7 @@ function lengths(vectors, end) {
   return found;
 }
 
-/* Turn the marks, a unit vector a grain, about their spins for so long. */
+/* Rotate the marks, a unit vector a grain, about their spins for this time. */
 function turnMarks(marks, spin, time) {
   for (let i = 0; i < marks.length; i += 3) {
     const w = Math.hypot(spin[i], spin[i + 1], spin[i + 2]);
@@ -37,7 +38,7 @@ function turnMarks(marks, spin, time) {
 }
 
 export class Picture {
-  /* Adds to `about` what of the grains stays as it is. */
+  /* Adds to `about` the data of the grains that stay the same. */
   constructor({ n, species }, kinds, about) {
     about.species = Uint8Array.from(species);
     about.diameters = kinds.map((k) => k.diameter);
@@ -52,7 +53,7 @@ export class Picture {
     }
   }
 
-  /* The scale of colours: that of this state for good. Spins that are not there yet: as fast as equipartition has them. */
+  /* Fix the scale of colours by this state. Spins that are still zero are scaled by equipartition. */
   fix(state, grains, kinds, flow) {
     const { velocity, spin, position } = grains,
       inertia = (kinds[0].inertia * kinds[0].mass * kinds[0].diameter ** 2) / 4,
@@ -62,10 +63,11 @@ export class Picture {
     this.origin = Float32Array.from({ length: position.length / 3 }, (_, i) => position[3 * i] / state.box[0]);
   }
 
-  /* `by`: speed, spin; since, the time since the last collision in mean free times, of so many collisions a time;
-   * along, the velocity along x from left to right, of a sheared gas with that of the flow; origin, where it began.
-   * `follow`: speeds and spins over those of now, not over those of the start. `arrows`: with all velocities, of a sheared
-   * gas with that of the flow; `grain`: with the velocity and the spin of that one. */
+  /* `by` selects the colour: speed, spin; since, the time since the last collision in mean free times (`rate`
+   * collisions a time); along, the velocity along x from left to right, of a sheared gas with that of the flow;
+   * origin, the initial position.
+   * `follow`: speeds and spins are scaled by the present ones, not by those of the start. `arrows`: with all
+   * velocities, of a sheared gas with that of the flow; `grain`: with the velocity and the spin of that one. */
   of(state, grains, { by, rate = 0, follow = false, flow = 0, arrows = false, grain = null }) {
     const { position, velocity, spin, hit } = grains,
       turning = state.rotationalTemperature > 0,

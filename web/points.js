@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A student's own points: what was measured, over the slider's value, beside the theories' lines; as CSV, and from it. */
+/* A student's own points: measured values over the slider's value, beside the theories' lines; written and read as
+ * CSV. */
 import { CLASS, DSMC, MD } from "./colours.js";
 import { CLOSED } from "./chart.js";
 import { CONTROLS, gridOf, rowOf, shownValue, symbolOf } from "./controls.js";
-import { workers } from "./gas.js";
 import { lessonOf } from "./lessons.js";
 import { t } from "./i18n.js";
 import { store } from "./state.js";
 import { chosenTheories, error, lineOf, mean, ranked } from "./theories.js";
+import { workers } from "./worker_rpc.js";
 import { quantityName, theoryName } from "./words.js";
 
 export const QUANTITIES = ["temperature", "temperature_ratio", "N1", "N2", "cooling_rate", "compressibility_factor", "shear_viscosity", "collision_rate"];
 const ENGINES = ["md", "dsmc"];
 
-/* What of a gas is the same for all its points: everything but the slider and the seed. */
+/* The properties that all points of a diagram share: everything but the slider and the seed. */
 function familyOf({ about }, row) {
   const values = JSON.parse(JSON.stringify(about.values));
   delete values.run;
@@ -24,7 +25,7 @@ function familyOf({ about }, row) {
   return JSON.stringify(values);
 }
 
-/* Whether there is something to keep: means with errors. */
+/* Is there something to keep: means with errors? */
 export function canKeep({ gas, means, player, quantity }) {
   return !!gas && !player && !!means && ENGINES.some((engine) => Number.isFinite(error(means[engine] && means[engine].results, quantity)));
 }
@@ -40,7 +41,7 @@ export function keepPoint() {
   store.dispatch("point", { points: [point] });
 }
 
-/* ---- The lines of theories over the slider: evaluated one by one, where nothing else waits ---- */
+/* ---- Lines of theories over the slider: evaluated one by one, while no other call is pending ---- */
 
 const keyOf = ({ gas, slider }) => `${slider} ${familyOf(gas, rowOf(slider))}`;
 let working = false;
@@ -55,13 +56,13 @@ export async function drawLines() {
   while (line.theory.length < x.length && wantsLines() && keyOf(store.state) === key) {
     const value = x[line.theory.length],
       text = row.put ? row.put(value, gas.about.values) : String(+value.toPrecision(6));
-    let said = {};
+    let answers = {};
     try {
-      said = (await workers.measure.ask("theory", { scene: gas.scene, sets: { ...gas.sets, [row.key]: text } })).theory;
+      answers = (await workers.measure.request("theory", { scene: gas.scene, sets: { ...gas.sets, [row.key]: text } })).theory;
     } catch (e) {
-      /* a value that the flow refuses: no theory there */
+      /* the flow rejects this value: no theory there */
     }
-    line.theory.push(Object.fromEntries(Object.entries(said || {}).map(([name, part]) => [name, Object.fromEntries(QUANTITIES.map((q) => [q, mean(part, q)]))])));
+    line.theory.push(Object.fromEntries(Object.entries(answers || {}).map(([name, part]) => [name, Object.fromEntries(QUANTITIES.map((q) => [q, mean(part, q)]))])));
     store.dispatch("line", { key, line: { ...line } });
   }
   working = false;
@@ -73,7 +74,7 @@ function wantsLines() {
   const line = store.state.lines[keyOf(store.state)];
   return !line || line.theory.length < line.x.length;
 }
-/* A lesson without a quantity has no points; between walls the theories say nothing, but points are kept. */
+/* A lesson without a quantity has no points. Between walls theories give no answer, but points are kept. */
 export const hasPoints = ({ chart, player, lesson }) =>
   !player && !["speeds", "distance"].includes(chart) && (!lesson || !!lessonOf(lesson).quantity);
 
@@ -117,7 +118,7 @@ const measuredOf = (some, engine, quantity) => {
   const found = some.filter((one) => one[engine] && one[engine][quantity]);
   return { points: true, x: found.map((one) => one.x), y: found.map((one) => one[engine][quantity][0]), error: found.map((one) => one[engine][quantity][1]) };
 };
-/* Of each student a mark of its own, full of the grains, hollow of the dice; those of one x stand side by side. */
+/* Each student has an own mark, filled for md, hollow for dsmc; marks at one x are drawn side by side. */
 function ofTheClass(points, quantity, all) {
   const names = studentsOf(points);
   return names.flatMap((from, i) =>
@@ -134,20 +135,21 @@ function ofTheClass(points, quantity, all) {
   );
 }
 
-/* ---- As part of a link: a student's name, slider, quantity; then of each point its x, mean and error of the grains, mean
- * and error of the dice: Ann~k3f9x2;e;cooling_rate;0.9,0.122,0.003,0.125,0.001;... Nothing of it is believed when it is read. */
+/* ---- Points as part of a link: a student's name, slider, quantity; then for each point its x, mean and error of
+ * md, mean and error of dsmc: Ann~k3f9x2;e;cooling_rate;0.9,0.122,0.003,0.125,0.001;... The reader checks
+ * everything. ---- */
 
 const MOST = { names: 200, points: 60, name: 24 };
-/* What people are called in any script, marks on letters with it, and no sign that tables or pages take for more. */
+/* A name in any script, with marks on letters, without characters that have a meaning in tables or pages. */
 export const tidyName = (text) =>
   [...text.normalize("NFC").replace(/[^\p{L}\p{M}\p{N} ._-]/gu, " ").replace(/\s+/g, " ").replace(/^[ .\p{M}-]+/u, "")].slice(0, MOST.name).join("").trimEnd();
 
-/* Whose points: a name and, of links, the device that made them, Ann~k3f9x2: two students may have one name. */
+/* The owner of points: a name and, in links, the device that made them, Ann~k3f9x2: two students may have one name. */
 const tidyFrom = (text) => {
   const [, name, device] = /^(.*?)(~[0-9a-z]{1,8})?$/s.exec(text);
   return tidyName(name) && tidyName(name) + (device || "");
 };
-/* What people read: the second of a name is "Ann 2". `all`: everybody who has points. */
+/* The displayed name: the second of a name is "Ann 2". `all`: everybody who has points. */
 export function shownName(from, all) {
   const nameOf = (one) => one.split("~")[0],
     same = all.filter((one) => nameOf(one) === nameOf(from)),
@@ -155,21 +157,21 @@ export function shownName(from, all) {
   return i > 0 ? `${nameOf(from)} ${i + 1}` : nameOf(from);
 }
 export const studentsOf = (points) => [...new Set(points.map((one) => one.from).filter(Boolean))];
-/* This device's mark: kept, so that a student who shares again replaces what was given before. */
+/* The mark of this device is stored, so that a student who shares again replaces the previous points. */
 const DEVICE = "graingas-device";
 let device = "";
 function ownDevice() {
   try {
     device ||= /^[0-9a-z]{1,8}$/.exec(localStorage.getItem(DEVICE) || "")?.[0] || "";
   } catch (e) {
-    /* a browser that keeps nothing: a mark for this visit */
+    /* a browser without storage: the mark lasts for this visit */
   }
   if (device) return device;
   device = Math.floor(Math.random() * 36 ** 6).toString(36);
   try {
     localStorage.setItem(DEVICE, device);
   } catch (e) {
-    /* the same */
+    /* no storage: as above */
   }
   return device;
 }
@@ -181,13 +183,13 @@ export function pointsText({ points, slider, quantity }, name, from = "") {
   if (!mine.length) return "";
   return [from || `${tidyName(name) || t("nobody")}~${ownDevice()}`, slider, quantity, ...mine.map((one) => [short(one.x, 5), part(one.md[quantity]), part(one.dsmc[quantity])].join(",").replace(/,+$/, ""))].join(";");
 }
-/* One's own; where there are none, those of all others, as on the phone that gathers them. */
+/* The student's own points; without any, those of all others, as on the phone that gathers them. */
 export function pointsTexts(state, name) {
   const own = pointsText(state, name);
   return own ? [own] : studentsOf(state.points).map((from) => pointsText(state, from, from)).filter(Boolean);
 }
-/* A point that a link or a table may give: within its slider's range, numbers that a measurement can have. One outside
- * would be all that the diagram shows. */
+/* A valid point of a link or a table: within its slider's range, and with numbers that a measurement can have. A
+ * point far outside would squeeze the diagram. */
 const LARGEST = 1e6;
 function tidyPoint(point) {
   const row = CONTROLS.find(({ name, max }) => name === point.slider && max !== undefined),
@@ -211,29 +213,29 @@ export function pointsFrom(text) {
     .filter(isPoint);
 }
 
-/* This device keeps what it was given by links, one after another, until somebody clears the diagram. */
+/* This device stores the points of links, one after another, until the user clears the diagram. */
 const KEPT = "graingas-class";
 const kept = () => {
   try {
     return JSON.parse(localStorage.getItem(KEPT)).filter((one) => typeof one === "string");
   } catch (e) {
-    return []; /* none yet, or a browser that keeps nothing */
+    return []; /* none yet, or a browser without storage */
   }
 };
 function keep(texts) {
   try {
     localStorage.setItem(KEPT, JSON.stringify(texts));
   } catch (e) {
-    /* they are in the diagram */
+    /* no storage: they are in the diagram alone */
   }
 }
 export const clearKept = () => keep([]);
-/* One student's points go, from the diagram and from this device. */
+/* Remove one student's points, from the diagram and from this device. */
 export function forgetStudent(from) {
   keep(kept().filter((one) => !pointsFrom(one).some((point) => point.from === from)));
   store.dispatch("forgetStudent", { from });
 }
-/* The points of these texts, and those of before; how many are new. */
+/* Add the points of these texts to those of before; the number of valid texts. */
 export function gather(texts) {
   const good = texts.filter((one) => pointsFrom(one).length),
     head = (one) => one.split(";").slice(0, 3).join(";"),
@@ -246,7 +248,7 @@ export function gather(texts) {
 
 /* ---- CSV: a row a point, a column a quantity ---- */
 
-/* As the library writes texts (src/io/file_writer.c): a spreadsheet would compute one that begins like a formula. */
+/* Quoted as by the library (src/io/file_writer.c): a spreadsheet would compute a text that begins like a formula. */
 function csvCell(value) {
   const text = String(value),
     safe = /^[=+\-@\t\r]/.test(text) && !Number.isFinite(Number(text)) ? `'${text}` : text;
@@ -261,7 +263,7 @@ export function pointsCsv(points) {
     };
   return `${[["slider", "value", "seed", ...columns, "name"], ...points.map((one) => [one.slider, one.x, one.seed, ...columns.map((column) => numberAt(one, column)), one.from])].map((row) => row.map(csvCell).join(",")).join("\n")}\n`;
 }
-/* Those of a file; none if it is no such table. */
+/* The points of a file; none if it is no such table. */
 export function pointsOf(text, file) {
   const whose = tidyName(file.replace(/^graingas-points-?|\.csv$/gi, "")) || tidyName(file);
   const [head, ...rows] = text.trim().split(/\r?\n/).slice(0, 5001).map((row) => row.split(","));

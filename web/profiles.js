@@ -13,7 +13,7 @@ const WIDE = 60,
   GAP = 6,
   FOOT = 34;
 
-/* `heights`: where on the screen the floor and the lid of the box are, of so high a canvas. */
+/* `heights`: where the floor and the lid of the box are on the screen, on a canvas of this height. */
 export function showProfiles(place, means, [low, top], high) {
   const [grains, dice] = ["md", "dsmc"].map((engine) => (means && means[engine] && means[engine].curves) || {});
   const svg = make("svg", { width: SHOWN.length * (WIDE + GAP), height: high, role: "img", "aria-label": t("profiles") });
@@ -32,7 +32,7 @@ export function showProfiles(place, means, [low, top], high) {
   place.replaceChildren(svg);
 }
 
-/* Of the grains a line with its errors, of the dice marks. */
+/* A line with its errors for md, marks for dsmc. */
 function profile(both, left, low, top, colour) {
   const [grains, dice] = both.map((curve) => (curve ? curve.x.map((y, i) => ({ y, v: curve.value[i], e: curve.stderr[i] || 0 })).filter(({ v }) => Number.isFinite(v)) : [])),
     all = [...grains, ...dice].flatMap(({ v, e }) => [v - e, v + e]),

@@ -5,7 +5,7 @@ import { make } from "./chart.js";
 
 const LONGEST = 1200; /* characters: more cannot be read from a screen */
 
-/* A list with one drawing, or none for what is too long. */
+/* A list with one drawing, or an empty one if the text is too long. */
 export function qrSvg(text, label) {
   if (!qrcode || text.length > LONGEST) return []; /* null: built without it */
   const code = qrcode(0, "L");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A result of the terminal, in a worker: its frames as they are asked for, by their numbers. */
+/* A result of the command, in a worker: its frames by their numbers. */
 import { aboutOf, flowOf, shownState } from "./live.js";
 import { courseOfTheories } from "./measuring.js";
 import { Picture } from "./picture.js";
@@ -42,7 +42,7 @@ export class Replay {
   }
 }
 
-/* Its means and curves beside the theories, as a comparison has them, and how its temperatures went. */
+/* Its means and curves beside the theories, as in a comparison, and the histories of its temperatures. */
 export function readResult(g, file) {
   const { answer, gone } = g.withFile(file, (path) => new g.Comparison(path));
   try {

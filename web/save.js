@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What can be taken along: the picture, the curves, the scene. Names of files say which gas it is. */
+/* Files that the page saves: the picture, the curves, the scene. Names of files tell which gas it is. */
 import { make } from "./chart.js";
 import { t } from "./i18n.js";
 import { byId } from "./words.js";
@@ -18,7 +18,8 @@ export function fileName({ values }, ending) {
   return `graingas-${flow}-phi${phi}-e${collision.e}${collision.beta > -1 ? `-beta${collision.beta}` : ""}-seed${run.seed}.${ending}`;
 }
 
-/* The boxes side by side, under them which gas it is, and what the colours mean: from `low` over the scale to `high`. */
+/* The boxes side by side, under them the title of the gas and the meaning of the colours: from `low` over the scale
+ * to `high`. */
 export function boxPicture(boxes, title, scale, [low, high]) {
   const line = Math.max(16, Math.round(boxes[0].width / 36)),
     sheet = Object.assign(document.createElement("canvas"), { width: boxes.reduce((sum, one) => sum + one.width, 0), height: boxes[0].height + 4 * line }),
@@ -38,7 +39,7 @@ export function boxPicture(boxes, title, scale, [low, high]) {
   return sheet;
 }
 
-/* A diagram with its title and its legend, as a drawing of its own. */
+/* A diagram with its title and its legend, as a separate drawing. */
 const STYLE = "text{font:12px sans-serif;fill:#1b1f23}.rule{display:none}";
 export function curveSvg(figure, title) {
   const plot = figure.querySelector(".plot svg").cloneNode(true),
@@ -72,7 +73,7 @@ const COURSES = [
 ];
 const tidy = (x) => (Number.isFinite(x) ? x : "");
 
-/* A table of how the gas went, a row a time; below it one of each curve that was measured. */
+/* The history as a table, a row a time; below it a table for each measured curve. */
 export function curvesCsv(history, means, title) {
   const parts = [`# ${title}`];
   if (history.rows) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Shows the state: each part where it has changed. */
+/* Shows the state: updates each part that has changed. */
 import { Chart } from "./chart.js";
 import { CHARTS, showChart, speedUnit, spinUnit, temperatureUnit, timeUnit } from "./charts.js";
 import { SPEEDS } from "./clock.js";
@@ -23,7 +23,7 @@ const COLOURS = ["speed", "along", "spin", "since", "origin"];
 const TRUTHS = ["same", "collisions", "dice", "size", "theory", "scale", "clusters"];
 export const parts = {}; /* made by begin() */
 
-/* Those that never change their place. */
+/* Fill the parts that never change. */
 export function begin({ controls, view, twin }) {
   const text = (key, values) => t(key, values);
   Object.assign(parts, { controls, view, twin, chart: new Chart(byId("chart"), text), points: new Chart(byId("points"), text) });
@@ -51,7 +51,7 @@ export function begin({ controls, view, twin }) {
   byId("thermometer").firstChild.append(cell("div", "", { className: "mercury" }), cell("div", "", { className: "second" }));
 }
 
-/* Everything that the state says, where it differs from what is shown. */
+/* Show all parts of the state that differ from the page. */
 export function show(state, before) {
   const is = (...names) => names.some((name) => state[name] !== before[name]);
   if (is("language")) showLanguage();
@@ -76,7 +76,7 @@ export function show(state, before) {
   announceChanges(state, before);
 }
 
-/* The address: at once for another lesson, a little later for a camera that is turned. */
+/* The address is written at once for another lesson, a little later while a camera moves. */
 let linking = 0;
 function link(state, before) {
   clearTimeout(linking);
@@ -146,13 +146,13 @@ function showLesson({ lesson, gas, slider, player, question }, before) {
 
 /* ---- The gas ---- */
 
-/* What is known of it before it moves. */
+/* Properties of the gas that are known before it moves. */
 function showGas({ gas, player }) {
   const { about } = gas,
     title = player ? `${player.name}: ${about.title}` : about.title;
   parts.controls.show(about.values);
   byId("images-row").hidden = !sheared(about.values);
-  if (document.activeElement !== byId("yaml")) byId("yaml").value = about.yaml; /* nobody's typing is written over */
+  if (document.activeElement !== byId("yaml")) byId("yaml").value = about.yaml; /* do not overwrite a text that the user edits */
   byId("event").textContent = "";
   document.title = `${title} – graingas`;
   byId("profiles").hidden = !isWalled(about.values);
@@ -237,7 +237,7 @@ function showFollowed({ arrows, grain }, before) {
   if (document.activeElement !== byId("grain-number")) byId("grain-number").value = grain === null ? "" : grain + 1;
   if (grain !== before.grain && before.gas) say(grain === null ? "" : t("followed", { i: grain + 1 }));
 }
-/* The grain that is followed: its velocity, and its spin where it has one. */
+/* The followed grain: its velocity, and its spin where it has one. */
 const signed = (x) => x.toFixed(2).replace("-", "−");
 const vector = (v) => `(${v.map(signed).join(", ")})`;
 const sizeOf = (v) => number(Math.hypot(...v), 3);
@@ -253,7 +253,7 @@ function showGrain(frame, grain) {
   if (byId("grain").textContent !== words) byId("grain").textContent = words;
 }
 
-/* As high as T is, on the scale of the gas's start; of a gas that heats up on a longer one. */
+/* A thermometer on the scale of the gas's start; a gas that heats up gets a longer scale. */
 const thermometer = { top: 0 };
 function showThermometer({ md, dsmc, twin }) {
   const s = md || dsmc,
@@ -296,7 +296,7 @@ function showPlaying({ player, playing, speed, follow }) {
   byId("restart").textContent = t(player ? "firstFrame" : "restart");
   byId("reseed").hidden = !!player;
   byId("follow").checked = follow;
-  if (!player && byId("player").contains(document.activeElement)) byId("play").focus(); /* who pressed goes on */
+  if (!player && byId("player").contains(document.activeElement)) byId("play").focus(); /* the user who pressed it continues */
   byId("player").hidden = !player;
   if (player) {
     byId("scrub").max = player.frames - 1;
@@ -351,7 +351,7 @@ function showWarnings(state) {
   byId("warnings").replaceChildren(...all.map((one) => cell("li", one)));
 }
 
-/* ---- For those who hear the page: what changes, once ---- */
+/* ---- Changes, spoken once for screen readers ---- */
 
 export function say(text) {
   byId("said").textContent = text;
@@ -368,7 +368,7 @@ function announceChanges(state, before) {
     say(`${t("measured")} ${describeMeans(state)}`);
   }
 }
-/* T has halved or doubled since it was said last. */
+/* T has halved or doubled since it was last spoken. */
 function announceState(s) {
   const T = s.temperature;
   if (!heard.T) heard.T = T;
@@ -386,7 +386,7 @@ function describeMeans({ means, quantity }) {
     .filter(Boolean)
     .join(" ");
 }
-/* Whenever somebody asks. */
+/* A description on request. */
 export function describe() {
   const { gas, player } = store.state,
     s = now.frame && (now.frame.md || now.frame.dsmc);

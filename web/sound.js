@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Haff's law heard: a click a collision, or a share of them, the higher the faster the grains. No library. */
+/* Haff's law as sound: a click for each collision, or for a fixed fraction of them; the faster the grains, the
+ * higher its pitch. No library. */
 let audio = null,
   share = null;
 const MOST_CLICKS = 40; /* a second */
 
-/* Sounds begin with somebody's click alone. */
+/* Open the sound: browsers allow it after a click of the user alone. */
 export function openSound() {
   audio = audio || new AudioContext();
   audio.resume();
@@ -23,7 +24,7 @@ function click(at, pitch) {
   tone.stop(at + 0.06);
 }
 
-/* Of the collisions between two frames a share that stays the same, so that a gas that cools falls silent. */
+/* Clicks for a constant fraction of the collisions between two frames, so that a gas that cools falls silent. */
 export function clicks(before, after, fast, seconds) {
   const many = after.collisions - before.collisions;
   if (!audio || !(many > 0) || !(seconds > 0)) return;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Spheres as pixels, painted by the page itself: some thousand a picture take a few milliseconds on the processor, with
- * or without a graphics processor. Where there is none the pixels are clear. */
+/* Spheres as pixels, painted by the page itself: some thousand a picture take a few milliseconds on the processor,
+ * with or without a graphics processor. Pixels without a sphere are transparent. */
 import { DARK, colourAt } from "./colours.js";
 
 const LEVELS = 64,
@@ -10,7 +10,8 @@ const LEVELS = 64,
 const word = ([r, g, b]) => ((255 << 24) | (Math.min(255, b) << 16) | (Math.min(255, g) << 8) | Math.min(255, r)) >>> 0;
 const between = (a, b, f) => a.map((x, k) => Math.round(x + f * (b[k] - x)));
 
-/* Pixels of a map by fog, level and shade: from the dark rim to the gleam; the farther, the nearer to the ground's. */
+/* Pixels of a map by fog, level and shade: from the dark rim to the highlight; far spheres approach the colour of
+ * the ground. */
 function paints(map) {
   const all = new Uint32Array(FOGS * LEVELS * SHADES);
   let at = 0;
@@ -25,11 +26,11 @@ function paints(map) {
   return all;
 }
 
-const made = {}; /* once, when one is drawn */
+const made = {}; /* made once, when first drawn */
 const paintsOf = (map) => (made[map] ||= paints(map));
 
-/* A sphere whose centre stands a part of a pixel off: rows of first pixel, shades, and the direction of the surface in
- * parts of 127. Lit from above left. */
+/* A sphere whose centre is off by a part of a pixel: rows of first pixel, shades, and the direction of the surface
+ * in parts of 127. Lit from above left. */
 function shapeOf(r, offX, offY) {
   const size = Math.ceil(r + 1),
     rows = [];
@@ -70,12 +71,12 @@ export class Spheres {
     this.pixels.fill(0);
   }
 
-  /* Radii to a quarter of a pixel, places too: nothing jitters. */
+  /* Radii and places are rounded to a quarter of a pixel: nothing jitters. */
   shape(r, fx, fy) {
     const q = Math.max(2, Math.round(4 * r)),
       key = (q * 4 + fx) * 4 + fy;
     if (!this.shapes.has(key)) {
-      this.kept = (this.kept || 0) + q * q; /* pixels, some; all together a few megabytes */
+      this.kept = (this.kept || 0) + q * q; /* pixels, approximately; all shapes together take a few megabytes */
       if (this.kept > 2e7) {
         this.shapes.clear();
         this.kept = q * q;
@@ -85,7 +86,8 @@ export class Spheres {
     return this.shapes.get(key);
   }
 
-  /* fog from 0, near, to 1. spin: a direction on the screen [right, down, to the eye]; its half of the sphere is darker. */
+  /* fog from 0, near, to 1. spin: a direction on the screen [right, down, to the eye]; the half of the sphere that
+   * it points to is darker. */
   paint(x, y, r, value, map, fog, spin) {
     const { width: w, height: h } = this.image,
       x0 = Math.floor(x),

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state of the page: one object, with one writer. Whoever wants a change dispatches an action; whoever shows
- * something subscribes. What comes with every frame (grains, clock) is not in it. */
+/* The state of the page: one object, with one writer. A change is a dispatched action; parts that show the state
+ * subscribe. Data of every frame (grains, clock) are not in it. */
 
 export const initial = {
   language: "en",
   view: "all" /* "box", "curve": for pages that embed it; "present": for a projector */,
-  lesson: null /* its name; null: a gas of one's own */,
-  asked: { id: 0, scene: "", sets: {} } /* what is wanted of the next gas; in force or on its way */,
-  gas: null /* what runs: {id, scene, sets, lesson, about, refusal, dsmcRefusal, history} */,
+  lesson: null /* its name; null: a user's own scene */,
+  requested: { id: 0, scene: "", sets: {} } /* the wanted gas: in force or pending */,
+  gas: null /* the gas that runs: {id, scene, sets, lesson, about, refusal, dsmcRefusal, history} */,
   means: null,
   shelf: null /* the live gas while a result is played */,
   player: null /* the result that is played: {name, frames, rate} */,
@@ -19,52 +19,52 @@ export const initial = {
   sound: false,
   camera: [0.45, 0.22, 1],
   arrows: false,
-  grain: null /* the number of the one that is followed */,
-  question: "" /* a teacher's own, of a link or of this page */,
+  grain: null /* the number of the followed grain */,
+  question: "" /* a teacher's own question, of a link or of this page */,
   pair: "",
   chart: "temperature",
   quantity: "temperature",
   slider: "e",
-  theories: null /* those that are drawn; null: the first few */,
+  theories: null /* the drawn theories; null: the first few */,
   everything: false,
   banner: null /* {text, offers: [{label, act}]} */,
   refusedKeys: [],
-  ghosts: [] /* curves of runs before: {label, chart, x, y} */,
+  ghosts: [] /* curves of earlier runs: {label, chart, x, y} */,
   points: [],
-  lines: {} /* of theories over the slider: {key: {x, theory: [per x]}} */,
+  lines: {} /* lines of theories over the slider: {key: {x, theory: [per x]}} */,
 };
 
-/* What belongs to the gas that is seen, and comes back with it after a result was played. */
+/* Members that belong to the displayed gas, and are restored after a result was played. */
 const SHELVED = ["gas", "means", "lesson", "playing", "theories", "chart", "quantity", "pair"];
 const pick = (from, names) => Object.fromEntries(names.map((name) => [name, from[name]]));
 
 const ACTIONS = {
-  /* Anything of how it is shown. */
+  /* Change how the gas is shown. */
   look: (state, { change }) => ({ ...state, ...change }),
 
-  /* A gas is asked for; an edit is the same, a little earlier. */
-  ask: (state, { asked }) => ({ ...state, asked: { ...state.asked, ...asked } }),
-  /* It runs. Answers may come late: only what was asked for later stays asked. A new flow has other theories. */
+  /* A gas is requested; an edit is the same, a little earlier. */
+  request: (state, { requested }) => ({ ...state, requested: { ...state.requested, ...requested } }),
+  /* A gas has started. Answers may come late: a request made meanwhile stays pending. A new flow has other theories. */
   started: (state, { gas, change }) => ({
     ...state,
     ...change,
     ...(state.shelf ? { shelf: null, player: null, playing: state.shelf.playing } : {}),
     gas,
-    asked: state.asked.id > gas.id ? state.asked : { id: gas.id, scene: gas.scene, sets: gas.sets },
+    requested: state.requested.id > gas.id ? state.requested : { id: gas.id, scene: gas.scene, sets: gas.sets },
     means: null,
     refusedKeys: [],
     theories: state.gas && state.gas.about.values.flow !== gas.about.values.flow ? null : state.theories,
   }),
-  /* It is refused: the gas that there was goes on. */
+  /* A request was rejected: the present gas continues. */
   refused: (state, { text, keys = [], offers = [] }) => ({
     ...state,
-    asked: state.gas ? { id: state.asked.id, scene: state.gas.scene, sets: state.gas.sets } : state.asked,
+    requested: state.gas ? { id: state.requested.id, scene: state.gas.scene, sets: state.gas.sets } : state.requested,
     refusedKeys: keys,
     banner: { text, offers },
   }),
   banner: (state, { banner }) => ({ ...state, banner }),
 
-  /* Of the gas that is seen, or of the one that waits. */
+  /* Means of the displayed gas, or of the live gas while a result is played. */
   means: (state, { id, means }) =>
     state.gas && state.gas.id === id
       ? { ...state, means }
@@ -72,14 +72,14 @@ const ACTIONS = {
         ? { ...state, shelf: { ...state.shelf, means } }
         : state,
 
-  /* A result is played; the live gas waits. */
+  /* A result is played; the live gas is paused. */
   play: (state, { player, gas, change }) => ({
     ...state,
     ...change,
     shelf: state.shelf || pick(state, SHELVED),
     player,
     gas,
-    asked: { id: gas.id, scene: gas.scene, sets: {} },
+    requested: { id: gas.id, scene: gas.scene, sets: {} },
     means: null,
     lesson: null,
     theories: null,
@@ -87,12 +87,12 @@ const ACTIONS = {
   }),
   back: (state, { id }) => {
     const { gas } = state.shelf;
-    return { ...state, ...state.shelf, shelf: null, player: null, asked: { id, scene: gas.scene, sets: gas.sets } };
+    return { ...state, ...state.shelf, shelf: null, player: null, requested: { id, scene: gas.scene, sets: gas.sets } };
   },
 
   ghost: (state, { ghost }) => ({ ...state, ghosts: [ghost, ...state.ghosts.filter((one) => one.label !== ghost.label)].slice(0, 3) }),
   point: (state, { points }) => ({ ...state, points: [...state.points, ...points] }),
-  /* Those of others: what a student gave before is replaced. */
+  /* Add points of others; they replace earlier points of the same student. */
   gather: (state, { points }) => {
     const whose = (one) => `${one.from} ${one.slider} ${one.quantity || ""}`,
       given = new Set(points.map(whose));
@@ -113,7 +113,7 @@ export class Store {
     this.listeners = [];
     this.shown = state;
   }
-  /* Whoever listens hears of it at once, but not within another's hearing. */
+  /* Listeners are called synchronously and never re-entrantly. */
   dispatch(type, more = {}) {
     this.state = reduce(this.state, { type, ...more });
     if (this.telling) return;

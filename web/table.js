@@ -74,7 +74,7 @@ function row(name, parts, theories, means, { md_dsmc_z: z, beyond_expected: far 
   return line;
 }
 
-/* Why theories are out of their range. */
+/* List the reasons why theories are out of their range. */
 export function fillRanges(list, means) {
   const beyond = Object.entries(means.theories).filter(([name, about]) => about.beyond && means.theory[name]);
   list.replaceChildren(...beyond.map(([name, about]) => cell("li", `† ${theoryName(name)} (${about.title}): ${about.beyond}`)));

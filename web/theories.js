@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which theories are drawn, and how: a theory looks the same in each diagram. */
+/* Which theories are drawn, and how: a theory has the same style in each diagram. */
 import { LINES } from "./colours.js";
 import { store } from "./state.js";
 import { byId, cell, theoryName } from "./words.js";
@@ -16,7 +16,7 @@ const FIRST = [
   "sela_goldhirsch1998",
   "grad",
 ];
-const FEW = 2; /* drawn where nobody chose */
+const FEW = 2; /* drawn without a choice of the user */
 
 export const mean = (part, name) => (part && part[name] && Number.isFinite(part[name].mean) ? part[name].mean : NaN);
 export const error = (part, name) => (part && part[name] && Number.isFinite(part[name].stderr) ? part[name].stderr : NaN);
@@ -25,17 +25,17 @@ export function ranked(names) {
   const rank = (name) => (FIRST.indexOf(name) + FIRST.length + 1) % (FIRST.length + 1);
   return [...names].sort((a, b) => rank(a) - rank(b));
 }
-/* Those with an answer to one of these quantities. */
+/* Theories with an answer to one of these quantities. */
 export function theoriesWith(means, names) {
   return ranked(Object.keys(means.theory || {}).filter((name) => names.some((q) => Number.isFinite(mean(means.theory[name], q)))));
 }
-/* Of those the ones that are drawn: the first, or what the student has chosen. */
+/* The theories that are drawn: the first few, or the student's choice. */
 export function chosenTheories(names) {
   const all = ranked(names),
     { theories } = store.state;
   return theories ? all.filter((name) => theories.includes(name)) : all.slice(0, FEW);
 }
-/* A colour of its own for every theory that has something to say of this gas. */
+/* A colour for every theory that has an answer for this gas. */
 export function lineOf(name) {
   const known = store.state.means ? drawable(store.state.means) : [],
     at = known.indexOf(name);
@@ -43,10 +43,10 @@ export function lineOf(name) {
 }
 export const drawable = (means) =>
   ranked([...new Set([...theoriesWith(means, ["temperature", "N1", "cooling_rate"]), ...Object.keys((means.cooling && means.cooling.T) || {})])]);
-/* A dagger where it is out of its range. */
+/* A dagger marks a theory out of its range. */
 export const titleOf = (means, name) => `${theoryName(name)}${means.theories[name] && means.theories[name].beyond ? " †" : ""}`;
 
-/* A box each. */
+/* A check box for each theory. */
 export function showTheories(means) {
   const names = drawable(means),
     shown = store.state.theories || names.filter((name, i) => i < FEW),

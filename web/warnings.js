@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Warnings: where the model stops being true, and what the library warns about. */
+/* Warnings: limits of the model, and warnings of the library. */
 import { MOST_BEHIND } from "./clock.js";
 import { now } from "./gas.js";
 import { t } from "./i18n.js";
@@ -16,7 +16,7 @@ export function allWarnings({ gas, means, player }) {
   if (frame && frame.ended) add("ended", { engine: t(frame.md ? "md" : "dsmc"), why: frame.ended });
   if (frame && frame.dsmcEnded) add("ended", { engine: t("dsmc"), why: frame.dsmcEnded });
   if (now.behind > MOST_BEHIND) add("behind");
-  /* Of a scene that is pasted: the live gas has no end, and its keys are moved by hand. */
+  /* a pasted scene: the live gas has no end, and keys of its protocol are changed by hand */
   if (!player && about.values.run && Number.isFinite(about.values.run.duration)) add("notFollowed");
   if (player && player.frames === 1) add("oneFrame");
   if (!means) return out;
@@ -45,8 +45,8 @@ export function allWarnings({ gas, means, player }) {
   out.push(...warningsOf(means));
   return [...new Set(out)].slice(0, 7);
 }
-/* What the library warns of, less what an unfinished run says of itself, and what is said elsewhere: reasons of numbers
- * that lack, whether the mean is steady. */
+/* Warnings of the library, without those of an unfinished run and those shown elsewhere: reasons of missing numbers,
+ * and whether the mean is steady. */
 function warningsOf(means) {
   const out = [];
   for (const engine of ["md", "dsmc"]) {
@@ -58,7 +58,7 @@ function warningsOf(means) {
   }
   return out;
 }
-/* Of a result: whether its run was steady, too. */
+/* Warnings of a stored result: also whether its run was steady. */
 function storedWarnings(means) {
   const unsteady = ["md", "dsmc"].filter((engine) => means[engine] && means[engine].steady === false);
   return [...unsteady.map((engine) => t("steady_no", { engine: t(engine), why: means[engine].verdict })), ...warningsOf(means)];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers, units and names as a reader wants them. */
+/* Numbers, units and names for readers. */
 import { has, t } from "./i18n.js";
 
 export const number = (x, digits = 4) =>
@@ -17,7 +17,8 @@ export function powerOfTen(x, digits) {
   return `${first === "1" ? "" : `${first}·`}10${superscript(+power)}`;
 }
 
-/* 138.82(40): the error in units of the last digits; (?): it is not known. What is conserved has none but rounding. */
+/* 138.82(40): the error in units of the last digits; (?): unknown error. A conserved quantity has no error but
+ * rounding. */
 export function withError(x, e) {
   if (!Number.isFinite(x)) return "–";
   if (!Number.isFinite(e)) return `${number(x, 3)}(?)`;
@@ -53,7 +54,7 @@ export function theoryName(name) {
     last = all.pop();
   return `${all.length ? `${all.join(", ")} & ` : ""}${last} ${year}${rest ? ` (${rest.replace(/_/g, ", ")})` : ""}`;
 }
-/* Of a quantity of the results: its name for people, where it has one. */
+/* The displayed name of a quantity of the results, where it has one. */
 export const quantityName = (name) => (has(`q_${name}`) ? t(`q_${name}`) : name.replace(/_/g, " "));
 
 export function cell(kind, text, more = {}) {

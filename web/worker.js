@@ -67,7 +67,7 @@ function later() {
   timer = setTimeout(goOn, 0);
 }
 
-/* A few milliseconds of measuring, and then whatever the page wants. */
+/* Measure for a few milliseconds, then serve messages of the page. */
 function goOn() {
   const { id } = measuring;
   try {

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Calls of a worker (RPC): each job is a promise of its answer. */
+
+/* The two workers of the page: `live` runs the gas that is shown, `measure` its means and theories (gas.js opens them). */
+export const workers = { live: null, measure: null };
+
 export class WorkerClient {
   constructor(source) {
     this.worker = new Worker(source);
@@ -19,12 +23,12 @@ export class WorkerClient {
     for (const one of this.pending.values()) one.settle({ refused: message });
     this.pending.clear();
   }
-  /* No more answers. */
+  /* End the worker and reject its open promises. */
   end(message) {
     this.worker.terminate();
     this.fail((this.broken = message));
   }
-  ask(job, more = {}, transfer = []) {
+  request(job, more = {}, transfer = []) {
     const id = ++this.count;
     if (this.broken) return Promise.reject(new Error(this.broken));
     return new Promise((resolve, reject) => {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers that a caller gives: checked, with messages that name the argument."""
+"""Checks of a caller's numbers, with messages that name the argument."""
 import math
 import numbers
 
@@ -11,7 +11,9 @@ def refused(what, value, allowed):
 
 
 def real(value, what, allowed="a number"):
-    """A number as float. Raises TypeError where it is none, BadInput for texts, NaN, infinity and what is too large."""
+    """A number as float. Raises TypeError for other types, BadInput for texts, NaN, infinity and numbers that are too
+    large.
+    """
     if isinstance(value, (str, bytes)):
         raise refused(what, value, allowed)
     try:
@@ -26,7 +28,7 @@ def real(value, what, allowed="a number"):
 
 
 def whole(value, what, least=0, most=2**63 - 1, allowed=None):
-    """A whole number from least to most as int; 3.0 is one."""
+    """A whole number from least to most as int; 3.0 is a whole number."""
     allowed = allowed or f"a whole number of at least {least}"
     found = value if isinstance(value, numbers.Integral) else real(value, what, allowed)
     if isinstance(value, bool) or not least <= found <= most or int(found) != found:

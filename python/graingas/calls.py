@@ -3,7 +3,7 @@
 
 The main thread waits on an Event, never in Thread.join: before Python 3.12 an interrupted join takes the thread for
 dead. Ctrl-C sets an integer that the library reads several times a second without Python. Calls that change nothing
-are left behind then (left_behind)."""
+are then left running in their thread (left_behind)."""
 import threading
 
 from . import _c
@@ -15,7 +15,7 @@ PERIOD = 0.1  # seconds between two reports of progress
 
 
 class Call:
-    """What the callbacks of one call share; its `c` is their context."""
+    """The object that the callbacks of one call share; its `c` is their context."""
 
     def __init__(self):
         self.c = ffi.new("ggpy_call *")
@@ -23,7 +23,7 @@ class Call:
         self.c.self = self._handle
         self.error = None  # the first exception of a callback
         self.interrupted = False
-        self.progress = {}  # of each engine, the last report
+        self.progress = {}  # the last report of each engine
         self.warnings = []
         self.lines = []
         self.events = []
@@ -34,7 +34,7 @@ class Call:
 
     @property
     def stopping(self):
-        """For the library: the function that says whether to stop, and its context."""
+        """The library's callback that requests a stop, and its context."""
         return ffi.addressof(lib, "ggpy_stop"), self.c
 
     def fail(self, error):
@@ -60,7 +60,9 @@ class _Task:
         self.value = self.error = None
 
     def cancel(self):
-        """Whether work has not begun; then it never does. A thread may begin after the Ctrl-C that came as it started."""
+        """Prevents work that has not begun, and returns whether it did. A thread may begin after the Ctrl-C that came
+        as it started.
+        """
         return self.first.acquire(blocking=False)
 
     def work(self):
@@ -75,8 +77,8 @@ class _Task:
 
 
 def interruptible(function, call, poll=None):
-    """function() in a thread. Meanwhile poll(call) ten times a second. Returns its value; raises what a callback or
-    poll raised. Ctrl-C stops the call; call.interrupted says so."""
+    """Runs function() in a thread, and poll(call) ten times a second meanwhile. Returns its value; raises exceptions of
+    callbacks and of poll. Ctrl-C stops the call and sets call.interrupted."""
     task = _Task(function, call)
     thread = threading.Thread(target=task.work, daemon=True, name="graingas")
     started = False
@@ -99,7 +101,9 @@ def interruptible(function, call, poll=None):
 
 
 def finished(function, call, words):
-    """function(error), a call of the library that may take long; raises what it reports. words: of Ctrl-C."""
+    """Runs function(error), a long call of the library; raises the error that it reports. words: text of
+    KeyboardInterrupt.
+    """
     error = new_error()
     status = interruptible(lambda: function(error), call)
     if call.interrupted:
@@ -109,15 +113,16 @@ def finished(function, call, words):
 
 
 def left_behind(function, call=None, words=""):
-    """function() in a thread that Ctrl-C leaves behind: KeyboardInterrupt(words) comes at once, call (if any) is
-    stopped, and what the thread still makes is dropped. For functions that only read, or make something new."""
+    """Runs function() in a thread that Ctrl-C does not wait for: KeyboardInterrupt(words) comes at once, call (if any)
+    is stopped, and the value of the thread is dropped. For functions that only read, or make something new.
+    """
     task = _Task(function, call)
-    if threading.current_thread() is not threading.main_thread():  # Ctrl-C comes to the main one alone
+    if threading.current_thread() is not threading.main_thread():  # Ctrl-C comes to the main thread alone
         task.work()
         return _outcome(task, call)
     try:
         threading.Thread(target=task.work, daemon=True, name="graingas").start()
-        while not task.done.wait(PERIOD):  # without end, a signal just before it would come late
+        while not task.done.wait(PERIOD):  # with a limit: a signal just before a wait without end would be handled late
             pass
     except KeyboardInterrupt:
         if call is not None:

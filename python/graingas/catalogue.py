@@ -71,7 +71,7 @@ def schema():
 
 
 def template(flow="usf"):
-    """A scene of the flow to begin with, as YAML text: every other key is a comment with its default."""
+    """A scene of the flow as a template, as YAML text: every other key is a comment with its default."""
     made = ffi.new("char **")
     check(lib.gg_scene_begin, encode(flow, "flow"), made)
     return owned_text(made)

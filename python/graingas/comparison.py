@@ -25,7 +25,7 @@ class Theory(Mapping):
 
     name, title, citation, assumptions
     reason   why it does not apply to the scene; None if it does
-    beyond   why the scene is beyond what it was made for, although it answers; None within
+    beyond   why the scene is outside the theory's range, although it answers; None within
     """
 
     def __init__(self, comparison, info):
@@ -250,7 +250,7 @@ class Comparison(Mapping):
         return found
 
     def _take(self, result):
-        """A copy of a Result. Nobody may have the result of its engine that the library then frees."""
+        """A copy of a Result. The library frees the result of its engine, so no caller may hold it."""
         if not isinstance(result, Result):
             raise TypeError(f"theories: expected a Result, not {type(result).__name__}")
         copy = from_bytes(lib.gg_result_from_bytes, "gg_result **", result.to_bytes())

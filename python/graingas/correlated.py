@@ -10,22 +10,22 @@ class Correlated:
 
     Covariances are estimated pair by pair, and no set of independent numbers has all of them (their table has large
     negative eigenvalues). So a mean gets exactly its covariance with the earlier mean that correlates most with it. The
-    others are as near as they can be, those whose difference nearly cancels first. Where they cannot be had together,
-    half of the variance that is left is independent, so that no difference vanishes by chance.
+    others are as near as possible, those whose difference nearly cancels first. If all covariances together are
+    impossible, half of the remaining variance is independent, so that no difference vanishes by chance.
     """
 
-    _of_runs = {}  # by identity: a run that is read twice is one run
+    _of_runs = {}  # by identity of the run: a run that is read twice is one run
 
     def __init__(self):
         self._made, self._before, self._shares, self._independent = {}, {}, [], []
 
     @classmethod
     def of(cls, identity):
-        """Those of the run with this identity."""
+        """The numbers of the run with this identity."""
         return cls._of_runs.setdefault(identity, cls())
 
     def number(self, estimate):
-        """None: the error of this mean is unknown."""
+        """The number of a mean. None: the error of this mean is unknown."""
         key = estimate._curve, estimate.name
         if key not in self._made:
             if math.isnan(estimate.error):
@@ -49,7 +49,7 @@ class Correlated:
 
 
 def _share(shares, rho):
-    """A unit vector whose products with the unit vectors `shares` are `rho`, and which may have one more element."""
+    """A unit vector whose products with the unit vectors `shares` are `rho`; it may have one more element."""
     if not shares:
         return np.ones(1)
     nearest = np.argmax(abs(rho))
@@ -60,7 +60,7 @@ def _share(shares, rho):
 
 
 def _nearest(matrix, wanted, weight, room):
-    """Least squares, matrix @ x = wanted. If x @ x is above `room`, the solution with half of that."""
+    """Solves matrix @ x = wanted by least squares. If x @ x is above `room`, the solution with half of that."""
     left, scale, right = np.linalg.svd(weight[:, None] * matrix, full_matrices=False)
     scale = np.where(scale > 1e-6 * scale.max(), scale, 0)
     b = left.T @ (weight * wanted)

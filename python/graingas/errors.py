@@ -33,7 +33,7 @@ class Busy(BadInput):
 
 
 class PartialResult(UserWarning):
-    """A run ended before its stopping criteria; its result has what there is."""
+    """A run ended before its stopping criteria; its result has the means so far."""
 
 
 KINDS = {lib.GG_BAD_INPUT: BadInput, lib.GG_BAD_FILE: BadFile, lib.GG_FAILED: RunFailed}
@@ -53,7 +53,7 @@ def exception(status, error):
 
 
 def check(function, *arguments):
-    """Calls a function whose last argument is the error; raises what it reports."""
+    """Calls a function whose last argument is the error; raises the error that it reports."""
     error = new_error()
     status = function(*arguments, error)
     if status != lib.GG_OK:
@@ -69,7 +69,7 @@ def look_up(function, *arguments):
 
 
 def not_found(what, name, known, none=""):
-    """The NotFound for a name that is not among the known ones. none: what to do where there are none."""
+    """The NotFound for a name that is not among the known ones. none: advice if no names are known."""
     words = [ffi.new("char[]", encode(word)) for word in known]
     near = text(lib.gg_nearest_word(encode(str(name)), ffi.new("char *[]", words + [ffi.NULL])))
     there_are = ", ".join(list(known)[:40]) + ", ..." * (len(known) > 40) or f"none{none}"
@@ -78,7 +78,7 @@ def not_found(what, name, known, none=""):
 
 
 class ByName(dict):
-    """A dict that says what there is where a name is missing."""
+    """A dict whose error for a missing name lists the known names."""
 
     what = none = ""
 

@@ -27,7 +27,7 @@ def format_estimate(mean, error):
 
 
 def _with_number(method):
-    """Arrays, and what is no number, are left to the other operand."""
+    """Arrays and objects that are no numbers are left to the other operand."""
     @functools.wraps(method)
     def operator(self, other):
         if isinstance(other, str) or getattr(other, "ndim", 0) or not hasattr(other, "__float__"):
@@ -45,7 +45,7 @@ def _compared(by):
 
 
 class Origin:
-    """What a mean carries of its run without the results: the identity of the run, and covariances by two names."""
+    """The part of a run that a mean carries without the results: identity of the run, and covariances by two names."""
 
     def __init__(self, identity, rows):
         self.identity, self._rows = identity, rows
@@ -60,18 +60,18 @@ class Origin:
 class Estimate:
     """A mean with its standard error.
 
-    mean, error   numbers in `unit`; NaN error: the run is too short to know it
+    mean, error   numbers in `unit`; NaN error: the run is too short for one
     tau           correlation time, in `tau_unit`; NaN: unknown
     samples       number of samples
     reason        why there is no mean; None if there is one
     symbol        of the quantity, LaTeX: f"${e.symbol}$"; None: a number of a curve or a quantity of your own
     u             the same as a number of uncertainties, correlated with the means of the run whose `u` was used before.
-                  Of two means every combination has the error of the operators below; of more, nearly
+                  Combinations of two means have the error of the operators below; those of more means nearly
 
     + - * / **, np.sqrt, np.log, np.log10 and np.exp give estimates. Errors add up linearly: means of different runs are
     independent, those of one run have a covariance, also if they were read twice, copied or pickled. The error is NaN
-    where that is not known, and where a sum of several means nearly cancels. + and - of unlike units raise BadInput; a
-    plain number has the unit of the estimate.
+    where the covariance is not known, and where a sum of several means nearly cancels. + and - of unlike units raise
+    BadInput; a plain number has the unit of the estimate.
     < <= > >= ==, and so max() and sorted(), compare means alone: whether two differ is (a - b).mean / (a - b).error.
     float(), round() and functions of `math` take the mean alone, without its error: use the functions above, and for
     others `u` with uncertainties.umath. f"{e}" has the error, f"{e:.3f}" is the mean.
@@ -102,7 +102,7 @@ class Estimate:
         return made if made is not None else ufloat(self.mean, self.error, tag=self.name or None)
 
     def _covariance_with(self, curve, name):
-        """With another mean of the run; NaN: unknown, as of numbers of curves."""
+        """Covariance with another mean of the run; NaN: unknown, as for numbers of curves."""
         known = self._source is not None and self._curve is None and curve is None
         return self._source._covariance(self.name, name) if known else math.nan
 
@@ -185,7 +185,7 @@ class Estimate:
         return self**0.5
 
     def log(self):
-        """For np.log: of the number in `unit`."""
+        """For np.log: the logarithm of the number in `unit`."""
         return self._combined(None, _logarithm(self.mean), _slope(self.mean, 0, 1), 0, "1")
 
     def log10(self):
@@ -228,7 +228,7 @@ class Estimate:
         return self.__copy__()
 
     def __reduce__(self):
-        """With the covariances with other means of the run, not with the run itself."""
+        """Pickles the covariances with other means of the run, not the run itself."""
         fields = tuple(getattr(self, name) for name in FIELDS)
         if self._terms is not None:
             return _restored, (fields, None, list(self._terms.values()))
@@ -254,7 +254,7 @@ def _restored(fields, origin, terms):
 
 
 def _key(estimate):
-    """What two estimates that are the same mean share: their run, or of one without a run its token; curve; name."""
+    """Key that is equal for two estimates of the same mean: their run (without a run: a token); curve; name."""
     if estimate._source is not None:
         return estimate._source.identity, estimate._curve, estimate.name
     if estimate._token is None:
@@ -300,13 +300,13 @@ def _of_one_run(a, b):
 
 
 def _covariance(a, b):
-    """Of two unlike means of one run; NaN: unknown."""
+    """Covariance of two different means of one run; NaN: unknown."""
     found = a._covariance_with(b._curve, b.name)
     return found if math.isfinite(found) else b._covariance_with(a._curve, a.name)
 
 
 def _error(terms):
-    """Standard error of a sum of derivative times estimate."""
+    """Standard error of a sum of terms derivative times estimate."""
     variance = independent = sum(d**2 * e.error**2 for d, e in terms if d)
     for i, (d, a) in enumerate(terms):
         for f, b in terms[:i]:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Observables, theories and laws of restitution from Python functions.
 
-An exception in such a function ends every call that uses it at the time, and comes out of that call."""
+An exception in such a function ends every call that uses it at the time, and is raised by that call."""
 from __future__ import annotations
 
 import importlib
@@ -28,8 +28,9 @@ class DoesNotApply(Exception):
 
 
 class Extension:
-    """What define_observable(), define_theory() and define_law() return: scene.add() registers it, and calling it calls
-    the function. Pickles name it, or its function, by module and name, so it has to be at the top level of a module."""
+    """Base of the objects that define_observable(), define_theory() and define_law() return. scene.add() registers it;
+    calling it calls the function. Pickles have module and name of it or of its function, so it has to be at the top
+    level of a module."""
 
     def __init__(self, name, function):
         self.name, self.function = name, function
@@ -53,7 +54,7 @@ class Extension:
             call.fail(error)
 
     def _recipe(self):
-        """What makes it again: a function, and its arguments."""
+        """A function and its arguments that make the object again."""
         raise NotImplementedError
 
     def __eq__(self, other):
@@ -63,7 +64,9 @@ class Extension:
         return hash((type(self), self.name))
 
     def __reduce__(self):
-        """By its name in the module of its function, as pickles name functions; else by the names of its functions."""
+        """Pickles its name in the module of its function, as pickles name functions; else the names of its
+        functions.
+        """
         module = getattr(self.function, "__module__", None)
         name = next((name for name, thing in vars(sys.modules.get(module, self)).items() if thing is self), None)
         if name is not None:
@@ -112,7 +115,7 @@ def _first_line(function):
 
 
 class Sample:
-    """What an observable is shown at the end of a sampling interval, valid during the call only.
+    """The argument of an observable at the end of a sampling interval, valid during the call only.
 
     time, elapsed, n, n_species, volume, collisions, dissipation, box (3), stress (3, 3; collisional: xx, yy, zz, xy, yx)
     position (n, 3; None in dsmc), velocity (n, 3; peculiar), spin (n, 3; None for smooth grains), species (n,),
@@ -184,7 +187,7 @@ class Observable(Extension):
         return found
 
     def store(self, found, into):
-        """What the function returned, as one number a quantity."""
+        """Stores the returned value of the function, as one number a quantity."""
         if isinstance(found, dict):
             unknown = set(found) - set(self.quantities)
             if unknown:
@@ -224,7 +227,7 @@ def define_observable(name, quantities=None, *, doc=None, state=0, collision=Non
 
     quantities   names and units: {"skew": "1"}, or names; None: one quantity of the observable's name
     state        so many numbers that the run keeps for each replica, also in checkpoints, zero at the start; the
-                 functions then have it as second argument, an array of shape (state,), and change it in place
+                 functions then get it as second argument, an array of shape (state,), and change it in place
     collision    function(view) or function(view, state), called with each collision while averaging
 
     The function takes a Sample and returns a number, a list, or a dict of numbers by quantity, in units of results.
@@ -311,8 +314,8 @@ def define_theory(name, quantities, *, title=None, citation=None, assumptions=No
                  contact_value), in units of results
 
     The function returns a number, a list, or a dict of numbers by quantity; or a text, or raises DoesNotApply: the
-    reason why it does not apply, which continues the name ("describes free cooling"). scene.add() registers the theory;
-    theory() and scan() take it as it is.
+    reason why it does not apply, a text that continues the name ("describes free cooling"). scene.add() registers the
+    theory; theory() and scan() take it as it is.
     """
     quantities = [quantities] if isinstance(quantities, str) else quantities
 
@@ -360,8 +363,8 @@ def define_law(law, name="own") -> Law:
           a pair of arrays, ascending speeds and values of e: linear between them, constant beyond;
           a numba.cfunc("float64(voidptr, float64, int32, int32)"): context, speed, species, compiled
 
-    Speeds have the units of results. The function is called at every collision; a table is the fastest. A value that is
-    no number from 0 to 1 is clamped (NaN: 0), counted in the result and warned of.
+    Speeds have the units of results. The function is called at every collision; a table is the fastest. Values outside
+    0 to 1 are clamped (NaN: 0) and counted in the result, with a warning.
     """
     if hasattr(law, "address"):
         _check_signature(str(getattr(law, "_sig", "")))
@@ -377,7 +380,7 @@ def define_law(law, name="own") -> Law:
 
 
 def _check_signature(found):
-    """That of a numba.cfunc: with another one the library would read other registers."""
+    """Checks the signature of a numba.cfunc: with another one the library would read other registers."""
     if found and not re.fullmatch(r"\(\S+\*, float64, int32, int32\) -> float64", found):
         raise TypeError(f'define_law: the compiled function is {found}; expected '
                         'numba.cfunc("float64(voidptr, float64, int32, int32)")')

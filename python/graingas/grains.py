@@ -14,7 +14,7 @@ ffi = _c.ffi
 class Grains:
     """Copies of the grains, in units of results.
 
-    position   (n, 3) from 0 to the edges of the box; None where the engine has none (dsmc)
+    position   (n, 3) from 0 to the edges of the box; None in an engine without positions (dsmc)
     velocity   (n, 3) relative to the imposed flow gamma (y - box[1]/2) along x
     spin       (n, 3) angular velocity; 0 for smooth grains
     species    (n,)   from 0
@@ -44,8 +44,9 @@ SHAPES = {"position": (3,), "velocity": (3,), "spin": (3,), "species": ()}
 
 
 def grains_from(n, **arrays):
-    """A gg_grains of the caller's arrays, checked and converted, and the arrays that have to outlive it. None: NULL.
-    n: number of grains; None: that of the arrays."""
+    """A gg_grains of the caller's arrays, checked and converted, and the arrays that have to outlive it. None gives
+    NULL. n: number of grains; None: that of the arrays.
+    """
     into, kept = new("gg_grains"), []
     for name, values in arrays.items():
         if values is None:

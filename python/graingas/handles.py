@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Handles of the library: freed once, not used after that, by one call at a time."""
+"""Handles of the library: freed once, never used after that, used by one call at a time."""
 import threading
 from contextlib import contextmanager
 
@@ -8,7 +8,7 @@ from .errors import BadInput, Busy
 
 ffi = _c.ffi
 
-LEFT = 60  # seconds to wait for a call that Ctrl-C has left behind
+LEFT = 60  # seconds to wait for a call that still runs after Ctrl-C
 
 
 class Handle:
@@ -17,7 +17,7 @@ class Handle:
     def __init__(self, pointer, free, what):
         self._pointer, self._what = ffi.gc(pointer, free), what
         self._lock = threading.Lock()
-        self._left = []  # of each call that Ctrl-C left behind, the event of its end
+        self._left = []  # the end events of calls that still run after Ctrl-C
 
     @contextmanager
     def held(self, patience=0):
@@ -35,8 +35,9 @@ class Handle:
             self._lock.release()
 
     def read(self, function, patience=0, call=None):
-        """function(pointer), which changes nothing, in a thread: Ctrl-C leaves it behind and stops call (if any), and
-        later calls wait for its end."""
+        """Runs function(pointer), which changes nothing, in a thread. Ctrl-C does not wait for it and stops call (if
+        any); later calls wait for its end.
+        """
         ended = threading.Event()
 
         def work():

@@ -23,7 +23,7 @@ STYLE = {"axes.spines.top": False, "axes.spines.right": False, "axes.labelsize":
 
 
 def styled(function):
-    """Draws in the style, which changes nothing outside."""
+    """Context in which matplotlib has the style."""
     @functools.wraps(function)
     def draw(*arguments, **options):
         import matplotlib
@@ -44,7 +44,7 @@ def new_axes(ax=None):
 
 
 def legend(ax):
-    """Inside the axes; beside them where it is long."""
+    """Adds a legend inside the axes; beside them where it is long."""
     entries = len(ax.get_legend_handles_labels()[1])
     if entries <= 4:
         ax.legend()
@@ -70,7 +70,7 @@ def label(name, unit=None, symbol=None):
 
 
 def time_label(quantities):
-    """The unit of time is that of a rate, inverted. quantities: of the scene's results."""
+    """Label of a time axis: the unit of time is that of a rate, inverted. quantities: those of the scene's results."""
     rate = quantities["collision_rate"].unit
     return label("time", "d/v_0" if rate == "v_0/d" else f"1/{rate}" if " " not in rate else f"1/({rate})")
 
@@ -152,7 +152,7 @@ def plot_comparison(comparison, quantities=None, ax=None):
     ax.axhline(1, color="grey", linewidth=0.5)
     texts = [symbol_text(name, comparison[name].symbol) for name in names]
     letters = max(len(re.sub(r"\\[a-zA-Z]+", "x", text).translate(dict.fromkeys(b"${}^"))) for text in texts)
-    crowded = letters * len(texts) > 60  # in the width of a column they would run into each other
+    crowded = letters * len(texts) > 60  # in the width of a column the texts would overlap
     ax.set_xticks(x, texts, **(dict(rotation=60, ha="right") if crowded else {}))
     ax.set(ylabel="ratio to md" if comparison.md is not None else "ratio to dsmc")
     legend(ax)
@@ -160,7 +160,7 @@ def plot_comparison(comparison, quantities=None, ax=None):
 
 
 def _lines(grid, over):
-    """Every combination of solver and of the keys that are not along x: its label, and where it is in the arrays."""
+    """Every combination of solver and of the keys that are not along x: its label, and its index in the arrays."""
     others = [dim for dim in grid.dims if dim != over]
     for places in itertools.product(*(range(len(grid.coords[dim])) for dim in others)):
         at = dict(zip(others, places))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Progress of long calls: a bar by tqdm where it is installed, or a function of the caller's."""
+"""Progress of long calls: a bar by tqdm where it is installed, or a function of the caller."""
 import sys
 
 from . import _c, calls
@@ -17,7 +17,7 @@ def ggpy_progress(context, progress):
 
 
 def fraction(call, engines):
-    """Of the whole call, from the fractions of its engines."""
+    """Finished fraction of the whole call, from the fractions of its engines."""
     overall = [report.overall for report in call.progress.values() if hasattr(report, "overall")]
     if overall:
         return max(overall)
@@ -84,7 +84,7 @@ class Reports:
 
 
 def reporter(progress, engines=1, describe=None):
-    """progress: True, False, None (a bar where somebody sees it), or a function of a report."""
+    """progress: True, False, None (a bar in a terminal or notebook), or a function of a report."""
     if callable(progress):
         return Reports(progress)
     if progress or (progress is None and _interactive()):

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How gases relax: curves in time, means of many replicas in one or both engines, with what is changed on the way."""
+"""Relaxation of gases: curves in time, means of many replicas in one or both engines, with changes of keys on the
+way.
+"""
 from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
@@ -31,7 +33,7 @@ class TimeSeries:
 
 
 def _first_crossing(time, difference):
-    """When a difference changes its sign for the first time, by straight lines; NaN: never."""
+    """Time of the first change of sign of a difference, by straight lines; NaN: never."""
     after = np.flatnonzero(difference[:-1] * difference[1:] < 0)
     if not len(after):
         return np.nan
@@ -64,7 +66,7 @@ class Relaxation:
         return {engine: of[quantity] for engine, of in self._series.items()}
 
     def z(self, quantity):
-        """(points) md minus dsmc over their combined standard error. Points of one replica depend on each other."""
+        """(points) md minus dsmc over their combined standard error. Points of one replica are correlated."""
         if set(self.engines) != set(ENGINES):
             raise BadInput(f"z: it takes both engines; here is {self.engines[0]} alone")
         md, dsmc = (self[quantity][engine] for engine in ENGINES)
@@ -140,7 +142,7 @@ def _set_temperatures(sim, wanted):
     velocity = np.array(grains.velocity)
     kind = np.asarray(grains.species)
     mass = np.array([s.mass for s in species])[kind][:, None]
-    for _ in range(5):  # the mean that is taken off changes temperatures, by 1/N each time
+    for _ in range(5):  # subtracting the mean changes temperatures, by 1/N each time
         velocity -= (mass * velocity).sum(axis=0) / mass.sum()
         for k, T in enumerate(wanted):
             own = kind == k
@@ -162,7 +164,7 @@ class _Replicas:
 
     def __init__(self, scene, time, protocol, ratios):
         self.scene, self.time, self.ratios, self.protocol = scene, time, ratios, protocol
-        self.call = calls.Call()  # of all
+        self.call = calls.Call()  # of all replicas
 
     def run(self, n, threads):
         """Quantity -> values (n, points)."""
@@ -193,7 +195,7 @@ class _Replicas:
             _advance_to(sim, begin + t)
             now, row = _now(sim, rough)
             at.append(now - begin), rows.append(row)
-        # Monte Carlo ends within a step behind the time.
+        # Monte Carlo ends at most one step after the time.
         return {q: np.interp(self.time, at, [row[q] for row in rows]) for q in rows[0]}
 
 
@@ -255,8 +257,9 @@ def relax(scene, until: float, *, points: int = 60, replicas: int = 16, engines:
                  "a2": a2, "spin": omega_z}; instead of T also those of the species, [T_1, T_2, ...]
     threads      replicas at a time; None: all processors
 
-    Sheared gases, too: velocities are those about the flow. Free cooling is not rescaled: not beyond 100 decades.
-    Ctrl-C ends it within 0.1 s, also while gases are made (a million grains: 0.5 s), and raises KeyboardInterrupt.
+    Sheared gases have velocities about the flow. Free cooling is not rescaled, and ends after 100 decades.
+    Ctrl-C ends the call within 0.1 s, also while gases are made (a million grains: 0.5 s), and raises
+    KeyboardInterrupt.
     """
     if "engine" in keys:
         raise BadInput(f"relax: engine has no effect; give engines={keys['engine']!r}")

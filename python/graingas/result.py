@@ -71,7 +71,7 @@ class Result(Mapping):
         return list(self)
 
     def _covariance(self, a, b):
-        """Of two means; NaN: unknown."""
+        """Covariance of two means; NaN: unknown."""
         found = ffi.new("double *")
         lib.gg_result_covariance(self._pointer, a.encode(), b.encode(), found, ffi.NULL)
         return found[0]
@@ -83,7 +83,7 @@ class Result(Mapping):
         return found[0]
 
     def _row(self, quantity):
-        """Covariances with all means where they are known."""
+        """Covariances of a mean with all means where they are known."""
         found = {name: self._covariance(quantity, name) for name in self}
         return {name: number for name, number in found.items() if math.isfinite(number)}
 
@@ -190,7 +190,7 @@ def iter_texts(get):
 
 
 def bytes_of(function, pointer, *more):
-    """What a gg_..._to_bytes gives."""
+    """The bytes that a gg_..._to_bytes returns."""
     made, size = ffi.new("void **"), ffi.new("size_t *")
     check(function, pointer, *more, made, size)
     try:
@@ -200,7 +200,7 @@ def bytes_of(function, pointer, *more):
 
 
 def write(function, pointer, path):
-    """What a gg_..._write does."""
+    """Writes a file by a gg_..._write."""
     path, call = encode(path, "file name"), calls.Call()
     calls.finished(lambda error: function(pointer, path, *call.stopping, error), call, "the file is whole or unchanged")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs and comparisons: to the end that the scene asks for."""
+"""Runs and comparisons, until the scene's stopping criteria are met."""
 from __future__ import annotations
 
 import warnings
@@ -48,7 +48,7 @@ def thread_count(threads):
 
 
 def _options(call, threads, accept_version, files):
-    """The struct; call.keep has what has to outlive it."""
+    """The struct of options; call.keep has the objects that have to outlive it."""
     options = new("gg_run_options")
     options.threads, options.accept_version = thread_count(threads), bool(accept_version)
     options.context, options.stop = call.c, ffi.addressof(lib, "ggpy_stop")
@@ -100,13 +100,13 @@ def run(scene, threads: Optional[int] = 1, output=None, checkpoint=None, resume=
     output       result file to write (HDF5); a run that Ctrl-C ends writes none: result.write(path) does
     checkpoint   file to keep checkpoints in; the run writes one when it is interrupted
     resume       checkpoint to continue from, bit for bit
-    progress     True, False, None (a bar where a person sees it), or a function of a report
+    progress     True, False, None (a bar in a terminal or notebook), or a function of a report
     accept_version
                  also resume a checkpoint of another build of graingas, whose numbers may differ
 
     Ctrl-C ends the run within 0.1 s (a million grains of md: 0.2 s) and returns what there is, with a warning
     PartialResult and `partial` set; a run that ends before its criteria likewise. Raises BadInput, BadFile,
-    RunFailed, and what a callback raised.
+    RunFailed, and exceptions of callbacks.
     """
     return _long_run(lib.gg_run, "gg_result", 1, scene, threads, progress, accept_version,
                      {"output": output, "checkpoint": checkpoint, "resume": resume})

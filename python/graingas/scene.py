@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes: what to simulate."""
+"""Scenes: descriptions of simulations."""
 from __future__ import annotations
 
 import json
@@ -21,7 +21,7 @@ PATIENCE = 10  # seconds that a thread waits for another one that uses the same 
 
 
 def _short_names():
-    """seed -> run.seed: last words that only one key has. Of e, beta and mu those of `collision`, not of `walls`."""
+    """seed -> run.seed: last words that only one key has. The names e, beta and mu mean `collision`, not `walls`."""
     last = {}
     for key in KEYS:
         last.setdefault(key.rpartition(".")[2], []).append(key)
@@ -95,7 +95,7 @@ class Group(Mapping):
 
 
 class Scene(Mapping):
-    """What to simulate: a YAML file or YAML text, and keys.
+    """The description of a simulation: a YAML file or YAML text, and keys.
 
     Scene("usf.yaml", e=0.8)
     Scene("flow: usf\\nphi: 0.1")
@@ -118,7 +118,7 @@ class Scene(Mapping):
     def _adopt(self, pointer, extensions, file=None):
         object.__setattr__(self, "_handle", Handle(pointer, lib.gg_scene_free, "scene"))
         object.__setattr__(self, "_extensions", list(extensions))
-        object.__setattr__(self, "_file", file)  # that it was read from, which no output may replace
+        object.__setattr__(self, "_file", file)  # the file that it was read from, which no output may replace
 
     @classmethod
     def _from_pointer(cls, pointer, extensions=(), file=None):
@@ -128,7 +128,7 @@ class Scene(Mapping):
 
     @classmethod
     def _copy_of(cls, pointer, extensions=(), file=None):
-        """A scene that the library lends."""
+        """A copy of a scene that the library owns."""
         copy = ffi.new("gg_scene **")
         check(lib.gg_scene_copy, pointer, copy)
         return cls._from_pointer(copy[0], extensions, file)
@@ -216,7 +216,7 @@ class Scene(Mapping):
         return owned_text(made)
 
     def _given_texts(self):
-        """What was given as YAML by key, theories last: JSON is YAML, too."""
+        """The given values as YAML by key, theories last: JSON is YAML, too."""
         found, theories = {key: self.text_of(key) for key in self._given_names()}, self["theories"]
         return {**found, "theories": json.dumps(theories, ensure_ascii=False)} if theories else found
 
@@ -228,7 +228,7 @@ class Scene(Mapping):
         return owned_text(made)
 
     def check(self) -> None:
-        """Raises BadInput, with the reason, if the keys do not go together."""
+        """Raises BadInput, with the reason, if the keys contradict each other."""
         with self.held() as scene:
             check(lib.gg_scene_check, scene)
 
@@ -260,7 +260,7 @@ class Scene(Mapping):
         try:
             extension.add_to(scene)
         finally:
-            self._extensions.append(extension)  # the library may hold it from now on
+            self._extensions.append(extension)  # the library may use it from now on
         if call.error is not None:
             raise call.error
 
@@ -273,7 +273,7 @@ class Scene(Mapping):
         return text(buffer)
 
     def needs(self, engine: str | None = None) -> Record:
-        """What a run takes on an engine: memory (bytes), cpu_seconds, collisions_per_grain, file (bytes)."""
+        """Cost of a run on an engine: memory (bytes), cpu_seconds, collisions_per_grain, file (bytes)."""
         needs = new("gg_scene_needs")
         with self.held() as scene:
             check(lib.gg_scene_get_needs, scene, encode(engine or yaml.read(_get(scene, "engine")), "engine"), needs)
@@ -289,7 +289,7 @@ class Scene(Mapping):
         return self._lines(lib.gg_scene_warnings, use)
 
     def describe(self, engine: str) -> list[str]:
-        """What an engine switches on and off for the scene, line by line."""
+        """Features that an engine switches on and off for the scene, line by line."""
         return self._lines(lib.gg_scene_describe, engine)
 
     def help(self, key: str) -> None:
@@ -329,7 +329,7 @@ def _restored(text, extensions, file):
 
 
 def _written(key, value):
-    """A value as YAML. A file may have any name, but that of a word of the key: none."""
+    """A value as YAML. A file may have any name but a word that the key takes (none)."""
     word = getattr(KEYS.get(key), "type", None) == "file" and isinstance(value, (str, os.PathLike)) and value != "none"
     return yaml.quoted(os.fspath(value)) if word else yaml.write(value)
 
@@ -353,7 +353,7 @@ def _flatten(keys):
 
 
 def _load(source, changes):
-    """The C scene of a file, a text, or of the keys alone, which it takes out of `changes`."""
+    """The C scene of a file, a text, or of the keys alone; used keys are removed from `changes`."""
     made = ffi.new("gg_scene **")
     if source is None:
         keys = {key: _written(key, value) for key, value in changes.items() if key in KEYS or key == "theories"}

@@ -20,7 +20,7 @@ from .structs import Record, array, dtype, new, values
 
 ffi = _c.ffi
 
-ADVANCED = "the simulation can be advanced further"  # words of Ctrl-C
+ADVANCED = "the simulation can be advanced further"  # text of KeyboardInterrupt
 
 EVENT = dtype("gg_collision_event")
 
@@ -50,7 +50,7 @@ class Event:
 
 
 class _Watcher:
-    """Who is shown the collisions, and the call that they happen in."""
+    """The callback for collisions, and the call in which they occur."""
 
     def __init__(self):
         self.function = self.call = None
@@ -67,7 +67,7 @@ class _Watcher:
             check(lib.gg_simulation_on_collision, simulation, ffi.addressof(lib, "ggpy_show"), self.c)
 
     def finished(self):
-        """After a call: does it watch no more?"""
+        """After a call: is the callback no longer registered?"""
         return not self.c.watching
 
 
@@ -101,7 +101,7 @@ def ggpy_collision(context, event):
 
 
 def followed(scene):
-    """Which keys of a followed gas a scene gives; "": none."""
+    """The keys for transient runs that a scene gives; "": none."""
     given = [key for key, value in scene.given().items() if key in ("run.duration", "protocol") and value]
     return " and ".join(given)
 
@@ -114,7 +114,7 @@ class Simulation:
                                      grains from outside, arrays of shape (n, 3) and (n,) as of `grains`; dsmc has no
                                      positions. Raises BadInput, which names two grains that overlap
 
-    It follows no protocol of the scene: change keys by sim[key] = value, or use run() or relax().
+    A protocol of the scene is not applied: change keys by sim[key] = value, or use run() or relax().
 
     The same scene, seed and stream give the same trajectory, bit for bit. Numbers have the units of results. One thread
     at a time may use a simulation: other uses, also from its own callback, raise Busy. Ctrl-C ends an advance within
@@ -147,7 +147,7 @@ class Simulation:
 
     @classmethod
     def _one_of(cls, scene, stream, together):
-        """One of several that are stopped together, from their start to their last advance: their calls are one Call."""
+        """One of several simulations that stop together, from their start to their last advance: all use one Call."""
         made = cls.__new__(cls)
         made._start(scene, stream, together, together=together)
         return made
@@ -199,8 +199,8 @@ class Simulation:
 
     def on_collision(self, function: Optional[Callable[[Any], None]]):
         """Calls function(event) at every collision between grains, with grain, species, k, velocity, normal_speed,
-        impulse, time. None: no more, also from within the function. It costs time, and Monte Carlo has another
-        trajectory meanwhile. An exception of the function ends the advance and comes out of it."""
+        impulse, time. None removes the callback, also from within the function. Callbacks cost time, and Monte Carlo
+        has another trajectory meanwhile. An exception of the function ends the advance, which raises it."""
         if function is not None and not callable(function):
             raise TypeError("on_collision: expected a function or None")
         self._watcher.set(function)
@@ -255,7 +255,9 @@ class Simulation:
 
     @property
     def species(self) -> list:
-        """Of each species: grains, diameter, mass, inertia (4I/(m d^2)), temperature, rotational_temperature."""
+        """Properties of each species: grains, diameter, mass, inertia (4I/(m d^2)), temperature,
+        rotational_temperature.
+        """
         with self._handle.held() as pointer:
             return species_of(lib.gg_simulation_get_species, pointer, lib.gg_simulation_species(pointer))
 
@@ -267,8 +269,9 @@ class Simulation:
             return copy_grains(lib.gg_simulation_get_grains, pointer, state.grains, state.box[0] > 0)
 
     def set_grains(self, positions=None, velocities=None, spins=None, species=None) -> None:
-        """Replaces positions, velocities, spins or species; what is None stays. Time, counts and random stream go on.
-        The simulation is unchanged if this raises BadInput: a wrong shape, overlapping grains."""
+        """Replaces positions, velocities, spins or species; None keeps the present ones. Time, counts and random stream
+        continue. The simulation is unchanged if this raises BadInput: a wrong shape, overlapping grains.
+        """
         n = self.state.grains
         grains, kept, _ = grains_from(n, position=positions, velocity=velocities, spin=spins, species=species)
         with self._in_use() as (pointer, call):
@@ -317,7 +320,7 @@ class Simulation:
         return cls._read(load, scene)
 
     def to_bytes(self) -> bytes:
-        """What save() writes, in memory."""
+        """The content of the file of save(), in memory."""
         call = calls.Call()
         return self._handle.read(lambda pointer: bytes_of(lib.gg_simulation_to_bytes, pointer, *call.stopping), call=call)
 

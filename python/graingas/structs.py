@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Structs of the header in Python: made, copied into numpy, read as simple values."""
+"""Structs of the header in Python: creation, copies in numpy, reading as simple values."""
 import numpy as np
 
 from . import _c

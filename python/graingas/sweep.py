@@ -33,7 +33,7 @@ class Point:
     name     of its file, a hash
     state    "missing", "done", "short": done, but ended before its stopping criteria; "other build" or "damaged": runs again
     file     its result file; None while it is missing
-    seconds  of processor time that it is expected to take
+    seconds  expected processor time
     """
 
     def __init__(self, keys, name, state, file, seed, seconds, scene):
@@ -71,16 +71,17 @@ class Sweep:
 
     @classmethod
     def parse(cls, source, folder=None, name="sweep") -> Sweep:
-        """The sweep of a file's text: a scene with the maps `vary` and `sweep`. Nothing runs before run(). `name` of the
-        file appears in messages."""
+        """Makes a sweep of a file's text: a scene with the maps `vary` and `sweep`. Nothing runs before run(). `name`
+        of the file appears in messages.
+        """
         made = ffi.new("gg_sweep **")
         check(lib.gg_sweep_parse, encode(source), encode(name), made)
         return cls._checked(made[0], folder)
 
     @classmethod
     def load(cls, path, folder=None, does=None) -> Sweep:
-        """The sweep of a file, or of a sweep's folder, whose results it then has. Nothing runs before run(). does: in
-        place of what the file says."""
+        """The sweep of a file, or of a sweep's folder with its results. Nothing runs before run(). does: replaces
+        that of the file."""
         made = ffi.new("gg_sweep **")
         check(lib.gg_sweep_load, encode(path, "file name"), made)
         return cls._checked(made[0], path if folder is None and os.path.isdir(path) else folder, does)
@@ -112,7 +113,7 @@ class Sweep:
 
     def run(self, threads=1, progress=None, accept_version=False) -> Sweep:
         """Runs the points that are not finished. accept_version: points of another build of graingas are finished, too,
-        though its numbers may differ. Ctrl-C and what falls short: as sweep()."""
+        though its numbers may differ. Ctrl-C and points that end early: as for sweep()."""
         call, error, options = calls.Call(), new_error(), new("gg_sweep_options")
         options.threads, options.context, options.accept_version = thread_count(threads), call.c, bool(accept_version)
         call.keep.append(ffi.new("char[]", b"graingas (Python)"))
@@ -184,7 +185,7 @@ class Sweep:
 
     def plot(self, quantity="temperature", over=None, relative_to=None, ax=None):
         """Draws a quantity over a key, a line for each solver and combination of the other keys; returns the axes.
-        relative_to: a solver that all others are divided by."""
+        relative_to: the solver by which all others are divided."""
         from .plot import plot_sweep
         return plot_sweep(self.grid(), quantity, over, relative_to, ax)
 
@@ -312,8 +313,8 @@ def sweep(scene, vary=None, *, does="run", folder=None, threads=1, seeds="indepe
     accept_version
                  keep points of another build of graingas, whose numbers may differ
 
-    Ctrl-C returns what there is, with a warning PartialResult and `partial` set; so do points that ended before their
-    stopping criteria. Raises BadInput, which names the first point that cannot be simulated; BadFile.
+    Ctrl-C returns the finished points, with a warning PartialResult and `partial` set; so do points that ended before
+    their stopping criteria. Raises BadInput, which names the first point that cannot be simulated; BadFile.
     """
     scene, axes = as_scene(scene), grid_keys(vary, keys)
     if not axes:
@@ -330,8 +331,8 @@ def validate(source=None, *, quick=False, folder=None, threads=1, progress=None,
 
     source   file of a sweep, or its folder; None: the standard grid, uniform shear over density and restitution
     quick    the small standard grid
-    Ctrl-C during the runs: the verdict on what there is, with a warning PartialResult; KeyboardInterrupt if that is
-    nothing. Other arguments and errors: as for sweep() and Sweep.validate().
+    Ctrl-C during the runs: the verdict on the finished points, with a warning PartialResult; KeyboardInterrupt without
+    any. Other arguments and errors: as for sweep() and Sweep.validate().
     """
     if source is None:
         found = Sweep.parse(text(lib.gg_standard_grid(quick)), folder, "the standard grid")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Theories without simulation: of one scene, and over a grid of scenes."""
+"""Theories without simulation: for one scene, and over a grid of scenes."""
 from __future__ import annotations
 
 import itertools
@@ -48,7 +48,7 @@ def theory(scene, name) -> Theory:
     """Answers of one theory: theory(s, "lun1991")["shear_viscosity"] is a number in units of results.
 
     name   of a theory, or one of define_theory(), which need not be added to the scene
-    Raises NotFound for an unknown theory. One that does not apply has no answers and a `reason`.
+    Raises NotFound for an unknown theory. A theory that does not apply has no answers and a `reason`.
     """
     scene = as_scene(scene).copy()
     if hasattr(name, "add_to"):

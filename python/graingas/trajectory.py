@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Trajectories: what a run has stored of its grains."""
+"""Trajectories: the stored frames of a run."""
 from __future__ import annotations
 
 import numpy as np
@@ -34,7 +34,7 @@ class Frame:
 
     @property
     def cell(self) -> np.ndarray:
-        """Edges of the periodic cell as rows, (3, 3); under shear it leans."""
+        """Edges of the periodic cell as rows, (3, 3); under shear it is tilted."""
         cell = np.diag(self.state.box)
         cell[1, 0] = self.state.image_offset
         return cell
@@ -56,7 +56,7 @@ class Frame:
 
 
 class Trajectory:
-    """Frames of a result file, a sequence; one at a time is in memory. Of a comparison they are md's."""
+    """Frames of a result file, a sequence; one at a time is in memory. The frames of a comparison are those of md."""
 
     def __init__(self, path):
         path = encode(path, "file name")

@@ -4,13 +4,13 @@ import re
 from fractions import Fraction
 from functools import lru_cache
 
-ORDER = ["rho_p", "n", "m", "d", "v_0", "gamma"]  # in which the library writes them
+ORDER = ["rho_p", "n", "m", "d", "v_0", "gamma"]  # in which the library writes units
 TOKEN = re.compile(r"\s*([()/^]|[^\s()/^]+)")
 
 
 @lru_cache(maxsize=None)
 def parse(text):
-    """Pairs of a factor and its exponent, in one order. A text that is no product is one factor."""
+    """Pairs of a factor and its exponent, in the order above. A text that is no product is one factor."""
     tokens = TOKEN.findall(text)
     try:
         powers, end = _product(tokens, 0)
@@ -22,7 +22,7 @@ def parse(text):
 
 
 def _fraction(power):
-    """Six digits are those of a simple fraction: 0.333333 is 1/3."""
+    """The simple fraction with these six digits: 0.333333 is 1/3."""
     near = float(Fraction(power).limit_denominator(60))
     return near if abs(near - power) < 1e-5 else power
 

@@ -50,7 +50,7 @@ def _text(words):
 
 
 def _is_flow(words):
-    """Whether a text is one list or map of YAML, which ends with its last character."""
+    """Is a text one list or map of YAML that ends with its last character?"""
     depth, at, begins = 0, 0, False
     while at < len(words) and (depth or at == 0):
         c = words[at]
@@ -67,15 +67,16 @@ def _is_flow(words):
 
 
 def quoted(words):
-    """In quotation marks: a text even where it reads as a number, a list or a map. YAML's line breaks and what cannot be
-    printed are escaped, in a way that JSON has, too."""
+    """A text in quotation marks, which YAML does not read as a number, a list or a map. YAML's line breaks and
+    unprintable characters are escaped, in a way that JSON has, too.
+    """
     def escaped(c):
         return "\\" + c if c in '"\\' else c if c.isprintable() or ord(c) > 0xffff else f"\\u{ord(c):04x}"
     return '"' + "".join(map(escaped, words)) + '"'
 
 
 def read(text):
-    """What write() wrote, and what the library prints."""
+    """Reads the YAML of write() and of the library."""
     if text[:1] not in ("[", "{"):
         return _scalar(text)
     value, _ = _read(TOKEN.findall(text), 0)

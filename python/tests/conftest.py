@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the tests share: scenes that take a fraction of a second, and a folder of their own."""
+"""Fixtures of all tests: scenes that take a fraction of a second, and a folder for each test."""
 import os
 import signal
 import threading
@@ -30,8 +30,8 @@ def short():
 
 @pytest.fixture
 def words_of_ctrl_c():
-    """A function that repeats another until Ctrl-C: the words of its KeyboardInterrupt. Ctrl-C between two calls, which
-    has none, is tried again."""
+    """A function that repeats another until Ctrl-C, and returns the text of its KeyboardInterrupt. A Ctrl-C between two
+    calls, which has no text, is tried again."""
     def words(function):
         for _ in range(20):
             threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()

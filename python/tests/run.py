@@ -3,7 +3,7 @@
 import os
 import sys
 
-os.environ.pop("COLUMNS", None)  # of the terminal of whoever runs the tests: helps are 80 wide
+os.environ.pop("COLUMNS", None)  # width of the terminal: the tests expect help texts 80 wide
 
 try:
     import pytest

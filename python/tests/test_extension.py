@@ -36,7 +36,7 @@ UNNAMED = gg.define_law(lambda g: 0.9)
 
 
 def test_importable_functions_pickle(short):
-    """By name, or the function by its name; tables with their numbers. The runs are the same."""
+    """Pickles have the name, or that of the function, and tables their numbers. The runs are the same."""
     for extensions in [second], [second, ours], [LAW], [UNNAMED], [gg.define_law(falling, "again")], \
             [gg.define_observable("third", {"x": "d"})(falling_sample)], [gg.define_law(([0, 1, 5], [0.95, 0.9, 0.8]))]:
         s = short.copy().add(*extensions)
@@ -63,7 +63,7 @@ def test_functions_without_a_name_do_not_pickle(short):
 
 
 def test_copies_keep_functions(short):
-    """copy, too, of functions that have no name."""
+    """Copies keep functions without a name, too."""
     s = short.add(gg.define_law(lambda g: 0.8), second)
     for t in copy.copy(s), copy.deepcopy(s), s.copy():
         assert t == s and gg.run(t).identity == gg.run(s).identity
@@ -73,7 +73,7 @@ def test_copies_keep_functions(short):
 
 @pytest.mark.parametrize("name", ["md", "dsmc", "z", "Z", "unit", "quantity", "md_error", "dsmc_x", "mine_error", "beyond_expected"])
 def test_names_of_columns_are_no_names_of_theories(short, name):
-    """to_dataframe()["md"] is md's: such a theory is refused, from Python and in the text of a scene."""
+    """to_dataframe()["md"] is that of md: a theory of this name is rejected, from Python and in the text of a scene."""
     with pytest.raises(gg.BadInput, match="reserved"):
         gg.theory(short, gg.define_theory(name, "N1")(lambda facts: 0))
     with pytest.raises(gg.BadInput, match="reserved"):
@@ -186,7 +186,7 @@ def raises(*_):
 
 
 def turns_bad(calls):
-    """A law that works when it is tried, and raises later."""
+    """A law that works when it is first tested, and raises later."""
     def law(g):
         calls.append(g)
         if len(calls) > 3000:

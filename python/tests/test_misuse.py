@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Nothing done in Python ends in a crash: wrong types and shapes, after close, from own callbacks, from two threads, in
+"""No misuse in Python crashes: wrong types and shapes, after close, from own callbacks, from two threads, in
 a fork. Each row of a table is a misuse and the exception that it raises; a crash would end the test's process."""
 import gc
 import os
@@ -123,7 +123,7 @@ TAKES = {
 
 @pytest.mark.parametrize("argument", TAKES)
 def test_numbers_as_arguments(argument):
-    """What is no number, or one that is not allowed, is named with the argument: no raw error of a conversion."""
+    """Errors about values that are no numbers, or not allowed, name the argument: no raw error of a conversion."""
     values, use = TAKES[argument]
     for value in values:
         with pytest.raises((gg.BadInput, TypeError)) as raised:
@@ -182,7 +182,7 @@ def test_from_own_callback(engine, use):
 
 
 def test_other_things_from_a_callback():
-    """What is not in use may be used: other simulations, runs, theories, files."""
+    """A callback may use all objects that are not in use: other simulations, runs, theories, files."""
     sim, other, done = simulation(), simulation(), []
 
     def work(event):
@@ -194,7 +194,7 @@ def test_other_things_from_a_callback():
 
 
 def test_from_own_observable():
-    """The scene of a run may be changed, and another run started, from within."""
+    """An observable may change the scene of its run, and start another run."""
     s = scene()
 
     @gg.define_observable("inner")
@@ -209,7 +209,7 @@ def test_from_own_observable():
 
 
 def test_state_that_is_kept():
-    """Of an observable: large enough for its memory to be returned to the system after the run."""
+    """The state of an observable is so large that its memory returns to the system after the run."""
     kept = []
 
     @gg.define_observable("counter", state=100000)
@@ -239,7 +239,7 @@ def test_own_law_uses_the_simulation():
 
 @pytest.mark.parametrize("engine", ["md", "dsmc"])
 def test_one_simulation_in_two_threads(engine):
-    """One of them has it at a time; the other is refused."""
+    """One thread uses it at a time; the other gets an error."""
     sim, refused, worked, stop = simulation(engine), [], [], time.monotonic() + 1
 
     def work(use):
@@ -291,7 +291,7 @@ def test_scene_changed_in_threads():
 
 
 def test_forgotten_objects():
-    """What callbacks and results need lives as long as they do."""
+    """Objects that callbacks and results need live as long as they do."""
     def forgotten():
         s = scene().add(gg.define_observable("mine")(lambda sample: sample.velocity.sum()), gg.define_law(lambda g: 0.8))
         return gg.Simulation(s), gg.run(s), gg.compare(s).md, gg.theories(s).theories["grad"]
@@ -334,7 +334,7 @@ def test_after_fork():
 
 
 def test_fork_during_a_call():
-    """The child's copy of a simulation that advances in the parent is refused."""
+    """The child's copy of a simulation that advances in the parent raises an error."""
     sim = simulation()
     thread = threading.Thread(target=lambda: sim.collide(300000))
     thread.start()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The notebooks and the page docs/howto/python.md run as they are, and find what they say."""
+"""The notebooks and the page docs/howto/python.md run, and their statements hold."""
 import glob
 import json
 import math
@@ -25,7 +25,7 @@ def cells(name):
 
 
 def execute(parts):
-    """The names that all parts leave; the last expression of a part is shown, as a notebook does."""
+    """Names defined by all parts; the last expression of a part is printed, as in a notebook."""
     matplotlib = pytest.importorskip("matplotlib")
     pytest.importorskip("xarray")
     pytest.importorskip("pandas")
@@ -89,7 +89,7 @@ def test_two_temperatures():
 
 
 def test_trajectory():
-    """g(r) at contact is near the contact value; ASE, where it is, finds the same distances."""
+    """g(r) at contact is near the contact value; ASE, where it is installed, finds the same distances."""
     names = execute(cells("trajectory"))
     assert 1 <= names["nearest"] < 1.01 and abs(names["g"][-5:].mean() - 1) < 0.05
     assert names["g"][0] == pytest.approx((1 - 0.1) / (1 - 0.2) ** 3, rel=0.15)
@@ -110,7 +110,7 @@ def page():
         return file.read()
 
 
-def test_page():
+def test_blocks_of_the_page_print_their_outputs():
     """Its blocks in order, in one session; every output that it shows is printed."""
     os.symlink(os.path.join(SOURCE, "examples"), "examples")
     names = execute(re.findall(r"^```python\n(.*?)^```", page(), re.MULTILINE | re.DOTALL))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curves in time: starts, protocols, bands against what is known exactly, crossings, Ctrl-C."""
+"""Curves in time: starts, protocols, bands against exact results, crossings, Ctrl-C."""
 import os
 import signal
 import threading
@@ -38,7 +38,7 @@ def test_starts_are_as_asked():
     scene = gg.Scene(flow="hcs", phi=0.05, e=0.9, particles=500)
     scene["dsmc.particles"] = 20000
     found = gg.relax(scene, 0.02, points=2, replicas=4, engines=["dsmc"], start={"temperature": 3, "a2": 0.1})
-    assert found["temperature"]["dsmc"].mean[0] == pytest.approx(0.5)  # v_0 is made of it
+    assert found["temperature"]["dsmc"].mean[0] == pytest.approx(0.5)  # the unit v_0 follows from it
     assert found.quantities == ["temperature", "a2"]
     heated = gg.relax(bath(), 0.02, points=2, replicas=4, engines=["dsmc"], start={"temperature": 3})
     assert heated["temperature"]["dsmc"].mean[0] == pytest.approx(3)
@@ -53,7 +53,7 @@ def test_starts_are_as_asked():
 
 
 def test_spins_start_as_asked():
-    """Cooling of rough grains from spins at rest, or turning about z."""
+    """Cooling of rough grains from spins at rest, or rotating about z."""
     scene = gg.Scene(flow="hcs", phi=0.05, e=0.9, beta=0, particles=500)
     scene["dsmc.particles"] = 500
     for keys in {"rotational_temperature": 0}, {"temperature": 2, "rotational_temperature": 3}:
@@ -68,7 +68,7 @@ def test_spins_start_as_asked():
 
 
 def test_cooling_is_that_of_haff():
-    """T^(-1/2) grows as a straight line, at half of Enskog's cooling rate (4/3) sqrt(pi) n chi (1 - e^2)."""
+    """T^(-1/2) grows linearly, at half of Enskog's cooling rate (4/3) sqrt(pi) n chi (1 - e^2)."""
     phi, e = 0.05, 0.95
     scene = gg.Scene(flow="hcs", phi=phi, e=e, particles=500)
     scene["dsmc.particles"] = 5000
@@ -80,7 +80,7 @@ def test_cooling_is_that_of_haff():
     assert np.abs(found.z("temperature")[1:]).max() < 4.5
 
 
-def test_crossing():
+def test_crossing_has_the_error_of_parts():
     """The hotter of two rough gases is the colder one soon; the jackknife's error is that of the scatter of parts."""
     hot = bath(e=0.9, beta=0, temperature=1.2)
     hot["rotational_temperature"], hot["bath.temperature"], hot["dsmc.particles"] = 0.02, 0.05, 2000
@@ -127,14 +127,14 @@ def test_pictures_and_tables():
     (dict(protocol=[(0, {"bath.drag": 1})]), "time 0"), (dict(protocol=[(1, {"bath.drag": 1})]), "time 1"),
     (dict(protocol=[(0.5, {})]), "names no key"), (dict(protocol=[(0.5, {"bath.drag": 1}), (0.2, {"bath.drag": 2})]), "order of times"),
     (dict(flow="couette"), "walls"), (dict(start={"spins": 1}), "spin"), (dict(protocol=[3]), "protocol"), (dict(protocol=[(0.5, {"phi": 0.2})]), "phi")])
-def test_refusals(wrong, word):
+def test_wrong_arguments_are_named(wrong, word):
     with pytest.raises(gg.BadInput, match=word):
         gg.relax(gg.Scene(phi=0.1, flow="couette") if "flow" in wrong else bath(),
                  **{"until": 1, "points": 2, "replicas": 2, **{k: v for k, v in wrong.items() if k != "flow"}})
 
 
 def test_followed_scenes():
-    """A scene's own duration and protocol are those of run(): no call leaves them out in silence."""
+    """A scene's own duration and protocol belong to run(): no other call ignores them silently."""
     scene = bath()
     scene["run.duration"], scene["protocol"] = 4, [{"at": 1, "bath.temperature": 2}]
     with pytest.raises(gg.BadInput, match="run.duration and protocol, which run"):
@@ -146,7 +146,7 @@ def test_followed_scenes():
         gg.Simulation(bath())
 
 
-def test_interrupted():
+def test_ctrl_c_ends_relax():
     scene = bath()
     scene["dsmc.particles"] = 200000
     timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))

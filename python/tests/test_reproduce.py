@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""validation/reproduce: figures of papers. A small entry against runs and formulas of its own; entries, names, resumption,
-texts."""
+"""validation/reproduce: figures of papers. A small entry against separate runs and formulas; entries, names,
+resumption, texts.
+"""
 import csv
 import glob
 import math
@@ -212,7 +213,7 @@ def test_verdicts_agree_with_the_tables_beside_the_pictures():
         assert {found.split()[0] for found, _ in texts.FILLED.findall(entry.because)} <= names, path
 
 
-def test_entries():
+def test_entries_are_complete():
     found = [entries.read(path) for path in entries.files()]
     assert len(found) >= 94 and len({entry.figure for entry in found}) == len(found)
     for entry in found:
@@ -254,7 +255,7 @@ def test_the_list(folder, capsys):
     assert lines[-1].startswith("1 figures: agrees 1. ")
 
 
-def test_formulas():
+def test_formulas_are_evaluated():
     for text, value in ("-2^2", -4), ("2^-1", 0.5), ("2^3^2", 512), ("ln(x)*y/(1+y)", math.log(3) * 2 / 3), ("abs(-pi)", math.pi):
         assert Formula(text)(x=3, y=2) == pytest.approx(value, rel=1e-15)
     assert math.isnan(Formula("ln(-x)")(x=1)) and Formula("y^2").slope("y", y=3) == pytest.approx(6)
@@ -286,6 +287,6 @@ def test_numbers_taken_from_curves():
     assert curves.take(Curve, "first")[0] == pytest.approx(math.exp(-8))
 
 
-def test_labels():
+def test_labels_become_mathematics():
     assert pictures.mathematics("T_{cell}/T") == r"$T_{\rm cell}$/T" and pictures.mathematics("e = 1") == "e = 1"
     assert pictures.mathematics("|G_{CC}^{xx}|") == r"|$G_{\rm CC}^{\rm xx}$|"

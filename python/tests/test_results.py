@@ -29,7 +29,7 @@ def test_z_is_the_difference_over_the_error(comparison):
     assert difference.mean / difference.error == pytest.approx(row.z)
 
 
-def test_theories(comparison):
+def test_theories_have_numbers_deviations_and_reasons(comparison):
     lun = comparison.theories["lun1991"]
     assert comparison["temperature"].theory["lun1991"] == lun["temperature"]
     assert lun.deviation("temperature") == pytest.approx(lun["temperature"] / comparison.md["temperature"].mean - 1)
@@ -75,15 +75,15 @@ def test_curves_and_history(comparison):
         comparison.md.history("N1")
 
 
-def test_grains(comparison):
+def test_grains_are_copies(comparison):
     g = comparison.md.grains
     assert g.position.shape == g.velocity.shape == g.spin.shape == (200, 3) and g.species.shape == (200,)
     assert comparison.dsmc.grains.position is None
-    g.position[:] = 0  # a copy: the result keeps its own
+    g.position[:] = 0  # a copy: the grains of the result stay
     assert comparison.md.grains.position.max() > 1
 
 
-def test_tables(comparison):
+def test_tables_have_the_numbers(comparison):
     pandas = pytest.importorskip("pandas")
     table = comparison.to_dataframe()
     assert isinstance(table, pandas.DataFrame)
@@ -97,7 +97,7 @@ def test_tables(comparison):
     assert str(comparison["temperature"].md) in repr(comparison) and shown == rows
 
 
-def test_pictures(comparison):
+def test_pictures_are_drawn_and_written(comparison):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")
     before = dict(matplotlib.rcParams)
@@ -115,7 +115,7 @@ def test_pictures(comparison):
 
 
 def test_symbols_are_latex(comparison):
-    """Of every quantity, species of mixtures too; matplotlib reads them as mathematics."""
+    """Symbols of all quantities, also of species of mixtures, are LaTeX that matplotlib reads."""
     mathtext = pytest.importorskip("matplotlib.mathtext")
     mixture = gg.Scene(flow="hcs", phi=0.1, species=[{"fraction": 0.25, "mass": k + 1} for k in range(4)])
     found = gg.catalogue.quantities(mixture)
@@ -173,7 +173,7 @@ def test_estimates_of_one_run_are_correlated(comparison):
         md.covariance("pressur", "temperature")
 
 
-def test_uncertainties(comparison):
+def test_uncertainties_agree_with_estimates(comparison):
     uncertainties = pytest.importorskip("uncertainties")
     u = comparison["temperature"].md.u
     assert (u.n, u.s) == pytest.approx((comparison.md["temperature"].mean, comparison.md["temperature"].error))
@@ -188,7 +188,7 @@ def test_uncertainties(comparison):
 
 @pytest.fixture
 def fresh():
-    """No number of uncertainties was used before."""
+    """A state in which no number of uncertainties was used before."""
     gg.estimate.Correlated._of_runs.clear()
 
 
@@ -204,7 +204,9 @@ def test_uncertainties_of_two_means_are_exact(comparison, fresh, a, b):
 
 
 def test_uncertainties_of_many_means(comparison, fresh):
-    """Each keeps its error. A mean has exactly the covariance with the earlier one that correlates most with it."""
+    """Each mean keeps its error. A mean has exactly the covariance with the earlier one that correlates most with
+    it.
+    """
     uncertainties = pytest.importorskip("uncertainties")
     md, used = comparison.md, []
     for e in md.values():
@@ -249,7 +251,9 @@ def test_one_run_twice_is_one_run(comparison, way):
 
 
 def test_identity_of_runs(comparison, short):
-    """The same for one run by every way, and for the same scene and seed; others for another seed or engine."""
+    """The identity is the same for one run, however read, and for the same scene and seed; it differs for another seed
+    or engine.
+    """
     md = comparison.md
     md.write("r.h5")
     same = {md.identity, gg.read("r.h5").identity, again(md).identity, again(comparison).md.identity}
@@ -261,7 +265,7 @@ def test_identity_of_runs(comparison, short):
 
 
 def test_pickled_means_are_small(comparison):
-    """A pickle of a mean has covariances, not the result; combinations and copies keep what they are made of."""
+    """A pickle of a mean has covariances, not the result; combinations and copies keep their parts."""
     md = comparison.md
     whole, one = len(pickle.dumps(md)), len(pickle.dumps(md["temperature"]))
     assert one < 5000 < 20 * one < whole
@@ -311,12 +315,14 @@ def test_comparisons_take_the_mean():
 @pytest.mark.parametrize("form, text", [("", "5.542(12)"), (".3", "5.54"), (".3f", "5.542"), (".2e", "5.54e+00"),
                                         ("12", "5.542(12)   "), (">12", "   5.542(12)"), ("s", "5.542(12)"),
                                         (".4s", "5.54"), ("g", "5.542"), ("+.1f", "+5.5"), (".0%", "554%")])
-def test_formats(form, text):
+def test_formats_show_the_error(form, text):
     assert format(gg.Estimate(5.542, 0.012), form) == text
 
 
 def test_functions_of_numpy():
-    """Their errors are those of derivatives; log and log10 of a number with a unit are of the number in this unit."""
+    """Errors of functions follow from derivatives; log and log10 of a number with a unit are of the number in this
+    unit.
+    """
     a = gg.Estimate(2.0, 0.3, "d")
     assert (np.log(a).mean, np.log(a).error, np.log(a).unit) == (math.log(2), pytest.approx(0.15), "1")
     assert (np.log10(a).mean, np.log10(a).error) == pytest.approx((math.log10(2), 0.15 / math.log(10)))
@@ -329,7 +335,7 @@ def test_functions_of_numpy():
 
 
 def test_powers_of_estimates():
-    """The error of the exponent enters, against differences; a plain exponent has none."""
+    """The error of the exponent enters, compared with finite differences; a plain exponent has none."""
     x, y = gg.Estimate(2.0, 0.03), gg.Estimate(3.0, 0.05)
     expected = math.hypot(12 * 0.03, 8 * math.log(2) * 0.05)
     assert ((x**y).mean, (x**y).error) == (8, pytest.approx(expected))
@@ -339,8 +345,8 @@ def test_powers_of_estimates():
         x ** gg.Estimate(3.0, 0.05, "d")
 
 
-def test_units(comparison):
-    """Products and ratios cancel; sums of unlike units are refused, plain numbers have the unit of the mean."""
+def test_units_of_products_cancel(comparison):
+    """Products and ratios cancel; sums of unlike units raise an error, plain numbers have the unit of the mean."""
     p, T, N1 = (comparison.md[name] for name in ("pressure", "temperature", "N1"))
     assert (p.unit, T.unit) == ("rho_p d^2 gamma^2", "d^2 gamma^2")
     assert ((p / T).unit, (p / T * T).unit, np.sqrt(T).unit, (T**2).unit) == ("rho_p", p.unit, "d gamma", "d^4 gamma^4")
@@ -364,7 +370,7 @@ def test_units_that_are_no_products(odd):
 
 
 def test_every_unit_of_the_library_is_a_product():
-    """Written and read again it is the same."""
+    """A unit that is written and read again is the same."""
     for flow, phi in itertools.product(("usf", "hcs", "couette"), (0, 0.1)):
         scene = gg.Scene(flow=flow, phi=phi, engine="dsmc" if not phi else "md")
         for entry in gg.catalogue.quantities(scene).values() if phi or flow != "couette" else ():
@@ -392,7 +398,7 @@ def test_interrupted_files(comparison, what, words_of_ctrl_c):
     function()
 
 
-def test_export(comparison):
+def test_export_writes_the_requested_parts(comparison):
     comparison.md.write("r.h5")
     names = gg.export("r.h5", "out", trajectory=False)
     assert "out.csv" in names and not any(name.endswith(".xyz") for name in names)
@@ -433,7 +439,7 @@ def test_curves_by_local_density_are_read_back():
     (lambda c: c.scene.help("colision.e"), "no key called 'colision.e'; did you mean 'collision.e'?"),
 ])
 def test_wrong_names(comparison, use, words):
-    """What is not there is a KeyError that says what there is."""
+    """A wrong name raises a KeyError that lists the right ones."""
     with pytest.raises(KeyError) as caught:
         use(comparison)
     assert words in str(caught.value)

@@ -23,7 +23,7 @@ def means(result):
 
 
 def test_no_output_replaces_the_scene(short):
-    """Its file, also by another name of it, and that of a copy."""
+    """No output replaces the scene's file, also under another name of the file, or that of a copy."""
     text = short.to_yaml()
     with open("s.yaml", "w", encoding="utf-8") as file:
         file.write(text)
@@ -61,7 +61,7 @@ def test_two_runs_side_by_side(short):
     assert both == [means(gg.run(short.copy(seed=seed))) for seed in (1, 2)]
 
 
-def test_processes(short):
+def test_processes_give_the_same_numbers(short):
     with ProcessPoolExecutor(2, mp_context=multiprocessing.get_context("spawn")) as pool:
         results = list(pool.map(gg.run, [short, short.copy(seed=2)]))
     assert means(results[0]) == means(gg.run(short))
@@ -80,7 +80,9 @@ def interrupt_after(seconds):
 
 
 def interrupt_with_means(engines):
-    """A function for progress: SIGINT, once that many engines have means with errors. And when it was sent."""
+    """A function for progress that sends SIGINT as soon as that many engines have means with errors; and the time of
+    sending.
+    """
     known, sent = set(), []
 
     def progress(report):
@@ -156,7 +158,7 @@ def test_progress_is_reported_in_this_thread(endless):
     assert seen[-1].engine == "md" and 0 <= seen[0].fraction <= seen[-1].fraction <= 1
 
 
-def test_bar(short, capsys):
+def test_bar_is_shown_on_request(short, capsys):
     pytest.importorskip("tqdm")
     short["run.collisions"] = 2000
     gg.run(short, progress=True)
@@ -165,7 +167,7 @@ def test_bar(short, capsys):
     assert capsys.readouterr().err == ""
 
 
-def test_failures(short, endless):
+def test_failures_raise_their_exceptions(short, endless):
     with pytest.raises(gg.BadInput, match="phi is missing"):
         gg.run("flow: usf")
     with pytest.raises(gg.BadFile):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes: keys by every way to write them, their help, errors with the library's words, copies and pickles."""
+"""Scenes: keys in every notation, their help, errors with the library's messages, copies and pickles."""
 import copy
 import math
 import os
@@ -45,7 +45,7 @@ HOSTILE = ["run #1.csv", "! a.csv", "a: b.csv", "[a, b].csv", "{a}.csv", "*a.csv
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_names_are_texts(name):
-    """Not YAML: given by any way and written by any way, a name is the same."""
+    """A name is no YAML: it stays the same, however it is given and written."""
     for s in (gg.Scene(flow="usf", phi=0.1, log=name), gg.Scene({"flow": "usf", "phi": 0.1, "output": {"log": name}}),
               gg.Scene(flow="usf", phi=0.1).copy(**{"output.log": name})):
         assert s["output.log"] == s.log == name
@@ -54,7 +54,7 @@ def test_names_are_texts(name):
 
 
 def test_other_readers_read_the_same():
-    """PyYAML is one of version 1.1, where 1e-07 is a text."""
+    """PyYAML reads version 1.1, in which 1e-07 is a text."""
     other = pytest.importorskip("yaml")
     s = gg.Scene(flow="usf", phi=1e-07, e=0.5, log="run #1.csv", relative_error=1e-5)
     for text in s.to_yaml(), s.to_yaml(all=True):
@@ -178,7 +178,7 @@ def test_file_name_with_a_colon():
 
 @pytest.mark.parametrize("name", ["2026-11-28T17:30/usf.yaml", "a: b.yaml", "C:usf", "https://example.org/usf.yaml", "a:b"])
 def test_file_name_with_a_colon_that_is_not_there(name):
-    """It is a missing file, not a text."""
+    """The error is about a missing file, not about a text."""
     with pytest.raises(gg.BadFile, match="cannot|no such|No such"):
         gg.Scene(name)
 
@@ -252,7 +252,7 @@ def test_theories_of_the_text_stay(way):
 
 
 def test_theories_as_keys():
-    """As keyword, in a dict, beside other texts; equality sees them."""
+    """Theories as keyword, in a dict, beside other texts; equality compares them."""
     keyword, table = gg.Scene(flow="usf", phi=0.1, theories=MINE), gg.Scene({"flow": "usf", "phi": 0.1, "theories": MINE})
     without, other = gg.Scene(flow="usf", phi=0.1), gg.Scene(flow="usf", phi=0.1, theories={"mine": {"temperature": "phi"}})
     assert keyword == table != without and keyword != other and without.theories == {}
@@ -261,7 +261,7 @@ def test_theories_as_keys():
 
 
 def test_theories_of_the_text_in_a_sweep():
-    """The points have them, also those that the folder gives back."""
+    """The points have the theories, also points that are read from the folder."""
     gg.sweep(with_theories(), e=[0.5, 0.7], does="theory", folder="u")
     found = gg.Sweep.load("u")
     assert [point.read().theories["mine"]["temperature"] for point in found] == pytest.approx([0.05, 0.07])
@@ -269,7 +269,7 @@ def test_theories_of_the_text_in_a_sweep():
 
 
 def test_flows_of_the_page_are_those_of_the_library():
-    """What web/flows.js and web/controls.js say of flows is in the library's table: walls, shear, gravity."""
+    """web/flows.js and web/controls.js agree with the library's table of flows: walls, shear, gravity."""
     flows = gg.catalogue.flows()
     assert flows["couette"].traits == "walls moving_walls may_fall" and flows["usf"].traits == "sheared"
     with open(os.path.join(SOURCE, "web", "flows.js"), encoding="utf-8") as file:

@@ -65,7 +65,7 @@ def test_copies_continue_with_the_same_bits(either):
 
 
 def test_grains_from_outside(either):
-    """Set and read back; the same grains have the same energy; overlaps are refused, the pair named."""
+    """Grains that are set are read back with the same energy; for overlaps the error names the pair."""
     g = either.grains
     arrays = {"velocities": g.velocity, "spins": g.spin, "species": g.species}
     if g.position is not None:
@@ -100,7 +100,9 @@ def test_two_temperatures_relax():
 
 
 def test_keys_change_on_the_way(either):
-    """From e = 1 on the energy stays; copies, pickles and files have the new key, earlier copies the old one."""
+    """From the change to e = 1 the energy stays; copies, pickles and files have the new key, earlier copies the old
+    one.
+    """
     before = either.copy()
     sim = gg.Simulation(gg.Scene(flow="hcs", phi=0.1, particles=200, e=0.8, engine=either.scene.engine))
     sim.collide(500)
@@ -143,7 +145,7 @@ def test_own_law_stays_when_keys_change(short):
     assert len(asked) >= 100
 
 
-def test_streams(short):
+def test_streams_are_independent(short):
     assert gg.Simulation(short).hash == gg.Simulation(short).hash != gg.Simulation(short, stream=1).hash
 
 
@@ -197,11 +199,11 @@ def test_exception_of_the_callback_comes_out(either):
     either.on_collision(fail)
     with pytest.raises(ArithmeticError, match="from inside"):
         either.collide(10**9)
-    either.collide(100)  # it watches no more, and goes on
+    either.collide(100)  # it receives no collisions any more, and continues
     assert either.state.collisions >= 100
 
 
-def test_interrupted(sim):
+def test_ctrl_c_ends_an_advance(sim):
     def interrupt():
         sent.append(time.monotonic())
         os.kill(os.getpid(), signal.SIGINT)
@@ -229,7 +231,7 @@ def test_interrupted_start():
 
 
 def test_interrupted_copies_and_files(sim):
-    """Ctrl-C leaves such calls behind; the simulation is as it was."""
+    """Ctrl-C does not wait for such calls; the simulation is unchanged."""
     sim.save("sim.h5")
     content, before = sim.to_bytes(), sim.hash
     for function in (sim.copy, sim.to_bytes, lambda: gg.Simulation.load("sim.h5"),
@@ -243,7 +245,7 @@ def test_interrupted_copies_and_files(sim):
 
 
 def test_what_is_left_behind_is_stopped(sim, monkeypatch):
-    """The library's part of such calls, and a save, ends at its next look; the file stays as it was."""
+    """The library's part of such calls, and a save, ends at its next check for a stop; the file is unchanged."""
     sim.save("sim.h5")
     content, hash = sim.to_bytes(), sim.hash
     sim.collide(100)
@@ -280,7 +282,7 @@ def test_later_calls_wait_for_one_that_was_left_behind(sim):
 
 
 def test_calls_left_behind_before_they_begin(sim, monkeypatch):
-    """Ctrl-C before the thread takes the simulation: another call waits for it none the less."""
+    """Ctrl-C comes before the thread takes the simulation: another call still waits for it."""
     begins, threads = threading.Event(), []
 
     def interrupted(work, _):
@@ -310,7 +312,7 @@ def test_interrupted_start_of_several():
 
 
 def test_interrupted_change():
-    """The grains are placed again; Ctrl-C before that changes nothing, after it comes out all the same."""
+    """The grains are placed again. Ctrl-C before that changes nothing; Ctrl-C after it is raised as well."""
     sim = gg.Simulation(gg.Scene(flow="usf", phi=0.3, particles=100000, e=0.9, engine="md"))
     e, done = 0.9, False
 
@@ -352,7 +354,7 @@ def test_sums_and_frames(sim):
     assert np.allclose(np.diff(times), 0.25)
 
 
-def test_walls():
+def test_walls_have_names():
     sim = gg.Simulation(gg.Scene(flow="couette", phi=0.1, particles=200))
     assert sim.walls[:2] == ["lower", "upper"]
 
@@ -364,7 +366,7 @@ def stored(short):
     return gg.trajectory("t.h5")
 
 
-def test_trajectory(stored):
+def test_trajectory_has_the_frames_of_the_run(stored):
     result = gg.read("t.h5")
     assert len(stored) == result.info.frames > 3 and stored.scene == result.scene
     assert np.array_equal(stored[-1].grains.velocity, result.grains.velocity)
@@ -397,7 +399,7 @@ def test_cells_are_periodic_where_the_library_says(flow):
     assert tuple(map(bool, dsmc.periodic)) == (expected if dsmc.box[0] > 0 else (False,) * 3)
 
 
-def test_ase(stored):
+def test_ase_has_energies_and_distances(stored):
     pytest.importorskip("ase")
     for frame, atoms in zip(stored, stored.to_ase()):
         assert 2 * atoms.get_kinetic_energy() / 3 / len(atoms) == pytest.approx(frame.state.temperature)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Sweeps: every point is the run it says, tables and cubes, resumed folders."""
+"""Sweeps: every point is the run of its keys, tables and cubes, resumed folders."""
 import os
 import signal
 import warnings
@@ -21,7 +21,7 @@ def test_points_are_runs(swept, short):
         assert point.read()["temperature"].mean == alone["temperature"].mean
 
 
-def test_tables(swept):
+def test_tables_and_cubes_agree(swept):
     pytest.importorskip("xarray")
     table, cube = swept.to_dataframe(), swept.to_xarray()
     assert cube["temperature"].dims == ("collision.e", "phi", "solver")
@@ -71,8 +71,8 @@ vary: {collision.e: [0.8, 0.9]}
 """
 
 
-def test_validate():
-    """The verdict of a grid: the document and the page; the folder has the sweep, and gives the same again."""
+def test_validate_gives_the_same_verdict_again():
+    """The verdict of a grid: the document and the page; the folder has the sweep, and gives the same verdict again."""
     with open("grid.yaml", "w", encoding="utf-8") as file:
         file.write(GRID)
     verdict = gg.validate("grid.yaml", folder="g", page="page.md")
@@ -93,7 +93,7 @@ def interrupt(*_):
 
 
 def test_interrupted_validation(endless):
-    """Without a point KeyboardInterrupt, else the verdict on what there is."""
+    """Without a point KeyboardInterrupt, else the verdict on the finished points."""
     grid = endless.to_yaml() + "vary: {collision.e: [0.8, 0.9]}\nsweep: {does: compare}\n"
     with open("endless.yaml", "w") as file:
         file.write(grid)

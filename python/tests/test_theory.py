@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Theories alone: numbers in closed form, grids, and what does not apply."""
+"""Theories alone: numbers in closed form, grids, and theories that do not apply."""
 import math
 import os
 import signal
@@ -50,7 +50,7 @@ def test_haffs_law():
     assert haff.temperature(0) == pytest.approx(0.5)
 
 
-def test_scan(shear):
+def test_scan_has_a_number_for_each_point(shear):
     xarray = pytest.importorskip("xarray")
     es = np.linspace(0.5, 0.9, 3)
     found = gg.scan(shear, e=es, phi=[0.1, 0.2], theories=["lun1991", "lun1991_lun_savage"])
@@ -93,7 +93,7 @@ def test_wrong_grids(shear, wrong):
 
 
 def test_results_beside_theories():
-    """Results of single runs, put beside the theories, are the columns of a comparison."""
+    """Results of single runs, beside the theories, are the columns of a comparison."""
     scene = gg.Scene(flow="usf", phi=0.1, e=0.9, beta=0, run={"collisions": 50, "warmup": 20})
     md, dsmc = (gg.run(scene.copy(engine=engine)) for engine in ("md", "dsmc"))
     alone, both = gg.theories(md.scene, md), gg.theories(dsmc.scene, dsmc, md)
@@ -104,8 +104,8 @@ def test_results_beside_theories():
         gg.theories(md.scene.copy(phi=0.2), md)
 
 
-def test_interrupted(shear):
-    """One point takes a second, all a quarter of an hour."""
+def test_ctrl_c_ends_a_scan(shear):
+    """One point takes a second, all take a quarter of an hour."""
     mixture = gg.Scene(flow="usf", phi=0.3, species=[{"fraction": f, "diameter": d} for f, d in ((0.5, 1), (0.3, 2), (0.2, 3))])
     threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):

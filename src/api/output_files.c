@@ -62,7 +62,7 @@ static gg_status for_pages(const gg_run_call *r, page_check *check, const void *
     for (int i = 0; gg_measure_observables[i]; i++) {
       const gg_observable *o = gg_measure_observables[i];
       const char *engine = r->comparison ? gg_common_engine_of(k)->name : "";
-      if (!o->bins || !(r->scene.measure & o->flag)) continue;
+      if (!o->curves || !(r->scene.measure & o->flag)) continue;
       GG_TRY(ask(picture, engine, o->name, &paper, check, context, err));
       if (gg_plot_page_is_shared(o->name)) GG_TRY(ask(picture, "", o->name, &paper, check, context, err));
     }

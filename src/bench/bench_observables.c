@@ -72,7 +72,8 @@ static uint64_t cycle_of(const gg_replica *r)
   int cycle = LEAST_CYCLE;
   for (int k = 0; k < r->n_observables; k++) {
     if (r->every[k] > cycle) cycle = r->every[k];
-    if (r->observable[k]->begin_burst && ops->callback_slows && ops->callback_slows(r->engine))
+    const gg_observable_collisions *c = r->observable[k]->collisions;
+    if (c && c->begin_burst && ops->callback_slows && ops->callback_slows(r->engine))
       return gg_run_sampling_bursts_of(&r->model).apart;
   }
   return (uint64_t)cycle;

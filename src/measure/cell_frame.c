@@ -8,8 +8,8 @@
 #include "base/memory.h"
 
 typedef struct gg_cell_mean {
-  double mass, inertia; /* sums of m, I; then what c and omega are the means of under these weights */
-  double y;             /* likewise, of the height */
+  double mass, inertia; /* sums of m and I; then the means of c and omega with these weights */
+  double y;             /* the same for the height */
   gg_vec c, omega;
 } gg_cell_mean;
 
@@ -130,8 +130,8 @@ static void put(double *const to[3], size_t i, gg_vec v)
   to[0][i] = v.x, to[1][i] = v.y, to[2][i] = v.z;
 }
 
-/* The share that the mean of its cell leaves of a grain's variance; 0 where it is alone. */
-static double left_of(const gg_framed *f, size_t i, bool spin)
+/* Fraction of a grain's variance that remains after subtracting the mean of its cell; 0 if it is alone. */
+static double remaining_variance(const gg_framed *f, size_t i, bool spin)
 {
   const gg_snapshot *s = &f->snapshot;
   const gg_cell_mean *cell = &f->cells.mean[f->cells.at[i]];
@@ -139,12 +139,12 @@ static double left_of(const gg_framed *f, size_t i, bool spin)
   return spin ? 1 - gg_moment_of_inertia(s->model, k) / cell->inertia : 1 - s->model->mass[k] / cell->mass;
 }
 
-/* What makes up for grains alone in their cells, and for the mean of all, which the imposed flow has taken out, too. */
-static double share_of_all(const gg_framed *f)
+/* Correction for grains alone in their cells, and for the total mean, which the imposed flow has subtracted, too. */
+static double correction_for_all(const gg_framed *f)
 {
   const double n = (double)f->snapshot.n;
   double together = 0;
-  for (size_t i = 0; i < f->snapshot.n; i++) together += left_of(f, i, false) > 0;
+  for (size_t i = 0; i < f->snapshot.n; i++) together += remaining_variance(f, i, false) > 0;
   return together > 0 ? (n - 1) / together : 0;
 }
 
@@ -167,15 +167,15 @@ void gg_measure_framed_take(gg_framed *f, const gg_snapshot *whole)
   f->snapshot.whole = whole;
   for (int a = 0; a < 3; a++) f->snapshot.c[a] = f->c[a], f->snapshot.s[a] = f->s[a];
   gg_measure_cell_frame_take(&f->cells, whole);
-  const double all = laboratory ? 0 : share_of_all(f);
+  const double all = laboratory ? 0 : correction_for_all(f);
   const gg_vec spin = f->s[0] ? mean_spin(&f->cells) : (gg_vec){0, 0, 0};
   for (size_t i = 0; i < whole->n; i++) {
     gg_vec c = gg_measure_cell_frame_velocity(&f->cells, whole, i);
-    double left = left_of(f, i, false), stretch = laboratory ? 1 : left > 0 ? sqrt(all / left) : 0;
+    double left = remaining_variance(f, i, false), stretch = laboratory ? 1 : left > 0 ? sqrt(all / left) : 0;
     if (laboratory) c.x += m->shear_rate * (whole->r[1][i] - f->cells.mean[f->cells.at[i]].y);
     put(f->c, i, gg_scale(stretch, c));
     if (!f->s[0]) continue;
-    if (!laboratory && left > 0) stretch = sqrt(all / left_of(f, i, true));
+    if (!laboratory && left > 0) stretch = sqrt(all / remaining_variance(f, i, true));
     gg_vec omega = gg_scale(stretch, gg_measure_cell_frame_spin(&f->cells, whole, i));
     put(f->s, i, gg_scale(m->diameter[gg_snapshot_species(whole, i)] / 2, gg_add(omega, spin)));
   }

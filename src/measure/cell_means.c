@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Local state over cells of about eight grains: density, translational and
- * rotational temperature about the cell's own mean, spin, shear rate, with their distributions; and what averaging over
- * cells, slabs across y, or the whole box makes of the temperatures. A mean taken over n_c grains takes the share 1/n_c
- * out of a temperature: sums over (n_c - 1) instead of n_c put it back. Local shear rate: imposed one plus the central
- * difference of the mean peculiar velocities of the cells above and below. */
+/* Local state over cells of about eight grains: density, translational and rotational temperature about the cell's
+ * own mean, spin, shear rate, with their distributions; and the temperatures about the means of cells, of slabs
+ * across y, and of the whole box. A mean taken over n_c grains reduces a temperature by the fraction 1/n_c: sums
+ * over (n_c - 1) instead of n_c correct this. Local shear rate: imposed one plus the central difference of the mean
+ * peculiar velocities of the cells above and below. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,12 +23,12 @@ enum {
   SPIN = ROTATIONAL + RATIO_BINS,
   SHEAR = SPIN + SIGNED_BINS,
   SNAPSHOTS = SHEAR + SIGNED_BINS,
-  N_DENSITY, /* cells behind each distribution */
+  N_DENSITY, /* number of cells in each distribution */
   N_TEMPERATURE,
   N_ROTATIONAL,
   N_SPIN,
   N_SHEAR,
-  COUNT_SQUARED, /* mean of n_c^2 over cells, less the square of the mean */
+  COUNT_SQUARED, /* mean of n_c^2 over cells, minus the square of the mean */
   SHEAR_SUM,
   ROOT_T, /* sqrt(T) */
   T_BOX,  /* temperatures: box, slab, slab corrected, cell, cell corrected; then rotational */
@@ -36,9 +36,9 @@ enum {
   WIDTH = W_BOX + 5
 };
 
-typedef struct cell {                  /* sums over its grains; between walls C and omega are about the flow */
+typedef struct cell {                  /* sums over its grains; between walls C and omega are relative to the flow */
   double n, mass, momentum[3], energy; /* m, m C, m C^2 */
-  double flow;                         /* m u_x of the flow that C is about */
+  double flow;                         /* m u_x of the flow to which C is relative */
   double inertia, spin[3], rotation;   /* I, I omega, I omega^2 */
   double omega, omega_squared, volume; /* omega_z, omega.omega, pi/6 d^3 */
   double heat, heat_mass;              /* T_i/T of the grain's species in the box, times 1 and m */
@@ -86,9 +86,9 @@ static cell *cell_at(const cells *d, int x, int y, int z)
 }
 
 /* Temperatures of the species over that of all, translational and rotational. */
-typedef struct shares {
+typedef struct temperature_ratios {
   double heat[GG_MAX_SPECIES], turning[GG_MAX_SPECIES];
-} shares;
+} temperature_ratios;
 
 static void divide(const gg_model *m, const double sum[GG_MAX_SPECIES], double *share)
 {
@@ -98,7 +98,7 @@ static void divide(const gg_model *m, const double sum[GG_MAX_SPECIES], double *
   if (m->n_species == 1) share[0] = 1;
 }
 
-/* Of grain i, with its spin; between walls about the flow at its height. */
+/* Velocity of grain i, and its spin; between walls relative to the flow at its height. */
 static gg_vec velocity_of(const gg_snapshot *s, size_t i, gg_vec *omega)
 {
   gg_vec c = {s->c[0][i], s->c[1][i], s->c[2][i]}, spin = {0, 0, 0};
@@ -109,9 +109,9 @@ static gg_vec velocity_of(const gg_snapshot *s, size_t i, gg_vec *omega)
   return s->frame ? gg_measure_local_frame_velocity(s->frame, s->r[1][i], c) : c;
 }
 
-static shares shares_of(const gg_model *m, const gg_snapshot *s)
+static temperature_ratios temperature_ratios_of(const gg_model *m, const gg_snapshot *s)
 {
-  shares of;
+  temperature_ratios of;
   double energy[GG_MAX_SPECIES] = {0}, rotation[GG_MAX_SPECIES] = {0}, spin[GG_MAX_SPECIES][3] = {{0}};
   for (size_t i = 0; i < s->n && m->n_species > 1; i++) {
     int k = gg_snapshot_species(s, i);
@@ -128,7 +128,7 @@ static shares shares_of(const gg_model *m, const gg_snapshot *s)
   return of;
 }
 
-static void add_grain(const gg_model *m, const gg_snapshot *s, const shares *of, size_t i, cell *c)
+static void add_grain(const gg_model *m, const gg_snapshot *s, const temperature_ratios *of, size_t i, cell *c)
 {
   int k = gg_snapshot_species(s, i);
   double mass = m->mass[k], I = gg_moment_of_inertia(m, k), diameter = m->diameter[k];
@@ -152,7 +152,7 @@ static void add_grain(const gg_model *m, const gg_snapshot *s, const shares *of,
 static void sort_grains(cells *d, const gg_snapshot *s)
 {
   memset(d->cell, 0, (size_t)count_of(d) * sizeof *d->cell);
-  shares of = shares_of(d->model, s);
+  temperature_ratios of = temperature_ratios_of(d->model, s);
   for (size_t i = 0; i < s->n; i++) add_grain(d->model, s, &of, i, &d->cell[gg_measure_cell_grid_cell(&d->grid, s, i)]);
 }
 
@@ -175,8 +175,9 @@ static double rotational(const cell *c)
   return c->inertia > 0 ? c->rotation - (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) / c->inertia : 0;
 }
 
-/* What energies about a mean are to be divided by: a mean over n grains takes the share m_i/M of grain i's out of them.
- * That is n - 1 where all species have one temperature, else each counts by its own over that of the box. */
+/* The divisor of energies about a mean. A mean over n grains takes away the fraction m_i/M of grain i's energy: the
+ * divisor is n - 1 if all species have one temperature, else each grain counts by its temperature over that of the
+ * box. */
 static double free_grains(const cell *c)
 {
   return c->mass > 0 ? fmax(c->heat - c->heat_mass / c->mass, 0) : 0;
@@ -186,7 +187,7 @@ static double free_spins(const cell *c)
   return c->inertia > 0 ? fmax(c->turning - c->turning_inertia / c->inertia, 0) : 0;
 }
 
-/* Temperatures about the means of these parts: as they come, and with the share 1/n_c put back. */
+/* Temperatures about the means of these parts: uncorrected, and with the fraction 1/n_c restored. */
 static void put_temperatures(const cell *part, int n, double *T, double *W)
 {
   double energy = 0, spins = 0, grains = 0, moving = 0, turning = 0;
@@ -226,7 +227,7 @@ static double mean_x(const cell *c)
   return c->mass > 0 ? (c->momentum[0] + c->flow) / c->mass : NAN;
 }
 
-/* Of inner rows only where the rows beyond the boundary are walls or slide. */
+/* Only for inner rows, if the rows beyond the boundary are walls or sheared images. */
 static void add_shear_rate(const cells *d, int x, int y, int z, double root_T, double *bin)
 {
   const gg_model *m = d->model;
@@ -293,14 +294,14 @@ static void put_averages(gg_curve *c, const gg_model *m, const double *T, double
   static const char *const ratios[2][2] = {
       {"temperature_slabs_over_box", "temperature_cells_over_box"},
       {"rotational_temperature_slabs_over_box", "rotational_temperature_cells_over_box"}};
-  if (!gg_model_keeps_temperature(m)) return; /* no mean of what cools down or heats up */
+  if (!gg_model_keeps_temperature(m)) return; /* no mean for a gas that cools or heats up */
   for (int k = 0; k < 5; k++)
     gg_measure_curve_put_number(c, names[spins][k], T[k] / snapshots, gg_measure_curve_unit(m, "temperature"));
   for (int k = 0; k < 2; k++) gg_measure_curve_put_number(c, ratios[spins][k], T[2 * k + 2] / T[0], "1");
 }
 
-/* Grains thrown anywhere fall into a cell binomially; parameters: N, share of a cell, solid fraction of one grain in
- * it. */
+/* The binomial distribution of randomly placed grains in a cell; parameters: N, fraction of the volume in a cell,
+ * solid fraction of one grain in it. */
 static double thrown(double x, const double *p)
 {
   double n = round(x / p[2]);
@@ -342,9 +343,7 @@ const gg_observable gg_measure_cells = {
     .create = create,
     .destroy = destroy,
     .refuses = gg_measure_needs_positions,
-    .bins = bins,
-    .every = 8,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .curves = &(const gg_observable_curves){.bins = bins, .every = 8, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.bytes = 10, .ns = {4, 0}},
 };

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What single collisions say: path and time between successive ones, and the angles at which grains collide.
+/* Statistics of single collisions: path and time between successive ones, and the angles at which grains collide.
  *
- * A free path is peculiar, the integral of |C| over the flight, or the way in the laboratory, |c| times its duration.
- * Under shear C_x changes in flight: back from the collision, C_x + shear_rate C_y s. In free cooling times grow
- * without end and are left out; thermostats bend the flight, gravity too, and between walls paths depend on the place.
+ * A free path is peculiar, the integral of |C| over the flight, or the path in the laboratory, |c| times its
+ * duration. Under shear C_x changes in flight: back from the collision, C_x + shear_rate C_y s. Omitted are: times
+ * in free cooling, which grow without end; paths with thermostats or gravity, which bend the flight; and paths
+ * between walls, which depend on the place.
  * The impact angle lies between k and the relative velocity; molecular chaos gives it the density 2 cos (a uniform
- * impact parameter). The other angle is that of k in the plane of shear, from the x axis (Alam & Luding, Phys. Fluids
- * 15 (2003) 2298): either grain of a pair may be the first, so it is kept on [0, pi). */
+ * impact parameter). The other angle is that of k in the plane of shear, from the x axis (Alam & Luding, Phys.
+ * Fluids 15 (2003) 2298): either grain of a pair may be the first, so it is kept on [0, pi). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,7 +27,7 @@ enum { COLLISIONS, FABRIC, COSINES = FABRIC + 4, PLANE = COSINES + COS_BINS, ANG
 
 typedef struct collisions {
   const gg_model *model;
-  double unit[KINDS]; /* one over the expected mean time and path between collisions */
+  double unit[KINDS]; /* inverse of the expected mean time and path between collisions */
   bool has[KINDS];
   size_t width;
   uint64_t first[GG_MAX_SPECIES]; /* contacts of grains of a species since averaging began, until its flights count */
@@ -40,8 +41,8 @@ static void set_kinds(collisions *d)
   double rate = gg_common_model_collision_rate(m, m->temperature0), speed = sqrt(8 * m->temperature0 / M_PI);
   d->unit[TIME] = rate;
   d->unit[PATH] = d->unit[LABORATORY] = rate / speed;
-  /* A time has a meaning where the temperature stays; under md's Gaussian thermostat the engine's clock is not that of
-   * the gas. A path is known from the velocity at its end where nothing but shear changes it in flight. */
+  /* A time has a meaning if the temperature is constant; under md's Gaussian thermostat the engine's clock is not
+   * that of the gas. A path follows from the velocity at its end if only shear changes the velocity in flight. */
   bool other_clock = m->thermostat == GG_GAUSSIAN && !m->homogeneous;
   d->has[TIME] = gg_model_keeps_temperature(m) && !other_clock; /* else it changes with T */
   d->has[PATH] = gg_common_thermostat_of(m) == GG_NO_THERMOSTAT && !gg_flow_is_walled(m->flow);
@@ -64,7 +65,7 @@ static size_t bins(const void *self)
   return ((const collisions *)self)->width;
 }
 
-/* The bits of a number are its octave and, behind, its place in it. */
+/* The bits of a number are its octave, followed by its position in the octave. */
 GG_INLINE void add_flight(double *to, double x, double unit)
 {
   uint64_t bits;
@@ -97,9 +98,9 @@ static double peculiar_path(gg_vec c, double rate, double t)
   return sum * t;
 }
 
-/* Flights are counted where they end. Of those that end soon after averaging began, the long ones began before it and
- * are not known. So nothing counts until hardly a grain of the species is left that has not collided: else means would
- * be too small by one part in the number of collisions of such a grain. */
+/* Flights are counted when they end. Long flights that end soon after averaging began started before it and are
+ * unknown. So counting starts when hardly a grain of the species is left without a collision: else means would be
+ * too small by one part in the number of collisions of such a grain. */
 #define FIRST_COLLISIONS 12 /* a grain; exp(-12) of the grains have had none */
 static bool flights_count(collisions *d, int species)
 {
@@ -121,7 +122,7 @@ static void add_flights(collisions *d, const gg_collision_record *m, int which)
   add_flight(to + LABORATORY * FLIGHT, t * sqrt(gg_dot(c, c)), d->unit[LABORATORY]);
 }
 
-/* The angle's share of a turn, as a bin: half a turn is all there is. */
+/* The bin of the angle as a fraction of half a turn. */
 static int plane_bin(gg_vec k)
 {
   double share = atan2(k.y, k.x) / M_PI;
@@ -153,7 +154,8 @@ static void begin_burst(void *self)
 static void *memory(void *self, size_t *bytes)
 {
   collisions *d = self;
-  *bytes = sizeof d->first + d->width * sizeof *d->sums; /* one behind the other; a run may be stopped in an interval */
+  *bytes = sizeof d->first +
+           d->width * sizeof *d->sums; /* first and sums are adjacent; a run may be stopped in an interval */
   return d->first;
 }
 
@@ -256,12 +258,9 @@ const gg_observable gg_measure_collisions = {
     GG_OBSERVABLE(COLLISIONS, collisions),
     .create = create,
     .destroy = free,
-    .bins = bins,
     .memory = memory,
-    .every = 1,
-    .add_collision = add_collision,
-    .begin_burst = begin_burst,
-    .add_snapshot = add_snapshot,
     .restart = restart,
-    .curves = curves,
+    .curves = &(const gg_observable_curves){.bins = bins, .every = 1, .add_snapshot = add_snapshot, .of_bins = curves},
+    .collisions = &(const gg_observable_collisions){.add = add_collision, .begin_burst = begin_burst},
+    .cost = {.bytes = 8, .ns = {90, 6}},
 };

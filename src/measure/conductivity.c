@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Heat flux of linear response in the cooling state, or at rest, of grains of one species:
  *   f = f0 + A . grad ln T + B . grad ln n,   q = -kappa grad T - mu grad n,
- * in the frame in which T = m = 1 and time is u = int sqrt(T) dt. With L, the linearised collisions and the rescaling,
- * and S, what both gradients make of f0 (V. Garzo and J.W. Dufty, Phys. Rev. E 59 (1999) 5895),
- *   A = int e^(zeta u/2) e^(L u) S_A du,   B = int e^(L u) [S_B + zeta (1 + slope) A] du,   slope = d ln chi/d ln n:
+ * in the frame in which T = m = 1 and time is u = int sqrt(T) dt. With L, the linearised collisions and the
+ * rescaling, and S, the source terms of both gradients (V. Garzo and J.W. Dufty, Phys. Rev. E 59 (1999) 5895),
+ *   A = int e^(zeta u/2) e^(L u) S_A du,   B = int e^(L u) [S_B + zeta (1 + slope) A] du,   slope = d ln chi/d ln
+ *   n:
  *   kappa_k = -n int e^(zeta u/2) <q(u) S_A/f0> du,
  *   mu_k = -T int <q(u) [S_B/f0 + 2 (1 + slope)(e^(zeta u/2) - 1) S_A/f0]> du,   q = C^2 C_x/2,
- * as Green and Kubo have it (J.W. Dufty and J.J. Brey, J. Stat. Phys. 109 (2002) 433). Of rough grains, whose theta
- * goes as T, also with q = K s^2 C_x/2, s the velocity of the surface; what collisions of f1 carry is measured of
- * pairs, that of smooth grains is known. e^(zeta u/2) is the thermal speed at the beginning of a lag over that at its
- * end.
- * What is averaged: heat_copies.h. */
+ * the Green-Kubo form (J.W. Dufty and J.J. Brey, J. Stat. Phys. 109 (2002) 433). Rough grains, whose theta is
+ * proportional to T, also have q = K s^2 C_x/2, where s is the velocity of the surface. Their collisional transfer
+ * of f1 is measured from pairs; that of smooth grains is known. e^(zeta u/2) is the ratio of the thermal speed at
+ * the beginning of a lag to that at its end.
+ * Averages: heat_copies.h. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -82,19 +83,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   memcpy(d->row + l->at_lag, all + l->at_lag + (l->steps - 1) * l->lag, (size_t)l->lag * sizeof *all);
 }
 
-/* Rows are made of the snapshot at the end of their interval; there is none before averaging. */
-static void begin(void *self)
-{
-  (void)self;
-}
-static void add_chunk(void *self, const gg_chunk *chunk)
-{
-  (void)self, (void)chunk;
-}
-static void add_blocks(void *self, const gg_block_run *run)
-{
-  (void)self, (void)run;
-}
+/* The row is that of the snapshot at the end of its interval; 0 before averaging. */
 static void finish(void *self, const gg_interval *in, double *row)
 {
   conductivity *d = self;
@@ -103,7 +92,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   memset(d->row, 0, sizeof d->row);
 }
 
-/* matrix x = a, n unknowns; x takes the place of a. */
+/* Solve matrix x = a, n unknowns; x replaces a. */
 static void solve(double matrix[GG_HEAT_ORDERS][GG_HEAT_ORDERS], double *a, int n)
 {
   for (int i = 0; i < n; i++)
@@ -116,7 +105,7 @@ static void solve(double matrix[GG_HEAT_ORDERS][GG_HEAT_ORDERS], double *a, int 
   for (int i = 0; i < n; i++) a[i] /= matrix[i][i];
 }
 
-/* What density does: 2 (1 + e) phi chi; n sigma^2 chi; d ln chi/d ln n. All 0 in the Boltzmann limit. */
+/* Density dependence: 2 (1 + e) phi chi; n sigma^2 chi; d ln chi/d ln n. All 0 in the Boltzmann limit. */
 typedef struct density {
   double y, frequency, slope;
 } density;
@@ -171,7 +160,8 @@ static heat flux_of(const double *mean, const gg_model *m, int q)
   return (heat){kappa, mu};
 }
 
-/* With what collisions carry: of smooth grains a share of the kinetic flux, of rough ones a flux of its own. */
+/* Heat flux with collisional transfer: for smooth grains a fraction of the kinetic flux, for rough ones a separate
+ * flux. */
 static heat heat_of(const double *mean, const gg_model *m, bool spin)
 {
   const gg_heat_layout l = gg_measure_heat_layout(m);
@@ -223,7 +213,7 @@ static gg_curve *start(gg_curves *list, size_t n, const char *name, const char *
   return c;
 }
 
-/* With steps of other lengths: constant where f1 needs no more functions b than there are. */
+/* Curves for other lengths of the steps: they are constant if the functions b are enough for f1. */
 static void curves(const void *self, const double *bin, gg_curves *list)
 {
   const conductivity *d = self;
@@ -249,14 +239,7 @@ const gg_observable gg_measure_conductivity = {
     .destroy = destroy,
     .memory = memory_of,
     .refuses = refuses,
-    .width = width,
-    .begin = begin,
-    .add_chunk = add_chunk,
-    .add_blocks = add_blocks,
-    .finish = finish,
-    .derived = derived,
-    .bins = bins,
-    .every = 1,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .rows = &(const gg_observable_rows){.width = width, .finish = finish, .derived = derived},
+    .curves = &(const gg_observable_curves){.bins = bins, .every = 1, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.bytes = 96, .ns = {0, 180}},
 };

@@ -18,7 +18,7 @@ static void clear_curve(gg_curve *c)
   free(c->reference);
 }
 
-/* Its places stay. */
+/* Empty the list; its memory stays. */
 static void empty(gg_curves *list)
 {
   for (int i = 0; i < list->n; i++) clear_curve(&list->curve[i]);
@@ -33,14 +33,14 @@ void gg_measure_curves_clear(gg_curves *list)
   *list = (gg_curves){0};
 }
 
-/* Megabytes, of which little is used: a place is cleared when it is taken. */
+/* Allocate the list. It has megabytes, of which little is used: an entry is cleared when it is taken. */
 static bool has_places(gg_curves *list)
 {
   if (!list->curve) list->curve = malloc(GG_MOST_CURVES * sizeof *list->curve);
   return list->curve;
 }
 
-/* The next free place with arrays for n points; NULL if there is no room for it. */
+/* The next free entry with arrays for n points; NULL if there is no memory. */
 static gg_curve *new_curve(gg_curves *list, size_t n)
 {
   if (!has_places(list) || list->n == GG_MOST_CURVES || list->failed) return NULL;
@@ -135,7 +135,7 @@ static size_t shape(const gg_curves *list)
   return n;
 }
 
-/* What leaving out a block changes in every value and number; 0 where the part has no such thing. */
+/* Changes of every value and number when a block is left out; 0 where the part has no such value. */
 static void differences(const gg_curves *full, const gg_curves *part, double *d)
 {
   for (int k = 0; k < full->n; k++) {
@@ -167,7 +167,7 @@ static void evaluate(const pooled *p, const double *without, gg_curves_of *of, c
   of(self, p->mean, list);
 }
 
-/* Every block left out in turn; blocks of a run are neighbours in time, those of different runs are not. */
+/* Leave out every block in turn; blocks of a run are neighbours in time, those of different runs are not. */
 static bool leave_one_out(const pooled *p, gg_curves_of *of, const void *self, const gg_curves *full, gg_jackknife *j)
 {
   gg_curves part = {.model = full->model, .group = full->group};
@@ -194,7 +194,7 @@ static void put_errors(gg_curves *full, const gg_jackknife *j, double memory)
     gg_curve *c = &full->curve[k];
     c->block_correlation = gg_statistics_jackknife_errors(j, at, c->n, memory, NAN, c->error);
     for (size_t i = 0; i < c->n; i++)
-      if (c->value[i] == 0 && c->error[i] == 0) c->error[i] = NAN; /* nothing was ever counted: unknown, not exact */
+      if (c->value[i] == 0 && c->error[i] == 0) c->error[i] = NAN; /* nothing was counted: unknown, not exact */
     at += c->n;
     for (int i = 0; i < c->n_numbers; i++, at++) {
       gg_statistics_jackknife_errors(j, at, 1, memory, c->block_correlation, &c->number[i].error);
@@ -241,7 +241,7 @@ gg_status gg_measure_curves_estimate(const gg_bins *const *bins, size_t n_runs, 
   if (!p.total) return GG_FAILED;
   p.mean = p.total + p.width;
   gg_curves full = {.model = list->model, .group = group};
-  const unsigned before = gg_base_memory_failures(); /* fits have no other way to say so */
+  const unsigned before = gg_base_memory_failures(); /* fits have no other way to report this */
   gg_base_gsl_enter();
   sum_up(&p);
   evaluate(&p, NULL, of, self, &full);

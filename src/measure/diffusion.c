@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Velocity autocorrelation and mean-square displacement of a grain, by component and species, from origins spread over
- * the run; the coefficient of self-diffusion from both: D = int <C(0)C(t)> dt (Green 1952, Kubo 1957) and half the
- * slope of the displacement (Einstein 1905), with what is left beyond the last lags (long_time_tail.h). Lags up to 480
- * collisions a grain, in levels: each is four times as long as the one before, in steps four times as wide. The
- * integral is had from <C(0) r(t)>, r the displacement, which needs no steps. Under shear displacements are peculiar:
- * what the flow has carried along x is taken off, the grain's height between two snapshots being taken as the mean of
- * both. A grain's way from snapshot to snapshot leads to one of the images of its new place: to which say its
- * velocities at both, or, where free paths are so long beside the box that it may have crossed half of it and collided,
- * those of all its flights. The Monte Carlo ensemble has no places: there the flights are the way, and grains keep
- * theirs in the ensemble, as every collision is shown. */
+/* Velocity autocorrelation and mean-square displacement of a grain, by component and species, from origins
+ * distributed over the run. The coefficient of self-diffusion follows from both: D = int <C(0)C(t)> dt (Green 1952,
+ * Kubo 1957), and half the slope of the displacement (Einstein 1905), with the part beyond the last lags
+ * (long_time_tail.h).
+ *
+ * Lags up to 480 collisions a grain, in levels: each is four times as long as the one before, in steps four times as
+ * wide. The integral is obtained from <C(0) r(t)>, r the displacement, which needs no steps. Under shear
+ * displacements are peculiar: the displacement by the flow along x is subtracted, with the mean of the grain's
+ * heights at two snapshots.
+ *
+ * The displacement of a grain between two snapshots leads to one of the images of its new place. The image is
+ * selected by the velocities at both snapshots, or, if free paths are so long beside the box that the grain may have
+ * crossed half of it and collided, by the velocities of all its flights. The Monte Carlo ensemble has no positions:
+ * there the flights are the displacement, and grains keep theirs in the ensemble, as every collision is observed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,8 +23,8 @@
 #include "measure/observable.h"
 #include "measure/pairs.h"
 
-/* Velocities and displacements at an origin. Floats: of a displacement no more is lost than 1e-7 of all the way since
- * averaging began, and of a velocity 1e-7. */
+/* Velocities and displacements at an origin. Floats: the error of a displacement is at most 1e-7 of the whole path
+ * since averaging began, and that of a velocity 1e-7. */
 typedef struct origin {
   float *c[3], *moved[3];
 } origin;
@@ -28,15 +32,15 @@ typedef struct origin {
 typedef struct diffusion {
   const gg_model *model;
   size_t n, bytes;
-  struct diffusion_state { /* one block of plain bytes, with all arrays behind it */
+  struct diffusion_state { /* one block of plain bytes, followed by all arrays */
     uint64_t snapshots;
     double time;
     double began[GG_LAG_ORIGINS];
   } * state;
-  uint32_t *place;                /* of each grain by its number: species 1 first */
+  uint32_t *place;                /* for each grain by its number: species 1 first */
   double *r[3], *c[3], *moved[3]; /* at the last snapshot, by place; moved: displacement since the start */
   double *flown[3], *until;       /* since the last snapshot, up to the last collision; NULL in long boxes */
-  origin origin[GG_LAG_ORIGINS];  /* of the levels, one after the other */
+  origin origin[GG_LAG_ORIGINS];  /* origins of all levels, one after the other */
 } diffusion;
 
 static const char *refuses(const gg_model *m)
@@ -52,8 +56,8 @@ static void destroy(void *self)
   free(self);
 }
 
-/* Are all flights followed: without places, or where a fast grain may go half the shortest edge between two snapshots?
- * At any temperature alike, and so the same after every change of the model. */
+/* Must all flights be followed: without positions, or if a fast grain may travel half the shortest edge between two
+ * snapshots? The answer does not depend on the temperature, and so stays after every change of the model. */
 static bool follows_flights(const gg_model *m)
 {
   if (m->homogeneous) return true;
@@ -102,7 +106,7 @@ static void *memory(void *self, size_t *bytes)
   return d->state;
 }
 
-/* Places are indices. */
+/* Are all places valid indices? */
 static bool is_memory(const void *self)
 {
   const diffusion *d = self;
@@ -123,7 +127,7 @@ static size_t bins(const void *self)
   return (size_t)((const diffusion *)self)->model->n_species * GG_LAGS * GG_LAG_WIDTH;
 }
 
-/* Displacement since the snapshot before, `dt` ago: of all images of the new place the one next to `way`. */
+/* Displacement since the snapshot `dt` ago: of all images of the new place the one nearest to `way`. */
 static gg_vec displacement(const diffusion *d, const gg_images *b, gg_vec from, gg_vec to, gg_vec way, double dt)
 {
   double rate = d->model->shear_rate;
@@ -136,8 +140,8 @@ static gg_vec displacement(const diffusion *d, const gg_images *b, gg_vec from, 
   return move;
 }
 
-/* The peculiar way of a flight that ends with `c`: back from there C_x grows by the shear rate times C_y. Kicks of
- * white noise within a flight are left out: what is off by less than half an edge leads to the right image. */
+/* The peculiar displacement of a flight that ends with `c`: back from there C_x grows by the shear rate times C_y.
+ * Kicks of white noise within a flight are neglected: an error below half an edge leads to the right image. */
 static void fly(diffusion *d, size_t g, gg_vec c, double now)
 {
   double t = now - d->until[g];
@@ -154,8 +158,8 @@ static void add_collision(void *self, const gg_collision_record *collision)
   for (int i = 0; i < 2; i++) fly(d, d->place[collision->id[i]], collision->c[i], collision->time);
 }
 
-/* What the velocities say of the way since the last snapshot. */
-static gg_vec way_of(diffusion *d, size_t g, gg_vec c, const gg_snapshot *s)
+/* Estimate of the displacement since the last snapshot from the velocities. */
+static gg_vec estimated_path(diffusion *d, size_t g, gg_vec c, const gg_snapshot *s)
 {
   if (d->until) {
     fly(d, g, c, s->time);
@@ -189,9 +193,10 @@ static void follow(diffusion *d, const gg_snapshot *s)
                  to = placed ? (gg_vec){s->r[0][i], s->r[1][i], s->r[2][i]} : (gg_vec){0, 0, 0};
     gg_vec move = {0, 0, 0};
     if (!first && !placed)
-      move = way_of(d, g, c, s);
+      move = estimated_path(d, g, c, s);
     else if (!first)
-      move = displacement(d, &b, (gg_vec){d->r[0][g], d->r[1][g], d->r[2][g]}, to, way_of(d, g, c, s), s->elapsed);
+      move =
+          displacement(d, &b, (gg_vec){d->r[0][g], d->r[1][g], d->r[2][g]}, to, estimated_path(d, g, c, s), s->elapsed);
     const double step[3] = {move.x, move.y, move.z};
     for (int a = 0; a < 3; a++) {
       if (placed) d->r[a][g] = s->r[a][i];
@@ -215,7 +220,7 @@ static void set_origin(diffusion *d, int o)
 }
 
 /* Sums over the grains of one species, at places from..to: products with the origin, squares of displacements. By
- * symmetry in time the velocity at the end of a displacement says as much as that at its beginning. */
+ * symmetry in time the velocity at the end of a displacement gives as much information as that at its beginning. */
 static void correlate(const diffusion *d, int o, size_t from, size_t to, double *bin)
 {
   bin[GG_LAG_COUNT] += (double)(to - from);
@@ -237,7 +242,7 @@ static void correlate(const diffusion *d, int o, size_t from, size_t to, double 
   }
 }
 
-/* Every level: a new origin if it is time for one, then the lags to all of them. */
+/* Every level: a new origin if one is due, then the lags to all of them. */
 static void add_level(diffusion *d, int level, int first, double *bin)
 {
   const uint64_t now = d->state->snapshots, step = 1ull << (2 * level), n = (uint64_t)gg_lag_origins[level];
@@ -265,9 +270,9 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   d->state->snapshots++;
 }
 
-/* Of smooth grains, in the first Sonine approximation: T_i/m_i over the rate at which a grain loses momentum to the gas
- * and to a bath, with Maxwellians of the temperatures measured (of few grains among many: J.W. Dufty & V. Garzo, J.
- * Stat. Phys. 105 (2001) 723; elastic: Chapman & Cowling). NaN: not of this model. */
+/* First Sonine approximation for smooth grains: T_i/m_i over the rate at which a grain loses momentum to the gas and
+ * to a bath, with Maxwellians of the measured temperatures (tracers: J.W. Dufty & V. Garzo, J. Stat. Phys. 105
+ * (2001) 723; elastic: Chapman & Cowling). NaN for other models. */
 static double first_sonine(const gg_model *m, int i, const double *bins)
 {
   double rate = m->bath.on ? m->bath.drag[i] : 0, T[GG_MAX_SPECIES] = {0}; /* <C_a^2> */
@@ -286,7 +291,8 @@ static double first_sonine(const gg_model *m, int i, const double *bins)
   return T[i] / rate;
 }
 
-/* Known in equilibrium alone: walls, shear and what heats a gas change its vortices, and Enskog's equation has none. */
+/* Finite-size correction, known in equilibrium alone: walls, shear and heating change the vortices of a gas, and
+ * Enskog's equation has none. */
 static double lacking_of_box(const gg_model *m, int species, const double *bin)
 {
   double T = 0;
@@ -314,7 +320,7 @@ static void put_component(const diffusion *d, int species, int a, const double *
   gg_measure_curve_axes(r, "t", time, "<(Δr)^2>", unit);
   double step = gg_lag_mean(bin, 1, GG_LAG_TIME);
   for (int i = 0; i < GG_LAGS && c->n && r->n; i++) {
-    c->x[i] = r->x[i] = gg_lag_steps(i) * step; /* also where no sample has come so far */
+    c->x[i] = r->x[i] = gg_lag_steps(i) * step; /* also at lags without samples */
     c->value[i] = gg_lag_mean(bin, i, GG_LAG_CC + a);
     r->value[i] = gg_lag_mean(bin, i, GG_LAG_RR + a);
   }
@@ -345,13 +351,11 @@ const gg_observable gg_measure_diffusion = {
     .memory = memory,
     .is_memory = is_memory,
     .refuses = refuses,
-    .bins = bins,
-    .every = 1,
-    .parts = GG_LAG_SNAPSHOTS,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .add_collision = add_collision,
-    .wants_collisions = follows_flights,
     .restart = restart,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 1, .parts = GG_LAG_SNAPSHOTS, .add_snapshot = add_snapshot, .of_bins = curves},
+    .collisions = &(const gg_observable_collisions){.add = add_collision, .wanted = follows_flights},
+    .cost = {.bytes = 700, .ns = {120, 400}},
 };

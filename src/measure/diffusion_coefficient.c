@@ -4,12 +4,12 @@
 
 #include "measure/diffusion_lags.h"
 
-/* Lags, in steps of their level, between which D(t) is followed. */
+/* Lags, in steps of their level, at which D(t) is evaluated. */
 static const int node_steps[] = {4, 5, 6, 7, 8, 10, 12, 14}; /* and 16, the first of the next level */
 enum { NODES_PER_LEVEL = 8, NODES = (GG_LAG_LEVELS - 1) * NODES_PER_LEVEL };
 
-/* Collisions a grain until of a velocity e^-10 is left, also of heavy grains among light ones: momentum is lost at the
- * rate (8/3) sum_j n_j sigma^2 chi sqrt(2 pi T m_r) (1 + e)/(2 m) in a gas of Maxwellians (T as an energy: 1). */
+/* Collisions a grain until e^-10 of a velocity remains, also for heavy grains among light ones: momentum is lost at
+ * the rate (8/3) sum_j n_j sigma^2 chi sqrt(2 pi T m_r) (1 + e)/(2 m) in a gas of Maxwellians (T as an energy: 1). */
 static double kinetic_collisions(const gg_model *m, int species)
 {
   double friction = 0;
@@ -27,7 +27,7 @@ typedef struct node {
   double spacing; /* of the origins of its level */
 } node;
 
-/* Those that samples have reached, later than so many collisions a grain. */
+/* Nodes with samples, later than so many collisions a grain. */
 static int nodes_of(const double *bin, double least, node *list)
 {
   int n = 0;
@@ -41,7 +41,7 @@ static int nodes_of(const double *bin, double least, node *list)
   return n;
 }
 
-/* C(0) r(t) scatters by T 2Dt, and velocities at both ends are two. */
+/* C(0) r(t) scatters by T 2Dt, and there are two velocities, at both ends. */
 static gg_coefficient green_kubo(const gg_long_time_tail *tail, const double *bin, int a, const node *list, int n,
                                  double samples)
 {
@@ -55,8 +55,8 @@ static gg_coefficient green_kubo(const gg_long_time_tail *tail, const double *bi
   return gg_measure_long_time_tail_coefficient(tail, at, n);
 }
 
-/* Half the slope between two nodes stands for the middle. Displacements of many origins share their way: the slope
- * scatters by 4 D^2 t over the whole time, that of all origins and grains. */
+/* Half the slope between two nodes is the value in the middle. Displacements of many origins overlap: the slope
+ * scatters by 4 D^2 t over the whole time, summed over all origins and grains. */
 static gg_coefficient einstein(const gg_long_time_tail *tail, const double *bin, int a, const node *list, int n,
                                double samples)
 {
@@ -71,9 +71,9 @@ static gg_coefficient einstein(const gg_long_time_tail *tail, const double *bin,
   return gg_measure_long_time_tail_coefficient(tail, at, n - 1);
 }
 
-/* In a driven gas the correlation fades otherwise than in equilibrium. Under shear (phi = 0.3, e = 0.9) a tenth of D_xx
- * comes after 16 collisions a grain, and 3 % after 56. So nothing is taken for granted before DRIVEN times the time
- * of velocities, and LEFT phi D of what comes later. */
+/* In a driven gas the decay of the correlation differs from that in equilibrium. Under shear (phi = 0.3, e = 0.9) a
+ * tenth of D_xx comes after 16 collisions a grain, and 3 % after 56. So no tail is assumed before DRIVEN times the
+ * decay time of velocities, and LEFT phi D for the later part. */
 #define DRIVEN 4
 #define LEFT 0.05
 

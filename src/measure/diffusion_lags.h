@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lags at which diffusion correlates a grain with its past, and what is summed at each. Level l has lags up to
- * REACH 4^l snapshots in steps of 4^l, from a quarter of it on: what is below belongs to the level before. */
+/* Lags at which diffusion correlates a grain with its past, and the sums at each lag. Level l has lags up to REACH
+ * 4^l snapshots in steps of 4^l, from a quarter of it on: shorter lags belong to the level before. */
 #ifndef GG_DIFFUSION_LAGS_H
 #define GG_DIFFUSION_LAGS_H
 
@@ -18,7 +18,7 @@ enum {
 };
 static const int gg_lag_origins[GG_LAG_LEVELS] = {2, 8, 8, 8};
 
-/* Sums over grains and origins, of one lag: how many, time, C(0)C(t), C r and r^2 by component, r the displacement. */
+/* Sums over grains and origins at one lag: number, time, C(0)C(t), C r and r^2 by component, r the displacement. */
 enum {
   GG_LAG_COUNT,
   GG_LAG_TIME,
@@ -28,14 +28,14 @@ enum {
   GG_LAG_WIDTH = GG_LAG_RR + 3
 };
 
-/* Where the lag of so many steps of a level stands among all; -1: at another level. */
+/* Index among all lags of the lag of so many steps of a level; -1: at another level. */
 static inline int gg_lag_index(int level, int steps)
 {
   if (level == 0) return steps;
   return steps < GG_LAG_REACH / 4 ? -1 : GG_LAG_REACH + (level - 1) * GG_LAG_OWN + steps - GG_LAG_REACH / 4;
 }
 
-/* The snapshots between. */
+/* Number of snapshots between both ends of the lag. */
 static inline double gg_lag_steps(int lag)
 {
   if (lag < GG_LAG_REACH) return lag;
@@ -49,7 +49,7 @@ static inline double gg_lag_mean(const double *bin, int lag, int channel)
   return at[GG_LAG_COUNT] > 0 ? at[channel] / at[GG_LAG_COUNT] : NAN;
 }
 
-/* D of one species and component, from its means over samples. NaN where samples do not reach far enough. */
+/* D of one species and component, from its means over samples. NaN if the samples do not cover long enough lags. */
 typedef struct gg_diffusion_coefficients {
   gg_coefficient green_kubo, einstein;
 } gg_diffusion_coefficients;

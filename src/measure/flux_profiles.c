@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fluxes across the gap between walls: stress, heat, spin; and the balance of energy, slab by slab.
  *
- * Grains carry: sums over all samples of the window, about a straight line of velocity and one of spin in each slab, as
- * in profiles.c. Collisions pass on over the line between both centres (Irving & Kirkwood, J. Chem. Phys. 18 (1950)
- * 817; Todd, Evans & Daivis, Phys. Rev. E 52 (1995) 1627): each slab has the share of the line that lies in it. What
- * passes from grain 1 to 2 is the impulse J, half of what 2 gains in energy less what 1 gains, and the same of the
- * spin's angular momentum about z. Their heights are sigma k_y apart, in Monte Carlo as far as its cells have it. The
- * energy that both lose goes at the centres, half at each. A wall is a partner at its place: between it and the centre
- * of a grain that touches, fluxes are those through the wall.
+ * Kinetic part: sums over all samples of the window, about a straight line of velocity and one of spin in each slab,
+ * as in profiles.c. Collisional part: transfer along the line between both centres (Irving & Kirkwood, J. Chem.
+ * Phys. 18 (1950) 817; Todd, Evans & Daivis, Phys. Rev. E 52 (1995) 1627): each slab gets the fraction of the line
+ * that lies in it. The transfer from grain 1 to 2 is the impulse J, half of the energy gained by 2 minus that gained
+ * by 1, and the same of the spin's angular momentum about z. Their heights differ by sigma k_y, in Monte Carlo by
+ * the distance of its cells. The energy that both lose is located at the centres, half at each. A wall is a partner
+ * at its place: between it and the centre of a grain that touches, fluxes are those through the wall.
  *
- * So momentum and energy are conserved exactly at every height. With F the flux of energy along y, in the laboratory,
+ * So momentum and energy are conserved exactly at every height. With F the flux of energy along y, in the
+ * laboratory,
  *   dF/dy = rho g.u - loss,
  * and means over two slabs differ by the integral of the right-hand side, weighted by a hat: 1 at the face between
- * them, 0 at their far ends. Each slab keeps the sources with that weight, so what is left over is noise and the change
+ * them, 0 at their far ends. Each slab keeps the sources with that weight, so the remainder is noise and the change
  * of the energy in time, at any thickness of slabs. */
 #include <math.h>
 #include <stdio.h>
@@ -35,8 +36,8 @@ typedef struct carried {
   double wwv, xx;  /* q w^2 v, q w_x^2 */
 } carried;
 
-/* Sums over collisions: with the part of the line that lies in the slab, momentum, energy of translation and of
- * rotation, angular momentum; and at the centres, the loss. Along y with h^p, p = 0 and 1. */
+/* Sums over collisions, with the part of the line that lies in the slab: momentum, translational and rotational
+ * energy, angular momentum; and at the centres, the loss. Along y with h^p, p = 0 and 1. */
 typedef struct passed {
   double xx, zz, xy, momentum[2][3], energy[2], spin[2], loss[2];
 } passed;
@@ -46,7 +47,8 @@ typedef struct slab {
   passed by;
 } slab;
 
-/* Behind the slabs: the time of their collisions; that of the heat of the walls, which an interval's sums have. */
+/* Stored after the slabs: the time of their collisions; and that of the heat of the walls, which the sums of an
+ * interval have. */
 typedef struct walls {
   double time, interval, heat[GG_MOST_SURFACES];
 } walls;
@@ -102,13 +104,13 @@ static void add_interval(void *self, const gg_interval *in)
   for (int w = 0; w < d->model->n_surfaces; w++) d->since.walls.heat[w] += in->transfer->surface[w].loss;
 }
 
-/* What passes over the line from 1 to 2; spin: angular momentum about z. */
+/* Transfer along the line from 1 to 2; spin: angular momentum about z. */
 typedef struct transfer {
   gg_vec line, J;
   double energy[2], spin;
 } transfer;
 
-/* `share` of the line, about the height h of the slab. */
+/* Add the fraction `share` of the line, about the height h of the slab. */
 static void add_passed(passed *p, double share, double h, const transfer *t)
 {
   const double x = share * t->line.x, y = share * t->line.y, J[3] = {t->J.x, t->J.y, t->J.z};
@@ -118,7 +120,7 @@ static void add_passed(passed *p, double share, double h, const transfer *t)
   p->spin[0] += y * t->spin, p->spin[1] += y * h * t->spin;
 }
 
-/* From height to height, in slabs. */
+/* Distribute the transfer over the slabs from height to height, in units of slabs. */
 static void spread(fluxes *d, double from, double to, const transfer *t)
 {
   const double low = fmin(from, to), high = fmax(from, to), length = high - low;
@@ -136,7 +138,7 @@ static void lose(fluxes *d, double at, double energy)
   d->since.by[i].loss[0] += energy, d->since.by[i].loss[1] += energy * (at - i - 0.5);
 }
 
-/* What a grain gains: energy of translation and of rotation, angular momentum. */
+/* Gains of a grain: translational and rotational energy, angular momentum. */
 typedef struct gain {
   double energy[2], spin;
 } gain;
@@ -203,7 +205,7 @@ static void add_sums(double *to, const void *from, size_t n)
   for (size_t k = 0; k < n; k++) to[k] += ((const double *)from)[k];
 }
 
-/* What has come together since the last snapshot. Before the first of a window nobody knows since when. */
+/* Add the collisions since the last snapshot. Before the first one of a window their time is unknown. */
 static void add_collisions(fluxes *d, double now, slab *slabs)
 {
   if (d->since.begins >= 0) {
@@ -249,13 +251,14 @@ static line line_of(const carried *c)
   return l;
 }
 
-/* Next to a wall centres may fill a small part of a slab: less than half of it has a variance below half^2/12. */
+/* Next to a wall centres may occupy a small part of a slab: if that is less than half, the variance is below
+ * half^2/12. */
 static bool is_filled(const carried *c)
 {
   return c->h[0] > 0 && c->h[2] - c->h[1] * c->h[1] / c->h[0] > c->h[0] / 48;
 }
 
-/* Of the nearest slab that is filled, drawn on. */
+/* The line of the nearest filled slab, extrapolated. */
 static line line_at(const fluxes *d, const slab *slabs, int i, bool spin)
 {
   for (int far = 0; far < d->slabs; far++)
@@ -342,7 +345,7 @@ static profile profile_of(const fluxes *d, const slab *slabs, int i)
   return p;
 }
 
-/* Sources of a slab, with the part of the hat that is 1 at its upper or lower face: power of gravity, loss. */
+/* Sources of a slab, weighted with the part of the hat that is 1 at its upper or lower face: power of gravity, loss. */
 static void add_sources(const fluxes *d, const slab *slabs, int i, bool upper, double *power, double *loss)
 {
   const slab *at = &slabs[i];
@@ -353,8 +356,8 @@ static void add_sources(const fluxes *d, const slab *slabs, int i, bool upper, d
   *loss += unit / time * (0.5 * at->by.loss[0] + sign * at->by.loss[1]);
 }
 
-/* At the face above slab i: dq/dy, what the stress does by shearing the gas, what collisions destroy, and what is left
- * of dq/dy - work + loss. */
+/* Terms at the face above slab i: dq/dy, the work of the stress on the shear, the loss by collisions, and the
+ * remainder dq/dy - work + loss. */
 static void terms_of(const fluxes *d, const slab *slabs, const profile *p, int i, double term[TERMS])
 {
   const double height = d->model->box[1] / d->slabs;
@@ -371,9 +374,9 @@ static void terms_of(const fluxes *d, const slab *slabs, const profile *p, int i
 
 static const struct {
   const char *name, *label; /* profile_<name>, profile_<name>_kinetic, ... */
-  gg_quantity like;         /* has its unit; of couple stress times a length */
-  int axis[2];              /* components that the image turns the sign by; -1: none */
-  bool axial, spins;        /* of the second */
+  gg_quantity like;         /* quantity with the same unit; for couple stress times a length */
+  int axis[2];              /* components whose sign the image changes; -1: none */
+  bool axial, spins;        /* the second component is axial, is one of spins */
 } kinds[KINDS] = {
     [XX] = {"P_xx", "P_{xx}", GG_Q_PRESSURE, {0, 0}, false, false},
     [YY] = {"P_yy", "P_{yy}", GG_Q_PRESSURE, {1, 1}, false, false},
@@ -486,14 +489,11 @@ const gg_observable gg_measure_fluxes = {
     .create = create,
     .destroy = free,
     .refuses = refuses,
-    .bins = bins,
     .memory = memory,
-    .every = 1,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .add_interval = add_interval,
-    .add_collision = add_collision,
-    .of_walls_too = true,
     .restart = restart,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 1, .add_snapshot = add_snapshot, .add_interval = add_interval, .of_bins = curves},
+    .collisions = &(const gg_observable_collisions){.add = add_collision, .of_walls_too = true},
 };

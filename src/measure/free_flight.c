@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* nu over that of a grain at rest, times 2; x = c/sqrt(2T/m) of those it meets. */
+/* nu over that of a grain at rest, times 2; x = c/sqrt(2T/m) of its partners. */
 static double rate_at(double x)
 {
   return exp(-x * x) + (2 * x + 1 / x) * 0.5 * sqrt(M_PI) * erf(x);
@@ -11,7 +11,7 @@ static double rate_at(double x)
 
 enum { SPEEDS = GG_FLIGHT_SPEEDS };
 
-/* In sqrt(2T/m) of the grain itself: midpoints up to six. */
+/* Speed in sqrt(2T/m) of the grain itself: midpoints up to six. */
 static double speed_at(int i)
 {
   return 6 * (i + 0.5) / SPEEDS;
@@ -41,7 +41,7 @@ static double density(double at, const double *law, bool by_length)
     flights += weight[i];
     total += weight[i] / fall[i];
   }
-  double unit = total / flights / law[GG_FLIGHT_MEAN]; /* of lengths or times, over that of the integral */
+  double unit = total / flights / law[GG_FLIGHT_MEAN]; /* unit of lengths or times, over that of the integral */
   for (int i = 0; i < SPEEDS; i++) sum += weight[i] * fall[i] * exp(-fall[i] * at * unit);
   return sum / flights * unit;
 }

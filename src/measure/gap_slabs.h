@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Slabs across the gap between walls, which profiles are of; and what its symmetry makes of them. */
+/* Slabs across the gap between walls, in which profiles are measured; and their images under the symmetry of the
+ * gap. */
 #ifndef GG_GAP_SLABS_H
 #define GG_GAP_SLABS_H
 
@@ -17,8 +18,8 @@ static inline int gg_measure_gap_slabs(const gg_model *m)
   return 2 * (int)fmin(fmax(pairs, GG_LEAST_GAP_SLABS / 2), GG_MOST_GAP_SLABS / 2);
 }
 
-/* By what the image multiplies a vector's component a; spins are axial: a mirror turns those along it, and leaves the
- * one across. */
+/* Factor of a vector's component a under the symmetry; spins are axial: a mirror reverses the components along it,
+ * and keeps the one across. */
 static inline double gg_wall_image(gg_wall_symmetry symmetry, bool axial, int a)
 {
   if (symmetry == GG_TURNED) return a == 2 ? 1 : -1;

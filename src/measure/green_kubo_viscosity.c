@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* eta* = nu_0 eta/(n T) of cooling and heated gases by linear response: the limit of -P_xy/(n T a*) at a vanishing
- * reduced shear rate a* (common/linear_response.h). The noise of P_xy/(nT) is the same at every a*, so least squares of
- * -P_xy/(n T) on eta* a* + B a*^3, over all samples while a* went up and down its range; its sums are the channels, so
- * that the estimator's error of eta* contains that of the extrapolation.
+ * reduced shear rate a* (common/linear_response.h). The noise of P_xy/(nT) is the same at every a*: hence least
+ * squares of -P_xy/(n T) on eta* a* + B a*^3, over all samples while a* varies over its range. The sums of the
+ * regression are the channels, so that the estimator's error of eta* contains that of the extrapolation.
  *
- * The kinetic stress belongs to the instant of the sample. The collisional one is a mean over the interval before it,
- * in which it goes as sqrt(T): it belongs to the temperature at which sqrt(T) has its mean. */
+ * The kinetic stress is that at the instant of the sample. The collisional one is a mean over the interval before
+ * it, in which it is proportional to sqrt(T): it belongs to the temperature at which sqrt(T) has its mean. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -18,10 +18,10 @@
 enum { A2, A4, A6, SA, SA3, SUMS };
 enum { KINETIC, COLLISIONAL = SUMS, CHANNELS = 2 * SUMS };
 
-/* Rows, of two collisions a grain each, that a heated gas needs to forget its rescaling. */
+/* Rows, of two collisions a grain each, after which a heated gas has forgotten its rescaling. */
 enum { RELAXATION = 5 };
 
-typedef struct memory { /* what one sample leaves for the next */
+typedef struct memory { /* data that one sample leaves for the next */
   double last_temperature;
   double since; /* rows since the last rescaling */
 } memory;
@@ -68,7 +68,8 @@ static void add_chunk(void *self, const gg_chunk *chunk)
 {
   viscosity *v = self;
   gg_chunk grains = *chunk;
-  for (int a = 0; a < 3 && chunk->whole_c[0]; a++) grains.c[a] = chunk->whole_c[a]; /* whatever the scene's frame */
+  for (int a = 0; a < 3 && chunk->whole_c[0]; a++)
+    grains.c[a] = chunk->whole_c[a]; /* independent of the scene's frame */
   for (int i = 0; i < v->model->n_species; i++) {
     gg_species_view g = gg_measure_species_chunk(&grains, i, &v->scratch);
     double cc = 0, cxcy = 0;
@@ -82,7 +83,7 @@ static void add_chunk(void *self, const gg_chunk *chunk)
   }
 }
 
-/* Both in units of the high end of a*, so that no sum is tiny. */
+/* Add to the sums, with a and the stress in units of the high end of a*, so that no sum is tiny. */
 static void put(const gg_linear_response *range, double a, double stress, double *sums)
 {
   double u = a / range->high, u2 = u * u, y = stress / range->high;
@@ -121,8 +122,8 @@ static void finish(void *self, const gg_interval *in, double *row)
   put(&range, gg_common_reduced_shear_rate(m, mean_T), -stress, row + COLLISIONAL);
 }
 
-/* Of a whole sweep the determinant of both powers is 0.2 (cooling) or 0.36 (heated) of A2 A6; of a part of one it is so
- * small that the fit tells the noise, and its error nothing. */
+/* For a whole sweep the determinant of both powers is 0.2 (cooling) or 0.36 (heated) of A2 A6; for a part of one it
+ * is so small that the fit amplifies the noise, and its error has no meaning. */
 #define LEAST_DETERMINANT 0.1
 
 static double fit(const double *s)
@@ -151,13 +152,11 @@ static const gg_derived derived[] = {
 
 const gg_observable gg_measure_viscosity = {
     GG_OBSERVABLE(VISCOSITY, viscosity),
-    .width = width,
     .create = create,
     .destroy = free,
     .memory = memory_of,
-    .begin = begin,
-    .add_chunk = add_chunk,
-    .finish = finish,
-    .derived = derived,
     .refuses = refuses,
+    .rows =
+        &(const gg_observable_rows){
+            .width = width, .begin = begin, .add_chunk = add_chunk, .finish = finish, .derived = derived},
 };

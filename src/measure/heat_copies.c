@@ -39,7 +39,8 @@ void gg_measure_heat_copies_clear(gg_heat_copies *d)
   free(d->grain);
 }
 
-/* Where all grains share a fixed energy, D degrees of freedom of it, <C^j> is lower by j (j - 2)/(4 D) (sonine.c). */
+/* Correction for grains with a fixed total energy, D degrees of freedom of it: <C^j> is lower by j (j - 2)/(4 D)
+ * (sonine.c). */
 static double shared(const gg_heat_copies *d, int j)
 {
   return 1 + j * (j - 2) / (4 * 3 * (double)(d->model->n - 1));
@@ -69,8 +70,8 @@ static void add_moments(const gg_heat_copies *d, double *bin)
   }
 }
 
-/* The impulse J = eta2 g + (eta1 - eta2) k g_n on grain 1 of a pair with c, s the difference of velocities and the sum
- * of spins; what it does to its velocity and spin, k along an axis. Linear. */
+/* The impulse J = eta2 g + (eta1 - eta2) k g_n on grain 1 of a pair with c, s the difference of velocities and the
+ * sum of spins; its effect on velocity and spin, k along an axis. Linear. */
 static inline void kick(const gg_model *m, double K, int axis, const double *c, const double *s, double *dc, double *ds)
 {
   const double eta1 = m->contact[0][0].jn, eta2 = m->contact[0][0].jt;
@@ -81,18 +82,18 @@ static inline void kick(const gg_model *m, double K, int axis, const double *c, 
   ds[j] = -dc[k] / K, ds[k] = dc[j] / K;                        /* -(k x J)/K */
 }
 
-/* Pairs along an axis: grain 1 and its partner, ahead, the relative velocity; what a collision makes of grain 1. */
-typedef struct meeting {
+/* A pair along an axis: grain 1 and its partner, ahead, the relative velocity; grain 1 after a collision. */
+typedef struct axis_pair {
   const double *c[2], *s[2];
   double g, after_c[3], after_s[3], energy[2]; /* energy: gained, of translation and rotation */
-} meeting;
+} axis_pair;
 
-static inline meeting meet(const gg_heat_copies *d, const double *one, const double *two, int axis)
+static inline axis_pair meet(const gg_heat_copies *d, const double *one, const double *two, int axis)
 {
   const double K = d->K;
   const bool ahead = one[axis] > two[axis];
   const double *a = ahead ? one : two, *b = ahead ? two : one;
-  meeting m = {{a, b}, {a + SPIN, b + SPIN}, a[axis] - b[axis], {0}, {0}, {0}};
+  axis_pair m = {{a, b}, {a + SPIN, b + SPIN}, a[axis] - b[axis], {0}, {0}, {0}};
   double c[3], s[3], dc[3], ds[3];
   for (int k = 0; k < 3; k++) c[k] = a[k] - b[k], s[k] = a[SPIN + k] + b[SPIN + k];
   kick(d->model, K, axis, c, s, dc, ds);
@@ -103,8 +104,8 @@ static inline meeting meet(const gg_heat_copies *d, const double *one, const dou
   return m;
 }
 
-/* What the energies times g grow by where grain 2 has more of velocity and spin, by a share, and grain 1 less. */
-static void tilt(const gg_heat_copies *d, const meeting *m, int axis, double *of)
+/* Derivative of the energies times g, if grain 2 has more of velocity and spin by a fraction, and grain 1 less. */
+static void tilt(const gg_heat_copies *d, const axis_pair *m, int axis, double *of)
 {
   const double K = d->K, *a = m->c[0], *b = m->c[1], *s = m->s[0], *t = m->s[1];
   double c[3], w[3], dc[3], ds[3];
@@ -117,8 +118,8 @@ static void tilt(const gg_heat_copies *d, const meeting *m, int axis, double *of
   }
 }
 
-/* Partners a diameter away are of another temperature, or density. */
-static void add_meeting(const gg_heat_copies *d, const meeting *m, int axis, double w, double *bin)
+/* Add a pair: partners a diameter away have another temperature, or density. */
+static void add_axis_pair(const gg_heat_copies *d, const axis_pair *m, int axis, double w, double *bin)
 {
   const gg_heat_layout *l = &d->at;
   const double *partner = m->c[1], *spin = m->s[1];
@@ -144,12 +145,12 @@ static void add_pairs(const gg_heat_copies *d, gg_rng *rng, double *bin)
   const double w = 1 / (6 * (double)n);
   for (uint32_t i = 0; i < n; i++)
     for (int k = 0; k < 3; k++) {
-      const meeting m = meet(d, d->grain + i * size, d->grain + (i + shift) % n * size, k);
-      add_meeting(d, &m, k, w, bin);
+      const axis_pair m = meet(d, d->grain + i * size, d->grain + (i + shift) % n * size, k);
+      add_axis_pair(d, &m, k, w, bin);
     }
 }
 
-/* Copies at T = 1; the weights are b_n without its momentum. */
+/* Make copies at T = 1; the weights are b_n without its momentum. */
 static void copy(gg_heat_copies *d, const gg_snapshot *s, double T)
 {
   const double unit = 1 / sqrt(T);
@@ -171,7 +172,7 @@ static void copy(gg_heat_copies *d, const gg_snapshot *s, double T)
   }
 }
 
-/* Adds <b_m w_n> of a grain, and <C w_n> before them. */
+/* Add <b_m w_n> of a grain, preceded by <C w_n>. */
 static inline void add_overlap(int n, const double *g, double sum[][GG_HEAT_ORDERS])
 {
   const double *s = g + SPIN, C = sqrt(gg_heat_dot(g, g)), both = gg_heat_dot(g, s);
@@ -191,8 +192,8 @@ static inline void add_overlap(int n, const double *g, double sum[][GG_HEAT_ORDE
   }
 }
 
-/* <b_m w_n> of the copies in units of their own T, which is returned; b_m without momentum, of which w_n has none on
- * average, but noise. */
+/* <b_m w_n> of the copies in units of their own T, which is returned; b_m without momentum, which w_n has only as
+ * noise. */
 static double overlap(const gg_heat_copies *d, double *to)
 {
   const int many = d->model->n, n = d->at.n;
@@ -213,7 +214,8 @@ static double overlap(const gg_heat_copies *d, double *to)
   return T;
 }
 
-/* Fluxes of the weights, T that of the copies: two of the functions b; and what collisions carry, of pairs. */
+/* Fluxes of the weights, T that of the copies: kinetic ones are two of the functions b, collisional transfer is that
+ * of pairs. */
 static void fluxes(const gg_heat_copies *d, gg_rng *rng, double T, const double *overlaps,
                    double (*flux)[GG_HEAT_ORDERS])
 {
@@ -231,7 +233,7 @@ static void fluxes(const gg_heat_copies *d, gg_rng *rng, double T, const double 
   for (uint32_t i = 0; i < many; i++)
     for (int a = 0; a < 3; a++) {
       const double *one = d->grain + i * size, *two = d->grain + (i + shift) % many * size;
-      const meeting m = meet(d, one, two, a);
+      const axis_pair m = meet(d, one, two, a);
       for (int k = 0; k < l->n; k++) {
         const double w = unit * m.g * (one[WEIGHTS + 3 * k + a] + two[WEIGHTS + 3 * k + a]);
         flux[GG_HEAT_CARRIED_TRANSLATION][k] += w * m.energy[0], flux[GG_HEAT_CARRIED_ROTATION][k] += w * m.energy[1];
@@ -239,7 +241,7 @@ static void fluxes(const gg_heat_copies *d, gg_rng *rng, double T, const double 
     }
 }
 
-/* Of rough grains: the tangential impulse, and what it does to spins; `normal` is half of c12's along k. */
+/* For rough grains: the tangential impulse, and its effect on spins; `normal` is half of c12's along k. */
 static void rub(const gg_heat_copies *d, double *a, double *b, const double c12[3], const double normal[3])
 {
   const double length = sqrt(gg_heat_dot(normal, normal)), eta2 = d->model->contact[0][0].jt;
@@ -255,8 +257,8 @@ static void rub(const gg_heat_copies *d, double *a, double *b, const double c12[
   }
 }
 
-/* Both get the sum of their weights, and the velocities of a collision: with r uniform on the sphere c12 - |c12| r is
- * twice the normal velocity. */
+/* Collide two copies: both get the sum of their weights, and the velocities after a collision: with r uniform on the
+ * sphere c12 - |c12| r is twice the normal velocity. */
 static void collide(const gg_heat_copies *d, double *a, double *b, const double c12[3], double speed, gg_rng *rng)
 {
   const gg_vec r = gg_rng_direction(rng);
@@ -278,10 +280,10 @@ static void reject(const gg_heat_copies *d, double *a, double *b, double odds)
   }
 }
 
-/* Far above all relative speeds at T = 1, so that the odds of rejected candidates are small. */
+/* Far above all relative speeds at T = 1, so that rejection factors are small. */
 static const double majorant = 12;
 
-/* As many candidates as grains; returns the time that they are worth. */
+/* One step with as many candidates as grains; returns the time that they represent. */
 static double step(gg_heat_copies *d, gg_rng *rng)
 {
   const uint32_t n = (uint32_t)d->model->n;
@@ -300,8 +302,8 @@ static double step(gg_heat_copies *d, gg_rng *rng)
   return 2 / ((1 - 1. / n) * M_PI * d->model->density * d->model->chi[0] * sigma * sigma * majorant);
 }
 
-/* The lags, one behind the other. Time from step to step: the gas cools as 1/(1 + rate t). Integrals by trapezes, with
- * Gregory's correction at both ends. */
+/* The lags, one after the other. Time from step to step: the gas cools as 1/(1 + rate t). Integrals by the
+ * trapezoidal rule, with Gregory's correction at both ends. */
 static void follow(gg_heat_copies *d, gg_rng *rng, double *start, double *lag)
 {
   const gg_heat_layout *l = &d->at;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Functions b in which f1/f0 is expanded: a vector times |C|^speed |s|^spin, s the velocity of the surface. Smooth
- * grains have the first three. The tangential impulse goes as the speed of the surface, so partners at a distance add
- * odd powers of |s| to the source: without these and C C^2 s^2, kappa_r of dense grains is 0.8 to 2.8 % low. With 18
- * more, up to degree 6, no conductivity of two dense states changes by 0.2 %. */
+ * grains have the first three. The tangential impulse is proportional to the speed of the surface, so partners at a
+ * distance add odd powers of |s| to the source: without these and C C^2 s^2, kappa_r of dense grains is 0.8 to 2.8 %
+ * low. With 18 more, up to degree 6, no conductivity of two dense states changes by 0.2 %. */
 #ifndef GG_HEAT_FUNCTIONS_H
 #define GG_HEAT_FUNCTIONS_H
 
@@ -33,7 +33,7 @@ static inline double gg_heat_crossed(const double *a, const double *b, int axis)
   return a[j] * b[k] - a[k] * b[j];
 }
 
-/* |C|^speed |s|^spin of those that smooth grains have not. */
+/* |C|^speed |s|^spin of the functions that only rough grains have. */
 static inline void gg_heat_factors(double C, double S, double factor[GG_HEAT_ORDERS])
 {
   const double speed[] = {1, C, C * C, C * C * C}, spin[] = {1, S, S * S};
@@ -52,7 +52,7 @@ static inline void gg_heat_values(int n, double C, const double *c, const double
   for (int k = GG_HEAT_SMOOTH; k < n; k++) b[k] = vector[gg_heat_functions[k].vector] * factor[k];
 }
 
-/* What it grows by along (dc, ds). */
+/* Derivative of the component along (dc, ds). */
 static inline void gg_heat_slopes(int n, const double *c, const double *s, const double *dc, const double *ds, int axis,
                                   double *b)
 {

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Transport coefficients of elastic grains at rest from the fluctuations of Helfand's moments (E. Helfand, Phys. Rev.
- * 119 (1960) 1; hard spheres: B.J. Alder, D.M. Gass and T.E. Wainwright, J. Chem. Phys. 53 (1970) 3813). The moment
- * sum r e, e the energy of a grain, grows by int sum e c dt while grains fly, and at a collision by sigma k times the
- * energy that goes from one to the other; sum r m c likewise by momenta. Nothing of the box's images enters. With dG
- * the growth in a sampling interval h, G(t) that in a time t,
+/* Transport coefficients of elastic grains at rest from the fluctuations of Helfand's moments (E. Helfand, Phys.
+ * Rev. 119 (1960) 1; hard spheres: B.J. Alder, D.M. Gass and T.E. Wainwright, J. Chem. Phys. 53 (1970) 3813). The
+ * moment sum r e, e the energy of a grain, grows by int sum e c dt while grains fly, and at a collision by sigma k
+ * times the energy transferred from one to the other; sum r m c likewise by momenta. Images of the box do not enter.
+ * With dG the growth in a sampling interval h, G(t) that in a time t,
  *   d<G^2>/dt/2 = [<dG_0^2>/2 + sum_k <dG_0 dG_k>]/h, k to LAST
- * is V T^2 kappa, V T eta (momenta, without trace), V T eta_b (a third of the trace, less its mean): Green and Kubo's
- * integral from 0 to a time within LAST and LAST + 1 intervals, without a step in time. Its kinetic part is that of
+ * is V T^2 kappa, V T eta (momenta, without trace), V T eta_b (a third of the trace, minus its mean): the Green-Kubo
+ * integral from 0 to a time between LAST and LAST + 1 intervals, without a step in time. Its kinetic part is that of
  * the kinetic flux with the whole one.
  *
- * The noise of the sum grows as sqrt(LAST), 2 sqrt(LAST/(3 n)) of kappa for n intervals, whatever the size of the box:
- * small boxes are cheapest. They lack some of the fluctuations of a flux, for energy and momentum are conserved: of a
- * dilute gas kappa lies 4.2/N low, eta 0.2/N. */
+ * The noise of the sum is proportional to sqrt(LAST), 2 sqrt(LAST/(3 n)) of kappa for n intervals, at any size of
+ * the box: small boxes are cheapest. They lack some of the fluctuations of a flux, because energy and momentum are
+ * conserved: in a dilute gas kappa is 4.2/N low, eta 0.2/N. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -19,28 +19,28 @@
 #include "base/memory.h"
 #include "measure/observable.h"
 
-/* Intervals, of two collisions a grain: where the quantities end, and the curves. A heat flux decays by 1/e in 1.9
- * collisions. */
+/* Intervals, of two collisions a grain: the last one of the quantities, and of the curves. A heat flux decays by 1/e
+ * in 1.9 collisions. */
 enum { LAST = 6, LAGS = 32 };
 enum { HEAT, STRESS = HEAT + 3, MOMENTS = STRESS + 6 }; /* stress: xx, yy, zz, xy, xz, yz */
 /* Products of two intervals. */
 enum { KAPPA_KINETIC, KAPPA, ETA_KINETIC, ETA, BULK, PRODUCTS };
-/* Of a row, all 0 until LAST intervals went before; and of bins, with products by lag behind. */
+/* Channels of a row, all 0 until LAST intervals have passed; and of bins, followed by products by lag. */
 enum { COUNT, TIME, TEMPERATURE, TRACE, SUMS, CHANNELS = SUMS + PRODUCTS };
 enum { AT_LAG = 1 + PRODUCTS, BINS = SUMS + (LAGS + 1) * AT_LAG };
 
-typedef struct growth {                          /* of the moments in an interval */
-  double kinetic[MOMENTS], all[MOMENTS], excess; /* of a third of the trace over what is expected */
+typedef struct growth {                          /* growth of the moments in an interval */
+  double kinetic[MOMENTS], all[MOMENTS], excess; /* of a third of the trace over its expected value */
 } growth;
 
 typedef struct helfand {
   const gg_model *model;
-  double row[CHANNELS], pressed; /* expected of a third of the trace, over T and time */
+  double row[CHANNELS], pressed; /* expected value of a third of the trace, over T and time */
   struct memory {
     uint64_t snapshots;
-    double time;                /* up to when `now` has flown */
+    double time;                /* time up to which `now` has flown */
     double flux[MOMENTS];       /* kinetic, at that time */
-    growth now, last[LAGS + 1]; /* last: of the interval that ended with snapshot i at i % (LAGS + 1) */
+    growth now, last[LAGS + 1]; /* last: the interval that ended with snapshot i is at i % (LAGS + 1) */
   } memory;
 } helfand;
 
@@ -138,7 +138,7 @@ static double heat_product(const double *a, const double *b)
   return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / 3;
 }
 
-/* Of a tensor without trace 10 times that of its xy. */
+/* For a tensor without trace 10 times that of its xy. */
 static double shear_product(const double *a, const double *b)
 {
   double sum = -3 * trace(a) * trace(b);
@@ -201,15 +201,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   memory->snapshots++;
 }
 
-/* Rows are made of the snapshot at the end of their interval; there is none before averaging. */
-static void begin(void *self)
-{
-  (void)self;
-}
-static void add_chunk(void *self, const gg_chunk *chunk)
-{
-  (void)self, (void)chunk;
-}
+/* The row is that of the snapshot at the end of its interval; 0 before averaging. */
 static void finish(void *self, const gg_interval *in, double *row)
 {
   helfand *h = self;
@@ -218,7 +210,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   memset(h->row, 0, sizeof h->row);
 }
 
-/* Over kappa_0 or eta_0 (quantity.h). */
+/* In units of kappa_0 or eta_0 (quantity.h). */
 static double reduced(const double *mean, const gg_model *m, int product, double sum)
 {
   const double T = mean[TEMPERATURE] / mean[COUNT], nu0 = gg_common_model_nu0(m, T), p = m->density * T;
@@ -226,7 +218,7 @@ static double reduced(const double *mean, const gg_model *m, int product, double
   return product <= KAPPA ? 4. / 15 * nu0 / p * coefficient / T : nu0 / p * coefficient;
 }
 
-/* `lags` times the square of the mean comes off where there is a mean. */
+/* The square of the mean, times `lags`, to be subtracted if there is a mean. */
 static double without_mean(const double *mean, int product, double lags)
 {
   return product == BULK ? (lags + 0.5) * mean[TRACE] * mean[TRACE] / mean[COUNT] : 0;
@@ -267,7 +259,7 @@ static const gg_derived derived[] = {
     GG_DERIVED_END,
 };
 
-/* Coefficients of the integral up to a time: where they are constant it is long enough. */
+/* Coefficients of the integral up to a time: where they are constant the time is long enough. */
 static void put(const helfand *h, const double *bin, int product, const char *name, const char *panel,
                 const char *label, gg_curves *list)
 {
@@ -298,15 +290,8 @@ const gg_observable gg_measure_helfand = {
     .destroy = free,
     .memory = memory_of,
     .refuses = refuses,
-    .width = width,
-    .begin = begin,
-    .add_chunk = add_chunk,
-    .finish = finish,
-    .derived = derived,
-    .bins = bins,
-    .every = 1,
-    .add_snapshot = add_snapshot,
-    .add_collision = add_collision,
     .restart = restart,
-    .curves = curves,
+    .rows = &(const gg_observable_rows){.width = width, .finish = finish, .derived = derived},
+    .curves = &(const gg_observable_curves){.bins = bins, .every = 1, .add_snapshot = add_snapshot, .of_bins = curves},
+    .collisions = &(const gg_observable_collisions){.add = add_collision},
 };

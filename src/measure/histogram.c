@@ -9,9 +9,9 @@
 enum { HALF = GG_HISTOGRAM_HALF };
 #define WIDTH GG_HISTOGRAM_WIDTH
 #define TAIL_FROM 2.0
-enum { LEAST_COUNT = 25 }; /* in the last bin that a tail is fitted to */
+enum { LEAST_COUNT = 25 }; /* in the last bin of the fit of a tail */
 
-/* Sums in eight lanes, so that their bits do not depend on how many a register holds. */
+/* Sums in eight lanes, so that their bits do not depend on the width of registers. */
 enum { LANES = 8 };
 
 static double sum_of(const double lane[LANES])
@@ -35,7 +35,7 @@ gg_scale_of gg_measure_scale_of_values(const double *x, size_t n)
   return (gg_scale_of){mean, sqrt(sum_of(two) / whole - mean * mean)};
 }
 
-/* Where each belongs, from 1 on; 0 and the one behind the last: beyond the bins. And sums of powers. */
+/* Bin of each value, from 1 on (0, and the one after the last: beyond the bins), and sums of powers. */
 enum { CHUNK = 256, BEYOND = GG_HISTOGRAM_BINS + 1 };
 GG_CLONES static void place(const double *restrict x, double mean, double inverse, int32_t *restrict at,
                             double (*restrict power)[LANES])
@@ -52,7 +52,7 @@ GG_CLONES static void place(const double *restrict x, double mean, double invers
 void gg_measure_histogram_add_all(double *bin, const double *x, size_t n, double mean, double unit)
 {
   double power[3][LANES] = {{0}}, inverse = 1 / unit;
-  uint32_t counts[2][BEYOND + 1] = {{0}}; /* in turn: equal neighbours would wait for one another */
+  uint32_t counts[2][BEYOND + 1] = {{0}}; /* alternating: equal neighbours would depend on one another */
   int32_t at[CHUNK];
   size_t i = 0;
   for (; i + CHUNK <= n; i += CHUNK) {
@@ -81,8 +81,7 @@ double gg_measure_histogram_height(const double *bin, double sigma)
   return (y * x4 - x2 * x2y) / (n * x4 - x2 * x2);
 }
 
-/* The bins of |x| from the one that `from` lies in to that of `to`, or to the last one before the first of few counts.
- */
+/* The bins of |x| from that of `from` to that of `to`, or to the last one before the first with few counts. */
 static gg_stretched_tail_data tail_of(const double *bin, double sigma, double samples, const double range[2],
                                       double folded[HALF])
 {
@@ -96,8 +95,8 @@ static gg_stretched_tail_data tail_of(const double *bin, double sigma, double sa
                                   2 * gg_measure_histogram_height(bin, sigma) * samples};
 }
 
-/* Over the thesis's ranges. The bins have sigma, P(0) and what is slow in common: as numbers of the curve the fits have
- * errors that know of it. */
+/* Fits over the thesis's ranges. The bins share sigma, P(0) and slow fluctuations: as numbers of the curve the fits
+ * have errors that include these. */
 static void put_ranges(gg_curve *c, const double *bin, double sigma, double samples)
 {
   double folded[HALF];

@@ -9,7 +9,7 @@
 enum {
   GG_HISTOGRAM_HALF = 80, /* bin k is centred on (k - HALF) widths */
   GG_HISTOGRAM_BINS = 2 * GG_HISTOGRAM_HALF + 1,
-  GG_HISTOGRAM_GRAINS = GG_HISTOGRAM_BINS, /* behind the bins: sums of 1, x^2, x^3, x^4 */
+  GG_HISTOGRAM_GRAINS = GG_HISTOGRAM_BINS, /* after the bins: sums of 1, x^2, x^3, x^4 */
   GG_HISTOGRAM_SQUARES,
   GG_HISTOGRAM_CUBES,
   GG_HISTOGRAM_FOURTHS,
@@ -27,7 +27,7 @@ GG_INLINE void gg_histogram_add(double *bin, double x)
   if (at >= 0 && at < GG_HISTOGRAM_BINS) bin[(int)at]++;
 }
 
-/* Many at once, of x about a mean over a unit. */
+/* Add many values of x, about a mean, in a unit. */
 void gg_measure_histogram_add_all(double *bin, const double *x, size_t n, double mean, double unit);
 /* Mean and standard deviation of x. */
 typedef struct gg_scale_of {
@@ -35,11 +35,11 @@ typedef struct gg_scale_of {
 } gg_scale_of;
 gg_scale_of gg_measure_scale_of_values(const double *x, size_t n);
 
-/* Standard deviation, in the unit of x; the counts that a bin at x = 0 has. */
+/* Standard deviation, in the unit of x; the expected count of a bin at x = 0. */
 double gg_measure_histogram_sigma(const double *bin);
 double gg_measure_histogram_height(const double *bin, double sigma);
-/* P(x/sigma)/P(0), and the numbers: tail, kurtosis, skewness. `samples`: those that the bins are the mean over; 0:
- * they are probabilities, and there is no tail. */
+/* P(x/sigma)/P(0), and the numbers: tail, kurtosis, skewness. `samples`: number of samples in the mean of the bins;
+ * 0: they are probabilities, and there is no tail. */
 gg_curve *gg_measure_histogram_put(gg_curves *list, const char *name, const char *panel, const char *label,
                                    const double *bin, double sigma, double samples);
 

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How hard grains collide: the distribution of the normal relative speed g_n of their collisions, on which restitution
- * depends that is not constant.
+/* The distribution of the normal relative speed g_n of collisions, on which a law of restitution e(g) depends.
  *
- * Under molecular chaos of Maxwellian velocities a pair of species i, j meets at g_n with the density g_n/s^2
- * exp(-g_n^2/(2 s^2)), s^2 = T_i/m_i + T_j/m_j (Chapman & Cowling 1970, 5.2: one factor of g_n is the flux). With x =
- * g_n sqrt(2)/s, which is g_n/sqrt(T) for one species of unit mass, that is x/2 exp(-x^2/4) for every pair, and all are
- * counted together. The temperatures are those of the snapshot before; where the gas cools, or heats up for ever, they
- * change after it by as much a collision as they did before it. */
+ * Under molecular chaos of Maxwellian velocities a pair of species i, j collides at g_n with the density g_n/s^2
+ * exp(-g_n^2/(2 s^2)), s^2 = T_i/m_i + T_j/m_j (Chapman & Cowling 1970, 5.2: one factor of g_n is the flux). With x
+ * = g_n sqrt(2)/s, which is g_n/sqrt(T) for one species of unit mass, that is x/2 exp(-x^2/4) for every pair, and
+ * all are counted together. The temperatures are those of the previous snapshot; if the gas cools or heats up, they
+ * are assumed to change at the same rate per collision as before it. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,11 +16,11 @@
 enum { BINS = 80, COUNT = BINS, SUM, SQUARES, WIDTH_OF_ALL };
 #define WIDTH 0.1
 
-/* What has to be kept where a run is stopped within an interval. */
+/* Data to keep if a run is stopped within an interval. */
 typedef struct state {
   double over_m[GG_MAX_SPECIES]; /* T_i/m_i of the last snapshot; 0: none yet */
-  double total, collisions;      /* their sum over all grains; collisions since */
-  double fall;                   /* of ln T a collision; NaN: not known yet */
+  double total, collisions;      /* its sum over all grains; collisions since */
+  double fall;                   /* of ln T a collision; NaN: unknown */
   double sums[WIDTH_OF_ALL];     /* since the last snapshot */
 } state;
 
@@ -96,7 +95,7 @@ static void add_snapshot(void *self, const gg_snapshot *g, double *bin)
   s->collisions = 0;
 }
 
-/* Also when averaging begins. */
+/* Called also when averaging begins. */
 static void begin_burst(void *self)
 {
   state *s = &((impact_speed *)self)->state;
@@ -135,13 +134,9 @@ const gg_observable gg_measure_impact_speed = {
     .refuses = refuses,
     .create = create,
     .destroy = free,
-    .bins = bins,
     .memory = memory,
-    .every = 1,
-    .add_collision = add_collision,
-    .begin_burst = begin_burst,
     .rescaled = rescaled,
-    .add_snapshot = add_snapshot,
     .restart = begin_burst,
-    .curves = curves,
+    .curves = &(const gg_observable_curves){.bins = bins, .every = 1, .add_snapshot = add_snapshot, .of_bins = curves},
+    .collisions = &(const gg_observable_collisions){.add = add_collision, .begin_burst = begin_burst},
 };

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Distributions of C_x and Omega_z where the gas is thin and where it is dense: of the grains in cells whose density
- * lies within a tenth of a chosen one (Gayen's thesis, section 4.1), and of the grains of all cells. Cells hold about
- * eight grains. Velocities are about the mean of the cell; with the share m_i/M_c that a mean over few grains takes out
- * of a variance put back they are, for Gaussian grains, Gaussian again. Where the scene's frame is cells, cells and
- * velocities are those of the frame. */
+/* Distributions of C_x and Omega_z in thin and dense regions: of the grains in cells whose density lies within a
+ * tenth of a chosen one (Gayen's thesis, section 4.1), and of the grains of all cells. Cells have about eight
+ * grains. Velocities are about the mean of the cell; with the fraction m_i/M_c of the variance restored that a mean
+ * over few grains takes away they are, for Gaussian grains, Gaussian again. If the scene's frame is made of cells,
+ * cells and velocities are those of the frame. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -94,7 +94,7 @@ static void sort_grains(local *d, const gg_snapshot *s)
   }
 }
 
-/* Of a grain about its cell's mean; alone in its cell it has none: NaN. */
+/* Value of a grain about its cell's mean; NaN if it is alone in its cell. */
 static double about_cell(const local *d, const gg_snapshot *s, int v, size_t i)
 {
   const cell *c = &d->cell[d->at[i]];
@@ -102,8 +102,8 @@ static double about_cell(const local *d, const gg_snapshot *s, int v, size_t i)
   return left > 1e-9 * w ? (component(s, v, i) - c->sum[v] / c->weight[v]) * sqrt(c->weight[v] / left) : NAN;
 }
 
-/* Values of grains, and by species their mean and standard deviation over the whole box. The frame's values are about
- * cells already, spins plus a mean of the box. */
+/* Values of grains, and by species their mean and standard deviation over the whole box. The frame's values are
+ * about cells already, spins plus a mean of the box. */
 static void take_values(local *d, const gg_snapshot *s, int v, gg_scale_of scale[GG_MAX_SPECIES])
 {
   const bool framed = d->model->frame != GG_FRAME_IMPOSED;
@@ -158,7 +158,7 @@ static void put(const local *d, gg_curves *list, int species, int vector, int j,
   snprintf(panel, sizeof panel, "%s%s, by local density", written[vector], of);
   snprintf(label, sizeof label, j == ALL ? "all cells" : "φ %.3g", phi);
   snprintf(argument, sizeof argument, "%s/σ", written[vector]);
-  double sigma = gg_measure_histogram_sigma(bin); /* NaN where no cell was ever of this density */
+  double sigma = gg_measure_histogram_sigma(bin); /* NaN if no cell ever had this density */
   gg_curve *c = gg_measure_histogram_put(list, name, panel, label, bin, sigma, (double)list->samples);
   gg_measure_curve_axes(c, argument, "1", "P/P(0)", "1");
   gg_measure_curve_put_number(c, "temperature_over_mean", sigma * sigma, "1");
@@ -178,10 +178,9 @@ const gg_observable gg_measure_local_distributions = {
     .create = create,
     .destroy = destroy,
     .refuses = gg_measure_needs_bulk,
-    .bins = bins,
-    .every = 4,
-    .framed = true,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 4, .framed = true, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.bytes = 25, .ns = {10, 0}},
 };

@@ -5,7 +5,7 @@
 
 #include "measure/gap_slabs.h"
 
-/* A slab holds at least so many grains on average, and is at least a diameter thick. */
+/* A slab has at least so many grains on average, and is at least a diameter thick. */
 enum { GRAINS_PER_SLAB = 10 };
 
 static int slabs_of(const gg_model *model)
@@ -95,7 +95,7 @@ void gg_measure_slabs_add(gg_slabs *slabs, const gg_slabs *more)
   for (size_t i = 0; i < (size_t)slabs->n * sizeof(gg_slab) / sizeof(double); i++) to[i] += from[i];
 }
 
-/* Sum of squares of heights about their mean; 0 where grains are too few for a line, which then is their mean alone. */
+/* Sum of squares of heights about their mean; 0 for too few grains for a line: then the line is their mean alone. */
 static double spread_of(const gg_slab *slab)
 {
   double spread = slab->grains > 0 ? slab->height_square - slab->height * slab->height / slab->grains : 0;
@@ -113,8 +113,8 @@ static gg_line fit_line(const gg_slab *slab, const double sum[3], const double m
   return line;
 }
 
-/* Grains less the parameters of the fit. */
-static double left_of(const gg_slab *slab)
+/* Number of grains minus the parameters of the fit. */
+static double freedom_of(const gg_slab *slab)
 {
   return slab->grains - (spread_of(slab) > 0 ? 2 : 1);
 }
@@ -122,7 +122,7 @@ static double left_of(const gg_slab *slab)
 double gg_measure_slab_temperature(const gg_slab *slab)
 {
   gg_line line = fit_line(slab, slab->velocity, slab->moment);
-  double squares = slab->square, spread = spread_of(slab), left = left_of(slab);
+  double squares = slab->square, spread = spread_of(slab), left = freedom_of(slab);
   for (int a = 0; a < 3; a++)
     squares -= slab->grains * line.mean[a] * line.mean[a] + spread * line.slope[a] * line.slope[a];
   return left > 0 ? squares / (3 * left) : 0;
@@ -134,7 +134,7 @@ void gg_measure_local_frame_make(gg_local_frame *f, const gg_slabs *slabs)
   for (int i = 0; i < GG_MAX_SPECIES; i++) f->radius[i] = slabs->radius[i];
   for (int k = 0; k < f->n; k++) {
     const gg_slab *slab = &slabs->slab[k];
-    double left = left_of(slab);
+    double left = freedom_of(slab);
     f->centre[k] = slab->grains > 0 ? slab->height / slab->grains : 0;
     f->stretch[k] = left > 0 ? sqrt(slab->grains / left) : 1;
     f->flow[k] = fit_line(slab, slab->velocity, slab->moment);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Peculiar velocities in walled flows, where no profile is imposed. The flow velocity u(y) is a straight line in each
- * slab across y, fitted to the velocities of all samples of the averaging window so far: a mean alone would leave the
- * shear within a slab in the temperature, and a fit to one instant takes more out of it than the noise of the slab's
- * few grains, since neighbours move together. Observables are given c - u(y). A line takes 2/n of the variance of its n
- * velocities away; residuals are scaled by sqrt(n/(n - 2)) to give it back. Spins likewise: grains roll with the flow,
- * at another rate at each height (one for all species), and that is no heat. */
+/* Peculiar velocities in walled flows, where no profile is imposed. The flow velocity u(y) is a straight line in
+ * each slab across y, fitted to the velocities of all samples of the averaging window so far. A mean alone would
+ * leave the shear within a slab in the temperature; a fit to one instant would take away more than the noise of the
+ * slab's few grains, since neighbours move together. Observables get c - u(y). A line takes 2/n of the variance of
+ * its n velocities away; residuals are scaled by sqrt(n/(n - 2)) to restore it. Spins likewise: grains roll with the
+ * flow, at another rate at each height (one for all species), and that is no heat. */
 #ifndef GG_LOCAL_FRAME_H
 #define GG_LOCAL_FRAME_H
 
@@ -22,7 +22,7 @@ typedef struct gg_slab {
 
 typedef struct gg_slabs {
   int n;
-  double inverse_thickness, radius[GG_MAX_SPECIES]; /* a spin is that of the surface: radius times angular velocity */
+  double inverse_thickness, radius[GG_MAX_SPECIES]; /* a spin is a surface velocity: radius times angular velocity */
   gg_slab slab[GG_MAX_SLABS];
 } gg_slabs;
 
@@ -33,17 +33,18 @@ typedef struct gg_line {
 typedef struct gg_local_frame {
   int n;
   double inverse_thickness, radius[GG_MAX_SPECIES];
-  double centre[GG_MAX_SLABS], stretch[GG_MAX_SLABS]; /* mean height; what gives the fit's share back */
+  double centre[GG_MAX_SLABS],
+      stretch[GG_MAX_SLABS]; /* mean height; factor that restores the variance taken by the fit */
   gg_line flow[GG_MAX_SLABS], rolling[GG_MAX_SLABS];
 } gg_local_frame;
 
-/* No grains yet. */
+/* Slabs without grains. */
 void gg_measure_slabs_init(gg_slabs *slabs, const gg_model *model);
 bool gg_measure_slabs_are_empty(const gg_slabs *slabs);
-/* The sums of this instant. */
+/* Set the sums from the present state of the engine. */
 void gg_measure_slabs_take(gg_slabs *slabs, const gg_model *model, gg_engine *engine);
 void gg_measure_slabs_of_snapshot(gg_slabs *slabs, const gg_snapshot *snapshot);
-/* Add those of another instant. */
+/* Add the sums of another instant. */
 void gg_measure_slabs_add(gg_slabs *slabs, const gg_slabs *more);
 /* <C.C>/3 about the slab's own line. */
 double gg_measure_slab_temperature(const gg_slab *slab);
@@ -58,7 +59,7 @@ gg_vec gg_measure_local_frame_spin(const gg_local_frame *frame, double y, gg_vec
 /* The flow velocity u(y). */
 gg_vec gg_measure_local_frame_flow(const gg_local_frame *frame, double y);
 
-/* Show every grain with its velocity and spin in the local frame. */
+/* Visit every grain with its velocity and spin in the local frame. */
 void gg_measure_local_frame_snapshot(const gg_local_frame *frame, gg_engine *engine, gg_visit *visit, void *context);
 
 #endif

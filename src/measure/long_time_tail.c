@@ -56,7 +56,7 @@ static double theta_less_one(double u)
   return direct ? sum : sqrt(M_PI / u) * (1 + sum) - 1;
 }
 
-/* Modes other than k = 0 that are left. */
+/* Sum over the remaining modes, without k = 0. */
 static double modes(const gg_long_time_tail *tail, double t)
 {
   double x = theta_less_one(tail->rate[0] * t), y = theta_less_one(tail->rate[1] * t);
@@ -64,7 +64,7 @@ static double modes(const gg_long_time_tail *tail, double t)
   return x + y + z + x * y + y * z + z * x + x * y * z;
 }
 
-/* In ln t by Simpson's rule, to where the slowest mode has gone. */
+/* Integral in ln t by Simpson's rule, up to the decay of the slowest mode. */
 double gg_measure_long_time_tail_beyond(const gg_long_time_tail *tail, double t)
 {
   enum { STEPS = 64 };
@@ -78,9 +78,9 @@ double gg_measure_long_time_tail_beyond(const gg_long_time_tail *tail, double t)
   return tail->strength * sum * step / 3;
 }
 
-/* The integral over all times of what the modes of an endless gas have more than those of the box, at a rate of 1 for
- * k = 1. Of both the sum over k is (pi/t)^(3/2) over the edges' rates at first, so that the box lacks the mode k = 0
- * alone; in the end it lacks all of them. In ln t by Simpson's rule, with what comes before and after. */
+/* The integral over all times of the modes of an infinite gas minus those of the box, at a rate of 1 for k = 1. At
+ * first the sum over k is (pi/t)^(3/2) over the edges' rates for both, so that the box lacks the mode k = 0 alone;
+ * in the end it lacks all of them. In ln t by Simpson's rule, with the parts before and after. */
 static double lacking_of_box(const gg_long_time_tail *tail)
 {
   enum { STEPS = 256 };

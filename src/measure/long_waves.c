@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-/* A grain's share in slab k and in the next, by its place between their middles: whole grains in slabs would mix short
- * waves into the long ones, and of short waves a dense gas has many times as much. */
+/* Add the parts of a grain to slab k and to the next, by its place between their middles: whole grains in slabs
+ * would mix short waves into the long ones, and a dense gas has many times as much of short waves. */
 GG_INLINE void add_to_slabs(gg_wave_slab *slab, double place, double volume, const double p[3])
 {
   const unsigned k = (unsigned)place;
@@ -29,7 +29,7 @@ void gg_measure_long_waves_add(gg_long_waves *w, const gg_model *m, const gg_chu
 }
 
 /* S(0) = n T kappa_T of Carnahan & Starling (J. Chem. Phys. 51 (1969) 635). Waves of the solid fraction of unlike
- * spheres have nearly the same, those of their number have not. */
+ * spheres have nearly the same value, those of their number have not. */
 static double elastic_structure(double phi)
 {
   const double a = 1 - phi, b = 1 + 2 * phi;

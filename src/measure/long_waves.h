@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The longest waves of a periodic box: what tells a homogeneous gas from one that has clustered or swirls. Of each axis
- * of length L the modes k = 2 pi/L and 4 pi/L (bands of a sheared gas come in twos), which also moving images (Lees &
- * Edwards 1972) leave alone. Grains are counted in slabs across each axis, of which the modes are sums: no function of
- * the grains' places costs time. */
+/* The longest waves of a periodic box, which distinguish a homogeneous gas from one with clusters or vortices. Along
+ * each axis of length L these are the modes k = 2 pi/L and 4 pi/L (bands of a sheared gas come in pairs), which are
+ * compatible with moving images (Lees & Edwards 1972), too. Grains are counted in slabs across each axis, and the
+ * modes are sums over slabs: no function of the grains' positions costs time. */
 #ifndef GG_LONG_WAVES_H
 #define GG_LONG_WAVES_H
 
@@ -15,7 +15,7 @@ typedef struct gg_wave_slab {
 } gg_wave_slab;
 typedef struct gg_long_waves {
   gg_wave_slab slab[3][GG_WAVE_SLABS]; /* by axis */
-  double matter_squares, squares[3];   /* sums of the grains' own squares: what they would give at random */
+  double matter_squares, squares[3];   /* sums of the grains' own squares: the expected values for random positions */
 } gg_long_waves;
 
 /* Does this model have them? A periodic box, no walls. */
@@ -24,7 +24,7 @@ static inline bool gg_measure_has_long_waves(const gg_model *m)
   return !m->homogeneous && !m->walled;
 }
 
-/* Grains with positions; all sums are 0 at first. */
+/* Add grains with positions; initially all sums are 0. */
 void gg_measure_long_waves_add(gg_long_waves *waves, const gg_model *model, const gg_chunk *chunk);
 
 /* Means over axes and modes of |sum d^3 exp(ikr)|^2/(sum d^6 S), S = S(0) of elastic spheres at this solid fraction,

@@ -49,7 +49,7 @@ void gg_measure_mesh_clear(gg_mesh *m)
   *m = (gg_mesh){0};
 }
 
-/* The four points of the cubic spline around share x of the edge, and their weights. */
+/* The four points of the cubic spline around the position x of the edge, and their weights. */
 typedef struct spread {
   int at[4];
   double weight[4];

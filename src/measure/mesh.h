@@ -17,8 +17,8 @@ typedef struct gg_mesh {
   fftw_plan plan;
 } gg_mesh;
 
-/* So many points along each edge that suit a model; and how many of them for each grain are worth a transform in every
- * 32nd sample. */
+/* Number of points along each edge for a model; and the largest number for each grain at which a transform is made
+ * in every 32nd sample. */
 enum { GG_MESH_POINTS_PER_GRAIN = 480 };
 int gg_measure_mesh_points_along(const gg_model *model);
 gg_status gg_measure_mesh_init(gg_mesh *m, int n, gg_error *err);
@@ -33,7 +33,7 @@ typedef struct gg_mode {
 } gg_mode;
 gg_mode gg_measure_mesh_mode(const gg_mesh *m, int nx, int ny, int nz);
 
-/* Its wave vector. */
+/* Wave vector of the mode. */
 gg_vec gg_measure_mesh_wave_vector(const gg_images *box, int nx, int ny, int nz);
 
 #endif

@@ -7,8 +7,8 @@ _Static_assert(GG_N_OBSERVABLES <= 32, "a bit of `measure` for each");
 
 bool gg_measure_observable_wants_collisions(const gg_observable *o, const gg_model *model)
 {
-  return o->add_collision && gg_measure_observable_applies(o, model) &&
-         (!o->wants_collisions || o->wants_collisions(model));
+  return o->collisions && gg_measure_observable_applies(o, model) &&
+         (!o->collisions->wanted || o->collisions->wanted(model));
 }
 
 bool gg_measure_derived_find(const gg_derived *table, gg_quantity q, gg_function *f)

@@ -30,13 +30,13 @@ static size_t bins(const void *self)
   return 2 * (size_t)SET;
 }
 
-/* Some grains at a time, component by component. */
+/* Number of grains at a time, component by component. */
 enum { GRAINS = 128 };
 typedef struct vectors {
   double x[3][GRAINS];
 } vectors;
 
-/* The cosine between both vectors of each, 2 where one of them is at rest and has no direction. */
+/* The cosine between both vectors of each grain, 2 if one of them is at rest and has no direction. */
 GG_CLONES static void cosines(const vectors *c, const vectors *w, double *restrict cosine)
 {
   for (size_t i = 0; i < GRAINS; i++) {
@@ -81,7 +81,7 @@ static gg_vec spin_of(const gg_snapshot *s, size_t i)
   return gg_measure_local_frame_spin(s->frame, s->r[1][i], at(s->s, i), gg_snapshot_species(s, i));
 }
 
-/* By species: grains of two sizes spin at different mean rates. */
+/* Mean spin by species: grains of two sizes spin at different mean rates. */
 static gg_vec mean_spin(const gg_snapshot *s, int species)
 {
   gg_vec sum = {0, 0, 0};
@@ -91,7 +91,7 @@ static gg_vec mean_spin(const gg_snapshot *s, int species)
   return gg_scale(n > 0 ? 1 / n : 0, sum);
 }
 
-/* Velocity and spin, both peculiar; between walls about flow and spin of the slab, elsewhere what a snapshot holds. */
+/* Velocity and spin, both peculiar: between walls about flow and spin of the slab, elsewhere those of the snapshot. */
 static void take_peculiar(const gg_snapshot *s, size_t from, size_t n, const gg_vec mean[GG_MAX_SPECIES], vectors *c,
                           vectors *w)
 {
@@ -112,7 +112,7 @@ static void take_instantaneous(const gg_snapshot *s, size_t from, size_t n, vect
   for (size_t k = 0; k < n && shear != 0; k++) c->x[0][k] += shear * (s->r[1][from + k] - middle);
 }
 
-/* The sheared Monte Carlo ensemble has no places, and so no velocities but the peculiar ones. */
+/* The sheared Monte Carlo ensemble has no positions, and so only peculiar velocities. */
 static bool has_both(const gg_model *m)
 {
   return !m->homogeneous || m->shear_rate == 0;
@@ -147,7 +147,7 @@ static gg_curve *histogram(gg_curves *list, const char *name, const char *panel,
   return c;
 }
 
-/* Any direction as likely as any other: uniform in the cosine; of its square, the mean over a bin. */
+/* For isotropic directions: uniform in the cosine; of its square, the mean over a bin. */
 static double squares_of_uniform(double x, const double *width)
 {
   return (sqrt(x + *width / 2) - sqrt(fmax(x - *width / 2, 0))) / *width;
@@ -176,10 +176,9 @@ const gg_observable gg_measure_orientation = {
     .create = create,
     .destroy = free,
     .refuses = refuses,
-    .bins = bins,
-    .every = 2,
-    .framed = true,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 2, .framed = true, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.ns = {10, 2.5}},
 };

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pair correlation g_ij(r) = V/(N_i N_j) <sum delta(r - r_ij)>/(4 pi r^2) from contact outwards, averaged over
- * directions; its value at contact, of pairs that approach and that separate; and the contact value of the collision
- * rate of one species, which is rate/(2 pi n d^2 v), v the mean normal speed of those about to collide: 2 sqrt(T/pi) if
+ * directions; its value at contact, for approaching and for separating pairs; and the contact value of the collision
+ * rate of one species, which is rate/(2 pi n d^2 v), v the mean normal speed before collisions: 2 sqrt(T/pi) if
  * velocities are Maxwellian and uncorrelated, or as measured.
  *
- * Contact values come from collisions, without extrapolation. Pairs of normal speed g_n collide at the rate (density at
- * contact) x 4 pi sigma^2 g_n, so that the sum of 1/g_n over collisions is that density; with g_n after the collision
- * it is the density of separating pairs, 1/e times as large (Lutsko, Phys. Rev. E 63 (2001) 061211). In the distance
- * the density of separating pairs is not smooth at contact: those of small g_n meet third grains first. */
+ * Contact values come from collisions, without extrapolation. Pairs of normal speed g_n collide at the rate (density
+ * at contact) x 4 pi sigma^2 g_n, so that the sum of 1/g_n over collisions is that density; with g_n after the
+ * collision it is the density of separating pairs, 1/e times as large (Lutsko, Phys. Rev. E 63 (2001) 061211). As a
+ * function of distance the density of separating pairs is not smooth at contact: pairs of small g_n collide with
+ * third grains first. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,21 +20,21 @@
 
 enum { MOST_BINS = 160 };
 #define WIDTH 0.025
-/* Pairs a grain and snapshot, and how fast they become fewer with distance: most is asked of contact. */
+/* Pairs a grain and snapshot, and the exponent by which their number falls with distance: contact has most of them. */
 #define TRIES 50
 #define FALL 4.0
 /* Sums over the collisions of a pair of species, in units of its mean normal speed: their number; 1/g_n before and
  * after; the time they took. */
 enum { COLLISIONS, BEFORE, AFTER, ELAPSED, CONTACT };
-#define STUCK 1e-6 /* of e = 0: separating pairs are infinitely dense */
-#define SLOW 0.1   /* normal speeds below this share of the mean are averaged over */
+#define STUCK 1e-6 /* for e = 0: separating pairs are infinitely dense */
+#define SLOW 0.1   /* normal speeds below this fraction of the mean are averaged over */
 
 typedef struct pair_correlation {
   const gg_model *model;
   gg_pairs pairs;
   int n_pairs, bins;      /* of each g_ij */
   double sigma[GG_PAIRS]; /* where they begin */
-  struct since {          /* the last snapshot and what follows it: plain bytes */
+  struct since {          /* data since the last snapshot: plain bytes */
     double time, elapsed;
     uint64_t collisions, known, taken; /* taken: at the end of this interval */
     double speed[GG_PAIRS],
@@ -42,7 +43,7 @@ typedef struct pair_correlation {
   } since;
 } pair_correlation;
 
-enum { RATE_COLLISIONS, TIME, TEMPERATURE, SNAPSHOTS, EXTRA }; /* behind the bins and the contacts */
+enum { RATE_COLLISIONS, TIME, TEMPERATURE, SNAPSHOTS, EXTRA }; /* after the bins and the contacts */
 
 static void destroy(void *self)
 {
@@ -107,8 +108,8 @@ GG_INLINE void count(void *context, uint32_t one, uint32_t two, gg_vec separatio
     c->bin[q * d->bins + (int)fmax(at, 0)] += weight; /* an overlap by rounding is a contact */
 }
 
-/* 1/g has no finite variance, since slow collisions are as many as g. Below s it becomes the line with the same sums
- * over densities that are linear there. */
+/* Weight of a slow collision: 1/g has no finite variance, because the number of slow collisions is proportional to
+ * g. Below s it is replaced by the line with the same sums over densities that are linear there. */
 static double inverse_speed(double g, double s)
 {
   return g < s ? 6 / s * (1 - g / s) : 1 / g;
@@ -135,7 +136,7 @@ static double mean_speed(double a, double b)
   return fabs(log_ratio) < 1e-4 ? 0.5 * (a + b) : log_ratio * a * b / (a - b);
 }
 
-/* What happened between two snapshots, in units of the speed then. */
+/* Add the collisions between two snapshots, in units of the speed then. */
 static void close_interval(pair_correlation *d)
 {
   struct since *s = &d->since;
@@ -149,7 +150,7 @@ static void close_interval(pair_correlation *d)
   s->elapsed = 0;
 }
 
-/* Comes after the snapshot at its end. The interval of the very first snapshot is not counted. */
+/* Called after the snapshot at the end of the interval. The interval of the very first snapshot is not counted. */
 static void add_interval(void *self, const gg_interval *interval)
 {
   pair_correlation *d = self;
@@ -171,7 +172,7 @@ static void rescaled(void *self, double factor)
   }
 }
 
-/* Of each species; returns that of all, sum C^2/(3N). */
+/* Temperatures of each species; returns that of all, sum C^2/(3N). */
 static double take_temperatures(pair_correlation *d, const gg_snapshot *s)
 {
   double energy[GG_MAX_SPECIES] = {0}, all = 0;
@@ -266,13 +267,12 @@ const gg_observable gg_measure_pair_correlation = {
     .destroy = destroy,
     .memory = memory,
     .refuses = gg_measure_needs_bulk,
-    .bins = bins,
-    .every = 5,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .add_interval = add_interval,
-    .add_collision = add_collision,
     .rescaled = rescaled,
     .restart = restart,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 5, .add_snapshot = add_snapshot, .add_interval = add_interval, .of_bins = curves},
+    .collisions = &(const gg_observable_collisions){.add = add_collision},
+    .cost = {.bytes = 34, .ns = {140, 0}},
 };

@@ -14,7 +14,7 @@ double gg_measure_pairs_longest_reach(const gg_model *m)
   return fmin(fmin(m->box[0], m->box[1]), m->box[2]) / 2;
 }
 
-/* What tries a grain there are if pairs of cells up to `whole` are all taken; the image above stands right above. */
+/* Number of tries a grain if all pairs of cells up to `whole` are taken; the image above is not displaced. */
 static double tries(gg_pairs *p, const gg_images *b, double whole)
 {
   const size_t cells = gg_pairs_cells(p);
@@ -128,7 +128,7 @@ static gg_vec middle_to_middle(const gg_images *b, gg_vec d)
   return shortest;
 }
 
-/* Within a cell of an axis, given the lengths across. */
+/* Do two cells overlap along an axis, given the lengths across? */
 static bool is_along(double one, double width_one, double two, double width_two)
 {
   return fabs(one) < width_one && fabs(two) < width_two;

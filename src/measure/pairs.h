@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pairs of grains closer than a reach, under periodic or sheared periodic images. Cells are laid along the edges of the
- * sheared box, (L_x,0,0), (D,L_y,0), (0,0,L_z), in which its images form a plain lattice: no boundary is special.
+/* Pairs of grains closer than a reach, under periodic or sheared periodic images. Cells are laid along the edges of
+ * the sheared box, (L_x,0,0), (D,L_y,0), (0,0,L_z), in which its images form a plain lattice: no boundary is
+ * special.
  *
- * A grain has ever more partners the farther one looks, while near ones are few and say most. So a pair of cells within
- * the radius `whole` is always taken, and one at a distance R beyond with the probability (whole/R)^fall (one power
- * less along the edges, where pairs are few again); its pairs then count by one over that, so that sums over pairs keep
- * their expectation. With fall 2 every shell has about as many pairs. Cells are taken at equal steps from a random
- * start. The radius is what a budget allows: the cost of a snapshot grows with the number of grains, whatever the box
- * and the density. */
+ * The number of partners of a grain grows with distance, while the few near ones give most information. So a pair of
+ * cells within the radius `whole` is always taken, and one at a distance R beyond with the probability
+ * (whole/R)^fall (one power less along the edges, where pairs are few again); its pairs then have a weight of one
+ * over that probability, so that sums over pairs keep their expectation. With fall 2 every shell has about as many
+ * pairs. Cells are taken at equal steps from a random start. The radius follows from a budget: the cost of a
+ * snapshot grows with the number of grains, at any box and density. */
 #ifndef GG_PAIRS_H
 #define GG_PAIRS_H
 
 #include "common/rng.h"
 #include "measure/grain_snapshot.h"
 
-/* The box of a snapshot and its nearest images; D the displacement of the image above, brought to |D| <= L_x/2. */
+/* The box of a snapshot and its minimum images; D the displacement of the image above, reduced to |D| <= L_x/2. */
 typedef struct gg_images {
   double edge[3], inverse[3], offset;
 } gg_images;
@@ -26,27 +27,28 @@ typedef struct gg_pairs {
   uint32_t *start; /* of each cell in `grain`, and the end */
   uint32_t *grain; /* sorted by cell */
   uint32_t *cell;  /* of each grain */
-  gg_vec *at;      /* where the grains are, sorted */
+  gg_vec *at;      /* positions of the grains, sorted */
 } gg_pairs;
 
-/* Reach: at most half the shortest edge. */
+/* Longest reach: half the shortest edge. */
 double gg_measure_pairs_longest_reach(const gg_model *model);
-/* `tries`: pairs a grain that a snapshot may look at; INFINITY: all there are. `fall`: as above. */
+/* `tries`: pairs a grain that a snapshot may test; INFINITY: all pairs. `fall`: as above. */
 gg_status gg_measure_pairs_init(gg_pairs *p, const gg_model *model, double reach, double tries, double fall,
                                 gg_error *err);
 void gg_measure_pairs_clear(gg_pairs *p);
 
 gg_images gg_measure_pairs_images(const gg_snapshot *s);
-/* Put the grains into their cells. */
+/* Sort the grains into cells. */
 void gg_measure_pairs_sort(gg_pairs *p, const gg_snapshot *s, const gg_images *box);
-/* A stream of this snapshot's own: a resumed run draws what the uninterrupted one does. */
+/* A random stream for this snapshot alone: a resumed run draws the numbers of the uninterrupted one. */
 gg_rng gg_measure_pairs_stream(const gg_snapshot *s);
 
-/* Cells at an offset from others, round the box: 0 <= offset < cells. An offset and its inverse are the same pairs. */
+/* Cells at an offset from others, periodic in the box: 0 <= offset < cells. An offset and its inverse are the same
+ * pairs. */
 typedef struct gg_pairs_offset {
   int by[3];
-  double share;  /* of such pairs of cells that are taken; 0: out of reach, or found from the other side */
-  double weight; /* of their pairs */
+  double share;  /* fraction of such pairs of cells that are taken; 0: out of reach, or found from the other side */
+  double weight; /* weight of their pairs */
 } gg_pairs_offset;
 gg_pairs_offset gg_measure_pairs_offset_of(const gg_pairs *p, const gg_images *b, size_t index);
 static inline size_t gg_pairs_cells(const gg_pairs *p)
@@ -70,8 +72,8 @@ GG_INLINE gg_vec gg_nearest_separation(const gg_images *b, gg_vec d)
   return d;
 }
 
-/* What is done with a pair: places of both in the order of p->grain, the separation from one to two, its length
- * squared, and by how much it counts. */
+/* Function called for a pair: places of both in the order of p->grain, the separation from one to two, its length
+ * squared, and its weight. */
 typedef void gg_pair_visit(void *context, uint32_t one, uint32_t two, gg_vec separation, double square, double weight);
 
 /* All pairs between two cells. */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Profiles across the gap between walls: solid fraction (each grain where its centre is), flow velocity, temperatures
- * about the local flow, mean spin. Means are over the window, so a slab's temperature is about its flow of the whole
- * window, a straight line in each slab: nothing has to be put back for the few grains of one instant. Where the walls
- * are alike the profiles are those of the flow and its image together: what wanders to and fro about the middle is not
- * in them. */
+/* Profiles across the gap between walls: solid fraction (each grain where its centre is), flow velocity,
+ * temperatures about the local flow, mean spin. Means are over the window: a slab's temperature is about its flow of
+ * the whole window, a straight line in each slab, and needs no correction for few grains at one instant. If the
+ * walls are alike, the profiles are those of the flow and its image together: they do not contain slow oscillations
+ * about the middle. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@
 enum { WEIGHT, FIRST, SQUARE = FIRST + 3, HEIGHT, HEIGHT_SQUARE, MOMENT, MOTION = MOMENT + 3 };
 enum { VOLUME, GRAINS, OMEGA, FLOW, ROLLING = FLOW + MOTION, SLAB = ROLLING + MOTION };
 
-/* Behind the slabs: time, and the impulses on the surfaces of the model. */
+/* Stored after the slabs: time, and the impulses on the surfaces of the model. */
 enum { TIME, IMPULSE, WALLS = IMPULSE + 3 * GG_MOST_SURFACES, MOST_BINS = GG_MOST_GAP_SLABS * SLAB + WALLS };
 
 typedef struct profiles {
@@ -187,9 +187,9 @@ static const struct {
     {"profile_spin_z", "spin", "ω_z", "spin", spin, true},
 };
 
-/* Velocity or temperature of the gas next to a flat wall, against that of the wall: the straight line through the
- * outermost three slabs with grains, at the height of a grain that touches. Centres are only beyond that height: the
- * outermost slab stands for the part of it where they can be, and every slab counts by its grains. */
+/* Velocity or temperature of the gas next to a flat wall, compared with that of the wall: the straight line through
+ * the outermost three slabs with grains, at the height of a grain that touches. Centres are only beyond that height:
+ * the outermost slab represents the part of it where they can be, and every slab has the weight of its grains. */
 static void put_step(const gg_model *m, const gg_surface *wall, const double *bin, gg_curve *c, const char *what,
                      double of_wall, const char *unit)
 {
@@ -214,8 +214,8 @@ static void put_step(const gg_model *m, const gg_surface *wall, const double *bi
   gg_measure_curve_put_number(c, name, of_wall - (mu + xu / xx * (contact - mx)), gg_measure_curve_unit(m, unit));
 }
 
-/* What a wall feels is the flux of momentum through it, of what is across it and of what is along x: across y it equals
- * the stress of the gas, which is the same at every height (but for gravity's share). */
+/* Stress on a wall: the flux of momentum through it, of the components across and along x. Across y it equals the
+ * stress of the gas, which is the same at every height (apart from gravity). */
 static void put_wall_stress(const gg_model *m, const gg_surface *wall, const double *impulse, double time, gg_curve *c)
 {
   if (!(time > 0)) return;
@@ -279,12 +279,11 @@ const gg_observable gg_measure_profiles = {
     .create = create,
     .destroy = free,
     .refuses = refuses,
-    .bins = bins,
     .memory = memory,
-    .every = 2,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .add_interval = add_interval,
     .restart = restart,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 2, .add_snapshot = add_snapshot, .add_interval = add_interval, .of_bins = curves},
+    .cost = {.ns = {10, 0}},
 };

@@ -11,17 +11,17 @@
 #include "measure/long_waves.h"
 #include "measure/velocity_moments.h"
 
-/* What one sample leaves for the next. */
+/* Data that one sample leaves for the next. */
 typedef struct memory {
   double last_temperature; /* at the previous sample, engine's scale */
-  double log2_scale;       /* engine's velocities are 2^this times those of the start: beyond all numbers at last */
+  double log2_scale;       /* engine's velocities are 2^this times those of the start: in the end beyond all doubles */
   double mean_spin[GG_MAX_SPECIES][3];
   double energy, momentum[2]; /* of all grains; m c_x and m c_y, between walls */
   double density_waves, momentum_waves;
   uint64_t samples;
 } memory;
 
-/* Long waves change slowly, and positions cost time: one sample in so many has them. */
+/* Long waves change slowly, and positions cost time: they are taken every so many samples. */
 enum { WAVES_EVERY = 10 };
 
 typedef struct rheology {
@@ -29,8 +29,8 @@ typedef struct rheology {
   gg_velocity_moments moments[GG_MAX_SPECIES];
   bool quick;
   memory memory;
-  double energy, momentum[2], shear_stress; /* of this sample's grains as they are, where moments are about a local
-                                               flow; sum of m c_x c_y */
+  double energy, momentum[2],
+      shear_stress; /* of this sample's grains in the laboratory, if moments are about a local flow; sum of m c_x c_y */
   gg_long_waves waves;
   gg_species_scratch scratch;
 } rheology;
@@ -55,16 +55,16 @@ static void *memory_of(void *self, size_t *bytes)
   return &r->memory;
 }
 
-/* Spins are taken about their mean of the sample before, so that one pass over the grains is enough: moments are put
- * right afterwards (gg_measure_velocity_moments_centre); the angles to C feel the shift to second order, as they do
- * that of any mean over N grains. */
+/* Spins are taken about their mean of the previous sample, so that one pass over the grains is enough. Moments are
+ * corrected afterwards (gg_measure_velocity_moments_centre); the effect of the shift on the angles to C is of second
+ * order, as for any mean over N grains. */
 static void begin(void *self)
 {
   rheology *r = self;
   r->waves = (gg_long_waves){0};
   const double T = r->memory.last_temperature;
   r->energy = r->momentum[0] = r->momentum[1] = r->shear_stress = 0;
-  r->quick = T > 0x1p-60 && T < 0x1p60; /* squares of velocities will be far from what single precision cannot hold */
+  r->quick = T > 0x1p-60 && T < 0x1p60; /* squares of velocities are well within the range of single precision */
   for (int i = 0; i < r->model->n_species; i++) {
     r->moments[i] = (gg_velocity_moments){0};
     memcpy(r->moments[i].mean_spin, r->memory.mean_spin[i], sizeof r->memory.mean_spin[i]);
@@ -77,7 +77,7 @@ static bool wants_positions(const void *self)
   return gg_measure_has_long_waves(r->model) && r->memory.samples % WAVES_EVERY == 0;
 }
 
-/* Between walls and about cells: the energy of the grains as they are, their flow included. */
+/* Between walls and about cells: the energy of the grains in the laboratory, their flow included. */
 static void add_whole(rheology *r, const gg_chunk *chunk)
 {
   const gg_model *m = r->model;
@@ -92,7 +92,7 @@ static void add_whole(rheology *r, const gg_chunk *chunk)
   }
 }
 
-/* Elsewhere moments have it, spins about their mean. */
+/* Elsewhere: the energy from moments, spins about their mean. */
 static double energy_of_moments(const rheology *r)
 {
   double energy = 0;
@@ -111,7 +111,7 @@ static void add_chunk(void *self, const gg_chunk *chunk)
   rheology *r = self;
   if (chunk->whole_c[0]) add_whole(r, chunk);
   if (chunk->r[0] && wants_positions(r)) {
-    gg_chunk grains = *chunk; /* structure, whatever the frame */
+    gg_chunk grains = *chunk; /* structure does not depend on the frame */
     for (int a = 0; a < 3 && chunk->whole_c[0]; a++) grains.c[a] = chunk->whole_c[a];
     gg_measure_long_waves_add(&r->waves, r->model, &grains);
   }
@@ -197,23 +197,22 @@ static void put_rates(const rheology *r, const gg_interval *in, haff h, double *
   row[CH_PC_XY] = p[0][1] * unit, row[CH_PC_YX] = p[1][0] * unit;
 }
 
-/* The mean speed over an interval, over that at its end: the rate is that of the interval, and a free path the one over
- * the other. 1 where the temperature stays, and in free cooling, where both are scaled by that of their own time. */
+/* The mean speed over an interval, over that at its end: the rate is that of the interval, and a free path the ratio
+ * of both. 1 if the temperature is constant, and in free cooling, where both are scaled by that of their own time. */
 static double speed_during(const rheology *r, double T0, double T1, double dt)
 {
   if (gg_model_keeps_temperature(r->model) || gg_flow_cools(r->model->flow) || !(T0 > 0 && T1 > 0)) return 1;
   return haff_integrals(T0, T1, dt).root / (dt * sqrt(T1));
 }
 
-/* The way along x that the gas pulls a wall: walls that move lag behind, walls at rest hold back what gravity drives.
- */
+/* Direction along x of the force of the gas on a wall: moving walls are dragged back, walls at rest resist gravity. */
 static double drag_of(const gg_model *m, const gg_surface *wall)
 {
   double ahead = wall->velocity.x != 0 ? -wall->velocity.x : m->gravity[0];
   return ahead > 0 ? 1 : -1;
 }
 
-/* What goes into the grains and out of them, between this sample and the one before. The work of gravity by the
+/* Energy supplied to and removed from the grains between this sample and the one before. The work of gravity by the
  * trapezoidal rule: momenta change little from sample to sample. */
 static void put_energy(rheology *r, const gg_interval *in, double *row)
 {
@@ -281,16 +280,16 @@ static double log_temperature(const double *row)
 
 const gg_observable gg_measure_rheology = {
     GG_OBSERVABLE(RHEOLOGY, rheology),
-    .width = width,
     .create = create,
     .destroy = free,
     .memory = memory_of,
-    .begin = begin,
-    .wants_positions = wants_positions,
-    .add_chunk = add_chunk,
-    .add_blocks = add_blocks,
-    .finish = finish,
-    .derived = gg_measure_rheology_derived,
-    .history = gg_measure_rheology_history,
-    .log_temperature = log_temperature,
+    .rows = &(const gg_observable_rows){.width = width,
+                                        .begin = begin,
+                                        .wants_positions = wants_positions,
+                                        .add_chunk = add_chunk,
+                                        .add_blocks = add_blocks,
+                                        .finish = finish,
+                                        .derived = gg_measure_rheology_derived,
+                                        .history = gg_measure_rheology_history,
+                                        .log_temperature = log_temperature},
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Channels of a rheology sample. In free cooling everything is scaled by the temperature of the moment (moments) or of
+/* Channels of a rheology sample. In free cooling they are scaled by the temperature at the instant (moments) or over
  * the interval (rates), so that the scaled state is steady; else plain model units. */
 #ifndef GG_RHEOLOGY_H
 #define GG_RHEOLOGY_H
@@ -11,7 +11,7 @@ enum {
   CH_RATE, /* collisions per grain and time; each counts for both partners */
   CH_LOSS, /* energy lost per volume and time, in stress units per time */
   CH_ZETA, /* free cooling: zeta*, from the fall of T over the interval */
-  CH_LN_T, /* ln T of the sample, in units of the start whatever the engine's velocities were multiplied by */
+  CH_LN_T, /* ln T of the sample, in units of the start, corrected for rescaled velocities */
   CH_PC_XX,
   CH_PC_YY,
   CH_PC_ZZ,
@@ -20,14 +20,15 @@ enum {
   CH_T2,        /* square of the temperature of the sample */
   CH_GROWTH,    /* of the energy of all grains, dE/dt, per volume */
   CH_WALL_LOSS, /* as CH_LOSS, in contacts with walls */
-  CH_WALL_DRAG, /* force along the walls, the way they pull or hold, and across: sums over walls, per volume */
+  CH_WALL_DRAG, /* force along the walls, in the direction in which they move or resist, and across: sums over walls,
+                   per volume */
   CH_WALL_PUSH,
-  CH_WALL_HEAT,     /* upwards through the gap: what the upper wall takes and the lower gives, mean of both, per area */
-  CH_WALL_WORK,     /* of moving walls and of gravity between walls, per volume and time; about cells: of the shear
-                       on the kinetic stress of the grains as they are */
+  CH_WALL_HEAT, /* upwards through the gap: taken by the upper wall and given by the lower, mean of both, per area */
+  CH_WALL_WORK, /* of moving walls and of gravity between walls, per volume and time; about cells: of the shear on the
+                   kinetic stress of the grains in the laboratory */
   CH_DENSITY_WAVES, /* of the latest sample that took positions */
   CH_MOMENTUM_WAVES,
-  CH_SPECIES /* where the moments of species 1 begin; those of species 2 follow */
+  CH_SPECIES /* first moment of species 1; those of species 2 follow */
 };
 enum {
   CH_C2X,
@@ -39,7 +40,7 @@ enum {
   CH_C4Z,
   CH_CCCC,
   CH_SPEED,
-  CH_SMOOTH_WIDTH, /* what smooth grains have */
+  CH_SMOOTH_WIDTH, /* number of channels of smooth grains */
   CH_SPIN_Z = CH_SMOOTH_WIDTH,
   CH_W2X,
   CH_W2Y,

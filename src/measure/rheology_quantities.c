@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* From channel means of rheology to named quantities. Stress by Gayen's thesis eq. 5.15 (per volume), normal stress
+/* Named quantities from channel means of rheology. Stress by Gayen's thesis eq. 5.15 (per volume), normal stress
  * differences eqs 5.17-5.18. */
 #include "common/thermostat.h"
 #include "measure/long_waves.h"
@@ -34,8 +34,9 @@ static double temperature(const double *a, const gg_model *m)
 {
   return (mean_over(a, m, CH_C2X, true) + mean_over(a, m, CH_C2Y, true) + mean_over(a, m, CH_C2Z, true)) / 3;
 }
-/* Spins are about the mean of their species at that instant, which takes 1/N_i of their variance away; velocities about
- * that of all grains, 1/N. theta and T lose the same share: what of the former is missing is given back. */
+/* Correction of theta. Spins are about the mean of their species at that instant, which takes 1/N_i of their
+ * variance away; velocities about that of all grains, 1/N. theta/T is right if both lose the same fraction: this
+ * factor restores the difference. */
 static double given_back(const gg_model *m, int i)
 {
   const double n = (double)m->n, n_i = (double)m->n_of[i];
@@ -136,8 +137,8 @@ static double wall_friction(const double *a, const gg_model *m)
   (void)m;
   return a[CH_WALL_DRAG] / a[CH_WALL_PUSH];
 }
-/* Energy that the noise of a bath or thermostat gives, and that drag takes, per volume and time. Spins are dragged
- * towards those that roll with the shear. */
+/* Power of the noise of a bath or thermostat, and of drag, per volume and time. Spins are dragged towards those that
+ * roll with the shear. */
 static double power_of_noise(const gg_model *m)
 {
   const double white = !m->bath.on && gg_common_thermostat_of(m) == GG_WHITE_NOISE ? gg_common_thermostat_noise(m) : 0;
@@ -159,8 +160,8 @@ static double power_of_drag(const double *a, const gg_model *m)
   return sum * m->density * m->stress_unit;
 }
 
-/* The energy of the grains changes from one end of a run to the other: with that change taken off, the balance holds at
- * every moment, and what is left of its scatter is that of P_xy between samples. What thermal walls give is no loss. */
+/* The energy of the grains changes from one end of a run to the other: minus that change, the balance holds at every
+ * moment, and the remaining scatter is that of P_xy between samples. Heat from thermal walls is no loss. */
 static double energy_balance(const double *a, const gg_model *m)
 {
   double work = m->walled  ? a[CH_WALL_WORK]
@@ -221,9 +222,9 @@ static double skewness_wz(const double *a, const gg_model *m)
   return spin_moment(a, m, CH_W3Z, 3) / pow(spin_moment(a, m, CH_W2Z, 2), 1.5);
 }
 
-/* Fourth cumulant of one species. Where N grains share a fixed energy, even Gaussian ones have <c^4>/T^2 lower than 15
- * by the factor D/(D+2), D = 3(N-1) degrees of freedom: taken out. That goes for every instant; where T fluctuates, as
- * kicks make it or spins, <c^4> goes as the mean of T^2. */
+/* Fourth cumulant of one species. If N grains share a fixed energy, even Gaussian ones have <c^4>/T^2 lower than 15
+ * by the factor D/(D+2), D = 3(N-1) degrees of freedom: this is corrected, at every instant. If T fluctuates, by
+ * kicks or spins, <c^4> is proportional to the mean of T^2. */
 static double cumulant(const double *a, const gg_model *m, int i)
 {
   double all = temperature(a, m), fluctuation = a[CH_T2] / (all * all);
@@ -303,7 +304,7 @@ const gg_derived gg_measure_rheology_derived[] = {
     GG_DERIVED_END,
 };
 
-/* History: the temperature of free cooling itself, which as a mean has no meaning. */
+/* History: the temperature of free cooling itself, whose mean has no meaning. */
 static double history_temperature(const double *a, const gg_model *m)
 {
   (void)m;

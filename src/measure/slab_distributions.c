@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Distributions of the components of C and Omega by height between walls: of the grains in slabs of equal thickness,
  * about the local flow of the window (local_frame.h). Heat that flows across the gap skews C_y, and next to a wall
- * grains that come and grains that leave are of two kinds. Where the walls are alike a slab's distribution is that of
+ * arriving and leaving grains have different distributions. If the walls are alike, a slab's distribution is that of
  * the slab and of its image together (gap_slabs.h). */
 #include <math.h>
 #include <stdio.h>
@@ -51,7 +51,7 @@ static gg_vec peculiar(const gg_snapshot *s, int vector, size_t i)
                 : gg_measure_local_frame_velocity(s->frame, s->r[1][i], v);
 }
 
-/* Of each species the root of <C.C>/3 over the gap at this instant: the unit of its histograms. */
+/* The root of <C.C>/3 over the gap at this instant, for each species: the unit of its histograms. */
 static void take_units(const by_slab *d, const gg_snapshot *s, int vector, double unit[GG_MAX_SPECIES])
 {
   double squares[GG_MAX_SPECIES] = {0}, grains[GG_MAX_SPECIES] = {0};
@@ -79,7 +79,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   }
 }
 
-/* The histogram of a slab; where the gap is its own image, with that of the image, in which x is `sign` times x. */
+/* The histogram of a slab; if the gap is symmetric, with that of the image, in which x is `sign` times x. */
 static void fold(const by_slab *d, const double *bin, int species, int vector, int slab, int axis, double *to)
 {
   const gg_wall_symmetry symmetry = gg_wall_symmetry_of(d->model);
@@ -107,7 +107,7 @@ static void put(const by_slab *d, gg_curves *list, int species, int vector, int 
   snprintf(label, sizeof label, "y %.3g to %.3g", from, to);
   snprintf(argument, sizeof argument, "%s_%c/σ", greek, "xyz"[axis]);
   fold(d, bin, species, vector, slab, axis, sum);
-  const double sigma = gg_measure_histogram_sigma(sum); /* NaN where no grain ever was */
+  const double sigma = gg_measure_histogram_sigma(sum); /* NaN if there was never a grain */
   gg_curve *c = gg_measure_histogram_put(list, name, panel, label, sum, sigma, 0);
   c->folded = gg_wall_symmetry_of(d->model) != GG_NO_SYMMETRY;
   gg_measure_curve_axes(c, argument, "1", "P/P(0)", "1");
@@ -130,9 +130,7 @@ const gg_observable gg_measure_slab_distributions = {
     .create = create,
     .destroy = free,
     .refuses = refuses,
-    .bins = bins,
-    .every = 4,
     .positions = true,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .curves = &(const gg_observable_curves){.bins = bins, .every = 4, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.ns = {20, 20}},
 };

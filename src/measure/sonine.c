@@ -23,8 +23,8 @@ static double maxwellian_below(double x)
   return erf(x) - M_2_SQRTPI * x * exp(-x * x);
 }
 
-/* 1/sqrt(lambda_i): v* = x/sqrt(lambda_i), lambda_i = T/(T_i mu_ji); of one species, and of more than two, whose mu are
- * several: v* = x. */
+/* 1/sqrt(lambda_i): v* = x/sqrt(lambda_i), lambda_i = T/(T_i mu_ji); for one species, and for more than two, which
+ * have several mu: v* = x. */
 static double reduced(const gg_model *m, int k, double temperature_ratio)
 {
   if (m->n_species != 2) return 1;
@@ -131,9 +131,10 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
   for (int k = 0; k < m->n_species; k++) bin[k * SET + SHARE] += m->mass[k] * T[k] * (double)m->n / total;
 }
 
-/* Velocities over the T_i of the same instant share a fixed energy, that of the species: <x^4> of Gaussian grains is
- * lower by D/(D + 2), D the species' degrees of freedom. Momentum leaves those of the species' own mean the share of
- * the others in the mass: so D = 3(N_i - 1) of all grains, 3 N_i of few light ones, 3 of one grain however heavy. */
+/* Degrees of freedom of the correction. Velocities over the T_i of the same instant share a fixed energy, that of
+ * the species: <x^4> of Gaussian grains is lower by D/(D + 2), D the species' degrees of freedom. Conservation of
+ * momentum leaves those of the species' mean in proportion to the mass of the others: so D = 3(N_i - 1) for all
+ * grains, 3 N_i for few light ones, 3 for one grain however heavy. */
 static double freedom_of(const gg_model *m, int k)
 {
   double mass = 0, n = (double)m->n_of[k];
@@ -164,9 +165,8 @@ const gg_observable gg_measure_sonine = {
     .create = create,
     .destroy = free,
     .refuses = refuses,
-    .bins = bins,
-    .every = 2,
-    .framed = true,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 2, .framed = true, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.ns = {6, 4}},
 };

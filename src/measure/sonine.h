@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Curves of the deviation of one species' speeds from a Maxwellian, measured or a theory's (sonine.c has the formulas).
- */
+/* Curves of the deviation of one species' speeds from a Maxwellian, measured or of a theory (sonine.c has the
+ * formulas). */
 #ifndef GG_SONINE_CURVES_H
 #define GG_SONINE_CURVES_H
 
@@ -9,7 +9,7 @@
 enum { GG_SONINE_BINS = 60 };
 #define GG_SONINE_WIDTH 0.05
 
-/* Of x^2 = m_i v^2/(2 T_i): shares of the grains in bins of x, <x^4>, <x^6>, T_i/T. */
+/* For x^2 = m_i v^2/(2 T_i): fractions of the grains in bins of x, <x^4>, <x^6>, T_i/T. */
 typedef struct gg_sonine_sums {
   double share[GG_SONINE_BINS], fourth, sixth, temperature_ratio;
 } gg_sonine_sums;

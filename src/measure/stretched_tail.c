@@ -52,7 +52,8 @@ static double log_likelihood(const gg_stretched_tail_data *d, double a, double a
   return sum;
 }
 
-/* Fisher scoring from the least-squares line: Newton's step with the expected curvature, halved until it climbs. */
+/* Fisher scoring from the least-squares line: Newton's step with the expected curvature, halved until the likelihood
+ * grows. */
 gg_stretched_tail gg_measure_stretched_tail_likelihood(const gg_stretched_tail_data *d)
 {
   gg_stretched_tail start = gg_measure_stretched_tail_double_log(d);
@@ -81,7 +82,8 @@ const double gg_measure_stretched_tail_range[GG_TAIL_RANGES][2] = {{2, 4.5}, {3.
 
 void gg_measure_stretched_tail_name(char *name, size_t size, const char *number, const double range[2])
 {
-  const char *of =
-      range[0] == gg_measure_stretched_tail_range[0][0] ? "2_4.5" : "3.3_5.5"; /* whatever the locale's point */
+  const char *of = range[0] == gg_measure_stretched_tail_range[0][0]
+                       ? "2_4.5"
+                       : "3.3_5.5"; /* independent of the locale's decimal point */
   snprintf(name, size, "%s_%s", number, of);
 }

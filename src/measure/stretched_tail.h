@@ -10,8 +10,8 @@ typedef struct gg_stretched_tail {
   double alpha, gamma;
 } gg_stretched_tail;
 
-/* counts[i] of |x| in the bin [first + i width, first + (i+1) width), and counts at x = 0 for a bin of that width. Only
- * bins with counts enter. */
+/* counts[i] of |x| in the bin [first + i width, first + (i+1) width), and counts at x = 0 for a bin of that width.
+ * Only bins with counts enter. */
 typedef struct gg_stretched_tail_data {
   const double *counts;
   size_t n;
@@ -25,8 +25,8 @@ gg_stretched_tail gg_measure_stretched_tail_double_log(const gg_stretched_tail_d
  * are nearly empty. */
 gg_stretched_tail gg_measure_stretched_tail_likelihood(const gg_stretched_tail_data *data);
 
-/* Ranges of |x| that the thesis fits tails over (sections 3.1.1 and 4.1.2), and the name of a number of such a fit:
- * "alpha_2_4.5". */
+/* Ranges of |x| for the fits of tails in the thesis (sections 3.1.1 and 4.1.2), and the name of a number of such a
+ * fit: "alpha_2_4.5". */
 enum { GG_TAIL_RANGES = 2 };
 extern const double gg_measure_stretched_tail_range[GG_TAIL_RANGES][2];
 void gg_measure_stretched_tail_name(char *name, size_t size, const char *number, const double range[2]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every quantity of the user's own is a channel, and its mean the channel's. Grains are laid out as whole arrays, in
- * the units of results, whatever the engine's velocities were multiplied by. */
+/* User-defined observables: every quantity is a channel, and its mean the channel's. Grains are arranged as whole
+ * arrays, in the units of results, corrected for rescaled velocities. */
 #include "measure/observable.h"
 
 #include <math.h>
@@ -12,9 +12,10 @@
 
 typedef double triple[3];
 
-/* What one sample leaves for the next; the observables' states follow. */
+/* Data that one sample leaves for the next; the observables' states follow. */
 typedef struct memory {
-  double scale; /* engine's velocities over those of the start; of repeated sweeps of slow shear, of its own start */
+  double scale; /* engine's velocities over those of the start; for repeated sweeps of slow shear, of the start of the
+                   sweep */
   double time;
 } memory;
 
@@ -22,9 +23,9 @@ typedef struct own {
   const gg_model *model;
   memory *memory;
   size_t memory_bytes;
-  triple *position, *velocity, *spin; /* NULL where there are none */
+  triple *position, *velocity, *spin; /* NULL if there are none */
   uint8_t *species;
-  size_t n; /* grains laid out so far */
+  size_t n; /* grains arranged so far */
 } own;
 
 static const gg_observable_definition *definition(const own *o, int k)
@@ -32,7 +33,7 @@ static const gg_observable_definition *definition(const own *o, int k)
   return gg_common_extension_observable(o->model->extension, k);
 }
 
-/* On a boundary where anything may stand. */
+/* Round up to an alignment for any type. */
 static size_t rounded(size_t bytes)
 {
   return (bytes + 15) / 16 * 16;
@@ -114,8 +115,7 @@ static void add_chunk(void *self, const gg_chunk *chunk)
   }
 }
 
-/* From the engine's units to those of results: spins are surface velocities, and velocities may have been multiplied.
- */
+/* From the engine's units to those of results: spins are surface velocities, and velocities may have been rescaled. */
 static void convert(own *o)
 {
   double v = 1 / o->memory->scale;
@@ -197,7 +197,7 @@ static void add_collision(void *self, const gg_collision_record *collision)
   }
 }
 
-/* All of them are one family, whose means are those of the channels. */
+/* All quantities are one family, whose means are those of the channels. */
 static double channel(const double *mean, const gg_model *model, int k)
 {
   (void)model;
@@ -206,10 +206,15 @@ static double channel(const double *mean, const gg_model *model, int k)
 
 static const gg_derived derived[] = {{GG_N_QUANTITIES, .each = channel}, GG_DERIVED_END};
 
+static const gg_observable_rows rows = {
+    .width = width, .begin = begin, .add_chunk = add_chunk, .finish = finish, .derived = derived};
+
 #define COMMON                                                                                                         \
-  .name = "own", .create = create, .destroy = destroy, .memory = memory_of, .width = width, .begin = begin,            \
-  .add_chunk = add_chunk, .finish = finish, .derived = derived, .positions = true, .rescaled = rescaled
-static const gg_observable quiet = {COMMON}, with_collisions = {COMMON, .add_collision = add_collision};
+  .name = "own", .create = create, .destroy = destroy, .memory = memory_of, .positions = true, .rescaled = rescaled,   \
+  .rows = &rows
+static const gg_observable quiet = {COMMON},
+                           with_collisions = {COMMON,
+                                              .collisions = &(const gg_observable_collisions){.add = add_collision}};
 
 const gg_observable *gg_measure_user_observables(const gg_model *model)
 {

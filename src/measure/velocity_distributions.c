@@ -12,7 +12,7 @@
 
 enum { LOW = 20 }; /* bins |k| <= LOW about 0: the head */
 
-/* "C_x", "C_{x,2}": how gnuplot writes it; and "Cx", "Cx_2" for names. */
+/* "C_x", "C_{x,2}" for gnuplot; and "Cx", "Cx_2" for names. */
 typedef struct naming {
   char plain[16], label[24], argument[24];
 } naming;
@@ -65,12 +65,12 @@ void gg_measure_velocity_curves_put(gg_curves *list, gg_velocity_component which
 
 typedef struct distributions {
   int species, vectors; /* vectors: C, and Omega if there are spins */
-  double *room;         /* for the grains of one species out of several; NULL for one */
+  double *scratch;      /* scratch for the grains of one of several species; NULL for one */
 } distributions;
 
 static void destroy(void *self)
 {
-  free(((distributions *)self)->room);
+  free(((distributions *)self)->scratch);
   free(self);
 }
 
@@ -79,7 +79,7 @@ static void *create(const gg_model *m, gg_error *err)
   distributions *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
   *d = (distributions){m->n_species, m->rule == GG_SMOOTH ? 1 : 2, NULL};
-  if (m->n_species == 1 || (d->room = gg_base_array_new((size_t)m->n, sizeof(double), err))) return d;
+  if (m->n_species == 1 || (d->scratch = gg_base_array_new((size_t)m->n, sizeof(double), err))) return d;
   free(d);
   return NULL;
 }
@@ -90,7 +90,7 @@ static size_t bins(const void *self)
   return (size_t)(d->species * d->vectors * 3) * GG_HISTOGRAM;
 }
 
-/* The values of one species: as they are where there is no other, else gathered. */
+/* The values of one species: in place if it is the only one, else gathered. */
 static size_t values_of(const distributions *d, const gg_snapshot *s, const double *x, int species,
                         const double **values)
 {
@@ -98,10 +98,10 @@ static size_t values_of(const distributions *d, const gg_snapshot *s, const doub
   *values = x;
   if (d->species == 1) return s->n;
   for (size_t i = 0; i < s->n; i++) {
-    d->room[n] = x[i];
+    d->scratch[n] = x[i];
     n += s->species[i] == species;
   }
-  *values = d->room;
+  *values = d->scratch;
   return n;
 }
 
@@ -136,9 +136,8 @@ const gg_observable gg_measure_velocity_distributions = {
     .create = create,
     .destroy = destroy,
     .refuses = gg_measure_needs_homogeneity,
-    .bins = bins,
-    .every = 2,
-    .framed = true,
-    .add_snapshot = add_snapshot,
-    .curves = curves,
+    .curves =
+        &(const gg_observable_curves){
+            .bins = bins, .every = 2, .framed = true, .add_snapshot = add_snapshot, .of_bins = curves},
+    .cost = {.ns = {10, 6}},
 };

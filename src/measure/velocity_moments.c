@@ -17,8 +17,7 @@ GG_INLINE lanes in_double(singles x)
   return d;
 }
 
-/* Roots of doubles would keep the processor longer than all the sums do; in single precision they take a quarter of
- * the time. */
+/* Roots of doubles would take more time than all the sums; in single precision they take a quarter of it. */
 GG_INLINE lanes root_of(bool quick, lanes x)
 {
   lanes root;
@@ -70,7 +69,7 @@ GG_INLINE void rotation(gg_velocity_moment_sums *a, const lanes c[3], lanes c2, 
   a->cos2 += (lanes)(((masks)(dot * dot / product) & moves) | ((masks)third & ~moves));
 }
 
-/* Eight grains, `at` so far into the view. */
+/* Eight grains, from index `at` of the view. */
 GG_INLINE void add_group(gg_velocity_moment_sums *a, const double mean[3], bool quick, bool spins,
                          const gg_velocity_moment_view *v, size_t at)
 {
@@ -83,7 +82,7 @@ GG_INLINE void add_group(gg_velocity_moment_sums *a, const double mean[3], bool 
   rotation(a, c, c2, w);
 }
 
-/* The last grains, fewer than eight: the others at rest. */
+/* The last grains, fewer than eight: the remaining lanes are at rest. */
 GG_INLINE void add_rest(gg_velocity_moment_sums *a, const double mean[3], bool quick, bool spins,
                         const gg_velocity_moment_view *v)
 {
@@ -98,7 +97,7 @@ GG_INLINE void add_rest(gg_velocity_moment_sums *a, const double mean[3], bool q
   add_group(a, mean, quick, spins, &rest, 0);
 }
 
-/* One pass for everything; the sums stay in registers as far as these go. */
+/* All sums in one pass; they stay in registers as far as possible. */
 GG_INLINE void add(gg_velocity_moments *m, bool quick, bool spins, const gg_velocity_moment_view *view)
 {
   gg_velocity_moment_sums a = m->sums;

@@ -5,8 +5,8 @@
 
 #include "common/engine.h"
 
-/* Sums while grains are added: eight lanes each, whatever the processor's registers hold, so that every processor has
- * the same bits. */
+/* Number of lanes of the sums: eight, independent of the processor's registers, so that every processor has the same
+ * bits. */
 enum { GG_VELOCITY_MOMENT_LANES = 8 };
 typedef double gg_velocity_moment_lanes
     __attribute__((vector_size(GG_VELOCITY_MOMENT_LANES * sizeof(double)), aligned(8), may_alias));
@@ -22,14 +22,14 @@ typedef struct gg_velocity_moments {
   double c4[3];               /* C_a^4 */
   double cccc;                /* (C.C)^2 */
   double speed;               /* |C| */
-  double mean_spin[3];        /* about which spins are taken: a guess before, <s_a> then */
+  double mean_spin[3];        /* the mean about which spins are taken: a guess before centring, <s_a> after it */
   double ww[3], w3[3], w4[3]; /* sums of powers of Omega_a = s_a - mean_spin, surface velocities */
-  double cos2;                /* (C.Omega)^2/(C^2 Omega^2), of the guess */
+  double cos2;                /* (C.Omega)^2/(C^2 Omega^2), with the guess */
   gg_velocity_moment_sums sums;
 } gg_velocity_moments;
 
-/* n grains in groups of eight: group g lies at c[a] + g x stride and the seven places that follow. What is there is
- * C_x + strain C_y, C_y, C_z. s[0] NULL: without spins. */
+/* n grains in groups of eight: group g is at c[a] + g x stride and the seven places that follow. Stored are C_x +
+ * strain C_y, C_y, C_z. s[0] NULL: without spins. */
 typedef struct gg_velocity_moment_view {
   size_t n, stride;
   double strain;
@@ -37,9 +37,9 @@ typedef struct gg_velocity_moment_view {
 } gg_velocity_moment_view;
 
 /* Add grains; spins are taken about m->mean_spin, any guess of their mean. `quick`: each |C| is rounded to single
- * precision, whose range C.C has to be in; otherwise roots would cost as much as all other sums together. */
+ * precision, whose range C.C must be in; otherwise roots would cost as much as all other sums together. */
 void gg_measure_velocity_moments_add(gg_velocity_moments *m, bool quick, const gg_velocity_moment_view *v);
-/* All grains are in: mean_spin becomes their mean, and the powers of Omega are about it. */
+/* After the last grain: mean_spin becomes the mean of the spins, and the powers of Omega are about it. */
 void gg_measure_velocity_moments_centre(gg_velocity_moments *m);
 
 #endif

@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-/* With w = cos(k pi y/H), y from 0 to H: density <w>, momentum <u_x w>, temperature <C.C w>/3, species <w> of the first
- * alone; <> over grains. Of the density the first is the centre of mass, <y> - H/2, itself. */
+/* Modes. With w = cos(k pi y/H), y from 0 to H: density <w>, momentum <u_x w>, temperature <C.C w>/3, species <w> of
+ * the first alone; <> over grains. The first mode of the density is the centre of mass itself, <y> - H/2. */
 enum {
   SPREAD = GG_WALL_CENTRE + 1,
   MOMENTUM,

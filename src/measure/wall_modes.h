@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The long waves across the gap between walls: what wanders slowly there, and what no mean over all grains shows. A run
- * keeps them as a series, from which it knows for how long it has to average (run/slow_modes.c). They come from the
- * slabs of the local frame, which every sample takes anyway. */
+/* The long waves across the gap between walls: slow fluctuations that no mean over all grains shows. A run stores
+ * them as a series, from which it determines how long it has to average (run/slow_modes.c). They come from the slabs
+ * of the local frame, which every sample computes anyway. */
 #ifndef GG_WALL_MODES_H
 #define GG_WALL_MODES_H
 
@@ -10,16 +10,16 @@
 
 enum { GG_WALL_CENTRE, GG_MOST_WALL_MODES = 9 }; /* the first: the centre of mass */
 
-/* How many this model has; 0 without walls. */
+/* Number of modes of this model; 0 without walls. */
 int gg_measure_wall_modes(const gg_model *model);
-/* Their values of this instant. */
+/* Present values of the modes. */
 void gg_measure_wall_modes_take(const gg_model *model, const gg_slabs *slabs, double *row);
 /* "the centre of mass across the gap" */
 const char *gg_measure_wall_mode_name(int mode);
 /* Does it change its sign under the symmetry of the flow, so that its true mean is 0? */
 bool gg_measure_wall_mode_is_odd(const gg_model *model, int mode);
 
-/* What maps a flow between walls onto itself: the walls being alike, a flow along them has a mirror image. */
+/* The symmetry of a flow between walls: if the walls are alike, a flow along them has a mirror image. */
 typedef enum gg_wall_symmetry {
   GG_NO_SYMMETRY,
   GG_MIRRORED, /* y -> -y about the middle of the gap: walls at rest and alike, no gravity across */

@@ -9,7 +9,6 @@
 #include "base/memory.h"
 #include "common/linear_response.h"
 #include "common/thermostat.h"
-#include "measure/mesh.h"
 #include "measure/observable.h"
 #include "run/protocol_times.h"
 #include "run/replica.h"
@@ -19,37 +18,6 @@
 
 #define PROGRAM 18e6 /* bytes: the program and its libraries */
 #define BLOCKS 0.5e6 /* of the bins of an observable, in blocks */
-
-/* Bytes a grain of the observables' own, and the nanoseconds a collision that they add to a run (`graingas bench
- * observables`; rough grains). The time of rheology is in the engine's, that of structure goes with its mesh. */
-static const struct needs {
-  unsigned flag;
-  double bytes, ns[2]; /* by engine */
-} needs[] = {
-    {GG_MEASURE_VELOCITY_DISTRIBUTIONS, 0, {10, 6}},
-    {GG_MEASURE_LOCAL_DISTRIBUTIONS, 25, {10, 0}},
-    {GG_MEASURE_ORIENTATION, 0, {10, 2.5}},
-    {GG_MEASURE_SONINE, 0, {6, 4}},
-    {GG_MEASURE_PAIR_CORRELATION, 34, {140, 0}},
-    {GG_MEASURE_VELOCITY_CORRELATIONS, 82, {110, 0}},
-    {GG_MEASURE_LOCAL_VELOCITY_CORRELATIONS, 92, {110, 0}},
-    {GG_MEASURE_STRUCTURE, 8, {0, 0}},
-    {GG_MEASURE_CELLS, 10, {4, 0}},
-    {GG_MEASURE_PROFILES, 0, {10, 0}},
-    {GG_MEASURE_SLAB_DISTRIBUTIONS, 0, {20, 20}},
-    {GG_MEASURE_DIFFUSION, 700, {120, 400}},
-    {GG_MEASURE_CONDUCTIVITY, 96, {0, 180}},
-    {GG_MEASURE_COLLISIONS, 8, {90, 6}},
-};
-enum { N_NEEDS = sizeof needs / sizeof *needs };
-
-static const struct needs *needs_of(unsigned flag)
-{
-  static const struct needs nothing = {0, 0, {0, 0}};
-  for (int i = 0; i < N_NEEDS; i++)
-    if (needs[i].flag == flag) return &needs[i];
-  return &nothing;
-}
 
 /* Flags; all that are requested where memory is short. */
 static unsigned measured(const gg_scene *scene, const gg_model *m)
@@ -113,26 +81,7 @@ static double pace_of_dsmc(const gg_model *m)
   return sum / rates * pairs + (m->thermostat == GG_WHITE_NOISE || m->bath.on ? 30 : 0);
 }
 
-static double mesh_points(const gg_model *m)
-{
-  return pow(gg_measure_mesh_points_along(m), 3);
-}
-
-/* Transforms of four fields, 24 ns a point, in every 32nd sample or less often. */
-static double added_ns(const gg_observable *o, const gg_model *m, gg_engine_kind engine)
-{
-  if (o->flag != GG_MEASURE_STRUCTURE) return needs_of(o->flag)->ns[engine];
-  const double points = mesh_points(m) / (double)m->n;
-  return 24 * points / (32 * fmax(1, ceil(points / GG_MESH_POINTS_PER_GRAIN))) + 10;
-}
-
-static double bytes_of(const gg_observable *o, const gg_model *m)
-{
-  double bytes = needs_of(o->flag)->bytes * (double)m->n + (o->bins ? BLOCKS : 0);
-  return o->flag == GG_MEASURE_STRUCTURE ? bytes + 20 * mesh_points(m) : bytes; /* field, its transform, four modes */
-}
-
-/* Memory of snapshots and observables. */
+/* Add memory of snapshots and observables, and time of observables. The time of rheology is part of the engine's. */
 static void add_observables(gg_cost_estimate *f, const gg_scene *scene, const gg_model *m, gg_engine_kind engine)
 {
   double vectors = 0;
@@ -140,9 +89,11 @@ static void add_observables(gg_cost_estimate *f, const gg_scene *scene, const gg
   for (int i = 0; gg_measure_observables[i]; i++) {
     const gg_observable *o = gg_measure_observables[i];
     if (!(flags & o->flag)) continue;
-    if (o->bins) vectors = fmax(vectors, (m->rule != GG_SMOOTH ? 2 : 1) + (o->positions && !m->homogeneous ? 1.5 : 0));
-    f->observables += bytes_of(o, m);
-    const double ns = added_ns(o, m, engine);
+    const gg_observable_cost cost = o->cost_of ? o->cost_of(m) : o->cost;
+    if (o->curves)
+      vectors = fmax(vectors, (m->rule != GG_SMOOTH ? 2 : 1) + (o->positions && !m->homogeneous ? 1.5 : 0));
+    f->observables += cost.bytes * (double)m->n + (o->curves ? BLOCKS : 0);
+    const double ns = cost.ns[engine];
     if (ns <= 0) continue;
     f->cost[f->n_costs].name = o->name;
     f->cost[f->n_costs++].percent = 100 * ns / f->ns;

@@ -20,10 +20,12 @@ static gg_status attach_one(gg_replica *r, const gg_observable *o, size_t *width
   r->observable[k] = o;
   r->n_observables++;
   r->offset[k] = *width;
-  if (o->width) *width += o->width(&r->model);
-  if (o->parts > r->parts) r->parts = o->parts;
-  r->every[k] = o->every_of ? o->every_of(r->self[k]) : o->every;
-  return o->bins ? gg_statistics_bins_init(&r->bins[k], o->bins(r->self[k]), err) : GG_OK;
+  if (o->rows) *width += o->rows->width(&r->model);
+  const gg_observable_curves *c = o->curves;
+  if (!c) return GG_OK;
+  if (c->parts > r->parts) r->parts = c->parts;
+  r->every[k] = c->every_of ? c->every_of(r->self[k]) : c->every;
+  return gg_statistics_bins_init(&r->bins[k], c->bins(r->self[k]), err);
 }
 
 /* A requested observable, and the gas that it is to measure. */
@@ -95,7 +97,7 @@ gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene,
                         "measure: add rheology: by it a run knows when the gas is steady and the run is done");
   GG_TRY(attach_all(r, scene, &width, err));
   for (int k = 0; k < r->n_observables; k++) {
-    if (r->observable[k]->bins) curves = true;
+    if (r->observable[k]->curves) curves = true;
     if (r->observable[k]->positions && !r->model.homogeneous) positions = true;
   }
   if (own) GG_TRY(attach_one(r, own, &width, err));
@@ -135,7 +137,7 @@ gg_status gg_run_replica_save_observables(const gg_replica *r, gg_archive *a, gg
 {
   for (int k = 0; k < r->n_observables; k++) {
     const gg_observable *o = r->observable[k];
-    if (o->bins) GG_TRY(gg_statistics_bins_save(&r->bins[k], o->name, a, err));
+    if (o->curves) GG_TRY(gg_statistics_bins_save(&r->bins[k], o->name, a, err));
     if (!o->memory) continue;
     size_t bytes;
     const void *memory = o->memory(r->self[k], &bytes);
@@ -151,7 +153,7 @@ gg_status gg_run_replica_restore_observables(gg_replica *r, const gg_archive *a,
 {
   for (int k = 0; k < r->n_observables; k++) {
     const gg_observable *o = r->observable[k];
-    if (o->bins) GG_TRY(gg_statistics_bins_restore(&r->bins[k], o->name, a, err));
+    if (o->curves) GG_TRY(gg_statistics_bins_restore(&r->bins[k], o->name, a, err));
     if (!o->memory) continue;
     size_t bytes;
     void *memory = o->memory(r->self[k], &bytes);

@@ -187,10 +187,10 @@ static double temperature_now(const gg_replica *r)
   const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
   const double *row = o ? r->row + r->offset[0] : NULL;
   gg_function f;
-  if (r->model.linear_response && o && gg_measure_derived_find(o->derived, GG_Q_TEMPERATURE, &f))
+  if (r->model.linear_response && o && gg_measure_derived_find(o->rows->derived, GG_Q_TEMPERATURE, &f))
     return gg_function_value(f, row, &r->model);
-  if (!o || !o->log_temperature) return r->model.temperature0;
-  return exp(o->log_temperature(row) + 2 * M_LN2 * (double)r->clock.power);
+  if (!o || !o->rows->log_temperature) return r->model.temperature0;
+  return exp(o->rows->log_temperature(row) + 2 * M_LN2 * (double)r->clock.power);
 }
 
 /* NaN never recovers: fail now. */

@@ -344,7 +344,7 @@ static gg_status report_one(const gg_replicas *all, int k, double memory, gg_res
   if (!bins) return GG_FAILED;
   for (int r = 0; r < all->n; r++) bins[r] = &all->replica[r].bins[k];
   int before = result->curves.n;
-  gg_status status = gg_measure_curves_estimate(bins, (size_t)all->n, o->curves, first->self[k], o->name,
+  gg_status status = gg_measure_curves_estimate(bins, (size_t)all->n, o->curves->of_bins, first->self[k], o->name,
                                                 memory / fmax(first->every[k], 1), &result->curves, err);
   if (status == GG_OK && (size_t)all->n * bins[0]->blocks < GG_MIN_BLOCKS)
     gg_run_result_warn(result, "%s: too short for errors: its samples make %zu blocks only, %d are needed", o->name,
@@ -366,7 +366,7 @@ static gg_status report_curves(const gg_replicas *all, gg_result *result, gg_err
   gg_slow_modes slow;
   GG_TRY(gg_run_replicas_slow_modes(all, &slow, err));
   for (int k = 0; k < all->replica[0].n_observables; k++)
-    if (all->replica[0].observable[k]->bins) GG_TRY(report_one(all, k, slow.mean_time, result, err));
+    if (all->replica[0].observable[k]->curves) GG_TRY(report_one(all, k, slow.mean_time, result, err));
   warn_of_one_side(&slow, result);
   return gg_scene_is_followed(&all->scene) ? gg_run_time_course_curves(all, result, err) : GG_OK;
 }

@@ -15,8 +15,8 @@ static void add_collision(void *context, const gg_collision_record *collision)
 {
   gg_replica *r = context;
   for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->add_collision && (!collision->wall || r->observable[k]->of_walls_too))
-      r->observable[k]->add_collision(r->self[k], collision);
+    if (r->observable[k]->collisions && (!collision->wall || r->observable[k]->collisions->of_walls_too))
+      r->observable[k]->collisions->add(r->self[k], collision);
 }
 
 /* Does anybody ask for collisions; and is there nobody who has to have them all? */
@@ -27,7 +27,7 @@ static bool are_asked_for(const gg_replica *r, bool *some_will_do)
   for (int k = 0; k < r->n_observables; k++) {
     if (!gg_measure_observable_wants_collisions(r->observable[k], &r->model)) continue;
     any = true;
-    if (!r->observable[k]->begin_burst) *some_will_do = false;
+    if (!r->observable[k]->collisions->begin_burst) *some_will_do = false;
   }
   return any;
 }
@@ -54,6 +54,17 @@ static uint64_t since_burst(const gg_sampling_bursts *e, uint64_t sample)
   return sample % apart;
 }
 
+static bool has_bursts(const gg_observable *o)
+{
+  return o->collisions && o->collisions->begin_burst;
+}
+
+static void begin_burst(gg_replica *r)
+{
+  for (int k = 0; k < r->n_observables; k++)
+    if (has_bursts(r->observable[k])) r->observable[k]->collisions->begin_burst(r->self[k]);
+}
+
 gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err)
 {
   bool in_bursts;
@@ -62,8 +73,7 @@ gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err)
   const uint64_t at = since_burst(&bursts, r->clock.window_samples);
   const enum gg_observed wanted = !in_bursts || at < bursts.length ? GG_OBSERVED : GG_NOT_OBSERVED;
   const bool begins = in_bursts && at == 0 && !r->clock.part; /* and not in an interval that was stopped */
-  for (int k = 0; k < r->n_observables && begins; k++)
-    if (r->observable[k]->begin_burst) r->observable[k]->begin_burst(r->self[k]);
+  if (begins) begin_burst(r);
   if (wanted == r->shown) return GG_OK;
   r->shown = wanted;
   return r->engine->ops->set_callback(r->engine, wanted == GG_OBSERVED ? add_collision : NULL, r, err);
@@ -75,7 +85,7 @@ static bool in_burst(const gg_replica *r, int k)
 {
   bool in_bursts;
   const gg_sampling_bursts bursts = gg_run_sampling_bursts_of(&r->model);
-  return r->observable[k]->begin_burst && are_asked_for(r, &in_bursts) && in_bursts &&
+  return has_bursts(r->observable[k]) && are_asked_for(r, &in_bursts) && in_bursts &&
          since_burst(&bursts, r->clock.window_samples) < bursts.length - 1;
 }
 
@@ -83,21 +93,26 @@ static void add_chunk(void *context, const gg_chunk *chunk)
 {
   gg_replica *r = context;
   for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->width) r->observable[k]->add_chunk(r->self[k], chunk);
+    if (r->observable[k]->rows && r->observable[k]->rows->add_chunk)
+      r->observable[k]->rows->add_chunk(r->self[k], chunk);
 }
 
 static void add_blocks(void *context, const gg_block_run *run)
 {
   gg_replica *r = context;
   for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->width) r->observable[k]->add_blocks(r->self[k], run);
+    if (r->observable[k]->rows && r->observable[k]->rows->add_blocks)
+      r->observable[k]->rows->add_blocks(r->self[k], run);
 }
 
-/* The engine has blocks, and every observable with rows can read them. */
+/* Does the engine have blocks, and can every observable that reads grains for its row read blocks? */
 static bool reads_blocks(const gg_replica *r)
 {
   bool all = r->engine->ops->blocks != NULL;
-  for (int k = 0; k < r->n_observables; k++) all &= !r->observable[k]->width || r->observable[k]->add_blocks;
+  for (int k = 0; k < r->n_observables; k++) {
+    const gg_observable_rows *rows = r->observable[k]->rows;
+    all &= !rows || !rows->add_chunk || rows->add_blocks;
+  }
   return all;
 }
 
@@ -106,7 +121,7 @@ static bool reads_positions(const gg_replica *r)
 {
   for (int k = 0; k < r->n_observables; k++) {
     const gg_observable *o = r->observable[k];
-    if (o->width && (o->positions || (o->wants_positions && o->wants_positions(r->self[k]))))
+    if (o->rows && (o->positions || (o->rows->wants_positions && o->rows->wants_positions(r->self[k]))))
       return !r->model.homogeneous;
   }
   return false;
@@ -141,15 +156,15 @@ static void add_grains(gg_replica *r)
 void gg_run_replica_sample_row(gg_replica *r, double elapsed)
 {
   for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->width) r->observable[k]->begin(r->self[k]);
+    if (r->observable[k]->rows && r->observable[k]->rows->begin) r->observable[k]->rows->begin(r->self[k]);
   add_grains(r);
   gg_collision_sums transfer;
   r->engine->ops->take_sums(r->engine, &transfer);
   gg_interval in = {&r->model, &transfer, elapsed, r->clock.velocity_factor};
   for (int k = 0; k < r->n_observables; k++) {
     const gg_observable *o = r->observable[k];
-    if (o->width) o->finish(r->self[k], &in, r->row + r->offset[k]);
-    if (o->add_interval && r->clock.averaging) o->add_interval(r->self[k], &in);
+    if (o->rows) o->rows->finish(r->self[k], &in, r->row + r->offset[k]);
+    if (o->curves && o->curves->add_interval && r->clock.averaging) o->curves->add_interval(r->self[k], &in);
   }
   r->clock.velocity_factor = 1;
 }
@@ -159,9 +174,9 @@ void gg_run_replica_sample_row(gg_replica *r, double elapsed)
 static bool is_due(const gg_replica *r, int k, int part)
 {
   const gg_observable *o = r->observable[k];
-  if (!o->bins || !gg_measure_observable_applies(o, &r->model)) return false;
+  if (!o->curves || !gg_measure_observable_applies(o, &r->model)) return false;
   if (gg_measure_observable_wants_collisions(o, &r->model) && r->shown != GG_OBSERVED) return false;
-  return o->parts > 1 || (part == r->parts && r->clock.window_samples % (uint64_t)r->every[k] == 0);
+  return o->curves->parts > 1 || (part == r->parts && r->clock.window_samples % (uint64_t)r->every[k] == 0);
 }
 
 static void take_snapshot(gg_replica *r, int part, double part_elapsed)
@@ -186,8 +201,8 @@ void gg_run_replica_sample_curves(gg_replica *r, int part, double part_elapsed)
   if (any) take_snapshot(r, part, part_elapsed);
   for (int k = 0; k < r->n_observables; k++) {
     if (!is_due(r, k, part)) continue;
-    const gg_snapshot *s = r->framed && r->observable[k]->framed ? &r->framed->snapshot : &r->snapshot;
-    r->observable[k]->add_snapshot(r->self[k], s, gg_statistics_bins_sample(&r->bins[k]));
+    const gg_snapshot *s = r->framed && r->observable[k]->curves->framed ? &r->framed->snapshot : &r->snapshot;
+    r->observable[k]->curves->add_snapshot(r->self[k], s, gg_statistics_bins_sample(&r->bins[k]));
     if (last && !in_burst(r, k)) gg_statistics_bins_commit(&r->bins[k]);
   }
   if (last) r->clock.window_samples++;
@@ -209,6 +224,5 @@ void gg_run_replica_change_curves(gg_replica *r)
   r->shown = GG_OBSERVED_UNSET;
   if (!r->clock.averaging) return;
   gg_run_replica_restart_curves(r);
-  for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->begin_burst) r->observable[k]->begin_burst(r->self[k]);
+  begin_burst(r);
 }

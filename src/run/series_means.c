@@ -10,18 +10,18 @@ int gg_run_replica_find_function(const gg_replica *r, gg_quantity q, gg_function
 {
   if (gg_common_quantity_missing(&r->model, q)) return -1;
   for (int k = 0; k < r->n_observables; k++)
-    if (r->observable[k]->width && gg_measure_derived_find(r->observable[k]->derived, q, f)) return k;
+    if (r->observable[k]->rows && gg_measure_derived_find(r->observable[k]->rows->derived, q, f)) return k;
   return -1;
 }
 
 bool gg_run_replica_find_history(const gg_replica *r, gg_quantity q, gg_function *f)
 {
   const gg_observable *o = r->n_observables ? r->observable[0] : NULL;
-  if (!o || !o->history) return false;
-  const bool decays = gg_measure_derived_find(o->history, q, f);
+  if (!o || !o->rows->history) return false;
+  const bool decays = gg_measure_derived_find(o->rows->history, q, f);
   const unsigned lasting = GG_NEEDS_SCALE_SHOWN | (decays ? GG_NEEDS_SCALE : 0);
   if (gg_common_model_missing(&r->model, gg_common_quantity_mask(q) & ~lasting)) return false;
-  return decays || gg_measure_derived_find(o->derived, q, f);
+  return decays || gg_measure_derived_find(o->rows->derived, q, f);
 }
 
 /* Series of all replicas; to be freed. */
@@ -44,7 +44,7 @@ gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *m
   if (!series) return GG_FAILED;
   const gg_replica *first = &all->replica[0];
   gg_status status = gg_statistics_estimate_mean(series, (size_t)all->n, first->series.window, first->series.n,
-                                                 first->offset[k], first->observable[k]->width(&all->model), f,
+                                                 first->offset[k], first->observable[k]->rows->width(&all->model), f,
                                                  &all->model, slow.time / (double)first->series.per_row, mean, err);
   free(series);
   double rows = (double)gg_series_window_rows(&first->series) * all->n;
@@ -62,7 +62,7 @@ gg_status gg_run_replicas_blocks(const gg_replicas *all, gg_quantity q, size_t l
   const gg_replica *first = &all->replica[0];
   gg_status status =
       gg_statistics_response_blocks(series, (size_t)all->n, first->series.window, first->series.n, first->offset[k],
-                                    first->observable[k]->width(&all->model), f, &all->model, length, blocks, err);
+                                    first->observable[k]->rows->width(&all->model), f, &all->model, length, blocks, err);
   free(series);
   return status;
 }

@@ -21,7 +21,7 @@ static double itself(const double *value, const gg_model *m)
 /* A function of the history has its quantity from a logarithm, of which the mean would be a geometric one. */
 static bool is_of_one_row(const gg_observable *o, const gg_function *f)
 {
-  for (const gg_derived *d = o->history; d && d->quantity != GG_MOST_QUANTITIES; d++)
+  for (const gg_derived *d = o->rows->history; d && d->quantity != GG_MOST_QUANTITIES; d++)
     if (f->of ? d->of == f->of : d->each == f->each) return true;
   return false;
 }
@@ -33,7 +33,7 @@ static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, int k
   const size_t n = (size_t)all->n;
   const gg_replica *first = all->replica;
   const bool one = is_of_one_row(first->observable[k], f);
-  const size_t channels = one ? 1 : first->observable[k]->width(&first->model);
+  const size_t channels = one ? 1 : first->observable[k]->rows->width(&first->model);
   gg_mean m = {.mean = NAN, .error = NAN, .correlation_rows = NAN};
   double *value = gg_base_array_new(n + 2 * channels, sizeof *value, NULL);
   const double **of = gg_base_array_new(n, sizeof *of, NULL);

@@ -10,8 +10,8 @@
 
 #include "base/memory.h"
 
-/* The sum over lags needs few of them, as a rule: they are added up as they are, and taken from transforms of the whole
- * series only where it needs more. Beyond some 300 lags transforms would be faster from the start. */
+/* Sums over lags usually need few lags: those products are summed directly. A series that needs more is transformed
+ * as a whole. Beyond some 300 lags transforms would be faster from the start. */
 enum { FEWEST = 64, FEW = 256, LANES = 8 };
 
 typedef double two __attribute__((vector_size(16)));
@@ -29,7 +29,7 @@ static void add_lanes(const double *a, const double *b, size_t n, double *lane)
     for (size_t k = 0; i + k < n; k++) lane[k] += a[i] * b[i + k];
 }
 
-/* Products of rows at lags from .. to - 1, on average over the pairs there are. */
+/* Mean products of rows at lags from .. to - 1, over the available pairs. */
 static void add_products(const double *x, size_t n, size_t n_runs, size_t from, size_t to, double *covariance)
 {
   for (size_t t = from; t < to && t < n; t += LANES) {
@@ -39,11 +39,10 @@ static void add_products(const double *x, size_t n, size_t n_runs, size_t from, 
   }
 }
 
-/* Transforms of powers of two in place, GSL's: nothing is planned, allocated or shared, as FFTW would (which ends the
- * program where its planner gets no memory). Half-complex: the real parts from the front, the imaginary ones from the
- * back. */
+/* In-place transforms of powers of two, by GSL. FFTW would plan, allocate and share data, and ends the program if
+ * its planner gets no memory. Half-complex format: real parts from the front, imaginary parts from the back. */
 typedef struct transform {
-  size_t length; /* of the padded series: at least 2 n, so that nothing wraps around */
+  size_t length; /* of the padded series: at least 2 n, so that no lag wraps around */
   double *data;
 } transform;
 
@@ -55,7 +54,7 @@ static gg_status transform_make(transform *f, size_t n, gg_error *err)
   return f->data ? GG_OK : GG_FAILED;
 }
 
-/* Leave sum over runs of |X(k)|^2 in `power`. */
+/* Set `power` to the sum over runs of |X(k)|^2. */
 static void add_power(transform *f, const double *x, size_t n, double *power)
 {
   double *X = f->data;
@@ -67,26 +66,28 @@ static void add_power(transform *f, const double *x, size_t n, double *power)
   for (size_t k = 1; k < f->length / 2; k++) power[k] += X[k] * X[k] + X[f->length - k] * X[f->length - k];
 }
 
-/* Five would do for a single exponential; where something fast is on top of something slow, 5 tau end too soon: of a
- * slow part with a third of the variance, over 60 of its times, errors would be 11 % too small (2 % now). */
+/* The window is 8 tau. Five would do for a single exponential. If a fast process is added to a slow one, 5 tau is
+ * too short: for a slow part with a third of the variance, over 60 of its times, errors would be 11 % too small (2 %
+ * with 8 tau). */
 enum { WINDOW = 8, ROUNDS = 3 };
 
-/* A ratio forgets sooner than what it is made of: that both were too high together cancels, but the one that follows
- * the other comes back later with the opposite sign. What is left then is small at each lag, would end the sum, and is
- * a quarter of it (theta/T of dilute rough grains: errors 7 % too large). So the sum extends over some times of the
- * slower one; further, noise would take more than it gives (chosen on that series, in windows of 100 to 1600 rows). */
+/* A ratio has a shorter memory than its parts: common deviations of both parts cancel, but the part that follows the
+ * other returns later with the opposite sign. The remainder is small at each lag, would end the sum, and is a
+ * quarter of it (theta/T of dilute rough grains: errors 7 % too large). So the sum extends over some times of the
+ * slower part. A longer sum would add more noise than it gains (chosen on that series, in windows of 100 to 1600
+ * rows). */
 #define LONGER 1.5
 #define REACH 2.5
 
-/* The sum also ends where two neighbouring lags have nothing left between them: beyond is noise, which in a window of
- * 30 times would make half of the error's own uncertainty (Geyer, Stat. Sci. 7 (1992) 473). */
+/* The sum also ends at two neighbouring lags whose covariances add up to nothing: beyond is noise, which in a window
+ * of 30 times would make half of the error's own uncertainty (Geyer, Stat. Sci. 7 (1992) 473). */
 static bool is_noise(const double *covariance, size_t t, double shift)
 {
   return t > 1 && covariance[t - 1] + covariance[t] + 2 * shift <= 0;
 }
 
-/* rho from covariances, its sum and where that ends, at `reach` lags or later: false if that is not before lag n.
- * Anticorrelated series: do not claim less than independent samples have. */
+/* rho from covariances, its sum, and the end of the sum, at `reach` lags or later; false if the end is not before
+ * lag n. An anticorrelated series gets at least the variance of independent samples. */
 static bool sum_to_window(const double *covariance, size_t n, double shift, size_t reach, gg_correlation *c)
 {
   double moment = 0;
@@ -117,7 +118,7 @@ static bool sum(const double *covariance, size_t n, size_t rows, size_t reach, g
   return ends;
 }
 
-/* False if more covariances are needed than these at lags below n. */
+/* False if lags below n are not enough. */
 static bool integrate(const double *covariance, size_t n, size_t rows, double memory, gg_correlation *c)
 {
   bool ends = sum(covariance, n, rows, 0, c);
@@ -139,7 +140,7 @@ static gg_status by_transforms(const double *x, size_t n, size_t n_runs, double 
     memset(f.data, 0, f.length * sizeof *f.data);
     memcpy(f.data, power, (f.length / 2 + 1) * sizeof *power);
     gsl_fft_halfcomplex_radix2_backward(f.data, 1, f.length);
-    for (size_t t = 0; t < n; t++) f.data[t] /= (double)(n - t); /* pairs at a lag t */
+    for (size_t t = 0; t < n; t++) f.data[t] /= (double)(n - t); /* number of pairs at lag t */
     integrate(f.data, n, n * n_runs, memory, c);
   }
   free(f.data);

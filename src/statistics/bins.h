@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sums over samples of an array of bins, kept in blocks of equal numbers of samples: every curve's mean and error comes
- * from here. The blocks are 16 to 32 whatever the length of the window: when there are 32, neighbours are joined. */
+/* Sums over samples of an array of bins, kept in blocks of equal numbers of samples. All means and errors of curves
+ * follow from these blocks. There are 16 to 32 blocks at any length of the window: at 32, neighbours are joined. */
 #ifndef GG_BINS_H
 #define GG_BINS_H
 
@@ -18,14 +18,14 @@ typedef struct gg_bins {
 
 gg_status gg_statistics_bins_init(gg_bins *b, size_t width, gg_error *err);
 void gg_statistics_bins_clear(gg_bins *b);
-/* Forget everything: averaging begins anew. */
+/* Delete all sums: averaging starts again. */
 void gg_statistics_bins_restart(gg_bins *b);
 
-/* Where the present sample is to be added; then count it. */
+/* The row of bins to which the present sample is added; then count the sample. */
 double *gg_statistics_bins_sample(gg_bins *b);
 void gg_statistics_bins_commit(gg_bins *b);
 
-/* Join neighbouring blocks until each is of `per_block` samples (a power of two); one that is left over is lost. */
+/* Join neighbouring blocks until each has `per_block` samples (a power of two); a single remaining block is dropped. */
 void gg_statistics_bins_coarsen(gg_bins *b, size_t per_block);
 
 static inline const double *gg_bins_block(const gg_bins *b, size_t i)

@@ -22,7 +22,7 @@ static size_t block_means(const double *y, size_t n, size_t n_runs, size_t lengt
 {
   size_t per_run = n / length, count = 0;
   for (size_t r = 0; r < n_runs; r++)
-    for (size_t b = 0; b < per_run; b++) /* the rows left over are those nearest to the start */
+    for (size_t b = 0; b < per_run; b++) /* the remaining rows, nearest to the start, are left out */
       means[count++] = gg_statistics_mean(y + r * n + (n - per_run * length) + b * length, length);
   return count;
 }
@@ -37,11 +37,11 @@ static size_t block_length(size_t n, size_t n_runs, double tau)
   return length < 1 ? 1 : length > (double)n ? n : (size_t)length;
 }
 
-#define LEAST_OF_VARIANCE 0.25 /* of blocks that the mean of all keeps: below, it would be noise that says so */
+#define LEAST_OF_VARIANCE 0.25 /* of blocks that the mean of all keeps: a smaller value would be noise */
 
-/* Blocks that are not much longer than the correlation time depend on their neighbours, and scatter less than their
- * mean is uncertain (or more, if what comes back has the opposite sign): by how much follows from the correlation
- * function itself. */
+/* Correction for correlated neighbours. Blocks that are not much longer than the correlation time are correlated,
+ * and scatter less than the error of their mean (or more, if the correlation becomes negative). The factor follows
+ * from the correlation function. */
 static double neighbours(const gg_correlation *c, size_t n, size_t length)
 {
   double whole = gg_statistics_correlation_inflation(c, n), block = gg_statistics_correlation_inflation(c, length);
@@ -49,7 +49,7 @@ static double neighbours(const gg_correlation *c, size_t n, size_t length)
   return sqrt(fmax(whole / block, c->memory > 0 ? LEAST_OF_VARIANCE : 1));
 }
 
-/* In windows of less than 40 times of the slowest mode there is more to allow for than few blocks: chosen on
+/* Correction for windows of less than 40 times of the slowest mode, beyond that for few blocks: chosen on
  * autoregressive series (validation/errors). */
 static double small_sample(const gg_correlation *c, size_t blocks, size_t total)
 {
@@ -97,14 +97,15 @@ static void channel_means(const gg_series *const *series, size_t n_runs, size_t 
   for (size_t k = 0; k < channels; k++) mean[k] /= (double)(n_runs * (end - begin));
 }
 
-/* The rows of the means that f is made of, all of equal length. */
+/* The rows of the channels on which f depends, all of equal length. */
 typedef struct rows {
   const gg_series *const *series;
   size_t n_runs, begin, n, offset, channels;
 } rows;
 
-/* How far a channel is to be moved to see what f does: little of it, but seen. Quantities come in any units, and those
- * of dilute gases or heavy grains are small: so is the step then, by what the channel is and scatters. */
+/* The step in a channel for derivatives of f: small, but with a visible change of f. Quantities come in any units,
+ * and values of dilute gases or heavy grains are small: so the step is scaled by the value of the channel and by its
+ * scatter. */
 static double step_of(const rows *a, size_t k, double at)
 {
   double squares = 0, least = 1e-3;
@@ -127,10 +128,10 @@ static double slope(gg_function f, const gg_model *model, const rows *a, double 
   mean[k] = at - step;
   double down = gg_function_value(f, mean, model);
   mean[k] = at;
-  return up == down ? 0 : (up - down) / (2 * step); /* also of a channel that is no number */
+  return up == down ? 0 : (up - down) / (2 * step); /* 0 also for a channel that is NaN */
 }
 
-/* df_k (a_k - mean_k) of every row is added to y. */
+/* Add df_k (a_k - mean_k) of every row to y. */
 static void add_response(const rows *a, size_t k, const double *mean, const double *df, double *y)
 {
   for (size_t r = 0; df[k] != 0 && r < a->n_runs; r++)
@@ -138,8 +139,8 @@ static void add_response(const rows *a, size_t k, const double *mean, const doub
       y[r * a->n + i] += df[k] * (gg_series_row(a->series[r], a->begin + i)[a->offset + k] - mean[k]);
 }
 
-/* Correlation time, in rows, of the channel that would move f most on its own; 0 if f is made of one only. `y` is
- * scratch for as many rows. */
+/* Correlation time, in rows, of the channel whose fluctuations alone would move f most; 0 if f depends on one
+ * channel. `y` is scratch for as many rows. */
 static gg_status memory_of_parts(const rows *a, const double *mean, const double *df, double *y, double *memory,
                                  gg_error *err)
 {
@@ -164,16 +165,16 @@ static gg_status memory_of_parts(const rows *a, const double *mean, const double
   return GG_OK;
 }
 
-/* The sum over correlations extends over about one decay time of a slow mode (REACH times this share of it); further,
- * noise takes more than it gives. What is still missed, as in small_sample. */
+/* The sum over correlations extends over about one decay time of a slow mode (REACH times this fraction of it): a
+ * longer sum would add more noise than it gains. The missing part is corrected as in small_sample. */
 #define SHARE_OF_SLOW 0.4
 #define DOUBT_OF_SLOW 2.5
 
-/* A function of channel means, and what its linear response takes. */
+/* A function of channel means, and the data for its linear response. */
 typedef struct response {
   rows of;
   double value;
-  double *y, *mean, *df; /* y: a number a row; the two others follow it in one piece of memory */
+  double *y, *mean, *df; /* y: a number a row; mean and df follow it in the same allocation */
 } response;
 
 static gg_status response_make(response *p, const rows *of, gg_function f, const gg_model *model, gg_error *err)

@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Means and their standard errors, from one place. A quantity is a function f of channel means (a plain mean, a ratio,
- * a difference of stresses); its error comes from the series of its linear response to each row, y_t = f(a) + sum_i
- * (df/da_i)(a_i,t - a_i), so that correlations between channels and in time are both accounted for: blocks of y much
- * longer than its correlation time, standard error from their scatter (Flyvbjerg & Petersen, J. Chem. Phys. 91 (1989)
- * 461), enlarged by what neighbouring blocks have in common: a few per cent, in short windows a quarter; and a little
- * for being themselves uncertain, so that mean +- error and mean +- 1.96 error hold the truth in 68 and 95 of 100
- * cases. */
+/* Means and their standard errors. A quantity is a function f of channel means (a plain mean, a ratio, a difference
+ * of stresses). Its error comes from the series of its linear response to each row,
+ *   y_t = f(a) + sum_i (df/da_i)(a_i,t - a_i),
+ * so that correlations between channels and in time are both included. The standard error follows from the scatter
+ * of blocks of y much longer than its correlation time (Flyvbjerg & Petersen, J. Chem. Phys. 91 (1989) 461). Two
+ * factors enlarge it: one for the correlation of neighbouring blocks (a few per cent, in short windows a quarter),
+ * and a small one for the uncertainty of the scatter itself. So mean +- error and mean +- 1.96 error contain the
+ * true value in 68 and 95 of 100 cases. */
 #ifndef GG_ESTIMATOR_H
 #define GG_ESTIMATOR_H
 
 #include "common/model.h"
 #include "statistics/series.h"
 
-/* Value of a quantity for given channel means; NaN where it has none. Of a family the value of one member (a species).
- */
+/* Value of a quantity for given channel means; NaN where it has none. For a family: the value of one member (a
+ * species). */
 typedef double gg_of_means(const double *mean, const gg_model *model);
 typedef double gg_member_of_means(const double *mean, const gg_model *model, int member);
 
-/* Either of the two. */
+/* A quantity as a function of channel means: plain, or a member of a family. */
 typedef struct gg_function {
   gg_of_means *of;
   gg_member_of_means *each; /* where `of` is NULL */
@@ -30,8 +31,8 @@ static inline double gg_function_value(gg_function f, const double *mean, const 
 }
 
 typedef struct gg_mean {
-  double mean, error;      /* NaN if it cannot be had */
-  double scatter;          /* the error if blocks did not depend on their neighbours */
+  double mean, error;      /* NaN if unknown */
+  double scatter;          /* the error if blocks were independent */
   double correlation_rows; /* integrated correlation time, rows */
   size_t blocks;           /* independent blocks behind the error */
   bool trusted;            /* at least GG_MIN_BLOCKS blocks of at least 5 correlation times */
@@ -39,15 +40,15 @@ typedef struct gg_mean {
 
 enum { GG_MIN_BLOCKS = 16, GG_MAX_BLOCKS = 64 };
 
-/* Rows [begin, end) of each of n_runs series of equal length and width. `offset` is where the observable's channels
- * begin in a row, `channels` how many f depends on. `slow`: the decay time, in rows, of a mode that wanders more slowly
- * than the window can show and that f may follow; 0: none is known. */
+/* Rows [begin, end) of each of n_runs series of equal length and width. `offset` is the observable's first channel
+ * in a row, `channels` the number of channels on which f depends. `slow`: the decay time, in rows, of a mode that is
+ * slower than the window can resolve and that f may follow; 0: none is known. */
 gg_status gg_statistics_estimate_mean(const gg_series *const *series, size_t n_runs, size_t begin, size_t end,
                                       size_t offset, size_t channels, gg_function f, const gg_model *model, double slow,
                                       gg_mean *out, gg_error *err);
 
-/* Means of the linear response over blocks of `length` rows, n_runs floor((end - begin)/length) of them, about the mean
- * of all rows: from them follows how two quantities of one window vary together. All 0 where f has no value. */
+/* Means of the linear response over blocks of `length` rows, n_runs floor((end - begin)/length) of them, about the
+ * mean of all rows. The covariance of two quantities of one window follows from them. All 0 where f has no value. */
 gg_status gg_statistics_response_blocks(const gg_series *const *series, size_t n_runs, size_t begin, size_t end,
                                         size_t offset, size_t channels, gg_function f, const gg_model *model,
                                         size_t length, double *blocks, gg_error *err);
@@ -64,17 +65,20 @@ static inline double gg_statistics_student(size_t n)
 }
 
 /* f at one instant over n_runs independent runs: its value for the means of their rows, and its error by leaving out
- * one run at a time. A function of the means, and not the mean of f: of a ratio to a rate that counts a few collisions
- * in each run, the latter is biased, and scatters without bound. `scratch`: 2 x channels. NaN error of one run. */
+ * one run at a time. This is the function of the means, not the mean of f: for a ratio to a rate that counts a few
+ * collisions in each run, the mean is biased and scatters without bound. `scratch`: 2 x channels. The error of one
+ * run is NaN. */
 gg_mean gg_statistics_estimate_over_runs(const double *const *row, size_t n_runs, size_t channels, gg_function f,
                                          const gg_model *model, double *scratch);
 
-/* Mean of n >= 1 numbers; of equal ones, exactly that. (GSL's divides a long double for each.) */
+/* Mean of n >= 1 numbers; for equal numbers exactly that number. (GSL's function has a long-double division for
+ * each.) */
 double gg_statistics_mean(const double *y, size_t n);
 
 /* gg_statistics_estimate_mean for a scalar series, n_runs stretches of n rows end to end. */
 gg_status gg_statistics_estimate_scalar(const double *y, size_t n, size_t n_runs, gg_mean *out, gg_error *err);
-/* Likewise for one that is made of a slower one, of this correlation time in rows (gg_statistics_correlation_of). */
+/* The same for a series that is made of a slower one, of this correlation time in rows
+ * (gg_statistics_correlation_of). */
 gg_status gg_statistics_estimate_made_of(const double *y, size_t n, size_t n_runs, double memory, gg_mean *out,
                                          gg_error *err);
 

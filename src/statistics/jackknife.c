@@ -8,12 +8,13 @@
 #include "base/memory.h"
 #include "statistics/estimator.h"
 
-/* How many points of its curve a number has beside it: four would make errors of exponents a little better, and of
- * moments, which remember longer than most points, too small. */
+/* BESIDE: number of points of the curve that are averaged with a number derived from it. Four would make errors of
+ * exponents a little better, and those of moments, which have a longer memory than most points, too small. */
 enum { ARRAYS = 6, NEIGHBOURS = 4, BESIDE = 2 };
-#define STRONGEST 0.9        /* beyond, a block says nothing new */
-#define LEAST_MEMORY 0.02    /* of a block: what is forgotten sooner makes no difference */
-#define MOST_OF_VARIANCE 0.9 /* of a block that the mean of all may have: beyond, nothing is known */
+#define STRONGEST 0.9        /* correlation above which a block adds no information */
+#define LEAST_MEMORY 0.02    /* in blocks: a shorter memory makes no difference */
+#define MOST_OF_VARIANCE 0.9 /* largest fraction of a block's variance in the mean of all: above it nothing is known   \
+                              */
 
 gg_status gg_statistics_jackknife_init(gg_jackknife *j, size_t width, gg_error *err)
 {
@@ -27,7 +28,7 @@ gg_status gg_statistics_jackknife_init(gg_jackknife *j, size_t width, gg_error *
 
 void gg_statistics_jackknife_clear(gg_jackknife *j)
 {
-  free(j->now < j->before ? j->now : j->before); /* the two change places */
+  free(j->now < j->before ? j->now : j->before); /* the two swap places */
   *j = (gg_jackknife){0};
 }
 
@@ -64,7 +65,7 @@ static double scatter(const gg_jackknife *j, size_t i)
   return j->squares[i] - j->sum[i] * j->sum[i] / (double)j->blocks;
 }
 
-/* Correlation of neighbours; about a mean of n of their own it comes out 1/n too low. NaN where nothing varies. */
+/* Correlation of neighbours; about the mean of the same n numbers it is too low by 1/n. NaN if nothing varies. */
 static double correlation(const gg_jackknife *j, size_t i)
 {
   double n = (double)j->blocks, mean = j->sum[i] / n, total = scatter(j, i);
@@ -78,10 +79,10 @@ static double of_stretch(double length)
   return 2 * (length + expm1(-length)) / (length * length);
 }
 
-/* Variance of the mean over what independent blocks of the same scatter would have, for numbers of which a share f of
- * the variance of a block is the slow mode's: V = (1 + f (I - 1))/n of that variance, where I is the ratio for the mode
- * alone. About the mean of the blocks themselves scatter shows 1 - V of the variance, and neighbours, whose correlation
- * came out as r, f r_mode - V of it: that gives f. */
+/* Variance of the mean over that of independent blocks of the same scatter, for numbers in which a fraction f of the
+ * variance of a block is the slow mode's: V = (1 + f (I - 1))/n of that variance, where I is the ratio for the mode
+ * alone. About the mean of the blocks themselves the scatter is 1 - V of the variance, and the measured correlation
+ * r of neighbours is f r_mode - V of it: this gives f. */
 static double with_slow_mode(const gg_jackknife *j, double r, double memory)
 {
   double n = (double)j->blocks, per_run = n / (n - (double)j->pairs), one = of_stretch(1 / memory);

@@ -25,8 +25,8 @@ void gg_statistics_series_clear(gg_series *s)
   *s = (gg_series){0};
 }
 
-/* Average rows 2i and 2i+1 into row i. A window that began at an odd row begins one row later: no row mixes both sides.
- */
+/* Average rows 2i and 2i+1 into row i. A window that began at an odd row now begins one row later: no row mixes both
+ * sides. */
 static void halve(gg_series *s)
 {
   for (size_t i = 0; i < s->n / 2; i++) {

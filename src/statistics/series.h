@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A series of samples, many channels wide: what every mean of a run is taken from. When it is full, neighbouring rows
- * are averaged in pairs, so that a run of any length stays within a bounded memory and keeps its whole history. */
+/* A series of samples with many channels: all means of a run come from it. When it is full, neighbouring rows are
+ * averaged in pairs. So a run of any length needs bounded memory and keeps its whole history. */
 #ifndef GG_SERIES_H
 #define GG_SERIES_H
 
@@ -28,7 +28,7 @@ void gg_statistics_series_clear(gg_series *s);
 /* Append one sample of `width` numbers. */
 void gg_statistics_series_add(gg_series *s, double time, const double *sample);
 
-/* Average neighbouring rows until each is made of `per_row` samples (a power of two); one that is left over is lost. */
+/* Average neighbouring rows until each has `per_row` samples (a power of two); a single remaining row is dropped. */
 void gg_statistics_series_coarsen(gg_series *s, size_t per_row);
 
 /* Start the averaging window at the next sample (drops a half-filled row) or at a row. */
@@ -46,9 +46,9 @@ static inline size_t gg_series_window_rows(const gg_series *s)
 gg_status gg_statistics_series_save(const gg_series *s, gg_archive *archive, gg_error *err);
 gg_status gg_statistics_series_restore(gg_series *s, const gg_archive *archive, gg_error *err);
 
-/* What doubles from 1 when a store of fixed size is full. */
+/* Decimation factors: they double from 1 whenever a store of fixed size is full. */
 
-/* Can a number from a file be one, with so many samples of the next entry pending? Far from running over, too. */
+/* Is a number from a file a valid factor, with so many samples of the next entry pending? Also far from overflow. */
 static inline bool gg_is_decimation_factor(uint64_t per, uint64_t pending)
 {
   return per > 0 && per < UINT64_C(1) << 48 && (per & (per - 1)) == 0 && pending < per;

@@ -15,18 +15,18 @@ static void cut(const double *y, size_t n, size_t n_runs, size_t from, size_t m,
     for (size_t i = 0; i < m; i++) to[r * m + i] = y[r * n + from + i];
 }
 
-/* Stretches at the beginning, as parts of all rows. The shortest is as long as the slowest mode that a window is
- * planned for remembers. */
+/* Lengths of the tested beginning, as parts of all rows. The shortest is as long as the memory of the slowest mode
+ * for which a window is planned. */
 static const size_t beginnings[] = {48, 12};
 
-/* The normal variable that is exceeded as seldom as Student's t; beyond 8, where neither has a number, t itself. */
+/* The normal variable of the same probability as Student's t; beyond 8, where both are negligible, t itself. */
 static double as_normal(double t, double degrees)
 {
   double z = fabs(t) < 40 ? -gsl_cdf_ugaussian_Pinv(gsl_cdf_tdist_Q(fabs(t), degrees)) : INFINITY;
   return copysign(z < 8 ? z : fmin(fabs(t), z), t);
 }
 
-/* Its first rows against the scatter of blocks as long from the latter two thirds. */
+/* Compare the first rows with the scatter of blocks of the same length from the last two thirds. */
 static void compare_beginning(const double *y, size_t n, size_t n_runs, size_t length, gg_trend *out)
 {
   size_t per_run = length ? (n - n / 3) / length : 0, count = per_run * n_runs;

@@ -21,7 +21,7 @@ static double a2_of(const gg_model *m, double T)
   return A * (0.5 - e * e) / (A * 3 / 32 * (59 + 10 * e * e) + 2 * root * (1 + e) + 15 * x);
 }
 
-/* What the bath brings, over what it and collisions take: falls with T. */
+/* Energy from the bath, over the loss by drag and collisions: falls with T. */
 static double balance(double log_T, void *context)
 {
   const gg_model *m = context;

@@ -25,7 +25,7 @@ static double excess(const gg_model *m)
   return 2 * M_PI / 3 * m->density * sum;
 }
 
-/* Of a component of all velocities: <v_x^4>/<v_x^2>^2 of Maxwellians of unlike masses. */
+/* <v_x^4>/<v_x^2>^2 of a velocity component of all grains: Maxwellians of unlike masses. */
 static double kurtosis(const gg_model *m)
 {
   double second = 0, fourth = 0;

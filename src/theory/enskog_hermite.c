@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Enskog's equation itself, solved without random numbers: an expansion of the distribution about an anisotropic
- * Gaussian, all collision integrals by quadrature, the steady state by Newton's method (theory/hermite). Degree after
- * degree, so that each number tells how far it is from its limit. Rough grains: theory/rough. */
+ * Gaussian, all collision integrals by quadrature, the steady state by Newton's method (theory/hermite). The degree
+ * grows step by step, so that each number has its distance from the limit as its error. Rough grains: theory/rough. */
 #include <math.h>
 
 #include "theory/answer.h"
@@ -19,8 +19,8 @@ static const char name[] = "enskog_hermite";
 enum { FIRST_DEGREE = 4, GOOD_DEGREE = 10, LAST_DEGREE = 18, VISCOSITY_DEGREE = 8 };
 static const double good = 1e-8;
 
-/* Cooling rate, in units of the collision frequency, below which its error is not counted in its own units: of elastic
- * grains it is 0. */
+/* Cooling rate, in units of the collision frequency, below which its relative error is not counted: for elastic
+ * grains the rate is 0. */
 static const double hardly = 1e-6;
 
 static void answer_flights(const gg_model *m, double rate, double speed, gg_theory_answer *a)
@@ -56,7 +56,7 @@ static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, const g
   if (m->linear_response) return; /* no temperature of its own: it grows */
   double T = temperature_of(m, h, heating), p = m->density * T;
   gg_theory_answer_temperature(m, T, NAN, a);
-  gg_theory_answer_pressure(m, T, p, p * sums.transfer[2][2] / 3, a); /* all along the one direction: the trace */
+  gg_theory_answer_pressure(m, T, p, p * sums.transfer[2][2] / 3, a); /* one direction for all: the trace */
   answer_flights(m, sums.rate * sqrt(T), sums.speed * sqrt(T), a);
   if (!m->boltzmann)
     a->value[GG_Q_BULK_VISCOSITY_REDUCED] =
@@ -66,7 +66,7 @@ static void answer_isotropic(const gg_model *m, gg_hermite_isotropic *h, const g
 static gg_status answer_viscosity(const gg_model *m, gg_hermite_isotropic *h, gg_theory_answer *a, gg_error *err)
 {
   gg_hermite_viscosity v;
-  double fading = gg_theory_thermostat_share(m) == 0.5 ? h->cooling_rate / 2 : 0, nu0 = gg_common_model_nu0(m, 1);
+  double fading = gg_theory_thermostat_factor(m) == 0.5 ? h->cooling_rate / 2 : 0, nu0 = gg_common_model_nu0(m, 1);
   GG_TRY(gg_hermite_viscosity_of(&h->gas, &h->state, h->op.basis.degree, !m->boltzmann, fading, &v, err));
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = v.kinetic * nu0;
   a->value[GG_Q_VISCOSITY_REDUCED] = v.total * nu0;
@@ -86,10 +86,10 @@ static gg_status answer_heat(const gg_model *m, const gg_hermite_isotropic *h, g
   return GG_OK;
 }
 
-/* Degree after degree of the cooling state: heat flux, whose series takes as many as there are. */
+/* Heat flux of the cooling state, degree after degree: its series needs all available degrees. */
 static gg_status conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  gg_rungs rungs = {.n = 0};
+  gg_hermite_convergence convergence = {.n = 0};
   const gg_quantity q[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC,
                            GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED};
   double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
@@ -98,30 +98,30 @@ static gg_status conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
     gg_hermite_isotropic h;
     GG_TRY(gg_stop_check(m->stop, err));
     GG_TRY(gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, &heating, err));
-    gg_status status = answer_heat(m, &h, gg_hermite_convergence_next(&rungs), err);
+    gg_status status = answer_heat(m, &h, gg_hermite_convergence_next(&convergence), err);
     gg_hermite_isotropic_end(&h);
     GG_TRY(status);
-    if (gg_hermite_convergence_change(&rungs, q[0]) < hardly) break;
+    if (gg_hermite_convergence_change(&convergence, q[0]) < hardly) break;
   }
-  for (size_t k = 0; k < sizeof q / sizeof *q; k++) gg_hermite_convergence_take(&rungs, q[k], a);
+  for (size_t k = 0; k < sizeof q / sizeof *q; k++) gg_hermite_convergence_take(&convergence, q[k], a);
   return GG_OK;
 }
 
-/* The isotropic state is cheap, its viscosity is not: that one up to a lower degree, from which on its series does
- * nothing any more. */
+/* The isotropic state is cheap, its viscosity is not: the viscosity is solved up to a lower degree, from which on
+ * its series no longer changes. */
 static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  gg_rungs rungs = {.n = 0}, viscous = {.n = 0};
+  gg_hermite_convergence convergence = {.n = 0}, viscous = {.n = 0};
   const gg_heating heating = gg_theory_heating_of(m);
   double frequency = m->density * m->chi[0] * m->sigma[0] * m->sigma[0];
   for (int degree = FIRST_DEGREE; degree <= LAST_DEGREE; degree += 2) {
-    if (degree > GOOD_DEGREE && gg_hermite_convergence_change(&rungs, GG_Q_COOLING_RATE) < good) break;
+    if (degree > GOOD_DEGREE && gg_hermite_convergence_change(&convergence, GG_Q_COOLING_RATE) < good) break;
     gg_hermite_isotropic h;
     gg_error why;
     GG_TRY(gg_stop_check(m->stop, err));
     gg_status status = gg_hermite_isotropic_solve(&h, degree, frequency, m->contact[0][0].jn, &heating, &why);
     if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
-    gg_theory_answer *rung = gg_hermite_convergence_next(&rungs);
+    gg_theory_answer *rung = gg_hermite_convergence_next(&convergence);
     answer_isotropic(m, &h, &heating, rung);
     if (m->flow == GG_HCS && !m->boltzmann)
       status = gg_hermite_isotropic_expansion(&h, m->sigma[0], &rung->value[GG_Q_COOLING_RATE_TRANSPORT], &why);
@@ -130,7 +130,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
     gg_hermite_isotropic_end(&h);
     if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
   }
-  GG_TRY(gg_hermite_convergence_finish(&rungs, name, GG_Q_COOLING_RATE, hardly, a, err));
+  GG_TRY(gg_hermite_convergence_finish(&convergence, name, GG_Q_COOLING_RATE, hardly, a, err));
   gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED, a);
   gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
   if (m->flow != GG_HCS) return GG_OK;

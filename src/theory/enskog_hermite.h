@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the solver of Enskog's equation without random numbers answers (enskog_hermite.c), state by state. */
+/* Answers of the solver of Enskog's equation without random numbers (enskog_hermite.c), state by state. */
 #ifndef GG_ENSKOG_HERMITE_H
 #define GG_ENSKOG_HERMITE_H
 
 #include "theory/theory.h"
 
-/* Steady shear of smooth grains; and the degree up to which so many species are solved: 0: they are too many. */
+/* Steady shear of smooth grains; and the highest degree that is solved for so many species (0: too many). */
 gg_status gg_hermite_shear_answer(const gg_model *model, gg_theory_answer *answer, gg_error *err);
 int gg_hermite_shear_last_degree(int n_species);
 
@@ -16,7 +16,7 @@ gg_status gg_hermite_mixture_answer(const gg_model *model, gg_theory_answer *ans
 gg_status gg_rough_answer(const gg_model *model, gg_theory_answer *answer, gg_error *err);
 
 /* The distributions themselves, under the names and at the abscissae of the observables that measure them: those in
- * `measure` (GG_MEASURE_...) that the solution has: velocity_distributions, and of isotropic states sonine.
+ * `measure` (GG_MEASURE_...) that the solution has: velocity_distributions, and in isotropic states sonine.
  * GG_BAD_INPUT with the reason where the solution has none, or fails. */
 gg_status gg_hermite_curves(const gg_model *model, unsigned measure, gg_curves *list, gg_error *err);
 

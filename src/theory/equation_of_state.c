@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Equations of state of elastic hard spheres of one species, each whatever contact value the scene chose:
+/* Equations of state of elastic hard spheres of one species, independent of the contact value that the scene chose:
  *   N.F. Carnahan & K.E. Starling, J. Chem. Phys. 51 (1969) 635: Z = (1 + phi + phi^2 - phi^3)/(1 - phi)^3
  *   J. Kolafa, S. Labik & A. Malijevsky, Phys. Chem. Chem. Phys. 6 (2004) 2335, a series in x = phi/(1-phi)
- *   S. Pieprzyk, M.N. Bannerman, A.C. Branka, M. Chudak & D.M. Heyes, Phys. Chem. Chem. Phys. 21 (2019) 6886, its refit
+ *   S. Pieprzyk, M.N. Bannerman, A.C. Branka, M. Chudak & D.M. Heyes, Phys. Chem. Chem. Phys. 21 (2019) 6886, its
+ *   refit
  * Mixtures: enskog.c, by contact values. */
 #include "theory/equation_of_state.h"
 
@@ -13,8 +14,8 @@
 #include "theory/answer.h"
 #include "theory/theory_list.h"
 
-/* Contact values chi = (Z - 1)/(4 phi), exact for elastic spheres: without the difference, which a dilute gas leaves
- * nothing of. Z - 1 is x times a series. */
+/* Contact values chi = (Z - 1)/(4 phi), exact for elastic spheres. Z - 1 is x times a series: the difference itself
+ * would be lost to rounding in a dilute gas. */
 static double kolafa(double phi)
 {
   static const double low[] = {4, 6, 2.3647684, -0.8698551, 1.1062803, -1.095049, 0.637614};
@@ -38,7 +39,7 @@ double gg_theory_compressibility_kolafa2004(double phi)
   return 1 + 4 * phi * kolafa(phi);
 }
 
-/* p = n T Z and the collision rate, both by chi. */
+/* p = n T Z and the collision rate, both from chi. */
 static gg_status answer_with(double (*chi_of)(double), const char *name, const gg_model *m, gg_theory_answer *a,
                              gg_error *err)
 {

@@ -12,7 +12,7 @@ const char *const gg_theory_parameters[] = {"phi",   "n",       "gamma",   "T_0"
                                             "mu_22", "chi_12",  "chi_22",  "K_2",      "x_1",     "x_2",     "m_1",
                                             "m_2",   "sigma_1", "sigma_2", "sigma_12", "g_x",     "g_y",     NULL};
 
-/* In the order of the names above; NaN: there is no second species. */
+/* Parameters in the order of the names above; NaN: there is no second species. */
 static void read_parameters(const gg_facts *f, double at[GG_THEORY_PARAMETERS])
 {
   static const gg_species_facts no_species = {NAN, NAN, NAN, NAN};
@@ -119,7 +119,8 @@ static int find_parameter(const char *name)
 enum { MOST_COLUMNS = 64 };
 
 typedef struct head {
-  int n, of[MOST_COLUMNS], n_keys, n_quantities, key[GG_THEORY_PARAMETERS]; /* of: where a column's number goes */
+  int n, of[MOST_COLUMNS], n_keys, n_quantities,
+      key[GG_THEORY_PARAMETERS]; /* of: index of the cell for a column's number */
   char *quantity[MOST_COLUMNS];
 } head;
 
@@ -142,7 +143,7 @@ static gg_status read_column(char *word, const char *name, head *h, int *paramet
   return GG_OK;
 }
 
-/* Cuts the line into its names, in place. */
+/* Split the line into its names, in place. */
 static gg_status read_head(char *line, const char *name, head *h, gg_error *err)
 {
   int parameter[MOST_COLUMNS + 1];

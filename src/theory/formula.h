@@ -6,12 +6,12 @@
 #include "base/expression.h"
 #include "graingas.h"
 
-/* Parameters that formulas and columns of tables may use; ends with NULL. Of species 1 without an index: e, beta, mu,
- * chi, K; of a mixture of two also e_12, e_22, x_1, x_2 and so on. */
+/* Parameters of formulas and columns of tables; ends with NULL. Names without an index are those of species 1: e,
+ * beta, mu, chi, K; a mixture of two also has e_12, e_22, x_1, x_2 and so on. */
 extern const char *const gg_theory_parameters[];
 enum { GG_THEORY_PARAMETERS = 27 };
 
-/* A theory as the context of its definition: one piece of memory, from malloc. */
+/* A theory as the context of its definition: one allocation, from malloc. */
 typedef struct gg_formula_theory {
   int n; /* quantities */
   gg_expression of[];
@@ -24,15 +24,15 @@ typedef struct gg_points_theory {
   double cell[]; /* row by row */
 } gg_points_theory;
 
-/* For gg_theory_definition.evaluate. Formulas of one species do not apply to a mixture; a table answers at its points
- * alone, to nine digits. */
+/* For gg_theory_definition.evaluate. Formulas of one species do not apply to a mixture; a table answers only at its
+ * points, which are compared to nine digits. */
 const char *gg_theory_formula_evaluate(void *theory, const gg_facts *facts, double *values);
 const char *gg_theory_points_evaluate(void *theory, const gg_facts *facts, double *values);
 
-/* A table from text: a line of names, parameters and quantities in any order, then numbers, with commas; an empty cell
- * is no answer. A parameter may have its key in scenes, collision.e; other keys
- * (walls.e) are an error, and so is a name with two columns. *quantity (to be freed) has the names of `n`
- * quantities, which are in *names (to be freed). */
+/* A table from text: a line of names, parameters and quantities in any order, then numbers, with commas; an empty
+ * cell is no answer. A parameter may have its key in scenes, collision.e; other keys (walls.e) are an error, and so
+ * is a name with two columns. *quantity (to be freed) has the names of `n` quantities, to which *names (to be freed)
+ * points. */
 gg_status gg_theory_points_read(const char *text, const char *name, gg_points_theory **theory, char ***quantity,
                                 char **names, gg_error *err);
 

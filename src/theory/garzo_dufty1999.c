@@ -45,7 +45,7 @@ double gg_theory_a2_white_noise(double e)
   return 16 * (1 - e) * (1 - 2 * e * e) / (241 - 177 * e + 30 * e * e * (1 - e));
 }
 
-double gg_theory_thermostat_share(const gg_model *m)
+double gg_theory_thermostat_factor(const gg_model *m)
 {
   static const double share[] = {[GG_NO_THERMOSTAT] = 0.5, [GG_GAUSSIAN] = 1, [GG_WHITE_NOISE] = 0, [GG_BATH] = 0};
   return share[gg_common_thermostat_of(m)];
@@ -63,7 +63,7 @@ void gg_theory_answer_sonine(const gg_model *m, double T, double a2, gg_theory_a
   a->value[GG_Q_A2] = a2;
   a->value[GG_Q_KURTOSIS_CX] = a->value[GG_Q_KURTOSIS_CY] = a->value[GG_Q_KURTOSIS_CZ] = 3 * (1 + a2);
   a->value[GG_Q_COOLING_RATE] = 5. / 12 * m->chi[0] * (1 - e * e) * (1 + 3. / 16 * a2);
-  if (m->linear_response) return; /* no temperature of its own: it grows */
+  if (m->linear_response) return; /* T grows with time: no value */
   gg_theory_answer_temperature(m, T, NAN, a);
   gg_theory_answer_pressure(m, T, p, pc, a);
   gg_theory_answer_collisions_one(m, T, a);
@@ -79,14 +79,14 @@ static void answer_viscosity(const gg_model *m, double a2, double weight, gg_the
   double e = m->e[0], y = gg_theory_phi_chi(m);
   double nu = m->chi[0] * (1 - (1 - e) * (1 - e) / 4) * (1 + weight * a2);
   double eta_k =
-      (1 - 0.4 * (1 + e) * (1 - 3 * e) * y) / (nu - gg_theory_thermostat_share(m) * a->value[GG_Q_COOLING_RATE]);
+      (1 - 0.4 * (1 + e) * (1 - 3 * e) * y) / (nu - gg_theory_thermostat_factor(m) * a->value[GG_Q_COOLING_RATE]);
   double bulk = gg_theory_bulk_viscosity(m, 1 - a2 / 16);
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = eta_k;
   a->value[GG_Q_VISCOSITY_REDUCED] = eta_k * (1 + 0.8 * (1 + e) * y) + 0.6 * bulk;
   if (!m->boltzmann) a->value[GG_Q_BULK_VISCOSITY_REDUCED] = bulk;
 }
 
-/* Of a cooling gas; `weight`: what a_2 adds to nu_kappa. */
+/* Heat flux of a cooling gas; `weight`: coefficient of a_2 in nu_kappa. */
 static void answer_heat(const gg_model *m, double a2, double weight, gg_theory_answer *a)
 {
   double e = m->e[0], y = gg_theory_phi_chi(m), c = 2 * a2, zeta = a->value[GG_Q_COOLING_RATE], slope = m->chi_slope;
@@ -110,7 +110,7 @@ static void answer_expansion(const gg_model *m, double a2, gg_theory_answer *a)
   a->value[GG_Q_COOLING_RATE_TRANSPORT] = -2 * y * (1 - e * e) + 3. / 16 * maxwellian * response;
 }
 
-/* Everything, with a_2 and its weight in the rates by either order. */
+/* All answers, with a_2 and its weight in the rates by either order. */
 static void answer_all(const gg_model *m, double a2, bool modified, gg_theory_answer *a)
 {
   const double e = m->e[0];

@@ -11,9 +11,9 @@ double gg_theory_a2_montanero_santos(double e);
 double gg_theory_a2_white_noise(double e);
 
 /* s in nu_eta - s zeta: 1/2 for cooling, 1 for a Gaussian thermostat, 0 for white noise. */
-double gg_theory_thermostat_share(const gg_model *model);
+double gg_theory_thermostat_factor(const gg_model *model);
 
-/* Of one species at first Sonine order: temperature, pressure, cooling and collision rate. */
+/* Answers for one species at first Sonine order: temperature, pressure, cooling and collision rate. */
 void gg_theory_answer_sonine(const gg_model *model, double T, double a2, gg_theory_answer *answer);
 
 #endif

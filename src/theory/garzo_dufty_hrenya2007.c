@@ -20,7 +20,7 @@
 #include "theory/range.h"
 #include "theory/theory_list.h"
 
-/* Of a state at T = 1. */
+/* Indices of the derivatives of a state at T = 1. */
 enum { PRESSURE_1, PRESSURE, ZETA, SPREAD, LN_CHI = SPREAD + GG_BINARY, VALUES = LN_CHI + 3 };
 
 /* p_c = (pi/3) sum n_i n_j sigma_ij^3 chi_ij m_ij (1+e_ij)(a_i + a_j): the weight of a pair, 2 n_i n_j (a_i + a_j) off.
@@ -66,7 +66,7 @@ static void evaluate_at(const gg_model *base, bool dense, const double n[GG_BINA
   }
 }
 
-/* n_k d/dn_k, of fourth order. */
+/* n_k d/dn_k, by differences of fourth order. */
 static void slopes(const gg_model *m, bool dense, const double n[GG_BINARY], int k, double *slope)
 {
   static const double steps[] = {-2, -1, 1, 2}, weights[] = {1. / 12, -2. / 3, 2. / 3, -1. / 12}, h = 1e-3;
@@ -140,7 +140,7 @@ static double force_by_temperature(const gg_model *m, const double n[GG_BINARY],
   return sum;
 }
 
-/* False where the flux decays no faster than the gas cools: no solution of this order follows the gradients. */
+/* False where the flux decays no faster than the gas cools: then no solution of this order follows the gradients. */
 static bool diffuse(const gg_model *m, bool dense, gg_theory_answer *a)
 {
   const double x = gg_theory_fraction(m, 0), n[GG_BINARY] = {x * m->density, (1 - x) * m->density};

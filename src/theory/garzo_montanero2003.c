@@ -137,7 +137,7 @@ static gg_status answer_in(const gg_model *m, const char *theory, gg_linearisati
   double T = m->linear_response ? 0.5 : m->temperature0;
   gg_mixture_state s = gg_theory_mixture_cooling(m, how, T);
   if (isnan(s.zeta)) return gg_theory_reject(err, theory, "finds no common cooling rate for this mixture");
-  gg_mixture_viscosity v = gg_theory_mixture_viscosity_of(m, &s, gg_theory_thermostat_share(m));
+  gg_mixture_viscosity v = gg_theory_mixture_viscosity_of(m, &s, gg_theory_thermostat_factor(m));
   double nu0 = gg_common_model_nu0(m, T), p = m->density * T, pc = collisional_pressure(m, &s);
   for (int i = 0; i < 2; i++) a->value[GG_Q_CUMULANT + i] = s.c[i];
   a->value[GG_Q_COOLING_RATE] = s.zeta / nu0;
@@ -145,7 +145,7 @@ static gg_status answer_in(const gg_model *m, const char *theory, gg_linearisati
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = nu0 * v.kinetic / p;
   if (m->flow == GG_HCS) gg_theory_answer_critical_lengths(m, 0, a);
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = m->mass[0] * s.a[0] / (m->mass[1] * s.a[1]);
-  if (m->linear_response) return GG_OK; /* no temperature of its own: it grows */
+  if (m->linear_response) return GG_OK; /* T grows with time: no value */
   gg_theory_answer_partial_temperatures(m, s.a, a);
   gg_theory_answer_pressure(m, T, p, pc, a);
   return GG_OK;

@@ -14,7 +14,7 @@
 
 static const char name[] = "gaussian_closure";
 
-/* Largest residual of the moment equations, in units of T and theta per mean free time, that passes for steady. */
+/* Largest residual of the moment equations, in units of T and theta per mean free time, that counts as steady. */
 static const double steady_residual = 1e-9;
 
 static gg_stress stress_of(gg_tensor P)

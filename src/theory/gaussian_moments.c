@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The integrals over velocities, at fixed direction k, are those of a Gaussian vector z = (g, C_1, s_1) with mean m and
- * covariance S, weighted by the normal velocity u = k.g > 0, u ~ N(mu, v). With the regression on u, R = S k_g/v,
- * B = m - R mu, C = S - v R R^T, and I_p = int_0^inf u^p N(u; mu, v) du:
+/* The integrals over velocities, at fixed direction k, are those of a Gaussian vector z = (g, C_1, s_1) with mean m
+ * and covariance S, weighted by the normal velocity u = k.g > 0, u ~ N(mu, v). With the regression on u, R = S
+ * k_g/v, B = m - R mu, C = S - v R R^T, and I_p = int_0^inf u^p N(u; mu, v) du:
  *   <u+ z> = I_1 B + I_2 R,   <u+ z z^T> = I_1 (B B^T + C) + I_2 (B R^T + R B^T) + I_3 R R^T
- * What is left is one quadrature over the sphere. After J.T. Jenkins & M.W. Richman, J. Fluid Mech. 192 (1988) 313 and
- * S. Saha & M. Alam, J. Fluid Mech. 795 (2016) 549, without their expansions. */
+ * One quadrature over the sphere remains. After J.T. Jenkins & M.W. Richman, J. Fluid Mech. 192 (1988) 313 and S.
+ * Saha & M. Alam, J. Fluid Mech. 795 (2016) 549, without their expansions. */
 #include "theory/gaussian_moments.h"
 
 #include <gsl/gsl_integration.h>
@@ -17,7 +17,7 @@
 /* Everything is even under k -> -k and under reflection at the shear plane: a quarter of the sphere is enough. */
 enum { POLAR = 24, AZIMUTH = 16 };
 
-/* Grain 1 of species i meets grain 2 of species j. */
+/* A pair of species: grain 1 of species i, grain 2 of species j. */
 typedef struct pair {
   const gg_gaussian *one, *two;
   const gg_contact *contact;
@@ -31,8 +31,8 @@ typedef struct part {
   gg_vec B, R;
 } part;
 
-/* Moments of the impulse J and of its torque k x J at one k, weighted with u+. The torque apart: the normal impulse,
- * much the larger one for weakly rough grains, has no share in it. */
+/* Moments of the impulse J and of its torque k x J at one k, weighted with u+. The torque is kept separately: the
+ * normal impulse, much the larger one for weakly rough grains, does not contribute to it. */
 typedef struct impulse {
   double u;            /* <u+>, the flux itself */
   double loss;         /* <u+ loss> */
@@ -127,7 +127,7 @@ static impulse impulse_at(const pair *p, gg_vec k)
   double jn = p->contact->jn, jt = p->contact->jt;
   gg_tensor L = {{{jt, 0, 0}, {0, jt, 0}, {0, 0, jt}}}, X = cross_tensor(k), S = plus(p->one->M, 1, p->two->M);
   L = plus(L, jn - jt, outer(k, k));
-  /* Regression on u: spins have no part in it, and S_gC = M_1. */
+  /* Regression on u: spins do not contribute, and S_gC = M_1. */
   gg_vec mean = mean_contact_velocity(p, k), Sk = times(S, k);
   double v = gg_dot(k, Sk), mu = gg_dot(k, mean), I[4];
   flux_integrals(mu, v, I);
@@ -205,7 +205,7 @@ static void add_direction(const gg_model *m, const gg_gaussian *state, gg_vec k,
   }
 }
 
-/* What is odd in z cancels between the quarters of the sphere. */
+/* Terms odd in z cancel between the quarters of the sphere. */
 static void drop_odd(gg_tensor *A)
 {
   A->at[0][2] = A->at[2][0] = A->at[1][2] = A->at[2][1] = 0;
@@ -215,7 +215,7 @@ void gg_theory_gaussian_rates_at(const gg_model *m, const gg_gaussian *state, gg
 {
   memset(r, 0, sizeof *r);
   gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(POLAR);
-  if (!table) { /* whoever asked for the theory is told */
+  if (!table) { /* the caller reports the missing table */
     gg_base_memory_lacked();
     return;
   }

@@ -21,31 +21,32 @@ typedef struct gg_gaussian {
 typedef struct gg_gaussian_rates {
   gg_gaussian change[GG_MAX_SPECIES]; /* d/dt of each moment, by collisions alone */
   gg_tensor Pc;                       /* collisional stress per volume; 0 in the Boltzmann limit */
-  double loss;                        /* energy per volume that collisions destroy; no difference of large numbers */
-  double frequency[GG_MAX_SPECIES];   /* collisions per grain of the species */
-  double speed[GG_MAX_SPECIES];       /* <|C|> */
+  double loss; /* energy per volume that collisions dissipate; computed without differences of large numbers */
+  double frequency[GG_MAX_SPECIES]; /* collisions per grain of the species */
+  double speed[GG_MAX_SPECIES];     /* <|C|> */
 } gg_gaussian_rates;
 
-/* Smooth or rough, any number of species (not frictional); shear_rate and sizes from the model. One state a
- * species; the spins of one that never spins are ignored. */
+/* Rates of the moments for smooth or rough grains, any number of species (not frictional); shear_rate and sizes from
+ * the model. One state a species; the spins of a species that never spins are ignored. */
 void gg_theory_gaussian_rates_at(const gg_model *model, const gg_gaussian *state, gg_gaussian_rates *rates);
 
-/* The same with streaming and the bath; and per volume what the bath brings, and what it takes (flow). */
+/* The same with streaming and the bath; and per volume the energy that the bath supplies and removes (flow). */
 void gg_theory_gaussian_changes_at(const gg_model *model, const gg_gaussian *state, gg_gaussian_rates *rates,
                                    double flow[2]);
 
-/* gaussian_relaxation.c: moments in time, of the gases that they are known for. */
+/* gaussian_relaxation.c: does the closure describe the relaxation of this gas? */
 bool gg_theory_gaussian_relaxes(const gg_model *model);
 void gg_theory_gaussian_start(const gg_model *model, gg_gaussian state[]);
 double gg_theory_gaussian_shear_stress(const gg_model *model, const gg_gaussian state[]);
 
-/* The steady state of uniform shear: the largest residual left, of changes per mean free time, and of the balance of
- * energy and of shear stresses a thousandth of the relative ones, which small stresses do not hide (NaN: no memory). */
+/* The steady state of uniform shear. Returns the largest remaining residual: changes per mean free time; the balance
+ * of energy; and that of shear stresses, a thousandth of the relative ones, which small stresses do not hide (NaN:
+ * no memory). */
 double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state);
 
 double gg_theory_trace(gg_tensor A);
 
-/* Whether any collision of this species changes its spin. */
+/* Does any collision of this species change its spin? */
 bool gg_theory_species_spins(const gg_model *model, int species);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The second moments of gaussian_closure.c in time: of sheared gases, and of mixtures, whose velocities are Maxwellians
- * of their own temperatures without shear. */
+/* The second moments of gaussian_closure.c in time, for sheared gases and for mixtures. Without shear the velocities
+ * of each species are Maxwellian, with separate temperatures. */
 #include <math.h>
 
 #include "common/thermostat.h"
@@ -14,7 +14,7 @@ bool gg_theory_gaussian_relaxes(const gg_model *m)
   return known && (m->shear_rate != 0 || m->n_species > 1);
 }
 
-/* All at one temperature; spins roll with the flow. */
+/* Initial state: one temperature for all; spins roll with the flow. */
 void gg_theory_gaussian_start(const gg_model *m, gg_gaussian state[])
 {
   for (int i = 0; i < m->n_species; i++) {
@@ -32,7 +32,7 @@ static double energy_of(const gg_model *m, const gg_gaussian state[])
   return sum;
 }
 
-/* Noise that goes to all alike; or velocities that are scaled so that their energy stays. */
+/* White noise that is equal for all species; or scaling of velocities that keeps their energy. */
 static void add_thermostat(const gg_model *m, const gg_gaussian state[], gg_gaussian_rates *r)
 {
   if (m->bath.on || gg_flow_cools(m->flow)) return;
@@ -46,7 +46,8 @@ static void add_thermostat(const gg_model *m, const gg_gaussian state[], gg_gaus
     }
 }
 
-/* What the bath changes, and what it brings and takes per volume; a negative drag brings. */
+/* Changes of the moments by the bath, and the energy per volume that it supplies and removes; a negative drag
+ * supplies energy. */
 static void add_bath(const gg_model *m, const gg_gaussian *state, int i, gg_gaussian *change, double flow[2])
 {
   const gg_bath *b = &m->bath;
@@ -123,8 +124,8 @@ static bool is_small(gg_tensor change, gg_tensor of, double time)
   return true;
 }
 
-/* Whether what is left to change is too little to be seen. */
-static bool is_settled(const gg_model *m, const gg_gaussian state[], const gg_gaussian_rates *r, double time)
+/* Is the remaining change too small to be seen? */
+static bool is_steady(const gg_model *m, const gg_gaussian state[], const gg_gaussian_rates *r, double time)
 {
   for (int i = 0; i < m->n_species; i++)
     if (!is_small(r->change[i].M, state[i].M, time) || !is_small(r->change[i].Theta, state[i].Theta, time) ||
@@ -141,9 +142,9 @@ static double collision_rate(const gg_model *m, const gg_gaussian_rates *r)
 }
 
 #define SECONDS 2e-4 /* of a step, over the square of the number of species */
-#define LONG 1e5     /* relaxations are shorter, over the fastest rate; longer times show rounding */
+#define LONG 1e5     /* relaxations are shorter, in units of the fastest rate; longer times would show rounding */
 
-/* Runge and Kutta's fourth order, in strides of what is fastest. */
+/* The fourth-order Runge-Kutta method, with steps in units of the fastest time. */
 void gg_theory_gaussian_relax(const gg_model *m, double time, gg_relaxing *x)
 {
   gg_gaussian *state = x->of;
@@ -152,7 +153,7 @@ void gg_theory_gaussian_relax(const gg_model *m, double time, gg_relaxing *x)
   while (time > 0 && !(x->stop && gg_stop_asked(x->stop))) {
     rates_at(m, state, &r[0]);
     const double most = fastest(m, state, &r[0]);
-    const bool settled = is_settled(m, state, &r[0], fmin(time, LONG / most));
+    const bool settled = is_steady(m, state, &r[0], fmin(time, LONG / most));
     const double dt = settled ? time : fmin(time, (x->stride > 0 ? x->stride : 0.5) / most);
     x->collisions += dt * collision_rate(m, &r[0]);
     x->work -= SECONDS * m->n_species * m->n_species;
@@ -162,7 +163,8 @@ void gg_theory_gaussian_relax(const gg_model *m, double time, gg_relaxing *x)
       rates_at(m, at, &r[k]);
     }
     for (int k = 0; k < 4; k++) move(m, state, k % 3 ? dt / 3 : dt / 6, r[k].change, state);
-    for (int i = 0; i < m->n_species; i++) symmetrise(&state[i].M), symmetrise(&state[i].Theta); /* rounding grows */
+    for (int i = 0; i < m->n_species; i++)
+      symmetrise(&state[i].M), symmetrise(&state[i].Theta); /* otherwise rounding errors grow */
     time = dt < time ? time - dt : 0;
   }
 }

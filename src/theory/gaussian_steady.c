@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The steady state of uniform shear for anisotropic Gaussians: zero of the production terms of gaussian_moments.c plus
- * streaming. The unknowns are M = L L^T and Theta = L L^T by the logarithms of the diagonal of L, so that every trial
- * state is a distribution; and the mean spins, but where they are nothing beside thermal ones. The solver steps by a
- * share of an unknown to differentiate: each is counted from -1, so that none is next to nothing. */
+/* The steady state of uniform shear for anisotropic Gaussians: zero of the production terms of gaussian_moments.c
+ * plus streaming. The unknowns are M = L L^T and Theta = L L^T by the logarithms of the diagonal of L, so that every
+ * trial state is a distribution; and the mean spins, unless they are negligible beside thermal ones. The solver
+ * differentiates with steps proportional to an unknown: each unknown is shifted by 1, so that none is near 0. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multiroots.h>
 #include <math.h>
@@ -15,29 +15,30 @@
 
 enum { PER_TENSOR = 4, MAX_STEPS = 200, MAX_ATTEMPTS = 4, RELAXATION_STEPS = 100 };
 
-/* Residual aimed at; one that is close to it; step of relaxation, in the same times. */
+/* Target of the residual; a residual that is close to it; step of relaxation, in the same times. */
 static const double converged = 1e-13, nearby = 1e-5, relaxation_step = 0.3;
 
-/* Of ln T: a steady state that is so near is the one that a gas in a bath goes to. Processor time of that way. */
+/* Distance in ln T within which a steady state counts as the one that a gas in a bath reaches. Processor time for
+ * following the gas. */
 static const double near_by = 0.1, seconds_to_follow = 0.3;
 
-/* Weight of relative residuals, of the balance of energy and of shear stresses. Nearly elastic grains do not shear
- * fast: with s the ratio of the shear rate to that of collisions these equations are, in units of T, of order s^2 and
- * s. */
+/* Weight of relative residuals, of the balance of energy and of shear stresses. Nearly elastic grains are sheared
+ * slowly: with s the ratio of the shear rate to the collision rate these equations are, in units of T, of order s^2
+ * and s. */
 static const double relative = 1e-3;
 
-/* Thermal speed, in units of the shear rate times the diameter, above which what mean spins do to collisions is lost in
- * rounding: they are left rolling with the flow (and 0 in the Boltzmann limit, where the thermal speed is infinite: of
- * independent velocities and spins; see GG_ROLLING_PHI). */
+/* Thermal speed, in units of the shear rate times the diameter, above which the effect of mean spins on collisions
+ * is lost in rounding: the mean spins stay those of rolling. (0 in the Boltzmann limit, where the thermal speed is
+ * infinite, for independent velocities and spins; see GG_ROLLING_PHI.) */
 static const double fast = 1e8;
 
 typedef struct closure {
   const gg_model *model;
   double T, ratio, shear; /* of the start: temperature, theta/T, -P_xy/p */
-  int most;               /* species of most grains, whose equation of energy gives way to that of all */
+  int most;               /* most numerous species: its equation of energy is replaced by that of all */
   bool turns;             /* mean spins are unknowns */
-  double off_unit;        /* of off-diagonal elements: between their size and 1 */
-  double spin_unit;       /* of mean spins less those of rolling: between rolling and thermal spins */
+  double off_unit;        /* unit of off-diagonal elements: between their size and 1 */
+  double spin_unit;       /* unit of mean spins relative to rolling: between rolling and thermal spins */
 } closure;
 
 static double unknown(const gsl_vector *x, size_t at)
@@ -67,7 +68,7 @@ static void pack_tensor(const closure *c, gg_tensor A, double scale, gsl_vector 
   set_unknown(x, at + 3, 0.5 * log(zz));
 }
 
-/* Of grains that roll with the flow: a unit, of the Boltzmann limit, too. */
+/* Mean spin of grains that roll with the flow: a unit, also in the Boltzmann limit. */
 static double rolling(const gg_model *m, int i)
 {
   return -m->shear_rate * m->diameter[i] / 4;
@@ -102,8 +103,8 @@ static void pack(const closure *c, const gg_gaussian *state, gsl_vector *x)
   }
 }
 
-/* Share of the spin that a collision can change, by the pair with most grip: weakly rough grains exchange little, and
- * their equations are counted in that measure. */
+/* Fraction of the spin that a collision can change, for the pair with the strongest coupling: the equations of
+ * weakly rough grains, which exchange little, have this unit. */
 static double grip_of(const gg_model *m, int i)
 {
   double grip = 0;
@@ -117,14 +118,14 @@ static void scale_tensor(gg_tensor *A, double factor)
     for (int j = 0; j < 3; j++) A->at[i][j] *= factor;
 }
 
-/* Mean free time, shear time or time of the bath, whichever is shorter. */
+/* Mean free time, shear time or time of the bath: the shortest. */
 static double time_of(const gg_model *m, const gg_gaussian_rates *r, int i)
 {
   return 1 / (r->frequency[i] + 3 * m->shear_rate + fabs(m->bath.drag[i]) + m->bath.spin_drag[i]);
 }
 
-/* d/dt of all moments, streaming included, per that time (of spins: per time in which collisions change them); the
- * excess of the work of shear over the loss, relative to that; and by species the shear in that time. */
+/* d/dt of all moments, streaming included, per that time (spins: per time in which collisions change them); the
+ * excess of the work of shear over the loss, relative to the loss; and for each species the shear in that time. */
 typedef struct gg_production {
   gg_gaussian change[GG_MAX_SPECIES];
   double excess, shear[GG_MAX_SPECIES];
@@ -151,7 +152,7 @@ static void production(const gg_model *m, const gg_gaussian *state, gg_productio
   p->excess = (flow[0] - m->shear_rate * stress) / (flow[1] + r.loss) - 1;
 }
 
-/* Trace and deviations apart: energy is the slow equation. `shear`: what drives the last. */
+/* Trace and deviations separately: energy has the slow equation. `shear`: drives the last component. */
 static void put_tensor(gg_tensor A, double unit, double shear, gsl_vector *f, size_t at)
 {
   gsl_vector_set(f, at, gg_theory_trace(A) / unit);
@@ -160,8 +161,8 @@ static void put_tensor(gg_tensor A, double unit, double shear, gsl_vector *f, si
   gsl_vector_set(f, at + 3, relative * A.at[0][1] / (unit * shear));
 }
 
-/* The moment equations, in units of T, theta and the spin of rolling. The loss of energy is next to nothing beside what
- * nearly elastic grains exchange, and comes from one equation for all of them. */
+/* The moment equations, in units of T, theta and the spin of rolling. The loss of energy is negligible beside the
+ * energy that nearly elastic grains exchange: it comes from one equation for all of them. */
 static int residual(const gsl_vector *x, void *params, gsl_vector *f)
 {
   const closure *c = params;
@@ -186,7 +187,7 @@ static int residual(const gsl_vector *x, void *params, gsl_vector *f)
   return GSL_SUCCESS;
 }
 
-/* Scales from Lun's theory of grains of species 1: the work of his shear stress is about the loss. */
+/* Scales from Lun's theory of grains of species 1: the work of his shear stress about equals the loss. */
 static closure closure_of(const gg_model *m)
 {
   closure c = {.model = m};
@@ -201,7 +202,8 @@ static closure closure_of(const gg_model *m)
   if (m->bath.on || !(c.T > 0 && isfinite(c.T))) c.T = m->temperature0;
   double thermal = sqrt(c.T / mass), rate = m->shear_rate * m->diameter[0];
   c.ratio = fmax(ratio, 1e-6);
-  c.shear = fmin(fabs(lun.f2_kinetic) * m->shear_rate / (m->density * thermal), 0.5); /* < 0 where dense, e small */
+  c.shear =
+      fmin(fabs(lun.f2_kinetic) * m->shear_rate / (m->density * thermal), 0.5); /* < 0 for dense gases of small e */
   c.turns = !m->boltzmann && thermal < fast * rate;
   c.off_unit = sqrt(c.shear);
   c.spin_unit = sqrt(thermal * rate);
@@ -222,7 +224,7 @@ static void start(const closure *c, gsl_vector *x)
   pack(c, state, x);
 }
 
-/* Warm or cool all by a tenth of what the work of shear, over the loss, asks for. */
+/* Scale all temperatures by a tenth of the excess of the work of shear over the loss. */
 static void follow_energy(const gg_model *m, double excess, gg_gaussian state[])
 {
   double factor = exp(0.1 * fmin(fmax(log(fmax(1 + excess, 1e-3)), -3), 3));
@@ -232,7 +234,7 @@ static void follow_energy(const gg_model *m, double excess, gg_gaussian state[])
   }
 }
 
-/* Let the moments relax, as they would in the gas, but that energy does not wait for the loss of many collisions. */
+/* Let the moments relax as in the gas, but with a faster energy, which would need many collisions. */
 static void relax(const closure *c, gsl_vector *x, int steps)
 {
   gg_gaussian state[GG_MAX_SPECIES];
@@ -260,7 +262,7 @@ static double largest(const gsl_vector *f)
   return most;
 }
 
-/* Powell's method from x to where it converges or stalls; the residual left. */
+/* Powell's method from x until it converges or stalls; returns the remaining residual. */
 static double improve(gsl_multiroot_fsolver *solver, gsl_multiroot_function *f, gsl_vector *x)
 {
   int status = gsl_multiroot_fsolver_set(solver, f, x);
@@ -288,10 +290,10 @@ static double temperature_of(const gg_model *m, const gg_gaussian state[])
   return T;
 }
 
-/* The steady state next to the present one, into x: its residual; INFINITY where the gas does not come closer to it:
- * it is unstable, or another one. */
-static double settle(const closure *c, gsl_multiroot_fsolver *solver, gsl_multiroot_function *f,
-                     const gg_gaussian before[], const gg_gaussian now[], gsl_vector *x)
+/* The steady state next to the present one, into x; returns its residual. INFINITY if the gas does not approach it:
+ * the state is unstable, or another one. */
+static double solve_nearby(const closure *c, gsl_multiroot_fsolver *solver, gsl_multiroot_function *f,
+                           const gg_gaussian before[], const gg_gaussian now[], gsl_vector *x)
 {
   gg_gaussian found[GG_MAX_SPECIES];
   pack(c, now, x);
@@ -308,9 +310,9 @@ static double slowest_drag(const gg_model *m)
   return drag;
 }
 
-/* The moments in time from the start of the scene, up to a steady state; first until all but the temperature has
- * forgotten the start. Where time is long beside that of collisions the work that is allowed ends before: what is left
- * is x, from which energy alone decides. */
+/* The moments in time from the start of the scene up to a steady state; at first until all but the temperature has
+ * forgotten the start. If relaxation is long beside the collision time, the allowed work ends before: then x has a
+ * remainder that depends on the energy alone. */
 static double follow(const closure *c, gsl_multiroot_fsolver *solver, gsl_multiroot_function *f, gsl_vector *x)
 {
   const double forgetting = 10, drag = slowest_drag(c->model);
@@ -324,7 +326,7 @@ static double follow(const closure *c, gsl_multiroot_fsolver *solver, gsl_multir
     time += stretch;
     const double change = log(temperature_of(c->model, gas.of) / temperature_of(c->model, before));
     if (fabs(change) < near_by && gas.collisions + 2 * drag * time > forgetting)
-      left = settle(c, solver, f, before, gas.of, x);
+      left = solve_nearby(c, solver, f, before, gas.of, x);
   }
   if (!(left < converged)) pack(c, gas.of, x);
   return left;
@@ -341,11 +343,11 @@ double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state)
   if (solver && x) {
     start(&c, x);
     left = INFINITY;
-    /* In a bath there may be several states: the one that the gas goes to in time. */
+    /* In a bath there may be several states: take the one that the gas reaches in time. */
     if (model->bath.on) left = follow(&c, solver, &f, x);
     if (!(left < converged)) left = improve(solver, &f, x);
-    /* A stall close by is a stale Jacobian: continue from there. Far away the start was too far off: relax first; in a
-     * bath also where a state nearly exists, which it may leave slowly. */
+    /* A stall close to the solution is a stale Jacobian: continue from there. A stall far away means that the start
+     * was too far off: relax first; in a bath also near a state that almost exists, which the gas may leave slowly. */
     for (int attempt = 1; attempt <= MAX_ATTEMPTS && !(left < converged); attempt++) {
       if (model->bath.on)
         relax(&c, x, 10 * attempt * RELAXATION_STEPS);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The length from which on shear modes outgrow the thermal speed of a cooling gas, so that it breaks up into vortices
- * and then clusters: I. Goldhirsch & G. Zanetti, Phys. Rev. Lett. 70 (1993) 1619; J.J. Brey, J.W. Dufty, C.S. Kim & A.
- * Santos, Phys. Rev. E 58 (1998) 4638:
+/* Critical length of a cooling gas: in longer boxes shear modes grow relative to the thermal speed, and the gas
+ * breaks up into vortices and then clusters: I. Goldhirsch & G. Zanetti, Phys. Rev. Lett. 70 (1993) 1619; J.J. Brey,
+ * J.W. Dufty, C.S. Kim & A. Santos, Phys. Rev. E 58 (1998) 4638:
  *   L_c = 2 pi sqrt(2 eta/(n m zeta)) = 2 pi 5/(16 sqrt(pi) n d^2) sqrt(2 H/Z),  H = eta/eta_0, Z = zeta/nu_0
- * Of mixtures n m is the density of mass, zeta the rate that all temperatures share: P.P. Mitrano, V. Garzo & C.M.
- * Hrenya, Phys. Rev. E 89 (2014) 020201(R). The Gaussian thermostat acts on the velocity of flows, too, and so feeds
- * shear modes as cooling does. Of smooth grains that is cooling itself, in other units; of rough ones, whose spins get
- * nothing, theta/T is that of the heated state, and zeta the rate at which translation loses energy there. */
+ * In mixtures n m is the density of mass, zeta the common cooling rate of all temperatures: P.P. Mitrano, V. Garzo &
+ * C.M. Hrenya, Phys. Rev. E 89 (2014) 020201(R). The Gaussian thermostat acts on flow velocities, too, and so
+ * amplifies shear modes as cooling does. For smooth grains the thermostatted gas is the cooling gas in other units.
+ * For rough grains, whose spins are not heated, theta/T is that of the heated state, and zeta the rate at which
+ * translation loses energy there. */
 #include "theory/goldhirsch_zanetti1993.h"
 
 #include <math.h>
@@ -28,7 +29,7 @@ static double viscous_length2_of_mixture(const gg_model *m)
   return gg_theory_mixture_viscosity_of(m, &s, 0.5).total / (m->density * mass) / s.zeta;
 }
 
-/* eta/(n m) over zeta in the cooling or heated state, from the theories that know them. */
+/* eta/(n m) over zeta in the cooling or heated state, from the theories that have both. */
 static double viscous_length2(gg_model m)
 {
   gg_theory_answer a;

@@ -57,7 +57,7 @@ static grad_state state_at(const gg_model *m, double T, double ratio)
   return s;
 }
 
-/* Zero where one shear rate sustains both temperatures. */
+/* Zero if one shear rate sustains both temperatures. */
 static double mismatch(double ratio, void *model)
 {
   grad_state s = state_at(model, 1, ratio);
@@ -70,7 +70,7 @@ static gg_status mixture(const gg_model *m, const char *theory, gg_theory_answer
   double ratio = gg_theory_solve_ratio(mismatch, &copy);
   grad_state s = state_at(m, 1, ratio);
   if (!(s.rate2[0] > 0)) return gg_theory_reject(err, theory, "finds no steady state for this mixture");
-  double T = m->shear_rate * m->shear_rate / s.rate2[0]; /* rates go as sqrt(T) */
+  double T = m->shear_rate * m->shear_rate / s.rate2[0]; /* rates are proportional to sqrt(T) */
   s = state_at(m, T, ratio);
   gg_theory_answer_partial_temperatures(m, s.a, a);
   gg_stress P = {0, 0, 0, 0, 0};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Haff's law, and what follows from it. */
+/* Haff's law: temperature and collisions in time. */
 #ifndef GG_HAFF1983_H
 #define GG_HAFF1983_H
 
@@ -9,7 +9,7 @@
  * t/2)^2. */
 double gg_theory_haff_temperature(double T0, double zeta0, double t);
 
-/* Collisions per grain until then, the initial collision rate being nu0. */
+/* Collisions per grain up to time t, for the initial collision rate nu0. */
 double gg_theory_haff_collisions(double nu0, double zeta0, double t);
 
 #endif

@@ -16,7 +16,7 @@ gg_heating gg_theory_heating_of(const gg_model *m)
   }
 }
 
-/* drag = a x, diffusion = b x or, of a bath, b x^3. */
+/* drag = a x, diffusion = b x or, in a bath, b x^3. */
 static gg_heating_rates rates(const gg_heating *h, int i, double x, double cube)
 {
   switch (h->kind) {

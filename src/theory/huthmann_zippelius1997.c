@@ -25,16 +25,16 @@ static gg_status ratio_of(const gg_model *m, gg_grain grain, double mu, double *
       "for ever");
 }
 
-/* Energy of translation that a collision takes, over m T. */
+/* Translational energy that a collision takes, over m T. */
 static double loss_of(const gg_model *m, gg_grain grain, double mu, double ratio)
 {
   if (gg_flow_cools(m->flow)) return gg_theory_cooling_at(grain, mu, ratio);
   return -gg_theory_exchange_at(grain, mu, ratio).translation;
 }
 
-/* White noise is set to balance contacts of Maxwellians that all stick, at the ratio a run starts from (thermostat.h).
- * Where some slide another energy is lost, at another ratio: of grains of mass 1, 3/2 xi^2 = -(nu/2) dE_tr T, nu as
- * sqrt(T). */
+/* White noise is set to balance contacts of Maxwellians that all stick, at the initial ratio of a run
+ * (thermostat.h). If some contacts slide, another energy is lost, at another ratio: for grains of mass 1, 3/2 xi^2 =
+ * -(nu/2) dE_tr T, nu as sqrt(T). */
 static double temperature_of(const gg_model *m, double lost)
 {
   double T0 = m->temperature0, noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE ? gg_common_thermostat_noise(m) : 0;
@@ -52,7 +52,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   double mu = m->rule == GG_FRICTIONAL ? m->mu[0] : INFINITY, ratio;
   GG_TRY(ratio_of(m, grain, mu, &ratio, err));
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
-  if (m->shear_rate != 0) return GG_OK; /* of sheared states it knows no more */
+  if (m->shear_rate != 0) return GG_OK; /* for sheared states it has no other answers */
   double lost = loss_of(m, grain, mu, ratio), T = temperature_of(m, lost), p = m->density * T,
          pc = p * 4 * grain.eta1 * gg_theory_phi_chi(m);
   gg_theory_answer_temperature(m, T, ratio, a);

@@ -62,7 +62,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
   a->value[GG_Q_COOLING_RATE] = chi * zeta;
   a->value[GG_Q_VISCOSITY_REDUCED] = a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = 1 / (chi * (nu - zeta / 2));
-  if (!gg_flow_cools(m->flow)) return GG_OK; /* sheared, it has no temperature to start from */
+  if (!gg_flow_cools(m->flow)) return GG_OK; /* a sheared gas has no initial temperature */
   gg_theory_answer_temperature(m, m->temperature0, ratio, a);
   answer_heat(*m, g, ratio, zeta, a);
   return GG_OK;

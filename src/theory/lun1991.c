@@ -56,7 +56,7 @@ bool gg_theory_heat_flux(gg_heat_rates rate, double fading, const double source[
   return det > 0 && a + d > 0;
 }
 
-/* What grad T and grad theta (the second index) do to both heat fluxes: by flights, and by partners at a distance. */
+/* Coefficients of grad T and grad theta (second index) in both heat fluxes: kinetic, and collisional. */
 static void conductivities(gg_lun_state s, double transfer, double f4[2][2])
 {
   const double h1 = s.grain.eta1, h2 = s.grain.eta2, k = 1 / s.grain.K, r = s.ratio, y = s.phi * s.chi;

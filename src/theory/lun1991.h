@@ -23,9 +23,9 @@ typedef struct gg_lun_functions {
 
 gg_lun_functions gg_theory_lun_functions_at(gg_lun_state s);
 
-/* Heat fluxes of translation and rotation, q_0 and q_1, decay and make one another: dq_i/dt = -nu_0 chi sum_j rate_ij
- * q_j of Maxwellians with a first Sonine term each. `flux` solves (rate - fading) flux = source; false where it is no
- * longer positive. */
+/* Rates of the heat fluxes of translation and rotation, q_0 and q_1, which decay and couple: dq_i/dt = -nu_0 chi
+ * sum_j rate_ij q_j of Maxwellians with a first Sonine term each. `flux` solves (rate - fading) flux = source; false
+ * if the matrix is no longer positive. */
 typedef struct gg_heat_rates {
   double at[2][2];
 } gg_heat_rates;
@@ -35,7 +35,7 @@ bool gg_theory_heat_flux(gg_heat_rates rate, double fading, const double source[
 /* theta/T at which the spins neither gain nor lose energy: eta_2/(1 - eta_2/K) = K(1+beta)/(1+2K-beta). */
 double gg_theory_lun_ratio(gg_grain g);
 
-/* Steady uniform shear with a contact value of the caller's choice. */
+/* Steady uniform shear with a given contact value. */
 gg_status gg_theory_lun_shear(const gg_model *model, double chi, const char *theory, gg_theory_answer *answer,
                               gg_error *err);
 

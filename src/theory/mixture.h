@@ -5,9 +5,9 @@
 
 #include "theory/answer.h"
 
-enum { GG_BINARY = 2 }; /* species that these theories know */
+enum { GG_BINARY = 2 }; /* number of species in these theories */
 
-/* Value at Maxwellians and its slope in the fourth cumulants c_1, c_2. */
+/* Value for Maxwellians and its slope in the fourth cumulants c_1, c_2. */
 typedef struct gg_linear {
   double at0, slope[GG_BINARY];
 } gg_linear;
@@ -25,7 +25,7 @@ void gg_theory_stress_relaxation(const gg_model *model, const double a[GG_BINARY
 /* a_i of a mixture at T = sum x_i T_i with T_1/T_2 = ratio. */
 void gg_theory_partial_spreads(const gg_model *model, double T, double ratio, double a[GG_BINARY]);
 
-/* x of A x = b, 2 x 2. */
+/* Solve A x = b, 2 x 2. */
 void gg_theory_solve2(double A[GG_BINARY][GG_BINARY], const double b[GG_BINARY], double x[GG_BINARY]);
 
 /* Root of f in T_1/T_2, nearest to equipartition; NaN if none between 1e-6 and 1e6. */

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* Least e of any pair. (gcc 12 for 64-bit ARM breaks off at a loop of fmin.) */
+/* Least e of all pairs. (gcc 12 for 64-bit ARM crashes on a loop of fmin.) */
 static double least_restitution(const gg_model *m)
 {
   double least = 1;
@@ -13,7 +13,7 @@ static double least_restitution(const gg_model *m)
   return least;
 }
 
-/* Roughness between smooth and perfectly rough dissipates whatever e is. */
+/* Roughness between smooth and perfectly rough dissipates at any e. */
 static bool half_rough(const gg_model *m)
 {
   for (int i = 0; i < m->n_species; i++)

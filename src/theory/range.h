@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where theories answer but are beyond what they were made for: shared by those of one kind. For gg_theory.beyond. */
+/* Ranges of validity, for gg_theory.beyond: why a theory that answers is outside the range for which it was derived.
+ * Theories of one kind share them. */
 #ifndef GG_RANGE_H
 #define GG_RANGE_H
 

@@ -79,7 +79,7 @@ static gg_relaxing rates(const gg_model *m, gg_relaxing x)
 {
   gg_relaxing r = m->rule == GG_SMOOTH ? smooth_rates(m, x) : rough_rates(m, x);
   if (thermostat_of(m) != GG_GAUSSIAN || m->bath.on) return r;
-  r.T = 0; /* it scales velocities, and a2 stays */
+  r.T = 0; /* cooling changes velocities by a factor, and a2 stays */
   return r;
 }
 
@@ -89,7 +89,7 @@ static gg_relaxing moved(gg_relaxing x, double dt, gg_relaxing r)
   return x;
 }
 
-/* Runge and Kutta's fourth order. */
+/* The fourth-order Runge-Kutta method. */
 static gg_relaxing step(const gg_model *m, gg_relaxing x, double dt)
 {
   const gg_relaxing a = rates(m, x), b = rates(m, moved(x, dt / 2, a)), c = rates(m, moved(x, dt / 2, b)),
@@ -109,7 +109,7 @@ static void relax_moments(const gg_model *m, double time, gg_relaxing *x)
   }
 }
 
-/* Steps that are short beside a collision, and what drag and noise take to act. */
+/* Steps that are short beside the collision time and the times of drag and noise. */
 static void relax_temperatures(const gg_model *m, double time, gg_relaxing *x)
 {
   const double seconds = 1e-6; /* of a step */

@@ -66,7 +66,7 @@ static void clear(gg_theory_answer *answer)
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
 }
 
-/* What was stopped has no answer, whatever it made of its parts. */
+/* An interrupted theory has no answer, even if parts of it are done. */
 static gg_status finish(const gg_theory *theory, const gg_model *model, gg_status status, gg_error *err)
 {
   if (!gg_stop_asked(model->stop)) return status;

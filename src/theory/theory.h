@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Theories: one file each, all answering under the shared names and in the units of the model. */
+/* Theories: one file each. All answer under the shared names, in the units of the model. */
 #ifndef GG_THEORY_H
 #define GG_THEORY_H
 
 #include "common/quantity.h"
 #include "measure/curve.h"
 
-/* What a theory says: NaN where it has no answer. `error`: how far a number may be from what the theory's equations
- * have as their solution, where these are solved numerically; else NaN. */
+/* Answers of a theory: NaN where it has none. `error`: distance of a number from the solution of the theory's
+ * equations, where these are solved numerically; else NaN. */
 typedef struct gg_theory_answer {
   double value[GG_MOST_QUANTITIES];
   double error[GG_MOST_QUANTITIES];
@@ -30,42 +30,44 @@ typedef struct gg_theory {
   const char *title;       /* one line for people */
   const char *citation;    /* the original paper */
   const char *assumptions; /* and range, one or two sentences */
-  unsigned flows;          /* that it describes, a sum of GG_FLOW_BIT; 0: it looks for itself */
+  unsigned flows;          /* the flows that it describes, a sum of GG_FLOW_BIT; 0: it checks by itself */
   bool baths;              /* does it describe gases in a bath, too? */
-  /* Of those flows alone: GG_OK with the answer, or GG_BAD_INPUT with the reason why the theory does not apply to this
-   * model. One that takes longer than a tenth of a second asks model->stop between its parts, and fails anyhow. */
+  /* For those flows alone: GG_OK with the answer, or GG_BAD_INPUT with the reason why the theory does not apply to
+   * this model. A theory that takes longer than a tenth of a second checks model->stop between its parts, and then
+   * fails. */
   gg_status (*evaluate)(const gg_model *model, gg_theory_answer *answer, gg_error *err);
-  /* Why this model is beyond what the theory was made for, though it answers; NULL (also the function) within it. */
+  /* Why this model is outside the theory's range, though it answers; NULL (also the function) within the range. */
   const char *(*beyond)(const gg_model *model);
-  /* Curves, under the names and at the abscissae of those of the observables in `measure` (GG_MEASURE_...); an error of
-   * a point is how far it may be from what the theory's equations have. Of models alone for which `evaluate` answers.
-   * GG_OK also where it has none of these; GG_BAD_INPUT with the reason why it has none here. NULL: it has no curves.
-   */
+  /* Curves, under the names and at the abscissae of those of the observables in `measure` (GG_MEASURE_...); the
+   * error of a point is its distance from the solution of the theory's equations. Only for models for which
+   * `evaluate` answers. GG_OK also without any of these; GG_BAD_INPUT with the reason if this model has none. NULL:
+   * no curves. */
   gg_status (*curves)(const gg_model *model, unsigned measure, gg_curves *list, gg_error *err);
-  /* A theory that the user's program brings (user_theory.c): this instead of the two above; else NULL. */
+  /* A theory of the user's program (user_theory.c), which replaces evaluate and beyond; else NULL. */
   const gg_theory_definition *own;
-  const char *answers; /* names of the quantities that it may answer, separated by blanks; of families two */
+  const char
+      *answers; /* names of the quantities that it may answer, separated by blanks; for families of two species */
 } gg_theory;
 
-/* Every theory there is (theory_list.h), NULL-terminated, in the order they are shown. */
+/* All theories (theory_list.h), NULL-terminated, in the order of tables. */
 extern const gg_theory *const gg_theory_theories[];
 const gg_theory *gg_theory_find(const char *name);
 
-/* Those of a scene: the above, and after them its own. NULL beyond the last. */
+/* Theories of a model: all of the above, then those of the scene. NULL beyond the last. */
 const gg_theory *gg_theory_of(const gg_model *model, int index);
 
-/* user_theory.c: put a theory that the user's program brings in front of what a scene has. */
+/* user_theory.c: add a theory of the user's program before those of the scene. */
 gg_status gg_theory_user_theory_add(gg_extension **extension, const gg_theory_definition *definition, gg_error *err);
 gg_status gg_theory_user_theory_evaluate(const gg_theory_definition *theory, const gg_model *model,
                                          gg_theory_answer *answer, gg_error *err);
 
-/* What of the above applies, NULL if nothing does. */
+/* The reason from `beyond`, NULL if there is none. */
 const char *gg_theory_beyond(const gg_theory *theory, const gg_model *model);
 
-/* Evaluate with every value preset to NaN. GG_INTERRUPTED, without answers, where model->stop asks for it. */
+/* Evaluate with every value preset to NaN. GG_INTERRUPTED, without answers, after a stop. */
 gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err);
 
-/* Its curves, if it has some, for a model that it describes; after a failure there are none. To be cleared. */
+/* The curves of a theory, if it has some, for a model that it describes; none after a failure. To be cleared. */
 gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
                            gg_error *err);
 

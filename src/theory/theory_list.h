@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The theories there are, in the order in which they are shown: the one list of them. Each is a constant gg_<name> in a
- * file of its own, or shares one with its variants, and describes itself there; what asks for theories or names them
- * reads these constants. */
+/* The list of all theories, in the order of tables. Each is a constant gg_<name>, alone in a file or with its
+ * variants, that describes itself there; all code that lists or names theories reads these constants. */
 #ifndef GG_THEORY_LIST_H
 #define GG_THEORY_LIST_H
 

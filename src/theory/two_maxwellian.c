@@ -37,7 +37,7 @@ static double sliding_tangent(gg_grain g, double mu, double ratio)
   return g.eta2 / (mu * g.eta1) * sqrt(contact_spread(g, ratio) / 2);
 }
 
-double gg_theory_sliding_share(gg_grain g, double mu, double ratio)
+double gg_theory_sliding_fraction(gg_grain g, double mu, double ratio)
 {
   if (isinf(mu)) return 0;
   double u = sliding_tangent(g, mu, ratio);
@@ -61,7 +61,7 @@ static gg_exchange constant_beta(gg_grain g, double r)
   return (gg_exchange){-4 * (x.A - x.B * r), 4 * (x.B - x.C * r)};
 }
 
-/* delta - sin(4 delta)/4, (8/3) delta^3 where it is small: there by the series of the sine. */
+/* delta - sin(4 delta)/4, (8/3) delta^3 for small delta: there from the series of the sine. */
 static double cubic_excess(double delta)
 {
   double x = 4 * delta, x2 = x * x;
@@ -84,7 +84,7 @@ double gg_theory_cooling_at(gg_grain g, double mu, double r)
   return r > 1 ? -x.rotation / r : -x.translation;
 }
 
-/* Signs are those of d(theta/T)/dt: a root where it falls through zero attracts. */
+/* The sign is that of d(theta/T)/dt: a root where it falls through zero is stable. */
 static double growth_driven(double ratio, void *law)
 {
   const contact_law *l = law;
@@ -98,7 +98,7 @@ static double growth_cooling(double ratio, void *law)
   return e.rotation - ratio * e.translation;
 }
 
-/* The attracting ratio that a gas reaches which starts without spin. */
+/* The stable ratio that a gas without initial spin reaches. */
 static double attractor(double (*growth)(double, void *), gg_grain grain, double mu)
 {
   contact_law law = {grain, mu};
@@ -114,7 +114,7 @@ double gg_theory_ratio_driven(gg_grain grain, double mu)
   return isinf(mu) ? x.B / x.C : attractor(growth_driven, grain, mu);
 }
 
-/* Constant beta: the positive root of B r^2 - (A - C) r - B = 0, by whichever form has no difference. */
+/* Constant beta: the positive root of B r^2 - (A - C) r - B = 0, by the form without cancellation. */
 static double positive_root(rough_rates x)
 {
   double d = x.A - x.C, root = hypot(d, 2 * x.B);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Theories that the user's program brings (graingas.h, "Extension"): shown the scene, they answer like all others. */
+/* Theories of the user's program (graingas.h, "Extension"): they receive the scene and answer as all others do. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the tests of curves share: planted snapshots shown to an observable, its curves with errors, comparisons. */
+/* Helpers for tests of curves: planted snapshots for an observable, its curves with errors, comparisons. */
 #ifndef GG_CURVE_TEST_H
 #define GG_CURVE_TEST_H
 
@@ -34,7 +34,7 @@ static inline gg_model ct_model(gg_flow flow, double phi, double beta, int64_t n
   return m;
 }
 
-/* Show `samples` snapshots, each made by `fill`, and leave the curves; the caller clears them. */
+/* Add `samples` snapshots, each made by `fill`, and return the curves; the caller clears them. */
 static inline gg_curves ct_curves(const gg_observable *o, const gg_model *m, int samples,
                                   void (*fill)(gg_snapshot *s, gg_rng *r, int sample), uint64_t seed)
 {
@@ -48,17 +48,17 @@ static inline gg_curves ct_curves(const gg_observable *o, const gg_model *m, int
     if (s.species) s.species[i] = (int64_t)(i * 7919 % s.n) >= m->n_of[0];
     if (s.id) s.id[i] = (int64_t)((i * 7919 + 5) % s.n);
   }
-  assert_int_equal(gg_statistics_bins_init(&bins, o->bins(self), NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, o->curves->bins(self), NULL), GG_OK);
   if (o->restart) o->restart(self);
   for (int k = 0; k < samples; k++) {
     fill(&s, &r, k);
-    o->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
+    o->curves->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
     gg_statistics_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
   gg_error err = {0};
-  if (gg_measure_curves_estimate(list, 1, o->curves, self, o->name, 0, &curves, &err) != GG_OK)
+  if (gg_measure_curves_estimate(list, 1, o->curves->of_bins, self, o->name, 0, &curves, &err) != GG_OK)
     fail_msg("%s", err.message);
   gg_statistics_bins_clear(&bins);
   gg_measure_snapshot_clear(&s);
@@ -82,7 +82,8 @@ static inline gg_curve_number ct_number(const gg_curve *c, const char *name)
   return (gg_curve_number){0};
 }
 
-/* Within four standard errors, and the error small enough to see a deviation `sight` at four. */
+/* The value is right within four standard errors, and the error is small enough to detect a deviation `sight` at
+ * four. */
 static inline void ct_expect(const char *what, double value, double error, double expected, double sight)
 {
   print_message("# %-34s %.6g +- %.2g, expected %.6g (%+.2f sigma)\n", what, value, error, expected,

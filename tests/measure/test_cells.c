@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cells: grains thrown anywhere fall into them binomially; temperatures about cell, slab and box means come out with
- * and without the 1/n_c share exactly; a planted extra shear shows in the local shear rate and in the box temperature.
- */
+/* Cells: the numbers of randomly placed grains in cells are binomial; temperatures about cell, slab and box means
+ * agree exactly with and without the 1/n_c fraction; a planted extra shear is found in the local shear rate and in
+ * the box temperature. */
 #include "curve_test.h"
 #include "graingas.h"
 
@@ -41,7 +41,7 @@ static void expect_number(const gg_curve *c, const char *name, double expected, 
   ct_expect(name, p.value, p.error, expected, sight * fabs(expected));
 }
 
-static void planted(void **state)
+static void planted_cells_have_exact_temperatures(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.1, 0, 4000, 1);
@@ -69,8 +69,8 @@ static void planted(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Unequal masses: the 1/n_c share is that of grains, not of mass. */
-static void mixture(void **state)
+/* Unequal masses: the fraction 1/n_c is that of grains, not of mass. */
+static void unlike_masses_share_by_number(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_EQUILIBRIUM, 0.1, 0, 4000, 2);
@@ -83,7 +83,7 @@ static void mixture(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Grains of two sizes that all turn at one mean rate, all components of I^(1/2) omega about it alike. */
+/* Grains of two sizes that all rotate at one mean rate, with equal fluctuations of all components of I^(1/2) omega. */
 static void turning(gg_snapshot *s, gg_rng *r, int sample)
 {
   thrown(s, r, sample);
@@ -112,8 +112,8 @@ static void two_sizes(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Masses 1 and 3, the heavy grains five times as hot: what a cell's mean, which is mostly theirs, takes out of either
- * is put back. */
+/* Masses 1 and 3, the heavy grains five times as hot: the energy that subtracting a cell's mean, mostly theirs,
+ * takes from either species is restored. */
 static void unlike(gg_snapshot *s, gg_rng *r, int sample)
 {
   turning(s, r, sample);
@@ -132,7 +132,7 @@ static void two_temperatures(void **state)
   gg_model m = ct_model(GG_EQUILIBRIUM, 0.1, 0, 4000, 2);
   gg_curves list = ct_curves(&gg_measure_cells, &m, 96, unlike, 84);
   const gg_curve *T = ct_find(&list, "cell_temperature"), *W = ct_find(&list, "cell_rotational_temperature");
-  double box[2], x[2] = {0.6, 0.4}, hot[2] = {1 / 2.6, 5 / 2.6}; /* a mean over the box, too, takes a share out */
+  double box[2], x[2] = {0.6, 0.4}, hot[2] = {1 / 2.6, 5 / 2.6}; /* the mean over the box reduces it, too */
   for (int spins = 0; spins < 2; spins++) {
     double all = 0, share = 0;
     for (int k = 0; k < 2; k++) {
@@ -149,7 +149,7 @@ static void two_temperatures(void **state)
 }
 
 /* Every distribution integrates to one, and an elastic engine's cells have the temperature of the box. */
-static void engine(void **state)
+static void cells_of_an_engine_have_the_temperature_of_the_box(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -177,8 +177,11 @@ static void engine(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted),          cmocka_unit_test(mixture), cmocka_unit_test(two_sizes),
-      cmocka_unit_test(two_temperatures), cmocka_unit_test(engine),
+      cmocka_unit_test(planted_cells_have_exact_temperatures),
+      cmocka_unit_test(unlike_masses_share_by_number),
+      cmocka_unit_test(two_sizes),
+      cmocka_unit_test(two_temperatures),
+      cmocka_unit_test(cells_of_an_engine_have_the_temperature_of_the_box),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

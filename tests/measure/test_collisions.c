@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The callback for single collisions: what it is given adds up to what the engine's own sums say, and changes no
- * trajectory.
- * Free flights and angles planted with known laws come back; an elastic gas has the free times and paths of the kinetic
- * theory of gases, point by point; sheared gases meet head-on in the compressing quadrants, alike in both engines. */
+/* The callback for single collisions: its data add up to the engine's own sums, and it changes no trajectory.
+ * Planted laws of free flights and angles are recovered. An elastic gas has the free times and paths of the kinetic
+ * theory of gases, point by point; in sheared gases collisions are most frequent in the compressing quadrants,
+ * equally in both engines. */
 #include "curve_test.h"
 #include "measure/free_flight.h"
 #include "scene/model_of_scene.h"
@@ -35,7 +35,7 @@ static gg_scene sheared(gg_engine_kind engine, int species, double phi)
 {
   gg_scene s = gg_scene_defaults();
   s.engine = engine, s.phi = phi, s.n_species = species;
-  s.particles = 500, s.dsmc.particles = 2000, s.md.contact_time = 0; /* which would make some elastic */
+  s.particles = 500, s.dsmc.particles = 2000, s.md.contact_time = 0; /* a contact time would make some elastic */
   if (species == 2) s.species[0] = (gg_species){0.6, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.4, 1.5, 3, 0.4, 1};
   return s;
 }
@@ -46,8 +46,8 @@ static void whole_velocity(void *context, const gg_chunk *c)
   for (size_t i = 0; i < c->n; i++) *sum += c->c[0][i] * (double)(i + 1) + c->c[1][i];
 }
 
-/* Smooth grains, e = 0.9: impulse and loss by hand from each collision equal the engine's sums; every collision ends
- * two flights; md moves to the last bit as without a callback. */
+/* Smooth grains, e = 0.9: impulse and loss computed by hand from each collision equal the engine's sums; every
+ * collision ends two flights; md moves to the last bit as without a callback. */
 static void adds_up(void **state)
 {
   (void)state;
@@ -74,13 +74,13 @@ static void adds_up(void **state)
       const gg_collision_sums *h = &shown.by_hand;
       assert_int_equal(h->collisions[p], t.collisions[p]);
       assert_true(fabs(h->loss[p] / t.loss[p] - 1) < 1e-9);
-      for (int a = 0; a < 9; a++) { /* what the flow gives no reason to be there is not summed */
+      for (int a = 0; a < 9; a++) { /* components that vanish by symmetry of the flow are not summed */
         bool there = a / 3 == a % 3 || a == 1 || a == 3;
         double by_hand = there ? h->stress[p][a / 3][a % 3] : 0;
         assert_true(fabs(by_hand - t.stress[p][a / 3][a % 3]) < 1e-9 * t.stress[p][0][0]);
       }
     }
-    uint64_t met = 0; /* every collision ends a flight of both, but for each grain's first */
+    uint64_t met = 0; /* every collision ends a flight of both grains, but for each grain's first */
     for (int p = 0; p < GG_PAIRS; p++) met += 2 * t.collisions[p];
     assert_int_equal(shown.flights, met - (uint64_t)m.n);
     assert_true(shown.flown > 0 && shown.flown < 7 * (double)m.n);
@@ -88,26 +88,27 @@ static void adds_up(void **state)
   }
 }
 
-/* The observable fed by hand. */
+/* Curves of the observable for planted collisions. */
 static gg_curves fed(const gg_model *m, int samples, int per_sample, void (*make)(gg_collision_record *m, gg_rng *r))
 {
   gg_bins bins;
   gg_rng r = gg_common_rng_seed(32, 0);
   void *self = gg_measure_collisions.create(m, NULL);
-  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_collisions.bins(self), NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_collisions.curves->bins(self), NULL), GG_OK);
   for (int k = 0; k < samples; k++) {
     for (int i = 0; i < per_sample; i++) {
       gg_collision_record collision = {.height = {NAN, NAN}};
       make(&collision, &r);
-      gg_measure_collisions.add_collision(self, &collision);
+      gg_measure_collisions.collisions->add(self, &collision);
     }
-    gg_measure_collisions.add_snapshot(self, NULL, gg_statistics_bins_sample(&bins));
+    gg_measure_collisions.curves->add_snapshot(self, NULL, gg_statistics_bins_sample(&bins));
     gg_statistics_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
   assert_int_equal(
-      gg_measure_curves_estimate(list, 1, gg_measure_collisions.curves, self, "collisions", 0, &curves, NULL), GG_OK);
+      gg_measure_curves_estimate(list, 1, gg_measure_collisions.curves->of_bins, self, "collisions", 0, &curves, NULL),
+      GG_OK);
   gg_statistics_bins_clear(&bins);
   gg_measure_collisions.destroy(self);
   return curves;
@@ -191,8 +192,7 @@ static void sheared_paths(void **state)
 }
 
 /* Collision rate of a grain of speed x sqrt(2T) among Maxwellian ones (Chapman & Cowling, 5.4), over n d^2 sqrt(2 pi
- * T).
- */
+ * T). */
 static double rate_at(double x)
 {
   return x < 1e-6 ? 2 : exp(-x * x) + (2 * x + 1 / x) * 0.5 * sqrt(M_PI) * erf(x);
@@ -216,7 +216,7 @@ static double law(double at, const void *context)
   return top / all;
 }
 
-/* The laws drawn beside: those above, for the mean that they are given; densities with that mean. */
+/* The laws of the curves are those above, for the mean that they are given; they are densities with that mean. */
 static void laws_beside(void **state)
 {
   (void)state;
@@ -238,11 +238,11 @@ static void laws_beside(void **state)
   for (int k = 0; k < 4; k++) assert_true(fabs(sum[k / 2][k % 2] - 1) < 2e-4);
 }
 
-/* Collisions a grain of a Monte Carlo run: twenty episodes in which collisions are shown. */
+/* Collisions a grain of a Monte Carlo run: twenty bursts in which collisions are observed. */
 enum { EPISODES = 40000 };
 
-/* Of the mean free time times the collision rate: md sees all collisions, and what is left are the flights at both ends
- * of the window; dsmc sees some of them. */
+/* Error of the mean free time times the collision rate: md observes all collisions, and misses the flights at both
+ * ends of the window; dsmc observes some collisions. */
 static double error_of(int kind, gg_curve_number time, double product)
 {
   return kind == GG_MD ? 0.0005 : time.error / time.value * product;
@@ -273,7 +273,7 @@ static void kinetic_theory(void **state)
   }
 }
 
-/* What stands beside a curve, at its points. */
+/* The law of a curve, at its points. */
 static double beside(double x, const void *context)
 {
   const gg_curve *c = context;
@@ -282,15 +282,15 @@ static double beside(double x, const void *context)
   return c->reference[i];
 }
 
-/* Large light grains, and a tenth of small heavy ones that collide a quarter as often: in equilibrium flights of either
- * are those of kinetic theory, of its own mean and law, also where collisions are shown in episodes. */
+/* Large light grains, and a tenth of small heavy ones that collide a quarter as often: in equilibrium flights of
+ * either are those of kinetic theory, with separate means and laws, also if collisions are observed in bursts. */
 static void unlike_grains(void **state)
 {
   (void)state;
   gg_scene s = sheared(GG_DSMC, 2, 0.05);
   s.species[0] = (gg_species){0.9, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.1, 0.2, 100, 0.4, 1};
   s.flow = GG_EQUILIBRIUM, s.run.collisions = 12000, s.run.warmup = 100, s.measure |= GG_MEASURE_COLLISIONS;
-  s.dsmc.time_step = 0.02; /* within a step pairs of species collide in turn */
+  s.dsmc.time_step = 0.02; /* within a step pairs of species collide one after the other */
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
   gg_result *r = ct_run(s);
   for (int i = 0; i < 2; i++) {
@@ -307,8 +307,8 @@ static void unlike_grains(void **state)
   gg_result_free(r);
 }
 
-/* Sheared, phi = 0.01, e = 0.8: grains meet where the flow presses them together (k_x k_y < 0), equally often in both
- * engines, and mean free time times collision rate is one. */
+/* Sheared, phi = 0.01, e = 0.8: grains collide where the flow compresses the gas (k_x k_y < 0), equally often in
+ * both engines, and mean free time times collision rate is one. */
 static void sheared_engines(void **state)
 {
   (void)state;
@@ -328,8 +328,8 @@ static void sheared_engines(void **state)
   assert_true(xy[0].value < -0.03);
 }
 
-/* Sweeps of the shear rate multiply all velocities again and again: paths are those of the gas all the same. */
-static void swept(void **state)
+/* Sweeps of the shear rate rescale all velocities repeatedly: paths are still those of the gas. */
+static void rescaled_velocities_keep_paths(void **state)
 {
   (void)state;
   gg_scene s = sheared(GG_DSMC, 1, 0.1);
@@ -339,12 +339,12 @@ static void swept(void **state)
   double l = gg_common_model_collision_rate(&r->model, 0.5), maxwellian = sqrt(4 / M_PI) / l;
   ct_expect("mean free path, swept", p.value, hypot(p.error, 0.003 * maxwellian), maxwellian, 0.03 * maxwellian);
   p = ct_number(ct_find(&r->curves, "free_path"), "second_moment_over_mean_squared");
-  ct_expect("second moment", p.value, p.error, 2.15, 0.1); /* of the cooling gas, whose speeds spread more */
+  ct_expect("second moment", p.value, p.error, 2.15, 0.1); /* of the cooling gas, whose speeds are more spread */
   gg_result_free(r);
 }
 
-/* Heated gases: times in both engines where kicks heat them; with the Gaussian thermostat, in dsmc alone. No paths. */
-static void heated(void **state)
+/* Heated gases: times in both engines if kicks heat them; with the Gaussian thermostat, in dsmc alone. No paths. */
+static void heated_gases_have_times_but_no_paths(void **state)
 {
   (void)state;
   for (int k = 0; k < 4; k++) {
@@ -371,9 +371,15 @@ static void heated(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(laws_beside),        cmocka_unit_test(heated),        cmocka_unit_test(adds_up),
-      cmocka_unit_test(flights_and_angles), cmocka_unit_test(sheared_paths), cmocka_unit_test(kinetic_theory),
-      cmocka_unit_test(sheared_engines),    cmocka_unit_test(unlike_grains), cmocka_unit_test(swept),
+      cmocka_unit_test(laws_beside),
+      cmocka_unit_test(heated_gases_have_times_but_no_paths),
+      cmocka_unit_test(adds_up),
+      cmocka_unit_test(flights_and_angles),
+      cmocka_unit_test(sheared_paths),
+      cmocka_unit_test(kinetic_theory),
+      cmocka_unit_test(sheared_engines),
+      cmocka_unit_test(unlike_grains),
+      cmocka_unit_test(rescaled_velocities_keep_paths),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

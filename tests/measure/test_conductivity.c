@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Conductivity: snapshots of Maxwellian grains have that of elastic spheres, 1.025218 of first Sonine order where they
- * are dilute (Chapman & Cowling 1970, 10.21), and with Enskog's two factors and his transfer where they are dense; no
- * heat flows along gradients of their density; the last point of the curve is the mean of the rows. Functions in which
- * f1 is expanded: degrees, slopes against differences, and <C.b> = <d/dC . b> of Maxwellian grains. */
+/* Conductivity: snapshots of Maxwellian grains have that of elastic spheres, 1.025218 of first Sonine order if they
+ * are dilute (Chapman & Cowling 1970, 10.21), and with Enskog's two factors and his transfer if they are dense; no
+ * heat flows along gradients of their density; the last point of the curve is the mean of the rows. Functions in
+ * which f1 is expanded: degrees, slopes against differences, and <C.b> = <d/dC . b> of Maxwellian grains. */
 #include "curve_test.h"
 #include "measure/heat_copies.h"
 #include "scene/model_of_scene.h"
@@ -34,7 +34,7 @@ static void expect_last(const gg_curves *list, const char *name, double value, d
   for (size_t i = 0; i < c->n; i++) ct_expect(name, c->value[i], c->error[i], value, most);
 }
 
-static void elastic(void **state)
+static void maxwellians_have_enskogs_conductivity(void **state)
 {
   (void)state;
   const double phi[] = {0, 0.3};
@@ -49,7 +49,7 @@ static void elastic(void **state)
   }
 }
 
-static void rows(void **state)
+static void last_point_is_the_mean_of_rows(void **state)
 {
   (void)state;
   const gg_model m = model(GG_HCS, GG_DSMC, 0.2, -1);
@@ -57,23 +57,23 @@ static void rows(void **state)
   gg_snapshot s;
   gg_rng r = gg_common_rng_seed(18, 0);
   void *self = o->create(&m, NULL);
-  double *bin = calloc(o->bins(self), sizeof *bin), *row = calloc(o->width(&m), sizeof *row);
+  double *bin = calloc(o->curves->bins(self), sizeof *bin), *row = calloc(o->rows->width(&m), sizeof *row);
   assert_int_equal(gg_measure_snapshot_init(&s, &m, false, NULL), GG_OK);
   maxwellian(&s, &r, 0);
-  o->add_snapshot(self, &s, bin);
-  o->begin(self);
-  o->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row);
+  o->curves->add_snapshot(self, &s, bin);
+  o->rows->begin(self);
+  o->rows->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row);
   gg_curves list = {.model = &m, .curve = calloc(GG_MOST_CURVES, sizeof *list.curve)};
-  o->curves(self, bin, &list);
+  o->curves->of_bins(self, bin, &list);
   for (int k = 0; k < 2; k++) {
     gg_function f;
     assert_true(gg_measure_derived_find(
-        o->derived, k ? GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED : GG_Q_THERMAL_CONDUCTIVITY_REDUCED, &f));
+        o->rows->derived, k ? GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED : GG_Q_THERMAL_CONDUCTIVITY_REDUCED, &f));
     const gg_curve *c = &list.curve[k];
     assert_true(gg_function_value(f, row, &m) == c->value[c->n - 1]);
   }
-  o->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row); /* no snapshot: nothing */
-  for (size_t i = 0; i < o->width(&m); i++) assert_true(row[i] == 0);
+  o->rows->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row); /* without a snapshot the row is 0 */
+  for (size_t i = 0; i < o->rows->width(&m); i++) assert_true(row[i] == 0);
   gg_measure_curves_clear(&list);
   gg_measure_snapshot_clear(&s);
   free(bin), free(row);
@@ -87,7 +87,7 @@ static double component(const double x[6], int axis, int k)
   return b[k];
 }
 
-static void functions(void **state)
+static void slopes_are_differences(void **state)
 {
   (void)state;
   const double x[6] = {0.3, -0.7, 1.1, 0.8, 0.5, -0.4}, dx[6] = {-0.2, 0.9, 0.4, 0.6, -1.3, 0.7}, h = 1e-4;
@@ -104,7 +104,7 @@ static void functions(void **state)
 }
 
 /* Spins half as fast as velocities: a Maxwellian, which needs no equipartition here. */
-static void divergences(void **state)
+static void divergences_are_those_of_maxwellians(void **state)
 {
   (void)state;
   enum { ROWS = 40 };
@@ -137,7 +137,7 @@ static void divergences(void **state)
   free(row);
 }
 
-static void refused(void **state)
+static void models_without_it_give_the_reason(void **state)
 {
   (void)state;
   const gg_model fine = model(GG_EQUILIBRIUM, GG_DSMC, 0.1, -1), md = model(GG_HCS, GG_MD, 0.1, -1),
@@ -153,7 +153,9 @@ static void refused(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic), cmocka_unit_test(rows), cmocka_unit_test(functions),
-                                     cmocka_unit_test(divergences), cmocka_unit_test(refused)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(maxwellians_have_enskogs_conductivity), cmocka_unit_test(last_point_is_the_mean_of_rows),
+      cmocka_unit_test(slopes_are_differences), cmocka_unit_test(divergences_are_those_of_maxwellians),
+      cmocka_unit_test(models_without_it_give_the_reason)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

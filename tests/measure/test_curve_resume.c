@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A run that is interrupted while it averages, and resumed from its checkpoint, leaves the same curves and means to the
- * last bit as one that was not: bins, origins in time, and counters all go through the checkpoint, and what a protocol
- * has changed is in force again. Every observable, both engines, two replicas; before, between and after changes. */
+/* A run that is interrupted while it averages, and resumed from its checkpoint, gives the same curves and means to
+ * the last bit as an uninterrupted one: bins, origins in time, and counters are all in the checkpoint, and changes
+ * by a protocol are in force again. Every observable, both engines, two replicas; before, between and after changes. */
 #include "curve_test.h"
 #include "run/replica.h"
 #include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 #include "graingas.h"
 
-/* Frames are at the same places of every run; questions are not. */
+/* Interruption at a frame: frames are at the same places of every run, checks for a stop are not. */
 typedef struct stop {
   int left; /* frames of the first replica until the interruption */
   gg_archive saved;
@@ -70,7 +70,7 @@ static void compare(const gg_result *a, const gg_result *b)
   }
 }
 
-/* Interrupted after a share of all frames. */
+/* Interrupt the run after a fraction of all frames, and resume it. */
 static void resume(const gg_scene *scene, const gg_result *whole, int frames, double share)
 {
   gg_result *resumed = NULL;
@@ -89,7 +89,7 @@ static void resume(const gg_scene *scene, const gg_result *whole, int frames, do
   gg_base_archive_clear(&s.saved);
 }
 
-/* Returns the flags of what is measured. */
+/* Flags of the measured observables. */
 static unsigned measured(const gg_scene *scene)
 {
   gg_model m;
@@ -152,7 +152,7 @@ static void same_curves(void **state)
       fail_msg("%s was measured in no scene", gg_measure_observables[i]->name);
 }
 
-/* Observables other than rheology do not run alone, and say so. */
+/* Observables other than rheology need it; the error names it. */
 static void rheology_needed(void **state)
 {
   (void)state;

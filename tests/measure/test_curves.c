@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Errors of curves: equal to the textbook error of a mean, honest for a ratio and for correlated blocks, replicas
- * pooled.
- */
+/* Errors of curves: equal to the textbook error of a mean, right for a ratio and for correlated blocks; replicas are
+ * pooled. */
 #include "curve_test.h"
 
 enum { WIDTH = 3 };
@@ -30,7 +29,7 @@ static void add(gg_bins *b, gg_rng *r)
   gg_statistics_bins_commit(b);
 }
 
-/* Blocks that alternate: no neighbour is like the other, and nothing is to be allowed for. */
+/* Alternating blocks: neighbours differ, and need no allowance for correlation. */
 static void add_alternating(gg_bins *b, gg_rng *r, int block)
 {
   double *bin = gg_statistics_bins_sample(b), sign = block % 2 ? 1 : -1;
@@ -68,8 +67,8 @@ static void error_of_a_mean(void **state)
   for (int k = 0; k < 2; k++) gg_statistics_bins_clear(&b[k]);
 }
 
-/* A ratio of two bins that fluctuate together: over 300 repeats its deviation in units of its error has the variance 1
- * (scatter 0.1), and the common fluctuation is not in it. */
+/* A ratio of two bins with common fluctuations: over 300 repeats its deviation in units of its error has the
+ * variance 1 (scatter 0.1), and the common fluctuation cancels. */
 static void honest_ratio(void **state)
 {
   (void)state;
@@ -92,10 +91,10 @@ static void honest_ratio(void **state)
   assert_true(sum / 300 > 0.7 && sum / 300 < 1.6);
 }
 
-/* Samples that forget over `memory` of them (x' = exp(-1/memory) x + noise), in blocks of 16: over many repeats the
- * deviation of a mean in units of its error has the variance 1, or little more, even
- * where a block is shorter than the integrated correlation time, 2 memory; the scatter of blocks alone is off by a
- * factor of two there. Without memory the allowance costs next to nothing. */
+/* Samples with a memory of `memory` samples (x' = exp(-1/memory) x + noise), in blocks of 16: over many repeats the
+ * deviation of a mean in units of its error has the variance 1, or little more, even if a block is shorter than the
+ * integrated correlation time, 2 memory; the scatter of blocks alone is wrong by a factor of two there. Without
+ * memory the allowance adds next to nothing. */
 static void honest_mean(void **state)
 {
   (void)state;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Self-diffusion: grains that remember their velocity from step to step by a known share have known correlations and
- * displacements, under shear and through the boundaries of small boxes, two species apart, at lags up to the longest; a
- * planted long-time tail is found; an elastic dilute gas diffuses as Chapman and Enskog say, also in a box far shorter
- * than its free paths, a dense one as published. */
+/* Self-diffusion: grains that keep a known fraction of their velocity from step to step have known correlations and
+ * displacements, under shear and through the boundaries of small boxes, two species apart, at lags up to the
+ * longest; a planted long-time tail is found; an elastic dilute gas has the coefficient of Chapman and Enskog, also
+ * in a box far shorter than its free paths, a dense one the published coefficient. */
 #include <stdio.h>
 
 #include "curve_test.h"
@@ -13,7 +13,8 @@
 #define STEP 0.2
 static const double keep[2] = {0.9, 0.8};
 
-/* Each step: everything moves by C dt (and with the flow), then C = keep C + noise; the box's image above slides on. */
+/* Each step: everything moves by C dt (and with the flow), then C = keep C + noise; the image of the box above is
+ * displaced further. */
 static void walk(gg_snapshot *s, gg_rng *r, int sample)
 {
   const double *L = s->model->box, rate = s->model->shear_rate;
@@ -48,7 +49,7 @@ static double squared(double t, const void *context)
   return sum * STEP * STEP;
 }
 
-static void walkers(void **state)
+static void walkers_have_their_known_correlations(void **state)
 {
   (void)state;
   for (int species = 1; species <= 2; species++) {
@@ -64,9 +65,9 @@ static void walkers(void **state)
         snprintf(name, sizeof name, "displacement_squared_%c%s", "xyz"[a], tail);
         const gg_curve *r = ct_find(&list, name);
         assert_true(fabs(c->x[10] - 10 * STEP) < 1e-9);
-        /* neighbouring lags share their noise: chi^2 scatters more than for independent points */
+        /* neighbouring lags have common noise: chi^2 scatters more than for independent points */
         assert_true(ct_chi2(c, 0, 28, memory, &keep[k]) < 3.5);
-        assert_true(ct_chi2(r, 1, 34, squared, &keep[k]) < 3.5); /* to a tenth of the run */
+        assert_true(ct_chi2(r, 1, 34, squared, &keep[k]) < 3.5); /* up to a tenth of the run */
         assert_true(fabs(c->x[51] - 15 * 64 * STEP) < 1e-9);
         double D = STEP * (0.5 + keep[k] / (1 - keep[k]));
         gg_curve_number p = ct_number(c, "diffusion_green_kubo");
@@ -78,8 +79,9 @@ static void walkers(void **state)
   }
 }
 
-/* The tail beyond t is the sum over the modes of the box. Where it is planted on D(t) without noise the fit finds D and
- * its amplitude, whatever was expected; where all is noise, what was expected is taken, with its uncertainty. */
+/* The tail beyond t is the sum over the modes of the box. If it is planted on D(t) without noise, the fit finds D
+ * and its amplitude, whatever the expected value; if all is noise, the result is the expected value, with its
+ * uncertainty. */
 static void planted_tail(void **state)
 {
   (void)state;
@@ -112,8 +114,8 @@ static void planted_tail(void **state)
   }
 }
 
-/* Of a cube 2.837297 T/(6 pi eta L), eta of elastic grains by Enskog (Chapman & Cowling, 16.41 and the 1.016 of the
- * higher approximations); of another box the sum over its modes, here by brute force. */
+/* Finite-size correction: 2.837297 T/(6 pi eta L) for a cube, eta of elastic grains by Enskog (Chapman & Cowling,
+ * 16.41 and the 1.016 of the higher approximations); for another box the sum over its modes, here by brute force. */
 static void lacking_of_boxes(void **state)
 {
   (void)state;
@@ -139,7 +141,7 @@ static void lacking_of_boxes(void **state)
                 pow(2 * M_PI * x / m.box[0], 2) + pow(2 * M_PI * y / m.box[1], 2) + pow(2 * M_PI * z / m.box[2], 2);
             if (k2 > 0) sum += exp(-k2 * width * width) / k2;
           }
-      /* the cut takes width^2 per mode that is not there, k = 0 */
+      /* the cut removes width^2 for the missing mode k = 0 */
       expected = 2 / 3. * T / eta * (whole - sum / m.volume + width * width / m.volume);
     }
     assert_true(fabs(n * m.volume - 300) < 1e-9 && fabs(is / expected - 1) < (k ? 1e-5 : 1e-6));
@@ -168,8 +170,8 @@ static void diffuse(double phi, int64_t n, double collisions, double T_and_D[7])
   gg_result_free(r);
 }
 
-/* phi = 0.02, e = 1: D = 1.01896 x 3/(8 n d^2 chi) sqrt(T/pi) (Chapman & Cowling; Enskog's chi), to a few per mille of
- * which molecular dynamics holds at this density. */
+/* phi = 0.02, e = 1: D = 1.01896 x 3/(8 n d^2 chi) sqrt(T/pi) (Chapman & Cowling; Enskog's chi), valid to a few per
+ * mille in molecular dynamics at this density. */
 static void dilute_gas(void **state)
 {
   (void)state;
@@ -180,9 +182,9 @@ static void dilute_gas(void **state)
   ct_expect("D, Einstein", is[3], hypot(is[4], 0.004 * expected), expected, 0.1 * expected);
 }
 
-/* n d^3 = 0.5, 500 grains: the published values, D = (3/8 n) sqrt(T/pi) (1 - n/1.09)(1 + n^2 (0.4 - 0.83 n^2)) (Speedy,
- * Mol. Phys. 62 (1987) 509), a few hundred grains each, to 1 %. Cut off at 16 collisions a grain both are 3 to 6 % low,
- * and three per cent apart. */
+/* n d^3 = 0.5, 500 grains: the published values, D = (3/8 n) sqrt(T/pi) (1 - n/1.09)(1 + n^2 (0.4 - 0.83 n^2))
+ * (Speedy, Mol. Phys. 62 (1987) 509), a few hundred grains each, to 1 %. With a cut at 16 collisions a grain both
+ * estimates would be 3 to 6 % low, and differ by three per cent. */
 static void dense_gas(void **state)
 {
   (void)state;
@@ -194,7 +196,8 @@ static void dense_gas(void **state)
   ct_expect("D, both", is[1], hypot(is[2], is[4]), is[3], 0.03 * expected);
 }
 
-/* D of 250 grains is 7 % below that of 2000, by their boxes; that of the infinite system is one. */
+/* D of 250 grains is 7 % below that of 2000, because of their boxes; the extrapolations to the infinite system
+ * agree. */
 static void boxes_of_two_sizes(void **state)
 {
   (void)state;
@@ -205,9 +208,10 @@ static void boxes_of_two_sizes(void **state)
   ct_expect("D of the infinite system", small[5], hypot(small[6], large[6]), large[5], 0.04 * large[5]);
 }
 
-/* Free paths longer than the box: the larger of two kinds of grains collides several times between two snapshots. The
- * first approximation of Chapman & Cowling, D_i = T/(sum_j (8/3) n_j sigma_ij^2 sqrt(2 pi m_ij T)), m_ij the reduced
- * mass, is good to some per cent; grains led by their velocities at the snapshots alone have half as much again. */
+/* Free paths longer than the box: the larger of two kinds of grains collides several times between two snapshots.
+ * The first approximation of Chapman & Cowling, D_i = T/(sum_j (8/3) n_j sigma_ij^2 sqrt(2 pi m_ij T)), m_ij the
+ * reduced mass, is right to some per cent; with images selected by the velocities at snapshots alone D is half as
+ * much again. */
 static void box_shorter_than_free_paths(void **state)
 {
   (void)state;
@@ -243,7 +247,7 @@ static void box_shorter_than_free_paths(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(walkers),
+      cmocka_unit_test(walkers_have_their_known_correlations),
       cmocka_unit_test(planted_tail),
       cmocka_unit_test(lacking_of_boxes),
       cmocka_unit_test(dilute_gas),

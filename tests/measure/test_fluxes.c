@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves of profiles of stress and heat flux: at every height what collisions and walls give to the grains is the
- * divergence of what they pass on, less their loss, to rounding, of real collisions with a floor under gravity, smooth
- * and rough, one species and two; planted grains carry the stress and heat flux of their distribution about a flow with
- * a gradient; runs: pressure and heat flux of a dense elastic gas are those of the walls at every height, the balance
- * of energy closes where grains lose energy, and the parts average to the quantities of the run. */
+/* Profiles of stress and heat flux. Conservation: at every height the divergence of the transfer equals the momentum
+ * and energy that collisions and walls give to the grains, minus the loss, to rounding: for real collisions with a
+ * floor under gravity, smooth and rough, one species and two. Planted grains have the stress and heat flux of their
+ * distribution about a flow with a gradient. Runs: pressure and heat flux of a dense elastic gas are those of the
+ * walls at every height, the balance of energy closes for inelastic grains, and the parts average to the quantities
+ * of the run. */
 #include "curve_test.h"
 
 #include "measure/gap_slabs.h"
@@ -17,7 +18,7 @@ typedef struct planted {
   void *self;
   const gg_model *m;
   int slabs, collisions, contacts;
-  double given[GG_MOST_GAP_SLABS]; /* energy to grains, with a hat about the face above the slab */
+  double given[GG_MOST_GAP_SLABS]; /* energy given to grains, with a hat about the face above the slab */
 } planted;
 
 static double hat(const planted *p, int face, double height)
@@ -29,7 +30,7 @@ static double hat(const planted *p, int face, double height)
 static void show(void *context, const gg_collision_record *c)
 {
   planted *p = context;
-  p->o->add_collision(p->self, c);
+  p->o->collisions->add(p->self, c);
   *(c->wall ? &p->contacts : &p->collisions) += 1;
   for (int i = 0; i < (c->wall ? 1 : 2); i++) {
     const double m = p->m->mass[c->species[i]], I = m * p->m->inertia[c->species[i]];
@@ -40,7 +41,7 @@ static void show(void *context, const gg_collision_record *c)
   }
 }
 
-/* Grains that stand still carry nothing: what is left of the balance is what collisions do. */
+/* Grains at rest have no kinetic fluxes: the balance contains collisions alone. */
 static void stand_still(gg_snapshot *s, gg_engine *engine)
 {
   gg_measure_snapshot_take(s, engine);
@@ -51,7 +52,7 @@ static void stand_still(gg_snapshot *s, gg_engine *engine)
     }
 }
 
-/* Of elastic grains the loss is 0, not rounding. */
+/* The loss of elastic grains is 0, not rounding. */
 static void check_conservation(const gg_scene *scene)
 {
   gg_model m;
@@ -62,19 +63,19 @@ static void check_conservation(const gg_scene *scene)
   assert_int_equal(gg_md_ops.create(&m, 1, 1, &engine, NULL), GG_OK);
   planted p = {.o = &gg_measure_fluxes, .m = &m, .slabs = gg_measure_gap_slabs(&m)};
   p.self = p.o->create(&m, NULL);
-  double *bins = calloc(p.o->bins(p.self), sizeof *bins);
+  double *bins = calloc(p.o->curves->bins(p.self), sizeof *bins);
   assert_true(p.self && bins);
   assert_int_equal(gg_measure_snapshot_init(&s, &m, true, NULL), GG_OK);
   assert_int_equal(gg_md_ops.set_callback(engine, show, &p, NULL), GG_OK);
   stand_still(&s, engine);
-  p.o->add_snapshot(p.self, &s, bins);
+  p.o->curves->add_snapshot(p.self, &s, bins);
   for (int k = 0; k < 3; k++) {
     assert_int_equal(gg_md_ops.advance(engine, 1, UINT64_MAX, &gone, NULL), GG_OK);
     stand_still(&s, engine);
-    p.o->add_snapshot(p.self, &s, bins);
+    p.o->curves->add_snapshot(p.self, &s, bins);
   }
   gg_curves list = {.model = &m, .samples = 4};
-  p.o->curves(p.self, bins, &list);
+  p.o->curves->of_bins(p.self, bins, &list);
   const gg_curve *left = ct_find(&list, "profile_energy_residual"), *loss = ct_find(&list, "profile_loss");
   assert_int_equal(left->n, p.slabs - 1);
   double worst = 0, most = 0, lost = 0;
@@ -93,7 +94,7 @@ static void check_conservation(const gg_scene *scene)
   gg_md_ops.destroy(engine);
 }
 
-static void conservation(void **state)
+static void balances_are_exact(void **state)
 {
   (void)state;
   for (int k = 0; k < 10; k++) {
@@ -111,8 +112,8 @@ static void conservation(void **state)
 
 /* ---- Grains */
 
-/* A gas with a flow 0.4 y, temperature 1, and the heat flux of C_y (C^2 - 5) a/5: q = a n/2, by weights that are drawn
- * by acceptance (|a C_y (C^2 - 5)/5| < 1 but for rare grains); two snapshots of the gap alike. */
+/* A gas with a flow 0.4 y, temperature 1, and the heat flux of C_y (C^2 - 5) a/5: q = a n/2, by acceptance-rejection
+ * (|a C_y (C^2 - 5)/5| < 1 but for rare grains); both halves of the gap are alike. */
 static const double tilt = 0.05;
 static void fill(gg_snapshot *s, gg_rng *r, int sample)
 {
@@ -136,7 +137,7 @@ static double level(double x, const void *value)
   return *(const double *)value;
 }
 
-static void carried(void **state)
+static void planted_grains_have_their_kinetic_fluxes(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_CHUTE, 0.2, -1, 4000, 1);
@@ -207,8 +208,8 @@ static double sum_of(const gg_curve *c)
   return sum;
 }
 
-/* Shear between thermal walls heats rough grains, collisions cool them: of each term the balance needs its all. */
-static void balance(void **state)
+/* Shear between thermal walls heats rough grains, collisions cool them: the balance needs every term. */
+static void energy_balance_closes(void **state)
 {
   (void)state;
   gg_result *r = run_of(GG_MD, GG_COUETTE, 0.2, 0.9, 0.2, 0.02);
@@ -247,7 +248,7 @@ static void balance(void **state)
 static void monte_carlo(void **state)
 {
   (void)state;
-  for (int k = 0; k < (getenv("NIGHTLY") ? 2 : 1); k++) { /* of a dilute gas nightly */
+  for (int k = 0; k < (getenv("NIGHTLY") ? 2 : 1); k++) { /* the dilute gas nightly */
     gg_result *r = run_of(GG_DSMC, GG_COUETTE, k ? 0 : 0.2, 0.9, 0.2, 0.02);
     const gg_curve *left = ct_find(&r->curves, "profile_energy_residual"), *P = ct_find(&r->curves, "profile_P_yx"),
                    *p = ct_find(&r->curves, "profile_P_yy"), *u = ct_find(&r->curves, "profile_velocity");
@@ -267,8 +268,9 @@ static void monte_carlo(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(conservation), cmocka_unit_test(carried),     cmocka_unit_test(constant_fluxes),
-      cmocka_unit_test(balance),      cmocka_unit_test(monte_carlo),
+      cmocka_unit_test(balances_are_exact), cmocka_unit_test(planted_grains_have_their_kinetic_fluxes),
+      cmocka_unit_test(constant_fluxes),    cmocka_unit_test(energy_balance_closes),
+      cmocka_unit_test(monte_carlo),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

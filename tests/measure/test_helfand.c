@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Helfand's moments: planted collisions of known jumps, each shown again in the next interval, make coefficients known
- * in closed form; the first point of a curve has half of them; a grain between two collisions adds its flux times the
- * time of its flight. */
+/* Helfand's moments: planted collisions of known jumps, each repeated in the next interval, give coefficients known
+ * in closed form; the first point of a curve has half of them; a grain between two collisions adds its flux times
+ * the time of its flight. */
 #include "curve_test.h"
 #include "scene/model_of_scene.h"
 
@@ -28,8 +28,8 @@ static void start(planted *p)
 {
   *p = (planted){.model = ct_model(GG_EQUILIBRIUM, 0.2, -1, N, 1)};
   p->self = helfand->create(&p->model, NULL);
-  p->bin = calloc(helfand->bins(p->self), sizeof *p->bin);
-  assert_true(p->self && p->bin && helfand->width(&p->model) <= 64);
+  p->bin = calloc(helfand->curves->bins(p->self), sizeof *p->bin);
+  assert_true(p->self && p->bin && helfand->rows->width(&p->model) <= 64);
   assert_int_equal(gg_measure_snapshot_init(&p->s, &p->model, false, NULL), GG_OK);
   helfand->restart(p->self);
 }
@@ -45,22 +45,22 @@ static void sample(planted *p)
 {
   at_rest(&p->s);
   p->s.elapsed = interval;
-  helfand->add_snapshot(p->self, &p->s, p->bin);
-  helfand->begin(p->self);
-  helfand->finish(p->self, &(gg_interval){.model = &p->model, .elapsed = interval, .velocity_factor = 1}, p->row);
-  for (size_t k = 0; k < helfand->width(&p->model); k++) p->sum[k] += p->row[k] / SAMPLES;
+  helfand->curves->add_snapshot(p->self, &p->s, p->bin);
+  helfand->rows->begin(p->self);
+  helfand->rows->finish(p->self, &(gg_interval){.model = &p->model, .elapsed = interval, .velocity_factor = 1}, p->row);
+  for (size_t k = 0; k < helfand->rows->width(&p->model); k++) p->sum[k] += p->row[k] / SAMPLES;
 }
 
 static double value(const planted *p, gg_quantity q)
 {
   gg_function f;
-  assert_true(gg_measure_derived_find(helfand->derived, q, &f));
+  assert_true(gg_measure_derived_find(helfand->rows->derived, q, &f));
   return gg_function_value(f, p->sum, &p->model);
 }
 
-/* An impulse of length 1 on a grain at rest: half of 1 goes over the distance, <k_x^2>/4 = 1/12; stress k J without
- * trace: 1/18; a third of its trace: 1/27. Twice each: four times the square of one. */
-static void jumps(void **state)
+/* An impulse of length 1 on a grain at rest: half of 1 is transferred over the distance, <k_x^2>/4 = 1/12; stress k
+ * J without trace: 1/18; a third of its trace: 1/27. Twice each: four times the square of one. */
+static void planted_jumps_give_known_coefficients(void **state)
 {
   (void)state;
   static const gg_quantity q[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_VISCOSITY_REDUCED,
@@ -75,16 +75,16 @@ static void jumps(void **state)
     gg_collision_record before = now;
     p.s.time = before.time = now.time = (k + 1) * interval;
     now.k = gg_rng_direction(&rng), now.J = gg_rng_direction(&rng);
-    helfand->add_collision(p.self, &before);
-    helfand->add_collision(p.self, &now);
+    helfand->collisions->add(p.self, &before);
+    helfand->collisions->add(p.self, &now);
     sample(&p);
   }
   const gg_model *m = &p.model;
   const double T = speed * speed / 3, nu0 = gg_common_model_nu0(m, T);
   const double unit[] = {4. / 15 * nu0 / (m->density * T * T), nu0 / (m->density * T), nu0 / (m->density * T)};
   gg_curves list = {.model = m, .curve = calloc(GG_MOST_CURVES, sizeof *list.curve)};
-  for (size_t k = 0; k < helfand->bins(p.self); k++) p.bin[k] /= SAMPLES;
-  helfand->curves(p.self, p.bin, &list);
+  for (size_t k = 0; k < helfand->curves->bins(p.self); k++) p.bin[k] /= SAMPLES;
+  helfand->curves->of_bins(p.self, p.bin, &list);
   for (int k = 0; k < 3; k++) {
     const double right = unit[k] * 2 * square[k] / (interval * m->volume * T);
     const double error = right * sqrt(8 / (components[k] * SAMPLES)); /* of seven products, neighbours alike */
@@ -95,9 +95,9 @@ static void jumps(void **state)
   end(&p);
 }
 
-/* One grain is hit once, at a third of an interval, and again at its end: a flux of heat m v^3/2 along x for the rest
- * of that time, and what the impulses carry. Its square alone makes the only row that is not 0. */
-static void flight(void **state)
+/* One grain is hit once, at a third of an interval, and again at its end: a flux of heat m v^3/2 along x for the
+ * remaining time, and the transfer of the impulses. Its square makes the only nonzero row. */
+static void a_flight_adds_flux_times_time(void **state)
 {
   (void)state;
   planted p;
@@ -107,12 +107,12 @@ static void flight(void **state)
     p.s.time = last + interval;
     if (k == 11) {
       gg_collision_record hit = {.k = {1, 0, 0}, .J = {2, 0, 0}, .time = last + interval / 3};
-      helfand->add_collision(p.self, &hit); /* partner 1 gets -2, too */
+      helfand->collisions->add(p.self, &hit); /* partner 1 gets -2, too */
     }
     sample(&p);
   }
   const double T = speed * speed / 3, nu0 = gg_common_model_nu0(&p.model, T), n = p.model.density, kinetic = 0;
-  /* Heat: partners fly apart, +4 and -4 over 2/3 of the interval, in sum 0; 2 over the distance. Stress xx: 8 of both
+  /* Heat: partners separate, +4 and -4 over 2/3 of the interval, sum 0; 2 over the distance. Stress xx: 8 of both
    * over 2/3, 2 over the distance; without trace a third and minus a sixth: products 2/3 of the square, over 10. */
   const double xx = 8 * interval * 2 / 3, all = xx + 2, rows = 12 - 1 - 6;
   const double expected[] = {4. / 15 * nu0 / (n * T * T) * 2 * 2 / 3. / 2, nu0 / (n * T) * all * all * 2 / 30 / 2,
@@ -124,7 +124,7 @@ static void flight(void **state)
   end(&p);
 }
 
-static void refused(void **state)
+static void models_without_it_give_the_reason(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -142,6 +142,8 @@ static void refused(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(jumps), cmocka_unit_test(flight), cmocka_unit_test(refused)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(planted_jumps_give_known_coefficients),
+                                     cmocka_unit_test(a_flight_adds_flux_times_time),
+                                     cmocka_unit_test(models_without_it_give_the_reason)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

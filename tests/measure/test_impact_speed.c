@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Normal speeds at impact: speeds planted with the law of a Maxwellian gas come back as that law, of one species, of
- * two with different temperatures, and of a gas that cools while it is sampled; elastic gases have it in both engines;
- * and of inelastic ones the mean square is what their loss of energy says. */
+/* Normal speeds of collisions: speeds planted with the law of a Maxwellian gas are recovered as that law, for one
+ * species, for two with different temperatures, and for a gas that cools while it is sampled; elastic gases have it
+ * in both engines; for inelastic ones the mean square agrees with their loss of energy. */
 #include "curve_test.h"
 #include "graingas.h"
 
@@ -39,36 +39,36 @@ static gg_collision_record draw(const planted *p, const gg_model *m, double fact
   return c;
 }
 
-/* T falls by `fall` from a sample to the next, as steadily as the collisions go. */
+/* T falls by `fall` from a sample to the next, in proportion to the collisions. */
 static gg_curves fed(const gg_model *m, double first, double second, double fall)
 {
   planted p = {.over_m = {first, second}};
   gg_rng r = gg_common_rng_seed(7, 0);
   gg_bins bins;
   void *self = gg_measure_impact_speed.create(m, NULL);
-  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_impact_speed.bins(self), NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_impact_speed.curves->bins(self), NULL), GG_OK);
   for (int i = 0; i < GRAINS; i++) p.species[i] = i >= m->n_of[0];
   gg_snapshot s = {.model = m, .n = GRAINS, .c = {p.c[0], p.c[1], p.c[2]}, .species = p.species};
   for (int k = 0; k < SAMPLES; k++) {
     for (int i = 0; i < PER_SAMPLE && k; i++) {
       gg_collision_record c = draw(&p, m, exp(-fall * (k - 1 + (i + 0.5) / PER_SAMPLE)), &r);
-      gg_measure_impact_speed.add_collision(self, &c);
+      gg_measure_impact_speed.collisions->add(self, &c);
     }
     set_speeds(&p, exp(-fall * k));
-    gg_measure_impact_speed.add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
+    gg_measure_impact_speed.curves->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
     gg_statistics_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
-  assert_int_equal(
-      gg_measure_curves_estimate(list, 1, gg_measure_impact_speed.curves, self, "impact_speed", 0, &curves, NULL),
-      GG_OK);
+  assert_int_equal(gg_measure_curves_estimate(list, 1, gg_measure_impact_speed.curves->of_bins, self, "impact_speed", 0,
+                                              &curves, NULL),
+                   GG_OK);
   gg_statistics_bins_clear(&bins);
   gg_measure_impact_speed.destroy(self);
   return curves;
 }
 
-/* Mean sqrt(pi), mean square 4, and the law point by point, which stands beside. */
+/* Mean sqrt(pi), mean square 4, and the law of the curve, point by point. */
 static void expect_maxwellian(const gg_curves *list, size_t points, double sight)
 {
   const gg_curve *c = ct_find(list, "impact_speed");
@@ -91,7 +91,7 @@ static void planted_law(void **state)
   gg_measure_curves_clear(&a), gg_measure_curves_clear(&b), gg_measure_curves_clear(&c);
 }
 
-static void refusals(void **state)
+static void models_without_it_give_the_reason(void **state)
 {
   (void)state;
   gg_model walled = ct_model(GG_COUETTE, 0.1, -1, GRAINS, 1), sheared = ct_model(GG_USF, 0.1, -1, GRAINS, 1);
@@ -111,9 +111,9 @@ static gg_scene scene_of(gg_flow flow, gg_engine_kind engine, double e, double p
   return s;
 }
 
-/* Both engines, the dense one, too: chaos before collisions. T of a sample is conserved, with the 3N - 3 degrees of
- * freedom of a gas at rest: mean square 4 (1 + O(1/N)), as the collision rate has it. */
-static void equilibrium(void **state)
+/* Both engines, also a dense gas: chaos before collisions. T of a sample is conserved, with the 3N - 3 degrees of
+ * freedom of a gas at rest: mean square 4 (1 + O(1/N)), as for the collision rate. */
+static void elastic_gases_have_the_maxwellian_law(void **state)
 {
   (void)state;
   for (int kind = GG_MD; kind <= GG_DSMC; kind++) {
@@ -129,7 +129,7 @@ static void equilibrium(void **state)
 
 /* Each collision of smooth grains loses (1 - e^2) g_n^2/4: dissipation = (n/2) rate (1 - e^2)/4 <g_n^2>, the rate
  * counting a collision for both grains; so in a cooling gas zeta = rate (1 - e^2) <x^2>/12. */
-static void energy(void **state)
+static void mean_square_gives_the_loss(void **state)
 {
   (void)state;
   const double e = 0.7;
@@ -154,7 +154,8 @@ static void energy(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(planted_law), cmocka_unit_test(refusals),
-                                     cmocka_unit_test(equilibrium), cmocka_unit_test(energy)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(planted_law), cmocka_unit_test(models_without_it_give_the_reason),
+                                     cmocka_unit_test(elastic_gases_have_the_maxwellian_law),
+                                     cmocka_unit_test(mean_square_gives_the_loss)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

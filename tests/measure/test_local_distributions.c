@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Distributions by local density: Gaussian grains of any cell flow are Gaussian at every density, at one temperature;
- * grains that are colder and of another law where it is dense show that there and only there, and all cells together
- * are the mixture; an elastic gas of rough
- * hard spheres has one Maxwellian at every density, and a sheared inelastic one is colder where it is dense. */
+/* Distributions by local density: Gaussian grains with any cell flow are Gaussian at every density, at one
+ * temperature; grains that are colder and of another law in dense regions are found there and only there, and all
+ * cells together are the mixture; an elastic gas of rough hard spheres has one Maxwellian at every density, and a
+ * sheared inelastic one is colder where it is dense. */
 #include <stdio.h>
 
 #include "curve_test.h"
@@ -36,7 +36,7 @@ static void expect_number(const gg_curves *list, const char *name, const char *n
   ct_expect(number, p.value, p.error, expected, sight);
 }
 
-/* Two sizes that turn at one mean rate. */
+/* Grains of two sizes that rotate at one mean rate. */
 static void turning(gg_snapshot *s, gg_rng *r, int sample)
 {
   gaussian(s, r, sample);
@@ -45,7 +45,7 @@ static void turning(gg_snapshot *s, gg_rng *r, int sample)
       s->s[a][i] = s->model->diameter[gg_snapshot_species(s, i)] / 2 * (gg_common_rng_normal(r) - 4);
 }
 
-/* Omega is about the mean omega of a cell, whoever is in it. */
+/* Omega is about the mean omega of a cell, for any grains in it. */
 static void two_sizes(void **state)
 {
   (void)state;
@@ -82,7 +82,7 @@ static void gaussian_cells(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Two species of unlike mass and spin at one temperature: sigma is each one's own. */
+/* Two species of unlike mass and spin at one temperature: each has its own sigma. */
 static void mixed_cells(void **state)
 {
   (void)state;
@@ -97,7 +97,7 @@ static void mixed_cells(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* The left half of the box holds three of four grains, and those are +-1/2 along x instead of Gaussian. */
+/* The left half of the box has three of four grains, and those are +-1/2 along x instead of Gaussian. */
 static void two_halves(gg_snapshot *s, gg_rng *r, int sample)
 {
   (void)sample;
@@ -121,9 +121,9 @@ static void planted_halves(void **state)
   double all = (0.75 * q.value / 16 + 0.25 * 3) / pow(0.75 / 4 + 0.25, 2);
   expect_number(&list, "local_distribution_Cx_all", "kurtosis", all, 0.15);
   gg_curve_number warmth = ct_number(ct_find(&list, "local_distribution_Cx_all"), "temperature_over_mean");
-  assert_true(fabs(warmth.value - 1) < 1e-12 && warmth.error < 1e-12); /* of all, both are of rounding */
+  assert_true(fabs(warmth.value - 1) < 1e-12 && warmth.error < 1e-12); /* for all cells both are rounding */
   print_message("# kurtosis thin %.3f +- %.3f, dense %.3f +- %.3f\n", p.value, p.error, q.value, q.error);
-  assert_true(fabs(p.value - 3) < 4 * p.error + 0.05 && q.value < 1.8); /* of +-1/2: 1, and 3 where thin */
+  assert_true(fabs(p.value - 3) < 4 * p.error + 0.05 && q.value < 1.8); /* for +-1/2: 1, and 3 in thin cells */
   p = ct_number(thin, "temperature_over_mean"), q = ct_number(dense, "temperature_over_mean");
   print_message("# warmth, thin over dense %.3f\n", p.value / q.value);
   assert_true(fabs(p.value / q.value - 4) < 0.15); /* a few cells of the dense half are as thin as those */
@@ -140,7 +140,7 @@ static gg_result *engine(double e, double phi)
   return ct_run(s);
 }
 
-static void engines(void **state)
+static void elastic_grains_have_one_maxwellian_at_every_density(void **state)
 {
   (void)state;
   gg_result *elastic = engine(1, 0.2);
@@ -164,8 +164,11 @@ static void engines(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(gaussian_cells), cmocka_unit_test(mixed_cells), cmocka_unit_test(two_sizes),
-      cmocka_unit_test(planted_halves), cmocka_unit_test(engines),
+      cmocka_unit_test(gaussian_cells),
+      cmocka_unit_test(mixed_cells),
+      cmocka_unit_test(two_sizes),
+      cmocka_unit_test(planted_halves),
+      cmocka_unit_test(elastic_grains_have_one_maxwellian_at_every_density),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The local frame of walled flows: a planted profile u(y) of any shape is taken out, and the variance that is left is
- * that of the planted noise, few grains a slab or many (the 1/n_c correction). Mean spins of slabs likewise, and what
- * comes of both as a temperature ratio. */
+/* The local frame of walled flows: a planted profile u(y) of any shape is subtracted, and the remaining variance is
+ * that of the planted noise, for few or many grains a slab (the 1/n_c correction). The same for mean spins of slabs,
+ * and for the temperature ratio of both. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -47,7 +47,7 @@ static void add(void *context, const gg_chunk *chunk)
     for (int a = 0; a < 3; a++) s->square[a] += chunk->c[a][i] * chunk->c[a][i], s->mean[a] += chunk->c[a][i];
 }
 
-/* A straight line in each slab, another in every one: noise of unit variance comes out with unit variance within four
+/* A straight line in each slab, different between slabs: noise of unit variance keeps unit variance within four
  * errors. */
 static void planted_profile(void **state)
 {
@@ -125,8 +125,8 @@ static void planted_spins(void **state)
   rough = false;
 }
 
-/* Neighbours that move together, each slab as one, from sample to sample in another way: about the flow of all samples
- * their common velocity is heat, as it is of every grain's. About that of one instant it would be missing. */
+/* Neighbours that move together, each slab as one, differently from sample to sample: about the flow of all samples
+ * their common velocity is heat, as that of single grains is. About the flow of one instant it would be missing. */
 static void common_motion(void **state)
 {
   (void)state;

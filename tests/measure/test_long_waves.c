@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Waves of a box's length on planted grains: grains at random give 1 over the factor of an ideal gas, planted waves
- * their known power, whatever the species, and shorter waves next to nothing. */
+/* Waves of a box's length on planted grains: random grains give 1 over the factor of an ideal gas, planted waves
+ * their known power, for all species, and shorter waves next to nothing. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -24,7 +24,7 @@ static gg_model model_of(int species)
   s.flow = GG_HCS, s.phi = 0.2, s.particles = N, s.n_species = species;
   if (species == 2) s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.5, 1.5, 3, 0.4, 1};
   assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
-  m.box[1] *= 2, m.box[2] /= 2; /* edges of their own */
+  m.box[1] *= 2, m.box[2] /= 2; /* edges of different lengths */
   return m;
 }
 
@@ -48,7 +48,7 @@ static void measure(const gg_model *m, double *density, double *momentum)
   gg_measure_long_waves_finish(&w, m, density, momentum);
 }
 
-/* S(0) of Carnahan & Starling by the slope of n Z = n (1 + phi + phi^2 - phi^3)/(1 - phi)^3. */
+/* S(0) of Carnahan & Starling from the slope of n Z = n (1 + phi + phi^2 - phi^3)/(1 - phi)^3. */
 static double structure_of(double phi)
 {
   const double h = 1e-5;
@@ -107,7 +107,7 @@ static void waves_along(void **state)
     }
 }
 
-/* A lattice of planes, many to a box, has no long waves: what slabs leave of it is below one in a thousand of N. */
+/* A lattice of planes, many to a box, has no long waves: the slabs leave less than a thousandth of N. */
 static void short_waves_do_not_count(void **state)
 {
   (void)state;

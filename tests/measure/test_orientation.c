@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Orientation: planted angles give Lambda and both histograms back, whatever the mean spin; instantaneous velocities
- * contain the flow; an engine's curve agrees with the quantity cos2_psi of rheology. */
+/* Orientation: planted angles are recovered in Lambda and both histograms, at any mean spin; instantaneous
+ * velocities contain the flow; an engine's curve agrees with the quantity cos2_psi of rheology. */
 #include "curve_test.h"
 #include "graingas.h"
 
 #define ALIGNED 0.3
 static const double mean_spin = -2.5;
 
-/* A share of the grains spins along (or against) its velocity, the others anyhow; a mean spin on top. */
+/* A fraction of the grains spins along (or against) its velocity, the others in random directions; a mean spin is
+ * added. */
 static void planted(gg_snapshot *s, gg_rng *r, int sample)
 {
   (void)sample;
@@ -38,7 +39,7 @@ static void planted_angles(void **state)
   ct_expect("Lambda", p.value, p.error, ALIGNED + (1 - ALIGNED) / 3, 0.005);
   double chi2 = ct_chi2(c, 1, c->n - 1, flat, NULL);
   assert_true(chi2 > 0.4 && chi2 < 2);
-  /* the aligned ones lie in the outermost bins, but for the scatter that the mean spin of the sample leaves */
+  /* the aligned ones are in the outermost bins, but for the scatter of the sample's mean spin */
   double ends = (c->value[0] + c->value[c->n - 1]) * 0.04 - 0.04 * (1 - ALIGNED);
   assert_true(fabs(ends - ALIGNED) < 0.005);
   double sum = 0;
@@ -50,8 +51,8 @@ static void planted_angles(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Instantaneous: the flow velocity and the mean spin stay in. With a very fast flow c is along x, and Lambda becomes
- * <omega_x^2/omega^2>, drawn here on its own. */
+/* Instantaneous: the flow velocity and the mean spin are included. With a very fast flow c is along x, and Lambda
+ * becomes <omega_x^2/omega^2>, computed here separately. */
 static void planted_flow(void **state)
 {
   (void)state;
@@ -72,9 +73,9 @@ static void planted_flow(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Sheared rough grains: the same mean as rheology's within their errors, and below 1/3; md's instantaneous Lambda has
- * the flow in it. */
-static void engines(void **state)
+/* Sheared rough grains: the same mean as rheology's within their errors, and below 1/3; md's instantaneous Lambda
+ * contains the flow. */
+static void engines_agree_with_rheology(void **state)
 {
   (void)state;
   for (int k = 0; k < 2; k++) {
@@ -97,7 +98,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(planted_angles),
       cmocka_unit_test(planted_flow),
-      cmocka_unit_test(engines),
+      cmocka_unit_test(engines_agree_with_rheology),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pairs in sheared boxes against a search through every image; sampled pairs against all of them; g = 1 for points
- * thrown anywhere; planted collisions have the density at contact that they were drawn from, also where the gas cools;
- * hard spheres in equilibrium have the contact value of the equation of state, by collisions, next to contact, and by
- * the rate; of inelastic grains those that separate are 1/e times as dense as those that approach, in space, too. */
+/* Pairs in sheared boxes against a search through every image; sampled pairs against all of them; g = 1 for randomly
+ * placed points; planted collisions have the density at contact from which they were drawn, also in a cooling gas.
+ * Hard spheres in equilibrium have the contact value of the equation of state: from collisions, next to contact, and
+ * from the rate. For inelastic grains the density of separating pairs is 1/e times that of approaching ones, in
+ * space, too. */
 #include "curve_test.h"
 #include "measure/pairs.h"
 #include "scene/model_of_scene.h"
@@ -21,7 +22,7 @@ static void thrown(gg_snapshot *s, gg_rng *r, int sample)
 
 enum { SHELLS = 6 };
 typedef struct tally {
-  const gg_pairs *p;                                         /* NULL: numbers of grains are what they are */
+  const gg_pairs *p;                                         /* NULL: grains are not renumbered */
   double pairs, squares, checks, tried, shell[SHELLS], bent; /* bent: sum of d_x d_y over |d|^2 */
   double reach;
 } tally;
@@ -48,7 +49,7 @@ static tally searched(gg_pairs *p, const gg_snapshot *s)
   return t;
 }
 
-/* Every image within two boxes. */
+/* Search through every image within two boxes. */
 static tally plain(const gg_snapshot *s, double reach)
 {
   tally t = {.reach = reach};
@@ -65,8 +66,8 @@ static tally plain(const gg_snapshot *s, double reach)
   return t;
 }
 
-/* Cells, also few in a small box, find what the plain search finds: offsets over the whole range, cubes and
- * long boxes. */
+/* Cells, also few in a small box, find the pairs of the plain search: offsets over the whole range, cubes and long
+ * boxes. */
 static void pairs_of_images(void **state)
 {
   (void)state;
@@ -91,7 +92,7 @@ static void pairs_of_images(void **state)
   }
 }
 
-/* Within four errors, by the scatter of what was drawn. */
+/* The mean is right within four errors, by the scatter of the samples. */
 static void expect_mean(const char *what, double sum, double squares, double n, double expected, double sight)
 {
   double mean = sum / n, error = sqrt((squares / n - mean * mean) / (n - 1));
@@ -100,8 +101,8 @@ static void expect_mean(const char *what, double sum, double squares, double n, 
   assert_true(error < sight);
 }
 
-/* Pairs within a budget stand for all pairs, near and far, whatever their direction; the same snapshot draws the same
- * ones, another one others. Cubes and long boxes, the image above displaced. */
+/* Pairs within a budget represent all pairs, near and far, in all directions; the same snapshot draws the same ones,
+ * another one others. Cubes and long boxes, the image above displaced. */
 static void sampled_pairs(void **state)
 {
   (void)state;
@@ -143,7 +144,7 @@ static double one(double x, const void *context)
   return 1;
 }
 
-/* Few of them: no grain is its own partner. */
+/* Few points: no grain is its own partner. */
 static void few_points(void **state)
 {
   (void)state;
@@ -159,7 +160,7 @@ static void few_points(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Points thrown anywhere: g_11 = g_12 = g_22 = 1 at every distance; and the rate planted with them. */
+/* Randomly placed points: g_11 = g_12 = g_22 = 1 at every distance; and the rate planted with them. */
 static void ideal_gas(void **state)
 {
   (void)state;
@@ -202,8 +203,8 @@ static void hard_spheres(void **state)
   gg_result_free(r);
 }
 
-/* Collisions of Maxwellians: g_n is drawn by g_n exp(-g_n^2/(2 s^2)), s^2 = 2 T, at the rate 4 pi n chi s/sqrt(2 pi) of
- * a pair; velocities fall as 1/(1 + t) where the gas cools, and are brought back in between as a run does it. */
+/* Collisions of Maxwellians: g_n is drawn by g_n exp(-g_n^2/(2 s^2)), s^2 = 2 T, at the rate 4 pi n chi s/sqrt(2 pi)
+ * of a pair; velocities fall as 1/(1 + t) in a cooling gas, and are rescaled in between as in a run. */
 enum { INTERVALS = 4000, EVERY = 5, PER_INTERVAL = 400 };
 static const double planted_chi = 1.7, planted_e = 0.6;
 
@@ -222,7 +223,7 @@ static void all_at(gg_snapshot *s, double T)
     for (size_t i = 0; i < s->n; i++) s->c[a][i] = sqrt(T) * (i % 2 ? 1 : -1);
 }
 
-/* T = v^2; the interval takes PER_INTERVAL collisions on average, of which `fall` says how the speed falls. */
+/* T = v^2; the interval takes PER_INTERVAL collisions on average; `fall`: decrease of the speed. */
 static double show_interval(void *self, const gg_model *m, double v, double fall, gg_rng *r)
 {
   const gg_observable *o = &gg_measure_pair_correlation;
@@ -231,7 +232,7 @@ static double show_interval(void *self, const gg_model *m, double v, double fall
   double elapsed = fall < 1 ? ends / log(1 / fall) : PER_INTERVAL / rate;
   for (int i = 0; i < PER_INTERVAL; i++) {
     gg_collision_record c = planted(M_SQRT2 * v * pow(fall, (i + gg_rng_uniform(r)) / PER_INTERVAL), r);
-    o->add_collision(self, &c);
+    o->collisions->add(self, &c);
   }
   return elapsed;
 }
@@ -245,7 +246,7 @@ static gg_curves planted_curves(const gg_model *m, double fall)
   void *self = o->create(m, NULL);
   double v = 1;
   assert_int_equal(gg_measure_snapshot_init(&s, m, true, NULL), GG_OK);
-  assert_int_equal(gg_statistics_bins_init(&bins, o->bins(self), NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, o->curves->bins(self), NULL), GG_OK);
   thrown(&s, &r, 1);
   o->restart(self);
   for (int k = 0; k < INTERVALS; k++) {
@@ -253,15 +254,15 @@ static gg_curves planted_curves(const gg_model *m, double fall)
     v *= fall;
     if (k % EVERY == 0) {
       all_at(&s, v * v);
-      o->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
+      o->curves->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
       gg_statistics_bins_commit(&bins);
     }
-    o->add_interval(self, &in);
+    o->curves->add_interval(self, &in);
     if (v < 0.25) v *= 4, o->rescaled(self, 4);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
-  assert_int_equal(gg_measure_curves_estimate(list, 1, o->curves, self, o->name, 0, &curves, NULL), GG_OK);
+  assert_int_equal(gg_measure_curves_estimate(list, 1, o->curves->of_bins, self, o->name, 0, &curves, NULL), GG_OK);
   gg_statistics_bins_clear(&bins);
   gg_measure_snapshot_clear(&s);
   o->destroy(self);
@@ -284,9 +285,9 @@ static void planted_collisions(void **state)
   }
 }
 
-/* Sheared inelastic grains: parting over approaching is 1/e, whatever their spins, and the rate with the measured speed
- * is that of approaching pairs. Grains about to collide are slower than Maxwellians of their temperature. */
-static void inelastic(void **state)
+/* Sheared inelastic grains: separating over approaching is 1/e, at any spins, and the rate with the measured speed
+ * is that of approaching pairs. Colliding grains are slower than Maxwellians of their temperature. */
+static void separating_pairs_are_denser_by_1_over_e(void **state)
 {
   (void)state;
   for (int rough = 0; rough < 2; rough++) {
@@ -309,12 +310,12 @@ static void inelastic(void **state)
   }
 }
 
-/* Pairs about to collide, as positions and velocities have them: those whose straight way leads to contact within one
- * step of time, and within the next one, each over its normal speed there. Weighted so they are as many in either, but
- * for third grains. */
+/* Pairs about to collide, from positions and velocities: those whose straight path leads to contact within one step
+ * of time, and within the next one, weighted by the inverse of their normal speed there. So weighted, both steps
+ * have the same number, but for third grains. */
 typedef struct about_to_collide {
   const gg_model *m;
-  double step, slow, sum[2], squares[2], frames; /* slow speeds are averaged over: their sum of 1/g wanders */
+  double step, slow, sum[2], squares[2], frames; /* slow speeds are averaged over: their sum of 1/g fluctuates */
   int seen;
 } about_to_collide;
 enum { WARM = 60 };
@@ -353,8 +354,8 @@ static gg_status count_near(void *context, const gg_frame *f, gg_error *err)
 }
 
 /* Nightly. Heated grains, so dense and inelastic that extrapolated densities of separating pairs were 5 % low: the
- * density of approaching pairs at contact is that in space, and separating ones are 1/e times as dense. */
-static void dense(void **state)
+ * density of approaching pairs at contact is that in space, and that of separating ones 1/e times as large. */
+static void contact_density_is_that_in_space(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -389,10 +390,13 @@ static void dense(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(pairs_of_images),    cmocka_unit_test(sampled_pairs),
-                                     cmocka_unit_test(few_points),         cmocka_unit_test(ideal_gas),
-                                     cmocka_unit_test(planted_collisions), cmocka_unit_test(hard_spheres),
-                                     cmocka_unit_test(inelastic)},
-                          nightly[] = {cmocka_unit_test(dense)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(pairs_of_images),
+                                     cmocka_unit_test(sampled_pairs),
+                                     cmocka_unit_test(few_points),
+                                     cmocka_unit_test(ideal_gas),
+                                     cmocka_unit_test(planted_collisions),
+                                     cmocka_unit_test(hard_spheres),
+                                     cmocka_unit_test(separating_pairs_are_denser_by_1_over_e)},
+                          nightly[] = {cmocka_unit_test(contact_density_is_that_in_space)};
   return getenv("NIGHTLY") ? cmocka_run_group_tests(nightly, NULL, NULL) : cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Profiles: planted flow, temperature and spin come back slab by slab, planted impulses as the stress on the walls; of
- * walls that are alike the curves are those of the flow and its image, and as much of the walls' stress is; a
- * Couette gas is antisymmetric, slips at its walls, presses and pulls them as its own stress says, and holds as much as
- * was put in. */
+/* Profiles: planted flow, temperature and spin are recovered slab by slab, planted impulses as the stress on the
+ * walls; for walls that are alike the curves are those of the flow and its image, also those of the walls' stress. A
+ * Couette gas is antisymmetric, slips at its walls, exerts its own stress on them, and contains all of its grains. */
 #include <stdio.h>
 
 #include "curve_test.h"
@@ -46,7 +45,7 @@ static void planted_profiles(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_COUETTE, 0.2, 0, 4000, 1);
-  m.gravity[1] = -1; /* below is not as above: nothing is folded */
+  m.gravity[1] = -1; /* below differs from above: nothing is folded */
   gg_curves list = ct_curves(&gg_measure_profiles, &m, 64, planted, 91);
   double L = m.box[1], theta = 0.4 * 0.5, phi = 0.2;
   const struct {
@@ -63,7 +62,7 @@ static void planted_profiles(void **state)
     double chi2 = ct_chi2(c, 0, c->n, cases[k].f, cases[k].context);
     assert_true(chi2 > 0.4 && chi2 < 2);
     assert_true(c->error[5] < 0.02);
-    assert_int_equal(c->n, 2 * round(L)); /* slabs of half a diameter, a pair of them for each */
+    assert_int_equal(c->n, 2 * round(L)); /* pairs of slabs, each half a diameter thick */
     assert_false(c->folded);
   }
   gg_curve_number p = ct_number(ct_find(&list, "profile_velocity"), "slip_upper");
@@ -80,9 +79,9 @@ static double twice_centred(double y, const void *context)
   return 2 * (y / *(const double *)context - 0.5);
 }
 
-/* The same grains between walls that are alike. Half a turn leaves of the flow what is odd about the middle, of the
- * spin what is even; a mirror the other way round. Temperatures are about the mean of both halves, from which each is
- * off by what was folded away: 1/2, of the spin y - 1/2. */
+/* The same grains between walls that are alike. Half a turn keeps the part of the flow that is odd about the middle,
+ * and the even part of the spin; a mirror the reverse. Temperatures are about the mean of both halves, from which
+ * each differs by the part that was folded away: 1/2, for the spin y - 1/2. */
 static void folded_profiles(void **state)
 {
   (void)state;
@@ -116,9 +115,9 @@ static void folded_profiles(void **state)
   }
 }
 
-/* The whole gas is carried to and fro along the walls, and remembers that for a third of the window: blocks know next
- * to nothing of it, and errors that hold it are guesses (of velocities unfolded, too small by four on average). It is
- * odd, and folded profiles do not hold it. */
+/* The whole gas oscillates along the walls, with a memory of a third of the window: blocks contain next to no
+ * information about it, and errors that include it are guesses (for unfolded velocities too small by four on
+ * average). The oscillation is odd, and folded profiles do not contain it. */
 static double carried;
 
 static void wandering(gg_snapshot *s, gg_rng *r, int sample)
@@ -152,8 +151,8 @@ static void errors_where_the_gas_wanders(void **state)
   assert_true(fabs(chi2[1] - 1.15) < 0.25 && chi2[0] > 2); /* 15 blocks make 15/13 */
 }
 
-/* Walls that take up known impulses in known times: the stress is their sum over area and time, whatever the lengths of
- * the intervals; what came before averaging began is forgotten, and two intervals may go into one snapshot. `noise`:
+/* Walls that receive known impulses in known times: the stress is their sum over area and time, at any lengths of
+ * the intervals; data from before averaging are forgotten, and two intervals may belong to one snapshot. `noise`:
  * relative scatter of the impulses of an interval. */
 static gg_curves pushed(const gg_model *m, int samples, double noise)
 {
@@ -163,24 +162,25 @@ static gg_curves pushed(const gg_model *m, int samples, double noise)
   gg_bins bins;
   void *self = gg_measure_profiles.create(m, NULL);
   assert_int_equal(gg_measure_snapshot_init(&s, m, true, NULL), GG_OK);
-  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_profiles.bins(self), NULL), GG_OK);
+  assert_int_equal(gg_statistics_bins_init(&bins, gg_measure_profiles.curves->bins(self), NULL), GG_OK);
   gg_collision_sums t = {.surface = {{.impulse = {1e6, 1e6, 1e6}}, {.impulse = {1e6, 1e6, 1e6}}}};
-  gg_measure_profiles.add_interval(self, &(gg_interval){m, &t, 1e3, 1});
+  gg_measure_profiles.curves->add_interval(self, &(gg_interval){m, &t, 1e3, 1});
   gg_measure_profiles.restart(self);
   for (int k = 0; k < 2 * samples; k++) {
     double time = 0.5 + 0.1 * (k % 7);
     for (int wall = 0; wall < 2; wall++)
       for (int a = 0; a < 3; a++)
         t.surface[wall].impulse[a] = P[wall][a] * m->box[0] * m->box[2] * time * (1 + noise * gg_common_rng_normal(&r));
-    gg_measure_profiles.add_interval(self, &(gg_interval){m, &t, time, 1});
+    gg_measure_profiles.curves->add_interval(self, &(gg_interval){m, &t, time, 1});
     if (k % 2 == 0) continue;
-    gg_measure_profiles.add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
+    gg_measure_profiles.curves->add_snapshot(self, &s, gg_statistics_bins_sample(&bins));
     gg_statistics_bins_commit(&bins);
   }
   const gg_bins *list[] = {&bins};
   gg_curves curves = {.model = m};
-  assert_int_equal(gg_measure_curves_estimate(list, 1, gg_measure_profiles.curves, self, "profiles", 0, &curves, NULL),
-                   GG_OK);
+  assert_int_equal(
+      gg_measure_curves_estimate(list, 1, gg_measure_profiles.curves->of_bins, self, "profiles", 0, &curves, NULL),
+      GG_OK);
   gg_statistics_bins_clear(&bins);
   gg_measure_snapshot_clear(&s);
   gg_measure_profiles.destroy(self);
@@ -205,19 +205,19 @@ static void wall_stress(void **state)
       if (!noisy) continue;
       ct_expect(walls[k].name, n.value, n.error, P, 0.03 * fabs(P));
       double scatter = 0.5 * fabs(P) / sqrt(2 * 6400) * sqrt(1.06); /* of both walls; unequal intervals: <t^2>/<t>^2 */
-      assert_true(fabs(n.error / scatter - 1) < 0.5); /* 16 to 32 blocks, and what they correlate by chance */
+      assert_true(fabs(n.error / scatter - 1) < 0.5);               /* 16 to 32 blocks, and chance correlations */
     }
     gg_measure_curves_clear(&list);
   }
 }
 
-static void couette(void **state)
+static void couette_gas_agrees_with_its_walls(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
   s.engine = GG_MD, s.flow = GG_COUETTE, s.phi = 0.1, s.particles = 500;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 0.95, s.collision.beta[q] = 0;
-  s.run.collisions = 8000, s.run.warmup = 1500; /* blocks longer than the momentum of the box remembers */
+  s.run.collisions = 8000, s.run.warmup = 1500; /* blocks longer than the memory of the momentum of the box */
   s.measure |= GG_MEASURE_PROFILES;
   gg_result *r = ct_run(s);
   const gg_curve *u = ct_find(&r->curves, "profile_velocity"), *phi = ct_find(&r->curves, "profile_solid_fraction");
@@ -236,9 +236,9 @@ static void couette(void **state)
   print_message("# slip %.3f +- %.3f and %.3f +- %.3f\n", lower.value, lower.error, upper.value, upper.error);
   assert_true(upper.value > 4 * upper.error && lower.value < -4 * lower.error);
   assert_true(fabs(upper.value + lower.value) < 4 * hypot(upper.error, lower.error));
-  /* The stress of the gas averages to that of the walls, but for the layer d/2 at each wall that only contacts with it
-   * cross: P_bulk = P_wall (1 - d/L_y). P_yx is the flux along y of momentum along x; rough grains next to a wall turn,
-   * and P_xy is not the same. */
+  /* The stress of the gas averages to that of the walls, but for the layer d/2 at each wall that only contacts with
+   * it cross: P_bulk = P_wall (1 - d/L_y). P_yx is the flux along y of momentum along x; rough grains next to a wall
+   * rotate, and P_xy differs. */
   static const char *const side[] = {"lower", "upper"};
   for (int k = 0; k < 4; k++) {
     char name[32];
@@ -258,7 +258,7 @@ int main(void)
       cmocka_unit_test(folded_profiles),
       cmocka_unit_test(errors_where_the_gas_wanders),
       cmocka_unit_test(wall_stress),
-      cmocka_unit_test(couette),
+      cmocka_unit_test(couette_gas_agrees_with_its_walls),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

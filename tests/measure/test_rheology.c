@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rheology on planted grains: every quantity against its definition written out plainly, smooth and rough, one species
- * and two, sheared and cooling. */
+/* Rheology on planted grains: every quantity against its definition, smooth and rough, one species and two, sheared
+ * and cooling. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -55,7 +55,7 @@ static void take_row_of(const gg_observable *o, void *self, const gg_model *m, c
 {
   static double scaled[6][GG_CHUNK];
   const double *from[6] = {cx, cy, cz, sx, sy, sz};
-  o->begin(self);
+  o->rows->begin(self);
   for (int start = 0; start < N; start += 200) { /* unequal chunks: 200, 200, 100 */
     int n = start + 200 < N ? 200 : N - start;
     for (int k = 0; k < 6; k++)
@@ -64,10 +64,10 @@ static void take_row_of(const gg_observable *o, void *self, const gg_model *m, c
     if (m->rule != GG_SMOOTH)
       for (int a = 0; a < 3; a++) c.s[a] = scaled[3 + a];
     if (m->n_species == 2) c.species = kind + start;
-    o->add_chunk(self, &c);
+    o->rows->add_chunk(self, &c);
   }
   gg_interval in = {m, t, elapsed, 1};
-  o->finish(self, &in, row);
+  o->rows->finish(self, &in, row);
 }
 
 static void take_row(void *self, const gg_model *m, const gg_collision_sums *t, double elapsed, double factor,
@@ -79,7 +79,7 @@ static void take_row(void *self, const gg_model *m, const gg_collision_sums *t, 
 static double value(gg_quantity q, const double *row, const gg_model *m)
 {
   gg_function f;
-  assert_true(gg_measure_derived_find(gg_measure_rheology.derived, q, &f));
+  assert_true(gg_measure_derived_find(gg_measure_rheology.rows->derived, q, &f));
   return gg_function_value(f, row, m);
 }
 
@@ -109,7 +109,7 @@ static void sheared_rough(void **state)
   take_row(self, &m, &t, 0, 1, row); /* the first sample, which makes no row */
   take_row(self, &m, &t, 0.5, 1, row);
   double T = 0, xx = 0, xy = 0, w = 0, mean[3] = {0}, cos2 = 0, w4 = 0, w2 = 0, w3 = 0, speed = 0;
-  double rounded = 0; /* roots are taken in single precision, each rounded up or down */
+  double rounded = 0; /* roots in single precision are rounded up or down */
   for (int i = 0; i < N; i++) {
     T += (cx[i] * cx[i] + cy[i] * cy[i] + cz[i] * cz[i]) / (3.0 * N), xx += cx[i] * cx[i] / N, xy += cx[i] * cy[i] / N;
     mean[0] += sx[i] / N, mean[1] += sy[i] / N, mean[2] += sz[i] / N;
@@ -149,7 +149,7 @@ static void sheared_rough(void **state)
 }
 
 /* Two species, smooth: partial temperatures and mass-weighted totals. */
-static void mixture(void **state)
+static void mixture_has_partial_and_total_temperatures(void **state)
 {
   (void)state;
   plant(2);
@@ -193,8 +193,8 @@ static void two_sizes(void **state)
   gg_measure_rheology.destroy(self);
 }
 
-/* The cumulants are those of every instant, however the temperature fluctuates between samples. */
-static void fluctuating(void **state)
+/* The cumulants are those of every instant, also if the temperature fluctuates between samples. */
+static void cumulants_are_those_of_each_instant(void **state)
 {
   (void)state;
   plant(5);
@@ -212,9 +212,9 @@ static void fluctuating(void **state)
   }
 }
 
-/* Free cooling by Haff's law between two samples: zeta* and the rate in units of the moment's temperature come out
- * exactly, however fast the gas cools. */
-static void cooling(void **state)
+/* Free cooling by Haff's law between two samples: zeta* and the rate in units of the present temperature are exact,
+ * at any cooling rate. */
+static void cooling_rate_follows_haffs_law(void **state)
 {
   (void)state;
   plant(3);
@@ -234,7 +234,7 @@ static void cooling(void **state)
   gg_measure_rheology.destroy(self);
 }
 
-/* A gas that cools within an interval as fast as it is sheared slowly: the mean free path is the mean speed of the
+/* A gas that cools within an interval while it is sheared slowly: the mean free path is the mean speed of the
  * interval over its rate, not the speed at its end. */
 static void path_of_interval(void **state)
 {
@@ -267,8 +267,8 @@ static double slope(const cubic *c)
   return (c->y1 * c->a6 - c->y3 * c->a4) / (c->a2 * c->a6 - c->a4 * c->a4);
 }
 
-/* A gas that cools while it is sheared slowly: of the samples in the range of a*, the slope at 0 of -P_xy/(n T), whose
- * collisional part belongs to the square of the mean of sqrt(T) between the samples. */
+/* A gas that cools while it is sheared slowly: from the samples in the range of a*, the slope at 0 of -P_xy/(n T),
+ * whose collisional part belongs to the square of the mean of sqrt(T) between the samples. */
 static void viscosity_at_no_shear(void **state)
 {
   (void)state;
@@ -287,7 +287,7 @@ static void viscosity_at_no_shear(void **state)
   for (int k = 0; k < 40; k++) {
     double a = 0.02 + 0.0025 * k, factor = first / a, T = T0 * factor * factor; /* a* goes as T^(-1/2) */
     take_row_of(&gg_measure_viscosity, self, &m, &t, k ? elapsed : 0, factor, row);
-    for (size_t c = 0; c < gg_measure_viscosity.width(&m); c++) sum[c] += row[c];
+    for (size_t c = 0; c < gg_measure_viscosity.rows->width(&m); c++) sum[c] += row[c];
     if (k && a >= 0.03) {
       double b0 = 1 / sqrt(last), b1 = 1 / sqrt(T), root = log(b1 / b0) / (b1 - b0);
       add_point(&moving, a, -xy / T0);
@@ -296,15 +296,15 @@ static void viscosity_at_no_shear(void **state)
     last = T;
   }
   gg_function f;
-  assert_true(gg_measure_derived_find(gg_measure_viscosity.derived, GG_Q_VISCOSITY_REDUCED_KINETIC, &f));
+  assert_true(gg_measure_derived_find(gg_measure_viscosity.rows->derived, GG_Q_VISCOSITY_REDUCED_KINETIC, &f));
   near(gg_function_value(f, sum, &m), slope(&moving));
-  assert_true(gg_measure_derived_find(gg_measure_viscosity.derived, GG_Q_VISCOSITY_REDUCED, &f));
+  assert_true(gg_measure_derived_find(gg_measure_viscosity.rows->derived, GG_Q_VISCOSITY_REDUCED, &f));
   near(gg_function_value(f, sum, &m) / (slope(&moving) + slope(&touching)), 1);
   gg_measure_viscosity.destroy(self);
 }
 
-/* What a scene lacks is said, and only that. */
-static void missing(void **state)
+/* Quantities that a scene does not have, and only those, have a reason. */
+static void missing_quantities_have_reasons(void **state)
 {
   (void)state;
   gg_model smooth = model_of(GG_USF, -1, 1), rough = model_of(GG_USF, 0, 1);
@@ -313,16 +313,21 @@ static void missing(void **state)
   assert_null(gg_common_quantity_missing(&smooth, GG_Q_TEMPERATURE));
   assert_null(gg_common_quantity_missing(&smooth, GG_Q_N1));
   assert_non_null(gg_common_quantity_missing(&smooth, GG_Q_COOLING_RATE));
-  assert_int_equal(gg_measure_rheology.width(&smooth) + CH_ROUGH_WIDTH - CH_SMOOTH_WIDTH,
-                   gg_measure_rheology.width(&rough));
+  assert_int_equal(gg_measure_rheology.rows->width(&smooth) + CH_ROUGH_WIDTH - CH_SMOOTH_WIDTH,
+                   gg_measure_rheology.rows->width(&rough));
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(sheared_rough),         cmocka_unit_test(mixture),   cmocka_unit_test(cooling),
-      cmocka_unit_test(fluctuating),           cmocka_unit_test(two_sizes), cmocka_unit_test(path_of_interval),
-      cmocka_unit_test(viscosity_at_no_shear), cmocka_unit_test(missing),
+      cmocka_unit_test(sheared_rough),
+      cmocka_unit_test(mixture_has_partial_and_total_temperatures),
+      cmocka_unit_test(cooling_rate_follows_haffs_law),
+      cmocka_unit_test(cumulants_are_those_of_each_instant),
+      cmocka_unit_test(two_sizes),
+      cmocka_unit_test(path_of_interval),
+      cmocka_unit_test(viscosity_at_no_shear),
+      cmocka_unit_test(missing_quantities_have_reasons),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Distributions by height between walls: planted laws, variances and skewness come back slab by slab; of walls that are
- * alike a slab and its image are one, each component with its own sign; free molecules between a hot and a cold wall
- * have the moments of two half Maxwellians at every height. */
+/* Distributions by height between walls: planted laws, variances and skewness are recovered slab by slab; for walls
+ * that are alike a slab and its image are one, each component with its own sign; free molecules between a hot and a
+ * cold wall have the moments of two half Maxwellians at every height. */
 #include <stdio.h>
 
 #include "curve_test.h"
@@ -58,7 +58,7 @@ static void planted_slabs(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_COUETTE, 0.1, 0, 4096, 1);
-  m.gravity[1] = -1; /* below is not as above: nothing is folded */
+  m.gravity[1] = -1; /* below differs from above: nothing is folded */
   gg_curves list = ct_curves(&gg_measure_slab_distributions, &m, 256, warmer, 41);
   for (int k = 0; k < SLABS; k++) {
     expect(&list, "Cx", k, "variance_over_mean", (1 + k) / 3.5, 0.03);
@@ -72,7 +72,7 @@ static void planted_slabs(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Each species in units of its own. */
+/* Each species in its own units. */
 static void two_species(void **state)
 {
   (void)state;
@@ -89,7 +89,7 @@ static void two_species(void **state)
 /* Signs of C and Omega in the image of a half turn about z, and of a mirror across y: spins are axial. */
 static const double turned[6] = {-1, -1, 1, -1, -1, 1}, mirrored[6] = {1, -1, 1, -1, 1, -1};
 
-/* Skewed in the lower half; in the upper half as the image has it. */
+/* Skewed in the lower half, and in the upper half as its image. */
 static void images(gg_snapshot *s, gg_rng *r, int sample)
 {
   (void)sample;
@@ -103,7 +103,7 @@ static void images(gg_snapshot *s, gg_rng *r, int sample)
     }
 }
 
-static void folded(void **state)
+static void a_slab_and_its_image_are_one(void **state)
 {
   (void)state;
   static const char *const components[] = {"Cx", "Cy", "Cz", "Wx", "Wy", "Wz"};
@@ -116,14 +116,14 @@ static void folded(void **state)
     for (int c = 0; c < 6; c++)
       for (int k = 0; k < SLABS / 2; k++) expect(&list, components[c], k, "skewness", 2, 0.12);
     const gg_curve *x = ct_find(&list, "slab_distribution_Cx_1");
-    for (size_t i = 0; i < x->n; i++) /* nothing lies below -1 */
+    for (size_t i = 0; i < x->n; i++) /* no value is below -1 */
       if (x->x[i] < -1.2) assert_true(x->value[i] == 0);
     gg_measure_curves_clear(&list);
   }
 }
 
 /* Walls of 1 and 1/4: two thirds of the grains are cold ones, so that <C_y^2> = 1/2, <C_y^3> = 1/sqrt(2 pi) and
- * <C_y^4> = 9/8, where rarely a grain collides (Kn = 100). */
+ * <C_y^4> = 9/8, if grains collide rarely (Kn = 100). */
 static void free_molecules(void **state)
 {
   (void)state;
@@ -150,7 +150,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(planted_slabs),
       cmocka_unit_test(two_species),
-      cmocka_unit_test(folded),
+      cmocka_unit_test(a_slab_and_its_image_are_one),
       cmocka_unit_test(free_molecules),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

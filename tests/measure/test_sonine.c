@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sonine deviation: speeds drawn from the first Sonine form give c and the polynomial back; a Maxwellian has none; the
+/* Sonine deviation: speeds drawn from the first Sonine form give c and the polynomial; a Maxwellian has none; the
  * Monte Carlo engine cools freely with the cumulant of the literature. */
 #include "curve_test.h"
 #include "graingas.h"
@@ -18,7 +18,7 @@ static double excess(double x, const void *context)
   return *(const double *)context / 2 * polynomial(x, NULL);
 }
 
-/* Maxwellian speeds thinned to 1 + (c/2) Delta, which is positive and below 6 where x < 4. */
+/* Maxwellian speeds with acceptance 1 + (c/2) Delta, which is positive and below 6 where x < 4. */
 static void planted(gg_snapshot *s, gg_rng *r, int sample)
 {
   (void)sample;
@@ -48,7 +48,7 @@ static void planted_form(void **state)
   assert_true(chi2 > 0.3 && chi2 < 2.2);
   chi2 = ct_chi2(ct_find(&list, "sonine_deviation"), 4, 50, polynomial, NULL);
   assert_true(chi2 > 0.2 && chi2 < 2.2);
-  c = ct_find(&list, "sonine_polynomial"); /* a line: to its last point */
+  c = ct_find(&list, "sonine_polynomial"); /* a line: up to its last point */
   for (size_t i = 0; i < c->n; i++) assert_true(fabs(c->value[i] - polynomial(c->x[i], NULL)) < 1e-10);
   assert_true(c->n >= 50);
   gg_measure_curves_clear(&list);
@@ -77,7 +77,7 @@ static void planted_moments(void **state)
 }
 
 /* Two species, the second Maxwellian: v* of each by its own lambda_i = T/(T_i mu_ji). */
-static void mixture(void **state)
+static void each_species_has_its_own_scale(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_HCS, 0.1, -1, 20000, 2);
@@ -87,7 +87,7 @@ static void mixture(void **state)
   p = ct_number(ct_find(&list, "sonine_excess_2"), "c");
   ct_expect("c_2", p.value, p.error, 0, 0.02);
   /* m_1 <C.C>_1/3 = 1, m_2 <C.C>_2/3 = 3 x 0.16; x_1 = 0.6: T = 0.792; mu_21 = 3/4, mu_12 = 1/4 */
-  /* the second has no c to divide by */
+  /* the second has no c as divisor */
   const gg_curve *with = ct_find(&list, "sonine_deviation_1"), *without = ct_find(&list, "sonine_deviation_2");
   assert_true(isfinite(with->value[20]) && isfinite(with->error[20]));
   for (size_t i = 0; i < without->n; i++) assert_true(isnan(without->value[i]) && isnan(without->error[i]));
@@ -106,12 +106,12 @@ static void gaussian(gg_snapshot *s, gg_rng *r, int sample)
   }
 }
 
-/* Nine Gaussian grains among 15: their <x^4>, in units of their own energy, is lower by 27/29, which is put back. */
+/* Nine Gaussian grains among 15: their <x^4>, in units of their own energy, is lower by 27/29, which is corrected. */
 static void few_of_a_species(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_EQUILIBRIUM, 0.01, -1, 15, 2);
-  m.mass[1] = 1e6; /* takes up all momentum: grains of species 1 are free */
+  m.mass[1] = 1e6; /* absorbs all momentum: grains of species 1 are free */
   gg_curves list = ct_curves(&gg_measure_sonine, &m, 200000, gaussian, 44);
   gg_curve_number c = ct_number(ct_find(&list, "sonine_excess_1"), "c");
   gg_curve_number a3 = ct_number(ct_find(&list, "sonine_excess_1"), "a3");
@@ -120,9 +120,9 @@ static void few_of_a_species(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Free cooling at e = 0.5: c = 2 a_2 = 0.0948(6) (Brey, Cubero & Ruiz-Montero 1996 and many since), and Delta follows
- * the first Sonine polynomial where most grains are. */
-static void cooling(void **state)
+/* Free cooling at e = 0.5: c = 2 a_2 = 0.0948(6) (Brey, Cubero & Ruiz-Montero 1996 and many since), and Delta
+ * follows the first Sonine polynomial for most grains. */
+static void cooling_gas_has_the_published_cumulant(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -146,8 +146,11 @@ static void cooling(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted_form),     cmocka_unit_test(planted_moments), cmocka_unit_test(mixture),
-      cmocka_unit_test(few_of_a_species), cmocka_unit_test(cooling),
+      cmocka_unit_test(planted_form),
+      cmocka_unit_test(planted_moments),
+      cmocka_unit_test(each_species_has_its_own_scale),
+      cmocka_unit_test(few_of_a_species),
+      cmocka_unit_test(cooling_gas_has_the_published_cumulant),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Modes on the mesh against the plain sum over grains, in oblique boxes; spectra of grains thrown anywhere are 1 at
+/* Modes on the mesh against the plain sum over grains, in oblique boxes; spectra of randomly placed grains are 1 at
  * every k; hard spheres have the compressibility of the equation of state at small k. */
 #include <gsl/gsl_cdf.h>
 
@@ -21,7 +21,7 @@ static void thrown(gg_snapshot *s, gg_rng *r, int sample)
 
 /* Density and a velocity, every mode up to half the limit: within 2 % of the typical mode sqrt(N) at the edge of the
  * range, 10^-3 in its inner half. */
-static void modes(void **state)
+static void mesh_modes_are_plain_sums(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.2, -1, 500, 1);
@@ -57,8 +57,8 @@ static void modes(void **state)
   gg_measure_snapshot_clear(&s);
 }
 
-/* Stripes across x of wave number 2 pi/L_x, wherever the image above stands: they are in the first mode along x alone.
- */
+/* Stripes across x of wave number 2 pi/L_x, at any displacement of the image above: they are in the first mode along
+ * x alone. */
 static void stripes(gg_snapshot *s, gg_rng *r, int sample)
 {
   thrown(s, r, sample);
@@ -67,7 +67,7 @@ static void stripes(gg_snapshot *s, gg_rng *r, int sample)
     while (2 * gg_rng_uniform(r) > 1 + cos(4 * M_PI * s->r[0][i] / edge)) s->r[0][i] = edge * gg_rng_uniform(r);
 }
 
-static void striped(void **state)
+static void stripes_are_one_mode_along_x(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.2, -1, 500, 1);
@@ -85,8 +85,8 @@ static void striped(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* A wave of velocity along (1, 1, 0), in that direction: all of it is longitudinal. One of the nine modes of its bin.
- */
+/* A wave of velocity along (1, 1, 0), in that direction: all of it is longitudinal. One of the nine modes of its
+ * bin. */
 static void sound(gg_snapshot *s, gg_rng *r, int sample)
 {
   thrown(s, r, sample);
@@ -97,7 +97,7 @@ static void sound(gg_snapshot *s, gg_rng *r, int sample)
   }
 }
 
-static void longitudinal(void **state)
+static void a_wave_along_its_direction_is_longitudinal(void **state)
 {
   (void)state;
   gg_model m = ct_model(GG_USF, 0.2, -1, 500, 1);
@@ -115,8 +115,8 @@ static double level(double x, const void *context)
   return *(const double *)context;
 }
 
-/* Thrown anywhere: S = 1 in every direction. The wave 0.5 cos(2 k_1 z) in C_x is transverse: it lifts the second
- * radial bin of the transverse spectrum and leaves the longitudinal one alone. */
+/* Randomly placed grains: S = 1 in every direction. The wave 0.5 cos(2 k_1 z) in C_x is transverse: it raises the
+ * second radial bin of the transverse spectrum and does not change the longitudinal one. */
 static void ideal_gas(void **state)
 {
   (void)state;
@@ -161,10 +161,10 @@ static gg_result *fluid(double phi, double collisions)
   return ct_run(s);
 }
 
-/* Velocities that do not correlate but for their sum, which is 0: E(k) = 1 - (S(k) - 1)/(N - 1). All rings together
- * within four errors, which are small enough to see one per cent; every ring, as chi^2 falls once in 10^4 (over 40
- * seeds it was 1.02 and 1.09 a ring on average, scattered by 0.35 and 0.41; Student's tails of 16 to 32 blocks allowed
- * for). */
+/* Velocities that are uncorrelated but for their sum, which is 0: E(k) = 1 - (S(k) - 1)/(N - 1). All rings together
+ * within four errors, which are small enough to detect one per cent; every ring within a chi^2 that is exceeded once
+ * in 10^4 (over 40 seeds it was 1.02 and 1.09 a ring on average, scattered by 0.35 and 0.41; with Student's tails of
+ * 16 to 32 blocks). */
 static void flat_spectra(const gg_curves *list, int64_t n)
 {
   const gg_curve *S = ct_find(list, "structure_factor");
@@ -182,10 +182,10 @@ static void flat_spectra(const gg_curves *list, int64_t n)
   }
 }
 
-/* Hard spheres in equilibrium, every ring against Percus & Yevick: at phi = 0.1 that is good to a few per mille (1/N of
- * a fixed number of grains included); at phi = 0.3, with Verlet & Weis's smaller spheres (Phys. Rev. A 5 (1972) 939;
- * phi_w = phi - phi^2/16), to two per cent. Its limit at k = 0 is the compressibility. Velocities do not correlate:
- * both spectra are 1. */
+/* Hard spheres in equilibrium, every ring against Percus & Yevick: at phi = 0.1 that is right to a few per mille
+ * (1/N of a fixed number of grains included); at phi = 0.3, with Verlet & Weis's smaller spheres (Phys. Rev. A 5
+ * (1972) 939; phi_w = phi - phi^2/16), to two per cent. Its limit at k = 0 is the compressibility. Velocities are
+ * uncorrelated: both spectra are 1. */
 static void hard_spheres(void **state)
 {
   (void)state;
@@ -215,8 +215,11 @@ static void hard_spheres(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(modes),     cmocka_unit_test(striped),      cmocka_unit_test(longitudinal),
-      cmocka_unit_test(ideal_gas), cmocka_unit_test(hard_spheres),
+      cmocka_unit_test(mesh_modes_are_plain_sums),
+      cmocka_unit_test(stripes_are_one_mode_along_x),
+      cmocka_unit_test(a_wave_along_its_direction_is_longitudinal),
+      cmocka_unit_test(ideal_gas),
+      cmocka_unit_test(hard_spheres),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Spatial velocity correlations: a planted wave of velocity and spin gives its sine integral back, radially and along
- * each axis; pairs that are sampled say what all pairs say, about cells, too; an elastic gas in equilibrium has only
- * what momentum conservation leaves, -1/(N-1), and keeps its energy. */
+/* Spatial velocity correlations: a planted wave of velocity and spin gives its sine integral, radially and along
+ * each axis; sampled pairs agree with all pairs, about cells, too; an elastic gas in equilibrium has only the
+ * correlation of momentum conservation, -1/(N-1), and keeps its energy. */
 #include <string.h>
 
 #include "curve_test.h"
@@ -74,7 +74,7 @@ static void planted_wave(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* The same grains at other times, so that nothing but the pairs that are drawn is different. */
+/* The same grains at other times, so that only the drawn pairs differ. */
 static void held_wave(gg_snapshot *s, gg_rng *r, int sample)
 {
   if (sample == 0) wave(s, r, sample);
@@ -86,7 +86,7 @@ typedef struct plain_sums {
   double count[PLAIN_BINS], cc[PLAIN_BINS], cw[PLAIN_BINS], square[2];
 } plain_sums;
 
-/* Take off the mean of a grain's cell, found by going over all grains again. */
+/* Subtract the mean of a grain's cell, computed by a loop over all grains. */
 static void about_cells(gg_snapshot *s, double *value)
 {
   gg_cell_grid grid = gg_measure_cell_grid_of(s->model);
@@ -101,7 +101,7 @@ static void about_cells(gg_snapshot *s, double *value)
   free(before);
 }
 
-/* Every pair of the grains that `held_wave` leaves, from the definition. */
+/* Every pair of the grains of `held_wave`, from the definition. */
 static plain_sums plain(const gg_model *m, uint64_t seed, bool local)
 {
   plain_sums p = {.square = {0, 0}};
@@ -142,8 +142,8 @@ static double plain_cw(double r, const void *context)
   return p->cw[k] / p->count[k] / sqrt(p->square[0] * p->square[1]);
 }
 
-/* Dense and large enough that far pairs are sampled: each point within five errors of the one of all pairs (34 points,
- * errors from 32 blocks), chi^2 about 1, and the errors far smaller than what is there. */
+/* Dense and large enough that far pairs are sampled: each point within five errors of that of all pairs (34 points,
+ * errors from 32 blocks), chi^2 about 1, and the errors far smaller than the values. */
 static void compare_pairs(const gg_observable *observable, bool local)
 {
   gg_model m = ct_model(GG_USF, 0.3, 0, 3000, 1);
@@ -160,7 +160,7 @@ static void compare_pairs(const gg_observable *observable, bool local)
       worst = fmax(worst, fabs(c->value[i] - cases[k].f(c->x[i], &all)) / (c->error[i] + 1e-9));
     print_message("# largest deviation %.2f errors; last error %.4f\n", worst, c->error[c->n - 1]);
     assert_true(chi2 < 2.3 && worst < 5);
-    assert_true(c->error[c->n - 1] > 1e-6 && c->error[c->n - 1] < 0.002); /* it is sampled, and says something */
+    assert_true(c->error[c->n - 1] > 1e-6 && c->error[c->n - 1] < 0.002); /* it is sampled, and has information */
   }
   gg_measure_curves_clear(&list);
 }
@@ -182,7 +182,7 @@ static double conserved(double x, const void *context)
   return -1 / (*(const double *)context - 1);
 }
 
-static void equilibrium(void **state)
+static void momentum_conservation_leaves_its_correlation(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -209,8 +209,8 @@ static void equilibrium(void **state)
   gg_result_free(r);
 }
 
-/* What momentum conservation leaves in a mixture: the mean of <C_i C_j> = -T/M over all pairs, over that of <C_i^2> =
- * T (1/m_i - 1/M), by a plain sum over the grains. */
+/* The correlation of momentum conservation in a mixture: the mean of <C_i C_j> = -T/M over all pairs, over that of
+ * <C_i^2> = T (1/m_i - 1/M), by a plain sum over the grains. */
 static void level_of_a_mixture(void **state)
 {
   (void)state;
@@ -226,7 +226,7 @@ static void level_of_a_mixture(void **state)
 }
 
 /* Inelastic shear: neighbours move together. */
-static void sheared(void **state)
+static void sheared_neighbours_move_together(void **state)
 {
   (void)state;
   gg_scene s = gg_scene_defaults();
@@ -244,8 +244,12 @@ static void sheared(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(planted_wave), cmocka_unit_test(sampled_pairs),      cmocka_unit_test(sampled_pairs_about_cells),
-      cmocka_unit_test(equilibrium),  cmocka_unit_test(level_of_a_mixture), cmocka_unit_test(sheared),
+      cmocka_unit_test(planted_wave),
+      cmocka_unit_test(sampled_pairs),
+      cmocka_unit_test(sampled_pairs_about_cells),
+      cmocka_unit_test(momentum_conservation_leaves_its_correlation),
+      cmocka_unit_test(level_of_a_mixture),
+      cmocka_unit_test(sheared_neighbours_move_together),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Distributions and tails: fits on exact counts and on drawn samples give the planted exponents back; a Gaussian gas
- * has no deviation; an elastic engine has alpha = 2, and a sheared inelastic one has not. */
+/* Distributions and tails: fits on exact counts and on drawn samples give the planted exponents; a Gaussian gas has
+ * no deviation; an elastic engine has alpha = 2, a sheared inelastic one does not. */
 #include "curve_test.h"
 #include "measure/stretched_tail.h"
 #include "graingas.h"
 
 #include <stdio.h>
 
-/* Counts of exp(-gamma x^alpha), integrated finely over each bin: maximum likelihood gives the law back to 1e-6,
- * least squares on bin centres to the width of the bins. */
+/* Counts of exp(-gamma x^alpha), integrated finely over each bin: maximum likelihood gives the law to 1e-6, least
+ * squares on bin centres to the width of the bins. */
 static void exact_tail(void **state)
 {
   (void)state;
@@ -85,8 +85,8 @@ static void stretched(gg_snapshot *s, gg_rng *r, int sample)
   }
 }
 
-/* A stretched exponential planted in one component of one species shows there and only there. sigma^2 of exp(-|x|^2.5)
- * is Gamma(3/2.5)/Gamma(1/2.5), so gamma = sigma^2.5. */
+/* A stretched exponential planted in one component of one species is found there and only there. sigma^2 of
+ * exp(-|x|^2.5) is Gamma(3/2.5)/Gamma(1/2.5), so gamma = sigma^2.5. */
 static void stretched_grains(void **state)
 {
   (void)state;
@@ -113,7 +113,7 @@ static gg_result *engine(double e)
 }
 
 /* The Monte Carlo engine in equilibrium: alpha = 2; sheared at e = 0.7: tails above a Gaussian's, alpha < 2. */
-static void engines(void **state)
+static void only_inelastic_shear_has_long_tails(void **state)
 {
   (void)state;
   gg_result *elastic = engine(1), *sheared = engine(0.7);
@@ -132,7 +132,7 @@ int main(void)
       cmocka_unit_test(exact_tail),
       cmocka_unit_test(gaussian_grains),
       cmocka_unit_test(stretched_grains),
-      cmocka_unit_test(engines),
+      cmocka_unit_test(only_inelastic_shear_has_long_tails),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

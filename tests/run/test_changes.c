@@ -63,7 +63,7 @@ static void continue_with(const gg_replica *from, gg_replica *to)
     const gg_observable *o = to->observable[k];
     size_t bytes, same;
     assert_ptr_equal(o, from->observable[k]);
-    if (!o->width || !o->memory) continue;
+    if (!o->rows || !o->memory) continue;
     void *memory = o->memory(to->self[k], &bytes);
     memcpy(memory, o->memory(from->self[k], &same), bytes);
     assert_int_equal(bytes, same);
@@ -76,7 +76,8 @@ static gg_curves curves_of(const gg_replica *r, int k)
   const gg_observable *o = r->observable[k];
   gg_curves curves = {.model = &r->model};
   gg_error err = {0};
-  expect_ok(gg_measure_curves_estimate(list, 1, o->curves, r->self[k], o->name, 0, &curves, &err), o->name, &err);
+  expect_ok(gg_measure_curves_estimate(list, 1, o->curves->of_bins, r->self[k], o->name, 0, &curves, &err), o->name,
+            &err);
   return curves;
 }
 
@@ -153,7 +154,7 @@ static unsigned compare(const char *start, const char *change, gg_engine_kind en
   for (int k = 0; k < changed.n_observables; k++) {
     const gg_observable *o = changed.observable[k];
     measured |= o->flag;
-    if (o->bins && compare_curves(what, &changed, &same, k) == 0) fail_msg("%s: %s measured nothing", what, o->name);
+    if (o->curves && compare_curves(what, &changed, &same, k) == 0) fail_msg("%s: %s measured nothing", what, o->name);
   }
   gg_run_replica_clear(&changed);
   gg_run_replica_clear(&same);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Series whose statistics are known. */
+/* Series with known statistics. */
 #ifndef PLANTED_H
 #define PLANTED_H
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Correlation times of autoregressive noise, which are known. */
+/* Correlation times of autoregressive noise agree with their known values. */
 #include "planted.h"
 #include "statistics/autocorrelation.h"
 
-/* Autoregressive noise on 10^5 rows, in one stretch or ten: the integrated correlation time within 10 %, the variance
- * of the mean of a few rows that belong together, (1 + rho)/(1 - rho) - 2 rho (1 - rho^L)/(L (1 - rho)^2), as well. */
+/* Autoregressive noise on 10^5 rows, in one stretch or ten: the integrated correlation time is right within 10 %,
+ * and so is the variance of the mean of L neighbouring rows, (1 + rho)/(1 - rho) - 2 rho (1 - rho^L)/(L (1 -
+ * rho)^2). */
 static void correlation_time(void **state)
 {
   (void)state;
@@ -37,8 +38,8 @@ static double pairs(const double *x, size_t n, size_t runs, size_t lag)
   return sum / (double)(n - lag);
 }
 
-/* rho is of the pairs at each lag, near the end of short stretches as well, whether the sum takes few lags, some, or so
- * many that they come by transforms; what is put back for the mean is the same at all of them. */
+/* rho is normalised by the pairs at each lag, also near the end of short stretches, whether the sum takes few lags,
+ * some, or so many that transforms are used; the correction for the mean is the same at all lags. */
 static void pairs_of_each_lag(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Blocks of bins: joined without loss, and restored from a checkpoint as they were. */
+/* Blocks of bins are joined without loss, and restored from a checkpoint unchanged. */
 #include <string.h>
 
 #include "planted.h"
@@ -34,8 +34,8 @@ static void joined_blocks(void **state)
   gg_statistics_bins_clear(&b);
 }
 
-/* Coarsened blocks are those that a longer window would have had; what is left over is lost, and nothing else. */
-static void coarsened(void **state)
+/* Coarsened blocks are those of a longer window; only the incomplete last block is lost. */
+static void coarsened_blocks_are_those_of_a_longer_window(void **state)
 {
   (void)state;
   gg_bins b;
@@ -50,8 +50,8 @@ static void coarsened(void **state)
   gg_statistics_bins_clear(&b);
 }
 
-/* Saved and restored in the middle of a block, bins go on as if nothing had been. */
-static void checkpoint(void **state)
+/* Bins that are saved and restored in the middle of a block continue without a difference. */
+static void restored_bins_continue_without_a_difference(void **state)
 {
   (void)state;
   gg_bins a, b;
@@ -71,7 +71,7 @@ static void checkpoint(void **state)
   gg_statistics_bins_clear(&b);
 }
 
-/* Bins of another width, or of another name, are not taken for these. */
+/* Bins of another width, or of another name, are rejected. */
 static void other_bins(void **state)
 {
   (void)state;
@@ -92,7 +92,8 @@ static void other_bins(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(joined_blocks), cmocka_unit_test(coarsened),
-                                     cmocka_unit_test(checkpoint), cmocka_unit_test(other_bins)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(joined_blocks), cmocka_unit_test(coarsened_blocks_are_those_of_a_longer_window),
+      cmocka_unit_test(restored_bins_continue_without_a_difference), cmocka_unit_test(other_bins)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

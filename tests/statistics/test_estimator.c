@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Errors of means and of ratios of means: honest for correlated series, short windows, replicas. */
+/* Errors of means and of ratios of means are right for correlated series, short windows, replicas. */
 #include "planted.h"
 #include "statistics/estimator.h"
 
-/* Honest errors: over 400 series the deviation from the true mean, in units of the reported error, has unit variance.
- */
+/* Over 400 series the deviation from the true mean, in units of the reported error, has unit variance. */
 static void honest_errors(void **state)
 {
   (void)state;
@@ -20,13 +19,13 @@ static void honest_errors(void **state)
       assert_int_equal(gg_statistics_estimate_scalar(x, N, 1, &m, NULL), GG_OK);
       sum += m.mean * m.mean / (m.error * m.error);
     }
-    double variance = sum / SERIES; /* of Student's t with ~ 16-60 degrees: 1.03-1.15; scatter sqrt(2/400) = 0.07 */
+    double variance = sum / SERIES; /* Student's t with ~ 16-60 degrees: 1.03-1.15; scatter sqrt(2/400) = 0.07 */
     assert_true(variance > 0.75 && variance < 1.45);
   }
 }
 
-/* Windows of only 60 correlation times, whose 16 blocks hang together: the mean square of deviation over error is 1 (of
- * blocks alone 1.5; before the error's own uncertainty was allowed for: 1.2), in one run or three. */
+/* Windows of only 60 correlation times, whose 16 blocks are correlated: the mean square of deviation over error is 1
+ * (of blocks alone 1.5; without the error's own uncertainty 1.2), in one run or three. */
 static void short_windows(void **state)
 {
   (void)state;
@@ -52,10 +51,10 @@ static void short_windows(void **state)
   }
 }
 
-/* What users take an error for: within mean +- error and mean +- 1.96 error lies the truth in 68.3 and 95 of 100 cases.
- * Windows of 30, 60 and 200 correlation times, 2000 of each: within 3 and a half % and four errors of that count
- * (before the error's own uncertainty was allowed for: 62 and 90 % in the shortest). */
-static void coverage(void **state)
+/* The intervals mean +- error and mean +- 1.96 error contain the true value in 68.3 and 95 of 100 cases. Windows of
+ * 30, 60 and 200 correlation times, 2000 of each: within 3.5 % and four errors of that count (without the error's
+ * own uncertainty 62 and 90 % in the shortest). */
+static void intervals_cover_the_truth(void **state)
 {
   (void)state;
   enum { SERIES = 2000, T = 10 };
@@ -97,9 +96,9 @@ static gg_series planted_ratio(gg_rng *r, size_t n)
   return s;
 }
 
-/* A ratio of channels that fluctuate together: the common part drops out of the error (jackknife-like), and the mean is
- * the ratio of means. */
-static void ratios(void **state)
+/* A ratio of channels with common fluctuations: the common part cancels in the error, and the mean is the ratio of
+ * means. */
+static void errors_of_ratios_omit_common_fluctuations(void **state)
 {
   (void)state;
   gg_rng r = gg_common_rng_seed(13, 0);
@@ -124,8 +123,8 @@ static double inverse(const double *a, const gg_model *m)
   return 1 / a[1];
 }
 
-/* Units do not matter: of channels as small as the collision rates of a gas at phi = 10^-20, the error is the same
- * share of the mean. */
+/* Units do not matter: for channels as small as the collision rates of a gas at phi = 10^-20, the error is the same
+ * fraction of the mean. */
 static void small_channels(void **state)
 {
   (void)state;
@@ -153,10 +152,10 @@ static void small_channels(void **state)
   gg_statistics_series_clear(&s);
 }
 
-/* Two channels of which one follows the other, as spins follow T: both are slow, the ratio is fast and comes back with
- * the opposite sign. Mean square of deviation over error in windows of 400 rows, 60 times of the slow one (before the
- * sum went on for what the ratio is made of: 0.81). */
-static void followers(void **state)
+/* Two channels of which one follows the other, as spins follow T: both are slow, the ratio is fast and returns with
+ * the opposite sign. Mean square of deviation over error in windows of 400 rows, 60 times of the slow channel (0.81
+ * if the sum does not extend over the memory of the parts). */
+static void errors_include_the_memory_of_the_parts(void **state)
 {
   (void)state;
   enum { SERIES = 3000, N = 400, BEFORE = 100 };
@@ -184,7 +183,7 @@ static void followers(void **state)
 }
 
 /* Replicas: the pooled error is that of all rows together. */
-static void replicas(void **state)
+static void replicas_are_pooled(void **state)
 {
   (void)state;
   gg_rng r = gg_common_rng_seed(14, 0);
@@ -201,7 +200,8 @@ static void replicas(void **state)
   for (int i = 0; i < 4; i++) gg_statistics_series_clear(&s[i]);
 }
 
-/* A slow mode from elsewhere, too short to change blocks or sums, is a doubt of 2.5 of its times over all rows. */
+/* A slow mode that is known from elsewhere, and too slow to change blocks or sums, adds an uncertainty of 2.5 of its
+ * times over all rows. */
 static void doubt_of_slow_modes(void **state)
 {
   (void)state;
@@ -218,8 +218,8 @@ static void doubt_of_slow_modes(void **state)
   for (int i = 0; i < 2; i++) gg_statistics_series_clear(&s[i]);
 }
 
-/* Runs of so few rows that they hang together: errors know of it (where two rows or three were taken as independent:
- * z^2 of 2.1), and are rather too large. */
+/* Runs of so few rows that they are correlated: errors include that (z^2 is 2.1 if two or three rows count as
+ * independent), and are rather too large. */
 static void short_runs(void **state)
 {
   (void)state;
@@ -241,9 +241,14 @@ static void short_runs(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(honest_errors), cmocka_unit_test(short_windows),  cmocka_unit_test(coverage),
-      cmocka_unit_test(ratios),        cmocka_unit_test(small_channels), cmocka_unit_test(followers),
-      cmocka_unit_test(replicas),      cmocka_unit_test(short_runs),     cmocka_unit_test(doubt_of_slow_modes)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(honest_errors),
+                                     cmocka_unit_test(short_windows),
+                                     cmocka_unit_test(intervals_cover_the_truth),
+                                     cmocka_unit_test(errors_of_ratios_omit_common_fluctuations),
+                                     cmocka_unit_test(small_channels),
+                                     cmocka_unit_test(errors_include_the_memory_of_the_parts),
+                                     cmocka_unit_test(replicas_are_pooled),
+                                     cmocka_unit_test(short_runs),
+                                     cmocka_unit_test(doubt_of_slow_modes)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The jackknife over blocks whose scatter and correlation are known. */
+/* The jackknife over blocks of known scatter and correlation. */
 #include "planted.h"
 #include "statistics/estimator.h"
 #include "statistics/jackknife.h"
 
 enum { BLOCKS = 24 };
 
-/* Leave out each of the blocks x in turn: what that changes in their mean. */
+/* Leave out each of the blocks x in turn, and add the change of their mean. */
 static void add_mean(gg_jackknife *j, const double *x, size_t n)
 {
   double sum = 0;
@@ -17,8 +17,8 @@ static void add_mean(gg_jackknife *j, const double *x, size_t n)
   }
 }
 
-/* Blocks that alternate allow for no correlation: the error is the textbook one with Student's factor, and the
- * correlation comes out near -1. */
+/* Alternating blocks get no allowance for correlation: the error is that of textbooks with Student's factor, and the
+ * correlation is near -1. */
 static void textbook_error(void **state)
 {
   (void)state;
@@ -37,7 +37,7 @@ static void textbook_error(void **state)
 }
 
 /* Autoregressive blocks: over many repeats the mean square of the error is the variance of the mean of the blocks,
- * within what the correlation's own uncertainty costs; the scatter alone would be (1 - rho)/(1 + rho) of it. */
+ * up to the effect of the correlation's own uncertainty; the scatter alone would be (1 - rho)/(1 + rho) of it. */
 static void correlated_blocks(void **state)
 {
   (void)state;
@@ -65,8 +65,8 @@ static void correlated_blocks(void **state)
   assert_true(sum / exact > 0.85 && sum / exact < 1.25);
 }
 
-/* One number of independent blocks: what chance makes of its own correlation enlarges the error, as only what is above
- * zero counts; less so with the correlation of the curve that the number was read off. */
+/* A single number of independent blocks: chance correlations enlarge its error, because only positive ones count;
+ * with the correlation of its curve the effect is smaller. */
 static void beside_a_curve(void **state)
 {
   (void)state;
@@ -90,9 +90,9 @@ static void beside_a_curve(void **state)
   assert_true(beside > 1 && beside < 1.12 && alone > beside + 0.1);
 }
 
-/* A slow mode of 20 decay times in fast noise of some times its variance, in 32 blocks: the correlation of neighbours
- * alone gives too little, with the decay time the mean square of the error is the variance of the mean. Noise alone
- * gets no more than chance correlations make. */
+/* A slow mode of 20 decay times in fast noise of some times its variance, in 32 blocks: the correlation of
+ * neighbours alone gives a too small error; with the decay time the mean square of the error is the variance of the
+ * mean. Noise alone gets no more than chance correlations add. */
 static void slow_mode_in_noise(void **state)
 {
   (void)state;
@@ -134,7 +134,7 @@ static void slow_mode_in_noise(void **state)
   }
 }
 
-/* Two runs that each stay where they are: all correlation is within them, and what joins them is no pair. */
+/* Two runs, each constant: all correlation is within the runs, and the blocks at their junction are no pair. */
 static void runs_apart(void **state)
 {
   (void)state;
@@ -149,7 +149,7 @@ static void runs_apart(void **state)
   gg_statistics_jackknife_clear(&j);
 }
 
-/* One block has no scatter: its error is not a number. */
+/* One block has no scatter: its error is NaN. */
 static void too_few(void **state)
 {
   (void)state;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A series of any length within a bounded memory. */
+/* A series of any length needs bounded memory. */
 #include <stdlib.h>
 
 #include "planted.h"
 #include "statistics/series.h"
 
-/* A series that overflows its memory keeps its mean, its window and its times; a checkpoint restores it bit for bit. */
+/* A series that exceeds its memory keeps its mean, its window and its times; a checkpoint restores it bit for bit. */
 static void long_series(void **state)
 {
   (void)state;
@@ -39,7 +39,7 @@ static void long_series(void **state)
   gg_base_archive_clear(&a), gg_statistics_series_clear(&s), gg_statistics_series_clear(&t);
 }
 
-/* Numbers that no series has are refused: they would lead out of its rows, or round and round. */
+/* Invalid numbers from a file are rejected: they would lead to indices out of range, or to endless loops. */
 static void made_to_harm(void **state)
 {
   (void)state;
@@ -66,8 +66,8 @@ static void made_to_harm(void **state)
   }
 }
 
-/* Coarsened rows are means of neighbours; the window still begins behind what came before it. */
-static void coarsened(void **state)
+/* Coarsened rows are means of neighbours; the window still begins after the rows before it. */
+static void coarsened_rows_are_means_of_neighbours(void **state)
 {
   (void)state;
   gg_series s;
@@ -83,7 +83,7 @@ static void coarsened(void **state)
   gg_statistics_series_clear(&s);
 }
 
-/* A part of a row from before the window is none of its rows. */
+/* A part of a row from before the window is not in its first row. */
 static void window_begins_with_a_row(void **state)
 {
   (void)state;
@@ -100,7 +100,8 @@ static void window_begins_with_a_row(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(long_series), cmocka_unit_test(coarsened),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(long_series),
+                                     cmocka_unit_test(coarsened_rows_are_means_of_neighbours),
                                      cmocka_unit_test(window_begins_with_a_row), cmocka_unit_test(made_to_harm)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The test for a trend: silent on stationary noise, and not on a relaxation. */
+/* The trend test detects a relaxation, and finds nothing in stationary noise. */
 #include "planted.h"
 #include "statistics/trend.h"
 
-/* Stationary noise is not called a trend (|z| > 4 in none of 200 series); an exponential relaxation of half a standard
- * deviation over the window is. */
-static void trends(void **state)
+/* Stationary noise has no trend (|z| > 4 in none of 200 series); an exponential relaxation of half a standard
+ * deviation over the window has one. */
+static void only_a_relaxation_has_a_trend(void **state)
 {
   (void)state;
   enum { N = 3000 };
@@ -27,13 +27,13 @@ static void trends(void **state)
   }
   assert_true(found >= 48);
   assert_int_equal(gg_statistics_trend_test(x, 10, 1, &d, NULL), GG_OK);
-  assert_true(isnan(d.z)); /* ten rows tell nothing */
+  assert_true(isnan(d.z)); /* ten rows are not enough */
 }
 
-/* A start far off that is forgotten soon: all of it in one of 50 parts. It shifts the mean by two errors; in the first
- * third it makes as much scatter as difference, so that thirds alone found it in no series. One stretch or three, and
- * stationary skewed noise is silent. */
-static void beginnings(void **state)
+/* A distant start that is soon forgotten: all of it in one of 50 parts. It shifts the mean by two errors; in the
+ * first third it adds as much scatter as difference, so that a comparison of thirds alone found it in no series. One
+ * stretch or three; stationary skewed noise has no trend. */
+static void a_distant_start_is_found(void **state)
 {
   (void)state;
   enum { N = 3000, T = 50, SERIES = 60 };
@@ -58,7 +58,7 @@ static void beginnings(void **state)
   assert_true(found[0] >= SERIES - 4 && found[1] >= SERIES - 4 && silent >= SERIES - 1);
 }
 
-/* The beginnings of eight replicas are known better than that of one, by the root of eight. */
+/* The beginning of eight replicas has an error smaller by the root of eight than that of one. */
 static void beginnings_of_replicas(void **state)
 {
   (void)state;
@@ -79,7 +79,8 @@ static void beginnings_of_replicas(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(trends), cmocka_unit_test(beginnings),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(only_a_relaxation_has_a_trend),
+                                     cmocka_unit_test(a_distant_start_is_found),
                                      cmocka_unit_test(beginnings_of_replicas)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

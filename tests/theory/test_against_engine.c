@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Theories that claim to solve the Enskog equation against the Monte Carlo engine that does: each within the accuracy
- * that the theory states, plus four standard errors of the run. */
+/* Theories that solve the Enskog equation agree with the Monte Carlo engine: each within its stated accuracy, plus
+ * four standard errors of the run. */
 #include "theory_test.h"
 
 #include "run/run.h"
@@ -103,7 +103,7 @@ static void noise_free(void **state)
 }
 
 /* Free cooling: one species, and two that differ in mass. */
-static void cooling(void **state)
+static void cooling_states_agree_with_the_engine(void **state)
 {
   (void)state;
   gg_result *r = run(scene_of(GG_HCS, 0.2, 0.7, -1));
@@ -123,7 +123,7 @@ static void cooling(void **state)
 }
 
 /* Heated by white noise. */
-static void heated(void **state)
+static void heated_states_agree_with_the_engine(void **state)
 {
   (void)state;
   gg_scene s = scene_of(GG_HSS, 0, 0.6, -1);
@@ -139,8 +139,8 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(gaussian_closure),
       cmocka_unit_test(noise_free),
-      cmocka_unit_test(cooling),
-      cmocka_unit_test(heated),
+      cmocka_unit_test(cooling_states_agree_with_the_engine),
+      cmocka_unit_test(heated_states_agree_with_the_engine),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

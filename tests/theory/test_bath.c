@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gases in a bath: the balance of energy, Maxwellians of elastic grains, and the thermostats and the shear flow that
- * baths become. */
+/* Gases in a bath: the balance of energy, Maxwellians of elastic grains, and the limits in which baths become
+ * thermostats and shear flows. */
 #include "theory_test.h"
 
 #include "common/thermostat.h"
@@ -22,7 +22,7 @@ static gg_theory_answer solved(const gg_scene *s)
 }
 
 /* 2 gamma (T_b - T) = zeta(T) T, zeta from the distribution; the first Sonine order is near. */
-static void balance(void **state)
+static void bath_balances_cooling(void **state)
 {
   (void)state;
   for (double drag = 0.01; drag < 100; drag *= 10)
@@ -33,7 +33,8 @@ static void balance(void **state)
                              b = answer_of(&gg_theory_chamorro_vega_garzo2013, &m);
       const double T = a.value[GG_Q_TEMPERATURE], zeta = a.value[GG_Q_COOLING_RATE] * gg_common_model_nu0(&m, T);
       assert_close(2 * drag * (3 - T), zeta * T, 1e-9);
-      /* Of the distribution, not of the equation solved: zeta of Maxwellians times 1 + 3 a2/16 and what is of a2^2. */
+      /* From the distribution, not from the equation that was solved: zeta of Maxwellians times 1 + 3 a2/16 up to
+       * a2^2. */
       assert_close(
           zeta, 5. / 12 * m.chi[0] * (1 - e * e) * (1 + 3. / 16 * a.value[GG_Q_A2]) * gg_common_model_nu0(&m, T), 2e-4);
       assert_close(b.value[GG_Q_TEMPERATURE], T, 1e-3);
@@ -41,9 +42,9 @@ static void balance(void **state)
     }
 }
 
-/* Elastic grains, smooth or perfectly rough, have the bath's temperature, and Maxwellians; with shear almost, where the
+/* Elastic grains, smooth or perfectly rough, have the bath's temperature, and Maxwellians; with shear nearly, if the
  * bath is strong: viscous heat is gamma_dot^2 T/(2 drag) of centres in a thin gas. */
-static void elastic(void **state)
+static void elastic_grains_have_the_temperature_of_the_bath(void **state)
 {
   (void)state;
   gg_scene s = bath(GG_HSS, 0.3, 1, -1, 0.7, 3);
@@ -56,7 +57,7 @@ static void elastic(void **state)
   assert_close(a.value[GG_Q_TEMPERATURE], 3, 1e-5);
   assert_close(a.value[GG_Q_TEMPERATURE_RATIO], 1, 1e-5);
   assert_true(fabs(a.value[GG_Q_A2]) < 1e-5);
-  /* Hardly a collision: M_yy = T_b, M_xy = -T_b/(2 gamma), M_xx = T_b (1 + 1/(2 gamma^2)). */
+  /* Almost no collisions: M_yy = T_b, M_xy = -T_b/(2 gamma), M_xx = T_b (1 + 1/(2 gamma^2)). */
   s = bath(GG_USF, 1e-6, 1, -1, 5, 3);
   a = solved(&s);
   assert_close(a.value[GG_Q_TEMPERATURE], 3 * (1 + 1. / 150), 1e-5);
@@ -65,7 +66,7 @@ static void elastic(void **state)
 }
 
 /* Spins of hardly colliding grains: those of the bath, about the rolling ones. */
-static void rotation(void **state)
+static void spins_have_the_temperature_of_the_bath(void **state)
 {
   (void)state;
   gg_scene s = bath(GG_USF, 1e-2, 0.9, 0.1, 500, 3);
@@ -80,7 +81,8 @@ static void rotation(void **state)
   }
 }
 
-/* drag to 0 at constant noise: white noise, whose strength the program chooses or is given; of rough grains nightly. */
+/* The limit of drag 0 at constant noise is white noise, of a strength that the program chooses or is given; rough
+ * grains nightly. */
 static void white_noise(void **state)
 {
   (void)state;
@@ -119,11 +121,12 @@ static void gaussian_rate(void **state)
   const double formula = value_of(&gg_theory_chamorro_vega_garzo2013, &m, GG_Q_A2);
   s.gaussian_rate = GG_AUTO;
   m = model_of(&s);
-  assert_close(formula, value_of(&gg_theory_garzo_dufty1999, &m, GG_Q_A2), 5e-3); /* but for a2^2 */
+  assert_close(formula, value_of(&gg_theory_garzo_dufty1999, &m, GG_Q_A2), 5e-3); /* up to a2^2 */
 }
 
-/* Sheared, drag to 0: the shear flow, of smooth and rough grains and mixtures; two equal species are one. */
-static void sheared(void **state)
+/* The limit of drag 0 under shear is the shear flow, for smooth and rough grains and mixtures; two equal species are
+ * one. */
+static void shear_without_drag_is_the_shear_flow(void **state)
 {
   (void)state;
   const gg_quantity q[] = {GG_Q_TEMPERATURE, GG_Q_P_XY, GG_Q_N1, GG_Q_DISSIPATION};
@@ -141,8 +144,8 @@ static void sheared(void **state)
     }
 }
 
-/* The work of shear and what the bath brings are what drag and collisions take. */
-static void energy(void **state)
+/* The work of shear and the energy from the bath balance drag and collisions. */
+static void energy_from_the_bath_is_dissipated(void **state)
 {
   (void)state;
   for (int rough = 0; rough < 2; rough++) {
@@ -158,8 +161,8 @@ static void energy(void **state)
   }
 }
 
-/* Two species of one kind are one; a heavier one with less drag has the same balance by itself. */
-static void mixtures(void **state)
+/* Two species of one kind are one; a heavier one with less drag has the same balance alone. */
+static void equal_species_in_a_bath_are_one(void **state)
 {
   (void)state;
   for (int flow = 0; flow < 2; flow++) {
@@ -188,8 +191,8 @@ static void mixtures(void **state)
   }
 }
 
-/* Steps of an Ornstein-Uhlenbeck process with kicks at times between: composed of halves, and by quadrature. */
-static void relaxation(void **state)
+/* An Ornstein-Uhlenbeck process with kicks between steps: composed of halves, and by quadrature. */
+static void relaxation_of_kicked_velocities_is_composed_of_steps(void **state)
 {
   (void)state;
   const double drags[] = {-2, -0.1, 1e-9, 0.1, 0.12, 0.13, 3, 40};
@@ -210,7 +213,7 @@ static void relaxation(void **state)
   }
 }
 
-/* Which of two states a start leads to is what its moments come to in time; the state between them (T = 7.5) is
+/* A start leads to the one of two states that its moments reach in time; the state between them (T = 7.5) is
  * unstable, and no start leads there. */
 static void start_decides(void **state)
 {
@@ -233,7 +236,8 @@ static bool loses_patience(void *bears)
   return (*(int *)bears)-- <= 0;
 }
 
-/* Temperatures in many short steps, moments in long ones: both look on their way whether to stop, and end there. */
+/* Relaxation of temperatures in many short steps, and of moments in long ones: both check for a stop in between, and
+ * end there. */
 static void ways_that_stop(void **state)
 {
   (void)state;
@@ -252,9 +256,9 @@ static void ways_that_stop(void **state)
   }
 }
 
-/* A sheared suspension has a hot and a cold state at one drag, beside Monte Carlo of 100 000 grains. In the cold one
- * few grains are much hotter than the rest: about Gaussians of usual width the solver is 3 % low at drag .18. At .16
- * Monte Carlo has no cold state. The last state nightly. */
+/* A sheared suspension has a hot and a cold state at one drag; comparison with Monte Carlo of 100 000 grains. In the
+ * cold one few grains are much hotter than the rest: about Gaussians of usual width the solver is 3 % low at drag
+ * .18. At .16 Monte Carlo has no cold state. The last state nightly. */
 static void two_states(void **state)
 {
   (void)state;
@@ -278,7 +282,7 @@ static void two_states(void **state)
   assert_refused(&gg_theory_enskog_hermite, &m, "no steady state was found");
 }
 
-static void refused(void **state)
+static void other_models_give_the_reason(void **state)
 {
   (void)state;
   gg_error err;
@@ -296,11 +300,19 @@ static void refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(balance),     cmocka_unit_test(elastic),       cmocka_unit_test(rotation),
-      cmocka_unit_test(white_noise), cmocka_unit_test(gaussian_rate), cmocka_unit_test(sheared),
-      cmocka_unit_test(energy),      cmocka_unit_test(mixtures),      cmocka_unit_test(relaxation),
-      cmocka_unit_test(two_states),  cmocka_unit_test(start_decides), cmocka_unit_test(ways_that_stop),
-      cmocka_unit_test(refused),
+      cmocka_unit_test(bath_balances_cooling),
+      cmocka_unit_test(elastic_grains_have_the_temperature_of_the_bath),
+      cmocka_unit_test(spins_have_the_temperature_of_the_bath),
+      cmocka_unit_test(white_noise),
+      cmocka_unit_test(gaussian_rate),
+      cmocka_unit_test(shear_without_drag_is_the_shear_flow),
+      cmocka_unit_test(energy_from_the_bath_is_dissipated),
+      cmocka_unit_test(equal_species_in_a_bath_are_one),
+      cmocka_unit_test(relaxation_of_kicked_velocities_is_composed_of_steps),
+      cmocka_unit_test(two_states),
+      cmocka_unit_test(start_decides),
+      cmocka_unit_test(ways_that_stop),
+      cmocka_unit_test(other_models_give_the_reason),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

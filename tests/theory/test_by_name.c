@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Theories by name: those that are named are evaluated, and no other, with the numbers that they have among all. */
+/* Theories by name: the named ones are evaluated, and no other, with the numbers that they have among all. */
 #include "../api/api_test.h"
 
 #include "theory/theory.h"
@@ -23,7 +23,7 @@ gg_status __wrap_gg_theory_curves(const gg_theory *theory, const gg_model *model
   return __real_gg_theory_curves(theory, model, measure, list, err);
 }
 
-/* Every value of a theory in one comparison is that in another, to the last bit. */
+/* Do all values of a theory agree between two comparisons, to the last bit? */
 static int same_values(const gg_comparison *one, const gg_comparison *all, const char *theory)
 {
   gg_error err;
@@ -72,7 +72,7 @@ static void by_name(void **state)
     const char *theory[3];
   } tries[] = {{"lun1991", 1, 0, 0, {"lun1991"}}, {"gaussian_closure", 1, 0, 0, {"gaussian_closure"}},
                {"second", 1, 0, 1, {"second"}},   {"second, lun1991,grad", 3, 0, 1, {"lun1991", "grad", "second"}},
-               {"grad,grad", 1, 0, 0, {"grad"}},  {"haff1983", 1, 0, 0, {"haff1983"}}}; /* which does not apply */
+               {"grad,grad", 1, 0, 0, {"grad"}},  {"haff1983", 1, 0, 0, {"haff1983"}}}; /* haff1983 does not apply */
   for (size_t k = 0; k < sizeof tries / sizeof *tries; k++) {
     evaluations = curve_evaluations = calls[0] = calls[1] = 0;
     assert_ok(gg_theories_evaluate(s, tries[k].names, NULL, NULL, &c, &err));

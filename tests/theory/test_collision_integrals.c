@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The collision integrals against the collision rule itself: pairs of grains drawn from the distributions, collided by
- * the same code that both engines use. Bounds are 4.5 standard errors of the sample; about 300 numbers are tested. */
+/* The collision integrals against the collision rule itself: pairs of grains drawn from the distributions, collided
+ * by the code that both engines use. Bounds are 4.5 standard errors of the sample; about 300 numbers are tested. */
 #include "theory_test.h"
 
 #include "common/rng.h"
@@ -78,7 +78,7 @@ static void check_pair(const gg_model *m, const gg_gaussian state[], int i, int 
   }
 }
 
-/* Hide all pairs but i,j: a density of nothing. */
+/* A model without all pairs but i,j: their density is 0. */
 static gg_model only_pair(const gg_model *m, int i, int j)
 {
   gg_model one = *m;
@@ -148,8 +148,8 @@ static void sonine_rates(void **state)
     }
 }
 
-/* Energy exchanged in collisions of frictional grains, and the share that slides. */
-static void friction(void **state)
+/* Energy exchanged in collisions of frictional grains, and the fraction that slides. */
+static void friction_integrals_agree_with_samples(void **state)
 {
   (void)state;
   const double mu[] = {0.05, 0.2, 1}, ratio[] = {0.3, 1, 3};
@@ -183,7 +183,7 @@ static void friction(void **state)
     gg_exchange x = gg_theory_exchange_at(grain, mu[set / 3], r);
     check_as("translation", &tr, 1, x.translation);
     check_as("rotation", &rot, 1, x.rotation);
-    check_as("sliding", &slides, 1, gg_theory_sliding_share(grain, mu[set / 3], r));
+    check_as("sliding", &slides, 1, gg_theory_sliding_fraction(grain, mu[set / 3], r));
   }
 }
 
@@ -192,7 +192,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(gaussian_moments),
       cmocka_unit_test(sonine_rates),
-      cmocka_unit_test(friction),
+      cmocka_unit_test(friction_integrals_agree_with_samples),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@
 #include "theory/goldhirsch_zanetti1993.h"
 #include "theory/haff1983.h"
 
-/* Pieprzyk et al. 2019 at phi = 0.1 .. 0.45, and how far the others are from it. */
+/* Pieprzyk et al. 2019 at phi = 0.1 .. 0.45, and the differences of the others. */
 static void equations_of_state(void **state)
 {
   (void)state;
@@ -30,7 +30,7 @@ static void equations_of_state(void **state)
   assert_refused(&gg_theory_pieprzyk2019, &m, "0.494");
 }
 
-/* Dilute to the last: the rate goes as phi, as Enskog's, and the pressure is that of an ideal gas. */
+/* Dilute limit: the rate is proportional to phi, as Enskog's, and the pressure is that of an ideal gas. */
 static void dilute_equations_of_state(void **state)
 {
   (void)state;
@@ -92,7 +92,7 @@ static void mixture_equation_of_state(void **state)
     }
 }
 
-/* Unlike masses at one temperature: all velocities together are no Maxwellian. Masses 1:10 in equal numbers: 5.008;
+/* Unlike masses at one temperature: all velocities together are not Maxwellian. Masses 1:10 in equal numbers: 5.008;
  * Monte Carlo 5.00(3). */
 static void kurtosis_of_a_mixture(void **state)
 {
@@ -105,7 +105,7 @@ static void kurtosis_of_a_mixture(void **state)
   assert_close(value_of(&gg_theory_enskog, &m, GG_Q_KURTOSIS_CX), 3, 1e-14);
 }
 
-/* Collisions between species balance: n_1 nu_12 = n_2 nu_21; equal species share the collisions of one. */
+/* Collisions between species balance: n_1 nu_12 = n_2 nu_21; equal species together have the collisions of one. */
 static void collision_rates_of_mixtures(void **state)
 {
   (void)state;
@@ -168,8 +168,8 @@ static void critical_size(void **state)
   assert_true(isnan(gg_theory_clustering_length(&m)));
 }
 
-/* One species cut in two; a mixture under the Gaussian thermostat is one that cools, in other units. Dilute, nearly
- * elastic, trace species apart: eta and zeta of the other, one species with that mass. */
+/* One species divided in two; a mixture under the Gaussian thermostat equals one that cools, in other units. Dilute,
+ * nearly elastic, apart from a trace species: eta and zeta of the other, one species with that mass. */
 static void critical_size_of_mixtures(void **state)
 {
   (void)state;
@@ -186,9 +186,9 @@ static void critical_size_of_mixtures(void **state)
   }
 }
 
-/* Rough grains whose translation alone is heated have colder spins than those that cool at beta = 0; perfectly rough
- * and nearly elastic ones share energy, and the thermostat gives what both lose: zeta is twice that of T in cooling,
- * where both fall together. */
+/* Rough grains with heated translation have colder spins than those that cool at beta = 0; perfectly rough and
+ * nearly elastic ones share energy, and the thermostat replaces the loss of both: zeta is twice that of T in
+ * cooling, where both fall together. */
 static void critical_size_of_heated_rough_grains(void **state)
 {
   (void)state;
@@ -197,7 +197,7 @@ static void critical_size_of_heated_rough_grains(void **state)
   assert_close(gg_theory_clustering_length(&heated), gg_theory_clustering_length(&cooling) / sqrt(2), 1e-4);
 }
 
-/* The number of grains of a box of that length; also under the Gaussian thermostat, not under noise or shear. */
+/* The number of grains in a box of that length; also under the Gaussian thermostat, not under noise or shear. */
 static void stable_size(void **state)
 {
   (void)state;
@@ -220,8 +220,8 @@ static void stable_size(void **state)
   assert_null(strstr(text, "will grow"));
 }
 
-/* Nearly elastic, perfectly rough, dilute: Pidduck's viscosity, and zeta = nu (1-e^2)/6, translation and rotation
- * sharing the loss. */
+/* Nearly elastic, perfectly rough, dilute: Pidduck's viscosity, and zeta = nu (1-e^2)/6, because translation and
+ * rotation share the loss. */
 static void critical_size_of_rough_grains(void **state)
 {
   (void)state;
@@ -231,8 +231,8 @@ static void critical_size_of_rough_grains(void **state)
   assert_close(gg_theory_clustering_length(&m), 2 * M_PI * sqrt(2 * eta / zeta), 1e-5);
 }
 
-/* A flux that decays no faster than the gas cools has no first-order solution: D falls towards that pole and is refused
- * beyond, where it would be large and positive. */
+/* A flux that decays no faster than the gas cools has no first-order solution: D falls towards that pole and is
+ * rejected beyond, where it would be large and positive. */
 static void diffusion_where_cooling_is_fast(void **state)
 {
   (void)state;

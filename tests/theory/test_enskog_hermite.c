@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The noise-free solution of Enskog's equation: limits that are known, and errors that are honest. */
+/* The noise-free solution of Enskog's equation: known limits, and errors that cover the true difference. */
 #include "theory_test.h"
 
 #include "common/thermostat.h"
@@ -22,8 +22,9 @@ static void elastic_limit(void **state)
   gg_hermite_isotropic_end(&h);
 }
 
-/* Heat flux of elastic grains, dilute: 1.025218 times the first Sonine conductivity (Chapman & Cowling, 10.331), none
- * along the density. Dense: Enskog's, kappa_k grows as 1/chi + 12/5 phi, and 512/(25 pi) phi^2 chi is carried. */
+/* Heat flux of elastic grains, dilute: 1.025218 times the first Sonine conductivity (Chapman & Cowling, 10.331),
+ * none along the density. Dense: Enskog's, kappa_k grows as 1/chi + 12/5 phi, and collisional transfer is 512/(25
+ * pi) phi^2 chi. */
 static void elastic_conductivity(void **state)
 {
   (void)state;
@@ -39,9 +40,9 @@ static void elastic_conductivity(void **state)
   }
 }
 
-/* Inelastic grains: what a program of its own has (functions of x = c^2/2 on a grid of Gauss rules, no shared code),
- * and the first Sonine order: kappa within the 2.5 % of the elastic limit, mu within what dissipation makes of it. */
-static void conductivities(void **state)
+/* Inelastic grains: results of a separate program (functions of x = c^2/2 on a grid of Gauss rules, no shared code),
+ * and the first Sonine order: kappa within the 2.5 % of the elastic limit, mu within the effect of dissipation. */
+static void conductivities_agree_with_a_separate_program(void **state)
 {
   (void)state;
   const struct {
@@ -65,8 +66,8 @@ static void conductivities(void **state)
   }
 }
 
-/* First Sonine order of Brey, Dufty, Kim & Santos (1998) at phi = 0, evaluated by hand: kappa and mu of e = .9 and .7.
- */
+/* First Sonine order of Brey, Dufty, Kim & Santos (1998) at phi = 0, evaluated by hand: kappa and mu for e = .9 and
+ * .7. */
 static void sonine_conductivities(void **state)
 {
   (void)state;
@@ -77,15 +78,16 @@ static void sonine_conductivities(void **state)
     assert_close(a.value[GG_Q_THERMAL_CONDUCTIVITY_REDUCED], kappa[k], 1e-4);
     assert_true(fabs(a.value[GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED] - mu[k]) < 1e-4);
   }
-  /* The modified order has nearly the heat flux of Boltzmann's equation at e = 0.9, which the other is 2.4 % from. */
+  /* The modified order has nearly the heat flux of Boltzmann's equation at e = 0.9, from which the other differs by
+   * 2.4 %. */
   gg_model m = model_for(GG_HCS, 0, 0.9, -1);
   gg_theory_answer a = answer_of(&gg_theory_garzo_santos_montanero2007, &m);
   assert_close(a.value[GG_Q_THERMAL_CONDUCTIVITY_REDUCED], 1.09505, 1e-3);
   assert_close(a.value[GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED], 0.12091, 7e-3);
 }
 
-/* ... and by the theory: elastic gases at rest do not cool, which is no failure, keep the temperature given, and have
- * the viscosity that those have which hardly lose energy. */
+/* ... and by the theory: elastic gases at rest do not cool, which is no failure, keep the given temperature, and
+ * have the viscosity of gases that hardly lose energy. */
 static void elastic_gases_at_rest(void **state)
 {
   (void)state;
@@ -104,7 +106,7 @@ static void elastic_gases_at_rest(void **state)
   }
 }
 
-/* Nearer to elastic than numbers resolve, sheared: the reason is told. */
+/* Nearer to elastic than rounding resolves, sheared: the error states the reason. */
 static void loss_below_resolution(void **state)
 {
   (void)state;
@@ -114,7 +116,7 @@ static void loss_below_resolution(void **state)
   }
 }
 
-/* A cooling gas, near what the first Sonine order says, and a state heated by a Gaussian thermostat is the same. */
+/* A cooling gas is near the first Sonine order, and the state heated by a Gaussian thermostat is the same. */
 static void homogeneous_states(void **state)
 {
   (void)state;
@@ -132,7 +134,7 @@ static void homogeneous_states(void **state)
   assert_close(value_of(&gg_theory_enskog_hermite, &heated, GG_Q_A2), a.value[GG_Q_A2], 1e-9);
 }
 
-/* What is stated as an error covers the difference from a higher degree. */
+/* The stated error covers the difference from a higher degree. */
 static void errors_are_honest(void **state)
 {
   (void)state;
@@ -155,7 +157,7 @@ static void errors_are_honest(void **state)
   }
 }
 
-/* Energy: shear heats as collisions cool, to rounding. */
+/* Energy: heating by shear equals cooling by collisions, to rounding. */
 static void energy_is_balanced(void **state)
 {
   (void)state;
@@ -172,8 +174,8 @@ static void energy_is_balanced(void **state)
   gg_hermite_shear_end(&h);
 }
 
-/* Rough grains: nearly smooth ones shear as smooth ones do, and a heated gas of elastic, perfectly rough grains is in
- * equilibrium. */
+/* Rough grains: nearly smooth ones agree with smooth ones under shear, and a heated gas of elastic, perfectly rough
+ * grains is in equilibrium. */
 static void limits_of_rough_grains(void **state)
 {
   (void)state;
@@ -191,9 +193,9 @@ static void limits_of_rough_grains(void **state)
   assert_true(fabs(e.value[GG_Q_COOLING_RATE]) < 1e-6);
 }
 
-/* Rough grains that cool, whose spins have long tails, against Monte Carlo runs of 10^8 and more collisions (their own
- * errors below 0.1 %): theta/T within 0.3 %, and within what is stated; fast spins (theta/T = 206) included. The other
- * two nightly. */
+/* Rough grains that cool, whose spins have long tails, against Monte Carlo runs of 10^8 and more collisions (their
+ * own errors below 0.1 %): theta/T within 0.3 %, and within the stated error; fast spins (theta/T = 206) included.
+ * The other two nightly. */
 static void cooling_of_rough_grains(void **state)
 {
   (void)state;
@@ -208,8 +210,8 @@ static void cooling_of_rough_grains(void **state)
   }
 }
 
-/* Nearly elastic: heating and cooling both go as the speed, so that the temperature relaxes at the rate at which
- * collisions cool, 2/3 of the dissipation over n T. Energy is the slowest; all other modes die out. */
+/* Nearly elastic: heating and cooling are both proportional to the speed, so that the temperature relaxes at the
+ * cooling rate of collisions, 2/3 of the dissipation over n T. Energy is the slowest mode; all others decay. */
 static void temperature_relaxes_at_the_cooling_rate(void **state)
 {
   (void)state;
@@ -223,7 +225,8 @@ static void temperature_relaxes_at_the_cooling_rate(void **state)
   }
 }
 
-/* Shear of a gas that noise keeps warm: energy is balanced; little noise is none, much leaves the heated state. */
+/* Shear of a gas heated by noise: energy is balanced; the limit of little noise is none, that of much noise the
+ * heated state. */
 static void heated_shear(void **state)
 {
   (void)state;
@@ -268,7 +271,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(elastic_limit),
       cmocka_unit_test(elastic_conductivity),
-      cmocka_unit_test(conductivities),
+      cmocka_unit_test(conductivities_agree_with_a_separate_program),
       cmocka_unit_test(sonine_conductivities),
       cmocka_unit_test(elastic_gases_at_rest),
       cmocka_unit_test(loss_below_resolution),

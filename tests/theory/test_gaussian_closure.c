@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The Gaussian closure of uniform shear: steady and found for all scenes, exact in its limits (elastic, dilute, slow
+ * shear), and near Monte Carlo solutions. */
 #include "theory_test.h"
 
 #include "theory/gaussian_moments.h"
@@ -10,7 +12,7 @@ static gg_theory_answer closure(double phi, double e, double beta)
   return answer_of(&gg_theory_gaussian_closure, &m);
 }
 
-/* The steady state is steady to 1e-9 and found, wherever a scene may lie, in fifty milliseconds on average. */
+/* The steady state is steady to 1e-9 and found for all scenes, in fifty milliseconds on average. */
 static void is_steady_everywhere(void **state)
 {
   (void)state;
@@ -33,8 +35,9 @@ static gg_model unlike(double phi, double e, double mass, double diameter)
   return model_of(&s);
 }
 
-/* As e -> 1 T goes as 1/(1-e), and N1 as 1-e, down to the last bit of e: the loss of energy is 10^-16 of what
- * collisions exchange. Also of perfectly rough grains, to whose viscosity anisotropic spins add. */
+/* As e -> 1 T is proportional to 1/(1-e), and N1 to 1-e, down to the last bit of e: the loss of energy is 10^-16 of
+ * the energy that collisions exchange. Also for perfectly rough grains, whose anisotropic spins add to the
+ * viscosity. */
 static void nearly_elastic(void **state)
 {
   (void)state;
@@ -69,7 +72,7 @@ static void dilute_rough_grains(void **state)
   }
 }
 
-/* A first species that hardly loses energy tells nothing of the temperature of one that does. */
+/* A first species that hardly loses energy does not determine the temperature of one that does. */
 static void unlike_losses(void **state)
 {
   (void)state;
@@ -82,7 +85,8 @@ static void unlike_losses(void **state)
   assert_true(gg_theory_gaussian_steady(&m, g) < 1e-9);
 }
 
-/* Spins independent of velocities roll, which is all the mean spin there is but where dilute: nothing is told there. */
+/* Spins independent of velocities roll, which is the whole mean spin of dense gases; for dilute ones there is no
+ * answer. */
 static void mean_spin(void **state)
 {
   (void)state;
@@ -99,7 +103,7 @@ static void mean_spin(void **state)
   assert_non_null(strstr(gg_common_quantity_missing(&m, GG_Q_SPIN_Z), "infinite in units of the shear rate"));
 }
 
-/* Angular momentum: the stress of a steady state is symmetric, spins or not; no net torque. */
+/* Angular momentum: the stress of a steady state is symmetric, with spins or without; no net torque. */
 static void stress_is_symmetric(void **state)
 {
   (void)state;
@@ -110,8 +114,8 @@ static void stress_is_symmetric(void **state)
   }
 }
 
-/* Small shear (e -> 1) of smooth grains: Lun's viscosity and pressure, to first order in 1 - e. (Rough grains not:
- * under shear their spins have a stress of their own, which Lun leaves out.) */
+/* Small shear (e -> 1) of smooth grains: Lun's viscosity and pressure, to first order in 1 - e. (Not for rough
+ * grains: under shear their spins have a separate stress, which Lun neglects.) */
 static void quasi_elastic_is_navier_stokes(void **state)
 {
   (void)state;
@@ -187,7 +191,7 @@ static void dilute_mixture(void **state)
   assert_close(a.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1.625, 0.02);
 }
 
-/* Species are labels. */
+/* Exchanging the labels of equal species changes nothing. */
 static void equal_species(void **state)
 {
   (void)state;

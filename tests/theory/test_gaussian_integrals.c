@@ -46,7 +46,7 @@ static void isotropic_gas(void **state)
     }
 }
 
-/* Everything Lun's theory is made of, as linear response of a rough gas to shear, spin and shear stress. */
+/* All of Lun's functions, as linear response of a rough gas to shear, spin and shear stress. */
 static void lun_functions(void **state)
 {
   (void)state;
@@ -134,7 +134,7 @@ static void mixture_rates(void **state)
   }
 }
 
-/* Species are labels: a gas cut into two equal species has the rates of the one, whole. */
+/* A gas divided into two equal species has the rates of the undivided one. */
 static void labels_do_not_matter(void **state)
 {
   (void)state;

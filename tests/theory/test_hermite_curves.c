@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The distributions of enskog_hermite: a component of an expansion has the moments of the expansion; the curves'
- * moments are the theory's numbers; they are those that grains have in long Monte Carlo runs, bin by bin, which a
- * Gaussian is not; and they end where the series does. */
+ * moments are the theory's numbers; bin by bin they agree with grains in long Monte Carlo runs, and a Gaussian does
+ * not; and they end where the series does not converge. */
 #include "theory_test.h"
 
 #include <stdlib.h>
@@ -125,7 +125,7 @@ static void moments_are_the_numbers(void **state)
   gg_measure_curves_clear(&list);
 }
 
-/* Where nothing is asked for, or it says nothing, there is none; a law of restitution is refused as by its numbers. */
+/* Without a request, or without an answer, there is no curve; a law of restitution is rejected as for the numbers. */
 static void no_curves(void **state)
 {
   (void)state;
@@ -140,7 +140,7 @@ static void no_curves(void **state)
   assert_int_equal(list.n, 0);
 }
 
-/* Dilute and dissipative: the tail does not converge, and is not there; errors grow towards it. */
+/* Dilute and dissipative: the tail does not converge, and is omitted; errors grow towards it. */
 static void ends_where_the_series_does(void **state)
 {
   (void)state;
@@ -183,7 +183,7 @@ static double mean_square(const gg_curve *c, const gg_curve *theory, double reac
   return sum / n;
 }
 
-/* Neighbouring bins share the errors of P(0) and sigma: the mean square of 41 bins scatters by up to .5 about 1. */
+/* Neighbouring bins have common errors of P(0) and sigma: the mean square of 41 bins scatters by up to .5 about 1. */
 static void those_of_the_engine(void **state)
 {
   (void)state;

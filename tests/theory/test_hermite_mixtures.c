@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The noise-free solution of Enskog's equation for mixtures of smooth grains: what they have in common with one
- * species, limits that are known, and errors that are honest. The operator itself: test_hermite_operator. */
+/* The noise-free solution of Enskog's equation for mixtures of smooth grains: limits of one species, known limits,
+ * and errors that cover the true difference. The operator itself: test_hermite_operator. */
 #include "theory_test.h"
 
 #include "common/rng.h"
 #include "theory/hermite/shear.h"
 
-/* At rest: equal species are one; elastic ones are in equilibrium; unlike ones near what the first Sonine order says;
- * as many species as there are. */
+/* At rest: equal species are one; elastic ones are in equilibrium; unlike ones near the first Sonine order; the
+ * largest number of species. */
 static void resting_mixtures(void **state)
 {
   (void)state;
@@ -46,7 +46,7 @@ static const gg_quantity flow_of_shear[] = {
     GG_Q_N2,          GG_Q_KURTOSIS_CX, GG_Q_COLLISION_RATE, GG_Q_RELAXATION_RATE};
 enum { OF_SHEAR = sizeof flow_of_shear / sizeof *flow_of_shear };
 
-/* Sheared mixtures: equal species are one; three are two if two of them are; what heats is what cools. */
+/* Sheared mixtures: equal species are one; three are two if two of them are equal; heating equals cooling. */
 static void sheared_mixtures(void **state)
 {
   (void)state;
@@ -65,7 +65,7 @@ static void sheared_mixtures(void **state)
   assert_close(b.value[GG_Q_DISSIPATION], -b.value[GG_Q_P_XY], 1e-7);
 }
 
-/* What is stated covers the difference from a higher degree, and is small; of the dilute gas nightly. */
+/* The stated error covers the difference from a higher degree, and is small; the dilute gas nightly. */
 static void errors_of_mixtures_are_honest(void **state)
 {
   (void)state;
@@ -110,9 +110,9 @@ static gg_model drawn(int k)
   return model_of(&s);
 }
 
-/* Where the last step of N1 happens to be small: degree 14 is within twice the error, which is not far too large
- * either. Of 90 scenes drawn likewise no quantity was off by more than 1.6 errors, half of
- * all by more than 0.2. The other two nightly. */
+/* Scenes in which the last step of N1 is small by chance: degree 14 is within twice the error, which is not far too
+ * large either. In 90 scenes drawn likewise no quantity was off by more than 1.6 errors, half of all by more than
+ * 0.2. The other two nightly. */
 static void errors_do_not_vanish_by_chance(void **state)
 {
   (void)state;
@@ -139,7 +139,7 @@ static void errors_do_not_vanish_by_chance(void **state)
   }
 }
 
-/* The viscosity of a mixture: of equal species that of one; of elastic ones Erpenbeck's (1989), who has higher Sonine
+/* The viscosity of a mixture: for equal species that of one; for elastic ones Erpenbeck's (1989), of higher Sonine
  * orders; near the first order elsewhere. */
 static void viscosity_of_mixtures(void **state)
 {

@@ -9,7 +9,7 @@
 
 enum { MOST = 40 };
 
-/* An anisotropic Gaussian, and coefficients of no symmetry beyond that of z. */
+/* An anisotropic Gaussian, and coefficients without symmetry but that of z. */
 static double L[3][3] = {{1.2, 0, 0}, {-0.4, 0.8, 0}, {0, 0, 0.9}};
 
 static void some_coefficients(const gg_hermite_basis *b, double *a)
@@ -34,7 +34,7 @@ static gg_hermite_state state_of(double frame[3][3], double *a)
   return s;
 }
 
-/* Two species that differ in everything: masses 1 and m, number shares x and 1 - x. */
+/* Two species that differ in everything: masses 1 and m, number fractions x and 1 - x. */
 static gg_hermite_gas two_species(double e, double shear)
 {
   const double mass[2] = {1, 0.2}, x[2] = {0.3, 0.7}, sigma[2][2] = {{1, 0.8}, {0.8, 0.6}};
@@ -51,10 +51,10 @@ static gg_hermite_gas two_species(double e, double shear)
   return gas;
 }
 
-/* The Gaussian of the lighter ones. */
+/* The Gaussian of the lighter species. */
 static double light[3][3] = {{2.1, 0, 0}, {0.3, 1.9, 0}, {0, 0, 2.4}};
 
-/* sum_i x_i m_i <C C>_i of what R says, its trace: twice the energy. */
+/* sum_i x_i m_i <C C>_i from R, its trace: twice the energy. */
 static double energy_of(const gg_hermite_basis *b, const gg_hermite_gas *gas, gg_hermite_state *state, const double *R,
                         double *size)
 {
@@ -74,7 +74,7 @@ static double energy_of(const gg_hermite_basis *b, const gg_hermite_gas *gas, gg
   return trace;
 }
 
-/* f at e = 1 and rest: Maxwellians of one temperature are left alone. */
+/* f at e = 1 and rest: Maxwellians of one temperature are fixed points. */
 static void maxwellian_is_a_fixed_point(void **state)
 {
   (void)state;
@@ -111,7 +111,7 @@ static void elastic_collisions_keep_energy(void **state)
   gg_hermite_operator_clear(&op);
 }
 
-/* What inelastic ones lose by the sums is what the tests of degree 2 see go. */
+/* The inelastic loss from the sums equals that from the tests of degree 2. */
 static void losses_are_those_of_the_sums(void **state)
 {
   (void)state;
@@ -209,8 +209,8 @@ static void combine(double axis[3][3], double x, double y, double z, double c[3]
   for (int i = 0; i < 3; i++) c[i] = x * axis[0][i] + y * axis[1][i] + z * axis[2][i];
 }
 
-/* The same integral over both velocities, point by point, in the frame at rest: nothing rotated, nothing factored but
- * that the frames' first axes are the normals. */
+/* The same integral over both velocities, point by point, in the frame at rest: without rotations, and without
+ * factors but that the frames' first axes are the normals. */
 static void brute_force(const gg_hermite_operator *op, const gg_hermite_impact *impact, gg_hermite_state *own,
                         gg_hermite_state *other, double *R)
 {
@@ -265,7 +265,7 @@ static void against_brute_force(void **state)
   }
 }
 
-/* Degree 2 is the anisotropic Gaussian of moment closures, by other integrals: of one species, and of two. */
+/* Degree 2 is the anisotropic Gaussian of moment closures, by other integrals: one species, and two. */
 static void degree_two_is_the_gaussian_closure(void **state)
 {
   (void)state;
@@ -294,7 +294,7 @@ static void degree_two_is_the_gaussian_closure(void **state)
   }
 }
 
-/* Another Gaussian, the same distribution. */
+/* An expansion about another Gaussian is the same distribution. */
 static void expansions_keep_their_moments(void **state)
 {
   (void)state;

@@ -54,8 +54,8 @@ static void one_species_numbers(void **state)
   assert_close(value_at(&gg_theory_montanero_santos2000, GG_HCS, 0, 0, 0.4, GG_Q_COLLISION_RATE) / maxwell,
                1 - gg_theory_a2_montanero_santos(0.4) / 16, 1e-12);
   /* The modified first Sonine: elastic Enskog, and at e = 0.6 nearer to Monte Carlo, 1.4045(20) heated and 1.184(3)
-   * cooling (linear response, validation/figures/review-06.yaml), than the standard one, which is 3 % and 2.3 % above.
-   */
+   * cooling (linear response, validation/figures/review-06.yaml), than the standard one, which is 3 % and 2.3 %
+   * above. */
   assert_close(value_at(&gg_theory_garzo_santos_montanero2007, GG_HCS, 0, 0.3, 1, GG_Q_VISCOSITY_REDUCED),
                value_at(&gg_theory_enskog, GG_EQUILIBRIUM, 0, 0.3, 1, GG_Q_VISCOSITY_REDUCED), 1e-13);
   assert_close(value_at(&gg_theory_garzo_santos_montanero2007, GG_HSS, GG_GAUSSIAN, 0, 0.6, GG_Q_VISCOSITY_REDUCED),
@@ -64,12 +64,13 @@ static void one_species_numbers(void **state)
                0.015);
   assert_true(value_at(&gg_theory_garzo_dufty1999, GG_HSS, GG_GAUSSIAN, 0, 0.6, GG_Q_VISCOSITY_REDUCED) >
               1.025 * 1.4045);
-  /* The same route to the viscosity through shear with a Gaussian thermostat. */
+  /* The same viscosity through slow shear with a Gaussian thermostat. */
   assert_close(value_at(&gg_theory_garzo_dufty1999, GG_SMALL_SHEAR, GG_GAUSSIAN, 0.3, 0.8, GG_Q_VISCOSITY_REDUCED),
                3.703, 1e-4);
 }
 
-/* One species cut in two: the a_2 of van Noije & Ernst, of Montanero & Santos, and the viscosity of Garzo & Dufty. */
+/* One species divided in two: the a_2 of van Noije & Ernst, of Montanero & Santos, and the viscosity of Garzo &
+ * Dufty. */
 static void equal_species_are_one(void **state)
 {
   (void)state;
@@ -85,7 +86,7 @@ static void equal_species_are_one(void **state)
     }
 }
 
-/* The viscosity equations of mixtures hold those of one species; cumulants apart, which enter differently. */
+/* The viscosity equations of mixtures contain those of one species; without cumulants, which enter differently. */
 static void equal_species_viscosity(void **state)
 {
   (void)state;
@@ -116,8 +117,8 @@ static void white_noise_cumulant(void **state)
   }
 }
 
-/* ... and the temperature that it keeps is lower by what the cumulant adds to the loss: Monte Carlo 0.4964(9) at e = 0;
- * near the solution of Enskog's equation. */
+/* ... and the temperature is lower by the effect of the cumulant on the loss: Monte Carlo 0.4964(9) at e = 0; near
+ * the solution of Enskog's equation. */
 static void white_noise_temperature(void **state)
 {
   (void)state;
@@ -177,7 +178,7 @@ static void published_source_term(void **state)
 
 /* Elastic mixture, equimolar, m = 1 and 0.1, n = sqrt(2)/3 d^-3, T = 1: Enskog shear viscosity 0.29379 (Erpenbeck,
  * Phys. Rev. A 39 (1989) 4718, in higher Sonine order). */
-static void erpenbeck(void **state)
+static void elastic_mixture_has_erpenbecks_viscosity(void **state)
 {
   (void)state;
   gg_model m = mixture_for(GG_EQUILIBRIUM, M_PI / 6 * sqrt(2) / 3, 1, -1, 10, 1, 1);
@@ -198,7 +199,7 @@ static void grad_smooth(void **state)
     assert_close(a.value[GG_Q_P_YY] / T, beta1 / (beta1 + zeta), 1e-12);
     assert_close(a.value[GG_Q_P_XY] / T, -beta1 * shear / pow(beta1 + zeta, 2), 1e-12);
     assert_close(a.value[GG_Q_N1], 3 * zeta / (beta1 + zeta), 1e-12);
-    /* shear work is what cools: -P_xy rate = (3/2) n T zeta */
+    /* the work of shear balances cooling: -P_xy rate = (3/2) n T zeta */
     assert_close(-a.value[GG_Q_P_XY], 1.5 * T * zeta / shear, 1e-12);
   }
   gg_model m = model_for(GG_USF, 0, 0.9, -1);
@@ -230,8 +231,8 @@ static void grad_mixture(void **state)
                value_of(&gg_theory_gaussian_closure, &m, GG_Q_PARTIAL_TEMPERATURE_RATIO), 1e-4);
 }
 
-/* Boltzmann's equation at any solid fraction: no contact value, neither of one species nor between two, in the rate of
- * collisions as in the temperature. */
+/* Boltzmann's equation at any solid fraction: no contact value, neither of one species nor between two, in the rate
+ * of collisions or in the temperature. */
 static void grad_knows_no_contact_value(void **state)
 {
   (void)state;
@@ -257,7 +258,7 @@ int main(void)
       cmocka_unit_test(white_noise_cumulant),
       cmocka_unit_test(mixture_numbers),
       cmocka_unit_test(published_source_term),
-      cmocka_unit_test(erpenbeck),
+      cmocka_unit_test(elastic_mixture_has_erpenbecks_viscosity),
       cmocka_unit_test(grad_smooth),
       cmocka_unit_test(grad_mixture),
       cmocka_unit_test(white_noise_temperature),

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lun's theory: limits of smooth, elastic and perfectly rough grains known from other papers, and the balances of its
+ * steady state. */
 #include "theory_test.h"
 
 #include "common/contact_value.h"
@@ -19,8 +21,8 @@ static double chi_cs(double phi)
   return (1 - phi / 2) / pow(1 - phi, 3);
 }
 
-/* Smooth grains: Lun, Savage, Jeffrey & Chepurniy, J. Fluid Mech. 140 (1984) 223, as tabulated with eta = (1+e)/2:
- * f2 = 5 sqrt(pi)/(96 eta(2-eta)) (1/chi + 8/5 eta phi ...) in units of rho_p. */
+/* Smooth grains: Lun, Savage, Jeffrey & Chepurniy, J. Fluid Mech. 140 (1984) 223, with eta = (1+e)/2: f2 = 5
+ * sqrt(pi)/(96 eta(2-eta)) (1/chi + 8/5 eta phi ...) in units of rho_p. */
 static void smooth_is_lun_1984(void **state)
 {
   (void)state;
@@ -78,7 +80,7 @@ static void perfectly_rough_is_pidduck(void **state)
   }
 }
 
-/* theta/T = K(1+beta)/(1+2K-beta) (Gayen's thesis, eq. 5.13), where rotation gains nothing. */
+/* theta/T = K(1+beta)/(1+2K-beta) (Gayen's thesis, eq. 5.13), at which rotation gains nothing. */
 static void ratio_makes_rotation_steady(void **state)
 {
   (void)state;
@@ -90,7 +92,7 @@ static void ratio_makes_rotation_steady(void **state)
     }
 }
 
-/* The steady state balances shear work against dissipation, and the reported numbers hang together. */
+/* The steady state balances the work of shear and dissipation, and the reported numbers are consistent. */
 static void steady_state_balances(void **state)
 {
   (void)state;
@@ -110,7 +112,7 @@ static void steady_state_balances(void **state)
   assert_close(v[GG_Q_MEAN_FREE_PATH], 1 / (6 * sqrt(2) * 0.3 * chi_cs(0.3)), 1e-12);
 }
 
-/* phi = 0 is the limit phi -> 0 with lengths counted in 1/(n d^2): T scales by (n d^2)^2, mu/(n m) likewise. */
+/* phi = 0 is the limit phi -> 0 with lengths in 1/(n d^2): T scales by (n d^2)^2, mu/(n m) likewise. */
 static void boltzmann_is_the_dilute_limit(void **state)
 {
   (void)state;
@@ -134,7 +136,8 @@ static void boltzmann_is_the_dilute_limit(void **state)
   }
 }
 
-/* Stress by transfer is phi times smaller than that of flights, and told as well: Pc = 4 eta_1 phi chi nT. */
+/* The collisional stress of dilute gases is smaller than the kinetic one by phi, and reported as well: Pc = 4 eta_1
+ * phi chi nT. */
 static void transfer_of_dilute_gases(void **state)
 {
   (void)state;
@@ -200,7 +203,7 @@ static void contact_values(void **state)
   assert_refused(&gg_theory_lun1991_lun_savage, &m, "below phi = 0.64");
 }
 
-/* What it does not describe it refuses, and says why. */
+/* A scene that the theory does not describe is rejected with the reason. */
 static void refuses_politely(void **state)
 {
   (void)state;

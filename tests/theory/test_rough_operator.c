@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Collisions of rough grains on Hermite functions of velocity and spin: identities, brute force, and degree 2, where
- * the Gaussian closure and two Maxwellians know the answer. */
+/* Collisions of rough grains on Hermite functions of velocity and spin: identities, brute force, and degree 2, which
+ * is known from the Gaussian closure and two Maxwellians. */
 #include "theory_test.h"
 
 #include <stdlib.h>
@@ -56,7 +56,7 @@ static double some(int q)
   return q == 0 ? 1 : 0.1 * sin(3. * q);
 }
 
-/* Perfectly rough and elastic: Maxwellians of equal temperatures stay. */
+/* Perfectly rough and elastic: Maxwellians of equal temperatures are fixed points. */
 static void maxwellian_is_a_fixed_point(void **state)
 {
   (void)state;
@@ -74,7 +74,7 @@ static int spins(const fixture *x, int q)
   return r[3] + r[4] + r[5];
 }
 
-/* Detailed balance: about them the linear operator is symmetric, but for the sign that spins change with time
+/* Detailed balance: about Maxwellians the linear operator is symmetric, but for the sign that spins change with time
  * (velocities are even); and no mode grows. */
 static void elastic_operator_is_symmetric(void **state)
 {
@@ -99,7 +99,7 @@ static void elastic_operator_is_symmetric(void **state)
   clear(&x);
 }
 
-/* 2 x the energy of translation and rotation, from R; elastic perfectly rough collisions keep it, whatever f is. */
+/* 2 x the translational and rotational energy, from R; elastic perfectly rough collisions keep it, for any f. */
 static void elastic_collisions_keep_energy(void **state)
 {
   (void)state;
@@ -188,7 +188,7 @@ static void degree_two_cools_like_two_maxwellians(void **state)
   gg_rough_steady_clear(&s);
 }
 
-/* About an isotropic weight the product is the matrix. */
+/* For an isotropic weight the product equals the matrix. */
 static void isotropic_weights_factor(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Linear response of rough grains: collisions along one direction are those of the general operator; where spins do
- * nothing heat flux and viscosity are those of smooth grains, also dense. */
+/* Linear response of rough grains: collisions along one direction are those of the general operator; for smooth
+ * grains, whose spins have no effect, heat flux and viscosity are known, also dense. */
 #include "theory_test.h"
 
 #include <stdlib.h>
@@ -20,7 +20,7 @@ static gg_rough_weight isotropic(double width, double ratio)
   return w;
 }
 
-/* Tests of degree 2 decay here, not there. */
+/* Tests of degree 2 decay here, not in the general operator. */
 static void one_direction_is_the_operator(void **state)
 {
   (void)state;
@@ -54,7 +54,7 @@ static void one_direction_is_the_operator(void **state)
   gg_rough_relative_clear(&relative);
 }
 
-/* A cooling state of smooth grains, with spins beside it that nothing touches. */
+/* A cooling state of smooth grains, with uncoupled spins. */
 static gg_rough_steady spinning(const gg_hermite_isotropic *h, int degree)
 {
   static const gg_heating cools = {.kind = GG_HEATING_COOLS};
@@ -65,12 +65,12 @@ static gg_rough_steady spinning(const gg_hermite_isotropic *h, int degree)
   double x;
   if (gg_rough_isotropic_solve(&s, degree, &cools, &x, &err) != GG_OK) fail_msg("%s", err.message);
   s.gas.eta1 = h->gas.impact[0][0].eta, s.gas.eta2 = 0;
-  s.choice.spin_decay = 0; /* tests without spins see no response of spins */
+  s.choice.spin_decay = 0; /* tests without spins have no response of spins */
   for (int q = 0; q < s.form.n; q++) {
     const int *r = s.relative.f.function[s.form.function[q]].r;
     s.a[q] = r[3] + r[4] + r[5] ? 0 : h->state.a[gg_hermite_place(&h->op.basis, r[0], r[1], r[2])];
   }
-  s.stream = (gg_rough_stream){.spin = -0.3}; /* no matter */
+  s.stream = (gg_rough_stream){.spin = -0.3}; /* no effect */
   for (int i = 0; i < 3; i++) s.stream.velocity[i][i] = -h->cooling_rate / 2;
   return s;
 }
@@ -78,7 +78,7 @@ static gg_rough_steady spinning(const gg_hermite_isotropic *h, int degree)
 static const gg_hermite_density densities[] = {{0, 0}, {1.1, 1.6}};
 static const gg_heating cools = {.kind = GG_HEATING_COOLS};
 
-/* The same functions, by another way of integration. */
+/* The same functions, by another method of integration. */
 static void smooth_grains_conduct(void **state)
 {
   (void)state;
@@ -100,8 +100,8 @@ static void smooth_grains_conduct(void **state)
   }
 }
 
-/* Tests of degree 2 decay here, not there, so that series differ by what is left out. What collisions carry is exact:
- * a share of the kinetic stress, and of the rate of collisions. */
+/* Tests of degree 2 decay here, not there, so that series differ by the omitted terms. Collisional transfer is
+ * exact: a fraction of the kinetic stress, and of the rate of collisions. */
 static void smooth_grains_flow(void **state)
 {
   (void)state;

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* All theories: names, finite answers or reasons for every kind of scene, ranges; and the theories that are one formula
+ * against published numbers. */
 #include "theory_test.h"
 
 #include "common/contact_value.h"
@@ -25,8 +27,7 @@ static void list_is_complete(void **state)
   assert_null(gg_theory_find("lun"));
 }
 
-/* On every kind of scene each theory answers with finite numbers or no number, or refuses with its own name in front.
- */
+/* On every kind of scene each theory answers with finite numbers or none, or rejects it with its own name in front. */
 static void no_number_leaks(void **state)
 {
   (void)state;
@@ -48,7 +49,7 @@ static void no_number_leaks(void **state)
           for (const gg_theory *const *t = gg_theory_theories; *t; t++) {
             gg_theory_answer a;
             gg_error err = {0};
-            /* This one takes some tenths of a second: one scene in 101 of those it describes. */
+            /* this theory takes some tenths of a second: one scene in 101 of those it describes */
             if (*t == &gg_theory_enskog_hermite && m.rule != GG_FRICTIONAL && described++ % 101) continue;
             gg_status status = gg_theory_evaluate(*t, &m, &a, &err);
             if (status != GG_OK) {
@@ -67,8 +68,8 @@ static void no_number_leaks(void **state)
         }
 }
 
-/* Of three species: theories of one or two say so and refuse; the rest take the same grains in three species for what
- * they are. */
+/* Three species: theories of one or two reject them with the reason; the others take the same grains as three
+ * species correctly. */
 static void three_species(void **state)
 {
   (void)state;
@@ -83,7 +84,7 @@ static void three_species(void **state)
       gg_theory_answer a;
       gg_error err = {0};
       if (flow != GG_EQUILIBRIUM && of_few[k] == &gg_theory_enskog_hermite)
-        continue; /* of any number (hermite_mixtures) */
+        continue; /* for any number (hermite_mixtures) */
       assert_int_equal(gg_theory_evaluate(of_few[k], &m, &a, &err), GG_BAD_INPUT);
       assert_non_null(strstr(err.message, "describes"));
     }
@@ -98,8 +99,7 @@ static void three_species(void **state)
   }
 }
 
-/* Half-rough contacts take a theory beyond its range whichever species they are between; contacts that are smooth or
- * perfectly rough do not. */
+/* Half-rough contacts are outside a theory's range between any species; smooth or perfectly rough contacts are not. */
 static void range_looks_at_all_pairs(void **state)
 {
   (void)state;
@@ -116,8 +116,8 @@ static void range_looks_at_all_pairs(void **state)
   assert_null(gg_theory_beyond(&gg_theory_gaussian_closure, &m));
 }
 
-/* The example printed with the formulas: N1 = 0.24, N2 = -0.0203 at e = 0.9; leading coefficients are those of the
- * elastic Burnett equations, N1 = w2 x and N2 = (w6/4 - w2) x with x = 5/8 1.016034 eps, w2 = 2.028, w6 = 7.424. */
+/* The published example: N1 = 0.24, N2 = -0.0203 at e = 0.9; leading coefficients are those of the elastic Burnett
+ * equations, N1 = w2 x and N2 = (w6/4 - w2) x with x = 5/8 1.016034 eps, w2 = 2.028, w6 = 7.424. */
 static void sela_goldhirsch(void **state)
 {
   (void)state;

@@ -1,4 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exchange of energy between translation and rotation of rough grains: closed forms, limits of roughness and friction,
+ * and the theories that use it. */
 #include "theory_test.h"
 
 #include "theory/lun1991.h"
@@ -27,9 +29,9 @@ static void cooling_ratio(void **state)
   assert_close(gg_theory_ratio_cooling(grain(0.8, 0.5, 0.4), INFINITY), 1.043, 5e-4);
 }
 
-/* Nearly smooth grains: spins feed translation with nearly all it loses, at theta/T = (A - C)/B, and hold most of the
- * energy; driven they have next to none. Grains lose 4C of their energy in a collision, whatever rounding leaves of A -
- * B r. */
+/* Nearly smooth grains: spins return nearly all the energy that translation loses, at theta/T = (A - C)/B, and have
+ * most of the energy; driven they have next to none. Grains lose 4C of their energy in a collision, at any rounding
+ * of A - B r. */
 static void nearly_smooth_ratios(void **state)
 {
   (void)state;
@@ -41,7 +43,7 @@ static void nearly_smooth_ratios(void **state)
     assert_close(ratio, (A - C) / B, 20 * rough);
     assert_close(gg_theory_cooling_at(g, INFINITY, ratio), 4 * C, 20 * rough + 1e-9);
     assert_close(gg_theory_ratio_driven(g, INFINITY), g.eta2, 20 * rough);
-    assert_close(gg_theory_ratio_driven(g, 10), g.eta2, 20 * rough); /* with so much friction nothing slides */
+    assert_close(gg_theory_ratio_driven(g, 10), g.eta2, 20 * rough); /* with so much friction no contact slides */
   }
   gg_model m = model_for(GG_HCS, 0.01, 0.9, -0.9999999);
   const gg_theory *const all[] = {&gg_theory_huthmann_zippelius1997, &gg_theory_kremer_santos_garzo2014};
@@ -50,7 +52,7 @@ static void nearly_smooth_ratios(void **state)
   assert_true(value_of(&gg_theory_enskog_hermite, &m, GG_Q_TEMPERATURE_RATIO) > 8e13);
 }
 
-/* Friction so strong that nothing slides is constant beta, at any size of it. */
+/* Friction so strong that no contact slides is constant beta, at any value of mu. */
 static void strong_friction(void **state)
 {
   (void)state;
@@ -89,7 +91,7 @@ static void rates_of_santos(void **state)
 }
 
 /* Elastic perfectly rough grains share energy equally and lose none. */
-static void equipartition(void **state)
+static void perfectly_rough_elastic_grains_share_equally(void **state)
 {
   (void)state;
   gg_grain g = grain(1, 1, 0.4);
@@ -100,7 +102,7 @@ static void equipartition(void **state)
   assert_close(x.translation + x.rotation, 0, 1e-15);
 }
 
-/* Friction without limit is constant beta; friction that vanishes leaves smooth grains. */
+/* Infinite friction is constant beta; vanishing friction leaves smooth grains. */
 static void friction_limits(void **state)
 {
   (void)state;
@@ -112,8 +114,8 @@ static void friction_limits(void **state)
     assert_close(sticky.rotation, rough.rotation, 1e-7);
     assert_close(slippery.translation, -4 * g.eta1 * (1 - g.eta1), 1e-7);
     assert_close(slippery.rotation, 0, 1e-7);
-    assert_close(gg_theory_sliding_share(g, 1e5, 0.5), 0, 1e-9);
-    assert_close(gg_theory_sliding_share(g, 1e-9, 0.5), 1, 1e-12);
+    assert_close(gg_theory_sliding_fraction(g, 1e5, 0.5), 0, 1e-9);
+    assert_close(gg_theory_sliding_fraction(g, 1e-9, 0.5), 1, 1e-12);
   }
 }
 
@@ -134,12 +136,12 @@ static void friction_by_quadrature(void **state)
     }
   Jg /= (double)n * n, JJ /= (double)n * n, slides /= (double)n * n;
   gg_exchange x = gg_theory_exchange_at(g, mu, r);
-  assert_close(slides, gg_theory_sliding_share(g, mu, r), 1e-3);
+  assert_close(slides, gg_theory_sliding_fraction(g, mu, r), 1e-3);
   assert_close(x.translation, -4 * g.eta1 * (1 - g.eta1) - Jg / (1 + r / g.K) + JJ, 1e-3);
   assert_close(x.rotation, -r / g.K * Jg / (1 + r / g.K) + JJ / g.K, 2e-3);
 }
 
-/* The theory: same numbers through the shared names, cooling rate with zeta = -(dT/dt)/T. */
+/* The theory: same numbers under the shared names, cooling rate with zeta = -(dT/dt)/T. */
 static void theory_answers(void **state)
 {
   (void)state;
@@ -161,9 +163,9 @@ static void theory_answers(void **state)
   assert_refused(&gg_theory_huthmann_zippelius1997, &m, "no steady theta/T");
 }
 
-/* White noise balances contacts that all stick: where grains slide the temperature is that at which their own loss
- * does, not the one given. Monte Carlo (phi = 0.1, e = 0.9): 0.696(3), 0.668(2), 0.2989(7), 0.2435(6); and where all
- * stick, or nothing heats by noise, it is the one given. */
+/* White noise balances contacts that all stick: if grains slide, the temperature is that at which their own loss
+ * balances, not the given one. Monte Carlo (phi = 0.1, e = 0.9): 0.696(3), 0.668(2), 0.2989(7), 0.2435(6); if all
+ * stick, or the heating is not noise, it is the given one. */
 static void heated_by_noise(void **state)
 {
   (void)state;
@@ -186,9 +188,9 @@ static void heated_by_noise(void **state)
   }
 }
 
-/* Transport of rough grains that cool: elastic and perfectly rough it is Pidduck's (heat flux, bulk viscosity: Chapman
- * & Cowling, 11.62); without the cooling term it is Lun's at the ratio of the cooling state, whose integrals were done
- * elsewhere; theta/T and zeta are those of Maxwellians. */
+/* Transport of rough grains that cool: elastic and perfectly rough it is Pidduck's (heat flux, bulk viscosity:
+ * Chapman & Cowling, 11.62); without the cooling term it is Lun's at the ratio of the cooling state, whose integrals
+ * are independent; theta/T and zeta are those of Maxwellians. */
 static void rough_viscosity(void **state)
 {
   (void)state;
@@ -232,11 +234,16 @@ static void rough_viscosity(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cooling_ratio),          cmocka_unit_test(rates_of_santos),
-      cmocka_unit_test(equipartition),          cmocka_unit_test(friction_limits),
-      cmocka_unit_test(friction_by_quadrature), cmocka_unit_test(theory_answers),
-      cmocka_unit_test(rough_viscosity),        cmocka_unit_test(heated_by_noise),
-      cmocka_unit_test(nearly_smooth_ratios),   cmocka_unit_test(strong_friction),
+      cmocka_unit_test(cooling_ratio),
+      cmocka_unit_test(rates_of_santos),
+      cmocka_unit_test(perfectly_rough_elastic_grains_share_equally),
+      cmocka_unit_test(friction_limits),
+      cmocka_unit_test(friction_by_quadrature),
+      cmocka_unit_test(theory_answers),
+      cmocka_unit_test(rough_viscosity),
+      cmocka_unit_test(heated_by_noise),
+      cmocka_unit_test(nearly_smooth_ratios),
+      cmocka_unit_test(strong_friction),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -74,7 +74,7 @@ static inline double value_of(const gg_theory *theory, const gg_model *m, gg_qua
   return answer_of(theory, m).value[q];
 }
 
-/* The theory must refuse the model, with a message that holds `because`. */
+/* The theory must reject the model, with a message that contains `because`. */
 static inline void assert_refused(const gg_theory *theory, const gg_model *m, const char *because)
 {
   gg_theory_answer a;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How fast the page is, and whether its memory grows, in headless Chromium: numbers, no test. Each lesson's start is that of
- * a fresh tab. PAGE: the page; PAGE_SECONDS: how long its memory is followed (600). Arguments: some of starts, frames, memory. */
+/* Speed of the page, and growth of its memory, in headless Chromium: numbers, no test. Each start of a lesson has a
+ * fresh tab. PAGE: the page; PAGE_SECONDS: how long its memory is recorded (600). Arguments: some of starts, frames,
+ * memory. */
 "use strict";
 const { Browser } = require("./chromium.js");
 const file = process.env.PAGE,
@@ -12,7 +13,7 @@ const file = process.env.PAGE,
 const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
 const say = (name, value, unit) => console.log(`${name.padEnd(52)} ${String(value).padStart(9)} ${unit}`);
 
-/* Milliseconds since the tab went to its address. */
+/* Milliseconds since the tab opened its address. */
 async function starts(browser) {
   const found = [];
   for (let k = 0; k < 5; k++) {
@@ -32,7 +33,7 @@ async function starts(browser) {
   say("first frame, from the address", of(2), "ms");
 }
 
-/* Frames that were drawn, and what drawing one costs. */
+/* Number of drawn frames, and time to draw one. */
 async function frames(browser, name, hash) {
   const tab = await browser.open(file, { hash });
   await tab.until("globalThis.graingas && graingas.now.frames > 10", 60);
@@ -50,7 +51,7 @@ async function memory(browser) {
   const used = async () => {
     await tab.send("HeapProfiler.collectGarbage");
     const { usedSize } = await tab.send("Runtime.getHeapUsage");
-    return [usedSize, ...(await Promise.all(["live", "measure"].map((who) => tab.value(`graingas.workers.${who}.ask("memory").then((a) => a.bytes)`))))].map((b) => (b / 1e6).toFixed(1)).join(", ");
+    return [usedSize, ...(await Promise.all(["live", "measure"].map((who) => tab.value(`graingas.workers.${who}.request("memory").then((a) => a.bytes)`))))].map((b) => (b / 1e6).toFixed(1)).join(", ");
   };
   await tab.until("globalThis.graingas && graingas.store.state.means && graingas.store.state.means.md", 120);
   for (let k = 0; k <= 4; k++) {

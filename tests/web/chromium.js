@@ -11,7 +11,7 @@ function find() {
     try {
       return execFileSync("which", [name], { encoding: "utf8" }).trim();
     } catch (e) {
-      /* the next one */
+      /* try the next one */
     }
   return null;
 }
@@ -68,7 +68,7 @@ class Browser {
     fs.rmSync(this.home, { recursive: true, force: true, maxRetries: 5 });
   }
 
-  /* A tab with the file, in a window of that size; what it says on the console is kept in `said`. */
+  /* Open the file in a tab, in a window of this size; its console messages are kept in `said`. */
   async open(file, { width = 1366, height = 768, hash = "", media = [], scale = 1, url = `file://${file}${hash}` } = {}) {
     const { targetId } = await this.send("Target.createTarget", { url: "about:blank" });
     const { sessionId } = await this.send("Target.attachToTarget", { targetId, flatten: true });
@@ -112,7 +112,7 @@ class Tab {
       throw new Error(exceptionDetails.exception ? exceptionDetails.exception.description : exceptionDetails.text);
     return result.value;
   }
-  /* Until it is true, or so many seconds are over. */
+  /* Wait until the expression is true, or so many seconds have passed. */
   async until(expression, seconds = 60) {
     for (const end = Date.now() + 1000 * seconds; ; await new Promise((r) => setTimeout(r, 100))) {
       const value = await this.value(expression);
@@ -125,7 +125,7 @@ class Tab {
     for (const type of ["keyDown", "keyUp"])
       await this.send("Input.dispatchKeyEvent", { type, key, code: key, windowsVirtualKeyCode });
   }
-  /* A file for an input, as its dialogue would give it. */
+  /* Choose a file for an input, as the user does in its dialogue. */
   async choose(selector, file) {
     const { root } = await this.send("DOM.getDocument", {});
     const { nodeId } = await this.send("DOM.querySelector", { nodeId: root.nodeId, selector });

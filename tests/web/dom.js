@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* As much of a browser's document as charts, tables and words of the page need: elements with attributes, children and
- * texts, of a fixed size. */
+/* The part of a browser's document that charts, tables and words of the page need: elements with attributes,
+ * children and texts, of a fixed size. */
 "use strict";
 
 class Text {
@@ -74,7 +74,7 @@ class Element {
 }
 
 const byId = new Map();
-/* From now on there is a document; every element of it is `wide` by `high` pixels. */
+/* Make a document, all of whose elements are `wide` by `high` pixels. */
 function openDocument(wide, high) {
   Object.assign(Element.prototype, { clientWidth: wide, clientHeight: high });
   globalThis.document = {

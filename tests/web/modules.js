@@ -8,7 +8,7 @@ const fs = require("fs"),
 
 const folder = path.resolve(__dirname, "../../web");
 
-/* A copy of the page's modules that node can import: texts as modules, too. */
+/* Copy the page's modules in a form that node can import; texts become modules, too. */
 function copyTo(work) {
   fs.mkdirSync(path.join(work, "strings"));
   fs.writeFileSync(path.join(work, "package.json"), '{"type": "module"}');
@@ -17,7 +17,7 @@ function copyTo(work) {
   for (const name of fs.readdirSync(path.join(folder, "strings")))
     fs.writeFileSync(path.join(work, "strings", `${name}.js`), `export default ${fs.readFileSync(path.join(folder, "strings", name), "utf8")};`);
 }
-/* {chart: {ticks, ...}, ...}, each call with a state of its own. */
+/* {chart: {ticks, ...}, ...}; each call returns modules with a fresh state. */
 async function modules(names) {
   const work = fs.mkdtempSync(path.join(os.tmpdir(), "graingas-modules-")),
     all = {};
@@ -36,4 +36,13 @@ const texts = () =>
     .filter((name) => /\.(js|html)$/.test(name))
     .map((name) => fs.readFileSync(path.join(folder, name), "utf8"));
 
-module.exports = { modules, strings, texts, languages: fs.readdirSync(path.join(folder, "strings")).map((name) => name.replace(".json", "")) };
+/* {gas: ["controls", "flows", ...], ...}: the modules that each one imports. */
+const imports = () =>
+  Object.fromEntries(
+    fs
+      .readdirSync(folder)
+      .filter((name) => /\.js$/.test(name))
+      .map((name) => [name.slice(0, -3), [...fs.readFileSync(path.join(folder, name), "utf8").matchAll(/from "\.\/(\w+)\.js"/g)].map((found) => found[1])]),
+  );
+
+module.exports = { modules, imports, strings, texts, languages: fs.readdirSync(path.join(folder, "strings")).map((name) => name.replace(".json", "")) };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes whose trajectories are compared: collision models, flows, ways to find neighbours, kernels of dsmc. */
+/* Scenes whose trajectories are compared: collision models, flows, neighbour searches, kernels of dsmc. */
 "use strict";
 module.exports = {
   "smooth, sheared": "{flow: usf, phi: 0.3, collision: {e: 0.9}}",

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* TAP, as the tests of the command print it; and the two that are compared: the terminal and the engines in node. */
+/* TAP, as the tests of the command print it; and the two programs that are compared: the command and the engines in
+ * node. */
 "use strict";
 const fs = require("fs"),
   os = require("os"),
@@ -20,7 +21,7 @@ async function engines() {
 
 const terminal = (scene, ...args) =>
   execFileSync(command, args.concat("-"), { input: scene, encoding: "utf8", maxBuffer: 1 << 26 });
-/* What it says on standard error when it refuses. */
+/* The command's message on standard error when it rejects a scene. */
 const refusal = (scene, ...args) => {
   try {
     execFileSync(command, args.concat("-"), { input: scene, encoding: "utf8", stdio: ["pipe", "pipe", "pipe"] });
@@ -30,7 +31,7 @@ const refusal = (scene, ...args) => {
   return "";
 };
 
-/* A result file of the terminal's: its bytes, and what the command printed of it. */
+/* A result file of the command: its bytes, and what the command printed. */
 function resultOf(scene, use = "run", more = []) {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), "graingas-result-")),
     file = path.join(folder, "result.h5");
@@ -39,7 +40,7 @@ function resultOf(scene, use = "run", more = []) {
   fs.rmSync(folder, { recursive: true });
   return { printed, bytes };
 }
-/* What the terminal says of a file with these bytes. */
+/* The command's message about a file with these bytes. */
 function refusalOf(bytes, name = "given.h5") {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), "graingas-result-"));
   fs.writeFileSync(path.join(folder, name), bytes);
@@ -53,7 +54,7 @@ function refusalOf(bytes, name = "given.h5") {
   return "";
 }
 
-/* One line a test; a test that returns "SKIP why" was not done. */
+/* One line a test; a test that returns "SKIP why" is skipped. */
 async function list(tests, g) {
   const names = Object.keys(tests);
   console.log(`1..${names.length}`);

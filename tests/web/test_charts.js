@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Charts by numbers, in node: where values come to lie in pixels, axes and their marks, error bars and bands; what each
- * diagram shows of a state, with units. Expected numbers are worked out here, not by the page's code. */
+/* Charts by numbers, in node: positions of values in pixels, axes and their marks, error bars and bands; the
+ * contents of each diagram for a state, with units. Expected numbers are computed here, not by the page's code. */
 "use strict";
 const assert = require("assert");
 const { list } = require("./tap.js"),
@@ -27,7 +27,7 @@ const polygon = (element) => element.getAttribute("points").split(" ").map((one)
 const placeOf = (path) => /translate\((.*),(.*)\)/.exec(path.getAttribute("transform")).slice(1).map(Number);
 const axisTexts = (chart) => chart.axes.all("text").map((one) => [one.textContent, one.number("x"), one.number("y")]);
 
-/* What a diagram of the page is given for a state. */
+/* The input of a diagram of the page for a state. */
 const shown = (state) => {
   let spec = null;
   m.charts.showChart({ update: (one) => (spec = one) }, { ...m.state.initial, ...state });
@@ -46,7 +46,7 @@ const parts = {
       series: [{ name: "s", label: "s", colour: "red", points: true, x: [2.5, 5, 7.5], y: [1, NaN, 2], error: [0.5, 1, 0], shift: 7 }],
     });
     const [first] = of("s").all("line");
-    assert.strictEqual(of("s").all("line").length, 1); /* an error of 0 has no bar, a value that is none no point */
+    assert.strictEqual(of("s").all("line").length, 1); /* an error of 0 has no bar, NaN has no point */
     near(numbersOf(first, "x1", "x2", "y1", "y2"), [165, 165, 258, 158]);
     assert.deepStrictEqual(of("s").all("path").map(placeOf), [
       [165, 208],
@@ -181,7 +181,7 @@ const parts = {
     const line = spec.of("haff1983 temperature");
     near(line.x, [0.1, 10, 1000, 1300]);
     near(line.y, [70, 0.7, 7e-3, 7 / 1300]);
-    /* where the gas has not cooled to a fifth there is none */
+    /* no line before the gas has cooled to a fifth */
     const short = new m.history.TemperatureHistory(true);
     for (const [t, T1] of [[1, 1], [2, 0.5], [4, 0.21]]) short.add(rowOf(t, t, T1, 0), null);
     assert.strictEqual(shown({ gas: { about: aboutOf("hcs"), history: short }, means: null }).of("slope"), undefined);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a page is given is what the library says: states, grains, collisions, means so far, theories, refusals. */
+/* The engines in node and the command agree: states, grains, collisions, means so far, theories, error messages. */
 "use strict";
 const assert = require("assert"),
   { run, terminal, refusal, resultOf, refusalOf } = require("./tap.js");
@@ -57,7 +57,7 @@ run({
     const across = Math.round(apart[1] / state.box[1]);
     apart[0] -= across * state.imageOffset;
     const nearest = apart.map((x, a) => x - state.box[a] * Math.round(x / state.box[a]));
-    nearest.forEach((x, a) => assert.ok(Math.abs(x - e.k[a]) < 1e-9)); /* they touch */
+    nearest.forEach((x, a) => assert.ok(Math.abs(x - e.k[a]) < 1e-9)); /* the grains touch */
     s.free();
   },
   "slices of time add up to the same trajectory": (g) => {
@@ -143,7 +143,7 @@ run({
       let events = [];
       for (let i = 0; i < 40; i++) events.push(s.step());
       plain.collide(40);
-      assert.strictEqual(s.hash(), plain.hash()); /* to be followed changes nothing */
+      assert.strictEqual(s.hash(), plain.hash()); /* recording collisions changes nothing */
       const { hit } = s.grains(),
         last = new Map();
       for (const e of events) e.grain.forEach((i) => last.set(i, e.time));
@@ -184,7 +184,7 @@ run({
       assert.ok(whole > 1.15 * T, `${whole} of whole velocities, ${T} about the mean`);
       scene.free();
     }
-    /* of frames that are played */
+    /* frames of a result that is played */
     const { printed, bytes } = resultOf(
       "{flow: couette, phi: 0.2, particles: 500, collision: {e: 0.9}, output: {trajectory_every: 4, after: warmup}, run: {collisions: 300, warmup: 200}}",
     );

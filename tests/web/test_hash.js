@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Same scene and seed, same trajectory: after 100 000 collisions the state in WebAssembly is the terminal's to the last
- * bit. */
+/* Same scene and seed, same trajectory: after 100 000 collisions the state in WebAssembly equals that of the command
+ * to the last bit. */
 "use strict";
 const assert = require("assert"),
   { run, terminal } = require("./tap.js"),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page in headless Chromium: it loads without a word on the console, and without the network; lessons run; controls
- * act; the same seed gives the same trajectory; what is hostile is refused in the terminal's words. */
+/* The page in headless Chromium: it loads without messages on the console, and without the network; lessons run;
+ * controls act; the same seed gives the same trajectory; hostile input is rejected with the messages of the command. */
 "use strict";
 const assert = require("assert"),
   fs = require("fs"),
@@ -12,13 +12,13 @@ const { find, Browser } = require("./chromium.js"),
 
 const file = process.env.PAGE,
   quick = 120;
-/* Half a minute until their means are there: with QUICK they are left out where each lesson is waited for. */
+/* Lessons whose means take half a minute: with QUICK their means are not tested. */
 const LONG = ["normal_stress", "clustering"];
 const LESSONS = Object.keys(strings("en")).filter((key) => /^lesson_.*_question$/.test(key)).map((key) => key.slice(7, -9));
 const wait = (ms) => new Promise((r) => setTimeout(r, ms));
 let browser;
 
-/* In the page: what tests name often. */
+/* Helper functions in the page. */
 const HELPERS = `
   const S = () => graingas.store.state, byId = (id) => document.getElementById(id), now = graingas.now;
   const move = (id, value) => { const c = byId(id); c.value = value;
@@ -45,18 +45,18 @@ const SMALL = link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.9}}")
 const PLAYED =
   "{flow: usf, phi: 0.2, particles: 300, collision: {e: 0.9, beta: 0}, output: {trajectory_every: 1}, run: {collisions: 40, warmup: 5}}";
 
-/* Frames come so many milliseconds later, as on a slow machine. */
-const slower = (ms) => `{ const { live } = graingas.workers, ask = live.ask.bind(live); graingas.slower = ${ms};
-  live.ask = async (job, ...rest) => { const answer = await ask(job, ...rest);
+/* Delay frames by so many milliseconds, as on a slow machine. */
+const slower = (ms) => `{ const { live } = graingas.workers, request = live.request.bind(live); graingas.slower = ${ms};
+  live.request = async (job, ...rest) => { const answer = await request(job, ...rest);
     if (job === "frame") await new Promise((r) => setTimeout(r, graingas.slower)); return answer; }; } 0`;
 
-/* As somebody drops it from a folder. */
+/* Drop a file on the page, as from a folder. */
 const drop = (tab, name, bytes) =>
   tab.value(`(() => { const data = new DataTransfer(), bytes = Uint8Array.from(atob("${Buffer.from(bytes).toString("base64")}"), (c) => c.charCodeAt(0));
   data.items.add(new File([bytes], "${name}")); for (const kind of ["dragover", "drop"]) byId("box").dispatchEvent(new DragEvent(kind, { dataTransfer: data, bubbles: true, cancelable: true })); })()`);
 const banner = (tab) => tab.value("byId('banner').innerText");
 
-/* Of a box: how many of its pixels differ from the darkness around, and how many colours they have. */
+/* How many pixels of a box differ from the dark background, and how many colours they have. */
 const drawn = (id) => `(() => { const c = byId("${id}"), copy = document.createElement("canvas"), to = copy.getContext("2d", { willReadFrequently: true });
   copy.width = c.width; copy.height = c.height; to.drawImage(c, 0, 0);
   const p = to.getImageData(0, 0, c.width, c.height).data, seen = new Set(); let n = 0, sum = 0;
@@ -113,7 +113,7 @@ const tests = {
       for (const name of LESSONS) {
         await tab.value(`byId("lesson-${name}").click()`);
         await tab.until(`S().lesson === "${name}" && now.frame && document.querySelector("#chart [data-name]")`, quick);
-        /* of the diagram what is drawn, its axes and their names */
+        /* the drawn part of the diagram, its axes and their names */
         const places = await tab.value("[byId('box'), byId('main-control'), document.querySelector('#chart svg')].map((one) => { const r = one.getBoundingClientRect(); return [r.top, r.bottom]; })");
         for (const [top, bottom] of places) assert.ok(top >= 0 && bottom <= 844, `${language}, ${name}: ${places.join("; ")}`);
         assert.ok(places[0][1] - places[0][0] > 180 && places[2][1] - places[2][0] > 100, `${language}, ${name}: ${places.join("; ")}`);
@@ -183,13 +183,13 @@ const tests = {
     await set("phi-number", 0.15, "V().phi === 0.15");
     const flows = await tab.value("[...byId('flow').options].map((one) => one.value)");
     for (const flow of flows) await set("flow", flow, `V().flow === "${flow}" && now.frame`);
-    /* what an elastic gas took away comes back */
+    /* values that an elastic gas set to 1 are restored */
     await set("flow", "usf", "V().flow === 'usf'");
     await set("e", 0.7, "V().collision.e === 0.7");
     await set("flow", "equilibrium", "V().collision.e === 1 && V().collision.beta === -1");
     await set("flow", "hcs", "V().flow === 'hcs'");
     assert.deepStrictEqual(await tab.value("[V().collision.e, V().collision.beta, V().collision.mu]"), [0.7, 0.5, 0.1]);
-    /* rows that some flows have */
+    /* rows of particular flows */
     const shown = (id) => tab.value(`!byId("${id}").closest(".control").hidden`);
     assert.deepStrictEqual([await shown("wallE"), await shown("thermostat"), await shown("tilt")], [false, false, false]);
     await set("flow", "hss", "V().flow === 'hss'");
@@ -198,7 +198,7 @@ const tests = {
     await set("tilt", 30, "Math.abs(V().gravity[0] / V().gravity[1] + Math.tan(Math.PI / 6)) < 1e-4");
     await set("wallE", 0.5, "V().walls.e === 0.5");
     await set("wallBeta", 0, "V().walls.beta === 0");
-    /* and from a scene with every key, as a page has that was written with one */
+    /* and from a scene with every key, as in a page that was written with one */
     for (const from of ["hss", "chute"]) {
       await set("flow", from, `V().flow === "${from}" && now.frame`);
       await tab.value("void graingas.start(S().gas.about.yaml, {})");
@@ -214,12 +214,12 @@ const tests = {
 
   "changes while a gas is awaited add up": async () => {
     const tab = await open(link("{flow: usf, phi: 0.1, particles: 200, collision: {e: 0.8}}"));
-    /* `asked`: until it is under way, and not answered */
-    const sent = `const { live } = graingas.workers, ask = live.ask.bind(live), asked = () => new Promise((r) => { live.ask = (job, ...rest) => { if (job === "start") setTimeout(r, 0); return ask(job, ...rest); }; });`;
-    await tab.value(`(async () => { ${sent} const first = asked(); move("phi", 0.2); await first; move("e", 0.7); })()`);
+    /* `requested`: resolves when the request is pending, before its answer */
+    const sent = `const { live } = graingas.workers, request = live.request.bind(live), requested = () => new Promise((r) => { live.request = (job, ...rest) => { if (job === "start") setTimeout(r, 0); return request(job, ...rest); }; });`;
+    await tab.value(`(async () => { ${sent} const first = requested(); move("phi", 0.2); await first; move("e", 0.7); })()`);
     await tab.until("V().collision.e === 0.7", quick);
     assert.strictEqual(await tab.value("V().phi"), 0.2);
-    await tab.value(`(async () => { ${sent} const first = asked(); move("phi", 0.15); await first; byId("restart").click(); })()`);
+    await tab.value(`(async () => { ${sent} const first = requested(); move("phi", 0.15); await first; byId("restart").click(); })()`);
     await tab.until("V().phi === 0.15 && now.frame", quick);
     await wait(500);
     assert.strictEqual(await tab.value("V().phi"), 0.15);
@@ -237,7 +237,7 @@ const tests = {
     await tab.value(`move("flow", "equilibrium"); move("flow", "couette")`);
     await tab.until("V().flow === 'couette'", quick);
     assert.strictEqual(await tab.value("V().collision.e"), 0.7);
-    /* what is refused is not built on, and is said on top, in view */
+    /* later changes do not build on a rejected value; the banner at the top shows its message */
     await tab.value(`move("e-number", 7)`);
     await tab.until("byId('banner').textContent.includes('collision.e')", quick);
     assert.ok(await tab.value("byId('banner').getBoundingClientRect().top >= 0 && byId('banner').getBoundingClientRect().bottom < innerHeight / 3"));
@@ -274,14 +274,14 @@ const tests = {
 
   "the speed that is shown is kept": async () => {
     const tab = await open(link("{flow: usf, phi: 0.1, particles: 100, collision: {e: 0.9}}"));
-    /* answers that take a fifth of a second, as on a slow machine: nothing of the time between is lost */
+    /* answers that take a fifth of a second, as on a slow machine: no time is dropped */
     await tab.value(slower(200));
     const kept = await tab.value(`new Promise((done) => { let from = null;
       const tick = (at) => { const s = now.frame && now.frame.md; if (s && !from && at > 1500) from = [at, s.time];
         if (from && at - from[0] > 6000) done((s.time - from[1]) / now.frame.timeScale / ((at - from[0]) / 1000)); else requestAnimationFrame(tick); };
       requestAnimationFrame(tick); })`);
     assert.ok(kept > 0.6 && kept < 1.35, `1 shown, ${kept} kept`);
-    /* what cannot be kept is said */
+    /* dropped time causes a warning */
     await tab.value("graingas.slower = 2200; 0");
     await tab.until("byId('warnings').textContent.includes('cannot go faster')", 30);
     await silent(tab);
@@ -302,7 +302,7 @@ const tests = {
     const bad = encodeURIComponent("{flow: usf, phi: 7}"),
       good = encodeURIComponent("{flow: hcs, phi: 0.1, particles: 200, collision: {e: 0.9}}");
     const tab = await open(`#scene=${bad}`);
-    assert.match(await banner(tab), /asks for a gas that is not possible.*phi/s);
+    assert.match(await banner(tab), /requests for a gas that is not possible.*phi/s);
     assert.strictEqual(await tab.value("S().lesson"), "temperature");
     await tab.value("byId('lesson-friction').click()");
     await tab.until("S().lesson === 'friction' && V().collision.mu === 0.2 && location.hash === '#lesson=friction'", quick);
@@ -327,7 +327,7 @@ const tests = {
     await tab.until("V().flow === 'hcs' && V().run.seed === 5 && document.documentElement.lang === 'de' && S().lesson === null", quick);
     await tab.until("location.hash.includes('run:')", quick);
     assert.match(await tab.value("decodeURIComponent(location.hash.replace(/\\+/g, ' '))"), /^#scene=\{flow: hcs, phi: 0.1, particles: 200, run: \{seed: 5\}\}&language=de$/);
-    /* while a result is played the address is of the gas that waits, in the language that is chosen */
+    /* while a result is played the address is that of the live gas, in the chosen language */
     await drop(tab, "class.h5", resultOf(PLAYED).bytes);
     await tab.until("S().player && graingas.played.shown >= 0", quick);
     await tab.value("move('language', 'en'); 0");
@@ -357,7 +357,7 @@ const tests = {
     server.close();
   },
 
-  "a link cannot hang a device: too many grains are asked about first": async () => {
+  "a link cannot hang a device: a banner offers fewer grains first": async () => {
     for (const n of [1000000, 5000000]) {
       const from = Date.now(),
         tab = await open(link(`{flow: hcs, phi: 0.1, particles: ${n}, collision: {e: 0.9}}`));
@@ -417,7 +417,7 @@ const tests = {
     assert.strictEqual(await tab.value("document.querySelectorAll(\"#points [data-name='md kept'] path\").length"), 2);
     await tab.until("document.querySelector(\"#points [data-name='enskog_hermite'] polyline\")?.getAttribute('points').split(' ').length > 6", quick);
     await tab.until("document.querySelector(\"#chart [data-name='ghost e = 0.9']\")", quick);
-    /* the table, and the table of a class beside one's own */
+    /* the table, and a table of the class beside the student's own */
     await tab.value("byId('save-points').click()");
     const text = await tab.value("graingas.taken['graingas-points.csv'].text()");
     assert.match(text, /^slider,value,seed,md_temperature,md_temperature_error,/);
@@ -439,7 +439,7 @@ const tests = {
     const tab = await open("#lesson=haff&points=Ann;e;cooling_rate;0.9,0.1,0.002,0.101,0.001;0.8,0.19,0.003");
     const names = () => tab.value("[...document.querySelectorAll('#points [data-name]')].map((one) => one.dataset.name).filter((one) => / of /.test(one))");
     await tab.until("document.querySelectorAll(\"#points [data-name='md of Ann'] path\").length === 2", quick);
-    /* links pasted by the teacher, whole or the end of one; the later one of a student stands */
+    /* links pasted by the teacher, whole or their end alone; a later one of a student replaces the earlier */
     await tab.value(`byId("class").click(); byId("links").value = "file:///x/page.html#lesson=haff&points=Bob+%26+<b>;e;cooling_rate;0.7,0.3,0.01\\n#points=Ann;e;cooling_rate;0.6,0.33,0.01\\n http://nothing"; byId("take-links").click()`);
     assert.match(await tab.value("byId('gathering-said').textContent"), /: 2\./);
     await tab.value("byId('close-gathering').click()");
@@ -454,7 +454,7 @@ const tests = {
     const marks = await tab.value("[...document.querySelectorAll(\"#points [data-name^='md of '] path\")].map((one) => one.getAttribute('d') + one.getAttribute('fill'))");
     assert.strictEqual(new Set(marks).size, 4);
     await silent(tab);
-    /* the next visit has those of links; after Clear none */
+    /* the next visit has the points of links; after Clear none */
     const later = await open("#lesson=haff");
     await later.until("S().points.length === 2", quick);
     assert.match(await later.value("byId('share').click(), byId('link').value"), /#lesson=haff&points=Ann;e;cooling_rate;0.6,0.33,0.01&points=Bob\+b;e;cooling_rate;0.7,0.3,0.01$/);
@@ -463,7 +463,7 @@ const tests = {
     await silent(later);
     const cleared = await open("#lesson=haff");
     assert.deepStrictEqual(await cleared.value("S().points"), []);
-    /* one's own, in a link and its code */
+    /* the student's own points, in a link and its code */
     await cleared.value("graingas.store.dispatch('point', { points: [{ slider: 'e', x: 0.9, seed: 1, from: '', family: null, md: { cooling_rate: [0.1001, 0.002] }, dsmc: {} }] }); byId('share').click(); byId('me').value = 'Eve <i>'; byId('me').dispatchEvent(new Event('input')); 0");
     assert.match(await cleared.value("byId('link').value"), /#lesson=haff&points=Eve\+i~[0-9a-z]+;e;cooling_rate;0.9,0.1001,0.002$/);
     assert.match(await cleared.value("document.querySelector('#qr svg').getAttribute('viewBox')"), /^-4 -4 \d+ \d+$/);
@@ -496,7 +496,7 @@ const tests = {
     await tab.until("location.hash.includes('question=')", quick);
     const hash = await tab.value("location.hash");
     assert.ok(hash.length < 150, hash);
-    /* the slider moves, and the question stays */
+    /* the slider moves, and the question remains */
     await tab.value("move('phi', 0.2)");
     await tab.until("V().phi === 0.2 && byId('question').textContent !== ''", quick);
     await silent(tab);
@@ -532,7 +532,7 @@ const tests = {
     };
     await click(at);
     await tab.until(`S().grain === ${at[2]} && now.frame.picture.one`, quick);
-    /* as the library has it: the speed of the picture over the colour scale is about the flow, this one with the flow */
+    /* as in the library: the speed of the picture over the colour scale is about the flow, this one with the flow */
     const [words, one, box] = await tab.value("[byId('grain').textContent, now.frame.picture.one, now.frame.md.box]");
     const speed = (v) => String(+Math.hypot(...v).toPrecision(3));
     assert.match(words, new RegExp(`^Grain ${at[2] + 1}: v ${speed(one.velocity)} d γ \\(.*ω ${speed(one.spin)} γ`));
@@ -541,14 +541,14 @@ const tests = {
     assert.ok(Math.abs(Math.hypot(...peculiar) / value - 1) < 1e-3, `${peculiar} and ${value}`);
     assert.match(await tab.value("byId('said').textContent"), /is followed/);
     await tab.until("/grain=\\d/.test(location.hash)", quick);
-    /* it leaves its way behind */
+    /* it leaves a trail */
     await tab.value("byId('play').click()");
     await tab.until("now.trail.length > 20 && Math.hypot(...now.trail[0].map((x, k) => x - now.trail[20][k])) > 1e-6", quick);
     await tab.value("byId('arrows').click()");
     await tab.until("now.frame.picture.velocity && now.frame.picture.velocity.length === 600", quick);
     await tab.value("move('grain-number', 7)");
     await tab.until("S().grain === 6 && now.trailOf === 6 && /^Grain 7:/.test(byId('grain').textContent)", quick);
-    /* beside all of them: none */
+    /* a click beside all grains picks none */
     const [x, y] = await tab.value("(({ left, top }) => [left + 4, top + 4])(byId('box').getBoundingClientRect())");
     await click([x, y]);
     await tab.until("S().grain === null && byId('grain').textContent === '' && byId('grain-number').value === ''", quick);
@@ -581,11 +581,11 @@ const tests = {
     const back = async (e) => {
       const tab = await open(`#lesson=reverse&set=collision.e=${e}&playing=0`);
       await tab.until("now.frame", quick);
-      const nearest = await tab.value(`(async () => { const { live } = graingas.workers, ask = (job, more) => live.ask(job, more);
-        await ask("frame", { collisions: 1, colour: "origin" });
-        const there = await ask("frame", { collisions: 0, colour: "origin" }); await ask("reverse");
+      const nearest = await tab.value(`(async () => { const { live } = graingas.workers, request = (job, more) => live.request(job, more);
+        await request("frame", { collisions: 1, colour: "origin" });
+        const there = await request("frame", { collisions: 0, colour: "origin" }); await request("reverse");
         let least = Infinity, f = there; const turn = there.md.time;
-        while (f.md.time < 2.05 * turn) { f = await ask("frame", { collisions: 0.001, colour: "origin" }); least = Math.min(least, f.distance); }
+        while (f.md.time < 2.05 * turn) { f = await request("frame", { collisions: 0.001, colour: "origin" }); least = Math.min(least, f.distance); }
         return [there.distance, least]; })()`);
       await silent(tab);
       return nearest;
@@ -612,7 +612,7 @@ const tests = {
     await tab.value("move('chart-kind', 'profiles')");
     await tab.until("document.querySelector(\"#chart [data-name='md profile_temperature'] polyline\") && document.querySelectorAll(\"#chart [data-name='dsmc profile_temperature'] path\").length > 10", quick);
     assert.ok(await tab.value("(() => { const { yr } = JSON.parse(byId('chart').dataset.scales); return yr[0] < 1 && yr[1] > 1 && yr[1] < 3; })()"));
-    /* another flow has no gap */
+    /* a flow without a gap */
     await tab.value("move('flow', 'usf')");
     await tab.until("V().flow === 'usf' && S().chart === 'temperature'", quick);
     const lids = (top) => tab.value(`(async () => { await graingas.start("{flow: chute, phi: 0.2, particles: 300, collision: {e: 0.8}, walls: {top: ${top}}}", {});
@@ -712,7 +712,7 @@ const tests = {
     assert.ok(last > 10);
     assert.match(await tab.value("document.title"), /class\.h5: .*shear/);
     assert.deepStrictEqual(await tab.value("[V().flow, byId('flow').value]"), ["usf", "usf"]);
-    /* forwards by itself, to the end; colours, spins */
+    /* plays forwards to the end; colours, spins */
     await tab.value("for (let k = 0; k < 9; k++) byId('faster').click()");
     assert.match(await tab.value("byId('speed').textContent"), /60 frames/);
     await tab.until(`${at}.shown === ${last} && !S().playing`, quick);
@@ -732,7 +732,7 @@ const tests = {
     assert.match(await tab.value("byId('table').textContent"), /temperature T/);
     assert.match(await tab.value("graingas.describe()"), /class\.h5, frame 2 of .*grains: temperature T 0\.\d/);
     await tab.until("byId('chart').querySelector('[data-name=now]')", quick);
-    /* files that are refused leave it as it is */
+    /* rejected files change nothing */
     const damaged = Buffer.from(bytes);
     damaged[5000] ^= 1;
     const without = resultOf("{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 200}, run: {collisions: 9, warmup: 1}}");
@@ -748,11 +748,11 @@ const tests = {
       assert.strictEqual(await tab.value("S().player.name"), "class.h5");
       await tab.value("graingas.store.dispatch('banner', { banner: null })");
     }
-    /* back to the gas that waited */
+    /* back to the live gas */
     await tab.value("byId('back').focus(), byId('back').click()");
     await tab.until("!S().player && V().flow === 'hcs' && now.frame && !byId('player').offsetWidth", quick);
     assert.strictEqual(await tab.value("document.activeElement.id"), "play");
-    /* chosen by its button; and from there a live gas of that scene */
+    /* a file chosen by the button; from there to a live gas of that scene */
     await tab.choose("#file", h5);
     await tab.until(`S().player && ${at}.shown >= 0`, quick);
     await tab.value("byId('run-live').click()");
@@ -772,7 +772,7 @@ const tests = {
     await tab.until("S().means", quick);
     await drop(tab, "long.h5", bytes);
     await tab.until("S().player && graingas.played.shown > 3", quick);
-    /* another while it plays: what is under way of the first is not the second's */
+    /* another file while the first plays: pending answers of the first are not shown in the second */
     await drop(tab, "brief.h5", brief);
     await tab.until("S().player.name === 'brief.h5' && graingas.played.shown === S().player.frames - 1", quick);
     await tab.until(over("S().shelf.means"), quick);
@@ -786,7 +786,7 @@ const tests = {
     for (const name of ["smooth, sheared", "rough, sheared", "frictional, sheared", "cooling", "monte carlo, rough"]) {
       const there = JSON.parse(terminal(scenes[name], "fingerprint", "--json")).fingerprint;
       assert.strictEqual(
-        (await tab.value(`graingas.workers.live.ask("hash", { scene: ${JSON.stringify(scenes[name])}, collisions: 100000 })`)).hash,
+        (await tab.value(`graingas.workers.live.request("hash", { scene: ${JSON.stringify(scenes[name])}, collisions: 100000 })`)).hash,
         there,
         name,
       );
@@ -799,9 +799,9 @@ const tests = {
       tab = await open();
     await tab.value("byId('play').click()");
     const walk = async (pieces) =>
-      tab.value(`(async () => { const ask = (job, more) => graingas.workers.live.ask(job, more); await ask("start", { scene: ${scene}, sets: {} }); let f;
-      for (let k = 0; k < ${pieces}; k++) f = await ask("frame", { collisions: 1e-9, colour: "speed" });
-      for (;;) { f = await ask("frame", { colour: "speed", step: true }); if (f.md.collisions >= 300) break; }
+      tab.value(`(async () => { const request = (job, more) => graingas.workers.live.request(job, more); await request("start", { scene: ${scene}, sets: {} }); let f;
+      for (let k = 0; k < ${pieces}; k++) f = await request("frame", { collisions: 1e-9, colour: "speed" });
+      for (;;) { f = await request("frame", { colour: "speed", step: true }); if (f.md.collisions >= 300) break; }
       return [f.md.collisions, f.md.temperature, ...f.event.k]; })()`);
     assert.deepStrictEqual(await walk(1), await walk(50));
     await silent(tab);
@@ -820,7 +820,7 @@ const tests = {
       assert.ok(Math.abs(shown - mean) < 4 * stderr + 0.01, `${engine}: drawn ${shown}, terminal ${mean} +- ${stderr}`);
       assert.strictEqual(await tab.value(`S().means.${engine}.results.temperature.mean`), mean);
     }
-    /* the mark ! is the library's */
+    /* the mark ! comes from the library */
     const marks = await tab.value("[...byId('table').tBodies[0].rows].filter((row) => row.cells[4].textContent.includes('!')).map((row) => row.cells[0].title)");
     assert.deepStrictEqual(marks.filter((name) => !there.comparison.find((one) => one.quantity === name).beyond_expected), []);
     await silent(tab);
@@ -871,7 +871,7 @@ const tests = {
     await tab.value("graingas.taken = {}; graingas.save = (name, blob) => { graingas.taken[name.split('.').pop()] = [name, blob]; }; 0");
     for (const id of ["save-png", "save-csv", "save-yaml", "save-svg"]) await tab.value(`byId("${id}").click()`);
     await tab.until("Object.keys(graingas.taken).length === 4", quick);
-    /* pictures say of which gas they are, and what their colours and lines mean */
+    /* pictures state the gas, and the meaning of their colours and lines */
     const svg = await tab.value("graingas.taken.svg[1].text()");
     assert.match(svg, /<svg[^>]*xmlns="http:\/\/www.w3.org\/2000\/svg".*Temperature T.*Uniform shear flow.*data-name="T".*grains: T/s);
     assert.strictEqual(await tab.value(`new DOMParser().parseFromString(${JSON.stringify(svg)}, "image/svg+xml").querySelector("parsererror")`), null);
@@ -887,7 +887,7 @@ const tests = {
     const yaml = await tab.value("graingas.taken.yaml[1].text()");
     const hash = (scene) => JSON.parse(terminal(scene, "fingerprint", "--json", "--set", "engine=md")).fingerprint;
     assert.strictEqual(hash(yaml), hash(await tab.value("S().gas.scene")));
-    /* the few words of a link are the same scene; seeds that are no double go with it, too */
+    /* the short scene of a link is the same scene; seeds beyond doubles are kept, too */
     assert.strictEqual(hash(await tab.value("S().gas.about.brief")), hash(yaml));
     await tab.value("void graingas.start(S().gas.scene, { 'run.seed': '9007199254740993' })");
     await tab.until("S().gas.sets['run.seed'] && location.hash.includes('9007199254740993')", quick);
@@ -907,7 +907,7 @@ const tests = {
     /* no two share a colour and dashes */
     const keys = await tab.value("[...byId('chart').querySelectorAll('[data-name$=\" temperature\"] polyline')].map((l) => l.getAttribute('stroke') + l.getAttribute('stroke-dasharray'))");
     assert.strictEqual(new Set(keys).size, keys.length);
-    /* Haff's line, by the library, through the gas it is of: the first point of both */
+    /* Haff's line of the library passes through the first point of its gas */
     const [T, haff] = await tab.value("[S().gas.history.rows[0].T, S().means.cooling.T.haff1983[0]]");
     assert.ok(Math.abs(T / haff - 1) < 0.15, `${T} and ${haff}`);
     await tab.value("byId('theory-boxes').querySelector('[value=haff1983]').click()");
@@ -915,7 +915,7 @@ const tests = {
     await silent(tab);
   },
 
-  "keyboard, and nothing moves for those who asked for that": async () => {
+  "keyboard, and nothing moves for users who prefer reduced motion": async () => {
     const tab = await open("", { media: [{ name: "prefers-reduced-motion", value: "reduce" }] });
     assert.strictEqual(await tab.value("S().playing"), false);
     assert.ok(
@@ -1004,7 +1004,7 @@ const tests = {
     const used = async () => {
       await tab.send("HeapProfiler.collectGarbage");
       const heap = (await tab.send("Runtime.getHeapUsage")).usedSize;
-      return [heap, ...(await Promise.all(["live", "measure"].map((who) => tab.value(`graingas.workers.${who}.ask("memory").then((a) => a.bytes)`))))];
+      return [heap, ...(await Promise.all(["live", "measure"].map((who) => tab.value(`graingas.workers.${who}.request("memory").then((a) => a.bytes)`))))];
     };
     await tab.until("S().means && S().means.md && Object.values(S().lines).some((one) => one.theory.length === one.x.length)", quick);
     await wait((1000 * seconds) / 3);

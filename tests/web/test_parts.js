@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parts of the page that need no browser, in node: the state, scales of diagrams, what is kept of the history, texts of
+/* Parts of the page that need no browser, in node: the state, scales of diagrams, the stored history, texts of
  * numbers, links, points, languages. */
 "use strict";
 const assert = require("assert");
 const { list } = require("./tap.js"),
-  { modules, strings, texts, languages } = require("./modules.js");
+  { modules, imports, strings, texts, languages } = require("./modules.js");
 
 const NAMES = ["chart", "charts", "controls", "files", "gas", "history", "lessons", "link", "live", "measuring", "points", "save", "state", "theories", "warnings", "words", "worker_rpc"];
 globalThis.navigator ||= { language: "en" };
@@ -15,19 +15,30 @@ const gasOf = (id, about = ABOUT, more = {}) => ({ id, scene: about.brief, sets:
 const reduce = (state, type, more) => m.state.reduce(state, { type, ...more });
 
 const tests = {
+  "modules import one another in no circle": () => {
+    const of = imports(),
+      visit = (name, above) => {
+        assert.ok(!above.includes(name), `${[...above, name].join(" -> ")}`);
+        if (!visited.has(name)) for (const next of of[name]) visit(next, [...above, name]);
+        visited.add(name);
+      },
+      visited = new Set();
+    assert.ok(of.gas.includes("points"));
+    for (const name of Object.keys(of)) visit(name, []);
+  },
   "one writer: late answers, refusals, edits": () => {
     let s = m.state.initial;
-    s = reduce(s, "ask", { asked: { id: 1, scene: "a", sets: {} } });
+    s = reduce(s, "request", { requested: { id: 1, scene: "a", sets: {} } });
     s = reduce(s, "started", { gas: gasOf(1) });
-    /* two are asked for; the first answer comes: the second stays asked */
-    s = reduce(s, "ask", { asked: { id: 2, scene: "b", sets: {} } });
-    s = reduce(s, "ask", { asked: { id: 3, scene: "b", sets: { phi: "0.2" } } });
+    /* two requests; after the first answer the second is still pending */
+    s = reduce(s, "request", { requested: { id: 2, scene: "b", sets: {} } });
+    s = reduce(s, "request", { requested: { id: 3, scene: "b", sets: { phi: "0.2" } } });
     s = reduce(s, "started", { gas: gasOf(2) });
-    assert.deepStrictEqual([s.gas.id, s.asked.id, s.asked.sets], [2, 3, { phi: "0.2" }]);
-    /* refused: what was asked is what runs, and the banner says why */
+    assert.deepStrictEqual([s.gas.id, s.requested.id, s.requested.sets], [2, 3, { phi: "0.2" }]);
+    /* rejected: the present gas is again the wanted one, and the banner gives the reason */
     s = reduce(s, "refused", { text: "no", keys: ["phi"] });
-    assert.deepStrictEqual([s.gas.id, s.asked.scene, s.asked.sets, s.banner.text, s.refusedKeys], [2, ABOUT.brief, {}, "no", ["phi"]]);
-    /* means of another gas are not this one's */
+    assert.deepStrictEqual([s.gas.id, s.requested.scene, s.requested.sets, s.banner.text, s.refusedKeys], [2, ABOUT.brief, {}, "no", ["phi"]]);
+    /* means of another gas are dropped */
     assert.strictEqual(reduce(s, "means", { id: 1, means: {} }), s);
     assert.deepStrictEqual(reduce(s, "means", { id: 2, means: { x: 1 } }).means, { x: 1 });
   },
@@ -39,7 +50,7 @@ const tests = {
     s = reduce(s, "means", { id: 1, means: { of: 2 } });
     assert.deepStrictEqual([s.lesson, s.means, s.shelf.means], [null, null, { of: 2 }]);
     s = reduce(s, "back", { id: 4 });
-    assert.deepStrictEqual([s.gas.id, s.lesson, s.chart, s.playing, s.means, s.player, s.asked.id], [1, "haff", "stress", false, { of: 2 }, null, 4]);
+    assert.deepStrictEqual([s.gas.id, s.lesson, s.chart, s.playing, s.means, s.player, s.requested.id], [1, "haff", "stress", false, { of: 2 }, null, 4]);
   },
   "who listens hears each change once, though listeners change more": () => {
     const store = new m.state.Store(),
@@ -130,23 +141,23 @@ const tests = {
     assert.strictEqual(behind(engine(2, false), engine(2, true)), true);
   },
   "time is physical: a gas that collides less often comes as far": () => {
-    const asked = [],
+    const requested = [],
       gas = Object.create(m.live.LiveGas.prototype),
-      md = { advance: (time) => asked.push(time) && true, state: () => ({ time: 0, collisionsPerGrain: 0, grains: 9 }), grains: () => null };
+      md = { advance: (time) => requested.push(time) && true, state: () => ({ time: 0, collisionsPerGrain: 0, grains: 9 }), grains: () => null };
     Object.assign(gas, { md, since: { time: 0, collisionsPerGrain: 0 }, rate: 0.1, startRate: 2, about: { values: { flow: "hcs" } }, view: { of: () => null } });
     gas.frame({ collisions: 1 });
     gas.frame({ collisions: 1, follow: true });
-    assert.deepStrictEqual(asked, [0.5, 10]);
+    assert.deepStrictEqual(requested, [0.5, 10]);
   },
   "a worker that fails tells whoever waits": async () => {
     globalThis.Worker = class {
       postMessage() {}
     };
     const client = new m.worker_rpc.WorkerClient("source"),
-      waiting = client.ask("frame");
+      waiting = client.request("frame");
     client.worker.onerror({ message: "out of memory" });
     await assert.rejects(waiting, /out of memory/);
-    await assert.rejects(client.ask("frame"), /out of memory/);
+    await assert.rejects(client.request("frame"), /out of memory/);
   },
   "errors that are not known, and those of what is conserved": () => {
     const { withError } = m.words,
@@ -211,7 +222,7 @@ const tests = {
     const [read] = m.points.pointsOf(text, "class.csv");
     assert.deepStrictEqual([read.x, read.md, read.dsmc, read.from], [0.8, { N1: [0.5, 0.01] }, { N1: [0.52, 0.02], temperature: [1.5, 0.1] }, "class"]);
     assert.deepStrictEqual(m.points.pointsOf("a,b\n1,2\n", "x.csv"), []);
-    /* what a spreadsheet would compute: not read as a seed, written as a text; numbers are numbers */
+    /* a text that a spreadsheet would compute is not read as a seed, and is written as a text; numbers are numbers */
     for (const bad of ["=cmd|' /C calc'!A0", "+1+1", "-1+1", "@SUM(A1)", "1e3", "\t=1"]) {
       assert.strictEqual(m.points.pointsOf(text.replace(",3,", `,${bad},`), "class.csv")[0].seed, "", bad);
       const [, row] = m.points.pointsCsv([{ ...point, seed: bad }]).split("\n");
@@ -232,7 +243,7 @@ const tests = {
       [`${who}~${device}`, 0.8, [0.4, 0.01], undefined],
       [`${who}~${device}`, 0.7, undefined, [0.3, 0.02]],
     ]);
-    /* two of one name are two, one who shares again is one; so they are in a table */
+    /* two students of one name stay two, one who shares again stays one, also in a table */
     const anns = ["Ann~a1", "Ann~b2", "Ann~a1", "Ann"].flatMap((from, i) => pointsFrom(`${from};e;N1;0.${i + 5},1,0.1`)),
       gathered = anns.reduce((s, one) => reduce(s, "gather", { points: [one] }), m.state.initial).points,
       students = m.points.studentsOf(gathered);
@@ -243,7 +254,7 @@ const tests = {
     assert.deepStrictEqual(pointsFrom("Ann~<b>;e;N1;0.5,1,0.1").map((one) => one.from), ["Ann b"]);
     assert.deepStrictEqual(m.link.pointsIn(`x.html#lesson=haff&points=${encodeURIComponent(text)} nonsense`), [text]);
     for (const bad of ["", ";e;N1;1,2,3", "Ann;e;nothing;1,2,3", "Ann;constructor;N1;1,2,3", "Ann;seed;N1;1,2,3", "Ann;e;N1;x,2,3", "Ann;e;N1;1,,", "Ann;e;__proto__;1,2,3"]) assert.deepStrictEqual(pointsFrom(bad), [], bad);
-    /* what no measurement gives would be all that the diagram shows */
+    /* values that no measurement gives would squeeze the diagram */
     for (const bad of ["1e300,1e300,1", "0.9,1e300,1", "0.9,1e999,1", "-0.1,1,1", "1.1,1,1", "0.9,-1e9,1", "Infinity,1,1", "0.9,0.5,1e999", "0.9,0.5,1e300"])
       assert.deepStrictEqual([pointsFrom(`Eve;e;N1;${bad}`), m.points.pointsOf(`slider,value,seed,md_N1,md_N1_error\ne,${bad.replace(",", ",1,")}\n`, "Eve.csv")], [[], []], bad);
     assert.deepStrictEqual(pointsFrom("Eve;e;N1;0.9,1e999,1,0.5,0.1").map((one) => [one.md, one.dsmc]), [[{}, { N1: [0.5, 0.1] }]]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers, units, tables, CSV, controls, links and pictures of the page, in node: what is printed and drawn for values that
- * all differ. Expected texts and numbers are worked out here; units are the terminal's. */
+/* Numbers, units, tables, CSV, controls, links and pictures of the page, in node: printed and drawn texts for values
+ * that all differ. Expected texts and numbers are computed here; units are the command's. */
 "use strict";
 const assert = require("assert");
 const { list, terminal } = require("./tap.js"),
@@ -122,20 +122,20 @@ const parts = {
   },
   "theories over the slider: its keys and values, and what they answer": async () => {
     const { store } = m.state,
-      asked = [];
-    m.gas.workers.measure = {
-      ask: async (job, { sets }) => {
-        asked.push([job, sets]);
-        if (asked.length === 2) throw new Error("refused");
-        return { theory: { grad: { N1: { mean: 100 + asked.length }, a2: { mean: 5 } } } };
+      requested = [];
+    m.worker_rpc.workers.measure = {
+      request: async (job, { sets }) => {
+        requested.push([job, sets]);
+        if (requested.length === 2) throw new Error("refused");
+        return { theory: { grad: { N1: { mean: 100 + requested.length }, a2: { mean: 5 } } } };
       },
     };
     store.state = { ...m.state.initial, gas: { scene: "s", sets: { phi: "0.2" }, about: { values: VALUES } }, slider: "e", means: { theory: {} } };
     await m.points.drawLines();
-    assert.deepStrictEqual(asked.map(([job, sets]) => [job, sets["collision.e"], sets.phi]), [0.5, 0.5625, 0.625, 0.6875, 0.75, 0.8125, 0.875, 0.9375, 1].map((x) => ["theory", String(x), "0.2"]));
+    assert.deepStrictEqual(requested.map(([job, sets]) => [job, sets["collision.e"], sets.phi]), [0.5, 0.5625, 0.625, 0.6875, 0.75, 0.8125, 0.875, 0.9375, 1].map((x) => ["theory", String(x), "0.2"]));
     const [[key, { x, theory }]] = Object.entries(store.state.lines);
     assert.match(key, /^e \{/);
-    near(x, asked.map(([, sets]) => +sets["collision.e"]));
+    near(x, requested.map(([, sets]) => +sets["collision.e"]));
     assert.deepStrictEqual(theory.map((one) => one.grad && one.grad.N1), [101, undefined, 103, 104, 105, 106, 107, 108, 109]);
     store.state = m.state.initial;
   },
@@ -143,7 +143,7 @@ const parts = {
     const history = new m.history.TemperatureHistory(false),
       curve = (k, value) => ({ x_name: "y", x: [k, k + 1], value: [k + 2, value], stderr: [k + 4, null] });
     history.add(row(1, 2, 3, 4), row(1, 5, 6, 7));
-    history.add(row(11, 12, 13, 14), row(0.5, 15, 16, 17)); /* Monte Carlo that is late */
+    history.add(row(11, 12, 13, 14), row(0.5, 15, 16, 17)); /* Monte Carlo behind md in time */
     assert.strictEqual(
       m.save.curvesCsv(history, { md: { curves: { u: curve(10, null) } }, dsmc: { curves: { T: curve(20, 27) } } }, "A gas"),
       "# A gas\ntime,collisions_per_grain,md_temperature,md_rotational_temperature,dsmc_temperature,dsmc_rotational_temperature\n" +
@@ -169,10 +169,10 @@ const parts = {
     near(gridOf(rowOf("e")), [0.5, 0.5625, 0.625, 0.6875, 0.75, 0.8125, 0.875, 0.9375, 1]);
     near(gridOf(rowOf("beta"), 3), [-1, 0, 1]);
     assert.strictEqual(shownValue(rowOf("no such row"), VALUES), 0.8);
-    /* what a flow needs, and what the one after an elastic gas has again */
+    /* keys that a flow needs, and values that are restored after an elastic gas */
     const { store } = m.state,
       values = (flow, e) => ({ flow, collision: { e, beta: 0.5, mu: 0.3, law: "viscoelastic" } }),
-      at = (given) => (store.state = { ...m.state.initial, asked: { id: 1, scene: "", sets: {} }, gas: { sets: {}, about: { values: given } } });
+      at = (given) => (store.state = { ...m.state.initial, requested: { id: 1, scene: "", sets: {} }, gas: { sets: {}, about: { values: given } } });
     at(values("usf", 0.8));
     assert.deepStrictEqual(setsOf("phi", "0.2"), { phi: "0.2" });
     assert.deepStrictEqual(setsOf("flow", "chute"), { flow: "chute", thermostat: "none", gravity: "[0.1, -0.1, 0]", "walls.temperature": "none" });
@@ -193,7 +193,7 @@ const parts = {
     const read = readLink({ hash: linkOf({ ...usual, ...look, language: "es" }, "en"), search: "" });
     assert.deepStrictEqual([read.look, read.scene, read.sets, read.lesson, read.language], [look, about.brief, {}, null, "es"]);
     for (const [name, value] of Object.entries(look)) {
-      if (["question", "slider", "quantity"].includes(name)) continue; /* one with another */
+      if (["question", "slider", "quantity"].includes(name)) continue; /* a lesson with another one */
       const alone = readLink({ hash: linkOf({ ...usual, [name]: value }, "en"), search: "" });
       assert.deepStrictEqual(alone.look, { [name]: value }, name);
     }
@@ -230,13 +230,13 @@ const parts = {
     near(of("origin").value, [0.1, 0.4], "origin", 1e-6);
     near(of("speed", { arrows: true, flow: 1 }).velocity, [1, 4, 0, 5, 0, 12], "arrows", 1e-6);
     near([view.fastest], [2 * Math.max(fast, along / 2.2)]);
-    /* over the speeds of now, where those have halved since */
+    /* over the present speeds, which have halved since the start */
     const slow = { ...grains, velocity: grains.velocity.map((v) => v / 2) };
     near(view.of(state, slow, { by: "speed" }).value, [5 / (4 * fast), 12 / (4 * fast)], "kept", 1e-6);
     near(view.of(state, slow, { by: "speed", follow: true }).value, [5 / (2 * fast), 12 / (2 * fast)], "followed", 1e-6);
     const { one } = of("speed", { grain: 1, flow: 1 });
     assert.deepStrictEqual([one.position, one.velocity, one.spin], [[4, 9, 6], [5, 0, 12], null]);
-    /* a quarter of a turn about z takes x to y */
+    /* a quarter rotation about z takes x to y */
     view.marks.set([1, 0, 0, 0, 1, 0]);
     const turned = view.of({ ...state, time: 5 + Math.PI / 4, rotationalTemperature: 1 }, grains, { by: "spin", grain: 0 });
     near(turned.marks, [0, 1, 0, 0, -1, 0], "marks", 1e-6);
@@ -245,7 +245,7 @@ const parts = {
     view.marks.set([0, 1, 0, 0, 0, 1]);
     const others = view.of({ ...state, time: 5 + Math.PI / 2, rotationalTemperature: 1 }, { ...grains, spin: [2, 0, 0, 0, 2, 0] }, { by: "spin" });
     near(others.marks, [0, 0, 1, 1, 0, 0], "marks", 1e-6);
-    /* smooth grains: spins as equipartition would have them, 3 T/I, I = .4/4 */
+    /* smooth grains: spins of equipartition, 3 T/I, I = .4/4 */
     const still = new m.picture.Picture(grains, kinds, {});
     still.fix(state, { ...grains, spin: [0, 0, 0, 0, 0, 0] }, kinds, 0);
     near([still.scale.spin], [Math.sqrt(6 / 0.1)]);
@@ -260,7 +260,7 @@ const parts = {
     const [right, up, close] = [view.to(6, 4, 3), view.to(5, 5, 3), view.to(5, 4, 4)];
     assert.ok(right[0] > 200 && right[1] === middle[1] && up[1] < 150 && up[0] === middle[0] && close[3] > middle[3] && close[2] > middle[2]);
     near([right[0] - 200, 150 - up[1]], [middle[2], middle[2]]);
-    view.aim(box, false, [1, -1, 0]); /* a chute at 45 degrees: gravity down on the screen */
+    view.aim(box, false, [1, -1, 0]); /* a chute at 45 degrees: gravity points down on the screen */
     const [u, down] = view.rotate(1, -1, 0);
     near([u, down], [0, -Math.SQRT2]);
     view.aim(box, true);
@@ -328,11 +328,11 @@ const parts = {
   },
   "the gas that is seen: time by collisions, Monte Carlo to the same time": () => {
     const { LiveGas, flowOf, shownState } = m.live,
-      asked = [],
-      engine = (name, time) => ({ advance: (dt) => asked.push([name, dt]) && true, state: () => ({ time, collisionsPerGrain: time, grains: 9, temperature: 5, box: [1, 7, 1] }), grains: () => null, localTemperature: (n, high) => n * 100 + high }),
+      requested = [],
+      engine = (name, time) => ({ advance: (dt) => requested.push([name, dt]) && true, state: () => ({ time, collisionsPerGrain: time, grains: 9, temperature: 5, box: [1, 7, 1] }), grains: () => null, localTemperature: (n, high) => n * 100 + high }),
       gas = Object.assign(Object.create(LiveGas.prototype), { md: engine("md", 8), dsmc: engine("dsmc", 5.5), since: { time: 6, collisionsPerGrain: 4 }, rate: 1, startRate: 4, about: { values: { flow: "usf" } }, view: { of: () => null } });
     const frame = gas.frame({ collisions: 2 });
-    assert.deepStrictEqual(asked, [["md", 0.5], ["dsmc", 2.5]]);
+    assert.deepStrictEqual(requested, [["md", 0.5], ["dsmc", 2.5]]);
     assert.deepStrictEqual([frame.timeScale, frame.rate, gas.since.time], [1 / 4, 2, 8]);
     assert.deepStrictEqual(["usf", "small_shear", "couette", "hcs"].map((flow) => flowOf({ flow })), [1, 1, 0, 0]);
     assert.deepStrictEqual(["couette", "usf"].map((flow) => shownState(gas.md, gas.md.state(), { flow }).temperature), [907, 5]);
@@ -341,7 +341,7 @@ const parts = {
   },
 };
 
-modules(["box", "charts", "colours", "controls", "engines", "gas", "history", "lessons", "link", "live", "measuring", "picture", "points", "replay", "save", "show", "state", "table", "warnings", "words"]).then((all) => {
+modules(["box", "charts", "colours", "controls", "engines", "gas", "history", "lessons", "link", "live", "measuring", "picture", "points", "replay", "save", "show", "state", "table", "warnings", "words", "worker_rpc"]).then((all) => {
   m = all;
   return list(parts, null);
 });

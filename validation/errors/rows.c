@@ -28,7 +28,7 @@ static const struct {
 static bool append(const gg_replica *r, gg_quantity q, double *y)
 {
   gg_function f;
-  if (gg_common_quantity_missing(&r->model, q) || !gg_measure_derived_find(r->observable[0]->derived, q, &f))
+  if (gg_common_quantity_missing(&r->model, q) || !gg_measure_derived_find(r->observable[0]->rows->derived, q, &f))
     return false;
   for (size_t i = 0; i < r->series.n; i++)
     y[i] = gg_function_value(f, gg_series_row(&r->series, i) + r->offset[0], &r->model);

@@ -9,11 +9,11 @@
 
 enum { MOST_SPECIES = 16, MOST_BINS = 64 };
 
-/* Grains in arrays that stay where they are, and are filled anew when the page asks. */
+/* Grains in arrays at fixed addresses, filled again when the page requests them. */
 typedef struct page_grains {
   gg_grains into;
   size_t n;
-  double *hit; /* the time of each one's last collision; NULL: it is not followed */
+  double *hit; /* time of each grain's last collision; NULL: not recorded */
   double mass[MOST_SPECIES];
 } page_grains;
 
@@ -38,8 +38,8 @@ static int make_arrays(page_grains *g, size_t n, int positions)
   return 0;
 }
 
-/* Where the arrays are: 0 positions (NULL in dsmc), 1 velocities, 2 spins, 3 species, 4 times of collisions, 5 masses
- * of species. Of a simulation or a trajectory, which begin with them. */
+/* Addresses of the arrays: 0 positions (NULL in dsmc), 1 velocities, 2 spins, 3 species, 4 times of collisions, 5
+ * masses of species. `g` is a simulation or a trajectory: both begin with a page_grains. */
 PAGE void *page_array(page_grains *g, int which)
 {
   void *const arrays[] = {g->into.position, g->into.velocity, g->into.spin, g->into.species, g->hit, g->mass};
@@ -70,10 +70,10 @@ static const double *told_species(const gg_species_state *s)
 typedef struct page_simulation {
   page_grains grains;
   gg_simulation *simulation;
-  double until;  /* when an advance in slices is to stop, in milliseconds */
-  double *start; /* positions that were remembered; NULL: none */
+  double until;  /* end of the time slice of an advance, in milliseconds */
+  double *start; /* remembered positions; NULL: none */
   uint64_t caught;
-  gg_collision_event event; /* the last one shown */
+  gg_collision_event event; /* the last collision that was reported */
 } page_simulation;
 
 static int time_is_up(void *context)
@@ -127,7 +127,7 @@ static void catch_event(void *context, const gg_collision_event *event)
   for (int i = 0; i < 2 && p->grains.hit; i++) p->grains.hit[event->grain[i]] = event->time;
 }
 
-/* From now on the time of each grain's last collision is known, -infinity until it has one. Of md. */
+/* Record the time of each grain's last collision from now on, -infinity until it has one. For md only. */
 PAGE int page_follow(page_simulation *p)
 {
   p->grains.hit = malloc(p->grains.n * sizeof(double));
@@ -136,7 +136,7 @@ PAGE int page_follow(page_simulation *p)
   return gg_simulation_on_collision(p->simulation, catch_event, p, &page_why) == GG_OK;
 }
 
-/* 1: done; 2: stopped as so many milliseconds were over, to be gone on with; 0: failed. */
+/* 1: done; 2: the time slice ended, call again; 0: failed. */
 static int outcome(gg_status status)
 {
   return status == GG_OK ? 1 : status == GG_INTERRUPTED ? 2 : 0;
@@ -152,14 +152,14 @@ PAGE int page_collide(page_simulation *p, double collisions, double milliseconds
   return outcome(gg_simulation_collide(p->simulation, (uint64_t)collisions, &page_why));
 }
 
-/* What is not followed is shown for this step alone. */
+/* Report collisions for this step alone, unless they are recorded already. */
 static gg_status show(page_simulation *p, gg_on_collision *callback)
 {
   return p->grains.hit ? GG_OK : gg_simulation_on_collision(p->simulation, callback, p, &page_why);
 }
 
-/* One collision, or in dsmc one step with at least one: the last one of it, as engines.js names its numbers; NULL:
- * failed. */
+/* Advance by one collision, or in dsmc by one step with at least one. Returns the last collision in the order of
+ * engines.js; NULL: failed. */
 PAGE const double *page_step(page_simulation *p)
 {
   static double numbers[15];
@@ -205,14 +205,14 @@ PAGE int page_take_grains(page_simulation *p)
   return gg_simulation_get_grains(p->simulation, &p->grains.into, &page_why) == GG_OK;
 }
 
-/* ---- What a class does with a gas ---- */
+/* ---- Experiments of a class ---- */
 
 static int put_grains(page_simulation *p)
 {
   return gg_simulation_set_grains(p->simulation, &p->grains.into, p->grains.n, &page_why) == GG_OK;
 }
 
-/* All velocities and spins reversed. */
+/* Reverse all velocities and spins. */
 PAGE int page_reverse(page_simulation *p)
 {
   if (!page_take_grains(p)) return 0;
@@ -223,9 +223,9 @@ PAGE int page_reverse(page_simulation *p)
   return put_grains(p);
 }
 
-/* Put the grains back, as they are after a change of units and back; `change`: with the one of the largest x nearer to
- * 0 by the least that is kept, one last bit or, where the change of units rounds that away, a few. A last bit of a
- * velocity would mostly be lost in the first collision. */
+/* Put the grains back, as they are after a change of units and back. With `change`, displace the grain of the
+ * largest x towards 0 by the least amount that survives: one last bit or, where the change of units rounds that
+ * away, a few. A last bit of a velocity would mostly be lost in the first collision. */
 PAGE int page_nudge(page_simulation *p, int change)
 {
   if (!page_take_grains(p) || !put_grains(p) || !page_take_grains(p) || !put_grains(p)) return 0;
@@ -241,7 +241,7 @@ PAGE int page_nudge(page_simulation *p, int change)
   return change ? page_fail("no place is that near"), 0 : 1;
 }
 
-/* Remember where the grains are now, for page_distance. */
+/* Remember the positions of the grains for page_distance. */
 PAGE int page_remember(page_simulation *p)
 {
   if (!p->start) p->start = malloc(3 * p->grains.n * sizeof *p->start);
@@ -251,8 +251,8 @@ PAGE int page_remember(page_simulation *p)
   return 1;
 }
 
-/* Root mean square distance of the grains, by minimum image, from where they were remembered, or from those of another
- * simulation; NaN: failed. Of periodic boxes without shear. */
+/* Root mean square distance of the grains, by minimum image, from their remembered positions, or from those of
+ * another simulation; NaN: failed. For periodic boxes without shear. */
 PAGE double page_distance(page_simulation *p, page_simulation *other)
 {
   gg_simulation_state s;
@@ -270,7 +270,8 @@ PAGE double page_distance(page_simulation *p, page_simulation *other)
   return from ? sqrt(sum / (double)p->grains.n) : NAN;
 }
 
-/* Share of the grains by speed: `bins` bins up to `end`, over the bin width. The grains that page_take_grains took. */
+/* Fraction of the grains by speed: `bins` bins up to `end`, over the bin width. Reads the grains of
+ * page_take_grains. */
 PAGE const double *page_speeds(const page_simulation *p, int bins, double end)
 {
   static double share[MOST_BINS];
@@ -284,7 +285,7 @@ PAGE const double *page_speeds(const page_simulation *p, int bins, double end)
   return share;
 }
 
-/* NULL after the last. */
+/* NULL after the last species. */
 PAGE const double *page_species_state(const page_simulation *p, int species)
 {
   gg_species_state s;
@@ -345,13 +346,13 @@ PAGE int page_trajectory_frames(const page_trajectory *p)
 {
   return (int)gg_trajectory_frames(p->trajectory);
 }
-/* The k-th: the arrays filled, and its state. */
+/* The k-th frame: fills the arrays, returns its state. */
 PAGE const double *page_trajectory_frame(page_trajectory *p, int k)
 {
   gg_simulation_state s;
   return gg_trajectory_frame(p->trajectory, (size_t)k, &s, &p->grains.into, &page_why) == GG_OK ? told_state(&s) : NULL;
 }
-/* NULL after the last. */
+/* NULL after the last species. */
 PAGE const double *page_trajectory_species(const page_trajectory *p, int species)
 {
   gg_species_state s;
@@ -363,7 +364,7 @@ PAGE const double *page_trajectory_species(const page_trajectory *p, int species
 enum { MOST_SLABS = 128, GRAINS_PER_SLAB = 30 };
 
 typedef struct slab {
-  double n, c[3], m, mc[3], mcc; /* grains, and sums over them: velocity, mass, momentum, m c^2 */
+  double n, c[3], m, mc[3], mcc; /* number of grains, and sums over them: velocity, mass, momentum, m c^2 */
 } slab;
 
 static void add_to_slab(slab *s, double mass, const double *c)
@@ -372,7 +373,8 @@ static void add_to_slab(slab *s, double mass, const double *c)
   for (int a = 0; a < 3; a++) s->c[a] += c[a], s->mc[a] += mass * c[a], s->mcc += mass * c[a] * c[a];
 }
 
-/* sum m (c - u)^2 about the mean u of the slab, with what the mean of few takes away given back. */
+/* sum m (c - u)^2 about the mean u of the slab, corrected for the degrees of freedom that the mean of few grains
+ * takes away. */
 static double heat_of_slab(const slab *s)
 {
   double sum = s->mcc;
@@ -384,8 +386,8 @@ static double heat_of_slab(const slab *s)
   return sum * s->n / (s->n - 1);
 }
 
-/* T of these grains about the mean velocities of this instant in slabs across y, which are those of the measurements:
- * between walls the results' temperature is such a one, the state's is not. */
+/* T of these grains about their mean velocities at this instant, in slabs across y. Results have this temperature
+ * between walls; the temperature of the state is of whole velocities. */
 PAGE double page_local_temperature(int n, const double *position, const double *velocity, const int *species,
                                    const double *mass, double height)
 {

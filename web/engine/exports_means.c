@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs in pieces, theories, comparisons; results of the terminal. */
+/* Runs in pieces, theories, comparisons; results of the command. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,13 +15,13 @@ PAGE void page_session_free(gg_session *session)
 {
   gg_session_free(session);
 }
-/* 1: over; 2: to be gone on with; 0: failed. */
+/* 1: finished; 2: call again; 0: failed. */
 PAGE int page_session_go_on(gg_session *session, double milliseconds)
 {
   int over = 0;
   return gg_session_advance(session, milliseconds / 1000, &over, &page_why) == GG_OK ? (over ? 1 : 2) : 0;
 }
-/* Fraction, averaging (0 or 1), collisions, relative error, seconds left; NaN: not known. */
+/* Fraction, averaging (0 or 1), collisions, relative error, seconds left; NaN: unknown. */
 PAGE const double *page_session_progress(const gg_session *session)
 {
   static double numbers[5];
@@ -40,7 +40,7 @@ PAGE char *page_session_json(gg_session *session)
   return text;
 }
 
-/* Of the theories alone, until sessions put their results beside them. */
+/* A comparison of the theories alone; sessions add their results. */
 PAGE gg_comparison *page_comparison(const gg_scene *scene)
 {
   gg_comparison *comparison = NULL;
@@ -77,16 +77,16 @@ PAGE char *page_run_json(const gg_scene *scene)
   return NULL;
 }
 
-/* T of free cooling by a theory; NaN: it says nothing, or the gas is another. */
+/* T of free cooling by a theory; NaN: no answer, or the gas does not cool freely. */
 PAGE double page_cooling(const gg_comparison *comparison, const char *theory, double time)
 {
   double T = NAN;
   return gg_comparison_theory_cooling(comparison, theory, time, &T, &page_why) == GG_OK ? T : NAN;
 }
 
-/* ---- Results of the terminal ---- */
+/* ---- Results of the command ---- */
 
-/* One engine's beside the theories, which its file has not. */
+/* Compare one engine's result with the theories, which its file does not have. */
 static gg_status beside_theories(gg_result *result, gg_comparison **comparison)
 {
   gg_status status = gg_theories_evaluate(gg_result_scene(result), NULL, NULL, NULL, comparison, &page_why);
@@ -94,7 +94,7 @@ static gg_status beside_theories(gg_result *result, gg_comparison **comparison)
   return status;
 }
 
-/* Of a run or a comparison. */
+/* Read the result of a run or a comparison. */
 PAGE gg_comparison *page_comparison_read(const char *path)
 {
   gg_comparison *comparison = NULL;
@@ -108,8 +108,8 @@ PAGE gg_comparison *page_comparison_read(const char *path)
   return gg_comparison_read(path, &comparison, &page_why) == GG_OK ? comparison : NULL;
 }
 
-/* How a quantity of an engine went: how many numbers, as many times, the numbers (NaN: none); to be freed. NULL: it was
- * not followed. */
+/* History of a quantity of an engine: how many numbers, as many times, the numbers (NaN: none); to be freed. NULL:
+ * not recorded. */
 PAGE double *page_history(const gg_comparison *comparison, const char *engine, const char *quantity)
 {
   size_t n = 0;

@@ -54,7 +54,7 @@ PAGE char *page_scene_title(const gg_scene *scene)
   return (copy = strdup(text)) ? copy : page_fail("out of memory");
 }
 
-/* Bytes, seconds of a processor of a run by this engine. */
+/* Bytes and seconds of a processor of a run by this engine. */
 PAGE const double *page_scene_needs(const gg_scene *scene, const char *engine)
 {
   static double numbers[2];

@@ -76,7 +76,7 @@ int gg_hermite_rotated_place(const gg_hermite_basis *b, int J, int P, int Q)
   return b->rotated_place[gg_hermite_cell(b, J, P, Q)];
 }
 
-/* Square roots of 0, 1, ... and one over them: most of the time of the solver was in these. */
+/* Table of square roots of 0, 1, ... and their inverses: computing them took most of the solver's time. */
 static const double root[] = {0,
                               1,
                               1.4142135623730951,
@@ -135,7 +135,7 @@ void gg_hermite_values(int degree, double x, double *value)
   for (int n = 1; n < degree; n++) value[n + 1] = (x * value[n] - root[n] * value[n - 1]) * inverse_root[n + 1];
 }
 
-/* Eight points at once: one by one they would wait for each other's products. */
+/* Eight points at once: one at a time, each product would depend on the one before. */
 enum { LANES = 8 };
 typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 
@@ -186,7 +186,7 @@ static void raise(int n, double axis[3][3], int i, double scale, const double *f
 }
 
 /* Within one degree the polynomials of a frame at rest are numbered in the same way, by (x, y). */
-size_t gg_hermite_rotation_room(int degree)
+size_t gg_hermite_rotation_scratch(int degree)
 {
   size_t most = (size_t)of_degree(degree);
   return 2 * most * most;
@@ -217,7 +217,7 @@ void gg_hermite_rotation(const gg_hermite_basis *b, double axis[3][3], int wide,
     if (n == b->degree) break;
     size_t width = (size_t)of_degree(n), wider = (size_t)of_degree(n + 1);
     for (int y = 0; y <= n + 1; y++)
-      for (int z = 0; z <= n + 1 - y; z++) { /* one quantum more, along x if there is any, else y, else z */
+      for (int z = 0; z <= n + 1 - y; z++) { /* one quantum more: along x if there is any, else y, else z */
         int x = n + 1 - y - z, i = x > 0 ? 0 : y > 0 ? 1 : 2;
         int from = tangential(n, y - (i == 1), z - (i == 2)), count = i == 0 ? x : i == 1 ? y : z;
         raise(n, axis, i, 1 / sqrt(count), level + (size_t)from * width,

@@ -16,16 +16,17 @@ typedef struct gg_hermite_index {
 
 typedef struct gg_hermite_basis {
   int degree; /* N, even */
-  /* Functions even in z as well: those of a flow that is symmetric under reflection of z. The first is the constant. */
+  /* Functions that are also even in z, for a flow that is symmetric under reflection of z. The first is the
+   * constant. */
   int n;
   gg_hermite_index *function;
-  int from[GG_HERMITE_MOST_DEGREE + 2]; /* those of an even degree d lie between from[d] and from[d + 1] */
-  /* All of even degree, seen in the frame of a collision (normal, tangent, binormal): ordered by the last index, so
-   * that those of one last index Q lie between rotated_from[Q] and rotated_from[Q + 1]. */
+  int from[GG_HERMITE_MOST_DEGREE + 2]; /* functions of even degree d are at from[d] .. from[d + 1] */
+  /* All functions of even degree in the frame of a collision (normal, tangent, binormal), ordered by the last index:
+   * those of last index Q are at rotated_from[Q] .. rotated_from[Q + 1]. */
   int n_rotated;
   gg_hermite_index *rotated;
   int rotated_from[GG_HERMITE_MOST_DEGREE + 2];
-  /* Place in `function` and in `rotated`, by the three indices; -1: not there. See gg_hermite_cell. */
+  /* Index into `function` and into `rotated`, by the three indices; -1: none. See gg_hermite_cell. */
   int *place, *rotated_place;
 } gg_hermite_basis;
 
@@ -38,7 +39,7 @@ static inline int gg_hermite_cell(const gg_hermite_basis *b, int x, int y, int z
   return (x * (b->degree + 1) + y) * (b->degree + 1) + z;
 }
 
-/* Place of a function; -1 where there is none (also for indices beyond the degree, or negative). */
+/* Index of a function; -1 if there is none (also for indices beyond the degree, or negative). */
 int gg_hermite_place(const gg_hermite_basis *basis, int x, int y, int z);
 
 int gg_hermite_rotated_place(const gg_hermite_basis *basis, int J, int P, int Q);
@@ -50,8 +51,8 @@ void gg_hermite_values(int degree, double x, double *value);
 void gg_hermite_values_of(int degree, int n, const double *x, double *value, int stride);
 
 /* D, n_rotated rows of `wide` >= n: Ho_s(c) = sum_q D_qs Ho_q(c'), where c'_i = axis_i . c; orthogonal, degree by
- * degree. `work`: room for so many doubles. */
+ * degree. `work`: scratch of gg_hermite_rotation_scratch doubles. */
 void gg_hermite_rotation(const gg_hermite_basis *basis, double axis[3][3], int wide, double *D, double *work);
-size_t gg_hermite_rotation_room(int degree);
+size_t gg_hermite_rotation_scratch(int degree);
 
 #endif

@@ -17,10 +17,10 @@ gg_hermite_component gg_hermite_component_of(const gg_hermite_basis *basis, cons
 /* <c^order>, up to 6. */
 double gg_hermite_component_moment(const gg_hermite_component *component, int order);
 
-/* The histogram that grains have (measure/histogram.h): probabilities of bins of x = (c - <c>)/sigma. */
+/* The histogram of grains (measure/histogram.h): probabilities of bins of x = (c - <c>)/sigma. */
 void gg_hermite_component_histogram(const gg_hermite_component *component, double *bin);
 
-/* Speeds of an isotropic distribution. temperature_ratio is left as it is. */
+/* Speeds of an isotropic distribution. temperature_ratio is not changed. */
 void gg_hermite_component_speeds(const gg_hermite_component *component, gg_sonine_sums *sums);
 
 #endif

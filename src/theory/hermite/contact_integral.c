@@ -13,7 +13,7 @@ void gg_hermite_left_divide(double L[3][3], double A[3][3], double B[3][3])
     }
 }
 
-/* Along a principal axis any tangent will do. */
+/* Any tangent: along a principal axis all are equivalent. */
 static void any_tangent(double axis[3][3])
 {
   int least = 0;

@@ -5,7 +5,7 @@
 
 #include "theory/hermite/operator.h"
 
-/* One grain's. The three axes are rows. */
+/* The frame of one grain. The three axes are rows. */
 typedef struct gg_hermite_frame {
   double axis[3][3];
   double s;      /* |L^T k| */

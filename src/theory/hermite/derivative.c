@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The Jacobian of one direction: what a test changes with the a_s of the grain itself, and with those of its partner,
- * which come in by the marginal alone. */
+/* The Jacobian of one direction: derivatives of a test with respect to the a_s of the grain itself, and to those of
+ * its partner, which enter by the marginal alone. */
 #include <string.h>
 
 #include "theory/hermite/direction_workspace.h"
 
-/* K and E for one Q: by each (j,p), W of all (J,P), and sum_q Z_Qq D_jpq,s. In the order of j + p; upto[d]: how many
- * there are up to j + p = d, of which alone functions of degree d are made. */
+/* K and E for one Q: for each (j,p), W of all (J,P), and sum_q Z_Qq D_jpq,s. Ordered by j + p; upto[d]: number of
+ * pairs up to j + p = d, from which functions of degree d are made. */
 static void factors_of(const gg_hermite_operator *op, const gg_hermite_view *own, int Q, int tests, int tall,
                        int upto[])
 {
   const gg_hermite_basis *b = &op->basis;
-  const gg_hermite_room *r = op->room;
+  const gg_hermite_workspace *r = op->workspace;
   const gg_hermite_flux *f = &op->flux;
   int depth = 0, from = b->rotated_from[Q];
   for (int m = Q % 2; m <= b->degree; m += 2) {
@@ -30,11 +30,11 @@ static void factors_of(const gg_hermite_operator *op, const gg_hermite_view *own
   }
 }
 
-/* X = K^T E for the tests of one Q. Rows beyond them are of the next Q, which begins anew. */
-static void own_share(const gg_hermite_operator *op, const gg_hermite_view *own, int Q)
+/* X = K^T E for the tests of one Q. Rows beyond them belong to the next Q, which overwrites them. */
+static void own_derivatives(const gg_hermite_operator *op, const gg_hermite_view *own, int Q)
 {
   const gg_hermite_basis *b = &op->basis;
-  const gg_hermite_room *r = op->room;
+  const gg_hermite_workspace *r = op->workspace;
   int from = b->rotated_from[Q], tests = b->rotated_from[Q + 1] - from, upto[GG_HERMITE_MOST_DEGREE + 2] = {0};
   int tall = gg_padded(tests, GG_PRODUCT_ROWS);
   factors_of(op, own, Q, tests, tall, upto);
@@ -64,7 +64,7 @@ static int row_of(int N, int P, int Q)
   return P + ((P + Q) % 2 ? odd_rows(N) + half * (half + 1) : half * half);
 }
 
-/* P + Q of the first of a tile; more than N where it is padding. */
+/* P + Q of the first row of a tile; more than N in the padding. */
 static int least_sum(int N, int row)
 {
   int odd = row >= odd_rows(N), sum = odd;
@@ -79,17 +79,17 @@ static void along_tangent(const gg_hermite_operator *op, const gg_hermite_view *
   int N = op->basis.degree, trials = op->flux.trials;
   for (int Q = 0; Q <= N; Q++)
     for (int P = 0; P <= N - Q; P++) {
-      const double *t = own->damped + Q * op->room->box + j * (N + 1);
+      const double *t = own->damped + Q * op->workspace->box + j * (N + 1);
       double sum = 0;
       for (int p = (j + Q) % 2; p <= N - j; p += 2) sum += Y[P * trials + p] * t[p];
       V[row_of(N, P, Q)] = sign * sum;
     }
 }
 
-/* VX += V^T X, of the tests that there are: J + P + Q even and up to N. */
+/* VX += V^T X, for the existing tests: J + P + Q even and up to N. */
 static void multiply(const gg_hermite_operator *op, int depth, const double *X)
 {
-  const gg_hermite_room *r = op->room;
+  const gg_hermite_workspace *r = op->workspace;
   const gg_hermite_flux *f = &op->flux;
   for (int row = 0; row < r->pairs; row += GG_PRODUCT_ROWS) {
     int rest = op->basis.degree - least_sum(op->basis.degree, row), from = gg_hermite_X_column(f, rest % 2);
@@ -100,11 +100,11 @@ static void multiply(const gg_hermite_operator *op, int depth, const double *X)
   }
 }
 
-/* S[(J,P,Q),l] = sum_ij V[(i,j),(P,Q)] X[(i,j),(J,l)], less the same of the loss. */
-static void partner_share(const gg_hermite_operator *op, const gg_hermite_view *own)
+/* S[(J,P,Q),l] = sum_ij V[(i,j),(P,Q)] X[(i,j),(J,l)], minus the same of the loss. */
+static void partner_derivatives(const gg_hermite_operator *op, const gg_hermite_view *own)
 {
   const gg_hermite_basis *b = &op->basis;
-  const gg_hermite_room *r = op->room;
+  const gg_hermite_workspace *r = op->workspace;
   const gg_hermite_flux *f = &op->flux;
   int N = b->degree, half = f->halves, rows = f->n_u * (N + 1);
   memset(r->VX, 0, (size_t)(r->pairs * f->width_X) * sizeof *r->VX);
@@ -120,11 +120,11 @@ static void partner_share(const gg_hermite_operator *op, const gg_hermite_view *
   }
 }
 
-/* Tests of degree 2, which do not decay, anew. */
-static void low_own_share(const gg_hermite_operator *op, const gg_hermite_view *own, int i)
+/* Replace the rows of tests of degree 2, which do not decay. */
+static void low_own_derivatives(const gg_hermite_operator *op, const gg_hermite_view *own, int i)
 {
   const gg_hermite_basis *b = &op->basis;
-  const gg_hermite_room *r = op->room;
+  const gg_hermite_workspace *r = op->workspace;
   int N = b->degree, J = b->rotated[i].r[0], P = b->rotated[i].r[1], Q = b->rotated[i].r[2];
   double *X = r->X + (size_t)i * (size_t)r->wide;
   memset(X, 0, (size_t)r->wide * sizeof *X);
@@ -136,12 +136,12 @@ static void low_own_share(const gg_hermite_operator *op, const gg_hermite_view *
     }
 }
 
-static void low_partner_share(const gg_hermite_operator *op, const gg_hermite_view *own, int i)
+static void low_partner_derivatives(const gg_hermite_operator *op, const gg_hermite_view *own, int i)
 {
   const gg_hermite_basis *b = &op->basis;
   const gg_hermite_flux *f = &op->low;
   int N = b->degree, J = b->rotated[i].r[0], P = b->rotated[i].r[1], Q = b->rotated[i].r[2];
-  double *S = op->room->S + i * f->halves;
+  double *S = op->workspace->S + i * f->halves;
   memset(S, 0, (size_t)f->halves * sizeof *S);
   for (int j = 0; j <= N - Q; j++)
     for (int p = (j + Q) % 2; p <= N - Q - j; p += 2) {
@@ -157,9 +157,9 @@ static void low_partner_share(const gg_hermite_operator *op, const gg_hermite_vi
 void gg_hermite_differentiate_own(const gg_hermite_operator *op, const gg_hermite_view *own)
 {
   const gg_hermite_basis *b = &op->basis;
-  for (int Q = 0; Q <= b->degree; Q++) own_share(op, own, Q);
+  for (int Q = 0; Q <= b->degree; Q++) own_derivatives(op, own, Q);
   for (int i = 0; i < b->n_rotated; i++)
-    if (gg_hermite_degree(b->rotated[i]) <= 2) low_own_share(op, own, i);
+    if (gg_hermite_degree(b->rotated[i]) <= 2) low_own_derivatives(op, own, i);
 }
 
 /* D^T S of the grain, then times the rows of the partner's D that are its marginal. */
@@ -167,14 +167,14 @@ void gg_hermite_differentiate_partner(const gg_hermite_operator *op, const gg_he
                                       const gg_hermite_view *partner, double weight, double *jacobian, size_t stride)
 {
   const gg_hermite_basis *b = &op->basis;
-  const gg_hermite_room *r = op->room;
+  const gg_hermite_workspace *r = op->workspace;
   int half = op->flux.halves;
-  partner_share(op, own);
+  partner_derivatives(op, own);
   memset(r->back, 0, (size_t)(b->n * half) * sizeof *r->back);
   for (int i = 0; i < b->n_rotated; i++) {
     const double *D = own->D + (size_t)i * (size_t)r->wide, *S = r->S + i * half;
     int degree = gg_hermite_degree(b->rotated[i]);
-    if (degree <= 2) low_partner_share(op, own, i);
+    if (degree <= 2) low_partner_derivatives(op, own, i);
     for (int s = b->from[degree]; s < b->from[degree + 1]; s++)
       for (int l = 0; l < half; l++) r->back[s * half + l] += D[s] * S[l];
   }

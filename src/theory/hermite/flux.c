@@ -9,7 +9,7 @@
 #include "theory/hermite/basis.h"
 #include "theory/hermite/product.h"
 
-/* Beyond this the weight is below 1e-31. */
+/* Limit of integration: beyond it the weight is below 1e-31. */
 static const double farthest = 12;
 
 /* Rows of the polynomials of a point, zero beyond the last; points over v. */
@@ -40,9 +40,9 @@ static double *lay_out(gg_hermite_flux *f)
   enum { PARTS = sizeof size / sizeof *size };
   size_t total = 0;
   for (int i = 0; i < PARTS; i++) total += (size_t)size[i];
-  double *room = calloc(total, sizeof *room), *at = room;
-  for (int i = 0; room && i < PARTS; at += size[i++]) *part[i] = at;
-  return room;
+  double *workspace = calloc(total, sizeof *workspace), *at = workspace;
+  for (int i = 0; workspace && i < PARTS; at += size[i++]) *part[i] = at;
+  return workspace;
 }
 
 gg_status gg_hermite_flux_make(gg_hermite_flux *f, int N, int tests, double decay, gg_error *err)
@@ -80,8 +80,8 @@ static double density_at(const gg_hermite_flux *f, const double *marginal, doubl
   return sum;
 }
 
-/* A grain at one u that its test sees displaced: x = x1 - shift = other v + at. exp(-v^2/2 - decay x^2/2) is a Gaussian
- * in v again, and the rule is exact. */
+/* A grain at one u as its test is evaluated, displaced: x = x1 - shift = other v + at. exp(-v^2/2 - decay x^2/2) is
+ * a Gaussian in v again, and the rule is exact. */
 typedef struct gg_sight {
   double at, mean, spread, share;
 } gg_sight;
@@ -175,7 +175,7 @@ void gg_hermite_flux_begin(gg_hermite_flux *f)
 static void combine(gg_hermite_flux *f, const double *loss)
 {
   for (int row = 0; row < f->width_along; row += GG_PRODUCT_ROWS) {
-    int P = f->tests - row / f->trials; /* J + P are up to N */
+    int P = f->tests - row / f->trials; /* J + P is at most N */
     gg_hermite_product_add(GG_PRODUCT_ROWS, gg_padded(P * f->trials, GG_PRODUCT_COLUMNS), f->n_u, f->along + row,
                            f->width_along, f->Y, f->width_Y, f->W + row * f->width_Y, f->width_Y);
   }

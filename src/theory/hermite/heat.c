@@ -9,33 +9,33 @@
 #include "base/memory.h"
 #include "theory/linear_solve.h"
 
-/* A vector along x is c_x times a function of c^2, c = C/sqrt(width). In a collision along z only c_z changes; the sum
- * over all directions of one component is a third of the sum over the components in one direction: along it, and twice
- * across. With x = c^2/2, trials are c_a H_n, H_n ~ L_n^(3/2)(x), n = 0 .. N/2, and tests are the same times
- * exp(-decay x), n > 0: neither A nor B has momentum, which n = 0 would be. */
+/* A vector along x is c_x times a function of c^2, c = C/sqrt(width). A collision along z changes c_z alone; the sum
+ * over all directions of one component is a third of the sum over the components in one direction: once along it,
+ * and twice across. With x = c^2/2, trials are c_a H_n, H_n ~ L_n^(3/2)(x), n = 0 .. N/2, and tests are the same
+ * times exp(-decay x), n > 0: n = 0 would be momentum, which neither A nor B has. */
 enum { MOST = GG_HERMITE_MOST_DEGREE / 2 + 1, POINTS = 64, ACROSS = MOST + 4 };
 
-/* At one c_z, for every s = (c_x^2 + c_y^2)/2 of the rule. */
+/* Values at one c_z, for every s = (c_x^2 + c_y^2)/2 of the rule. */
 typedef struct height {
   double z, damp;                           /* exp(-decay z^2/2) */
   double trial[ACROSS][MOST], base[ACROSS]; /* H_n; f0 over the Gaussian */
-  /* Distributions of c_z over the Gaussian: of f0, of c_z H_n, and of D = -d/dC . (C f0)/2, what grad ln T makes of f0.
-   */
+  /* Distributions of c_z over the Gaussian: of f0, of c_z H_n, and of D = -d/dC . (C f0)/2, the source term of grad
+   * ln T. */
   double along, of_trial[MOST], of_gradient;
 } height;
 
 typedef struct response {
-  int n;                                     /* of functions */
-  double decay, width, eta, frequency, rate; /* rate: of the stretching that holds T */
+  int n;                                     /* number of functions */
+  double decay, width, eta, frequency, rate; /* rate: of the stretching that keeps T */
   double alpha[MOST], marginal[MOST];        /* f0, by Sonine polynomials of x; along z by Ho_2l */
   int n_u, n_v, n_s;
   double u[POINTS], wu[POINTS], v[POINTS], wv[POINTS], s[ACROSS], ws[ACROSS];
   height z, after, partner;
-  double M[MOST][MOST], overlap[MOST][MOST]; /* d<psi_m>/dt, and <psi_m>, of c_a H_n */
-  /* <psi_m> of what grad ln T and grad ln n do to f0 by streaming; of the accelerations that go with pressure; and of
+  double M[MOST][MOST], overlap[MOST][MOST]; /* d<psi_m>/dt, and <psi_m>, for c_a H_n */
+  /* <psi_m> of the streaming terms of grad ln T and grad ln n on f0; of the accelerations by the pressure; and of
    * partners at a distance: D, and f0. */
   double streamed[2][MOST], pressed[MOST], distant[2][MOST];
-  double carried; /* by collisions of f0 along grad ln T, over the distance */
+  double carried; /* collisional transfer of f0 along grad ln T, over the distance */
 } response;
 
 /* L_n^(a)(x), n < count, orthonormal under x^a exp(-x)/Gamma(a + 1), times sign^n. */
@@ -71,8 +71,8 @@ static double base_at(const response *r, double x)
   return sum;
 }
 
-/* Of f0 along z, and of D: -d/dz (z phi Ho_k)/2, where d(phi Ho_k)/dz = -phi sqrt(k + 1) Ho_(k+1). */
-static void look_along(const response *r, height *h)
+/* f0 and D along z: D is -d/dz (z phi Ho_k)/2, where d(phi Ho_k)/dz = -phi sqrt(k + 1) Ho_(k+1). */
+static void evaluate_along(const response *r, height *h)
 {
   double value[2 * MOST];
   gg_hermite_values(2 * r->n - 1, h->z, value);
@@ -90,12 +90,12 @@ static void look(const response *r, double z, height *h)
     laguerre(1.5, z * z / 2 + r->s[k], r->n, 1, h->trial[k]);
     h->base[k] = base_at(r, z * z / 2 + r->s[k]);
   }
-  look_along(r, h);
+  evaluate_along(r, h);
   laguerre(0.5, z * z / 2, r->n, 1, h->of_trial); /* L_n^(3/2)(x + s) under exp(-s) is L_n^(1/2)(x) */
   for (int n = 0; n < r->n; n++) h->of_trial[n] *= z / sqrt(1 + n / 1.5);
 }
 
-/* One point of the rule: the grain at z, its partner, and where the grain is afterwards. */
+/* One point of the rule: the grain at z, its partner, and the grain's velocity after the collision. */
 static void add_pair(response *r, double w)
 {
   const height *h = &r->z, *after = &r->after, *partner = &r->partner;
@@ -110,7 +110,7 @@ static void add_pair(response *r, double w)
     }
 }
 
-/* g = sqrt(2) u; what a collision carries along z over the distance is proportional to g^2 v/sqrt(2). */
+/* g = sqrt(2) u; the amount that a collision transfers along z over the distance is proportional to g^2 v/sqrt(2). */
 static void add_collisions(response *r)
 {
   for (int i = 0; i < r->n_u; i++)
@@ -164,7 +164,7 @@ static gg_status make(response *r, const gg_hermite_isotropic *h, gg_error *err)
   r->eta = h->gas.impact[0][0].eta, r->frequency = h->gas.impact[0][0].frequency;
   for (int l = 0; l < r->n; l++) {
     r->marginal[l] = h->state.a[gg_hermite_place(b, 2 * l, 0, 0)];
-    r->alpha[l] = r->marginal[l] * sqrt(2 * l + 1); /* isotropic.c: Ho_2l is the share (2l + 1)^(-1/2) of Phi_l */
+    r->alpha[l] = r->marginal[l] * sqrt(2 * l + 1); /* isotropic.c: Ho_2l is the part (2l + 1)^(-1/2) of Phi_l */
   }
   const double farthest = 12; /* as in flux.c */
   r->n_u = 24 + N, r->n_v = (3 * N + 8) / 2, r->n_s = r->n + 3;
@@ -179,7 +179,7 @@ static gg_status make(response *r, const gg_hermite_isotropic *h, gg_error *err)
   return GG_OK;
 }
 
-/* (M + fading) f1 = -source; f1 takes the place of the source. Where it has no momentum, f1_0 = 0. */
+/* (M + fading) f1 = -source; f1 replaces the source. For functions without momentum f1_0 = 0. */
 static bool solve(const response *r, double fading, double *f1)
 {
   const size_t n = (size_t)r->n - 1;

@@ -13,12 +13,12 @@ typedef struct gg_hermite_heat {
   double diffusive, diffusive_kinetic;       /* mu/T */
 } gg_hermite_heat;
 
-/* What the density does: phi chi, and d ln chi/d ln n. Both 0 in the Boltzmann limit. */
+/* Density dependence: phi chi, and d ln chi/d ln n. Both 0 in the Boltzmann limit. */
 typedef struct gg_hermite_density {
   double phi_chi, slope;
 } gg_hermite_density;
 
-/* A and B up to degree N + 1, N that of the cooling state. */
+/* A and B up to degree N + 1, where N is that of the cooling state. */
 gg_status gg_hermite_heat_of(const gg_hermite_isotropic *cooling, gg_hermite_density density, gg_hermite_heat *heat,
                              gg_error *err);
 

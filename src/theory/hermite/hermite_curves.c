@@ -14,13 +14,13 @@
 
 static const char name[] = "enskog_hermite";
 
-/* One approximation: of each species and axis the marginal, and T_i/T. */
+/* One approximation: the marginal of each species and axis, and T_i/T. */
 typedef struct solution {
   gg_hermite_component marginal[GG_MAX_SPECIES][3];
   double share[GG_MAX_SPECIES];
 } solution;
 
-/* The last three of a series of them, the last first. */
+/* The last three approximations, the last first. */
 typedef struct series {
   int n;
   bool isotropic;
@@ -34,7 +34,7 @@ static solution *next(series *s)
   return &s->rung[0];
 }
 
-/* How far the last step went, in the coefficients that matter most. */
+/* Size of the last step, in the coefficients that matter most. */
 static double last_step(const series *s, int n_species)
 {
   double most = s->n < 2 ? INFINITY : 0;
@@ -45,8 +45,8 @@ static double last_step(const series *s, int n_species)
   return most;
 }
 
-/* Degrees of shear: the second of these only where the first leaves more than `good`; of mixtures, which take longer,
- * the last. */
+/* Degrees under shear: the second only if the first leaves more than `good`; the last for mixtures, which take
+ * longer. */
 enum {
   FIRST_DEGREE = 4,
   GOOD_DEGREE = 10,
@@ -150,7 +150,7 @@ static size_t middle_of(const gg_curve *c)
   return at;
 }
 
-/* What an error is held against: a distribution's own value; of others the largest value that is known. */
+/* The scale of an error: a distribution's own value; for other curves the largest known value. */
 static double scale_of(const gg_curve *c)
 {
   double most = 0;
@@ -159,12 +159,12 @@ static double scale_of(const gg_curve *c)
   return most;
 }
 
-/* How far it is known to one side of the middle; what lies beyond is taken away. The last x that is. */
+/* Cut the curve on one side of the middle where it is no longer known. Returns the last known x. */
 static double cut(gg_curve *c, double scale, size_t from, int direction)
 {
   double last = c->x[from];
   bool known = true;
-  for (size_t i = from; i < c->n; i += (size_t)direction) { /* below 0 it wraps round, and ends */
+  for (size_t i = from; i < c->n; i += (size_t)direction) { /* below 0 the index wraps around, and the loop ends */
     known = known && c->error[i] <= share * (c->log_y ? c->value[i] : scale) && (!c->log_y || c->value[i] > 0);
     if (known)
       last = c->x[i];
@@ -174,11 +174,12 @@ static double cut(gg_curve *c, double scale, size_t from, int direction)
   return last;
 }
 
-/* The last approximation, with how far each point may be from the limit as its error: the last step, or a tenth of the
- * last two, whichever is more. From x = 0 outwards, a curve ends where it is no longer known: where a distribution
- * (drawn over a logarithmic axis) is not above 0 or not within a quarter of itself, any other not within a quarter of
- * what it has reached. Beyond, its values are NaN; the number "known_from", "known_to" says where that is. `before` and
- * `earlier`: the approximations before, of the same shape; earlier may be NULL. */
+/* The last approximation, with the distance of each point from the limit as its error: the last step, or a tenth of
+ * the last two, whichever is larger. From x = 0 outwards, a curve ends where it is no longer known: a distribution
+ * (drawn over a logarithmic axis) where it is not above 0 or not within a quarter of itself, any other curve where
+ * it is not within a quarter of its largest value so far. Beyond, its values are NaN; the numbers "known_from",
+ * "known_to" are the ends. `before` and `earlier`: the previous approximations, of the same shape; earlier may be
+ * NULL. */
 static void converge(gg_curves *last, const gg_curves *before, const gg_curves *earlier)
 {
   for (int k = 0; k < last->n; k++) {

@@ -14,7 +14,7 @@
 
 enum { L1 = GG_RADIAL_MOST + 1, APPROACH = 40, CENTRE = 56, MOST_ITERATIONS = 40, MOST_MOVES = 30 };
 
-/* Beyond this the weight is below 1e-31. */
+/* Limits: beyond `farthest` the weight is below 1e-31. */
 static const double farthest = 12, converged = 1e-11, still = 1e-6;
 
 /* < g [psi_J(x1') - psi_J(x1)] Ho_2j(x1) Ho_2l(x2) > of one pair of species, psi of even J with and without decay. */
@@ -76,7 +76,7 @@ static gg_status make_normal(gg_solver *s, int i, int j, gg_error *err)
   return GG_OK;
 }
 
-/* Column of an unknown; the first is the heating that makes up for the cooling. */
+/* Column of an unknown; the first is the heating that balances the cooling. */
 static size_t column(const gg_solver *s, int species, int l)
 {
   return (size_t)(1 + species * s->l + l - 1);
@@ -137,7 +137,7 @@ static void add_gauge(gg_solver *s)
   gsl_vector_set(s->x, 0, sum - 1);
 }
 
-/* The largest relative step; INFINITY where there is none. */
+/* The largest relative step; INFINITY if there is none. */
 static double step(gg_solver *s, double *rate)
 {
   int sign;
@@ -164,7 +164,7 @@ static double step(gg_solver *s, double *rate)
   return isfinite(most) && most < 1e3 ? most : INFINITY;
 }
 
-/* Scales of the temperatures found; how far they moved. */
+/* Set the scales to the temperatures found; returns their relative change. */
 static double follow(gg_hermite_mixture *x, int species)
 {
   double most = 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Homogeneous mixtures of smooth grains, cooling or heated: of each species a sum of isotropic functions about a
- * Gaussian of its own temperature. What heats them: theory/heating.h. */
+/* Homogeneous mixtures of smooth grains, cooling or heated: each species is a sum of isotropic functions about a
+ * Gaussian of its temperature. Heating: theory/heating.h. */
 #ifndef GG_HERMITE_MIXTURE_H
 #define GG_HERMITE_MIXTURE_H
 
@@ -12,13 +12,13 @@ typedef struct gg_hermite_mixture {
   double scale[GG_MAX_SPECIES]; /* of each species: C = scale c */
   double alpha[GG_MAX_SPECIES][GG_RADIAL_MOST + 1];
   gg_heating drive;
-  double heating; /* its x, at sum_i x_i T_i = 1 */
+  double heating; /* x of heating.h, at sum_i x_i T_i = 1 */
 } gg_hermite_mixture;
 
-/* Degree 2 l of the expansion; from the scales given (all 0: from equal temperatures). */
+/* Solve for degree 2 l of the expansion; starts from the given scales (all 0: from equal temperatures). */
 gg_status gg_hermite_mixture_solve(gg_hermite_mixture *mixture, const gg_model *model, int most, gg_error *err);
 
-/* Rate of cooling of the temperature sum_i x_i T_i at 1. */
+/* Cooling rate of the temperature sum_i x_i T_i at 1. */
 double gg_hermite_mixture_cooling(const gg_hermite_mixture *mixture, const gg_model *model);
 
 /* <c^2>/3 and <c^4> of a species, over its own scale. */

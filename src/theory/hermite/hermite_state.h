@@ -5,9 +5,9 @@
 
 #include "theory/hermite/basis.h"
 
-/* The Gaussian is somewhat wider than f, and tests decay somewhat: tails of granular gases are longer than a
- * Gaussian's, and an expansion in moments (width 1, decay 0) diverges for dilute gases of e below .8. Of those tried,
- * widths .9 to 2 and decays 0 to 1, these serve at every density and e. */
+/* Width of the Gaussian and decay of the tests. The Gaussian is somewhat wider than f: tails of granular gases are
+ * longer than a Gaussian's, and an expansion in moments (width 1, decay 0) diverges for dilute gases of e below .8.
+ * Widths .9 to 2 and decays 0 to 1 were tested; these values work at every density and e. */
 #define GG_HERMITE_WIDTH 1.1
 #define GG_HERMITE_DECAY 0.2
 

@@ -70,8 +70,8 @@ static void heat(gg_hermite_gas *gas, gg_heating_rates rates)
   gas->diffusion[0] = rates.diffusion;
 }
 
-/* The matrix: d<psi>/dt by the unknowns, that of heating in the place of alpha_1, which the width fixes; alpha_2 ...,
- * that fade. */
+/* The matrix: derivatives of d<psi>/dt by the unknowns, which are the heating in place of alpha_1, fixed by the
+ * width; and alpha_2 ..., which decay. */
 static void linearise(gg_hermite_isotropic *h, gg_isotropic_work *w, const gg_heating *heating, double fading)
 {
   const gg_hermite_basis *b = &h->op.basis;
@@ -99,7 +99,7 @@ static void linearise(gg_hermite_isotropic *h, gg_isotropic_work *w, const gg_he
   }
 }
 
-/* x of J x = x. */
+/* Solve J x = x. */
 static bool solve(gg_isotropic_work *w)
 {
   int sign;
@@ -162,10 +162,10 @@ gg_status gg_hermite_isotropic_solve(gg_hermite_isotropic *h, int degree, double
   return status;
 }
 
-/* Of the central difference in a third of div u, at T = m = 1. */
+/* Step of the central difference in a third of div u, at T = m = 1. */
 static const double small = 1e-3;
 
-/* f0 and the share of the response, x[1] .. */
+/* f0 plus this fraction of the response, x[1] .. */
 static void respond(gg_hermite_isotropic *h, const double *alpha, const gsl_vector *x, double share)
 {
   double with[HALVES];

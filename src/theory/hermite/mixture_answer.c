@@ -15,7 +15,7 @@
 
 static const char name[] = "enskog_hermite";
 
-/* Half the degrees, 4 to 14; of the viscosity to 8, for so many species as it takes a second. */
+/* Half the degrees, 4 to 14; for the viscosity up to 8, and for so many species as take a second. */
 enum { FIRST = 2, LAST = 7, LAST_VISCOSITY = 4, MOST_VISCOUS = 6 };
 static const double good = 1e-8;
 
@@ -63,14 +63,14 @@ static void answer_mixture(const gg_model *m, const gg_hermite_mixture *x, gg_th
   }
   a->value[GG_Q_COOLING_RATE] = m->elastic ? 0 : gg_hermite_mixture_cooling(x, m) / gg_common_model_nu0(m, 1);
   a->value[GG_Q_PARTIAL_TEMPERATURE_RATIO] = partial[0] / partial[1];
-  if (m->linear_response) return; /* no temperature of its own: it grows */
+  if (m->linear_response) return; /* T grows with time: no value */
   gg_theory_answer_temperature(m, T, NAN, a);
   for (int i = 0; i < m->n_species; i++) a->value[GG_Q_PARTIAL_TEMPERATURE + i] = partial[i];
   gg_theory_answer_pressure(m, T, p, p * transfer(m, x), a);
   a->value[GG_Q_COLLISION_RATE] = collision_rate(m, x) * sqrt(T);
 }
 
-/* At rest but for what heats it. */
+/* The gas at rest, with its heating. */
 static gg_hermite_gas resting(const gg_model *m, const gg_hermite_mixture *x)
 {
   gg_hermite_gas gas = gg_hermite_gas_of(m);
@@ -102,7 +102,7 @@ static gg_status answer_viscosity(const gg_model *m, const gg_hermite_mixture *x
   gg_hermite_gas gas = resting(m, x);
   gg_hermite_viscosity v;
   gg_hermite_basis b;
-  double fading = gg_theory_thermostat_share(m) == 0.5 ? gg_hermite_mixture_cooling(x, m) / 2 : 0,
+  double fading = gg_theory_thermostat_factor(m) == 0.5 ? gg_hermite_mixture_cooling(x, m) / 2 : 0,
          nu0 = gg_common_model_nu0(m, 1);
   GG_TRY(gg_hermite_basis_make(&b, degree, err));
   gg_status status = expand(x, &b, m->n_species, state, err);
@@ -117,18 +117,18 @@ static gg_status answer_viscosity(const gg_model *m, const gg_hermite_mixture *x
 
 gg_status gg_hermite_mixture_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  gg_rungs rungs = {.n = 0}, viscous = {.n = 0};
+  gg_hermite_convergence convergence = {.n = 0}, viscous = {.n = 0};
   gg_hermite_mixture x = {.drive = gg_theory_heating_of(m)};
   gg_error why;
   for (int l = FIRST; l <= LAST; l++) {
-    if (l > LAST_VISCOSITY && gg_hermite_convergence_change(&rungs, GG_Q_COOLING_RATE) < good) break;
+    if (l > LAST_VISCOSITY && gg_hermite_convergence_change(&convergence, GG_Q_COOLING_RATE) < good) break;
     gg_status status = gg_hermite_mixture_solve(&x, m, l, &why);
-    if (status == GG_OK) answer_mixture(m, &x, gg_hermite_convergence_next(&rungs));
+    if (status == GG_OK) answer_mixture(m, &x, gg_hermite_convergence_next(&convergence));
     if (status == GG_OK && l <= LAST_VISCOSITY && m->n_species <= MOST_VISCOUS)
       status = answer_viscosity(m, &x, 2 * l, gg_hermite_convergence_next(&viscous), &why);
     if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
   }
-  GG_TRY(gg_hermite_convergence_finish(&rungs, name, GG_Q_PARTIAL_TEMPERATURE_RATIO, 0, a, err));
+  GG_TRY(gg_hermite_convergence_finish(&convergence, name, GG_Q_PARTIAL_TEMPERATURE_RATIO, 0, a, err));
   if (viscous.n > 0)
     gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED, a),
         gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);

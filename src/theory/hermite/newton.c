@@ -8,15 +8,15 @@
 
 #include "base/memory.h"
 
-/* A Jacobian costs as much as ten residuals: it is kept as long as steps with it shrink fast. */
+/* A Jacobian costs as much as ten residuals: it is kept as long as its steps shrink fast. */
 enum { MOST_ITERATIONS = 60, MOST_HALVINGS = 10 };
 static const double converged = 1e-10, fast = 0.25;
 
-/* Coefficients of all species one after another, the constants among them, which stay. */
+/* Coefficients of all species one after another, with the constants, which stay. */
 typedef struct gg_newton {
   int n_species, functions, n;
   double *jacobian, *R, *trial, *P; /* P: derivatives of R with respect to a pin's factor */
-  double part;                      /* of the last step that was taken */
+  double part;                      /* fraction of the last step that was taken */
   bool factorised;
   gsl_permutation *order;
 } gg_newton;
@@ -43,7 +43,7 @@ static gsl_matrix_view matrix_of(gg_newton *w)
   return gsl_matrix_view_array(w->jacobian, (size_t)w->n, (size_t)w->n);
 }
 
-/* R becomes the step J^-1 R. */
+/* Replace R by the step J^-1 R. */
 static bool solve(gg_newton *w, double *R)
 {
   gsl_matrix_view J = matrix_of(w);
@@ -72,7 +72,7 @@ static bool above(double A[3][3], double fraction, double B[3][3])
   return gg_hermite_cholesky(rest, ignored);
 }
 
-/* Of one species; false where its second moments shrink to less than a fifth. */
+/* Move one species; false if its second moments shrink to less than a fifth. */
 static bool move(const gg_hermite_basis *b, gg_hermite_state *s, const double *from, const double *step, double part,
                  double L[3][3])
 {
@@ -84,7 +84,7 @@ static bool move(const gg_hermite_basis *b, gg_hermite_state *s, const double *f
   return above(M, 0.2, before) && gg_hermite_gaussian(s->width, M, L);
 }
 
-/* One step; halved until it is not too far. */
+/* One step, halved until it is not too long. */
 static bool step(const gg_hermite_basis *b, gg_hermite_state *s, gg_newton *w, double L[][3][3])
 {
   double part = 1;
@@ -123,7 +123,7 @@ double gg_hermite_temperature(const gg_hermite_basis *b, const gg_hermite_gas *g
   return T;
 }
 
-/* By how much a step lowers T, which is linear in the coefficients. */
+/* Decrease of T by a step: T is linear in the coefficients. */
 static double cooled_by(const gg_hermite_basis *b, const gg_hermite_gas *gas, gg_hermite_state *s, const double *step)
 {
   const double before = gg_hermite_temperature(b, gas, s);
@@ -135,7 +135,7 @@ static double cooled_by(const gg_hermite_basis *b, const gg_hermite_gas *gas, gg
   return before - after;
 }
 
-/* R + change P = J step, where the step leads to the pin's temperature: R becomes it. */
+/* R + change P = J step, where the step leads to the pin's temperature; the step replaces R. */
 static bool pinned(const gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *s, gg_newton *w,
                    const gg_hermite_pin *pin, double *change)
 {

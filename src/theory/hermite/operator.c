@@ -8,18 +8,18 @@
 #include "base/memory.h"
 #include "theory/hermite/direction_workspace.h"
 
-/* Points of the rule in k_z on (0, 1), and in azimuth on (0, pi): a quarter of the sphere stands for the whole. */
+/* Points of the rule in k_z on (0, 1), and in azimuth on (0, pi): by symmetry a quarter of the sphere is enough. */
 enum { POLAR = 5, AZIMUTH = 16, N1 = GG_HERMITE_MOST_DEGREE + 1 };
 
-static gg_hermite_room *make_room(const gg_hermite_operator *op)
+static gg_hermite_workspace *make_workspace(const gg_hermite_operator *op)
 {
   const gg_hermite_basis *b = &op->basis;
   const gg_hermite_flux *f = &op->flux;
   int N = b->degree, box = (N + 1) * (N + 1), wide = gg_padded(b->n, GG_PRODUCT_COLUMNS);
   int pairs = gg_hermite_partner_rows(N), tall = b->n_rotated + GG_PRODUCT_ROWS;
-  gg_hermite_room *r = calloc(1, sizeof *r);
+  gg_hermite_workspace *r = calloc(1, sizeof *r);
   if (!r) return NULL;
-  *r = (gg_hermite_room){.wide = wide, .pairs = pairs, .box = box};
+  *r = (gg_hermite_workspace){.wide = wide, .pairs = pairs, .box = box};
   double **const part[] = {&r->q, &r->K, &r->E, &r->X, &r->V, &r->VX, &r->S, &r->back, &r->work};
   const int size[] = {b->n_rotated,
                       box * pairs,
@@ -29,7 +29,7 @@ static gg_hermite_room *make_room(const gg_hermite_operator *op)
                       pairs * f->width_X,
                       tall * (N / 2 + 1),
                       b->n * (N / 2 + 1),
-                      (int)gg_hermite_rotation_room(N)};
+                      (int)gg_hermite_rotation_scratch(N)};
   enum { PARTS = sizeof size / sizeof *size };
   size_t total = 0;
   for (int i = 0; i < PARTS; i++) total += (size_t)size[i];
@@ -42,7 +42,7 @@ static gg_hermite_room *make_room(const gg_hermite_operator *op)
 
 static bool make_view(const gg_hermite_operator *op, gg_hermite_view *v)
 {
-  const gg_hermite_room *r = op->room;
+  const gg_hermite_workspace *r = op->workspace;
   int n = op->basis.n_rotated;
   v->D = calloc((size_t)(n * r->wide + n + (op->basis.degree + 1) * r->box), sizeof *v->D);
   if (!v->D) return false;
@@ -53,8 +53,8 @@ static bool make_view(const gg_hermite_operator *op, gg_hermite_view *v)
 
 gg_status gg_hermite_operator_hold(gg_hermite_operator *op, int n_species, gg_error *err)
 {
-  for (; op->room->n_views < n_species; op->room->n_views++)
-    if (!make_view(op, &op->room->view[op->room->n_views])) return gg_base_out_of_memory(err);
+  for (; op->workspace->n_views < n_species; op->workspace->n_views++)
+    if (!make_view(op, &op->workspace->view[op->workspace->n_views])) return gg_base_out_of_memory(err);
   return GG_OK;
 }
 
@@ -97,7 +97,7 @@ gg_status gg_hermite_operator_make(gg_hermite_operator *op, int degree, double d
   if (status == GG_OK) status = gg_hermite_flux_make(&op->low, degree, 3, 0, err);
   if (status == GG_OK) status = make_overlap(op, degree, err);
   if (status == GG_OK) status = make_directions(op, isotropic, err);
-  if (status == GG_OK && !(op->room = make_room(op))) status = gg_base_out_of_memory(err);
+  if (status == GG_OK && !(op->workspace = make_workspace(op))) status = gg_base_out_of_memory(err);
   if (status == GG_OK) status = gg_hermite_operator_hold(op, 1, err);
   if (status != GG_OK) gg_hermite_operator_clear(op);
   return status;
@@ -111,20 +111,21 @@ void gg_hermite_operator_clear(gg_hermite_operator *op)
   free(op->overlap);
   free(op->direction);
   free(op->weight);
-  for (int i = 0; op->room && i < op->room->n_views; i++) free(op->room->view[i].D);
-  if (op->room) free(op->room->q);
-  free(op->room);
+  for (int i = 0; op->workspace && i < op->workspace->n_views; i++) free(op->workspace->view[i].D);
+  if (op->workspace) free(op->workspace->q);
+  free(op->workspace);
   *op = (gg_hermite_operator){0};
 }
 
 /* The coefficients in the rotated frame, t_q = sum_s D_qs a_s. */
-static void look_at(const gg_hermite_operator *op, gg_hermite_state *state, const double k[3], gg_hermite_view *v)
+static void rotate_to_frame(const gg_hermite_operator *op, gg_hermite_state *state, const double k[3],
+                            gg_hermite_view *v)
 {
   const gg_hermite_basis *b = &op->basis;
   v->frame = gg_hermite_frame_at(state->L, k);
-  gg_hermite_rotation(b, v->frame.axis, op->room->wide, v->D, op->room->work);
+  gg_hermite_rotation(b, v->frame.axis, op->workspace->wide, v->D, op->workspace->work);
   for (int q = 0; q < b->n_rotated; q++) {
-    const double *row = v->D + (size_t)q * (size_t)op->room->wide;
+    const double *row = v->D + (size_t)q * (size_t)op->workspace->wide;
     double sum = 0;
     int degree = gg_hermite_degree(b->rotated[q]);
     for (int s = b->from[degree]; s < b->from[degree + 1]; s++) sum += row[s] * state->a[s];
@@ -133,15 +134,15 @@ static void look_at(const gg_hermite_operator *op, gg_hermite_state *state, cons
   for (int l = 0; l <= b->degree / 2; l++) v->marginal[l] = v->t[gg_hermite_rotated_place(b, 2 * l, 0, 0)];
 }
 
-void gg_hermite_look(gg_hermite_operator *op, int n_species, gg_hermite_state *state, const double k[3])
+void gg_hermite_set_views(gg_hermite_operator *op, int n_species, gg_hermite_state *state, const double k[3])
 {
-  for (int i = 0; i < n_species; i++) look_at(op, &state[i], k, &op->room->view[i]);
+  for (int i = 0; i < n_species; i++) rotate_to_frame(op, &state[i], k, &op->workspace->view[i]);
 }
 
 /* sum_q Z_Qq t_jpq, by Q and (j,p) */
 static void damp(const gg_hermite_operator *op, gg_hermite_view *v)
 {
-  const gg_hermite_room *r = op->room;
+  const gg_hermite_workspace *r = op->workspace;
   const gg_hermite_flux *f = &op->flux;
   int N = op->basis.degree;
   memset(v->damped, 0, (size_t)((N + 1) * r->box) * sizeof *v->damped);
@@ -164,7 +165,7 @@ static double apply(const gg_hermite_operator *op, const gg_hermite_view *v, con
             gg_hermite_W(&op->low, test[0], test[1], j, p) * v->t[gg_hermite_rotated_place(&op->basis, j, p, test[2])];
     return sum;
   }
-  const double *t = v->damped + test[2] * op->room->box;
+  const double *t = v->damped + test[2] * op->workspace->box;
   for (int j = 0; j <= N; j++)
     for (int p = (j + test[2]) % 2; p <= N - j; p += 2)
       sum += gg_hermite_W(&op->flux, test[0], test[1], j, p) * t[j * (N + 1) + p];
@@ -176,7 +177,7 @@ static void rotate_back(const gg_hermite_operator *op, const gg_hermite_view *v,
                         size_t stride)
 {
   const gg_hermite_basis *b = &op->basis;
-  const gg_hermite_room *r = op->room;
+  const gg_hermite_workspace *r = op->workspace;
   for (int q = 0; q < b->n_rotated; q++) {
     const double *D = v->D + (size_t)q * (size_t)r->wide, *X = r->X + (size_t)q * (size_t)r->wide;
     int degree = gg_hermite_degree(b->rotated[q]);
@@ -189,23 +190,23 @@ static void rotate_back(const gg_hermite_operator *op, const gg_hermite_view *v,
   }
 }
 
-/* What one direction does to one species, by partners of every species. */
+/* Contribution of one direction to one species, by partners of every species. */
 static void add_species(gg_hermite_operator *op, const gg_hermite_gas *gas, int i, int direction, double *R,
                         double *jacobian, size_t stride)
 {
-  gg_hermite_view *own = &op->room->view[i];
+  gg_hermite_view *own = &op->workspace->view[i];
   double w = op->weight[direction];
   gg_hermite_flux_begin(&op->flux);
   gg_hermite_flux_begin(&op->low);
   for (int j = 0; j < gas->n_species; j++) {
-    const gg_hermite_view *partner = &op->room->view[j];
+    const gg_hermite_view *partner = &op->workspace->view[j];
     gg_hermite_contact c =
         gg_hermite_contact_of(&gas->impact[i][j], &own->frame, &partner->frame, op->direction[direction]);
     gg_hermite_flux_add(&op->flux, &c, partner->marginal, jacobian != NULL);
     gg_hermite_flux_add(&op->low, &c, partner->marginal, jacobian != NULL);
     if (jacobian) gg_hermite_differentiate_partner(op, own, partner, w, jacobian + j * op->basis.n, stride);
   }
-  for (int q = 0; q < op->basis.n_rotated; q++) op->room->q[q] = apply(op, own, op->basis.rotated[q].r);
+  for (int q = 0; q < op->basis.n_rotated; q++) op->workspace->q[q] = apply(op, own, op->basis.rotated[q].r);
   if (jacobian) gg_hermite_differentiate_own(op, own);
   rotate_back(op, own, w, R, jacobian ? jacobian + i * op->basis.n : NULL, stride);
 }
@@ -218,8 +219,8 @@ bool gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, 
   if (jacobian) memset(jacobian, 0, all * all * sizeof *jacobian);
   for (int k = 0; k < op->n_directions; k++) {
     if (gg_stop_asked(gas->stop)) return false;
-    gg_hermite_look(op, gas->n_species, state, op->direction[k]);
-    for (int i = 0; i < gas->n_species; i++) damp(op, &op->room->view[i]);
+    gg_hermite_set_views(op, gas->n_species, state, op->direction[k]);
+    for (int i = 0; i < gas->n_species; i++) damp(op, &op->workspace->view[i]);
     for (size_t i = 0; i < (size_t)gas->n_species; i++)
       add_species(op, gas, (int)i, k, R + i * n, jacobian ? jacobian + i * n * all : NULL, all);
   }

@@ -10,24 +10,24 @@
 #include "theory/hermite/flux.h"
 #include "theory/hermite/hermite_state.h"
 
-/* How a grain of one species collides with those of another. */
+/* Collision of a grain of one species with those of another. */
 typedef struct gg_hermite_impact {
   double frequency; /* n chi sigma^2, n of the other species */
-  double eta;       /* what it loses of g_n: (1+e) m_other/(m + m_other), (1+e)/2 among equals */
+  double eta;       /* the fraction of g_n that it loses: (1+e) m_other/(m + m_other), (1+e)/2 among equals */
   double e;
   double sigma;
   double shear; /* sigma times shear rate: the flow between two centres; 0 in the Boltzmann limit */
-  double apart; /* sigma times a third of div u: likewise */
+  double apart; /* sigma times a third of div u; 0 in the Boltzmann limit */
 } gg_hermite_impact;
 
-/* What collides and streams. */
+/* The gas: collisions and streaming. */
 typedef struct gg_hermite_gas {
   int n_species;
   const gg_stop *stop; /* borrowed from the model: no physics */
   double fraction[GG_MAX_SPECIES], mass[GG_MAX_SPECIES];
   gg_hermite_impact impact[GG_MAX_SPECIES][GG_MAX_SPECIES]; /* of a grain of the first species */
   double stream[3][3];                                      /* A of dC/dt = -A C between collisions; A_xy: shear rate */
-  /* Of each species: what drag adds to the diagonal of A, and D of df/dt = D laplacian f: white noise. */
+  /* For each species: drag, added to the diagonal of A, and D of df/dt = D laplacian f: white noise. */
   double drag[GG_MAX_SPECIES], diffusion[GG_MAX_SPECIES];
 } gg_hermite_gas;
 
@@ -35,38 +35,38 @@ typedef struct gg_hermite_gas {
 gg_hermite_gas gg_hermite_gas_of(const gg_model *model);
 gg_hermite_gas gg_hermite_one(double frequency, double eta, double shear);
 
-typedef struct gg_hermite_room gg_hermite_room;
+typedef struct gg_hermite_workspace gg_hermite_workspace;
 
 typedef struct gg_hermite_operator {
   gg_hermite_basis basis;
   double decay;
-  gg_hermite_flux flux, low; /* for tests that decay; for those of degree 2 */
+  gg_hermite_flux flux, low; /* for tests that decay; for tests of degree 2 */
   double *overlap;           /* < psi_m Ho_s > of an axis, m to N + 2 */
   int n_directions;
   double (*direction)[3], *weight;
-  gg_hermite_room *room; /* of one direction */
+  gg_hermite_workspace *workspace; /* of one direction */
 } gg_hermite_operator;
 
-/* `isotropic`: one direction stands for all, which is right for the isotropic part of R where f and A are isotropic. */
+/* `isotropic`: use one direction instead of all. This is right for the isotropic part of R if f and A are isotropic. */
 gg_status gg_hermite_operator_make(gg_hermite_operator *op, int degree, double decay, bool isotropic, gg_error *err);
 void gg_hermite_operator_clear(gg_hermite_operator *op);
 
-/* Room for so many species; there is some for one. */
+/* Allocate the workspace for so many species; there is one for one species. */
 gg_status gg_hermite_operator_hold(gg_hermite_operator *op, int n_species, gg_error *err);
 
-/* R, n of each species one after another, and where `jacobian` is not NULL, by rows of n_species x n, dR_r/da_s. a_0
- * is 1, R_0 means nothing. False: gas->stop ended it. */
+/* R, n of each species one after another, and if `jacobian` is not NULL, by rows of n_species x n, dR_r/da_s. a_0 is
+ * 1, R_0 has no meaning. False: gas->stop interrupted the call. */
 bool gg_hermite_operator_at(gg_hermite_operator *op, const gg_hermite_gas *gas, gg_hermite_state *state, double *R,
                             double *jacobian);
 
-/* The share of streaming and diffusion in these of one species, added; rows of the Jacobian are `stride` apart. */
+/* Add streaming and diffusion of one species to R and the Jacobian, whose rows are `stride` apart. */
 void gg_hermite_add_streaming(const gg_hermite_operator *op, const gg_hermite_gas *gas, int species,
                               gg_hermite_state *state, double *R, double *jacobian, size_t stride);
 
 /* < psi_r Ho_s > */
 double gg_hermite_test_overlap(const gg_hermite_operator *op, int r, int s);
 
-/* What collisions do and carry, a mean over all grains. */
+/* Collision sums, means over all grains. */
 typedef struct gg_hermite_sums {
   double rate;           /* collisions of a grain: frequency int dk <g> */
   double transfer[3][3]; /* collisional stress over n: m (frequency sigma/2) eta int dk k k <g^2> */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tests are psi_m = Ho_m(c) exp(-decay c^2/2), so that what f does far out in its tails, which no expansion of low
- * degree knows, has no say; trials are Ho_s(c) under the Gaussian weight. */
+/* Tests are psi_m = Ho_m(c) exp(-decay c^2/2), so that the far tails of f, which no expansion of low degree
+ * describes, do not contribute; trials are Ho_s(c) under the Gaussian weight. */
 #ifndef GG_HERMITE_OVERLAP_H
 #define GG_HERMITE_OVERLAP_H
 
@@ -8,7 +8,7 @@
 
 /* Along one axis, for tests displaced by shifts: < Ho_m(x + shift) exp(-decay (x + shift)^2/2) Ho_s(x) >. */
 typedef struct gg_hermite_overlap {
-  int tests, trials; /* m below `tests`, s below `trials` */
+  int tests, trials; /* numbers of tests and trials: 0 <= m < tests, 0 <= s < trials */
   double decay;
   int n;
   double *x, *w; /* Gauss-Hermite rule, exact for these */

@@ -3,7 +3,7 @@
 #ifndef GG_HERMITE_PRODUCT_H
 #define GG_HERMITE_PRODUCT_H
 
-/* Rows of A and columns of B come in these units (padded with zeros). */
+/* Rows of A and columns of B are padded with zeros to multiples of these. */
 enum { GG_PRODUCT_ROWS = 4, GG_PRODUCT_COLUMNS = 16 };
 
 static inline int gg_padded(int n, int unit)

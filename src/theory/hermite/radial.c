@@ -27,7 +27,8 @@ static void make_split(gg_radial *r)
     }
 }
 
-/* Of t = c^2/2: Lambda_m = (-1)^m L_m(t), weight exp(-t); Phi_l = (-1)^l L_l^(1/2)(t)/norm, weight t^(1/2) exp(-t). */
+/* With t = c^2/2: Lambda_m = (-1)^m L_m(t), weight exp(-t); Phi_l = (-1)^l L_l^(1/2)(t)/norm, weight t^(1/2) exp(-t).
+ */
 static double sign(int l)
 {
   return l % 2 ? -1 : 1;
@@ -53,7 +54,8 @@ static double curvature(int l, double t)
   return l < 2 ? 0 : sign(l) * gsl_sf_laguerre_n(l - 2, 2.5, t) / norm(l);
 }
 
-/* Of psi_l = Phi_l exp(-decay t), without the exponential: c.grad = 2 t d/dt, laplacian = 3 d/dt + 2 t d^2/dt^2. */
+/* Derivatives of psi_l = Phi_l exp(-decay t), without the exponential: c.grad = 2 t d/dt, laplacian = 3 d/dt + 2 t
+ * d^2/dt^2. */
 static double gradient(int l, double decay, double t)
 {
   return 2 * t * (slope(l, t) - decay * phi(l, t));

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Isotropic functions Phi_l ~ (a^+ . a^+)^l: Sonine polynomials of c^2, orthonormal under the standard Gaussian; tests
- * are Phi_l exp(-decay c^2/2). One direction tells everything of them. */
+/* Isotropic functions Phi_l ~ (a^+ . a^+)^l: Sonine polynomials of c^2, orthonormal under the standard Gaussian;
+ * tests are Phi_l exp(-decay c^2/2). One direction determines them. */
 #ifndef GG_HERMITE_RADIAL_H
 #define GG_HERMITE_RADIAL_H
 

@@ -11,8 +11,9 @@
 #include "theory/gaussian_moments.h"
 #include "theory/hermite/newton.h"
 
-/* Shear heats as T^(1/2), noise as it does, and collisions cool as T^(3/2): by how much it is warmer than by shear
- * alone, where that has T = 1 and noise alone `noise`. */
+/* Ratio of the temperature with noise to that of shear alone, in units in which shear alone gives T = 1 and noise
+ * alone `noise`. Heating by shear is proportional to T^(1/2), by noise constant, cooling by collisions proportional
+ * to T^(3/2). */
 static double warmer(double noise)
 {
   double T = fmax(1, noise);
@@ -59,7 +60,7 @@ void gg_hermite_shear_end(gg_hermite_shear *h)
   *h = (gg_hermite_shear){0};
 }
 
-/* About the Gaussian that the moments ask for. */
+/* Choose the Gaussian from the moments. */
 static gg_status centre(const gg_hermite_basis *b, gg_hermite_state *s, double width, gg_error *err)
 {
   double M[3][3], L[3][3];
@@ -76,7 +77,8 @@ bool gg_hermite_has_drag(const gg_hermite_gas *gas)
   return true;
 }
 
-/* The drag, over that of the bath, that keeps the gas at the temperature exp(log_T); about Gaussians as wide. */
+/* The drag, over that of the bath, that keeps the gas at the temperature exp(log_T); about Gaussians of the same
+ * widths. */
 static gg_status pin_at(gg_hermite_shear *h, double log_T, gg_hermite_pin *pin, gg_error *err)
 {
   const double wider = sqrt(exp(log_T) / gg_hermite_temperature(&h->op.basis, &h->gas, h->state));
@@ -86,7 +88,7 @@ static gg_status pin_at(gg_hermite_shear *h, double log_T, gg_hermite_pin *pin, 
   return gg_hermite_newton(&h->op, &h->gas, h->state, pin, err);
 }
 
-/* That factor falls through 1 between low and high: by false position, halving what is kept twice. */
+/* Find the zero of the factor minus 1 between low and high: by false position; an end that stays twice is halved. */
 static gg_status between(gg_hermite_shear *h, double low, double high, double above, double below, gg_hermite_pin *pin,
                          gg_error *err)
 {
@@ -104,9 +106,10 @@ static gg_status between(gg_hermite_shear *h, double low, double high, double ab
   return GG_OK;
 }
 
-/* A sheared gas in a bath may have a hot state and a cold one. It cools where the drag that would keep its temperature
- * is less than the bath's, and warms up where it is more: it goes that way, in small steps, up to where it is the
- * bath's. Near a turning point, where one of the states ends, Newton's method alone goes astray. */
+/* A sheared gas in a bath may have a hot and a cold state. It cools where the drag that would keep its temperature
+ * is less than that of the bath, and warms up where it is more: this function follows it in small steps to the state
+ * whose drag is that of the bath. Near a turning point, where one of the states ends, Newton's method alone
+ * diverges. */
 static gg_status follow(gg_hermite_shear *h, gg_hermite_pin *pin, gg_error *err)
 {
   enum { MOST_STEPS = 400 };
@@ -133,7 +136,7 @@ static gg_status follow_drag(gg_hermite_shear *h, gg_error *err)
   return status;
 }
 
-/* Newton's method takes a fifth of the time; it must not leave for another state. */
+/* Newton's method takes a fifth of the time; the result must not be another state. */
 static gg_status try_newton(gg_hermite_shear *h, gg_error *err)
 {
   const gg_hermite_basis *b = &h->op.basis;
@@ -171,7 +174,7 @@ gg_status gg_hermite_shear_about(gg_hermite_shear *h, const double width[], gg_e
   return fabs(moved) < most ? GG_OK : gg_base_fail(err, GG_FAILED, "no steady state was found");
 }
 
-/* Functions are ordered by degree: those of the last degree keep their places, and the new ones are 0. */
+/* Functions are ordered by degree: those of the last degree keep their indices, and the new ones are 0. */
 gg_status gg_hermite_shear_solve(gg_hermite_shear *h, int degree, gg_error *err)
 {
   double width[GG_MAX_SPECIES];

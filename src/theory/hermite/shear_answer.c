@@ -11,11 +11,11 @@
 
 static const char name[] = "enskog_hermite";
 
-/* Beyond GOOD_DEGREE only where errors are above `good` there. */
+/* Degrees: beyond GOOD_DEGREE only if errors are above `good` there. */
 enum { FIRST_DEGREE = 4, GOOD_DEGREE = 10, SPECTRUM_DEGREE = 8, MOST_SPECIES = 8 };
 static const double good = 1e-4;
 
-/* What takes some two seconds: species collide with all others. */
+/* Highest degrees, for some two seconds: the time grows with the number of pairs of species. */
 static const int last_degree[MOST_SPECIES + 1] = {0, 12, 12, 10, 8, 8, 6, 6, 6};
 
 int gg_hermite_shear_last_degree(int n_species)
@@ -28,7 +28,7 @@ static gg_stress stress_of(double factor, double P[3][3])
   return (gg_stress){factor * P[0][0], factor * P[1][1], factor * P[2][2], factor * P[0][1], factor * P[1][0]};
 }
 
-/* Of the velocities of all grains. */
+/* Kurtoses of the velocities of all grains. */
 static void answer_kurtoses(gg_hermite_shear *h, double M[3][3], gg_theory_answer *a)
 {
   const gg_quantity kurtosis[] = {GG_Q_KURTOSIS_CX, GG_Q_KURTOSIS_CY, GG_Q_KURTOSIS_CZ};
@@ -74,7 +74,7 @@ static void answer(gg_hermite_shear *h, gg_theory_answer *a)
   answer_kurtoses(h, velocities, a);
 }
 
-/* The slowest of all modes: that of the temperature, mostly. */
+/* The slowest mode: mostly that of the temperature. */
 static void answer_relaxation(gg_hermite_shear *h, gg_theory_answer *a)
 {
   gg_error ignored;
@@ -84,7 +84,8 @@ static void answer_relaxation(gg_hermite_shear *h, gg_theory_answer *a)
   free(mode);
 }
 
-/* Newton's method has the balance of energy as one equation among those of all that collisions exchange. */
+/* Error message: in Newton's method the balance of energy is one equation among those of all quantities that
+ * collisions exchange. */
 static gg_status refuse(const gg_model *m, const char *why, gg_error *err)
 {
   if (gg_theory_is_nearly_elastic(m))
@@ -92,38 +93,39 @@ static gg_status refuse(const gg_model *m, const char *why, gg_error *err)
   return gg_theory_reject(err, name, "fails here: %s", why);
 }
 
-/* `slow`: answers of its own, of the relaxation alone, which a low degree knows well. */
-static gg_status climb(gg_hermite_shear *h, gg_rungs *rungs, gg_rungs *slow, gg_error *err)
+/* `slow`: separate answers for the relaxation, which low degrees give well. */
+static gg_status solve_degrees(gg_hermite_shear *h, gg_hermite_convergence *convergence, gg_hermite_convergence *slow,
+                               gg_error *err)
 {
   for (int degree = FIRST_DEGREE; degree <= last_degree[h->gas.n_species]; degree += 2) {
-    if (degree > GOOD_DEGREE && gg_hermite_convergence_change(rungs, GG_Q_TEMPERATURE) < good &&
+    if (degree > GOOD_DEGREE && gg_hermite_convergence_change(convergence, GG_Q_TEMPERATURE) < good &&
         !gg_hermite_shear_has_tails(h))
       break;
     gg_error why;
     if (gg_hermite_shear_solve(h, degree, &why) != GG_OK) return refuse(h->model, why.message, err);
-    answer(h, gg_hermite_convergence_next(rungs));
+    answer(h, gg_hermite_convergence_next(convergence));
     if (degree <= SPECTRUM_DEGREE) answer_relaxation(h, gg_hermite_convergence_next(slow));
   }
   gg_error why;
-  if (gg_hermite_shear_widen(h, &rungs->widened, &why) != GG_OK) return refuse(h->model, why.message, err);
-  if (rungs->widened) answer(h, &rungs->wide);
+  if (gg_hermite_shear_widen(h, &convergence->widened, &why) != GG_OK) return refuse(h->model, why.message, err);
+  if (convergence->widened) answer(h, &convergence->wide);
   return GG_OK;
 }
 
 gg_status gg_hermite_shear_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_hermite_shear h;
-  /* Near a turning point of a gas in a bath small errors of the drag are large ones of T. */
-  gg_rungs rungs = {.paired = true, .poor = m->bath.on ? 0.1 : 0}, slow = {.n = 0};
+  /* Near a turning point of a gas in a bath small errors of the drag are large errors of T. */
+  gg_hermite_convergence convergence = {.paired = true, .poor = m->bath.on ? 0.1 : 0}, slow = {.n = 0};
   GG_TRY(gg_theory_require_steady_shear(m, name, err));
   gg_error why;
   if (m->n_species > MOST_SPECIES)
     return gg_theory_reject(err, name, "describes sheared grains of up to %d species; this scene has %d", MOST_SPECIES,
                             m->n_species);
   if (gg_hermite_shear_begin(&h, m, &why) != GG_OK) return refuse(m, why.message, err);
-  gg_status status = climb(&h, &rungs, &slow, err);
+  gg_status status = solve_degrees(&h, &convergence, &slow, err);
   gg_hermite_shear_end(&h);
-  if (status == GG_OK) status = gg_hermite_convergence_finish(&rungs, name, GG_Q_TEMPERATURE, 0, a, err);
+  if (status == GG_OK) status = gg_hermite_convergence_finish(&convergence, name, GG_Q_TEMPERATURE, 0, a, err);
   if (status == GG_OK) gg_hermite_convergence_take(&slow, GG_Q_RELAXATION_RATE, a);
   return status;
 }

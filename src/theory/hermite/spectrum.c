@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* d<psi_r>/dt = R_r, so that sum_s <psi_r Ho_s> d a_s/dt = sum_s J_rs a_s for small a, about a Gaussian that stands. */
+/* d<psi_r>/dt = R_r, so that sum_s <psi_r Ho_s> d a_s/dt = sum_s J_rs a_s for small a, about a fixed Gaussian. */
 #include "theory/hermite/spectrum.h"
 
 #include <gsl/gsl_eigen.h>
@@ -10,7 +10,7 @@
 
 typedef struct gg_spectrum {
   double *R, *jacobian;
-  gsl_matrix *J, *mass; /* of all but the constants */
+  gsl_matrix *J, *mass; /* without the constants */
   gsl_permutation *order;
   gsl_vector_complex *value;
   gsl_eigen_nonsymm_workspace *work;

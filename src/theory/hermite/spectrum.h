@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How disturbances of a steady state die out: the eigenvalues of the Jacobian, as rates. */
+/* Decay of disturbances of a steady state: the eigenvalues of the Jacobian, as rates. */
 #ifndef GG_HERMITE_SPECTRUM_H
 #define GG_HERMITE_SPECTRUM_H
 
 #include "theory/hermite/operator.h"
 
-/* A disturbance goes as exp(-decay t) cos(frequency t). */
+/* A disturbance is proportional to exp(-decay t) cos(frequency t). */
 typedef struct gg_hermite_mode {
   double decay, frequency;
 } gg_hermite_mode;

@@ -67,7 +67,7 @@ static void add(const gg_hermite_operator *op, const gg_tests *t, double factor,
     }
 }
 
-/* B = L^-1 A L, where drag is drag again, and G = L^-T L^-1 */
+/* B = L^-1 A L, in which drag stays drag, and G = L^-T L^-1 */
 static void frame(const gg_hermite_gas *gas, int species, double L[3][3], double B[3][3], double G[3][3])
 {
   double one[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

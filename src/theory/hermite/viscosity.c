@@ -58,7 +58,7 @@ static gg_hermite_gas sheared(const gg_response *r, double rate)
   return gas;
 }
 
-/* What the shear does to f0: half the difference of R at the two signs, over the shear rate. */
+/* The source term of the shear: half the difference of R at the two signs of the shear rate, over the shear rate. */
 static bool source(gg_response *r)
 {
   for (int sign = -1; sign <= 1; sign += 2) {
@@ -69,7 +69,7 @@ static bool source(gg_response *r)
   return true;
 }
 
-/* d<psi_r>/dt of f1 itself where it fades: sum_s < psi_r Ho_s > a_s. */
+/* d<psi_r>/dt of f1 itself as it decays: sum_s < psi_r Ho_s > a_s. */
 static double overlap(const gg_response *r, int i, int j)
 {
   const gg_hermite_basis *b = &r->op.basis;
@@ -104,8 +104,7 @@ static void respond(gg_response *r, double rate)
   for (int i = 0; i < r->n; i++) r->a[r->function[i]] = rate * r->R[r->function[i]];
 }
 
-/* Collisional transfer of momentum, by the same difference: f0 and the flow between centres both change sign with it.
- */
+/* Collisional transfer of momentum, by the same difference: f0 and the flow between centres both change sign. */
 static double transfer(gg_response *r)
 {
   gg_hermite_sums sums[2];

@@ -10,10 +10,10 @@ typedef struct gg_hermite_viscosity {
   double kinetic, total; /* -<stress xy>/(n shear rate) */
 } gg_hermite_viscosity;
 
-/* About the isotropic states of all species, of this degree, which streaming and diffusion of the gas keep as they
- * are. transfer: false in the Boltzmann limit, where there is no flow between centres. fading: rate at which f1 changes
- * in time in the frame in which f0 does not: zeta/2 in a cooling gas, whose reduced shear rate grows so fast; 0 where
- * the temperature is held. */
+/* Linear response about the isotropic states of all species, of this degree, which are steady under streaming and
+ * diffusion of the gas. transfer: false in the Boltzmann limit, where there is no flow between centres. fading: rate
+ * at which f1 changes in time in the frame in which f0 does not: zeta/2 in a cooling gas, whose reduced shear rate
+ * grows so fast; 0 if the temperature is constant. */
 gg_status gg_hermite_viscosity_of(const gg_hermite_gas *gas, gg_hermite_state *state, int degree, bool transfer,
                                   double fading, gg_hermite_viscosity *viscosity, gg_error *err);
 

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* In a cold suspension few grains have collided of late, and those are much hotter than the rest: kurtoses reach 20. A
- * Hermite series about a Gaussian of the temperature width x T converges in the mean square for Gaussians less than
- * twice as hot. Where some grains are hotter it hardly changes from degree to degree, however far the limit is. Few
- * grains that carry the fourth moment have about T times this moment over that of a Gaussian. So the width is that
- * ratio, which itself depends on the width. */
+/* Wider Gaussians for cold suspensions. Few grains have collided recently, and those are much hotter than the rest:
+ * kurtoses reach 20. A Hermite series about a Gaussian of the temperature width x T converges in the mean square for
+ * Gaussians less than twice as hot. If some grains are hotter, it hardly changes from degree to degree, at any
+ * distance from the limit. The few grains that carry the fourth moment have about the temperature T times this
+ * moment over that of a Gaussian. So the width is that ratio, which itself depends on the width. */
 #include <math.h>
 
 #include "theory/hermite/shear.h"
 
-/* Widths whose solutions are sought; how many times a width tails may need, of the first and of others. */
+/* Numbers of widths that are tried; how many times a width the tails may need, for the first and for others. */
 enum { MOST_WIDTHS = 4 };
 static const double first_enough = 1.2, enough = 1.1;
 
-/* Of a species: as much wider than its tails ask for as Gaussians are elsewhere. */
+/* Width for the tails of a species, with the same margin as elsewhere. */
 static double width_for(const gg_hermite_basis *b, const gg_hermite_state *s)
 {
   double M[3][3], ratio = 0;
@@ -21,7 +21,7 @@ static double width_for(const gg_hermite_basis *b, const gg_hermite_state *s)
   return GG_HERMITE_WIDTH * fmax(ratio, 1);
 }
 
-/* Secant: towards the width that asks for itself, from one that asks for `asked`; `before`: those of the last one. */
+/* Secant method for the width that equals the width it requires (`asked`); `before`: those of the last one. */
 static double next_width(double width, double asked, double width_before, double asked_before)
 {
   const double most = 0.8;

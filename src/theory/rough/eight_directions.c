@@ -11,7 +11,7 @@
 
 typedef gg_rough_lanes lanes;
 
-/* Columns of the flux that are worked out at once. */
+/* Columns of the flux that are computed at once. */
 enum { TILE = 8, HALF_TILE = 4 };
 
 static lanes *new_lanes(int n)
@@ -26,7 +26,7 @@ static int roots_of(const gg_rough_functions *f)
   return f->degree + 2;
 }
 
-/* The first axis along which a test is not constant: it is made from the test one below along that axis. */
+/* The first axis along which a test is not constant: it follows from the test one degree lower along that axis. */
 static int axis_of(gg_rough_index index)
 {
   int axis = 0;
@@ -34,7 +34,7 @@ static int axis_of(gg_rough_index index)
   return axis;
 }
 
-/* All tests that are made from R, or from one that is. */
+/* All tests that follow from R, directly or not. */
 static int walk(const gg_rough_functions *f, int R, int *path, int n)
 {
   if (R > 0) path[n++] = R;
@@ -112,7 +112,7 @@ void gg_rough_eight_set(gg_rough_eight *x, int lane, const gg_rough_collision *c
         x->flux[(kind * f->n3 + t) * f->n3 + at][lane] = solid_angle * flux[t * f->n3 + x->sorted[kind * f->n3 + at]];
 }
 
-/* z'_axis times a row, in the column T: what is of T itself, of those below and of those above it. */
+/* z'_axis times a row, in the column T: contributions of T itself, of columns below and above it. */
 GG_INLINE lanes times(const gg_rough_eight *x, int axis, const lanes *row, int T, bool own, bool above)
 {
   const gg_rough_functions *f = x->f;
@@ -127,8 +127,8 @@ GG_INLINE lanes times(const gg_rough_eight *x, int axis, const lanes *row, int T
   return sum;
 }
 
-/* The row of R by the recursion of Hermite's polynomials in z' = M z + b, from those of one and two degrees less. A row
- * of degree k ends there. */
+/* The row of R by the recursion of Hermite polynomials in z' = M z + b, from those of one and two degrees less. A
+ * row of degree k ends there. */
 GG_INLINE void make_row(const gg_rough_eight *x, int R, int degree)
 {
   const gg_rough_functions *f = x->f;
@@ -168,7 +168,7 @@ GG_INLINE void add_columns(const lanes *row, int many, const lanes *flux, int st
   for (int v = 0; v < n && v < width; v++) to[column[v]] += sum_of(sum[v]);
 }
 
-/* A row of E times the flux, in the columns that are of the class of the row: the others cancel between the quarters of
+/* A row of E times the flux, in the columns of the same class as the row: the others cancel between the quarters of
  * the sphere. */
 GG_INLINE void add_row(const gg_rough_eight *x, const lanes *row, int degree, int class, double *to)
 {
@@ -188,7 +188,7 @@ GG_INLINE void add_row(const gg_rough_eight *x, const lanes *row, int degree, in
   }
 }
 
-/* Of Ho_R(z') - Ho_R(z). */
+/* Contribution of Ho_R(z') - Ho_R(z). */
 GG_CLONES static void add_all(const gg_rough_eight *x, double *W)
 {
   const gg_rough_functions *f = x->f;

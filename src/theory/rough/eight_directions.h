@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Eight directions of collision at a time, one in each lane of a vector: what they add to the operator W (relative.h).
- * Test after test, along a path of at most N + 1 of them, so that all that is read soon again stays in the cache. */
+/* Eight directions of collision at a time, one in each SIMD lane: their contributions to the operator W
+ * (relative.h). Tests are processed along a path of at most N + 1 of them, so that data that are needed again soon
+ * stay in the cache. */
 #ifndef GG_ROUGH_EIGHT_DIRECTIONS_H
 #define GG_ROUGH_EIGHT_DIRECTIONS_H
 
@@ -9,14 +10,14 @@
 enum { GG_ROUGH_LANES = 8 };
 typedef double gg_rough_lanes __attribute__((vector_size(GG_ROUGH_LANES * sizeof(double))));
 
-/* A function with those below it: Ho_T z_j has sqrt(r_j) of each, with r its index along j. */
+/* A function with those of one degree less: Ho_T z_j has sqrt(r_j) of each, with r its index along j. */
 typedef struct gg_rough_below {
   int n, from[GG_ROUGH_AXES], root[GG_ROUGH_AXES];
 } gg_rough_below;
 
 typedef struct gg_rough_eight {
   const gg_rough_functions *f;
-  int *path;             /* tests in an order in which each comes soon after the one that it is made from */
+  int *path;             /* tests in an order in which each one soon follows the test from which it is made */
   gg_rough_below *below; /* by function */
   gg_rough_lanes b[GG_ROUGH_AXES];
   gg_rough_lanes *root; /* sqrt(r) M, by row of M, column, and r up to N + 1 */

@@ -8,7 +8,7 @@
 
 enum { APPROACH = 48 };
 
-/* Beyond this the weight is below 1e-31. */
+/* Limit of integration: beyond it the weight is below 1e-31. */
 static const double farthest = 12;
 
 static void values(int degree, double x, double *value)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* W of one direction, k = z, where the weight is isotropic: collisions there are a product. The normal velocity d_z
- * goes by itself, d_x with the spin p_y, d_y with p_x, and p_z stays. This takes the room of no matrix, so that degrees
- * may be high. */
+/* W of one direction, k = z, for an isotropic weight: a collision is a product. The normal velocity d_z is
+ * independent, d_x couples with the spin p_y, d_y with p_x, and p_z stays. No matrix is stored, so that degrees may
+ * be high. */
 #ifndef GG_ROUGH_FACTORS_H
 #define GG_ROUGH_FACTORS_H
 

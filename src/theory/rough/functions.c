@@ -27,9 +27,9 @@ static void number_all(gg_rough_functions *f)
 {
   for (int s = 0; s < f->n3; s++) {
     const int *spin = f->three[s];
-    int room = f->degree - spin[0] - spin[1] - spin[2];
+    int remaining = f->degree - spin[0] - spin[1] - spin[2];
     f->from[s] = f->n;
-    for (int v = 0; v < gg_rough_count3(room); v++) {
+    for (int v = 0; v < gg_rough_count3(remaining); v++) {
       const int *c = f->three[v];
       f->function[f->n++] = (gg_rough_index){{c[0], c[1], c[2], spin[0], spin[1], spin[2]}};
     }

@@ -17,10 +17,10 @@ typedef struct gg_rough_index {
 typedef struct gg_rough_functions {
   int degree, n;
   gg_rough_index *function;
-  int *by_degree, upto[GG_ROUGH_MOST_DEGREE + 2]; /* places in order of degree; how many are below each degree */
+  int *by_degree, upto[GG_ROUGH_MOST_DEGREE + 2]; /* indices in order of degree; number below each degree */
   /* Neighbours: one quantum more or less along an axis; -1: none. */
   int (*up)[GG_ROUGH_AXES], (*down)[GG_ROUGH_AXES];
-  /* Functions of the spin alone, by degree; those of one spin index s lie between from[s] and from[s + 1], ordered by
+  /* Functions of the spin alone, by degree; those of one spin index s are at from[s] .. from[s + 1], ordered by
    * their velocity index, which runs over the first of the same list. */
   int n3;
   int (*three)[3];
@@ -31,7 +31,7 @@ typedef struct gg_rough_functions {
 gg_status gg_rough_functions_make(gg_rough_functions *f, int degree, gg_error *err);
 void gg_rough_functions_clear(gg_rough_functions *f);
 
-/* Place of a function; -1 where there is none. */
+/* Index of a function; -1 if there is none. */
 int gg_rough_place(const gg_rough_functions *f, const int r[GG_ROUGH_AXES]);
 
 static inline int gg_rough_degree(gg_rough_index index)
@@ -39,7 +39,7 @@ static inline int gg_rough_degree(gg_rough_index index)
   return index.r[0] + index.r[1] + index.r[2] + index.r[3] + index.r[4] + index.r[5];
 }
 
-/* How many functions of three coordinates have degree up to k. */
+/* Number of functions of three coordinates of degree up to k. */
 static inline int gg_rough_count3(int k)
 {
   return k < 0 ? 0 : (k + 1) * (k + 2) * (k + 3) / 6;

@@ -47,8 +47,8 @@ static gg_status make_normal(gg_rough_direction *d, const gg_rough_gas *gas, dou
   return GG_OK;
 }
 
-/* What follows a Gaussian average by parts, < F Ho_s(x) > = < d^s F/dx^s >/sqrt(s!): c' and o', the coordinates after a
- * collision, are linear in c_1, c_2, o_1, o_2, of which `map` has the coefficients. */
+/* Data for averages by parts, < F Ho_s(x) > = < d^s F/dx^s >/sqrt(s!): c' and o', the coordinates after a collision,
+ * are linear in c_1, c_2, o_1, o_2, with the coefficients `map`. */
 typedef struct tangent {
   double map[2][4];
   double (*poly[2])[SIDE + 1]; /* by grain and pair of indices: coefficients of powers of d/dc' in the derivative */
@@ -204,7 +204,7 @@ static double kept(const gg_rough_direction *d, int axis, const int *test, const
   return (test[axis] + one[axis]) % 2 ? 0 : d->kept[axis / 3][test[axis] * (d->trials + 1) + one[axis]];
 }
 
-/* The others fixed: rows of the tables that a sum runs along. */
+/* A row of the tables along which a sum runs; the other indices are fixed. */
 typedef struct row {
   const double *x, *y, *z;
   int stride; /* of z */
@@ -220,7 +220,7 @@ static row row_of(const gg_rough_direction *d, const int *test, const int *fixed
                d->normal[0] + test[2] * n * n + fixed[2] * (swapped ? 1 : n), swapped ? n : 1};
 }
 
-/* What there was before the collision, of grain 1, where the partner is at rest but along z. */
+/* The value before the collision, of grain 1, with a partner at rest but along z. */
 static double before(const gg_rough_direction *d, const int *test, const int *one, const int *two)
 {
   const int n = d->trials + 1;
@@ -245,7 +245,7 @@ double gg_rough_direction_sum(const gg_rough_direction *d, const int *test, cons
     const int *one = swapped ? t->r : fixed, *two = swapped ? fixed : t->r;
     if (two[5] || (test[5] + one[5]) % 2) continue;
     double value = at.x[t->x] * at.y[t->y] * at.z[t->r[2] * at.stride];
-    if ((test[3] + one[3] + two[3]) % 2) value = -value; /* as the other, but for the sign of the spin */
+    if ((test[3] + one[3] + two[3]) % 2) value = -value; /* as for the other pair, but for the sign of the spin */
     if (at_rest(two)) value -= before(d, test, one, two);
     sum += t->value * kept(d, 5, test, one) * value;
   }

@@ -25,8 +25,8 @@ static inline int gg_rough_two(int s, int t)
   return (s + t) * (s + t + 1) / 2 + t;
 }
 
-/* The two pairs of coordinates that mix each keep the parity of their indices: of collisions that are not 0 it is the
- * same for the test and both grains together. */
+/* Parities of the indices of the two coupled pairs of coordinates: for collision integrals that are not 0 they are
+ * the same for the test and both grains together. */
 static inline int gg_rough_parity(const int *r)
 {
   return (r[0] + r[4]) % 2 + 2 * ((r[1] + r[3]) % 2);
@@ -44,7 +44,7 @@ static inline gg_rough_term gg_rough_term_of(const int *r, double value)
       value, {r[0], r[1], r[2], r[3], r[4], r[5]}, gg_rough_two(r[0], r[4]), gg_rough_two(r[1], r[3])};
 }
 
-/* Summed over terms of grain 2, grain 1 of Ho_fixed; swapped: of grain 1, and grain 2 of that. */
+/* Sum over terms of grain 2, with grain 1 in Ho_fixed; swapped: over terms of grain 1, with grain 2 in Ho_fixed. */
 double gg_rough_direction_sum(const gg_rough_direction *d, const int *test, const int *fixed, bool swapped,
                               const gg_rough_term *terms, int n);
 

@@ -9,13 +9,13 @@
 #include "theory/hermite/overlap.h"
 #include "theory/rough/eight_directions.h"
 
-/* Points of the rule in k_z on (0, 1), and in azimuth on (0, pi), to 1e-6: a quarter of the sphere stands for the
- * whole. */
+/* Points of the rule in k_z on (0, 1), and in azimuth on (0, pi), to 1e-6: by symmetry a quarter of the sphere is
+ * enough. */
 enum { POLAR = 4, AZIMUTH = 12 };
 
 typedef struct gg_relative_work {
   double *flux;   /* n3 x n3: < g_n Ho_t(d) Ho_s(d) > */
-  double *ladder; /* the same of t to N and s to 2 N, from which it comes */
+  double *ladder; /* the same for t to N and s to 2 N, from which `flux` follows */
   gg_rough_eight eight;
   int (*wide)[3], n_wide, *place;
 } gg_relative_work;

@@ -12,7 +12,7 @@
 
 enum { X = 0, Z = 2, SPIN = 3 };
 
-/* A function of one grain by its coefficients that are not 0. */
+/* A function of one grain by its nonzero coefficients. */
 typedef struct sparse {
   int n;
   gg_rough_term *term;
@@ -23,7 +23,7 @@ typedef struct response {
   const gg_rough_steady *s;
   gg_rough_functions f;
   gg_rough_tensors t;
-  gg_rough_direction by, flux; /* collisions as the tests see them; and as moments of degree 2 do, without decay */
+  gg_rough_direction by, flux; /* collisions for the tests; and for moments of degree 2, without decay */
   double L, S;                 /* of the weight, along an axis */
   double reach;        /* the diameter in units in which n chi sigma^2 is the frequency; 0 in the dilute limit */
   double *M, *overlap; /* d<psi_m>/dt and <psi_m> of function n, by rows */
@@ -90,7 +90,7 @@ static void test(const response *r, int c, double amount, const double *x, doubl
   }
 }
 
-/* Of one test and functions of both grains: sum one two <psi>. */
+/* Sum over one test and functions of both grains: sum one two <psi>. */
 static double both(const gg_rough_direction *by, const int *test, const sparse *one, const sparse *two)
 {
   double sum = 0;
@@ -99,8 +99,8 @@ static double both(const gg_rough_direction *by, const int *test, const sparse *
   return sum;
 }
 
-/* rows_m += amount d<psi_m>/dt of grains of f0 that meet partners of x, ahead. */
-static gg_status meet(const response *r, int c, double amount, const double *x, double *rows, gg_error *err)
+/* rows_m += amount d<psi_m>/dt of grains of f0 that collide with partners of x, ahead. */
+static gg_status add_collisions(const response *r, int c, double amount, const double *x, double *rows, gg_error *err)
 {
   const gg_rough_tensors *t = &r->t;
   sparse partner;
@@ -169,7 +169,7 @@ static gg_status add_component(response *r, int c, double *column, gg_error *err
   return GG_OK;
 }
 
-/* f0 as the state has it, with room for what streaming makes of it. */
+/* f0 of the state, with space for its streaming terms. */
 static gg_status take_state(response *r, gg_error *err)
 {
   const gg_rough_steady *s = r->s;
@@ -220,8 +220,7 @@ static void clear(response *r)
   free(r->M);
 }
 
-/* (M + fading) f1 = -rows; f1 takes the place of the rows. Without the first function, C, where there is to be no
- * momentum. */
+/* (M + fading) f1 = -rows; f1 replaces the rows. Without the first function, C, if there must be no momentum. */
 static gg_status solve(const response *r, double fading, double *rows, gg_error *err)
 {
   const size_t all = (size_t)r->t.n, skip = r->t.rank == 1, n = all - skip;
@@ -248,8 +247,8 @@ static void expand(const response *r, int c, const double *f1, double *x)
     for (int k = 0; k < r->t.many[c]; k++) x[r->t.place[c][k]] += f1[m] * r->t.of[c][m * r->t.many[c] + k];
 }
 
-/* What collisions carry along z of sum_k amount_k x the Hermite function `test_k`, over the distance, where grains of
- * f0 and of x meet: both ways for f1, which is everywhere (sign 1), against each other for a gradient (-1). */
+/* Collisional transfer along z of sum_k amount_k x the Hermite function `test_k`, over the distance, for collisions
+ * of grains of f0 and of x: both ways for f1, which is everywhere (sign 1), with opposite signs for a gradient (-1). */
 static double carried(const response *r, int n, const gg_rough_index *test, const double *amount, double sign,
                       const double *x)
 {
@@ -271,7 +270,7 @@ static double coefficient(const response *r, const double *x, int a, int b, int 
   return x[gg_rough_place(&r->f, index.r)];
 }
 
-/* C_z times the energy of translation (spin: of rotation), of f1 along z. */
+/* C_z times the translational (spin: rotational) energy, of f1 along z. */
 static double flown(const response *r, bool spin, const double *x)
 {
   double sum = 0;
@@ -291,7 +290,7 @@ static double energy_carried(const response *r, bool spin, double sign, const do
   return r->reach > 0 ? carried(r, 3, test, amount, sign, x) : 0;
 }
 
-/* What both gradients make of f0: -C D - (1 + y) df0/dC, and -C f0 - ...; partners ahead are of D, and of f0. */
+/* Source terms of both gradients: -C D - (1 + y) df0/dC, and -C f0 - ...; partners ahead have D, and f0. */
 static gg_status heat_sources(response *r, gg_hermite_density d, gg_error *err)
 {
   const double y = 4 * r->s->gas.eta1 * d.phi_chi, pressed[2] = {1 + y, 1 + y * (2 + d.slope)};
@@ -304,7 +303,7 @@ static gg_status heat_sources(response *r, gg_hermite_density d, gg_error *err)
       slope(r, axis, -pressed[k], r->f0, r->x);
       test(r, c, 1, r->x, r->rows[k]);
     }
-    if (r->reach > 0) GG_TRY(meet(r, 0, distant[k], of[k], r->rows[k], err));
+    if (r->reach > 0) GG_TRY(add_collisions(r, 0, distant[k], of[k], r->rows[k], err));
   }
   return GG_OK;
 }
@@ -342,7 +341,7 @@ gg_status gg_rough_heat_of(const gg_rough_steady *cooling, gg_hermite_density de
   return status;
 }
 
-/* Momentum that collisions carry, E_c z . J, of x. */
+/* Momentum transferred by collisions, E_c z . J, of x. */
 static double momentum_carried(const response *r, int c, double sign, const double *x)
 {
   double E[3][3], amount[2];
@@ -352,7 +351,7 @@ static double momentum_carried(const response *r, int c, double sign, const doub
   return r->reach > 0 ? carried(r, 2, test, amount, sign, x) : 0;
 }
 
-/* -(E_c z) . df0/dC: how f0 of a partner ahead differs in a flow of gradient E. */
+/* -(E_c z) . df0/dC: difference of f0 of a partner ahead in a flow of gradient E. */
 static void partner_ahead(const response *r, double E[3][3], double *x)
 {
   memset(x, 0, (size_t)r->f.n * sizeof *x);
@@ -375,7 +374,7 @@ static gg_status shear(response *r, double fading, gg_rough_viscosity *v, gg_err
       }
     test(r, c, 1, r->x, r->rows[0]);
     partner_ahead(r, E, r->x);
-    if (r->reach > 0) GG_TRY(meet(r, c, r->reach, r->x, r->rows[0], err));
+    if (r->reach > 0) GG_TRY(add_collisions(r, c, r->reach, r->x, r->rows[0], err));
     carried += r->reach / 2 * momentum_carried(r, c, -1, r->x);
   }
   GG_TRY(solve(r, fading * r->s->stream.velocity[0][0], r->rows[0], err));
@@ -383,7 +382,8 @@ static gg_status shear(response *r, double fading, gg_rough_viscosity *v, gg_err
     expand(r, c, r->rows[0], r->x);
     carried += momentum_carried(r, c, 1, r->x);
   }
-  v->kinetic = -r->L * r->L * M_SQRT1_2 * r->x[gg_rough_place(&r->f, (int[GG_ROUGH_AXES]){1, 1})]; /* xy came last */
+  v->kinetic =
+      -r->L * r->L * M_SQRT1_2 * r->x[gg_rough_place(&r->f, (int[GG_ROUGH_AXES]){1, 1})]; /* xy is the last component */
   v->total = v->kinetic - carried / 2;
   return GG_OK;
 }

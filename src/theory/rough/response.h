@@ -18,8 +18,8 @@ typedef struct gg_rough_heat { /* of translation, and of rotation */
 gg_status gg_rough_heat_of(const gg_rough_steady *cooling, gg_hermite_density density, gg_rough_heat *heat,
                            gg_error *err);
 
-/* eta/(n T) in units of 1/frequency; `fading`: of the rate at which f0 scales, what the response decays by itself: as
- * T^-1/2 in a cooling gas (1/2), 0 where T is held. */
+/* eta/(n T) in units of 1/frequency; `fading`: decay rate of the response over the rate at which f0 scales: 1/2 in a
+ * cooling gas (T^-1/2), 0 if T is constant. */
 typedef struct gg_rough_viscosity {
   double total, kinetic;
 } gg_rough_viscosity;

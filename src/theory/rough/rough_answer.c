@@ -12,7 +12,7 @@
 
 static const char name[] = "enskog_hermite";
 
-/* What is further off is not given. */
+/* Relative error above which there is no answer. */
 static const double poor = 0.05;
 
 /* Shear: plain moments about a Gaussian of the same second moments. In dilute gases their series alternates with even
@@ -20,13 +20,13 @@ static const double poor = 0.05;
 enum { FIRST_DEGREE = 4, LAST_DEGREE = 6, LAST_ISOTROPIC = 8 };
 static const gg_rough_choice moments = {.width = 1, .spin_width = 1};
 
-/* What products of degrees beyond N add, relative. */
+/* Relative contribution of products of degrees beyond N. */
 static const double left_out = 7e-4;
 
-/* Homogeneous states: spins have long tails there (kurtosis 6.3 at e = .7, beta = -.5), which tests that decay leave
- * out and a wide weight can follow. Of weights 1 to 4 times as wide as f and decays of .05 to 1 the first is best at
- * degree 8 for all beta (plain moments diverge), but where its last degree still changes theta/T by more than
- * `restless`, at e = .7 and beta from -.7 to -.3: the second, then. */
+/* Homogeneous states: spins have long tails there (kurtosis 6.3 at e = .7, beta = -.5), which tests that decay
+ * suppress and a wide weight can follow. Among weights 1 to 4 times as wide as f and decays of .05 to 1 the first
+ * choice is best at degree 8 for all beta (plain moments diverge). The second is for states in which the last degree
+ * still changes theta/T by more than `restless`, at e = .7 and beta from -.7 to -.3. */
 static const gg_rough_choice tails[] = {
     {.width = 1.1, .spin_width = 1.4, .decay = 0.1, .spin_decay = 0.07, .extra = 2},
     {.width = 1.1, .spin_width = 1.6, .decay = 0.1, .spin_decay = 0.1, .extra = 2},
@@ -87,7 +87,7 @@ static void answer_flights(const gg_model *m, double rate, double mean_speed, gg
   if (!m->boltzmann) a->value[GG_Q_KNUDSEN] = mean_speed / rate / m->length;
 }
 
-/* Energy per grain that a bath brings. */
+/* Energy per grain that a bath supplies. */
 static double from_bath(const gg_model *m, const gg_rough_steady *s)
 {
   const gg_bath *b = &m->bath;
@@ -136,7 +136,7 @@ static bool gaussian_start(const gg_model *m, gg_rough_weight *w)
   return gg_hermite_cholesky(start[0].M.at, w->L) && gg_hermite_cholesky(start[0].Theta.at, w->S);
 }
 
-static gg_status climb(const gg_model *m, gg_rough_steady *s, gg_theory_answer rung[], gg_error *err)
+static gg_status solve_degrees(const gg_model *m, gg_rough_steady *s, gg_theory_answer rung[], gg_error *err)
 {
   gg_error why;
   for (int degree = FIRST_DEGREE; degree <= LAST_DEGREE; degree++) {
@@ -164,7 +164,7 @@ static gg_status sheared(const gg_model *m, gg_theory_answer *a, gg_error *err)
   for (int i = 0; i < 3; i++) s.stream.velocity[i][i] = m->bath.drag[0];
   s.stream.velocity[0][1] = m->shear_rate;
   if (!gaussian_start(m, &s.weight)) return gg_theory_reject(err, name, "fails here: no steady state was found");
-  gg_status status = climb(m, &s, rung, err);
+  gg_status status = solve_degrees(m, &s, rung, err);
   gg_rough_steady_clear(&s);
   GG_TRY(status);
   for (int q = 0; q < GG_N_QUANTITIES; q++) {
@@ -186,7 +186,7 @@ static void answer_isotropic(const gg_model *m, const gg_rough_steady *s, const 
   a->value[GG_Q_A2] = a->value[GG_Q_KURTOSIS_CX] / 3 - 1;
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
   a->value[GG_Q_COOLING_RATE] = cooling / gg_common_model_nu0(m, 1);
-  if (heating->kind == GG_HEATING_NOISE || m->linear_response) return; /* of a temperature that it finds itself */
+  if (heating->kind == GG_HEATING_NOISE || m->linear_response) return; /* the state determines its temperature */
   gg_theory_answer_temperature(m, T, ratio, a);
   gg_theory_answer_pressure(m, T, p, p * m->sigma[0] / 6 * mean(s, s->relative.J[2][2]),
                             a); /* one direction: the trace */
@@ -211,14 +211,14 @@ static gg_status answer_heat(const gg_model *m, const gg_rough_steady *s, gg_the
 static gg_status answer_viscosity(const gg_model *m, const gg_rough_steady *s, gg_theory_answer *a, gg_error *err)
 {
   gg_rough_viscosity v;
-  const double fading = gg_theory_thermostat_share(m) == 0.5, nu0 = gg_common_model_nu0(m, 1);
+  const double fading = gg_theory_thermostat_factor(m) == 0.5, nu0 = gg_common_model_nu0(m, 1);
   GG_TRY(gg_rough_viscosity_of(s, gg_theory_phi_chi(m), fading, &v, err));
   a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = v.kinetic * nu0;
   a->value[GG_Q_VISCOSITY_REDUCED] = v.total * nu0;
   return GG_OK;
 }
 
-/* One solution after another, the weight of each from the last. */
+/* A sequence of solutions, the weight of each from the last. */
 static gg_status isotropic(const gg_model *m, gg_rough_steady *s, int degree, gg_theory_answer *a, gg_error *err)
 {
   const gg_heating heating = gg_theory_heating_of(m);
@@ -242,11 +242,11 @@ static const gg_quantity of_heat[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_TH
                                       GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED, GG_Q_ROTATIONAL_CONDUCTIVITY_REDUCED,
                                       GG_Q_ROTATIONAL_DIFFUSIVE_CONDUCTIVITY_REDUCED};
 
-/* The series of heat fluxes sways: two degrees may agree by chance, so that the change before them counts, too. It is
- * an estimate: degree 10 differs by less at e = 0.9, by up to 1.7 errors at e = 0.8, beta = 0.2, by 2.3 at e = 0.7,
- * beta = 0. What is further off than `poor`, of itself or of kappa, is not given: mu vanishes where spins do nothing.
- */
-static void judge_heat(const gg_theory_answer *first, const gg_theory_answer *before, gg_theory_answer *now)
+/* Error of heat fluxes. Their series oscillates: two degrees may agree by chance, so that the change before counts,
+ * too. It is an estimate: degree 10 differs by less at e = 0.9, by up to 1.7 errors at e = 0.8, beta = 0.2, by 2.3
+ * at e = 0.7, beta = 0. There is no answer if the error is above `poor`, of the value itself or of kappa: mu
+ * vanishes where spins have no effect. */
+static void set_heat_errors(const gg_theory_answer *first, const gg_theory_answer *before, gg_theory_answer *now)
 {
   for (size_t k = 0; k < sizeof of_heat / sizeof *of_heat; k++) {
     double *value = &now->value[of_heat[k]], *error = &now->error[of_heat[k]];
@@ -255,9 +255,9 @@ static void judge_heat(const gg_theory_answer *first, const gg_theory_answer *be
   }
 }
 
-/* Degree after degree; the error is what the last has changed. */
-static gg_status climb_isotropic(const gg_model *m, const gg_rough_choice *choice, double ratio, double limit,
-                                 gg_theory_answer *a, gg_error *err)
+/* Degree after degree; the error is the change by the last one. */
+static gg_status converge_isotropic(const gg_model *m, const gg_rough_choice *choice, double ratio, double limit,
+                                    gg_theory_answer *a, gg_error *err)
 {
   gg_theory_answer now = nothing(), before = now, first = now;
   gg_error why;
@@ -271,7 +271,7 @@ static gg_status climb_isotropic(const gg_model *m, const gg_rough_choice *choic
   gg_rough_steady_clear(&s);
   if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
   for (int q = 0; q < GG_N_QUANTITIES; q++) now.error[q] = fabs(now.value[q] - before.value[q]);
-  judge_heat(&first, &before, &now);
+  set_heat_errors(&first, &before, &now);
   GG_TRY(refuse_poor(&now, GG_Q_TEMPERATURE_RATIO, limit, err));
   *a = now;
   return GG_OK;
@@ -283,7 +283,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
   if (isnan(ratio)) return gg_theory_reject(err, name, "finds no steady theta/T");
   gg_status status = GG_FAILED;
   for (int i = 0; i < CHOICES && status != GG_OK; i++)
-    status = climb_isotropic(m, &tails[i], ratio, i + 1 < CHOICES ? restless : poor, a, err);
+    status = converge_isotropic(m, &tails[i], ratio, i + 1 < CHOICES ? restless : poor, a, err);
   if (status == GG_OK && m->flow == GG_HCS) gg_theory_answer_critical_lengths(m, a->value[GG_Q_TEMPERATURE_RATIO], a);
   return status;
 }

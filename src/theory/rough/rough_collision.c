@@ -37,7 +37,7 @@ static void impulse(const gg_rough_gas *gas, const double k[3], const double g[3
   for (int i = 0; i < 3; i++) J[i] = gas->eta2 * g[i] + (gas->eta1 - gas->eta2) * along * k[i];
 }
 
-/* What an impulse adds to (d, p): d' = d - sqrt2 L^-1 J, p' = p - (sqrt2/K) S^-1 (k x J). */
+/* Change of (d, p) by an impulse: d' = d - sqrt2 L^-1 J, p' = p - (sqrt2/K) S^-1 (k x J). */
 static void kick(const gg_rough_gas *gas, const gg_rough_weight *w, const double k[3], const double J[3],
                  double change[GG_ROUGH_AXES])
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One direction k of collision, as the pair's relative motion sees it. With d = (c1 - c2)/sqrt 2 and p = (o1 + o2)/sqrt
- * 2, standard normal under the weight, a collision is a linear map z -> M z + b of z = (d, p), and leaves
- * v = (c1 + c2)/sqrt 2 and m = (o1 - o2)/sqrt 2 alone. */
+/* One direction k of collision, for the pair's relative motion. With d = (c1 - c2)/sqrt 2 and p = (o1 + o2)/sqrt 2,
+ * standard normal under the weight, a collision is a linear map z -> M z + b of z = (d, p), and does not change v =
+ * (c1 + c2)/sqrt 2 and m = (o1 - o2)/sqrt 2. */
 #ifndef GG_ROUGH_COLLISION_H
 #define GG_ROUGH_COLLISION_H
 
@@ -13,7 +13,7 @@ typedef struct gg_rough_weight {
   double L[3][3], S[3][3], spin;
 } gg_rough_weight;
 
-/* What collides. */
+/* The gas: collision rule, frequency, shear. */
 typedef struct gg_rough_gas {
   double frequency;    /* n chi sigma^2 */
   double eta1, eta2;   /* J = eta2 g + (eta1 - eta2) k g_n */

@@ -44,7 +44,7 @@ static double share(const gg_halves *h, int axis, int one, int two, int relative
   return h->of[one][two][axis < 3 ? relative : one + two - relative];
 }
 
-/* Tests whose part that collisions leave alone is V: r with its relative part R = r - V. */
+/* Tests whose part in (v, m), which collisions do not change, is V: r with its relative part R = r - V. */
 typedef struct gg_cover {
   int r, R;
   double amount;
@@ -97,7 +97,7 @@ typedef struct gg_spread {
   double *row; /* of B */
 } gg_spread;
 
-/* All of B that comes from one term Ho_S(d, p) Ho_V(v, m). */
+/* All entries of B from one term Ho_S(d, p) Ho_V(v, m). */
 static void add_term(const gg_spread *s, int S, int V, double amount)
 {
   const gg_rough_relative *relative = s->relative;
@@ -107,7 +107,7 @@ static void add_term(const gg_spread *s, int S, int V, double amount)
   }
 }
 
-/* A product Ho_one(1) Ho_two(2) axis by axis in terms Ho_S Ho_V. */
+/* Expand a product Ho_one(1) Ho_two(2), axis by axis, in terms Ho_S Ho_V. */
 static void spread(const gg_spread *s, const int *one, const int *two, int axis, gg_rough_index S, gg_rough_index V,
                    double amount)
 {
@@ -136,7 +136,7 @@ static int degree_of(const gg_rough_form *form, const gg_rough_functions *f, int
   return gg_rough_degree(f->function[form->function[q]]);
 }
 
-/* What is even by the parities of a shear flow; of an isotropic state also under reflection of any axis. */
+/* Is a function even by the parities of a shear flow; for an isotropic state also under reflection of any axis? */
 static bool belongs(gg_rough_index index, bool isotropic)
 {
   if (gg_rough_class(index) != 0) return false;

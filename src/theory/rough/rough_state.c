@@ -86,7 +86,7 @@ void gg_rough_stream_add(const gg_rough_form *form, const gg_rough_functions *f,
   size_t many = (size_t)form->n_tests, n = (size_t)form->n;
   double *all = calloc(many * (n + 1), sizeof *all), *slopes = all ? all + many : NULL;
   if (!all) {
-    R[1] = NAN; /* which nothing converges with */
+    R[1] = NAN; /* so that no iteration converges */
     return;
   }
   for (int r = 1; r < form->n_tests; r++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The distribution: weight x sum_q a_q Ho_q, and what it takes to move it between collisions. */
+/* The distribution, weight x sum_q a_q Ho_q, and its streaming between collisions. */
 #ifndef GG_ROUGH_STATE_H
 #define GG_ROUGH_STATE_H
 

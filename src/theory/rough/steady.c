@@ -57,8 +57,8 @@ bool gg_rough_follow(gg_rough_steady *s)
   return widen(s->choice.width, C, s->weight.L) && widen(s->choice.spin_width, S, s->weight.S);
 }
 
-/* Unknowns are combinations x_i of the coefficients: a = sum_i x_i direction_i, equations the same combinations of R.
- * The first may be another unknown, of which `extra` is the derivative of R. */
+/* Unknowns are combinations x_i of the coefficients: a = sum_i x_i direction_i, equations the same combinations of
+ * R. The first unknown may be another parameter; `extra` is then the derivative of R with respect to it. */
 typedef struct gg_rough_newton {
   int m, n;
   double *direction; /* m rows of n; NULL: the coefficients themselves, from 1 on */
@@ -152,8 +152,8 @@ static void raise(const gg_rough_functions *f, int one, int two, const double *f
     }
 }
 
-/* The isotropic functions: (C.C)^i (S.S)^j (C.S)^2k and lower ones, 2 (i + j + 2 k) their degree; normalised. The
- * first is C.C. */
+/* The isotropic functions: (C.C)^i (S.S)^j (C.S)^2k and lower ones, of degree 2 (i + j + 2 k); normalised. The first
+ * is C.C. */
 static int isotropic_functions(const gg_rough_steady *s, double *direction)
 {
   const gg_rough_functions *f = &s->relative.f;
@@ -195,7 +195,7 @@ static double product(const gg_rough_newton *w, int i, const double *R)
   return sum;
 }
 
-/* The derivative of R along direction j; of the first, which the width fixes, along x of heating.h instead. */
+/* The derivative of R along direction j; for the first, which the width fixes, with respect to x of heating.h. */
 static void derivative(gg_rough_steady *s, gg_rough_newton *w, int j, gg_heating_rates slopes)
 {
   memset(w->extra, 0, (size_t)w->n * sizeof *w->extra);

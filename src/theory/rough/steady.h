@@ -17,14 +17,14 @@ typedef struct gg_rough_steady {
   double *a;
 } gg_rough_steady;
 
-/* choice, gas, weight and stream are the caller's: those of a shear flow. */
+/* The caller sets choice, gas, weight and stream: those of a shear flow. */
 gg_status gg_rough_shear_solve(gg_rough_steady *state, int degree, gg_error *err);
 
-/* choice, gas and the spread of the weight's spins are the caller's; T = 1. x: of heating.h. */
+/* The caller sets choice, gas and the spread of the weight's spins; T = 1. x: of heating.h. */
 gg_status gg_rough_isotropic_solve(gg_rough_steady *state, int degree, const gg_heating *heating, double *x,
                                    gg_error *err);
 
-/* The weight of the next solution: Gaussian of the second moments of this. False where they are none. */
+/* The weight of the next solution: Gaussian of the second moments of this one. False if they are not positive. */
 bool gg_rough_follow(gg_rough_steady *state);
 
 void gg_rough_steady_clear(gg_rough_steady *state);

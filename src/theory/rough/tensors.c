@@ -16,7 +16,7 @@ void gg_rough_tensors_unit(int component, double E[3][3])
   memcpy(E, unit[component], sizeof unit[component]);
 }
 
-/* to += amount times creation operators of these axes on `from`. */
+/* to += amount times creation operators of these axes applied to `from`. */
 static void create(const gg_rough_functions *f, const int *axes, int n, double amount, const double *from, double *to)
 {
   for (int q = 0; q < f->n; q++) {
@@ -31,14 +31,14 @@ static void create(const gg_rough_functions *f, const int *axes, int n, double a
   }
 }
 
-static int even(int i, int j, int k) /* of a permutation: 1, -1, or 0 of none */
+static int even(int i, int j, int k) /* sign of a permutation: 1, -1, or 0 */
 {
   return (j - i) * (k - j) * (k - i) / 2;
 }
 
 enum { A, B = 3 };
 
-/* What a kind has of a vector v = sum of coefficients of axes. */
+/* Contribution of a vector v = sum of coefficients of axes to a kind of function. */
 static void along(const gg_rough_functions *f, int kind, int c, double amount, const double *from, double *to)
 {
   for (int i = 0; i < 3; i++) {
@@ -91,10 +91,10 @@ static void scalar(const gg_rough_functions *f, int i, int j, int k, double *x, 
 
 typedef struct work {
   double *x, *y, *all[GG_ROUGH_COMPONENTS]; /* all: rows of f->n */
-  int room;
+  int capacity;
 } work;
 
-/* All functions; to count them where there is no work. */
+/* List all functions; without `work` only count them. */
 static int list(const gg_rough_functions *f, const gg_rough_tensors *t, int degree, work *w)
 {
   int n = 0;

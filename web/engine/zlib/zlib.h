@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What of zlib the files' checksums need, by zlib's names. */
+/* The part of zlib that checksums of files need, under zlib's names. */
 #ifndef GG_PAGE_ZLIB_H
 #define GG_PAGE_ZLIB_H
 
