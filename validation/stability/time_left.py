@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How right is the time left that a run tells? By hand, on a machine that does nothing else:
 
-    taskset -c 0 validation/soak/time_left.py build/libgraingas.so [SEED [NAME ...]]
+    taskset -c 0 validation/stability/time_left.py build/libgraingas.so [SEED [NAME ...]]
 
 Runs of every kind, each some seconds. From a quarter of each run on: how often a time is told at all, how often it is
 within 30 % of the truth, the worst (both of what is more than a twentieth of the run before its end), and whether the
