@@ -4,7 +4,11 @@
 #include <math.h>
 
 #include "common/surface/shapes.h"
-#include "md/md_state.h"
+#include "md/event_loops.h"
+#include "md/md_allocate.h"
+#include "md/md_operations.h"
+#include "md/md_thermostat.h"
+#include "md/resolution.h"
 
 static void show_grain(const gg_md *e, uint32_t i, int which, gg_collision_record *m)
 {

@@ -4,7 +4,7 @@
  * would shrink with the time between them, and end nothing. */
 #include <math.h>
 
-#include "md/md_state.h"
+#include "md/epoch.h"
 
 static gg_vec peculiar(const gg_md *e, const gg_md_grain *g)
 {

@@ -4,18 +4,13 @@
  * of the trajectory alone: never of how a caller cuts a run. */
 #include <math.h>
 
+#include "md/epoch.h"
+#include "md/grid.h"
 #include "md/kicks.h"
 #include "md/md_thermostat.h"
+#include "md/row_motion.h"
 
 enum { COLLISIONS_TO_MEASURE = 16 };
-
-/* Few binary digits, so that spans of whole buckets subtract exactly. */
-double gg_md_bucket_width(double events_per_time)
-{
-  int exponent;
-  double mantissa = frexp(GG_MD_BUCKET_MEAN / events_per_time, &exponent);
-  return ldexp(floor(8 * mantissa), exponent - 3);
-}
 
 /* The present mean free time per grain: each collision counts for both partners. */
 static void measure_mean_free_time(gg_md *e, double span)

@@ -8,6 +8,8 @@
 #ifndef GG_MD_EVENT_LOOP_H
 #define GG_MD_EVENT_LOOP_H
 
+#include "md/epoch.h"
+#include "md/resolution.h"
 #include "md/search/near_surfaces.h"
 #include "md/search/neighbour_search.h"
 #include "md/search/simd_pairs.h"

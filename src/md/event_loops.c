@@ -4,6 +4,8 @@
 
 #include <assert.h>
 
+#include "md/resolution.h"
+
 /* Their names, searches and boundaries, as in meson.build; each for one species, and for a mixture; between walls, and
  * in sets compiled quickly (GG_MD_ENTRY_...), the latter serves both. */
 #define EACH_INSTANCE(X, BOTH, set)                                                                                    \

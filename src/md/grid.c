@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The grid of cells, and what goes with the kind of search. */
+#include "md/grid.h"
+
 #include "base/memory.h"
-#include "md/md_state.h"
+#include "md/md_allocate.h"
 #include "md/overlapping_members.h"
+#include "md/row_motion.h"
+#include "md/select_search.h"
+#include "md/start/all_grains.h"
 
 void gg_md_set_skins(gg_md *e, double radius)
 {
@@ -21,10 +26,10 @@ gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
   /* Such cells hold four or five grains on average: room for fifteen at once, before the lists take theirs. */
   GG_TRY(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model) + 2 * radius, err));
   if (!gg_md_cells_grow(&e->cells)) return gg_base_out_of_memory_for(err, "the grid of cells");
-  GG_TRY(gg_md_look(e, err)); /* memory of a gigabyte is cleared for a while */
+  GG_TRY(gg_md_poll_stop(e, err)); /* memory of a gigabyte is cleared for a while */
   GG_TRY(gg_md_allocate_lists(e, err));
   gg_md_set_skins(e, radius);
-  return gg_md_note_surfaces(e, err);
+  return gg_md_find_near_surfaces(e, err);
 }
 
 gg_status gg_md_make_cells(gg_md *e, const int32_t n[3], double reach, gg_error *err)
@@ -42,7 +47,7 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err)
   if (kind == GG_MD_NEIGHBOUR_LISTS) return gg_md_make_lists(e, radius, err);
   e->search.kind = kind;
   GG_TRY(gg_md_make_cells(e, n, gg_md_reach(&e->model), err));
-  GG_TRY(gg_md_note_surfaces(e, err));
+  GG_TRY(gg_md_find_near_surfaces(e, err));
   if (!gg_md_search_has_rows(kind)) return GG_OK;
   GG_TRY(gg_md_make_rows(e, err));
   gg_md_align_rows(e);

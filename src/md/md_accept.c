@@ -2,8 +2,8 @@
 /* Which models the engine runs. */
 #include <math.h>
 
-#include "md/md_engine.h"
-#include "md/md_state.h"
+#include "md/md_operations.h"
+#include "md/select_search.h"
 
 /* Along a periodic edge a grain in a narrower box would meet two images of another; between walls two grains could not
  * pass each other, which neither the start nor the cells provide for. */

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "md/md_allocate.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "common/thermostat.h"
 #include "md/aligned_memory.h"
-#include "md/md_engine.h"
-#include "md/md_state.h"
 #include "md/parallel/parallel.h"
+#include "md/select_search.h"
 #include "simd/dispatch.h"
 
 gg_status gg_md_allocate_last(gg_md *e, gg_error *err)
@@ -49,7 +50,6 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
   GG_TRY(gg_simd_instructions_check(err));
   gg_md *e = gg_base_array_new(1, sizeof *e, err);
   if (!e) return GG_FAILED;
-  e->base.ops = &gg_md_ops;
   e->model = *model;
   for (int a = 0; a < 3; a++) {
     e->box.edge[a] = model->box[a];

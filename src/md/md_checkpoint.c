@@ -1,13 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Everything needed to continue bit for bit: the records as they are. What cells and event queue hold is put there
  * anew: its order never matters. */
-#include "md/md_engine.h"
+#include "md/md_operations.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/memory.h"
+#include "md/event_loops.h"
+#include "md/grid.h"
 #include "md/kicks.h"
+#include "md/md_allocate.h"
+#include "md/row_motion.h"
+#include "md/select_search.h"
+#include "md/start/all_grains.h"
 #include "md/verify.h"
 
 /* What stands beside the arrays, in one plain block. */
@@ -107,17 +113,17 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   e->k = b.counts;
   e->box.offset0 = b.offset0;
   GG_TRY(gg_md_make_cells(e, b.cells, gg_md_reach(&e->model) + 2 * b.skin_radius, err));
-  GG_TRY(gg_md_note_surfaces(e, err));
+  GG_TRY(gg_md_find_near_surfaces(e, err));
   if (gg_md_search_has_rows(e->search.kind)) GG_TRY(gg_md_make_rows(e, err));
   gg_md_queue_reset(&e->queue, b.bucket_width);
   const unsigned before = gg_base_memory_failures();
-  GG_TRY(gg_md_look(e, err));
+  GG_TRY(gg_md_poll_stop(e, err));
   const char *wrong = gg_md_wrong_grains(e);
   if (gg_base_memory_failures() != before) return gg_base_out_of_memory_for(err, "reading the checkpoint of md");
   if (wrong) return refuse(wrong, err);
-  GG_TRY(gg_md_look(e, err));
+  GG_TRY(gg_md_poll_stop(e, err));
   if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
-  GG_TRY(gg_md_look(e, err));
+  GG_TRY(gg_md_poll_stop(e, err));
   GG_TRY(gg_md_kicks_make(e, err));
   e->queue.current = b.current_bucket;
   for (uint32_t i = 0; i < e->n; i++) gg_md_queue_insert(&e->queue, e->node, i);

@@ -2,8 +2,9 @@
 /* What the engine makes of a model, in words. */
 #include <stdio.h>
 
-#include "md/md_engine.h"
+#include "md/md_operations.h"
 #include "md/parallel/parallel.h"
+#include "md/select_search.h"
 
 static void tell(void (*line)(void *, const char *), void *context, const char *what, const char *how)
 {

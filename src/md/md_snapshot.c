@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The grains shown to the outside: at the present time, peculiar velocities, a few hundred at a time. */
-#include "md/md_engine.h"
+#include "md/md_operations.h"
 
 enum { SHOWN = 256 }; /* at a time: so few stay in the first cache until they have been sampled */
 

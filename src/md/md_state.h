@@ -43,9 +43,6 @@ typedef struct gg_md_row {
   int32_t above, below;
 } gg_md_row;
 
-/* At the start: between looks at whether to stop, some milliseconds. */
-enum { GG_MD_GRAINS_BETWEEN_LOOKS = 1 << 13 };
-
 /* How neighbours are found: a header of search/ each. Rows, overlapping or not, move with the flow. */
 typedef enum gg_md_search_kind {
   GG_MD_PLAIN_CELLS,
@@ -178,100 +175,6 @@ struct gg_md {
   bool lists_are_full;
 };
 
-/* md_allocate.c: an engine with its arrays for this model, nothing in them; and its end. */
-gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err);
-gg_status gg_md_allocate_lists(gg_md *e, gg_error *err);
-gg_status gg_md_allocate_last(gg_md *e, gg_error *err);
-void gg_md_free(gg_md *e);
-
-/* start.c: a fresh initial state: places, velocities, spins; those that are given (NULL: none) are taken. */
-gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, const gg_grain_arrays *given, gg_error *err);
-/* md_engine.c: make grains with places, velocities and spins ready to run; keeps a grid that is there already. `T`: of
- * about which temperature they are. */
-gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err);
-/* Between two parts of the start of a large system: GG_INTERRUPTED if it is to stop. */
-gg_status gg_md_look(const gg_md *e, gg_error *err);
-gg_status gg_md_begin(gg_md *e, gg_error *err); /* at the model's */
-
-/* select_search.c: the largest distance at which two grains touch. */
-double gg_md_reach(const gg_model *model);
-/* The fastest search for a model: the radius of its skins, if it keeps lists, and how many cells. */
-gg_md_search_kind gg_md_search_select(const gg_model *model, double *radius, int32_t n[3]);
-/* Cells for the centres of lists: only in boxes of at least three cells, no nearest image in doubt. */
-bool gg_md_fit_lists(const gg_model *model, double radius, int32_t n[3]);
-/* Are its cells small (cell_grid.h)? */
-bool gg_md_has_small_cells(const gg_model *model, gg_md_search_kind kind);
-/* Cells that are crossed in a collision's time, all grains together. */
-double gg_md_crossings_per_collision(const gg_model *model);
-
-/* grid.c: the grid that suits the model; its cells, so many, for e->search.kind. */
-gg_status gg_md_make_grid(gg_md *e, gg_error *err);
-gg_status gg_md_make_cells(gg_md *e, const int32_t n[3], double reach, gg_error *err);
-/* Neighbour lists with skins of this radius, if the box is wide enough for them; else nothing. */
-gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
-void gg_md_set_skins(gg_md *e, double radius);
-/* grid.c: the cells that the grains' positions lie in; the cells filled with them (false: out of memory). */
-void gg_md_enter_grid(gg_md *e);
-bool gg_md_fill_grid(gg_md *e);
-
-/* wall_contacts.c: search.near for the cells that there are; and contacts with other shapes than planes, as seen from a
- * cell. */
-gg_status gg_md_note_surfaces(gg_md *e, gg_error *err);
-double gg_md_shaped_delay(const gg_md *e, const gg_surface *surface, const gg_flight *flight, const int32_t *cell);
-
-/* row_motion.c: rows of cells that move with the flow, placed as e->k says; as the images above stand at the epoch's
- * start; at the start of the next epoch; and after they have shifted by a cell. */
-gg_status gg_md_make_rows(gg_md *e, gg_error *err);
-void gg_md_align_rows(gg_md *e);
-void gg_md_move_rows(gg_md *e, double span);
-void gg_md_shift_rows_by_a_cell(gg_md *e);
-/* The cell along x of row y that a place is in now. */
-int32_t gg_md_cell_in_row(const gg_md *e, int32_t y, double x);
-
-/* lists.c: every grain's skin and list anew at the present time; the skins get smaller where lists overflow. False: it
- * was stopped, and lists are missing; `stop` NULL: never. */
-bool gg_md_build_lists(gg_md *e, const gg_stop *stop);
-
-/* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the queue re-tuned.
- * False if nothing will ever happen again. */
-bool gg_md_next_epoch(gg_md *e);
-/* verify.c: look at all grains, if that is due; false: a place, velocity or spin is no number, and e->no_number.
- */
-bool gg_md_check_numbers(gg_md *e);
-/* md_thermostat.c: take off the velocity of the centre of mass, relative to the imposed shear; all grains at the same
- * time. */
-double gg_md_follow_centre_of_mass(gg_md *e); /* the temperature */
-/* Is that velocity more than rounding? */
-bool gg_md_has_drift(const gg_md *e);
-/* contact_time.c: a sheared gas that begins in the cold does not stay there; the contact time at the start, and
- * at the start of an epoch, all grains at the same time. */
-double gg_md_early_temperature(const gg_md *e, double T);
-void gg_md_begin_contact_time(gg_md *e, double T);
-/* T about the mean velocity, relative to the imposed shear; all grains at the same time. */
-double gg_md_temperature(const gg_md *e);
-void gg_md_follow_contact_time(gg_md *e);
-/* Bucket width of the event queue that suits a rate of events. */
-double gg_md_bucket_width(double events_per_time);
-
-/* collision_callback.c: a resolution that shows the collision to the callback, then goes on to e->resolve_shown; and
- * the engine's operation that sets it. */
-gg_md_resolution gg_md_show_collision;
-gg_md_surface_resolution gg_md_show_contact;
-/* md_engine.c: the present time since the engine's creation, outside. */
-double gg_md_time(const gg_md *e);
-
-gg_status gg_md_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
-
-/* separating_pairs.c: a resolution after which the pair parts, whatever is lost in rounding; the same instead of
- * e->resolve, for a pair that meets again at once; and does this model need it throughout? */
-gg_md_resolution gg_md_resolve_parting, gg_md_resolve_again;
-bool gg_md_needs_parting(const gg_model *model);
-
-/* kernels.c: choose the kernels that this model and its collision sums need; resolve.c: the part that concerns
- * contacts. */
-void gg_md_select(gg_md *e);
-void gg_md_select_resolution(gg_md *e);
-
 GG_INLINE bool gg_md_search_has_rows(gg_md_search_kind kind)
 {
   return kind == GG_MD_COMOVING_ROWS || kind == GG_MD_OVERLAPPING_ROWS;
@@ -279,12 +182,6 @@ GG_INLINE bool gg_md_search_has_rows(gg_md_search_kind kind)
 GG_INLINE bool gg_md_search_overlaps(gg_md_search_kind kind)
 {
   return kind == GG_MD_OVERLAPPING_CELLS || kind == GG_MD_OVERLAPPING_ROWS;
-}
-
-/* Where cell 0 of a co-moving row begins now. */
-GG_INLINE double gg_md_row_begins(const gg_md *e, int32_t y)
-{
-  return e->search.rows.row[y].origin + e->search.rows.row[y].speed * e->k.now;
 }
 
 GG_INLINE int gg_md_species_of(const gg_md_grain *g)

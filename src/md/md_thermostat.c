@@ -73,3 +73,13 @@ double gg_md_follow_centre_of_mass(gg_md *e)
   for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
   return energy / (3.0 * e->n);
 }
+
+double gg_md_outer_time(const gg_md *e)
+{
+  return e->k.outer + (e->k.now - e->k.mark) / e->k.scale;
+}
+
+double gg_md_time(const gg_md *e)
+{
+  return e->thermostat == GG_GAUSSIAN ? e->k.outer_time + gg_md_outer_time(e) : e->k.epoch_start + e->k.now;
+}

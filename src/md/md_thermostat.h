@@ -15,4 +15,15 @@ void gg_md_thermostat_begin(gg_md *e);
 /* At an epoch's end, all grains at time 0: fold the scale into velocities and times. */
 void gg_md_thermostat_fold(gg_md *e);
 
+/* Remove the velocity of the centre of mass, relative to the imposed shear; all grains at the same time. Returns the
+ * temperature. */
+double gg_md_follow_centre_of_mass(gg_md *e);
+/* Is that velocity larger than rounding? */
+bool gg_md_has_drift(const gg_md *e);
+
+/* Outside time since the present advance began. */
+double gg_md_outer_time(const gg_md *e);
+/* Present outside time since the engine was created. */
+double gg_md_time(const gg_md *e);
+
 #endif

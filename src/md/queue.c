@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "md/queue.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,6 +26,14 @@ void gg_md_queue_free(gg_md_queue *q)
   free(q->bucket);
   free(q->due);
   *q = (gg_md_queue){0};
+}
+
+/* Few binary digits, so that spans of whole buckets subtract exactly. */
+double gg_md_bucket_width(double events_per_time)
+{
+  int exponent;
+  double mantissa = frexp(GG_MD_BUCKET_MEAN / events_per_time, &exponent);
+  return ldexp(floor(8 * mantissa), exponent - 3);
 }
 
 void gg_md_queue_reset(gg_md_queue *q, double width)

@@ -58,6 +58,8 @@ typedef struct gg_md_queue {
 
 gg_status gg_md_queue_make(gg_md_queue *q, uint32_t n_grains, gg_error *err);
 void gg_md_queue_free(gg_md_queue *q);
+/* Bucket width that suits a rate of events. */
+double gg_md_bucket_width(double events_per_time);
 /* Empty it, at bucket 0, with buckets of this width. */
 void gg_md_queue_reset(gg_md_queue *q, double width);
 /* Bring the next non-empty bucket into `due`; false if the epoch is over. */

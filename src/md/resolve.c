@@ -2,6 +2,7 @@
 /* The instances of what a contact does, and which of them a scene needs. */
 #include <assert.h>
 
+#include "md/resolution.h"
 #include "md/resolve.h"
 
 /* X for every rule, with and without contact-time rule and sums; the other two features are passed on to X. */

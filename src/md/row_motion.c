@@ -12,10 +12,11 @@
  * Rows of cells that overlap (overlapping_members.h) need not know of each other: row j begins at (j + 1/2 - n_y/2) f,
  * where f, in [0, 2 L_x), is how far rows have moved past each other. e->k.fractional_shift is what it was, or would
  * have been, at the epoch's start. */
+#include "md/row_motion.h"
+
 #include <math.h>
 
 #include "base/memory.h"
-#include "md/row_motion.h"
 
 static double shift_speed(const gg_md *e)
 {

@@ -5,6 +5,7 @@
 #include "common/portable_math.h"
 #include "common/surface/shapes.h"
 #include "md/row_motion.h"
+#include "md/select_search.h"
 
 /* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists,
  * of sizes unequal up to 1:2 from 0.45 on; in between plain cells, from 0.25 on of a contact distance, below with this

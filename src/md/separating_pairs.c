@@ -7,7 +7,7 @@
  * too. */
 #include <math.h>
 
-#include "md/md_state.h"
+#include "md/resolution.h"
 
 /* e from which on a pair parts by itself: a normal speed that e brings down to rounding is never seen. */
 #define PARTS_FROM 1e-3

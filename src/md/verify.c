@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "md/md_state.h"
+#include "md/select_search.h"
 
 /* Boxes that a grain may lie or come from its own; far less than an index holds. Boxes that those above may have moved
  * within an epoch, which a whole number holds. */

@@ -16,4 +16,8 @@ bool gg_md_are_counts(const gg_md_counts *k, const int32_t cells[3]);
 /* Grains, events, spins, numbers, lists; before they are put into cells and event queue. NULL, or what is wrong. */
 const char *gg_md_wrong_grains(const gg_md *e);
 
+/* verify.c: inspect all grains, once in as many events as there are grains. False: a position, velocity or spin is NaN
+ * or infinite, and e->no_number is set. */
+bool gg_md_check_numbers(gg_md *e);
+
 #endif

@@ -4,7 +4,7 @@
 
 #include "base/memory.h"
 #include "common/surface/shapes.h"
-#include "md/md_state.h"
+#include "md/grid.h"
 
 /* How far from its cell a grain can be before its next crossing: in its skin; in the next of two overlapping cells. */
 static void get_beyond(const gg_md *e, int axis, double *below, double *above)
@@ -30,7 +30,7 @@ static void note(gg_md *e, int w, double radius)
   }
 }
 
-gg_status gg_md_note_surfaces(gg_md *e, gg_error *err)
+gg_status gg_md_find_near_surfaces(gg_md *e, gg_error *err)
 {
   const gg_model *m = &e->model;
   double widest = 0;

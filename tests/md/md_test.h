@@ -12,7 +12,12 @@
 #include <cmocka.h>
 
 #include "common/engine.h"
-#include "md/md_state.h"
+#include "md/event_loops.h"
+#include "md/grid.h"
+#include "md/md_allocate.h"
+#include "md/row_motion.h"
+#include "md/select_search.h"
+#include "md/start/start.h"
 
 typedef struct md_case {
   gg_flow flow;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "md/md_engine.h"
+#include "md/md_operations.h"
 #include "md/parallel/slab.h"
 #include "md_test.h"
 

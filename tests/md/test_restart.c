@@ -295,7 +295,7 @@ static void restored_while_stopped(void **state)
 {
   (void)state;
   const gg_stop stop = {at_once, NULL};
-  gg_model m = md_model((md_case){GG_EQUILIBRIUM, 2 * GG_MD_GRAINS_BETWEEN_LOOKS, 0.1, 1, -1, INFINITY, {0}});
+  gg_model m = md_model((md_case){GG_EQUILIBRIUM, 2 * GG_MD_GRAINS_PER_POLL, 0.1, 1, -1, INFINITY, {0}});
   gg_md *e = md_create(&m, 1);
   gg_engine *back = NULL;
   gg_archive a = {0};

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "md/event_loops.h"
-#include "md/md_engine.h"
+#include "md/md_operations.h"
 #include "md/parallel/slab.h"
 #include "md/row_motion.h"
 #include "md_test.h"

@@ -11,6 +11,7 @@
 #include "common/thermostat.h"
 #include "md/aligned_memory.h"
 #include "md/parallel/slab.h"
+#include "md/select_search.h"
 
 /* Buckets of a window for each slab: so few that its log stays in the cache. Windows of an epoch at least: in shorter
  * ones fewer events depend on one that was put off. Buckets at least; layers of cells that a slab has at least; windows

@@ -25,6 +25,7 @@ enum {
   PREDICTS_IN_PLACE = true
 };
 
+#include "md/grid.h"
 #include "md/search/list_update.h"
 #include "md/search/neighbour_search.h"
 #include "md/search/simd_pairs.h"

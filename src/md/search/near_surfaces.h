@@ -4,6 +4,7 @@
 #define GG_MD_SEARCH_SURFACES_H
 
 #include "common/surface/shapes.h"
+#include "md/grid.h"
 #include "md/search/search.h"
 
 /* A surface that the grain meets before anything else so far. Only those within reach of its cell are tried, so grains

@@ -3,6 +3,7 @@
 
 #include <stdatomic.h>
 
+#include "base/memory.h"
 #include "base/thread_pool.h"
 #include "md/parallel/parallel.h"
 
@@ -24,8 +25,8 @@ static void run_part(void *context, int self)
   const uint32_t end = (uint32_t)(n * (uint64_t)(self + 1) / parts);
   for (uint32_t from = (uint32_t)(n * (uint64_t)self / parts), to; from < end; from = to) {
     if (atomic_load(&w->state) != GG_MD_ALL_DONE) return;
-    to = end - from > GG_MD_GRAINS_BETWEEN_LOOKS ? from + GG_MD_GRAINS_BETWEEN_LOOKS : end;
-    if (!w->part(e, from, to)) atomic_store(&w->state, GG_MD_IN_VAIN);
+    to = end - from > GG_MD_GRAINS_PER_POLL ? from + GG_MD_GRAINS_PER_POLL : end;
+    if (!w->part(e, from, to)) atomic_store(&w->state, GG_MD_GIVEN_UP);
     if (to < n && gg_stop_asked(w->stop)) atomic_store(&w->state, GG_MD_STOPPED);
   }
 }
@@ -51,4 +52,15 @@ gg_md_all_grains gg_md_for_all_grains(gg_md *e, gg_md_for_grains *part, const gg
   gg_base_thread_pool_free(pool);
   for (int k = 0; k < w.parts; k++) gg_md_view_free(w.view[k]);
   return (gg_md_all_grains)atomic_load(&w.state);
+}
+
+gg_status gg_md_start_stopped(const gg_md *e, gg_error *err)
+{
+  if (e->out_of_memory) return gg_base_out_of_memory_for(err, "the start of md");
+  return gg_base_fail(err, GG_INTERRUPTED, "md: stopped at the start");
+}
+
+gg_status gg_md_poll_stop(const gg_md *e, gg_error *err)
+{
+  return e->n > GG_MD_GRAINS_PER_POLL && gg_stop_asked(e->model.stop) ? gg_md_start_stopped(e, err) : GG_OK;
 }

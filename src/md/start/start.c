@@ -6,8 +6,9 @@
 
 #include "base/memory.h"
 #include "common/portable_math.h"
-#include "md/md_state.h"
+#include "md/start/all_grains.h"
 #include "md/start/place.h"
+#include "md/start/start.h"
 
 enum { SWEEPS = 3000 };
 
@@ -79,7 +80,7 @@ static gg_status place(gg_md *e, gg_rng *rng, gg_md_packing *p, double *diameter
 {
   for (uint32_t i = 0; i < e->n; i++)
     for (int a = 0; a < 3; a++) *gg_component(&p->r[i], a) = gg_rng_uniform(rng) * e->box.edge[a];
-  GG_TRY(gg_md_look(e, err));
+  GG_TRY(gg_md_poll_stop(e, err));
   GG_TRY(gg_md_place_sort(p, NULL, err));
   deal_species(e, diameter, rng);
   GG_TRY(relax(e, p, rng, err));
@@ -177,12 +178,12 @@ gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, const gg_grain_a
 {
   gg_rng rng = gg_common_rng_seed(seed, stream + GG_STREAM_START);
   e->k.rng = gg_common_rng_seed(seed, stream + GG_STREAM_ENGINE);
-  GG_TRY(gg_md_look(e, err));
+  GG_TRY(gg_md_poll_stop(e, err));
   GG_TRY(place_all(e, given, &rng, err));
-  GG_TRY(gg_md_look(e, err));
+  GG_TRY(gg_md_poll_stop(e, err));
   set_velocities(e, &rng, e->model.temperature0);
-  GG_TRY(gg_md_look(e, err));
+  GG_TRY(gg_md_poll_stop(e, err));
   set_spins(e, &rng, e->model.ratio0 * e->model.temperature0);
   if (given) take_motion(e, given);
-  return gg_md_look(e, err);
+  return gg_md_poll_stop(e, err);
 }
