@@ -50,8 +50,8 @@ static void tell_threads(const gg_model *m, void (*line)(void *, const char *), 
   const char *serial = gg_md_serial_because(m);
   if (serial)
     snprintf(text, sizeof text, "one a replica, because of %s", serial);
-  else if (m->n < GG_MD_FEWEST_SHARED)
-    snprintf(text, sizeof text, "one a replica below %d grains", GG_MD_FEWEST_SHARED);
+  else if (m->n < GG_MD_FEWEST_PARALLEL)
+    snprintf(text, sizeof text, "one a replica below %d grains", GG_MD_FEWEST_PARALLEL);
   else
     snprintf(text, sizeof text, "up to %d a replica share its events, with the same bits", gg_md_most_slabs(m));
   tell(line, context, "threads", text);

@@ -186,7 +186,7 @@ static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
 static void threads(gg_engine *engine, int threads)
 {
   gg_md *e = (gg_md *)engine;
-  gg_md_share(e, e->n < GG_MD_FEWEST_SHARED ? 1 : threads, true);
+  gg_md_use_threads(e, e->n < GG_MD_FEWEST_PARALLEL ? 1 : threads, true);
 }
 
 static void state(const gg_engine *engine, gg_engine_state *s)

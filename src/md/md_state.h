@@ -171,7 +171,7 @@ struct gg_md {
   double noise; /* xi^2 of the white-noise thermostat */
   gg_md_kicks kicks;
   struct gg_md_parallel *parallel; /* parallel/: threads that share the events; NULL: one does all */
-  bool is_view;                    /* of one of them: no lists are made anew, but */
+  bool is_thread_local;                    /* of one of them: no lists are made anew, but */
   bool lists_are_full;
 };
 

@@ -52,7 +52,7 @@ static gg_md *create(const gg_model *m, int threads)
 {
   gg_md *e = md_create(m, 7);
   gg_md_ops.keep_sums(&e->base, true);
-  gg_md_share(e, threads, false);
+  gg_md_use_threads(e, threads, false);
   assert_int_equal(threads > 1, e->parallel != NULL);
   return e;
 }
@@ -78,19 +78,19 @@ static void same_bits(void **state)
 {
   (void)state;
   const uint64_t collisions = collisions_asked();
-  uint64_t late = 0, taken_back = 0;
+  uint64_t deferred_twice = 0, rolled_back = 0;
   for (int k = 0; k < CASES; k++) {
     gg_model m = model_of(k);
     gg_md_window_counts c = {0};
     const uint64_t serial = run(&m, 1, collisions, &c);
     for (int threads = 2; threads <= MOST_THREADS; threads++) {
       if (run(&m, threads, collisions, &c) != serial) fail_msg("case %d, %d threads", k, threads);
-      if (c.events < collisions || !c.put_off[0]) fail_msg("case %d, %d threads: hardly shared", k, threads);
-      late += c.put_off[1];
-      taken_back += c.taken_back;
+      if (c.events < collisions || !c.deferred[0]) fail_msg("case %d, %d threads: hardly shared", k, threads);
+      deferred_twice += c.deferred[1];
+      rolled_back += c.rolled_back;
     }
   }
-  assert_true(late > 0 && taken_back > 0);
+  assert_true(deferred_twice > 0 && rolled_back > 0);
 }
 
 /* By times and by numbers of collisions, the sums taken at each end. */
@@ -117,7 +117,7 @@ static gg_md *restored(gg_md *e, const gg_model *m, int threads)
   if (gg_md_save(&e->base, &archive, &err) != GG_OK) fail_msg("%s", err.message);
   if (gg_md_restore(m, &archive, &back, &err) != GG_OK) fail_msg("%s", err.message);
   gg_base_archive_clear(&archive);
-  gg_md_share((gg_md *)back, threads, false);
+  gg_md_use_threads((gg_md *)back, threads, false);
   return (gg_md *)back;
 }
 
@@ -181,7 +181,7 @@ static void adapts(void **state)
   (void)state;
   gg_model m = model_of(0);
   gg_md *serial = create(&m, 1), *shared = create(&m, 1);
-  gg_md_share(shared, 2, true);
+  gg_md_use_threads(shared, 2, true);
   md_collide(serial, 40000);
   md_collide(shared, 40000);
   assert_int_equal(md_hash_all(serial), md_hash_all(shared));
@@ -203,7 +203,7 @@ static void says_why_not(void **state)
   assert_string_equal(gg_md_serial_because(&small), "a small box");
   assert_null(gg_md_serial_because(&shared));
   gg_md *e = md_create(&small, 1);
-  gg_md_share(e, 4, false);
+  gg_md_use_threads(e, 4, false);
   assert_null(e->parallel);
   md_destroy(e);
 }

@@ -156,26 +156,26 @@ static void leave_all_bits(void **state)
 static void leave_all_bits_to_threads(void **state)
 {
   (void)state;
-  uint64_t taken_back = 0, cancelled = 0;
+  uint64_t rolled_back = 0, cancelled = 0;
   for (int k = 0; k < CASES; k++) {
     gg_model m = model_of(k);
     uint64_t serial = 0;
     for (int threads = 1; threads <= 4; threads++) {
       gg_md *e = create(&m, cases[k].width, true);
-      gg_md_share(e, threads, false);
+      gg_md_use_threads(e, threads, false);
       md_collide(e, 3 * COLLISIONS);
       const uint64_t h = md_hash_all(e);
       serial = threads == 1 ? h : serial;
       if (h != serial) fail_msg("case %d, %d threads", k, threads);
       assert_int_equal(e->cells.stride, cases[k].grow ? 16 : 4);
       if (threads > 1) {
-        taken_back += e->parallel->counts.taken_back;
+        rolled_back += e->parallel->counts.rolled_back;
         cancelled += e->parallel->counts.cancelled;
       }
       md_destroy(e);
     }
   }
-  assert_true(taken_back > 100 && cancelled > 0);
+  assert_true(rolled_back > 100 && cancelled > 0);
 }
 
 /* As the engine chooses them. */
@@ -189,7 +189,7 @@ static void are_there_again(void **state)
   gg_archive archive = {0};
   gg_error err;
   gg_engine *back = NULL;
-  gg_md_share(e, 2, false);
+  gg_md_use_threads(e, 2, false);
   md_collide(e, COLLISIONS);
   assert_int_equal(e->cells.stride, GG_MD_SMALL_CELL);
   assert_int_equal(gg_md_save(&e->base, &archive, &err), GG_OK);
@@ -197,7 +197,7 @@ static void are_there_again(void **state)
   gg_base_archive_clear(&archive);
   gg_md *again = (gg_md *)back;
   assert_int_equal(again->cells.stride, GG_MD_SMALL_CELL);
-  gg_md_share(e, 3, false);
+  gg_md_use_threads(e, 3, false);
   md_collide(e, COLLISIONS);
   md_collide(again, COLLISIONS);
   assert_int_equal(md_hash(e), md_hash(again));

@@ -111,7 +111,7 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
     gg_md_predict(e, i);
     return;
   }
-  if (e->is_view) {
+  if (e->is_thread_local) {
     e->lists_are_full = true;
     return;
   }

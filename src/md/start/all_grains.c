@@ -10,7 +10,7 @@
 enum { PARTS = 16 };
 
 typedef struct work {
-  gg_md *view[PARTS];
+  gg_md *local[PARTS];
   int parts;
   gg_md_for_grains *part;
   const gg_stop *stop;
@@ -20,7 +20,7 @@ typedef struct work {
 static void run_part(void *context, int self)
 {
   work *w = context;
-  gg_md *e = w->view[self];
+  gg_md *e = w->local[self];
   const uint64_t n = e->n, parts = (uint64_t)w->parts;
   const uint32_t end = (uint32_t)(n * (uint64_t)(self + 1) / parts);
   for (uint32_t from = (uint32_t)(n * (uint64_t)self / parts), to; from < end; from = to) {
@@ -31,26 +31,26 @@ static void run_part(void *context, int self)
   }
 }
 
-static bool make_views(work *w, const gg_md *e)
+static bool make_local_engines(work *w, const gg_md *e)
 {
   for (int k = 0; k < w->parts; k++) {
-    if (!(w->view[k] = gg_md_view_new())) return false;
-    gg_md_view_renew(w->view[k], e);
+    if (!(w->local[k] = gg_md_local_new())) return false;
+    gg_md_local_renew(w->local[k], e);
   }
   return true;
 }
 
 gg_md_all_grains gg_md_for_all_grains(gg_md *e, gg_md_for_grains *part, const gg_stop *stop)
 {
-  const int threads = e->n < GG_MD_FEWEST_SHARED ? 1 : e->model.threads;
+  const int threads = e->n < GG_MD_FEWEST_PARALLEL ? 1 : e->model.threads;
   work w = {.part = part, .stop = stop, .parts = threads > 1 ? PARTS : 1, .state = GG_MD_NO_MEMORY};
   gg_thread_pool *pool = gg_base_thread_pool_new(threads);
-  if (make_views(&w, e)) {
+  if (make_local_engines(&w, e)) {
     atomic_store(&w.state, GG_MD_ALL_DONE);
     gg_base_thread_pool_for(pool, w.parts, run_part, &w);
   }
   gg_base_thread_pool_free(pool);
-  for (int k = 0; k < w.parts; k++) gg_md_view_free(w.view[k]);
+  for (int k = 0; k < w.parts; k++) gg_md_local_free(w.local[k]);
   return (gg_md_all_grains)atomic_load(&w.state);
 }
 
