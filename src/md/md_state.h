@@ -76,22 +76,24 @@ typedef struct gg_md_search_state {
   };
 } gg_md_search_state;
 
-/* Kicks (kicks.h): how the grains of a species take turns; and how far they are. */
-typedef struct gg_md_turns {
-  uint32_t first, n;    /* in `order` */
-  uint32_t group, step; /* so many have turns one after the other; the next group is so many groups further */
-  double apart, size;   /* time between turns on average, and the change of velocity */
-  /* Of a bath: what a turn leaves of a velocity and a spin, and the size of its kicks along each axis. */
-  double keep, spin_keep, spin_size;
-} gg_md_turns;
+/* Kick schedule of a species (kicks.h). */
+typedef struct gg_md_kick_schedule {
+  uint32_t first, n;      /* grains of the species in `order` */
+  uint32_t group;         /* grains that are kicked one after the other */
+  uint32_t step;          /* from one group to the next, in groups */
+  double interval;        /* mean time between slots of the species */
+  double size;            /* change of velocity; in a bath its standard deviation along each axis */
+  double keep, spin_keep; /* in a bath: factor of the velocity, of the spin */
+  double spin_size;       /* in a bath: standard deviation of the change of spin along each axis */
+} gg_md_kick_schedule;
 typedef struct gg_md_kicks {
-  gg_md_turns of[GG_MAX_SPECIES];
-  uint32_t *order; /* the grains by species; NULL: there is one */
+  gg_md_kick_schedule schedule[GG_MAX_SPECIES];
+  uint32_t *order; /* grains by species; NULL: one species */
 } gg_md_kicks;
-typedef struct gg_md_turn {
-  double at; /* epoch time of the next */
-  uint64_t number;
-} gg_md_turn;
+typedef struct gg_md_kick_progress {
+  double at;       /* epoch time of the next slot */
+  uint64_t number; /* of the next slot */
+} gg_md_kick_progress;
 
 typedef struct gg_md gg_md;
 
@@ -115,9 +117,9 @@ typedef struct gg_md_counts {
   uint64_t collisions, events, treated, wall_treated, clamped;
   double worst_overlap;
   gg_rng rng;
-  double next_kick;        /* epoch time of the earliest turn; INFINITY: no kicks */
-  double kick_temperature; /* the hottest gas that turns are frequent enough for */
-  gg_md_turn turn[GG_MAX_SPECIES];
+  double next_kick;        /* epoch time of the earliest slot; INFINITY: no kicks */
+  double kick_temperature; /* highest temperature for which slots are frequent enough */
+  gg_md_kick_progress kick[GG_MAX_SPECIES];
   /* Gaussian thermostat: the gas inside cools freely; outside, velocities are `scale` times larger and clocks slower.
    */
   double scale, kinetic, kinetic0; /* kinetic: energy inside, at present; kinetic0: outside, kept */
@@ -171,7 +173,7 @@ struct gg_md {
   double noise; /* xi^2 of the white-noise thermostat */
   gg_md_kicks kicks;
   struct gg_md_parallel *parallel; /* parallel/: threads that share the events; NULL: one does all */
-  bool is_thread_local;                    /* of one of them: no lists are made anew, but */
+  bool is_thread_local;            /* of one of them: no lists are made anew, but */
   bool lists_are_full;
 };
 

@@ -78,8 +78,8 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
       pair = f.mixture ? gg_md_pair(&e->contacts, a, b) : 0, q = f.mixture ? gg_pair(a, b) : 0;
   const gg_md_contacts *contacts = &e->contacts;
   const uint32_t number = one->counter + two->counter; /* local: the same whatever happens elsewhere */
-  uint64_t turn = number & contacts->turns;
-  const uint64_t row = f.mixture ? turn * (uint64_t)contacts->n_pairs : turn;
+  uint64_t dither = number & contacts->dither_mask;
+  const uint64_t row = f.mixture ? dither * (uint64_t)contacts->n_pairs : dither;
   const gg_contact *contact = &contacts->contact[row + (uint64_t)pair];
   bool treated = f.contact_time && gg_md_is_treated(e, i, j);
   e->k.treated += treated;

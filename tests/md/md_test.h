@@ -12,9 +12,11 @@
 #include <cmocka.h>
 
 #include "common/engine.h"
+#include "md/epoch.h"
 #include "md/event_loops.h"
 #include "md/grid.h"
 #include "md/md_allocate.h"
+#include "md/md_thermostat.h"
 #include "md/row_motion.h"
 #include "md/select_search.h"
 #include "md/start/start.h"

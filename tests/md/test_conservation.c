@@ -49,8 +49,8 @@ static void energy_does_not_drift(void **state)
   }
 }
 
-/* A coefficient that is no number of 53 digits is rounded up so often that its mean over the turns is right to 1/64 of
- * the last digit. */
+/* A coefficient that is no number of 53 binary digits is rounded up so often that its mean over the dithers is right to
+ * 1/64 of the last digit. */
 static void coefficients_are_right_in_the_mean(void **state)
 {
   (void)state;
@@ -59,8 +59,8 @@ static void coefficients_are_right_in_the_mean(void **state)
     const gg_contact c = gg_common_contact_make((gg_partner){1, 0.4}, (gg_partner){other, 0.4}, e, -1, INFINITY);
     const long double exact = (1 + (long double)e) / ((long double)c.im1 + c.im2);
     long double mean = 0;
-    for (int turn = 0; turn < GG_MD_DITHERS; turn++)
-      mean += (long double)gg_md_contact_normal_coefficient(&c, e, (uint64_t)turn) / GG_MD_DITHERS;
+    for (int dither = 0; dither < GG_MD_DITHERS; dither++)
+      mean += (long double)gg_md_contact_normal_coefficient(&c, e, (uint64_t)dither) / GG_MD_DITHERS;
     const double digit = nextafter((double)exact, INFINITY) - (double)exact;
     assert_true(fabsl(mean - exact) < 0.51 / GG_MD_DITHERS * digit);
   }
