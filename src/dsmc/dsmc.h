@@ -5,6 +5,7 @@
 
 #include "common/engine.h"
 #include "common/laws/loss_table.h"
+#include "dsmc/advance.h"
 #include "dsmc/ensemble.h"
 #include "dsmc/kernel/kernels.h"
 #include "dsmc/kernel/pass.h"
@@ -30,9 +31,7 @@ typedef struct gg_dsmc_state {
   gg_collision_sums transfer;
   bool sums;
   int power; /* velocities are 2^power times those of the start (rescale) */
-  /* Of the present advance, which may have been stopped: its length, and what of it has gone; the last collision. */
-  double asked, gone;
-  uint64_t last_collision;
+  gg_dsmc_advance advance;
 } gg_dsmc_state;
 
 typedef struct gg_dsmc_rounds_room gg_dsmc_rounds_room;
@@ -86,6 +85,8 @@ void gg_dsmc_collide_segments(gg_dsmc *d, double dt, double strain, double span,
 gg_status gg_dsmc_accepts(const gg_model *model, gg_error *err);
 double gg_dsmc_bytes(const gg_model *model);
 void gg_dsmc_describe(const gg_model *model, void (*line)(void *context, const char *text), void *context);
+/* Description of a collision rule. */
+const char *gg_dsmc_rule_line(gg_rule rule);
 gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err);
 void gg_dsmc_destroy(gg_engine *engine);
 /* dsmc_allocate.c: the way that collisions of two species take; and set all of them. */

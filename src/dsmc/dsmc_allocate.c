@@ -22,7 +22,6 @@ gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
   GG_TRY(gg_simd_instructions_check(err));
   gg_dsmc *made = gg_base_array_new(1, sizeof *made, err);
   if (!made) return GG_FAILED;
-  made->base.ops = &gg_dsmc_ops;
   made->model = *model;
   made->thermostat = gg_common_thermostat_of(model);
   made->noise = gg_common_thermostat_noise(model);

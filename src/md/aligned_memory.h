@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Memory for what events jump all over. */
-#ifndef GG_MD_LINES_H
-#define GG_MD_LINES_H
+#ifndef GG_MD_ALIGNED_MEMORY_H
+#define GG_MD_ALIGNED_MEMORY_H
 
 #include <stddef.h>
 

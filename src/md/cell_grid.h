@@ -7,8 +7,8 @@
  * Small cells have four words, a fourth of a cache line: where cells are one contact distance wide, fewer than 1 in
  * 10^4 have four grains of equal size. The third grain then leads to the fourth, that one to the fifth, up to the
  * seventh: the cell's overflow list (small_cells.c). */
-#ifndef GG_MD_CELLS_H
-#define GG_MD_CELLS_H
+#ifndef GG_MD_CELL_GRID_H
+#define GG_MD_CELL_GRID_H
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -7,8 +7,8 @@
  *
  * node->cell is the lower cell along each axis; bit a of node->neighbours tells whether the grain is in the next one
  * along axis a, too. */
-#ifndef GG_MD_MEMBERS_H
-#define GG_MD_MEMBERS_H
+#ifndef GG_MD_OVERLAPPING_MEMBERS_H
+#define GG_MD_OVERLAPPING_MEMBERS_H
 
 #include <string.h>
 

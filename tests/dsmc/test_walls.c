@@ -7,7 +7,7 @@
  * viscosity, and grains that meet nobody carry the stress of free molecular flow. */
 #include "common/contact_value.h"
 #include "common/surface/shapes.h"
-#include "dsmc/walls/gap.h"
+#include "dsmc/walls/channel.h"
 #include "lab.h"
 
 /* A gap `height` wide of `n` grains; elastic and smooth, walls, too. */
@@ -146,13 +146,13 @@ static void plain_is_the_same(void **state)
   gg_scene s = full_scene(2000);
   gg_model m = lab_model(&s);
   gg_engine *plain = lab_engine(&m, 4);
-  ((gg_dsmc_gap *)plain)->plain = true;
+  ((gg_dsmc_channel *)plain)->plain = true;
   plain->ops->keep_sums(plain, true);
   advance(plain, INFINITY, (uint64_t)(5 * m.n));
   for (gg_instructions set = 0; set < GG_INSTRUCTION_SETS; set++) {
     if (!gg_simd_instructions_run_here(set)) continue;
     gg_engine *fast = lab_engine(&m, 4);
-    ((gg_dsmc_gap *)fast)->collide = gg_dsmc_gap_collide_of[set];
+    ((gg_dsmc_channel *)fast)->collide = gg_dsmc_channel_collide_of[set];
     fast->ops->keep_sums(fast, true);
     advance(fast, INFINITY, (uint64_t)(5 * m.n));
     same_archive(fast, plain);
@@ -170,7 +170,7 @@ static void threads_are_the_same(void **state)
   gg_model m = lab_model(&s);
   gg_engine *one = lab_engine(&m, 4);
   one->ops->keep_sums(one, true);
-  const gg_dsmc_gap *d = (gg_dsmc_gap *)one;
+  const gg_dsmc_channel *d = (gg_dsmc_channel *)one;
   printf("# %d slabs of %d cells, %d parts\n", d->slabs, d->cells.n, d->parts);
   assert_true(d->slabs >= 4 && d->parts > 1);
   for (int k = 0; k < d->slabs; k++) /* slabs that collide at once are apart by more than partners on both sides */
@@ -315,7 +315,7 @@ static void contact_values_follow_the_density(void **state)
   for (int64_t i = 0; i < m.n; i++) r[i].y = 0.5 + 9.5 * gg_rng_uniform(&rng), v[i] = gg_common_rng_normal_vec(&rng);
   const gg_grain_arrays given = {.r = (double *)r, .c = (double *)v};
   if (gg_dsmc_ops.create_with(&m, 8, 0, &given, NULL, &made, &err) != GG_OK) fail_msg("%s", err.message);
-  const gg_dsmc_gap *d = (const gg_dsmc_gap *)made;
+  const gg_dsmc_channel *d = (const gg_dsmc_channel *)made;
   const double flight = 1 / sqrt(d->now.temperature);
   double before[3] = {0};
   for (int k = 1; k <= 8; k++) {
@@ -341,8 +341,8 @@ static void step_has_shrunk(void **state)
   gg_engine *g = lab_engine(&m, 8), *other;
   gg_archive a = {0};
   gg_error err;
-  gg_dsmc_gap_state *now = &((gg_dsmc_gap *)g)->now;
-  now->owed = 0.5 * now->step, now->step /= 100;
+  gg_dsmc_channel_state *now = &((gg_dsmc_channel *)g)->now;
+  now->pending = 0.5 * now->step, now->step /= 100;
   assert_int_equal(g->ops->save(g, &a, &err), GG_OK);
   if (gg_dsmc_ops.restore(&m, &a, &other, &err) != GG_OK) fail_msg("%s", err.message);
   other->ops->destroy(other);

@@ -2,6 +2,7 @@
 /* Proves: a run saved and restored goes on bit for bit, and saving does not disturb it; a run cut into advances of any
  * length has the same trajectory; rescaling by powers of two is exact; an advance that is stopped and goes on ends as
  * one that was not. */
+#include "md/start/all_grains.h"
 #include "md_test.h"
 
 static const md_case cases[] = {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The eight lanes of a block on registers of GG_WIDTH (simd/lanes.h), in GG_PARTS; and what only speed bounds need. */
-#ifndef GG_DSMC_LANES_H
-#define GG_DSMC_LANES_H
+#ifndef GG_DSMC_KERNEL_LANES_H
+#define GG_DSMC_KERNEL_LANES_H
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The surfaces of the model: when does a grain touch one? */
-#ifndef GG_MD_SEARCH_SURFACES_H
-#define GG_MD_SEARCH_SURFACES_H
+#ifndef GG_MD_SEARCH_NEAR_SURFACES_H
+#define GG_MD_SEARCH_NEAR_SURFACES_H
 
 #include "common/surface/shapes.h"
 #include "md/grid.h"
