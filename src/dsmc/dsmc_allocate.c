@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Life of the engine: memory and the choice of kernels. */
+/* Memory of the engine, and the choice of its kernels. */
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -53,7 +53,7 @@ void gg_dsmc_destroy(gg_engine *engine)
   free(d);
 }
 
-/* How much memory that will be: the blocks. */
+/* Estimate of the memory: that of the blocks. */
 double gg_dsmc_bytes(const gg_model *m)
 {
   const double block = m->single ? sizeof(gg_dsmc_block_single) : sizeof(gg_dsmc_block);

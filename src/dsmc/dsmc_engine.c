@@ -58,8 +58,7 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   return go_on(engine, elapsed ? elapsed : &unused, err);
 }
 
-/* Between walls there is another engine (walls/channel.h): its models are handed over, its engines have operations of
- * their own. */
+/* Is this a model for the engine in a channel (walls/channel.h)? Its engines have their own operations. */
 static bool is_walled(const gg_model *model)
 {
   return gg_flow_is_walled(model->flow);
@@ -87,7 +86,7 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   return GG_OK;
 }
 
-/* Of every species its grains, in the order of their numbers. */
+/* Take given grains: those of each species in the order of their numbers. */
 static void take_grains(gg_dsmc_ensemble *e, const gg_grain_arrays *grains, int64_t n)
 {
   uint32_t next[GG_MAX_SPECIES] = {0};
@@ -116,8 +115,9 @@ static void take_over(gg_dsmc *d, const gg_dsmc *before)
   if (d->schedule && before->schedule) memcpy(d->schedule, before->schedule, gg_dsmc_schedule_size(d->model.n_species));
 }
 
-/* Synchronising measures the temperature, by which bounds are scaled the next time, and the velocity of the centre of
- * mass, which is taken off then, but for rounding: velocities that were read from a run stay as they are. */
+/* Measure given grains. The first synchronisation measures the temperature, which scales the bounds of the next one,
+ * and the velocity of the centre of mass, which the next one removes unless it is of the order of rounding: velocities
+ * that come from a run stay unchanged. */
 static void measure(gg_dsmc *d)
 {
   const gg_vec none = {0, 0, 0};
@@ -160,7 +160,7 @@ static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
   s->transfer = (gg_collision_sums){0};
 }
 
-/* At most as many as there are pairs of segments in a round. */
+/* More threads than pairs of segments in a round would be idle. */
 static void threads(gg_engine *engine, int threads)
 {
   gg_dsmc_ensemble *e = &dsmc_of(engine)->ensemble;
@@ -181,7 +181,7 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .others_cpu = gg_base_thread_pool_cpu(const_dsmc_of(engine)->ensemble.pool)};
 }
 
-/* Lay a run of blocks out flat, streamed as far as they have to be; there is room for whole blocks. */
+/* Convert a run of blocks to flat arrays of peculiar velocities; the arrays have room for whole blocks. */
 GG_CLONES static void unpack(const gg_dsmc_block *b, size_t n, double strain, double *restrict x, double *restrict y,
                              double *restrict z)
 {
@@ -193,9 +193,9 @@ GG_CLONES static void unpack(const gg_dsmc_block *b, size_t n, double strain, do
     }
 }
 
-enum { SHOWN = 256 }; /* grains at a time: so few stay in the first cache until they have been sampled */
+enum { SHOWN = 256 }; /* grains of a chunk: they stay in the first cache until they have been sampled */
 
-/* `n` grains from `first` on, a multiple of eight; of p->c or p->s. */
+/* Convert `n` grains from `first`, a multiple of eight, of p->c or p->s. */
 static void lay_out(const gg_dsmc_population *p, const void *blocks, size_t first, size_t n, double strain,
                     double v[3][SHOWN])
 {
@@ -207,7 +207,7 @@ static void lay_out(const gg_dsmc_population *p, const void *blocks, size_t firs
 
 static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context)
 {
-  (void)positions; /* a homogeneous gas has none */
+  (void)positions; /* a homogeneous gas has no positions */
   gg_dsmc *d = dsmc_of(engine);
   double v[6][SHOWN];
   uint8_t kind[SHOWN];
@@ -228,7 +228,7 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
   }
 }
 
-/* Blocks in double as they are, others so many at a time. */
+/* Visit blocks: in double all at once in place, in single precision in chunks. */
 static void blocks(gg_engine *engine, gg_visit_blocks *visit, void *context)
 {
   gg_dsmc *d = dsmc_of(engine);
@@ -249,7 +249,7 @@ static void blocks(gg_engine *engine, gg_visit_blocks *visit, void *context)
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_dsmc *d = dsmc_of(engine);
-  const bool next_sweep = d->model.linear_response; /* of the reduced shear rate: the clock continues */
+  const bool next_sweep = d->model.linear_response; /* of the reduced shear rate; the clock continues */
   if (d->thermostat != GG_NO_THERMOSTAT && !next_sweep)
     return gg_base_fail(err, GG_BAD_INPUT, "a heated gas cannot be rescaled: it keeps its temperature");
   if (d->model.shear_rate != 0 && !next_sweep)

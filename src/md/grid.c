@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The grid of cells, and what goes with the kind of search. */
+/* The grid of cells, and the data of a search beside it. */
 #include "md/grid.h"
 
 #include "base/memory.h"
@@ -23,10 +23,10 @@ gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
 {
   int32_t n[3];
   if (!gg_md_fit_lists(&e->model, radius, n)) return GG_OK;
-  /* Such cells hold four or five grains on average: room for fifteen at once, before the lists take theirs. */
+  /* These cells hold four or five grains on average: make room for fifteen before memory of the lists is allocated. */
   GG_TRY(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model) + 2 * radius, err));
   if (!gg_md_cells_grow(&e->cells)) return gg_base_out_of_memory_for(err, "the grid of cells");
-  GG_TRY(gg_md_poll_stop(e, err)); /* memory of a gigabyte is cleared for a while */
+  GG_TRY(gg_md_poll_stop(e, err)); /* clearing a gigabyte of memory takes a while */
   GG_TRY(gg_md_allocate_lists(e, err));
   gg_md_set_skins(e, radius);
   return gg_md_find_near_surfaces(e, err);
@@ -54,7 +54,7 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err)
   return GG_OK;
 }
 
-/* The cells that grains lie in, and the cells filled with them. */
+/* Find the cells of a grain from its position. */
 static void enter(gg_md *e, uint32_t i)
 {
   const gg_vec r = e->grain[i].r;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* All lists anew: the searches of search/list_update.h for any boundary and mixture. */
+/* Rebuild of all neighbour lists, by the searches of search/list_update.h for any boundary and mixture. */
 #include "md/grid.h"
 #include "md/search/list_update.h"
 #include "md/start/all_grains.h"
 
-/* Lists of some grains from cells that are there, all skins being new. False: some list is too long. */
+/* Fill the lists of some grains from the cells, after all skins were renewed. False: a list is too long. */
 static bool fill_lists(gg_md *e, uint32_t from, uint32_t to)
 {
   uint32_t found[GG_MD_FOUND];

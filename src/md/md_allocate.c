@@ -103,8 +103,7 @@ void gg_md_free(gg_md *e)
   free(e);
 }
 
-/* How much memory that will be, cells and queue included. */
-/* Grains in a cell on average; where cells overlap, a grain is in more than one. */
+/* Mean number of grains in a cell; a grain is in several overlapping cells. */
 static double grains_per_cell(const gg_model *m, gg_md_search_kind kind, const int32_t n[3])
 {
   double per_cell = (double)m->n;
@@ -115,7 +114,8 @@ static double grains_per_cell(const gg_model *m, gg_md_search_kind kind, const i
   return per_cell;
 }
 
-/* Cells hold seven grains, and all get twice the room when one is full: five deviations above the mean somewhere. */
+/* Memory of the cells. Cells hold seven grains, and the room of all is doubled when one is full: at five standard
+ * deviations above the mean. */
 static double bytes_of_cells(const gg_model *m, gg_md_search_kind kind, const int32_t n[3])
 {
   const double mean = grains_per_cell(m, kind, n), fullest = mean + 5 * sqrt(mean);

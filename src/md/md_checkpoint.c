@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Everything needed to continue bit for bit: the records as they are. What cells and event queue hold is put there
- * anew: its order never matters. */
+/* Checkpoint of the engine: everything that a run needs to continue bit for bit. The records are stored as bytes. Cells
+ * and event queue are filled again, since the order of their contents never matters. */
 #include "md/md_operations.h"
 
 #include <math.h>
@@ -16,10 +16,10 @@
 #include "md/start/all_grains.h"
 #include "md/verify.h"
 
-/* What stands beside the arrays, in one plain block. */
+/* Plain data beside the arrays. */
 typedef struct block {
   gg_md_counts counts;
-  double offset0, bucket_width, skin_radius; /* 0: no lists */
+  double offset0, bucket_width, skin_radius; /* skin_radius 0: no lists */
   uint32_t current_bucket;
   int32_t cells[3];
   uint32_t overlapping, comoving;
@@ -65,7 +65,7 @@ static gg_status get(const gg_archive *a, const char *name, void *data, size_t b
   return gg_base_archive_get(a, name, GG_ITEM_U8, data, bytes, err);
 }
 
-static gg_status refuse(const char *what, gg_error *err)
+static gg_status reject(const char *what, gg_error *err)
 {
   return gg_base_fail(err, GG_BAD_FILE, "the checkpoint of md is damaged: %s", what);
 }
@@ -74,11 +74,11 @@ static gg_status get_block(const gg_md *e, const gg_archive *a, block *b, gg_err
 {
   GG_TRY(get(a, "md/state", b, sizeof *b, err));
   if (!gg_md_is_search_of(&e->model, b->cells, b->skin_radius, b->overlapping, b->comoving))
-    return refuse("its cells are not those of this scene", err);
+    return reject("its cells are not those of this scene", err);
   const bool good = gg_md_are_counts(&b->counts, b->cells) && fabs(b->offset0) <= 2 * e->box.edge[0] &&
                     b->bucket_width > 1e-300 && b->bucket_width < 1e300 && b->current_bucket <= e->queue.n_buckets &&
                     b->overlapping <= 1 && b->comoving <= 1;
-  return good ? GG_OK : refuse("its counts", err);
+  return good ? GG_OK : reject("its counts", err);
 }
 
 static gg_md_search_kind kind_of(const block *b)
@@ -106,7 +106,7 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   GG_TRY(get(a, "md/id", e->id, e->n * sizeof *e->id, err));
   if (e->spin) GG_TRY(get(a, "md/spins", e->spin, e->n * sizeof *e->spin, err));
   if (!e->last && gg_base_archive_find(a, "md/last_collisions"))
-    GG_TRY(gg_md_allocate_last(e, err)); /* it had a callback */
+    GG_TRY(gg_md_allocate_last(e, err)); /* the stored engine had a callback */
   if (e->last) GG_TRY(get(a, "md/last_collisions", e->last, e->n * sizeof *e->last, err));
   e->search.kind = kind_of(&b);
   if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) GG_TRY(get_lists(e, a, b.skin_radius, err));
@@ -120,7 +120,7 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   GG_TRY(gg_md_poll_stop(e, err));
   const char *wrong = gg_md_wrong_grains(e);
   if (gg_base_memory_failures() != before) return gg_base_out_of_memory_for(err, "reading the checkpoint of md");
-  if (wrong) return refuse(wrong, err);
+  if (wrong) return reject(wrong, err);
   GG_TRY(gg_md_poll_stop(e, err));
   if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
   GG_TRY(gg_md_poll_stop(e, err));
@@ -131,8 +131,8 @@ static gg_status load(gg_md *e, const gg_archive *a, gg_error *err)
   return GG_OK;
 }
 
-/* Polls the archive's `stop`, not the run's, which stops replicas for a checkpoint: one that comes back from another
- * process then has to be whole. */
+/* Polls the `stop` of the archive, not of the run: the run stops its replicas for a checkpoint, and a replica that
+ * comes back from another process then has to be complete. */
 gg_status gg_md_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
 {
   gg_md *e;

@@ -20,7 +20,7 @@ static void destroy(gg_engine *engine)
   gg_md_free((gg_md *)engine);
 }
 
-/* Clock, counts and random stream of another engine; its images, too, stand where they stood. */
+/* Take clock, counts and random stream from another engine. */
 static void take_over(gg_md *e, const gg_md *before)
 {
   gg_md_counts *k = &e->k;
@@ -88,11 +88,13 @@ static gg_status restore(const gg_model *model, const gg_archive *archive, gg_en
   return GG_OK;
 }
 
-/* Between looks at whether to stop: some milliseconds. */
-enum { EVENTS_BETWEEN_LOOKS = 1 << 14, EVENTS_BETWEEN_WINDOWS = 16 };
+enum {
+  EVENTS_PER_POLL = 1 << 14,  /* between polls of `stop`: some milliseconds */
+  EVENTS_BETWEEN_WINDOWS = 16 /* serial events after parallel windows */
+};
 
-/* Events up to k.stop; false if it was stopped on the way. So many events at one and the same time are a grain that
- * comes to rest on a wall without the contact-time rule: no time will go by any more. */
+/* Run events up to k.stop. False: stopped. If time does not advance between two polls, a grain comes to rest on a wall
+ * without the contact-time rule: time will never advance again. */
 static bool run_leg(gg_md *e)
 {
   for (;;) {
@@ -103,14 +105,14 @@ static bool run_leg(gg_md *e)
     if (e->k.events < e->look_at) return true;
     e->stands_still = e->k.now == before && e->model.walled && e->model.contact_time == 0;
     if (e->stands_still) return true;
-    e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
+    e->look_at = e->k.events + EVENTS_PER_POLL;
     if (!gg_md_check_numbers(e)) return true;
     if (gg_stop_asked(e->model.stop)) return false;
   }
 }
 
-/* Events with kicks in between: each kick ends a leg. k.stop moves with the epochs, so what the kick cuts off is kept
- * as a difference. */
+/* Run events with kicks in between; each kick ends a leg. k.stop is shifted at the end of an epoch, so the rest of the
+ * advance is stored as a difference. */
 static bool run_legs(gg_md *e)
 {
   while (e->k.beyond_kick >= 0) {
@@ -126,11 +128,11 @@ static bool run_legs(gg_md *e)
   return run_leg(e);
 }
 
-/* The run stands at the end of the advance, or at the last collision allowed to it, or where it was stopped. */
+/* Continue the present advance to its end, to its last collision, or to a stop. */
 static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
-  e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
+  e->look_at = e->k.events + EVENTS_PER_POLL;
   bool ended = !gg_md_check_numbers(e) || run_legs(e);
   if (e->out_of_memory) return gg_base_out_of_memory_for(err, "cells and events of md");
   if (e->no_number)
@@ -158,7 +160,7 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   gg_md *e = (gg_md *)engine;
   double unused;
   if (!(dt >= 0)) return gg_base_fail(err, GG_BAD_INPUT, "a run cannot advance by %g", dt);
-  e->k.outer_time += gg_md_outer_time(e); /* of one that was stopped, and does not continue */
+  e->k.outer_time += gg_md_outer_time(e); /* of an advance that was stopped and is not continued */
   e->k.outer = 0;
   e->k.mark = e->k.now;
   e->k.asked = dt;
@@ -182,7 +184,7 @@ static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
   memset(&e->k.transfer, 0, sizeof e->k.transfer);
 }
 
-/* Smaller systems are as fast on one. */
+/* Smaller systems are as fast on one thread. */
 static void threads(gg_engine *engine, int threads)
 {
   gg_md *e = (gg_md *)engine;
@@ -203,7 +205,7 @@ static void state(const gg_engine *engine, gg_engine_state *s)
                          .others_cpu = gg_md_parallel_cpu(e)};
 }
 
-/* Every grain to the present, which is where a new epoch begins. */
+/* Bring every grain to the present time, and begin a new epoch there. */
 static void bring_to_present(gg_md *e)
 {
   gg_md_counts *k = &e->k;
@@ -221,7 +223,7 @@ static void bring_to_present(gg_md *e)
   if (gg_md_search_has_rows(e->search.kind)) gg_md_align_rows(e);
 }
 
-/* Of a linear response: peculiar velocities are multiplied, the flow and the clock stay, and all is predicted anew. */
+/* Begin the next sweep of a linear response: multiply the peculiar velocities, keep flow and clock, re-predict all. */
 static gg_status begin_sweep(gg_md *e, int power, gg_error *err)
 {
   bring_to_present(e);
@@ -236,7 +238,7 @@ static gg_status begin_sweep(gg_md *e, int power, gg_error *err)
   return gg_md_begin_at(e, gg_md_temperature(e), err);
 }
 
-/* Everything that has a dimension of time or velocity, by exact powers of two. */
+/* Multiply all times and velocities by exact powers of two. */
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;

@@ -95,7 +95,7 @@ static void next_epoch(both *b)
 /* The next event of both, or an epoch's end. */
 static void pop(both *b)
 {
-  if (!gg_md_queue_turn(&b->queue, b->node)) {
+  if (!gg_md_queue_next_bucket(&b->queue, b->node)) {
     assert_true(b->n_sorted == 0 || b->sorted[0].time >= gg_md_queue_span(&b->queue));
     next_epoch(b);
     return;

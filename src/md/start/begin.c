@@ -11,16 +11,15 @@
 #include "md/start/all_grains.h"
 #include "md/start/start.h"
 
-/* A fall gives its grains a temperature of its own, whatever they start from: m g times some of the height, where that
- * is much more. Events that come much faster than guessed wait in one bucket, all of them, for the whole first epoch.
- */
+/* Estimate of the temperature that a fall gives its grains, m g times a part of the height, if that is higher than T.
+ * Events that come much faster than estimated would all be in one bucket for the whole first epoch. */
 static double soon_temperature(const gg_md *e, double T)
 {
   const double *g = e->model.gravity;
   return fmax(T, 0.01 * e->model.mass[0] * hypot(g[0], g[1]) * e->model.box[1]);
 }
 
-/* Events expected per time at the start: collisions (each predicted about 1.25 times) and crossings. */
+/* Expected event rate at the start: collisions (each predicted about 1.25 times) and crossings. */
 static double guess_event_rate(const gg_md *e, double T)
 {
   double rate = 0.625 * gg_common_model_collision_rate(&e->model, T);
@@ -44,7 +43,6 @@ static gg_status predict_all(gg_md *e, gg_error *err)
   return GG_OK;
 }
 
-/* From places and velocities to a run that can continue. */
 gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
 {
   if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
@@ -58,7 +56,7 @@ gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
     if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
   }
   GG_TRY(gg_md_poll_stop(e, err));
-  const double early = gg_md_early_temperature(e, T); /* to guess by */
+  const double early = gg_md_early_temperature(e, T);
   e->k.mean_free_time = 1 / fmax(gg_common_model_collision_rate(&e->model, early), 1e-300);
   gg_md_begin_contact_time(e, T);
   if (e->last)

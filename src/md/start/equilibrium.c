@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Places of a fluid in equilibrium. Grains that were pushed apart (place.c) are left close to another, and collide some
- * times as often as Enskog's rate for about half a collision a grain. Where curves in time are what is wanted,
- * elastic spheres of the same diameters, all of one mass, first collide there; then places are taken over, and
- * velocities drawn. */
+/* Start at positions of a fluid in equilibrium. Grains that were pushed apart (place.c) are close to each other, and
+ * collide several times as often as Enskog's rate for about half a collision a grain. If a run measures curves in time,
+ * elastic spheres of the same diameters and of one mass first collide at these positions; then their positions are
+ * taken over, and velocities are drawn. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,11 +10,13 @@
 #include "common/rng.h"
 #include "md/start/start.h"
 
-/* At thermal speed: dilute grains that have parted by so much do not meet again. */
-enum { DIAMETERS = 20, MOST_COLLISIONS = 1000 };
+enum {
+  DIAMETERS = 20, /* longest time in diameters at thermal speed: dilute grains that far apart do not meet again */
+  MOST_COLLISIONS = 1000 /* a grain */
+};
 
-/* Collisions a grain after which the rate is Enskog's within 3 %: 12 are enough at phi = 0.3, 50 at 0.45, 100 at 0.49;
- * a glass takes some hundred. */
+/* Collisions a grain after which the collision rate is Enskog's within 3 %: 12 are enough at phi = 0.3, 50 at 0.45, 100
+ * at 0.49; a glass needs several hundred. */
 static double collisions_needed(double phi)
 {
   const double room = 1 - phi / 0.6;
@@ -70,7 +72,7 @@ static gg_status melt(const gg_engine_ops *md, const gg_model *elastic, uint64_t
   const double time = DIAMETERS * gg_common_model_widest(elastic) / sqrt(elastic->temperature0);
   const uint64_t collisions = (uint64_t)ceil(collisions_needed(elastic->phi) * (double)elastic->n / 2);
   gg_status status = md->advance(engine, time, collisions, &elapsed, err);
-  /* The two that collided last are no longer in contact. */
+  /* Separate the two grains that collided last. */
   const double apart = 1e-3 / gg_common_model_collision_rate(elastic, elastic->temperature0);
   if (status == GG_OK) status = md->advance(engine, apart, UINT64_MAX, &elapsed, err);
   if (status == GG_OK) md->snapshot(engine, true, take, p);
