@@ -43,7 +43,7 @@ static lab_view view_of(gg_engine *g)
   return v;
 }
 
-/* Stretch the kick schedule by a factor. Returns the interval of a grain. */
+/* Stretches the kick schedule by a factor. Returns the interval between kicks of a grain. */
 static double stretch(gg_engine *g, double factor)
 {
   gg_md *e = (gg_md *)g;
@@ -123,7 +123,7 @@ static double interval_of(gg_engine *g)
   return t->interval * t->n / 2;
 }
 
-/* Model with noise of a given strength, or with a given rate of heating. */
+/* A model with noise of a given strength, or with a Gaussian thermostat of a given rate. */
 static gg_model given(gg_thermostat thermostat, double strength)
 {
   gg_scene s = lab_scene(GG_HSS, 0.02, 0.8, -1, 500);
@@ -136,7 +136,7 @@ static gg_model given(gg_thermostat thermostat, double strength)
   return m;
 }
 
-/* A gas that begins colder than its steady state has the kick schedule of one that begins there, and comes to the
+/* A gas that begins colder than its steady state has the kick schedule of one that begins in it, and comes to the
  * temperature of Enskog's equation. */
 static void from_cold(gg_model steady)
 {

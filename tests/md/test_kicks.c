@@ -51,8 +51,7 @@ static int run_slot(gg_md *e, slot_log *log, uint32_t kicked[2])
   return n;
 }
 
-/* Over many rounds. If the number of grains is even, one half is paired with the other, shifted by one in every round.
- */
+/* Over many rounds. With an even number of grains one half is paired with the other, shifted by one each round. */
 static void every_grain_has_its_slot(void **state)
 {
   (void)state;

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: threads that share the events of one run leave every bit of it as it is: the state after so many collisions,
- * and the sums over them, are those of one thread, with two, three and four threads; with cells, cells that
- * overlap or move with the flow, and neighbour lists; smooth, rough and frictional, one species and two, near collapse;
- * however the run is cut, and resumed with another number of threads. And that these runs do what could go wrong:
- * events are put off, and taken back. */
+/* Proves: the state after so many collisions and the collision sums have the same bits with one, two, three and four
+ * threads; with every kind of search, each rule, one species and two, near collapse; however the run is cut, and
+ * resumed with another number of threads. These runs do defer events and roll some back. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -67,14 +65,14 @@ static uint64_t run(const gg_model *m, int threads, uint64_t collisions, gg_md_w
   return h;
 }
 
-/* `COLLISIONS` asks for another number of them. */
+/* The number of collisions, which the environment variable COLLISIONS sets. */
 static uint64_t collisions_asked(void)
 {
   const char *asked = getenv("COLLISIONS");
   return asked ? strtoull(asked, NULL, 10) : 60000;
 }
 
-static void same_bits(void **state)
+static void threads_leave_the_same_bits(void **state)
 {
   (void)state;
   const uint64_t collisions = collisions_asked();
@@ -93,7 +91,7 @@ static void same_bits(void **state)
   assert_true(deferred_twice > 0 && rolled_back > 0);
 }
 
-/* By times and by numbers of collisions, the sums taken at each end. */
+/* Advances by times and by numbers of collisions, and takes the sums after each. Returns the hash. */
 static uint64_t run_in_parts(gg_md *e)
 {
   uint64_t h = 0;
@@ -121,7 +119,7 @@ static gg_md *restored(gg_md *e, const gg_model *m, int threads)
   return (gg_md *)back;
 }
 
-static void cuts_and_resumes(void **state)
+static void cut_and_resumed_runs_leave_the_same_bits(void **state)
 {
   (void)state;
   uint64_t cancelled = 0;
@@ -141,10 +139,10 @@ static void cuts_and_resumes(void **state)
     md_destroy(two);
     md_destroy(one);
   }
-  assert_true(cancelled > 0); /* windows that a part ends in */
+  assert_true(cancelled > 0); /* windows in which an advance ends */
 }
 
-/* What lists of windows grow by, but for this test: so many times, then no more; -1: always. */
+/* The allocations that still succeed, of those by which the lists of a window grow; -1: all. */
 static int allocations_left = -1;
 
 void *aligned_alloc(size_t alignment, size_t size)
@@ -155,8 +153,8 @@ void *aligned_alloc(size_t alignment, size_t size)
   return posix_memalign(&block, alignment, size) == 0 ? block : NULL;
 }
 
-/* Wherever memory lacks, the run ends with an error. */
-static void lacks_memory(void **state)
+/* Whichever allocation fails, the run ends with an error. */
+static void a_run_without_memory_ends_with_an_error(void **state)
 {
   (void)state;
   int failed = 0;
@@ -175,8 +173,8 @@ static void lacks_memory(void **state)
   assert_true(failed > 10);
 }
 
-/* Where the clock decides, both ways are gone, and the bits are the same. */
-static void adapts(void **state)
+/* Where the engine decides by measured times whether to use threads, it does both, and the bits are the same. */
+static void measured_times_change_no_bits(void **state)
 {
   (void)state;
   gg_model m = model_of(0);
@@ -191,8 +189,8 @@ static void adapts(void **state)
   md_destroy(shared);
 }
 
-/* What is not shared says so. */
-static void says_why_not(void **state)
+/* A scene that threads cannot share says why. */
+static void a_scene_says_why_it_is_not_shared(void **state)
 {
   (void)state;
   gg_model walls = md_model((md_case){GG_COUETTE, 6000, 0.3, 0.9, 0, INFINITY, {0}}),
@@ -210,8 +208,9 @@ static void says_why_not(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(same_bits), cmocka_unit_test(cuts_and_resumes),
-                                     cmocka_unit_test(lacks_memory), cmocka_unit_test(adapts),
-                                     cmocka_unit_test(says_why_not)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(threads_leave_the_same_bits), cmocka_unit_test(cut_and_resumed_runs_leave_the_same_bits),
+      cmocka_unit_test(a_run_without_memory_ends_with_an_error), cmocka_unit_test(measured_times_change_no_bits),
+      cmocka_unit_test(a_scene_says_why_it_is_not_shared)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
