@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The collision half of a step: candidates for each pair of species, under its majorant. */
+/* Collisions of a step: candidates for each pair of species, under its majorant. */
 #include "dsmc/dsmc.h"
 
 /* Candidates per unit time and unit of the majorant. */
@@ -9,7 +9,7 @@ static double candidate_rate(const gg_dsmc *d, gg_dsmc_features features, int i,
   return gg_dsmc_candidates_per_unit(d->path[gg_pair(i, j)], features, one, two) * gg_dsmc_cross_section(d, i, j);
 }
 
-/* These candidates, over `dt` from d->interval_begin, are to be reported. */
+/* Prepare a pass for the callback: its candidates are distributed over `dt` from d->interval_begin. */
 static void call_back(gg_dsmc *d, int i, int j, double dt, gg_dsmc_pass *pass)
 {
   pass->callback = &d->callback;
@@ -19,7 +19,8 @@ static void call_back(gg_dsmc *d, int i, int j, double dt, gg_dsmc_pass *pass)
   pass->time = d->interval_begin + 0.5 * pass->time_step;
 }
 
-/* `hold`: strains from `strain` on at which the speed bounds are to hold, or 0: they follow. */
+/* Collisions of one pair of species. `hold`: range of strains from `strain` over which the speed bounds must hold; 0:
+ * their scale follows the strain. */
 static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, double span, double hold)
 {
   gg_dsmc_majorant *learned = &d->now.majorant[gg_pair(i, j)];
@@ -51,9 +52,9 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, dou
   }
 }
 
-/* In segments, and of blocks enough that a segment of each species has a hundred; of many species more, whose substeps
- * become the shorter the more pairs they have. */
-static bool in_segments(const gg_dsmc *d)
+/* Does the ensemble collide in segments? Each species needs about a hundred blocks in a segment, and more if there are
+ * many species, since substeps are shorter with more pairs of species. */
+static bool uses_segments(const gg_dsmc *d)
 {
   if (!d->schedule) return false;
   for (int i = 0; i < d->model.n_species; i++)
@@ -67,7 +68,7 @@ static bool in_segments(const gg_dsmc *d)
 
 void gg_dsmc_collide(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_splitting splitting)
 {
-  if (in_segments(d)) {
+  if (uses_segments(d)) {
     gg_dsmc_collide_segments(d, dt, strain, span, splitting);
     return;
   }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The collision callback: collisions reported one by one. They take the plain path, whose grains stay at their places
- * in the ensemble, so that it is known when each collided last. */
+/* Collision callback. Collisions then use the plain path, whose grains keep their places in the ensemble, so that the
+ * time of the last collision of each is known. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,14 +21,14 @@ static gg_status allocate(gg_dsmc *d, gg_error *err)
   return GG_OK;
 }
 
-/* The majorants that block kernels have learned hold for the plain path, too: they bound an integral over directions
- * that is no less than the largest rate. */
-static void take_plain_path(gg_dsmc *d)
+/* Switch to the plain path. The majorants of the block kernels are valid there, too: they bound an integral over
+ * directions that is not less than the largest rate. */
+static void use_plain_path(gg_dsmc *d)
 {
   for (int p = 0; p < GG_PAIRS; p++) d->path[p] = GG_DSMC_PLAIN;
 }
 
-/* Back to the path of the model's own; what the plain path has learned does not hold there. */
+/* Return to the path of the model. Majorants of the plain path are not valid there. */
 static void leave_plain_path(gg_dsmc *d)
 {
   for (int i = 0; i < d->model.n_species; i++) {
@@ -56,7 +56,7 @@ gg_status gg_dsmc_set_callback(gg_engine *engine, gg_collision_callback *callbac
   if (callback) GG_TRY(allocate(d, err));
   d->callback.call = callback;
   d->callback.context = context;
-  if (callback) take_plain_path(d);
+  if (callback) use_plain_path(d);
   if (!callback && d->callback.last[0]) leave_plain_path(d);
   return GG_OK;
 }
@@ -82,7 +82,7 @@ gg_status gg_dsmc_restore_callback(gg_dsmc *d, const gg_archive *a, gg_error *er
   char name[32];
   if (!gg_base_archive_find(a, name_of(0, name))) return GG_OK;
   GG_TRY(allocate(d, err));
-  take_plain_path(d);
+  use_plain_path(d);
   for (int i = 0; i < d->model.n_species; i++)
     GG_TRY(
         gg_base_archive_get(a, name_of(i, name), GG_ITEM_F64, d->callback.last[i], (size_t)d->ensemble.of[i].n, err));

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The Enskog Monte Carlo engine as its own files see it. */
+/* Internal header of the Enskog Monte Carlo engine: its state, and its functions by the file that defines them. */
 #ifndef GG_DSMC_DSMC_H
 #define GG_DSMC_DSMC_H
 
 #include "common/engine.h"
 #include "common/laws/loss_table.h"
+#include "dsmc/advance.h"
 #include "dsmc/ensemble.h"
 #include "dsmc/kernel/kernels.h"
 #include "dsmc/kernel/pass.h"
@@ -13,26 +14,24 @@
 #include "dsmc/splitting.h"
 #include "dsmc/time_step.h"
 
-/* Everything that changes while running, but for the ensemble: plain data, saved as it is. */
+/* All variables of a run but the ensemble: plain data, saved as bytes. */
 typedef struct gg_dsmc_state {
   gg_rng rng;
   gg_dsmc_rng_lanes lanes;
-  double time, temperature, fastest; /* temperature and largest speed: when the ensemble was last synchronised */
+  double time, temperature, fastest; /* temperature and largest speed of the last synchronisation */
   uint64_t collisions, candidates, overflows, clamped;
-  double remainder[GG_PAIRS]; /* fractional remainder of candidates, carried over */
-  double strain;              /* accumulated shear strain, rate x time, that stored velocities have still to stream */
-  double unsynchronised;      /* time since the ensemble was last synchronised */
-  gg_vec centre;              /* velocity of the centre of mass then; in a bath now, as stored */
+  double remainder[GG_PAIRS]; /* fractional remainder of candidates */
+  double strain;              /* accumulated shear strain, rate x time, since stored velocities were last streamed */
+  double unsynchronised;      /* time since the last synchronisation */
+  gg_vec centre;              /* velocity of the centre of mass at that time; in a bath the present stored one */
   gg_dsmc_time_step step;
-  double kept; /* energy of centres that a Gaussian thermostat keeps, where it is not that of collisions */
-  double lost; /* energy destroyed that the Gaussian thermostat has not given back */
+  double kept; /* energy of centres that the Gaussian thermostat keeps, if spins exchange energy with centres */
+  double lost; /* energy lost in collisions that the Gaussian thermostat has not returned */
   gg_dsmc_majorant majorant[GG_PAIRS];
   gg_collision_sums transfer;
   bool sums;
   int power; /* velocities are 2^power times those of the start (rescale) */
-  /* Of the present advance, which may have been stopped: its length, and what of it has gone; the last collision. */
-  double asked, gone;
-  uint64_t last_collision;
+  gg_dsmc_advance advance;
 } gg_dsmc_state;
 
 typedef struct gg_dsmc_rounds_room gg_dsmc_rounds_room;
@@ -49,56 +48,65 @@ typedef struct gg_dsmc {
   double noise; /* xi^2 of the white noise */
   gg_dsmc_state now;
   gg_dsmc_callback callback; /* call NULL: none */
-  double interval_begin;     /* time at which the present collisions begin; only for a callback */
+  double interval_begin;     /* time at which the present collisions begin, for a callback */
 } gg_dsmc;
 
-/* Bring the stored velocities up to date, measure their temperature and choose the step. */
+/* step.c: synchronise the stored velocities, measure their temperature and choose the step. */
 void gg_dsmc_synchronise(gg_dsmc *d);
-/* A step of no more than `left` time and about `wanted` collisions; returns its length. */
+/* Take a step of at most `left` time and about `wanted` collisions. Returns its length. */
 double gg_dsmc_step(gg_dsmc *d, double left, double wanted);
 
-/* species_pair.c: which kernel two species need. */
+/* species_pair.c: features of the kernel that two species need. */
 gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j);
-/* What all collisions of two species have in common. */
+/* Constants of all collisions of two species. */
 gg_dsmc_pass gg_dsmc_pass_of(gg_dsmc *d, int i, int j);
 /* sigma^2 chi/V. */
 double gg_dsmc_cross_section(const gg_dsmc *d, int i, int j);
-/* Candidates after which their majorant forgets. */
+/* Candidates of a window of their majorant. */
 uint64_t gg_dsmc_window(const gg_dsmc *d, int i, int j);
-/* Add to the sums what the collisions of a pair of species came to. */
+/* Add the results of a pass over a pair of species to the state. */
 void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *pass);
 
-/* species_pair.c: majorants that hold for sure, to start from. */
+/* Start all majorants from safe values. */
 void gg_dsmc_start_majorants(gg_dsmc *d);
-/* How many candidates, `mean` on average, whatever the step: a Poisson number where they come one by one, or as a
- * correction. Eight at a time that would vary too much; there the fractional remainder is carried over instead. */
+/* Number of candidates, `mean` on average for any step: a Poisson number if candidates come one by one, or as a
+ * correction. For candidates that come eight at a time this would fluctuate too much; their fractional remainder is
+ * carried over. */
 uint64_t gg_dsmc_candidates(bool one_by_one, double mean, double *remainder, gg_rng *rng);
-/* collisions.c: all collisions of an interval `dt`, candidates at strains `strain` + (0..1) x `span` (a constant one if
- * span is 0).
- */
+/* collision_loop.c: all collisions of an interval `dt`, with candidates at strains `strain` + (0..1) x `span`. */
 void gg_dsmc_collide(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_splitting splitting);
 
-/* parallel/round_robin.c: the same for an ensemble in segments, with the room that it takes. */
+/* parallel/round_robin.c: memory for collisions in segments. */
 gg_dsmc_rounds_room *gg_dsmc_rounds_room_new(int n_species, int segments, gg_error *err);
 void gg_dsmc_rounds_room_free(gg_dsmc_rounds_room *room);
+/* The same as gg_dsmc_collide for an ensemble in segments. */
 void gg_dsmc_collide_segments(gg_dsmc *d, double dt, double strain, double span, gg_dsmc_splitting splitting);
 
+/* dsmc_accept.c */
 gg_status gg_dsmc_accepts(const gg_model *model, gg_error *err);
-double gg_dsmc_bytes(const gg_model *model);
+/* dsmc_describe.c */
 void gg_dsmc_describe(const gg_model *model, void (*line)(void *context, const char *text), void *context);
+/* Description of a collision rule. */
+const char *gg_dsmc_rule_line(gg_rule rule);
+/* dsmc_allocate.c: allocate an engine for this model. The caller sets base.ops. */
 gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err);
 void gg_dsmc_destroy(gg_engine *engine);
-/* dsmc_allocate.c: the way that collisions of two species take; and set all of them. */
+/* Estimated memory of an engine for this model, in bytes. */
+double gg_dsmc_bytes(const gg_model *model);
+/* Path of the collisions of two species. */
 gg_dsmc_path gg_dsmc_path_of(const gg_dsmc *d, int i, int j);
+/* Set the paths of all pairs of species. */
 void gg_dsmc_take_paths(gg_dsmc *d);
-/* collision_observer.c: the collision callback; where it keeps when each grain last collided. */
+/* collision_observer.c: the collision callback, and its times of last collisions in a checkpoint. */
 gg_status gg_dsmc_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
 bool gg_dsmc_callback_slows(const gg_engine *engine);
 gg_status gg_dsmc_save_callback(const gg_dsmc *d, gg_archive *archive, gg_error *err);
 gg_status gg_dsmc_restore_callback(gg_dsmc *d, const gg_archive *archive, gg_error *err);
-/* Velocities are multiplied by the factor, and times before or after the origin divided: flights keep their paths. */
+/* Rescale times of last collisions when velocities are multiplied by the factor: distances in time from the origin are
+ * divided by it, so free paths are unchanged. */
 void gg_dsmc_rescale_callback(gg_dsmc *d, double factor, double origin);
 
+/* dsmc_checkpoint.c. The caller of gg_dsmc_restore sets base.ops. */
 gg_status gg_dsmc_save(const gg_engine *engine, gg_archive *archive, gg_error *err);
 gg_status gg_dsmc_restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err);
 

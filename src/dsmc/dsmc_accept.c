@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which models the engine takes. */
+/* Models that the engine runs. */
 #include "dsmc/dsmc.h"
 
 gg_status gg_dsmc_accepts(const gg_model *m, gg_error *err)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Life of the engine: memory and the choice of kernels. */
+/* Memory of the engine, and the choice of its kernels. */
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -22,7 +22,6 @@ gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
   GG_TRY(gg_simd_instructions_check(err));
   gg_dsmc *made = gg_base_array_new(1, sizeof *made, err);
   if (!made) return GG_FAILED;
-  made->base.ops = &gg_dsmc_ops;
   made->model = *model;
   made->thermostat = gg_common_thermostat_of(model);
   made->noise = gg_common_thermostat_noise(model);
@@ -54,7 +53,7 @@ void gg_dsmc_destroy(gg_engine *engine)
   free(d);
 }
 
-/* How much memory that will be: the blocks. */
+/* Estimate of the memory: that of the blocks. */
 double gg_dsmc_bytes(const gg_model *m)
 {
   const double block = m->single ? sizeof(gg_dsmc_block_single) : sizeof(gg_dsmc_block);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Storage of the engine: everything that a run needs to continue bit for bit. */
+/* Checkpoint of the engine: everything that a run needs to continue bit for bit. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,15 +20,8 @@ gg_status gg_dsmc_save(const gg_engine *engine, gg_archive *archive, gg_error *e
   return gg_dsmc_save_callback(d, archive, err);
 }
 
-/* What was read may be anybody's: are these numbers that a step can be taken with? Bounds are far beyond any run's, and
- * keep what is counted countable. */
-static bool is_between(double x, double least, double most)
-{
-  return x >= least && x <= most;
-}
-
-/* Temperature and largest speed of the ensemble, within what streaming and collisions make of it until it is next
- * synchronised: candidates are counted by them. */
+/* Validate the restored temperature and largest speed, from which numbers of candidates are computed: they are those of
+ * the ensemble, but for streaming and collisions since the last synchronisation. */
 static bool is_of_ensemble(const gg_dsmc *d)
 {
   double energy = 0, fastest2 = 0, n = 0;
@@ -43,44 +36,51 @@ static bool is_of_ensemble(const gg_dsmc *d)
     }
     n += (double)p->n;
   }
-  return is_between(d->now.temperature / (energy / (3 * n)), 1e-8, 1e8) &&
-         is_between(d->now.fastest / sqrt(fastest2), 1e-4, 1e4);
+  return gg_dsmc_is_between(d->now.temperature / (energy / (3 * n)), 1e-8, 1e8) &&
+         gg_dsmc_is_between(d->now.fastest / sqrt(fastest2), 1e-4, 1e4);
 }
 
 static bool is_step(const gg_dsmc *d, const gg_dsmc_time_step *s)
 {
   const double most = 10 * gg_dsmc_time_step_choose(&d->model, d->now.temperature).length;
-  return is_between(s->length, 1e-12 * most, most) && is_between(s->splitting, 1e-18 * most, most) &&
+  return gg_dsmc_is_between(s->length, 1e-12 * most, most) && gg_dsmc_is_between(s->splitting, 1e-18 * most, most) &&
          s->synchronise > 0 && !isnan(s->bias);
 }
 
-/* Majorants are over the thermal speed, and were learned at that of then: of a gas that warms, at the start's. */
+/* Lowest temperature of the run: majorants are relative to the thermal speed at which they were learned, and a gas that
+ * warms learned them at the start. */
 static double coldest(const gg_dsmc *d)
 {
   return fmin(d->now.temperature, ldexp(d->model.temperature0, 2 * (int)d->now.power));
 }
 
-/* `most`: a hundred times what two of the fastest could meet at, over the thermal speed. */
+/* Validate a majorant. `most`: a hundred times the relative speed of two of the fastest grains, over the thermal speed.
+ */
 static bool is_majorant(const gg_dsmc_majorant *m, double remainder, double most)
 {
-  return is_between(m->now, 0, most) && is_between(m->before, 0, most) && is_between(remainder, 0, 1);
+  return gg_dsmc_is_between(m->now, 0, most) && gg_dsmc_is_between(m->before, 0, most) &&
+         gg_dsmc_is_between(remainder, 0, 1);
 }
 
+/* Validate the restored state: a step can be computed with these numbers. The bounds are far beyond any run's, and keep
+ * numbers of candidates representable. */
 static bool is_state(const gg_dsmc *d)
 {
   const gg_dsmc_state *s = &d->now;
-  const double plain[] = {s->time, s->unsynchronised, s->centre.x, s->centre.y, s->centre.z, s->lost, s->gone, s->kept};
-  bool good = is_between(s->temperature, 1e-200, 1e200) && is_between(s->fastest, 0, 1e200) && fabs(s->strain) <= 1e3 &&
-              is_between(s->power, -1e9, 1e9) && is_step(d, &s->step) && s->asked >= 0; /* without end, too */
+  const double plain[] = {s->time,     s->unsynchronised, s->centre.x,     s->centre.y,
+                          s->centre.z, s->lost,           s->advance.gone, s->kept};
+  bool good = gg_dsmc_is_between(s->temperature, 1e-200, 1e200) && gg_dsmc_is_between(s->fastest, 0, 1e200) &&
+              fabs(s->strain) <= 1e3 && gg_dsmc_is_between(s->power, -1e9, 1e9) && is_step(d, &s->step) &&
+              s->advance.asked >= 0; /* infinity is valid */
   for (size_t i = 0; i < sizeof plain / sizeof *plain; i++) good = good && isfinite(plain[i]);
   for (int p = 0; p < gg_pairs_of(d->model.n_species); p++) {
-    const double meeting = 2 * s->fastest + fabs(d->model.sigma[p] * d->model.shear_rate);
-    good = good && is_majorant(&s->majorant[p], s->remainder[p], 100 * meeting / sqrt(coldest(d)));
+    const double relative = 2 * s->fastest + fabs(d->model.sigma[p] * d->model.shear_rate);
+    good = good && is_majorant(&s->majorant[p], s->remainder[p], 100 * relative / sqrt(coldest(d)));
   }
   return good;
 }
 
-/* Rounds are indices of segments. */
+/* Validate the schedule: its rounds are numbers below the number of segments. */
 static bool is_schedule(const gg_dsmc *d)
 {
   const gg_dsmc_schedule *s = d->schedule;
@@ -89,7 +89,7 @@ static bool is_schedule(const gg_dsmc *d)
   return good;
 }
 
-/* As bytes first: a truth that is neither yes nor no is no value of its type. */
+/* Restore the state. It is read as bytes first, since a bool other than 0 or 1 is no value of its type. */
 static gg_status get_state(gg_dsmc *d, const gg_archive *a, gg_error *err)
 {
   unsigned char bytes[sizeof d->now];

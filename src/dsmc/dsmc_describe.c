@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the engine makes of a model, for `graingas info`. */
+/* Description of the methods for a model, for `graingas info`. */
 #include <stdio.h>
 
 #include "common/thermostat.h"
 #include "dsmc/dsmc.h"
 
+const char *gg_dsmc_rule_line(gg_rule rule)
+{
+  static const char *const lines[] = {"smooth grains: no spins are kept", "rough grains: spins, constant beta",
+                                      "frictional grains: spins, Coulomb's law"};
+  return lines[rule];
+}
+
 void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)
 {
-  static const char *const rules[] = {"smooth grains: no spins are kept", "rough grains: spins, constant beta",
-                                      "frictional grains: spins, Coulomb's law"};
   char text[160];
   snprintf(text, sizeof text, "%lld velocities in blocks of %d, in %s precision", (long long)m->n, GG_DSMC_LANES,
            m->single ? "single" : "double");
@@ -18,7 +23,7 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
   int segments = gg_dsmc_segments_of(blocks);
   snprintf(text, sizeof text, "in %d segments, which threads share", segments);
   line(context, segments > 1 ? text : "not enough for threads to share");
-  line(context, rules[m->rule]);
+  line(context, gg_dsmc_rule_line(m->rule));
   if (m->law.e) line(context, "a restitution law: collisions one by one, without the block kernels");
   if (m->law.name && !m->law.e) line(context, "e follows from the speed of each collision, by a table");
   line(context, m->boltzmann ? "Boltzmann limit: no contact value, no collisional stress, neither is computed"

@@ -6,7 +6,7 @@
 
 #include "base/thread_pool.h"
 #include "dsmc/dsmc.h"
-#include "dsmc/walls/gap.h"
+#include "dsmc/walls/channel.h"
 #include "simd/clones.h"
 
 static gg_dsmc *dsmc_of(gg_engine *engine)
@@ -18,26 +18,20 @@ static const gg_dsmc *const_dsmc_of(const gg_engine *engine)
   return (const gg_dsmc *)engine;
 }
 
-/* Work between looks at whether to stop, in candidates: some milliseconds. A step is worth some by itself, and grains
- * that are heated are each worth one. */
-enum { WORK_BETWEEN_LOOKS = 1 << 16, WORK_OF_A_STEP = 32 };
+/* Work of a step by itself, in candidates. */
+enum { WORK_OF_A_STEP = 32 };
 
-static bool is_stopped(const gg_dsmc *d, uint64_t candidates_before, uint64_t *work)
+/* Work of the present step: its candidates, and all grains that a thermostat heats. */
+static uint64_t work_of_step(const gg_dsmc *d, uint64_t candidates_before)
 {
-  *work += WORK_OF_A_STEP + (d->now.candidates - candidates_before);
-  if (d->thermostat != GG_NO_THERMOSTAT) *work += (uint64_t)d->model.n;
-  if (*work < WORK_BETWEEN_LOOKS) return false;
-  *work = 0;
-  return gg_stop_asked(d->model.stop);
+  const uint64_t heated = d->thermostat != GG_NO_THERMOSTAT ? (uint64_t)d->model.n : 0;
+  return WORK_OF_A_STEP + (d->now.candidates - candidates_before) + heated;
 }
 
 static gg_status check_temperature(const gg_dsmc *d, gg_error *err)
 {
-  const double largest = d->model.single ? 0x1p60 : 0x1p900; /* temperature whose squares are numbers, too */
-  if (d->now.temperature > 1 / largest && d->now.temperature < largest) return GG_OK;
-  return gg_base_fail(err, GG_FAILED,
-                      "the temperature left the range of double precision (%g) after %.3g collisions per grain",
-                      d->now.temperature, 2 * (double)d->now.collisions / (double)d->model.n);
+  const double largest = d->model.single ? 0x1p60 : 0x1p900; /* the square of such a temperature is finite, too */
+  return gg_dsmc_check_temperature(&d->model, d->now.temperature, 1 / largest, largest, d->now.collisions, err);
 }
 
 static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
@@ -45,13 +39,14 @@ static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
   gg_dsmc *d = dsmc_of(engine);
   gg_dsmc_state *s = &d->now;
   bool stopped = false;
-  for (uint64_t work = 0; !stopped && s->gone < s->asked && s->collisions < s->last_collision;) {
+  for (uint64_t work = 0; !stopped && !gg_dsmc_advance_is_over(&s->advance, s->collisions);) {
     uint64_t before = s->candidates;
     GG_TRY(check_temperature(d, err));
-    s->gone += gg_dsmc_step(d, s->asked - s->gone, (double)(s->last_collision - s->collisions));
-    stopped = is_stopped(d, before, &work);
+    s->advance.gone +=
+        gg_dsmc_step(d, s->advance.asked - s->advance.gone, (double)(s->advance.last_collision - s->collisions));
+    stopped = gg_dsmc_advance_is_stopped(&d->model, &work, work_of_step(d, before));
   }
-  *elapsed = s->gone;
+  *elapsed = s->advance.gone;
   return stopped ? gg_base_fail(err, GG_INTERRUPTED, "dsmc: stopped") : GG_OK;
 }
 
@@ -59,14 +54,11 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
 {
   gg_dsmc_state *s = &dsmc_of(engine)->now;
   double unused;
-  s->asked = dt;
-  s->gone = 0;
-  s->last_collision = max_collisions < UINT64_MAX - s->collisions ? s->collisions + max_collisions : UINT64_MAX;
+  gg_dsmc_advance_begin(&s->advance, dt, max_collisions, s->collisions);
   return go_on(engine, elapsed ? elapsed : &unused, err);
 }
 
-/* Between walls there is another engine (walls/gap.h): its models are handed over, its engines have operations of their
- * own. */
+/* Is this a model for the engine in a channel (walls/channel.h)? Its engines have their own operations. */
 static bool is_walled(const gg_model *model)
 {
   return gg_flow_is_walled(model->flow);
@@ -74,10 +66,11 @@ static bool is_walled(const gg_model *model)
 
 static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, gg_engine **engine, gg_error *err)
 {
-  if (is_walled(model)) return gg_dsmc_gap_ops.create(model, seed, stream, engine, err);
+  if (is_walled(model)) return gg_dsmc_channel_ops.create(model, seed, stream, engine, err);
   GG_TRY(gg_dsmc_accepts(model, err));
   gg_dsmc *d;
   GG_TRY(gg_dsmc_allocate(model, &d, err));
+  d->base.ops = &gg_dsmc_ops;
   if (d->schedule) gg_dsmc_schedule_start(d->schedule, seed, stream);
   gg_rng start = gg_common_rng_seed(seed, stream + GG_STREAM_START);
   if (!gg_dsmc_ensemble_start(model, &d->ensemble, &start)) {
@@ -93,7 +86,7 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   return GG_OK;
 }
 
-/* Of every species its grains, in the order of their numbers. */
+/* Take given grains: those of each species in the order of their numbers. */
 static void take_grains(gg_dsmc_ensemble *e, const gg_grain_arrays *grains, int64_t n)
 {
   uint32_t next[GG_MAX_SPECIES] = {0};
@@ -122,8 +115,9 @@ static void take_over(gg_dsmc *d, const gg_dsmc *before)
   if (d->schedule && before->schedule) memcpy(d->schedule, before->schedule, gg_dsmc_schedule_size(d->model.n_species));
 }
 
-/* Synchronising measures the temperature, by which bounds are scaled the next time, and the velocity of the centre of
- * mass, which is taken off then, but for rounding: velocities that were read from a run stay as they are. */
+/* Measure given grains. The first synchronisation measures the temperature, which scales the bounds of the next one,
+ * and the velocity of the centre of mass, which the next one removes unless it is of the order of rounding: velocities
+ * that come from a run stay unchanged. */
 static void measure(gg_dsmc *d)
 {
   const gg_vec none = {0, 0, 0};
@@ -137,7 +131,7 @@ static void measure(gg_dsmc *d)
 static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stream, const gg_grain_arrays *grains,
                              const gg_engine *before, gg_engine **engine, gg_error *err)
 {
-  if (is_walled(model)) return gg_dsmc_gap_ops.create_with(model, seed, stream, grains, before, engine, err);
+  if (is_walled(model)) return gg_dsmc_channel_ops.create_with(model, seed, stream, grains, before, engine, err);
   GG_TRY(create(model, seed, stream, engine, err));
   gg_dsmc *d = dsmc_of(*engine);
   take_grains(&d->ensemble, grains, model->n);
@@ -166,7 +160,7 @@ static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
   s->transfer = (gg_collision_sums){0};
 }
 
-/* At most as many as there are pairs of segments in a round. */
+/* More threads than pairs of segments in a round would be idle. */
 static void threads(gg_engine *engine, int threads)
 {
   gg_dsmc_ensemble *e = &dsmc_of(engine)->ensemble;
@@ -187,7 +181,7 @@ static void state(const gg_engine *engine, gg_engine_state *state)
                              .others_cpu = gg_base_thread_pool_cpu(const_dsmc_of(engine)->ensemble.pool)};
 }
 
-/* Lay a run of blocks out flat, streamed as far as they have to be; there is room for whole blocks. */
+/* Convert a run of blocks to flat arrays of peculiar velocities; the arrays have room for whole blocks. */
 GG_CLONES static void unpack(const gg_dsmc_block *b, size_t n, double strain, double *restrict x, double *restrict y,
                              double *restrict z)
 {
@@ -199,9 +193,9 @@ GG_CLONES static void unpack(const gg_dsmc_block *b, size_t n, double strain, do
     }
 }
 
-enum { SHOWN = 256 }; /* grains at a time: so few stay in the first cache until they have been sampled */
+enum { SHOWN = 256 }; /* grains of a chunk: they stay in the first cache until they have been sampled */
 
-/* `n` grains from `first` on, a multiple of eight; of p->c or p->s. */
+/* Convert `n` grains from `first`, a multiple of eight, of p->c or p->s. */
 static void lay_out(const gg_dsmc_population *p, const void *blocks, size_t first, size_t n, double strain,
                     double v[3][SHOWN])
 {
@@ -213,7 +207,7 @@ static void lay_out(const gg_dsmc_population *p, const void *blocks, size_t firs
 
 static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context)
 {
-  (void)positions; /* a homogeneous gas has none */
+  (void)positions; /* a homogeneous gas has no positions */
   gg_dsmc *d = dsmc_of(engine);
   double v[6][SHOWN];
   uint8_t kind[SHOWN];
@@ -234,7 +228,7 @@ static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *c
   }
 }
 
-/* Blocks in double as they are, others so many at a time. */
+/* Visit blocks: in double all at once in place, in single precision in chunks. */
 static void blocks(gg_engine *engine, gg_visit_blocks *visit, void *context)
 {
   gg_dsmc *d = dsmc_of(engine);
@@ -255,7 +249,7 @@ static void blocks(gg_engine *engine, gg_visit_blocks *visit, void *context)
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_dsmc *d = dsmc_of(engine);
-  const bool next_sweep = d->model.linear_response; /* of the reduced shear rate: the clock continues */
+  const bool next_sweep = d->model.linear_response; /* of the reduced shear rate; the clock continues */
   if (d->thermostat != GG_NO_THERMOSTAT && !next_sweep)
     return gg_base_fail(err, GG_BAD_INPUT, "a heated gas cannot be rescaled: it keeps its temperature");
   if (d->model.shear_rate != 0 && !next_sweep)
@@ -280,22 +274,25 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 
 static gg_status accepts(const gg_model *model, gg_error *err)
 {
-  return (is_walled(model) ? gg_dsmc_gap_accepts : gg_dsmc_accepts)(model, err);
+  return (is_walled(model) ? gg_dsmc_channel_accepts : gg_dsmc_accepts)(model, err);
 }
 
 static double bytes(const gg_model *model)
 {
-  return (is_walled(model) ? gg_dsmc_gap_bytes : gg_dsmc_bytes)(model);
+  return (is_walled(model) ? gg_dsmc_channel_bytes : gg_dsmc_bytes)(model);
 }
 
 static gg_status restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
 {
-  return (is_walled(model) ? gg_dsmc_gap_restore : gg_dsmc_restore)(model, archive, engine, err);
+  if (is_walled(model)) return gg_dsmc_channel_ops.restore(model, archive, engine, err);
+  GG_TRY(gg_dsmc_restore(model, archive, engine, err));
+  (*engine)->ops = &gg_dsmc_ops;
+  return GG_OK;
 }
 
 static void describe(const gg_model *model, void (*line)(void *context, const char *text), void *context)
 {
-  (is_walled(model) ? gg_dsmc_gap_describe : gg_dsmc_describe)(model, line, context);
+  (is_walled(model) ? gg_dsmc_channel_describe : gg_dsmc_describe)(model, line, context);
 }
 
 const gg_engine_ops gg_dsmc_ops = {

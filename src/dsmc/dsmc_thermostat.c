@@ -6,7 +6,7 @@
 #include "dsmc/kernel/kernels.h"
 #include "dsmc/parallel/schedule.h"
 
-enum { RUN = 64 }; /* blocks read together */
+enum { RUN = 64 }; /* blocks that are converted at once */
 
 static void add_squares(const gg_dsmc_block *c, size_t n, double strain, double lane[GG_DSMC_LANES])
 {
@@ -40,7 +40,6 @@ static void sum_of_segment(void *context, int part)
   }
 }
 
-/* Twice the kinetic energy. */
 static double twice_kinetic_energy(const gg_dsmc_ensemble *e, double strain)
 {
   energies w = {.e = e, .strain = strain};
@@ -55,17 +54,18 @@ static double twice_kinetic_energy(const gg_dsmc_ensemble *e, double strain)
   return sum;
 }
 
-/* Eight of single precision's last places; a quarter of a free time takes more where e < 1 - 6e-6. */
+/* Least relative gain of energy in single precision, eight units in the last place; a quarter of a mean free time needs
+ * more if e < 1 - 6e-6. */
 #define LEAST_GAIN 1e-6
 
 double gg_dsmc_thermostat_return(gg_dsmc_ensemble *e, double strain, double kept, double missing, double half)
 {
   double energy = 0.5 * twice_kinetic_energy(e, strain);
   if (kept > 0) missing = kept - energy;
-  /* The loss goes as T^(3/2), and the second half is hotter than the first by what it destroyed. */
+  /* The loss is proportional to T^(3/2), and the second half is hotter than the first by the loss of the first. */
   double advance = half * (1 + 1.5 * half / energy);
   double gain = (missing + advance) / energy, factor = gain > -1 ? sqrt(1 + gain) : 0;
-  /* What single precision would round away is kept until it is more. */
+  /* A gain that single precision would round away is deferred until it has accumulated. */
   if (e->of[0].single && fabs(gain) < LEAST_GAIN) return -missing;
   gg_dsmc_ensemble_heat(e, factor);
   return advance;
@@ -75,12 +75,12 @@ typedef struct kicking {
   gg_dsmc_ensemble *e;
   double strain;
   gg_dsmc_kick_map centre[GG_MAX_SPECIES], spin[GG_MAX_SPECIES];
-  bool turns; /* do spins get kicks, too? */
+  bool spins; /* spins are kicked, too */
   gg_dsmc_rng_lanes *lanes;
   gg_dsmc_block sum[GG_DSMC_MAX_SEGMENTS][GG_MAX_SPECIES]; /* of the kicked velocities, by lane */
 } kicking;
 
-/* Keep the lanes beyond the last grain at rest, and out of the sum. */
+/* Reset the empty lanes of the last block, and remove them from the sum. */
 static void clear_rest(const gg_dsmc_population *p, void *blocks, gg_dsmc_block *sum)
 {
   for (size_t a = (size_t)p->n; a < p->n_blocks * GG_DSMC_LANES; a++) {
@@ -98,15 +98,15 @@ static void kick_segment(void *context, int part)
   for (int i = 0; i < w->e->n_species; i++) {
     gg_dsmc_population *p = &w->e->of[i];
     gg_dsmc_range r = gg_dsmc_segment(p, w->e->segments, segment);
-    const bool turns = w->turns && p->s, last = segment == w->e->segments - 1;
+    const bool kicks_spins = w->spins && p->s, last = segment == w->e->segments - 1;
     gg_dsmc_block sum = {{0}, {0}, {0}}, spins = sum;
     w->e->kernels->kick(gg_dsmc_blocks_at(p, p->c, r.first), p->single, p->speed_bound + r.first, r.n, w->strain,
                         &w->centre[i], w->e->bound_scale, &w->lanes[segment], &sum);
-    if (turns)
+    if (kicks_spins)
       w->e->kernels->kick(gg_dsmc_blocks_at(p, p->s, r.first), p->single, NULL, r.n, 0, &w->spin[i], 1,
                           &w->lanes[segment], &spins);
     if (last) clear_rest(p, p->c, &sum);
-    if (last && turns) clear_rest(p, p->s, &spins);
+    if (last && kicks_spins) clear_rest(p, p->s, &spins);
     w->sum[segment][i] = sum;
   }
 }
@@ -126,7 +126,7 @@ void gg_dsmc_thermostat_kick(gg_dsmc_ensemble *e, double strain, double variance
   kick(&w);
 }
 
-/* Velocity of the centre of mass, in stored velocities. */
+/* Velocity of the centre of mass, of stored velocities. */
 static gg_vec velocity_of_centre(const kicking *w)
 {
   gg_vec momentum = {0, 0, 0};
@@ -148,7 +148,7 @@ void gg_dsmc_thermostat_bath(gg_dsmc_ensemble *e, const gg_model *m, const gg_ds
 {
   const gg_bath *b = &m->bath;
   const double rate = m->shear_rate;
-  kicking w = {.e = e, .strain = step->strain, .lanes = lanes, .turns = b->spin_drag[0] > 0};
+  kicking w = {.e = e, .strain = step->strain, .lanes = lanes, .spins = b->spin_drag[0] > 0};
   for (int i = 0; i < e->n_species; i++) {
     const gg_relaxation r = gg_common_relaxation(b->drag[i], step->dt),
                         s = gg_common_relaxation(b->spin_drag[i], step->dt);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Life of the ensemble, and what is done to all of it. */
+/* Memory of the ensemble, and operations on all of its grains. */
 #include "dsmc/ensemble.h"
 
 #include <math.h>
@@ -13,8 +13,8 @@
 #include "dsmc/kernel/kernels.h"
 #include "dsmc/parallel/schedule.h"
 
-/* Random blocks of a large ensemble lie on more pages than a processor remembers; huge pages, where the system has
- * them, spare it the walks. */
+/* Allocate blocks, in huge pages if possible: a large ensemble with random access has more small pages than the TLB has
+ * entries. */
 static void *new_blocks(const gg_dsmc_population *p, gg_error *err)
 {
   const size_t huge = (size_t)1 << 21, n = p->n_blocks, bytes = n * gg_dsmc_block_size(p);
@@ -25,7 +25,7 @@ static void *new_blocks(const gg_dsmc_population *p, gg_error *err)
     return NULL;
   }
 #ifdef MADV_HUGEPAGE
-  if (unit == huge) (void)madvise(b, rounded, MADV_HUGEPAGE); /* a wish: no harm if it is not granted */
+  if (unit == huge) (void)madvise(b, rounded, MADV_HUGEPAGE); /* a hint; failure is harmless */
 #endif
   memset(b, 0, rounded);
   return b;
@@ -108,7 +108,7 @@ void gg_dsmc_ensemble_scale(gg_dsmc_ensemble *e, double factor)
   }
 }
 
-/* The last block alone: its empty lanes stay 0. */
+/* Synchronise a last block with empty lanes, which stay 0. */
 static void synchronise_odd_block(gg_dsmc_synchronise_blocks *synchronise, gg_dsmc_population *p, double strain,
                                   double scale, gg_vec centre, double bound_scale, gg_dsmc_block_sums *s)
 {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The velocities and spins that a run starts from. */
+/* Initial velocities and spins. */
 #include <math.h>
 
 #include "dsmc/ensemble.h"
 
-/* Exactly at theta, sum K m s^2 = 3 N theta: perfectly rough grains keep their total energy for ever. The mean spin is
- * added, that of the vorticity by default. */
+/* Scale the spins to exactly sum K m s^2 = 3 N theta, since perfectly rough grains conserve their total energy. Then
+ * add the mean spin, by default that of the vorticity. */
 static void start_spins(const gg_model *model, gg_dsmc_ensemble *e)
 {
   double energy = 0, grains = 0;

@@ -5,7 +5,7 @@
 
 #include "dsmc/ensemble.h"
 
-/* "dsmc/velocity_1": what is kept of a species. */
+/* Name of a checkpoint item of a species: "dsmc/velocity_1". */
 typedef struct item {
   char name[32];
 } item;
@@ -51,7 +51,7 @@ static bool are_finite(const gg_dsmc_population *p, const void *blocks)
   return true;
 }
 
-/* What was read may be anybody's: are these speeds, and bounds of them? */
+/* Validate the restored ensemble: velocities and speed bounds are finite. */
 static bool is_ensemble(const gg_dsmc_ensemble *e)
 {
   for (int i = 0; i < e->n_species; i++) {

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "dsmc/majorant.h"
 
-/* Room above the largest value so far: enough that a new record rarely goes over, little enough to cost no candidates.
- */
+/* Factor above the largest value so far: larger values rarely exceed it, and it costs few candidates. */
 static const double room = 1.05;
 
 void gg_dsmc_majorant_start(gg_dsmc_majorant *m, double sure, double thermal)

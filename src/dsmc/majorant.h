@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The majorant of the relative normal speed g_n of one pair of species. It adapts to the candidates and is relative to
- * the thermal speed, so that it follows a cooling or heating gas. Candidates rarely exceed it; each such overflow is
- * counted and corrected by a correction pass (kernel/pass.h). */
+/* Majorant of the relative normal speed g_n of one pair of species. It adapts to the candidates and is relative to the
+ * thermal speed, so that it follows a cooling or heated gas. Candidates rarely exceed it; each such overflow is counted
+ * and corrected by a correction pass (kernel/pass.h). */
 #ifndef GG_DSMC_MAJORANT_H
 #define GG_DSMC_MAJORANT_H
 

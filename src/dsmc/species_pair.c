@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What all collisions of a pair of species have in common, and where what they come to is added up. */
+/* Constants of the collisions of a pair of species, and the sum of their results. */
 #include "dsmc/dsmc.h"
 
 gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
@@ -7,7 +7,7 @@ gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
   const gg_model *m = &d->model;
   gg_dsmc_features features = {.rule = gg_common_rule_select(m->beta[gg_pair(i, j)], m->mu[gg_pair(i, j)]),
                                .same = i == j};
-  /* Grains that have spins keep them with their velocities, whichever pair of species is smooth. */
+  /* With spins, even a smooth pair needs a kernel that moves spins together with velocities. */
   if (m->rule != GG_SMOOTH && features.rule == GG_SMOOTH) features.rule = GG_ROUGH;
   if (m->shear_rate != 0) features.shear = m->boltzmann ? GG_DSMC_SHEARED_DILUTE : GG_DSMC_SHEARED_DENSE;
   if (d->thermostat == GG_GAUSSIAN) features.sums = GG_DSMC_LOSS;
@@ -62,7 +62,6 @@ void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *pass)
     for (int b = 0; b < 3; b++) s->transfer.stress[pair][a][b] += pass->stress[a][b];
 }
 
-/* How many candidates, and the majorants to start from. */
 void gg_dsmc_start_majorants(gg_dsmc *d)
 {
   const gg_model *m = &d->model;

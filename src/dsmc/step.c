@@ -7,7 +7,7 @@ void gg_dsmc_synchronise(gg_dsmc *d)
 {
   gg_dsmc_state *s = &d->now;
   double unit = s->temperature > 0 ? s->temperature : d->model.temperature0;
-  /* A bath changes the velocity of the centre at every step, and takes it off itself. */
+  /* A bath changes the velocity of the centre at every step, and removes it itself. */
   const gg_vec none = {0, 0, 0}, off = d->thermostat == GG_BATH ? none : s->centre;
   gg_dsmc_moments m = gg_dsmc_ensemble_synchronise(&d->ensemble, s->strain, 1, off, unit);
   s->temperature = m.temperature;
@@ -17,8 +17,8 @@ void gg_dsmc_synchronise(gg_dsmc *d)
   s->step = gg_dsmc_time_step_choose(&d->model, s->temperature);
 }
 
-/* The energy of centres that the thermostat keeps, where it is not the one that collisions change: rough grains without
- * shear; else 0. */
+/* Energy of centres that the Gaussian thermostat keeps, for rough grains without shear; else 0, and it returns the
+ * energy lost in collisions. */
 static double kept_by_centres(const gg_dsmc *d)
 {
   const gg_model *m = &d->model;
@@ -47,7 +47,7 @@ static void collide(gg_dsmc *d, double dt, double strain, double span)
   /* Symmetric splitting: the second half mirrors the first. */
   if (d->thermostat == GG_NO_THERMOSTAT) {
     gg_dsmc_collide(d, dt, strain, span, d->model.n_species == 1 ? GG_DSMC_FORWARD : GG_DSMC_SYMMETRIC);
-    d->now.lost = 0; /* nobody gives it back, and the units may change for ever */
+    d->now.lost = 0; /* without a thermostat it would only grow, or change by units */
     return;
   }
   double lost = d->now.lost;
@@ -57,8 +57,8 @@ static void collide(gg_dsmc *d, double dt, double strain, double span)
   gg_dsmc_collide(d, 0.5 * dt, strain + 0.5 * span, 0.5 * span, GG_DSMC_BACKWARD);
 }
 
-/* The step to take with `left` time and `wanted` collisions to go: a step that the scene asked for is taken whole,
- * unless the gas is followed in time. */
+/* Length of the next step, if `left` time and `wanted` collisions remain. A step given by the scene is taken whole,
+ * unless the run is a time course. */
 static double next_length(const gg_dsmc *d, double left, double wanted)
 {
   double dt = d->now.step.length;
@@ -71,8 +71,8 @@ double gg_dsmc_step(gg_dsmc *d, double left, double wanted)
 {
   gg_dsmc_state *s = &d->now;
   double dt = next_length(d, left, wanted), span = d->model.shear_rate * dt;
-  /* Strang (SIAM J. Numer. Anal. 5 (1968) 506): half the streaming, all collisions, the other half. With collisions in
-   * stored velocities this is nothing but a constant half strain. */
+  /* Strang (SIAM J. Numer. Anal. 5 (1968) 506): half the streaming, all collisions, the other half. For collisions of
+   * stored velocities this is a constant strain of one half. */
   if (s->step.split)
     collide(d, dt, s->strain + 0.5 * span, 0);
   else
@@ -80,7 +80,8 @@ double gg_dsmc_step(gg_dsmc *d, double left, double wanted)
   s->strain += span;
   s->time += dt;
   s->unsynchronised += dt;
-  /* Going through the ensemble costs as much as some collisions a grain: not oftener than the temperature changes. */
+  /* A synchronisation costs as much as several collisions a grain: it is done only as often as the temperature changes.
+   */
   if (s->unsynchronised >= s->step.synchronise || s->strain >= 1) gg_dsmc_synchronise(d);
   return dt;
 }

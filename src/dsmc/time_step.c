@@ -5,29 +5,29 @@
 
 #include "common/thermostat.h"
 
-/* Relative bias of the most affected mean for a step of one mean free time; it goes with the square of the step.
- * Measured in the Boltzmann limit: streaming and collisions split: viscosity .080 at e = .9, .072 at e = .6
- * (temperature: .047, .031); pairs of species: temperature ratio .003; a thermostat split from collisions, over the
- * square of the energy that a collision of smooth grains destroys, 1 - e^2: cooling rate .0139 at e = .5, .0128 at .8,
- * Gaussian, and .0144, .0125 of white noise. */
+/* Relative bias of the most affected mean for a step of one mean free time; it is proportional to the square of the
+ * step. Measured in the Boltzmann limit. Streaming split from collisions: viscosity .080 at e = .9, .072 at e = .6
+ * (temperature: .047, .031). Pairs of species: temperature ratio .003. A thermostat split from collisions, over the
+ * square of 1 - e^2, the energy lost in a collision of smooth grains: cooling rate .0139 at e = .5, .0128 at .8
+ * (Gaussian), .0144 and .0125 (white noise). */
 static const double bias_of_splitting = 0.08, bias_of_alternation = 0.008, bias_of_thermostat = 0.0145;
-/* A bath: where drag takes 2 gamma h and collisions zeta h, small, in a step h, the temperature at its end is lower by
- * gamma zeta h^2/6 more than that of a thermostat; zeta is the collision rate times a third of the loss. */
+/* Bath: if drag takes 2 gamma h and collisions zeta h in a step h, both small, the temperature at its end is lower by
+ * another gamma zeta h^2/6 than with a thermostat; zeta is the collision rate times a third of the loss. */
 static const double bias_of_drag = 1. / 18;
-/* A bath under shear, over the square of h gamma in time: drag and the anisotropy that collisions undo take turns.
- * Found in T: .02 to .45 in eleven states, most where drag alone balances the work of shear (T_b = 0, phi = .3). Where
- * streaming is split, too, over the square of h times the shear rate: .005 to .33, most near a turning point. */
+/* Bath under shear, where drag alternates with collisions, which reduce anisotropy. Over the square of h gamma the bias
+ * of T was .02 to .45 in eleven states, most if drag alone balances the work of shear (T_b = 0, phi = .3). If streaming
+ * is split, too: over the square of h times the shear rate .005 to .33, most near a turning point. */
 static const double bias_of_sheared_drag = 0.6, bias_of_sheared_bath = 0.3;
 
-/* A run that asks for an error takes steps whose bias is so small a share of it; in a bath all do. */
-static const double share = 0.2, usual_error = 0.01;
+/* Bias of the step as a fraction of the requested error. In a bath this limit holds without a requested error, too. */
+static const double fraction = 0.2, usual_error = 0.01;
 
 static double smaller(double a, double b)
 {
   return a < b ? a : b;
 }
 
-/* 1 - e^2, and what rough grains lose besides. */
+/* Relative energy loss of a collision: 1 - e^2, and the loss of the tangential motion of rough grains. */
 static double loss_of(const gg_model *m)
 {
   const double eta1 = (1 + m->e[GG_11]) / 2, K = m->inertia[0];
@@ -35,7 +35,7 @@ static double loss_of(const gg_model *m)
   return 4 * (eta1 * (1 - eta1) + eta2 * (1 - eta2));
 }
 
-/* Of the fastest drag, in a mean free time. */
+/* Largest drag coefficient times the mean free time. */
 static double drag_of(const gg_model *m, double free_time)
 {
   double drag = 0;
@@ -43,7 +43,7 @@ static double drag_of(const gg_model *m, double free_time)
   return drag * free_time;
 }
 
-/* Of means, over the square of the step: where a thermostat or pairs of species take turns with collisions. */
+/* Bias of means over the square of the step, by alternation of collisions with a thermostat or of pairs of species. */
 static double alternation_of(const gg_model *m, double free_time)
 {
   const double loss = loss_of(m), drag = drag_of(m, free_time);
@@ -54,19 +54,19 @@ static double alternation_of(const gg_model *m, double free_time)
   return gg_common_thermostat_of(m) != GG_NO_THERMOSTAT ? bias_of_thermostat * loss * loss : 0;
 }
 
-/* Where streaming and collisions take turns, too. */
+/* The same with streaming split from collisions. */
 static double split_of(const gg_model *m, double free_time)
 {
   const double strain = m->shear_rate * free_time;
   return bias_of_splitting + (m->bath.on ? bias_of_sheared_bath * strain * strain + alternation_of(m, free_time) : 0);
 }
 
-/* In mean free times. */
+/* Longest time of an alternation, in mean free times. */
 static double alternate_every(const gg_model *m, double free_time)
 {
   const double bias = alternation_of(m, free_time);
   const double error = m->asked_error > 0 ? m->asked_error : m->bath.on ? usual_error : 0;
-  return error > 0 && bias > 0 ? smaller(0.25, sqrt(share * error / bias)) : 0.25;
+  return error > 0 && bias > 0 ? smaller(0.25, sqrt(fraction * error / bias)) : 0.25;
 }
 
 gg_dsmc_time_step gg_dsmc_time_step_choose(const gg_model *model, double T)
@@ -75,7 +75,7 @@ gg_dsmc_time_step gg_dsmc_time_step_choose(const gg_model *model, double T)
   double free_time = 1 / gg_common_model_collision_rate(model, T);
   gg_dsmc_time_step step = {.synchronise = heated ? free_time : 3 * free_time,
                             .length = heated ? alternate_every(model, free_time) * free_time : free_time};
-  if (!heated && model->shear_rate == 0) step.length = step.synchronise; /* the kernel needs no step at all */
+  if (!heated && model->shear_rate == 0) step.length = step.synchronise; /* collisions alone need no step */
   if (model->shear_rate > 0) step.length = smaller(step.length, 0.5 / model->shear_rate);
   step.splitting =
       model->n_species == 1 ? step.length : smaller(step.length, alternate_every(model, free_time) * free_time);

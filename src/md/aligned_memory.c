@@ -11,7 +11,7 @@
 #define PAGE ((size_t)4096)
 #define HUGE_PAGE ((size_t)2 << 20)
 
-/* `bytes` of zeros, from a multiple of `alignment` on. */
+/* Allocate `bytes` of zeros at a multiple of `alignment`. */
 static void *new_block(size_t bytes, size_t alignment, gg_error *err)
 {
   void *block = aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
@@ -20,13 +20,15 @@ static void *new_block(size_t bytes, size_t alignment, gg_error *err)
     return NULL;
   }
 #ifdef MADV_HUGEPAGE
-  if (alignment == HUGE_PAGE) madvise(block, bytes / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE); /* a wish, no more */
+  if (alignment == HUGE_PAGE)
+    madvise(block, bytes / HUGE_PAGE * HUGE_PAGE, MADV_HUGEPAGE); /* a hint; failure is harmless */
 #endif
   memset(block, 0, bytes);
   return block;
 }
 
-/* Events jump all over these arrays: with pages of 4 KiB nearly every jump in a large system would miss the TLB, too.
+/* Events access these arrays at random: with pages of 4 KiB nearly every access in a large system would miss the TLB,
+ * too.
  */
 void *gg_md_new_lines(size_t count, size_t size, gg_error *err)
 {

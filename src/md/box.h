@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The box, its images and, under shear, its moving images (Lees & Edwards, J. Phys. C 5 (1972) 1921).
  *
- * The image of the box above moves in x at speed U = shear_rate L_y and stands at offset D(t) = D_0 + U t; the one
- * below moves the other way. A grain's image there is r + (D, L_y, 0) with velocity v + (U, 0, 0). */
+ * The image above the box moves along x at speed U = shear_rate L_y and has the offset D(t) = D_0 + U t; the image
+ * below moves the other way. The image of a grain there has position r + (D, L_y, 0) and velocity v + (U, 0, 0). */
 #ifndef GG_MD_BOX_H
 #define GG_MD_BOX_H
 
@@ -13,7 +13,7 @@
 typedef struct gg_md_box {
   double edge[3], inverse[3];
   double image_velocity; /* U; 0 without shear */
-  double offset0;        /* D_0, in [0, L_x): the offset at the epoch's start */
+  double offset0;        /* D_0, in [0, L_x): offset at the start of the epoch */
 } gg_md_box;
 
 /* Largest integer <= x, without libm; |x| < 2^62. */
@@ -30,7 +30,7 @@ GG_INLINE double gg_nearest(double x)
   return (x + shift) - shift;
 }
 
-/* Into [0, edge), but for rounding at the upper end. */
+/* Wrap x into [0, edge), but for rounding at the upper end. */
 GG_INLINE double gg_wrap(double x, double edge, double inverse)
 {
   return x - edge * gg_floor(x * inverse);
@@ -41,8 +41,8 @@ GG_INLINE double gg_md_offset(const gg_md_box *b, double t)
   return gg_wrap(b->offset0 + b->image_velocity * t, b->edge[0], b->inverse[0]);
 }
 
-/* Minimum-image convention: replaces a separation by that of the nearest images, right for pairs closer than half the
- * shortest edge. The relative velocity dv becomes that of the images. */
+/* Minimum-image convention: replaces the separation dr by that of the nearest images, and dv by their relative
+ * velocity. Valid for pairs closer than half the shortest edge. */
 GG_INLINE void gg_md_minimum_image(const gg_md_box *b, int sheared, double t, gg_vec *dr, gg_vec *dv)
 {
   double layers = gg_nearest(dr->y * b->inverse[1]);

@@ -7,7 +7,10 @@
 #include "base/memory.h"
 #include "md/aligned_memory.h"
 
-enum { FEWEST_WORDS = 8, MOST_BEHIND = 16 }; /* the latter: what may be read behind the last */
+enum {
+  FEWEST_WORDS = 8, /* of a cell that is not small */
+  MOST_BEHIND = 16  /* words that may be read behind the last cell */
+};
 
 void gg_md_cells_count(const gg_md_box *box, double width, int32_t n[3])
 {
@@ -61,7 +64,7 @@ void gg_md_cells_clear(gg_md_cells *c)
   for (size_t k = 0; k < total; k++) c->cell[k * c->stride] = 0;
 }
 
-/* Small ones with their lists hold as many as cells of eight words. */
+/* Small cells with their overflow lists hold as many grains as cells of eight words, so they grow to sixteen. */
 bool gg_md_cells_grow(gg_md_cells *c)
 {
   if (c->fixed) return false;

@@ -1,10 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Collisions shown one by one. While a callback is set, the resolution of contacts is wrapped by one that shows them:
- * one without a callback knows nothing of it. */
+/* Collision callback. While a callback is set, the resolution of contacts is wrapped by one that reports them; a run
+ * without a callback has no cost. */
 #include <math.h>
 
 #include "common/surface/shapes.h"
-#include "md/md_state.h"
+#include "md/event_loops.h"
+#include "md/md_allocate.h"
+#include "md/md_operations.h"
+#include "md/md_thermostat.h"
+#include "md/resolution.h"
 
 static void show_grain(const gg_md *e, uint32_t i, int which, gg_collision_record *m)
 {
@@ -17,10 +21,10 @@ static void show_grain(const gg_md *e, uint32_t i, int which, gg_collision_recor
   m->c[which] = gg_scale(e->k.scale, c);
   m->height[which] = height;
   if (e->spin && e->model.walled) m->s[which] = e->spin[i];
-  m->since[which] = (e->k.now - e->last[i]) / e->k.scale; /* of a Gaussian thermostat's clock: at its present pace */
+  m->since[which] = (e->k.now - e->last[i]) / e->k.scale; /* with the present scale of a Gaussian thermostat */
 }
 
-static void show_turns(const gg_md *e, uint32_t i, uint32_t j, gg_collision_record *m)
+static void show_spin_changes(const gg_md *e, uint32_t i, uint32_t j, gg_collision_record *m)
 {
   if (!e->spin || !e->model.walled) return;
   m->turn[0] = gg_sub(e->spin[i], m->s[0]);
@@ -34,10 +38,10 @@ void gg_md_show_collision(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c1
   show_grain(e, i, 0, &m);
   show_grain(e, j, 1, &m);
   const gg_vec before = e->grain[j].v;
-  const double scale = e->k.scale; /* the thermostat's, as of the velocities: it changes with what is lost */
+  const double scale = e->k.scale; /* of the velocities before: a Gaussian thermostat changes it with every loss */
   e->resolve_shown(e, i, j, dr, c12);
   m.J = gg_scale(scale * e->model.mass[m.species[1]], gg_sub(e->grain[j].v, before));
-  show_turns(e, i, j, &m);
+  show_spin_changes(e, i, j, &m);
   e->callback(e->callback_context, &m);
 }
 
@@ -55,7 +59,7 @@ void gg_md_show_contact(gg_md *e, uint32_t i, int w)
   m.c12 = gg_sub(m.c[0], m.c[1]);
   e->resolve_surface_shown(e, i, w);
   m.J = gg_scale(e->model.mass[m.species[0]], gg_sub(m.c[0], e->grain[i].v));
-  show_turns(e, i, i, &m);
+  show_spin_changes(e, i, i, &m);
   e->callback(e->callback_context, &m);
 }
 

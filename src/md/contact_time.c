@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The contact time, in units of the mean free time that is measured; but no less than half of what it is, by Enskog,
- * for grains as fast as they are now. In a collapse collisions come ever faster, and a contact time that followed them
- * would shrink with the time between them, and end nothing. */
+/* The contact time, in units of the measured mean free time, but of no less than half of Enskog's mean free time at the
+ * present temperature. In an inelastic collapse the time between collisions shrinks, and a contact time that followed
+ * it would not end the collapse. */
 #include <math.h>
 
-#include "md/md_state.h"
+#include "md/epoch.h"
 
 static gg_vec peculiar(const gg_md *e, const gg_md_grain *g)
 {
@@ -33,12 +33,13 @@ double gg_md_early_temperature(const gg_md *e, double T)
   return fmax(T, fmax(sheared, bath));
 }
 
-/* What gravity along y has to lift a grain across the box, over the temperature, below which it holds nobody down. */
+/* Largest energy m g L_y, over the temperature, of a gravity that keeps no grain down. */
 #define LIGHT 1.0
 
-/* Grains come to rest on a wall and on each other, where the mean free time shrinks to t_c itself: t_c is set by how
- * long it takes to fall a diameter instead. But under a gravity so weak that it stirs none of them that is longer than
- * all free times, and no collision would lose any energy: there both limit it. */
+/* Unit of the contact time. Under gravity grains come to rest on a wall and on each other, where the mean free time
+ * shrinks to t_c itself: there the unit is the time of a fall by a diameter. But under very weak gravity that is longer
+ * than all times between collisions, and no collision would lose energy: there the smaller of both times is the unit.
+ */
 static double unit_of(const gg_md *e, double free_time, double T)
 {
   const double g = fabs(e->gravity.y), fall = 1 / sqrt(g);

@@ -5,7 +5,7 @@
 
 #include "base/memory.h"
 
-/* `exact` lies between two neighbours; how many turns of all must take the upper one? */
+/* Number of the GG_MD_DITHERS collisions that must round up so that the mean is `exact`; its two neighbours. */
 static int upper_turns(long double exact, double *lower, double *upper)
 {
   double nearest = (double)exact;
@@ -15,33 +15,33 @@ static int upper_turns(long double exact, double *lower, double *upper)
   return (int)lrintl((exact - *lower) / ((long double)*upper - *lower) * GG_MD_DITHERS);
 }
 
-/* Spread evenly: does turn k go up, if `count` turns do? */
-static bool goes_up(int k, int count)
+/* Does dither k round up, if `count` of all do, evenly distributed? */
+static bool rounds_up(int k, int count)
 {
   return (k + 1) * count / GG_MD_DITHERS > k * count / GG_MD_DITHERS;
 }
 
-/* `turn`: the first one; the next ones are as far apart as there are pairs. */
-static void make_turns(gg_md_contacts *c, gg_contact *turn, const gg_contact *rounded, double e, double beta)
+/* Make the dithered contacts of a pair. `dithered`: the first one; the next ones are n_pairs further. */
+static void make_dithered(gg_md_contacts *c, gg_contact *dithered, const gg_contact *rounded, double e, double beta)
 {
   long double mr = (long double)rounded->im1 + rounded->im2;
   long double mt = mr + ((long double)rounded->ik1 + rounded->ik2);
   double lower[2], upper[2];
   int up[2] = {upper_turns((1 + (long double)e) / mr, &lower[0], &upper[0]),
                upper_turns((1 + (long double)beta) / mt, &lower[1], &upper[1])};
-  for (int k = 0; k < GG_MD_DITHERS; k++, turn += c->n_pairs) {
-    *turn = *rounded;
-    turn->jn = goes_up(k, up[0]) ? upper[0] : lower[0];
-    if (rounded->jt > 0) turn->jt = goes_up(k, up[1]) ? upper[1] : lower[1];
+  for (int k = 0; k < GG_MD_DITHERS; k++, dithered += c->n_pairs) {
+    *dithered = *rounded;
+    dithered->jn = rounds_up(k, up[0]) ? upper[0] : lower[0];
+    if (rounded->jt > 0) dithered->jt = rounds_up(k, up[1]) ? upper[1] : lower[1];
   }
-  if (up[0] || (up[1] && rounded->jt > 0)) c->turns = GG_MD_DITHERS - 1;
+  if (up[0] || (up[1] && rounded->jt > 0)) c->dither_mask = GG_MD_DITHERS - 1;
 }
 
 double gg_md_contact_normal_coefficient(const gg_contact *c, double e, uint64_t number)
 {
   double lower, upper;
   int up = upper_turns((1 + (long double)e) / ((long double)c->im1 + c->im2), &lower, &upper);
-  return goes_up((int)(number % GG_MD_DITHERS), up) ? upper : lower;
+  return rounds_up((int)(number % GG_MD_DITHERS), up) ? upper : lower;
 }
 
 static void make_pair(gg_md_contacts *c, const gg_model *m, int i, int j)
@@ -50,8 +50,8 @@ static void make_pair(gg_md_contacts *c, const gg_model *m, int i, int j)
   c->sigma2[o] = m->sigma[q] * m->sigma[q];
   c->inverse[o] = 1 / sqrt(c->sigma2[o]);
   c->residue[o] = (double)((long double)c->sigma2[o] * c->inverse[o] * c->inverse[o] - 1);
-  make_turns(c, c->contact + o, &m->contact[i][j], m->e[q], m->beta[q]);
-  make_turns(c, c->treated + o, &m->treated[i][j], 1, gg_common_treated_beta(m, i, j));
+  make_dithered(c, c->contact + o, &m->contact[i][j], m->e[q], m->beta[q]);
+  make_dithered(c, c->treated + o, &m->treated[i][j], 1, gg_common_treated_beta(m, i, j));
 }
 
 gg_status gg_md_contacts_make(gg_md_contacts *c, const gg_model *m, gg_error *err)

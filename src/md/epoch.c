@@ -1,23 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The end of an epoch: every grain is brought to it, all times are re-zeroed there, and what was tuned to the rate of
- * events (the buckets of the event queue, the contact time) is tuned anew. It comes when the queue runs out, a matter
- * of the trajectory alone: never of how a caller cuts a run. */
+/* The end of an epoch: every grain is brought to this time, all times are re-zeroed, and the buckets of the event queue
+ * and the contact time are tuned to the present rate of events. An epoch ends when the queue is empty, which depends on
+ * the trajectory alone, not on how a caller divides a run. */
 #include <math.h>
 
+#include "md/epoch.h"
+#include "md/grid.h"
 #include "md/kicks.h"
 #include "md/md_thermostat.h"
+#include "md/row_motion.h"
 
 enum { COLLISIONS_TO_MEASURE = 16 };
 
-/* Few binary digits, so that spans of whole buckets subtract exactly. */
-double gg_md_bucket_width(double events_per_time)
-{
-  int exponent;
-  double mantissa = frexp(GG_MD_BUCKET_MEAN / events_per_time, &exponent);
-  return ldexp(floor(8 * mantissa), exponent - 3);
-}
-
-/* The present mean free time per grain: each collision counts for both partners. */
+/* Measure the present mean free time per grain; each collision counts for both partners. */
 static void measure_mean_free_time(gg_md *e, double span)
 {
   gg_md_counts *k = &e->k;
@@ -28,7 +23,7 @@ static void measure_mean_free_time(gg_md *e, double span)
   k->window_collisions = 0;
 }
 
-/* When something happens next, or any time before `soon` at which something does. */
+/* Time of the next event, or of any event before `soon`. */
 static double earliest_event(const gg_md *e, double soon)
 {
   double t = INFINITY;
@@ -37,7 +32,7 @@ static double earliest_event(const gg_md *e, double soon)
   return t;
 }
 
-/* Skins under shear are kept by where they stand at the epoch's start. */
+/* Move the centres of skins under shear to their positions at the start of the next epoch. */
 static void move_skins(gg_md *e, double span)
 {
   for (uint32_t i = 0; i < e->n; i++) {
@@ -52,9 +47,9 @@ static void move_skins(gg_md *e, double span)
 bool gg_md_next_epoch(gg_md *e)
 {
   double span = gg_md_queue_span(&e->queue), wait = earliest_event(e, 2 * span);
-  if (!(wait < INFINITY)) return false; /* all at rest, or each just as its row */
+  if (!(wait < INFINITY)) return false; /* all grains are at rest, or move with their rows */
   if (gg_md_search_has_rows(e->search.kind) && e->search.rows.next_shift < wait) wait = e->search.rows.next_shift;
-  while (span < 0.5 * wait) span *= 2; /* nothing happens for long: skip it */
+  while (span < 0.5 * wait) span *= 2; /* skip a long time without events */
   e->k.window_collisions += e->k.collisions - e->k.epoch_collisions;
   measure_mean_free_time(e, span);
   e->box.offset0 = gg_md_offset(&e->box, span);

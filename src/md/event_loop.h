@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The event loop: pop, re-check, advance the pair, collide, re-predict.
  *
- * Each grain has one entry in the event queue: the earliest of the collisions that it saw when it was last predicted
- * and of its next crossing. That no collision is missed: for every pair the one predicted last saw the other as it
- * moves now, so its entry is no later than their contact. A collision whose partner has collided since (its counter
- * tells) was merely a lower limit: the grain is re-predicted when that time comes. */
+ * Each grain has one entry in the event queue: the earliest of its predicted collisions and its next crossing. No
+ * collision is missed: of every pair the grain that was predicted last knew the present motion of the other, so its
+ * entry is no later than their contact. If the partner has collided since, by its collision counter, the predicted time
+ * was only a lower limit: the grain is re-predicted at that time. */
 #ifndef GG_MD_EVENT_LOOP_H
 #define GG_MD_EVENT_LOOP_H
 
+#include "md/epoch.h"
+#include "md/resolution.h"
 #include "md/search/near_surfaces.h"
 #include "md/search/neighbour_search.h"
 #include "md/search/simd_pairs.h"
@@ -27,7 +29,8 @@ GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s)
   gg_md_queue_insert(&e->queue, e->node, s->grain);
 }
 
-/* Its record stands at the present time, and is not written: at a start threads predict side by side. */
+/* Search from scratch for a grain whose record is at the present time. The record is not written: at a start several
+ * threads predict at once. */
 GG_INLINE void gg_md_search_anew(gg_md *e, gg_md_search *s, uint32_t i)
 {
   e->node[i].collision = INFINITY;
@@ -43,13 +46,13 @@ GG_INLINE void gg_md_predict_in_place(gg_md *e, uint32_t i)
   gg_md_schedule(e, &s);
 }
 
-/* A call, for what is rare. */
+/* The same as a call, for rare events. */
 static __attribute__((noinline)) void gg_md_predict(gg_md *e, uint32_t i)
 {
   gg_md_predict_in_place(e, i);
 }
 
-/* The partner has collided since. */
+/* Re-predict a grain whose partner has collided since. */
 GG_INLINE void gg_md_re_predict(gg_md *e, uint32_t i)
 {
   gg_md_synchronise(e, i);
@@ -59,7 +62,7 @@ GG_INLINE void gg_md_re_predict(gg_md *e, uint32_t i)
     gg_md_predict(e, i);
 }
 
-/* Both searches before either goes into the event queue: the processor works on both at a time. */
+/* Predict two grains. Both searches precede both insertions into the event queue, so the processor overlaps them. */
 GG_INLINE void gg_md_predict_two(gg_md *e, uint32_t i, uint32_t j)
 {
   gg_md_search one = {.candidates = e->candidates}, two = {.candidates = e->candidates + GG_MD_CANDIDATES_APART};
@@ -91,7 +94,7 @@ GG_INLINE void gg_md_hit_surface(gg_md *e, uint32_t i, int surface)
   if (gg_md_is_velocity(e, g)) gg_md_predict(e, i);
 }
 
-/* Bring what the events of a new bucket will read into the cache while the first of them are handled. */
+/* Prefetch the data of all events of a new bucket. */
 GG_INLINE void gg_md_prefetch_bucket(const gg_md *e)
 {
   if (e->n <= CACHED) return;
@@ -102,7 +105,7 @@ GG_INLINE void gg_md_prefetch_bucket(const gg_md *e)
   }
 }
 
-/* While one event is handled, what the next but one will read is on its way. */
+/* Prefetch the data of the next event but one. */
 GG_INLINE void gg_md_prefetch_next(const gg_md *e)
 {
   uint32_t n = e->queue.n_due;
@@ -113,13 +116,13 @@ GG_INLINE void gg_md_prefetch_next(const gg_md *e)
     gg_md_prefetch_ahead(e, e->queue.due[n - 2].grain);
 }
 
-/* The next event of all; GG_MD_NONE if there is none before e->k.stop. Rows shift after all events up to then and
- * before all later ones: a matter of the trajectory alone. */
+/* Grain of the next event; GG_MD_NONE: none before e->k.stop. Rows shift after all events up to that time and before
+ * all later ones, so shifts depend on the trajectory alone. */
 GG_INLINE uint32_t gg_md_next(gg_md *e)
 {
   for (;;) {
     while (e->queue.n_due == 0)
-      if (gg_md_queue_turn(&e->queue, e->node))
+      if (gg_md_queue_next_bucket(&e->queue, e->node))
         gg_md_prefetch_bucket(e);
       else if (ROWS_SHIFT && e->search.rows.next_shift <= gg_md_queue_span(&e->queue) &&
                e->search.rows.next_shift <= e->k.stop)

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The instances of the event loop (instance.c, meson.build), and which of them a scene needs. */
+/* Table of the instances of the event loop (instance.c, meson.build), and the choice for a scene. */
 #include "md/event_loops.h"
 
 #include <assert.h>
 
-/* Their names, searches and boundaries, as in meson.build; each for one species, and for a mixture; between walls, and
- * in sets compiled quickly (GG_MD_ENTRY_...), the latter serves both. */
+#include "md/resolution.h"
+
+/* Names, searches and boundaries of the instances, as in meson.build. Each has a version for one species and one for
+ * mixtures; between walls, and in sets compiled quickly (GG_MD_ENTRY_...), the latter serves both. */
 #define EACH_INSTANCE(X, BOTH, set)                                                                                    \
   X(cells_periodic, GG_MD_PLAIN_CELLS, GG_MD_PERIODIC, set)                                                            \
   BOTH(cells_walled, GG_MD_PLAIN_CELLS, GG_MD_WALLED, set)                                                             \
@@ -51,14 +53,15 @@ static enum gg_md_boundary boundary_of(const gg_md *e)
   return e->model.walled ? GG_MD_WALLED : GG_MD_PERIODIC;
 }
 
-/* The nearest image of all that the cells around hold must be the one tried: four cells along each axis. */
+/* Are there four cells along each axis? Then the nearest image of every grain in the cells around is the image tried.
+ */
 static bool is_wide_enough(const gg_md *e)
 {
   return e->cells.n[0] >= 4 && e->cells.n[1] >= 4 && e->cells.n[2] >= 4;
 }
 
-/* The reference path, one pair at a time: for tests, and for boxes of a few cells. */
-static bool takes_plain_path(const gg_md *e, gg_md_search_kind kind)
+/* Does this engine use the reference path, one pair at a time? For tests, and for boxes of a few cells. */
+static bool uses_plain_path(const gg_md *e, gg_md_search_kind kind)
 {
   if (kind == GG_MD_NEIGHBOUR_LISTS || gg_md_search_overlaps(kind)) return false;
   return e->plain || (kind == GG_MD_PLAIN_CELLS && (e->model.shear_rate != 0 || !is_wide_enough(e)));
@@ -67,7 +70,7 @@ static bool takes_plain_path(const gg_md *e, gg_md_search_kind kind)
 void gg_md_select(gg_md *e)
 {
   const gg_md_search_kind kind = e->search.kind;
-  if (takes_plain_path(e, kind))
+  if (uses_plain_path(e, kind))
     e->kernel = kind == GG_MD_COMOVING_ROWS ? &gg_md_kernel_plain_rows : &gg_md_kernel_plain_cells;
   else
     e->kernel = gg_md_simd_kernel(gg_simd_instructions_best(), kind, boundary_of(e), e->model.n_species > 1);

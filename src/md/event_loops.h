@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The instances of the event loop, by what a scene needs: each compiled into an object of its own (instance.c), those
- * that predict eight pairs at a time once more for every set of instructions. All of them give the same bits. */
-#ifndef GG_MD_KERNELS_H
-#define GG_MD_KERNELS_H
+/* Instances of the event loop, by the features of a scene. Each is compiled into an object of its own (instance.c), and
+ * instances that predict eight pairs at a time once for every set of instructions. All give the same bits. */
+#ifndef GG_MD_EVENT_LOOPS_H
+#define GG_MD_EVENT_LOOPS_H
 
 #include "md/md_state.h"
 #include "simd/dispatch.h"
 
 enum gg_md_boundary { GG_MD_PERIODIC, GG_MD_SHEARED, GG_MD_WALLED, GG_MD_FALLING };
 
-/* The instance of a compiled set of instructions; NULL where there is no such thing. */
+/* Instance of a compiled set of instructions; NULL: none with these features. */
 const gg_md_kernel *gg_md_simd_kernel(gg_instructions set, gg_md_search_kind kind, enum gg_md_boundary boundary,
                                       bool mixture);
+
+/* Select the kernel and the resolutions that this model and its collision sums need. */
+void gg_md_select(gg_md *e);
 
 #endif

@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The grid of cells, and what goes with the kind of search. */
+/* The grid of cells, and the data of a search beside it. */
+#include "md/grid.h"
+
 #include "base/memory.h"
-#include "md/md_state.h"
+#include "md/md_allocate.h"
 #include "md/overlapping_members.h"
+#include "md/row_motion.h"
+#include "md/select_search.h"
+#include "md/start/all_grains.h"
 
 void gg_md_set_skins(gg_md *e, double radius)
 {
@@ -18,13 +23,13 @@ gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err)
 {
   int32_t n[3];
   if (!gg_md_fit_lists(&e->model, radius, n)) return GG_OK;
-  /* Such cells hold four or five grains on average: room for fifteen at once, before the lists take theirs. */
+  /* These cells hold four or five grains on average: make room for fifteen before memory of the lists is allocated. */
   GG_TRY(gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(&e->model) + 2 * radius, err));
   if (!gg_md_cells_grow(&e->cells)) return gg_base_out_of_memory_for(err, "the grid of cells");
-  GG_TRY(gg_md_look(e, err)); /* memory of a gigabyte is cleared for a while */
+  GG_TRY(gg_md_poll_stop(e, err)); /* clearing a gigabyte of memory takes a while */
   GG_TRY(gg_md_allocate_lists(e, err));
   gg_md_set_skins(e, radius);
-  return gg_md_note_surfaces(e, err);
+  return gg_md_find_near_surfaces(e, err);
 }
 
 gg_status gg_md_make_cells(gg_md *e, const int32_t n[3], double reach, gg_error *err)
@@ -42,14 +47,14 @@ gg_status gg_md_make_grid(gg_md *e, gg_error *err)
   if (kind == GG_MD_NEIGHBOUR_LISTS) return gg_md_make_lists(e, radius, err);
   e->search.kind = kind;
   GG_TRY(gg_md_make_cells(e, n, gg_md_reach(&e->model), err));
-  GG_TRY(gg_md_note_surfaces(e, err));
+  GG_TRY(gg_md_find_near_surfaces(e, err));
   if (!gg_md_search_has_rows(kind)) return GG_OK;
   GG_TRY(gg_md_make_rows(e, err));
   gg_md_align_rows(e);
   return GG_OK;
 }
 
-/* The cells that grains lie in, and the cells filled with them. */
+/* Find the cells of a grain from its position. */
 static void enter(gg_md *e, uint32_t i)
 {
   const gg_vec r = e->grain[i].r;

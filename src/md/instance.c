@@ -12,7 +12,7 @@ static void run(gg_md *e)
   gg_md_run_events(e);
 }
 
-/* Grains anew: at a start, or after kicks to all. */
+/* Predict grains from scratch: at a start, or after kicks. */
 static void predict(gg_md *e, uint32_t from, uint32_t to)
 {
   for (uint32_t i = from; i < to; i++) gg_md_predict(e, i);

@@ -1,32 +1,32 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Kicks: random changes of velocity at times of their own, between the events of the queue, after which those grains
- * alone are predicted anew.
+/* Kicks: random changes of velocity by a schedule of their own, between the events of the queue. Only kicked grains are
+ * re-predicted.
  *
- * White noise adds xi^2 t to the variance of each component of a velocity. Each grain has a turn at regular intervals,
- * the turns of all evenly in time and space: T is steady. At a turn two grains of a species get opposite kicks, or
- * none: momentum stays zero. What is left of the interval in the distribution of velocities is of second order in it.
- */
+ * White noise adds xi^2 t to the variance of each component of a velocity. The kick schedule gives each grain a slot at
+ * regular intervals; the slots of all grains are distributed evenly in time and space, so T is steady. In a slot two
+ * grains of a species get opposite kicks, or none: momentum stays zero. The effect of a finite interval on the
+ * distribution of velocities is of second order. */
 #ifndef GG_MD_KICKS_H
 #define GG_MD_KICKS_H
 
 #include "md/md_state.h"
 
-/* A bath does at each turn what drag and noise would have done since the last one (an Ornstein-Uhlenbeck process, exact
- * for a grain that has not collided since); the two grains get opposite Gaussian kicks. */
+/* Does the thermostat kick grains? In a slot of a bath both grains undergo the drag and noise of the whole interval (an
+ * Ornstein-Uhlenbeck process, exact for a grain without collisions in between), with opposite Gaussian kicks. */
 static inline bool gg_md_has_kicks(const gg_md *e)
 {
   return e->thermostat == GG_WHITE_NOISE || e->thermostat == GG_BATH;
 }
 
-/* Who has a turn when; all of it follows from the model and the grains. */
+/* Make the kick schedule; it follows from the model and the species of the grains. */
 gg_status gg_md_kicks_make(gg_md *e, gg_error *err);
-/* At a start: everybody's first turn is to come. */
+/* Set the first slot of each species at a start. */
 void gg_md_kicks_begin(gg_md *e);
-/* An epoch of this length is over. */
+/* Shift the times of the schedule by an epoch of this length. */
 void gg_md_kicks_move(gg_md *e, double span);
-/* More frequent turns where a gas in a bath has become hotter than they are made for. */
+/* Shorten the intervals if a gas in a bath has become too hot for them. */
 void gg_md_kicks_follow(gg_md *e, double temperature);
-/* The turn that is due at the present time, k.next_kick. */
+/* Run the slot that is due at the present time, k.next_kick. */
 void gg_md_kick(gg_md *e);
 
 #endif

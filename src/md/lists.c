@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* All lists anew: the searches of search/list_update.h for any boundary and mixture. */
+/* Rebuild of all neighbour lists, by the searches of search/list_update.h for any boundary and mixture. */
+#include "md/grid.h"
 #include "md/search/list_update.h"
 #include "md/start/all_grains.h"
 
-/* Lists of some grains from cells that are there, all skins being new. False: some list is too long. */
+/* Fill the lists of some grains from the cells, after all skins were renewed. False: a list is too long. */
 static bool fill_lists(gg_md *e, uint32_t from, uint32_t to)
 {
   uint32_t found[GG_MD_FOUND];
@@ -22,7 +23,7 @@ bool gg_md_build_lists(gg_md *e, const gg_stop *stop)
   for (uint32_t i = 0; i < e->n; i++) gg_md_new_skin(e, i);
   gg_md_fill_grid(e);
   gg_md_all_grains how;
-  while ((how = gg_md_for_all_grains(e, fill_lists, stop)) == GG_MD_IN_VAIN)
+  while ((how = gg_md_for_all_grains(e, fill_lists, stop)) == GG_MD_GIVEN_UP)
     gg_md_set_skins(e, 0.95 * e->search.lists.radius);
   e->out_of_memory |= how == GG_MD_NO_MEMORY;
   return how == GG_MD_ALL_DONE;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which models the engine runs. */
+/* Models that the engine runs. */
 #include <math.h>
 
-#include "md/md_engine.h"
-#include "md/md_state.h"
+#include "md/md_operations.h"
+#include "md/select_search.h"
 
-/* Along a periodic edge a grain in a narrower box would meet two images of another; between walls two grains could not
- * pass each other, which neither the start nor the cells provide for. */
+/* Reject narrow boxes. Along a periodic edge a grain would meet two images of another; between walls two grains could
+ * not pass each other, for which neither the start nor the cells are made. */
 static gg_status check_box(const gg_model *m, gg_error *err)
 {
   static const char *const edges[] = {"box edge along x", "box edge along y", "box edge along z"};
@@ -26,7 +26,7 @@ static gg_status check_box(const gg_model *m, gg_error *err)
   return GG_OK;
 }
 
-/* A grain that meets nobody crosses cell after cell, and the box again and again: each crossing is an event. */
+/* Most crossings of cells between two collisions. In a very dilute gas each grain crosses the box again and again. */
 #define MOST_CROSSINGS 1e7
 
 static gg_status check_crossings(const gg_model *m, gg_error *err)

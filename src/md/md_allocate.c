@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "md/md_allocate.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "common/thermostat.h"
 #include "md/aligned_memory.h"
-#include "md/md_engine.h"
-#include "md/md_state.h"
 #include "md/parallel/parallel.h"
+#include "md/select_search.h"
 #include "simd/dispatch.h"
 
 gg_status gg_md_allocate_last(gg_md *e, gg_error *err)
@@ -49,7 +50,6 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
   GG_TRY(gg_simd_instructions_check(err));
   gg_md *e = gg_base_array_new(1, sizeof *e, err);
   if (!e) return GG_FAILED;
-  e->base.ops = &gg_md_ops;
   e->model = *model;
   for (int a = 0; a < 3; a++) {
     e->box.edge[a] = model->box[a];
@@ -103,8 +103,7 @@ void gg_md_free(gg_md *e)
   free(e);
 }
 
-/* How much memory that will be, cells and queue included. */
-/* Grains in a cell on average; where cells overlap, a grain is in more than one. */
+/* Mean number of grains in a cell; a grain is in several overlapping cells. */
 static double grains_per_cell(const gg_model *m, gg_md_search_kind kind, const int32_t n[3])
 {
   double per_cell = (double)m->n;
@@ -115,7 +114,8 @@ static double grains_per_cell(const gg_model *m, gg_md_search_kind kind, const i
   return per_cell;
 }
 
-/* Cells hold seven grains, and all get twice the room when one is full: five deviations above the mean somewhere. */
+/* Memory of the cells. Cells hold seven grains, and the room of all is doubled when one is full: at five standard
+ * deviations above the mean. */
 static double bytes_of_cells(const gg_model *m, gg_md_search_kind kind, const int32_t n[3])
 {
   const double mean = grains_per_cell(m, kind, n), fullest = mean + 5 * sqrt(mean);

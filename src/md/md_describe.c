@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the engine makes of a model, in words. */
+/* Description of the methods for a model, for `graingas info`. */
 #include <stdio.h>
 
-#include "md/md_engine.h"
+#include "md/md_operations.h"
 #include "md/parallel/parallel.h"
+#include "md/select_search.h"
 
-static void tell(void (*line)(void *, const char *), void *context, const char *what, const char *how)
+static void describe(void (*line)(void *, const char *), void *context, const char *what, const char *how)
 {
   char text[200];
   snprintf(text, sizeof text, "%s: %s", what, how);
   line(context, text);
 }
 
-/* Where partners are searched for, and why there. */
-static void tell_search(const gg_model *m, void (*line)(void *, const char *), void *context)
+/* Describe the neighbour search, and why it was chosen. */
+static void describe_search(const gg_model *m, void (*line)(void *, const char *), void *context)
 {
   double radius;
   int32_t n[3];
@@ -35,29 +36,29 @@ static void tell_search(const gg_model *m, void (*line)(void *, const char *), v
   if (kind == GG_MD_NEIGHBOUR_LISTS)
     used += snprintf(text + used, sizeof text - (size_t)used, "skins of %.2g d, ", radius);
   snprintf(text + used, sizeof text - (size_t)used, "%s", why[kind]);
-  tell(line, context, "search", text);
+  describe(line, context, "search", text);
   double crossings = gg_md_crossings_per_collision(m);
   if (crossings < 100) return;
   snprintf(text, sizeof text, "%.2g a collision: so dilute a gas is slow; engine: dsmc is exact there", crossings);
-  tell(line, context, "crossings of cells", text);
+  describe(line, context, "crossings of cells", text);
 }
 
-/* How many threads one run can use, or why one does all. */
-static void tell_threads(const gg_model *m, void (*line)(void *, const char *), void *context)
+/* Describe the number of threads that a run can use, or why it is one. */
+static void describe_threads(const gg_model *m, void (*line)(void *, const char *), void *context)
 {
   char text[160];
   const char *serial = gg_md_serial_because(m);
   if (serial)
     snprintf(text, sizeof text, "one a replica, because of %s", serial);
-  else if (m->n < GG_MD_FEWEST_SHARED)
-    snprintf(text, sizeof text, "one a replica below %d grains", GG_MD_FEWEST_SHARED);
+  else if (m->n < GG_MD_FEWEST_PARALLEL)
+    snprintf(text, sizeof text, "one a replica below %d grains", GG_MD_FEWEST_PARALLEL);
   else
     snprintf(text, sizeof text, "up to %d a replica share its events, with the same bits", gg_md_most_slabs(m));
-  tell(line, context, "threads", text);
+  describe(line, context, "threads", text);
 }
 
-/* "a wall below, a wall above, periodic along x, z" */
-static void tell_walls(const gg_model *m, void (*line)(void *, const char *), void *context)
+/* Describe the box: "a wall below, a wall above, periodic along x, z". */
+static void describe_walls(const gg_model *m, void (*line)(void *, const char *), void *context)
 {
   char text[160];
   size_t used = 0;
@@ -76,7 +77,7 @@ static void tell_walls(const gg_model *m, void (*line)(void *, const char *), vo
     used += (size_t)snprintf(text + used, sizeof text - used, "%s%c", before, "xyz"[a]);
     before = ", ";
   }
-  tell(line, context, "box", text);
+  describe(line, context, "box", text);
 }
 
 void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)
@@ -84,18 +85,18 @@ void gg_md_describe(const gg_model *m, void (*line)(void *context, const char *t
   static const char *const rules[] = {"smooth: no spins, no tangential impulse", "rough, constant beta",
                                       "frictional (Coulomb)"};
   char timing[100];
-  tell(line, context, "contact", rules[m->rule]);
+  describe(line, context, "contact", rules[m->rule]);
   if (m->walled)
-    tell_walls(m, line, context);
+    describe_walls(m, line, context);
   else
-    tell(line, context, "box", m->shear_rate != 0 ? "periodic, Lees-Edwards shear" : "periodic, no shear");
+    describe(line, context, "box", m->shear_rate != 0 ? "periodic, Lees-Edwards shear" : "periodic, no shear");
   bool falls = m->gravity[0] != 0 || m->gravity[1] != 0 || m->gravity[2] != 0;
-  tell(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
-  tell(line, context, "species", m->n_species > 1 ? "several: coefficients by pair" : "one: coefficients fixed");
-  if (m->law.name) tell(line, context, "restitution", "from the speed of each collision");
+  describe(line, context, "gravity", falls ? "parabolic flight" : "off: straight flight");
+  describe(line, context, "species", m->n_species > 1 ? "several: coefficients by pair" : "one: coefficients fixed");
+  if (m->law.name) describe(line, context, "restitution", "from the speed of each collision");
   snprintf(timing, sizeof timing, "on, t_c = %g %s", m->contact_time, gg_common_model_contact_unit(m));
-  tell(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
-  tell_search(m, line, context);
-  tell_threads(m, line, context);
-  tell(line, context, "collision sums", "while stresses are measured; else only counts");
+  describe(line, context, "contact-time rule", m->contact_time > 0 ? timing : "off: no memory of collisions");
+  describe_search(m, line, context);
+  describe_threads(m, line, context);
+  describe(line, context, "collision sums", "while stresses are measured; else only counts");
 }

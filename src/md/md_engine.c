@@ -4,106 +4,23 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "md/epoch.h"
+#include "md/event_loops.h"
 #include "md/kicks.h"
-#include "md/md_engine.h"
+#include "md/md_allocate.h"
+#include "md/md_operations.h"
 #include "md/md_thermostat.h"
 #include "md/parallel/parallel.h"
-#include "md/start/all_grains.h"
-
-/* A fall gives its grains a temperature of its own, whatever they start from: m g times some of the height, where that
- * is much more. Events that come much faster than guessed wait in one bucket, all of them, for the whole first epoch.
- */
-static double soon_temperature(const gg_md *e, double T)
-{
-  const double *g = e->model.gravity;
-  return fmax(T, 0.01 * e->model.mass[0] * hypot(g[0], g[1]) * e->model.box[1]);
-}
-
-/* Events expected per time at the start: collisions (each predicted about 1.25 times) and crossings. */
-static double guess_event_rate(const gg_md *e, double T)
-{
-  double rate = 0.625 * gg_common_model_collision_rate(&e->model, T);
-  for (int a = 0; a < 3; a++) rate += 0.8 * sqrt(T) / e->cells.width[a];
-  return e->n * fmax(rate, 1e-300);
-}
-
-static gg_status stopped_at_start(const gg_md *e, gg_error *err)
-{
-  if (e->out_of_memory) return gg_base_out_of_memory_for(err, "the start of md");
-  return gg_base_fail(err, GG_INTERRUPTED, "md: stopped at the start");
-}
-
-static bool predict_some(gg_md *e, uint32_t from, uint32_t to)
-{
-  e->kernel->predict(e, from, to);
-  return true;
-}
-
-gg_status gg_md_look(const gg_md *e, gg_error *err)
-{
-  return e->n > GG_MD_GRAINS_BETWEEN_LOOKS && gg_stop_asked(e->model.stop) ? stopped_at_start(e, err) : GG_OK;
-}
-
-static gg_status predict_all(gg_md *e, gg_error *err)
-{
-  for (uint32_t i = 0; i < e->n; i++) e->node[i].time = INFINITY;
-  const gg_md_all_grains how = gg_md_for_all_grains(e, predict_some, e->model.stop);
-  e->out_of_memory |= how == GG_MD_NO_MEMORY;
-  if (how != GG_MD_ALL_DONE) return stopped_at_start(e, err);
-  for (uint32_t i = 0; i < e->n; i++) gg_md_queue_insert(&e->queue, e->node, i);
-  return GG_OK;
-}
-
-/* From places and velocities to a run that can continue. */
-gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err)
-{
-  if (!e->cells.cell) GG_TRY(gg_md_make_grid(e, err));
-  GG_TRY(gg_md_kicks_make(e, err));
-  GG_TRY(gg_md_look(e, err));
-  if (e->search.kind == GG_MD_NEIGHBOUR_LISTS) {
-    if (!gg_md_build_lists(e, e->model.stop)) return stopped_at_start(e, err);
-  } else {
-    gg_md_enter_grid(e);
-    GG_TRY(gg_md_look(e, err));
-    if (!gg_md_fill_grid(e)) return gg_base_out_of_memory_for(err, "the grid of cells");
-  }
-  GG_TRY(gg_md_look(e, err));
-  const double early = gg_md_early_temperature(e, T); /* to guess by */
-  e->k.mean_free_time = 1 / fmax(gg_common_model_collision_rate(&e->model, early), 1e-300);
-  gg_md_begin_contact_time(e, T);
-  if (e->last)
-    for (uint32_t i = 0; i < e->n; i++) e->last[i] = -INFINITY;
-  gg_md_queue_reset(&e->queue, gg_md_bucket_width(guess_event_rate(e, soon_temperature(e, early))));
-  gg_md_select(e);
-  gg_md_thermostat_begin(e);
-  gg_md_kicks_begin(e);
-  GG_TRY(gg_md_look(e, err));
-  return predict_all(e, err);
-}
-
-gg_status gg_md_begin(gg_md *e, gg_error *err)
-{
-  return gg_md_begin_at(e, e->model.temperature0, err);
-}
+#include "md/row_motion.h"
+#include "md/start/start.h"
+#include "md/verify.h"
 
 static void destroy(gg_engine *engine)
 {
   gg_md_free((gg_md *)engine);
 }
 
-/* Outside time since the present advance began. */
-static double outer_now(const gg_md *e)
-{
-  return e->k.outer + (e->k.now - e->k.mark) / e->k.scale;
-}
-
-/* Of a Gaussian thermostat outside. */
-double gg_md_time(const gg_md *e)
-{
-  return e->thermostat == GG_GAUSSIAN ? e->k.outer_time + outer_now(e) : e->k.epoch_start + e->k.now;
-}
-
-/* Clock, counts and random stream of another engine; its images, too, stand where they stood. */
+/* Take clock, counts and random stream from another engine. */
 static void take_over(gg_md *e, const gg_md *before)
 {
   gg_md_counts *k = &e->k;
@@ -136,8 +53,9 @@ static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stre
   gg_md *e;
   GG_TRY(gg_md_accepts(model, err));
   if (!grains->r && !before && gg_md_starts_in_equilibrium(model))
-    return gg_md_create_in_equilibrium(model, seed, stream, grains, engine, err);
+    return gg_md_create_in_equilibrium(&gg_md_ops, model, seed, stream, grains, engine, err);
   GG_TRY(gg_md_allocate(model, &e, err));
+  e->base.ops = &gg_md_ops;
   gg_status status = begin_with(e, seed, stream, grains, (const gg_md *)before, err);
   if (status == GG_OK)
     *engine = &e->base;
@@ -150,8 +68,10 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
 {
   gg_md *e;
   GG_TRY(gg_md_accepts(model, err));
-  if (gg_md_starts_in_equilibrium(model)) return gg_md_create_in_equilibrium(model, seed, stream, NULL, engine, err);
+  if (gg_md_starts_in_equilibrium(model))
+    return gg_md_create_in_equilibrium(&gg_md_ops, model, seed, stream, NULL, engine, err);
   GG_TRY(gg_md_allocate(model, &e, err));
+  e->base.ops = &gg_md_ops;
   gg_status status = gg_md_start(e, seed, stream, NULL, err);
   if (status == GG_OK) status = gg_md_begin(e, err);
   if (status == GG_OK)
@@ -161,11 +81,20 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
   return status;
 }
 
-/* Between looks at whether to stop: some milliseconds. */
-enum { EVENTS_BETWEEN_LOOKS = 1 << 14, EVENTS_BETWEEN_WINDOWS = 16 };
+static gg_status restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
+{
+  GG_TRY(gg_md_restore(model, archive, engine, err));
+  (*engine)->ops = &gg_md_ops;
+  return GG_OK;
+}
 
-/* Events up to k.stop; false if it was stopped on the way. So many events at one and the same time are a grain that
- * comes to rest on a wall without the contact-time rule: no time will go by any more. */
+enum {
+  EVENTS_PER_POLL = 1 << 14,  /* between polls of `stop`: some milliseconds */
+  EVENTS_BETWEEN_WINDOWS = 16 /* serial events after parallel windows */
+};
+
+/* Run events up to k.stop. False: stopped. If time does not advance between two polls, a grain comes to rest on a wall
+ * without the contact-time rule: time will never advance again. */
 static bool run_leg(gg_md *e)
 {
   for (;;) {
@@ -176,14 +105,14 @@ static bool run_leg(gg_md *e)
     if (e->k.events < e->look_at) return true;
     e->stands_still = e->k.now == before && e->model.walled && e->model.contact_time == 0;
     if (e->stands_still) return true;
-    e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
+    e->look_at = e->k.events + EVENTS_PER_POLL;
     if (!gg_md_check_numbers(e)) return true;
     if (gg_stop_asked(e->model.stop)) return false;
   }
 }
 
-/* Events with kicks in between: each kick ends a leg. k.stop moves with the epochs, so what the kick cuts off is kept
- * as a difference. */
+/* Run events with kicks in between; each kick ends a leg. k.stop is shifted at the end of an epoch, so the rest of the
+ * advance is stored as a difference. */
 static bool run_legs(gg_md *e)
 {
   while (e->k.beyond_kick >= 0) {
@@ -199,11 +128,11 @@ static bool run_legs(gg_md *e)
   return run_leg(e);
 }
 
-/* The run stands at the end of the advance, or at the last collision allowed to it, or where it was stopped. */
+/* Continue the present advance to its end, to its last collision, or to a stop. */
 static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
-  e->look_at = e->k.events + EVENTS_BETWEEN_LOOKS;
+  e->look_at = e->k.events + EVENTS_PER_POLL;
   bool ended = !gg_md_check_numbers(e) || run_legs(e);
   if (e->out_of_memory) return gg_base_out_of_memory_for(err, "cells and events of md");
   if (e->no_number)
@@ -218,7 +147,7 @@ static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
         gg_md_time(e));
   bool whole = ended && e->k.collisions_left && e->k.stop < INFINITY;
   if (whole) e->k.now = e->k.stop;
-  *elapsed = whole ? e->k.asked : outer_now(e);
+  *elapsed = whole ? e->k.asked : gg_md_outer_time(e);
   if (!ended) return gg_base_fail(err, GG_INTERRUPTED, "md: stopped");
   e->k.outer_time += *elapsed;
   e->k.outer = 0;
@@ -231,7 +160,7 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   gg_md *e = (gg_md *)engine;
   double unused;
   if (!(dt >= 0)) return gg_base_fail(err, GG_BAD_INPUT, "a run cannot advance by %g", dt);
-  e->k.outer_time += outer_now(e); /* of one that was stopped, and does not continue */
+  e->k.outer_time += gg_md_outer_time(e); /* of an advance that was stopped and is not continued */
   e->k.outer = 0;
   e->k.mark = e->k.now;
   e->k.asked = dt;
@@ -255,11 +184,11 @@ static void take_sums(gg_engine *engine, gg_collision_sums *transfer)
   memset(&e->k.transfer, 0, sizeof e->k.transfer);
 }
 
-/* Smaller systems are as fast on one. */
+/* Smaller systems are as fast on one thread. */
 static void threads(gg_engine *engine, int threads)
 {
   gg_md *e = (gg_md *)engine;
-  gg_md_share(e, e->n < GG_MD_FEWEST_SHARED ? 1 : threads, true);
+  gg_md_use_threads(e, e->n < GG_MD_FEWEST_PARALLEL ? 1 : threads, true);
 }
 
 static void state(const gg_engine *engine, gg_engine_state *s)
@@ -276,7 +205,7 @@ static void state(const gg_engine *engine, gg_engine_state *s)
                          .others_cpu = gg_md_parallel_cpu(e)};
 }
 
-/* Every grain to the present, which is where a new epoch begins. */
+/* Bring every grain to the present time, and begin a new epoch there. */
 static void bring_to_present(gg_md *e)
 {
   gg_md_counts *k = &e->k;
@@ -294,7 +223,7 @@ static void bring_to_present(gg_md *e)
   if (gg_md_search_has_rows(e->search.kind)) gg_md_align_rows(e);
 }
 
-/* Of a linear response: peculiar velocities are multiplied, the flow and the clock stay, and all is predicted anew. */
+/* Begin the next sweep of a linear response: multiply the peculiar velocities, keep flow and clock, re-predict all. */
 static gg_status begin_sweep(gg_md *e, int power, gg_error *err)
 {
   bring_to_present(e);
@@ -309,7 +238,7 @@ static gg_status begin_sweep(gg_md *e, int power, gg_error *err)
   return gg_md_begin_at(e, gg_md_temperature(e), err);
 }
 
-/* Everything that has a dimension of time or velocity, by exact powers of two. */
+/* Multiply all times and velocities by exact powers of two. */
 static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
@@ -351,7 +280,7 @@ const gg_engine_ops gg_md_ops = {
     .snapshot = gg_md_snapshot,
     .rescale = rescale,
     .save = gg_md_save,
-    .restore = gg_md_restore,
+    .restore = restore,
     .describe = gg_md_describe,
     .go_on = go_on,
 };

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The grains shown to the outside: at the present time, peculiar velocities, a few hundred at a time. */
-#include "md/md_engine.h"
+/* Snapshot of the grains at the present time, with peculiar velocities, in chunks of a few hundred. */
+#include "md/md_operations.h"
 
-enum { SHOWN = 256 }; /* at a time: so few stay in the first cache until they have been sampled */
+enum { SHOWN = 256 }; /* grains of a chunk: they stay in the first cache until they have been sampled */
 
 typedef struct scratch {
   double r[3][SHOWN], c[3][SHOWN], s[3][SHOWN];
@@ -10,13 +10,13 @@ typedef struct scratch {
   int64_t id[SHOWN];
 } scratch;
 
-/* The image in the box; under shear the velocity goes with it, so the peculiar one stays. */
+/* Replace a position by its image in the box. Under shear the peculiar velocity is that of the image. */
 static void into_box(const gg_md *e, gg_vec *r)
 {
   double layers = gg_floor(r->y * e->box.inverse[1]);
   if (e->box.image_velocity != 0) r->x -= layers * gg_md_offset(&e->box, e->k.now);
   for (int a = 0; a < 3; a++) {
-    if (e->box.inverse[a] == 0) continue; /* between walls, or above an open top: no image */
+    if (e->box.inverse[a] == 0) continue; /* no image between walls, or above an open top */
     double x = gg_wrap(gg_along(r, a), e->box.edge[a], e->box.inverse[a]);
     *gg_component(r, a) = x < e->box.edge[a] ? x : 0;
   }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The state of an event-driven run: one 64-byte record a grain for what every prediction reads, one for what only the
- * grain's own events read, and the box, the cells, the event queue and the sums around them.
+/* The state of an event-driven run. Each grain has two records of 64 bytes: gg_md_grain is read by every prediction,
+ * gg_md_node by the grain's own events only. Around them are the box, the cells, the event queue and the sums.
  *
- * Each grain is kept where it stood at its own time t, its last event; r(t') = r + v (t' - t) wherever it is needed.
- * Times count from the start of the present epoch: at an epoch's end all of them are re-zeroed (epoch.c), so that the
- * last digit of a time means the same after 10^10 collisions as after 10^4.
+ * A record holds the position at its own time t, the grain's last event; r(t') = r + v (t' - t). Times count from the
+ * start of the present epoch. At the end of an epoch all times are re-zeroed (epoch.c), so that the last digit of a
+ * time means the same after 10^10 collisions as after 10^4.
  *
  * Velocities are laboratory velocities in the box, v = C + shear_rate (y - L_y/2) x_hat. */
 #ifndef GG_MD_STATE_H
@@ -21,32 +21,28 @@
 typedef struct gg_md_grain {
   gg_vec r, v;
   double t;
-  uint32_t species; /* before the counter: batches find it in the lowest bits of both words as one */
-  uint32_t counter; /* changes of velocity so far */
+  uint32_t species; /* before the counter: batches read it in the lowest bits of both words as one */
+  uint32_t counter; /* collision counter: changes of velocity so far */
 } __attribute__((aligned(64))) gg_md_grain;
 
-/* Of the neighbour lists: the centre of the skin, which the grain may not leave before its list is updated. */
+/* Skin of a grain, a sphere. The grain may not leave it before its neighbour list is updated. */
 typedef struct gg_md_skin {
-  gg_vec centre; /* under shear: where it stood at the epoch's start, moving with the flow */
+  gg_vec centre; /* under shear it moves with the flow: its position at the start of the epoch */
 } gg_md_skin;
 enum { GG_MD_LIST = 24 }; /* most neighbours in a list */
 
-/* Room for so many grains to try. Stores into one array and loads from another do not hinder each other where the
- * lower twelve bits of their addresses differ: the arrays of two searches lie half a page apart, and not on the stack,
- * which stands elsewhere at every start. */
+/* Room for candidates of a search, and distance between the arrays of two searches. A load waits for a store to an
+ * address with the same lower twelve bits, so the two arrays are half a page apart. They are not on the stack, whose
+ * address varies from run to run. */
 enum { GG_MD_MOST_CANDIDATES = 2048, GG_MD_CANDIDATES_APART = GG_MD_MOST_CANDIDATES + 512 };
 
-/* A row of cells along x that moves with the flow (search/comoving_rows.h): where its first cell begins at the epoch's
- * start, its speed, and by how many cells the rows above and below are ahead of it. */
+/* A row of cells along x that moves with the flow (search/comoving_rows.h). */
 typedef struct gg_md_row {
-  double origin, speed;
-  int32_t above, below;
+  double origin, speed; /* origin: position of its first cell at the start of the epoch */
+  int32_t above, below; /* cells by which the rows above and below are shifted against it */
 } gg_md_row;
 
-/* At the start: between looks at whether to stop, some milliseconds. */
-enum { GG_MD_GRAINS_BETWEEN_LOOKS = 1 << 13 };
-
-/* How neighbours are found: a header of search/ each. Rows, overlapping or not, move with the flow. */
+/* Neighbour searches, each a header of search/. Rows, overlapping or not, move with the flow. */
 typedef enum gg_md_search_kind {
   GG_MD_PLAIN_CELLS,
   GG_MD_COMOVING_ROWS,
@@ -56,81 +52,85 @@ typedef enum gg_md_search_kind {
   GG_MD_SEARCH_KINDS
 } gg_md_search_kind;
 
-/* What such a search keeps beside the cells. */
+/* Data of a search beside the cells. */
 typedef struct gg_md_rows {
-  gg_md_row *row;    /* one for each layer along y, and images: -1, n_y, n_y + 1 */
-  double next_shift; /* epoch time at which rows will have shifted by a cell; INFINITY: never */
+  gg_md_row *row;    /* for each layer along y, and for images: -1, n_y, n_y + 1 */
+  double next_shift; /* epoch time of the next shift by a cell; INFINITY: never */
 } gg_md_rows;
 typedef struct gg_md_lists {
   gg_md_skin *skin;
   uint32_t *neighbour;                           /* GG_MD_LIST a grain */
-  double radius;                                 /* s */
-  double shrinkage;                              /* kappa */
+  double radius;                                 /* s, of the skins */
+  double shrinkage;                              /* kappa: rate at which skins shrink under shear */
   double reach[GG_MAX_SPECIES * GG_MAX_SPECIES]; /* sigma + 2 s by ordered pair of species (gg_md_pair) */
 } gg_md_lists;
 
 typedef struct gg_md_search_state {
   gg_md_search_kind kind;
-  uint8_t *near[3]; /* by index of a grain's cell along each axis, the surfaces that it can touch before its next
-                       crossing, a bit each: those whose bit is there along all three. NULL without surfaces */
+  uint8_t *near[3]; /* surfaces that a grain can touch before its next crossing, a bit each, by the index of its cell
+                       along each axis; the AND of the three counts. NULL: no surfaces */
   union {
     gg_md_rows rows;
     gg_md_lists lists;
   };
 } gg_md_search_state;
 
-/* Kicks (kicks.h): how the grains of a species take turns; and how far they are. */
-typedef struct gg_md_turns {
-  uint32_t first, n;    /* in `order` */
-  uint32_t group, step; /* so many have turns one after the other; the next group is so many groups further */
-  double apart, size;   /* time between turns on average, and the change of velocity */
-  /* Of a bath: what a turn leaves of a velocity and a spin, and the size of its kicks along each axis. */
-  double keep, spin_keep, spin_size;
-} gg_md_turns;
+/* Kick schedule of a species (kicks.h). */
+typedef struct gg_md_kick_schedule {
+  uint32_t first, n;      /* grains of the species in `order` */
+  uint32_t group;         /* grains that are kicked one after the other */
+  uint32_t step;          /* from one group to the next, in groups */
+  double interval;        /* mean time between slots of the species */
+  double size;            /* change of velocity; in a bath its standard deviation along each axis */
+  double keep, spin_keep; /* in a bath: factor of the velocity, of the spin */
+  double spin_size;       /* in a bath: standard deviation of the change of spin along each axis */
+} gg_md_kick_schedule;
 typedef struct gg_md_kicks {
-  gg_md_turns of[GG_MAX_SPECIES];
-  uint32_t *order; /* the grains by species; NULL: there is one */
+  gg_md_kick_schedule schedule[GG_MAX_SPECIES];
+  uint32_t *order; /* grains by species; NULL: one species */
 } gg_md_kicks;
-typedef struct gg_md_turn {
-  double at; /* epoch time of the next */
-  uint64_t number;
-} gg_md_turn;
+typedef struct gg_md_kick_progress {
+  double at;       /* epoch time of the next slot */
+  uint64_t number; /* of the next slot */
+} gg_md_kick_progress;
 
 typedef struct gg_md gg_md;
 
-/* What happens to two grains in contact at the present time: dr from 1 to 2, c12 = c1 - c2, images accounted for. */
+/* Resolves a contact of two grains at the present time: dr from 1 to 2, c12 = c1 - c2, for the nearest images. */
 typedef void gg_md_resolution(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12);
-/* What happens to a grain in contact with a surface of the model. */
+/* Resolves a contact of a grain with a surface of the model. */
 typedef void gg_md_surface_resolution(gg_md *e, uint32_t i, int surface);
-/* An instance of the event loop (kernels.h). */
+/* An instance of the event loop (event_loops.h). */
 typedef struct gg_md_kernel {
-  void (*run)(gg_md *e); /* handle events until k.stop, k.collisions_left or e->look_at */
-  void (*predict)(gg_md *e, uint32_t from, uint32_t to); /* predict the next event of each of these grains */
+  void (*run)(gg_md *e);                                 /* run events until k.stop, k.collisions_left or e->look_at */
+  void (*predict)(gg_md *e, uint32_t from, uint32_t to); /* predict the next events of these grains */
 } gg_md_kernel;
 
-/* Plain data beside the arrays: goes into a checkpoint as it is. */
+/* Plain data beside the arrays; a checkpoint holds its bytes. */
 typedef struct gg_md_counts {
-  double now, epoch_start; /* present time in the epoch, and the epoch's start in the run's */
-  double contact_time;     /* absolute; 0: off */
-  double mean_free_time;   /* present mean free time per grain */
-  double window_time;      /* since mean_free_time was last measured, with so many collisions */
-  uint64_t window_collisions, epoch_events, epoch_collisions; /* the latter two: counts at the epoch's start */
+  double now, epoch_start;                 /* present time in the epoch; start of the epoch in the time of the run */
+  double contact_time;                     /* absolute; 0: off */
+  double mean_free_time;                   /* present mean free time per grain */
+  double window_time;                      /* since mean_free_time was last measured */
+  uint64_t window_collisions;              /* in window_time */
+  uint64_t epoch_events, epoch_collisions; /* counts at the start of the epoch */
   uint64_t collisions, events, treated, wall_treated, clamped;
   double worst_overlap;
   gg_rng rng;
-  double next_kick;        /* epoch time of the earliest turn; INFINITY: no kicks */
-  double kick_temperature; /* the hottest gas that turns are frequent enough for */
-  gg_md_turn turn[GG_MAX_SPECIES];
-  /* Gaussian thermostat: the gas inside cools freely; outside, velocities are `scale` times larger and clocks slower.
-   */
-  double scale, kinetic, kinetic0; /* kinetic: energy inside, at present; kinetic0: outside, kept */
-  double mark, outer;              /* outside time `outer` since the advance began had gone by at inside time `mark` */
-  double outer_time;               /* outside, up to the present advance */
-  /* Of the present advance, which may have been stopped. */
-  double asked, stop;                    /* its length, outside; its end, or that of its present leg, in epoch time */
-  double beyond_kick;                    /* what is left of it after the next kick; -INFINITY: that comes too late */
-  uint64_t collisions_left;              /* to it */
-  double fractional_shift, common_shift; /* of co-moving rows (row_motion.c), at the epoch's start */
+  double next_kick;        /* epoch time of the earliest slot; INFINITY: no kicks */
+  double kick_temperature; /* highest temperature for which slots are frequent enough */
+  gg_md_kick_progress kick[GG_MAX_SPECIES];
+  /* Gaussian thermostat (md_thermostat.h): the gas inside cools freely; outside, velocities are larger by `scale` and
+   * the clock is slower by it. */
+  double scale, kinetic, kinetic0; /* kinetic: present energy inside; kinetic0: constant energy outside */
+  double mark, outer;              /* at inside time `mark` the outside time since the advance began was `outer` */
+  double outer_time;               /* outside time up to the present advance */
+  /* The present advance, which may have been stopped. */
+  double asked;                          /* its length, outside */
+  double stop;                           /* its end, or the end of its present leg, in epoch time */
+  double beyond_kick;                    /* rest of it after the next kick; -INFINITY: no kick before its end */
+  uint64_t collisions_left;              /* of it */
+  double fractional_shift, common_shift; /* of co-moving rows (row_motion.c), at the start of the epoch */
   int32_t row_shift, image_shift;
   uint32_t keeps_sums;
   int32_t power;              /* velocities are 2^power times those of the start (rescale) */
@@ -141,136 +141,42 @@ struct gg_md {
   gg_engine base;
   gg_model model;
   gg_md_contacts contacts;
-  gg_md_grain *grain; /* n of them, and one at no place that nobody meets, to fill up lists with */
+  gg_md_grain *grain; /* n grains, and one at position NaN, which meets none, to fill up lists */
   gg_md_node *node;
-  gg_vec *spin;          /* surface velocities, those outside of a Gaussian thermostat; NULL for smooth grains */
+  gg_vec *spin;          /* surface velocities, outside of a Gaussian thermostat; NULL: smooth grains */
   gg_loss_table *losses; /* of a built-in law of restitution; NULL: none */
-  double *last;          /* time of the last collision, for the contact-time rule or a callback; NULL without either */
-  uint32_t *id;          /* the grain's number to the outside; grains stand in memory along a space-filling curve */
+  double *last;          /* times of last collisions, for the contact-time rule or a callback; NULL: neither */
+  uint32_t *id;          /* number of each grain in results; in memory grains follow a space-filling curve */
   uint32_t n;
   gg_vec gravity;
   bool falls; /* gravity is not zero */
   gg_md_box box;
   gg_md_cells cells;
   gg_md_search_state search;
-  uint32_t *candidates; /* of two searches at a time, GG_MD_CANDIDATES_APART: whom to try (search/candidates.h) */
+  uint32_t *candidates; /* of two searches, GG_MD_CANDIDATES_APART from each other (search/candidates.h) */
   gg_md_queue queue;
   gg_md_counts k;
-  uint64_t look_at;   /* events after which the loop is left, to look whether to stop */
-  bool plain;         /* one pair at a time, the reference for the tests */
-  bool out_of_memory; /* a cell could not grow: the run is over */
-  bool no_number;     /* nor does it continue with what is no number (verify.c) */
-  bool stands_still;  /* nor where one grain's contacts never end */
-  uint64_t check_at;  /* events after which all grains are looked at again */
+  uint64_t look_at;   /* number of events at which the loop returns, to poll `stop` */
+  bool plain;         /* for tests: the reference path, one pair at a time */
+  bool out_of_memory; /* a cell could not grow: the run has failed */
+  bool no_number;     /* a NaN or infinity was found: the run has failed (verify.c) */
+  bool stands_still;  /* the contacts of one grain never end: the run has failed */
+  uint64_t check_at;  /* number of events at which all grains are inspected again */
   const gg_md_kernel *kernel;
   gg_md_resolution *resolve;
   gg_md_surface_resolution *resolve_surface;
   gg_collision_callback *callback; /* receives every collision; NULL: none, and `resolve` is not wrapped */
   void *callback_context;
-  gg_md_resolution *resolve_shown; /* what `resolve` goes on to then */
+  gg_md_resolution *resolve_shown; /* resolution that a callback wraps */
   gg_md_surface_resolution *resolve_surface_shown;
-  gg_md_resolution *resolve_parted; /* what gg_md_resolve_parting goes on to */
+  gg_md_resolution *resolve_parted; /* resolution that gg_md_resolve_parting wraps */
   gg_thermostat thermostat;
   double noise; /* xi^2 of the white-noise thermostat */
   gg_md_kicks kicks;
-  struct gg_md_parallel *parallel; /* parallel/: threads that share the events; NULL: one does all */
-  bool is_view;                    /* of one of them: no lists are made anew, but */
-  bool lists_are_full;
+  struct gg_md_parallel *parallel; /* parallel/: threads that share the events; NULL: one thread */
+  bool is_thread_local;            /* a copy for a thread (parallel/parallel.h), which cannot rebuild all lists */
+  bool lists_are_full;             /* set by such a copy if it would have to */
 };
-
-/* md_allocate.c: an engine with its arrays for this model, nothing in them; and its end. */
-gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err);
-gg_status gg_md_allocate_lists(gg_md *e, gg_error *err);
-gg_status gg_md_allocate_last(gg_md *e, gg_error *err);
-void gg_md_free(gg_md *e);
-
-/* start.c: a fresh initial state: places, velocities, spins; those that are given (NULL: none) are taken. */
-gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, const gg_grain_arrays *given, gg_error *err);
-/* md_engine.c: make grains with places, velocities and spins ready to run; keeps a grid that is there already. `T`: of
- * about which temperature they are. */
-gg_status gg_md_begin_at(gg_md *e, double T, gg_error *err);
-/* Between two parts of the start of a large system: GG_INTERRUPTED if it is to stop. */
-gg_status gg_md_look(const gg_md *e, gg_error *err);
-gg_status gg_md_begin(gg_md *e, gg_error *err); /* at the model's */
-
-/* select_search.c: the largest distance at which two grains touch. */
-double gg_md_reach(const gg_model *model);
-/* The fastest search for a model: the radius of its skins, if it keeps lists, and how many cells. */
-gg_md_search_kind gg_md_search_select(const gg_model *model, double *radius, int32_t n[3]);
-/* Cells for the centres of lists: only in boxes of at least three cells, no nearest image in doubt. */
-bool gg_md_fit_lists(const gg_model *model, double radius, int32_t n[3]);
-/* Are its cells small (cell_grid.h)? */
-bool gg_md_has_small_cells(const gg_model *model, gg_md_search_kind kind);
-/* Cells that are crossed in a collision's time, all grains together. */
-double gg_md_crossings_per_collision(const gg_model *model);
-
-/* grid.c: the grid that suits the model; its cells, so many, for e->search.kind. */
-gg_status gg_md_make_grid(gg_md *e, gg_error *err);
-gg_status gg_md_make_cells(gg_md *e, const int32_t n[3], double reach, gg_error *err);
-/* Neighbour lists with skins of this radius, if the box is wide enough for them; else nothing. */
-gg_status gg_md_make_lists(gg_md *e, double radius, gg_error *err);
-void gg_md_set_skins(gg_md *e, double radius);
-/* grid.c: the cells that the grains' positions lie in; the cells filled with them (false: out of memory). */
-void gg_md_enter_grid(gg_md *e);
-bool gg_md_fill_grid(gg_md *e);
-
-/* wall_contacts.c: search.near for the cells that there are; and contacts with other shapes than planes, as seen from a
- * cell. */
-gg_status gg_md_note_surfaces(gg_md *e, gg_error *err);
-double gg_md_shaped_delay(const gg_md *e, const gg_surface *surface, const gg_flight *flight, const int32_t *cell);
-
-/* row_motion.c: rows of cells that move with the flow, placed as e->k says; as the images above stand at the epoch's
- * start; at the start of the next epoch; and after they have shifted by a cell. */
-gg_status gg_md_make_rows(gg_md *e, gg_error *err);
-void gg_md_align_rows(gg_md *e);
-void gg_md_move_rows(gg_md *e, double span);
-void gg_md_shift_rows_by_a_cell(gg_md *e);
-/* The cell along x of row y that a place is in now. */
-int32_t gg_md_cell_in_row(const gg_md *e, int32_t y, double x);
-
-/* lists.c: every grain's skin and list anew at the present time; the skins get smaller where lists overflow. False: it
- * was stopped, and lists are missing; `stop` NULL: never. */
-bool gg_md_build_lists(gg_md *e, const gg_stop *stop);
-
-/* epoch.c: start the next epoch: every grain brought to the epoch's end, times re-zeroed, the queue re-tuned.
- * False if nothing will ever happen again. */
-bool gg_md_next_epoch(gg_md *e);
-/* verify.c: look at all grains, if that is due; false: a place, velocity or spin is no number, and e->no_number.
- */
-bool gg_md_check_numbers(gg_md *e);
-/* md_thermostat.c: take off the velocity of the centre of mass, relative to the imposed shear; all grains at the same
- * time. */
-double gg_md_follow_centre_of_mass(gg_md *e); /* the temperature */
-/* Is that velocity more than rounding? */
-bool gg_md_has_drift(const gg_md *e);
-/* contact_time.c: a sheared gas that begins in the cold does not stay there; the contact time at the start, and
- * at the start of an epoch, all grains at the same time. */
-double gg_md_early_temperature(const gg_md *e, double T);
-void gg_md_begin_contact_time(gg_md *e, double T);
-/* T about the mean velocity, relative to the imposed shear; all grains at the same time. */
-double gg_md_temperature(const gg_md *e);
-void gg_md_follow_contact_time(gg_md *e);
-/* Bucket width of the event queue that suits a rate of events. */
-double gg_md_bucket_width(double events_per_time);
-
-/* collision_callback.c: a resolution that shows the collision to the callback, then goes on to e->resolve_shown; and
- * the engine's operation that sets it. */
-gg_md_resolution gg_md_show_collision;
-gg_md_surface_resolution gg_md_show_contact;
-/* md_engine.c: the present time since the engine's creation, outside. */
-double gg_md_time(const gg_md *e);
-
-gg_status gg_md_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
-
-/* separating_pairs.c: a resolution after which the pair parts, whatever is lost in rounding; the same instead of
- * e->resolve, for a pair that meets again at once; and does this model need it throughout? */
-gg_md_resolution gg_md_resolve_parting, gg_md_resolve_again;
-bool gg_md_needs_parting(const gg_model *model);
-
-/* kernels.c: choose the kernels that this model and its collision sums need; resolve.c: the part that concerns
- * contacts. */
-void gg_md_select(gg_md *e);
-void gg_md_select_resolution(gg_md *e);
 
 GG_INLINE bool gg_md_search_has_rows(gg_md_search_kind kind)
 {
@@ -281,18 +187,12 @@ GG_INLINE bool gg_md_search_overlaps(gg_md_search_kind kind)
   return kind == GG_MD_OVERLAPPING_CELLS || kind == GG_MD_OVERLAPPING_ROWS;
 }
 
-/* Where cell 0 of a co-moving row begins now. */
-GG_INLINE double gg_md_row_begins(const gg_md *e, int32_t y)
-{
-  return e->search.rows.row[y].origin + e->search.rows.row[y].speed * e->k.now;
-}
-
 GG_INLINE int gg_md_species_of(const gg_md_grain *g)
 {
   return (int)g->species;
 }
 
-/* Where the grain is at epoch time t, and how it moves there; on a parabola only if the constant `gravity` is true. */
+/* Position and velocity of a grain at epoch time t; on a parabola only if the constant `gravity` is true. */
 GG_INLINE gg_vec gg_md_position(const gg_md *e, bool gravity, const gg_md_grain *g, double t)
 {
   double dt = t - g->t;

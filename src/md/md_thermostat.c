@@ -35,7 +35,7 @@ void gg_md_thermostat_fold(gg_md *e)
   k->stop = k->mark + (k->asked - k->outer) * k->scale;
 }
 
-/* Relative to the imposed shear; all grains at the same time. */
+/* Momentum relative to the imposed shear; all grains at the same time. */
 static gg_vec momentum_of(const gg_md *e, double *total_mass, double *energy_twice)
 {
   const double rate = e->model.shear_rate, middle = 0.5 * e->box.edge[1];
@@ -55,7 +55,7 @@ static gg_vec momentum_of(const gg_md *e, double *total_mass, double *energy_twi
   return momentum;
 }
 
-/* Velocities that were read from a run have a mean of rounding, and are to stay as they are. */
+/* Velocities that come from a run have a mean of the order of rounding, and must stay unchanged. */
 bool gg_md_has_drift(const gg_md *e)
 {
   double mass, energy;
@@ -63,13 +63,23 @@ bool gg_md_has_drift(const gg_md *e)
   return gg_dot(momentum, momentum) > 1e-18 * mass * energy;
 }
 
-/* Rounding of the mean peculiar velocity must not take over. A gas that cools forever cools below it; under shear, that
- * along y drives the one along x for ever (dP_x/dt = -rate P_y). The frame follows it: relative motion, and so every
- * predicted collision, stays as it is. */
+/* Rounding of the mean peculiar velocity must not become visible. A gas that cools without end cools below it; under
+ * shear its y component drives its x component (dP_x/dt = -rate P_y). So the frame follows the centre of mass: relative
+ * motion, and every predicted collision, is unchanged. */
 double gg_md_follow_centre_of_mass(gg_md *e)
 {
   double mass, energy;
   const gg_vec momentum = momentum_of(e, &mass, &energy);
   for (uint32_t i = 0; i < e->n; i++) e->grain[i].v = gg_axpy(-1 / mass, momentum, e->grain[i].v);
   return energy / (3.0 * e->n);
+}
+
+double gg_md_outer_time(const gg_md *e)
+{
+  return e->k.outer + (e->k.now - e->k.mark) / e->k.scale;
+}
+
+double gg_md_time(const gg_md *e)
+{
+  return e->thermostat == GG_GAUSSIAN ? e->k.outer_time + gg_md_outer_time(e) : e->k.epoch_start + e->k.now;
 }

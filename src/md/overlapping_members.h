@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cells that overlap, for dilute gases: each reaches half a contact distance beyond its faces, and a grain is in every
- * cell whose extended region it is in, one or two along each axis. Two grains that touch share a cell, so a grain tries
- * only those who share one with it; and there is somebody new to try only when it comes into another cell, whose
- * members are then tried: one cell or two where ordinary cells would be nine, and with cells as wide as pays.
- * Leaving a cell is no event: it is done at the grain's next one.
+/* Membership of grains in overlapping cells, for dilute gases. Each cell reaches half a contact distance beyond its
+ * faces, and a grain is a member of every cell whose extended region contains it: one or two along each axis. Two
+ * grains that touch share a cell, so a grain is tested only against grains that share a cell with it. New candidates
+ * appear only when it enters another cell: the members of one or two cells, where plain cells would have nine; and
+ * cells can have the width that is fastest. Leaving a cell is no event: it is done at the grain's next event.
  *
- * node->cell is the lower cell along each axis; bit a of node->neighbours tells whether the grain is in the next one
- * along axis a, too. */
-#ifndef GG_MD_MEMBERS_H
-#define GG_MD_MEMBERS_H
+ * node->cell is the lower cell along each axis; bit a of node->neighbours is set if the grain is also in the next cell
+ * along axis a. */
+#ifndef GG_MD_OVERLAPPING_MEMBERS_H
+#define GG_MD_OVERLAPPING_MEMBERS_H
 
 #include <string.h>
 
@@ -16,7 +16,7 @@
 #include "md/row_motion.h"
 #include "simd/axes.h"
 
-/* From the lower edges of its lower cells to where a grain is, nearest image. */
+/* Distances from the lower edges of its lower cells to the grain, nearest image. */
 GG_INLINE gg_axes gg_md_depths(const gg_md *e, const gg_md_node *node, const gg_vec *r)
 {
   gg_axes cell = __builtin_convertvector(gg_load_indices(node->cell), gg_axes);
@@ -24,13 +24,13 @@ GG_INLINE gg_axes gg_md_depths(const gg_md *e, const gg_md_node *node, const gg_
   return depth - gg_load_axes(e->box.edge) * gg_nearest_axes(depth * gg_load_axes(e->box.inverse));
 }
 
-/* Cells that a grain may be in: number `index` is up along those axes whose bits are set in that number. `which` has
- * a bit for each that it is in. */
+/* Cells that a grain may be in: cell number k is the upper one along the axes whose bits are set in k. `which` has bit
+ * k set if the grain is in cell k. */
 typedef struct gg_md_members {
   uint32_t index[8], which;
 } gg_md_members;
 
-/* Numbers of which no other bits are set than of n. */
+/* Set of the numbers whose bits are a subset of the bits of n, a bit each. */
 GG_INLINE uint32_t gg_md_numbers_within(uint32_t n)
 {
   static const uint8_t within[8] = {0x01, 0x03, 0x05, 0x0f, 0x11, 0x33, 0x55, 0xff};
@@ -55,7 +55,7 @@ GG_INLINE void gg_md_members_leave(gg_md *e, uint32_t i, const gg_md_members *in
   for (; which; which &= which - 1) gg_md_cell_remove(e->cells.cell + in->index[__builtin_ctz(which)] * stride, i);
 }
 
-/* Into those of `in`. False: out of memory. */
+/* Enter a grain into the cells of `in`. False: out of memory. */
 GG_INLINE bool gg_md_members_enter(gg_md *e, uint32_t i, const gg_md_members *in)
 {
   for (uint32_t which = in->which; which; which &= which - 1) {
@@ -70,7 +70,7 @@ GG_INLINE bool gg_md_members_enter(gg_md *e, uint32_t i, const gg_md_members *in
   return true;
 }
 
-/* The cells of a place in the box. */
+/* Find the cells of a position in the box. */
 GG_INLINE void gg_md_members_place(const gg_md *e, gg_vec r, gg_md_node *node)
 {
   double half = 0.5 * e->cells.reach;
@@ -78,7 +78,7 @@ GG_INLINE void gg_md_members_place(const gg_md *e, gg_vec r, gg_md_node *node)
   node->neighbours = 0;
   for (int a = 0; a < 3; a++) {
     double depth = gg_along(&r, a) - node->cell[a] * e->cells.width[a];
-    const bool walled = a == 1 && e->model.walled; /* no cell beyond */
+    const bool walled = a == 1 && e->model.walled; /* there is no cell beyond a wall */
     if (depth > e->cells.width[a] - half && !(walled && node->cell[a] == e->cells.n[a] - 1)) {
       node->neighbours |= 1u << a;
     } else if (depth < half && !(walled && node->cell[a] == 0)) {
@@ -93,18 +93,22 @@ GG_INLINE int32_t gg_md_cell_after(const gg_md *e, int axis, int32_t cell)
   return cell + 1 == e->cells.n[axis] ? 0 : cell + 1;
 }
 
-/* The same under shear: rows of them along x, each of which moves
- * with the mean flow at its middle. Two grains that touch are together in the layer of one row, which reaches half a
- * contact distance beyond its faces, and there share a cell of that row. So each row is on its own, wherever the others
- * have moved to; and across the sheared boundary the next row is the image of the last one on the other side.
+/* Lanes of a grain in overlapping cells under shear. The cells form rows along x, each of which moves with the mean
+ * flow at its middle. Two grains that touch are both in the layer of one row, which reaches half a contact distance
+ * beyond its faces, and share a cell of that row. So rows are independent of each other's motion. Across the sheared
+ * boundary the next row is the image of the last one on the other side.
  *
- * A grain is in one row or in two, node->cell[1] and the next; in the lower one in cell node->cell[0], in the upper one
- * in node->upper. There are four lanes: along x in the lower row, along y, along z, along x in the upper row; bit a of
- * node->neighbours tells whether the grain is in the next cell along lane a, too. */
-/* Of a step: x and y of the lower and the upper row. Lane 4: nowhere. */
-enum { GG_MD_LOWER_X, GG_MD_ALONG_Y, GG_MD_ALONG_Z, GG_MD_UPPER_X, GG_MD_NO_LANE };
+ * A grain is in one row or two, node->cell[1] and the next: in the lower row in cell node->cell[0], in the upper row in
+ * cell node->upper. Bit l of node->neighbours is set if it is also in the next cell along lane l. */
+enum {
+  GG_MD_LOWER_X, /* along x in the lower row */
+  GG_MD_ALONG_Y,
+  GG_MD_ALONG_Z,
+  GG_MD_UPPER_X, /* along x in the upper row */
+  GG_MD_NO_LANE  /* no step */
+};
 
-/* Numbers of cells: bit 0 is x, bit 1 the row, bit 2 z. Which of them a grain is in. */
+/* Set of the cells that a grain is in, a bit each. Of the number of a cell bit 0 is x, bit 1 the row, bit 2 z. */
 GG_INLINE uint32_t gg_md_numbers_in_rows(uint32_t both)
 {
   uint32_t lower = 1 | (both & 1) << 1, upper = (both >> 1 & 1) * (4 | (both & 8));
@@ -123,15 +127,15 @@ GG_INLINE void gg_md_members_in_rows_of(const gg_md *e, const gg_md_node *node, 
   in->which = gg_md_numbers_in_rows(node->neighbours);
 }
 
-/* The grain's lower row, counted from those of the image of the box that it is stored in: -1 .. n_y. It comes into the
- * box when it next changes rows. */
+/* Lower row of a grain, -1 .. n_y, relative to the image of the box in which it is stored. It returns to the box when
+ * it next changes rows. */
 GG_INLINE int32_t gg_md_lower_row(const gg_md *e, const gg_md_node *node, double y)
 {
   double depth = y - node->cell[1] * e->cells.width[1];
   return node->cell[1] + (int32_t)gg_nearest(depth * e->box.inverse[1]) * e->cells.n[1];
 }
 
-/* The cell of a row in which the place x is now; *both: in the next one, too. Row -1 and row n_y are images. */
+/* Cell of a row that holds the position x now; *both: the next cell holds it, too. Rows -1 and n_y are images. */
 GG_INLINE int32_t gg_md_place_in_row(const gg_md *e, int32_t row, double x, uint32_t *both)
 {
   double w = e->cells.width[0], half = 0.5 * e->cells.reach;
@@ -143,7 +147,7 @@ GG_INLINE int32_t gg_md_place_in_row(const gg_md *e, int32_t row, double x, uint
   return gg_md_index_in_row(e, cell - under);
 }
 
-/* The cells of a place in the box. */
+/* Find the cells of a position in the box. */
 GG_INLINE void gg_md_members_in_rows_place(const gg_md *e, gg_vec r, gg_md_node *node)
 {
   double half = 0.5 * e->cells.reach;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* When will two grains touch? The contact quadratic |dr + dv t|^2 = sigma^2 with dr, dv at the present time. */
+/* Prediction of contacts by the contact quadratic |dr + dv t|^2 = sigma^2, with dr and dv at the present time. */
 #ifndef GG_MD_PREDICT_H
 #define GG_MD_PREDICT_H
 
@@ -9,11 +9,12 @@
 #include "md/md_state.h"
 #include "simd/eight.h"
 
-/* Time until contact, INFINITY if there is none. With b = dr.dv and c = dr^2 - sigma^2 the earlier root is
- * (-b - sqrt(b^2 - a c))/a = c/(-b + sqrt(b^2 - a c)): no cancellation, since b < 0 for every contact to come. So
- *   receding pairs (b >= 0), overlapping by rounding or not, are let go;
+/* Time until contact; INFINITY: none. With b = dr.dv and c = dr^2 - sigma^2 the earlier root is
+ * (-b - sqrt(b^2 - a c))/a = c/(-b + sqrt(b^2 - a c)), without cancellation, since b < 0 for every future contact. So
+ *   receding pairs (b >= 0) have no contact, even if they overlap by rounding;
  *   touching or slightly overlapping pairs that approach (c <= 0) collide now: the root is <= 0 and is taken as 0;
- *   grazing pairs (discriminant near 0) collide or not by its sign; either way the momentum exchanged is negligible. */
+ *   grazing pairs (discriminant near 0) collide by the sign of the discriminant; the exchanged momentum is negligible.
+ */
 GG_INLINE double gg_md_contact_delay(gg_vec dr, gg_vec dv, double sigma2)
 {
   double b = gg_dot(dr, dv);
@@ -25,14 +26,13 @@ GG_INLINE double gg_md_contact_delay(gg_vec dr, gg_vec dv, double sigma2)
   return delay > 0 ? delay : 0;
 }
 
-/* Eight predictions at a time: the same operations in the same order, so that each delay is the same bit for bit.
- *
- * Eight records as columns: r, v, t and the bits of (species, counter). */
+/* Records of eight grains as columns: r, v, t, and the bits of (species, counter). Eight predictions use the same
+ * operations in the same order as one, so that each delay is the same bit for bit. */
 typedef struct gg_md_batch {
   gg_v8 x, y, z, vx, vy, vz, t, tag;
 } gg_md_batch;
 
-/* Records are one cache line each: load the lines of eight grains and transpose. */
+/* Load the records of eight grains, a cache line each, and transpose them. */
 GG_INLINE gg_md_batch gg_md_gather(const gg_md_grain *grain, const uint32_t *index)
 {
   const gg_half *front[GG_BATCH], *back[GG_BATCH];
@@ -46,11 +46,11 @@ GG_INLINE gg_md_batch gg_md_gather(const gg_md_grain *grain, const uint32_t *ind
   return (gg_md_batch){one[0], one[1], one[2], one[3], two[0], two[1], two[2], two[3]};
 }
 
-/* gg_md_contact_delay, eight times, in two steps. First about how soon: without the square root and the division, which
- * take longer than all the rest. Then exactly, for the earliest. */
-#define GG_MD_ABOUT 0x1p-12
-#define GG_MD_SOON_AT_ALL 0x1p-1000
-#define GG_MD_AT_ONCE 0x1p800 /* in contact already: how soon does not tell who is first */
+/* gg_md_contact_delay for eight pairs in two steps: first an estimate of 1/delay, without the square root and the
+ * division, which take longer than everything else; then the exact delay of the earliest pair. */
+#define GG_MD_ABOUT 0x1p-12         /* relative error of the estimate */
+#define GG_MD_SOON_AT_ALL 0x1p-1000 /* smaller estimates: no contact */
+#define GG_MD_AT_ONCE 0x1p800       /* larger estimates: already in contact, and the order of pairs is unknown */
 
 typedef struct gg_md_quadratic {
   gg_v8 b, c, discriminant;
@@ -64,14 +64,14 @@ GG_INLINE gg_md_quadratic gg_md_contact_quadratic8(gg_v8 x, gg_v8 y, gg_v8 z, gg
   return (gg_md_quadratic){b, c, b * b - a * c};
 }
 
-/* Who meets at all: those who approach and whose discriminant is not negative. */
+/* Pairs that will touch: they approach, and their discriminant is not negative. */
 GG_INLINE gg_k8 gg_md_meets8(gg_md_quadratic q)
 {
   return gg_less8(q.b, gg_all8(0)) & gg_not_above8(gg_all8(0), q.discriminant);
 }
 
-/* About one over the delay, to GG_MD_ABOUT of it: the greatest is the earliest. 0: never. The two approximations do not
- * wait for each other. */
+/* Estimate of 1/delay with relative error GG_MD_ABOUT: the largest is the earliest; 0: never. The two approximate
+ * inverses are independent, so the processor computes them at the same time. */
 GG_INLINE gg_v8 gg_md_how_soon8(gg_md_quadratic q)
 {
   gg_v8 tiny = gg_all8(0x1p-1000), d = gg_larger8(q.discriminant, tiny);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "md/queue.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +10,7 @@
 
 enum { FEWEST_BUCKETS = 64 };
 
-/* So many that a grain has one or two events an epoch: 16 bytes a grain. */
+/* The number of buckets is such that a grain has one or two events an epoch: 16 bytes a grain. */
 gg_status gg_md_queue_make(gg_md_queue *q, uint32_t n, gg_error *err)
 {
   *q = (gg_md_queue){.n_buckets = n > 4 * FEWEST_BUCKETS ? n / 4 : FEWEST_BUCKETS};
@@ -25,6 +26,14 @@ void gg_md_queue_free(gg_md_queue *q)
   free(q->bucket);
   free(q->due);
   *q = (gg_md_queue){0};
+}
+
+/* The width has few binary digits, so that differences of whole buckets are exact. */
+double gg_md_bucket_width(double events_per_time)
+{
+  int exponent;
+  double mantissa = frexp(GG_MD_BUCKET_MEAN / events_per_time, &exponent);
+  return ldexp(floor(8 * mantissa), exponent - 3);
 }
 
 void gg_md_queue_reset(gg_md_queue *q, double width)
@@ -63,7 +72,7 @@ static int compare_due(const void *a, const void *b)
   return gg_md_is_before(*(const gg_md_due *)a, *(const gg_md_due *)b) ? 1 : -1;
 }
 
-/* Latest first. A bucket's few: everyone's place is how many are later, without a branch on who is. */
+/* Sort the events of a bucket, latest first. The place of an event is the number of later ones, without a branch. */
 static void sort_few(gg_md_due *due, uint32_t count)
 {
   gg_md_due all[GG_MD_BUCKET];
@@ -90,7 +99,7 @@ static void sort_due(gg_md_queue *q, uint32_t count)
   q->n_due = count;
 }
 
-bool gg_md_queue_turn(gg_md_queue *q, gg_md_node *node)
+bool gg_md_queue_next_bucket(gg_md_queue *q, gg_md_node *node)
 {
   uint32_t b = q->current;
   while (q->n_due == 0) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The event queue: a bounded-increment priority queue (Paul, J. Comput. Phys. 221 (2007) 615) with one entry per grain.
  * Buckets of equal width cover the present epoch. A bucket is one cache line of unsorted grains; only the present
- * bucket is sorted. Insertion and removal cost O(1), touch one cache line of a bucket and no other grain's node, and
+ * bucket is sorted. Insertion and removal cost O(1), access one cache line of a bucket and no other grain's node, and
  * have no unpredictable branch. A full bucket has an overflow list. Events beyond the epoch are not stored: at the end
  * of the epoch every grain is inserted again. */
 #ifndef GG_MD_QUEUE_H
@@ -17,23 +17,24 @@
 
 #define GG_MD_NONE UINT32_MAX
 
-/* A grain's next event and its place in the event queue and the grid: read only by the grain's own events. */
+/* Next event of a grain, and its place in the event queue and the grid: read by the grain's own events only. */
 typedef struct gg_md_node {
   double time;               /* of the next event */
-  double collision;          /* of the next predicted collision, >= time; equal: that is the event */
-  uint32_t partner, counter; /* of that collision, and the partner's counter when it was predicted */
+  double collision;          /* of the next predicted collision, >= time; equal: it is the event */
+  uint32_t partner, counter; /* of that collision; counter of the partner when it was predicted */
   uint32_t later, earlier;   /* in the overflow list of a full bucket */
   int32_t cell[3];
-  uint32_t neighbours; /* in its list; of overlapping cells: bits of those along which it is in two */
-  int32_t face;        /* of the cell, crossed next: 2 axis + (1 if upwards), or GG_MD_IMAGES_MOVED */
-  int32_t upper;       /* overlapping cells in rows: where along x in the upper one of two rows */
-  double skin_time;    /* when the grain's list was made: under shear its skin shrinks */
+  uint32_t neighbours; /* number in its list; with overlapping cells: bits of the axes along which it is in two cells */
+  int32_t face;        /* of the cell that is crossed next: 2 axis + (1 if upwards); or GG_MD_IMAGES_MOVED */
+  int32_t upper;       /* overlapping cells in rows: cell along x in the upper of two rows */
+  double skin_time;    /* time when its list was made: under shear its skin shrinks */
 } __attribute__((aligned(64))) gg_md_node;
 
-/* The neighbouring cells across the sheared boundary have moved: search them again. */
+/* Event: the neighbouring cells across the sheared boundary have moved and must be searched again. */
 enum { GG_MD_IMAGES_MOVED = 8 };
 
-/* Partners that are no grains: the surfaces of the model, from 0. Of a partner: which is it? Is it one, or nobody? */
+/* Partners that are no grains: surfaces of the model, from 0. GG_MD_NO_GRAIN is true for a surface and for GG_MD_NONE.
+ */
 #define GG_MD_SURFACE(w) (UINT32_MAX - 1 - (uint32_t)(w))
 #define GG_MD_SURFACE_OF(partner) ((int)(UINT32_MAX - 1 - (partner)))
 #define GG_MD_NO_GRAIN(partner) ((partner) >= GG_MD_SURFACE(GG_MOST_SURFACES - 1))
@@ -43,45 +44,51 @@ typedef struct gg_md_due {
   uint32_t grain;
 } gg_md_due;
 
-enum { GG_MD_BUCKET = 14, GG_MD_BUCKET_MEAN = 6 };
+enum {
+  GG_MD_BUCKET = 14,    /* grains in a bucket without an overflow list */
+  GG_MD_BUCKET_MEAN = 6 /* mean number of grains */
+};
 typedef struct gg_md_bucket {
-  uint32_t chain, count, grain[GG_MD_BUCKET]; /* chain: the first of those beyond the fourteen, GG_MD_NONE */
+  uint32_t chain, count, grain[GG_MD_BUCKET]; /* chain: first grain of the overflow list, or GG_MD_NONE */
 } __attribute__((aligned(64))) gg_md_bucket;
 
 typedef struct gg_md_queue {
   double inverse_width, width;
-  uint32_t n_buckets, current; /* buckets up to and including `current` stand in `due` */
+  uint32_t n_buckets, current; /* events of buckets up to and including `current` are in `due` */
   gg_md_bucket *bucket;
-  gg_md_due *due; /* latest first, so that the next event is the last entry */
+  gg_md_due *due; /* latest first: the next event is the last entry */
   uint32_t n_due;
 } gg_md_queue;
 
 gg_status gg_md_queue_make(gg_md_queue *q, uint32_t n_grains, gg_error *err);
 void gg_md_queue_free(gg_md_queue *q);
-/* Empty it, at bucket 0, with buckets of this width. */
+/* Bucket width that suits a rate of events. */
+double gg_md_bucket_width(double events_per_time);
+/* Empty the queue, at bucket 0, with buckets of this width. */
 void gg_md_queue_reset(gg_md_queue *q, double width);
-/* Bring the next non-empty bucket into `due`; false if the epoch is over. */
-bool gg_md_queue_turn(gg_md_queue *q, gg_md_node *node);
-/* All times have been multiplied by this power of two. */
+/* Sort the next non-empty bucket into `due`. False: the epoch is over. */
+bool gg_md_queue_next_bucket(gg_md_queue *q, gg_md_node *node);
+/* Multiply all times in the queue by a power of two. */
 void gg_md_queue_rescale(gg_md_queue *q, double factor);
-/* For buckets that overflow. */
+/* Insert a grain into the overflow list of a bucket, or remove it. */
 void gg_md_queue_chain(gg_md_bucket *bucket, gg_md_node *node, uint32_t grain);
 void gg_md_queue_unchain(gg_md_bucket *bucket, gg_md_node *node, uint32_t grain);
 
-/* Length of the epoch that the buckets cover. */
+/* Length of the epoch. */
 GG_INLINE double gg_md_queue_span(const gg_md_queue *q)
 {
   return q->width * q->n_buckets;
 }
 
-/* The same time always falls into the same bucket: removal finds it again. */
+/* Bucket of a time. The same time always has the same bucket, so that removal finds it. */
 GG_INLINE uint32_t gg_md_bucket_of(const gg_md_queue *q, double time)
 {
   double b = time * q->inverse_width;
   return b < q->n_buckets ? (uint32_t)b : q->n_buckets;
 }
 
-/* Equal times go by the grain's index, so that the order never depends on the history of the queue. */
+/* Order of events. Equal times are ordered by the index of the grain, so that the order never depends on the history of
+ * the queue. */
 GG_INLINE bool gg_md_is_before(gg_md_due a, gg_md_due b)
 {
   return (a.time < b.time) | ((a.time == b.time) & (a.grain < b.grain));
@@ -102,7 +109,8 @@ GG_INLINE void gg_md_queue_remove_due(gg_md_queue *q, uint32_t grain)
   for (; k < q->n_due; k++) q->due[k] = q->due[k + 1];
 }
 
-/* Into a bucket to come, and out of it; false: the bucket is full, or the grain is not among its fourteen. */
+/* Insert a grain into a future bucket, or remove it. False: the bucket is full, or the grain is in its overflow list.
+ */
 GG_INLINE bool gg_md_bucket_add(gg_md_bucket *bucket, uint32_t grain)
 {
   if (bucket->count == GG_MD_BUCKET) return false;

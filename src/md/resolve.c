@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The instances of what a contact does, and which of them a scene needs. */
+/* Instances of the resolution of a contact, and the choice for a scene. */
 #include <assert.h>
 
+#include "md/resolution.h"
 #include "md/resolve.h"
 
-/* X for every rule, with and without contact-time rule and sums; the other two features are passed on to X. */
+/* X for every rule, with and without contact-time rule and sums; `one` and `two` are passed to X. */
 #define EACH_CHOICE(X, rule, one, two)                                                                                 \
   X(rule, 0, 0, one, two) X(rule, 0, 1, one, two) X(rule, 1, 0, one, two) X(rule, 1, 1, one, two)
 #define EACH_RULE(X, one, two)                                                                                         \
@@ -33,7 +34,7 @@ EACH_SURFACE(SURFACE)
 #define SURFACE_ENTRY(rule, timed, sums, spins, none) [rule][timed][sums][spins] = surface_##rule##timed##sums##spins,
 static gg_md_surface_resolution *const surface_resolutions[3][2][2][2] = {EACH_SURFACE(SURFACE_ENTRY)};
 
-/* With a law of restitution, one for each rule: the law costs more than the tests of what else there is. */
+/* One instance for each rule with a law of restitution: the law costs more than testing the other features. */
 #define BY_LAW(rule)                                                                                                   \
   static void rule##_by_law(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)                                   \
   {                                                                                                                    \

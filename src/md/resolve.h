@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a contact does to its grains: the collision rule, the contact-time rule and the collision sums. One
- * always-inlined body with constant features; resolve.c makes the instances. */
+/* Resolution of a contact: the collision rule, the contact-time rule and the collision sums. One always-inline body
+ * with constant features; resolve.c makes the instances. */
 #ifndef GG_MD_RESOLVE_H
 #define GG_MD_RESOLVE_H
 
@@ -13,13 +13,14 @@
 typedef struct gg_md_resolve_features {
   gg_rule rule;
   bool mixture, contact_time, sums;
-  bool gaussian; /* thermostat: the energy that goes is returned by a slower clock */
-  bool spins;    /* at walls: else the wall acts on the grain's centre alone */
+  bool gaussian; /* thermostat: lost energy is returned by a slower clock */
+  bool spins;    /* at walls; without spins a wall acts on the centre */
   bool law;      /* of restitution: e depends on the relative normal speed */
 } gg_md_resolve_features;
 
-/* Contact-time rule: a grain that collided less than t_c ago is still "in contact", and collides with e = 1, so that an
- * inelastic collapse ends in finite time (Luding & McNamara, Granular Matter 1 (1998) 113). */
+/* Is this collision treated by the contact-time rule? A grain that collided less than t_c ago is still in contact and
+ * collides with e = 1, so that an inelastic collapse ends in finite time (Luding & McNamara, Granular Matter 1 (1998)
+ * 113). */
 GG_INLINE bool gg_md_is_treated(gg_md *e, uint32_t i, uint32_t j)
 {
   double now = e->k.now, limit = e->k.contact_time;
@@ -34,8 +35,8 @@ GG_INLINE void gg_md_sum_pair(gg_collision_sums *t, int pair, double sigma, gg_v
   t->loss[pair] += loss;
 }
 
-/* Gaussian thermostat: outside, the kinetic energy stays what it is: velocities there are larger by a factor that grows
- * with every loss, and the clock slower by it. */
+/* Return lost energy by the Gaussian thermostat: outside the kinetic energy is constant, velocities are larger by a
+ * factor that grows with every loss, and the clock is slower by it. */
 GG_INLINE void gg_md_return_energy(gg_md *e, double lost)
 {
   gg_md_counts *k = &e->k;
@@ -46,20 +47,20 @@ GG_INLINE void gg_md_return_energy(gg_md *e, double lost)
   k->stop = k->now + (k->asked - k->outer) * k->scale;
 }
 
-/* That thermostat acts on centres alone: spins are kept as they are outside, whatever the scale. What one is inside. */
+/* Spin inside of the Gaussian thermostat, which acts on centres alone: spins are stored as they are outside. */
 GG_INLINE gg_vec gg_md_spin_inside(gg_md_resolve_features f, double scale, gg_vec spin)
 {
   return f.gaussian ? gg_scale(1 / scale, spin) : spin;
 }
 
-/* Kinetic energy lost, from the changes of velocity. */
+/* Kinetic energy lost, from the velocities before and after. */
 GG_INLINE double gg_md_kinetic_loss(const gg_contact *c, gg_vec was1, gg_vec was2, gg_vec is1, gg_vec is2)
 {
   double one = gg_dot(gg_sub(was1, is1), gg_add(was1, is1)), two = gg_dot(gg_sub(was2, is2), gg_add(was2, is2));
   return 0.5 * (one / c->im1 + two / c->im2);
 }
 
-/* The contact of this pair at this speed, outside and in units of the start. */
+/* Contact of a pair by the law of restitution. Its speed is outside, in units of the start. */
 GG_INLINE gg_contact gg_md_contact_by_law(gg_md *e, const gg_contact *contact, double gn, int a, int b, uint32_t number)
 {
   gg_contact at = *contact;
@@ -77,9 +78,9 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
   int a = f.mixture ? gg_md_species_of(one) : 0, b = f.mixture ? gg_md_species_of(two) : 0,
       pair = f.mixture ? gg_md_pair(&e->contacts, a, b) : 0, q = f.mixture ? gg_pair(a, b) : 0;
   const gg_md_contacts *contacts = &e->contacts;
-  const uint32_t number = one->counter + two->counter; /* local: the same whatever happens elsewhere */
-  uint64_t turn = number & contacts->turns;
-  const uint64_t row = f.mixture ? turn * (uint64_t)contacts->n_pairs : turn;
+  const uint32_t number = one->counter + two->counter; /* a local number: independent of events elsewhere */
+  uint64_t dither = number & contacts->dither_mask;
+  const uint64_t row = f.mixture ? dither * (uint64_t)contacts->n_pairs : dither;
   const gg_contact *contact = &contacts->contact[row + (uint64_t)pair];
   bool treated = f.contact_time && gg_md_is_treated(e, i, j);
   e->k.treated += treated;
@@ -107,14 +108,14 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
   if (f.gaussian) gg_md_return_energy(e, gg_md_kinetic_loss(contact, v1, v2, one->v, two->v));
 }
 
-/* A grain that rests on a wall by gravity would collide infinitely often in finite time. With the contact-time rule on,
- * it leaves at least so fast that gravity brings it back no sooner than after t_c. */
+/* Least speed after a contact with a wall. A grain at rest on a wall by gravity would collide infinitely often in
+ * finite time; with the contact-time rule it leaves so fast that gravity brings it back after t_c at the earliest. */
 GG_INLINE double gg_md_least_speed(const gg_md *e, bool contact_time, double towards)
 {
   return contact_time && towards > 0 ? 0.5 * towards * e->k.contact_time : 0;
 }
 
-/* A contact with surface w of the model. */
+/* Resolve a contact with surface w of the model. */
 GG_INLINE void gg_md_resolve_surface(gg_md *e, gg_md_resolve_features f, uint32_t i, int w)
 {
   gg_md_grain *one = &e->grain[i];

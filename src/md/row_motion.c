@@ -1,34 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where the rows of cells that move with the flow stand (search/comoving_rows.h). Row j begins at
+/* Positions of the rows of cells that move with the flow (search/comoving_rows.h). Row j begins at
  *
  *   common + (j - J) f + s_j w,  J = floor(n_y/2),
  *
- * where f, the fractional shift, at present in [0, w), is how far each row is ahead of the one below it beyond whole
- * cells, and s_j whole numbers: s_j+1 - s_j = `row_shift` inside the box and `image_shift` from its uppermost row to
- * the image of the lowest one. All rows shift past each other at the same speed, shear_rate h for layers of height h:
- * so f is the same for all of them, and all whole numbers grow by one at the same time. With the image above at offset
- * D, D = n_y f + m w.
+ * where f, the fractional shift in [0, w), is the distance of each row from the row below it beyond whole cells, and
+ * the s_j are whole numbers: s_j+1 - s_j = `row_shift` inside the box and `image_shift` from its uppermost row to the
+ * image of the lowest row. All rows shift past each other at the same speed, shear_rate h for layers of height h: so f
+ * is the same for all rows, and all whole numbers grow by one at the same time. If the image above has the offset D, D
+ * = n_y f + m w.
  *
- * Rows of cells that overlap (overlapping_members.h) need not know of each other: row j begins at (j + 1/2 - n_y/2) f,
- * where f, in [0, 2 L_x), is how far rows have moved past each other. e->k.fractional_shift is what it was, or would
- * have been, at the epoch's start. */
+ * Rows of overlapping cells (overlapping_members.h) are independent of each other: row j begins at (j + 1/2 - n_y/2) f,
+ * where f, in [0, 2 L_x), is the distance that rows have moved past each other. e->k.fractional_shift is f at the start
+ * of the epoch. */
+#include "md/row_motion.h"
+
 #include <math.h>
 
 #include "base/memory.h"
-#include "md/row_motion.h"
 
 static double shift_speed(const gg_md *e)
 {
   return e->model.shear_rate * e->cells.width[1];
 }
 
-/* m above, from 0 to n_x - 1. */
+/* The number m above, from 0 to n_x - 1. */
 static int64_t whole_offset(const gg_md *e)
 {
   return (e->k.image_shift + (int64_t)(e->cells.n[1] - 1) * e->k.row_shift) % e->cells.n[0];
 }
 
-/* Rows of cells that do not overlap. */
+/* Place rows of cells that do not overlap. */
 static void place_linked_rows(gg_md *e)
 {
   const int32_t *n = e->cells.n;
@@ -44,7 +45,7 @@ static void place_linked_rows(gg_md *e)
   e->search.rows.next_shift = (e->cells.width[0] - k->fractional_shift) / shift_speed(e);
 }
 
-/* Rows of cells that overlap stand anywhere, those across the sheared boundary as its images do. */
+/* Place rows of overlapping cells; the rows across the sheared boundary have the offset of the images. */
 static void place_free_rows(gg_md *e)
 {
   int32_t n = e->cells.n[1];
@@ -78,7 +79,7 @@ gg_status gg_md_make_rows(gg_md *e, gg_error *err)
   return GG_OK;
 }
 
-/* D = n_y f + m w, for m = image_shift. */
+/* Set f and image_shift = m by D = n_y f + m w. */
 static void link_to_images(gg_md *e)
 {
   double offset = gg_md_offset(&e->box, 0);
@@ -95,11 +96,11 @@ void gg_md_align_rows(gg_md *e)
   place_rows(e);
 }
 
-/* Rounding must not part the rows from the images: the fractional shift follows the offset. */
+/* Move rows by an epoch. The fractional shift follows the offset, so that rounding cannot separate rows from images. */
 static void move_linked_rows(gg_md *e, double span)
 {
   int32_t n = e->cells.n[1];
-  double both = 0.5 - 0.5 * n + n / 2; /* what all rows share of their speeds, in units of shift_speed */
+  double both = 0.5 - 0.5 * n + n / 2; /* common part of the speeds of all rows, in units of shift_speed */
   e->k.common_shift = gg_wrap(e->k.common_shift + both * shift_speed(e) * span, e->box.edge[0], e->box.inverse[0]);
   e->k.fractional_shift += shift_speed(e) * span;
   double ahead = e->box.offset0 - (double)whole_offset(e) * e->cells.width[0] - n * e->k.fractional_shift;
@@ -108,7 +109,7 @@ static void move_linked_rows(gg_md *e, double span)
 
 void gg_md_move_rows(gg_md *e, double span)
 {
-  double twice = 2 * e->box.edge[0]; /* of which half a row's share is a whole box */
+  double twice = 2 * e->box.edge[0]; /* half of this period moves a row by a whole box */
   if (e->search.kind == GG_MD_OVERLAPPING_ROWS)
     e->k.fractional_shift = gg_wrap(e->k.fractional_shift + shift_speed(e) * span, twice, 1 / twice);
   else

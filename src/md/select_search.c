@@ -1,24 +1,27 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The search, and the cells, that suit a model. */
+/* Choice of the neighbour search and its cells. */
 #include <math.h>
 
 #include "common/portable_math.h"
 #include "common/surface/shapes.h"
 #include "md/row_motion.h"
+#include "md/select_search.h"
 
-/* What is fastest, by elastic grains over phi: below 0.05 overlapping cells of six grains; from 0.4 on neighbour lists,
- * of sizes unequal up to 1:2 from 0.45 on; in between plain cells, from 0.25 on of a contact distance, below with this
- * many grains: fewer crossings against more pairs to try. */
-#define OVERLAPPING_BELOW 0.05
-#define GRAINS_PER_OVERLAPPING_CELL 6.0
-#define LISTED_FROM 0.4
-#define LISTED_UNEQUAL_FROM 0.45
-#define NEARLY_EQUAL 1.3
-#define MOST_UNEQUAL_LISTED 2.0
-#define GRAINS_PER_CELL 0.7
-#define NARROW_FROM 0.25
-/* Cells of one contact distance are small from so many grains on: below, the cache holds larger ones as well. */
-enum { FEWEST_OVERLAPPING = 6, FEWEST_IN_SMALL = 30000 };
+/* Limits of the fastest search, measured with elastic grains: solid fractions phi, ratios of diameters, grains per
+ * cell. */
+#define OVERLAPPING_BELOW 0.05          /* phi below: overlapping cells */
+#define GRAINS_PER_OVERLAPPING_CELL 6.0 /* in them */
+#define LISTED_FROM 0.4                 /* phi from: neighbour lists */
+#define LISTED_UNEQUAL_FROM 0.45        /* the same for unequal diameters */
+#define NEARLY_EQUAL 1.3                /* ratio up to which diameters are not unequal */
+#define MOST_UNEQUAL_LISTED 2.0         /* ratio up to which grains have lists */
+#define NARROW_FROM 0.25                /* phi from: plain cells of one contact distance */
+#define GRAINS_PER_CELL 0.7             /* in plain cells below: fewer crossings against more candidates */
+enum {
+  FEWEST_OVERLAPPING = 6, /* cells along an edge */
+  FEWEST_IN_SMALL =
+      30000 /* grains from which cells of one contact distance are small; else the cache holds larger ones */
+};
 
 double gg_md_reach(const gg_model *m)
 {
@@ -32,7 +35,7 @@ static double mean_diameter(const gg_model *m)
   return sum / (double)m->n;
 }
 
-/* Ridges are looked for in one cell; above an open top a cell holds any number of grains. */
+/* Must cells not overlap? A ridge is searched in one cell; above an open top a cell holds any number of grains. */
 static bool needs_plain_cells(const gg_model *m)
 {
   for (int w = 0; w < m->n_surfaces; w++)
@@ -40,7 +43,7 @@ static bool needs_plain_cells(const gg_model *m)
   return gg_common_surface_is_open_above(m);
 }
 
-/* Walls that move, or gravity along them, make a flow that would carry grains out of skins at rest. */
+/* Do moving walls, or gravity along walls, drive a flow? It would carry grains out of skins at rest. */
 static bool flows_along_walls(const gg_model *m)
 {
   for (int w = 0; w < m->n_surfaces; w++)
@@ -48,8 +51,8 @@ static bool flows_along_walls(const gg_model *m)
   return m->gravity[0] != 0 || m->gravity[2] != 0;
 }
 
-/* How wide the skins: wide ones are left seldom, but make long lists. Those of grains of very unequal size would be too
- * long, and cells must be as wide as the largest need; 0: none. */
+/* Radius of the skins; 0: no lists. Grains leave wide skins seldom, but wide skins make long lists. Lists of grains of
+ * very unequal size would be too long, and the largest grains would determine the width of cells. */
 static double skin_radius(const gg_model *m)
 {
   double ratio = gg_common_model_widest(m) / gg_common_model_narrowest(m);
@@ -72,8 +75,8 @@ bool gg_md_fit_lists(const gg_model *m, double radius, int32_t n[3])
   return true;
 }
 
-/* Pairs in a cell must have one nearest image. Grains that fall on a wall may all come to lie in the lowest cells,
- * which large ones are too crowded for. */
+/* Count overlapping cells. False: a pair in a cell could have two nearest images, or gravity could collect grains in
+ * the lowest cells, which would be too crowded. */
 static bool fit_overlapping(const gg_model *m, int32_t n[3])
 {
   if (needs_plain_cells(m) || m->gravity[1] != 0 || m->phi >= OVERLAPPING_BELOW) return false;
@@ -117,7 +120,7 @@ double gg_md_crossings_per_collision(const gg_model *m)
   int32_t n[3];
   if (gg_md_search_select(m, &radius, n) == GG_MD_NEIGHBOUR_LISTS) return 0;
   for (int i = 0; i < m->n_species; i++)
-    for (int a = 0; a < 3; a++) /* <|v_a|> over the width */
+    for (int a = 0; a < 3; a++) /* <|v_a|> over the width of a cell */
       rate += (double)m->n_of[i] / (double)m->n * sqrt(2 * T / (M_PI * m->mass[i])) * n[a] / m->box[a];
   return 2 * rate / gg_common_model_collision_rate(m, T); /* a collision has two grains */
 }

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Grains whose restitution is 0, or nearly so, leave each other at a normal speed of 0, but for rounding. Where that
- * rounding says that they still approach they would collide again at once, with an impulse that is too small to change
- * their velocities: for ever. So such pairs part at a speed that is just above rounding; what it adds to the energy is
- * 10^-20 of it or less. The same is true, whatever their restitution, of grains that touch and move alike, as in a
- * lattice that falls on a floor: a pair that meets at the very time at which both have just been predicted parts so,
+/* Separation of pairs after a collision without restitution. At e = 0, or nearly 0, grains have a normal speed of 0
+ * after the collision, but for rounding. If by rounding they still approach, they collide again at once, with an
+ * impulse too small to change their velocities, without end. So such pairs separate at a speed just above rounding,
+ * which adds 10^-20 of the energy or less. The same happens at any restitution to grains that touch and move alike, as
+ * in a lattice that falls on a floor: so a pair that collides at the very time at which both were predicted separates,
  * too. */
 #include <math.h>
 
-#include "md/md_state.h"
+#include "md/resolution.h"
 
-/* e from which on a pair parts by itself: a normal speed that e brings down to rounding is never seen. */
+/* Least e at which a pair separates by itself: no normal speed is so small that e reduces it to rounding. */
 #define PARTS_FROM 1e-3
 /* Some units of the last digit. */
 #define ROUNDING 0x1p-50
 
 bool gg_md_needs_parting(const gg_model *m)
 {
-  if (m->law.name) return true; /* who knows */
+  if (m->law.name) return true; /* e may be 0 at some speed */
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++)
       if (m->e[gg_pair(i, j)] < PARTS_FROM) return true;
@@ -29,7 +29,7 @@ static double largest_component(gg_vec a, gg_vec b)
   return fmax(one, two);
 }
 
-/* Normal speeds below are lost in rounding, of velocities and of the places that the normal follows from. */
+/* Normal speed below which rounding decides: of velocities, and of the positions that define the normal. */
 static double least_speed(const gg_md *e, const gg_md_grain *one, const gg_md_grain *two, gg_vec dr)
 {
   const double *edge = e->box.edge, longest = fmax(edge[0], fmax(edge[1], edge[2]));
@@ -37,7 +37,7 @@ static double least_speed(const gg_md *e, const gg_md_grain *one, const gg_md_gr
   return ROUNDING * (1 + longest / sqrt(gg_dot(dr, dr))) * velocity;
 }
 
-/* c12 and the impulse, then what comes of them: the relative velocity afterwards has the image in it. */
+/* Resolve the contact, then correct the normal speed. `image`: velocity of the image, part of the relative velocity. */
 void gg_md_resolve_parting(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)
 {
   gg_md_grain *one = &e->grain[i], *two = &e->grain[j];

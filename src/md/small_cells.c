@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The overflow lists of small cells: next[third] is the fourth grain, and so on; the cell's count tells where it ends.
- * Whoever changes a cell changes its list, and no other: threads share no more than the cells. */
+/* Overflow lists of small cells: next[third] is the fourth grain, and so on; the number of grains in the cell defines
+ * the end. A change of a cell changes its own list only, so threads share no more than the cells. */
 #include "md/cell_grid.h"
 
 bool gg_md_cell_overflow(const gg_md_cells *c, uint32_t *cell, uint32_t grain)
 {
   if (!c->next || cell[0] == GG_MD_MOST_IN_SMALL) return false;
   uint32_t *fourth = &c->next[cell[GG_MD_SIDE_BY_SIDE]];
-  c->next[grain] = *fourth; /* nobody, if it is the first of the list */
+  c->next[grain] = *fourth; /* unused if the grain is the first of the list */
   *fourth = grain;
   cell[0]++;
   return true;
 }
 
-/* The third takes the place of one of the first two; whoever is behind a place left moves up. */
+/* The third grain replaces one of the first two; the grains behind a removed one move up. */
 void gg_md_cell_remove_overfull(const gg_md_cells *c, uint32_t *cell, uint32_t grain)
 {
   uint32_t *place = &cell[GG_MD_SIDE_BY_SIDE];

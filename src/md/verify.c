@@ -5,12 +5,10 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "md/md_state.h"
+#include "md/select_search.h"
 
-/* Boxes that a grain may lie or come from its own; far less than an index holds. Boxes that those above may have moved
- * within an epoch, which a whole number holds. */
-#define FAR 1000
-#define MOVED 1e15
+#define FAR 1000   /* largest distance of a grain from the box, in boxes: indices can represent it */
+#define MOVED 1e15 /* largest motion of images within an epoch, in boxes: a whole number can represent it */
 
 bool gg_md_is_search_of(const gg_model *m, const int32_t cells[3], double skin_radius, bool overlapping, bool comoving)
 {
@@ -39,7 +37,7 @@ bool gg_md_are_counts(const gg_md_counts *k, const int32_t cells[3])
   for (size_t i = 0; i < sizeof finite / sizeof *finite; i++)
     if (!(fabs(finite[i]) < 1e300)) return false;
   for (int s = 0; s < GG_MAX_SPECIES; s++)
-    if (isnan(k->turn[s].at)) return false;
+    if (isnan(k->kick[s].at)) return false;
   return are_numbers(others, sizeof others / sizeof *others) && k->row_shift >= 0 && k->row_shift < cells[0] &&
          k->image_shift >= 0 && k->image_shift < cells[0] && k->keeps_sums <= 1 && k->power > -1000000000 &&
          k->power < 1000000000;
@@ -52,7 +50,7 @@ static bool is_in_box(const gg_md *e, gg_vec r, double boxes)
   return true;
 }
 
-/* Where the grain is at the time, as it flies now. */
+/* Position of the grain at time t on its present path. */
 static gg_vec place_at(const gg_md *e, const gg_md_grain *g, double t)
 {
   const double dt = t - g->t, half = 0.5 * dt * dt;
@@ -73,8 +71,8 @@ static bool is_partner(const gg_md *e, uint32_t i, uint32_t partner)
   return partner < e->n && partner != i;
 }
 
-/* Two grains that are about to collide have two centres. Where the partner has changed its velocity since, nothing
- * comes of the collision, and by then it is anywhere; its changes to come are none of those counted. */
+/* Validate the contact of a predicted collision: its two centres are apart. If the partner has changed its velocity
+ * since, the collision will not happen and the partner may be anywhere; its counter can only have grown. */
 static bool is_contact(const gg_md *e, uint32_t i, const gg_md_node *node)
 {
   if (node->time != node->collision || !isfinite(node->time) || GG_MD_NO_GRAIN(node->partner)) return true;
@@ -100,25 +98,25 @@ static bool is_event(const gg_md *e, uint32_t i)
   if (n->face != GG_MD_IMAGES_MOVED && (n->face < 0 || n->face > 7)) return false;
   if (isnan(n->time) || isnan(n->collision) || isnan(n->skin_time) || n->time < -0.5 * e->queue.width) return false;
   if (!is_partner(e, i, n->partner)) return false;
-  /* A grain at rest but for rounding: its frame, which follows the centre of mass, may have moved more than it. */
+  /* A grain at rest but for rounding: the frame, which follows the centre of mass, may move farther than the grain. */
   if (n->time > 0x1p60 * gg_md_queue_span(&e->queue)) return true;
   return is_in_box(e, place_at(e, &e->grain[i], n->time), FAR);
 }
 
-/* As many of each species as the scene has, and every number once. */
+/* Validate the numbers of grains of each species, and that every grain number occurs once. */
 static bool are_all_there(const gg_md *e)
 {
   int64_t of[GG_MAX_SPECIES] = {0};
-  uint8_t *seen = calloc(e->n, 1);
-  bool good = seen != NULL;
-  if (!good) gg_base_memory_lacked(); /* it is not known */
+  uint8_t *found = calloc(e->n, 1);
+  bool good = found != NULL;
+  if (!good) gg_base_memory_lacked(); /* the check was not done */
   for (uint32_t i = 0; good && i < e->n; i++) {
     of[e->grain[i].species]++;
-    good = e->id[i] < e->n && !seen[e->id[i]];
-    if (good) seen[e->id[i]] = 1;
+    good = e->id[i] < e->n && !found[e->id[i]];
+    if (good) found[e->id[i]] = 1;
   }
   for (int k = 0; good && k < e->model.n_species; k++) good = of[k] == e->model.n_of[k];
-  free(seen);
+  free(found);
   return good;
 }
 
@@ -130,7 +128,7 @@ static bool is_listed(const gg_md *e, uint32_t i, uint32_t j)
   return false;
 }
 
-/* Each is in the lists of those in its own; beyond the end stands the grain at no place. */
+/* Validate the neighbour lists: they are symmetric, and filled up with the grain at position NaN. */
 static bool are_lists(const gg_md *e)
 {
   for (uint32_t i = 0; i < e->n; i++)
@@ -163,8 +161,8 @@ const char *gg_md_wrong_grains(const gg_md *e)
   return NULL;
 }
 
-/* What is no number any more. Collisions look at what they leave behind (event_loop.h); here all grains are looked at,
- * once in as many events as there are grains: whatever it came from, no run continues with it. */
+/* Are all components of both vectors finite? Collisions check the velocities that they set (search/neighbour_search.h);
+ * gg_md_check_numbers inspects all grains, so that no run continues with NaN of any origin. */
 static bool is_number(gg_vec a, gg_vec b)
 {
   return fabs((a.x + a.y + a.z) + (b.x + b.y + b.z)) < INFINITY;

@@ -1,20 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which surfaces can be touched from which cells, and contacts with those that are no planes. */
+/* Surfaces near each cell, and contacts with surfaces that are no planes. */
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "common/surface/shapes.h"
-#include "md/md_state.h"
+#include "md/grid.h"
 
-/* How far from its cell a grain can be before its next crossing: in its skin; in the next of two overlapping cells. */
+/* Distance from its cell that a grain can have before its next crossing: in its skin, or in the next overlapping cell.
+ */
 static void get_beyond(const gg_md *e, int axis, double *below, double *above)
 {
   *below = *above = e->search.kind == GG_MD_NEIGHBOUR_LISTS ? e->search.lists.radius * (1 + 1e-9) : 0;
   if (gg_md_search_overlaps(e->search.kind)) *above = e->cells.width[axis];
 }
 
-/* Centres touch it in a layer from its place into the gas. */
-static void note(gg_md *e, int w, double radius)
+/* Mark the cells from which a centre can touch surface w: a layer from the place of the surface into the gas. */
+static void mark_cells_near(gg_md *e, int w, double radius)
 {
   const gg_surface *s = &e->model.surface[w];
   const gg_md_cells *c = &e->cells;
@@ -30,7 +31,7 @@ static void note(gg_md *e, int w, double radius)
   }
 }
 
-gg_status gg_md_note_surfaces(gg_md *e, gg_error *err)
+gg_status gg_md_find_near_surfaces(gg_md *e, gg_error *err)
 {
   const gg_model *m = &e->model;
   double widest = 0;
@@ -39,7 +40,7 @@ gg_status gg_md_note_surfaces(gg_md *e, gg_error *err)
   for (int a = 0; a < 3; a++)
     if (!(e->search.near[a] = gg_base_array_new((size_t)e->cells.n[a], sizeof *e->search.near[a], err)))
       return GG_FAILED;
-  for (int w = 0; w < m->n_surfaces; w++) note(e, w, 0.5 * widest);
+  for (int w = 0; w < m->n_surfaces; w++) mark_cells_near(e, w, 0.5 * widest);
   return GG_OK;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The three axes at once: vectors of four lanes, the fourth idle. Plain vector types; every lane goes through the
- * operations that one axis would alone, so that results are the same on every processor. No branch depends on an axis
- * or on a side: which of them is next can't be foreseen. */
+/* Operations on the three axes at once: vectors of four lanes, the fourth unused. They are plain vector types; each
+ * lane has the operations of a single axis, so results are the same on every processor. There is no branch on an axis
+ * or a side, since the next one is unpredictable. */
 #ifndef GG_SIMD_AXES_H
 #define GG_SIMD_AXES_H
 
@@ -19,7 +19,7 @@ typedef int32_t gg_indices __attribute__((vector_size(16)));
 typedef double gg_axes_there __attribute__((vector_size(32), may_alias, aligned(8)));
 typedef int32_t gg_indices_there __attribute__((vector_size(16), may_alias, aligned(4)));
 
-/* What stands behind the third comes along in the fourth lane: there must be something. */
+/* Load three numbers; the fourth lane reads whatever is behind them, which must be readable. */
 GG_INLINE gg_axes gg_load_axes(const double *x)
 {
   return *(const gg_axes_there *)x;
@@ -34,7 +34,7 @@ GG_INLINE gg_axes gg_choose_axes(gg_axes_mask mask, gg_axes yes, gg_axes no)
   return (gg_axes)(((gg_axes_mask)yes & mask) | ((gg_axes_mask)no & ~mask));
 }
 
-/* Bit a for axis a, and back. */
+/* Mask as bits, bit a for axis a; and bits as mask. */
 GG_INLINE uint32_t gg_axes_bits(gg_axes_mask mask)
 {
 #if defined(__AVX2__)
@@ -60,14 +60,14 @@ GG_INLINE gg_axes gg_nearest_axes(gg_axes x)
   return (x + shift) - shift;
 }
 
-/* As gg_wrap. */
+/* gg_wrap for each axis. */
 GG_INLINE gg_axes gg_wrap_axes(gg_axes x, gg_axes edge, gg_axes inverse)
 {
   gg_axes scaled = x * inverse, whole = gg_nearest_axes(scaled);
   return x - edge * gg_choose_axes(whole > scaled, whole - 1, whole);
 }
 
-/* The least, in all lanes. */
+/* The smallest lane, in all lanes. */
 GG_INLINE gg_axes gg_least_axes(gg_axes x)
 {
   gg_axes other = __builtin_shufflevector(x, x, 2, 3, 0, 1);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Functions compiled for wider registers, too: the one for this processor is chosen when the program starts. For plain
- * loops whose result does not depend on how many numbers a register holds; static ones, for
- * the choice itself would be seen from outside. Where the loader can choose (ELF with the GNU C library). */
+/* GG_CLONES: a function that is also compiled for wider registers; the loader chooses one when the program starts (ELF
+ * with the GNU C library). For plain loops whose result does not depend on the width of registers. Such functions must
+ * be static, since the symbol of the choice would be exported. */
 #ifndef GG_SIMD_CLONES_H
 #define GG_SIMD_CLONES_H
 
-#include <stdlib.h> /* tells whose library it is */
+#include <stdlib.h> /* defines __GLIBC__ */
 
-/* The choice is made by the loader, before the address and thread sanitizers are ready for instrumented functions. */
+/* The loader chooses before the address and thread sanitizers are ready for instrumented functions. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define GG_SANITIZED 1
 #elif defined(__has_feature)

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Eight doubles at a time, whatever the registers are: plain vector types of a fixed width, which the compiler maps on
- * what the processor has. For the event-driven engine, whose batches are of eight grains on every processor; lanes.h,
- * of the Monte Carlo engine, has as many as a register. Every element goes through the operations that one number alone
- * would, so that all processors leave the same bits. */
+/* Operations on eight doubles: plain vector types of a fixed width, which the compiler maps to the registers of the
+ * processor. For the event-driven engine, whose batches have eight grains on every processor; lanes.h, for the Monte
+ * Carlo engine, has as many lanes as a register. Each element has the operations of a single number, so that all
+ * processors leave the same bits. */
 #ifndef GG_SIMD_EIGHT_H
 #define GG_SIMD_EIGHT_H
 
@@ -21,7 +21,7 @@ typedef double gg_v8 __attribute__((vector_size(64)));
 typedef int64_t gg_m8 __attribute__((vector_size(64)));
 typedef uint64_t gg_u8 __attribute__((vector_size(64)));
 #if defined(__AVX512F__)
-typedef __mmask8 gg_k8; /* which of eight lanes */
+typedef __mmask8 gg_k8; /* mask of eight lanes */
 #else
 typedef gg_m8 gg_k8;
 #endif
@@ -35,8 +35,8 @@ GG_INLINE gg_v8 gg_all8(double x)
   return (gg_v8){x, x, x, x, x, x, x, x};
 }
 
-/* Comparisons, choices and bounds by lane. Written out for registers of 512 bits, whose masks the compiler does not
- * find by itself. */
+/* Comparisons, choices and bounds by lane. With intrinsics for registers of 512 bits, whose masks the compiler does not
+ * use by itself. */
 #if defined(__AVX512F__)
 #define GG_COMPARE8(name, predicate)                                                                                   \
   GG_INLINE gg_k8 name(gg_v8 x, gg_v8 y)                                                                               \
@@ -53,7 +53,7 @@ GG_INLINE gg_k8 gg_odd8(gg_v8 bits)
 {
   return _mm512_test_epi64_mask((__m512i)bits, _mm512_set1_epi64(1));
 }
-/* table[the lowest four bits]: sixteen numbers can be read there. */
+/* Look up table[lowest four bits]; sixteen numbers must be readable. */
 GG_INLINE gg_v8 gg_look_up8(const double *table, gg_v8 bits)
 {
   return (gg_v8)_mm512_permutex2var_pd(_mm512_loadu_pd(table), (__m512i)bits, _mm512_loadu_pd(table + 8));
@@ -115,7 +115,7 @@ GG_INLINE bool gg_any8(gg_k8 mask)
   or |= __builtin_shufflevector(or, or, 2, 3, 0, 1, 6, 7, 4, 5);
   return or [0] | or [1];
 }
-/* One bit a lane. */
+/* Mask as bits, one a lane. */
 GG_INLINE uint32_t gg_lanes8(gg_k8 mask)
 {
   uint32_t lanes = 0;
@@ -130,16 +130,16 @@ GG_INLINE gg_v8 gg_sqrt8(gg_v8 x)
 }
 #endif
 
-/* Nearest integers, ties to even: as gg_nearest. */
+/* Nearest integers, ties to even, like gg_nearest. */
 GG_INLINE gg_v8 gg_nearest8(gg_v8 x)
 {
   gg_v8 shift = gg_all8(0x1.8p52);
   return (x + shift) - shift;
 }
 
-/* Into the nearest image: edge times a small whole number is exact, fused or not. Which whole number it is may depend
- * on that only within a rounding of half an edge, where both images are as far: no pair in neighbouring cells or lists.
- */
+/* Fold into the nearest image. The product of an edge and a small whole number is exact, fused or not. The whole number
+ * can depend on fusing only within a rounding of half an edge, where both images are equally far: no pair in
+ * neighbouring cells or lists is there. */
 GG_INLINE gg_v8 gg_fold8(gg_v8 x, double edge, double inverse)
 {
 #if defined(__AVX512F__)
@@ -151,7 +151,7 @@ GG_INLINE gg_v8 gg_fold8(gg_v8 x, double edge, double inverse)
 #endif
 }
 
-/* The least and the greatest of eight, in all lanes. */
+/* The smallest and the largest of eight, in all lanes. */
 #define FOLD(v, a, b, c, d, e, f, g, h) __builtin_shufflevector(v, v, a, b, c, d, e, f, g, h)
 GG_INLINE gg_v8 gg_least8(gg_v8 x)
 {
@@ -167,7 +167,7 @@ GG_INLINE gg_v8 gg_greatest8(gg_v8 x)
 }
 #undef FOLD
 
-/* The earliest of eight times and with whom; of equal times the smallest index. */
+/* The earliest of eight times, and its partner; of equal times the smallest partner. */
 GG_INLINE double gg_earliest8(gg_v8 t, gg_m8 who, int64_t *partner)
 {
   gg_v8 m = gg_least8(t);
@@ -181,7 +181,7 @@ GG_INLINE double gg_earliest8(gg_v8 t, gg_m8 who, int64_t *partner)
   return m[0];
 }
 
-/* Those of eight words that the mask names, but not `but`, side by side; eight are written. Returns how many. */
+/* Pack the words of the mask, except `but`; eight words are written. Returns their number. */
 GG_INLINE uint32_t gg_pick8(uint32_t *to, const uint32_t *from, uint32_t but, gg_k8 mask)
 {
 #if defined(__AVX512F__) && defined(__AVX512VL__)
@@ -202,8 +202,8 @@ GG_INLINE uint32_t gg_pick8(uint32_t *to, const uint32_t *from, uint32_t but, gg
 /* Half a record. */
 typedef double gg_half __attribute__((vector_size(32), may_alias));
 
-/* Two halves side by side: so the loads do part of the transposition, which otherwise all falls to the one unit that
- * shuffles. */
+/* Load two halves side by side: the loads do a part of the transposition, for which the processor has only one shuffle
+ * unit. */
 GG_INLINE gg_v8 gg_side_by_side(const gg_half *one, const gg_half *two)
 {
 #if defined(__AVX512F__)
@@ -213,7 +213,7 @@ GG_INLINE gg_v8 gg_side_by_side(const gg_half *one, const gg_half *two)
 #endif
 }
 
-/* Eight rows of four as columns. */
+/* Transpose eight rows of four into columns. */
 GG_INLINE void gg_columns(const gg_half *const row[GG_BATCH], gg_v8 column[4])
 {
 #define TWO(k, m) gg_side_by_side(row[k], row[m])
@@ -234,8 +234,8 @@ GG_INLINE void gg_columns(const gg_half *const row[GG_BATCH], gg_v8 column[4])
 #undef PAIR1
 }
 
-/* About 1/sqrt(x) and 1/x, for x > 0, by instructions made for it or from the bits of the exponent. Only the choice of
- * what is worked out exactly depends on them, no result. */
+/* Approximations of 1/sqrt(x) and 1/x for x > 0, by special instructions or from the bits of the exponent. They only
+ * select the numbers that are computed exactly; no result depends on them. */
 GG_INLINE gg_v8 gg_about_inverse_root8(gg_v8 x)
 {
 #if defined(__AVX512F__)
@@ -258,7 +258,8 @@ GG_INLINE gg_v8 gg_about_inverse8(gg_v8 x)
 #endif
 }
 
-/* A number and, in its last digits, a small whole number below GG_PLACES: the greatest of many tells which it is. */
+/* Label a number by a whole number below GG_PLACES in its last bits: the largest of many numbers then identifies its
+ * place. */
 enum { GG_PLACES = 4096 };
 GG_INLINE gg_v8 gg_label8(gg_v8 t, gg_m8 place)
 {

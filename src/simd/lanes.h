@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lanes: numbers side by side in a register, GG_WIDTH of them. They are double, or float where GG_SINGLE_LANES is
- * defined before; up to eight, as many as a register has. Every operation is lane by lane, exact or correctly rounded,
- * and nothing is contracted, so that all processors leave the same bits. Only for files that are compiled once for each
- * set of instructions. Where the compiler finds the best instructions by itself, plain vector types do.
+/* Lanes: GG_WIDTH numbers in a register, up to eight. They are double, or float if GG_SINGLE_LANES is defined. Every
+ * operation is lane by lane, exact or correctly rounded, and nothing is contracted, so that all processors leave the
+ * same bits. Only for files that are compiled once for each set of instructions. If the compiler finds the best
+ * instructions by itself, plain vector types are used.
  *
- * gg_vd, gg_vi, gg_vu: numbers, whole numbers, and words as wide. gg_mask: one truth a lane. */
+ * gg_vd, gg_vi, gg_vu: numbers, whole numbers, and words of the same width. gg_mask: one truth value a lane. */
 #ifndef GG_SIMD_LANES_H
 #define GG_SIMD_LANES_H
 
@@ -20,11 +20,11 @@
 #include <immintrin.h>
 #endif
 
-/* GG_MM: an intrinsic for a register of numbers; GG_MM_MASK: one that makes a mask; GG_MM_WORDS: a comparison of words.
- */
+/* GG_MM: an intrinsic for a register of numbers. GG_MM_MASK: one that returns a mask. GG_MM_WORDS: a comparison of
+ * words. */
 #ifdef GG_SINGLE_LANES
 typedef float gg_real;
-typedef uint32_t gg_word; /* as wide as a number */
+typedef uint32_t gg_word; /* of the width of a number */
 #define GG_MM(operation) _mm256_##operation##_ps
 #define GG_MM_MASK(operation) _mm256_##operation##_ps_mask
 #define GG_MM_WORDS(operation) _mm256_##operation##_epu32_mask

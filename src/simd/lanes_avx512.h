@@ -44,20 +44,20 @@ GG_INLINE gg_vd gg_select(gg_mask m, gg_vd yes, gg_vd no)
 {
   return GG_MM(mask_blend)(m, no, yes);
 }
-/* Else 0. */
+/* x in true lanes, 0 in others. */
 GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
 {
   return GG_MM(maskz_mov)(m, x);
 }
-/* A second store where others would blend: ports that do arithmetic are the scarce ones. */
+/* Select by a second, masked store instead of a blend: arithmetic ports are scarce. */
 GG_INLINE void gg_store_either(gg_real *p, gg_mask m, gg_vd yes, gg_vd no)
 {
   *(gg_vd *)p = no;
   GG_MM(mask_store)(p, m, yes);
 }
 
-/* The next numbers of a list, one for each true lane; and the true lanes to the front of a list, then anything up to a
- * width. */
+/* gg_spread loads the next numbers of a list, one for each true lane. gg_pack stores the true lanes at the front of a
+ * list; up to GG_WIDTH numbers are written. */
 GG_INLINE gg_vd gg_spread(gg_mask m, const gg_real *list)
 {
   return GG_MM(maskz_expand)(m, GG_MM(loadu)(list));
@@ -67,7 +67,7 @@ GG_INLINE void gg_pack(gg_real *list, gg_mask m, gg_vd v)
   GG_MM(storeu)(list, GG_MM(maskz_compress)(m, v));
 }
 
-/* Entries of a table. */
+/* Look up entries of a table. */
 GG_INLINE gg_vd gg_look_up(const gg_real *table, gg_vu at)
 {
 #ifdef GG_SINGLE_LANES
@@ -77,7 +77,7 @@ GG_INLINE gg_vd gg_look_up(const gg_real *table, gg_vu at)
 #endif
 }
 
-/* Lane l gets lane l ^ r (of r the low bits count). */
+/* Permutation: lane l gets lane l ^ r; only the low bits of r count. */
 #ifdef GG_SINGLE_LANES
 typedef __m256i gg_order;
 GG_INLINE gg_order gg_order_of(gg_word r)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The operations of lanes.h on plain vectors, whose masks are as wide as numbers: AVX2 where the compiler needs to be
- * told, and any processor. */
+/* The operations of lanes.h on plain vectors, whose masks are as wide as numbers: with intrinsics for AVX2, and for any
+ * processor. */
 #ifndef GG_SIMD_LANES_VECTOR_H
 #define GG_SIMD_LANES_VECTOR_H
 
@@ -30,7 +30,7 @@ GG_INLINE gg_mask gg_or(gg_mask a, gg_mask b)
 {
   return a | b;
 }
-/* Else 0. */
+/* x in true lanes, 0 in others. */
 GG_INLINE gg_vd gg_where(gg_mask m, gg_vd x)
 {
   return (gg_vd)(m & (gg_mask)x);
@@ -49,7 +49,7 @@ GG_INLINE gg_vd gg_smaller(gg_vd a, gg_vd b)
 {
   return GG_MM(min)(a, b);
 }
-/* Of a mask only the signs count. */
+/* Only the sign bits of a mask count. */
 GG_INLINE gg_mask gg_low_bit(gg_vu r)
 {
   return (gg_mask)(r << (GG_REAL_BITS - 1));
@@ -64,7 +64,7 @@ GG_INLINE gg_vd gg_select(gg_mask m, gg_vd yes, gg_vd no)
   return GG_MM(blendv)(no, yes, (gg_vd)m);
 }
 
-/* Orders of four lanes for each of sixteen masks: NUMBER is where number i lies, in units of 32 bits. */
+/* Permutations of four lanes for each of sixteen masks. NUMBER: place of number i, in units of 32 bits. */
 #ifdef GG_SINGLE_LANES
 #define NUMBER(i) i
 enum { GG_ORDER_WORDS = 4 };
@@ -87,8 +87,8 @@ static const int gg_pack_order[16][GG_ORDER_WORDS] __attribute__((aligned(4 * GG
 #undef ROW
 #undef NUMBER
 
-/* Lane l gets lane l ^ r. gg_spread: the next numbers of a list, one for each true lane; gg_pack: the true lanes to the
- * front of a list, then anything up to a width. */
+/* gg_permute: lane l gets lane l ^ r. gg_spread loads the next numbers of a list, one for each true lane. gg_pack
+ * stores the true lanes at the front of a list; up to GG_WIDTH numbers are written. */
 typedef __m256i gg_order;
 #ifdef GG_SINGLE_LANES
 GG_INLINE gg_order gg_order_of(gg_word r)
@@ -170,7 +170,7 @@ GG_INLINE unsigned gg_bits(gg_mask m)
   return bits;
 }
 
-/* Lane l gets lane l ^ r: a bit of r exchanges neighbours, another one halves. */
+/* Permutation: lane l gets lane l ^ r. One bit of r exchanges neighbours, another one exchanges halves. */
 typedef struct gg_order {
   gg_mask neighbours, halves;
 } gg_order;
@@ -189,8 +189,8 @@ GG_INLINE gg_vd gg_permute(gg_vd v, gg_order o)
 #endif
 }
 
-/* The next numbers of a list, one for each true lane; and the true lanes to the front of a list, then anything up to a
- * width. */
+/* gg_spread loads the next numbers of a list, one for each true lane. gg_pack stores the true lanes at the front of a
+ * list; up to GG_WIDTH numbers are written. */
 GG_INLINE gg_vd gg_spread(gg_mask m, const gg_real *list)
 {
   gg_vd v = {0};
@@ -209,7 +209,7 @@ GG_INLINE void gg_pack(gg_real *list, gg_mask m, gg_vd v)
 }
 #endif
 
-/* Entries of a table. */
+/* Look up entries of a table. */
 GG_INLINE gg_vd gg_look_up(const gg_real *table, gg_vu at)
 {
   gg_vd x = {0};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What this processor can do, in the levels that kernels are compiled for: x86-64-v3 (AVX2) and x86-64-v4 (AVX-512).
- * The compiler may use anything of a level; what is requested here no processor has without the rest of it. */
+/* Instruction levels of this processor, as kernels are compiled for them: x86-64-v3 (AVX2) and x86-64-v4 (AVX-512). The
+ * compiler may use all instructions of a level; no processor has the tested ones without the rest of the level. */
 #ifndef GG_SIMD_LEVELS_H
 #define GG_SIMD_LEVELS_H
 

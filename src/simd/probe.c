@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Run when the build is configured: the best set of instructions that this machine has. The same tests as dispatch.c.
- */
+/* Print the best set of instructions of this machine, when the build is configured. Same tests as in dispatch.c. */
 #include <stdio.h>
 
 #include "levels.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Many words of an array at once: which of them are the one looked for? One bit for each. */
+/* Comparison of many words with one: a bit is set for each equal word. */
 #ifndef GG_SIMD_WORDS_H
 #define GG_SIMD_WORDS_H
 
@@ -12,8 +12,8 @@
 #include "common/vec.h"
 
 #if defined(__AVX512VL__)
-/* A mask as a word, by way of a register. Left to itself gcc 12 may put 16 bits of a mask into memory and read 32, the
- * others being what stood there before: seen under sanitizers, where more is put into memory. */
+/* Convert a mask to a word through a register. Otherwise gcc 12 may store 16 bits of a mask and load 32, half of them
+ * stale memory, as seen under sanitizers. */
 GG_INLINE uint32_t gg_word_of_mask(uint16_t mask)
 {
   __asm__("" : "+r"(mask));

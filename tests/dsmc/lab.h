@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A bench for the engine's tests: scenes in one line, means with error bars from blocks of time. */
+/* Helpers for the tests of dsmc: a scene in one line, and means with error bars from blocks of time. */
 #ifndef GG_TESTS_DSMC_LAB_H
 #define GG_TESTS_DSMC_LAB_H
 
@@ -51,7 +51,7 @@ static inline double lab_advance(gg_engine *g, double dt, uint64_t collisions)
   return elapsed;
 }
 
-/* What a snapshot tells. */
+/* Sums over the grains of a snapshot. */
 typedef struct lab_view {
   double n, momentum[3], cc[3][3], c4, ss, s_mean[3];
   double n_of[2], c4_of[2], cc_of[2], xy_of[2]; /* by species; sums of C^4, C^2, C_x C_y */
@@ -105,7 +105,8 @@ static inline double lab_error(const lab_mean *m)
   return sqrt(var / (m->n - 1));
 }
 
-/* Within 4 standard errors (of both), and the error small enough to see a relative deviation `sight` at 4 sigma. */
+/* Fails unless the mean is within 4 standard errors (of both) of `expected`, and unless the error is small enough that
+ * a relative deviation of `sight` would be 4 of them. */
 static inline void lab_expect(const char *what, const lab_mean *m, double expected, double expected_error, double sight)
 {
   double error = hypot(lab_error(m), expected_error);
@@ -116,12 +117,12 @@ static inline void lab_expect(const char *what, const lab_mean *m, double expect
   if (4 * error > sight * fabs(expected)) fail_msg("%s: an error of %g is too large to prove anything", what, error);
 }
 
-/* Averages of a sheared or cooling gas over blocks. Stresses per volume; T-scaled where the name says so. */
+/* Averages of a sheared, heated or cooling gas over blocks of time. Stresses are per volume. */
 typedef struct lab_flow {
   lab_mean T, theta, P[3][3], kinetic[3][3], rate, balance, N1, N2, p, loss, a2, spin_z, eta;
 } lab_flow;
 
-/* `blocks` blocks of `length` collisions a grain, sampled ten times each. */
+/* Averages over `blocks` blocks of `length` collisions a grain, ten samples each, after `warmup` collisions a grain. */
 static inline void lab_average(gg_engine *g, const gg_model *m, double warmup, int blocks, double length, lab_flow *f)
 {
   const int samples = 10;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gases in a bath against closed forms, where collisions are rare or change nothing, and against Enskog's equation
- * without random numbers where both matter. */
+/* Gases in a bath. They are compared with closed forms where collisions are rare or change nothing, and with the
+ * deterministic solution of Enskog's equation where bath and collisions both matter. */
 #include "lab.h"
 
 #include "theory/theory.h"
@@ -20,9 +20,9 @@ static double theta_of(const gg_model *m, const lab_view *v)
   return m->inertia[0] * (v->ss / v->n - mean2) / 3;
 }
 
-/* Smooth elastic grains relax as T = T_b + (T_0 - T_b) e^(-2 gamma t), at any collision rate: each from many ensembles,
- * to four of its errors, which are below 1 %. */
-static void relaxation(void **state)
+/* Smooth elastic grains relax as T = T_b + (T_0 - T_b) e^(-2 gamma t), at any collision rate. Each T is the mean of
+ * many ensembles, with an error below 1 %. */
+static void elastic_grains_relax_to_the_bath(void **state)
 {
   (void)state;
   for (int k = 0; k < 2; k++) {
@@ -39,13 +39,13 @@ static void relaxation(void **state)
       gg_dsmc_ops.destroy(g);
     }
     for (int i = 0; i < 3; i++)
-      lab_expect("T(t)", &T[i], 1 + 2 * exp(-0.4 * (i + 1)), 1e-3, 0.04); /* 1/N: the momentum, which is taken off */
+      lab_expect("T(t)", &T[i], 1 + 2 * exp(-0.4 * (i + 1)), 1e-3, 0.04); /* 1e-3: order 1/N */
   }
 }
 
-/* Hardly a collision: shear, drag and noise alone, steps as long as half the strain. Velocities about the centre and
- * spins have M_yy = T_b, M_xy = -T_b/(2 gamma), M_xx = T_b (1 + 1/(2 gamma^2)), less 1/N, theta = T_b,
- * <omega_z> = -1/2; the centre has no more than two grains' worth over N. */
+/* Shear, drag and noise with hardly a collision, in steps as long as half the strain. Second moments of velocities
+ * about the centre are M_yy = T_b, M_xy = -T_b/(2 gamma), M_xx = T_b (1 + 1/(2 gamma^2)), each less 1/N of itself;
+ * theta = T_b, <omega_z> = -1/2. The centre of mass has at most twice its energy of equilibrium, T_b/N. */
 static void check_sheared_noise(double gamma, int64_t n, int per_block)
 {
   const double Tb = 0.4, about = Tb * (1 - 1 / (double)n);
@@ -80,7 +80,7 @@ static void check_sheared_noise(double gamma, int64_t n, int per_block)
   gg_dsmc_ops.destroy(g);
 }
 
-static void sheared_noise(void **state)
+static void sheared_noise_has_its_moments(void **state)
 {
   (void)state;
   check_sheared_noise(1.5, 20000, 1);
@@ -109,9 +109,9 @@ static void add_about_centre(void *context, const gg_chunk *k)
 }
 
 /* Elastic grains in equilibrium with their bath, whose drag on the last species is `drag` over the mean free time, and
- * a third of that on others. T about the centre of mass is T_b (1 - 1/N), theta T_b; the centre has T_b/N, or less. To
- * four errors, which see 1/N. */
-static void equilibrium(const gg_model *model, double drag, double time_step)
+ * a third of that on others. T about the centre of mass is T_b (1 - 1/N), theta T_b, and the centre has about T_b/N.
+ * The errors are small enough to see 1/N. */
+static void check_equilibrium(const gg_model *model, double drag, double time_step)
 {
   gg_model m = *model;
   const double Tb = 0.5, n = (double)m.n, gamma = drag * gg_common_model_collision_rate(&m, Tb);
@@ -144,7 +144,7 @@ static void equilibrium(const gg_model *model, double drag, double time_step)
   gg_dsmc_ops.destroy(g);
 }
 
-static void strong_drag(void **state)
+static void strong_drag_keeps_equilibrium(void **state)
 {
   (void)state;
   enum { GRAINS = 50 };
@@ -157,11 +157,11 @@ static void strong_drag(void **state)
   s.species[1] = (gg_species){0.4, 2, 3, 0.3, 3};
   const gg_model mixture = lab_model(&s);
   for (size_t i = 0; i < sizeof drags / sizeof *drags; i++) {
-    equilibrium(&smooth, drags[i], GG_AUTO);
-    equilibrium(&mixture, drags[i], GG_AUTO);
+    check_equilibrium(&smooth, drags[i], GG_AUTO);
+    check_equilibrium(&mixture, drags[i], GG_AUTO);
   }
-  equilibrium(&smooth, 7, 1);
-  equilibrium(&mixture, 7, 1);
+  check_equilibrium(&smooth, 7, 1);
+  check_equilibrium(&mixture, 7, 1);
 }
 
 static void against_theory(const gg_model *model, double sight)
@@ -184,9 +184,10 @@ static void against_theory(const gg_model *model, double sight)
   gg_dsmc_ops.destroy(g);
 }
 
-/* Both temperatures, of smooth and rough grains with shear and without, and under white noise of a given strength, to
- * four errors; these are small enough to see 1 %. */
-static void steady(void **state)
+/* Both temperatures of steady states are those of theory: smooth and rough grains, sheared or not, in a bath, under
+ * white noise and under a Gaussian thermostat of given strength; a mixture, too. The errors are small enough to see 1
+ * to 2 %. */
+static void steady_states_are_those_of_theory(void **state)
 {
   (void)state;
   gg_model m = bath(GG_HSS, 0.2, 0.7, -1, 0.3, 1, 0, 20000);
@@ -215,7 +216,8 @@ static void steady(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(relaxation), cmocka_unit_test(sheared_noise),
-                                     cmocka_unit_test(strong_drag), cmocka_unit_test(steady)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(elastic_grains_relax_to_the_bath), cmocka_unit_test(sheared_noise_has_its_moments),
+      cmocka_unit_test(strong_drag_keeps_equilibrium), cmocka_unit_test(steady_states_are_those_of_theory)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

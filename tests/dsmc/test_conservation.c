@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What collisions must keep, they keep to rounding: momentum always, energy where e = 1 and beta = +-1; and the
- * momentum stays at rounding however far the gas cools. */
+/* Conservation laws hold to rounding: momentum always, energy where e = 1 and beta = +-1. The momentum stays at
+ * rounding however far the gas cools. */
 #include "lab.h"
 
 static double energy(gg_engine *g, const gg_model *m)
@@ -36,7 +36,7 @@ static void energy_is_kept(void **state)
   assert_true(drift(0.3, 1, 0.1, 1000) > 1e-3); /* sliding does lose energy: the test can see it */
 }
 
-/* A start has exactly the asked temperatures, whatever the seed: perfectly rough grains keep the sum for ever. */
+/* A start has exactly the temperatures asked for, whatever the seed: perfectly rough grains keep their sum for ever. */
 static void starts_are_exact(void **state)
 {
   (void)state;
@@ -69,8 +69,7 @@ static void momentum_stays_at_rounding(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
-/* Over any interval the energy lost to collisions, as the collision sums have it, is what is missing: pair by pair, in
- * blocks, and in segments. */
+/* The loss in the collision sums is the energy that the gas has lost: on the plain path, in blocks, and in segments. */
 static void sums_account_for_the_loss(void **state)
 {
   (void)state;
@@ -91,7 +90,7 @@ static void sums_account_for_the_loss(void **state)
   }
 }
 
-/* What one collision after another did, against the law of restitution at its own normal speed. */
+/* Largest deviation of e of single collisions from the law of restitution at their normal speed. */
 typedef struct by_law {
   const gg_model *model;
   double worst, slowest, fastest;
@@ -108,8 +107,8 @@ static void hold_to_law(void *context, const gg_collision_record *r)
   x->slowest = fmin(x->slowest, gn), x->fastest = fmax(x->fastest, gn);
 }
 
-/* Ensembles too small for blocks, pair by pair, take e from the table of a built-in law: each collision has the e of
- * the law at its speed, in gases that have cooled by a factor of hundreds, too. */
+/* On the plain path, where e comes from the table of a built-in law, each collision has the e of the law at its speed,
+ * in gases that have cooled by a factor of hundreds, too. */
 static void every_pair_has_its_law(void **state)
 {
   (void)state;

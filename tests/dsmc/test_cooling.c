@@ -6,7 +6,7 @@ typedef struct cooling {
   lab_mean a2, zeta, ratio;
 } cooling;
 
-/* Averages at constant scaled temperature over `blocks` of 20 collisions a grain. */
+/* Averages over `blocks` blocks of 20 collisions a grain, in scaled time. */
 static void cool(const gg_model *m, uint64_t seed, int blocks, cooling *c)
 {
   gg_engine *g = lab_engine(m, seed);
@@ -38,7 +38,7 @@ static void cool(const gg_model *m, uint64_t seed, int blocks, cooling *c)
   gg_dsmc_ops.destroy(g);
 }
 
-static void smooth(void **state)
+static void smooth_grains_have_their_cumulant_and_rate(void **state)
 {
   (void)state;
   const double e[] = {0.8, 0.5}, a2[] = {-0.0145, 0.0474};
@@ -53,7 +53,7 @@ static void smooth(void **state)
   }
 }
 
-static void rough(void **state)
+static void rough_grains_have_their_temperature_ratio(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_HCS, 0.1, 0.9, 0, 20000);
@@ -63,8 +63,8 @@ static void rough(void **state)
   lab_expect("theta/T at e .9, beta 0", &c.ratio, 0.5455, 5e-4, 0.02);
 }
 
-/* Where friction is too strong to slide, it is roughness, bit for bit; where mu is small, spins stay behind. */
-static void friction(void **state)
+/* Friction too strong to slide is roughness, bit for bit; with a small mu spins gain less, and more energy is left. */
+static void strong_friction_is_roughness(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_HCS, 0.1, 0.9, 0, 2000);
@@ -87,10 +87,10 @@ static void friction(void **state)
   gg_dsmc_ops.destroy(c);
 }
 
-/* Ten thousand collisions a grain at constant scaled temperature: the motion of the centre of mass, which rounding
- * feeds and cooling would let grow as exp(zeta t/2) relative to the thermal speed, stays at rounding, and the second
- * half of the run has the fourth cumulant of the first. */
-static void long_cooling(void **state)
+/* Ten thousand collisions a grain. The motion of the centre of mass stays at rounding, though rounding feeds it and
+ * cooling would let it grow as exp(zeta t/2) relative to the thermal speed. The second half of the run has the fourth
+ * cumulant of the first. */
+static void long_cooling_keeps_the_centre_at_rest(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_HCS, 0, 0.9, -1, 4000);
@@ -123,7 +123,9 @@ static void long_cooling(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(friction), cmocka_unit_test(long_cooling),
-                                     cmocka_unit_test(smooth), cmocka_unit_test(rough)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(strong_friction_is_roughness),
+                                     cmocka_unit_test(long_cooling_keeps_the_centre_at_rest),
+                                     cmocka_unit_test(smooth_grains_have_their_cumulant_and_rate),
+                                     cmocka_unit_test(rough_grains_have_their_temperature_ratio)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

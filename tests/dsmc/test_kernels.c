@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The block kernels against each other, bit for bit, and against the plain path, within its error bars. */
+/* Block kernels for all sets of instructions leave the same bits, and agree with the plain path within error bars. */
 #include "dsmc/dsmc.h"
 #include "dsmc/kernel/lanes_collision.h"
 #include "dsmc/kernel/normal.h"
@@ -14,13 +14,13 @@ static gg_engine *on_path(const gg_model *m, gg_dsmc_path path, uint64_t seed)
   return g;
 }
 
-/* A pair of grains in each lane, approaching: unlike, or two of a species. */
+/* An approaching pair of grains in each lane, of one species or of two. */
 typedef struct lane_pairs {
   gg_partner one, two;
   gg_contact contact;
   gg_vec k[GG_WIDTH], c1[GG_WIDTH], c2[GG_WIDTH], s1[GG_WIDTH], s2[GG_WIDTH]; /* before */
   gg_vec d1[GG_WIDTH], d2[GG_WIDTH], t1[GG_WIDTH], t2[GG_WIDTH];              /* after */
-  gg_vec g[GG_WIDTH], J[GG_WIDTH];                                            /* J: times what impulses count in */
+  gg_vec g[GG_WIDTH], J[GG_WIDTH]; /* J: in the unit of the lanes' impulses */
 } lane_pairs;
 
 static lane_pairs random_pairs(gg_rng *rng, gg_rule rule, bool same, bool elastic)
@@ -50,7 +50,7 @@ static void from_lanes(gg_vd3 lanes, gg_vec v[GG_WIDTH])
   for (int l = 0; l < GG_WIDTH; l++) v[l] = (gg_vec){lanes.x[l], lanes.y[l], lanes.z[l]};
 }
 
-/* As the kernels do it. */
+/* Collides the pairs as the kernels do. */
 static void collide_lanes(lane_pairs *p, gg_rule rule, bool same)
 {
   gg_dsmc_lane_contact c = gg_dsmc_lane_contact_of(same, &p->contact);
@@ -69,7 +69,8 @@ static double distance(gg_vec a, gg_vec b)
   return sqrt(gg_dot(d, d));
 }
 
-/* The rule for one pair leaves the same bits; in units of the grains' mass the same to rounding. */
+/* The scalar rule leaves the same bits for unlike grains. Lanes of one species compute in units of the grains' mass,
+ * with the same results to rounding. */
 static void check_against_one(const lane_pairs *p, gg_rule rule, bool same, int l)
 {
   gg_vec c1 = p->c1[l], c2 = p->c2[l], s1 = p->s1[l], s2 = p->s2[l], c12 = gg_sub(c1, c2);
@@ -87,7 +88,7 @@ static double energy(const gg_partner *p, gg_vec c, gg_vec s)
   return 0.5 * p->mass * (gg_dot(c, c) + p->inertia * gg_dot(s, s)); /* I omega^2 = K m s^2 */
 }
 
-/* Momentum, e, and the energy that is gone: from the terms that kernels sum, others of which must not matter. */
+/* Momentum is kept, e is right, and the loss computed from the terms that kernels sum is the energy that is gone. */
 static void check_physics(const lane_pairs *p, gg_rule rule, int l)
 {
   const gg_partner *one = &p->one, *two = &p->two;
@@ -106,7 +107,7 @@ static void check_physics(const lane_pairs *p, gg_rule rule, int l)
   assert_true(fabs(loss - gone) < 2e-13 && fabs(gg_energy_loss(&p->contact, k, g, J) - gone) < 2e-13);
 }
 
-/* e = 1 and beta = 1: the reversed collision leads back. */
+/* With e = 1 and beta = 1 the reversed collision leads back. */
 static void check_reversal(const lane_pairs *p, gg_rule rule, bool same)
 {
   lane_pairs back = *p;
@@ -121,8 +122,8 @@ static void check_reversal(const lane_pairs *p, gg_rule rule, bool same)
   }
 }
 
-/* The collision rule in lanes: that of one pair, and right by itself. */
-static void same_rule(void **state)
+/* The collision rule in lanes is that of one pair, conserves what it must, and can be reversed where it is elastic. */
+static void lanes_have_the_rule_of_one_pair(void **state)
 {
   (void)state;
   gg_rng rng = gg_common_rng_seed(5, 0);
@@ -136,8 +137,8 @@ static void same_rule(void **state)
   }
 }
 
-/* The law of restitution in lanes is that of one number: the same bits in double precision. */
-static void same_law(void **state)
+/* The law of restitution in lanes has the bits of the scalar one, in double precision. */
+static void lanes_have_the_law_of_one_number(void **state)
 {
   (void)state;
   gg_loss_table *t;
@@ -179,7 +180,7 @@ static void same_bits_on(const gg_model *m)
   gg_base_archive_clear(&first);
 }
 
-/* The same seed leaves the same ensemble, sums and counts with AVX-512, AVX2 and neither. */
+/* The same seed leaves the same ensemble, sums and counts with every set of instructions. */
 static void same_bits_in(gg_precision precision)
 {
   const double beta[] = {-1, 0.3, 0.3}, mu[] = {INFINITY, INFINITY, 0.2};
@@ -200,15 +201,15 @@ static void same_bits_in(gg_precision precision)
         }
 }
 
-static void same_bits(void **state)
+static void all_instructions_leave_the_same_bits(void **state)
 {
   (void)state;
   same_bits_in(GG_DOUBLE);
   same_bits_in(GG_SINGLE);
 }
 
-/* Normal numbers: the logarithm to rounding, moments 0, 1, 0, 3 of both numbers of a pair, and no correlation. */
-static void normal_numbers(void **state)
+/* Normal numbers: their logarithm is right to rounding; two of a pair have moments 0, 1, 0, 3 and no correlation. */
+static void normal_numbers_have_their_moments(void **state)
 {
   (void)state;
   gg_rng rng = gg_common_rng_seed(6, 0);
@@ -237,8 +238,7 @@ typedef struct physics {
   lab_mean a2, cooling, P_xy, p;
 } physics;
 
-/* From the same Maxwellian start: a2 and d ln T/ds (s: collisions a grain) of a cooling gas, stress of a sheared one.
- */
+/* a2 and d ln T/ds of a cooling gas (s: collisions a grain), stress of a sheared one, from a Maxwellian start. */
 static void observe(gg_dsmc_path path, int64_t n, int ensembles, int seed, physics *x)
 {
   gg_scene s = lab_scene(GG_HCS, 0, 0.5, -1, n);
@@ -283,7 +283,7 @@ static void agree(const char *what, const lab_mean *a, const lab_mean *b, double
   if (error > sight * fabs(lab_value(a))) fail_msg("%s: an error of %g is too large", what, error);
 }
 
-/* Pairing whole blocks leaves no bias: eight seeds each, large ensembles and small. */
+/* Pairing whole blocks leaves no bias, in large ensembles and small ones. */
 static void blocks_and_plain_agree(void **state)
 {
   (void)state;
@@ -291,15 +291,15 @@ static void blocks_and_plain_agree(void **state)
     int64_t n;
     int ensembles;
     double sight_a2;
-  } sizes[] = {{100000, 1, 0.1}, {8000, 6, 0.12}, {1000, 60, 0.15}, {104, 500, 0.2}}; /* from 8000: sorted */
-  for (int i = getenv("NIGHTLY") ? 0 : 1; i < 4; i++) { /* the largest nightly: another sample of the second's path */
+  } sizes[] = {{100000, 1, 0.1}, {8000, 6, 0.12}, {1000, 60, 0.15}, {104, 500, 0.2}}; /* from 8000 on: sorted */
+  for (int i = getenv("NIGHTLY") ? 0 : 1; i < 4; i++) { /* the largest only nightly: it takes the path of the second */
     physics plain = {0}, blocks = {0};
     for (int seed = 0; seed < 8; seed++) {
       observe(GG_DSMC_PLAIN, sizes[i].n, sizes[i].ensembles, seed, &plain);
       observe(GG_DSMC_BLOCKS, sizes[i].n, sizes[i].ensembles * (i ? 2 : 1), seed + 50, &blocks);
     }
-    /* A hundred grains miss 2 % of the pressure of many, and whole blocks a little less of it: an effect of the size of
-     * 1/N either way, and the engine takes the plain path there. */
+    /* With a hundred grains the pressure is 2 % too low on the plain path, and a little less so in blocks. Both effects
+     * are of order 1/N, and the engine takes the plain path there. */
     double allowed = sizes[i].n < 800 ? 0.5 / (double)sizes[i].n : 0;
     printf("# N = %d\n", (int)sizes[i].n);
     agree("a2", &plain.a2, &blocks.a2, sizes[i].sight_a2, 0);
@@ -309,7 +309,7 @@ static void blocks_and_plain_agree(void **state)
   }
 }
 
-/* Rough and frictional grains, one species and two, in dense shear: temperatures, spin, stress and loss. */
+/* In dense shear both paths agree in temperatures, spin, stress, loss and rate: with each rule, one species and two. */
 static void rules_agree(gg_law_kind law)
 {
   for (int friction = 0; friction < 2; friction++)
@@ -346,7 +346,7 @@ static void every_rule_agrees(void **state)
   rules_agree(GG_LAW_CONSTANT);
 }
 
-/* The same with a law of restitution, smooth grains in place of rough ones: the loss is summed in another way. */
+/* The same with a law of restitution, with which the loss is summed differently (smooth grains for rough ones). */
 static void every_rule_agrees_by_law(void **state)
 {
   (void)state;
@@ -355,10 +355,10 @@ static void every_rule_agrees_by_law(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(same_rule),
-                                     cmocka_unit_test(same_law),
-                                     cmocka_unit_test(normal_numbers),
-                                     cmocka_unit_test(same_bits),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(lanes_have_the_rule_of_one_pair),
+                                     cmocka_unit_test(lanes_have_the_law_of_one_number),
+                                     cmocka_unit_test(normal_numbers_have_their_moments),
+                                     cmocka_unit_test(all_instructions_leave_the_same_bits),
                                      cmocka_unit_test(every_rule_agrees),
                                      cmocka_unit_test(every_rule_agrees_by_law),
                                      cmocka_unit_test(blocks_and_plain_agree)};

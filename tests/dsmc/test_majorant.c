@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A majorant that is too low is noticed, counted and made up for: forced down before every step, it changes neither the
- * collision rate nor the energy that collisions destroy; nor, of a sheared mixture of rough grains, the collision rate
- * of any pair of species, the stress, and how energy is shared between species and with the spins. */
+/* A majorant that is too low is noticed, counted and corrected for. Forced down before every step, it changes neither
+ * the collision rate nor the loss; in a sheared mixture of rough grains it changes neither the collision rate of any
+ * pair of species nor the stress, nor how energy is shared between species and with the spins. */
 #include "dsmc/dsmc.h"
 #include "lab.h"
 
@@ -36,7 +36,7 @@ static void run(double forced, lab_mean *rate, lab_mean *loss, uint64_t *overflo
   gg_dsmc_ops.destroy(g);
 }
 
-static void forced_overflows(void **state)
+static void forced_overflows_change_nothing(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_EQUILIBRIUM, 0.2, 1, -1, 2000);
@@ -54,7 +54,7 @@ static void forced_overflows(void **state)
   }
 }
 
-/* What a sheared mixture does, over blocks of time. */
+/* Averages of a sheared mixture over blocks of time. */
 typedef struct mixed {
   lab_mean rate[GG_PAIRS], loss, shear, pressure, transfer, T, ratio, spins;
 } mixed;
@@ -64,9 +64,9 @@ static double trace(double a[3][3])
   return a[0][0] + a[1][1] + a[2][2];
 }
 
-/* One block; the majorant is forced down (if `forced`) an eighth of a collision per grain after it last was. There must
- * be grains enough that each interval has candidates, of each pair of species, that notice it: of a few tens of
- * collisions that would share one interval, about 1 % get lost unnoticed. */
+/* One block; the majorant is forced down (if `forced`) after every eighth of a collision per grain. The ensemble must
+ * be so large that each interval has candidates of every pair of species that notice it: were there only a few tens of
+ * collisions in an interval, about 1 % would be lost unnoticed. */
 static void block(gg_engine *g, const gg_model *m, double forced, mixed *out)
 {
   enum { INTERVALS = 300 };
@@ -122,7 +122,7 @@ static void shear(gg_dsmc_path path, double forced, uint64_t seed, mixed *out)
   gg_dsmc_ops.destroy(g);
 }
 
-static void forced_overflows_of_a_mixture(void **state)
+static void forced_overflows_change_no_mixture(void **state)
 {
   (void)state;
   const double forced[] = {2, 0.3};
@@ -152,7 +152,7 @@ static void forced_overflows_of_a_mixture(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(forced_overflows),
-                                     cmocka_unit_test(forced_overflows_of_a_mixture)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(forced_overflows_change_nothing),
+                                     cmocka_unit_test(forced_overflows_change_no_mixture)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Binary mixtures: what must hold exactly, and temperature ratios, cumulants and viscosity known from elsewhere. */
+/* Binary mixtures: exact results, and temperature ratios, cumulants and viscosity from the literature. */
 #include "lab.h"
 
 static gg_scene mixture(gg_flow flow, double phi, double e, double beta, gg_species one, gg_species two, int64_t n)
@@ -43,8 +43,8 @@ static void average(const gg_model *m, uint64_t seed, int warmup, int blocks, ra
   gg_dsmc_ops.destroy(g);
 }
 
-/* Elastic grains of any masses and sizes: energy to rounding, equal partial temperatures. */
-static void elastic(void **state)
+/* Elastic grains of any masses and sizes keep their energy to rounding and have equal partial temperatures. */
+static void elastic_mixtures_are_in_equilibrium(void **state)
 {
   (void)state;
   gg_scene s =
@@ -63,9 +63,9 @@ static void elastic(void **state)
   lab_expect("T_1/T_2, elastic", &r.gamma, 1, 0, 0.01);
 }
 
-/* Unlike sizes and masses, elastic: p = n T [1 + (2 pi/3) n sum_ij x_i x_j sigma_ij^3 chi_ij], of which each pair of
- * species has its own share. */
-static void pressure(void **state)
+/* The pressure of elastic grains of unlike sizes and masses: p = n T [1 + (2 pi/3) n sum_ij x_i x_j sigma_ij^3 chi_ij];
+ * each pair of species has its own term. */
+static void each_pair_of_species_has_its_pressure(void **state)
 {
   (void)state;
   gg_scene s =
@@ -92,8 +92,8 @@ static void pressure(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
-/* Two names for one kind of grains change nothing: rough grains in dense shear, as one species and as two. */
-static void relabelling(void **state)
+/* Rough grains in dense shear do the same as one species and as two species of equal grains. */
+static void two_names_for_one_species_change_nothing(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_USF, 0.2, 0.8, 0.2, 20000);
@@ -118,9 +118,9 @@ static void relabelling(void **state)
   gg_dsmc_ops.destroy(gb);
 }
 
-/* Temperature ratios of figures 3-5 of Montanero's review, first Sonine order (Garzo & Dufty 1999), within 1 %;
- * cumulants of an independent Monte Carlo solution. In free cooling and under the Gaussian thermostat alike. */
-static void cooling(void **state)
+/* Temperature ratios are within 1 % of the first Sonine order (Garzo & Dufty 1999; figures 3-5 of Montanero's review),
+ * cumulants those of an independent Monte Carlo solution, in free cooling and under the Gaussian thermostat alike. */
+static void cooling_mixtures_have_their_ratio(void **state)
 {
   (void)state;
   const struct {
@@ -142,9 +142,9 @@ static void cooling(void **state)
   }
 }
 
-/* Elastic equimolar mixture, masses 1 and 0.1, n = sqrt(2)/3: Enskog shear viscosity 0.29379 at T = 1 (Erpenbeck 1989).
- */
-static void viscosity(void **state)
+/* An elastic equimolar mixture of masses 1 and 0.1, n = sqrt(2)/3, has Enskog's shear viscosity, 0.29379 at T = 1
+ * (Erpenbeck 1989). */
+static void viscosity_is_erpenbecks(void **state)
 {
   (void)state;
   gg_species one = {0.5, 1, 1, 0.4, 1}, two = {0.5, 1, 0.1, 0.4, 1};
@@ -177,8 +177,9 @@ static void viscosity(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic), cmocka_unit_test(pressure),
-                                     cmocka_unit_test(relabelling), cmocka_unit_test(cooling),
-                                     cmocka_unit_test(viscosity)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(elastic_mixtures_are_in_equilibrium), cmocka_unit_test(each_pair_of_species_has_its_pressure),
+      cmocka_unit_test(two_names_for_one_species_change_nothing), cmocka_unit_test(cooling_mixtures_have_their_ratio),
+      cmocka_unit_test(viscosity_is_erpenbecks)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A restored engine goes on bit for bit; so does one whose velocities were multiplied by a power of two. */
+/* A restored engine continues bit for bit; so does one whose velocities were multiplied by a power of two. */
 #include "common/rng.h"
 #include "dsmc/dsmc.h"
 #include "lab.h"
@@ -38,7 +38,7 @@ static void restart(gg_flow flow, double phi, double beta, int64_t n, int specie
   gg_dsmc_ops.destroy(straight);
   gg_dsmc_ops.destroy(resumed);
 
-  /* A checkpoint of another size is refused with a message. */
+  /* A checkpoint of another size is rejected with a message. */
   s.dsmc.particles = n + 8 * species;
   m = lab_model(&s);
   assert_int_equal(gg_dsmc_ops.restore(&m, &archive, &resumed, &err), GG_BAD_FILE);
@@ -58,8 +58,7 @@ static void restarts_bit_for_bit(void **state)
   }
 }
 
-/* A sheared gas that begins in the cold has majorants that were learned there, over speeds of then: a state like any
- * other. */
+/* A sheared gas that begins cold warms up; its majorants, which were found at lower speeds, are restored, too. */
 static void restarts_while_it_warms(void **state)
 {
   (void)state;
@@ -86,9 +85,9 @@ static void count(void *context, const gg_collision_record *collision)
   *(uint64_t *)context += collision->c12.x == collision->c12.x;
 }
 
-/* Without its callback an engine goes back to its block kernels: a run that had one and no longer has goes on bit for
- * bit, too, and at the temperature that it would have had. */
-static void without_its_callback(void **state)
+/* Once its collision callback is removed, an engine returns to its block kernels. Saved then, it continues bit for bit,
+ * and its temperature is that of a run that never had a callback. */
+static void restarts_without_its_callback(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_HCS, 0.1, 0.8, -1, 3000);
@@ -114,7 +113,7 @@ static void without_its_callback(void **state)
   gg_dsmc_ops.destroy(resumed);
 }
 
-/* A gas that has cooled beyond all numbers of the units it began in has a state like any other. */
+/* A gas that has cooled below the smallest number in the units of its start is saved and restored like any other. */
 static void restarts_far_below(void **state)
 {
   (void)state;
@@ -135,7 +134,7 @@ static void restarts_far_below(void **state)
   gg_dsmc_ops.destroy(resumed);
 }
 
-/* Rounding does not depend on the exponent, so neither does a cooling run. */
+/* Rescaling changes exponents only, on which rounding does not depend: it changes no other bit of a cooling run. */
 static void rescale_in(gg_precision precision)
 {
   gg_scene s = lab_scene(GG_HCS, 0.1, 0.6, 0.5, 1001);
@@ -169,8 +168,8 @@ static void rescaling_is_exact(void **state)
   gg_dsmc_ops.destroy(plain);
 }
 
-/* A checkpoint of the other precision is refused with a message. */
-static void precision_is_kept(void **state)
+/* A checkpoint of the other precision is rejected with a message. */
+static void a_checkpoint_keeps_its_precision(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_HCS, 0.1, 0.6, -1, 1000);
@@ -199,8 +198,8 @@ static bool by_chance(void *context)
   return gg_rng_uniform(context) < 0.5;
 }
 
-/* Stopped at random ends of steps, each time saved and restored, an advance ends as the uninterrupted one. */
-static void stopped(void **state)
+/* An advance that is stopped after random steps, saved and restored each time, ends as the uninterrupted one. */
+static void stopped_runs_end_as_uninterrupted_ones(void **state)
 {
   (void)state;
   const struct {
@@ -214,7 +213,7 @@ static void stopped(void **state)
     s.thermostat = cases[k].flow == GG_HSS ? GG_GAUSSIAN : GG_NO_THERMOSTAT;
     gg_model m = lab_model(&s);
     gg_rng rng = gg_common_rng_seed(1, 0);
-    gg_stop stop = {never, &rng}; /* its start */
+    gg_stop stop = {never, &rng}; /* never stops its start */
     gg_error err;
     double dt = 20 / gg_common_model_collision_rate(&m, m.temperature0), gone;
     gg_engine *straight = lab_engine(&m, 8);
@@ -247,9 +246,9 @@ int main(void)
   const struct CMUnitTest tests[] = {cmocka_unit_test(restarts_bit_for_bit),
                                      cmocka_unit_test(restarts_while_it_warms),
                                      cmocka_unit_test(restarts_far_below),
-                                     cmocka_unit_test(without_its_callback),
+                                     cmocka_unit_test(restarts_without_its_callback),
                                      cmocka_unit_test(rescaling_is_exact),
-                                     cmocka_unit_test(precision_is_kept),
-                                     cmocka_unit_test(stopped)};
+                                     cmocka_unit_test(a_checkpoint_keeps_its_precision),
+                                     cmocka_unit_test(stopped_runs_end_as_uninterrupted_ones)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

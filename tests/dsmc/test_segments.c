@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Segments that collide in rounds are the gas: every pair of segments is paired as often as any other, grains of one
- * segment and of two collide at the same rate, gases that begin at different temperatures mix as they would one pair
- * after another, and what is measured of heated, sheared and mixed gases is what an ensemble in one piece has. One
- * thread does all: that more leave the same bits is test_threads.c's matter. */
+/* An ensemble in segments, which collide in rounds, is the same gas as an ensemble in one piece. Every two segments
+ * meet equally often; grains of one segment and of two collide at the same rate; segments of different temperatures mix
+ * as fast as on the plain path; heated, sheared and mixed gases have the same averages. All runs here have one thread;
+ * test_threads.c tests that more leave the same bits. */
 #include "dsmc/dsmc.h"
 #include "lab.h"
 
-/* Each segment is paired with each other once, and is in one pair at a time. */
-static void everyone_meets(void **state)
+/* In a schedule each segment is paired with each other once, and is in one pair at a time. */
+static void every_two_segments_meet_once(void **state)
 {
   (void)state;
   for (int segments = 4; segments <= GG_DSMC_MAX_SEGMENTS; segments *= 2) {
@@ -28,8 +28,8 @@ static void everyone_meets(void **state)
   }
 }
 
-/* All blocks are in one segment, whatever their number; rounds come each once, in ever new orders. */
-static void cut_and_shuffled(void **state)
+/* Each block is in exactly one segment, whatever their number; a schedule has each round once, in a new order. */
+static void all_blocks_are_in_one_segment(void **state)
 {
   (void)state;
   float bounds[1];
@@ -60,9 +60,9 @@ static void cut_and_shuffled(void **state)
   for (int k = 0; k < 8; k++) assert_true(abs(first[k] - 1000) < 5 * 30);
 }
 
-/* A thread that takes one half of the pairs, and then the parts that go with it, keeps to the same segments; and the
- * grouping changes twice a schedule. */
-static void halves_stay(void **state)
+/* A thread that takes one half of the pairs of a round and the parts that go with it stays with the same segments; the
+ * halves change twice a schedule. */
+static void halves_stay_with_their_segments(void **state)
 {
   (void)state;
   for (int segments = 8; segments <= GG_DSMC_MAX_SEGMENTS; segments *= 2)
@@ -93,7 +93,7 @@ static void halves_stay(void **state)
 
 enum { SEGMENTS = 8, PLANTED = 64000 };
 
-/* Speeds along x by segment and by odd and even blocks. */
+/* Speeds along x, by segment and by whether the block is odd or even. */
 typedef struct plan {
   const char *name;
   double x[SEGMENTS][2];
@@ -125,7 +125,7 @@ static double plant(gg_dsmc *d, const plan *p)
   return sum;
 }
 
-static void planted_rates(void **state)
+static void pairs_of_segments_collide_at_the_same_rate(void **state)
 {
   (void)state;
   static const plan plans[] = {
@@ -146,7 +146,7 @@ static void planted_rates(void **state)
     const double rate = M_PI * gg_dsmc_cross_section(d, 0, 0) * pairs, dt = PLANTED / 4000. / rate;
     for (int block = 0; block < 1100; block++) {
       uint64_t before = d->now.collisions;
-      for (int k = 0; k < 3 * SEGMENTS; k++) { /* whole schedules, however many rounds an interval has */
+      for (int k = 0; k < 3 * SEGMENTS; k++) { /* whole schedules, for any number of rounds in an interval */
         plant(d, &plans[i]);
         gg_dsmc_collide(d, dt, 0, 0, GG_DSMC_FORWARD);
       }
@@ -167,8 +167,8 @@ static void in_one_piece(gg_engine *g)
   d->schedule = NULL;
 }
 
-/* Half of the segments nine times as hot as the others: the fourth cumulant tells how far they have mixed, by
- * collisions between segments alone, and so does the collision rate. */
+/* Half of the segments begin nine times as hot as the others. The fourth cumulant and the collision rate show how far
+ * they have mixed, which only collisions between segments do. */
 static void mix(gg_dsmc_path path, int seed, lab_mean a2[3], lab_mean time[3])
 {
   gg_scene s = lab_scene(GG_EQUILIBRIUM, 0.1, 1, -1, PLANTED);
@@ -200,7 +200,7 @@ static void mix(gg_dsmc_path path, int seed, lab_mean a2[3], lab_mean time[3])
   gg_dsmc_ops.destroy(g);
 }
 
-static void segments_mix(void **state)
+static void segments_mix_as_the_plain_path_does(void **state)
 {
   (void)state;
   lab_mean a2[2][3] = {{{0}}}, time[2][3] = {{{0}}};
@@ -247,7 +247,7 @@ static void no_bias_in(const char *name, const gg_scene *s, double length)
   if (m.rule != GG_SMOOTH) agree("theta", &f[0].theta, &f[1].theta, 0.02);
 }
 
-static void no_bias(void **state)
+static void segments_leave_no_bias(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_USF, 0.3, 0.8, 0.3, PLANTED);
@@ -262,8 +262,8 @@ static void no_bias(void **state)
   no_bias_in("white noise", &s, 10);
 }
 
-/* One species of a large ensemble that has few grains: no part of it would be large enough to stand for it. */
-static void no_segments_of_few(void **state)
+/* A species with few grains in a large ensemble is not cut: no part of it would be large enough to represent it. */
+static void a_small_species_is_not_cut(void **state)
 {
   (void)state;
   for (int first = 0; first < 2; first++) {
@@ -285,9 +285,12 @@ static void no_segments_of_few(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(everyone_meets),    cmocka_unit_test(cut_and_shuffled),
-                                     cmocka_unit_test(halves_stay),       cmocka_unit_test(planted_rates),
-                                     cmocka_unit_test(segments_mix),      cmocka_unit_test(no_bias),
-                                     cmocka_unit_test(no_segments_of_few)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(every_two_segments_meet_once),
+                                     cmocka_unit_test(all_blocks_are_in_one_segment),
+                                     cmocka_unit_test(halves_stay_with_their_segments),
+                                     cmocka_unit_test(pairs_of_segments_collide_at_the_same_rate),
+                                     cmocka_unit_test(segments_mix_as_the_plain_path_does),
+                                     cmocka_unit_test(segments_leave_no_bias),
+                                     cmocka_unit_test(a_small_species_is_not_cut)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

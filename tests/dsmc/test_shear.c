@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Uniform shear: the sign of everything, the balance of energy, and numbers of independent solutions. */
+/* Uniform shear: signs, the balance of energy, and comparison with independent solutions. */
 #include "lab.h"
 
 #include "theory/theory.h"
 #include "theory/theory_list.h"
 
-/* The solution in units that are `unit` of the engine's. */
+/* Compares with a solution in units that are `unit` of the engine's. */
 static void lab_solution(const char *what, const lab_mean *m, const gg_theory_answer *a, gg_quantity q, double unit,
                          double sight)
 {
@@ -20,9 +20,9 @@ static void average(const gg_model *m, uint64_t seed, double warmup, int blocks,
   gg_dsmc_ops.destroy(g);
 }
 
-/* Boltzmann limit, e = 0.9: reduced shear rate and normal stress differences of an independent Monte Carlo solution
- * (linear Grad gives a* .3587, N1 .2423, N2 0); no collisional stress. */
-static void dilute(void **state)
+/* In the Boltzmann limit, at e = 0.9, reduced shear rate and normal stress differences are those of an independent
+ * Monte Carlo solution (linear Grad gives a* .3587, N1 .2423, N2 0), and there is no collisional stress. */
+static void dilute_shear_is_boltzmanns(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_USF, 0, 0.9, -1, 20000);
@@ -37,9 +37,10 @@ static void dilute(void **state)
   assert_true(fabs(lab_value(&f.p) / lab_value(&f.T) - 1) < 1e-12);
 }
 
-/* Dense: temperature and stresses of Enskog's equation solved without random numbers; energy closes with the shear
- * between the centres in. A wrong sign of that shear lowers the work of the collisional stress by half. */
-static void dense(void **state)
+/* A dense gas has the temperature and stresses of the deterministic solution of Enskog's equation. Energy is balanced
+ * only if the difference of the flow between the two centres is counted: its wrong sign would halve the work of the
+ * collisional stress. */
+static void dense_shear_is_enskogs(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_USF, 0.3, 0.9, -1, 10000);
@@ -57,11 +58,11 @@ static void dense(void **state)
   assert_true(lab_value(&f.P[0][1]) < 0 && lab_value(&f.kinetic[0][1]) < 0);
   assert_true(lab_value(&f.P[0][1]) < 2 * lab_value(&f.kinetic[0][1]));
   assert_true(fabs(lab_value(&f.P[0][1]) / lab_value(&f.P[1][0]) - 1) < 1e-9); /* smooth: symmetric */
-  assert_true(lab_value(&f.N2) > 0);                                           /* changed sign at phi = 0.13 */
+  assert_true(lab_value(&f.N2) > 0);                                           /* changes sign at phi = 0.13 */
 }
 
-/* Elastic, slowly sheared: Enskog's viscosity (first Sonine order, exact prefactor 1.016 in the kinetic part). */
-static void elastic_viscosity(void **state)
+/* Elastic grains in slow shear have Enskog's viscosity (first Sonine order, with an exact kinetic prefactor, 1.016). */
+static void elastic_viscosity_is_enskogs(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_USF, 0.3, 1, -1, 20000);
@@ -83,7 +84,7 @@ static void elastic_viscosity(void **state)
   lab_expect("eta/eta_0, Enskog", &eta, 1.016 * x * x / chi + 768 / (25 * M_PI) * phi * phi * chi, 0.006, 0.04);
 }
 
-static void rough(void **state)
+static void rough_grains_have_their_temperature_ratio(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_USF, 0.01, 0.9, 0, 10000);
@@ -104,7 +105,8 @@ static void rough(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(dilute), cmocka_unit_test(dense),
-                                     cmocka_unit_test(elastic_viscosity), cmocka_unit_test(rough)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(dilute_shear_is_boltzmanns), cmocka_unit_test(dense_shear_is_enskogs),
+      cmocka_unit_test(elastic_viscosity_is_enskogs), cmocka_unit_test(rough_grains_have_their_temperature_ratio)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Single precision against double: the same physics within errors, and what rounding does. */
+/* Single precision has the physics of double precision within errors, and rounding does no harm. */
 #include "lab.h"
 
-/* Elastic grains keep their energy, momentum and Maxwellian over 100 collisions a grain: a relative rounding of 6e-8 a
- * collision, at random, comes to 6e-8 sqrt(200/N) of the energy, and what has a preferred side to 1e-7 a collision. */
-static void elastic_energy(void **state)
+/* Elastic grains keep their energy, momentum and Maxwellian over 100 collisions a grain. Rounding by 6e-8 a collision
+ * changes the energy by 6e-8 sqrt(200/N) if it is random, and by 1e-7 a collision if it has a preferred side. */
+static void elastic_energy_stays_at_rounding(void **state)
 {
   (void)state;
   for (int rough = 0; rough < 2; rough++) {
@@ -25,7 +25,7 @@ static void elastic_energy(void **state)
   }
 }
 
-/* Share of the energy that is gone after 1500 collisions a grain, of which a thermostat gives back what they take. */
+/* The share of the energy that is gone after 1500 collisions a grain whose loss a thermostat gives back. */
 static double gone(double e)
 {
   gg_scene s = lab_scene(GG_HSS, 0.1, e, -1, 1000);
@@ -40,9 +40,10 @@ static double gone(double e)
   return 1 - lab_temperature(&after) / lab_temperature(&before);
 }
 
-/* What is given back a step is so little that each velocity would be rounded to what it was: it is given back later.
- * Else 2 x 10^-4 were gone. (One step of single precision below e = 1 collisions themselves lose it by rounding.) */
-static void little_heat(void **state)
+/* The energy that is given back in a step is so little that each velocity would be rounded to its old value. It is
+ * given back later, with more; otherwise 2 x 10^-4 of the energy would be lost. (With e one step of single precision
+ * below 1, collisions themselves lose energy by rounding.) */
+static void little_heat_is_given_back_later(void **state)
 {
   (void)state;
   double elastic = gone(1), inelastic = gone(1 - 0x1p-22);
@@ -59,9 +60,8 @@ static void agree(const char *what, const lab_mean *a, const lab_mean *b, double
   if (error > sight * fabs(lab_value(a))) fail_msg("%s: an error of %g is too large", what, error);
 }
 
-/* Mean a2 of a gas that cools for 10^4 collisions a grain; its temperature, scaled back as a run does it, falls by
- * hundreds of decades. Rounding of the mean velocity must not grow, as it does relative to the thermal speed if nothing
- * removes it. */
+/* Mean a2 of a gas that cools for 10^4 collisions a grain. Its temperature falls by hundreds of decades, rescaled as in
+ * a run. The mean velocity that rounding leaves would grow relative to the thermal speed if it were not removed. */
 static lab_mean long_cooling_in(gg_precision precision)
 {
   gg_scene s = lab_scene(GG_HCS, 0, 0.8, -1, 1000);
@@ -87,15 +87,15 @@ static lab_mean long_cooling_in(gg_precision precision)
   return a2;
 }
 
-static void long_cooling(void **state)
+static void long_cooling_is_that_of_double(void **state)
 {
   (void)state;
   lab_mean of_double = long_cooling_in(GG_DOUBLE), of_single = long_cooling_in(GG_SINGLE);
   agree("a2", &of_double, &of_single, 0.08); /* a gas that moves would tend to -2/3 */
 }
 
-/* Cooling at e = 0.5: a2 and d ln T/ds (s: collisions a grain), eight seeds each. */
-static void cooling(void **state)
+/* Cooling at e = 0.5 has the same a2 and d ln T/ds in both precisions (s: collisions a grain). */
+static void cooling_is_that_of_double(void **state)
 {
   (void)state;
   lab_mean a2[2] = {{0}}, rate[2] = {{0}};
@@ -122,8 +122,8 @@ static void cooling(void **state)
   agree("d ln T/ds", &rate[0], &rate[1], 0.002);
 }
 
-/* Sheared, heated; smooth, rough, frictional; one species and two: temperatures, stresses, loss, rates. */
-static void flows(void **state)
+/* Sheared and heated gases have the same temperatures, stresses, loss and rates: each rule, one species and two. */
+static void flows_are_those_of_double(void **state)
 {
   (void)state;
   const struct {
@@ -160,8 +160,8 @@ static void flows(void **state)
   }
 }
 
-/* T_1/T_2 of a cooling mixture of masses 1 and 8. */
-static void mixture(void **state)
+/* A cooling mixture of masses 1 and 8 has the same T_1/T_2. */
+static void mixtures_are_those_of_double(void **state)
 {
   (void)state;
   lab_mean ratio[2] = {{0}};
@@ -187,14 +187,14 @@ static void mixture(void **state)
   agree("T_1/T_2", &ratio[0], &ratio[1], 0.01);
 }
 
-/* The plain path computes in double on grains kept in single precision: a small ensemble, a number of grains that is no
- * multiple of eight, a collision callback. */
+/* The plain path computes in double precision with grains stored in single precision. Energy is balanced in a small
+ * ensemble, and in a large one with a collision callback; neither is a multiple of eight. */
 static void add_normal_speed(void *context, const gg_collision_record *collision)
 {
   *(double *)context += gg_dot(collision->k, collision->c12);
 }
 
-static void plain_path(void **state)
+static void the_plain_path_balances_energy(void **state)
 {
   (void)state;
   gg_error err = {0};
@@ -221,9 +221,10 @@ static void plain_path(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic_energy), cmocka_unit_test(little_heat),
-                                     cmocka_unit_test(long_cooling),   cmocka_unit_test(plain_path),
-                                     cmocka_unit_test(cooling),        cmocka_unit_test(flows),
-                                     cmocka_unit_test(mixture)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(elastic_energy_stays_at_rounding), cmocka_unit_test(little_heat_is_given_back_later),
+      cmocka_unit_test(long_cooling_is_that_of_double),   cmocka_unit_test(the_plain_path_balances_energy),
+      cmocka_unit_test(cooling_is_that_of_double),        cmocka_unit_test(flows_are_those_of_double),
+      cmocka_unit_test(mixtures_are_those_of_double)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

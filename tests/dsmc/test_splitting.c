@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Symmetric splitting over species pairs: all have had the same time, the second half of the list mirrors the first,
- * and both orders together take no longer than the step allows: in the list, and as the collision callback of a mixture
- * has it. */
+/* Symmetric splitting of a step over the pairs of species. All pairs get the same time, the second half of the list of
+ * substeps mirrors the first, and both orders together take no longer than the step: in the list, and as the collision
+ * callback of a mixture sees it. */
 #include "dsmc/ensemble.h"
 #include "dsmc/splitting.h"
 #include "lab.h"
@@ -24,7 +24,7 @@ static void substeps_cover_all(void **state)
     }
 }
 
-static void symmetric_is_symmetric(void **state)
+static void the_symmetric_list_is_symmetric(void **state)
 {
   (void)state;
   gg_dsmc_substep substep[GG_DSMC_MAX_SUBSTEPS];
@@ -37,7 +37,7 @@ static void symmetric_is_symmetric(void **state)
   }
 }
 
-static void backward_is_reversed(void **state)
+static void the_backward_list_is_reversed(void **state)
 {
   (void)state;
   gg_dsmc_substep there[GG_DSMC_MAX_SUBSTEPS], back[GG_DSMC_MAX_SUBSTEPS];
@@ -55,8 +55,8 @@ static gg_model mixture(gg_flow flow)
   return lab_model(&s);
 }
 
-/* Whole steps, what is left of them at the end of a run, and parts of them. */
-static void as_often_as_the_step_asks(void **state)
+/* Whole steps, the rest of a step at the end of a run, and parts of steps have as many substeps as they should. */
+static void substeps_are_as_many_as_the_step_asks(void **state)
 {
   (void)state;
   for (int sheared = 0; sheared < 2; sheared++) {
@@ -79,13 +79,13 @@ static void as_often_as_the_step_asks(void **state)
   }
 }
 
-/* Times since the grains' last collisions. */
+/* Times between collisions of a grain. */
 typedef struct flights {
-  double unit, shortest; /* mean free time */
-  uint64_t n, middling;  /* from 0.5 to 1.5 */
+  double unit, shortest; /* unit: the mean free time */
+  uint64_t n, middling;  /* middling: from 0.5 to 1.5 units */
 } flights;
 
-static void note_flight(void *context, const gg_collision_record *c)
+static void count_flight(void *context, const gg_collision_record *c)
 {
   flights *f = context;
   for (int g = 0; g < 2; g++) {
@@ -97,9 +97,9 @@ static void note_flight(void *context, const gg_collision_record *c)
   }
 }
 
-/* Where pairs are split, a grain may have had its last collision a little later than this one, by no more than all of
- * them take in both orders; and over many substeps a step, flights are as long as in any gas: were all collisions at
- * the beginning of their step, none would be middling. */
+/* Where a step is split over pairs of species, the time since a grain's last collision may be negative, but by no more
+ * than the two orders take together. With many substeps a step, flights are as long as in any gas: were all collisions
+ * at the beginning of their step, none would be middling. */
 static void collisions_come_in_their_time(void **state)
 {
   (void)state;
@@ -107,24 +107,24 @@ static void collisions_come_in_their_time(void **state)
   gg_engine *g = lab_engine(&m, 5);
   flights f = {.unit = 1 / gg_common_model_collision_rate(&m, m.temperature0)};
   gg_error err;
-  assert_int_equal(gg_dsmc_ops.set_callback(g, note_flight, &f, &err), GG_OK);
+  assert_int_equal(gg_dsmc_ops.set_callback(g, count_flight, &f, &err), GG_OK);
   lab_advance(g, 6 * f.unit, UINT64_MAX);
   double share = (double)f.middling / (double)f.n;
   printf("# %d flights, shortest %.3f mean free times, %.3f of them middling\n", (int)f.n, f.shortest, share);
   assert_true(f.n > 5000);
-  assert_true(f.shortest > -0.27); /* a quarter, and a little for mean free times that grow as the gas cools */
+  assert_true(f.shortest > -0.27); /* a quarter, and a little because the mean free time grows as the gas cools */
   assert_true(share > 0.3 && share < 0.45);
   gg_dsmc_ops.destroy(g);
 }
 
-/* The square of a velocity that is fixed in the laboratory grows by this at most while the strain grows by s. */
+/* The most by which the square of a velocity that is constant in the laboratory grows while the strain grows by s. */
 static double largest_growth(double s)
 {
   return 1 + s * s / 2 + s * sqrt(1 + s * s / 4);
 }
 
-/* Bounds of speeds that hold at one strain are made to hold at others, over the strains that a substep goes back and
- * forth by. */
+/* Bounds of speeds that hold at one strain are raised until they hold over the whole interval of strains that a substep
+ * goes back and forth over. */
 static void bounds_hold_over_a_sweep(void **state)
 {
   (void)state;
@@ -135,7 +135,7 @@ static void bounds_hold_over_a_sweep(void **state)
       double down = 0.1 - strain, up = strain + width - 0.15, far = fmax(fmax(down, up), 0);
       assert_true(e.bound_scale >= largest_growth(far) && e.bound_scale < 1.2 * largest_growth(far));
       double before = e.bound_scale;
-      gg_dsmc_ensemble_strain_bounds(&e, strain + 0.3 * width, 0.7 * width); /* within: nothing to do */
+      gg_dsmc_ensemble_strain_bounds(&e, strain + 0.3 * width, 0.7 * width); /* within the last */
       assert_true(fabs(e.bound_scale / before - 1) < 1e-12);
     }
 }
@@ -143,9 +143,12 @@ static void bounds_hold_over_a_sweep(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(substeps_cover_all),       cmocka_unit_test(symmetric_is_symmetric),
-      cmocka_unit_test(backward_is_reversed),     cmocka_unit_test(as_often_as_the_step_asks),
-      cmocka_unit_test(bounds_hold_over_a_sweep), cmocka_unit_test(collisions_come_in_their_time),
+      cmocka_unit_test(substeps_cover_all),
+      cmocka_unit_test(the_symmetric_list_is_symmetric),
+      cmocka_unit_test(the_backward_list_is_reversed),
+      cmocka_unit_test(substeps_are_as_many_as_the_step_asks),
+      cmocka_unit_test(bounds_hold_over_a_sweep),
+      cmocka_unit_test(collisions_come_in_their_time),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

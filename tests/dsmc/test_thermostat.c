@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Heated gases: what the thermostats keep, and the viscosities that the literature measures with them. */
+/* Heated gases: what thermostats keep constant, and the viscosities that the literature has for heated gases. */
 #include "lab.h"
 
 #include "dsmc/dsmc.h"
@@ -12,9 +12,9 @@ static gg_model heated(gg_flow flow, gg_thermostat thermostat, double phi, doubl
   return lab_model(&s);
 }
 
-/* The Gaussian thermostat keeps the temperature, and the gas is otherwise the freely cooling one: same cumulant and
+/* The Gaussian thermostat keeps the temperature; otherwise the gas is the freely cooling one, with its cumulant and
  * cooling rate at e = 0.5. */
-static void gaussian(void **state)
+static void gaussian_thermostat_keeps_the_temperature(void **state)
 {
   (void)state;
   gg_model m = heated(GG_HSS, GG_NO_THERMOSTAT, 0.2, 0.5, -1, 50000);
@@ -28,8 +28,8 @@ static void gaussian(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
-/* It keeps the temperature of rough grains, too, while spins that began elsewhere come to theirs. */
-static void gaussian_rough(void **state)
+/* It keeps the temperature of rough grains, too, while their rotational temperature relaxes to its own steady value. */
+static void gaussian_thermostat_keeps_that_of_rough_grains(void **state)
 {
   (void)state;
   gg_model m = heated(GG_HSS, GG_NO_THERMOSTAT, 0.02, 0.7, 0.2, 20000);
@@ -41,9 +41,9 @@ static void gaussian_rough(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
-/* White noise: a2 = 16 (1-e)(1-2e^2)/(241 - 177 e + 30 e^2 (1-e)) to 3 % (van Noije & Ernst 1998, first Sonine order);
- * the gas settles where noise and collisions balance. */
-static void white_noise(void **state)
+/* Under white noise the gas settles where noise and collisions balance, and its cumulant is within 3 % of
+ * a2 = 16 (1-e)(1-2e^2)/(241 - 177 e + 30 e^2 (1-e)) (van Noije & Ernst 1998, first Sonine order). */
+static void white_noise_settles_at_balance(void **state)
 {
   (void)state;
   gg_model m = heated(GG_HSS, GG_WHITE_NOISE, 0, 0.5, -1, 20000);
@@ -55,7 +55,7 @@ static void white_noise(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
-/* -P_xy/rate over eta_0, in slow shear whose temperature does not fall: averages of total and kinetic part. */
+/* Averages of -P_xy/rate over eta_0, and of its kinetic part, in slow shear at constant temperature. */
 static void viscosity(const gg_model *model, double reduced_rate, int ensembles, lab_mean *total, lab_mean *kinetic)
 {
   gg_model m = *model;
@@ -72,9 +72,9 @@ static void viscosity(const gg_model *model, double reduced_rate, int ensembles,
   }
 }
 
-/* Shear with the Gaussian thermostat: viscosity of the heated state (Garzo & Montanero 2002 and an independent Monte
- * Carlo solution, e = 0.8, phi = 0.3), which is not that of the cooling state. */
-static void heated_viscosity(void **state)
+/* Shear with the Gaussian thermostat gives the viscosity of the heated state (Garzo & Montanero 2002 and an independent
+ * Monte Carlo solution, e = 0.8, phi = 0.3), which is not that of the cooling state. */
+static void heated_gas_has_its_viscosity(void **state)
 {
   (void)state;
   gg_model m = heated(GG_SMALL_SHEAR, GG_GAUSSIAN, 0.3, 0.8, -1, 100000);
@@ -90,10 +90,10 @@ static void heated_viscosity(void **state)
   lab_expect("eta/eta_0, phi 0, e .7", &total, 1 / (nu - zeta), 0.008, 0.05);
 }
 
-/* Shear so slow that the gas cools freely while its reduced rate a* grows towards 0.06: viscosity of the cooling state,
- * 1/(nu_eta - zeta/2) (Garzo & Dufty 1999), a good tenth below that of the heated one. Least squares of -P_xy/p on a*.
- */
-static void cooling_viscosity(void **state)
+/* Shear so slow that the gas cools freely while its reduced rate a* grows towards 0.06 gives the viscosity of the
+ * cooling state, 1/(nu_eta - zeta/2) (Garzo & Dufty 1999), which is more than a tenth lower than that of the heated
+ * state. It is the slope of -P_xy/p over a*, by least squares. */
+static void cooling_gas_has_its_viscosity(void **state)
 {
   (void)state;
   gg_model m = heated(GG_USF, GG_NO_THERMOSTAT, 0, 0.7, -1, 100000);
@@ -108,7 +108,7 @@ static void cooling_viscosity(void **state)
       lab_view v = lab_snapshot(g);
       double T = lab_temperature(&v);
       a = 1 / (nu * sqrt(T));
-      if (a < 0.02) continue; /* memory of the start, and nothing but noise */
+      if (a < 0.02) continue; /* remembers the start, and is mostly noise */
       sum += -v.cc[0][1] / v.n / T * a;
       weight += a * a;
     }
@@ -119,11 +119,11 @@ static void cooling_viscosity(void **state)
   lab_expect("eta/eta_0, cooling, e .7", &eta, 1 / ((1 - 0.25 * 0.09) * (1 - c / 64) - 0.5 * zeta), 0.008, 0.06);
 }
 
-/* Elastic perfectly rough spheres, dilute: Pidduck's viscosity (1922), eta_0 6 (1+K)^2/(6 + 13 K), supposes isotropic
- * spins. Shear makes them anisotropic, which adds a factor 1/(1 - r_cs r_sc/(r_cc r_ss)) (Condiff, Lu & Dahler, J.
- * Chem. Phys. 42 (1965) 3445): 1.0535 at K = 0.4, from a Monte Carlo evaluation of the four relaxation rates of C_x C_y
- * and s_x s_y over the common collision rule. */
-static void rough_viscosity(void **state)
+/* The viscosity of dilute, elastic, perfectly rough spheres. Pidduck's (1922), eta_0 6 (1+K)^2/(6 + 13 K), supposes
+ * isotropic spins. Shear makes them anisotropic, which adds a factor 1/(1 - r_cs r_sc/(r_cc r_ss)) (Condiff, Lu &
+ * Dahler, J. Chem. Phys. 42 (1965) 3445): 1.0535 at K = 0.4, from a Monte Carlo evaluation of the four relaxation rates
+ * of C_x C_y and s_x s_y over the common collision rule. */
+static void rough_gas_has_its_viscosity(void **state)
 {
   (void)state;
   gg_model m = heated(GG_USF, GG_NO_THERMOSTAT, 0, 1, 1, 100000);
@@ -134,9 +134,9 @@ static void rough_viscosity(void **state)
   lab_expect("eta/eta_0, Pidduck", &total, 1.0535 * 6 * (1 + K) * (1 + K) / (6 + 13 * K), 0.006, 0.04);
 }
 
-/* Ten thousand collisions a grain under a thermostat that amplifies any motion of the centre of mass: it stays at
- * rounding, and nothing else drifts. */
-static void stays_put(void **state)
+/* Ten thousand collisions a grain under a thermostat that amplifies any motion of the centre of mass: the momentum
+ * stays at rounding, and nothing else drifts. */
+static void the_centre_of_mass_stays_at_rest(void **state)
 {
   (void)state;
   gg_model m = heated(GG_HSS, GG_GAUSSIAN, 0, 0.6, -1, 1000);
@@ -159,9 +159,9 @@ static void stays_put(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
-/* Grains at rest, kicked: each component of C is normal, of the variance asked for, and independent of the others,
- * however far the ensemble has been strained; up to the fourth moments. */
-static void kicks(void **state)
+/* After a kick of grains at rest each component of C is normal, has the variance asked for, and is independent of the
+ * others, as far as moments up to the fourth show, in a strained ensemble. */
+static void kicks_are_normal(void **state)
 {
   (void)state;
   enum { GRAINS = 50000, ROUNDS = 10 };
@@ -190,7 +190,7 @@ static void kicks(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
-/* C^2 of a grain whose velocity is stored with this strain. */
+/* C^2 of a grain whose velocity is stored at this strain. */
 static double square(const gg_dsmc_population *p, uint32_t a, double strain)
 {
   gg_vec c = gg_dsmc_block_get(p, p->c, a);
@@ -205,9 +205,9 @@ static double energy(const gg_dsmc_ensemble *e, double strain)
   return sum;
 }
 
-/* In the middle of a step velocities are stored with the strain so far: what is given back is energy of peculiar
- * velocities, and the speed bounds are theirs, after kicks. */
-static void strained(void **state)
+/* In the middle of a step velocities are stored at the strain so far. The energy given back is that of peculiar
+ * velocities, and after kicks the speed bounds hold for peculiar velocities. */
+static void thermostats_heat_peculiar_velocities(void **state)
 {
   (void)state;
   const double strain = 0.7;
@@ -226,10 +226,14 @@ static void strained(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(gaussian),          cmocka_unit_test(gaussian_rough),
-                                     cmocka_unit_test(white_noise),       cmocka_unit_test(heated_viscosity),
-                                     cmocka_unit_test(cooling_viscosity), cmocka_unit_test(rough_viscosity),
-                                     cmocka_unit_test(stays_put),         cmocka_unit_test(kicks),
-                                     cmocka_unit_test(strained)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(gaussian_thermostat_keeps_the_temperature),
+                                     cmocka_unit_test(gaussian_thermostat_keeps_that_of_rough_grains),
+                                     cmocka_unit_test(white_noise_settles_at_balance),
+                                     cmocka_unit_test(heated_gas_has_its_viscosity),
+                                     cmocka_unit_test(cooling_gas_has_its_viscosity),
+                                     cmocka_unit_test(rough_gas_has_its_viscosity),
+                                     cmocka_unit_test(the_centre_of_mass_stays_at_rest),
+                                     cmocka_unit_test(kicks_are_normal),
+                                     cmocka_unit_test(thermostats_heat_peculiar_velocities)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

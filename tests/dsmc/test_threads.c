@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Threads change nothing: the same seed leaves the same ensemble, sums, counts and streams with one thread, two, three
- * or as many as there are pairs of segments, whatever the scene has; also if a run is saved and goes on with another
- * number. */
+/* The number of threads changes no bit: the same seed leaves the same ensemble, sums, counts and streams with one
+ * thread, two, three or more than there are pairs of segments, whatever the scene; also if a run is saved and continued
+ * with another number. */
 #include "dsmc/dsmc.h"
 #include "lab.h"
 
-enum { LARGE = 64003 }; /* the smallest ensembles in segments have 64000; the last block is not full */
+enum { LARGE = 64003 }; /* from 64000 grains on ensembles are in segments; the last block is not full */
 
 static void same(const gg_archive *a, const gg_archive *b)
 {
@@ -23,7 +23,7 @@ static void save(gg_engine *g, gg_archive *a)
   if (gg_dsmc_ops.save(g, a, &err) != GG_OK) fail_msg("%s", err.message);
 }
 
-/* Threads change on the way; 0: not said. */
+/* The number of threads changes during the run; 0 leaves it as it is. */
 static gg_archive outcome(const gg_model *m, int first, int then)
 {
   gg_engine *g = lab_engine(m, 3);
@@ -55,9 +55,8 @@ static void same_bits_on(const gg_model *m)
   gg_base_archive_clear(&first);
 }
 
-/* Rules, flows dilute and dense, thermostats, precisions, one species, two, and two of which one is too small for
- * segments. */
-static void same_bits_of_three(void **state)
+/* The same with three species. */
+static void threads_leave_the_same_bits_of_three_species(void **state)
 {
   (void)state;
   const gg_flow flows[] = {GG_HCS, GG_USF, GG_HSS};
@@ -72,7 +71,9 @@ static void same_bits_of_three(void **state)
   }
 }
 
-static void same_bits(void **state)
+/* The number of threads changes no bits, with each rule, flow, thermostat and precision, dilute and dense; with one
+ * species, two, and two of which one is too small for segments. */
+static void threads_leave_the_same_bits(void **state)
 {
   (void)state;
   const double beta[] = {-1, 0.3, 0.3}, mu[] = {INFINITY, INFINITY, 0.2};
@@ -93,7 +94,7 @@ static void same_bits(void **state)
         }
 }
 
-/* Without the bits that only some processors have, too. */
+/* Two threads leave the same bits with every set of instructions that runs here. */
 static void same_bits_of(gg_precision precision)
 {
   gg_scene s = lab_scene(GG_USF, 0.2, 0.8, -1, LARGE);
@@ -119,14 +120,14 @@ static void same_bits_of(gg_precision precision)
   gg_base_archive_clear(&first);
 }
 
-static void same_bits_with_any_instructions(void **state)
+static void instructions_leave_the_same_bits(void **state)
 {
   (void)state;
   same_bits_of(GG_DOUBLE);
   same_bits_of(GG_SINGLE);
 }
 
-/* Saved under two threads, gone on with under one, two and three. */
+/* Saved with two threads, continued with one, two and three. */
 static void resumes_with_other_threads(void **state)
 {
   (void)state;
@@ -161,8 +162,8 @@ static void resumes_with_other_threads(void **state)
   }
 }
 
-/* A block less than it takes: one segment, and threads are not even made. */
-static void small_ones_do_not_pay(void **state)
+/* An ensemble one block too small for segments has one segment, and no threads are started. */
+static void small_ensembles_start_no_threads(void **state)
 {
   (void)state;
   gg_scene s = lab_scene(GG_HCS, 0.1, 0.8, -1, 63992);
@@ -185,8 +186,8 @@ static void find_segments(void *context, const char *text)
   *(bool *)context |= strstr(text, "in 8 segments, which threads share") != NULL;
 }
 
-/* `graingas info` tells. */
-static void describes(void **state)
+/* The description of a scene (`graingas info`) says whether there are segments. */
+static void segments_are_described(void **state)
 {
   (void)state;
   for (int large = 0; large < 2; large++) {
@@ -200,11 +201,11 @@ static void describes(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(describes),
-                                     cmocka_unit_test(small_ones_do_not_pay),
+  const struct CMUnitTest tests[] = {cmocka_unit_test(segments_are_described),
+                                     cmocka_unit_test(small_ensembles_start_no_threads),
                                      cmocka_unit_test(resumes_with_other_threads),
-                                     cmocka_unit_test(same_bits_with_any_instructions),
-                                     cmocka_unit_test(same_bits_of_three),
-                                     cmocka_unit_test(same_bits)};
+                                     cmocka_unit_test(instructions_leave_the_same_bits),
+                                     cmocka_unit_test(threads_leave_the_same_bits_of_three_species),
+                                     cmocka_unit_test(threads_leave_the_same_bits)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

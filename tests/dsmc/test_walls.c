@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Enskog Monte Carlo between walls. Identities: what grains lose of momentum and energy is what walls and collisions
- * took, to rounding; a restored or stopped engine continues bit for bit; candidates one by one are the same as some at
- * once. Limits: elastic grains between smooth elastic walls are in
- * equilibrium, with the pressure n T Z(phi) on both walls and Enskog's collision rate, of isotropic directions, at
- * every height; a column is barometric, and carries its weight; sheared between thermal walls the core has Enskog's
- * viscosity, and grains that meet nobody carry the stress of free molecular flow. */
+/* Enskog Monte Carlo in a channel between walls.
+ * Identities: the momentum and energy that grains lose is what walls and collisions took, to rounding; a restored or
+ * stopped engine continues bit for bit; vector kernels have the bits of the plain path.
+ * Limits: elastic grains between smooth elastic walls are in equilibrium, with the pressure n T Z(phi) on both walls
+ * and Enskog's collision rate, isotropic in direction, at every height. A column is barometric and the walls carry its
+ * weight. Sheared between thermal walls the core has Enskog's viscosity, and without collisions the stress is that of
+ * free molecular flow. */
 #include "common/contact_value.h"
 #include "common/surface/shapes.h"
-#include "dsmc/walls/gap.h"
+#include "dsmc/walls/channel.h"
 #include "lab.h"
 
-/* A gap `height` wide of `n` grains; elastic and smooth, walls, too. */
+/* A channel `height` wide with `n` grains; grains and walls are elastic and smooth. */
 static gg_scene scene_of(gg_flow flow, double phi, double height, int64_t n)
 {
   gg_scene s = lab_scene(flow, phi, 1, -1, n);
@@ -20,7 +21,7 @@ static gg_scene scene_of(gg_flow flow, double phi, double height, int64_t n)
   return s;
 }
 
-/* Sums over grains, by slabs of the box's height. */
+/* Sums over grains, some of them by slabs of equal height. */
 enum { SLABS = 40 };
 typedef struct view {
   double height, n, cc, momentum[3], energy, of[SLABS];
@@ -92,7 +93,7 @@ static void balance(gg_scene *s)
   g->ops->destroy(g);
 }
 
-/* Energy with moving walls: what they do is work and loss. */
+/* Momentum and energy are balanced. Moving walls do work, and collisions with them lose energy, too. */
 static void what_is_lost_is_accounted_for(void **state)
 {
   (void)state;
@@ -126,7 +127,7 @@ static void same_archive(gg_engine *a, gg_engine *b)
   gg_base_archive_clear(&two);
 }
 
-/* Rough grains of two species under gravity, hot walls. */
+/* Rough grains of two species under gravity, between thermal walls. */
 static gg_scene full_scene(int64_t n)
 {
   gg_scene s = scene_of(GG_CHUTE, 0.15, 10, n);
@@ -139,20 +140,20 @@ static gg_scene full_scene(int64_t n)
   return s;
 }
 
-/* So do all sets of instructions. */
-static void plain_is_the_same(void **state)
+/* The plain path has the same bits as the kernels for every set of instructions. */
+static void all_instructions_leave_the_plain_bits(void **state)
 {
   (void)state;
   gg_scene s = full_scene(2000);
   gg_model m = lab_model(&s);
   gg_engine *plain = lab_engine(&m, 4);
-  ((gg_dsmc_gap *)plain)->plain = true;
+  ((gg_dsmc_channel *)plain)->plain = true;
   plain->ops->keep_sums(plain, true);
   advance(plain, INFINITY, (uint64_t)(5 * m.n));
   for (gg_instructions set = 0; set < GG_INSTRUCTION_SETS; set++) {
     if (!gg_simd_instructions_run_here(set)) continue;
     gg_engine *fast = lab_engine(&m, 4);
-    ((gg_dsmc_gap *)fast)->collide = gg_dsmc_gap_collide_of[set];
+    ((gg_dsmc_channel *)fast)->collide = gg_dsmc_channel_collide_of[set];
     fast->ops->keep_sums(fast, true);
     advance(fast, INFINITY, (uint64_t)(5 * m.n));
     same_archive(fast, plain);
@@ -161,19 +162,19 @@ static void plain_is_the_same(void **state)
   plain->ops->destroy(plain);
 }
 
-/* Whoever does what: from so many grains on threads share them. */
-static void threads_are_the_same(void **state)
+/* One, two and three threads leave the same bits, with so many grains that threads share them. */
+static void threads_leave_the_same_bits(void **state)
 {
   (void)state;
   gg_scene s = full_scene(30000);
-  s.particles *= 8; /* twice the gap */
+  s.particles *= 8; /* the channel is twice as wide */
   gg_model m = lab_model(&s);
   gg_engine *one = lab_engine(&m, 4);
   one->ops->keep_sums(one, true);
-  const gg_dsmc_gap *d = (gg_dsmc_gap *)one;
+  const gg_dsmc_channel *d = (gg_dsmc_channel *)one;
   printf("# %d slabs of %d cells, %d parts\n", d->slabs, d->cells.n, d->parts);
   assert_true(d->slabs >= 4 && d->parts > 1);
-  for (int k = 0; k < d->slabs; k++) /* slabs that collide at once are apart by more than partners on both sides */
+  for (int k = 0; k < d->slabs; k++) /* slabs of one colour are further apart than partners reach */
     assert_true((d->slab[k].end - d->slab[k].first) * d->cells.width > 2 * 1.5 + 2 * d->cells.width);
   advance(one, INFINITY, (uint64_t)(5 * m.n));
   for (int threads = 2; threads <= 3; threads++) {
@@ -203,8 +204,9 @@ static void see(void *context, const gg_collision_record *c)
   ++*(uint64_t *)context;
 }
 
-/* Stopped at random, saved and restored each time; one has a collision callback. */
-static void restored_and_stopped(void **state)
+/* A run that is stopped at random, saved and restored each time, ends as an uninterrupted one, with a collision
+ * callback and without. */
+static void stopped_runs_end_as_uninterrupted_ones(void **state)
 {
   (void)state;
   for (int callback = 0; callback < 2; callback++) {
@@ -250,8 +252,8 @@ static bool at_once(void *context)
   return true;
 }
 
-/* Pulled so hard that a grain meets walls a million times in a step of the rest, a run looks whether to stop all the
- * same: 65536 flights or so, of some contacts each. */
+/* Gravity may be so strong that a grain meets walls a million times in a step. The engine polls for a stop all the
+ * same, after about 65536 flights of some contacts each. */
 static void stops_under_any_gravity(void **state)
 {
   (void)state;
@@ -269,13 +271,13 @@ static void stops_under_any_gravity(void **state)
     assert_int_equal(g->ops->advance(g, INFINITY, UINT64_MAX, &gone, &err), GG_INTERRUPTED);
     const gg_collision_sums t = taken(g);
     const double contacts = (double)(t.surface[0].collisions + t.surface[1].collisions);
-    printf("# gravity (%g, %g): %.3g contacts before a look\n", pull[k][0], pull[k][1], contacts);
+    printf("# gravity (%g, %g): %.3g contacts before it stopped\n", pull[k][0], pull[k][1], contacts);
     assert_true(contacts < 100 * 65536);
     g->ops->destroy(g);
   }
 }
 
-/* A gas fits everywhere; a bed of lossy grains does not, as Enskog has it, and the engine says so. */
+/* A gas is nowhere denser than Enskog's contact value allows; a bed is, and the engine's state says so. */
 static void beds_are_overfilled(void **state)
 {
   (void)state;
@@ -301,8 +303,8 @@ static double in_upper_half(const view *v)
   return n;
 }
 
-/* Enskog's contact value is that of the present density. A gas expands from the lower half of the gap into the upper
- * one. The mean numbers of contact values are at most two diameters of thermal flight behind the grains there. */
+/* Contact values follow the density. A gas expands from the lower half of the channel into the upper one. The mean
+ * numbers from which contact values are computed lag by less than twice the time in which a grain flies a diameter. */
 static void contact_values_follow_the_density(void **state)
 {
   (void)state;
@@ -315,7 +317,7 @@ static void contact_values_follow_the_density(void **state)
   for (int64_t i = 0; i < m.n; i++) r[i].y = 0.5 + 9.5 * gg_rng_uniform(&rng), v[i] = gg_common_rng_normal_vec(&rng);
   const gg_grain_arrays given = {.r = (double *)r, .c = (double *)v};
   if (gg_dsmc_ops.create_with(&m, 8, 0, &given, NULL, &made, &err) != GG_OK) fail_msg("%s", err.message);
-  const gg_dsmc_gap *d = (const gg_dsmc_gap *)made;
+  const gg_dsmc_channel *d = (const gg_dsmc_channel *)made;
   const double flight = 1 / sqrt(d->now.temperature);
   double before[3] = {0};
   for (int k = 1; k <= 8; k++) {
@@ -332,8 +334,8 @@ static void contact_values_follow_the_density(void **state)
   free(r), free(v);
 }
 
-/* A step may shrink a hundredfold at once, while the flight of the one before is still owed. */
-static void step_has_shrunk(void **state)
+/* A checkpoint is restored even if the step has just shrunk a hundredfold while flight of the last step is pending. */
+static void a_shrunken_step_is_restored(void **state)
 {
   (void)state;
   gg_scene s = full_scene(60);
@@ -341,8 +343,8 @@ static void step_has_shrunk(void **state)
   gg_engine *g = lab_engine(&m, 8), *other;
   gg_archive a = {0};
   gg_error err;
-  gg_dsmc_gap_state *now = &((gg_dsmc_gap *)g)->now;
-  now->owed = 0.5 * now->step, now->step /= 100;
+  gg_dsmc_channel_state *now = &((gg_dsmc_channel *)g)->now;
+  now->pending = 0.5 * now->step, now->step /= 100;
   assert_int_equal(g->ops->save(g, &a, &err), GG_OK);
   if (gg_dsmc_ops.restore(&m, &a, &other, &err) != GG_OK) fail_msg("%s", err.message);
   other->ops->destroy(other);
@@ -350,8 +352,8 @@ static void step_has_shrunk(void **state)
   g->ops->destroy(g);
 }
 
-/* Whatever a byte of it becomes, a checkpoint is refused or an engine that runs. */
-static void damaged(void **state)
+/* A checkpoint with a damaged bit is either rejected or restored to an engine that runs. */
+static void damaged_checkpoints_are_rejected_or_run(void **state)
 {
   (void)state;
   gg_scene s = full_scene(60);
@@ -390,7 +392,7 @@ static double slab_mean(const view *v, int from, int to)
   return sum / (to - from);
 }
 
-/* Elastic grains keep the temperature of the start, their walls smooth and elastic. */
+/* Elastic grains between smooth elastic walls: density and pressure. The temperature is that of the start. */
 static void equilibrium(double phi, double height, int blocks)
 {
   gg_scene s = scene_of(GG_COUETTE, phi, height, 20000);
@@ -429,10 +431,10 @@ static void walls_carry_the_pressure(void **state)
   (void)state;
   equilibrium(0.01, 30, 15);
   equilibrium(0.2, 12, 30);
-  equilibrium(0.3, 18, 90); /* of a gap of 12 d layers at the walls reach into the core: 1.0029(3) over ten seeds */
+  equilibrium(0.3, 18, 90); /* at 12 d layers at the walls reach into the core: 1.0029(3) over ten seeds */
 }
 
-/* Sums over the collisions of a block whose first grain is in the core, which is as wide as `core`; by its slabs. */
+/* Sums over the collisions of a block whose first grain is in the core, which is `core` wide; `of` is by its slabs. */
 enum { CORE_SLABS = 20 };
 typedef struct collided {
   double n, kx2, ky2, ky4, cosine2, speed, core, of[CORE_SLABS];
@@ -448,9 +450,9 @@ static void add_collision(void *context, const gg_collision_record *r)
   v->of[(int)fmin((r->height[0] / v->core + 0.5) * CORE_SLABS, CORE_SLABS - 1)]++;
 }
 
-/* In equilibrium k is isotropic, its angle to c12 has the density 2 cos, the mean of g_n is sqrt(pi T), and all heights
- * have the same rate, which is Enskog's. */
-static void directions_and_rates(void **state)
+/* In equilibrium k is isotropic, the cosine x of its angle to c12 has the density 2 x, the mean of g_n is sqrt(pi T),
+ * and the rate is Enskog's at all heights. */
+static void directions_and_rates_are_enskogs(void **state)
 {
   (void)state;
   gg_scene s = scene_of(GG_COUETTE, 0.01, 30, 20000);
@@ -467,7 +469,7 @@ static void directions_and_rates(void **state)
     lab_add(&kx2, v.kx2 / v.n), lab_add(&ky2, v.ky2 / v.n), lab_add(&ky4, v.ky4 / v.n);
     lab_add(&cosine2, v.cosine2 / v.n), lab_add(&speed, v.speed / v.n / sqrt(M_PI * T));
     for (int k = 0; k < CORE_SLABS; k++) lab_add(&of[k], CORE_SLABS * v.of[k] / v.n);
-    /* Centres keep off the walls: they are denser by so much, and the rate by its square. */
+    /* Centres stay half a diameter off the walls, so their density is higher by n, and the rate by n^2. */
     const double n = m.box[1] / (m.box[1] - 1), chi = gg_common_contact_value_of(m.contact_value, m.phi * n);
     lab_add(&rate, v.n * m.box[1] / v.core / (time * (double)m.n) / (2 * m.density * n * n * chi * sqrt(M_PI * T)));
   }
@@ -484,8 +486,8 @@ static void directions_and_rates(void **state)
   g->ops->destroy(g);
 }
 
-/* A column of elastic grains: walls carry its weight, and in a dilute one the density falls as exp(-m g y/T); in a
- * dense one dp/dy = -rho g, so that the walls' pressures differ by the weight. */
+/* A column of elastic grains: the pressures on the walls differ by its weight, and where it is dilute the density falls
+ * as exp(-m g y/T). */
 static void column(double phi, double height, double g_over_T, int samples)
 {
   gg_scene s = scene_of(GG_CHUTE, phi, height, 20000);
@@ -508,7 +510,7 @@ static void column(double phi, double height, double g_over_T, int samples)
     lab_add(&weight, -(t.surface[0].impulse[1] + t.surface[1].impulse[1]) / (time * (double)m.n * fabs(m.gravity[1])));
     double low = 0, high = 0;
     for (int i = 5; i < 10; i++) low += of[i], high += of[SLABS - 5 + 5 - 1 - i];
-    const double apart = (SLABS - 1 - 2 * 7) * m.box[1] / SLABS; /* between the middles of both groups */
+    const double apart = (SLABS - 1 - 2 * 7) * m.box[1] / SLABS; /* between the middles of the two groups of slabs */
     lab_add(&slope, log(low / high) * T / (fabs(m.gravity[1]) * apart));
   }
   lab_expect("weight on the walls", &weight, 1, 0, 0.03);
@@ -524,7 +526,7 @@ static void columns_carry_their_weight(void **state)
   column(0.3, 12, 0.1, 50);
 }
 
-/* Sums over the slabs of the core, from 3/10 to 7/10 of the gap: height times velocity, and so on. */
+/* Sums over the grains of the core, from 3/10 to 7/10 of the height: y, y^2, u = c_x, y u, and some by slab. */
 typedef struct core {
   const gg_model *m;
   double n, y, yy, u, yu, cc[SLABS], flow[SLABS], of[SLABS];
@@ -543,7 +545,7 @@ static void add_core(void *context, const gg_chunk *k)
   }
 }
 
-/* Chapman & Cowling (1970), 16.41, with the first of its terms to all orders of Sonine polynomials. */
+/* Chapman & Cowling (1970), 16.41; the factor 1.016034 is exact, to all orders of Sonine polynomials. */
 static double enskog_viscosity(double phi, double chi, double T)
 {
   const double b = 1 + 1.6 * phi * chi;
@@ -555,7 +557,7 @@ static void core_has_the_viscosity(void **state)
   (void)state;
   gg_scene s = scene_of(GG_COUETTE, 0.1, 18, 10000);
   s.walls.speed = 10;
-  s.walls.temperature[0] = s.walls.temperature[1] = 200; /* so hot that the gas thins by half a per cent at most */
+  s.walls.temperature[0] = s.walls.temperature[1] = 200; /* so hot that viscous heating matters little */
   s.walls.accommodation = 1;
   gg_model m = lab_model(&s);
   gg_engine *g = lab_engine(&m, 9);
@@ -583,9 +585,9 @@ static void core_has_the_viscosity(void **state)
   g->ops->destroy(g);
 }
 
-/* Half of the grains comes from either wall, each with the wall's velocity -+U on the mean, at a mean speed sqrt(2T/pi)
- * across the gap: the stress is n U sqrt(2T/pi). */
-static void free_molecular_flow(void **state)
+/* Without collisions half of the grains come from each wall, with its velocity -+U on average, and cross the channel at
+ * a mean speed of sqrt(2T/pi): the stress is n U sqrt(2T/pi). */
+static void free_grains_carry_molecular_stress(void **state)
 {
   (void)state;
   gg_scene s = scene_of(GG_COUETTE, 1e-6, 400, 20000);
@@ -612,18 +614,18 @@ static void free_molecular_flow(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(what_is_lost_is_accounted_for),
-                                     cmocka_unit_test(plain_is_the_same),
-                                     cmocka_unit_test(threads_are_the_same),
-                                     cmocka_unit_test(restored_and_stopped),
-                                     cmocka_unit_test(damaged),
-                                     cmocka_unit_test(step_has_shrunk),
+                                     cmocka_unit_test(all_instructions_leave_the_plain_bits),
+                                     cmocka_unit_test(threads_leave_the_same_bits),
+                                     cmocka_unit_test(stopped_runs_end_as_uninterrupted_ones),
+                                     cmocka_unit_test(damaged_checkpoints_are_rejected_or_run),
+                                     cmocka_unit_test(a_shrunken_step_is_restored),
                                      cmocka_unit_test(beds_are_overfilled),
                                      cmocka_unit_test(contact_values_follow_the_density),
                                      cmocka_unit_test(stops_under_any_gravity),
                                      cmocka_unit_test(walls_carry_the_pressure),
-                                     cmocka_unit_test(directions_and_rates),
+                                     cmocka_unit_test(directions_and_rates_are_enskogs),
                                      cmocka_unit_test(columns_carry_their_weight),
                                      cmocka_unit_test(core_has_the_viscosity),
-                                     cmocka_unit_test(free_molecular_flow)};
+                                     cmocka_unit_test(free_grains_carry_molecular_stress)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

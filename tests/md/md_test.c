@@ -72,7 +72,7 @@ uint64_t md_hash(const gg_md *e)
   uint64_t h = 0xcbf29ce484222325u;
   for (uint32_t i = 0; i < e->n; i++) {
     const gg_md_grain *g = &e->grain[i];
-    const uint32_t both = 2 * g->counter + g->species; /* as the hashes that are stored have it */
+    const uint32_t both = 2 * g->counter + g->species; /* the form that the stored hashes were made with */
     h = md_mix(h, &g->r, sizeof g->r + sizeof g->v + sizeof g->t);
     h = md_mix(h, &both, sizeof both);
     h = md_mix(h, &e->node[i].time, 2 * sizeof(double));
@@ -83,11 +83,11 @@ uint64_t md_hash(const gg_md *e)
 }
 
 typedef struct separation {
-  long double r[3], v[3]; /* of j from i, nearest box, and how images above move */
+  long double r[3], v[3]; /* of j relative to i; images one box higher move with image_velocity */
   long double offset, image_velocity;
 } separation;
 
-/* Where a grain is now, and how it moves. */
+/* The place and velocity of a grain now. */
 static void place_now(const gg_md *e, const gg_md_grain *g, long double r[3], long double v[3])
 {
   long double dt = (long double)e->k.now - g->t;
@@ -128,7 +128,7 @@ static long double next_of_pair(const gg_md *e, uint32_t i, uint32_t j, double h
   int ny = 2 + (int)(fabsl(s.v[1]) * horizon / L[1]), nz = 2 + (int)(fabsl(s.v[2]) * horizon / L[2]);
   if (e->model.walled) ny = 0;
   for (int y = -ny; y <= ny; y++) {
-    if (fabsl(s.r[1] + y * L[1]) > fabsl(s.v[1]) * horizon + sigma) continue; /* never within reach */
+    if (fabsl(s.r[1] + y * L[1]) > fabsl(s.v[1]) * horizon + sigma) continue; /* out of reach */
     for (int z = -nz; z <= nz; z++) {
       if (fabsl(s.r[2] + z * L[2]) > fabsl(s.v[2]) * horizon + sigma) continue;
       long double v[3] = {s.v[0] + y * s.image_velocity, s.v[1], s.v[2]}, x0 = s.r[0] + y * s.offset;
@@ -154,7 +154,7 @@ md_prediction md_oracle(const gg_md *e, double horizon)
   return f;
 }
 
-/* First t >= 0 with h + v t + w t^2/2 = 0 and h falling; both roots by the textbook. */
+/* The first t >= 0 with h + v t + w t^2/2 = 0 and h falling, from both roots of the quadratic equation. */
 static long double next_touch(long double h, long double v, long double w)
 {
   long double root[2] = {-h / v, -h / v}, first = INFINITY, q = v * v - 2 * w * h;
@@ -167,7 +167,7 @@ static long double next_touch(long double h, long double v, long double w)
   return first;
 }
 
-/* A grain in flight from now. */
+/* A grain that flies freely from now on. */
 typedef struct flight {
   const gg_md *e;
   const gg_surface *surface;
@@ -175,7 +175,7 @@ typedef struct flight {
   double radius;
 } flight;
 
-/* Any surface: all that is asked of it is how far away the grain is. */
+/* Distance to contact with a surface of any shape. */
 static double clearance_at(const flight *f, double t)
 {
   gg_vec r;
@@ -184,7 +184,7 @@ static double clearance_at(const flight *f, double t)
   return gg_surface_clearance(f->surface, &r, f->radius);
 }
 
-/* Where it is least (sign 1) or greatest (-1) between two times. */
+/* The time between a and b at which the clearance is least (sign 1) or greatest (-1). */
 static double extreme_between(const flight *f, double a, double b, int sign)
 {
   for (int k = 0; k < 80; k++) {
@@ -197,8 +197,8 @@ static double extreme_between(const flight *f, double a, double b, int sign)
   return 0.5 * (a + b);
 }
 
-/* First time up to the horizon at which it falls below 0: looked for in steps of a hundredth of a diameter, and in
- * every step where it does so, or comes near to it between. */
+/* The first time up to the horizon at which the clearance falls below 0. It is searched in steps of a hundredth of a
+ * diameter: in each step at whose end it is below 0, or within which its least value may be. */
 static double next_touch_of(const flight *f, double horizon)
 {
   double speed = 0;
@@ -268,7 +268,7 @@ long double md_closest(const gg_md *e)
 
 static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
 {
-  if (e->search.kind == GG_MD_COMOVING_ROWS) { /* which moves */
+  if (e->search.kind == GG_MD_COMOVING_ROWS) { /* the cell moves */
     double L = e->box.edge[0], middle = (e->node[i].cell[0] + 0.5) * e->cells.width[0];
     const gg_md_row *row = &e->search.rows.row[e->node[i].cell[1]];
     r.x -= row->origin + row->speed * e->k.now;
@@ -282,7 +282,7 @@ static bool is_in_cell(const gg_md *e, uint32_t i, gg_vec r)
   return true;
 }
 
-/* Where a grain is along x in a row that moves, of which it may be stored another image. */
+/* The x of the grain's image that is in a co-moving row. */
 static double along_row(const gg_md *e, int32_t row, gg_vec r)
 {
   double layers = rint((r.y - (row + 0.5) * e->cells.width[1]) / e->box.edge[1]);
@@ -290,8 +290,8 @@ static double along_row(const gg_md *e, int32_t row, gg_vec r)
          e->search.rows.row[row].speed * e->k.now;
 }
 
-/* Overlapping cells along one axis: in one or in two, and not yet in a third, whose region begins half a contact
- * distance before it. */
+/* Is x where a grain is in one overlapping cell along this axis, or (`both`) in two? The region in which it is also in
+ * the next cell begins half a contact distance before that cell. */
 static bool is_between(const gg_md *e, int axis, double x, int32_t cell, bool both)
 {
   double half = 0.5 * e->cells.reach, w = e->cells.width[axis], L = e->box.edge[axis], room = 1e-12 * L;
@@ -313,7 +313,7 @@ static bool is_in_overlapping_cells(const gg_md *e, uint32_t i, gg_vec r)
   return !(both & 2) || is_between(e, 0, along_row(e, upper, r), node->upper, both >> 3 & 1);
 }
 
-/* Under shear skins shrink and move: their exits are tested by what they are for, contacts. */
+/* Under shear skins shrink and move; there the search for contacts tests them instead. */
 static bool is_in_skin(const gg_md *e, uint32_t i, gg_vec r)
 {
   gg_vec dr = gg_sub(r, e->search.lists.skin[i].centre);

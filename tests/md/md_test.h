@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the md tests share: models by a few numbers, engines from given states, a plain event finder, a hash. */
+/* Helpers for the tests of md: models from a few numbers, engines, a plain search for the next event, hashes. */
 #ifndef GG_MD_TEST_H
 #define GG_MD_TEST_H
 
@@ -12,7 +12,14 @@
 #include <cmocka.h>
 
 #include "common/engine.h"
-#include "md/md_state.h"
+#include "md/epoch.h"
+#include "md/event_loops.h"
+#include "md/grid.h"
+#include "md/md_allocate.h"
+#include "md/md_thermostat.h"
+#include "md/row_motion.h"
+#include "md/select_search.h"
+#include "md/start/start.h"
 #include "scene/scene.h"
 
 typedef struct md_case {
@@ -28,31 +35,32 @@ gg_model md_model_of(const gg_scene *scene);
 gg_md *md_create(const gg_model *model, uint64_t seed);
 void md_destroy(gg_md *e);
 
-/* Advance by at most so many collisions; returns the time gone. */
+/* Advances by at most so many collisions. Returns the time that passed. */
 double md_collide(gg_md *e, uint64_t collisions);
-/* Everything that decides how a run goes on, in 64 bits. */
+/* Hash of all that decides how a run continues. */
 uint64_t md_hash(const gg_md *e);
-/* Of the state, the sums, which are taken, and the counts; and one more thing into a hash. */
+/* Hash of the state, the counts, and the collision sums, which are taken. */
 uint64_t md_hash_all(gg_md *e);
+/* Adds data to a hash. */
 uint64_t md_mix(uint64_t hash, const void *data, size_t bytes);
 
-/* The next collision, by trying every image of every pair in long double from the present state, no further
- * than `horizon` ahead. INFINITY if there is none. */
+/* The next collision of two grains up to `horizon` from now, found in long double among all images of all pairs. Its
+ * time is INFINITY if there is none. */
 typedef struct md_prediction {
   long double time; /* from now */
   uint32_t pair[2];
 } md_prediction;
 md_prediction md_oracle(const gg_md *e, double horizon);
-/* The same for contacts with surfaces alone; pair[1] is GG_MD_SURFACE(which). */
+/* The same for contacts with surfaces; pair[1] is GG_MD_SURFACE(which). */
 md_prediction md_oracle_walls(const gg_md *e, double horizon);
-/* Smallest distance of two centres over their contact distance. */
+/* The smallest distance of two centres over their contact distance. */
 long double md_closest(const gg_md *e);
 
-/* How many grains are outside their cell or, with lists, outside their skin or missing in a neighbour's list; or in a
- * wall. */
+/* The number of grains that are outside their cell, in a wall or, with lists, outside their skin or missing in a
+ * neighbour's list. */
 uint32_t md_misplaced(const gg_md *e);
 
-/* sum m C, sum of energies (peculiar). */
+/* Total momentum and energy of peculiar velocities. */
 gg_vec md_momentum(const gg_md *e);
 double md_energy(const gg_md *e);
 

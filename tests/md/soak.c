@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Long runs, outside the test list: does an error that is rounding at first grow over 10^9 collisions, or on a clock
- * that shows 10^8?
+/* Long runs by hand: do errors, which are rounding at first, grow over 10^9 collisions, or on a clock that shows 10^8?
  *
  *   soak PHI E BETA COLLISIONS [START [N [SEED [equilibrium | usf | hss | couette]]]]
  *
- * Samples the run some thousand times, half of them at a collision, half between two: the closest two of all pairs in
- * long double, images included; who is outside his cell, skin or walls; total momentum; where collisions conserve it
- * (e = 1, beta = 1 or -1, no shear), energy. Prints one line, PASS or FAIL, and exits 0 or 1.
+ * Samples the run some thousand times, half of them at a collision, half between two: the smallest distance of all
+ * pairs and their images, in long double; grains outside their cell, skin or walls; total momentum; and the energy,
+ * where collisions conserve it (e = 1, beta = 1 or -1, no shear). Prints one line, PASS or FAIL, and exits 0 or 1.
  *
- * Without a word on the flow, grains that conserve energy are left alone in a periodic box, others are sheared: their
- * temperature stays, and the moving images are the part of the engine that knows the time. START is what the clock
- * shows at the start (under shear, to a whole number of periods of the images). */
+ * If no flow is named, grains that conserve energy are in equilibrium in a periodic box, and others are sheared, which
+ * keeps their temperature; the moving images of the sheared box depend on the clock. START is the time on the clock at
+ * the start (under shear, rounded to a whole number of periods of the images). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -80,7 +79,7 @@ static void print(const soak *s, FILE *out, const char *word, double seconds)
   fflush(out);
 }
 
-/* To the next sample: half of them stand between two collisions. */
+/* Advances to the next sample; every second one is between two collisions. */
 static void go_on(soak *s, uint64_t collisions)
 {
   double between = s->samples % 2 ? 0.3 * s->e->k.mean_free_time / s->e->n : 0, dt;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gases in a bath, in md: elastic grains relax as drag and noise do, whatever the interval of the turns; hardly
- * colliding sheared grains have the moments of turns in closed form, at the engine's interval and at one twelve times
- * as long, which is how its error is known; inelastic dilute grains have the temperatures of Enskog's equation. */
+/* Proves, for gases in a bath in md: elastic grains relax as drag and noise do, for any interval of the kick schedule;
+ * sheared grains that hardly collide have the moments of the schedule in closed form, at the engine's interval and at
+ * one twelve times as long, from which its error is known; inelastic dilute grains have the temperatures of Enskog's
+ * equation. */
 #include "../dsmc/lab.h"
 
 #include "common/thermostat.h"
@@ -43,21 +44,21 @@ static lab_view view_of(gg_engine *g)
   return v;
 }
 
-/* Turns so many times further apart; the interval. */
+/* Stretches the kick schedule by a factor. Returns the interval between kicks of a grain. */
 static double stretch(gg_engine *g, double factor)
 {
   gg_md *e = (gg_md *)g;
   const gg_bath *b = &e->model.bath;
-  gg_md_turns *t = &e->kicks.of[0];
-  t->apart *= factor;
-  const double interval = t->apart * t->n / 2;
+  gg_md_kick_schedule *t = &e->kicks.schedule[0];
+  t->interval *= factor;
+  const double interval = t->interval * t->n / 2;
   const gg_relaxation r = gg_common_relaxation(b->drag[0], interval);
   t->keep = r.decay, t->size = sqrt(b->noise[0] * r.spread);
   return interval;
 }
 
-/* Momentum is taken off: 1/N of T. */
-static void relaxation(void **state)
+/* The momentum is removed, which lowers T by 1/N. */
+static void elastic_grains_relax_as_drag_and_noise_do(void **state)
 {
   (void)state;
   const int n = 1000;
@@ -79,9 +80,9 @@ static void relaxation(void **state)
   }
 }
 
-/* With h = gamma t, t the interval, C = coth(h): M_yy = T_b, M_xy = -T_b (t/2) C, M_xx = T_b [1 + t^2 (C^2/2 - 1/6)] in
- * the mean over an interval, at shear rate 1; h to 0: the bath's. */
-static void sheared_turns(void **state)
+/* Means over an interval t at shear rate 1, with h = gamma t and C = coth(h): M_yy = T_b, M_xy = -T_b (t/2) C,
+ * M_xx = T_b [1 + t^2 (C^2/2 - 1/6)]. For h to 0 they are those of the bath. */
+static void sheared_moments_are_known(void **state)
 {
   (void)state;
   const double gamma = 1.5, Tb = 0.4;
@@ -119,11 +120,11 @@ static void sheared_turns(void **state)
 
 static double interval_of(gg_engine *g)
 {
-  const gg_md_turns *t = &((gg_md *)g)->kicks.of[0];
-  return t->apart * t->n / 2;
+  const gg_md_kick_schedule *t = &((gg_md *)g)->kicks.schedule[0];
+  return t->interval * t->n / 2;
 }
 
-/* Noise of a given strength, or a given rate of heating. */
+/* A model with noise of a given strength, or with a Gaussian thermostat of a given rate. */
 static gg_model given(gg_thermostat thermostat, double strength)
 {
   gg_scene s = lab_scene(GG_HSS, 0.02, 0.8, -1, 500);
@@ -136,8 +137,8 @@ static gg_model given(gg_thermostat thermostat, double strength)
   return m;
 }
 
-/* A gas that begins colder than the bath will keep it has the same turns as one that begins there; and one that shear
- * heats gets them on the way. */
+/* A gas that begins colder than its steady state has the kick schedule of one that begins in it, and comes to the
+ * temperature of Enskog's equation. */
 static void from_cold(gg_model steady)
 {
   gg_model cold = steady;
@@ -159,7 +160,7 @@ static void from_cold(gg_model steady)
   gg_md_ops.destroy(b);
 }
 
-static void cold_starts(void **state)
+static void cold_starts_become_steady(void **state)
 {
   (void)state;
   from_cold(bath(GG_HSS, 0.02, 0.8, -1, 0.02, 1, 0, 500));
@@ -204,7 +205,7 @@ static void against_theory(gg_model m)
   gg_md_ops.destroy(g);
 }
 
-static void dilute(void **state)
+static void dilute_gases_follow_enskogs_equation(void **state)
 {
   (void)state;
   against_theory(bath(GG_HSS, 0.01, 0.7, -1, 0.03, 1, 0, 2000));
@@ -214,7 +215,8 @@ static void dilute(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(relaxation), cmocka_unit_test(sheared_turns),
-                                     cmocka_unit_test(cold_starts), cmocka_unit_test(dilute)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(elastic_grains_relax_as_drag_and_noise_do), cmocka_unit_test(sheared_moments_are_known),
+      cmocka_unit_test(cold_starts_become_steady), cmocka_unit_test(dilute_gases_follow_enskogs_equation)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

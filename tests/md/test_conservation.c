@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: momentum to rounding in every flow; energy at e = 1 with beta = -1 or 1; no overlaps, nobody outside the box
- * or its cell, over 10^5 collisions; the energy that the collision sums report lost is the energy that went. */
+/* Proves: over 10^5 collisions momentum is kept to rounding in every flow, and energy at e = 1 with beta = -1 or 1; no
+ * grains overlap or leave their box or cell; the loss in the collision sums is the energy that is gone. */
 #include "md_test.h"
 
 static void run(md_case c, bool conserves)
@@ -23,7 +23,7 @@ static void run(md_case c, bool conserves)
   md_destroy(e);
 }
 
-static void elastic(void **state)
+static void elastic_grains_keep_momentum_and_energy(void **state)
 {
   (void)state;
   static const double phis[] = {0.01, 0.3, 0.55};
@@ -33,8 +33,7 @@ static void elastic(void **state)
   }
 }
 
-/* Rounding at collisions takes no side: of 10^6, a quarter of a last digit each would be 2 x 10^-12 of the energy here.
- */
+/* Rounding at collisions is unbiased: a quarter of a last digit each would be 2 x 10^-12 of the energy after 10^6. */
 static void energy_does_not_drift(void **state)
 {
   (void)state;
@@ -49,8 +48,7 @@ static void energy_does_not_drift(void **state)
   }
 }
 
-/* A coefficient that is no number of 53 digits is rounded up so often that its mean over the turns is right to 1/64 of
- * the last digit. */
+/* The mean of a coefficient over the dithers of its rounding is right to 1/64 of the last binary digit. */
 static void coefficients_are_right_in_the_mean(void **state)
 {
   (void)state;
@@ -59,14 +57,14 @@ static void coefficients_are_right_in_the_mean(void **state)
     const gg_contact c = gg_common_contact_make((gg_partner){1, 0.4}, (gg_partner){other, 0.4}, e, -1, INFINITY);
     const long double exact = (1 + (long double)e) / ((long double)c.im1 + c.im2);
     long double mean = 0;
-    for (int turn = 0; turn < GG_MD_DITHERS; turn++)
-      mean += (long double)gg_md_contact_normal_coefficient(&c, e, (uint64_t)turn) / GG_MD_DITHERS;
+    for (int dither = 0; dither < GG_MD_DITHERS; dither++)
+      mean += (long double)gg_md_contact_normal_coefficient(&c, e, (uint64_t)dither) / GG_MD_DITHERS;
     const double digit = nextafter((double)exact, INFINITY) - (double)exact;
     assert_true(fabsl(mean - exact) < 0.51 / GG_MD_DITHERS * digit);
   }
 }
 
-static void dissipative(void **state)
+static void inelastic_grains_keep_momentum(void **state)
 {
   (void)state;
   static const double phis[] = {0.01, 0.3, 0.52};
@@ -79,7 +77,7 @@ static void dissipative(void **state)
   }
 }
 
-/* Under shear the rounding of P_y would drive P_x for ever: without a frame that follows, 10^-12 and more here. */
+/* Under shear a P_y from rounding would drive P_x for ever, to 10^-12 and more here, if the frame did not follow it. */
 static void sheared_momentum_does_not_drift(void **state)
 {
   (void)state;
@@ -94,9 +92,8 @@ static void sheared_momentum_does_not_drift(void **state)
   md_destroy(e);
 }
 
-/* Shear work -P_xy x rate x V x time = energy gained + energy lost, exactly, event by event: the work is done at the
- * sliding boundary, so take it from the stress of a long run: C_x C_y integrated is not at hand here, so the balance is
- * asked of kinetic work measured by sampling, within its error. */
+/* Shear work, -P_xy x rate x V x time, is the energy gained plus the energy lost. The collisional stress is summed
+ * exactly; the kinetic stress is sampled, so the balance holds within the error of sampling. */
 static void shear_work_balances_loss(void **state)
 {
   (void)state;
@@ -127,11 +124,9 @@ static void shear_work_balances_loss(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(elastic),
-                                     cmocka_unit_test(energy_does_not_drift),
-                                     cmocka_unit_test(coefficients_are_right_in_the_mean),
-                                     cmocka_unit_test(dissipative),
-                                     cmocka_unit_test(sheared_momentum_does_not_drift),
-                                     cmocka_unit_test(shear_work_balances_loss)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(elastic_grains_keep_momentum_and_energy), cmocka_unit_test(energy_does_not_drift),
+      cmocka_unit_test(coefficients_are_right_in_the_mean),      cmocka_unit_test(inelastic_grains_keep_momentum),
+      cmocka_unit_test(sheared_momentum_does_not_drift),         cmocka_unit_test(shear_work_balances_loss)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: an inelastic collapse ends in finite time, and the share of treated collisions is told; a cooling gas does
- * not feel the contact time while it is short; grains at rest on a floor cost a bounded number of collisions; without
- * the rule they end the run; gravity that nobody feels makes no difference. */
+/* Proves, for the rule of contact time: it ends an inelastic collapse, and the share of collisions to which it applies
+ * is counted; a short contact time does not change a cooling gas; grains at rest on a floor cost a bounded number of
+ * collisions, and without the rule they end the run; gravity too weak to matter makes no difference. */
 #include <string.h>
 
 #include "md_test.h"
 #include "scene/scene.h"
 
-/* A line of three grains, the outer two closing in on the middle one. */
+/* Three grains in a line; the outer two approach the middle one. */
 static gg_md *line_of_three(double restitution, double contact_time)
 {
   gg_scene s = md_scene((md_case){GG_HCS, 3, 0.001, restitution, -1, INFINITY, {0}});
@@ -25,9 +25,9 @@ static gg_md *line_of_three(double restitution, double contact_time)
   return e;
 }
 
-/* Three grains in a line: without the rule, infinitely many collisions for e < 7 - 4 sqrt(3) = 0.0718 (McNamara &
- * Young, Phys. Fluids A 4 (1992) 496), and a few above. */
-static void three_in_a_line(void **state)
+/* Without the rule three grains in a line collide infinitely often for e < 7 - 4 sqrt(3) = 0.0718 (McNamara & Young,
+ * Phys. Fluids A 4 (1992) 496), and a few times above. */
+static void three_in_a_line_do_not_collapse(void **state)
 {
   (void)state;
   static const double below[] = {0, 0.03, 0.05, 0.0717}, above[] = {0.073, 0.1, 0.5};
@@ -51,8 +51,8 @@ static void three_in_a_line(void **state)
   }
 }
 
-/* Dense and very inelastic: the gas collapses into clusters within some collisions a grain. */
-static void cooling_cluster(void **state)
+/* A dense and very inelastic gas collapses into clusters within a few collisions a grain. */
+static void a_cooling_cluster_does_not_end_the_run(void **state)
 {
   (void)state;
   gg_scene s = md_scene((md_case){GG_HCS, 500, 0.5, 0.1, -1, INFINITY, {0}});
@@ -70,9 +70,9 @@ static void cooling_cluster(void **state)
   md_destroy(e);
 }
 
-/* e = 0, where pairs leave each other at a normal speed of 0 but for rounding: every rule, every way to find
- * neighbours, every drive. What collides goes on in time, touches and does not overlap, and is where the grid says. */
-static void no_restitution(void **state)
+/* At e = 0 pairs separate at a normal speed of 0 but for rounding. With every rule, kind of search and drive the run
+ * continues, grains do not overlap, and they are in their cells. */
+static void grains_without_restitution_run(void **state)
 {
   (void)state;
   const struct {
@@ -103,8 +103,8 @@ static void no_restitution(void **state)
     }
 }
 
-/* The reference path has the same bits there, too. */
-static void no_restitution_plain(void **state)
+/* At e = 0 the plain path has the same bits. */
+static void grains_without_restitution_run_on_the_plain_path(void **state)
 {
   (void)state;
   for (int k = 0; k < 2; k++) {
@@ -126,7 +126,7 @@ typedef struct cooling {
 } cooling;
 enum { SEEDS = 16, STRETCHES = 20 };
 
-/* 40 collisions a grain: T falls a hundredfold. */
+/* Cools for 40 collisions a grain; T falls a hundredfold. */
 static void cool(double contact_time, uint64_t seed, double x[2])
 {
   gg_scene s = md_scene((md_case){GG_HCS, 1000, 0.2, 0.8, -1, INFINITY, {0}});
@@ -155,7 +155,7 @@ static cooling cool_many(double contact_time, uint64_t seed)
   return c;
 }
 
-static void gas_does_not_feel_it(void **state)
+static void a_short_contact_time_changes_no_gas(void **state)
 {
   (void)state;
   cooling longer = cool_many(1e-4, 100), middle = cool_many(1e-5, 200), shorter = cool_many(1e-6, 300);
@@ -169,8 +169,8 @@ static void gas_does_not_feel_it(void **state)
     }
 }
 
-/* A heap comes to rest on a level floor: contacts every t_c = 10^-3 sqrt(d/g), not without end; the heap lies still. */
-static void heap_at_rest(void **state)
+/* A heap comes to rest on a level floor. Its contacts follow each other by t_c = 10^-3 sqrt(d/g), and it lies still. */
+static void a_heap_comes_to_rest(void **state)
 {
   (void)state;
   gg_scene s = md_scene((md_case){GG_CHUTE, 40, 0.2, 0.7, 0, INFINITY, {0}});
@@ -198,8 +198,8 @@ static void heap_at_rest(void **state)
   md_destroy(e);
 }
 
-/* A thermal wall has no contact that the rule could treat, however soon one follows another. */
-static void thermal_floor(void **state)
+/* The rule never applies to contacts with a thermal wall, however soon one follows another. */
+static void the_rule_spares_thermal_walls(void **state)
 {
   (void)state;
   gg_scene s = md_scene((md_case){GG_CHUTE, 100, 0.1, 0.8, -1, INFINITY, {0}});
@@ -213,8 +213,8 @@ static void thermal_floor(void **state)
   md_destroy(e);
 }
 
-/* Gravity so weak that nobody feels it leaves a gas between walls as it is: its collisions go on losing energy. */
-static void gravity_that_nobody_feels(void **state)
+/* Gravity too weak to matter leaves a gas between walls as it is: its collisions still lose energy. */
+static void negligible_gravity_changes_nothing(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
@@ -232,8 +232,8 @@ static void gravity_that_nobody_feels(void **state)
   }
 }
 
-/* Without the rule grains that come to rest on a floor have contacts without end: said, not gone through. */
-static void no_rule_on_a_floor(void **state)
+/* Without the rule grains that come to rest on a floor would have contacts without end: the run ends with an error. */
+static void without_the_rule_a_floor_ends_the_run(void **state)
 {
   (void)state;
   gg_scene s = md_scene((md_case){GG_CHUTE, 10, 0.02, 0.8, -1, INFINITY, {0}});
@@ -251,11 +251,14 @@ static void no_rule_on_a_floor(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(three_in_a_line),      cmocka_unit_test(cooling_cluster),
-      cmocka_unit_test(no_restitution),       cmocka_unit_test(no_restitution_plain),
-      cmocka_unit_test(gas_does_not_feel_it), cmocka_unit_test(heap_at_rest),
-      cmocka_unit_test(thermal_floor),        cmocka_unit_test(gravity_that_nobody_feels),
-      cmocka_unit_test(no_rule_on_a_floor)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(three_in_a_line_do_not_collapse),
+                                     cmocka_unit_test(a_cooling_cluster_does_not_end_the_run),
+                                     cmocka_unit_test(grains_without_restitution_run),
+                                     cmocka_unit_test(grains_without_restitution_run_on_the_plain_path),
+                                     cmocka_unit_test(a_short_contact_time_changes_no_gas),
+                                     cmocka_unit_test(a_heap_comes_to_rest),
+                                     cmocka_unit_test(the_rule_spares_thermal_walls),
+                                     cmocka_unit_test(negligible_gravity_changes_nothing),
+                                     cmocka_unit_test(without_the_rule_a_floor_ends_the_run)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

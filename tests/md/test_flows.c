@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves, in walled, driven and mixed systems: energy and momentum budgets close (what walls, gravity and collisions
- * give and take is what the grains have); wall stress equals bulk stress in walled shear; equal temperatures of an
- * elastic mixture; the Gaussian thermostat is free cooling seen through another clock, and turns no grain; white noise
- * keeps the gas warm near the balance; restarts are bit for bit everywhere. */
+/* Proves, in walled, driven and mixed systems: energy and momentum are balanced over walls, gravity, collisions and
+ * grains; in walled shear the stress on walls is that of the bulk; an elastic mixture comes to equal temperatures; the
+ * Gaussian thermostat is free cooling in another time, and changes no spin; white noise keeps a gas near its steady
+ * temperature; restarts are bit for bit. */
 #include <string.h>
 
 #include "md_test.h"
@@ -60,10 +60,9 @@ static double total_mass(const gg_md *e)
   return sum;
 }
 
-/* Work of the gravity along x and z since the last sample: displacements between samples are shorter than half a box.
- */
+/* Work of gravity along x and z. Displacements since the last sample must be shorter than half a box. */
 typedef struct work {
-  gg_vec last[300]; /* by the grain's number */
+  gg_vec last[300]; /* by number of the grain */
   double done;
 } work;
 
@@ -79,7 +78,7 @@ static void follow_work(const gg_md *e, work *w)
   }
 }
 
-/* Momentum: gravity in, walls out. Energy: the walls' work and gravity's in, collisions' losses out. */
+/* The change of momentum is that by gravity and walls; the change of energy is the work of both less the loss. */
 static void budgets_close(gg_scene s, uint64_t collisions)
 {
   gg_model m = md_model_of(&s);
@@ -120,9 +119,9 @@ static void budgets_close(gg_scene s, uint64_t collisions)
   md_destroy(e);
 }
 
-/* Couette, Poiseuille, chute under a lid and chute with an open top, Poiseuille between ridges; smooth, rough,
- * frictional; one and two species. */
-static void budgets(void **state)
+/* Budgets of Couette flow, Poiseuille flow, chute flow under a lid and with an open top, and Poiseuille flow between
+ * ridges, with each rule, one species and two. */
+static void budgets_close_in_every_flow(void **state)
 {
   (void)state;
   static const gg_flow flows[] = {GG_COUETTE, GG_POISEUILLE, GG_CHUTE, GG_CHUTE, GG_POISEUILLE};
@@ -132,17 +131,19 @@ static void budgets(void **state)
       int flow = k / 3, rule = k % 3;
       gg_scene s = (two ? mixture : scene)(flows[flow], 200, 0.2, 0.9, betas[rule]);
       for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = mus[rule];
-      s.walls.beta = 0.3, s.walls.mu = rule == 2 && flow != 1 ? 0.3 : INFINITY; /* sliding walls would let a plug go */
+      s.walls.beta = 0.3,
+      s.walls.mu =
+          rule == 2 && flow != 1 ? 0.3 : INFINITY; /* walls on which grains slide would let the whole gas accelerate */
       if (flow > 0) s.gravity[0] = 0.1;
       if (flow == 4) s.walls.ridges = 1.2;
       if (flow == 2 || flow == 3)
-        s.gravity[1] = -0.1, s.md.contact_time = 0.01; /* a thin layer slides down: mostly wall contacts */
+        s.gravity[1] = -0.1, s.md.contact_time = 0.01; /* a thin layer slides down, with mostly wall contacts */
       if (flow == 3) s.walls.top = GG_OPEN_TOP;
       budgets_close(s, 20000);
     }
 }
 
-/* sum m v_x y and sum m v_y y: what stands between wall and bulk stress while the flow is not quite steady. */
+/* sum m v_x y and sum m v_y y. Their change is the difference of wall and bulk stress while the flow is not steady. */
 static void moments(const gg_md *e, double *xy, double *yy)
 {
   *xy = *yy = 0;
@@ -153,7 +154,7 @@ static void moments(const gg_md *e, double *xy, double *yy)
   }
 }
 
-/* Walled shear: the momentum that the walls take is what the bulk stress carries across every plane:
+/* In walled shear the walls take the momentum that the bulk stress carries across every plane:
  * d/dt sum m v_x y = (kinetic + collisional) - (L_y/2 - d/2)(impulse on the upper - on the lower wall). */
 static void check_wall_stress(double beta, double mu)
 {
@@ -189,8 +190,8 @@ static void check_wall_stress(double beta, double mu)
   md_destroy(e);
 }
 
-/* An elastic gas at rest presses on every surface as its density in the middle says, where no wall is near (Carnahan &
- * Starling, exact to 10^-4 so dilute). The temperature is exact: the energy is what it was. */
+/* The pressure of an elastic gas at rest on every surface is that of its density in the middle, far from walls
+ * (Carnahan & Starling, exact to 10^-4 in so dilute a gas). The temperature is exact, because the energy is kept. */
 static void check_pressure(gg_scene s)
 {
   enum { BLOCKS = 40, SAMPLES = 200 };
@@ -199,7 +200,7 @@ static void check_pressure(gg_scene s)
   gg_md *e = md_create(&m, 4);
   double area = m.box[0] * m.box[2], sum[GG_MOST_SURFACES] = {0}, squares[GG_MOST_SURFACES] = {0}, mean = 0;
   gg_md_ops.keep_sums(&e->base, true);
-  for (int b = -2; b < BLOCKS; b++) { /* the first two: until it is in equilibrium */
+  for (int b = -2; b < BLOCKS; b++) { /* blocks -2 and -1: until it is in equilibrium */
     gg_collision_sums t;
     double middle = 0, time = 0, gone;
     for (int k = 0; k < SAMPLES; k++) {
@@ -233,8 +234,8 @@ static void walls_feel_the_pressure(void **state)
   check_pressure(s);
 }
 
-/* Ridges several cells high: grains are held against them in every cell that they reach into. */
-static void high_ridges(void **state)
+/* Grains keep off ridges that are several cells high. */
+static void grains_keep_off_high_ridges(void **state)
 {
   (void)state;
   gg_scene s = scene(GG_POISEUILLE, 3000, 0.1, 0.9, -1);
@@ -249,7 +250,7 @@ static void high_ridges(void **state)
   md_destroy(e);
 }
 
-/* Smooth grains, too, are driven: rough walls act on their centres. */
+/* Smooth grains are also driven: rough walls act on their centres. */
 static void wall_stress_is_bulk_stress(void **state)
 {
   (void)state;
@@ -269,14 +270,14 @@ static double partial_temperature(const gg_md *e, int species)
   return sum / n;
 }
 
-static void equipartition(void **state)
+static void elastic_mixtures_come_to_one_temperature(void **state)
 {
   (void)state;
   gg_scene s = mixture(GG_EQUILIBRIUM, 1000, 0.3, 1, -1);
   s.species[0].fraction = 0.3, s.species[1].fraction = 0.7;
   gg_model m = md_model_of(&s);
   gg_md *e = md_create(&m, 8);
-  for (uint32_t i = 0; i < e->n; i++) /* far from it at first */
+  for (uint32_t i = 0; i < e->n; i++) /* begins far from equal temperatures */
     if (gg_md_species_of(&e->grain[i]) == 0) assert_true(e->model.mass[0] == 1);
   double ratio = 0;
   md_collide(e, 20000);
@@ -289,7 +290,8 @@ static void equipartition(void **state)
   md_destroy(e);
 }
 
-/* Same places, velocities up to one factor, after the same number of collisions; outside, the temperature is kept. */
+/* After the same number of collisions the places are those of free cooling, and velocities differ by one factor; in the
+ * thermostat's own time the temperature is constant. */
 static void gaussian_is_free_cooling(void **state)
 {
   (void)state;
@@ -327,9 +329,9 @@ static void show_spins(void *context, const gg_chunk *chunk)
   for (size_t k = 0; k < chunk->n; k++) to->s[chunk->id[k]] = (gg_vec){chunk->s[0][k], chunk->s[1][k], chunk->s[2][k]};
 }
 
-/* The thermostat pushes centres and turns nobody: a collision changes the spins of two, as they are seen outside. Their
- * temperature becomes that of Enskog's equation without a torque (enskog_hermite: 0.293 T); spins that were heated as
- * the centres are would have that of free cooling, 1.1 T. */
+/* The Gaussian thermostat acts on velocities and not on spins: in its own time a collision changes two spins and no
+ * other. The rotational temperature is that of Enskog's equation without a torque (enskog_hermite: 0.293 T). If spins
+ * were heated like velocities, it would be that of free cooling, 1.1 T. */
 static void gaussian_leaves_spins_alone(void **state)
 {
   (void)state;
@@ -372,9 +374,8 @@ static void white_noise_keeps_warm(void **state)
   md_destroy(e);
 }
 
-/* In whatever units gravity is given, few grains wait in the present bucket of the event queue, which is searched in
- * order. */
-static void gravity_in_any_unit(void **state)
+/* Whatever the unit of gravity, few grains are in the current bucket of the event queue, which is searched linearly. */
+static void buckets_are_small_in_any_unit_of_gravity(void **state)
 {
   (void)state;
   for (double g = 1; g < 1e13; g *= 1e4) {
@@ -392,7 +393,7 @@ static void gravity_in_any_unit(void **state)
   }
 }
 
-static void restarts(void **state)
+static void restarts_are_bit_for_bit(void **state)
 {
   (void)state;
   gg_scene scenes[] = {mixture(GG_USF, 150, 0.2, 0.9, 0),   mixture(GG_COUETTE, 150, 0.2, 0.9, 0),
@@ -428,16 +429,16 @@ static void restarts(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(budgets),
+      cmocka_unit_test(budgets_close_in_every_flow),
       cmocka_unit_test(wall_stress_is_bulk_stress),
       cmocka_unit_test(walls_feel_the_pressure),
-      cmocka_unit_test(high_ridges),
-      cmocka_unit_test(equipartition),
+      cmocka_unit_test(grains_keep_off_high_ridges),
+      cmocka_unit_test(elastic_mixtures_come_to_one_temperature),
       cmocka_unit_test(gaussian_is_free_cooling),
       cmocka_unit_test(gaussian_leaves_spins_alone),
       cmocka_unit_test(white_noise_keeps_warm),
-      cmocka_unit_test(gravity_in_any_unit),
-      cmocka_unit_test(restarts),
+      cmocka_unit_test(buckets_are_small_in_any_unit_of_gravity),
+      cmocka_unit_test(restarts_are_bit_for_bit),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

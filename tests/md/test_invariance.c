@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: the same first hundred collisions (pairs in order, and times to 10^-8 of a mean free time) wherever the
- * sheared boundary lies, under translations, under half a turn about the vorticity, for images displaced by whole
- * boxes, and for any grid of cells, at rest or co-moving, or neighbour lists; and the same averages of long runs. */
+/* Proves: the first hundred collisions are the same (pairs in order, and times to 10^-8 of a mean free time) wherever
+ * the sheared boundary is, after translations, after half a turn about the vorticity, after displacements by whole
+ * boxes, and for any grid of cells, at rest or co-moving, and neighbour lists. So are averages of long runs. */
 #include <stdio.h>
 #include <string.h>
 
@@ -15,7 +15,7 @@ typedef struct history {
   double time[EVENTS];
 } history;
 
-/* A copy of e's state at its present time, in an engine not yet begun. */
+/* A copy of e's state at its present time, in an engine whose events are not yet predicted. */
 static gg_md *copy_of(const gg_md *e)
 {
   gg_md *c;
@@ -25,7 +25,8 @@ static gg_md *copy_of(const gg_md *e)
   for (uint32_t i = 0; i < e->n; i++) {
     c->grain[i] = e->grain[i];
     c->grain[i].r = gg_md_position(e, e->falls, &e->grain[i], e->k.now);
-    c->grain[i].r.x = gg_wrap(c->grain[i].r.x, e->box.edge[0], e->box.inverse[0]); /* rows may have carried it out */
+    c->grain[i].r.x =
+        gg_wrap(c->grain[i].r.x, e->box.edge[0], e->box.inverse[0]); /* a co-moving row may have left the box */
     c->grain[i].t = 0;
     c->grain[i].counter = 0;
     if (e->spin) c->spin[i] = e->spin[i];
@@ -64,7 +65,7 @@ static void same(const gg_md *e, const history *a, const history *b)
   }
 }
 
-/* Translate; under shear the frame moves along, and whoever leaves the box comes back as an image. */
+/* Translates all grains. Under shear the frame moves along; a grain that leaves the box is replaced by its image. */
 static void shift(gg_md *e, gg_vec by)
 {
   for (uint32_t i = 0; i < e->n; i++) {
@@ -92,7 +93,7 @@ static void turn(gg_md *e)
   }
 }
 
-/* Any number of cells that fits, but enough for co-moving rows. */
+/* A random number of cells that fits and is enough for co-moving rows. */
 static void set_comoving_grid(gg_md *e, gg_rng *rng)
 {
   const int32_t least[3] = {GG_MD_FEWEST_COMOVING, 4, 4};
@@ -109,7 +110,7 @@ static void set_comoving_grid(gg_md *e, gg_rng *rng)
   gg_md_align_rows(e);
 }
 
-/* Any number of cells that fits, or just one. */
+/* A random number of cells that fits, or one. */
 static void set_random_grid(gg_md *e, gg_rng *rng, bool one)
 {
   int32_t n[3];
@@ -155,14 +156,14 @@ static void check(md_case c, uint64_t seed, bool comoving)
   md_destroy(e);
 }
 
-static void periodic(void **state)
+static void periodic_collisions_are_invariant(void **state)
 {
   (void)state;
   check((md_case){GG_HCS, 60, 0.05, 0.9, 0, INFINITY, {0}}, 1, false);
   check((md_case){GG_HCS, 100, 0.5, 0.9, -1, INFINITY, {1, 1.3, 1.1}}, 2, false);
 }
 
-static void sheared(void **state)
+static void sheared_collisions_are_invariant(void **state)
 {
   (void)state;
   check((md_case){GG_USF, 60, 0.02, 0.9, -1, INFINITY, {0}}, 1, true);
@@ -171,7 +172,7 @@ static void sheared(void **state)
   check((md_case){GG_USF, 120, 0.5, 0.7, 0.5, 0.3, {0}}, 4, false);
 }
 
-/* Means over a long run and their standard errors, from blocks. */
+/* Means over a long run and their standard errors. */
 typedef struct averages {
   double mean[3], error[3]; /* temperature, collision rate, kinetic P_xy over density */
 } averages;
@@ -205,13 +206,13 @@ static averages average(gg_md *e)
   return a;
 }
 
-static void long_averages(void **state)
+static void long_averages_are_invariant(void **state)
 {
   (void)state;
   gg_model m = md_model((md_case){GG_USF, 64, 0.3, 0.8, 0, INFINITY, {0}});
   gg_md *e = md_create(&m, 5);
   averages first = {{0}, {0}};
-  for (int k = 0; k < 4; k++) { /* as it is; the boundary elsewhere; one cell; lists */
+  for (int k = 0; k < 4; k++) { /* unchanged; the boundary elsewhere; one cell; lists */
     gg_md *copy = copy_of(e);
     gg_error err;
     gg_rng rng = gg_common_rng_seed(1, 1);
@@ -231,7 +232,7 @@ static void long_averages(void **state)
   md_destroy(e);
 }
 
-/* Places as they are shown: of grains, and of those that have left the box since they were last looked at. */
+/* Places in a snapshot, and the number of grains that have flown out of the box and are shown as their images. */
 typedef struct shown {
   const gg_md *e;
   gg_vec r[200];
@@ -261,7 +262,7 @@ static double nearest_pair(const shown *x)
   return sqrt(least);
 }
 
-/* In the box, and no two too near: an image of a sheared box is shifted by the offset once for each layer. */
+/* Snapshots have all grains in the box and no two overlapping: under shear the right image is shown. */
 static void places_are_shown_in_the_box(void **state)
 {
   (void)state;
@@ -284,7 +285,8 @@ static void places_are_shown_in_the_box(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(periodic), cmocka_unit_test(sheared),
-                                     cmocka_unit_test(long_averages), cmocka_unit_test(places_are_shown_in_the_box)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(periodic_collisions_are_invariant), cmocka_unit_test(sheared_collisions_are_invariant),
+      cmocka_unit_test(long_averages_are_invariant), cmocka_unit_test(places_are_shown_in_the_box)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

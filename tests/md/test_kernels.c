@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: eight pairs at a time give the same bits as one at a time, on every boundary, every instruction set gives the
- * same bits, no choice of a way of searching is without its kernels, and cells may be crowded. */
+/* Proves: vector kernels leave the bits of the plain path on every boundary and with every set of instructions; every
+ * kind of search has its kernels; and cells may be crowded. */
 #include <stdlib.h>
 
 #include "md_test.h"
@@ -11,7 +11,7 @@
 static const int species[] = {1, 2, GG_MAX_SPECIES};
 enum { MIXTURES = sizeof species / sizeof *species };
 
-/* Flows of every boundary: walls that rest, walls that move; gravity across walls, and along them. */
+/* Flows with every boundary: resting and moving walls, gravity across walls and along them. */
 static const struct {
   gg_flow flow;
   enum gg_md_boundary boundary;
@@ -50,7 +50,7 @@ static uint64_t run_with(const gg_model *m, const gg_md_kernel *kernel)
   return hash;
 }
 
-static void simd_is_plain(void **state)
+static void simd_leaves_the_plain_bits(void **state)
 {
   (void)state;
   for (int flow = 0; flow < FLOWS; flow++)
@@ -81,7 +81,8 @@ static void instruction_sets_agree(void **state)
         gg_model m = md_model_of(&s);
         double radius;
         int32_t n[3];
-        if (gg_md_search_select(&m, &radius, n) != kind) { /* no lists in flows along walls; small cells over a floor */
+        if (gg_md_search_select(&m, &radius, n) !=
+            kind) { /* not lists in flows along walls, not small cells over a floor */
           const bool flows_along = flows[flow].flow == GG_COUETTE || m.gravity[0] != 0;
           assert_true(m.walled && (kind == GG_MD_NEIGHBOUR_LISTS ? flows_along : m.gravity[1] != 0));
           continue;
@@ -98,8 +99,8 @@ static void instruction_sets_agree(void **state)
       }
 }
 
-/* Whatever search is chosen, every compiled set has its kernels; only sheared boxes too small for co-moving
- * rows have none, and go one pair at a time. */
+/* Whatever search is chosen, every compiled set of instructions has kernels for it. Only sheared boxes too small for
+ * co-moving rows have none and take the plain path. */
 static void every_search_has_its_kernels(void **state)
 {
   (void)state;
@@ -135,7 +136,7 @@ static void every_search_has_its_kernels(void **state)
   assert_int_equal(chosen[GG_MD_FALLING], cells | lists | 1 << GG_MD_OVERLAPPING_CELLS);
 }
 
-/* All grains in a corner of the box, in n^3 overlapping cells. */
+/* An engine with n^3 overlapping cells and all grains in a corner of the box. */
 static gg_md *create_huddle(const gg_model *m, int32_t n)
 {
   gg_md *e = md_create(m, 3);
@@ -154,7 +155,7 @@ static gg_md *create_huddle(const gg_model *m, int32_t n)
   return e;
 }
 
-/* In crowded cells there is no room for all that a grain has to try: they are tried in parts, and the same pairs
+/* In crowded cells a grain has more candidates than there is room for. They are tried in parts, and the same pairs
  * collide as in smaller cells. */
 static void crowds_are_tried_in_parts(void **state)
 {
@@ -174,8 +175,8 @@ static void crowds_are_tried_in_parts(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(simd_is_plain), cmocka_unit_test(instruction_sets_agree),
-                                     cmocka_unit_test(every_search_has_its_kernels),
-                                     cmocka_unit_test(crowds_are_tried_in_parts)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(simd_leaves_the_plain_bits), cmocka_unit_test(instruction_sets_agree),
+      cmocka_unit_test(every_search_has_its_kernels), cmocka_unit_test(crowds_are_tried_in_parts)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: at a turn two grains of a species get opposite kicks, or none; everybody has one turn in every interval,
- * neighbours in memory far apart; second and fourth moment of what comes in an interval
- * are those of white noise; after kicks no contact is missed; kicks are few; and the cumulant a2 is that of Enskog's
- * equation, which intervals four times as long miss. */
+/* Proves: in a slot of the kick schedule two grains of a species get opposite kicks, or none; every grain has one slot
+ * in every interval, and neighbours in memory have slots far apart; second and fourth moments of the kicks in an
+ * interval are those of white noise; after kicks no contact is missed; kicks are few; and the cumulant a2 is that of
+ * Enskog's equation, while intervals four times as long fail. */
 #include "md_test.h"
 
 #include <stdlib.h>
@@ -32,13 +32,13 @@ static gg_model mixture(double phi, double e, int64_t one, int64_t two, double m
   return m;
 }
 
-typedef struct turn_log {
+typedef struct slot_log {
   gg_vec *v;
-  int64_t *last; /* the turn of each grain's last kick; -1: none yet */
-} turn_log;
+  int64_t *last; /* slot of each grain's last kick; -1: none yet */
+} slot_log;
 
-/* One turn; whom it kicked, at most two. */
-static int take_turn(gg_md *e, turn_log *log, uint32_t kicked[2])
+/* Run one slot. Returns the number of kicked grains, at most two. */
+static int run_slot(gg_md *e, slot_log *log, uint32_t kicked[2])
 {
   int n = 0;
   for (uint32_t i = 0; i < e->n; i++) log->v[i] = e->grain[i].v;
@@ -52,8 +52,8 @@ static int take_turn(gg_md *e, turn_log *log, uint32_t kicked[2])
   return n;
 }
 
-/* Over many rounds: of an even number one half meets the other, which goes round by one. */
-static void everybody_in_turn(void **state)
+/* Over many rounds. With an even number of grains one half is paired with the other, shifted by one each round. */
+static void every_grain_has_its_slot(void **state)
 {
   (void)state;
   static const int64_t sizes[] = {2, 3, 4, 31, 60, 131};
@@ -61,25 +61,25 @@ static void everybody_in_turn(void **state)
     gg_scene s = heated(sizes[k], 0.01, 0.9);
     gg_model m = md_model_of(&s);
     gg_md *e = md_create(&m, 1);
-    gg_md_turns *t = &e->kicks.of[0];
-    if (k == 5) t->group = 32, t->step = 3; /* as of many grains: four groups, and three grains left over */
-    turn_log log = {calloc(e->n, sizeof *log.v), malloc(e->n * sizeof *log.last)};
-    const int64_t half = sizes[k] / 2, turns = 60 * sizes[k];
+    gg_md_kick_schedule *t = &e->kicks.schedule[0];
+    if (k == 5) t->group = 32, t->step = 3; /* as with many grains: four groups, and three grains left over */
+    slot_log log = {calloc(e->n, sizeof *log.v), malloc(e->n * sizeof *log.last)};
+    const int64_t half = sizes[k] / 2, slots = 60 * sizes[k];
     int64_t kicks = 0;
     for (uint32_t i = 0; i < e->n; i++) log.last[i] = -1;
-    for (int64_t turn = 0; turn < turns; turn++) {
+    for (int64_t slot = 0; slot < slots; slot++) {
       uint32_t pair[2];
-      const int n = take_turn(e, &log, pair);
+      const int n = run_slot(e, &log, pair);
       assert_true(n == 0 || n == 2);
       kicks += n / 2;
       for (int j = 0; j < n; j++) {
-        const int64_t before = log.last[pair[j]], rounds = (turn - before + half / 2) / half;
-        if (before >= 0) assert_true(rounds >= 1 && llabs(turn - before - rounds * half) <= rounds);
-        log.last[pair[j]] = turn;
+        const int64_t before = log.last[pair[j]], rounds = (slot - before + half / 2) / half;
+        if (before >= 0) assert_true(rounds >= 1 && llabs(slot - before - rounds * half) <= rounds);
+        log.last[pair[j]] = slot;
       }
     }
-    for (uint32_t i = 0; i < e->n; i++) assert_true(log.last[i] > turns - 20 * sizes[k]);
-    assert_true(fabs((double)kicks / (double)turns - 0.625) < 4 * sqrt(0.235 / (double)turns));
+    for (uint32_t i = 0; i < e->n; i++) assert_true(log.last[i] > slots - 20 * sizes[k]);
+    assert_true(fabs((double)kicks / (double)slots - 0.625) < 4 * sqrt(0.235 / (double)slots));
     gg_vec p = md_momentum(e);
     assert_true(gg_dot(p, p) < 1e-24 * md_energy(e) * (double)e->n);
     free(log.v);
@@ -88,15 +88,15 @@ static void everybody_in_turn(void **state)
   }
 }
 
-/* Neighbours along the curve have turns far apart: any tenth of the turns of a round is a tenth of any tenth of them.
- */
-static void evenly_in_space(void **state)
+/* Neighbours along the space-filling curve have slots far apart: a tenth of the slots of a round covers a tenth of
+ * every tenth of the grains. */
+static void slots_are_even_in_space(void **state)
 {
   (void)state;
   gg_scene s = heated(2000, 0.05, 0.9);
   gg_model m = md_model_of(&s);
   gg_md *e = md_create(&m, 1);
-  const gg_md_turns *t = &e->kicks.of[0];
+  const gg_md_kick_schedule *t = &e->kicks.schedule[0];
   for (uint64_t from = 0; from + 200 <= 2000; from += 100) {
     int in[10] = {0};
     for (uint64_t k = from; k < from + 200; k++) in[k * t->step % t->n / 200]++;
@@ -107,27 +107,27 @@ static void evenly_in_space(void **state)
 
 /* A kick has a fixed length l and comes with probability 5/8: per interval t <l^2> = 3 xi^2 t, and <l^4> is 1/25 below
  * 15 xi^4 t^2 (kicks.c). */
-static void moments_of_white_noise(void **state)
+static void kicks_have_the_moments_of_white_noise(void **state)
 {
   (void)state;
   for (int k = 0; k < 4; k++) {
     gg_model m = mixture(0.1, (double[]){0.99, 0.9, 0.5, 0}[k], 600, 400, 3);
     gg_md *e = md_create(&m, 1);
     for (int s = 0; s < 2; s++) {
-      const gg_md_turns *t = &e->kicks.of[s];
-      const double interval = t->apart * t->n / 2, variance = e->noise * interval, l2 = t->size * t->size;
+      const gg_md_kick_schedule *t = &e->kicks.schedule[s];
+      const double interval = t->interval * t->n / 2, variance = e->noise * interval, l2 = t->size * t->size;
       assert_true(fabs(0.625 * l2 / (3 * variance) - 1) < 1e-12);
       assert_true(fabs(0.625 * l2 * l2 / (15 * variance * variance) - 0.96) < 1e-12);
       const double share = m.mass[s] * variance / m.temperature0;
       const double least = 0.27 / gg_common_model_collision_rate(&m, m.temperature0);
       assert_true(share < 0.02 * (1 + 1e-12) || fabs(interval / least - 1) < 1e-12);
     }
-    assert_true(e->kicks.of[0].apart * 600 >= e->kicks.of[1].apart * 400);
+    assert_true(e->kicks.schedule[0].interval * 600 >= e->kicks.schedule[1].interval * 400);
     md_destroy(e);
   }
 }
 
-/* The next collision is that of the plain finder, kicks in between or not; nobody is outside its cell. */
+/* The next collision is that of the plain event finder, with kicks in between or not; every grain is in its cell. */
 static void no_contact_is_missed(gg_md *e)
 {
   for (int k = 0; k < 40; k++) {
@@ -150,7 +150,7 @@ static void no_contact_is_missed(gg_md *e)
 }
 
 /* Cells, overlapping cells and lists; a few heavy or light grains among others. */
-static void contacts_after_kicks(void **state)
+static void no_contact_is_missed_after_kicks(void **state)
 {
   (void)state;
   static const double phi[] = {0.02, 0.2, 0.45};
@@ -169,13 +169,13 @@ static void contacts_after_kicks(void **state)
     no_contact_is_missed(e);
     gg_vec p = md_momentum(e);
     assert_true(gg_dot(p, p) < 1e-20 * md_energy(e) * e->n);
-    assert_true(e->k.turn[0].number > 0 && e->k.turn[1].number > 0);
+    assert_true(e->k.kick[0].number > 0 && e->k.kick[1].number > 0);
     md_destroy(e);
   }
 }
 
-/* Pairs kicked per collision: each is two predictions, and an elastic gas makes some three. */
-static void few_predictions(void **state)
+/* Kicked pairs per collision: each costs two predictions; a collision of an elastic gas costs some three. */
+static void kicks_are_few(void **state)
 {
   (void)state;
   static const double e_of[] = {0.99, 0.9, 0.5}, most[] = {0.25, 2.1, 3.1};
@@ -186,7 +186,7 @@ static void few_predictions(void **state)
     gg_md *e = md_create(&m, 1), *p = md_create(&mp, 1);
     md_collide(e, 20000);
     md_collide(p, 20000);
-    const double kicks = 0.625 * (double)e->k.turn[0].number / 20000;
+    const double kicks = 0.625 * (double)e->k.kick[0].number / 20000;
     const double more = (double)(e->k.events - p->k.events) / 20000;
     print_message("# e = %g: %.3g kicks, %.3g more events per collision\n", e_of[k], kicks, more);
     assert_true(kicks < most[k] && more < 1.1 * most[k]);
@@ -195,9 +195,9 @@ static void few_predictions(void **state)
   }
 }
 
-/* a2 at e = 0.5 of Enskog's equation without random numbers (enskog_hermite, phi: 0): 0.025015, to 0.0032, four
- * standard errors; T and the rate of collisions in the mean. At four times the interval a2 is 0.0055 off. */
-static void cumulant(void **state)
+/* a2 at e = 0.5 is that of Enskog's equation without random numbers (enskog_hermite, phi: 0), 0.025015, to 0.0032, four
+ * standard errors; so are the means of T and of the collision rate. At four times the interval a2 is off by 0.0055. */
+static void cumulant_is_that_of_enskogs_equation(void **state)
 {
   (void)state;
   gg_scene s = heated(2000, 0.005, 0.5);
@@ -227,9 +227,12 @@ static void cumulant(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(everybody_in_turn),      cmocka_unit_test(evenly_in_space),
-      cmocka_unit_test(moments_of_white_noise), cmocka_unit_test(contacts_after_kicks),
-      cmocka_unit_test(few_predictions),        cmocka_unit_test(cumulant),
+      cmocka_unit_test(every_grain_has_its_slot),
+      cmocka_unit_test(slots_are_even_in_space),
+      cmocka_unit_test(kicks_have_the_moments_of_white_noise),
+      cmocka_unit_test(no_contact_is_missed_after_kicks),
+      cmocka_unit_test(kicks_are_few),
+      cmocka_unit_test(cumulant_is_that_of_enskogs_equation),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: given the engine's own state after each event, a plain search over all images of all pairs, and the walls,
- * names the same next collision (who, and when to 10^-10 of a mean free time), over hundreds of random small systems:
- * periodic, sheared, between walls, under gravity; smooth, rough and frictional; one and two species; dilute and dense,
- * cubic and not; 10^4 events in a row in small systems; and after a long time. And no two grains ever overlap.
- */
+/* Proves: from the engine's own state after each event, a plain search over all images of all pairs and all walls finds
+ * the same next collision (the same pair, and the same time to 10^-10 of a mean free time), and no two grains overlap.
+ * Hundreds of random small systems: periodic, sheared, between walls, under gravity; each rule; one species and two;
+ * dilute and dense; cubic and not; 10^4 events in a row; and after a long time. */
 #include <string.h>
 
 #include "md_test.h"
@@ -15,7 +14,7 @@ enum { MOST = 160 };
 
 typedef struct collided {
   uint32_t counter[MOST];
-  int64_t changed[3]; /* who collided since, -1: nobody */
+  int64_t changed[3]; /* grains that have collided since, or -1 */
 } collided;
 
 static void note_counters(collided *w, const gg_md *e)
@@ -37,7 +36,7 @@ static void advance(gg_md *e, double dt)
   if (gg_md_ops.advance(&e->base, dt, UINT64_MAX, NULL, &err) != GG_OK) fail_msg("%s", err.message);
 }
 
-/* One prediction of the plain search, and what the engine does around that time. */
+/* Compares one prediction of the plain search with what the engine does around that time. */
 static void check_next(gg_md *e, uint64_t seed)
 {
   double tolerance = 1e-10 * e->k.mean_free_time, horizon = 30 * e->k.mean_free_time / e->n;
@@ -64,14 +63,14 @@ static void check_next(gg_md *e, uint64_t seed)
              (int)w.changed[1], (int)w.changed[2], early >= 0 ? "early" : "then");
 }
 
-/* So many collisions, or the time in which there should have been: grains that lie apart on a floor meet no more. */
+/* Runs for so many collisions, or as long as they should take: grains that lie apart on a floor collide no more. */
 static void warm_up(gg_md *e, uint64_t collisions)
 {
   double time = 20 * (double)collisions * e->k.mean_free_time / e->n;
   assert_int_equal(gg_md_ops.advance(&e->base, time, collisions, NULL, NULL), GG_OK);
 }
 
-/* Stretches of so many events, each after `warm` collisions that nobody looks at. */
+/* Checks `stretches` times so many events, each time after `warm` collisions that are not checked. */
 static void follow_stretches(const gg_scene *s, uint64_t seed, int warm, int events, int stretches)
 {
   gg_model m = md_model_of(s);
@@ -106,12 +105,12 @@ static void random_contact(gg_scene *s, gg_rng *rng)
   s->walls.speed = 3;
 }
 
-/* Not every draw fits: the box may be too small for the number of grains. */
+/* Returns false if the scene drawn cannot run: its box may be too small for the number of grains. */
 static bool random_scene(gg_scene *s, gg_rng *rng, gg_flow flow, bool mixture)
 {
   *s = gg_scene_defaults();
   s->flow = flow;
-  s->md.contact_time = 1e-3; /* grains at rest on a floor bounce that often */
+  s->md.contact_time = 1e-3; /* the time between bounces of grains at rest on a floor */
   s->phi = pow(10, -2 + (gg_flow_is_walled(flow) || mixture ? 1.4 : 1.74) * gg_rng_uniform(rng));
   for (int a = 0; a < 3; a++) s->aspect[a] = 1 + 0.6 * gg_rng_uniform(rng);
   random_contact(s, rng);
@@ -125,7 +124,8 @@ static bool random_scene(gg_scene *s, gg_rng *rng, gg_flow flow, bool mixture)
   }
   double fewest = 10 * s->phi / (M_PI / 6);
   s->particles = (mixture ? 2 * s->n_species : 3) + (int64_t)fewest + gg_rng_below(rng, 30);
-  if (flow == GG_POISEUILLE) s->gravity[0] = 0.5, s->walls.beta = 0.5, s->walls.mu = INFINITY; /* walls that brake */
+  if (flow == GG_POISEUILLE)
+    s->gravity[0] = 0.5, s->walls.beta = 0.5, s->walls.mu = INFINITY; /* walls brake the flow */
   if (flow == GG_CHUTE) {
     s->gravity[0] = 0.2, s->gravity[1] = -0.5;
     s->walls.top = gg_rng_below(rng, 2) ? GG_OPEN_TOP : GG_CLOSED_TOP;
@@ -142,26 +142,26 @@ static void many(gg_flow flow, bool mixture, int systems, uint64_t seed)
     if (random_scene(&s, &rng, flow, mixture)) follow(&s, seed + (uint64_t)k++, 60, 40);
 }
 
-static void periodic(void **state)
+static void periodic_events_are_found(void **state)
 {
   (void)state, many(GG_HCS, false, 90, 100);
 }
-static void sheared(void **state)
+static void sheared_events_are_found(void **state)
 {
   (void)state, many(GG_USF, false, 90, 300);
 }
-static void mixtures(void **state)
+static void events_of_mixtures_are_found(void **state)
 {
   (void)state;
   many(GG_HCS, true, 30, 500);
   many(GG_USF, true, 40, 600);
   many(GG_COUETTE, true, 20, 700);
 }
-static void between_walls(void **state)
+static void events_between_walls_are_found(void **state)
 {
   (void)state, many(GG_COUETTE, false, 60, 800);
 }
-static void under_gravity(void **state)
+static void events_under_gravity_are_found(void **state)
 {
   (void)state;
   many(GG_POISEUILLE, false, 40, 900);
@@ -169,8 +169,8 @@ static void under_gravity(void **state)
   many(GG_CHUTE, true, 20, 1100);
 }
 
-/* Half cylinders on the walls, met on parabolas; also grains that lie between two of them. */
-static void ridged(void **state)
+/* Ridges, with grains that fly on parabolas, and with grains that lie between two of them. */
+static void events_at_ridges_are_found(void **state)
 {
   (void)state;
   static const double ridges[] = {0.5, 1, 1.7}, betas[] = {-1, 0.5, 0.4}, mus[] = {INFINITY, INFINITY, 0.3};
@@ -194,8 +194,8 @@ static void one(md_case c, uint64_t seed, int warm, int events)
   follow(&s, seed, warm, events);
 }
 
-/* Boxes wide enough for eight pairs at a time from cells. */
-static void wide_cells(void **state)
+/* Boxes so wide that cells are searched with vector kernels. */
+static void events_in_wide_cells_are_found(void **state)
 {
   (void)state;
   for (uint64_t seed = 1; seed <= 3; seed++) {
@@ -206,8 +206,8 @@ static void wide_cells(void **state)
   }
 }
 
-/* Under shear, in boxes wide enough for co-moving rows of cells; until rows have shifted several times. */
-static void comoving_rows(void **state)
+/* Sheared boxes wide enough for co-moving rows of cells, until rows have shifted several times. */
+static void events_in_comoving_rows_are_found(void **state)
 {
   (void)state;
   md_case dilute = {GG_USF, 150, 0.06, 0.9, -1, INFINITY, {2, 1, 1}},
@@ -228,14 +228,14 @@ static void comoving_rows(void **state)
   }
 }
 
-/* Dilute, in boxes wide enough for cells that overlap. */
-static void overlapping_cells(void **state)
+/* Dilute gases in boxes wide enough for overlapping cells. */
+static void events_in_overlapping_cells_are_found(void **state)
 {
   (void)state;
   md_case still = {GG_HCS, 150, 0.01, 0.9, 0, INFINITY, {0}},
           sheared = {GG_USF, 150, 0.004, 0.8, 0, INFINITY, {3, 1, 1}};
   md_case wider = {GG_USF, 160, 0.004, 0.9, -1, INFINITY, {3, 1.1, 1.05}};
-  md_case fewest = {GG_USF, 150, 0.004, 0.9, 0, INFINITY, {0}}; /* cells along x */
+  md_case fewest = {GG_USF, 150, 0.004, 0.9, 0, INFINITY, {0}}; /* fewest cells along x */
   const md_case all[] = {still, sheared, wider, fewest};
   for (int k = 0; k < 4; k++) {
     gg_model m = md_model(all[k]);
@@ -255,8 +255,8 @@ static void overlapping_cells(void **state)
   }
 }
 
-/* Boxes wide enough for neighbour lists. */
-static void listed(void **state)
+/* Boxes so wide that there are neighbour lists. */
+static void events_by_lists_are_found(void **state)
 {
   (void)state;
   for (uint64_t seed = 1; seed <= 3; seed++) {
@@ -270,9 +270,9 @@ static void listed(void **state)
   }
 }
 
-/* The same between walls and on parabolas, before grains lie still on a floor: of those that hardly move any longer no
- * time is known to this. */
-static void searched_between_walls(void **state)
+/* The same between walls and on parabolas, only until grains lie still on a floor: for those that hardly move the
+ * contact time is ill-conditioned. */
+static void searches_between_walls_find_events(void **state)
 {
   (void)state;
   static const gg_flow flows[] = {GG_COUETTE, GG_FOURIER, GG_POISEUILLE, GG_CHUTE};
@@ -299,7 +299,7 @@ static void searched_between_walls(void **state)
   }
 }
 
-static void dense(void **state)
+static void dense_events_are_found(void **state)
 {
   (void)state;
   for (uint64_t seed = 1; seed <= 4; seed++) {
@@ -308,8 +308,8 @@ static void dense(void **state)
   }
 }
 
-/* Two to four grains: every image counts. */
-static void few_grains(void **state)
+/* Two to four grains, which collide with images beyond the nearest. */
+static void events_of_few_grains_are_found(void **state)
 {
   (void)state;
   for (int64_t n = 2; n <= 4; n++)
@@ -319,8 +319,8 @@ static void few_grains(void **state)
     }
 }
 
-/* 10^4 events one after the other, in small systems of every kind. */
-static void ten_thousand_in_a_row(void **state)
+/* 10^4 events in a row, in small systems of every kind. */
+static void ten_thousand_events_in_a_row_are_found(void **state)
 {
   (void)state;
   static const gg_flow flows[] = {GG_EQUILIBRIUM, GG_USF, GG_COUETTE, GG_POISEUILLE, GG_CHUTE};
@@ -338,8 +338,8 @@ static void ten_thousand_in_a_row(void **state)
   }
 }
 
-/* The same after a long time: two grains get there in a second; under shear the images have passed 2 x 10^5 times. */
-static void late(void **state)
+/* The same after a long time, which two grains reach in a second; sheared images have then passed 2 x 10^5 times. */
+static void late_events_are_found(void **state)
 {
   (void)state;
   for (int sheared = 0; sheared < 2; sheared++) {
@@ -359,21 +359,21 @@ static void late(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(periodic),
-      cmocka_unit_test(sheared),
-      cmocka_unit_test(mixtures),
-      cmocka_unit_test(between_walls),
-      cmocka_unit_test(under_gravity),
-      cmocka_unit_test(ridged),
-      cmocka_unit_test(dense),
-      cmocka_unit_test(few_grains),
-      cmocka_unit_test(listed),
-      cmocka_unit_test(wide_cells),
-      cmocka_unit_test(comoving_rows),
-      cmocka_unit_test(overlapping_cells),
-      cmocka_unit_test(searched_between_walls),
-      cmocka_unit_test(ten_thousand_in_a_row),
-      cmocka_unit_test(late),
+      cmocka_unit_test(periodic_events_are_found),
+      cmocka_unit_test(sheared_events_are_found),
+      cmocka_unit_test(events_of_mixtures_are_found),
+      cmocka_unit_test(events_between_walls_are_found),
+      cmocka_unit_test(events_under_gravity_are_found),
+      cmocka_unit_test(events_at_ridges_are_found),
+      cmocka_unit_test(dense_events_are_found),
+      cmocka_unit_test(events_of_few_grains_are_found),
+      cmocka_unit_test(events_by_lists_are_found),
+      cmocka_unit_test(events_in_wide_cells_are_found),
+      cmocka_unit_test(events_in_comoving_rows_are_found),
+      cmocka_unit_test(events_in_overlapping_cells_are_found),
+      cmocka_unit_test(searches_between_walls_find_events),
+      cmocka_unit_test(ten_thousand_events_in_a_row_are_found),
+      cmocka_unit_test(late_events_are_found),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: threads that share the events of one run leave every bit of it as it is: the state after so many collisions,
- * and the sums over them, are those of one thread, with two, three and four threads; with cells, cells that
- * overlap or move with the flow, and neighbour lists; smooth, rough and frictional, one species and two, near collapse;
- * however the run is cut, and resumed with another number of threads. And that these runs do what could go wrong:
- * events are put off, and taken back. */
+/* Proves: the state after so many collisions and the collision sums have the same bits with one, two, three and four
+ * threads; with every kind of search, each rule, one species and two, near collapse; however the run is cut, and
+ * resumed with another number of threads. These runs do defer events and roll some back. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "md/md_engine.h"
+#include "md/md_operations.h"
 #include "md/parallel/slab.h"
 #include "scene/scene.h"
 #include "md_test.h"
@@ -53,7 +51,7 @@ static gg_md *create(const gg_model *m, int threads)
 {
   gg_md *e = md_create(m, 7);
   gg_md_ops.keep_sums(&e->base, true);
-  gg_md_share(e, threads, false);
+  gg_md_use_threads(e, threads, false);
   assert_int_equal(threads > 1, e->parallel != NULL);
   return e;
 }
@@ -68,33 +66,33 @@ static uint64_t run(const gg_model *m, int threads, uint64_t collisions, gg_md_w
   return h;
 }
 
-/* `COLLISIONS` asks for another number of them. */
+/* The number of collisions, which the environment variable COLLISIONS sets. */
 static uint64_t collisions_asked(void)
 {
   const char *asked = getenv("COLLISIONS");
   return asked ? strtoull(asked, NULL, 10) : 60000;
 }
 
-static void same_bits(void **state)
+static void threads_leave_the_same_bits(void **state)
 {
   (void)state;
   const uint64_t collisions = collisions_asked();
-  uint64_t late = 0, taken_back = 0;
+  uint64_t deferred_twice = 0, rolled_back = 0;
   for (int k = 0; k < CASES; k++) {
     gg_model m = model_of(k);
     gg_md_window_counts c = {0};
     const uint64_t serial = run(&m, 1, collisions, &c);
     for (int threads = 2; threads <= MOST_THREADS; threads++) {
       if (run(&m, threads, collisions, &c) != serial) fail_msg("case %d, %d threads", k, threads);
-      if (c.events < collisions || !c.put_off[0]) fail_msg("case %d, %d threads: hardly shared", k, threads);
-      late += c.put_off[1];
-      taken_back += c.taken_back;
+      if (c.events < collisions || !c.deferred[0]) fail_msg("case %d, %d threads: hardly shared", k, threads);
+      deferred_twice += c.deferred[1];
+      rolled_back += c.rolled_back;
     }
   }
-  assert_true(late > 0 && taken_back > 0);
+  assert_true(deferred_twice > 0 && rolled_back > 0);
 }
 
-/* By times and by numbers of collisions, the sums taken at each end. */
+/* Advances by times and by numbers of collisions, and takes the sums after each. Returns the hash. */
 static uint64_t run_in_parts(gg_md *e)
 {
   uint64_t h = 0;
@@ -118,11 +116,11 @@ static gg_md *restored(gg_md *e, const gg_model *m, int threads)
   if (gg_md_save(&e->base, &archive, &err) != GG_OK) fail_msg("%s", err.message);
   if (gg_md_restore(m, &archive, &back, &err) != GG_OK) fail_msg("%s", err.message);
   gg_base_archive_clear(&archive);
-  gg_md_share((gg_md *)back, threads, false);
+  gg_md_use_threads((gg_md *)back, threads, false);
   return (gg_md *)back;
 }
 
-static void cuts_and_resumes(void **state)
+static void cut_and_resumed_runs_leave_the_same_bits(void **state)
 {
   (void)state;
   uint64_t cancelled = 0;
@@ -142,10 +140,10 @@ static void cuts_and_resumes(void **state)
     md_destroy(two);
     md_destroy(one);
   }
-  assert_true(cancelled > 0); /* windows that a part ends in */
+  assert_true(cancelled > 0); /* windows in which an advance ends */
 }
 
-/* What lists of windows grow by, but for this test: so many times, then no more; -1: always. */
+/* The allocations that still succeed, of those by which the lists of a window grow; -1: all. */
 static int allocations_left = -1;
 
 void *aligned_alloc(size_t alignment, size_t size)
@@ -156,8 +154,8 @@ void *aligned_alloc(size_t alignment, size_t size)
   return posix_memalign(&block, alignment, size) == 0 ? block : NULL;
 }
 
-/* Wherever memory lacks, the run ends with an error. */
-static void lacks_memory(void **state)
+/* Whichever allocation fails, the run ends with an error. */
+static void a_run_without_memory_ends_with_an_error(void **state)
 {
   (void)state;
   int failed = 0;
@@ -176,13 +174,13 @@ static void lacks_memory(void **state)
   assert_true(failed > 10);
 }
 
-/* Where the clock decides, both ways are gone, and the bits are the same. */
-static void adapts(void **state)
+/* Where the engine decides by measured times whether to use threads, it does both, and the bits are the same. */
+static void measured_times_change_no_bits(void **state)
 {
   (void)state;
   gg_model m = model_of(0);
   gg_md *serial = create(&m, 1), *shared = create(&m, 1);
-  gg_md_share(shared, 2, true);
+  gg_md_use_threads(shared, 2, true);
   md_collide(serial, 40000);
   md_collide(shared, 40000);
   assert_int_equal(md_hash_all(serial), md_hash_all(shared));
@@ -192,8 +190,8 @@ static void adapts(void **state)
   md_destroy(shared);
 }
 
-/* What is not shared says so. */
-static void says_why_not(void **state)
+/* A scene that threads cannot share says why. */
+static void a_scene_says_why_it_is_not_shared(void **state)
 {
   (void)state;
   gg_model walls = md_model((md_case){GG_COUETTE, 6000, 0.3, 0.9, 0, INFINITY, {0}}),
@@ -204,15 +202,16 @@ static void says_why_not(void **state)
   assert_string_equal(gg_md_serial_because(&small), "a small box");
   assert_null(gg_md_serial_because(&shared));
   gg_md *e = md_create(&small, 1);
-  gg_md_share(e, 4, false);
+  gg_md_use_threads(e, 4, false);
   assert_null(e->parallel);
   md_destroy(e);
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(same_bits), cmocka_unit_test(cuts_and_resumes),
-                                     cmocka_unit_test(lacks_memory), cmocka_unit_test(adapts),
-                                     cmocka_unit_test(says_why_not)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(threads_leave_the_same_bits), cmocka_unit_test(cut_and_resumed_runs_leave_the_same_bits),
+      cmocka_unit_test(a_run_without_memory_ends_with_an_error), cmocka_unit_test(measured_times_change_no_bits),
+      cmocka_unit_test(a_scene_says_why_it_is_not_shared)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

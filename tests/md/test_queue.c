@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: under 10^7 random insertions, removals, re-schedulings and pops the event queue gives the same order as a
- * sorted list, with events in the present bucket, ties, events beyond the epoch and never. The sorted list is an array
- * of all events in order, searched by halves: nothing that the event queue does. */
+/* Proves: over 10^7 random insertions, removals, re-schedulings and pops the event queue has the order of a sorted
+ * list, with events in the current bucket, ties, events after the epoch, and events at infinity. The sorted list is an
+ * array of all events with bisection, which shares nothing with the event queue. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -24,7 +24,7 @@ static bool is_before(gg_md_due a, gg_md_due b)
   return a.time < b.time || (a.time == b.time && a.grain < b.grain);
 }
 
-/* Where in the sorted list it is, or would go. */
+/* The index in the sorted list at which an event is, or would be inserted. */
 static uint32_t rank_of(const both *b, gg_md_due due)
 {
   uint32_t low = 0, high = b->n_sorted;
@@ -52,7 +52,7 @@ static void sorted_remove(both *b, gg_md_due due)
   memmove(&b->sorted[k], &b->sorted[k + 1], (--b->n_sorted - k) * sizeof due);
 }
 
-/* Ties on purpose, some soon, some beyond the epoch, some never. */
+/* Some times are ties, some are soon, some after the epoch, some infinite. */
 static double random_time(both *b)
 {
   uint32_t kind = gg_rng_below(&b->rng, 20);
@@ -77,7 +77,7 @@ static void take_out(both *b, uint32_t i)
   b->there[i] = false;
 }
 
-/* Times are re-zeroed, and entered again in another order than before. */
+/* Starts an epoch: times are counted from it, and all events are inserted again in another order. */
 static void next_epoch(both *b)
 {
   double span = gg_md_queue_span(&b->queue);
@@ -92,10 +92,10 @@ static void next_epoch(both *b)
   }
 }
 
-/* The next event of both, or an epoch's end. */
+/* Takes the next event from both, or begins the next epoch. */
 static void pop(both *b)
 {
-  if (!gg_md_queue_turn(&b->queue, b->node)) {
+  if (!gg_md_queue_next_bucket(&b->queue, b->node)) {
     assert_true(b->n_sorted == 0 || b->sorted[0].time >= gg_md_queue_span(&b->queue));
     next_epoch(b);
     return;
@@ -107,7 +107,7 @@ static void pop(both *b)
   take_out(b, due.grain);
 }
 
-static void same_order_as_sorted_list(void **state)
+static void the_queue_has_the_order_of_a_sorted_list(void **state)
 {
   (void)state;
   both *b = calloc(1, sizeof *b);
@@ -132,6 +132,6 @@ static void same_order_as_sorted_list(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(same_order_as_sorted_list)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(the_queue_has_the_order_of_a_sorted_list)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: a run saved and restored goes on bit for bit, and saving does not disturb it; a run cut into advances of any
- * length has the same trajectory; rescaling by powers of two is exact; an advance that is stopped and goes on ends as
- * one that was not. */
+/* Proves: a run that is saved and restored continues bit for bit, and saving does not change it; a run cut into
+ * advances of any length has the same trajectory; rescaling by powers of two is exact; an advance that is stopped and
+ * continued ends as an uninterrupted one. */
+#include "md/start/all_grains.h"
 #include "md_test.h"
 #include "scene/scene.h"
 
@@ -15,11 +16,12 @@ static const md_case cases[] = {
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
-/* The case, or with grains of three kinds in it. */
+/* The model of a case, or the same with three species. */
 static gg_model model_of(int k, bool mixture)
 {
   gg_scene s = md_scene(cases[k]);
-  if (s.flow == GG_CHUTE) s.gravity[0] = 0, s.gravity[1] = -0.1, s.walls.e = 1, s.walls.beta = -1; /* lists */
+  if (s.flow == GG_CHUTE)
+    s.gravity[0] = 0, s.gravity[1] = -0.1, s.walls.e = 1, s.walls.beta = -1; /* so that there are lists */
   if (mixture) {
     s.n_species = 3;
     s.species[0].fraction = 0.5;
@@ -29,7 +31,7 @@ static gg_model model_of(int k, bool mixture)
   return md_model_of(&s);
 }
 
-static void saved_and_restored(void **state)
+static void restored_runs_continue_bit_for_bit(void **state)
 {
   (void)state;
   for (int k = 0; k < 2 * CASES; k++) {
@@ -57,8 +59,8 @@ static void saved_and_restored(void **state)
   }
 }
 
-/* A state that was made up: a clock so far from its grains' that they are nowhere now. */
-static void clock_far_off(void **state)
+/* A checkpoint with a clock so far from the times of its grains that their places overflow is rejected. */
+static void a_clock_far_off_is_rejected(void **state)
 {
   (void)state;
   for (int k = 0; k < 2 * CASES; k++) {
@@ -76,7 +78,7 @@ static void clock_far_off(void **state)
   }
 }
 
-static void cut_anywhere(void **state)
+static void runs_can_be_cut_anywhere(void **state)
 {
   (void)state;
   for (int k = 0; k < CASES; k++) {
@@ -111,9 +113,9 @@ static void note(void *context, const gg_chunk *chunk)
     for (int a = 0; a < 3; a++) g->r[a][g->n] = chunk->r[a][i], g->c[a][g->n] = chunk->c[a][i];
 }
 
-/* The next sweep of a linear response begins in the same places at the same time, with a multiple of the peculiar
- * velocities; nobody overlaps then or later; and it continues from a checkpoint bit for bit. */
-static void sweeps(void **state)
+/* The next sweep of a linear response begins with the same places and time, and a multiple of the peculiar velocities.
+ * No grains overlap then or later, and it continues from a checkpoint bit for bit. */
+static void sweeps_begin_in_the_same_places(void **state)
 {
   (void)state;
   static const md_case swept[] = {{GG_SMALL_SHEAR, 200, 0.3, 0.9, 0.3, INFINITY, {0}},
@@ -161,8 +163,8 @@ static void sweeps(void **state)
   }
 }
 
-/* Up by 2^p at random moments and down again is the same run. */
-static void rescaled(void **state)
+/* A run that is rescaled by 2^p at random moments and back has the same trajectory. */
+static void rescaling_leaves_the_trajectory(void **state)
 {
   (void)state;
   for (int k = 0; k < CASES; k++) {
@@ -193,8 +195,8 @@ static bool by_chance(void *context)
   return gg_rng_uniform(context) < 0.7;
 }
 
-/* Stopped at random looks, each time saved and restored, an advance ends where the uninterrupted one does, to the last
- * bit, and says that as much time has gone. */
+/* An advance that is stopped at random polls, saved and restored each time, ends with the bits of the uninterrupted
+ * one, and returns the same time. */
 static void advance_stopped(const gg_model *model, double dt, uint64_t most, int *stops)
 {
   gg_model m = *model;
@@ -231,7 +233,7 @@ static void advance_stopped(const gg_model *model, double dt, uint64_t most, int
   gg_md_ops.destroy(cut);
 }
 
-static void stopped(void **state)
+static void stopped_advances_end_as_uninterrupted_ones(void **state)
 {
   (void)state;
   for (int k = 0; k < CASES; k++) {
@@ -244,8 +246,8 @@ static void stopped(void **state)
   }
 }
 
-/* With a thermostat, whose clock is another one, or whose kicks come in between. */
-static void stopped_while_heated(void **state)
+/* The same with a thermostat: one with a time of its own, and one with kicks. */
+static void heated_advances_end_as_uninterrupted_ones(void **state)
 {
   (void)state;
   const gg_thermostat thermostats[] = {GG_GAUSSIAN, GG_WHITE_NOISE};
@@ -259,8 +261,8 @@ static void stopped_while_heated(void **state)
   }
 }
 
-/* An advance that was stopped may be left as it is: what follows is the same trajectory, and no time is lost. */
-static void stopped_and_left(void **state)
+/* An advance that was stopped may be left unfinished: the next one continues the trajectory, and no time is lost. */
+static void a_stopped_advance_may_be_left(void **state)
 {
   (void)state;
   gg_model m = md_model(cases[0]);
@@ -290,13 +292,13 @@ static bool at_once(void *context)
   return true;
 }
 
-/* A run that is being stopped, for a checkpoint, restores replicas of other processes all the same; whoever reads the
- * archive is asked. */
-static void restored_while_stopped(void **state)
+/* Restoring does not poll the model's stop, as a run that is being stopped for a checkpoint must restore the replicas
+ * of other processes. It polls the archive's. */
+static void a_stopped_run_can_restore(void **state)
 {
   (void)state;
   const gg_stop stop = {at_once, NULL};
-  gg_model m = md_model((md_case){GG_EQUILIBRIUM, 2 * GG_MD_GRAINS_BETWEEN_LOOKS, 0.1, 1, -1, INFINITY, {0}});
+  gg_model m = md_model((md_case){GG_EQUILIBRIUM, 2 * GG_MD_GRAINS_PER_POLL, 0.1, 1, -1, INFINITY, {0}});
   gg_md *e = md_create(&m, 1);
   gg_engine *back = NULL;
   gg_archive a = {0};
@@ -316,14 +318,14 @@ static void restored_while_stopped(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(saved_and_restored),
-                                     cmocka_unit_test(clock_far_off),
-                                     cmocka_unit_test(cut_anywhere),
-                                     cmocka_unit_test(sweeps),
-                                     cmocka_unit_test(rescaled),
-                                     cmocka_unit_test(stopped),
-                                     cmocka_unit_test(stopped_while_heated),
-                                     cmocka_unit_test(stopped_and_left),
-                                     cmocka_unit_test(restored_while_stopped)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(restored_runs_continue_bit_for_bit),
+                                     cmocka_unit_test(a_clock_far_off_is_rejected),
+                                     cmocka_unit_test(runs_can_be_cut_anywhere),
+                                     cmocka_unit_test(sweeps_begin_in_the_same_places),
+                                     cmocka_unit_test(rescaling_leaves_the_trajectory),
+                                     cmocka_unit_test(stopped_advances_end_as_uninterrupted_ones),
+                                     cmocka_unit_test(heated_advances_end_as_uninterrupted_ones),
+                                     cmocka_unit_test(a_stopped_advance_may_be_left),
+                                     cmocka_unit_test(a_stopped_run_can_restore)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: small cells with overflow lists hold what is put into them; with any number of grains in a cell they leave
- * every bit of a run as cells of eight words do, and as the reference path does: at rest and moving with the flow, in
- * every instruction set, on one thread and on several, until cells have to grow; and resumed runs have them again. */
+/* Proves: small cells with overflow lists hold what is put into them. With any number of grains in a cell they leave
+ * the bits of a run that cells of eight words and the plain path leave: at rest and moving with the flow, with every
+ * set of instructions, on one thread and on several, until cells have to grow. Restored runs have small cells, too. */
 #include <stdlib.h>
 
 #include "md/event_loops.h"
-#include "md/md_engine.h"
+#include "md/md_operations.h"
 #include "md/parallel/slab.h"
 #include "md/row_motion.h"
 #include "scene/scene.h"
@@ -13,7 +13,7 @@
 
 enum { GRAINS = 40, CELLS = 27, COLLISIONS = 20000 };
 
-/* The grain is in this cell, once, and no other has it. */
+/* Each grain is in its cell, once, and in no other. */
 static void check_cells(const gg_md_cells *c, const int *cell_of)
 {
   int seen = 0, there = 0;
@@ -32,8 +32,8 @@ static void check_cells(const gg_md_cells *c, const int *cell_of)
   assert_int_equal(seen, there);
 }
 
-/* Grains come and go at random, most of them in the first four cells. A cell has room for seven. */
-static void hold_what_is_put_in(void **state)
+/* Grains enter and leave at random, most of them the first four cells. A cell has room for seven. */
+static void small_cells_hold_what_is_put_in(void **state)
 {
   (void)state;
   const gg_md_box box = {.edge = {3, 3, 3}};
@@ -69,7 +69,7 @@ static void hold_what_is_put_in(void **state)
 static const struct {
   md_case scene;
   int species;
-  double width; /* of cells, in largest diameters */
+  double width; /* width of cells, in largest diameters */
   bool grow;
 } cases[] = {
     {{GG_EQUILIBRIUM, 6000, 0.3, 1, -1, INFINITY, {1, 1, 4}}, 1, 1.4, false},
@@ -92,7 +92,7 @@ static gg_model model_of(int k)
   return md_model_of(&s);
 }
 
-/* Cells wider than the engine would have them, so that many are overfull. */
+/* An engine with cells wider than it would choose, so that many are overfull. */
 static gg_md *create(const gg_model *m, double width, bool small)
 {
   gg_md *e = md_create(m, 3);
@@ -135,13 +135,13 @@ static uint64_t run(const gg_model *m, int k, bool small, const gg_md_kernel *ke
   return h;
 }
 
-static void leave_all_bits(void **state)
+static void small_cells_leave_all_bits(void **state)
 {
   (void)state;
   for (int k = 0; k < CASES; k++) {
     gg_model m = model_of(k);
     const uint64_t plain = run(&m, k, false, NULL);
-    if (run(&m, k, true, NULL) != plain) fail_msg("case %d, reference path", k);
+    if (run(&m, k, true, NULL) != plain) fail_msg("case %d, plain path", k);
     const bool sheared = m.shear_rate != 0;
     for (gg_instructions set = GG_BASELINE; set < GG_INSTRUCTION_SETS; set++) {
       if (!gg_simd_instructions_run_here(set)) continue;
@@ -153,34 +153,34 @@ static void leave_all_bits(void **state)
   }
 }
 
-/* Events of overfull cells are taken back, too, and windows in which one is full are given up. */
-static void leave_all_bits_to_threads(void **state)
+/* Threads leave all bits. Events in overfull cells are rolled back; a window in which a cell gets full is given up. */
+static void small_cells_leave_all_bits_to_threads(void **state)
 {
   (void)state;
-  uint64_t taken_back = 0, cancelled = 0;
+  uint64_t rolled_back = 0, cancelled = 0;
   for (int k = 0; k < CASES; k++) {
     gg_model m = model_of(k);
     uint64_t serial = 0;
     for (int threads = 1; threads <= 4; threads++) {
       gg_md *e = create(&m, cases[k].width, true);
-      gg_md_share(e, threads, false);
+      gg_md_use_threads(e, threads, false);
       md_collide(e, 3 * COLLISIONS);
       const uint64_t h = md_hash_all(e);
       serial = threads == 1 ? h : serial;
       if (h != serial) fail_msg("case %d, %d threads", k, threads);
       assert_int_equal(e->cells.stride, cases[k].grow ? 16 : 4);
       if (threads > 1) {
-        taken_back += e->parallel->counts.taken_back;
+        rolled_back += e->parallel->counts.rolled_back;
         cancelled += e->parallel->counts.cancelled;
       }
       md_destroy(e);
     }
   }
-  assert_true(taken_back > 100 && cancelled > 0);
+  assert_true(rolled_back > 100 && cancelled > 0);
 }
 
-/* As the engine chooses them. */
-static void are_there_again(void **state)
+/* A restored run has small cells if the engine chooses them. */
+static void restored_runs_have_small_cells(void **state)
 {
   (void)state;
   gg_model m = md_model((md_case){GG_HCS, 30000, 0.3, 0.8, -1, INFINITY, {0}}),
@@ -190,7 +190,7 @@ static void are_there_again(void **state)
   gg_archive archive = {0};
   gg_error err;
   gg_engine *back = NULL;
-  gg_md_share(e, 2, false);
+  gg_md_use_threads(e, 2, false);
   md_collide(e, COLLISIONS);
   assert_int_equal(e->cells.stride, GG_MD_SMALL_CELL);
   assert_int_equal(gg_md_save(&e->base, &archive, &err), GG_OK);
@@ -198,7 +198,7 @@ static void are_there_again(void **state)
   gg_base_archive_clear(&archive);
   gg_md *again = (gg_md *)back;
   assert_int_equal(again->cells.stride, GG_MD_SMALL_CELL);
-  gg_md_share(e, 3, false);
+  gg_md_use_threads(e, 3, false);
   md_collide(e, COLLISIONS);
   md_collide(again, COLLISIONS);
   assert_int_equal(md_hash(e), md_hash(again));
@@ -208,7 +208,8 @@ static void are_there_again(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(hold_what_is_put_in), cmocka_unit_test(leave_all_bits),
-                                     cmocka_unit_test(leave_all_bits_to_threads), cmocka_unit_test(are_there_again)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(small_cells_hold_what_is_put_in), cmocka_unit_test(small_cells_leave_all_bits),
+      cmocka_unit_test(small_cells_leave_all_bits_to_threads), cmocka_unit_test(restored_runs_have_small_cells)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

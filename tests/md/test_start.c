@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: starts at every solid fraction from 0.001 to 0.6 are free of overlaps, at rest as a whole and exactly at the
- * asked temperatures; boxes too small for the nearest image, phi = 0 and unknown flows are refused by name;
- * long and flat boxes run; grains above an open top are where they are; homogeneous gases without shear collide at
+/* Proves: starts at every solid fraction from 0.001 to 0.6 have no overlaps, no total momentum and exactly the
+ * temperatures asked for; boxes too small for the nearest image and impossible solid fractions are rejected by key;
+ * long and flat boxes run; grains above an open top are shown there; homogeneous gases without shear collide at
  * Enskog's rate from time zero. */
 #include <stdlib.h>
 #include <string.h>
@@ -33,7 +33,7 @@ static void check_start(md_case c)
   md_destroy(e);
 }
 
-static void any_solid_fraction(void **state)
+static void gases_start_at_any_solid_fraction(void **state)
 {
   (void)state;
   static const double phis[] = {0.001, 0.01, 0.1, 0.3, 0.45, 0.5, 0.55, 0.6};
@@ -45,8 +45,8 @@ static void any_solid_fraction(void **state)
   check_start((md_case){GG_HCS, 2, 0.001, 0.9, 0, INFINITY, {0}});
 }
 
-/* Mixtures and walled boxes: the asked composition, nobody in a wall. */
-static void dense_mixtures_and_walls(void **state)
+/* Starts of dense mixtures have the composition asked for, and no grain is in a wall. */
+static void dense_mixtures_start_between_walls(void **state)
 {
   (void)state;
   for (int k = 0; k < 4; k++) {
@@ -70,8 +70,8 @@ static void dense_mixtures_and_walls(void **state)
   }
 }
 
-/* Long and flat boxes, dilute and dense, start and run. */
-static void long_and_flat_boxes(void **state)
+/* Long and flat boxes start and run, dilute and dense. */
+static void long_and_flat_boxes_run(void **state)
 {
   (void)state;
   static const double shapes[][3] = {{12, 1, 1}, {1, 12, 1}, {1, 1, 12}, {6, 6, 1}, {1, 5, 5}};
@@ -101,9 +101,9 @@ static void take_places(void *context, const gg_chunk *chunk)
     for (int a = 0; a < 3; a++) r[3 * chunk->id[k] + (size_t)a] = chunk->r[a][k];
 }
 
-/* From 50 000 grains on lists find those that overlap: no pair is closer than contact, as the check of given places
- * sees it, which finds one that is moved into its neighbour. Of two sizes, dense and dilute. */
-static void large_boxes(void **state)
+/* From 50 000 grains on a start finds overlaps by lists. No pair is closer than contact, which is tested with the check
+ * of given places, and that check finds a grain that is moved into its neighbour. Two sizes, dense and dilute. */
+static void large_starts_have_no_overlaps(void **state)
 {
   (void)state;
   static const double phis[] = {0.001, 0.3, 0.5};
@@ -132,8 +132,8 @@ static void large_boxes(void **state)
   }
 }
 
-/* Threads that share a large start leave its bits alone: places, velocities and first events, of two sizes, and of a
- * gas whose grains have collided before. */
+/* The number of threads that share a large start changes no bit of places, velocities and first events: with two sizes,
+ * and in a gas that has run before it begins. */
 static void threads_leave_bits_alone(void **state)
 {
   (void)state;
@@ -170,8 +170,8 @@ static void count_shown(void *context, const gg_chunk *chunk)
   }
 }
 
-/* Above an open top grains fly on, and are shown where they are. */
-static void above_an_open_top(void **state)
+/* Grains that fly above an open top are shown there. */
+static void grains_above_an_open_top_are_shown(void **state)
 {
   (void)state;
   gg_scene s = md_scene((md_case){GG_CHUTE, 100, 0.1, 1, -1, INFINITY, {0}});
@@ -191,7 +191,7 @@ static void above_an_open_top(void **state)
   md_destroy(e);
 }
 
-static void refuse(md_case c, const char *key)
+static void check_rejected(md_case c, const char *key)
 {
   gg_model m = md_model(c);
   gg_error err = {0};
@@ -202,20 +202,20 @@ static void refuse(md_case c, const char *key)
   assert_null(engine);
 }
 
-static void refused(void **state)
+static void impossible_scenes_are_rejected_by_key(void **state)
 {
   (void)state;
-  refuse((md_case){GG_USF, 2, 0.3, 0.9, -1, INFINITY, {0}}, "particles");
-  refuse((md_case){GG_USF, 100, 0.3, 0.9, -1, INFINITY, {60, 1, 1}}, "two images of another");
-  refuse((md_case){GG_COUETTE, 100, 0.1, 0.9, -1, INFINITY, {12, 1, 12}}, "gap between the walls is 1.538 diameters");
-  refuse((md_case){GG_USF, 100, 0, 0.9, -1, INFINITY, {0}}, "phi");
-  refuse((md_case){GG_USF, 100, 0.7, 0.9, -1, INFINITY, {0}}, "phi");
-  refuse((md_case){GG_USF, 1, 0.1, 0.9, -1, INFINITY, {0}}, "particles");
+  check_rejected((md_case){GG_USF, 2, 0.3, 0.9, -1, INFINITY, {0}}, "particles");
+  check_rejected((md_case){GG_USF, 100, 0.3, 0.9, -1, INFINITY, {60, 1, 1}}, "two images of another");
+  check_rejected((md_case){GG_COUETTE, 100, 0.1, 0.9, -1, INFINITY, {12, 1, 12}},
+                 "gap between the walls is 1.538 diameters");
+  check_rejected((md_case){GG_USF, 100, 0, 0.9, -1, INFINITY, {0}}, "phi");
+  check_rejected((md_case){GG_USF, 100, 0.7, 0.9, -1, INFINITY, {0}}, "phi");
+  check_rejected((md_case){GG_USF, 1, 0.1, 0.9, -1, INFINITY, {0}}, "particles");
 }
 
-/* A gas so dilute that 10^7 cells are crossed a collision is refused, and told where it is exact; one less so is not.
- */
-static void too_dilute(void **state)
+/* A gas so dilute that grains cross 10^7 cells a collision is rejected with a hint to dsmc; a denser one is not. */
+static void too_dilute_a_gas_is_rejected(void **state)
 {
   (void)state;
   gg_error err = {0};
@@ -224,7 +224,7 @@ static void too_dilute(void **state)
   assert_non_null(strstr(err.message, "engine: dsmc is exact"));
   m = md_model((md_case){GG_HCS, 1000, 1e-11, 0.9, -1, INFINITY, {0}});
   assert_int_equal(gg_md_ops.accepts(&m, &err), GG_OK);
-  /* The estimate is right where it can be measured. */
+  /* The estimated number of crossings is right where it can be measured. */
   m = md_model((md_case){GG_EQUILIBRIUM, 1000, 1e-5, 1, -1, INFINITY, {0}});
   gg_md *e = md_create(&m, 1);
   md_collide(e, 500);
@@ -233,7 +233,7 @@ static void too_dilute(void **state)
   md_destroy(e);
 }
 
-/* The lattice has a site for each grain, the nearest two as far apart as cubes of this box can be. */
+/* The lattice has a site for each grain; `nearest` is the smallest distance of two sites. */
 static void check_lattice(const double edge[3], uint32_t n, double nearest)
 {
   gg_vec r[500] = {{0, 0, 0}};
@@ -251,17 +251,17 @@ static void check_lattice(const double edge[3], uint32_t n, double nearest)
   if (!(fabs(least / nearest - 1) < 1e-12)) fail_msg("%d grains: nearest %g, not %g", (int)n, least, nearest);
 }
 
-static void lattices(void **state)
+static void lattices_have_their_spacing(void **state)
 {
   (void)state;
   check_lattice((double[]){3, 3, 3}, 4 * 27, sqrt(0.5));
   check_lattice((double[]){3, 3, 3}, 4 * 27 - 5, sqrt(0.5)); /* some sites empty */
   check_lattice((double[]){2, 5, 3}, 4 * 30, sqrt(0.5));
   check_lattice((double[]){4, 1.2, 2.4}, 4 * 8,
-                0.5 * sqrt(1 + 1.2 * 1.2)); /* 4 x 1 x 2 cubes, stretched along two edges */
+                0.5 * sqrt(1 + 1.2 * 1.2)); /* 4 x 1 x 2 cells, stretched along two edges */
 }
 
-/* Collisions of the first quarter of a mean free time over those that Enskog expects, of 16 starts. */
+/* The number of collisions in the first quarter of a mean free time over that of Enskog's rate, over 16 starts. */
 static double early_rate(gg_flow flow, double phi, double diameter)
 {
   double collisions = 0, expected = 0;
@@ -282,8 +282,9 @@ static double early_rate(gg_flow flow, double phi, double diameter)
   return collisions / expected;
 }
 
-/* The count's error is 1.1 %; cooling slows the gas by 0.4 %. Sheared gases begin where grains were pushed apart. */
-static void in_equilibrium(void **state)
+/* Gases without shear begin in equilibrium, with Enskog's rate: counting has an error of 1.1 %, and cooling lowers the
+ * rate by 0.4 %. Sheared gases do not: they begin from places in which overlaps were pushed apart. */
+static void gases_begin_at_enskogs_rate(void **state)
 {
   (void)state;
   static const double phis[] = {0.01, 0.1, 0.3, 0.45};
@@ -299,16 +300,16 @@ static void in_equilibrium(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(any_solid_fraction),
-      cmocka_unit_test(dense_mixtures_and_walls),
-      cmocka_unit_test(large_boxes),
+      cmocka_unit_test(gases_start_at_any_solid_fraction),
+      cmocka_unit_test(dense_mixtures_start_between_walls),
+      cmocka_unit_test(large_starts_have_no_overlaps),
       cmocka_unit_test(threads_leave_bits_alone),
-      cmocka_unit_test(long_and_flat_boxes),
-      cmocka_unit_test(above_an_open_top),
-      cmocka_unit_test(in_equilibrium),
-      cmocka_unit_test(lattices),
-      cmocka_unit_test(refused),
-      cmocka_unit_test(too_dilute),
+      cmocka_unit_test(long_and_flat_boxes_run),
+      cmocka_unit_test(grains_above_an_open_top_are_shown),
+      cmocka_unit_test(gases_begin_at_enskogs_rate),
+      cmocka_unit_test(lattices_have_their_spacing),
+      cmocka_unit_test(impossible_scenes_are_rejected_by_key),
+      cmocka_unit_test(too_dilute_a_gas_is_rejected),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

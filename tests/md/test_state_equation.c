@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: elastic pressure at phi = 0.1 ... 0.45 within four standard errors (below 0.1 %) of the accurate equation of
- * state, and the elastic mean free time within four counting errors of what follows from it, 1/(4 n chi sqrt(pi T/m)):
- * 0.1302 at n = 0.5 (Lue, J. Chem. Phys. 122 (2005) 044513, has 0.1303).
+/* Proves: the pressure of elastic grains at phi = 0.1 ... 0.45 is within four standard errors (below 0.1 %) of the
+ * accurate equation of state. The mean free time is within four counting errors of the one that follows from it, 1/(4 n
+ * chi sqrt(pi T/m)): 0.1302 at n = 0.5 (Lue, J. Chem. Phys. 122 (2005) 044513, has 0.1303).
  *
- * Estimator: Z = 1 + (N-1)/N x sum(sigma k.J)/(3 N T t) with 3 N T = sum m v^2: with the total momentum fixed at zero
- * the gas is as hot as 3(N-1) degrees of freedom make it. Error from blocks. */
+ * Z is estimated as 1 + (N-1)/N x sum(sigma k.J)/(3 N T t) with 3 N T = sum m v^2; the factor (N-1)/N is there because
+ * with zero total momentum there are 3(N-1) degrees of freedom. Errors are from blocks. */
 #include "md_test.h"
 
 #include "common/contact_value.h"
@@ -35,18 +35,18 @@ static void pressure_at(double phi)
   md_destroy(e);
 }
 
-static void equation_of_state(void **state)
+static void pressure_has_the_equation_of_state(void **state)
 {
   (void)state;
   static const double phis[] = {0.1, 0.2, 0.3, 0.4, 0.45};
   for (int k = 0; k < 5; k++) pressure_at(phis[k]);
 }
 
-static void mean_free_time(void **state)
+static void mean_free_time_has_its_value(void **state)
 {
   (void)state;
   const double phi = 0.5 * M_PI / 6, chi = (gg_common_compressibility(GG_KOLAFA, phi) - 1) / (4 * phi);
-  const double exact = 1 / (4 * 0.5 * chi * sqrt(M_PI)) * sqrt((N - 1.0) / N); /* as hot as 3(N-1) degrees make it */
+  const double exact = 1 / (4 * 0.5 * chi * sqrt(M_PI)) * sqrt((N - 1.0) / N); /* 3(N-1) degrees of freedom */
   gg_model m = md_model((md_case){GG_EQUILIBRIUM, N, phi, 1, -1, INFINITY, {0}});
   gg_md *e = md_create(&m, 19);
   md_collide(e, N * 20);
@@ -59,6 +59,7 @@ static void mean_free_time(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(equation_of_state), cmocka_unit_test(mean_free_time)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(pressure_has_the_equation_of_state),
+                                     cmocka_unit_test(mean_free_time_has_its_value)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: between thermal walls a gas without collisions carries the heat, pressure and shear stress that streams of
- * two half-Maxwellians do (exact, at any accommodation); dense gases between walls of one temperature, smooth mixtures
- * and rough grains with their spins, have that temperature and no heat flux; the energy of grains changes by what walls
- * take and give; runs go on bit for bit after a restart. */
+/* Proves, for gases between thermal walls: without collisions heat flux, pressure and shear stress are those of two
+ * half-Maxwellians, which is exact at any accommodation; dense gases between walls of one temperature have that
+ * temperature and no heat flux (smooth mixtures, and rough grains with their spins); the energy of grains changes by
+ * what walls take and give; restored runs continue bit for bit. */
 #include <stdio.h>
 
 #include "md_test.h"
@@ -10,7 +10,7 @@
 
 enum { BLOCKS = 40, SKIPPED = 5 };
 
-/* Means over blocks with standard errors. */
+/* For the mean over blocks and its standard error. */
 typedef struct series {
   double sum, squares;
 } series;
@@ -20,7 +20,7 @@ static void add(series *s, double x)
   s->sum += x / BLOCKS, s->squares += x * x / BLOCKS;
 }
 
-/* Within four standard errors, and those within a share of `scale`. */
+/* Fails unless the mean is within four standard errors of `right`, and these are below 0.5 % of `scale`. */
 static void expect(const char *what, series s, double right, double scale)
 {
   const double error = sqrt((s.squares - s.sum * s.sum) / (BLOCKS - 1));
@@ -30,7 +30,7 @@ static void expect(const char *what, series s, double right, double scale)
   if (!(error < 0.005 * scale)) fail_msg("%s: an error of %g proves nothing", what, error);
 }
 
-/* Per area and time, of the gap's middle. */
+/* Heat flux and stresses across the middle of the channel, and heat taken by both walls, per area and time. */
 typedef struct block {
   double q, P_yy, P_yx, taken;
 } block;
@@ -48,8 +48,8 @@ static block advance(gg_md *e, double dt)
                  0.5 * unit * (high->impulse[0] - low->impulse[0]), unit * (high->loss + low->loss)};
 }
 
-/* Grains fly from wall to wall. Of J grains per area and time that leave either wall a share 1/(2 - a) has been taken
- * up last by that wall, the rest by the other one: both streams together have as many of either temperature. */
+/* Grains fly from wall to wall. Of those that leave a wall, a share of 1/(2 - a) was last re-emitted by that wall and
+ * the rest by the other one (a: accommodation). So both streams together have equal numbers of either temperature. */
 static void free_flight(gg_flow flow, double below, double above, double share)
 {
   gg_scene s = md_scene((md_case){flow, 400, 1e-9, 1, -1, INFINITY, {10, 1, 10}});
@@ -76,7 +76,7 @@ static void free_flight(gg_flow flow, double below, double above, double share)
   md_destroy(e);
 }
 
-static void free_flights(void **state)
+static void free_flights_carry_heat_and_stress(void **state)
 {
   (void)state;
   free_flight(GG_FOURIER, 1, 0.25, 1);
@@ -85,7 +85,7 @@ static void free_flights(void **state)
   free_flight(GG_COUETTE, 0.3, 0.3, 0.6);
 }
 
-static gg_scene dense(int kind)
+static gg_scene dense_scene(int kind)
 {
   gg_scene s = md_scene((md_case){GG_FOURIER, 400, 0.25, 1, kind ? 1 : -1, INFINITY, {0}});
   s.walls.temperature[0] = s.walls.temperature[1] = 0.7;
@@ -108,12 +108,12 @@ static void temperatures(const gg_md *e, double *T, double *theta)
   }
 }
 
-static void one_temperature(void **state)
+static void walls_of_one_temperature_keep_it(void **state)
 {
   (void)state;
   enum { SAMPLES = 60 };
   for (int kind = 0; kind < 3; kind++) {
-    const gg_scene s = dense(kind);
+    const gg_scene s = dense_scene(kind);
     const gg_model m = md_model_of(&s);
     gg_md *e = md_create(&m, 11);
     assert_true(m.temperature0 == 0.7 && m.contact_time == 0);
@@ -133,18 +133,18 @@ static void one_temperature(void **state)
     expect("T_1", T[0], 0.7, 0.7);
     if (m.n_species > 1) expect("T_2", T[1], 0.7, 0.7);
     if (e->spin) expect("theta", theta, 0.7, 0.7);
-    const double scale = m.density * sqrt(0.7) * 0.7; /* n T sqrt(T): of a wall 0.8 of it come and go */
+    const double scale = m.density * sqrt(0.7) * 0.7; /* n T sqrt(T): the flux from and to a wall is 0.8 of this */
     expect("heat flux", q, 0, scale);
     expect("heat of both walls", taken, 0, scale);
     md_destroy(e);
   }
 }
 
-static void energy(void **state)
+static void energy_changes_by_what_walls_take(void **state)
 {
   (void)state;
   for (int kind = 0; kind < 3; kind++) {
-    gg_scene s = dense(kind);
+    gg_scene s = dense_scene(kind);
     s.walls.temperature[1] = 0.2, s.gravity[1] = -0.1;
     const gg_model m = md_model_of(&s);
     gg_md *e = md_create(&m, 3);
@@ -165,10 +165,10 @@ static void energy(void **state)
   }
 }
 
-static void restarts(void **state)
+static void restored_runs_continue_bit_for_bit(void **state)
 {
   (void)state;
-  const gg_scene s = dense(1);
+  const gg_scene s = dense_scene(1);
   const gg_model m = md_model_of(&s);
   gg_md *straight = md_create(&m, 2);
   gg_archive archive = {0};
@@ -187,10 +187,10 @@ static void restarts(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(free_flights),
-      cmocka_unit_test(one_temperature),
-      cmocka_unit_test(energy),
-      cmocka_unit_test(restarts),
+      cmocka_unit_test(free_flights_carry_heat_and_stress),
+      cmocka_unit_test(walls_of_one_temperature_keep_it),
+      cmocka_unit_test(energy_changes_by_what_walls_take),
+      cmocka_unit_test(restored_runs_continue_bit_for_bit),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "dsmc/dsmc.h"
-#include "dsmc/walls/gap.h"
+#include "dsmc/walls/channel.h"
 #include "md/md_state.h"
 #include "run/replica.h"
 #include "scene/model_of_scene.h"
@@ -32,7 +32,7 @@ enum { WHAT_VELOCITY, WHAT_SPIN, KINDS };
 static void plant(gg_replica *r, int what)
 {
   if (r->model.walled && r->model.ensemble) {
-    gg_dsmc_gap *d = (gg_dsmc_gap *)r->engine;
+    gg_dsmc_channel *d = (gg_dsmc_channel *)r->engine;
     for (int i = 7; i < 10; i++) *(what == WHAT_SPIN ? &d->grains.s[i].z : &d->grains.at[i].c.z) = NAN;
     return;
   }

@@ -5,7 +5,7 @@
 
 #include "corner.h"
 #include "dsmc/dsmc.h"
-#include "md/md_state.h"
+#include "md/start/start.h"
 
 /* Move a grain, with its peculiar velocity. */
 static void put(gg_md *e, uint32_t i, gg_vec r)

@@ -6,8 +6,10 @@
 #include <stdlib.h>
 
 #include "corner.h"
-#include "md/md_engine.h"
-#include "md/md_state.h"
+#include "md/grid.h"
+#include "md/md_allocate.h"
+#include "md/select_search.h"
+#include "md/start/start.h"
 #include "run/engine_grains.h"
 
 enum { MOST = 2000 };
@@ -37,7 +39,7 @@ static gg_status make_reference(const gg_model *model, uint64_t seed, const gg_e
   e->plain = true;
   gg_status status = gg_md_start(e, seed, 0, gg_md_starts_in_equilibrium(model) ? &start : NULL, err);
   if (status == GG_OK) status = gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(model), err);
-  if (status == GG_OK) status = gg_md_note_surfaces(e, err);
+  if (status == GG_OK) status = gg_md_find_near_surfaces(e, err);
   if (status == GG_OK) status = gg_md_begin(e, err);
   if (status != GG_OK) gg_md_free(e);
   return status;

@@ -5,31 +5,30 @@
 
 #include "dsmc/kernel/candidate.h"
 
-/* How many block pairs are kept ready: every fourth one checks, and draws more if there are fewer than ..._FROM, up to
- * ..._TO. Few in small ensembles, whose blocks are in cache, and change so soon that majorants would not hold for long.
- * ..._AHEAD: how far ahead of its use the memory of a block pair is prefetched. */
+/* Numbers of prefetched block pairs. Every fourth pair checks them. */
 enum {
-  GG_DSMC_PREFETCH_FROM = 20,
-  GG_DSMC_PREFETCH_TO = 36,
-  GG_DSMC_PREFETCH_SMALL = 4,
-  GG_DSMC_PREFETCH_AHEAD = 12,
+  GG_DSMC_PREFETCH_FROM = 20, /* fewer: draw more */
+  GG_DSMC_PREFETCH_TO = 36,   /* up to so many */
+  GG_DSMC_PREFETCH_SMALL =
+      4, /* the same for small ensembles: their blocks are cached, and their majorants soon outdated */
+  GG_DSMC_PREFETCH_AHEAD = 12, /* the memory of a pair is prefetched so many pairs before its use */
   GG_DSMC_BLOCK_PAIRS = 128,
   GG_DSMC_BLOCK_PAIRS_ROOM = GG_DSMC_BLOCK_PAIRS + 2 * GG_DSMC_LANES
 };
-#define GG_DSMC_ODD (UINT32_C(1) << 31) /* in `two`: not for the block kernels */
+#define GG_DSMC_ODD (UINT32_C(1) << 31) /* flag in `two`: the pair is left to the plain path */
 
-/* The block pairs to come, in order of time. Lists as gg_pack leaves them: each a number's worth of bits. Before the
- * next one there is always room for another. */
+/* Block pairs to come, in the order of time. The lists are filled by gg_pack; an entry has the bits of a number. There
+ * is always room for one more pair before the next one. */
 typedef struct gg_dsmc_block_pairs {
-  unsigned at, n;  /* next, and how many there are */
+  unsigned at, n;  /* next pair; end of the lists */
   uint64_t left;   /* draws to be made */
-  bool correction; /* the next one is a correction, over the layer above its majorant: from `lowest` on */
+  bool correction; /* the next pair is a correction, over the layer from `lowest` above its majorant */
   gg_real lowest;
   double strain; /* of the next draw */
   gg_real one[GG_DSMC_BLOCK_PAIRS_ROOM], two[GG_DSMC_BLOCK_PAIRS_ROOM], order[GG_DSMC_BLOCK_PAIRS_ROOM],
       majorant[GG_DSMC_BLOCK_PAIRS_ROOM];
   gg_real strains[GG_DSMC_BLOCK_PAIRS_ROOM],
-      per_scale[GG_DSMC_BLOCK_PAIRS_ROOM]; /* of the speed bounds; both only if sheared */
+      per_scale[GG_DSMC_BLOCK_PAIRS_ROOM]; /* inverse scale of the speed bounds; both only if sheared */
 } gg_dsmc_block_pairs;
 
 GG_INLINE gg_word gg_dsmc_listed(const gg_real *list, unsigned i)
@@ -50,14 +49,14 @@ GG_INLINE gg_vu gg_dsmc_lane_numbers(unsigned first)
   return *(const gg_vu *)(count + first);
 }
 
-/* One draw a lane: which blocks, and under which majorant of |C12|; another random word gives the order of lanes,
- * and whether the block pair is accepted. `number`: of the lane's draw, of which there are n. */
+/* One draw a lane: the blocks, and the majorant of |C12|. Another random word gives the order of lanes, and the
+ * acceptance of the block pair. n: number of valid draws. */
 GG_INLINE void gg_dsmc_draw_part(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_dsmc_samples *samples,
                                  gg_dsmc_block_pairs *pairs, int part, gg_real root, gg_real step, unsigned n)
 {
   gg_vu a, b, more, spare, number = gg_dsmc_lane_numbers((unsigned)part * GG_WIDTH);
   gg_dsmc_lane_two_below(&samples->rng, part, state->n_one, state->n_two, &a, &b);
-  const gg_mask backwards = gg_below_word(b, a); /* by their places in their ranges: each range is sorted by speed */
+  const gg_mask backwards = gg_below_word(b, a); /* by places in their ranges: each range is sorted by speed */
   a += state->first_one;
   b += state->first_two;
   gg_dsmc_lane_two(&samples->rng, part, &more, &spare);
@@ -66,7 +65,7 @@ GG_INLINE void gg_dsmc_draw_part(gg_dsmc_features features, gg_dsmc_pass_state *
     majorant =
         gg_smaller((gg_dsmc_roots_at(state->bound_one, a) + gg_dsmc_roots_at(state->bound_two, b)) * root, majorant);
   gg_vd u = gg_dsmc_lane_one_to_two(more) - 1;
-  gg_mask odd = features.same ? gg_same_word(a, b) : gg_less(majorant, majorant); /* none */
+  gg_mask odd = features.same ? gg_same_word(a, b) : gg_less(majorant, majorant); /* false in all lanes */
   if (state->any_odd) odd = gg_or(odd, gg_or(gg_same_word(a, state->odd_one), gg_same_word(b, state->odd_two)));
   gg_vu one = a, two = b;
   if (features.same) {
@@ -98,7 +97,7 @@ GG_INLINE void gg_dsmc_block_pairs_move_up(gg_dsmc_features features, gg_dsmc_bl
   pairs->at = 1;
 }
 
-/* Eight draws, of which the accepted ones are kept. */
+/* Make eight draws, and keep the accepted block pairs. */
 GG_INLINE void gg_dsmc_draw(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_dsmc_samples *samples,
                             gg_dsmc_block_pairs *pairs, double strain_step)
 {
@@ -106,7 +105,7 @@ GG_INLINE void gg_dsmc_draw(gg_dsmc_features features, gg_dsmc_pass_state *state
   if (__builtin_expect(pairs->n + GG_DSMC_LANES > GG_DSMC_BLOCK_PAIRS, 0)) gg_dsmc_block_pairs_move_up(features, pairs);
   if (features.shear != GG_DSMC_UNSHEARED) {
     const double delta = n * strain_step;
-    /* As the strain only grows, an earlier scale holds. */
+    /* The strain only grows, so an earlier scale is valid. */
     state->per_scale = (gg_real)(gg_dsmc_per_bound(state->scale) * state->margin);
     if (!(state->margin > 1)) state->scale *= gg_dsmc_bound_growth(delta);
     state->root = (gg_real)(sqrt(state->scale) * (1 + 1e-6));
@@ -117,7 +116,7 @@ GG_INLINE void gg_dsmc_draw(gg_dsmc_features features, gg_dsmc_pass_state *state
   pairs->left -= n;
 }
 
-/* Draw ahead if few block pairs are left. */
+/* Draw more block pairs if few are left. */
 GG_INLINE void gg_dsmc_draw_ahead(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_dsmc_samples *samples,
                                   gg_dsmc_block_pairs *pairs, double strain_step)
 {
@@ -126,8 +125,8 @@ GG_INLINE void gg_dsmc_draw_ahead(gg_dsmc_features features, gg_dsmc_pass_state 
     gg_dsmc_draw(features, state, samples, pairs, strain_step);
 }
 
-/* A correction for majorant overflow: this block pair comes once more, as the next one, over the layer from `lowest` to
- * `majorant`. It has no block in common with those that have begun since. */
+/* Insert a correction for a majorant overflow: the block pair is repeated as the next one, over the layer from `lowest`
+ * to `majorant`. It has no block in common with pairs that have begun since. */
 GG_INLINE void gg_dsmc_draw_correction(gg_dsmc_features features, gg_dsmc_block_pairs *pairs, uint32_t one,
                                        uint32_t two, gg_word order, gg_real lowest, gg_real majorant, gg_real strain,
                                        gg_real per_scale)

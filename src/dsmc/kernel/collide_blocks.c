@@ -1,30 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Collisions on blocks, a Monte Carlo pass: two random blocks, the lanes of one against those of the other in a random
- * order, eight candidates at once (candidate.h). Compiled once for each collision rule (GG_RULE), with and without a
- * law of restitution (GG_LAW), set of instructions and precision (GG_SINGLE_LANES): GG_INSTANCES is what they are found
- * by. All sets leave the same bits.
+/* Collisions on blocks, a Monte Carlo pass: the lanes of a random block collide with the lanes of another one in a
+ * random order, eight candidates at once (candidate.h). Compiled once for each collision rule (GG_RULE), with and
+ * without a law of restitution (GG_LAW), set of instructions and precision (GG_SINGLE_LANES), into the table
+ * GG_INSTANCES. All sets leave the same bits.
  *
- * No bias. Each lane of one block is paired with each lane of the other with probability 1/8, and every pair of grains
- * in different blocks is a candidate equally often. Pairs within one block, and the last block where it is not full, go
- * through the plain path at the same rate.
+ * There is no bias. Each lane of one block is paired with each lane of the other with probability 1/8, and every pair
+ * of grains in different blocks is a candidate equally often. Pairs within one block, and a last block that is not
+ * full, use the plain path at the same rate.
  *
- * Acceptance-rejection in two steps. The majorant of all pairs is set by the fastest grains of all. So a block pair is
- * accepted with probability (sum of its speed bounds)/(that majorant) only, and its lanes with that sum as their
- * majorant, which comes to the same rate for every pair of grains. Written back, the faster grain of each lane lies in
- * the block of lower number. Any order would do, but this one sorts grains by speed, and speed bounds are tighter yet.
- * Half the candidates collide, against a quarter without.
+ * Acceptance-rejection has two steps. The majorant of all pairs is set by the fastest grains of all. So a block pair is
+ * accepted with probability (sum of its speed bounds)/(this majorant), and its lanes have this sum as their majorant:
+ * the rate of every pair of grains is the same. When they are written back, the faster grain of each lane goes to the
+ * block of lower number. Any order is valid; this one sorts grains by speed and makes speed bounds tighter. Half of the
+ * candidates collide, against a quarter without it.
  *
- * It has a price: eight fast grains act at once, so means fluctuate more. Over 200 to 300 seeds of a sheared rough gas
- * the spread of T was 1.2 times that without, of the stress 1.1 times, at 2000 to 20 000 grains alike; a2 of a cooling
- * gas 1.4 times. A tenth less time at 2000 and 5000 grains is not worth that, a half at 100 000, out of cache, is.
- * Below a thousand blocks lanes are exchanged at random instead. */
+ * Sorting has a price: eight fast grains act at once, so means fluctuate more. Over 200 to 300 seeds of a sheared rough
+ * gas the spread of T was 1.2 times that without sorting, of the stress 1.1 times, at 2000 to 20 000 grains; of a2 in a
+ * cooling gas 1.4 times. That is too much for a tenth less time at 2000 and 5000 grains, but not for half the time at
+ * 100 000 grains, which are not cached. Below a thousand blocks lanes are exchanged at random instead. */
 #include "dsmc/kernel/collide_blocks.h"
 
 #include <string.h>
 
 #include "dsmc/kernel/stages.h"
 
-enum { SORTED_FROM = 1000 }; /* blocks: from so many on grains are sorted by speed */
+enum { SORTED_FROM = 1000 }; /* blocks from which grains are sorted by speed */
 
 GG_INLINE void prefetch_block(const gg_dsmc_real_block *block)
 {
@@ -32,7 +32,7 @@ GG_INLINE void prefetch_block(const gg_dsmc_real_block *block)
     __builtin_prefetch((const char *)block + 64 * line, 1);
 }
 
-/* The memory of a block pair to come. */
+/* Prefetch the memory of a block pair. */
 GG_INLINE void prefetch_pair(gg_dsmc_features features, const gg_dsmc_pass_state *state, uint32_t a, uint32_t b)
 {
   prefetch_block(&state->one[a]);
@@ -42,7 +42,7 @@ GG_INLINE void prefetch_pair(gg_dsmc_features features, const gg_dsmc_pass_state
   prefetch_block(&state->spin_two[b]);
 }
 
-/* Speed bounds of some blocks of a population: another thread may have written them last. */
+/* Prefetch the speed bounds of a segment: another thread may have written them last. */
 GG_INLINE void prefetch_speed_bounds(const gg_dsmc_population *population, gg_dsmc_range range)
 {
   if (range.n == population->n_blocks) return;
@@ -105,7 +105,7 @@ GG_INLINE void finish(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_d
   gg_dsmc_sums_finish(features, &state->sums, pass);
 }
 
-/* The next block pair is for the plain path. */
+/* Collide the next block pair on the plain path. */
 GG_INLINE void collide_odd(gg_dsmc_features features, const gg_dsmc_pass_state *state, const gg_dsmc_block_pairs *pairs,
                            gg_dsmc_pass *pass, gg_rng *rng)
 {
@@ -118,7 +118,7 @@ GG_INLINE void collide_odd(gg_dsmc_features features, const gg_dsmc_pass_state *
                              (unsigned)gg_dsmc_listed(pairs->order, i) % GG_DSMC_LANES, rng);
 }
 
-/* Block pairs in progress, each at another stage, or none. */
+/* Block pairs in progress, each at another stage. */
 typedef struct pipeline {
   gg_dsmc_block_pair *next, *loaded, *accepted;
   bool to_accept, to_write_back;
@@ -129,8 +129,8 @@ GG_INLINE bool in_common(const gg_dsmc_block_pair *at, uint32_t one, uint32_t tw
   return (at->one == one) | (at->two == one) | (at->one == two) | (at->two == two);
 }
 
-/* Does the next block pair of the list have to wait for one in progress, since they have a block in common? */
-GG_INLINE bool has_to_wait(const pipeline *line, const gg_dsmc_block_pairs *pairs)
+/* Is the next block pair blocked by one in progress, because they have a block in common? */
+GG_INLINE bool is_blocked(const pipeline *line, const gg_dsmc_block_pairs *pairs)
 {
   const uint32_t one = (uint32_t)gg_dsmc_listed(pairs->one, pairs->at),
                  two = (uint32_t)gg_dsmc_listed(pairs->two, pairs->at) & ~GG_DSMC_ODD;
@@ -138,11 +138,11 @@ GG_INLINE bool has_to_wait(const pipeline *line, const gg_dsmc_block_pairs *pair
   return line->to_write_back && in_common(line->accepted, one, two);
 }
 
-/* The next block pair enters the first stage, if it can. Returns whether. */
+/* Start the first stage of the next block pair, if it is not blocked. Returns whether it was started. */
 GG_INLINE bool take(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_dsmc_block_pairs *pairs, pipeline *line,
                     gg_dsmc_pass *pass, gg_rng *rng)
 {
-  if (__builtin_expect(pairs->at == pairs->n || has_to_wait(line, pairs), 0)) return false;
+  if (__builtin_expect(pairs->at == pairs->n || is_blocked(line, pairs), 0)) return false;
   const bool odd = gg_dsmc_listed(pairs->two, pairs->at) & GG_DSMC_ODD;
   if (__builtin_expect(odd, 0))
     collide_odd(features, state, pairs, pass, rng);
@@ -153,7 +153,7 @@ GG_INLINE bool take(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_dsm
   return !odd;
 }
 
-/* Random words of two block pairs at a time. */
+/* Take random words for a block pair; they are drawn for two pairs at a time. */
 GG_INLINE void take_words(gg_dsmc_samples *samples, gg_dsmc_block_pair *at, gg_vu second[GG_PARTS], unsigned cycle)
 {
   for (int part = 0; part < GG_PARTS; part++)
@@ -163,14 +163,14 @@ GG_INLINE void take_words(gg_dsmc_samples *samples, gg_dsmc_block_pair *at, gg_v
       gg_dsmc_lane_two(&samples->rng, part, &at->word[part], &second[part]);
 }
 
-/* All block pairs, as a pipeline. Up to three are in progress, each at another stage: a stage finds ready what the one
- * before has left, and the processor always has something to do. Directions are made in their midst, a few at a time,
- * for the same reason. Arithmetic on registers of eight is scarce: so constants come as whole registers, and of two
- * velocities one is chosen by a masked store. */
+/* Collide all block pairs in a pipeline. Up to three pairs are in progress, each at another stage: the results of the
+ * previous stage are ready, and the processor is always busy. Directions are sampled in between, a few at a time, for
+ * the same reason. Arithmetic on registers of eight lanes is scarce: so constants are whole registers, and one of two
+ * velocities is chosen by a masked store. */
 GG_INLINE void collide_all(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_dsmc_samples *samples,
                            gg_dsmc_block_pairs *pairs, gg_dsmc_pass *pass, gg_rng *rng)
 {
-  static const unsigned makes = 0xb6db; /* directions: in eleven of sixteen cycles */
+  static const unsigned makes = 0xb6db; /* directions are sampled in eleven of sixteen cycles */
   gg_dsmc_block_pair room[3];
   pipeline line = {.next = &room[0], .loaded = &room[1], .accepted = &room[2]};
   gg_vu second[GG_PARTS] = {0};
@@ -200,7 +200,7 @@ GG_INLINE void collide_all(gg_dsmc_features features, gg_dsmc_pass_state *state,
   }
 }
 
-/* A whole pass. `features` is a constant: each instance holds only what it needs. */
+/* Run a whole pass. `features` is a constant: each instance has only the code that it needs. */
 GG_INLINE void run(gg_dsmc_features features, gg_dsmc_pass *pass, gg_dsmc_rng_lanes *lanes, gg_rng *rng)
 {
   gg_dsmc_pass_state state;
@@ -213,7 +213,7 @@ GG_INLINE void run(gg_dsmc_features features, gg_dsmc_pass *pass, gg_dsmc_rng_la
   pairs.left = pass->candidates;
   pairs.correction = false;
   pairs.strain = pass->strain;
-  memset(pairs.one, 0, sizeof pairs.one); /* what is past the end is prefetched, too */
+  memset(pairs.one, 0, sizeof pairs.one); /* entries past the end are prefetched, too */
   memset(pairs.two, 0, sizeof pairs.two);
   prefetch_speed_bounds(pass->one, pass->blocks[0]);
   prefetch_speed_bounds(pass->two, pass->blocks[1]);
@@ -223,7 +223,7 @@ GG_INLINE void run(gg_dsmc_features features, gg_dsmc_pass *pass, gg_dsmc_rng_la
   gg_dsmc_lane_rng_save(&samples.rng, lanes);
 }
 
-/* The instances: shear and sums x one or two species. What is not here, no scene needs (gg_dsmc_features_by_law). */
+/* Instances: shear and sums, for one or two species. No scene needs other combinations (gg_dsmc_features_by_law). */
 #define EACH_SAME(X, shear, sums) X(shear, sums, 0) X(shear, sums, 1)
 #define EACH_WITH_LAW(X)                                                                                               \
   EACH_SAME(X, GG_DSMC_UNSHEARED, GG_DSMC_LOSS)                                                                        \

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The block kernels: one source, compiled for several sets of instructions, chosen when an engine is made. */
+/* The block kernels: one source, compiled for several sets of instructions, of which an engine chooses one. */
 #ifndef GG_DSMC_COLLIDE_BLOCKS_H
 #define GG_DSMC_COLLIDE_BLOCKS_H
 
@@ -11,8 +11,7 @@
 
 typedef void gg_dsmc_collide_blocks(gg_dsmc_pass *pass, gg_dsmc_rng_lanes *lanes, gg_rng *rng);
 
-/* The instances of one collision rule, by shear, sums and whether both grains are of one species; NULL where there is
- * no such thing. */
+/* Instances of one collision rule, by shear, sums and whether both grains are of one species; NULL: none. */
 typedef struct gg_dsmc_instances {
   gg_dsmc_collide_blocks *of[GG_DSMC_SHEARED_DENSE + 1][GG_DSMC_STRESS + 1][2];
 } gg_dsmc_instances;

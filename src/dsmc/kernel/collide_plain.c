@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The collision step as the textbooks have it, one candidate after another: the oracle of the fast kernels, and the
- * path of ensembles too small for blocks. */
+/* Collisions one candidate after another, the textbook method: the reference of the fast kernels, and the path of
+ * ensembles too small for blocks. */
 #include <math.h>
 
 #include "dsmc/kernel/pass.h"
@@ -10,7 +10,7 @@ typedef struct grain_pair {
   gg_vec ca, cb, sa, sb;
 } grain_pair;
 
-/* Their velocities at this candidate's time. */
+/* Load the velocities of a pair at the time of this candidate. */
 static void fetch(gg_dsmc_features features, const gg_dsmc_pass *pass, grain_pair *pair)
 {
   pair->ca = gg_dsmc_block_get(pass->one, pass->one->c, pair->a);
@@ -46,7 +46,7 @@ static void sums(gg_dsmc_features features, gg_dsmc_pass *pass, const gg_contact
   gg_add_stress(pass->stress, pass->sigma, k, J);
 }
 
-/* The contact at this speed, by the law of restitution. */
+/* Contact at this normal speed, by the law of restitution. */
 static gg_contact contact_at(gg_dsmc_pass *pass, double gn)
 {
   gg_contact c = pass->contact;
@@ -90,7 +90,7 @@ static void collide(gg_dsmc_features features, gg_dsmc_pass *pass, grain_pair *p
   gg_dsmc_block_set(pass->two, pass->two->s, pair->b, pair->sb);
 }
 
-/* One candidate: a uniform direction, accepted with probability g_n/majorant. */
+/* Test one candidate: a uniform direction, accepted with probability g_n/majorant. */
 static void attempt(gg_dsmc_features features, gg_dsmc_pass *pass, uint32_t a, uint32_t b, gg_rng *rng)
 {
   grain_pair pair = {.a = a, .b = b};
@@ -109,7 +109,7 @@ static void attempt(gg_dsmc_features features, gg_dsmc_pass *pass, uint32_t a, u
 void gg_dsmc_collide_plain(gg_dsmc_features features, gg_dsmc_pass *pass, gg_rng *rng)
 {
   for (uint64_t i = 0; i < pass->candidates; i++, pass->strain += pass->strain_step, pass->time += pass->time_step) {
-    /* Two different grains, every pair as likely as any other. */
+    /* Draw two different grains, all pairs with the same probability. */
     uint32_t a = gg_rng_below(rng, (uint32_t)pass->one->n),
              b = gg_rng_below(rng, (uint32_t)pass->two->n - features.same);
     if (features.same && b >= a) b++;
@@ -119,15 +119,15 @@ void gg_dsmc_collide_plain(gg_dsmc_features features, gg_dsmc_pass *pass, gg_rng
     pass->bound_scale *= gg_dsmc_bound_growth((double)pass->candidates * pass->strain_step);
 }
 
-/* Four uniform directions under a majorant of g_n are as many candidates as one under a majorant of its integral over
- * pi. */
+/* Test a pair of grains in four uniform directions: under a majorant of g_n these are equivalent to one candidate under
+ * a majorant of the integral of g_n over pi. */
 static void attempt_four(gg_dsmc_features features, gg_dsmc_pass *pass, uint32_t a, uint32_t b, gg_rng *rng)
 {
   if (a >= pass->one->n || b >= pass->two->n) return;
   for (int i = 0; i < 4; i++) attempt(features, pass, a, b, rng);
 }
 
-/* Two grains of one species. */
+/* Exchange two grains of one species. */
 static void exchange(const gg_dsmc_population *population, void *blocks, uint32_t a, uint32_t b)
 {
   gg_vec v = gg_dsmc_block_get(population, blocks, a);
@@ -141,7 +141,8 @@ void gg_dsmc_collide_odd_blocks(gg_dsmc_features features, gg_dsmc_pass *pass, u
   a *= GG_DSMC_LANES;
   b *= GG_DSMC_LANES;
   if (features.same && a == b) {
-    /* Pairs of different blocks get 2 (either order) x 1/8 a draw; so do the 28 within one if 7 are drawn. */
+    /* A draw has probability 2 (either order) x 1/8 for each pair of different blocks; seven draws give the same to
+     * each of the 28 pairs within one block. */
     for (int i = 0; i < 7; i++) {
       uint32_t l = gg_rng_below(rng, GG_DSMC_LANES), m = gg_rng_below(rng, GG_DSMC_LANES - 1);
       attempt_four(features, pass, a + l, a + (m >= l ? m + 1 : m), rng);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sums over collisions (stress, energy loss): a note of each block pair, and now and then the sums over a handful of
- * notes. Summed at once, seven sums would be loaded and stored with every block pair, in the midst of a kernel that has
- * its registers full. A handful later they stay in registers: a tenth of the cost. */
+/* Sums over collisions (stress, energy loss). Each block pair leaves a note, and eight notes are summed at once.
+ * Otherwise seven sums would be loaded and stored with every block pair, in a kernel that uses all registers. Over
+ * several notes the sums stay in registers, at a tenth of the cost. */
 #ifndef GG_DSMC_COLLISION_SUMS_H
 #define GG_DSMC_COLLISION_SUMS_H
 
@@ -10,23 +10,23 @@
 
 enum { GG_DSMC_NOTES = 8 };
 
-/* What the collisions of a block pair leave: J is 0 where nothing collides, and k finite. */
+/* Note of the collisions of a block pair. In lanes without a collision J is 0 and k is finite. */
 typedef struct gg_dsmc_note {
-  gg_vd3 k, J;      /* for the stress, and kept nowhere else: the write-back takes them from here */
-  gg_vd Jg, Jn, J2; /* for what of the loss does not follow from those */
+  gg_vd3 k, J;      /* for the stress; the write-back reads them from here */
+  gg_vd Jg, Jn, J2; /* terms of the loss that do not follow from k and J */
 } gg_dsmc_note;
 
 typedef struct gg_dsmc_sums {
-  unsigned n; /* block pairs noted */
+  unsigned n; /* notes */
   gg_dsmc_note note[GG_DSMC_NOTES][GG_PARTS];
-  /* Lane by lane, double in either precision: stress as gg_collision_sums has it, and what the loss follows from
+  /* Sums by lane, in double for both precisions: stress as in gg_collision_sums, and terms of the loss
    * (gg_dsmc_all_terms). */
   double xx[GG_DSMC_LANES], yy[GG_DSMC_LANES], zz[GG_DSMC_LANES], xy[GG_DSMC_LANES], yx[GG_DSMC_LANES],
       Jg[GG_DSMC_LANES], Jn2[GG_DSMC_LANES], J2[GG_DSMC_LANES];
 } gg_dsmc_sums;
 
-/* Constant coefficients make terms of the loss follow from others (gg_dsmc_all_terms): of smooth grains all from one,
- * of rough ones the third. With a law of restitution all are summed. */
+/* Is one term of the loss enough? With constant coefficients terms follow from each other (gg_dsmc_all_terms): for
+ * smooth grains all from one, for rough grains the third. With a law of restitution all terms are summed. */
 GG_INLINE bool gg_dsmc_sums_one(gg_dsmc_features features)
 {
   return features.rule == GG_SMOOTH && !features.law;
@@ -36,7 +36,7 @@ GG_INLINE bool gg_dsmc_sums_all(gg_dsmc_features features)
   return features.rule == GG_FRICTIONAL || features.law;
 }
 
-/* The terms of the loss that k and J do not tell later. */
+/* Note the terms of the loss that do not follow from k and J. */
 GG_INLINE void gg_dsmc_note_loss(gg_dsmc_features features, gg_dsmc_note *note, gg_vd3 g, gg_vd3 J, gg_vd Jn)
 {
   if (features.sums == GG_DSMC_NO_SUMS) return;
@@ -55,7 +55,7 @@ GG_INLINE void gg_dsmc_sums_add(double *sum, int part, gg_vd v)
   __builtin_memcpy(sum + part * GG_WIDTH, &s, sizeof s);
 }
 
-/* The loss alone. */
+/* Sum the notes of the loss alone. */
 GG_INLINE void gg_dsmc_sums_collect_loss(gg_dsmc_features features, gg_dsmc_sums *sums, int part)
 {
   gg_vd Jg = gg_all(0), Jn2 = Jg, J2 = Jg;
@@ -70,7 +70,7 @@ GG_INLINE void gg_dsmc_sums_collect_loss(gg_dsmc_features features, gg_dsmc_sums
   if (gg_dsmc_sums_all(features)) gg_dsmc_sums_add(sums->J2, part, J2);
 }
 
-/* Stress and loss; what is not kept need not be computed. */
+/* Sum the notes of stress and loss. */
 GG_INLINE void gg_dsmc_sums_collect_stress(gg_dsmc_features features, gg_dsmc_sums *sums, int part)
 {
   const bool one = gg_dsmc_sums_one(features);
@@ -110,7 +110,7 @@ GG_INLINE void gg_dsmc_sums_collect(gg_dsmc_features features, gg_dsmc_sums *sum
   sums->n = 0;
 }
 
-/* A block pair has its impulses; the note stays as it is until the next but one has its own. */
+/* Finish the note of a block pair. It stays unchanged until the next but one is written. */
 GG_INLINE void gg_dsmc_sums_next(gg_dsmc_features features, gg_dsmc_sums *sums)
 {
   if (features.sums != GG_DSMC_NO_SUMS && ++sums->n == GG_DSMC_NOTES) gg_dsmc_sums_collect(features, sums);
@@ -127,7 +127,7 @@ GG_INLINE void gg_dsmc_sums_finish(gg_dsmc_features features, gg_dsmc_sums *sums
 {
   if (features.sums == GG_DSMC_NO_SUMS) return;
   gg_dsmc_sums_collect(features, sums);
-  /* The kernel's impulses are in units of a mass, and so are their sums. */
+  /* Impulses of the kernel, and so their sums, are in units of a mass. */
   const double mass = gg_dsmc_impulse_unit(features.same, &pass->contact), stress = pass->sigma * mass;
   gg_loss_terms terms = {.Jg = mass * gg_dsmc_sum_of_lanes(sums->Jg),
                          .Jn2 = mass * mass * gg_dsmc_sum_of_lanes(sums->Jn2),

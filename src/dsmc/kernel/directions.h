@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Random directions, sampled eight at a time and ahead of their use, for the lanes that collide, about half of them: a
- * list that is filled by gg_pack and read by gg_spread. */
+/* Random directions for the lanes that collide, about half of all. They are sampled eight at a time, ahead of their
+ * use, into a list that gg_pack fills and gg_spread reads. */
 #ifndef GG_DSMC_DIRECTIONS_H
 #define GG_DSMC_DIRECTIONS_H
 
 #include "dsmc/kernel/lane_random.h"
 
-/* Room for what is left when sixteen block pairs begin, for what is made meanwhile, and for the width of a register. */
 enum {
-  GG_DSMC_DIRECTIONS_FROM = 64,
-  GG_DSMC_DIRECTIONS = 256,
+  GG_DSMC_DIRECTIONS_FROM = 64, /* fewer: sample more */
+  GG_DSMC_DIRECTIONS = 256,     /* most directions when sixteen block pairs begin */
+  /* and room for those sampled during sixteen block pairs, and for the width of a register */
   GG_DSMC_DIRECTIONS_ROOM = GG_DSMC_DIRECTIONS + 17 * GG_DSMC_LANES
 };
 
 typedef struct gg_dsmc_directions {
-  gg_real *x; /* three lists of GG_DSMC_DIRECTIONS_ROOM: a buffer of its own, so that the rest can stay in registers */
-  unsigned at, n; /* used, made */
+  gg_real *x;     /* x, y, z: three lists of GG_DSMC_DIRECTIONS_ROOM, separate so that the rest stays in registers */
+  unsigned at, n; /* used, sampled */
 } gg_dsmc_directions;
 
-/* A point (u, v) uniform in the unit disc, s = u^2 + v^2, in the lanes of the mask: each coordinate from a word
- * of its own. Directions follow without trigonometry (Marsaglia, Ann. Math. Stat. 43 (1972) 645). */
+/* Sample a point (u, v) uniform in the unit disc, s = u^2 + v^2, in the lanes of the returned mask. Directions follow
+ * from it without trigonometry (Marsaglia, Ann. Math. Stat. 43 (1972) 645). */
 GG_INLINE gg_mask gg_dsmc_lane_disc(gg_dsmc_lane_rng *rng, int part, gg_vd *u, gg_vd *v, gg_vd *s)
 {
   gg_vu first, second;
@@ -30,7 +30,7 @@ GG_INLINE gg_mask gg_dsmc_lane_disc(gg_dsmc_lane_rng *rng, int part, gg_vd *u, g
   return gg_less(*s, gg_all(1));
 }
 
-/* Uniform on the sphere. */
+/* Sample a direction uniform on the sphere. */
 GG_INLINE gg_mask gg_dsmc_lane_uniform(gg_dsmc_lane_rng *rng, int part, gg_vd3 *w)
 {
   gg_vd u, v, s;
@@ -40,7 +40,7 @@ GG_INLINE gg_mask gg_dsmc_lane_uniform(gg_dsmc_lane_rng *rng, int part, gg_vd3 *
   return in;
 }
 
-/* Cosine law about the z axis: its projection on the plane is uniform in the disc. */
+/* Sample the cosine law about the z axis: the projection of the direction on the plane is uniform in the disc. */
 GG_INLINE gg_mask gg_dsmc_lane_cosine(gg_dsmc_lane_rng *rng, int part, gg_vd3 *w)
 {
   gg_vd s;
@@ -49,8 +49,8 @@ GG_INLINE gg_mask gg_dsmc_lane_cosine(gg_dsmc_lane_rng *rng, int part, gg_vd3 *w
   return in;
 }
 
-/* Density |k_x k_y| on the sphere: z is the median of three uniform numbers on (-1, 1), density 3/4 (1 - z^2), and the
- * squared sine of the azimuth is uniform. */
+/* Sample the density |k_x k_y| on the sphere: z is the median of three uniform numbers on (-1, 1), with density
+ * 3/4 (1 - z^2), and the squared sine of the azimuth is uniform. */
 GG_INLINE gg_mask gg_dsmc_lane_sheared(gg_dsmc_lane_rng *rng, int part, gg_vd3 *k)
 {
   gg_vu word[4];
@@ -77,7 +77,7 @@ GG_INLINE gg_mask gg_dsmc_lane_direction(gg_dsmc_law law, gg_dsmc_lane_rng *rng,
   }
 }
 
-/* Those that are left come to the front, whole registers at a time. */
+/* Move the unused directions to the front, whole registers at a time. */
 GG_INLINE void gg_dsmc_directions_move_up(gg_dsmc_directions *directions)
 {
   for (unsigned i = 0; i < directions->n - directions->at; i += GG_WIDTH)
@@ -91,14 +91,14 @@ GG_INLINE void gg_dsmc_directions_move_up(gg_dsmc_directions *directions)
   directions->at = 0;
 }
 
-/* Sixteen block pairs begin. Should more directions be made in their midst? */
+/* Prepare for sixteen block pairs. Returns whether more directions must be sampled meanwhile. */
 GG_INLINE bool gg_dsmc_directions_begin(gg_dsmc_directions *directions)
 {
   if (__builtin_expect(directions->n > GG_DSMC_DIRECTIONS, 0)) gg_dsmc_directions_move_up(directions);
   return directions->n - directions->at < GG_DSMC_DIRECTIONS_FROM;
 }
 
-/* Up to eight more; `law` is constant. */
+/* Sample up to eight more directions; `law` is constant. */
 GG_INLINE void gg_dsmc_directions_make(gg_dsmc_directions *directions, gg_dsmc_lane_rng *rng, gg_dsmc_law law)
 {
   for (int part = 0; part < GG_PARTS; part++) {
@@ -112,7 +112,7 @@ GG_INLINE void gg_dsmc_directions_make(gg_dsmc_directions *directions, gg_dsmc_l
   }
 }
 
-/* At least eight are ready. */
+/* Ensure that at least eight directions are ready. */
 GG_INLINE void gg_dsmc_directions_ensure(gg_dsmc_directions *directions, gg_dsmc_lane_rng *rng, gg_dsmc_law law)
 {
   if (__builtin_expect(directions->n - directions->at >= GG_DSMC_LANES, 1)) return;
@@ -120,7 +120,7 @@ GG_INLINE void gg_dsmc_directions_ensure(gg_dsmc_directions *directions, gg_dsmc
   while (directions->n < GG_DSMC_DIRECTIONS_FROM) gg_dsmc_directions_make(directions, rng, law);
 }
 
-/* One for each lane of the mask; the others hold anything finite. */
+/* Take a direction for each lane of the mask; the other lanes are finite. */
 GG_INLINE gg_vd3 gg_dsmc_directions_take(gg_dsmc_directions *directions, gg_mask mask)
 {
   const gg_real *from = directions->x + directions->at;

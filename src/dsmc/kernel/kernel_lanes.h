@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The eight lanes of a block on registers of GG_WIDTH (simd/lanes.h), in GG_PARTS; and what only speed bounds need. */
-#ifndef GG_DSMC_LANES_H
-#define GG_DSMC_LANES_H
+/* The eight lanes of a block in GG_PARTS registers of GG_WIDTH lanes (simd/lanes.h), and operations of speed bounds. */
+#ifndef GG_DSMC_KERNEL_LANES_H
+#define GG_DSMC_KERNEL_LANES_H
 
 #include <math.h>
 
@@ -10,18 +10,18 @@
 
 enum { GG_PARTS = GG_DSMC_LANES / GG_WIDTH };
 
-/* GG_TINY: added to what may be 0/0. gg_v2: two numbers. */
+/* GG_TINY is added to denominators that may be 0. gg_v2: two numbers. */
 #ifdef GG_SINGLE_LANES
 #define GG_TINY 1e-37f
 typedef gg_dsmc_block_single gg_dsmc_real_block;
-typedef gg_real gg_v2 __attribute__((vector_size(16))); /* of four */
+typedef gg_real gg_v2 __attribute__((vector_size(16))); /* two of four */
 #else
 #define GG_TINY 1e-300
 typedef gg_dsmc_block gg_dsmc_real_block;
 typedef gg_real gg_v2 __attribute__((vector_size(16)));
 #endif
 
-/* Square roots out of a table, rounded to float. */
+/* Square roots of entries of a table, rounded to float. */
 GG_INLINE gg_vd gg_dsmc_roots_at(const float *table, gg_vu at)
 {
 #if defined(GG_HAS_AVX512) && defined(GG_SINGLE_LANES)
@@ -39,7 +39,7 @@ GG_INLINE gg_vd gg_dsmc_roots_at(const float *table, gg_vu at)
 #endif
 }
 
-/* The largest lane of a, and of b. */
+/* The largest lane of a, and the largest lane of b. */
 GG_INLINE gg_v2 gg_dsmc_peaks(gg_vd a, gg_vd b)
 {
 #if (defined(GG_HAS_AVX512) || defined(GG_HAS_AVX2)) && defined(GG_SINGLE_LANES)
@@ -61,7 +61,7 @@ GG_INLINE gg_v2 gg_dsmc_peaks(gg_vd a, gg_vd b)
 #endif
 }
 
-/* Both peaks, in single precision. */
+/* Store both peaks in single precision. */
 GG_INLINE void gg_dsmc_peaks_store(gg_v2 peaks, float *one, float *two)
 {
 #ifdef GG_SINGLE_LANES
@@ -75,15 +75,15 @@ GG_INLINE void gg_dsmc_peaks_store(gg_v2 peaks, float *one, float *two)
 #endif
 }
 
-/* The speed bound of a block, part by part: from C^2 of the lanes from `at` on. */
-GG_INLINE void gg_dsmc_note_speed_bound(float *speed_bound, int at, gg_vd c2, gg_real per_scale)
+/* Set the speed bound of a block part by part, by C^2 of the lanes from `at`. */
+GG_INLINE void gg_dsmc_set_speed_bound(float *speed_bound, int at, gg_vd c2, gg_real per_scale)
 {
   float peak = (float)(gg_dsmc_peaks(c2, c2)[0] * per_scale);
   *speed_bound = at && *speed_bound > peak ? *speed_bound : peak;
 }
 
 #ifndef GG_SINGLE_LANES
-/* Numbers kept in single precision: read, and rounded; what is there then. */
+/* Load and store numbers in single precision. gg_dsmc_store_single returns the rounded values. */
 typedef float gg_vf __attribute__((vector_size(4 * GG_WIDTH), aligned(4 * GG_WIDTH)));
 GG_INLINE gg_vd gg_dsmc_load_single(const float *from)
 {

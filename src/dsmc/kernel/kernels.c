@@ -44,7 +44,8 @@ double gg_dsmc_candidates_per_unit(gg_dsmc_path path, gg_dsmc_features features,
   return gg_dsmc_block_pairs_per_unit(gg_dsmc_all_blocks(one), gg_dsmc_all_blocks(two), features.same);
 }
 
-/* A draw of two blocks gives each of the pairs between them 1/8; among themselves they come in either order. */
+/* A draw of two blocks is a candidate of each pair of their grains with probability 1/8. Blocks of one range are drawn
+ * in either order. */
 double gg_dsmc_block_pairs_per_unit(gg_dsmc_range one, gg_dsmc_range two, bool themselves)
 {
   return M_PI * 8 * (themselves ? 0.5 : 1) * ((double)one.n * (double)two.n);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* White noise and baths: a random kick for every grain, computed in double for blocks of either precision. */
+/* Kicks of white noise and baths: a random kick for every grain, computed in double for blocks of either precision. */
 #include "dsmc/kernel/synchronise.h"
 
 #include "dsmc/kernel/normal.h"
@@ -7,7 +7,7 @@
 #define NAME_OF(name, instructions) name##_##instructions
 #define NAME(name, instructions) NAME_OF(name, instructions)
 
-/* Lanes from `at` on of block b; `single` is constant. */
+/* Load lanes from `at` of block b; `single` is constant. */
 GG_INLINE gg_vd3 load(const void *blocks, bool single, size_t b, int at)
 {
   if (single) {
@@ -19,7 +19,7 @@ GG_INLINE gg_vd3 load(const void *blocks, bool single, size_t b, int at)
   return (gg_vd3){gg_load(block->x + at), gg_load(block->y + at), gg_load(block->z + at)};
 }
 
-/* Returns what is there now. */
+/* Store lanes, and return their rounded values. */
 GG_INLINE gg_vd3 store(void *blocks, bool single, size_t b, int at, gg_vd3 v)
 {
   if (single) {
@@ -56,7 +56,7 @@ GG_INLINE void kick(void *c, bool single, float *speed_bound, size_t n, double s
       all[part] = (gg_vd3){all[part].x + v.x, all[part].y + v.y, all[part].z + v.z};
       if (!speed_bound) continue;
       v.x -= strain * v.y;
-      gg_dsmc_note_speed_bound(&speed_bound[b], at, gg_vd3_dot(v, v), per_scale);
+      gg_dsmc_set_speed_bound(&speed_bound[b], at, gg_vd3_dot(v, v), per_scale);
     }
   for (int part = 0; part < GG_PARTS; part++) store(sum, false, 0, part * GG_WIDTH, all[part]);
   gg_dsmc_lane_rng_save(&rng, lanes);

@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Random words of the lanes' streams, and the numbers that they are made into. */
+/* Random words of the streams of the lanes, and random numbers from them. */
 #ifndef GG_DSMC_LANE_RANDOM_H
 #define GG_DSMC_LANE_RANDOM_H
 
 #include "dsmc/kernel/kernel_lanes.h"
 #include "dsmc/kernel/lane_rng.h"
 
-/* gg_dsmc_lane_two: two random words a lane, from whose high bits gg_dsmc_lane_one_to_two makes a number uniform in
- * [1, 2), gg_dsmc_lane_two_to_four one in [2, 4); GG_SPARE_BIT hardly matters to it. */
+/* gg_dsmc_lane_two draws two random words a lane. From their high bits gg_dsmc_lane_one_to_two makes a number uniform
+ * in [1, 2), gg_dsmc_lane_two_to_four in [2, 4). Bit GG_SPARE_BIT has hardly any effect on these numbers. */
 #ifdef GG_SINGLE_LANES
 enum { GG_SPARE_BIT = 0 };
 
-/* One word of the first four numbers, and one of the other four. */
+/* A word of the streams of the first four lanes, and a word of those of the other four. */
 GG_INLINE void gg_dsmc_lane_two(gg_dsmc_lane_rng *rng, int part, gg_vu *a, gg_vu *b)
 {
   *a = (gg_vu)gg_dsmc_lane_next(rng, part);
   *b = (gg_vu)gg_dsmc_lane_next(rng, part + GG_PARTS);
 }
-/* 23 bits: the low 9 are left for other uses. */
+/* Uses the high 23 bits; the low 9 bits are free for other uses. */
 GG_INLINE gg_vd gg_dsmc_lane_one_to_two(gg_vu word)
 {
   return (gg_vd)((word >> 9) | 0x3f800000u);
@@ -27,7 +27,7 @@ GG_INLINE gg_vd gg_dsmc_lane_two_to_four(gg_vu word)
   return (gg_vd)((word >> 9) | 0x40000000u);
 }
 
-/* High halves of the products; n is the same in all lanes. */
+/* Whole numbers below n: high halves of products. n is the same in all lanes. */
 GG_INLINE gg_vu gg_dsmc_lane_below(gg_vu word, gg_vu n)
 {
 #if defined(GG_HAS_AVX512) || defined(GG_HAS_AVX2)
@@ -44,13 +44,13 @@ GG_INLINE gg_vu gg_dsmc_lane_below(gg_vu word, gg_vu n)
 #else
 enum { GG_SPARE_BIT = 32 };
 
-/* Good for 32 bits at least; the low half of the first is the second. */
+/* Two words with at least 32 random bits each; the second is the low half of the first. */
 GG_INLINE void gg_dsmc_lane_two(gg_dsmc_lane_rng *rng, int part, gg_vu *a, gg_vu *b)
 {
   *a = gg_dsmc_lane_next(rng, part);
   *b = *a << 32;
 }
-/* 52 bits: the low 12 are left for other uses. */
+/* Uses the high 52 bits; the low 12 bits are free for other uses. */
 GG_INLINE gg_vd gg_dsmc_lane_one_to_two(gg_vu word)
 {
   return (gg_vd)((word >> 12) | 0x3ff0000000000000u);
@@ -60,7 +60,7 @@ GG_INLINE gg_vd gg_dsmc_lane_two_to_four(gg_vu word)
   return (gg_vd)((word >> 12) | 0x4000000000000000u);
 }
 
-/* High half of the product of low halves. */
+/* Whole numbers below n: high halves of products of low halves. */
 GG_INLINE gg_vu gg_dsmc_lane_below(gg_vu word, gg_vu n)
 {
 #if defined(GG_HAS_AVX512)
@@ -73,7 +73,7 @@ GG_INLINE gg_vu gg_dsmc_lane_below(gg_vu word, gg_vu n)
 }
 #endif
 
-/* Whole numbers below m and below n < 2^32. */
+/* Draw whole numbers below m and below n; both < 2^32. */
 GG_INLINE void gg_dsmc_lane_two_below(gg_dsmc_lane_rng *rng, int part, gg_vu m, gg_vu n, gg_vu *a, gg_vu *b)
 {
 #ifdef GG_SINGLE_LANES

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* xoshiro256++ in eight lanes side by side, on whatever registers there are: `gg_vq` holds some of the lanes' 64-bit
- * words, eight, four or two. */
+/* xoshiro256++ in eight lanes. `gg_vq` holds the 64-bit words of eight, four or two lanes, by the width of registers.
+ */
 #ifndef GG_DSMC_LANE_RNG_H
 #define GG_DSMC_LANE_RNG_H
 
 #include "dsmc/kernel/pass.h"
 #include "simd/lanes.h"
 
-/* In single precision no wider than the rest: a wider register now and then would slow down all others. */
+/* In single precision no wider than other registers: occasional use of wider registers would slow down all others. */
 #if defined(GG_HAS_AVX512) && !defined(GG_SINGLE_LANES)
 enum { GG_QUADS = 8 };
 #elif defined(GG_HAS_AVX512) || defined(GG_HAS_AVX2)
@@ -40,7 +40,7 @@ GG_INLINE gg_vq gg_xor3(gg_vq a, gg_vq b, gg_vq c)
 #endif
 }
 
-/* The next number of each of a part's lanes. */
+/* Next random word of each lane of a part. */
 GG_INLINE gg_vq gg_dsmc_lane_next(gg_dsmc_lane_rng *rng, int part)
 {
   gg_vq *s0 = &rng->s[0][part], *s1 = &rng->s[1][part], *s2 = &rng->s[2][part], *s3 = &rng->s[3][part];

@@ -12,13 +12,13 @@ typedef struct gg_dsmc_lane_contact {
   gg_real push1, push2; /* velocity changes from 2 g_n k */
 } gg_dsmc_lane_contact;
 
-/* Without its sign. */
+/* Absolute value. */
 GG_INLINE gg_vd gg_dsmc_abs(gg_vd x)
 {
   return (gg_vd)((gg_vu)x & ~(gg_vu)gg_all(-0.0));
 }
 
-/* What impulses are counted in: of grains of one species in their mass, so that an impulse is a change of velocity. */
+/* Unit of impulses: for grains of one species their mass, so that an impulse is a change of velocity; else 1. */
 GG_INLINE double gg_dsmc_impulse_unit(bool same, const gg_contact *c)
 {
   return same ? 1 / c->im1 : 1;
@@ -68,8 +68,8 @@ GG_INLINE gg_dsmc_lane_contact gg_dsmc_lane_contact_of(bool same, const gg_conta
 #define GG_LOOK_UP(table, at) gg_look_up(table, at)
 #include "common/laws/loss_at_of.h"
 
-/* Which terms of the loss need not be summed, since they follow from the others: smooth grains need the first alone
- * (J.g = m_r (1+e) g_n^2), rough ones two (J_t^2 = m_t (1+beta) J_t.g_t). */
+/* Complete the terms of the loss by those that follow from others: smooth grains need the first term alone
+ * (J.g = m_r (1+e) g_n^2), rough grains two (J_t^2 = m_t (1+beta) J_t.g_t). */
 GG_INLINE gg_loss_terms gg_dsmc_all_terms(gg_rule rule, const gg_contact *c, gg_loss_terms sum)
 {
   if (rule == GG_SMOOTH) sum.Jn2 = sum.J2 = c->jn * sum.Jg;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Normal numbers in lanes (Box & Muller 1958), without libm: the same bits everywhere. */
+/* Normal random numbers in lanes (Box & Muller 1958), without libm, so that every processor has the same bits. */
 #ifndef GG_DSMC_NORMAL_H
 #define GG_DSMC_NORMAL_H
 
 #include "dsmc/kernel/directions.h"
 
-/* sin and cos on [-pi/4, pi/4], Taylor's series to rounding: no libm, so that every processor has the same bits. */
+/* Sine and cosine on [-pi/4, pi/4], by Taylor series to rounding. */
 GG_INLINE void gg_dsmc_lane_sincos(gg_vd a, gg_vd *sine, gg_vd *cosine)
 {
   gg_vd q = a * a;
@@ -25,12 +25,12 @@ GG_INLINE void gg_dsmc_lane_sincos(gg_vd a, gg_vd *sine, gg_vd *cosine)
   *cosine = 1 - (0.5 * q - q * q * c);
 }
 
-/* A unit vector in the plane, any angle: an eighth turn either way, turned on by the quarter that two bits choose. */
+/* Random unit vector in the plane: an angle up to pi/4 either way, then rotated by a multiple of pi/2 from two bits. */
 GG_INLINE void gg_dsmc_lane_circle(gg_vu word, gg_vd *x, gg_vd *y)
 {
   gg_vd s, c;
   gg_dsmc_lane_sincos((gg_dsmc_lane_one_to_two(word) - 1.5) * M_PI_2, &s, &c);
-  c = (gg_vd)((gg_vu)c ^ (word << 63)); /* and s has either sign by itself */
+  c = (gg_vd)((gg_vu)c ^ (word << 63)); /* s has a random sign already */
   gg_mask other = gg_low_bit(word >> 1);
   *x = gg_select(other, s, c);
   *y = gg_select(other, c, s);
@@ -40,7 +40,7 @@ GG_INLINE void gg_dsmc_lane_circle(gg_vu word, gg_vd *x, gg_vd *y)
 GG_INLINE gg_vd gg_dsmc_lane_log(gg_vd u)
 {
   gg_vu bits = (gg_vu)u,
-        above = bits + (0x3ff0000000000000u - 0x3fe6a09e667f3bcdu); /* exponent, as seen from sqrt(1/2) */
+        above = bits + (0x3ff0000000000000u - 0x3fe6a09e667f3bcdu); /* exponent relative to sqrt(1/2) */
   gg_vd e = (gg_vd)((above >> 52) | 0x4330000000000000u) - (0x1p52 + 1023);
   gg_vd f = (gg_vd)((above & 0x000fffffffffffffu) + 0x3fe6a09e667f3bcdu);
   gg_vd s = (f - 1) / (f + 1), q = s * s, sum = gg_all(1. / 21);
@@ -48,7 +48,7 @@ GG_INLINE gg_vd gg_dsmc_lane_log(gg_vd u)
   return e * M_LN2 + 2 * s * sum;
 }
 
-/* Two independent normal numbers a lane. */
+/* Draw two independent normal numbers a lane. */
 GG_INLINE void gg_dsmc_lane_normal(gg_dsmc_lane_rng *rng, int part, gg_vd *a, gg_vd *b)
 {
   gg_vd radius = gg_sqrt(-2 * gg_dsmc_lane_log(2 - gg_dsmc_lane_one_to_two(gg_dsmc_lane_next(rng, part))));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A block pair goes through three stages: load and relative speeds; accept and impulse; write back. */
+/* The three stages of a block pair: load and relative speeds; accept and impulse; write back. */
 #ifndef GG_DSMC_STAGES_H
 #define GG_DSMC_STAGES_H
 
@@ -17,7 +17,7 @@ GG_INLINE void gg_dsmc_lanes_store(gg_dsmc_real_block *block, int at, gg_vd3 v)
   gg_store(block->z + at, v.z);
 }
 
-/* The true lanes of `yes`, the others of `no`. */
+/* Store the true lanes of `yes`, and the other lanes of `no`. */
 GG_INLINE void gg_dsmc_lanes_store_either(gg_dsmc_real_block *block, int at, gg_mask mask, gg_vd3 yes, gg_vd3 no)
 {
   gg_store_either(block->x + at, mask, yes.x, no.x);
@@ -25,7 +25,7 @@ GG_INLINE void gg_dsmc_lanes_store_either(gg_dsmc_real_block *block, int at, gg_
   gg_store_either(block->z + at, mask, yes.z, no.z);
 }
 
-/* a and b go to their blocks; if they are of one species, lanes of `swap` are exchanged. */
+/* Store a and b in their blocks; for one species the lanes of `swap` are exchanged. */
 GG_INLINE void gg_dsmc_lanes_store_pair(gg_dsmc_features features, gg_dsmc_real_block *one, gg_dsmc_real_block *two,
                                         int at, gg_mask swap, gg_vd3 a, gg_vd3 b)
 {
@@ -38,27 +38,27 @@ GG_INLINE void gg_dsmc_lanes_store_pair(gg_dsmc_features features, gg_dsmc_real_
   }
 }
 
-/* A block pair between its stages, each of which waits for the one before. */
+/* A block pair between its stages. */
 typedef struct gg_dsmc_block_pair {
   uint32_t one, two;
   gg_dsmc_real_block *a, *b;
-  bool needs_correction;     /* the majorant was too small: to be followed by a correction */
-  gg_word order;             /* of the lanes of the second */
+  bool needs_correction;     /* the majorant was too small: a correction must follow */
+  gg_word order;             /* of the lanes of the second block */
   gg_real strain, per_scale; /* if sheared */
   gg_real lowest, majorant;  /* of t (candidate.h) */
   bool from_zero;            /* lowest is 0 */
-  bool is_correction;        /* is one itself */
-  gg_real most;              /* majorant of the correction */
-  /* The first block is read again where it is needed: nothing writes it meanwhile. The second is permuted: kept here.
-   */
+  bool is_correction;        /* this pair is a correction */
+  gg_real most;              /* majorant of the correction that must follow */
+  /* The first block is loaded again when it is needed: it is unchanged meanwhile. The second one is stored here,
+   * permuted. */
   gg_vd3 cb[GG_PARTS], sb[GG_PARTS];
   gg_vd3 v[GG_PARTS];
   gg_vd v2[GG_PARTS], speed[GG_PARTS];
   gg_vd scale[GG_PARTS]; /* gg_dsmc_mirror_scale, if computed early */
   gg_vu word[GG_PARTS];  /* random */
   gg_vd3 k[GG_PARTS];    /* if grains have spins */
-  gg_vd3 J[GG_PARTS];    /* 0 without a collision; 2 g_n k where k is not needed */
-  gg_dsmc_note *note;    /* has these two, part by part, if there is a stress to be summed */
+  gg_vd3 J[GG_PARTS];    /* 0 without a collision; 2 g_n k if k is not needed */
+  gg_dsmc_note *note;    /* holds k and J in place of these two if the stress is summed */
 } gg_dsmc_block_pair;
 
 /* Largest C^2 of each block after its collisions, lane by lane. */
@@ -75,14 +75,14 @@ GG_INLINE gg_vd3 *gg_dsmc_impulses(gg_dsmc_features features, gg_dsmc_block_pair
   return features.sums == GG_DSMC_STRESS ? &at->note[part].J : &at->J[part];
 }
 
-/* C of a stored velocity. */
+/* Peculiar velocity C of a stored velocity. */
 GG_INLINE gg_vd3 gg_dsmc_streamed(gg_dsmc_features features, gg_real strain, gg_vd3 c)
 {
   if (features.shear != GG_DSMC_UNSHEARED) c.x -= strain * c.y;
   return c;
 }
 
-/* Third stage: spins. */
+/* Third stage: write back the spins. */
 GG_INLINE void gg_dsmc_write_back_spins(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_mask swap,
                                         gg_dsmc_block_pair *at, int part)
 {
@@ -93,13 +93,13 @@ GG_INLINE void gg_dsmc_write_back_spins(gg_dsmc_features features, gg_dsmc_pass_
                            sb);
 }
 
-/* Third stage: velocities. Grains of one species are exchanged so that the faster one is in the first block. Returns
- * where. */
+/* Third stage: write back the velocities. Grains of one species are exchanged so that the faster one is in the first
+ * block. Returns the exchanged lanes. */
 GG_INLINE gg_mask gg_dsmc_write_back_velocities(gg_dsmc_features features, gg_dsmc_pass_state *state,
                                                 gg_dsmc_block_pair *at, int part, gg_dsmc_largest_squares *most)
 {
   gg_vd3 J = *gg_dsmc_impulses(features, at, part);
-  if (features.shear != GG_DSMC_UNSHEARED) J.x += at->strain * J.y; /* as stored velocities have it */
+  if (features.shear != GG_DSMC_UNSHEARED) J.x += at->strain * J.y; /* for stored velocities */
   gg_vd3 a = gg_dsmc_lanes_load(at->a, part * GG_WIDTH), b = at->cb[part];
   const gg_vd to_a = features.same && gg_dsmc_needs_k(features) ? gg_all(1) : state->to_a,
               to_b = features.same ? to_a : state->to_b;
@@ -127,7 +127,7 @@ GG_INLINE void gg_dsmc_write_back(gg_dsmc_features features, gg_dsmc_pass_state 
   gg_dsmc_peaks_store(peaks, &state->bound_one[at->one], &state->bound_two[at->two]);
 }
 
-/* A block with its lanes in an order (of which the low bits count), in registers. */
+/* Load a block into registers with its lanes permuted; only the low bits of `order` count. */
 GG_INLINE void gg_dsmc_load_permuted(const gg_dsmc_real_block *block, gg_word order, gg_vd3 c[GG_PARTS])
 {
   gg_order permutation = gg_order_of(order);
@@ -139,11 +139,11 @@ GG_INLINE void gg_dsmc_load_permuted(const gg_dsmc_real_block *block, gg_word or
   }
 }
 
-/* Majorant overflow: some pair is faster than the sum of speed bounds by which its blocks were drawn. One of them has
- * collided since, or the gas is faster than the majorant of all. Such pairs should collide more often than once a draw.
- * So a correction over the layer above the majorant follows, with the probability that makes the rates right:
- * `needs_correction`. (All lanes under a higher majorant, and a second time now and then, would have the same rates.
- * But pairs that collide twice in a row scatter no further than once, and there would be more of them.) */
+/* Handle a majorant overflow: a pair is faster than the sum of speed bounds by which its blocks were drawn, because one
+ * of them has collided since, or because it exceeds the majorant of all. Such pairs must collide more often than once a
+ * draw. So a correction over the layer above the majorant follows, with the probability that makes the rates right:
+ * `needs_correction`. (Testing all lanes under a higher majorant, and sometimes twice, would give the same rates. But
+ * pairs that collide twice in succession scatter no more than once, and there would be more of them.) */
 GG_INLINE void gg_dsmc_check_majorant(gg_dsmc_pass_state *state, gg_dsmc_block_pair *at, gg_rng *rng)
 {
   const gg_real majorant = at->majorant;
@@ -158,7 +158,7 @@ GG_INLINE void gg_dsmc_check_majorant(gg_dsmc_pass_state *state, gg_dsmc_block_p
   at->most = now;
 }
 
-/* First stage: load the next block pair of the list, and its relative speeds. */
+/* First stage: load the next block pair of the list, and compute its relative speeds. */
 GG_INLINE void gg_dsmc_load(gg_dsmc_features features, gg_dsmc_pass_state *state, const gg_dsmc_block_pairs *pairs,
                             gg_dsmc_block_pair *at)
 {
@@ -190,14 +190,14 @@ GG_INLINE void gg_dsmc_load(gg_dsmc_features features, gg_dsmc_pass_state *state
   }
 }
 
-/* J_n = m_r (1+e) g_n. */
+/* Normal impulse J_n = m_r (1+e) g_n. */
 GG_INLINE gg_vd gg_dsmc_normal_impulse(gg_dsmc_features features, const gg_dsmc_pass_state *state, gg_vd gn)
 {
   if (!features.law) return state->contact.jn * gn;
   return state->contact.mr * gn * (2 - gg_vd3_loss_at(state->losses, state->loss_scale * gn));
 }
 
-/* Who is accepted, along which k, with what impulse? */
+/* Second stage of a part: accept candidates, and compute their directions and impulses. */
 GG_INLINE void gg_dsmc_accept_part(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_dsmc_samples *samples,
                                    gg_dsmc_block_pair *at, int part)
 {
@@ -224,7 +224,7 @@ GG_INLINE void gg_dsmc_accept_part(gg_dsmc_features features, gg_dsmc_pass_state
   gg_dsmc_note_loss(features, &state->sums.note[state->sums.n][part], candidate.g, J, gg_where(candidate.hit, Jn));
 }
 
-/* Some directions more than are needed now. */
+/* Sample directions in advance. */
 GG_INLINE void gg_dsmc_prefetch_directions(gg_dsmc_features features, gg_dsmc_samples *samples)
 {
   gg_dsmc_directions_make(&samples->near, &samples->rng, gg_dsmc_needs_k(features) ? GG_DSMC_COSINE : GG_DSMC_UNIFORM);

@@ -12,12 +12,12 @@ enum { RUN = 16 }; /* blocks summed in single precision before they go into doub
 #endif
 #define NAME(instructions) NAME_OF(instructions)
 
-/* The map, in the lanes' precision. */
+/* The map, in the precision of the lanes. */
 typedef struct affine_map {
   gg_real strain, scale, x, y, z, per_scale;
 } affine_map;
 
-/* Lanes from `at` on of n blocks. */
+/* Synchronise lanes from `at` of n blocks. */
 GG_INLINE void synchronise(gg_dsmc_real_block *c, float *speed_bound, size_t n, int at, affine_map map,
                            gg_dsmc_block_sums *sums)
 {
@@ -35,7 +35,7 @@ GG_INLINE void synchronise(gg_dsmc_real_block *c, float *speed_bound, size_t n, 
     sz += z;
     s2 += c2;
     fastest = gg_larger(fastest, c2);
-    gg_dsmc_note_speed_bound(&speed_bound[b - c], at, c2, map.per_scale);
+    gg_dsmc_set_speed_bound(&speed_bound[b - c], at, c2, map.per_scale);
   }
   for (int l = 0; l < GG_WIDTH; l++) {
     sums->c.x[at + l] += sx[l];

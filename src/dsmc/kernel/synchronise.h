@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One run through the blocks of a species: stored velocities brought up to date, their sums, and their speed bounds.
- * Compiled for several sets of instructions like the block kernels; lane by lane, so that all leave the same bits. */
+/* Synchronisation of the blocks of a species: stored velocities are mapped, summed, and their speed bounds set.
+ * Compiled for several sets of instructions like the block kernels; it works lane by lane, so that all sets leave the
+ * same bits. */
 #ifndef GG_DSMC_SYNCHRONISE_H
 #define GG_DSMC_SYNCHRONISE_H
 
@@ -12,20 +13,20 @@ typedef struct gg_dsmc_block_sums {
   double c2[GG_DSMC_LANES], fastest[GG_DSMC_LANES]; /* sum and largest of C^2 */
 } gg_dsmc_block_sums;
 
-/* C = scale (x - strain y, y, z) - centre for full blocks (of the precision in the name), summing as it goes; speed
- * bounds in units of `bound_scale`. */
+/* Map full blocks (of the precision in the name) by C = scale (x - strain y, y, z) - centre, and add to the sums. Speed
+ * bounds are in units of `bound_scale`. */
 typedef void gg_dsmc_synchronise_blocks(void *c, float *speed_bound, size_t n, double strain, double scale,
                                         gg_vec centre, double bound_scale, gg_dsmc_block_sums *sums);
 
-/* x = factor x + size (widening n_x + lean n_y), y and z = factor (y, z) + size (n_y, n_z), all + drift, with normal n.
- */
+/* Kick: x = factor x + size (widening n_x + lean n_y), y and z = factor (y, z) + size (n_y, n_z), all + drift, with
+ * normal random numbers n. */
 typedef struct gg_dsmc_kick_map {
   double factor, size, widening, lean;
   gg_vec drift;
 } gg_dsmc_kick_map;
 
-/* That of full blocks stored with `strain`, whose sum is added to `sum` lane by lane; speed bounds, in units of
- * `bound_scale`, where there are any. Computed in double. */
+/* Kick full blocks that are stored with `strain`, and add their vectors to `sum` lane by lane. speed_bound (NULL: none)
+ * is in units of `bound_scale`. Computed in double. */
 typedef void gg_dsmc_kick_blocks(void *c, bool single, float *speed_bound, size_t n, double strain,
                                  const gg_dsmc_kick_map *map, double bound_scale, gg_dsmc_rng_lanes *lanes,
                                  gg_dsmc_block *sum);

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Collisions of an ensemble in segments: rounds of a round-robin schedule (schedule.h).
+/* Collisions of an ensemble in segments, by rounds of a round-robin schedule (schedule.h).
  *
- * Some rounds run under the same majorants, as many at once as the thread pool takes: a thread that is done with a pair
- * of segments begins one of the next round, if its segments are free, while others still work. To wait for all of them
- * after each round cost two threads some three hundredths of their time.
+ * Several rounds have the same majorants, as many as the thread pool can run at once: a thread that has finished a pair
+ * of segments begins a pair of the next round, if its segments are free, while other threads still work. A barrier
+ * after each round would cost two threads some 3 % of their time.
  *
- * All pairs of species have their substeps (splitting.h) within a pair of segments, so that a round is worth waking
- * other threads for. */
+ * All pairs of species have their substeps (splitting.h) within a pair of segments, so that a round has enough work for
+ * several threads. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,18 +14,17 @@
 #include "base/thread_pool.h"
 #include "dsmc/dsmc.h"
 
-/* Candidates that a pair of segments should have, on average, of one species and of more, whose substeps are parts of
- * it: enough that beginning a substep hardly matters, few enough that segments that differ mix as one pair after
- * another would (4000 of one species cost less still, but segments of different temperatures then mix by fits and
- * starts). */
+/* Mean number of candidates of a pair of segments, for one species and for several, whose substeps divide it: large
+ * enough that the start of a substep hardly matters, small enough that segments of different temperature mix as fast as
+ * single pairs would. (4000 for one species are faster still, but such segments then mix unevenly.) */
 static const double worth_one_species = 1200, worth_mixture = 2400;
-/* And candidates for each of their blocks, which is the number above with 80 000 grains: of more, a block that has come
- * into the cache takes part in two on average before the next pair of segments evicts it. */
+/* Candidates for each of their blocks; with 80 000 grains this is the number above. With more grains a block that was
+ * loaded into the cache takes part in two on average before the next pair of segments evicts it. */
 static const double worth_a_block = 0.48;
-/* Candidates of a round that other threads are woken for. */
+/* Fewest candidates of a round for several threads. */
 static const double worth_waking = 400;
 
-/* What one pair of species has in common in all pairs of segments. */
+/* Constants of one pair of species in all pairs of segments. */
 typedef struct species_pair {
   int i, j;
   gg_dsmc_path path;
@@ -34,27 +33,27 @@ typedef struct species_pair {
   gg_dsmc_pass common;
 } species_pair;
 
-/* The scale of a segment's speed bounds, and the strains at which they hold. */
+/* Scale of the speed bounds of a segment, and the range of strains over which it is valid. */
 typedef struct speed_bounds {
   double scale, strain, width;
 } speed_bounds;
 
-/* Rounds under the same majorants. A thread goes on from one pair of segments to any of the next round that is free: so
- * all that is carried over belongs to a segment, here and in gg_dsmc_schedule. */
+/* Rounds with the same majorants. Threads run pairs of segments of different rounds at once: so everything that is
+ * carried over belongs to a segment, here and in gg_dsmc_schedule. */
 typedef struct rounds {
   gg_dsmc *d;
   int n, number[GG_MOST_PARTS], grouping[GG_MOST_PARTS];
   int n_substeps;
   const gg_dsmc_substep *substep;
-  double strain, each; /* where the first begins; how far one round goes */
-  double span, hold;   /* of a sweep's strain; gg_dsmc_strains_to_hold */
+  double strain, each; /* strain at the beginning of the first round; strain of one round */
+  double span, hold;   /* strain of a sweep; gg_dsmc_strains_to_hold */
   int pairs;           /* of species */
   species_pair *species;
   speed_bounds bounds[GG_DSMC_MAX_SEGMENTS];
-  gg_dsmc_pass *sum; /* handed back: `pairs` of each segment that is the first one of a pair, then those of all */
+  gg_dsmc_pass *sum; /* results: `pairs` for each segment that is the first one of a pair, then their totals */
 } rounds;
 
-/* What rounds, and their corrections, take that depends on the number of species. */
+/* Memory for rounds, and for their corrections, which depends on the number of species. */
 struct gg_dsmc_rounds_room {
   species_pair *species[2];
   gg_dsmc_pass *sum[2];
@@ -84,13 +83,13 @@ void gg_dsmc_rounds_room_free(gg_dsmc_rounds_room *room)
   free(room);
 }
 
-/* Of a segment; of all of them: behind the last one. */
+/* Sums of a segment; the totals are behind the last segment. */
 static gg_dsmc_pass *sums_of(const rounds *r, int segment)
 {
   return r->sum + (size_t)segment * (size_t)r->pairs;
 }
 
-/* Add what a pass hands back. */
+/* Add the results of a pass. */
 static void add(gg_dsmc_pass *sum, const gg_dsmc_pass *pass)
 {
   sum->tried += pass->tried;
@@ -103,15 +102,15 @@ static void add(gg_dsmc_pass *sum, const gg_dsmc_pass *pass)
     for (int b = 0; b < 3; b++) sum->stress[a][b] += pass->stress[a][b];
 }
 
-/* Two segments whose blocks collide. */
+/* A pair of segments whose blocks collide. */
 typedef struct segment_pair {
-  int first;               /* the one whose random streams they use */
+  int first;               /* segment whose random streams are used */
   gg_dsmc_ensemble bounds; /* scale and strain of their speed bounds */
   gg_rng rng;
 } segment_pair;
 
-/* A substep of these segments: blocks of `one` of the first species against those of `two` of the second, from `strain`
- * on. */
+/* Run a substep of a pair of segments: blocks of the first species in `one` collide with blocks of the second in `two`,
+ * from `strain`. */
 static void collide(rounds *r, const gg_dsmc_substep *substep, double strain, int one, int two, segment_pair *at)
 {
   const species_pair *s = &r->species[substep->pair];
@@ -137,7 +136,7 @@ static void collide(rounds *r, const gg_dsmc_substep *substep, double strain, in
   add(&sums_of(r, at->first)[pair], &pass);
 }
 
-/* All substeps of a pair of segments. Speed bounds of some scale hold at a larger one, too. */
+/* Run all substeps of a pair of segments. Speed bounds are also valid with a larger scale. */
 static void collide_segments(rounds *r, double strain, int one, int two)
 {
   segment_pair at = {.first = one, .bounds = r->d->ensemble, .rng = r->d->schedule->rng[one]};
@@ -155,8 +154,8 @@ static void collide_segments(rounds *r, double strain, int one, int two)
   r->d->schedule->rng[one] = at.rng;
 }
 
-/* The pairs of segments in a part of the rounds: one, or two where each segment is paired with itself. Returns how
- * many. */
+/* Find the pairs of segments in a part of the rounds: one, or two if each segment is paired with itself. Returns their
+ * number. */
 static int pairs_of_part(const rounds *r, int part, int one[2], int two[2])
 {
   const int segments = r->d->ensemble.segments, columns = segments / 2;
@@ -178,7 +177,7 @@ static void run_part(void *context, int part)
   for (int m = 0; m < n; m++) collide_segments(r, r->strain + nth * r->each, one[m], two[m]);
 }
 
-/* Each part waits for those that have had its segments before. */
+/* Find the earlier parts that must be finished before each part, because they use its segments. */
 static void find_needs(const rounds *r, int parts, uint32_t need[GG_MOST_PARTS])
 {
   uint32_t last[GG_DSMC_MAX_SEGMENTS] = {0};
@@ -192,7 +191,7 @@ static void find_needs(const rounds *r, int parts, uint32_t need[GG_MOST_PARTS])
   }
 }
 
-/* Run all rounds. Returns sums by pair of species. */
+/* Run all rounds. Returns the totals by pair of species. */
 static const gg_dsmc_pass *run(rounds *r, double expected)
 {
   gg_dsmc_ensemble *e = &r->d->ensemble;
@@ -216,11 +215,11 @@ static const gg_dsmc_pass *run(rounds *r, double expected)
   return sum;
 }
 
-/* Correction passes for the majorant overflows of these rounds (as in collisions.c): one pair of species alone, in its
- * own substeps. */
+/* Run correction passes for the majorant overflows of these rounds (as in collision_loop.c), for one pair of species in
+ * its own substeps. */
 static void correct_overflows(rounds *r, int pair, double majorant, double largest)
 {
-  if (largest <= majorant) return; /* as a rule */
+  if (largest <= majorant) return; /* usually */
   gg_dsmc *d = r->d;
   species_pair *s = &r->species[pair];
   rounds correction = *r;
@@ -256,7 +255,8 @@ static species_pair species_pair_of(gg_dsmc *d, int i, int j)
   return s;
 }
 
-/* Quarters that are paired within themselves keep the grouping that they have. */
+/* Take the numbers of the next rounds. Rounds in which quarters are paired within themselves keep the present grouping.
+ */
 static void next_rounds(rounds *r)
 {
   gg_dsmc_ensemble *e = &r->d->ensemble;
@@ -268,7 +268,7 @@ static void next_rounds(rounds *r)
   }
 }
 
-/* Some rounds; `time` is that of a sweep, candidates are `expected` in each. Majorants are what they are now. */
+/* Run some rounds with the present majorants. `time`: of a sweep; `expected`: candidates of each round. */
 static void run_rounds(rounds *r, double time, double expected)
 {
   gg_dsmc *d = r->d;
@@ -288,7 +288,7 @@ static void run_rounds(rounds *r, double time, double expected)
   }
 }
 
-/* Candidates to be expected in all. */
+/* Expected number of candidates of a pair of species. */
 static double expected_of(const gg_dsmc *d, const species_pair *s, double time)
 {
   double majorant = gg_dsmc_majorant_at(&d->now.majorant[gg_pair(s->i, s->j)], sqrt(d->now.temperature));
@@ -296,7 +296,7 @@ static double expected_of(const gg_dsmc *d, const species_pair *s, double time)
          gg_dsmc_candidates_per_unit(s->path, s->features, s->common.one, s->common.two);
 }
 
-/* Candidates that a round should have. */
+/* Number of candidates that a round should have. */
 static double worth_a_round(const gg_dsmc *d)
 {
   const int segments = d->ensemble.segments;

@@ -6,15 +6,15 @@ int gg_dsmc_segment_pairs(int segments, int round)
   return round ? segments / 2 : segments;
 }
 
-/* Where quarters 0 and c are one half: the smaller one of the two that are left. */
+/* Smaller one of the two quarters other than 0 and c. */
 static int second_half(int c)
 {
   return c == 1 ? 2 : 1;
 }
 
-/* Segment i of quarter q is paired with i ^ k of quarter q ^ c in round (c, k). The first half of the pairs has
- * quarters 0 and c (or 1, if each quarter is paired within itself: gg_dsmc_segment_in finds others), the second half
- * the others: a thread that takes the same half keeps them in its cache. */
+/* In round (c, k) segment i of quarter q is paired with segment i ^ k of quarter q ^ c. The first half of the pairs has
+ * quarters 0 and c (or 1, if each quarter is paired within itself; gg_dsmc_segment_in maps it), the second half the
+ * other quarters: a thread that runs the same half again has its segments in the cache. */
 void gg_dsmc_segment_pair(int segments, int round, int pair, int *one, int *two)
 {
   const int quarter = segments / 4, c = round / quarter, k = round % quarter;
@@ -22,7 +22,7 @@ void gg_dsmc_segment_pair(int segments, int round, int pair, int *one, int *two)
   if (c == 0) {
     const int each = k ? quarter / 2 : quarter, nth = pair % each;
     q = pair / each;
-    /* The nth i that is the smaller one of i and i ^ k: without the highest bit of k. */
+    /* The nth i that is smaller than i ^ k: the highest bit of k is not set in it. */
     int high = 1;
     while (2 * high <= k) high *= 2;
     i = k ? nth % high + nth / high * 2 * high : nth;
@@ -63,7 +63,7 @@ static void shuffle(gg_rng *rng, int n, uint8_t *list)
   }
 }
 
-/* The grouping that the last schedule has ended with; 0: it is the first. */
+/* Grouping at the end of the last schedule; 0: this is the first schedule. */
 static int last_grouping(const gg_dsmc_schedule *s, int segments)
 {
   for (int n = segments - 1; n >= 0; n--)
@@ -71,8 +71,8 @@ static int last_grouping(const gg_dsmc_schedule *s, int segments)
   return 0;
 }
 
-/* In random order, except that a grouping stays from one schedule to the next; for c = 0 any will do. All c are equally
- * often at each place. */
+/* Order the quarters at random, but begin with the grouping at the end of the last schedule; c = 0 keeps any grouping.
+ * All c are equally often at each place. */
 static void order_quarters(gg_rng *rng, int last, uint8_t c[4])
 {
   shuffle(rng, 4, c);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which runs share their events among threads, and whole windows of them. */
+/* Choice of runs whose events several threads share, and the sequence of their windows. */
 #include "md/parallel/parallel.h"
 
 #include <math.h>
@@ -11,22 +11,20 @@
 #include "common/thermostat.h"
 #include "md/aligned_memory.h"
 #include "md/parallel/slab.h"
+#include "md/select_search.h"
 
-/* Buckets of a window for each slab: so few that its log stays in the cache. Windows of an epoch at least: in shorter
- * ones fewer events depend on one that was put off. Buckets at least; layers of cells that a slab has at least; windows
- * between looks at whether to stop; events after a cancelled window without any; spans of events of which one goes the
- * slower way, to see whether it still is, for so many events at most. */
 enum {
-  BUCKETS_OF_A_SLAB = 96,
-  FEWEST_WINDOWS = 128,
-  FEWEST_BUCKETS = 32,
-  FEWEST_LAYERS = 6,
-  WINDOWS_BETWEEN_LOOKS = 16,
-  SERIAL_EVENTS = 1 << 15,
-  TRIALS = 16,
-  TRIAL_EVENTS = 1 << 17
+  BUCKETS_OF_A_SLAB = 96,  /* in a window, so few that the log of a slab stays in the cache */
+  FEWEST_WINDOWS = 128,    /* in an epoch: in shorter windows fewer events depend on a deferred one */
+  FEWEST_BUCKETS = 32,     /* in a window */
+  FEWEST_LAYERS = 6,       /* of cells in a slab */
+  WINDOWS_PER_POLL = 16,   /* between polls of `stop` */
+  SERIAL_EVENTS = 1 << 15, /* without windows after a cancelled one */
+  TRIALS = 16,             /* one in so many spans of events takes the slower way, to measure it again */
+  TRIAL_EVENTS = 1 << 17   /* most events of such a span */
 };
 
+/* Serial events are chosen if they take less than this fraction of the time of parallel events. */
 #define FASTER 0.95
 
 const char *gg_md_serial_because(const gg_model *m)
@@ -54,15 +52,15 @@ int gg_md_most_slabs(const gg_model *m)
 
 static void free_slab(gg_md_slab *s)
 {
-  gg_md_growing *lists[] = {&s->due, &s->fresh, &s->late, &s->put_off, &s->back, &s->overflow};
+  gg_md_growing *lists[] = {&s->due, &s->fresh, &s->deferring, &s->deferred, &s->rolled_back, &s->full_buckets};
   for (size_t k = 0; k < sizeof lists / sizeof *lists; k++) free(lists[k]->item);
-  for (int k = 0; k < GG_MD_MOST_SLABS; k++) free(s->mail[k].item);
+  for (int k = 0; k < GG_MD_MOST_SLABS; k++) free(s->outbox[k].item);
   for (int phase = 0; phase < GG_MD_PHASES; phase++) {
     gg_md_log *log = &s->log[phase];
-    for (int k = 0; k < GG_MD_LOG_PARTS; k++) free(((gg_md_growing *)log)[k].item);
+    for (int k = 0; k < GG_MD_LOG_PARTS; k++) free(log->part[k].item);
     for (int k = 0; k < GG_MD_MOST_SLABS; k++) free(s->moves[phase][k].item);
   }
-  gg_md_view_free(s->view);
+  gg_md_local_free(s->local);
 }
 
 void gg_md_parallel_free(gg_md *e)
@@ -80,8 +78,9 @@ void gg_md_parallel_free(gg_md *e)
   e->parallel = NULL;
 }
 
-/* Slabs of equal height, those of the second phase half a slab higher; in the last there is one. */
-static void cut_slabs(const gg_md_parallel *p, int32_t n)
+/* Partition the layers into slabs of equal height; in the second phase half a slab higher, in the last phase one slab.
+ */
+static void partition_layers(const gg_md_parallel *p, int32_t n)
 {
   for (int phase = 0; phase < 2; phase++)
     for (int k = 0; k < p->n_slabs; k++) {
@@ -99,8 +98,8 @@ static bool make_slab(gg_md_parallel *p, int k)
   s->all = p;
   s->self = k;
   s->mark = (uint32_t)k;
-  s->view = gg_md_view_new();
-  return s->view != NULL;
+  s->local = gg_md_local_new();
+  return s->local != NULL;
 }
 
 static uint32_t smaller(uint32_t a, uint32_t b)
@@ -127,12 +126,12 @@ static bool make(gg_md *e, int threads)
   if (!p->slab || !p->layer || !p->cell || !p->mark) return false;
   for (int k = 0; k < threads; k++)
     if (!make_slab(p, k)) return false;
-  cut_slabs(p, n[2]);
+  partition_layers(p, n[2]);
   p->pool = gg_base_thread_pool_new(threads);
   return p->pool != NULL;
 }
 
-void gg_md_share(gg_md *e, int threads, bool adapts)
+void gg_md_use_threads(gg_md *e, int threads, bool adapts)
 {
   const int most = gg_md_most_slabs(&e->model);
   gg_md_parallel_free(e);
@@ -146,32 +145,32 @@ double gg_md_parallel_cpu(const gg_md *e)
   return e->parallel ? gg_base_thread_pool_cpu(e->parallel->pool) : 0;
 }
 
-static void note_layers(void *context, int self)
+static void set_layers(void *context, int self)
 {
   const gg_md_parallel *p = context;
   const gg_md *e = p->engine;
   const uint64_t n = e->n, from = n * (uint64_t)self / (uint64_t)p->n_slabs,
                  to = n * (uint64_t)(self + 1) / (uint64_t)p->n_slabs;
-  for (uint64_t i = from; i < to; i++) gg_md_note_layer(p, e, (uint32_t)i);
+  for (uint64_t i = from; i < to; i++) gg_md_set_layer(p, e, (uint32_t)i);
 }
 
-static void renew_view(gg_md_slab *s)
+static void renew_local(gg_md_slab *s)
 {
-  gg_md_view_renew(s->view, s->all->engine);
-  s->view->queue.due = s->pair;
-  s->view->look_at = 1;
-  s->view->k.collisions_left = UINT64_MAX / 2;
-  s->view->k.stop = INFINITY;
+  gg_md_local_renew(s->local, s->all->engine);
+  s->local->queue.due = s->pair;
+  s->local->look_at = 1;
+  s->local->k.collisions_left = UINT64_MAX / 2;
+  s->local->k.stop = INFINITY;
 }
 
 static void begin(gg_md_parallel *p)
 {
-  gg_base_thread_pool_for(p->pool, p->n_slabs, note_layers, p);
-  for (int k = 0; k < p->n_slabs; k++) renew_view(&p->slab[k]);
+  gg_base_thread_pool_for(p->pool, p->n_slabs, set_layers, p);
+  for (int k = 0; k < p->n_slabs; k++) renew_local(&p->slab[k]);
 }
 
-/* The buckets of the next window; false: there is no room for one. */
-static bool plan(gg_md_parallel *p)
+/* Choose the buckets of the next window. False: none fits before the next stop. */
+static bool choose_window(gg_md_parallel *p)
 {
   const gg_md *e = p->engine;
   double stop = e->k.stop;
@@ -186,7 +185,7 @@ static bool plan(gg_md_parallel *p)
   return size >= FEWEST_BUCKETS && gg_md_measure_around(p);
 }
 
-/* The next span of events goes the faster way; once in a while the other way, to compare. */
+/* Choose the faster way for the next span of events; once in a while the slower way, to compare. */
 static void begin_trial(gg_md_parallel *p)
 {
   gg_md_trial *t = &p->trial;
@@ -203,7 +202,7 @@ static void begin_trial(gg_md_parallel *p)
   t->began = now;
 }
 
-static bool goes_serial(gg_md_parallel *p)
+static bool is_serial(gg_md_parallel *p)
 {
   if (p->adapts && p->engine->k.events >= p->trial.until) begin_trial(p);
   return p->trial.serial || p->engine->k.events < p->serial_until;
@@ -212,7 +211,7 @@ static bool goes_serial(gg_md_parallel *p)
 bool gg_md_run_windows(gg_md *e)
 {
   gg_md_parallel *p = e->parallel;
-  if (e->callback || e->plain || e->k.next_kick < INFINITY || goes_serial(p) || !plan(p)) return false;
+  if (e->callback || e->plain || e->k.next_kick < INFINITY || is_serial(p) || !choose_window(p)) return false;
   begin(p);
   int k = 0;
   do {
@@ -220,6 +219,6 @@ bool gg_md_run_windows(gg_md *e)
       p->serial_until = e->k.events + SERIAL_EVENTS;
       return false;
     }
-  } while (++k % WINDOWS_BETWEEN_LOOKS || !gg_stop_asked(e->model.stop) ? plan(p) : false);
+  } while (++k % WINDOWS_PER_POLL || !gg_stop_asked(e->model.stop) ? choose_window(p) : false);
   return true;
 }

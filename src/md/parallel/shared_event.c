@@ -1,52 +1,53 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One event of a window: run by the serial loop's own code, and written down with all that it takes to take it back. */
+/* One event of a window: it runs in the event loop of the serial engine, and its log holds all that a rollback needs.
+ */
 #include <string.h>
 
 #include "md/parallel/slab.h"
 
 static void save(gg_md_slab *s, gg_md_log *log, uint32_t i)
 {
-  const gg_md *e = s->view;
-  gg_md_saved *was = gg_md_append(s, &log->saved, sizeof *was);
+  const gg_md *e = s->local;
+  gg_md_saved *was = gg_md_append(s, &log->part[GG_MD_LOG_SAVED], sizeof *was);
   was->grain = e->grain[i];
   was->node = e->node[i];
   if (!e->spin && !e->last) return;
-  gg_md_saved_more *more = gg_md_append(s, &log->more, sizeof *more);
+  gg_md_saved_more *more = gg_md_append(s, &log->part[GG_MD_LOG_MORE], sizeof *more);
   if (e->spin) more->spin = e->spin[i];
   if (e->last) more->last = e->last[i];
 }
 
 static void save_list(gg_md_slab *s, gg_md_log *log, uint32_t i)
 {
-  const gg_md_lists *lists = &s->view->search.lists;
-  gg_md_saved_list *was = gg_md_append(s, &log->list, sizeof *was);
+  const gg_md_lists *lists = &s->local->search.lists;
+  gg_md_saved_list *was = gg_md_append(s, &log->part[GG_MD_LOG_LISTS], sizeof *was);
   memcpy(was->neighbour, lists->neighbour + (size_t)i * GG_MD_LIST, sizeof was->neighbour);
   was->skin = lists->skin[i];
 }
 
-static gg_md_record *begin_record(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
+static gg_md_record *begin_record(gg_md_slab *s, gg_md_due due, const gg_md_footprint *t)
 {
   gg_md_log *log = &s->log[s->phase - 1];
-  gg_md_record *r = gg_md_append(s, &log->record, sizeof *r);
+  gg_md_record *r = gg_md_append(s, &log->part[GG_MD_LOG_RECORDS], sizeof *r);
   *r = (gg_md_record){.time = due.time,
                       .grain = due.grain,
-                      .partner = t->collides ? s->view->node[due.grain].partner : GG_MD_NONE,
-                      .saved = log->saved.n,
-                      .stamp = log->stamp.n,
-                      .touched = t->n,
-                      .beside = t->crosses ? log->list.n : log->addend.n,
+                      .partner = t->collides ? s->local->node[due.grain].partner : GG_MD_NONE,
+                      .saved = log->part[GG_MD_LOG_SAVED].n,
+                      .cells = log->part[GG_MD_LOG_CELLS].n,
+                      .n_cells = t->n,
+                      .beside = t->crosses ? log->part[GG_MD_LOG_LISTS].n : log->part[GG_MD_LOG_ADDENDS].n,
                       .crosses = t->crosses,
                       .wide = t->wide};
   for (uint32_t k = 0; k < t->n; k++)
-    *(gg_md_stamp *)gg_md_append(s, &log->stamp, sizeof(gg_md_stamp)) =
-        (gg_md_stamp){t->cell[k], t->layer[k], s->all->cell[t->cell[k]]};
+    *(gg_md_saved_cell *)gg_md_append(s, &log->part[GG_MD_LOG_CELLS], sizeof(gg_md_saved_cell)) =
+        (gg_md_saved_cell){t->cell[k], t->layer[k], s->all->cell[t->cell[k]]};
   save(s, log, due.grain);
-  if (t->collides) save(s, log, s->view->node[due.grain].partner);
-  if (t->crosses && s->view->search.kind == GG_MD_NEIGHBOUR_LISTS) save_list(s, log, due.grain);
+  if (t->collides) save(s, log, s->local->node[due.grain].partner);
+  if (t->crosses && s->local->search.kind == GG_MD_NEIGHBOUR_LISTS) save_list(s, log, due.grain);
   return r;
 }
 
-/* The view's counts are those of this event alone. */
+/* Reset the counts of the local engine: they are of this event alone. */
 static void clear_counts(gg_md *v, gg_md_record *r)
 {
   v->k.events = v->k.collisions = v->k.treated = 0;
@@ -60,9 +61,9 @@ static void clear_counts(gg_md *v, gg_md_record *r)
 
 static void keep_counts(gg_md_slab *s, gg_md_record *r)
 {
-  const gg_md_counts *k = &s->view->k;
+  const gg_md_counts *k = &s->local->k;
   if (r->partner == GG_MD_NONE) return;
-  gg_md_addend *a = gg_md_append(s, &s->log[s->phase - 1].addend, sizeof *a);
+  gg_md_addend *a = gg_md_append(s, &s->log[s->phase - 1].part[GG_MD_LOG_ADDENDS], sizeof *a);
   r->treated = k->treated > 0;
   a->overlap = k->worst_overlap;
   if (!k->keeps_sums) return;
@@ -72,10 +73,11 @@ static void keep_counts(gg_md_slab *s, gg_md_record *r)
                       k->worst_overlap};
 }
 
-/* The view's event loop runs one event, of a queue that has no others; what comes next is read ahead. */
+/* Run one event in the event loop of the local engine. Its queue holds this event and, to be prefetched, the next one.
+ */
 static void run_event(gg_md_slab *s, gg_md_due due)
 {
-  gg_md *v = s->view;
+  gg_md *v = s->local;
   const bool more = s->at < s->due.n;
   if (more) s->pair[0] = ((gg_md_due *)s->due.item)[s->at];
   s->pair[more] = due;
@@ -83,9 +85,9 @@ static void run_event(gg_md_slab *s, gg_md_due due)
   v->kernel->run(v);
 }
 
-void gg_md_run_shared(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
+void gg_md_run_in_window(gg_md_slab *s, gg_md_due due, const gg_md_footprint *t)
 {
-  gg_md *v = s->view;
+  gg_md *v = s->local;
   gg_md_record *r = begin_record(s, due, t);
   if (s->out_of_memory) return;
   const gg_md_log *log = &s->log[s->phase - 1];
@@ -98,10 +100,10 @@ void gg_md_run_shared(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
     c->last = gg_md_window_time(s->all, due.time);
   }
   const bool moves = t->crosses || gg_md_search_overlaps(v->search.kind);
-  if (moves) gg_md_note_layer(s->all, v, due.grain);
-  if (moves && t->collides) gg_md_note_layer(s->all, v, r->partner);
+  if (moves) gg_md_set_layer(s->all, v, due.grain);
+  if (moves && t->collides) gg_md_set_layer(s->all, v, r->partner);
   gg_md_requeue(s, due.grain, due.time, v->node[due.grain].time);
   if (!t->collides) return;
-  const gg_md_saved *was = (gg_md_saved *)log->saved.item + r->saved + 1;
+  const gg_md_saved *was = (gg_md_saved *)log->part[GG_MD_LOG_SAVED].item + r->saved + 1;
   gg_md_requeue(s, r->partner, was->node.time, v->node[r->partner].time);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a slab keeps: lists that grow, and where its events wait. */
+/* Lists of a slab that grow, and the moves of its events between buckets. */
 #include "md/parallel/slab.h"
 
 #include <stdlib.h>
@@ -9,7 +9,7 @@ void *gg_md_append(gg_md_slab *s, gg_md_growing *list, size_t size)
 {
   if (list->n == list->room) {
     const uint32_t room = list->room ? 2 * list->room : 64;
-    void *item = aligned_alloc(64, room * size); /* records begin on cache lines: realloc would not know */
+    void *item = aligned_alloc(64, room * size); /* items begin on cache lines, which realloc does not keep */
     if (!item) {
       s->out_of_memory = true;
       return &s->spare;

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A window of events: dealt out to slabs, and run in three phases (slab.h). */
+/* A window of events: distributed to slabs and run in three phases (slab.h). */
 #include "md/parallel/slab.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* More events in a slab than so many times those that were due: contacts that accumulate, perhaps without end. */
-enum { MOST_MORE = 16, AHEAD = 4 };
+enum {
+  MOST_MORE = 16, /* a slab with this many times its due events is given up: contacts may accumulate without end */
+  AHEAD = 4       /* events between two stages of prefetching */
+};
 
-/* Earliest first; nearly in order as they come. */
+/* Insertion sort, earliest first: the events are nearly in order. */
 static void sort(gg_md_growing *list)
 {
   gg_md_due *item = list->item;
@@ -32,52 +34,52 @@ static bool take_next(gg_md_slab *s, gg_md_due *next)
   return true;
 }
 
-static bool is_open(const gg_md_slab *s, const gg_md_touched *t, uint32_t k)
+static bool is_accessible(const gg_md_slab *s, const gg_md_footprint *t, uint32_t k)
 {
   const gg_md_layer *layer = gg_md_layer_of(s, t->layer[k]);
   if (layer->owner != s->self || layer->outer) return false;
-  return !(gg_md_bits_of(s->all, &s->all->cell[t->cell[k]]) & s->closed);
+  return !(gg_md_bits_of(s->all, &s->all->cell[t->cell[k]]) & s->blocked);
 }
 
-static bool may_run(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
+static bool may_run(const gg_md_slab *s, uint32_t i, gg_md_footprint *t)
 {
-  if (!gg_md_find_touched(s, i, t)) return false;
+  if (!gg_md_find_footprint(s, i, t)) return false;
   for (uint32_t k = 0; k < t->n; k++)
-    if (!is_open(s, t, k)) return false;
+    if (!is_accessible(s, t, k)) return false;
   return true;
 }
 
-/* Close the cells around, layer by layer; the outer layers of a slab are closed anyway. */
-static void close_around(const gg_md_slab *s, uint32_t cell, int32_t z)
+/* Block the cells around, layer by layer. The outer layers of a slab are inaccessible anyway. */
+static void block_around(const gg_md_slab *s, uint32_t cell, int32_t z)
 {
   uint32_t index[GG_MD_MOST_AROUND];
-  const int32_t n = s->view->cells.n[2], each = gg_md_cells_around(s->all, cell, index) / 3;
+  const int32_t n = s->local->cells.n[2], each = gg_md_cells_around(s->all, cell, index) / 3;
   for (int32_t m = 0; m < 3; m++) {
     const gg_md_layer *layer = gg_md_layer_of(s, (z + m - 1 + n) % n);
     if (layer->owner != s->self || layer->outer) continue;
-    for (int32_t k = m * each; k < (m + 1) * each; k++) gg_md_set_bits(s->all, &s->all->cell[index[k]], 0, s->closed);
+    for (int32_t k = m * each; k < (m + 1) * each; k++) gg_md_set_bits(s->all, &s->all->cell[index[k]], 0, s->blocked);
   }
 }
 
-/* What depends on it waits, too. */
-static void put_off(gg_md_slab *s, gg_md_due due, const gg_md_touched *t)
+/* Defer an event, and block the cells of all events that depend on it. */
+static void defer(gg_md_slab *s, gg_md_due due, const gg_md_footprint *t)
 {
-  gg_md_add_due(s, &s->late, due);
+  gg_md_add_due(s, &s->deferring, due);
   for (uint32_t k = 0; k < t->n; k++)
     if (!t->wide)
-      close_around(s, t->cell[k], t->layer[k]);
+      block_around(s, t->cell[k], t->layer[k]);
     else if (gg_md_layer_of(s, t->layer[k])->owner == s->self)
-      gg_md_set_bits(s->all, &s->all->cell[t->cell[k]], 0, s->closed);
+      gg_md_set_bits(s->all, &s->all->cell[t->cell[k]], 0, s->blocked);
 }
 
-/* The states of the cells that the event of a grain will touch. (Inline: gcc takes a call of a function that does
- * nothing but prefetch for one that does nothing.) */
+/* Prefetch the states of the cells in the footprint of a grain's event. Inline, because gcc removes calls of a function
+ * that only prefetches. */
 GG_INLINE void prefetch_states(const gg_md_slab *s, uint32_t i)
 {
-  const gg_md *e = s->view;
-  gg_md_touched t;
+  const gg_md *e = s->local;
+  gg_md_footprint t;
   if (e->search.kind == GG_MD_NEIGHBOUR_LISTS && e->node[i].time < e->node[i].collision) return;
-  gg_md_find_touched(s, i, &t);
+  gg_md_find_footprint(s, i, &t);
   for (uint32_t k = 0; k < t.n; k++) __builtin_prefetch(&s->all->cell[t.cell[k]]);
 }
 
@@ -93,10 +95,10 @@ GG_INLINE void prefetch_grain(const gg_md *e, uint32_t i)
   __builtin_prefetch(list + 16);
 }
 
-/* What events to come will read: their grains; when those are there, their partners; and then their cells' states. */
+/* Prefetch for the next events, in three stages: the grain, its partner, the states of its cells. */
 GG_INLINE void prefetch(const gg_md_slab *s)
 {
-  const gg_md *e = s->view;
+  const gg_md *e = s->local;
   const gg_md_due *due = (gg_md_due *)s->due.item + s->at;
   const uint32_t left = s->due.n - s->at;
   if (left > 3 * AHEAD) prefetch_grain(e, due[3 * AHEAD].grain);
@@ -110,38 +112,38 @@ GG_INLINE void prefetch(const gg_md_slab *s)
   if (left > AHEAD) prefetch_states(s, due[AHEAD].grain);
 }
 
-/* What the serial loop has to do: cells or lists that are full, NaN, and the end. */
+/* Must the serial loop take over? For full cells or lists, NaN, and lack of memory. */
 static bool is_over(const gg_md_slab *s)
 {
-  return s->out_of_memory | s->view->out_of_memory | s->view->no_number | s->view->lists_are_full;
+  return s->out_of_memory | s->local->out_of_memory | s->local->no_number | s->local->lists_are_full;
 }
 
 static void run_phase(gg_md_slab *s)
 {
-  gg_md_touched t;
-  const gg_md_growing *records = &s->log[s->phase - 1].record;
+  gg_md_footprint t;
+  const gg_md_growing *records = &s->log[s->phase - 1].part[GG_MD_LOG_RECORDS];
   const uint32_t most = MOST_MORE * (s->due.n + 64);
   for (gg_md_due due; take_next(s, &due);) {
     prefetch(s);
-    if (s->view->node[due.grain].time != due.time) continue; /* it has been predicted anew */
-    gg_md_taken taken = GG_MD_NOT_MINE;
+    if (s->local->node[due.grain].time != due.time) continue; /* it has been re-predicted */
+    gg_md_rollback_status status = GG_MD_ROLLBACK_BLOCKED;
     if (may_run(s, due.grain, &t))
-      taken = gg_md_is_overtaken(s, due.time, &t) ? gg_md_take_back(s, due.time, &t) : GG_MD_NOTHING;
-    if (taken == GG_MD_NOTHING)
-      gg_md_run_shared(s, due, &t);
-    else if (taken == GG_MD_TAKEN_BACK)
-      gg_md_add_fresh(s, due); /* what was taken back may be earlier, if only by its number */
+      status = gg_md_is_straggler(s, due.time, &t) ? gg_md_rollback(s, due.time, &t) : GG_MD_NO_ROLLBACK;
+    if (status == GG_MD_NO_ROLLBACK)
+      gg_md_run_in_window(s, due, &t);
+    else if (status == GG_MD_ROLLED_BACK)
+      gg_md_add_fresh(s, due); /* a rolled-back event may be earlier, if only by its index */
     else
-      put_off(s, due, &t);
+      defer(s, due, &t);
     if (records->n > most || is_over(s)) {
-      s->crowded = true;
+      s->overflowed = true;
       return;
     }
   }
 }
 
-/* Empty this slab's part of the window's buckets. */
-static void deal_part(void *context, int self)
+/* Distribute the events of this slab's part of the buckets to all slabs. */
+static void distribute_part(void *context, int self)
 {
   const gg_md_parallel *p = context;
   gg_md_slab *s = &p->slab[self];
@@ -160,7 +162,7 @@ static void deal_part(void *context, int self)
     for (uint32_t k = 0; k < bucket->count || i != GG_MD_NONE; k++) {
       const uint32_t grain = k < bucket->count ? bucket->grain[k] : i;
       if (k >= bucket->count) i = node[i].later;
-      gg_md_add_due(s, &s->mail[p->layers[0][gg_md_layer_of_grain(p, grain)].owner],
+      gg_md_add_due(s, &s->outbox[p->layers[0][gg_md_layer_of_grain(p, grain)].owner],
                     (gg_md_due){node[grain].time, grain});
     }
     bucket->count = 0;
@@ -168,13 +170,13 @@ static void deal_part(void *context, int self)
   }
 }
 
-/* The events of all slabs that are this one's: those dealt out, or those put off. */
+/* Collect the events of this slab: from the outboxes of all slabs in phase 1, from deferred events in later phases. */
 static void collect(gg_md_slab *s)
 {
   const gg_md_parallel *p = s->all;
   s->due.n = s->fresh.n = s->at = 0;
   for (int k = 0; k < p->n_slabs; k++) {
-    const gg_md_growing *from = s->phase == 1 ? &p->slab[k].mail[s->self] : &p->slab[k].put_off;
+    const gg_md_growing *from = s->phase == 1 ? &p->slab[k].outbox[s->self] : &p->slab[k].deferred;
     const gg_md_due *item = from->item;
     for (uint32_t m = 0; m < from->n; m++)
       if (s->phase == 1 || p->layers[s->phase - 1][gg_md_layer_of_grain(p, item[m].grain)].owner == s->self)
@@ -188,7 +190,7 @@ static void phase_part(void *context, int self)
   gg_md_parallel *p = context;
   gg_md_slab *s = &p->slab[self];
   s->phase = p->phase;
-  s->closed = 2u << p->phase;
+  s->blocked = 2u << p->phase;
   collect(s);
   run_phase(s);
 }
@@ -196,23 +198,24 @@ static void phase_part(void *context, int self)
 static bool is_good(const gg_md_parallel *p)
 {
   for (int k = 0; k < p->n_slabs; k++)
-    if (p->slab[k].crowded) return false;
+    if (p->slab[k].overflowed) return false;
   return true;
 }
 
-/* All slabs at once; or the first one alone, in the last phase. Each collects what was put off before any puts off. */
+/* Run the phases, in all slabs at once; the last phase in the first slab alone. The lists of deferred events are
+ * exchanged before a phase, so that slabs read the old lists while they fill the new ones. */
 static bool run_phases(gg_md_parallel *p)
 {
   for (p->phase = 1; p->phase <= GG_MD_PHASES; p->phase++) {
     bool any = p->phase == 1;
     for (int k = 0; k < p->n_slabs; k++) {
       gg_md_slab *s = &p->slab[k];
-      const gg_md_growing other = s->put_off;
-      s->put_off = s->late;
-      s->late = other;
-      s->late.n = 0;
-      any |= s->put_off.n > 0;
-      if (p->phase > 1) p->counts.put_off[p->phase - 2] += s->put_off.n;
+      const gg_md_growing other = s->deferred;
+      s->deferred = s->deferring;
+      s->deferring = other;
+      s->deferring.n = 0;
+      any |= s->deferred.n > 0;
+      if (p->phase > 1) p->counts.deferred[p->phase - 2] += s->deferred.n;
     }
     if (!any) return true;
     gg_base_thread_pool_for(p->pool, p->phase < GG_MD_PHASES ? p->n_slabs : 1, phase_part, p);
@@ -232,22 +235,22 @@ static void begin_window(gg_md_parallel *p)
   p->inverse_length = 1 / ((p->end - p->begin) * q->width);
   for (int k = 0; k < p->n_slabs; k++) {
     gg_md_slab *s = &p->slab[k];
-    s->crowded = s->view->lists_are_full = s->view->out_of_memory = s->view->no_number = false;
+    s->overflowed = s->local->lists_are_full = s->local->out_of_memory = s->local->no_number = false;
     s->n_moves = 0;
-    s->overflow.n = 0;
-    s->late.n = s->put_off.n = 0;
+    s->full_buckets.n = 0;
+    s->deferring.n = s->deferred.n = 0;
     for (int phase = 0; phase < GG_MD_PHASES; phase++) {
-      gg_md_growing *part = &s->log[phase].record;
+      gg_md_growing *part = s->log[phase].part;
       for (int m = 0; m < GG_MD_LOG_PARTS; m++) part[m].n = 0;
       for (int to = 0; to < p->n_slabs; to++) s->moves[phase][to].n = 0;
     }
-    for (int to = 0; to < p->n_slabs; to++) s->mail[to].n = 0;
+    for (int to = 0; to < p->n_slabs; to++) s->outbox[to].n = 0;
   }
   for (uint32_t k = q->n_due; k-- > 0;)
-    gg_md_add_due(&p->slab[0], &p->slab[0].mail[p->layers[0][gg_md_layer_of_grain(p, q->due[k].grain)].owner],
+    gg_md_add_due(&p->slab[0], &p->slab[0].outbox[p->layers[0][gg_md_layer_of_grain(p, q->due[k].grain)].owner],
                   q->due[k]);
   q->n_due = 0;
-  gg_base_thread_pool_for(p->pool, p->n_slabs, deal_part, p);
+  gg_base_thread_pool_for(p->pool, p->n_slabs, distribute_part, p);
   q->current = p->end - 1;
 }
 
@@ -256,22 +259,22 @@ static int latest_first(const void *a, const void *b)
   return gg_md_is_before(*(const gg_md_due *)a, *(const gg_md_due *)b) ? 1 : -1;
 }
 
-/* As before the window, but for its buckets, all of which stand in `due`. */
+/* Restore the state before the window, except that the events of its buckets are in `due`. */
 static void cancel(gg_md_parallel *p)
 {
   gg_md_queue *q = &p->engine->queue;
   p->counts.cancelled++;
-  gg_md_take_back_all(p);
+  gg_md_rollback_all(p);
   for (int k = 0; k < p->n_slabs; k++)
     for (int to = 0; to < p->n_slabs; to++) {
-      const gg_md_growing *mail = &p->slab[k].mail[to];
-      if (mail->n) memcpy(q->due + q->n_due, mail->item, mail->n * sizeof *q->due);
-      q->n_due += mail->n;
+      const gg_md_growing *outbox = &p->slab[k].outbox[to];
+      if (outbox->n) memcpy(q->due + q->n_due, outbox->item, outbox->n * sizeof *q->due);
+      q->n_due += outbox->n;
     }
   qsort(q->due, q->n_due, sizeof *q->due, latest_first);
 }
 
-/* Then what the window has done cannot be taken back, and the run is over. */
+/* Did memory lack in a slab? Then the window cannot be rolled back, and the run ends. */
 static bool lacks_memory(const gg_md_parallel *p)
 {
   for (int k = 0; k < p->n_slabs; k++) p->engine->out_of_memory |= p->slab[k].out_of_memory;
@@ -285,7 +288,7 @@ bool gg_md_run_window(gg_md_parallel *p)
   const bool good = run_phases(p);
   if (lacks_memory(p)) return false;
   if (good && gg_md_window_collisions(p) < e->k.collisions_left) {
-    gg_md_settle(p);
+    gg_md_commit(p);
     return !lacks_memory(p);
   }
   cancel(p);

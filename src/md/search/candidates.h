@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Gathering candidates: the grains of the cells around, one list of them for the SIMD pair kernel. */
+/* Candidates of a search: the grains of the cells around are gathered into one list for the SIMD pair kernel. */
 #ifndef GG_MD_SEARCH_CANDIDATES_H
 #define GG_MD_SEARCH_CANDIDATES_H
 
@@ -7,8 +7,8 @@
 
 #include "md/search/search.h"
 
-/* All grains of a cell behind the n that there are, eight words at a time: what stands behind its end does not count.
- */
+/* Append all grains of a cell to n candidates, eight words at a time; words behind the last grain are ignored. Returns
+ * the new number. */
 GG_INLINE uint32_t gg_md_append_cell(uint32_t *candidates, uint32_t n, const uint32_t *cell)
 {
   uint32_t count = cell[0];
@@ -17,8 +17,8 @@ GG_INLINE uint32_t gg_md_append_cell(uint32_t *candidates, uint32_t n, const uin
   return n + count;
 }
 
-/* At the end of a list, of cells of sixteen words or more, line by line: the word behind a line would be another line
- * to wait for. Returns the new end. */
+/* Append all grains of a cell of sixteen words or more at the end of a list, line by line: a read across the end of a
+ * line would load another line. Returns the new end. */
 GG_INLINE uint32_t *gg_md_append_large(uint32_t *end, const uint32_t *cell)
 {
   typedef uint32_t line __attribute__((vector_size(64), may_alias, aligned(4)));
@@ -30,8 +30,8 @@ GG_INLINE uint32_t *gg_md_append_large(uint32_t *end, const uint32_t *cell)
   return end + count;
 }
 
-/* Of which size cells are: a constant of each copy of a search. Small cells are read as if none had an overflow list;
- * if one has, all are read again as overfull ones. */
+/* Size of cells, a constant in each copy of a search. Small cells are first read as if none had an overflow list; if
+ * one has, all are read again as overfull cells. */
 typedef enum gg_md_cell_size {
   GG_MD_SMALL_CELLS,
   GG_MD_OVERFULL_CELLS,
@@ -39,7 +39,7 @@ typedef enum gg_md_cell_size {
   GG_MD_LARGE_CELLS
 } gg_md_cell_size;
 
-/* The candidates of cells that are searched: how many so far, and the bits of all small cells' counts. */
+/* Candidates gathered so far. `counts`: bitwise OR of the counts of small cells. */
 typedef struct gg_md_gathered {
   uint32_t *candidates, n, counts;
 } gg_md_gathered;
@@ -61,7 +61,7 @@ GG_INLINE void gg_md_gather_cell(gg_md_gathered *g, const gg_md_cells *c, const 
   }
 }
 
-/* False: some small cell has an overflow list. */
+/* Store the gathered candidates in the search. False: a small cell has an overflow list. */
 GG_INLINE bool gg_md_keep_gathered(gg_md_search *s, const gg_md_gathered *g)
 {
   if (__builtin_expect(g->counts > GG_MD_SIDE_BY_SIDE, 0)) return false;
@@ -69,13 +69,13 @@ GG_INLINE bool gg_md_keep_gathered(gg_md_search *s, const gg_md_gathered *g)
   return true;
 }
 
-/* Is there room for so many full cells? */
+/* Is there room for the grains of so many full cells? */
 GG_INLINE bool gg_md_has_room(const gg_md *e, int cells)
 {
   return (uint32_t)cells * e->cells.stride <= GG_MD_MOST_CANDIDATES;
 }
 
-/* False: no more room. */
+/* Append the grains of a cell to the search. False: no room. */
 GG_INLINE bool gg_md_take_cell(gg_md_search *s, const uint32_t *cell)
 {
   if (s->n_candidates + cell[0] > GG_MD_MOST_CANDIDATES) return false;
@@ -83,7 +83,7 @@ GG_INLINE bool gg_md_take_cell(gg_md_search *s, const uint32_t *cell)
   return true;
 }
 
-/* Index of a neighbouring cell along one axis, and the shift of its image. */
+/* Wrapped index of a neighbouring cell along one axis, and the shift of its image. */
 GG_INLINE int32_t gg_md_image_cell(const gg_md *e, int axis, int32_t k, double *shift)
 {
   *shift = 0;

@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cells under shear: a grid in which each row of cells along x moves with the mean flow at its middle, so that the flow
- * carries nobody through cells, however large the box, and the sheared boundary is a boundary of rows like any other.
+/* Neighbour search under shear: each row of cells along x moves with the mean flow at its middle, so the flow carries
+ * no grain through cells, however large the box, and the sheared boundary is a boundary of rows like any other.
  *
- * The row above a row moves on by the fractional shift f (row_motion.c), from 0 to a cell's width w, then begins again
- * one cell further: the rows shift. In between, a cell with contact distances of at most w sees what it can touch in
+ * The row above a row moves by the fractional shift f (row_motion.c), from 0 to a cell's width w, then begins again one
+ * cell further: the rows shift. In between, contact distances are at most w, so grains of a cell can touch grains in
  * four cells of the row above and in four of the row below:
  *
  *   above:  -2 -1  0 +1     ahead by f
  *   own:       -1  0 +1
  *   below:     -1  0 +1 +2  behind by f
  *
- * Who comes into another cell searches the cells that are new to it; and when the rows shift, everybody searches the
- * cells above that come within reach (-2): thus of two grains in cells that see each other one has always tried the
- * other. */
+ * A grain that enters another cell searches the cells that are new to it. When the rows shift, every grain searches the
+ * cells above that come within reach (-2). So of two grains in cells within reach one has always tested the other. */
 #ifndef GG_MD_SEARCH_COMOVING_ROWS_H
 #define GG_MD_SEARCH_COMOVING_ROWS_H
 
@@ -36,13 +35,14 @@ enum {
 #include "md/search/prefetch_partner.h"
 #include "md/search/simd_pairs.h"
 
-/* Cells to search: those from..to relative to the grain's own, in its own row and in those above and below, in layers
- * from..to along z. From above to: none. */
+/* Cells to search, from [0] to [1] relative to the grain's own cell: in its row, in the rows above and below, and
+ * layers along z. [0] > [1]: none. */
 typedef struct gg_md_window {
   int own[2], above[2], below[2], deep[2];
 } gg_md_window;
 
-/* Cells from..to of a row, whose shares of the cell's number are `x`; in SIMD kernels as far as there is room. */
+/* Search cells range[0] to range[1] of a row. x: terms of the cell index. In SIMD kernels their grains become
+ * candidates as far as there is room. */
 GG_INLINE void gg_md_try_row(const gg_md *e, gg_md_search *s, const uint32_t *row, const uint32_t *x,
                              const int range[2])
 {
@@ -56,13 +56,12 @@ GG_INLINE void gg_md_try_row(const gg_md *e, gg_md_search *s, const uint32_t *ro
   }
 }
 
-/* A window's rows, and their cells' shares of the cell's number. */
-typedef struct gg_md_rows_seen {
+/* Terms of the cell index for the rows of a window. */
+typedef struct gg_md_window_rows {
   const uint32_t *own, *above, *below, *y, *z;
-} gg_md_rows_seen;
+} gg_md_window_rows;
 
-/* Cells x[from..to] of the rows that begin with `row` in each layer. Row by row there are so few addresses that all are
- * in registers. */
+/* Gather the cells of one row in all layers. Row by row there are so few addresses that all are in registers. */
 GG_INLINE void gg_md_take_row(gg_md_gathered *found, const gg_md_cells *c, const uint32_t *row,
                               const uint32_t *const layer[3], const uint32_t *x, const int range[2], const int deep[2],
                               size_t stride, gg_md_cell_size size)
@@ -74,30 +73,30 @@ GG_INLINE void gg_md_take_row(gg_md_gathered *found, const gg_md_cells *c, const
       gg_md_gather_cell(found, c, layer[m + 1] + (size_t)*row * stride + step[k], size);
 }
 
-/* All of a window, for which there is room: what does not change is in local variables (gg_md_take_rows). */
-GG_INLINE bool gg_md_take_window(const gg_md *e, gg_md_search *s, const gg_md_rows_seen *seen, const gg_md_window *w,
+/* Gather all cells of a window, for which there is room. Constants are in local variables (gg_md_take_rows). */
+GG_INLINE bool gg_md_take_window(const gg_md *e, gg_md_search *s, const gg_md_window_rows *rows, const gg_md_window *w,
                                  size_t stride, gg_md_cell_size size)
 {
   const gg_md_cells *c = &e->cells;
-  const uint32_t *z = seen->z, y[3] = {seen->y[-1], seen->y[0], seen->y[1]}, *layer[3];
+  const uint32_t *z = rows->z, y[3] = {rows->y[-1], rows->y[0], rows->y[1]}, *layer[3];
   for (int m = w->deep[0]; m <= w->deep[1]; m++) layer[m + 1] = c->cell + z[m] * stride;
   gg_md_gathered found = {s->candidates, s->n_candidates, 0};
-  gg_md_take_row(&found, c, y + 1, layer, seen->own, w->own, w->deep, stride, size);
-  gg_md_take_row(&found, c, y + 2, layer, seen->above, w->above, w->deep, stride, size);
-  gg_md_take_row(&found, c, y, layer, seen->below, w->below, w->deep, stride, size);
+  gg_md_take_row(&found, c, y + 1, layer, rows->own, w->own, w->deep, stride, size);
+  gg_md_take_row(&found, c, y + 2, layer, rows->above, w->above, w->deep, stride, size);
+  gg_md_take_row(&found, c, y, layer, rows->below, w->below, w->deep, stride, size);
   return gg_md_keep_gathered(s, &found);
 }
 
 static __attribute__((noinline, cold, unused)) void
-gg_md_take_overfull_window(const gg_md *e, gg_md_search *s, const gg_md_rows_seen *seen, const gg_md_window *w)
+gg_md_take_overfull_window(const gg_md *e, gg_md_search *s, const gg_md_window_rows *rows, const gg_md_window *w)
 {
-  gg_md_take_window(e, s, seen, w, GG_MD_SMALL_CELL, GG_MD_OVERFULL_CELLS);
+  gg_md_take_window(e, s, rows, w, GG_MD_SMALL_CELL, GG_MD_OVERFULL_CELLS);
 }
 
-GG_INLINE void gg_md_take_small_window(const gg_md *e, gg_md_search *s, const gg_md_rows_seen *seen,
+GG_INLINE void gg_md_take_small_window(const gg_md *e, gg_md_search *s, const gg_md_window_rows *rows,
                                        const gg_md_window *w)
 {
-  if (!gg_md_take_window(e, s, seen, w, GG_MD_SMALL_CELL, GG_MD_SMALL_CELLS)) gg_md_take_overfull_window(e, s, seen, w);
+  if (!gg_md_take_window(e, s, rows, w, GG_MD_SMALL_CELL, GG_MD_SMALL_CELLS)) gg_md_take_overfull_window(e, s, rows, w);
 }
 
 GG_INLINE void gg_md_scan_window(const gg_md *e, gg_md_search *s, gg_md_window window)
@@ -105,28 +104,28 @@ GG_INLINE void gg_md_scan_window(const gg_md *e, gg_md_search *s, gg_md_window w
   const gg_md_cells *c = &e->cells;
   const int32_t *at = e->node[s->grain].cell;
   const gg_md_row *row = &e->search.rows.row[at[1]];
-  gg_md_rows_seen seen = {.own = c->part[0] + at[0],
-                          .above = c->part[0] + gg_md_index_in_row(e, at[0] - row->above),
-                          .below = c->part[0] + gg_md_index_in_row(e, at[0] + row->below),
-                          .y = c->part[1] + at[1],
-                          .z = c->part[2] + at[2]};
+  gg_md_window_rows rows = {.own = c->part[0] + at[0],
+                            .above = c->part[0] + gg_md_index_in_row(e, at[0] - row->above),
+                            .below = c->part[0] + gg_md_index_in_row(e, at[0] + row->below),
+                            .y = c->part[1] + at[1],
+                            .z = c->part[2] + at[2]};
   uint32_t layers = (uint32_t)c->n[1] - 2, deep = (uint32_t)c->n[2] - 2;
   s->regular = (uint32_t)(at[1] - 1) < layers;
   s->inside = s->regular & ((uint32_t)(at[2] - 1) < deep);
   if (IS_SIMD && gg_md_has_room(e, 33)) {
     if (c->stride == GG_MD_SMALL_CELL)
-      gg_md_take_small_window(e, s, &seen, &window);
+      gg_md_take_small_window(e, s, &rows, &window);
     else if (c->stride == 8)
-      gg_md_take_window(e, s, &seen, &window, 8, GG_MD_EIGHT_WORDS);
+      gg_md_take_window(e, s, &rows, &window, 8, GG_MD_EIGHT_WORDS);
     else
-      gg_md_take_window(e, s, &seen, &window, c->stride, GG_MD_LARGE_CELLS);
+      gg_md_take_window(e, s, &rows, &window, c->stride, GG_MD_LARGE_CELLS);
     return;
   }
   for (int m = window.deep[0]; m <= window.deep[1]; m++) {
-    const uint32_t *layer = c->cell + (size_t)seen.z[m] * c->stride;
-    gg_md_try_row(e, s, layer + (size_t)seen.y[0] * c->stride, seen.own, window.own);
-    gg_md_try_row(e, s, layer + (size_t)seen.y[1] * c->stride, seen.above, window.above);
-    gg_md_try_row(e, s, layer + (size_t)seen.y[-1] * c->stride, seen.below, window.below);
+    const uint32_t *layer = c->cell + (size_t)rows.z[m] * c->stride;
+    gg_md_try_row(e, s, layer + (size_t)rows.y[0] * c->stride, rows.own, window.own);
+    gg_md_try_row(e, s, layer + (size_t)rows.y[1] * c->stride, rows.above, window.above);
+    gg_md_try_row(e, s, layer + (size_t)rows.y[-1] * c->stride, rows.below, window.below);
   }
 }
 
@@ -136,7 +135,7 @@ GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
   if (IS_SIMD) gg_md_try_candidates(e, s);
 }
 
-/* What is new after a step along x or z. */
+/* Search the cells that are new after a step along x or z. */
 GG_INLINE void gg_md_scan_window_ahead(const gg_md *e, gg_md_search *s, int axis, int step)
 {
   gg_md_window w = {{-1, 1}, {-2, 1}, {-1, 2}, {-1, 1}};
@@ -150,8 +149,8 @@ GG_INLINE void gg_md_scan_window_ahead(const gg_md *e, gg_md_search *s, int axis
   gg_md_scan_window(e, s, w);
 }
 
-/* Into the row above (step 1) or below (-1), where the grain is in one of two cells: into which is seen from where it
- * is. It searches all of the next row, and that end of the row that it comes from which it did not see before. */
+/* Move a grain into the row above (step 1) or below (-1), into one of two cells, by its position. Returns the cells to
+ * search: all of the next row, and the end of the old row that was out of reach. */
 GG_INLINE gg_md_window gg_md_change_row(gg_md *e, uint32_t i, int step)
 {
   gg_md_node *node = &e->node[i];
@@ -178,8 +177,8 @@ GG_INLINE gg_md_window gg_md_change_row(gg_md *e, uint32_t i, int step)
   return w;
 }
 
-/* Place and velocity relative to the grain's row, in the image that is in its cell. */
-GG_INLINE void gg_md_seen_from_row(const gg_md *e, const int32_t *cell, gg_axes *r, gg_axes *v)
+/* Make position and velocity relative to the grain's row, in the image that is in its cell. */
+GG_INLINE void gg_md_relative_to_row(const gg_md *e, const int32_t *cell, gg_axes *r, gg_axes *v)
 {
   double x = (*r)[0] - gg_md_row_begins(e, cell[1]), depth = x - cell[0] * e->cells.width[0];
   (*r)[0] = x - e->box.edge[0] * gg_nearest(depth * e->box.inverse[0]);
@@ -190,7 +189,7 @@ GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int3
 {
   const int32_t *cell = e->node[s->grain].cell;
   gg_axes r = gg_load_axes(&s->self->r.x), v = gg_load_axes(&s->self->v.x);
-  gg_md_seen_from_row(e, cell, &r, &v);
+  gg_md_relative_to_row(e, cell, &r, &v);
   return e->k.now + gg_md_first_exit(e, cell, r, v, face);
 }
 
@@ -217,8 +216,8 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
   gg_md_schedule(e, &s);
 }
 
-/* Rows have shifted by a cell: everybody searches what comes within reach above. Most find nothing that changes their
- * next event, and stay as they are. */
+/* Shift the rows by a cell: every grain searches the cells above that come within reach. For most grains this does not
+ * change the next event, and nothing is written. */
 static __attribute__((noinline)) void gg_md_search_shifted_rows(gg_md *e)
 {
   e->k.now = e->search.rows.next_shift;
@@ -240,7 +239,7 @@ GG_INLINE void gg_md_shift_all(gg_md *e)
   gg_md_search_shifted_rows(e);
 }
 
-/* The cells around, of which three neighbours along x stand on two lines, four on three. */
+/* Prefetch the cells around. Three neighbours along x are on two cache lines, four on three. */
 GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i)
 {
   if (e->n <= 40000) return;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The faces of a grain's own cell: which does it reach next, and when? */
+/* Crossings: the face of its own cell that a grain reaches next, and the time. */
 #ifndef GG_MD_SEARCH_FACES_H
 #define GG_MD_SEARCH_FACES_H
 
@@ -7,7 +7,7 @@
 #include "simd/axes.h"
 #include "simd/eight.h"
 
-/* Faces that are walls are not crossed. */
+/* Is the upper face of this cell a wall, which is not crossed? */
 GG_INLINE bool gg_md_is_wall_above(const gg_md *e, const int32_t *cell)
 {
   return IS_WALLED && cell[1] == e->cells.n[1] - 1;
@@ -19,8 +19,8 @@ GG_INLINE bool gg_md_is_wall_below(const gg_md *e, const int32_t *cell)
   return IS_WALLED && cell[1] == 0;
 }
 
-/* When a grain on a parabola comes to the first of the faces below and above along each axis, by their distances
- * (INFINITY: a wall): gg_fall_delay of all at a time. A lane has the number of its face. */
+/* Time until a grain on a parabola reaches the first of the faces below and above along each axis, by their distances
+ * (INFINITY: a wall): gg_fall_delay of all faces at once. The number of a lane is the number of its face. */
 GG_INLINE double gg_md_fall_to_face(const gg_md *e, gg_axes below, gg_axes above, gg_axes v, int32_t *face)
 {
 #define FACES(lower, upper) __builtin_shufflevector(lower, upper, 0, 4, 1, 5, 2, 6, 3, 7)
@@ -38,7 +38,7 @@ GG_INLINE double gg_md_fall_to_face(const gg_md *e, gg_axes below, gg_axes above
   return first[0];
 }
 
-/* When it leaves its cell, and through which face. */
+/* Time until a grain on a parabola leaves its cell, and the face. */
 GG_INLINE double gg_md_first_fall_out(const gg_md *e, const gg_md_search *s, int32_t *face)
 {
   const int32_t *cell = e->node[s->grain].cell;
@@ -49,7 +49,7 @@ GG_INLINE double gg_md_first_fall_out(const gg_md *e, const gg_md_search *s, int
   return gg_md_fall_to_face(e, below, above, gg_load_axes(&s->self->v.x), face);
 }
 
-/* The same on a straight line. Rounding may have left the grain outside by a digit: then at once. */
+/* The same on a straight path. If rounding has left the grain outside by a last digit, the time is 0. */
 GG_INLINE double gg_md_first_exit(const gg_md *e, const int32_t *cell, gg_axes r, gg_axes v, int32_t *face)
 {
   gg_axes zero = {0}, one = {1, 1, 1, 1};

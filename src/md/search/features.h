@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What this instance of the event loop is for. The loop and its searches are compiled once for every row of the table
- * in meson.build, each into an object of its own, which defines GG_SEARCH (the header of its kind of search),
- * GG_BOUNDARY, GG_MIXTURE and GG_SIMD. So all of this is constant, and nothing in an instance asks what a scene has.
+/* Features of this instance of the event loop, as constants. The loop and its searches are compiled once for every row
+ * of the table in meson.build, each into an object of its own, with GG_SEARCH (the header of its neighbour search),
+ * GG_BOUNDARY, GG_MIXTURE and GG_SIMD defined. So an instance has no test of what a scene has.
  *
- * The reference path is compiled once for all boundaries and mixtures, without those: there the model decides.
- */
+ * The reference path is compiled once for all boundaries and mixtures, without these definitions: there the features
+ * are read from the model. */
 #ifndef GG_MD_SEARCH_FEATURES_H
 #define GG_MD_SEARCH_FEATURES_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Neighbour lists kept up to date: who is within reach of a new skin, and whose lists change by that. */
+/* Update of neighbour lists: the grains within reach of a new skin, and the lists that change. */
 #ifndef GG_MD_SEARCH_LIST_UPDATE_H
 #define GG_MD_SEARCH_LIST_UPDATE_H
 
@@ -12,7 +12,8 @@ GG_INLINE uint32_t *gg_md_list(const gg_md *e, uint32_t i)
   return e->search.lists.neighbour + (size_t)i * GG_MD_LIST;
 }
 
-/* Everybody in the cells that can hold centres within rho of list i's, under shear, as far as there is room. */
+/* Collect the grains of all cells that can hold centres within rho of the centre of skin i, under shear. Without room
+ * for all of them n_candidates is GG_MD_MOST_CANDIDATES. */
 GG_INLINE void gg_md_collect_sheared(const gg_md *e, uint32_t i, gg_md_search *s)
 {
   const gg_md_cells *c = &e->cells;
@@ -44,7 +45,8 @@ GG_INLINE void gg_md_collect_sheared(const gg_md *e, uint32_t i, gg_md_search *s
   }
 }
 
-/* The 27 cells around one: where they begin, and a bit for each that a sphere of radius rho reaches into. */
+/* Indices of the 27 cells around a grain, and a bit for each cell that a sphere of radius rho about its skin's centre
+ * reaches. */
 typedef struct gg_md_nearby {
   uint32_t index[28], which; /* x fastest */
 } gg_md_nearby;
@@ -76,7 +78,7 @@ GG_INLINE void gg_md_cells_nearby(const gg_md *e, uint32_t i, gg_md_nearby *near
     }
 }
 
-/* The same without shear. */
+/* Collect the grains of all cells that can hold centres within rho, without shear. */
 GG_INLINE void gg_md_collect_near(const gg_md *e, uint32_t i, gg_md_search *s)
 {
   gg_md_nearby nearby;
@@ -97,7 +99,7 @@ GG_INLINE void gg_md_collect_near(const gg_md *e, uint32_t i, gg_md_search *s)
 
 typedef double gg_md_centre4 __attribute__((vector_size(32), may_alias, aligned(8)));
 
-/* The centres of eight skins as columns. */
+/* Load the centres of eight skins as columns. */
 GG_INLINE void gg_md_gather_centres(const gg_md_skin *skin, const uint32_t *index, gg_v8 *x, gg_v8 *y, gg_v8 *z)
 {
 #define TWO(k, m)                                                                                                      \
@@ -114,10 +116,11 @@ GG_INLINE void gg_md_gather_centres(const gg_md_skin *skin, const uint32_t *inde
   *y = __builtin_shufflevector(ab1, cd1, 0, 1, 8, 9, 4, 5, 12, 13);
 }
 
-/* Room for a full list, and for eight more that are written before they are counted. */
+/* Room for a full list, and for eight entries that are written before they are counted. */
 enum { GG_MD_FOUND = GG_MD_LIST + 1 + GG_BATCH };
 
-/* Everybody whose centre lies within rho of list i's: ids into found[GG_MD_FOUND]; more than GG_MD_LIST: too many. */
+/* Search for the grains whose skin centres are within rho of that of skin i, into found[GG_MD_FOUND]. Returns their
+ * number; more than GG_MD_LIST: too many. */
 GG_INLINE uint32_t gg_md_search_skin(const gg_md *e, uint32_t i, uint32_t *found)
 {
   gg_md_search s = {.candidates = e->candidates};
@@ -148,7 +151,7 @@ GG_INLINE uint32_t gg_md_search_skin(const gg_md *e, uint32_t i, uint32_t *found
   return n == GG_MD_MOST_CANDIDATES ? GG_MD_LIST + 1 : count;
 }
 
-/* Into the box, at the time `now`: the image, and the centre of a skin around it. */
+/* Replace a grain by its image in the box at the time `now`. Returns the centre of a new skin around it. */
 GG_INLINE gg_vec gg_md_into_box(const gg_md *e, double now, gg_md_grain *g)
 {
   double layers = gg_floor(g->r.y * e->box.inverse[1]);
@@ -167,7 +170,8 @@ GG_INLINE gg_vec gg_md_into_box(const gg_md *e, double now, gg_md_grain *g)
   return centre;
 }
 
-/* The skin of grain i anew, around where it now is: image in the box, centre, cell (which it does not enter yet). */
+/* Renew the skin of grain i around its present position: image in the box, centre, cell. It does not enter the cell
+ * yet. */
 GG_INLINE void gg_md_new_skin(gg_md *e, uint32_t i)
 {
   gg_md_node *node = &e->node[i];
@@ -184,7 +188,7 @@ GG_INLINE void gg_md_list_clear(gg_md *e, uint32_t i)
   e->node[i].neighbours = 0;
 }
 
-/* Beyond its end a list holds the grain at no place. */
+/* Append j to the list of i. False: the list is full. Behind its last entry a list holds the grain at position NaN. */
 GG_INLINE bool gg_md_list_add(gg_md *e, uint32_t i, uint32_t j)
 {
   if (e->node[i].neighbours == GG_MD_LIST) return false;
@@ -192,7 +196,7 @@ GG_INLINE bool gg_md_list_add(gg_md *e, uint32_t i, uint32_t j)
   return true;
 }
 
-/* Where in a list of GG_MD_LIST a grain stands: a bit for each place. */
+/* Places of a grain in a list of GG_MD_LIST, a bit each. */
 GG_INLINE uint32_t gg_md_list_places(const uint32_t *list, uint32_t j)
 {
   return gg_words_equal16(list, j) | gg_words_equal8(list + 16, j) << 16;
@@ -205,7 +209,8 @@ GG_INLINE void gg_md_list_remove(gg_md *e, uint32_t i, uint32_t j)
   list[last] = e->n;
 }
 
-/* Replace i's list by found[], and update the lists of those who are no longer or newly in it. False: no room. */
+/* Replace the list of i by found[], and update the lists of the grains that are removed from it or new in it. False: a
+ * list is full. */
 GG_INLINE bool gg_md_update_lists(gg_md *e, uint32_t i, const uint32_t *found, uint32_t count)
 {
   uint32_t old[GG_MD_LIST], *list = gg_md_list(e, i), n_old = e->node[i].neighbours, still = 0, fresh = 0;

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Neighbour lists for dense systems: who can be met before one of both leaves its skin.
+/* Neighbour lists (Verlet, with skins), for dense systems.
  *
- * Each grain has a skin, a sphere of radius s around where it stood when its list was made; the list holds everybody
- * whose skin then lay with its centre within rho = sigma + 2 s of its own, and is symmetric. While two grains that are
- * not listed stay in their skins they cannot touch. A grain that leaves its skin gets a new one, and lists are updated.
+ * Each grain has a skin, a sphere of radius s around its position when its list was made. The list holds all grains
+ * whose skin centres were then within rho = sigma + 2 s of its own; lists are symmetric. Two grains that are not listed
+ * cannot touch while both are in their skins. A grain that leaves its skin gets a new one, and the lists are updated.
  *
  * Under shear the centres move with the flow at their height, and skins shrink at the rate kappa = shear_rate rho/4:
- * two centres at a distance R approach at most at shear_rate R/2, so what holds at the making holds until the exit. A
- * centre is kept by where it stood at the epoch's start, which does not change: the cells of the centres are at rest.
+ * two centres at a distance R approach at a speed of at most shear_rate R/2, so the condition holds until the exit. A
+ * centre is stored by its position at the start of the epoch, which does not change: the cells of the centres are at
+ * rest.
  *
- * Predictions take the whole list, eight at a time. */
+ * A prediction tests the whole list, eight grains at a time. */
 #ifndef GG_MD_SEARCH_LISTS_H
 #define GG_MD_SEARCH_LISTS_H
 
@@ -25,11 +26,12 @@ enum {
   PREDICTS_IN_PLACE = true
 };
 
+#include "md/grid.h"
 #include "md/search/list_update.h"
 #include "md/search/neighbour_search.h"
 #include "md/search/simd_pairs.h"
 
-/* Where the centre of skin i is at the present time. */
+/* Centre of skin i at the present time. */
 GG_INLINE gg_vec gg_md_centre(const gg_md *e, uint32_t i)
 {
   gg_vec c = e->search.lists.skin[i].centre;
@@ -37,20 +39,20 @@ GG_INLINE gg_vec gg_md_centre(const gg_md *e, uint32_t i)
   return c;
 }
 
-/* When a straight path leaves a sphere that shrinks: |dr + dv t| = radius - kappa t, root without cancellation. */
+/* Time until a straight path leaves a shrinking sphere: |dr + dv t| = radius - kappa t, without cancellation. */
 GG_INLINE double gg_md_sphere_exit(gg_vec dr, gg_vec dv, double radius, double kappa)
 {
   double a = gg_dot(dv, dv) - kappa * kappa, b = gg_dot(dr, dv) + kappa * radius;
   double c = gg_dot(dr, dr) - radius * radius;
   if (!(c < 0) || radius < 0) return 0;
   double root = sqrt(b * b - a * c);
-  bool out = b > 0; /* half of all: no branch */
+  bool out = b > 0; /* true for half of all: no branch */
   double delay = (out ? -c : root - b) / (out ? b + root : a);
   return (out | (a > 0)) ? delay : INFINITY;
 }
 
-/* On a parabola: not later than it leaves the skin, and no further than its next collision. The steps are straight
- * paths in a sphere smaller by what the grain falls meanwhile, which is at most half of its way to the surface. */
+/* Time on a parabola that is not later than the exit from the skin nor than the next collision. Its steps are straight
+ * paths in a sphere that is smaller by the fall during the step, at most half of the distance to its surface. */
 GG_INLINE double gg_md_fall_out_of_skin(const gg_md *e, const gg_md_search *s)
 {
   enum { MOST_STEPS = 8 };
@@ -73,13 +75,13 @@ GG_INLINE double gg_md_fall_out_of_skin(const gg_md *e, const gg_md_search *s)
   return e->k.now + gone;
 }
 
-/* When the grain leaves its skin. */
+/* Time at which a grain leaves its skin on a straight path. */
 GG_INLINE double gg_md_skin_exit(const gg_md *e, uint32_t i, const gg_md_grain *g)
 {
   gg_vec centre = gg_md_centre(e, i), dr = gg_sub(g->r, centre), dv = g->v;
   double radius = e->search.lists.radius, kappa = IS_SHEARED ? e->search.lists.shrinkage : 0;
   if (IS_SHEARED) {
-    dr.x -= e->box.edge[0] * gg_nearest(dr.x * e->box.inverse[0]); /* the centre is kept wrapped */
+    dr.x -= e->box.edge[0] * gg_nearest(dr.x * e->box.inverse[0]); /* the stored centre is wrapped */
     dv.x -= e->model.shear_rate * (centre.y - 0.5 * e->box.edge[1]);
     radius -= kappa * (e->k.now - e->node[i].skin_time);
   }
@@ -98,7 +100,7 @@ GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int3
   return HAS_GRAVITY ? gg_md_fall_out_of_skin(e, s) : gg_md_skin_exit(e, s->grain, s->self);
 }
 
-/* Out of its skin: a new one, lists updated, and a new prediction. */
+/* A grain leaves its skin: renew the skin, update lists, and predict. */
 GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
 {
   uint32_t found[GG_MD_FOUND];
@@ -110,7 +112,7 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
     gg_md_predict(e, i);
     return;
   }
-  if (e->is_view) {
+  if (e->is_thread_local) {
     e->lists_are_full = true;
     return;
   }
@@ -138,7 +140,7 @@ GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i)
   (void)i;
 }
 
-/* The neighbours, too. */
+/* Prefetch the neighbours of the grain and of its partner. */
 GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i)
 {
   uint32_t j = e->node[i].partner;

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The surfaces of the model: when does a grain touch one? */
-#ifndef GG_MD_SEARCH_SURFACES_H
-#define GG_MD_SEARCH_SURFACES_H
+/* Prediction of contacts with the surfaces of the model. */
+#ifndef GG_MD_SEARCH_NEAR_SURFACES_H
+#define GG_MD_SEARCH_NEAR_SURFACES_H
 
 #include "common/surface/shapes.h"
+#include "md/grid.h"
 #include "md/search/search.h"
 
-/* A surface that the grain meets before anything else so far. Only those within reach of its cell are tried, so grains
- * in the middle of the box look up one byte. Planes are tried in place, other shapes by a call. */
+/* Test the surfaces near the cell of the grain: the earliest contact replaces a later partner. A grain in the middle of
+ * the box reads only one byte. Planes are tested inline, other shapes by a call. */
 GG_INLINE void gg_md_try_surfaces(const gg_md *e, gg_md_search *s)
 {
   const int32_t *cell = e->node[s->grain].cell;

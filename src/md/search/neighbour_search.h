@@ -1,41 +1,41 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A kind of neighbour search: plain cells, cells in rows that move with the flow, overlapping cells, overlapping
- * cells in rows, neighbour lists. One header each, of which an instance of the event loop includes one (features.h).
- * Each of them defines the functions declared here, and the constants
+/* Interface of the neighbour searches: plain cells, cells in rows that move with the flow, overlapping cells,
+ * overlapping cells in rows, neighbour lists. Each has a header, of which an instance of the event loop includes one
+ * (features.h). It defines the functions declared here, and the constants
  *
- *   ROWS_SHIFT     do rows shift, upon which all grains search at once (gg_md_shift_all)?
- *   ROWS_MOVE      have rows carried images apart along x by several edges, perhaps?
- *   KNOWS_IMAGES   does a search know whether all candidates are in the grain's own image of the box?
- *   FEW_MEET       of those tried: worth a test whether anybody of a batch is in the way at all?
- *   CACHED         so many grains are in the cache anyway: nothing needs to be prefetched
- *   SMALL_CELLS    may cells be small (cell_grid.h)?
- *   PREDICTS_IN_PLACE   is a stale event re-predicted within the loop, or by a call (1 to 3 % either way)? */
+ *   ROWS_SHIFT     rows shift, and all grains search at once (gg_md_shift_all)
+ *   ROWS_MOVE      moving rows may separate images along x by several edges
+ *   KNOWS_IMAGES   a search knows whether all candidates are in the grain's own image of the box
+ *   FEW_MEET       few candidates approach: a batch is first tested for any contact
+ *   CACHED         up to so many grains are in the cache: nothing is prefetched
+ *   SMALL_CELLS    cells may be small (cell_grid.h)
+ *   PREDICTS_IN_PLACE   a stale event is re-predicted inline, not by a call (faster by 1 to 3 % in some searches) */
 #ifndef GG_MD_NEIGHBOUR_SEARCH_H
 #define GG_MD_NEIGHBOUR_SEARCH_H
 
 #include "md/search/search.h"
 
-/* All that the grain can meet from where it is. */
+/* Search all grains that the grain can touch from its present cell. */
 GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s);
-/* When it next comes into another cell, or out of the skin of its list; and node->face: where. */
+/* Time at which it enters another cell or leaves its skin; *face: where. */
 GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int32_t *face);
-/* It does so now. */
+/* Process the crossing that is due now. */
 GG_INLINE void gg_md_cross(gg_md *e, uint32_t i);
-/* Rows shift by a cell: everybody searches what comes within reach. */
+/* Shift rows by a cell: every grain searches the cells that come within reach. */
 GG_INLINE void gg_md_shift_all(gg_md *e);
 
-/* What the events of a new bucket will read, beside the grain: `partner` of its predicted collision, or none. */
+/* Prefetch the data of an event of a new bucket, beside the grain. `partner`: of its predicted collision, or none. */
 GG_INLINE void gg_md_prefetch_due(const gg_md *e, uint32_t i, uint32_t partner);
-/* What an event two ahead will read: in systems that the cache holds, and in larger ones. */
+/* Prefetch the data of the next event but one: in systems that the cache holds, and in larger ones. */
 GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i);
 GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i);
 
-/* event_loop.h: the search is over, and what it found goes into the event queue; and a search from scratch with that.
- */
+/* event_loop.h: insert the result of a search into the event queue. */
 GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s);
+/* Search from scratch, and insert the result. */
 static void gg_md_predict(gg_md *e, uint32_t i);
 
-/* A cell could not grow: the run is over. */
+/* End the run if a cell could not grow. */
 GG_INLINE void gg_md_check_memory(gg_md *e, bool good)
 {
   if (good) return;
@@ -43,7 +43,7 @@ GG_INLINE void gg_md_check_memory(gg_md *e, bool good)
   e->k.collisions_left = 0;
 }
 
-/* A contact has left this velocity: what is no number has no place in a cell. */
+/* Is the velocity after a contact finite? NaN never recovers: the run ends. */
 GG_INLINE bool gg_md_is_velocity(gg_md *e, const gg_md_grain *g)
 {
   if (__builtin_expect(fabs(g->v.x + g->v.y + g->v.z) < INFINITY, 1)) return true;

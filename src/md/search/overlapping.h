@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What both kinds of overlapping cells have in common: candidates from the cells that a grain is in. */
+/* Common part of the searches with overlapping cells: candidates from the cells that a grain is in. */
 #ifndef GG_MD_SEARCH_OVERLAPPING_H
 #define GG_MD_SEARCH_OVERLAPPING_H
 
@@ -20,7 +20,7 @@ enum {
 #include "md/search/neighbour_search.h"
 #include "md/search/simd_pairs.h"
 
-/* The grains of a cell for which there may be no room: those so far are tried first. */
+/* Append the grains of a crowded cell. Whenever there is no room, the candidates so far are tested first. */
 static __attribute__((noinline, cold, unused)) void gg_md_take_crowded(const gg_md *e, gg_md_search *s,
                                                                        const uint32_t *cell)
 {
@@ -48,11 +48,12 @@ GG_INLINE void gg_md_take_members(const gg_md *e, gg_md_search *s, const gg_md_m
   s->n_candidates = (uint32_t)(end - s->candidates);
 }
 
-/* Where a grain that is to come into another cell will be: the axis of its step and its cell, of those that it is in
- * the one to count from. False: not known before. Each of the two ways has its own. */
+/* Axis of the step of a grain that will enter another cell, and the cell from which the step is counted. False: unknown
+ * in advance. Each of the two searches defines it. */
 GG_INLINE bool gg_md_step_of(const gg_md *e, const gg_md_node *node, int *axis, int32_t at[3]);
 
-/* Of a grain that will come into another cell: that cell, or the grains in it. Else the partner. */
+/* Prefetch the cell that a grain will enter, or (`members`) the grains in it; of a grain that will collide the partner.
+ */
 GG_INLINE void gg_md_prefetch_entry(const gg_md *e, uint32_t i, bool members)
 {
   const gg_md_node *node = &e->node[i];
@@ -90,7 +91,7 @@ GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i)
 
 GG_INLINE void gg_md_shift_all(gg_md *e)
 {
-  (void)e; /* rows that overlap need not know of each other */
+  (void)e; /* overlapping rows are independent of each other */
 }
 
 #endif

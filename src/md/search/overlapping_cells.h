@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Searching cells that overlap (overlapping_members.h). */
+/* Neighbour search in overlapping cells (overlapping_members.h). */
 #ifndef GG_MD_SEARCH_OVERLAPPING_CELLS_H
 #define GG_MD_SEARCH_OVERLAPPING_CELLS_H
 
 #include "md/search/faces.h"
 #include "md/search/overlapping.h"
 
-/* To the next cell along an axis; axis 3: nowhere. */
+/* A step to the next cell along an axis; axis 3: no step. */
 typedef struct gg_md_step {
   int axis, up;
 } gg_md_step;
 
-/* gg_md_synchronise, and into the box along the axis of a step. The record is written as a whole: what is read of it
- * soon after would otherwise wait for its parts to arrive in the cache. */
+/* Synchronise a grain, and wrap it into the box along the axis of a step. The record is written by one store: a read
+ * soon after several partial stores would wait for them. */
 GG_INLINE gg_md_grain *gg_md_synchronise_step(gg_md *e, uint32_t i, gg_md_step step)
 {
   gg_md_grain *g = &e->grain[i];
@@ -34,9 +34,8 @@ GG_INLINE gg_md_grain *gg_md_synchronise_step(gg_md *e, uint32_t i, gg_md_step s
   return g;
 }
 
-/* Out of the cells that the grain is beyond by now, and of those behind the step that it is about to make. `in` are
- * those that are left. Returns what node->cell and neighbours then are: nobody reads them by words before they are
- * written. */
+/* Remove the grain from the cells that it has left, and from the cells behind its step. *in: the remaining cells.
+ * Returns the new node->cell and neighbours, which the caller stores together. */
 GG_INLINE gg_indices gg_md_leave_behind(gg_md *e, uint32_t i, gg_md_step step, gg_md_members *in)
 {
   gg_md_node *node = &e->node[i];
@@ -61,13 +60,13 @@ GG_INLINE void gg_md_store_cell(gg_md_node *node, gg_indices cell)
   *(gg_indices_there *)node->cell = cell;
 }
 
-/* Is the grain's upper cell, or its only one, the last below a wall? */
+/* Is the upper or only cell of the grain the last one below a wall? */
 GG_INLINE bool gg_md_is_below_wall(const gg_md *e, const gg_md_node *node)
 {
   return IS_WALLED && node->cell[1] + (int32_t)(node->neighbours >> 1 & 1) == e->cells.n[1] - 1;
 }
 
-/* When the grain comes into another cell, and along which axis, which way. */
+/* Time at which the grain enters another cell; *face: axis and direction. */
 GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int32_t *face)
 {
   const gg_md_node *node = &e->node[s->grain];
@@ -80,7 +79,7 @@ GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int3
   if (HAS_GRAVITY) return e->k.now + gg_md_fall_to_face(e, below, above, v, face);
   gg_axes way = gg_choose_axes(v > 0, above, below);
   gg_axes delay = way / (gg_axes)((gg_axes_mask)v & INT64_MAX);
-  delay = gg_choose_axes(delay > 0, delay, zero); /* at rest: NAN or infinite */
+  delay = gg_choose_axes(delay > 0, delay, zero); /* NaN or infinite for a grain at rest */
   delay = gg_choose_axes((v != 0) & (gg_axes_mask){-1, -1, -1, 0}, delay, never);
   gg_axes first = gg_least_axes(delay);
   int axis = __builtin_ctz(gg_axes_bits(delay == first));
@@ -88,7 +87,7 @@ GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int3
   return e->k.now + first[0];
 }
 
-/* All who share a cell with the grain, after it has been taken out of cells that it has left. */
+/* Search all grains that share a cell with the grain, after removing it from the cells that it has left. */
 GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
 {
   gg_md_members in;
@@ -97,7 +96,7 @@ GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
   gg_md_try_candidates(e, s);
 }
 
-/* Into the next cell along an axis: those who are there. */
+/* Enter the next cell along an axis, and gather its grains as candidates. False: out of memory. */
 GG_INLINE bool gg_md_enter_next(gg_md *e, gg_md_search *s, gg_md_step step)
 {
   gg_md_node *node = &e->node[s->grain];
@@ -116,7 +115,7 @@ GG_INLINE bool gg_md_enter_next(gg_md *e, gg_md_search *s, gg_md_step step)
   return gg_md_members_enter(e, s->grain, &in);
 }
 
-/* Into another cell that overlaps with those that the grain is in. */
+/* The grain enters another overlapping cell. */
 GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
 {
   const gg_md_node *node = &e->node[i];
@@ -134,7 +133,7 @@ GG_INLINE bool gg_md_step_of(const gg_md *e, const gg_md_node *node, int *axis, 
   return true;
 }
 
-/* Should the cache hold it all: from its outer level into the inner. */
+/* Prefetch from the outer to the inner level of the cache, if it holds all grains. */
 GG_INLINE void gg_md_prefetch_cached(const gg_md *e, uint32_t i)
 {
   const gg_md_node *node = &e->node[i];

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Searching cells that overlap, in rows that move with the flow (overlapping_members.h). */
+/* Neighbour search in overlapping cells in rows that move with the flow (overlapping_members.h). */
 #ifndef GG_MD_SEARCH_OVERLAPPING_ROWS_H
 #define GG_MD_SEARCH_OVERLAPPING_ROWS_H
 
 #include "md/overlapping_members.h"
 #include "md/search/overlapping.h"
 
-/* From the lower edges of its lower cells to where a grain is, and how fast that grows, in each lane. */
+/* Distances from the lower edges of its lower cells to a grain, and their rates of change, in each lane. */
 typedef struct gg_md_row_depths {
   gg_axes depth, v, width;
 } gg_md_row_depths;
@@ -27,16 +27,16 @@ GG_INLINE gg_md_row_depths gg_md_depths_in_rows(const gg_md *e, const gg_md_node
   return f;
 }
 
-/* Of two cells along a lane, those that are kept: bit 0 the lower one, bit 1 the upper one. */
+/* Cells along a lane that a grain keeps: bit 0 the lower one, bit 1 the upper one. */
 GG_INLINE uint32_t gg_md_kept(uint32_t both, uint32_t above, uint32_t below, int lane)
 {
   uint32_t had = 1 | (both >> lane & 1) << 1;
   return had & ~((above >> lane & 1) | (below >> lane & 1) << 1);
 }
 
-/* Out of the cells that the grain is beyond by now, and of those behind the step that it is about to make. `in` are
- * those that are left, under their old numbers. Returns the lane of the step, which is another one where the lower row
- * has been left, or none where the row of the step has been. */
+/* Remove the grain from the cells that it has left, and from the cells behind its step. *in: the remaining cells, by
+ * their old numbers. Returns the lane of the step. It changes if the grain has left the lower row; it is GG_MD_NO_LANE
+ * if the grain has left the row of the step. */
 GG_INLINE int gg_md_leave_behind_in_rows(gg_md *e, uint32_t i, int lane, int up, gg_md_members *in)
 {
   gg_md_node *node = &e->node[i];
@@ -70,7 +70,7 @@ GG_INLINE int gg_md_leave_behind_in_rows(gg_md *e, uint32_t i, int lane, int up,
   return lane;
 }
 
-/* All who share a cell with the grain, after it has been taken out of cells that it has left. */
+/* Search all grains that share a cell with the grain, after removing it from the cells that it has left. */
 GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
 {
   gg_md_members in;
@@ -79,7 +79,7 @@ GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
   gg_md_try_candidates(e, s);
 }
 
-/* Into the row above or below those that the grain is in. */
+/* Enter the row above or below the rows of the grain. */
 GG_INLINE void gg_md_enter_row(gg_md *e, gg_md_node *node, const gg_md_grain *g, int up)
 {
   int32_t row = gg_md_lower_row(e, node, g->r.y);
@@ -96,7 +96,7 @@ GG_INLINE void gg_md_enter_row(gg_md *e, gg_md_node *node, const gg_md_grain *g,
   }
 }
 
-/* Into the next cell along a lane: those who are there. */
+/* Enter the next cell along a lane, and gather its grains as candidates. False: out of memory. */
 GG_INLINE bool gg_md_enter_next_in_rows(gg_md *e, gg_md_search *s, int lane, int up)
 {
   static const uint32_t fresh[4][2] = {{0x11, 0x22}, {0x33, 0xcc}, {0x0f, 0xf0}, {0x44, 0x88}};
@@ -117,7 +117,7 @@ GG_INLINE bool gg_md_enter_next_in_rows(gg_md *e, gg_md_search *s, int lane, int
   return gg_md_members_enter(e, s->grain, &in);
 }
 
-/* When the grain comes into another cell, and along which lane, which way. */
+/* Time at which the grain enters another cell; *face: lane and direction. */
 GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int32_t *face)
 {
   const gg_md_node *node = &e->node[s->grain];
@@ -127,7 +127,7 @@ GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int3
   gg_axes upwards = gg_choose_axes(gg_axes_of(node->neighbours), 2 * f.width, f.width) - half - f.depth;
   gg_axes way = gg_choose_axes(f.v > 0, upwards, f.depth - half);
   gg_axes delay = way / (gg_axes)((gg_axes_mask)f.v & INT64_MAX);
-  delay = gg_choose_axes(delay > 0, delay, zero); /* at rest: NAN or infinite */
+  delay = gg_choose_axes(delay > 0, delay, zero); /* NaN or infinite for a grain at rest */
   gg_axes_mask open = {-1, -1, -1, -(int64_t)(node->neighbours >> 1 & 1)};
   delay = gg_choose_axes((f.v != 0) & open, delay, never);
   gg_axes first = gg_least_axes(delay);
@@ -136,7 +136,8 @@ GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int3
   return e->k.now + first[0];
 }
 
-/* gg_md_synchronise, and into the box along the lane of a step; with an image above or below goes its velocity. */
+/* Synchronise a grain, and wrap it into the box along the lane of a step. An image above or below has another velocity.
+ */
 GG_INLINE gg_md_grain *gg_md_synchronise_in_rows(gg_md *e, uint32_t i, int lane)
 {
   gg_md_grain *g = gg_md_synchronise(e, i);
@@ -156,7 +157,7 @@ GG_INLINE gg_md_grain *gg_md_synchronise_in_rows(gg_md *e, uint32_t i, int lane)
   return g;
 }
 
-/* Into another cell that overlaps with those that the grain is in. */
+/* The grain enters another overlapping cell. */
 GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
 {
   const gg_md_node *node = &e->node[i];
@@ -170,7 +171,7 @@ GG_INLINE void gg_md_cross(gg_md *e, uint32_t i)
 
 GG_INLINE bool gg_md_step_of(const gg_md *e, const gg_md_node *node, int *axis, int32_t at[3])
 {
-  if (*axis == GG_MD_ALONG_Y) return false; /* the cell there depends on how far its row has moved */
+  if (*axis == GG_MD_ALONG_Y) return false; /* the cell there depends on the motion of its row */
   if (*axis == GG_MD_UPPER_X) *axis = 0, at[0] = node->upper, at[1] = gg_md_cell_after(e, 1, at[1]);
   return true;
 }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One pair at a time: the reference path. */
+/* Tests of one pair at a time: the reference path. */
 #ifndef GG_MD_SEARCH_PAIR_H
 #define GG_MD_SEARCH_PAIR_H
 
 #include "md/search/search.h"
 
-/* The contact with grain j, which is separated by dr and dv. */
+/* Test the contact with grain j at the separation dr and the relative velocity dv. */
 GG_INLINE void gg_md_try_separated(const gg_md *e, gg_md_search *s, uint32_t j, gg_vec dr, gg_vec dv)
 {
   double sigma = e->model.sigma[IS_MIXTURE ? gg_pair(gg_md_species_of(s->self), gg_md_species_of(&e->grain[j])) : 0];
@@ -13,7 +13,7 @@ GG_INLINE void gg_md_try_separated(const gg_md *e, gg_md_search *s, uint32_t j, 
   gg_md_take_contact(s, t, j);
 }
 
-/* The same with an image shifted by `shift`, moving at `image_velocity`. */
+/* Test the contact with an image of grain j, shifted by `shift` and moving at `image_velocity`. */
 GG_INLINE void gg_md_try_pair(const gg_md *e, gg_md_search *s, uint32_t j, gg_vec shift, double image_velocity)
 {
   const gg_md_grain *one = s->self, *two = &e->grain[j];

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The search for a grain's next event: the cells around it, image by image, and its own cell's faces.
+/* Neighbour search in plain cells: the cells around a grain, image by image.
  *
- * Every neighbouring cell is searched as one definite image, with its shift, so that boxes of one or two cells across
- * and grains that meet several images of one partner need no special case.
+ * Every neighbouring cell is searched as one definite image, with its shift, so that boxes of one or two cells across,
+ * and grains that can touch several images of one partner, are no special cases.
  *
- * Rows across a sheared boundary, of cells at rest in small boxes (else: comoving_rows.h): the image row of cells
- * stands at any offset and moves. The grain searches all of it that can come within reach of its cell until a time
- * `valid`, and searches anew then. What makes incremental scans right: at every scan a grain searches the whole window
- * of each moving row, and otherwise neighbourhoods are symmetric. */
+ * In small sheared boxes the cells are at rest (else: comoving_rows.h), and the image row across the sheared boundary
+ * has any offset and moves. The grain searches all cells of it that can come within reach of its own cell until a time
+ * `valid`, and searches again then. Incremental searches are complete because each of them includes the whole window of
+ * each moving row, and all other neighbourhoods are symmetric. */
 #ifndef GG_MD_SEARCH_PLAIN_CELLS_H
 #define GG_MD_SEARCH_PLAIN_CELLS_H
 
@@ -30,7 +30,7 @@ enum {
 #include "md/search/prefetch_partner.h"
 #include "md/search/simd_pairs.h"
 
-/* Cells from..to (unwrapped) of row (y, z): images shifted by `shift`, moving at `image_velocity`. */
+/* Search cells from..to (unwrapped) of row (y, z): images shifted by `shift`, moving at `image_velocity`. */
 GG_INLINE void gg_md_scan_row(const gg_md *e, gg_md_search *s, int32_t from, int32_t to, int32_t y, int32_t z,
                               gg_vec shift, double image_velocity)
 {
@@ -50,7 +50,7 @@ GG_INLINE void gg_md_scan_row(const gg_md *e, gg_md_search *s, int32_t from, int
   }
 }
 
-/* Cells from..to (unwrapped) of the row at (y, z), unless it lies across the sheared boundary. */
+/* Search cells from..to (unwrapped) of the row at (y, z), unless it is across a wall or the sheared boundary. */
 GG_INLINE void gg_md_scan_plain_row(const gg_md *e, gg_md_search *s, int32_t from, int32_t to, int32_t y, int32_t z)
 {
   gg_vec shift = {0, 0, 0};
@@ -61,7 +61,7 @@ GG_INLINE void gg_md_scan_plain_row(const gg_md *e, gg_md_search *s, int32_t fro
   gg_md_scan_row(e, s, from, to, iy, iz, shift, 0);
 }
 
-/* The moving row above (side = 1) or below (-1): cell k of it now covers x from k w + D to (k+1) w + D. */
+/* Search the moving row above (side = 1) or below (-1): its cell k now covers x from k w + D to (k+1) w + D. */
 GG_INLINE void gg_md_scan_moving_row(const gg_md *e, gg_md_search *s, int side)
 {
   const gg_md_cells *c = &e->cells;
@@ -70,7 +70,7 @@ GG_INLINE void gg_md_scan_moving_row(const gg_md *e, gg_md_search *s, int side)
   double left = node->cell[0] * w - c->reach, right = (node->cell[0] + 1) * w + c->reach;
   int32_t from = (int32_t)gg_floor((left - D) / w), to = (int32_t)gg_floor((right - D) / w);
   if (side > 0)
-    from--; /* it moves right: one cell of store on the left */
+    from--; /* the row moves right: one more cell on the left */
   else
     to++;
   double room = side > 0 ? left - (from * w + D) : (to + 1) * w + D - right;
@@ -92,7 +92,7 @@ GG_INLINE void gg_md_scan_moving_rows(const gg_md *e, gg_md_search *s)
   if (y == 0) gg_md_scan_moving_row(e, s, -1);
 }
 
-/* Is no cell around in another image of the box? */
+/* Are all cells around in the same image of the box? */
 GG_INLINE bool gg_md_is_inside(const gg_md *e, const int32_t at[3])
 {
   const int32_t *n = e->cells.n;
@@ -100,8 +100,9 @@ GG_INLINE bool gg_md_is_inside(const gg_md *e, const int32_t at[3])
          ((uint32_t)(at[2] - 1) < (uint32_t)(n[2] - 2));
 }
 
-/* The cells from `from` to `to` relative to `at`, where no wall stands; false: a small one has an overflow list. All
- * that does not change is in local variables: to the compiler, what goes into `candidates` might overwrite the rest. */
+/* Gather the cells from `from` to `to` relative to `at`, where there is no wall. False: a small cell has an overflow
+ * list. Constants are in local variables: the compiler must assume that a store into `candidates` overwrites anything
+ * else. */
 GG_INLINE bool gg_md_take_rows(const gg_md *e, gg_md_search *s, const int32_t at[3], const int from[3], const int to[3],
                                gg_md_cell_size size)
 {
@@ -139,7 +140,7 @@ gg_md_take_rows_at_wall(const gg_md *e, gg_md_search *s, const int32_t at[3], co
   gg_md_take_rows(e, s, at, lower, upper, GG_MD_LARGE_CELLS);
 }
 
-/* Those of them that are in the box, in SIMD kernels; false: there may be no room for all. */
+/* Gather those of these cells that are in the box, in SIMD kernels. False: there may be no room for all. */
 GG_INLINE bool gg_md_take_box(const gg_md *e, gg_md_search *s, const int32_t at[3], const int from[3], const int to[3])
 {
   if (!IS_SIMD || !gg_md_has_room(e, 27)) return false;
@@ -155,7 +156,7 @@ GG_INLINE bool gg_md_take_box(const gg_md *e, gg_md_search *s, const int32_t at[
   return true;
 }
 
-/* The cells from `from` to `to`, and the moving rows. */
+/* Search the cells from `from` to `to`, and the moving rows. */
 GG_INLINE void gg_md_scan_cells(const gg_md *e, gg_md_search *s, const int from[3], const int to[3])
 {
   const int32_t *at = e->node[s->grain].cell;
@@ -166,14 +167,14 @@ GG_INLINE void gg_md_scan_cells(const gg_md *e, gg_md_search *s, const int from[
   gg_md_scan_moving_rows(e, s);
 }
 
-/* All 27 cells. */
+/* Search all 27 cells. */
 GG_INLINE void gg_md_search_all(gg_md *e, gg_md_search *s)
 {
   gg_md_scan_cells(e, s, (const int[3]){-1, -1, -1}, (const int[3]){1, 1, 1});
   if (IS_SIMD) gg_md_try_candidates(e, s);
 }
 
-/* The nine cells that came within reach by crossing a face. */
+/* Search the nine cells that came within reach by crossing a face. */
 GG_INLINE void gg_md_scan_ahead(const gg_md *e, gg_md_search *s, int axis, int32_t step)
 {
   int from[3] = {-1, -1, -1}, to[3] = {1, 1, 1};
@@ -191,7 +192,7 @@ GG_INLINE double gg_md_next_crossing(const gg_md *e, const gg_md_search *s, int3
   return t;
 }
 
-/* Through the sheared boundary: the image that takes the grain's place has another velocity and cell. */
+/* Replace a grain that crosses the sheared boundary by its image, which has another velocity and cell. */
 GG_INLINE void gg_md_cross_sheared(gg_md *e, gg_md_grain *g, gg_md_node *node, int side)
 {
   g->r.x = gg_wrap(g->r.x - side * gg_md_offset(&e->box, e->k.now), e->box.edge[0], e->box.inverse[0]);
@@ -236,7 +237,7 @@ GG_INLINE void gg_md_shift_all(gg_md *e)
   (void)e;
 }
 
-/* The cells around, of which three neighbours along x stand on two lines. */
+/* Prefetch the cells around. Three neighbours along x are on two cache lines. */
 GG_INLINE void gg_md_prefetch_ahead(const gg_md *e, uint32_t i)
 {
   if (e->n <= 40000) return;

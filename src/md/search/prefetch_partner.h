@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is read ahead where a grain searches cells that hold it once: the partner of the event that is due. */
+/* Prefetching for searches whose cells hold a grain once: the partner of the event that is due. */
 #ifndef GG_MD_SEARCH_PREFETCH_PARTNER_H
 #define GG_MD_SEARCH_PREFETCH_PARTNER_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A search for a grain's next event, and what it has found so far. */
+/* State of a search for the next event of a grain. */
 #ifndef GG_MD_SEARCH_SEARCH_H
 #define GG_MD_SEARCH_SEARCH_H
 
@@ -8,16 +8,16 @@
 
 typedef struct gg_md_search {
   uint32_t grain;
-  const gg_md_grain *self; /* at the present time */
-  double collision;        /* earliest so far, and with whom */
+  const gg_md_grain *self; /* its record at the present time */
+  double collision;        /* earliest so far, with `partner` */
   uint32_t partner;
-  double valid;                       /* until then the moving rows have been searched */
-  bool regular;                       /* no image of those to try has moved: of co-moving rows */
-  bool inside;                        /* they and the grain are in the same image of the box */
-  uint32_t n_candidates, *candidates; /* SIMD: whom to try */
+  double valid;                       /* the search of moving rows is complete until then */
+  bool regular;                       /* co-moving rows: no candidate is across the sheared boundary */
+  bool inside;                        /* candidates and grain are in the same image of the box */
+  uint32_t n_candidates, *candidates; /* SIMD: grains to test */
 } gg_md_search;
 
-/* Synchronise: bring a grain's record to the present time. */
+/* Synchronise a grain: bring its record to the present time. */
 GG_INLINE gg_md_grain *gg_md_synchronise(gg_md *e, uint32_t i)
 {
   gg_md_grain *g = &e->grain[i];
@@ -27,7 +27,7 @@ GG_INLINE gg_md_grain *gg_md_synchronise(gg_md *e, uint32_t i)
   return g;
 }
 
-/* Only what is read before it is written: `candidates` stays as it is. */
+/* Set only the members that are read before they are written; `candidates` is unchanged. */
 GG_INLINE void gg_md_begin_search(gg_md_search *s, uint32_t i, const gg_md_grain *self, double collision,
                                   uint32_t partner)
 {
@@ -39,7 +39,7 @@ GG_INLINE void gg_md_begin_search(gg_md_search *s, uint32_t i, const gg_md_grain
   s->regular = s->inside = false;
 }
 
-/* A contact against the earliest known. */
+/* Take a contact if it is earlier than the earliest so far; of equal times the smaller partner counts. */
 GG_INLINE void gg_md_take_contact(gg_md_search *s, double t, int64_t partner)
 {
   if (t < s->collision || (t == s->collision && t < INFINITY && partner < s->partner)) {

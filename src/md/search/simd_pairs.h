@@ -1,25 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Eight candidates at a time (predict.h): which of them does the grain meet first? */
+/* Tests of eight candidates at a time (predict.h): the earliest contact of a list. */
 #ifndef GG_MD_SEARCH_SIMD_PAIRS_H
 #define GG_MD_SEARCH_SIMD_PAIRS_H
 
 #include "md/predict.h"
 #include "md/search/search.h"
 
-/* What the minimum-image convention takes for those to try: constant in each copy of the search. */
+/* Cases of the minimum-image convention for candidates: a constant in each copy of the search. */
 typedef enum gg_md_images {
-  GG_MD_SAME,    /* in the same image of the box; in rows that move, but for images along x */
+  GG_MD_SAME,    /* candidates in the same image of the box; in moving rows, but for images along x */
   GG_MD_AT_REST, /* any image, none of which has moved */
   GG_MD_MOVING   /* across the sheared boundary: images move by the offset and have another velocity */
 } gg_md_images;
 
-/* What a pointer points at is loaded where it is used: a constant kept in all lanes of a register would only push out
- * others. */
+/* Force the compiler to load through a pointer where the value is used: a constant in all lanes of a register would
+ * displace other values. */
 #define GG_RELOAD(pointer) __asm__("" : "+r"(pointer))
 
-_Static_assert((int)GG_MAX_SPECIES <= (int)GG_LOOK_UP, "a table that a batch looks species up in");
+_Static_assert((int)GG_MAX_SPECIES <= (int)GG_LOOK_UP, "a batch looks species up in a table of this size");
 
-/* Eight grains of a list against s->self, images accounted for. */
+/* Contact quadratic of eight grains of a list with s->self, for the nearest images. */
 GG_INLINE gg_md_quadratic gg_md_try_batch(const gg_md *e, const gg_md_search *s, const uint32_t *list,
                                           gg_md_images images, double offset)
 {
@@ -38,7 +38,7 @@ GG_INLINE gg_md_quadratic gg_md_try_batch(const gg_md *e, const gg_md_search *s,
     y = (b.y + dt * b.vy + half * e->gravity.y) - g->r.y, vy = (b.vy + dt * e->gravity.y) - g->v.y;
     z = (b.z + dt * b.vz + half * e->gravity.z) - g->r.z, vz = (b.vz + dt * e->gravity.z) - g->v.z;
   }
-  if (ROWS_MOVE && images != GG_MD_MOVING) { /* apart by several edges, perhaps: not exact if fused */
+  if (ROWS_MOVE && images != GG_MD_MOVING) { /* separations may be several edges: gg_fold8 would not be exact */
     x -= L[0] * gg_nearest8(x * inverse[0]);
   } else if (images == GG_MD_MOVING) {
     gg_v8 layers = gg_nearest8(y * inverse[1]);
@@ -61,7 +61,7 @@ GG_INLINE gg_md_quadratic gg_md_try_batch(const gg_md *e, const gg_md_search *s,
   return gg_md_contact_quadratic8(x, y, z, vx, vy, vz, touch2);
 }
 
-/* Exact times of a batch. */
+/* Take the exact earliest contact of a batch. */
 GG_INLINE void gg_md_take_exact_batch(const gg_md *e, gg_md_search *s, gg_md_quadratic q, gg_m8 who)
 {
   int64_t partner;
@@ -69,7 +69,7 @@ GG_INLINE void gg_md_take_exact_batch(const gg_md *e, gg_md_search *s, gg_md_qua
   gg_md_take_contact(s, t, partner);
 }
 
-/* The exact time of one lane, which is with `who`. */
+/* Take the exact contact of one lane, with grain `who`. */
 GG_INLINE void gg_md_take_lane(const gg_md *e, gg_md_search *s, const gg_md_quadratic *q, uint32_t lane, uint32_t who)
 {
   double delay = q->c[lane] / (sqrt(q->discriminant[lane]) - q->b[lane]);
@@ -81,8 +81,8 @@ GG_INLINE gg_m8 gg_who8(const uint32_t *list)
   return __builtin_convertvector(*(const gg_list8 *)list, gg_m8);
 }
 
-/* Of several batches, by lane: how soon the earliest contact is, labelled by where it stands in the list, and the
- * second; and the first one's quadratic. */
+/* Earliest contacts of several batches, by lane: estimates of the first, labelled by its place in the list, and of the
+ * second; and the quadratic of the first. */
 typedef struct gg_md_foremost {
   gg_v8 soonest, second;
   gg_md_quadratic q;
@@ -99,8 +99,8 @@ GG_INLINE void gg_md_compare_batch(gg_md_foremost *best, gg_md_quadratic q, gg_m
   best->q.discriminant = gg_choose8(sooner, q.discriminant, best->q.discriminant);
 }
 
-/* The earliest contact with the grains of a list, which goes on to a multiple of eight with the grain at no place.
- * Which it is, is seen from about when the contacts are; where that leaves doubt, all are worked out. */
+/* Take the earliest contact with the grains of a list, which is filled up to a multiple of eight with the grain at
+ * position NaN. Estimates select the earliest contact; if they leave doubt, all contacts are computed exactly. */
 GG_INLINE void gg_md_try_list(const gg_md *e, gg_md_search *s, const uint32_t *list, uint32_t count,
                               gg_md_images images)
 {
@@ -127,7 +127,7 @@ GG_INLINE void gg_md_try_list(const gg_md *e, gg_md_search *s, const uint32_t *l
     gg_md_take_exact_batch(e, s, gg_md_try_batch(e, s, list + k, images, offset), gg_who8(list + k));
 }
 
-/* Those that cells were searched for. */
+/* Test the gathered candidates. */
 GG_INLINE void gg_md_try_candidates(const gg_md *e, gg_md_search *s)
 {
   for (int l = 0; l < GG_BATCH; l++) s->candidates[s->n_candidates + (uint32_t)l] = e->n;

@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Places of a fluid in equilibrium. Grains that were pushed apart (place.c) are left close to another, and collide some
- * times as often as Enskog's rate for about half a collision a grain. Where curves in time are what is wanted,
- * elastic spheres of the same diameters, all of one mass, first collide there; then places are taken over, and
- * velocities drawn. */
+/* Start at positions of a fluid in equilibrium. Grains that were pushed apart (place.c) are close to each other, and
+ * collide several times as often as Enskog's rate for about half a collision a grain. If a run measures curves in time,
+ * elastic spheres of the same diameters and of one mass first collide at these positions; then their positions are
+ * taken over, and velocities are drawn. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "common/rng.h"
-#include "md/md_engine.h"
+#include "md/start/start.h"
 
-/* At thermal speed: dilute grains that have parted by so much do not meet again. */
-enum { DIAMETERS = 20, MOST_COLLISIONS = 1000 };
+enum {
+  DIAMETERS = 20, /* longest time in diameters at thermal speed: dilute grains that far apart do not meet again */
+  MOST_COLLISIONS = 1000 /* a grain */
+};
 
-/* Collisions a grain after which the rate is Enskog's within 3 %: 12 are enough at phi = 0.3, 50 at 0.45, 100 at 0.49;
- * a glass takes some hundred. */
+/* Collisions a grain after which the collision rate is Enskog's within 3 %: 12 are enough at phi = 0.3, 50 at 0.45, 100
+ * at 0.49; a glass needs several hundred. */
 static double collisions_needed(double phi)
 {
   const double room = 1 - phi / 0.6;
@@ -60,24 +62,25 @@ static void take(void *context, const gg_chunk *chunk)
   }
 }
 
-static gg_status melt(const gg_model *elastic, uint64_t seed, uint64_t stream, places *p, gg_error *err)
+static gg_status melt(const gg_engine_ops *md, const gg_model *elastic, uint64_t seed, uint64_t stream, places *p,
+                      gg_error *err)
 {
   gg_engine *engine;
   double elapsed;
-  GG_TRY(gg_md_ops.create(elastic, seed, stream, &engine, err));
-  engine->ops->threads(engine, elastic->threads);
+  GG_TRY(md->create(elastic, seed, stream, &engine, err));
+  md->threads(engine, elastic->threads);
   const double time = DIAMETERS * gg_common_model_widest(elastic) / sqrt(elastic->temperature0);
   const uint64_t collisions = (uint64_t)ceil(collisions_needed(elastic->phi) * (double)elastic->n / 2);
-  gg_status status = engine->ops->advance(engine, time, collisions, &elapsed, err);
-  /* The two that collided last are no longer in contact. */
+  gg_status status = md->advance(engine, time, collisions, &elapsed, err);
+  /* Separate the two grains that collided last. */
   const double apart = 1e-3 / gg_common_model_collision_rate(elastic, elastic->temperature0);
-  if (status == GG_OK) status = engine->ops->advance(engine, apart, UINT64_MAX, &elapsed, err);
-  if (status == GG_OK) engine->ops->snapshot(engine, true, take, p);
-  engine->ops->destroy(engine);
+  if (status == GG_OK) status = md->advance(engine, apart, UINT64_MAX, &elapsed, err);
+  if (status == GG_OK) md->snapshot(engine, true, take, p);
+  md->destroy(engine);
   return status;
 }
 
-gg_status gg_md_create_in_equilibrium(const gg_model *model, uint64_t seed, uint64_t stream,
+gg_status gg_md_create_in_equilibrium(const gg_engine_ops *md, const gg_model *model, uint64_t seed, uint64_t stream,
                                       const gg_grain_arrays *motion, gg_engine **engine, gg_error *err)
 {
   gg_grain_arrays start = motion ? *motion : (gg_grain_arrays){0};
@@ -88,10 +91,10 @@ gg_status gg_md_create_in_equilibrium(const gg_model *model, uint64_t seed, uint
   if (status == GG_OK) {
     *elastic = *model;
     make_elastic(elastic);
-    status = melt(elastic, seed, stream + GG_STREAM_PLACES, &p, err);
+    status = melt(md, elastic, seed, stream + GG_STREAM_PLACES, &p, err);
   }
   start.r = p.r, start.species = p.species;
-  if (status == GG_OK) status = gg_md_ops.create_with(model, seed, stream, &start, NULL, engine, err);
+  if (status == GG_OK) status = md->create_with(model, seed, stream, &start, NULL, engine, err);
   free(p.r);
   free(p.species);
   free(elastic);

@@ -77,7 +77,7 @@ static void enter_cells(void *context, int k)
   }
 }
 
-/* Grains counted by cell, and numbered within it. */
+/* Count grains by cell, and number them within it. */
 static void count_cells(gg_md_pair_lists *l)
 {
   const size_t cells = cells_of(l);
@@ -106,7 +106,7 @@ static bool grow(void **items, size_t *room, size_t least, size_t size)
   return true;
 }
 
-/* Of those from `rank` to `end`, displaced by `image`, the ones within reach of `self`. */
+/* Find the grains from `rank` to `end`, displaced by `image`, that are within reach of `self`. Returns their number. */
 static size_t scan(const gg_md_pair_lists *l, gg_md_listed self, gg_vec image, uint32_t rank, uint32_t end,
                    uint32_t *found)
 {
@@ -121,14 +121,15 @@ static size_t scan(const gg_md_pair_lists *l, gg_md_listed self, gg_vec image, u
   return n;
 }
 
-/* A run of cells along x, -1 to n_x, of one row. */
+/* A run of cells along x, from -1 to n_x, of one row. */
 typedef struct run {
   int32_t from, to;
-  uint32_t row; /* its cell 0 */
+  uint32_t row; /* index of its cell 0 */
   gg_vec image;
 } run;
 
-/* The whole of it, in up to three pieces; the first begins at `rank` if that is not 0. */
+/* Scan a run, in up to three pieces by images; the first piece begins at `rank` if that is not 0. False: out of memory.
+ */
 static bool scan_run(const gg_md_pair_lists *l, gg_md_pair_part *part, size_t *n, gg_md_listed self, run x,
                      uint32_t rank)
 {
@@ -158,7 +159,7 @@ static run run_of(const gg_md_pair_lists *l, const int32_t at[3], int dy, int dz
   return (run){at[0] - 1, at[0] + 1, (uint32_t)((to[2] * l->n[1] + to[1]) * l->n[0]), {0, image[1], image[2]}};
 }
 
-/* What grain i has found: those of its own part stay, in their order. */
+/* Separate the neighbours of grain i: those of its own part stay, in their order; the others go to `across`. */
 static bool split(gg_md_pair_part *part, uint32_t i, size_t from, size_t *end)
 {
   size_t n = from;
@@ -177,16 +178,16 @@ static bool split(gg_md_pair_part *part, uint32_t i, size_t from, size_t *end)
   return true;
 }
 
-/* Rows along x behind that of a cell, by y and z. */
+/* Offsets, along y and z, of the rows behind the row of a cell. */
 static const int behind[4][2] = {{1, 0}, {-1, 1}, {0, 1}, {1, 1}};
 
-/* With the rest of the own cell and the thirteen cells behind it. */
+/* List the pairs of a part: each grain with the rest of its own cell and the thirteen cells behind it. */
 static bool fill_part(const gg_md_pair_lists *l, gg_md_pair_part *part)
 {
   size_t n = 0;
   part->n_across = 0;
   for (uint32_t i = part->first; i < part->end; i++) {
-    if (i % GG_MD_PLACE_BETWEEN_LOOKS == 0 && gg_md_place_is_stopped(l->p)) return true;
+    if (i % GG_MD_PLACE_PER_POLL == 0 && gg_md_place_is_stopped(l->p)) return true;
     const size_t from = part->from[i - part->first] = n;
     const int32_t c = (int32_t)l->cell[i], at[3] = {c % l->n[0], c / l->n[0] % l->n[1], c / (l->n[0] * l->n[1])};
     const gg_md_listed self = l->listed[l->rank[i]];

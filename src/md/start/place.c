@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Centres that do not overlap, at any solid fraction: random points, sorted along a space-filling curve, pushed apart
- * pair by pair until no two are closer than their contact distance (the overlap-removing relaxation of Jodrey & Tory,
- * Phys. Rev. A 32 (1985) 2347, all pairs a sweep). The result is amorphous: a fluid configuration where a fluid exists.
- */
+/* Positions without overlaps, at any solid fraction: random points are sorted along a space-filling curve and pushed
+ * apart pair by pair until no two are closer than their contact distance (the overlap-removing relaxation of Jodrey &
+ * Tory, Phys. Rev. A 32 (1985) 2347, all pairs in a sweep). The result is amorphous: a fluid configuration where a
+ * fluid exists. */
 #include <math.h>
 
 #include "base/memory.h"
@@ -10,16 +10,16 @@
 #include "common/surface/shapes.h"
 #include "md/start/place.h"
 
-enum { BETWEEN_LOOKS = 1 << 13 }; /* grains: some milliseconds */
+enum { GRAINS_PER_POLL = 1 << 13 }; /* some milliseconds */
 
-/* A sweep: push apart every pair closer than (1 + margin) contact distances; returns how many overlapped in earnest. */
+/* A sweep pushes apart every pair closer than (1 + margin) contact distances, and counts real overlaps. */
 typedef struct sweep {
   gg_md_packing *p;
   double margin;
-  bool pushing, checking; /* checking: places from outside, as they are */
+  bool pushing, checking; /* checking: validate given positions, without moving them */
   uint64_t overlaps;
   gg_status status;
-  uint32_t pair[2]; /* the first that overlap */
+  uint32_t pair[2]; /* first two grains that overlap */
   double distance;  /* of their centres */
 } sweep;
 
@@ -46,10 +46,10 @@ gg_status gg_md_place_interrupted(gg_error *err)
   return gg_base_fail(err, GG_INTERRUPTED, "md: interrupted while grains were placed");
 }
 
-/* Asked at every grain, it looks at some, counted over all sweeps: what is placed at once is placed. */
+/* Poll `stop` once in some grains, counted over all sweeps, so that small systems are never interrupted. */
 static bool is_stopped(sweep *s)
 {
-  if (++s->p->tried % BETWEEN_LOOKS == 0 && gg_md_place_is_stopped(s->p)) s->status = GG_INTERRUPTED;
+  if (++s->p->tried % GRAINS_PER_POLL == 0 && gg_md_place_is_stopped(s->p)) s->status = GG_INTERRUPTED;
   return s->status != GG_OK;
 }
 
@@ -67,7 +67,7 @@ static void cell_of(const gg_md_cells *c, gg_vec r, int32_t at[3])
   }
 }
 
-/* The column of cells along x that is beside a place in the layer above or below: images there may be displaced. */
+/* Cell along x beside a position in the layer above or below, where images may be displaced. */
 static int32_t column_of(const gg_md_packing *p, gg_vec r, const int32_t at[3], int32_t layer)
 {
   const int32_t y = at[1] + layer;
@@ -173,10 +173,10 @@ gg_status gg_md_place_relax(gg_md_packing *p, double margin, int most_sweeps, bo
   return GG_OK;
 }
 
-/* Centres on a face-centred lattice stretched to the box, some sites left empty at random. */
+/* Face-centred lattice, stretched to the box; some sites are left empty at random. */
 static const double basis[4][3] = {{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}};
 
-/* Distance of the nearest sites with m[] cubes along the edges. */
+/* Distance of nearest sites with m[] cubes along the edges. */
 static double spacing(const gg_md_box *box, const uint32_t m[3])
 {
   double a[3], nearest = INFINITY;
@@ -188,7 +188,7 @@ static double spacing(const gg_md_box *box, const uint32_t m[3])
   return nearest;
 }
 
-/* The numbers of cubes that leave the sites farthest apart. */
+/* Choose the numbers of cubes for which nearest sites are farthest apart. */
 static void choose_cubes(const gg_md_box *box, uint32_t n, uint32_t best[3])
 {
   double widest = 0, edge = gg_root(4 * box->edge[0] * box->edge[1] * box->edge[2] / n, 3);
@@ -204,12 +204,12 @@ static void choose_cubes(const gg_md_box *box, uint32_t n, uint32_t best[3])
 
 void gg_md_place_lattice(const gg_md_box *box, uint32_t n, gg_rng *rng, gg_vec *r)
 {
-  uint32_t m[3] = {1, 1, 1}, placed = 0, seen = 0;
+  uint32_t m[3] = {1, 1, 1}, placed = 0, visited = 0;
   choose_cubes(box, n, m);
   uint32_t sites = 4 * m[0] * m[1] * m[2];
   for (uint32_t cube = 0; cube < sites / 4; cube++)
-    for (int b = 0; b < 4; b++, seen++) {
-      if (gg_rng_below(rng, sites - seen) >= n - placed) continue;
+    for (int b = 0; b < 4; b++, visited++) {
+      if (gg_rng_below(rng, sites - visited) >= n - placed) continue;
       uint32_t at[3] = {cube % m[0], cube / m[0] % m[1], cube / (m[0] * m[1])};
       for (int a = 0; a < 3; a++) *gg_component(&r[placed], a) = box->edge[a] * (at[a] + basis[b][a] + 0.25) / m[a];
       placed++;

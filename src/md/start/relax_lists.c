@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Large periodic boxes: grains are pushed apart (place.c) along lists of pairs (pair_lists.h), which hold over several
- * sweeps, and only where something overlaps or has just moved. Threads share a sweep: each part pushes its own pairs,
- * then one thread those of different parts. */
+/* Relaxation of large periodic boxes: grains are pushed apart (place.c) along lists of pairs (pair_lists.h), which hold
+ * for several sweeps, and only pairs that overlap or whose grains have just moved. Several threads run a sweep: each
+ * part pushes its own pairs, then one thread pushes the pairs of different parts. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,30 +9,30 @@
 #include "base/thread_pool.h"
 #include "md/start/pair_lists.h"
 
-/* From so many grains on: places of smaller systems are in stored results. */
-enum { LARGE = 50000, FEWEST_CELLS = 3 };
-/* Pairs are moved further than to where they leave each other alone: fewer sweeps. Lists are used for so many sweeps at
- * least, while too much moves for them to be complete. */
-#define BEYOND 1.5
-enum { LISTED_SWEEPS = 4 };
-#define SKIN 0.25 /* of the widest */
+enum {
+  LARGE = 50000,    /* fewest grains: positions of smaller systems are part of stored results */
+  FEWEST_CELLS = 3, /* along an edge */
+  LISTED_SWEEPS = 4 /* least number of sweeps with the same lists, while grains move too much for complete lists */
+};
+#define BEYOND 1.5 /* over-relaxation: pairs are pushed by so many times the distance needed, for fewer sweeps */
+#define SKIN 0.25  /* in diameters of the widest grain */
 
-/* What a part of a sweep has found; on a cache line of its own. */
+/* Results of a part of a sweep, on a cache line of their own. */
 typedef struct found {
   uint64_t overlaps;
-  double farthest2; /* from where grains were when lists were made */
+  double farthest2; /* largest squared displacement since lists were made */
 } __attribute__((aligned(64))) found;
 
 typedef struct relaxation {
   gg_md_pair_lists lists;
-  /* Sweeps up to which a grain is tried, and up to which those in its margin are pushed away. */
-  uint16_t *tried_to, *pushed_to;
+  uint16_t *tried_to;  /* last sweep in which a grain is tested */
+  uint16_t *pushed_to; /* last sweep in which grains in its margin are pushed away */
   uint16_t sweep;
-  bool pushing; /* else overlaps are counted, of all pairs */
-  bool all;     /* not only those that may have changed, as lists that were incomplete have been made anew */
+  bool pushing; /* false: overlaps of all pairs are counted */
+  bool all;     /* test all pairs, after incomplete lists were made anew */
   uint64_t overlaps;
   double farthest2;
-  found part[GG_MD_PLACE_PARTS + 1]; /* the last: across */
+  found part[GG_MD_PLACE_PARTS + 1]; /* the last one: pairs across parts */
 } relaxation;
 
 bool gg_md_place_has_lists(const gg_md_packing *p)
@@ -49,8 +49,8 @@ GG_INLINE void move(relaxation *x, found *f, uint32_t i, double by, gg_vec dr, b
   *r = gg_axpy(by, dr, *r);
   x->tried_to[i] = (uint16_t)(x->sweep + 1);
   if (overlaps) x->pushed_to[i] = (uint16_t)(x->sweep + 2);
-  const gg_vec way = gg_sub(*r, x->lists.before[i]);
-  const double far2 = gg_dot(way, way);
+  const gg_vec moved = gg_sub(*r, x->lists.before[i]);
+  const double far2 = gg_dot(moved, moved);
   if (far2 > f->farthest2) f->farthest2 = far2;
 }
 
@@ -84,8 +84,8 @@ static void sweep_part(void *context, int k)
   found *f = &x->part[k];
   *f = (found){0};
   for (uint32_t i = part->first; i < part->end; i++) {
-    const bool looks = i == part->first || i % GG_MD_PLACE_BETWEEN_LOOKS == 0;
-    if (looks && gg_md_place_is_stopped(x->lists.p)) return;
+    const bool polls = i == part->first || i % GG_MD_PLACE_PER_POLL == 0;
+    if (polls && gg_md_place_is_stopped(x->lists.p)) return;
     const bool tried = is_tried(x, i);
     const size_t *from = &part->from[i - part->first];
     for (size_t m = from[0]; m < from[1]; m++) {
@@ -123,7 +123,7 @@ static gg_status sweep(relaxation *x, int number, bool pushing, gg_error *err)
   return GG_OK;
 }
 
-/* Lists in which nobody has moved so far that pairs may be missing. */
+/* Are the lists complete, that is, has no grain moved so far that a pair may be missing? */
 static bool are_complete(const relaxation *x)
 {
   return x->farthest2 <= 0.25 * x->lists.skin * x->lists.skin;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Centres in the order of a space-filling curve: those that are near in space are near in memory. */
+/* Sorting of centres along a space-filling curve (Morton order): grains near in space are near in memory. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -29,7 +29,7 @@ static int by_key(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Two sorted parts, of `middle` and `end - middle` of them; equal ones stay in their order. */
+/* Merge two sorted parts, of `middle` and `end - middle` items; equal items stay in their order. */
 static void merge(const keyed *from, uint32_t middle, uint32_t end, keyed *to)
 {
   for (uint32_t i = 0, j = middle, k = 0; k < end; k++)
@@ -41,8 +41,10 @@ static uint32_t lesser(uint64_t a, uint64_t b)
   return (uint32_t)(a < b ? a : b);
 }
 
-/* Sorted between two looks at whether to stop: some milliseconds; threads share portions and merges. */
-enum { PORTION = 1 << 15, PARTS = 16 };
+enum {
+  PORTION = 1 << 15, /* items sorted between polls of `stop`: some milliseconds */
+  PARTS = 16         /* portions and merges are distributed to so many parts, for several threads */
+};
 
 typedef struct sorting {
   gg_md_packing *p;
@@ -50,7 +52,7 @@ typedef struct sorting {
   uint64_t length; /* of sorted portions */
 } sorting;
 
-/* Systems of one portion do not look. */
+/* Poll `stop`, except in systems of one portion. */
 static bool is_stopped(const sorting *s)
 {
   return s->p->n > PORTION && gg_md_place_is_stopped(s->p);
@@ -72,7 +74,7 @@ static void merge_portions(void *context, int k)
     merge(s->from + at, lesser(n - at, s->length), lesser(n - at, both), s->to + at);
 }
 
-/* In portions, which are merged; ends in s->from. */
+/* Sort portions and merge them; the result is in s->from. */
 static void sort(sorting *s)
 {
   gg_base_thread_pool_for(s->p->pool, PARTS, sort_portions, s);

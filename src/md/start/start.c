@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The initial state: random places, Maxwellian velocities at temperature0 (energies equal for all species), spins at
- * ratio0 x that about minus half the shear rate, total momentum zero, temperatures exact. */
+/* The initial state: random positions, Maxwellian velocities at temperature0 (energies equal for all species), spins at
+ * ratio0 x temperature0 about minus half the shear rate, total momentum zero, temperatures exact. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
 #include "common/portable_math.h"
-#include "md/md_state.h"
+#include "md/start/all_grains.h"
 #include "md/start/place.h"
+#include "md/start/start.h"
 
 enum { SWEEPS = 3000 };
 
@@ -15,7 +16,8 @@ static gg_status make_cells(const gg_md *e, gg_md_packing *p, gg_error *err)
 {
   double widest = gg_common_model_widest(&e->model) * 1.05;
   int32_t n[3];
-  gg_md_cells_count(&e->box, fmax(widest, gg_root(e->model.volume / e->n, 3)), n); /* not most of them empty */
+  gg_md_cells_count(&e->box, fmax(widest, gg_root(e->model.volume / e->n, 3)),
+                    n); /* wide enough that most cells are not empty */
   if (n[0] < 3 || n[1] < 3 || n[2] < 3) return GG_OK;
   GG_TRY(gg_md_cells_make(&p->cells, &e->box, n, widest, err));
   return GG_OK;
@@ -28,8 +30,8 @@ static gg_status push_apart(gg_md_packing *p, double phi, bool *free, gg_error *
                                   : gg_md_place_relax(p, margin, SWEEPS, free, err);
 }
 
-/* From random points; where that gets stuck, near random close packing, from a lattice with vacancies, which the run
- * itself has to melt. */
+/* Relax random points; if that fails, near random close packing, relax a lattice with vacancies, which the run itself
+ * has to melt. */
 static gg_status relax(const gg_md *e, gg_md_packing *p, gg_rng *rng, gg_error *err)
 {
   bool free;
@@ -47,8 +49,8 @@ static gg_status relax(const gg_md *e, gg_md_packing *p, gg_rng *rng, gg_error *
       e->model.phi, e->n);
 }
 
-/* Each species scattered at random over the places. */
-static void deal_species(gg_md *e, double *diameter, gg_rng *rng)
+/* Distribute the species at random over the positions. */
+static void distribute_species(gg_md *e, double *diameter, gg_rng *rng)
 {
   uint32_t left[GG_MAX_SPECIES];
   for (int k = 0; k < e->model.n_species; k++) left[k] = (uint32_t)e->model.n_of[k];
@@ -61,7 +63,8 @@ static void deal_species(gg_md *e, double *diameter, gg_rng *rng)
   }
 }
 
-/* Centres from outside, checked. They stand in memory along a space-filling curve, like those of a fresh start. */
+/* Take given positions, after validation. In memory they are sorted along a space-filling curve, as in a fresh start.
+ */
 static gg_status place_given(gg_md *e, const gg_grain_arrays *given, gg_md_packing *p, double *diameter, gg_error *err)
 {
   for (uint32_t i = 0; i < e->n; i++) p->r[i] = (gg_vec){given->r[3 * i], given->r[3 * i + 1], given->r[3 * i + 2]};
@@ -79,9 +82,9 @@ static gg_status place(gg_md *e, gg_rng *rng, gg_md_packing *p, double *diameter
 {
   for (uint32_t i = 0; i < e->n; i++)
     for (int a = 0; a < 3; a++) *gg_component(&p->r[i], a) = gg_rng_uniform(rng) * e->box.edge[a];
-  GG_TRY(gg_md_look(e, err));
+  GG_TRY(gg_md_poll_stop(e, err));
   GG_TRY(gg_md_place_sort(p, NULL, err));
-  deal_species(e, diameter, rng);
+  distribute_species(e, diameter, rng);
   GG_TRY(relax(e, p, rng, err));
   for (uint32_t i = 0; i < e->n; i++) {
     e->grain[i].r = p->r[i];
@@ -90,15 +93,15 @@ static gg_status place(gg_md *e, gg_rng *rng, gg_md_packing *p, double *diameter
   return GG_OK;
 }
 
-/* How much faster the upper wall is than the lower one. */
+/* Velocity of the upper wall relative to the lower one. */
 static double wall_shear(const gg_md *e)
 {
   const gg_surface *lower = gg_surface_at(&e->model, 1, -1), *upper = gg_surface_at(&e->model, 1, 1);
   return lower && upper ? upper->velocity.x - lower->velocity.x : 0;
 }
 
-/* Velocities of the model's fourth cumulant, Gaussian by default, at rest as a whole, and exactly at temperature T: sum
- * m c^2 = 3 N T. */
+/* Draw velocities with the fourth cumulant of the model (Gaussian by default), total momentum zero and exactly the
+ * temperature T: sum m c^2 = 3 N T. */
 static void set_velocities(gg_md *e, gg_rng *rng, double T)
 {
   gg_vec momentum = {0, 0, 0};
@@ -123,8 +126,8 @@ static void set_velocities(gg_md *e, gg_rng *rng, double T)
   }
 }
 
-/* Gaussian spins, exactly at theta, sum K m s^2 = 3 N theta: perfectly rough grains keep their total energy for ever.
- * The mean spin is added, that of the vorticity by default. */
+/* Draw Gaussian spins with exactly sum K m s^2 = 3 N theta, since perfectly rough grains conserve their total energy.
+ * Then add the mean spin, by default that of the vorticity. */
 static void set_spins(gg_md *e, gg_rng *rng, double theta)
 {
   double energy = 0;
@@ -142,7 +145,7 @@ static void set_spins(gg_md *e, gg_rng *rng, double theta)
   }
 }
 
-/* Peculiar velocities, and spins, from outside. */
+/* Take given peculiar velocities and spins. */
 static void take_motion(gg_md *e, const gg_grain_arrays *given)
 {
   for (uint32_t i = 0; i < e->n; i++) {
@@ -177,12 +180,12 @@ gg_status gg_md_start(gg_md *e, uint64_t seed, uint64_t stream, const gg_grain_a
 {
   gg_rng rng = gg_common_rng_seed(seed, stream + GG_STREAM_START);
   e->k.rng = gg_common_rng_seed(seed, stream + GG_STREAM_ENGINE);
-  GG_TRY(gg_md_look(e, err));
+  GG_TRY(gg_md_poll_stop(e, err));
   GG_TRY(place_all(e, given, &rng, err));
-  GG_TRY(gg_md_look(e, err));
+  GG_TRY(gg_md_poll_stop(e, err));
   set_velocities(e, &rng, e->model.temperature0);
-  GG_TRY(gg_md_look(e, err));
+  GG_TRY(gg_md_poll_stop(e, err));
   set_spins(e, &rng, e->model.ratio0 * e->model.temperature0);
   if (given) take_motion(e, given);
-  return gg_md_look(e, err);
+  return gg_md_poll_stop(e, err);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The cells that an event touches, and those around a cell, by kind of search. */
+/* The footprint of an event, and the cells around a cell, by kind of search. */
 #include <math.h>
 
 #include "md/overlapping_members.h"
@@ -29,8 +29,9 @@ static int around_in_rows(const gg_md *e, const int32_t at[3], uint32_t *index)
   return n;
 }
 
-/* Of skins that move with the flow: a list may be as old as its skin, and have been made when the centres stood
- * otherwise. Whoever it holds was then within reach. */
+/* Cells around a cell for skins that move with the flow. A list may be as old as its skin: its grains were within reach
+ * when it was made, and the flow has displaced the centres since. So the range covers all strains from then to the end
+ * of the window. */
 bool gg_md_measure_around(gg_md_parallel *p)
 {
   const gg_md *e = p->engine;
@@ -89,23 +90,23 @@ int gg_md_cells_around(const gg_md_parallel *p, uint32_t cell, uint32_t index[GG
   return n;
 }
 
-static void add(const gg_md *e, gg_md_touched *t, const int32_t at[3])
+static void add(const gg_md *e, gg_md_footprint *t, const int32_t at[3])
 {
   t->cell[t->n] = (uint32_t)gg_md_cell_index(&e->cells, at);
   t->layer[t->n++] = (uint16_t)at[2];
 }
 
-static void add_around(const gg_md_slab *s, gg_md_touched *t, const int32_t at[3])
+static void add_around(const gg_md_slab *s, gg_md_footprint *t, const int32_t at[3])
 {
-  const gg_md_cells *c = &s->view->cells;
+  const gg_md_cells *c = &s->local->cells;
   const int n = gg_md_cells_around(s->all, (uint32_t)gg_md_cell_index(c, at), t->cell + t->n);
   for (int k = 0; k < n; k++) t->layer[t->n++] = (uint16_t)wrapped(at[2] + 3 * k / n - 1, c->n[2]);
 }
 
-/* The lists of all around may change where its skin was and where the new one will be. */
-static void add_skins(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
+/* Add the cells around the old and the new skin: lists of all grains there may change. */
+static void add_skins(const gg_md_slab *s, uint32_t i, gg_md_footprint *t)
 {
-  const gg_md *e = s->view;
+  const gg_md *e = s->local;
   const gg_md_node *node = &e->node[i];
   gg_md_grain g = e->grain[i];
   int32_t at[3];
@@ -117,8 +118,8 @@ static void add_skins(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
   if (at[0] != node->cell[0] || at[1] != node->cell[1] || at[2] != node->cell[2]) add_around(s, t, at);
 }
 
-/* Into another row there are two cells in question. */
-static void add_destination(const gg_md *e, const gg_md_node *node, gg_md_touched *t)
+/* Add the cell that the grain enters. In another row it may be either of two cells. */
+static void add_destination(const gg_md *e, const gg_md_node *node, gg_md_footprint *t)
 {
   const int axis = node->face >> 1, step = node->face & 1 ? 1 : -1;
   const int32_t *n = e->cells.n;
@@ -132,8 +133,8 @@ static void add_destination(const gg_md *e, const gg_md_node *node, gg_md_touche
   add(e, t, at);
 }
 
-/* Cells that overlap: from `low` to `high` along each axis. */
-static void add_box(const gg_md *e, gg_md_touched *t, const int32_t low[3], const int32_t high[3])
+/* Add overlapping cells from `low` to `high` along each axis. */
+static void add_box(const gg_md *e, gg_md_footprint *t, const int32_t low[3], const int32_t high[3])
 {
   const int32_t *n = e->cells.n;
   for (int32_t z = low[2]; z <= high[2]; z++)
@@ -142,8 +143,8 @@ static void add_box(const gg_md *e, gg_md_touched *t, const int32_t low[3], cons
         add(e, t, (int32_t[3]){wrapped(x, n[0]), wrapped(y, n[1]), wrapped(z, n[2])});
 }
 
-/* Those that a grain is in. With a step (1 up, -1 down, 0 none) along an axis those beyond, too. */
-static void add_members(const gg_md *e, const gg_md_node *node, int axis, int step, gg_md_touched *t)
+/* Add the cells of a grain and, with a step (1 up, -1 down, 0 none) along an axis, the cells beyond. */
+static void add_members(const gg_md *e, const gg_md_node *node, int axis, int step, gg_md_footprint *t)
 {
   int32_t low[3], high[3];
   for (int a = 0; a < 3; a++) {
@@ -153,9 +154,9 @@ static void add_members(const gg_md *e, const gg_md_node *node, int axis, int st
   add_box(e, t, low, high);
 }
 
-/* The row that a grain is about to enter, and where along it. */
+/* Add the cells of the row that a grain is about to enter. */
 static void add_entered_row(const gg_md *e, const gg_md_node *node, gg_md_grain g, int step, const int32_t deep[2],
-                            gg_md_touched *t)
+                            gg_md_footprint *t)
 {
   uint32_t both;
   g.r = gg_md_position(e, false, &g, node->time);
@@ -167,8 +168,8 @@ static void add_entered_row(const gg_md *e, const gg_md_node *node, gg_md_grain 
   add_box(e, t, (int32_t[3]){x, next, deep[0]}, (int32_t[3]){x + (int32_t)both, next, deep[1]});
 }
 
-/* In rows that move with the flow; `lane`: of a step. */
-static void add_members_in_rows(const gg_md *e, uint32_t i, int lane, int step, gg_md_touched *t)
+/* Add the cells of a grain in rows that move with the flow. `lane`: of the step. */
+static void add_members_in_rows(const gg_md *e, uint32_t i, int lane, int step, gg_md_footprint *t)
 {
   const gg_md_node *node = &e->node[i];
   const uint32_t bits = node->neighbours;
@@ -183,15 +184,15 @@ static void add_members_in_rows(const gg_md *e, uint32_t i, int lane, int step, 
   if (lane == GG_MD_ALONG_Y && step) add_entered_row(e, node, e->grain[i], step, deep, t);
 }
 
-/* Where cells overlap an event reads no others than those that it touches. */
-static bool find_overlapping(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
+/* Footprint with overlapping cells: an event reads no other cells. */
+static bool find_overlapping(const gg_md_slab *s, uint32_t i, gg_md_footprint *t)
 {
-  gg_md *e = s->view;
+  gg_md *e = s->local;
   const gg_md_node *node = &e->node[i];
   const bool rows = e->search.kind == GG_MD_OVERLAPPING_ROWS;
   const int lane = node->face >> 1, step = !t->crosses ? 0 : node->face & 1 ? 1 : -1;
   t->wide = true;
-  e->k.now = node->time; /* rows stand where they do then */
+  e->k.now = node->time; /* rows are placed by it */
   rows ? add_members_in_rows(e, i, lane, step, t) : add_members(e, node, lane, step, t);
   if (t->crosses) return true;
   const uint32_t j = node->partner;
@@ -201,10 +202,10 @@ static bool find_overlapping(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
   return true;
 }
 
-/* A partner that is elsewhere may be at work there: its node is not read. */
-bool gg_md_find_touched(const gg_md_slab *s, uint32_t i, gg_md_touched *t)
+/* A partner in another slab may have an event there at this moment: its node is not read. */
+bool gg_md_find_footprint(const gg_md_slab *s, uint32_t i, gg_md_footprint *t)
 {
-  const gg_md *e = s->view;
+  const gg_md *e = s->local;
   const gg_md_node *node = &e->node[i];
   t->n = 0;
   t->collides = t->wide = false;

@@ -1,110 +1,97 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The engine between walls, behind the interface that all engines share. */
+/* The engine in a channel, behind the interface that all engines share. */
 #include <math.h>
 #include <string.h>
 
-#include "dsmc/walls/gap.h"
+#include "dsmc/walls/channel.h"
 
-/* Between looks at whether to stop, in candidates and flights; steps between measurements. */
-enum { WORK_BETWEEN_LOOKS = 1 << 16, STEPS_BETWEEN_MEASUREMENTS = 8 };
+enum { STEPS_BETWEEN_MEASUREMENTS = 8 };
 
-static gg_dsmc_gap *gap_of(gg_engine *engine)
+static gg_dsmc_channel *channel_of(gg_engine *engine)
 {
-  return (gg_dsmc_gap *)engine;
+  return (gg_dsmc_channel *)engine;
 }
-static const gg_dsmc_gap *const_gap_of(const gg_engine *engine)
+static const gg_dsmc_channel *const_channel_of(const gg_engine *engine)
 {
-  return (const gg_dsmc_gap *)engine;
+  return (const gg_dsmc_channel *)engine;
 }
 
-static void count(gg_dsmc_gap_cells *c, int species, double dt)
+static void count(gg_dsmc_channel_cells *c, int species, double dt)
 {
   for (int k = 0; k < c->n * species; k++) c->counted[k] += dt * (c->start[k + 1] - c->start[k]);
 }
 
-/* Half a flight, collisions, half a flight (Strang, SIAM J. Numer. Anal. 5 (1968) 506): the last half is left to the
- * next step, which flies both at once. */
-static double step(gg_dsmc_gap *d, double left, double wanted)
+/* Take a step: half a flight, collisions, half a flight (Strang, SIAM J. Numer. Anal. 5 (1968) 506). The last half is
+ * pending: the next step flies both halves at once. */
+static double step(gg_dsmc_channel *d, double left, double wanted)
 {
-  gg_dsmc_gap_state *s = &d->now;
+  gg_dsmc_channel_state *s = &d->now;
   double dt = s->step;
   if (!(d->model.time_step > 0)) dt = fmin(fmin(dt, left), fmax(wanted / s->all_rate, 1e-3 * dt));
-  gg_dsmc_gap_fly(d, s->owed + 0.5 * dt);
-  gg_dsmc_gap_sort(d);
+  gg_dsmc_channel_fly(d, s->pending + 0.5 * dt);
+  gg_dsmc_channel_sort(d);
   count(&d->cells, d->model.n_species, dt);
   d->collide(d, dt);
-  s->owed = 0.5 * dt;
+  s->pending = 0.5 * dt;
   s->time += dt;
   s->unmeasured += dt;
-  if (++s->steps % STEPS_BETWEEN_MEASUREMENTS == 0) gg_dsmc_gap_measure(d);
+  if (++s->steps % STEPS_BETWEEN_MEASUREMENTS == 0) gg_dsmc_channel_measure(d);
   return dt;
-}
-
-static gg_status check_temperature(const gg_dsmc_gap *d, gg_error *err)
-{
-  if (d->now.temperature > 1e-300 && d->now.temperature < 1e300) return GG_OK;
-  return gg_base_fail(err, GG_FAILED,
-                      "the temperature left the range of double precision (%g) after %.3g collisions per grain",
-                      d->now.temperature, 2 * (double)d->now.collisions / (double)d->model.n);
 }
 
 static gg_status go_on(gg_engine *engine, double *elapsed, gg_error *err)
 {
-  gg_dsmc_gap *d = gap_of(engine);
-  gg_dsmc_gap_state *s = &d->now;
+  gg_dsmc_channel *d = channel_of(engine);
+  gg_dsmc_channel_state *s = &d->now;
   bool stopped = false;
-  for (uint64_t work = 0; !stopped && s->gone < s->asked && s->collisions < s->last_collision;) {
+  for (uint64_t work = 0; !stopped && !gg_dsmc_advance_is_over(&s->advance, s->collisions);) {
     const uint64_t before = s->candidates;
-    GG_TRY(check_temperature(d, err));
-    s->gone += step(d, s->asked - s->gone, (double)(s->last_collision - s->collisions));
-    work += s->candidates - before + (uint64_t)d->model.n;
-    if (work < WORK_BETWEEN_LOOKS) continue;
-    work = 0;
-    stopped = gg_stop_asked(d->model.stop);
+    GG_TRY(gg_dsmc_check_temperature(&d->model, s->temperature, 1e-300, 1e300, s->collisions, err));
+    s->advance.gone += step(d, s->advance.asked - s->advance.gone, (double)(s->advance.last_collision - s->collisions));
+    stopped = gg_dsmc_advance_is_stopped(&d->model, &work, s->candidates - before + (uint64_t)d->model.n);
   }
-  *elapsed = s->gone;
+  *elapsed = s->advance.gone;
   if (stopped) return gg_base_fail(err, GG_INTERRUPTED, "dsmc: stopped");
-  gg_dsmc_gap_fly(d, s->owed);
-  s->owed = 0;
+  gg_dsmc_channel_fly(d, s->pending);
+  s->pending = 0;
   return GG_OK;
 }
 
 static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, double *elapsed, gg_error *err)
 {
-  gg_dsmc_gap_state *s = &gap_of(engine)->now;
+  gg_dsmc_channel_state *s = &channel_of(engine)->now;
   double unused;
-  s->asked = dt;
-  s->gone = 0;
-  s->last_collision = max_collisions < UINT64_MAX - s->collisions ? s->collisions + max_collisions : UINT64_MAX;
+  gg_dsmc_advance_begin(&s->advance, dt, max_collisions, s->collisions);
   return go_on(engine, elapsed ? elapsed : &unused, err);
 }
 
-static void take_over(gg_dsmc_gap *d, const gg_dsmc_gap *before)
+static void take_over(gg_dsmc_channel *d, const gg_dsmc_channel *before)
 {
-  gg_dsmc_gap_state *s = &d->now;
-  const gg_dsmc_gap_state *b = &before->now;
+  gg_dsmc_channel_state *s = &d->now;
+  const gg_dsmc_channel_state *b = &before->now;
   s->streams = b->streams;
   s->time = b->time;
   s->steps = b->steps;
   s->collisions = b->collisions;
   s->candidates = b->candidates;
   s->overflows = b->overflows;
-  s->rests = b->rests;
+  s->forced_rebounds = b->forced_rebounds;
   s->clamped = b->clamped;
 }
 
 static gg_status create_with(const gg_model *model, uint64_t seed, uint64_t stream, const gg_grain_arrays *grains,
                              const gg_engine *before, gg_engine **engine, gg_error *err)
 {
-  gg_dsmc_gap *d;
-  GG_TRY(gg_dsmc_gap_accepts(model, err));
-  GG_TRY(gg_dsmc_gap_allocate(model, &d, err));
-  const gg_status status = gg_dsmc_gap_start(d, seed, stream, grains, err);
+  gg_dsmc_channel *d;
+  GG_TRY(gg_dsmc_channel_accepts(model, err));
+  GG_TRY(gg_dsmc_channel_allocate(model, &d, err));
+  d->base.ops = &gg_dsmc_channel_ops;
+  const gg_status status = gg_dsmc_channel_start(d, seed, stream, grains, err);
   if (status != GG_OK) {
-    gg_dsmc_gap_destroy(&d->base);
+    gg_dsmc_channel_destroy(&d->base);
     return status;
   }
-  if (before) take_over(d, const_gap_of(before));
+  if (before) take_over(d, const_channel_of(before));
   *engine = &d->base;
   return GG_OK;
 }
@@ -116,72 +103,72 @@ static gg_status create(const gg_model *model, uint64_t seed, uint64_t stream, g
 
 static void keep_sums(gg_engine *engine, bool keep)
 {
-  gap_of(engine)->now.keeps_sums = keep;
+  channel_of(engine)->now.keeps_sums = keep;
 }
 
 static void take_sums(gg_engine *engine, gg_collision_sums *sums)
 {
-  gg_collision_sums *t = &gap_of(engine)->now.transfer;
+  gg_collision_sums *t = &channel_of(engine)->now.transfer;
   *sums = *t;
   memset(t, 0, sizeof *t);
 }
 
 static gg_status set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err)
 {
-  gg_dsmc_gap *d = gap_of(engine);
-  if (callback) GG_TRY(gg_dsmc_gap_allocate_last(d, err));
+  gg_dsmc_channel *d = channel_of(engine);
+  if (callback) GG_TRY(gg_dsmc_channel_allocate_last(d, err));
   d->callback = callback;
   d->callback_context = context;
   return GG_OK;
 }
 
-/* At most as many as there are slabs that collide at once. */
+/* More threads than slabs that collide at once would be idle. */
 static void threads(gg_engine *engine, int threads)
 {
-  gg_dsmc_gap *d = gap_of(engine);
+  gg_dsmc_channel *d = channel_of(engine);
   gg_base_thread_pool_free(d->pool);
   d->pool = d->slabs > 1 ? gg_base_thread_pool_new(threads < d->slabs / 2 ? threads : d->slabs / 2) : NULL;
 }
 
 static void state(const gg_engine *engine, gg_engine_state *state)
 {
-  const gg_dsmc_gap_state *s = &const_gap_of(engine)->now;
+  const gg_dsmc_channel_state *s = &const_channel_of(engine)->now;
   const double h = s->step * s->rate;
   *state = (gg_engine_state){.time = s->time,
                              .collisions = s->collisions,
                              .events = s->candidates,
                              .overflows = s->overflows,
                              .clamped = s->clamped,
-                             .wall_treated = s->rests,
-                             .others_cpu = gg_base_thread_pool_cpu(const_gap_of(engine)->pool),
+                             .wall_treated = s->forced_rebounds,
+                             .others_cpu = gg_base_thread_pool_cpu(const_channel_of(engine)->pool),
                              .overfilled = s->overfilled,
                              .time_step = s->step,
-                             .time_step_bias = GG_GAP_BIAS_OF_STEP * h * h};
+                             .time_step_bias = GG_DSMC_CHANNEL_BIAS_OF_STEP * h * h};
 }
 
-enum { SHOWN = 256 };
+enum { SHOWN = 256 }; /* grains of a chunk: they stay in the first cache until they have been sampled */
 
-/* Where the flight that is still owed takes it; the walls know nothing of it. */
-static void fly_on(const gg_dsmc_gap *d, gg_dsmc_gap_grain *p)
+/* Apply the pending flight to a copy of a grain; sums and random streams of the walls are unchanged. */
+static void fly_on(const gg_dsmc_channel *d, gg_dsmc_channel_grain *p)
 {
-  gg_dsmc_gap_contacts unused = {0};
+  gg_dsmc_channel_contacts unused = {0};
   gg_rng rng = d->now.streams.walls[0];
-  gg_dsmc_gap_fly_grain(d, d->now.owed, &rng, p, &unused);
+  gg_dsmc_channel_fly_grain(d, d->now.pending, &rng, p, &unused);
 }
 
-static void show_grain(const gg_dsmc_gap *d, size_t i, size_t slot, double out[9][SHOWN])
+static void show_grain(const gg_dsmc_channel *d, size_t i, size_t slot, double out[9][SHOWN])
 {
-  const gg_dsmc_gap_grains *g = &d->grains;
-  gg_dsmc_gap_grain p = {.r = {0, g->at[i].y, 0}, .c = g->at[i].c, .species = g->species[i]};
+  const gg_dsmc_channel_grains *g = &d->grains;
+  gg_dsmc_channel_grain p = {.r = {0, g->at[i].y, 0}, .c = g->at[i].c, .species = g->species[i]};
   if (g->s) p.s = g->s[i];
-  if (d->now.owed > 0) fly_on(d, &p);
+  if (d->now.pending > 0) fly_on(d, &p);
   const gg_vec parts[] = {p.r, p.c, p.s};
   for (int k = 0; k < 9; k++) out[k][slot] = gg_along(&parts[k / 3], k % 3);
 }
 
 static void snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context)
 {
-  const gg_dsmc_gap *d = gap_of(engine);
+  const gg_dsmc_channel *d = channel_of(engine);
   double out[9][SHOWN];
   int64_t id[SHOWN];
   const size_t n = (size_t)d->model.n;
@@ -205,14 +192,21 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   return gg_base_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled between walls: the drive sets the clock");
 }
 
-const gg_engine_ops gg_dsmc_gap_ops = {
+static gg_status restore(const gg_model *model, const gg_archive *archive, gg_engine **engine, gg_error *err)
+{
+  GG_TRY(gg_dsmc_channel_restore(model, archive, engine, err));
+  (*engine)->ops = &gg_dsmc_channel_ops;
+  return GG_OK;
+}
+
+const gg_engine_ops gg_dsmc_channel_ops = {
     .name = "dsmc",
     .doc = "Enskog Monte Carlo between walls",
-    .accepts = gg_dsmc_gap_accepts,
-    .bytes = gg_dsmc_gap_bytes,
+    .accepts = gg_dsmc_channel_accepts,
+    .bytes = gg_dsmc_channel_bytes,
     .create = create,
     .create_with = create_with,
-    .destroy = gg_dsmc_gap_destroy,
+    .destroy = gg_dsmc_channel_destroy,
     .advance = advance,
     .keep_sums = keep_sums,
     .take_sums = take_sums,
@@ -221,8 +215,8 @@ const gg_engine_ops gg_dsmc_gap_ops = {
     .state = state,
     .snapshot = snapshot,
     .rescale = rescale,
-    .save = gg_dsmc_gap_save,
-    .restore = gg_dsmc_gap_restore,
-    .describe = gg_dsmc_gap_describe,
+    .save = gg_dsmc_channel_save,
+    .restore = restore,
+    .describe = gg_dsmc_channel_describe,
     .go_on = go_on,
 };

@@ -1,61 +1,65 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The cells: who is in them, mean numbers, contact values; and the step, from the rate of collisions. */
+/* Cells of a channel: sorting of grains, mean numbers, contact values; and the time step, by the collision rate. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "common/contact_value.h"
-#include "dsmc/walls/gap.h"
+#include "dsmc/walls/channel.h"
 #include "simd/clones.h"
 
-/* Bias of transport by cells of width w: 0.11 (w/l)^2, l the mean free path (Alexander, Garcia & Alder, Phys. Fluids 10
- * (1998) 1540). */
+/* Width of cells in mean free paths l. The bias of transport by cells of width w is 0.11 (w/l)^2 (Alexander, Garcia &
+ * Alder, Phys. Fluids 10 (1998) 1540). */
 #define PATHS_PER_CELL 0.15
-/* Cells a diameter, to resolve the layers at walls: at the densest, and over phi where these fade. */
+/* Width of cells in diameters, to resolve the layers at walls: in dense gases, and times phi in dilute ones, where
+ * layers fade. */
 #define DIAMETERS_PER_CELL 0.1
 #define LAYERS_FADE 0.005
-/* At least so many cells across the gap; of an open top, up to so many heights of the box. */
-enum { LEAST_CELLS = 20, OPEN_HEIGHTS = 8 };
-/* Contact values rise without end towards close packing; mean numbers of a start, or of a bed that gravity packs, go
- * beyond. */
+enum {
+  LEAST_CELLS = 20, /* across the channel */
+  OPEN_HEIGHTS = 8  /* with an open top cells reach up to so many heights of the box */
+};
+/* Solid fraction up to which contact values are computed: they diverge towards close packing, and mean numbers of a
+ * start or of a bed packed by gravity go beyond it. */
 #define MOST_FILLED 0.63
 
-double gg_dsmc_gap_cell_width(const gg_model *m)
+double gg_dsmc_channel_cell_width(const gg_model *m)
 {
   double path = 1 / (sqrt(2) * M_PI * m->density * m->chi[0]);
   double width = fmin(PATHS_PER_CELL * path, m->box[1] / LEAST_CELLS);
   return m->boltzmann ? width : fmin(width, fmax(DIAMETERS_PER_CELL, LAYERS_FADE / m->phi));
 }
 
-/* Integral of the cross-section pi (R^2 - z^2) of a grain up to z, over all of it. */
-static double share_below(double radius, double z)
+/* Fraction of a grain's volume below z: integral of the cross-section pi (R^2 - z^2) up to z, over the whole integral.
+ */
+static double fraction_below(double radius, double z)
 {
   const double u = fmin(fmax(z / radius, -1), 1);
   return 0.25 * (2 + 3 * u - u * u * u);
 }
 
-/* Fischer & Methfessel, Phys. Rev. A 22 (1980) 2836: the contact value is that of the density averaged over a sphere
- * about the point of contact; that is the share of the volume that grains fill there. */
-static void set_kernels(gg_dsmc_gap *d)
+/* Set the kernels of the local solid fraction. Fischer & Methfessel, Phys. Rev. A 22 (1980) 2836: the contact value is
+ * that of the density averaged over a sphere about the point of contact, which is the solid fraction there. */
+static void set_kernels(gg_dsmc_channel *d)
 {
-  gg_dsmc_gap_cells *c = &d->cells;
+  gg_dsmc_channel_cells *c = &d->cells;
   for (int s = 0; s < d->model.n_species; s++)
     for (int k = 0; k <= c->reach; k++) { /* places are half cells away */
       const double z = 0.5 * k * c->width, radius = 0.5 * d->model.diameter[s];
       c->kernel[s * (c->reach + 1) + k] =
-          share_below(radius, z + 0.5 * c->width) - share_below(radius, z - 0.5 * c->width);
+          fraction_below(radius, z + 0.5 * c->width) - fraction_below(radius, z - 0.5 * c->width);
     }
 }
 
-static double lowest(const gg_dsmc_gap *d)
+static double lowest(const gg_dsmc_channel *d)
 {
   double low = d->low[0];
   for (int s = 1; s < d->model.n_species; s++) low = fmin(low, d->low[s]);
   return low;
 }
 
-static double highest(const gg_dsmc_gap *d)
+static double highest(const gg_dsmc_channel *d)
 {
   if (gg_common_surface_is_open_above(&d->model)) return OPEN_HEIGHTS * d->model.box[1];
   double high = d->high[0];
@@ -63,17 +67,18 @@ static double highest(const gg_dsmc_gap *d)
   return high;
 }
 
-/* A slab reaches beyond its ends as far as partners are, roundings included. */
-static gg_status partition(gg_dsmc_gap *d, gg_error *err)
+/* Partition the grains into parts and the cells into slabs. Partners of a slab are beyond its ends by at most the
+ * contact distance and a cell, for rounding. */
+static gg_status partition(gg_dsmc_channel *d, gg_error *err)
 {
-  const gg_dsmc_gap_cells *c = &d->cells;
+  const gg_dsmc_channel_cells *c = &d->cells;
   const int64_t bins = (int64_t)c->n * d->model.n_species, n = d->model.n;
   double reach = 0;
   for (int p = 0; p < gg_pairs_of(d->model.n_species); p++) reach = fmax(reach, d->reach[p] * c->inverse);
-  d->parts = (int)fmin(GG_GAP_MOST_PARTS, fmax(1, (double)(n / (16 * bins))));
-  d->slabs = (int)fmin(GG_GAP_MOST_SLABS, floor(c->n / (2 * (ceil(reach) + 1)) / 2) * 2);
-  if (n < GG_GAP_LEAST_SHARED) d->parts = 1;
-  if (n < GG_GAP_LEAST_SHARED || d->slabs < 4) d->slabs = 1;
+  d->parts = (int)fmin(GG_DSMC_CHANNEL_MOST_PARTS, fmax(1, (double)(n / (16 * bins))));
+  d->slabs = (int)fmin(GG_DSMC_CHANNEL_MOST_SLABS, floor(c->n / (2 * (ceil(reach) + 1)) / 2) * 2);
+  if (n < GG_DSMC_CHANNEL_LEAST_SHARED) d->parts = 1;
+  if (n < GG_DSMC_CHANNEL_LEAST_SHARED || d->slabs < 4) d->slabs = 1;
   const size_t bytes = (size_t)d->slabs * sizeof *d->slab;
   if (!(d->slab = aligned_alloc(64, bytes))) return gg_base_out_of_memory(err);
   memset(d->slab, 0, bytes);
@@ -84,16 +89,16 @@ static gg_status partition(gg_dsmc_gap *d, gg_error *err)
   return GG_OK;
 }
 
-gg_status gg_dsmc_gap_cells_new(gg_dsmc_gap *d, gg_error *err)
+gg_status gg_dsmc_channel_cells_new(gg_dsmc_channel *d, gg_error *err)
 {
   const gg_model *m = &d->model;
-  gg_dsmc_gap_cells *c = &d->cells;
+  gg_dsmc_channel_cells *c = &d->cells;
   const size_t species = (size_t)m->n_species, pairs = (size_t)gg_pairs_of(m->n_species);
   c->from = lowest(d);
-  const double gap = highest(d) - c->from;
-  c->n = (int)fmin(ceil(gap / gg_dsmc_gap_cell_width(m) * (1 - 1e-12)), 1e7);
-  c->width = gap / c->n;
-  c->inverse = c->n / gap;
+  const double height = highest(d) - c->from;
+  c->n = (int)fmin(ceil(height / gg_dsmc_channel_cell_width(m) * (1 - 1e-12)), 1e7);
+  c->width = height / c->n;
+  c->inverse = c->n / height;
   c->volume = m->box[0] * m->box[2] * c->width;
   c->reach = (int)fmin(1 + ceil(gg_common_model_widest(m) * c->inverse), 2 * c->n);
   const size_t n = (size_t)c->n;
@@ -114,7 +119,7 @@ gg_status gg_dsmc_gap_cells_new(gg_dsmc_gap *d, gg_error *err)
   return GG_OK;
 }
 
-void gg_dsmc_gap_cells_free(gg_dsmc_gap_cells *c)
+void gg_dsmc_channel_cells_free(gg_dsmc_channel_cells *c)
 {
   free(c->start_below);
   free(c->next);
@@ -126,10 +131,10 @@ void gg_dsmc_gap_cells_free(gg_dsmc_gap_cells *c)
   free(c->majorant);
 }
 
-/* Where the grains of each part go in each cell. */
-static void number(gg_dsmc_gap *d)
+/* Compute the first index of each cell, and of each part within it, from the counts. */
+static void number(gg_dsmc_channel *d)
 {
-  gg_dsmc_gap_cells *c = &d->cells;
+  gg_dsmc_channel_cells *c = &d->cells;
   const size_t species = (size_t)d->model.n_species, bins = (size_t)c->n * species;
   uint32_t at = 0;
   for (size_t b = 0; b < bins; b++) {
@@ -144,7 +149,7 @@ static void number(gg_dsmc_gap *d)
   for (size_t b = bins; b <= bins + species; b++) c->start[b] = at;
 }
 
-/* A height and a velocity are moved at once. */
+/* Height and velocity of a grain, moved at once. */
 typedef double row __attribute__((vector_size(32), may_alias));
 
 GG_CLONES static void move_all(size_t from, size_t end, uint32_t *restrict place, uint32_t *restrict next,
@@ -161,9 +166,9 @@ GG_CLONES static void move_all(size_t from, size_t end, uint32_t *restrict place
 
 static void order_part(void *context, int part)
 {
-  const gg_dsmc_gap *d = context;
-  const gg_dsmc_gap_grains from = d->grains, to = d->sorted;
-  const size_t first = gg_dsmc_gap_part(d, part), end = gg_dsmc_gap_part(d, part + 1);
+  const gg_dsmc_channel *d = context;
+  const gg_dsmc_channel_grains from = d->grains, to = d->sorted;
+  const size_t first = gg_dsmc_channel_part(d, part), end = gg_dsmc_channel_part(d, part + 1);
   move_all(first, end, d->place, d->cells.next + (size_t)part * d->cells.stride, (const row *)from.at, (row *)to.at,
            from.id, to.id);
   for (size_t i = first; from.s && i < end; i++) to.s[d->place[i]] = from.s[i];
@@ -171,19 +176,19 @@ static void order_part(void *context, int part)
   for (size_t i = first; d->model.n_species > 1 && i < end; i++) to.species[d->place[i]] = from.species[i];
 }
 
-void gg_dsmc_gap_sort(gg_dsmc_gap *d)
+void gg_dsmc_channel_sort(gg_dsmc_channel *d)
 {
   number(d);
   gg_base_thread_pool_for(d->pool, d->parts, order_part, d);
-  const gg_dsmc_gap_grains from = d->grains;
+  const gg_dsmc_channel_grains from = d->grains;
   d->grains = d->sorted;
   d->sorted = from;
 }
 
-/* Grains fill a share `filled` of the place, and of each species' share 1/d. */
-static void filling_at(const gg_dsmc_gap *d, int place, double *filled, double *over_d)
+/* Local solid fraction *filled at a place, in half cells, and the sum of its species' parts over their diameters. */
+static void filling_at(const gg_dsmc_channel *d, int place, double *filled, double *over_d)
 {
-  const gg_dsmc_gap_cells *c = &d->cells;
+  const gg_dsmc_channel_cells *c = &d->cells;
   const int species = d->model.n_species;
   *filled = *over_d = 0;
   for (int s = 0; s < species; s++) {
@@ -192,15 +197,15 @@ static void filling_at(const gg_dsmc_gap *d, int place, double *filled, double *
     for (int b = (place - c->reach + 1) / 2 > 0 ? (place - c->reach + 1) / 2 : 0; b < c->n && 2 * b <= place + c->reach;
          b++)
       grains += c->mean[b * species + s] * kernel[abs(place - 2 * b)];
-    const double share = M_PI / 6 * diameter * diameter * diameter * grains / c->volume;
-    *filled += share, *over_d += share / diameter;
+    const double part = M_PI / 6 * diameter * diameter * diameter * grains / c->volume;
+    *filled += part, *over_d += part / diameter;
   }
 }
 
-double gg_dsmc_gap_set_chi(gg_dsmc_gap *d)
+double gg_dsmc_channel_set_chi(gg_dsmc_channel *d)
 {
   const gg_model *m = &d->model;
-  gg_dsmc_gap_cells *c = &d->cells;
+  gg_dsmc_channel_cells *c = &d->cells;
   const gg_contact_value kind = m->contact_value;
   double beyond = 0;
   for (int place = 0; place < 2 * c->n; place++) {
@@ -222,12 +227,13 @@ double gg_dsmc_gap_set_chi(gg_dsmc_gap *d)
   return beyond;
 }
 
-/* Longer than this share of a thermal crossing of the gap no step is, whether grains collide or not. */
+/* Longest step as a fraction of a thermal crossing of the channel, whether grains collide or not. */
 #define MOST_OF_CROSSING 0.25
 
-/* Nor longer than gravity takes across the gap, or for so many thermal speeds of a grain that leaves a thermal wall:
- * else a flight cuts contacts with walls without end, and a run could not be stopped for minutes. Neither depends on
- * the temperature of grains, which in a bed falls with the step (gap_flight.c: the shortest hop). */
+/* Longest step under gravity: a fall across the channel, or the time in which gravity adds so many thermal speeds of a
+ * grain that leaves a thermal wall. In a longer flight contacts with walls would accumulate, and a run could not be
+ * stopped for minutes. These limits do not depend on the temperature of grains, which in a bed falls with the step
+ * (channel_flight.c: SHORTEST_HOP). */
 #define MOST_FALL 16
 
 static double longest_fall(const gg_model *m, double g)
@@ -240,26 +246,26 @@ static double longest_fall(const gg_model *m, double g)
   return longest;
 }
 
-/* A run that asks for an error takes steps whose bias is so small a share of it. */
-#define SHARE_OF_ERROR 0.2
+/* Bias of the step as a fraction of the requested error. */
+#define FRACTION_OF_ERROR 0.2
 
-double gg_dsmc_gap_free_times(const gg_model *m)
+double gg_dsmc_channel_free_times(const gg_model *m)
 {
   if (m->time_step > 0) return m->time_step;
-  const double exact = m->asked_error > 0 ? sqrt(SHARE_OF_ERROR * m->asked_error / GG_GAP_BIAS_OF_STEP) : 1;
-  return fmin(exact, GG_GAP_FREE_TIMES_PER_STEP);
+  const double exact = m->asked_error > 0 ? sqrt(FRACTION_OF_ERROR * m->asked_error / GG_DSMC_CHANNEL_BIAS_OF_STEP) : 1;
+  return fmin(exact, GG_DSMC_CHANNEL_FREE_TIMES_PER_STEP);
 }
 
-void gg_dsmc_gap_choose_step(gg_dsmc_gap *d)
+void gg_dsmc_channel_choose_step(gg_dsmc_channel *d)
 {
-  gg_dsmc_gap_state *s = &d->now;
+  gg_dsmc_channel_state *s = &d->now;
   const double crossing = d->model.box[1] / sqrt(s->temperature);
-  s->step = fmin(gg_dsmc_gap_free_times(&d->model) / s->rate, MOST_OF_CROSSING * crossing);
+  s->step = fmin(gg_dsmc_channel_free_times(&d->model) / s->rate, MOST_OF_CROSSING * crossing);
   const double g2 = gg_dot(d->gravity, d->gravity);
   if (g2 > 0) s->step = fmin(s->step, longest_fall(&d->model, sqrt(g2)));
 }
 
-static double temperature_of(const gg_dsmc_gap *d)
+static double temperature_of(const gg_dsmc_channel *d)
 {
   double sum = 0;
   for (size_t i = 0; i < (size_t)d->model.n; i++) {
@@ -269,23 +275,23 @@ static double temperature_of(const gg_dsmc_gap *d)
   return sum / (3 * (double)d->model.n);
 }
 
-/* Enskog's contact value is that of the present density, so mean numbers forget within a thermal flight of a diameter.
- * A longer memory lowers noise of contact values, but then the pressure answers late to waves of density across the
- * gap, and these grow: at phi = 0.3 with 3000 grains, a memory of a crossing of 12 diameters raises the shear rate of
- * the core of a Couette flow by 2 %, one of four crossings by 5 %. */
-void gg_dsmc_gap_measure(gg_dsmc_gap *d)
+/* Enskog's contact value is that of the present density, so mean numbers are averaged over a thermal flight of a
+ * diameter only. A longer average lowers the noise of contact values, but then the pressure responds late to density
+ * waves across the channel, and these grow: at phi = 0.3 with 3000 grains, an average over a crossing of 12 diameters
+ * raises the shear rate of the core of a Couette flow by 2 %, over four crossings by 5 %. */
+void gg_dsmc_channel_measure(gg_dsmc_channel *d)
 {
-  gg_dsmc_gap_cells *c = &d->cells;
-  gg_dsmc_gap_state *s = &d->now;
+  gg_dsmc_channel_cells *c = &d->cells;
+  gg_dsmc_channel_state *s = &d->now;
   const int species = d->model.n_species;
   const double t = s->unmeasured, speed = sqrt(s->temperature), crossing = d->model.box[1] / speed;
-  const double share = t / (t + gg_common_model_widest(&d->model) / speed);
+  const double weight = t / (t + gg_common_model_widest(&d->model) / speed);
   double hits = 0, squares = 0;
   for (int a = 0; a < c->n; a++) {
     double grains = 0;
     for (int k = a * species; k < (a + 1) * species; k++) {
       grains += c->counted[k] / t;
-      c->mean[k] += share * (c->counted[k] / t - c->mean[k]);
+      c->mean[k] += weight * (c->counted[k] / t - c->mean[k]);
       c->counted[k] = 0;
     }
     hits += c->hits[a];
@@ -296,7 +302,7 @@ void gg_dsmc_gap_measure(gg_dsmc_gap *d)
   s->all_rate = 0.5 * hits / t;
   s->temperature = temperature_of(d);
   s->unmeasured = 0;
-  gg_dsmc_gap_choose_step(d);
-  const double overfilled = gg_dsmc_gap_set_chi(d) / (double)d->model.n;
+  gg_dsmc_channel_choose_step(d);
+  const double overfilled = gg_dsmc_channel_set_chi(d) / (double)d->model.n;
   s->overfilled += t / (t + crossing) * (overfilled - s->overfilled);
 }

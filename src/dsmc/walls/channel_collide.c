@@ -1,42 +1,44 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The collisions of a step.
+/* Collisions of a step in a channel.
  *
- * Of a grain i at y the candidates have a direction k and a partner j that is any grain of the cell at y + sigma k_y; N
- * are there, of its species. Enskog's collision rate is that of k uniform on the sphere, times sigma^2 chi g_n N per
- * volume of a cell and 4 pi; every collision has two sides, so that candidates of each grain have half of it. A grain
- * beyond the walls is nobody's partner: no cell is there.
+ * A candidate of grain i at height y has a direction k and a partner j, any of the N grains of the partner's species in
+ * the cell at y + sigma k_y. Enskog's collision rate is that of k uniform on the sphere, times sigma^2 chi g_n N per
+ * volume of a cell and 4 pi. Every collision has two grains, so the candidates of each grain have half of this rate.
+ * There are no cells, and so no partners, beyond the walls.
  *
- * k_y alone says which cell and who: of all azimuths of k one is as good as its opposite. So a candidate stands for
- * both, with the mean V of their positive g_n. With |g| = 1 V is at most h(k_y) = max(|k_y|, 1/2). Therefore k_y has
- * the density of h, and a candidate is accepted if chi N V/h is above a random limit; one azimuth of the two is chosen
- * in proportion to g_n. The rate of each k is then exactly that above, with 5/8 of the candidates.
+ * The cell and the partner depend on k_y alone: an azimuth of k and its opposite are equivalent. So a candidate
+ * represents both azimuths, with the mean V of their positive g_n. For |g| = 1, V is at most h(k_y) = max(|k_y|, 1/2).
+ * Therefore k_y is drawn with the density of h, and the candidate is accepted if chi N V/h is above a random limit; one
+ * azimuth of the two is chosen in proportion to g_n. Then the rate of each k is exactly the rate above, with 5/8 of the
+ * candidates.
  *
- * Random numbers of some candidates are drawn, and the candidates decided, at once; those of grains that collide
- * meanwhile again. */
+ * Random numbers of some candidates are drawn, and the candidates tested, at once. Candidates whose grains collide
+ * meanwhile are tested again. */
 #include <math.h>
 #include <string.h>
 
 #include "dsmc/kernel/normal.h"
-#include "dsmc/walls/gap.h"
+#include "dsmc/walls/channel.h"
 #include "simd/eight.h"
 
-/* What candidates of two species in a cell have in common. */
+/* Constants and sums of the candidates of two species in a cell. */
 typedef struct pass {
-  gg_dsmc_gap_slab *slab;
+  gg_dsmc_channel_slab *slab;
   int cell, one, two, pair;
-  uint32_t first, n; /* grains of the cell */
-  /* Of partners, from the empty cell below the first on: starts, contact values; its edge, the empty cell above. */
-  const uint32_t *start;
-  const double *chi;
-  double bottom, last, reach; /* reach: in cells */
+  uint32_t first, n;     /* grains of the cell */
+  const uint32_t *start; /* first partners by cell, from the empty cell below the first one */
+  const double *chi;     /* contact values with these cells */
+  double bottom;         /* lower edge of that empty cell */
+  double last;           /* index of the empty cell above the last one */
+  double reach;          /* distance of partners, in cells */
   double floor, majorant, largest;
-  double recent; /* what the majorant was last learned from */
+  double recent; /* largest value from which the majorant was last learned */
   uint64_t candidates;
-  double begin, tick; /* time of the first candidate, and between two: those of all cells take turns in a step */
+  double begin, tick; /* time of the first candidate, and between two candidates */
   gg_contact contact;
 } pass;
 
-static gg_contact contact_of(const gg_dsmc_gap *d, const pass *p, double gn)
+static gg_contact contact_of(const gg_dsmc_channel *d, const pass *p, double gn)
 {
   gg_contact c = p->contact;
   const gg_restitution_law *law = &d->model.law;
@@ -46,10 +48,10 @@ static gg_contact contact_of(const gg_dsmc_gap *d, const pass *p, double gn)
   return c;
 }
 
-static __attribute__((noinline)) void call_back(gg_dsmc_gap *d, double time, const uint32_t i[2], gg_vec k,
+static __attribute__((noinline)) void call_back(gg_dsmc_channel *d, double time, const uint32_t i[2], gg_vec k,
                                                 const gg_vec c[2], gg_vec J, const gg_vec s[2])
 {
-  gg_dsmc_gap_grains *g = &d->grains;
+  gg_dsmc_channel_grains *g = &d->grains;
   gg_collision_record m = {.k = k, .c12 = gg_sub(c[0], c[1]), .J = J, .time = time};
   for (int w = 0; w < 2; w++) {
     m.id[w] = g->id[i[w]];
@@ -57,15 +59,15 @@ static __attribute__((noinline)) void call_back(gg_dsmc_gap *d, double time, con
     m.c[w] = c[w];
     if (g->s) m.s[w] = g->s[i[w]], m.turn[w] = gg_sub(s[w], m.s[w]);
     m.height[w] = g->at[i[w]].y - 0.5 * d->model.box[1];
-    m.since[w] = fmax(time - g->last[i[w]], 0); /* candidates of a correction go back in time */
+    m.since[w] = fmax(time - g->last[i[w]], 0); /* a correction pass has earlier times */
     g->last[i[w]] = time;
   }
   d->callback(d->callback_context, &m);
 }
 
-GG_INLINE void collide(gg_dsmc_gap *d, const pass *p, double time, uint32_t i, uint32_t j, gg_vec k)
+GG_INLINE void collide(gg_dsmc_channel *d, const pass *p, double time, uint32_t i, uint32_t j, gg_vec k)
 {
-  gg_dsmc_gap_grains *g = &d->grains;
+  gg_dsmc_channel_grains *g = &d->grains;
   const gg_rule rule = d->model.rule;
   const gg_vec before[2] = {g->at[i].c, g->at[j].c};
   gg_vec c1 = before[0], c2 = before[1], s1 = {0, 0, 0}, s2 = s1;
@@ -88,19 +90,20 @@ GG_INLINE void collide(gg_dsmc_gap *d, const pass *p, double time, uint32_t i, u
   t->loss[p->pair] += gg_energy_loss(contact, k, v, J);
 }
 
-/* Candidates drawn at once: k, of which k_x and k_z may have the other sign; h(k_y), chi N, the limit, a random number
- * for that sign; who the grains are, the cell of the second. */
+/* Candidates that are drawn at once. */
 enum { BLOCK = 32 };
 typedef struct block {
-  gg_half relative[BLOCK]; /* the first grain less the second, in height and velocity */
-  double kx[BLOCK], ky[BLOCK], kz[BLOCK], h[BLOCK], scale[BLOCK], limit[BLOCK], sign[BLOCK];
-  uint32_t i[BLOCK], j[BLOCK], cell[BLOCK], n;
+  gg_half relative[BLOCK];                     /* first grain minus second, in height and velocity */
+  double kx[BLOCK], ky[BLOCK], kz[BLOCK];      /* k; k_x and k_z may get the other sign */
+  double h[BLOCK], scale[BLOCK], limit[BLOCK]; /* h(k_y), chi N, random limit */
+  double sign[BLOCK];                          /* random number that decides the sign */
+  uint32_t i[BLOCK], j[BLOCK], cell[BLOCK], n; /* grains, cell of the second grain */
 } __attribute__((aligned(64))) block;
 
 typedef int32_t int32_8 __attribute__((vector_size(32)));
 #define EIGHT(array, k) (*(gg_line *)&(array)[k])
 
-/* As many lanes as a register has, of eight. */
+/* Eight numbers as registers of lanes. */
 typedef union parts {
   gg_v8 all;
   gg_u8 words;
@@ -121,13 +124,13 @@ GG_INLINE gg_v8 one_to_two(gg_u8 word)
   return (gg_v8)((word & UINT32_MAX) << 20 | 0x3ff0000000000000u);
 }
 
-/* |k_y| has the distribution 4/5 k_y up to 1/2 and 1/5 + 4/5 k_y^2 above: its inverse is the smaller of two. An eighth
- * turn either way, and that turned by a quarter, are half of all azimuths. */
-GG_INLINE void draw_direction(gg_u8 height, gg_u8 turn, block *b, uint32_t k)
+/* Draw eight directions. |k_y| has the distribution 4/5 k_y up to 1/2 and 1/5 + 4/5 k_y^2 above; its inverse is the
+ * smaller of two functions. Half of all azimuths are drawn: up to pi/4 either way, or the same rotated by pi/2. */
+GG_INLINE void draw_direction(gg_u8 height, gg_u8 azimuth, block *b, uint32_t k)
 {
   const gg_v8 low = 1.25 * (one_to_two(height) - (1 - 0x1p-33)), h = gg_sqrt8(gg_larger8(low - 0.25, gg_all8(0.25)));
   const gg_v8 ky = gg_smaller8(low, h), across = gg_sqrt8(1 - ky * ky);
-  parts angle = {.all = (one_to_two(turn) - 1.5) * M_PI_2}, s, c;
+  parts angle = {.all = (one_to_two(azimuth) - 1.5) * M_PI_2}, s, c;
   for (int l = 0; l < GG_BATCH / GG_WIDTH; l++) gg_dsmc_lane_sincos(angle.lanes[l], &s.lanes[l], &c.lanes[l]);
   const gg_k8 other = gg_odd8((gg_v8)(height >> 32));
   EIGHT(b->kx, k) = across * gg_choose8(other, s.all, c.all);
@@ -136,8 +139,8 @@ GG_INLINE void draw_direction(gg_u8 height, gg_u8 turn, block *b, uint32_t k)
   EIGHT(b->h, k) = h;
 }
 
-/* The cell where the partner is; grains beyond the last one of an open top have it far away. */
-GG_INLINE void find_cells(const gg_dsmc_gap *d, const pass *p, block *b, uint32_t k)
+/* Find the cell of the partner. Grains above the last cell of an open top get the empty cell above it. */
+GG_INLINE void find_cells(const gg_dsmc_channel *d, const pass *p, block *b, uint32_t k)
 {
   gg_v8 y;
   for (uint32_t l = 0; l < GG_BATCH; l++) y[l] = d->grains.at[b->i[k + l]].y;
@@ -146,18 +149,19 @@ GG_INLINE void find_cells(const gg_dsmc_gap *d, const pass *p, block *b, uint32_
   *(gg_list8 *)&b->cell[k] = (gg_list8) __builtin_convertvector(inside, int32_8);
 }
 
-/* Random numbers; j: 32 bits for it. */
+/* Draw the random numbers of eight candidates. j: 32 bits for find_partner. */
 GG_INLINE void draw_numbers(const pass *p, gg_dsmc_lane_rng *rng, block *b, uint32_t k)
 {
-  const gg_u8 who = next_words(rng), way = next_words(rng), how = next_words(rng), i = (who >> 32) * p->n >> 32;
+  const gg_u8 partner_bits = next_words(rng), direction_bits = next_words(rng), limit_bits = next_words(rng),
+              i = (partner_bits >> 32) * p->n >> 32;
   *(gg_list8 *)&b->i[k] = p->first + __builtin_convertvector(i, gg_list8);
-  *(gg_list8 *)&b->j[k] = __builtin_convertvector(who & UINT32_MAX, gg_list8);
-  draw_direction(way, how >> 32, b, k);
-  EIGHT(b->limit, k) = p->floor + p->majorant * (one_to_two(how) - 1);
-  EIGHT(b->sign, k) = one_to_two(way >> 31) - 1;
+  *(gg_list8 *)&b->j[k] = __builtin_convertvector(partner_bits & UINT32_MAX, gg_list8);
+  draw_direction(direction_bits, limit_bits >> 32, b, k);
+  EIGHT(b->limit, k) = p->floor + p->majorant * (one_to_two(limit_bits) - 1);
+  EIGHT(b->sign, k) = one_to_two(direction_bits >> 31) - 1;
 }
 
-GG_INLINE void find_partner(const gg_dsmc_gap *d, const pass *p, block *b, uint32_t k)
+GG_INLINE void find_partner(const gg_dsmc_channel *d, const pass *p, block *b, uint32_t k)
 {
   const gg_half *grains = (const gg_half *)d->grains.at;
   const uint32_t cell = b->cell[k], *start = p->start + cell * (uint32_t)d->model.n_species;
@@ -167,8 +171,8 @@ GG_INLINE void find_partner(const gg_dsmc_gap *d, const pass *p, block *b, uint3
   b->scale[k] = p->chi[cell] * (int)n;
 }
 
-/* Eight at a time, and not fewer. */
-static void draw(gg_dsmc_gap *d, const pass *p, gg_dsmc_lane_rng *rng, block *b)
+/* Draw the candidates of a block, in whole batches of eight. */
+static void draw(gg_dsmc_channel *d, const pass *p, gg_dsmc_lane_rng *rng, block *b)
 {
   const uint32_t n = (b->n + GG_BATCH - 1) / GG_BATCH * GG_BATCH;
   for (uint32_t k = 0; k < n; k += GG_BATCH) {
@@ -178,8 +182,8 @@ static void draw(gg_dsmc_gap *d, const pass *p, gg_dsmc_lane_rng *rng, block *b)
   for (uint32_t k = 0; k < n; k++) find_partner(d, p, b, k);
 }
 
-/* Acceptance-rejection, and the collision; whether it was accepted. */
-static bool try_candidate(gg_dsmc_gap *d, pass *p, const block *b, uint32_t m)
+/* Accept or reject a candidate; an accepted one collides. Returns whether it was accepted. */
+static bool try_candidate(gg_dsmc_channel *d, pass *p, const block *b, uint32_t m)
 {
   const uint32_t i = b->i[m], j = b->j[m];
   const gg_vec c = gg_sub(d->grains.at[i].c, d->grains.at[j].c);
@@ -195,13 +199,13 @@ static bool try_candidate(gg_dsmc_gap *d, pass *p, const block *b, uint32_t m)
   return true;
 }
 
-/* One candidate after another, as the textbooks have it. */
-static void collide_plain(gg_dsmc_gap *d, pass *p, block *b)
+/* Test one candidate after another: the reference of collide_block. */
+static void collide_plain(gg_dsmc_channel *d, pass *p, block *b)
 {
   for (uint32_t m = 0; m < b->n; m++) try_candidate(d, p, b, m);
 }
 
-/* Which of eight have to be tested: they are accepted, or teach the majorant. */
+/* Bits of the eight candidates that have to be tested: they may be accepted, or exceed the recent majorant. */
 GG_INLINE uint32_t to_test(block *b, uint32_t k, double recent)
 {
   const gg_half *row[GG_BATCH];
@@ -214,7 +218,7 @@ GG_INLINE uint32_t to_test(block *b, uint32_t k, double recent)
   return gg_lanes8(gg_less8(gg_smaller8(EIGHT(b->limit, k), gg_all8(recent)) * EIGHT(b->h, k), value));
 }
 
-/* Which of 32 numbers are this one? */
+/* Bits of those of 32 numbers that equal x. */
 GG_INLINE uint32_t where_is(const uint32_t *numbers, uint32_t x)
 {
   uint32_t which = 0;
@@ -227,14 +231,14 @@ GG_INLINE uint32_t where_is(const uint32_t *numbers, uint32_t x)
   return which;
 }
 
-/* Which candidates have one of these grains? */
+/* Bits of the candidates that have one of these grains. */
 GG_INLINE uint32_t with(const block *b, uint32_t i, uint32_t j)
 {
   return where_is(b->i, i) | where_is(b->i, j) | where_is(b->j, i) | where_is(b->j, j);
 }
 
-/* The same with the same bits: a first look at all at once. */
-static void collide_block(gg_dsmc_gap *d, pass *p, block *b)
+/* The same with the same bits: a preliminary test of all candidates at once selects those to test one by one. */
+static void collide_block(gg_dsmc_channel *d, pass *p, block *b)
 {
   const uint32_t drawn = UINT32_MAX >> (BLOCK - b->n);
   const double most = p->floor + p->majorant, all = p->recent > p->largest ? p->recent : p->largest;
@@ -248,21 +252,21 @@ static void collide_block(gg_dsmc_gap *d, pass *p, block *b)
   }
 }
 
-enum { WINDOW = 20000 }; /* candidates after which a majorant forgets */
+enum { WINDOW = 20000 }; /* candidates of a window of the majorant (majorant.h) */
 
-/* The collisions of a slab: of `turns` in the step, one is `turn`. */
+/* Collisions of a slab: number `index` of the `total` combinations of cells and pairs of species in the step. */
 typedef struct sweep {
-  gg_dsmc_gap *d;
-  gg_dsmc_gap_slab *slab;
+  gg_dsmc_channel *d;
+  gg_dsmc_channel_slab *slab;
   gg_rng rng;
   gg_dsmc_lane_rng lanes;
-  double dt, turn, turns;
+  double dt, index, total;
 } sweep;
 
 static void collide_species(sweep *w, int cell, int one, int two)
 {
-  gg_dsmc_gap *d = w->d;
-  gg_dsmc_gap_cells *c = &d->cells;
+  gg_dsmc_channel *d = w->d;
+  gg_dsmc_channel_cells *c = &d->cells;
   const int species = d->model.n_species, here = cell * species + one, pair = gg_pair(one, two);
   const uint32_t first = c->start[here], n = c->start[here + 1] - first;
   gg_dsmc_majorant *learned = &c->majorant[here * species + two];
@@ -288,8 +292,8 @@ static void collide_species(sweep *w, int cell, int one, int two)
   /* After a majorant overflow: correction passes, each over the layer above. */
   for (uint64_t tried = 0; p.majorant > 0; p.floor += p.majorant, p.majorant = 1.1 * p.largest - p.floor) {
     p.candidates = (uint64_t)(rate * p.majorant + gg_rng_uniform(&w->rng));
-    p.tick = w->dt / w->turns / (double)(p.candidates + 1);
-    p.begin = d->now.time + w->dt * w->turn / w->turns + p.tick;
+    p.tick = w->dt / w->total / (double)(p.candidates + 1);
+    p.begin = d->now.time + w->dt * w->index / w->total + p.tick;
     for (uint64_t left = p.candidates; left > 0; left -= b.n) {
       b.n = left < BLOCK ? (uint32_t)left : BLOCK;
       draw(d, &p, &w->lanes, &b);
@@ -304,10 +308,10 @@ static void collide_species(sweep *w, int cell, int one, int two)
   }
 }
 
-/* Fetch the grains of a cell, if it is one: at random they would come one by one. */
-static void prefetch(const gg_dsmc_gap *d, int cell)
+/* Prefetch the grains of a cell, if it exists: random accesses would load them one by one. */
+static void prefetch(const gg_dsmc_channel *d, int cell)
 {
-  const gg_dsmc_gap_cells *c = &d->cells;
+  const gg_dsmc_channel_cells *c = &d->cells;
   const int species = d->model.n_species;
   if (cell < 0 || cell >= c->n) return;
   for (uint32_t i = c->start[cell * species]; i < c->start[(cell + 1) * species]; i += 2)
@@ -315,7 +319,7 @@ static void prefetch(const gg_dsmc_gap *d, int cell)
 }
 
 typedef struct stage {
-  gg_dsmc_gap *d;
+  gg_dsmc_channel *d;
   double dt;
   bool backward, odd;
 } stage;
@@ -323,37 +327,37 @@ typedef struct stage {
 static void collide_slab(void *context, int part)
 {
   const stage *s = context;
-  gg_dsmc_gap *d = s->d;
+  gg_dsmc_channel *d = s->d;
   const int nth = 2 * part + s->odd, each = d->model.n_species * d->model.n_species, ahead = d->cells.reach / 2 + 2;
-  gg_dsmc_gap_slab *slab = &d->slab[nth];
+  gg_dsmc_channel_slab *slab = &d->slab[nth];
   const int all = (slab->end - slab->first) * each;
-  sweep w = {.d = d, .slab = slab, .rng = d->now.streams.cells[nth], .dt = s->dt, .turns = d->cells.n * each};
+  sweep w = {.d = d, .slab = slab, .rng = d->now.streams.cells[nth], .dt = s->dt, .total = d->cells.n * each};
   gg_dsmc_lane_rng_load(&w.lanes, &d->now.streams.lanes[nth]);
   for (int cell = s->backward ? slab->end : slab->first, k = -ahead; k < ahead; k++) prefetch(d, cell + k);
   for (int t = 0; t < all; t++) {
     const int k = s->backward ? all - 1 - t : t, cell = slab->first + k / each, pair = k % each;
     if (t % each == 0) prefetch(d, s->backward ? cell - ahead : cell + ahead);
-    w.turn = slab->turn * each + t;
+    w.index = slab->cells_before * each + t;
     collide_species(&w, cell, pair / d->model.n_species, pair % d->model.n_species);
   }
   gg_dsmc_lane_rng_save(&w.lanes, &d->now.streams.lanes[nth]);
   d->now.streams.cells[nth] = w.rng;
 }
 
-/* Every second slab at once, then the others; in time their cells follow one another. */
-static void collide_half(gg_dsmc_gap *d, double dt, bool backward, bool odd, int *turn)
+/* Collide every second slab at once. In time the cells of a step follow one another. */
+static void collide_half(gg_dsmc_channel *d, double dt, bool backward, bool odd, int *cells_before)
 {
   stage s = {d, dt, backward, odd};
   for (int k = odd; k < d->slabs; k += 2) {
-    d->slab[k].turn = *turn;
-    *turn += d->slab[k].end - d->slab[k].first;
+    d->slab[k].cells_before = *cells_before;
+    *cells_before += d->slab[k].end - d->slab[k].first;
   }
   gg_base_thread_pool_for(d->callback ? NULL : d->pool, (d->slabs + !odd) / 2, collide_slab, &s);
 }
 
-static void add_sums(gg_dsmc_gap *d, gg_dsmc_gap_slab *slab)
+static void add_sums(gg_dsmc_channel *d, gg_dsmc_channel_slab *slab)
 {
-  gg_dsmc_gap_state *s = &d->now;
+  gg_dsmc_channel_state *s = &d->now;
   gg_collision_sums *to = &s->transfer, *from = &slab->transfer;
   s->collisions += slab->collisions, s->candidates += slab->candidates, s->overflows += slab->overflows;
   s->clamped += slab->clamped;
@@ -368,11 +372,11 @@ static void add_sums(gg_dsmc_gap *d, gg_dsmc_gap_slab *slab)
 }
 
 /* Symmetric splitting: every second step mirrors the one before. */
-void GG_GAP_COLLIDE(gg_dsmc_gap *d, double dt)
+void GG_CHANNEL_COLLIDE(gg_dsmc_channel *d, double dt)
 {
   const bool backward = d->now.steps % 2;
-  int turn = 0;
-  collide_half(d, dt, backward, backward, &turn);
-  collide_half(d, dt, backward, !backward, &turn);
+  int cells_before = 0;
+  collide_half(d, dt, backward, backward, &cells_before);
+  collide_half(d, dt, backward, !backward, &cells_before);
   for (int k = 0; k < d->slabs; k++) add_sums(d, &d->slab[k]);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The end of a window: what it leaves goes into the event queue, and into counts and sums in the order of time,
+/* Commit of a window: its moves are applied to the event queue, and its counts and sums are added in the order of time,
  * whatever the order in which its events ran. */
 #include <math.h>
 #include <stdlib.h>
@@ -8,7 +8,8 @@
 
 enum { AHEAD = 8, MOST_LOGS = 2 * GG_MD_MOST_SLABS + 1 };
 
-/* Overflow lists lead from grain to grain, and a grain from one into another: the few moves that concern them wait. */
+/* Apply moves to buckets. Overflow lists link grains of several slabs, so the few moves of full buckets are left to one
+ * thread. */
 static void apply(gg_md_slab *s, const gg_md_growing *moves)
 {
   const gg_md_queue *q = &s->all->engine->queue;
@@ -17,11 +18,11 @@ static void apply(gg_md_slab *s, const gg_md_growing *moves)
     if (k + AHEAD < moves->n) __builtin_prefetch(&q->bucket[m[k + AHEAD].bucket & ~GG_MD_OUT], 1);
     gg_md_bucket *bucket = &q->bucket[m[k].bucket & ~GG_MD_OUT];
     if (!(m[k].bucket & GG_MD_OUT ? gg_md_bucket_take(bucket, m[k].grain) : gg_md_bucket_add(bucket, m[k].grain)))
-      *(gg_md_move *)gg_md_append(s, &s->overflow, sizeof *m) = m[k];
+      *(gg_md_move *)gg_md_append(s, &s->full_buckets, sizeof *m) = m[k];
   }
 }
 
-/* In order of phases: in each a grain's moves are those of one slab. */
+/* Apply moves phase by phase: within a phase all moves of a grain are in one slab. */
 static void apply_part(void *context, int self)
 {
   const gg_md_parallel *p = context;
@@ -35,13 +36,14 @@ static int in_order(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-static void apply_overflow(gg_md_parallel *p)
+static void apply_to_full_buckets(gg_md_parallel *p)
 {
   const gg_md *e = p->engine;
-  gg_md_growing *all = &p->slab[0].overflow;
+  gg_md_growing *all = &p->slab[0].full_buckets;
   for (int k = 1; k < p->n_slabs; k++)
-    for (uint32_t m = 0; m < p->slab[k].overflow.n; m++)
-      *(gg_md_move *)gg_md_append(&p->slab[0], all, sizeof(gg_md_move)) = ((gg_md_move *)p->slab[k].overflow.item)[m];
+    for (uint32_t m = 0; m < p->slab[k].full_buckets.n; m++)
+      *(gg_md_move *)gg_md_append(&p->slab[0], all, sizeof(gg_md_move)) =
+          ((gg_md_move *)p->slab[k].full_buckets.item)[m];
   if (all->n) qsort(all->item, all->n, sizeof(gg_md_move), in_order);
   for (uint32_t k = 0; k < all->n; k++) {
     const gg_md_move *m = (gg_md_move *)all->item + k;
@@ -77,7 +79,7 @@ static const gg_md_log *log_of(const gg_md_parallel *p, int k)
   return k == 2 * p->n_slabs ? &p->slab[0].log[2] : &p->slab[k / 2].log[k % 2];
 }
 
-/* All logs in order of time. */
+/* Merge all logs in the order of time. */
 static void count_all(gg_md_parallel *p)
 {
   gg_md_counts *k = &p->engine->k;
@@ -86,18 +88,18 @@ static void count_all(gg_md_parallel *p)
   int n = 0;
   for (int m = 0; m <= 2 * p->n_slabs; m++) {
     const gg_md_log *log = log_of(p, m);
-    if (!log->record.n) continue;
-    next[n] = log->record.item;
-    end[n] = next[n] + log->record.n;
-    addend[n++] = log->addend.item;
+    if (!log->part[GG_MD_LOG_RECORDS].n) continue;
+    next[n] = log->part[GG_MD_LOG_RECORDS].item;
+    end[n] = next[n] + log->part[GG_MD_LOG_RECORDS].n;
+    addend[n++] = log->part[GG_MD_LOG_ADDENDS].item;
   }
   while (n) {
     int first = 0;
     for (int m = 1; m < n; m++)
       if (is_earlier(next[m], next[first])) first = m;
     const gg_md_record *r = next[first]++;
-    if (r->gone)
-      p->counts.taken_back++;
+    if (r->rolled_back)
+      p->counts.rolled_back++;
     else
       count(k, r, addend[first] + r->beside), k->now = r->time;
     if (next[first] < end[first]) continue;
@@ -108,24 +110,23 @@ static void count_all(gg_md_parallel *p)
   }
 }
 
-/* As many as there are events, if that is enough to know. */
 uint64_t gg_md_window_collisions(const gg_md_parallel *p)
 {
   uint64_t events = 0, collisions = 0;
-  for (int k = 0; k <= 2 * p->n_slabs; k++) events += log_of(p, k)->record.n;
+  for (int k = 0; k <= 2 * p->n_slabs; k++) events += log_of(p, k)->part[GG_MD_LOG_RECORDS].n;
   if (events < p->engine->k.collisions_left) return events;
   for (int k = 0; k <= 2 * p->n_slabs; k++)
-    for (uint32_t m = 0; m < log_of(p, k)->record.n; m++) {
+    for (uint32_t m = 0; m < log_of(p, k)->part[GG_MD_LOG_RECORDS].n; m++) {
       const gg_md_record *r = gg_md_record_at(log_of(p, k), m);
-      collisions += !r->gone && r->partner != GG_MD_NONE;
+      collisions += !r->rolled_back && r->partner != GG_MD_NONE;
     }
   return collisions;
 }
 
-void gg_md_settle(gg_md_parallel *p)
+void gg_md_commit(gg_md_parallel *p)
 {
   gg_base_thread_pool_for(p->pool, p->n_slabs, apply_part, p);
-  apply_overflow(p);
+  apply_to_full_buckets(p);
   const uint64_t before = p->engine->k.events;
   count_all(p);
   p->counts.events += p->engine->k.events - before;

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Life of the engine; the initial state. */
+/* Memory of an engine in a channel, and its initial state. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/memory.h"
 #include "dsmc/ensemble.h"
-#include "dsmc/walls/gap.h"
+#include "dsmc/walls/channel.h"
 
-/* Each on one cache line, and one more: an empty cell may begin behind the last. */
-static gg_dsmc_gap_motion *new_motion(size_t n, gg_error *err)
+/* Allocate n grains and one more, so that a cell after the last grain can be read. None crosses a cache line. */
+static gg_dsmc_channel_motion *new_motion(size_t n, gg_error *err)
 {
-  const size_t bytes = ((n + 1) * sizeof(gg_dsmc_gap_motion) + 63) / 64 * 64;
-  gg_dsmc_gap_motion *at = aligned_alloc(64, bytes);
+  const size_t bytes = ((n + 1) * sizeof(gg_dsmc_channel_motion) + 63) / 64 * 64;
+  gg_dsmc_channel_motion *at = aligned_alloc(64, bytes);
   if (at) return memset(at, 0, bytes);
   gg_base_out_of_memory(err);
   return NULL;
 }
 
-static gg_status allocate_grains(gg_dsmc_gap_grains *g, size_t n, bool spins, gg_error *err)
+static gg_status allocate_grains(gg_dsmc_channel_grains *g, size_t n, bool spins, gg_error *err)
 {
   g->at = new_motion(n, err);
   if (spins) g->s = gg_base_array_new(n, sizeof *g->s, err);
@@ -27,7 +27,7 @@ static gg_status allocate_grains(gg_dsmc_gap_grains *g, size_t n, bool spins, gg
   return g->at && (g->s || !spins) && g->id && g->species ? GG_OK : GG_FAILED;
 }
 
-static void free_grains(gg_dsmc_gap_grains *g)
+static void free_grains(gg_dsmc_channel_grains *g)
 {
   free(g->at);
   free(g->s);
@@ -36,8 +36,8 @@ static void free_grains(gg_dsmc_gap_grains *g)
   free(g->species);
 }
 
-/* Heights that centres can have. */
-static void set_heights(gg_dsmc_gap *d)
+/* Set the range of heights of centres, and the contact distances. */
+static void set_heights(gg_dsmc_channel *d)
 {
   const gg_model *m = &d->model;
   const gg_surface *lower = gg_surface_at(m, 1, -1), *upper = gg_surface_at(m, 1, 1);
@@ -49,16 +49,15 @@ static void set_heights(gg_dsmc_gap *d)
   for (int p = 0; p < gg_pairs_of(m->n_species); p++) d->reach[p] = m->boltzmann ? 0 : m->sigma[p];
 }
 
-#define COLLIDE(set, name) [set] = gg_dsmc_gap_collide_##name,
-gg_dsmc_gap_collide *const gg_dsmc_gap_collide_of[GG_INSTRUCTION_SETS] = {GG_EACH_COMPILED_SET(COLLIDE)};
+#define COLLIDE(set, name) [set] = gg_dsmc_channel_collide_##name,
+gg_dsmc_channel_collide *const gg_dsmc_channel_collide_of[GG_INSTRUCTION_SETS] = {GG_EACH_COMPILED_SET(COLLIDE)};
 
-gg_status gg_dsmc_gap_allocate(const gg_model *model, gg_dsmc_gap **made, gg_error *err)
+gg_status gg_dsmc_channel_allocate(const gg_model *model, gg_dsmc_channel **made, gg_error *err)
 {
   GG_TRY(gg_simd_instructions_check(err));
-  gg_dsmc_gap *d = gg_base_array_new(1, sizeof *d, err);
+  gg_dsmc_channel *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return GG_FAILED;
-  d->collide = gg_dsmc_gap_collide_of[gg_simd_instructions_best()];
-  d->base.ops = &gg_dsmc_gap_ops;
+  d->collide = gg_dsmc_channel_collide_of[gg_simd_instructions_best()];
   d->model = *model;
   d->gravity = (gg_vec){model->gravity[0], model->gravity[1], model->gravity[2]};
   const bool spins = model->rule != GG_SMOOTH;
@@ -68,17 +67,17 @@ gg_status gg_dsmc_gap_allocate(const gg_model *model, gg_dsmc_gap **made, gg_err
   gg_status status = allocate_grains(&d->grains, n, spins, err);
   if (status == GG_OK) status = allocate_grains(&d->sorted, n, spins, err);
   if (status == GG_OK && !(d->place = gg_base_array_new(n, sizeof *d->place, err))) status = GG_FAILED;
-  if (status == GG_OK) status = gg_dsmc_gap_cells_new(d, err);
+  if (status == GG_OK) status = gg_dsmc_channel_cells_new(d, err);
   if (status == GG_OK) status = gg_common_loss_table_new(model->law.kind, &d->losses, err);
   if (status != GG_OK) {
-    gg_dsmc_gap_destroy(&d->base);
+    gg_dsmc_channel_destroy(&d->base);
     return status;
   }
   *made = d;
   return GG_OK;
 }
 
-gg_status gg_dsmc_gap_allocate_last(gg_dsmc_gap *d, gg_error *err)
+gg_status gg_dsmc_channel_allocate_last(gg_dsmc_channel *d, gg_error *err)
 {
   const size_t n = (size_t)d->model.n;
   double **last = &d->grains.last, **room = &d->sorted.last;
@@ -94,22 +93,22 @@ gg_status gg_dsmc_gap_allocate_last(gg_dsmc_gap *d, gg_error *err)
   return GG_OK;
 }
 
-void gg_dsmc_gap_destroy(gg_engine *engine)
+void gg_dsmc_channel_destroy(gg_engine *engine)
 {
-  gg_dsmc_gap *d = (gg_dsmc_gap *)engine;
+  gg_dsmc_channel *d = (gg_dsmc_channel *)engine;
   if (!d) return;
   free_grains(&d->grains);
   free_grains(&d->sorted);
   free(d->place);
-  gg_dsmc_gap_cells_free(&d->cells);
+  gg_dsmc_channel_cells_free(&d->cells);
   gg_base_thread_pool_free(d->pool);
   free(d->slab);
   free(d->losses);
   free(d);
 }
 
-/* Uniform from wall to wall; under an open top in the box. */
-static void place_grains(gg_dsmc_gap *d, gg_rng *rng)
+/* Place grains uniformly from wall to wall; under an open top up to the height of the box. */
+static void place_grains(gg_dsmc_channel *d, gg_rng *rng)
 {
   size_t i = 0;
   for (int s = 0; s < d->model.n_species; s++)
@@ -120,14 +119,14 @@ static void place_grains(gg_dsmc_gap *d, gg_rng *rng)
     }
 }
 
-static gg_vec *motion_of(gg_dsmc_gap_grains *g, bool spin, size_t i)
+static gg_vec *motion_of(gg_dsmc_channel_grains *g, bool spin, size_t i)
 {
   return spin ? &g->s[i] : &g->at[i].c;
 }
 
-/* Gaussian, exactly of the energy 3 N T/2, velocities at rest as a whole; `weight` of a species is its mass or moment
- * of inertia. */
-static gg_status set_motion(gg_dsmc_gap *d, bool spin, const double *weight, double T, gg_rng *rng, gg_error *err)
+/* Draw Gaussian velocities or spins with energy exactly 3 N T/2; the total momentum is zero. `weight` of a species:
+ * mass, or moment of inertia. */
+static gg_status set_motion(gg_dsmc_channel *d, bool spin, const double *weight, double T, gg_rng *rng, gg_error *err)
 {
   const size_t n = (size_t)d->model.n;
   gg_vec momentum = {0, 0, 0};
@@ -150,8 +149,8 @@ static gg_status set_motion(gg_dsmc_gap *d, bool spin, const double *weight, dou
   return GG_OK;
 }
 
-/* The laminar profile between walls that move. */
-static void add_flow(gg_dsmc_gap *d)
+/* Add the laminar profile between moving walls. */
+static void add_flow(gg_dsmc_channel *d)
 {
   const gg_surface *lower = gg_surface_at(&d->model, 1, -1), *upper = gg_surface_at(&d->model, 1, 1);
   if (!upper) return;
@@ -160,13 +159,13 @@ static void add_flow(gg_dsmc_gap *d)
     d->grains.at[i].c.x += rate * (d->grains.at[i].y - 0.5 * d->model.box[1]);
 }
 
-static gg_status take_grains(gg_dsmc_gap *d, const gg_grain_arrays *given, gg_error *err)
+static gg_status take_grains(gg_dsmc_channel *d, const gg_grain_arrays *given, gg_error *err)
 {
-  gg_dsmc_gap_grains *g = &d->grains;
+  gg_dsmc_channel_grains *g = &d->grains;
   for (size_t i = 0; i < (size_t)d->model.n; i++) {
     if (given->species) g->species[i] = (uint8_t)given->species[i];
     const int s = g->species[i];
-    gg_dsmc_gap_motion *at = &g->at[i];
+    gg_dsmc_channel_motion *at = &g->at[i];
     if (given->r) at->y = given->r[3 * i + 1];
     if (!(at->y >= d->low[s] - 1e-9 && at->y <= d->high[s] + 1e-9))
       return gg_base_fail(err, GG_BAD_INPUT, "grain %zu overlaps the %s wall by %g d", i,
@@ -178,25 +177,24 @@ static gg_status take_grains(gg_dsmc_gap *d, const gg_grain_arrays *given, gg_er
   return GG_OK;
 }
 
-/* Until something is measured: mean numbers of a uniform gas, rates of Enskog's theory, majorants that hold for sure.
- */
-static void begin(gg_dsmc_gap *d)
+/* Set values for the first steps: mean numbers of a uniform gas, rates of Enskog's theory, safe majorants. */
+static void begin(gg_dsmc_channel *d)
 {
-  gg_dsmc_gap_state *s = &d->now;
-  gg_dsmc_gap_cells *c = &d->cells;
+  gg_dsmc_channel_state *s = &d->now;
+  gg_dsmc_channel_cells *c = &d->cells;
   const int species = d->model.n_species;
   double fastest = 0, energy = 0, most = 0, chi = 0;
   for (size_t i = 0; i < (size_t)d->model.n; i++) {
     const gg_vec v = d->grains.at[i].c;
-    if (gg_dot(v, v) > fastest) fastest = gg_dot(v, v); /* as a reduction by fmax gcc 12 fails to compile it for ARM */
+    if (gg_dot(v, v) > fastest) fastest = gg_dot(v, v); /* gcc 12 for ARM fails to compile a reduction by fmax */
     energy += d->model.mass[d->grains.species[i]] * gg_dot(v, v);
   }
   s->temperature = energy / (3 * (double)d->model.n);
   s->rate = gg_common_model_collision_rate(&d->model, s->temperature);
   s->all_rate = 0.5 * (double)d->model.n * s->rate;
-  gg_dsmc_gap_choose_step(d);
-  gg_dsmc_gap_fly(d, 0);
-  gg_dsmc_gap_sort(d);
+  gg_dsmc_channel_choose_step(d);
+  gg_dsmc_channel_fly(d, 0);
+  gg_dsmc_channel_sort(d);
   for (int k = 0; k < c->n * species; k++) {
     const int cell = k / species, of = k % species;
     const double from = fmax(c->from + cell * c->width, d->low[of]),
@@ -204,23 +202,24 @@ static void begin(gg_dsmc_gap *d)
     c->mean[k] = (double)d->model.n_of[of] * fmax(to - from, 0) / (fmin(d->high[of], d->model.box[1]) - d->low[of]);
     if (c->start[k + 1] - c->start[k] > most) most = c->start[k + 1] - c->start[k];
   }
-  gg_dsmc_gap_set_chi(d);
+  gg_dsmc_channel_set_chi(d);
   for (int k = 0; k < gg_pairs_of(species) * 2 * c->n; k++)
     if (c->chi[k + 1] > chi) chi = c->chi[k + 1];
   for (int k = 0; k < c->n * species * species; k++)
     gg_dsmc_majorant_start(&c->majorant[k], 2 * sqrt(fastest) * chi * most, sqrt(s->temperature));
 }
 
-static void seed_streams(gg_dsmc_gap_streams *s, uint64_t seed, uint64_t next)
+static void seed_streams(gg_dsmc_channel_streams *s, uint64_t seed, uint64_t next)
 {
-  for (int k = 0; k < GG_GAP_MOST_PARTS; k++) s->walls[k] = gg_common_rng_seed(seed, next++);
-  for (int k = 0; k < GG_GAP_MOST_SLABS; k++, next += GG_DSMC_LANES) {
+  for (int k = 0; k < GG_DSMC_CHANNEL_MOST_PARTS; k++) s->walls[k] = gg_common_rng_seed(seed, next++);
+  for (int k = 0; k < GG_DSMC_CHANNEL_MOST_SLABS; k++, next += GG_DSMC_LANES) {
     s->cells[k] = gg_common_rng_seed(seed, next++);
     gg_dsmc_rng_lanes_seed(&s->lanes[k], seed, next);
   }
 }
 
-gg_status gg_dsmc_gap_start(gg_dsmc_gap *d, uint64_t seed, uint64_t stream, const gg_grain_arrays *given, gg_error *err)
+gg_status gg_dsmc_channel_start(gg_dsmc_channel *d, uint64_t seed, uint64_t stream, const gg_grain_arrays *given,
+                                gg_error *err)
 {
   gg_rng rng = gg_common_rng_seed(seed, stream + GG_STREAM_START);
   const gg_model *m = &d->model;

@@ -1,24 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Free flight: parabolas, cut where they touch a wall. */
+/* Free flight on parabolas from wall to wall. */
 #include <math.h>
 #include <string.h>
 
 #include "common/surface/collide.h"
 #include "common/surface/shapes.h"
-#include "dsmc/walls/gap.h"
+#include "dsmc/walls/channel.h"
 
-/* A grain that rests on a wall by gravity would touch it infinitely often. It leaves so fast that it comes back no
- * sooner than after this share of a step. */
+/* Shortest time between contacts with a wall under gravity, as a fraction of a step. A grain at rest on a wall would
+ * touch it infinitely often, so a forced rebound lets it leave fast enough to come back after this time. */
 #define SHORTEST_HOP (1. / 64)
 
-static void move(gg_dsmc_gap_grain *p, gg_vec g, double dt)
+static void move(gg_dsmc_channel_grain *p, gg_vec g, double dt)
 {
   p->r.y += dt * (p->c.y + 0.5 * dt * g.y);
   p->c = gg_axpy(dt, g, p->c);
 }
 
-static void show(const gg_dsmc_gap *d, int w, gg_vec k, gg_vec J, const gg_dsmc_gap_grain *before,
-                 const gg_dsmc_gap_grain *p, uint32_t id)
+static void show(const gg_dsmc_channel *d, int w, gg_vec k, gg_vec J, const gg_dsmc_channel_grain *before,
+                 const gg_dsmc_channel_grain *p, uint32_t id)
 {
   const gg_surface *surface = &d->model.surface[w];
   const double middle = 0.5 * d->model.box[1];
@@ -37,19 +37,19 @@ static void show(const gg_dsmc_gap *d, int w, gg_vec k, gg_vec J, const gg_dsmc_
   d->callback(d->callback_context, &m);
 }
 
-static void touch(const gg_dsmc_gap *d, int w, gg_rng *rng, gg_dsmc_gap_grain *p, gg_dsmc_gap_contacts *all)
+static void touch(const gg_dsmc_channel *d, int w, gg_rng *rng, gg_dsmc_channel_grain *p, gg_dsmc_channel_contacts *all)
 {
   const gg_surface *surface = &d->model.surface[w];
   const gg_contact *contact = &surface->contact[p->species];
   const gg_vec k = gg_surface_normal(surface, &p->r);
-  const gg_dsmc_gap_grain before = *p;
+  const gg_dsmc_channel_grain before = *p;
   gg_surface_hit hit = gg_surface_collide(d->wall_rule, surface, contact, rng, k, &p->c, &p->s);
   const double pull = gg_dot(k, d->gravity), least = pull > 0 ? 0.5 * pull * d->now.step * SHORTEST_HOP : 0;
   const double towards = gg_dot(k, p->c);
   if (!hit.thermal && -towards < least) {
     hit.J = gg_axpy((least + towards) / contact->im1, k, hit.J);
     p->c = gg_axpy(-least - towards, k, p->c);
-    all->rests++;
+    all->forced_rebounds++;
   }
   p->r.y = surface->side > 0 ? d->high[p->species] : d->low[p->species];
   p->touched = true;
@@ -60,11 +60,11 @@ static void touch(const gg_dsmc_gap *d, int w, gg_rng *rng, gg_dsmc_gap_grain *p
   t->loss += gg_surface_heat(contact, k, &hit);
 }
 
-/* The wall that it touches first, and when; -1: none. */
-static int next_wall(const gg_dsmc_gap *d, const gg_dsmc_gap_grain *p, double *delay)
+/* Index of the wall that a grain touches first, after *delay; -1: none. */
+static int next_wall(const gg_dsmc_channel *d, const gg_dsmc_channel_grain *p, double *delay)
 {
   const gg_flight flight = {&p->r, &p->c, &d->gravity, d->radius[p->species]};
-  const gg_region anywhere = {{0}, {0}}; /* planes have no need of it */
+  const gg_region anywhere = {{0}, {0}}; /* planes do not use it */
   int first = -1;
   *delay = INFINITY;
   for (int w = 0; w < d->model.n_surfaces; w++) {
@@ -74,13 +74,14 @@ static int next_wall(const gg_dsmc_gap *d, const gg_dsmc_gap_grain *p, double *d
   return first;
 }
 
-/* Heights between which a flight with both ends there touches no wall: of a parabola none is farther from the chord. */
+/* Range of heights: a flight that begins and ends in it touches no wall. A parabola deviates from its chord by at most
+ * g dt^2/8. */
 typedef struct inside {
   double low, high;
   bool falls;
 } inside;
 
-GG_INLINE inside inside_of(const gg_dsmc_gap *d, int species, double dt)
+GG_INLINE inside inside_of(const gg_dsmc_channel *d, int species, double dt)
 {
   const double bend = 0.125 * fabs(d->gravity.y) * dt * dt;
   return (inside){d->low[species] + bend, d->high[species] - bend, bend > 0};
@@ -91,8 +92,8 @@ GG_INLINE bool stays(inside at, double y, double end)
   return end > at.low && end < at.high && (!at.falls || (y > at.low && y < at.high));
 }
 
-void gg_dsmc_gap_fly_grain(const gg_dsmc_gap *d, double dt, gg_rng *rng, gg_dsmc_gap_grain *p,
-                           gg_dsmc_gap_contacts *all)
+void gg_dsmc_channel_fly_grain(const gg_dsmc_channel *d, double dt, gg_rng *rng, gg_dsmc_channel_grain *p,
+                               gg_dsmc_channel_contacts *all)
 {
   double delay;
   while (!stays(inside_of(d, p->species, dt), p->r.y, p->r.y + dt * (p->c.y + 0.5 * dt * d->gravity.y))) {
@@ -105,40 +106,41 @@ void gg_dsmc_gap_fly_grain(const gg_dsmc_gap *d, double dt, gg_rng *rng, gg_dsmc
   move(p, d->gravity, dt);
 }
 
-static void fly_to_walls(gg_dsmc_gap *d, size_t i, double dt, gg_rng *rng, gg_dsmc_gap_contacts *all)
+static void fly_to_walls(gg_dsmc_channel *d, size_t i, double dt, gg_rng *rng, gg_dsmc_channel_contacts *all)
 {
-  gg_dsmc_gap_grains *g = &d->grains;
-  gg_dsmc_gap_motion *at = &g->at[i];
-  gg_dsmc_gap_grain p = {.r = {0, at->y, 0}, .c = at->c, .species = g->species[i]};
+  gg_dsmc_channel_grains *g = &d->grains;
+  gg_dsmc_channel_motion *at = &g->at[i];
+  gg_dsmc_channel_grain p = {.r = {0, at->y, 0}, .c = at->c, .species = g->species[i]};
   if (g->s) p.s = g->s[i];
   all->id = g->id[i];
-  gg_dsmc_gap_fly_grain(d, dt, rng, &p, all);
+  gg_dsmc_channel_fly_grain(d, dt, rng, &p, all);
   at->y = fmin(fmax(p.r.y, d->low[p.species]), d->high[p.species]);
   at->c = p.c;
   if (g->s) g->s[i] = p.s;
   if (p.touched && g->last) g->last[i] = d->now.time;
 }
 
-/* In registers: stores do not change them. */
+/* Copies of pointers and constants that the compiler keeps in registers: stores cannot change them. */
 typedef struct counting {
-  uint32_t *next, *place; /* of each cell */
+  uint32_t *next;  /* number of grains by cell */
+  uint32_t *place; /* cell of each grain */
   double from, inverse, last;
 } counting;
 
-GG_INLINE void fly(gg_dsmc_gap *d, int part, double dt, bool mixture, bool falls, gg_rng *rng,
-                   gg_dsmc_gap_contacts *all)
+GG_INLINE void fly(gg_dsmc_channel *d, int part, double dt, bool mixture, bool falls, gg_rng *rng,
+                   gg_dsmc_channel_contacts *all)
 {
-  const gg_dsmc_gap_cells *c = &d->cells;
+  const gg_dsmc_channel_cells *c = &d->cells;
   const counting to = {c->next + (size_t)part * c->stride, d->place, c->from, c->inverse, c->n - 0.5};
   const gg_vec g = d->gravity, dc = gg_scale(dt, g);
   const double lift = 0.5 * dt * dt * g.y;
-  const size_t end_of_part = gg_dsmc_gap_part(d, part + 1);
-  gg_dsmc_gap_motion *grains = d->grains.at;
+  const size_t end_of_part = gg_dsmc_channel_part(d, part + 1);
+  gg_dsmc_channel_motion *grains = d->grains.at;
   inside in = inside_of(d, 0, dt);
   if (!falls) in.falls = false;
   memset(to.next, 0, c->stride * sizeof *to.next);
-  for (size_t i = gg_dsmc_gap_part(d, part); i < end_of_part; i++) {
-    gg_dsmc_gap_motion *at = &grains[i];
+  for (size_t i = gg_dsmc_channel_part(d, part); i < end_of_part; i++) {
+    gg_dsmc_channel_motion *at = &grains[i];
     if (mixture) in = inside_of(d, d->grains.species[i], dt);
     const double end = at->y + (at->c.y * dt + lift);
     if (__builtin_expect(stays(in, at->y, end), 1)) {
@@ -155,15 +157,15 @@ GG_INLINE void fly(gg_dsmc_gap *d, int part, double dt, bool mixture, bool falls
 }
 
 typedef struct flight {
-  gg_dsmc_gap *d;
+  gg_dsmc_channel *d;
   double dt;
-  gg_dsmc_gap_contacts all[GG_GAP_MOST_PARTS];
+  gg_dsmc_channel_contacts all[GG_DSMC_CHANNEL_MOST_PARTS];
 } flight;
 
 static void fly_part(void *context, int part)
 {
   flight *f = context;
-  gg_dsmc_gap *d = f->d;
+  gg_dsmc_channel *d = f->d;
   const bool mixture = d->model.n_species > 1, falls = gg_dot(d->gravity, d->gravity) > 0;
   gg_rng *stream = &d->now.streams.walls[part], rng = *stream;
   if (mixture || falls)
@@ -173,9 +175,9 @@ static void fly_part(void *context, int part)
   *stream = rng;
 }
 
-static void add_contacts(gg_dsmc_gap *d, const gg_dsmc_gap_contacts *all)
+static void add_contacts(gg_dsmc_channel *d, const gg_dsmc_channel_contacts *all)
 {
-  d->now.rests += all->rests;
+  d->now.forced_rebounds += all->forced_rebounds;
   for (int w = 0; w < d->model.n_surfaces; w++) {
     gg_surface_sums *t = &d->now.transfer.surface[w];
     t->collisions += all->surface[w].collisions;
@@ -185,7 +187,7 @@ static void add_contacts(gg_dsmc_gap *d, const gg_dsmc_gap_contacts *all)
   }
 }
 
-void gg_dsmc_gap_fly(gg_dsmc_gap *d, double dt)
+void gg_dsmc_channel_fly(gg_dsmc_channel *d, double dt)
 {
   flight f = {.d = d, .dt = dt};
   for (int part = 0; part < d->parts; part++) f.all[part].shown = d->callback != NULL;

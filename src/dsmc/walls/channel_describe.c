@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which models run between walls, and what the engine makes of them. */
+/* Models that run between walls, and the description of the methods for a model. */
 #include <math.h>
 #include <stdio.h>
 
 #include "common/surface/shapes.h"
-#include "dsmc/walls/gap.h"
+#include "dsmc/dsmc.h"
+#include "dsmc/walls/channel.h"
 
-gg_status gg_dsmc_gap_accepts(const gg_model *m, gg_error *err)
+gg_status gg_dsmc_channel_accepts(const gg_model *m, gg_error *err)
 {
   const double widest = m->boltzmann ? 0 : gg_common_model_widest(m);
   if (!gg_flow_runs_in(m->flow, GG_DSMC))
@@ -34,31 +35,29 @@ gg_status gg_dsmc_gap_accepts(const gg_model *m, gg_error *err)
   return GG_OK;
 }
 
-double gg_dsmc_gap_bytes(const gg_model *m)
+double gg_dsmc_channel_bytes(const gg_model *m)
 {
-  const double grain = sizeof(gg_dsmc_gap_motion) + (m->rule != GG_SMOOTH ? sizeof(gg_vec) : 0) + 5;
+  const double grain = sizeof(gg_dsmc_channel_motion) + (m->rule != GG_SMOOTH ? sizeof(gg_vec) : 0) + 5;
   return (double)m->n * (2 * grain + 4);
 }
 
-void gg_dsmc_gap_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)
+void gg_dsmc_channel_describe(const gg_model *m, void (*line)(void *context, const char *text), void *context)
 {
-  static const char *const rules[] = {"smooth grains: no spins are kept", "rough grains: spins, constant beta",
-                                      "frictional grains: spins, Coulomb's law"};
   char text[160];
-  const double width = gg_dsmc_gap_cell_width(m);
+  const double width = gg_dsmc_channel_cell_width(m);
   snprintf(text, sizeof text, "%lld grains across a gap of %.4g d, uniform along the walls", (long long)m->n,
            m->box[1]);
   line(context, text);
   snprintf(text, sizeof text, "cells %.2g d wide, %.0f across the gap", width, ceil(m->box[1] / width));
   line(context, text);
-  line(context, rules[m->rule]);
+  line(context, gg_dsmc_rule_line(m->rule));
   if (m->law.name) line(context, "e follows from the speed of each collision");
   line(context, m->boltzmann
                     ? "Boltzmann limit: partners in the same cell, no contact value, no collisional stress"
                     : "Enskog: partners at a distance, contact value of the local density, collisional stress");
   snprintf(text, sizeof text, "step: %.2g mean free times where grains collide%s; flights are exact",
-           gg_dsmc_gap_free_times(m), m->time_step > 0 ? "" : ", chosen");
+           gg_dsmc_channel_free_times(m), m->time_step > 0 ? "" : ", chosen");
   line(context, text);
   line(context, "a majorant for each cell and pair of species");
-  if (m->n >= GG_GAP_LEAST_SHARED) line(context, "threads share parts of the grains and slabs of cells");
+  if (m->n >= GG_DSMC_CHANNEL_LEAST_SHARED) line(context, "threads share parts of the grains and slabs of cells");
 }
