@@ -3,7 +3,6 @@
 #ifndef GG_ERROR_H
 #define GG_ERROR_H
 
-#define GG_WITHOUT_SIZES /* inside, all structs are of one version */
 #include "graingas.h"
 
 #define GG_PRINTF(fmt, args) __attribute__((format(printf, fmt, args)))
