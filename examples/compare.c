@@ -26,11 +26,12 @@ static gg_status print_row(const gg_comparison *c, const char *quantity, gg_erro
 int main(void)
 {
   static const char *const quantities[] = {"temperature", "compressibility_factor", "shear_viscosity", "N1"};
-  static gg_run_options options; /* all zero: nothing special */
+  static gg_run_options options; /* zero: defaults */
   gg_error err;
   gg_scene *scene = NULL;
   gg_comparison *c = NULL;
   gg_remark remark;
+  options.size = sizeof options;
   gg_status status = gg_scene_parse("{flow: usf, phi: 0.2, particles: 500, collision: {e: 0.8}, "
                                     "run: {collisions: 400}}",
                                     "scene", &scene, &err);

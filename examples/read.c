@@ -8,7 +8,8 @@ static gg_status make(const char *path, gg_error *err)
 {
   gg_scene *scene = NULL;
   gg_result *result = NULL;
-  static gg_run_options options;
+  static gg_run_options options; /* zero: defaults */
+  options.size = sizeof options;
   options.output = path;
   gg_status status = gg_scene_parse("{flow: usf, engine: dsmc, phi: 0.1, measure: [rheology, velocity_distributions], "
                                     "run: {collisions: 500}}",

@@ -18,7 +18,8 @@ int main(void)
   gg_result *result = NULL;
   gg_measurement m;
   double enough = 0.003;
-  static gg_run_options options; /* all zero: nothing special */
+  static gg_run_options options; /* zero: defaults */
+  options.size = sizeof options;
   options.progress = progress;
   options.context = &enough;
   if (gg_scene_parse("{flow: usf, engine: dsmc, phi: 0, run: {relative_error: 0.001}}", "scene", &scene, &err)) {

@@ -15,7 +15,7 @@ typedef struct part {
 static void *run(void *argument)
 {
   part *p = (part *)argument;
-  const gg_start_options options = {p->stream, NULL, NULL};
+  const gg_start_options options = {sizeof options, p->stream, NULL, NULL};
   gg_simulation *simulation = NULL;
   p->status = gg_simulation_new(p->scene, &options, &simulation, &p->err);
   if (p->status == GG_OK) p->status = gg_simulation_collide(simulation, 50000, &p->err);

@@ -20,23 +20,23 @@
  * gg_simulation_on_collision() and gg_simulation_on_stop() are allowed and take effect at once. A handle that is freed
  * while a call uses it lives until that call returns; advances return as soon as they can, with GG_INTERRUPTED.
  *
- * The library leaves what belongs to the process as it is: locale, signal handlers, allocators of other libraries. The
- * exception is GSL's error handler, which is the library's own during calls that use GSL. Numbers in texts have a decimal
- * point in every locale.
+ * The library does not change the state of the process: locale, signal handlers, allocators of other libraries. The
+ * exception is GSL's error handler, which the library replaces during calls that use GSL. Numbers in texts have a
+ * decimal point in every locale.
  *
  * Units are those of results (gg_catalogue_entry() gives them): lengths in the diameter d and masses in the mass m of
  * species 1; sheared flows in units of the shear rate gamma (couette: of 2 walls.speed/L_y, its mean), others in the
  * initial thermal speed v_0 = sqrt(2T/m); between walls at rest, in a bath and with a given noise_strength or
- * gaussian_rate v_0 is a diameter per unit of time of the scene. Keys of scenes are in the scene's units of length, mass
- * and time, temperatures among them in mass x velocity^2.
- * Stresses, and energies per volume, are in rho_p d^2 gamma^2 or rho_p v_0^2 with rho_p = 6m/(pi d^3). Temperatures are
- * <C.C>/3, C the velocity relative to the imposed flow; of mixtures m<C.C>/3, m in that of species 1. Where phi = 0,
- * n d^2 = 1 sets the length.
+ * gaussian_rate v_0 is a diameter per unit of time of the scene. Keys of scenes are in the scene's units of length,
+ * mass and time, temperatures among them in mass x velocity^2. Stresses, and energies per volume, are in rho_p d^2
+ * gamma^2 or rho_p v_0^2 with rho_p = 6m/(pi d^3). Temperatures are <C.C>/3, C the velocity relative to the imposed
+ * flow; of mixtures m<C.C>/3, m in that of species 1. Where phi = 0, n d^2 = 1 sets the length.
  *
- * Structs grow at their end only. Zero those that you fill in first. Functions get the size that the caller's compiler
- * knows ("Sizes" below), so that a program built with an older header works or gets an error. Structs in arrays of the
- * caller, and structs in structs, do not grow: gg_error, gg_quantity_definition, gg_departure,
- * gg_checkpoint_part. */
+ * Options: a struct of options begins with `size`, its sizeof; members that are zero or NULL have their defaults. So
+ * options may grow in versions that are otherwise compatible: programs that were built before keep working, and
+ * programs built with a newer header than the library's get GG_BAD_INPUT. All other structs stay as they are.
+ *
+ *   gg_run_options options = {.size = sizeof options, .threads = 4}; */
 #ifndef GRAINGAS_H
 #define GRAINGAS_H
 
@@ -85,16 +85,16 @@ typedef struct gg_error {
 #endif
 
 /**
- * Say, from within any callback (but those of gg_messages), that it failed: the call that it came from ends soon, and
- * returns GG_FAILED with this reason. The first reason counts. What the callback returns or sets from then on is of no
- * account. A simulation stays valid, and what a run had stored stays; a user-defined theory that fails becomes a
- * warning of the comparison.
+ * Report the failure of a callback, from within it (any callback but those of gg_messages). The library's call ends
+ * soon and returns GG_FAILED with this reason. The first reason counts; later results of the callback are ignored. A
+ * simulation stays valid, and files that a run has stored stay. A user-defined theory that fails becomes a warning of
+ * the comparison.
  * @param reason one line for people; bytes that are not UTF-8 become '?'
  */
 GG_API void gg_callback_fail(const char *reason);
 
 /**
- * Version of the library: "0.1.0" of a release, otherwise with the commit ("0.1.0+g156f34b3") and ".dirty" for changed
+ * Version of the library: "0.1.0" for a release, otherwise with the commit ("0.1.0+g156f34b3") and ".dirty" for changed
  * sources.
  * @return the version; never NULL
  */
@@ -125,7 +125,7 @@ GG_API gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err
 /**
  * Read a scene from YAML text.
  * @param yaml the text
- * @param name stands for the file name in messages; may be NULL
+ * @param name file name for messages; may be NULL
  * @param scene receives the scene, to be freed by gg_scene_free()
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT with line, key and allowed values
@@ -205,7 +205,7 @@ GG_API gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *
 GG_API gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_error *err);
 
 /**
- * What an engine switches on and off for a scene, and the memory and time of a run.
+ * Describe a run: what the engine switches on and off for the scene, its memory and its time.
  * @param scene the scene
  * @param engine "md" or "dsmc"
  * @param line called with each line of text
@@ -222,7 +222,7 @@ typedef struct gg_scene_needs {
   double memory, memory_available; /* bytes, all replicas; INFINITY available: unknown */
   double collisions_per_grain;     /* warm-up included */
   double cpu_seconds;
-  double observables; /* share of the run's time that its observables add, over the run without them */
+  double observables; /* time that the observables add, as a fraction of the run without them */
   double file;        /* bytes of the result file, with its trajectory */
 } gg_scene_needs;
 
@@ -249,14 +249,15 @@ GG_API gg_status gg_scene_warnings(const gg_scene *scene, const char *use,
                                    void (*line)(void *context, const char *text), void *context, gg_error *err);
 
 /* ---- Simulations, step by step ----
- * The grains, from a start near the steady state, if there is one. The same scene, seed and stream give the same
+ * A simulation starts near the steady state, if there is one. The same scene, seed and stream give the same
  * trajectory, bit for bit; in md for any division into steps. Stream 0 is that of gg_run(). Nothing is averaged: use
  * gg_run() for means. Free cooling keeps the units of its start. */
 
 typedef struct gg_simulation gg_simulation;
 
-/* All zero: stream 0, and nothing interrupts the start. */
+/* Default: stream 0, and nothing interrupts the start. */
 typedef struct gg_start_options {
+  size_t size;     /* sizeof(gg_start_options) */
   uint64_t stream; /* random stream; different streams of one seed are independent copies, 0 is that of gg_run() */
   void *context;   /* for stop */
   int (*stop)(void *context); /* polled several times a second during the start; returns non-zero to interrupt it */
@@ -280,7 +281,7 @@ GG_API gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options
 GG_API void gg_simulation_free(gg_simulation *simulation);
 
 /**
- * Advance by a time. Monte Carlo between walls with a given step ends at the first end of one beyond.
+ * Advance by a time. Monte Carlo between walls with a given time step ends at the first end of a step beyond.
  * @param simulation the simulation
  * @param time duration in units of results
  * @param err receives the message on failure; may be NULL
@@ -316,12 +317,12 @@ typedef struct gg_simulation_state {
   double collisions_per_grain; /* each counts for both partners */
   size_t grains;
   double temperature;            /* T; of mixtures sum x_i m_i <C.C>_i / 3; between walls, where no flow is imposed,
-                                  * of whole velocities (results are about the local mean), the stress likewise */
-  double rotational_temperature; /* theta = I <omega^2>/(3m) about the mean spin (results between walls: about that at
-                                  * each height); 0 for smooth grains */
+                                  * of total velocities (in results about the local mean), the stress likewise */
+  double rotational_temperature; /* theta = I <omega^2>/(3m) about the mean spin (in results between walls: about the
+                                  * mean at each height); 0 for smooth grains */
   double kinetic_stress[3][3];   /* in units of stress; x along the flow, y along its gradient */
-  double strain;                 /* shear rate times time, also of one that changed; 0 without shear */
-  double image_offset;           /* md, sheared: the box above is displaced so far along x, from 0 to box[0] */
+  double strain;                 /* integral of the shear rate over time; 0 without shear */
+  double image_offset;           /* md, sheared: displacement of the box above along x, from 0 to box[0] */
   double box[3];                 /* edges; 0 where there is none (dsmc without walls) */
   int periodic[3];               /* the box repeats along x, y, z; 0: walls or open ends, or no box */
 } gg_simulation_state;
@@ -339,7 +340,7 @@ GG_API gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_sim
 typedef struct gg_species_state {
   size_t grains;
   double diameter, mass, inertia;             /* inertia: 4I/(m d^2) */
-  double temperature, rotational_temperature; /* its own: m<C.C>/3, I<omega^2>/3 about its mean spin */
+  double temperature, rotational_temperature; /* of the species: m<C.C>/3, I<omega^2>/3 about its mean spin */
 } gg_species_state;
 
 /**
@@ -383,9 +384,9 @@ GG_API gg_status gg_simulation_get_grains(const gg_simulation *simulation, const
  * members are started as in gg_simulation_new(). Without walls the mean velocity is subtracted. If the scene gives no
  * number of grains (particles, dsmc.particles), it is n. Under shear, image_offset starts at 0.
  * @param scene the scene; its phi and n make the box (gg_simulation_get_state() of any simulation of it)
- * @param grains what gg_simulation_get_grains() copies, in units of results; only read. Monte Carlo takes no positions,
- *   between walls the heights alone, and numbers its grains species by species. With several species, `species` is
- *   needed, by md also `position`
+ * @param grains arrays as gg_simulation_get_grains() fills them, in units of results; only read. Monte Carlo takes no
+ *   positions, between walls only the heights, and numbers its grains species by species. With several species,
+ *   `species` is needed, by md also `position`
  * @param n number of grains
  * @param options as for gg_simulation_new()
  * @param simulation receives the simulation, to be freed by gg_simulation_free()
@@ -448,8 +449,8 @@ typedef struct gg_simulation_sums { /* over the collisions since the last call, 
   double dissipation;              /* energy lost in collisions between grains, per volume and time, in units
                                     * of stress over time */
   double wall_impulse[GG_WALLS][3]; /* on each wall: m times velocity */
-  double wall_loss;                 /* energy lost in collisions with walls, or taken by thermal ones */
-  double wall_heat[GG_WALLS];       /* the same of each wall */
+  double wall_loss;                 /* energy lost in collisions with walls, or taken by thermal walls */
+  double wall_heat[GG_WALLS];       /* as wall_loss, of each wall */
 } gg_simulation_sums;
 
 /**
@@ -486,7 +487,7 @@ GG_API gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_col
                                             gg_error *err);
 
 /**
- * Store the collisions of later advances in an array of the caller's, without a callback for each. Where the array is
+ * Store the collisions of later advances in an array of the caller, without a callback for each. Once the array is
  * full, further collisions are not stored, and Monte Carlo returns to its fast path within 20 mean free times.
  * @param simulation the simulation
  * @param events array of `capacity` events; NULL: stop storing
@@ -499,11 +500,11 @@ GG_API gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_ev
                                       gg_error *err);
 
 /**
- * Change a key on the way: collision.*, bath.*, thermostat, gaussian_rate, noise_strength, shear_rate, md.contact_time,
- * dsmc.time_step, walls.e, walls.beta, walls.mu, walls.temperature, walls.accommodation, gravity. Grains, time, counts,
- * random stream and units stay: under shear, time stays in units of the shear rate of the start, from a thousandth to a
- * thousandfold of which shear_rate may be. Other keys set units, box or grains and are rejected, as are values that
- * would let smooth grains rotate. The simulation is unchanged on failure.
+ * Change a key of a running simulation: collision.*, bath.*, thermostat, gaussian_rate, noise_strength, shear_rate,
+ * md.contact_time, dsmc.time_step, walls.e, walls.beta, walls.mu, walls.temperature, walls.accommodation, gravity.
+ * Grains, time, counts, random stream and units stay: under shear, time stays in units of the shear rate of the start,
+ * from a thousandth to a thousandfold of which shear_rate may be. Other keys set units, box or grains and are rejected,
+ * as are values that would let smooth grains rotate. The simulation is unchanged on failure.
  * @param simulation the simulation
  * @param key as for gg_scene_set(), "collision.e"
  * @param value YAML in units of the scene
@@ -546,7 +547,7 @@ GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, int
                                     gg_simulation **simulation, gg_error *err);
 
 /**
- * The file of a simulation as bytes in memory: what gg_simulation_save() writes.
+ * Save a simulation to memory: the bytes of the file that gg_simulation_save() writes.
  * @param simulation the simulation
  * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
  * @param context passed to the callback
@@ -559,7 +560,7 @@ GG_API gg_status gg_simulation_to_bytes(const gg_simulation *simulation, int (*s
                                         void **bytes, size_t *size, gg_error *err);
 
 /**
- * A simulation from such bytes, or from those of a file that graingas wrote.
+ * Read a simulation from the bytes of gg_simulation_to_bytes() or of a file that graingas wrote.
  * @param bytes the bytes
  * @param size their number
  * @param scene as for gg_simulation_load(); may be NULL
@@ -581,17 +582,18 @@ GG_API gg_status gg_simulation_from_bytes(const void *bytes, size_t size, const 
  * processes need the same build. Scenes with user-defined observables, theories or laws, and the replica that writes a
  * trajectory, stay on rank 0. */
 
-typedef struct gg_messages { /* filled in by the caller; calls come one at a time, from any thread */
+typedef struct gg_messages { /* message passing of the caller; calls come one at a time, from any thread */
   int rank, size;            /* this process, 0 to size - 1; number of processes */
   void *context;
-  /* Own a block from malloc and deliver it: asynchronously, in order. Returns non-zero if it cannot. */
+  /* Take over a block from malloc, deliver it asynchronously and in order, and free it. Returns non-zero if it cannot.
+   */
   int (*send)(void *context, int to, void *block, size_t size);
-  /* Set the next message, in a block from malloc that the caller frees, and its sender. Returns 1; 0: no message now;
-   * -1: no further messages. */
+  /* Set *block to the next message, from malloc and freed by the library, and *from to its sender. Returns 1; 0: no
+   * message now; -1: no further messages. */
   int (*receive)(void *context, int *from, void **block, size_t *size);
-  /* Whether that process is known to be lost. NULL: unknown; a process silent for a minute then counts as lost. */
+  /* Returns non-zero if this process is known to be lost. NULL: unknown; a process silent for a minute is lost. */
   int (*lost)(void *context, int rank);
-  /* Warning for the user, at rank 0: a process is lost, others repeat its work. NULL: no warning. */
+  /* Warning for the user, at rank 0: a process is lost, and others repeat its work. NULL: no warning. */
   void (*warn)(void *context, const char *message);
 } gg_messages;
 
@@ -630,22 +632,23 @@ GG_API gg_status gg_worker_run(const gg_messages *messages, gg_error *err);
 
 /* ---- Runs: until the scene's stopping criteria are met; means with errors ---- */
 
-typedef struct gg_progress { /* how far a run is */
+typedef struct gg_progress { /* progress of a run */
   const char *engine;        /* "md", "dsmc": a comparison runs both */
   const char *phase;         /* "start", "warm-up", "averaging" */
-  double fraction;           /* of the run, 0..1; never falls, and is 1 when the run is over */
+  double fraction;           /* of the run that is done, 0..1; never falls, and is 1 when the run is over */
   uint64_t collisions;       /* so far, of all replicas */
   double rate;               /* collisions per second of processor time */
   double relative_error;     /* of the worst headline quantity; NaN: not known yet */
   double time_left;          /* seconds until this engine meets its stopping criteria; NaN: not known yet */
   double limit_in;           /* seconds until run.time_limit ends the run; INFINITY: no limit */
   int64_t replicas;
-  const char *next; /* of a comparison: the engine that runs after this one; NULL: none */
-  double overall;   /* of the whole call, 0..1: of a comparison the mean over its engines; never falls */
+  const char *next; /* in a comparison the engine that runs after this one; NULL: none */
+  double overall;   /* fraction of the whole call, 0..1: in a comparison the mean over its engines; never falls */
 } gg_progress;
 
-/* All zero: one thread, no callbacks, no files. Results do not depend on options. */
+/* Default: one thread, no callbacks, no files. Results do not depend on options. */
 typedef struct gg_run_options {
+  size_t size; /* sizeof(gg_run_options) */
   int threads; /* for replicas, for compare's two engines, for large Monte Carlo ensembles; 0: one */
   /* Result file to write, with the trajectory if the scene has output.trajectory_every; not one of the two files below.
    * For a device or pipe the file is first made in memory. */
@@ -655,7 +658,7 @@ typedef struct gg_run_options {
    * is GG_BAD_FILE. The trajectory so far is beside it (x.frames for x.h5). All are removed after GG_OK, when the
    * output is written. */
   const char *checkpoint;
-  /* Checkpoint to resume, bit for bit, the trajectory included; if it is damaged, FILE.1. GG_BAD_FILE if its frames are
+  /* Checkpoint to resume, bit for bit, with its trajectory; FILE.1 if FILE is damaged. GG_BAD_FILE if its frames are
    * damaged or missing. */
   const char *resume;
   const char *command; /* command that made the file, stored in it; NULL: "the graingas library" */
@@ -664,8 +667,8 @@ typedef struct gg_run_options {
   int (*stop)(void *context);                            /* polled several times a second; returns non-zero to stop */
   void (*stored)(void *context, const char *checkpoint); /* a checkpoint was written */
   void (*warn)(void *context, const char *message);      /* before the run: keys without effect, corrections */
-  const char *input;         /* the scene's file, which no output may replace; NULL: unknown */
-  const char *picture;       /* file that gg_plot() will draw of the output; checked before the run, like the others */
+  const char *input;         /* file of the scene, which no output may replace; NULL: unknown */
+  const char *picture;       /* file that gg_plot() will draw; checked before the run, like the other outputs */
   gg_workers *workers;       /* other processes that take part, each with the threads of gg_workers_new(); NULL: none */
   int accept_version;        /* non-zero: also resume a checkpoint of another build, whose numbers may differ */
   const char *picture_width; /* width for gg_plot(); NULL: as for a screen */
@@ -734,12 +737,12 @@ GG_API gg_status gg_session_get_progress(const gg_session *session, gg_progress 
  */
 GG_API gg_status gg_session_result(gg_session *session, gg_result **result, gg_error *err);
 
-typedef struct gg_checkpoint_part { /* one engine's */
+typedef struct gg_checkpoint_part { /* the run of one engine */
   const char *engine;               /* "md", "dsmc"; NULL: none */
   const char *phase;                /* "warm-up", "averaging"; "stepped": a saved simulation */
   double collisions_per_grain;      /* since the start, approximately */
-  double averaged;                  /* of those, averaged over; 0 for a saved simulation, as the next */
-  double seconds;                   /* wall-clock time */
+  double averaged;                  /* collisions per grain while averaging; 0 for a saved simulation */
+  double seconds;                   /* wall-clock time; 0 for a saved simulation */
 } gg_checkpoint_part;
 typedef struct gg_checkpoint_info {
   const char *kind; /* "run", "comparison", "simulation" */
@@ -768,7 +771,7 @@ typedef struct gg_measurement {
   const char *unit;
   const char *reason;                /* why there is no mean; NULL if there is one; "" if it was not requested */
   const char *correlation_time_unit; /* of time; "collisions a grain" if the gas cools or heats up for ever */
-  const char *symbol;                /* LaTeX: "T", "P_{xy}"; NULL: none, as of a number of a curve or of your own */
+  const char *symbol; /* LaTeX: "T", "P_{xy}"; NULL: none, for numbers of curves and user-defined quantities */
 } gg_measurement;
 
 /**
@@ -784,7 +787,7 @@ GG_API gg_status gg_result_get(const gg_result *result, const char *quantity, do
                                gg_error *err);
 
 /**
- * Everything known about a quantity, also if it has no mean.
+ * Find a quantity: mean, error, unit, samples; also a quantity without a mean, with the reason.
  * @param result the result
  * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
  * @param found receives mean, error, unit, samples, reason
@@ -838,13 +841,13 @@ typedef struct gg_result_info {
   int steady;          /* whether the steady state was reached */
   const char *verdict; /* reason for `steady` */
   int64_t grains;
-  const char *grains_chosen;                      /* why so many; NULL if given, or as usual */
+  const char *grains_chosen;                      /* reason for this number; NULL if given, or the default */
   double window[2];                               /* averaged over these times */
   uint64_t collisions;                            /* between grains, while averaging */
   double cpu_seconds;                             /* while averaging */
   uint64_t total_collisions;                      /* of the whole run */
   double total_cpu_seconds, wall_seconds;         /* NaN: not known */
-  const char *version, *command, *machine, *date; /* of the file that it was read from; else NULL */
+  const char *version, *command, *machine, *date; /* of the result's file; NULL without a file */
   size_t frames;                                  /* of the trajectory in that file */
 } gg_result_info;
 
@@ -961,7 +964,7 @@ GG_API gg_status gg_result_write(const gg_result *result, const char *path, int 
 GG_API gg_status gg_result_read(const char *path, gg_result **result, gg_error *err);
 
 /**
- * The file of a result as bytes in memory: what gg_result_write() writes.
+ * Write a result to memory: the bytes of the file that gg_result_write() writes.
  * @param result the result
  * @param bytes receives the bytes, to be freed with free()
  * @param size receives their number
@@ -971,7 +974,7 @@ GG_API gg_status gg_result_read(const char *path, gg_result **result, gg_error *
 GG_API gg_status gg_result_to_bytes(const gg_result *result, void **bytes, size_t *size, gg_error *err);
 
 /**
- * A result from such bytes, or from those of a file that graingas wrote.
+ * Read a result from the bytes of gg_result_to_bytes() or of a file that graingas wrote.
  * @param bytes the bytes
  * @param size their number
  * @param result receives the result, to be freed by gg_result_free()
@@ -987,13 +990,13 @@ GG_API gg_status gg_result_from_bytes(const void *bytes, size_t size, gg_result 
 GG_API void gg_result_free(gg_result *result);
 
 /* ---- Trajectories ----
- * The stored frames of a run (output.trajectory_every; without that key, the last state), in units of results. Only one
- * frame at a time is in memory. The frames of a comparison are those of md. */
+ * The stored frames of a run (output.trajectory_every; without this key, the last state), in units of results. One
+ * frame at a time is in memory. A comparison has the frames of md. */
 
 typedef struct gg_trajectory gg_trajectory;
 
 /**
- * Open the trajectory of a result file; of a comparison, that of md.
+ * Open the trajectory of a result file; of a comparison, the trajectory of md.
  * @param path file name
  * @param trajectory receives the trajectory, to be freed by gg_trajectory_free()
  * @param err receives the message on failure; may be NULL
@@ -1045,9 +1048,9 @@ GG_API gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int 
                                            gg_error *err);
 
 /**
- * Write the teaching page, one HTML file. It is a file of each release, and is built with the sources (./check --page).
- * @param page the page to be copied; NULL: the installed one, or that of the build folder of the running program
- * @param scene scene that the page starts with; NULL: its own
+ * Write the teaching page, one HTML file. Each release contains it; ./check --page builds it from the sources.
+ * @param page the page to be copied; NULL: the installed page, or that of the build folder of the running program
+ * @param scene scene that the page starts with; NULL: the page's default
  * @param path file name
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE if there is no page
@@ -1055,7 +1058,7 @@ GG_API gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int 
 GG_API gg_status gg_page_write(const char *page, const gg_scene *scene, const char *path, gg_error *err);
 
 /* ---- Comparisons and theories ----
- * Both engines and every theory on one scene; also the theories alone, and a file of one engine's run read back. */
+ * Both engines and every theory on one scene; also theories without a simulation, and the file of a run. */
 
 typedef struct gg_comparison gg_comparison;
 
@@ -1071,9 +1074,9 @@ GG_API gg_status gg_compare(const gg_scene *scene, const gg_run_options *options
                             gg_error *err);
 
 /**
- * Evaluate theories without simulation: those that are named, and no other. A formula takes microseconds, the
+ * Evaluate the named theories, without simulation. A formula takes microseconds, the
  * noise-free solver up to three seconds. Theories that do not apply have a reason in gg_comparison_theory().
- * @param scene the scene; with a protocol the gas after the last change
+ * @param scene the scene; with a protocol, the gas after the last change
  * @param theory names of theories, separated by commas: "lun1991", "lun1991,grad"; NULL: all
  * @param stop polled several times a second, on this thread; returns non-zero to interrupt; may be NULL
  * @param context passed to the callback
@@ -1091,7 +1094,7 @@ GG_API gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory,
 GG_API void gg_comparison_free(gg_comparison *comparison);
 
 /**
- * Put a result of the same scene beside the theories, in place of the one of its engine.
+ * Add a result of the same scene to a comparison. It replaces the result of its engine.
  * @param comparison the comparison
  * @param result the result; owned by the comparison on success
  * @param err receives the message on failure; may be NULL
@@ -1108,7 +1111,7 @@ GG_API gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result
 GG_API const gg_result *gg_comparison_result(const gg_comparison *comparison, const char *engine);
 
 /**
- * Why a comparison has no result of an engine.
+ * Reason why a comparison has no result of an engine.
  * @param comparison the comparison
  * @param engine "md" or "dsmc"
  * @return the reason; NULL if there is a result. Borrowed; do not free.
@@ -1131,8 +1134,7 @@ GG_API const gg_scene *gg_comparison_scene(const gg_comparison *comparison);
 GG_API const char *gg_comparison_warning(const gg_comparison *comparison, size_t i);
 
 /**
- * Difference of both engines. Enskog's equation stands for its noise-free solution if there is one, otherwise for
- * dsmc.
+ * Difference of both engines. "Enskog's equation" below is its noise-free solution if there is one, otherwise dsmc.
  * @param comparison the comparison
  * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
  * @param z receives (md - dsmc) over the combined standard error, NaN if unknown; may be NULL
@@ -1143,17 +1145,17 @@ GG_API const char *gg_comparison_warning(const gg_comparison *comparison, size_t
 GG_API gg_status gg_comparison_agreement(const gg_comparison *comparison, const char *quantity, double *z, int *beyond,
                                          gg_error *err);
 
-/* An engine's mean against Enskog's equation solved without random numbers, theory enskog_hermite. */
+/* Difference of an engine's mean and Enskog's equation solved without random numbers (theory enskog_hermite). */
 typedef struct gg_departure {
   double difference, error; /* engine - solution, in units of results; the error combines the engine's standard error
                                and the numerical error of the solution */
   double z;                 /* difference over error */
-  double deviation, deviation_error; /* both over the solution; NaN for numbers near zero: N1, N2, a2 */
+  double deviation, deviation_error; /* difference and error over the solution; NaN for numbers near 0: N1, N2, a2 */
   int headline;                      /* non-zero: one of the main quantities, those of a comparison's picture */
 } gg_departure;
 
 /**
- * An engine's mean against Enskog's equation solved without random numbers (enskog_hermite).
+ * Difference of an engine's mean and Enskog's equation solved without random numbers (theory enskog_hermite).
  * @param comparison the comparison
  * @param engine "md" or "dsmc"
  * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
@@ -1165,9 +1167,9 @@ GG_API gg_status gg_comparison_departure(const gg_comparison *comparison, const 
                                          gg_departure *departure, gg_error *err);
 
 typedef struct gg_comparison_row {  /* one quantity; arrays: md, dsmc */
-  const char *name, *symbol, *unit; /* symbol: LaTeX; NULL of a quantity of your own */
+  const char *name, *symbol, *unit; /* symbol: LaTeX; NULL if user-defined */
   double mean[2], error[2];         /* standard errors; NaN: none */
-  double z;                         /* this and `beyond`: see gg_comparison_agreement() */
+  double z;                         /* z and beyond: see gg_comparison_agreement() */
   int beyond;
   gg_departure departure[2];
 } gg_comparison_row;
@@ -1184,8 +1186,8 @@ GG_API gg_status gg_comparison_at(const gg_comparison *comparison, size_t i, gg_
 
 typedef struct gg_theory_info {
   const char *name, *title, *citation, *assumptions;
-  const char *reason; /* why it does not apply to this scene; NULL if it does */
-  const char *beyond; /* why this scene is out of its range, though it answers; NULL: within */
+  const char *reason; /* why the theory does not apply to this scene; NULL if it does */
+  const char *beyond; /* why this scene is out of the theory's range, though it gives values; NULL: within */
 } gg_theory_info;
 
 /**
@@ -1248,11 +1250,11 @@ GG_API gg_status gg_comparison_theory_error(const gg_comparison *comparison, con
 GG_API gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char *theory, size_t i,
                                             gg_curve_data *curve, gg_error *err);
 
-typedef struct gg_remark { /* on a difference larger than expected */
-  const char *theory;      /* NULL: md and Enskog's equation or dsmc; causes that apply to this scene */
-  const char *quantity;    /* with the largest deviation; NULL for md and Enskog's equation */
+typedef struct gg_remark { /* a difference larger than expected */
+  const char *theory;      /* NULL: the difference of md and Enskog's equation or dsmc */
+  const char *quantity;    /* quantity with the largest deviation; NULL for md and Enskog's equation */
   double deviation;
-  const char *cause;
+  const char *cause; /* causes that apply to this scene */
 } gg_remark;
 
 /**
@@ -1296,7 +1298,7 @@ GG_API gg_status gg_comparison_write(const gg_comparison *comparison, const char
 GG_API gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err);
 
 /**
- * The file of a comparison as bytes in memory: what gg_comparison_write() writes.
+ * Write a comparison to memory: the bytes of the file that gg_comparison_write() writes.
  * @param comparison the comparison
  * @param bytes receives the bytes, to be freed with free()
  * @param size receives their number
@@ -1306,7 +1308,7 @@ GG_API gg_status gg_comparison_read(const char *path, gg_comparison **comparison
 GG_API gg_status gg_comparison_to_bytes(const gg_comparison *comparison, void **bytes, size_t *size, gg_error *err);
 
 /**
- * A comparison from such bytes, or from those of a file that graingas wrote.
+ * Read a comparison from the bytes of gg_comparison_to_bytes() or of a file that graingas wrote.
  * @param bytes the bytes
  * @param size their number
  * @param comparison receives the comparison, to be freed by gg_comparison_free()
@@ -1324,7 +1326,7 @@ typedef struct gg_sweep gg_sweep;
 
 /**
  * Read a sweep: a scene that may have the maps `vary` and `sweep`.
- * @param path file name; "-" is standard input; a sweep's folder, which holds the sweep that was run last there
+ * @param path file name; "-" is standard input; or the folder of a sweep, which holds the sweep that was run last
  * @param sweep receives the sweep, to be freed by gg_sweep_free()
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT; GG_BAD_FILE
@@ -1334,7 +1336,7 @@ GG_API gg_status gg_sweep_load(const char *path, gg_sweep **sweep, gg_error *err
 /**
  * Read a sweep from YAML text.
  * @param yaml the text
- * @param name stands for the file name in messages; may be NULL
+ * @param name file name for messages; may be NULL
  * @param sweep receives the sweep, to be freed by gg_sweep_free()
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT
@@ -1368,7 +1370,7 @@ GG_API gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *valu
 GG_API gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg_error *err);
 
 /**
- * Check that every point can be simulated. Other calls below do so first; afterwards the sweep is fixed.
+ * Check that every point can be simulated. Most calls below do this check first; afterwards the sweep is fixed.
  * @param sweep the sweep
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT names the first point that cannot be simulated
@@ -1390,10 +1392,10 @@ GG_API size_t gg_sweep_points(const gg_sweep *sweep);
 GG_API const char *gg_sweep_does(const gg_sweep *sweep);
 
 typedef struct gg_sweep_point {
-  char name[17];      /* of its file, without folder and ending */
+  char name[17];      /* name of the point's file, without folder and ending */
   double cpu_seconds; /* expected; see gg_scene_get_needs() */
-  int64_t replicas;   /* of the scene, or chosen if it has none (sweep.longest) */
-  uint64_t seed;      /* its own, or the scene's (sweep.seeds) */
+  int64_t replicas;   /* given in the scene, otherwise chosen (sweep.longest) */
+  uint64_t seed;      /* of this point, or of the scene (sweep.seeds) */
 } gg_sweep_point;
 
 /**
@@ -1438,7 +1440,7 @@ typedef enum gg_point_state {
   GG_POINT_DONE,
   GG_POINT_SHORT,       /* done, but ended before its stopping criteria */
   GG_POINT_OTHER_BUILD, /* done by a build with other sources: gg_sweep_run repeats it, unless accept_version is set */
-  GG_POINT_DAMAGED      /* its file is not whole: gg_sweep_run repeats it */
+  GG_POINT_DAMAGED      /* the file is damaged: gg_sweep_run repeats the point */
 } gg_point_state;
 
 /**
@@ -1465,23 +1467,24 @@ GG_API gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t
 GG_API gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **text, gg_error *err);
 
 typedef struct gg_sweep_progress {
-  size_t points, done; /* done: also in earlier calls, and those that fell short */
-  size_t fell_short, failed;
-  size_t running;        /* in progress in this process */
-  size_t elsewhere;      /* in progress in other processes that use this folder */
-  double time_left;      /* seconds; NaN: not known yet */
-  double relative_error; /* the largest among points in progress; NaN: not known */
+  size_t points, done;    /* done: in this call or before, with or without the stopping criteria met */
+  size_t fell_short;      /* done, but ended before their stopping criteria */
+  size_t failed, running; /* running: in progress in this process */
+  size_t elsewhere;       /* in progress in other processes that use this folder */
+  double time_left;       /* seconds; NaN: not known yet */
+  double relative_error;  /* the largest among points in progress; NaN: not known */
 } gg_sweep_progress;
 
-/* All zero: one thread, no callbacks. Files depend on options only in the times and dates in them. */
+/* Default: one thread, no callbacks. Files depend on options only in the times and dates in them. */
 typedef struct gg_sweep_options {
+  size_t size;         /* sizeof(gg_sweep_options) */
   int threads;         /* for points and their replicas; 0: one */
   const char *command; /* command that made the files, stored in them; NULL: "the graingas library" */
-  const char *input;   /* the sweep's file, which no output may replace; NULL: unknown */
+  const char *input;   /* file of the sweep, which no output may replace; NULL: unknown */
   void *context;       /* for the callbacks, on the calling thread; each may be NULL */
   void (*progress)(void *context, const gg_sweep_progress *progress); /* several times a second */
-  int (*stop)(void *context);                                         /* as often; returns non-zero to stop */
-  /* Point i ended: GG_OK, GG_FAILED (with a `file`: it fell short) or GG_BAD_FILE, with the reason. */
+  int (*stop)(void *context); /* polled several times a second; returns non-zero to stop */
+  /* Point i ended: GG_OK, GG_FAILED (with a `file`: before its stopping criteria) or GG_BAD_FILE, with the reason. */
   void (*ended)(void *context, size_t i, gg_status status, const char *file, const char *message);
   void (*warn)(void *context, const char *message); /* keys without effect; once for all points */
   gg_workers *workers;                              /* other processes that take part; NULL: none */
@@ -1512,23 +1515,25 @@ GG_API gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_swee
 GG_API gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, const gg_sweep_options *options,
                                     gg_error *err);
 
-/* How gg_sweep_collect() collects. All zero: defaults. */
-typedef struct gg_collecting {
-  const char *command; /* for their record; NULL: "the graingas library" */
+/* Options of gg_sweep_collect(). */
+typedef struct gg_collect_options {
+  size_t size;         /* sizeof(gg_collect_options) */
+  const char *command; /* command that made the files, stored in them; NULL: "the graingas library" */
   const char *picture; /* instead of PREFIX.svg; "none": no picture */
-  const char *over;    /* key along x; NULL: of those with numbers the one with the most values */
-  const char *show;    /* quantities, with commas, a panel each; NULL: the main ones */
-  /* Called with the reason if there is no picture and none of the options about it is set; NULL: that is an error. */
+  const char *over;    /* key along x; NULL: the key of numbers with the most values */
+  const char *show;    /* quantities, separated by commas, a panel each; NULL: the headline quantities */
+  /* Called with the reason if the picture fails and no option of the picture is set; NULL: that is an error. */
   void (*warn)(void *context, const char *message);
-  const char *width;       /* of the picture, as for gg_plot; NULL: free */
+  const char *width;       /* width of the picture, as for gg_plot(); NULL: as for a screen */
   const char *log;         /* logarithmic axes: "x", "y", "xy" or "none"; NULL: y where its values span decades */
-  const char *relative_to; /* method: the picture has deviations from it; NULL: the numbers themselves */
-  const char *theories;    /* in the picture, with commas; NULL: all */
-  /* Theories are evaluated between the points, too, at twenty-five values of the axis, and kept in FOLDER/lines. */
-  int threads;                                                        /* for that; 0: one */
-  void (*progress)(void *context, const gg_sweep_progress *progress); /* of that; NULL: nobody told */
-  int (*stop)(void *context);                                         /* not 0: the lines end at what there is */
-} gg_collecting;
+  const char *relative_to; /* method: the picture shows deviations from this method; NULL: the quantities */
+  const char *theories;    /* theories in the picture, separated by commas; NULL: all */
+  /* For the lines of the picture, theories are also evaluated between the points, at 25 values of the axis, and stored
+   * in FOLDER/lines. */
+  int threads;                                                        /* for these evaluations; 0: one */
+  void (*progress)(void *context, const gg_sweep_progress *progress); /* of these evaluations; may be NULL */
+  int (*stop)(void *context); /* returns non-zero to stop them: lines then end early */
+} gg_collect_options;
 
 /**
  * Write the results of all finished points: PREFIX.csv and PREFIX.h5 (a row for each point, method and quantity) and
@@ -1542,27 +1547,28 @@ typedef struct gg_collecting {
  * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED if no point is finished or the picture fails
  */
-GG_API gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collecting *options,
-                                  void (*written)(void *context, const char *file), void *context, gg_error *err);
+GG_API gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix,
+                                  const gg_collect_options *options, void (*written)(void *context, const char *file),
+                                  void *context, gg_error *err);
 
-/* What gg_sweep_validate() writes beside its verdict. All zero: nothing. */
-typedef struct gg_validating {
-  const char *command;  /* for their record; NULL: "the graingas library" */
+/* Output of gg_sweep_validate() beside its verdict. Default: none. */
+typedef struct gg_validate_options {
+  size_t size;          /* sizeof(gg_validate_options) */
+  const char *command;  /* command that made the files, stored in them; NULL: "the graingas library" */
   const char *repeat;   /* command that repeats a point, without its number; NULL: none is printed */
   const char *picture;  /* maps of deviations: "grid.svg" makes grid_temperature.svg and so on; NULL: no maps */
-  const char *width;    /* of the maps, as for gg_plot(); NULL: as for a screen */
-  const char *show;     /* quantities, with commas, a map each; NULL: the main ones */
-  const char *theories; /* theories in the maps, with commas; NULL: lun1991 */
+  const char *width;    /* width of the maps, as for gg_plot(); NULL: as for a screen */
+  const char *show;     /* quantities, separated by commas, a map each; NULL: the headline quantities */
+  const char *theories; /* theories in the maps, separated by commas; NULL: lun1991 */
   const char *page;     /* Markdown with maps, counts and tables; NULL: no page */
-  void (*warn)(void *context,
-               const char *message); /* of maps that cannot be drawn, and of other builds; NULL: nobody */
-  int json;                          /* not 0: the verdict is one JSON document, for programs */
-  int (*stop)(void *context);        /* polled between points and between maps; returns non-zero to interrupt */
-} gg_validating;
+  void (*warn)(void *context, const char *message); /* maps that cannot be drawn, points of other builds; may be NULL */
+  int json;                                         /* non-zero: the verdict is one JSON document */
+  int (*stop)(void *context); /* polled between points and between maps; returns non-zero to interrupt */
+} gg_validate_options;
 
 /**
- * Compare all finished points of a sweep (`does: compare`) with Enskog's equation: dsmc with the noise-free solution,
- * which both solve, and md and theories with either.
+ * Compare all finished points of a sweep (`does: compare`) with Enskog's equation: dsmc with the noise-free solution of
+ * the same equation, md and theories with both.
  * @param sweep the sweep
  * @param folder folder of the results
  * @param options NULL: default options
@@ -1571,11 +1577,11 @@ typedef struct gg_validating {
  * @param verdict receives counts and tables as Markdown or JSON, to be freed with free(); also with GG_FAILED, else
  * NULL
  * @param err receives the message on failure; may be NULL
- * @return GG_OK; GG_FAILED where dsmc and the noise-free solution disagree beyond chance (one grid in 1000 without any
- * fault does), where nothing was judged (no point has a steady dsmc and a noise-free solution), or no point is finished; GG_BAD_INPUT if the sweep does not compare; GG_INTERRUPTED by options->stop:
- * there is no page, maps that were drawn stay
+ * @return GG_OK; GG_FAILED if dsmc and the noise-free solution differ significantly (false alarm: one grid in 1000), if
+ *   no point has a steady dsmc and a noise-free solution, or if no point is finished; GG_BAD_INPUT if the sweep does
+ * not compare; GG_INTERRUPTED by options->stop: there is no page, maps that were drawn stay
  */
-GG_API gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_validating *options,
+GG_API gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_validate_options *options,
                                    void (*written)(void *context, const char *file), void *context, char **verdict,
                                    gg_error *err);
 
@@ -1605,14 +1611,14 @@ GG_API gg_status gg_plot(const char *result_file, const char *picture, const cha
                          void (*drawn)(void *context, const char *picture), int (*stop)(void *context), void *context,
                          gg_error *err);
 
-enum {                        /* what gg_export writes */
-       GG_EXPORT_RESULTS = 1, /* PREFIX.csv: a line a quantity */
-       GG_EXPORT_CURVES =
-           2, /* PREFIX_<observable>_<curve>.csv, of comparisons PREFIX_<engine>_<observable>_<curve>.csv;
-                 PREFIX_numbers.csv: the numbers derived from them */
-       GG_EXPORT_TRAJECTORY =
-           4, /* PREFIX.xyz: grains as extended XYZ, one frame after another, where they have positions */
-       GG_EXPORT_ALL = 7
+/* Files of gg_export(). */
+enum {
+  GG_EXPORT_RESULTS = 1, /* PREFIX.csv: a line a quantity */
+  /* PREFIX_<observable>_<curve>.csv, of comparisons PREFIX_<engine>_<observable>_<curve>.csv; PREFIX_numbers.csv: the
+   * numbers derived from the curves */
+  GG_EXPORT_CURVES = 2,
+  GG_EXPORT_TRAJECTORY = 4, /* PREFIX.xyz: frames of the grains as extended XYZ, if they have positions */
+  GG_EXPORT_ALL = 7
 };
 
 /**
@@ -1621,7 +1627,7 @@ enum {                        /* what gg_export writes */
  * @param prefix beginning of the file names
  * @param parts a sum of GG_EXPORT_...
  * @param written called with each file name; may be NULL
- * @param progress called after each frame of a trajectory with the share of it that is written; may be NULL
+ * @param progress called after each frame of a trajectory with the fraction that is written; may be NULL
  * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
  * @param context passed to the callbacks
  * @param err receives the message on failure; may be NULL
@@ -1630,7 +1636,7 @@ enum {                        /* what gg_export writes */
  */
 GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
                            void (*written)(void *context, const char *file),
-                           void (*progress)(void *context, double share), int (*stop)(void *context), void *context,
+                           void (*progress)(void *context, double fraction), int (*stop)(void *context), void *context,
                            gg_error *err);
 
 /**
@@ -1660,12 +1666,12 @@ typedef struct gg_entry { /* NULL or "": not in this table */
   const char *type;    /* "number", "integer", "choice", "set", "pairs", "vector", "ends", "file", "species" */
   char allowed[256];   /* "a number from 0 to 1" */
   char value[4096];    /* in force in the scene; without a scene the default, "": none */
-  int given;           /* in the scene */
+  int given;           /* non-zero: given in the scene */
   const char *formula; /* of a quantity: its definition, as LaTeX has it */
   const char *missing; /* of a quantity: why the scene has no mean of it; NULL: it has one, or no scene is given */
   const char *answers; /* of a theory: names of quantities, separated by blanks */
-  char symbol[48];     /* of a quantity, LaTeX: "T", "\\kappa_{rh}"; "" of your own */
-  int headline;        /* of a quantity: run.relative_error applies to it in the scene */
+  char symbol[48];     /* of a quantity, LaTeX: "T", "\\kappa_{rh}"; "" if user-defined */
+  int headline;        /* of a quantity: non-zero if run.relative_error applies to it in the scene */
   char when[256];      /* when a key has an effect, a quantity has a mean, which flows a theory describes */
   char traits[64];     /* of a flow, separated by blanks: sheared, walls, moving_walls, cools, falls, may_fall */
 } gg_entry;
@@ -1692,7 +1698,8 @@ GG_API gg_status gg_catalogue_entry(gg_catalogue list, size_t i, const gg_scene 
 GG_API gg_status gg_catalogue_word(const char *key, size_t i, gg_entry *entry, gg_error *err);
 
 /**
- * A scene to begin with, as YAML: what has to be said, and every other key of the flow as a comment with its default.
+ * Template of a scene, as YAML: the keys that must be given, and every other key of the flow as a comment with its
+ * default.
  * @param flow "usf", or another word of the key flow
  * @param text receives the text, to be freed with free()
  * @param err receives the message on failure; may be NULL
@@ -1701,7 +1708,7 @@ GG_API gg_status gg_catalogue_word(const char *key, size_t i, gg_entry *entry, g
 GG_API gg_status gg_scene_begin(const char *flow, char **text, gg_error *err);
 
 /**
- * What files of scenes and sweeps may hold, as JSON Schema (draft 7): editors complete keys and mark errors by it.
+ * JSON Schema (draft 7) of scenes and sweeps. With it editors complete keys and mark errors.
  * @param text receives the text, to be freed with free()
  * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
@@ -1720,7 +1727,7 @@ GG_API gg_status gg_schema_to_json(char **text, gg_error *err);
 GG_API void gg_format_estimate(double mean, double error, char *text, size_t size);
 
 /**
- * The known word nearest to a mistyped one, for "did you mean".
+ * Spelling suggestion: the known word nearest to a mistyped word.
  * @param word the mistyped word
  * @param known known words; NULL after the last
  * @return the word; NULL if none is near
@@ -1728,8 +1735,8 @@ GG_API void gg_format_estimate(double mean, double error, char *text, size_t siz
 GG_API const char *gg_nearest_word(const char *word, const char *const *known);
 
 /**
- * Make a text safe to show: control characters, marks of writing direction and bytes that are not UTF-8 become '?'.
- * Messages of this library are safe already; names of files and other foreign texts may not be.
+ * Make a text safe to print: control characters, marks of writing direction and bytes that are not UTF-8 become '?'.
+ * Messages of this library are safe; names of files and other foreign texts may not be.
  * @param text the text, changed in place; may be NULL
  */
 GG_API void gg_text_make_printable(char *text);
@@ -1738,10 +1745,10 @@ GG_API void gg_text_make_printable(char *text);
  * User-defined observables, theories and a restitution law, registered with a scene. Runs, comparisons and evaluations
  * of the scene use them. Their quantities appear under their own names in results, tables, JSON, files and pictures.
  *
- * Definitions are copied, strings and tables included. A `context` is passed to the callbacks unchanged and stays the
- * caller's. It must be valid as long as the scene and everything that runs from it (results keep names only). Callbacks
- * come from the threads of the run, several at once if replicas or engines run side by side: protect shared data with a
- * lock. Numbers are in units of results.
+ * Definitions are copied, with their strings and tables. A `context` is passed to the callbacks unchanged; the library
+ * never frees it. It must be valid as long as the scene and everything that runs from it (results keep names only).
+ * Callbacks come from the threads of the run, several at once if replicas or engines run side by side: protect shared
+ * data with a lock. Numbers are in units of results.
  *
  * Each call below checks the definition: no member is missing, names are free and valid (letters, digits and _, at most
  * 40), texts are one line of UTF-8. A scene has at most 32 quantities and 8 theories. Otherwise the call returns
@@ -1762,7 +1769,7 @@ typedef struct gg_sample {
   size_t n;       /* grains; in md always in the same order */
   int n_species;
   const double *position;       /* 3 a grain: x y z x y z ...; 0 to box[i]; NULL without positions (dsmc) */
-  const double *velocity;       /* 3 a grain; less the imposed flow, between walls less the local mean */
+  const double *velocity;       /* 3 a grain; relative to the imposed flow, between walls to the local mean */
   const double *spin;           /* 3 a grain: angular velocity (phi = 0: times d/2); NULL for smooth grains */
   const unsigned char *species; /* of each grain, from 0 */
   const double *mass, *diameter, *inertia; /* of each species; inertia: 4I/(m d^2) */
@@ -1784,7 +1791,7 @@ typedef struct gg_collision_view {
 
 /* `sample` sets one number per quantity at the end of every sampling interval. The run computes means over the
  * averaging window, errors and correlation times as for every other quantity. `collision` (may be NULL) is called at
- * every collision between grains while averaging; this costs time, and dsmc then leaves its fast kernels. Both get
+ * every collision between grains while averaging; this costs time, and dsmc then uses slower kernels. Both get
  * `state`: state_size plain bytes, zero at the start, one for each replica, stored in checkpoints. A resumed run needs
  * the same observables. */
 typedef struct gg_observable_definition {
@@ -1827,8 +1834,8 @@ typedef struct gg_facts {
   const gg_pair_facts *pairs; /* of species i and j: pairs[n_species*i + j] */
 } gg_facts;
 
-/* `evaluate` sets one number for each of `quantities`, which are names of graingas or of the scene's own observables,
- * and returns NULL. All numbers are preset to NaN: no answer. If the theory does not apply, it returns the reason, a
+/* `evaluate` sets one number for each of `quantities`, which are names of graingas or of user-defined observables, and
+ * returns NULL. All numbers are preset to NaN: no value. If the theory does not apply, `evaluate` returns the reason, a
  * text as for gg_callback_fail() that continues the name: "describes free cooling". */
 typedef struct gg_theory_definition {
   const char *name;
@@ -1855,7 +1862,7 @@ typedef double gg_restitution(void *context, double normal_speed, int species_1,
 /**
  * Set a restitution law for collisions between grains, in place of collision.e and collision.law. It is tested at
  * speeds from 1e-9 to 1e9. Values out of range during a run are clamped (NaN: 0), and the result counts them and warns.
- * dsmc leaves its fast kernels; theories of constant e do not apply. A resumed run needs the same law, by name.
+ * dsmc uses slower kernels; theories of constant e do not apply. A resumed run needs the same law, by name.
  * @param scene the scene
  * @param name name of the law
  * @param law the law; NULL: back to collision.e
@@ -1878,131 +1885,6 @@ GG_API gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_
  */
 GG_API gg_status gg_scene_set_restitution_table(gg_scene *scene, const char *name, size_t n, const double *speed,
                                                 const double *e, gg_error *err);
-
-/* ---- Sizes ----
- * Structs grow at their end from version to version. So every function that takes one of the caller's structs also gets
- * the size that the caller's compiler knows: the names above become the functions below. A program that was built with
- * an older header works with a newer library; one that was built with a newer header than the library's gets
- * GG_BAD_INPUT. Through a pointer, or from a language without this header, call these: the functions above exist, too,
- * for structs as they are in the library's own version. */
-
-GG_API gg_status gg_scene_get_needs_sized(const gg_scene *scene, const char *engine, gg_scene_needs *needs,
-                                          gg_error *err, size_t needs_size);
-GG_API gg_status gg_simulation_get_state_sized(const gg_simulation *simulation, gg_simulation_state *state,
-                                               gg_error *err, size_t state_size);
-GG_API gg_status gg_simulation_get_species_sized(const gg_simulation *simulation, int species, gg_species_state *state,
-                                                 gg_error *err, size_t state_size);
-GG_API gg_status gg_simulation_get_grains_sized(const gg_simulation *simulation, const gg_grains *into, gg_error *err,
-                                                size_t into_size);
-GG_API gg_status gg_simulation_new_sized(const gg_scene *scene, const gg_start_options *options,
-                                         gg_simulation **simulation, gg_error *err, size_t options_size);
-GG_API gg_status gg_simulation_from_grains_sized(const gg_scene *scene, const gg_grains *grains, size_t n,
-                                                 const gg_start_options *options, gg_simulation **simulation,
-                                                 gg_error *err, size_t grains_size, size_t options_size);
-GG_API gg_status gg_simulation_set_grains_sized(gg_simulation *simulation, const gg_grains *grains, size_t n,
-                                                gg_error *err, size_t grains_size);
-GG_API gg_status gg_simulation_take_sums_sized(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err,
-                                               size_t sums_size);
-GG_API gg_status gg_workers_new_sized(const gg_messages *messages, int threads, gg_workers **workers, gg_error *err,
-                                      size_t messages_size);
-GG_API gg_status gg_worker_run_sized(const gg_messages *messages, gg_error *err, size_t messages_size);
-GG_API gg_status gg_run_sized(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err,
-                              size_t options_size);
-GG_API gg_status gg_session_get_progress_sized(const gg_session *session, gg_progress *progress, gg_error *err,
-                                               size_t progress_size);
-GG_API gg_status gg_checkpoint_about_sized(const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err,
-                                           size_t info_size);
-GG_API gg_status gg_result_find_sized(const gg_result *result, const char *quantity, gg_measurement *found,
-                                      gg_error *err, size_t found_size);
-GG_API gg_status gg_result_at_sized(const gg_result *result, size_t i, gg_measurement *found, gg_error *err,
-                                    size_t found_size);
-GG_API gg_status gg_result_get_info_sized(const gg_result *result, gg_result_info *info, gg_error *err,
-                                          size_t info_size);
-GG_API gg_status gg_result_curve_sized(const gg_result *result, size_t i, gg_curve_data *curve, gg_error *err,
-                                       size_t curve_size);
-GG_API gg_status gg_result_curve_number_sized(const gg_result *result, size_t i, size_t k, gg_measurement *number,
-                                              gg_error *err, size_t number_size);
-GG_API gg_status gg_result_grains_sized(const gg_result *result, const gg_grains *into, gg_error *err,
-                                        size_t into_size);
-GG_API gg_status gg_trajectory_frame_sized(gg_trajectory *trajectory, size_t k, gg_simulation_state *state,
-                                           const gg_grains *into, gg_error *err, size_t state_size, size_t into_size);
-GG_API gg_status gg_trajectory_get_species_sized(const gg_trajectory *trajectory, int species, gg_species_state *state,
-                                                 gg_error *err, size_t state_size);
-GG_API gg_status gg_compare_sized(const gg_scene *scene, const gg_run_options *options, gg_comparison **comparison,
-                                  gg_error *err, size_t options_size);
-GG_API gg_status gg_comparison_departure_sized(const gg_comparison *comparison, const char *engine,
-                                               const char *quantity, gg_departure *departure, gg_error *err,
-                                               size_t departure_size);
-GG_API gg_status gg_comparison_at_sized(const gg_comparison *comparison, size_t i, gg_comparison_row *row,
-                                        gg_error *err, size_t row_size);
-GG_API gg_status gg_comparison_theory_sized(const gg_comparison *comparison, size_t i, gg_theory_info *theory,
-                                            gg_error *err, size_t theory_size);
-GG_API gg_status gg_comparison_theory_curve_sized(const gg_comparison *comparison, const char *theory, size_t i,
-                                                  gg_curve_data *curve, gg_error *err, size_t curve_size);
-GG_API gg_status gg_comparison_remark_sized(const gg_comparison *comparison, size_t i, gg_remark *remark, gg_error *err,
-                                            size_t remark_size);
-GG_API gg_status gg_sweep_at_sized(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg_error *err,
-                                   size_t point_size);
-GG_API gg_status gg_sweep_run_sized(gg_sweep *sweep, const char *folder, const gg_sweep_options *options, gg_error *err,
-                                    size_t options_size);
-GG_API gg_status gg_sweep_run_point_sized(gg_sweep *sweep, const char *folder, size_t i,
-                                          const gg_sweep_options *options, gg_error *err, size_t options_size);
-GG_API gg_status gg_sweep_collect_sized(gg_sweep *sweep, const char *folder, const char *prefix,
-                                        const gg_collecting *options, void (*written)(void *context, const char *file),
-                                        void *context, gg_error *err, size_t options_size);
-GG_API gg_status gg_sweep_validate_sized(gg_sweep *sweep, const char *folder, const gg_validating *options,
-                                         void (*written)(void *context, const char *file), void *context,
-                                         char **verdict, gg_error *err, size_t options_size);
-GG_API gg_status gg_catalogue_entry_sized(gg_catalogue list, size_t i, const gg_scene *scene, gg_entry *entry,
-                                          gg_error *err, size_t entry_size);
-GG_API gg_status gg_catalogue_word_sized(const char *key, size_t i, gg_entry *entry, gg_error *err, size_t entry_size);
-GG_API gg_status gg_scene_add_observable_sized(gg_scene *scene, const gg_observable_definition *definition,
-                                               gg_error *err, size_t definition_size);
-GG_API gg_status gg_scene_add_theory_sized(gg_scene *scene, const gg_theory_definition *definition, gg_error *err,
-                                           size_t definition_size);
-GG_API gg_status gg_simulation_record_sized(gg_simulation *simulation, gg_collision_event *events, size_t capacity,
-                                            size_t *n, gg_error *err, size_t event_size);
-
-#ifndef GG_WITHOUT_SIZES /* the library itself */
-#define gg_scene_get_needs(...) gg_scene_get_needs_sized(__VA_ARGS__, sizeof(gg_scene_needs))
-#define gg_simulation_get_state(...) gg_simulation_get_state_sized(__VA_ARGS__, sizeof(gg_simulation_state))
-#define gg_simulation_get_species(...) gg_simulation_get_species_sized(__VA_ARGS__, sizeof(gg_species_state))
-#define gg_simulation_get_grains(...) gg_simulation_get_grains_sized(__VA_ARGS__, sizeof(gg_grains))
-#define gg_simulation_new(...) gg_simulation_new_sized(__VA_ARGS__, sizeof(gg_start_options))
-#define gg_simulation_from_grains(...)                                                                                 \
-  gg_simulation_from_grains_sized(__VA_ARGS__, sizeof(gg_grains), sizeof(gg_start_options))
-#define gg_simulation_set_grains(...) gg_simulation_set_grains_sized(__VA_ARGS__, sizeof(gg_grains))
-#define gg_simulation_take_sums(...) gg_simulation_take_sums_sized(__VA_ARGS__, sizeof(gg_simulation_sums))
-#define gg_workers_new(...) gg_workers_new_sized(__VA_ARGS__, sizeof(gg_messages))
-#define gg_worker_run(...) gg_worker_run_sized(__VA_ARGS__, sizeof(gg_messages))
-#define gg_run(...) gg_run_sized(__VA_ARGS__, sizeof(gg_run_options))
-#define gg_session_get_progress(...) gg_session_get_progress_sized(__VA_ARGS__, sizeof(gg_progress))
-#define gg_checkpoint_about(...) gg_checkpoint_about_sized(__VA_ARGS__, sizeof(gg_checkpoint_info))
-#define gg_result_find(...) gg_result_find_sized(__VA_ARGS__, sizeof(gg_measurement))
-#define gg_result_at(...) gg_result_at_sized(__VA_ARGS__, sizeof(gg_measurement))
-#define gg_result_get_info(...) gg_result_get_info_sized(__VA_ARGS__, sizeof(gg_result_info))
-#define gg_result_curve(...) gg_result_curve_sized(__VA_ARGS__, sizeof(gg_curve_data))
-#define gg_result_curve_number(...) gg_result_curve_number_sized(__VA_ARGS__, sizeof(gg_measurement))
-#define gg_result_grains(...) gg_result_grains_sized(__VA_ARGS__, sizeof(gg_grains))
-#define gg_trajectory_frame(...) gg_trajectory_frame_sized(__VA_ARGS__, sizeof(gg_simulation_state), sizeof(gg_grains))
-#define gg_trajectory_get_species(...) gg_trajectory_get_species_sized(__VA_ARGS__, sizeof(gg_species_state))
-#define gg_compare(...) gg_compare_sized(__VA_ARGS__, sizeof(gg_run_options))
-#define gg_comparison_departure(...) gg_comparison_departure_sized(__VA_ARGS__, sizeof(gg_departure))
-#define gg_comparison_at(...) gg_comparison_at_sized(__VA_ARGS__, sizeof(gg_comparison_row))
-#define gg_comparison_theory(...) gg_comparison_theory_sized(__VA_ARGS__, sizeof(gg_theory_info))
-#define gg_comparison_theory_curve(...) gg_comparison_theory_curve_sized(__VA_ARGS__, sizeof(gg_curve_data))
-#define gg_comparison_remark(...) gg_comparison_remark_sized(__VA_ARGS__, sizeof(gg_remark))
-#define gg_sweep_at(...) gg_sweep_at_sized(__VA_ARGS__, sizeof(gg_sweep_point))
-#define gg_sweep_run(...) gg_sweep_run_sized(__VA_ARGS__, sizeof(gg_sweep_options))
-#define gg_sweep_run_point(...) gg_sweep_run_point_sized(__VA_ARGS__, sizeof(gg_sweep_options))
-#define gg_sweep_collect(...) gg_sweep_collect_sized(__VA_ARGS__, sizeof(gg_collecting))
-#define gg_sweep_validate(...) gg_sweep_validate_sized(__VA_ARGS__, sizeof(gg_validating))
-#define gg_catalogue_entry(...) gg_catalogue_entry_sized(__VA_ARGS__, sizeof(gg_entry))
-#define gg_catalogue_word(...) gg_catalogue_word_sized(__VA_ARGS__, sizeof(gg_entry))
-#define gg_scene_add_observable(...) gg_scene_add_observable_sized(__VA_ARGS__, sizeof(gg_observable_definition))
-#define gg_scene_add_theory(...) gg_scene_add_theory_sized(__VA_ARGS__, sizeof(gg_theory_definition))
-#define gg_simulation_record(...) gg_simulation_record_sized(__VA_ARGS__, sizeof(gg_collision_event))
-#endif
 
 #ifdef __cplusplus
 }

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define GG_WITHOUT_SIZES /* the module and its library are one file: structs have one size */
 #include "graingas.h"
 
 /* cffi:

@@ -27,8 +27,8 @@ def write(folder, name, text):
 
 
 def header():
-    """Up to the functions with sizes, which the macros call. Members and types have plain comments in the header."""
-    text = read("include", "graingas.h").split("/* ---- Sizes ----")[0] + "#endif\n"
+    """Members and types have plain comments in the header."""
+    text = read("include", "graingas.h")
     text = re.sub(r"^/\* (?=graingas:)", "/** @file\n * ", text)
     text = re.sub(r"^/\* (?!----)((?:(?!\*/).)*\*/\n(?:typedef|enum|#define))", r"/** \1", text, flags=re.MULTILINE | re.DOTALL)
     text = re.sub(r"(?<=[;,\w{})]) +/\* ", " /**< ", text)
@@ -63,7 +63,7 @@ def calls_of_python():
             if public is None or (last.startswith("_") and not inits) or (owner and not hasattr(gg, owner)):
                 continue
             for function in uses(name, {name}):
-                found.setdefault(re.sub("_sized$", "", function), set()).add(owner if inits else name)
+                found.setdefault(function, set()).add(owner if inits else name)
     return found
 
 

@@ -11,8 +11,11 @@ SCALARS = {"double": "f8", "int": "i4", "uint64_t": "u8", "int64_t": "i8", "size
 
 
 def new(name):
-    """A zeroed struct."""
-    return ffi.new(name + " *")
+    """A zeroed struct; options have their size."""
+    made = ffi.new(name + " *")
+    if name.endswith("_options"):
+        made.size = ffi.sizeof(name)
+    return made
 
 
 def _field_format(kind):

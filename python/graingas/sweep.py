@@ -214,7 +214,7 @@ class Verdict(dict):
 
 
 def _verdict(pointer, folder, call, settings):
-    options, made, error = new("gg_validating"), ffi.new("char **"), new_error()
+    options, made, error = new("gg_validate_options"), ffi.new("char **"), new_error()
     options.stop, context = call.stopping
     for name, value in settings.items():
         setattr(options, name, value)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the files of the public interface have in common. Each of them is one section of graingas.h: it checks
- * arguments, finishes scenes, and hands on to the rooms that do the work. */
+/* Shared by the files of the public interface. Each file is one section of graingas.h: it checks arguments, completes
+ * scenes, and calls the rooms that do the work. */
 #ifndef GG_API_H
 #define GG_API_H
 
@@ -13,36 +13,51 @@
 #include "run/result.h"
 #include "scene/scene.h"
 
-/* A missing argument is an answer, not a crash. */
+/* Return GG_BAD_INPUT if an argument is NULL. */
 #define GG_NEED(...) GG_CHECK_ARGUMENTS(#__VA_ARGS__, __VA_ARGS__)
 #define GG_NEED_CALLBACK(argument) GG_CHECK_ARGUMENTS(#argument, (argument) ? "" : NULL)
 #define GG_CHECK_ARGUMENTS(names, ...)                                                                                 \
   GG_TRY(gg_api_arguments_check(__func__, names, (const void *const[]){__VA_ARGS__},                                   \
                                 sizeof((const void *const[]){__VA_ARGS__}) / sizeof(void *), err))
-/* text.c: the arguments of a function, by their names ("scene, result"): GG_BAD_INPUT for the first that is NULL. */
+/* text.c: GG_BAD_INPUT for the first of n arguments that is NULL; `names`: "scene, result". */
 gg_status gg_api_arguments_check(const char *function, const char *names, const void *const *argument, size_t n,
                                  gg_error *err);
 
-/* scene.c: a copy of the scene, complete and checked: what every use of a scene begins with. */
+/* A copy of the caller's options (NULL: none), zero where they are not set. */
+#define GG_COPY_OPTIONS(copy, options)                                                                                 \
+  GG_TRY(gg_api_options_copy(__func__, &(copy), sizeof(copy), options, (options) ? (options)->size : 0, err))
+/* text.c: GG_BAD_INPUT unless 0 < size <= own_size, the size in this library; `options` may be NULL. */
+gg_status gg_api_options_copy(const char *function, void *copy, size_t own_size, const void *options, size_t size,
+                              gg_error *err);
+
+/* scene.c: a copy of the scene, with its defaults filled in and checked. Every use of a scene begins with this call. */
 gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *err);
 
-/* text.c: GG_BAD_INPUT, with the name among these that may be meant. */
+/* text.c: GG_BAD_INPUT for an unknown quantity, with a spelling suggestion. */
 gg_status gg_api_no_quantity(const gg_quantity_rows *rows, const char *name, gg_error *err);
 
-/* text.c: an engine by its name; a document as text, whose reference it takes. */
+/* text.c: an engine by its name. */
 gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *err);
+/* text.c: a document as text; releases the document (NULL: out of memory). */
 gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err);
 
-/* text.c: a caller's function that may ask to stop (NULL: it never does); its request, once made, holds. For the
- * `asked` of a gg_stop. */
+/* text.c: the `stop` callback of a caller, as the `asked` of a gg_stop. Once the callback has returned non-zero, it is
+ * not called again. */
 typedef struct gg_api_request {
-  int (*stop)(void *context);
+  int (*stop)(void *context); /* NULL: never stops */
   void *context;
   bool made;
 } gg_api_request;
 bool gg_api_is_requested(void *request);
 
-/* result.c: what a user sees of a curve. */
+/* result.c: a curve as the interface has it. */
 gg_curve_data gg_api_curve_view(const gg_curve *curve);
+
+/* result.c: the file of a run, or of a comparison (NULL: the run), on disk or in memory. The file's command is that of
+ * the run, or the name of the function. */
+gg_status gg_api_file_write(const gg_result *run, const gg_comparison *both, const char *function, const char *path,
+                            gg_api_request request, gg_error *err);
+gg_status gg_api_file_to_bytes(const gg_result *run, const gg_comparison *both, const char *function, void **bytes,
+                               size_t *size, gg_error *err);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The catalogue: rows of the tables that the library itself uses. */
+/* The catalogue: rows of the library's tables of names. */
 #include <stdio.h>
 #include <string.h>
 
@@ -26,7 +26,7 @@ static gg_status no_more(gg_error *err)
   return gg_base_fail(err, GG_BAD_INPUT, "there are no more entries");
 }
 
-/* A row of a table that ends with a NULL key. */
+/* The i-th row of a table that ends with a NULL key; NULL after the last. */
 static const gg_field *field_at(const gg_field *fields, size_t i)
 {
   for (size_t k = 0; fields[k].key; k++)
@@ -34,7 +34,7 @@ static const gg_field *field_at(const gg_field *fields, size_t i)
   return NULL;
 }
 
-/* What a key holds; without a scene its default, which flow and phi have not. */
+/* Set the value of a key. */
 static void put_value(const gg_field *f, const void *base, const gg_scene *scene, gg_entry *entry)
 {
   json_t *value = gg_scene_field_json(f, base, scene);
@@ -72,7 +72,7 @@ static gg_status species_key_entry(size_t i, gg_entry *entry, gg_error *err)
   return GG_OK;
 }
 
-/* The words of a choice or a set of the scene. */
+/* The i-th word of a key of type choice or set. */
 static gg_status word_entry(const char *key, size_t i, gg_entry *entry, gg_error *err)
 {
   int id = gg_scene_field_find(key);
@@ -100,7 +100,7 @@ static bool is_headline(const gg_model *model, gg_quantity q)
   return false;
 }
 
-/* The unit depends on the flow: without a scene it is that of uniform shear. */
+/* The i-th quantity. Its unit depends on the flow; without a scene it is that of uniform shear. */
 static gg_status quantity_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err)
 {
   gg_scene filled = scene ? *scene : gg_scene_defaults();
@@ -150,7 +150,7 @@ static void put_flows(unsigned flows, gg_entry *entry)
       gg_base_text_append(entry->when, sizeof entry->when, "%s%s", *entry->when ? ", " : "", gg_common_flows[f].word);
 }
 
-/* The shared ones, then those that the user defined. */
+/* The i-th theory: first the theories of graingas, then user-defined ones. */
 static gg_status theory_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err)
 {
   const gg_extension *user_defined = scene ? scene->extension : NULL;
@@ -166,7 +166,7 @@ static gg_status theory_entry(size_t i, const gg_scene *scene, gg_entry *entry, 
   return GG_OK;
 }
 
-/* The words under `measure`, then those that the user defined. */
+/* The i-th observable: first the words of `measure`, then user-defined ones. */
 static gg_status observable_entry(size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err)
 {
   const gg_extension *user_defined = scene ? scene->extension : NULL;

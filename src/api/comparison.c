@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Comparisons: theories alone, rows and remarks, to and from files and documents. */
+/* Comparisons: theories without simulation; rows and remarks; files and documents. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,7 +10,6 @@
 #include "base/spelling.h"
 #include "base/text.h"
 #include "common/extension.h"
-#include "files/h5/result_file.h"
 #include "files/h5/result_restore.h"
 #include "files/result_document.h"
 #include "run/protocol_times.h"
@@ -25,8 +24,8 @@ void gg_comparison_free(gg_comparison *c)
   free(c);
 }
 
-/* "lun1991", or several with commas. */
-static gg_status choose(const gg_model *model, const char *names, bool wanted[GG_MOST_THEORIES], gg_error *err)
+/* Theories by their names, separated by commas. */
+static gg_status choose_theories(const gg_model *model, const char *names, bool wanted[GG_MOST_THEORIES], gg_error *err)
 {
   for (const char *at = names; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
     at += strspn(at, " ");
@@ -58,11 +57,10 @@ static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *t
   GG_TRY(gg_scene_model_for_theories(&end, model, err));
   model->stop = stop;
   bool wanted[GG_MOST_THEORIES] = {false};
-  if (theory) GG_TRY(choose(model, theory, wanted, err));
+  if (theory) GG_TRY(choose_theories(model, theory, wanted, err));
   GG_TRY(gg_run_compare_theories(model, theory ? wanted : NULL, c, err));
-  const unsigned before = gg_base_memory_failures();
   gg_scene_ineffective_keys(&finished, GG_USE_THEORY, &c->warnings);
-  return gg_base_memory_check(before, GG_OK, err);
+  return GG_OK;
 }
 
 gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, int (*stop)(void *context), void *context,
@@ -70,11 +68,12 @@ gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, int (*
 {
   GG_NEED(scene, comparison);
   gg_api_request request = {stop, context, false};
+  const unsigned before = gg_base_memory_failures();
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);
   gg_model *model = c ? gg_base_array_new(1, sizeof *model, err) : NULL;
   gg_status status =
       model ? evaluate(c, scene, theory, &(gg_stop){gg_api_is_requested, &request}, model, err) : GG_FAILED;
-  status = gg_base_callback_settle(status, err);
+  status = gg_base_memory_check(before, gg_base_callback_settle(status, err), err);
   free(model);
   if (status == GG_OK)
     *comparison = c;
@@ -83,7 +82,7 @@ gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, int (*
   return status;
 }
 
-/* But for the engine, and for what may change when a run is resumed. */
+/* Whether the scenes differ only in the engine and in keys that may change on resume. */
 static bool same_scene(const gg_scene *one, gg_scene other)
 {
   gg_archive keys = {0};
@@ -203,6 +202,14 @@ static gg_status find_theory(const gg_comparison *c, const char *theory, int *i,
   return gg_base_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s' here", theory);
 }
 
+/* Place of the theory, and the quantity, of an answer. */
+static gg_status find_answer(const gg_comparison *c, const char *theory, const char *quantity, int *i, gg_quantity *q,
+                             gg_error *err)
+{
+  GG_TRY(find(c, quantity, q, err));
+  return find_theory(c, theory, i, err);
+}
+
 gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char *theory, const char *quantity,
                                      double *value, double *deviation, gg_error *err)
 {
@@ -210,14 +217,13 @@ gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char
   const gg_comparison *c = comparison;
   gg_quantity q;
   int i;
-  GG_TRY(find(comparison, quantity, &q, err));
-  GG_TRY(find_theory(c, theory, &i, err));
+  GG_TRY(find_answer(c, theory, quantity, &i, &q, err));
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
   const gg_result *against = has(md, q) ? md : has(dsmc, q) ? dsmc : NULL;
-  double said = c->theory[i].applies ? c->theory[i].answer.value[q] : NAN;
-  if (value) *value = isfinite(said) ? said : NAN;
-  const bool told = against && isfinite(said) && !gg_scene_is_followed(&c->scene);
-  if (deviation) *deviation = told ? gg_run_deviation(&against->value[q], said) : NAN;
+  double answer = c->theory[i].applies ? c->theory[i].answer.value[q] : NAN;
+  if (value) *value = isfinite(answer) ? answer : NAN;
+  const bool comparable = against && isfinite(answer) && !gg_scene_is_followed(&c->scene);
+  if (deviation) *deviation = comparable ? gg_run_deviation(&against->value[q], answer) : NAN;
   return GG_OK;
 }
 
@@ -246,8 +252,7 @@ gg_status gg_comparison_theory_error(const gg_comparison *comparison, const char
   GG_NEED(comparison, theory, quantity, error);
   gg_quantity q;
   int i;
-  GG_TRY(find(comparison, quantity, &q, err));
-  GG_TRY(find_theory(comparison, theory, &i, err));
+  GG_TRY(find_answer(comparison, theory, quantity, &i, &q, err));
   *error = comparison->theory[i].applies ? comparison->theory[i].answer.error[q] : NAN;
   return GG_OK;
 }
@@ -290,43 +295,32 @@ gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg
                           text, err);
 }
 
-/* The engine whose record a file has. */
-static gg_status first_of(const gg_comparison *c, const char *path, const gg_result **one, gg_error *err)
+/* The result that gives the file its command, version and date. */
+static gg_status first_of(const gg_comparison *c, const char *path, const gg_result **run, gg_error *err)
 {
-  *one = gg_run_comparison_first(c);
-  return *one ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "%s: not written: nothing was simulated", path);
+  *run = gg_run_comparison_first(c);
+  return *run ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "%s: not written: nothing was simulated", path);
 }
 
 gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, int (*stop)(void *context),
                               void *context, gg_error *err)
 {
   GG_NEED(comparison, path);
-  gg_result_file file;
-  gg_api_request request = {stop, context, false};
-  const gg_result *one;
-  GG_TRY(first_of(comparison, path, &one, err));
-  if (comparison->of_one) return gg_result_write(one, path, stop, context, err);
-  GG_TRY(
-      gg_files_result_file_open(&file, path, one->origin.command ? one->origin.command : "gg_comparison_write", err));
-  file.file.stop = (gg_stop){gg_api_is_requested, &request};
-  file.stop = &file.file.stop;
-  return gg_base_callback_settle(gg_files_result_file_finish_comparison(&file, comparison, err), err);
+  const gg_result *run;
+  GG_TRY(first_of(comparison, path, &run, err));
+  return gg_api_file_write(run, comparison->of_one ? NULL : comparison, __func__, path,
+                           (gg_api_request){stop, context, false}, err);
 }
 
 gg_status gg_comparison_to_bytes(const gg_comparison *comparison, void **bytes, size_t *size, gg_error *err)
 {
   GG_NEED(comparison, bytes, size);
-  gg_result_file file;
-  const gg_result *one;
-  GG_TRY(first_of(comparison, "the comparison", &one, err));
-  if (comparison->of_one) return gg_result_to_bytes(one, bytes, size, err);
-  gg_files_result_file_open_in_memory(&file, one->origin.command ? one->origin.command : "gg_comparison_to_bytes");
-  GG_TRY(gg_files_result_file_finish_comparison(&file, comparison, err));
-  *bytes = file.bytes, *size = file.size;
-  return GG_OK;
+  const gg_result *run;
+  GG_TRY(first_of(comparison, "the comparison", &run, err));
+  return gg_api_file_to_bytes(run, comparison->of_one ? NULL : comparison, __func__, bytes, size, err);
 }
 
-/* What was read, or why not. */
+/* The comparison of a stored result that was read with this status; clears the stored one. */
 static gg_status restore(gg_status status, gg_stored_result *stored, gg_comparison **comparison, gg_error *err)
 {
   gg_comparison *c = status == GG_OK ? gg_base_array_new(1, sizeof *c, err) : NULL;
@@ -343,16 +337,12 @@ gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_er
 {
   GG_NEED(path, comparison);
   gg_stored_result stored;
-  gg_status status = gg_files_stored_result_read(&stored, path, err);
-  status = restore(status, &stored, comparison, err);
-  return status;
+  return restore(gg_files_stored_result_read(&stored, path, err), &stored, comparison, err);
 }
 
 gg_status gg_comparison_from_bytes(const void *bytes, size_t size, gg_comparison **comparison, gg_error *err)
 {
   GG_NEED(bytes, comparison);
   gg_stored_result stored;
-  gg_status status = gg_files_stored_result_from_bytes(&stored, bytes, size, err);
-  status = restore(status, &stored, comparison, err);
-  return status;
+  return restore(gg_files_stored_result_from_bytes(&stored, bytes, size, err), &stored, comparison, err);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the user's program adds to a scene is checked here, and here alone. */
+/* User-defined observables, theories and restitution laws: the only place where they are checked. */
 #include "common/extension.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@
 
 enum { MOST_LETTERS = 40, MOST_TEXT = 500 };
 
-/* `what` is "observable" ... */
+/* `what` is "observable", "quantity", "theory" or "restitution law". */
 static gg_status check_name(const char *what, const char *name, gg_error *err)
 {
   if (!name || !*name) return gg_base_fail(err, GG_BAD_INPUT, "%s: a name is missing", what);
@@ -24,7 +24,7 @@ static gg_status check_name(const char *what, const char *name, gg_error *err)
                       name, MOST_LETTERS);
 }
 
-/* Texts go into files, documents and tables: short, of one line, in UTF-8, and may be missing. */
+/* Check an optional text for files, documents and tables: one short line of UTF-8. */
 static gg_status check_text(const char *name, const char *text, size_t most, gg_error *err)
 {
   if (!text || (strlen(text) <= most && gg_base_text_is_printable(text))) return GG_OK;
@@ -43,7 +43,7 @@ static bool is_user_defined(const gg_extension *x, const char *quantity)
   return false;
 }
 
-/* Tables call the error of NAME so. */
+/* Whether a name ends with _error, as columns of standard errors do in tables. */
 static bool is_error(const char *name)
 {
   const size_t length = strlen(name);
@@ -89,7 +89,7 @@ static gg_status check_observable(const gg_extension *x, const gg_observable_def
   return GG_OK;
 }
 
-/* NULL: out of memory. */
+/* Give the scene its extended copy; NULL: out of memory. */
 static gg_status replace(gg_scene *scene, gg_extension *x)
 {
   if (!x) return GG_FAILED;
@@ -104,7 +104,7 @@ gg_status gg_scene_add_observable(gg_scene *scene, const gg_observable_definitio
   return replace(scene, gg_common_extension_with_observable(scene->extension, o, err));
 }
 
-/* Tables have columns of these names beside those of theories: md, md_error, NAME_error, z and so on. */
+/* Whether tables have a column of this name: md, md_error, NAME_error, z and so on. */
 static bool is_column(const char *name)
 {
   static const char *const words[] = {"quantity",       "unit", "md", "dsmc", "z", "correlation_time_unit",

@@ -22,7 +22,7 @@ double gg_api_moments_temperature(const gg_moments *m)
   return (m->cc[0][0] + m->cc[1][1] + m->cc[2][2]) / (3 * (double)m->model->n);
 }
 
-/* sum I Omega^2 / 3 with I Omega^2 = K m s^2 for surface velocities s, about the mean of each species. */
+/* sum over grains of I Omega^2 = K m s^2, with surface velocities s about the mean of the species. */
 static double rotation_of(const gg_moments *m, int i)
 {
   const double *s = m->spin[i], n = (double)m->model->n_of[i];

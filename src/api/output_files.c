@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The files of a run, looked at before it begins. */
+/* Checks of the files of a run before it starts. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,13 +12,13 @@
 #include "plot/plot.h"
 
 typedef struct file {
-  const char *path, *role, *option; /* option: what to choose another of; NULL: it is only read */
+  const char *path, *role, *option; /* option: the option that names the file; NULL: the file is only read */
 } file;
 
-/* Asks something of one of the pages beside the picture. */
+/* A check of one of the pages beside the picture. */
 typedef gg_status page_check(const char *page, const char *picture, const void *context, gg_error *err);
 
-/* A checkpoint may take the place of the one that the run resumes from. */
+/* Whether two files may be the same: a checkpoint may replace the checkpoint that the run resumes from. */
 static bool may_be_same(const file *a, const file *b)
 {
   return !a->path || !b->path || (!a->option && !b->option) || (a->role[4] == 'c' && b->role[4] == 'c');
@@ -34,15 +34,15 @@ static gg_status check_pairs(const file *all, int n, gg_error *err)
   return GG_OK;
 }
 
-/* FILE.1, where the checkpoint before is kept; to be freed. */
+/* FILE.1, name of the previous checkpoint; to be freed. */
 static char *before(const char *path)
 {
   char *name = NULL;
   return path && asprintf(&name, "%s.1", path) >= 0 ? name : NULL;
 }
 
-static gg_status ask(const char *picture, const char *engine, const char *group, const gg_plot_paper *paper,
-                     page_check *check, const void *context, gg_error *err)
+static gg_status check_page(const char *picture, const char *engine, const char *group, const gg_plot_paper *paper,
+                            page_check *check, const void *context, gg_error *err)
 {
   char *page = gg_plot_page_name(picture, engine, group, paper);
   gg_status status = page ? check(page, picture, context, err) : gg_base_out_of_memory(err);
@@ -50,26 +50,26 @@ static gg_status ask(const char *picture, const char *engine, const char *group,
   return status;
 }
 
-/* Of all pages that the run may come to; an engine may refuse an observable, and leave its page out. */
+/* Check all pages that the run may draw. If an engine rejects an observable, its page is not drawn. */
 static gg_status for_pages(const gg_run_call *r, page_check *check, const void *context, gg_error *err)
 {
   gg_plot_paper paper;
   const char *picture = r->options.picture;
   if (!picture) return GG_OK;
   GG_TRY(gg_plot_paper_choose(&paper, picture, NULL, r->options.picture_width, err));
-  GG_TRY(ask(picture, "", GG_SNAPSHOT_PAGE, &paper, check, context, err));
+  GG_TRY(check_page(picture, "", GG_SNAPSHOT_PAGE, &paper, check, context, err));
   for (int k = 0; k < (r->comparison ? 2 : 1); k++)
     for (int i = 0; gg_measure_observables[i]; i++) {
       const gg_observable *o = gg_measure_observables[i];
       const char *engine = r->comparison ? gg_common_engine_of(k)->name : "";
       if (!o->curves || !(r->scene.measure & o->flag)) continue;
-      GG_TRY(ask(picture, engine, o->name, &paper, check, context, err));
-      if (gg_plot_page_is_shared(o->name)) GG_TRY(ask(picture, "", o->name, &paper, check, context, err));
+      GG_TRY(check_page(picture, engine, o->name, &paper, check, context, err));
+      if (gg_plot_page_is_shared(o->name)) GG_TRY(check_page(picture, "", o->name, &paper, check, context, err));
     }
   return GG_OK;
 }
 
-/* context: all files, to one without a role. */
+/* `context`: array of files that ends with a NULL role. */
 static gg_status check_apart(const char *page, const char *picture, const void *context, gg_error *err)
 {
   for (const file *f = context; f->role; f++)
@@ -85,7 +85,7 @@ static gg_status check_page_writable(const char *page, const char *picture, cons
   return gg_io_atomic_check_writable(page, GG_PICTURES_ARE, err);
 }
 
-/* Whoever asks for such a name means a picture. */
+/* Reject a result with the name of a picture: the user wants a picture. */
 static gg_status check_ending(const char *output, gg_error *err)
 {
   static const char *const pictures[] = {".svg", ".png", ".pdf", ".eps", ".jpg"};
@@ -100,7 +100,7 @@ static gg_status check_ending(const char *output, gg_error *err)
   return GG_OK;
 }
 
-/* It is drawn from the result when that is in place. */
+/* The picture is drawn from the result file after the run. */
 gg_status gg_api_picture_check(const gg_run_call *r, gg_error *err)
 {
   gg_plot_paper paper;

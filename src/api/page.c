@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The teaching page with a scene in it: a copy of the file that `ninja page` built. */
+/* gg_page_write: a copy of the teaching page (built by `ninja page`) with a scene. */
 #include <errno.h>
 #include <limits.h>
 #include <stdbool.h>
@@ -14,11 +14,11 @@
 #include "io/atomic_file.h"
 #include "base/memory.h"
 
-/* Where the page says which scene it begins with; NULL as JSON: its own. */
+/* Placeholder in the page for the scene that it starts with, as JSON; null: the default scene. */
 static const char *const marker = "\"@given@\"";
 
-/* The build folder that the running program stands in, ".../src/cli/graingas" below it; "": it was installed, or
- * belongs to somebody else. No binary holds a path of the sources. */
+/* Build folder of the running program FOLDER/src/cli/graingas; "" for an installed program and for programs that use
+ * the library. (Binaries hold no path of the sources.) */
 static void find_build_folder(char folder[PATH_MAX])
 {
   char ninja[PATH_MAX + 16];
@@ -29,14 +29,14 @@ static void find_build_folder(char folder[PATH_MAX])
   if (*folder && access(ninja, F_OK) != 0) *folder = '\0';
 }
 
-/* Whoever can write there can put a page of their own in its place. */
+/* Whether only this user and root can write to the path, so that nobody else can replace the page. */
 static bool is_safe(const char *path)
 {
   struct stat about;
   return stat(path, &about) == 0 && (about.st_uid == geteuid() || about.st_uid == 0) && !(about.st_mode & 022);
 }
 
-/* The installed program hands out the installed page alone; one that was only built, the page of its build folder. */
+/* Path of the page: the installed page, or that of the build folder for a program that runs there. */
 static gg_status find_page(char page[PATH_MAX + 16], gg_error *err)
 {
   char folder[PATH_MAX];
@@ -81,7 +81,7 @@ static gg_status read_page(const char *given, char **text, gg_error *err)
   return status;
 }
 
-/* As a string of JSON within a script: nothing in it can end that. */
+/* The scene as a JSON string inside a script element: '<' is escaped, so that no text can end the element. */
 static gg_status scene_literal(const gg_scene *scene, char **literal, gg_error *err)
 {
   char *yaml = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Trajectories that runs have stored, a frame at a time. */
+/* Stored trajectories, one frame at a time. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,10 +17,10 @@ struct gg_trajectory {
   gg_stored_trajectory stored;
   gg_scene scene; /* as it was run */
   gg_model model;
-  gg_moments last; /* of the frame that was read last; its model is NULL before the first */
+  gg_moments last; /* moments of the last frame; last.model is NULL before the first frame */
 };
 
-/* The scene, and whether there is any result. */
+/* Read the scene; fails if the file is not a result. */
 static gg_status read_scene(gg_trajectory *t, const char *path, gg_error *err)
 {
   gg_stored_result stored;
@@ -75,7 +75,7 @@ size_t gg_trajectory_frames(const gg_trajectory *trajectory)
   return trajectory ? trajectory->stored.n_frames : 0;
 }
 
-/* Velocities and spins of a frame, as engines show theirs. */
+/* Add the velocities and spins of a frame to the moments, in the chunks of an engine. */
 static void sum_up(gg_trajectory *t, const gg_frame *f)
 {
   double c[3][GG_CHUNK], s[3][GG_CHUNK];
@@ -94,9 +94,9 @@ static void sum_up(gg_trajectory *t, const gg_frame *f)
   }
 }
 
-/* The second edge leans by the offset, counted from the nearest image. */
-static gg_status tell(const gg_trajectory *t, const gg_frame *f, const double edges[9], gg_simulation_state *state,
-                      gg_error *err)
+/* Set the state of a frame. edges[3] is the shift of the images above, from -box/2 to box/2. */
+static gg_status set_state(const gg_trajectory *t, const gg_frame *f, const double edges[9], gg_simulation_state *state,
+                           gg_error *err)
 {
   *state = (gg_simulation_state){.time = f->time, .collisions = f->step, .strain = gg_scene_strain(&t->scene, f->time)};
   gg_api_moments_state(&t->last, 1, state);
@@ -134,9 +134,9 @@ gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation
   if (t->model.n_species > 1) f.species = t->stored.species;
   gg_status status = gg_run_frame_check(&f, &t->model, err);
   if (status == GG_OK) sum_up(t, &f);
-  if (status == GG_OK && state) status = tell(t, &f, edges, state, err);
+  if (status == GG_OK && state) status = set_state(t, &f, edges, state, err);
   if (status == GG_OK && into) copy_out(&f, into);
-  f.species = NULL; /* the trajectory's own */
+  f.species = NULL; /* belongs to the trajectory */
   gg_run_frame_free(&f);
   return status;
 }

@@ -143,7 +143,7 @@ gg_status gg_result_history(const gg_result *result, const char *quantity, size_
   return gg_base_fail(err, GG_BAD_INPUT, "'%s' is not followed in time; allowed: %s", quantity, followed);
 }
 
-/* NULL with the message after the last. */
+/* The i-th curve; NULL, with the message, after the last. */
 static const gg_curve *curve_at(const gg_result *r, size_t i, gg_error *err)
 {
   if (i < (size_t)r->curves.n) return &r->curves.curve[i];
@@ -225,54 +225,69 @@ gg_status gg_result_to_json(const gg_result *result, char **text, gg_error *err)
   return gg_api_text_copy(gg_files_run_document(result), text, err);
 }
 
+static gg_status finish(gg_result_file *file, const gg_result *run, const gg_comparison *both, gg_error *err)
+{
+  return both ? gg_files_result_file_finish_comparison(file, both, err)
+              : gg_files_result_file_finish_run(file, run, err);
+}
+
+gg_status gg_api_file_write(const gg_result *run, const gg_comparison *both, const char *function, const char *path,
+                            gg_api_request request, gg_error *err)
+{
+  gg_result_file file;
+  GG_TRY(gg_files_result_file_open(&file, path, run->origin.command ? run->origin.command : function, err));
+  file.file.stop = (gg_stop){gg_api_is_requested, &request};
+  file.stop = &file.file.stop;
+  return gg_base_callback_settle(finish(&file, run, both, err), err);
+}
+
+gg_status gg_api_file_to_bytes(const gg_result *run, const gg_comparison *both, const char *function, void **bytes,
+                               size_t *size, gg_error *err)
+{
+  gg_result_file file;
+  gg_files_result_file_open_in_memory(&file, run->origin.command ? run->origin.command : function);
+  GG_TRY(finish(&file, run, both, err));
+  *bytes = file.bytes, *size = file.size;
+  return GG_OK;
+}
+
 gg_status gg_result_write(const gg_result *result, const char *path, int (*stop)(void *context), void *context,
                           gg_error *err)
 {
   GG_NEED(result, path);
-  gg_result_file file;
-  const char *command = result->origin.command ? result->origin.command : "gg_result_write";
-  gg_api_request request = {stop, context, false};
-  GG_TRY(gg_files_result_file_open(&file, path, command, err));
-  file.file.stop = (gg_stop){gg_api_is_requested, &request};
-  file.stop = &file.file.stop;
-  return gg_base_callback_settle(gg_files_result_file_finish_run(&file, result, err), err);
+  return gg_api_file_write(result, NULL, __func__, path, (gg_api_request){stop, context, false}, err);
 }
 
 gg_status gg_result_to_bytes(const gg_result *result, void **bytes, size_t *size, gg_error *err)
 {
   GG_NEED(result, bytes, size);
-  gg_result_file file;
-  gg_files_result_file_open_in_memory(&file, result->origin.command ? result->origin.command : "gg_result_to_bytes");
-  GG_TRY(gg_files_result_file_finish_run(&file, result, err));
-  *bytes = file.bytes, *size = file.size;
-  return GG_OK;
+  return gg_api_file_to_bytes(result, NULL, __func__, bytes, size, err);
 }
 
-static gg_status restore(const gg_stored_result *stored, const char *path, gg_result **result, gg_error *err)
+/* The result of a stored one that was read with this status; clears the stored one. */
+static gg_status restore(gg_status status, gg_stored_result *stored, const char *path, gg_result **result,
+                         gg_error *err)
 {
-  if (stored->comparison)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: holds a comparison: read it with gg_comparison_read", path);
-  return gg_files_result_restore(stored, gg_files_stored_first(stored), result, err);
+  if (status == GG_OK && stored->comparison)
+    status = gg_base_fail(err, GG_BAD_INPUT, "%s: holds a comparison: read it with gg_comparison_read", path);
+  if (status == GG_OK)
+    status = gg_files_result_restore(stored, gg_files_stored_first(stored), result, err);
+  gg_files_stored_result_clear(stored);
+  return status;
 }
 
 gg_status gg_result_read(const char *path, gg_result **result, gg_error *err)
 {
   GG_NEED(path, result);
   gg_stored_result stored;
-  gg_status status = gg_files_stored_result_read(&stored, path, err);
-  if (status == GG_OK) status = restore(&stored, path, result, err);
-  gg_files_stored_result_clear(&stored);
-  return status;
+  return restore(gg_files_stored_result_read(&stored, path, err), &stored, path, result, err);
 }
 
 gg_status gg_result_from_bytes(const void *bytes, size_t size, gg_result **result, gg_error *err)
 {
   GG_NEED(bytes, result);
   gg_stored_result stored;
-  gg_status status = gg_files_stored_result_from_bytes(&stored, bytes, size, err);
-  if (status == GG_OK) status = restore(&stored, "the bytes", result, err);
-  gg_files_stored_result_clear(&stored);
-  return status;
+  return restore(gg_files_stored_result_from_bytes(&stored, bytes, size, err), &stored, "the bytes", result, err);
 }
 
 gg_status gg_plot(const char *result_file, const char *picture, const char *format, const char *width,
@@ -297,7 +312,7 @@ gg_status gg_plot(const char *result_file, const char *picture, const char *form
         gg_plot_pages_draw(&stored, &paper, picture, drawn, context, &(gg_stop){gg_api_is_requested, &request}, err);
   gg_files_stored_result_clear(&stored);
   status = gg_base_callback_settle(status, err);
-  return gg_base_memory_check(before, status, err); /* a picture that lacks its title */
+  return gg_base_memory_check(before, status, err); /* otherwise a picture could lack its title */
 }
 
 gg_status gg_result_file_notice(const char *result_file, char *text, size_t size, gg_error *err)
@@ -308,7 +323,7 @@ gg_status gg_result_file_notice(const char *result_file, char *text, size_t size
 }
 
 gg_status gg_export(const char *result_file, const char *prefix, unsigned parts,
-                    void (*written)(void *context, const char *file), void (*progress)(void *context, double share),
+                    void (*written)(void *context, const char *file), void (*progress)(void *context, double fraction),
                     int (*stop)(void *context), void *context, gg_error *err)
 {
   GG_NEED(result_file, prefix);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gg_run and gg_compare: one path, with one engine or both. */
+/* gg_run and gg_compare. */
 #include "api/run.h"
 
 #include <math.h>
@@ -18,7 +18,7 @@
 #include "scene/fields.h"
 #include "scene/model_of_scene.h"
 
-/* After every callback: one that failed stops the run, in whatever thread it was. */
+/* Called after every callback: a failed callback stops the run, on whatever thread it ran. */
 static void note_failure(gg_run_call *r)
 {
   if (!gg_base_callback_failed()) return;
@@ -33,7 +33,7 @@ static void report_progress(void *context, const gg_progress *progress)
   note_failure(r);
 }
 
-/* Does the caller want the run to end? */
+/* Whether a callback has requested the end of the run. */
 static bool is_stopped(void *context)
 {
   gg_run_call *r = context;
@@ -71,7 +71,7 @@ static gg_status read_resume(gg_run_call *r, gg_error *err)
   return GG_OK;
 }
 
-/* From here to the end of the run nobody else writes it. */
+/* Lock the checkpoint until the end of the run, so that no other run writes it. */
 static gg_status lock_checkpoint(gg_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
@@ -84,7 +84,7 @@ static gg_status lock_checkpoint(gg_run_call *r, gg_error *err)
   return status;
 }
 
-/* Checkpoints and frames take each other's place and go at the end: what links lead to may be anybody's. */
+/* Reject links: checkpoints and frames are renamed and removed, and the target of a link may be another file. */
 static gg_status check_links(const gg_run_call *r, gg_error *err)
 {
   struct stat about;
@@ -103,7 +103,8 @@ static gg_status check_links(const gg_run_call *r, gg_error *err)
   return status;
 }
 
-/* What an interrupted run has left took its time: only the run that resumes it replaces or removes it. */
+/* Protect the checkpoint of an interrupted run, which may hold hours of work. Only a run that resumes it replaces it.
+ */
 static gg_status check_earlier(const gg_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
@@ -118,7 +119,7 @@ static gg_status check_earlier(const gg_run_call *r, gg_error *err)
                       path, path);
 }
 
-/* Before the run: at its end, with the results in place, there may be no memory for a name. */
+/* Allocate the names before the run: at its end, a lack of memory could no longer fail it. */
 static gg_status name_temporaries(gg_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
@@ -152,7 +153,7 @@ static gg_status begin(gg_run_call *r, const gg_scene *scene, const gg_run_optio
   r->samples.lock = GG_FILE_LOCK_NONE;
   r->comparison = comparison;
   r->replaces = replaces;
-  if (options) r->options = *options;
+  r->options = *options;
   if (r->options.threads < 1) r->options.threads = 1;
   if (!r->options.command) r->options.command = "the graingas library";
   atomic_init(&r->stopped, false);
@@ -195,7 +196,7 @@ static void warn_if_dilute(gg_run_call *r)
       10 * round(ratio / 10));
 }
 
-/* Keys without effect on what the scene is used for. */
+/* Warn about keys that have no effect in this run. */
 static void warn_of_keys(gg_run_call *r)
 {
   const gg_engine_kind engine = r->scene.engine;
@@ -208,7 +209,8 @@ static void warn_of_keys(gg_run_call *r)
     r->options.warn(r->options.context, r->warnings.text[i]);
 }
 
-/* Of both engines, or of the scene's alone, which may store a trajectory; warnings about keys come first or last. */
+/* Run both engines, or the engine of the scene. Warnings about keys are the first of a comparison, the last of a run.
+ */
 static gg_status run_engines(gg_run_call *r, gg_comparison *c, gg_error *err)
 {
   const gg_archive *resume = r->resume.n_items ? &r->resume : NULL;
@@ -232,7 +234,7 @@ static gg_status write_output(gg_run_call *r, const gg_comparison *c, gg_error *
   return gg_files_result_file_finish_run(&r->file, result, err);
 }
 
-/* All is done and the result in place: the run's own checkpoints have had their day. */
+/* The result is in place: remove the checkpoints of this run. */
 static void remove_checkpoints(gg_run_call *r)
 {
   struct stat about;
@@ -241,25 +243,25 @@ static void remove_checkpoints(gg_run_call *r)
     if (stat(r->temporary[i], &about) == 0 && S_ISREG(about.st_mode)) unlink(r->temporary[i]);
 }
 
-/* Write what there is, give it its name, and remove the checkpoints of a run that is done: of a point of a sweep, also
- * of one that ended short. */
+/* Write the results, commit them, and remove the checkpoints of a finished run. A point of a sweep is also finished if
+ * it ended before its stopping criteria. */
 static gg_status finish(gg_run_call *r, gg_point_call *point, gg_status status, const gg_comparison *c, gg_error *err)
 {
-  const bool whole = c && (status == GG_OK || status == GG_FAILED), named = point && point->publish && whole;
+  const bool whole = c && (status == GG_OK || status == GG_FAILED), named = point && point->commit && whole;
   gg_status written = GG_OK;
   if (whole && r->options.output) {
-    gg_run_scheduler_leave(r->callbacks.scheduler); /* disks take their time */
+    gg_run_scheduler_leave(r->callbacks.scheduler); /* let other runs compute while the disk is busy */
     written = write_output(r, c, err);
     gg_run_scheduler_enter(r->callbacks.scheduler);
   }
-  if (named && written == GG_OK) written = point->publish(point->context, status, err);
+  if (named && written == GG_OK) written = point->commit(point->context, status, err);
   if ((status == GG_OK || named) && written == GG_OK) remove_checkpoints(r);
   bool rejected = r->resume.n_items && r->started && !c && (status == GG_BAD_FILE || status == GG_BAD_INPUT);
   if (point) point->resume_lost = r->resume_lost || rejected;
   return written;
 }
 
-/* The worse of the two, with both messages. */
+/* The status of writing if it failed, with both messages; otherwise the status of the run. */
 static gg_status status_of(gg_status run, gg_status written, const gg_error *why, gg_error *err)
 {
   if (written == GG_OK) return run;
@@ -282,16 +284,16 @@ static gg_status simulate(gg_run_call *r, gg_point_call *point, const gg_scene *
     warn_of_keys(r);
     status = run_engines(r, c, err);
   }
-  bool some = gg_run_comparison_first(c) || (comparison && status == GG_OK);
-  if (gg_base_memory_failures() != before && status == GG_OK) { /* it lacks a warning, or worse */
+  bool has_results = gg_run_comparison_first(c) || (comparison && status == GG_OK);
+  if (gg_base_memory_failures() != before && status == GG_OK) { /* e.g. a warning is missing */
     status = gg_base_out_of_memory(err);
-    some = false;
+    has_results = false;
   }
-  gg_status written = finish(r, point, status, some ? c : NULL, &why);
+  gg_status written = finish(r, point, status, has_results ? c : NULL, &why);
   end(r);
   note_failure(r);
   if (atomic_load(&r->callback_failed)) status = gg_base_fail(err, GG_FAILED, "%s", r->callback_reason.message);
-  if (some)
+  if (has_results)
     *made = c;
   else
     gg_comparison_free(c);
@@ -313,8 +315,10 @@ gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const
 gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result **result, gg_error *err)
 {
   GG_NEED(scene, result);
+  gg_run_options own;
+  GG_COPY_OPTIONS(own, options);
   gg_comparison *made = NULL;
-  gg_status status = gg_api_run_simulate(NULL, scene, options, false, &made, err);
+  gg_status status = gg_api_run_simulate(NULL, scene, &own, false, &made, err);
   for (int k = 0; made && k < GG_N_ENGINES; k++) {
     if (made->by_engine[k]) *result = made->by_engine[k];
     made->by_engine[k] = NULL;
@@ -326,5 +330,7 @@ gg_status gg_run(const gg_scene *scene, const gg_run_options *options, gg_result
 gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_comparison **comparison, gg_error *err)
 {
   GG_NEED(scene, comparison);
-  return gg_api_run_simulate(NULL, scene, options, true, comparison, err);
+  gg_run_options own;
+  GG_COPY_OPTIONS(own, options);
+  return gg_api_run_simulate(NULL, scene, &own, true, comparison, err);
 }

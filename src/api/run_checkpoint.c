@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What checkpoints hold. */
+/* gg_checkpoint_about: content of checkpoints and saved simulations. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,8 +34,8 @@ static void describe_simulation(gg_simulation *s, gg_checkpoint_info *info)
   gg_simulation_free(s);
 }
 
-static gg_status tell(const gg_archive *a, const char *path, const gg_scene *scene, gg_checkpoint_info *info,
-                      gg_error *err)
+static gg_status describe(const gg_archive *a, const char *path, const gg_scene *scene, gg_checkpoint_info *info,
+                          gg_error *err)
 {
   gg_simulation *simulation;
   if (gg_base_archive_find(a, "md/campaign/state") || gg_base_archive_find(a, "dsmc/campaign/state"))
@@ -55,13 +55,13 @@ static gg_status about(const gg_archive *a, const char *path, gg_checkpoint_info
   gg_scene *stored = NULL;
   const unsigned before = gg_base_memory_failures();
   char *yaml = gg_files_checkpoint_scene(path, info->older);
-  bool lacked = gg_base_memory_failures() != before;
-  gg_status status = yaml     ? gg_scene_parse(yaml, path, &stored, err)
-                     : lacked ? gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", path)
-                              : gg_base_fail(err, GG_BAD_FILE, "%s: its scene cannot be read", path);
+  bool out_of_memory = gg_base_memory_failures() != before;
+  gg_status status = yaml            ? gg_scene_parse(yaml, path, &stored, err)
+                     : out_of_memory ? gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", path)
+                                     : gg_base_fail(err, GG_BAD_FILE, "%s: its scene cannot be read", path);
   free(yaml);
   info->frames = gg_api_trajectory_frames(a);
-  if (status == GG_OK) status = tell(a, path, stored, info, err);
+  if (status == GG_OK) status = describe(a, path, stored, info, err);
   if (status == GG_OK && scene)
     *scene = stored;
   else

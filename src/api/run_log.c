@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* output.log: a row for each sample of the first replica, appended while the run lasts. A checkpoint holds the number
- * of its last row and the sums of its means, so that a resumed run cuts what came after and continues the same file. */
+/* output.log: a row for each sample of the first replica, appended during the run. A checkpoint holds the number of the
+ * last row and the sums of the means, so that a resumed run cuts later rows and continues the same file. */
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -19,7 +19,7 @@
 static const char state_item[] = "log/state", sums_item[] = "log/sums";
 static const char csv_begins[] = "sample,time,", json_begins[] = "{\"sample\": ";
 
-/* Of a line; 0: none, as of the names of columns. */
+/* Number of the sample of a line; 0 for the line of column names. */
 static uint64_t sample_of(const char *line, bool json)
 {
   return strtoull(line + (json && strncmp(line, json_begins, strlen(json_begins)) == 0 ? strlen(json_begins) : 0), NULL,
@@ -31,8 +31,8 @@ static gg_status write_error(const gg_sample_log *log, gg_error *err)
   return gg_io_path_write_error(log->path, strerror(errno), err);
 }
 
-/* What else is called so stays: a scene may be anybody's. */
-static gg_status check_ours(const gg_sample_log *log, gg_error *err)
+/* Reject a file that is not a log: a scene of unknown origin could name any file. */
+static gg_status check_is_log(const gg_sample_log *log, gg_error *err)
 {
   const char *begins = log->json ? json_begins : csv_begins;
   char there[16] = "";
@@ -43,7 +43,7 @@ static gg_status check_ours(const gg_sample_log *log, gg_error *err)
                                   err);
 }
 
-/* Whole rows up to a sample stay, 0: nothing. */
+/* Cut the file after the last complete row up to this sample; 0: cut everything. */
 static gg_status cut(const gg_sample_log *log, uint64_t sample, gg_error *err)
 {
   char *line = NULL;
@@ -87,8 +87,8 @@ static void put_names(FILE *out, const gg_quantity *list, int n, bool temperatur
   fputc('\n', out);
 }
 
-/* Values of the interval before the sample, and means over the averaging window so far. Columns are those of the start,
- * whatever the protocol changes: what the present gas has not is empty. */
+/* Write a row: values of the interval before the sample, and means over the averaging window so far. The columns are
+ * those of the start. If a protocol changes the gas, quantities that it no longer has are empty. */
 static void put_row(FILE *out, const gg_sample_log *log, const gg_model *start, const gg_replica *r)
 {
   gg_quantity list[GG_N_QUANTITIES];
@@ -143,7 +143,7 @@ static gg_status log_sample(void *context, const gg_replica *r, gg_error *err)
   size_t size = 0;
   GG_TRY(add_to_sums(log, r, err));
   if (r->clock.samples <= log->state.sample)
-    GG_TRY(cut(log, r->clock.samples - 1, err)); /* begun anew after a collapse */
+    GG_TRY(cut(log, r->clock.samples - 1, err)); /* the replica was restarted after a collapse */
   FILE *out = open_memstream(&text, &size);
   if (!out) return gg_base_out_of_memory(err);
   put_row(out, log, &((const gg_run_call *)context)->model, r);
@@ -153,7 +153,7 @@ static gg_status log_sample(void *context, const gg_replica *r, gg_error *err)
   return status;
 }
 
-/* Sums of a run without rows are not there: its means begin where it is resumed. */
+/* Restore the sums. A run that kept no log stored none; its means begin at the resumption. */
 static gg_status restore(gg_sample_log *log, const gg_archive *a, gg_error *err)
 {
   const gg_item *sums = gg_base_archive_find(a, sums_item);
@@ -204,7 +204,7 @@ static uint64_t count_rows(const gg_sample_log *log)
   return n;
 }
 
-/* Warn before the rows of an earlier run are replaced: a command that was repeated by mistake can be stopped. */
+/* Warn before the rows of an earlier run are replaced, so that a command repeated by mistake can be stopped. */
 static void warn_of_replacing(const gg_run_call *r)
 {
   const gg_sample_log *log = &r->samples;
@@ -224,7 +224,7 @@ gg_status gg_api_log_begin(gg_run_call *r, gg_error *err)
   const char *ending = strrchr(log->path, '.');
   log->json = ending && strcmp(ending, ".jsonl") == 0;
   GG_TRY(open_file(log, log->path, err));
-  GG_TRY(check_ours(log, err));
+  GG_TRY(check_is_log(log, err));
   GG_TRY(restore(log, &r->resume, err));
   r->callbacks.sample = log_sample;
   warn_of_replacing(r);

@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where the frames of a run go.
+/* Frames of a run: to its result, or to a frame log beside its checkpoint.
  *
- * A run that does not resume from the log beside its checkpoint may be beside the checkpoint of another run, which
- * needs that log. So it writes X.frames.new, and its first checkpoint takes the other's place in three steps. A kill -9
- * leaves in between:
- * before them           X.h5, X.h5.1 and X.frames of the other run, which can be resumed; X.frames.new is litter
- * X.h5 is replaced      the new X.h5 with X.frames.new; X.h5.1 of the other run with X.frames
- * X.h5.1 is removed     the new X.h5 with X.frames.new; X.frames of the other run is litter
- * X.frames is replaced  X.h5 and X.frames of the new run
- * The next run to keep checkpoints there tells the litter from what is needed by the mark in the checkpoint
- * (resolve_new). */
+ * If a run does not resume from the log beside its checkpoint, an earlier run may still need that log. So the run
+ * writes X.frames.new, and its first checkpoint replaces the files of the earlier run in three steps. After a kill -9
+ * there are before the steps      X.h5, X.h5.1 and X.frames of the earlier run, which can be resumed; X.frames.new is
+ * not needed X.h5 is replaced      the new X.h5 with X.frames.new; X.h5.1 of the earlier run with X.frames X.h5.1 is
+ * removed     the new X.h5 with X.frames.new; X.frames of the earlier run is not needed X.frames is replaced  X.h5 and
+ * X.frames of the new run The next run with checkpoints there finds the log that is needed by the mark in the
+ * checkpoint (resolve_new). */
 #include <errno.h>
 #include <libgen.h>
 #include <stdio.h>
@@ -36,15 +34,15 @@ static gg_status store_in_log(void *context, const gg_frame *frame, gg_error *er
   return gg_files_frame_log_append(&((gg_run_call *)context)->log, frame, err);
 }
 
-/* From a log, which may be anybody's. */
+/* Store a frame of a log, after validation: the file may have been changed. */
 static gg_status store_from_log(void *context, const gg_frame *frame, gg_error *err)
 {
   GG_TRY(gg_run_frame_check(frame, &((gg_run_call *)context)->model, err));
   return store_in_result(context, frame, err);
 }
 
-/* The log that belongs to the checkpoint resumed from: beside it, under its name, or under the name that it was written
- * by, where the checkpoint alone was copied. To be freed. */
+/* Path of the log of the checkpoint to resume, to be freed. The log has the name of the checkpoint, or, if only the
+ * checkpoint was copied and renamed, the name that is stored in it. */
 static char *log_of_resume(const gg_run_call *r)
 {
   char *path = gg_files_frame_log_path(r->options.resume), *copy = NULL, *other = NULL, name[NAME];
@@ -62,7 +60,7 @@ static char *log_of_resume(const gg_run_call *r)
   return path;
 }
 
-/* The log up to the mark; or the new one beside it, where its run was killed before it was put in place. */
+/* Open the log up to the mark; or X.frames.new, if the run was killed before the log was renamed. */
 static gg_status open_one_of_two(gg_run_call *r, gg_frame_log *log, const char *path, const gg_frame_mark *mark,
                                  gg_error *err)
 {
@@ -77,7 +75,7 @@ static gg_status open_one_of_two(gg_run_call *r, gg_frame_log *log, const char *
   return status;
 }
 
-/* The frames before the checkpoint, every one looked at. */
+/* Open the log with the frames before the checkpoint. All frames are checked. */
 static gg_status open_earlier(gg_run_call *r, gg_frame_log *earlier, gg_error *err)
 {
   gg_frame_mark mark;
@@ -97,14 +95,14 @@ static gg_status open_earlier(gg_run_call *r, gg_frame_log *earlier, gg_error *e
       why.message, (unsigned long long)mark.frames);
 }
 
-/* The last part of the path, which a checkpoint remembers. */
+/* File name of a path, without folders. */
 static const char *base_of(const char *path)
 {
   const char *slash = strrchr(path, '/');
   return slash ? slash + 1 : path;
 }
 
-/* It is written to where it stands: devices, folders and write-protected files are refused as for every output. */
+/* Check that the log can be written at this path: no device, folder or write-protected file. */
 static gg_status check_place(const char *path, gg_error *err)
 {
   gg_output_path place;
@@ -127,7 +125,7 @@ static gg_status open_log(gg_run_call *r, const gg_frame_log *earlier, gg_error 
   return status;
 }
 
-/* The mark of the checkpoint that stays, or goes on, at the run's own place: no frames where there is none. */
+/* Mark of the checkpoint at options.checkpoint; no frames without such a checkpoint. */
 static gg_frame_mark mark_there(const gg_run_call *r)
 {
   gg_frame_mark mark = {0};
@@ -140,9 +138,8 @@ static gg_frame_mark mark_there(const gg_run_call *r)
   return mark;
 }
 
-/* A dead run left a new log: it is put in place if the checkpoint needs it, and removed if not, as where the log in its
- * place is good. */
-static gg_status settle(gg_run_call *r, const char *path, const char *fresh, gg_error *err)
+/* A killed run has left X.frames.new: rename it to X.frames if the checkpoint needs it, otherwise remove it. */
+static gg_status commit_or_remove(gg_run_call *r, const char *path, const char *fresh, gg_error *err)
 {
   gg_frame_log log = {.fd = -1};
   gg_frame_mark mark = mark_there(r);
@@ -160,7 +157,7 @@ static gg_status resolve_new(gg_run_call *r, gg_error *err)
   const char *path = r->temporary[GG_TEMPORARY_FRAMES];
   char *fresh = gg_files_frame_log_new_path(path);
   gg_status status = fresh ? GG_OK : gg_base_out_of_memory(err);
-  if (fresh && access(fresh, F_OK) == 0) status = settle(r, path, fresh, err);
+  if (fresh && access(fresh, F_OK) == 0) status = commit_or_remove(r, path, fresh, err);
   free(fresh);
   return status;
 }
@@ -200,7 +197,7 @@ gg_status gg_api_trajectory_mark(const gg_run_call *r, gg_archive *archive, gg_e
   return gg_base_archive_put(archive, mark_item, GG_ITEM_U8, &r->log.mark, sizeof r->log.mark, err);
 }
 
-/* Gigabytes take seconds: a run that can be resumed is stopped here, too. */
+/* Copy a frame from the log. Copying gigabytes takes seconds, so a run that can be resumed may be interrupted here. */
 static gg_status move_to_result(void *context, const gg_frame *frame, gg_error *err)
 {
   gg_run_call *r = context;

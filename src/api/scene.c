@@ -34,7 +34,7 @@ static gg_scene filled_in(const gg_scene *scene)
   return filled;
 }
 
-static gg_status publish(const gg_scene *made, gg_scene **scene, gg_error *err)
+static gg_status copy_to_heap(const gg_scene *made, gg_scene **scene, gg_error *err)
 {
   gg_scene *copy = gg_base_array_new(1, sizeof *copy, err);
   if (!copy) return GG_FAILED;
@@ -44,14 +44,16 @@ static gg_status publish(const gg_scene *made, gg_scene **scene, gg_error *err)
   return GG_OK;
 }
 
-/* With its theories, whose files lie beside `path`. */
+/* Read a scene and its theories, whose files are searched beside `path`. */
 static gg_status read_text(const char *yaml, size_t length, const char *name, const char *path, gg_scene **scene,
                            gg_error *err)
 {
   gg_scene made = gg_scene_defaults();
+  const unsigned before = gg_base_memory_failures();
   GG_TRY(gg_scene_read(&made, yaml, length, name, err));
   gg_status status = gg_api_scene_theories_add(&made, yaml, length, name, path, err);
-  if (status == GG_OK) status = publish(&made, scene, err);
+  status = gg_base_memory_check(before, status, err);
+  if (status == GG_OK) status = copy_to_heap(&made, scene, err);
   gg_common_extension_release(made.extension);
   return status;
 }
@@ -76,7 +78,7 @@ gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, g
 gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err)
 {
   GG_NEED(scene, copy);
-  return publish(scene, copy, err);
+  return copy_to_heap(scene, copy, err);
 }
 
 void gg_scene_free(gg_scene *scene)
@@ -95,12 +97,12 @@ gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_
 {
   GG_NEED(scene, key, text);
   const gg_scene filled = filled_in(scene);
-  const unsigned outer = gg_base_memory_failures();
+  const unsigned before = gg_base_memory_failures();
   json_t *value = gg_scene_key_json(&filled, key);
   if (value) gg_scene_flow_style_text(value, text, size);
   gg_status status = value ? GG_OK : gg_base_fail(err, GG_BAD_INPUT, "a scene has no key '%.60s'", key);
   json_decref(value);
-  return gg_base_memory_failures() != outer ? gg_base_out_of_memory(err) : status;
+  return gg_base_memory_check(before, status, err);
 }
 
 gg_status gg_scene_check(const gg_scene *scene, gg_error *err)
@@ -110,32 +112,28 @@ gg_status gg_scene_check(const gg_scene *scene, gg_error *err)
   return gg_api_scene_finish(scene, &copy, err);
 }
 
-/* As JSON, which YAML reads. */
-static gg_status append_theories(const gg_scene *scene, char **yaml)
+/* Append the theories as JSON, which YAML contains. */
+static void append_theories(const gg_scene *scene, char **yaml)
 {
-  const unsigned before = gg_base_memory_failures();
-  json_t *theories = gg_io_json_end(before, gg_api_scene_theories_json(scene));
-  char *text = theories && json_object_size(theories) > 0 ? gg_io_json_text(theories, 0) : NULL;
+  json_t *theories = gg_api_scene_theories_json(scene);
+  char *text = json_object_size(theories) > 0 ? gg_io_json_text(theories, 0) : NULL, *whole = NULL;
   json_decref(theories);
-  if (!text) return gg_base_memory_failures() == before ? GG_OK : GG_FAILED;
-  const size_t size = strlen(*yaml) + strlen(text) + sizeof "theories: \n";
-  char *whole = gg_base_array_new(size, 1, NULL);
+  if (text && asprintf(&whole, "%stheories: %s\n", *yaml, text) < 0) whole = NULL, gg_base_memory_lacked();
   if (whole) {
-    snprintf(whole, size, "%stheories: %s\n", *yaml, text);
     free(*yaml);
     *yaml = whole;
   }
   free(text);
-  return whole ? GG_OK : GG_FAILED;
 }
 
 gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err)
 {
   GG_NEED(scene, text);
   const gg_scene filled = filled_in(scene);
+  const unsigned before = gg_base_memory_failures();
   char *yaml = gg_scene_yaml(&filled);
-  gg_status status = yaml ? append_theories(&filled, &yaml) : GG_FAILED;
-  if (status != GG_OK) return free(yaml), gg_base_out_of_memory(err);
+  if (yaml) append_theories(&filled, &yaml);
+  if (!yaml || gg_base_memory_failures() != before) return free(yaml), gg_base_out_of_memory(err);
   *text = yaml;
   return GG_OK;
 }
@@ -190,7 +188,7 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   gg_model model;
   gg_engine_kind kind;
   GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
-  gg_extension *held = gg_common_extension_hold(finished.extension); /* `line` may free the scene */
+  gg_extension *held = gg_common_extension_hold(finished.extension); /* the callback may free the scene */
   gg_common_engine_of(kind)->describe(&model, line, context);
   char chosen[200] = "";
   if (model.ensemble)

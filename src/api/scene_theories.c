@@ -18,19 +18,19 @@
 enum { MOST_FORMULAS = 64 };
 
 typedef struct theories_reader {
-  gg_scene_reader reader; /* the first member: it is what callbacks get */
+  gg_scene_reader reader; /* the first member: callbacks get a pointer to it */
   gg_scene *scene;
   const char *path;
 } theories_reader;
 
-/* What is wrong, with file and line. */
+/* Report an error with file and line. */
 static gg_status reject(const gg_scene_reader *r, const yaml_node_t *node, const char *key, const gg_error *why)
 {
   return gg_scene_reject(r, node, key, "%.900s", why->message);
 }
 
-/* Register it; the head of the extension owns `context` from then on. `source`: what the scene's text gives, which the
- * call takes over. */
+/* Register a theory. On success the head of the extension owns `context`. `source`, the theory as the scene gives it,
+ * is released. */
 static gg_status add(gg_scene *scene, const gg_theory_definition *definition, json_t *source, gg_error *err)
 {
   char *text = source ? gg_io_json_text(source, JSON_ENCODE_ANY) : NULL;
@@ -42,14 +42,13 @@ static gg_status add(gg_scene *scene, const gg_theory_definition *definition, js
   return GG_OK;
 }
 
-/* The formulas as the scene's text gives them; NULL: out of memory. */
+/* The formulas as the scene gives them. */
 static json_t *source_of(const gg_scene_reader *r, const yaml_node_t *map)
 {
-  const unsigned before = gg_base_memory_failures();
   json_t *source = json_object();
   for (gg_scene_entry e = {0}; gg_scene_entry_next(r, map, &e);)
     json_object_set_new(source, e.word, json_string(gg_scene_scalar(e.value)));
-  return gg_io_json_end(before, source);
+  return source;
 }
 
 static gg_status read_formulas(const theories_reader *t, const char *key, const yaml_node_t *map,
@@ -91,7 +90,7 @@ static gg_status add_formulas(const theories_reader *t, const char *key, const c
   return status;
 }
 
-/* Beside the scene's file, unless it says from where. */
+/* Path of a file: relative names are relative to the folder of the scene's file. */
 static void find_file(const char *scene, const char *file, char path[PATH_MAX])
 {
   const char *slash = scene ? strrchr(scene, '/') : NULL;
@@ -99,7 +98,7 @@ static void find_file(const char *scene, const char *file, char path[PATH_MAX])
   if (snprintf(path, PATH_MAX, "%.*s%s", folder, folder ? scene : "", file) >= PATH_MAX) *path = '\0';
 }
 
-/* The path from every folder, null if it is no text; NULL: out of memory. */
+/* Absolute path as JSON; null if it is not printable; NULL: out of memory. */
 static json_t *absolute(const char *path)
 {
   char *whole = realpath(path, NULL);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What scenes and sweeps may hold, for editors and beginners. */
+/* JSON Schema of scenes and sweeps; templates of scenes. */
 #include "api/api.h"
 #include "io/checked_json.h"
 #include "base/memory.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs in pieces: a run whose caller takes it further, and asks it for its means in between. */
+/* Sessions: runs that the caller advances in pieces and reads in between. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -14,12 +14,12 @@
 
 struct gg_session {
   gg_busy busy;
-  gg_scene scene; /* finished */
+  gg_scene scene; /* completed and checked */
   gg_replicas all;
   gg_run_callbacks callbacks;
-  double until;  /* by the clock on the wall; INFINITY while it is made */
-  bool over;     /* nothing is left to do ... */
-  gg_status end; /* ... as it ended */
+  double until;  /* wall time of the end of this piece; INFINITY during the start */
+  bool over;     /* the run has ended, */
+  gg_status end; /* with this status */
   gg_error why;
   gg_progress progress;
 };

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Simulations: made, advanced, with a callback for their collisions. */
+/* Simulations: start, advance, collision callbacks. */
 #include "api/simulation.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "api/sized.h"
 #include "base/memory.h"
 #include "common/extension.h"
 #include "common/rng.h"
@@ -17,14 +16,8 @@ static bool is_stopped(void *context)
 {
   gg_simulation *s = context;
   if (gg_base_busy_is_freed(&s->busy) || atomic_load(&s->stopped)) return true;
-  if (s->asks && s->asks(s->asks_context)) atomic_store(&s->stopped, true);
+  if (s->stop_callback && s->stop_callback(s->stop_context)) atomic_store(&s->stopped, true);
   return atomic_load(&s->stopped);
-}
-
-void gg_api_simulation_forget_stop(gg_simulation *s)
-{
-  s->asks = NULL;
-  atomic_store(&s->stopped, false);
 }
 
 gg_status gg_api_simulation_check_stop(gg_simulation *s, gg_error *err)
@@ -46,7 +39,7 @@ void gg_simulation_free(gg_simulation *s)
   if (s) gg_base_busy_free(&s->busy);
 }
 
-/* Small systems start before the engine looks whether to stop, and no theory may. */
+/* The stop callback is polled here, because small systems start before the engine polls it, and theories never do. */
 gg_status gg_api_simulation_prepare(const gg_scene *scene, int (*stop)(void *context), void *context,
                                     gg_simulation **simulation, gg_error *err)
 {
@@ -65,7 +58,7 @@ gg_status gg_api_simulation_prepare(const gg_scene *scene, int (*stop)(void *con
   s->stop = (gg_stop){is_stopped, s};
   s->model.stop = &s->stop;
   s->model.cuts_steps = true;
-  s->asks = stop, s->asks_context = context;
+  s->stop_callback = stop, s->stop_context = context;
   status = gg_api_simulation_check_stop(s, err);
   if (status == GG_OK && s->scene.start.temperature == GG_AUTO) status = gg_run_start_near_steady(&s->model, err);
   status = gg_base_callback_settle(status, err);
@@ -92,17 +85,16 @@ gg_simulation *gg_api_simulation_like(const gg_simulation *other, gg_error *err)
   return s;
 }
 
-gg_status gg_api_simulation_started(gg_simulation *s, gg_status status, gg_simulation **simulation, gg_error *err)
+gg_status gg_api_simulation_hand_over(gg_simulation *s, gg_status status, gg_simulation **simulation, gg_error *err)
 {
-  gg_api_simulation_forget_stop(s);
+  s->stop_callback = NULL; /* that of the start */
+  atomic_store(&s->stopped, false);
   status = gg_base_callback_settle(status, err);
-  if (status != GG_OK) {
+  if (status == GG_OK)
+    *simulation = s;
+  else
     gg_simulation_free(s);
-    return status;
-  }
-  s->engine->ops->keep_sums(s->engine, true);
-  *simulation = s;
-  return GG_OK;
+  return status;
 }
 
 gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options *options, gg_simulation **simulation,
@@ -110,13 +102,15 @@ gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options *optio
 {
   GG_NEED(scene, simulation);
   gg_simulation *s;
-  gg_scene at_start = *scene; /* it may be that of a simulation whose shear rate has changed */
+  gg_scene at_start = *scene; /* may be the scene of a simulation whose shear rate has changed */
   at_start.fixed.clock_rate = GG_AUTO;
-  const gg_start_options none = {0}, *o = options ? options : &none;
-  GG_TRY(gg_api_simulation_prepare(&at_start, o->stop, o->context, &s, err));
+  gg_start_options o;
+  GG_COPY_OPTIONS(o, options);
+  GG_TRY(gg_api_simulation_prepare(&at_start, o.stop, o.context, &s, err));
   gg_status status = gg_common_engine_of(s->scene.engine)
-                         ->create(&s->model, s->scene.run.seed, o->stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
-  return gg_api_simulation_started(s, status, simulation, err);
+                         ->create(&s->model, s->scene.run.seed, o.stream * GG_STREAMS_PER_REPLICA, &s->engine, err);
+  if (status == GG_OK) s->engine->ops->keep_sums(s->engine, true);
+  return gg_api_simulation_hand_over(s, status, simulation, err);
 }
 
 static uint64_t collisions(const gg_simulation *s)
@@ -126,7 +120,7 @@ static uint64_t collisions(const gg_simulation *s)
   return state.collisions;
 }
 
-/* Velocities that have fallen fourfold are brought back. */
+/* Rescale the velocities once they have decreased fourfold. */
 static gg_status rescale_if_cold(gg_simulation *s, double T, gg_error *err)
 {
   if (!gg_flow_cools(s->model.flow) || T > s->model.temperature0 / 16) return GG_OK;
@@ -136,28 +130,28 @@ static gg_status rescale_if_cold(gg_simulation *s, double T, gg_error *err)
   return GG_OK;
 }
 
-static void show(void *context, const gg_collision_record *collision);
+static void report_collision(void *context, const gg_collision_record *collision);
 
 static bool is_observed(const gg_simulation *s)
 {
   return s->callback || (s->record.events && *s->record.n < s->record.capacity);
 }
 
-/* A callback may have set or removed the collision callback: the engine follows between two stretches. */
-static gg_status settle_callback(gg_simulation *s, gg_error *err)
+/* Tell the engine, between two stretches, whether to report collisions: a callback may have changed this. */
+static gg_status update_observation(gg_simulation *s, gg_error *err)
 {
   const bool observed = is_observed(s);
   if (observed == s->observed) return GG_OK;
-  GG_TRY(s->engine->ops->set_callback(s->engine, observed ? show : NULL, s, err));
+  GG_TRY(s->engine->ops->set_callback(s->engine, observed ? report_collision : NULL, s, err));
   s->observed = observed;
   return GG_OK;
 }
 
-/* Free times of a grain that one stretch lasts: so few that a cooling gas is brought back in time. A stretch in which a
- * grain collides a thousand times more often is a collapse. */
+/* Length of a stretch in mean free times, short enough to rescale a cooling gas in time. Inelastic collapse: a grain
+ * collides COLLAPSE times more often in a stretch. */
 enum { STRETCH = 20, COLLAPSE = 1000 };
 
-/* Within at most `time` (units of the start) and `most` collisions; both are lessened by what has gone. */
+/* Advance by at most one stretch, `time` (units of the start) and `most` collisions; both are reduced. */
 static gg_status advance_once(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
 {
   double T = gg_api_simulation_temperature(s), unit = gg_api_simulation_unit(s), gone = 0;
@@ -172,7 +166,7 @@ static gg_status advance_once(gg_simulation *s, double *time, uint64_t *most, gg
   s->clock.time += gone / unit;
   *time = gone >= *time * unit ? 0 : *time - gone / unit;
   *most = happened < *most ? *most - happened : 0;
-  if (status == GG_OK) status = settle_callback(s, err);
+  if (status == GG_OK) status = update_observation(s, err);
   if (status != GG_OK) return status;
   if (happened >= pile) {
     gg_base_fail(err, GG_FAILED,
@@ -185,10 +179,10 @@ static gg_status advance_once(gg_simulation *s, double *time, uint64_t *most, gg
   return rescale_if_cold(s, gg_api_simulation_temperature(s), err);
 }
 
-/* The callback is called before the first stretch, too: with small systems an advance ends before the engine looks. */
+/* The stop callback is polled before each stretch: in small systems a stretch ends before the engine polls it. */
 static gg_status advance_stretch(gg_simulation *s, double *time, uint64_t *most, gg_error *err)
 {
-  GG_TRY(settle_callback(s, err)); /* of an advance that was stopped */
+  GG_TRY(update_observation(s, err)); /* the last advance may have been interrupted */
   gg_status status = gg_api_simulation_check_stop(s, err);
   if (status == GG_OK) status = advance_once(s, time, most, err);
   return gg_base_callback_settle(status, err);
@@ -204,7 +198,8 @@ gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error
   return GG_OK;
 }
 
-/* Stretches in a row without a collision after which there will be none: a grain expects twenty in each. */
+/* Consecutive stretches without a collision after which the advance fails; 20 collisions per grain are expected in
+ * each. */
 enum { MOST_EMPTY_STRETCHES = 100 };
 
 gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions_more, gg_error *err)
@@ -227,11 +222,11 @@ gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions_m
 
 static void set_stop(gg_simulation *s, int (*stop)(void *context), void *context)
 {
-  s->asks = stop;
-  s->asks_context = context;
+  s->stop_callback = stop;
+  s->stop_context = context;
 }
 
-/* A callback may replace itself, and the other one: the call in progress is of its own thread. */
+/* Allowed from callbacks of this simulation: they run on the thread of the call in progress. */
 gg_status gg_simulation_on_stop(gg_simulation *simulation, int (*stop)(void *context), void *context, gg_error *err)
 {
   GG_NEED(simulation);
@@ -245,7 +240,7 @@ static void put(double to[3], gg_vec v, double factor)
   to[0] = v.x * factor, to[1] = v.y * factor, to[2] = v.z * factor;
 }
 
-static void show(void *context, const gg_collision_record *collision)
+static void report_collision(void *context, const gg_collision_record *collision)
 {
   gg_simulation *s = context;
   if (collision->wall || !is_observed(s) || gg_base_busy_is_freed(&s->busy)) return;
@@ -259,14 +254,13 @@ static void show(void *context, const gg_collision_record *collision)
   put(event.k, collision->k, 1);
   put(event.velocity, collision->c12, unit);
   put(event.impulse, collision->J, unit);
-  if (s->record.events && *s->record.n < s->record.capacity)
-    memcpy(s->record.events + (*s->record.n)++ * s->record.size, &event, s->record.size);
+  if (s->record.events && *s->record.n < s->record.capacity) s->record.events[(*s->record.n)++] = event;
   if (s->callback) s->callback(s->context, &event);
 }
 
-gg_status gg_api_simulation_watch(gg_simulation *s, gg_engine *engine, gg_error *err)
+gg_status gg_api_simulation_observe(gg_simulation *s, gg_engine *engine, gg_error *err)
 {
-  return s->observed ? engine->ops->set_callback(engine, show, s, err) : GG_OK;
+  return s->observed ? engine->ops->set_callback(engine, report_collision, s, err) : GG_OK;
 }
 
 gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision *callback, void *context, gg_error *err)
@@ -281,8 +275,8 @@ gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision 
   GG_USE_ALONE(simulation);
   gg_on_collision *const before = s->callback;
   s->callback = callback;
-  s->observed = !is_observed(s); /* the engine is to know in any case: one that was loaded may still have its records */
-  gg_status status = settle_callback(s, err);
+  s->observed = !is_observed(s); /* forces an update: the engine of a loaded simulation may still report collisions */
+  gg_status status = update_observation(s, err);
   if (status == GG_OK)
     s->context = context;
   else
@@ -290,27 +284,19 @@ gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision 
   return status;
 }
 
-gg_status gg_simulation_record_sized(gg_simulation *simulation, gg_collision_event *events, size_t capacity, size_t *n,
-                                     gg_error *err, size_t event_size)
-{
-  GG_NEED(simulation);
-  GG_SIZE(gg_collision_event, event_size);
-  if (events && !n) return gg_base_fail(err, GG_BAD_INPUT, "gg_simulation_record: argument 'n' is missing (NULL)");
-  GG_USE_ALONE(simulation);
-  simulation->record.events = (char *)events;
-  simulation->record.size = event_size;
-  simulation->record.capacity = capacity;
-  simulation->record.n = n;
-  if (n) *n = 0;
-  gg_status status = settle_callback(simulation, err);
-  if (status != GG_OK) simulation->record.events = NULL;
-  return status;
-}
-
 gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_event *events, size_t capacity, size_t *n,
                                gg_error *err)
 {
-  return gg_simulation_record_sized(simulation, events, capacity, n, err, sizeof *events);
+  GG_NEED(simulation);
+  if (events && !n) return gg_base_fail(err, GG_BAD_INPUT, "gg_simulation_record: argument 'n' is missing (NULL)");
+  GG_USE_ALONE(simulation);
+  simulation->record.events = events;
+  simulation->record.capacity = capacity;
+  simulation->record.n = n;
+  if (n) *n = 0;
+  gg_status status = update_observation(simulation, err);
+  if (status != GG_OK) simulation->record.events = NULL;
+  return status;
 }
 
 const gg_scene *gg_simulation_scene(const gg_simulation *simulation)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Simulations saved and loaded. */
+/* Simulations in files and in memory. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -87,13 +87,7 @@ static gg_status load(const gg_archive *a, const char *path, const gg_scene *sce
   GG_TRY(gg_scene_resumption_settle(&settled, a, err));
   GG_TRY(gg_api_simulation_prepare(&settled, request->stop, request->context, &s, err));
   gg_status status = take_all(s, a, err);
-  gg_api_simulation_forget_stop(s);
-  status = gg_base_callback_settle(status, err);
-  if (status == GG_OK)
-    *simulation = s;
-  else
-    gg_simulation_free(s);
-  return status;
+  return gg_api_simulation_hand_over(s, status, simulation, err);
 }
 
 gg_status gg_simulation_load(const char *path, const gg_scene *scene, int (*stop)(void *context), void *context,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Simulations of grains from outside: started from them, given others, copied. */
+/* Simulations from given grains; changes of grains and keys; copies. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 #include "scene/fields.h"
 #include "scene/scene_reader.h"
 
-/* Beyond, squares of squares are no numbers. */
+/* Fourth powers of larger numbers overflow. */
 #define LARGEST 1e75
 
 static gg_status check_numbers(const char *what, const double *x, size_t n, gg_error *err)
@@ -78,7 +78,7 @@ static gg_status check(const gg_model *m, const gg_grains *g, size_t n, gg_error
   return g->species ? check_species(m, g->species, err) : GG_OK;
 }
 
-/* What is given, into the engine's units. The upper end of a periodic edge is its lower one. */
+/* Convert the given arrays to the engine's units. Under periodic boundaries, box[a] is the same place as 0. */
 static void take(const gg_model *m, const gg_grains *g, double unit, gg_engine_grains *a)
 {
   const size_t n = (size_t)m->n;
@@ -116,7 +116,7 @@ static gg_status create(gg_simulation *s, const gg_grains *grains, size_t n, uin
   return status;
 }
 
-/* The scene may leave the number open. */
+/* The scene with the number of grains, if it gives none. */
 static gg_status with_number(const gg_scene *scene, size_t n, gg_scene *counted, gg_error *err)
 {
   char number[24];
@@ -134,11 +134,13 @@ gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grains *grai
   gg_simulation *s;
   gg_scene counted;
   GG_TRY(with_number(scene, n, &counted, err));
-  counted.fixed.clock_rate = GG_AUTO; /* units of this start */
-  const gg_start_options none = {0}, *o = options ? options : &none;
-  GG_TRY(gg_api_simulation_prepare(&counted, o->stop, o->context, &s, err));
-  gg_status status = create(s, grains, n, o->stream, err);
-  return gg_api_simulation_started(s, status, simulation, err);
+  counted.fixed.clock_rate = GG_AUTO; /* time is in units of this start */
+  gg_start_options o;
+  GG_COPY_OPTIONS(o, options);
+  GG_TRY(gg_api_simulation_prepare(&counted, o.stop, o.context, &s, err));
+  gg_status status = create(s, grains, n, o.stream, err);
+  if (status == GG_OK) s->engine->ops->keep_sums(s->engine, true);
+  return gg_api_simulation_hand_over(s, status, simulation, err);
 }
 
 gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, const gg_grains *grains, gg_error *err)
@@ -160,7 +162,7 @@ gg_status gg_api_simulation_continue(gg_simulation *s, const gg_model *model, co
     if (engine) ops->destroy(engine);
     return status;
   }
-  status = gg_api_simulation_watch(s, engine, err);
+  status = gg_api_simulation_observe(s, engine, err);
   if (status != GG_OK) {
     ops->destroy(engine);
     return status;
@@ -188,22 +190,16 @@ gg_status gg_simulation_copy(const gg_simulation *simulation, int (*stop)(void *
   gg_archive archive = {0};
   gg_simulation *s = gg_api_simulation_like(simulation, err);
   if (!s) return GG_FAILED;
-  s->asks = stop, s->asks_context = context;
+  s->stop_callback = stop, s->stop_context = context;
   archive.stop = &s->stop;
   const gg_engine_ops *ops = simulation->engine->ops;
   gg_status status = ops->save(simulation->engine, &archive, err);
   if (status == GG_OK) status = ops->restore(&s->model, &archive, &s->engine, err);
   gg_base_archive_clear(&archive);
-  gg_api_simulation_forget_stop(s);
-  status = gg_base_callback_settle(status, err);
-  if (status == GG_OK)
-    *copy = s;
-  else
-    gg_simulation_free(s);
-  return status;
+  return gg_api_simulation_hand_over(s, status, copy, err);
 }
 
-/* Keys that change neither units nor box nor grains. */
+/* Whether a key may change during a simulation: it determines neither units nor box nor grains. */
 static bool may_change(const char *key)
 {
   const char *const keys[] = {"md.contact_time", "dsmc.time_step", "walls.e",           "walls.beta",
@@ -222,7 +218,7 @@ static gg_status change(gg_simulation *s, gg_simulation *next, const char *key, 
   GG_TRY(gg_api_simulation_continue(s, &next->model, NULL, err));
   s->strained.strain = gg_api_simulation_strain(s), s->strained.until = s->clock.time;
   s->model = next->model;
-  s->scene = next->scene; /* both hold the same extension */
+  s->scene = next->scene; /* both scenes hold the same extension */
   return GG_OK;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Queries of simulations: their state, their grains, their sums over collisions. */
+/* Queries of simulations: state, grains, collision sums, hash. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -64,7 +64,7 @@ gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation
   return GG_OK;
 }
 
-/* Grains go to the places of their numbers. */
+/* Copying of grains; md's grains are stored at their id. */
 typedef struct copying {
   const gg_grains *into;
   double velocity_unit, spin_unit[GG_MAX_SPECIES];
@@ -142,13 +142,12 @@ gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums 
   for (int a = 0; a < 3; a++)
     for (int b = 0; b < 3; b++) sums->collisional_stress[a][b] *= per;
   sums->dissipation *= per;
-  clock->sums = (gg_simulation_sums){.time = clock->time}; /* when they were last taken */
+  clock->sums = (gg_simulation_sums){.time = clock->time}; /* time of this call */
   return GG_OK;
 }
 
-/* A state of a simulation as one number, to compare trajectories by. */
-
-/* Every bit of the word turns half of those of the hash: the finaliser of MurmurHash3 (A. Appleby, public domain). */
+/* Hash of a state, to compare trajectories. Each bit of a word changes half of the bits of the hash on average: the
+ * finaliser of MurmurHash3 (A. Appleby, public domain). */
 static uint64_t with_word(uint64_t hash, uint64_t word)
 {
   hash = (hash ^ word) + 0x9e3779b97f4a7c15u;
@@ -167,7 +166,7 @@ static uint64_t with_numbers(uint64_t hash, const double *x, size_t n)
   return hash;
 }
 
-/* Not the time: it is a sum over stretches, whose last bits depend on where a simulation was cut. */
+/* The time is left out: it is a sum over stretches, and its last bits depend on the division into advances. */
 static uint64_t hash_of(const gg_simulation_state *state, const gg_grains *grains)
 {
   const size_t n = state->grains;

@@ -44,10 +44,12 @@ void gg_sweep_free(gg_sweep *sweep)
 static gg_status read_text(const char *yaml, size_t length, const char *name, const char *path, gg_sweep **sweep,
                            gg_error *err)
 {
+  const unsigned before = gg_base_memory_failures();
   gg_sweep *made = new_sweep(name, err);
   if (!made) return GG_FAILED;
   gg_status status = gg_sweep_read_text(made, yaml, length, name, err);
   if (status == GG_OK) status = gg_api_scene_theories_add(&made->base, yaml, length, name, path, err);
+  status = gg_base_memory_check(before, status, err);
   if (status == GG_OK)
     *sweep = made;
   else

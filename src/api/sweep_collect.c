@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a sweep came to, as tables and a picture. */
+/* gg_sweep_collect: the results of a sweep as tables and a picture. */
 #include <errno.h>
 #include <limits.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@
 
 typedef struct collecting {
   const gg_sweep *sweep;
-  gg_collecting options;
+  gg_collect_options options;
   gg_point_table table;
   char csv[PATH_MAX], h5[PATH_MAX], svg[PATH_MAX];
   const char *picture; /* NULL: none */
@@ -36,7 +36,7 @@ static void warn_of_builds(const collecting *c)
   c->options.warn(c->context, text);
 }
 
-/* Better known before than after. */
+/* Check that all files can be written, before the work. */
 static gg_status check_places(const collecting *c, gg_error *err)
 {
   GG_TRY(gg_io_atomic_check_writable(c->csv, "tables are files", err));
@@ -44,10 +44,10 @@ static gg_status check_places(const collecting *c, gg_error *err)
   return c->picture ? gg_io_atomic_check_writable(c->picture, "pictures are files", err) : GG_OK;
 }
 
-/* Values that are words have no axis, for instance: the tables are what there is to have. */
+/* Whether a failed picture is only a warning, e.g. because words have no axis: the tables are complete. */
 static bool may_lack_picture(const collecting *c, gg_status status, const gg_error *err)
 {
-  const gg_collecting *o = &c->options;
+  const gg_collect_options *o = &c->options;
   const bool chosen = o->picture || o->width || o->over || o->show || o->log || o->relative_to || o->theories;
   if (!o->warn || chosen || status == GG_BAD_FILE || status == GG_INTERRUPTED) return false;
   o->warn(c->context, err ? err->message : "there is no picture");
@@ -61,15 +61,19 @@ static bool has_theories(const gg_point_table *t)
   return i < t->n;
 }
 
-/* Theories between the points, as many as there are when it is interrupted. Without them lines go from point to point,
- * with a warning. */
+/* Evaluate theories between the points; those that are done if interrupted. Without any, warn: lines then connect the
+ * points. */
 static gg_status evaluate_lines(const collecting *c, const char *folder, gg_picture_lines *lines, gg_error *err)
 {
   gg_error why, unread;
   char path[PATH_MAX];
-  const gg_collecting *o = &c->options;
-  const gg_sweep_options options = {
-      .threads = o->threads, .command = o->command, .context = c->context, .progress = o->progress, .stop = o->stop};
+  const gg_collect_options *o = &c->options;
+  const gg_sweep_options options = {.size = sizeof options,
+                                    .threads = o->threads,
+                                    .command = o->command,
+                                    .context = c->context,
+                                    .progress = o->progress,
+                                    .stop = o->stop};
   gg_status status = snprintf(path, sizeof path, "%s/lines", folder) < PATH_MAX
                          ? GG_OK
                          : gg_io_path_write_error(folder, strerror(ENAMETOOLONG), &why);
@@ -88,7 +92,7 @@ static gg_status evaluate_lines(const collecting *c, const char *folder, gg_pict
 
 static gg_status draw_picture(const collecting *c, const char *folder, gg_error *err)
 {
-  const gg_collecting *o = &c->options;
+  const gg_collect_options *o = &c->options;
   gg_picture_lines lines = {0};
   gg_picture_choice choice = {
       .show = o->show, .log = o->log, .relative_to = o->relative_to, .theories = o->theories, .lines = &lines};
@@ -130,14 +134,14 @@ static gg_status name_tables(collecting *c, const char *prefix, gg_error *err)
              : gg_io_path_write_error(prefix, strerror(ENAMETOOLONG), err);
 }
 
-gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collecting *options,
+gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collect_options *options,
                            void (*written)(void *context, const char *file), void *context, gg_error *err)
 {
   GG_NEED(sweep, folder, prefix);
   GG_TRY(gg_sweep_check(sweep, err));
   GG_USE_READING(sweep);
   collecting c = {.sweep = sweep, .written = written, .context = context};
-  if (options) c.options = *options;
+  GG_COPY_OPTIONS(c.options, options);
   GG_TRY(name_tables(&c, prefix, err));
   c.picture = c.options.picture ? c.options.picture : c.svg;
   if (strcmp(c.picture, "none") == 0) c.picture = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sweeps: what is missing of a folder is done, point beside point. */
+/* gg_sweep_run: runs the missing points of a folder, several at a time. */
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
@@ -16,14 +16,15 @@
 #include "run/scheduler.h"
 #include "sweep/folder.h"
 
-typedef enum item_state { WAITS, RUNS, ELSEWHERE, ENDED, REPORTED } item_state;
+typedef enum item_state { PENDING, RUNNING, ELSEWHERE, ENDED, REPORTED } item_state;
 
-typedef struct item { /* a point to be done */
-  size_t i;           /* of the sweep */
-  item_state state;   /* ELSEWHERE: another process was at it when it was last checked */
+typedef struct item { /* a missing point */
+  size_t i;           /* index in the sweep */
+  item_state state;   /* ELSEWHERE: another process ran it at the last check */
   gg_status status;
-  bool fell_short, here; /* here: by this process */
-  double checked;        /* when it was */
+  bool incomplete; /* ended before its stopping criteria */
+  bool here;       /* run by this process */
+  double checked;  /* wall time of the last check; before the run the estimated seconds */
   double fraction, relative_error;
   char message[512];
 } item;
@@ -32,26 +33,26 @@ typedef struct sweep_run {
   gg_sweep *sweep;
   const char *folder;
   gg_sweep_options options;
-  int threads_each;            /* of a point */
-  gg_run_scheduler *scheduler; /* of all points; NULL: the workers' */
+  int threads_each;            /* threads of a point */
+  gg_run_scheduler *scheduler; /* shared by all points; NULL: that of the workers */
   atomic_bool stopped;
-  pthread_mutex_t lock; /* for all below */
+  pthread_mutex_t lock; /* protects all members below */
   pthread_cond_t changed;
   size_t n;
   item *item;
-  size_t done_before, short_before; /* points of which there was a file, and of these those that ended short */
-  double started;                   /* clock reading */
-  size_t working;                   /* controllers */
+  size_t done_before, incomplete_before; /* points with a file at the start; of these, incomplete ones */
+  double started;                        /* wall time */
+  size_t working;                        /* controllers that have not ended */
   gg_string_list warnings;
-  size_t warned; /* of them reported */
+  size_t warned; /* number of reported warnings */
 } sweep_run;
 
-/* A thread that does one point after another. */
+/* A thread that runs one point after another. */
 typedef struct controller {
   gg_run_controller thread;
   sweep_run *all;
   item *item;
-  bool fell_short; /* its point */
+  bool incomplete; /* the present point */
 } controller;
 
 static uint64_t id_of(const controller *c)
@@ -59,8 +60,7 @@ static uint64_t id_of(const controller *c)
   return c->all->sweep->point[c->item->i].id;
 }
 
-/* Points that other processes are at are checked as often, in seconds; less often where they are many, for the sake of
- * file servers that many processes use. */
+/* Seconds between checks of a point of another process; longer for many points, to spare file servers. */
 static double check_every(size_t elsewhere)
 {
   return elsewhere < 8 ? 0.5 : 0.0625 * (double)elsewhere;
@@ -91,8 +91,8 @@ static void note_warning(void *context, const char *message)
   pthread_mutex_unlock(&all->lock);
 }
 
-/* What it was written to is called work until it is known how it ended. */
-static gg_status publish(void *context, gg_status run, gg_error *err)
+/* Rename NAME.work.h5 by the status of the run. */
+static gg_status commit(void *context, gg_status run, gg_error *err)
 {
   const controller *c = context;
   return gg_sweep_point_publish(c->all->folder, id_of(c), run == GG_FAILED, err);
@@ -106,27 +106,27 @@ static gg_status evaluate(controller *c, const gg_scene *scene, const gg_run_opt
   for (int k = 0; made && k < GG_N_ENGINES; k++) snprintf(made->refusal[k], sizeof made->refusal[k], "it was not run");
   if (status == GG_OK) status = gg_files_result_file_open(&file, options->output, options->command, err);
   if (status == GG_OK) status = gg_files_result_file_finish_comparison(&file, made, err);
-  if (status == GG_OK) status = publish(c, GG_OK, err);
+  if (status == GG_OK) status = commit(c, GG_OK, err);
   gg_comparison_free(made);
   return status;
 }
 
-/* *resume_lost: the checkpoint cannot be resumed from. */
+/* Run a point; *resume_lost: the checkpoint cannot be resumed. */
 static gg_status simulate(controller *c, const gg_scene *scene, const gg_run_options *options, bool *resume_lost,
                           gg_error *err)
 {
   gg_comparison *made = NULL;
-  gg_point_call point = {.scheduler = c->all->scheduler, .publish = publish, .context = c};
+  gg_point_call point = {.scheduler = c->all->scheduler, .commit = commit, .context = c};
   const bool both = c->all->sweep->settings.does == GG_DOES_COMPARE;
   gg_status status = gg_api_run_simulate(&point, scene, options, both, &made, err);
-  c->fell_short = status == GG_FAILED && made;
+  c->incomplete = status == GG_FAILED && made;
   *resume_lost = point.resume_lost;
   gg_comparison_free(made);
   return status;
 }
 
-/* A checkpoint that cannot be resumed from is none: the point begins anew, and comes to the same bits. Not where the
- * disk cannot be written to: then the checkpoint waits for better times. */
+/* Resume a point. If the checkpoint is damaged, the point starts again, with the same bits. If the disk cannot be
+ * written, the checkpoint stays. */
 static gg_status resume(controller *c, const gg_scene *scene, gg_run_options *options, gg_error *err)
 {
   char text[600];
@@ -141,8 +141,8 @@ static gg_status resume(controller *c, const gg_scene *scene, gg_run_options *op
   return simulate(c, scene, options, &lost, err);
 }
 
-/* Between two checkpoints there is a moment with the one before alone. */
-static bool is_begun(const controller *c)
+/* Whether there is a checkpoint. While it is replaced, only the previous one exists. */
+static bool has_checkpoint(const controller *c)
 {
   char path[2][PATH_MAX];
   gg_sweep_point_path(c->all->folder, id_of(c), ".checkpoint.h5", path[0]);
@@ -150,7 +150,7 @@ static bool is_begun(const controller *c)
   return access(path[0], F_OK) == 0 || access(path[1], F_OK) == 0;
 }
 
-/* From its checkpoint, if there is one; the point's place is claimed, and the scheduler entered. */
+/* Run or resume the point that this controller has claimed, within the scheduler. */
 static gg_status do_point(controller *c, gg_error *err)
 {
   bool lost;
@@ -174,10 +174,10 @@ static gg_status do_point(controller *c, gg_error *err)
   if (all->sweep->settings.does == GG_DOES_THEORY) return evaluate(c, &scene, &options, err);
   if (!(scene.output.checkpoint_every > 0)) return simulate(c, &scene, &options, &lost, err);
   options.checkpoint = gg_sweep_point_path(all->folder, id_of(c), ".checkpoint.h5", checkpoint);
-  return is_begun(c) ? resume(c, &scene, &options, err) : simulate(c, &scene, &options, &lost, err);
+  return has_checkpoint(c) ? resume(c, &scene, &options, err) : simulate(c, &scene, &options, &lost, err);
 }
 
-/* Without the lock: until it is done the point belongs to this controller. */
+/* Called without the lock: until the end, the item belongs to this controller. */
 static void do_item(controller *c)
 {
   gg_error err = {0};
@@ -185,7 +185,7 @@ static void do_item(controller *c)
   sweep_run *all = c->all;
   item *it = c->item;
   gg_point_state there = GG_POINT_MISSING;
-  c->fell_short = false;
+  c->incomplete = false;
   gg_status status = gg_sweep_point_claim(all->folder, id_of(c), &lock, &err);
   const bool claimed = status == GG_OK && lock.fd >= 0;
   if (claimed) {
@@ -199,7 +199,7 @@ static void do_item(controller *c)
   pthread_mutex_lock(&all->lock);
   it->status = status;
   it->here = claimed;
-  it->fell_short = c->fell_short || there == GG_POINT_SHORT;
+  it->incomplete = c->incomplete || there == GG_POINT_SHORT;
   it->fraction = 1;
   it->checked = gg_base_clock_wall();
   snprintf(it->message, sizeof it->message, "%.500s", err.message);
@@ -208,15 +208,15 @@ static void do_item(controller *c)
   pthread_mutex_unlock(&all->lock);
 }
 
-/* The next one that waits; of those that others are at, the one that was not checked for longest, if that is long
- * enough. *any: some are left. */
+/* The next pending item; otherwise the item of another process with the oldest check, if a check is due; NULL: none.
+ * *any: items of other processes remain. */
 static item *next_item(sweep_run *all, bool *any)
 {
   item *old = NULL;
   size_t elsewhere = 0;
   for (size_t k = 0; k < all->n && !atomic_load(&all->stopped); k++) {
     item *it = &all->item[k];
-    if (it->state == WAITS) return it;
+    if (it->state == PENDING) return it;
     if (it->state != ELSEWHERE) continue;
     elsewhere++;
     if (!old || it->checked < old->checked) old = it;
@@ -234,7 +234,7 @@ static void control(void *context)
   for (;;) {
     c->item = next_item(all, &any);
     if (!c->item && !any) break;
-    if (c->item) c->item->state = RUNS, c->item->relative_error = NAN, c->item->fraction = 0;
+    if (c->item) c->item->state = RUNNING, c->item->relative_error = NAN, c->item->fraction = 0;
     pthread_mutex_unlock(&all->lock);
     if (c->item)
       do_item(c);
@@ -247,13 +247,13 @@ static void control(void *context)
   pthread_mutex_unlock(&all->lock);
 }
 
-/* Time left: seconds of all points, by the cost estimate of each, and how far they are. */
+/* The time left follows from the cost estimates of all points and the fractions that are done. */
 static void report_progress(sweep_run *all)
 {
   const gg_sweep_options *o = &all->options;
   gg_sweep_progress p = {.points = all->n + all->done_before,
                          .done = all->done_before,
-                         .fell_short = all->short_before,
+                         .fell_short = all->incomplete_before,
                          .time_left = NAN,
                          .relative_error = NAN};
   double left = 0, gone = 0;
@@ -262,15 +262,15 @@ static void report_progress(sweep_run *all)
   for (size_t k = 0; k < all->n; k++) {
     const item *it = &all->item[k];
     const double seconds = all->sweep->point[it->i].seconds;
-    bool ended = it->state >= ENDED, good = it->status == GG_OK || it->fell_short;
+    bool ended = it->state >= ENDED, good = it->status == GG_OK || it->incomplete;
     p.done += ended && good;
     p.failed += ended && !good && it->status != GG_INTERRUPTED;
-    p.fell_short += ended && it->fell_short;
-    p.running += it->state == RUNS;
+    p.fell_short += ended && it->incomplete;
+    p.running += it->state == RUNNING;
     p.elsewhere += it->state == ELSEWHERE;
-    if (it->state == RUNS) p.relative_error = fmax(p.relative_error, it->relative_error);
+    if (it->state == RUNNING) p.relative_error = fmax(p.relative_error, it->relative_error);
     if (!ended && it->state != ELSEWHERE) left += seconds * (1 - it->fraction);
-    if (ended ? it->here : it->state == RUNS) gone += seconds * it->fraction;
+    if (ended ? it->here : it->state == RUNNING) gone += seconds * it->fraction;
   }
   pthread_mutex_unlock(&all->lock);
   double elapsed = gg_base_clock_wall() - all->started;
@@ -278,8 +278,8 @@ static void report_progress(sweep_run *all)
   o->progress(o->context, &p);
 }
 
-/* With the lock, but not during the callback. Another process reports what it did; but that a point could not even be
- * claimed, nobody else reports. */
+/* Report the end of an item that this process ran, or failed to claim. Called with the lock, which is released during
+ * the callback. */
 static void report_end(sweep_run *all, item *it)
 {
   char file[PATH_MAX];
@@ -287,15 +287,15 @@ static void report_end(sweep_run *all, item *it)
   it->state = REPORTED;
   bool ours = it->here || it->status != GG_OK;
   if (!ours || !o->ended || it->status == GG_INTERRUPTED) return;
-  const char *ending = it->fell_short ? ".short.h5" : ".h5";
-  bool some = it->status == GG_OK || it->fell_short;
+  const char *ending = it->incomplete ? ".short.h5" : ".h5";
+  bool some = it->status == GG_OK || it->incomplete;
   gg_sweep_point_path(all->folder, all->sweep->point[it->i].id, ending, file);
   pthread_mutex_unlock(&all->lock);
   o->ended(o->context, it->i, it->status, some ? file : NULL, it->message);
   pthread_mutex_lock(&all->lock);
 }
 
-/* With the lock: warnings, and points that have ended. */
+/* Report warnings and ended points. Called with the lock. */
 static void report_ended_points(sweep_run *all)
 {
   const gg_sweep_options *o = &all->options;
@@ -305,7 +305,7 @@ static void report_ended_points(sweep_run *all)
     if (all->item[k].state == ENDED) report_end(all, &all->item[k]);
 }
 
-/* Do all points, `at_once` at a time, and report meanwhile; GG_OK whatever became of each. */
+/* Run all points, `at_once` at a time, with reports. GG_OK even if points fail. */
 static gg_status do_all(sweep_run *all, size_t at_once, gg_error *err)
 {
   const gg_sweep_options *o = &all->options;
@@ -335,20 +335,20 @@ static gg_status do_all(sweep_run *all, size_t at_once, gg_error *err)
 
 static gg_status sum_up(const sweep_run *all, gg_error *err)
 {
-  size_t failed = 0, fell_short = all->short_before;
+  size_t failed = 0, incomplete = all->incomplete_before;
   for (size_t k = 0; k < all->n; k++) {
-    fell_short += all->item[k].fell_short;
-    failed += all->item[k].status != GG_OK && all->item[k].status != GG_INTERRUPTED && !all->item[k].fell_short;
+    incomplete += all->item[k].incomplete;
+    failed += all->item[k].status != GG_OK && all->item[k].status != GG_INTERRUPTED && !all->item[k].incomplete;
   }
   if (atomic_load(&all->stopped))
     return gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted; continue with the same command", all->folder);
-  if (!failed && !fell_short) return GG_OK;
+  if (!failed && !incomplete) return GG_OK;
   return gg_base_fail(err, GG_FAILED,
                       "%s: of %zu points %zu failed, and %zu did not reach the requested accuracy (*.short.h5)",
-                      all->folder, all->n + all->done_before, failed, fell_short);
+                      all->folder, all->n + all->done_before, failed, incomplete);
 }
 
-/* Longest first, so that none is left over at the end; as they are listed where they take as long. */
+/* Order of execution: the longest first, so that no long point starts last; then by index. */
 static int by_length(const void *a, const void *b)
 {
   const item *one = a, *two = b;
@@ -379,7 +379,7 @@ static void report_aside(const sweep_run *all, size_t other, size_t damaged)
   all->options.warn(all->options.context, text);
 }
 
-/* Points that are the same scene are one: the first of them. */
+/* List the missing points; of several points with the same scene, only the first. */
 static gg_status list_missing(sweep_run *all, size_t first, size_t end, gg_error *err)
 {
   const gg_sweep *sweep = all->sweep;
@@ -394,7 +394,7 @@ static gg_status list_missing(sweep_run *all, size_t first, size_t end, gg_error
     aside[gg_sweep_point_set_aside(all->folder, ids[k].id, all->options.accept_version)]++;
     gg_point_state state = gg_sweep_point_status(all->folder, ids[k].id);
     all->done_before += state != GG_POINT_MISSING;
-    all->short_before += state == GG_POINT_SHORT;
+    all->incomplete_before += state == GG_POINT_SHORT;
     if (state == GG_POINT_MISSING)
       all->item[all->n++] = (item){.i = ids[k].i, .checked = sweep->point[ids[k].i].seconds};
   }
@@ -404,8 +404,8 @@ static gg_status list_missing(sweep_run *all, size_t first, size_t end, gg_error
   return GG_OK;
 }
 
-/* Points in progress at a time: two a thread, of all processes, so that none has to wait for the end of a window, and
- * errors can be compared; but not more than one process can hold. */
+/* Number of points in progress: two per thread of all processes, so that no thread is idle at the end of a point's
+ * window; limited by what one process can hold. */
 static size_t points_at_once(const sweep_run *all)
 {
   enum { MOST_AT_ONCE = 512 };
@@ -426,14 +426,15 @@ static gg_status do_missing(sweep_run *all, gg_error *err)
   return status == GG_OK ? sum_up(all, err) : status;
 }
 
-/* Points from `first` to the one before `end`. */
+/* Run the points first <= i < end. */
 static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t end, const gg_sweep_options *options,
                      gg_error *err)
 {
   sweep_run all = {.sweep = sweep, .folder = folder};
-  if (options) all.options = *options;
+  all.options = *options;
   if (all.options.threads < 1) all.options.threads = 1;
-  if (sweep->settings.does == GG_DOES_THEORY) all.options.workers = NULL; /* who share replicas */
+  if (sweep->settings.does == GG_DOES_THEORY)
+    all.options.workers = NULL; /* workers share replicas, and theories have none */
   if (!all.options.command) all.options.command = "the graingas library";
   GG_TRY(gg_sweep_folder_prepare(folder, "the results of a sweep are a folder with a file for each point", err));
   GG_TRY(gg_sweep_folder_note(sweep, folder, err));
@@ -453,20 +454,24 @@ static gg_status run(gg_sweep *sweep, const char *folder, size_t first, size_t e
 
 gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_sweep_options *options, gg_error *err)
 {
+  gg_sweep_options own;
   GG_NEED(sweep, folder);
+  GG_COPY_OPTIONS(own, options);
   GG_TRY(gg_sweep_check(sweep, err));
   GG_USE_READING(sweep);
-  return run(sweep, folder, 0, sweep->n, options, err);
+  return run(sweep, folder, 0, sweep->n, &own, err);
 }
 
 gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, const gg_sweep_options *options,
                              gg_error *err)
 {
+  gg_sweep_options own;
   GG_NEED(sweep, folder);
+  GG_COPY_OPTIONS(own, options);
   GG_TRY(gg_sweep_check(sweep, err));
   GG_USE_READING(sweep);
   if (i >= sweep->n)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: there is no point %zu; the sweep has %zu", sweep->name, i + 1,
                         sweep->n);
-  return run(sweep, folder, i, i + 1, options, err);
+  return run(sweep, folder, i, i + 1, &own, err);
 }

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The version, names of engines, texts, and words for people. */
+/* Version, checks of arguments, names of engines, formatting of texts. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "api/api.h"
-#include "api/sized.h"
 #include "base/build.h"
 #include "base/cancellation.h"
 #include "base/memory.h"
@@ -39,13 +38,17 @@ gg_status gg_api_arguments_check(const char *function, const char *names, const 
   return GG_OK;
 }
 
-gg_status gg_api_size_check(const char *function, const char *type, size_t size, size_t own, gg_error *err)
+gg_status gg_api_options_copy(const char *function, void *copy, size_t own_size, const void *options, size_t size,
+                              gg_error *err)
 {
-  if (size > 0 && size <= own) return GG_OK;
-  return gg_base_fail(err, GG_BAD_INPUT,
-                      "%s: %s has %zu bytes in the calling program and %zu in this library (graingas %s): build the "
-                      "program with the header of this version",
-                      function, type, size, own, gg_base_build_version);
+  memset(copy, 0, own_size);
+  if (!options) return GG_OK;
+  if (size == 0 || size > own_size)
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "%s: options.size is %zu, allowed is sizeof options: at most %zu in this library (graingas %s)",
+                        function, size, own_size, gg_base_build_version);
+  memcpy(copy, options, size);
+  return GG_OK;
 }
 
 bool gg_api_is_requested(void *request)

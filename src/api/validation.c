@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Grids of comparisons: validated against Enskog's equation. */
+/* gg_sweep_validate: grids of comparisons against Enskog's equation. */
 #include "sweep/validation.h"
 
 #include <stdio.h>
@@ -15,7 +15,7 @@ const char *gg_standard_grid(int quick)
   return quick ? gg_sweep_quick_grid : gg_sweep_standard_grid;
 }
 
-static void warn_of_builds(const gg_point_table *t, const gg_validating *o, void *context)
+static void warn_of_builds(const gg_point_table *t, const gg_validate_options *o, void *context)
 {
   char text[120];
   if (!t->n_other_builds || !o->warn) return;
@@ -24,29 +24,29 @@ static void warn_of_builds(const gg_point_table *t, const gg_validating *o, void
   o->warn(context, text);
 }
 
-gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_validating *options,
+gg_status gg_sweep_validate(gg_sweep *sweep, const char *folder, const gg_validate_options *options,
                             void (*written)(void *context, const char *file), void *context, char **verdict,
                             gg_error *err)
 {
   GG_NEED(sweep, folder, verdict);
-  static const gg_validating none = {0};
-  const gg_validating *o = options ? options : &none;
+  gg_validate_options o;
+  GG_COPY_OPTIONS(o, options);
   gg_point_table table;
-  gg_api_request request = {o->stop, context, false};
+  gg_api_request request = {o.stop, context, false};
   const gg_stop stop = {gg_api_is_requested, &request};
   *verdict = NULL;
   GG_TRY(gg_sweep_check(sweep, err));
   if (sweep->settings.does != GG_DOES_COMPARE)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: does: %s; validation needs does: compare", sweep->name,
                         gg_sweep_does(sweep));
-  if (gg_io_path_is_same_file(o->page, sweep->name))
+  if (gg_io_path_is_same_file(o.page, sweep->name))
     return gg_base_fail(err, GG_BAD_INPUT, "%s: would be overwritten by its own page; choose another page",
                         sweep->name);
-  if (o->picture) GG_TRY(gg_plot_paper_check(o->picture, o->width, err));
+  if (o.picture) GG_TRY(gg_plot_paper_check(o.picture, o.width, err));
   gg_status status = gg_sweep_point_table_read(&table, sweep, folder, &stop, err);
   if (status == GG_OK) {
-    warn_of_builds(&table, o, context);
-    status = gg_sweep_validate_table(&table, sweep, o, written, context, &stop, verdict, err);
+    warn_of_builds(&table, &o, context);
+    status = gg_sweep_validate_table(&table, sweep, &o, written, context, &stop, verdict, err);
   }
   gg_sweep_point_table_clear(&table);
   status = gg_base_callback_settle(status, err);

@@ -15,7 +15,7 @@
 #include "simd/dispatch.h"
 
 static const struct {
-  const char *name; /* the word typed; NULL: none */
+  const char *name; /* word of the command line; NULL: the overview */
   gg_bench_subject *run;
 } subjects[] = {
     {NULL, gg_bench_overview}, {"md", gg_bench_md}, {"dsmc", gg_bench_dsmc}, {"observables", gg_bench_observables},
@@ -69,7 +69,7 @@ json_t *gg_bench_number(double x)
   return isfinite(x) ? json_real(x) : json_null();
 }
 
-/* "ratios: md, walls, phi 0.3, particles 10000"; what is true by its key, what is false not at all. */
+/* Name of a row: "ratios: md, walls, phi 0.3, particles 10000". A true member gives its key, a false one nothing. */
 static void name_row(const char *table, json_t *members, char *name, size_t size)
 {
   const char *key;
@@ -88,7 +88,7 @@ static void name_row(const char *table, json_t *members, char *name, size_t size
   }
 }
 
-/* Where and when a row was measured, and by which build. */
+/* Machine, time and build of a measurement. */
 static json_t *origin(void)
 {
   char processor[200], date[32];
@@ -125,7 +125,7 @@ void gg_bench_table_add(const gg_bench *b, gg_bench_table *s, gg_bench_value v, 
   json_array_append_new(s->rows, row);
 }
 
-void gg_bench_tell(const gg_bench *b, const char *format, ...)
+void gg_bench_report(const gg_bench *b, const char *format, ...)
 {
   char line[160];
   va_list list;
@@ -157,7 +157,7 @@ gg_scene gg_bench_scene(const gg_bench *b, gg_engine_kind engine, double phi, in
   return s;
 }
 
-/* The overrides that options stand for (--seed), checked as a scene's are. */
+/* Apply the overrides of options (--seed), checked like those of a scene. */
 static gg_status take_seed(gg_bench *b, gg_error *err)
 {
   gg_scene scene = gg_scene_defaults();

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas bench compare: two records set against each other, row by row. */
+/* graingas bench compare: two files of rows, compared row by row. */
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
@@ -32,7 +32,7 @@ static gg_status add_line(json_t *rows, const char *path, int number, const char
              : gg_base_fail(err, GG_BAD_FILE, "%s, line %d: not a row that graingas bench --json prints", path, number);
 }
 
-/* The last row of each name. */
+/* Read a file; of several rows with one name, the last counts. */
 static gg_status read_rows(const char *path, json_t *rows, gg_error *err)
 {
   char *line = NULL;
@@ -48,7 +48,7 @@ static gg_status read_rows(const char *path, json_t *rows, gg_error *err)
   return status;
 }
 
-/* Rates become times. */
+/* The time of a row, for rates their inverse. */
 static bounds time_of(const json_t *row)
 {
   static const char rate[] = "second";
@@ -93,7 +93,7 @@ static void compare_row(comparison *c, const char *name, const json_t *before, c
   print_row(c, name, r, beyond ? "over limit" : r.lowest > 1 ? "slower" : r.highest < 1 ? "faster" : "");
 }
 
-/* "before: b.json, 0.1.0+g156f34b3, AMD EPYC, 2 cores, AVX-512, 2024-05-31T12:00:00Z": as of its first row. */
+/* Print "before: b.json, 0.1.0+g156f34b3, AMD EPYC, 2 cores, AVX-512, 2024-05-31T12:00:00Z", from the first row. */
 static void print_origin(FILE *out, const char *word, const char *path, json_t *rows)
 {
   const json_t *row = json_object_iter_value(json_object_iter(rows)), *machine = json_object_get(row, "machine");

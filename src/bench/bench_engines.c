@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas bench, bench md, bench dsmc: both engines by size and density, and what each feature of a scene costs. */
+/* graingas bench, bench md, bench dsmc: speed by size and density; cost of features of a scene. */
 #include <math.h>
 #include <string.h>
 
@@ -22,7 +22,7 @@ enum {
   NEARLY = 512
 };
 
-/* A scene that has a feature, and the one that lacks it; the first is set against itself. */
+/* A scene with a feature, and the scene it is compared with; the first row is compared with itself. */
 typedef struct feature {
   const char *name, *against;
   unsigned has;
@@ -57,7 +57,7 @@ static const feature dsmc_features[] = {
     {"sheared, two species, stress measured", "sheared smooth, stress measured", SHEARED | SUMS | MIXTURE},
 };
 
-/* What differs between the benches of both engines. Quick: the first sizes alone. */
+/* Parameters of the bench of an engine. With --quick only the first sizes. */
 typedef struct engine_bench {
   gg_engine_kind engine;
   const char *rates, *rates_caption, *ratios_caption, *unit;
@@ -119,7 +119,7 @@ static void add_walls(gg_scene *s, bool gravity)
   s->flow = GG_POISEUILLE;
   s->walls.e = 1;
   s->walls.beta = -1;
-  /* Weight times height below the temperature 1/2: the gas hardly settles. */
+  /* m g H is small against T = 1/2, so that the gas hardly settles. */
   if (gravity) s->gravity[1] = -0.1 / cbrt((double)s->particles * M_PI / (6 * s->phi));
 }
 
@@ -144,7 +144,7 @@ static gg_timed_scene timed_scene(const gg_bench *b, const engine_bench *e, int 
   return c;
 }
 
-/* Collisions a grain. Large systems of md start near equilibrium, and a few collisions a grain cost seconds. */
+/* Warm-up in collisions per grain; short for large systems of md, which start near equilibrium. */
 static double warmup_of(const engine_bench *e, int64_t n, bool quick)
 {
   return e->engine == GG_MD && n >= 1000000 ? 5 : quick ? 10 : e->engine == GG_MD ? 30 : 20;
@@ -169,7 +169,7 @@ static void put_rate(const gg_bench *b, gg_bench_table *t, const engine_bench *e
                      (json_int_t)n);
 }
 
-/* The plain scene by size, a column a density. */
+/* Measure the plain scene: a row for each size, a column for each density. */
 static gg_status measure_rates(gg_bench *b, const engine_bench *e, gg_error *err)
 {
   const bool quick = b->options->quick;
@@ -185,13 +185,13 @@ static gg_status measure_rates(gg_bench *b, const engine_bench *e, gg_error *err
       GG_TRY(gg_bench_throughput_measure(&s, false, warmup_of(e, e->sizes[i], quick), quick ? 3 : 7,
                                          gg_bench_seconds(b, quick ? 0.3 : 1), &r, err));
       put_rate(b, t, e, row, 1 + d, e->densities[d], e->sizes[i], &r);
-      gg_bench_tell(b, "phi %g N %lld: %.3g M/s", e->densities[d], (long long)e->sizes[i], r.rate * 1e-6);
+      gg_bench_report(b, "phi %g N %lld: %.3g M/s", e->densities[d], (long long)e->sizes[i], r.rate * 1e-6);
     }
   }
   return GG_OK;
 }
 
-/* What is measured are rates; times, of dsmc, are their inverse. */
+/* Put a ratio of rates; for dsmc the inverse, a ratio of times. */
 static void put_ratio(const gg_bench *b, gg_bench_table *t, const engine_bench *e, int column, double phi, int64_t n,
                       int kind, const gg_timing *r)
 {
@@ -212,7 +212,7 @@ static void put_ratio(const gg_bench *b, gg_bench_table *t, const engine_bench *
                      "particles", (json_int_t)n);
 }
 
-/* Scenes with a feature against those without, at one size; a row each. */
+/* Measure the scenes with and without each feature, at one size: a row for each. */
 static gg_status measure_ratios(gg_bench *b, const engine_bench *e, gg_error *err)
 {
   const bool quick = b->options->quick;
@@ -234,19 +234,19 @@ static gg_status measure_ratios(gg_bench *b, const engine_bench *e, gg_error *er
     GG_TRY(gg_bench_throughput_compare(c, e->n_features, warmup_of(e, n, quick), quick ? 5 : 9,
                                        gg_bench_seconds(b, quick ? 0.1 : e->ratio_seconds), r, err));
     for (int k = 0; k < e->n_features; k++) put_ratio(b, t, e, column, phi, n, k, &r[k]);
-    gg_bench_tell(b, "ratios at phi %g N %lld done", phi, (long long)n);
+    gg_bench_report(b, "ratios at phi %g N %lld done", phi, (long long)n);
   }
   return GG_OK;
 }
 
-/* A scene in two ways, by kind and size. */
+/* Comparison of two variants of a scene, by kind and size. */
 typedef struct two_ways {
   const engine_bench *of;
   double phi;
   const char *key, *caption, *done;
   const char *kinds[11]; /* ends with NULL */
   int first_size, warmup[2], repeats[2];
-  double seconds[2]; /* of a stretch; in full and quick, as those before */
+  double seconds[2]; /* seconds of a stretch: full and quick, as the sizes above */
   void (*differ)(gg_timed_scene way[2], int threads);
   void (*put)(gg_bench_table *t, int row, int column, const gg_timing r[2], int threads);
 } two_ways;
@@ -272,7 +272,7 @@ static void in_blocks(gg_timed_scene way[2], int threads)
 
 static void on_threads(gg_timed_scene way[2], int threads)
 {
-  way[0].by_the_clock = way[1].by_the_clock = true;
+  way[0].wall_time = way[1].wall_time = true;
   way[1].threads = threads;
 }
 
@@ -303,7 +303,7 @@ static const two_ways precision = {
     "Single precision: nanoseconds per accepted collision in double/in single precision, and the ratio of the rates, "
     "timed in turn; CPU time, one thread, phi 0.3; median (least - largest) of repeats",
     "single precision",
-    /* Not what cools: with nothing to scale it back it would leave the range of single precision. */
+    /* No cooling gas: without rescaling its velocities would leave the range of single precision. */
     {"smooth", "rough", "two species", "two species, rough", "smooth, stress measured", "sheared smooth",
      "sheared smooth, stress measured", "sheared rough, stress measured", "sheared frictional, stress measured",
      "sheared, two species, stress measured"},
@@ -356,7 +356,7 @@ static const two_ways threads_of_md[] = {THREADS_OF_MD("threads", 0.3), THREADS_
 static void add_two(const gg_bench *b, gg_bench_table *t, const two_ways *w, int k, int64_t n, const gg_timing r[2],
                     int used)
 {
-  gg_bench_value v = gg_bench_throughput_value(&r[1].own, true, used > 1 ? gg_bench_by_the_clock : dsmc.unit);
+  gg_bench_value v = gg_bench_throughput_value(&r[1].own, true, used > 1 ? gg_bench_wall_unit : dsmc.unit);
   v.threads = used;
   json_t *beside =
       json_pack("{s:f, s:f, s:f, s:f, s:f}", "other", 1e9 / r[0].own.rate, "ratio", r[1].ratio, "ratio_lowest",
@@ -387,16 +387,16 @@ static gg_status measure_two(gg_bench *b, const two_ways *w, int used, gg_error 
       add_two(b, t, w, k, n, r, used);
     }
     if (used > 1)
-      gg_bench_tell(b, "%d %s, N %lld done", used, w->done, (long long)n);
+      gg_bench_report(b, "%d %s, N %lld done", used, w->done, (long long)n);
     else
-      gg_bench_tell(b, "%s, N %lld done", w->done, (long long)n);
+      gg_bench_report(b, "%s, N %lld done", w->done, (long long)n);
   }
   return GG_OK;
 }
 
 static gg_status measure_threads(gg_bench *b, const two_ways *w, int n, gg_error *err)
 {
-  if (b->options->threads <= 1) gg_bench_tell(b, "one processor: threads are left out");
+  if (b->options->threads <= 1) gg_bench_report(b, "one processor: threads are left out");
   for (int k = 0; k < n && b->options->threads > 1; k++) GG_TRY(measure_two(b, &w[k], b->options->threads, err));
   return GG_OK;
 }
@@ -417,7 +417,7 @@ gg_status gg_bench_dsmc(gg_bench *b, gg_error *err)
   return measure_threads(b, &threads, 1, err);
 }
 
-/* The overview times both engines sheared at e = 0.9, their stress measured as in a run. */
+/* Rows of the overview: both engines in shear at e = 0.9, with the stress measured as in a run. */
 static const struct {
   const char *name;
   double beta, mu;
@@ -450,7 +450,7 @@ static gg_status measure_overview(gg_bench *b, gg_bench_table *t, gg_engine_kind
         gg_bench_throughput_measure(&s, true, 20, quick ? 3 : 5, gg_bench_seconds(b, quick ? 0.2 : 0.6), &r[k], err));
   }
   put_overview(b, t, name, phi, n, r);
-  gg_bench_tell(b, "%s phi %g N %lld done", name, phi, (long long)n);
+  gg_bench_report(b, "%s phi %g N %lld done", name, phi, (long long)n);
   return GG_OK;
 }
 

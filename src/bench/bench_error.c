@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas bench error: how wrong a run of so many seconds is, and after how many seconds it is wrong by less. */
+/* graingas bench error: error of means against processor time. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,8 +9,8 @@
 #include "plot/chart.h"
 #include "plot/plot.h"
 
-/* A picture a state: a panel a quantity, error against time of the best md and the best dsmc, and theories, which take
- * no time, as bars at their error. */
+/* Picture of a state: a panel for each quantity with the error of the best md and the best dsmc against time, and a
+ * horizontal line at the error of each theory. */
 enum { SERIES = 2 + GG_ERROR_THEORIES, MOST_STATES = 16 };
 
 typedef struct curve {
@@ -24,7 +24,7 @@ typedef struct page {
   curve curve[GG_COURSE_QUANTITIES][SERIES];
 } page;
 
-/* What noise and floor of a way leave after so many seconds; INFINITY: it is still warming up. */
+/* Expected error of a method after `seconds`: noise and floor combined; INFINITY during the warm-up. */
 static double expected(const gg_error_state *s, int way, int q, double seconds)
 {
   const gg_course *c = &s->course[way];
@@ -34,7 +34,7 @@ static double expected(const gg_error_state *s, int way, int q, double seconds)
 static int best_at(const gg_error_state *s, gg_engine_kind engine, int q, double seconds)
 {
   int best = -1;
-  for (int i = 0; i < GG_WAYS; i++) {
+  for (int i = 0; i < GG_ERROR_METHODS; i++) {
     if (!s->done[i] || gg_bench_error_methods[i].engine != engine ||
         seconds > s->course[i].seconds[s->course[i].marks - 1] * 1.01)
       continue;
@@ -43,7 +43,8 @@ static int best_at(const gg_error_state *s, gg_engine_kind engine, int q, double
   return best >= 0 && isfinite(expected(s, best, q, seconds)) ? best : -1;
 }
 
-/* Marks of the way that is best by then, each twice as late as the last. */
+/* Points of an engine's curve: at times that differ by factors of about 2, the error of the method that is best then.
+ */
 static void add_engine(const gg_error_state *s, gg_engine_kind engine, int q, double to, curve *c,
                        gg_chart_series *series)
 {
@@ -78,7 +79,7 @@ static void fill(const gg_error_state *s, int q, page *p, gg_chart_panel *panel)
   const int i = (int)(panel - p->panel);
   size_t n = 0;
   double ends[2] = {INFINITY, 0};
-  for (int k = 0; k < GG_WAYS; k++) {
+  for (int k = 0; k < GG_ERROR_METHODS; k++) {
     const gg_course *c = &s->course[k];
     if (s->done[k]) ends[0] = fmin(ends[0], c->seconds[0]), ends[1] = fmax(ends[1], c->seconds[c->marks - 1]);
   }
@@ -99,13 +100,14 @@ static void fill(const gg_error_state *s, int q, page *p, gg_chart_panel *panel)
                             .series = p->series[i]};
 }
 
-/* Smooth grains have no spins. */
+/* Whether the quantity exists; smooth grains have no spins. */
 static bool has(const gg_error_state *s, int q)
 {
   return isfinite(s->unit[q]) && s->unit[q] > 0;
 }
 
-/* "x.svg" and "phi 0.3, e 0.9, rough, shear": x_phi-0.3-e-0.9-rough-shear.svg */
+/* Draw the picture of a state: for x.svg and the state "phi 0.3, e 0.9, rough, shear" x_phi-0.3-e-0.9-rough-shear.svg.
+ */
 static gg_status draw(const gg_bench *b, const gg_error_state *s, gg_error *err)
 {
   char word[GG_BENCH_CELL];
@@ -146,13 +148,14 @@ static const char *name_of(const gg_error_state *s, int q)
   return gg_common_quantity_name(gg_bench_error_quantities(s->flow)[q]);
 }
 
-/* -1 where no way has it: *seconds is INFINITY where that is sure of all of them, else NaN. */
+/* The quickest method to an error, with its *seconds; -1 if none reaches it. Then *seconds is INFINITY if all floors
+ * are certainly above, otherwise NaN. */
 static int quickest(const gg_error_state *s, gg_engine_kind engine, int q, double error, double *seconds)
 {
   int best = -1;
   bool unsure = false;
   *seconds = INFINITY;
-  for (int i = 0; i < GG_WAYS; i++) {
+  for (int i = 0; i < GG_ERROR_METHODS; i++) {
     if (!s->done[i] || gg_bench_error_methods[i].engine != engine) continue;
     const double t = gg_bench_seconds_to(s, i, q, error);
     unsure |= isnan(t);
@@ -206,7 +209,7 @@ static json_t *two(double x, double y)
   return json_pack("[o, o]", gg_bench_number(x), gg_bench_number(y));
 }
 
-/* A row of the record, about a mean in a state, by a way of measuring it. */
+/* Add a JSON row on a quantity in a state, measured by a method. */
 static void add_row(const gg_bench *b, gg_bench_table *table, const gg_error_state *s, int q, const char *by,
                     const char *unit, double value, int seeds, json_t *more)
 {
@@ -228,7 +231,7 @@ static void add_course(const gg_bench *b, gg_bench_table *table, const gg_error_
   json_t *until = json_array();
   for (int k = 0; k < N_TARGETS; k++)
     json_array_append_new(until, gg_bench_number(gg_bench_seconds_to(s, i, q, targets[k])));
-  const gg_way *way = &gg_bench_error_methods[i];
+  const gg_error_method *way = &gg_bench_error_methods[i];
   json_t *course =
       json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "engine", way->engine == GG_MD ? "md" : "dsmc",
                 "particles", (json_int_t)way->n, "warmup_seconds", gg_bench_number(c->warmup), "error_of_a_second",
@@ -286,7 +289,7 @@ static gg_bench_table *new_floors(gg_bench *b, gg_error *err)
   return t;
 }
 
-/* A table of the state, and its lines of that of all floors, once this is there. */
+/* Add the table of seconds of a state. */
 static gg_status put_state(gg_bench *b, const gg_error_state *s, bool first, gg_error *err)
 {
   gg_bench_table *seconds = new_seconds(b, s, first, err);
@@ -294,7 +297,7 @@ static gg_status put_state(gg_bench *b, const gg_error_state *s, bool first, gg_
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
     if (!has(s, q)) continue;
     put_seconds(seconds, gg_bench_table_row(seconds, "%s", name_of(s, q)), s, q);
-    for (int i = 0; i < GG_WAYS; i++)
+    for (int i = 0; i < GG_ERROR_METHODS; i++)
       if (s->done[i]) add_course(b, seconds, s, q, i);
   }
   return GG_OK;
@@ -312,7 +315,7 @@ static void put_state_floors(const gg_bench *b, gg_bench_table *floors, const gg
   }
 }
 
-/* Quick: rough shear of both densities above 0 at e = 0.9, smooth shear at 0.01, and rough cooling at 0.01. */
+/* Set the states. Quick: rough shear at e = 0.9 and both densities above 0, smooth shear and rough cooling at 0.01. */
 static int list_states(gg_error_state *s, bool quick)
 {
   static const double phi[] = {0, 0.01, 0.3}, e[] = {0.9, 0.7};
@@ -332,7 +335,7 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
   const bool quick = b->options->quick;
   const int n = list_states(s, quick);
   if (b->options->picture)
-    GG_TRY(gg_plot_paper_check(b->options->picture, b->options->width, err)); /* before it has taken an hour */
+    GG_TRY(gg_plot_paper_check(b->options->picture, b->options->width, err)); /* before an hour of measurement */
   gg_status drawn = GG_OK;
   for (int i = 0; i < n; i++) {
     GG_TRY(gg_bench_error_state_measure(b, &s[i], quick ? 4 : 6, gg_bench_seconds(b, quick ? 0.3 : 1.5), err));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas bench observables: what each observable costs, over the time of a run without it, at three sizes. */
+/* graingas bench observables: processor time that each observable adds to a run, at three sizes. */
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
@@ -14,13 +14,14 @@
 enum { MOST_REPEATS = 32, LEAST_CYCLE = 32 };
 
 typedef struct cost_of_observable {
-  double overhead, lowest, highest; /* over the time of the run without it: median, least and largest of the repeats */
-  gg_bench_value ns;                /* that a collision takes in the run with it */
+  double overhead, lowest,
+      highest;       /* added time over that of the run without it: median, least and largest of the repeats */
+  gg_bench_value ns; /* time of a collision in the run with the observable */
 } cost_of_observable;
 
 typedef struct timed_run {
   gg_replica replica;
-  bool bare; /* the engine alone */
+  bool bare; /* engine without sampling */
 } timed_run;
 
 static uint64_t collisions(const timed_run *c)
@@ -51,11 +52,11 @@ static gg_status start(timed_run *c, const gg_scene *scene, unsigned measure, do
   GG_TRY(gg_run_replica_create(&c->replica, &s, &model, 0, err));
   GG_TRY(go_on(c, (uint64_t)(warmup / GG_SAMPLING_INTERVAL), true, err));
   GG_TRY(gg_run_replica_open_window(&c->replica, err));
-  c->replica.clock.window_samples = gg_run_sampling_bursts_of(&model).settled; /* the cost is that of long runs */
+  c->replica.clock.window_samples = gg_run_sampling_bursts_of(&model).settled; /* as in a long run */
   return GG_OK;
 }
 
-/* Nanoseconds a collision, over `samples`. */
+/* Nanoseconds per collision, over a number of samples. */
 static gg_status time_stretch(timed_run *c, uint64_t samples, double *ns, gg_error *err)
 {
   uint64_t before = collisions(c);
@@ -65,7 +66,7 @@ static gg_status time_stretch(timed_run *c, uint64_t samples, double *ns, gg_err
   return GG_OK;
 }
 
-/* Samples in which every observable is due as often as ever. */
+/* Period of the observables' intervals, in samples. */
 static uint64_t cycle_of(const gg_replica *r)
 {
   const gg_engine_ops *ops = r->engine->ops;
@@ -100,9 +101,9 @@ static gg_status compare(timed_run c[2], int repeats, double seconds, cost_of_ob
   return GG_OK;
 }
 
-/* Run the scene with `rheology` and this observable, and beside it with rheology alone (for rheology itself: the engine
- * alone, not sampled, its collision sums off), in turn, `repeats` stretches of at least `seconds` each after `warmup`
- * collisions a grain. The sampling interval is that of any run. */
+/* Time the scene with `rheology` and this observable, and with rheology alone (for rheology itself: the engine without
+ * sampling and collision sums), in turn: `repeats` stretches of at least `seconds` each, after `warmup` collisions per
+ * grain. The sampling interval is that of any run. */
 static gg_status measure_cost(const gg_scene *scene, const gg_observable *o, double warmup, int repeats, double seconds,
                               cost_of_observable *cost, gg_error *err)
 {
@@ -131,7 +132,7 @@ static const double densities[] = {0.01, 0.3};
 static const int64_t sizes[] = {500, 4000, 32000}, quick_sizes[] = {500, 2000, 4000};
 enum { N_DENSITIES = 2, N_SIZES = 3 };
 
-/* An engine at a density and a size: a column each. */
+/* A column: an engine at a density and a size. */
 typedef struct setting {
   gg_engine_kind engine;
   double phi;
@@ -143,7 +144,7 @@ static const int64_t *sizes_of(const gg_bench *b)
   return b->options->quick ? quick_sizes : sizes;
 }
 
-/* How many: those that `smaller` makes alike are one. */
+/* Number of different sizes, after reduction by options->smaller. */
 static int n_sizes_of(const gg_bench *b)
 {
   int64_t grains[N_SIZES];
@@ -177,14 +178,14 @@ static bool find_scene_with(const gg_bench *b, const setting *c, const gg_observ
   return false;
 }
 
-/* The scene to measure it in: of the usual flow, or of the first other one that has it and whose grains may lose
- * energy; of rough grains, or of smooth ones where it takes no others. */
+/* Find a scene for an observable: the usual flow, or the first other inelastic one that has the observable; rough
+ * grains, or smooth grains if the observable accepts no others. */
 static bool find_scene(const gg_bench *b, const setting *c, const gg_observable *o, gg_scene *scene)
 {
   return find_scene_with(b, c, o, 0, scene) || find_scene_with(b, c, o, -1, scene);
 }
 
-/* Stretches of large systems are long by themselves, and scatter less. */
+/* Fewer repeats for large systems: their stretches are longer and scatter less. */
 static int repeats_of(const gg_bench *b, int64_t n)
 {
   return n > 10000 || b->options->quick ? 3 : 15;
@@ -221,7 +222,7 @@ gg_status gg_bench_observables(gg_bench *b, gg_error *err)
   for (int k = 0; gg_measure_observables[k]; k++) {
     const int row = gg_bench_table_row(table, "%s", gg_measure_observables[k]->name);
     for (int i = 0; i < n_cases; i++) GG_TRY(measure(b, table, row, i, gg_measure_observables[k], err));
-    gg_bench_tell(b, "%s done", gg_measure_observables[k]->name);
+    gg_bench_report(b, "%s done", gg_measure_observables[k]->name);
   }
   return GG_OK;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas bench, second table: single scenes that an engine may be slow in, and starts. */
+/* graingas bench, second table: single scenes that may be slow, and starts. */
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 
@@ -15,8 +15,8 @@ typedef struct single {
   gg_flow flow;
   double e, phi;
   int64_t n;
-  int threads; /* by the clock; 0: one, by processor time */
-  bool start;  /* placing the grains is timed */
+  int threads; /* threads, timed in wall time; 0: one, timed in processor time */
+  bool start;  /* time the placement of grains */
 } single;
 
 static const single singles[] = {
@@ -37,11 +37,12 @@ enum { N_SINGLES = sizeof singles / sizeof *singles, REPEATS = 5 };
 static gg_timed_scene timed_scene(const gg_bench *b, const single *s)
 {
   gg_timed_scene c = {
-      .scene = gg_bench_scene(b, s->engine, s->phi, s->n), .threads = s->threads, .by_the_clock = s->threads > 0};
+      .scene = gg_bench_scene(b, s->engine, s->phi, s->n), .threads = s->threads, .wall_time = s->threads > 0};
   c.scene.flow = s->flow;
   c.scene.collision.e[0] = s->e;
   if (s->flow == GG_HSS) c.scene.thermostat = GG_WHITE_NOISE;
-  if (s->flow == GG_COUETTE && s->engine == GG_DSMC) c.scene.particles = 1000; /* the gap is that of so many in md */
+  if (s->flow == GG_COUETTE && s->engine == GG_DSMC)
+    c.scene.particles = 1000; /* the channel has the width of md's with this number of grains */
   return c;
 }
 
@@ -76,7 +77,7 @@ static gg_status measure(const gg_bench *b, const single *s, gg_bench_value *v, 
   gg_timing r;
   if (s->start) return measure_start(&c.scene, repeats, v, err);
   GG_TRY(gg_bench_throughput_compare(&c, 1, quick ? 10 : 20, repeats, gg_bench_seconds(b, quick ? 0.2 : 0.6), &r, err));
-  *v = gg_bench_throughput_value(&r.own, true, s->threads ? gg_bench_by_the_clock : "ns per collision");
+  *v = gg_bench_throughput_value(&r.own, true, s->threads ? gg_bench_wall_unit : "ns per collision");
   v->threads = s->threads;
   return GG_OK;
 }
@@ -102,7 +103,7 @@ gg_status gg_bench_scenes(gg_bench *b, gg_error *err)
     gg_bench_table_put(t, row, 4, "%.3g (%.3g - %.3g)", v.value, v.lowest, v.highest);
     gg_bench_table_add(b, t, v, NULL, "{s:s, s:s, s:f, s:I}", "engine", engine, "scene", s->name, "phi", s->phi,
                        "particles", (json_int_t)s->n);
-    gg_bench_tell(b, "%s, %s done", engine, s->name);
+    gg_bench_report(b, "%s, %s done", engine, s->name);
   }
   return t ? GG_OK : GG_FAILED;
 }

@@ -57,7 +57,7 @@ static gg_status note(const gg_replicas *all, gg_course *c, int mark, int seed, 
   return GG_OK;
 }
 
-/* The first run, by its time, sets how many marks there are; the others go as far. */
+/* Follow one run. The time of the first run sets the number of marks; further runs have as many. */
 static gg_status follow(gg_replicas *all, gg_course *c, int seed, double seconds, gg_error *err)
 {
   uint64_t window = 8;
@@ -97,7 +97,7 @@ gg_course_end gg_bench_error_course_last(const gg_course *c, int q)
 {
   double mean, variance;
   moments(c, q, c->marks - 1, &mean, &variance);
-  /* A handful of runs scatters by chance less than they should: what blocks say has a part in it. */
+  /* The scatter of a few runs may be too small by chance: use the error from blocks as a lower bound. */
   double scatter = c->seeds < 2 ? c->error[q] : fmax(sqrt(variance), c->error[q] > 0 ? c->error[q] : 0);
   return (gg_course_end){mean, scatter / sqrt(c->seeds), scatter};
 }
@@ -114,7 +114,7 @@ double gg_bench_error_course_noise(const gg_course *c, int q)
   return sqrt(sum / n);
 }
 
-const gg_way gg_bench_error_methods[GG_WAYS] = {
+const gg_error_method gg_bench_error_methods[GG_ERROR_METHODS] = {
     {GG_MD, "md N 250", 250, 0, false, 1},
     {GG_MD, "md N 1000", 1000, 0, false, 1},
     {GG_MD, "md N 4000", 4000, 0, false, 1},
@@ -129,10 +129,10 @@ const gg_way gg_bench_error_methods[GG_WAYS] = {
     {GG_DSMC, "dsmc N 2000, 5 replicas", 2000, 0, false, 5},
 };
 enum { STEP_1 = 9, STEP_HALF = 10 };
-/* The long run that is the truth where nothing better is: so many times the time of the others. */
+/* The long run: reference if there is no better one; LONGER times the time of the others. */
 enum { LONGER = 100, TRUTH_N = 80000 };
 
-static gg_scene scene_of(const gg_bench *b, const gg_error_state *s, const gg_way *w)
+static gg_scene scene_of(const gg_bench *b, const gg_error_state *s, const gg_error_method *w)
 {
   gg_scene scene = gg_bench_scene(b, w->engine, s->phi, w->n);
   scene.flow = s->flow;
@@ -144,17 +144,17 @@ static gg_scene scene_of(const gg_bench *b, const gg_error_state *s, const gg_wa
   return scene;
 }
 
-static bool by_itself(const gg_way *w)
+static bool by_itself(const gg_error_method *w)
 {
   return w->step == 0 && !w->single;
 }
 
-/* Weighted straight line in 1/N; `at_limit` (error > 0) is a point at 1/N = 0. */
+/* Weighted straight line in 1/N; if error > 0, `at_limit` is a point at 1/N = 0. */
 static gg_by_size fit_size(const gg_error_state *s, gg_engine_kind engine, int q, double at_limit, double error)
 {
   double w = 0, wx = 0, wxx = 0, wy = 0, wxy = 0;
   if (error > 0) w = 1 / (error * error), wy = w * at_limit;
-  for (int i = 0; i < GG_WAYS; i++) {
+  for (int i = 0; i < GG_ERROR_METHODS; i++) {
     if (!s->done[i] || gg_bench_error_methods[i].engine != engine || !by_itself(&gg_bench_error_methods[i])) continue;
     const gg_course_end end = gg_bench_error_course_last(&s->course[i], q);
     const double x = 1 / (double)gg_bench_error_methods[i].n, g = 1 / (end.error * end.error);
@@ -165,23 +165,24 @@ static gg_by_size fit_size(const gg_error_state *s, gg_engine_kind engine, int q
   return (gg_by_size){(wxx * wy - wx * wxy) / det, sqrt(wxx / det), (w * wxy - wx * wy) / det, sqrt(w / det)};
 }
 
-static void take_truth(gg_error_state *s, gg_engine_kind engine, int q, double value, double error, const char *source)
+static void set_reference(gg_error_state *s, gg_engine_kind engine, int q, double value, double error,
+                          const char *source)
 {
   if (!isfinite(value) || !isfinite(error) || (s->source[engine][q] && error >= s->truth_error[engine][q])) return;
   s->truth[engine][q] = value, s->truth_error[engine][q] = error, s->source[engine][q] = source;
 }
 
-static void ask_theory(gg_error_state *s, const gg_model *m)
+static void use_solution(gg_error_state *s, const gg_model *m)
 {
   gg_theory_answer a;
   if (gg_theory_evaluate(&gg_theory_enskog_hermite, m, &a, NULL) != GG_OK) return;
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
     const gg_quantity name = gg_bench_error_quantities(s->flow)[q];
-    take_truth(s, GG_DSMC, q, a.value[name], a.error[name], "solved without noise");
+    set_reference(s, GG_DSMC, q, a.value[name], a.error[name], "solved without noise");
   }
 }
 
-/* How far each theory is off, once the truth is known. */
+/* Errors of the theories against the reference values. */
 static void find_theories(gg_error_state *s, const gg_model *m)
 {
   const gg_theory *theory;
@@ -200,20 +201,20 @@ static void find_theories(gg_error_state *s, const gg_model *m)
   }
 }
 
-/* Smooth grains have no spins. */
+/* Whether the quantity needs spins, which smooth grains do not have. */
 static bool is_of_spins(gg_quantity q)
 {
   return q == GG_Q_TEMPERATURE_RATIO || q == GG_Q_KURTOSIS_WX;
 }
 
-/* Is the solution ten times better than a run of this length? */
+/* Whether a long run is needed: some reference error is above a tenth of the error of a run of this length. */
 static bool wants_long_run(const gg_error_state *s, double seconds)
 {
   bool wants = false;
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
     if (!s->rough && is_of_spins(gg_bench_error_quantities(s->flow)[q])) continue;
     double best = INFINITY;
-    for (int i = 0; i < GG_WAYS; i++) {
+    for (int i = 0; i < GG_ERROR_METHODS; i++) {
       const gg_course *c = &s->course[i];
       if (s->done[i] && gg_bench_error_methods[i].engine == GG_DSMC && seconds > c->warmup)
         best = fmin(best, gg_bench_error_course_noise(c, q) / sqrt(seconds - c->warmup));
@@ -225,23 +226,23 @@ static bool wants_long_run(const gg_error_state *s, double seconds)
 
 static gg_status find_truth(const gg_bench *b, gg_error_state *s, double seconds, gg_error *err)
 {
-  const gg_way long_one = {GG_DSMC, "long run", TRUTH_N, 0, false, 1};
+  const gg_error_method long_one = {GG_DSMC, "long run", TRUTH_N, 0, false, 1};
   const gg_scene scene = scene_of(b, s, &long_one);
   gg_model m;
   GG_TRY(gg_scene_model_make(&scene, GG_DSMC, &m, err));
-  ask_theory(s, &m);
+  use_solution(s, &m);
   if (wants_long_run(s, seconds)) {
-    gg_bench_tell(b, "phi %g, e %g: a run of %.0f s for the truth", s->phi, s->e, LONGER * seconds);
+    gg_bench_report(b, "phi %g, e %g: a run of %.0f s for the truth", s->phi, s->e, LONGER * seconds);
     gg_course c;
     GG_TRY(gg_bench_error_course_measure(&scene, 1, LONGER * seconds, &c, err));
     for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
       const gg_course_end end = gg_bench_error_course_last(&c, q);
-      take_truth(s, GG_DSMC, q, end.mean, end.error, "long run");
+      set_reference(s, GG_DSMC, q, end.mean, end.error, "long run");
     }
   }
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
     const gg_by_size md = fit_size(s, GG_MD, q, 0, 0);
-    take_truth(s, GG_MD, q, md.limit, md.limit_error, "1/N to 0");
+    set_reference(s, GG_MD, q, md.limit, md.limit_error, "1/N to 0");
     s->size[GG_MD][q] = md;
     s->size[GG_DSMC][q] = fit_size(s, GG_DSMC, q, s->truth[GG_DSMC][q], s->truth_error[GG_DSMC][q]);
     s->unit[q] = fabs(s->truth[GG_DSMC][q]);
@@ -250,7 +251,7 @@ static gg_status find_truth(const gg_bench *b, gg_error_state *s, double seconds
   return GG_OK;
 }
 
-/* What the longest steps add to the same ensemble. */
+/* Fit the error of split steps, shift = coefficient h^2, to the methods with steps 1 and 0.5. */
 static void fit_step(gg_error_state *s, int q)
 {
   double shift[2], error[2];
@@ -271,9 +272,9 @@ static void find_errors(gg_error_state *s)
 {
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
     fit_step(s, q);
-    for (int i = 0; i < GG_WAYS; i++) {
+    for (int i = 0; i < GG_ERROR_METHODS; i++) {
       if (!s->done[i]) continue;
-      const gg_way *w = &gg_bench_error_methods[i];
+      const gg_error_method *w = &gg_bench_error_methods[i];
       const gg_by_size *size = &s->size[w->engine][q];
       const double each = (double)w->n * s->unit[q], square = w->step * w->step;
       const double floor = size->per_grain / each + s->step_coefficient[q] * square;
@@ -290,9 +291,9 @@ gg_status gg_bench_error_state_measure(const gg_bench *b, gg_error_state *s, int
 {
   char name[GG_BENCH_CELL];
   gg_bench_error_state_name(s, name, sizeof name);
-  for (int i = 0; i < GG_WAYS; i++) {
+  for (int i = 0; i < GG_ERROR_METHODS; i++) {
     if (s->phi == 0 && gg_bench_error_methods[i].engine == GG_MD) continue;
-    gg_bench_tell(b, "%s: %s (%d of %d)", name, gg_bench_error_methods[i].name, i + 1, GG_WAYS);
+    gg_bench_report(b, "%s: %s (%d of %d)", name, gg_bench_error_methods[i].name, i + 1, GG_ERROR_METHODS);
     const gg_scene scene = scene_of(b, s, &gg_bench_error_methods[i]);
     GG_TRY(gg_bench_error_course_measure(&scene, seeds, seconds, &s->course[i], err));
     s->done[i] = true;

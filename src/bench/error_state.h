@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One state of uniform shear: all ways to simulate it, the truth, and how far from it each of them ends. */
+/* One state of uniform shear or free cooling: all methods of simulation, reference values, and errors. */
 #ifndef GG_BENCH_ERROR_STATE_H
 #define GG_BENCH_ERROR_STATE_H
 
@@ -7,9 +7,9 @@
 #include "common/engine.h"
 #include "common/quantity.h"
 
-/* Means of one scene after so much processor time, warm-up included: of runs that differ in their seed. */
+/* Means of one scene against processor time (warm-up included), for several seeds. */
 enum { GG_COURSE_QUANTITIES = 5, GG_COURSE_MARKS = 32, GG_COURSE_SEEDS = 8 };
-/* Of shear T, P_xy, N1, kurtosis of C_x (the fourth moment; shear has no a2), theta/T; of free cooling the reduced
+/* Quantities. Shear: T, P_xy, N1, kurtosis of C_x (the fourth moment; shear has no a2), theta/T. Free cooling: reduced
  * cooling rate, a2, kurtoses of C_x and of the spin, theta/T. */
 const gg_quantity *gg_bench_error_quantities(gg_flow flow);
 
@@ -17,37 +17,37 @@ typedef struct gg_course {
   int seeds, marks;
   double warmup;                                                       /* seconds, mean over seeds */
   double seconds[GG_COURSE_MARKS];                                     /* since the start, mean over seeds */
-  double mean[GG_COURSE_QUANTITIES][GG_COURSE_MARKS][GG_COURSE_SEEDS]; /* over the window until then; NaN: none */
-  double error[GG_COURSE_QUANTITIES]; /* that the first run claims of itself at its end */
+  double mean[GG_COURSE_QUANTITIES][GG_COURSE_MARKS][GG_COURSE_SEEDS]; /* over the window up to the mark; NaN: none */
+  double error[GG_COURSE_QUANTITIES]; /* standard error that the first run estimates at its end */
 } gg_course;
 
-/* Each run warms up as one of the command does, and averages until it has taken so much time. Marks are at the same
- * numbers of samples in all of them, each half as many again as the last. */
+/* Measure: each run warms up as usual and averages until it has used `seconds`. Marks are at the same numbers of
+ * samples in all runs; each window is half as long again as the last. */
 gg_status gg_bench_error_course_measure(const gg_scene *scene, int seeds, double seconds, gg_course *course,
                                         gg_error *err);
 
-/* At the last mark: mean over the runs, its standard error, and the scatter of one run: that over seeds, or what the
- * first claims of itself, whichever is larger. */
+/* At the last mark: mean over the runs, its standard error, and the scatter of one run (over seeds, or as estimated by
+ * the first run, whichever is larger). */
 typedef struct gg_course_end {
   double mean, error, scatter;
 } gg_course_end;
 gg_course_end gg_bench_error_course_last(const gg_course *course, int quantity);
-/* Error of a mean over one second, the warm-up apart, whose only error is noise: scatter times the root of the time
- * averaged over, of the later half of the marks. */
+/* Statistical error of a mean over one second of averaging: scatter times the root of the averaging time, from the
+ * later half of the marks. */
 double gg_bench_error_course_noise(const gg_course *course, int quantity);
 
-typedef struct gg_way { /* to simulate it */
+typedef struct gg_error_method { /* a method of simulation */
   gg_engine_kind engine;
-  const char *name; /* as tables and pictures have it */
+  const char *name; /* in tables and pictures */
   int64_t n;
-  double step; /* dsmc, mean free times; 0: its own */
+  double step; /* dsmc, mean free times; 0: default */
   bool single;
   int replicas;
-} gg_way;
-enum { GG_WAYS = 12, GG_ERROR_THEORIES = 16 };
-extern const gg_way gg_bench_error_methods[GG_WAYS];
+} gg_error_method;
+enum { GG_ERROR_METHODS = 12, GG_ERROR_THEORIES = 16 };
+extern const gg_error_method gg_bench_error_methods[GG_ERROR_METHODS];
 
-/* limit + per_grain/N over the ways of an engine whose step and precision are its own. */
+/* Fit limit + per_grain/N over the methods of an engine with default step and precision. */
 typedef struct gg_by_size {
   double limit, limit_error, per_grain, per_grain_error;
 } gg_by_size;
@@ -56,15 +56,16 @@ typedef struct gg_error_state {
   double phi, e;
   bool rough;
   gg_flow flow;
-  bool done[GG_WAYS];
-  gg_course course[GG_WAYS];
-  double noise[GG_WAYS][GG_COURSE_QUANTITIES]; /* relative, of a second without warm-up */
-  /* Relative: what no time brings down, with its standard error; and as far as it can be told from 0. */
-  double shift[GG_WAYS][GG_COURSE_QUANTITIES], shift_error[GG_WAYS][GG_COURSE_QUANTITIES];
-  double floor[GG_WAYS][GG_COURSE_QUANTITIES];
-  double unit[GG_COURSE_QUANTITIES]; /* errors are relative to this: the truth's size */
-  /* Of each engine: what it would have in the limit, by the solution without random numbers, a long run or its own
-   * larger systems; and by how much the number of grains shifts it. */
+  bool done[GG_ERROR_METHODS];
+  gg_course course[GG_ERROR_METHODS];
+  double noise[GG_ERROR_METHODS][GG_COURSE_QUANTITIES]; /* relative error of one second of averaging */
+  /* Relative systematic error (finite N, step), which no time reduces, with its standard error; `floor`: its part that
+   * differs significantly from 0. */
+  double shift[GG_ERROR_METHODS][GG_COURSE_QUANTITIES], shift_error[GG_ERROR_METHODS][GG_COURSE_QUANTITIES];
+  double floor[GG_ERROR_METHODS][GG_COURSE_QUANTITIES];
+  double unit[GG_COURSE_QUANTITIES]; /* errors are relative to this absolute value of the reference */
+  /* For each engine: reference value (from the noise-free solution, a long run, or extrapolation in 1/N), its error and
+   * source; fit of the finite-size shift. */
   double truth[2][GG_COURSE_QUANTITIES], truth_error[2][GG_COURSE_QUANTITIES];
   const char *source[2][GG_COURSE_QUANTITIES];
   gg_by_size size[2][GG_COURSE_QUANTITIES];
@@ -73,20 +74,21 @@ typedef struct gg_error_state {
   int n_theories;
   struct {
     const char *name;
-    double error[GG_COURSE_QUANTITIES]; /* relative to the truth, at least what it says of itself; NaN: no answer */
+    double error[GG_COURSE_QUANTITIES]; /* relative to the reference, at least the theory's numerical error; NaN: no
+                                           value */
   } theory[GG_ERROR_THEORIES];
 } gg_error_state;
 
-/* "phi 0.3, e 0.9, rough, shear" */
+/* Name of the state: "phi 0.3, e 0.9, rough, shear". */
 void gg_bench_error_state_name(const gg_error_state *state, char *text, size_t size);
 
-/* `seconds` of each run, warm-up included. */
+/* Measure all methods; `seconds` per run, warm-up included. */
 gg_status gg_bench_error_state_measure(const gg_bench *bench, gg_error_state *state, int seeds, double seconds,
                                        gg_error *err);
-/* Relative error at a mark, the root of the mean square over runs; *error: how well that is known. */
+/* Relative error at a mark, the root of the mean square over runs; *error: its standard error. */
 double gg_bench_error_at(const gg_error_state *state, int way, int quantity, int mark, double *error);
-/* Seconds until the error is this small; INFINITY: never, the floor is surely above; NaN: unknown, the floor is not
- * known well enough. */
+/* Seconds until the error is this small; INFINITY: never, the floor is certainly above; NaN: the floor is not known
+ * well enough. */
 double gg_bench_seconds_to(const gg_error_state *state, int way, int quantity, double error);
 
 #endif

@@ -12,15 +12,15 @@
 
 enum { MOST_REPEATS = 32 };
 
-const char gg_bench_by_the_clock[] = "ns per collision, by the clock";
+const char gg_bench_wall_unit[] = "ns per collision, by the clock";
 
-/* A scene being timed. */
+/* State of the timing of a scene. */
 typedef struct timed {
   gg_engine *engine;
-  uint64_t guess; /* collisions that are worth reading the clock for */
+  uint64_t guess; /* collisions between two readings of the clock */
   uint64_t timed;
-  bool by_the_clock;
-  double wall, cpu; /* in all */
+  bool wall_time;
+  double wall, cpu; /* totals */
   double rate[MOST_REPEATS];
 } timed;
 
@@ -31,7 +31,7 @@ static uint64_t collisions(const gg_engine *e)
   return s.collisions;
 }
 
-/* Advance by about `count` collisions, however long that takes; returns how many there were. */
+/* Advance by about `count` collisions; *done is their number. */
 static gg_status advance_by(gg_engine *e, uint64_t count, uint64_t *done, gg_error *err)
 {
   uint64_t before = collisions(e);
@@ -53,19 +53,19 @@ static double cpu_used(const gg_engine *e)
 
 static double read_clock(const timed *r)
 {
-  return r->by_the_clock ? gg_base_clock_wall() : cpu_used(r->engine);
+  return r->wall_time ? gg_base_clock_wall() : cpu_used(r->engine);
 }
 
 static void add_squares(void *context, const gg_chunk *chunk)
 {
-  double *sum = context; /* of grains, of C^2 */
+  double *sum = context; /* number of grains, sum of C^2 */
   sum[0] += (double)chunk->n;
   for (int a = 0; a < 3; a++)
     for (size_t i = 0; i < chunk->n; i++) sum[1] += chunk->c[a][i] * chunk->c[a][i];
 }
 
-/* Gases that cool leave the range of numbers in some thousand collisions a grain: back to where they began, by powers
- * of two. */
+/* Rescale a cooling gas to its initial temperature by a power of two: otherwise its velocities underflow after some
+ * thousand collisions per grain. */
 static gg_status restore_temperature(gg_engine *e, gg_error *err)
 {
   double sum[2] = {0, 0};
@@ -75,7 +75,7 @@ static gg_status restore_temperature(gg_engine *e, gg_error *err)
   return e->ops->rescale(e, (int)floor(-0.5 * log2(T)), err);
 }
 
-/* One timed stretch, grown until it is long enough to time. */
+/* Time one stretch, extended until it is long enough. */
 static gg_status time_stretch(timed *r, double seconds, double *rate, gg_error *err)
 {
   GG_TRY(restore_temperature(r->engine, err));
@@ -105,7 +105,7 @@ static gg_status start(const gg_timed_scene *c, double warmup, timed *r, gg_erro
   GG_TRY(ops->accepts(&model, err));
   GG_TRY(gg_run_start_near_steady(&model, err));
   GG_TRY(ops->create(&model, scene->run.seed, 0, &r->engine, err));
-  r->by_the_clock = c->by_the_clock;
+  r->wall_time = c->wall_time;
   ops = r->engine->ops;
   if (c->threads > 1 && ops->threads) ops->threads(r->engine, c->threads);
   if (c->prepare) c->prepare(r->engine);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas bench: prints what src/bench measures. The one subcommand that looks behind the public header. */
+/* graingas bench: prints the measurements of src/bench. The only subcommand that uses more than the public header. */
 #include "bench/bench.h"
 
 #include <stdio.h>
@@ -31,7 +31,7 @@ static int print_table(const gg_bench_table *s)
   return GG_OK;
 }
 
-/* At once: a bench that is cut short leaves the rows that it has measured. */
+/* Flush each row, so that an interrupted bench leaves the rows that are measured. */
 static void print_row(void *context, const char *row)
 {
   gg_cli_line_clear(context);

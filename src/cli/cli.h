@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The graingas command, first user of graingas.h: one file a subcommand, a line in commands.c each. A subcommand
- * returns its exit code. Only `bench` looks inside the library. */
+/* The graingas command, a program on graingas.h. Each subcommand is a file and a row of commands.c, and returns its
+ * exit code. Only `bench` uses more of the library, and main() prepares the process (files/process.h). */
 #ifndef GG_CLI_H
 #define GG_CLI_H
 
@@ -14,11 +14,13 @@ typedef struct gg_command {
   const char *arguments; /* "SCENE.yaml" */
   const char *summary;   /* one line */
   const char *help;      /* paragraphs for --help; NULL: none */
-  unsigned options;      /* GG_OPT_... that it takes */
+  unsigned options;      /* sum of the GG_OPT_... that the command takes */
   int (*run)(const struct gg_command *command, int argc, char **argv);
 } gg_command;
 
 extern const gg_command gg_cli_commands[]; /* ends with a NULL name */
+/* Spelling suggestion: a command, --help or --version; NULL if none is near. */
+const char *gg_cli_nearest_command(const char *word);
 
 int gg_cli_compare_main(const gg_command *command, int argc, char **argv);
 int gg_cli_run_main(const gg_command *command, int argc, char **argv);
@@ -33,20 +35,20 @@ int gg_cli_init_main(const gg_command *command, int argc, char **argv);
 int gg_cli_page_main(const gg_command *command, int argc, char **argv);
 int gg_cli_bench_main(const gg_command *command, int argc, char **argv);
 
-/* print.c: "graingas: MESSAGE" on standard error; returns the exit code that goes with the error. */
+/* print.c: print "graingas: MESSAGE" on standard error; returns the exit code of the error. */
 int gg_cli_report(const gg_error *err);
-/* The same with "PREFIX: " before the message. */
+/* gg_cli_report with "PREFIX: " before the message. */
 int gg_cli_report_of(const char *prefix, const gg_error *err);
-/* The same for a message of the command line's own. */
+/* gg_cli_report for a message from a format. */
 int gg_cli_fail(gg_status status, const char *format, ...) GG_CLI_PRINTF(2, 3);
 
 /* Set a message of the command line, to be printed later; returns `status`. */
 gg_status gg_cli_refuse(gg_error *err, gg_status status, const char *format, ...) GG_CLI_PRINTF(3, 4);
 
-/* A warning on standard error where there is something unusual about a result file (gg_result_file_notice). */
+/* Warn on standard error about an unusual result file (gg_result_file_notice). */
 void gg_cli_print_notice(const char *result_file);
 
-/* A text of the library's on standard output; frees it. */
+/* Print a text from the library on standard output and free it. */
 void gg_cli_print_text(char *text);
 
 /* The manual page, from the tables of commands, options, scene keys and quantities. */

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <stddef.h>
+
 #include "cli/options.h"
 
-/* The subcommands; a new one is a file and an entry here. */
+/* Table of the subcommands. */
 enum {
   SIMULATES = GG_OPT_SET | GG_OPT_OUTPUT | GG_OPT_JSON | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_QUIET | GG_OPT_ALL
 };
@@ -100,3 +102,11 @@ const gg_command gg_cli_commands[] = {
      gg_cli_bench_main},
     {0},
 };
+
+const char *gg_cli_nearest_command(const char *word)
+{
+  enum { N = sizeof gg_cli_commands / sizeof *gg_cli_commands };
+  const char *known[2 + N] = {"--help", "--version"};
+  for (int i = 0; i < N; i++) known[2 + i] = gg_cli_commands[i].name; /* the last one is NULL */
+  return gg_nearest_word(word, known);
+}

@@ -29,7 +29,7 @@ static void put_arguments(const gg_option *o)
     for (; *a; a++) putchar(*a == '|' ? ' ' : *a); /* "md|dsmc" */
 }
 
-/* Do words follow that are known, or a number or a file? */
+/* Whether the option's argument is one of known words, not a number or a file. */
 static bool has_words(const gg_option *o)
 {
   static const char *const known[] = {"theory", "theories", "show", "over", "set", "vary", "does", "only"};
@@ -44,7 +44,7 @@ static bool takes_file(const gg_option *o)
   return o->argument && (strcmp(o->argument, "FILE") == 0 || strcmp(o->argument, "FOLDER") == 0);
 }
 
-/* The words that the argument of a command may be, besides files. */
+/* Words that a command takes as its argument, besides files. */
 static void put_words(const gg_command *c)
 {
   if (strcmp(c->name, "init") == 0) put_names(GG_CATALOGUE_FLOWS);
@@ -94,7 +94,7 @@ static void print_bash(void)
          "complete -o filenames -F _graingas graingas\n");
 }
 
-/* In single quotes of zsh and fish; what zsh would take as its own marks is left out. */
+/* Print text within single quotes of zsh and fish, without the special characters of zsh. */
 static void put_quoted(const char *text)
 {
   for (; *text; text++)

@@ -10,13 +10,14 @@
 
 #include "cli/print.h"
 
-/* The order in which a word is looked up; the last two are keys of `measure` and `flow`. */
+/* Order of the search for a word; the last two tables are words of the keys `measure` and `flow`. */
 static const gg_catalogue lists[] = {GG_CATALOGUE_QUANTITIES, GG_CATALOGUE_KEYS,  GG_CATALOGUE_SPECIES_KEYS,
                                      GG_CATALOGUE_THEORIES,   GG_CATALOGUE_FLOWS, GG_CATALOGUE_ENGINES,
                                      GG_CATALOGUE_OBSERVABLES};
 enum { LISTS = sizeof lists / sizeof *lists };
 
-/* How many bytes of a text fit into rows of `room` columns, wrapped at words. If not all: less `reserve` columns. */
+/* Number of bytes of a text that fit into `rows` rows of `room` columns, wrapped at words. If the text does not fit,
+ * `reserve` columns of the last row stay free. */
 static size_t fit(const char *text, size_t room, int rows, size_t reserve)
 {
   size_t end = 0, used = 0, start = 0;
@@ -74,7 +75,7 @@ size_t gg_cli_theories_of(const char *quantity, char *text, size_t size)
   return n;
 }
 
-/* The quantities of a theory, without those that only --all shows. */
+/* Quantities of a theory, without those that only --all prints. */
 static void list_answers(const gg_entry *theory, char *text, size_t size)
 {
   gg_entry q;
@@ -85,7 +86,7 @@ static void list_answers(const gg_entry *theory, char *text, size_t size)
       used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", q.name);
 }
 
-/* `most`, here and below: rows of a text. The one that says what a word is may have two. */
+/* `most`: rows of a text. The text that defines the word may have two. */
 static int twice(int most)
 {
   return most == 1 ? 2 : most;
@@ -167,7 +168,7 @@ static bool find_member(const char *word, gg_entry *key)
   return false;
 }
 
-/* Names last as long as the library. Of a dotted key also its last part. */
+/* Spelling suggestion from all tables, and from the last parts of dotted keys; a static string. */
 static const char *nearest_to(const char *word)
 {
   enum { MOST = 400 };

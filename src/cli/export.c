@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas export: what a result file holds as tables and trajectories for other programs. */
+/* graingas export: tables and trajectories of a result file for other programs. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -39,7 +39,8 @@ static int take_parts(const char *only, unsigned *parts)
   return GG_CLI_GO_ON;
 }
 
-/* As it was given, less an ending that the files have anyway; else the input's name, in the current folder. */
+/* Prefix of the files: --output without the ending .csv or .xyz; by default the input's base name, in the current
+ * folder. */
 static char *prefix_of(const gg_options *o)
 {
   const char *slash = strrchr(o->input, '/'), *name = slash ? slash + 1 : o->input;
@@ -49,7 +50,7 @@ static char *prefix_of(const gg_options *o)
   return ending ? gg_cli_path_with_suffix(o->output, "") : strdup(o->output);
 }
 
-/* As it was typed: "x.csv" beside a folder x is a file's name, and x.h5 beside it is exported without --output. */
+/* Check --output as it is given, before its ending is removed: "x.csv" is a file name even if there is a folder x. */
 static int check_output(const char *output)
 {
   struct stat about;
@@ -64,7 +65,7 @@ typedef struct export_command {
   gg_cli_line line;
 } export_command;
 
-/* The files go to standard output, for scripts. */
+/* Print the file name on standard output, for scripts. */
 static void print_file(void *context, const char *file)
 {
   export_command *c = context;
@@ -74,7 +75,7 @@ static void print_file(void *context, const char *file)
   if (!c->quiet) gg_cli_print_name(stdout, "", file, "\n");
 }
 
-/* A trajectory may take minutes. */
+/* Progress, since a trajectory may take minutes. */
 static void show_progress(void *context, double share)
 {
   char text[40];
@@ -82,7 +83,7 @@ static void show_progress(void *context, double share)
   gg_cli_line_show(&((export_command *)context)->line, text, false);
 }
 
-/* A picture of Monte Carlo's grains between walls would be a line. */
+/* Warn about grains of dsmc between walls, which have only heights: drawn, they would be a line. */
 static void print_if_heights(const char *file)
 {
   gg_result *r = NULL;
@@ -96,7 +97,8 @@ static void print_if_heights(const char *file)
   gg_result_free(r);
 }
 
-/* All files are open at once, with a lock each: a mixture of sixteen species has more curves than the usual limit. */
+/* Raise the limit of open files. All files are open at once, each with a lock, and a mixture of 16 species has more
+ * curves than the usual limit. */
 static void allow_many_files(void)
 {
   struct rlimit files;

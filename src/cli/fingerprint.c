@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas fingerprint: the state after so many collisions as one number. */
+/* graingas fingerprint: hash of the state after a number of collisions. */
 #include <inttypes.h>
 #include <stdio.h>
 

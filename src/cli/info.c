@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas info: every key of a scene and what it switches on and off, or what a result file holds. */
+/* graingas info: keys of a scene and their effects; content of a result file or a checkpoint. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,7 +25,7 @@ static void print_inert(void *context, const char *text)
   print_line(NULL, text);
 }
 
-/* An exit code. */
+/* Describe the run on each engine; returns the exit code. */
 static int print_engines(const gg_scene *scene)
 {
   gg_entry engine;
@@ -42,7 +42,8 @@ static int print_engines(const gg_scene *scene)
   return runs ? GG_OK : gg_cli_report(&err);
 }
 
-/* A line a key where there is room; else its meaning below. Of no scene (no origin): what is allowed, too. */
+/* Print a key on one line if it fits, otherwise its meaning below. Without a scene (no origin) also the allowed values.
+ */
 static void print_field(const gg_entry *f, const char *origin)
 {
   char lead[80], meaning[800];
@@ -57,7 +58,7 @@ static void print_field(const gg_entry *f, const char *origin)
   gg_cli_print_paragraph(stdout, 4, "%s%s%s%s\n%s", lead, f->value, *origin ? "  " : "", origin, meaning);
 }
 
-/* Of no scene: with the defaults. */
+/* Print all keys, without a scene with their defaults. */
 static void print_fields(const gg_scene *scene)
 {
   gg_entry f;
@@ -88,7 +89,7 @@ static int inform_scene(const gg_options *o)
 
 static const char *const engines[] = {"md", "dsmc"};
 
-/* The means of both engines side by side; what cannot be had is left out. */
+/* Print the means of both engines side by side, without quantities that have none. */
 static void print_means(const gg_comparison *c)
 {
   int column[2] = {-1, -1};
@@ -132,7 +133,7 @@ static bool has_numbers(const double *x, size_t n)
   return false;
 }
 
-/* What was written into memory, as a paragraph; `whole`: there was room for every piece. */
+/* Print a text from a memory stream as a paragraph and free it; `whole`: all writes to the stream succeeded. */
 static void print_and_free(FILE *out, char **text, bool whole)
 {
   if (out && fclose(out) == 0 && whole && *text && **text) print_line(NULL, *text);
@@ -159,7 +160,7 @@ static void print_series(const gg_result *r)
   print_and_free(out, &text, whole);
 }
 
-/* Series, frames and theories: what there is to plot or to read with other tools. */
+/* List time series, frames, curves and theories, for plots or other tools. */
 static void print_contents(const gg_comparison *c, const gg_result_info *about)
 {
   gg_theory_info theory;
@@ -200,7 +201,7 @@ static void print_file(const gg_options *o, const gg_comparison *c)
   print_contents(c, &about);
 }
 
-/* Of a checkpoint; false where the file is none. */
+/* Print the content of a checkpoint; false if the file is not a checkpoint. */
 static bool print_checkpoint(const gg_options *o)
 {
   gg_checkpoint_info about;
@@ -241,7 +242,7 @@ static int inform_result(const gg_options *o)
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 
-/* HDF5 files begin with these bytes; a damaged one may not, and has its name. */
+/* Whether a file is HDF5, by its first bytes or, if these are damaged, by its name. */
 static bool is_hdf5(const char *path)
 {
   size_t length = strlen(path);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas init: a scene to begin with. */
+/* graingas init: template of a scene. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -11,10 +11,10 @@
 
 #include "cli/progress.h"
 
-/* A signal handler has nowhere else to leave its word; threads read it. */
+/* Set by the signal handler, read by threads. */
 static atomic_int caught;
-static_assert(ATOMIC_INT_LOCK_FREE == 2, "a handler may not wait for a lock");
-static atomic_bool lost; /* output of either stream; from then on no write waits */
+static_assert(ATOMIC_INT_LOCK_FREE == 2, "a signal handler must not take a lock");
+static atomic_bool lost; /* output has been dropped; later writes do not block */
 
 bool gg_cli_interrupted(void)
 {
@@ -32,8 +32,11 @@ static void on_signal(int number)
   signal(number, SIG_DFL);
 }
 
-#ifdef __GLIBC__ /* elsewhere a signal waits for the reader, and the second one ends the program */
-enum { TIMEOUT = 1000 /* ms */, AT_ONCE = 4096 /* bytes that a pipe takes which poll says has room */ };
+#ifdef __GLIBC__ /* elsewhere an interrupt blocks until the reader reads; a second one ends the program */
+enum {
+  TIMEOUT = 1000 /* ms */,
+  AT_ONCE = 4096 /* bytes that a writable pipe takes without blocking (POSIX: PIPE_BUF) */
+};
 
 static ssize_t write_to_reader(void *fd, const char *text, size_t size)
 {
@@ -54,7 +57,7 @@ static ssize_t write_to_reader(void *fd, const char *text, size_t size)
   return (ssize_t)done;
 }
 
-/* A stream whose writes time out; files never wait, and stay as they are. */
+/* A stream whose writes time out after an interrupt. Files never block and keep their stream. */
 static FILE *with_timeout(FILE *stream, int fd, int buffering)
 {
   struct stat about;
@@ -74,6 +77,7 @@ void gg_cli_catch_interrupts(void)
 #endif
   static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
   struct sigaction action = {.sa_handler = on_signal, .sa_flags = SA_RESTART}, before;
-  for (size_t i = 0; i < sizeof signals / sizeof *signals; i++) /* what the parent ignores stays ignored: nohup, & */
+  for (size_t i = 0; i < sizeof signals / sizeof *signals;
+       i++) /* signals that the parent ignores (nohup, &) stay ignored */
     if (sigaction(signals[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(signals[i], &action, NULL);
 }

@@ -1,13 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas: dispatch to the subcommands. */
 #include <errno.h>
-#include <fcntl.h>
-#include <hdf5.h>
 #include <poll.h>
-#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -15,6 +11,7 @@
 #include "cli/print.h"
 #include "cli/processes.h"
 #include "cli/progress.h"
+#include "files/process.h"
 
 static void print_help(void)
 {
@@ -26,7 +23,7 @@ static void print_help(void)
   for (const gg_command *c = gg_cli_commands; c->name; c++) {
     char left[64], lead[80];
     snprintf(left, sizeof left, "%s %s", c->name, c->arguments);
-    if (strlen(left) > 20) printf("  %s\n", left), *left = '\0'; /* more than there is room for beside it */
+    if (strlen(left) > 20) printf("  %s\n", left), *left = '\0'; /* too long for the column */
     snprintf(lead, sizeof lead, "  %-20s  ", left);
     gg_cli_print_wrapped(stdout, lead, c->summary);
   }
@@ -48,9 +45,7 @@ static bool has_value(const char *word, const char *option)
 
 static int unknown(const char *word)
 {
-  const char *known[20] = {"--help", "--version", NULL};
-  for (int i = 0; gg_cli_commands[i].name && i < 17; i++) known[i + 2] = gg_cli_commands[i].name;
-  const char *nearest = gg_nearest_word(word, known);
+  const char *nearest = gg_cli_nearest_command(word);
   if (strcmp(word, "reproduce") == 0)
     return gg_cli_fail(GG_BAD_INPUT,
                        "the figures of papers are reproduced in Python: validation/reproduce of the sources");
@@ -60,8 +55,8 @@ static int unknown(const char *word)
   if (ends_with(word, ".h5"))
     return gg_cli_fail(GG_BAD_INPUT, "'%s' is not a command; for this result, e.g. %s info %s", word,
                        program_invocation_name, word);
-  for (int i = 0; i < 2; i++)
-    if (has_value(word, known[i])) return gg_cli_fail(GG_BAD_INPUT, "option '%s' takes no value", known[i]);
+  if (has_value(word, "--help") || has_value(word, "--version"))
+    return gg_cli_fail(GG_BAD_INPUT, "option '%.*s' takes no value", (int)strcspn(word, "="), word);
   for (const gg_option *o = gg_cli_options_table; o->flag; o++)
     if (strncmp(word, "--", 2) == 0 && strcmp(o->name, word + 2) == 0)
       return gg_cli_fail(GG_BAD_INPUT, "options come after the command: %s COMMAND %s ...", program_invocation_name,
@@ -70,19 +65,19 @@ static int unknown(const char *word)
   return gg_cli_fail(GG_BAD_INPUT, "unknown command '%s'; see %s --help", word, program_invocation_name);
 }
 
-/* A pipe whose reader has gone ("graingas info FILE | head"). */
-static bool reader_has_gone(void)
+/* Whether standard output is a pipe that nobody reads any more ("graingas info FILE | head"). */
+static bool is_reader_gone(void)
 {
   struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
   return poll(&out, 1, 0) == 1 && (out.revents & POLLERR);
 }
 
-/* What was printed has to have arrived, unless the reader had enough of it. */
+/* Check that standard output was written. A pipe that the reader has closed is not an error. */
 static int check_output(int code)
 {
   bool lost = fflush(stdout) != 0 || ferror(stdout);
   if (lost && gg_cli_output_lost()) return code == GG_OK ? GG_INTERRUPTED : code;
-  if (lost && reader_has_gone()) return code;
+  if (lost && is_reader_gone()) return code;
   return lost && code == GG_OK ? gg_cli_fail(GG_BAD_FILE, "standard output cannot be written") : code;
 }
 
@@ -126,29 +121,9 @@ static int do_all(int argc, char **argv)
   return check_output(dispatch(argc, argv));
 }
 
-/* HDF5's first call uses some bytes without a look at whether it got them. */
-static bool has_memory(void)
-{
-  void *volatile room = malloc(1 << 20);
-  const bool got = room;
-  free(room);
-  return got;
-}
-
-/* A file that is opened while a standard stream is closed takes its number, and what is said there would go into it.
- * The wrong way round: whoever reads or writes there is told that it cannot be. */
-static void keep_standard_streams(void)
-{
-  for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
-    if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) != fd) return;
-}
-
 int main(int argc, char **argv)
 {
-  keep_standard_streams();
-  signal(SIGXFSZ, SIG_IGN); /* a file too large is an error of the write, not the end of the program */
-  signal(SIGPIPE, SIG_IGN);
-  if (!has_memory()) return gg_cli_fail(GG_FAILED, "out of memory");
-  H5dont_atexit(); /* we close what we open; HDF5 would insist on flushing to a full disk */
+  gg_error err;
+  if (gg_files_process_prepare(&err) != GG_OK) return gg_cli_report(&err);
   return gg_cli_as_one_of_several(argc, argv, do_all);
 }

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The manual page, in roff, from the tables that the program itself uses. */
+/* The manual page, in roff, from the tables of the program. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/options.h"
 
-/* Text with what roff would read as its own escaped; its lines stay lines. */
+/* Print text with roff's special characters escaped; line ends stay. */
 static void put(const char *text)
 {
   for (; *text; text++) {
-    if (*text == '.' || *text == '\'') fputs("\\&", stdout); /* no request, also where a line begins */
+    if (*text == '.' || *text == '\'') fputs("\\&", stdout); /* otherwise a request at the start of a line */
     if (*text == '-')
       fputs("\\-", stdout);
     else if (*text == '\\')
@@ -22,7 +22,7 @@ static void put(const char *text)
   }
 }
 
-/* Head of an item, whose text is put after it and a line end at last. */
+/* Begin an item; its text and a line end follow. */
 static void begin_item(const char *head, const char *argument)
 {
   printf(".TP\n.B ");

@@ -93,13 +93,13 @@ static void list_takers(unsigned flags, char *text, size_t size)
     if (c->options & flags) used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", c->name);
 }
 
-/* "-json" is no option, whatever its letters are. */
+/* Reject an unknown option; "-json" is not a group of short options. */
 static int refuse_option(const gg_command *c, const char *typed)
 {
   char word[48];
   const char *known[sizeof gg_cli_options_table / sizeof *gg_cli_options_table + 1] = {NULL};
   int n = 0;
-  unsigned others = 0; /* under the name, but not of this command */
+  unsigned others = 0; /* options of this name that the command does not take */
   snprintf(word, sizeof word, "%.*s", (int)strcspn(typed, "="), typed);
   const char *name = word + strspn(word, "-");
   for (const gg_option *o = gg_cli_options_table; o->flag; o++) {
@@ -187,7 +187,7 @@ static int take_theory(gg_options *o, const char *value)
   return GG_CLI_GO_ON;
 }
 
-/* Options of sweeps and of their validation, by name. */
+/* Set an option of sweep or validate, by its name. */
 static int take_sweep(gg_options *o, const char *name, const char *value)
 {
   if (strcmp(name, "vary") == 0) return take_vary(o, value);
@@ -248,7 +248,7 @@ static void list_known(const gg_command *c, struct option *known)
   known[n] = (struct option){"help", no_argument, NULL, 'h'};
 }
 
-/* The first argument, those that may follow it, and the first of those that are too many. */
+/* Set the first argument, the further ones that are allowed, and the first surplus one. */
 static void take_input(const gg_command *c, gg_options *o, const char *word)
 {
   int k = c->options & GG_OPT_MORE ? 0 : GG_MORE_INPUTS;
@@ -257,8 +257,8 @@ static void take_input(const gg_command *c, gg_options *o, const char *word)
   if (!*free_place) *free_place = word;
 }
 
-/* Words in the order in which they were typed, also where POSIXLY_CORRECT would have options first: "-". The tasks of
- * an array script have something else to do than to print it. */
+/* Parse the words in their order, also under POSIXLY_CORRECT ("-" in the option string). --slurm is removed from the
+ * recorded words: the tasks of the script run the same command without it. */
 static int take_words(const gg_command *c, const struct option *known, gg_options *o)
 {
   const char *value = NULL, *last;

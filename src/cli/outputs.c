@@ -10,7 +10,7 @@
 
 #include "cli/print.h"
 
-/* ".h5" is an ending, the ".1" of "phi_0.1" none. */
+/* Endings begin with a letter: ".h5" is an ending, the ".1" of "phi_0.1" is not. */
 char *gg_cli_path_with_suffix(const char *path, const char *suffix)
 {
   const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path, *dot = strrchr(name, '.');
@@ -61,7 +61,7 @@ void gg_cli_report_written(const gg_options *o, const char *what, const char *pa
   gg_cli_print_name(stderr, "", path, replaced ? " (in place of an older one)\n" : "\n");
 }
 
-/* False: there was no room. (A text in memory leaves out what it has no room for, and its closing does not tell.) */
+/* Write to a memory stream; false if memory was insufficient. fclose() would not report the missing text. */
 static bool put(FILE *out, const char *text)
 {
   return fputs(text, out) >= 0;
@@ -76,7 +76,7 @@ static bool put_quoted(FILE *out, const char *text)
   return put(out, "'") && whole;
 }
 
-/* The text if it is whole; else NULL. */
+/* Close a memory stream; the text if all writes succeeded, otherwise NULL. */
 static char *taken(FILE *out, bool whole, char **text)
 {
   whole &= fclose(out) == 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas page: the teaching page, with a scene of one's own in it. */
+/* graingas page: the teaching page with a user's scene. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas plot: a picture of what a result file holds. */
+/* graingas plot: pictures of a result file. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,8 +8,8 @@
 #include "cli/outputs.h"
 #include "cli/print.h"
 
-/* The pictures go to standard output, for scripts. */
-static void tell(void *context, const char *picture)
+/* Print the file name on standard output, for scripts. */
+static void print_file(void *context, const char *picture)
 {
   if (!*(const bool *)context) gg_cli_print_name(stdout, "", picture, "\n");
 }
@@ -23,8 +23,9 @@ static int draw(const gg_options *o)
   char *picture = gg_cli_options_output(o, suffix, &err);
   if (!picture) return gg_cli_report(&err);
   gg_cli_print_notice(o->input);
-  int code =
-      gg_plot(o->input, picture, o->format, o->width, tell, NULL, &quiet, &err) == GG_OK ? GG_OK : gg_cli_report(&err);
+  int code = gg_plot(o->input, picture, o->format, o->width, print_file, NULL, &quiet, &err) == GG_OK
+                 ? GG_OK
+                 : gg_cli_report(&err);
   free(picture);
   return code;
 }

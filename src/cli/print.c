@@ -29,7 +29,7 @@ int gg_cli_terminal_width(void)
   return (int)(columns < LEAST ? LEAST : columns > MOST ? MOST : columns);
 }
 
-/* Characters of UTF-8 text: bytes that do not continue one. */
+/* Number of characters of UTF-8 text: bytes that are not continuation bytes. */
 static int columns_of(const char *text, size_t bytes)
 {
   int n = 0;
@@ -37,7 +37,7 @@ static int columns_of(const char *text, size_t bytes)
   return n;
 }
 
-/* Words from column `used` on, in lines that begin with `indent` blanks; the blanks between words stay. */
+/* Print words from column `used` on, wrapped, with `indent` blanks before further lines. Blanks between words stay. */
 static void put_words(FILE *out, const char *text, int used, int indent)
 {
   int width = gg_cli_terminal_width();
@@ -114,7 +114,7 @@ static int width_of(const gg_table *t, int c)
   return (int)width;
 }
 
-/* Cells as wide as their columns, without blanks at the end. */
+/* Print a row, without blanks at its end. */
 static void print_line(const gg_table *t, FILE *out, const int *columns, int n, int row)
 {
   char line[GG_TABLE_COLUMNS * (GG_TABLE_CELL + GAP)];
@@ -190,9 +190,9 @@ void gg_cli_format_duration(double seconds, char *text, size_t size)
     snprintf(text, size, "%ld:%02ld:%02ld h", whole / 3600, whole / 60 % 60, whole % 60);
 }
 
-/* What the command says: texts on standard output, errors on standard error. */
+/* Texts on standard output, errors on standard error. */
 
-/* Names and words that a message quotes may hold what a terminal acts on. */
+/* Messages may quote names with control characters. */
 int gg_cli_report(const gg_error *err)
 {
   gg_error shown = *err;

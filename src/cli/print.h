@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Text for people: paragraphs and tables as wide as their terminal, counts and durations as they read them. */
+/* Text output: paragraphs and tables that fit the terminal, counts and durations. */
 #ifndef GG_CLI_PRINT_H
 #define GG_CLI_PRINT_H
 
@@ -7,24 +7,23 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* Columns of the terminal that standard output is; else what COLUMNS says, else 80. At least 40. */
+/* Width of the terminal at standard output; otherwise COLUMNS, otherwise 80. At least 40. */
 int gg_cli_terminal_width(void);
 
-/* A paragraph: `lead` before the first line, as much space before the others. Line ends in `text` stay. */
+/* Print a paragraph: `lead` before the first line, as many blanks before further lines. Line ends in `text` stay. */
 void gg_cli_print_wrapped(FILE *out, const char *lead, const char *text);
-/* The same from a format; lines after the first begin with `indent` blanks, the
- * first with those of the text. */
+/* Print a paragraph from a format; lines after the first begin with `indent` blanks. */
 void gg_cli_print_paragraph(FILE *out, int indent, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
-/* The name of a file. A terminal acts on nothing in it; a script that reads standard output gets the name as it is. */
+/* Print a file name. On a terminal control characters are replaced; a pipe or file gets the exact name. */
 void gg_cli_print_name(FILE *out, const char *before, const char *name, const char *after);
 
-/* A table of text: columns as wide as what they hold. */
+/* A table of text with columns as wide as their content. */
 enum { GG_TABLE_COLUMNS = 24, GG_TABLE_ROWS = 96, GG_TABLE_CELL = 64 };
 
 typedef struct gg_table {
   int n_columns, n_rows;
-  bool right[GG_TABLE_COLUMNS]; /* numbers stand right */
+  bool right[GG_TABLE_COLUMNS]; /* numbers are right-aligned */
   char head[GG_TABLE_COLUMNS][GG_TABLE_CELL];
   char cell[GG_TABLE_ROWS][GG_TABLE_COLUMNS][GG_TABLE_CELL];
 } gg_table;

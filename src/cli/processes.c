@@ -14,14 +14,14 @@ static bool is_above_one(const char *name)
   return value && strtol(value, NULL, 10) > 1;
 }
 
-/* The environment says it, before anything of MPI is touched. */
+/* Whether mpirun or srun started several processes. The environment says so; MPI itself is not needed for this. */
 static bool is_one_of_several(void)
 {
   if (is_above_one("OMPI_COMM_WORLD_SIZE") || is_above_one("PMI_SIZE")) return true; /* mpirun of Open MPI, of MPICH */
   return getenv("PMIX_RANK") && is_above_one("SLURM_STEP_NUM_TASKS");                /* srun --mpi=pmix */
 }
 
-/* One to a program, as its processes are. */
+/* Global, since a process has one communicator. */
 static gg_messages messages;
 static gg_workers *workers;
 
@@ -37,7 +37,7 @@ int gg_cli_default_threads(void)
   return messages.size > 1 ? 1 : gg_processors();
 }
 
-/* What rank 0 ends by, ends them. */
+/* Work for rank 0. Signals are ignored here: rank 0 receives them, too, and ends the others. */
 static int work(void)
 {
   gg_error err;
@@ -53,7 +53,7 @@ int gg_cli_as_one_of_several(int argc, char **argv, gg_cli_main *alone)
   if (!is_one_of_several()) return alone(argc, argv);
   if (gg_mpi_begin(&messages, &err) != GG_OK) return gg_cli_report(&err);
   int code = messages.rank > 0 ? work() : alone(argc, argv);
-  if (messages.rank == 0) gg_cli_workers(1); /* of a command that needs nobody: they have to be sent home */
+  if (messages.rank == 0) gg_cli_workers(1); /* for commands that use no workers: they must be shut down */
   gg_workers_free(workers);
   gg_mpi_end(&messages, code);
   return code;

@@ -29,7 +29,7 @@ static bool is_due(const gg_cli_line *l)
   return now_seconds() - l->shown >= (l->terminal ? live_every : plain_every);
 }
 
-/* On a terminal, as much as there is room for. */
+/* Print the live line, cut to the width of the terminal. */
 static void put(gg_cli_line *l, const char *text)
 {
   struct winsize window = {0};
@@ -61,7 +61,7 @@ void gg_cli_progress_start(gg_cli_progress *p, bool quiet)
   gg_cli_line_start(&p->line, quiet);
 }
 
-/* ", 20 s left"; ", limit in 36 s (the run needs about 9 min)": where the limit ends the run. */
+/* ", 20 s left"; if the time limit will end the run, ", limit in 36 s (the run needs about 9 min)". */
 static int describe_end(const gg_progress *g, char *text, size_t size)
 {
   char left[24], limit[24];
@@ -93,7 +93,7 @@ static void describe(const gg_progress *g, bool brief, char *text, size_t size)
   if (g->next) snprintf(text + used, size - (size_t)used, ", then %s", g->next);
 }
 
-/* Of the engines that run at present, one beside the other. */
+/* Update the live line: the engines that are running, side by side. */
 static void show_live(gg_cli_progress *p)
 {
   char line[400] = "", part[200];
@@ -111,7 +111,7 @@ static void show_plain(gg_cli_progress *p, int k)
 {
   char line[200];
   describe(&p->last[k], false, line, sizeof line);
-  *p->line.last = '\0'; /* shown even if it is the same */
+  *p->line.last = '\0'; /* print it even if unchanged */
   put(&p->line, line);
   p->unreported[k] = false;
 }
@@ -137,7 +137,7 @@ void gg_cli_progress_end(gg_cli_progress *p)
   gg_cli_line_clear(&p->line);
   for (int k = 0; k < 2; k++) {
     if (!p->unreported[k]) continue;
-    p->last[k].time_left = NAN, p->last[k].limit_in = INFINITY; /* it is over */
+    p->last[k].time_left = NAN, p->last[k].limit_in = INFINITY; /* the run has ended */
     show_plain(p, k);
   }
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pages of docs/reference in Markdown, from the program's own tables: scene keys, quantities, commands. */
+/* Pages of docs/reference in Markdown from the program's tables: scene keys, quantities, commands. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "cli/definition.h"
 #include "cli/options.h"
 
-/* Text with what Markdown would read as its own escaped. */
+/* Print text with Markdown's special characters escaped. */
 static void put(const char *text)
 {
   for (; *text; text++) {
@@ -21,7 +21,7 @@ static bool takes_words(const gg_entry *f)
   return strcmp(f->type, "choice") == 0 || strcmp(f->type, "set") == 0;
 }
 
-/* A heading's name in links leaves out its dots. */
+/* Print the link target of a heading: its text without dots. */
 static void put_anchor(const char *key)
 {
   for (; *key; key++)
@@ -39,7 +39,7 @@ static void put_range(const gg_entry *f)
   put(f->allowed);
 }
 
-/* Of all keys with their defaults and conditions; of species' members without. */
+/* Print a table of keys; `whole`: with defaults and conditions. */
 static void print_keys(gg_catalogue catalogue, bool whole)
 {
   gg_entry f;
@@ -99,14 +99,14 @@ void gg_cli_print_scene_page(void)
     if (takes_words(&f)) print_words(f.name);
 }
 
-/* What follows the plain formula: "(P_xx - P_yy)/p: first normal stress difference ..." */
+/* The text after the plain formula: "(P_xx - P_yy)/p: first normal stress difference ...". */
 static const char *words_of(const char *doc)
 {
   const char *colon = strstr(doc, ": ");
   return colon ? colon + 2 : doc;
 }
 
-/* The unit in each of the scales that results have. */
+/* Unit of the i-th quantity in the scales of this scene. */
 static const char *unit_of(size_t i, const gg_scene *scene)
 {
   gg_entry q;
@@ -125,7 +125,8 @@ void gg_cli_print_quantities_page(void)
       "A result has a mean and a standard error of each quantity that its scene has. The others are `null`, with the "
       "reason. $\\langle\\cdot\\rangle$ is the mean over grains and samples.\n\n"
       "| symbol | meaning |\n| --- | --- |\n"
-      "| $\\mathbf C$ | velocity relative to the imposed flow; between walls, relative to the local mean; see the key `frame` |\n"
+      "| $\\mathbf C$ | velocity relative to the imposed flow; between walls, relative to the local mean; see the key "
+      "`frame` |\n"
       "| $\\mathbf\\Omega$ | spin relative to the mean spin |\n"
       "| $m$, $I$ | mass and moment of inertia; the mass of species 1 is 1 |\n"
       "| $\\sigma$ | distance of two centres at contact |\n"
@@ -166,7 +167,7 @@ static void print_options(const gg_command *c)
   for (const gg_option *o = gg_cli_options_table; o->flag; o++) {
     if (!(c->options & o->flag)) continue;
     printf("| <code>--%s%s", o->name, o->argument ? " " : "");
-    put(o->argument ? o->argument : ""); /* "md|dsmc": a bar in a span of code would end the cell */
+    put(o->argument ? o->argument : ""); /* not a span of code: the bar of "md|dsmc" would end the cell */
     printf("</code> | ");
     put(o->doc);
     printf(" |\n");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* One engine's result, and what is printed of each engine below a table. */
+/* Report of a run, and the parts of reports that runs and comparisons share. */
 #include "cli/report.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@ void gg_cli_print_head(const gg_scene *scene)
   printf("\n");
 }
 
-/* "; 2.1 M collisions averaged over in 3.2 s of processor time (0.65 M/s)"; nothing of a run that ended before. */
+/* "; 2.1 M collisions averaged over in 3.2 s of processor time (0.65 M/s)"; empty if the run ended before averaging. */
 static void describe_averaging(const gg_result_info *a, char *text, size_t size)
 {
   char collisions[24], rate[24], seconds[24], pace[40] = "";
@@ -53,7 +53,7 @@ const char *gg_cli_steadiness(const gg_result *r)
   return about.steady ? "steady: " : "not steady: ";
 }
 
-/* "md    1000 grains; 2.1 M collisions averaged over in ...", and the verdict */
+/* Print "md    1000 grains; 2.1 M collisions averaged over in ..." and the verdict. */
 void gg_cli_print_effort(const gg_result *r)
 {
   char averaged[160];
@@ -75,18 +75,18 @@ void gg_cli_print_warnings(const gg_result *r, const char *reported)
     if (!reported || !strstr(reported, warning)) fprintf(stderr, "warning: %s: %s\n", about.engine, warning);
 }
 
-/* Left to --all: where a fit began, second ways to the same number, what stands among the quantities already. */
+/* Numbers that only --all prints: starts of fits, alternative estimates, numbers that are also quantities. */
 static const char *const minor_numbers[] = {
     "fit_",  "_likelihood", "kurtosis",       "skewness",   "rate_unit", "_2_4.5",        "_3.3_5.5",       "knudsen",
     "cells", "_slabs",      "solid_fraction", "_corrected", "_box",      "second_moment", "long_time_tail", NULL};
 
 typedef struct listing {
-  const gg_result *result[2]; /* either may be missing */
+  const gg_result *result[2]; /* either may be NULL */
   gg_table *table;
-  char curve[64]; /* named last */
+  char curve[64]; /* name of the last printed curve */
 } listing;
 
-/* The number of that name on the curve of that name. */
+/* Find a number of a curve by both names. */
 static bool find_number(const gg_result *r, const char *curve, const char *name, gg_measurement *found)
 {
   gg_curve_data c;
@@ -115,11 +115,11 @@ static void put_row(listing *l, const char *curve, const gg_measurement *number)
     column++;
   }
   if (!there[0] || !there[1]) return;
-  double error = hypot(by[0].error, by[1].error), z = (by[0].mean - by[1].mean) / error; /* a setting has no error */
+  double error = hypot(by[0].error, by[1].error), z = (by[0].mean - by[1].mean) / error; /* settings have no error */
   if (error > 0 && isfinite(z)) snprintf(gg_cli_table_cell(l->table, row, column), GG_TABLE_CELL, "%+.1f", z);
 }
 
-/* Of the first result; and of the second what the first has not. */
+/* Add the rows of the first result, then the rows that only the second has. */
 static void put_rows(listing *l, int which, bool all)
 {
   const gg_result *r = l->result[which], *other = which ? l->result[0] : NULL;

@@ -12,7 +12,7 @@
 static const char *const engines[] = {"md", "dsmc"};
 enum { MOST_THEORIES = 32 };
 
-/* The simulation that theories are measured against. */
+/* The result that theories are compared with: md, or dsmc without md. */
 static const gg_result *reference(const gg_comparison *c)
 {
   const gg_result *md = gg_comparison_result(c, "md");
@@ -41,7 +41,7 @@ static bool is_shown(const gg_comparison *c, const gg_comparison_row *row, bool 
   return false;
 }
 
-/* The next row that is shown; false after the last. */
+/* The next printed row; false after the last. */
 static bool next_shown(const gg_comparison *c, bool all, size_t *i, gg_comparison_row *row)
 {
   while (gg_comparison_at(c, (*i)++, row, NULL) == GG_OK)
@@ -63,7 +63,7 @@ static void put_theory(gg_table *t, int row, int column, const gg_comparison *c,
     snprintf(cell, GG_TABLE_CELL, "%.4g %+6.0fx", value, deviation + 1);
 }
 
-/* A theory without any value that is shown gets no column: -1. */
+/* Column of each theory; -1 for theories without a printed value. */
 static int theory_columns(gg_table *t, const gg_comparison *c, bool all, int column[MOST_THEORIES])
 {
   int n = 0;
@@ -130,7 +130,7 @@ static void put_departure(const char *quantity, const gg_departure *d, char text
   snprintf(text, ONE, "%s by %s%s%s", quantity, number[0] == '-' ? "" : "+", number, ratio ? " %" : "");
 }
 
-/* The main quantities in which an engine is far off, in one line; how near the first of all is. */
+/* The headline quantities in which an engine deviates significantly; otherwise the deviation of the first. */
 typedef struct verdict {
   int compared, off;
   char list[MOST], first[ONE];
@@ -155,7 +155,7 @@ static verdict weigh(const gg_comparison *c, int engine)
   return v;
 }
 
-/* Each engine against Enskog's equation solved without random numbers; nothing where there is no solution. */
+/* Print each engine's deviation from Enskog's equation solved without random numbers, if there is a solution. */
 static void print_verdicts(const gg_comparison *c)
 {
   bool any = false;
@@ -174,7 +174,7 @@ static void print_verdicts(const gg_comparison *c)
   }
 }
 
-/* Causes of the marked z-scores: one at least, if only that none is known. */
+/* Print causes of the marked z-scores, or that none is known. */
 static void print_causes(const gg_comparison *c, bool all)
 {
   bool marked = false;
@@ -188,7 +188,7 @@ static void print_causes(const gg_comparison *c, bool all)
     if (!r.theory) gg_cli_print_wrapped(stdout, "  - ", r.cause);
 }
 
-/* Causes of theories' deviations. */
+/* Print causes of the theories' deviations. */
 static void print_remarks(const gg_comparison *c)
 {
   bool any = false;
@@ -253,7 +253,7 @@ void gg_cli_print_comparison(const gg_comparison *c, bool all)
     if (gg_comparison_result(c, engines[k])) gg_cli_print_warnings(gg_comparison_result(c, engines[k]), NULL);
 }
 
-/* Of theories that are solved numerically: the largest relative error, and whose. */
+/* Print the largest relative numerical error of the theories, and its quantity. */
 static void print_numerical_error(const gg_comparison *c, const char *theory)
 {
   double most = 0;
@@ -272,7 +272,7 @@ static void print_numerical_error(const gg_comparison *c, const char *theory)
   gg_cli_print_wrapped(stdout, "  Here: ", text);
 }
 
-/* The last x at which a curve is known, INFINITY if that is its end. */
+/* The last x with a value; INFINITY if all values are known. */
 static double end_of(const gg_curve_data *curve)
 {
   size_t n = curve->n;
@@ -280,7 +280,7 @@ static double end_of(const gg_curve_data *curve)
   return n == curve->n ? INFINITY : n ? curve->x[n - 1] : NAN;
 }
 
-/* "Here: 6 curves of velocity_distributions ..." */
+/* Print "Here: 6 curves of velocity_distributions ...". */
 static void print_curves(const gg_comparison *c, const char *theory)
 {
   gg_curve_data curve, next;

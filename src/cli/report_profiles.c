@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Profiles across the gap of both engines, side by side: a row each, and with `all` a table of every slab. */
+/* Profiles across the channel, both engines side by side: a row for each profile; with `all` a table of every slab. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,12 +8,12 @@
 #include "cli/print.h"
 #include "cli/report.h"
 
-/* A profile of one result and the same of the other. */
+/* The same profile of both results. */
 typedef struct pair {
   gg_curve_data one, two;
 } pair;
 
-/* At the same heights, to a hundredth of a slab. */
+/* Whether the heights agree to a hundredth of a slab. */
 static bool is_alike(const gg_curve_data *a, const gg_curve_data *b)
 {
   bool alike = a->n == b->n;
@@ -34,7 +34,7 @@ static bool is_part(const char *name)
   return strstr(name, "_kinetic") || strstr(name, "_collisional");
 }
 
-/* The next one that both have, from curve *i on. */
+/* The next profile that both results have, from curve *i on. */
 static bool next_pair(const gg_result *one, const gg_result *two, bool all, size_t *i, pair *p)
 {
   while (gg_result_curve(one, (*i)++, &p->one, NULL) == GG_OK)

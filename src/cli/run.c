@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas run: one engine, with checkpoints and a trajectory where the scene asks for them. */
+/* graingas run: one engine, with the checkpoints and the trajectory of the scene. */
 #include "cli/report.h"
 #include "cli/run_command.h"
 

@@ -31,8 +31,7 @@ int gg_cli_scene_end(gg_options *o, gg_scene *scene, gg_status status, const gg_
   return code;
 }
 
-/* usf.h5 -> usf.checkpoint.h5; beside a device there is no place for it: then by the scene's name, as without --output.
- */
+/* usf.h5 -> usf.checkpoint.h5; for a device by the scene's name, as without --output. */
 static char *checkpoint_path(const gg_options *o, const char *output, bool comparison)
 {
   char *path = NULL;
@@ -43,7 +42,7 @@ static char *checkpoint_path(const gg_options *o, const char *output, bool compa
   return asprintf(&path, "%.*s.checkpoint.h5", (int)length, output) < 0 ? NULL : path;
 }
 
-/* Of a comparison: where. NULL: none is drawn, or there is no file to draw it from. */
+/* File of a comparison's picture; NULL if no picture is drawn, or there is no result file. */
 static char *picture_path(const gg_run_command *r, bool comparison)
 {
   const char *chosen = r->options.picture;
@@ -88,7 +87,7 @@ static void add_effort(const gg_result *result, gg_result_info *sum)
   sum->date = info.date;
 }
 
-/* Whoever has repeated a command by mistake can stop it in time. */
+/* Warn before the run, so that a command repeated by mistake can be stopped. */
 static void warn_of_replacing(const char *output)
 {
   enum { WORTH_IT = 60 /* s of processor time */ };
@@ -144,7 +143,8 @@ int gg_cli_run_begin(gg_run_command *r, const gg_command *command, int argc, cha
     clear(r);
     return code;
   }
-  r->run = (gg_run_options){.threads = o->threads,
+  r->run = (gg_run_options){.size = sizeof(gg_run_options),
+                            .threads = o->threads,
                             .workers = gg_cli_workers(o->threads),
                             .input = o->input,
                             .picture = r->picture,
@@ -164,7 +164,7 @@ int gg_cli_run_begin(gg_run_command *r, const gg_command *command, int argc, cha
   return GG_CLI_GO_ON;
 }
 
-/* Was anything averaged? */
+/* Whether the result has means. */
 static bool has_means(const gg_result *result)
 {
   gg_measurement m;
@@ -175,7 +175,7 @@ static bool has_means(const gg_result *result)
 
 static double time_limit(const gg_run_command *r)
 {
-  char text[40] = "0"; /* also where it has none, "none" */
+  char text[40] = "0"; /* also if the limit is "none" */
   gg_scene_get(r->scene, "run.time_limit", text, sizeof text, NULL);
   return strtod(text, NULL);
 }
@@ -197,7 +197,7 @@ bool gg_cli_run_has_output(gg_run_command *r, const gg_result *md, const gg_resu
   return r->has_output;
 }
 
-/* The command that resumes, as it can be typed: with twice the limit, if that ended the run. NULL: out of memory. */
+/* The command that resumes the run, with twice the time limit if the limit ended it. NULL: out of memory. */
 static char *command_to_resume(const gg_run_command *r)
 {
   const char *given = r->options.resume;
@@ -230,14 +230,15 @@ typedef struct drawing {
   bool replaced;
 } drawing;
 
-/* Pages of curves stand beside the picture that was requested. */
+/* Report each picture: pages of curves are beside the requested one. */
 static void report_picture(void *context, const char *picture)
 {
   const drawing *d = context;
   gg_cli_report_written(&d->of->options, "picture", picture, d->replaced && strcmp(picture, d->of->picture) == 0);
 }
 
-/* A picture that nobody asked for may be missing, as where gnuplot is; a file that cannot be written is a failure. */
+/* Draw the picture. If it was not requested, a failure (e.g. no gnuplot) is only a warning, unless a file cannot be
+ * written. */
 static gg_status draw(const gg_run_command *r, gg_error *err)
 {
   if (!r->picture) return GG_OK;

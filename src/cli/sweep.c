@@ -25,7 +25,7 @@ static int longer(int width, const char *text)
   return length > width ? length : width;
 }
 
-/* Of the columns of the varied keys. */
+/* Widths of the columns of the varied keys. */
 static widths measure(const gg_sweep *sweep)
 {
   widths w = {0};
@@ -43,14 +43,14 @@ static void print_head(const gg_sweep *sweep, const widths *w)
   printf("%-16s  %-13s  %8s  %s\n", "file", "state", "replicas", "time");
 }
 
-/* Points of other builds and damaged ones run again. */
+/* Whether a point is done. Damaged points and points of other builds run again. */
 static bool is_done(const gg_sweep_command *c, gg_point_state state)
 {
   return state == GG_POINT_DONE || state == GG_POINT_SHORT ||
          (state == GG_POINT_OTHER_BUILD && c->options->accept_version);
 }
 
-/* Whoever takes part in its time: those that are not done. */
+/* Print a point; returns its expected time, 0 if it is done. */
 static double print_point(const gg_sweep_command *c, const widths *w, size_t i, gg_point_state state)
 {
   static const char *const states[] = {"", "done", "short", "another build", "damaged"};
@@ -64,7 +64,7 @@ static double print_point(const gg_sweep_command *c, const widths *w, size_t i, 
   return is_done(c, state) ? 0 : p.cpu_seconds;
 }
 
-/* --list: a line a point, and the time that those which are not done will take. */
+/* --list: a line for each point, and the expected time of points that are not done. */
 int gg_cli_sweep_list(const gg_sweep_command *c)
 {
   size_t done = 0, again = 0, n = gg_sweep_points(c->sweep);
@@ -88,10 +88,10 @@ int gg_cli_sweep_list(const gg_sweep_command *c)
   return GG_OK;
 }
 
-/* Clusters allow about a thousand tasks an array (MaxArraySize). */
+/* Clusters allow about 1000 tasks in an array (MaxArraySize). */
 enum { MOST_TASKS = 1000 };
 
-/* The longest task, at a quarter of the speed that is expected; whole hours. */
+/* Time limit of a task: the longest task at a quarter of the expected speed, in whole hours. */
 static long hours(const gg_sweep_command *c, size_t tasks)
 {
   double longest = 0;
@@ -106,7 +106,7 @@ static long hours(const gg_sweep_command *c, size_t tasks)
   return (long)ceil(4 * longest / 3600 + 1e-9);
 }
 
-/* --slurm: an array script in which every task does points of its own. */
+/* --slurm: print an array script that distributes the points over tasks. */
 static int print_slurm(const gg_sweep_command *c)
 {
   size_t n = gg_sweep_points(c->sweep), tasks = n < MOST_TASKS ? n : MOST_TASKS;
@@ -145,7 +145,7 @@ static void describe(const gg_sweep_progress *p, char *text, size_t size)
   snprintf(text + used, size - used, ", %s left", left);
 }
 
-/* A live line on a terminal, and a plain one now and then otherwise. */
+/* Show progress: a live line on a terminal, otherwise plain lines at intervals. */
 static void show_progress(void *context, const gg_sweep_progress *p)
 {
   char line[240];
@@ -183,7 +183,7 @@ static int is_interrupted(void *context)
   return gg_cli_interrupted();
 }
 
-/* What became of a point that did not come to its end. */
+/* Print the error of a point that failed or ended before its stopping criteria. */
 static void print_point_end(void *context, size_t i, gg_status status, const char *file, const char *message)
 {
   gg_sweep_command *c = context;
@@ -217,7 +217,8 @@ int gg_cli_sweep_work(gg_sweep_command *c)
   gg_error err;
   size_t i = 0;
   const gg_options *o = c->options;
-  const gg_sweep_options options = {.threads = o->threads,
+  const gg_sweep_options options = {.size = sizeof options,
+                                    .threads = o->threads,
                                     .workers = gg_cli_workers(o->threads),
                                     .command = o->command_line,
                                     .input = o->input,
@@ -240,14 +241,14 @@ int gg_cli_sweep_work(gg_sweep_command *c)
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 
-/* The files go to standard output, for scripts. */
+/* Print the file name on standard output, for scripts. */
 void gg_cli_sweep_print_file(void *context, const char *file)
 {
   const gg_options *o = ((const gg_sweep_command *)context)->options;
   if (!o->quiet && !o->json) gg_cli_print_name(stdout, "", file, "\n");
 }
 
-/* Beside the folder, and by its name: a run of the same scene has files that are named by the scene. */
+/* Prefix of the tables: the folder's name. (A run of the same scene uses the scene's name.) */
 static char *tables_of(const char *folder)
 {
   const char *slash = strrchr(folder, '/'), *name = slash ? slash + 1 : folder;
@@ -258,18 +259,19 @@ int gg_cli_sweep_collect(gg_sweep_command *c, const char *picture)
 {
   gg_error err;
   const gg_options *o = c->options;
-  const gg_collecting options = {.command = o->command_line,
-                                 .picture = picture,
-                                 .width = o->width,
-                                 .over = o->over,
-                                 .show = o->show,
-                                 .log = o->log,
-                                 .relative_to = o->relative_to,
-                                 .theories = o->mapped,
-                                 .threads = o->threads,
-                                 .progress = show_progress,
-                                 .stop = is_interrupted,
-                                 .warn = gg_cli_sweep_warn};
+  const gg_collect_options options = {.size = sizeof options,
+                                      .command = o->command_line,
+                                      .picture = picture,
+                                      .width = o->width,
+                                      .over = o->over,
+                                      .show = o->show,
+                                      .log = o->log,
+                                      .relative_to = o->relative_to,
+                                      .theories = o->mapped,
+                                      .threads = o->threads,
+                                      .progress = show_progress,
+                                      .stop = is_interrupted,
+                                      .warn = gg_cli_sweep_warn};
   char *prefix = tables_of(c->folder);
   if (!prefix) return gg_cli_fail(GG_FAILED, "%s: no name can be made for the tables: %s", c->folder, strerror(errno));
   gg_cli_catch_interrupts();
@@ -289,7 +291,7 @@ static int print_json(const gg_sweep_command *c)
   return GG_OK;
 }
 
-/* A scene alone has nothing to vary: most likely an oversight. */
+/* Reject a scene without varied keys: probably a mistake. */
 static int check_varied(const gg_sweep_command *c)
 {
   if (gg_sweep_key(c->sweep, 0)) return GG_CLI_GO_ON;
@@ -298,7 +300,7 @@ static int check_varied(const gg_sweep_command *c)
                      gg_cli_options_name(c->options));
 }
 
-/* One thing at a time, and nothing asked for in vain. */
+/* Reject options that contradict each other or would have no effect. */
 static int check_together(const gg_options *o)
 {
   const char *does[] = {o->list ? "--list" : NULL, o->collect ? "--collect" : NULL, o->slurm ? "--slurm" : NULL,
@@ -322,7 +324,7 @@ static int check_together(const gg_options *o)
   return GG_CLI_GO_ON;
 }
 
-/* A sweep's folder knows its sweep. */
+/* Whether the input is the folder of a sweep, which holds the sweep. */
 static bool is_folder(const gg_options *o)
 {
   struct stat about;
@@ -336,7 +338,7 @@ gg_status gg_cli_sweep_find_folder(gg_sweep_command *c, const char *name, gg_err
   c->folder = made ? gg_cli_options_output(o, ".sweep", err) : strdup(o->input ? o->input : name);
   if (!c->folder) return made ? err->status : gg_cli_refuse(err, GG_FAILED, "out of memory");
   for (size_t n = strlen(c->folder); n > 1 && c->folder[n - 1] == '/'; n--)
-    c->folder[n - 1] = '\0'; /* shells add it when they complete a name */
+    c->folder[n - 1] = '\0'; /* shells add '/' when they complete a folder */
   return GG_OK;
 }
 

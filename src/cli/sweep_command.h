@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What `sweep` and `validate` share: a sweep is read, its points are listed and run. */
+/* Shared by sweep and validate: reading a sweep, listing and running its points. */
 #ifndef GG_SWEEP_COMMAND_H
 #define GG_SWEEP_COMMAND_H
 
@@ -11,19 +11,19 @@ typedef struct gg_sweep_command {
   gg_sweep *sweep; /* checked */
   char *folder;
   gg_cli_line line;
-  bool over;   /* the last line was shown */
-  bool tables; /* the command then makes tables of the points */
+  bool over;   /* the final progress was shown */
+  bool tables; /* tables of the points follow */
 } gg_sweep_command;
 
-/* The input, or without one the YAML `text` that is called `name`; varied, overridden and checked. */
+/* Read the input, or without one the YAML `text` called `name`; apply --vary and overrides, and check it. */
 gg_status gg_cli_sweep_read(const gg_options *options, const char *text, const char *name, gg_sweep **sweep,
                             gg_error *err);
-/* The results folder: --output, or by the input's name, or `name` without an input. */
+/* Set the results folder: --output, by default the input's name, without an input `name`. */
 gg_status gg_cli_sweep_find_folder(gg_sweep_command *command, const char *name, gg_error *err);
 int gg_cli_sweep_list(const gg_sweep_command *command);
-/* Run what is missing, or the one of --point; an exit code, whose message was printed. */
+/* Run the missing points, or that of --point. Prints errors and returns the exit code. */
 int gg_cli_sweep_work(gg_sweep_command *command);
-/* The tables PREFIX.csv and PREFIX.h5, and a picture unless that is "none". */
+/* Write the tables PREFIX.csv and PREFIX.h5, and a picture unless `picture` is "none". */
 int gg_cli_sweep_collect(gg_sweep_command *command, const char *picture);
 
 /* Callbacks whose context is the command. */

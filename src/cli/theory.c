@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* graingas theory: what every theory that applies says of a scene. */
+/* graingas theory: values of all theories that apply to a scene. */
 #include <stdio.h>
 
 #include "cli/report.h"

@@ -15,7 +15,7 @@ static void add_word(FILE *out, const char *option, const char *value)
   free(quoted);
 }
 
-/* The command that does a point again with other random numbers, elsewhere; its number is to follow. To be freed. */
+/* The command that repeats a point with other random numbers in another folder, without its number; to be freed. */
 static char *command_to_repeat(const gg_options *o)
 {
   char *text = NULL;
@@ -37,17 +37,18 @@ static int judge(gg_sweep_command *c)
   char *verdict = NULL, *maps = gg_cli_path_with_suffix(c->folder, ".svg"), *repeat = command_to_repeat(c->options);
   const gg_options *o = c->options;
   const bool drawn = !o->point && !(o->picture && strcmp(o->picture, "none") == 0);
-  const gg_validating options = {.command = o->command_line,
-                                 .repeat = repeat,
-                                 .picture = !drawn       ? NULL
-                                            : o->picture ? o->picture
-                                                         : maps,
-                                 .width = o->width,
-                                 .show = o->show,
-                                 .theories = o->mapped,
-                                 .page = o->page,
-                                 .json = o->json,
-                                 .warn = gg_cli_sweep_warn};
+  const gg_validate_options options = {.size = sizeof options,
+                                       .command = o->command_line,
+                                       .repeat = repeat,
+                                       .picture = !drawn       ? NULL
+                                                  : o->picture ? o->picture
+                                                               : maps,
+                                       .width = o->width,
+                                       .show = o->show,
+                                       .theories = o->mapped,
+                                       .page = o->page,
+                                       .json = o->json,
+                                       .warn = gg_cli_sweep_warn};
   gg_status status = gg_sweep_validate(c->sweep, c->folder, &options, gg_cli_sweep_print_file, c, &verdict, &err);
   if (verdict) {
     if (!o->quiet && !o->point && !o->json) printf("\n");
@@ -58,7 +59,7 @@ static int judge(gg_sweep_command *c)
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 
-/* What ran short or failed was said, and the verdict has the others. */
+/* Run and validate. Failed and incomplete points are already reported; the verdict uses the others. */
 static int validate(gg_sweep_command *c)
 {
   c->tables = true;

@@ -15,7 +15,7 @@
 #include "sweep/verdict.h"
 
 typedef struct validating {
-  const gg_validating *options;
+  const gg_validate_options *options;
   void (*written)(void *context, const char *file);
   void *context;
   const gg_stop *stop;
@@ -41,7 +41,7 @@ static void note_map(void *context, const char *picture, const char *quantity)
 
 static gg_status draw_maps(validating *v, const gg_grid_view *view, gg_error *err)
 {
-  const gg_validating *o = v->options;
+  const gg_validate_options *o = v->options;
   const gg_map_choice choice = {o->show, o->theories, o->picture, o->width, v->stop};
   if (!o->picture) return GG_OK;
   gg_status status = gg_sweep_deviation_maps_draw(view, &choice, note_map, v, err);
@@ -67,8 +67,8 @@ static void put_head(gg_file_writer *out, const gg_point_table *t)
   }
 }
 
-static gg_status write_page(const gg_validating *o, const gg_point_table *t, const char *maps, const char *verdict,
-                            gg_error *err)
+static gg_status write_page(const gg_validate_options *o, const gg_point_table *t, const char *maps,
+                            const char *verdict, gg_error *err)
 {
   gg_atomic_file file;
   GG_TRY(gg_io_atomic_open(&file, o->page, err));
@@ -151,7 +151,7 @@ static gg_status validate(validating *v, const gg_grid_view *view, const gg_poin
   return gg_base_fail(err, GG_FAILED, "dsmc and the noise-free solution disagree beyond chance");
 }
 
-gg_status gg_sweep_validate_table(const gg_point_table *t, const gg_sweep *sweep, const gg_validating *options,
+gg_status gg_sweep_validate_table(const gg_point_table *t, const gg_sweep *sweep, const gg_validate_options *options,
                                   void (*written)(void *context, const char *file), void *context, const gg_stop *stop,
                                   char **text, gg_error *err)
 {

@@ -7,8 +7,8 @@
 
 /* Verdict as Markdown in *text, to be freed, also with GG_FAILED where dsmc and the noise-free solution disagree, and
  * where no value of dsmc has a noise-free solution beside it. */
-gg_status gg_sweep_validate_table(const gg_point_table *table, const gg_sweep *sweep, const gg_validating *options,
-                                  void (*written)(void *context, const char *file), void *context, const gg_stop *stop,
-                                  char **text, gg_error *err);
+gg_status gg_sweep_validate_table(const gg_point_table *table, const gg_sweep *sweep,
+                                  const gg_validate_options *options, void (*written)(void *context, const char *file),
+                                  void *context, const gg_stop *stop, char **text, gg_error *err);
 
 #endif

@@ -114,7 +114,7 @@ static gg_status run_all(things *t, gg_error *err)
 /* With everything that is written on the way. */
 static gg_status run_to_file(things *t, gg_error *err)
 {
-  const gg_run_options o = {.output = "new.h5", .checkpoint = "new.checkpoint.h5"};
+  const gg_run_options o = {.size = sizeof o, .output = "new.h5", .checkpoint = "new.checkpoint.h5"};
   STEP(gg_scene_set(t->scene, "output", "{trajectory_every: 5, checkpoint_every: 1.0e-6}", err));
   STEP(gg_run(t->scene, &o, &t->result, err));
   t->written = true;
@@ -123,14 +123,15 @@ static gg_status run_to_file(things *t, gg_error *err)
 
 static gg_status go_on(things *t, gg_error *err)
 {
-  const gg_run_options o = {.output = "new.h5", .checkpoint = "there.checkpoint.h5", .resume = "there.checkpoint.h5"};
+  const gg_run_options o = {
+      .size = sizeof o, .output = "new.h5", .checkpoint = "there.checkpoint.h5", .resume = "there.checkpoint.h5"};
   STEP(gg_scene_set(t->scene, "output", "{trajectory_every: 5, checkpoint_every: 1.0e-6}", err));
   return gg_run(t->scene, &o, &t->result, err);
 }
 
 static gg_status compare(things *t, gg_error *err)
 {
-  const gg_run_options o = {.output = "new.h5"};
+  const gg_run_options o = {.size = sizeof o, .output = "new.h5"};
   STEP(gg_compare(t->scene, &o, &t->comparison, err));
   t->written = true;
   return gg_comparison_to_json(t->comparison, &t->text[0], err);
@@ -158,7 +159,7 @@ static void note_ended(void *context, size_t i, gg_status status, const char *fi
 
 static gg_status sweep(things *t, gg_error *err)
 {
-  const gg_sweep_options o = {.ended = note_ended};
+  const gg_sweep_options o = {.size = sizeof o, .ended = note_ended};
   STEP(gg_sweep_parse(sweep_text, "sweep", &t->sweep, err));
   STEP(gg_sweep_check(t->sweep, err));
   return gg_sweep_run(t->sweep, "new.sweep", &o, err);
@@ -166,7 +167,7 @@ static gg_status sweep(things *t, gg_error *err)
 
 static gg_status collect(things *t, gg_error *err)
 {
-  const gg_collecting o = {.picture = "none"};
+  const gg_collect_options o = {.size = sizeof o, .picture = "none"};
   t->written = true; /* the first table may be there whole without the second */
   STEP(gg_sweep_parse(sweep_text, "sweep", &t->sweep, err));
   STEP(gg_sweep_check(t->sweep, err));

@@ -431,6 +431,65 @@ static void malformed_messages_are_rejected(void **state)
   assert_int_equal(gg_workers_threads(NULL), 0);
 }
 
+static int at_once(void *context)
+{
+  (void)context;
+  return 1;
+}
+
+#define assert_size_matters(options, call)                                                                             \
+  do {                                                                                                                 \
+    (options).size = 0;                                                                                                \
+    assert_refused(call, "options.size is 0");                                                                         \
+    (options).size = sizeof(options) + 1;                                                                              \
+    assert_refused(call, "options.size is ");                                                                          \
+  } while (0)
+
+/* Options are rejected without their size, or with that of a larger struct of a later version. */
+static void options_have_their_size(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of(SHEAR);
+  gg_sweep *w = NULL;
+  gg_simulation *m = NULL;
+  gg_result *r = NULL;
+  gg_comparison *c = NULL;
+  char *verdict = NULL;
+  const gg_grains grains = {0};
+  gg_start_options start = {0};
+  gg_run_options run = {0};
+  gg_sweep_options points = {0};
+  gg_collect_options tables = {0};
+  gg_validate_options maps = {0};
+  assert_ok(gg_sweep_parse(SHEAR, NULL, &w, &err));
+  assert_size_matters(start, gg_simulation_new(s, &start, &m, &err));
+  assert_size_matters(start, gg_simulation_from_grains(s, &grains, 100, &start, &m, &err));
+  assert_size_matters(run, gg_run(s, &run, &r, &err));
+  assert_size_matters(run, gg_compare(s, &run, &c, &err));
+  assert_size_matters(points, gg_sweep_run(w, "t_points", &points, &err));
+  assert_size_matters(points, gg_sweep_run_point(w, "t_points", 0, &points, &err));
+  assert_size_matters(tables, gg_sweep_collect(w, "t_points", "t_tables", &tables, NULL, NULL, &err));
+  assert_size_matters(maps, gg_sweep_validate(w, "t_points", &maps, NULL, NULL, &verdict, &err));
+  gg_sweep_free(w);
+  gg_scene_free(s);
+}
+
+/* A program of an earlier version: the library does not read beyond the size of its options. */
+static void shorter_options_have_defaults(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_simulation *m = NULL;
+  gg_scene *s = scene_of(SHEAR);
+  gg_start_options options = {.size = offsetof(gg_start_options, stop), .stop = at_once};
+  assert_ok(gg_simulation_new(s, &options, &m, &err));
+  gg_simulation_free(m);
+  options.size = sizeof options;
+  assert_int_equal(gg_simulation_new(s, &options, &m, &err), GG_INTERRUPTED);
+  gg_scene_free(s);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(calls_of_scenes_reject_missing_arguments),
@@ -441,6 +500,8 @@ int main(void)
                                      cmocka_unit_test(malformed_messages_are_rejected),
                                      cmocka_unit_test(calls_of_sweeps_reject_missing_arguments),
                                      cmocka_unit_test(unknown_names),
-                                     cmocka_unit_test(beyond_the_ends)};
+                                     cmocka_unit_test(beyond_the_ends),
+                                     cmocka_unit_test(options_have_their_size),
+                                     cmocka_unit_test(shorter_options_have_defaults)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

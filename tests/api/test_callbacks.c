@@ -89,7 +89,7 @@ static void assert_runs_fail(gg_scene *s, gg_run_options o, int from)
     assert_callback_failed(gg_run(s, &o, &r, &err));
     gg_result_free(r);
     r = NULL;
-    assert_ok(gg_run(good, &(gg_run_options){.threads = o.threads}, &r, &err));
+    assert_ok(gg_run(good, &(gg_run_options){.size = sizeof(gg_run_options), .threads = o.threads}, &r, &err));
     gg_result_free(r);
   }
   gg_scene_free(good);
@@ -109,10 +109,10 @@ static void a_failing_observable_ends_the_run(void **state)
                                                                   .sample = k ? plain : sample,
                                                                   .collision = k ? collision : NULL},
                                       &err));
-    assert_runs_fail(s, (gg_run_options){0}, 20);
+    assert_runs_fail(s, (gg_run_options){.size = sizeof(gg_run_options)}, 20);
     gg_comparison *c = NULL;
     arm(20);
-    assert_callback_failed(gg_compare(s, &(gg_run_options){.threads = 2}, &c, &err));
+    assert_callback_failed(gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .threads = 2}, &c, &err));
     gg_comparison_free(c);
     gg_scene_free(s);
   }
@@ -127,7 +127,7 @@ static void a_failing_law_ends_the_run(void **state)
   assert_callback_failed(gg_scene_set_restitution(s, "mine", law, NULL, &err));
   arm(1 << 20);
   assert_ok(gg_scene_set_restitution(s, "mine", law, NULL, &err));
-  assert_runs_fail(s, (gg_run_options){0}, 1000);
+  assert_runs_fail(s, (gg_run_options){.size = sizeof(gg_run_options)}, 1000);
   gg_scene_free(s);
 }
 
@@ -135,8 +135,8 @@ static void a_failing_callback_of_a_run_ends_it(void **state)
 {
   (void)state;
   gg_scene *s = scene_of(small);
-  assert_runs_fail(s, (gg_run_options){.progress = progress}, 0);
-  assert_runs_fail(s, (gg_run_options){.stop = stop}, 2);
+  assert_runs_fail(s, (gg_run_options){.size = sizeof(gg_run_options), .progress = progress}, 0);
+  assert_runs_fail(s, (gg_run_options){.size = sizeof(gg_run_options), .stop = stop}, 2);
   gg_scene_free(s);
 }
 
@@ -204,7 +204,8 @@ static void a_failing_callback_ends_a_sweep(void **state)
                            "[0.8, 0.9]}}",
                            "test", &w, &err));
   arm(0);
-  assert_callback_failed(gg_sweep_run(w, "t_sweep", &(gg_sweep_options){.progress = note}, &err));
+  assert_callback_failed(
+      gg_sweep_run(w, "t_sweep", &(gg_sweep_options){.size = sizeof(gg_sweep_options), .progress = note}, &err));
   assert_ok(gg_sweep_run(w, "t_sweep", NULL, &err));
   gg_sweep_free(w);
 }
@@ -225,13 +226,14 @@ static void a_failing_reporter_affects_no_later_run(void **state)
   gg_result *r = NULL;
   arm(0);
   assert_callback_failed(gg_scene_describe(s, "md", line, NULL, &err));
-  assert_ok(gg_run(s, &(gg_run_options){.output = "t_run.h5"}, &r, &err));
+  assert_ok(gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_run.h5"}, &r, &err));
   assert_callback_failed(gg_export("t_run.h5", "t_run", GG_EXPORT_ALL, line, NULL, NULL, NULL, &err));
   assert_ok(gg_sweep_parse("{flow: usf, phi: 0.1, vary: {collision.e: [0.8, 0.9]}, sweep: {does: theory}}", "test", &w,
                            &err));
   assert_ok(gg_sweep_run(w, "t_theory", NULL, &err));
-  assert_callback_failed(
-      gg_sweep_collect(w, "t_theory", "t_table", &(gg_collecting){.picture = "none"}, line, NULL, &err));
+  assert_callback_failed(gg_sweep_collect(w, "t_theory", "t_table",
+                                          &(gg_collect_options){.size = sizeof(gg_collect_options), .picture = "none"},
+                                          line, NULL, &err));
   assert_ok(gg_sweep_run(w, "t_theory", NULL, &err));
   gg_result_free(r);
   gg_sweep_free(w);
@@ -291,16 +293,21 @@ static void calls_that_stop_in_theories(void **state)
   gg_comparison *c = NULL;
   gg_simulation *sim = NULL;
   arm(500);
-  assert_int_equal(gg_compare(s, &(gg_run_options){.stop = stops_once}, &c, &err), GG_INTERRUPTED);
+  assert_int_equal(gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .stop = stops_once}, &c, &err),
+                   GG_INTERRUPTED);
   assert_null(c);
   arm(5);
-  assert_int_equal(gg_simulation_new(s, &(gg_start_options){.stop = stops_once}, &sim, &err), GG_INTERRUPTED);
+  assert_int_equal(
+      gg_simulation_new(s, &(gg_start_options){.size = sizeof(gg_start_options), .stop = stops_once}, &sim, &err),
+      GG_INTERRUPTED);
   assert_null(sim);
   snprintf(text, sizeof text, scene, ", vary: {collision.e: [0.8, 0.9]}, sweep: {does: theory}");
   gg_sweep *w = NULL;
   assert_ok(gg_sweep_parse(text, "test", &w, &err));
   arm(1);
-  assert_int_equal(gg_sweep_run(w, "t_stopped", &(gg_sweep_options){.stop = stops_once}, &err), GG_INTERRUPTED);
+  assert_int_equal(
+      gg_sweep_run(w, "t_stopped", &(gg_sweep_options){.size = sizeof(gg_sweep_options), .stop = stops_once}, &err),
+      GG_INTERRUPTED);
   for (size_t i = 0; i < gg_sweep_points(w); i++) {
     gg_point_state found;
     assert_ok(gg_sweep_find(w, "t_stopped", i, &found, NULL, &err));

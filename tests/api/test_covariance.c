@@ -10,7 +10,7 @@ static gg_result *run_of(const char *yaml, const char *output)
   gg_error err;
   gg_scene *s = scene_of(yaml);
   gg_result *r = NULL;
-  assert_ok(gg_run(s, &(gg_run_options){.output = output}, &r, &err));
+  assert_ok(gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = output}, &r, &err));
   gg_scene_free(s);
   return r;
 }
@@ -65,7 +65,7 @@ static void files_keep_covariances(void **state)
   assert_true(here == covariance(back, "P_xy", "pressure") && here == covariance(twice, "P_xy", "pressure"));
   gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 100, run: {collisions: 300}}");
   gg_comparison *c = NULL, *read = NULL;
-  gg_status status = gg_compare(s, &(gg_run_options){.output = "t_both.h5"}, &c, &err);
+  gg_status status = gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_both.h5"}, &c, &err);
   assert_true(status == GG_OK || status == GG_FAILED);
   assert_ok(gg_comparison_read("t_both.h5", &read, &err));
   const double md = covariance(gg_comparison_result(c, "md"), "temperature", "pressure"),

@@ -34,7 +34,7 @@ static void stopped_anywhere(void **state)
       int left = after[i];
       gg_result *part = NULL, *rest = NULL;
       char *text = NULL;
-      gg_run_options options = {.stop = stop_now, .context = &left, .checkpoint = "t_any.h5"};
+      gg_run_options options = {.size = sizeof options, .stop = stop_now, .context = &left, .checkpoint = "t_any.h5"};
       unlink("t_any.h5"), unlink("t_any.h5.1"); /* without an output the checkpoint stays when the run is done */
       assert_int_equal(gg_run(s, &options, &part, &err), GG_INTERRUPTED);
       assert_non_null(part);
@@ -44,7 +44,8 @@ static void stopped_anywhere(void **state)
       gg_result_free(part);
       assert_ok(gg_result_read("t_part.h5", &part, &err));
       gg_result_free(part);
-      gg_run(s, &(gg_run_options){.resume = "t_any.h5", .checkpoint = "t_any.h5"}, &rest, &err);
+      gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .resume = "t_any.h5", .checkpoint = "t_any.h5"},
+             &rest, &err);
       assert_non_null(rest);
       assert_ok(gg_result_find(rest, end.name, &here, &err));
       if (!(here.mean == end.mean && here.error == end.error))
@@ -71,7 +72,9 @@ static void a_single_sample(void **state)
                          "velocity_distributions], run: {collisions: 40, warmup: 4}}");
   gg_result *r = NULL;
   gg_measurement m;
-  assert_int_equal(gg_run(s, &(gg_run_options){.progress = stop_in_averaging}, &r, &err), GG_INTERRUPTED);
+  assert_int_equal(
+      gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .progress = stop_in_averaging}, &r, &err),
+      GG_INTERRUPTED);
   assert_ok(gg_result_find(r, "temperature", &m, &err));
   assert_true(m.mean > 0 && isnan(m.error) && m.samples == 1);
   assert_ok(gg_result_write(r, "t_single.h5", NULL, NULL, &err));
@@ -97,7 +100,8 @@ static void unwritable_checkpoints(void **state)
   gg_result *r = NULL;
   gg_comparison *c = NULL;
   gg_measurement m;
-  gg_run_options options = {.checkpoint = "t_folder/c.h5", .output = "t_out.h5", .progress = remove_folder};
+  gg_run_options options = {
+      .size = sizeof options, .checkpoint = "t_folder/c.h5", .output = "t_out.h5", .progress = remove_folder};
   assert_int_equal(gg_run(s, &options, &r, &err), GG_BAD_FILE);
   assert_null(r);
   assert_int_equal(mkdir("t_folder", 0777), 0);
@@ -126,16 +130,27 @@ static void one_path_for_two(void **state)
   gg_scene *s = scene_of(SHEAR);
   gg_result *r = NULL;
   gg_comparison *c = NULL;
-  gg_run_options same = {.output = "t_same.h5", .checkpoint = "t_same.h5"};
+  gg_run_options same = {.size = sizeof same, .output = "t_same.h5", .checkpoint = "t_same.h5"};
   assert_refused(gg_run(s, &same, &r, &err), "choose another output");
   assert_refused(gg_compare(s, &same, &c, &err), "choose another output");
-  assert_int_equal(gg_run(s, &(gg_run_options){.checkpoint = "t_cp.h5", .stop = stop_now, .context = &left}, &r, &err),
-                   GG_INTERRUPTED);
+  assert_int_equal(
+      gg_run(s,
+             &(gg_run_options){
+                 .size = sizeof(gg_run_options), .checkpoint = "t_cp.h5", .stop = stop_now, .context = &left},
+             &r, &err),
+      GG_INTERRUPTED);
   gg_result_free(r);
   r = NULL;
-  assert_refused(gg_run(s, &(gg_run_options){.output = "./t_cp.h5", .resume = "t_cp.h5"}, &r, &err), "another output");
+  assert_refused(gg_run(s,
+                        &(gg_run_options){.size = sizeof(gg_run_options), .output = "./t_cp.h5", .resume = "t_cp.h5"},
+                        &r, &err),
+                 "another output");
   assert_null(r);
-  assert_ok(gg_run(s, &(gg_run_options){.checkpoint = "t_cp.h5", .resume = "t_cp.h5", .output = "t_o.h5"}, &r, &err));
+  assert_ok(
+      gg_run(s,
+             &(gg_run_options){
+                 .size = sizeof(gg_run_options), .checkpoint = "t_cp.h5", .resume = "t_cp.h5", .output = "t_o.h5"},
+             &r, &err));
   gg_result_free(r);
   gg_scene_free(s);
 }
@@ -150,9 +165,10 @@ static void checkpoints_of_others(void **state)
   gg_result *r = NULL;
   gg_comparison *c = NULL;
   gg_simulation *m = NULL;
-  gg_run_options options = {.checkpoint = "t_both.h5", .progress = stop_in_averaging};
+  gg_run_options options = {.size = sizeof options, .checkpoint = "t_both.h5", .progress = stop_in_averaging};
   assert_int_equal(gg_compare(s, &options, &c, &err), GG_INTERRUPTED);
-  options = (gg_run_options){.checkpoint = "t_one.h5", .stop = stop_now, .context = &left};
+  options =
+      (gg_run_options){.size = sizeof(gg_run_options), .checkpoint = "t_one.h5", .stop = stop_now, .context = &left};
   assert_int_equal(gg_run(s, &options, &r, &err), GG_INTERRUPTED);
   gg_comparison_free(c);
   gg_result_free(r);
@@ -161,9 +177,12 @@ static void checkpoints_of_others(void **state)
   assert_ok(gg_simulation_save(m, "t_simulation.h5", NULL, NULL, &err));
   gg_simulation_free(m);
   m = NULL;
-  assert_refused(gg_run(s, &(gg_run_options){.resume = "t_both.h5"}, &r, &err), "one of a comparison");
-  assert_refused(gg_run(s, &(gg_run_options){.resume = "t_simulation.h5"}, &r, &err), "a saved simulation");
-  assert_refused(gg_compare(s, &(gg_run_options){.resume = "t_one.h5"}, &c, &err), "not one of a comparison");
+  assert_refused(gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .resume = "t_both.h5"}, &r, &err),
+                 "one of a comparison");
+  assert_refused(gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .resume = "t_simulation.h5"}, &r, &err),
+                 "a saved simulation");
+  assert_refused(gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .resume = "t_one.h5"}, &c, &err),
+                 "not one of a comparison");
   assert_refused(gg_simulation_load("t_one.h5", NULL, NULL, NULL, &m, &err), "not a saved simulation");
   assert_true(!r && !c && !m);
   gg_scene_free(s);
@@ -190,7 +209,8 @@ static void stopped_at_the_end(void **state)
   gg_result *r = NULL;
   assert_ok(gg_scene_set(s, "output.checkpoint_every", "0.0001", &err));
   assert_ok(gg_scene_set(s, "output.trajectory_every", "50", &err));
-  gg_run_options options = {.output = "t_late.h5", .checkpoint = "t_late.checkpoint.h5", .context = &over};
+  gg_run_options options = {
+      .size = sizeof options, .output = "t_late.h5", .checkpoint = "t_late.checkpoint.h5", .context = &over};
   options.progress = is_over, options.stop = if_over;
   assert_int_equal(gg_run(s, &options, &r, &err), GG_INTERRUPTED);
   assert_non_null(strstr(err.message, "the trajectory"));
@@ -214,7 +234,8 @@ static void begin_trajectory(const gg_scene *s, const char *checkpoint)
 {
   gg_error err;
   gg_result *r = NULL;
-  const gg_run_options options = {.output = "t_frames.h5", .checkpoint = checkpoint, .progress = stop_late};
+  const gg_run_options options = {
+      .size = sizeof options, .output = "t_frames.h5", .checkpoint = checkpoint, .progress = stop_late};
   unlink("t_log.h5"), unlink("t_log.h5.1"); /* what an earlier one left is not replaced */
   assert_int_equal(gg_run(s, &options, &r, &err), GG_INTERRUPTED);
   gg_result_free(r);
@@ -242,12 +263,13 @@ static void logs_of_frames(void **state)
   const char *const on[] = {"t_log.h5", "t_moved.h5", NULL}; /* gone on with: the same, another, none */
   assert_ok(gg_scene_set(s, "output.trajectory_every", "100", &err));
   assert_ok(gg_scene_set(s, "output.checkpoint_every", "0.001", &err));
-  gg_run(s, &(gg_run_options){.output = "t_frames.h5"}, &r, &err);
+  gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_frames.h5"}, &r, &err);
   gg_result_free(r);
   const size_t whole = frames_of("t_frames.h5");
   assert_true(whole > 30);
   for (int k = 0; k < 3; k++) {
-    gg_run_options options = {.output = "t_frames.h5", .checkpoint = on[k], .resume = k ? "t_other.h5" : "t_log.h5"};
+    gg_run_options options = {
+        .size = sizeof options, .output = "t_frames.h5", .checkpoint = on[k], .resume = k ? "t_other.h5" : "t_log.h5"};
     begin_trajectory(s, "t_log.h5");
     if (k) assert_int_equal(rename("t_log.h5", "t_other.h5"), 0); /* its log keeps the name it had */
     r = NULL;
@@ -258,7 +280,8 @@ static void logs_of_frames(void **state)
     assert_true(access("t_log.frames", F_OK) != 0 || k);
     unlink("t_log.frames"), unlink("t_other.h5");
   }
-  const gg_run_options options = {.output = "t_frames.h5", .checkpoint = "t_log.h5", .resume = "t_log.h5"};
+  const gg_run_options options = {
+      .size = sizeof options, .output = "t_frames.h5", .checkpoint = "t_log.h5", .resume = "t_log.h5"};
   for (int k = 0; k < 2; k++) {
     begin_trajectory(s, "t_log.h5");
     assert_int_equal(k ? truncate("t_log.frames", 100) : unlink("t_log.frames"), 0);
@@ -269,8 +292,10 @@ static void logs_of_frames(void **state)
   }
   /* A pipe keeps no frames. */
   assert_int_equal(mkfifo("t_log.frames", 0666), 0);
-  assert_int_equal(gg_run(s, &(gg_run_options){.checkpoint = "t_log.h5", .output = "t_frames.h5"}, &r, &err),
-                   GG_BAD_FILE);
+  assert_int_equal(
+      gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .checkpoint = "t_log.h5", .output = "t_frames.h5"},
+             &r, &err),
+      GG_BAD_FILE);
   assert_non_null(strstr(err.message, "frames are kept in files"));
   gg_scene_free(s);
 }
@@ -292,7 +317,7 @@ static void progress_counts_all_replicas(void **state)
   gg_result *r = NULL;
   gg_result_info about;
   assert_ok(gg_scene_set(s, "run.replicas", "3", &err));
-  gg_run(s, &(gg_run_options){.progress = note_count}, &r, &err);
+  gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .progress = note_count}, &r, &err);
   assert_ok(gg_result_get_info(r, &about, &err));
   assert_true(last_count > 0 && fabs((double)last_count / (double)about.total_collisions - 1) < 1e-9);
   gg_result_free(r);

@@ -90,7 +90,8 @@ static void texts_of_runs(void)
   gg_scene *s = scene_of("{flow: usf, engine: md, particles: 100, " CHANGES "run: {duration: 3, replicas: 2}, output: "
                          "{trajectory_every: 50.5, log: t_log.csv}}");
   unlink("t_log.csv");
-  assert_ok(gg_run(s, &(gg_run_options){.threads = 2, .output = "t_run.h5"}, &r, &err)); /* threads of its own */
+  assert_ok(gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .threads = 2, .output = "t_run.h5"}, &r,
+                   &err)); /* threads of its own */
   gg_result_free(r);
   assert_ok(gg_result_read("t_run.h5", &r, &err));
   gg_measurement m;

@@ -202,7 +202,8 @@ static void prepare(void)
   gg_result *result = NULL;
   gg_comparison *both = NULL;
   gg_sweep *points = NULL;
-  const gg_run_options one = {.output = "there.h5"}, two = {.output = "both.h5"};
+  const gg_run_options one = {.size = sizeof one, .output = "there.h5"},
+                       two = {.size = sizeof two, .output = "both.h5"};
   if (mkdtemp((char *)(uintptr_t)home) == NULL || chdir(home) != 0 || system("mkdir there") != 0 || chdir("there") != 0)
     abort();
   if (gg_scene_parse(scene_text, "memory", &scene, NULL) != GG_OK) abort();
@@ -213,7 +214,7 @@ static void prepare(void)
   result = NULL;
   gg_scene_set(scene, "output", "{trajectory_every: 5, checkpoint_every: 1.0e-6}", NULL);
   gg_scene_set(scene, "run", "{collisions: 40, warmup: 10, time_limit: 1.0e-9}", NULL);
-  const gg_run_options stopped = {.output = "x.h5", .checkpoint = "there.checkpoint.h5"};
+  const gg_run_options stopped = {.size = sizeof stopped, .output = "x.h5", .checkpoint = "there.checkpoint.h5"};
   gg_run(scene, &stopped, &result, NULL);
   gg_result_free(result);
   gg_scene_free(scene);

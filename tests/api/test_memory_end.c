@@ -24,7 +24,8 @@ static void nothing_is_left_behind(void **state)
   gg_result *r = NULL;
   assert_ok(gg_scene_set(s, "output.checkpoint_every", "0.0001", &err));
   assert_ok(gg_scene_set(s, "output.trajectory_every", "50", &err));
-  gg_run_options options = {.output = "t_end.h5", .checkpoint = "t_end.checkpoint.h5", .progress = stop_late};
+  gg_run_options options = {
+      .size = sizeof options, .output = "t_end.h5", .checkpoint = "t_end.checkpoint.h5", .progress = stop_late};
   for (int resumed = 0; resumed < 2; resumed++) {
     failing_malloc_arm_from(is_in_place);
     gg_status status = gg_run(s, &options, &r, &err);

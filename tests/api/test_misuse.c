@@ -322,7 +322,7 @@ static void misused_sweeps_return_errors(void **state)
   gg_sweep *sweep = NULL;
   assert_ok(gg_sweep_parse("{flow: usf, phi: 0.2, vary: {collision.e: [0.8, 0.9]}, sweep: {does: theory}}", NULL,
                            &sweep, &err));
-  const gg_sweep_options options = {.context = sweep, .ended = point_ended};
+  const gg_sweep_options options = {.size = sizeof options, .context = sweep, .ended = point_ended};
   assert_ok(gg_sweep_run(sweep, "t_sweep", &options, &err));
 }
 

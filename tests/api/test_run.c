@@ -38,7 +38,7 @@ static void stopped_and_resumed(void **state)
   double half = 0.5;
   gg_scene *s = scene_of(SHORT);
   gg_result *whole = NULL, *part = NULL, *rest = NULL;
-  gg_run_options options = {.progress = count_progress};
+  gg_run_options options = {.size = sizeof options, .progress = count_progress};
   assert_ok(gg_run(s, &options, &whole, &err));
   assert_true(told > 2);
   options.context = &half;
@@ -49,7 +49,7 @@ static void stopped_and_resumed(void **state)
   gg_measurement m;
   assert_ok(gg_result_find(part, "temperature", &m, &err));
   assert_true(m.mean > 0 && m.samples > 0 && access("t_never.h5", F_OK) != 0);
-  options = (gg_run_options){.resume = "t_stopped.h5", .threads = 2};
+  options = (gg_run_options){.size = sizeof(gg_run_options), .resume = "t_stopped.h5", .threads = 2};
   assert_ok(gg_run(s, &options, &rest, &err));
   assert_true(mean_of(rest, "temperature") == mean_of(whole, "temperature"));
   assert_true(mean_of(rest, "N1") == mean_of(whole, "N1") && mean_of(part, "N1") != mean_of(whole, "N1"));
@@ -122,13 +122,13 @@ static void replicas_stopped(void **state)
   gg_scene *s = scene_of(SHORT);
   gg_result *r = NULL;
   assert_ok(gg_scene_set(s, "run.replicas", "3", &err));
-  gg_run_options options = {.threads = 3, .progress = count_progress, .context = &half};
+  gg_run_options options = {.size = sizeof options, .threads = 3, .progress = count_progress, .context = &half};
   assert_int_equal(gg_run(s, &options, &r, &err), GG_INTERRUPTED);
   gg_measurement m;
   assert_ok(gg_result_find(r, "pressure", &m, &err));
   assert_true(m.mean > 0 && m.samples % 3 == 0);
   gg_result_free(r);
-  options = (gg_run_options){.stop = at_once};
+  options = (gg_run_options){.size = sizeof(gg_run_options), .stop = at_once};
   assert_int_equal(gg_run(s, &options, &r, &err), GG_INTERRUPTED);
   assert_refused(gg_result_get(r, "pressure", NULL, NULL, &err), "warm-up");
   gg_result_free(r);
@@ -196,7 +196,7 @@ static void written_and_read(void **state)
   gg_scene *s = scene_of("{flow: usf, phi: 0.1, particles: 100, measure: [rheology, velocity_distributions, sonine], "
                          "collision: {beta: 0}, run: {collisions: 300}}");
   gg_result *r = NULL, *back = NULL, *twice = NULL;
-  gg_run_options options = {.output = "t_run.h5", .command = "a test"};
+  gg_run_options options = {.size = sizeof options, .output = "t_run.h5", .command = "a test"};
   assert_ok(gg_run(s, &options, &r, &err));
   assert_ok(gg_result_read("t_run.h5", &back, &err));
   same_means(r, back);
@@ -282,9 +282,11 @@ static void unwritable_output(void **state)
   gg_error err;
   gg_scene *s = scene_of(SHORT);
   gg_result *r = NULL;
-  assert_int_equal(gg_run(s, &(gg_run_options){.output = "nowhere/t.h5"}, &r, &err), GG_BAD_FILE);
+  assert_int_equal(gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "nowhere/t.h5"}, &r, &err),
+                   GG_BAD_FILE);
   assert_null(r);
-  assert_int_equal(gg_run(s, &(gg_run_options){.resume = "t_nowhere.h5"}, &r, &err), GG_BAD_FILE);
+  assert_int_equal(gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .resume = "t_nowhere.h5"}, &r, &err),
+                   GG_BAD_FILE);
   assert_null(r);
   gg_scene_free(s);
 }
@@ -297,7 +299,8 @@ static void a_comparison_is_read_back_whole(void **state)
   gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 200, collision: {e: 0.8}, run: {collisions: 300}}");
   gg_comparison *c = NULL, *back = NULL;
   double overall = 0;
-  gg_run_options options = {.threads = 2, .output = "t_compare.h5", .progress = follow_overall, .context = &overall};
+  gg_run_options options = {
+      .size = sizeof options, .threads = 2, .output = "t_compare.h5", .progress = follow_overall, .context = &overall};
   gg_status status = gg_compare(s, &options, &c, &err);
   assert_true(status == GG_OK || status == GG_FAILED);
   assert_true(overall == 1);
@@ -342,10 +345,12 @@ static void part_comparisons(void **state)
   assert_non_null(gg_comparison_result(c, "dsmc"));
   gg_comparison_free(c);
   c = NULL;
-  assert_int_equal(gg_compare(s, &(gg_run_options){.stop = at_once}, &c, &err), GG_INTERRUPTED);
+  assert_int_equal(gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .stop = at_once}, &c, &err),
+                   GG_INTERRUPTED);
   assert_null(c); /* in a theory */
   assert_ok(gg_scene_set(s, "run.collisions", "100000", &err));
-  assert_int_equal(gg_compare(s, &(gg_run_options){.progress = at_first}, &c, &err), GG_INTERRUPTED);
+  assert_int_equal(gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .progress = at_first}, &c, &err),
+                   GG_INTERRUPTED);
   assert_non_null(gg_comparison_result(c, "dsmc"));
   gg_comparison_free(c);
   gg_scene_free(s);

@@ -313,7 +313,8 @@ static void streams_of_one_seed_differ(void **state)
   gg_simulation *m[2];
   double x[2];
   for (int k = 0; k < 2; k++) {
-    assert_ok(gg_simulation_new(s, &(gg_start_options){.stream = (uint64_t)k}, &m[k], &err));
+    assert_ok(gg_simulation_new(s, &(gg_start_options){.size = sizeof(gg_start_options), .stream = (uint64_t)k}, &m[k],
+                                &err));
     take_grains(m[k], 0);
     x[k] = velocity[0];
   }

@@ -27,7 +27,7 @@ static int stop(void *context)
 static gg_start_options lasting(poll_count *p, int most)
 {
   *p = (poll_count){0, most};
-  return (gg_start_options){.stop = stop, .context = p};
+  return (gg_start_options){.size = sizeof(gg_start_options), .stop = stop, .context = p};
 }
 
 static int never(void *context)
@@ -214,7 +214,8 @@ static void a_failing_stop_gives_its_reason(void **state)
   gg_error err;
   gg_scene *s = scene_of(small);
   gg_simulation *m = NULL;
-  assert_int_equal(gg_simulation_new(s, &(gg_start_options){.stop = fails}, &m, &err), GG_FAILED);
+  assert_int_equal(gg_simulation_new(s, &(gg_start_options){.size = sizeof(gg_start_options), .stop = fails}, &m, &err),
+                   GG_FAILED);
   assert_non_null(strstr(err.message, "no time left"));
   assert_null(m);
   assert_ok(gg_simulation_new(s, NULL, &m, &err)); /* the reason is forgotten */
@@ -230,7 +231,8 @@ static void stream_0_is_the_default(void **state)
   uint64_t hash[3];
   for (int k = 0; k < 3; k++) {
     gg_simulation *m = NULL;
-    assert_ok(gg_simulation_new(s, k == 0 ? NULL : &(gg_start_options){.stream = (uint64_t)k - 1}, &m, &err));
+    assert_ok(gg_simulation_new(
+        s, k == 0 ? NULL : &(gg_start_options){.size = sizeof(gg_start_options), .stream = (uint64_t)k - 1}, &m, &err));
     hash[k] = hash_of(m);
   }
   assert_true(hash[0] == hash[1] && hash[1] != hash[2]);

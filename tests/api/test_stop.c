@@ -37,7 +37,10 @@ static gg_status follow(polling *p, const char *yaml, gg_result **r, gg_error *e
           .name = "own", .n_quantities = 1, .quantities = &q, .sample = count_sample, .context = p},
       err);
   if (status == GG_OK)
-    status = gg_run(s, &(gg_run_options){.stop = is_enough, .checkpoint = p->checkpoint, .context = p}, r, err);
+    status = gg_run(
+        s,
+        &(gg_run_options){.size = sizeof(gg_run_options), .stop = is_enough, .checkpoint = p->checkpoint, .context = p},
+        r, err);
   gg_scene_free(s);
   return status;
 }
@@ -152,11 +155,11 @@ static void stopped_writes_leave_no_file(void **state)
   gg_comparison *c = NULL;
   gg_scene *s = scene_of("{flow: usf, phi: 0.1, particles: 5000, dsmc: {particles: 2000}, run: {collisions: 40}, "
                          "measure: [rheology, velocity_distributions], output: {trajectory_every: 20}}");
-  assert_ok(gg_run(s, &(gg_run_options){.output = "t_run.h5"}, &r, &err));
+  assert_ok(gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_run.h5"}, &r, &err));
   gg_result_free(r);
   gg_scene_free(s);
   s = scene_of("{flow: usf, phi: 0.1, particles: 200, run: {collisions: 40}}");
-  assert_ok(gg_compare(s, &(gg_run_options){.output = "t_both.h5"}, &c, &err));
+  assert_ok(gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_both.h5"}, &c, &err));
   gg_comparison_free(c);
   gg_scene_free(s);
   const struct {
@@ -216,8 +219,10 @@ static void a_validation_stops_between_points(void **state)
   gg_sweep_run(w, "t_grid", NULL, &err);
   for (int k = 0; k < 3; k++) {
     polling p = {.allowed = k};
-    assert_int_equal(gg_sweep_validate(w, "t_grid", &(gg_validating){.page = "t_page.md", .stop = is_enough}, NULL, &p,
-                                       &verdict, &err),
+    assert_int_equal(gg_sweep_validate(w, "t_grid",
+                                       &(gg_validate_options){
+                                           .size = sizeof(gg_validate_options), .page = "t_page.md", .stop = is_enough},
+                                       NULL, &p, &verdict, &err),
                      GG_INTERRUPTED);
     assert_null(verdict);
     assert_int_equal(p.polls, k + 1);

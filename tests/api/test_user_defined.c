@@ -74,7 +74,7 @@ static void user_defined_results_are_read_back(void **state)
   gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 200, dsmc: {particles: 500}, run: {collisions: 3000}}");
   gg_comparison *c[3] = {NULL};
   add_all(s);
-  gg_compare(s, &(gg_run_options){.output = "t_own.h5"}, &c[0], &err);
+  gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_own.h5"}, &c[0], &err);
   gg_scene_free(s);
   assert_non_null(c[0]);
   assert_ok(gg_comparison_read("t_own.h5", &c[1], &err));
@@ -112,7 +112,7 @@ static void read_back_run(void **state)
   gg_comparison *c = NULL;
   double mean[2];
   add_all(s);
-  assert_ok(gg_run(s, &(gg_run_options){.output = "t_own.h5"}, &r, &err));
+  assert_ok(gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_own.h5"}, &r, &err));
   assert_ok(gg_result_read("t_own.h5", &back, &err));
   assert_ok(gg_result_get(r, "my_T", &mean[0], NULL, &err));
   assert_ok(gg_result_get(back, "my_T", &mean[1], NULL, &err));
@@ -148,7 +148,7 @@ static void theories_under_a_law(void **state)
   gg_theory_info t;
   size_t n = 0;
   assert_ok(gg_scene_set_restitution(s, "softening", softening, NULL, &err));
-  gg_compare(s, &(gg_run_options){.output = "t_law.h5"}, &c, &err);
+  gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_law.h5"}, &c, &err);
   assert_non_null(c);
   assert_ok(gg_comparison_read("t_law.h5", &back, &err));
   for (; gg_comparison_theory(back, n, &t, NULL) == GG_OK; n++) {
@@ -216,7 +216,7 @@ static void clamped_laws(void **state)
     gg_result *r[2] = {NULL};
     atomic_ullong bad = 0;
     assert_ok(gg_scene_set_restitution(s, "patchy", patchy, &bad, &err));
-    gg_run(s, &(gg_run_options){.output = "t_patchy.h5", .threads = 2}, &r[0], &err);
+    gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_patchy.h5", .threads = 2}, &r[0], &err);
     assert_non_null(r[0]);
     assert_ok(gg_result_read("t_patchy.h5", &r[1], &err));
     for (int i = 0; i < 2; i++) {
@@ -358,7 +358,7 @@ static void reason_in_latin1(void **state)
   gg_scene *s =
       scene_of("{flow: usf, phi: 0.1, particles: 50, dsmc: {particles: 50}, run: {collisions: 20, warmup: 2}}");
   assert_ok(gg_scene_add_theory(s, &theory, &err));
-  gg_compare(s, &(gg_run_options){.output = "t_latin1.h5"}, &c, &err);
+  gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_latin1.h5"}, &c, &err);
   assert_int_equal(access("t_latin1.h5", F_OK), 0);
   for (size_t i = 0; gg_comparison_theory(c, i, &t, NULL) == GG_OK && strcmp(t.name, "mine") != 0;) i++;
   assert_string_equal(t.reason, "mine ist nicht f?r ?[31mdas");

@@ -68,7 +68,8 @@ static void any_number_of_ranks_gives_the_same_bits(void **state)
     for (int ranks = 2; ranks <= 4; ranks += 2) {
       mailbox p = {0};
       gg_result *several = NULL;
-      gg_status status = run(&p, ranks, ranks == 2 ? 2 : 1, scene, (gg_run_options){0}, &several);
+      gg_status status =
+          run(&p, ranks, ranks == 2 ? 2 : 1, scene, (gg_run_options){.size = sizeof(gg_run_options)}, &several);
       assert_true(status == GG_OK || status == GG_FAILED);
       assert_same(one, several);
       for (int k = 1; k < ranks && k < 2; k++) assert_true(p.sent[k] > 3); /* they did work */
@@ -91,10 +92,11 @@ static void any_number(void **state)
   for (int k = 0; k < 3; k++) {
     mailbox p = {0};
     gg_result *threads = NULL, *ranks = NULL;
-    gg_status status = gg_run(scene, &(gg_run_options){.threads = numbers[k]}, &threads, &err);
+    gg_status status =
+        gg_run(scene, &(gg_run_options){.size = sizeof(gg_run_options), .threads = numbers[k]}, &threads, &err);
     assert_true(status == GG_OK || status == GG_FAILED);
     assert_same(one, threads);
-    assert_int_equal(run(&p, numbers[k], 1, scene, (gg_run_options){0}, &ranks), status);
+    assert_int_equal(run(&p, numbers[k], 1, scene, (gg_run_options){.size = sizeof(gg_run_options)}, &ranks), status);
     assert_same(one, ranks);
     for (int i = 1; i < numbers[k]; i++) assert_true(p.sent[i] > 1); /* each had a replica */
     gg_result_free(threads);
@@ -113,7 +115,7 @@ static void the_work_of_a_lost_rank_is_repeated(void **state)
   for (int die_at = 1; die_at < 5; die_at++) {
     mailbox p = {.die_at = die_at};
     gg_result *several = NULL;
-    assert_int_equal(run(&p, 3, 1, scene, (gg_run_options){0}, &several), GG_OK);
+    assert_int_equal(run(&p, 3, 1, scene, (gg_run_options){.size = sizeof(gg_run_options)}, &several), GG_OK);
     assert_same(one, several);
     assert_true(p.lost[1] && p.warned == 1 && strstr(p.warning, "process 1 of 3 is gone"));
     gg_result_free(several);
@@ -153,7 +155,8 @@ static void lost_after_the_stop(void **state)
   gg_result_info info;
   gg_scene *scene = scene_of("{flow: usf, phi: 0.1, particles: 100, run: {collisions: 100, warmup: 1.0e9, replicas: 2, "
                              "time_limit: 1}}");
-  gg_run_options options = {.context = &l, .progress = note_collisions, .stop = lose_at_the_end};
+  gg_run_options options = {
+      .size = sizeof options, .context = &l, .progress = note_collisions, .stop = lose_at_the_end};
   assert_int_equal(run(&p, 2, 1, scene, options, &result), GG_FAILED);
   assert_true(p.lost[1] && p.warned == 1 && p.sent[1] > 2); /* one of which says how far it is */
   assert_ok(gg_result_get_info(result, &info, &err));
@@ -180,12 +183,13 @@ static void a_checkpoint_resumes_on_any_number_of_ranks(void **state)
   for (int k = 0; k < 2; k++) {
     mailbox p = {0};
     double until[] = {0.2, 0.5};
-    gg_run_options options = {.checkpoint = "t_workers.h5", .resume = k ? "t_workers.h5" : NULL};
+    gg_run_options options = {
+        .size = sizeof options, .checkpoint = "t_workers.h5", .resume = k ? "t_workers.h5" : NULL};
     options.progress = beyond, options.context = &until[k];
     assert_int_equal(run(&p, ranks[k], 1, scene, options, &part), GG_INTERRUPTED);
     gg_result_free(part), part = NULL;
   }
-  assert_ok(gg_run(scene, &(gg_run_options){.resume = "t_workers.h5"}, &rest, &err));
+  assert_ok(gg_run(scene, &(gg_run_options){.size = sizeof(gg_run_options), .resume = "t_workers.h5"}, &rest, &err));
   assert_same(one, rest);
   gg_result_free(one);
   gg_result_free(rest);
@@ -211,7 +215,8 @@ static void checkpoints_on_the_way(void **state)
   one = alone(scene);
   assert_ok(gg_scene_set(scene, "output.checkpoint_every", "0.01", &err));
   assert_ok(gg_scene_set(scene, "output.trajectory_every", "160", &err)); /* the first replica stays here for it */
-  gg_run_options options = {.checkpoint = "t_often.h5", .output = "t_often_out.h5", .stored = count_stored};
+  gg_run_options options = {
+      .size = sizeof options, .checkpoint = "t_often.h5", .output = "t_often_out.h5", .stored = count_stored};
   assert_int_equal(run(&p, 3, 1, scene, options, &several), GG_OK);
   assert_same(one, several);
   gg_result_info info;
@@ -233,7 +238,7 @@ static void checkpoint_due_at_the_start(void **state)
   gg_scene *scene = scene_of("{flow: usf, phi: 0.5, particles: 8000, run: {collisions: 1, warmup: 1, replicas: 2}, "
                              "output: {checkpoint_every: 1.0e-3}}");
   gg_result *several = NULL;
-  gg_run_options options = {.checkpoint = "t_start.h5"};
+  gg_run_options options = {.size = sizeof options, .checkpoint = "t_start.h5"};
   assert_int_equal(run(&p, 2, 1, scene, options, &several), GG_OK);
   gg_result_free(several);
   gg_scene_free(scene);
@@ -282,7 +287,8 @@ static void goes_on_alone(void **state)
   mailbox p = {0};
   watcher shared = {.stop_at = 3}, alone = {0};
   gg_result *part = NULL, *rest = NULL;
-  gg_run_options options = {.checkpoint = "t_alone.h5", .progress = watch, .stop = ask, .stored = note_stored};
+  gg_run_options options = {
+      .size = sizeof options, .checkpoint = "t_alone.h5", .progress = watch, .stop = ask, .stored = note_stored};
   options.context = &shared;
   assert_int_equal(run(&p, 2, 1, scene, options, &part), GG_INTERRUPTED);
   options.context = &alone, options.resume = "t_alone.h5";
@@ -303,7 +309,7 @@ static void both_engines_share_the_ranks(void **state)
   gg_scene *scene = scene_of("{flow: usf, phi: 0.1, particles: 100, dsmc: {particles: 500}, "
                              "run: {collisions: 60, replicas: 2}}");
   gg_comparison *one = NULL, *several = NULL;
-  gg_run_options options = {0};
+  gg_run_options options = {.size = sizeof options};
   assert_ok(gg_compare(scene, NULL, &one, &err));
   mailbox_open(&p, 3);
   assert_ok(gg_workers_new(&p.end[0], 1, &options.workers, &err));
@@ -323,7 +329,7 @@ static void other_builds_do_not_work(void **state)
   mailbox p = {.forges = true};
   gg_scene *scene = scene_of(scenes[1]);
   gg_result *one = alone(scene), *several = NULL;
-  assert_int_equal(run(&p, 3, 1, scene, (gg_run_options){0}, &several), GG_OK);
+  assert_int_equal(run(&p, 3, 1, scene, (gg_run_options){.size = sizeof(gg_run_options)}, &several), GG_OK);
   assert_same(one, several);
   assert_true(p.warned == 1 && strstr(p.warning, "another build") && p.sent[1] == 1);
   gg_result_free(one);
@@ -342,7 +348,7 @@ static void failures_come_home(void **state)
                              "run: {collisions: 1e5, replicas: 2}}");
   gg_status status = gg_run(scene, NULL, &r, &err);
   gg_result_free(r), r = NULL;
-  gg_run_options options = {0};
+  gg_run_options options = {.size = sizeof options};
   mailbox_open(&p, 2);
   assert_ok(gg_workers_new(&p.end[0], 1, &options.workers, &other));
   assert_int_equal(gg_run(scene, &options, &r, &other), status);
@@ -371,7 +377,7 @@ static void own_laws_stay(void **state)
                              "run: {collisions: 100, replicas: 2}}");
   assert_ok(gg_scene_set_restitution(scene, "always", always, NULL, &err));
   gg_result *one = alone(scene), *several = NULL;
-  assert_int_equal(run(&p, 2, 1, scene, (gg_run_options){0}, &several), GG_OK);
+  assert_int_equal(run(&p, 2, 1, scene, (gg_run_options){.size = sizeof(gg_run_options)}, &several), GG_OK);
   assert_same(one, several);
   assert_int_equal(p.sent[1], 1);
   gg_result_free(one);

@@ -73,8 +73,8 @@ static void check_step(const gg_error_state *s, int q)
   const double around = s->step_coefficient[q], wide = 3 * s->step_coefficient_error[q];
   for (double c = around - wide; c < around + wide; c += wide / 1000) {
     double sum = 0;
-    for (int i = 0; i < GG_WAYS; i++) {
-      const gg_way *w = &gg_bench_error_methods[i];
+    for (int i = 0; i < GG_ERROR_METHODS; i++) {
+      const gg_error_method *w = &gg_bench_error_methods[i];
       if (w->step != 1 && w->step != 0.5) continue;
       const gg_course_end end = gg_bench_error_course_last(&s->course[i], q);
       const double off = end.mean - s->truth[GG_DSMC][q] - s->size[GG_DSMC][q].per_grain / (double)w->n -
@@ -95,7 +95,7 @@ static void measured_state(void **state)
   gg_error err;
   s->phi = 0.3, s->e = 0.9, s->flow = GG_USF;
   assert_int_equal(gg_bench_error_state_measure(&b, s, 3, 0.01, &err), GG_OK);
-  for (int i = 0; i < GG_WAYS; i++) {
+  for (int i = 0; i < GG_ERROR_METHODS; i++) {
     const gg_course *c = &s->course[i];
     assert_true(s->done[i] && c->marks > 0 && c->seeds == 3);
     assert_true(c->warmup > 0 && c->warmup < c->seconds[0]);

@@ -83,7 +83,7 @@ static void run(recorder *r, const gg_scene *bare)
   char *text;
   must(gg_scene_copy(bare, &scene, &err), &err);
   must(gg_scene_add_observable(scene, &mine, &err), &err);
-  const gg_run_options options = {.context = r, .stop = stop};
+  const gg_run_options options = {.size = sizeof options, .context = r, .stop = stop};
   const gg_status status = gg_run(scene, &options, &result, &err);
   if (!r->most || status != GG_INTERRUPTED) must(status, &err);
   must(gg_result_to_json(result, &text, &err), &err);
@@ -138,7 +138,9 @@ static void follow(recorder *r, const gg_scene *scene, int replica)
   gg_simulation *s;
   gg_simulation_sums sums;
   room now = {0};
-  must(gg_simulation_new(scene, &(gg_start_options){.stream = (uint64_t)replica}, &s, &err), &err);
+  must(gg_simulation_new(scene, &(gg_start_options){.size = sizeof(gg_start_options), .stream = (uint64_t)replica}, &s,
+                         &err),
+       &err);
   must(gg_simulation_on_collision(s, on_collision, r, &err), &err);
   r->replica = replica;
   for (size_t i = 0; i < r->n[replica]; i++) {

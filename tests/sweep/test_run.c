@@ -74,7 +74,7 @@ static void check_same(const gg_result *a, const gg_result *b)
 static void run_in(gg_sweep *sweep, const char *where, int threads)
 {
   gg_error err;
-  const gg_sweep_options options = {.threads = threads};
+  const gg_sweep_options options = {.size = sizeof options, .threads = threads};
   if (gg_sweep_run(sweep, where, &options, &err) != GG_OK) fail_msg("%s", err.message);
 }
 
@@ -131,7 +131,8 @@ static void rest_goes_on(void **state)
   gg_sweep *sweep = sweep_of("flow: hcs\nphi: 0.3\nparticles: 100\nmd: {contact_time: 0}\n"
                              "vary: [{collision.e: [0.9, 0.9, 0.1], run.time_limit: [none, 0.2, none], "
                              "run.collisions: [20, 1e9, 1e6]}]");
-  const gg_sweep_options options = {.threads = 2, .context = &t, .ended = hear_end, .progress = hear_progress};
+  const gg_sweep_options options = {
+      .size = sizeof options, .threads = 2, .context = &t, .ended = hear_end, .progress = hear_progress};
   assert_int_equal(gg_sweep_run(sweep, "rest", &options, &err), GG_FAILED);
   if (!strstr(err.message, "of 3 points 1 failed, and 1 did not reach")) fail_msg("%s", err.message);
   assert_int_equal(t.ended[0], 1);
@@ -172,7 +173,7 @@ static void stopped(void **state)
   gg_error err;
   gg_point_state there;
   gg_sweep *sweep = sweep_of("flow: usf\nphi: 0.1\nrun: {collisions: 1e9}\nvary: {collision.e: [0.7, 0.8, 0.9]}");
-  const gg_sweep_options options = {.threads = 2, .stop = at_once};
+  const gg_sweep_options options = {.size = sizeof options, .threads = 2, .stop = at_once};
   assert_int_equal(gg_sweep_run(sweep, "stopped", &options, &err), GG_INTERRUPTED);
   for (size_t i = 0; i < 3; i++) {
     assert_int_equal(gg_sweep_find(sweep, "stopped", i, &there, NULL, NULL), GG_OK);

@@ -28,7 +28,7 @@ static fuzz_image make(size_t which, bool compressed)
   gg_result *result = NULL;
   gg_comparison *comparison = NULL;
   snprintf(path, sizeof path, "/tmp/graingas-fuzz-%ld.h5", (long)getpid());
-  const gg_run_options options = {.output = path};
+  const gg_run_options options = {.size = sizeof options, .output = path};
   if (gg_scene_parse(scenes[which], "base", &scene, NULL) != GG_OK) abort();
   if (which == COMPARED)
     gg_compare(scene, &options, &comparison, NULL);

@@ -113,7 +113,8 @@ int main(int argc, char **argv)
   if (argc != 4 || !(w.every = atof(argv[2]) / ROWS)) return fprintf(stderr, "soak SCENE SECONDS FOLDER\n"), 2;
   snprintf(output, sizeof output, "%s/soak.h5", argv[3]);
   snprintf(checkpoint, sizeof checkpoint, "%s/soak.checkpoint.h5", argv[3]);
-  options = (gg_run_options){.output = output, .checkpoint = checkpoint, .context = &w, .progress = note};
+  options = (gg_run_options){
+      .size = sizeof(gg_run_options), .output = output, .checkpoint = checkpoint, .context = &w, .progress = note};
   gg_status status = gg_scene_load(argv[1], &scene, &err);
   if (!status) status = gg_run(scene, &options, &result, &err);
   int code = status == GG_OK || status == GG_INTERRUPTED ? verdict(&w) : 2;

@@ -100,7 +100,8 @@ static void take_masses(page_simulation *p)
 static int make(page_simulation *p, const gg_scene *scene, uint64_t stream)
 {
   gg_simulation_state state;
-  return gg_simulation_new(scene, &(gg_start_options){.stream = stream}, &p->simulation, &page_why) == GG_OK &&
+  return gg_simulation_new(scene, &(gg_start_options){.size = sizeof(gg_start_options), .stream = stream},
+                           &p->simulation, &page_why) == GG_OK &&
          gg_simulation_get_state(p->simulation, &state, &page_why) == GG_OK &&
          gg_simulation_on_stop(p->simulation, time_is_up, p, &page_why) == GG_OK &&
          make_arrays(&p->grains, state.grains, state.box[0] > 0);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A message goes in parts that an int can count; the tag says whether more follow. Nothing here waits but the end. */
+/* Messages are sent in parts whose size fits into an int; the tag says whether more parts follow. Only gg_mpi_end
+ * blocks. */
 #include <errno.h>
 #include <mpi.h>
 #include <signal.h>
@@ -13,26 +14,26 @@
 #include "cli/mpi/mpi.h"
 
 enum { LAST_PART, MORE_FOLLOWS };
-#ifndef GG_LARGEST_PART /* bytes; a test sends smaller ones */
+#ifndef GG_LARGEST_PART /* bytes; smaller in a test */
 #define GG_LARGEST_PART ((size_t)1 << 30)
 #endif
-enum { LONGEST_WAIT = 5 }; /* seconds, at the end, for those who do not come any more */
+enum { LONGEST_WAIT = 5 }; /* seconds that the end blocks for processes that no longer answer */
 
 typedef struct sending {
   MPI_Request request;
   int to;
-  bool more;   /* a part, and not the last one of its message */
-  void *block; /* freed with its last part; NULL in the others */
+  bool more;   /* further parts of the message follow */
+  void *block; /* the message, freed after its last part; NULL in other parts */
   struct sending *next;
 } sending;
 
-typedef struct incoming { /* what has come of a message */
+typedef struct incoming { /* the received parts of a message */
   char *block;
   size_t size;
 } incoming;
 
 typedef struct process {
-  char machine[120]; /* and what of it numbers processes */
+  char machine[120]; /* host name and namespace of process ids */
   long pid;
 } process;
 
@@ -50,7 +51,7 @@ static void release(sending *s)
   free(s);
 }
 
-/* Is a part on its way there that was sent before? */
+/* Whether an earlier part to the same process is still being sent. */
 static bool is_behind(const post *p, const sending *s)
 {
   const sending *before = p->first;
@@ -58,8 +59,8 @@ static bool is_behind(const post *p, const sending *s)
   return before != s;
 }
 
-/* Forget what has arrived; of a message in parts the last one at the end: MPI takes a short one at once, with whose
- * block go those that it still reads. */
+/* Remove delivered parts and free their blocks. The last part of a message is removed only after all parts before: MPI
+ * completes a short last part at once, while it may still read earlier parts of the block. */
 static void push(post *p)
 {
   for (sending **at = &p->first; *at;) {
@@ -74,7 +75,7 @@ static void push(post *p)
   }
 }
 
-/* Parts are sent in order, and received so. */
+/* Send one part; MPI keeps the order of parts. */
 static int send_part(post *p, int to, const char *part, size_t size, int tag, void *block)
 {
   sending *s = calloc(1, sizeof *s), **at = &p->first;
@@ -89,7 +90,7 @@ static int send_part(post *p, int to, const char *part, size_t size, int tag, vo
   return 0;
 }
 
-/* Of a message that breaks off the parts before may still be read: the block stays theirs. */
+/* Send a message. If it fails midway, MPI may still read the parts already sent, so the block is not freed. */
 static int send(void *context, int to, void *block, size_t size)
 {
   const char *part = block;
@@ -133,7 +134,7 @@ static int receive(void *context, int *from, void **block, size_t *size)
   }
 }
 
-/* Of the same machine it can be seen; of others nobody knows. */
+/* Whether a process is lost. This is known only for processes on the same machine. */
 static int is_lost(void *context, int rank)
 {
   post *p = context;
@@ -200,7 +201,7 @@ gg_status gg_mpi_begin(gg_messages *messages, gg_error *err)
   return GG_OK;
 }
 
-static volatile int exit_code; /* a signal handler finds it nowhere else */
+static volatile int exit_code; /* for the signal handler */
 
 static void leave(int number)
 {
@@ -208,7 +209,7 @@ static void leave(int number)
   _exit(exit_code);
 }
 
-/* Is anything on its way to somebody who can still get it? */
+/* Whether a part is still being sent to a process that is not lost. */
 static bool owes(post *p)
 {
   for (const sending *s = p->first; s; s = s->next)
@@ -216,7 +217,7 @@ static bool owes(post *p)
   return false;
 }
 
-/* Until all has arrived that can, but not for ever. */
+/* Block until all parts are delivered, for LONGEST_WAIT seconds at most. */
 static void wait_for_arrival(post *p)
 {
   struct timespec start, now;
@@ -225,7 +226,7 @@ static void wait_for_arrival(post *p)
     clock_gettime(CLOCK_MONOTONIC, &now);
 }
 
-/* What never arrives stays MPI's, with its block, which MPI may read as long as the process lives. */
+/* Give up parts that are not delivered. Their blocks are not freed, since MPI may read them until the process ends. */
 static bool give_up(post *p)
 {
   bool any = p->first;
@@ -238,7 +239,8 @@ static bool give_up(post *p)
   return any;
 }
 
-/* MPI_Finalize waits for all. If one of them is lost on another machine, nobody may know: the alarm ends the wait. */
+/* MPI_Finalize blocks until all processes call it. A loss on another machine may be unknown: then the alarm ends the
+ * process. */
 void gg_mpi_end(gg_messages *messages, int code)
 {
   post *p = messages->context;

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "files/process.h"
+
+#include <fcntl.h>
+#include <hdf5.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include "base/memory.h"
+
+/* Occupy the numbers of closed standard streams. Otherwise the next file that is opened would get such a number, and
+ * messages would go into it. The descriptors have the wrong direction, so that reads and writes there fail. */
+static void keep_standard_streams(void)
+{
+  for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+    if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) != fd) return;
+}
+
+gg_status gg_files_process_prepare(gg_error *err)
+{
+  keep_standard_streams();
+  signal(SIGXFSZ, SIG_IGN); /* a file above the size limit is an error of the write, and does not end the program */
+  signal(SIGPIPE, SIG_IGN);
+  if (!gg_base_memory_is_room()) return gg_base_out_of_memory(err); /* HDF5's first call does not check its malloc */
+  H5dont_atexit(); /* the library closes its files; at exit, HDF5 would try to flush to a full disk */
+  return GG_OK;
+}
