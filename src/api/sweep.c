@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "common/extension.h"
 #include "scene/scene_reader.h"
+#include "sweep/folder.h"
 #include "sweep/sweep_table.h"
 
 static void destroy(void *handle)
@@ -186,4 +187,14 @@ gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **tex
   GG_USE_READING(sweep);
   GG_TRY(check_point(sweep, 0, err));
   return gg_api_text_copy(gg_sweep_document(sweep, folder), text, err);
+}
+
+const char *gg_sweep_key(const gg_sweep *sweep, size_t k)
+{
+  return gg_sweep_column_key(sweep, k);
+}
+
+const char *gg_sweep_value(const gg_sweep *sweep, size_t i, size_t k)
+{
+  return gg_sweep_column_value(sweep, i, k);
 }

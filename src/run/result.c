@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "graingas.h"
 
 void gg_run_result_warn(gg_result *result, const char *format, ...)
 {
@@ -67,7 +66,7 @@ void gg_run_result_label(gg_result *r)
       gg_run_quantity_counts_in_collisions(&r->model) ? "collisions a grain" : gg_measure_curve_unit(&r->model, "time");
 }
 
-void gg_result_free(gg_result *result)
+void gg_run_result_free(gg_result *result)
 {
   if (!result) return;
   free(result->correlations.coefficient);

@@ -12,6 +12,8 @@
 /* One mean. `mean` is NaN where it cannot be had, and `reason` then says why (empty: not measured in this scene). */
 typedef struct gg_result gg_result; /* the handle of the public header */
 
+void gg_run_result_free(gg_result *result);
+
 typedef struct gg_estimate {
   double mean, error;      /* error: standard error, correlation in time accounted for; NaN if unknown */
   double correlation_time; /* integrated autocorrelation time, in the result's unit of it */

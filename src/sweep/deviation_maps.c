@@ -13,6 +13,7 @@
 #include "plot/heat_map.h"
 #include "plot/plot.h"
 #include "sweep/verdict.h"
+#include "graingas.h"
 
 enum { MOST_CELLS = 24, MOST_COLUMNS = 8, MOST_THEORIES = 6, MOST_ROWS = 3 + MOST_THEORIES };
 

@@ -7,7 +7,6 @@
 #include "graingas.h"
 #include "sweep/sweep.h"
 
-enum { GG_POINT_NAME = 17 };
 void gg_sweep_point_name(uint64_t id, char name[GG_POINT_NAME]);
 
 /* FOLDER/NAME and an ending: ".h5", ".short.h5", ".work.h5" (until it is known which of both), ".checkpoint.h5". In a

@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "run/z_scores.h"
 #include "sweep/grid_view.h"
+#include "graingas.h"
 
 enum { LINE_POINTS = 25 };
 

@@ -17,7 +17,6 @@
 #include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 #include "sweep/sweep.h"
-#include "graingas.h"
 
 /* What makes a point the one that it is: a hash of its resolved scene; and whether a file holds that scene. */
 
@@ -163,7 +162,7 @@ static const gg_varied *varied_of(const gg_sweep *sweep, size_t *k, size_t *vari
   return NULL;
 }
 
-const char *gg_sweep_key(const gg_sweep *sweep, size_t k)
+const char *gg_sweep_column_key(const gg_sweep *sweep, size_t k)
 {
   size_t f;
   const gg_varied *v = varied_of(sweep, &k, &f);
@@ -177,7 +176,7 @@ static const char *value_of(const gg_sweep *sweep, size_t i, size_t k)
   return v ? v->value[gg_sweep_row(sweep, i, f) * v->n_keys + k] : NULL;
 }
 
-const char *gg_sweep_value(const gg_sweep *sweep, size_t i, size_t k)
+const char *gg_sweep_column_value(const gg_sweep *sweep, size_t i, size_t k)
 {
   return sweep && i < sweep->n ? value_of(sweep, i, k) : NULL;
 }
@@ -186,16 +185,16 @@ const char *gg_sweep_value(const gg_sweep *sweep, size_t i, size_t k)
 static void name_point(const gg_sweep *sweep, size_t i, char *text, size_t size)
 {
   char whole[400] = "";
-  for (size_t k = 0; gg_sweep_key(sweep, k); k++)
-    gg_base_text_append(whole, sizeof whole, "%s%s %s", *whole ? ", " : "", gg_sweep_key(sweep, k),
+  for (size_t k = 0; gg_sweep_column_key(sweep, k); k++)
+    gg_base_text_append(whole, sizeof whole, "%s%s %s", *whole ? ", " : "", gg_sweep_column_key(sweep, k),
                         value_of(sweep, i, k));
   gg_scene_quote(whole, text, size);
 }
 
 static gg_status set_values(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
 {
-  for (size_t k = 0; gg_sweep_key(sweep, k); k++)
-    GG_TRY(gg_scene_override(scene, gg_sweep_key(sweep, k), value_of(sweep, i, k), err));
+  for (size_t k = 0; gg_sweep_column_key(sweep, k); k++)
+    GG_TRY(gg_scene_override(scene, gg_sweep_column_key(sweep, k), value_of(sweep, i, k), err));
   return GG_OK;
 }
 

@@ -28,7 +28,9 @@ typedef struct gg_varied {
   char **value; /* of row i and key k: value[i*n_keys + k] */
 } gg_varied;
 
-/* What is known of a point once it was checked. */
+enum { GG_POINT_NAME = 17 }; /* the name of a point: 16 hexadecimal digits of its hash */
+
+/* A point after its check. */
 typedef struct gg_point {
   uint64_t id;    /* hash of its scene and of what is done there: its file is called so */
   double seconds; /* of processor time, expected */
@@ -99,5 +101,9 @@ gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err);
 gg_status gg_sweep_point_check(const gg_scene *scene, gg_does does, const json_t *stored, const char *path,
                                gg_error *err);
 extern const char *const gg_sweep_does_words[]; /* "run", "compare", "theory" */
+
+/* The varied key of a column, and its value at a point; NULL beyond the last. */
+const char *gg_sweep_column_key(const gg_sweep *sweep, size_t k);
+const char *gg_sweep_column_value(const gg_sweep *sweep, size_t i, size_t k);
 
 #endif

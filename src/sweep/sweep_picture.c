@@ -276,7 +276,7 @@ static gg_status write_title(drawing *d, gg_error *err)
   char varied[400] = "";
   const char *key;
   GG_TRY(gg_sweep_resolve(d->sweep, 0, &scene, err));
-  for (size_t k = 0; (key = gg_sweep_key(d->sweep, k)); k++) gg_base_text_append(varied, sizeof varied, "%s,", key);
+  for (size_t k = 0; (key = gg_sweep_column_key(d->sweep, k)); k++) gg_base_text_append(varied, sizeof varied, "%s,", key);
   gg_files_scene_title(&scene, varied, d->title, sizeof d->title);
   return GG_OK;
 }

@@ -21,6 +21,7 @@
 #include "files/result_document.h"
 #include "run/result.h"
 #include "scene/model_of_scene.h"
+#include "sweep/folder.h"
 #include "sweep/point_deviations.h"
 #include "theory/theory.h"
 
@@ -273,7 +274,7 @@ static void put_head(gg_csv *csv, const gg_sweep *sweep)
 {
   const char *key;
   gg_io_csv_text(csv, "point");
-  for (size_t k = 0; (key = gg_sweep_key(sweep, k)); k++) gg_io_csv_text(csv, key);
+  for (size_t k = 0; (key = gg_sweep_column_key(sweep, k)); k++) gg_io_csv_text(csv, key);
   for (size_t c = 0; c < COLUMNS; c++) gg_io_csv_text(csv, columns[c].name);
   gg_io_csv_end_row(csv);
 }
@@ -281,8 +282,8 @@ static void put_head(gg_csv *csv, const gg_sweep *sweep)
 static void put_row(gg_csv *csv, const gg_sweep *sweep, const gg_cli_table_row *row)
 {
   put_count(csv, row->point + 1);
-  for (size_t k = 0; gg_sweep_key(sweep, k); k++)
-    gg_io_csv_text(csv, plain_value(gg_sweep_value(sweep, row->point, k)));
+  for (size_t k = 0; gg_sweep_column_key(sweep, k); k++)
+    gg_io_csv_text(csv, plain_value(gg_sweep_column_value(sweep, row->point, k)));
   for (size_t c = 0; c < COLUMNS; c++) put_cell(csv, row, c);
   gg_io_csv_end_row(csv);
 }
@@ -345,13 +346,13 @@ static void write_key(const column *c, const gg_point_table *t, const gg_sweep *
   for (size_t i = 0; i < t->n; i++) {
     char *end;
     long long n = 0;
-    c->text[i] = plain_value(gg_sweep_value(sweep, t->row[i].point, k));
+    c->text[i] = plain_value(gg_sweep_column_value(sweep, t->row[i].point, k));
     c->number[i] = strtod(c->text[i], &end);
     numbers = numbers && !*end && end != c->text[i];
     wholes = is_whole(c->text[i], &n) && wholes;
     c->whole[i] = n;
   }
-  write_column(c, gg_sweep_key(sweep, k), wholes ? WHOLE : numbers ? NUMBER : TEXT);
+  write_column(c, gg_sweep_column_key(sweep, k), wholes ? WHOLE : numbers ? NUMBER : TEXT);
 }
 
 static void fill_column(const column *out, const gg_point_table *t, size_t c)
@@ -372,7 +373,7 @@ static void write_columns(const column *out, const gg_point_table *t, const gg_s
 {
   for (size_t i = 0; i < t->n; i++) out->whole[i] = (int64_t)t->row[i].point + 1;
   write_column(out, "point", WHOLE);
-  for (size_t k = 0; gg_sweep_key(sweep, k); k++) write_key(out, t, sweep, k);
+  for (size_t k = 0; gg_sweep_column_key(sweep, k); k++) write_key(out, t, sweep, k);
   for (size_t c = 0; c < COLUMNS; c++) {
     fill_column(out, t, c);
     write_column(out, columns[c].name, columns[c].kind);
@@ -448,8 +449,8 @@ static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
     json_decref(keys);
     return gg_io_json_made(NULL);
   }
-  for (size_t k = 0; gg_sweep_key(sweep, k); k++)
-    json_object_set_new(keys, gg_sweep_key(sweep, k), value_json(gg_sweep_value(sweep, i, k)));
+  for (size_t k = 0; gg_sweep_column_key(sweep, k); k++)
+    json_object_set_new(keys, gg_sweep_column_key(sweep, k), value_json(gg_sweep_column_value(sweep, i, k)));
   return json_pack("{s:I, s:o, s:s, s:s, s:f, s:I, s:I}", "point", (json_int_t)i + 1, "keys", keys, "name", name,
                    "state", states[gg_sweep_point_state(folder, sweep->point[i].id)], "cpu_seconds",
                    sweep->point[i].seconds, "replicas", (json_int_t)scene.run.replicas, "seed",

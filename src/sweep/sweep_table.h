@@ -5,7 +5,7 @@
 #define GG_SWEEP_TABLE_H
 
 #include "base/text.h"
-#include "sweep/folder.h"
+#include "sweep/sweep.h"
 
 typedef struct gg_cli_table_row {
   size_t point;             /* from 0 */

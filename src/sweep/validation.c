@@ -13,6 +13,7 @@
 #include "files/result_document.h"
 #include "sweep/deviation_maps.h"
 #include "sweep/verdict.h"
+#include "graingas.h"
 
 typedef struct validating {
   const gg_validate_options *options;

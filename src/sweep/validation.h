@@ -5,6 +5,8 @@
 
 #include "sweep/sweep_table.h"
 
+typedef struct gg_validate_options gg_validate_options; /* of the public header */
+
 /* Verdict as Markdown in *text, to be freed, also with GG_FAILED where dsmc and the noise-free solution disagree, and
  * where no value of dsmc has a noise-free solution beside it. */
 gg_status gg_sweep_validate_table(const gg_point_table *table, const gg_sweep *sweep,

@@ -44,8 +44,8 @@ static bool is_off(const gg_cli_table_row *row, double threshold)
 static void name_point(const gg_grid_view *v, size_t point, char text[GG_PANEL_NAME])
 {
   *text = '\0';
-  for (size_t k = 0; gg_sweep_key(v->sweep, k); k++) {
-    const char *key = gg_sweep_key(v->sweep, k), *dot = strrchr(key, '.'), *value = gg_sweep_value(v->sweep, point, k);
+  for (size_t k = 0; gg_sweep_column_key(v->sweep, k); k++) {
+    const char *key = gg_sweep_column_key(v->sweep, k), *dot = strrchr(key, '.'), *value = gg_sweep_column_value(v->sweep, point, k);
     if (strcmp(value, ".inf") == 0) continue;
     gg_base_text_append(text, GG_PANEL_NAME, "%s%s %.24s", *text ? ", " : "", dot ? dot + 1 : key, value);
   }

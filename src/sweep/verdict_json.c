@@ -20,8 +20,8 @@ static json_t *point_json(const gg_grid_view *v, size_t point)
 {
   const char *key;
   json_t *one = json_pack("{s:I}", "point", (json_int_t)point + 1);
-  for (size_t k = 0; (key = gg_sweep_key(v->sweep, k)); k++) {
-    const char *text = gg_sweep_value(v->sweep, point, k);
+  for (size_t k = 0; (key = gg_sweep_column_key(v->sweep, k)); k++) {
+    const char *text = gg_sweep_column_value(v->sweep, point, k);
     char *end;
     const double x = strtod(text, &end);
     json_object_set_new(one, key, *end || !isfinite(x) ? json_string(text) : json_real(x));

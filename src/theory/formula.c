@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "graingas.h"
 
 const char *const gg_theory_parameters[] = {"phi",   "n",       "gamma",   "T_0",      "e",       "beta",    "mu",
                                             "chi",   "K",       "e_12",    "e_22",     "beta_12", "beta_22", "mu_12",

@@ -4,7 +4,8 @@
 #define GG_THEORY_FORMULA_H
 
 #include "base/expression.h"
-#include "graingas.h"
+
+typedef struct gg_facts gg_facts; /* of the public header */
 
 /* Parameters of formulas and columns of tables; ends with NULL. Names without an index are those of species 1: e,
  * beta, mu, chi, K; a mixture of two also has e_12, e_22, x_1, x_2 and so on. */

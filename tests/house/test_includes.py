@@ -16,9 +16,9 @@ CORE = ["base", "simd", "common", "md", "dsmc", "statistics", "measure", "theory
 OUTSIDE = r'<(?:jansson|yaml|hdf5|zlib)\.h>|"graingas\.h"'
 # Definitions that users make are structs of the public header: these files read them.
 USER_DEFINED = {"src/common/extension.c", "src/common/quantity.c", "src/measure/user_observable.c",
-                "src/theory/user_theory.c", "src/theory/formula.h"}
+                "src/theory/user_theory.c", "src/theory/formula.c"}
 # Number of .c files of src that are compiled anew after a change of a header, at most.
-REBUILT = {"src/scene/scene.h": 116, "include/graingas.h": 90}
+REBUILT = {"src/scene/scene.h": 114, "include/graingas.h": 77}
 
 
 def sources():

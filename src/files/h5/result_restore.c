@@ -276,7 +276,7 @@ gg_status gg_files_result_restore(const gg_stored_result *s, gg_engine_kind engi
   if (status == GG_OK)
     *result = r;
   else
-    gg_result_free(r);
+    gg_run_result_free(r);
   return status;
 }
 
