@@ -496,4 +496,5 @@ const gg_observable gg_measure_fluxes = {
         &(const gg_observable_curves){
             .bins = bins, .every = 1, .add_snapshot = add_snapshot, .add_interval = add_interval, .of_bins = curves},
     .collisions = &(const gg_observable_collisions){.add = add_collision, .of_walls_too = true},
+    .cost = {.ns = {95, 55}},
 };

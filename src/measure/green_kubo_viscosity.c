@@ -159,4 +159,5 @@ const gg_observable gg_measure_viscosity = {
     .rows =
         &(const gg_observable_rows){
             .width = width, .begin = begin, .add_chunk = add_chunk, .finish = finish, .derived = derived},
+    .cost = {.ns = {0.5, 0.5}},
 };

@@ -294,4 +294,5 @@ const gg_observable gg_measure_helfand = {
     .rows = &(const gg_observable_rows){.width = width, .finish = finish, .derived = derived},
     .curves = &(const gg_observable_curves){.bins = bins, .every = 1, .add_snapshot = add_snapshot, .of_bins = curves},
     .collisions = &(const gg_observable_collisions){.add = add_collision},
+    .cost = {.ns = {40, 0}},
 };

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Documents, messages and comments are in plain words.
 
-Documents and messages: no sentence of more than 40 words, none of the project's private words. plain_words.txt beside this file
-has exceptions: a file, its long sentences, its private words. Its numbers may only fall. `test_plain_words.py --list` prints each
-long sentence and each private word; `--counts` prints what plain_words.txt should hold.
+Documents and messages: no sentence of more than 40 words, none of the project's private words. plain_words.txt beside
+this file has exceptions: a file, its long sentences, its private words. Its numbers may only fall. `test_plain_words.py
+--list` prints each long sentence and each private word; `--counts` prints what plain_words.txt should hold.
 
-Comments of C, Python and JavaScript, and strings for users there: no sentence that begins with What, Of, Where or Whoever, none of
-the project's private words. plain_comments.txt has the exceptions: a room, its riddles. The test fails if a room has more of them
-than its number; a room that is not listed has none. `--riddles ROOM` prints the riddles of a room (of all rooms without a name),
-`--rooms` what plain_comments.txt should hold."""
+Comments of C, Python and JavaScript, and strings for users there: no sentence that begins with What, Of, Where or
+Whoever, none of the project's private words. plain_comments.txt has the exceptions: a room, its riddles. The test fails
+if a room has more of them than its number; a room that is not listed has none. `--riddles ROOM` prints the riddles of a
+room (of all rooms without a name), `--rooms` what plain_comments.txt should hold."""
 import ast
 import glob
 import io
@@ -26,9 +26,9 @@ PRIVATE = re.compile(r"\b(doors?|crews?|courses?|inert|outlooks?|episodes?|wande
 ALLOWED = re.compile(r"\b(of course|told apart|(?:in the |over the )?course of (?:time|a run|the run))\b", re.IGNORECASE)
 
 RIDDLE = re.compile(r"(What|Of|Where|Whoever)\b")
-PRIVATE_IN_CODE = re.compile(PRIVATE.pattern[:-len(r")\b")] + r"|taken back|takes? back|overtak\w+|put off|crowd(?:ed|ing)?|settle[sd]?|"
-                             r"by[_ ]the[_ ]clock|fell short|(?:was|were|been) late|of one's own|looked at|are asked|"
-                             r"is asked|be asked|take_up)\b", re.IGNORECASE)
+PRIVATE_IN_CODE = re.compile(PRIVATE.pattern[:-len(r")\b")] + r"|taken back|takes? back|overtak\w+|put off|crowd(?:ed|ing)?|"
+                             r"settle[sd]?|by[_ ]the[_ ]clock|fell short|(?:was|were|been) late|of one's own|looked at|"
+                             r"are asked|is asked|be asked|take_up)\b", re.IGNORECASE)
 
 
 def sentences(block):
@@ -116,7 +116,7 @@ SCRIPT = re.compile(r"""(?P<comment>/\*.*?\*/|(?://[^\n]*(?:\n[ \t]*(?=//))?)+)
 
 
 def running(comment):
-    """The text of a comment without its marks; what is quoted is one word, formulas of a line of their own end sentences."""
+    """The text of a comment without its marks; a quotation is one word."""
     lines = [re.sub(r"^\s*(/\*+|\*(?!/)|//+|#+:?)?\s?|\s*\*/\s*$", "", line) for line in comment.splitlines()]
     text = "\n".join(line for line in lines if "SPDX-License" not in line and not line.startswith("!"))
     return re.sub(r"`[^`\n]*`", "Code", text)
@@ -149,12 +149,12 @@ def of_python(text):
         if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node, False) is not None:
             documented.add(id(node.body[0].value))
             comments.append(running(ast.get_docstring(node)))
-    strings = [n.value for n in ast.walk(tree) if isinstance(n, ast.Constant) and isinstance(n.value, str) and id(n) not in documented]
-    return comments, strings
+    constants = [n for n in ast.walk(tree) if isinstance(n, ast.Constant) and id(n) not in documented]
+    return comments, [n.value for n in constants if isinstance(n.value, str)]
 
 
 def code_files():
-    """Every source file of the tree; not libraries of others, builds, nor files that git ignores by their folder."""
+    """Every source file of the tree, without builds."""
     for top in "src", "include", "python", "web", "tests", "validation", "examples", "scripts", "site":
         for path in sorted(glob.glob(os.path.join(SOURCE, top, "**", "*"), recursive=True)):
             name = os.path.relpath(path, SOURCE)
@@ -163,11 +163,11 @@ def code_files():
 
 
 def riddles_of(name, text):
-    """What a file has of them, each with its sentence."""
+    """The riddles of a file: sentences, and private words with their sentences."""
     python = name.endswith(".py") or re.match(r"#!.*python", text)
     comments, strings = of_python(text) if python else of_script(text, "\"'`" if name.endswith(".js") else '"')
     if re.search(r"(^|/)tests/", name):
-        strings = []  # scenes and what messages are to be
+        strings = []  # scenes and expected messages
     found = []
     for text, spoken in [(c, False) for c in comments] + [(s, True) for s in strings if " " in s.strip()]:
         for block in re.split(r"\n\s*\n|\n(?=\s*[-*] )", text):
@@ -181,7 +181,8 @@ def riddles_of(name, text):
 def riddles_by_room():
     rooms = {}
     for name, path in code_files():
-        if re.search(r"\.(py|js|[ch])$", name) or ("." not in os.path.basename(name) and re.match(rb"#!.*python", open(path, "rb").read(60))):
+        script = "." not in os.path.basename(name) and re.match(rb"#!.*python", open(path, "rb").read(60))
+        if script or re.search(r"\.(py|js|[ch])$", name):
             found = riddles_of(name, open(path, encoding="utf-8").read())
             rooms.setdefault(room_of(name), []).extend(f"{name}: {s}" for s in found)
     return rooms
@@ -210,7 +211,7 @@ def test_comments():
 def test_reader_of_comments():
     """The reader of comments: which sentences are riddles, in each language, and which are not."""
     from tap import check
-    c = '/* A thing. Of these the first. */ f("What is it? Where it is."); // x = y.\n// Where y is z.\n/* Formula,\n * Where z = 1 */'
+    c = '/* A thing. Of these one. */ f("What is it? Where it is."); // x = y.\n// Where y is z.\n/* A,\n * Where z = 1 */'
     check([s.split()[0] for s in riddles_of("src/a.c", c)] == ["Of", "Where", "Where"], riddles_of("src/a.c", c))
     check(riddles_of("tests/a/a.c", 'f("Of it.");') == [])
     check(riddles_of("web/a.js", "a = /[\"']/.test(b); /* Whoever waits. */ t = `Of what`;") == ["Whoever waits.", "Of what"])

@@ -61,7 +61,6 @@ static void last_point_is_the_mean_of_rows(void **state)
   assert_int_equal(gg_measure_snapshot_init(&s, &m, false, NULL), GG_OK);
   maxwellian(&s, &r, 0);
   o->curves->add_snapshot(self, &s, bin);
-  o->rows->begin(self);
   o->rows->finish(self, &(gg_interval){.model = &m, .velocity_factor = 1}, row);
   gg_curves list = {.model = &m, .curve = calloc(GG_MOST_CURVES, sizeof *list.curve)};
   o->curves->of_bins(self, bin, &list);

@@ -46,7 +46,6 @@ static void sample(planted *p)
   at_rest(&p->s);
   p->s.elapsed = interval;
   helfand->curves->add_snapshot(p->self, &p->s, p->bin);
-  helfand->rows->begin(p->self);
   helfand->rows->finish(p->self, &(gg_interval){.model = &p->model, .elapsed = interval, .velocity_factor = 1}, p->row);
   for (size_t k = 0; k < helfand->rows->width(&p->model); k++) p->sum[k] += p->row[k] / SAMPLES;
 }
