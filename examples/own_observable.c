@@ -1,4 +1,4 @@
-/* An observable of one's own: how unequal the normal stresses of a sheared gas are, and how hard its grains collide.
+/* A user-defined observable: how unequal the normal stresses of a sheared gas are, and how hard its grains collide.
  * Build: cc own_observable.c -o own_observable $(pkg-config --cflags --libs graingas) */
 #include <graingas.h>
 #include <stdio.h>

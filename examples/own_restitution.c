@@ -1,4 +1,4 @@
-/* A restitution law of one's own: slow impacts are nearly elastic, fast ones come to e = 0.7, with the speed of between
+/* A user-defined restitution law: slow impacts are nearly elastic, fast ones come to e = 0.7, with the speed of between
  * in units of d gamma. The slower that speed, the cooler the sheared gas.
  * Build: cc own_restitution.c -o own_restitution $(pkg-config --cflags --libs graingas) */
 #include <graingas.h>

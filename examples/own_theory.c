@@ -1,4 +1,4 @@
-/* A theory of one's own beside the library's: the cooling rate of smooth Maxwellian grains,
+/* A user-defined theory beside those of the library: the cooling rate of smooth Maxwellian grains,
  * zeta* = (5/12) chi (1 - e^2), chi the contact value.
  * Build: cc own_theory.c -o own_theory $(pkg-config --cflags --libs graingas) */
 #include <graingas.h>

@@ -30,7 +30,7 @@
  * gaussian_rate v_0 is a diameter per unit of time of the scene. Keys of scenes are in the scene's units of length,
  * mass and time, temperatures among them in mass x velocity^2. Stresses, and energies per volume, are in rho_p d^2
  * gamma^2 or rho_p v_0^2 with rho_p = 6m/(pi d^3). Temperatures are <C.C>/3, C the velocity relative to the imposed
- * flow; of mixtures m<C.C>/3, m in that of species 1. Where phi = 0, n d^2 = 1 sets the length.
+ * flow; of mixtures m<C.C>/3, m in that of species 1. With phi = 0, n d^2 = 1 sets the length.
  *
  * Options: a struct of options begins with `size`, its sizeof; members that are zero or NULL have their defaults. So
  * options may grow in versions that are otherwise compatible: programs that were built before keep working, and

@@ -12,7 +12,7 @@ AT_ONCE = 60  # objects that one gcov is given
 
 
 def objects(folder):
-    """What each object left, or that it was never run; less the kernels that tests build again at other levels."""
+    """Counts of each object, or that it was never run; without the kernels that tests build again at other levels."""
     with open(os.path.join(folder, "compile_commands.json")) as f:
         outputs = sorted({command["output"] for command in json.load(f)})
     for output in outputs:

@@ -37,7 +37,7 @@ def table(files):
     for room in sorted(rooms):
         rooms[room].row(room)
     whole.row("src")
-    print("\nWhere most is missed:")
+    print("\nFiles with most lines missed:")
     for name in sorted(each, key=lambda name: -each[name].missed())[:WORST]:
         each[name].row(name)
 

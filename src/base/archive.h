@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An archive: named arrays in memory, what an engine or a run hands over to be checkpointed and takes back. Files are
+/* An archive: named arrays in memory, the state of an engine or a run, as checkpoints store and restore it. Files are
  * none of its business: src/io writes it to HDF5. The archive owns copies of everything put into it. */
 #ifndef GG_ARCHIVE_H
 #define GG_ARCHIVE_H

@@ -38,8 +38,8 @@ gg_status gg_files_frame_log_open(gg_frame_log *log, const char *path, gg_error 
  * the place of the log of another run. Messages name PATH. */
 gg_status gg_files_frame_log_open_new(gg_frame_log *log, const char *path, gg_error *err);
 gg_status gg_files_frame_log_put_in_place(gg_frame_log *log, gg_error *err);
-/* To read the frames up to the mark, each of which is looked at: GG_BAD_FILE where one is missing or damaged. `stop`
- * is asked in between: GG_INTERRUPTED. */
+/* To read the frames up to the mark, each of which is checked: GG_BAD_FILE where one is missing or damaged. `stop` is
+ * asked in between: GG_INTERRUPTED. */
 gg_status gg_files_frame_log_open_at(gg_frame_log *log, const char *path, const gg_frame_mark *mark,
                                      const gg_stop *stop, gg_error *err);
 /* Does the log stand at this path? */

@@ -20,8 +20,8 @@ void gg_md_enter_grid(gg_md *e);
 /* Fill the cells with the grains that belong there. False: out of memory. */
 bool gg_md_fill_grid(gg_md *e);
 
-/* lists.c: renew skin and list of every grain at the present time. Where lists overflow, all skins become smaller.
- * False: `stop` (NULL: none) interrupted it, and lists are missing. */
+/* lists.c: renew skin and list of every grain at the present time. If lists overflow, all skins become smaller. False:
+ * `stop` (NULL: none) interrupted it, and lists are missing. */
 bool gg_md_build_lists(gg_md *e, const gg_stop *stop);
 
 /* wall_contacts.c: fill search.near for the present cells. */

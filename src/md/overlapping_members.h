@@ -108,7 +108,7 @@ enum {
   GG_MD_NO_LANE  /* no step */
 };
 
-/* Set of the cells that a grain is in, a bit each. Of the number of a cell bit 0 is x, bit 1 the row, bit 2 z. */
+/* Set of the cells that a grain is in, a bit each. In the number of a cell bit 0 is x, bit 1 the row, bit 2 z. */
 GG_INLINE uint32_t gg_md_numbers_in_rows(uint32_t both)
 {
   uint32_t lower = 1 | (both & 1) << 1, upper = (both >> 1 & 1) * (4 | (both & 8));

@@ -134,7 +134,7 @@ static gg_status rescale(gg_replica *r, int power, gg_error *err)
 }
 
 /* Free cooling: bring the velocities back when they have fallen fourfold (T sixteenfold), the clock with them. Linear
- * response: at the end of a sweep of the reduced shear rate, told by the collision rate, back to its beginning. */
+ * response: at the end of a sweep of the reduced shear rate, which the collision rate shows, back to its beginning. */
 static gg_status rescale_if_due(gg_replica *r, gg_error *err)
 {
   if (!gg_flow_cools(r->model.flow) && !r->model.linear_response) return GG_OK;

@@ -10,12 +10,12 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "graingas.h"
 #include "run/cost_estimate.h"
 #include "run/protocol_times.h"
 #include "run/run.h"
 #include "run/workers/workers.h"
 #include "scene/fields.h"
-#include "graingas.h"
 
 /* The replicas in an archive: everything needed to continue bit for bit. */
 
@@ -239,7 +239,8 @@ static gg_status check_until(const gg_replicas *all, gg_error *err)
 static gg_status prepare(gg_replicas *all, const gg_archive *resume, gg_error *err)
 {
   const gg_scene *scene = &all->scene;
-  const gg_model *made = all->callbacks && !resume && scene->fixed.contact_time == GG_AUTO ? all->callbacks->model : NULL;
+  const gg_model *made =
+      all->callbacks && !resume && scene->fixed.contact_time == GG_AUTO ? all->callbacks->model : NULL;
   if (resume) GG_TRY(gg_scene_resumption_settle(&all->scene, resume, err));
   GG_TRY(gg_run_start_make(scene, made, &all->stop, &all->model, err));
   GG_TRY(gg_common_engine_of(scene->engine)->accepts(&all->model, err));

@@ -7,7 +7,7 @@
 #include "run/progress_estimate.h"
 #include "run/scheduler.h"
 
-typedef struct gg_stopping_criteria { /* stopping criteria, settled before the run; in samples of each replica */
+typedef struct gg_stopping_criteria { /* stopping criteria, chosen before the run; in samples of each replica */
   uint64_t warmup, least, most; /* warm-up; shortest window that can be tested; requested length, 0: until the error */
   uint64_t least_steady;        /* a shorter window is not called steady */
   uint64_t longest;             /* window after which the requested error counts as out of reach */

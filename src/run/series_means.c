@@ -60,9 +60,9 @@ gg_status gg_run_replicas_blocks(const gg_replicas *all, gg_quantity q, size_t l
   const gg_series **series = series_of(all, err);
   if (!series) return GG_FAILED;
   const gg_replica *first = &all->replica[0];
-  gg_status status =
-      gg_statistics_response_blocks(series, (size_t)all->n, first->series.window, first->series.n, first->offset[k],
-                                    first->observable[k]->rows->width(&all->model), f, &all->model, length, blocks, err);
+  gg_status status = gg_statistics_response_blocks(series, (size_t)all->n, first->series.window, first->series.n,
+                                                   first->offset[k], first->observable[k]->rows->width(&all->model), f,
+                                                   &all->model, length, blocks, err);
   free(series);
   return status;
 }

@@ -38,7 +38,7 @@ typedef struct gg_species {
 /* At least GG_N_QUANTITIES, which only quantity.h knows. */
 enum { GG_MAX_UNTIL = 112, GG_FILE_NAME = 256 };
 
-/* Values that a run settles and then keeps, through changes of keys and a checkpoint; GG_AUTO: not settled. They are no
+/* Values that a run fixes and then keeps, through changes of keys and a checkpoint; GG_AUTO: not fixed. They are no
  * keys. */
 typedef struct gg_scene_fixed {
   double clock_rate;     /* inverse of the model's unit of time: that of the start, see gg_scene_clock_rate */

@@ -12,7 +12,7 @@ os.environ.setdefault("GRAINGAS", "none")
 from tap import check, main
 
 CORE = ["base", "simd", "common", "md", "dsmc", "statistics", "measure", "theory"]
-# What a core file must not include: formats, and the public header, which is for those who call the core from outside.
+# Headers that a core file must not include: those of formats, and the public one, which is for callers of the library.
 OUTSIDE = r'<(?:jansson|yaml|hdf5|zlib)\.h>|"graingas\.h"'
 # Definitions that users make are structs of the public header: these files read them.
 USER_DEFINED = {"src/common/extension.c", "src/common/quantity.c", "src/measure/user_observable.c",

@@ -48,7 +48,7 @@ typedef struct gg_dsmc_samples {
   gg_dsmc_directions near, sheared; /* about C12; by the law |k_x k_y| */
 } gg_dsmc_samples;
 
-/* A candidate pair in each lane. Where it does not collide, the other members are finite and mean nothing. */
+/* A candidate pair in each lane. Without a collision the other members are finite and unused. */
 typedef struct gg_dsmc_candidate {
   gg_mask hit, special; /* hit: it collides; special: by the second law */
   gg_vd speed, t;

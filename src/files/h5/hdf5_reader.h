@@ -42,7 +42,7 @@ typedef struct gg_h5_in {
   gg_h5_trail trail;
 } gg_h5_in;
 
-/* The file's checksum is looked at first (checksum_trailer.h). To be closed, also after a failure. */
+/* The file's checksum is checked first (checksum_trailer.h). To be closed, also after a failure. */
 void gg_h5_open(gg_h5_in *in, const char *path);
 /* Also a file that ends without one: another program has changed it, if it is as long as its superblock says. */
 void gg_h5_open_any(gg_h5_in *in, const char *path);
@@ -51,7 +51,7 @@ void gg_h5_open_bytes(gg_h5_in *in, const void *bytes, size_t size);
 void gg_h5_in_close(gg_h5_in *in);
 /* GG_BAD_FILE "path: cannot be read: why" if anything failed. */
 gg_status gg_h5_in_status(const gg_h5_in *in, const char *path, gg_error *err);
-/* Record a failure of one's own. */
+/* Record a failure that the caller found. */
 void gg_h5_in_failed(gg_h5_in *in, const char *why);
 
 bool gg_h5_exists(gg_h5_in *in, const char *path);

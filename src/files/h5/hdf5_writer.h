@@ -65,7 +65,7 @@ void gg_h5_rows_read(gg_h5 *h, const gg_h5_rows *rows, size_t row, void *data);
 void gg_h5_rows_drop(gg_h5 *h, gg_h5_rows *rows, size_t n);
 void gg_h5_rows_close(gg_h5 *h, gg_h5_rows *rows);
 
-/* Record a failure of one's own, or HDF5's latest one. */
+/* Record a failure that the caller found, or HDF5's latest one. */
 void gg_h5_failed(gg_h5 *h, const char *what);
 
 #endif

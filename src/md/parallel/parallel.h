@@ -13,7 +13,7 @@ int gg_md_most_slabs(const gg_model *model);
 enum { GG_MD_FEWEST_PARALLEL = 30000 };
 
 /* Run the events of this engine on up to so many threads, if the model allows it; 1: on one. `adapts`: only while
- * several threads are faster by the clock. */
+ * several threads are faster in wall time. */
 void gg_md_use_threads(gg_md *e, int threads, bool adapts);
 void gg_md_parallel_free(gg_md *e);
 

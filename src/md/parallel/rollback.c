@@ -7,7 +7,7 @@
 #include "md/parallel/slab.h"
 #include "md/search/list_update.h"
 
-/* Has an event of equal or later time run here in an earlier phase? Of equal times the queue decides, once both events
+/* Has an event of equal or later time run here in an earlier phase? The queue orders events of equal times, once both
  * are in it. */
 static bool is_straggler_in(const gg_md_slab *s, float time, const uint32_t *cells, int n)
 {

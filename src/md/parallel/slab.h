@@ -158,7 +158,7 @@ typedef struct gg_md_window_counts {
   uint64_t cancelled;   /* windows */
 } gg_md_window_counts;
 
-/* Comparison of parallel and serial events by the clock. No bit depends on it. If other processes keep the processors
+/* Comparison of parallel and serial events in wall time. No bit depends on it. If other processes keep the processors
  * busy, threads block each other and serial events may be faster. */
 typedef struct gg_md_trial {
   bool serial;

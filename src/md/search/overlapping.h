@@ -20,7 +20,7 @@ enum {
 #include "md/search/neighbour_search.h"
 #include "md/search/simd_pairs.h"
 
-/* Append the grains of a crowded cell. Whenever there is no room, the candidates so far are tested first. */
+/* Append the grains of a cell that overflowed. Whenever there is no room, the candidates so far are tested first. */
 static __attribute__((noinline, cold, unused)) void gg_md_take_crowded(const gg_md *e, gg_md_search *s,
                                                                        const uint32_t *cell)
 {
