@@ -17,13 +17,13 @@ bool gg_sweep_is_main_quantity(const char *quantity)
   return q < GG_N_QUANTITIES && gg_common_quantity_mask(q) & (GG_DRAWN | GG_DRAWN_AS_RATIO);
 }
 
-static bool is_of_solution(const gg_cli_table_row *row)
+static bool is_of_solution(const gg_point_row *row)
 {
   return strcmp(row->method, "dsmc") == 0 && row->reference && strcmp(row->reference, "enskog_hermite") == 0 &&
          isfinite(row->z) && gg_sweep_is_main_quantity(row->quantity);
 }
 
-bool gg_sweep_agreement_counts(const gg_cli_table_row *row)
+bool gg_sweep_agreement_counts(const gg_point_row *row)
 {
   return row->steady && is_of_solution(row);
 }
@@ -37,7 +37,7 @@ static gg_agreement_row *row_for(gg_agreement *a, const char *quantity)
   return &a->row[a->n++];
 }
 
-static void add(gg_agreement *a, const gg_cli_table_row *row)
+static void add(gg_agreement *a, const gg_point_row *row)
 {
   gg_agreement_row *of = row_for(a, row->quantity);
   if (!of) return;

@@ -32,7 +32,7 @@ typedef struct gg_agreement {
 
 void gg_sweep_agreement_make(gg_agreement *agreement, const gg_grid_view *view);
 /* Is it a row that takes part: of dsmc, steady, of a main quantity, with a z against the solution? */
-bool gg_sweep_agreement_counts(const gg_cli_table_row *row);
+bool gg_sweep_agreement_counts(const gg_point_row *row);
 /* Of the quantities that a picture of a comparison has. */
 bool gg_sweep_is_main_quantity(const char *quantity);
 

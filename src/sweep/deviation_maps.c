@@ -36,19 +36,19 @@ typedef struct maps {
 
 static const gg_heat_cell nothing = {NAN, NAN, false, 0};
 
-static char structure_of(const gg_cli_table_row *row)
+static char structure_of(const gg_point_row *row)
 {
   return !row->structure ? 0 : strcmp(row->structure, "collapsed") == 0 ? 'k' : 'c';
 }
 
 /* A row of the table against the noise-free solution, where that has no answer against dsmc. */
-static gg_heat_cell against_enskog(const gg_cli_table_row *row)
+static gg_heat_cell against_enskog(const gg_point_row *row)
 {
   if (!row || !row->reference) return nothing;
   return (gg_heat_cell){gg_sweep_deviation_of(row), gg_sweep_deviation_error_of(row), !row->steady, structure_of(row)};
 }
 
-static gg_heat_cell between_engines(const gg_cli_table_row *md, const gg_cli_table_row *dsmc, bool difference)
+static gg_heat_cell between_engines(const gg_point_row *md, const gg_point_row *dsmc, bool difference)
 {
   if (!md || !dsmc || !(difference || fabs(dsmc->mean) > 3 * dsmc->error)) return nothing;
   const double scale = difference ? 1 : dsmc->mean;
@@ -58,8 +58,8 @@ static gg_heat_cell between_engines(const gg_cli_table_row *md, const gg_cli_tab
 
 static gg_heat_cell cell_of(const maps *m, const map_row *row, size_t point, const char *quantity, bool difference)
 {
-  const gg_cli_table_row *md = gg_sweep_grid_row(m->view, point, "md", quantity),
-                         *dsmc = gg_sweep_grid_row(m->view, point, "dsmc", quantity);
+  const gg_point_row *md = gg_sweep_grid_row(m->view, point, "md", quantity),
+                     *dsmc = gg_sweep_grid_row(m->view, point, "dsmc", quantity);
   switch (row->kind) {
   case DSMC_ENSKOG: return against_enskog(dsmc);
   case MD_ENSKOG: return against_enskog(md);
@@ -72,7 +72,7 @@ static gg_heat_cell cell_of(const maps *m, const map_row *row, size_t point, con
 static bool is_against_dsmc(const maps *m, const map_row *row, size_t point, const char *quantity)
 {
   const char *method = row->kind == THEORY_ENSKOG ? row->theory : row->kind == MD_ENSKOG ? "md" : NULL;
-  const gg_cli_table_row *of = method ? gg_sweep_grid_row(m->view, point, method, quantity) : NULL;
+  const gg_point_row *of = method ? gg_sweep_grid_row(m->view, point, method, quantity) : NULL;
   return of && of->reference && strcmp(of->reference, "dsmc") == 0;
 }
 

@@ -121,10 +121,10 @@ void gg_sweep_grid_panel_name(const gg_grid_view *v, size_t panel, bool enhanced
   }
 }
 
-const gg_cli_table_row *gg_sweep_grid_row(const gg_grid_view *v, size_t point, const char *method, const char *quantity)
+const gg_point_row *gg_sweep_grid_row(const gg_grid_view *v, size_t point, const char *method, const char *quantity)
 {
   for (size_t i = v->first[point]; i < v->first[point + 1]; i++) {
-    const gg_cli_table_row *row = &v->table->row[i];
+    const gg_point_row *row = &v->table->row[i];
     if (strcmp(row->method, method) == 0 && strcmp(row->quantity, quantity) == 0) return row;
   }
   return NULL;

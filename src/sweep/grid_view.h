@@ -33,8 +33,7 @@ const char *gg_sweep_grid_value(const gg_grid_view *view, const gg_grid_key *axi
  * value are left out. */
 void gg_sweep_grid_panel_name(const gg_grid_view *view, size_t panel, bool enhanced, char name[GG_PANEL_NAME]);
 /* NULL: none. */
-const gg_cli_table_row *gg_sweep_grid_row(const gg_grid_view *view, size_t point, const char *method,
-                                          const char *quantity);
+const gg_point_row *gg_sweep_grid_row(const gg_grid_view *view, size_t point, const char *method, const char *quantity);
 /* Has the point a result? */
 bool gg_sweep_grid_has(const gg_grid_view *view, size_t point);
 

@@ -114,13 +114,13 @@ static size_t combination_of(const gg_picture_choice *c, const gg_sweep *sweep, 
   return number;
 }
 
-static const char *unit_of(const gg_cli_table_row *row)
+static const char *unit_of(const gg_point_row *row)
 {
   return row->unit ? row->unit : "";
 }
 
 /* Against the method that the picture is relative to; false: it has no number there. */
-static bool relate(gg_picture_row *row, const gg_cli_table_row *reference)
+static bool relate(gg_picture_row *row, const gg_point_row *reference)
 {
   if (!reference || strcmp(unit_of(reference), row->unit) != 0) return false;
   const gg_estimate mean = {.mean = row->mean, .error = strcmp(reference->method, row->method) ? row->error : NAN},
@@ -132,7 +132,7 @@ static bool relate(gg_picture_row *row, const gg_cli_table_row *reference)
 }
 
 /* A row of the table, if the picture has it. */
-static gg_status add_row(gg_picture_rows *rows, const gg_grid_view *v, const gg_cli_table_row *from,
+static gg_status add_row(gg_picture_rows *rows, const gg_grid_view *v, const gg_point_row *from,
                          const gg_picture_choice *c, gg_error *err)
 {
   gg_picture_row row = {.method = from->method,
@@ -149,7 +149,7 @@ static gg_status add_row(gg_picture_rows *rows, const gg_grid_view *v, const gg_
   return add(rows, &row, err);
 }
 
-static bool is_chosen(const gg_cli_table_row *row, const gg_picture_choice *c, const char *quantities)
+static bool is_chosen(const gg_point_row *row, const gg_picture_choice *c, const char *quantities)
 {
   const bool reference = c->relative_to && strcmp(c->relative_to, row->method) == 0;
   return gg_sweep_list_has(quantities, row->quantity) &&
@@ -175,7 +175,7 @@ static gg_status add_line(gg_picture_rows *rows, size_t i, const gg_grid_view *l
   for (size_t p = 0; p < lines->sweep->n; p++) {
     gg_picture_row row = rows->row[i];
     if (combination_of(c, lines->sweep, p) != row.combination) continue;
-    const gg_cli_table_row *found = gg_sweep_grid_row(lines, p, row.method, row.quantity);
+    const gg_point_row *found = gg_sweep_grid_row(lines, p, row.method, row.quantity);
     row.x = gg_sweep_axis_value(lines->sweep, p, &c->axis), row.mean = row.share = NAN;
     if (!found)
       GG_TRY(add(rows, &row, err));

@@ -29,7 +29,7 @@ static const gg_theory *theory_of(const gg_comparison *c, const char *name)
   return NULL;
 }
 
-static void set_deviation(gg_cli_table_row *row, gg_quantity q, const gg_reference *reference)
+static void set_deviation(gg_point_row *row, gg_quantity q, const gg_reference *reference)
 {
   const gg_estimate mean = {.mean = row->mean, .error = row->theory ? NAN : row->error};
   const gg_departure d = gg_run_reference_deviation(q, &mean, &reference->value);
@@ -41,7 +41,7 @@ static void set_deviation(gg_cli_table_row *row, gg_quantity q, const gg_referen
 }
 
 /* The causes of `compare` are md's; those of theories are their range. */
-static void set_cause(gg_cli_table_row *row, const gg_comparison *c, gg_quantity q, gg_string_list *texts)
+static void set_cause(gg_point_row *row, const gg_comparison *c, gg_quantity q, gg_string_list *texts)
 {
   const gg_theory *theory = row->theory ? theory_of(c, row->method) : NULL;
   if (row->theory) {
@@ -67,7 +67,7 @@ static const char *structure_of(const gg_comparison *c)
   return strstr(text, "clustered") ? "clustered" : "swirling";
 }
 
-static void compare_row(gg_point_table *t, gg_cli_table_row *row, const gg_comparison *c)
+static void compare_row(gg_point_table *t, gg_point_row *row, const gg_comparison *c)
 {
   gg_reference reference;
   const gg_quantity_row *named = gg_run_rows_find(&c->rows, row->quantity);
@@ -94,7 +94,7 @@ static gg_status restore(json_t *document, char *scene, gg_comparison *c, gg_err
 gg_status gg_sweep_point_deviations(gg_point_table *t, size_t first, json_t *document, char *scene, gg_error *err)
 {
   for (size_t i = first; i < t->n; i++) {
-    gg_cli_table_row *row = &t->row[i];
+    gg_point_row *row = &t->row[i];
     row->reference_mean = row->difference = row->difference_error = row->deviation = row->deviation_error = row->z =
         NAN;
   }

@@ -95,7 +95,7 @@ static bool has_method(const gg_point_table *t, const char *method)
   return false;
 }
 
-static const char *unit_of(const gg_cli_table_row *row)
+static const char *unit_of(const gg_point_row *row)
 {
   return row->unit ? row->unit : "";
 }
@@ -106,7 +106,7 @@ static bool belongs(const drawing *d, size_t p, const char *quantity, const char
   return strcmp(quantity, d->quantity[p]) == 0 && strcmp(unit, d->unit[p]) == 0;
 }
 
-static bool is_shown(const drawing *d, const gg_cli_table_row *row)
+static bool is_shown(const drawing *d, const gg_point_row *row)
 {
   for (size_t p = 0; p < d->n; p++)
     if (belongs(d, p, row->quantity, unit_of(row))) return true;
@@ -119,7 +119,7 @@ static gg_status add_panels(drawing *d, const char *quantity, gg_error *err)
   if (!has_rows(d->table, quantity))
     return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%.60s'", quantity);
   for (size_t i = 0; i < d->table->n; i++) {
-    const gg_cli_table_row *row = &d->table->row[i];
+    const gg_point_row *row = &d->table->row[i];
     if (strcmp(row->quantity, quantity) != 0 || is_shown(d, row)) continue;
     if (d->n == MOST_PANELS)
       return gg_base_fail(err, GG_BAD_INPUT, "a picture has at most %d panels, one for each quantity and unit",
@@ -287,7 +287,7 @@ static void write_note(drawing *d)
   size_t last = SIZE_MAX, n = 0;
   char list[300] = "";
   for (size_t i = 0; i < d->table->n; i++) {
-    const gg_cli_table_row *row = &d->table->row[i];
+    const gg_point_row *row = &d->table->row[i];
     if (row->steady || row->point == last) continue;
     if (n < NAMED) gg_base_text_append(list, sizeof list, "%s%zu", n ? ", " : "", row->point + 1);
     last = row->point, n++;

@@ -32,11 +32,11 @@ void gg_sweep_point_table_clear(gg_point_table *t)
   *t = (gg_point_table){0};
 }
 
-static gg_status add_row(gg_point_table *t, const gg_cli_table_row *row, gg_error *err)
+static gg_status add_row(gg_point_table *t, const gg_point_row *row, gg_error *err)
 {
   if (t->n == t->room) {
     size_t room = t->room ? 2 * t->room : 256;
-    gg_cli_table_row *grown = realloc(t->row, room * sizeof *grown);
+    gg_point_row *grown = realloc(t->row, room * sizeof *grown);
     if (!grown) return gg_base_out_of_memory(err);
     t->row = grown;
     t->room = room;
@@ -52,7 +52,7 @@ static double number(const json_t *object, const char *key)
 }
 
 /* Quantities of a method, of those that it has a mean of. */
-static gg_status add_quantities(gg_point_table *t, gg_cli_table_row row, json_t *quantities, const char *error,
+static gg_status add_quantities(gg_point_table *t, gg_point_row row, json_t *quantities, const char *error,
                                 gg_error *err)
 {
   const char *name;
@@ -68,7 +68,7 @@ static gg_status add_quantities(gg_point_table *t, gg_cli_table_row row, json_t 
   return GG_OK;
 }
 
-static gg_status add_run(gg_point_table *t, gg_cli_table_row row, json_t *document, gg_error *err)
+static gg_status add_run(gg_point_table *t, gg_point_row row, json_t *document, gg_error *err)
 {
   if (!json_is_object(document)) return GG_OK; /* an engine that could not run the scene */
   row.method = json_string_value(json_object_get(document, "engine"));
@@ -79,7 +79,7 @@ static gg_status add_run(gg_point_table *t, gg_cli_table_row row, json_t *docume
 }
 
 /* Theories of the sweep's own file, which may have changed since the point was run: asked again. */
-static gg_status add_own_theories(gg_point_table *t, gg_cli_table_row row, const gg_model *m, gg_error *err)
+static gg_status add_own_theories(gg_point_table *t, gg_point_row row, const gg_model *m, gg_error *err)
 {
   gg_quantity_rows *rows = gg_base_array_new(1, sizeof *rows, err);
   if (!rows) return GG_FAILED;
@@ -108,7 +108,7 @@ static bool is_own(const gg_extension *x, const char *theory)
   return found;
 }
 
-static gg_status add_document(gg_point_table *t, gg_cli_table_row row, json_t *document, const gg_scene *scene,
+static gg_status add_document(gg_point_table *t, gg_point_row row, json_t *document, const gg_scene *scene,
                               gg_error *err)
 {
   const char *name;
@@ -143,7 +143,7 @@ static gg_status read_document(const char *path, json_t **document, char **scene
   return gg_h5_in_status(&h, path, err);
 }
 
-static gg_status add_read_point(gg_point_table *t, gg_cli_table_row row, const gg_scene *scene, json_t *document,
+static gg_status add_read_point(gg_point_table *t, gg_point_row row, const gg_scene *scene, json_t *document,
                                 char *yaml, gg_error *err)
 {
   const size_t first = t->n;
@@ -161,7 +161,7 @@ static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char 
   const gg_point_state state = gg_sweep_point_status(folder, id);
   if (state == GG_POINT_MISSING) return GG_OK;
   GG_TRY(gg_sweep_resolve(sweep, i, &scene, err));
-  gg_cli_table_row row = {.point = i, .seed = scene.run.seed, .fell_short = state == GG_POINT_SHORT};
+  gg_point_row row = {.point = i, .seed = scene.run.seed, .fell_short = state == GG_POINT_SHORT};
   gg_sweep_point_name(id, row.file);
   char path[PATH_MAX], *yaml = NULL;
   json_t *document = NULL;
@@ -202,38 +202,38 @@ static const struct {
   kind kind;
   size_t offset;
 } columns[] = {
-    {"method", TEXT, offsetof(gg_cli_table_row, method)},
-    {"quantity", TEXT, offsetof(gg_cli_table_row, quantity)},
-    {"mean", NUMBER, offsetof(gg_cli_table_row, mean)},
-    {"error", NUMBER, offsetof(gg_cli_table_row, error)},
-    {"unit", TEXT, offsetof(gg_cli_table_row, unit)},
-    {"reference", TEXT, offsetof(gg_cli_table_row, reference)},
-    {"reference_mean", NUMBER, offsetof(gg_cli_table_row, reference_mean)},
-    {"difference", NUMBER, offsetof(gg_cli_table_row, difference)},
-    {"difference_error", NUMBER, offsetof(gg_cli_table_row, difference_error)},
-    {"deviation", NUMBER, offsetof(gg_cli_table_row, deviation)},
-    {"deviation_error", NUMBER, offsetof(gg_cli_table_row, deviation_error)},
-    {"z", NUMBER, offsetof(gg_cli_table_row, z)},
-    {"beyond_expected", TRUTH, offsetof(gg_cli_table_row, beyond)},
-    {"cause", TEXT, offsetof(gg_cli_table_row, cause)},
-    {"structure", TEXT, offsetof(gg_cli_table_row, structure)},
-    {"contact_time", NUMBER, offsetof(gg_cli_table_row, contact_time)},
-    {"seed", WHOLE, offsetof(gg_cli_table_row, seed)},
-    {"steady", TRUTH, offsetof(gg_cli_table_row, steady)},
-    {"short", TRUTH, offsetof(gg_cli_table_row, fell_short)},
-    {"seconds", NUMBER, offsetof(gg_cli_table_row, seconds)},
-    {"file", NAME, offsetof(gg_cli_table_row, file)},
-    {"version", TEXT, offsetof(gg_cli_table_row, version)},
-    {"build", TEXT, offsetof(gg_cli_table_row, build)},
+    {"method", TEXT, offsetof(gg_point_row, method)},
+    {"quantity", TEXT, offsetof(gg_point_row, quantity)},
+    {"mean", NUMBER, offsetof(gg_point_row, mean)},
+    {"error", NUMBER, offsetof(gg_point_row, error)},
+    {"unit", TEXT, offsetof(gg_point_row, unit)},
+    {"reference", TEXT, offsetof(gg_point_row, reference)},
+    {"reference_mean", NUMBER, offsetof(gg_point_row, reference_mean)},
+    {"difference", NUMBER, offsetof(gg_point_row, difference)},
+    {"difference_error", NUMBER, offsetof(gg_point_row, difference_error)},
+    {"deviation", NUMBER, offsetof(gg_point_row, deviation)},
+    {"deviation_error", NUMBER, offsetof(gg_point_row, deviation_error)},
+    {"z", NUMBER, offsetof(gg_point_row, z)},
+    {"beyond_expected", TRUTH, offsetof(gg_point_row, beyond)},
+    {"cause", TEXT, offsetof(gg_point_row, cause)},
+    {"structure", TEXT, offsetof(gg_point_row, structure)},
+    {"contact_time", NUMBER, offsetof(gg_point_row, contact_time)},
+    {"seed", WHOLE, offsetof(gg_point_row, seed)},
+    {"steady", TRUTH, offsetof(gg_point_row, steady)},
+    {"short", TRUTH, offsetof(gg_point_row, fell_short)},
+    {"seconds", NUMBER, offsetof(gg_point_row, seconds)},
+    {"file", NAME, offsetof(gg_point_row, file)},
+    {"version", TEXT, offsetof(gg_point_row, version)},
+    {"build", TEXT, offsetof(gg_point_row, build)},
 };
 enum { COLUMNS = sizeof columns / sizeof *columns };
 
-static const void *cell(const gg_cli_table_row *row, size_t c)
+static const void *cell(const gg_point_row *row, size_t c)
 {
   return (const char *)row + columns[c].offset;
 }
 
-static const char *text_of(const gg_cli_table_row *row, size_t c)
+static const char *text_of(const gg_point_row *row, size_t c)
 {
   const void *at = cell(row, c);
   return columns[c].kind == NAME ? at : *(const char *const *)at;
@@ -246,7 +246,7 @@ static void put_count(gg_csv *csv, uint64_t n)
   gg_base_csv_text(csv, text);
 }
 
-static void put_cell(gg_csv *csv, const gg_cli_table_row *row, size_t c)
+static void put_cell(gg_csv *csv, const gg_point_row *row, size_t c)
 {
   const void *at = cell(row, c);
   json_t *value = NULL;
@@ -277,7 +277,7 @@ static void put_head(gg_csv *csv, const gg_sweep *sweep)
   gg_base_csv_end_row(csv);
 }
 
-static void put_row(gg_csv *csv, const gg_sweep *sweep, const gg_cli_table_row *row)
+static void put_row(gg_csv *csv, const gg_sweep *sweep, const gg_point_row *row)
 {
   put_count(csv, row->point + 1);
   for (size_t k = 0; gg_sweep_key(sweep, k); k++)
@@ -356,7 +356,7 @@ static void write_key(const column *c, const gg_point_table *t, const gg_sweep *
 static void fill_column(const column *out, const gg_point_table *t, size_t c)
 {
   for (size_t i = 0; i < t->n; i++) {
-    const gg_cli_table_row *row = &t->row[i];
+    const gg_point_row *row = &t->row[i];
     const char *text = columns[c].kind >= TEXT ? text_of(row, c) : NULL;
     switch (columns[c].kind) {
     case NUMBER: out->number[i] = *(const double *)cell(row, c); break;

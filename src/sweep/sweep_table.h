@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "sweep/folder.h"
 
-typedef struct gg_cli_table_row {
+typedef struct gg_point_row {
   size_t point;             /* from 0 */
   char file[GG_POINT_NAME]; /* of the point */
   const char *method;       /* "md", "dsmc", or a theory's name */
@@ -28,11 +28,11 @@ typedef struct gg_cli_table_row {
   const char *cause;                   /* where it is */
   const char *structure;               /* of md: "clustered", "swirling", "collapsed"; NULL: homogeneous, or unknown */
   double contact_time;                 /* of md that auto ended at, where that is not its default; else NaN */
-} gg_cli_table_row;
+} gg_point_row;
 
 typedef struct gg_point_table {
   size_t n, room;
-  gg_cli_table_row *row; /* in the order of points, methods, quantities */
+  gg_point_row *row;     /* in the order of points, methods, quantities */
   size_t n_other_builds; /* points that a build of another identity ran */
   size_t n_documents;    /* one for each point that has a file */
   json_t **document;     /* texts of the rows belong to them */

@@ -44,7 +44,7 @@ static gg_agreement judge(const plan *p, unsigned short seed)
   gg_sweep *sweep;
   gg_grid_view view;
   gg_agreement a;
-  static gg_cli_table_row row[POINTS * QUANTITIES];
+  static gg_point_row row[POINTS * QUANTITIES];
   unsigned short stream[3] = {seed, 41, 7};
   assert_int_equal(gg_sweep_parse(grid, "grid", &sweep, &err), GG_OK);
   assert_int_equal(gg_sweep_check(sweep, &err), GG_OK);
@@ -53,12 +53,12 @@ static gg_agreement judge(const plan *p, unsigned short seed)
     double z = draw(stream);
     if (first) z = z * p->width + p->shift;
     if (i == 0 && p->single != 0) z = p->single;
-    row[i] = (gg_cli_table_row){.point = i / QUANTITIES,
-                                .method = "dsmc",
-                                .quantity = quantities[i % QUANTITIES],
-                                .reference = p->reference,
-                                .steady = !p->unsteady,
-                                .z = z};
+    row[i] = (gg_point_row){.point = i / QUANTITIES,
+                            .method = "dsmc",
+                            .quantity = quantities[i % QUANTITIES],
+                            .reference = p->reference,
+                            .steady = !p->unsteady,
+                            .z = z};
   }
   const gg_point_table table = {.n = POINTS * QUANTITIES, .row = row, .n_documents = POINTS};
   assert_int_equal(gg_sweep_grid_view_make(&view, &table, sweep, &err), GG_OK);
