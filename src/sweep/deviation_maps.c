@@ -16,11 +16,10 @@
 
 enum { MOST_CELLS = 24, MOST_COLUMNS = 8, MOST_THEORIES = 6, MOST_ROWS = 3 + MOST_THEORIES };
 
-typedef enum row_kind { DSMC_ENSKOG, MD_ENSKOG, MD_DSMC, THEORY_ENSKOG } row_kind;
-
+/* A method against its reference: Enskog's equation, or with `engines` md against dsmc. */
 typedef struct map_row {
-  row_kind kind;
-  char theory[64], name[160];
+  char method[64], name[160];
+  bool engines;
 } map_row;
 
 typedef struct maps {
@@ -41,7 +40,7 @@ static char structure_of(const gg_point_row *row)
   return !row->structure ? 0 : strcmp(row->structure, "collapsed") == 0 ? 'k' : 'c';
 }
 
-/* A row of the table against the noise-free solution, where that has no answer against dsmc. */
+/* Deviation of a row of the table from its reference: the noise-free solution, or dsmc where that has no answer. */
 static gg_heat_cell against_enskog(const gg_point_row *row)
 {
   if (!row || !row->reference) return nothing;
@@ -56,55 +55,33 @@ static gg_heat_cell between_engines(const gg_point_row *md, const gg_point_row *
                         !md->steady || !dsmc->steady, structure_of(md)};
 }
 
-static gg_heat_cell cell_of(const maps *m, const map_row *row, size_t point, const char *quantity, bool difference)
-{
-  const gg_point_row *md = gg_sweep_grid_row(m->view, point, "md", quantity),
-                     *dsmc = gg_sweep_grid_row(m->view, point, "dsmc", quantity);
-  switch (row->kind) {
-  case DSMC_ENSKOG: return against_enskog(dsmc);
-  case MD_ENSKOG: return against_enskog(md);
-  case MD_DSMC: return between_engines(md, dsmc, difference);
-  default: return against_enskog(gg_sweep_grid_row(m->view, point, row->theory, quantity));
-  }
-}
-
-/* Is a panel's reference dsmc somewhere? */
-static bool is_against_dsmc(const maps *m, const map_row *row, size_t point, const char *quantity)
-{
-  const char *method = row->kind == THEORY_ENSKOG ? row->theory : row->kind == MD_ENSKOG ? "md" : NULL;
-  const gg_point_row *of = method ? gg_sweep_grid_row(m->view, point, method, quantity) : NULL;
-  return of && of->reference && strcmp(of->reference, "dsmc") == 0;
-}
-
 static void fill(maps *m, const char *quantity, bool difference)
 {
   const gg_grid_view *v = m->view;
   gg_heat_cell *cell = m->cell;
   for (size_t r = 0; r < m->n_rows; r++)
     for (size_t p = 0; p < v->n_panels; p++) {
-      m->note[r * v->n_panels + p] = NULL;
+      const char **note = &m->note[r * v->n_panels + p];
+      *note = NULL;
       for (size_t i = 0; i < v->x.n * v->y.n; i++) {
         const size_t point = gg_sweep_grid_point(v, p, i % v->x.n, i / v->x.n);
-        *cell++ = cell_of(m, &m->row[r], point, quantity, difference);
-        if (is_against_dsmc(m, &m->row[r], point, quantity)) m->note[r * v->n_panels + p] = "against dsmc";
+        const gg_point_row *row = gg_sweep_grid_row(v, point, m->row[r].method, quantity);
+        const bool engines = m->row[r].engines;
+        *cell++ = engines ? between_engines(row, gg_sweep_grid_row(v, point, "dsmc", quantity), difference)
+                          : against_enskog(row);
+        if (!engines && row && row->reference && strcmp(row->reference, "dsmc") == 0) *note = "against dsmc";
       }
     }
 }
 
 static void name_rows(maps *m, bool difference)
 {
-  static const char *const engines[][2] = {
-      [DSMC_ENSKOG] = {"dsmc", "Enskog"}, [MD_ENSKOG] = {"md", "Enskog"}, [MD_DSMC] = {"md", "dsmc"}};
   for (size_t r = 0; r < m->n_rows; r++) {
     map_row *row = &m->row[r];
-    char of[64];
-    gg_plot_method_name(row->theory, of, sizeof of);
-    const char *a = row->kind == THEORY_ENSKOG ? of : engines[row->kind][0],
-               *b = row->kind == THEORY_ENSKOG ? "Enskog" : engines[row->kind][1];
-    if (difference)
-      snprintf(row->name, sizeof row->name, "%s - %s", a, b);
-    else
-      snprintf(row->name, sizeof row->name, "%s/%s - 1", a, b);
+    char method[64];
+    gg_plot_method_name(row->method, method, sizeof method);
+    snprintf(row->name, sizeof row->name, difference ? "%s - %s" : "%s/%s - 1", method,
+             row->engines ? "dsmc" : "Enskog");
     m->row_name[r] = row->name;
   }
 }
@@ -164,7 +141,7 @@ static bool has_method(const gg_grid_view *v, const char *method)
   return false;
 }
 
-/* Lun's, and those of the sweep's own file. */
+/* The default theories: Lun's, and those of the sweep's own file. */
 static void list_theories(const maps *m, char *list, size_t size)
 {
   const gg_extension *own = m->view->sweep->base.extension;
@@ -178,16 +155,14 @@ static gg_status choose_rows(maps *m, gg_error *err)
   char chosen[64 * MOST_THEORIES], word[64];
   const char *theories = m->choice->theories ? m->choice->theories : chosen;
   list_theories(m, chosen, sizeof chosen);
-  m->row[m->n_rows++].kind = DSMC_ENSKOG;
-  m->row[m->n_rows++].kind = MD_ENSKOG;
-  m->row[m->n_rows++].kind = MD_DSMC;
+  m->row[m->n_rows++] = (map_row){.method = "dsmc"};
+  m->row[m->n_rows++] = (map_row){.method = "md"};
+  m->row[m->n_rows++] = (map_row){.method = "md", .engines = true};
   while (next_word(&theories, word)) {
     if (!has_method(m->view, word) && m->choice->theories)
       return gg_base_fail(err, GG_BAD_INPUT, "no point has a theory '%s'", word);
     if (m->n_rows == MOST_ROWS) return gg_base_fail(err, GG_BAD_INPUT, "a map has at most %d theories", MOST_THEORIES);
-    if (!has_method(m->view, word)) continue;
-    m->row[m->n_rows].kind = THEORY_ENSKOG;
-    snprintf(m->row[m->n_rows++].theory, sizeof m->row[0].theory, "%s", word);
+    if (has_method(m->view, word)) memcpy(m->row[m->n_rows++].method, word, sizeof word);
   }
   return GG_OK;
 }

@@ -88,20 +88,20 @@ gg_status gg_sweep_picture_check(const gg_point_table *table, const gg_sweep *sw
 
 gg_status gg_sweep_point_table_draw(const gg_point_table *table, const gg_sweep *sweep, const gg_picture_choice *choice,
                                     const char *picture, const char *width, gg_error *err);
-/* picture_rows.c: the theories at twenty-five values of the axis, for each combination; to be run, read and freed.
- * *lines is NULL where there are none: keys change with that of the axis, or it takes whole numbers. */
+/* The value of the axis at a point; NaN: the value is not a number. */
+double gg_sweep_axis_value(const gg_sweep *sweep, size_t point, const gg_picture_axis *axis);
+/* A sweep of the theories at twenty-five values of the axis, for each combination of the other keys; to be run, read and
+ * freed. *lines is NULL if keys change with that of the axis, or that takes whole numbers. */
 gg_status gg_sweep_lines_make(const gg_sweep *sweep, const gg_picture_axis *axis, gg_sweep **lines, gg_error *err);
 void gg_sweep_lines_free(gg_sweep *lines, const gg_picture_axis *axis);
 
-/* Points that differ in the rows of one varied group alone, that of a picture's axis, are one line of it. */
-/* Bytes of a name as enhanced text; what it shows has at most some 70 letters, the width of a picture. */
-enum { GG_COMBINATION_NAME = 320 };
+/* Points that differ in the rows of one varied group alone, that of a picture's axis, are one line of the picture. */
+enum { GG_COMBINATION_NAME = 1024 };
 
-/* The first point of those that point i differs from in `varied` alone: one number for each combination of the others'
+/* The first point of those that differ from point i in `varied` alone: one number for each combination of the other
  * rows. */
 size_t gg_sweep_line_group_of(const gg_sweep *sweep, size_t i, size_t varied);
-/* "β = 0.5, φ = 0.1", enhanced text: its values, long ones by what they differ in. One that is cut differs from the
- * others by its number. */
+/* "β = 0.5, φ = 0.1", enhanced text: the values of a combination, long values by what they differ in. */
 void gg_sweep_line_group_name(const gg_sweep *sweep, size_t combination, size_t varied, char text[GG_COMBINATION_NAME]);
 
 /* The points of a checked sweep as JSON. A new reference; NULL: out of memory. */

@@ -212,7 +212,7 @@ static void check_combination(const char *yaml, size_t i, size_t first, const ch
 
 #define LONG "rheology, velocity_distributions, pair_correlation, "
 
-/* Of the keys beside the second one: told apart by rows, whatever of them there is room for. */
+/* Names of the rows of the keys beside the second one. */
 static void combinations(void **state)
 {
   (void)state;
@@ -223,11 +223,12 @@ static void combinations(void **state)
   check_combination(lists, 1, 0, "measure = …cells…");
   check_combination(lists, 3, 2, "measure = …sonine…");
   const char *cut = SCENE "vary: {measure: [[" LONG "cells], [cells, " LONG "sonine]], phi: [0.1, 0.2]}";
-  check_combination(cut, 1, 0, "measure = …rheology, velocity\\_distributions… (point 1)");
-  check_combination(cut, 3, 2, "measure = …cells, rheology, velocity\\_distri… (point 3)");
+  check_combination(cut, 1, 0, "measure = …rheology, velocity\\_distributions, pair\\_correlation, cells…");
+  check_combination(cut, 3, 2, "measure = …cells, rheology, velocity\\_distributions, pair\\_correlation, sonine…");
   check_combination(SCENE "vary: [{collision.e: [0.7], collision.beta: [0]}, {phi: [0.1, 0.2]}, "
                           "{md.contact_time: [0.0001], walls.e: [0.9], run.replicas: [2], run.warmup: [123456789]}]",
-                    1, 0, "e = 0.7, β = 0, md.contact\\_time = 0.0001, e_w = 0.9… (point 1)");
+                    1, 0,
+                    "e = 0.7, β = 0, md.contact\\_time = 0.0001, e_w = 0.9, run.replicas = 2, run.warmup = 123456789");
 }
 
 static double seconds_of(const char *yaml)
