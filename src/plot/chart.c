@@ -239,17 +239,21 @@ static void label_outliers(const gg_page *page, const gg_chart_panel *p, gg_box 
   }
 }
 
-/* Words below their symbols, where all have room. */
+/* Symbols below the axis, in turn in up to three rows if they are wide, and words below them if all have room. */
 static void print_categories(const gg_page *page, const gg_chart_panel *p, gg_box f)
 {
   const double n = (double)p->n_categories, wide = f.wide / (n + 0.1), small = 6.5;
-  size_t longest = 0;
-  for (size_t i = 0; i < p->n_categories; i++) longest = (size_t)fmax((double)longest, (double)strlen(p->word[i]));
+  size_t word = 0, symbol = 0;
   for (size_t i = 0; i < p->n_categories; i++) {
-    const double x = f.left + wide * ((double)i + 0.55);
-    gg_plot_page_text(page, x, f.top + f.tall + 14, "center", p->symbol[i]);
-    if ((double)longest * small < wide)
-      gg_plot_page_small_text(page, x, f.top + f.tall + 32, "center noenhanced", p->word[i]);
+    if (strlen(p->word[i]) > word) word = strlen(p->word[i]);
+    if (strlen(p->symbol[i]) > symbol) symbol = strlen(p->symbol[i]);
+  }
+  const size_t rows = (size_t)fmin(3, 1 + floor((double)symbol * GG_LETTER / wide));
+  for (size_t i = 0; i < p->n_categories; i++) {
+    const double x = f.left + wide * ((double)i + 0.55), y = f.top + f.tall;
+    gg_plot_page_text(page, x, y + 14 + GG_ROW * (double)(i % rows), "center", p->symbol[i]);
+    if (rows == 1 && (double)word * small < wide)
+      gg_plot_page_small_text(page, x, y + 32, "center noenhanced", p->word[i]);
     if (i)
       fprintf(page->script, "set arrow from %g,graph 0 to %g,graph 1 nohead back lc rgb '#eeeeee' lw 0.8\n",
               (double)i + 0.5, (double)i + 0.5);

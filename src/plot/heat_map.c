@@ -10,7 +10,7 @@
 /* Layout pixels: cells, the least size of a cell with a number and of a panel with the name of its row, the room around
  * panels, and the colour bar. */
 enum { CELL_WIDE = 42, CELL_TALL = 22, LEAST_WIDE = 34, LEAST_TALL = 140 };
-enum { LEFT = 92, RIGHT = 16, BETWEEN = 16, ABOVE = 58, BELOW = 168, BAR_WIDE = 440, BAR_TALL = 13, BAR_BELOW = 46 };
+enum { LEFT = 92, RIGHT = 16, BETWEEN = 16, ABOVE = 42, BELOW = 168, BAR_WIDE = 440, BAR_TALL = 13, BAR_BELOW = 46 };
 
 #define SMALLEST 0.005
 #define LARGEST 1.0
@@ -40,7 +40,7 @@ unsigned gg_plot_heat_colour(double value)
 typedef struct heat_page {
   const gg_heat_map *map;
   gg_page page;
-  double wide, tall, left; /* of a cell; before the first panel */
+  double wide, tall, left, above; /* of a cell; before and above the first panel */
 } heat_page;
 
 static bool is_known(const gg_heat_cell *c)
@@ -134,7 +134,7 @@ static void draw_panel(const heat_page *p, size_t row, size_t column)
   const gg_heat_map *m = p->map;
   const gg_heat_cell *cell = m->cell + (row * m->columns + column) * m->n_x * m->n_y;
   const double wide = (double)m->n_x * p->wide, tall = (double)m->n_y * p->tall;
-  const gg_box f = {p->left + (double)column * (wide + BETWEEN), ABOVE + (double)row * (tall + BETWEEN), wide, tall};
+  const gg_box f = {p->left + (double)column * (wide + BETWEEN), p->above + (double)row * (tall + BETWEEN), wide, tall};
   FILE *s = p->page.script;
   size_t known = 0;
   gg_plot_page_panel(&p->page, f, true);
@@ -206,7 +206,8 @@ static void lay_out(heat_page *p, const gg_plot_paper *paper)
   p->wide = width > 0 ? fmax((width - others) / cells, 4) : CELL_WIDE;
   p->tall = fmax(CELL_TALL, LEAST_TALL / (double)m->n_y);
   p->page.size[0] = width > 0 ? width : fmax(others + cells * p->wide, least);
-  p->page.size[1] = ABOVE + BELOW + (double)m->rows * ((double)m->n_y * p->tall + BETWEEN) - BETWEEN;
+  p->above = ABOVE + gg_plot_page_rows(NULL, 0, 0, p->page.size[0], "", m->title);
+  p->page.size[1] = p->above + BELOW + (double)m->rows * ((double)m->n_y * p->tall + BETWEEN) - BETWEEN;
   p->left = LEFT + (p->page.size[0] - others - cells * p->wide) / 2;
 }
 

@@ -29,6 +29,7 @@ static double whole_points(double pixels)
   return (round(pixels * 72 / 96) + 0.1) / 72;
 }
 
+/* pdfcairo takes the size of letters at 96 dots per inch, and the page at 72: hence its scale of fonts. */
 static void print_terminal(const gg_page *p)
 {
   const double scale = gg_plot_page_scale(p->paper), width = p->size[0] * scale, height = p->size[1] * scale;
@@ -39,8 +40,9 @@ static void print_terminal(const gg_page *p)
             width, height, scale, scale, scale);
   else if (p->paper->format == GG_PLOT_PDF)
     fprintf(p->script,
-            "set terminal pdfcairo enhanced font 'DejaVu Sans,%g' size %.6g,%.6g linewidth %g pointscale %g\n",
-            9 * scale, whole_points(width), whole_points(height), 1.5 * scale, 0.5 * scale);
+            "set terminal pdfcairo enhanced font 'DejaVu Sans,%g' fontscale 0.75 size %.6g,%.6g linewidth %g "
+            "pointscale %g\n",
+            9 * scale, whole_points(width), whole_points(height), 1.5 * scale, 0.75 * scale);
   else
     fprintf(p->script,
             "set terminal svg enhanced font 'DejaVu Sans,%.3g' size %.0f,%.0f linewidth %.3g background '#ffffff'\n",
@@ -114,7 +116,7 @@ void gg_plot_page_text(const gg_page *p, double x, double y, const char *style, 
   if (!text || !*text) return;
   fprintf(p->script, "set label '");
   gg_plot_text_print(p->script, text);
-  fprintf(p->script, "' at screen %.6g,%.6g %s\n", x / p->size[0], 1 - y / p->size[1], style);
+  fprintf(p->script, "' at screen %.6g,%.6g front %s\n", x / p->size[0], 1 - y / p->size[1], style);
 }
 
 void gg_plot_page_small_text(const gg_page *p, double x, double y, const char *style, const char *text)
@@ -164,17 +166,19 @@ void gg_plot_page_look(const gg_page *p, const gg_look *l, bool open)
   fprintf(p->script, " lc rgb '#%06x'", l->colour);
 }
 
-/* Sample lines are as wide as two periods of the longest dash. */
-static void print_sample(const gg_page *p, double x, double y, const gg_look *l)
+/* Sample lines are as wide as two periods of the longest dash. Samples in turn differ by a thousandth in width: in SVG
+ * gnuplot draws lines of one colour and width that follow each other as one path, with the dash of the first. */
+static void print_sample(const gg_page *p, double x, double y, const gg_look *l, int i)
 {
   const double left = x / p->size[0], right = (x + 34) / p->size[0], at = 1 - y / p->size[1];
-  if (l->shaded)
-    fprintf(p->script, "set arrow from screen %.6g,%.6g to screen %.6g,%.6g nohead lw 9 lc rgb '#b0%06x'\n", left, at,
-            right, at, l->colour);
-  if (l->style == GG_CHART_POINTS)
-    fprintf(p->script, "set label '' at screen %.6g,%.6g point ", (left + right) / 2, at);
-  else
-    fprintf(p->script, "set arrow from screen %.6g,%.6g to screen %.6g,%.6g nohead ", left, at, right, at);
+  char line[96];
+  snprintf(line, sizeof line, "set arrow from screen %.6g,%.6g to screen %.6g,%.6g nohead", left, at, right, at);
+  if (l->shaded) fprintf(p->script, "%s lw 9 lc rgb '#b0%06x'\n", line, l->colour);
+  if (l->style != GG_CHART_POINTS) {
+    fprintf(p->script, "%s lw %g dt %s lc rgb '#%06x'\n", line, i % 2 ? 1.501 : 1.5, l->dash, l->colour);
+    return;
+  }
+  fprintf(p->script, "set label '' at screen %.6g,%.6g point ", (left + right) / 2, at);
   gg_plot_page_look(p, l, l->hollow);
   fprintf(p->script, "\n");
 }
@@ -199,7 +203,7 @@ double gg_plot_page_legend(const gg_page *p, double left, double top, double wid
   double y = top, tall = 0;
   for (int i = 0; i < n; i++) {
     const double x = left + i % columns * column;
-    if (p) print_sample(p, x, y + GG_ROW / 2.0, &entry[i].look);
+    if (p) print_sample(p, x, y + GG_ROW / 2.0, &entry[i].look, i);
     tall = fmax(tall, gg_plot_page_rows(p, x + sample, y, column - sample, "left", entry[i].name));
     if ((i + 1) % columns == 0 || i + 1 == n) y += tall, tall = 0;
   }

@@ -78,7 +78,8 @@ def test_comparisons():
     need_gnuplot()
     for example in "usf", "heated_mixture", "polydisperse", "cooling":
         compare(example, "--set", "particles=500", "--set", "dsmc.particles=500")
-    check(len(check_pictures()) >= 8)
+        check(run("plot", example + ".h5", "--output", example + "_paper.svg", "--width", "86mm").code == 0)
+    check(len(check_pictures()) >= 16)
 
 
 def test_runs():

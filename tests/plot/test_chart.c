@@ -210,7 +210,7 @@ static void looks_follow_from_names(void **state)
   assert_int_equal(marks_of(svg, FILLED_SQUARE, m), 2 * (3 + 3) + 1); /* two in the legend */
   assert_true(m[1].size != m[4].size);
   assert_int_equal(marks_of(svg, OPEN_SQUARE, m), 0);
-  assert_int_equal(count(svg, "stroke-dasharray"), 1 + 1); /* the lines of both groups are one path of styles */
+  assert_int_equal(count(svg, "stroke-dasharray"), 2 + 1);
   assert_int_equal(count(svg, ">Enskog (Hermite)</tspan>") + count(svg, ">Lun 1991</tspan>") +
                        count(svg, ">one</tspan>") + count(svg, ">two</tspan>"),
                    4);
