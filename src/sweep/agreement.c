@@ -7,8 +7,8 @@
 
 #include "common/quantity.h"
 
-/* A standard error comes from sixteen blocks or more: a z-score has the tails of Student's t with so many degrees of
- * freedom at the least. Its variance is nu/(nu - 2), that of z^2 follows from the fourth moment. */
+/* Degrees of freedom of Student's t: a standard error comes from sixteen blocks or more. The variance of a z-score is
+ * nu/(nu - 2), and the variance of z^2 follows from the fourth moment. */
 static const double freedom = 15;
 
 bool gg_sweep_is_main_quantity(const char *quantity)
@@ -60,8 +60,8 @@ static void count_points(gg_agreement *a, const gg_grid_view *v)
   }
 }
 
-/* Points are independent of each other, quantities of one point are not: each test has its share of the chance, so that
- * it holds however they depend on each other (Bonferroni). */
+/* Points are independent of each other, quantities of one point are not. Each test has its part of the chance, so the
+ * bound holds for any dependence (Bonferroni). */
 static void judge(gg_agreement *a)
 {
   enum { TESTS = 3 };

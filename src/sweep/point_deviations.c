@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far the rows of a comparison are off their reference, by the functions that `compare` uses. */
+/* Deviations of the rows of a comparison from their reference, by the functions that `compare` uses. */
 #include "sweep/point_deviations.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "run/causes.h"
 #include "run/z_scores.h"
 
-/* Why md differs in this quantity, in one line. */
+/* The causes of md's deviation in this quantity, in one line. */
 static const char *join_causes(const gg_comparison *c, gg_quantity q, gg_string_list *texts)
 {
   gg_causes causes;
@@ -40,7 +40,7 @@ static void set_deviation(gg_point_row *row, gg_quantity q, const gg_reference *
   row->z = d.z;
 }
 
-/* The causes of `compare` are md's; those of theories are their range. */
+/* The cause of a deviation: of md as in `compare`, of a theory its range. */
 static void set_cause(gg_point_row *row, const gg_comparison *c, gg_quantity q, gg_string_list *texts)
 {
   const gg_theory *theory = row->theory ? theory_of(c, row->method) : NULL;
@@ -79,7 +79,7 @@ static void compare_row(gg_point_table *t, gg_point_row *row, const gg_compariso
   if (row->beyond) set_cause(row, c, named->quantity, &t->texts);
 }
 
-/* A comparison of means alone: series and frames are not read. */
+/* The comparison of a file, means alone: series and frames are not read. */
 static gg_status restore(json_t *document, char *scene, gg_comparison *c, gg_error *err)
 {
   gg_stored_result stored = {.comparison = true, .scene = scene, .document = document};

@@ -51,7 +51,7 @@ static double number(const json_t *object, const char *key)
   return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
-/* Quantities of a method, of those that it has a mean of. */
+/* Add the quantities of a method that have a mean. */
 static gg_status add_quantities(gg_point_table *t, gg_point_row row, json_t *quantities, const char *error,
                                 gg_error *err)
 {
@@ -78,7 +78,7 @@ static gg_status add_run(gg_point_table *t, gg_point_row row, json_t *document, 
   return row.method ? add_quantities(t, row, json_object_get(document, "results"), "stderr", err) : GG_OK;
 }
 
-/* Theories of the sweep's own file, which may have changed since the point was run: asked again. */
+/* Add theories of the sweep's file, evaluated now: the file may have changed since the point was run. */
 static gg_status add_own_theories(gg_point_table *t, gg_point_row row, const gg_model *m, gg_error *err)
 {
   gg_quantity_rows *rows = gg_base_array_new(1, sizeof *rows, err);
@@ -194,8 +194,8 @@ gg_status gg_sweep_point_table_read(gg_point_table *t, const gg_sweep *sweep, co
   return GG_OK;
 }
 
-/* Columns behind those of the point and its keys. Whole numbers and truths have a value in every row, so that readers
- * find them of one type: seed and `short` are of the point, theories are of the steady state. */
+/* Columns after those of the point and its keys. Whole numbers and truths have a value in every row, so that readers
+ * find one type in a column: seed and `short` are those of the point, theories count as steady. */
 typedef enum kind { NUMBER, WHOLE, TRUTH, TEXT, NAME } kind;
 static const struct {
   const char *name;
@@ -262,7 +262,7 @@ static void put_cell(gg_csv *csv, const gg_point_row *row, size_t c)
   }
 }
 
-/* YAML's infinity is ".inf", which readers of tables take for a text. */
+/* Write infinity as readers of tables expect it: YAML's ".inf" is a text for them. */
 static const char *plain_value(const char *yaml)
 {
   return strcmp(yaml, ".inf") == 0 ? "inf" : yaml;
@@ -328,7 +328,7 @@ static void write_column(const column *c, const char *name, kind of)
   }
 }
 
-/* Digits alone, beyond the whole numbers that a double holds: seeds. */
+/* True for digits alone: seeds are larger than the whole numbers that a double holds. */
 static bool is_whole(const char *text, long long *n)
 {
   char *end;
@@ -337,7 +337,7 @@ static bool is_whole(const char *text, long long *n)
   return end != text && !*end && errno == 0;
 }
 
-/* Whole numbers or numbers, where every point has one. */
+/* Write the column of a varied key: whole numbers or numbers if every point has one, else texts. */
 static void write_key(const column *c, const gg_point_table *t, const gg_sweep *sweep, size_t k)
 {
   bool numbers = true, wholes = true;
@@ -421,7 +421,7 @@ gg_status gg_sweep_point_table_write_h5(const gg_point_table *t, const gg_sweep 
   return status;
 }
 
-/* A value as a number where it is one, else as its YAML. */
+/* A value as a number if it is one, else as its YAML. */
 static json_t *value_json(const char *text)
 {
   long long n;
@@ -443,7 +443,7 @@ static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
   gg_scene scene;
   json_t *keys = json_object();
   gg_sweep_point_name(sweep->point[i].id, name);
-  if (gg_sweep_resolve(sweep, i, &scene, NULL) != GG_OK) { /* it was checked: there is no memory */
+  if (gg_sweep_resolve(sweep, i, &scene, NULL) != GG_OK) { /* the scene was checked before, so memory is short */
     json_decref(keys);
     return gg_base_json_made(NULL);
   }
@@ -455,7 +455,7 @@ static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
                    (json_int_t)scene.run.seed);
 }
 
-/* A name whose bytes are no UTF-8 loses them. That is no lack of memory, and not recorded as such. */
+/* A name as JSON, with ? for bytes that may not be UTF-8. Jansson's first refusal is then no lack of memory. */
 static json_t *name_as_text(const char *name)
 {
   json_t *text = (json_string)(name);

@@ -33,7 +33,7 @@ double gg_sweep_deviation_error_of(const gg_point_row *row)
   return difference ? row->difference_error : row->deviation_error;
 }
 
-/* Off by more than `threshold`, and by more than two errors? */
+/* True if a row deviates by more than `threshold` and by more than two errors. */
 static bool is_off(const gg_point_row *row, double threshold)
 {
   const double off = row ? fabs(gg_sweep_deviation_of(row)) : NAN;
@@ -51,7 +51,7 @@ static void name_point(const gg_grid_view *v, size_t point, char text[GG_PANEL_N
   }
 }
 
-/* "md", "dsmc": points with a result of it, and those that are not steady. */
+/* Count the points with a result of an engine ("md", "dsmc"), and those that are not steady. */
 static void count_engine(const gg_grid_view *v, const char *engine, size_t *n, size_t *unsteady)
 {
   *n = *unsteady = 0;
@@ -89,7 +89,7 @@ const char *gg_sweep_no_reference(const gg_grid_view *v, size_t point)
   return gg_sweep_grid_has(v, point) ? "neither a noise-free solution nor dsmc" : NULL;
 }
 
-/* "Not steady:" and a list, "- md at phi 0.1, e 0.5" and so on; nothing where no point has it. */
+/* "Not steady:" and a list, "- md at phi 0.1, e 0.5" and so on; nothing if no point has this trouble. */
 static void print_trouble(const writing *w, const char *what, gg_point_trouble *trouble)
 {
   char name[GG_PANEL_NAME];

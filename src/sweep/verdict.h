@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a grid of comparisons came to, in words, counts and tables (Markdown). */
+/* The verdict on a grid of comparisons, in words, counts and tables (Markdown). */
 #ifndef GG_VERDICT_H
 #define GG_VERDICT_H
 
@@ -20,7 +20,7 @@ extern const double gg_sweep_thresholds[GG_THRESHOLDS]; /* 0.01, 0.05, 0.2 */
 double gg_sweep_deviation_of(const gg_point_row *row);
 double gg_sweep_deviation_error_of(const gg_point_row *row);
 
-/* How often one method is off its reference, for each quantity. */
+/* Counts of the deviations of one method from its reference, for a quantity. */
 typedef struct gg_off_counts {
   size_t n, off[GG_THRESHOLDS];
   double largest;
@@ -32,7 +32,7 @@ gg_off_counts gg_sweep_count_off(const gg_grid_view *view, const char *method, c
  */
 size_t gg_sweep_find_worst(const gg_grid_view *view, const gg_point_row **found);
 
-/* Has the point this trouble? Its engine, or NULL. */
+/* The engine that has this trouble at a point; NULL: none. */
 typedef const char *gg_point_trouble(const gg_grid_view *view, size_t point);
 gg_point_trouble gg_sweep_not_steady, gg_sweep_not_homogeneous, gg_sweep_no_reference;
 
