@@ -78,7 +78,7 @@ static const char *const special[][2] = {{"enskog_hermite", "Enskog (Hermite)"},
                                          {"lun1991_lun_savage", "Lun 1991 (Lun–Savage)"},
                                          {"garzo_montanero2003_ms", "Garzó & Montanero 2003 (MS)"}};
 
-/* "garzo_dufty1999" becomes "Garzó & Dufty 1999". */
+/* Name a theory by its authors: "garzo_dufty1999" becomes "Garzó & Dufty 1999". */
 static void name_authors(const char *key, char *text, size_t size)
 {
   size_t used = 0;

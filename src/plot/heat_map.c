@@ -10,7 +10,7 @@
 /* Layout pixels: cells, the least size of a cell with a number and of a panel with the name of its row, the room around
  * panels, and the colour bar. */
 enum { CELL_WIDE = 42, CELL_TALL = 22, LEAST_WIDE = 34, LEAST_TALL = 140 };
-enum { LEFT = 92, RIGHT = 16, BETWEEN = 16, ABOVE = 42, BELOW = 168, BAR_WIDE = 440, BAR_TALL = 13, BAR_BELOW = 46 };
+enum { LEFT = 92, RIGHT = 16, BETWEEN = 16, ABOVE = 42, BELOW = 180, BAR_WIDE = 440, BAR_TALL = 13, BAR_BELOW = 46 };
 
 #define SMALLEST 0.005
 #define LARGEST 1.0
@@ -115,13 +115,13 @@ static void print_names(const heat_page *p, gg_box f, size_t row, size_t column)
   for (size_t i = 0; i < m->n_x && row + 1 == m->rows; i++) {
     gg_plot_text_escape(m->x_value[i], text, sizeof text);
     gg_plot_page_small_text(&p->page, f.left + p->wide * ((double)i + 0.5), below + 12,
-                            p->wide < LEAST_WIDE ? "right rotate by 45" : "center", text);
+                            p->wide < LEAST_WIDE ? "right rotate by 90" : "center", text);
   }
   for (size_t i = 0; i < m->n_y && column == 0; i++) {
     gg_plot_text_escape(m->y_value[i], text, sizeof text);
     gg_plot_page_small_text(&p->page, f.left - 6, below - p->tall * ((double)i + 0.5), "right", text);
   }
-  if (row + 1 == m->rows) gg_plot_page_text(&p->page, f.left + f.wide / 2, below + 32, "center", m->x_label);
+  if (row + 1 == m->rows) gg_plot_page_text(&p->page, f.left + f.wide / 2, below + 46, "center", m->x_label);
   if (column == 0) {
     gg_plot_page_text(&p->page, f.left - 76, middle, "center rotate by 90", m->row_name[row]);
     gg_plot_page_text(&p->page, f.left - 56, middle, "center", m->y_label);

@@ -29,7 +29,7 @@ def boxes(svg):
             place = re.match(r"translate\(([-\d.]+),([-\d.]+)\)(?: *rotate\(([-\d.]+)\))?", group.get("transform", ""))
             x, y, turn = float(place[1]), float(place[2]), float(place[3] or 0)
             size = float(group.get("font-size", 12))
-            pieces = [(t.text or "", float(t.get("font-size", size))) for t in text.iter() if t.text and t.text.strip("\n")]
+            pieces = [(t.text, float(t.get("font-size", size))) for t in text.iter() if t.text and t.text.strip("\n")]
             words = "".join(p for p, _ in pieces)
             wide, tall = sum(width(*p) for p in pieces), max([s for _, s in pieces] + [1])
             left = {"start": 0, "middle": -wide / 2, "end": -wide}[group.get("text-anchor", "start")]
@@ -38,7 +38,7 @@ def boxes(svg):
             if turn == 0:
                 found.append((words, x + left, x + left + wide, y - 0.76 * tall, y + 0.24 * tall))
             else:  # upwards
-                check(abs(turn + 90) < 1, words, turn)
+                check((turn + 90) % 360 < 1, words, turn)
                 found.append((words, x - 0.76 * tall, x + 0.24 * tall, y - left - wide, y - left))
     return found
 
@@ -70,7 +70,8 @@ def need_gnuplot():
 
 
 def compare(example, *more):
-    done = run("compare", os.path.join(SOURCE, "examples", example + ".yaml"), "--output", example + ".h5", *QUICK, *more)
+    scene = os.path.join(SOURCE, "examples", example + ".yaml")
+    done = run("compare", scene, "--output", example + ".h5", *QUICK, *more)
     check(done.code in (0, 1) and any(name.endswith(".svg") for name in done.new), done.err)  # 1: too few collisions
 
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The verdict over a grid: z-scores as chance has them pass, in ninety grids; a shift, a
- * width and a single value beyond chance fail; what does not take part does not count. */
+/* The verdict over a grid: z-scores of pure chance pass, in ninety grids. A shift, a width and a single value beyond
+ * chance fail. Rows that are not tested do not count. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -26,7 +26,7 @@ typedef struct plan {
   const char *reference;
 } plan;
 
-/* Student's t with 15 degrees of freedom: what errors of sixteen blocks give. */
+/* Student's t with 15 degrees of freedom, as of errors from sixteen blocks. */
 static double draw(unsigned short seed[3])
 {
   double normal[16], sum = 0, squares = 0;

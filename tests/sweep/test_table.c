@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every member of a row of a sweep's table stands in its own column of the CSV and of the HDF5 file, with values that
- * all differ. The list below names every member: it fails where a row gets one more. */
+/* Every member of a row of a sweep's table has its own column in the CSV and the HDF5 file; all values differ. The list
+ * below names every member, and the test fails if a row gets another one. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
