@@ -10,7 +10,10 @@
 /* Layout pixels: cells, the least size of a cell with a number and of a panel with the name of its row, the room around
  * panels, and the colour bar. */
 enum { CELL_WIDE = 42, CELL_TALL = 22, LEAST_WIDE = 34, LEAST_TALL = 140 };
-enum { LEFT = 92, RIGHT = 16, BETWEEN = 16, ABOVE = 42, BELOW = 180, BAR_WIDE = 440, BAR_TALL = 13, BAR_BELOW = 46 };
+enum { LEFT = 92, RIGHT = 16, BETWEEN = 16, ABOVE = 42, BELOW = 134, BAR_WIDE = 440, BAR_TALL = 13, BAR_BELOW = 46 };
+
+static const char caption[] = "lines at 1 % (dashed), 5 % and 20 % (thick); hatched: below two standard errors; "
+                              "red: × not steady, ▲ clustered or swirling, ◆ collapsed";
 
 #define SMALLEST 0.005
 #define LARGEST 1.0
@@ -41,6 +44,7 @@ typedef struct heat_page {
   const gg_heat_map *map;
   gg_page page;
   double wide, tall, left, above; /* of a cell; before and above the first panel */
+  double caption;                 /* height of its rows */
 } heat_page;
 
 static bool is_known(const gg_heat_cell *c)
@@ -191,9 +195,7 @@ static void draw_bar(const heat_page *p)
                             text);
   }
   gg_plot_page_text(&p->page, middle, f.top + BAR_TALL + 30, "center", "deviation [%]");
-  gg_plot_page_rows(&p->page, middle, f.top - 3 * GG_ROW - 6, p->page.size[0], "center",
-                    "lines at 1 % (dashed), 5 % and 20 % (thick); hatched: below two standard errors; "
-                    "red: × not steady, ▲ clustered or swirling, ◆ collapsed");
+  gg_plot_page_rows(&p->page, middle, f.top - p->caption - 6, p->page.size[0], "center", caption);
   fprintf(s, "plot $bar using 1:2:(%g):(1):3 with boxxyerror lc rgb variable fs solid noborder\n", 1.5 / STEPS);
 }
 
@@ -207,7 +209,8 @@ static void lay_out(heat_page *p, const gg_plot_paper *paper)
   p->tall = fmax(CELL_TALL, LEAST_TALL / (double)m->n_y);
   p->page.size[0] = width > 0 ? width : fmax(others + cells * p->wide, least);
   p->above = ABOVE + gg_plot_page_rows(NULL, 0, 0, p->page.size[0], "", m->title);
-  p->page.size[1] = p->above + BELOW + (double)m->rows * ((double)m->n_y * p->tall + BETWEEN) - BETWEEN;
+  p->caption = gg_plot_page_rows(NULL, 0, 0, p->page.size[0], "", caption);
+  p->page.size[1] = p->above + BELOW + p->caption + (double)m->rows * ((double)m->n_y * p->tall + BETWEEN) - BETWEEN;
   p->left = LEFT + (p->page.size[0] - others - cells * p->wide) / 2;
 }
 

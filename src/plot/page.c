@@ -144,7 +144,7 @@ static size_t row_of(const char *text, int letters)
 
 double gg_plot_page_rows(const gg_page *p, double x, double top, double wide, const char *style, const char *text)
 {
-  enum { MOST_ROWS = 3 };
+  enum { MOST_ROWS = 6 };
   char row[1024];
   int n = 0;
   for (const char *at = text ? text : ""; *at && n < MOST_ROWS; n++) {

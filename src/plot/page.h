@@ -54,7 +54,7 @@ void gg_plot_page_panel(const gg_page *page, gg_box frame, bool four_sides);
 void gg_plot_page_text(const gg_page *page, double x, double y, const char *style, const char *text);
 /* The same in small letters. */
 void gg_plot_page_small_text(const gg_page *page, double x, double y, const char *style, const char *text);
-/* A text in up to three rows, broken at blanks and then cut, below `top`. Returns the height of the rows; with page
+/* A text in up to six rows, broken at blanks and then cut, below `top`. Returns the height of the rows; with page
  * NULL nothing is drawn. */
 double gg_plot_page_rows(const gg_page *page, double x, double top, double wide, const char *style, const char *text);
 /* A legend in a box of that width: columns of equal width, the names in rows. Returns its height; page NULL: as above.
