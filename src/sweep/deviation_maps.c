@@ -124,23 +124,6 @@ static void name_axes(maps *m)
   }
 }
 
-/* The next word of a list with commas; false at its end. */
-static bool next_word(const char **list, char word[64])
-{
-  if (!**list) return false;
-  const size_t length = strcspn(*list, ",");
-  snprintf(word, 64, "%.*s", (int)length, *list);
-  *list += length + ((*list)[length] == ',');
-  return true;
-}
-
-static bool has_method(const gg_grid_view *v, const char *method)
-{
-  for (size_t i = 0; i < v->table->n; i++)
-    if (strcmp(v->table->row[i].method, method) == 0) return true;
-  return false;
-}
-
 /* The default theories: Lun's, and those of the sweep's own file. */
 static void list_theories(const maps *m, char *list, size_t size)
 {
@@ -158,20 +141,13 @@ static gg_status choose_rows(maps *m, gg_error *err)
   m->row[m->n_rows++] = (map_row){.method = "dsmc"};
   m->row[m->n_rows++] = (map_row){.method = "md"};
   m->row[m->n_rows++] = (map_row){.method = "md", .engines = true};
-  while (next_word(&theories, word)) {
-    if (!has_method(m->view, word) && m->choice->theories)
+  while (gg_sweep_next_word(&theories, word)) {
+    if (!gg_sweep_point_table_has(m->view->table, word, NULL) && m->choice->theories)
       return gg_base_fail(err, GG_BAD_INPUT, "no point has a theory '%s'", word);
     if (m->n_rows == MOST_ROWS) return gg_base_fail(err, GG_BAD_INPUT, "a map has at most %d theories", MOST_THEORIES);
-    if (has_method(m->view, word)) memcpy(m->row[m->n_rows++].method, word, sizeof word);
+    if (gg_sweep_point_table_has(m->view->table, word, NULL)) memcpy(m->row[m->n_rows++].method, word, sizeof word);
   }
   return GG_OK;
-}
-
-static bool has_quantity(const gg_grid_view *v, const char *quantity)
-{
-  for (size_t i = 0; i < v->table->n; i++)
-    if (!v->table->row[i].theory && strcmp(v->table->row[i].quantity, quantity) == 0) return true;
-  return false;
 }
 
 static gg_status draw_all(maps *m, void (*drawn)(void *, const char *, const char *), void *context, gg_error *err)
@@ -180,10 +156,11 @@ static gg_status draw_all(maps *m, void (*drawn)(void *, const char *, const cha
   char word[64];
   gg_plot_paper paper;
   GG_TRY(gg_plot_paper_choose(&paper, m->choice->picture, NULL, m->choice->width, err));
-  while (next_word(&show, word)) {
-    if (!has_quantity(m->view, word) && m->choice->show)
-      return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%s'", word);
-    if (!has_quantity(m->view, word)) continue;
+  while (gg_sweep_next_word(&show, word)) {
+    const gg_point_table *t = m->view->table;
+    const bool has = gg_sweep_point_table_has(t, "md", word) || gg_sweep_point_table_has(t, "dsmc", word);
+    if (!has && m->choice->show) return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%s'", word);
+    if (!has) continue;
     GG_TRY(gg_stop_check(m->choice->stop, err));
     char *picture = gg_plot_page_name(m->choice->picture, "", word, &paper);
     if (!picture) return gg_base_out_of_memory(err);

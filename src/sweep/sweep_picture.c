@@ -37,9 +37,9 @@ typedef struct drawing {
 /* True if a word is in a list with commas. */
 static bool is_listed(const char *list, const char *word)
 {
-  const size_t length = strlen(word);
-  for (const char *at = list; (at = strstr(at, word)); at++)
-    if ((at == list || at[-1] == ',') && (at[length] == ',' || !at[length])) return true;
+  char other[64];
+  while (gg_sweep_next_word(&list, other))
+    if (strcmp(other, word) == 0) return true;
   return false;
 }
 
@@ -91,16 +91,6 @@ gg_status gg_sweep_axis_choose(const gg_sweep *sweep, const char *over, const ch
   return GG_OK;
 }
 
-/* The next word of a list with commas; false at its end. */
-static bool next_word(const char **list, char word[64])
-{
-  if (!*list || !**list) return false;
-  const size_t length = strcspn(*list, ",");
-  snprintf(word, 64, "%.*s", (int)length, *list);
-  *list += length + ((*list)[length] == ',');
-  return true;
-}
-
 static const char *unit_of(const gg_point_row *row)
 {
   return row->unit ? row->unit : "";
@@ -114,23 +104,9 @@ static panel *panel_of(drawing *d, const gg_point_row *row)
   return p < d->n ? &d->panel[p] : NULL;
 }
 
-static bool has_rows(const gg_point_table *t, const char *quantity)
-{
-  size_t i = 0;
-  while (i < t->n && strcmp(t->row[i].quantity, quantity) != 0) i++;
-  return i < t->n;
-}
-
-static bool has_method(const gg_point_table *t, const char *method)
-{
-  size_t i = 0;
-  while (i < t->n && strcmp(t->row[i].method, method) != 0) i++;
-  return i < t->n;
-}
-
 static gg_status add_panels(drawing *d, const char *quantity, gg_error *err)
 {
-  if (!has_rows(d->table, quantity))
+  if (!gg_sweep_point_table_has(d->table, NULL, quantity))
     return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%.60s'", quantity);
   for (size_t i = 0; i < d->table->n; i++) {
     const gg_point_row *row = &d->table->row[i];
@@ -155,7 +131,7 @@ static gg_status add_default_panels(drawing *d, gg_error *err)
   const int n = gg_run_headline_quantities(&model, headline);
   for (int i = 0; i < n && d->n < 4; i++) {
     const char *name = gg_common_quantity_name_in(&model, headline[i]);
-    if (has_rows(d->table, name)) GG_TRY(add_panels(d, name, err));
+    if (gg_sweep_point_table_has(d->table, NULL, name)) GG_TRY(add_panels(d, name, err));
   }
   return d->n || !d->table->n ? GG_OK : add_panels(d, d->table->row[0].quantity, err);
 }
@@ -166,10 +142,11 @@ static gg_status choose_names(drawing *d, gg_error *err)
   const char *show = c->show, *theories = c->theories;
   char word[64];
   if (!show) GG_TRY(add_default_panels(d, err));
-  while (next_word(&show, word)) GG_TRY(add_panels(d, word, err));
-  while (next_word(&theories, word))
-    if (!has_method(d->table, word)) return gg_base_fail(err, GG_BAD_INPUT, "no point has a theory '%s'", word);
-  if (c->relative_to && !has_method(d->table, c->relative_to))
+  while (gg_sweep_next_word(&show, word)) GG_TRY(add_panels(d, word, err));
+  while (gg_sweep_next_word(&theories, word))
+    if (!gg_sweep_point_table_has(d->table, word, NULL))
+      return gg_base_fail(err, GG_BAD_INPUT, "no point has a theory '%s'", word);
+  if (c->relative_to && !gg_sweep_point_table_has(d->table, c->relative_to, NULL))
     return gg_base_fail(err, GG_BAD_INPUT, "no point has a method '%.60s'", c->relative_to);
   return GG_OK;
 }

@@ -32,6 +32,24 @@ void gg_sweep_point_table_clear(gg_point_table *t)
   *t = (gg_point_table){0};
 }
 
+bool gg_sweep_point_table_has(const gg_point_table *t, const char *method, const char *quantity)
+{
+  size_t i = 0;
+  while (i < t->n &&
+         ((method && strcmp(t->row[i].method, method) != 0) || (quantity && strcmp(t->row[i].quantity, quantity) != 0)))
+    i++;
+  return i < t->n;
+}
+
+bool gg_sweep_next_word(const char **list, char word[64])
+{
+  if (!*list || !**list) return false;
+  const size_t length = strcspn(*list, ",");
+  snprintf(word, 64, "%.*s", (int)length, *list);
+  *list += length + ((*list)[length] == ',');
+  return true;
+}
+
 static gg_status add_row(gg_point_table *t, const gg_point_row *row, gg_error *err)
 {
   if (t->n == t->room) {

@@ -44,6 +44,10 @@ typedef struct gg_point_table {
 gg_status gg_sweep_point_table_read(gg_point_table *table, const gg_sweep *sweep, const char *folder,
                                     const gg_stop *stop, gg_error *err);
 void gg_sweep_point_table_clear(gg_point_table *table);
+/* True if the table has a row of the method and the quantity (NULL: any). */
+bool gg_sweep_point_table_has(const gg_point_table *table, const char *method, const char *quantity);
+/* Take the next word of a list with commas (NULL: empty); false at its end. */
+bool gg_sweep_next_word(const char **list, char word[64]);
 
 /* Write the table, whole or not at all. Columns: the point's number, a column a varied key, then method, quantity,
  * mean, error, unit, reference, its mean, differences from it, z, beyond_expected, cause, structure, contact_time,
