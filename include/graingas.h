@@ -1597,7 +1597,7 @@ GG_API const char *gg_standard_grid(int quick);
  * Nothing is drawn if one of them cannot be written.
  * @param result_file file name of a result
  * @param picture file name of the first picture
- * @param format "svg", "png" or "pdf"; NULL: from the file name
+ * @param format "svg", "png", "pdf" or "gp", a script for gnuplot with its data; NULL: from the file name
  * @param width width on paper, "86mm" (mm, cm, in, pt); NULL: for a screen
  * @param drawn called with each file name; may be NULL
  * @param stop polled between pictures and several times a second while theories are evaluated; returns non-zero to

@@ -99,7 +99,7 @@ class Sweep:
         """Compares the finished points, which have to be comparisons, with Enskog's equation.
 
         page      Markdown file to write, with maps, counts and tables
-        picture   SVG, PNG or PDF: the maps alone, drawn by gnuplot
+        picture   SVG, PNG, PDF or a script for gnuplot: the maps alone, drawn by gnuplot
         Ctrl-C raises KeyboardInterrupt at once; a map that is being drawn is finished in the background.
         Raises BadInput if the sweep does not compare; RunFailed if no point is finished.
         """

@@ -88,7 +88,7 @@ static gg_status check_page_writable(const char *page, const char *picture, cons
 /* Reject a result with the name of a picture: the user wants a picture. */
 static gg_status check_ending(const char *output, gg_error *err)
 {
-  static const char *const pictures[] = {".svg", ".png", ".pdf", ".eps", ".jpg"};
+  static const char *const pictures[] = {".svg", ".png", ".pdf", ".gp", ".eps", ".jpg"};
   const char *ending = output ? strrchr(output, '.') : NULL;
   for (size_t i = 0; ending && i < sizeof pictures / sizeof *pictures; i++)
     if (strcasecmp(ending, pictures[i]) == 0)

@@ -9,20 +9,7 @@
 #include "plot/chart.h"
 #include "plot/plot.h"
 
-/* Picture of a state: a panel for each quantity with the error of the best md and the best dsmc against time, and a
- * horizontal line at the error of each theory. */
-enum { SERIES = 2 + GG_ERROR_THEORIES, MOST_STATES = 16 };
-
-typedef struct curve {
-  double x[GG_COURSE_MARKS], y[GG_COURSE_MARKS], error[GG_COURSE_MARKS];
-} curve;
-
-typedef struct page {
-  char title[GG_BENCH_CELL], name[GG_COURSE_QUANTITIES][32];
-  gg_chart_panel panel[GG_COURSE_QUANTITIES];
-  gg_chart_series series[GG_COURSE_QUANTITIES][SERIES];
-  curve curve[GG_COURSE_QUANTITIES][SERIES];
-} page;
+enum { MOST_STATES = 16 };
 
 /* Expected error of a method after `seconds`: noise and floor combined; INFINITY during the warm-up. */
 static double expected(const gg_error_state *s, int way, int q, double seconds)
@@ -43,11 +30,11 @@ static int best_at(const gg_error_state *s, gg_engine_kind engine, int q, double
   return best >= 0 && isfinite(expected(s, best, q, seconds)) ? best : -1;
 }
 
-/* Points of an engine's curve: at times that differ by factors of about 2, the error of the method that is best then.
- */
-static void add_engine(const gg_error_state *s, gg_engine_kind engine, int q, double to, curve *c,
-                       gg_chart_series *series)
+/* Points of an engine's curve: at times that differ by factors of about 2, the error of the method that is best then. */
+static void add_engine(gg_chart *c, const gg_error_state *s, gg_engine_kind engine, int q, double to)
 {
+  gg_chart_series *series = gg_plot_chart_series(c, engine == GG_MD ? "md" : "dsmc", NULL, GG_CHART_POINTS);
+  double last = INFINITY, error;
   size_t n = 0;
   for (double t = to; n < GG_COURSE_MARKS && t > 1e-6; t /= 2) {
     const int way = best_at(s, engine, q, t);
@@ -55,49 +42,37 @@ static void add_engine(const gg_error_state *s, gg_engine_kind engine, int q, do
     if (way < 0) continue;
     const gg_course *course = &s->course[way];
     while (mark + 1 < course->marks && course->seconds[mark + 1] <= 1.01 * t) mark++;
-    if (n && course->seconds[mark] > 0.7 * c->x[n - 1]) continue;
-    c->x[n] = course->seconds[mark];
-    c->y[n] = gg_bench_error_at(s, way, q, mark, &c->error[n]);
-    n++;
+    if (course->seconds[mark] > 0.7 * last) continue;
+    last = course->seconds[mark], n++;
+    const double y = gg_bench_error_at(s, way, q, mark, &error);
+    gg_plot_chart_point(c, series, (gg_chart_point){last, y, error, NAN, false});
   }
-  *series = (gg_chart_series){.method = engine == GG_MD ? "md" : "dsmc",
-                              .style = GG_CHART_POINTS,
-                              .n = n,
-                              .x = c->x,
-                              .y = c->y,
-                              .error = c->error};
 }
 
-static void add_theory(const char *name, double error, const double ends[2], curve *c, gg_chart_series *series)
+/* A panel a quantity: error against time of the best md and the best dsmc, and theories, which take no time, as bars at
+ * their error. */
+static void add_panel(gg_chart *c, const gg_error_state *s, int q)
 {
-  for (int k = 0; k < 2; k++) c->x[k] = ends[k], c->y[k] = error;
-  *series = (gg_chart_series){.method = name, .style = GG_CHART_LINE, .n = 2, .x = c->x, .y = c->y};
-}
-
-static void fill(const gg_error_state *s, int q, page *p, gg_chart_panel *panel)
-{
-  const int i = (int)(panel - p->panel);
-  size_t n = 0;
+  char name[32];
+  gg_chart_panel *p = gg_plot_chart_panel(c);
   double ends[2] = {INFINITY, 0};
+  if (!p) return;
   for (int k = 0; k < GG_ERROR_METHODS; k++) {
-    const gg_course *c = &s->course[k];
-    if (s->done[k]) ends[0] = fmin(ends[0], c->seconds[0]), ends[1] = fmax(ends[1], c->seconds[c->marks - 1]);
+    const gg_course *course = &s->course[k];
+    if (s->done[k])
+      ends[0] = fmin(ends[0], course->seconds[0]), ends[1] = fmax(ends[1], course->seconds[course->marks - 1]);
   }
-  for (int engine = 0; engine < 2; engine++) {
-    add_engine(s, (gg_engine_kind)engine, q, ends[1], &p->curve[i][n], &p->series[i][n]);
-    n += p->series[i][n].n > 0;
+  for (int engine = 0; engine < 2; engine++) add_engine(c, s, (gg_engine_kind)engine, q, ends[1]);
+  for (int k = 0; k < s->n_theories; k++) {
+    if (!(s->theory[k].error[q] > 0)) continue;
+    gg_chart_series *series = gg_plot_chart_series(c, s->theory[k].name, NULL, GG_CHART_LINE);
+    for (int side = 0; side < 2; side++)
+      gg_plot_chart_point(c, series, (gg_chart_point){ends[side], s->theory[k].error[q], NAN, NAN, false});
   }
-  for (int k = 0; k < s->n_theories; k++)
-    if (s->theory[k].error[q] > 0) {
-      add_theory(s->theory[k].name, s->theory[k].error[q], ends, &p->curve[i][n], &p->series[i][n]);
-      n++;
-    }
-  gg_common_quantity_enhanced(gg_bench_error_quantities(s->flow)[q], p->name[i], sizeof p->name[i]);
-  *panel = (gg_chart_panel){.title = p->name[i],
-                            .x = {"processor time", "s", true, 0, 0},
-                            .y = {"relative error", NULL, true, 0, 0},
-                            .n = n,
-                            .series = p->series[i]};
+  gg_common_quantity_enhanced(gg_bench_error_quantities(s->flow)[q], name, sizeof name);
+  p->title = gg_plot_chart_text(c, "%s", name);
+  p->x = (gg_chart_axis){"processor time", "s", true, 0, 0};
+  p->y = (gg_chart_axis){"relative error", NULL, true, 0, 0};
 }
 
 /* Whether the quantity exists; smooth grains have no spins. */
@@ -110,23 +85,21 @@ static bool has(const gg_error_state *s, int q)
  */
 static gg_status draw(const gg_bench *b, const gg_error_state *s, gg_error *err)
 {
-  char word[GG_BENCH_CELL];
-  size_t n = 0, panels = 0;
+  char word[GG_BENCH_CELL], title[GG_BENCH_CELL];
+  size_t n = 0;
   gg_plot_paper paper;
   GG_TRY(gg_plot_paper_choose(&paper, b->options->picture, NULL, b->options->width, err));
-  page *p = gg_base_array_new(1, sizeof *p, err);
-  if (!p) return GG_FAILED;
-  gg_bench_error_state_name(s, p->title, sizeof p->title);
-  for (const char *c = p->title; *c; c++)
+  gg_bench_error_state_name(s, title, sizeof title);
+  for (const char *c = title; *c; c++)
     if (*c != ',') word[n++] = *c == ' ' ? '-' : *c;
   word[n] = '\0';
-  for (int q = 0; q < GG_COURSE_QUANTITIES; q++)
-    if (has(s, q)) fill(s, q, p, &p->panel[panels++]);
-  const gg_chart chart = {.title = p->title, .n = panels, .panel = p->panel};
   char *picture = gg_plot_page_name(b->options->picture, "", word, &paper);
-  gg_status status = picture ? gg_plot_chart_draw_on(&chart, &paper, picture, err) : gg_base_out_of_memory(err);
+  gg_chart *c = gg_plot_chart_new();
+  for (int q = 0; c && q < GG_COURSE_QUANTITIES; q++)
+    if (has(s, q)) add_panel(c, s, q);
+  if (c) c->title = title, c->lacks |= !picture;
+  gg_status status = c ? gg_plot_chart_finish(c, &paper, picture, err) : gg_base_out_of_memory(err);
   free(picture);
-  free(p);
   return status;
 }
 

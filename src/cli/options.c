@@ -52,10 +52,11 @@ const gg_option gg_cli_options_table[] = {
      "folder of the points' files (default: NAME.sweep, in the current folder)"},
     {GG_OPT_ONLY, "only", "PARTS", "parts to write: results, curves, trajectory; separated by commas"},
     {GG_OPT_PICTURE, "picture", "FILE",
-     "picture to draw, .svg, .png or .pdf, or none (default: .svg beside the output; bench: none)"},
+     "picture to draw, .svg, .png, .pdf or .gp (script for gnuplot), or none (default: .svg beside the output; bench: "
+     "none)"},
     {GG_OPT_PICTURE | GG_OPT_FORMAT, "width", "WIDTH",
      "width of the picture on paper, e.g. 86mm: mm, cm, in or pt (default: as for a screen)"},
-    {GG_OPT_FORMAT, "format", "svg|png|pdf", "format of the picture (default: from the output's name, else svg)"},
+    {GG_OPT_FORMAT, "format", "svg|png|pdf|gp", "format of the picture (default: from the output's name, else svg)"},
     {GG_OPT_RESUME, "resume", "FILE", "resume from this checkpoint"},
     {GG_OPT_ACCEPT, "accept-version", NULL,
      "use checkpoints and points of sweeps of another build, whose numbers may differ"},

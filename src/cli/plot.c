@@ -35,8 +35,9 @@ int gg_cli_plot_main(const gg_command *command, int argc, char **argv)
   gg_options o;
   int code = gg_cli_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON && o.format && strcmp(o.format, "svg") != 0 && strcmp(o.format, "png") != 0 &&
-      strcmp(o.format, "pdf") != 0)
-    code = gg_cli_fail(GG_BAD_INPUT, "option '--format': value '%s' is not allowed; allowed: svg, png, pdf", o.format);
+      strcmp(o.format, "pdf") != 0 && strcmp(o.format, "gp") != 0)
+    code =
+        gg_cli_fail(GG_BAD_INPUT, "option '--format': value '%s' is not allowed; allowed: svg, png, pdf, gp", o.format);
   if (code == GG_CLI_GO_ON) code = draw(&o);
   gg_cli_options_clear(&o);
   return code;

@@ -1,128 +1,95 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "plot/axis.h"
-
+/* Axes of charts: their ends and tics. */
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
-void gg_plot_extent_add(gg_extent *e, double value, bool log)
+#include "plot/chart.h"
+
+/* Numbers that an axis has to show; on a logarithmic axis only those above 0. */
+typedef struct extent {
+  double least, most;
+} extent;
+
+static void extend(extent *e, double value, bool log)
 {
   if (!isfinite(value) || (log && value <= 0)) return;
   e->least = fmin(e->least, value), e->most = fmax(e->most, value);
 }
 
-gg_axis gg_plot_axis_around(gg_extent e, bool log)
+/* Ends with some room around the numbers; of no numbers: from 0 to 1. */
+static void set_ends(gg_chart_axis *a, extent e)
 {
-  if (!(e.least <= e.most)) return log ? (gg_axis){true, 0.1, 1} : (gg_axis){false, 0, 1};
-  if (log) {
-    double room = fmax(pow(e.most, 0.05) / pow(e.least, 0.05), 1.05);
-    return (gg_axis){true, fmax(e.least / room, DBL_MIN), fmin(e.most * room, DBL_MAX)};
+  if (a->from != a->to && !(a->log && a->from <= 0)) return;
+  if (!(e.least <= e.most)) e = a->log ? (extent){0.1, 1} : (extent){0, 1};
+  if (a->log) {
+    const double room = fmax(pow(e.most, 0.05) / pow(e.least, 0.05), 1.05);
+    a->from = fmax(e.least / room, DBL_MIN), a->to = fmin(e.most * room, DBL_MAX);
+    return;
   }
-  double size = fmax(fabs(e.least), fabs(e.most)), room = fmax(0.05 * (e.most - e.least), 1e-3 * size);
+  const double size = fmax(fabs(e.least), fabs(e.most));
+  double room = fmax(0.05 * (e.most - e.least), 1e-3 * size);
   if (e.most == e.least) room = 0.05 * size; /* one value: tics as far apart as those of others */
-  if (room < 1e-290) room = 1; /* gnuplot makes no tics of numbers that small */
-  gg_axis a = {false, e.least - room, e.most + room};
-  if (e.least >= 0 && e.least < 0.3 * e.most) a.from = 0;
-  if (e.most <= 0 && e.most > 0.3 * e.least) a.to = 0;
-  return a;
+  if (room < 1e-290) room = 1;               /* gnuplot makes no tics of numbers that small */
+  a->from = e.least >= 0 && e.least < 0.3 * e.most ? 0 : e.least - room;
+  a->to = e.most <= 0 && e.most > 0.3 * e.least ? 0 : e.most + room;
 }
 
-bool gg_plot_axis_takes(const gg_chart_panel *p, const gg_chart_series *s, size_t i)
+bool gg_plot_point_shows(const gg_chart_panel *p, const gg_chart_point *at)
 {
-  return isfinite(s->x[i]) && isfinite(s->y[i]) && !(p->x.log && s->x[i] <= 0) && !(p->y.log && s->y[i] <= 0);
+  return isfinite(at->x) && isfinite(at->y) && !(p->x.log && at->x <= 0) && !(p->y.log && at->y <= 0);
 }
 
-static bool is_inside(const gg_chart_axis *a, double x)
+/* Error bars count, except for one that alone would reach below 0, or is most of a number on a logarithmic axis. */
+static void add_point(const gg_chart_panel *p, const gg_chart_point *at, extent *x, extent *y)
 {
-  return a->from == a->to || (x >= a->from && x <= a->to);
+  const double dx = isfinite(at->x_error) ? fabs(at->x_error) : 0, dy = isfinite(at->error) ? fabs(at->error) : 0;
+  const bool inside = p->x.from == p->x.to || (at->x >= p->x.from && at->x <= p->x.to);
+  if (!inside || !gg_plot_point_shows(p, at)) return;
+  extend(x, at->x - dx, p->x.log), extend(x, at->x + dx, p->x.log);
+  extend(y, at->y, p->y.log), extend(y, at->y + dy, p->y.log);
+  if (p->y.log ? at->y > 1.5 * dy : at->y > dy || at->y < 0) extend(y, at->y - dy, p->y.log);
 }
 
-static double error_of(const double *error, size_t i)
+void gg_plot_axes_choose(gg_chart_panel *p)
 {
-  return error && isfinite(error[i]) ? fabs(error[i]) : 0;
-}
-
-/* With error bars; on a logarithmic axis only those that end above 0. A bar alone does not reach below 0. */
-static void add_point(const gg_chart_panel *p, const gg_chart_series *s, size_t i, gg_extent *x, gg_extent *y)
-{
-  double dx = error_of(s->x_error, i), dy = error_of(s->error, i), low = s->y[i] - dy;
-  if (!gg_plot_axis_takes(p, s, i) || !is_inside(&p->x, s->x[i])) return;
-  gg_plot_extent_add(x, s->x[i] - dx, p->x.log), gg_plot_extent_add(x, s->x[i] + dx, p->x.log);
-  gg_plot_extent_add(y, s->y[i], p->y.log), gg_plot_extent_add(y, s->y[i] + dy, p->y.log);
-  if (p->y.log ? s->y[i] > 1.5 * dy : low > 0 || s->y[i] < 0) gg_plot_extent_add(y, low, p->y.log);
-}
-
-static gg_axis axis_of(const gg_chart_axis *a, gg_extent extent)
-{
-  bool given = a->from != a->to && !(a->log && a->from <= 0);
-  return given ? (gg_axis){a->log, a->from, a->to} : gg_plot_axis_around(extent, a->log);
-}
-
-void gg_plot_axis_of_panel(const gg_chart_panel *p, gg_axis *x, gg_axis *y)
-{
-  gg_extent of_x = GG_NO_EXTENT, of_y = GG_NO_EXTENT;
-  for (int lines = 0; lines < 2 && !(of_x.least <= of_x.most); lines++)
+  extent x = {INFINITY, -INFINITY}, y = x;
+  for (int lines = 0; lines < 2 && !(x.least <= x.most); lines++)
     for (size_t k = 0; k < p->n; k++)
-      for (size_t i = 0; i < p->series[k].n && (!p->own_legend || lines || p->series[k].style != GG_CHART_LINE); i++)
-        add_point(p, &p->series[k], i, &of_x, &of_y);
-  *x = axis_of(&p->x, of_x), *y = axis_of(&p->y, of_y);
+      for (size_t i = 0; i < p->series[k]->n; i++)
+        if (!p->own_legend || lines || p->series[k]->look.style != GG_CHART_LINE)
+          add_point(p, &p->series[k]->point[i], &x, &y);
+  set_ends(&p->x, x), set_ends(&p->y, y);
 }
 
-/* The quotient of its ends may be more than a number holds. */
-static double decades_of(gg_axis a)
+/* The quotient of the ends may be more than a double holds. */
+static double decades_of(const gg_chart_axis *a)
 {
-  return log10(a.to) - log10(a.from);
+  return a->log ? log10(a->to) - log10(a->from) : 0;
 }
 
-double gg_plot_axis_share(gg_axis a, double x)
+double gg_plot_axis_place(const gg_chart_axis *a, double x)
 {
-  if (!a.log) return (x - a.from) / (a.to - a.from);
-  return (log10(x) - log10(a.from)) / decades_of(a);
+  return a->log ? (log10(x) - log10(a->from)) / decades_of(a) : (x - a->from) / (a->to - a->from);
 }
 
-static bool has_powers(gg_axis a)
+/* gnuplot labels whole decades alone: of few decades also their double and fivefold, and below one the tics of a linear
+ * axis, in steps of 1, 2 or 5. */
+static void add_tics(FILE *s, char which, const gg_chart_axis *a)
 {
-  return a.log && decades_of(a) > 2.2 && (a.from < 0.9e-3 || a.to > 1.1e4);
+  const double raw = (a->to - a->from) / 6, decade = pow(10, floor(log10(raw))), r = raw / decade;
+  const double step = decade * (r <= 1.4 ? 1 : r <= 3 ? 2 : r <= 7 ? 5 : 10);
+  if (decades_of(a) < 0.7)
+    for (double x = step * ceil(a->from / step); x <= a->to; x += step) fprintf(s, "set %ctics add (%.9g)\n", which, x);
+  else if (decades_of(a) <= 2.2)
+    for (int k = (int)floor(log10(a->from)); k <= (int)log10(a->to); k++)
+      fprintf(s, "set %ctics add (%.12g, %.12g)\n", which, 2 * pow(10, k), 5 * pow(10, k));
 }
 
-/* Steps of 1, 2 or 5. */
-static double round_step(double span)
+void gg_plot_axis_print(FILE *s, char which, const gg_chart_axis *a)
 {
-  double raw = span / 6, decade = pow(10, floor(log10(raw))), r = raw / decade;
-  return decade * (r <= 1.4 ? 1 : r <= 3 ? 2 : r <= 7 ? 5 : 10);
-}
-
-/* gnuplot names whole decades alone: of few also their double and fivefold, below one those of a linear axis. */
-static void add_tics(FILE *s, char which, gg_axis a)
-{
-  double step = round_step(a.to - a.from);
-  if (decades_of(a) > 2.2) return;
-  for (double x = step * ceil(a.from / step); decades_of(a) < 0.7 && x <= a.to; x += step)
-    fprintf(s, "set %ctics add (%.9g)\n", which, x);
-  if (decades_of(a) < 0.7) return;
-  for (int k = (int)floor(log10(a.from)); k <= (int)log10(a.to); k++)
-    fprintf(s, "set %ctics add (%.12g, %.12g)\n", which, 2 * pow(10, k), 5 * pow(10, k));
-}
-
-void gg_plot_axis_print(FILE *s, char which, gg_axis a)
-{
-  fprintf(s, "set %crange [%.12g:%.12g]\n%s logscale %c\nset format %c '%s'\n", which, a.from, a.to,
-          a.log ? "set" : "unset", which, which, has_powers(a) ? "10^{%T}" : "%h");
-  if (a.log) add_tics(s, which, a);
-}
-
-static int width_of(double x)
-{
-  char text[32];
-  return fabs(x) < DBL_MIN ? 1 : snprintf(text, sizeof text, "%.10g", x);
-}
-
-/* Tics are at some fifth of the axis, in round steps. */
-int gg_plot_axis_width(gg_axis a)
-{
-  if (has_powers(a)) return 5;
-  double step = pow(10, floor(log10((a.to - a.from) / 5)));
-  if (a.log) return (int)fmax(width_of(pow(10, round(log10(a.from)))), width_of(pow(10, round(log10(a.to)))));
-  double first = step * ceil(a.from / step), last = step * floor(a.to / step);
-  return (int)fmin(10, fmax(width_of(first), width_of(last)));
+  fprintf(s, "set %crange [%.12g:%.12g]\n", which, a->from, a->to);
+  if (!a->log) return;
+  const bool powers = decades_of(a) > 2.2 && (a->from < 0.9e-3 || a->to > 1.1e4);
+  fprintf(s, "set logscale %c\nset format %c '%s'\n", which, which, powers ? "10^{%T}" : "%h");
+  add_tics(s, which, a);
 }

@@ -29,18 +29,7 @@ static const struct {
                {"mass", "m"},
                {"fraction", "x"}};
 
-/* Marks of enhanced text lose their meaning. */
-static void escape(const char *plain, char *text, size_t size)
-{
-  size_t used = 0;
-  for (; *plain && used + 3 < size; plain++) {
-    if (strchr("_^{}@&~", *plain)) text[used++] = '\\';
-    text[used++] = *plain;
-  }
-  text[used] = '\0';
-}
-
-/* "collision.e" of "collision.e.12"; the index stands behind. */
+/* Length of "collision.e" in "collision.e.12", a key with an index. */
 static size_t stem_of(const char *key)
 {
   const char *dot = strrchr(key, '.');
@@ -53,7 +42,7 @@ static bool is(const char *key, size_t stem, const char *name)
   return strlen(name) == stem && strncmp(key, name, stem) == 0;
 }
 
-/* A member of species: "species.2.mass". */
+/* Name a member of species: "species.2.mass". */
 static bool find_species(const char *key, char *text, size_t size)
 {
   int species, n = 0;
@@ -81,7 +70,7 @@ void gg_plot_chart_key(const char *key, char *text, size_t size, const char **un
         snprintf(text, size, "%s", symbols[i].symbol);
       return;
     }
-  escape(key, text, size);
+  gg_plot_text_escape(key, text, size);
 }
 
 static const char *const special[][2] = {{"enskog_hermite", "Enskog (Hermite)"},
@@ -89,7 +78,7 @@ static const char *const special[][2] = {{"enskog_hermite", "Enskog (Hermite)"},
                                          {"lun1991_lun_savage", "Lun 1991 (Lun–Savage)"},
                                          {"garzo_montanero2003_ms", "Garzó & Montanero 2003 (MS)"}};
 
-/* "garzo_dufty1999": authors with capitals, and the year. */
+/* Name a theory by its authors: "garzo_dufty1999" becomes "Garzó & Dufty 1999". */
 static void name_authors(const char *key, char *text, size_t size)
 {
   size_t used = 0;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* md, dsmc and the theories side by side. Quantities with a scale are shown as ratios to md (to dsmc where md did not
- * run), so that all fit on one axis; those around zero as they are. */
+/* md, dsmc and the theories side by side. Quantities with a scale are drawn as ratios to md (to dsmc if md did not
+ * run), so that all fit on one axis; quantities about zero as they are. */
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
 
-#include "plot/sheet.h"
+#include "plot/result_panels.h"
 
 enum { MOST_OWN = 6, MOST_METHODS = 24 };
 
@@ -15,13 +15,8 @@ typedef struct method {
   bool unsteady;
 } method;
 
-/* A quantity that the program that made the file brought with it. */
-static bool is_own(const char *quantity)
-{
-  return gg_common_quantity_find(quantity) == GG_N_QUANTITIES;
-}
-
-static int methods_of(const gg_stored_result *stored, method *methods)
+/* The engines come first, and the first method is the reference. */
+static int list_methods(const gg_stored_result *stored, method *methods)
 {
   int n = 0;
   const char *name;
@@ -43,134 +38,94 @@ static double number(const method *m, const char *quantity, const char *member)
   return json_is_number(x) ? json_number_value(x) : NAN;
 }
 
-/* Measured, and different from zero? */
-static bool is_measured(const method *engine, const char *name, bool *from_zero)
+/* A ratio needs a mean of the reference that differs from zero, and a second method with a number. */
+static bool has_ratio(const method *m, int n, const char *name)
 {
-  double mean = number(engine, name, "mean"), error = number(engine, name, "stderr");
-  *from_zero = fabs(mean) > 3 * (isfinite(error) ? error : 0);
-  return isfinite(mean);
+  const double error = number(m, name, "stderr");
+  bool compared = false;
+  for (int k = 1; k < n; k++) compared |= isfinite(number(&m[k], name, "mean"));
+  return compared && fabs(number(m, name, "mean")) > 3 * (isfinite(error) ? error : 0);
 }
 
-/* Has another method than the first a number to be divided by its? */
-static bool is_compared(const method *methods, int n, const char *name)
+/* Names of the quantities in the panel of ratios or in that of values: those of graingas, and some that the program
+ * which made the file has registered. */
+static int select_quantities(const method *m, int n_methods, bool ratio, const char **selected)
 {
-  int k = 1;
-  while (k < n && !isfinite(number(&methods[k], name, "mean"))) k++;
-  return k < n;
-}
-
-/* The names of what the first method, an engine, has measured, as ratios what is compared and told from zero; and of
- * some quantities of the program's own. */
-static int select_quantities(const method *methods, int n_methods, bool ratio, const char **selected)
-{
-  const method *engine = methods;
   int n = 0, n_own = 0;
-  bool from_zero;
   const char *name;
   json_t *own;
   const unsigned drawn = ratio ? GG_DRAWN_AS_RATIO : GG_DRAWN;
   for (gg_quantity q = gg_common_quantity_next(-1, drawn); q < GG_N_QUANTITIES; q = gg_common_quantity_next(q, drawn)) {
     name = gg_common_quantity_name(q);
-    if (!is_measured(engine, name, &from_zero) || (ratio && !(from_zero && is_compared(methods, n_methods, name))))
-      continue;
-    selected[n++] = name;
+    if (isfinite(number(m, name, "mean")) && (!ratio || has_ratio(m, n_methods, name))) selected[n++] = name;
   }
-  json_object_foreach((json_t *)(uintptr_t)engine->results, name, own)
+  json_object_foreach((json_t *)(uintptr_t)m->results, name, own)
   {
-    if (n_own == MOST_OWN || !is_own(name) || !is_measured(engine, name, &from_zero)) continue;
-    if ((from_zero && is_compared(methods, n_methods, name)) != ratio) continue;
-    selected[n++] = name, n_own++;
+    if (n_own < MOST_OWN && n < GG_CHART_CATEGORIES && gg_common_quantity_find(name) == GG_N_QUANTITIES &&
+        isfinite(number(m, name, "mean")) && has_ratio(m, n_methods, name) == ratio)
+      selected[n++] = name, n_own++;
   }
   return n;
 }
 
-/* "word\nsymbol", for double quotes; a name of one's own stands as it is: no subscripts in it, and nothing that gnuplot
- * would do. Of many quantities (species have one each) the symbols alone: words would run into each other. */
-static const char *label_of(gg_plot_sheet *s, const char *name, bool wordy)
+static void name_category(gg_chart *c, gg_chart_panel *p, const char *name)
 {
-  char text[112];
-  size_t used = 0;
-  gg_quantity q = gg_common_quantity_find(name);
-  if (q < GG_N_QUANTITIES) {
-    const char *word = gg_common_quantity_word(q);
-    gg_common_quantity_enhanced(q, text, sizeof text);
-    return gg_plot_sheet_add_text(s, "%s%s%s", wordy ? word : "", wordy && *word ? "\\n" : "", text);
-  }
-  for (const char *c = name; *c && used + 4 < sizeof text; c++)
-    if (*c == '_')
-      used += (size_t)snprintf(text + used, sizeof text - used, "\\\\_");
-    else
-      text[used++] = isalnum((unsigned char)*c) || strchr(" .-+/()", *c) || (*c & 0x80) ? *c : '?';
-  text[used] = '\0';
-  return gg_plot_sheet_add_text(s, "%s", text);
+  char symbol[112];
+  const gg_quantity q = gg_common_quantity_find(name);
+  if (q < GG_N_QUANTITIES)
+    gg_common_quantity_enhanced(q, symbol, sizeof symbol);
+  else
+    gg_plot_text_escape(name, symbol, sizeof symbol);
+  p->word[p->n_categories] = q < GG_N_QUANTITIES ? gg_common_quantity_word(q) : "";
+  p->symbol[p->n_categories++] = gg_plot_chart_text(c, "%s", symbol);
 }
 
-/* How far the axis reaches below and above 1: all that is there, but not to the ends of the world. */
-static void set_reach(gg_chart_panel *p)
+/* Ends of the axis of ratios: all values, but at most 0.75 below and above 1. */
+static void set_ends(gg_chart_panel *p)
 {
   const double most = 0.75;
   double reach[2] = {0.003, 0.003};
   for (size_t k = 0; k < p->n; k++)
-    for (size_t i = 0; i < p->series[k].n; i++) {
-      double off = p->series[k].y[i] - 1, error = p->series[k].error[i];
-      reach[0] = fmax(reach[0], error - off), reach[1] = fmax(reach[1], error + off);
+    for (size_t i = 0; i < p->series[k]->n; i++) {
+      const double off = p->series[k]->point[i].y - 1, error = p->series[k]->point[i].error;
+      reach[0] = fmin(fmax(reach[0], error - off), most), reach[1] = fmin(fmax(reach[1], error + off), most);
     }
-  for (int side = 0; side < 2; side++) reach[side] = fmin(reach[side], most);
-  double margin = 0.08 * (reach[0] + reach[1]);
+  const double margin = 0.08 * (reach[0] + reach[1]);
   p->y.from = 1 - fmin(reach[0] + margin, most), p->y.to = 1 + fmin(reach[1] + margin, most);
 }
 
-/* Of ratios the reference is a band of its error about 1. */
-static void add_method(gg_plot_sheet *s, const method *m, const method *reference, bool ratio, const char *const *names,
-                       int n)
+/* The reference of ratios is a band of its error about 1. */
+static void add_panel(gg_chart *c, const method *methods, int n_methods, bool ratio, double share)
 {
-  gg_chart_series like = {
-      .method = m->name, .style = ratio && m == reference ? GG_CHART_BAND : GG_CHART_POINTS, .all_open = m->unsteady};
-  gg_chart_series *series = gg_plot_sheet_add_series(s, like, (size_t)n);
-  for (int i = 0; series && i < n; i++) {
-    double scale = ratio ? number(reference, names[i], "mean") : 1, mean = number(m, names[i], "mean") / scale;
-    double error = fabs(number(m, names[i], "stderr") / scale);
-    if (isfinite(mean)) gg_plot_sheet_add_point(series, i + 1, mean, isfinite(error) ? error : 0);
+  const char *name[GG_CHART_CATEGORIES];
+  const int n = select_quantities(methods, n_methods, ratio, name);
+  gg_chart_panel *p = n ? gg_plot_chart_panel(c) : NULL;
+  if (!p) return;
+  for (int i = 0; i < n; i++) name_category(c, p, name[i]);
+  for (const method *m = methods; m < methods + n_methods; m++) {
+    gg_chart_series *s =
+        gg_plot_chart_series(c, m->name, NULL, ratio && m == methods ? GG_CHART_BAND : GG_CHART_POINTS);
+    for (int i = 0; i < n; i++) {
+      const double scale = ratio ? number(methods, name[i], "mean") : 1, mean = number(m, name[i], "mean") / scale;
+      const double error = fabs(number(m, name[i], "stderr") / scale);
+      if (isfinite(mean))
+        gg_plot_chart_point(c, s, (gg_chart_point){i + 1, mean, isfinite(error) ? error : 0, NAN, m->unsteady});
+    }
   }
-  if (series && !series->n) gg_plot_sheet_drop_series(s);
-}
-
-/* Words of quantities side by side, in layout pixels. */
-static bool has_room(const gg_plot_sheet *s, const char *const *names, int n, double share)
-{
-  const double letter = 6, margins = 90, screen = 1100, width = s->width > 0 ? s->width : screen;
-  size_t longest = 0;
-  for (int i = 0; i < n; i++) {
-    gg_quantity q = gg_common_quantity_find(names[i]);
-    size_t length = strlen(q < GG_N_QUANTITIES ? gg_common_quantity_word(q) : names[i]);
-    if (length > longest) longest = length;
-  }
-  return letter * (double)longest * n < width * (s->width > 0 && s->width < screen * 0.65 ? 1 : share) - margins;
-}
-
-static void add_panel(gg_plot_sheet *s, const method *methods, int n_methods, bool ratio, double share)
-{
-  const char *selected[GG_SHEET_NAMES];
-  int n = select_quantities(methods, n_methods, ratio, selected);
-  bool wordy = has_room(s, selected, n, share);
-  gg_chart_panel *p = gg_plot_sheet_add_panel(s);
-  for (int k = 0; k < n_methods; k++) add_method(s, &methods[k], &methods[0], ratio, selected, n);
-  for (int i = 0; i < n; i++) s->name[ratio][i] = label_of(s, selected[i], wordy);
-  p->name = s->name[ratio], p->n_names = (size_t)n, p->share = share, p->level = ratio;
-  p->y.label = "value";
+  p->share = share, p->level = ratio;
+  p->y.label = ratio ? gg_plot_chart_text(c, "value / %s", methods[0].name) : "value";
   if (!ratio) return;
-  p->y.label = gg_plot_sheet_add_text(s, "value / %s", methods[0].name);
-  p->title = gg_plot_sheet_add_text(s, "shaded: standard error of %s", methods[0].name);
-  set_reach(p);
+  p->title = gg_plot_chart_text(c, "shaded: standard error of %s", methods[0].name);
+  set_ends(p);
 }
 
-void gg_plot_sheet_add_comparison(gg_plot_sheet *s, const gg_stored_result *stored)
+void gg_plot_add_comparison(gg_chart *c, const gg_stored_result *stored)
 {
   method methods[MOST_METHODS];
-  const char *selected[GG_SHEET_NAMES];
-  int n = methods_of(stored, methods);
-  int ratios = n ? select_quantities(methods, n, true, selected) : 0;
-  int others = n ? select_quantities(methods, n, false, selected) : 0;
-  if (ratios) add_panel(s, methods, n, true, others ? 0.64 : 1);
-  if (others) add_panel(s, methods, n, false, ratios ? 0.36 : 1);
+  const char *selected[GG_CHART_CATEGORIES];
+  const int n = list_methods(stored, methods);
+  if (!n) return;
+  const bool both = select_quantities(methods, n, true, selected) && select_quantities(methods, n, false, selected);
+  add_panel(c, methods, n, true, both ? 0.64 : 1);
+  add_panel(c, methods, n, false, both ? 0.36 : 1);
 }

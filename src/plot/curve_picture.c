@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Pictures of curves: one page an observable, one panel for curves that belong together, shaded bands of one standard
- * error; where a theory has them, too, points with error bars, and the theory as a line. */
+/* Pictures of curves: one page an observable, one panel for curves that belong together. Curves are bands of one
+ * standard error, or points with error bars if a theory, drawn as a line, has them, too. */
 #include <math.h>
 #include <string.h>
 
 #include "io/checked_json.h"
 #include "files/curve_table.h"
-#include "plot/sheet.h"
+#include "plot/result_panels.h"
 
-enum { MOST_IN_PANEL = 8 };
+enum { MOST_IN_PANEL = 8 }; /* more curves, as of many species, could not be told apart */
 
 int gg_plot_curve_groups(const json_t *document, const char **names, int most)
 {
@@ -35,49 +35,39 @@ static size_t size_of(const json_t *curve)
   return json_array_size(json_object_get(curve, "x"));
 }
 
-/* The part of a curve between its first and last points other than zero: histograms have empty ends. */
-static void find_ends(const json_t *curve, size_t *from, size_t *to)
+/* A measured curve without its empty ends, which histograms have. On a logarithmic axis a point whose error is above
+ * two thirds of its value says little, and hides other curves. */
+static void add_measured(gg_chart *c, gg_chart_series *s, bool log, const json_t *curve, bool unsteady)
 {
-  *from = 0, *to = size_of(curve);
-  while (*from < *to && at(curve, "value", *from) == 0) ++*from;
-  while (*to > *from && at(curve, "value", *to - 1) == 0) --*to;
-}
-
-/* On a logarithmic axis a point that is not known within two thirds of itself says little, and hides other curves. */
-static void add_measured(gg_plot_sheet *s, const gg_chart_panel *p, gg_chart_series like, const json_t *curve)
-{
-  size_t from, to;
-  find_ends(curve, &from, &to);
-  gg_chart_series *series = gg_plot_sheet_add_series(s, like, to - from);
-  for (size_t i = from; series && i < to; i++) {
-    double y = at(curve, "value", i), error = at(curve, "stderr", i);
-    if (isfinite(y) && !(p->y.log && error > 0.67 * y))
-      gg_plot_sheet_add_point(series, at(curve, "x", i), y, isfinite(error) ? error : 0);
+  size_t from = 0, to = size_of(curve);
+  while (from < to && at(curve, "value", from) == 0) from++;
+  while (to > from && at(curve, "value", to - 1) == 0) to--;
+  for (size_t i = from; i < to; i++) {
+    const double y = at(curve, "value", i), error = at(curve, "stderr", i);
+    if (isfinite(y) && !(log && error > 0.67 * y))
+      gg_plot_chart_point(c, s, (gg_chart_point){at(curve, "x", i), y, isfinite(error) ? error : 0, NAN, unsteady});
   }
 }
 
-static void add_line(gg_plot_sheet *s, gg_chart_series like, const json_t *abscissae, const json_t *values)
+static void add_line(gg_chart *c, const char *method, const char *group, const json_t *abscissae, const json_t *values)
 {
-  size_t n = size_of(abscissae);
-  gg_chart_series *series = gg_plot_sheet_add_series(s, like, n);
-  for (size_t i = 0; series && i < n; i++)
-    gg_plot_sheet_add_point(series, at(abscissae, "x", i), at(values, "value", i), NAN);
-  if (series) series->error = NULL;
+  gg_chart_series *s = gg_plot_chart_series(c, method, group, GG_CHART_LINE);
+  for (size_t i = 0; i < size_of(abscissae); i++)
+    gg_plot_chart_point(c, s, (gg_chart_point){at(abscissae, "x", i), at(values, "value", i), NAN, NAN, false});
 }
 
-/* A panel as it comes to be: the curves in it, and the theory whose lines it has. */
+/* The curves of a panel, and the theory whose lines it has: the first one, since lines of several would be too many. */
 typedef struct group {
   const json_t *curve[MOST_IN_PANEL], *theory[MOST_IN_PANEL];
-  const char *name[MOST_IN_PANEL], *title, *theory_name;
-  int n, more; /* curves for which there is no room: those of many species are too many to be distinguished */
+  const char *name[MOST_IN_PANEL], *label[MOST_IN_PANEL], *title, *theory_name;
+  int n, n_left_out;
 } group;
 
-/* The first theory that has a curve of this name: lines of several would be too many. */
 static void add_curve(group *g, const char *name, const json_t *curve, const json_t *theories)
 {
-  const char *theory;
+  const char *theory, *label = gg_io_json_string(curve, "label");
   json_t *curves;
-  g->name[g->n] = name, g->curve[g->n] = curve, g->theory[g->n] = NULL;
+  g->name[g->n] = name, g->curve[g->n] = curve, g->theory[g->n] = NULL, g->label[g->n] = *label ? label : NULL;
   json_object_foreach((json_t *)(uintptr_t)theories, theory, curves)
   {
     const json_t *one = json_object_get(curves, name);
@@ -88,7 +78,7 @@ static void add_curve(group *g, const char *name, const json_t *curve, const jso
   g->n++;
 }
 
-static int groups_of(const json_t *document, const json_t *theories, const char *name, group *groups)
+static int list_groups(const json_t *document, const json_t *theories, const char *name, group *groups)
 {
   int n = 0, k;
   const char *key;
@@ -98,18 +88,18 @@ static int groups_of(const json_t *document, const json_t *theories, const char 
     const char *title = gg_io_json_string(curve, "panel");
     if (strcmp(gg_io_json_string(curve, "group"), name) != 0) continue;
     for (k = 0; k < n && strcmp(groups[k].title, title) != 0; k++) continue;
-    if (k == n && n < GG_SHEET_PANELS) groups[n++] = (group){.title = title};
+    if (k == n && n < GG_CHART_PANELS) groups[n++] = (group){.title = title};
     if (k == n) continue;
     if (groups[k].n == MOST_IN_PANEL)
-      groups[k].more++;
+      groups[k].n_left_out++;
     else
       add_curve(&groups[k], key, curve, theories);
   }
   return n;
 }
 
-/* One law beside all curves is drawn once, without a colour of theirs. */
-static void add_laws(gg_plot_sheet *s, const group *g, const char *const *labels)
+/* Laws beside the curves. One law of all curves is drawn once, without a colour of theirs. */
+static void add_laws(gg_chart *c, const group *g)
 {
   int n = 0;
   const json_t *law[MOST_IN_PANEL];
@@ -118,15 +108,12 @@ static void add_laws(gg_plot_sheet *s, const group *g, const char *const *labels
     if (k && law[k] && json_equal(law[k], json_object_get(g->curve[k - 1], "reference"))) law[k] = NULL;
     n += law[k] != NULL;
   }
-  for (int k = 0; k < g->n; k++) {
-    gg_chart_series like = {.method = gg_io_json_string(law[k], "label"), .style = GG_CHART_LINE};
-    if (n > 1) like.group = labels[k];
-    if (law[k]) add_line(s, like, g->curve[k], law[k]);
-  }
+  for (int k = 0; k < g->n; k++)
+    if (law[k]) add_line(c, gg_io_json_string(law[k], "label"), n > 1 ? g->label[k] : NULL, g->curve[k], law[k]);
 }
 
-/* Chi^2 a point and the largest z between the first curve of a panel and the other engine's. */
-static const char *verdict(gg_plot_sheet *s, const group *g, const json_t *other)
+/* Chi^2 a point and the largest z between the only curve of a panel and the other engine's. */
+static const char *agreement(gg_chart *c, const group *g, const json_t *other)
 {
   double squares = 0, most = 0;
   int n = 0;
@@ -137,64 +124,48 @@ static const char *verdict(gg_plot_sheet *s, const group *g, const json_t *other
     squares += z * z, n++;
     if (fabs(z) > fabs(most)) most = z;
   }
-  return n ? gg_plot_sheet_add_text(s, "%s: chi^2/points %.3g, largest z %+.1f", g->title, squares / n, most)
-           : g->title;
+  return n ? gg_plot_chart_text(c, "%s: chi^2/points %.3g, largest z %+.1f", g->title, squares / n, most) : g->title;
 }
 
-/* The same curves of the other engine, at the same places. */
-static void add_other(gg_plot_sheet *s, gg_chart_panel *p, const group *g, const gg_stored_engine *other,
-                      const char *const *labels)
-{
-  const json_t *curves = json_object_get(other->document, "curves");
-  for (int k = 0; k < g->n; k++) {
-    const json_t *curve = json_object_get(curves, g->name[k]);
-    if (!curve || size_of(curve) != size_of(g->curve[k])) continue;
-    add_measured(
-        s, p,
-        (gg_chart_series){
-            .method = other->name, .group = labels[k], .style = GG_CHART_BAND, .all_open = gg_plot_is_unsteady(other)},
-        curve);
-    if (k == 0) p->title = verdict(s, g, curve);
-  }
-}
-
-static void fill_panel(gg_plot_sheet *s, gg_chart_panel *p, const group *g, const gg_stored_engine *engine,
+static void fill_panel(gg_chart *c, gg_chart_panel *p, const group *g, const gg_stored_engine *engine,
                        const gg_stored_engine *other)
 {
-  const char *labels[MOST_IN_PANEL];
   for (int k = 0; k < g->n; k++) {
-    const char *label = gg_io_json_string(g->curve[k], "label");
-    labels[k] = *label ? label : NULL;
-    gg_chart_series like = {.method = engine->name,
-                            .group = labels[k],
-                            .style = other || g->theory[k] ? GG_CHART_POINTS : GG_CHART_BAND,
-                            .all_open = gg_plot_is_unsteady(engine)};
-    add_measured(s, p, like, g->curve[k]);
+    const int style = other || g->theory[k] ? GG_CHART_POINTS : GG_CHART_BAND;
+    add_measured(c, gg_plot_chart_series(c, engine->name, g->label[k], style), p->y.log, g->curve[k],
+                 gg_plot_is_unsteady(engine));
   }
-  if (other) add_other(s, p, g, other, labels);
+  for (int k = 0; k < g->n && other; k++) {
+    const json_t *curve = json_object_get(json_object_get(other->document, "curves"), g->name[k]);
+    if (!curve || size_of(curve) != size_of(g->curve[k])) continue;
+    add_measured(c, gg_plot_chart_series(c, other->name, g->label[k], GG_CHART_BAND), p->y.log, curve,
+                 gg_plot_is_unsteady(other));
+    if (k == 0) p->title = agreement(c, g, curve);
+  }
   for (int k = 0; k < g->n; k++)
-    if (g->theory[k])
-      add_line(s, (gg_chart_series){.method = g->theory_name, .group = labels[k], .style = GG_CHART_LINE}, g->theory[k],
-               g->theory[k]);
-  add_laws(s, g, labels);
+    if (g->theory[k]) add_line(c, g->theory_name, g->label[k], g->theory[k], g->theory[k]);
+  add_laws(c, g);
 }
 
-void gg_plot_sheet_add_curves(gg_plot_sheet *s, const gg_stored_engine *engine, const gg_stored_engine *other,
-                              const json_t *theories, const char *name)
+static gg_chart_axis axis_of(const json_t *curve, const char *name, const char *unit, const char *log)
 {
-  group groups[GG_SHEET_PANELS];
-  int n = groups_of(engine->document, theories, name, groups);
-  for (int i = 0; i < n; i++) {
-    const group *g = &groups[i];
-    const json_t *first = g->curve[0];
-    gg_chart_panel *p = gg_plot_sheet_add_panel(s);
-    p->title =
-        g->more ? gg_plot_sheet_add_text(s, "%s: the first %d of %d curves", g->title, g->n, g->n + g->more) : g->title;
+  return (gg_chart_axis){gg_io_json_string(curve, name), gg_io_json_string(curve, unit),
+                         json_is_true(json_object_get(curve, log)), 0, 0};
+}
+
+void gg_plot_add_curves(gg_chart *c, const gg_stored_engine *engine, const gg_stored_engine *other,
+                        const json_t *theories, const char *name)
+{
+  group groups[GG_CHART_PANELS];
+  const int n = list_groups(engine->document, theories, name, groups);
+  for (const group *g = groups; g < groups + n; g++) {
+    gg_chart_panel *p = gg_plot_chart_panel(c);
+    if (!p) return;
+    p->title = g->n_left_out
+                   ? gg_plot_chart_text(c, "%s: the first %d of %d curves", g->title, g->n, g->n + g->n_left_out)
+                   : g->title;
     p->own_legend = true;
-    p->x = (gg_chart_axis){gg_io_json_string(first, "x_name"), gg_io_json_string(first, "x_unit"),
-                           json_is_true(json_object_get(first, "log_x")), 0, 0};
-    p->y = (gg_chart_axis){gg_io_json_string(first, "y_name"), gg_io_json_string(first, "unit"),
-                           json_is_true(json_object_get(first, "log_y")), 0, 0};
-    fill_panel(s, p, g, engine, other);
+    p->x = axis_of(g->curve[0], "x_name", "x_unit", "log_x"), p->y = axis_of(g->curve[0], "y_name", "unit", "log_y");
+    fill_panel(c, p, g, engine, other);
   }
 }

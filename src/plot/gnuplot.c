@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* gnuplot as a child process: the script on its standard input, the picture from its standard output, its complaints
- * read back. It is told no file name: in its language names can be commands. */
+/* gnuplot as a child process: the script on its standard input, the picture from its standard output, its errors read
+ * back. gnuplot gets no file name: in its language names can be commands. */
 #include <errno.h>
 #include <limits.h>
 #include <pthread.h>
@@ -36,10 +36,10 @@ gg_status gg_plot_gnuplot_is_there(gg_error *err)
     if (written < (int)sizeof path && access(path, X_OK) == 0) return GG_OK;
     at += length + (at[length] == ':');
   }
-  return at ? is_missing(err) : GG_OK; /* without a PATH the system has one of its own */
+  return at ? is_missing(err) : GG_OK; /* without PATH the system has a default */
 }
 
-/* Without what users have it do at every start. */
+/* Start gnuplot without the user's startup files. */
 static gg_status spawn(int in, int out, int complaints, pid_t *child, gg_error *err)
 {
   char *const arguments[] = {(char[]){"gnuplot"}, (char[]){"-d"}, (char[]){"-"}, NULL};
@@ -56,11 +56,11 @@ static gg_status spawn(int in, int out, int complaints, pid_t *child, gg_error *
   return failed ? gg_base_fail(err, GG_FAILED, "gnuplot cannot be started: %s", strerror(failed)) : GG_OK;
 }
 
-#ifndef GG_GNUPLOT_SECONDS    /* tests wait for less */
+#ifndef GG_GNUPLOT_SECONDS    /* tests set less */
 #define GG_GNUPLOT_SECONDS 60 /* a page takes some seconds at most */
 #endif
 
-/* Those that would end this process or are caught, not those that are ignored. */
+/* Signals that would end this process or are caught, without the ignored ones. */
 static void choose_signals(sigset_t *ends)
 {
   static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
@@ -70,8 +70,10 @@ static void choose_signals(sigset_t *ends)
     if (sigaction(signals[i], NULL, &now) == 0 && now.sa_handler != SIG_IGN) sigaddset(ends, signals[i]);
 }
 
-/* Until it ends, a signal comes, or it has had all its time. *ended, or the signal; 0: neither. Where nobody may wait
- * for children it ends at once, and the picture will tell. */
+/* Wait until the child ends (*ended), a signal comes (which is returned), or the time is over. If the process ignores
+ * SIGCHLD, nobody can wait for children: the call returns at once, and the end of the picture shows whether it is
+ * whole.
+ */
 static int wait_for(pid_t child, const sigset_t *ends, double seconds, bool *ended, int *status)
 {
   const double start = gg_base_clock_wall();
@@ -84,8 +86,8 @@ static int wait_for(pid_t child, const sigset_t *ends, double seconds, bool *end
   return 0;
 }
 
-/* One that hangs is ended: by the signal that this process gets meanwhile, which then takes its usual course, or for
- * lack of progress. */
+/* Wait for gnuplot, and end it if it takes too long or this process gets a signal. The signal then takes its usual
+ * course. */
 static gg_status await(pid_t child, int *status, gg_error *err)
 {
   sigset_t ends, before;
@@ -109,7 +111,7 @@ static gg_status await(pid_t child, int *status, gg_error *err)
                               GG_GNUPLOT_SECONDS);
 }
 
-/* Its complaint is the last line that says something. */
+/* The error of gnuplot is the last line with words. */
 static gg_status outcome(pid_t child, FILE *complaints, gg_error *err)
 {
   char line[256], last[256] = "no picture came out";
@@ -143,8 +145,7 @@ static gg_status draw(const char *script, int target, gg_error *err)
   return result;
 }
 
-/* gnuplot does not notice a full disk: a whole picture is known by its end. Where that is in the file; -1: not whole.
- */
+/* Position of the mark that ends a whole picture; -1: not whole. gnuplot does not notice a full disk. */
 static off_t end_of(int fd, const char *mark)
 {
   char tail[64];
@@ -154,7 +155,7 @@ static off_t end_of(int fd, const char *mark)
   return at ? from + (at - tail) : -1;
 }
 
-/* What gnuplot cannot draw well goes before the end of its page. */
+/* Insert SVG before the end of gnuplot's page. */
 static gg_status put_over(gg_atomic_file *file, const char *over, gg_error *err)
 {
   off_t end = end_of(file->fd, "</svg>");

@@ -3,32 +3,20 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "base/memory.h"
-#include "base/text.h"
-#include "plot/plot.h"
+#include "plot/page.h"
 
-/* Layout pixels. */
-enum {
-  CELL_WIDE = 42,
-  LEAST_WIDE = 30 /* for a number */,
-  CELL_TALL = 22,
-  LEAST_TALL = 140 /* of a panel, for the name of its row */,
-  LEFT = 92,
-  RIGHT = 16,
-  BETWEEN = 14,
-  ABOVE = 66,
-  BELOW = 140
-};
-/* Height of the colour bar's frame, and where its lower edge stands. */
-enum { BAR_TALL = 13, BAR_AT = 46, BAR_WIDE = 440 };
+/* Layout pixels: cells, the least size of a cell with a number and of a panel with the name of its row, the room around
+ * panels, and the colour bar. */
+enum { CELL_WIDE = 42, CELL_TALL = 22, LEAST_WIDE = 34, LEAST_TALL = 140 };
+enum { LEFT = 92, RIGHT = 16, BETWEEN = 16, ABOVE = 42, BELOW = 134, BAR_WIDE = 440, BAR_TALL = 13, BAR_BELOW = 46 };
+
+static const char caption[] = "lines at 1 % (dashed), 5 % and 20 % (thick); hatched: below two standard errors; "
+                              "red: × not steady, ▲ clustered or swirling, ◆ collapsed";
 
 #define SMALLEST 0.005
 #define LARGEST 1.0
-static const double lines[] = {0.01, 0.05, 0.2}; /* between cells on either side of these */
-enum { N_LINES = sizeof lines / sizeof *lines };
 
 double gg_plot_heat_place(double value)
 {
@@ -36,7 +24,7 @@ double gg_plot_heat_place(double value)
   return copysign(fmin(place, 1), value);
 }
 
-/* Between white and the darkest, of either sign: of equal lightness at equal places, so that grey tells how large. */
+/* Between white and the darkest, of either sign: of equal lightness at equal places, so that grey tells the size. */
 unsigned gg_plot_heat_colour(double value)
 {
   static const unsigned shades[2][4] = {{0xffffff, 0x9dc3e6, 0x3f7fbf, 0x0b3566},
@@ -54,231 +42,187 @@ unsigned gg_plot_heat_colour(double value)
 
 typedef struct heat_page {
   const gg_heat_map *map;
-  FILE *script;
-  double size[2], wide, tall, left; /* of the page, of a cell, before the first panel */
+  gg_page page;
+  double wide, tall, left, above; /* of a cell; before and above the first panel */
+  double caption;                 /* height of its rows */
 } heat_page;
-
-static const gg_heat_cell *cells_of(const gg_heat_map *m, size_t row, size_t column)
-{
-  return m->cell + (row * m->columns + column) * m->n_x * m->n_y;
-}
 
 static bool is_known(const gg_heat_cell *c)
 {
   return isfinite(c->value);
 }
 
-static void print_percent(double value, char text[16])
+/* Numbers are white on dark cells. */
+static void print_number(const heat_page *p, const gg_heat_cell *c, double x, double y)
 {
-  const double percent = 100 * value, size = fabs(percent);
-  snprintf(text, 16, size < 9.95 ? "%+.1f" : "%+.0f", percent);
-  if (size < 0.05) snprintf(text, 16, "0.0");
+  char text[16];
+  const double percent = 100 * c->value, size = fabs(percent);
+  snprintf(text, sizeof text, size < 0.05 ? "0.0" : size < 9.95 ? "%+.1f" : "%+.0f", percent);
+  gg_plot_page_small_text(&p->page, x, y,
+                          fabs(gg_plot_heat_place(c->value)) > 0.5 ? "center tc rgb '#ffffff'" : "center", text);
 }
 
-/* Cells with their colours and numbers; letters are white on dark ones. */
-static void print_cells(const heat_page *p, const gg_heat_cell *cell)
-{
-  fprintf(p->script, "$cells << EOD\n");
-  for (size_t i = 0; i < p->map->n_x * p->map->n_y; i++) {
-    char number[16];
-    if (!is_known(&cell[i])) continue;
-    print_percent(cell[i].value, number);
-    fprintf(p->script, "%zu %zu %u %s %u\n", i % p->map->n_x, i / p->map->n_x, gg_plot_heat_colour(cell[i].value),
-            number, fabs(gg_plot_heat_place(cell[i].value)) > 0.5 ? 0xffffffu : 0x000000u);
-  }
-  fprintf(p->script, "EOD\n");
-}
-
-/* Three strokes across a cell, left free in the middle for the number. */
+/* Three strokes across cells below two standard errors, with the middle left free for the number. */
 static void print_hatches(const heat_page *p, const gg_heat_cell *cell)
 {
   static const double strokes[][4] = {
       {-0.5, 0.1, 0.18, 0.4}, {-0.5, -0.35, 0.12, 0.15}, {0.38, 0.35, 0.12, 0.15}, {0.32, -0.5, 0.18, 0.4}};
-  fprintf(p->script, "$hatches << EOD\n");
-  for (size_t i = 0; i < p->map->n_x * p->map->n_y; i++) {
-    if (!is_known(&cell[i]) || !(fabs(cell[i].value) < 2 * cell[i].error)) continue;
-    for (size_t k = 0; k < sizeof strokes / sizeof *strokes; k++)
-      fprintf(p->script, "%g %g %g %g\n", (double)(i % p->map->n_x) + strokes[k][0],
+  fprintf(p->page.script, "$hatches << EOD\n");
+  for (size_t i = 0; i < p->map->n_x * p->map->n_y; i++)
+    for (size_t k = 0; k < 4 && is_known(&cell[i]) && fabs(cell[i].value) < 2 * cell[i].error; k++)
+      fprintf(p->page.script, "%g %g %g %g\n", (double)(i % p->map->n_x) + strokes[k][0],
               (double)(i / p->map->n_x) + strokes[k][1], strokes[k][2], strokes[k][3]);
-  }
-  fprintf(p->script, "NaN NaN NaN NaN\nEOD\n");
+  fprintf(p->page.script, "NaN NaN NaN NaN\nEOD\n");
 }
 
-/* In the upper corners: on the right what is not steady, on the left what is not homogeneous. */
+/* Marks in the upper corners: on the right of runs that are not steady, on the left of gases that are not homogeneous.
+ */
 static void print_marks(const heat_page *p, const gg_heat_cell *cell)
 {
   enum { CROSS = 2, TRIANGLE = 9, DIAMOND = 13 };
-  fprintf(p->script, "$marks << EOD\n");
+  fprintf(p->page.script, "$marks << EOD\n");
   for (size_t i = 0; i < p->map->n_x * p->map->n_y; i++) {
     const double x = (double)(i % p->map->n_x), y = (double)(i / p->map->n_x) + 0.27;
-    if (is_known(&cell[i]) && cell[i].not_steady) fprintf(p->script, "%g %g %d\n", x + 0.36, y, CROSS);
+    if (is_known(&cell[i]) && cell[i].not_steady) fprintf(p->page.script, "%g %g %d\n", x + 0.36, y, CROSS);
     if (is_known(&cell[i]) && cell[i].structure)
-      fprintf(p->script, "%g %g %d\n", x - 0.38, y, cell[i].structure == 'c' ? TRIANGLE : DIAMOND);
+      fprintf(p->page.script, "%g %g %d\n", x - 0.38, y, cell[i].structure == 'c' ? TRIANGLE : DIAMOND);
   }
-  fprintf(p->script, "NaN NaN NaN\nEOD\n");
+  fprintf(p->page.script, "NaN NaN NaN\nEOD\n");
 }
 
-/* An edge between two cells where one is on each side of a line; unknown cells have no lines. */
-static void print_edge(const heat_page *p, const gg_heat_cell *a, const gg_heat_cell *b, double line,
-                       const double at[4])
+/* A line between two cells, one below and one above `level`. Cells without a number have no lines. */
+static void print_edge(const heat_page *p, const gg_heat_cell *a, const gg_heat_cell *b, double level, const char *edge,
+                       double x, double y)
 {
-  if (is_known(a) && is_known(b) && (fabs(a->value) > line) != (fabs(b->value) > line))
-    fprintf(p->script, "%g %g %g %g\n", at[0], at[1], at[2], at[3]);
+  if (is_known(a) && is_known(b) && (fabs(a->value) > level) != (fabs(b->value) > level))
+    fprintf(p->page.script, "%g %g %s\n", x, y, edge);
 }
 
-static void print_lines(const heat_page *p, const gg_heat_cell *cell)
+static void print_lines(const heat_page *p, const gg_heat_cell *cell, const char *name, double level)
 {
-  const size_t n_x = p->map->n_x, n_y = p->map->n_y;
-  for (int k = 0; k < N_LINES; k++) {
-    fprintf(p->script, "$lines%d << EOD\n", k);
-    for (size_t i = 0; i < n_x * n_y; i++) {
-      const double x = (double)(i % n_x), y = (double)(i / n_x);
-      if (i % n_x + 1 < n_x) print_edge(p, &cell[i], &cell[i + 1], lines[k], (const double[]){x + 0.5, y - 0.5, 0, 1});
-      if (i / n_x + 1 < n_y)
-        print_edge(p, &cell[i], &cell[i + n_x], lines[k], (const double[]){x - 0.5, y + 0.5, 1, 0});
-    }
-    fprintf(p->script, "NaN NaN NaN NaN\nEOD\n");
-  }
-}
-
-static void print_tics(const heat_page *p, char axis, const char *const *value, size_t n, bool shown)
-{
-  fprintf(p->script, "set %ctics scale 0 (", axis);
+  const size_t n_x = p->map->n_x, n = n_x * p->map->n_y;
+  fprintf(p->page.script, "$%s << EOD\n", name);
   for (size_t i = 0; i < n; i++) {
-    fprintf(p->script, "%s'", i ? ", " : "");
-    if (shown) gg_plot_text_print_plain(p->script, value[i]);
-    fprintf(p->script, "' %zu", i);
+    const double x = (double)(i % n_x), y = (double)(i / n_x);
+    if (i % n_x + 1 < n_x) print_edge(p, &cell[i], &cell[i + 1], level, "0 1", x + 0.5, y - 0.5);
+    if (i + n_x < n) print_edge(p, &cell[i], &cell[i + n_x], level, "1 0", x - 0.5, y + 0.5);
   }
-  fprintf(p->script, ")\n");
+  fprintf(p->page.script, "NaN NaN NaN NaN\nEOD\n");
 }
 
-static void place_panel(const heat_page *p, size_t row, size_t column)
+/* Names over the first row and before the first column, values of the axes below the last row and there. */
+static void print_names(const heat_page *p, gg_box f, size_t row, size_t column)
 {
   const gg_heat_map *m = p->map;
-  const double wide = (double)m->n_x * p->wide, tall = (double)m->n_y * p->tall;
-  const double left = p->left + (double)column * (wide + BETWEEN), above = ABOVE + (double)row * (tall + BETWEEN);
-  gg_plot_page_place(p->script, (gg_panel){left / p->size[0], (left + wide) / p->size[0],
-                                           1 - (above + tall) / p->size[1], 1 - above / p->size[1]});
-}
-
-/* Names over the first row and before the first column, axes below the last and there. */
-static void print_names(const heat_page *p, size_t row, size_t column)
-{
-  const gg_heat_map *m = p->map;
-  const bool last = row + 1 == m->rows, first = column == 0;
-  print_tics(p, 'x', m->x_value, m->n_x, last);
-  print_tics(p, 'y', m->y_value, m->n_y, first);
-  fprintf(p->script, "set xlabel '%s' offset 0,0.4\n", last ? m->x_label : "");
-  fprintf(p->script, "set ylabel ''\n");
-  if (first)
-    fprintf(p->script,
-            "set label 1 '%s' at graph 0,0.5 center rotate by 90 offset char -8.6,0\n"
-            "set label 2 '%s' at graph 0,0.5 center offset char -5.6,0\n",
-            m->row_name[row], m->y_label);
-  if (row == 0) fprintf(p->script, "set label 3 '%s' at graph 0.5,1 center offset 0,0.7\n", m->column_name[column]);
-}
-
-static bool has_any(const gg_heat_map *m, const gg_heat_cell *cell)
-{
-  bool any = false;
-  for (size_t i = 0; i < m->n_x * m->n_y; i++) any |= is_known(&cell[i]);
-  return any;
+  const double middle = f.top + f.tall / 2, below = f.top + f.tall;
+  char text[64];
+  for (size_t i = 0; i < m->n_x && row + 1 == m->rows; i++) {
+    gg_plot_text_escape(m->x_value[i], text, sizeof text);
+    gg_plot_page_small_text(&p->page, f.left + p->wide * ((double)i + 0.5), below + 12,
+                            p->wide < LEAST_WIDE ? "right rotate by 90" : "center", text);
+  }
+  for (size_t i = 0; i < m->n_y && column == 0; i++) {
+    gg_plot_text_escape(m->y_value[i], text, sizeof text);
+    gg_plot_page_small_text(&p->page, f.left - 6, below - p->tall * ((double)i + 0.5), "right", text);
+  }
+  if (row + 1 == m->rows) gg_plot_page_text(&p->page, f.left + f.wide / 2, below + 46, "center", m->x_label);
+  if (column == 0) {
+    gg_plot_page_text(&p->page, f.left - 76, middle, "center rotate by 90", m->row_name[row]);
+    gg_plot_page_text(&p->page, f.left - 56, middle, "center", m->y_label);
+  }
+  if (row == 0) gg_plot_page_text(&p->page, f.left + f.wide / 2, f.top - 22, "center", m->column_name[column]);
 }
 
 static void draw_panel(const heat_page *p, size_t row, size_t column)
 {
   const gg_heat_map *m = p->map;
-  const gg_heat_cell *cell = cells_of(m, row, column);
-  place_panel(p, row, column);
-  print_names(p, row, column);
-  fprintf(p->script, "set border 15\nunset grid\nset xrange [-0.5:%g]\nset yrange [-0.5:%g]\n", (double)m->n_x - 0.5,
-          (double)m->n_y - 0.5);
-  if (!has_any(m, cell)) {
-    fprintf(p->script, "set label 4 '%s' at graph 0.5,0.5 center textcolor rgb '#777777'\nplot NaN notitle\n",
-            (double)m->n_x * p->wide > 130 ? "nothing to compare" : "nothing");
-    return;
-  }
-  const char *note = m->panel_note ? m->panel_note[row * m->columns + column] : NULL;
-  if (note)
-    fprintf(p->script, "set label 5 '%s' at graph 1,1 right offset 0,0.35 font ',7' textcolor rgb '#555555'\n", note);
-  print_cells(p, cell);
+  const gg_heat_cell *cell = m->cell + (row * m->columns + column) * m->n_x * m->n_y;
+  const double wide = (double)m->n_x * p->wide, tall = (double)m->n_y * p->tall;
+  const gg_box f = {p->left + (double)column * (wide + BETWEEN), p->above + (double)row * (tall + BETWEEN), wide, tall};
+  FILE *s = p->page.script;
+  size_t known = 0;
+  gg_plot_page_panel(&p->page, f, true);
+  if (!row && !column)
+    gg_plot_page_rows(&p->page, p->page.size[0] / 2, 4, p->page.size[0], "center noenhanced", m->title);
+  print_names(p, f, row, column);
+  fprintf(s, "unset xtics\nunset ytics\nset xrange [-0.5:%g]\nset yrange [-0.5:%g]\n$cells << EOD\n",
+          (double)m->n_x - 0.5, (double)m->n_y - 0.5);
+  for (size_t i = 0; i < m->n_x * m->n_y; i++)
+    if (is_known(&cell[i]))
+      known++, fprintf(s, "%zu %zu %u\n", i % m->n_x, i / m->n_x, gg_plot_heat_colour(cell[i].value));
+  fprintf(s, "NaN NaN NaN\nEOD\n");
+  for (size_t i = 0; i < m->n_x * m->n_y && p->wide >= LEAST_WIDE; i++)
+    if (is_known(&cell[i]))
+      print_number(p, &cell[i], f.left + p->wide * ((double)(i % m->n_x) + 0.5),
+                   f.top + tall - p->tall * ((double)(i / m->n_x) + 0.5));
+  if (!known)
+    gg_plot_page_text(&p->page, f.left + wide / 2, f.top + tall / 2, "center tc rgb '#777777'",
+                      wide > 150 ? "nothing to compare" : "nothing");
+  if (m->panel_note && m->panel_note[row * m->columns + column])
+    gg_plot_page_small_text(&p->page, f.left + wide, f.top - 7, "right tc rgb '#555555'",
+                            m->panel_note[row * m->columns + column]);
   print_hatches(p, cell);
   print_marks(p, cell);
-  print_lines(p, cell);
-  fprintf(p->script,
-          "plot $cells using 1:2:(0.5):(0.5):3 with boxxyerror lc rgb variable fs solid noborder notitle, "
-          "$hatches using 1:2:3:4 with vectors nohead lc rgb '#888888' lw 0.7 notitle, "
-          "$lines0 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 0.8 dt (3,2) notitle, "
-          "$lines1 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 1.3 notitle, "
-          "$lines2 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 2.8 notitle, "
-          "$marks using 1:2:3 with points pt variable ps 0.95 lw 3 lc rgb '#ffffff' notitle, "
-          "$marks using 1:2:3 with points pt variable ps 0.6 lw 1.2 lc rgb '#d00000' notitle%s\n",
-          p->wide < LEAST_WIDE ? "" : ", $cells using 1:2:4:5 with labels textcolor rgb variable font ',8' notitle");
+  print_lines(p, cell, "lines1", 0.01), print_lines(p, cell, "lines5", 0.05), print_lines(p, cell, "lines20", 0.2);
+  fprintf(s, "plot $cells using 1:2:(0.5):(0.5):3 with boxxyerror lc rgb variable fs solid noborder, "
+             "$hatches using 1:2:3:4 with vectors nohead lc rgb '#888888' lw 0.7, "
+             "$lines1 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 0.8 dt (3,2), "
+             "$lines5 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 1.3, "
+             "$lines20 using 1:2:3:4 with vectors nohead lc rgb '#000000' lw 2.8, "
+             "$marks using 1:2:3 with points pt variable ps 0.95 lw 3 lc rgb '#ffffff', "
+             "$marks using 1:2:3 with points pt variable ps 0.6 lw 1.2 lc rgb '#d00000'\n");
 }
 
-/* The scale, and what lines, hatches and crosses mean. */
+/* The scale of colours, and the meaning of lines, hatches and marks. */
 static void draw_bar(const heat_page *p)
 {
   static const double tics[] = {-1, -0.2, -0.05, -0.01, 0, 0.01, 0.05, 0.2, 1};
   enum { STEPS = 120 };
-  const double left = (p->size[0] - BAR_WIDE) / 2;
-  gg_plot_page_place(p->script, (gg_panel){left / p->size[0], (left + BAR_WIDE) / p->size[0], BAR_AT / p->size[1],
-                                           (BAR_AT + BAR_TALL) / p->size[1]});
-  fprintf(p->script, "$bar << EOD\n");
+  const double middle = p->page.size[0] / 2, wide = fmin(BAR_WIDE, p->page.size[0] - 40);
+  const gg_box f = {middle - wide / 2, p->page.size[1] - BAR_BELOW - BAR_TALL, wide, BAR_TALL};
+  FILE *s = p->page.script;
+  gg_plot_page_panel(&p->page, f, true);
+  fprintf(s, "$bar << EOD\n");
   for (int i = 0; i < STEPS; i++) {
     const double at = (2 * i + 1.0) / STEPS - 1, value = SMALLEST * expm1(fabs(at) * log1p(LARGEST / SMALLEST));
-    fprintf(p->script, "%.5g 0 %u\n", at, gg_plot_heat_colour(copysign(value, at)));
+    fprintf(s, "%.5g 0 %u\n", at, gg_plot_heat_colour(copysign(value, at)));
   }
-  fprintf(p->script,
-          "EOD\nset border 15\nunset grid\nset ylabel ''\nset xrange [-1:1]\nset yrange [-1:1]\nunset ytics\nset "
-          "xtics scale 0.4 (");
-  for (size_t i = 0; i < sizeof tics / sizeof *tics; i++)
-    fprintf(p->script, "%s'%g' %.6g", i ? ", " : "", 100 * tics[i], gg_plot_heat_place(tics[i]));
-  fprintf(p->script,
-          ")\nset xlabel 'deviation [%%]' offset 0,0.5\nset label 1 'lines at 1 %% (dashed), 5 %% and 20 %% (thick); "
-          "hatched: below two standard errors' at graph "
-          "0.5,1 center offset 0,1.7\nset label 2 'red: × not steady, ▲ clustered or swirling, ◆ collapsed' at graph "
-          "0.5,1 center offset "
-          "0,0.6\nplot $bar using 1:2:(%g):(1):3 with boxxyerror lc rgb variable fs solid noborder "
-          "notitle\n",
-          1.5 / STEPS);
+  fprintf(s, "EOD\nset xrange [-1:1]\nset yrange [-1:1]\nunset xtics\nunset ytics\n");
+  for (size_t i = 0; i < sizeof tics / sizeof *tics; i++) {
+    char text[16];
+    snprintf(text, sizeof text, "%g", 100 * tics[i]);
+    gg_plot_page_small_text(&p->page, middle + wide / 2 * gg_plot_heat_place(tics[i]), f.top + BAR_TALL + 10, "center",
+                            text);
+  }
+  gg_plot_page_text(&p->page, middle, f.top + BAR_TALL + 30, "center", "deviation [%]");
+  gg_plot_page_rows(&p->page, middle, f.top - p->caption - 6, p->page.size[0], "center", caption);
+  fprintf(s, "plot $bar using 1:2:(%g):(1):3 with boxxyerror lc rgb variable fs solid noborder\n", 1.5 / STEPS);
 }
 
-/* Cells are as wide as they like, or as the paper has room for. */
-static heat_page lay_out(const gg_heat_map *m, double width, FILE *script)
+/* Cells have their own width, or fill the paper. */
+static void lay_out(heat_page *p, const gg_plot_paper *paper)
 {
-  const double columns = (double)m->columns, others = LEFT + RIGHT + (columns - 1) * BETWEEN,
-               cells = columns * (double)m->n_x, least = BAR_WIDE + 260;
-  heat_page p = {.map = m,
-                 .script = script,
-                 .wide = width > 0 ? fmax((width - others) / cells, 4) : CELL_WIDE,
-                 .tall = fmax(CELL_TALL, (double)LEAST_TALL / (double)m->n_y)};
-  p.size[0] = width > 0 ? width : fmax(others + cells * p.wide, least);
-  p.size[1] = ABOVE + BELOW + (double)m->rows * ((double)m->n_y * p.tall + BETWEEN) - BETWEEN;
-  p.left = LEFT + (p.size[0] - others - cells * p.wide) / 2;
-  return p;
-}
-
-static void draw(const gg_heat_map *m, const gg_plot_paper *paper, FILE *script)
-{
-  const heat_page p = lay_out(m, paper->width, script);
-  gg_plot_page_open(script, m->title, paper, p.size[0], p.size[1]);
-  for (size_t row = 0; row < m->rows; row++)
-    for (size_t column = 0; column < m->columns; column++) draw_panel(&p, row, column);
-  draw_bar(&p);
-  fprintf(script, "unset multiplot\n");
+  const gg_heat_map *m = p->map;
+  const double others = LEFT + RIGHT + ((double)m->columns - 1) * BETWEEN, cells = (double)(m->columns * m->n_x);
+  const double least = BAR_WIDE + 260, width = paper->width;
+  p->wide = width > 0 ? fmax((width - others) / cells, 4) : CELL_WIDE;
+  p->tall = fmax(CELL_TALL, LEAST_TALL / (double)m->n_y);
+  p->page.size[0] = width > 0 ? width : fmax(others + cells * p->wide, least);
+  p->above = ABOVE + gg_plot_page_rows(NULL, 0, 0, p->page.size[0], "", m->title);
+  p->caption = gg_plot_page_rows(NULL, 0, 0, p->page.size[0], "", caption);
+  p->page.size[1] = p->above + BELOW + p->caption + (double)m->rows * ((double)m->n_y * p->tall + BETWEEN) - BETWEEN;
+  p->left = LEFT + (p->page.size[0] - others - cells * p->wide) / 2;
 }
 
 gg_status gg_plot_heat_map_draw(const gg_heat_map *m, const char *picture, const char *width, gg_error *err)
 {
-  char *text = NULL;
   gg_plot_paper paper;
+  heat_page p = {.map = m};
   GG_TRY(gg_plot_paper_choose(&paper, picture, NULL, width, err));
-  FILE *script = gg_base_memory_stream_open(&text);
-  if (!script) return gg_base_out_of_memory(err);
-  draw(m, &paper, script);
-  gg_status status = gg_base_memory_stream_close(script, &text) ? gg_plot_gnuplot_run(text, NULL, picture, err)
-                                                                : gg_base_out_of_memory(err);
-  free(text);
-  return status;
+  lay_out(&p, &paper);
+  const bool open = gg_plot_page_open(&p.page, &paper, p.page.size[0], p.page.size[1]);
+  for (size_t row = 0; row < m->rows && open; row++)
+    for (size_t column = 0; column < m->columns; column++) draw_panel(&p, row, column);
+  if (open) draw_bar(&p);
+  return gg_plot_page_finish(&p.page, open, picture, err);
 }

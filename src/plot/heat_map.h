@@ -10,7 +10,7 @@
 
 typedef struct gg_heat_cell {
   double value;    /* 0.05: 5 %; NaN: none */
-  double error;    /* standard error; NaN: none. Below two of them the cell is hatched */
+  double error;    /* standard error; NaN: none. A value below two errors is hatched */
   bool not_steady; /* marked by a cross */
   char structure;  /* of md, by its first letter: 'c'lustered, a triangle; 'k', collapsed, a diamond; 0: none */
 } gg_heat_cell;
@@ -32,7 +32,7 @@ double gg_plot_heat_place(double value);
 /* Its colour 0xrrggbb: blue below zero, white at zero, brown above, as dark on either side. */
 unsigned gg_plot_heat_colour(double value);
 
-/* Draw it, whole or not at all; width: "86mm", or NULL. */
+/* Draw a map, whole or not at all; width: "86mm", or NULL. */
 gg_status gg_plot_heat_map_draw(const gg_heat_map *map, const char *picture, const char *width, gg_error *err);
 
 #endif

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a picture is drawn on: its format and its width. */
+/* Format and width of a picture. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "io/atomic_file.h"
 #include "plot/plot.h"
 
-static const char *const formats[] = {[GG_PLOT_SVG] = "svg", [GG_PLOT_PNG] = "png", [GG_PLOT_PDF] = "pdf"};
+static const char *const formats[] = {
+    [GG_PLOT_SVG] = "svg", [GG_PLOT_PNG] = "png", [GG_PLOT_PDF] = "pdf", [GG_PLOT_GP] = "gp"};
 enum { N_FORMATS = sizeof formats / sizeof *formats };
 
 static int find(const char *name)
@@ -20,13 +21,13 @@ static gg_status choose_format(gg_plot_paper *paper, const char *picture, const 
 {
   const char *slash = strrchr(picture, '/'), *name = slash ? slash + 1 : picture, *dot = strrchr(name, '.');
   const char *ending = dot && dot > name ? dot + 1 : NULL;
-  if (!*name) return gg_base_fail(err, GG_BAD_INPUT, "'%s': a picture needs a name, .svg, .png or .pdf", picture);
+  if (!*name) return gg_base_fail(err, GG_BAD_INPUT, "'%s': a picture needs a name, .svg, .png, .pdf or .gp", picture);
   if (format && find(format) == N_FORMATS)
-    return gg_base_fail(err, GG_BAD_INPUT, "pictures are svg, png or pdf, not '%.20s'", format);
+    return gg_base_fail(err, GG_BAD_INPUT, "pictures are svg, png, pdf or gp, not '%.20s'", format);
   if (!ending && !format)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture's name ends with .svg, .png or .pdf", picture);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: a picture's name ends with .svg, .png, .pdf or .gp", picture);
   if (ending && find(ending) == N_FORMATS)
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: pictures are .svg, .png or .pdf, not .%.20s", picture, ending);
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: pictures are .svg, .png, .pdf or .gp, not .%.20s", picture, ending);
   if (ending && format && strcmp(ending, format) != 0)
     return gg_base_fail(err, GG_BAD_INPUT, "%s: is to be %s, and its name says %s", picture, format, ending);
   paper->format = (gg_plot_format)find(ending ? ending : format);
@@ -67,7 +68,7 @@ gg_status gg_plot_paper_check(const char *picture, const char *width, gg_error *
   gg_plot_paper paper;
   GG_TRY(gg_plot_paper_choose(&paper, picture, NULL, width, err));
   GG_TRY(gg_io_atomic_check_writable(picture, GG_PICTURES_ARE, err));
-  return gg_plot_gnuplot_is_there(err);
+  return paper.format == GG_PLOT_GP ? GG_OK : gg_plot_gnuplot_is_there(err);
 }
 
 char *gg_plot_page_name(const char *picture, const char *engine, const char *group, const gg_plot_paper *paper)

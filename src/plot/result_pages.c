@@ -1,29 +1,56 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The picture of a result, and those beside it: a snapshot, and one for each observable that left curves. */
+/* The picture of a result, and the pages beside it: a snapshot, and one page for each observable with curves. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "io/atomic_file.h"
 #include "base/memory.h"
 #include "files/curve_table.h"
-#include "plot/sheet.h"
+#include "plot/result_panels.h"
 
 enum { MOST_GROUPS = 16 };
+
+bool gg_plot_is_unsteady(const gg_stored_engine *e)
+{
+  return e->name && json_is_false(json_object_get(e->document, "steady"));
+}
+
+static bool has_open_symbols(const gg_chart *c)
+{
+  bool any = false;
+  for (size_t p = 0; p < c->n; p++)
+    for (size_t k = 0; k < c->panel[p]->n; k++)
+      for (size_t i = 0; i < c->panel[p]->series[k]->n && c->panel[p]->series[k]->look.style == GG_CHART_POINTS; i++)
+        any |= c->panel[p]->series[k]->point[i].open;
+  return any;
+}
+
+/* Title and note of a chart with all its panels; then it is drawn and freed. */
+static gg_status finish(gg_chart *c, const gg_stored_result *stored, const gg_plot_paper *paper, const char *picture,
+                        gg_error *err)
+{
+  char title[240];
+  const bool md = gg_plot_is_unsteady(&stored->engine[GG_MD]), dsmc = gg_plot_is_unsteady(&stored->engine[GG_DSMC]);
+  gg_plot_scene_title(stored, title, sizeof title);
+  c->title = title;
+  if (has_open_symbols(c))
+    c->note = md && dsmc ? "Open symbols: not steady (md, dsmc)"
+              : md       ? "Open symbols: not steady (md)"
+                         : "Open symbols: not steady (dsmc)";
+  return gg_plot_chart_finish(c, paper, picture, err);
+}
 
 gg_status gg_plot_result_draw(const gg_stored_result *stored, const gg_plot_paper *paper, const char *picture,
                               gg_error *err)
 {
-  const gg_stored_engine *md = &stored->engine[GG_MD], *dsmc = &stored->engine[GG_DSMC];
-  gg_plot_sheet *s = gg_plot_sheet_new(stored, paper);
-  if (!s) return gg_base_out_of_memory(err);
-  s->chart.columns = 2;
-  if (stored->comparison) gg_plot_sheet_add_comparison(s, stored);
-  double share = stored->comparison && md->name && dsmc->name ? 0.5 : 0;
-  for (int k = 0; k < 2; k++)
-    if (stored->engine[k].name)
-      gg_plot_sheet_add_relaxation(s, &stored->engine[k],
-                                   !stored->comparison && gg_plot_has_stresses(&stored->engine[k]), share);
-  return gg_plot_sheet_finish(s, paper, picture, err);
+  gg_chart *c = gg_plot_chart_new();
+  if (!c) return gg_base_out_of_memory(err);
+  c->columns = 2;
+  if (stored->comparison) gg_plot_add_comparison(c, stored);
+  const double share = stored->comparison && stored->engine[GG_MD].name && stored->engine[GG_DSMC].name ? 0.5 : 0;
+  for (const gg_stored_engine *e = stored->engine; e < stored->engine + 2; e++)
+    if (e->name) gg_plot_add_relaxation(c, e, !stored->comparison && gg_plot_has_stresses(e), share);
+  return finish(c, stored, paper, picture, err);
 }
 
 typedef struct page {
@@ -40,10 +67,10 @@ typedef struct page_list {
 static gg_status draw_curves(const gg_stored_result *stored, const page *p, const json_t *theories,
                              const gg_plot_paper *paper, gg_error *err)
 {
-  gg_plot_sheet *s = gg_plot_sheet_new(stored, paper);
-  if (!s) return gg_base_out_of_memory(err);
-  gg_plot_sheet_add_curves(s, p->engine, p->other, theories, p->group);
-  return gg_plot_sheet_finish(s, paper, p->path, err);
+  gg_chart *c = gg_plot_chart_new();
+  if (!c) return gg_base_out_of_memory(err);
+  gg_plot_add_curves(c, p->engine, p->other, theories, p->group);
+  return finish(c, stored, paper, p->path, err);
 }
 
 static void clear(page_list *pages)
@@ -65,7 +92,7 @@ static bool has_group(const gg_stored_engine *e, const char *group)
   return n > 0;
 }
 
-/* To be cleared, also on failure. */
+/* List the pages of a result; to be cleared, also on failure. */
 static gg_status list(page_list *pages, const gg_stored_result *stored, const gg_plot_paper *paper, const char *picture,
                       gg_error *err)
 {
@@ -115,7 +142,7 @@ gg_status gg_plot_pages_draw(const gg_stored_result *stored, const gg_plot_paper
   gg_status status = list(&pages, stored, paper, picture, err);
   if (status != GG_OK) clear(&pages);
   json_t *theories = NULL;
-  /* A page that fails keeps none of the others from being drawn; the first failure is reported. */
+  /* If a page fails, the others are still drawn; the first failure is reported. */
   for (int i = 0; i < pages.n; i++) {
     const page *p = &pages.page[i];
     gg_error later, *reported = status == GG_OK ? err : &later;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The curves of theories that go with a stored result: those of a comparison are in its file; a run's, which has asked
- * no theory, follow from its scene. */
+/* Curves of theories beside a stored result: a comparison has them in its file; for a run, which evaluates no theory,
+ * they follow from its scene. */
 #include <string.h>
 
 #include "io/checked_json.h"
@@ -9,7 +9,7 @@
 #include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 
-/* Of such a run the scene does not tell everything. */
+/* True if the run had a user-defined law of restitution, which is not in its scene. */
 static bool has_law_of_its_own(const json_t *document)
 {
   size_t i;

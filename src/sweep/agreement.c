@@ -7,8 +7,8 @@
 
 #include "common/quantity.h"
 
-/* A standard error comes from sixteen blocks or more: a z-score has the tails of Student's t with so many degrees of
- * freedom at the least. Its variance is nu/(nu - 2), that of z^2 follows from the fourth moment. */
+/* Degrees of freedom of Student's t: a standard error comes from sixteen blocks or more. The variance of a z-score is
+ * nu/(nu - 2), and the variance of z^2 follows from the fourth moment. */
 static const double freedom = 15;
 
 bool gg_sweep_is_main_quantity(const char *quantity)
@@ -17,13 +17,13 @@ bool gg_sweep_is_main_quantity(const char *quantity)
   return q < GG_N_QUANTITIES && gg_common_quantity_mask(q) & (GG_DRAWN | GG_DRAWN_AS_RATIO);
 }
 
-static bool is_of_solution(const gg_cli_table_row *row)
+static bool is_of_solution(const gg_point_row *row)
 {
   return strcmp(row->method, "dsmc") == 0 && row->reference && strcmp(row->reference, "enskog_hermite") == 0 &&
          isfinite(row->z) && gg_sweep_is_main_quantity(row->quantity);
 }
 
-bool gg_sweep_agreement_counts(const gg_cli_table_row *row)
+bool gg_sweep_agreement_counts(const gg_point_row *row)
 {
   return row->steady && is_of_solution(row);
 }
@@ -37,7 +37,7 @@ static gg_agreement_row *row_for(gg_agreement *a, const char *quantity)
   return &a->row[a->n++];
 }
 
-static void add(gg_agreement *a, const gg_cli_table_row *row)
+static void add(gg_agreement *a, const gg_point_row *row)
 {
   gg_agreement_row *of = row_for(a, row->quantity);
   if (!of) return;
@@ -60,8 +60,8 @@ static void count_points(gg_agreement *a, const gg_grid_view *v)
   }
 }
 
-/* Points are independent of each other, quantities of one point are not: each test has its share of the chance, so that
- * it holds however they depend on each other (Bonferroni). */
+/* Points are independent of each other, quantities of one point are not. Each test has its part of the chance, so the
+ * bound holds for any dependence (Bonferroni). */
 static void judge(gg_agreement *a)
 {
   enum { TESTS = 3 };

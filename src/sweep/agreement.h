@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Do the z-scores of dsmc against Enskog's noise-free solution look like chance? Over all points of a grid. */
+/* Test over all points of a grid whether the z-scores of dsmc against Enskog's noise-free solution are chance. */
 #ifndef GG_AGREEMENT_H
 #define GG_AGREEMENT_H
 
@@ -18,22 +18,22 @@ typedef struct gg_agreement_row {
 } gg_agreement_row;
 
 typedef struct gg_agreement {
-  size_t n_points, n_values; /* that were compared */
+  size_t n_points, n_values; /* compared */
   size_t unsteady;           /* points whose dsmc is not steady: left out */
   size_t unanswered;         /* points without a noise-free solution */
   int n;
   gg_agreement_row row[GG_AGREEMENT_QUANTITIES];
-  double most; /* |z| that chance allows of any value */
+  double most; /* largest |z| that chance allows */
   bool fails;
 } gg_agreement;
 
-/* The chance that anything of a grid in perfect order fails. */
+/* Probability that a test fails on a grid without errors. */
 #define GG_AGREEMENT_CHANCE 0.001
 
 void gg_sweep_agreement_make(gg_agreement *agreement, const gg_grid_view *view);
-/* Is it a row that takes part: of dsmc, steady, of a main quantity, with a z against the solution? */
-bool gg_sweep_agreement_counts(const gg_cli_table_row *row);
-/* Of the quantities that a picture of a comparison has. */
+/* True for the rows that are tested: dsmc, steady, a main quantity, with a z against the solution. */
+bool gg_sweep_agreement_counts(const gg_point_row *row);
+/* True for the quantities in the picture of a comparison. */
 bool gg_sweep_is_main_quantity(const char *quantity);
 
 #endif

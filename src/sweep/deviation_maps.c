@@ -17,11 +17,10 @@
 
 enum { MOST_CELLS = 24, MOST_COLUMNS = 8, MOST_THEORIES = 6, MOST_ROWS = 3 + MOST_THEORIES };
 
-typedef enum row_kind { DSMC_ENSKOG, MD_ENSKOG, MD_DSMC, THEORY_ENSKOG } row_kind;
-
+/* A method against its reference: Enskog's equation, or with `engines` md against dsmc. */
 typedef struct map_row {
-  row_kind kind;
-  char theory[64], name[160];
+  char method[64], name[160];
+  bool engines;
 } map_row;
 
 typedef struct maps {
@@ -37,44 +36,24 @@ typedef struct maps {
 
 static const gg_heat_cell nothing = {NAN, NAN, false, 0};
 
-static char structure_of(const gg_cli_table_row *row)
+static char structure_of(const gg_point_row *row)
 {
   return !row->structure ? 0 : strcmp(row->structure, "collapsed") == 0 ? 'k' : 'c';
 }
 
-/* A row of the table against the noise-free solution, where that has no answer against dsmc. */
-static gg_heat_cell against_enskog(const gg_cli_table_row *row)
+/* Deviation of a row of the table from its reference: the noise-free solution, or dsmc where that has no answer. */
+static gg_heat_cell against_enskog(const gg_point_row *row)
 {
   if (!row || !row->reference) return nothing;
   return (gg_heat_cell){gg_sweep_deviation_of(row), gg_sweep_deviation_error_of(row), !row->steady, structure_of(row)};
 }
 
-static gg_heat_cell between_engines(const gg_cli_table_row *md, const gg_cli_table_row *dsmc, bool difference)
+static gg_heat_cell between_engines(const gg_point_row *md, const gg_point_row *dsmc, bool difference)
 {
   if (!md || !dsmc || !(difference || fabs(dsmc->mean) > 3 * dsmc->error)) return nothing;
   const double scale = difference ? 1 : dsmc->mean;
   return (gg_heat_cell){(md->mean - dsmc->mean) / scale, hypot(md->error, dsmc->error) / fabs(scale),
                         !md->steady || !dsmc->steady, structure_of(md)};
-}
-
-static gg_heat_cell cell_of(const maps *m, const map_row *row, size_t point, const char *quantity, bool difference)
-{
-  const gg_cli_table_row *md = gg_sweep_grid_row(m->view, point, "md", quantity),
-                         *dsmc = gg_sweep_grid_row(m->view, point, "dsmc", quantity);
-  switch (row->kind) {
-  case DSMC_ENSKOG: return against_enskog(dsmc);
-  case MD_ENSKOG: return against_enskog(md);
-  case MD_DSMC: return between_engines(md, dsmc, difference);
-  default: return against_enskog(gg_sweep_grid_row(m->view, point, row->theory, quantity));
-  }
-}
-
-/* Is a panel's reference dsmc somewhere? */
-static bool is_against_dsmc(const maps *m, const map_row *row, size_t point, const char *quantity)
-{
-  const char *method = row->kind == THEORY_ENSKOG ? row->theory : row->kind == MD_ENSKOG ? "md" : NULL;
-  const gg_cli_table_row *of = method ? gg_sweep_grid_row(m->view, point, method, quantity) : NULL;
-  return of && of->reference && strcmp(of->reference, "dsmc") == 0;
 }
 
 static void fill(maps *m, const char *quantity, bool difference)
@@ -83,29 +62,27 @@ static void fill(maps *m, const char *quantity, bool difference)
   gg_heat_cell *cell = m->cell;
   for (size_t r = 0; r < m->n_rows; r++)
     for (size_t p = 0; p < v->n_panels; p++) {
-      m->note[r * v->n_panels + p] = NULL;
+      const char **note = &m->note[r * v->n_panels + p];
+      *note = NULL;
       for (size_t i = 0; i < v->x.n * v->y.n; i++) {
         const size_t point = gg_sweep_grid_point(v, p, i % v->x.n, i / v->x.n);
-        *cell++ = cell_of(m, &m->row[r], point, quantity, difference);
-        if (is_against_dsmc(m, &m->row[r], point, quantity)) m->note[r * v->n_panels + p] = "against dsmc";
+        const gg_point_row *row = gg_sweep_grid_row(v, point, m->row[r].method, quantity);
+        const bool engines = m->row[r].engines;
+        *cell++ = engines ? between_engines(row, gg_sweep_grid_row(v, point, "dsmc", quantity), difference)
+                          : against_enskog(row);
+        if (!engines && row && row->reference && strcmp(row->reference, "dsmc") == 0) *note = "against dsmc";
       }
     }
 }
 
 static void name_rows(maps *m, bool difference)
 {
-  static const char *const engines[][2] = {
-      [DSMC_ENSKOG] = {"dsmc", "Enskog"}, [MD_ENSKOG] = {"md", "Enskog"}, [MD_DSMC] = {"md", "dsmc"}};
   for (size_t r = 0; r < m->n_rows; r++) {
     map_row *row = &m->row[r];
-    char of[64];
-    gg_plot_method_name(row->theory, of, sizeof of);
-    const char *a = row->kind == THEORY_ENSKOG ? of : engines[row->kind][0],
-               *b = row->kind == THEORY_ENSKOG ? "Enskog" : engines[row->kind][1];
-    if (difference)
-      snprintf(row->name, sizeof row->name, "%s - %s", a, b);
-    else
-      snprintf(row->name, sizeof row->name, "%s/%s - 1", a, b);
+    char method[64];
+    gg_plot_method_name(row->method, method, sizeof method);
+    snprintf(row->name, sizeof row->name, difference ? "%s - %s" : "%s/%s - 1", method,
+             row->engines ? "dsmc" : "Enskog");
     m->row_name[r] = row->name;
   }
 }
@@ -148,24 +125,7 @@ static void name_axes(maps *m)
   }
 }
 
-/* The next word of a list with commas; false at its end. */
-static bool next_word(const char **list, char word[64])
-{
-  if (!**list) return false;
-  const size_t length = strcspn(*list, ",");
-  snprintf(word, 64, "%.*s", (int)length, *list);
-  *list += length + ((*list)[length] == ',');
-  return true;
-}
-
-static bool has_method(const gg_grid_view *v, const char *method)
-{
-  for (size_t i = 0; i < v->table->n; i++)
-    if (strcmp(v->table->row[i].method, method) == 0) return true;
-  return false;
-}
-
-/* Lun's, and those of the sweep's own file. */
+/* The default theories: Lun's, and those of the sweep's own file. */
 static void list_theories(const maps *m, char *list, size_t size)
 {
   const gg_extension *own = m->view->sweep->base.extension;
@@ -179,25 +139,16 @@ static gg_status choose_rows(maps *m, gg_error *err)
   char chosen[64 * MOST_THEORIES], word[64];
   const char *theories = m->choice->theories ? m->choice->theories : chosen;
   list_theories(m, chosen, sizeof chosen);
-  m->row[m->n_rows++].kind = DSMC_ENSKOG;
-  m->row[m->n_rows++].kind = MD_ENSKOG;
-  m->row[m->n_rows++].kind = MD_DSMC;
-  while (next_word(&theories, word)) {
-    if (!has_method(m->view, word) && m->choice->theories)
+  m->row[m->n_rows++] = (map_row){.method = "dsmc"};
+  m->row[m->n_rows++] = (map_row){.method = "md"};
+  m->row[m->n_rows++] = (map_row){.method = "md", .engines = true};
+  while (gg_sweep_next_word(&theories, word)) {
+    if (!gg_sweep_point_table_has(m->view->table, word, NULL) && m->choice->theories)
       return gg_base_fail(err, GG_BAD_INPUT, "no point has a theory '%s'", word);
     if (m->n_rows == MOST_ROWS) return gg_base_fail(err, GG_BAD_INPUT, "a map has at most %d theories", MOST_THEORIES);
-    if (!has_method(m->view, word)) continue;
-    m->row[m->n_rows].kind = THEORY_ENSKOG;
-    snprintf(m->row[m->n_rows++].theory, sizeof m->row[0].theory, "%s", word);
+    if (gg_sweep_point_table_has(m->view->table, word, NULL)) memcpy(m->row[m->n_rows++].method, word, sizeof word);
   }
   return GG_OK;
-}
-
-static bool has_quantity(const gg_grid_view *v, const char *quantity)
-{
-  for (size_t i = 0; i < v->table->n; i++)
-    if (!v->table->row[i].theory && strcmp(v->table->row[i].quantity, quantity) == 0) return true;
-  return false;
 }
 
 static gg_status draw_all(maps *m, void (*drawn)(void *, const char *, const char *), void *context, gg_error *err)
@@ -206,10 +157,11 @@ static gg_status draw_all(maps *m, void (*drawn)(void *, const char *, const cha
   char word[64];
   gg_plot_paper paper;
   GG_TRY(gg_plot_paper_choose(&paper, m->choice->picture, NULL, m->choice->width, err));
-  while (next_word(&show, word)) {
-    if (!has_quantity(m->view, word) && m->choice->show)
-      return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%s'", word);
-    if (!has_quantity(m->view, word)) continue;
+  while (gg_sweep_next_word(&show, word)) {
+    const gg_point_table *t = m->view->table;
+    const bool has = gg_sweep_point_table_has(t, "md", word) || gg_sweep_point_table_has(t, "dsmc", word);
+    if (!has && m->choice->show) return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%s'", word);
+    if (!has) continue;
     GG_TRY(gg_stop_check(m->choice->stop, err));
     char *picture = gg_plot_page_name(m->choice->picture, "", word, &paper);
     if (!picture) return gg_base_out_of_memory(err);

@@ -14,7 +14,8 @@ typedef struct gg_map_choice { /* NULL: chosen */
   const gg_stop *stop; /* polled before each picture */
 } gg_map_choice;
 
-/* Calls `drawn` with the name of each picture and its quantity. GG_BAD_INPUT: more cells than a page has room for. */
+/* Draw the maps, and call `drawn` with the name of each picture and its quantity. GG_BAD_INPUT: more cells than a page
+ * has room for. */
 gg_status gg_sweep_deviation_maps_draw(const gg_grid_view *view, const gg_map_choice *choice,
                                        void (*drawn)(void *context, const char *picture, const char *quantity),
                                        void *context, gg_error *err);

@@ -28,8 +28,9 @@ char *gg_sweep_point_path(const char *folder, uint64_t id, const char *ending, c
   return path;
 }
 
-/* Files appear whole, under their name; something else that has the name (a full disk's, an editor's) is none. Without
- * memory, whose lack would make points look as if they were missing. */
+/* True for a regular file that begins like HDF5: results appear whole under their name, and other files of that name
+ * (of a full disk, of an editor) do not count. Allocates nothing: for lack of memory finished points would count as
+ * missing. */
 static bool is_there(const char *folder, uint64_t id, const char *ending)
 {
   static const char hdf5[] = "\211HDF\r\n\032\n";
@@ -81,7 +82,7 @@ gg_point_state gg_sweep_point_state(const char *folder, uint64_t id)
   }
 }
 
-/* Under the point's lock the file is checked again: another process may have put a new one there. */
+/* Check the file again under the lock of the point: another process may have replaced it. */
 static gg_point_file set_aside(const char *folder, uint64_t id, const char *ending, bool any_build)
 {
   gg_file_lock lock;
@@ -107,7 +108,7 @@ gg_point_file gg_sweep_point_set_aside(const char *folder, uint64_t id, bool any
 gg_status gg_sweep_folder_prepare(const char *folder, const char *holds, gg_error *err)
 {
   struct stat about;
-  enum { LONGEST_NAME = 64 }; /* of a file in it */
+  enum { LONGEST_NAME = 64 }; /* of a file in the folder */
   if (!*folder) return gg_base_fail(err, GG_BAD_INPUT, "the folder's name is empty: %s", holds);
   if (strlen(folder) + LONGEST_NAME > PATH_MAX) return gg_io_path_write_error(folder, strerror(ENAMETOOLONG), err);
   if (mkdir(folder, 0777) != 0 && errno != EEXIST) return gg_io_path_write_error(folder, strerror(errno), err);
@@ -151,7 +152,7 @@ static uint64_t point_of_temporary(const char *name)
   return cut && length - cut == 3 && strncmp(end, ".h5", 3) == 0 ? id : 0;
 }
 
-/* Only where no process holds the point. */
+/* Remove the temporary files of a point unless a process holds it. */
 static void remove_temporary(const char *folder, uint64_t id, const char *name)
 {
   gg_file_lock lock;
@@ -174,7 +175,7 @@ void gg_sweep_folder_tidy(const char *folder)
   closedir(all);
 }
 
-/* Allocates nothing: a lack of memory cannot leave a finished result under its working name. */
+/* Rename a finished result. Allocates nothing, so that it cannot stay under its working name for lack of memory. */
 gg_status gg_sweep_point_publish(const char *folder, uint64_t id, bool fell_short, gg_error *err)
 {
   char from[PATH_MAX], to[PATH_MAX];

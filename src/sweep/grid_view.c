@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "plot/chart.h"
 
-/* The key of that name, or with NULL the first of the group with most rows; never of the group `but`. */
+/* The key of that name, or with NULL the first key of the group with most rows; never a key of the group `but`. */
 static gg_grid_key find_key(const gg_sweep *s, const char *name, const gg_grid_key *but)
 {
   gg_grid_key found = {.n = 1};
@@ -65,7 +65,7 @@ void gg_sweep_grid_view_clear(gg_grid_view *v)
   *v = (gg_grid_view){0};
 }
 
-/* Its row of a group that is no axis; the last of them changes fastest. */
+/* Row of a group that is no axis in a panel; the last group changes fastest. */
 static size_t row_of_panel(const gg_grid_view *v, size_t panel, size_t varied)
 {
   for (size_t f = v->sweep->n_varied - 1; f > varied; f--)
@@ -121,10 +121,10 @@ void gg_sweep_grid_panel_name(const gg_grid_view *v, size_t panel, bool enhanced
   }
 }
 
-const gg_cli_table_row *gg_sweep_grid_row(const gg_grid_view *v, size_t point, const char *method, const char *quantity)
+const gg_point_row *gg_sweep_grid_row(const gg_grid_view *v, size_t point, const char *method, const char *quantity)
 {
   for (size_t i = v->first[point]; i < v->first[point + 1]; i++) {
-    const gg_cli_table_row *row = &v->table->row[i];
+    const gg_point_row *row = &v->table->row[i];
     if (strcmp(row->method, method) == 0 && strcmp(row->quantity, quantity) == 0) return row;
   }
   return NULL;

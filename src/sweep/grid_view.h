@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of a sweep seen over two of its keys: cells (x, y), and a panel for each combination of the other keys. */
+/* The table of a sweep over two of its keys: cells (x, y), and a panel for each combination of the other keys. */
 #ifndef GG_GRID_VIEW_H
 #define GG_GRID_VIEW_H
 
@@ -32,10 +32,9 @@ const char *gg_sweep_grid_value(const gg_grid_view *view, const gg_grid_key *axi
 /* "beta 0.3, mu 0.1", or enhanced text for pictures: "β = 0.3, μ = 0.1". Infinite values and those without a second
  * value are left out. */
 void gg_sweep_grid_panel_name(const gg_grid_view *view, size_t panel, bool enhanced, char name[GG_PANEL_NAME]);
-/* NULL: none. */
-const gg_cli_table_row *gg_sweep_grid_row(const gg_grid_view *view, size_t point, const char *method,
-                                          const char *quantity);
-/* Has the point a result? */
+/* The row of a method and a quantity at a point; NULL: none. */
+const gg_point_row *gg_sweep_grid_row(const gg_grid_view *view, size_t point, const char *method, const char *quantity);
+/* True if the point has a result. */
 bool gg_sweep_grid_has(const gg_grid_view *view, size_t point);
 
 #endif

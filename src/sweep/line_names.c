@@ -3,11 +3,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "plot/chart.h"
 #include "sweep/sweep_table.h"
 
-/* Letters, of which a picture has room for some 70; a longer value is cut to what it differs in. */
-enum { LONG_VALUE = 20, LONGEST_PART = 32, LONGEST_NAME = 56 };
+enum { LONG_VALUE = 20 }; /* a longer value is cut to what it differs in */
 
 size_t gg_sweep_line_group_of(const gg_sweep *sweep, size_t i, size_t varied)
 {
@@ -16,52 +16,7 @@ size_t gg_sweep_line_group_of(const gg_sweep *sweep, size_t i, size_t varied)
   return i - gg_sweep_row(sweep, i, varied) * stride;
 }
 
-/* A name as it grows, counted in letters: neither bytes of UTF-8 nor marks of enhanced text take room. */
-typedef struct line {
-  char *text;
-  size_t used;
-  int letters;
-  bool cut;
-} line;
-
-static bool begins_letter(char c)
-{
-  return (c & 0xc0) != 0x80;
-}
-
-static bool has_room(const line *l, size_t bytes, int letters)
-{
-  enum { END = 40 }; /* bytes kept for the number of one that is cut */
-  return !l->cut && l->used + bytes + END <= GG_COMBINATION_NAME && l->letters + letters <= LONGEST_NAME;
-}
-
-/* Enhanced text, the whole of it or nothing. */
-static void add(line *l, const char *text)
-{
-  int letters = 0;
-  for (const char *c = text; *c; c++) letters += begins_letter(*c) && !strchr("{}^_\\", *c);
-  l->cut = !has_room(l, strlen(text), letters);
-  if (l->cut) return;
-  memcpy(l->text + l->used, text, strlen(text));
-  l->used += strlen(text), l->letters += letters;
-}
-
-/* Text without marks, as much of it as there is room for. */
-static void add_plain(line *l, const char *text, size_t length)
-{
-  const int end = l->letters + LONGEST_PART;
-  for (size_t i = 0; i < length && !l->cut; i++) {
-    const bool letter = begins_letter(text[i]);
-    l->cut = !has_room(l, 2, letter) || (letter && l->letters == end);
-    if (l->cut) return;
-    if (strchr("_^{}@&~\\", text[i])) l->text[l->used++] = '\\';
-    l->text[l->used++] = text[i];
-    l->letters += letter;
-  }
-}
-
-/* Bytes that all values of a key begin with (end with, beyond the first `head`), up to where a member of a list or a
- * map begins (ends). */
+/* Bytes that all values of a key begin with, up to the beginning of a member of a list or a map. */
 static size_t shared_head(const gg_varied *v, size_t k)
 {
   const char *one = v->value[k];
@@ -77,6 +32,7 @@ static size_t shared_head(const gg_varied *v, size_t k)
   return n;
 }
 
+/* Bytes that all values end with, beyond the first `head`, from the end of a member. */
 static size_t shared_tail(const gg_varied *v, size_t k, size_t head)
 {
   const char *one = v->value[k];
@@ -93,35 +49,27 @@ static size_t shared_tail(const gg_varied *v, size_t k, size_t head)
   return n;
 }
 
-static void add_value(line *l, const gg_varied *v, size_t row, size_t k)
+static void add_value(char *text, const gg_varied *v, size_t row, size_t k)
 {
+  char part[GG_COMBINATION_NAME], plain[GG_COMBINATION_NAME];
   const char *value = v->value[row * v->n_keys + k];
-  const size_t length = strlen(value);
-  if (length <= LONG_VALUE || v->n == 1) {
-    add_plain(l, value, length);
-    return;
-  }
-  const size_t head = shared_head(v, k), tail = shared_tail(v, k, head);
-  if (head) add(l, "…");
-  add_plain(l, value + head, length - head - tail);
-  if (tail) add(l, "…");
+  const bool cut = strlen(value) > LONG_VALUE && v->n > 1;
+  const size_t head = cut ? shared_head(v, k) : 0, tail = cut ? shared_tail(v, k, head) : 0;
+  snprintf(part, sizeof part, "%.*s", (int)(strlen(value) - head - tail), value + head);
+  gg_plot_text_escape(part, plain, sizeof plain);
+  gg_base_text_append(text, GG_COMBINATION_NAME, "%s%s%s", head ? "…" : "", plain, tail ? "…" : "");
 }
 
 void gg_sweep_line_group_name(const gg_sweep *sweep, size_t combination, size_t varied, char text[GG_COMBINATION_NAME])
 {
-  char symbol[64], name[72];
-  line l = {.text = text};
+  char symbol[64];
+  *text = '\0';
   for (size_t f = 0; f < sweep->n_varied; f++) {
     const gg_varied *v = &sweep->varied[f];
-    for (size_t k = 0; f != varied && k < v->n_keys && !l.cut; k++) {
+    for (size_t k = 0; f != varied && k < v->n_keys; k++) {
       gg_plot_chart_key(v->key[k], symbol, sizeof symbol, NULL);
-      snprintf(name, sizeof name, "%s%s = ", l.used ? ", " : "", symbol);
-      add(&l, name);
-      add_value(&l, v, gg_sweep_row(sweep, combination, f), k);
+      gg_base_text_append(text, GG_COMBINATION_NAME, "%s%s = ", *text ? ", " : "", symbol);
+      add_value(text, v, gg_sweep_row(sweep, combination, f), k);
     }
   }
-  if (l.cut)
-    snprintf(text + l.used, GG_COMBINATION_NAME - l.used, "… (point %zu)", combination + 1);
-  else
-    text[l.used] = '\0';
 }

@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "sweep/sweep.h"
 
-/* Of all values of a key together, and of all that are drawn. */
+/* Limits of the values of one key together, and of all drawn values. */
 enum { MOST_VALUE_CHARACTERS = 1 << 22, MOST_DRAWN_CHARACTERS = 1 << 26 };
 
 void gg_sweep_values_clear(gg_values *v)
@@ -40,7 +40,7 @@ gg_status gg_sweep_values_add(gg_values *v, const char *text, gg_error *err)
   return v->text[v->n] ? v->n++, GG_OK : gg_base_out_of_memory(err);
 }
 
-/* All of the text is one number. */
+/* Read a number that is the whole text. */
 static bool is_number(const char *text, size_t length, double *value)
 {
   char word[40], *end;
@@ -48,7 +48,7 @@ static bool is_number(const char *text, size_t length, double *value)
   memcpy(word, text, length);
   word[length] = '\0';
   if (word[strspn(word, "0123456789+-.eE")]) return false;
-  errno = 0; /* neither infinity nor 0 is meant by what is too large or too small for a double */
+  errno = 0; /* a number too large or too small for a double is an error */
   *value = strtod(word, &end);
   return !*end && errno == 0;
 }
@@ -119,7 +119,7 @@ static gg_status add_word(gg_values *v, const char *text, gg_error *err)
   return gg_sweep_values_add(v, text, err);
 }
 
-/* Up to the next comma that does not stand in brackets or quotes. */
+/* Length up to the next comma outside of brackets and quotes. */
 static size_t word_length(const char *text)
 {
   int depth = 0;
@@ -170,7 +170,7 @@ bool gg_sweep_varies(const gg_sweep *sweep, const char *key)
   return false;
 }
 
-/* Is the member among those that a value of the section names? */
+/* True if a value of the section names this member. */
 static bool names_member(const gg_varied *v, size_t k, const char *member)
 {
   for (size_t i = 0; i < v->n; i++)
@@ -206,7 +206,7 @@ static gg_status check_new(const gg_sweep *sweep, const gg_varied *v, gg_error *
   return GG_OK;
 }
 
-/* The sweep takes it over, or it is cleared. */
+/* Add a group to the sweep, which takes it over; on failure the group is cleared. */
 static gg_status add(gg_sweep *sweep, gg_varied *v, gg_error *err)
 {
   gg_status status = check_new(sweep, v, err);

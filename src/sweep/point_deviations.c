@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far the rows of a comparison are off their reference, by the functions that `compare` uses. */
+/* Deviations of the rows of a comparison from their reference, by the functions that `compare` uses. */
 #include "sweep/point_deviations.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 #include "run/z_scores.h"
 #include "graingas.h"
 
-/* Why md differs in this quantity, in one line. */
+/* The causes of md's deviation in this quantity, in one line. */
 static const char *join_causes(const gg_comparison *c, gg_quantity q, gg_string_list *texts)
 {
   gg_causes causes;
@@ -30,7 +30,7 @@ static const gg_theory *theory_of(const gg_comparison *c, const char *name)
   return NULL;
 }
 
-static void set_deviation(gg_cli_table_row *row, gg_quantity q, const gg_reference *reference)
+static void set_deviation(gg_point_row *row, gg_quantity q, const gg_reference *reference)
 {
   const gg_estimate mean = {.mean = row->mean, .error = row->theory ? NAN : row->error};
   const gg_departure d = gg_run_reference_deviation(q, &mean, &reference->value);
@@ -41,8 +41,8 @@ static void set_deviation(gg_cli_table_row *row, gg_quantity q, const gg_referen
   row->z = d.z;
 }
 
-/* The causes of `compare` are md's; those of theories are their range. */
-static void set_cause(gg_cli_table_row *row, const gg_comparison *c, gg_quantity q, gg_string_list *texts)
+/* The cause of a deviation: of md as in `compare`, of a theory its range. */
+static void set_cause(gg_point_row *row, const gg_comparison *c, gg_quantity q, gg_string_list *texts)
 {
   const gg_theory *theory = row->theory ? theory_of(c, row->method) : NULL;
   if (row->theory) {
@@ -68,7 +68,7 @@ static const char *structure_of(const gg_comparison *c)
   return strstr(text, "clustered") ? "clustered" : "swirling";
 }
 
-static void compare_row(gg_point_table *t, gg_cli_table_row *row, const gg_comparison *c)
+static void compare_row(gg_point_table *t, gg_point_row *row, const gg_comparison *c)
 {
   gg_reference reference;
   const gg_quantity_row *named = gg_run_rows_find(&c->rows, row->quantity);
@@ -80,7 +80,7 @@ static void compare_row(gg_point_table *t, gg_cli_table_row *row, const gg_compa
   if (row->beyond) set_cause(row, c, named->quantity, &t->texts);
 }
 
-/* A comparison of means alone: series and frames are not read. */
+/* The comparison of a file, means alone: series and frames are not read. */
 static gg_status restore(json_t *document, char *scene, gg_comparison *c, gg_error *err)
 {
   gg_stored_result stored = {.comparison = true, .scene = scene, .document = document};
@@ -95,7 +95,7 @@ static gg_status restore(json_t *document, char *scene, gg_comparison *c, gg_err
 gg_status gg_sweep_point_deviations(gg_point_table *t, size_t first, json_t *document, char *scene, gg_error *err)
 {
   for (size_t i = first; i < t->n; i++) {
-    gg_cli_table_row *row = &t->row[i];
+    gg_point_row *row = &t->row[i];
     row->reference_mean = row->difference = row->difference_error = row->deviation = row->deviation_error = row->z =
         NAN;
   }

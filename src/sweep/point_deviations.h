@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far the rows of a point are off their reference: Enskog's noise-free solution, else dsmc. */
+/* Deviations of the rows of a point from their reference: Enskog's noise-free solution, else dsmc. */
 #ifndef GG_POINT_DEVIATIONS_H
 #define GG_POINT_DEVIATIONS_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The points of a sweep: which values each takes, its scene, and whether that can be simulated. */
+/* The points of a sweep: their values, their scenes, and whether these can be simulated. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +18,7 @@
 #include "scene/scene_reader.h"
 #include "sweep/sweep.h"
 
-/* What makes a point the one that it is: a hash of its resolved scene; and whether a file holds that scene. */
+/* Identity of a point: a hash of its resolved scene, and the check that a file holds that scene. */
 
 static bool begins(const char *key, const char *const *with)
 {
@@ -53,7 +53,7 @@ static uint64_t add_field(uint64_t sum, const gg_field *f, const gg_scene *scene
   return sum;
 }
 
-/* What the calling program added has no values: its names enter. */
+/* Add the extension of the calling program to the hash, by its names: it has no values. */
 static uint64_t add_extension(uint64_t sum, const gg_scene *scene)
 {
   char signature[2048] = "";
@@ -62,7 +62,7 @@ static uint64_t add_extension(uint64_t sum, const gg_scene *scene)
   return *signature ? add_text(sum, signature) : sum; /* theories alone leave a point the same */
 }
 
-/* Every bit of the sum goes into every bit of the name (the finalizer of MurmurHash3). */
+/* Mix the sum so that each bit changes every bit of the name (the finalizer of MurmurHash3). */
 static uint64_t mix(uint64_t x)
 {
   x = (x ^ (x >> 33)) * UINT64_C(0xff51afd7ed558ccd);
@@ -72,8 +72,8 @@ static uint64_t mix(uint64_t x)
 
 const char *const gg_sweep_does_words[] = {"run", "compare", "theory"};
 
-/* Hash of a resolved scene and of what is done there: of every key that its numbers depend on, in the
- * order of the field table, with its value in force. */
+/* Hash of a resolved scene and of what is done there: every key that numbers depend on, in the order of the field
+ * table, with its value. */
 static uint64_t point_id(const gg_scene *scene, gg_does does)
 {
   uint64_t sum = add_text(GG_CHECKSUM_START, gg_sweep_does_words[does]);
@@ -82,7 +82,7 @@ static uint64_t point_id(const gg_scene *scene, gg_does does)
   return mix(add_extension(sum, scene));
 }
 
-/* Of a scene as JSON. */
+/* The value of a key in a scene as JSON. */
 static const json_t *value_in(const json_t *scene, const char *key)
 {
   char section[32];
@@ -119,15 +119,15 @@ gg_status gg_sweep_point_check(const gg_scene *scene, gg_does does, const json_t
   return status;
 }
 
-/* A length that is varied distinguishes points; one that is not, and the replicas that follow from estimates, may be
- * changed, and the same run is longer. */
+/* True for keys that the seed of a point depends on. The length of a run counts only if it is varied: a run that is
+ * made longer, or has other replicas by a new estimate, keeps its seed. */
 static bool is_of_seed(const gg_field *f, const gg_sweep *sweep)
 {
   static const char *const none_of[] = {"engine", "run.", "output.", "measure", NULL};
   return !begins(f->key, none_of) || (strncmp(f->key, "run.", 4) == 0 && gg_sweep_sets(sweep, f->key));
 }
 
-/* 48 bits: a number of few digits, and whole in any reader's arithmetic. */
+/* 48 bits: few digits, and exact as a double in any reader. */
 static uint64_t point_seed(const gg_sweep *sweep, const gg_scene *scene)
 {
   const uint64_t seed = scene->run.seed;
@@ -198,7 +198,7 @@ static gg_status set_values(const gg_sweep *sweep, size_t i, gg_scene *scene, gg
   return GG_OK;
 }
 
-/* What one engine needs for a scene; GG_BAD_INPUT where it cannot run it. */
+/* Add the cost of one engine for a scene; GG_BAD_INPUT if it cannot run the scene. */
 static gg_status cost_of(const gg_scene *scene, gg_engine_kind engine, gg_cost_estimate *cost, double *warmup,
                          gg_error *err)
 {
@@ -210,8 +210,9 @@ static gg_status cost_of(const gg_scene *scene, gg_engine_kind engine, gg_cost_e
   return GG_OK;
 }
 
-/* A run that stops at a requested error is shared among replicas: as many as keep each below `longest`, and warm-ups,
- * which each of them has, below a fifth of the whole. By the scene alone: the same on every machine. */
+/* Number of replicas of a run that stops at a requested error: as many as keep each below `longest`, with warm-ups,
+ * which each replica has, below a fifth of the whole. Depends on the scene alone, so it is the same on every machine.
+ */
 static int64_t replicas_for(const gg_cost_estimate *f, double warmup, double longest)
 {
   enum { MOST = 1000 };
@@ -228,7 +229,7 @@ static gg_status add_theories(const gg_scene *scene, double *seconds, gg_error *
   return GG_OK;
 }
 
-/* Seconds of all engines and theories that take part, and the replicas that it is shared among. */
+/* Seconds of all engines and theories of a point, and its number of replicas. */
 static gg_status estimate_point(const gg_sweep *sweep, gg_scene *scene, double *seconds, gg_error *err)
 {
   const gg_does does = sweep->settings.does;
@@ -263,7 +264,7 @@ static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, doubl
   return GG_OK;
 }
 
-/* The same, with messages that name the point. */
+/* Resolve a point, with messages that name it. */
 static gg_status resolve_named(const gg_sweep *sweep, size_t i, gg_scene *scene, double *seconds, gg_error *err)
 {
   char name[200];

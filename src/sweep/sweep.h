@@ -32,7 +32,7 @@ enum { GG_POINT_NAME = 17 }; /* the name of a point: 16 hexadecimal digits of it
 
 /* A point after its check. */
 typedef struct gg_point {
-  uint64_t id;    /* hash of its scene and of what is done there: its file is called so */
+  uint64_t id;    /* hash of its scene and of what is done there; the name of its file */
   double seconds; /* of processor time, expected */
 } gg_point;
 
@@ -43,7 +43,7 @@ struct gg_sweep {
   char *name;    /* of its file, for messages */
   gg_scene base; /* holds its extension */
   gg_sweep_settings settings;
-  size_t n_varied; /* their rows are multiplied; those of the last one change fastest */
+  size_t n_varied; /* points are all combinations of their rows; rows of the last one change fastest */
   gg_varied varied[GG_MOST_VARIED];
   size_t n;        /* points; 0: not checked yet */
   gg_point *point; /* n of them */
@@ -53,9 +53,9 @@ struct gg_sweep {
 gg_sweep_settings gg_sweep_settings_defaults(void);
 /* One key of the map `sweep`, "sweep.does", from YAML. */
 gg_status gg_sweep_settings_set(gg_sweep_settings *settings, const char *key, const char *value, gg_error *err);
-/* As text that can be read again. */
 /* The map `sweep` as JSON Schema. */
 json_t *gg_sweep_settings_schema(void);
+/* Print the map as text that can be read again. */
 void gg_sweep_settings_print(FILE *out, const gg_sweep_settings *settings);
 gg_status gg_sweep_read_text(gg_sweep *sweep, const char *yaml, size_t length, const char *name, gg_error *err);
 
@@ -65,14 +65,14 @@ typedef struct gg_values {
   char key[96];
   size_t n, room, characters; /* characters of all of them */
   char **text;                /* YAML */
-  bool range;                 /* not listed, but anything from low to high */
+  bool range;                 /* any number from low to high instead of a list */
   double low, high;
 } gg_values;
 
 void gg_sweep_values_clear(gg_values *values);
-/* One value, copied; GG_BAD_INPUT where there are more than a sweep can have, or longer ones than anybody writes. */
+/* Add a copy of one value; GG_BAD_INPUT beyond the limits on their number and length. */
 gg_status gg_sweep_values_add(gg_values *values, const char *text, gg_error *err);
-/* A plain word: "0.5", "0.1:0.5:0.1", "0.3..1", or several with commas, as on the command line. */
+/* Add the values of a word of the command line: "0.5", "0.1:0.5:0.1", "0.3..1", or several with commas. */
 gg_status gg_sweep_values_parse(gg_values *values, const char *text, gg_error *err);
 
 void gg_sweep_varied_clear(gg_varied *varied);
@@ -83,21 +83,21 @@ gg_status gg_sweep_add_rows(gg_sweep *sweep, gg_values *lists, size_t n_keys, gg
  * numbers). Each key has its own stream: more points or more keys leave the other draws as they are. */
 gg_status gg_sweep_add_draws(gg_sweep *sweep, const gg_values *lists, size_t n_keys, size_t n, uint64_t seed,
                              gg_error *err);
-/* Is the key varied? */
+/* True if the key is varied. */
 bool gg_sweep_varies(const gg_sweep *sweep, const char *key);
 /* The same, also as a member of its section: vary: {run: [{seed: 1}, {seed: 2}]} sets run.seed. */
 bool gg_sweep_sets(const gg_sweep *sweep, const char *key);
 
-/* points.c: how many there are, 0: more than GG_MOST_POINTS; the row of one of the varied at point i. */
+/* points.c: the number of points, 0: more than GG_MOST_POINTS; the row of a varied group at point i. */
 size_t gg_sweep_count(const gg_sweep *sweep);
 size_t gg_sweep_row(const gg_sweep *sweep, size_t i, size_t varied);
 /* The scene of point i, resolved: complete and checked, with its own seed and replicas. It borrows the extension. */
 gg_status gg_sweep_resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err);
-/* Resolve every point, and keep what is known of each. */
+/* Resolve every point and fill gg_sweep.point. */
 gg_status gg_sweep_check_points(gg_sweep *sweep, gg_error *err);
 
-/* Is the scene that a file at `path` holds, a JSON object, that of this point? GG_BAD_FILE names the first key that is
- * not. Keys that no number depends on may differ. */
+/* Check that a file at `path` holds the scene of this point, as a JSON object. GG_BAD_FILE names the first key that
+ * differs. Keys that no number depends on may differ. */
 gg_status gg_sweep_point_check(const gg_scene *scene, gg_does does, const json_t *stored, const char *path,
                                gg_error *err);
 extern const char *const gg_sweep_does_words[]; /* "run", "compare", "theory" */

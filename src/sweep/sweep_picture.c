@@ -11,29 +11,39 @@
 #include "files/text_format.h"
 #include "plot/chart.h"
 #include "run/result.h"
+#include "run/z_scores.h"
+#include "sweep/grid_view.h"
 #include "scene/model_of_scene.h"
-#include "sweep/picture_rows.h"
+#include "graingas.h"
 
-enum { MOST_PANELS = 6, MOST_SERIES = 64 };
+enum { MOST_PANELS = 6 };
 
-/* All of the panels' numbers, each series a stretch of them. */
+/* A panel for each quantity and unit: phi = 0 has other units than phi > 0. */
+typedef struct panel {
+  char quantity[64];
+  const char *unit;
+  bool share; /* the panel has relative deviations, in per cent */
+  gg_chart_panel *of;
+} panel;
+
 typedef struct drawing {
   const gg_point_table *table;
   const gg_sweep *sweep;
   const gg_picture_choice *choice;
-  gg_picture_rows rows;
-  double *x, *y, *error; /* room for every row */
-  bool *open;
-  size_t used;
-  gg_chart_series series[MOST_PANELS][MOST_SERIES];
-  size_t combination[MOST_PANELS][MOST_SERIES]; /* what tells series apart; names are for the legend */
-  char group[MOST_PANELS][MOST_SERIES][GG_COMBINATION_NAME];
-  gg_chart_panel panel[MOST_PANELS];
-  char quantity[MOST_PANELS][64], label[MOST_PANELS][200], x_label[96], title[240], note[400];
-  const char *unit[MOST_PANELS]; /* of its numbers: phi = 0 has other units than phi > 0 */
-  bool share[MOST_PANELS];       /* deviations over the method that the picture is relative to */
   size_t n;
+  panel panel[MOST_PANELS];
+  gg_chart *chart;
+  bool crowded; /* there are more lines than a panel can have */
 } drawing;
+
+/* True if a word is in a list with commas. */
+static bool is_listed(const char *list, const char *word)
+{
+  char other[64];
+  while (gg_sweep_next_word(&list, other))
+    if (strcmp(other, word) == 0) return true;
+  return false;
+}
 
 static bool has_numbers(const gg_sweep *sweep, const gg_picture_axis *a)
 {
@@ -42,7 +52,8 @@ static bool has_numbers(const gg_sweep *sweep, const gg_picture_axis *a)
   return true;
 }
 
-/* Rows and random draws: other keys may change with that of the axis, from one scene to an unrelated one. */
+/* True if no other key changes with that of the axis. In rows and random draws keys may, from one scene to an unrelated
+ * one. */
 static bool is_alone(const gg_sweep *sweep, const gg_picture_axis *a)
 {
   const gg_varied *v = &sweep->varied[a->varied];
@@ -74,7 +85,7 @@ static gg_status find_key(const gg_sweep *s, const char *over, gg_picture_axis *
 gg_status gg_sweep_axis_choose(const gg_sweep *sweep, const char *over, const char *log, gg_picture_axis *axis,
                                gg_error *err)
 {
-  if (log && !gg_sweep_list_has("x,y,xy,none", log))
+  if (log && !is_listed("x,y,xy,none", log))
     return gg_base_fail(err, GG_BAD_INPUT, "'%.20s' is not a choice of logarithmic axes; allowed: x, y, xy, none", log);
   GG_TRY(find_key(sweep, over, axis, err));
   axis->alone = is_alone(sweep, axis);
@@ -82,240 +93,62 @@ gg_status gg_sweep_axis_choose(const gg_sweep *sweep, const char *over, const ch
   return GG_OK;
 }
 
-static bool has_rows(const gg_point_table *t, const char *quantity)
-{
-  for (size_t i = 0; i < t->n; i++)
-    if (strcmp(t->row[i].quantity, quantity) == 0) return true;
-  return false;
-}
-
-static bool has_method(const gg_point_table *t, const char *method)
-{
-  for (size_t i = 0; i < t->n; i++)
-    if (strcmp(t->row[i].method, method) == 0) return true;
-  return false;
-}
-
-static const char *unit_of(const gg_cli_table_row *row)
+static const char *unit_of(const gg_point_row *row)
 {
   return row->unit ? row->unit : "";
 }
 
-/* Is this a row of panel p? */
-static bool belongs(const drawing *d, size_t p, const char *quantity, const char *unit)
+static panel *panel_of(drawing *d, const gg_point_row *row)
 {
-  return strcmp(quantity, d->quantity[p]) == 0 && strcmp(unit, d->unit[p]) == 0;
+  size_t p = 0;
+  while (p < d->n && (strcmp(d->panel[p].quantity, row->quantity) != 0 || strcmp(d->panel[p].unit, unit_of(row)) != 0))
+    p++;
+  return p < d->n ? &d->panel[p] : NULL;
 }
 
-static bool is_shown(const drawing *d, const gg_cli_table_row *row)
-{
-  for (size_t p = 0; p < d->n; p++)
-    if (belongs(d, p, row->quantity, unit_of(row))) return true;
-  return false;
-}
-
-/* A panel for each unit that the quantity has at some point. */
 static gg_status add_panels(drawing *d, const char *quantity, gg_error *err)
 {
-  if (!has_rows(d->table, quantity))
+  if (!gg_sweep_point_table_has(d->table, NULL, quantity))
     return gg_base_fail(err, GG_BAD_INPUT, "no point has a quantity '%.60s'", quantity);
   for (size_t i = 0; i < d->table->n; i++) {
-    const gg_cli_table_row *row = &d->table->row[i];
-    if (strcmp(row->quantity, quantity) != 0 || is_shown(d, row)) continue;
+    const gg_point_row *row = &d->table->row[i];
+    if (strcmp(row->quantity, quantity) != 0 || panel_of(d, row)) continue;
     if (d->n == MOST_PANELS)
       return gg_base_fail(err, GG_BAD_INPUT, "a picture has at most %d panels, one for each quantity and unit",
                           MOST_PANELS);
-    snprintf(d->quantity[d->n], sizeof d->quantity[0], "%s", quantity);
-    d->unit[d->n++] = unit_of(row);
+    snprintf(d->panel[d->n].quantity, sizeof d->panel->quantity, "%s", quantity);
+    d->panel[d->n++].unit = unit_of(row);
   }
   return GG_OK;
 }
 
-static gg_status add_named(drawing *d, const char *show, gg_error *err)
-{
-  while (*show) {
-    char word[64];
-    size_t length = strcspn(show, ",");
-    snprintf(word, sizeof word, "%.*s", (int)length, show);
-    GG_TRY(add_panels(d, word, err));
-    show += length + (show[length] == ',');
-  }
-  return GG_OK;
-}
-
-/* The headline quantities of the first scene; else, of theories alone, whatever comes first. */
-static gg_status choose_quantities(drawing *d, gg_error *err)
+/* The headline quantities of the first scene; of theories alone the first quantity of the table. */
+static gg_status add_default_panels(drawing *d, gg_error *err)
 {
   gg_scene scene;
   gg_model model;
   gg_quantity headline[GG_N_QUANTITIES];
   GG_TRY(gg_sweep_resolve(d->sweep, 0, &scene, err));
   GG_TRY(gg_scene_model_for_theories(&scene, &model, err));
-  int n = gg_run_headline_quantities(&model, headline);
+  const int n = gg_run_headline_quantities(&model, headline);
   for (int i = 0; i < n && d->n < 4; i++) {
     const char *name = gg_common_quantity_name_in(&model, headline[i]);
-    if (has_rows(d->table, name)) GG_TRY(add_panels(d, name, err));
+    if (gg_sweep_point_table_has(d->table, NULL, name)) GG_TRY(add_panels(d, name, err));
   }
   return d->n || !d->table->n ? GG_OK : add_panels(d, d->table->row[0].quantity, err);
-}
-
-static gg_chart_series *series_for(drawing *d, size_t p, const gg_picture_row *row)
-{
-  const size_t n = d->panel[p].n;
-  for (size_t k = 0; k < n; k++)
-    if (d->combination[p][k] == row->combination && strcmp(d->series[p][k].method, row->method) == 0)
-      return &d->series[p][k];
-  if (n == MOST_SERIES) return NULL;
-  d->panel[p].n++;
-  d->combination[p][n] = row->combination;
-  gg_sweep_line_group_name(d->sweep, row->combination, d->choice->axis.varied, d->group[p][n]);
-  d->series[p][n] = (gg_chart_series){.method = row->method,
-                                      .group = *d->group[p][n] ? d->group[p][n] : NULL,
-                                      .style = row->theory && d->choice->axis.alone ? GG_CHART_LINE : GG_CHART_POINTS};
-  return &d->series[p][n];
-}
-
-static gg_status count_rows(drawing *d, size_t p, gg_error *err)
-{
-  for (size_t i = 0; i < d->rows.n; i++) {
-    const gg_picture_row *row = &d->rows.row[i];
-    if (!belongs(d, p, row->quantity, row->unit)) continue;
-    gg_chart_series *s = series_for(d, p, row);
-    if (!s)
-      return gg_base_fail(err, GG_FAILED,
-                          "the picture would have more than %d lines: another key over, fewer values, or none",
-                          MOST_SERIES);
-    s->n++;
-    d->share[p] |= isfinite(row->share) && d->choice->relative_to;
-  }
-  return GG_OK;
-}
-
-/* Each series has its stretch, counted before. */
-static void fill_panel(drawing *d, size_t p)
-{
-  for (size_t k = 0; k < d->panel[p].n; k++) {
-    gg_chart_series *s = &d->series[p][k];
-    s->x = d->x + d->used, s->y = d->y + d->used, s->error = d->error + d->used, s->open = d->open + d->used;
-    d->used += s->n;
-    s->n = 0;
-  }
-  for (size_t i = 0; i < d->rows.n; i++) {
-    const gg_picture_row *row = &d->rows.row[i];
-    if (!belongs(d, p, row->quantity, row->unit)) continue;
-    gg_chart_series *s = series_for(d, p, row);
-    const size_t at = (size_t)(s->x - d->x) + s->n++;
-    d->x[at] = row->x;
-    d->y[at] = d->share[p] ? 100 * row->share : row->mean;
-    d->error[at] = d->share[p] ? 100 * row->share_error : row->error;
-    d->open[at] = !row->steady;
-  }
-}
-
-static int by_x(const void *a, const void *b)
-{
-  const gg_picture_row *one = a, *two = b;
-  return one->x < two->x ? -1 : one->x > two->x ? 1 : one->point < two->point ? -1 : one->point > two->point;
-}
-
-/* Of positive numbers, more than a decade and a half. */
-static bool spans_decades(const gg_chart_panel *p)
-{
-  double least = INFINITY, most = 0;
-  for (size_t k = 0; k < p->n; k++)
-    for (size_t i = 0; i < p->series[k].n; i++) {
-      const double y = p->series[k].y[i];
-      if (isfinite(y)) least = fmin(least, y), most = fmax(most, y);
-    }
-  return least > 0 && most > 30 * least;
-}
-
-static bool is_log_y(const drawing *d, const gg_chart_panel *p)
-{
-  const char *log = d->choice->log;
-  return log ? strchr(log, 'y') != NULL : !d->choice->relative_to && spans_decades(p);
-}
-
-static void name_y(drawing *d, size_t p)
-{
-  char symbol[64], method[96];
-  const gg_quantity q = gg_common_quantity_find(d->quantity[p]);
-  if (q < GG_N_QUANTITIES)
-    gg_common_quantity_enhanced(q, symbol, sizeof symbol);
-  else
-    snprintf(symbol, sizeof symbol, "%s", d->quantity[p]);
-  gg_plot_method_name(d->choice->relative_to ? d->choice->relative_to : "", method, sizeof method);
-  if (d->choice->relative_to)
-    snprintf(d->label[p], sizeof d->label[p], "%s %s %s%s", symbol, d->share[p] ? "/" : "–", method,
-             d->share[p] ? " – 1" : "");
-  else
-    snprintf(d->label[p], sizeof d->label[p], "%s", symbol);
-}
-
-static gg_status fill(drawing *d, gg_error *err)
-{
-  const gg_picture_axis *a = &d->choice->axis;
-  const char *x_unit;
-  gg_plot_chart_key(d->sweep->varied[a->varied].key[a->k], d->x_label, sizeof d->x_label, &x_unit);
-  for (size_t p = 0; p < d->n; p++) {
-    gg_chart_panel *panel = &d->panel[p];
-    *panel = (gg_chart_panel){.x = {.label = d->x_label, .unit = x_unit, .log = a->log}, .series = d->series[p]};
-    GG_TRY(count_rows(d, p, err));
-    fill_panel(d, p);
-    name_y(d, p);
-    panel->y = (gg_chart_axis){.label = d->label[p], .unit = d->share[p] ? "%" : d->unit[p]};
-    panel->y.log = is_log_y(d, panel);
-  }
-  return GG_OK;
-}
-
-/* The scene without what is varied. */
-static gg_status write_title(drawing *d, gg_error *err)
-{
-  gg_scene scene;
-  char varied[400] = "";
-  const char *key;
-  GG_TRY(gg_sweep_resolve(d->sweep, 0, &scene, err));
-  for (size_t k = 0; (key = gg_sweep_column_key(d->sweep, k)); k++) gg_base_text_append(varied, sizeof varied, "%s,", key);
-  gg_files_scene_title(&scene, varied, d->title, sizeof d->title);
-  return GG_OK;
-}
-
-/* Points with an engine that is not steady, by their numbers in the list, as many as a line has room for. */
-static void write_note(drawing *d)
-{
-  enum { NAMED = 20 };
-  size_t last = SIZE_MAX, n = 0;
-  char list[300] = "";
-  for (size_t i = 0; i < d->table->n; i++) {
-    const gg_cli_table_row *row = &d->table->row[i];
-    if (row->steady || row->point == last) continue;
-    if (n < NAMED) gg_base_text_append(list, sizeof list, "%s%zu", n ? ", " : "", row->point + 1);
-    last = row->point, n++;
-  }
-  if (n > NAMED) gg_base_text_append(list, sizeof list, " and %zu more", n - NAMED);
-  if (n) snprintf(d->note, sizeof d->note, "Open symbols: not steady, point%s %s", n > 1 ? "s" : "", list);
-}
-
-/* Words of a list that name no method of the table. */
-static gg_status check_theories(const drawing *d, gg_error *err)
-{
-  char word[64];
-  for (const char *at = d->choice->theories; at && *at;) {
-    const size_t length = strcspn(at, ",");
-    snprintf(word, sizeof word, "%.*s", (int)length, at);
-    if (!has_method(d->table, word)) return gg_base_fail(err, GG_BAD_INPUT, "no point has a theory '%s'", word);
-    at += length + (at[length] == ',');
-  }
-  return GG_OK;
 }
 
 static gg_status choose_names(drawing *d, gg_error *err)
 {
   const gg_picture_choice *c = d->choice;
-  GG_TRY(c->show ? add_named(d, c->show, err) : choose_quantities(d, err));
-  GG_TRY(check_theories(d, err));
-  if (c->relative_to && !has_method(d->table, c->relative_to))
+  const char *show = c->show, *theories = c->theories;
+  char word[64];
+  if (!show) GG_TRY(add_default_panels(d, err));
+  while (gg_sweep_next_word(&show, word)) GG_TRY(add_panels(d, word, err));
+  while (gg_sweep_next_word(&theories, word))
+    if (!gg_sweep_point_table_has(d->table, word, NULL))
+      return gg_base_fail(err, GG_BAD_INPUT, "no point has a theory '%s'", word);
+  if (c->relative_to && !gg_sweep_point_table_has(d->table, c->relative_to, NULL))
     return gg_base_fail(err, GG_BAD_INPUT, "no point has a method '%.60s'", c->relative_to);
   return GG_OK;
 }
@@ -323,52 +156,209 @@ static gg_status choose_names(drawing *d, gg_error *err)
 gg_status gg_sweep_picture_check(const gg_point_table *t, const gg_sweep *sweep, const gg_picture_choice *choice,
                                  gg_error *err)
 {
-  drawing *d = gg_base_array_new(1, sizeof *d, err);
-  if (!d) return GG_FAILED;
-  d->table = t, d->sweep = sweep, d->choice = choice;
-  gg_status status = choose_names(d, err);
-  free(d);
-  return status;
+  drawing d = {.table = t, .sweep = sweep, .choice = choice};
+  return choose_names(&d, err);
 }
 
-static gg_status choose_rows(drawing *d, gg_error *err)
+/* Name of the line that a point belongs to: the other keys. Points of the sweep of lines have the same names. */
+static void name_line(const drawing *d, const gg_sweep *sweep, size_t point, char name[GG_COMBINATION_NAME])
 {
-  char quantities[MOST_PANELS * 65] = "";
-  GG_TRY(choose_names(d, err));
-  for (size_t p = 0; p < d->n; p++) gg_base_text_append(quantities, sizeof quantities, "%s,", d->quantity[p]);
-  GG_TRY(gg_sweep_picture_rows_make(&d->rows, d->table, d->sweep, d->choice, quantities, err));
-  qsort(d->rows.row, d->rows.n, sizeof *d->rows.row, by_x); /* lines go from left to right */
+  const gg_picture_axis *a = &d->choice->axis;
+  size_t first = 0;
+  for (size_t f = 0; f < sweep->n_varied; f++)
+    first = first * d->sweep->varied[f].n + (f == a->varied ? 0 : gg_sweep_row(sweep, point, f));
+  gg_sweep_line_group_name(d->sweep, first, a->varied, name);
+}
+
+/* The series of a method and a line in a panel, a new one if there is none. NULL: there are too many. */
+static gg_chart_series *series_of(drawing *d, panel *p, const gg_point_row *row, const char *name)
+{
+  for (size_t k = 0; k < p->of->n; k++) {
+    gg_chart_series *s = p->of->series[k];
+    if (strcmp(s->method, row->method) == 0 && strcmp(s->group ? s->group : "", name) == 0) return s;
+  }
+  const int style = row->theory && d->choice->axis.alone ? GG_CHART_LINE : GG_CHART_POINTS;
+  d->crowded |= p->of->n == GG_CHART_SERIES;
+  return gg_plot_panel_series(d->chart, p->of, row->method, *name ? gg_plot_chart_text(d->chart, "%s", name) : NULL,
+                              style);
+}
+
+/* The value of a row, or its deviation from the method that the picture is relative to; false: that has no value. */
+static bool find_value(const drawing *d, const gg_grid_view *v, const gg_point_row *row, gg_departure *value)
+{
+  const char *relative_to = d->choice->relative_to;
+  *value = (gg_departure){.difference = row->mean, .error = row->error, .deviation = NAN, .deviation_error = NAN};
+  if (!relative_to) return true;
+  const gg_point_row *reference = gg_sweep_grid_row(v, row->point, relative_to, row->quantity);
+  if (!reference || strcmp(unit_of(reference), unit_of(row)) != 0) return false;
+  const gg_estimate mean = {.mean = row->mean, .error = strcmp(relative_to, row->method) ? row->error : NAN},
+                    of = {.mean = reference->mean, .error = isfinite(reference->error) ? reference->error : 0};
+  *value = gg_run_reference_deviation(gg_common_quantity_find(row->quantity), &mean, &of);
+  return true;
+}
+
+static bool is_chosen(const drawing *d, const gg_point_row *row)
+{
+  const gg_picture_choice *c = d->choice;
+  return !row->theory || !c->theories || is_listed(c->theories, row->method) ||
+         (c->relative_to && strcmp(c->relative_to, row->method) == 0);
+}
+
+static void add_point(drawing *d, const gg_grid_view *v, panel *p, gg_chart_series *s, const gg_point_row *row)
+{
+  gg_departure value;
+  if (!find_value(d, v, row, &value)) return;
+  const double x = gg_sweep_axis_value(v->sweep, row->point, &d->choice->axis);
+  gg_plot_chart_point(d->chart, s,
+                      (gg_chart_point){x, p->share ? 100 * value.deviation : value.difference,
+                                       p->share ? 100 * value.deviation_error : value.error, NAN, !row->steady});
+}
+
+static void add_rows(drawing *d, const gg_grid_view *v)
+{
+  char name[GG_COMBINATION_NAME];
+  gg_departure value;
+  for (size_t i = 0; i < d->table->n; i++) {
+    panel *p = panel_of(d, &d->table->row[i]);
+    if (p && d->choice->relative_to && is_chosen(d, &d->table->row[i]) && find_value(d, v, &d->table->row[i], &value))
+      p->share |= isfinite(value.deviation);
+  }
+  for (size_t i = 0; i < d->table->n; i++) {
+    const gg_point_row *row = &d->table->row[i];
+    panel *p = panel_of(d, row);
+    if (!p || !is_chosen(d, row) || !find_value(d, v, row, &value)) continue;
+    name_line(d, d->sweep, row->point, name);
+    add_point(d, v, p, series_of(d, p, row, name), row);
+  }
+}
+
+/* Points of theories between those of the sweep. Where a theory has no answer its line is broken. */
+static void add_lines(drawing *d, const gg_grid_view *v)
+{
+  char name[GG_COMBINATION_NAME];
+  for (size_t i = 0; i < v->sweep->n; i++) {
+    name_line(d, v->sweep, i, name);
+    for (panel *p = d->panel; p < d->panel + d->n; p++)
+      for (size_t k = 0; k < p->of->n; k++) {
+        gg_chart_series *s = p->of->series[k];
+        if (s->look.style != GG_CHART_LINE || strcmp(s->group ? s->group : "", name) != 0) continue;
+        const gg_point_row *row = gg_sweep_grid_row(v, i, s->method, p->quantity);
+        if (!row)
+          gg_plot_chart_point(
+              d->chart, s, (gg_chart_point){gg_sweep_axis_value(v->sweep, i, &d->choice->axis), NAN, NAN, NAN, false});
+        else if (strcmp(unit_of(row), p->unit) == 0)
+          add_point(d, v, p, s, row);
+      }
+  }
+}
+
+static int by_x(const void *a, const void *b)
+{
+  const double x = ((const gg_chart_point *)a)->x, y = ((const gg_chart_point *)b)->x;
+  return (x > y) - (x < y);
+}
+
+/* Lines go from left to right. The axis of y is logarithmic by choice, or for positive numbers over more than a decade
+ * and a half. */
+static void finish_panel(const drawing *d, gg_chart_panel *p)
+{
+  double least = INFINITY, most = 0;
+  for (size_t k = 0; k < p->n; k++) {
+    gg_chart_series *s = p->series[k];
+    if (s->n) qsort(s->point, s->n, sizeof *s->point, by_x);
+    for (size_t i = 0; i < s->n; i++)
+      if (isfinite(s->point[i].y)) least = fmin(least, s->point[i].y), most = fmax(most, s->point[i].y);
+  }
+  const char *log = d->choice->log;
+  p->y.log = log ? strchr(log, 'y') != NULL : !d->choice->relative_to && least > 0 && most > 30 * least;
+}
+
+static void label_panel(drawing *d, panel *p, const char *x_label, const char *x_unit)
+{
+  char symbol[64], method[96];
+  const char *relative_to = d->choice->relative_to;
+  const gg_quantity q = gg_common_quantity_find(p->quantity);
+  if (q < GG_N_QUANTITIES)
+    gg_common_quantity_enhanced(q, symbol, sizeof symbol);
+  else
+    snprintf(symbol, sizeof symbol, "%s", p->quantity);
+  gg_plot_method_name(relative_to ? relative_to : "", method, sizeof method);
+  p->of->x = (gg_chart_axis){.label = x_label, .unit = x_unit, .log = d->choice->axis.log};
+  p->of->y.unit = p->share ? "%" : p->unit;
+  p->of->y.label = !relative_to ? gg_plot_chart_text(d->chart, "%s", symbol)
+                   : p->share   ? gg_plot_chart_text(d->chart, "%s / %s – 1", symbol, method)
+                                : gg_plot_chart_text(d->chart, "%s – %s", symbol, method);
+}
+
+static gg_status fill(drawing *d, gg_error *err)
+{
+  const gg_picture_axis *a = &d->choice->axis;
+  const gg_picture_lines *lines = d->choice->lines;
+  const char *x_unit;
+  char x_label[96];
+  gg_grid_view view;
+  gg_plot_chart_key(d->sweep->varied[a->varied].key[a->k], x_label, sizeof x_label, &x_unit);
+  const char *x_name = gg_plot_chart_text(d->chart, "%s", x_label);
+  for (size_t p = 0; p < d->n; p++)
+    if (!(d->panel[p].of = gg_plot_chart_panel(d->chart))) return gg_base_out_of_memory(err);
+  GG_TRY(gg_sweep_grid_view_make(&view, d->table, d->sweep, err));
+  add_rows(d, &view);
+  gg_sweep_grid_view_clear(&view);
+  if (d->crowded)
+    return gg_base_fail(err, GG_FAILED,
+                        "the picture would have more than %d lines: another key over, fewer values, or none",
+                        GG_CHART_SERIES);
+  if (lines) {
+    GG_TRY(gg_sweep_grid_view_make(&view, &lines->table, lines->sweep, err));
+    add_lines(d, &view);
+    gg_sweep_grid_view_clear(&view);
+  }
+  for (size_t p = 0; p < d->n; p++) label_panel(d, &d->panel[p], x_name, x_unit), finish_panel(d, d->panel[p].of);
   return GG_OK;
 }
 
-static gg_status draw(drawing *d, const char *picture, const char *width, gg_error *err)
+/* The scene without the varied keys. */
+static gg_status write_title(drawing *d, gg_error *err)
 {
-  GG_TRY(choose_rows(d, err));
-  const size_t room = d->rows.n;
-  d->x = gg_base_array_new(room, sizeof *d->x, err);
-  d->y = gg_base_array_new(room, sizeof *d->y, err);
-  d->error = gg_base_array_new(room, sizeof *d->error, err);
-  d->open = gg_base_array_new(room, sizeof *d->open, err);
-  if (!d->x || !d->y || !d->error || !d->open) return GG_FAILED;
-  GG_TRY(fill(d, err));
-  GG_TRY(write_title(d, err));
-  write_note(d);
-  const gg_chart chart = {.title = d->title, .note = d->note, .n = d->n, .panel = d->panel};
-  return gg_plot_chart_draw(&chart, picture, width, err);
+  gg_scene scene;
+  char varied[400] = "", title[240];
+  const char *key;
+  GG_TRY(gg_sweep_resolve(d->sweep, 0, &scene, err));
+  for (size_t k = 0; (key = gg_sweep_column_key(d->sweep, k)); k++) gg_base_text_append(varied, sizeof varied, "%s,", key);
+  gg_files_scene_title(&scene, varied, title, sizeof title);
+  d->chart->title = gg_plot_chart_text(d->chart, "%s", title);
+  return GG_OK;
+}
+
+/* The first points with an engine that is not steady, by their numbers in the list. */
+static void write_note(drawing *d)
+{
+  enum { NAMED = 20 };
+  size_t last = SIZE_MAX, n = 0;
+  char list[300] = "";
+  for (size_t i = 0; i < d->table->n; i++) {
+    const gg_point_row *row = &d->table->row[i];
+    if (row->steady || row->point == last) continue;
+    if (n < NAMED) gg_base_text_append(list, sizeof list, "%s%zu", n ? ", " : "", row->point + 1);
+    last = row->point, n++;
+  }
+  if (n > NAMED) gg_base_text_append(list, sizeof list, " and %zu more", n - NAMED);
+  if (n) d->chart->note = gg_plot_chart_text(d->chart, "Open symbols: not steady, point%s %s", n > 1 ? "s" : "", list);
 }
 
 gg_status gg_sweep_point_table_draw(const gg_point_table *t, const gg_sweep *sweep, const gg_picture_choice *choice,
                                     const char *picture, const char *width, gg_error *err)
 {
-  drawing *d = gg_base_array_new(1, sizeof *d, err);
-  if (!d) return GG_FAILED;
-  d->table = t, d->sweep = sweep, d->choice = choice;
-  gg_status status = draw(d, picture, width, err);
-  free(d->x);
-  free(d->y);
-  free(d->error);
-  free(d->open);
-  free(d->rows.row);
-  free(d);
+  gg_plot_paper paper;
+  drawing d = {.table = t, .sweep = sweep, .choice = choice};
+  GG_TRY(gg_plot_paper_choose(&paper, picture, NULL, width, err));
+  GG_TRY(choose_names(&d, err));
+  d.chart = gg_plot_chart_new();
+  if (!d.chart) return gg_base_out_of_memory(err);
+  gg_status status = fill(&d, err);
+  if (status == GG_OK) status = write_title(&d, err);
+  write_note(&d);
+  if (status == GG_OK) return gg_plot_chart_finish(d.chart, &paper, picture, err);
+  gg_plot_chart_free(d.chart);
   return status;
 }

@@ -41,7 +41,7 @@ gg_sweep_settings gg_sweep_settings_defaults(void)
   return (gg_sweep_settings){.longest = 600};
 }
 
-/* A reader with what its use needs besides. */
+/* A reader of YAML, and what it fills: a sweep or the settings alone. */
 typedef struct sweep_reader {
   gg_scene_reader reader;
   gg_sweep *sweep;
@@ -94,7 +94,7 @@ typedef struct value_lists {
   const yaml_node_t *random; /* the map of random draws; NULL: none */
 } value_lists;
 
-/* Characters of a value: an alias may stand in what it stands for, and that has no end. */
+/* Characters of a value: an alias may contain itself, without end. */
 enum { LONGEST_VALUE = 10000 };
 
 /* A node as YAML on one line; cut where it is too long. */
@@ -204,7 +204,7 @@ static gg_status reject_range(const gg_scene_reader *r, const value_lists *l)
   return GG_OK;
 }
 
-/* The same length for all, as they go together. */
+/* Add keys that change together; their lists have one length. */
 static gg_status add_zipped(const gg_scene_reader *r, gg_sweep *sweep, value_lists *l)
 {
   GG_TRY(reject_range(r, l));

@@ -34,11 +34,29 @@ void gg_sweep_point_table_clear(gg_point_table *t)
   *t = (gg_point_table){0};
 }
 
-static gg_status add_row(gg_point_table *t, const gg_cli_table_row *row, gg_error *err)
+bool gg_sweep_point_table_has(const gg_point_table *t, const char *method, const char *quantity)
+{
+  size_t i = 0;
+  while (i < t->n &&
+         ((method && strcmp(t->row[i].method, method) != 0) || (quantity && strcmp(t->row[i].quantity, quantity) != 0)))
+    i++;
+  return i < t->n;
+}
+
+bool gg_sweep_next_word(const char **list, char word[64])
+{
+  if (!*list || !**list) return false;
+  const size_t length = strcspn(*list, ",");
+  snprintf(word, 64, "%.*s", (int)length, *list);
+  *list += length + ((*list)[length] == ',');
+  return true;
+}
+
+static gg_status add_row(gg_point_table *t, const gg_point_row *row, gg_error *err)
 {
   if (t->n == t->room) {
     size_t room = t->room ? 2 * t->room : 256;
-    gg_cli_table_row *grown = realloc(t->row, room * sizeof *grown);
+    gg_point_row *grown = realloc(t->row, room * sizeof *grown);
     if (!grown) return gg_base_out_of_memory(err);
     t->row = grown;
     t->room = room;
@@ -53,8 +71,8 @@ static double number(const json_t *object, const char *key)
   return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
-/* Quantities of a method, of those that it has a mean of. */
-static gg_status add_quantities(gg_point_table *t, gg_cli_table_row row, json_t *quantities, const char *error,
+/* Add the quantities of a method that have a mean. */
+static gg_status add_quantities(gg_point_table *t, gg_point_row row, json_t *quantities, const char *error,
                                 gg_error *err)
 {
   const char *name;
@@ -70,7 +88,7 @@ static gg_status add_quantities(gg_point_table *t, gg_cli_table_row row, json_t 
   return GG_OK;
 }
 
-static gg_status add_run(gg_point_table *t, gg_cli_table_row row, json_t *document, gg_error *err)
+static gg_status add_run(gg_point_table *t, gg_point_row row, json_t *document, gg_error *err)
 {
   if (!json_is_object(document)) return GG_OK; /* an engine that could not run the scene */
   row.method = json_string_value(json_object_get(document, "engine"));
@@ -80,8 +98,8 @@ static gg_status add_run(gg_point_table *t, gg_cli_table_row row, json_t *docume
   return row.method ? add_quantities(t, row, json_object_get(document, "results"), "stderr", err) : GG_OK;
 }
 
-/* Theories of the sweep's own file, which may have changed since the point was run: asked again. */
-static gg_status add_own_theories(gg_point_table *t, gg_cli_table_row row, const gg_model *m, gg_error *err)
+/* Add theories of the sweep's file, evaluated now: the file may have changed since the point was run. */
+static gg_status add_own_theories(gg_point_table *t, gg_point_row row, const gg_model *m, gg_error *err)
 {
   gg_quantity_rows *rows = gg_base_array_new(1, sizeof *rows, err);
   if (!rows) return GG_FAILED;
@@ -110,7 +128,7 @@ static bool is_own(const gg_extension *x, const char *theory)
   return found;
 }
 
-static gg_status add_document(gg_point_table *t, gg_cli_table_row row, json_t *document, const gg_scene *scene,
+static gg_status add_document(gg_point_table *t, gg_point_row row, json_t *document, const gg_scene *scene,
                               gg_error *err)
 {
   const char *name;
@@ -145,7 +163,7 @@ static gg_status read_document(const char *path, json_t **document, char **scene
   return gg_h5_in_status(&h, path, err);
 }
 
-static gg_status add_read_point(gg_point_table *t, gg_cli_table_row row, const gg_scene *scene, json_t *document,
+static gg_status add_read_point(gg_point_table *t, gg_point_row row, const gg_scene *scene, json_t *document,
                                 char *yaml, gg_error *err)
 {
   const size_t first = t->n;
@@ -163,7 +181,7 @@ static gg_status add_point(gg_point_table *t, const gg_sweep *sweep, const char 
   const gg_point_state state = gg_sweep_point_status(folder, id);
   if (state == GG_POINT_MISSING) return GG_OK;
   GG_TRY(gg_sweep_resolve(sweep, i, &scene, err));
-  gg_cli_table_row row = {.point = i, .seed = scene.run.seed, .fell_short = state == GG_POINT_SHORT};
+  gg_point_row row = {.point = i, .seed = scene.run.seed, .fell_short = state == GG_POINT_SHORT};
   gg_sweep_point_name(id, row.file);
   char path[PATH_MAX], *yaml = NULL;
   json_t *document = NULL;
@@ -196,46 +214,46 @@ gg_status gg_sweep_point_table_read(gg_point_table *t, const gg_sweep *sweep, co
   return GG_OK;
 }
 
-/* Columns behind those of the point and its keys. Whole numbers and truths have a value in every row, so that readers
- * find them of one type: seed and `short` are of the point, theories are of the steady state. */
+/* Columns after those of the point and its keys. Whole numbers and truths have a value in every row, so that readers
+ * find one type in a column: seed and `short` are those of the point, theories count as steady. */
 typedef enum kind { NUMBER, WHOLE, TRUTH, TEXT, NAME } kind;
 static const struct {
   const char *name;
   kind kind;
   size_t offset;
 } columns[] = {
-    {"method", TEXT, offsetof(gg_cli_table_row, method)},
-    {"quantity", TEXT, offsetof(gg_cli_table_row, quantity)},
-    {"mean", NUMBER, offsetof(gg_cli_table_row, mean)},
-    {"error", NUMBER, offsetof(gg_cli_table_row, error)},
-    {"unit", TEXT, offsetof(gg_cli_table_row, unit)},
-    {"reference", TEXT, offsetof(gg_cli_table_row, reference)},
-    {"reference_mean", NUMBER, offsetof(gg_cli_table_row, reference_mean)},
-    {"difference", NUMBER, offsetof(gg_cli_table_row, difference)},
-    {"difference_error", NUMBER, offsetof(gg_cli_table_row, difference_error)},
-    {"deviation", NUMBER, offsetof(gg_cli_table_row, deviation)},
-    {"deviation_error", NUMBER, offsetof(gg_cli_table_row, deviation_error)},
-    {"z", NUMBER, offsetof(gg_cli_table_row, z)},
-    {"beyond_expected", TRUTH, offsetof(gg_cli_table_row, beyond)},
-    {"cause", TEXT, offsetof(gg_cli_table_row, cause)},
-    {"structure", TEXT, offsetof(gg_cli_table_row, structure)},
-    {"contact_time", NUMBER, offsetof(gg_cli_table_row, contact_time)},
-    {"seed", WHOLE, offsetof(gg_cli_table_row, seed)},
-    {"steady", TRUTH, offsetof(gg_cli_table_row, steady)},
-    {"short", TRUTH, offsetof(gg_cli_table_row, fell_short)},
-    {"seconds", NUMBER, offsetof(gg_cli_table_row, seconds)},
-    {"file", NAME, offsetof(gg_cli_table_row, file)},
-    {"version", TEXT, offsetof(gg_cli_table_row, version)},
-    {"build", TEXT, offsetof(gg_cli_table_row, build)},
+    {"method", TEXT, offsetof(gg_point_row, method)},
+    {"quantity", TEXT, offsetof(gg_point_row, quantity)},
+    {"mean", NUMBER, offsetof(gg_point_row, mean)},
+    {"error", NUMBER, offsetof(gg_point_row, error)},
+    {"unit", TEXT, offsetof(gg_point_row, unit)},
+    {"reference", TEXT, offsetof(gg_point_row, reference)},
+    {"reference_mean", NUMBER, offsetof(gg_point_row, reference_mean)},
+    {"difference", NUMBER, offsetof(gg_point_row, difference)},
+    {"difference_error", NUMBER, offsetof(gg_point_row, difference_error)},
+    {"deviation", NUMBER, offsetof(gg_point_row, deviation)},
+    {"deviation_error", NUMBER, offsetof(gg_point_row, deviation_error)},
+    {"z", NUMBER, offsetof(gg_point_row, z)},
+    {"beyond_expected", TRUTH, offsetof(gg_point_row, beyond)},
+    {"cause", TEXT, offsetof(gg_point_row, cause)},
+    {"structure", TEXT, offsetof(gg_point_row, structure)},
+    {"contact_time", NUMBER, offsetof(gg_point_row, contact_time)},
+    {"seed", WHOLE, offsetof(gg_point_row, seed)},
+    {"steady", TRUTH, offsetof(gg_point_row, steady)},
+    {"short", TRUTH, offsetof(gg_point_row, fell_short)},
+    {"seconds", NUMBER, offsetof(gg_point_row, seconds)},
+    {"file", NAME, offsetof(gg_point_row, file)},
+    {"version", TEXT, offsetof(gg_point_row, version)},
+    {"build", TEXT, offsetof(gg_point_row, build)},
 };
 enum { COLUMNS = sizeof columns / sizeof *columns };
 
-static const void *cell(const gg_cli_table_row *row, size_t c)
+static const void *cell(const gg_point_row *row, size_t c)
 {
   return (const char *)row + columns[c].offset;
 }
 
-static const char *text_of(const gg_cli_table_row *row, size_t c)
+static const char *text_of(const gg_point_row *row, size_t c)
 {
   const void *at = cell(row, c);
   return columns[c].kind == NAME ? at : *(const char *const *)at;
@@ -248,7 +266,7 @@ static void put_count(gg_csv *csv, uint64_t n)
   gg_io_csv_text(csv, text);
 }
 
-static void put_cell(gg_csv *csv, const gg_cli_table_row *row, size_t c)
+static void put_cell(gg_csv *csv, const gg_point_row *row, size_t c)
 {
   const void *at = cell(row, c);
   json_t *value = NULL;
@@ -264,7 +282,7 @@ static void put_cell(gg_csv *csv, const gg_cli_table_row *row, size_t c)
   }
 }
 
-/* YAML's infinity is ".inf", which readers of tables take for a text. */
+/* Write infinity as readers of tables expect it: YAML's ".inf" is a text for them. */
 static const char *plain_value(const char *yaml)
 {
   return strcmp(yaml, ".inf") == 0 ? "inf" : yaml;
@@ -279,7 +297,7 @@ static void put_head(gg_csv *csv, const gg_sweep *sweep)
   gg_io_csv_end_row(csv);
 }
 
-static void put_row(gg_csv *csv, const gg_sweep *sweep, const gg_cli_table_row *row)
+static void put_row(gg_csv *csv, const gg_sweep *sweep, const gg_point_row *row)
 {
   put_count(csv, row->point + 1);
   for (size_t k = 0; gg_sweep_column_key(sweep, k); k++)
@@ -330,7 +348,7 @@ static void write_column(const column *c, const char *name, kind of)
   }
 }
 
-/* Digits alone, beyond the whole numbers that a double holds: seeds. */
+/* True for digits alone: seeds are larger than the whole numbers that a double holds. */
 static bool is_whole(const char *text, long long *n)
 {
   char *end;
@@ -339,7 +357,7 @@ static bool is_whole(const char *text, long long *n)
   return end != text && !*end && errno == 0;
 }
 
-/* Whole numbers or numbers, where every point has one. */
+/* Write the column of a varied key: whole numbers or numbers if every point has one, else texts. */
 static void write_key(const column *c, const gg_point_table *t, const gg_sweep *sweep, size_t k)
 {
   bool numbers = true, wholes = true;
@@ -358,7 +376,7 @@ static void write_key(const column *c, const gg_point_table *t, const gg_sweep *
 static void fill_column(const column *out, const gg_point_table *t, size_t c)
 {
   for (size_t i = 0; i < t->n; i++) {
-    const gg_cli_table_row *row = &t->row[i];
+    const gg_point_row *row = &t->row[i];
     const char *text = columns[c].kind >= TEXT ? text_of(row, c) : NULL;
     switch (columns[c].kind) {
     case NUMBER: out->number[i] = *(const double *)cell(row, c); break;
@@ -423,7 +441,7 @@ gg_status gg_sweep_point_table_write_h5(const gg_point_table *t, const gg_sweep 
   return status;
 }
 
-/* A value as a number where it is one, else as its YAML. */
+/* A value as a number if it is one, else as its YAML. */
 static json_t *value_json(const char *text)
 {
   long long n;
@@ -445,7 +463,7 @@ static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
   gg_scene scene;
   json_t *keys = json_object();
   gg_sweep_point_name(sweep->point[i].id, name);
-  if (gg_sweep_resolve(sweep, i, &scene, NULL) != GG_OK) { /* it was checked: there is no memory */
+  if (gg_sweep_resolve(sweep, i, &scene, NULL) != GG_OK) { /* the scene was checked before, so memory is short */
     json_decref(keys);
     return gg_io_json_made(NULL);
   }
@@ -457,7 +475,7 @@ static json_t *point_json(const gg_sweep *sweep, const char *folder, size_t i)
                    (json_int_t)scene.run.seed);
 }
 
-/* A name whose bytes are no UTF-8 loses them. That is no lack of memory, and not recorded as such. */
+/* A name as JSON, with ? for bytes that may not be UTF-8. Jansson's first refusal is then no lack of memory. */
 static json_t *name_as_text(const char *name)
 {
   json_t *text = (json_string)(name);

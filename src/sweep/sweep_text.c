@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "sweep/folder.h"
 
-/* Defaults stay defaults: what is given has consequences of its own. */
+/* The keys that were given, as JSON: a default that is written out can have another effect than a key left out. */
 static json_t *given_json(const gg_scene *base)
 {
   json_t *root = gg_scene_json(base);
@@ -54,7 +54,7 @@ static char *text_of(const gg_sweep *sweep)
   return NULL;
 }
 
-/* Is that what the file holds? Tasks of a cluster begin together, and write it once. */
+/* True if the file holds this text: tasks of a cluster start together, and one of them writes it. */
 static bool holds(const char *path, const char *text)
 {
   FILE *in = fopen(path, "r");
@@ -84,7 +84,7 @@ gg_status gg_sweep_folder_note(const gg_sweep *sweep, const char *folder, gg_err
   if (!gg_sweep_folder_text_path(folder, path)) return GG_OK;
   char *text = text_of(sweep);
   if (!text) return gg_base_out_of_memory(err);
-  gg_status status = gg_io_file_lock_take(&lock, path, path, err); /* and clear up behind a dead process */
+  gg_status status = gg_io_file_lock_take(&lock, path, path, err); /* removes what a dead process left */
   if (status == GG_OK && !holds(path, text)) status = write_text(path, text, err);
   if (lock.busy) status = GG_OK; /* another process is writing the same */
   gg_io_file_lock_release(&lock);

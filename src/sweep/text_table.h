@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tables of Markdown whose columns stand below each other, so that they read in a terminal, too. */
+/* Tables of Markdown with aligned columns, readable in a terminal, too. */
 #ifndef GG_TEXT_TABLE_H
 #define GG_TEXT_TABLE_H
 
@@ -15,10 +15,10 @@ typedef struct gg_text_table {
   char cell[GG_TEXT_ROWS][GG_TEXT_COLUMNS][GG_TEXT_CELL];
 } gg_text_table;
 
-/* Begin a row; what is beyond the table's size is left out. */
+/* Begin a row; cells beyond the size of the table are left out. */
 void gg_sweep_text_row(gg_text_table *table);
 void gg_sweep_text_cell(gg_text_table *table, const char *format, ...) GG_PRINTF(2, 3);
-/* Print, with an empty line behind it, and empty it. */
+/* Print the table and an empty line, and clear the table. */
 void gg_sweep_text_print(gg_text_table *table, FILE *out);
 
 #endif

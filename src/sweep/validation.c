@@ -20,10 +20,10 @@ typedef struct validating {
   void (*written)(void *context, const char *file);
   void *context;
   const gg_stop *stop;
-  FILE *maps; /* the page's part that shows them; NULL: no page */
+  FILE *maps; /* the part of the page with the maps; NULL: no page */
 } validating;
 
-/* As the page finds the picture: from its own folder, where that is a part of both names. */
+/* Path of a picture relative to the folder of the page, if both names begin with that folder. */
 static const char *seen_from(const char *page, const char *picture)
 {
   const char *slash = strrchr(page, '/');

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A grid of comparisons, validated: verdict, maps and page of what is in its folder. */
+/* Validation of a grid of comparisons: verdict, maps and page of the results in its folder. */
 #ifndef GG_SWEEP_VALIDATION_H
 #define GG_SWEEP_VALIDATION_H
 

@@ -19,22 +19,22 @@ typedef struct writing {
   FILE *out;
 } writing;
 
-double gg_sweep_deviation_of(const gg_cli_table_row *row)
+double gg_sweep_deviation_of(const gg_point_row *row)
 {
   const gg_quantity q = gg_common_quantity_find(row->quantity);
   const bool difference = q < GG_N_QUANTITIES && gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
   return difference ? row->difference : row->deviation;
 }
 
-double gg_sweep_deviation_error_of(const gg_cli_table_row *row)
+double gg_sweep_deviation_error_of(const gg_point_row *row)
 {
   const gg_quantity q = gg_common_quantity_find(row->quantity);
   const bool difference = q < GG_N_QUANTITIES && gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
   return difference ? row->difference_error : row->deviation_error;
 }
 
-/* Off by more than `threshold`, and by more than two errors? */
-static bool is_off(const gg_cli_table_row *row, double threshold)
+/* True if a row deviates by more than `threshold` and by more than two errors. */
+static bool is_off(const gg_point_row *row, double threshold)
 {
   const double off = row ? fabs(gg_sweep_deviation_of(row)) : NAN;
   return off > threshold && !(off < 2 * gg_sweep_deviation_error_of(row));
@@ -51,13 +51,13 @@ static void name_point(const gg_grid_view *v, size_t point, char text[GG_PANEL_N
   }
 }
 
-/* "md", "dsmc": points with a result of it, and those that are not steady. */
+/* Count the points with a result of an engine ("md", "dsmc"), and those that are not steady. */
 static void count_engine(const gg_grid_view *v, const char *engine, size_t *n, size_t *unsteady)
 {
   *n = *unsteady = 0;
   for (size_t i = 0; i < v->sweep->n; i++)
     for (size_t r = v->first[i]; r < v->first[i + 1]; r++) {
-      const gg_cli_table_row *row = &v->table->row[r];
+      const gg_point_row *row = &v->table->row[r];
       if (strcmp(row->method, engine) != 0) continue;
       ++*n, *unsteady += !row->steady;
       break;
@@ -68,7 +68,7 @@ const char *gg_sweep_not_steady(const gg_grid_view *v, size_t point)
 {
   const char *which = NULL;
   for (size_t r = v->first[point]; r < v->first[point + 1]; r++) {
-    const gg_cli_table_row *row = &v->table->row[r];
+    const gg_point_row *row = &v->table->row[r];
     if (!row->steady && which && strcmp(which, row->method) != 0) return "md and dsmc";
     if (!row->steady) which = row->method;
   }
@@ -89,7 +89,7 @@ const char *gg_sweep_no_reference(const gg_grid_view *v, size_t point)
   return gg_sweep_grid_has(v, point) ? "neither a noise-free solution nor dsmc" : NULL;
 }
 
-/* "Not steady:" and a list, "- md at phi 0.1, e 0.5" and so on; nothing where no point has it. */
+/* "Not steady:" and a list, "- md at phi 0.1, e 0.5" and so on; nothing if no point has this trouble. */
 static void print_trouble(const writing *w, const char *what, gg_point_trouble *trouble)
 {
   char name[GG_PANEL_NAME];
@@ -176,19 +176,19 @@ enum { WORST = 10 };
 
 static int by_z(const void *a, const void *b)
 {
-  const gg_cli_table_row *const *one = a, *const *two = b;
+  const gg_point_row *const *one = a, *const *two = b;
   const double x = fabs((*one)->z), y = fabs((*two)->z);
   return x < y ? 1 : x > y ? -1 : 0;
 }
 
-size_t gg_sweep_find_worst(const gg_grid_view *v, const gg_cli_table_row **found)
+size_t gg_sweep_find_worst(const gg_grid_view *v, const gg_point_row **found)
 {
   size_t n = 0;
   const bool all = v->table->n_documents == 1;
   for (size_t i = 0; i < v->sweep->n; i++) {
     const size_t before = n;
     for (size_t r = v->first[i]; r < v->first[i + 1]; r++) {
-      const gg_cli_table_row *row = &v->table->row[r];
+      const gg_point_row *row = &v->table->row[r];
       if (!gg_sweep_agreement_counts(row)) continue;
       if (all || n == before)
         found[n++] = row;
@@ -200,7 +200,7 @@ size_t gg_sweep_find_worst(const gg_grid_view *v, const gg_cli_table_row **found
   return n < WORST || all ? n : WORST;
 }
 
-static void print_worst_row(const writing *w, const gg_cli_table_row *row)
+static void print_worst_row(const writing *w, const gg_point_row *row)
 {
   char name[GG_PANEL_NAME];
   name_point(w->view, row->point, name);
@@ -217,7 +217,7 @@ static void print_worst_row(const writing *w, const gg_cli_table_row *row)
 static gg_status print_worst(const writing *w, gg_error *err)
 {
   static const char *const head[] = {"z", "quantity", "dsmc", "error", "enskog_hermite", "point", "repeat it"};
-  const gg_cli_table_row **found = gg_base_array_new(w->view->table->n + 1, sizeof(void *), err);
+  const gg_point_row **found = gg_base_array_new(w->view->table->n + 1, sizeof(void *), err);
   if (!found) return GG_FAILED;
   const size_t n = gg_sweep_find_worst(w->view, found);
   if (n) {
@@ -235,7 +235,7 @@ gg_off_counts gg_sweep_count_off(const gg_grid_view *v, const char *method, cons
 {
   gg_off_counts c = {0};
   for (size_t i = 0; i < v->sweep->n; i++) {
-    const gg_cli_table_row *row = gg_sweep_grid_row(v, i, method, quantity);
+    const gg_point_row *row = gg_sweep_grid_row(v, i, method, quantity);
     const double off = row ? gg_sweep_deviation_of(row) : NAN;
     if (!isfinite(off)) continue;
     c.n++;
@@ -290,7 +290,7 @@ static void print_over_panels(const writing *w, const char *method, cell_printer
   gg_sweep_text_print(w->table, w->out);
 }
 
-static const gg_cli_table_row *temperature_at(const writing *w, const char *method, size_t panel, size_t x, size_t y)
+static const gg_point_row *temperature_at(const writing *w, const char *method, size_t panel, size_t x, size_t y)
 {
   return gg_sweep_grid_row(w->view, gg_sweep_grid_point(w->view, panel, x, y), method, "temperature");
 }
@@ -302,7 +302,7 @@ static void print_leaving(const writing *w, const char *method, size_t panel, si
   for (int k = 0; k < GG_THRESHOLDS; k++) {
     const char *last = "-";
     for (size_t y = 0; y < w->view->y.n; y++) {
-      const gg_cli_table_row *row = temperature_at(w, method, panel, x, y);
+      const gg_point_row *row = temperature_at(w, method, panel, x, y);
       any |= row && isfinite(gg_sweep_deviation_of(row));
       if (is_off(row, gg_sweep_thresholds[k])) last = gg_sweep_grid_value(w->view, &w->view->y, y);
     }
@@ -316,7 +316,7 @@ static void print_within(const writing *w, const char *method, size_t panel, siz
 {
   size_t known = 0, from = w->view->y.n;
   for (size_t y = w->view->y.n; y-- > 0;) {
-    const gg_cli_table_row *row = temperature_at(w, method, panel, x, y);
+    const gg_point_row *row = temperature_at(w, method, panel, x, y);
     const double off = row ? gg_sweep_deviation_of(row) : NAN;
     if (!isfinite(off)) continue;
     known++;
@@ -369,7 +369,7 @@ static void print_theories(const writing *w)
   head_of_counts(w, "theory");
   const char *seen[GG_TEXT_ROWS];
   for (size_t i = 0, n = 0; i < w->view->table->n && n < GG_TEXT_ROWS; i++) {
-    const gg_cli_table_row *row = &w->view->table->row[i];
+    const gg_point_row *row = &w->view->table->row[i];
     if (!row->theory || is_among(row->method, seen, n)) continue;
     seen[n++] = row->method;
     const gg_off_counts c = gg_sweep_count_off(w->view, row->method, "temperature");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a grid of comparisons came to, in words, counts and tables (Markdown). */
+/* The verdict on a grid of comparisons, in words, counts and tables (Markdown). */
 #ifndef GG_VERDICT_H
 #define GG_VERDICT_H
 
@@ -17,22 +17,22 @@ enum { GG_THRESHOLDS = 3 };
 extern const double gg_sweep_thresholds[GG_THRESHOLDS]; /* 0.01, 0.05, 0.2 */
 
 /* Deviation from the reference, of stress differences the difference itself; NaN where there is none. */
-double gg_sweep_deviation_of(const gg_cli_table_row *row);
-double gg_sweep_deviation_error_of(const gg_cli_table_row *row);
+double gg_sweep_deviation_of(const gg_point_row *row);
+double gg_sweep_deviation_error_of(const gg_point_row *row);
 
-/* How often one method is off its reference, for each quantity. */
+/* Counts of the deviations of one method from its reference, for a quantity. */
 typedef struct gg_off_counts {
   size_t n, off[GG_THRESHOLDS];
   double largest;
-  const gg_cli_table_row *where;
+  const gg_point_row *where;
 } gg_off_counts;
 gg_off_counts gg_sweep_count_off(const gg_grid_view *view, const char *method, const char *quantity);
 
 /* The ten largest |z|, of each point the largest; of a single point all. Returns how many; room for the table's rows.
  */
-size_t gg_sweep_find_worst(const gg_grid_view *view, const gg_cli_table_row **found);
+size_t gg_sweep_find_worst(const gg_grid_view *view, const gg_point_row **found);
 
-/* Has the point this trouble? Its engine, or NULL. */
+/* The engine that has this trouble at a point; NULL: none. */
 typedef const char *gg_point_trouble(const gg_grid_view *view, size_t point);
 gg_point_trouble gg_sweep_not_steady, gg_sweep_not_homogeneous, gg_sweep_no_reference;
 

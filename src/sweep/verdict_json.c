@@ -40,16 +40,16 @@ static json_t *agreement_json(const gg_agreement *a)
                                     "mean_z2", number(r->variance), "mean_z2_allowed", number(r->most_variance),
                                     "largest_z", number(r->largest), "fails", r->fails));
   }
-  json_t *agrees = a->n_values ? json_boolean(!a->fails) : json_null(); /* nothing judged is no agreement */
-  return json_pack("{s:o, s:I, s:I, s:I, s:I, s:o, s:o}", "agrees", agrees, "points", (json_int_t)a->n_points,
-                   "values", (json_int_t)a->n_values, "without_solution", (json_int_t)a->unanswered, "not_steady",
+  json_t *agrees = a->n_values ? json_boolean(!a->fails) : json_null(); /* null: nothing was compared */
+  return json_pack("{s:o, s:I, s:I, s:I, s:I, s:o, s:o}", "agrees", agrees, "points", (json_int_t)a->n_points, "values",
+                   (json_int_t)a->n_values, "without_solution", (json_int_t)a->unanswered, "not_steady",
                    (json_int_t)a->unsteady, "z_allowed", number(a->most), "quantities", rows);
 }
 
 static json_t *worst_json(const gg_grid_view *v, const char *repeat)
 {
   json_t *rows = json_array();
-  const gg_cli_table_row **found = gg_base_array_new(v->table->n + 1, sizeof(void *), NULL);
+  const gg_point_row **found = gg_base_array_new(v->table->n + 1, sizeof(void *), NULL);
   for (size_t i = 0, n = found ? gg_sweep_find_worst(v, found) : 0; i < n; i++) {
     json_t *row = point_json(v, found[i]->point);
     json_object_update_new(row, json_pack("{s:o, s:s, s:o, s:o, s:o}", "z", number(found[i]->z), "quantity",
@@ -80,7 +80,7 @@ static void add_counts(json_t *rows, const gg_grid_view *v, const char *method, 
                                         "where", c.where ? point_json(v, c.where->point) : json_null()));
 }
 
-/* Of every method the main quantities. */
+/* Add the counts of the main quantities for every method. */
 static json_t *counts_json(const gg_grid_view *v)
 {
   json_t *rows = json_array(), *seen = json_object();

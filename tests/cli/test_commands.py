@@ -209,8 +209,8 @@ def test_compare_lists_profiles():
             check(f"profile_{name} " in table, more, name, done.out, done.err)
         page = re.sub("<[^>]*>", "", open("c_profiles.svg").read())
         squares = table.split("profile_velocity ")[1].split()[1]
-        told = re.search(r"flow velocity: chi\s*2\s*/points ([0-9.e+]+), largest z [+-]", page)
-        check("md" in page.split() and "dsmc" in page.split(), page)
+        told = re.search(r"flow velocity: chi\s*2\s*/points\s+([0-9.e+]+),\s+largest\s+z\s+[+-]", page)
+        check(re.search(r"\bmd\b", page) and re.search(r"\bdsmc\b", page), page)
         check(told and abs(float(told[1]) - float(squares)) < 0.01 * float(squares) + 0.01, page, squares)
 
 

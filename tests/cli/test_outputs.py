@@ -193,9 +193,9 @@ def test_wrong_names_of_pictures_are_rejected():
     os.mkdir("folder.svg")
     os.mkfifo("pipe")
     for picture, code, words in (("none/x.svg", 3, "No such file or directory"), ("folder.svg", 3, "Is a directory"),
-                                 ("q.eps", 2, "pictures are .svg, .png or .pdf, not .eps"),
-                                 ("q", 2, "ends with .svg, .png or .pdf"),
-                                 ("pipe", 2, "ends with .svg, .png or .pdf")):
+                                 ("q.eps", 2, "pictures are .svg, .png, .pdf or .gp, not .eps"),
+                                 ("q", 2, "ends with .svg, .png, .pdf or .gp"),
+                                 ("pipe", 2, "ends with .svg, .png, .pdf or .gp")):
         refused(words, code, "--picture", picture, command="compare")
     os.mkfifo("pipe.svg")
     refused("pictures are files", 3, "--picture", "pipe.svg", command="compare")

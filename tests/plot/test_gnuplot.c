@@ -18,7 +18,7 @@
 
 static char folder[] = "/tmp/graingas-gnuplot-XXXXXX";
 
-/* A program of that name which never ends, and says which process it is. */
+/* A program named gnuplot that never ends and writes its process number. */
 static int enter(void **state)
 {
   (void)state;
@@ -34,7 +34,7 @@ static int leave(void **state)
   (void)state;
   remove("gnuplot");
   remove("process");
-  return chdir("/") == 0 ? rmdir(folder) : -1; /* which fails where anything else is left */
+  return chdir("/") == 0 ? rmdir(folder) : -1; /* fails if another file is left */
 }
 
 static void hangs(void **state)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Maps of deviations: the scale is odd and rises throughout, colours of either sign are equally dark, so that grey
- * tells the size; and a map is drawn with cells that are unknown, hatched and not steady. */
+/* Maps of deviations: the scale is odd and rises throughout, and colours of either sign are equally dark, so that grey
+ * tells the size. A map is drawn with cells that are unknown, hatched and not steady. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -38,7 +38,7 @@ static void test_scale(void **state)
   assert_int_equal(gg_plot_heat_colour(0), 0xffffff);
 }
 
-/* How often a text is in the file. */
+/* Number of times that a text is in the file. */
 static int count(const char *path, const char *what)
 {
   static char text[1 << 20];

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The snapshot page: a few grains at known places are drawn there, in both projections, to scale and in the colour of
- * their species; of a gas below an open top the page shows what it fills; a result without positions has none; of many
- * grains a layer is shown, and no picture is large. */
+/* The snapshot page: grains are drawn at their places, in both projections, to scale and in the colour of their
+ * species. Below an open top the page ends above the highest grain. A result without positions has no page. Of many
+ * grains a layer is drawn, and no picture is large. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -211,7 +211,7 @@ static void grains_where_they_are(void **state)
   gg_result_free(r);
 }
 
-/* What lies on a floor is shown up to a diameter above the highest grain, not in the midst of an empty sky. */
+/* Grains on a floor are shown up to a diameter above the highest grain. */
 static void below_an_open_top(void **state)
 {
   (void)state;
@@ -229,7 +229,9 @@ static void below_an_open_top(void **state)
   gg_result_free(r);
 }
 
-/* n grains anywhere in the box: a gas of solid fraction phi, and half of it of grains half as large if `mixed`. */
+/* n grains at random in the box: a gas of solid fraction phi, with half of its volume in grains half as large if
+ * `mixed`.
+ */
 static gg_result *gas_of(size_t n, double phi, bool mixed)
 {
   gg_result *r = planted_result(GG_MD);
@@ -266,7 +268,7 @@ static long size_of(const char *path)
   return (long)file.st_size;
 }
 
-/* Below 500 kB, of any number of grains, dilute or dense, large or small; and not for showing too few of them. */
+/* Pictures are below 500 kB for any number of grains, dilute or dense, large or small, and show enough grains. */
 static void pictures_are_small(void **state)
 {
   (void)state;

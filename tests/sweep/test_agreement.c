@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The verdict over a grid: z-scores as chance has them pass, in ninety grids; a shift, a
- * width and a single value beyond chance fail; what does not take part does not count. */
+/* The verdict over a grid: z-scores of pure chance pass, in ninety grids. A shift, a width and a single value beyond
+ * chance fail. Rows that are not tested do not count. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -26,7 +26,7 @@ typedef struct plan {
   const char *reference;
 } plan;
 
-/* Student's t with 15 degrees of freedom: what errors of sixteen blocks give. */
+/* Student's t with 15 degrees of freedom, as of errors from sixteen blocks. */
 static double draw(unsigned short seed[3])
 {
   double normal[16], sum = 0, squares = 0;
@@ -44,7 +44,7 @@ static gg_agreement judge(const plan *p, unsigned short seed)
   gg_sweep *sweep;
   gg_grid_view view;
   gg_agreement a;
-  static gg_cli_table_row row[POINTS * QUANTITIES];
+  static gg_point_row row[POINTS * QUANTITIES];
   unsigned short stream[3] = {seed, 41, 7};
   assert_int_equal(gg_sweep_parse(grid, "grid", &sweep, &err), GG_OK);
   assert_int_equal(gg_sweep_check(sweep, &err), GG_OK);
@@ -53,12 +53,12 @@ static gg_agreement judge(const plan *p, unsigned short seed)
     double z = draw(stream);
     if (first) z = z * p->width + p->shift;
     if (i == 0 && p->single != 0) z = p->single;
-    row[i] = (gg_cli_table_row){.point = i / QUANTITIES,
-                                .method = "dsmc",
-                                .quantity = quantities[i % QUANTITIES],
-                                .reference = p->reference,
-                                .steady = !p->unsteady,
-                                .z = z};
+    row[i] = (gg_point_row){.point = i / QUANTITIES,
+                            .method = "dsmc",
+                            .quantity = quantities[i % QUANTITIES],
+                            .reference = p->reference,
+                            .steady = !p->unsteady,
+                            .z = z};
   }
   const gg_point_table table = {.n = POINTS * QUANTITIES, .row = row, .n_documents = POINTS};
   assert_int_equal(gg_sweep_grid_view_make(&view, &table, sweep, &err), GG_OK);

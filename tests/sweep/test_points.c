@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which points a sweep has: grids, keys that go together, random draws; what is refused; and that a point's name
- * depends on what its numbers depend on, and on nothing else. */
+/* Points of a sweep: grids, keys that change together, random draws, and rejected input. The name of a point depends on
+ * the keys that its numbers depend on, and on nothing else. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -60,8 +60,8 @@ static void zipped(void **state)
                "0.7 0.1 100|0.7 0.1 200|0.9 0.2 100|0.9 0.2 200");
 }
 
-/* Whole numbers come to both ends of their span, and two keys are drawn apart: a third of a span between them at most
- * points. */
+/* Whole numbers reach both ends of their range, and two keys are drawn independently: at most points they differ by a
+ * third of the range. */
 static void drawn_apart(void **state)
 {
   (void)state;
@@ -76,7 +76,7 @@ static void drawn_apart(void **state)
   gg_sweep_free(sweep);
 }
 
-/* More points, or another key, leave the draws that there were. */
+/* More points, or another key, do not change the other draws. */
 static void drawn(void **state)
 {
   (void)state;
@@ -119,7 +119,8 @@ static void check_name(const char *yaml, bool same)
   if ((strcmp(one.name, two.name) == 0) != same) fail_msg("%s: %s, %s", yaml, one.name, two.name);
 }
 
-/* The order of keys, defaults spelled out, where a value comes from, and what touches no number: all one. */
+/* The name does not depend on the order of keys, on defaults that are written out, on where a value is given, or on
+ * keys that change no number. */
 static void names(void **state)
 {
   (void)state;
@@ -153,7 +154,7 @@ static void check_seeds(const char *vary, bool same)
   gg_sweep_free(sweep);
 }
 
-/* Points that differ in how long they run are runs of their own; not those where more is looked at. */
+/* Points that differ in the length of their runs have different names; other observables do not change a name. */
 static void seeds_of_lengths(void **state)
 {
   (void)state;
@@ -169,7 +170,7 @@ static void seeds_of_lengths(void **state)
   check_seeds("output.trajectory_every: [10, 20]", true);
 }
 
-/* Each point its own, the same where only length or engine differ; or the scene's for all. */
+/* Seeds: one for each point, the same if only length or engine differ; or that of the scene for all. */
 static void seeds(void **state)
 {
   (void)state;
@@ -187,7 +188,7 @@ static void seeds(void **state)
   assert_true(b.seed == 6);
 }
 
-/* Points that would take long are shared among replicas, unless the scene says how many. */
+/* Long points are divided among replicas, unless the scene gives their number. */
 static void replicas(void **state)
 {
   (void)state;
@@ -212,7 +213,7 @@ static void check_combination(const char *yaml, size_t i, size_t first, const ch
 
 #define LONG "rheology, velocity_distributions, pair_correlation, "
 
-/* Of the keys beside the second one: told apart by rows, whatever of them there is room for. */
+/* Names of the rows of the keys beside the second one. */
 static void combinations(void **state)
 {
   (void)state;
@@ -223,11 +224,12 @@ static void combinations(void **state)
   check_combination(lists, 1, 0, "measure = …cells…");
   check_combination(lists, 3, 2, "measure = …sonine…");
   const char *cut = SCENE "vary: {measure: [[" LONG "cells], [cells, " LONG "sonine]], phi: [0.1, 0.2]}";
-  check_combination(cut, 1, 0, "measure = …rheology, velocity\\_distributions… (point 1)");
-  check_combination(cut, 3, 2, "measure = …cells, rheology, velocity\\_distri… (point 3)");
+  check_combination(cut, 1, 0, "measure = …rheology, velocity\\_distributions, pair\\_correlation, cells…");
+  check_combination(cut, 3, 2, "measure = …cells, rheology, velocity\\_distributions, pair\\_correlation, sonine…");
   check_combination(SCENE "vary: [{collision.e: [0.7], collision.beta: [0]}, {phi: [0.1, 0.2]}, "
                           "{md.contact_time: [0.0001], walls.e: [0.9], run.replicas: [2], run.warmup: [123456789]}]",
-                    1, 0, "e = 0.7, β = 0, md.contact\\_time = 0.0001, e_w = 0.9… (point 1)");
+                    1, 0,
+                    "e = 0.7, β = 0, md.contact\\_time = 0.0001, e_w = 0.9, run.replicas = 2, run.warmup = 123456789");
 }
 
 static double seconds_of(const char *yaml)
@@ -237,7 +239,8 @@ static double seconds_of(const char *yaml)
   return a.cpu_seconds;
 }
 
-/* Theories take time, alone and in comparisons: that of the longest, and next to none where it does not apply. */
+/* The time of theories, alone and in comparisons, is that of the slowest one, and almost none if that does not apply.
+ */
 static void theories_take_time(void **state)
 {
   (void)state;
@@ -298,7 +301,7 @@ static void refusals(void **state)
   check_refused(SCENE "sweep: run", NULL, NULL, "is a section");
   check_refused(SCENE "sweep: {[does]: run}", NULL, NULL, "a key must be a word");
   check_refused(SCENE "sweep: {does: run, does: run}", NULL, NULL, "is given twice");
-  /* What would fill the memory, in few words. */
+  /* Short inputs that would fill the memory. */
   check_refused(SCENE, "phi", "0:0.5:0.00001,0:0.5:0.00001,0:0.5:0.00001", "more than 100000 values");
   char *longest = calloc(1, 60000);
   strcat(longest, SCENE "vary: {random: {points: 100000}, measure: [[rheology, ");
@@ -308,7 +311,7 @@ static void refusals(void **state)
   check_refused("flow: usf\nvary: {phi: [0]}", NULL, NULL, "point 1 of 1 (phi 0)"); /* md has no Boltzmann limit */
 }
 
-/* A grid of one map, and maps that go together. */
+/* A grid of one map, and maps whose keys change together. */
 static void too_many_keys(void **state)
 {
   (void)state;
@@ -322,7 +325,7 @@ static void too_many_keys(void **state)
   check_refused(strcat(several, "]"), NULL, NULL, "more than 32 keys are varied");
 }
 
-/* Numbers are numbers in JSON, whole ones whole. */
+/* Numbers are numbers in JSON, and whole numbers integers. */
 static void values_in_json(void **state)
 {
   (void)state;
@@ -337,7 +340,7 @@ static void values_in_json(void **state)
   gg_sweep_free(sweep);
 }
 
-/* What one engine cannot run, the other may: a comparison leaves it out. */
+/* A comparison leaves out an engine that cannot run the scene. */
 static void engines(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A point's result gets its name whatever else lacks: no allocation is asked for, and what cannot be named is not left
- * behind. */
+/* The result of a point gets its name without an allocation, so also without memory; a result that cannot be renamed is
+ * removed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -55,7 +55,7 @@ static void without_memory(void **state)
   }
 }
 
-/* Another thing has the name: the only copy stays. */
+/* Something else has the name: the only copy stays. */
 static void refused(void **state)
 {
   (void)state;

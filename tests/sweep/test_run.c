@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sweeps done: the numbers do not depend on threads or on how many points are in progress, they are those of the same
- * scenes run alone, and points that fail or end short are told of, while the rest goes on. */
+/* Runs of sweeps: numbers do not depend on threads or on the number of points in progress, and equal those of the same
+ * scenes run alone. Points that fail or end short are reported, and the others continue. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -122,7 +122,7 @@ static void hear_progress(void *context, const gg_sweep_progress *progress)
   ((told *)context)->last = *progress;
 }
 
-/* Of three points one never comes to its error in time, one collapses; what is done is not done again. */
+/* One of three points does not reach its error in time, one collapses; finished points are not run again. */
 static void rest_goes_on(void **state)
 {
   (void)state;
@@ -147,7 +147,7 @@ static void rest_goes_on(void **state)
   gg_sweep_free(sweep);
 }
 
-/* A comparison without engines: what is asked at a point of theories. */
+/* A point of theories: a comparison without engines. */
 static void theories(void **state)
 {
   (void)state;
@@ -180,7 +180,7 @@ static void stopped(void **state)
     assert_int_equal(there, GG_POINT_MISSING);
   }
   assert_int_equal(remove("stopped/sweep.yaml"), 0);
-  assert_int_equal(rmdir("stopped"), 0); /* nothing else is left in it */
+  assert_int_equal(rmdir("stopped"), 0); /* fails if another file is left */
   gg_sweep_free(sweep);
 }
 

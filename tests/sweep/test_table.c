@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Every member of a row of a sweep's table stands in its own column of the CSV and of the HDF5 file, with values that
- * all differ. The list below names every member: it fails where a row gets one more. */
+/* Every member of a row of a sweep's table has its own column in the CSV and the HDF5 file; all values differ. The list
+ * below names every member, and the test fails if a row gets another one. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -27,8 +27,8 @@ static const struct member {
 } members[] = {
 #define MEMBER(member, name, what)                                                                                     \
   {                                                                                                                    \
-    .column = name, .offset = offsetof(gg_cli_table_row, member), .size = sizeof((gg_cli_table_row *)0)->member,       \
-    .alignment = _Alignof(__typeof__(((gg_cli_table_row *)0)->member)), .kind = what                                   \
+    .column = name, .offset = offsetof(gg_point_row, member), .size = sizeof((gg_point_row *)0)->member,               \
+    .alignment = _Alignof(__typeof__(((gg_point_row *)0)->member)), .kind = what                                       \
   }
     MEMBER(point, "point", WHOLE),
     MEMBER(file, "file", NAME),
@@ -58,7 +58,7 @@ static const struct member {
 };
 enum { MEMBERS = sizeof members / sizeof *members, ROWS = 4 };
 
-static gg_cli_table_row rows[ROWS];
+static gg_point_row rows[ROWS];
 static char texts[ROWS][MEMBERS][24];
 static gg_sweep *sweep;
 
@@ -112,7 +112,7 @@ static void members_are_complete(void **state)
   for (size_t m = 0; m < MEMBERS; end = members[m].offset + members[m].size, m++)
     if (members[m].offset < end || members[m].offset - end >= members[m].alignment)
       fail_msg("there is a member before %s that the list lacks", members[m].column);
-  assert_true(sizeof(gg_cli_table_row) - end < sizeof(double));
+  assert_true(sizeof(gg_point_row) - end < sizeof(double));
 }
 
 static int column_of(char *head, const char *name)
