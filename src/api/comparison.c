@@ -272,14 +272,14 @@ gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char
 gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_remark *remark, gg_error *err)
 {
   GG_NEED(comparison, remark);
-  gg_theory_remark theories[GG_MOST_THEORIES];
+  gg_run_theory_remark theories[GG_MOST_THEORIES];
   const size_t causes = (size_t)comparison->causes.n;
   const size_t n = causes + (size_t)gg_run_theory_remarks(comparison, theories);
   if (i >= n) return gg_base_fail(err, GG_BAD_INPUT, "this comparison has %zu remarks", n);
   if (i < causes) {
     *remark = (gg_remark){.deviation = NAN, .cause = comparison->causes.text[i]};
   } else {
-    const gg_theory_remark *r = &theories[i - causes];
+    const gg_run_theory_remark *r = &theories[i - causes];
     const gg_quantity_row *row = gg_run_rows_at(&comparison->rows, r->quantity);
     *remark = (gg_remark){r->theory->name, row->name, r->deviation, r->cause};
   }

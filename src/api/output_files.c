@@ -51,7 +51,7 @@ static gg_status check_page(const char *picture, const char *engine, const char 
 }
 
 /* Check all pages that the run may draw. If an engine rejects an observable, its page is not drawn. */
-static gg_status for_pages(const gg_run_call *r, page_check *check, const void *context, gg_error *err)
+static gg_status for_pages(const gg_api_run_call *r, page_check *check, const void *context, gg_error *err)
 {
   gg_plot_paper paper;
   const char *picture = r->options.picture;
@@ -101,7 +101,7 @@ static gg_status check_ending(const char *output, gg_error *err)
 }
 
 /* The picture is drawn from the result file after the run. */
-gg_status gg_api_picture_check(const gg_run_call *r, gg_error *err)
+gg_status gg_api_picture_check(const gg_api_run_call *r, gg_error *err)
 {
   gg_plot_paper paper;
   const gg_run_options *o = &r->options;
@@ -121,7 +121,7 @@ gg_status gg_api_picture_check(const gg_run_call *r, gg_error *err)
   return for_pages(r, check_page_writable, NULL, err);
 }
 
-gg_status gg_api_files_check(const gg_run_call *r, gg_error *err)
+gg_status gg_api_files_check(const gg_api_run_call *r, gg_error *err)
 {
   const gg_run_options *o = &r->options;
   char *second = before(o->checkpoint), *third = before(o->resume);

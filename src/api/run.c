@@ -19,7 +19,7 @@
 #include "scene/model_of_scene.h"
 
 /* Called after every callback: a failed callback stops the run, on whatever thread it ran. */
-static void note_failure(gg_run_call *r)
+static void note_failure(gg_api_run_call *r)
 {
   if (!gg_base_callback_failed()) return;
   gg_base_callback_settle(GG_OK, atomic_exchange(&r->callback_failed, true) ? NULL : &r->callback_reason);
@@ -28,7 +28,7 @@ static void note_failure(gg_run_call *r)
 
 static void report_progress(void *context, const gg_progress *progress)
 {
-  gg_run_call *r = context;
+  gg_api_run_call *r = context;
   if (r->options.progress && r->options.progress(r->options.context, progress)) atomic_store(&r->stopped, true);
   note_failure(r);
 }
@@ -36,7 +36,7 @@ static void report_progress(void *context, const gg_progress *progress)
 /* Whether a callback has requested the end of the run. */
 static bool is_stopped(void *context)
 {
-  gg_run_call *r = context;
+  gg_api_run_call *r = context;
   if (r->options.stop && r->options.stop(r->options.context)) atomic_store(&r->stopped, true);
   note_failure(r);
   return atomic_load(&r->stopped);
@@ -44,7 +44,7 @@ static bool is_stopped(void *context)
 
 static gg_status store_checkpoint(void *context, gg_archive *archive, gg_error *err)
 {
-  gg_run_call *r = context;
+  gg_api_run_call *r = context;
   gg_status status = gg_api_trajectory_mark(r, archive, err);
   if (status == GG_OK) status = gg_api_log_mark(r, archive, err);
   if (status == GG_OK)
@@ -58,7 +58,7 @@ static gg_status store_checkpoint(void *context, gg_archive *archive, gg_error *
   return GG_OK;
 }
 
-static gg_status read_resume(gg_run_call *r, gg_error *err)
+static gg_status read_resume(gg_api_run_call *r, gg_error *err)
 {
   bool older;
   char text[1024];
@@ -72,7 +72,7 @@ static gg_status read_resume(gg_run_call *r, gg_error *err)
 }
 
 /* Lock the checkpoint until the end of the run, so that no other run writes it. */
-static gg_status lock_checkpoint(gg_run_call *r, gg_error *err)
+static gg_status lock_checkpoint(gg_api_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
   gg_output_path place;
@@ -85,7 +85,7 @@ static gg_status lock_checkpoint(gg_run_call *r, gg_error *err)
 }
 
 /* Reject links: checkpoints and frames are renamed and removed, and the target of a link may be another file. */
-static gg_status check_links(const gg_run_call *r, gg_error *err)
+static gg_status check_links(const gg_api_run_call *r, gg_error *err)
 {
   struct stat about;
   char *frames = gg_files_frame_log_path(r->options.checkpoint), *before = NULL, *fresh = NULL;
@@ -105,7 +105,7 @@ static gg_status check_links(const gg_run_call *r, gg_error *err)
 
 /* Protect the checkpoint of an interrupted run, which may hold hours of work. Only a run that resumes it replaces it.
  */
-static gg_status check_earlier(const gg_run_call *r, gg_error *err)
+static gg_status check_earlier(const gg_api_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
   char *before = gg_files_checkpoint_before(path);
@@ -120,7 +120,7 @@ static gg_status check_earlier(const gg_run_call *r, gg_error *err)
 }
 
 /* Allocate the names before the run: at its end, a lack of memory could no longer fail it. */
-static gg_status name_temporaries(gg_run_call *r, gg_error *err)
+static gg_status name_temporaries(gg_api_run_call *r, gg_error *err)
 {
   const char *path = r->options.checkpoint;
   char *frames = gg_files_frame_log_path(path);
@@ -133,7 +133,7 @@ static gg_status name_temporaries(gg_run_call *r, gg_error *err)
   return GG_OK;
 }
 
-static gg_status begin_checkpoints(gg_run_call *r, gg_error *err)
+static gg_status begin_checkpoints(gg_api_run_call *r, gg_error *err)
 {
   const gg_run_options *o = &r->options;
   if (o->checkpoint) GG_TRY(check_links(r, err));
@@ -144,7 +144,7 @@ static gg_status begin_checkpoints(gg_run_call *r, gg_error *err)
   return o->checkpoint ? name_temporaries(r, err) : GG_OK;
 }
 
-static gg_status begin(gg_run_call *r, const gg_scene *scene, const gg_run_options *options, bool comparison,
+static gg_status begin(gg_api_run_call *r, const gg_scene *scene, const gg_run_options *options, bool comparison,
                        bool replaces, gg_error *err)
 {
   r->file.file = GG_ATOMIC_NONE;
@@ -174,7 +174,7 @@ static gg_status begin(gg_run_call *r, const gg_scene *scene, const gg_run_optio
   return gg_api_picture_check(r, err);
 }
 
-static void end(gg_run_call *r)
+static void end(gg_api_run_call *r)
 {
   gg_files_result_file_abandon(&r->file);
   gg_api_trajectory_end(r);
@@ -185,7 +185,7 @@ static void end(gg_run_call *r)
   gg_base_string_list_clear(&r->warnings);
 }
 
-static void warn_if_dilute(gg_run_call *r)
+static void warn_if_dilute(gg_api_run_call *r)
 {
   enum { LEAST = 20 };
   const double ratio = gg_run_cost_dilute(&r->scene, &r->model);
@@ -197,7 +197,7 @@ static void warn_if_dilute(gg_run_call *r)
 }
 
 /* Warn about keys that have no effect in this run. */
-static void warn_of_keys(gg_run_call *r)
+static void warn_of_keys(gg_api_run_call *r)
 {
   const gg_engine_kind engine = r->scene.engine;
   if (r->comparison)
@@ -211,7 +211,7 @@ static void warn_of_keys(gg_run_call *r)
 
 /* Run both engines, or the engine of the scene. Warnings about keys are the first of a comparison, the last of a run.
  */
-static gg_status run_engines(gg_run_call *r, gg_comparison *c, gg_error *err)
+static gg_status run_engines(gg_api_run_call *r, gg_comparison *c, gg_error *err)
 {
   const gg_archive *resume = r->resume.n_items ? &r->resume : NULL;
   gg_result **result = &c->by_engine[r->scene.engine];
@@ -226,7 +226,7 @@ static gg_status run_engines(gg_run_call *r, gg_comparison *c, gg_error *err)
   return status;
 }
 
-static gg_status write_output(gg_run_call *r, const gg_comparison *c, gg_error *err)
+static gg_status write_output(gg_api_run_call *r, const gg_comparison *c, gg_error *err)
 {
   if (r->comparison) return gg_files_result_file_finish_comparison(&r->file, c, err);
   gg_result *result = c->by_engine[r->scene.engine];
@@ -235,7 +235,7 @@ static gg_status write_output(gg_run_call *r, const gg_comparison *c, gg_error *
 }
 
 /* The result is in place: remove the checkpoints of this run. */
-static void remove_checkpoints(gg_run_call *r)
+static void remove_checkpoints(gg_api_run_call *r)
 {
   struct stat about;
   if (!r->options.output || !r->options.checkpoint || !(r->stored || r->resumes_in_place)) return;
@@ -245,7 +245,7 @@ static void remove_checkpoints(gg_run_call *r)
 
 /* Write the results, commit them, and remove the checkpoints of a finished run. A point of a sweep is also finished if
  * it ended before its stopping criteria. */
-static gg_status finish(gg_run_call *r, gg_point_call *point, gg_status status, const gg_comparison *c, gg_error *err)
+static gg_status finish(gg_api_run_call *r, gg_point_call *point, gg_status status, const gg_comparison *c, gg_error *err)
 {
   const bool whole = c && (status == GG_OK || status == GG_FAILED), named = point && point->commit && whole;
   gg_status written = GG_OK;
@@ -271,7 +271,7 @@ static gg_status status_of(gg_status run, gg_status written, const gg_error *why
   return gg_base_fail(err, written, "%.500s; and %.500s", message, err ? err->message : "");
 }
 
-static gg_status simulate(gg_run_call *r, gg_point_call *point, const gg_scene *scene, const gg_run_options *options,
+static gg_status simulate(gg_api_run_call *r, gg_point_call *point, const gg_scene *scene, const gg_run_options *options,
                           bool comparison, gg_comparison **made, gg_error *err)
 {
   gg_error why = {0};
@@ -303,7 +303,7 @@ static gg_status simulate(gg_run_call *r, gg_point_call *point, const gg_scene *
 gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const gg_run_options *options,
                               bool comparison, gg_comparison **made, gg_error *err)
 {
-  gg_run_call *r = gg_base_array_new(1, sizeof *r, err); /* too large for small stacks */
+  gg_api_run_call *r = gg_base_array_new(1, sizeof *r, err); /* too large for small stacks */
   if (!r) return GG_FAILED;
   gg_extension *held = gg_common_extension_hold(scene->extension); /* the scene may be freed during the run */
   gg_status status = simulate(r, point, scene, options, comparison, made, err);

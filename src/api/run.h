@@ -26,7 +26,7 @@ typedef struct gg_sample_log {
   double *sum, *mean; /* over these rows, of each channel */
 } gg_sample_log;
 
-typedef struct gg_run_call {
+typedef struct gg_api_run_call {
   gg_run_options options;
   bool comparison; /* both engines and the theories; otherwise the engine of the scene */
   gg_run_callbacks callbacks;
@@ -48,7 +48,7 @@ typedef struct gg_run_call {
   atomic_bool callback_failed;
   gg_error callback_reason;
   gg_file_lock lock; /* on options.checkpoint */
-} gg_run_call;
+} gg_api_run_call;
 
 /* Further arguments of a run that is a point of a sweep. */
 typedef struct gg_point_call {
@@ -65,26 +65,26 @@ gg_status gg_api_run_simulate(gg_point_call *point, const gg_scene *scene, const
 
 /* output_files.c: check the files before the run. All files that are read and written differ, and the result does not
  * have the name of a picture; the picture and the pages beside it can be written. */
-gg_status gg_api_files_check(const gg_run_call *run, gg_error *err);
-gg_status gg_api_picture_check(const gg_run_call *run, gg_error *err);
+gg_status gg_api_files_check(const gg_api_run_call *run, gg_error *err);
+gg_status gg_api_picture_check(const gg_api_run_call *run, gg_error *err);
 
 /* run_log.c: name of the log (output.log of the scene). It is beside the output, unless its path is absolute or the
  * output is a device or a pipe. */
-gg_status gg_api_log_name(gg_run_call *run, gg_error *err);
+gg_status gg_api_log_name(gg_api_run_call *run, gg_error *err);
 /* Open the log and cut it after the last row of the checkpoint to resume from. */
-gg_status gg_api_log_begin(gg_run_call *run, gg_error *err);
-gg_status gg_api_log_mark(const gg_run_call *run, gg_archive *archive, gg_error *err);
-void gg_api_log_end(gg_run_call *run);
+gg_status gg_api_log_begin(gg_api_run_call *run, gg_error *err);
+gg_status gg_api_log_mark(const gg_api_run_call *run, gg_archive *archive, gg_error *err);
+void gg_api_log_end(gg_api_run_call *run);
 
 /* run_trajectory.c: frames are written to the result at once. With checkpoints they are written to the frame log beside
  * the checkpoint, and copied to the result at the end. The earlier frames of a resumed run come first. */
-gg_status gg_api_trajectory_begin(gg_run_call *run, gg_error *err);
+gg_status gg_api_trajectory_begin(gg_api_run_call *run, gg_error *err);
 /* Flush all frames to disk and store their number in the checkpoint. */
-gg_status gg_api_trajectory_mark(const gg_run_call *run, gg_archive *archive, gg_error *err);
+gg_status gg_api_trajectory_mark(const gg_api_run_call *run, gg_archive *archive, gg_error *err);
 /* Number of frames in a checkpoint. */
 uint64_t gg_api_trajectory_frames(const gg_archive *archive);
 /* Copy the frame log to the result. */
-gg_status gg_api_trajectory_finish(gg_run_call *run, gg_result *result, gg_error *err);
-void gg_api_trajectory_end(gg_run_call *run);
+gg_status gg_api_trajectory_finish(gg_api_run_call *run, gg_result *result, gg_error *err);
+void gg_api_trajectory_end(gg_api_run_call *run);
 
 #endif

@@ -138,7 +138,7 @@ static gg_status add_to_sums(gg_sample_log *log, const gg_replica *r, gg_error *
 
 static gg_status log_sample(void *context, const gg_replica *r, gg_error *err)
 {
-  gg_sample_log *log = &((gg_run_call *)context)->samples;
+  gg_sample_log *log = &((gg_api_run_call *)context)->samples;
   char *text = NULL;
   size_t size = 0;
   GG_TRY(add_to_sums(log, r, err));
@@ -146,7 +146,7 @@ static gg_status log_sample(void *context, const gg_replica *r, gg_error *err)
     GG_TRY(cut(log, r->clock.samples - 1, err)); /* the replica was restarted after a collapse */
   FILE *out = open_memstream(&text, &size);
   if (!out) return gg_base_out_of_memory(err);
-  put_row(out, log, &((const gg_run_call *)context)->model, r);
+  put_row(out, log, &((const gg_api_run_call *)context)->model, r);
   gg_status status = fclose(out) == 0 ? append(log, text, size, err) : gg_base_out_of_memory(err);
   free(text);
   log->state.sample = r->clock.samples;
@@ -178,7 +178,7 @@ static gg_status open_file(gg_sample_log *log, const char *path, gg_error *err)
   return status;
 }
 
-gg_status gg_api_log_name(gg_run_call *r, gg_error *err)
+gg_status gg_api_log_name(gg_api_run_call *r, gg_error *err)
 {
   const char *name = r->scene.output.log, *output = r->options.output;
   gg_output_path place = {0};
@@ -205,7 +205,7 @@ static uint64_t count_rows(const gg_sample_log *log)
 }
 
 /* Warn before the rows of an earlier run are replaced, so that a command repeated by mistake can be stopped. */
-static void warn_of_replacing(const gg_run_call *r)
+static void warn_of_replacing(const gg_api_run_call *r)
 {
   const gg_sample_log *log = &r->samples;
   const uint64_t n = r->options.warn && log->state.sample == 0 ? count_rows(log) : 0;
@@ -217,7 +217,7 @@ static void warn_of_replacing(const gg_run_call *r)
   free(text);
 }
 
-gg_status gg_api_log_begin(gg_run_call *r, gg_error *err)
+gg_status gg_api_log_begin(gg_api_run_call *r, gg_error *err)
 {
   gg_sample_log *log = &r->samples;
   if (!log->path || r->comparison) return GG_OK;
@@ -231,7 +231,7 @@ gg_status gg_api_log_begin(gg_run_call *r, gg_error *err)
   return cut(log, log->state.sample, err);
 }
 
-gg_status gg_api_log_mark(const gg_run_call *r, gg_archive *a, gg_error *err)
+gg_status gg_api_log_mark(const gg_api_run_call *r, gg_archive *a, gg_error *err)
 {
   const gg_sample_log *log = &r->samples;
   if (log->fd < 0 || !log->sum) return GG_OK;
@@ -239,7 +239,7 @@ gg_status gg_api_log_mark(const gg_run_call *r, gg_archive *a, gg_error *err)
   return gg_base_archive_put(a, sums_item, GG_ITEM_F64, log->sum, log->width, err);
 }
 
-void gg_api_log_end(gg_run_call *r)
+void gg_api_log_end(gg_api_run_call *r)
 {
   if (r->samples.fd >= 0) close(r->samples.fd);
   free(r->samples.sum);

@@ -24,26 +24,26 @@ enum { NAME = 256 };
 
 static gg_status store_in_result(void *context, const gg_frame *frame, gg_error *err)
 {
-  gg_run_call *r = context;
+  gg_api_run_call *r = context;
   r->file.scene = &r->scene;
   return gg_files_result_file_frame(&r->file, &r->model, frame, err);
 }
 
 static gg_status store_in_log(void *context, const gg_frame *frame, gg_error *err)
 {
-  return gg_files_frame_log_append(&((gg_run_call *)context)->log, frame, err);
+  return gg_files_frame_log_append(&((gg_api_run_call *)context)->log, frame, err);
 }
 
 /* Store a frame of a log, after validation: the file may have been changed. */
 static gg_status store_from_log(void *context, const gg_frame *frame, gg_error *err)
 {
-  GG_TRY(gg_run_frame_check(frame, &((gg_run_call *)context)->model, err));
+  GG_TRY(gg_run_frame_check(frame, &((gg_api_run_call *)context)->model, err));
   return store_in_result(context, frame, err);
 }
 
 /* Path of the log of the checkpoint to resume, to be freed. The log has the name of the checkpoint, or, if only the
  * checkpoint was copied and renamed, the name that is stored in it. */
-static char *log_of_resume(const gg_run_call *r)
+static char *log_of_resume(const gg_api_run_call *r)
 {
   char *path = gg_files_frame_log_path(r->options.resume), *copy = NULL, *other = NULL, name[NAME];
   bool there = path && access(path, F_OK) == 0;
@@ -61,7 +61,7 @@ static char *log_of_resume(const gg_run_call *r)
 }
 
 /* Open the log up to the mark; or X.frames.new, if the run was killed before the log was renamed. */
-static gg_status open_one_of_two(gg_run_call *r, gg_frame_log *log, const char *path, const gg_frame_mark *mark,
+static gg_status open_one_of_two(gg_api_run_call *r, gg_frame_log *log, const char *path, const gg_frame_mark *mark,
                                  gg_error *err)
 {
   gg_status status = gg_files_frame_log_open_at(log, path, mark, &r->file.file.stop, err);
@@ -76,7 +76,7 @@ static gg_status open_one_of_two(gg_run_call *r, gg_frame_log *log, const char *
 }
 
 /* Open the log with the frames before the checkpoint. All frames are checked. */
-static gg_status open_earlier(gg_run_call *r, gg_frame_log *earlier, gg_error *err)
+static gg_status open_earlier(gg_api_run_call *r, gg_frame_log *earlier, gg_error *err)
 {
   gg_frame_mark mark;
   gg_error why;
@@ -112,7 +112,7 @@ static gg_status check_place(const char *path, gg_error *err)
   return stream ? gg_io_path_write_error(path, "it is a device or a pipe; frames are kept in files", err) : GG_OK;
 }
 
-static gg_status open_log(gg_run_call *r, const gg_frame_log *earlier, gg_error *err)
+static gg_status open_log(gg_api_run_call *r, const gg_frame_log *earlier, gg_error *err)
 {
   const char *target = r->temporary[GG_TEMPORARY_FRAMES];
   char *path = gg_files_frame_log_path(r->options.checkpoint);
@@ -126,7 +126,7 @@ static gg_status open_log(gg_run_call *r, const gg_frame_log *earlier, gg_error 
 }
 
 /* Mark of the checkpoint at options.checkpoint; no frames without such a checkpoint. */
-static gg_frame_mark mark_there(const gg_run_call *r)
+static gg_frame_mark mark_there(const gg_api_run_call *r)
 {
   gg_frame_mark mark = {0};
   gg_archive there = {0};
@@ -139,7 +139,7 @@ static gg_frame_mark mark_there(const gg_run_call *r)
 }
 
 /* A killed run has left X.frames.new: rename it to X.frames if the checkpoint needs it, otherwise remove it. */
-static gg_status commit_or_remove(gg_run_call *r, const char *path, const char *fresh, gg_error *err)
+static gg_status commit_or_remove(gg_api_run_call *r, const char *path, const char *fresh, gg_error *err)
 {
   gg_frame_log log = {.fd = -1};
   gg_frame_mark mark = mark_there(r);
@@ -152,7 +152,7 @@ static gg_status commit_or_remove(gg_run_call *r, const char *path, const char *
   return GG_OK;
 }
 
-static gg_status resolve_new(gg_run_call *r, gg_error *err)
+static gg_status resolve_new(gg_api_run_call *r, gg_error *err)
 {
   const char *path = r->temporary[GG_TEMPORARY_FRAMES];
   char *fresh = gg_files_frame_log_new_path(path);
@@ -162,7 +162,7 @@ static gg_status resolve_new(gg_run_call *r, gg_error *err)
   return status;
 }
 
-gg_status gg_api_trajectory_begin(gg_run_call *r, gg_error *err)
+gg_status gg_api_trajectory_begin(gg_api_run_call *r, gg_error *err)
 {
   if (r->options.checkpoint) GG_TRY(resolve_new(r, err));
   if (!r->options.output || !(r->scene.output.trajectory_every > 0)) return GG_OK;
@@ -184,7 +184,7 @@ uint64_t gg_api_trajectory_frames(const gg_archive *a)
   return gg_base_archive_get(a, mark_item, GG_ITEM_U8, &mark, sizeof mark, NULL) == GG_OK ? mark.frames : 0;
 }
 
-gg_status gg_api_trajectory_mark(const gg_run_call *r, gg_archive *archive, gg_error *err)
+gg_status gg_api_trajectory_mark(const gg_api_run_call *r, gg_archive *archive, gg_error *err)
 {
   char name[NAME] = "";
   if (r->log.fd < 0) return GG_OK;
@@ -200,20 +200,20 @@ gg_status gg_api_trajectory_mark(const gg_run_call *r, gg_archive *archive, gg_e
 /* Copy a frame from the log. Copying gigabytes takes seconds, so a run that can be resumed may be interrupted here. */
 static gg_status move_to_result(void *context, const gg_frame *frame, gg_error *err)
 {
-  gg_run_call *r = context;
+  gg_api_run_call *r = context;
   if (r->stored && gg_stop_asked(&r->file.file.stop))
     return gg_base_fail(err, GG_INTERRUPTED, "interrupted while the trajectory was put into %s", r->options.output);
   return store_from_log(context, frame, err);
 }
 
-gg_status gg_api_trajectory_finish(gg_run_call *r, gg_result *result, gg_error *err)
+gg_status gg_api_trajectory_finish(gg_api_run_call *r, gg_result *result, gg_error *err)
 {
   if (r->frames_missing)
     gg_run_result_warn(result, "the trajectory begins where the run was resumed: the run before kept none");
   return r->log.fd >= 0 ? gg_files_frame_log_replay(&r->log, move_to_result, r, err) : GG_OK;
 }
 
-void gg_api_trajectory_end(gg_run_call *r)
+void gg_api_trajectory_end(gg_api_run_call *r)
 {
   if (r->log.fd >= 0 && r->log.created && !r->stored) unlink(r->log.path);
   gg_files_frame_log_close(&r->log);

@@ -14,7 +14,7 @@ static void print(const gg_options *o, const gg_comparison *c)
 
 int gg_cli_compare_main(const gg_command *command, int argc, char **argv)
 {
-  gg_run_command r;
+  gg_cli_run_options r;
   gg_comparison *c = NULL;
   int code = gg_cli_run_begin(&r, command, argc, argv);
   if (code != GG_CLI_GO_ON) return code;

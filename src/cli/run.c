@@ -3,7 +3,7 @@
 #include "cli/report.h"
 #include "cli/run_command.h"
 
-static void print(const gg_run_command *r, const gg_result *result)
+static void print(const gg_cli_run_options *r, const gg_result *result)
 {
   char *text = NULL;
   if (!r->options.json)
@@ -14,7 +14,7 @@ static void print(const gg_run_command *r, const gg_result *result)
 
 int gg_cli_run_main(const gg_command *command, int argc, char **argv)
 {
-  gg_run_command r;
+  gg_cli_run_options r;
   gg_result *result = NULL;
   int code = gg_cli_run_begin(&r, command, argc, argv);
   if (code != GG_CLI_GO_ON) return code;

@@ -43,7 +43,7 @@ static char *checkpoint_path(const gg_options *o, const char *output, bool compa
 }
 
 /* File of a comparison's picture; NULL if no picture is drawn, or there is no result file. */
-static char *picture_path(const gg_run_command *r, bool comparison)
+static char *picture_path(const gg_cli_run_options *r, bool comparison)
 {
   const char *chosen = r->options.picture;
   if (!comparison || (chosen && strcmp(chosen, "none") == 0)) return NULL;
@@ -53,7 +53,7 @@ static char *picture_path(const gg_run_command *r, bool comparison)
 
 static int show_progress(void *context, const gg_progress *progress)
 {
-  gg_cli_progress_show(&((gg_run_command *)context)->progress, progress);
+  gg_cli_progress_show(&((gg_cli_run_options *)context)->progress, progress);
   return 0;
 }
 
@@ -66,12 +66,12 @@ static int is_interrupted(void *context)
 static void note_checkpoint(void *context, const char *checkpoint)
 {
   (void)checkpoint;
-  ((gg_run_command *)context)->stored = true;
+  ((gg_cli_run_options *)context)->stored = true;
 }
 
 static void warn(void *context, const char *message)
 {
-  gg_run_command *r = context;
+  gg_cli_run_options *r = context;
   char *reported = NULL;
   fprintf(stderr, "warning: %s\n", message);
   if (asprintf(&reported, "%s%s\n", r->reported ? r->reported : "", message) < 0) return;
@@ -108,7 +108,7 @@ static void warn_of_replacing(const char *output)
   gg_comparison_free(both);
 }
 
-static gg_status choose_files(gg_run_command *r, bool comparison)
+static gg_status choose_files(gg_cli_run_options *r, bool comparison)
 {
   char every[40] = "0";
   gg_scene_get(r->scene, "output.checkpoint_every", every, sizeof every, NULL);
@@ -123,7 +123,7 @@ static gg_status choose_files(gg_run_command *r, bool comparison)
   return GG_OK;
 }
 
-static void clear(gg_run_command *r)
+static void clear(gg_cli_run_options *r)
 {
   free(r->output);
   free(r->checkpoint);
@@ -132,10 +132,10 @@ static void clear(gg_run_command *r)
   gg_cli_scene_end(&r->options, r->scene, GG_OK, NULL);
 }
 
-int gg_cli_run_begin(gg_run_command *r, const gg_command *command, int argc, char **argv)
+int gg_cli_run_begin(gg_cli_run_options *r, const gg_command *command, int argc, char **argv)
 {
   const gg_options *o = &r->options;
-  *r = (gg_run_command){.status = GG_OK};
+  *r = (gg_cli_run_options){.status = GG_OK};
   int code = gg_cli_scene_begin(command, argc, argv, &r->options, &r->scene);
   if (code != GG_CLI_GO_ON) return code;
   if (choose_files(r, command->options & GG_OPT_PICTURE) != GG_OK) {
@@ -173,21 +173,21 @@ static bool has_means(const gg_result *result)
   return false;
 }
 
-static double time_limit(const gg_run_command *r)
+static double time_limit(const gg_cli_run_options *r)
 {
   char text[40] = "0"; /* also if the limit is "none" */
   gg_scene_get(r->scene, "run.time_limit", text, sizeof text, NULL);
   return strtod(text, NULL);
 }
 
-static bool is_out_of_time(const gg_run_command *r, const gg_result *result)
+static bool is_out_of_time(const gg_cli_run_options *r, const gg_result *result)
 {
   gg_result_info info;
   const double limit = time_limit(r);
   return limit > 0 && result && gg_result_get_info(result, &info, NULL) == GG_OK && info.wall_seconds >= limit;
 }
 
-bool gg_cli_run_has_output(gg_run_command *r, const gg_result *md, const gg_result *dsmc)
+bool gg_cli_run_has_output(gg_cli_run_options *r, const gg_result *md, const gg_result *dsmc)
 {
   const bool interrupted = r->status == GG_INTERRUPTED;
   gg_cli_progress_end(&r->progress);
@@ -198,7 +198,7 @@ bool gg_cli_run_has_output(gg_run_command *r, const gg_result *md, const gg_resu
 }
 
 /* The command that resumes the run, with twice the time limit if the limit ended it. NULL: out of memory. */
-static char *command_to_resume(const gg_run_command *r)
+static char *command_to_resume(const gg_cli_run_options *r)
 {
   const char *given = r->options.resume;
   const bool named = given && strcmp(given, r->checkpoint) == 0;
@@ -211,14 +211,14 @@ static char *command_to_resume(const gg_run_command *r)
   return again;
 }
 
-static void report_checkpoint(const gg_run_command *r)
+static void report_checkpoint(const gg_cli_run_options *r)
 {
   char *again = command_to_resume(r);
   fprintf(stderr, "continue with: %s\n", again ? again : "the same command and --resume");
   free(again);
 }
 
-static void report_interruption(gg_run_command *r)
+static void report_interruption(gg_cli_run_options *r)
 {
   const char *hint = r->keeps_checkpoints ? "" : " (output.checkpoint_every above 0 keeps a checkpoint)";
   snprintf(r->err.message, sizeof r->err.message, "interrupted; %s%s",
@@ -226,7 +226,7 @@ static void report_interruption(gg_run_command *r)
 }
 
 typedef struct drawing {
-  const gg_run_command *of;
+  const gg_cli_run_options *of;
   bool replaced;
 } drawing;
 
@@ -239,7 +239,7 @@ static void report_picture(void *context, const char *picture)
 
 /* Draw the picture. If it was not requested, a failure (e.g. no gnuplot) is only a warning, unless a file cannot be
  * written. */
-static gg_status draw(const gg_run_command *r, gg_error *err)
+static gg_status draw(const gg_cli_run_options *r, gg_error *err)
 {
   if (!r->picture) return GG_OK;
   drawing d = {r, gg_cli_file_exists(r->picture)};
@@ -249,7 +249,7 @@ static gg_status draw(const gg_run_command *r, gg_error *err)
   return GG_OK;
 }
 
-int gg_cli_run_end(gg_run_command *r)
+int gg_cli_run_end(gg_cli_run_options *r)
 {
   gg_error why;
   gg_status drawn = GG_OK;

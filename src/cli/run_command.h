@@ -12,7 +12,7 @@ int gg_cli_scene_begin(const gg_command *command, int argc, char **argv, gg_opti
 /* Report the error unless the status is GG_OK, and free both; returns the exit code. */
 int gg_cli_scene_end(gg_options *options, gg_scene *scene, gg_status status, const gg_error *err);
 
-typedef struct gg_run_command {
+typedef struct gg_cli_run_options {
   gg_options options;
   gg_scene *scene;
   gg_run_options run;                  /* ready for gg_run or gg_compare */
@@ -26,14 +26,14 @@ typedef struct gg_run_command {
   gg_status status; /* status of gg_run or gg_compare; err has its message */
   gg_error err;
   bool has_output;
-} gg_run_command;
+} gg_cli_run_options;
 
 /* Prepare a run. GG_CLI_GO_ON, or the exit code. */
-int gg_cli_run_begin(gg_run_command *r, const gg_command *command, int argc, char **argv);
+int gg_cli_run_begin(gg_cli_run_options *r, const gg_command *command, int argc, char **argv);
 /* After the run: whether there is a result to print; of an interrupted run, whether it has means. Either may be NULL.
  */
-bool gg_cli_run_has_output(gg_run_command *r, const gg_result *md, const gg_result *dsmc);
+bool gg_cli_run_has_output(gg_cli_run_options *r, const gg_result *md, const gg_result *dsmc);
 /* Report the files, draw the picture, report unmet stopping criteria; returns the exit code. */
-int gg_cli_run_end(gg_run_command *r);
+int gg_cli_run_end(gg_cli_run_options *r);
 
 #endif

@@ -44,14 +44,14 @@ static void print_head(const gg_sweep *sweep, const widths *w)
 }
 
 /* Whether a point is done. Damaged points and points of other builds run again. */
-static bool is_done(const gg_sweep_command *c, gg_point_state state)
+static bool is_done(const gg_cli_sweep_options *c, gg_point_state state)
 {
   return state == GG_POINT_DONE || state == GG_POINT_SHORT ||
          (state == GG_POINT_OTHER_BUILD && c->options->accept_version);
 }
 
 /* Print a point; returns its expected time, 0 if it is done. */
-static double print_point(const gg_sweep_command *c, const widths *w, size_t i, gg_point_state state)
+static double print_point(const gg_cli_sweep_options *c, const widths *w, size_t i, gg_point_state state)
 {
   static const char *const states[] = {"", "done", "short", "another build", "damaged"};
   char time[24];
@@ -65,7 +65,7 @@ static double print_point(const gg_sweep_command *c, const widths *w, size_t i, 
 }
 
 /* --list: a line for each point, and the expected time of points that are not done. */
-int gg_cli_sweep_list(const gg_sweep_command *c)
+int gg_cli_sweep_list(const gg_cli_sweep_options *c)
 {
   size_t done = 0, again = 0, n = gg_sweep_points(c->sweep);
   double seconds = 0;
@@ -92,7 +92,7 @@ int gg_cli_sweep_list(const gg_sweep_command *c)
 enum { MOST_TASKS = 1000 };
 
 /* Time limit of a task: the longest task at a quarter of the expected speed, in whole hours. */
-static long hours(const gg_sweep_command *c, size_t tasks)
+static long hours(const gg_cli_sweep_options *c, size_t tasks)
 {
   double longest = 0;
   size_t n = gg_sweep_points(c->sweep);
@@ -107,7 +107,7 @@ static long hours(const gg_sweep_command *c, size_t tasks)
 }
 
 /* --slurm: print an array script that distributes the points over tasks. */
-static int print_slurm(const gg_sweep_command *c)
+static int print_slurm(const gg_cli_sweep_options *c)
 {
   size_t n = gg_sweep_points(c->sweep), tasks = n < MOST_TASKS ? n : MOST_TASKS;
   long h = hours(c, tasks);
@@ -149,7 +149,7 @@ static void describe(const gg_sweep_progress *p, char *text, size_t size)
 static void show_progress(void *context, const gg_sweep_progress *p)
 {
   char line[240];
-  gg_sweep_command *c = context;
+  gg_cli_sweep_options *c = context;
   describe(p, line, sizeof line);
   bool over = p->done + p->failed == p->points;
   gg_cli_line_show(&c->line, line, over && !c->over);
@@ -186,7 +186,7 @@ static int is_interrupted(void *context)
 /* Print the error of a point that failed or ended before its stopping criteria. */
 static void print_point_end(void *context, size_t i, gg_status status, const char *file, const char *message)
 {
-  gg_sweep_command *c = context;
+  gg_cli_sweep_options *c = context;
   if (status == GG_OK) return;
   gg_cli_line_clear(&c->line);
   fprintf(stderr, "point %zu", i + 1);
@@ -197,11 +197,11 @@ static void print_point_end(void *context, size_t i, gg_status status, const cha
 
 void gg_cli_sweep_warn(void *context, const char *message)
 {
-  gg_cli_line_clear(&((gg_sweep_command *)context)->line);
+  gg_cli_line_clear(&((gg_cli_sweep_options *)context)->line);
   fprintf(stderr, "warning: %s\n", message);
 }
 
-static int take_point(const gg_sweep_command *c, size_t *i)
+static int take_point(const gg_cli_sweep_options *c, size_t *i)
 {
   char *end;
   size_t n = gg_sweep_points(c->sweep);
@@ -212,7 +212,7 @@ static int take_point(const gg_sweep_command *c, size_t *i)
                      c->options->point, n);
 }
 
-int gg_cli_sweep_work(gg_sweep_command *c)
+int gg_cli_sweep_work(gg_cli_sweep_options *c)
 {
   gg_error err;
   size_t i = 0;
@@ -244,7 +244,7 @@ int gg_cli_sweep_work(gg_sweep_command *c)
 /* Print the file name on standard output, for scripts. */
 void gg_cli_sweep_print_file(void *context, const char *file)
 {
-  const gg_options *o = ((const gg_sweep_command *)context)->options;
+  const gg_options *o = ((const gg_cli_sweep_options *)context)->options;
   if (!o->quiet && !o->json) gg_cli_print_name(stdout, "", file, "\n");
 }
 
@@ -255,7 +255,7 @@ static char *tables_of(const char *folder)
   return strcmp(name, ".") == 0 || strcmp(name, "..") == 0 ? realpath(folder, NULL) : strdup(folder);
 }
 
-int gg_cli_sweep_collect(gg_sweep_command *c, const char *picture)
+int gg_cli_sweep_collect(gg_cli_sweep_options *c, const char *picture)
 {
   gg_error err;
   const gg_options *o = c->options;
@@ -282,7 +282,7 @@ int gg_cli_sweep_collect(gg_sweep_command *c, const char *picture)
   return status == GG_OK ? GG_OK : gg_cli_report(&err);
 }
 
-static int print_json(const gg_sweep_command *c)
+static int print_json(const gg_cli_sweep_options *c)
 {
   gg_error err;
   char *text = NULL;
@@ -292,7 +292,7 @@ static int print_json(const gg_sweep_command *c)
 }
 
 /* Reject a scene without varied keys: probably a mistake. */
-static int check_varied(const gg_sweep_command *c)
+static int check_varied(const gg_cli_sweep_options *c)
 {
   if (gg_sweep_key(c->sweep, 0)) return GG_CLI_GO_ON;
   return gg_cli_fail(GG_BAD_INPUT,
@@ -331,7 +331,7 @@ static bool is_folder(const gg_options *o)
   return o->input && !o->output && stat(o->input, &about) == 0 && S_ISDIR(about.st_mode);
 }
 
-gg_status gg_cli_sweep_find_folder(gg_sweep_command *c, const char *name, gg_error *err)
+gg_status gg_cli_sweep_find_folder(gg_cli_sweep_options *c, const char *name, gg_error *err)
 {
   const gg_options *o = c->options;
   const bool made = !is_folder(o) && (o->input || o->output);
@@ -342,7 +342,7 @@ gg_status gg_cli_sweep_find_folder(gg_sweep_command *c, const char *name, gg_err
   return GG_OK;
 }
 
-static int sweep_points(gg_sweep_command *c)
+static int sweep_points(gg_cli_sweep_options *c)
 {
   gg_error err;
   const gg_options *o = c->options;
@@ -359,7 +359,7 @@ int gg_cli_sweep_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
   gg_error err;
-  gg_sweep_command c = {.options = &o};
+  gg_cli_sweep_options c = {.options = &o};
   int code = gg_cli_options_parse(command, argc, argv, &o);
   if (code == GG_CLI_GO_ON) code = check_together(&o);
   if (code == GG_CLI_GO_ON && gg_cli_sweep_read(&o, NULL, NULL, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);

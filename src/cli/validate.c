@@ -31,7 +31,7 @@ static char *command_to_repeat(const gg_options *o)
   return fclose(out) == 0 ? text : (free(text), NULL);
 }
 
-static int judge(gg_sweep_command *c)
+static int judge(gg_cli_sweep_options *c)
 {
   gg_error err;
   char *verdict = NULL, *maps = gg_cli_path_with_suffix(c->folder, ".svg"), *repeat = command_to_repeat(c->options);
@@ -60,7 +60,7 @@ static int judge(gg_sweep_command *c)
 }
 
 /* Run and validate. Failed and incomplete points are already reported; the verdict uses the others. */
-static int validate(gg_sweep_command *c)
+static int validate(gg_cli_sweep_options *c)
 {
   c->tables = true;
   const int code = gg_cli_sweep_work(c);
@@ -87,7 +87,7 @@ int gg_cli_validate_main(const gg_command *command, int argc, char **argv)
 {
   gg_options o;
   gg_error err;
-  gg_sweep_command c = {.options = &o};
+  gg_cli_sweep_options c = {.options = &o};
   int code = gg_cli_options_parse(command, argc, argv, &o);
   const char *name = o.quick ? "grid_quick.sweep" : "grid.sweep";
   if (code == GG_CLI_GO_ON) code = check_together(&o);

@@ -364,7 +364,7 @@ static json_t *engine_json(const gg_comparison *c, gg_engine_kind kind, json_t *
 static void warn_deviations(const gg_comparison *c, json_t *warnings)
 {
   gg_causes causes;
-  gg_theory_remark r[GG_MOST_THEORIES];
+  gg_run_theory_remark r[GG_MOST_THEORIES];
   const int n = gg_run_theory_remarks(c, r);
   gg_run_causes_find(c, &causes);
   for (int i = 0; i < causes.n; i++)

@@ -131,7 +131,7 @@ const char *gg_run_theory_cause(const gg_theory *theory, const gg_model *model)
 }
 
 /* Enskog's equation itself may be off: then a theory of it is as near to the Monte Carlo engine as may be. */
-static const char *cause_of(const gg_comparison *c, const gg_theory_remark *r, double value)
+static const char *cause_of(const gg_comparison *c, const gg_run_theory_remark *r, double value)
 {
   const char *beyond = gg_theory_beyond(r->theory, &c->model);
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
@@ -146,13 +146,13 @@ static const char *cause_of(const gg_comparison *c, const gg_theory_remark *r, d
   return no_cause;
 }
 
-int gg_run_theory_remarks(const gg_comparison *c, gg_theory_remark remarks[GG_MOST_THEORIES])
+int gg_run_theory_remarks(const gg_comparison *c, gg_run_theory_remark remarks[GG_MOST_THEORIES])
 {
   gg_quantity headline[GG_N_QUANTITIES];
   const gg_result *simulation = gg_run_comparison_first(c);
   int n = 0, n_headline = gg_scene_is_followed(&c->scene) ? 0 : gg_run_headline_quantities(&c->model, headline);
   for (int i = 0; simulation && i < c->n_theories; i++) {
-    gg_theory_remark r = {.theory = c->theory[i].theory};
+    gg_run_theory_remark r = {.theory = c->theory[i].theory};
     if (r.theory == &gg_theory_enskog_hermite) continue;
     for (int k = 0; c->theory[i].applies && k < n_headline; k++) {
       double off = unexpected(c, &simulation->value[headline[k]], headline[k], c->theory[i].answer.value[headline[k]]);

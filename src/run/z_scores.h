@@ -46,14 +46,14 @@ double gg_run_deviation(const gg_estimate *simulation, double theory);
 
 /* A theory that is off by more than the engines may be of one another, and by more than four standard errors: in which
  * headline quantity most, by how much of it, and why. Not enskog_hermite: where md is off from that, md is. */
-typedef struct gg_theory_remark {
+typedef struct gg_run_theory_remark {
   const gg_theory *theory;
   gg_quantity quantity;
   double deviation;
   const char *cause;
-} gg_theory_remark;
+} gg_run_theory_remark;
 /* Remarks on all theories that apply, against md, or against dsmc where md was not run; returns their number. */
-int gg_run_theory_remarks(const gg_comparison *comparison, gg_theory_remark remarks[GG_MOST_THEORIES]);
+int gg_run_theory_remarks(const gg_comparison *comparison, gg_run_theory_remark remarks[GG_MOST_THEORIES]);
 
 /* One quantity of a comparison: both engines, and how far they are off each other and Enskog's equation. */
 void gg_run_comparison_row(const gg_comparison *comparison, const gg_quantity_row *named, gg_comparison_row *row);

@@ -68,6 +68,20 @@ def test_rooms_include_downwards():
     check(not wrong, "against the way the data goes:\n" + "\n".join(wrong))
 
 
+def test_types_of_a_room_are_defined_there():
+    """A type named gg_<room>_... is in that room. (Functions: tests/cli/test_library.py, by their symbols.)"""
+    found = sources()
+    rooms = {room(path) for path in found}
+    wrong, seen = [], 0
+    for path, text in found.items():
+        for name in re.findall(r"^(?:typedef )?(?:struct|enum|union) (gg_\w+) \{", text, re.MULTILINE):
+            named = name.split("_")[1]
+            seen += named in rooms
+            if named in rooms and named != room(path):
+                wrong.append(f"{path} defines {name}")
+    check(seen > 20 and not wrong, seen, "types with the name of another room:\n" + "\n".join(wrong))
+
+
 def test_changes_of_the_large_headers_rebuild_few_files():
     found = sources()
     found["include/graingas.h"] = ""

@@ -119,7 +119,7 @@ static void deviating_theories_have_a_remark(void **state)
   gg_comparison c = {.by_engine = {&md, &dsmc}};
   gg_scene s = planted_scene(-1);
   for (int i = 0; i < 5; i++) {
-    gg_theory_remark r[GG_MOST_THEORIES];
+    gg_run_theory_remark r[GG_MOST_THEORIES];
     for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = cases[i].e;
     assert_int_equal(gg_scene_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
     assert_int_equal(gg_run_compare_theories(&c.model, NULL, &c, NULL), GG_OK);
