@@ -36,7 +36,7 @@ static gg_status make_reference(const gg_model *model, uint64_t seed, const gg_e
   gg_md *e = *engine;
   int32_t n[3];
   gg_md_cells_count(&e->box, fmax(gg_md_reach(model), cbrt(model->volume / e->n)), n);
-  e->plain = true;
+  e->base.ops = &gg_md_ops, e->plain = true;
   gg_status status = gg_md_start(e, seed, 0, gg_md_starts_in_equilibrium(model) ? &start : NULL, err);
   if (status == GG_OK) status = gg_md_cells_make(&e->cells, &e->box, n, gg_md_reach(model), err);
   if (status == GG_OK) status = gg_md_find_near_surfaces(e, err);
