@@ -8,7 +8,7 @@
 double gg_base_clock_wall(void);
 double gg_base_clock_cpu(void);
 
-/* A condition that is waited for by the first of these clocks; so many seconds at the most, less than one. */
+/* A condition on the first of these clocks; a thread waits for it for `seconds` at most, less than one. */
 void gg_base_condition_init(pthread_cond_t *news);
 void gg_base_condition_wait(pthread_cond_t *news, pthread_mutex_t *lock, double seconds);
 

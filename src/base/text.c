@@ -41,7 +41,7 @@ static ssize_t add(void *cookie, const char *piece, size_t n)
   return (ssize_t)n;
 }
 
-/* Told only: `out` writes at the end. */
+/* Position only: `out` writes at the end. */
 static int tell(void *cookie, off64_t *offset, int from)
 {
   const stream *s = cookie;
@@ -90,7 +90,7 @@ bool gg_base_memory_stream_close(FILE *out, char *const *text)
   return whole;
 }
 
-/* Lists hold what people and documents are told. */
+/* Lists hold texts for people and documents. */
 void gg_base_string_list_take(gg_string_list *list, char *text)
 {
   char **more = text ? realloc(list->text, (list->n + 1) * sizeof *more) : NULL;

@@ -44,7 +44,7 @@ gg_status gg_files_frame_log_open_at(gg_frame_log *log, const char *path, const 
                                      const gg_stop *stop, gg_error *err);
 /* Does the log stand at this path? */
 bool gg_files_frame_log_is_at(const gg_frame_log *log, const char *path);
-/* The frames of `from` before any of one's own; nothing to do where both are one file. */
+/* Copy the frames of `from` before those of this log; nothing to do if both are one file. */
 gg_status gg_files_frame_log_take_over(gg_frame_log *log, const gg_frame_log *from, gg_error *err);
 gg_status gg_files_frame_log_append(gg_frame_log *log, const gg_frame *frame, gg_error *err);
 /* Wait until the disk has all of it. */

@@ -84,7 +84,7 @@ static gg_status try_once(gg_file_lock *l, const char *path, bool *sure, gg_erro
     l->busy = errno != EINTR;
     if (l->busy) status = in_use(fd, path, err);
   } else if (still_there(fd, l->path) && !(foreign && unlink(l->path) == 0)) {
-    l->fd = fd; /* but a dead one's of another user gives way to one of one's own, where the folder lets it */
+    l->fd = fd; /* a dead process's lock of another user is replaced, if the folder permits it */
     return GG_OK;
   }
   close(fd);
@@ -208,7 +208,7 @@ static ssize_t write_calmly(int fd, const void *data, size_t size)
   return done;
 }
 
-/* The reader of a pipe takes its time, but who is told to stop gives it a second. */
+/* Wait for the reader of a pipe; after a request to stop, a second at most. */
 static bool wait_for_reader(const gg_atomic_file *f)
 {
   struct pollfd out = {.fd = f->fd, .events = POLLOUT};

@@ -29,7 +29,7 @@ typedef struct grain_disc {
   uint8_t species;
 } grain_disc;
 
-/* The discs of a panel, from the nearest to the farthest. Of large or crowded systems only a layer is drawn. */
+/* The discs of a panel, from the nearest to the farthest. A layer of them is drawn if the system is large or dense. */
 typedef struct grain_layer {
   size_t n;
   grain_disc *disc; /* owned */

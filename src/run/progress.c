@@ -189,8 +189,8 @@ static double usual_end(const gg_replicas *all)
   return fmax(begins + window, 1.25 * (double)all->state.goal);
 }
 
-/* Seconds until the requested errors are reached, regardless of the time limit; NaN: not known. Where curves are
- * measured, the cost of a sample is known only after some of the averaging. */
+/* Seconds until the requested errors are reached, regardless of the time limit; NaN: not known. The cost of a
+ * sample with curves is known only after some of the averaging. */
 static double time_left(const gg_replicas *all, double due, gg_expected_end end)
 {
   double left = (end.at - due) * gg_run_progress_pace(&all->progress);

@@ -5,8 +5,7 @@
 
 #include "sweep/sweep_table.h"
 
-/* Of the rows from `first` on; `scene` is the YAML beside the document. Empty (NaN, NULL) where there is no reference.
- */
+/* Deviations of the rows from `first` on; `scene` is the YAML beside the document. NaN and NULL without a reference. */
 gg_status gg_sweep_point_deviations(gg_point_table *table, size_t first, json_t *document, char *scene, gg_error *err);
 
 #endif

@@ -232,7 +232,7 @@ static void add_rows(drawing *d, const gg_grid_view *v)
   }
 }
 
-/* Points of theories between those of the sweep. Where a theory has no answer its line is broken. */
+/* Points of theories between those of the sweep. The line of a theory is broken where it has no answer. */
 static void add_lines(drawing *d, const gg_grid_view *v)
 {
   char name[GG_COMBINATION_NAME];
