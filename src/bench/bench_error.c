@@ -30,10 +30,11 @@ static int best_at(const gg_error_state *s, gg_engine_kind engine, int q, double
   return best >= 0 && isfinite(expected(s, best, q, seconds)) ? best : -1;
 }
 
-/* Points of an engine's curve: at times that differ by factors of about 2, the error of the method that is best then. */
+/* Points of an engine's curve: at times that differ by factors of about 2, the error of the method that is best then.
+ */
 static void add_engine(gg_chart *c, const gg_error_state *s, gg_engine_kind engine, int q, double to)
 {
-  gg_chart_series *series = gg_plot_chart_series(c, engine == GG_MD ? "md" : "dsmc", NULL, GG_CHART_POINTS);
+  gg_chart_series *series = gg_plot_chart_series(c, gg_common_engine_of((int)engine)->name, NULL, GG_CHART_POINTS);
   double last = INFINITY, error;
   size_t n = 0;
   for (double t = to; n < GG_COURSE_MARKS && t > 1e-6; t /= 2) {
@@ -146,7 +147,7 @@ static bool is_run(const gg_error_state *s, int engine)
 static void put_first(gg_bench_table *table, int row, int column, const double first[2])
 {
   const int one = first[GG_MD] < first[GG_DSMC] ? GG_MD : GG_DSMC;
-  const char *name = one == GG_MD ? "md" : "dsmc";
+  const char *name = gg_common_engine_of(one)->name;
   if (isfinite(first[0]) && isfinite(first[1]))
     gg_bench_table_put(table, row, column, "%s, %.2g x", name, first[1 - one] / first[one]);
   else
@@ -206,11 +207,11 @@ static void add_course(const gg_bench *b, gg_bench_table *table, const gg_error_
     json_array_append_new(until, gg_bench_number(gg_bench_seconds_to(s, i, q, targets[k])));
   const gg_error_method *way = &gg_bench_error_methods[i];
   json_t *course =
-      json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "engine", way->engine == GG_MD ? "md" : "dsmc",
-                "particles", (json_int_t)way->n, "warmup_seconds", gg_bench_number(c->warmup), "error_of_a_second",
-                gg_bench_number(s->noise[i][q]), "floor", gg_bench_number(s->floor[i][q]), "floor_stderr",
-                gg_bench_number(s->shift_error[i][q]), "seconds", t, "relative_error", error, "stderr", uncertain,
-                "seconds_to_0.01_0.001_0.0001", until);
+      json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "engine",
+                gg_common_engine_of((int)way->engine)->name, "particles", (json_int_t)way->n, "warmup_seconds",
+                gg_bench_number(c->warmup), "error_of_a_second", gg_bench_number(s->noise[i][q]), "floor",
+                gg_bench_number(s->floor[i][q]), "floor_stderr", gg_bench_number(s->shift_error[i][q]), "seconds", t,
+                "relative_error", error, "stderr", uncertain, "seconds_to_0.01_0.001_0.0001", until);
   add_row(b, table, s, q, way->name, "CPU seconds to an error of 1 %", gg_bench_seconds_to(s, i, q, targets[0]),
           c->seeds, course);
 }
@@ -248,7 +249,7 @@ static gg_bench_table *new_seconds(gg_bench *b, const gg_error_state *s, bool fi
   gg_bench_table_column(t, false, "quantity");
   for (int engine = 0; engine < 2; engine++)
     for (int k = 0; k < N_TARGETS; k++)
-      gg_bench_table_column(t, true, "%s %g %%", engine == GG_MD ? "md" : "dsmc", 100 * targets[k]);
+      gg_bench_table_column(t, true, "%s %g %%", gg_common_engine_of(engine)->name, 100 * targets[k]);
   gg_bench_table_column(t, false, "first");
   return t;
 }

@@ -87,8 +87,6 @@ static int inform_scene(const gg_options *o)
   return code;
 }
 
-static const char *const engines[] = {"md", "dsmc"};
-
 /* Print the means of both engines side by side, without quantities that have none. */
 static void print_means(const gg_comparison *c)
 {
@@ -98,13 +96,14 @@ static void print_means(const gg_comparison *c)
   gg_table *t = gg_cli_table_new();
   if (!t) return;
   gg_cli_table_column(t, "quantity", false);
-  for (int k = 0; k < 2; k++)
-    if (gg_comparison_result(c, engines[k])) column[k] = gg_cli_table_column(t, engines[k], true);
+  for (int k = 0; k < GG_CLI_ENGINES; k++)
+    if (gg_comparison_result(c, gg_cli_engines[k])) column[k] = gg_cli_table_column(t, gg_cli_engines[k], true);
   int unit = gg_cli_table_column(t, "unit", false);
   for (size_t i = 0; gg_result_at(one, i, &q, NULL) == GG_OK; i++) {
     int row = -1;
-    for (int k = 0; k < 2; k++) {
-      if (gg_result_find(gg_comparison_result(c, engines[k]), q.name, &m, NULL) != GG_OK || isnan(m.mean)) continue;
+    for (int k = 0; k < GG_CLI_ENGINES; k++) {
+      if (gg_result_find(gg_comparison_result(c, gg_cli_engines[k]), q.name, &m, NULL) != GG_OK || isnan(m.mean))
+        continue;
       if (row < 0) row = gg_cli_table_row(t);
       gg_format_estimate(m.mean, m.error, gg_cli_table_cell(t, row, column[k]), GG_TABLE_CELL);
       snprintf(gg_cli_table_cell(t, row, 0), GG_TABLE_CELL, "%s", m.name);
@@ -168,7 +167,7 @@ static void print_contents(const gg_comparison *c, const gg_result_info *about)
   size_t size;
   bool whole = true;
   printf("\nalso in the file:\n");
-  for (int k = 0; k < 2; k++) print_series(gg_comparison_result(c, engines[k]));
+  for (int k = 0; k < GG_CLI_ENGINES; k++) print_series(gg_comparison_result(c, gg_cli_engines[k]));
   if (about->frames)
     printf("  %zu frame%s of %ld grains (/particles/grains)\n", about->frames, about->frames > 1 ? "s" : "",
            (long)about->grains);
@@ -211,7 +210,7 @@ static bool print_checkpoint(const gg_options *o)
   const char *what = strcmp(about.kind, "simulation") == 0 ? "a saved" : "a checkpoint of a";
   gg_cli_print_name(stdout, "", o->input, about.older ? ".1: " : ": ");
   printf("%s %s, graingas %s\n\n", what, about.kind, gg_version());
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_CLI_ENGINES; k++) {
     const gg_checkpoint_part *p = &about.part[k];
     if (!p->engine) continue;
     printf("  %s: %s, after %.0f collisions a grain", p->engine, p->phase, p->collisions_per_grain);

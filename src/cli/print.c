@@ -14,6 +14,8 @@
 
 enum { USUAL = 80, LEAST = 40, MOST = 1000 };
 
+const char *const gg_cli_engines[GG_CLI_ENGINES] = {"md", "dsmc"};
+
 int gg_cli_terminal_width(void)
 {
   struct winsize window = {0};

@@ -7,6 +7,10 @@
 #include <stddef.h>
 #include <stdio.h>
 
+/* Engines in the order of gg_comparison_row and gg_checkpoint_info. */
+enum { GG_CLI_ENGINES = 2 };
+extern const char *const gg_cli_engines[GG_CLI_ENGINES];
+
 /* Width of the terminal at standard output; otherwise COLUMNS, otherwise 80. At least 40. */
 int gg_cli_terminal_width(void);
 

@@ -98,7 +98,7 @@ static void show_live(gg_cli_progress *p)
 {
   char line[400] = "", part[200];
   bool both = p->last[0].engine && p->last[1].engine;
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_CLI_ENGINES; k++) {
     if (!p->last[k].engine) continue;
     describe(&p->last[k], both, part, sizeof part);
     size_t used = strlen(line);
@@ -135,7 +135,7 @@ void gg_cli_progress_show(gg_cli_progress *p, const gg_progress *g)
 void gg_cli_progress_end(gg_cli_progress *p)
 {
   gg_cli_line_clear(&p->line);
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_CLI_ENGINES; k++) {
     if (!p->unreported[k]) continue;
     p->last[k].time_left = NAN, p->last[k].limit_in = INFINITY; /* the run has ended */
     show_plain(p, k);

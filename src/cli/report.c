@@ -108,7 +108,7 @@ static void put_row(listing *l, const char *curve, const gg_measurement *number)
   snprintf(l->curve, sizeof l->curve, "%s", curve);
   bool pure = strcmp(number->unit, "1") == 0;
   snprintf(gg_cli_table_cell(l->table, row, 1), GG_TABLE_CELL, pure ? "%s" : "%s [%s]", number->name, number->unit);
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_CLI_ENGINES; k++) {
     there[k] = find_number(l->result[k], curve, number->name, &by[k]);
     if (!l->result[k]) continue;
     if (there[k]) gg_format_estimate(by[k].mean, by[k].error, gg_cli_table_cell(l->table, row, column), GG_TABLE_CELL);
@@ -139,10 +139,10 @@ void gg_cli_print_numbers(const gg_result *one, const gg_result *two, bool all)
   if (!l.table) return;
   gg_cli_table_column(l.table, "read off", false);
   gg_cli_table_column(l.table, "", false);
-  for (int k = 0; k < 2; k++)
+  for (int k = 0; k < GG_CLI_ENGINES; k++)
     if (gg_result_get_info(l.result[k], &about, NULL) == GG_OK) gg_cli_table_column(l.table, about.engine, true);
   if (one && two) gg_cli_table_column(l.table, "z", true);
-  for (int k = 0; k < 2; k++) put_rows(&l, k, all);
+  for (int k = 0; k < GG_CLI_ENGINES; k++) put_rows(&l, k, all);
   if (l.table->n_rows) {
     printf("\n");
     gg_cli_table_print(l.table, stdout, 2);

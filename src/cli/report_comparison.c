@@ -9,7 +9,6 @@
 #include "cli/print.h"
 #include "cli/report.h"
 
-static const char *const engines[] = {"md", "dsmc"};
 enum { MOST_THEORIES = 32 };
 
 /* The result that theories are compared with: md, or dsmc without md. */
@@ -81,8 +80,8 @@ static int theory_columns(gg_table *t, const gg_comparison *c, bool all, int col
 static void put_engines(gg_table *t, int at, const gg_comparison *c, const gg_comparison_row *row)
 {
   int column = 2;
-  for (int k = 0; k < 2; k++) {
-    if (!gg_comparison_result(c, engines[k])) continue;
+  for (int k = 0; k < GG_CLI_ENGINES; k++) {
+    if (!gg_comparison_result(c, gg_cli_engines[k])) continue;
     if (!isnan(row->mean[k]))
       gg_format_estimate(row->mean[k], row->error[k], gg_cli_table_cell(t, at, column), GG_TABLE_CELL);
     column++;
@@ -100,8 +99,8 @@ static gg_table *tabulate(const gg_comparison *c, bool all, int *n_theories)
   if (!t) return NULL;
   gg_cli_table_column(t, "quantity", false);
   gg_cli_table_column(t, "unit", false);
-  for (int k = 0; k < 2; k++)
-    if (gg_comparison_result(c, engines[k])) gg_cli_table_column(t, engines[k], true);
+  for (int k = 0; k < GG_CLI_ENGINES; k++)
+    if (gg_comparison_result(c, gg_cli_engines[k])) gg_cli_table_column(t, gg_cli_engines[k], true);
   if (both_ran(c)) gg_cli_table_column(t, "z", true);
   *n_theories = theory_columns(t, c, all, column);
   for (size_t i = 0; next_shown(c, all, &i, &row);) {
@@ -159,18 +158,19 @@ static verdict weigh(const gg_comparison *c, int engine)
 static void print_verdicts(const gg_comparison *c)
 {
   bool any = false;
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_CLI_ENGINES; k++) {
     verdict v = weigh(c, k);
     if (!v.compared) continue;
     if (!any) printf("\n");
     any = true;
     if (v.off)
-      gg_cli_print_paragraph(stdout, 2, "%s differs from Enskog's equation (enskog_hermite) in %s", engines[k], v.list);
+      gg_cli_print_paragraph(stdout, 2, "%s differs from Enskog's equation (enskog_hermite) in %s", gg_cli_engines[k],
+                             v.list);
     else
       gg_cli_print_paragraph(stdout, 2,
                              "%s agrees with Enskog's equation (enskog_hermite) within %g standard errors in %d main "
                              "quantities, %s",
-                             engines[k], far, v.compared, v.first);
+                             gg_cli_engines[k], far, v.compared, v.first);
   }
 }
 
@@ -243,14 +243,15 @@ void gg_cli_print_comparison(const gg_comparison *c, bool all)
   gg_cli_print_numbers(gg_comparison_result(c, "md"), gg_comparison_result(c, "dsmc"), all);
   if (both_ran(c)) gg_cli_print_profiles(gg_comparison_result(c, "md"), gg_comparison_result(c, "dsmc"), all);
   printf("\n");
-  for (int k = 0; k < 2; k++) {
-    const char *refusal = gg_comparison_refusal(c, engines[k]);
-    if (gg_comparison_result(c, engines[k])) gg_cli_print_effort(gg_comparison_result(c, engines[k]));
-    if (refusal) gg_cli_print_paragraph(stdout, 6, "%-5s not run: %s", engines[k], refusal);
+  for (int k = 0; k < GG_CLI_ENGINES; k++) {
+    const char *refusal = gg_comparison_refusal(c, gg_cli_engines[k]);
+    if (gg_comparison_result(c, gg_cli_engines[k])) gg_cli_print_effort(gg_comparison_result(c, gg_cli_engines[k]));
+    if (refusal) gg_cli_print_paragraph(stdout, 6, "%-5s not run: %s", gg_cli_engines[k], refusal);
   }
   print_inapplicable(c);
-  for (int k = 0; k < 2; k++)
-    if (gg_comparison_result(c, engines[k])) gg_cli_print_warnings(gg_comparison_result(c, engines[k]), NULL);
+  for (int k = 0; k < GG_CLI_ENGINES; k++)
+    if (gg_comparison_result(c, gg_cli_engines[k]))
+      gg_cli_print_warnings(gg_comparison_result(c, gg_cli_engines[k]), NULL);
 }
 
 /* Print the largest relative numerical error of the theories, and its quantity. */

@@ -21,7 +21,7 @@ static int list_methods(const gg_stored_result *stored, method *methods)
   int n = 0;
   const char *name;
   json_t *theory;
-  for (int k = 0; k < 2; k++)
+  for (int k = 0; k < GG_N_ENGINES; k++)
     if (stored->engine[k].name)
       methods[n++] = (method){stored->engine[k].name, json_object_get(stored->engine[k].document, "results"),
                               gg_plot_is_unsteady(&stored->engine[k])};

@@ -3,9 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/atomic_file.h"
 #include "base/memory.h"
 #include "files/curve_table.h"
+#include "io/atomic_file.h"
 #include "plot/result_panels.h"
 
 enum { MOST_GROUPS = 16 };
@@ -100,7 +100,7 @@ static gg_status list(page_list *pages, const gg_stored_result *stored, const gg
   pages->n = 0;
   if (gg_plot_snapshot_has(stored))
     pages->page[pages->n++] = (page){.path = gg_plot_page_name(picture, "", GG_SNAPSHOT_PAGE, paper)};
-  for (int k = 0; k < 2; k++) {
+  for (int k = 0; k < GG_N_ENGINES; k++) { /* a page that both share has one curve beside the other */
     const gg_stored_engine *e = &stored->engine[k], *other = &stored->engine[!k];
     const char *groups[MOST_GROUPS], *engine = stored->comparison ? e->name : "";
     int n = e->name ? gg_plot_curve_groups(e->document, groups, MOST_GROUPS) : 0;

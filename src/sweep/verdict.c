@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "common/engine.h"
 #include "common/quantity.h"
 #include "sweep/text_table.h"
 
@@ -45,7 +46,8 @@ static void name_point(const gg_grid_view *v, size_t point, char text[GG_PANEL_N
 {
   *text = '\0';
   for (size_t k = 0; gg_sweep_column_key(v->sweep, k); k++) {
-    const char *key = gg_sweep_column_key(v->sweep, k), *dot = strrchr(key, '.'), *value = gg_sweep_column_value(v->sweep, point, k);
+    const char *key = gg_sweep_column_key(v->sweep, k), *dot = strrchr(key, '.'),
+               *value = gg_sweep_column_value(v->sweep, point, k);
     if (strcmp(value, ".inf") == 0) continue;
     gg_base_text_append(text, GG_PANEL_NAME, "%s%s %.24s", *text ? ", " : "", dot ? dot + 1 : key, value);
   }
@@ -106,7 +108,6 @@ static void print_trouble(const writing *w, const char *what, gg_point_trouble *
 
 static void print_points(const writing *w)
 {
-  static const char *const engines[] = {"md", "dsmc"};
   const gg_grid_view *v = w->view;
   size_t missing = 0, fell_short = 0, n, unsteady;
   for (size_t i = 0; i < v->sweep->n; i++) {
@@ -116,9 +117,10 @@ static void print_points(const writing *w)
   fprintf(w->out, "%zu points", v->sweep->n);
   if (missing) fprintf(w->out, ", of which %zu have no result", missing);
   if (fell_short) fprintf(w->out, ", %zu ended before the requested error", fell_short);
-  for (int k = 0; k < 2; k++) {
-    count_engine(v, engines[k], &n, &unsteady);
-    fprintf(w->out, "%s %s at %zu", k ? "," : ";", engines[k], n);
+  for (int k = 0; k < GG_N_ENGINES; k++) {
+    const char *engine = gg_common_engine_of(k)->name;
+    count_engine(v, engine, &n, &unsteady);
+    fprintf(w->out, "%s %s at %zu", k ? "," : ";", engine, n);
     if (unsteady) fprintf(w->out, " (%zu not steady)", unsteady);
   }
   fprintf(w->out, ".\n\n");
