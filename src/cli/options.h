@@ -90,6 +90,7 @@ gg_status gg_cli_options_set(const char *option, const char *typed, const char *
 
 /* completion.c: print the completion script for bash, zsh or fish; returns the exit code. */
 int gg_cli_print_completion(const char *shell);
+
 void gg_cli_command_print_help(const gg_command *command);
 
 #endif

@@ -4,9 +4,6 @@
 #include <math.h>
 
 #include "common/surface/shapes.h"
-#include "md/event_loops.h"
-#include "md/md_allocate.h"
-#include "md/md_operations.h"
 #include "md/md_thermostat.h"
 #include "md/resolution.h"
 
@@ -61,14 +58,4 @@ void gg_md_show_contact(gg_md *e, uint32_t i, int w)
   m.J = gg_scale(e->model.mass[m.species[0]], gg_sub(m.c[0], e->grain[i].v));
   show_spin_changes(e, i, i, &m);
   e->callback(e->callback_context, &m);
-}
-
-gg_status gg_md_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err)
-{
-  gg_md *e = (gg_md *)engine;
-  if (callback && !e->last) GG_TRY(gg_md_allocate_last(e, err));
-  e->callback = callback;
-  e->callback_context = context;
-  gg_md_select(e);
-  return GG_OK;
 }

@@ -263,6 +263,16 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   return GG_OK;
 }
 
+static gg_status set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err)
+{
+  gg_md *e = (gg_md *)engine;
+  if (callback && !e->last) GG_TRY(gg_md_allocate_last(e, err));
+  e->callback = callback;
+  e->callback_context = context;
+  gg_md_select(e);
+  return GG_OK;
+}
+
 const gg_engine_ops gg_md_ops = {
     .name = "md",
     .doc = "event-driven molecular dynamics of hard spheres",
@@ -274,7 +284,7 @@ const gg_engine_ops gg_md_ops = {
     .advance = advance,
     .keep_sums = keep_sums,
     .take_sums = take_sums,
-    .set_callback = gg_md_set_callback,
+    .set_callback = set_callback,
     .threads = threads,
     .state = state,
     .snapshot = gg_md_snapshot,

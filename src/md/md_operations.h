@@ -11,9 +11,6 @@ gg_status gg_md_accepts(const gg_model *model, gg_error *err);
 /* md_describe.c */
 void gg_md_describe(const gg_model *model, void (*line)(void *context, const char *text), void *context);
 
-/* collision_callback.c */
-gg_status gg_md_set_callback(gg_engine *engine, gg_collision_callback *callback, void *context, gg_error *err);
-
 /* md_snapshot.c */
 void gg_md_snapshot(gg_engine *engine, bool positions, gg_visit *visit, void *context);
 

@@ -156,10 +156,9 @@ gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *slow
 /* Everything needed to continue bit for bit. */
 gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *archive, gg_error *err);
 
-/* report.c: the result of where the replicas stand, whole if GG_OK; then, GG_FAILED if that is short of what was
- * requested.
- */
+/* replicas_report.c: make a result of the present state of the replicas; it is whole if the status is GG_OK. */
 gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *err);
+/* termination_status.c: GG_FAILED if the errors are larger than requested. */
 gg_status gg_run_replicas_check_end(const gg_replicas *all, gg_error *err);
 /* steady_state.c: is the mean over the window one of a steady state, and from what that is known. */
 void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_convergence *convergence, gg_result *result);

@@ -178,15 +178,6 @@ def test_comments_name_what_exists():
     check(not missing, "named in comments, but not there:\n" + "\n".join(sorted(missing)))
 
 
-# "room/header.h: function" whose signpost names another file: to be corrected, and deleted here.
-WRONG_SIGNPOSTS = {
-    "cli/options.h: gg_cli_command_print_help",
-    "dsmc/dsmc.h: gg_dsmc_collide",
-    "md/md_state.h: gg_md_select", "md/md_state.h: gg_md_select_resolution",
-    "run/replicas.h: gg_run_replicas_check_end", "run/replicas.h: gg_run_replicas_report",
-}
-
-
 def definitions():
     """{function: files of src that define it}."""
     found = {}
@@ -210,8 +201,7 @@ def test_signposts_name_the_file_that_defines_what_follows():
                 if not any(("/" + one).endswith("/" + file) for one in defined.get(name, {file})):
                     wrong.add(f"{header}: {name}")
     check(n > 100, n)
-    new = sorted(wrong - WRONG_SIGNPOSTS)
-    check(not new, "signposts that name a wrong file:\n" + "\n".join(f"{one}, of {defined[one.split(': ')[1]]}" for one in new))
+    check(not wrong, "signposts that name a wrong file:\n" + "\n".join(f"{one}, of {defined[one.split(': ')[1]]}" for one in sorted(wrong)))
 
 
 def test_commands_shown_are_valid():
