@@ -229,7 +229,7 @@ static gg_status set_walls(gg_model *m, const gg_scene *s, gg_error *err)
       .speed = gg_flow_has_moving_walls(s->flow) ? gg_units_velocity(m->unit, s->walls.speed) : 0,
       .temperature = {wall_temperature(m, s->walls.temperature[0]), wall_temperature(m, s->walls.temperature[1])},
       .accommodation = s->walls.accommodation,
-      .ridges = s->walls.ridges == 0 ? 0 : (int)fmax(1, round(length / s->walls.ridges)),
+      .ridges = s->walls.ridges == 0 ? 0 : fmax(1, round(length / s->walls.ridges)),
       .open_top = gg_flow_of(s->flow)->may_be_open && s->walls.top == GG_OPEN_TOP};
   if (gg_flow_is_walled(s->flow)) GG_TRY(check_ridges(m, s, err));
   return gg_common_model_set_walls(m, &walls, err);

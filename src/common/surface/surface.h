@@ -34,7 +34,7 @@ typedef struct gg_walls {
   double speed;          /* of the upper wall along x; the lower one moves the other way */
   double temperature[2]; /* lower, upper; GG_AUTO: none */
   double accommodation;  /* fraction of contacts that leave with it */
-  int ridges;            /* half cylinders side by side along x; 0: flat */
+  double ridges;         /* number of half cylinders side by side along x, whole; 0: flat */
   bool open_top;         /* no upper wall */
 } gg_walls;
 

@@ -28,7 +28,7 @@ static gg_status check_room(const gg_model *m, gg_error *err)
 }
 
 /* Flat, or with half cylinders side by side along x. */
-static void set_shape(gg_surface *wall, int ridges, const gg_model *m)
+static void set_shape(gg_surface *wall, double ridges, const gg_model *m)
 {
   if (ridges == 0) return;
   wall->shape = GG_SHAPE_ridges;
