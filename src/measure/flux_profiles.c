@@ -9,7 +9,7 @@
  * the distance of its cells. The energy that both lose is located at the centres, half at each. A wall is a partner
  * at its place: between it and the centre of a grain that touches, fluxes are those through the wall.
  *
- * So momentum and energy are conserved exactly at every height. With F the flux of energy along y, in the
+ * This conserves momentum and energy exactly at every height. With F the flux of energy along y, in the
  * laboratory,
  *   dF/dy = rho g.u - loss,
  * and means over two slabs differ by the integral of the right-hand side, weighted by a hat: 1 at the face between

@@ -97,9 +97,9 @@ static void count_flight(void *context, const gg_collision_record *c)
   }
 }
 
-/* Where a step is split over pairs of species, the time since a grain's last collision may be negative, but by no more
- * than the two orders take together. With many substeps a step, flights are as long as in any gas: were all collisions
- * at the beginning of their step, none would be middling. */
+/* The time since a grain's last collision may be negative if a step is split over pairs of species, but by no more than
+ * the two orders take together. With many substeps per step, flights are as long as in any gas; with all collisions at
+ * the beginning of their step, no flight would have a middle length. */
 static void collisions_come_in_their_time(void **state)
 {
   (void)state;

@@ -283,7 +283,7 @@ static void all_number_types_are_converted(void **state)
   gg_h5_in_close(&in);
 }
 
-/* So many attributes that the header has several pieces. */
+/* A header with many attributes has several pieces. */
 static void headers_in_pieces_are_read(void **state)
 {
   (void)state;

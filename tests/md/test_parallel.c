@@ -174,7 +174,7 @@ static void a_run_without_memory_ends_with_an_error(void **state)
   assert_true(failed > 10);
 }
 
-/* Where the engine decides by measured times whether to use threads, it does both, and the bits are the same. */
+/* An engine that decides by measured times tries one thread and several; the bits are the same. */
 static void measured_times_change_no_bits(void **state)
 {
   (void)state;
