@@ -421,6 +421,7 @@ def test_two_runs_at_once():
     scenes()
     first = started("--output", "one.h5")
     wait_for("one.h5.graingas-lock")
+    wait_for("one.h5.graingas-tmp")  # made after the lock; the folder's listings are compared from here on
     os.symlink("one.h5", "link.h5")
     for output in "one.h5", "link.h5":
         refused(f"{output}: cannot be written: another process is writing it (process {first.pid} on ", 3, "--output", output)
