@@ -98,7 +98,7 @@ static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *er
 static double species_of(const gg_relaxing *x, gg_quantity q, const gg_model *m)
 {
   const int i = (int)q - (int)GG_Q_PARTIAL_TEMPERATURE;
-  return i >= 0 && i < m->n_species ? m->mass[i] * gg_theory_trace(x->of[i].M) / 3 : NAN;
+  return i >= 0 && i < m->n_species ? m->mass[i] * gg_tensor_trace(x->of[i].M) / 3 : NAN;
 }
 
 static double theory_of(const gg_relaxing *x, gg_quantity q, const gg_model *m)

@@ -3,8 +3,8 @@
  *   d<C_a C_b>_i/dt = -rate (<C_y C_b> delta_ax + <C_y C_a> delta_bx) + collisions = 0,
  *   d Theta_i/dt = 0,   d<s_z>_i/dt = 0      for each species i, less drag and plus noise of a bath (model.h),
  * J.T. Jenkins & M.W. Richman, J. Fluid Mech. 192 (1988) 313; C.-S. Chou & M.W. Richman, Physica A 259 (1998) 430;
- * S. Saha & M. Alam, J. Fluid Mech. 795 (2016) 549; here with the collision integrals in full, rough spheres and
- * mixtures included. */
+ * S. Saha & M. Alam, J. Fluid Mech. 795 (2016) 549; here with the collision integrals in full, rough and frictional
+ * spheres and mixtures included. */
 #include <math.h>
 
 #include "theory/answer.h"
@@ -27,9 +27,9 @@ static void report_temperatures(const gg_model *m, const gg_gaussian state[], gg
   double T[GG_MAX_SPECIES], sum = 0, rotational = 0, spin = 0;
   for (int i = 0; i < m->n_species; i++) {
     double x = gg_theory_fraction(m, i);
-    T[i] = m->mass[i] * gg_theory_trace(state[i].M) / 3;
+    T[i] = m->mass[i] * gg_tensor_trace(state[i].M) / 3;
     sum += x * T[i];
-    rotational += x * m->inertia[i] * m->mass[i] * gg_theory_trace(state[i].Theta) / 3;
+    rotational += x * m->inertia[i] * m->mass[i] * gg_tensor_trace(state[i].Theta) / 3;
     spin += x * state[i].spin * 2 / m->diameter[i];
   }
   gg_theory_answer_temperature(m, sum, rotational / sum, a);
@@ -62,7 +62,6 @@ static void report(const gg_model *m, const gg_gaussian state[], gg_theory_answe
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_theory_require_constant_beta(m, name, err));
   GG_TRY(gg_theory_require_steady_shear(m, name, err));
   gg_gaussian state[GG_MAX_SPECIES];
   double left = gg_theory_gaussian_steady(m, state);
@@ -81,9 +80,12 @@ const gg_theory gg_theory_gaussian_closure = {
         "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor shear_viscosity "
         "N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES "dissipation " GG_ANSWERS_MIXTURE,
     .assumptions =
-        "Steady uniform shear at any density, any number of species, smooth or of constant beta. Within 1 % of "
+        "Steady uniform shear at any density, any number of species, smooth, of constant beta or with Coulomb "
+        "friction. "
+        "Within 1 % of "
         "Enskog's equation in T, p and viscosity for e from 0.9 (1.6 % low in dilute gases as e -> 1, 4 % for dilute, "
-        "half-rough grains), N2 within 15 %; in a sheared bath a quarter off at worst. Molecular chaos; velocities and "
+        "half-rough or frictional grains), N2 within 15 %; in a sheared bath a quarter off at worst. Molecular chaos; "
+        "velocities and "
         "spins are Gaussian and independent, which "
         "leaves out a part of the mean spin that grows as 1/phi: spin_z has values from phi = 0.01 on.",
     .baths = true,

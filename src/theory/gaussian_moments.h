@@ -6,17 +6,8 @@
 #ifndef GG_GAUSSIAN_MOMENTS_H
 #define GG_GAUSSIAN_MOMENTS_H
 
+#include "theory/contact_averages.h"
 #include "theory/theory.h"
-
-typedef struct gg_tensor {
-  double at[3][3];
-} gg_tensor;
-
-typedef struct gg_gaussian {
-  gg_tensor M;     /* <C C> */
-  gg_tensor Theta; /* covariance of s */
-  double spin;     /* mean of s_z */
-} gg_gaussian;
 
 typedef struct gg_gaussian_rates {
   gg_gaussian change[GG_MAX_SPECIES]; /* d/dt of each moment, by collisions alone */
@@ -26,8 +17,8 @@ typedef struct gg_gaussian_rates {
   double speed[GG_MAX_SPECIES];     /* <|C|> */
 } gg_gaussian_rates;
 
-/* Rates of the moments for smooth or rough grains, any number of species (not frictional); shear_rate and sizes from
- * the model. One state a species; the spins of a species that never spins are ignored. */
+/* Rates of the moments for smooth, rough or frictional grains, any number of species; shear_rate and sizes from the
+ * model. One state a species; the spins of a species that never spins are ignored. */
 void gg_theory_gaussian_rates_at(const gg_model *model, const gg_gaussian *state, gg_gaussian_rates *rates);
 
 /* The same with streaming and the bath; and per volume the energy that the bath supplies and removes (flow). */
@@ -43,8 +34,6 @@ double gg_theory_gaussian_shear_stress(const gg_model *model, const gg_gaussian 
  * of energy; and that of shear stresses, a thousandth of the relative ones, which small stresses do not hide (NaN:
  * no memory). */
 double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state);
-
-double gg_theory_trace(gg_tensor A);
 
 /* Does any collision of this species change its spin? */
 bool gg_theory_species_spins(const gg_model *model, int species);

@@ -10,7 +10,7 @@
 
 bool gg_theory_gaussian_relaxes(const gg_model *m)
 {
-  const bool known = !m->walled && !m->law.name && m->rule != GG_FRICTIONAL && !m->linear_response;
+  const bool known = !m->walled && !m->law.name && !m->linear_response;
   return known && (m->shear_rate != 0 || m->n_species > 1);
 }
 
@@ -28,7 +28,7 @@ void gg_theory_gaussian_start(const gg_model *m, gg_gaussian state[])
 static double energy_of(const gg_model *m, const gg_gaussian state[])
 {
   double sum = 0;
-  for (int i = 0; i < m->n_species; i++) sum += m->fraction[i] * m->mass[i] * gg_theory_trace(state[i].M);
+  for (int i = 0; i < m->n_species; i++) sum += m->fraction[i] * m->mass[i] * gg_tensor_trace(state[i].M);
   return sum;
 }
 
@@ -52,7 +52,7 @@ static void add_bath(const gg_model *m, const gg_gaussian *state, int i, gg_gaus
 {
   const gg_bath *b = &m->bath;
   const double n = m->density * gg_theory_fraction(m, i) * m->mass[i], nK = n * m->inertia[i];
-  const double slip = state[i].spin - gg_model_rolling(m, i), C2 = gg_theory_trace(state[i].M);
+  const double slip = state[i].spin - gg_model_rolling(m, i), C2 = gg_tensor_trace(state[i].M);
   for (int a = 0; a < 3; a++) {
     for (int c = 0; c < 3; c++) change->M.at[a][c] -= 2 * b->drag[i] * state[i].M.at[a][c];
     change->M.at[a][a] += b->noise[i];
@@ -65,7 +65,7 @@ static void add_bath(const gg_model *m, const gg_gaussian *state, int i, gg_gaus
     change->Theta.at[a][a] += b->spin_noise[i];
   }
   change->spin -= b->spin_drag[i] * slip;
-  flow[1] += nK * b->spin_drag[i] * (gg_theory_trace(state[i].Theta) + state[i].spin * slip);
+  flow[1] += nK * b->spin_drag[i] * (gg_tensor_trace(state[i].Theta) + state[i].spin * slip);
   flow[0] += 1.5 * nK * b->spin_noise[i];
 }
 
@@ -107,7 +107,7 @@ static double fastest(const gg_model *m, const gg_gaussian state[], const gg_gau
   for (int i = 0; i < m->n_species; i++) {
     const double fed = m->bath.on ? m->bath.noise[i] : 0;
     most = fmax(most, r->frequency[i] + 3 * m->shear_rate + 2 * fabs(m->bath.drag[i]) + 2 * m->bath.spin_drag[i] +
-                          3 * fed / gg_theory_trace(state[i].M));
+                          3 * fed / gg_tensor_trace(state[i].M));
   }
   return most;
 }
@@ -120,7 +120,7 @@ static void symmetrise(gg_tensor *A)
 static bool is_small(gg_tensor change, gg_tensor of, double time)
 {
   for (int a = 0; a < 9; a++)
-    if (!(fabs(change.at[a / 3][a % 3]) * time <= 1e-7 * gg_theory_trace(of))) return false;
+    if (!(fabs(change.at[a / 3][a % 3]) * time <= 1e-7 * gg_tensor_trace(of))) return false;
   return true;
 }
 
@@ -129,7 +129,7 @@ static bool is_steady(const gg_model *m, const gg_gaussian state[], const gg_gau
 {
   for (int i = 0; i < m->n_species; i++)
     if (!is_small(r->change[i].M, state[i].M, time) || !is_small(r->change[i].Theta, state[i].Theta, time) ||
-        !(fabs(r->change[i].spin) * time <= 1e-7 * sqrt(gg_theory_trace(state[i].Theta))))
+        !(fabs(r->change[i].spin) * time <= 1e-7 * sqrt(gg_tensor_trace(state[i].Theta))))
       return false;
   return true;
 }

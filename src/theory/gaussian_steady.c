@@ -12,6 +12,7 @@
 #include "theory/gaussian_moments.h"
 #include "theory/lun1991.h"
 #include "theory/relaxation.h"
+#include "theory/two_maxwellian.h"
 
 enum { PER_TENSOR = 4, MAX_STEPS = 200, MAX_ATTEMPTS = 4, RELAXATION_STEPS = 100 };
 
@@ -108,7 +109,10 @@ static void pack(const closure *c, const gg_gaussian *state, gsl_vector *x)
 static double grip_of(const gg_model *m, int i)
 {
   double grip = 0;
-  for (int j = 0; j < m->n_species; j++) grip = fmax(grip, m->contact[i][j].jt * m->contact[i][j].ik1);
+  for (int j = 0; j < m->n_species; j++) {
+    const gg_contact *c = &m->contact[i][j];
+    grip = fmax(grip, fmin(c->jt, c->mu * c->jn) * c->ik1);
+  }
   return grip;
 }
 
@@ -155,7 +159,7 @@ static void production(const gg_model *m, const gg_gaussian *state, gg_productio
 /* Trace and deviations separately: energy has the slow equation. `shear`: drives the last component. */
 static void put_tensor(gg_tensor A, double unit, double shear, gsl_vector *f, size_t at)
 {
-  gsl_vector_set(f, at, gg_theory_trace(A) / unit);
+  gsl_vector_set(f, at, gg_tensor_trace(A) / unit);
   gsl_vector_set(f, at + 1, (A.at[1][1] - A.at[0][0]) / unit);
   gsl_vector_set(f, at + 2, (A.at[2][2] - A.at[0][0]) / unit);
   gsl_vector_set(f, at + 3, relative * A.at[0][1] / (unit * shear));
@@ -174,11 +178,11 @@ static int residual(const gsl_vector *x, void *params, gsl_vector *f)
   const gg_gaussian *change = p.change;
   size_t at = 0;
   for (int i = 0; i < c->model->n_species; i++) {
-    put_tensor(change[i].M, gg_theory_trace(state[i].M) / 3, p.shear[i], f, at);
+    put_tensor(change[i].M, gg_tensor_trace(state[i].M) / 3, p.shear[i], f, at);
     if (i == c->most) gsl_vector_set(f, at, relative * p.excess);
     at += PER_TENSOR;
     if (!gg_theory_species_spins(c->model, i)) continue;
-    put_tensor(change[i].Theta, gg_theory_trace(state[i].Theta) / 3, p.shear[i], f, at);
+    put_tensor(change[i].Theta, gg_tensor_trace(state[i].Theta) / 3, p.shear[i], f, at);
     at += PER_TENSOR;
     if (c->turns) gsl_vector_set(f, at++, relative * change[i].spin / rolling(c->model, i));
   }
@@ -187,12 +191,22 @@ static int residual(const gsl_vector *x, void *params, gsl_vector *f)
   return GSL_SUCCESS;
 }
 
+/* Grains of species 1, with friction as the constant beta that exchanges as much. */
+static gg_grain grain_of(const gg_model *m, double *ratio)
+{
+  gg_grain grain = gg_theory_grain_of(m);
+  const double mu = m->contact[0][0].mu;
+  *ratio = isinf(mu) || grain.eta2 == 0 ? gg_theory_lun_ratio(grain) : gg_theory_ratio_driven(grain, mu);
+  if (isfinite(mu)) grain.eta2 = gg_theory_mean_grip(grain, mu, *ratio);
+  return grain;
+}
+
 /* Scales from Lun's theory of grains of species 1: the work of his shear stress about equals the loss. */
 static closure closure_of(const gg_model *m)
 {
   closure c = {.model = m};
-  gg_grain grain = gg_theory_grain_of(m);
-  double ratio = gg_theory_lun_ratio(grain), mass = 0;
+  double ratio, mass = 0;
+  const gg_grain grain = grain_of(m, &ratio);
   gg_lun_functions lun = gg_theory_lun_functions_at((gg_lun_state){m->density, m->phi, m->chi[0], grain, ratio});
   for (int i = 0; i < m->n_species; i++) {
     mass += gg_theory_fraction(m, i) * m->mass[i];
@@ -286,7 +300,7 @@ static size_t unknowns(const closure *c)
 static double temperature_of(const gg_model *m, const gg_gaussian state[])
 {
   double T = 0;
-  for (int i = 0; i < m->n_species; i++) T += gg_theory_fraction(m, i) * m->mass[i] * gg_theory_trace(state[i].M) / 3;
+  for (int i = 0; i < m->n_species; i++) T += gg_theory_fraction(m, i) * m->mass[i] * gg_tensor_trace(state[i].M) / 3;
   return T;
 }
 

@@ -104,8 +104,8 @@ static void relax_moments(const gg_model *m, double time, gg_relaxing *x)
   x->T = x->theta = 0;
   for (int i = 0; i < m->n_species; i++) {
     const double share = m->mass[i] * m->fraction[i];
-    x->T += share * gg_theory_trace(x->of[i].M) / 3;
-    if (m->rule != GG_SMOOTH) x->theta += share * m->inertia[i] * gg_theory_trace(x->of[i].Theta) / 3;
+    x->T += share * gg_tensor_trace(x->of[i].M) / 3;
+    if (m->rule != GG_SMOOTH) x->theta += share * m->inertia[i] * gg_tensor_trace(x->of[i].Theta) / 3;
   }
 }
 

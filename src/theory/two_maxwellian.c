@@ -69,11 +69,24 @@ static double cubic_excess(double delta)
   return x * x2 / 24 * (1 - x2 / 20 * (1 - x2 / 42 * (1 - x2 / 72 * (1 - x2 / 110))));
 }
 
+/* <J_t g_t> of friction. */
+static double tangential_work(gg_grain g, double V, double u)
+{
+  const double delta = atan(u), c2 = 1 / (1 + u * u);
+  return g.eta2 * V * (2 * c2 * c2 + (u > 0 ? cubic_excess(delta) / u : 0));
+}
+
+double gg_theory_mean_grip(gg_grain g, double mu, double r)
+{
+  const double V = contact_spread(g, r);
+  return g.eta2 == 0 ? 0 : tangential_work(g, V, sliding_tangent(g, mu, r)) / (2 * V);
+}
+
 gg_exchange gg_theory_exchange_at(gg_grain g, double mu, double r)
 {
   if (isinf(mu)) return constant_beta(g, r);
-  double V = contact_spread(g, r), u = sliding_tangent(g, mu, r), delta = atan(u), c2 = 1 / (1 + u * u);
-  double Jg = g.eta2 * V * (2 * c2 * c2 + (u > 0 ? cubic_excess(delta) / u : 0)), JJ = 2 * g.eta2 * g.eta2 * V * c2;
+  double V = contact_spread(g, r), u = sliding_tangent(g, mu, r);
+  double Jg = tangential_work(g, V, u), JJ = 2 * g.eta2 * g.eta2 * V / (1 + u * u);
   double lost = Jg / (1 + r / g.K);
   return (gg_exchange){-4 * g.eta1 * (1 - g.eta1) - lost + JJ, -r / g.K * lost + JJ / g.K};
 }

@@ -16,6 +16,9 @@ gg_exchange gg_theory_exchange_at(gg_grain grain, double mu, double ratio);
  * all the energy that translation loses. */
 double gg_theory_cooling_at(gg_grain grain, double mu, double ratio);
 
+/* Friction as a constant beta that does the same work, <J_t g_t>/<g_t^2>: that eta_2. */
+double gg_theory_mean_grip(gg_grain grain, double mu, double ratio);
+
 /* Fraction of collisions that slide. */
 double gg_theory_sliding_fraction(gg_grain grain, double mu, double ratio);
 

@@ -93,9 +93,11 @@ static void gaussian_moments(void **state)
   const gg_gaussian gas[2] = {
       {{{{1.2, -0.3, 0}, {-0.3, 0.7, 0}, {0, 0, 0.8}}}, {{{0.5, 0.1, 0}, {0.1, 0.9, 0}, {0, 0, 0.6}}}, -0.3},
       {{{{0.5, -0.2, 0}, {-0.2, 0.4, 0}, {0, 0, 0.3}}}, {{{0.2, -0.1, 0}, {-0.1, 0.3, 0}, {0, 0, 0.4}}}, -0.1}};
-  const double e[] = {0.9, 0.6}, beta[] = {0.3, -0.7};
-  for (int set = 0; set < 2; set++) {
+  const double e[] = {0.9, 0.6, 0.8}, beta[] = {0.3, -0.7, 0.2}, mu[] = {INFINITY, INFINITY, 0.25};
+  for (int set = 0; set < 3; set++) {
     gg_model m = mixture_for(GG_USF, 0.3, e[set], beta[set], 3, 1.5, 0.5);
+    for (int p = 0; p < GG_PAIRS; p++) m.mu[p] = mu[set];
+    gg_common_model_set_pairs(&m);
     for (int i = 0; i < 2; i++)
       for (int j = 0; j < 2; j++) {
         gg_model pair = only_pair(&m, i, j);

@@ -208,10 +208,6 @@ static void refuses_politely(void **state)
   (void)state;
   gg_model m = model_for(GG_HCS, 0.1, 0.9, -1);
   assert_refused(&gg_theory_gaussian_closure, &m, "this scene is free cooling");
-  gg_scene s = scene_of(GG_USF, 0.1, 0.9, 0.4);
-  for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = 0.1;
-  m = model_of(&s);
-  assert_refused(&gg_theory_gaussian_closure, &m, "Coulomb");
 }
 
 int main(void)

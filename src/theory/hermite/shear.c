@@ -25,7 +25,7 @@ static double factor_of(const gg_model *m, const gg_gaussian start[])
 {
   double T = 0;
   if (gg_common_thermostat_of(m) != GG_WHITE_NOISE) return 1;
-  for (int i = 0; i < m->n_species; i++) T += gg_theory_fraction(m, i) * m->mass[i] * gg_theory_trace(start[i].M) / 3;
+  for (int i = 0; i < m->n_species; i++) T += gg_theory_fraction(m, i) * m->mass[i] * gg_tensor_trace(start[i].M) / 3;
   return warmer(m->temperature0 / T);
 }
 

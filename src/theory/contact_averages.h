@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Averages over the contacts of two species whose velocities and spins are Gaussian,
+ *   f_i = n_i N(C; 0, M_i) N(s; s_i z, Theta_i),
+ * for one direction k from grain 1 to grain 2, weighted with the rate of collisions u+ = max(k.g, 0), g the contact
+ * velocity: how often grains collide, and what momentum, energy and spin a collision carries over. Constant beta
+ * (contact_averages.c) is exact; Coulomb friction (contact_friction.c) is a quadrature to about 1e-6. Spins are
+ * surface velocities s = (d/2) omega. */
+#ifndef GG_CONTACT_AVERAGES_H
+#define GG_CONTACT_AVERAGES_H
+
+#include "common/collision.h"
+#include "theory/tensor.h"
+
+typedef struct gg_gaussian {
+  gg_tensor M;     /* <C C> */
+  gg_tensor Theta; /* covariance of s */
+  double spin;     /* mean of s_z */
+} gg_gaussian;
+
+/* A pair of species: grain 1 of one, grain 2 of the other. */
+typedef struct gg_contact_pair {
+  const gg_gaussian *one, *two;
+  const gg_contact *contact;
+  double shear;          /* sigma * shear rate; 0 in the Boltzmann limit */
+  double loss_n, loss_t; /* energy lost over g_n^2, and over g_t^2 where the contact does not slide */
+} gg_contact_pair;
+
+/* <u+ ...> of the impulse J and of its torque k x J. The torque is kept separately: the normal impulse, much the
+ * larger one for weakly rough grains, does not contribute to it. */
+typedef struct gg_contact_average {
+  double rate;         /* <u+> */
+  double loss;         /* <u+ energy lost>, a sum of positive terms */
+  gg_vec J, kJ;        /* <u+ J>, <u+ k x J> */
+  gg_tensor JC, JJ;    /* <u+ J C_1^T>, <u+ J J^T> */
+  gg_tensor kJs, kJkJ; /* <u+ (k x J) s_1^T>, <u+ (k x J)(k x J)^T> */
+} gg_contact_average;
+
+gg_contact_average gg_theory_contact_average(const gg_contact_pair *pair, gg_vec k);
+
+/* contact_friction.c: the same for a finite friction coefficient. */
+gg_contact_average gg_theory_contact_average_frictional(const gg_contact_pair *pair, gg_vec k);
+
+/* Mean of g, -sigma rate k_y x - k x (s_1 + s_2); and its covariance, M_1 + M_2 + X (Theta_1 + Theta_2) X^T with
+ * X v = k x v. */
+gg_vec gg_theory_contact_velocity(const gg_contact_pair *pair, gg_vec k);
+gg_tensor gg_theory_contact_covariance(const gg_contact_pair *pair, gg_vec k);
+
+#endif
