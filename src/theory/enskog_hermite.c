@@ -141,8 +141,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  GG_TRY(gg_theory_require_constant_beta(m, name, err));
-  if (m->rule == GG_ROUGH && m->n_species == 1) return gg_rough_answer(m, a, err);
+  if (m->rule != GG_SMOOTH && m->n_species == 1) return gg_rough_answer(m, a, err);
   GG_TRY(gg_theory_require_smooth(m, name, err));
   if (m->flow == GG_USF || m->flow == GG_HEATED_SHEAR) return gg_hermite_shear_answer(m, a, err);
   return m->n_species > 1 ? gg_hermite_mixture_answer(m, a, err) : homogeneous(m, a, err);

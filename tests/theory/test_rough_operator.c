@@ -38,7 +38,7 @@ static void clear(fixture *x)
 static gg_rough_gas gas_of(double e, double beta, double shear)
 {
   gg_contact c = gg_common_contact_make((gg_partner){1, inertia}, (gg_partner){1, inertia}, e, beta, INFINITY);
-  return (gg_rough_gas){1, c.jn, c.jt, inertia, shear, NULL};
+  return (gg_rough_gas){1, c.jn, c.jt, INFINITY, inertia, shear, NULL};
 }
 
 static gg_rough_weight isotropic(double ratio)
@@ -133,7 +133,7 @@ static void degree_two_is_the_gaussian_closure(void **state)
   (void)state;
   gg_model m = model_for(GG_USF, 0.3, 0.8, 0.3);
   gg_contact c = m.contact[0][0];
-  gg_rough_gas gas = {m.density * m.chi[0], c.jn, c.jt, m.inertia[0], m.shear_rate, NULL};
+  gg_rough_gas gas = {m.density * m.chi[0], c.jn, c.jt, INFINITY, m.inertia[0], m.shear_rate, NULL};
   gg_gaussian g[GG_MAX_SPECIES] = {{.spin = skewed.spin}};
   for (int i = 0; i < 3; i++)
     for (int j = 0; j < 3; j++)

@@ -24,7 +24,7 @@ static gg_rough_weight isotropic(double width, double ratio)
 static void one_direction_is_the_operator(void **state)
 {
   (void)state;
-  const gg_rough_gas gas = {.frequency = 1, .eta1 = 0.8, .eta2 = 0.3, .K = 0.4};
+  const gg_rough_gas gas = {.frequency = 1, .eta1 = 0.8, .eta2 = 0.3, .mu = INFINITY, .K = 0.4};
   const gg_rough_weight w = isotropic(1.1, 1.7);
   const gg_rough_choice slow = {.width = 1.1, .spin_width = 1.7, .decay = 0.04, .spin_decay = 0.03};
   gg_rough_relative relative;

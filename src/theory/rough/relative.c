@@ -8,6 +8,7 @@
 #include "base/memory.h"
 #include "theory/hermite/overlap.h"
 #include "theory/rough/eight_directions.h"
+#include "theory/rough/friction.h"
 
 /* Points of the rule in k_z on (0, 1), and in azimuth on (0, pi), to 1e-6: by symmetry a quarter of the sphere is
  * enough. */
@@ -122,6 +123,12 @@ static void set_direction(gg_rough_relative *r, gg_relative_work *w, const gg_ro
   add_impulse(r, w, &c, k, solid_angle);
 }
 
+static void direction_of(double kz, double azimuth, double k[3])
+{
+  const double s = sqrt(1 - kz * kz);
+  k[0] = s * cos(azimuth), k[1] = s * sin(azimuth), k[2] = kz;
+}
+
 static gg_status add_all(gg_rough_relative *r, gg_relative_work *w, const gg_rough_gas *gas,
                          const gg_rough_weight *weight, bool one_direction, gg_error *err)
 {
@@ -135,11 +142,8 @@ static gg_status add_all(gg_rough_relative *r, gg_relative_work *w, const gg_rou
   GG_TRY(gg_hermite_legendre_rule(2 * POLAR, z, wz, err));
   _Static_assert(POLAR * AZIMUTH % GG_ROUGH_LANES == 0, "no lane is left over");
   for (int n = 0; n < POLAR * AZIMUTH; n++) {
-    int i = POLAR + n / AZIMUTH, lane = n % GG_ROUGH_LANES;
-    double angle = M_PI * (n % AZIMUTH + 0.5) / AZIMUTH;
-    k[2] = 2 * z[i] - 1;
-    double s = sqrt(1 - k[2] * k[2]);
-    k[0] = s * cos(angle), k[1] = s * sin(angle);
+    const int i = POLAR + n / AZIMUTH, lane = n % GG_ROUGH_LANES;
+    direction_of(2 * z[i] - 1, M_PI * (n % AZIMUTH + 0.5) / AZIMUTH, k);
     set_direction(r, w, gas, weight, k, 8 * wz[i] * M_PI / AZIMUTH, lane);
     if (lane < GG_ROUGH_LANES - 1) continue;
     GG_TRY(gg_stop_check(gas->stop, err));
@@ -148,8 +152,7 @@ static gg_status add_all(gg_rough_relative *r, gg_relative_work *w, const gg_rou
   return GG_OK;
 }
 
-static gg_status make(gg_rough_relative *r, gg_relative_work *w, const gg_rough_gas *gas, int degree, bool factored,
-                      gg_error *err)
+static gg_status make(gg_rough_relative *r, const gg_rough_gas *gas, int degree, bool factored, gg_error *err)
 {
   *r = (gg_rough_relative){.stop = gas->stop};
   GG_TRY(gg_rough_functions_make(&r->f, degree, err));
@@ -161,14 +164,56 @@ static gg_status make(gg_rough_relative *r, gg_relative_work *w, const gg_rough_
     r->W = calloc(n * n, sizeof *r->W);
   if (!r->rate || (!r->W && !r->factors)) return gg_base_out_of_memory(err);
   for (size_t i = 0; i < 9; i++) r->J[i / 3][i % 3] = r->rate + (i + 1) * n;
-  return make_work(w, &r->f, err);
+  return GG_OK;
+}
+
+/* A coarser rule in azimuth, to 1e-4: a direction with friction takes a hundred times as long. */
+static gg_status add_sphere_of_friction(gg_rough_friction *friction, const gg_rough_gas *gas,
+                                        const gg_rough_weight *weight, gg_rough_sums *sums, gg_error *err)
+{
+  enum { FEW_POLAR = 3, FEW_AZIMUTH = 8 };
+  double z[2 * FEW_POLAR], wz[2 * FEW_POLAR], k[3];
+  GG_TRY(gg_hermite_legendre_rule(2 * FEW_POLAR, z, wz, err));
+  for (int n = 0; n < FEW_POLAR * FEW_AZIMUTH; n++) {
+    const int i = FEW_POLAR + n / FEW_AZIMUTH;
+    GG_TRY(gg_stop_check(gas->stop, err));
+    direction_of(2 * z[i] - 1, M_PI * (n % FEW_AZIMUTH + 0.5) / FEW_AZIMUTH, k);
+    GG_TRY(gg_rough_friction_add(friction, gas, weight, k, 8 * wz[i] * M_PI / FEW_AZIMUTH, sums, err));
+  }
+  return GG_OK;
+}
+
+static gg_status add_friction(gg_rough_relative *r, const gg_rough_gas *gas, const gg_rough_weight *weight,
+                              bool one_direction, gg_error *err)
+{
+  gg_rough_friction *friction;
+  gg_rough_sums sums = {r->W, r->rate, r->J};
+  const double k[3] = {0, 0, 1};
+  gg_status status = gg_rough_friction_make(&friction, &r->f, one_direction, err);
+  if (status == GG_OK && one_direction)
+    status = gg_rough_friction_add(friction, gas, weight, k, 4 * M_PI, &sums, err);
+  else if (status == GG_OK)
+    status = add_sphere_of_friction(friction, gas, weight, &sums, err);
+  gg_rough_friction_free(friction);
+  return status;
+}
+
+static gg_status make_frictional(gg_rough_relative *r, const gg_rough_gas *gas, const gg_rough_weight *weight,
+                                 int degree, bool one_direction, gg_error *err)
+{
+  gg_status status = make(r, gas, degree, false, err);
+  if (status == GG_OK) status = add_friction(r, gas, weight, one_direction, err);
+  if (status != GG_OK) gg_rough_relative_clear(r);
+  return status;
 }
 
 gg_status gg_rough_relative_make(gg_rough_relative *r, const gg_rough_gas *gas, const gg_rough_weight *weight,
                                  int degree, bool one_direction, gg_error *err)
 {
   gg_relative_work w = {0};
-  gg_status status = make(r, &w, gas, degree, false, err);
+  if (isfinite(gas->mu)) return make_frictional(r, gas, weight, degree, one_direction, err);
+  gg_status status = make(r, gas, degree, false, err);
+  if (status == GG_OK) status = make_work(&w, &r->f, err);
   if (status == GG_OK) status = add_all(r, &w, gas, weight, one_direction, err);
   clear_work(&w);
   if (status != GG_OK) gg_rough_relative_clear(r);
@@ -180,7 +225,9 @@ gg_status gg_rough_relative_isotropic(gg_rough_relative *r, const gg_rough_gas *
 {
   gg_relative_work w = {0};
   double k[3] = {0, 0, 1};
-  gg_status status = make(r, &w, gas, degree, true, err);
+  if (isfinite(gas->mu)) return make_frictional(r, gas, weight, degree, true, err);
+  gg_status status = make(r, gas, degree, true, err);
+  if (status == GG_OK) status = make_work(&w, &r->f, err);
   if (status == GG_OK) {
     gg_rough_collision c = gg_rough_collision_at(gas, weight, k);
     make_flux(&r->f, &w, &c);

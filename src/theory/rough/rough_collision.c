@@ -81,6 +81,23 @@ gg_rough_collision gg_rough_collision_at(const gg_rough_gas *gas, const gg_rough
   return c;
 }
 
+gg_rough_contact gg_rough_contact_at(const gg_rough_gas *gas, const gg_rough_weight *w, const double k[3],
+                                     const double axis[3][3])
+{
+  gg_rough_contact c;
+  double g[3], mean[3] = {0, 0, 2 * w->spin}, swirl[3];
+  cross(k, mean, swirl);
+  for (int i = 0; i < 3; i++) {
+    kick(gas, w, k, axis[i], c.B[i]);
+    c.m[i] = -gas->shear * k[1] * axis[i][0] - dot(axis[i], swirl);
+  }
+  for (int z = 0; z < GG_ROUGH_AXES; z++) {
+    contact_velocity(w, k, z, g);
+    for (int i = 0; i < 3; i++) c.G[i][z] = dot(axis[i], g);
+  }
+  return c;
+}
+
 void gg_rough_flux(const gg_rough_collision *c, int most, double *moment)
 {
   double from = fmax(c->u0, -farthest), to = fmax(farthest, from);

@@ -17,6 +17,7 @@ typedef struct gg_rough_weight {
 typedef struct gg_rough_gas {
   double frequency;    /* n chi sigma^2 */
   double eta1, eta2;   /* J = eta2 g + (eta1 - eta2) k g_n */
+  double mu;           /* friction, |J_t| <= mu |J_n|; INFINITY: constant beta */
   double K;            /* 4I/(m d^2) */
   double shear;        /* sigma times shear rate: the flow between two centres; 0 in the Boltzmann limit */
   const gg_stop *stop; /* borrowed from the model: no physics */
@@ -30,6 +31,14 @@ typedef struct gg_rough_collision {
 } gg_rough_collision;
 
 gg_rough_collision gg_rough_collision_at(const gg_rough_gas *gas, const gg_rough_weight *weight, const double k[3]);
+
+/* Contact velocity g = G z + m along three axes, and what a unit impulse along each of them does: z' = z + B J. */
+typedef struct gg_rough_contact {
+  double G[3][GG_ROUGH_AXES], m[3], B[3][GG_ROUGH_AXES];
+} gg_rough_contact;
+
+gg_rough_contact gg_rough_contact_at(const gg_rough_gas *gas, const gg_rough_weight *weight, const double k[3],
+                                     const double axis[3][3]);
 
 /* moment[m] = < g_n He_m(u)/sqrt(m!) > over u > u0, m up to `most`. */
 void gg_rough_flux(const gg_rough_collision *c, int most, double *moment);
