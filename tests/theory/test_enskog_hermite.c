@@ -250,11 +250,8 @@ static void heated_shear(void **state)
 static void refuses_what_it_does_not_describe(void **state)
 {
   (void)state;
-  gg_scene friction = scene_of(GG_USF, 0.1, 0.9, 0);
-  for (int p = 0; p < GG_PAIRS; p++) friction.collision.mu[p] = 0.5;
-  gg_model frictional = model_of(&friction), mixed = mixture_for(GG_USF, 0.1, 0.9, 0, 2, 1, 1);
+  gg_model mixed = mixture_for(GG_USF, 0.1, 0.9, 0, 2, 1, 1);
   gg_model elastic = model_for(GG_USF, 0.1, 1, -1), walled = model_for(GG_COUETTE, 0.1, 0.9, -1);
-  assert_refused(&gg_theory_enskog_hermite, &frictional, "Coulomb friction");
   assert_refused(&gg_theory_enskog_hermite, &mixed, "describes smooth grains");
   gg_scene many = scene_of(GG_USF, 0.1, 0.9, -1);
   many.n_species = 9;
