@@ -143,6 +143,14 @@ static double row_of(const gg_rough_weight *w, bool spin, int axis, double n[3])
   return length;
 }
 
+void gg_rough_marginal(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *w,
+                       const double *a, bool spin, int axis, double *h)
+{
+  double n[3];
+  row_of(w, spin, axis, n);
+  marginal(form, f, a, spin, n, h);
+}
+
 void gg_rough_moments(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *w, const double *a,
                       bool spin, int axis, double moment[5])
 {

@@ -14,6 +14,10 @@ typedef struct gg_rough_stream {
 void gg_rough_stream_add(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *weight,
                          const gg_rough_stream *stream, const double *a, double *R, double *jacobian);
 
+/* <Ho_k> of a component of velocity or spin in units of its spread under the weight, k up to GG_ROUGH_MOST_DEGREE. */
+void gg_rough_marginal(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *weight,
+                       const double *a, bool spin, int axis, double *h);
+
 /* Moments <(n.x)^j>, j = 1 .. 4, of velocity (spin: false) or spin along a coordinate axis; spins from the weight's
  * mean. moment[0] = 1. */
 void gg_rough_moments(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *weight,
