@@ -3,6 +3,7 @@
 #ifndef GG_ENSKOG_HERMITE_H
 #define GG_ENSKOG_HERMITE_H
 
+#include "theory/hermite/component.h"
 #include "theory/theory.h"
 
 /* Steady shear of smooth grains; and the highest degree that is solved for so many species (0: too many). */
@@ -12,8 +13,14 @@ int gg_hermite_shear_last_degree(int n_species);
 /* Several species of smooth grains, cooling or heated. */
 gg_status gg_hermite_mixture_answer(const gg_model *model, gg_theory_answer *answer, gg_error *err);
 
-/* Rough grains of constant beta: steady uniform shear, free cooling or heated translation of one species. */
+/* Rough or frictional grains of one species: steady uniform shear, free cooling or heated translation. */
 gg_status gg_rough_answer(const gg_model *model, gg_theory_answer *answer, gg_error *err);
+
+/* Components of velocity and spin (1) of the last three approximations, the last first. */
+typedef struct gg_rough_marginals {
+  gg_hermite_component of[3][2][3];
+} gg_rough_marginals;
+gg_status gg_rough_marginals_of(const gg_model *model, gg_rough_marginals *marginals, gg_error *err);
 
 /* The distributions themselves, under the names and at the abscissae of the observables that measure them: those in
  * `measure` (GG_MEASURE_...) that the solution has: velocity_distributions, and in isotropic states sonine.

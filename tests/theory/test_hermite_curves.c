@@ -6,10 +6,10 @@
 
 #include <stdlib.h>
 
+#include "graingas.h"
 #include "measure/histogram.h"
 #include "run/run.h"
 #include "theory/hermite/component.h"
-#include "graingas.h"
 
 static double square_y(const double C[3])
 {
@@ -168,15 +168,17 @@ static gg_result *run(gg_scene s)
   return result;
 }
 
-/* Mean of z^2 over bins within `reach`, against the theory or (NULL) against no deviation from a Gaussian. */
+/* Mean of z^2 over bins within `reach`, against the theory or (NULL) against no deviation from a Gaussian. Errors of
+ * the theory count where they are no longer small, for rough grains. */
 static double mean_square(const gg_curve *c, const gg_curve *theory, double reach, double *worst)
 {
   double sum = 0;
   int n = 0;
   for (size_t i = 0; i < c->n; i++) {
     if (fabs(c->x[i]) > reach || !(c->error[i] > 0)) continue;
+    if (theory && isnan(theory->value[i])) continue;              /* beyond what the series knows */
     if (theory) assert_true(fabs(c->x[i] - theory->x[i]) < 0.01); /* of mixtures in units of their temperatures */
-    double z = (c->value[i] - (theory ? theory->value[i] : 0)) / c->error[i];
+    double z = (c->value[i] - (theory ? theory->value[i] : 0)) / hypot(c->error[i], theory ? theory->error[i] : 0);
     if (worst) *worst = fmax(*worst, fabs(z));
     sum += z * z, n++;
   }
@@ -191,6 +193,8 @@ static void those_of_the_engine(void **state)
   mixed.n_species = 2;
   mixed.species[0] = (gg_species){0.5, 1, 1, 0.4, 1};
   mixed.species[1] = (gg_species){0.5, 1, 3, 0.4, 1};
+  gg_scene sliding = scene_of(GG_HSS, 0, 0.8, 0), rough = scene_of(GG_HCS, 0.1, 0.9, 0.5);
+  for (int p = 0; p < GG_PAIRS; p++) sliding.collision.mu[p] = 0.1;
   const unsigned components = GG_MEASURE_VELOCITY_DISTRIBUTIONS, speeds = GG_MEASURE_SONINE;
   const struct {
     gg_scene scene;
@@ -200,7 +204,9 @@ static void those_of_the_engine(void **state)
       {measured(scene_of(GG_USF, 0.3, 0.7, -1), components), {"velocity_deviation_Cx", "velocity_deviation_Cz"}, 2, 3},
       {measured(scene_of(GG_USF, 0, 0.8, -1), components), {"velocity_deviation_Cx", "velocity_deviation_Cy"}, 2, 20},
       {measured(scene_of(GG_HSS, 0.1, 0.5, -1), components | speeds), {"sonine_excess", "velocity_deviation_Cx"}, 2, 3},
-      {measured(mixed, speeds), {"sonine_excess_1", "sonine_excess_2"}, 1.5, 3}};
+      {measured(mixed, speeds), {"sonine_excess_1", "sonine_excess_2"}, 1.5, 3},
+      {measured(rough, components), {"velocity_deviation_Wx", "velocity_deviation_Wz"}, 2, 3},
+      {measured(sliding, components), {"velocity_deviation_Wx", "velocity_deviation_Wy"}, 2, 3}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     gg_result *r = run(cases[i].scene);
     gg_curves theory = curves_of(&r->model, cases[i].scene.measure);

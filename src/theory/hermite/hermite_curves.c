@@ -2,6 +2,7 @@
 #include "theory/enskog_hermite.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "common/thermostat.h"
@@ -14,16 +15,16 @@
 
 static const char name[] = "enskog_hermite";
 
-/* One approximation: the marginal of each species and axis, and T_i/T. */
+/* One approximation: the marginal of each species and axis, and T_i/T; the spins of one rough species. */
 typedef struct solution {
-  gg_hermite_component marginal[GG_MAX_SPECIES][3];
+  gg_hermite_component marginal[GG_MAX_SPECIES][3], spin[3];
   double share[GG_MAX_SPECIES];
 } solution;
 
 /* The last three approximations, the last first. */
 typedef struct series {
   int n;
-  bool isotropic;
+  bool isotropic, spins;
   solution rung[3];
 } series;
 
@@ -118,6 +119,18 @@ static gg_status mixed_isotropic(const gg_model *m, series *s, gg_error *err)
   return GG_OK;
 }
 
+static gg_status rough(const gg_model *m, series *s, gg_error *err)
+{
+  gg_rough_marginals x;
+  GG_TRY(gg_rough_marginals_of(m, &x, err));
+  for (int rung = 0; rung < 3; rung++) {
+    memcpy(s->rung[rung].marginal[0], x.of[rung][0], sizeof x.of[rung][0]);
+    memcpy(s->rung[rung].spin, x.of[rung][1], sizeof x.of[rung][1]);
+    s->rung[rung].share[0] = 1;
+  }
+  return GG_OK;
+}
+
 static void put(const gg_model *m, unsigned measure, const series *s, const solution *x, gg_curves *list)
 {
   double bin[GG_HISTOGRAM];
@@ -127,6 +140,10 @@ static void put(const gg_model *m, unsigned measure, const series *s, const solu
       gg_hermite_component_histogram(&x->marginal[i][a], bin);
       gg_measure_velocity_curves_put(list, (gg_velocity_component){m->n_species, i, false, a}, bin, 0);
     }
+  for (int a = 0; a < 3 && s->spins && measure & GG_MEASURE_VELOCITY_DISTRIBUTIONS; a++) {
+    gg_hermite_component_histogram(&x->spin[a], bin);
+    gg_measure_velocity_curves_put(list, (gg_velocity_component){m->n_species, 0, true, a}, bin, 0);
+  }
   for (int i = 0; i < m->n_species && s->isotropic && measure & GG_MEASURE_SONINE; i++) {
     gg_sonine_sums sums = {.temperature_ratio = x->share[i]};
     list->group = "sonine";
@@ -214,12 +231,17 @@ static gg_status write(const gg_model *m, unsigned measure, const series *s, gg_
 
 gg_status gg_hermite_curves(const gg_model *m, unsigned measure, gg_curves *list, gg_error *err)
 {
-  series s = {.isotropic = m->flow != GG_USF && m->flow != GG_HEATED_SHEAR};
+  series s = {.isotropic = m->flow != GG_USF && m->flow != GG_HEATED_SHEAR, .spins = m->rule != GG_SMOOTH};
   gg_error why;
   if (!(measure & GG_MEASURE_VELOCITY_DISTRIBUTIONS) && !(s.isotropic && measure & GG_MEASURE_SONINE)) return GG_OK;
-  if (m->rule != GG_SMOOTH) return gg_theory_reject(err, name, "has no distributions of rough grains");
+  if (m->rule != GG_SMOOTH && m->n_species > 1)
+    return gg_theory_reject(err, name, "has no distributions of rough mixtures");
+  if (s.spins && !s.isotropic)
+    return gg_theory_reject(
+        err, name, "has no distributions of sheared rough grains: its series, of degree 6, is too short for them");
   if (!s.isotropic) GG_TRY(gg_theory_require_steady_shear(m, name, err));
-  gg_status status = !s.isotropic        ? sheared(m, &s, &why)
+  gg_status status = s.spins             ? rough(m, &s, &why)
+                     : !s.isotropic      ? sheared(m, &s, &why)
                      : m->n_species == 1 ? one_isotropic(m, &s, &why)
                                          : mixed_isotropic(m, &s, &why);
   return status == GG_OK ? write(m, measure, &s, list, err)

@@ -2,6 +2,7 @@
 #include "theory/enskog_hermite.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "theory/answer.h"
 #include "theory/garzo_dufty1999.h"
@@ -152,7 +153,16 @@ static bool gaussian_start(const gg_model *m, gg_rough_weight *w)
   return gg_hermite_cholesky(start[0].M.at, w->L) && gg_hermite_cholesky(start[0].Theta.at, w->S);
 }
 
-static gg_status solve_degrees(const gg_model *m, gg_rough_steady *s, gg_theory_answer rung[], gg_error *err)
+/* The latest approximation first. */
+static void keep(const gg_rough_steady *s, gg_rough_marginals *to)
+{
+  if (!to) return;
+  memmove(to->of[1], to->of[0], 2 * sizeof to->of[0]);
+  for (int k = 0; k < 6; k++) to->of[0][k / 3][k % 3] = gg_rough_component_of(s, k / 3, k % 3);
+}
+
+static gg_status solve_degrees(const gg_model *m, gg_rough_steady *s, gg_theory_answer rung[], gg_rough_marginals *kept,
+                               gg_error *err)
 {
   gg_error why;
   for (int degree = FIRST_DEGREE; degree <= LAST_DEGREE; degree++) {
@@ -163,12 +173,13 @@ static gg_status solve_degrees(const gg_model *m, gg_rough_steady *s, gg_theory_
                               gg_theory_is_nearly_elastic(m) ? "the loss of energy is below numerical resolution"
                                                              : why.message);
     answer_shear(m, s, a);
+    keep(s, kept);
     if (!gg_rough_follow(s)) return gg_theory_reject(err, name, "fails here: no second moments");
   }
   return GG_OK;
 }
 
-static gg_status sheared(const gg_model *m, gg_theory_answer *a, gg_error *err)
+static gg_status sheared(const gg_model *m, gg_theory_answer *a, gg_rough_marginals *kept, gg_error *err)
 {
   gg_theory_answer rung[LAST_DEGREE - FIRST_DEGREE + 1];
   gg_rough_steady s = begin(m, &moments);
@@ -180,7 +191,7 @@ static gg_status sheared(const gg_model *m, gg_theory_answer *a, gg_error *err)
   for (int i = 0; i < 3; i++) s.stream.velocity[i][i] = m->bath.drag[0];
   s.stream.velocity[0][1] = m->shear_rate;
   if (!gaussian_start(m, &s.weight)) return gg_theory_reject(err, name, "fails here: no steady state was found");
-  gg_status status = solve_degrees(m, &s, rung, err);
+  gg_status status = solve_degrees(m, &s, rung, kept, err);
   gg_rough_steady_clear(&s);
   GG_TRY(status);
   for (int q = 0; q < GG_N_QUANTITIES; q++) {
@@ -236,15 +247,18 @@ static gg_status answer_viscosity(const gg_model *m, const gg_rough_steady *s, g
 }
 
 /* A sequence of solutions, the weight of each from the last. */
-static gg_status isotropic(const gg_model *m, gg_rough_steady *s, int degree, gg_theory_answer *a, gg_error *err)
+static gg_status isotropic(const gg_model *m, gg_rough_steady *s, int degree, gg_theory_answer *a,
+                           gg_rough_marginals *kept, gg_error *err)
 {
   const gg_heating heating = gg_theory_heating_of(m);
   double x;
   *a = nothing();
   GG_TRY(gg_rough_isotropic_solve(s, degree, &heating, &x, err));
   answer_isotropic(m, s, &heating, x, a);
-  if (m->rule != GG_FRICTIONAL) GG_TRY(answer_viscosity(m, s, a, err));
-  if (m->rule != GG_FRICTIONAL && m->flow == GG_HCS) GG_TRY(answer_heat(m, s, a, err));
+  keep(s, kept);
+  const bool responds = m->rule != GG_FRICTIONAL && !kept;
+  if (responds) GG_TRY(answer_viscosity(m, s, a, err));
+  if (responds && m->flow == GG_HCS) GG_TRY(answer_heat(m, s, a, err));
   return gg_rough_follow(s) ? GG_OK : gg_base_fail(err, GG_FAILED, "no second moments");
 }
 
@@ -275,7 +289,7 @@ static void set_heat_errors(const gg_theory_answer *first, const gg_theory_answe
 
 /* Degree after degree; the error is the change by the last one. */
 static gg_status converge_isotropic(const gg_model *m, const gg_rough_choice *choice, double ratio, double limit,
-                                    gg_theory_answer *a, gg_error *err)
+                                    gg_theory_answer *a, gg_rough_marginals *kept, gg_error *err)
 {
   gg_theory_answer now = nothing(), before = now, first = now;
   gg_error why;
@@ -284,7 +298,7 @@ static gg_status converge_isotropic(const gg_model *m, const gg_rough_choice *ch
   for (int i = 0; i < 3; i++) s.weight.S[i][i] = sqrt(choice->spin_width * ratio / m->inertia[0]);
   for (int degree = FIRST_DEGREE; status == GG_OK && degree <= LAST_ISOTROPIC; degree += 2) {
     first = before, before = now;
-    status = isotropic(m, &s, degree, &now, &why);
+    status = isotropic(m, &s, degree, &now, kept, &why);
   }
   gg_rough_steady_clear(&s);
   if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
@@ -296,24 +310,35 @@ static gg_status converge_isotropic(const gg_model *m, const gg_rough_choice *ch
   return GG_OK;
 }
 
-static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *err)
+static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_rough_marginals *kept, gg_error *err)
 {
   double ratio = maxwellian_ratio(m);
   if (isnan(ratio)) return gg_theory_reject(err, name, "finds no steady theta/T");
   gg_status status = GG_FAILED;
   if (m->rule == GG_FRICTIONAL) {
     const bool cools = gg_theory_heating_of(m).kind == GG_HEATING_COOLS;
-    return converge_isotropic(m, cools ? &wider_spins : &moments, ratio, poor, a, err);
+    return converge_isotropic(m, cools ? &wider_spins : &moments, ratio, poor, a, kept, err);
   }
   for (int i = 0; i < CHOICES && status != GG_OK; i++)
-    status = converge_isotropic(m, &tails[i], ratio, i + 1 < CHOICES ? restless : poor, a, err);
+    status = converge_isotropic(m, &tails[i], ratio, i + 1 < CHOICES ? restless : poor, a, kept, err);
   if (status == GG_OK && m->flow == GG_HCS) gg_theory_answer_critical_lengths(m, a->value[GG_Q_TEMPERATURE_RATIO], a);
   return status;
 }
 
-gg_status gg_rough_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
+static gg_status solve(const gg_model *m, gg_theory_answer *a, gg_rough_marginals *kept, gg_error *err)
 {
   if (m->flow == GG_HEATED_SHEAR && !m->bath.on)
     return gg_theory_reject(err, name, "has no heated shear of rough grains");
-  return m->shear_rate != 0 && !m->linear_response ? sheared(m, a, err) : homogeneous(m, a, err);
+  return m->shear_rate != 0 && !m->linear_response ? sheared(m, a, kept, err) : homogeneous(m, a, kept, err);
+}
+
+gg_status gg_rough_answer(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  return solve(m, a, NULL, err);
+}
+
+gg_status gg_rough_marginals_of(const gg_model *m, gg_rough_marginals *marginals, gg_error *err)
+{
+  gg_theory_answer a = nothing();
+  return solve(m, &a, marginals, err);
 }
