@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Enskog's equation itself, solved without random numbers: an expansion of the distribution about an anisotropic
  * Gaussian, all collision integrals by quadrature, the steady state by Newton's method (theory/hermite). The degree
- * grows step by step, so that each number has its distance from the limit as its error. Rough grains: theory/rough. */
+ * grows step by step, so that each number has its distance from the limit as its error. Rough and frictional grains:
+ * theory/rough. */
 #include <math.h>
 
 #include "theory/answer.h"
@@ -159,12 +160,12 @@ const gg_theory gg_theory_enskog_hermite = {
                "c_2 " GG_ANSWERS_MIXTURE GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT
                "rotational_conductivity_reduced rotational_diffusive_conductivity_reduced " GG_ANSWERS_EXPANSION
                    GG_ANSWERS_LENGTHS "relaxation_rate",
-    .assumptions = "Any density, molecular chaos, no other assumption: each answer has a numerical error. One species, "
-                   "smooth or of constant beta, or a smooth mixture: steady uniform shear (up to 8 species), free "
-                   "cooling and heated states, also in a bath; viscosity (of smooth grains up to 6 species), heat "
-                   "flux of one cooling species, smooth or rough. "
-                   "Errors of smooth grains are "
-                   "mostly below 0.01 % (0.1 % in dilute shear at e = 0.5), of rough grains 0.1 % from e = 0.7 on.",
+    .assumptions =
+        "Any density, molecular chaos, no other assumption: each answer has a numerical error. One species, smooth, of "
+        "constant beta or with Coulomb friction, or a smooth mixture: steady uniform shear (up to 8 species), free "
+        "cooling and heated states, also in a bath; viscosity (of smooth grains up to 6 species), heat flux of one "
+        "cooling species, smooth or of constant beta. Errors of smooth grains are mostly below 0.01 % (0.1 % in dilute "
+        "shear at e = 0.5), of rough and frictional grains 0.1 % from e = 0.7 on.",
     .baths = true,
     .evaluate = evaluate,
     .curves = gg_hermite_curves,
