@@ -11,6 +11,7 @@
   X(lun1991_lun_savage)                                                                                                \
   X(enskog_hermite)                                                                                                    \
   X(gaussian_closure)                                                                                                  \
+  X(saha_alam2016)                                                                                                     \
   X(grad)                                                                                                              \
   X(sela_goldhirsch1998)                                                                                               \
   X(huthmann_zippelius1997)                                                                                            \
