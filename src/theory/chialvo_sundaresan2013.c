@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "theory/newtonian_shear.h"
+#include "theory/range.h"
 #include "theory/theory_list.h"
 
 static const char name[] = "chialvo_sundaresan2013";
@@ -67,4 +68,5 @@ const gg_theory gg_theory_chialvo_sundaresan2013 = {
                    "lower bound in dense grains. Shear stress for smooth grains up to phi = 0.49. Contact value of the "
                    "scene; the paper's own is contact_value: chialvo_sundaresan2013.",
     .evaluate = evaluate,
+    .beyond = gg_theory_beyond_linear_anisotropy,
 };

@@ -15,6 +15,7 @@
 
 #include "theory/jenkins_zhang2002.h"
 #include "theory/newtonian_shear.h"
+#include "theory/range.h"
 #include "theory/theory_list.h"
 
 static const char name[] = "vescovi2014";
@@ -36,6 +37,12 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   return GG_OK;
 }
 
+static const char *beyond(const gg_model *m)
+{
+  const char *friction = gg_theory_beyond_little_friction(m);
+  return friction ? friction : gg_theory_beyond_linear_anisotropy(m);
+}
+
 const gg_theory gg_theory_vescovi2014 = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_USF),
@@ -49,5 +56,5 @@ const gg_theory gg_theory_vescovi2014 = {
                    "divided by a correlation length. First order in the shear rate (so N1 = N2 = 0), contact value of "
                    "the scene; the paper's own is contact_value: vescovi2014.",
     .evaluate = evaluate,
-    .beyond = gg_theory_beyond_little_friction,
+    .beyond = beyond,
 };

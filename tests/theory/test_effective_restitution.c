@@ -168,10 +168,12 @@ static void grains_outside_are_rejected(void **state)
     assert_refused(theories[i], &elastic, "heats up");
     assert_refused(theories[i], &mixture, "one species");
   }
-  const gg_model made_for = frictional(0.3, 0.98, 0, 0.05), beyond = frictional(0.3, 0.98, 0, 0.5);
-  for (int i = 0; i < 2; i++) {
+  const gg_model made_for = frictional(0.3, 0.98, 1, 0.05), beyond = frictional(0.3, 0.98, 0, 0.5);
+  const gg_model dissipative = model_for(GG_USF, 0.3, 0.8, -1);
+  for (int i = 0; i < 3; i++) {
     assert_null(gg_theory_beyond(theories[i], &made_for));
     assert_non_null(gg_theory_beyond(theories[i], &beyond));
+    assert_non_null(gg_theory_beyond(theories[i], &dissipative));
   }
 }
 
