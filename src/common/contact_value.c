@@ -56,6 +56,11 @@ double gg_common_contact_value_of(gg_contact_value kind, double phi)
   }
 }
 
+double gg_common_contact_value_limit(gg_contact_value kind)
+{
+  return kind == GG_KOLAFA ? 0.55 : 0.63;
+}
+
 double gg_common_contact_value_mixture(double phi, double phi_hat, double d_red)
 {
   double y = phi_hat * d_red, f = 1 - phi;

@@ -139,7 +139,7 @@ static double vescovi_weight(double phi)
 }
 
 /* Contact values of sheared dissipative spheres: Carnahan & Starling's below phi = 0.4 or at small phi, the divergence
- * at 0.636, values at phi = 0.5 by hand. A scene selects them by name. */
+ * at 0.636, values at phi = 0.5 by hand. All formulas grow with phi. A scene selects them by name. */
 static void contact_values_of_sheared_grains(void **state)
 {
   (void)state;
@@ -152,6 +152,10 @@ static void contact_values_of_sheared_grains(void **state)
   near(gg_common_contact_value_of(GG_CHIALVO_SUNDARESAN, 0.5), 8.891077, 1e-6);
   near(gg_common_contact_value_of(GG_VESCOVI, 0.636 - 1e-9) * 1e-9, 2, 1e-6);
   near(gg_common_contact_value_of(GG_CHIALVO_SUNDARESAN, 0.636 - 1e-10) * 1e-15, 0.58 * 0.636 * 0.636, 1e-4);
+  for (int kind = GG_CARNAHAN_STARLING; kind <= GG_CHIALVO_SUNDARESAN; kind++) /* each grows up to its limit */
+    for (double phi = gg_common_contact_value_limit((gg_contact_value)kind); phi > 0.01; phi -= 0.01)
+      assert_true(gg_common_contact_value_of((gg_contact_value)kind, phi) >
+                  gg_common_contact_value_of((gg_contact_value)kind, phi - 0.01));
   gg_scene s = gg_scene_defaults();
   s.phi = 0.5, s.contact_value = GG_VESCOVI;
   near(make(&s).chi[0], 7.563107, 1e-6);
