@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frictional grains by fits to soft-sphere simulations: S. Chialvo & S. Sundaresan, Phys. Fluids 25 (2013) 070603.
- * Smooth grains of Garzo & Dufty (a_2 = 0) with an effective restitution in the loss, and a floor of T near the
- * critical density phi_c, at which the grains jam (eqs 24, 26, 27, 30 of the paper): e_eff = e - (3/2) mu exp(-3 mu),
- * T = rate^2 max[viscosity/loss(e_eff), 0.06/(phi_c - phi)^1/2] phi_c is 0.636 for smooth grains and falls with mu. Its
- * values for frictional grains are not in graingas, so these have an answer only where the first term is the larger for
- * any phi_c above LOOSEST. The paper multiplies the shear stress of frictional grains by another fit, of which we know
- * no certain form: they have no shear stress here. */
+ * Smooth grains of Garzo & Dufty (a_2 = 0) with an effective restitution in the loss, and a least T near the critical
+ * density phi_c, at which the grains jam:
+ *
+ *   e_eff = e - (3/2) mu exp(-3 mu),   T = rate^2 max[viscosity/loss(e_eff), 0.06/(phi_c - phi)^1/2]
+ *
+ * (eqs 24, 26, 27, 30 of the paper). phi_c is 0.636 for smooth grains and falls with mu. Its values for frictional
+ * grains are not in graingas, so that these have an answer only where the first term is the larger for any phi_c above
+ * LOOSEST. The paper multiplies the shear stress of frictional grains by another fit, of which we know no certain form:
+ * they have no shear stress here. */
 #include <math.h>
 
 #include "theory/newtonian_shear.h"

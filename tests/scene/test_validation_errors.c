@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "base/spelling.h"
-#include "graingas.h"
 #include "scene/scene_reader.h"
+#include "graingas.h"
 
 static gg_status read_and_finish(const char *yaml, gg_error *err)
 {

@@ -204,8 +204,7 @@ double gg_dsmc_channel_set_chi(gg_dsmc_channel *d)
   const gg_model *m = &d->model;
   gg_dsmc_channel_cells *c = &d->cells;
   const gg_contact_value kind = m->contact_value;
-  /* Contact values diverge towards close packing, and mean numbers of a start or of a bed packed by gravity go beyond.
-   */
+  /* Mean numbers of a start or of a bed packed by gravity go beyond the densities of contact values. */
   const double most = gg_common_contact_value_limit(m->n_species == 1 ? kind : GG_CARNAHAN_STARLING);
   double beyond = 0;
   for (int place = 0; place < 2 * c->n; place++) {
