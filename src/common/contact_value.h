@@ -8,8 +8,8 @@
 /* One species. Carnahan & Starling, J. Chem. Phys. 51 (1969) 635: (1 - phi/2)/(1-phi)^3;
  * Lun & Savage 1987: (1 - phi/0.64)^(-1.6); Kolafa, Labik & Malijevsky 2004 in the refit of Pieprzyk et al. 2019.
  *
- * Two are fits to simulations of sheared dissipative spheres and diverge at phi = 0.636, smooth grains' densest
- * packing: D. Vescovi, D. Berzi, P. Richard & N. Brodu, Phys. Fluids 26 (2014) 053305: (1 - w) CS + 2w/(0.636 - phi),
+ * Two are fits to simulations of sheared dissipative spheres and diverge at their densest packing, phi = 0.636:
+ *   D. Vescovi, D. Berzi, P. Richard & N. Brodu, Phys. Fluids 26 (2014) 053305: (1 - w) CS + 2w/(0.636 - phi),
  *     w = ((phi - 0.4)/0.236)^2 above phi = 0.4, else 0;
  *   S. Chialvo & S. Sundaresan, Phys. Fluids 25 (2013) 070603: CS + 0.58 phi^2/(0.636 - phi)^(3/2). */
 double gg_common_contact_value_of(gg_contact_value kind, double phi);
