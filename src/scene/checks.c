@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "common/collision.h"
+#include "common/contact_value.h"
 #include "scene/fields.h"
 
 /* Properties of the scene's collisions that keys depend on. */
@@ -164,6 +165,15 @@ static gg_status check_friction(const gg_scene *s, gg_error *err)
   return GG_OK;
 }
 
+static gg_status check_contact_value(const gg_scene *s, gg_error *err)
+{
+  const double most = gg_common_contact_value_limit(s->contact_value);
+  if (s->n_species > 1 || s->phi <= most) return GG_OK;
+  return gg_base_fail(err, GG_BAD_INPUT,
+                      "key 'contact_value': the formula holds up to phi = %g; this scene has %g; use carnahan_starling",
+                      most, s->phi);
+}
+
 /* Does the gas start as the scene says? Between walls and in sweeps of the shear rate the flow decides. */
 static bool takes_start(gg_flow flow)
 {
@@ -223,6 +233,7 @@ gg_status gg_scene_finish(gg_scene *s, gg_error *err)
                         "key 'output.fields': velocity is missing, which frames always hold; add it to the list");
   gg_scene_fill_in(s);
   GG_TRY(check_friction(s, err));
+  GG_TRY(check_contact_value(s, err));
   GG_TRY(check_start(s, err));
   GG_TRY(check_cells(s, err));
   GG_TRY(check_flow(s, err));

@@ -26,7 +26,13 @@ static const gg_word thermostats[] = {
     {0}};
 static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARLING, "(1 - phi/2)/(1 - phi)^3"},
                                          {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
-                                         {"kolafa", GG_KOLAFA, "from the accurate equation of state"},
+                                         {"kolafa", GG_KOLAFA, "from the accurate equation of state; phi up to 0.55"},
+                                         {"vescovi2014", GG_VESCOVI,
+                                          "sheared smooth spheres: carnahan_starling up to phi = 0.4, above it a "
+                                          "smooth change to 2/(0.636 - phi)"},
+                                         {"chialvo_sundaresan2013", GG_CHIALVO_SUNDARESAN,
+                                          "sheared smooth spheres: carnahan_starling plus "
+                                          "0.58 phi^2/(0.636 - phi)^(3/2)"},
                                          {0}};
 static const gg_word precisions[] = {
     {"double", GG_DOUBLE, "relative precision 1e-16"},

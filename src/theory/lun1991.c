@@ -24,6 +24,7 @@
 #include <math.h>
 
 #include "common/contact_value.h"
+#include "theory/newtonian_shear.h"
 #include "theory/range.h"
 #include "theory/theory_list.h"
 
@@ -107,7 +108,6 @@ static void answer_coefficients(const gg_model *m, double unit, gg_lun_functions
   if (!m->boltzmann) a->value[GG_Q_ROTATIONAL_VISCOSITY] = unit * f.f2r;
 }
 
-/* Viscous heating against dissipation: mu_s rate^2 = D, hence T = rate^2 f2/f5. */
 gg_status gg_theory_lun_shear(const gg_model *m, double chi, const char *theory, gg_theory_answer *a, gg_error *err)
 {
   GG_TRY(gg_theory_require_one_species(m, theory, err));
@@ -116,18 +116,9 @@ gg_status gg_theory_lun_shear(const gg_model *m, double chi, const char *theory,
   gg_grain grain = gg_theory_grain_of(m);
   gg_lun_state state = {m->density, m->phi, chi, grain, gg_theory_lun_ratio(grain)};
   gg_lun_functions f = gg_theory_lun_functions_at(state);
-  double rate = m->shear_rate, T = rate * rate * f.f2 / f.f5;
-  double pk = T * f.f1_kinetic, pc = T * f.f1_transfer;
-  double shear_k = -sqrt(T) * f.f2_kinetic * rate, shear_c = -sqrt(T) * f.f2_transfer * rate;
-  gg_theory_answer_temperature(m, T, state.ratio, a);
-  gg_theory_answer_stress(m, T, (gg_stress){pk, pk, pk, shear_k, shear_k}, (gg_stress){pc, pc, pc, shear_c, shear_c},
-                          a);
-  answer_coefficients(m, m->stress_unit * sqrt(T), f, a);
-  gg_theory_answer_collisions_one(m, T, a);
-  a->value[GG_Q_COLLISION_RATE] *= chi / m->chi[0];
-  a->value[GG_Q_MEAN_FREE_PATH] *= m->chi[0] / chi;
-  a->value[GG_Q_KNUDSEN] *= m->chi[0] / chi;
-  a->value[GG_Q_DISSIPATION] = m->stress_unit * pow(T, 1.5) * f.f5;
+  const gg_newtonian gas = {chi, state.ratio, f.f1_kinetic, f.f1_transfer, f.f2_kinetic, f.f2_transfer, f.f5};
+  gg_theory_answer_newtonian_shear(m, &gas, a);
+  answer_coefficients(m, m->stress_unit * sqrt(a->value[GG_Q_TEMPERATURE]), f, a);
   gg_theory_answer_rolling(m, -0.5, a);
   return GG_OK;
 }

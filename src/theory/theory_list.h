@@ -11,6 +11,10 @@
   X(lun1991_lun_savage)                                                                                                \
   X(enskog_hermite)                                                                                                    \
   X(gaussian_closure)                                                                                                  \
+  X(saha_alam2016)                                                                                                     \
+  X(jenkins_zhang2002)                                                                                                 \
+  X(vescovi2014)                                                                                                       \
+  X(chialvo_sundaresan2013)                                                                                            \
   X(grad)                                                                                                              \
   X(sela_goldhirsch1998)                                                                                               \
   X(huthmann_zippelius1997)                                                                                            \

@@ -243,6 +243,7 @@ static void contradicting_keys_are_rejected(void **state)
   (void)state;
   assert_refused("phi: 0.3\n", "flow is missing");
   assert_refused("flow: usf\n", "phi is missing");
+  assert_refused("flow: usf\nphi: 0.56\ncontact_value: kolafa\n", "the formula holds up to phi = 0.55");
   assert_refused("flow: usf\nphi: 0.3\nspecies: [{fraction: 0}, {fraction: 1}]\n",
                  "allowed: a number above 0, at most 1e+30 (leave out a species without grains)");
   assert_refused("flow: usf\nphi: 0.3\nspecies: [{fraction: -1}, {fraction: 1}]\n", "leave out a species");

@@ -20,9 +20,6 @@ enum {
   LEAST_CELLS = 20, /* across the channel */
   OPEN_HEIGHTS = 8  /* with an open top cells reach up to so many heights of the box */
 };
-/* Solid fraction up to which contact values are computed: they diverge towards close packing, and mean numbers of a
- * start or of a bed packed by gravity go beyond it. */
-#define MOST_FILLED 0.63
 
 double gg_dsmc_channel_cell_width(const gg_model *m)
 {
@@ -207,12 +204,14 @@ double gg_dsmc_channel_set_chi(gg_dsmc_channel *d)
   const gg_model *m = &d->model;
   gg_dsmc_channel_cells *c = &d->cells;
   const gg_contact_value kind = m->contact_value;
+  /* Mean numbers of a start or of a bed packed by gravity go beyond the densities of contact values. */
+  const double most = gg_common_contact_value_limit(m->n_species == 1 ? kind : GG_CARNAHAN_STARLING);
   double beyond = 0;
   for (int place = 0; place < 2 * c->n; place++) {
     double filled = 0, over_d = 0;
     if (!m->boltzmann) filling_at(d, place, &filled, &over_d);
-    if (filled > MOST_FILLED) {
-      over_d *= MOST_FILLED / filled, filled = MOST_FILLED;
+    if (filled > most) {
+      over_d *= most / filled, filled = most;
       for (int s = 0; place % 2 == 0 && s < m->n_species; s++) beyond += c->mean[place / 2 * m->n_species + s];
     }
     for (int i = 0; i < m->n_species; i++)
