@@ -101,7 +101,7 @@ static void describe_spins(const gg_result *result, char *text, size_t size)
            beyond);
 }
 
-/* Of mixtures the rate is not known. */
+/* The rate of mixtures is unknown. */
 static void describe_metastable(const gg_replicas *all, const gg_result *result, window w, char *text, size_t size)
 {
   int n = snprintf(text, size, "no trend over %.0f collisions a grain, but grains that spin fast escape friction",
