@@ -838,7 +838,7 @@ GG_API int gg_result_is_steady(const gg_result *result);
 
 typedef struct gg_result_info {
   const char *engine;  /* "md", "dsmc" */
-  int steady;          /* whether the steady state was reached */
+  int steady;          /* whether the steady state was reached, or a metastable one */
   const char *verdict; /* reason for `steady` */
   int64_t grains;
   const char *grains_chosen;                      /* reason for this number; NULL if given, or the default */
@@ -849,6 +849,8 @@ typedef struct gg_result_info {
   double total_cpu_seconds, wall_seconds;         /* NaN: not known */
   const char *version, *command, *machine, *date; /* of the result's file; NULL without a file */
   size_t frames;                                  /* of the trajectory in that file */
+  int metastable;     /* no trend, but grains that spin fast escape friction one by one: free cooling with friction */
+  double escape_rate; /* their fraction per collision a grain, estimated; NaN: not known, or no such gas */
 } gg_result_info;
 
 /**

@@ -86,7 +86,7 @@ const char *gg_result_unit(const gg_result *result, const char *quantity)
 
 int gg_result_is_steady(const gg_result *result)
 {
-  return result && result->steadiness == GG_STEADY;
+  return result && gg_run_is_steady(result->steadiness);
 }
 
 gg_status gg_result_get_info(const gg_result *result, gg_result_info *info, gg_error *err)
@@ -96,6 +96,8 @@ gg_status gg_result_get_info(const gg_result *result, gg_result_info *info, gg_e
   *info = (gg_result_info){.engine = r->engine,
                            .steady = gg_result_is_steady(r),
                            .verdict = r->steadiness_text,
+                           .metastable = r->steadiness == GG_METASTABLE,
+                           .escape_rate = r->escape_rate,
                            .grains = r->model.n,
                            .grains_chosen = *r->ensemble_text ? r->ensemble_text : NULL,
                            .window = {r->history.window[0], r->history.window[1]},
@@ -275,8 +277,7 @@ static gg_status restore(gg_status status, gg_stored_result *stored, const char 
 {
   if (status == GG_OK && stored->comparison)
     status = gg_base_fail(err, GG_BAD_INPUT, "%s: holds a comparison: read it with gg_comparison_read", path);
-  if (status == GG_OK)
-    status = gg_files_result_restore(stored, gg_files_stored_first(stored), result, err);
+  if (status == GG_OK) status = gg_files_result_restore(stored, gg_files_stored_first(stored), result, err);
   gg_files_stored_result_clear(stored);
   return status;
 }

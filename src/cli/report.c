@@ -50,7 +50,7 @@ const char *gg_cli_steadiness(const gg_result *r)
 {
   gg_result_info about;
   if (gg_cli_is_followed(gg_result_scene(r)) || gg_result_get_info(r, &about, NULL) != GG_OK) return "";
-  return about.steady ? "steady: " : "not steady: ";
+  return about.metastable ? "metastable: " : about.steady ? "steady: " : "not steady: ";
 }
 
 /* Print "md    1000 grains; 2.1 M collisions averaged over in ..." and the verdict. */

@@ -122,6 +122,14 @@ enum {
       "<(C.Omega)^2/(C^2 Omega^2)>: mean square cosine of the angle between velocity and spin; 1/3 without "           \
       "correlation",                                                                                                   \
       "\\left\\langle\\frac{(\\mathbf{C}\\cdot\\mathbf{\\Omega})^2}{C^2\\,\\Omega^2}\\right\\rangle")                  \
+  ONE(A11, "a11", "a_{11}", "", NONE, GG_NEEDS_SPINS | GG_KEPT_HEATING,                                                \
+      "<C^2 Omega^2>/(<C^2><Omega^2>) - 1: correlation of the magnitudes of velocity and spin; 0 without correlation", \
+      "a_{11} = \\frac{\\langle C^2\\,\\Omega^2\\rangle}{\\langle C^2\\rangle\\langle\\Omega^2\\rangle} - 1")          \
+  ONE(ORIENTATION_B, "b", "b", "", NONE, GG_NEEDS_SPINS | GG_KEPT_HEATING,                                             \
+      "<(C.Omega)^2>/(<C^2><Omega^2>) - 1/3: correlation of the directions of velocity and spin; 0 without "           \
+      "correlation",                                                                                                   \
+      "b = \\frac{\\langle(\\mathbf{C}\\cdot\\mathbf{\\Omega})^2\\rangle}"                                             \
+      "{\\langle C^2\\rangle\\langle\\Omega^2\\rangle} - \\frac{1}{3}")                                                \
   ONE(KURTOSIS_CX, "kurtosis_Cx", "\\kappa(C_x)", "", NONE, 0,                                                         \
       "<C_x^4>/<C_x^2>^2: kurtosis of the velocity along x; 3 for a Gaussian",                                         \
       "\\frac{\\langle C_x^4\\rangle}{\\langle C_x^2\\rangle^2}")                                                      \

@@ -210,9 +210,11 @@ static json_t *run_document(const gg_result *r)
   json_t *document = json_pack(
       "{s:s, s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version, "build",
       gg_base_build_identity, "scene", gg_scene_json(&r->scene), "engine", r->engine, "steady",
-      r->steadiness == GG_STEADY, "verdict", r->steadiness_text, "particles", (json_int_t)r->model.n, "collisions",
+      gg_run_is_steady(r->steadiness), "verdict", r->steadiness_text, "particles", (json_int_t)r->model.n, "collisions",
       (json_int_t)r->averaging.collisions, "cpu_seconds", json_number(r->averaging.cpu_seconds), "total",
       effort_json(&r->total), "engine_state", engine_state_json(r), "results", results, "warnings", warnings);
+  if (r->steadiness == GG_METASTABLE) json_object_set_new(document, "metastable", json_true());
+  if (isfinite(r->escape_rate)) json_object_set_new(document, "escape_rate", json_number(r->escape_rate));
   if (*r->ensemble_text) json_object_set_new(document, "particles_chosen", json_string(r->ensemble_text));
   if (r->curves.n) json_object_set_new(document, "curves", gg_files_curves_json(&r->curves));
   return document;

@@ -164,6 +164,9 @@ static void put_moments(const rheology *r, int species, double T, double *ch)
   }
   ch[CH_W3Z] = m->w3[2] * second / sqrt(T);
   ch[CH_COS2] = m->cos2 / m->n;
+  const double product = (m->cc[0] + m->cc[1] + m->cc[2]) * (m->ww[0] + m->ww[1] + m->ww[2]) / m->n;
+  ch[CH_A11] = product > 0 ? m->ccww / product : 1; /* grains without spin: no correlation */
+  ch[CH_B] = product > 0 ? m->cwcw / product : 1.0 / 3;
 }
 
 /* Integrals of sqrt(T) and T over an interval of free cooling, T^(-1/2) taken as linear in time (Haff's law). */

@@ -50,6 +50,8 @@ enum {
   CH_W4Z,
   CH_W3Z,
   CH_COS2,
+  CH_A11, /* 1 + a11 and 1/3 + b, over the second moments of the same instant */
+  CH_B,
   CH_ROUGH_WIDTH
 };
 

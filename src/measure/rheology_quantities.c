@@ -183,6 +183,14 @@ static double cos2_psi(const double *a, const gg_model *m)
 {
   return mean_over(a, m, CH_COS2, false);
 }
+static double a11(const double *a, const gg_model *m)
+{
+  return mean_over(a, m, CH_A11, false) - 1;
+}
+static double orientation_b(const double *a, const gg_model *m)
+{
+  return mean_over(a, m, CH_B, false) - 1.0 / 3;
+}
 static double flatness(const double *a, const gg_model *m, int fourth, int second)
 {
   double c2 = mean_over(a, m, second, false);
@@ -282,6 +290,8 @@ const gg_derived gg_measure_rheology_derived[] = {
     {GG_Q_MEAN_FREE_PATH, .of = mean_free_path},
     {GG_Q_KNUDSEN, .of = knudsen},
     {GG_Q_COS2_PSI, .of = cos2_psi},
+    {GG_Q_A11, .of = a11},
+    {GG_Q_ORIENTATION_B, .of = orientation_b},
     {GG_Q_KURTOSIS_CX, .of = kurtosis_cx},
     {GG_Q_KURTOSIS_CY, .of = kurtosis_cy},
     {GG_Q_KURTOSIS_CZ, .of = kurtosis_cz},

@@ -12,7 +12,7 @@ typedef double gg_velocity_moment_lanes
     __attribute__((vector_size(GG_VELOCITY_MOMENT_LANES * sizeof(double)), aligned(8), may_alias));
 typedef struct gg_velocity_moment_sums {
   gg_velocity_moment_lanes cc[3], cxcy, c4[3], cccc, speed;
-  gg_velocity_moment_lanes w[3], ww[3], w3[3], w4[3], cos2;
+  gg_velocity_moment_lanes w[3], ww[3], w3[3], w4[3], cos2, ccww, cwcw;
 } gg_velocity_moment_sums;
 
 /* Sums over grains of one species; spins about `mean_spin`. After gg_measure_velocity_moments_centre: */
@@ -25,6 +25,7 @@ typedef struct gg_velocity_moments {
   double mean_spin[3];        /* the mean about which spins are taken: a guess before centring, <s_a> after it */
   double ww[3], w3[3], w4[3]; /* sums of powers of Omega_a = s_a - mean_spin, surface velocities */
   double cos2;                /* (C.Omega)^2/(C^2 Omega^2), with the guess */
+  double ccww, cwcw;          /* C^2 Omega^2, (C.Omega)^2 */
   gg_velocity_moment_sums sums;
 } gg_velocity_moments;
 

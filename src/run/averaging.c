@@ -5,7 +5,9 @@
 
 #include "base/clock.h"
 #include "run/replicas.h"
+#include "run/series_means.h"
 #include "run/workers/workers.h"
+#include "theory/spin_escape.h"
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -40,7 +42,7 @@ static bool adapts(const gg_replicas *all)
 /* Is there no point in going on, whatever was requested? */
 static bool is_over(const gg_replicas *all)
 {
-  return all->stopped == GG_OUT_OF_TIME || all->state.arrest_share > 0;
+  return all->stopped == GG_OUT_OF_TIME || all->state.arrest_share > 0 || all->state.runaway > 0;
 }
 
 /* Do the grains still move? Under gravity a flow may come to rest, or to creep: grains lie on each other, and contacts
@@ -66,6 +68,23 @@ static void check_arrest(gg_replicas *all)
   double share = (double)(treated - s->stretch_treated) / (double)stretch;
   s->arrest_share = share > LASTING_SHARE ? share : 0;
   s->stretch_collisions = collisions, s->stretch_treated = treated;
+}
+
+/* Free cooling with friction: grains that have escaped friction double theta/T every few collisions, until no double
+ * can hold it. A run that averages until an error ends where theta/T has no mean any more, others before they would
+ * fail. */
+static void check_runaway(gg_replicas *all)
+{
+  const double most = all->criteria.relative_error > 0 ? 1e30 : 1e200;
+  if (!gg_theory_is_metastable(&all->model)) return;
+  for (int i = 0; i < all->n; i++) {
+    const gg_replica *r = &all->replica[i];
+    gg_function f;
+    const int k = gg_run_replica_find_function(r, GG_Q_TEMPERATURE_RATIO, &f);
+    if (k < 0 || r->series.n == 0) continue;
+    const double ratio = gg_function_value(f, gg_series_row(&r->series, r->series.n - 1) + r->offset[k], &r->model);
+    if (ratio >= most) all->state.runaway = ratio;
+  }
 }
 
 /* Samples from one report and checkpoint to the next: some tens of milliseconds. With several processes, reports come
@@ -101,7 +120,7 @@ static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
     if (status == GG_INTERRUPTED && is_over(all)) return GG_OK;
     if (status == GG_INTERRUPTED) GG_TRY(gg_run_replicas_store(all, err));
     if (status != GG_OK) return status;
-    if (gg_run_replicas_are_level(all)) check_arrest(all);
+    if (gg_run_replicas_are_level(all)) check_arrest(all), check_runaway(all);
     gg_run_replicas_report_progress(all, false);
     if (gg_run_replicas_checkpoint_is_due(all)) GG_TRY(gg_run_replicas_store(all, err));
     if (is_over(all)) return GG_OK;

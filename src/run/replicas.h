@@ -63,6 +63,7 @@ typedef struct gg_replicas {
     double wall;                                  /* seconds used before this process */
     uint64_t stretch_collisions, stretch_treated; /* of all replicas, where the present stretch began */
     double arrest_share; /* share of contacts that last, if there was little else; 0: the grains move */
+    double runaway;      /* theta/T of grains that escaped friction, if it is beyond use; else 0 */
   } state;
   gg_convergence last;
   double started, last_checkpoint; /* clock readings */

@@ -261,9 +261,9 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
         GG_OWN_LAW " '%s' gave no number from 0 to 1 at the speeds of %llu collisions (%.2g %%), which took the "
                    "nearer of 0 and 1 (NaN: 0)",
         all->model.law.name, (unsigned long long)s->clamped, 100 * (double)s->clamped / (double)s->collisions);
-  if (result->steadiness != GG_STEADY && !gg_scene_is_followed(&all->scene))
+  if (!gg_run_is_steady(result->steadiness) && !gg_scene_is_followed(&all->scene))
     gg_run_result_warn(result, "not a steady mean: %s", result->steadiness_text);
-  if (result->steadiness == GG_STEADY && !c->trusted)
+  if (gg_run_is_steady(result->steadiness) && !c->trusted)
     gg_run_result_warn(result, "some headline errors rest on fewer than %d blocks of five correlation times",
                        GG_MIN_BLOCKS);
   if (all->scene.fixed.contact_time != GG_AUTO)

@@ -45,9 +45,17 @@ const gg_quantity_row *gg_run_rows_at(const gg_quantity_rows *rows, gg_quantity 
 
 typedef enum gg_steadiness {
   GG_STEADY,
+  GG_METASTABLE, /* no trend, but free cooling with friction: grains escape friction one by one (theory/spin_escape.h)
+                  */
   GG_NOT_STEADY, /* still trending, or too short to tell */
   GG_HEATING     /* no steady state exists; followed as what it is */
 } gg_steadiness;
+
+/* True if means over the window have no trend. */
+static inline bool gg_run_is_steady(gg_steadiness steadiness)
+{
+  return steadiness == GG_STEADY || steadiness == GG_METASTABLE;
+}
 
 /* The quantities of GG_FOLLOWED from the start to the end, one row a sample; the first replica. In a cooling run values
  * are scaled back to the units of the start. */
@@ -98,8 +106,9 @@ struct gg_result {
   gg_quantity_rows rows;
   const char *correlation_time_unit; /* that of time, or "collisions a grain" */
   gg_steadiness steadiness;
-  char steadiness_text[256];             /* which quantity decided, and how */
-  char ensemble_text[200];               /* why so many grains, where the program chose; else "" */
+  char steadiness_text[256]; /* which quantity decided, and how */
+  double escape_rate;      /* cooling with friction: fraction of grains that escape per collision a grain, estimated */
+  char ensemble_text[200]; /* why so many grains, where the program chose; else "" */
   gg_estimate value[GG_MOST_QUANTITIES]; /* those of the rows */
   gg_correlations correlations;
   gg_history history;

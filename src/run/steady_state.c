@@ -7,6 +7,7 @@
 #include "measure/wall_modes.h"
 #include "run/protocol_times.h"
 #include "run/replicas.h"
+#include "theory/spin_escape.h"
 
 static void describe_trend(const gg_convergence *c, double window, char *text, size_t size)
 {
@@ -48,8 +49,12 @@ typedef enum verdict {
   LINEAR_RESPONSE,
   FEW_CORRELATION_TIMES,
   ONE_MODE_DOMINATES,
+  METASTABLE,
   NO_TREND
 } verdict;
+
+/* A lower rate of escape is never met. */
+static const double least_escapes = 1e-15;
 
 /* Length of the averaging window. */
 typedef struct window {
@@ -73,7 +78,7 @@ static verdict decide(const gg_replicas *all, const gg_convergence *c, const gg_
   if (all->model.linear_response) return LINEAR_RESPONSE;
   if (w.samples < GG_LEAST_CORRELATION_TIMES * c->slowest) return FEW_CORRELATION_TIMES;
   if (c->slow_mode >= 0 && w.sampled < c->slow_mode_least * c->slow_mode_time) return ONE_MODE_DOMINATES;
-  return NO_TREND;
+  return gg_theory_is_metastable(&all->model) && !(result->escape_rate < least_escapes) ? METASTABLE : NO_TREND;
 }
 
 static void describe_followed(const gg_replicas *all, char *text, size_t size)
@@ -91,9 +96,20 @@ static void describe_spins(const gg_result *result, char *text, size_t size)
   spins_run_away(result, &ratio);
   if (isfinite(ratio)) snprintf(beyond, sizeof beyond, "%.2g", ratio);
   snprintf(text, size,
-           "theta/T grows without end, and has come to %s: friction takes less from spins than collisions from "
-           "velocities",
+           "theta/T grows without end, and has come to %s: grains that spin fast have escaped friction, which takes "
+           "less from them than collisions from velocities",
            beyond);
+}
+
+/* The rate of mixtures is unknown. */
+static void describe_metastable(const gg_replicas *all, const gg_result *result, window w, char *text, size_t size)
+{
+  int n = snprintf(text, size, "no trend over %.0f collisions a grain, but grains that spin fast escape friction",
+                   w.happened);
+  if (isfinite(result->escape_rate))
+    n += snprintf(text + n, size - (size_t)n, ", one of %lld about every %.1g collisions a grain",
+                  (long long)all->model.n * all->n, 1 / (result->escape_rate * (double)all->model.n * all->n));
+  snprintf(text + n, size - (size_t)n, "; theta/T then grows without end");
 }
 
 static void describe_linear_response(const gg_model *model, char *text, size_t size)
@@ -138,6 +154,7 @@ static void describe(verdict v, const gg_replicas *all, const gg_convergence *c,
              gg_measure_wall_mode_name(c->slow_mode), c->slow_mode_time * GG_SAMPLING_INTERVAL,
              w.sampled / c->slow_mode_time, c->slow_mode_least);
     return;
+  case METASTABLE: describe_metastable(all, result, w, text, size); return;
   case NO_TREND:
     snprintf(text, size, "no trend over %.0f collisions a grain, %.0f correlation times of the slowest quantity",
              w.happened, w.samples / c->slowest);
@@ -151,8 +168,10 @@ void gg_run_replicas_report_steadiness(const gg_replicas *all, const gg_converge
   const window w = {.samples = samples,
                     .sampled = samples * all->n,
                     .happened = 2 * (double)result->averaging.collisions / ((double)all->model.n * all->n)};
+  result->escape_rate = gg_theory_spin_escape(&all->model);
   const verdict v = decide(all, c, result, w);
   result->steadiness = v == LINEAR_RESPONSE || v == NO_TREND ? GG_STEADY
+                       : v == METASTABLE                     ? GG_METASTABLE
                        : v == FOLLOWED || v == WITHOUT_LOSS  ? GG_HEATING
                                                              : GG_NOT_STEADY;
   describe(v, all, c, result, w, result->steadiness_text, sizeof result->steadiness_text);

@@ -80,6 +80,12 @@ gg_status gg_run_replicas_check_end(const gg_replicas *all, gg_error *err)
         "%s: stopped, as the grains have come to rest or nearly so: %.0f %% of collisions are contacts that "
         "last, and fall under the contact-time rule; hard spheres need a flow",
         engine, 100 * all->state.arrest_share);
+  if (all->state.runaway > 0)
+    return gg_base_fail(err, GG_FAILED,
+                        "%s: stopped, as theta/T has come to %.1g: grains that spin fast have escaped friction, and "
+                        "the metastable state "
+                        "is over; average over fewer collisions (run.collisions) of more grains",
+                        engine, all->state.runaway);
   gg_status status = check_goal(all, engine, err);
   if (status == GG_OK || !out_of_time(all) || !(all->state.wall > all->criteria.time_limit)) return status;
   return gg_base_fail(

@@ -156,7 +156,7 @@ const gg_theory gg_theory_enskog_hermite = {
     .citation = "J.J. Brey, J.W. Dufty and A. Santos, J. Stat. Phys. 87 (1997) 1051, for the equation",
     .answers = "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor "
                "shear_viscosity N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
-               "cos2_psi kurtosis_Wx kurtosis_Wy kurtosis_Wz skewness_Wz dissipation cooling_rate a2 c_1 "
+               "cos2_psi kurtosis_Wx kurtosis_Wy kurtosis_Wz skewness_Wz a11 b dissipation cooling_rate a2 c_1 "
                "c_2 " GG_ANSWERS_MIXTURE GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT
                "rotational_conductivity_reduced rotational_diffusive_conductivity_reduced " GG_ANSWERS_EXPANSION
                    GG_ANSWERS_LENGTHS "relaxation_rate",

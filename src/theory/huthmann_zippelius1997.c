@@ -7,6 +7,7 @@
 
 #include "common/thermostat.h"
 #include "theory/range.h"
+#include "theory/spin_escape.h"
 #include "theory/theory_list.h"
 #include "theory/two_maxwellian.h"
 
@@ -51,6 +52,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
   gg_grain grain = gg_theory_grain_of(m);
   double mu = m->rule == GG_FRICTIONAL ? m->mu[0] : INFINITY, ratio;
   GG_TRY(ratio_of(m, grain, mu, &ratio, err));
+  GG_TRY(gg_theory_require_lasting(m, name, err));
   a->value[GG_Q_TEMPERATURE_RATIO] = ratio;
   if (m->shear_rate != 0) return GG_OK; /* for sheared states it has no other answers */
   double lost = loss_of(m, grain, mu, ratio), T = temperature_of(m, lost), p = m->density * T,
@@ -65,6 +67,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 
 static const char *beyond(const gg_model *m)
 {
+  if (gg_theory_is_metastable(m)) return gg_theory_beyond_metastable(m);
   return m->shear_rate != 0 ? "made without shear, which its ratio of temperatures leaves out"
                             : gg_theory_beyond_gaussian(m);
 }

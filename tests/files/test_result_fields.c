@@ -12,11 +12,11 @@
 #include "files/h5/result_file.h"
 #include "files/h5/result_restore.h"
 #include "files/result_document.h"
+#include "graingas.h"
 #include "own_folder.h"
 #include "planted.h"
 #include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
-#include "graingas.h"
 
 /* How a file keeps a member. MD_ONLY, DSMC_ONLY: kept of results of that engine. BY_HAND: compared apart from the
  * tables. LEFT_OUT: 0 or NaN after reading. */
@@ -130,6 +130,7 @@ static const field result_fields[] = {
     FIELD(gg_result, correlation_time_unit, OTHER, BY_HAND, NULL),
     FIELD(gg_result, steadiness, OTHER, BY_HAND, NULL),
     FIELD(gg_result, steadiness_text, TEXT, KEPT, "verdict"),
+    FIELD(gg_result, escape_rate, OTHER, BY_HAND, NULL),
     FIELD(gg_result, ensemble_text, TEXT, KEPT, "particles_chosen"),
     FIELD(gg_result, value, OTHER, BY_HAND, NULL),
     FIELD(gg_result, correlations, OTHER, BY_HAND, NULL),
@@ -362,6 +363,7 @@ static gg_result *plant(gg_engine_kind engine, gg_steadiness steadiness)
   r->engine = engine == GG_MD ? "md" : "dsmc";
   gg_run_result_label(r);
   r->steadiness = steadiness;
+  r->escape_rate = steadiness == GG_METASTABLE ? 1.5e-7 : NAN;
   FILL(r, result_fields, 0);
   plant_estimates(r);
   plant_correlations(r);
@@ -469,6 +471,7 @@ static void compare_results(const gg_result *r, const gg_result *wanted, gg_engi
   assert_string_equal(r->engine, wanted->engine);
   assert_string_equal(r->correlation_time_unit, wanted->correlation_time_unit);
   assert_int_equal(r->steadiness, wanted->steadiness);
+  assert_true(r->escape_rate == wanted->escape_rate || (isnan(r->escape_rate) && isnan(wanted->escape_rate)));
   compare_estimates(r, wanted);
   compare_correlations(&r->correlations, &wanted->correlations);
   compare_history(&r->history, &wanted->history);
@@ -519,7 +522,8 @@ static void compare_document(const json_t *d, const gg_result *r, gg_engine_kind
 {
   assert_string_equal(json_string_value(json_object_get(d, "graingas")), gg_version());
   assert_string_equal(json_string_value(json_object_get(d, "engine")), r->engine);
-  assert_int_equal(json_is_true(json_object_get(d, "steady")), r->steadiness == GG_STEADY);
+  assert_int_equal(json_is_true(json_object_get(d, "steady")), gg_run_is_steady(r->steadiness));
+  assert_int_equal(json_is_true(json_object_get(d, "metastable")), r->steadiness == GG_METASTABLE);
   assert_int_equal(json_integer_value(json_object_get(d, "particles")), r->model.n);
   COMPARE_JSON("result", d, r, result_fields, engine);
   COMPARE_JSON("averaging", d, &r->averaging, averaging_fields, engine);
@@ -641,6 +645,7 @@ static void of_dsmc(void **state)
 {
   (void)state;
   check(GG_DSMC, GG_NOT_STEADY);
+  check(GG_DSMC, GG_METASTABLE);
 }
 
 int main(void)

@@ -109,6 +109,7 @@ static void sheared_rough(void **state)
   take_row(self, &m, &t, 0, 1, row); /* the first sample, which makes no row */
   take_row(self, &m, &t, 0.5, 1, row);
   double T = 0, xx = 0, xy = 0, w = 0, mean[3] = {0}, cos2 = 0, w4 = 0, w2 = 0, w3 = 0, speed = 0;
+  double ccww = 0, cwcw = 0;
   double rounded = 0; /* roots in single precision are rounded up or down */
   for (int i = 0; i < N; i++) {
     T += (cx[i] * cx[i] + cy[i] * cy[i] + cz[i] * cz[i]) / (3.0 * N), xx += cx[i] * cx[i] / N, xy += cx[i] * cy[i] / N;
@@ -120,6 +121,7 @@ static void sheared_rough(void **state)
     double x = 2 * (sx[i] - mean[0]), y = 2 * (sy[i] - mean[1]), z = 2 * (sz[i] - mean[2]);
     double W2 = x * x + y * y + z * z, C2 = cx[i] * cx[i] + cy[i] * cy[i] + cz[i] * cz[i];
     w += W2 / N, cos2 += pow(cx[i] * x + cy[i] * y + cz[i] * z, 2) / (C2 * W2) / N;
+    ccww += C2 * W2 / N, cwcw += pow(cx[i] * x + cy[i] * y + cz[i] * z, 2) / N;
     w2 += z * z / N, w3 += z * z * z / N, w4 += z * z * z * z / N;
   }
   double unit = M_PI / 6, V = m.volume, n = m.density, moment = 0.4 / 4; /* I = K m d^2/4 */
@@ -143,6 +145,8 @@ static void sheared_rough(void **state)
   assert_true(fabs(rounded / speed - 1) < 1e-8);
   near(value(GG_Q_DISSIPATION, row, &m), unit * 15 / (V * 0.5));
   near(value(GG_Q_COS2_PSI, row, &m), cos2);
+  near(value(GG_Q_A11, row, &m), ccww / (3 * T * w) - 1);
+  near(value(GG_Q_ORIENTATION_B, row, &m), cwcw / (3 * T * w) - 1.0 / 3);
   near(value(GG_Q_KURTOSIS_WZ, row, &m), w4 / (w2 * w2));
   near(value(GG_Q_SKEWNESS_WZ, row, &m), w3 / pow(w2, 1.5));
   gg_measure_rheology.destroy(self);

@@ -8,12 +8,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "graingas.h"
 #include "run/cost_estimate.h"
 #include "run/replicas.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
-#include "graingas.h"
 
 static gg_result *run(const char *yaml, gg_status expected, gg_error *err)
 {
@@ -132,6 +132,39 @@ static void spins_run_away(void **state)
   }
 }
 
+/* Free cooling with friction: the mean of a window without escapes is metastable, with the rate of escape of the
+ * theory; a run that cannot reach its error before grains escape ends with that reason, long before theta/T overflows.
+ */
+static void metastable_cooling(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_result *r =
+      run("{flow: hcs, engine: dsmc, phi: 0, dsmc: {particles: 1000}, collision: {e: 0.9, beta: 0, mu: 0.5}, "
+          "run: {collisions: 400}}",
+          GG_OK, &err);
+  print_message("# %s\n", r->steadiness_text);
+  assert_int_equal(r->steadiness, GG_METASTABLE);
+  assert_true(gg_result_is_steady(r));
+  assert_true(r->escape_rate > 3e-8 && r->escape_rate < 3e-7);
+  assert_non_null(strstr(r->steadiness_text, "one of 1000 about every 2e+04 collisions a grain"));
+  gg_result_free(r);
+  r = run("{flow: hcs, engine: dsmc, phi: 0, dsmc: {particles: 1000}, collision: {e: 0.9, beta: 0, mu: 5}, "
+          "run: {collisions: 400}}",
+          GG_OK, &err);
+  assert_int_equal(r->steadiness, GG_STEADY); /* no grain ever escapes */
+  assert_true(r->escape_rate < 1e-15);
+  gg_result_free(r);
+  r = run("{flow: hcs, engine: dsmc, phi: 0, dsmc: {particles: 5000}, collision: {e: 0.8, beta: 0, mu: 0.5}, "
+          "run: {relative_error: 0.001}}",
+          GG_FAILED, &err);
+  print_message("# %s\n", err.message);
+  assert_int_equal(r->steadiness, GG_NOT_STEADY);
+  assert_non_null(strstr(err.message, "have escaped friction"));
+  assert_true(r->value[GG_Q_TEMPERATURE_RATIO].mean > 1e20 && isfinite(r->value[GG_Q_TEMPERATURE_RATIO].mean));
+  gg_result_free(r);
+}
+
 /* For a gas so dilute that Monte Carlo is exact, the run states how much less time dsmc takes; not if dsmc cannot
  * measure what is requested, nor for denser gases. */
 static void dilute_gases_state_the_gain_of_dsmc(void **state)
@@ -167,6 +200,7 @@ int main(void)
                                      cmocka_unit_test(cools_by_a_law),
                                      cmocka_unit_test(time_of_the_start),
                                      cmocka_unit_test(less_than_a_sweep),
-                                     cmocka_unit_test(spins_run_away)};
+                                     cmocka_unit_test(spins_run_away),
+                                     cmocka_unit_test(metastable_cooling)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

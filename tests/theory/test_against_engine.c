@@ -82,6 +82,8 @@ static void noise_free(void **state)
                               GG_Q_KURTOSIS_WX,
                               GG_Q_KURTOSIS_WZ,
                               GG_Q_SKEWNESS_WZ,
+                              GG_Q_A11,
+                              GG_Q_ORIENTATION_B,
                               GG_Q_MEAN_FREE_PATH,
                               GG_Q_P_XY,
                               GG_Q_P_XX_COLLISIONAL};

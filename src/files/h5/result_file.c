@@ -199,7 +199,7 @@ static void write_curves(gg_h5 *h, const char *group, const gg_curves *curves)
 static void write_engine(gg_h5 *h, const char *group, const char *observables, const gg_result *r)
 {
   static const char *const verdicts[] = {
-      [GG_STEADY] = "steady", [GG_NOT_STEADY] = "not steady", [GG_HEATING] = "heating"};
+      [GG_STEADY] = "steady", [GG_METASTABLE] = "metastable", [GG_NOT_STEADY] = "not steady", [GG_HEATING] = "heating"};
   char first[120] = "";
   gg_h5_group(h, gg_h5_path(h, "%s/results", group));
   for (int i = 0; i < r->rows.n; i++)

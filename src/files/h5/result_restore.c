@@ -5,13 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/checked_json.h"
 #include "files/curve_table.h"
 #include "files/result_document.h"
+#include "graingas.h"
+#include "io/checked_json.h"
 #include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 #include "theory/theory.h"
-#include "graingas.h"
 
 static void sample_nothing(void *context, void *state, const gg_sample *sample, double *values)
 {
@@ -252,7 +252,11 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
   r->scene.engine = engine;
   r->engine = gg_common_engine_of(engine)->name;
   bool steady = json_is_true(json_object_get(e->document, "steady"));
-  r->steadiness = steady ? GG_STEADY : r->model.steady || r->model.linear_response ? GG_NOT_STEADY : GG_HEATING;
+  r->escape_rate = gg_io_json_number(e->document, "escape_rate");
+  r->steadiness = json_is_true(json_object_get(e->document, "metastable")) ? GG_METASTABLE
+                  : steady                                                 ? GG_STEADY
+                  : r->model.steady || r->model.linear_response            ? GG_NOT_STEADY
+                                                                           : GG_HEATING;
   snprintf(r->steadiness_text, sizeof r->steadiness_text, "%s", gg_io_json_string(e->document, "verdict"));
   const char *chosen = gg_io_json_string(e->document, "particles_chosen");
   snprintf(r->ensemble_text, sizeof r->ensemble_text, "%s", chosen ? chosen : "");

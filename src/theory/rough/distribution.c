@@ -8,8 +8,7 @@
 
 enum { MOST_THREE = (GG_ROUGH_MOST_DEGREE + 1) * (GG_ROUGH_MOST_DEGREE + 2) * (GG_ROUGH_MOST_DEGREE + 3) / 6 };
 
-/* int w Ho_v x_i x_j over a velocity or a spin x, for each function v of three coordinates; for orientation with the
- * unit vector of x. */
+/* int w Ho_v n_i n_j over a velocity or a spin of direction n, for each function v of three coordinates. */
 typedef struct second_moments {
   double of[MOST_THREE][3][3];
 } second_moments;
@@ -19,20 +18,6 @@ gg_hermite_component gg_rough_component_of(const gg_rough_steady *s, bool spin, 
   gg_hermite_component m = {.degree = s->degree};
   gg_rough_marginal(&s->form, &s->relative.f, &s->weight, s->a, spin, axis, m.t);
   return m;
-}
-
-static void raw_moments(const gg_rough_functions *f, const double L[3][3], second_moments *m)
-{
-  memset(m, 0, sizeof *m);
-  for (int v = 0; v < f->n3 && v < gg_rough_count3(2); v++)
-    for (int a = 0; a < 3; a++)
-      for (int b = 0; b < 3; b++) {
-        int r[3] = {0};
-        r[a]++, r[b]++;
-        const bool itself = r[0] == f->three[v][0] && r[1] == f->three[v][1] && r[2] == f->three[v][2];
-        const double mean = itself ? (a == b ? M_SQRT2 : 1) : v == 0 && a == b ? 1 : 0; /* <x_a x_b Ho_v> */
-        for (int i = 0; i < 9; i++) m->of[v][i / 3][i % 3] += L[i / 3][a] * L[i % 3][b] * mean;
-      }
 }
 
 /* Ho_v along a ray x = rho u, |u| = 1, integrated over rho with the Gaussian; degree by degree the polynomials of one
@@ -75,21 +60,22 @@ static bool direction_moments(const gg_rough_functions *f, const double L[3][3],
   return true;
 }
 
-/* sum_q a_q sum_ij of both moments, with their indices contracted with each other; and each with itself. */
-static gg_rough_correlation contract(const gg_rough_steady *s, const second_moments m[2])
+/* sum_q a_q of both moments, with their indices contracted. */
+static double contract(const gg_rough_steady *s, const second_moments m[2], bool with_each_other)
 {
   const gg_rough_functions *f = &s->relative.f;
-  gg_rough_correlation c = {0, 0};
+  double sum = 0;
   for (int q = 0; q < s->form.n; q++) {
     const int place = s->form.function[q];
     int spin = 0;
     while (f->from[spin + 1] <= place) spin++;
-    const double(*A)[3] = (const double(*)[3])m[0].of[place - f->from[spin]];
-    const double(*B)[3] = (const double(*)[3])m[1].of[spin];
-    c.speeds += s->a[q] * (A[0][0] + A[1][1] + A[2][2]) * (B[0][0] + B[1][1] + B[2][2]);
-    for (int i = 0; i < 9; i++) c.directions += s->a[q] * A[i / 3][i % 3] * B[i / 3][i % 3];
+    const double(*A)[3] = m[0].of[place - f->from[spin]], (*B)[3] = m[1].of[spin];
+    for (int i = 0; i < 9; i++) {
+      const int x = i / 3, y = i % 3;
+      sum += s->a[q] * (with_each_other ? A[x][y] * B[x][y] : A[x][x] * B[y][y]);
+    }
   }
-  return c;
+  return sum;
 }
 
 double gg_rough_orientation(const gg_rough_steady *s)
@@ -97,23 +83,5 @@ double gg_rough_orientation(const gg_rough_steady *s)
   second_moments m[2];
   if (!direction_moments(&s->relative.f, s->weight.L, &m[0]) || !direction_moments(&s->relative.f, s->weight.S, &m[1]))
     return NAN;
-  const gg_rough_correlation c = contract(s, m);
-  return c.directions / c.speeds;
-}
-
-static double trace_of(const gg_rough_steady *s, bool spin)
-{
-  double M[3][3];
-  gg_rough_covariance(&s->form, &s->relative.f, &s->weight, s->a, spin, M);
-  return M[0][0] + M[1][1] + M[2][2];
-}
-
-gg_rough_correlation gg_rough_correlation_of(const gg_rough_steady *s)
-{
-  second_moments m[2];
-  raw_moments(&s->relative.f, s->weight.L, &m[0]);
-  raw_moments(&s->relative.f, s->weight.S, &m[1]);
-  gg_rough_correlation c = contract(s, m);
-  const double norm = trace_of(s, false) * trace_of(s, true);
-  return (gg_rough_correlation){c.speeds / norm - 1, c.directions / norm - 1. / 3};
+  return contract(s, m, true) / contract(s, m, false);
 }

@@ -13,10 +13,4 @@ gg_hermite_component gg_rough_component_of(const gg_rough_steady *state, bool sp
 /* <(C.W)^2/(C^2 W^2)>, 1/3 without correlation. */
 double gg_rough_orientation(const gg_rough_steady *state);
 
-/* <C^2 W^2>/(<C^2><W^2>) - 1, and <(C.W)^2>/(<C^2><W^2>) - 1/3. */
-typedef struct gg_rough_correlation {
-  double speeds, directions;
-} gg_rough_correlation;
-gg_rough_correlation gg_rough_correlation_of(const gg_rough_steady *state);
-
 #endif

@@ -90,6 +90,8 @@ static void answer_cumulants(const gg_rough_steady *s, gg_theory_answer *a)
   static const gg_quantity kurtosis[2][3] = {{GG_Q_KURTOSIS_CX, GG_Q_KURTOSIS_CY, GG_Q_KURTOSIS_CZ},
                                              {GG_Q_KURTOSIS_WX, GG_Q_KURTOSIS_WY, GG_Q_KURTOSIS_WZ}};
   for (int k = 0; k < 6; k++) a->value[kurtosis[k / 3][k % 3]] = cumulant(s, k / 3, k % 3, 4);
+  const gg_rough_correlation c = gg_rough_correlations(&s->form, &s->relative.f, &s->weight, s->a);
+  a->value[GG_Q_A11] = c.a11, a->value[GG_Q_ORIENTATION_B] = c.b;
 }
 
 static void answer_flights(const gg_model *m, double rate, double mean_speed, gg_theory_answer *a)

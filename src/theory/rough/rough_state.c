@@ -194,6 +194,75 @@ void gg_rough_covariance(const gg_rough_form *form, const gg_rough_functions *f,
     }
 }
 
+/* Coefficient of the function with these quanta, from axes of velocity (0 to 2) and spin (3 to 5); -1: no axis. */
+static double coefficient(const gg_rough_form *form, const gg_rough_functions *f, const double *a, int i, int j, int k,
+                          int l)
+{
+  const int axis[] = {i, j, k, l};
+  gg_rough_index index = {{0}};
+  for (int x = 0; x < 4; x++)
+    if (axis[x] >= 0) index.r[axis[x]]++;
+  const int place = gg_rough_place(f, index.r), q = place < 0 ? -1 : form->unknown[place];
+  return q < 0 ? 0 : a[q];
+}
+
+/* <c_i c_j o_k o_l> of reduced velocities and spins: x^2 = 1 + sqrt2 Ho_2(x). */
+static double fourth(const gg_rough_form *form, const gg_rough_functions *f, const double *a, int i, int j, int k,
+                     int l)
+{
+  const double two = i == j ? M_SQRT2 : 1, other = k == l ? M_SQRT2 : 1;
+  double sum = two * other * coefficient(form, f, a, i, j, 3 + k, 3 + l);
+  if (i == j) sum += other * coefficient(form, f, a, 3 + k, 3 + l, -1, -1);
+  if (k == l) sum += two * coefficient(form, f, a, i, j, -1, -1);
+  return sum + (i == j && k == l);
+}
+
+/* <c_i c_j o_k> */
+static double third(const gg_rough_form *form, const gg_rough_functions *f, const double *a, int i, int j, int k)
+{
+  const double sum = (i == j ? M_SQRT2 : 1) * coefficient(form, f, a, i, j, 3 + k, -1);
+  return sum + (i == j ? coefficient(form, f, a, 3 + k, -1, -1, -1) : 0);
+}
+
+/* <C_x C_y W_v W_w>: axes by the rows of L and S, the spin less its mean, which is `mean` along z from the weight's. */
+static double product_mean(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *w,
+                           const double *a, double mean, const int x[4])
+{
+  double sum = 0;
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++) {
+      const double C = w->L[x[0]][i] * w->L[x[1]][j], second = coefficient(form, f, a, i, j, -1, -1);
+      const double CC = i == j ? 1 + M_SQRT2 * second : second;
+      for (int k = 0; k < 3 && C != 0; k++) {
+        const double shift = (x[3] == 2 ? w->S[x[2]][k] : 0) + (x[2] == 2 ? w->S[x[3]][k] : 0);
+        if (mean != 0) sum -= C * mean * shift * third(form, f, a, i, j, k);
+        for (int l = 0; l < 3; l++) {
+          const double S = w->S[x[2]][k] * w->S[x[3]][l];
+          if (S != 0) sum += C * S * fourth(form, f, a, i, j, k, l);
+        }
+      }
+      if (x[2] == 2 && x[3] == 2) sum += C * mean * mean * CC;
+    }
+  return sum;
+}
+
+gg_rough_correlation gg_rough_correlations(const gg_rough_form *form, const gg_rough_functions *f,
+                                           const gg_rough_weight *w, const double *a)
+{
+  double M[3][3], Theta[3][3], CC = 0, WW = 0, products = 0, dots = 0;
+  const double mean = gg_rough_mean_spin(form, f, w, a) - w->spin;
+  gg_rough_covariance(form, f, w, a, false, M);
+  gg_rough_covariance(form, f, w, a, true, Theta);
+  for (int x = 0; x < 3; x++) {
+    CC += M[x][x], WW += Theta[x][x];
+    for (int y = 0; y < 3; y++) {
+      products += product_mean(form, f, w, a, mean, (int[4]){x, x, y, y});
+      dots += product_mean(form, f, w, a, mean, (int[4]){x, y, x, y});
+    }
+  }
+  return (gg_rough_correlation){products / (CC * WW) - 1, dots / (CC * WW) - 1. / 3};
+}
+
 /* <|x|> under exp(-x^2/2)/sqrt(2 pi) sum_l h_2l Ho_2l: <|x| Ho_2l> = sqrt(2/pi) (-1)^(l+1) (2l-3)!!/sqrt((2l)!). */
 static double mean_modulus(int degree, const double *h)
 {

@@ -29,6 +29,13 @@ void gg_rough_covariance(const gg_rough_form *form, const gg_rough_functions *f,
 double gg_rough_mean_spin(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *weight,
                           const double *a);
 
+/* a11 = <C^2 W^2>/(<C^2><W^2>) - 1 and b = <(C.W)^2>/(<C^2><W^2>) - 1/3, W the spin about its mean. */
+typedef struct gg_rough_correlation {
+  double a11, b;
+} gg_rough_correlation;
+gg_rough_correlation gg_rough_correlations(const gg_rough_form *form, const gg_rough_functions *f,
+                                           const gg_rough_weight *weight, const double *a);
+
 /* <|C|> */
 double gg_rough_mean_speed(const gg_rough_form *form, const gg_rough_functions *f, const gg_rough_weight *weight,
                            const double *a);
