@@ -12,6 +12,7 @@
 #include "theory/hermite/isotropic.h"
 #include "theory/hermite/order_convergence.h"
 #include "theory/hermite/viscosity.h"
+#include "theory/spin_escape.h"
 #include "theory/theory_list.h"
 
 static const char name[] = "enskog_hermite";
@@ -169,4 +170,5 @@ const gg_theory gg_theory_enskog_hermite = {
     .baths = true,
     .evaluate = evaluate,
     .curves = gg_hermite_curves,
+    .beyond = gg_theory_beyond_metastable,
 };

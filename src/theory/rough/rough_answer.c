@@ -10,6 +10,7 @@
 #include "theory/hermite/hermite_state.h"
 #include "theory/rough/distribution.h"
 #include "theory/rough/response.h"
+#include "theory/spin_escape.h"
 #include "theory/two_maxwellian.h"
 
 static const char name[] = "enskog_hermite";
@@ -314,6 +315,7 @@ static gg_status converge_isotropic(const gg_model *m, const gg_rough_choice *ch
 
 static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_rough_marginals *kept, gg_error *err)
 {
+  GG_TRY(gg_theory_require_lasting(m, name, err));
   double ratio = maxwellian_ratio(m);
   if (isnan(ratio)) return gg_theory_reject(err, name, "finds no steady theta/T");
   gg_status status = GG_FAILED;
