@@ -35,8 +35,8 @@ const gg_command gg_cli_commands[] = {
      gg_cli_sweep_main},
     {"validate", "[SWEEP.yaml]", "Is dsmc right, and where do md and theories leave Enskog's equation? Over a grid",
      "Compares both engines and all theories with Enskog's equation, solved without random numbers, at every point of "
-     "a sweep. Without a file: over the standard grid of 144 points in density and restitution, for smooth, rough and "
-     "frictional grains. It takes six minutes of processor time, with --quick one. Like any sweep it continues after "
+     "a sweep. Without a file: over the standard grid of 180 points in density and restitution, for smooth, rough and "
+     "frictional grains. It takes eight minutes of processor time, with --quick one. Like any sweep it continues after "
      "an interruption.\nPrints counts and tables: z of dsmc, the largest z with the command that repeats each, where "
      "md is off by more than 1, 5 and 20 %, where Lun is within 5 %. Draws maps of the deviations "
      "(grid_temperature.svg and on). The exit code is 1 where dsmc and the noise-free solution disagree beyond chance.",

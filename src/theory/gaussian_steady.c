@@ -324,6 +324,20 @@ static double slowest_drag(const gg_model *m)
   return drag;
 }
 
+/* Grains of constant beta whose tangential impulses are about those of friction: quick to follow. */
+static gg_model without_sliding(const gg_model *m)
+{
+  gg_model like = *m;
+  for (int i = 0; i < m->n_species; i++)
+    for (int j = 0; j < m->n_species; j++) {
+      gg_contact *c = &like.contact[i][j];
+      c->jt = fmin(c->jt, c->mu * c->jn), c->mu = INFINITY;
+      like.beta[gg_pair(i, j)] = c->jt * gg_inverse_mt(c) - 1;
+    }
+  like.rule = GG_ROUGH;
+  return like;
+}
+
 /* The moments in time from the start of the scene up to a steady state; at first until all but the temperature has
  * forgotten the start. If relaxation is long beside the collision time, the allowed work ends before: then x has a
  * remainder that depends on the energy alone. */
@@ -346,6 +360,18 @@ static double follow(const closure *c, gsl_multiroot_fsolver *solver, gsl_multir
   return left;
 }
 
+/* The state that a gas in a bath reaches, into x: of several states the right one. With friction the state of the like
+ * gas without sliding, from which the equations are solved. */
+static double follow_in_bath(closure *c, gsl_multiroot_fsolver *solver, gsl_multiroot_function *f, gsl_vector *x)
+{
+  const gg_model *m = c->model, like = without_sliding(m);
+  if (m->rule != GG_FRICTIONAL) return follow(c, solver, f, x);
+  c->model = &like;
+  follow(c, solver, f, x);
+  c->model = m;
+  return INFINITY;
+}
+
 double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state)
 {
   closure c = closure_of(model);
@@ -357,8 +383,7 @@ double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state)
   if (solver && x) {
     start(&c, x);
     left = INFINITY;
-    /* In a bath there may be several states: take the one that the gas reaches in time. */
-    if (model->bath.on) left = follow(&c, solver, &f, x);
+    if (model->bath.on) left = follow_in_bath(&c, solver, &f, x);
     if (!(left < converged)) left = improve(solver, &f, x);
     /* A stall close to the solution is a stale Jacobian: continue from there. A stall far away means that the start
      * was too far off: relax first; in a bath also near a state that almost exists, which the gas may leave slowly. */

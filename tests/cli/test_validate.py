@@ -239,7 +239,7 @@ def test_wrong_options_are_rejected():
     with open("g.yaml") as f:
         check(f.read() == GRID, "the sweep's file is as it was")
     done = run("validate", "--list")
-    check(done.code == 0 and "compare at 144 points" in done.out, done.out[-200:], done.err)
+    check(done.code == 0 and "compare at 180 points" in done.out, done.out[-200:], done.err)
     done = run("validate", "--quick", "--list")
     check(done.code == 0 and "compare at 36 points" in done.out, done.out[-200:], done.err)
 
