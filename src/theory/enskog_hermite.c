@@ -154,13 +154,12 @@ const gg_theory gg_theory_enskog_hermite = {
              GG_FLOW_BIT(GG_HEATED_SHEAR),
     .title = "Enskog's equation, solved by expansion without random numbers",
     .citation = "J.J. Brey, J.W. Dufty and A. Santos, J. Stat. Phys. 87 (1997) 1051, for the equation",
-    .answers =
-        "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor "
-        "shear_viscosity N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
-        "kurtosis_Wx kurtosis_Wy kurtosis_Wz skewness_Wz a11 b dissipation cooling_rate a2 c_1 c_2 " GG_ANSWERS_MIXTURE
-            GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT
-        "rotational_conductivity_reduced rotational_diffusive_conductivity_reduced " GG_ANSWERS_EXPANSION
-            GG_ANSWERS_LENGTHS "relaxation_rate",
+    .answers = "temperature rotational_temperature temperature_ratio spin_z pressure compressibility_factor "
+               "shear_viscosity N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES GG_ANSWERS_KURTOSES
+               "kurtosis_Wx kurtosis_Wy kurtosis_Wz skewness_Wz cos2_psi a11 b dissipation cooling_rate a2 c_1 "
+               "c_2 " GG_ANSWERS_MIXTURE GG_ANSWERS_VISCOSITY GG_ANSWERS_HEAT
+               "rotational_conductivity_reduced rotational_diffusive_conductivity_reduced " GG_ANSWERS_EXPANSION
+                   GG_ANSWERS_LENGTHS "relaxation_rate",
     .assumptions = "Any density, molecular chaos, no other assumption: each answer has a numerical error. One species, "
                    "smooth or of constant beta, or a smooth mixture: steady uniform shear (up to 8 species), free "
                    "cooling and heated states, also in a bath; viscosity (of smooth grains up to 6 species), heat "
