@@ -63,6 +63,8 @@ GG_INLINE void rotation(gg_velocity_moment_sums *a, const lanes c[3], lanes c2, 
     a->ww[k] += square[k];
     a->w3[k] += square[k] * w[k];
     a->w4[k] += square[k] * square[k];
+    a->ccw[k] += c2 * w[k];
+    a->cwc[k] += dot * c[k];
   }
   lanes product = c2 * (square[0] + square[1] + square[2]);
   a->ccww += product;
@@ -135,7 +137,7 @@ void gg_measure_velocity_moments_centre(gg_velocity_moments *m)
   m->cxcy = sum_of(&s->cxcy), m->cccc = sum_of(&s->cccc), m->speed = sum_of(&s->speed);
   m->cos2 += sum_of(&s->cos2);
   m->ccww = sum_of(&s->ccww), m->cwcw = sum_of(&s->cwcw);
-  double dd_all = 0, cdcd = 0;
+  double dd_all = 0, cdcd = 2 * m->cxcy * sum_of(&s->w[0]) / m->n * sum_of(&s->w[1]) / m->n;
   for (int a = 0; m->n > 0 && a < 3; a++) {
     m->cc[a] = sum_of(&s->cc[a]), m->c4[a] = sum_of(&s->c4[a]);
     double ww = sum_of(&s->ww[a]), w3 = sum_of(&s->w3[a]), d = sum_of(&s->w[a]) / m->n, dd = d * d;
@@ -143,8 +145,9 @@ void gg_measure_velocity_moments_centre(gg_velocity_moments *m)
     m->w4[a] = sum_of(&s->w4[a]) - 4 * d * w3 + 6 * dd * ww - 3 * m->n * dd * dd;
     m->w3[a] = w3 - 3 * d * ww + 2 * m->n * dd * d;
     m->ww[a] = ww - m->n * dd;
+    m->ccww -= 2 * d * sum_of(&s->ccw[a]), m->cwcw -= 2 * d * sum_of(&s->cwc[a]);
     dd_all += dd, cdcd += dd * m->cc[a];
   }
-  /* Exact but for products of the shift with <C_i C_j W_k>, which average to zero. */
-  m->ccww -= dd_all * (m->cc[0] + m->cc[1] + m->cc[2]), m->cwcw -= cdcd;
+  /* (C.d)^2 without its terms C_x C_z and C_y C_z, which vanish on average. */
+  m->ccww += dd_all * (m->cc[0] + m->cc[1] + m->cc[2]), m->cwcw += cdcd;
 }

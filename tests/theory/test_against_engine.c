@@ -82,6 +82,7 @@ static void noise_free(void **state)
                               GG_Q_KURTOSIS_WX,
                               GG_Q_KURTOSIS_WZ,
                               GG_Q_SKEWNESS_WZ,
+                              GG_Q_COS2_PSI,
                               GG_Q_A11,
                               GG_Q_ORIENTATION_B,
                               GG_Q_MEAN_FREE_PATH,

@@ -43,7 +43,8 @@ ROOMS = {
         src/theory/garzo_montanero2003.c src/theory/gaussian_closure.c src/theory/gaussian_moments.c
         src/theory/gaussian_steady.c src/theory/goldhirsch_zanetti1993.c src/theory/grad.c src/theory/grad.c
         src/theory/haff1983.c src/theory/huthmann_zippelius1997.c src/theory/kremer_santos_garzo2014.c
-        src/theory/lun1991.c src/theory/mixture.c src/theory/sela_goldhirsch1998.c src/theory/two_maxwellian.c"""),
+        src/theory/lun1991.c src/theory/mixture.c src/theory/sela_goldhirsch1998.c src/theory/spin_escape.c
+        src/theory/two_maxwellian.c"""),
     "theory/hermite": (14, """
         src/theory/hermite/basis.c src/theory/hermite/component.c src/theory/hermite/contact_integral.c
         src/theory/hermite/hermite_curves.c src/theory/hermite/derivative.c src/theory/hermite/flux.c src/theory/hermite/gas.c
@@ -53,7 +54,7 @@ ROOMS = {
         src/theory/hermite/streaming.c src/theory/hermite/sums.c src/theory/hermite/viscosity.c"""),
     "theory/rough": (8, """
         src/theory/rough/rough_answer.c src/theory/rough/rough_collision.c src/theory/rough/eight_directions.c src/theory/rough/factors.c
-        src/theory/rough/functions.c src/theory/rough/rough_pairs.c src/theory/rough/relative.c src/theory/rough/rough_state.c
+        src/theory/rough/functions.c src/theory/rough/orientation.c src/theory/rough/rough_pairs.c src/theory/rough/relative.c src/theory/rough/rough_state.c
         src/theory/rough/steady.c"""),
 }
 

@@ -23,9 +23,10 @@ static const double poor = 0.05;
 enum { FIRST_DEGREE = 4, LAST_DEGREE = 6, LAST_ISOTROPIC = 8 };
 static const gg_rough_choice moments = {.width = 1, .spin_width = 1};
 
-/* Share of Lambda - 1/3 that the series may lack: cos^2 Psi is not smooth at C = 0 and W = 0, so that its series
- * converges slowly. 3 to 8 % were missing in four states, sheared and rough. */
-static const double lacks = 0.08;
+/* Error of Lambda = <cos^2 Psi>, which is not smooth at C = 0 and W = 0, so that its series is slow: what degrees
+ * differ by; `lacks`, the share of Lambda - 1/3 that was missing in sheared frictional gases; and `rough_angle`, which
+ * covers Monte Carlo at beta = 1. Beyond `poor_angle` there is no answer. */
+static const double lacks = 0.08, rough_angle = 5e-4, poor_angle = 0.015;
 
 /* Relative contribution of products of degrees beyond N. */
 static const double left_out = 7e-4;
@@ -136,9 +137,11 @@ static gg_theory_answer nothing(void)
   return a;
 }
 
-static void widen_orientation(gg_theory_answer *a)
+static void set_angle_error(gg_theory_answer *a)
 {
-  a->error[GG_Q_COS2_PSI] += lacks * fabs(a->value[GG_Q_COS2_PSI] - 1. / 3);
+  double *value = &a->value[GG_Q_COS2_PSI], *error = &a->error[GG_Q_COS2_PSI];
+  *error += rough_angle + lacks * fabs(*value - 1. / 3);
+  if (!(*error < poor_angle)) *value = *error = NAN;
 }
 
 static gg_status refuse_poor(const gg_theory_answer *a, gg_quantity judge, double limit, gg_error *err)
@@ -202,7 +205,7 @@ static gg_status sheared(const gg_model *m, gg_theory_answer *a, gg_rough_margin
     a->value[q] = (even + odd) / 2;
     a->error[q] = fmax(fabs(even - odd), fabs(even - first)) / 2 + left_out * fabs(a->value[q]);
   }
-  widen_orientation(a);
+  set_angle_error(a);
   return refuse_poor(a, GG_Q_TEMPERATURE, poor, err);
 }
 
@@ -307,7 +310,7 @@ static gg_status converge_isotropic(const gg_model *m, const gg_rough_choice *ch
   if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
   for (int q = 0; q < GG_N_QUANTITIES; q++) now.error[q] = fabs(now.value[q] - before.value[q]);
   set_heat_errors(&first, &before, &now);
-  widen_orientation(&now);
+  set_angle_error(&now);
   GG_TRY(refuse_poor(&now, GG_Q_TEMPERATURE_RATIO, limit, err));
   *a = now;
   return GG_OK;
