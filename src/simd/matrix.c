@@ -4,7 +4,7 @@
 #include "common/vec.h"
 #include "simd/clones.h"
 
-/* Of 256 bits: the compiler keeps arrays of wider ones in memory where registers are narrower. */
+/* Vectors of 256 bits. Arrays of wider vectors stay in memory where registers are narrower. */
 typedef double lanes __attribute__((vector_size(32), aligned(8), may_alias));
 enum { LANES = 4, VECTORS = GG_RIGHT_PANEL / LANES };
 
