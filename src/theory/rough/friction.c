@@ -21,7 +21,7 @@ struct gg_rough_friction {
   int lefts, rights;    /* panels */
   bool alone;
   double *W;             /* n x n; NULL: alone */
-  double *more;          /* n x GG_LANES: the additional rows as columns */
+  double *more;          /* n x MORE_ROWS: the additional rows as columns */
   double up[SIDE][SIDE]; /* sqrt(P!/Q!)/(P - Q)! */
 };
 
