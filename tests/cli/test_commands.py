@@ -371,8 +371,14 @@ def test_small_stack():
             return subprocess.run(["sh", "-c", 'ulimit -s 200 && exec "$@"', "sh", GRAINGAS, command, "s.yaml", *options,
                                    *threads], capture_output=True, text=True, cwd=folder)
 
-    # compare has both engines and the theories; each of the others of every other scene
-    cases = [(k, command) for k in range(len(scenes)) for i, command in enumerate(commands) if command[0] == "compare" or (k + i) % 2]
+    # compare has both engines and the theories; each of the others of every other scene, theory alone of one, since it
+    # solves in the main thread what compare solves in a thread of its own
+    def taken(k, i, command):
+        if os.environ.get("NIGHTLY") or command[0] == "compare":
+            return command[0] == "compare" or (k + i) % 2
+        return k == 0 if command[0] == "theory" else (k + i) % 2
+
+    cases = [(k, command) for k in range(len(scenes)) for i, command in enumerate(commands) if taken(k, i, command)]
     with concurrent.futures.ThreadPoolExecutor(2) as two:
         for case, done in zip(cases, two.map(small, cases)):
             check(done.returncode in (0, 1, 2), *case, done.returncode, done.stderr)
