@@ -371,8 +371,8 @@ def test_small_stack():
             return subprocess.run(["sh", "-c", 'ulimit -s 200 && exec "$@"', "sh", GRAINGAS, command, "s.yaml", *options,
                                    *threads], capture_output=True, text=True, cwd=folder)
 
-    # compare has both engines and the theories; each of the others of every other scene, theory alone of one, since it
-    # solves in the main thread what compare solves in a thread of its own
+    # compare has both engines and the theories; each of the others of every other scene. Daily theory alone takes one
+    # scene: compare evaluates the same theories in the same thread.
     def taken(k, i, command):
         if os.environ.get("NIGHTLY") or command[0] == "compare":
             return command[0] == "compare" or (k + i) % 2
