@@ -2,7 +2,7 @@
 /* A missing argument is answered with GG_BAD_INPUT and a message that names it, in every function. */
 #include "api_test.h"
 
-#define SHEAR "{flow: usf, phi: 0.1, particles: 100, engine: dsmc}"
+#define SHEAR "{flow: usf, phi: 0.1, particles: 100, collision: {beta: 0}, engine: dsmc}"
 #define assert_missing(call) assert_refused(call, "is missing (NULL)")
 
 static void line(void *context, const char *text)

@@ -60,7 +60,7 @@ static void bytes_of_a_comparison_restore_it(void **state)
 {
   (void)state;
   gg_error err;
-  gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 100, run: {collisions: 300}}");
+  gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 100, collision: {beta: 0}, run: {collisions: 300}}");
   gg_comparison *c = NULL, *back = NULL;
   gg_result *one = NULL;
   void *bytes = NULL;

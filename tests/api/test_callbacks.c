@@ -6,8 +6,8 @@
 
 #include "api_test.h"
 
-static const char small[] = "{flow: usf, phi: 0.1, particles: 100, dsmc: {particles: 200}, run: {collisions: 4000, "
-                            "replicas: 2}}";
+static const char small[] = "{flow: usf, phi: 0.1, particles: 100, collision: {beta: 0}, dsmc: {particles: 200}, "
+                            "run: {collisions: 4000, replicas: 2}}";
 
 /* Index of the callback call that fails, from 0, and number of calls so far. */
 static atomic_int calls;

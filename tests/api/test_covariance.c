@@ -63,7 +63,7 @@ static void files_keep_covariances(void **state)
   assert_ok(gg_result_read("t_again.h5", &twice, &err));
   const double here = covariance(r, "P_xy", "pressure");
   assert_true(here == covariance(back, "P_xy", "pressure") && here == covariance(twice, "P_xy", "pressure"));
-  gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 100, run: {collisions: 300}}");
+  gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 100, collision: {beta: 0}, run: {collisions: 300}}");
   gg_comparison *c = NULL, *read = NULL;
   gg_status status = gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_both.h5"}, &c, &err);
   assert_true(status == GG_OK || status == GG_FAILED);

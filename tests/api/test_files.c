@@ -5,7 +5,9 @@
 
 #include "api_test.h"
 
-#define SHEAR "{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 200}, run: {collisions: 6000}}"
+/* Rough grains: their theories take a fifth of the time that those of smooth ones take. */
+#define SHEAR                                                                                                          \
+  "{flow: usf, engine: dsmc, phi: 0.1, collision: {beta: 0}, dsmc: {particles: 200}, run: {collisions: 6000}}"
 
 static int stop_now(void *context)
 {

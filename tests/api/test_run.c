@@ -337,7 +337,7 @@ static void part_comparisons(void **state)
 {
   (void)state;
   gg_error err;
-  gg_scene *s = scene_of("{flow: usf, phi: 0, dsmc: {particles: 500}, run: {collisions: 400}}");
+  gg_scene *s = scene_of("{flow: usf, phi: 0, collision: {beta: 0}, dsmc: {particles: 500}, run: {collisions: 400}}");
   gg_comparison *c = NULL;
   assert_ok(gg_compare(s, NULL, &c, &err));
   assert_null(gg_comparison_result(c, "md"));

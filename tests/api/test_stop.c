@@ -158,7 +158,7 @@ static void stopped_writes_leave_no_file(void **state)
   assert_ok(gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_run.h5"}, &r, &err));
   gg_result_free(r);
   gg_scene_free(s);
-  s = scene_of("{flow: usf, phi: 0.1, particles: 200, run: {collisions: 40}}");
+  s = scene_of("{flow: usf, phi: 0.1, particles: 200, collision: {beta: 0}, run: {collisions: 40}}");
   assert_ok(gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_both.h5"}, &c, &err));
   gg_comparison_free(c);
   gg_scene_free(s);
@@ -213,8 +213,8 @@ static void a_validation_stops_between_points(void **state)
   gg_error err;
   gg_sweep *w = NULL;
   char *verdict = NULL;
-  assert_ok(gg_sweep_parse("{flow: usf, phi: 0.1, particles: 100, dsmc: {particles: 200}, run: {collisions: 40}, vary: "
-                           "{collision.e: [0.8, 0.9]}, sweep: {does: compare}}",
+  assert_ok(gg_sweep_parse("{flow: usf, phi: 0.1, particles: 100, collision: {beta: 0}, dsmc: {particles: 200}, "
+                           "run: {collisions: 40}, vary: {collision.e: [0.8, 0.9]}, sweep: {does: compare}}",
                            "test", &w, &err));
   gg_sweep_run(w, "t_grid", NULL, &err);
   for (int k = 0; k < 3; k++) {

@@ -71,7 +71,8 @@ static void user_defined_results_are_read_back(void **state)
 {
   (void)state;
   gg_error err;
-  gg_scene *s = scene_of("{flow: usf, phi: 0.05, particles: 200, dsmc: {particles: 500}, run: {collisions: 3000}}");
+  gg_scene *s = scene_of(
+      "{flow: usf, phi: 0.05, particles: 200, collision: {beta: 0}, dsmc: {particles: 500}, run: {collisions: 3000}}");
   gg_comparison *c[3] = {NULL};
   add_all(s);
   gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_own.h5"}, &c[0], &err);
@@ -355,8 +356,8 @@ static void reason_in_latin1(void **state)
   char *text;
   const char *const names[] = {"pressure"};
   const gg_theory_definition theory = {"mine", NULL, NULL, NULL, 1, names, say_in_latin1, NULL};
-  gg_scene *s =
-      scene_of("{flow: usf, phi: 0.1, particles: 50, dsmc: {particles: 50}, run: {collisions: 20, warmup: 2}}");
+  gg_scene *s = scene_of("{flow: usf, phi: 0.1, particles: 50, collision: {beta: 0}, dsmc: {particles: 50}, run: "
+                         "{collisions: 20, warmup: 2}}");
   assert_ok(gg_scene_add_theory(s, &theory, &err));
   gg_compare(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_latin1.h5"}, &c, &err);
   assert_int_equal(access("t_latin1.h5", F_OK), 0);

@@ -306,7 +306,7 @@ static void both_engines_share_the_ranks(void **state)
   (void)state;
   gg_error err;
   mailbox p = {0};
-  gg_scene *scene = scene_of("{flow: usf, phi: 0.1, particles: 100, dsmc: {particles: 500}, "
+  gg_scene *scene = scene_of("{flow: usf, phi: 0.1, particles: 100, collision: {beta: 0}, dsmc: {particles: 500}, "
                              "run: {collisions: 60, replicas: 2}}");
   gg_comparison *one = NULL, *several = NULL;
   gg_run_options options = {.size = sizeof options};

@@ -25,7 +25,7 @@ def test_every_command_has_it():
     row = next(row for row in about.splitlines() if row.startswith("particles "))
     check(row.split()[1:3] == [str(N), "default"], row)
     check("number of grains: automatic: the box stays homogeneous, as it does up to about 77" in about, about)
-    one, both, theory = result("run"), result("compare"), run("theory", "scene.yaml", "--json")
+    one, both, theory = result("run"), result("compare"), run("theory", "scene.yaml", "--json", "--theory", "haff1983")
     check(one["particles"] == both["md"]["particles"] == N, one["particles"], both["md"]["particles"])
     check(one["scene"]["particles"] == both["scene"]["particles"] == json.loads(theory.out)["scene"]["particles"] == N)
     for found in one, both["md"]:

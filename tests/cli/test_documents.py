@@ -232,7 +232,7 @@ def names_of(kind):
     if kind == "observables":
         words = run("--scene-page").out.split("### `measure`")[1].split("###")[0]
         return re.findall(r"^- `(\w+)`: \S", words, re.MULTILINE), words.count("\n- ")
-    about = json.loads(run("theory", os.path.join(SOURCE, "examples", "usf.yaml"), "--json").out)["theories"]
+    about = json.loads(run("theory", "-", "--json", typed="flow: usf\nphi: 0.1\ncollision: {beta: 0}\n").out)["theories"]
     return list(about), sum(all(t[k] for k in ("title", "citation", "assumptions")) for t in about.values())
 
 

@@ -80,7 +80,7 @@ def test_resumed_run_is_the_same_run():
     """A run interrupted and resumed gives bit for bit the numbers of one that was left alone."""
     for engine in "md", "dsmc":
         with open("scene.yaml", "w") as f:
-            f.write(SCENE % 3000 + "dsmc: {particles: 500}\noutput: {checkpoint_every: 0.02}\n")
+            f.write(SCENE % 1500 + "dsmc: {particles: 500}\noutput: {checkpoint_every: 0.02}\n")
         args = ("run", "scene.yaml", "--engine", engine, "--json")
         whole = json.loads(run(*args, "--quiet").out)
         os.remove("scene.h5")
@@ -98,7 +98,7 @@ def test_resumed_run_is_the_same_run():
 def test_resumed_comparison_is_the_same():
     """A comparison goes on from both engines' checkpoints."""
     with open("scene.yaml", "w") as f:
-        f.write(SCENE % 3000 + "dsmc: {particles: 500}\noutput: {checkpoint_every: 0.02}\n")
+        f.write(SCENE % 1500 + "dsmc: {particles: 500}\noutput: {checkpoint_every: 0.02}\n")
     args = ("compare", "scene.yaml", "--json", "--picture", "none")
     whole = json.loads(run(*args, "--quiet", "--output", "whole.h5").out)
     code, out, err = interrupted(*args, after=there("scene.compare.checkpoint.h5"), sig=signal.SIGTERM)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A trajectory goes on where a run does: cut by kill -9, SIGTERM or the time limit, resumed once or often, here or
 there, the result holds every frame of the run that was left alone, bit for bit."""
+import functools
 import glob
 import json
 import os
@@ -49,12 +50,21 @@ def same(path, whole, *what):
         check(found[name] == whole[name], name, found[name][0], whole[name][0], *what)
 
 
-def whole_run(scene):
+@functools.lru_cache(None)
+def particles_of(scene):
+    """The frames of the run that nobody cuts, made once for all tests."""
     done = run("run", "scene.yaml", "--quiet", "--output", "whole.h5", "--set", "output.checkpoint_every=0", scene=scene)
     check(done.code == 0, done.err)
     whole = particles("whole.h5")
+    os.remove("whole.h5")
     check(len(whole) > 5 and whole["grains/position/value" if "md" in scene else "grains/velocity/value"][0][0] > 40)
     return whole
+
+
+def whole_run(scene):
+    with open("scene.yaml", "w") as f:
+        f.write(scene)
+    return particles_of(scene)
 
 
 def cut(args, after, how):
@@ -104,7 +114,7 @@ def test_replicas_of_dsmc_cut_at_random_moments():
 
 
 def test_time_limit():
-    whole = whole_run(SCENE % ("md", 8000, 1, 60))
+    whole = whole_run(SCENE % ("md", 3000, 1, 60))
     done = run("run", "scene.yaml", "--quiet", "--set", "run.time_limit=0.1")
     check(done.code == 1 and "time limit" in done.err, done.code, done.err)
     part = particles("scene.h5")["grains/velocity/value"]
@@ -123,7 +133,7 @@ def stopped():
 
 
 def test_without_checkpoints_or_under_another_name():
-    whole = whole_run(SCENE % ("md", 8000, 1, 60))
+    whole = whole_run(SCENE % ("md", 3000, 1, 60))
     run("run", "scene.yaml", "--quiet", "--set", "run.time_limit=0.1")
     done = run("run", "scene.yaml", "--quiet", "--resume", "scene.checkpoint.h5", "--output", "b.h5", "--set",
                "output.checkpoint_every=0")
@@ -193,7 +203,7 @@ ANOTHER = ["--set", "run.seed=9"]
 
 def left_by_another():
     """A checkpoint with its frames, and what its run comes to."""
-    whole = whole_run(SCENE % ("md", 8000, 1, 60))
+    whole = whole_run(SCENE % ("md", 3000, 1, 60))
     done = run("run", "scene.yaml", "--quiet", "--set", "run.time_limit=0.1")
     check(done.code == 1 and os.path.exists(LEFT), done.code, done.err)
     return whole

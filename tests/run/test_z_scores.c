@@ -122,7 +122,11 @@ static void deviating_theories_have_a_remark(void **state)
     gg_run_theory_remark r[GG_MOST_THEORIES];
     for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = cases[i].e;
     assert_int_equal(gg_scene_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
-    assert_int_equal(gg_run_compare_theories(&c.model, NULL, &c, NULL), GG_OK);
+    bool wanted[GG_MOST_THEORIES] = {false}; /* all but one, which takes seconds */
+    const gg_theory *theory;
+    for (int k = 0; k < GG_MOST_THEORIES && (theory = gg_theory_of(&c.model, k)); k++)
+      wanted[k] = theory != &gg_theory_enskog_hermite;
+    assert_int_equal(gg_run_compare_theories(&c.model, wanted, &c, NULL), GG_OK);
     for (int k = 0; k < c.n_theories; k++) c.theory[k].applies = strcmp(c.theory[k].theory->name, "lun1991") == 0;
     for (int q = 0; q < GG_N_QUANTITIES; q++) md.value[q].mean = dsmc.value[q].mean = NAN;
     md.value[GG_Q_TEMPERATURE] = (gg_estimate){.mean = cases[i].md, .error = cases[i].error};
