@@ -121,12 +121,26 @@ const gg_flow_row gg_common_flows[GG_N_FLOWS] = {
 };
 
 /* Separated by commas, before the last one by "or". */
+static void list(unsigned flows, char *text, size_t size)
+{
+  *text = '\0';
+  for (int f = 0; f < GG_N_FLOWS; f++) {
+    if (!(flows & GG_FLOW_BIT(f))) continue;
+    const unsigned left = flows >> f >> 1;
+    gg_base_text_append(text, size, "%s%s", gg_common_flows[f].word, !left ? "" : left & (left - 1) ? ", " : " or ");
+  }
+}
+
 void gg_common_flow_list(bool (*test)(gg_flow flow), char *text, size_t size)
 {
-  int left = 0;
-  for (int f = 0; f < GG_N_FLOWS; f++) left += test((gg_flow)f);
-  *text = '\0';
-  for (int f = 0; f < GG_N_FLOWS; f++)
-    if (test((gg_flow)f))
-      gg_base_text_append(text, size, "%s%s", gg_common_flows[f].word, --left > 1 ? ", " : left ? " or " : "");
+  unsigned flows = 0;
+  for (int f = 0; f < GG_N_FLOWS; f++) flows |= test((gg_flow)f) ? GG_FLOW_BIT(f) : 0;
+  list(flows, text, size);
+}
+
+void gg_common_flows_taking(gg_thermostat thermostat, char *text, size_t size)
+{
+  unsigned flows = 0;
+  for (int f = 0; f < GG_N_FLOWS; f++) flows |= gg_flow_takes((gg_flow)f, thermostat) ? GG_FLOW_BIT(f) : 0;
+  list(flows, text, size);
 }

@@ -23,6 +23,7 @@ typedef enum gg_flow {
   GG_N_FLOWS
 } gg_flow;
 
+/* Names; common/thermostat.c has their rows. */
 typedef enum gg_thermostat { GG_NO_THERMOSTAT, GG_GAUSSIAN, GG_WHITE_NOISE, GG_BATH, GG_N_THERMOSTATS } gg_thermostat;
 
 /* The frame in which the gas is homogeneous or at rest. In all but the first the centre of mass is followed: what
@@ -92,6 +93,11 @@ static inline bool gg_flow_takes(gg_flow flow, gg_thermostat thermostat)
 {
   return gg_flow_of(flow)->thermostats >> thermostat & 1;
 }
+/* The thermostat in force: the one given, or the flow's default where the flow does not take it. */
+static inline gg_thermostat gg_flow_thermostat(gg_flow flow, gg_thermostat given)
+{
+  return gg_flow_takes(flow, given) ? given : gg_flow_of(flow)->thermostat;
+}
 /* `engine`: a gg_engine_kind. */
 static inline bool gg_flow_runs_in(gg_flow flow, int engine)
 {
@@ -108,5 +114,7 @@ static inline bool gg_flow_is_heated(gg_flow flow)
 
 /* The words of those for which `test` holds, "couette, poiseuille or chute", cut to `size` bytes. */
 void gg_common_flow_list(bool (*test)(gg_flow flow), char *text, size_t size);
+/* The same of those that take a thermostat. */
+void gg_common_flows_taking(gg_thermostat thermostat, char *text, size_t size);
 
 #endif

@@ -120,7 +120,7 @@ static double in_bath(const gg_model *m, double loss)
 static double of_temperatures(const gg_model *m, double loss)
 {
   if (m->bath.on) return in_bath(m, loss);
-  const bool scaled = gg_flow_cools(m->flow) || gg_common_thermostat_of(m) == GG_GAUSSIAN;
+  const bool scaled = gg_flow_cools(m->flow) || gg_common_heat_of(m) == GG_HEAT_SCALES;
   if (m->elastic || scaled) {
     const double sharing = m->steady ? gg_common_model_sharing(m) : 0;
     return sharing > 0 && loss > 0 ? 1 / (1 / sharing + 1 / loss) : sharing;

@@ -186,7 +186,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
   const bool smooth = m->rule == GG_SMOOTH, cools = gg_flow_cools(m->flow), heated = gg_flow_is_heated(m->flow);
   const bool rests = m->elastic && !m->walled && (cools || m->flow == GG_EQUILIBRIUM);
   const bool fluctuates = rests && !m->homogeneous;
-  const bool noisy = m->bath.on || gg_common_thermostat_of(m) == GG_WHITE_NOISE;
+  const bool noisy = m->bath.on || gg_common_heat_of(m) == GG_HEAT_KICKS;
   const bool alike = m->n_surfaces < 2 || m->surface[0].temperature == m->surface[1].temperature;
   const struct {
     unsigned need;

@@ -5,10 +5,18 @@
 
 #include "common/portable_math.h"
 
-gg_thermostat gg_common_thermostat_of(const gg_model *model)
+const gg_thermostat_row gg_common_thermostats[GG_N_THERMOSTATS] = {
+    [GG_NO_THERMOSTAT] = {"none", "no thermostat; the default except in flows that need one", "", GG_UNHEATED},
+    [GG_GAUSSIAN] = {"gaussian", "force along the velocity that replaces the energy lost in collisions; spins get none",
+                     ", heated", GG_HEAT_SCALES},
+    [GG_WHITE_NOISE] = {"white_noise", "random kicks of all grains", ", heated", GG_HEAT_KICKS},
+    [GG_BATH] = {"bath", "drag and random kicks, as in a fluid of temperature bath.temperature", ", in a bath",
+                 GG_HEAT_BATHES},
+};
+
+gg_heat gg_common_heat_of(const gg_model *m)
 {
-  if (model->bath.on) return GG_BATH;
-  return gg_flow_takes(model->flow, model->thermostat) ? model->thermostat : gg_flow_of(model->flow)->thermostat;
+  return m->bath.on ? GG_HEAT_BATHES : gg_common_thermostats[gg_flow_thermostat(m->flow, m->thermostat)].heat;
 }
 
 /* Mean energy that a collision of Maxwellians destroys: <g_n^2> = 2 <c12_x^2>, <g_t^2> = 2 (<c12_x^2> + <s_x^2>). */
@@ -41,6 +49,11 @@ double gg_common_thermostat_noise(const gg_model *m)
   double mass = 0;
   for (int i = 0; i < m->n_species; i++) mass += gg_model_part(m, m->mass[i], i);
   return loss_per_grain(m) / (1.5 * mass);
+}
+
+double gg_common_thermostat_kicks(const gg_model *m)
+{
+  return gg_common_heat_of(m) == GG_HEAT_KICKS ? gg_common_thermostat_noise(m) : 0;
 }
 
 /* A power of two near the temperature of the balance, so that bisection scales with the units, bit for bit: that of

@@ -5,6 +5,7 @@
 
 #include "common/engine.h"
 #include "common/laws/loss_table.h"
+#include "common/thermostat.h"
 #include "dsmc/advance.h"
 #include "dsmc/ensemble.h"
 #include "dsmc/kernel/kernels.h"
@@ -44,7 +45,7 @@ typedef struct gg_dsmc {
   gg_dsmc_schedule *schedule;  /* NULL if the ensemble is one segment */
   gg_dsmc_rounds_room *rounds; /* likewise */
   gg_dsmc_path path[GG_PAIRS];
-  gg_thermostat thermostat;
+  gg_heat heat;
   double noise; /* xi^2 of the white noise */
   gg_dsmc_state now;
   gg_dsmc_callback callback; /* call NULL: none */

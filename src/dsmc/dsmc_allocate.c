@@ -23,8 +23,8 @@ gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
   gg_dsmc *made = gg_base_array_new(1, sizeof *made, err);
   if (!made) return GG_FAILED;
   made->model = *model;
-  made->thermostat = gg_common_thermostat_of(model);
-  made->noise = gg_common_thermostat_noise(model);
+  made->heat = gg_common_heat_of(model);
+  made->noise = gg_common_thermostat_kicks(model);
   gg_status status = gg_dsmc_ensemble_new(model, &made->ensemble, err);
   if (status == GG_OK && made->ensemble.segments > 1) {
     made->schedule = gg_base_array_new(1, gg_dsmc_schedule_size(model->n_species), err);

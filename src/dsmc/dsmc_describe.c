@@ -34,10 +34,10 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
     line(context, "shear: streaming and collisions, symmetric splitting");
   else
     line(context, "shear: streaming followed exactly between collisions");
-  static const char *const thermostats[] = {"no thermostat", "Gaussian thermostat: returns what collisions destroy",
-                                            "white-noise thermostat",
-                                            "bath: drag and noise, followed exactly between collisions"};
-  line(context, thermostats[gg_common_thermostat_of(m)]);
+  static const char *const heats[] = {"no thermostat", "Gaussian thermostat: returns what collisions destroy",
+                                      "white-noise thermostat",
+                                      "bath: drag and noise, followed exactly between collisions"};
+  line(context, heats[gg_common_heat_of(m)]);
   const gg_dsmc_time_step step = gg_dsmc_time_step_choose(m, m->temperature0);
   if (step.bias > 0) {
     snprintf(text, sizeof text, "step: %.2g mean free times%s; means lie about %.1g %% off by it",

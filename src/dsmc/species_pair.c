@@ -10,7 +10,7 @@ gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
   /* With spins, even a smooth pair needs a kernel that moves spins together with velocities. */
   if (m->rule != GG_SMOOTH && features.rule == GG_SMOOTH) features.rule = GG_ROUGH;
   if (m->shear_rate != 0) features.shear = m->boltzmann ? GG_DSMC_SHEARED_DILUTE : GG_DSMC_SHEARED_DENSE;
-  if (d->thermostat == GG_GAUSSIAN) features.sums = GG_DSMC_LOSS;
+  if (d->heat == GG_HEAT_SCALES) features.sums = GG_DSMC_LOSS;
   if (d->now.sums) features.sums = m->boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
   if (d->losses) features = gg_dsmc_features_by_law(features, m->boltzmann);
   return features;

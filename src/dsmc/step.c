@@ -8,7 +8,7 @@ void gg_dsmc_synchronise(gg_dsmc *d)
   gg_dsmc_state *s = &d->now;
   double unit = s->temperature > 0 ? s->temperature : d->model.temperature0;
   /* A bath changes the velocity of the centre at every step, and removes it itself. */
-  const gg_vec none = {0, 0, 0}, off = d->thermostat == GG_BATH ? none : s->centre;
+  const gg_vec none = {0, 0, 0}, off = d->heat == GG_HEAT_BATHES ? none : s->centre;
   gg_dsmc_moments m = gg_dsmc_ensemble_synchronise(&d->ensemble, s->strain, 1, off, unit);
   s->temperature = m.temperature;
   s->fastest = m.fastest;
@@ -27,12 +27,12 @@ static double kept_by_centres(const gg_dsmc *d)
 
 static void heat(gg_dsmc *d, double dt, double strain, double half)
 {
-  if (d->thermostat == GG_GAUSSIAN) {
+  if (d->heat == GG_HEAT_SCALES) {
     d->now.lost = -gg_dsmc_thermostat_return(&d->ensemble, strain, kept_by_centres(d), d->now.lost, half);
     return;
   }
   gg_dsmc_rng_lanes *lanes = d->schedule ? d->schedule->lanes : &d->now.lanes;
-  if (d->thermostat == GG_BATH) {
+  if (d->heat == GG_HEAT_BATHES) {
     const gg_dsmc_bath_step step = {d->now.strain, strain, dt};
     gg_dsmc_thermostat_bath(&d->ensemble, &d->model, &step, &d->now.centre, lanes);
   } else {
@@ -45,7 +45,7 @@ static void collide(gg_dsmc *d, double dt, double strain, double span)
 {
   d->interval_begin = d->now.time;
   /* Symmetric splitting: the second half mirrors the first. */
-  if (d->thermostat == GG_NO_THERMOSTAT) {
+  if (d->heat == GG_UNHEATED) {
     gg_dsmc_collide(d, dt, strain, span, d->model.n_species == 1 ? GG_DSMC_FORWARD : GG_DSMC_SYMMETRIC);
     d->now.lost = 0; /* without a thermostat it would only grow, or change by units */
     return;

@@ -51,7 +51,7 @@ static double alternation_of(const gg_model *m, double free_time)
   const double bath = bias_of_drag * loss * drag + sheared;
   if (m->n_species > 1) return bias_of_alternation + bath;
   if (m->bath.on) return bias_of_thermostat * loss * loss + bath;
-  return gg_common_thermostat_of(m) != GG_NO_THERMOSTAT ? bias_of_thermostat * loss * loss : 0;
+  return gg_common_heat_of(m) != GG_UNHEATED ? bias_of_thermostat * loss * loss : 0;
 }
 
 /* The same with streaming split from collisions. */
@@ -71,7 +71,7 @@ static double alternate_every(const gg_model *m, double free_time)
 
 gg_dsmc_time_step gg_dsmc_time_step_choose(const gg_model *model, double T)
 {
-  bool heated = gg_common_thermostat_of(model) != GG_NO_THERMOSTAT;
+  bool heated = gg_common_heat_of(model) != GG_UNHEATED;
   double free_time = 1 / gg_common_model_collision_rate(model, T);
   gg_dsmc_time_step step = {.synchronise = heated ? free_time : 3 * free_time,
                             .length = heated ? alternate_every(model, free_time) * free_time : free_time};

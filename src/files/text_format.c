@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "common/thermostat.h"
 #include "scene/fields.h"
 
 /* With `decimals` after the point; the error in units of the last digit where it has no point in it. */
@@ -103,8 +104,8 @@ void gg_files_scene_title(const gg_scene *s, const char *varied, char *text, siz
 {
   if (!size) return;
   const char *flow = has(varied, "flow") ? "several flows" : gg_flow_of(s->flow)->title;
-  bool as_well = gg_flow_takes(s->flow, GG_NO_THERMOSTAT) && s->thermostat != GG_NO_THERMOSTAT;
-  snprintf(text, size, "%s%s", flow, !as_well ? "" : s->thermostat == GG_BATH ? ", in a bath" : ", heated");
+  const bool optional = gg_flow_takes(s->flow, GG_NO_THERMOSTAT);
+  snprintf(text, size, "%s%s", flow, optional ? gg_common_thermostats[s->thermostat].title : "");
   if (!has(varied, "phi")) add(text, size, ", phi %g", s->phi);
   add_law(s, varied, text, size);
   add_surface(s, varied, text, size);

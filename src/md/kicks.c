@@ -69,7 +69,7 @@ static void make_bath(const gg_bath *b, int species, double interval, gg_md_kick
 static double interval_of(const gg_md *e, int species)
 {
   const gg_model *m = &e->model;
-  if (e->thermostat == GG_BATH) return interval_in_bath(m, species, e->k.kick_temperature);
+  if (e->heat == GG_HEAT_BATHES) return interval_in_bath(m, species, e->k.kick_temperature);
   const double T = e->k.kick_temperature, least = LEAST_INTERVAL / gg_common_model_collision_rate(m, T);
   return fmax(least, FRACTION_OF_T * T / (m->mass[species] * e->noise));
 }
@@ -80,7 +80,7 @@ static void choose_interval(gg_md *e, int species)
   const double interval = interval_of(e, species);
   t->interval = 2 * interval / t->n;
   t->size = e->noise > 0 ? sqrt(3 * e->noise * interval * OUT_OF / KICKED) : 0;
-  if (e->thermostat == GG_BATH) make_bath(&e->model.bath, species, interval, t);
+  if (e->heat == GG_HEAT_BATHES) make_bath(&e->model.bath, species, interval, t);
 }
 
 /* Choose the temperature for which intervals are short enough. A gas in a bath, or with noise of a given strength, may
@@ -202,7 +202,7 @@ static void kick_pair(gg_md *e, const gg_md_kick_schedule *t, uint64_t slot)
 {
   uint32_t pair[2];
   pair_of(e, t, slot, pair);
-  if (e->thermostat == GG_BATH) {
+  if (e->heat == GG_HEAT_BATHES) {
     bathe(e, t, pair);
   } else {
     const gg_vec direction = gg_rng_direction(&e->k.rng);
@@ -229,7 +229,7 @@ void gg_md_kick(gg_md *e)
   const int s = due(e);
   const gg_md_kick_schedule *t = &e->kicks.schedule[s];
   gg_md_kick_progress *next = &e->k.kick[s];
-  if (e->thermostat == GG_BATH || gg_rng_below(&e->k.rng, OUT_OF) < KICKED) {
+  if (e->heat == GG_HEAT_BATHES || gg_rng_below(&e->k.rng, OUT_OF) < KICKED) {
     e->k.events++;
     kick_pair(e, t, next->number);
   }

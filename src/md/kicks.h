@@ -15,7 +15,7 @@
  * Ornstein-Uhlenbeck process, exact for a grain without collisions in between), with opposite Gaussian kicks. */
 static inline bool gg_md_has_kicks(const gg_md *e)
 {
-  return e->thermostat == GG_WHITE_NOISE || e->thermostat == GG_BATH;
+  return e->heat == GG_HEAT_KICKS || e->heat == GG_HEAT_BATHES;
 }
 
 /* Make the kick schedule; it follows from the model and the species of the grains. */

@@ -60,9 +60,9 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
   e->box.image_velocity = model->shear_rate * model->box[1];
   e->gravity = (gg_vec){model->gravity[0], model->gravity[1], model->gravity[2]};
   e->falls = gg_dot(e->gravity, e->gravity) > 0;
-  e->thermostat = gg_common_thermostat_of(model);
-  e->noise = e->thermostat == GG_WHITE_NOISE ? gg_common_thermostat_noise(model) : 0;
-  if (model->bath.on && model->bath.drag[0] == 0) e->thermostat = GG_WHITE_NOISE, e->noise = model->bath.noise[0];
+  e->heat = gg_common_heat_of(model);
+  e->noise = gg_common_thermostat_kicks(model);
+  if (model->bath.on && model->bath.drag[0] == 0) e->heat = GG_HEAT_KICKS, e->noise = model->bath.noise[0];
   gg_status status = gg_md_contacts_make(&e->contacts, model, err);
   if (status == GG_OK) status = allocate(e, err);
   if (status != GG_OK) {

@@ -24,7 +24,7 @@ static void destroy(gg_engine *engine)
 static void take_over(gg_md *e, const gg_md *before)
 {
   gg_md_counts *k = &e->k;
-  *(e->thermostat == GG_GAUSSIAN ? &k->outer_time : &k->epoch_start) = gg_md_time(before);
+  *(e->heat == GG_HEAT_SCALES ? &k->outer_time : &k->epoch_start) = gg_md_time(before);
   k->collisions = k->epoch_collisions = before->k.collisions;
   k->events = k->epoch_events = e->check_at = before->k.events;
   k->treated = before->k.treated;
@@ -243,7 +243,7 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
 {
   gg_md *e = (gg_md *)engine;
   if (e->model.linear_response) return begin_sweep(e, power, err);
-  if (e->model.shear_rate != 0 || e->model.walled || e->thermostat != GG_NO_THERMOSTAT)
+  if (e->model.shear_rate != 0 || e->model.walled || e->heat != GG_UNHEATED)
     return gg_base_fail(err, GG_BAD_INPUT, "velocities cannot be rescaled in a driven flow: the drive sets the clock");
   double v = ldexp(1, power), t = ldexp(1, -power);
   e->k.power += power;

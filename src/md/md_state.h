@@ -13,6 +13,7 @@
 #include "common/engine.h"
 #include "common/laws/loss_table.h"
 #include "common/rng.h"
+#include "common/thermostat.h"
 #include "md/box.h"
 #include "md/cell_grid.h"
 #include "md/contacts.h"
@@ -170,8 +171,8 @@ struct gg_md {
   gg_md_resolution *resolve_shown; /* resolution that a callback wraps */
   gg_md_surface_resolution *resolve_surface_shown;
   gg_md_resolution *resolve_parted; /* resolution that gg_md_resolve_parting wraps */
-  gg_thermostat thermostat;
-  double noise; /* xi^2 of the white-noise thermostat */
+  gg_heat heat;
+  double noise; /* xi^2 of white noise without drag */
   gg_md_kicks kicks;
   struct gg_md_parallel *parallel; /* parallel/: threads that share the events; NULL: one thread */
   bool is_thread_local;            /* a copy for a thread (parallel/parallel.h), which cannot rebuild all lists */

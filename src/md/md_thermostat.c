@@ -81,5 +81,5 @@ double gg_md_outer_time(const gg_md *e)
 
 double gg_md_time(const gg_md *e)
 {
-  return e->thermostat == GG_GAUSSIAN ? e->k.outer_time + gg_md_outer_time(e) : e->k.epoch_start + e->k.now;
+  return e->heat == GG_HEAT_SCALES ? e->k.outer_time + gg_md_outer_time(e) : e->k.epoch_start + e->k.now;
 }

@@ -38,8 +38,7 @@ static gg_md_surface_resolution *const surface_resolutions[3][2][2][2] = {EACH_S
 #define BY_LAW(rule)                                                                                                   \
   static void rule##_by_law(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)                                   \
   {                                                                                                                    \
-    gg_md_resolve_features f = {rule,       true, e->last != NULL, e->k.keeps_sums, e->thermostat == GG_GAUSSIAN,      \
-                                .law = true};                                                                          \
+    gg_md_resolve_features f = {rule, true, e->last != NULL, e->k.keeps_sums, e->heat == GG_HEAT_SCALES, .law = true}; \
     gg_md_resolve_pair(e, f, i, j, dr, c12);                                                                           \
   }
 BY_LAW(GG_SMOOTH)
@@ -52,8 +51,8 @@ void gg_md_select_resolution(gg_md *e)
   bool mixture = e->model.n_species > 1, timed = e->last != NULL, sums = e->k.keeps_sums;
   gg_rule rule = e->model.rule;
   assert((rule != GG_SMOOTH) == (e->spin != NULL));
-  e->resolve = e->model.law.name ? resolutions_by_law[rule]
-                                 : resolutions[rule][timed][sums][mixture][e->thermostat == GG_GAUSSIAN];
+  e->resolve =
+      e->model.law.name ? resolutions_by_law[rule] : resolutions[rule][timed][sums][mixture][e->heat == GG_HEAT_SCALES];
   e->resolve_parted = e->resolve;
   if (gg_md_needs_parting(&e->model)) e->resolve = gg_md_resolve_parting;
   e->resolve_shown = e->resolve;

@@ -43,9 +43,9 @@ static void set_kinds(collisions *d)
   d->unit[PATH] = d->unit[LABORATORY] = rate / speed;
   /* A time has a meaning if the temperature is constant; under md's Gaussian thermostat the engine's clock is not
    * that of the gas. A path follows from the velocity at its end if only shear changes the velocity in flight. */
-  bool other_clock = m->thermostat == GG_GAUSSIAN && !m->homogeneous;
+  bool other_clock = gg_common_thermostats[m->thermostat].heat == GG_HEAT_SCALES && !m->homogeneous;
   d->has[TIME] = gg_model_keeps_temperature(m) && !other_clock; /* else it changes with T */
-  d->has[PATH] = gg_common_thermostat_of(m) == GG_NO_THERMOSTAT && !gg_flow_is_walled(m->flow);
+  d->has[PATH] = gg_common_heat_of(m) == GG_UNHEATED && !gg_flow_is_walled(m->flow);
   d->has[LABORATORY] = d->has[PATH] && m->steady && m->shear_rate != 0 && !m->homogeneous;
 }
 

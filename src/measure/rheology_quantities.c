@@ -141,7 +141,7 @@ static double wall_friction(const double *a, const gg_model *m)
  * roll with the shear. */
 static double power_of_noise(const gg_model *m)
 {
-  const double white = !m->bath.on && gg_common_thermostat_of(m) == GG_WHITE_NOISE ? gg_common_thermostat_noise(m) : 0;
+  const double white = gg_common_thermostat_kicks(m);
   double sum = 0;
   for (int i = 0; i < m->n_species; i++)
     sum += share(m, i) * 1.5 * m->mass[i] * (white + m->bath.noise[i] + m->inertia[i] * m->bath.spin_noise[i]);

@@ -6,11 +6,11 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "scene/scene.h"
+#include "graingas.h"
 #include "run/default_size.h"
 #include "run/z_scores.h"
+#include "scene/scene.h"
 #include "theory/goldhirsch_zanetti1993.h"
-#include "graingas.h"
 
 /* Waves of a homogeneous gas near its instability may be a few times those of an elastic one: sheared, e = 0.5, 1000
  * grains, three times. */
@@ -183,7 +183,7 @@ static bool meets_again(const difference *d, char *text, size_t size)
   const double T = d->md->value[GG_Q_TEMPERATURE].mean;
   const bool of_collisions = d->q == GG_Q_COLLISION_RATE || d->q == GG_Q_MEAN_FREE_PATH || d->q == GG_Q_KNUDSEN;
   const double way = sqrt(isfinite(T) ? T : m->temperature0) / m->bath.drag[0];
-  if (!(d->homogeneous && m->thermostat == GG_BATH && m->shear_rate == 0 && of_collisions && way < FAR_WAY &&
+  if (!(d->homogeneous && m->bath.drag[0] > 0 && m->shear_rate == 0 && of_collisions && way < FAR_WAY &&
         d->by * (d->q == GG_Q_COLLISION_RATE ? 1 : -1) > 0 && fabs(d->by) < 0.4))
     return false;
   snprintf(

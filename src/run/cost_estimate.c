@@ -40,7 +40,7 @@ static double cost_of_kicks(const gg_model *m)
   const double turns = m->shear_rate != 0 ? 25 : 10; /* of drag, in its own time */
   if (m->bath.drag[0] != 0)
     return 1 + 0.5 * fmax(1, turns * fabs(m->bath.drag[0]) / gg_common_model_collision_rate(m, m->temperature0));
-  if (m->thermostat != GG_WHITE_NOISE) return 1;
+  if (gg_common_thermostats[m->thermostat].heat != GG_HEAT_KICKS) return 1;
   double mass = 0;
   for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i] / (double)m->n;
   const double T = m->temperature0, loss = mass * gg_common_thermostat_noise(m) / T;
@@ -78,7 +78,7 @@ static double pace_of_dsmc(const gg_model *m)
       sum += rate * pace_of_pair(m, i, j), rates += rate;
     }
   const double pairs = 0.5 + 0.5 * m->n_species;
-  return sum / rates * pairs + (m->thermostat == GG_WHITE_NOISE || m->bath.on ? 30 : 0);
+  return sum / rates * pairs + (m->bath.on || gg_common_heat_of(m) == GG_HEAT_KICKS ? 30 : 0);
 }
 
 /* Add memory of snapshots and observables, and time of observables. The time of rheology is part of the engine's. */
@@ -110,7 +110,8 @@ static double for_stress(const gg_model *m)
     const gg_linear_response range = gg_common_linear_response_of(m);
     return (range.cools ? 60 : 30) / (range.high * range.high);
   }
-  if (m->thermostat == GG_WHITE_NOISE && m->shear_rate != 0) return 650; /* the stress is small beside the pressure */
+  if (gg_common_thermostats[m->thermostat].heat == GG_HEAT_KICKS && m->shear_rate != 0)
+    return 650;              /* the stress is small beside the pressure */
   if (m->walled) return 400; /* fluctuates along with the slow waves across the gap */
   return m->shear_rate != 0 ? 130 : 5;
 }

@@ -7,6 +7,7 @@
 
 #include "common/collision.h"
 #include "common/contact_value.h"
+#include "common/thermostat.h"
 #include "scene/fields.h"
 
 /* Properties of the scene's collisions that keys depend on. */
@@ -75,31 +76,19 @@ void gg_scene_fill_in(gg_scene *s)
   if (s->run.duration != GG_AUTO && !gg_scene_is_given(s, "run.replicas")) s->run.replicas = GG_REPLICAS_FOLLOWED;
 }
 
-#define TAKES(name, thermostat)                                                                                        \
-  static bool takes_##name(gg_flow flow)                                                                               \
-  {                                                                                                                    \
-    return gg_flow_takes(flow, thermostat);                                                                            \
-  }
-TAKES(gaussian, GG_GAUSSIAN)
-TAKES(white_noise, GG_WHITE_NOISE)
-TAKES(bath, GG_BATH)
-static bool (*const takes[])(gg_flow flow) = {
-    [GG_GAUSSIAN] = takes_gaussian, [GG_WHITE_NOISE] = takes_white_noise, [GG_BATH] = takes_bath};
-
 static gg_status check_thermostat(const gg_scene *s, gg_error *err)
 {
-  const gg_field *field = &gg_scene_fields[gg_scene_field_find("thermostat")];
   const char *flow = gg_flow_of(s->flow)->word;
   char text[160] = "";
   if (gg_flow_takes(s->flow, s->thermostat)) return GG_OK;
   if (s->thermostat != GG_NO_THERMOSTAT) {
-    gg_common_flow_list(takes[s->thermostat], text, sizeof text);
+    gg_common_flows_taking(s->thermostat, text, sizeof text);
     return gg_base_fail(err, GG_BAD_INPUT, "thermostat: %s does not go with flow: %s; use flow: %s",
-                        gg_scene_field_word_for(field, (int)s->thermostat).name, flow, text);
+                        gg_common_thermostats[s->thermostat].word, flow, text);
   }
   for (int t = GG_NO_THERMOSTAT + 1; t < GG_N_THERMOSTATS; t++)
     if (gg_flow_takes(s->flow, (gg_thermostat)t))
-      gg_base_text_append(text, sizeof text, "%s%s", *text ? " or " : "", gg_scene_field_word_for(field, t).name);
+      gg_base_text_append(text, sizeof text, "%s%s", *text ? " or " : "", gg_common_thermostats[t].word);
   return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs a thermostat: %s", flow, text);
 }
 
@@ -249,9 +238,8 @@ static bool uses_md(const gg_scene *s, unsigned uses)
 /* In md, too, the strength of white noise goes with the key: it balances the losses at Enskog's collision rate. */
 static bool uses_contact_value(const gg_scene *s, unsigned uses)
 {
-  const gg_thermostat given = s->thermostat;
-  const gg_thermostat in_force = gg_flow_takes(s->flow, given) ? given : gg_flow_of(s->flow)->thermostat;
-  return s->n_species == 1 && s->phi > 0 && ((uses & (GG_USE_DSMC | GG_USE_THEORY)) || in_force == GG_WHITE_NOISE);
+  const gg_heat heat = gg_common_thermostats[gg_flow_thermostat(s->flow, s->thermostat)].heat;
+  return s->n_species == 1 && s->phi > 0 && ((uses & (GG_USE_DSMC | GG_USE_THEORY)) || heat == GG_HEAT_KICKS);
 }
 
 /* Is there a mean whose error can be reduced? Not in a gas that heats up for ever, nor in one that cools with a law of
@@ -262,7 +250,7 @@ static bool has_error(const gg_scene *s, unsigned uses)
   const bool user_defined = gg_common_extension_law(s->extension).e != NULL, lossy = user_defined || t.lossy;
   if (uses == GG_USE_THEORY || lossy)
     return !(gg_flow_cools(s->flow) && (user_defined || s->collision.law != GG_LAW_CONSTANT));
-  if (s->thermostat == GG_BATH) return true;
+  if (gg_common_thermostats[s->thermostat].heat == GG_HEAT_BATHES) return true;
   if (gg_flow_is_sheared(s->flow)) return gg_flow_of(s->flow)->linear_response;
   const bool shares = s->n_species > 1 || t.rough; /* temperatures, whose ratio is known */
   return shares || !(gg_flow_cools(s->flow) || gg_flow_is_heated(s->flow));
@@ -307,9 +295,7 @@ static const struct {
     [GG_IF_FRAMES] = {"while output.trajectory_every is 0", NULL, "", "output.trajectory_every is not 0"},
     [GG_IF_UNWALLED] = {"between walls, where velocities are about the measured flow", NULL, "", "no walls"},
     [GG_IF_CELLS] = {"while frame is imposed", NULL, "", "frame is not imposed"},
-    [GG_IF_BATH] = {"but with thermostat: bath", NULL, "", "thermostat bath"},
-    [GG_IF_GAUSSIAN] = {"but with thermostat: gaussian in flow: hss", NULL, "", "thermostat gaussian in flow hss"},
-    [GG_IF_NOISE] = {"but with thermostat: white_noise", NULL, "", "thermostat white_noise"},
+    [GG_IF_HEATED] = {"but in flow: ", gg_flow_is_heated, "", NULL},
     [GG_IF_STARTED] = {"but in flow: ", takes_start, "", NULL},
     [GG_IF_THERMAL_WALLS] = {"while walls.temperature is none", NULL, "", "walls.temperature is given"},
     [GG_IF_ACCOMMODATION] = {"while walls.accommodation is 0", NULL, "", "walls.accommodation is not 0"},
@@ -323,6 +309,7 @@ void gg_scene_field_when(const gg_field *f, char *text, size_t size)
 {
   *text = '\0';
   uint64_t when = f->when;
+  if (f->thermostat) gg_base_text_append(text, size, "thermostat %s", gg_common_thermostats[f->thermostat].word);
   if (when & (GG_BIT(GG_IF_MOVING_WALLS) | GG_BIT(GG_IF_OPENABLE)))
     when &= ~GG_BIT(GG_IF_WALLED); /* follows from the flow */
   for (int i = 0; i < GG_N_CONDITIONS; i++) {
@@ -339,6 +326,7 @@ bool gg_scene_field_is_of(const gg_field *f, gg_flow flow)
 {
   for (int i = 0; i < GG_N_CONDITIONS; i++)
     if ((f->when & GG_BIT(i)) && conditions[i].flow && !conditions[i].flow(flow)) return false;
+  if (f->thermostat && !gg_flow_takes(flow, f->thermostat)) return false;
   return !(f->when & GG_BIT(GG_IF_UNWALLED)) || !gg_flow_is_walled(flow);
 }
 
@@ -371,9 +359,6 @@ static bool holds(gg_condition condition, const gg_scene *s, unsigned uses)
   case GG_IF_FOLLOWED: return gg_scene_is_followed(s);
   case GG_IF_UNWALLED: return !gg_flow_is_walled(s->flow);
   case GG_IF_CELLS: return s->frame != GG_FRAME_IMPOSED;
-  case GG_IF_BATH: return s->thermostat == GG_BATH;
-  case GG_IF_GAUSSIAN: return s->thermostat == GG_GAUSSIAN && gg_flow_is_heated(s->flow);
-  case GG_IF_NOISE: return s->thermostat == GG_WHITE_NOISE;
   default: return true;
   }
 }
@@ -407,6 +392,8 @@ static bool differs(const gg_field *f, const void *base, const gg_scene *scene, 
 /* The reason in `text`, if the key has no effect. */
 static bool is_ineffective(const gg_field *f, const gg_scene *scene, unsigned uses, char *text, size_t size)
 {
+  if (f->thermostat && f->thermostat != scene->thermostat)
+    return snprintf(text, size, "but with thermostat: %s", gg_common_thermostats[f->thermostat].word), true;
   for (int i = 0; i < GG_N_CONDITIONS; i++) {
     char flows[160] = "";
     if (!(f->when & GG_BIT(i))) continue;

@@ -10,20 +10,21 @@
 
 #include "base/text.h"
 #include "common/quantity.h"
+#include "common/thermostat.h"
 
 static gg_word flow_word(int i)
 {
   return i < GG_N_FLOWS ? (gg_word){gg_common_flows[i].word, i, gg_common_flows[i].doc} : (gg_word){0};
 }
 
+static gg_word thermostat_word(int i)
+{
+  return i < GG_N_THERMOSTATS ? (gg_word){gg_common_thermostats[i].word, i, gg_common_thermostats[i].doc}
+                              : (gg_word){0};
+}
+
 #define ENGINE_WORD(KIND, name, title) {#name, GG_##KIND, title},
 static const gg_word engines[] = {GG_ENGINES(ENGINE_WORD){0}};
-static const gg_word thermostats[] = {
-    {"none", GG_NO_THERMOSTAT, "no thermostat; the default except in flows that need one"},
-    {"gaussian", GG_GAUSSIAN, "force along the velocity that replaces the energy lost in collisions; spins get none"},
-    {"white_noise", GG_WHITE_NOISE, "random kicks of all grains"},
-    {"bath", GG_BATH, "drag and random kicks, as in a fluid of temperature bath.temperature"},
-    {0}};
 static const gg_word contact_values[] = {{"carnahan_starling", GG_CARNAHAN_STARLING, "(1 - phi/2)/(1 - phi)^3"},
                                          {"lun_savage", GG_LUN_SAVAGE, "(1 - phi/0.64)^(-1.6)"},
                                          {"kolafa", GG_KOLAFA, "from the accurate equation of state; phi up to 0.55"},
@@ -81,23 +82,23 @@ const gg_field gg_scene_fields[] = {
      .also = "type"},
     {"engine", GG_FIELD_CHOICE, AT(engine), .words = engines,
      .doc = "engine of `graingas run`; `graingas compare` runs both", .also = "method"},
-    {"thermostat", GG_FIELD_CHOICE, AT(thermostat), .words = thermostats, .doc = "thermostat that supplies energy"},
+    {"thermostat", GG_FIELD_CHOICE, AT(thermostat), .word = thermostat_word, .doc = "thermostat that supplies energy"},
     {"bath.drag", GG_FIELD_NUMBER, AT(bath.drag), 0, LARGE, true, .by_default = 1, .unit = "1/time",
-     .doc = "drag coefficient: velocities relative to the imposed flow decay at this rate", .when = GG_BIT(GG_IF_BATH),
+     .doc = "drag coefficient: velocities relative to the imposed flow decay at this rate", .thermostat = GG_BATH,
      .also = "damping"},
     {"bath.temperature", GG_FIELD_NUMBER, AT(bath.temperature), 0, LARGE, .by_default = 1, .unit = "mass velocity^2",
-     .doc = "temperature that the bath alone would give; 0: drag alone, which needs shear", .when = GG_BIT(GG_IF_BATH),
+     .doc = "temperature that the bath alone would give; 0: drag alone, which needs shear", .thermostat = GG_BATH,
      .also = "T_b"},
     {"bath.rotation", GG_FIELD_NUMBER, AT(bath.rotation), 0, LARGE,
      .doc = "drag of spins over that of velocities, at the same temperature; 0: none; 10/3: Stokes drag of a sphere",
-     .when = GG_BIT(GG_IF_BATH) | GG_BIT(GG_IF_ROUGH)},
+     .when = GG_BIT(GG_IF_ROUGH), .thermostat = GG_BATH},
     {"gaussian_rate", GG_FIELD_NUMBER, AT(gaussian_rate), 0, LARGE, true, AUTO, .unit = "1/time",
      .doc = "rate zeta_0 of the Gaussian thermostat, dT/dt = zeta_0 T; auto: that of the energy lost in collisions",
-     .when = GG_BIT(GG_IF_GAUSSIAN)},
+     .when = GG_BIT(GG_IF_HEATED), .thermostat = GG_GAUSSIAN},
     {"noise_strength", GG_FIELD_NUMBER, AT(noise_strength), 0, LARGE, true, AUTO, .unit = "velocity^2/time",
      .doc = "xi^2 of white noise: variance that each component of a velocity gains per time; auto: balances the losses "
             "at the initial temperature",
-     .when = GG_BIT(GG_IF_NOISE)},
+     .thermostat = GG_WHITE_NOISE},
     {"contact_value", GG_FIELD_CHOICE, AT(contact_value), .words = contact_values,
      .doc = "formula for the pair correlation at contact", .when = GG_BIT(GG_IF_CONTACT_VALUE)},
     {"phi", GG_FIELD_NUMBER, AT(phi), 0, 0.6, .by_default = GG_AUTO,
@@ -244,7 +245,7 @@ const gg_field gg_scene_species_fields[] = {
     {"inertia", GG_FIELD_NUMBER, offsetof(gg_species, inertia), 1e-6, 1, false, .by_default = 0.4,
      .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow", .when = GG_BIT(GG_IF_ROUGH), .also = "K I"},
     {"drag", GG_FIELD_NUMBER, offsetof(gg_species, drag), SMALL, LARGE, .by_default = 1,
-     .doc = "drag of the bath on this species, in units of bath.drag", .when = GG_BIT(GG_IF_BATH)},
+     .doc = "drag of the bath on this species, in units of bath.drag", .thermostat = GG_BATH},
     {0},
 };
 
@@ -305,6 +306,19 @@ static int find(const gg_field *fields, const char *key)
 int gg_scene_field_find(const char *key)
 {
   return find(gg_scene_fields, key);
+}
+
+const gg_field *gg_scene_strength_of(gg_thermostat thermostat)
+{
+  const gg_field *f = gg_scene_fields;
+  while (f->key && (!f->thermostat || f->thermostat != thermostat)) f++;
+  return f->key ? f : NULL;
+}
+
+bool gg_scene_is_driven(const gg_scene *s)
+{
+  const gg_field *f = gg_scene_strength_of(s->thermostat);
+  return f && *(const double *)(const void *)((const char *)s + f->offset) != GG_AUTO;
 }
 
 static int find_of_species(const char *member_key, int number, gg_field *member)

@@ -57,9 +57,7 @@ typedef enum gg_condition {
   GG_IF_FRAMES,
   GG_IF_UNWALLED,
   GG_IF_CELLS,
-  GG_IF_BATH,
-  GG_IF_GAUSSIAN,
-  GG_IF_NOISE,
+  GG_IF_HEATED,
   GG_IF_STARTED,
   GG_IF_THERMAL_WALLS,
   GG_IF_WALL_RULE,
@@ -90,6 +88,9 @@ typedef struct gg_field {
   const char *also;    /* what others call it, for messages: words separated by blanks */
   const char *older;   /* earlier spelling, which is accepted; NULL: none */
   bool may_change;     /* between the parts of a run that is resumed: it touches neither trajectory nor means */
+  /* The thermostat that has this key; GG_NO_THERMOSTAT: none. The first key of a thermostat is its strength; auto:
+   * the strength that balances the losses. */
+  gg_thermostat thermostat;
 } gg_field;
 
 enum { GG_MAX_FIELDS = GG_KEY_BITS };
@@ -104,6 +105,8 @@ int gg_scene_field_find(const char *key);
 /* The same of keys and of members of their values, "collision.e.12" and "species.2.mass" (1 to n_species): *member is
  * the row, or a row for that member whose offset is in gg_scene. */
 int gg_scene_key_find(const char *key, int n_species, gg_field *member);
+/* The key that gives the strength of a thermostat; NULL: it has none. */
+const gg_field *gg_scene_strength_of(gg_thermostat thermostat);
 /* Did the user give this key? */
 bool gg_scene_is_given(const gg_scene *scene, const char *key);
 /* Is it the first part of some dotted key ("collision")? */

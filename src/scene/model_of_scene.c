@@ -5,6 +5,7 @@
 
 #include "common/engine.h"
 #include "scene/ensemble_size.h"
+#include "scene/fields.h"
 
 /* Whole numbers of grains by species: the largest remainders are rounded up, among equal ones the first. */
 static void deal_grains(gg_model *m, const gg_scene *s)
@@ -158,33 +159,50 @@ static gg_status set_law(gg_model *m, const gg_scene *s, gg_error *err)
   return GG_OK;
 }
 
-/* The bath of thermostat: bath; also white noise of a given strength, and a Gaussian thermostat of a given rate, which
- * is a negative drag. */
+/* Drag and noise of species i, from the keys of a thermostat. A Gaussian thermostat of a given rate is a negative drag.
+ */
+static void set_gaussian(gg_bath *b, int i, const gg_model *m, const gg_scene *s)
+{
+  b->drag[i] = -s->gaussian_rate * m->unit.time / 2;
+}
+
+static void set_white_noise(gg_bath *b, int i, const gg_model *m, const gg_scene *s)
+{
+  b->noise[i] = gg_units_velocity(m->unit, gg_units_velocity(m->unit, s->noise_strength)) * m->unit.time;
+}
+
+static void set_fluid(gg_bath *b, int i, const gg_model *m, const gg_scene *s)
+{
+  const double T = gg_units_temperature(m->unit, s->bath.temperature);
+  b->drag[i] = s->bath.drag * s->species[i].drag * m->unit.time;
+  b->noise[i] = 2 * b->drag[i] * T / m->mass[i];
+  if (m->rule == GG_SMOOTH) return;
+  b->spin_drag[i] = s->bath.rotation * b->drag[i];
+  b->spin_noise[i] = 2 * b->spin_drag[i] * T / (m->mass[i] * m->inertia[i]);
+}
+
+static void (*const set_species[GG_N_THERMOSTATS])(gg_bath *, int i, const gg_model *, const gg_scene *) = {
+    [GG_GAUSSIAN] = set_gaussian, [GG_WHITE_NOISE] = set_white_noise, [GG_BATH] = set_fluid};
+
+/* In a steady state of a gas at rest some energy comes in and some goes out. */
 static gg_status set_bath(gg_model *m, const gg_scene *s, gg_error *err)
 {
-  gg_bath *b = &m->bath;
-  const double time = m->unit.time, T = gg_units_temperature(m->unit, s->bath.temperature),
-               noise_strength = gg_units_velocity(m->unit, gg_units_velocity(m->unit, s->noise_strength)) * time;
-  const bool bath = s->thermostat == GG_BATH;
-  const bool rate = s->thermostat == GG_GAUSSIAN && s->gaussian_rate != GG_AUTO && !m->linear_response;
-  const bool noise = s->thermostat == GG_WHITE_NOISE && s->noise_strength != GG_AUTO;
-  b->on = bath || rate || noise;
-  for (int i = 0; i < m->n_species && b->on; i++) {
-    b->drag[i] = bath ? s->bath.drag * s->species[i].drag * time : rate ? -s->gaussian_rate * time / 2 : 0;
-    b->noise[i] = bath ? 2 * b->drag[i] * T / m->mass[i] : noise ? noise_strength : 0;
-    if (!bath || m->rule == GG_SMOOTH) continue;
-    b->spin_drag[i] = s->bath.rotation * b->drag[i];
-    b->spin_noise[i] = 2 * b->spin_drag[i] * T / (m->mass[i] * m->inertia[i]);
+  double drag = 0, noise = 0;
+  m->bath.on = gg_scene_is_driven(s) && !m->linear_response;
+  for (int i = 0; i < m->n_species && m->bath.on; i++) {
+    set_species[s->thermostat](&m->bath, i, m, s);
+    drag += m->bath.drag[i], noise += m->bath.noise[i];
   }
-  if (bath && T == 0 && m->shear_rate == 0)
+  if (!m->bath.on || m->shear_rate != 0) return GG_OK;
+  if (drag > 0 && noise == 0)
     return gg_base_fail(
         err, GG_BAD_INPUT,
         "bath.temperature: 0 without shear: the gas only cools; give a temperature above 0, or flow: %s",
         gg_flow_of(GG_USF)->word);
-  if ((rate || noise) && m->elastic && m->shear_rate == 0)
+  if (drag <= 0 && m->elastic)
     return gg_base_fail(err, GG_BAD_INPUT,
                         "key '%s': collisions of this scene lose no energy, so that it heats up for ever",
-                        rate ? "gaussian_rate" : "noise_strength");
+                        gg_scene_strength_of(s->thermostat)->key);
   return GG_OK;
 }
 

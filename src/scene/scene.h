@@ -127,12 +127,13 @@ struct gg_scene {
   gg_scene_keys given; /* keys that the user gave */
 };
 
+/* Does a key of the thermostat give its strength, instead of the balance with the losses? */
+bool gg_scene_is_driven(const gg_scene *scene);
+
 /* Is the temperature of the start the only scale of velocities? Then it makes the unit v_0. */
 static inline bool gg_scene_scales_with_start(const gg_scene *s)
 {
-  const bool driven = s->thermostat == GG_BATH || (s->thermostat == GG_GAUSSIAN && s->gaussian_rate != GG_AUTO) ||
-                      (s->thermostat == GG_WHITE_NOISE && s->noise_strength != GG_AUTO);
-  return !driven && !gg_flow_is_sheared(s->flow) && !gg_flow_is_walled(s->flow);
+  return !gg_scene_is_driven(s) && !gg_flow_is_sheared(s->flow) && !gg_flow_is_walled(s->flow);
 }
 
 /* Inverse of the model's unit of time in flows without moving walls: the shear rate; v_0/d with v_0^2 = 2 T/m of the

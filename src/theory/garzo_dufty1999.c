@@ -47,14 +47,14 @@ double gg_theory_a2_white_noise(double e)
 
 double gg_theory_thermostat_factor(const gg_model *m)
 {
-  static const double share[] = {[GG_NO_THERMOSTAT] = 0.5, [GG_GAUSSIAN] = 1, [GG_WHITE_NOISE] = 0, [GG_BATH] = 0};
-  return share[gg_common_thermostat_of(m)];
+  static const double share[] = {[GG_UNHEATED] = 0.5, [GG_HEAT_SCALES] = 1, [GG_HEAT_KICKS] = 0, [GG_HEAT_BATHES] = 0};
+  return share[gg_common_heat_of(m)];
 }
 
 /* White noise is set to balance Maxwellians at temperature0 (thermostat.h), which lose less by 1 + 3c/32. */
 static double temperature_of(const gg_model *m, double a2)
 {
-  return m->temperature0 * (gg_common_thermostat_of(m) == GG_WHITE_NOISE ? pow(1 + 3. / 16 * a2, -2. / 3) : 1);
+  return m->temperature0 * (gg_common_heat_of(m) == GG_HEAT_KICKS ? pow(1 + 3. / 16 * a2, -2. / 3) : 1);
 }
 
 void gg_theory_answer_sonine(const gg_model *m, double T, double a2, gg_theory_answer *a)
@@ -126,7 +126,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   GG_TRY(gg_theory_require_one_species(m, name, err));
   GG_TRY(gg_theory_require_smooth(m, name, err));
-  bool noisy = gg_common_thermostat_of(m) == GG_WHITE_NOISE;
+  bool noisy = gg_common_heat_of(m) == GG_HEAT_KICKS;
   double a2 = noisy ? gg_theory_a2_white_noise(m->e[0]) : gg_theory_a2_van_noije_ernst(m->e[0]);
   answer_all(m, a2, false, a);
   return GG_OK;
@@ -154,7 +154,7 @@ static gg_status with_other_a2(const gg_model *m, const char *theory, bool modif
 {
   GG_TRY(gg_theory_require_one_species(m, theory, err));
   GG_TRY(gg_theory_require_smooth(m, theory, err));
-  if (gg_common_thermostat_of(m) == GG_WHITE_NOISE)
+  if (gg_common_heat_of(m) == GG_HEAT_KICKS)
     return gg_theory_reject(err, theory,
                             "is given here for free cooling and the Gaussian thermostat; this scene is heated by "
                             "white noise");

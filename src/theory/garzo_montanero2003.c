@@ -130,7 +130,7 @@ static gg_status answer_in(const gg_model *m, const char *theory, gg_linearisati
   if (m->n_species != 2)
     return gg_theory_reject(err, theory, "describes binary mixtures; this scene has %d species", m->n_species);
   GG_TRY(gg_theory_require_smooth(m, theory, err));
-  if (gg_common_thermostat_of(m) == GG_WHITE_NOISE)
+  if (gg_common_heat_of(m) == GG_HEAT_KICKS)
     return gg_theory_reject(err, theory,
                             "describes free cooling and the Gaussian thermostat; this scene is heated by white "
                             "noise");

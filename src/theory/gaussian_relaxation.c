@@ -36,9 +36,8 @@ static double energy_of(const gg_model *m, const gg_gaussian state[])
 static void add_thermostat(const gg_model *m, const gg_gaussian state[], gg_gaussian_rates *r)
 {
   if (m->bath.on || gg_flow_cools(m->flow)) return;
-  const gg_thermostat thermostat = gg_common_thermostat_of(m);
-  const double noise = thermostat == GG_WHITE_NOISE ? gg_common_thermostat_noise(m) : 0;
-  const double scale = thermostat == GG_GAUSSIAN ? energy_of(m, r->change) / energy_of(m, state) : 0;
+  const double noise = gg_common_thermostat_kicks(m);
+  const double scale = gg_common_heat_of(m) == GG_HEAT_SCALES ? energy_of(m, r->change) / energy_of(m, state) : 0;
   for (int i = 0; i < m->n_species; i++)
     for (int a = 0; a < 3; a++) {
       r->change[i].M.at[a][a] += noise;

@@ -33,9 +33,9 @@ static double viscous_length2_of_mixture(const gg_model *m)
 static double viscous_length2(gg_model m)
 {
   gg_theory_answer a;
-  const bool heated = m.rule != GG_SMOOTH && gg_common_thermostat_of(&m) == GG_GAUSSIAN;
+  const bool heated = m.rule != GG_SMOOTH && gg_common_heat_of(&m) == GG_HEAT_SCALES;
   m.flow = heated ? GG_HSS : GG_HCS;
-  m.thermostat = heated ? GG_GAUSSIAN : GG_NO_THERMOSTAT;
+  m.thermostat = gg_flow_of(m.flow)->thermostat;
   m.linear_response = false;
   m.shear_rate = 0;
   m.temperature0 = 1;
@@ -64,8 +64,9 @@ static double longest_edge(const gg_model *m)
 
 double gg_theory_stable_grains(const gg_model *m)
 {
-  const bool cools = gg_flow_cools(m->flow) || (gg_flow_is_heated(m->flow) && m->thermostat == GG_GAUSSIAN) ||
-                     (m->linear_response && m->thermostat == GG_NO_THERMOSTAT);
+  const gg_heat heat = gg_common_thermostats[m->thermostat].heat;
+  const bool cools = gg_flow_cools(m->flow) || (gg_flow_is_heated(m->flow) && heat == GG_HEAT_SCALES) ||
+                     (m->linear_response && heat == GG_UNHEATED);
   if (m->homogeneous || !cools) return NAN;
   return (double)m->n * pow(gg_theory_clustering_length(m) / longest_edge(m), 3);
 }
@@ -87,7 +88,7 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
     return gg_theory_reject(err, name, "needs the viscosity of one or two species; this scene has %d", m->n_species);
   if (m->n_species == 2) GG_TRY(gg_theory_require_smooth(m, name, err));
   GG_TRY(gg_theory_require_constant_beta(m, name, err));
-  if (gg_common_thermostat_of(m) == GG_WHITE_NOISE)
+  if (gg_common_heat_of(m) == GG_HEAT_KICKS)
     return gg_theory_reject(err, name,
                             "describes free cooling and the Gaussian thermostat; white noise feeds all modes");
   if (m->elastic)

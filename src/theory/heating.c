@@ -7,11 +7,11 @@
 
 gg_heating gg_theory_heating_of(const gg_model *m)
 {
-  const bool free = m->linear_response && gg_common_thermostat_of(m) == GG_NO_THERMOSTAT;
+  const bool free = m->linear_response && gg_common_heat_of(m) == GG_UNHEATED;
   if (gg_flow_cools(m->flow) || free) return (gg_heating){.kind = GG_HEATING_COOLS};
-  switch (gg_common_thermostat_of(m)) {
-  case GG_BATH: return (gg_heating){GG_HEATING_BATH, &m->bath, 1 / sqrt(gg_common_thermostat_balance(m, 0))};
-  case GG_WHITE_NOISE: return (gg_heating){.kind = GG_HEATING_NOISE};
+  switch (gg_common_heat_of(m)) {
+  case GG_HEAT_BATHES: return (gg_heating){GG_HEATING_BATH, &m->bath, 1 / sqrt(gg_common_thermostat_balance(m, 0))};
+  case GG_HEAT_KICKS: return (gg_heating){.kind = GG_HEATING_NOISE};
   default: return (gg_heating){.kind = GG_HEATING_STRETCHES};
   }
 }

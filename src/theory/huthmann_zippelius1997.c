@@ -38,7 +38,7 @@ static double loss_of(const gg_model *m, gg_grain grain, double mu, double ratio
  * -(nu/2) dE_tr T, nu as sqrt(T). */
 static double temperature_of(const gg_model *m, double lost)
 {
-  double T0 = m->temperature0, noise = gg_common_thermostat_of(m) == GG_WHITE_NOISE ? gg_common_thermostat_noise(m) : 0;
+  double T0 = m->temperature0, noise = gg_common_thermostat_kicks(m);
   double loss = lost * gg_common_model_collision_rate(m, T0) / 3 * T0;
   return noise > 0 && loss > 0 ? T0 * pow(noise / loss, 2. / 3) : T0;
 }

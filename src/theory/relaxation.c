@@ -14,11 +14,6 @@
 #include "common/thermostat.h"
 #include "theory/two_maxwellian.h"
 
-static gg_thermostat thermostat_of(const gg_model *m)
-{
-  return gg_flow_cools(m->flow) ? GG_NO_THERMOSTAT : gg_common_thermostat_of(m);
-}
-
 const char *gg_theory_relaxation_name(const gg_model *m)
 {
   const bool known = m->n_species == 1 && m->shear_rate == 0 && !m->walled && !m->law.name;
@@ -45,7 +40,7 @@ gg_relaxing gg_theory_relaxation_lost(void)
 
 static double noise_of(const gg_model *m)
 {
-  return m->bath.on ? m->bath.noise[0] : thermostat_of(m) == GG_WHITE_NOISE ? gg_common_thermostat_noise(m) : 0;
+  return m->bath.on ? m->bath.noise[0] : gg_common_thermostat_kicks(m);
 }
 
 static double drag_of(const gg_model *m)
@@ -78,7 +73,7 @@ static gg_relaxing rough_rates(const gg_model *m, gg_relaxing x)
 static gg_relaxing rates(const gg_model *m, gg_relaxing x)
 {
   gg_relaxing r = m->rule == GG_SMOOTH ? smooth_rates(m, x) : rough_rates(m, x);
-  if (thermostat_of(m) != GG_GAUSSIAN || m->bath.on) return r;
+  if (gg_common_heat_of(m) != GG_HEAT_SCALES) return r;
   r.T = 0; /* cooling changes velocities by a factor, and a2 stays */
   return r;
 }

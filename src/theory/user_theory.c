@@ -5,8 +5,8 @@
 
 #include "base/memory.h"
 #include "common/thermostat.h"
-#include "theory/theory.h"
 #include "graingas.h"
+#include "theory/theory.h"
 
 gg_status gg_theory_user_theory_add(gg_extension **extension, const gg_theory_definition *t, gg_error *err)
 {
@@ -27,13 +27,6 @@ gg_status gg_theory_user_theory_add(gg_extension **extension, const gg_theory_de
   return GG_OK;
 }
 
-static const char *word_of_thermostat(gg_thermostat thermostat)
-{
-  static const char *const words[] = {
-      [GG_NO_THERMOSTAT] = "none", [GG_GAUSSIAN] = "gaussian", [GG_WHITE_NOISE] = "white_noise"};
-  return words[thermostat];
-}
-
 static void describe_species(const gg_model *m, gg_species_facts *species, gg_pair_facts *pairs)
 {
   for (int i = 0; i < m->n_species; i++) {
@@ -52,7 +45,7 @@ gg_status gg_theory_user_theory_evaluate(const gg_theory_definition *t, const gg
   gg_pair_facts pairs[GG_MAX_SPECIES * GG_MAX_SPECIES];
   describe_species(m, species, pairs);
   const gg_facts facts = {.flow = gg_flow_of(m->flow)->word,
-                          .thermostat = word_of_thermostat(gg_common_thermostat_of(m)),
+                          .thermostat = gg_common_thermostats[gg_flow_thermostat(m->flow, m->thermostat)].word,
                           .restitution_law = m->law.name,
                           .phi = m->phi,
                           .density = m->density,

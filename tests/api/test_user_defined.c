@@ -162,6 +162,41 @@ static void theories_under_a_law(void **state)
   gg_scene_free(s);
 }
 
+static const char *name_thermostat(void *context, const gg_facts *facts, double *values)
+{
+  (void)context, (void)values;
+  return facts->thermostat;
+}
+
+/* A user-defined theory reads the word of the scene, also of a thermostat of a given strength. */
+static void theories_read_the_thermostat_of_the_scene(void **state)
+{
+  (void)state;
+  static const char *const words[][2] = {{"flow: usf", "none"},
+                                         {"flow: hss", "gaussian"},
+                                         {"flow: hss, gaussian_rate: 0.1", "gaussian"},
+                                         {"flow: hss, thermostat: white_noise", "white_noise"},
+                                         {"flow: heated_shear, noise_strength: 2", "white_noise"},
+                                         {"flow: usf, thermostat: bath", "bath"}};
+  const char *const names[] = {"pressure"};
+  const gg_theory_definition theory = {"reader", "Reader", NULL, NULL, 1, names, name_thermostat, NULL};
+  for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
+    char text[160], reason[80];
+    gg_error err;
+    gg_comparison *c = NULL;
+    gg_theory_info t;
+    snprintf(text, sizeof text, "{%s, phi: 0.05, collision: {e: 0.9}}", words[k][0]);
+    snprintf(reason, sizeof reason, "reader %s", words[k][1]);
+    gg_scene *s = scene_of(text);
+    assert_ok(gg_scene_add_theory(s, &theory, &err));
+    assert_ok(gg_theories_evaluate(s, "reader", NULL, NULL, &c, &err));
+    assert_ok(gg_comparison_theory(c, 0, &t, &err));
+    assert_string_equal(t.reason, reason);
+    gg_comparison_free(c);
+    gg_scene_free(s);
+  }
+}
+
 /* A law is noted in results; that it took the place of collision.e, where that was given. */
 static void law_noted(void **state)
 {
@@ -507,6 +542,7 @@ int main(void)
       cmocka_unit_test(user_defined_results_are_read_back),
       cmocka_unit_test(read_back_run),
       cmocka_unit_test(theories_under_a_law),
+      cmocka_unit_test(theories_read_the_thermostat_of_the_scene),
       cmocka_unit_test(collisions_of_a_cooling_gas_have_units_of_the_start),
       cmocka_unit_test(invalid_names_are_rejected),
       cmocka_unit_test(law_noted),

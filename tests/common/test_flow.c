@@ -11,11 +11,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "common/thermostat.h"
 #include "files/text_format.h"
+#include "graingas.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
-#include "graingas.h"
 
 static gg_scene scene_of(int flow, const char *rest)
 {
@@ -72,15 +73,32 @@ static void defaults_run(void **state)
     }
 }
 
+/* A thermostat has words, acts on grains, and goes with some flow; keys of its own begin with its strength. */
+static void rows_of_thermostats_are_complete(void **state)
+{
+  (void)state;
+  char text[160];
+  for (int t = 0; t < GG_N_THERMOSTATS; t++) {
+    const gg_thermostat_row *row = &gg_common_thermostats[t];
+    if (!row->word || !row->doc || !row->title) fail_msg("row %d lacks words", t);
+    for (int u = 0; u < t; u++) assert_string_not_equal(row->word, gg_common_thermostats[u].word);
+    assert_int_equal(row->heat != GG_UNHEATED, t != GG_NO_THERMOSTAT);
+    gg_common_flows_taking((gg_thermostat)t, text, sizeof text);
+    assert_true(*text);
+    const gg_field *strength = gg_scene_strength_of((gg_thermostat)t);
+    assert_int_equal(strength != NULL, t != GG_NO_THERMOSTAT);
+    if (strength) assert_int_equal(strength->type, GG_FIELD_NUMBER);
+  }
+}
+
 static void each_flow_has_its_thermostats(void **state)
 {
   (void)state;
-  static const char *const words[] = {"none", "gaussian", "white_noise", "bath"};
   for (int f = 0; f < GG_N_FLOWS; f++)
     for (int t = 0; t < GG_N_THERMOSTATS; t++) {
       char key[40];
       gg_error err = {0};
-      snprintf(key, sizeof key, ", thermostat: %s", words[t]);
+      snprintf(key, sizeof key, ", thermostat: %s", gg_common_thermostats[t].word);
       gg_scene s = scene_of(f, key);
       gg_status status = gg_scene_finish(&s, &err);
       if (gg_flow_takes((gg_flow)f, (gg_thermostat)t) && status != GG_OK) fail_msg("%s", err.message);
@@ -158,6 +176,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(rows_are_complete),
       cmocka_unit_test(defaults_run),
+      cmocka_unit_test(rows_of_thermostats_are_complete),
       cmocka_unit_test(each_flow_has_its_thermostats),
       cmocka_unit_test(headline_quantities),
       cmocka_unit_test(flows_are_listed_in_words),

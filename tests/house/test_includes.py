@@ -101,5 +101,16 @@ def test_changes_of_the_large_headers_rebuild_few_files():
         check(0 < len(users) <= most, header, "rebuilds", len(users), "files, at most", most)
 
 
+def test_a_thermostat_is_a_row():
+    """A thermostat is named by its row, the flows that take it and its keys, no more. How one acts on grains is named
+    by the engines and by theories with other formulas for it."""
+    named = {"thermostats": (r"\bGG_(GAUSSIAN|WHITE_NOISE|BATH)\b", 5),
+             "ways to act": (r"\bGG_HEAT_(SCALES|KICKS|BATHES)\b", 24)}
+    for what, (names, most) in named.items():
+        users = [path for path, text in sources().items() if re.search(names, text) and room(path) != "bench"]
+        print(f"# {what}: {len(users)} files, at most {most}")
+        check(0 < len(users) <= most, what, "are named in", len(users), "files, at most", most, users)
+
+
 if __name__ == "__main__":
     main(sys.modules[__name__])

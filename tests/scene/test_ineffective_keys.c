@@ -60,6 +60,8 @@ static void keys_of_other_flows_have_no_effect(void **state)
   assert_line("{flow: hss, phi: 0.1, gaussian_rate: 2, temperature: 3}", BOTH, NULL);
   assert_line("{flow: hss, phi: 0.1, thermostat: bath, bath: {drag: 2}, temperature: 3}", BOTH, NULL);
   assert_line("{flow: hss, phi: 0.1, bath: {drag: 2}}", BOTH, "bath.drag has no effect but with thermostat: bath");
+  assert_line("{flow: small_shear, phi: 0.1, thermostat: gaussian, gaussian_rate: 2}", BOTH,
+              "gaussian_rate has no effect but in flow: hss");
   assert_line("{flow: usf, phi: 0.1, shear_rate: 2, temperature: 3}", BOTH, NULL);
   assert_line("{flow: hcs, phi: 0.1, walls: {e: 0.5, beta: 0.5, mu: 1, speed: 2, top: open}}", BOTH,
               "walls.e, walls.beta, walls.mu, walls.top, walls.speed have no effect but between walls (flow: couette, "
@@ -189,7 +191,7 @@ static void changes_without_effect_until_the_next_are_named(void **state)
   assert_line("{" FOLLOWED "[{at: 5, noise_strength: 2}]}", BOTH,
               "noise_strength (protocol, at: 5) has no effect but with thermostat: white_noise");
   assert_line("{" FOLLOWED "[{at: 5, gaussian_rate: 2}]}", BOTH,
-              "gaussian_rate (protocol, at: 5) has no effect but with thermostat: gaussian in flow: hss");
+              "gaussian_rate (protocol, at: 5) has no effect but with thermostat: gaussian");
   assert_line("{" FOLLOWED "[{at: 5, collision.mu: 0.3}]}", BOTH,
               "collision.mu (protocol, at: 5) has no effect while collision.beta is -1: smooth grains");
   assert_line("{" FOLLOWED "[{at: 5, collision.speed: 2}]}", BOTH,

@@ -59,13 +59,13 @@ static double uncertainty(const gg_simulation *g, const sample *before, const sa
 /* Monte Carlo's Gaussian thermostat returns in a step what collisions destroyed in the one before. */
 static double rounding(const gg_simulation *g, int steps)
 {
-  if (g->model.ensemble && gg_common_thermostat_of(&g->model) == GG_GAUSSIAN) return 1 / sqrt((double)g->model.n);
+  if (g->model.ensemble && gg_common_heat_of(&g->model) == GG_HEAT_SCALES) return 1 / sqrt((double)g->model.n);
   return g->model.single ? 1e-4 : 1e-12 * (1 + steps);
 }
 
 gg_status budget_follow(gg_simulation *g, sample *before, sample *after, int steps, budget *b, gg_error *err)
 {
-  const gg_thermostat thermostat = gg_common_thermostat_of(&g->model);
+  const gg_heat heat = gg_common_heat_of(&g->model);
   gg_simulation_sums sums;
   rule_watch watch = {.model = &g->model};
   GG_TRY(gg_simulation_take_sums(g, &sums, err));
@@ -95,9 +95,9 @@ gg_status budget_follow(gg_simulation *g, sample *before, sample *after, int ste
       g->model.gravity[0] != 0 || g->model.gravity[2] != 0; /* ways that grains with heights alone lack */
   if (g->model.ensemble && slides)
     b->energy = NAN;
-  else if (thermostat == GG_NO_THERMOSTAT)
+  else if (heat == GG_UNHEATED)
     b->energy = fabs(change - work - gain_in_contacts(g, &sums)) / most;
   else
-    b->energy = thermostat == GG_GAUSSIAN ? fabs(before->translation / kinetic - 1) : NAN;
+    b->energy = heat == GG_HEAT_SCALES ? fabs(before->translation / kinetic - 1) : NAN;
   return GG_OK;
 }

@@ -83,7 +83,7 @@ void rule_check(rule_watch *w, const sample *before, const sample *after)
   const double treated = gg_dot(vector(e->k), vector(e->impulse)) * im - 2 * gn;
   const bool is_treated = m->contact_time > 0 && fabs(treated) < fabs(departure);
   if (!m->law.name) note(w, fabs(is_treated ? treated : departure) / speed);
-  if (gg_common_thermostat_of(m) != GG_NO_THERMOSTAT || m->walled) return; /* others change velocities, too */
+  if (gg_common_heat_of(m) != GG_UNHEATED || m->walled) return; /* others change velocities, too */
   check_grain(w, before, after, 0, speed);
   check_grain(w, before, after, 1, speed);
   if (!is_treated && m->rule != GG_SMOOTH) check_tangential(w, before, speed);

@@ -46,7 +46,7 @@ static double momentum_of(const gg_simulation *g, const sample *s, const double 
  * flights rounds what gravity gives. */
 static double allowed_momentum(const gg_simulation *g)
 {
-  const bool kicked = g->model.ensemble && gg_common_thermostat_of(&g->model) == GG_WHITE_NOISE;
+  const bool kicked = g->model.ensemble && gg_common_heat_of(&g->model) == GG_HEAT_KICKS;
   if (g->model.ensemble && g->model.walled) return 1e-10;
   return kicked ? 2 / sqrt((double)g->model.n) : g->model.single ? 1e-6 : 1e-11;
 }
@@ -74,7 +74,7 @@ static double collisions_of(const corner *c, const gg_simulation *g)
 /* Does nothing but collisions change the energy, and these not either? */
 static bool keeps_energy(const gg_model *m)
 {
-  return m->elastic && m->shear_rate == 0 && !m->walled && gg_common_thermostat_of(m) == GG_NO_THERMOSTAT;
+  return m->elastic && m->shear_rate == 0 && !m->walled && gg_common_heat_of(m) == GG_UNHEATED;
 }
 
 static void look_at(const gg_simulation *g, const sample *s, finding *f)

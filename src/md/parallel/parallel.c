@@ -33,7 +33,7 @@ const char *gg_md_serial_because(const gg_model *m)
   int32_t n[3];
   const gg_md_search_kind kind = gg_md_search_select(m, &radius, n);
   if (m->walled) return "walls";
-  if (gg_common_thermostat_of(m) != GG_NO_THERMOSTAT) return "a thermostat: it couples all grains";
+  if (gg_common_heat_of(m) != GG_UNHEATED) return "a thermostat: it couples all grains";
   if (m->law.e) return "a law of restitution of your own";
   if (n[0] < 4 || n[1] < 4 || n[2] < 2 * FEWEST_LAYERS || (kind == GG_MD_PLAIN_CELLS && m->shear_rate != 0))
     return "a small box";

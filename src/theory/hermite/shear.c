@@ -24,7 +24,7 @@ static double warmer(double noise)
 static double factor_of(const gg_model *m, const gg_gaussian start[])
 {
   double T = 0;
-  if (gg_common_thermostat_of(m) != GG_WHITE_NOISE) return 1;
+  if (gg_common_heat_of(m) != GG_HEAT_KICKS) return 1;
   for (int i = 0; i < m->n_species; i++) T += gg_theory_fraction(m, i) * m->mass[i] * gg_tensor_trace(start[i].M) / 3;
   return warmer(m->temperature0 / T);
 }
@@ -35,7 +35,7 @@ gg_status gg_hermite_shear_begin(gg_hermite_shear *h, const gg_model *m, gg_erro
   *h = (gg_hermite_shear){.model = m, .gas = gg_hermite_gas_of(m)};
   bool fine = gg_theory_gaussian_steady(m, start) < 1e-6;
   double factor = fine ? factor_of(m, start) : 1;
-  for (int i = 0; i < m->n_species && gg_common_thermostat_of(m) == GG_WHITE_NOISE; i++)
+  for (int i = 0; i < m->n_species && gg_common_heat_of(m) == GG_HEAT_KICKS; i++)
     h->gas.diffusion[i] = gg_common_thermostat_noise(m) / 2;
   for (int i = 0; i < m->n_species && fine; i++) {
     gg_hermite_state *s = &h->state[i];
