@@ -47,8 +47,8 @@ gg_status gg_theory_require_smooth(const gg_model *m, const char *theory, gg_err
 gg_status gg_theory_require_constant_beta(const gg_model *m, const char *theory, gg_error *err)
 {
   if (m->rule != GG_FRICTIONAL) return GG_OK;
-  return gg_theory_reject(err, theory,
-                          "describes grains of constant beta; with Coulomb friction it has no closed form");
+  return gg_theory_reject(
+      err, theory, "describes grains of constant beta; enskog_hermite and gaussian_closure have Coulomb friction");
 }
 
 gg_status gg_theory_require_dilute(const gg_model *m, const char *theory, gg_error *err)
