@@ -67,6 +67,7 @@ GG_INLINE void rotation(gg_velocity_moment_sums *a, const lanes c[3], lanes c2, 
     a->cwc[k] += dot * c[k];
   }
   lanes product = c2 * (square[0] + square[1] + square[2]);
+  a->cxcz += c[0] * c[2], a->cycz += c[1] * c[2];
   a->ccww += product;
   a->cwcw += dot * dot;
   masks moves = (masks)(product > none); /* a grain at rest has no direction: no correlation */
@@ -137,7 +138,7 @@ void gg_measure_velocity_moments_centre(gg_velocity_moments *m)
   m->cxcy = sum_of(&s->cxcy), m->cccc = sum_of(&s->cccc), m->speed = sum_of(&s->speed);
   m->cos2 += sum_of(&s->cos2);
   m->ccww = sum_of(&s->ccww), m->cwcw = sum_of(&s->cwcw);
-  double dd_all = 0, cdcd = 2 * m->cxcy * sum_of(&s->w[0]) / m->n * sum_of(&s->w[1]) / m->n;
+  double dd_all = 0, cdcd = 0, shift[3] = {0};
   for (int a = 0; m->n > 0 && a < 3; a++) {
     m->cc[a] = sum_of(&s->cc[a]), m->c4[a] = sum_of(&s->c4[a]);
     double ww = sum_of(&s->ww[a]), w3 = sum_of(&s->w3[a]), d = sum_of(&s->w[a]) / m->n, dd = d * d;
@@ -146,8 +147,9 @@ void gg_measure_velocity_moments_centre(gg_velocity_moments *m)
     m->w3[a] = w3 - 3 * d * ww + 2 * m->n * dd * d;
     m->ww[a] = ww - m->n * dd;
     m->ccww -= 2 * d * sum_of(&s->ccw[a]), m->cwcw -= 2 * d * sum_of(&s->cwc[a]);
-    dd_all += dd, cdcd += dd * m->cc[a];
+    dd_all += dd, cdcd += dd * m->cc[a], shift[a] = d;
   }
-  /* (C.d)^2 without its terms C_x C_z and C_y C_z, which vanish on average. */
+  cdcd += 2 * (shift[0] * shift[1] * m->cxcy + shift[0] * shift[2] * sum_of(&s->cxcz) +
+               shift[1] * shift[2] * sum_of(&s->cycz));
   m->ccww += dd_all * (m->cc[0] + m->cc[1] + m->cc[2]), m->cwcw += cdcd;
 }

@@ -12,7 +12,7 @@ typedef double gg_velocity_moment_lanes
     __attribute__((vector_size(GG_VELOCITY_MOMENT_LANES * sizeof(double)), aligned(8), may_alias));
 typedef struct gg_velocity_moment_sums {
   gg_velocity_moment_lanes cc[3], cxcy, c4[3], cccc, speed;
-  gg_velocity_moment_lanes w[3], ww[3], w3[3], w4[3], cos2, ccww, cwcw, ccw[3], cwc[3];
+  gg_velocity_moment_lanes w[3], ww[3], w3[3], w4[3], cos2, ccww, cwcw, ccw[3], cwc[3], cxcz, cycz;
 } gg_velocity_moment_sums;
 
 /* Sums over grains of one species; spins about `mean_spin`. After gg_measure_velocity_moments_centre: */

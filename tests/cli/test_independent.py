@@ -378,7 +378,7 @@ def expected(store, flow, kind, replicas, C, W, followed):
 # Tolerances: sums in another order; roots of speeds in single precision; angles about the sample before's mean spin.
 NOT_COOLING = ("temperature", "pressure", "temperature_1", "temperature_2", "rotational_temperature", "dissipation", "spin_z",
                "collision_rate", "compressibility_factor")
-LOOSE = {"mean_free_path": 1e-6, "knudsen": 1e-6, "cos2_psi": 2e-2, "b": 1e-3}
+LOOSE = {"mean_free_path": 1e-6, "knudsen": 1e-6, "cos2_psi": 2e-2}
 
 
 def close(found, right, *what, within=1e-9, least=1e-9):
