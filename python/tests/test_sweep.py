@@ -65,6 +65,7 @@ GRID = """
 flow: usf
 phi: 0.1
 particles: 200
+collision: {beta: 0}
 run: {collisions: 150, warmup: 30}
 dsmc: {particles: 500}
 vary: {collision.e: [0.8, 0.9]}
