@@ -114,7 +114,7 @@ gg_status gg_result_get_info(const gg_result *result, gg_result_info *info, gg_e
 
 const gg_scene *gg_result_scene(const gg_result *result)
 {
-  return result ? &result->scene : NULL;
+  return result ? result->scene : NULL;
 }
 
 const char *gg_result_warning(const gg_result *result, size_t i)
@@ -275,8 +275,7 @@ static gg_status restore(gg_status status, gg_stored_result *stored, const char 
 {
   if (status == GG_OK && stored->comparison)
     status = gg_base_fail(err, GG_BAD_INPUT, "%s: holds a comparison: read it with gg_comparison_read", path);
-  if (status == GG_OK)
-    status = gg_files_result_restore(stored, gg_files_stored_first(stored), result, err);
+  if (status == GG_OK) status = gg_files_result_restore(stored, gg_files_stored_first(stored), result, err);
   gg_files_stored_result_clear(stored);
   return status;
 }
