@@ -11,7 +11,6 @@
 #include "graingas.h"
 #include "measure/curve.h"
 #include "run/result.h"
-#include "scene/scene.h"
 
 /* Return GG_BAD_INPUT if an argument is NULL. */
 #define GG_NEED(...) GG_CHECK_ARGUMENTS(#__VA_ARGS__, __VA_ARGS__)

@@ -48,12 +48,10 @@ static gg_status choose_theories(const gg_model *model, const char *names, bool 
 static gg_status evaluate(gg_comparison *c, const gg_scene *scene, const char *theory, const gg_stop *stop,
                           gg_model *model, gg_error *err)
 {
-  gg_scene finished;
+  gg_scene finished, end;
   GG_TRY(gg_api_scene_finish(scene, &finished, err));
-  c->scene = finished;
-  gg_common_extension_hold(c->scene.extension);
-  gg_scene end;
-  GG_TRY(gg_run_protocol_end_scene(&c->scene, &end, err));
+  if (!(c->scene = gg_scene_copy_new(&finished, err))) return GG_FAILED;
+  GG_TRY(gg_run_protocol_end_scene(&finished, &end, err));
   GG_TRY(gg_scene_model_for_theories(&end, model, err));
   model->stop = stop;
   bool wanted[GG_MOST_THEORIES] = {false};
@@ -100,7 +98,7 @@ gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_er
   GG_TRY(gg_api_engine_find(result->engine, &kind, err));
   if (comparison->document)
     return gg_base_fail(err, GG_BAD_INPUT, "gg_comparison_take: a comparison read from a file cannot be changed");
-  if (!same_scene(&comparison->scene, result->scene))
+  if (!same_scene(comparison->scene, *result->scene))
     return gg_base_fail(err, GG_BAD_INPUT,
                         "gg_comparison_take: the result belongs to another scene than the comparison");
   gg_result_free(comparison->by_engine[kind]);
@@ -129,7 +127,7 @@ const char *gg_comparison_warning(const gg_comparison *comparison, size_t i)
 
 const gg_scene *gg_comparison_scene(const gg_comparison *comparison)
 {
-  return comparison ? &comparison->scene : NULL;
+  return comparison ? comparison->scene : NULL;
 }
 
 static gg_status find(const gg_comparison *c, const char *name, gg_quantity *q, gg_error *err)
@@ -222,7 +220,7 @@ gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char
   const gg_result *against = has(md, q) ? md : has(dsmc, q) ? dsmc : NULL;
   double answer = c->theory[i].applies ? c->theory[i].answer.value[q] : NAN;
   if (value) *value = isfinite(answer) ? answer : NAN;
-  const bool comparable = against && isfinite(answer) && !gg_scene_is_followed(&c->scene);
+  const bool comparable = against && isfinite(answer) && !gg_scene_is_followed(c->scene);
   if (deviation) *deviation = comparable ? gg_run_deviation(&against->value[q], answer) : NAN;
   return GG_OK;
 }
@@ -291,7 +289,7 @@ gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg
   GG_NEED(comparison, text);
   bool simulated = comparison->document || gg_run_comparison_first(comparison);
   return gg_api_text_copy(simulated ? gg_files_comparison_document(comparison)
-                                    : gg_files_theory_document(&comparison->scene, comparison),
+                                    : gg_files_theory_document(comparison->scene, comparison),
                           text, err);
 }
 

@@ -116,7 +116,7 @@ gg_status gg_result_get_info(const gg_result *result, gg_result_info *info, gg_e
 
 const gg_scene *gg_result_scene(const gg_result *result)
 {
-  return result ? &result->scene : NULL;
+  return result ? result->scene : NULL;
 }
 
 const char *gg_result_warning(const gg_result *result, size_t i)

@@ -9,6 +9,7 @@
 #include "files/frame_log.h"
 #include "files/h5/result_file.h"
 #include "run/run.h"
+#include "scene/scene.h"
 
 /* Files that are removed at the end of the run. Their names are those after following links. */
 enum { GG_TEMPORARY_CHECKPOINT, GG_TEMPORARY_BEFORE, GG_TEMPORARY_FRAMES, GG_TEMPORARIES };

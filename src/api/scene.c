@@ -6,16 +6,16 @@
 
 #include "api/api.h"
 #include "api/scene_theories.h"
-#include "io/checked_json.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "common/engine.h"
-#include "scene/ensemble_size.h"
 #include "common/extension.h"
 #include "files/text_format.h"
+#include "io/checked_json.h"
 #include "run/cost_estimate.h"
 #include "run/default_size.h"
 #include "run/replica.h"
+#include "scene/ensemble_size.h"
 #include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
 #include "theory/goldhirsch_zanetti1993.h"
@@ -36,10 +36,8 @@ static gg_scene filled_in(const gg_scene *scene)
 
 static gg_status copy_to_heap(const gg_scene *made, gg_scene **scene, gg_error *err)
 {
-  gg_scene *copy = gg_base_array_new(1, sizeof *copy, err);
+  gg_scene *copy = gg_scene_copy_new(made, err);
   if (!copy) return GG_FAILED;
-  *copy = *made;
-  gg_common_extension_hold(copy->extension);
   *scene = copy;
   return GG_OK;
 }
@@ -83,8 +81,7 @@ gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err)
 
 void gg_scene_free(gg_scene *scene)
 {
-  if (scene) gg_common_extension_release(scene->extension);
-  free(scene);
+  gg_scene_release(scene);
 }
 
 gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_error *err)

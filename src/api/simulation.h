@@ -8,6 +8,7 @@
 #include "api/api.h"
 #include "base/busy.h"
 #include "common/engine.h"
+#include "scene/scene.h"
 
 /* Free cooling extends over decades of T. So, as in runs, the engine's velocities are rescaled by exact powers of two;
  * results are in the units of the start. */

@@ -204,7 +204,8 @@ static bool may_change(const char *key)
 {
   const char *const keys[] = {"md.contact_time", "dsmc.time_step", "walls.e",           "walls.beta",
                               "walls.mu",        "gravity",        "walls.temperature", "walls.accommodation"};
-  bool may = gg_scene_protocol_takes(key);
+  gg_field member;
+  bool may = gg_scene_key_find(key, GG_MAX_SPECIES, &member) >= 0 && member.on_the_way;
   for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) may |= strcmp(key, keys[i]) == 0;
   return may;
 }
@@ -235,13 +236,11 @@ gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const ch
 {
   GG_NEED(simulation, key, value);
   if (!may_change(key))
-    return gg_base_fail(
-        err, GG_BAD_INPUT,
-        "key '%.60s': cannot be changed on the way; allowed: collision.*, bath.*, thermostat, gaussian_rate, "
-        "noise_strength, shear_rate, md.contact_time, dsmc.time_step, walls.e, walls.beta, walls.mu, "
-        "walls.temperature, "
-        "walls.accommodation, gravity",
-        key);
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "key '%.60s': cannot be changed on the way; allowed: " GG_PROTOCOL_KEYS
+                        ", md.contact_time, dsmc.time_step, "
+                        "walls.e, walls.beta, walls.mu, walls.temperature, walls.accommodation, gravity",
+                        key);
   GG_USE_ALONE(simulation);
   gg_scene changed = simulation->scene;
   changed.fixed.clock_rate = gg_scene_clock_rate(&simulation->scene);

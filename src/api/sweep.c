@@ -18,7 +18,7 @@ static void destroy(void *handle)
 {
   gg_sweep *sweep = handle;
   for (size_t f = 0; f < sweep->n_varied; f++) gg_sweep_varied_clear(&sweep->varied[f]);
-  gg_common_extension_release(sweep->base.extension);
+  gg_scene_release(sweep->base);
   free(sweep->point);
   free(sweep->name);
   free(sweep);
@@ -29,12 +29,14 @@ static gg_sweep *new_sweep(const char *name, gg_error *err)
   gg_sweep *sweep = gg_base_array_new(1, sizeof *sweep, err);
   if (!sweep) return NULL;
   gg_base_busy_init(&sweep->busy, "sweep", destroy, sweep);
-  sweep->base = gg_scene_defaults();
+  const gg_scene defaults = gg_scene_defaults();
+  sweep->base = gg_scene_copy_new(&defaults, err);
   sweep->settings = gg_sweep_settings_defaults();
   sweep->name = strdup(name);
-  if (sweep->name) return sweep;
+  if (sweep->name && sweep->base) return sweep;
   gg_base_out_of_memory(err);
-  return free(sweep), NULL;
+  gg_sweep_free(sweep);
+  return NULL;
 }
 
 void gg_sweep_free(gg_sweep *sweep)
@@ -49,7 +51,7 @@ static gg_status read_text(const char *yaml, size_t length, const char *name, co
   gg_sweep *made = new_sweep(name, err);
   if (!made) return GG_FAILED;
   gg_status status = gg_sweep_read_text(made, yaml, length, name, err);
-  if (status == GG_OK) status = gg_api_scene_theories_add(&made->base, yaml, length, name, path, err);
+  if (status == GG_OK) status = gg_api_scene_theories_add(made->base, yaml, length, name, path, err);
   status = gg_base_memory_check(before, status, err);
   if (status == GG_OK)
     *sweep = made;
@@ -91,7 +93,7 @@ gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_e
   if (gg_sweep_varies(sweep, key))
     return gg_base_fail(err, GG_BAD_INPUT, "key '%.60s': is varied: each point sets its own value", key);
   return strncmp(key, "sweep.", 6) == 0 ? gg_sweep_settings_set(&sweep->settings, key, value, err)
-                                        : gg_scene_override(&sweep->base, key, value, err);
+                                        : gg_scene_override(sweep->base, key, value, err);
 }
 
 gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg_error *err)

@@ -6,10 +6,21 @@
 #ifndef GG_DECIMAL_POINT_H
 #define GG_DECIMAL_POINT_H
 
+#include <locale.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
+#ifdef __APPLE__
+#include <xlocale.h>
+#endif
+
+/* A declaration: the rest of the block runs in the C locale, on this thread. For calls of other libraries that read or
+ * write numbers; those below have it already. No callback may be called there. */
+#define GG_C_LOCALE                                                                                                    \
+  __attribute__((cleanup(gg_base_c_locale_leave), unused)) const locale_t locale_before = gg_base_c_locale_enter()
+locale_t gg_base_c_locale_enter(void);
+void gg_base_c_locale_leave(const locale_t *before);
 
 #define GG_FORMATS(of, first) __attribute__((format(printf, of, first)))
 int gg_base_snprintf(char *text, size_t size, const char *format, ...) GG_FORMATS(3, 4);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/text.h"
 
-#include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -140,24 +139,4 @@ void gg_base_text_append(char *text, size_t size, const char *format, ...)
   va_start(args, format);
   vsnprintf(text + used, size - used, format, args);
   va_end(args);
-}
-
-/* One for the whole process: a constant of the C library, which takes no memory and is not freed. */
-static locale_t c_locale;
-static pthread_once_t made = PTHREAD_ONCE_INIT;
-
-static void make_c_locale(void)
-{
-  c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-}
-
-locale_t gg_base_c_locale_enter(void)
-{
-  pthread_once(&made, make_c_locale);
-  return c_locale ? uselocale(c_locale) : (locale_t)0;
-}
-
-void gg_base_c_locale_leave(const locale_t *before)
-{
-  if (*before) uselocale(*before);
 }

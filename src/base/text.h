@@ -1,15 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Texts in memory: streams that are written piece by piece, lists, and the locale of numbers. */
+/* Texts in memory: streams that are written piece by piece, and lists. */
 #ifndef GG_BASE_TEXT_H
 #define GG_BASE_TEXT_H
 
-#include <locale.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
-#ifdef __APPLE__
-#include <xlocale.h>
-#endif
 
 #include "base/error.h"
 #include "base/printable.h"
@@ -37,12 +33,5 @@ const char *gg_base_string_list_at(const gg_string_list *list, size_t i);
 
 /* Append to a text in a buffer of `size` bytes, cut to it. */
 void gg_base_text_append(char *text, size_t size, const char *format, ...) GG_PRINTF(3, 4);
-
-/* A declaration: the rest of the block runs in the C locale, on this thread. For calls of other libraries that read or
- * write numbers; those of the C library have it already (base/decimal_point.h). No callback may be called there. */
-#define GG_C_LOCALE                                                                                                    \
-  __attribute__((cleanup(gg_base_c_locale_leave), unused)) const locale_t locale_before = gg_base_c_locale_enter()
-locale_t gg_base_c_locale_enter(void);
-void gg_base_c_locale_leave(const locale_t *before);
 
 #endif

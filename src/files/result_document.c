@@ -185,8 +185,8 @@ static json_t *engine_state_json(const gg_result *r)
   json_t *state = json_pack("{s:o, s:I}", "time", json_number(s->time), "events", (json_int_t)s->events);
   if (strcmp(r->engine, "md") == 0) {
     json_object_set_new(state, "contact_time_collisions", json_integer((json_int_t)s->treated));
-    if (r->scene.fixed.contact_time != GG_AUTO)
-      json_object_set_new(state, "contact_time", json_number(r->scene.fixed.contact_time));
+    if (r->scene->fixed.contact_time != GG_AUTO)
+      json_object_set_new(state, "contact_time", json_number(r->scene->fixed.contact_time));
     json_object_set_new(state, "worst_overlap", json_number(s->worst_overlap));
   } else {
     json_object_set_new(state, "majorant_overflows", json_integer((json_int_t)s->overflows));
@@ -209,7 +209,7 @@ static json_t *run_document(const gg_result *r)
   }
   json_t *document = json_pack(
       "{s:s, s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version, "build",
-      gg_base_build_identity, "scene", gg_scene_json(&r->scene), "engine", r->engine, "steady",
+      gg_base_build_identity, "scene", gg_scene_json(r->scene), "engine", r->engine, "steady",
       gg_run_is_steady(r->steadiness), "verdict", r->steadiness_text, "particles", (json_int_t)r->model.n, "collisions",
       (json_int_t)r->averaging.collisions, "cpu_seconds", json_number(r->averaging.cpu_seconds), "total",
       effort_json(&r->total), "engine_state", engine_state_json(r), "results", results, "warnings", warnings);
@@ -305,7 +305,7 @@ static void put_deviations(json_t *json, const gg_comparison *c, int k, const gg
   json_t *all = json_object();
   char key[64];
   bool small = false;
-  for (int i = 0; i < c->n_theories && !gg_scene_is_followed(&c->scene); i++) {
+  for (int i = 0; i < c->n_theories && !gg_scene_is_followed(c->scene); i++) {
     double value = c->theory[i].answer.value[row->quantity];
     if (!c->theory[i].applies || !isfinite(value)) continue;
     double deviation = gg_run_deviation(&engine->value[row->quantity], value);
@@ -383,7 +383,7 @@ static json_t *comparison_document(const gg_comparison *c)
   if (c->document) return gg_io_json_read(c->document, NULL); /* as it was stored */
   json_t *warnings = warnings_json(&c->warnings), *rows = json_array();
   json_t *document = json_pack("{s:s, s:s, s:o}", "graingas", gg_base_build_version, "build", gg_base_build_identity,
-                               "scene", gg_scene_json(&c->scene));
+                               "scene", gg_scene_json(c->scene));
   for (int k = 0; k < GG_N_ENGINES; k++)
     json_object_set_new(document, gg_common_engine_of(k)->name, engine_json(c, (gg_engine_kind)k, warnings));
   json_object_set_new(document, "theory", theories_json(c, warnings));

@@ -11,6 +11,7 @@
 
 #include "base/memory.h"
 #include "common/linear_response.h"
+#include "measure/cooling_interval.h"
 #include "measure/grain_snapshot.h"
 #include "measure/observable.h"
 
@@ -91,13 +92,6 @@ static void put(const gg_linear_response *range, double a, double stress, double
   sums[SA] = y * u, sums[SA3] = y * u * u2;
 }
 
-/* Mean of sqrt(T) over an interval in which T^(-1/2) is linear in time. */
-static double mean_root(double T0, double T1)
-{
-  double a0 = 1 / sqrt(T0), a1 = 1 / sqrt(T1), b = a1 - a0;
-  return fabs(b) < 1e-9 * a0 ? sqrt(T0) : log(a1 / a0) / b;
-}
-
 static bool counts(const viscosity *v, const gg_linear_response *range, double a)
 {
   return range->cools ? a >= range->low : v->memory.since > RELAXATION;
@@ -116,7 +110,7 @@ static void finish(void *self, const gg_interval *in, double *row)
   if (!(in->elapsed > 0) || !counts(v, &range, a)) return;
   put(&range, a, -v->cxcy / ((double)m->n * T), row + KINETIC);
   if (m->boltzmann) return;
-  double impulse = 0, root = mean_root(T0, T), mean_T = root * root;
+  double impulse = 0, root = gg_cooling_interval_of(T0, T, 1).root, mean_T = root * root;
   for (int q = 0; q < gg_pairs_of(v->model->n_species); q++) impulse += in->transfer->stress[q][0][1];
   double stress = impulse / (m->volume * in->elapsed * m->density * mean_T);
   put(&range, gg_common_reduced_shear_rate(m, mean_T), -stress, row + COLLISIONAL);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "measure/cooling_interval.h"
 #include "measure/grain_snapshot.h"
 #include "measure/long_waves.h"
 #include "measure/velocity_moments.h"
@@ -169,19 +170,7 @@ static void put_moments(const rheology *r, int species, double T, double *ch)
   ch[CH_B] = product > 0 ? m->cwcw / product : 1.0 / 3;
 }
 
-/* Integrals of sqrt(T) and T over an interval of free cooling, T^(-1/2) taken as linear in time (Haff's law). */
-typedef struct haff {
-  double root, first, growth; /* int sqrt(T) dt, int T dt, d T^(-1/2)/dt */
-} haff;
-
-static haff haff_integrals(double T0, double T1, double dt)
-{
-  double a0 = 1 / sqrt(T0), a1 = 1 / sqrt(T1), b = (a1 - a0) / dt;
-  if (fabs(a1 - a0) < 1e-9 * a0) return (haff){dt * sqrt(T0), dt * T0, b};
-  return (haff){log(a1 / a0) / b, (1 / a0 - 1 / a1) / b, b};
-}
-
-static void put_rates(const rheology *r, const gg_interval *in, haff h, double *row)
+static void put_rates(const rheology *r, const gg_interval *in, gg_cooling_interval h, double *row)
 {
   const gg_model *m = r->model;
   const gg_collision_sums *t = in->transfer;
@@ -205,7 +194,7 @@ static void put_rates(const rheology *r, const gg_interval *in, haff h, double *
 static double speed_during(const rheology *r, double T0, double T1, double dt)
 {
   if (gg_model_keeps_temperature(r->model) || gg_flow_cools(r->model->flow) || !(T0 > 0 && T1 > 0)) return 1;
-  return haff_integrals(T0, T1, dt).root / (dt * sqrt(T1));
+  return gg_cooling_interval_of(T0, T1, dt).root / (dt * sqrt(T1));
 }
 
 /* Direction along x of the force of the gas on a wall: moving walls are dragged back, walls at rest resist gravity. */
@@ -270,7 +259,8 @@ static void finish(void *self, const gg_interval *in, double *row)
   const size_t width = gg_rheology_species_width(r->model);
   for (int i = 0; i < r->model->n_species; i++) put_moments(r, i, cooling ? T : 1, of_species + (size_t)i * width);
   if (!(in->elapsed > 0)) return; /* the start has no rates */
-  haff h = cooling ? haff_integrals(T0, T, in->elapsed) : (haff){in->elapsed, in->elapsed, 0};
+  const gg_cooling_interval h =
+      cooling ? gg_cooling_interval_of(T0, T, in->elapsed) : (gg_cooling_interval){in->elapsed, in->elapsed, 0};
   put_rates(r, in, h, row);
   double during = speed_during(r, T0, T, in->elapsed);
   for (int i = 0; i < r->model->n_species; i++) of_species[(size_t)i * width + CH_SPEED] *= during;

@@ -10,11 +10,6 @@
 
 enum { MOST_GROUPS = 16 };
 
-bool gg_plot_is_unsteady(const gg_stored_engine *e)
-{
-  return e->name && json_is_false(json_object_get(e->document, "steady"));
-}
-
 static bool has_open_symbols(const gg_chart *c)
 {
   bool any = false;

@@ -6,7 +6,10 @@
 #include "plot/chart.h"
 
 /* True if a stored engine has no steady mean. Its symbols are open then, and a note says so. */
-bool gg_plot_is_unsteady(const gg_stored_engine *engine);
+static inline bool gg_plot_is_unsteady(const gg_stored_engine *engine)
+{
+  return engine->name && json_is_false(json_object_get(engine->document, "steady"));
+}
 
 /* The relaxation of an engine: its temperatures, and with `stresses` its stresses. */
 void gg_plot_add_relaxation(gg_chart *chart, const gg_stored_engine *engine, bool stresses, double share);

@@ -96,7 +96,7 @@ static bool structured(const difference *d, char *text, size_t size)
   char what[240];
   if (!gg_run_structure(d->md, what, sizeof what)) return false;
   snprintf(text, size, "%s; %lld grains, default %lld; a Monte Carlo ensemble stays homogeneous", what,
-           (long long)d->model->n, (long long)gg_run_default_size(&d->md->scene));
+           (long long)d->model->n, (long long)gg_run_default_size(d->md->scene));
   return true;
 }
 

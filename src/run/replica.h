@@ -7,6 +7,7 @@
 #include "measure/local_frame.h"
 #include "measure/observable.h"
 #include "run/run.h"
+#include "scene/scene.h"
 
 enum { GG_MAX_OBSERVABLES = GG_N_OBSERVABLES + 1 }; /* every one there is, and those of the user's own */
 

@@ -6,14 +6,14 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "scene/ensemble_size.h"
 #include "common/linear_response.h"
 #include "run/causes.h"
 #include "run/default_size.h"
-#include "run/series_means.h"
-#include "run/time_course.h"
 #include "run/replica.h"
 #include "run/replicas.h"
+#include "run/series_means.h"
+#include "run/time_course.h"
+#include "scene/ensemble_size.h"
 #include "scene/fields.h"
 
 /* The gas that values are of: at the end of a run that is followed, after its changes so far. */
@@ -196,7 +196,7 @@ static void warn_if_structured(gg_result *result)
     gg_run_result_warn(result, "%s; means are those of this state", what);
     return;
   }
-  const bool at_one_instant = gg_scene_is_followed(&result->scene);
+  const bool at_one_instant = gg_scene_is_followed(result->scene);
   if (result->model.shear_rate != 0 || gg_flow_is_walled(result->model.flow) || at_one_instant) return;
   for (gg_quantity q = gg_common_quantity_next(-1, GG_STRESS_DIFFERENCE); q < GG_N_QUANTITIES;
        q = gg_common_quantity_next(q, GG_STRESS_DIFFERENCE)) {
@@ -374,8 +374,8 @@ static gg_status report_curves(const gg_replicas *all, gg_result *result, gg_err
 gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *err)
 {
   gg_convergence c;
-  result->scene = all->scene;
-  gg_common_extension_hold(result->scene.extension);
+  result->scene = gg_scene_copy_new(&all->scene, err);
+  if (!result->scene) return GG_FAILED;
   result->model = all->model;
   result->model.stop = NULL; /* it ends with the run */
   result->engine = all->replica[0].engine->ops->name;

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "scene/scene.h"
 
 void gg_run_result_warn(gg_result *result, const char *format, ...)
 {
@@ -75,7 +76,7 @@ void gg_run_result_free(gg_result *result)
   gg_measure_curves_clear(&result->curves);
   gg_run_frame_free(&result->final);
   gg_base_string_list_clear(&result->warnings);
-  gg_common_extension_release(result->scene.extension);
+  gg_scene_release(result->scene);
   gg_common_extension_release(result->own);
   char *const texts[] = {result->origin.version, result->origin.command, result->origin.machine, result->origin.date,
                          result->origin.document};

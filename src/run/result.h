@@ -7,10 +7,10 @@
 #include "common/engine.h"
 #include "common/quantity.h"
 #include "measure/observable.h"
-#include "scene/scene.h"
 
 /* One mean. `mean` is NaN where it cannot be had, and `reason` then says why (empty: not measured in this scene). */
 typedef struct gg_result gg_result; /* the handle of the public header */
+typedef struct gg_scene gg_scene;
 
 void gg_run_result_free(gg_result *result);
 
@@ -100,7 +100,7 @@ typedef struct gg_correlations {
 double gg_run_result_covariance(const gg_result *result, gg_quantity one, gg_quantity other, const char **why);
 
 struct gg_result {
-  gg_scene scene; /* as run: overrides and seed included; holds its extension */
+  gg_scene *scene; /* as run: overrides and seed included */
   gg_model model;
   const char *engine; /* "md", "dsmc" */
   gg_quantity_rows rows;

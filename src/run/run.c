@@ -76,7 +76,7 @@ static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
   const gg_theory *theory = c->theory[i].theory;
   if (!c->theory[i].applies) return GG_OK;
   const unsigned before = gg_base_memory_failures();
-  gg_status status = gg_theory_curves(theory, &c->model, c->scene.measure, &c->theory[i].curves, &why);
+  gg_status status = gg_theory_curves(theory, &c->model, c->scene->measure, &c->theory[i].curves, &why);
   if (status == GG_INTERRUPTED) return gg_base_fail(err, status, "%s", why.message);
   if (gg_base_memory_failures() != before)
     return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
@@ -89,7 +89,7 @@ static gg_status compare_theories(const gg_model *model, const bool *wanted, gg_
                                   gg_error *err)
 {
   const gg_theory *theory;
-  bool started = c->scene.start.temperature != GG_AUTO;
+  bool started = c->scene->start.temperature != GG_AUTO;
   for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(model, i)); i++) {
     gg_error why = {0};
     if (wanted && !wanted[i]) continue;
@@ -344,10 +344,12 @@ gg_status gg_run_compare_scene(const gg_scene *scene, const gg_archive *resume, 
 {
   gg_model *model = gg_base_array_new(GG_N_ENGINES, sizeof *model, err);
   memset(c, 0, sizeof *c);
-  c->scene = *scene;
-  gg_common_extension_hold(c->scene.extension);
-  gg_status status = model ? compare_scene(scene, resume, threads, callbacks, model, c, err) : GG_FAILED;
-  gg_run_causes_find(c, &c->causes);
+  c->scene = gg_scene_copy_new(scene, err);
+  gg_status status = GG_FAILED;
+  if (model && c->scene) {
+    status = compare_scene(scene, resume, threads, callbacks, model, c, err);
+    gg_run_causes_find(c, &c->causes);
+  }
   free(model);
   return status;
 }
@@ -356,7 +358,7 @@ void gg_run_comparison_clear(gg_comparison *c)
 {
   for (int k = 0; k < GG_N_ENGINES; k++) gg_run_result_free(c->by_engine[k]);
   for (int i = 0; i < c->n_theories; i++) gg_measure_curves_clear(&c->theory[i].curves);
-  gg_common_extension_release(c->scene.extension);
+  gg_scene_release(c->scene);
   gg_common_extension_release(c->own);
   free(c->document);
   gg_base_string_list_clear(&c->warnings);

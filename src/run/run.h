@@ -55,7 +55,7 @@ gg_status gg_run_how_far(const gg_archive *archive, gg_checkpoint_part *part, gg
 /* Both engines and every theory. */
 enum { GG_MOST_THEORIES = GG_N_THEORIES + GG_MOST_OWN_THEORIES };
 struct gg_comparison {
-  gg_scene scene; /* holds its extension */
+  gg_scene *scene;
   gg_model model; /* md's */
   gg_quantity_rows rows;
   gg_result

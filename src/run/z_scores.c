@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* z-scores of the engines, and deviations from Enskog's equation and from theories. */
 #include "run/z_scores.h"
-#include "graingas.h"
 
 #include <math.h>
+
+#include "graingas.h"
+#include "scene/scene.h"
 
 double gg_run_z_score(const gg_estimate *a, const gg_estimate *b)
 {
@@ -15,7 +17,7 @@ double gg_run_z_score(const gg_estimate *a, const gg_estimate *b)
  * which may be far from the state that theories describe. */
 static bool enskog_solution(const gg_comparison *c, gg_quantity q, gg_estimate *solution)
 {
-  if (gg_scene_is_followed(&c->scene)) return false;
+  if (gg_scene_is_followed(c->scene)) return false;
   for (int i = 0; i < c->n_theories; i++) {
     if (c->theory[i].theory != &gg_theory_enskog_hermite || !c->theory[i].applies) continue;
     double error = c->theory[i].answer.error[q];
@@ -90,7 +92,7 @@ bool gg_run_reference_find(const gg_comparison *c, const gg_quantity_row *row, g
   const gg_estimate *dsmc = estimate_of(c->by_engine[GG_DSMC], row);
   reference->method = gg_theory_enskog_hermite.name;
   if (enskog_solution(c, row->quantity, &reference->value)) return true;
-  if (gg_scene_is_followed(&c->scene)) return false;
+  if (gg_scene_is_followed(c->scene)) return false;
   if (!dsmc || !isfinite(dsmc->mean) || !isfinite(dsmc->error)) return false;
   *reference = (gg_reference){c->by_engine[GG_DSMC]->engine, *dsmc};
   return true;
@@ -99,7 +101,7 @@ bool gg_run_reference_find(const gg_comparison *c, const gg_quantity_row *row, g
 bool gg_run_results_disagree(const gg_comparison *c, gg_quantity q)
 {
   gg_estimate enskog;
-  if (!c->by_engine[GG_MD] || gg_scene_is_followed(&c->scene)) return false;
+  if (!c->by_engine[GG_MD] || gg_scene_is_followed(c->scene)) return false;
   if (!enskog_solution(c, q, &enskog)) {
     if (!c->by_engine[GG_DSMC]) return false;
     enskog = c->by_engine[GG_DSMC]->value[q];
@@ -150,7 +152,7 @@ int gg_run_theory_remarks(const gg_comparison *c, gg_run_theory_remark remarks[G
 {
   gg_quantity headline[GG_N_QUANTITIES];
   const gg_result *simulation = gg_run_comparison_first(c);
-  int n = 0, n_headline = gg_scene_is_followed(&c->scene) ? 0 : gg_run_headline_quantities(&c->model, headline);
+  int n = 0, n_headline = gg_scene_is_followed(c->scene) ? 0 : gg_run_headline_quantities(&c->model, headline);
   for (int i = 0; simulation && i < c->n_theories; i++) {
     gg_run_theory_remark r = {.theory = c->theory[i].theory};
     if (r.theory == &gg_theory_enskog_hermite) continue;

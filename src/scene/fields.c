@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "common/quantity.h"
 #include "common/thermostat.h"
@@ -82,23 +83,24 @@ const gg_field gg_scene_fields[] = {
      .also = "type"},
     {"engine", GG_FIELD_CHOICE, AT(engine), .words = engines,
      .doc = "engine of `graingas run`; `graingas compare` runs both", .also = "method"},
-    {"thermostat", GG_FIELD_CHOICE, AT(thermostat), .word = thermostat_word, .doc = "thermostat that supplies energy"},
+    {"thermostat", GG_FIELD_CHOICE, AT(thermostat), .word = thermostat_word, .doc = "thermostat that supplies energy",
+     .on_the_way = true},
     {"bath.drag", GG_FIELD_NUMBER, AT(bath.drag), 0, LARGE, true, .by_default = 1, .unit = "1/time",
      .doc = "drag coefficient: velocities relative to the imposed flow decay at this rate", .thermostat = GG_BATH,
-     .also = "damping"},
+     .also = "damping", .on_the_way = true},
     {"bath.temperature", GG_FIELD_NUMBER, AT(bath.temperature), 0, LARGE, .by_default = 1, .unit = "mass velocity^2",
      .doc = "temperature that the bath alone would give; 0: drag alone, which needs shear", .thermostat = GG_BATH,
-     .also = "T_b"},
+     .also = "T_b", .on_the_way = true},
     {"bath.rotation", GG_FIELD_NUMBER, AT(bath.rotation), 0, LARGE,
      .doc = "drag of spins over that of velocities, at the same temperature; 0: none; 10/3: Stokes drag of a sphere",
-     .when = GG_BIT(GG_IF_ROUGH), .thermostat = GG_BATH},
+     .when = GG_BIT(GG_IF_ROUGH), .thermostat = GG_BATH, .on_the_way = true},
     {"gaussian_rate", GG_FIELD_NUMBER, AT(gaussian_rate), 0, LARGE, true, AUTO, .unit = "1/time",
      .doc = "rate zeta_0 of the Gaussian thermostat, dT/dt = zeta_0 T; auto: that of the energy lost in collisions",
-     .when = GG_BIT(GG_IF_HEATED), .thermostat = GG_GAUSSIAN},
+     .when = GG_BIT(GG_IF_HEATED), .thermostat = GG_GAUSSIAN, .on_the_way = true},
     {"noise_strength", GG_FIELD_NUMBER, AT(noise_strength), 0, LARGE, true, AUTO, .unit = "velocity^2/time",
      .doc = "xi^2 of white noise: variance that each component of a velocity gains per time; auto: balances the losses "
             "at the initial temperature",
-     .thermostat = GG_WHITE_NOISE},
+     .thermostat = GG_WHITE_NOISE, .on_the_way = true},
     {"contact_value", GG_FIELD_CHOICE, AT(contact_value), .words = contact_values,
      .doc = "formula for the pair correlation at contact", .when = GG_BIT(GG_IF_CONTACT_VALUE)},
     {"phi", GG_FIELD_NUMBER, AT(phi), 0, 0.6, .by_default = GG_AUTO,
@@ -109,7 +111,8 @@ const gg_field gg_scene_fields[] = {
             "Gaussian thermostat would not stay homogeneous",
      .when = GG_BIT(GG_IF_COUNTED), .also = "N grains number n_particles num_particles"},
     {"shear_rate", GG_FIELD_NUMBER, AT(shear_rate), SMALL, LARGE, .by_default = 1, .unit = "1/time",
-     .doc = "imposed shear rate", .when = GG_BIT(GG_IF_SHEARED), .also = "gamma gamma_dot rate shear"},
+     .doc = "imposed shear rate", .when = GG_BIT(GG_IF_SHEARED), .also = "gamma gamma_dot rate shear",
+     .on_the_way = true},
     {"start.temperature", GG_FIELD_NUMBER, AT(start.temperature), 1e-100, 1e100, false, AUTO, .unit = "mass velocity^2",
      .doc = "initial temperature, <m C.C>/3; auto: near the steady state, and where the gas keeps or loses its initial "
             "temperature the one that makes v_0 a diameter per unit of time",
@@ -127,17 +130,18 @@ const gg_field gg_scene_fields[] = {
      .doc = "shape of the box: ratio of its edges x : y : z", .when = GG_BIT(GG_IF_BOXED), .also = "box"},
     {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .by_default = 0.9,
      .doc = "coefficient of normal restitution; in equilibrium the default is 1",
-     .also = "restitution alpha normal_restitution e_n en"},
+     .also = "restitution alpha normal_restitution e_n en", .on_the_way = true},
     {"collision.beta", GG_FIELD_PAIRS, AT(collision.beta), -1, 1, .by_default = -1,
      .doc = "coefficient of tangential restitution: -1 smooth, 1 perfectly rough; with finite mu, of sticking contacts",
-     .when = GG_BIT(GG_IF_FRICTION), .also = "tangential_restitution e_t et"},
+     .when = GG_BIT(GG_IF_FRICTION), .also = "tangential_restitution e_t et", .on_the_way = true},
     {"collision.mu", GG_FIELD_PAIRS, AT(collision.mu), 0, INFINITY, .by_default = INFINITY,
-     .doc = "Coulomb friction coefficient; inf: beta is constant", .when = GG_BIT(GG_IF_BETA), .also = "friction"},
+     .doc = "Coulomb friction coefficient; inf: beta is constant", .when = GG_BIT(GG_IF_BETA), .also = "friction",
+     .on_the_way = true},
     {"collision.law", GG_FIELD_CHOICE, AT(collision.law), .words = laws,
-     .doc = "dependence of e on the normal speed of a collision between grains", .also = "model"},
+     .doc = "dependence of e on the normal speed of a collision between grains", .also = "model", .on_the_way = true},
     {"collision.speed", GG_FIELD_NUMBER, AT(collision.speed), SMALL, LARGE, false, AUTO, .unit = "velocity",
-     .doc = "normal speed at which collision.e holds; auto: the unit of velocity of results",
-     .when = GG_BIT(GG_IF_LAW)},
+     .doc = "normal speed at which collision.e holds; auto: the unit of velocity of results", .when = GG_BIT(GG_IF_LAW),
+     .on_the_way = true},
     {"species", GG_FIELD_SPECIES, AT(species), 1, GG_MAX_SPECIES, .doc = "species of the mixture, up to 16"},
     {"walls.e", GG_FIELD_NUMBER, AT(walls.e), 0, 1, .by_default = 0.9,
      .doc = "coefficient of normal restitution at walls", .when = GG_BIT(GG_IF_WALLED) | GG_BIT(GG_IF_WALL_RULE)},
@@ -283,6 +287,21 @@ gg_scene gg_scene_defaults(void)
     if (i > 0) scene.species[i].fraction = 0;
   }
   return scene;
+}
+
+gg_scene *gg_scene_copy_new(const gg_scene *scene, gg_error *err)
+{
+  gg_scene *copy = gg_base_array_new(1, sizeof *copy, err);
+  if (!copy) return NULL;
+  *copy = *scene;
+  gg_common_extension_hold(copy->extension);
+  return copy;
+}
+
+void gg_scene_release(gg_scene *scene)
+{
+  if (scene) gg_common_extension_release(scene->extension);
+  free(scene);
 }
 
 size_t gg_scene_field_count(const gg_field *f)

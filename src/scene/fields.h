@@ -88,6 +88,7 @@ typedef struct gg_field {
   const char *also;    /* what others call it, for messages: words separated by blanks */
   const char *older;   /* earlier spelling, which is accepted; NULL: none */
   bool may_change;     /* between the parts of a run that is resumed: it touches neither trajectory nor means */
+  bool on_the_way;     /* may change during a run (protocol): it touches neither units nor box nor grains */
   /* The thermostat that has this key; GG_NO_THERMOSTAT: none. The first key of a thermostat is its strength; auto:
    * the strength that balances the losses. */
   gg_thermostat thermostat;
@@ -161,10 +162,8 @@ void gg_scene_yaml_number(double value, char text[GG_NUMBER_TEXT]);
 
 /* protocol.c: changes on the way. */
 
-/* May this key be changed? It changes neither units nor box nor grains. In words for messages: */
-bool gg_scene_protocol_takes(const char *key);
+/* The keys that may change on the way, in words for messages. */
 #define GG_PROTOCOL_KEYS "collision.*, bath.*, thermostat, gaussian_rate, noise_strength, shear_rate"
-json_t *gg_scene_protocol_json(const gg_scene *scene);
 /* The scene after the first n changes; n of them by a time (user's units). */
 gg_status gg_scene_protocol_apply(const gg_scene *scene, int n, gg_scene *changed, gg_error *err);
 int gg_scene_protocol_count(const gg_scene *scene, double time);

@@ -5,12 +5,6 @@
 
 #include "scene/scene_reader.h"
 
-bool gg_scene_protocol_takes(const char *key)
-{
-  return strncmp(key, "collision.", 10) == 0 || strncmp(key, "bath.", 5) == 0 || strcmp(key, "thermostat") == 0 ||
-         strcmp(key, "gaussian_rate") == 0 || strcmp(key, "noise_strength") == 0 || strcmp(key, "shear_rate") == 0;
-}
-
 int gg_scene_protocol_count(const gg_scene *s, double time)
 {
   int n = 0;
@@ -49,15 +43,4 @@ double gg_scene_strain(const gg_scene *scene, double time)
     from = at, rate = then.shear_rate;
   }
   return strain + rate / unit * (time - from);
-}
-
-json_t *gg_scene_protocol_json(const gg_scene *scene)
-{
-  json_t *list = json_array();
-  gg_scene changed = *scene;
-  for (const gg_change *c = scene->protocol; c < scene->protocol + GG_MAX_CHANGES && *c->key; c++) {
-    gg_scene_override(&changed, c->key, c->value, NULL); /* it was read once */
-    json_array_append_new(list, json_pack("{s:f, s:o}", "at", c->at, c->key, gg_scene_key_json(&changed, c->key)));
-  }
-  return list;
 }

@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/checked_json.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "common/quantity.h"
+#include "io/checked_json.h"
 
 static json_t *number_json(const gg_field *f, double value)
 {
@@ -105,6 +105,20 @@ static json_t *species_json(const gg_scene *scene)
   return list;
 }
 
+/* The text of a change is a number or a word, as the reader wrote it. */
+static json_t *changes_json(const gg_scene *scene)
+{
+  static const gg_field number = {.type = GG_FIELD_NUMBER};
+  json_t *list = json_array();
+  for (const gg_change *c = scene->protocol; c < scene->protocol + GG_MAX_CHANGES && *c->key; c++) {
+    char *end;
+    const double x = strtod(c->value, &end);
+    json_t *value = *end ? json_string(c->value) : number_json(&number, x);
+    json_array_append_new(list, json_pack("{s:f, s:o}", "at", c->at, c->key, value));
+  }
+  return list;
+}
+
 static json_t *value_json(const gg_field *f, const void *base, const gg_scene *scene)
 {
   const void *at = (const char *)base + f->offset;
@@ -118,7 +132,7 @@ static json_t *value_json(const gg_field *f, const void *base, const gg_scene *s
   case GG_FIELD_VECTOR: return vector_json(f, at);
   case GG_FIELD_FILE: return json_string(*(const char *)at ? at : f->special);
   case GG_FIELD_ENDS: return ends_json(f, at);
-  case GG_FIELD_CHANGES: return gg_scene_protocol_json(scene);
+  case GG_FIELD_CHANGES: return changes_json(scene);
   case GG_FIELD_SPECIES: return species_json(scene);
   }
   return json_null();

@@ -368,7 +368,7 @@ static gg_status read_change(const input *in, const gg_scene_entry *e, gg_change
   gg_field member;
   gg_scene *tried = in->r->scene;
   const char *value = gg_scene_scalar(e->value);
-  if (!e->word || !gg_scene_protocol_takes(e->word) || gg_scene_key_find(e->word, GG_MAX_SPECIES, &member) < 0) {
+  if (!e->word || gg_scene_key_find(e->word, GG_MAX_SPECIES, &member) < 0 || !member.on_the_way) {
     char word[61];
     gg_scene_quote(e->word ? e->word : "", word, sizeof word);
     return gg_scene_reject(in->r, e->name, in->key, "'%s' cannot change on the way; allowed: at, " GG_PROTOCOL_KEYS,

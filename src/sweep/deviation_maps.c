@@ -9,11 +9,12 @@
 #include "base/build.h"
 #include "base/memory.h"
 #include "common/quantity.h"
+#include "graingas.h"
 #include "plot/chart.h"
 #include "plot/heat_map.h"
 #include "plot/plot.h"
+#include "scene/scene.h"
 #include "sweep/verdict.h"
-#include "graingas.h"
 
 enum { MOST_CELLS = 24, MOST_COLUMNS = 8, MOST_THEORIES = 6, MOST_ROWS = 3 + MOST_THEORIES };
 
@@ -128,7 +129,7 @@ static void name_axes(maps *m)
 /* The default theories: Lun's, and those of the sweep's own file. */
 static void list_theories(const maps *m, char *list, size_t size)
 {
-  const gg_extension *own = m->view->sweep->base.extension;
+  const gg_extension *own = m->view->sweep->base->extension;
   snprintf(list, size, "lun1991");
   for (int i = 0; i < gg_common_extension_theories(own) && i + 1 < MOST_THEORIES; i++)
     gg_base_text_append(list, size, ",%s", gg_common_extension_theory(own, i)->name);

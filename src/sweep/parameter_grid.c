@@ -8,6 +8,7 @@
 
 #include "base/checksum.h"
 #include "base/memory.h"
+#include "scene/fields.h"
 #include "sweep/sweep.h"
 
 /* Limits of the values of one key together, and of all drawn values. */

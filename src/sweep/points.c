@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/checked_json.h"
 #include "base/checksum.h"
 #include "base/memory.h"
 #include "common/engine.h"
 #include "common/extension.h"
+#include "io/checked_json.h"
 #include "run/cost_estimate.h"
 #include "run/default_size.h"
 #include "run/replicas.h"
@@ -255,7 +255,7 @@ static gg_status estimate_point(const gg_sweep *sweep, gg_scene *scene, double *
 
 static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, double *seconds, gg_error *err)
 {
-  *scene = sweep->base;
+  *scene = *sweep->base;
   GG_TRY(set_values(sweep, i, scene, err));
   GG_TRY(gg_run_scene_finish(scene, err));
   GG_TRY(estimate_point(sweep, scene, seconds, err));

@@ -4,11 +4,15 @@
 #ifndef GG_SWEEP_H
 #define GG_SWEEP_H
 
+#include <jansson.h>
+#include <stdio.h>
+
 #include "base/busy.h"
+#include "base/error.h"
 #include "common/rng.h"
-#include "scene/fields.h"
 
 typedef struct gg_sweep gg_sweep; /* the handle of the public header */
+typedef struct gg_scene gg_scene;
 
 typedef enum gg_does { GG_DOES_RUN, GG_DOES_COMPARE, GG_DOES_THEORY } gg_does;
 typedef enum gg_seeds { GG_SEEDS_INDEPENDENT, GG_SEEDS_COMMON } gg_seeds;
@@ -40,8 +44,8 @@ enum { GG_MOST_POINTS = 100000, GG_MOST_VARIED = 32 };
 
 struct gg_sweep {
   gg_busy busy;
-  char *name;    /* of its file, for messages */
-  gg_scene base; /* holds its extension */
+  char *name; /* of its file, for messages */
+  gg_scene *base;
   gg_sweep_settings settings;
   size_t n_varied; /* points are all combinations of their rows; rows of the last one change fastest */
   gg_varied varied[GG_MOST_VARIED];

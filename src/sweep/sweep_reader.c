@@ -286,6 +286,6 @@ static gg_status use_sweep(gg_scene_reader *r, const char *key, const yaml_node_
 gg_status gg_sweep_read_text(gg_sweep *sweep, const char *yaml, size_t length, const char *name, gg_error *err)
 {
   static const char *const others[] = {"vary", "sweep", "theories", NULL};
-  sweep_reader s = {{.name = name, .lines = true, .scene = &sweep->base, .others = others, .err = err}, sweep, NULL};
+  sweep_reader s = {{.name = name, .lines = true, .scene = sweep->base, .others = others, .err = err}, sweep, NULL};
   return gg_scene_with_document(&s.reader, yaml, length, "", use_sweep);
 }

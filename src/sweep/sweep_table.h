@@ -4,6 +4,7 @@
 #ifndef GG_SWEEP_TABLE_H
 #define GG_SWEEP_TABLE_H
 
+#include "base/cancellation.h"
 #include "base/text.h"
 #include "sweep/sweep.h"
 

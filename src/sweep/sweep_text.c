@@ -6,8 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/file_writer.h"
 #include "base/memory.h"
+#include "io/file_writer.h"
+#include "scene/fields.h"
 #include "sweep/folder.h"
 
 /* The keys that were given, as JSON: a default that is written out can have another effect than a key left out. */
@@ -40,7 +41,7 @@ static char *text_of(const gg_sweep *sweep)
   char *text = NULL;
   const unsigned before = gg_base_memory_failures();
   FILE *out = gg_base_memory_stream_open(&text);
-  json_t *given = given_json(&sweep->base);
+  json_t *given = given_json(sweep->base);
   if (out && given) {
     fputs("# Written by graingas sweep: graingas sweep FOLDER reads it.\n", out);
     gg_scene_yaml_print(out, given);

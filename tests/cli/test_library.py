@@ -192,6 +192,45 @@ def test_external_names_carry_their_room():
     check(len(seen) > 500 and not wrong, "without their room:", *wrong)
 
 
+# A list and its entries need each other: subcommands, tables of benchmarks, a theory that computes with others.
+LISTS = {"src/cli/commands.c", "src/bench/bench.c", "src/theory/theories.c"}
+
+
+def circles(needs):
+    """Sets of nodes that reach each other in a graph {node: nodes}."""
+    def reached(node):
+        seen, todo = set(), [node]
+        while todo:
+            new = needs.get(todo.pop(), set()) - seen
+            seen |= new
+            todo += new
+        return seen
+    reach = {node: reached(node) for node in needs}
+    return [set(one) for one in {frozenset(b for b in reach[a] if a in reach.get(b, ())) for a in needs if a in reach[a]}]
+
+
+def test_files_of_a_room_are_in_order():
+    """No two files of a room need functions of each other, directly or through others."""
+    if SANITIZERS != "none":
+        raise Skip("sanitizers add names of their own")
+    check(circles({1: {2}, 2: {3}, 3: {2, 4}, 4: set()}) == [{2, 3}], "circles")
+    source_of = {built: source for source, built in objects()}
+    defined, used, needs = {}, {}, {}
+    for line in sh("nm", "-A", "-g", "--format=posix", *source_of).splitlines():
+        built, name, kind = line.split()[:3]
+        source = source_of[built.rstrip(":")]
+        if kind == "U":
+            used.setdefault(source, set()).add(name)
+        else:
+            defined[name] = source
+    for source, names in used.items():
+        there = {defined[name] for name in names if name in defined} - {source}
+        needs[source] = {other for other in there if other.split("/")[1] == source.split("/")[1]}
+    check(sum(map(len, needs.values())) > 500, "edges:", sum(map(len, needs.values())))
+    found = [one for one in circles(needs) if not one & LISTS]
+    check(not found, "circles:", *found)
+
+
 def test_structs_have_one_name_each():
     places = {}
     for source in glob.glob(os.path.join(SOURCE, "src", "**", "*.[ch]"), recursive=True):

@@ -33,10 +33,11 @@ static inline gg_frame planted_frame(uint64_t step, bool positions)
 static inline gg_result *planted_result(gg_engine_kind engine)
 {
   gg_result *r = calloc(1, sizeof *r);
-  r->scene = gg_scene_defaults();
-  r->scene.phi = 0.3, r->scene.particles = PLANTED_GRAINS, r->scene.engine = engine;
-  for (int p = 0; p < GG_PAIRS; p++) r->scene.collision.beta[p] = 0;
-  gg_scene_model_make(&r->scene, engine, &r->model, NULL);
+  const gg_scene defaults = gg_scene_defaults();
+  r->scene = gg_scene_copy_new(&defaults, NULL);
+  r->scene->phi = 0.3, r->scene->particles = PLANTED_GRAINS, r->scene->engine = engine;
+  for (int p = 0; p < GG_PAIRS; p++) r->scene->collision.beta[p] = 0;
+  gg_scene_model_make(r->scene, engine, &r->model, NULL);
   r->model.n = PLANTED_GRAINS;
   r->engine = engine == GG_MD ? "md" : "dsmc";
   gg_run_result_label(r);
@@ -68,7 +69,7 @@ static inline gg_comparison *planted_comparison(void)
   c->by_engine[GG_MD] = planted_result(GG_MD);
   c->by_engine[GG_DSMC] = planted_result(GG_DSMC);
   c->by_engine[GG_DSMC]->value[GG_Q_TEMPERATURE].mean -= 0.01;
-  c->scene = c->by_engine[GG_MD]->scene;
+  c->scene = gg_scene_copy_new(c->by_engine[GG_MD]->scene, NULL);
   assert_int_equal(gg_run_compare_theories(&c->by_engine[GG_MD]->model, NULL, c, NULL), GG_OK);
   return c;
 }

@@ -14,6 +14,7 @@
 
 #include "base/build.h"
 #include "files/h5/checkpoint_file.h"
+#include "scene/scene.h"
 #include "files/h5/checksum_trailer.h"
 #include "files/h5/hdf5_writer.h"
 #include "files/h5/result_reader.h"

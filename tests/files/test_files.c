@@ -17,9 +17,9 @@
 #include "files/h5/hdf5_writer.h"
 #include "files/h5/result_file.h"
 #include "files/h5/result_reader.h"
+#include "graingas.h"
 #include "own_folder.h"
 #include "planted.h"
-#include "graingas.h"
 
 static double read_number(gg_h5_in *h, const char *path)
 {
@@ -51,8 +51,8 @@ static void run_round_trip(void **state)
   assert_memory_equal(T->time, r->history.time, PLANTED_SAMPLES * sizeof(double));
   gg_scene *scene;
   assert_int_equal(gg_scene_parse(s.scene, "stored", &scene, &err), GG_OK);
-  r->scene.given = scene->given; /* the file gives every key */
-  assert_memory_equal(scene, &r->scene, sizeof *scene);
+  r->scene->given = scene->given; /* the file gives every key */
+  assert_memory_equal(scene, r->scene, sizeof *scene);
   gg_scene_free(scene);
   gg_files_stored_result_clear(&s);
 
@@ -139,7 +139,7 @@ static void frames_of_the_window(void **state)
     gg_result *r = planted_result(GG_MD);
     gg_result_file f;
     size_t n, m;
-    r->scene.output.after = GG_AFTER_WARMUP, r->window_step = window;
+    r->scene->output.after = GG_AFTER_WARMUP, r->window_step = window;
     assert_int_equal(gg_files_result_file_open(&f, "t.h5", "x", &err), GG_OK);
     for (uint64_t step = 0; step <= 100; step += 50) {
       gg_frame frame = planted_frame(step, true);

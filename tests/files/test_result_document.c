@@ -8,8 +8,8 @@
 #include <cmocka.h>
 
 #include "files/result_document.h"
-#include "planted.h"
 #include "graingas.h"
+#include "planted.h"
 
 static const char *warning_with(const json_t *document, const char *words)
 {
@@ -120,7 +120,7 @@ static void a_document_of_theories_has_their_answers(void **state)
 {
   (void)state;
   gg_comparison *c = planted_comparison();
-  json_t *d = reread(gg_files_theory_document(&c->scene, c));
+  json_t *d = reread(gg_files_theory_document(c->scene, c));
   json_t *lun = json_object_get(json_object_get(d, "theory"), "lun1991");
   assert_string_equal(json_string_value(json_object_get(json_object_get(lun, "pressure"), "unit")),
                       "rho_p d^2 gamma^2");

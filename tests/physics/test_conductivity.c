@@ -12,8 +12,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "run/run.h"
 #include "graingas.h"
+#include "run/run.h"
+#include "scene/scene.h"
 
 static const gg_quantity conductivities[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED,
                                              GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC,

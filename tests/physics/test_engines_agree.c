@@ -10,9 +10,10 @@
 #include <cmocka.h>
 #include <math.h>
 
+#include "graingas.h"
 #include "run/run.h"
 #include "run/z_scores.h"
-#include "graingas.h"
+#include "scene/scene.h"
 
 static gg_scene scene_of(double e, double beta, double mu)
 {

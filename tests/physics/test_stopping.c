@@ -8,8 +8,9 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "run/run.h"
 #include "graingas.h"
+#include "run/run.h"
+#include "scene/scene.h"
 
 enum { SEEDS = 100 };
 #define ASKED 0.006

@@ -9,8 +9,9 @@
 #include <cmocka.h>
 #include <math.h>
 
-#include "run/run.h"
 #include "graingas.h"
+#include "run/run.h"
+#include "scene/scene.h"
 
 static gg_result *run(double phi, double e, double beta)
 {

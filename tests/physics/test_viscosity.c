@@ -11,8 +11,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "run/run.h"
 #include "graingas.h"
+#include "run/run.h"
+#include "scene/scene.h"
 
 /* dsmc has twice as many grains where the reference is exact. */
 static gg_scene slow(double e, double phi, gg_thermostat thermostat)

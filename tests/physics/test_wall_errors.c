@@ -10,8 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "run/run.h"
 #include "graingas.h"
+#include "run/run.h"
+#include "scene/scene.h"
 
 enum { SEEDS = 16, MOST = 80 };
 

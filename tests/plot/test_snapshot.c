@@ -14,9 +14,9 @@
 
 #include "../files/planted.h"
 #include "common/rng.h"
+#include "graingas.h"
 #include "plot/plot.h"
 #include "scene/model_of_scene.h"
-#include "graingas.h"
 
 enum { GRAINS = 5, MOST = 64 };
 
@@ -122,7 +122,7 @@ static void read_page(page *p)
 static gg_result *result_with(gg_flow flow, const double place[GRAINS][3])
 {
   gg_result *r = planted_result(GG_MD);
-  gg_scene *s = &r->scene;
+  gg_scene *s = r->scene;
   s->flow = flow, s->phi = 0.02, s->particles = GRAINS, s->n_species = 2;
   s->species[0] = (gg_species){0.6, 1, 1, 0.4, 1}, s->species[1] = (gg_species){0.4, 1.5, 2, 0.4, 1};
   s->aspect[0] = 1, s->aspect[1] = 2, s->aspect[2] = 1.5;
@@ -235,7 +235,7 @@ static void below_an_open_top(void **state)
 static gg_result *gas_of(size_t n, double phi, bool mixed)
 {
   gg_result *r = planted_result(GG_MD);
-  gg_scene *s = &r->scene;
+  gg_scene *s = r->scene;
   s->flow = GG_USF, s->phi = phi, s->particles = (int64_t)n;
   if (mixed)
     s->n_species = 2, s->species[0] = (gg_species){0.5, 1, 1, 0.4, 1},

@@ -23,19 +23,21 @@ static gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
 
 static void set_scene(const scene_of *of, gg_comparison *c)
 {
-  gg_scene s = gg_scene_defaults();
+  static gg_scene s;
   gg_error err;
+  s = gg_scene_defaults();
   s.flow = of->flow, s.phi = of->phi, s.n_species = of->species;
   for (int p = 0; p < GG_PAIRS; p++)
     s.collision.e[p] = of->e, s.collision.beta[p] = of->beta, s.collision.mu[p] = of->mu;
   if (of->species == 2) s.species[0] = (gg_species){0.5, 1, 4, 0.4, 1}, s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
-  *c = (gg_comparison){.by_engine = {&md, &dsmc}};
+  *c = (gg_comparison){.scene = &s, .by_engine = {&md, &dsmc}};
   assert_int_equal(gg_scene_model_make(&s, GG_MD, &c->model, &err), GG_OK);
   gg_run_rows_make(&c->model, &c->rows);
   md.rows = dsmc.rows = c->rows;
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) md.value[q] = dsmc.value[q] = (gg_estimate){.mean = NAN, .error = NAN};
   md.steadiness = GG_STEADY, md.engine_state = (gg_engine_state){.collisions = 1000000};
   md.model = c->model;
+  md.scene = dsmc.scene = &s;
 }
 
 /* Measured numbers of the gas. */

@@ -13,6 +13,7 @@
 #include "extended.h"
 #include "files/result_document.h"
 #include "graingas.h"
+#include "scene/scene.h"
 
 static void same_estimate(const gg_result *r, const char *name, gg_quantity q, double tolerance)
 {

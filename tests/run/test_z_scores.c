@@ -10,9 +10,9 @@
 #include <string.h>
 
 #include "fake_engine.h"
+#include "graingas.h"
 #include "run/z_scores.h"
 #include "scene/model_of_scene.h"
-#include "graingas.h"
 
 /* A comparison puts both columns and the theories side by side; z is the difference over the combined error. */
 static void z_is_the_difference_over_the_combined_error(void **state)
@@ -35,9 +35,9 @@ static void z_is_the_difference_over_the_combined_error(void **state)
 static void only_unexpected_differences_are_marked(void **state)
 {
   (void)state;
-  gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
-  gg_comparison c = {.by_engine = {&md, &dsmc}};
   gg_scene s = planted_scene(0);
+  gg_result md = {.scene = &s, .engine = "md"}, dsmc = {.scene = &s, .engine = "dsmc"};
+  gg_comparison c = {.scene = &s, .by_engine = {&md, &dsmc}};
   assert_int_equal(gg_scene_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
   gg_run_rows_make(&c.model, &c.rows);
   const struct {
@@ -61,9 +61,9 @@ static void only_unexpected_differences_are_marked(void **state)
 static void engines_are_compared_with_the_noise_free_solution(void **state)
 {
   (void)state;
-  gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
-  gg_comparison c = {.by_engine = {&md, &dsmc}, .n_theories = 1};
   gg_scene s = planted_scene(0);
+  gg_result md = {.scene = &s, .engine = "md"}, dsmc = {.scene = &s, .engine = "dsmc"};
+  gg_comparison c = {.scene = &s, .by_engine = {&md, &dsmc}, .n_theories = 1};
   gg_departure d;
   assert_int_equal(gg_scene_model_make(&s, GG_MD, &c.model, NULL), GG_OK);
   c.model.phi = 0.2;
@@ -115,9 +115,9 @@ static void deviating_theories_have_a_remark(void **state)
                {0.98, 1, 1, 1.2, 0.001, "no cause"},
                {0.8, 1, 1, 1.2, 0.001, "quasi-elastic"},
                {0.98, 1, 1.2, 1.2, 0.001, "agrees with dsmc"}};
-  gg_result md = {.engine = "md"}, dsmc = {.engine = "dsmc"};
-  gg_comparison c = {.by_engine = {&md, &dsmc}};
   gg_scene s = planted_scene(-1);
+  gg_result md = {.scene = &s, .engine = "md"}, dsmc = {.scene = &s, .engine = "dsmc"};
+  gg_comparison c = {.scene = &s, .by_engine = {&md, &dsmc}};
   for (int i = 0; i < 5; i++) {
     gg_run_theory_remark r[GG_MOST_THEORIES];
     for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = cases[i].e;

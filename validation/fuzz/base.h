@@ -5,6 +5,7 @@
 #define GG_FUZZ_BASE_H
 
 #include "run/run.h"
+#include "scene/scene.h"
 
 enum { FUZZ_BASES = 6 };
 

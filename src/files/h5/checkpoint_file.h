@@ -5,7 +5,8 @@
 #define GG_CHECKPOINT_FILE_H
 
 #include "base/archive.h"
-#include "scene/scene.h"
+
+typedef struct gg_scene gg_scene;
 
 struct gg_h5_in;
 

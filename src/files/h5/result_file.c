@@ -207,7 +207,7 @@ static void write_engine(gg_h5 *h, const char *group, const char *observables, c
   write_correlations(h, group, r);
   gg_h5_text(h, gg_h5_path(h, "%s/engine", group), r->engine);
   const char *verdict = gg_h5_path(h, "%s/verdict", group);
-  gg_h5_text(h, verdict, gg_scene_is_followed(&r->scene) ? "followed" : verdicts[r->steadiness]);
+  gg_h5_text(h, verdict, gg_scene_is_followed(r->scene) ? "followed" : verdicts[r->steadiness]);
   gg_h5_text_attribute(h, verdict, "why", r->steadiness_text);
   gg_h5_numbers(h, gg_h5_path(h, "%s/window", group), r->history.window, 2, NULL);
   write_effort(h, group, "averaging", &r->averaging);
@@ -373,17 +373,17 @@ static void write_document(gg_result_file *f, const gg_scene *scene, json_t *doc
 static void write_last_frame(gg_result_file *f, const gg_result *r)
 {
   gg_result_writer *w = f->now;
-  if (r->scene.output.after == GG_AFTER_WARMUP) gg_h5_particles_drop(&w->h, &w->particles, r->window_step);
+  if (r->scene->output.after == GG_AFTER_WARMUP) gg_h5_particles_drop(&w->h, &w->particles, r->window_step);
   bool fresh = !w->particles.started || r->final.step > w->particles.last_step;
-  w->particles.scene = &r->scene;
+  w->particles.scene = r->scene;
   if (r->final.n && r->final.velocity && fresh) gg_h5_particles_append(&w->h, &w->particles, &r->model, &r->final);
 }
 
 gg_status gg_files_result_file_finish_run(gg_result_file *f, const gg_result *result, gg_error *err)
 {
-  f->scene = &result->scene;
+  f->scene = result->scene;
   GG_TRY(create(f, false, err));
-  write_document(f, &result->scene, gg_files_run_document(result));
+  write_document(f, result->scene, gg_files_run_document(result));
   gg_h5_text_attribute(&f->now->h, "/graingas", "kind", "run");
   write_engine(&f->now->h, "/graingas", "/observables/", result);
   write_last_frame(f, result);
@@ -393,9 +393,9 @@ gg_status gg_files_result_file_finish_run(gg_result_file *f, const gg_result *re
 gg_status gg_files_result_file_finish_comparison(gg_result_file *f, const gg_comparison *c, gg_error *err)
 {
   const gg_result *first = gg_run_comparison_first(c);
-  f->scene = &c->scene;
+  f->scene = c->scene;
   GG_TRY(create(f, false, err));
-  write_document(f, &c->scene, gg_files_comparison_document(c));
+  write_document(f, c->scene, gg_files_comparison_document(c));
   gg_h5_text_attribute(&f->now->h, "/graingas", "kind", "compare");
   for (int k = 0; k < GG_N_ENGINES; k++) {
     char group[64], observables[64];

@@ -213,7 +213,7 @@ static void restore_effort(gg_result *r, const json_t *document)
                                       .overflows = count(state, "majorant_overflows"),
                                       .clamped = count(state, "law_clamped")};
   if (json_object_get(state, "contact_time"))
-    r->scene.fixed.contact_time = r->model.contact_time = gg_io_json_number(state, "contact_time");
+    r->scene->fixed.contact_time = r->model.contact_time = gg_io_json_number(state, "contact_time");
   if (json_object_get(state, "worst_overlap"))
     r->engine_state.worst_overlap = gg_io_json_number(state, "worst_overlap");
   if (json_object_get(state, "time_step")) r->engine_state.time_step = gg_io_json_number(state, "time_step");
@@ -245,11 +245,13 @@ gg_status gg_files_stored_scene(const gg_stored_result *s, gg_engine_kind engine
 static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_kind engine, gg_error *err)
 {
   const gg_stored_engine *e = &s->engine[engine];
-  GG_TRY(gg_files_stored_scene(s, engine, &r->scene, &r->model, err));
+  gg_scene scene;
+  GG_TRY(gg_files_stored_scene(s, engine, &scene, &r->model, err));
+  scene.engine = engine;
+  if (!(r->scene = gg_scene_copy_new(&scene, err))) return GG_FAILED;
   GG_TRY(gg_files_stored_extension(json_object_get(e->document, "results"), NULL, &r->own, err));
   r->model.extension = r->own;
   gg_run_result_label(r);
-  r->scene.engine = engine;
   r->engine = gg_common_engine_of(engine)->name;
   bool steady = json_is_true(json_object_get(e->document, "steady"));
   r->escape_rate = gg_io_json_number(e->document, "escape_rate");
@@ -352,7 +354,9 @@ static void restore_refusals(gg_comparison *c, const json_t *document)
 
 static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c, gg_error *err)
 {
-  GG_TRY(gg_files_stored_scene(s, GG_MD, &c->scene, &c->model, err));
+  gg_scene scene;
+  GG_TRY(gg_files_stored_scene(s, GG_MD, &scene, &c->model, err));
+  if (!(c->scene = gg_scene_copy_new(&scene, err))) return GG_FAILED;
   for (int k = 0; k < GG_N_ENGINES; k++)
     if (s->engine[k].name)
       GG_TRY(gg_files_result_restore(s, (gg_engine_kind)k, &c->by_engine[k], err));
@@ -367,7 +371,7 @@ static gg_status restore_comparison(const gg_stored_result *s, gg_comparison *c,
     gg_run_rows_make(&c->model, &c->rows);
   }
   restore_refusals(c, s->document);
-  if (s->comparison) gg_scene_ineffective_keys(&c->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &c->warnings);
+  if (s->comparison) gg_scene_ineffective_keys(c->scene, GG_USE_MD | GG_USE_DSMC | GG_USE_THEORY, &c->warnings);
   c->of_one = !s->comparison;
   gg_run_causes_find(c, &c->causes);
   c->document = gg_files_document_text(s->document);
