@@ -151,7 +151,7 @@ def test_another_folder():
 
 
 def test_compared_and_swept():
-    """Rough grains: their Enskog equation takes an eighth of the time."""
+    """The grains are rough: their Enskog equation takes an eighth of the time."""
     scene = SCENE.replace("{e: 0.9}", "{e: 0.9, beta: 0.2}")
     theories(scene)
     done = run("compare", "scene.yaml", "--json", "--picture", "none")
