@@ -30,6 +30,7 @@
   X(garzo_dufty2002)                                                                                                   \
   X(garzo_dufty_hrenya2007)                                                                                            \
   X(enskog)                                                                                                            \
+  X(navier_stokes)                                                                                                     \
   X(carnahan_starling1969)                                                                                             \
   X(kolafa2004)                                                                                                        \
   X(pieprzyk2019)

@@ -21,7 +21,7 @@ typedef struct work {
   gg_boundary_solution *s;
   gg_functions *v, *f; /* a trial, and its slopes */
   square *J;           /* df/dv at the points */
-  double *left, *step; /* what is left of the equations; the step of Newton's method */
+  double *left, *step; /* left sides of the equations; the step of Newton's method */
   gg_band_matrix A;
 } work;
 
@@ -41,7 +41,7 @@ static void middle_of(const gg_boundary_problem *p, double h, const gg_functions
   for (int k = 0; k < p->n; k++) to[k] = 0.5 * (v[0][k] + v[1][k]) - h / 8 * (f[1][k] - f[0][k]);
 }
 
-/* What is left of all equations, in units of scales. */
+/* Left sides of all equations, in units of scales: 0 for a solution. */
 static void leftover(const work *w, const gg_functions *v, const gg_functions *f, double *left)
 {
   const gg_boundary_problem *p = w->p;
