@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hydrodynamics between walls: means over grains that arrive at a wall in
- * closed form, the equations' own limits (gas at rest, its weight, free conduction, slip and jump), and balances of
- * mass, momentum and energy to 1e-8. */
+ * closed form, the equations' own limits (gas at rest, its weight, free conduction, slip and jump), balances of mass,
+ * momentum and energy to 1e-8; and of moments the limit of uniform shear, and the table that they are taken from. */
 #include "theory_test.h"
 
 #include "common/contact_value.h"
+#include "theory/walls/gaussian_table.h"
 #include "theory/walls/half_range.h"
 #include "theory/walls/wall_condition.h"
 
@@ -100,24 +101,29 @@ static double number_of(const gg_curves *list, const char *curve, const char *na
   return NAN;
 }
 
-static const gg_theory *const ns = &gg_theory_navier_stokes;
+static const gg_theory *const ns = &gg_theory_navier_stokes, *const moments = &gg_theory_moments;
 
 /* An elastic gas between walls of its temperature is at rest, with the pressure of Carnahan & Starling; layers at the
  * walls leave its core thinner: in 14 d, phi = 0.3, the core has 0.3091. */
-static void at_rest(void **state)
+static void rest_of(const gg_theory *theory, double tolerance)
 {
-  (void)state;
   const gg_model m = model_between((gap){GG_FOURIER, 0.3, 1, 14, 0, {1.7, 1.7}, 1, -1, {0, 0}});
-  gg_curves list = curves_of(ns, &m);
+  gg_curves list = curves_of(theory, &m);
   const gg_curve *phi = find(&list, "profile_solid_fraction"), *T = find(&list, "profile_temperature");
   const double x = phi->value[phi->n / 2], Z = (1 + x + x * x - x * x * x) / pow(1 - x, 3);
   assert_close(x, 0.3091, 2e-4);
-  assert_close(number_of(&list, "profile_velocity", "wall_P_yy_lower"), x * 1.7 * Z, 1e-10);
-  for (size_t i = 1; i + 1 < T->n; i++) assert_close(T->value[i], 1.7, 1e-10);
+  assert_close(number_of(&list, "profile_velocity", "wall_P_yy_lower"), x * 1.7 * Z, tolerance);
+  for (size_t i = 1; i + 1 < T->n; i++) assert_close(T->value[i], 1.7, tolerance);
   const double wall = gg_theory_wall_layer(x);
   assert_close((13 * x * 6 / M_PI + 2 * wall) / (m.density * 14), 1, 1e-10);
-  assert_true(fabs(value_of(ns, &m, GG_Q_WALL_FRICTION)) < 1e-12);
+  assert_true(fabs(value_of(theory, &m, GG_Q_WALL_FRICTION)) < 1e-12);
   gg_measure_curves_clear(&list);
+}
+
+static void at_rest(void **state)
+{
+  (void)state;
+  rest_of(ns, 1e-10), rest_of(moments, 1e-6); /* the precision of its table */
 }
 
 /* Elastic grains under gravity: T stays uniform, and the lower wall carries the weight of all. */
@@ -184,9 +190,9 @@ static const gap flows[] = {
 };
 
 /* Energy (by an integral that is not the collocation's), momentum along x and across, mass: 1e-8. */
-static void balances_of(const gg_theory *theory)
+static void balances_of(const gg_theory *theory, size_t n)
 {
-  for (size_t k = 0; k < sizeof flows / sizeof *flows; k++) {
+  for (size_t k = 0; k < n; k++) {
     const gg_model m = model_between(flows[k]);
     const double weight = m.density * m.box[1] * m.stress_unit;
     gg_curves list = curves_of(theory, &m);
@@ -205,7 +211,75 @@ static void balances_of(const gg_theory *theory)
 static void balances(void **state)
 {
   (void)state;
-  balances_of(ns);
+  const size_t all = sizeof flows / sizeof *flows;
+  balances_of(ns, all), balances_of(moments, all - 1); /* moments has no solution for the chute */
+}
+
+/* The table about a density. */
+static gg_gaussian_table *table_of(double phi, double e)
+{
+  const gg_model m = model_for(GG_USF, phi, e, -1);
+  const double n = phi > 0 ? 6 * phi / M_PI : 1;
+  gg_gaussian_table *t = calloc(1, sizeof *t);
+  gg_error err;
+  assert_non_null(t);
+  if (gg_theory_gaussian_table_make(&m, phi > 0 ? 0.4 * n : 1, phi > 0 ? 1.7 * n : 1, t, &err) != GG_OK)
+    fail_msg("%s", err.message);
+  return t;
+}
+
+/* Shear stress over P_yy of the gas that shear heats as much as collisions cool it (S = 0): the uniform shear flow of
+ * gaussian_closure, 0.2528, 0.3618, 0.6592 at phi = 0; N1 is 0.2395 at e = 0.9 (F. Vega Reyes, A. Santos & V. Garzo,
+ * Phys. Rev. Lett. 104 (2010) 028001, have such flows between walls). */
+static void uniform_shear(void **state)
+{
+  (void)state;
+  const struct {
+    double phi, e, ratio;
+  } known[] = {{0, 0.95, 0.2528}, {0, 0.9, 0.3618}, {0, 0.7, 0.6592}, {0.1, 0.9, 0.3000}, {0.3, 0.9, 0.2796}};
+  for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+    gg_gaussian_table *t = table_of(known[k].phi, known[k].e);
+    const double n = known[k].phi > 0 ? 6 * known[k].phi / M_PI : 1;
+    double low = 0, high = 0, f[GG_TABLE_FUNCTIONS] = {0};
+    do {
+      low = high, high += 0.1 * n;
+      assert_true(gg_theory_gaussian_state(t, n, high, f) < 1e-10);
+    } while (f[GG_TABLE_SOURCE] < 0);
+    for (int i = 0; i < 50; i++) {
+      const double a = 0.5 * (low + high);
+      assert_true(gg_theory_gaussian_state(t, n, a, f) < 1e-10);
+      *(f[GG_TABLE_SOURCE] < 0 ? &low : &high) = a;
+    }
+    assert_close(low * exp(f[GG_TABLE_VISCOSITY] - f[GG_TABLE_PRESSURE]), known[k].ratio, 4e-4);
+    if (k == 1) assert_close(f[GG_TABLE_XX], 0.2395, 1e-3);
+    const gg_model m = model_for(GG_USF, known[k].phi, known[k].e, -1);
+    const gg_theory_answer a = answer_of(&gg_theory_gaussian_closure, &m);
+    assert_close(low * exp(f[GG_TABLE_VISCOSITY] - f[GG_TABLE_PRESSURE]), -a.value[GG_Q_P_YX] / a.value[GG_Q_P_YY],
+                 1e-7);
+    free(t);
+  }
+}
+
+/* The table gives back the state from its stress: density and shear rate to 1e-5. */
+static void table_of_moments(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    gg_gaussian_table *t = table_of(k ? 0.2 : 0, 0.8);
+    for (double x = 0.05; x < 1.2; x += 0.23) {
+      const double n = k ? 1.3 * 1.2 / M_PI : 1, a = x * n, T = 2.3;
+      double f[GG_TABLE_FUNCTIONS];
+      gg_gap_local at;
+      assert_true(gg_theory_gaussian_state(t, n, a, f) < 1e-10);
+      const double P = n * T * exp(f[GG_TABLE_PRESSURE]), tau = n * T * a * exp(f[GG_TABLE_VISCOSITY]);
+      assert_true(gg_theory_gaussian_table_local(t, P, tau, T, &at));
+      assert_close(at.n, n, 1e-5);
+      assert_close(at.shear, -a * sqrt(T), 1e-5);
+      assert_close(-tau * at.shear - at.loss, n * n * T * sqrt(T) * f[GG_TABLE_SOURCE], 1e-4);
+      assert_close(at.Tyy, T * f[GG_TABLE_MYY], 1e-5);
+    }
+    free(t);
+  }
 }
 
 /* A scene outside of what the theory describes gives the reason. */
@@ -235,6 +309,7 @@ int main(void)
   const struct CMUnitTest tests[] = {cmocka_unit_test(friction_at_walls), cmocka_unit_test(layers),
                                      cmocka_unit_test(at_rest),           cmocka_unit_test(hydrostatic),
                                      cmocka_unit_test(free_conduction),   cmocka_unit_test(slip),
-                                     cmocka_unit_test(balances),          cmocka_unit_test(reasons)};
+                                     cmocka_unit_test(balances),          cmocka_unit_test(uniform_shear),
+                                     cmocka_unit_test(table_of_moments),  cmocka_unit_test(reasons)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "theory/walls/band_matrix.h"
 
-enum { MOST = GG_BOUNDARY_FUNCTIONS, STEPS = 40, HALVINGS = 8, MESHES = 16 };
+enum { MOST = GG_BOUNDARY_FUNCTIONS, STEPS = 40, HALVINGS = 8, MESHES = 24 };
 
 /* Width of differences for derivatives, in units of a function's scale; step of Newton's method, likewise, below which
  * it has converged. */
@@ -209,7 +209,7 @@ static bool refine(work *w, bool *fine)
   for (int i = 0; i + 1 < s->points; i++) {
     const double residual = residual_of(w, i);
     s->residual = fmax(s->residual, residual);
-    add[i] = residual <= tolerance ? 0 : residual <= 100 * tolerance ? 1 : 2;
+    add[i] = residual <= tolerance ? 0 : residual <= 10 * tolerance ? 1 : 2;
     more += add[i];
   }
   *fine = more == 0;

@@ -2,7 +2,6 @@
 #include "theory/walls/gap.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "common/contact_value.h"
 #include "common/surface/shapes.h"
@@ -245,9 +244,11 @@ gg_status gg_theory_gap_solve(const gg_model *m, gg_gap_gas gas, const char *the
 {
   gg_gap *g = &flow->gap;
   const double edge = half_diameter(m);
-  memset(flow, 0, sizeof *flow);
+  const double T = g->T, P = g->P;
+  flow->work = flow->loss = flow->normal = flow->shear = 0;
   *g = (gg_gap){.model = m, .gas = gas, .low = edge, .high = m->box[1] - edge, .grains = grains_per_area(m)};
-  GG_TRY(start(flow, theory, err));
+  g->T = T, g->P = P;
+  if (flow->solution.points == 0) GG_TRY(start(flow, theory, err));
   const double speed = sqrt(g->T) + fabs(m->surface[1].velocity.x);
   gg_boundary_problem problem = {.n = GG_GAP_FUNCTIONS,
                                  .n_lower = 3,

@@ -64,8 +64,8 @@ gg_status gg_theory_gap_check(const gg_model *model, const char *theory, gg_erro
 /* Mean free path at the mean density over the width that centres have. */
 double gg_theory_gap_knudsen(const gg_model *model);
 
-/* The flow, from a uniform start. GG_BAD_INPUT with the reason where no steady state exists; GG_FAILED without
- * convergence. */
+/* The flow, from a uniform start, or if *flow has a solution from that. GG_BAD_INPUT with the reason where no steady
+ * state exists; GG_FAILED without convergence. */
 gg_status gg_theory_gap_solve(const gg_model *model, gg_gap_gas gas, const char *theory, gg_gap_flow *flow,
                               gg_error *err);
 

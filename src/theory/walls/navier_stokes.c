@@ -1,89 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Navier-Stokes hydrodynamics of granular gases: coefficients of the cooling gas at the local density,
- *   eta = c_0 sqrt(T) eta*,  kappa = 15/4 c_0 sqrt(T) kappa*,  mu = 15/4 c_0 T^(3/2) mu*     (times 1/n),
- *   loss = 3/2 n T zeta* n sqrt(T)/c_0,   P = n T Z,   c_0 = 5/(16 sqrt(pi)),
- * reduced as in quantities.md. The stress is Newtonian: tau = -eta u', P_xx = P_yy = P_zz. */
-#include <math.h>
+/* Navier-Stokes hydrodynamics of granular gases between walls: newtonian_gas.h. */
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "common/contact_value.h"
 #include "theory/answer.h"
-#include "theory/range.h"
 #include "theory/theory_list.h"
-#include "theory/walls/gap.h"
+#include "theory/walls/newtonian_gas.h"
 
 static const char name[] = "navier_stokes";
-
-typedef struct newtonian {
-  gg_model model; /* the cooling gas at a density */
-  gg_theory_answer answer;
-  double most; /* solid fraction up to which the contact value is used */
-} newtonian;
-
-static void set_density(gg_model *m, double n)
-{
-  if (m->boltzmann) return;
-  m->density = m->number_density[0] = n, m->phi = n * M_PI / 6;
-  gg_common_model_set_pairs(m);
-}
-
-static double Z_of(const gg_model *m)
-{
-  return 1 + 2 * (1 + m->e[0]) * gg_theory_phi_chi(m);
-}
-
-/* The density at which n Z = x, by Newton's method: n Z is convex in n. */
-static bool find_density(newtonian *g, double x)
-{
-  const double most = g->most * 6 / M_PI;
-  gg_model *m = &g->model;
-  if (m->boltzmann) {
-    m->density = x;
-    return true;
-  }
-  double n = fmin(x, most);
-  for (int k = 0; k < 60; k++) {
-    set_density(m, n);
-    const double Z = Z_of(m), slope = 1 + (Z - 1) * (2 + m->chi_slope), step = (x - n * Z) / slope;
-    n = fmin(n + step, most);
-    if (fabs(step) <= 1e-15 * n || (n == most && step > 0)) break;
-  }
-  set_density(m, n);
-  return n < most;
-}
-
-static bool local(void *self, double P, double tau, double T, gg_gap_local *at)
-{
-  newtonian *g = self;
-  const gg_model *m = &g->model;
-  const double *v = g->answer.value, c0 = 5 / (16 * sqrt(M_PI)), root = sqrt(T);
-  const bool within = find_density(g, P / T);
-  gg_theory_garzo_santos_montanero2007.evaluate(m, &g->answer, NULL);
-  const double n = m->density, slope = m->boltzmann ? 1 : 1 + (Z_of(m) - 1) * (2 + m->chi_slope);
-  const double viscosity = c0 * root * v[GG_Q_VISCOSITY_REDUCED];
-  *at = (gg_gap_local){
-      .n = n,
-      .phi = m->phi,
-      .shear = -tau / viscosity,
-      .n_P = 1 / (T * slope),
-      .n_T = -P / (T * T * slope),
-      .kappa = 3.75 * c0 * root * v[GG_Q_THERMAL_CONDUCTIVITY_REDUCED],
-      .mu = 3.75 * c0 * root * T * v[GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED] / n,
-      .loss = 1.5 * n * n * T * root * v[GG_Q_COOLING_RATE] / c0,
-      .Txx = T,
-      .Tyy = T,
-      .Tzz = T,
-  };
-  return within;
-}
-
-static void make(const gg_model *m, newtonian *g)
-{
-  g->model = *m;
-  g->model.flow = GG_HCS, g->model.temperature0 = 1, g->model.rule = GG_SMOOTH;
-  g->most = gg_common_contact_value_limit(m->contact_value);
-}
 
 /* Solve for the flow, and pass it on. */
 typedef struct request {
@@ -95,12 +19,12 @@ typedef struct request {
 static gg_status solve(const gg_model *m, const request *to, gg_error *err)
 {
   GG_TRY(gg_theory_gap_check(m, name, err));
-  newtonian *gas = gg_base_array_new(1, sizeof *gas, err);
+  gg_newtonian_gas *gas = gg_base_array_new(1, sizeof *gas, err);
   gg_gap_flow *flow = gg_base_array_new(1, sizeof *flow, err);
   gg_status status = gas && flow ? GG_OK : GG_FAILED;
   if (status == GG_OK) {
-    make(m, gas);
-    status = gg_theory_gap_solve(m, (gg_gap_gas){local, gas}, name, flow, err);
+    gg_theory_newtonian_gas_make(m, gas);
+    status = gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_newtonian_gas_local, gas}, name, flow, err);
   }
   if (status == GG_OK && to->answer) gg_theory_gap_answer(flow, to->answer);
   if (status == GG_OK && to->list) status = gg_theory_gap_curves(flow, to->measure, to->list, err);
