@@ -294,7 +294,7 @@ static void print_curves(const gg_comparison *c, const char *theory)
       continue;
     char text[240], known[80] = "";
     if (isfinite(end))
-      snprintf(known, sizeof known, "; where the series converges, up to %s = %.3g", curve.x_name, end);
+      snprintf(known, sizeof known, "; known up to %s = %.3g", curve.x_name, end);
     snprintf(text, sizeof text, "%d curves of %s (--json; compare and plot draw them)%s.", n, curve.observable, known);
     gg_cli_print_wrapped(stdout, "  Here: ", text);
     n = 0, end = INFINITY;

@@ -30,6 +30,8 @@
   X(garzo_dufty2002)                                                                                                   \
   X(garzo_dufty_hrenya2007)                                                                                            \
   X(enskog)                                                                                                            \
+  X(navier_stokes)                                                                                                     \
+  X(moments)                                                                                                           \
   X(carnahan_starling1969)                                                                                             \
   X(kolafa2004)                                                                                                        \
   X(pieprzyk2019)

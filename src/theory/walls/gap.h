@@ -1,0 +1,78 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Steady flow of one species of smooth grains across the gap between flat walls, by the balances of a hydrodynamic
+ * theory. Centres are between y = 1/2 and L - 1/2 (phi = 0: 0 and L). Model units, m = d = 1; per volume
+ *   P' = n g_y,   tau' = n g_x,   E' = n g_x u - loss,   N' = n,   q = E - tau u,
+ *   q = -kappa T' - mu n',   P = P_yy, tau = P_yx, N: grains per area up to y, layers at the lower wall included.
+ * The gas closes them: n, u', kappa, mu and the loss from P, tau and T. */
+#ifndef GG_THEORY_GAP_H
+#define GG_THEORY_GAP_H
+
+#include "theory/theory.h"
+#include "theory/walls/boundary_problem.h"
+
+/* Unknown functions of y. */
+enum { GG_GAP_LOG_T, GG_GAP_U, GG_GAP_E, GG_GAP_TAU, GG_GAP_P, GG_GAP_N, GG_GAP_FUNCTIONS };
+
+/* The gas at one height. */
+typedef struct gg_gap_local {
+  double n, phi, shear; /* number density, solid fraction, du/dy */
+  double n_P, n_T;      /* derivatives of n(P, T) */
+  double kappa, mu;     /* heat flux -kappa T' - mu n' */
+  double loss;          /* energy per volume and time */
+  double Txx, Tyy, Tzz; /* <C_a^2> of grains that arrive at a wall */
+  double xx, zz;        /* P_xx - P_yy, P_zz - P_yy */
+  double carried_x;     /* carried heat flux along x, over the heat flux along y */
+} gg_gap_local;
+
+/* A gas: what closes the balances. `local` returns false outside its densities. */
+typedef struct gg_gap_gas {
+  bool (*local)(void *self, double P, double tau, double T, gg_gap_local *at);
+  void *self;
+} gg_gap_gas;
+
+typedef struct gg_gap {
+  const gg_model *model;
+  gg_gap_gas gas;
+  double low, high; /* where centres begin and end */
+  double grains;    /* per area */
+  double T, P;      /* of the start: units */
+  bool outside;     /* a last state was outside the densities of the gas */
+} gg_gap;
+
+/* The gas at a wall, and its action on the wall. */
+typedef struct gg_gap_wall {
+  double P, tau; /* stress on the wall, layers of grains at it included */
+  double heat;   /* that the wall takes, as it moves with it */
+  double slip;   /* velocity of the gas, continued to the wall, minus that of the wall */
+  double T;      /* temperature of the gas, likewise */
+  double layer;  /* grains per area in layers at the wall */
+  gg_gap_local gas;
+} gg_gap_wall;
+
+typedef struct gg_gap_flow {
+  gg_gap gap;
+  gg_gap_wall wall[2];  /* lower, upper */
+  double work, loss;    /* per area: of walls and gravity; of collisions */
+  double temperature;   /* mean over grains */
+  double normal, shear; /* integrals of P_yy and P_yx over y */
+  gg_boundary_solution solution;
+} gg_gap_flow;
+
+/* Why no theory of this kind describes the scene: GG_BAD_INPUT with the reason. */
+gg_status gg_theory_gap_check(const gg_model *model, const char *theory, gg_error *err);
+
+/* Mean free path at the mean density over the width that centres have. */
+double gg_theory_gap_knudsen(const gg_model *model);
+
+/* The flow, from a uniform start, or if *flow has a solution from that. GG_BAD_INPUT with the reason where no steady
+ * state exists; GG_FAILED without convergence. */
+gg_status gg_theory_gap_solve(const gg_model *model, gg_gap_gas gas, const char *theory, gg_gap_flow *flow,
+                              gg_error *err);
+
+/* Numbers of the flow under the common names. */
+void gg_theory_gap_answer(const gg_gap_flow *flow, gg_theory_answer *answer);
+
+/* Profiles, as `profiles` and `fluxes` measure them. */
+gg_status gg_theory_gap_curves(const gg_gap_flow *flow, unsigned measure, gg_curves *list, gg_error *err);
+
+#endif

@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Navier-Stokes hydrodynamics of granular gases between walls: newtonian_gas.h. */
+#include <stdlib.h>
+
+#include "base/memory.h"
+#include "theory/answer.h"
+#include "theory/theory_list.h"
+#include "theory/walls/newtonian_gas.h"
+
+static const char name[] = "navier_stokes";
+
+/* Solve for the flow, and pass it on. */
+typedef struct request {
+  gg_theory_answer *answer; /* NULL: curves of `measure` into the list */
+  unsigned measure;
+  gg_curves *list;
+} request;
+
+static gg_status solve(const gg_model *m, const request *to, gg_error *err)
+{
+  GG_TRY(gg_theory_gap_check(m, name, err));
+  gg_newtonian_gas *gas = gg_base_array_new(1, sizeof *gas, err);
+  gg_gap_flow *flow = gg_base_array_new(1, sizeof *flow, err);
+  gg_status status = gas && flow ? GG_OK : GG_FAILED;
+  if (status == GG_OK) {
+    gg_theory_newtonian_gas_make(m, gas);
+    status = gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_newtonian_gas_local, gas}, name, flow, err);
+  }
+  if (status == GG_OK && to->answer) gg_theory_gap_answer(flow, to->answer);
+  if (status == GG_OK && to->list) status = gg_theory_gap_curves(flow, to->measure, to->list, err);
+  free(gas), free(flow);
+  return status;
+}
+
+static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  return solve(m, &(request){.answer = a}, err);
+}
+
+static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg_error *err)
+{
+  if (!(measure & (GG_MEASURE_PROFILES | GG_MEASURE_FLUXES))) return GG_OK;
+  return solve(m, &(request){.measure = measure, .list = list}, err);
+}
+
+static const char *beyond(const gg_model *m)
+{
+  if (gg_theory_gap_knudsen(m) > 0.1) return "Knudsen number above 0.1: walls are felt throughout the gap";
+  if (m->e[0] < 0.7) return "Navier-Stokes order: stress of grains that lose much is anisotropic";
+  return NULL;
+}
+
+const gg_theory gg_theory_navier_stokes = {
+    .name = name,
+    .flows = GG_FLOW_BIT(GG_COUETTE) | GG_FLOW_BIT(GG_POISEUILLE) | GG_FLOW_BIT(GG_CHUTE) | GG_FLOW_BIT(GG_FOURIER),
+    .title = "Hydrodynamics of smooth grains between walls",
+    .citation = "Coefficients: V. Garzo, A. Santos and J.M. Montanero, Physica A 376 (2007) 94; walls: J.C. Maxwell, "
+                "Phil. Trans. 170 (1879) 231",
+    .answers = "temperature P_yy P_yx dissipation wall_dissipation wall_heat_flux "
+               "wall_friction energy_balance",
+    .assumptions = "Smooth spheres of one species between flat walls, in steady flow without layers or waves: balances "
+                   "of mass, momentum and energy with the transport coefficients of the cooling gas, to first order in "
+                   "gradients, and half-range conditions at walls. Kn up to 0.3; e near 1.",
+    .evaluate = evaluate,
+    .beyond = beyond,
+    .curves = curves,
+};

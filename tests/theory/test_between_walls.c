@@ -1,0 +1,315 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Hydrodynamics between walls: means over grains that arrive at a wall in
+ * closed form, the equations' own limits (gas at rest, its weight, free conduction, slip and jump), balances of mass,
+ * momentum and energy to 1e-8; and of moments the limit of uniform shear, and the table that they are taken from. */
+#include "theory_test.h"
+
+#include "common/contact_value.h"
+#include "theory/walls/gaussian_table.h"
+#include "theory/walls/half_range.h"
+#include "theory/walls/wall_condition.h"
+
+/* Coulomb friction at a wall: no drift, in closed form with cot psi = alpha sqrt(V)/(mu (1+e) sqrt(T_n)); large
+ * friction, constant beta; little friction or a fast drift, everything slides. */
+static void friction_at_walls(void **state)
+{
+  (void)state;
+  const gg_partner grain = {1, INFINITY}, wall = {INFINITY, 1};
+  for (double V = 0.5; V < 2; V += 0.6) {
+    const double e = 0.9, alpha = 1, mu = 0.4, Tn = 1.1, top = mu * (1 + e), G = 1.3;
+    gg_contact c = gg_common_contact_make(grain, wall, e, alpha - 1, mu);
+    const double psi = atan(top * sqrt(Tn) / (alpha * sqrt(V))), s = sin(psi), k = cos(psi);
+    gg_half_range mean = gg_theory_half_range(&c, Tn, V, 0);
+    assert_close(mean.impulse, alpha * s * s + 0.5 * top * sqrt(Tn / V) * (M_PI / 2 - psi - s * k), 1e-6);
+    assert_close(mean.loss,
+                 (1 - e * e) * Tn + (2 * alpha - alpha * alpha) * V * pow(s, 4) +
+                     top * sqrt(Tn * V) * (M_PI / 2 - psi + 0.25 * sin(4 * psi)) - top * top * Tn * pow(k, 4),
+                 1e-6);
+    mean = gg_theory_half_range(&c, Tn, V, 20 * sqrt(V));
+    assert_close(mean.impulse * 20 * sqrt(V), top * sqrt(M_PI * Tn / 2) * (1 - 1. / 800),
+                 1e-5); /* <cos> of the drift */
+    c = gg_common_contact_make(grain, wall, e, alpha - 1, 1e5);
+    mean = gg_theory_half_range(&c, Tn, V, G);
+    assert_close(mean.impulse, alpha, 1e-4);
+    assert_close(mean.loss, (1 - e * e) * Tn + (alpha - alpha * alpha / 2) * (2 * V + G * G), 1e-4);
+  }
+}
+
+/* A = 0.024, 0.084, 0.166, 0.263 at phi = 0.1 to 0.4 (from the derivative of the surface tension by differences). */
+static double tension(double x)
+{
+  return 9 * x * x * (1 + 44. / 35 * x - 0.8 * x * x) / (2 * M_PI * pow(1 - x, 3));
+}
+
+static void layers(void **state)
+{
+  (void)state;
+  for (double x = 0.05; x < 0.5; x += 0.1) {
+    const double h = 1e-5, slope = (tension(x + h) - tension(x - h)) / (2 * h);
+    const double change = (1 + 4 * x + 4 * x * x - 4 * x * x * x + x * x * x * x) / pow(1 - x, 4);
+    assert_close(gg_theory_wall_layer(x), x * slope / change, 1e-8);
+  }
+  assert_close(gg_theory_wall_layer(0.3), 0.166, 3e-3);
+}
+
+typedef struct gap {
+  gg_flow flow;
+  double phi, e, width;     /* width: of the box */
+  double U, temperature[2]; /* 0: no thermal walls */
+  double e_wall, beta_wall, g[2];
+} gap;
+
+static gg_model model_between(gap x)
+{
+  gg_scene s = scene_of(x.flow, x.phi, x.e, -1);
+  gg_model m = model_of(&s);
+  m.box[1] = x.width;
+  memcpy(m.gravity, x.g, sizeof x.g);
+  for (int w = 0; w < 2; w++) {
+    gg_surface *wall = &m.surface[w];
+    wall->velocity.x = wall->side * x.U;
+    wall->temperature = x.temperature[w], wall->accommodation = x.temperature[w] > 0;
+    wall->contact[0] =
+        gg_common_contact_make((gg_partner){1, INFINITY}, (gg_partner){INFINITY, 1}, x.e_wall, x.beta_wall, INFINITY);
+  }
+  return m;
+}
+
+static gg_curves curves_of(const gg_theory *theory, const gg_model *m)
+{
+  gg_curves list;
+  gg_error err;
+  if (gg_theory_curves(theory, m, GG_MEASURE_PROFILES | GG_MEASURE_FLUXES, &list, &err) != GG_OK)
+    fail_msg("%s", err.message);
+  return list;
+}
+
+static const gg_curve *find(const gg_curves *list, const char *name)
+{
+  for (int i = 0; i < list->n; i++)
+    if (strcmp(list->curve[i].name, name) == 0) return &list->curve[i];
+  fail_msg("no curve %s", name);
+  return NULL;
+}
+
+static double number_of(const gg_curves *list, const char *curve, const char *name)
+{
+  const gg_curve *c = find(list, curve);
+  for (int i = 0; i < c->n_numbers; i++)
+    if (strcmp(c->number[i].name, name) == 0) return c->number[i].value;
+  fail_msg("no number %s", name);
+  return NAN;
+}
+
+static const gg_theory *const ns = &gg_theory_navier_stokes, *const moments = &gg_theory_moments;
+
+/* An elastic gas between walls of its temperature is at rest, with the pressure of Carnahan & Starling; layers at the
+ * walls leave its core thinner: in 14 d, phi = 0.3, the core has 0.3091. */
+static void rest_of(const gg_theory *theory, double tolerance)
+{
+  const gg_model m = model_between((gap){GG_FOURIER, 0.3, 1, 14, 0, {1.7, 1.7}, 1, -1, {0, 0}});
+  gg_curves list = curves_of(theory, &m);
+  const gg_curve *phi = find(&list, "profile_solid_fraction"), *T = find(&list, "profile_temperature");
+  const double x = phi->value[phi->n / 2], Z = (1 + x + x * x - x * x * x) / pow(1 - x, 3);
+  assert_close(x, 0.3091, 2e-4);
+  assert_close(number_of(&list, "profile_velocity", "wall_P_yy_lower"), x * 1.7 * Z, tolerance);
+  for (size_t i = 1; i + 1 < T->n; i++) assert_close(T->value[i], 1.7, tolerance);
+  const double wall = gg_theory_wall_layer(x);
+  assert_close((13 * x * 6 / M_PI + 2 * wall) / (m.density * 14), 1, 1e-10);
+  assert_true(fabs(value_of(theory, &m, GG_Q_WALL_FRICTION)) < 1e-12);
+  gg_measure_curves_clear(&list);
+}
+
+static void at_rest(void **state)
+{
+  (void)state;
+  rest_of(ns, 1e-10), rest_of(moments, 1e-6); /* the precision of its table */
+}
+
+/* Elastic grains under gravity: T stays uniform, and the lower wall carries the weight of all. */
+static void hydrostatic(void **state)
+{
+  (void)state;
+  const gg_model m = model_between((gap){GG_CHUTE, 0.1, 1, 28, 0, {1, 1}, 1, -0.5, {0, -0.05}});
+  gg_curves list = curves_of(ns, &m);
+  const gg_curve *T = find(&list, "profile_temperature"), *n = find(&list, "profile_solid_fraction");
+  for (size_t i = 1; i + 1 < T->n; i++) assert_close(T->value[i], 1, 1e-9);
+  const double below = number_of(&list, "profile_velocity", "wall_P_yy_lower"),
+               above = number_of(&list, "profile_velocity", "wall_P_yy_upper");
+  assert_close((below - above) / m.stress_unit, 0.05 * m.density * 28, 1e-9);
+  assert_true(n->value[1] > 1.5 * n->value[n->n - 2]);
+  gg_measure_curves_clear(&list);
+}
+
+/* Heat conduction of a dilute elastic gas: T^(3/2) is a straight line, q uniform and by Fourier's law; the jump is
+ * 2.4001 sqrt(pi)/2 mean free paths over 1.0252, the ratio of the conductivity to its first approximation. */
+static void free_conduction(void **state)
+{
+  (void)state;
+  const double width = 400, path = 1 / (sqrt(2) * M_PI);
+  const gg_model m = model_between((gap){GG_FOURIER, 0, 1, width, 0, {1.1, 1}, 1, -1, {0, 0}});
+  gg_curves list = curves_of(ns, &m);
+  const gg_curve *T = find(&list, "profile_temperature"), *q = find(&list, "profile_q_y"),
+                 *n = find(&list, "profile_solid_fraction");
+  const size_t last = T->n - 1;
+  const double slope = (pow(T->value[last], 1.5) - pow(T->value[0], 1.5)) / (T->x[last] - T->x[0]);
+  for (size_t i = 0; i <= last; i++) {
+    assert_close(pow(T->value[i], 1.5), pow(T->value[0], 1.5) + slope * (T->x[i] - T->x[0]), 1e-9);
+    assert_close(q->value[i], -75 / (64 * sqrt(M_PI)) * slope / 1.5, 1e-8);
+  }
+  const double jump = number_of(&list, "profile_temperature", "temperature_jump_upper"), gas = 1 - jump;
+  const double local = path / n->value[last], gradient = slope / (1.5 * sqrt(gas));
+  assert_close(jump / (gradient * sqrt(M_PI) / 2 * local), 2.4001 / 1.0252, 2e-3);
+  gg_measure_curves_clear(&list);
+}
+
+/* Slow shear of a dilute elastic gas: slip 1.2540 sqrt(pi)/2 mean free paths, over 1.0161 likewise. */
+static void slip(void **state)
+{
+  (void)state;
+  const double width = 400, path = 1 / (sqrt(2) * M_PI);
+  const gg_model m = model_between((gap){GG_COUETTE, 0, 1, width, 0.01, {1, 1}, 1, -1, {0, 0}});
+  gg_curves list = curves_of(ns, &m);
+  const gg_curve *u = find(&list, "profile_velocity");
+  const double slope = (u->value[u->n - 1] - u->value[0]) / (u->x[u->n - 1] - u->x[0]);
+  assert_close(number_of(&list, "profile_velocity", "slip_upper") / (slope * sqrt(M_PI) / 2 * path), 1.2540 / 1.0161,
+               5e-4);
+  assert_close(number_of(&list, "profile_velocity", "slip_lower"), -number_of(&list, "profile_velocity", "slip_upper"),
+               1e-7);
+  gg_measure_curves_clear(&list);
+}
+
+static const gap flows[] = {
+    {GG_COUETTE, 0.1, 0.9, 17.36, 8.68, {0, 0}, 0.9, 0, {0, 0}},
+    {GG_COUETTE, 0.01, 0.7, 174, 87, {0, 0}, 0.9, 0, {0, 0}},
+    {GG_COUETTE, 0.3, 0.7, 12.04, 6.02, {0, 0}, 0.9, 0, {0, 0}},
+    {GG_COUETTE, 0.3, 0.9, 12.04, 6.02, {0, 0}, 0.9, 1, {0, 0}},
+    {GG_FOURIER, 0.1, 0.95, 28, 0, {1, 0.5}, 1, -1, {0, 0}},
+    {GG_POISEUILLE, 0.2, 0.9, 13.78, 0, {0, 0}, 0.9, 0.5, {1, 0}},
+    {GG_CHUTE, 0.2, 0.9, 13.78, 0, {0, 0}, 0.9, 0, {0.1, -0.05}},
+};
+
+/* Energy (by an integral that is not the collocation's), momentum along x and across, mass: 1e-8. */
+static void balances_of(const gg_theory *theory, size_t n)
+{
+  for (size_t k = 0; k < n; k++) {
+    const gg_model m = model_between(flows[k]);
+    const double weight = m.density * m.box[1] * m.stress_unit;
+    gg_curves list = curves_of(theory, &m);
+    const double P = number_of(&list, "profile_velocity", "wall_P_yy_upper");
+    assert_close(value_of(theory, &m, GG_Q_ENERGY_BALANCE), 1, 1e-8);
+    for (int a = 0; a < 2; a++) {
+      const char *const names[2][2] = {{"wall_P_yx_lower", "wall_P_yx_upper"}, {"wall_P_yy_lower", "wall_P_yy_upper"}};
+      const double low = number_of(&list, "profile_velocity", names[a][0]),
+                   high = number_of(&list, "profile_velocity", names[a][1]);
+      assert_true(fabs(high - low - weight * m.gravity[a]) < 1e-8 * P);
+    }
+    gg_measure_curves_clear(&list);
+  }
+}
+
+static void balances(void **state)
+{
+  (void)state;
+  const size_t all = sizeof flows / sizeof *flows;
+  balances_of(ns, all), balances_of(moments, all - 1); /* moments has no solution for the chute */
+}
+
+/* The table about a density. */
+static gg_gaussian_table *table_of(double phi, double e)
+{
+  const gg_model m = model_for(GG_USF, phi, e, -1);
+  const double n = phi > 0 ? 6 * phi / M_PI : 1;
+  gg_gaussian_table *t = calloc(1, sizeof *t);
+  gg_error err;
+  assert_non_null(t);
+  if (gg_theory_gaussian_table_make(&m, phi > 0 ? 0.4 * n : 1, phi > 0 ? 1.7 * n : 1, t, &err) != GG_OK)
+    fail_msg("%s", err.message);
+  return t;
+}
+
+/* Shear stress over P_yy of the gas that shear heats as much as collisions cool it (S = 0): the uniform shear flow of
+ * gaussian_closure, 0.2528, 0.3618, 0.6592 at phi = 0; N1 is 0.2395 at e = 0.9 (F. Vega Reyes, A. Santos & V. Garzo,
+ * Phys. Rev. Lett. 104 (2010) 028001, have such flows between walls). */
+static void uniform_shear(void **state)
+{
+  (void)state;
+  const struct {
+    double phi, e, ratio;
+  } known[] = {{0, 0.95, 0.2528}, {0, 0.9, 0.3618}, {0, 0.7, 0.6592}, {0.1, 0.9, 0.3000}, {0.3, 0.9, 0.2796}};
+  for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+    gg_gaussian_table *t = table_of(known[k].phi, known[k].e);
+    const double n = known[k].phi > 0 ? 6 * known[k].phi / M_PI : 1;
+    double low = 0, high = 0, f[GG_TABLE_FUNCTIONS] = {0};
+    do {
+      low = high, high += 0.1 * n;
+      assert_true(gg_theory_gaussian_state(t, n, high, f) < 1e-10);
+    } while (f[GG_TABLE_SOURCE] < 0);
+    for (int i = 0; i < 50; i++) {
+      const double a = 0.5 * (low + high);
+      assert_true(gg_theory_gaussian_state(t, n, a, f) < 1e-10);
+      *(f[GG_TABLE_SOURCE] < 0 ? &low : &high) = a;
+    }
+    assert_close(low * exp(f[GG_TABLE_VISCOSITY] - f[GG_TABLE_PRESSURE]), known[k].ratio, 4e-4);
+    if (k == 1) assert_close(f[GG_TABLE_XX], 0.2395, 1e-3);
+    const gg_model m = model_for(GG_USF, known[k].phi, known[k].e, -1);
+    const gg_theory_answer a = answer_of(&gg_theory_gaussian_closure, &m);
+    assert_close(low * exp(f[GG_TABLE_VISCOSITY] - f[GG_TABLE_PRESSURE]), -a.value[GG_Q_P_YX] / a.value[GG_Q_P_YY],
+                 1e-7);
+    free(t);
+  }
+}
+
+/* The table gives back the state from its stress: density and shear rate to 1e-5. */
+static void table_of_moments(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    gg_gaussian_table *t = table_of(k ? 0.2 : 0, 0.8);
+    for (double x = 0.05; x < 1.2; x += 0.23) {
+      const double n = k ? 1.3 * 1.2 / M_PI : 1, a = x * n, T = 2.3;
+      double f[GG_TABLE_FUNCTIONS];
+      gg_gap_local at;
+      assert_true(gg_theory_gaussian_state(t, n, a, f) < 1e-10);
+      const double P = n * T * exp(f[GG_TABLE_PRESSURE]), tau = n * T * a * exp(f[GG_TABLE_VISCOSITY]);
+      assert_true(gg_theory_gaussian_table_local(t, P, tau, T, &at));
+      assert_close(at.n, n, 1e-5);
+      assert_close(at.shear, -a * sqrt(T), 1e-5);
+      assert_close(-tau * at.shear - at.loss, n * n * T * sqrt(T) * f[GG_TABLE_SOURCE], 1e-4);
+      assert_close(at.Tyy, T * f[GG_TABLE_MYY], 1e-5);
+    }
+    free(t);
+  }
+}
+
+/* A scene outside of what the theory describes gives the reason. */
+static void reasons(void **state)
+{
+  (void)state;
+  const gap couette = flows[0];
+  gap x = couette;
+  gg_model m;
+  x.beta_wall = -1, m = model_between(x), assert_refused(ns, &m, "take no momentum");
+  x = couette, x.phi = 0.02, x.width = 10, m = model_between(x);
+  assert_refused(ns, &m, "Kn = ");
+  m = model_between(couette), m.n_surfaces = 1, assert_refused(ns, &m, "open top");
+  m = model_between(couette), m.gravity[2] = 1, assert_refused(ns, &m, "gravity along z");
+  m = mixture_for(GG_COUETTE, 0.1, 0.9, -1, 2, 1, 1), assert_refused(ns, &m, "one species");
+  m = model_for(GG_COUETTE, 0.1, 0.9, 0.5), assert_refused(ns, &m, "smooth");
+  m = model_for(GG_USF, 0.1, 0.9, -1), assert_refused(ns, &m, "shear between walls");
+  x = couette, x.e = 1, x.e_wall = 1, x.beta_wall = 1, m = model_between(x);
+  assert_refused(ns, &m, "nothing takes the heat");
+  x = couette, x.U = 0, m = model_between(x), assert_refused(ns, &m, "nothing keeps the grains");
+  x = couette, x.width = 4, m = model_between(x), assert_non_null(gg_theory_beyond(ns, &m));
+  m = model_between(couette), assert_null(gg_theory_beyond(ns, &m));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(friction_at_walls), cmocka_unit_test(layers),
+                                     cmocka_unit_test(at_rest),           cmocka_unit_test(hydrostatic),
+                                     cmocka_unit_test(free_conduction),   cmocka_unit_test(slip),
+                                     cmocka_unit_test(balances),          cmocka_unit_test(uniform_shear),
+                                     cmocka_unit_test(table_of_moments),  cmocka_unit_test(reasons)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
