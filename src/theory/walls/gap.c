@@ -2,7 +2,9 @@
 #include "theory/walls/gap.h"
 
 #include <math.h>
+#include <stdlib.h>
 
+#include "base/memory.h"
 #include "common/contact_value.h"
 #include "common/surface/shapes.h"
 #include "measure/wall_modes.h"
@@ -281,8 +283,9 @@ static double drag_of(const gg_model *m, const gg_surface *wall)
   return ahead > 0 ? 1 : -1;
 }
 
-void gg_theory_gap_answer(const gg_gap_flow *flow, gg_theory_answer *a)
+static void answer(const gg_gap_flow *flow, void *to)
 {
+  gg_theory_answer *a = to;
   const gg_model *m = flow->gap.model;
   const gg_gap_wall *w = flow->wall;
   const double per_volume = m->stress_unit / m->box[1];
@@ -301,4 +304,21 @@ void gg_theory_gap_answer(const gg_gap_flow *flow, gg_theory_answer *a)
   if (flow->loss > 0)
     a->value[GG_Q_ENERGY_BALANCE] =
         gg_model_has_thermal_walls(m) ? (flow->work - D_wall) / flow->loss : flow->work / (flow->loss + D_wall);
+}
+
+gg_status gg_theory_gap_with_flow(const gg_gap_theory *theory, const gg_model *m, gg_gap_use *use, void *to,
+                                  gg_error *err)
+{
+  GG_TRY(gg_theory_gap_check(m, theory->name, err));
+  void *gas = gg_base_array_new(1, theory->size, err);
+  gg_gap_flow *flow = gg_base_array_new(1, sizeof *flow, err);
+  const gg_status status = gas && flow ? theory->flow_of(m, gas, flow, err) : GG_FAILED;
+  if (status == GG_OK) use(flow, to);
+  free(gas), free(flow);
+  return status;
+}
+
+gg_status gg_theory_gap_evaluate(const gg_gap_theory *theory, const gg_model *m, gg_theory_answer *a, gg_error *err)
+{
+  return gg_theory_gap_with_flow(theory, m, answer, a, err);
 }

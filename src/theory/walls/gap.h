@@ -69,10 +69,24 @@ double gg_theory_gap_knudsen(const gg_model *model);
 gg_status gg_theory_gap_solve(const gg_model *model, gg_gap_gas gas, const char *theory, gg_gap_flow *flow,
                               gg_error *err);
 
-/* Numbers of the flow under the common names. */
-void gg_theory_gap_answer(const gg_gap_flow *flow, gg_theory_answer *answer);
+/* A theory of this kind: bytes of its gas, and the flow of a model that passes the check. */
+typedef struct gg_gap_theory {
+  const char *name;
+  size_t size;
+  gg_status (*flow_of)(const gg_model *model, void *gas, gg_gap_flow *flow, gg_error *err);
+} gg_gap_theory;
 
-/* Profiles, as `profiles` and `fluxes` measure them. */
-gg_status gg_theory_gap_curves(const gg_gap_flow *flow, unsigned measure, gg_curves *list, gg_error *err);
+/* For gg_theory.evaluate: numbers of the flow under the common names. */
+gg_status gg_theory_gap_evaluate(const gg_gap_theory *theory, const gg_model *model, gg_theory_answer *answer,
+                                 gg_error *err);
+
+/* For gg_theory.curves: profiles, as `profiles` and `fluxes` measure them. */
+gg_status gg_theory_gap_curves(const gg_gap_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
+                               gg_error *err);
+
+/* Pass the flow to a function, and free it. */
+typedef void gg_gap_use(const gg_gap_flow *flow, void *to);
+gg_status gg_theory_gap_with_flow(const gg_gap_theory *theory, const gg_model *model, gg_gap_use *use, void *to,
+                                  gg_error *err);
 
 #endif

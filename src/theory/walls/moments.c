@@ -2,11 +2,8 @@
 /* Non-Newtonian hydrodynamics of granular gases between walls: the stress of the Gaussian closure at the local shear
  * rate, with the heat flux of 13 moments (gaussian_table.h). It starts from the flow of navier_stokes. */
 #include <math.h>
-#include <stdlib.h>
 
-#include "base/memory.h"
 #include "common/contact_value.h"
-#include "theory/answer.h"
 #include "theory/theory_list.h"
 #include "theory/walls/gaussian_table.h"
 
@@ -14,13 +11,6 @@ static const char name[] = "moments";
 
 /* Densities of the table, over those of the Newtonian flow. */
 static const double below = 0.4, above = 1.7;
-
-/* Solve for the flow, and pass it on. */
-typedef struct request {
-  gg_theory_answer *answer; /* NULL: curves of `measure` into the list */
-  unsigned measure;
-  gg_curves *list;
-} request;
 
 static void densities(const gg_gap_flow *flow, double *low, double *high)
 {
@@ -35,8 +25,9 @@ static void densities(const gg_gap_flow *flow, double *low, double *high)
   *low *= below, *high = fmin(*high * above, gg_common_contact_value_limit(m->contact_value) * 6 / M_PI);
 }
 
-static gg_status flow_of(const gg_model *m, gg_gaussian_table *table, gg_gap_flow *flow, gg_error *err)
+static gg_status flow_of(const gg_model *m, void *memory, gg_gap_flow *flow, gg_error *err)
 {
+  gg_gaussian_table *table = memory;
   double low, high;
   gg_theory_newtonian_gas_make(m, &table->gas);
   GG_TRY(gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_newtonian_gas_local, &table->gas}, name, flow, err));
@@ -45,27 +36,16 @@ static gg_status flow_of(const gg_model *m, gg_gaussian_table *table, gg_gap_flo
   return gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_gaussian_table_local, table}, name, flow, err);
 }
 
-static gg_status solve(const gg_model *m, const request *to, gg_error *err)
-{
-  GG_TRY(gg_theory_gap_check(m, name, err));
-  gg_gaussian_table *table = gg_base_array_new(1, sizeof *table, err);
-  gg_gap_flow *flow = gg_base_array_new(1, sizeof *flow, err);
-  gg_status status = table && flow ? flow_of(m, table, flow, err) : GG_FAILED;
-  if (status == GG_OK && to->answer) gg_theory_gap_answer(flow, to->answer);
-  if (status == GG_OK && to->list) status = gg_theory_gap_curves(flow, to->measure, to->list, err);
-  free(table), free(flow);
-  return status;
-}
+static const gg_gap_theory theory = {name, sizeof(gg_gaussian_table), flow_of};
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  return solve(m, &(request){.answer = a}, err);
+  return gg_theory_gap_evaluate(&theory, m, a, err);
 }
 
 static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg_error *err)
 {
-  if (!(measure & (GG_MEASURE_PROFILES | GG_MEASURE_FLUXES))) return GG_OK;
-  return solve(m, &(request){.measure = measure, .list = list}, err);
+  return gg_theory_gap_curves(&theory, m, measure, list, err);
 }
 
 static const char *beyond(const gg_model *m)

@@ -1,46 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Navier-Stokes hydrodynamics of granular gases between walls: newtonian_gas.h. */
-#include <stdlib.h>
-
-#include "base/memory.h"
-#include "theory/answer.h"
 #include "theory/theory_list.h"
 #include "theory/walls/newtonian_gas.h"
 
 static const char name[] = "navier_stokes";
 
-/* Solve for the flow, and pass it on. */
-typedef struct request {
-  gg_theory_answer *answer; /* NULL: curves of `measure` into the list */
-  unsigned measure;
-  gg_curves *list;
-} request;
-
-static gg_status solve(const gg_model *m, const request *to, gg_error *err)
+static gg_status flow_of(const gg_model *m, void *gas, gg_gap_flow *flow, gg_error *err)
 {
-  GG_TRY(gg_theory_gap_check(m, name, err));
-  gg_newtonian_gas *gas = gg_base_array_new(1, sizeof *gas, err);
-  gg_gap_flow *flow = gg_base_array_new(1, sizeof *flow, err);
-  gg_status status = gas && flow ? GG_OK : GG_FAILED;
-  if (status == GG_OK) {
-    gg_theory_newtonian_gas_make(m, gas);
-    status = gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_newtonian_gas_local, gas}, name, flow, err);
-  }
-  if (status == GG_OK && to->answer) gg_theory_gap_answer(flow, to->answer);
-  if (status == GG_OK && to->list) status = gg_theory_gap_curves(flow, to->measure, to->list, err);
-  free(gas), free(flow);
-  return status;
+  gg_theory_newtonian_gas_make(m, gas);
+  return gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_newtonian_gas_local, gas}, name, flow, err);
 }
+
+static const gg_gap_theory theory = {name, sizeof(gg_newtonian_gas), flow_of};
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
-  return solve(m, &(request){.answer = a}, err);
+  return gg_theory_gap_evaluate(&theory, m, a, err);
 }
 
 static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg_error *err)
 {
-  if (!(measure & (GG_MEASURE_PROFILES | GG_MEASURE_FLUXES))) return GG_OK;
-  return solve(m, &(request){.measure = measure, .list = list}, err);
+  return gg_theory_gap_curves(&theory, m, measure, list, err);
 }
 
 static const char *beyond(const gg_model *m)
