@@ -30,20 +30,6 @@ static gg_tensor moment(const double I[4], double v, part a, part b, gg_tensor c
   return gg_tensor_plus(out, I[3] - v * I[1], gg_tensor_outer(a.R, b.R));
 }
 
-gg_vec gg_theory_contact_velocity(const gg_contact_pair *p, gg_vec k)
-{
-  gg_vec mean = {-p->shear * k.y, 0, 0}, spin = {0, 0, p->one->spin + p->two->spin};
-  return p->contact->jt > 0 ? gg_sub(mean, gg_cross(k, spin)) : mean;
-}
-
-gg_tensor gg_theory_contact_covariance(const gg_contact_pair *p, gg_vec k)
-{
-  gg_tensor X = gg_tensor_cross(k), S = gg_tensor_plus(p->one->M, 1, p->two->M);
-  if (p->contact->jt == 0) return S;
-  gg_tensor spins = gg_tensor_plus(p->one->Theta, 1, p->two->Theta);
-  return gg_tensor_plus(S, -1, gg_tensor_product(gg_tensor_product(X, spins), X)); /* X^T = -X */
-}
-
 /* J = L g, L = (jn - jt) k k^T + jt 1. */
 static gg_contact_average constant_beta(const gg_contact_pair *p, gg_vec k)
 {

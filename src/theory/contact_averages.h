@@ -40,9 +40,20 @@ gg_contact_average gg_theory_contact_average(const gg_contact_pair *pair, gg_vec
 /* contact_friction.c: the same for a finite friction coefficient. */
 gg_contact_average gg_theory_contact_average_frictional(const gg_contact_pair *pair, gg_vec k);
 
-/* Mean of g, -sigma rate k_y x - k x (s_1 + s_2); and its covariance, M_1 + M_2 + X (Theta_1 + Theta_2) X^T with
- * X v = k x v. */
-gg_vec gg_theory_contact_velocity(const gg_contact_pair *pair, gg_vec k);
-gg_tensor gg_theory_contact_covariance(const gg_contact_pair *pair, gg_vec k);
+/* Mean of g: -sigma rate k_y x - k x (s_1 + s_2). */
+static inline gg_vec gg_theory_contact_velocity(const gg_contact_pair *p, gg_vec k)
+{
+  gg_vec mean = {-p->shear * k.y, 0, 0}, spin = {0, 0, p->one->spin + p->two->spin};
+  return p->contact->jt > 0 ? gg_sub(mean, gg_cross(k, spin)) : mean;
+}
+
+/* M_1 + M_2 + X (Theta_1 + Theta_2) X^T with X v = k x v. */
+static inline gg_tensor gg_theory_contact_covariance(const gg_contact_pair *p, gg_vec k)
+{
+  gg_tensor X = gg_tensor_cross(k), S = gg_tensor_plus(p->one->M, 1, p->two->M);
+  if (p->contact->jt == 0) return S;
+  gg_tensor spins = gg_tensor_plus(p->one->Theta, 1, p->two->Theta);
+  return gg_tensor_plus(S, -1, gg_tensor_product(gg_tensor_product(X, spins), X)); /* X^T = -X */
+}
 
 #endif
