@@ -62,8 +62,10 @@ gg_status gg_base_archive_get(const gg_archive *a, const char *name, gg_item_typ
   if (item->type != type)
     return gg_base_fail(err, GG_BAD_FILE, "the checkpoint's '%s' holds numbers of another type than is needed", name);
   if (item->count != count)
-    return gg_base_fail(err, GG_BAD_FILE, "the checkpoint's '%s' holds %zu items where %zu are needed", name,
-                        item->count, count);
+    return gg_base_fail(err, GG_BAD_FILE,
+                        "the checkpoint's '%s' holds %zu items where %zu are needed: another version wrote it, or it "
+                        "belongs to another kind of run",
+                        name, item->count, count);
   if (count) memcpy(data, item->data, count * gg_base_archive_item_size(type));
   return GG_OK;
 }

@@ -88,10 +88,12 @@ static void check_runaway(gg_replicas *all)
 }
 
 /* Samples from one report and checkpoint to the next: some tens of milliseconds. With several processes, reports come
- * in between, and waiting for each other costs more: the step is the whole way then, unless grains may come to rest. */
+ * in between, and waiting for each other costs more: the step is the whole way then, unless grains may come to rest or
+ * spins may run away. */
 static uint64_t step(const gg_replicas *all, uint64_t way)
 {
-  if (all->tasks.remote && all->model.gravity[1] == 0) return way;
+  const bool watched = all->model.gravity[1] != 0 || gg_theory_is_metastable(&all->model);
+  if (all->tasks.remote && !watched) return way;
   uint64_t some = 1 + (uint64_t)(2e5 / (1000 + (double)all->model.n * all->n));
   return some < way ? some : way;
 }

@@ -71,7 +71,7 @@ static verdict decide(const gg_replicas *all, const gg_convergence *c, const gg_
   if (all->state.arrest_share > 0) return ARRESTED;
   if (!all->state.averaging) return IN_WARMUP;
   if (all->replica[0].series.width == 0) return NOTHING_MEASURED; /* not even modes of the gap */
-  if (spins_run_away(result, &ratio)) return SPINS_RUN_AWAY;
+  if (all->model.rule == GG_FRICTIONAL && spins_run_away(result, &ratio)) return SPINS_RUN_AWAY;
   if (c->trending) return TRENDING;
   if (w.samples == 0) return NO_SAMPLE;
   if (w.samples < (double)all->criteria.least_steady) return SHORTER_THAN_SLOWEST_MODE;
@@ -101,7 +101,7 @@ static void describe_spins(const gg_result *result, char *text, size_t size)
            beyond);
 }
 
-/* The rate of mixtures is unknown. */
+/* The rate of mixtures and of laws of restitution is unknown. */
 static void describe_metastable(const gg_replicas *all, const gg_result *result, window w, char *text, size_t size)
 {
   int n = snprintf(text, size, "no trend over %.0f collisions a grain, but grains that spin fast escape friction",

@@ -23,7 +23,8 @@ typedef struct local_gaussian {
   double m[3];
   double n, t[3]; /* spread of g_n; of g_t = (t[0] cos alpha, t[1] cos alpha + t[2] sin alpha) */
   double y[3];    /* R^-1 m */
-  double density; /* exp(-C/2) over the norm of the Gaussian */
+  double C;       /* its square */
+  double density; /* 1 over the norm of the Gaussian */
 } local_gaussian;
 
 /* <u+ ...> in these axes. */
@@ -81,17 +82,17 @@ static local_gaussian local_of(const gg_contact_pair *p, gg_vec k)
   x.t[0] = sqrt(S.at[1][1]), x.t[1] = S.at[1][2] / x.t[0], x.t[2] = sqrt(S.at[2][2] - x.t[1] * x.t[1]);
   for (int i = 0; i < 3; i++) x.m[i] = x.y[i] = gg_along(&m, i);
   divide(&x.R, x.y);
-  const double C = x.y[0] * x.y[0] + x.y[1] * x.y[1] + x.y[2] * x.y[2];
-  x.density = exp(-C / 2) / (pow(2 * M_PI, 1.5) * x.R.at[0][0] * x.R.at[1][1] * x.R.at[2][2]);
+  x.C = x.y[0] * x.y[0] + x.y[1] * x.y[1] + x.y[2] * x.y[2];
+  x.density = 1 / (pow(2 * M_PI, 1.5) * x.R.at[0][0] * x.R.at[1][1] * x.R.at[2][2]);
   return x;
 }
 
-/* int_0^inf rho^p exp(-(A rho^2 - 2 B rho)/2) drho, p = 0 .. 5, by recursion. */
-static void ray_integrals(double A, double B, double I[MOST_POWER + 1])
+/* int_0^inf rho^p exp(-(A rho^2 - 2 B rho + C)/2) drho, p = 0 .. 5, by recursion. */
+static void ray_integrals(double A, double B, double C, double I[MOST_POWER + 1])
 {
   const double x0 = B / A, root = sqrt(A / 2);
-  I[0] = sqrt(M_PI) / (2 * root) * (B == 0 ? 1 : exp(B * x0 / 2) * erfc(-x0 * root));
-  I[1] = x0 * I[0] + 1 / A;
+  I[0] = sqrt(M_PI) / (2 * root) * (C == 0 ? 1 : exp((B * x0 - C) / 2) * erfc(-x0 * root));
+  I[1] = x0 * I[0] + exp(-C / 2) / A;
   for (int p = 2; p <= MOST_POWER; p++) I[p] = x0 * I[p - 1] + (p - 1) * I[p - 2] / A;
 }
 
@@ -106,7 +107,7 @@ static void add_ray(const gg_contact_pair *p, const local_gaussian *x, const dou
   double A = 0, B = 0, y[3] = {v[0], v[1], v[2]}, I[MOST_POWER + 1];
   divide(&x->R, y);
   for (int i = 0; i < 3; i++) A += y[i] * y[i], B += y[i] * x->y[i];
-  ray_integrals(A, B, I);
+  ray_integrals(A, B, x->C, I);
   w *= v[0];
   f->rate += w * I[3];
   f->loss += w * I[5] * (p->loss_n * v[0] * v[0] + lost * along * along);
@@ -149,8 +150,9 @@ static void add_all(const gg_contact_pair *p, const local_gaussian *x, local_sum
   const double middle = atan(limit / sqrt(t[0] * t[2]));
   if (!isfinite(middle)) return; /* no Gaussian */
   polar_rule sticks = rule_for(middle), slides = rule_for(M_PI_2 - middle);
-  for (int b = 0; b < AZIMUTH && sticks.table && slides.table; b++) {
-    const double alpha = 2 * M_PI * (b + 0.5) / AZIMUTH, w = x->density * x->n * t[0] * t[2] * 2 * M_PI / AZIMUTH;
+  const int azimuths = AZIMUTH + (int)(5 * sqrt(x->C)); /* the faster the flow, the narrower the Gaussian in alpha */
+  for (int b = 0; b < azimuths && sticks.table && slides.table; b++) {
+    const double alpha = 2 * M_PI * (b + 0.5) / azimuths, w = x->density * x->n * t[0] * t[2] * 2 * M_PI / azimuths;
     const double along[2] = {t[0] * cos(alpha), t[1] * cos(alpha) + t[2] * sin(alpha)};
     const double edge = atan(limit / hypot(along[0], along[1]));
     add_fan(p, x, along, &sticks, 0, edge, w, f);

@@ -161,7 +161,7 @@ void gg_theory_gaussian_relax(const gg_model *m, double time, gg_relaxing *x)
     const bool settled = is_steady(m, state, &r[0], fmin(time, LONG / most));
     const double dt = settled ? time : fmin(time, (x->stride > 0 ? x->stride : 0.5) / most);
     x->collisions += dt * collision_rate(m, &r[0]);
-    x->work -= seconds_of(m) * m->n_species * m->n_species;
+    x->work -= (settled ? 0.25 : 1) * seconds_of(m) * m->n_species * m->n_species;
     if (settled || !(dt > 0) || x->work < 0) return;
     for (int k = 1; k < 4; k++) {
       move(m, state, k < 3 ? dt / 2 : dt, r[k - 1].change, at);

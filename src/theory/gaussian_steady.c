@@ -257,6 +257,7 @@ static void relax(const closure *c, gsl_vector *x, int steps)
   unpack(c, x, state);
   for (int step = 0; step < steps && !gg_stop_asked(c->model->stop); step++) {
     production(c->model, state, &p);
+    if (!isfinite(p.excess)) break;
     for (int i = 0; i < c->model->n_species; i++) {
       for (int a = 0; a < 9; a++) {
         state[i].M.at[a / 3][a % 3] += relaxation_step * change[i].M.at[a / 3][a % 3];
@@ -389,7 +390,7 @@ double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state)
      * was too far off: relax first; in a bath also near a state that almost exists, which the gas may leave slowly. */
     for (int attempt = 1; attempt <= MAX_ATTEMPTS && !(left < converged); attempt++) {
       if (model->bath.on)
-        relax(&c, x, 10 * attempt * RELAXATION_STEPS);
+        relax(&c, x, (model->rule == GG_FRICTIONAL ? 1 : 10) * attempt * RELAXATION_STEPS);
       else if (!(left < nearby))
         start(&c, x), relax(&c, x, attempt * RELAXATION_STEPS);
       left = improve(solver, &f, x);

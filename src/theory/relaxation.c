@@ -11,6 +11,7 @@
  * Sheared gases and mixtures: gaussian_relaxation.c. */
 #include "theory/relaxation.h"
 
+#include "base/memory.h"
 #include "common/thermostat.h"
 #include "theory/two_maxwellian.h"
 
@@ -26,8 +27,10 @@ gg_relaxing gg_theory_relaxation_start(const gg_model *m)
   const double theta = m->rule == GG_SMOOTH ? 0 : m->ratio0 * m->temperature0;
   gg_relaxing x = {.T = m->temperature0, .theta = theta, .a2 = m->rule == GG_SMOOTH ? m->a2_0 : 0, .work = 2};
   if (!gg_theory_gaussian_relaxes(m)) return x;
+  gg_base_gsl_enter();
   gg_theory_gaussian_start(m, x.of);
   x.P_xy = m->shear_rate != 0 ? gg_theory_gaussian_shear_stress(m, x.of) : 0;
+  gg_base_gsl_leave();
   return x;
 }
 
@@ -122,6 +125,8 @@ static void relax_temperatures(const gg_model *m, double time, gg_relaxing *x)
 
 void gg_theory_relax(const gg_model *m, double time, gg_relaxing *x)
 {
+  gg_base_gsl_enter();
   if (x->work >= 0) (gg_theory_gaussian_relaxes(m) ? relax_moments : relax_temperatures)(m, time, x);
+  gg_base_gsl_leave();
   if (x->work < 0) *x = gg_theory_relaxation_lost();
 }

@@ -16,6 +16,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/memory.h"
+#include "common/thermostat.h"
 #include "theory/linear_solve.h"
 #include "theory/two_maxwellian.h"
 
@@ -161,13 +163,15 @@ static double escapes_of(const gas *g)
 {
   double own[NODES], number = 0, rate = NAN;
   double *C = calloc(NODES * NODES, sizeof *C), *M = gg_theory_linear_new(NODES);
+  if (!C || !M) gg_base_memory_lacked();
   own_temperatures(g, own);
   for (int j = 0; C && j < NODES; j++) put_collisions(g, j, own[j], C);
   if (C && M) put_equations(g, C, M);
   if (C && M && gg_theory_linear_solve(NODES, M)) {
     const double *p = M + NODES * NODES;
     for (int i = 0; i < NODES; i++) number += p[i] * STEP;
-    rate = fmax(g->growth * p[NODES - 1] / number / rate_at(1), 0);
+    const double found = g->growth * p[NODES - 1] / number / rate_at(1);
+    rate = found < 0 ? 0 : found; /* a rate that is not a number stays so */
   }
   free(C), free(M);
   return rate;
@@ -175,14 +179,17 @@ static double escapes_of(const gas *g)
 
 bool gg_theory_is_metastable(const gg_model *m)
 {
-  return gg_flow_cools(m->flow) && m->rule == GG_FRICTIONAL;
+  const bool cools = gg_flow_cools(m->flow) || (m->linear_response && gg_common_heat_of(m) == GG_UNHEATED);
+  return cools && m->rule == GG_FRICTIONAL;
 }
 
 double gg_theory_spin_escape(const gg_model *m)
 {
-  if (!gg_theory_is_metastable(m) || m->n_species > 1) return NAN;
+  if (!gg_theory_is_metastable(m) || m->n_species > 1 || m->law.name) return NAN;
   gas *g = calloc(1, sizeof *g);
   double rate = NAN;
+  gg_base_gsl_enter();
+  if (!g) gg_base_memory_lacked();
   if (g && make_contacts(g->contact)) {
     g->grain = gg_theory_grain_of(m), g->mu = m->mu[0];
     g->theta = gg_theory_ratio_cooling(g->grain, g->mu);
@@ -190,6 +197,7 @@ double gg_theory_spin_escape(const gg_model *m)
     if (isfinite(g->theta)) rate = escapes_of(g);
   }
   free(g);
+  gg_base_gsl_leave();
   return rate;
 }
 

@@ -14,7 +14,7 @@ bool gg_theory_is_metastable(const gg_model *model);
 
 /* Fraction of grains that escape friction per collision a grain, from the metastable state of one species,
  * independent of the density; within a factor of two of Monte Carlo up to mu = 0.8. 0: friction stops every grain; NaN:
- * there is no metastable state, or the gas is a mixture. */
+ * there is no metastable state, or the rate is unknown (mixtures, laws of restitution). */
 double gg_theory_spin_escape(const gg_model *model);
 
 /* A theory that takes the metastable state for a steady one answers where grains seldom escape. GG_OK for gases that

@@ -59,7 +59,7 @@ static gg_rough_steady spinning(const gg_hermite_isotropic *h, int degree)
 {
   static const gg_heating cools = {.kind = GG_HEATING_COOLS};
   gg_rough_steady s = {.choice = choice,
-                       .gas = {.frequency = 0.9, .eta1 = 0.95, .eta2 = 0.2143, .K = 0.4},
+                       .gas = {.frequency = 0.9, .eta1 = 0.95, .eta2 = 0.2143, .mu = INFINITY, .K = 0.4},
                        .weight = isotropic(1.1, 2.8)};
   gg_error err;
   double x;

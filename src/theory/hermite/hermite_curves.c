@@ -244,6 +244,7 @@ gg_status gg_hermite_curves(const gg_model *m, unsigned measure, gg_curves *list
                      : !s.isotropic      ? sheared(m, &s, &why)
                      : m->n_species == 1 ? one_isotropic(m, &s, &why)
                                          : mixed_isotropic(m, &s, &why);
+  if (status != GG_OK && s.spins) return gg_base_fail(err, status, "%s", why.message); /* names the theory */
   return status == GG_OK ? write(m, measure, &s, list, err)
                          : gg_theory_reject(err, name, "fails here: %s", why.message);
 }

@@ -181,6 +181,7 @@ gg_status gg_rough_friction_add(gg_rough_friction *x, const gg_rough_gas *gas, c
   double *W = x->alone ? sums->W : x->W;
   int n;
   const gg_rough_point *point = gg_rough_rays_points(x->rays, &frame, &n);
+  if (n == 0) return gg_base_fail(err, GG_FAILED, "the gas is too cold beside the shear for the integrals of friction");
   make_T(x, point, n);
   make_W(x, W);
   gg_rough_turn(x->f, frame.Y, W, x->f->n);

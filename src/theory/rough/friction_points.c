@@ -13,6 +13,9 @@
 enum { DISCRETE = 64, MOST = GG_ROUGH_MOST_DEGREE + 1, FEWEST_AZIMUTHS = 16 };
 static const double farthest = 10;
 
+/* Square of the mean contact velocity in units of thermal ones up to which the azimuths give 1e-5. */
+static const double fastest = 10;
+
 struct gg_rough_rays {
   int degree, azimuths, most;
   gg_rough_point *point;
@@ -191,6 +194,7 @@ static void divide(const double R[3][3], double x[3])
 typedef struct ray_gauss {
   double n, t[3];             /* spread of g_n; of g_t = (t[0] cos alpha, t[1] cos alpha + t[2] sin alpha) */
   double y0[3];               /* R^-1 m */
+  double C;                   /* its square */
   double unit;                /* exp(-C/2) and all that is the same for all rays */
   double x[MOST], w[MOST], b; /* the latest rule in rho */
 } ray_gauss;
@@ -204,8 +208,8 @@ static ray_gauss gauss_of(gg_rough_rays *r, const gg_rough_frame *f)
   g.t[0] = sqrt(S11), g.t[1] = S12 / g.t[0], g.t[2] = sqrt(S22 - g.t[1] * g.t[1]);
   for (int i = 0; i < 3; i++) g.y0[i] = f->m[i];
   divide(R, g.y0);
-  const double C = g.y0[0] * g.y0[0] + g.y0[1] * g.y0[1] + g.y0[2] * g.y0[2];
-  g.unit = g.n * g.t[0] * g.t[2] * exp(-C / 2) / (pow(2 * M_PI, 1.5) * R[0][0] * R[1][1] * R[2][2]);
+  g.C = g.y0[0] * g.y0[0] + g.y0[1] * g.y0[1] + g.y0[2] * g.y0[2];
+  g.unit = g.n * g.t[0] * g.t[2] * exp(-g.C / 2) / (pow(2 * M_PI, 1.5) * R[0][0] * R[1][1] * R[2][2]);
   make_rule(r, 0, g.x, g.w);
   return g;
 }
@@ -248,7 +252,7 @@ const gg_rough_point *gg_rough_rays_points(gg_rough_rays *r, const gg_rough_fram
   gg_rough_point *to = r->point;
   gsl_integration_glfixed_table *rule[2];
   for (int side = 0; side < 2; side++) rule[side] = gsl_integration_glfixed_table_alloc((size_t)many[side]);
-  for (int a = 0; a < r->azimuths && rule[0] && rule[1]; a++) {
+  for (int a = 0; a < r->azimuths && g.C < fastest && rule[0] && rule[1]; a++) {
     const double alpha = 2 * M_PI * (a + 0.5) / r->azimuths;
     const double t[2] = {g.t[0] * cos(alpha), g.t[1] * cos(alpha) + g.t[2] * sin(alpha)};
     const double edge = atan(limit / hypot(t[0], t[1]));

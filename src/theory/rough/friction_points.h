@@ -29,7 +29,8 @@ typedef struct gg_rough_rays gg_rough_rays; /* rules and memory */
 gg_status gg_rough_rays_make(gg_rough_rays **rays, int degree, gg_error *err);
 void gg_rough_rays_free(gg_rough_rays *rays);
 
-/* All points of a direction, and their number; borrowed until the next call. */
+/* All points of a direction, and their number; borrowed until the next call. None where the flow across the contact is
+ * so fast beside thermal velocities that the azimuths are too few. */
 const gg_rough_point *gg_rough_rays_points(gg_rough_rays *rays, const gg_rough_frame *frame, int *n);
 
 #endif

@@ -142,7 +142,8 @@ static double excess(double log_T, void *self)
     const gg_surface *s = &m->surface[w];
     const double e = s->contact[0].jn - 1, beta = s->contact[0].jt - 1, a = s->accommodation;
     const double J = x->P * root / sqrt(2 * M_PI);
-    const double takes = 1 - e * e + (isinf(s->contact[0].mu) ? 1 - beta * beta : fmin(1, s->contact[0].mu));
+    const double takes =
+        1 - e * e + (isinf(s->contact[0].mu) || s->contact[0].jt == 0 ? 1 - beta * beta : fmin(1, s->contact[0].mu));
     sum -= J * (2 * a * (T - s->temperature) + (1 - a) * takes * T);
   }
   return sum;

@@ -190,7 +190,8 @@ gg_status gg_theory_gaussian_table_make(const gg_model *m, double low, double hi
       double value[GG_TABLE_FUNCTIONS];
       set_state(t, n, most * sqrt(0.5 * (1 + node(k, GG_TABLE_RATES))));
       if (k == 0) start(t, x);
-      if (!(improve(t, x) < 1e-9)) return gg_base_fail(err, GG_BAD_INPUT, "the moments of a sheared gas are not found");
+      if (!(improve(t, x) < 1e-9))
+        return gg_theory_reject(err, "moments", "finds no state of the sheared gas at phi = %.3g", m->phi);
       put(t, x, value);
       for (int f = 0; f < GG_TABLE_FUNCTIONS; f++) t->series[f][i][k] = value[f];
     }

@@ -38,7 +38,7 @@ gg_wall_takes gg_theory_wall_takes(const gg_surface *wall, const gg_arrival *in)
   const double normal = J * gas->Tyy + 0.6 * heat;
   const double tangential = J * (across - 0.5 * G * G) + 0.4 * heat + G * momentum;
   gg_wall_takes rule;
-  if (isinf(c->mu)) {
+  if (isinf(c->mu) || c->jt == 0) {
     const double e = c->jn - 1, beta = c->jt - 1;
     rule = (gg_wall_takes){c->jt * momentum, (1 - e * e) * normal + (1 - beta * beta) * tangential};
   } else {
