@@ -6,11 +6,9 @@
 
 #include "theory/hermite/contact_integral.h"
 
-enum { MOST_THREE = (GG_ROUGH_MOST_DEGREE + 1) * (GG_ROUGH_MOST_DEGREE + 2) * (GG_ROUGH_MOST_DEGREE + 3) / 6 };
-
 /* int w Ho_v n_i n_j over a velocity or a spin of direction n, for each function v of three coordinates. */
 typedef struct second_moments {
-  double of[MOST_THREE][3][3];
+  double of[GG_ROUGH_MOST_THREE][3][3];
 } second_moments;
 
 gg_hermite_component gg_rough_component_of(const gg_rough_steady *s, bool spin, int axis)
@@ -47,7 +45,7 @@ static bool direction_moments(const gg_rough_functions *f, const double L[3][3],
   for (int p = 0; p < POLAR * AZIMUTH; p++) {
     const double kz = 2 * z[p / AZIMUTH] - 1, s = sqrt(1 - kz * kz), angle = 2 * M_PI * (p % AZIMUTH + 0.5) / AZIMUTH;
     const double u[3] = {s * cos(angle), s * sin(angle), kz};
-    double along[MOST_THREE] = {0}, n[3] = {0}, square = 0;
+    double along[GG_ROUGH_MOST_THREE] = {0}, n[3] = {0}, square = 0;
     for (int k = 0; k < RADIAL; k++) add_ray(f, u, 12 * r[k], 12 * wr[k], along);
     for (int i = 0; i < 3; i++) {
       for (int j = 0; j <= i; j++) n[i] += L[i][j] * u[j];

@@ -81,12 +81,10 @@ static void powers_three(const gg_rough_functions *f, const double y[3], double 
   multiply_three(f, one, value);
 }
 
-enum { MOST_THREE = (GG_ROUGH_MOST_DEGREE + 1) * (GG_ROUGH_MOST_DEGREE + 2) * (GG_ROUGH_MOST_DEGREE + 3) / 6 };
-
 static void set_point(gg_rough_friction *x, const gg_rough_point *p, int k, int many)
 {
   const gg_rough_functions *f = x->f;
-  double before[MOST_THREE], after[MOST_THREE], shift[MOST_THREE];
+  double before[GG_ROUGH_MOST_THREE], after[GG_ROUGH_MOST_THREE], shift[GG_ROUGH_MOST_THREE];
   hermite_three(f, p->y, before);
   hermite_three(f, p->after, after);
   powers_three(f, p->shift, shift);

@@ -181,15 +181,6 @@ static void make_rule(gg_rough_rays *r, double b, double *x, double *w)
   }
 }
 
-/* x = R^-1 x, R lower triangular. */
-static void divide(const double R[3][3], double x[3])
-{
-  for (int i = 0; i < 3; i++) {
-    for (int j = 0; j < i; j++) x[i] -= R[i][j] * x[j];
-    x[i] /= R[i][i];
-  }
-}
-
 /* The Gaussian in terms of rays. */
 typedef struct ray_gauss {
   double n, t[3];             /* spread of g_n; of g_t = (t[0] cos alpha, t[1] cos alpha + t[2] sin alpha) */
@@ -207,7 +198,7 @@ static ray_gauss gauss_of(gg_rough_rays *r, const gg_rough_frame *f)
   const double S22 = R[2][0] * R[2][0] + R[2][1] * R[2][1] + R[2][2] * R[2][2];
   g.t[0] = sqrt(S11), g.t[1] = S12 / g.t[0], g.t[2] = sqrt(S22 - g.t[1] * g.t[1]);
   for (int i = 0; i < 3; i++) g.y0[i] = f->m[i];
-  divide(R, g.y0);
+  gg_rough_divide(R, g.y0);
   g.C = g.y0[0] * g.y0[0] + g.y0[1] * g.y0[1] + g.y0[2] * g.y0[2];
   g.unit = g.n * g.t[0] * g.t[2] * exp(-g.C / 2) / (pow(2 * M_PI, 1.5) * R[0][0] * R[1][1] * R[2][2]);
   make_rule(r, 0, g.x, g.w);
@@ -220,7 +211,7 @@ static gg_rough_point *add_ray(gg_rough_rays *r, const gg_rough_frame *f, ray_ga
   const double along = sqrt(v[1] * v[1] + v[2] * v[2]), limit = f->mu * f->eta1 * v[0];
   const double j = f->eta2 * along <= limit ? f->eta2 : limit / along, J[3] = {f->eta1 * v[0], j * v[1], j * v[2]};
   double u[3] = {v[0], v[1], v[2]}, step[GG_ROUGH_AXES], A = 0, B = 0;
-  divide(f->R, u);
+  gg_rough_divide(f->R, u);
   for (int i = 0; i < 3; i++) A += u[i] * u[i], B += u[i] * g->y0[i];
   for (int y = 0; y < GG_ROUGH_AXES; y++) step[y] = f->D[y][0] * J[0] + f->D[y][1] * J[1] + f->D[y][2] * J[2];
   const double b = B / sqrt(A);

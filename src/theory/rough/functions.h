@@ -8,7 +8,12 @@
 
 #include "base/error.h"
 
-enum { GG_ROUGH_MOST_DEGREE = 14, GG_ROUGH_AXES = 6 };
+enum {
+  GG_ROUGH_MOST_DEGREE = 14,
+  GG_ROUGH_AXES = 6,
+  /* functions of three coordinates up to that degree */
+  GG_ROUGH_MOST_THREE = (GG_ROUGH_MOST_DEGREE + 1) * (GG_ROUGH_MOST_DEGREE + 2) * (GG_ROUGH_MOST_DEGREE + 3) / 6
+};
 
 typedef struct gg_rough_index {
   int r[GG_ROUGH_AXES];

@@ -16,8 +16,7 @@ static void cross(const double a[3], const double b[3], double c[3])
   }
 }
 
-/* x = A^-1 x, A lower triangular. */
-static void divide(const double A[3][3], double x[3])
+void gg_rough_divide(const double A[3][3], double x[3])
 {
   for (int i = 0; i < 3; i++) {
     for (int j = 0; j < i; j++) x[i] -= A[i][j] * x[j];
@@ -44,8 +43,8 @@ static void kick(const gg_rough_gas *gas, const gg_rough_weight *w, const double
   double torque[3], *spin = change + 3;
   cross(k, J, torque);
   for (int i = 0; i < 3; i++) change[i] = -M_SQRT2 * J[i], spin[i] = -M_SQRT2 / gas->K * torque[i];
-  divide(w->L, change);
-  divide(w->S, spin);
+  gg_rough_divide(w->L, change);
+  gg_rough_divide(w->S, spin);
 }
 
 /* Contact velocity g = C_12 - flow - k x (s1 + s2) of one standard normal coordinate at 1 and all others at 0. */

@@ -40,6 +40,9 @@ typedef struct gg_rough_contact {
 gg_rough_contact gg_rough_contact_at(const gg_rough_gas *gas, const gg_rough_weight *weight, const double k[3],
                                      const double axis[3][3]);
 
+/* x = A^-1 x, A lower triangular. */
+void gg_rough_divide(const double A[3][3], double x[3]);
+
 /* moment[m] = < g_n He_m(u)/sqrt(m!) > over u > u0, m up to `most`. */
 void gg_rough_flux(const gg_rough_collision *c, int most, double *moment);
 
