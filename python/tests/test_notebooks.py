@@ -41,7 +41,20 @@ def execute(parts):
 
 
 def test_every_notebook_is_tried():
-    assert sorted(NOTEBOOKS) == ["haffs_law", "own_theory", "sweep_to_xarray", "three_questions", "trajectory", "two_temperatures"]
+    assert sorted(NOTEBOOKS) == ["friction", "haffs_law", "own_theory", "sweep_to_xarray", "three_questions", "trajectory",
+                                 "two_temperatures"]
+
+
+def test_friction():
+    """dsmc and the noise-free solution agree within 1 %, an effective restitution does not. A fast spin escapes, a slow
+    one does not."""
+    names = execute(cells("friction"))
+    shares, measured, theory = names["shares"], names["measured"]["temperature_ratio"].values, names["theory"]["temperature_ratio"]
+    assert shares == sorted(shares, reverse=True) and shares[0] > 0.98 and shares[-1] < 0.002
+    assert np.abs(theory.sel(theory="enskog_hermite") / measured - 1).max() < 0.02
+    assert theory.sel(theory="jenkins_zhang2002").values[-1] / measured[-1] < 0.7
+    slow, fast = (names["paths"][times] for times in (10, 60))
+    assert slow[1][-1] < 10 * slow[2][-1] and fast[1][-1] > 5000 * fast[2][-1]
 
 
 def test_haffs_law():
