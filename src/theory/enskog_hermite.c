@@ -166,7 +166,7 @@ const gg_theory gg_theory_enskog_hermite = {
         "constant beta or with Coulomb friction, or a smooth mixture: steady uniform shear (up to 8 species), free "
         "cooling and heated states, also in a bath; viscosity (of smooth grains up to 6 species), heat flux of one "
         "cooling species, smooth or of constant beta. Errors of smooth grains are mostly below 0.01 % (0.1 % in dilute "
-        "shear at e = 0.5), of rough and frictional grains 0.1 % from e = 0.7 on.",
+        "shear at e = 0.5), of rough and frictional grains 0.1 % from e = 0.7 on, of the viscosity with friction 1 %.",
     .baths = true,
     .evaluate = evaluate,
     .curves = gg_hermite_curves,

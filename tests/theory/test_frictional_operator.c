@@ -145,6 +145,7 @@ static gg_theory_answer solved(gg_flow flow, double phi, double e, double beta, 
   gg_scene s = scene_of(flow, phi, e, beta);
   for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = mu;
   if (flow == GG_HSS) s.thermostat = GG_WHITE_NOISE;
+  if (flow == GG_SMALL_SHEAR) s.thermostat = GG_GAUSSIAN;
   gg_model m = model_of(&s);
   return answer_of(&gg_theory_enskog_hermite, &m);
 }
@@ -194,6 +195,20 @@ static void heated_grains(void **state)
   }
 }
 
+/* dsmc with 10 000 grains, Gaussian thermostat, shear rates up to 0.03, extrapolated to none. */
+static void heated_grains_under_slow_shear(void **state)
+{
+  (void)state;
+  static const struct {
+    double phi, e, beta, mu, run, error;
+  } known[] = {{0.2, 0.9, 0.2, 0.2, 2.7609, 0.0065}, {0.3, 0.7, -0.5, 0.5, 4.1761, 0.0094}};
+  for (size_t i = 0; i < 2; i++) {
+    gg_theory_answer a = solved(GG_SMALL_SHEAR, known[i].phi, known[i].e, known[i].beta, known[i].mu);
+    check_run("viscosity", a.value[GG_Q_VISCOSITY_REDUCED], a.error[GG_Q_VISCOSITY_REDUCED], known[i].run,
+              known[i].error, 0.008);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -203,6 +218,7 @@ int main(void)
       cmocka_unit_test(degree_two_is_two_maxwellians),
       cmocka_unit_test(sheared_grains),
       cmocka_unit_test(heated_grains),
+      cmocka_unit_test(heated_grains_under_slow_shear),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

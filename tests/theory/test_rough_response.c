@@ -126,9 +126,38 @@ static void smooth_grains_flow(void **state)
   }
 }
 
+/* By the operator of all directions, which friction has as well, and by collisions along one: the same products of
+ * functions, and the same plain tests. */
+static void slow_shear_is_the_response(void **state)
+{
+  (void)state;
+  static const gg_heating stretches = {.kind = GG_HEATING_STRETCHES};
+  const double rate = 1e-4, y = 1.1, reach = 6 / M_PI * y / 0.9;
+  gg_rough_steady s = {.choice = {.width = 1, .spin_width = 1, .extra = 4},
+                       .gas = {.frequency = 0.9, .eta1 = 0.9, .eta2 = 0.25, .mu = INFINITY, .K = 0.4},
+                       .weight = isotropic(1, 0.7)};
+  gg_rough_viscosity v;
+  gg_error err;
+  double x, M[3][3], transferred = 0;
+  if (gg_rough_isotropic_solve(&s, 4, &stretches, &x, &err) != GG_OK) fail_msg("%s", err.message);
+  gg_rough_steady slow = {.choice = s.choice, .gas = s.gas, .stream = s.stream};
+  slow.stream.velocity[0][1] = rate, slow.gas.shear = reach * rate;
+  assert_int_equal(gg_rough_viscosity_of(&s, y, 1, &v, &err), GG_OK);
+  if (gg_rough_slow_shear_solve(&slow, &s, -s.stream.velocity[0][0], &err) != GG_OK) fail_msg("%s", err.message);
+  gg_rough_covariance(&slow.form, &slow.relative.f, &slow.weight, slow.a, false, M);
+  for (int i = 0; i < 2; i++) /* symmetric part: the mean spin differs from half the vorticity here */
+    transferred += reach / 4 * slow.gas.frequency *
+                   gg_rough_pair_mean(&slow.form, &slow.relative, slow.relative.J[i][1 - i], slow.a);
+  assert_close(-M[0][1] / rate, v.kinetic, 1e-6);
+  assert_close(-(M[0][1] + transferred) / rate, v.total, 1e-6);
+  gg_rough_steady_clear(&slow);
+  gg_rough_steady_clear(&s);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(one_direction_is_the_operator),
-                                     cmocka_unit_test(smooth_grains_conduct), cmocka_unit_test(smooth_grains_flow)};
+                                     cmocka_unit_test(smooth_grains_conduct), cmocka_unit_test(smooth_grains_flow),
+                                     cmocka_unit_test(slow_shear_is_the_response)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

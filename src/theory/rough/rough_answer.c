@@ -252,6 +252,29 @@ static gg_status answer_viscosity(const gg_model *m, const gg_rough_steady *s, g
   return GG_OK;
 }
 
+/* With friction: response to a shear so slow, beside collisions, that its square is below other errors. */
+static gg_status answer_slow_shear(const gg_model *m, const gg_rough_steady *isotropic, gg_theory_answer *a,
+                                   gg_error *err)
+{
+  const double cools = gg_theory_thermostat_factor(m) == 0.5 ? -isotropic->stream.velocity[0][0] : 0;
+  const double rate = 1e-3 * isotropic->gas.frequency, nu0 = gg_common_model_nu0(m, 1);
+  double M[3][3];
+  gg_rough_steady s = {.choice = isotropic->choice, .gas = isotropic->gas, .stream = isotropic->stream};
+  s.stream.velocity[0][1] = rate;
+  s.stream.rolling = m->boltzmann ? 0 : -rate * m->diameter[0] / 4;
+  s.gas.shear = m->boltzmann ? 0 : m->sigma[0] * rate;
+  gg_status status = gg_rough_slow_shear_solve(&s, isotropic, cools, err);
+  if (status == GG_OK) {
+    gg_rough_covariance(&s.form, &s.relative.f, &s.weight, s.a, false, M);
+    const double J = (mean(&s, s.relative.J[0][1]) + mean(&s, s.relative.J[1][0])) / 2;
+    const double transferred = m->boltzmann ? 0 : m->sigma[0] / 2 * J;
+    a->value[GG_Q_VISCOSITY_REDUCED_KINETIC] = -M[0][1] / rate * nu0;
+    a->value[GG_Q_VISCOSITY_REDUCED] = -(M[0][1] + transferred) / rate * nu0;
+  }
+  gg_rough_steady_clear(&s);
+  return status;
+}
+
 /* A sequence of solutions, the weight of each from the last. */
 static gg_status isotropic(const gg_model *m, gg_rough_steady *s, int degree, gg_theory_answer *a,
                            gg_rough_marginals *kept, gg_error *err)
@@ -262,9 +285,9 @@ static gg_status isotropic(const gg_model *m, gg_rough_steady *s, int degree, gg
   GG_TRY(gg_rough_isotropic_solve(s, degree, &heating, &x, err));
   answer_isotropic(m, s, &heating, x, a);
   keep(s, kept);
-  const bool responds = m->rule != GG_FRICTIONAL && !kept;
-  if (responds) GG_TRY(answer_viscosity(m, s, a, err));
-  if (responds && m->flow == GG_HCS) GG_TRY(answer_heat(m, s, a, err));
+  if (!kept && m->rule == GG_FRICTIONAL && degree <= LAST_DEGREE) GG_TRY(answer_slow_shear(m, s, a, err));
+  if (!kept && m->rule != GG_FRICTIONAL) GG_TRY(answer_viscosity(m, s, a, err));
+  if (!kept && m->rule != GG_FRICTIONAL && m->flow == GG_HCS) GG_TRY(answer_heat(m, s, a, err));
   return gg_rough_follow(s) ? GG_OK : gg_base_fail(err, GG_FAILED, "no second moments");
 }
 
@@ -293,6 +316,16 @@ static void set_heat_errors(const gg_theory_answer *first, const gg_theory_answe
   }
 }
 
+/* The viscosity with friction ends one degree earlier: its operator is that of all directions. */
+static void take_slow_shear(const gg_theory_answer *first, const gg_theory_answer *last, gg_theory_answer *to)
+{
+  static const gg_quantity of[] = {GG_Q_VISCOSITY_REDUCED, GG_Q_VISCOSITY_REDUCED_KINETIC};
+  for (int k = 0; k < 2; k++) {
+    to->value[of[k]] = last->value[of[k]];
+    to->error[of[k]] = fabs(last->value[of[k]] - first->value[of[k]]) + left_out * fabs(last->value[of[k]]);
+  }
+}
+
 /* Degree after degree; the error is the change by the last one. */
 static gg_status converge_isotropic(const gg_model *m, const gg_rough_choice *choice, double ratio, double limit,
                                     gg_theory_answer *a, gg_rough_marginals *kept, gg_error *err)
@@ -309,6 +342,7 @@ static gg_status converge_isotropic(const gg_model *m, const gg_rough_choice *ch
   gg_rough_steady_clear(&s);
   if (status != GG_OK) return gg_theory_reject(err, name, "fails here: %s", why.message);
   for (int q = 0; q < GG_N_QUANTITIES; q++) now.error[q] = fabs(now.value[q] - before.value[q]);
+  if (m->rule == GG_FRICTIONAL) take_slow_shear(&first, &before, &now);
   set_heat_errors(&first, &before, &now);
   set_angle_error(&now);
   GG_TRY(refuse_poor(&now, GG_Q_TEMPERATURE_RATIO, limit, err));

@@ -141,6 +141,46 @@ gg_status gg_rough_shear_solve(gg_rough_steady *s, int degree, gg_error *err)
   return status;
 }
 
+/* Coefficients of the same functions in another form, which may have more. */
+static void take_coefficients(gg_rough_steady *s, const gg_rough_steady *from)
+{
+  for (int q = 0; q < s->form.n; q++) s->a[q] = 0;
+  for (int q = 0; q < from->form.n; q++) {
+    const int place = gg_rough_place(&s->relative.f, from->relative.f.function[from->form.function[q]].r);
+    s->a[s->form.unknown[place]] = from->a[q];
+  }
+}
+
+/* One step of Newton's method from the isotropic state: the rest is of second order in the shear rate. */
+static gg_status respond(gg_rough_steady *s, gg_rough_newton *w, double growth, gg_error *err)
+{
+  residual(s, w);
+  for (int r = 0; r < w->m; r++) {
+    gsl_vector_set(w->x, (size_t)r, w->R[r + 1]);
+    for (int q = 0; q < w->m; q++)
+      gsl_matrix_set(w->A, (size_t)r, (size_t)q, w->J[(r + 1) * w->n + q + 1] - (r == q ? growth : 0));
+  }
+  if (!solve(w)) return gg_base_fail(err, GG_FAILED, "no linear response was found");
+  for (int q = 0; q < w->m; q++) s->a[q + 1] -= gsl_vector_get(w->x, (size_t)q);
+  return GG_OK;
+}
+
+gg_status gg_rough_slow_shear_solve(gg_rough_steady *s, const gg_rough_steady *isotropic, double growth, gg_error *err)
+{
+  gg_rough_newton w = {0};
+  gg_base_gsl_enter();
+  s->weight = isotropic->weight;
+  gg_status status = make(s, isotropic->degree, false, err);
+  if (status == GG_OK) status = begin(&w, s->form.n, s->form.n - 1, err);
+  if (status == GG_OK) {
+    take_coefficients(s, isotropic);
+    status = respond(s, &w, growth, err);
+  }
+  end(&w);
+  gg_base_gsl_leave();
+  return status;
+}
+
 /* sum_i x^+_(one + i) x^+_(two + i): a scalar product of creation operators. */
 static void raise(const gg_rough_functions *f, int one, int two, const double *from, double *to)
 {

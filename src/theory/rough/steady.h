@@ -24,6 +24,11 @@ gg_status gg_rough_shear_solve(gg_rough_steady *state, int degree, gg_error *err
 gg_status gg_rough_isotropic_solve(gg_rough_steady *state, int degree, const gg_heating *heating, double *x,
                                    gg_error *err);
 
+/* An isotropic state with its linear response to a slow shear, whose rate the caller sets in gas.shear and in stream;
+ * the rest of *state is what its maker left. growth: rate at which the response grows over f0; plain tests only. */
+gg_status gg_rough_slow_shear_solve(gg_rough_steady *state, const gg_rough_steady *isotropic, double growth,
+                                    gg_error *err);
+
 /* The weight of the next solution: Gaussian of the second moments of this one. False if they are not positive. */
 bool gg_rough_follow(gg_rough_steady *state);
 
