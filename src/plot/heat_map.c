@@ -127,7 +127,7 @@ static void print_names(const heat_page *p, gg_box f, size_t row, size_t column)
   }
   if (row + 1 == m->rows) gg_plot_page_text(&p->page, f.left + f.wide / 2, below + 46, "center", m->x_label);
   if (column == 0) {
-    gg_plot_page_text(&p->page, f.left - 76, middle, "center rotate by 90", m->row_name[row]);
+    gg_plot_page_small_text(&p->page, f.left - 76, middle, "center rotate by 90", m->row_name[row]);
     gg_plot_page_text(&p->page, f.left - 56, middle, "center", m->y_label);
   }
   if (row == 0) gg_plot_page_text(&p->page, f.left + f.wide / 2, f.top - 22, "center", m->column_name[column]);
@@ -155,9 +155,7 @@ static void draw_panel(const heat_page *p, size_t row, size_t column)
     if (is_known(&cell[i]))
       print_number(p, &cell[i], f.left + p->wide * ((double)(i % m->n_x) + 0.5),
                    f.top + tall - p->tall * ((double)(i / m->n_x) + 0.5));
-  if (!known)
-    gg_plot_page_text(&p->page, f.left + wide / 2, f.top + tall / 2, "center tc rgb '#777777'",
-                      wide > 150 ? "nothing to compare" : "nothing");
+  if (!known) gg_plot_page_text(&p->page, f.left + wide / 2, f.top + tall / 2, "center tc rgb '#777777'", "no answer");
   if (m->panel_note && m->panel_note[row * m->columns + column])
     gg_plot_page_small_text(&p->page, f.left + wide, f.top - 7, "right tc rgb '#555555'",
                             m->panel_note[row * m->columns + column]);

@@ -82,8 +82,7 @@ static void name_rows(maps *m, bool difference)
     map_row *row = &m->row[r];
     char method[64];
     gg_plot_method_name(row->method, method, sizeof method);
-    snprintf(row->name, sizeof row->name, difference ? "%s - %s" : "%s/%s - 1", method,
-             row->engines ? "dsmc" : "Enskog");
+    snprintf(row->name, sizeof row->name, difference ? "%s - %s" : "%s/%s", method, row->engines ? "dsmc" : "Enskog");
     m->row_name[r] = row->name;
   }
 }
@@ -96,7 +95,7 @@ static gg_status draw_quantity(maps *m, const char *quantity, const char *pictur
   fill(m, quantity, difference);
   name_rows(m, difference);
   snprintf(m->title, sizeof m->title, "%s: %s (graingas %s)", quantity,
-           difference ? "differences, as a share of the pressure" : "relative deviations", gg_base_build_version);
+           difference ? "differences, as a share of the pressure" : "ratios less 1", gg_base_build_version);
   const gg_heat_map map = {.title = m->title,
                            .n_x = v->x.n,
                            .n_y = v->y.n,

@@ -67,7 +67,7 @@ static void test_drawn(void **state)
   assert_int_equal(count(path, "+0.1<"), 1);
   assert_int_equal(count(path, "+3.0<"), 1);
   assert_int_equal(count(path, "-7.2<"), 1);
-  assert_int_equal(count(path, "nothing"), 1);
+  assert_int_equal(count(path, "no answer"), 1);
   assert_true(count(path, "β = 1") == 1 && count(path, "md/dsmc - 1") == 1);
   /* Each cross has an edge. A cross more where one more run is not steady, no hatch where no cell is below its errors.
    */
