@@ -49,9 +49,18 @@ typedef struct gg_dsmc_channel_cells {
   double *mean;    /* [n x species]: mean number of grains, over about a thermal flight of a diameter */
   double *hits;    /* [n]: grains that collided since the last measurement */
   double *chi;     /* [pairs x 2n]: contact value between the middles of cells a and b, at a + b + 1 */
+  double *filled;  /* [7 n]: local solid fraction, by set_chi */
   double *kernel;  /* [species x (reach + 1)]: fraction of a cell's grains that fills a slice so many half cells away */
-  gg_dsmc_majorant *majorant; /* [n x species x species]: of chi N g_n, with N grains in the partner's cell */
+  gg_dsmc_majorant *majorant; /* [n x species x species]: of chi N g_n, with N grains in the partner's cell; of g_n for
+                                 the first cell of a block */
+  /* Where cells are narrow, candidates are drawn by blocks of `block` cells; 0: by cells. */
+  int block, blocks, far; /* number of blocks; distance of partners in blocks */
+  double *height;         /* [far + 1]: largest max(|k_y|, 1/2) of two grains so many blocks apart */
+  double *most_chi;       /* [2 blocks]: largest contact value between blocks A and B, at A + B */
 } gg_dsmc_channel_cells;
+
+/* Most blocks on either side of a block that have partners. */
+enum { GG_DSMC_CHANNEL_MOST_FAR = 12 };
 
 /* Several threads advance a large gas, and no bit depends on their number. Grains fly and are sorted in parts of equal
  * size; each part has a random stream for contacts with walls. Cells collide in slabs: every second slab at once, since

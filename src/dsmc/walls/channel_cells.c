@@ -17,8 +17,10 @@
 #define DIAMETERS_PER_CELL 0.1
 #define LAYERS_FADE 0.005
 enum {
-  LEAST_CELLS = 20, /* across the channel */
-  OPEN_HEIGHTS = 8  /* with an open top cells reach up to so many heights of the box */
+  LEAST_CELLS = 20,    /* across the channel */
+  OPEN_HEIGHTS = 8,    /* with an open top cells reach up to so many heights of the box */
+  NARROW = 25,         /* cells that a contact distance spans at least, for blocks */
+  BLOCKS_PER_REACH = 8 /* blocks of a contact distance: narrower ones cost tables, wider ones candidates */
 };
 
 double gg_dsmc_channel_cell_width(const gg_model *m)
@@ -64,24 +66,48 @@ static double highest(const gg_dsmc_channel *d)
   return high;
 }
 
-/* Partition the grains into parts and the cells into slabs. Partners of a slab are beyond its ends by at most the
- * contact distance and a cell, for rounding. */
+/* Contact distance in cells. */
+static double reach_of(const gg_dsmc_channel *d)
+{
+  double reach = 0;
+  for (int p = 0; p < gg_pairs_of(d->model.n_species); p++) reach = fmax(reach, d->reach[p] * d->cells.inverse);
+  return reach;
+}
+
+/* Blocks of cells, for one species: grains of several species are not consecutive in a block. */
+static gg_status make_blocks(gg_dsmc_channel *d, gg_error *err)
+{
+  gg_dsmc_channel_cells *c = &d->cells;
+  const double reach = reach_of(d);
+  if (d->model.n_species > 1 || reach < NARROW) return GG_OK;
+  c->block = (int)fmax(1, floor(reach / BLOCKS_PER_REACH));
+  c->blocks = (c->n + c->block - 1) / c->block;
+  c->far = (int)ceil(reach / c->block);
+  c->height = gg_base_array_new((size_t)c->far + 1, sizeof *c->height, err);
+  c->most_chi = gg_base_array_new(2 * (size_t)c->blocks, sizeof *c->most_chi, err);
+  if (!c->height || !c->most_chi) return GG_FAILED;
+  for (int k = 0; k <= c->far; k++) c->height[k] = fmax(0.5, fmin((k + 1) * c->block / reach, 1));
+  return GG_OK;
+}
+
+/* Partition the grains into parts and the cells into slabs of whole blocks. Partners of a slab are beyond its ends by
+ * at most the contact distance, a block and a cell, for rounding. */
 static gg_status partition(gg_dsmc_channel *d, gg_error *err)
 {
   const gg_dsmc_channel_cells *c = &d->cells;
   const int64_t bins = (int64_t)c->n * d->model.n_species, n = d->model.n;
-  double reach = 0;
-  for (int p = 0; p < gg_pairs_of(d->model.n_species); p++) reach = fmax(reach, d->reach[p] * c->inverse);
+  const int block = c->block > 0 ? c->block : 1, blocks = (c->n + block - 1) / block;
+  const double beyond = ceil(reach_of(d)) + 1 + c->block;
   d->parts = (int)fmin(GG_DSMC_CHANNEL_MOST_PARTS, fmax(1, (double)(n / (16 * bins))));
-  d->slabs = (int)fmin(GG_DSMC_CHANNEL_MOST_SLABS, floor(c->n / (2 * (ceil(reach) + 1)) / 2) * 2);
+  d->slabs = (int)fmin(GG_DSMC_CHANNEL_MOST_SLABS, floor(c->n / (2 * beyond) / 2) * 2);
   if (n < GG_DSMC_CHANNEL_LEAST_SHARED) d->parts = 1;
   if (n < GG_DSMC_CHANNEL_LEAST_SHARED || d->slabs < 4) d->slabs = 1;
   const size_t bytes = (size_t)d->slabs * sizeof *d->slab;
   if (!(d->slab = aligned_alloc(64, bytes))) return gg_base_out_of_memory(err);
   memset(d->slab, 0, bytes);
   for (int k = 0; k < d->slabs; k++) {
-    d->slab[k].first = (int)((int64_t)c->n * k / d->slabs);
-    d->slab[k].end = (int)((int64_t)c->n * (k + 1) / d->slabs);
+    d->slab[k].first = (int)((int64_t)blocks * k / d->slabs) * block;
+    d->slab[k].end = (int)fmin((double)((int64_t)blocks * (k + 1) / d->slabs * block), c->n);
   }
   return GG_OK;
 }
@@ -104,12 +130,15 @@ gg_status gg_dsmc_channel_cells_new(gg_dsmc_channel *d, gg_error *err)
   c->mean = gg_base_array_new(n * species, sizeof *c->mean, err);
   c->hits = gg_base_array_new(n, sizeof *c->hits, err);
   c->chi = gg_base_array_new(pairs * 2 * n + 2, sizeof *c->chi, err);
+  c->filled = gg_base_array_new(7 * n, sizeof *c->filled, err);
   c->kernel = gg_base_array_new(species * (size_t)(c->reach + 1), sizeof *c->kernel, err);
   c->majorant = gg_base_array_new(n * species * species, sizeof *c->majorant, err);
+  GG_TRY(make_blocks(d, err));
   GG_TRY(partition(d, err));
   c->stride = (n * species + 15) / 16 * 16;
   c->next = gg_base_array_new((size_t)d->parts * c->stride, sizeof *c->next, err);
-  if (!c->start_below || !c->next || !c->counted || !c->mean || !c->hits || !c->chi || !c->kernel || !c->majorant)
+  if (!c->start_below || !c->next || !c->counted || !c->mean || !c->hits || !c->chi || !c->filled || !c->kernel ||
+      !c->majorant)
     return GG_FAILED;
   c->start = c->start_below + species;
   set_kernels(d);
@@ -124,8 +153,11 @@ void gg_dsmc_channel_cells_free(gg_dsmc_channel_cells *c)
   free(c->mean);
   free(c->hits);
   free(c->chi);
+  free(c->filled);
   free(c->kernel);
   free(c->majorant);
+  free(c->height);
+  free(c->most_chi);
 }
 
 /* Compute the first index of each cell, and of each part within it, from the counts. */
@@ -182,20 +214,43 @@ void gg_dsmc_channel_sort(gg_dsmc_channel *d)
   d->sorted = from;
 }
 
-/* Local solid fraction *filled at a place, in half cells, and the sum of its species' parts over their diameters. */
-static void filling_at(const gg_dsmc_channel *d, int place, double *filled, double *over_d)
+/* to[a] += weight mean[a + shift]. */
+GG_CLONES static void spread(int n, int shift, double weight, const double *restrict mean, double *restrict to)
 {
-  const gg_dsmc_channel_cells *c = &d->cells;
-  const int species = d->model.n_species;
-  *filled = *over_d = 0;
+  const int first = shift < 0 ? -shift : 0, end = shift > 0 ? n - shift : n;
+  for (int a = first; a < end; a++) to[a] += weight * mean[a + shift];
+}
+
+/* Local solid fraction at all places: n in the middles of cells, then n at their upper edges. And the sum of its
+ * species' parts over their diameters. */
+static void set_filling(gg_dsmc_channel *d)
+{
+  gg_dsmc_channel_cells *c = &d->cells;
+  const int species = d->model.n_species, n = c->n;
+  double *mean = c->filled + 4 * n, *grains = mean + n;
+  memset(c->filled, 0, 4 * (size_t)n * sizeof *c->filled);
   for (int s = 0; s < species; s++) {
     const double diameter = d->model.diameter[s], *kernel = c->kernel + s * (c->reach + 1);
-    double grains = 0;
-    for (int b = (place - c->reach + 1) / 2 > 0 ? (place - c->reach + 1) / 2 : 0; b < c->n && 2 * b <= place + c->reach;
-         b++)
-      grains += c->mean[b * species + s] * kernel[abs(place - 2 * b)];
-    const double part = M_PI / 6 * diameter * diameter * diameter * grains / c->volume;
-    *filled += part, *over_d += part / diameter;
+    memset(grains, 0, 2 * (size_t)n * sizeof *grains);
+    for (int b = 0; b < n; b++) mean[b] = c->mean[b * species + s];
+    for (int k = -c->reach; k <= c->reach; k++) { /* half cells from a place to the middle of a cell */
+      const bool edge = k % 2;
+      if (abs(k) / 2 < n) spread(n, (k + edge) / 2, kernel[abs(k)], mean, grains + edge * n);
+    }
+    for (int place = 0; place < 2 * n; place++) {
+      const double part = M_PI / 6 * diameter * diameter * diameter * grains[place] / c->volume;
+      c->filled[place] += part, c->filled[2 * n + place] += part / diameter;
+    }
+  }
+}
+
+static void set_most_chi(gg_dsmc_channel_cells *c)
+{
+  for (int both = 0; both < 2 * c->blocks; both++) {
+    double most = 0;
+    for (int k = both * c->block; k <= (both + 2) * c->block - 2 && k < 2 * c->n - 1; k++)
+      if (c->chi[k + 1] > most) most = c->chi[k + 1];
+    c->most_chi[both] = most;
   }
 }
 
@@ -207,9 +262,10 @@ double gg_dsmc_channel_set_chi(gg_dsmc_channel *d)
   /* Mean numbers of a start or of a bed packed by gravity go beyond the densities of contact values. */
   const double most = gg_common_contact_value_limit(m->n_species == 1 ? kind : GG_CARNAHAN_STARLING);
   double beyond = 0;
+  if (!m->boltzmann) set_filling(d);
   for (int place = 0; place < 2 * c->n; place++) {
-    double filled = 0, over_d = 0;
-    if (!m->boltzmann) filling_at(d, place, &filled, &over_d);
+    const double *at = c->filled + place / 2 + place % 2 * c->n;
+    double filled = at[0], over_d = at[2 * c->n];
     if (filled > most) {
       over_d *= most / filled, filled = most;
       for (int s = 0; place % 2 == 0 && s < m->n_species; s++) beyond += c->mean[place / 2 * m->n_species + s];
@@ -223,6 +279,7 @@ double gg_dsmc_channel_set_chi(gg_dsmc_channel *d)
                 : gg_common_contact_value_mixture(
                       filled, over_d, 2 * m->diameter[i] * m->diameter[j] / (m->diameter[i] + m->diameter[j]));
   }
+  set_most_chi(c);
   return beyond;
 }
 

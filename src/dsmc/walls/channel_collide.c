@@ -12,25 +12,44 @@
  * azimuth of the two is chosen in proportion to g_n. Then the rate of each k is exactly the rate above, with 5/8 of the
  * candidates.
  *
+ * In dense gases cells are so narrow, and N fluctuates so much, that few candidates would be accepted. There candidates
+ * are those of a block of cells A, of width w: a grain i of it; a block B of partners, in proportion to N_B H chi, with
+ * H the largest h and chi the largest contact value of grains in A and B; any grain j of B; and a height that is
+ * uniform in the cell of j, as grains are in a cell. That height gives k_y. It has the rate above, since each grain of
+ * a cell stands for an equal part of its N. The candidate is accepted if chi V, over H and the largest chi, is above
+ * the random limit.
+ *
  * Random numbers of some candidates are drawn, and the candidates tested, at once. Candidates whose grains collide
  * meanwhile are tested again. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "dsmc/kernel/normal.h"
 #include "dsmc/walls/channel.h"
 #include "simd/eight.h"
 
-/* Constants and sums of the candidates of two species in a cell. */
+enum { SUMS = 4, MOST_BLOCKS = 2 * GG_DSMC_CHANNEL_MOST_FAR + 1 }; /* SUMS: that a processor adds to at once */
+
+/* Blocks of partners. */
+typedef struct partners {
+  int n;
+  double below[MOST_BLOCKS + SUMS + 1], h[MOST_BLOCKS]; /* sums of N_B H chi over blocks below; H chi */
+  uint32_t first[MOST_BLOCKS], grains[MOST_BLOCKS];     /* first grain, and their number */
+} partners;
+
+/* Constants and sums of the candidates of two species in a cell, or of a block. */
 typedef struct pass {
   gg_dsmc_channel_slab *slab;
-  int cell, one, two, pair;
-  uint32_t first, n;     /* grains of the cell */
-  const uint32_t *start; /* first partners by cell, from the empty cell below the first one */
-  const double *chi;     /* contact values with these cells */
-  double bottom;         /* lower edge of that empty cell */
-  double last;           /* index of the empty cell above the last one */
-  double reach;          /* distance of partners, in cells */
+  int cell, one, two, pair; /* the (first) cell */
+  uint32_t first, n;        /* its grains */
+  const uint32_t *start;    /* first partners by cell, from the empty cell below the first one */
+  const double *chi;        /* contact values with these cells */
+  double bottom;            /* lower edge of that empty cell */
+  double last;              /* index of the empty cell above the last one; by blocks, within the last cell */
+  double reach;             /* distance of partners, in cells */
+  double inverse_reach;
+  const partners *partners; /* by blocks; else undefined */
   double floor, majorant, largest;
   double recent; /* largest value from which the majorant was last learned */
   uint64_t candidates;
@@ -93,11 +112,11 @@ GG_INLINE void collide(gg_dsmc_channel *d, const pass *p, double time, uint32_t 
 /* Candidates that are drawn at once. */
 enum { BLOCK = 32 };
 typedef struct block {
-  gg_half relative[BLOCK];                     /* first grain minus second, in height and velocity */
-  double kx[BLOCK], ky[BLOCK], kz[BLOCK];      /* k; k_x and k_z may get the other sign */
-  double h[BLOCK], scale[BLOCK], limit[BLOCK]; /* h(k_y), chi N, random limit */
-  double sign[BLOCK];                          /* random number that decides the sign */
-  uint32_t i[BLOCK], j[BLOCK], cell[BLOCK], n; /* grains, cell of the second grain */
+  gg_half relative[BLOCK];                                  /* first grain minus second, in height and velocity */
+  double kx[BLOCK], ky[BLOCK], kz[BLOCK];                   /* k; k_x and k_z may get the other sign */
+  double h[BLOCK], scale[BLOCK], limit[BLOCK];              /* h(k_y), chi N, random limit */
+  double sign[BLOCK];                                       /* random number that decides the sign */
+  uint32_t i[BLOCK], j[BLOCK], home[BLOCK], cell[BLOCK], n; /* grains, and their cells, the second one's plus 1 */
 } __attribute__((aligned(64))) block;
 
 typedef int32_t int32_8 __attribute__((vector_size(32)));
@@ -124,19 +143,25 @@ GG_INLINE gg_v8 one_to_two(gg_u8 word)
   return (gg_v8)((word & UINT32_MAX) << 20 | 0x3ff0000000000000u);
 }
 
+/* Half of all azimuths are drawn: up to pi/4 either way, or the same rotated by pi/2 (`other`: odd numbers). */
+GG_INLINE void draw_azimuth(gg_u8 azimuth, gg_u8 other, gg_v8 across, block *b, uint32_t k)
+{
+  parts angle = {.all = (one_to_two(azimuth) - 1.5) * M_PI_2}, s, c;
+  for (int l = 0; l < GG_BATCH / GG_WIDTH; l++) gg_dsmc_lane_sincos(angle.lanes[l], &s.lanes[l], &c.lanes[l]);
+  const gg_k8 rotated = gg_odd8((gg_v8)other);
+  EIGHT(b->kx, k) = across * gg_choose8(rotated, s.all, c.all);
+  EIGHT(b->kz, k) = across * gg_choose8(rotated, c.all, s.all);
+}
+
 /* Draw eight directions. |k_y| has the distribution 4/5 k_y up to 1/2 and 1/5 + 4/5 k_y^2 above; its inverse is the
- * smaller of two functions. Half of all azimuths are drawn: up to pi/4 either way, or the same rotated by pi/2. */
+ * smaller of two functions. */
 GG_INLINE void draw_direction(gg_u8 height, gg_u8 azimuth, block *b, uint32_t k)
 {
   const gg_v8 low = 1.25 * (one_to_two(height) - (1 - 0x1p-33)), h = gg_sqrt8(gg_larger8(low - 0.25, gg_all8(0.25)));
-  const gg_v8 ky = gg_smaller8(low, h), across = gg_sqrt8(1 - ky * ky);
-  parts angle = {.all = (one_to_two(azimuth) - 1.5) * M_PI_2}, s, c;
-  for (int l = 0; l < GG_BATCH / GG_WIDTH; l++) gg_dsmc_lane_sincos(angle.lanes[l], &s.lanes[l], &c.lanes[l]);
-  const gg_k8 other = gg_odd8((gg_v8)(height >> 32));
-  EIGHT(b->kx, k) = across * gg_choose8(other, s.all, c.all);
+  const gg_v8 ky = gg_smaller8(low, h);
   EIGHT(b->ky, k) = (gg_v8)((gg_u8)ky | (height & 0x8000000000000000u));
-  EIGHT(b->kz, k) = across * gg_choose8(other, c.all, s.all);
   EIGHT(b->h, k) = h;
+  draw_azimuth(azimuth, height >> 32, gg_sqrt8(1 - ky * ky), b, k);
 }
 
 /* Find the cell of the partner. Grains above the last cell of an open top get the empty cell above it. */
@@ -168,13 +193,66 @@ GG_INLINE void find_partner(const gg_dsmc_channel *d, const pass *p, block *b, u
   const uint32_t n = start[1] - start[0], j = start[0] + (uint32_t)((uint64_t)b->j[k] * n >> 32);
   b->relative[k] = grains[b->i[k]] - grains[j];
   b->j[k] = j;
+  b->home[k] = (uint32_t)p->cell;
   b->scale[k] = p->chi[cell] * (int)n;
+}
+
+/* Cells of these heights, which are in units of cells. */
+GG_INLINE gg_list8 cells_of(gg_v8 height, double last)
+{
+  return (gg_list8) __builtin_convertvector(gg_smaller8(height, gg_all8(last)), int32_8);
+}
+
+/* Draw eight candidates by blocks. The product of 32 random bits and the number of partners is j in its upper half, and
+ * the place in the cell of j in its lower one. */
+GG_INLINE void draw_by_blocks(const gg_dsmc_channel *d, const pass *p, gg_dsmc_lane_rng *rng, block *b, uint32_t k)
+{
+  const gg_dsmc_channel_cells *c = &d->cells;
+  const gg_dsmc_channel_motion *grains = d->grains.at;
+  const partners *of = p->partners;
+  const gg_u8 partner_bits = next_words(rng), direction_bits = next_words(rng), limit_bits = next_words(rng),
+              i = (partner_bits >> 32) * p->n >> 32;
+  const gg_v8 at = of->below[of->n] * (one_to_two(direction_bits) - 1);
+  gg_v8 far = gg_all8(0), from, to, h;
+  gg_u8 first, n;
+  gg_v8 above[SUMS] = {far, far, far, far};
+  for (int q = 1; q < of->n; q += SUMS)
+    for (int s = 0; s < SUMS; s++)
+      above[s] += gg_choose8(gg_not_above8(gg_all8(of->below[q + s]), at), gg_all8(1), gg_all8(0));
+  far = (above[0] + above[1]) + (above[2] + above[3]);
+  const gg_list8 which = (gg_list8) __builtin_convertvector(far, int32_8);
+  *(gg_list8 *)&b->i[k] = p->first + __builtin_convertvector(i, gg_list8);
+  for (int l = 0; l < GG_BATCH; l++)
+    first[l] = of->first[which[l]], n[l] = of->grains[which[l]], h[l] = of->h[which[l]];
+  const gg_u8 product = (partner_bits & UINT32_MAX) * n, j = first + (product >> 32);
+  *(gg_list8 *)&b->j[k] = __builtin_convertvector(j, gg_list8);
+  for (uint32_t l = 0; l < GG_BATCH; l++) from[l] = grains[b->i[k + l]].y, to[l] = grains[b->j[k + l]].y;
+  from = (from - c->from) * c->inverse, to = (to - c->from) * c->inverse;
+  const gg_list8 home = cells_of(from, p->last), cell = cells_of(to, p->last);
+  const gg_v8 ky = (__builtin_convertvector(cell, gg_v8) + (one_to_two(product) - 1) - from) * p->inverse_reach;
+  gg_v8 chi;
+  for (int l = 0; l < GG_BATCH; l++) chi[l] = c->chi[home[l] + cell[l] + 1];
+  const gg_v8 squared = 1 - ky * ky;
+  *(gg_list8 *)&b->home[k] = home;
+  *(gg_list8 *)&b->cell[k] = cell + 1;
+  EIGHT(b->ky, k) = ky;
+  EIGHT(b->h, k) = h;
+  EIGHT(b->scale, k) = gg_choose8(gg_less8(gg_all8(0), squared), chi, gg_all8(0));
+  EIGHT(b->limit, k) = p->floor + p->majorant * (one_to_two(limit_bits) - 1);
+  EIGHT(b->sign, k) = one_to_two(direction_bits >> 31) - 1;
+  draw_azimuth(limit_bits >> 32, direction_bits >> 32, gg_sqrt8(gg_larger8(squared, gg_all8(0))), b, k);
 }
 
 /* Draw the candidates of a block, in whole batches of eight. */
 static void draw(gg_dsmc_channel *d, const pass *p, gg_dsmc_lane_rng *rng, block *b)
 {
   const uint32_t n = (b->n + GG_BATCH - 1) / GG_BATCH * GG_BATCH;
+  if (d->cells.block > 0) {
+    const gg_half *grains = (const gg_half *)d->grains.at;
+    for (uint32_t k = 0; k < n; k += GG_BATCH) draw_by_blocks(d, p, rng, b, k);
+    for (uint32_t k = 0; k < n; k++) b->relative[k] = grains[b->i[k]] - grains[b->j[k]];
+    return;
+  }
   for (uint32_t k = 0; k < n; k += GG_BATCH) {
     draw_numbers(p, rng, b, k);
     find_cells(d, p, b, k);
@@ -194,7 +272,7 @@ static bool try_candidate(gg_dsmc_channel *d, pass *p, const block *b, uint32_t 
   if (!(b->limit[m] * h < value)) return false;
   const double sign = b->sign[m] * (one + other) < other ? -1 : 1;
   collide(d, p, p->begin + m * p->tick, i, j, (gg_vec){sign * b->kx[m], b->ky[m], sign * b->kz[m]});
-  d->cells.hits[p->cell]++;
+  d->cells.hits[b->home[m]]++;
   d->cells.hits[b->cell[m] - 1]++;
   return true;
 }
@@ -254,7 +332,8 @@ static void collide_block(gg_dsmc_channel *d, pass *p, block *b)
 
 enum { WINDOW = 20000 }; /* candidates of a window of the majorant (majorant.h) */
 
-/* Collisions of a slab: number `index` of the `total` combinations of cells and pairs of species in the step. */
+/* Collisions of a slab: from number `index` on of the `total` combinations of cells and pairs of species in the step.
+ */
 typedef struct sweep {
   gg_dsmc_channel *d;
   gg_dsmc_channel_slab *slab;
@@ -263,16 +342,39 @@ typedef struct sweep {
   double dt, index, total;
 } sweep;
 
-static void collide_species(sweep *w, int cell, int one, int two)
+/* Set the blocks of partners of a block that begins with this cell. */
+static void weigh_blocks(const gg_dsmc_channel_cells *c, int cell, partners *of)
+{
+  const int here = cell / c->block, lowest = here < c->far ? 0 : here - c->far,
+            highest = here + c->far < c->blocks ? here + c->far : c->blocks - 1;
+  of->below[0] = 0;
+  of->n = highest - lowest + 1;
+  for (int k = 0; k < of->n; k++) {
+    const int other = lowest + k, end = (other + 1) * c->block;
+    of->first[k] = c->start[other * c->block];
+    of->grains[k] = c->start[end < c->n ? end : c->n] - of->first[k];
+    of->h[k] = c->height[abs(other - here)] * c->most_chi[here + other];
+    of->below[k + 1] = of->below[k] + of->grains[k] * of->h[k];
+  }
+  for (int k = 1; k <= SUMS; k++) of->below[of->n + k] = INFINITY;
+}
+
+static void collide_species(sweep *w, int cell, int end, int one, int two)
 {
   gg_dsmc_channel *d = w->d;
   gg_dsmc_channel_cells *c = &d->cells;
   const int species = d->model.n_species, here = cell * species + one, pair = gg_pair(one, two);
-  const uint32_t first = c->start[here], n = c->start[here + 1] - first;
+  const uint32_t first = c->start[here], n = c->start[(end - 1) * species + one + 1] - first;
   gg_dsmc_majorant *learned = &c->majorant[here * species + two];
   if (n == 0) return;
   const double thermal = sqrt(d->now.temperature), sigma = d->model.sigma[pair], reach = d->reach[pair] * c->inverse;
-  const double rate = 1.25 * M_PI * sigma * sigma / c->volume * n * w->dt;
+  double rate = M_PI * sigma / c->volume * n * w->dt; /* of candidates, per unit of the majorant */
+  partners of;
+  if (c->block > 0) {
+    weigh_blocks(c, cell, &of);
+    rate *= c->width * of.below[of.n];
+  } else
+    rate *= 1.25 * sigma;
   pass p = {.slab = w->slab,
             .cell = cell,
             .one = one,
@@ -283,8 +385,10 @@ static void collide_species(sweep *w, int cell, int one, int two)
             .start = c->start - species + two,
             .chi = c->chi + pair * 2 * c->n + cell,
             .bottom = c->from - c->width,
-            .last = c->n + 1,
+            .last = c->block > 0 ? c->n - 0.5 : c->n + 1,
             .reach = reach,
+            .inverse_reach = 1 / reach,
+            .partners = &of,
             .majorant = gg_dsmc_majorant_at(learned, thermal),
             .recent = learned->now * thermal,
             .contact = d->model.contact[one][two]};
@@ -292,7 +396,7 @@ static void collide_species(sweep *w, int cell, int one, int two)
   /* After a majorant overflow: correction passes, each over the layer above. */
   for (uint64_t tried = 0; p.majorant > 0; p.floor += p.majorant, p.majorant = 1.1 * p.largest - p.floor) {
     p.candidates = (uint64_t)(rate * p.majorant + gg_rng_uniform(&w->rng));
-    p.tick = w->dt / w->total / (double)(p.candidates + 1);
+    p.tick = w->dt * (end - cell) / w->total / (double)(p.candidates + 1);
     p.begin = d->now.time + w->dt * w->index / w->total + p.tick;
     for (uint64_t left = p.candidates; left > 0; left -= b.n) {
       b.n = left < BLOCK ? (uint32_t)left : BLOCK;
@@ -308,13 +412,15 @@ static void collide_species(sweep *w, int cell, int one, int two)
   }
 }
 
-/* Prefetch the grains of a cell, if it exists: random accesses would load them one by one. */
-static void prefetch(const gg_dsmc_channel *d, int cell)
+/* Prefetch the grains of cells [first, end), as far as they exist: random accesses would load them one by one. */
+static void prefetch(const gg_dsmc_channel *d, int first, int end)
 {
   const gg_dsmc_channel_cells *c = &d->cells;
   const int species = d->model.n_species;
-  if (cell < 0 || cell >= c->n) return;
-  for (uint32_t i = c->start[cell * species]; i < c->start[(cell + 1) * species]; i += 2)
+  if (first < 0) first = 0;
+  if (end > c->n) end = c->n;
+  if (first >= end) return;
+  for (uint32_t i = c->start[first * species]; i < c->start[end * species]; i += 2)
     __builtin_prefetch(&d->grains.at[i], 1);
 }
 
@@ -329,16 +435,20 @@ static void collide_slab(void *context, int part)
   const stage *s = context;
   gg_dsmc_channel *d = s->d;
   const int nth = 2 * part + s->odd, each = d->model.n_species * d->model.n_species, ahead = d->cells.reach / 2 + 2;
+  const int unit = d->cells.block > 0 ? d->cells.block : 1;
   gg_dsmc_channel_slab *slab = &d->slab[nth];
-  const int all = (slab->end - slab->first) * each;
+  const int all = (slab->end - slab->first + unit - 1) / unit * each;
   sweep w = {.d = d, .slab = slab, .rng = d->now.streams.cells[nth], .dt = s->dt, .total = d->cells.n * each};
   gg_dsmc_lane_rng_load(&w.lanes, &d->now.streams.lanes[nth]);
-  for (int cell = s->backward ? slab->end : slab->first, k = -ahead; k < ahead; k++) prefetch(d, cell + k);
+  const int begin = s->backward ? slab->end : slab->first;
+  prefetch(d, begin - ahead, begin + ahead);
   for (int t = 0; t < all; t++) {
-    const int k = s->backward ? all - 1 - t : t, cell = slab->first + k / each, pair = k % each;
-    if (t % each == 0) prefetch(d, s->backward ? cell - ahead : cell + ahead);
-    w.index = slab->cells_before * each + t;
-    collide_species(&w, cell, pair / d->model.n_species, pair % d->model.n_species);
+    const int k = s->backward ? all - 1 - t : t, cell = slab->first + k / each * unit, pair = k % each;
+    const int end = cell + unit < slab->end ? cell + unit : slab->end;
+    if (t % each == 0) prefetch(d, s->backward ? cell - ahead : cell + ahead, s->backward ? end - ahead : end + ahead);
+    w.index =
+        (slab->cells_before + (s->backward ? slab->end - end : cell - slab->first)) * each + t % each * (end - cell);
+    collide_species(&w, cell, end, pair / d->model.n_species, pair % d->model.n_species);
   }
   gg_dsmc_lane_rng_save(&w.lanes, &d->now.streams.lanes[nth]);
   d->now.streams.cells[nth] = w.rng;

@@ -205,8 +205,9 @@ static void begin(gg_dsmc_channel *d)
   gg_dsmc_channel_set_chi(d);
   for (int k = 0; k < gg_pairs_of(species) * 2 * c->n; k++)
     if (c->chi[k + 1] > chi) chi = c->chi[k + 1];
+  const double scale = c->block > 0 ? 1 : chi * most;
   for (int k = 0; k < c->n * species * species; k++)
-    gg_dsmc_majorant_start(&c->majorant[k], 2 * sqrt(fastest) * chi * most, sqrt(s->temperature));
+    gg_dsmc_majorant_start(&c->majorant[k], 2 * sqrt(fastest) * scale, sqrt(s->temperature));
 }
 
 static void seed_streams(gg_dsmc_channel_streams *s, uint64_t seed, uint64_t next)
