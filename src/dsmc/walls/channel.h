@@ -53,7 +53,7 @@ typedef struct gg_dsmc_channel_cells {
   double *kernel;  /* [species x (reach + 1)]: fraction of a cell's grains that fills a slice so many half cells away */
   gg_dsmc_majorant *majorant; /* [n x species x species]: of chi N g_n, with N grains in the partner's cell; of g_n for
                                  the first cell of a block */
-  /* Where cells are narrow, candidates are drawn by blocks of `block` cells; 0: by cells. */
+  /* Narrow cells: candidates are drawn by blocks of `block` cells; 0: by cells. */
   int block, blocks, far; /* number of blocks; distance of partners in blocks */
   double *height;         /* [far + 1]: largest max(|k_y|, 1/2) of two grains so many blocks apart */
   double *most_chi;       /* [2 blocks]: largest contact value between blocks A and B, at A + B */
