@@ -90,10 +90,11 @@ def follow(gas, spin, count, seed, collisions=40):
 def planted():
     print("engine  phi   e    mu   seeds  loss/formula        loss/formula at T    T_own/T             growth/(zeta/2)")
     for engine, grains, count, phi, e, mu in (("dsmc", 100000, 200, 0, 0.9, 0.5), ("dsmc", 100000, 200, 0, 0.9, 0.2),
-                                              ("dsmc", 100000, 200, 0.1, 0.7, 0.5), ("md", 4000, 40, 0.05, 0.9, 0.5),
+                                              ("dsmc", 100000, 200, 0.1, 0.7, 0.5), ("dsmc", 100000, 1000, 0.05, 0.9, 0.5),
+                                              ("md", 4000, 40, 0.05, 0.9, 0.5), ("md", 4000, 40, 0.01, 0.9, 0.5),
                                               ("md", 4000, 40, 0.02, 0.8, 0.3)):
         found = []
-        for seed in range(1, 9):
+        for seed in range(1, 25 if (phi, e) in ((0.05, 0.9), (0.01, 0.9)) else 9):
             gas = Gas(engine, grains, phi, e, 0, mu, seed)
             gas.advance(20)
             c = np.pi**2 * gas.mu_kick
