@@ -170,7 +170,7 @@ gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, g
     const gg_quantity_row *row = &result->rows.row[i];
     if (is_shown(&all->model, row->quantity) && gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
       add_curve(all, row, &f, known ? theory : NULL, 0, list);
-    /* The course after the last change may be small beside the one before: it gets a picture of its own. */
+    /* Changes after the last step of the protocol may be small beside those before it: add a separate curve. */
     if (row->quantity == GG_Q_TEMPERATURE && changed > 0 && changed + 1 < all->replica[0].series.n &&
         gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
       add_curve(all, row, &f, known ? theory : NULL, changed, list);
