@@ -59,7 +59,7 @@ gg_mean gg_run_time_course_end(const gg_replicas *all, gg_quantity q)
   return over_replicas(all, &f, k, r->series.n - 1);
 }
 
-#define LITTLE 0.05 /* seconds of processor time: who interrupts a run waits for its result */
+#define LITTLE 0.05 /* seconds of processor time, so that an interrupted run reports its result soon */
 
 /* Kinetic theory at each of the times, from the temperatures of the start; NaN after a change to a gas that no theory
  * describes, and after an interruption. */
