@@ -33,7 +33,8 @@ const gg_command gg_cli_commands[] = {
      GG_OPT_SWEEP | GG_OPT_ACCEPT | GG_OPT_SET | GG_OPT_PICTURE | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_JSON |
          GG_OPT_QUIET,
      gg_cli_sweep_main},
-    {"validate", "[SWEEP.yaml]", "Is dsmc right, and where do md and theories leave Enskog's equation? Over a grid",
+    {"validate", "[SWEEP.yaml]",
+     "Both engines and the theories against Enskog's equation, over a grid: verdict and maps",
      "Compares both engines and all theories with Enskog's equation, solved without random numbers, at every point of "
      "a sweep. Without a file: over the standard grid of 180 points in density and restitution, for smooth, rough and "
      "frictional grains. It takes eight minutes of processor time, with --quick one. Like any sweep it continues after "
@@ -58,8 +59,7 @@ const gg_command gg_cli_commands[] = {
      "on. Needs positions: md has them, and dsmc between walls has heights alone (x = z = 0). Without "
      "output.trajectory_every in the scene it is the last state.",
      GG_OPT_PREFIX | GG_OPT_ONLY | GG_OPT_QUIET, gg_cli_export_main},
-    {"info", "[FILE|WORD]",
-     "Print the contents of a result or checkpoint, the meaning of a scene or the definition of a word",
+    {"info", "[FILE|WORD]", "Contents of a result or checkpoint, meaning of a scene, definition of a word",
      "FILE is a scene, a result or a checkpoint. WORD is a scene key, a quantity, a theory, a flow or an observable: "
      "graingas info N1 prints its definition in five lines, --all in full. Without an argument: every scene key with "
      "its "
