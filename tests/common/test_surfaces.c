@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: every shape says when a grain in flight touches it, straight or on a parabola, as a search in small steps
- * along its clearance does; at the contact the normal points along the clearance's gradient; a grain that was put
- * outside touches or is clear, and touches nowhere else than its height says; what touches and leaves is not touched at
- * once; which wall is the image of which. Of a thermal wall, on ridges, too: grains leave with the moments of a flux of
- * half-Maxwellians, in the given share of contacts; impulse and heat are what they lose; no other wall draws a number.
- */
+/* Proves, for every shape of wall:
+ * - The contact time of a grain on a line or parabola is that of a search in small steps along its clearance.
+ * - At the contact the normal is the gradient of the clearance.
+ * - A grain that has just bounced does not touch again at once.
+ * - Walls of a channel are images of each other, and grains fit between ridges.
+ * - Thermal walls, with ridges, too, re-emit the given fraction of grains with the moments of the flux of a
+ *   half-Maxwellian. Impulse and heat of the wall are those that grains lose. Other walls draw no random number. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
