@@ -23,8 +23,8 @@ extern void __libc_free(void *block);
 
 enum { SLOTS = 1 << 17, FRAMES = 24 };
 
-/* Hash table by address of the blocks that were allocated while armed and are not freed. Slots of freed blocks are not
- * reused, so that open addressing finds the others. */
+/* Entry of a hash table by address: blocks that were allocated while armed. A freed block keeps its slot, with number
+ * 0, so that open addressing finds the others. */
 typedef struct slot {
   void *block;
   const void *caller;
