@@ -63,7 +63,7 @@ static gg_status restore(gg_replicas *all, const gg_archive *a, gg_error *err)
   return GG_OK;
 }
 
-/* Number of samples that every replica has, at most `due`. Replicas differ if a run was stopped between two steps. */
+/* Number of samples that every replica has, at most `due`. Replicas differ if a run was stopped within a step. */
 static uint64_t least_samples(const gg_archive *a, uint64_t due)
 {
   uint64_t least = due;

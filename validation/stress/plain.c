@@ -28,7 +28,7 @@ static void note(void *context, const gg_collision_record *collision)
 }
 
 /* Make an engine as gg_md_ops.create does, but with another grid. Positions of an equilibrium start are copied from the
- * first engine, since they would depend on the grid. */
+ * first engine, which has found them by a simulation. */
 static gg_status make_reference(const gg_model *model, uint64_t seed, const gg_engine_grains *g, gg_md **engine,
                                 gg_error *err)
 {
