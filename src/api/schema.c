@@ -17,7 +17,7 @@ static json_t *varied_schema(void)
                           "pattern", "^(collision\\.(e|beta|mu)|run\\.until|species\\.[0-9]+)\\.[A-Za-z0-9_-]+$");
   return json_pack(
       "{s:s, s:[O, {s:s, s:o}]}", "description",
-      "Of a sweep: values of keys, FIRST:LAST:STEP, a list, or LOW..HIGH beside random: {points: 100}. Every "
+      "Sweeps only: values of keys, as FIRST:LAST:STEP, a list, or LOW..HIGH beside random: {points: 100}. Every "
       "combination is a point; in a list of maps the keys of one map change together.",
       "anyOf", map, "type", "array", "items", map);
 }

@@ -73,9 +73,9 @@ static const engine_bench md = {
     "collisions",
     "Elastic smooth spheres in a periodic box, no stress measured: millions of collisions per CPU-second on one core, "
     "median (slowest - fastest) of repeats, time per collision",
-    "What a scene's features cost: collisions between grains per CPU-second over that of the scene beside it, timed in "
-    "turn; median (least - largest) of repeats. Elastic, smooth and periodic unless said otherwise; sheared and moving "
-    "walls: e = 0.9, rough there: beta = 0, frictional: mu = 0.123",
+    "Cost of a scene's features: collisions between grains per CPU-second over that of the scene in column `against`, "
+    "timed in turn; median (least - largest) of repeats. Elastic, smooth and periodic unless the row names another "
+    "case. Sheared, moving walls: e = 0.9; rough among them: beta = 0; frictional: mu = 0.123",
     "collisions per CPU-second",
     md_features,
     COUNT(md_features),
@@ -92,9 +92,9 @@ static const engine_bench dsmc = {
     "times",
     "Elastic smooth spheres (the kernel of free cooling), nothing measured: nanoseconds per accepted collision, CPU "
     "time of one core, median (least - largest) of repeats",
-    "What a scene's features cost: nanoseconds per accepted collision over those of the scene beside it, timed in "
-    "turn; median (least - largest) of repeats. Elastic unless sheared: e = 0.9; rough: beta = 0, frictional: mu = "
-    "0.123; two species: alike but for their mass",
+    "Cost of a scene's features: nanoseconds per accepted collision over those of the scene in column `against`, timed "
+    "in turn; median (least - largest) of repeats. Elastic; sheared: e = 0.9; rough: beta = 0; frictional: mu = "
+    "0.123; two species differ in mass alone",
     "ns per collision",
     dsmc_features,
     COUNT(dsmc_features),
@@ -119,7 +119,7 @@ static void add_walls(gg_scene *s, bool gravity)
   s->flow = GG_POISEUILLE;
   s->walls.e = 1;
   s->walls.beta = -1;
-  /* m g H is small against T = 1/2, so that the gas hardly settles. */
+  /* m g H is small against T = 1/2, so that the density hardly varies with height. */
   if (gravity) s->gravity[1] = -0.1 / cbrt((double)s->particles * M_PI / (6 * s->phi));
 }
 
@@ -317,7 +317,7 @@ static const two_ways paths = {
     &dsmc,
     0.3,
     "paths",
-    "What blocks gain: the rate of collisions over that of the plain loop (one random pair after another, under one "
+    "Speedup by blocks: the rate of collisions over that of the plain loop (one random pair after another, under one "
     "majorant), one thread, CPU time, timed in turn; median (least - largest) of repeats, and nanoseconds per "
     "collision of both",
     "blocks against the plain loop",
@@ -332,7 +332,7 @@ static const two_ways threads = {
     &dsmc,
     0.3,
     "threads",
-    "What threads gain within one ensemble: the rate of collisions over that of one thread, by the clock, timed in "
+    "Speedup by threads within one ensemble: the rate of collisions over that of one thread, in wall time, timed in "
     "turn; median (least - largest) of repeats, and processors busy on average",
     "threads against one",
     {"smooth", "rough", "two species", "sheared smooth, stress measured", "sheared, two species, stress measured"},
@@ -346,7 +346,7 @@ static const two_ways threads = {
 #define THREADS_OF_MD(key, phi)                                                                                        \
   {                                                                                                                    \
     &md, phi, key,                                                                                                     \
-        "What threads gain within one run: the rate of collisions over that of one thread, by the clock, timed in "    \
+        "Speedup by threads within one run: the rate of collisions over that of one thread, in wall time, timed in "   \
         "turn; median (least - largest) of repeats, and processors busy on average",                                   \
         "threads against one", {"smooth", "sheared rough, stress measured"}, 2, {5, 5}, {5, 3}, {1, 0.3}, on_threads,  \
         put_threads                                                                                                    \
@@ -396,7 +396,7 @@ static gg_status measure_two(gg_bench *b, const two_ways *w, int used, gg_error 
 
 static gg_status measure_threads(gg_bench *b, const two_ways *w, int n, gg_error *err)
 {
-  if (b->options->threads <= 1) gg_bench_report(b, "one processor: threads are left out");
+  if (b->options->threads <= 1) gg_bench_report(b, "one processor: threads are not timed");
   for (int k = 0; k < n && b->options->threads > 1; k++) GG_TRY(measure_two(b, &w[k], b->options->threads, err));
   return GG_OK;
 }

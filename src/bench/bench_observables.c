@@ -52,7 +52,7 @@ static gg_status start(timed_run *c, const gg_scene *scene, unsigned measure, do
   GG_TRY(gg_run_replica_create(&c->replica, &s, &model, 0, err));
   GG_TRY(go_on(c, (uint64_t)(warmup / GG_SAMPLING_INTERVAL), true, err));
   GG_TRY(gg_run_replica_open_window(&c->replica, err));
-  c->replica.clock.window_samples = gg_run_sampling_bursts_of(&model).settled; /* as in a long run */
+  c->replica.clock.window_samples = gg_run_sampling_bursts_of(&model).regular_from; /* as in a long run */
   return GG_OK;
 }
 

@@ -87,9 +87,8 @@ gg_status gg_bench_scenes(gg_bench *b, gg_error *err)
   static const char *const head[] = {"scene", "engine", "phi", "N", "ns"};
   gg_bench_table *t =
       gg_bench_table_new(b, "scenes",
-                         "Single scenes, smooth grains, nothing measured: nanoseconds of CPU time per collision, "
-                         "of threads by the clock; median (least - largest) of repeats. start: grains "
-                         "are placed",
+                         "Single scenes, smooth grains, nothing measured: nanoseconds per collision, in CPU time, with "
+                         "threads in wall time; median (least - largest) of repeats. start: placement of the grains",
                          2, err);
   for (int k = 0; t && k < 5; k++) gg_bench_table_column(t, k > 1, "%s", head[k]);
   for (const single *s = singles; t && s < singles + N_SINGLES; s++) {

@@ -12,7 +12,7 @@
 
 enum { MOST_REPEATS = 32 };
 
-const char gg_bench_wall_unit[] = "ns per collision, by the clock";
+const char gg_bench_wall_unit[] = "ns per collision, wall time";
 
 /* State of the timing of a scene. */
 typedef struct timed {

@@ -33,7 +33,8 @@ const gg_command gg_cli_commands[] = {
      GG_OPT_SWEEP | GG_OPT_ACCEPT | GG_OPT_SET | GG_OPT_PICTURE | GG_OPT_SEED | GG_OPT_THREADS | GG_OPT_JSON |
          GG_OPT_QUIET,
      gg_cli_sweep_main},
-    {"validate", "[SWEEP.yaml]", "Is dsmc right, and where do md and theories leave Enskog's equation? Over a grid",
+    {"validate", "[SWEEP.yaml]",
+     "Both engines and the theories against Enskog's equation, over a grid: verdict and maps",
      "Compares both engines and all theories with Enskog's equation, solved without random numbers, at every point of "
      "a sweep. Without a file: over the standard grid of 180 points in density and restitution, for smooth, rough and "
      "frictional grains. It takes eight minutes of processor time, with --quick one. Like any sweep it continues after "
@@ -58,15 +59,15 @@ const gg_command gg_cli_commands[] = {
      "on. Needs positions: md has them, and dsmc between walls has heights alone (x = z = 0). Without "
      "output.trajectory_every in the scene it is the last state.",
      GG_OPT_PREFIX | GG_OPT_ONLY | GG_OPT_QUIET, gg_cli_export_main},
-    {"info", "[FILE|WORD]", "What a result or a checkpoint holds, what a scene means, or what a word means",
+    {"info", "[FILE|WORD]", "Contents of a result or checkpoint, meaning of a scene, definition of a word",
      "FILE is a scene, a result or a checkpoint. WORD is a scene key, a quantity, a theory, a flow or an observable: "
      "graingas info N1 prints its definition in five lines, --all in full. Without an argument: every scene key with "
      "its "
      "default and range.",
      GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL | GG_OPT_SCHEMA | GG_OPT_QUIET, gg_cli_info_main},
     {"init", "[FLOW]", "A scene to begin with: FLOW.yaml, with every key of the flow",
-     "Writes a scene of the flow (usf without an argument) that runs as it is. Its other keys stand there as comments, "
-     "with their defaults and meanings. A file that is there already stays.",
+     "Writes a scene of the flow (usf without an argument) that runs as it is. Its other keys are comments with their "
+     "defaults and meanings. An existing file is not replaced.",
      GG_OPT_OUTPUT | GG_OPT_QUIET, gg_cli_init_main},
     {"fingerprint", "SCENE.yaml", "A hash of the grains' state after a number of collisions, to compare machines",
      "Runs the scene's engine, or the one of --engine, from its start and prints a hash of all positions, velocities "

@@ -100,16 +100,16 @@ static void print_files(void)
        "scene (YAML), document (the JSON of --json), seed, version, command, machine, date, verdict, warnings, window, "
        "averaging and total effort."},
       {"RESULT.csv, RESULT_numbers.csv, RESULT_OBSERVABLE_CURVE.csv, RESULT.xyz", NULL,
-       "What export writes: quantities, numbers derived from the curves, curves, grains as extended XYZ."},
+       "Written by export: quantities, numbers derived from the curves, curves, grains as extended XYZ."},
       {"RESULT.checkpoint.h5", NULL,
-       "The latest checkpoint; RESULT.checkpoint.h5.1 is the one before it, and is taken where the first is missing or "
-       "damaged. All are removed when a run is done and its result in place."},
+       "The latest checkpoint; RESULT.checkpoint.h5.1 is the one before it and is read if the latest is missing or "
+       "damaged. Both are removed when a run is done and its result in place."},
       {"RESULT.checkpoint.frames", NULL,
        "The trajectory up to the checkpoint, which goes into RESULT.h5 at the end. It belongs to the checkpoint: move "
-       "both. Where it is lost, the run can be resumed without a trajectory, with --set output.trajectory_every=0."},
+       "both. If it is lost, the run can be resumed without a trajectory, with --set output.trajectory_every=0."},
       {"RESULT.h5.graingas-lock, RESULT.h5.graingas-tmp", NULL,
-       "Which process writes the file, and the unfinished file. The next run removes what a dead process left of "
-       "them."},
+       "The lock names the process that writes the file; the other is the unfinished file. If that process dies, the "
+       "next run removes both."},
       {"Checksum", NULL,
        "Results and checkpoints end with \"gg-crc32\", the size of the HDF5 file (8 bytes) and its CRC-32 (4 bytes), "
        "lowest byte first. A result without them is one that another program has changed: it is read with a warning. "

@@ -82,8 +82,8 @@ void gg_cli_print_scene_page(void)
       "with its value; `graingas info KEY` prints one row of this page.\n\n");
   print_keys(GG_CATALOGUE_KEYS, true);
   printf(
-      "\nWith gravity along y, `md.contact_time` counts in units of sqrt(d/g). Where gravity lifts a grain across the "
-      "box by less than T, the shorter of both units applies. Collisions of unlike grains within the contact time "
+      "\nWith gravity along y, the unit of `md.contact_time` is sqrt(d/g). For weak gravity (m g L\\_y < T) it is the "
+      "shorter of sqrt(d/g) and the mean free time. Collisions of unlike grains within the contact time "
       "lose no energy at all.\n\n"
       "`collision.speed: auto` is the diameter times the shear rate (couette: times the mean shear rate), or the "
       "initial thermal speed v\\_0 in cooling and heated gases.\n\n"

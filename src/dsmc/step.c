@@ -57,8 +57,8 @@ static void collide(gg_dsmc *d, double dt, double strain, double span)
   gg_dsmc_collide(d, 0.5 * dt, strain + 0.5 * span, 0.5 * span, GG_DSMC_BACKWARD);
 }
 
-/* Length of the next step, if `left` time and `wanted` collisions remain. A step given by the scene is taken whole,
- * unless the run is a time course. */
+/* Length of the next step, if `left` time and `wanted` collisions remain. Steps of the length given by the scene are
+ * cut short only if the model says so: in transient runs and for callers who advance by a given time. */
 static double next_length(const gg_dsmc *d, double left, double wanted)
 {
   double dt = d->now.step.length;

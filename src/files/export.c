@@ -7,12 +7,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "io/checked_json.h"
 #include "base/memory.h"
 #include "common/engine.h"
 #include "common/species.h"
 #include "files/curve_table.h"
 #include "graingas.h"
+#include "io/checked_json.h"
 
 static const char *const elements[] = {"H", "He", "Li", "Be", "B",  "C",  "N", "O",
                                        "F", "Ne", "Na", "Mg", "Al", "Si", "P", "S"};
@@ -67,7 +67,7 @@ static void put_head(gg_file_writer *out, const gg_stored_trajectory *t, const g
   gg_io_file_writer_put(out, "\n");
 }
 
-/* Another image along x, if the cell leans away from this one. */
+/* Shift x by box lengths into the cell, which is tilted under shear. */
 static double into_cell(double x, double y, const double *edges)
 {
   double lean = edges[3], length = edges[0];
@@ -128,20 +128,20 @@ static void put_results(gg_file_writer *out, const gg_stored_result *stored)
 }
 
 /* Head of the columns of an engine in a comparison. */
-static const char *const told[] = {"mean", "stderr", "samples", "correlation_time"};
+static const char *const members[] = {"mean", "stderr", "samples", "correlation_time"};
 
 static void put_engine_head(gg_csv *csv, const char *engine)
 {
   char text[64];
-  for (size_t i = 0; i < COUNT(told); i++) {
-    snprintf(text, sizeof text, "%s_%s", engine, told[i]);
+  for (size_t i = 0; i < COUNT(members); i++) {
+    snprintf(text, sizeof text, "%s_%s", engine, members[i]);
     gg_io_csv_text(csv, text);
   }
   snprintf(text, sizeof text, "%s_steady", engine);
   gg_io_csv_text(csv, text);
 }
 
-/* Does the theory give an error with any of its numbers? */
+/* True if the theory has an error for any of its values. */
 static bool has_errors(json_t *theory)
 {
   const char *name;
@@ -182,7 +182,7 @@ static void put_comparison_row(gg_csv *csv, const gg_stored_result *stored, cons
   gg_io_csv_json(csv, json_object_get(row, "unit"));
   for (int k = 0; k < GG_N_ENGINES; k++) {
     const json_t *one = result_of(&stored->engine[k], quantity);
-    put_members(csv, one, told, COUNT(told));
+    put_members(csv, one, members, COUNT(members));
     gg_io_csv_json(csv, one ? json_object_get(stored->engine[k].document, "steady") : NULL);
     if (one) unit = json_object_get(one, "correlation_time_unit");
   }
@@ -461,7 +461,7 @@ static gg_status write_target(job *j, target *t, gg_error *err)
   return status == GG_OK ? gg_io_file_writer_end(&out) : status;
 }
 
-/* None is put in place before all are written. */
+/* Write all files before the first is put in place, so that a failed write changes no file. */
 static gg_status write_all(job *j, gg_error *err)
 {
   gg_status status = GG_OK;

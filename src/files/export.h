@@ -3,10 +3,10 @@
 #ifndef GG_EXPORT_H
 #define GG_EXPORT_H
 
-#include "io/file_writer.h"
 #include "files/h5/result_reader.h"
+#include "io/file_writer.h"
 
-/* The files that the result of this path comes to, all of them or none: PREFIX.csv, one of each curve,
+/* Export the result of this path to files, all of them or none: PREFIX.csv, one of each curve,
  * PREFIX_numbers.csv and PREFIX.xyz; `parts` (GG_EXPORT_...) says which. GG_FAILED if the result has nothing of what
  * was requested. `written` (may be NULL) is called with the name of each, `progress` (may be NULL) with the share of
  * the trajectory that is written. `stop` ends it: no file is replaced then. */

@@ -20,7 +20,7 @@ typedef struct record { /* header of a frame, in the byte order of the machine *
   char word[8];
   uint64_t bytes, n, holds, step;
   double time;
-  uint64_t checksum; /* of the record before, of this header up to here, and of what follows */
+  uint64_t checksum; /* over the checksum of the record before, this header up to here, and the data after it */
 } record;
 
 static uint64_t size_of(uint64_t n, uint64_t holds)
@@ -181,7 +181,7 @@ static const char *read_next(const gg_frame_log *log, reader *r)
   struct stat about;
   if (!read_at(log, &header, sizeof header, r->at.bytes) || fstat(log->fd, &about) != 0) return "missing";
   uint64_t left = log->mark.bytes - r->at.bytes, there = (uint64_t)about.st_size - r->at.bytes;
-  /* A mark that somebody made may claim more bytes than memory has, and more grains than can be counted in bytes. */
+  /* A crafted mark may claim more bytes than there is memory, or a number of grains whose size in bytes overflows. */
   bool fits = memcmp(header.word, word, sizeof word) == 0 && header.n <= left && header.n <= INT64_MAX / 128 &&
               header.holds < 8 && header.bytes == size_of(header.n, header.holds) && header.bytes <= left;
   if (!fits) return "damaged";

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The frames of a run that keeps checkpoints, in one file beside them: what a resumed run has before it, and what
- * becomes the trajectory in the result at the end.
+/* Log of the frames of a run that keeps checkpoints, one file beside them. The result's trajectory is made of it at the
+ * end, also after interruptions.
  *
- * A record a frame: header, positions, velocities, spins, species; grains in the order of their numbers. Checksums are
- * a chain: that of the last record vouches for all before it. A checkpoint holds a mark: how many records, bytes, and
- * their checksum. Bytes beyond the mark are unused and are overwritten; the file is never cut. For the frames of a run
- * are the same however often it is resumed: going on from an older checkpoint writes the bytes that are there already,
- * and the newer one stays good. */
+ * One record per frame: header, positions, velocities, spins, species; grains in the order of their numbers. The
+ * checksums are chained: the last record's covers all records before it. A checkpoint holds a mark: the number of
+ * records, of bytes, and their checksum. Bytes beyond the mark are unused and are overwritten; the file is never
+ * truncated. A resumed run writes the same frames again, bit for bit. So a run that resumes from an older checkpoint
+ * rewrites the same bytes, and the newer checkpoint stays valid. */
 #ifndef GG_FRAME_LOG_H
 #define GG_FRAME_LOG_H
 
@@ -21,9 +21,9 @@ typedef struct gg_frame_mark { /* plain data: saved as bytes */
 
 typedef struct gg_frame_log {
   char *path;
-  char *place;  /* where it is to be put; NULL: it is there */
+  char *place;  /* final path; NULL: `path` is final */
   int fd;       /* -1: no log */
-  bool created; /* by the opening: there was no such file */
+  bool created; /* opening created the file */
   gg_frame_mark mark;
 } gg_frame_log;
 
@@ -32,27 +32,27 @@ char *gg_files_frame_log_path(const char *checkpoint);
 /* "usf.checkpoint.frames" -> "usf.checkpoint.frames.new"; to be freed. */
 char *gg_files_frame_log_new_path(const char *path);
 
-/* To write there from the first frame on; a file that is there stays as it is until then. */
+/* Open the log for writing from the first frame on. An existing file stays unchanged until then. */
 gg_status gg_files_frame_log_open(gg_frame_log *log, const char *path, gg_error *err);
-/* The log of a run that does not resume from what is there: written as PATH.new, where none may be, until it is put in
- * the place of the log of another run. Messages name PATH. */
+/* Open the log of a run that does not resume although PATH exists. It is written to PATH.new, which must not exist;
+ * gg_files_frame_log_put_in_place then replaces PATH. Messages name PATH. */
 gg_status gg_files_frame_log_open_new(gg_frame_log *log, const char *path, gg_error *err);
 gg_status gg_files_frame_log_put_in_place(gg_frame_log *log, gg_error *err);
-/* To read the frames up to the mark, each of which is checked: GG_BAD_FILE where one is missing or damaged. `stop` is
- * asked in between: GG_INTERRUPTED. */
+/* Open the log at a checkpoint's mark and check every frame before it: GG_BAD_FILE if one is missing or damaged,
+ * GG_INTERRUPTED if `stop` is set meanwhile. */
 gg_status gg_files_frame_log_open_at(gg_frame_log *log, const char *path, const gg_frame_mark *mark,
                                      const gg_stop *stop, gg_error *err);
-/* Does the log stand at this path? */
+/* True if `path` names the log's file. */
 bool gg_files_frame_log_is_at(const gg_frame_log *log, const char *path);
 /* Copy the frames of `from` before those of this log; nothing to do if both are one file. */
 gg_status gg_files_frame_log_take_over(gg_frame_log *log, const gg_frame_log *from, gg_error *err);
 gg_status gg_files_frame_log_append(gg_frame_log *log, const gg_frame *frame, gg_error *err);
-/* Wait until the disk has all of it. */
+/* Flush the log to the disk (fsync). */
 gg_status gg_files_frame_log_sync(const gg_frame_log *log, gg_error *err);
-/* Show every frame; each lasts for the call. */
+/* Call `visit` for every frame. The frame is valid during the call only. */
 typedef gg_status gg_frame_visit(void *context, const gg_frame *frame, gg_error *err);
 gg_status gg_files_frame_log_replay(const gg_frame_log *log, gg_frame_visit *visit, void *context, gg_error *err);
-/* Harmless again, and of one that is all zero but fd = -1. */
+/* Safe to call twice, and on a struct that is zero except fd = -1. */
 void gg_files_frame_log_close(gg_frame_log *log);
 
 #endif

@@ -19,7 +19,7 @@ char *gg_files_document_text(const json_t *document);
  * by them, and texts are printable. NULL with the reason in *why. */
 json_t *gg_files_document_read(const char *text, const char **why);
 
-/* Is there anything to say about this quantity: a mean, or a reason why there is none? */
+/* True if the quantity has a mean, or a reason why it has none. */
 bool gg_files_quantity_is_measured(const gg_estimate *estimate);
 
 #endif

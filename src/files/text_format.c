@@ -68,7 +68,7 @@ static void add_pairs(char *text, size_t size, const char *name, const double *x
     add(text, size, ", %s %g to %g", name, least, most);
 }
 
-/* Is a key, or a member of it ("collision.e.12"), in a list with commas? */
+/* True if a key, or a member of it ("collision.e.12"), is in a list with commas. */
 static bool has(const char *list, const char *key)
 {
   const size_t length = strlen(key);

@@ -47,7 +47,7 @@ static bool still_there(int fd, const char *path)
   return fstat(fd, &mine) == 0 && stat(path, &there) == 0 && mine.st_dev == there.st_dev && mine.st_ino == there.st_ino;
 }
 
-/* File systems without locks: go on, and let be what may be somebody else's. */
+/* True if the file system has no locks: writers then leave other processes' files alone. */
 static bool cannot_lock(int number)
 {
   return number == ENOLCK || number == ENOSYS || number == EOPNOTSUPP || number == EINVAL;
@@ -61,18 +61,18 @@ static void clean_up(const char *target)
   free(temporary);
 }
 
-/* Another user's can be locked, too, if not written. */
+/* Open the lock file. Another user's can only be opened for reading (*foreign), which is enough to lock it. */
 static int open_lock(const char *path, bool *foreign)
 {
   int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   *foreign = fd < 0 && errno == EACCES;
   if (!*foreign) return fd;
   fd = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-  if (fd < 0 && errno == ENOENT) errno = EACCES; /* there is none, and none may be made */
+  if (fd < 0 && errno == ENOENT) errno = EACCES; /* no lock file, and it cannot be created */
   return fd;
 }
 
-/* One try: GG_OK with l->fd still -1 means another one. */
+/* Try once to take the lock. GG_OK with l->fd = -1: the lock file was replaced meanwhile; try again. */
 static gg_status try_once(gg_file_lock *l, const char *path, bool *sure, gg_error *err)
 {
   bool foreign;
@@ -84,7 +84,7 @@ static gg_status try_once(gg_file_lock *l, const char *path, bool *sure, gg_erro
     l->busy = errno != EINTR;
     if (l->busy) status = in_use(fd, path, err);
   } else if (still_there(fd, l->path) && !(foreign && unlink(l->path) == 0)) {
-    l->fd = fd; /* a dead process's lock of another user is replaced, if the folder permits it */
+    l->fd = fd; /* another user's lock of a dead process is replaced if the folder permits it */
     return GG_OK;
   }
   close(fd);
@@ -123,7 +123,7 @@ static gg_status cannot(const gg_atomic_file *f, int number, gg_error *err)
   return gg_io_path_write_error(f->path, strerror(number), err);
 }
 
-/* A pipe needs a reader, who may come a moment after the writer: without one, opening it would wait for ever. */
+/* Open a device or pipe. Opening a pipe without a reader would block for ever: wait a second for the reader. */
 static gg_status open_stream(gg_atomic_file *f, gg_error *err)
 {
   const struct timespec moment = {0, 10 * 1000 * 1000};
@@ -265,7 +265,7 @@ static bool put_in_place(gg_atomic_file *f)
   return true;
 }
 
-/* A device or pipe has had everything; some say only now that they could not take it. */
+/* Close a device or pipe, all of which is written. Some report failed writes only now. */
 static bool let_go(gg_atomic_file *f)
 {
   int fd = f->fd;
@@ -273,7 +273,8 @@ static bool let_go(gg_atomic_file *f)
   return close(fd) == 0;
 }
 
-/* It may be the only copy of what took hours. Under a name that the next writer leaves alone, where it can have one. */
+/* Keep the temporary file after a failure, since it may be the only copy of hours of work. It gets a name that the next
+ * writer does not remove, if it can be renamed. */
 static gg_status keep(gg_atomic_file *f, int number, gg_error *err)
 {
   char *name = NULL;

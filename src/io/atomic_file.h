@@ -38,9 +38,9 @@ typedef struct gg_atomic_file {
   gg_output_path place;
   char *temporary;   /* NULL of a device or pipe */
   int fd;            /* of the temporary file, which others may open by name and write, too; or of the device or pipe */
-  gg_stop stop;      /* of a device or pipe: after a stop request it waits no longer for a reader who takes nothing */
-  gg_file_lock lock; /* of the place, held until the end; not of a device or pipe */
-  bool repeated;     /* an earlier or a later one is as good: not kept where it cannot be put in place */
+  gg_stop stop;      /* device or pipe: after a stop request writes do not wait for a stalled reader */
+  gg_file_lock lock; /* held until the file is closed; none for a device or pipe */
+  bool repeated;     /* written again and again (checkpoints): not kept if it cannot be put in place */
 } gg_atomic_file;
 
 /* GG_BAD_FILE says why the file could not be written there, or which run is writing it. Temporary files that a dead run

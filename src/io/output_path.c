@@ -63,7 +63,7 @@ static bool is_one(const struct stat *a, const struct stat *b)
   return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
 }
 
-/* Is this where the program's own words go? A file or pipe would hold both, mixed. */
+/* True if it is the standard output or error, where a file's content would be mixed with messages; not for devices. */
 static bool is_standard(const struct stat *about)
 {
   struct stat own;
@@ -83,8 +83,8 @@ static bool is_pinned(const char *target, const struct stat *about)
   return pinned;
 }
 
-/* Write permission is required although the file is replaced, not written to: who took it away meant it. It counts for
- * root, too, who could write all the same. */
+/* Require write permission although the file is replaced, not written to: a user has removed it for a reason. This
+ * holds for root, too, who could write anyway. */
 static gg_status check_file(const gg_output_path *place, const char *path, gg_error *err)
 {
   if (!(place->about.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)))
@@ -101,15 +101,13 @@ static gg_status check(gg_output_path *place, const char *path, bool named, gg_e
 {
   const mode_t mode = place->about.st_mode;
   if (S_ISDIR(mode)) return gg_io_path_write_error(path, strerror(EISDIR), err);
-  if (S_ISBLK(mode) || S_ISSOCK(mode))
-    return gg_io_path_write_error(path, "it is a disk or a socket, not a file", err);
+  if (S_ISBLK(mode) || S_ISSOCK(mode)) return gg_io_path_write_error(path, "it is a disk or a socket, not a file", err);
   if (is_standard(&place->about))
     return gg_io_path_write_error(path, "standard output is for tables and messages; choose a file", err);
   place->stream = !S_ISREG(mode);
   place->there = !place->stream;
   if (!place->there) return GG_OK;
-  return named ? check_file(place, path, err)
-               : gg_io_path_write_error(path, "it is an open file without a name", err);
+  return named ? check_file(place, path, err) : gg_io_path_write_error(path, "it is an open file without a name", err);
 }
 
 /* Inspect the path: what is there, and whether it is the end of the links. */
@@ -125,7 +123,7 @@ static gg_status look(gg_output_path *place, const char *path, bool *something, 
   return GG_OK;
 }
 
-/* Between the two looks at a name another writer may have put a new file there: then both are taken again. */
+/* Another writer may replace the file between the two calls of stat in look(): then repeat both. */
 gg_status gg_io_output_path_find(gg_output_path *place, const char *path, gg_error *err)
 {
   *place = (gg_output_path){0};
@@ -147,7 +145,7 @@ void gg_io_output_path_clear(gg_output_path *place)
   *place = (gg_output_path){0};
 }
 
-/* Nothing stands at either yet. */
+/* True if two paths, neither of which exists, have the same folder and name after links are followed. */
 static bool same_name(const char *a, const char *b)
 {
   struct stat one, two;

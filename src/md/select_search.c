@@ -75,8 +75,8 @@ bool gg_md_fit_lists(const gg_model *m, double radius, int32_t n[3])
   return true;
 }
 
-/* Count overlapping cells. False: a pair in a cell could have two nearest images, or gravity could collect grains in
- * the lowest cells, which would be too crowded. */
+/* Count overlapping cells. Returns false if the box is so small that a pair in a cell could have two minimum images,
+ * or if gravity could collect so many grains in the lowest cells that these overflow. */
 static bool fit_overlapping(const gg_model *m, int32_t n[3])
 {
   if (needs_plain_cells(m) || m->gravity[1] != 0 || m->phi >= OVERLAPPING_BELOW) return false;

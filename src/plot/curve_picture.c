@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-#include "io/checked_json.h"
 #include "files/curve_table.h"
+#include "io/checked_json.h"
 #include "plot/result_panels.h"
 
-enum { MOST_IN_PANEL = 8 }; /* more curves, as of many species, could not be told apart */
+enum { MOST_IN_PANEL = 8 }; /* more curves would not be distinguishable */
 
 int gg_plot_curve_groups(const json_t *document, const char **names, int most)
 {

@@ -86,8 +86,8 @@ static int wait_for(pid_t child, const sigset_t *ends, double seconds, bool *end
   return 0;
 }
 
-/* Wait for gnuplot, and end it if it takes too long or this process gets a signal. The signal then takes its usual
- * course. */
+/* Wait for gnuplot. End it if it takes too long or if this process receives a signal; the signal's previous action
+ * then follows. */
 static gg_status await(pid_t child, int *status, gg_error *err)
 {
   sigset_t ends, before;

@@ -24,7 +24,8 @@ double gg_plot_heat_place(double value)
   return copysign(fmin(place, 1), value);
 }
 
-/* Between white and the darkest, of either sign: of equal lightness at equal places, so that grey tells the size. */
+/* Colour between white and the darkest of its sign. Both signs have equal lightness, so that a grey print shows sizes.
+ */
 unsigned gg_plot_heat_colour(double value)
 {
   static const unsigned shades[2][4] = {{0xffffff, 0x9dc3e6, 0x3f7fbf, 0x0b3566},

@@ -114,8 +114,8 @@ static int rank_of(const legend *l, const gg_chart_series *s)
   return rank;
 }
 
-/* md is small, so that dsmc shows around it where both agree, and dsmc beside md in the colour of a group halfway to
- * white. */
+/* Symbols of md are smaller than those of dsmc, so that both are visible where they agree. In a group with both, dsmc
+ * has the group's colour, halfway to white. */
 static void set_look(const legend *l, gg_chart_series *s, int group)
 {
   gg_look *look = &s->look;

@@ -33,24 +33,24 @@ gg_status gg_run_replicas_store(gg_replicas *all, gg_error *err)
   return status;
 }
 
-/* Sampling intervals follow the collision rate before averaging, and where the temperature never stands still. */
+/* Sampling intervals follow the collision rate during warm-up, and always if the temperature has no steady state. */
 static bool adapts(const gg_replicas *all)
 {
   return !all->state.averaging || !gg_model_keeps_temperature(&all->model);
 }
 
-/* Is there no point in going on, whatever was requested? */
+/* True if the run must end whatever was requested: time limit, grains at rest, or theta/T beyond use. */
 static bool is_over(const gg_replicas *all)
 {
   return all->stopped == GG_OUT_OF_TIME || all->state.arrest_share > 0 || all->state.runaway > 0;
 }
 
-/* Do the grains still move? Under gravity a flow may come to rest, or to creep: grains lie on each other, and contacts
- * that last, which hard spheres do not have, are collisions without end. Their share shows it; time hardly gets on. */
+/* Arrest detection. Under gravity a flow may come to rest. Hard spheres have no lasting contacts: grains that lie on
+ * each other collide without end, and the time hardly advances. The contact-time rule treats such collisions. */
 
-/* Flows that get on stay below half, dense chutes too; heaps come to nine tenths and more. */
+/* Fraction of treated collisions above which a flow is at rest: below 0.5 in flows, dense chutes too; 0.9 in heaps. */
 #define LASTING_SHARE 0.9
-/* Tested after so many collisions a grain. */
+/* Collisions per grain between two tests. */
 enum { STRETCH = 2000 };
 
 static void check_arrest(gg_replicas *all)
@@ -70,9 +70,9 @@ static void check_arrest(gg_replicas *all)
   s->stretch_collisions = collisions, s->stretch_treated = treated;
 }
 
-/* Free cooling with friction: grains that have escaped friction double theta/T every few collisions, until no double
- * can hold it. A run that averages until an error ends where theta/T has no mean any more, others before they would
- * fail. */
+/* In free cooling with friction, grains that have escaped friction double theta/T every few collisions, until it
+ * overflows. A run with a requested error ends earlier, when theta/T has no meaningful mean; others end before the
+ * overflow. */
 static void check_runaway(gg_replicas *all)
 {
   const double most = all->criteria.relative_error > 0 ? 1e30 : 1e200;
@@ -87,9 +87,8 @@ static void check_runaway(gg_replicas *all)
   }
 }
 
-/* Samples from one report and checkpoint to the next: some tens of milliseconds. With several processes, reports come
- * in between, and waiting for each other costs more: the step is the whole way then, unless grains may come to rest or
- * spins may run away. */
+/* Samples between two reports or checkpoints: some tens of milliseconds. With several processes each step synchronises
+ * them, and they report within a step: then all samples are one step, unless arrest or runaway spins must be tested. */
 static uint64_t step(const gg_replicas *all, uint64_t way)
 {
   const bool watched = all->model.gravity[1] != 0 || gg_theory_is_metastable(&all->model);
@@ -98,8 +97,8 @@ static uint64_t step(const gg_replicas *all, uint64_t way)
   return some < way ? some : way;
 }
 
-/* How far to go now. Replicas that several processes left at different samples, and that one process resumes, catch up
- * in steps, too: the first ones wait. */
+/* Samples at the end of the next step. Several processes may leave replicas at different samples; if one process
+ * resumes them, those behind catch up in steps, too. */
 static uint64_t next_of(const gg_replicas *all)
 {
   uint64_t least = gg_run_replicas_least(all);
@@ -153,7 +152,7 @@ static gg_window_test test_of(const gg_replicas *all, const gg_convergence *c, u
   return t;
 }
 
-/* Is the window long and exact enough? */
+/* True if the window is long and exact enough. Records whether it was exact, for the next test. */
 static bool finished(gg_replicas *all, const gg_window_test *t)
 {
   if (gg_run_criteria_end(&all->criteria, all->state.restarts, t->window)) return true;
@@ -162,30 +161,30 @@ static bool finished(gg_replicas *all, const gg_window_test *t)
   return gg_run_criteria_are_met(t, before);
 }
 
-static const gg_replica *not_settled(const gg_replicas *all)
+static const gg_replica *first_with_bad_interval(const gg_replicas *all)
 {
   for (int i = 0; i < all->n; i++)
-    if (!gg_run_replica_settled(&all->replica[i])) return &all->replica[i];
+    if (!gg_run_replica_interval_fits(&all->replica[i])) return &all->replica[i];
   return NULL;
 }
 
-/* The warm-up, and after a burst of collisions at its end a little more: averaging keeps the interval that it begins
- * with. A resumed run looks where the uninterrupted one does. */
+/* Warm up. Averaging keeps the last sampling interval, so the warm-up is extended until the intervals fit the collision
+ * rate: they do not after a burst of collisions. A resumed run tests at the same samples as an uninterrupted one. */
 static gg_status warm_up(gg_replicas *all, gg_error *err)
 {
-  enum { LOOK_EVERY = 4, MOST_MORE = 300 };
+  enum { TEST_EVERY = 4, MOST_MORE = 300 };
   uint64_t due = all->criteria.warmup;
-  while (due < all->state.due) due += LOOK_EVERY;
-  for (;; due += LOOK_EVERY) {
+  while (due < all->state.due) due += TEST_EVERY;
+  for (;; due += TEST_EVERY) {
     GG_TRY(advance_to(all, due, err));
     if (is_over(all)) return GG_OK;
-    const gg_replica *one = not_settled(all);
+    const gg_replica *one = first_with_bad_interval(all);
     if (!one) return GG_OK;
     if (due >= all->criteria.warmup + MOST_MORE) return gg_run_replica_collapsed(one, err);
   }
 }
 
-/* The next test belongs to the state, so that a resumed run tests where the uninterrupted one does. */
+/* The sample of the next test is part of the saved state, so that a resumed run tests at the same samples. */
 gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err)
 {
   if (!all->state.averaging) {
@@ -194,7 +193,7 @@ gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err)
   }
   while (!is_over(all)) {
     GG_TRY(advance_to(all, all->state.goal, err));
-    if (all->state.due < all->state.goal || !gg_run_replicas_are_level(all)) break; /* over on the way */
+    if (all->state.due < all->state.goal || !gg_run_replicas_are_level(all)) break; /* the run must end */
     uint64_t window = all->state.due - all->state.window_at;
     gg_convergence c;
     GG_TRY(gg_run_replicas_convergence(all, &c, err));
@@ -204,12 +203,12 @@ gg_status gg_run_replicas_run(gg_replicas *all, gg_error *err)
       all->state.restarts++;
       GG_TRY(open_window(all, err));
     } else if (finished(all, &test)) {
-      gg_run_replicas_report_progress(all, true); /* with the errors of the end */
+      gg_run_replicas_report_progress(all, true); /* with the final errors */
       return GG_OK;
     } else {
       all->state.goal = all->state.window_at + gg_run_criteria_next_test(&all->criteria, all->state.restarts, &test);
     }
   }
   gg_run_replicas_report_progress(all, true);
-  return gg_run_replicas_store(all, err); /* over before its time */
+  return gg_run_replicas_store(all, err); /* the run may be resumed */
 }

@@ -46,18 +46,16 @@ bool gg_run_structure(const gg_result *r, char *text, size_t size)
   return true;
 }
 
-/* A difference to be explained. If the gas has structure, that is the cause; causes that need a homogeneous gas are
- * skipped.
- * */
+/* A difference of md from Enskog's equation that needs an explanation. */
 typedef struct difference {
   const gg_model *model;
   const gg_result *md;
   gg_quantity q;
-  bool homogeneous; /* as far as is known */
-  double by;        /* relative; of what lies about zero the difference itself */
+  bool homogeneous; /* no structure was measured; else structure is the cause, and several others are skipped */
+  double by;        /* relative difference; absolute for quantities about zero */
 } difference;
 
-/* Does it grow with the energy of the grains (1), fall (-1), or neither (0)? */
+/* 1: the quantity grows with the energy of the grains; -1: it falls; 0: neither is known. */
 static int follows_energy(gg_quantity q)
 {
   switch (q) {
@@ -100,7 +98,7 @@ static bool structured(const difference *d, char *text, size_t size)
   return true;
 }
 
-/* They die out slowly near their instability, and take part in the response. */
+/* Shear waves decay slowly near their instability; they respond to the shear and so raise the viscosity. */
 static bool waves_respond(const difference *d, char *text, size_t size)
 {
   const gg_estimate *waves = &d->md->value[GG_Q_MOMENTUM_WAVES];
@@ -220,7 +218,7 @@ static double size_of(const gg_comparison *c, gg_quantity q)
   return isfinite(d.deviation) ? d.deviation : d.difference;
 }
 
-/* 1: one more applies, said before or not. */
+/* Add the sentence unless it is in the list. Returns 1, the number of causes that apply. */
 static int add(gg_causes *causes, const char *text)
 {
   for (int i = 0; i < causes->n; i++)

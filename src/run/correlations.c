@@ -50,7 +50,7 @@ static gg_status variance_of_sum(const varyings *all, const varying *a, const va
   return GG_OK;
 }
 
-/* Do they rise and fall together? */
+/* True if the two means rise and fall together. */
 static bool go_together(const varyings *all, const varying *a, const varying *b)
 {
   double sum = 0;
@@ -58,10 +58,9 @@ static bool go_together(const varyings *all, const varying *a, const varying *b)
   return sum > 0;
 }
 
-/* Errors come from blocks of each mean's own length, enlarged by its own correlation function. If two means vary
- * together, their difference is small, and would be lost in the inaccuracy of these errors. So the covariance is the
- * one with which the difference has the variance that its own series gives; if one mean falls as the other rises, the
- * sum is used. */
+/* Correlation coefficient of two means. If they vary together, their difference has a small variance, which would be
+ * lost in the inaccuracy of both errors. So the covariance is chosen such that the difference has the variance of its
+ * own series of blocks. For means that vary oppositely, the sum is used. */
 static gg_status coefficient_of(const varyings *all, const varying *a, const varying *b, double *coefficient,
                                 gg_error *err)
 {

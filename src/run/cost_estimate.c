@@ -116,8 +116,8 @@ static double for_stress(const gg_model *m)
   return m->shear_rate != 0 ? 130 : 5;
 }
 
-/* N error^2 of a quantity that is small beside what it is made of, by collisions a grain: N1 and N2 scatter by sqrt(12)
- * beside the pressure, a2 by sqrt(2.5), whatever their means, for which theories stand. 0: of no such quantity. */
+/* Collisions per grain times N error^2 for N1, N2 and a2, which may be small: their absolute scatter is sqrt(12) and
+ * sqrt(2.5), whatever the mean. The mean is estimated by a theory. 0: another quantity, or no theory. */
 static double for_small(const gg_model *m, gg_quantity q)
 {
   const bool difference = gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
@@ -128,8 +128,8 @@ static double for_small(const gg_model *m, gg_quantity q)
   return (difference ? 12 : 2.5) / (answer.value[q] * answer.value[q]);
 }
 
-/* Collisions a grain until the least exact quantity is known that has an error to reach: the stress, or the temperature
- * of all, which fluctuates by sqrt(2/3N) and is forgotten in a relaxation time. */
+/* Collisions per grain until all requested errors are reached. The slowest is the stress, a small quantity, or the
+ * temperature, which fluctuates by sqrt(2/3N) with its relaxation time. */
 static double for_error(const gg_scene *scene, const gg_model *m)
 {
   const double usual = fmax(for_stress(m), 2 * gg_common_model_relaxation(m) * 2 / 3.0);

@@ -41,7 +41,7 @@ static double stable_size(const gg_scene *s)
   return gg_scene_model_make(&usual, GG_MD, &m, NULL) == GG_OK ? gg_theory_stable_grains(&m) : NAN;
 }
 
-/* Is the usual number of grains too many? */
+/* True if a box with the usual number of grains is too large for a homogeneous gas. */
 static bool shrinks(const gg_scene *s, double stable)
 {
   return (responds(s) ? SHARE_OF_STABLE_SHEARED : 1) * stable < (double)gg_scene_defaults().particles;

@@ -11,7 +11,7 @@
 #include "run/replica.h"
 #include "scene/fields.h"
 
-/* Its channels begin at *width, which grows by what it has. */
+/* Add an observable to the replica; its channels begin at *width, which is increased by their number. */
 static gg_status attach_one(gg_replica *r, const gg_observable *o, size_t *width, gg_error *err)
 {
   int k = r->n_observables;

@@ -4,14 +4,14 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "graingas.h"
 #include "run/progress_estimate.h"
 #include "run/replicas.h"
 #include "statistics/estimator.h"
-#include "graingas.h"
 
-/* The shortest window that is tested tells an error to a fifth, a longer one better as 1/sqrt(window). The end is the
- * mean over errors that turn out so many of these smaller or larger by then; if it may well be half as far or twice, it
- * is not known. */
+/* Relative uncertainty (`doubt`) of an error estimated from the shortest window that is tested; it falls as
+ * 1/sqrt(window). The expected end is a weighted mean over estimates that are `off` of these uncertainties too small or
+ * too large. If the ends scatter by more than the fraction `vague`, the end counts as unknown. */
 static const double doubt = 0.2, off[] = {-1.4, -0.7, 0, 0.7, 1.4}, weight[] = {0.12, 0.22, 0.32, 0.22, 0.12};
 static const double vague = 0.5;
 
@@ -38,7 +38,7 @@ void gg_run_progress_record_errors(gg_progress_estimate *o, double window, const
   o->errors[o->n_errors++].log_scale = log(c->relative_error * sqrt(window));
 }
 
-/* The last mark is the latest; between the others lies a share of the phase. */
+/* The last mark is the latest. The others are spaced over the phase; if there are too many, every second one goes. */
 void gg_run_progress_record_time(gg_progress_estimate *o, double wall, double due)
 {
   int n = o->n_marks;
@@ -53,7 +53,7 @@ void gg_run_progress_record_time(gg_progress_estimate *o, double wall, double du
   o->n_marks = n;
 }
 
-/* Over the latter half of the phase. */
+/* Seconds per sample, averaged over the second half of the phase. */
 double gg_run_progress_pace(const gg_progress_estimate *o)
 {
   int last = o->n_marks - 1, from = 0;
@@ -63,7 +63,7 @@ double gg_run_progress_pace(const gg_progress_estimate *o)
   return (o->marks[last].wall - o->marks[from].wall) / (o->marks[last].due - o->marks[from].due);
 }
 
-/* The latest few: an error jumps as the blocks that it is taken from shift. */
+/* ln(error sqrt(window)), averaged over the latest estimates, since errors jump when the limits of blocks move. */
 static double log_scale(const gg_progress_estimate *o)
 {
   double sum = 0, weights = 0, now = o->errors[o->n_errors - 1].window;
@@ -101,7 +101,7 @@ static double last_test(const gg_progress_estimate *o, const gg_stopping_criteri
   return (double)window;
 }
 
-/* Samples until then, of a window that has `had`. */
+/* Expected number of samples until the window ends; it has `had`. */
 static gg_expected_end mean_last_test(const gg_progress_estimate *o, const gg_stopping_criteria *criteria,
                                       uint64_t restarts, bool exact, uint64_t window, double had)
 {
@@ -131,8 +131,8 @@ gg_expected_end gg_run_progress_end(const gg_progress_estimate *o, const gg_stop
   return (gg_expected_end){begins + end.at, end.known && !anew};
 }
 
-/* Share of the run that is done: `due` samples of `end`, or of the time that there is (NaN: no limit), whichever is
- * nearer its end. It never falls, and is 1 only of a run that is over. */
+/* Fraction of the run that is done: the larger of the fractions of samples and of the time limit (NaN: no limit). It
+ * never falls, and it is 1 only when the run is over. */
 static double fraction_of(gg_progress_estimate *o, double due, double end, double share_of_time)
 {
   double done = fmax(end > 0 ? due / end : 0, share_of_time > 0 ? share_of_time : 0);
@@ -147,8 +147,8 @@ bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all)
   return asked && gg_base_clock_wall() - all->last_checkpoint > every;
 }
 
-/* Estimates the errors between two tests, for the progress estimate alone: of windows a quarter as long as is tested at
- * least, each longer by a twentieth than the last, and never more than a hundredth of the time. */
+/* Estimate errors between two tests, for the progress estimate alone. The first window is a quarter of the shortest
+ * that is tested; each next one is 5 % longer. Estimates take at most 1 % of the time. */
 static void estimate_errors(gg_replicas *all, double window)
 {
   gg_convergence c;

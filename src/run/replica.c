@@ -73,15 +73,15 @@ static double cpu_used(const gg_replica *r)
   return gg_base_clock_cpu() + state.others_cpu;
 }
 
-/* Collisions after which an interval is over, whatever time has gone. While it adapts: where the rate has risen since
- * it was chosen, as from a start in the cold. Later, a thousand times what is expected: see check_collapse. */
+/* Largest number of collisions of an interval, which ends there whatever the time. While intervals adapt: 16 times the
+ * expected number, since the rate may have risen, as after a cold start. Later 1000 times: see check_collapse. */
 static uint64_t most_collisions(const gg_replica *r, bool adapt)
 {
   double expected = GG_SAMPLING_INTERVAL * (double)r->model.n / 2;
   return adapt ? (uint64_t)(16 * expected) + 1000 : (uint64_t)(1000 * expected) + 1000000;
 }
 
-/* One part of an interval, or the rest of one that was stopped. */
+/* Advance by one part of an interval, or by the rest of a part that was stopped. */
 static gg_status advance_part(gg_replica *r, int part, int parts, bool adapt, gg_error *err)
 {
   const gg_engine_ops *ops = r->engine->ops;
@@ -91,8 +91,8 @@ static gg_status advance_part(gg_replica *r, int part, int parts, bool adapt, gg
   return ops->advance(r->engine, r->clock.interval / parts, most_collisions(r, adapt), &r->clock.part_gone, err);
 }
 
-/* Advance by one sampling interval, in parts if an observable asks for snapshots in between; or to the end of one that
- * was stopped. */
+/* Advance by one sampling interval, or to the end of one that was stopped. It has several parts if an observable takes
+ * snapshots within it. */
 static gg_status advance_interval(gg_replica *r, bool adapt, double *elapsed, uint64_t *happened, gg_error *err)
 {
   struct gg_replica_clock *c = &r->clock;
@@ -110,10 +110,10 @@ static gg_status advance_interval(gg_replica *r, bool adapt, double *elapsed, ui
   return GG_OK;
 }
 
-/* Adapt the interval to the collision rate, by at most a factor of four at a time. The counted rate is that in the
- * middle of the interval. A gas that cools or heats up for ever is slower or faster in the middle of the next one, by
- * as much as it changed from its beginning (temperature `before`) to now: late by that, samples at e = 0 would be 1.5
- * collisions a grain apart. Elsewhere a difference of temperatures is noise. */
+/* Adapt the interval to the collision rate, by at most a factor of four at a time. The counted rate is that of the
+ * middle of the interval. In a gas that cools or heats for ever the rate in the middle of the next interval differs by
+ * the factor from the beginning of this one (temperature `before`) to now. Without this correction samples at e = 0
+ * would be 1.5 collisions per grain apart. In other gases differences of temperature are noise. */
 static void adapt_interval(gg_replica *r, double elapsed, uint64_t happened, double before)
 {
   double per_grain = 2 * (double)happened / (double)r->model.n, now = r->clock.temperature;
@@ -232,8 +232,9 @@ static gg_status check_collapse(gg_replica *r, bool adapt, double elapsed, uint6
       r->engine->ops->name, r->clock.time);
 }
 
-/* Up to the next of the times at which a gas is followed: in the engine's units, however few are left. */
-static void aim(gg_replica *r)
+/* Set the interval of a transient run to end at the next sampling time, in the engine's units; rounding may have left
+ * no time, so it is at least 1e-9 of the distance. */
+static void set_interval_to_next_time(gg_replica *r)
 {
   const double from = gg_run_protocol_time(&r->scene, r->clock.samples),
                to = gg_run_protocol_time(&r->scene, r->clock.samples + 1);
@@ -272,7 +273,7 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   uint64_t happened;
   const double before = r->clock.temperature;
   GG_TRY(change_if_due(r, err)); /* a change that was interrupted */
-  if (gg_scene_is_followed(&r->scene) && !r->clock.part) aim(r);
+  if (gg_scene_is_followed(&r->scene) && !r->clock.part) set_interval_to_next_time(r);
   GG_TRY(advance_interval(r, adapt, &elapsed, &happened, err));
   gg_run_replica_sample_row(r, elapsed);
   r->clock.temperature = temperature_now(r);
@@ -309,10 +310,10 @@ gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, co
   return gg_base_callback_settle(status, err);
 }
 
-bool gg_run_replica_settled(const gg_replica *r)
+bool gg_run_replica_interval_fits(const gg_replica *r)
 {
-  if (gg_scene_is_followed(&r->scene)) return true; /* times are given */
-  if (r->model.gravity[1] != 0) return true;        /* grains that lie collide as often as they like */
+  if (gg_scene_is_followed(&r->scene)) return true; /* sampling times are given */
+  if (r->model.gravity[1] != 0) return true;        /* grains at rest have any collision rate */
   double per_grain = r->clock.interval * gg_common_model_collision_rate(&r->model, r->clock.temperature);
   return !r->clock.cut_short && per_grain > GG_SAMPLING_INTERVAL / 50;
 }
@@ -334,7 +335,7 @@ gg_status gg_run_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
   return gg_run_replica_save_observables(r, a, err);
 }
 
-/* Frames may be requested at other times than before: only of what is still to come. */
+/* A resumed run may request frames at other intervals: set the time of the next one. */
 static void resume_frames(gg_replica *r)
 {
   if (r->clock.frame_every == r->trajectory_every) return;
@@ -354,7 +355,7 @@ static gg_status check_clock(const gg_replica *r, gg_error *err)
   return good ? GG_OK : gg_base_fail(err, GG_BAD_FILE, "the checkpoint is damaged: the clock of a replica");
 }
 
-/* With what the protocol had changed. */
+/* Apply the changes of the protocol that the saved engine had. */
 static gg_status restore_model(gg_replica *r, gg_error *err)
 {
   const int64_t changes = r->clock.changes;

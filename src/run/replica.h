@@ -9,26 +9,22 @@
 #include "run/run.h"
 #include "scene/scene.h"
 
-enum { GG_MAX_OBSERVABLES = GG_N_OBSERVABLES + 1 }; /* every one there is, and those of the user's own */
+enum { GG_MAX_OBSERVABLES = GG_N_OBSERVABLES + 1 }; /* built-in ones, and one for all user-defined ones */
 
 typedef struct gg_replica {
-  gg_model model; /* at present */
+  gg_model model; /* after the protocol's changes so far */
   gg_scene scene;
   gg_engine *engine;
   int n_observables;
   const gg_observable *observable[GG_MAX_OBSERVABLES];
   void *self[GG_MAX_OBSERVABLES];
-  size_t offset[GG_MAX_OBSERVABLES]; /* where its channels begin in a row */
-  size_t wall_modes_at;              /* where those between walls begin (wall_modes.h) */
-  gg_bins bins[GG_MAX_OBSERVABLES];  /* of those that leave curves */
-  int every[GG_MAX_OBSERVABLES];     /* samples between snapshots for them */
-  enum gg_observed {
-    GG_OBSERVED_UNSET,
-    GG_NOT_OBSERVED,
-    GG_OBSERVED
-  } shown;                 /* collisions, for the observables that need them */
-  gg_snapshot snapshot;    /* what they sample; gathered only if one of them is due */
-  int parts;               /* of a sampling interval, each ending with a snapshot, while averaging */
+  size_t offset[GG_MAX_OBSERVABLES]; /* first channel of the observable in a row */
+  size_t wall_modes_at;              /* first channel of the wall modes (wall_modes.h) */
+  gg_bins bins[GG_MAX_OBSERVABLES];  /* of observables with curves */
+  int every[GG_MAX_OBSERVABLES];     /* samples between their snapshots */
+  enum gg_observed { GG_OBSERVED_UNSET, GG_NOT_OBSERVED, GG_OBSERVED } shown; /* state of the collision callback */
+  gg_snapshot snapshot;    /* taken only if an observable with curves is due */
+  int parts;               /* number of parts of a sampling interval while averaging; a snapshot ends each part */
   struct gg_replica_flow { /* between walls; else NULL */
     gg_slabs window;       /* of all rows since averaging began */
     gg_local_frame frame;  /* of them; before, of the last row */
@@ -49,14 +45,14 @@ typedef struct gg_replica {
     double cpu, window_cpu; /* seconds used; at the opening of the window */
     uint64_t window_collisions;
     uint64_t averaging, window_samples; /* curves are being taken; samples since */
-    double next_frame, frame_every;     /* collisions per grain; of the frames requested when it was set */
+    double next_frame, frame_every;     /* collisions per grain; trajectory_every when next_frame was set */
     /* The interval under way, if the run was stopped within it. */
-    int64_t part;       /* in which it was stopped, from 1 on; 0: between intervals */
-    double gone;        /* time of the parts before */
-    double part_gone;   /* of this part */
+    int64_t part;       /* part in which it was stopped, from 1 on; 0: between intervals */
+    double gone;        /* time elapsed in the parts before */
+    double part_gone;   /* time elapsed in this part */
     uint64_t happened;  /* collisions of the engine when the interval began */
-    uint64_t cut_short; /* intervals in a row that ended with their most collisions */
-    int64_t changes;    /* of the protocol, that the engine has */
+    uint64_t cut_short; /* number of last intervals in a row that reached the largest number of collisions */
+    int64_t changes;    /* number of changes of the protocol that the engine has */
   } clock;
 } gg_replica;
 
@@ -66,15 +62,16 @@ typedef struct gg_replica {
 gg_status gg_run_replica_create(gg_replica *r, const gg_scene *scene, const gg_model *model, int index, gg_error *err);
 void gg_run_replica_clear(gg_replica *r);
 
-/* Continue until `samples` have been taken in all; GG_INTERRUPTED where model.stop asks for it, within an interval as
- * well: what is saved there continues bit for bit. With `adapt`, the interval follows the collision rate (warm-up,
- * cooling). */
+/* Continue until the total number of samples is `samples`. GG_INTERRUPTED if model.stop is set, also within an
+ * interval: a replica saved there continues bit for bit. With `adapt` the interval follows the collision rate (warm-up,
+ * cooling).
+ */
 gg_status gg_run_replica_advance(gg_replica *r, uint64_t samples, bool adapt, const gg_run_callbacks *callbacks,
                                  gg_error *err);
 
-/* Is the interval between samples that of grains as fast as these are? Not while it still follows a burst of collisions
- * that only lasted for a while. */
-bool gg_run_replica_settled(const gg_replica *r);
+/* True if the sampling interval fits the collision rate at the present temperature. After a burst of collisions it is
+ * too short at first. */
+bool gg_run_replica_interval_fits(const gg_replica *r);
 /* Report that collisions accumulate without end: GG_FAILED with GG_CAUSE_COLLAPSE. */
 gg_status gg_run_replica_collapsed(const gg_replica *r, gg_error *err);
 
@@ -99,11 +96,11 @@ void gg_run_replica_restart_curves(gg_replica *r);
 /* The model has changed, and the engine is another: curves are of the new gas alone. */
 void gg_run_replica_change_curves(gg_replica *r);
 
-/* sampling.c, before an interval of the window: whether the engine reports its collisions to the observables that need
- * them. Always, unless that slows the engine down many times over and the observables accept bursts. A burst is so many
- * samples at the beginning of every `apart`; bursts are closer before the window is `settled` samples long. */
+/* sampling.c, before each interval of the window: engines report collisions to the observables that need them, always
+ * or in bursts (see there). Numbers of samples: length of a burst; first: period of the first bursts; apart: period
+ * from sample `regular_from` of the window on. */
 typedef struct gg_sampling_bursts {
-  uint64_t length, first, apart, settled; /* samples; first: how far apart the first ones begin */
+  uint64_t length, first, apart, regular_from;
 } gg_sampling_bursts;
 gg_sampling_bursts gg_run_sampling_bursts_of(const gg_model *model);
 gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err);

@@ -63,7 +63,7 @@ static gg_status restore(gg_replicas *all, const gg_archive *a, gg_error *err)
   return GG_OK;
 }
 
-/* Samples that every replica has taken, at most `due`: they are not level where a run was stopped within a stretch. */
+/* Number of samples that every replica has, at most `due`. Replicas differ if a run was stopped within a step. */
 static uint64_t least_samples(const gg_archive *a, uint64_t due)
 {
   uint64_t least = due;
@@ -104,7 +104,8 @@ static bool is_interrupted(gg_replicas *all)
   return yes;
 }
 
-/* Dense starts take seconds, in which the controller itself may be at work: whoever polls reports. */
+/* Report progress during dense starts, which take seconds. Any thread that polls is_stopped does it, since the
+ * controller may itself be placing grains. */
 static void report_start(gg_replicas *all)
 {
   const double between = 0.5;
@@ -124,7 +125,7 @@ static void report_start(gg_replicas *all)
   pthread_mutex_unlock(&all->lock);
 }
 
-/* For whoever works on a replica, engines in the midst of an interval included. Once a run is stopped, it stays so. */
+/* Polled by all threads that work on a replica, engines within an interval included. A stopped run stays stopped. */
 static bool is_stopped(void *context)
 {
   gg_replicas *all = context;

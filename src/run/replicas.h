@@ -18,26 +18,26 @@ typedef struct gg_stopping_criteria { /* stopping criteria, chosen before the ru
 
 /* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
 enum { GG_LEAST_CORRELATION_TIMES = 20 };
-/* Nor one of less than this many decay times of a mode across a gap between walls that shifts results itself: a time
- * that short windows show too short, by half at 20. A mode that results follow by its square alone needs fewer: the
- * square forgets in half the time. */
+/* Nor can a window of less than this many decay times of a slow mode between walls. Short windows underestimate decay
+ * times, by half at 20. Results depend on the square of an odd mode, whose decay time is half as long: fewer suffice.
+ */
 enum { GG_LEAST_SLOW_TIMES = 50, GG_LEAST_ODD_TIMES = 10 };
 
 typedef struct gg_convergence { /* of the present averaging window */
-  double relative_error;        /* of the worst quantity with a requested error, in units of its requested error:
-                                 * equal to gg_stopping_criteria.relative_error where it just has that; NaN: not known */
+  double relative_error;        /* of the worst quantity with a requested error; scaled so that it equals
+                                 * gg_stopping_criteria.relative_error when the request is just met; NaN: unknown */
   gg_quantity worst;
   bool trusted;     /* every headline error rests on long enough blocks */
-  double untrusted; /* longest correlation time of those that do not, in samples, over the number of replicas */
+  double untrusted; /* longest correlation time of those that are not trusted, in samples, over number of replicas */
   double sure_at;   /* from so many samples on all headline errors rest on GG_MAX_BLOCKS blocks, each long enough */
   double slowest;   /* longest correlation time of the monitored quantities, in samples */
   bool trending;    /* some quantity still changes ... */
   gg_quantity trending_quantity;
-  double trend_z, trend_relative; /* ... by so many errors, and by this share of its mean */
-  double trend_share;             /* of the window: the part that differs from later; its first third or less */
-  int slow_mode;         /* between walls: the mode across the gap that asks for the longest window; -1 without */
-  double slow_mode_time; /* over what time it forgets, in samples */
-  int slow_mode_least;   /* of these times that a window has to have */
+  double trend_z, trend_relative; /* ... by this many errors, and by this fraction of its mean */
+  double trend_share;             /* fraction of the window, its beginning, that differs from the rest; at most 1/3 */
+  int slow_mode;                  /* between walls: the mode that needs the longest window; -1: none */
+  double slow_mode_time;          /* its decay time, in samples */
+  int slow_mode_least;            /* decay times that a window needs */
 } gg_convergence;
 
 typedef struct gg_replicas {
@@ -62,8 +62,8 @@ typedef struct gg_replicas {
     int64_t exact;                                /* at the last test, errors were as small as requested */
     double wall;                                  /* seconds used before this process */
     uint64_t stretch_collisions, stretch_treated; /* of all replicas, where the present stretch began */
-    double arrest_share; /* share of contacts that last, if there was little else; 0: the grains move */
-    double runaway;      /* theta/T of grains that escaped friction, if it is beyond use; else 0 */
+    double arrest_share; /* fraction of treated collisions if grains have come to rest; 0: they move */
+    double runaway;      /* theta/T if it has grown beyond use; else 0 */
   } state;
   gg_convergence last;
   double started, last_checkpoint; /* clock readings */
@@ -79,9 +79,9 @@ enum { GG_NOT_STOPPED, GG_OUT_OF_TIME, GG_STOP_REQUESTED }; /* why a run is stop
 gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *model);
 /* The relative error requested of a quantity; INFINITY: none. */
 double gg_run_criteria_error_of(const gg_scene *scene, const gg_model *model, gg_quantity q);
-/* Is a window with a trend given up, after so many that were? */
+/* True if a window with a trend is given up, after `restarts` earlier ones. */
 bool gg_run_criteria_restart(const gg_stopping_criteria *criteria, uint64_t restarts);
-/* Does a window of this length end the run, whatever its errors are? */
+/* True if a window of this length ends the run, whatever its errors. */
 bool gg_run_criteria_end(const gg_stopping_criteria *criteria, uint64_t restarts, uint64_t window);
 
 /* Result of a test of the window. A window with 64 long blocks knows its error to 9 %: it is sure. Shorter ones, with
@@ -112,7 +112,8 @@ double gg_run_criteria_margin(const gg_stopping_criteria *criteria, double corre
  * `threads`. They are the caller's to clear if this succeeds. */
 gg_status gg_run_replicas_create(gg_replicas *all, const gg_scene *scene, const gg_archive *resume, int threads,
                                  const gg_run_callbacks *callbacks, gg_error *err);
-/* After a collapse: is the contact time the program's choice, are larger ones left, and no frames stored? */
+/* True if a run may be repeated with a longer contact time after a collapse: this was automatic, may still grow, and no
+ * frames are stored. */
 bool gg_run_replicas_can_raise(const gg_replicas *all);
 /* All of them anew with a tenfold one, of the same run: its clock continues. On failure they are cleared. */
 gg_status gg_run_replicas_raise(gg_replicas *all, int threads, gg_error *err);

@@ -16,7 +16,7 @@
 #include "scene/ensemble_size.h"
 #include "scene/fields.h"
 
-/* The gas that values are of: at the end of a run that is followed, after its changes so far. */
+/* Model that the values belong to: in a transient run that after the protocol's changes so far. */
 static const gg_model *gas_of(const gg_replicas *all)
 {
   return &all->replica[0].model;
@@ -245,7 +245,7 @@ static void warn_if_walls_slip(gg_result *result)
                          : "; a flow that loses more energy than walls bring in so dies: give walls.mu a larger value");
 }
 
-/* Noise of mean numbers, and a layer at a wall of a dense gas, are less. */
+/* Noise of mean densities and dense layers at walls exceed the limit in a smaller fraction. */
 #define MOST_OVERFILLED 0.01
 
 static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_result *result)
@@ -316,9 +316,9 @@ static void warn_of_short_blocks(gg_result *result, int from, const char *name)
                        name, worst->block_correlation, worst->name);
 }
 
-/* Folded curves do not feel on which side of the middle a dense core is. One that keeps to a side is to be seen all the
- * same: by more of the gap than grains alone fluctuate, and for a window of four correlation times or less, when half
- * of the mean square is the mean's. */
+/* Folded profiles hide a dense core that stays on one side. Warn if the mean position of the centre of mass is off the
+ * middle by more than the grains' fluctuations. Its square must be half of the mean square or more, which happens in
+ * windows of up to four correlation times. */
 #define ASIDE_OF_GAP 0.01
 #define ASIDE_SHARE 0.5
 

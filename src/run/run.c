@@ -68,8 +68,8 @@ gg_status gg_run_scene(const gg_scene *scene, const gg_archive *resume, int thre
   return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", gg_common_engine_of(scene->engine)->name);
 }
 
-/* Curves of what the scene measures, so that nobody pays for others. A theory that has none here, of rough grains for
- * instance, is no reason for a warning: most have none at all. */
+/* Evaluate a theory's curves for the observables of the scene; others would waste time. A theory without curves for
+ * this gas has no warning, since most have none at all. */
 static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
 {
   gg_error why = {0};
@@ -84,7 +84,7 @@ static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
   return GG_OK;
 }
 
-/* `start`: facts tell how engines start; theories of ours find their own temperature. */
+/* `start`: a model whose starting temperature is set before the first user-defined theory, which may read it. */
 static gg_status compare_theories(const gg_model *model, const bool *wanted, gg_model *start, gg_comparison *c,
                                   gg_error *err)
 {
@@ -126,7 +126,7 @@ gg_status gg_run_compare_theories(const gg_model *model, const bool *wanted, gg_
   return status;
 }
 
-/* One engine's part, run beside or after the other's; one thread at a time calls a callback. */
+/* One engine's part of a comparison. Callbacks are called under `lock`. */
 typedef struct part {
   gg_scene scene;
   gg_engine_kind kind;
@@ -206,7 +206,7 @@ static void run_part(part *p)
   pthread_mutex_unlock(p->lock);
 }
 
-/* A scene that an engine cannot run leaves that column empty with the reason; anything else ends the comparison. */
+/* Keep the reason if the engine cannot run the scene: the comparison goes without it. Other failures end it. */
 static gg_status close_part(part *p, gg_error *err)
 {
   gg_comparison *c = p->comparison;
@@ -229,8 +229,8 @@ static void control_part(void *context)
   gg_run_scheduler_leave(p->scheduler);
 }
 
-/* One after the other, or side by side: then the tasks of both engines wait in one queue, md's controller is this
- * thread, and dsmc's one of its own, if there is one to be had. */
+/* Run both parts, one after the other or side by side. Side by side, tasks of both engines share one queue; this thread
+ * controls md, a new thread dsmc. If it cannot be started, dsmc runs after md. */
 static gg_status run_parts(part parts[GG_N_ENGINES], bool beside, int threads, gg_error *err)
 {
   gg_run_controller dsmc = {.started = false};

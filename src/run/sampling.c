@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How a replica is sampled. For rows: chunk by chunk, or block by block, at the end of every sampling interval. For
- * curves: whole snapshots, where an observable is due. */
+/* Sampling of a replica. Rows are made of chunks or blocks of grains at the end of every sampling interval. Curves are
+ * made of whole snapshots when an observable is due. */
 #include <math.h>
 
 #include "measure/wall_modes.h"
 #include "run/replica.h"
 
-/* When an engine shows its collisions: always, or in bursts. A Monte Carlo engine is some thirty times slower while
- * it shows them, so that a burst of one sample in a hundred costs a third of the run. Errors ask for sixteen
- * bursts, whatever the length of a run: they are close together at first, and further and further apart. They depend
- * on the samples of the window alone: a resumed run has them where the uninterrupted one has. */
+/* Engines report collisions always, or in bursts: dsmc is some thirty times slower meanwhile, so that bursts of one
+ * sample in a hundred add a third to the time. Errors need sixteen bursts however short the run is. So bursts are close
+ * together at first, then further and further apart. Their samples depend on the window alone: a resumed run has the
+ * same bursts. */
 
 static void add_collision(void *context, const gg_collision_record *collision)
 {
@@ -19,22 +19,23 @@ static void add_collision(void *context, const gg_collision_record *collision)
       r->observable[k]->collisions->add(r->self[k], collision);
 }
 
-/* Does anybody ask for collisions; and is there nobody who has to have them all? */
-static bool are_asked_for(const gg_replica *r, bool *some_will_do)
+/* True if an observable needs collisions. *in_bursts: callbacks slow the engine down, and no observable needs all
+ * collisions. */
+static bool need_collisions(const gg_replica *r, bool *in_bursts)
 {
   bool any = false;
-  *some_will_do = r->engine->ops->callback_slows && r->engine->ops->callback_slows(r->engine);
+  *in_bursts = r->engine->ops->callback_slows && r->engine->ops->callback_slows(r->engine);
   for (int k = 0; k < r->n_observables; k++) {
     if (!gg_measure_observable_wants_collisions(r->observable[k], &r->model)) continue;
     any = true;
-    if (!r->observable[k]->collisions->begin_burst) *some_will_do = false;
+    if (!r->observable[k]->collisions->begin_burst) *in_bursts = false;
   }
   return any;
 }
 
-/* A burst is 24 collisions of a grain long, and of a grain of any species: what is seen of a flight begins with the
- * burst, and where grains of one kind collide a few times in it, only their short flights are seen whole. Grains that
- * collide yet more seldom than MOST_LONGER allows for have no flights then, instead of short ones. */
+/* A burst lasts for 24 collisions of a grain of the slowest species. Only flights that begin and end within the burst
+ * are observed whole; with few collisions per burst only short flights would be. A species that collides more than
+ * MOST_LONGER times more seldom than the average has no observed flights, instead of short ones only. */
 enum { BURST = 12, BURSTS_ALIKE = 16, APART_FIRST = 32, GROWTH = 32, MOST_LONGER = 32 };
 gg_sampling_bursts gg_run_sampling_bursts_of(const gg_model *m)
 {
@@ -68,24 +69,24 @@ static void begin_burst(gg_replica *r)
 gg_status gg_run_replica_observe_collisions(gg_replica *r, gg_error *err)
 {
   bool in_bursts;
-  if (!are_asked_for(r, &in_bursts)) return GG_OK;
+  if (!need_collisions(r, &in_bursts)) return GG_OK;
   const gg_sampling_bursts bursts = gg_run_sampling_bursts_of(&r->model);
   const uint64_t at = since_burst(&bursts, r->clock.window_samples);
   const enum gg_observed wanted = !in_bursts || at < bursts.length ? GG_OBSERVED : GG_NOT_OBSERVED;
-  const bool begins = in_bursts && at == 0 && !r->clock.part; /* and not in an interval that was stopped */
+  const bool begins = in_bursts && at == 0 && !r->clock.part; /* part: the burst of a resumed interval has begun */
   if (begins) begin_burst(r);
   if (wanted == r->shown) return GG_OK;
   r->shown = wanted;
   return r->engine->ops->set_callback(r->engine, wanted == GG_OBSERVED ? add_collision : NULL, r, err);
 }
 
-/* Has the present sample of observable k others of its burst to follow? All of one are a single sample of its bins,
- * so that errors know of what changes from one burst to the next alone. */
+/* True if the present sample of observable k is in a burst and not its last. All samples of a burst are one sample of
+ * its bins, because only bursts are independent enough for errors. */
 static bool in_burst(const gg_replica *r, int k)
 {
   bool in_bursts;
   const gg_sampling_bursts bursts = gg_run_sampling_bursts_of(&r->model);
-  return has_bursts(r->observable[k]) && are_asked_for(r, &in_bursts) && in_bursts &&
+  return has_bursts(r->observable[k]) && need_collisions(r, &in_bursts) && in_bursts &&
          since_burst(&bursts, r->clock.window_samples) < bursts.length - 1;
 }
 
@@ -105,7 +106,7 @@ static void add_blocks(void *context, const gg_block_run *run)
       r->observable[k]->rows->add_blocks(r->self[k], run);
 }
 
-/* Does the engine have blocks, and can every observable that reads grains for its row read blocks? */
+/* True if the engine has blocks, and every observable that reads grains for its row can read blocks. */
 static bool reads_blocks(const gg_replica *r)
 {
   bool all = r->engine->ops->blocks != NULL;

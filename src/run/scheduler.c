@@ -83,8 +83,8 @@ static void start_worker(gg_run_scheduler *s)
   }
 }
 
-/* Lets one more begin, if there is a thread for it: whoever begins calls this again. Controllers go first, since they
- * have little to do and others wait for it. */
+/* Let one controller or task begin, if a processor is free; each that begins calls this again. Controllers go first:
+ * they have little to do, and tasks depend on them. */
 static void wake(gg_run_scheduler *s)
 {
   if (s->busy >= s->threads) return;
@@ -104,7 +104,7 @@ static gg_run_task *next_task(const gg_run_scheduler *s)
   return s->busy < s->threads && !s->entering ? s->queue : NULL;
 }
 
-/* The processor of a run's last task goes to the run's controller. */
+/* Finish a task. The processor of a run's last task is passed to the run's controller. */
 static void finish(gg_run_scheduler *s, gg_run_task *t)
 {
   gg_run_tasks *run = t->run;
@@ -115,7 +115,7 @@ static void finish(gg_run_scheduler *s, gg_run_task *t)
   if (run->left == 0 || run->arrived) pthread_cond_signal(&run->changed);
 }
 
-/* The first of the queue; without the lock meanwhile. */
+/* Do the first task of the queue. The lock is released meanwhile. */
 static void work(gg_run_scheduler *s)
 {
   gg_run_task *t = s->queue;
@@ -249,7 +249,7 @@ void gg_run_tasks_close(gg_run_tasks *run)
   run->task = NULL;
 }
 
-/* Behind all of its priority. */
+/* Insert the task after all of the same priority. */
 static void enqueue(gg_run_scheduler *s, gg_run_task *t)
 {
   gg_run_task **at = &s->queue;
@@ -257,7 +257,7 @@ static void enqueue(gg_run_scheduler *s, gg_run_task *t)
   t->next = *at, *at = t;
 }
 
-/* A controller that works begins with its tasks when it waits. */
+/* Queue a task. In one process the controller starts the work when it waits for its tasks (work_and_wait). */
 void gg_run_task_queue(gg_run_task *t)
 {
   gg_run_scheduler *s = t->run->scheduler;
@@ -312,7 +312,8 @@ void gg_run_task_finish(gg_run_task *t)
   pthread_mutex_unlock(&s->lock);
 }
 
-/* The controller's processor is free until the last task passes its own on. */
+/* Wait for all tasks of the run, and do some of them. The controller gives up its processor until the last task passes
+ * one back. */
 static void work_and_wait(gg_run_scheduler *s, gg_run_tasks *run)
 {
   if (run->left) s->busy--;

@@ -14,8 +14,8 @@
 #include "run/replicas.h"
 #include "statistics/autocorrelation.h"
 
-/* Sound makes fast noise of most modes. Means over this many parts of the window have little of it left, and all that
- * is slow enough to matter. */
+/* Number of parts of the window over which modes are averaged: this removes the fast noise of sound waves and keeps the
+ * slow decay. */
 enum { PARTS = 512 };
 
 /* Means of one mode over the parts of every replica's window; returns their mean. */
@@ -41,7 +41,7 @@ static double mean_square(const double *y, size_t n)
   return sum;
 }
 
-/* A mode with this decay time: does it ask for the longest window, or do results remember it longest? */
+/* Record a mode's decay time: keep the mode that needs the longest window, and the longest memory of results. */
 static void note(gg_slow_modes *w, int mode, bool odd, double time)
 {
   const int least = odd ? GG_LEAST_ODD_TIMES : GG_LEAST_SLOW_TIMES;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The steady-state test: may a mean over the window be called that of a steady state? */
+/* The steady-state test: whether a mean over the window is that of a steady state. */
 #include <math.h>
 #include <stdio.h>
 
@@ -22,8 +22,8 @@ static void describe_trend(const gg_convergence *c, double window, char *text, s
              name, 100 * c->trend_relative, fabs(c->trend_z));
 }
 
-/* Does theta/T grow without end? With weak friction spins may lose less energy than velocities do: theta/T then grows
- * by decades, and scatters too much for a trend to show. */
+/* True if theta/T grows without end. With weak friction spins may lose less energy than velocities do: theta/T then
+ * grows by decades, and scatters too much for a trend to show. */
 static bool spins_run_away(const gg_result *r, double *ratio)
 {
   const gg_history *h = &r->history;

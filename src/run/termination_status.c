@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Did the run reach what was requested, and why not? */
+/* Termination status of a run: whether it met the request, or why not. */
 #include <math.h>
 
 #include "run/protocol_times.h"

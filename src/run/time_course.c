@@ -59,7 +59,7 @@ gg_mean gg_run_time_course_end(const gg_replicas *all, gg_quantity q)
   return over_replicas(all, &f, k, r->series.n - 1);
 }
 
-#define LITTLE 0.05 /* seconds of processor time: who interrupts a run waits for its result */
+#define LITTLE 0.05 /* seconds of processor time, so that an interrupted run reports its result soon */
 
 /* Kinetic theory at each of the times, from the temperatures of the start; NaN after a change to a gas that no theory
  * describes, and after an interruption. */
@@ -170,7 +170,7 @@ gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, g
     const gg_quantity_row *row = &result->rows.row[i];
     if (is_shown(&all->model, row->quantity) && gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
       add_curve(all, row, &f, known ? theory : NULL, 0, list);
-    /* The course after the last change may be small beside the one before: it gets a picture of its own. */
+    /* Changes after the last step of the protocol may be small beside those before it: add a separate curve. */
     if (row->quantity == GG_Q_TEMPERATURE && changed > 0 && changed + 1 < all->replica[0].series.n &&
         gg_run_replica_find_history(&all->replica[0], row->quantity, &f))
       add_curve(all, row, &f, known ? theory : NULL, changed, list);

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Time courses of a gas that is followed from its start: means over replicas at each time. */
+/* Curves in time of a transient run (run.duration): means over replicas at each time. */
 #ifndef GG_RUN_TIME_COURSE_H
 #define GG_RUN_TIME_COURSE_H
 
 #include "run/replicas.h"
 
-/* Mean at the end. */
+/* Mean over replicas at the last time. */
 gg_mean gg_run_time_course_end(const gg_replicas *all, gg_quantity q);
-/* Curves of all followed quantities, with that of the Gaussian closure where it answers. */
+/* Curves of all quantities with a history, beside the Gaussian closure's if it has an answer. */
 gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, gg_error *err);
 
 #endif

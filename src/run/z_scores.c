@@ -27,7 +27,7 @@ static bool enskog_solution(const gg_comparison *c, gg_quantity q, gg_estimate *
   return false;
 }
 
-/* Numbers about zero, of which a ratio tells nothing. */
+/* True for values about zero, whose ratios are meaningless. */
 static bool about_zero(gg_quantity q, const gg_estimate *solution)
 {
   return gg_common_quantity_mask(q) & (GG_DRAWN | GG_STRESS_DIFFERENCE) || fabs(solution->mean) <= 3 * solution->error;
@@ -112,11 +112,11 @@ bool gg_run_results_disagree(const gg_comparison *c, gg_quantity q)
 
 double gg_run_deviation(const gg_estimate *simulation, double theory)
 {
-  bool told_from_zero = fabs(simulation->mean) > 3 * (isnan(simulation->error) ? 0 : simulation->error);
-  return told_from_zero ? theory / simulation->mean - 1 : NAN;
+  bool significant = fabs(simulation->mean) > 3 * (isnan(simulation->error) ? 0 : simulation->error);
+  return significant ? theory / simulation->mean - 1 : NAN;
 }
 
-/* Off by more than is expected of solutions of the same problem? NaN if not, or not known. */
+/* Relative deviation if it is significant and larger than expected between md and dsmc; else NaN. */
 static double unexpected(const gg_comparison *c, const gg_estimate *e, gg_quantity q, double theory)
 {
   double off = gg_run_deviation(e, theory);
@@ -132,7 +132,8 @@ const char *gg_run_theory_cause(const gg_theory *theory, const gg_model *model)
   return beyond ? beyond : no_cause;
 }
 
-/* Enskog's equation itself may be off: then a theory of it is as near to the Monte Carlo engine as may be. */
+/* Cause of a theory's deviation. If the theory agrees with the noise-free solution or with dsmc, md itself differs from
+ * Enskog's equation. */
 static const char *cause_of(const gg_comparison *c, const gg_run_theory_remark *r, double value)
 {
   const char *beyond = gg_theory_beyond(r->theory, &c->model);

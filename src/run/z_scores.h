@@ -30,11 +30,12 @@ bool gg_run_reference_find(const gg_comparison *comparison, const gg_quantity_ro
  * errors are those of the reference. */
 gg_departure gg_run_reference_deviation(gg_quantity q, const gg_estimate *mean, const gg_estimate *reference);
 
-/* Off the reference by more than four standard errors and by more than is expected of md and dsmc? */
+/* True if a mean deviates from the reference by more than four standard errors and more than expected between engines.
+ */
 bool gg_run_is_beyond(const gg_model *model, gg_quantity q, const gg_estimate *mean, const gg_estimate *reference);
 
-/* Does md differ from Enskog's equation by more than four standard errors and more than expected? From its solution,
- * else from dsmc with the errors of both. */
+/* True if md differs from Enskog's equation by more than four standard errors and more than expected. It is compared
+ * with the noise-free solution, else with dsmc. */
 bool gg_run_results_disagree(const gg_comparison *comparison, gg_quantity q);
 
 /* Why a theory is off where it is beyond what is expected; returns text that lasts. */
@@ -44,8 +45,9 @@ const char *gg_run_theory_cause(const gg_theory *theory, const gg_model *model);
  * within three standard errors. */
 double gg_run_deviation(const gg_estimate *simulation, double theory);
 
-/* A theory that is off by more than the engines may be of one another, and by more than four standard errors: in which
- * headline quantity most, by how much of it, and why. Not enskog_hermite: where md is off from that, md is. */
+/* Remark on a theory that deviates by more than expected between md and dsmc and by more than four standard errors: the
+ * headline quantity with the largest relative deviation, and the cause. Not for enskog_hermite, which is the solution.
+ */
 typedef struct gg_run_theory_remark {
   const gg_theory *theory;
   gg_quantity quantity;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Calls of the public interface, and all that they answer as one text. */
+/* Calls of the public interface, and all their results as one text. */
 #ifndef GG_TESTS_DOOR_MEMORY_H
 #define GG_TESTS_DOOR_MEMORY_H
 
@@ -7,9 +7,9 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Results of a call; all are freed afterwards. */
+/* Results of a call; all are freed afterwards. `scene` is made before the call. */
 typedef struct things {
-  gg_scene *scene, *other; /* scene is there before */
+  gg_scene *scene, *other;
   gg_result *result;
   gg_comparison *comparison;
   gg_trajectory *trajectory;
@@ -17,11 +17,11 @@ typedef struct things {
   gg_sweep *sweep;
   char *text[3];
   double numbers[8];
-  int told;
-  bool written; /* a call that writes files has ended well */
+  int lines;    /* number of lines passed to callbacks */
+  bool written; /* a call that writes files returned GG_OK */
 } things;
 
-/* memory_calls.c: a call, of which every step that fails ends it. */
+/* memory_calls.c: a sequence of calls, which ends at the first that fails. */
 typedef struct memory_call {
   const char *name;
   gg_status (*work)(things *t, gg_error *err);
@@ -29,18 +29,18 @@ typedef struct memory_call {
 extern const memory_call calls[]; /* ends with a NULL name */
 extern const char scene_text[], sweep_text[];
 void clear(things *t);
-/* Was lack of memory told on the way, where the sum of a sweep names no single reason? Asking forgets it. */
-bool was_told(void);
+/* True if a call reported lack of memory for a point of a sweep, whose final message names no single reason. Resets. */
+bool lack_was_reported(void);
 
-/* memory_answers.c: a whole answer: texts, numbers to the last bit. */
+/* memory_answers.c: collects the results as text, numbers to the last bit. */
 void say(const char *format, ...) __attribute__((format(printf, 1, 2)));
 const char *said(void);
 void say_nothing(void);
-/* All that the things hold; a file read back; JSON less what the clock says. */
+/* Add all results in `things`; a file, as read back. Times and dates in JSON are left out. */
 void say_things(const things *t);
 void say_file(const char *path);
 
-/* memory_folder.c: a folder as another one is; what was there is removed. */
+/* memory_folder.c: replace folder `to` by a copy of `from`. */
 void make_copy(const char *from, const char *to);
 
 enum { MOST_SAID = 1 << 21 };

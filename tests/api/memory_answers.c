@@ -120,7 +120,7 @@ void say_things(const things *t)
   if (t->comparison) say_comparison(t->comparison);
   for (int i = 0; i < 3; i++) say_json(t->text[i]);
   for (int i = 0; i < 8; i++) say("%a ", t->numbers[i]);
-  say("%d\n", t->told);
+  say("%d\n", t->lines);
 }
 
 void say_file(const char *path)

@@ -13,24 +13,24 @@ static const char simple_text[] = "flow: hcs\nphi: 0.1\nparticles: 60\ncollision
 const char sweep_text[] = "flow: usf\nphi: 0.2\nparticles: 60\nrun: {collisions: 40, warmup: 10}\n"
                           "vary: {phi: [0.1, 0.2]}\n";
 
-static bool told; /* of lack of memory, on the way */
+static bool reported; /* lack of memory, for a point of a sweep */
 
-bool was_told(void)
+bool lack_was_reported(void)
 {
-  const bool was = told;
-  told = false;
+  const bool was = reported;
+  reported = false;
   return was;
 }
 
-static void tell_line(void *context, const char *text)
+static void count_line(void *context, const char *text)
 {
   (void)text;
-  ((things *)context)->told++;
+  ((things *)context)->lines++;
 }
 
-static void tell_file(void *context, const char *file)
+static void count_file(void *context, const char *file)
 {
-  tell_line(context, file);
+  count_line(context, file);
 }
 
 #define STEP(call)                                                                                                     \
@@ -46,8 +46,8 @@ static gg_status scenes(things *t, gg_error *err)
   STEP(gg_scene_check(t->other, err));
   STEP(gg_scene_to_yaml(t->other, &t->text[0], err));
   STEP(gg_scene_to_json(t->other, &t->text[1], err));
-  STEP(gg_scene_describe(t->other, "md", tell_line, t, err));
-  STEP(gg_scene_warnings(t->other, "md", tell_line, t, err));
+  STEP(gg_scene_describe(t->other, "md", count_line, t, err));
+  STEP(gg_scene_warnings(t->other, "md", count_line, t, err));
   return gg_scene_get(t->other, "collision.e", (char *)t->numbers, sizeof t->numbers, err);
 }
 
@@ -154,7 +154,7 @@ static gg_status theories_rough(things *t, gg_error *err)
 static void note_ended(void *context, size_t i, gg_status status, const char *file, const char *message)
 {
   (void)context, (void)i, (void)status, (void)file;
-  if (strstr(message, "memory")) told = true;
+  if (strstr(message, "memory")) reported = true;
 }
 
 static gg_status sweep(things *t, gg_error *err)
@@ -171,7 +171,7 @@ static gg_status collect(things *t, gg_error *err)
   t->written = true; /* the first table may be there whole without the second */
   STEP(gg_sweep_parse(sweep_text, "sweep", &t->sweep, err));
   STEP(gg_sweep_check(t->sweep, err));
-  STEP(gg_sweep_collect(t->sweep, "there.sweep", "new", &o, tell_file, t, err));
+  STEP(gg_sweep_collect(t->sweep, "there.sweep", "new", &o, count_file, t, err));
   return gg_sweep_to_json(t->sweep, "there.sweep", &t->text[0], err);
 }
 
@@ -212,13 +212,13 @@ static gg_status play(things *t, gg_error *err)
 
 static gg_status export(things *t, gg_error *err)
 {
-  return gg_export("there.h5", "new", GG_EXPORT_ALL, tell_file, NULL, NULL, t, err);
+  return gg_export("there.h5", "new", GG_EXPORT_ALL, count_file, NULL, NULL, t, err);
 }
 
 static gg_status plot(things *t, gg_error *err)
 {
   t->written = true; /* a page that fails keeps none of the others from being drawn */
-  return gg_plot("there.h5", "new.svg", NULL, NULL, tell_file, NULL, t, err);
+  return gg_plot("there.h5", "new.svg", NULL, NULL, count_file, NULL, t, err);
 }
 
 static gg_status extend(things *t, gg_error *err)

@@ -254,15 +254,15 @@ static size_t frames_of(const char *path)
   return about.frames;
 }
 
-/* The log of frames beside a checkpoint: found where the checkpoint is called otherwise, taken over into another log,
- * or put into the result of a run that keeps no checkpoints; and if it is lost, or one piece short, that is said. */
+/* The frame log beside a checkpoint is found if the checkpoint was renamed. A resumed run continues it in the log of
+ * another checkpoint, or puts it into its result if it keeps no checkpoints. A missing or truncated log is an error. */
 static void logs_of_frames(void **state)
 {
   (void)state;
   gg_error err;
   gg_scene *s = scene_of(SHEAR);
   gg_result *r = NULL;
-  const char *const on[] = {"t_log.h5", "t_moved.h5", NULL}; /* gone on with: the same, another, none */
+  const char *const on[] = {"t_log.h5", "t_moved.h5", NULL}; /* checkpoint of the resumed run */
   assert_ok(gg_scene_set(s, "output.trajectory_every", "100", &err));
   assert_ok(gg_scene_set(s, "output.checkpoint_every", "0.001", &err));
   gg_run(s, &(gg_run_options){.size = sizeof(gg_run_options), .output = "t_frames.h5"}, &r, &err);
@@ -273,7 +273,7 @@ static void logs_of_frames(void **state)
     gg_run_options options = {
         .size = sizeof options, .output = "t_frames.h5", .checkpoint = on[k], .resume = k ? "t_other.h5" : "t_log.h5"};
     begin_trajectory(s, "t_log.h5");
-    if (k) assert_int_equal(rename("t_log.h5", "t_other.h5"), 0); /* its log keeps the name it had */
+    if (k) assert_int_equal(rename("t_log.h5", "t_other.h5"), 0); /* the log keeps its name */
     r = NULL;
     gg_run(s, &options, &r, &err);
     assert_non_null(r);

@@ -130,7 +130,7 @@ static void a_copy_has_the_same_later_bits(void **state)
   }
 }
 
-/* The random stream goes on: the same grains, set once more, take another course in Monte Carlo. */
+/* Setting grains does not reset the random stream: the same grains, set twice, evolve differently in dsmc. */
 static void stream_goes_on(void **state)
 {
   (void)state;

@@ -61,7 +61,8 @@ static void enter_folder(void)
   if (chdir("try") != 0) abort();
 }
 
-typedef struct outcome { /* of one try, told by its process */
+/* Outcome of one try, received from its process. */
+typedef struct outcome {
   uint64_t calls, faults, cached;
   int clean, harmless, wrong, ended;
 } outcome;
@@ -92,8 +93,8 @@ static void try_one(const memory_call *call, uint64_t at, bool last, const char 
     while (said()[same] == reference[same]) same++;
     o->wrong += wrong("GG_OK, and another answer", said() + (same > 40 ? same - 40 : 0));
   }
-  bool told = was_told() || strstr(err.message, "memory");
-  if (!whole && (!told || (status != GG_FAILED && status != GG_BAD_FILE))) o->wrong += wrong("said", err.message);
+  bool reported = lack_was_reported() || strstr(err.message, "memory");
+  if (!whole && (!reported || (status != GG_FAILED && status != GG_BAD_FILE))) o->wrong += wrong("said", err.message);
   if (at && failing_malloc_left(NULL, &o->cached)) {
     failing_malloc_left(stdout, NULL);
     o->wrong += wrong("leaks", err.message);

@@ -4,10 +4,10 @@
 
 #define SHORT "{flow: usf, engine: dsmc, phi: 0.1, particles: 200, dsmc: {particles: 500}, run: {collisions: 6000}}"
 
-static int told;
+static int reports;
 static int count_progress(void *context, const gg_progress *now)
 {
-  told++;
+  reports++;
   assert_true(now->fraction >= 0 && now->fraction <= 1 && now->engine && now->phase);
   assert_true(isnan(now->relative_error) || (now->phase[0] == 'a' && now->relative_error > 0)); /* not known, never 0 */
   return context && now->phase[0] == 'a' && now->fraction > *(double *)context;
@@ -40,7 +40,7 @@ static void stopped_and_resumed(void **state)
   gg_result *whole = NULL, *part = NULL, *rest = NULL;
   gg_run_options options = {.size = sizeof options, .progress = count_progress};
   assert_ok(gg_run(s, &options, &whole, &err));
-  assert_true(told > 2);
+  assert_true(reports > 2);
   options.context = &half;
   options.checkpoint = "t_stopped.h5";
   options.output = "t_never.h5";

@@ -175,8 +175,8 @@ static void note_time(void *context, const gg_collision_event *e)
   *last = e->time;
 }
 
-/* Each has its time, by the clock of the state, also in units of a start that is long ago, and where a thermostat has a
- * clock of its own. */
+/* Times of collisions do not decrease, and the last is the time of the state: in free cooling, where the engine changes
+ * its unit of time, and with thermostats, too. */
 static void times_of_collisions(void **state)
 {
   (void)state;
@@ -209,7 +209,7 @@ static void collisions_of_dsmc(void **state)
                       200 * 3.14159265358979323846 / 6 / 0.2);
 }
 
-/* Energy is lost as the sums tell, where there is neither shear nor thermostat. */
+/* Without shear and thermostat the energy decreases by the dissipation in the collision sums. */
 static void energy_balance(void **state)
 {
   (void)state;

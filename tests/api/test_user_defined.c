@@ -442,7 +442,7 @@ static void theories_refused(void **state)
   gg_scene_free(s);
 }
 
-/* An observable that is not whole, in the order in which it is looked at. */
+/* Invalid definitions of observables, in the order of the checks. */
 static void observables_refused(void **state)
 {
   (void)state;
@@ -481,7 +481,7 @@ static void observables_refused(void **state)
     assert_refused(gg_scene_add_observable(s, &bad[k].o, &err), bad[k].said);
   assert_refused(gg_scene_add_observable(NULL, &bad[9].o, &err), "the scene is missing");
   assert_refused(gg_scene_add_theory(NULL, NULL, &err), "the scene is missing");
-  /* Once there is one, its names are taken; and there is room for so many quantities. */
+  /* A registered observable takes its name, and the number of user-defined quantities is limited. */
   gg_quantity_definition q = {name, NULL, NULL};
   gg_observable_definition o = {name, NULL, 1, &q, 0, sample_T, NULL, NULL};
   int n = 0;

@@ -110,7 +110,7 @@ static void one_writer_at_a_time(void **state)
   unlink("file"), unlink("link");
 }
 
-/* In place of the C library's: a file system without locks, where asked for. */
+/* Replaces the C library's function: if `no_locks` is set, the file system has no locks. */
 static bool no_locks;
 int flock(int fd, int how)
 {
@@ -118,7 +118,7 @@ int flock(int fd, int how)
   return no_locks ? -1 : (int)syscall(SYS_flock, fd, how);
 }
 
-/* Nobody can be told of another there: each writes a file of its own, and the last to end stays. */
+/* Without locks two writers do not see each other: each writes a temporary file, and the last commit stays. */
 static void without_locks(void **state)
 {
   (void)state;
@@ -138,7 +138,7 @@ static void without_locks(void **state)
   unlink("file");
 }
 
-/* Killed in the middle, its lock and its half of a file stand there; the next run goes on as if they did not. */
+/* A killed process leaves its lock and an unfinished file; the next run ignores both. */
 static void what_the_dead_left(void **state)
 {
   (void)state;

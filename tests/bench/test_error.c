@@ -40,11 +40,12 @@ static void made_up_runs(void **state)
   s->floor[WAY][0] = s->shift[WAY][0] = 0.006;
   assert_true(fabs(gg_bench_seconds_to(s, WAY, 0, 0.01) - 25 / (1 - 0.36)) < 1e-9);
   assert_true(isinf(gg_bench_seconds_to(s, WAY, 0, 0.0059)));
-  s->shift_error[WAY][0] = 0.003; /* and so it may be 0 */
+  s->shift_error[WAY][0] = 0.003; /* the shift is not distinguishable from 0: unknown instead of never */
   assert_true(isnan(gg_bench_seconds_to(s, WAY, 0, 0.0059)));
-  s->floor[WAY][0] = 0; /* or 0.002: which is not told of 0.001 */
+  s->floor[WAY][0] = 0; /* still unknown below the error of the shift, known above it */
   assert_true(isnan(gg_bench_seconds_to(s, WAY, 0, 0.001)) && gg_bench_seconds_to(s, WAY, 0, 0.01) > 0);
-  assert_true(gg_bench_seconds_to(s, WAY, 0, 100) == s->course[WAY].seconds[0]); /* not before it has warmed up */
+  assert_true(gg_bench_seconds_to(s, WAY, 0, 100) ==
+              s->course[WAY].seconds[0]); /* at least the warm-up and the first mark */
   free(s);
 }
 

@@ -15,15 +15,15 @@
 #include "bench/bench.h"
 #include "graingas.h"
 
-static int told;
+static int reports;
 static json_t *recorded; /* rows of the present bench, as they came */
 static int full_too = 1;
 
-static void tell(void *context, const char *line)
+static void report(void *context, const char *line)
 {
   (void)context;
   assert_true(*line && !strchr(line, '\n'));
-  told++;
+  reports++;
 }
 
 static void record(void *context, const char *line)
@@ -33,14 +33,14 @@ static void record(void *context, const char *line)
   json_array_append_new(recorded, json_loads(line, 0, NULL));
 }
 
-/* Of the overview: every size is followed by its rows, which are written before the next is measured. */
-static void tell_after_rows(void *context, const char *line)
+/* In the overview the rows of a size are recorded before it is reported as done. */
+static void report_after_rows(void *context, const char *line)
 {
   static size_t before;
-  if (!told) before = 0;
+  if (!reports) before = 0;
   assert_true(json_array_size(recorded) > before);
   before = json_array_size(recorded);
-  tell(context, line);
+  report(context, line);
 }
 
 static double of(const json_t *row, const char *key)
@@ -119,7 +119,7 @@ static const gg_bench_table *table_of(const gg_bench *b, const char *key)
 static void begin(gg_bench *b, gg_bench_options *o, const char *subject)
 {
   gg_error err;
-  told = 0;
+  reports = 0;
   recorded = json_array();
   o->record = record;
   if (gg_bench_run(b, subject, o, &err) != GG_OK) fail_msg("%s", err.message);
@@ -180,12 +180,12 @@ static void overview(void **state)
   (void)state;
   gg_bench b;
   for (int quick = !full_too; quick < 2; quick++) {
-    gg_bench_options o = {.quick = quick, .smaller = 200, .tell = tell_after_rows};
+    gg_bench_options o = {.quick = quick, .smaller = 200, .tell = report_after_rows};
     begin(&b, &o, NULL);
     const gg_bench_table *s = table_of(&b, "throughput");
     assert_whole(s, NULL);
     assert_int_equal(s->n_rows, 2 * 2 * (quick ? 2 : 3)); /* engines, densities, sizes */
-    assert_int_equal(told, s->n_rows + table_of(&b, "scenes")->n_rows);
+    assert_int_equal(reports, s->n_rows + table_of(&b, "scenes")->n_rows);
     assert_int_equal(json_array_size(s->rows), 3 * s->n_rows);
     check_scenes(table_of(&b, "scenes"));
     end(&b);
@@ -216,7 +216,7 @@ static void dsmc(void **state)
   gg_bench b;
   for (int quick = !full_too; quick < 2; quick++)
     for (int threads = 1; threads <= (quick ? 2 : 1); threads++) {
-      gg_bench_options o = {.quick = quick, .smaller = 1000, .threads = threads, .tell = tell};
+      gg_bench_options o = {.quick = quick, .smaller = 1000, .threads = threads, .tell = report};
       begin(&b, &o, "dsmc");
       assert_whole(table_of(&b, "times"), NULL);
       assert_beside(table_of(&b, "ratios"), "ns per collision");
@@ -236,11 +236,11 @@ static void observables(void **state)
                                          "local_distributions", "local_velocity_correlations"};
   gg_bench b;
   gg_bench_options o = {
-      .quick = true, .smaller = full_too ? 2 : 20, .tell = tell}; /* systems of 500 grains, or three sizes */
+      .quick = true, .smaller = full_too ? 2 : 20, .tell = report}; /* systems of 500 grains, or three sizes */
   begin(&b, &o, "observables");
   const gg_bench_table *s = table_of(&b, "observables");
   assert_whole(s, "overhead");
-  assert_int_equal(told, s->n_rows);
+  assert_int_equal(reports, s->n_rows);
   assert_int_equal(s->n_columns, 1 + 2 * 2 * (full_too ? 3 : 1)); /* engines, densities, sizes */
   size_t next = 0;
   double most = -1;
@@ -303,9 +303,9 @@ static void error(void **state)
                                          "error_phi-0.01-e-0.9-rough-cooling.svg"};
   gg_bench b;
   const char *picture = system("command -v gnuplot >/dev/null") == 0 ? "error.svg" : NULL;
-  gg_bench_options o = {.quick = true, .smaller = 100, .tell = tell, .picture = picture};
+  gg_bench_options o = {.quick = true, .smaller = 100, .tell = report, .picture = picture};
   begin(&b, &o, "error");
-  assert_true(told >= 4 * 12); /* each way of each state */
+  assert_true(reports >= 4 * 12); /* each way of each state */
   assert_int_equal(b.n_tables, 4 + 1);
   static const char *const titles[] = {"phi 0.01, e 0.9, rough, shear", "phi 0.3, e 0.9, rough, shear",
                                        "phi 0.01, e 0.9, smooth, shear", "phi 0.01, e 0.9, rough, cooling"};

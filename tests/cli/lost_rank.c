@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The post between processes, when one of them is killed with messages under way to it: the others still get theirs,
- * and come to their end at once. cli/mpi starts it under mpirun --enable-recovery; rank 1 is the one that is killed.
- * Rank 0 prints the seconds that its end took. */
+/* Messages between processes when one process is killed while messages to it are pending: the others still receive
+ * theirs and end at once. cli/mpi starts this under mpirun --enable-recovery; rank 1 is killed. Rank 0 prints the
+ * seconds that its end took. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 
 #include "cli/mpi/mpi.h"
 
-enum { LARGE = 8 << 20 }; /* bytes, more than MPI takes before it is asked for them */
+enum { LARGE = 8 << 20 }; /* bytes; MPI does not transfer so many before a matching receive */
 
 static double now(void)
 {
@@ -28,7 +28,7 @@ static void post(gg_messages *m, int to, size_t size)
   if (m->send(m->context, to, block, size) != 0) abort();
 }
 
-/* The size of the next message, whose every byte is the rank's number. */
+/* Wait for the next message and check that each byte is this rank's number. Returns the size. */
 static size_t await(gg_messages *m)
 {
   int from, got;

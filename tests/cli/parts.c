@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A message in several parts, as one above a gigabyte is: it arrives whole, though MPI takes its last part, a short
- * one, long before it has read the others. cli/mpi starts it under mpirun with two processes; parts have a megabyte
- * here. */
+/* A message in several parts, as one above a gigabyte is, arrives whole although MPI sends its short last part long
+ * before the others. cli/mpi starts this under mpirun with two processes; parts have a megabyte here. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,8 +27,8 @@ static int send_all(gg_messages *m)
     for (size_t i = 0; i < sizes[k]; i++) text[i] = at(i);
     if (m->send(m->context, 1, text, sizes[k]) != 0) return 1;
   }
-  for (int i = 0; i < 20;
-       i++) { /* nobody takes them yet; whose blocks are given back is looked at, and they are used again */
+  /* The other rank does not receive yet. Blocks of completed sends are freed by receive(); overwrite freed memory. */
+  for (int i = 0; i < 20; i++) {
     usleep(A_WHILE / 40);
     if (m->receive(m->context, &from, &block, &size) != 0) return 1;
     for (int k = 0; k < N_SIZES; k++) {

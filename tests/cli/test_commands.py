@@ -267,7 +267,8 @@ def test_compare_at_phi_0():
 
 
 def test_keys_without_effect():
-    """Told once on standard error, before the run, and in the documents; of a comparison for both engines."""
+    """Keys without effect are reported once on standard error, before the run, and in the documents. A comparison
+    reports keys that have no effect in both engines."""
     scene = ROUGH.replace("usf", "hcs").replace("e: 0.9, beta: 0", "law: viscoelastic") + "shear_rate: 2\nmd: {contact_time: 1e-4}\noutput: {trajectory_every: 50}\n"
     flow, dsmc = "shear_rate has no effect but in flow: usf", "dsmc.particles has no effect with engine: md"
     md, frames = "md.contact_time has no effect with engine: dsmc", "output.trajectory_every has no effect in a comparison"

@@ -137,7 +137,7 @@ def test_a_file_of_another_program():
 
 
 def test_changed_by_h5py():
-    """Notes of one's own, in the file or beside a quantity; and numbers that another program has put in."""
+    """Attributes and datasets that users added with h5py to the file or to a quantity, and changed numbers."""
     try:
         import h5py
     except ImportError as why:

@@ -86,14 +86,14 @@ def test_pictures_are_small():
 
 
 def test_paths_exist():
-    """src/md/queue.h, examples/usf.yaml, src/dsmc/ ...; <name> stands for any name. A word may go on after a path
-    ("tests/md"), so only what looks like a path is asked for: a known room, a slash, a name."""
+    """Paths in documents exist: src/md/queue.h, examples/usf.yaml, src/dsmc/ ... A path is a known room, a slash and a
+    name; <name> means any name. It may name a program of the tree, without .c."""
     missing = set()
     for name, text in documents().items():
         for path in re.findall(rf"(?<![\w/.<-])((?:{ROOMS})/[\w./*{{}},<>-]*\w)", text):
             if "<" in path or "{" in path or "*" in path:
                 continue
-            there = (os.path.exists(os.path.join(SOURCE, path + end)) for end in ("", ".c"))  # or a program of it
+            there = (os.path.exists(os.path.join(SOURCE, path + end)) for end in ("", ".c"))  # ".c": a program
             if not any(there):
                 missing.add(f"{name}: {path}")
     none(missing)

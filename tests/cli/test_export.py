@@ -547,8 +547,8 @@ def test_damaged_files_are_not_exported():
 
 
 def test_cools_for_ever():
-    """Times beyond all numbers, where a gas has cooled by a thousand decades: its grains are somewhere all the same, and
-    its course is drawn as far as there is a time."""
+    """A gas that has cooled by a thousand decades: the time overflows to infinity, but positions of the grains are
+    finite, and the history is drawn up to the last finite time."""
     simulated("{flow: hcs, phi: 0.1, particles: 64, collision: {e: 0.5}, run: {collisions: 9000}}")
     exported("r.h5", "--quiet")
     with open("r.xyz", encoding="utf-8") as f:

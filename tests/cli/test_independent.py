@@ -28,8 +28,8 @@ SHEAR = {"temperature": "d^2 gamma^2", "pressure": "rho_p d^2 gamma^2", "collisi
          "dissipation": "rho_p d^2 gamma^3", "velocity": "d gamma", "spin": "gamma", "time": "1/gamma"}
 REST = {"temperature": "v_0^2", "pressure": "rho_p v_0^2", "collision_rate": "v_0/d", "spin_z": "v_0/d",
         "dissipation": "rho_p v_0^3/d", "wall_heat_flux": "rho_p v_0^3", "velocity": "v_0", "spin": "v_0/d", "time": "d/v_0"}
-# What differs from flow to flow: keys of the scene, units, the curves of it, and the image that profiles are folded with
-# (the factors of u_x and of omega_z; None: not folded). Accelerations are in the scene's units.
+# Settings by flow: keys of the scene, units, observables with curves, and the mirror image with which profiles are
+# averaged (factors of u_x and omega_z; None: not averaged). Accelerations are in the scene's units.
 FLOWS = {
     "usf": {"keys": {"shear_rate": 2}, "units": SHEAR, "measure": ["velocity_distributions"]},
     "hcs": {"keys": {}, "units": REST, "measure": ["velocity_distributions"]},
@@ -256,8 +256,8 @@ def about_cells(store, flow, frame):
 
 
 def long_waves(store, flow):
-    """Of every sample, as of the last one of which the number is divisible by ten: waves of solid fraction over those of
-    elastic spheres (Carnahan & Starling), and of momentum across the wave."""
+    """Intensities of long waves at every sample: of the solid fraction, over those of elastic spheres (Carnahan &
+    Starling), and of momentum across the wave. Each value is that of the last sample with a number divisible by ten."""
     matter, momentum = np.zeros(len(store.time)), np.zeros(len(store.time))
     volume = d[store.species] ** 3
     p = m[store.species][:, None] * store.velocity
@@ -562,9 +562,9 @@ def straight(x, h, weight):
 
 
 def hold_fluxes(store, flow, kind, curves, replicas):
-    """What grains carry, about the lines of their slab, or where they fill less than half of it of the next; what collisions
-    pass on on average over the gap, from the second sample on, where walls pass on nothing; heat of the walls, of all
-    intervals but the last."""
+    """Kinetic fluxes: about a linear fit of the flow in the slab, or of the next slab if grains fill less than half of
+    this one. Collisional stresses: means over the channel, from the second sample on, of components that walls do not
+    transmit. Heat flux at the walls: all intervals but the last."""
     window, height = window_of(store, replicas), box_of(store, flow)[1]
     slabs = len(curves["profile_P_yy"]["value"])
     y = store.position[window][..., 1].ravel() / height * slabs
@@ -873,7 +873,7 @@ def hold_interface(store, flow, kind, frame, C):
 
 
 def resumed(document, whole):
-    """Cut three times, and gone on with: the same bits."""
+    """A run that is interrupted three times and resumed gives the same bits."""
     cuts = 0
     for limit in "1e-6", "0.01", "0.03", "1e9":
         again = ["--resume", "cut.checkpoint.h5"] if cuts else []
@@ -1161,7 +1161,7 @@ def test_helfand_moments_are_those_of_samples():
             close(results[name]["mean"], scale * value, name, species, within=1e-8)
 
 
-# Of these flows ./check takes these rows, each kind of grain and of frame among them; NIGHTLY takes all.
+# Rows that ./check runs: each kind of grain and of frame occurs. NIGHTLY runs all rows.
 DAILY = {"usf": ["smooth_cells", "rough_cells_laboratory", "frictional"], "hcs": ["rough", "frictional_cells"],
          "couette": ["frictional"], "poiseuille": ["smooth"], "fourier": ["rough"]}
 

@@ -147,8 +147,8 @@ def test_exit_codes():
 
 
 def test_lines_fit():
-    """No line is wider than the terminal; a pipe is 80 columns wide. (Scenes are told as they can be read back, and
-    tables have a column at least.)"""
+    """No line is wider than the terminal; a pipe is 80 columns wide. Exceptions: values that can be read back
+    (measure, machine, command)."""
     run("compare", "scene.yaml", "--output", "scene.h5", "--quiet", "--picture", "none", scene=SCENE)
     for columns in None, 80, 100, 120:
         for args in [("theory", "scene.yaml", "--all"), ("info", "scene.yaml"), ("info",), ("info", "scene.h5"),

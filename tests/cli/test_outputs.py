@@ -491,7 +491,8 @@ def test_what_took_long_is_named():
 
 
 def test_checkpoints_go_when_all_is_done():
-    """Also the one that was gone on from; not of a run that was interrupted or fell short."""
+    """A run that is done removes its checkpoints and the one that it resumed from. An interrupted or incomplete run
+    keeps them."""
     scenes()
     keep = ("--set", "output.checkpoint_every=0.001")
     for command, result in ("run", "scene"), ("compare", "scene.compare"):

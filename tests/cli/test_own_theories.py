@@ -77,7 +77,8 @@ def formula(r, depth):
 
 
 def by_python(text):
-    """The value by Python's own grammar; None: not a number. Where Python stops at an infinity graingas may go on."""
+    """The value by Python's grammar; None: not a number; "unknown": Python raised an error where graingas may continue
+    with an infinity."""
     number = r"(?<![\w.])(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?"  # whole ones, too, are floating-point numbers
     text = re.sub(number, lambda m: repr(float(m[0])), text).replace("^", "**").strip()
     try:
@@ -88,7 +89,7 @@ def by_python(text):
 
 
 def values_of(formulas):
-    """Those of graingas, in the order of the formulas; None: there is none."""
+    """Values by graingas, in the order of the formulas; None: no value."""
     parts = [formulas[k:k + len(QUANTITIES)] for k in range(0, len(formulas), len(QUANTITIES))]
     scene = MIXTURE + "theories:\n"
     for k, part in enumerate(parts):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""run.duration and protocol: curves in time are means over replicas, exact where the course is known in closed form;
-an interrupted run continues across a change bit for bit."""
+"""run.duration and protocol: curves in time are means over replicas and agree with solutions in closed form. An
+interrupted run continues across a step of the protocol bit for bit."""
 import glob
 import json
 import os

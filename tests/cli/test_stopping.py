@@ -24,7 +24,7 @@ SCENES = {
 
 
 def wait_until_it_listens(child, sig):
-    """A slow start is not what is asked about."""
+    """Wait until the process catches the signal, so that a slow start is not measured."""
     until = time.time() + BOUND
     while os.path.exists("/proc/self/status") and time.time() < until and child.poll() is None:
         with open(f"/proc/{child.pid}/status") as f:
@@ -225,7 +225,7 @@ def full_pipe():
 
 
 def stopped(child, after, file=None):
-    """Its exit code, told to stop once after so many seconds (from when it has come to `file` on)."""
+    """Exit code of a process that gets SIGTERM `after` seconds after it catches signals and has made `file`."""
     wait_until_it_listens(child, signal.SIGTERM)
     until = time.time() + BOUND
     while file and not os.path.exists(file) and time.time() < until:
@@ -241,7 +241,7 @@ def stopped(child, after, file=None):
 
 
 def test_reader_that_stalls():
-    """A pager that was left, a terminal that was halted: who is told to stop does not wait for it."""
+    """SIGTERM ends a run although its output goes to a stalled reader (a suspended pager, a halted terminal)."""
     with open("long.yaml", "w") as f:
         f.write("{flow: usf, phi: 0.1, run: {collisions: 1e7}, output: {checkpoint_every: 1000}}")
     with open("short.yaml", "w") as f:

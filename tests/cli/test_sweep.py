@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""graingas sweep as users meet it: what is listed, refused, done, killed and gone on with, shared between processes,
-collected, and handed to a cluster."""
+"""graingas sweep on the command line: lists of points, errors, results, kill and resume, several processes in one
+folder, tables, scripts for a cluster."""
 import csv
 import glob
 import json

@@ -264,8 +264,8 @@ def grains_of(path):
 
 
 def test_what_is_stored():
-    """Columns, precision and the part of the run are chosen; the others are those of the whole file. What `info` says of
-    the file's size holds within a tenth."""
+    """Options choose columns, precision and the part of the run; stored values are those of the whole file. The file's
+    size is within a tenth of the estimate by `info`."""
     run("run", "scene.yaml", "--quiet", "--output", "whole.h5", scene=STORED)
     whole, times, window = grains_of("whole.h5")
     check(len(whole) == 3 and all(dtype == "f8" for dtype, _ in whole.values()) and times[0] < window[0] / 2, times)

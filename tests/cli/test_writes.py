@@ -122,16 +122,16 @@ class Case:
             check(same is None, self.page.what, path, same)
 
     def check_clean(self, done, kind, last):
-        """Nothing new, and nothing less; but a checkpoint that can be gone on from may be there, or gone on."""
+        """After an error the files are those from before. Checkpoints that can be resumed may be new or updated."""
         number = getattr(errno, kind)
-        told = done.stderr
-        check(done.returncode in (3, self.code), self.page.what, done.returncode, told)
-        # Where all calls fail from there on, the first may be one that does not matter, and a later one be told.
-        named = of_target(self.page.what) in told or (last and ": cannot be written: " in told)
-        check(os.strerror(number) in told and named, self.page.what, told)
+        said = done.stderr
+        check(done.returncode in (3, self.code), self.page.what, done.returncode, said)
+        # If all later calls fail, too, the first may be harmless; then the message names the file of a later one.
+        named = of_target(self.page.what) in said or (last and ": cannot be written: " in said)
+        check(os.strerror(number) in said and named, self.page.what, said)
         now = files()
         left = {f for f in now if f.endswith((".graingas-kept", ".graingas-tmp", ".work.h5"))
-                and "kept in" in told and os.path.basename(f) in told}  # the only copy, and named
+                and "kept in" in said and os.path.basename(f) in said}  # the only copy, named in the message
         kept = {f for f in now | set(self.before) if ".checkpoint." in f} - left
         ends = {f for f in now if f in self.expected and f not in self.before}  # whole files of a set, as of a sweep
         check(now - kept - ends - left == set(self.before) - kept, self.page.what, now ^ set(self.before))
@@ -140,8 +140,8 @@ class Case:
             check(was or self.whole(f), self.page.what, f, "is neither the old nor the new")
         heads = {f[:f.index(".checkpoint.")] + ".checkpoint.h5" for f in kept if f in now}
         for head in heads | {f for f in self.before if f.endswith("checkpoint.h5")}:
-            told = subprocess.run([GRAINGAS, "info", head], capture_output=True, text=True)
-            check(told.returncode == 0, self.page.what, head, now, told.stderr)
+            info = subprocess.run([GRAINGAS, "info", head], capture_output=True, text=True)
+            check(info.returncode == 0, self.page.what, head, now, info.stderr)
 
     def whole(self, path):
         return path in self.expected and self.bits(path) == self.expected[path]

@@ -198,8 +198,9 @@ static void loss_to_others(void **state)
   near(gg_common_model_relaxation(&m), 2 * 0.75 / (0.9 * 0.1), 1e-12);
 }
 
-/* Where T is scaled it does not relax: a smooth gas has nothing slow, and equal species share as elastic ones do, only
- * faster; how fast it cools, which a sweep of the shear rate counts in, is as before. */
+/* If the engine rescales T, T does not relax, so a smooth gas has the least relaxation time, 1. The temperatures of
+ * equal species relax faster than elastic ones do. The cooling time, with which sweeps scale shear rates, is unchanged.
+ */
 static void scaled_temperature(void **state)
 {
   (void)state;
@@ -213,7 +214,7 @@ static void scaled_temperature(void **state)
   s.flow = GG_HSS, s.thermostat = GG_GAUSSIAN;
   m = make(&s);
   near(gg_common_model_relaxation(&m), 1, 0);
-  s.thermostat = GG_WHITE_NOISE; /* T is what the noise makes it */
+  s.thermostat = GG_WHITE_NOISE; /* T relaxes to the value that the noise sets */
   m = make(&s);
   near(gg_common_model_relaxation(&m), loss, 1e-9);
   s.flow = GG_HCS, s.thermostat = GG_NO_THERMOSTAT, s.n_species = 2;

@@ -54,8 +54,8 @@ static void powers_are_within_half_a_unit(void **state)
   assert_true(gg_power(3, 0) == 1 && gg_power(0, 2) == 0 && gg_power(-2, 3) == -8);
 }
 
-/* What is left has that many bits, and is the nearest such number. A neighbour in the last place but one gives the same
- * in all but 2^(bits - 52) of cases. */
+/* The rounded number has this many bits and is the nearest such number. Arguments two units in the last place apart
+ * give the same number in all but 2^(bits - 52) of cases. */
 static void first_bits(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Symbols are LaTeX; pictures get gnuplot's enhanced text made of it: what is written here, name by name. Of families
- * the first two and the last. */
+/* Symbols of quantities in gnuplot's enhanced text, which is made of their LaTeX. Families of quantities have three
+ * rows: the first two members and the last. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

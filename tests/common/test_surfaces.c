@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: every shape says when a grain in flight touches it, straight or on a parabola, as a search in small steps
- * along its clearance does; at the contact the normal points along the clearance's gradient; a grain that was put
- * outside touches or is clear, and touches nowhere else than its height says; what touches and leaves is not touched at
- * once; which wall is the image of which. Of a thermal wall, on ridges, too: grains leave with the moments of a flux of
- * half-Maxwellians, in the given share of contacts; impulse and heat are what they lose; no other wall draws a number.
- */
+/* Proves, for every shape of wall:
+ * - The contact time of a grain on a line or parabola is that of a search in small steps along its clearance.
+ * - The normal is the gradient of the clearance, and gg_surface_put_outside leaves no overlap.
+ * - A grain that has just bounced does not touch again at once.
+ * - Walls of a channel are images of each other. Ridges that leave no room for grains are rejected.
+ * - Thermal walls, with ridges, too, re-emit the given fraction of grains with the moments of the flux of a
+ *   half-Maxwellian. Impulse and heat of the wall are those that grains lose. Other walls draw no random number. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -141,7 +142,7 @@ static void normals_are_gradients_of_the_distance(void **state)
   }
 }
 
-/* A grain that has just bounced and falls back touches not at once, but when a search from a little later finds it. */
+/* A grain that has just bounced and falls back does not touch at once, but at the time that a search finds. */
 static void a_grain_that_bounced_does_not_touch_at_once(void **state)
 {
   (void)state;
@@ -156,17 +157,16 @@ static void a_grain_that_bounced_does_not_touch_at_once(void **state)
     gg_vec normal = gg_surface_normal(s, &p), g = gg_scale(0.5, normal);
     v = gg_axpy(-gg_dot(v, normal) - 0.3, normal, v);
     const gg_flight f = {&p, &v, &g, radius};
-    double told = gg_surface_delay(s, &f, &everywhere), early = 1e-4, found = search(s, &f, early, 2);
-    assert_true(told > 1e-9 && (told == INFINITY || fabs(clearance(s, &f, told)) < 1e-12));
-    if (told > early && found < 2 && fabs(told - found) > 1e-9)
-      fail_msg("surface %d: %g, not %g", k % SURFACES, told, found);
-    v = gg_axpy(1, normal, v); /* and one that comes: now */
+    double delay = gg_surface_delay(s, &f, &everywhere), early = 1e-4, found = search(s, &f, early, 2);
+    assert_true(delay > 1e-9 && (delay == INFINITY || fabs(clearance(s, &f, delay)) < 1e-12));
+    if (delay > early && found < 2 && fabs(delay - found) > 1e-9)
+      fail_msg("surface %d: %g, not %g", k % SURFACES, delay, found);
+    v = gg_axpy(1, normal, v); /* a grain that approaches touches at once */
     assert_true(gg_surface_delay(s, &f, &everywhere) < 1e-12);
   }
 }
 
-/* Walls at both ends of the gap are images of each other, whatever their shape; a floor under an open top has no image.
- */
+/* Both walls of a channel are images of each other, whatever their shape; a floor without a top has no image. */
 static void walls_of_a_gap_are_images_of_each_other(void **state)
 {
   (void)state;

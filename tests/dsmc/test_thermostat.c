@@ -41,7 +41,7 @@ static void gaussian_thermostat_keeps_that_of_rough_grains(void **state)
   gg_dsmc_ops.destroy(g);
 }
 
-/* Under white noise the gas settles where noise and collisions balance, and its cumulant is within 3 % of
+/* Under white noise the steady temperature balances noise and collisions, and the cumulant is within 3 % of
  * a2 = 16 (1-e)(1-2e^2)/(241 - 177 e + 30 e^2 (1-e)) (van Noije & Ernst 1998, first Sonine order). */
 static void white_noise_settles_at_balance(void **state)
 {

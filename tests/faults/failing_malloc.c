@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What stands behind the names that are taken here, in glibc. */
+/* glibc's own functions, since this file replaces malloc and its relatives. */
 extern void *__libc_malloc(size_t size);
 extern void *__libc_calloc(size_t n, size_t size);
 extern void *__libc_realloc(void *block, size_t size);
@@ -23,7 +23,8 @@ extern void __libc_free(void *block);
 
 enum { SLOTS = 1 << 17, FRAMES = 24 };
 
-/* Blocks that were made while armed and are still there, by address; a slot whose block has gone stays taken. */
+/* Entry of a hash table by address: blocks that were allocated while armed. A freed block keeps its slot, with number
+ * 0, so that open addressing finds the others. */
 typedef struct slot {
   void *block;
   const void *caller;
@@ -57,7 +58,7 @@ static int find_libc(struct dl_phdr_info *about, size_t size, void *context)
   return 1;
 }
 
-/* strdup and its like ask on behalf of somebody. */
+/* Caller of an allocation; if it is the C library (strdup and others), the function that called the C library. */
 static const void *behind(const void *caller)
 {
   void *trace[12];

@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Put before the C library (LD_PRELOAD), this makes one call of a program that changes files fail, or kills the program
- * there. Calls are counted from 1: opening for writing, write, pwrite, writev, ftruncate, fsync, fdatasync, rename,
- * mkdir, and close of what was opened for writing. What the C library's own streams do inside is not seen.
+/* Loaded before the C library (LD_PRELOAD), this makes one call of a program that changes files fail, or kills the
+ * program there. Calls are counted from 1: opening for writing, write, pwrite, writev, ftruncate, fsync, fdatasync,
+ * rename, mkdir, and close of files opened for writing. Calls inside the C library's streams are not intercepted.
  *
- * FAULT_AT    which call (0, or not given: none; they are counted all the same)
- * FAULT_WITH  ENOSPC, EIO, EDQUOT: it fails so. short: half of what was to be written is, and no error. kill-before,
- *             kill-after, and kill-in: a write is cut in half
- * FAULT_ON    only calls on files whose path holds this word
- * FAULT_LAST  with anything: all later calls fail, too, as on a disk that stays full
- * FAULT_PAGE  a file of one page, for whoever started the program: what was seen so far, see `page` */
-#undef _FILE_OFFSET_BITS /* which would make open and open64 one name */
+ * FAULT_AT    number of the call (0 or unset: none fails, all are counted)
+ * FAULT_WITH  ENOSPC, EIO, EDQUOT: the call fails with this error. short: it writes half and succeeds. kill-before,
+ *             kill-after: SIGKILL before or after it. kill-in: SIGKILL after half of the write
+ * FAULT_ON    count only calls on files whose path contains this word
+ * FAULT_LAST  if set, all later calls fail, too, as on a disk that stays full
+ * FAULT_PAGE  a file of one page, mapped by the program that started this one: counts so far, see `page` */
+#undef _FILE_OFFSET_BITS /* with it open and open64 would be one name */
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -31,8 +31,8 @@
 
 typedef struct page {
   _Atomic uint64_t calls, faults;
-  _Atomic uint64_t stored; /* files called *.checkpoint.h5 that were put in place ... */
-  _Atomic uint64_t used;   /* ... the last when the process had used so many nanoseconds of processor time */
+  _Atomic uint64_t stored; /* number of files renamed to *.checkpoint.h5 */
+  _Atomic uint64_t used;   /* processor time at the last of them, in nanoseconds */
   char what[256];          /* the first call that failed */
 } page;
 
@@ -51,7 +51,7 @@ static pthread_once_t once = PTHREAD_ONCE_INIT;
 static void map_page(const char *path)
 {
   plan.page = &own;
-  int fd = path ? open(path, O_RDWR | O_CLOEXEC) : -1; /* before the plan is known: not counted */
+  int fd = path ? open(path, O_RDWR | O_CLOEXEC) : -1; /* not counted: plan.at is still 0 */
   void *at = fd >= 0 ? mmap(NULL, sizeof own, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0) : MAP_FAILED;
   if (at != MAP_FAILED) plan.page = at;
 }
@@ -73,7 +73,7 @@ static void read_plan(void)
   plan.at = at ? strtoull(at, NULL, 10) : 0;
 }
 
-/* What comes when the page is mapped is not counted: read_plan is at work. */
+/* True while read_plan runs: its calls are not counted. */
 static _Thread_local bool inside;
 
 static void make_plan(void)
@@ -92,7 +92,7 @@ static void *real(const char *name)
 }
 #define REAL(name) (__extension__(__typeof__(&name)) real(#name))
 
-/* Terminals, null, full: not the memory that is mounted there. Nor are a compiler's counts of lines (scripts/coverage)
+/* True for terminals, /dev/null and /dev/full (not /dev/shm), and for the counts of scripts/coverage, which are not
  * files of the program. */
 static bool is_no_file(const char *path)
 {
@@ -109,7 +109,7 @@ static bool path_of(int fd, char path[PATH_MAX])
   return n > 0 && path[0] == '/' && !is_no_file(path);
 }
 
-/* What is to become of this call. */
+/* Count the call; returns its fate. */
 static int count(const char *call, const char *path)
 {
   make_plan();
@@ -147,7 +147,7 @@ static mode_t mode_of(int flags, va_list list)
 
 static int opened(int folder, const char *path, int flags, mode_t mode)
 {
-  /* HDF5 looks for a file that nobody has made before it makes one in memory */
+  /* Before HDF5 creates a file in memory it tries to open one that does not exist. */
   bool changes = for_writing(flags) && (flags & O_CREAT || access(path, F_OK) == 0);
   int does = changes && !is_no_file(path) && strncmp(path, "/proc/", 6) != 0 ? count("open", path) : NOTHING;
   if (does == FAILS) return -1;
@@ -184,7 +184,7 @@ int creat(const char *path, mode_t mode)
   return opened(AT_FDCWD, path, O_WRONLY | O_CREAT | O_TRUNC, mode);
 }
 
-/* At least one byte: nothing at all would be no progress. */
+/* Size of a shortened write. It is at least one byte, so that callers who retry make progress. */
 static size_t cut(int does, size_t size)
 {
   return (does == SHORT || does == KILLS_IN) && size > 1 ? size / 2 : size;
@@ -246,7 +246,7 @@ int fdatasync(int fd)
   return on_fd("fdatasync", fd, REAL(fdatasync));
 }
 
-/* It closes whatever it says, as the kernel's does. */
+/* The file is closed even if the call fails, as the kernel's close does. */
 int close(int fd)
 {
   int flags = fcntl(fd, F_GETFL), does = flags >= 0 && for_writing(flags) ? count_fd("close", fd) : NOTHING;
@@ -276,7 +276,7 @@ int ftruncate64(int fd, off_t size)
   return truncated(fd, size);
 }
 
-/* The state that a checkpoint holds is safe from here on. */
+/* Record the processor time at which a checkpoint is in place. */
 static void note(const char *to)
 {
   static const char ending[] = ".checkpoint.h5";

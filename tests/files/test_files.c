@@ -245,7 +245,8 @@ static void unreadable_results(void **state)
   remove_all();
 }
 
-/* Threads with files of their own, and all of them with one: each writes it whole, or is told that another does. */
+/* Thread that writes a file of its own and a file that all threads write. Each write of the shared file succeeds, or
+ * fails because another writer holds its lock. */
 static void *write_and_read(void *number)
 {
   gg_error err;

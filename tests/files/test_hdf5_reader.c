@@ -18,8 +18,8 @@
 #include "files/h5/checksum_trailer.h"
 #include "files/h5/hdf5_reader.h"
 #include "files/h5/result_reader.h"
-#include "planted.h"
 #include "graingas.h"
+#include "planted.h"
 
 static char folder[] = "/tmp/graingas-reader-XXXXXX";
 
@@ -243,7 +243,7 @@ static void thousands_of_names_are_found(void **state)
   gg_h5_in_close(&in);
 }
 
-/* Numbers of every type come as those that are asked for; beyond the range of these, as its nearest end. */
+/* Numbers of every type are converted to the requested type; values outside its range become its nearest limit. */
 static void all_number_types_are_converted(void **state)
 {
   (void)state;

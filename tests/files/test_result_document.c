@@ -94,7 +94,7 @@ static void a_document_of_a_comparison_has_both_engines(void **state)
   assert_true(fabs(z - 0.01 / (0.001 * sqrt(2))) < 1e-9);
   double off = json_number_value(json_object_get(json_object_get(T, "md_theory_deviation"), "lun1991"));
   assert_true(fabs(off - (theory * 3 - 1)) < 1e-12);
-  /* A mean that cannot be told from zero has no relative deviation. */
+  /* A mean that is not distinguishable from zero has no relative deviation. */
   assert_true(json_is_null(json_object_get(json_object_get(N2, "md_theory_deviation"), "lun1991")));
   assert_non_null(warning_with(d, "N2 is null: the relative deviation"));
   assert_non_null(warning_with(d, "does not apply"));

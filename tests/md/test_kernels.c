@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: vector kernels leave the bits of the plain path on every boundary and with every set of instructions; every
- * kind of search has its kernels; and cells may be crowded. */
+/* Proves: SIMD kernels give the bits of the plain path on every boundary and with every instruction set; every
+ * neighbour search has its kernels; cells may have more candidates than a kernel's buffer. */
 #include <stdlib.h>
 
 #include "md_test.h"
@@ -155,7 +155,7 @@ static gg_md *create_huddle(const gg_model *m, int32_t n)
   return e;
 }
 
-/* In crowded cells a grain has more candidates than there is room for. They are tried in parts, and the same pairs
+/* In overfull cells a grain has more candidates than the buffer holds. Kernels try them in parts, and the same pairs
  * collide as in smaller cells. */
 static void crowds_are_tried_in_parts(void **state)
 {

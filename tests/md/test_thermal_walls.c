@@ -48,8 +48,8 @@ static block advance(gg_md *e, double dt)
                  0.5 * unit * (high->impulse[0] - low->impulse[0]), unit * (high->loss + low->loss)};
 }
 
-/* Grains fly from wall to wall. Of those that leave a wall, a share of 1/(2 - a) was last re-emitted by that wall and
- * the rest by the other one (a: accommodation). So both streams together have equal numbers of either temperature. */
+/* Grains fly from wall to wall. A fraction 1/(2 - a) of the grains that leave a wall was last re-emitted by this wall
+ * and the rest by the other one (a: accommodation). So equal numbers of both streams together come from either wall. */
 static void free_flight(gg_flow flow, double below, double above, double share)
 {
   gg_scene s = md_scene((md_case){flow, 400, 1e-9, 1, -1, INFINITY, {10, 1, 10}});

@@ -166,9 +166,9 @@ static gg_model between_like_walls(void)
   return m;
 }
 
-/* Grains that shear and all drift along, in a gas that is denser on one side: between like walls the frame is that of
- * the shear, and of the spins that roll with it, whichever way the gas drifts. Of walls unlike (gravity along x) it has
- * the drift, too. */
+/* Grains with a shear flow and a common drift, in a gas that is denser on one side. Between like walls the local frame
+ * is antisymmetric about the centre: it has the shear and its spin without the drift. Gravity along x makes the walls
+ * unlike; then the frame has the drift, too. */
 static void drift_along_walls(void **state)
 {
   (void)state;

@@ -100,9 +100,9 @@ static void rough_gases_have_the_noise_free_conductivity(void **state)
   }
 }
 
-/* Of the dilute gas nightly. kappa* of 300 grains: 4.2/N low in a dilute gas (helfand.c), 2 % of a dense one that
- * molecular chaos may miss; its first Sonine order without what collisions carry would be 10 to 50 % low. Viscosities
- * likewise. */
+/* Transport coefficients of md against the noise-free solution; the dilute gas nightly. Finite size makes kappa* of N =
+ * 300 grains 4.2/N lower in a dilute gas (helfand.c). In a dense one correlations may change it by 2 %. The first
+ * Sonine order without collisional transfer would be 10 to 50 % lower. The same holds for viscosities. */
 static void md_has_the_noise_free_conductivity(void **state)
 {
   (void)state;

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where Enskog theory is exact (dilute), the two engines are two ways to the same numbers: uniform shear at phi = 0.01,
- * smooth, rough and frictional, within four combined standard errors; heated gases without restitution, sheared ones
- * that are heated; the energy balance closes; and the same test sees a restitution coefficient that is off by 0.02 (a
- * canary: it must not pass). */
+/* In dilute gases Enskog theory is exact, so both engines must agree within four combined standard errors. Uniform
+ * shear at phi = 0.01 of smooth, rough and frictional grains; heated gases at e = 0; heated shear. The energy balance
+ * closes. Canary: the same test must fail if one engine's e is off by 0.02. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -53,7 +52,7 @@ static double worst_z(const gg_result *a, const gg_result *b, bool rough)
 static void balance_closes(const gg_result *r)
 {
   const gg_estimate *b = &r->value[GG_Q_ENERGY_BALANCE];
-  assert_true(fabs(b->mean - 1) < 5 * b->error + 2e-3); /* what the gas stores over a finite window */
+  assert_true(fabs(b->mean - 1) < 5 * b->error + 2e-3); /* 2e-3: energy stored in the gas over a finite window */
 }
 
 /* Returns the result of md. */
@@ -85,9 +84,8 @@ static void engines_agree_on_frictional_grains(void **state)
   (void)state, gg_result_free(agree(0.9, 0.4, 0.123));
 }
 
-/* e = 0: grains keep nothing of their relative normal speed. So dilute that those that leave together do not meet
- * again.
- */
+/* At e = 0 grains separate with no normal velocity. The gas is so dilute that these pairs do not collide again, which
+ * dsmc neglects. */
 static void engines_agree_at_e_0(void **state)
 {
   (void)state;
@@ -108,8 +106,8 @@ static void engines_agree_at_e_0(void **state)
   gg_result_free(md), gg_result_free(dsmc);
 }
 
-/* The Gaussian thermostat keeps T and leaves spins alone, in both engines: of sticking, nearly smooth and sliding
- * grains, whose spins are far from theta/T of free cooling. */
+/* The Gaussian thermostat of both engines keeps T and does not change spins. For sticking, nearly smooth and sliding
+ * grains theta/T is far from that of free cooling. */
 static void heated_spins(void **state)
 {
   (void)state;

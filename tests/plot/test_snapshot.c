@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The snapshot page: grains are drawn at their places, in both projections, to scale and in the colour of their
- * species. Below an open top the page ends above the highest grain. A result without positions has no page. Of many
- * grains a layer is drawn, and no picture is large. */
+/* The snapshot page: grains are drawn at their positions, in both projections, to scale and in the colour of their
+ * species. In a box without a top the page ends above the highest grain. A result without positions has no page. If
+ * there are many grains, only a layer is drawn, so that no picture is large. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>

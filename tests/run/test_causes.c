@@ -145,7 +145,8 @@ static void clustered_and_swirling(void **state)
   assert_non_null(strstr(causes.text[0], "the gas swirls"));
 }
 
-/* Results that have no waves are told by theory; a quantity that nothing explains is named. */
+/* Without measured waves the cause follows from the theory of clustering. A difference without a known cause is named.
+ */
 static void without_waves_theory_names_the_cause(void **state)
 {
   (void)state;

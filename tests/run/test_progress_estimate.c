@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "fake_engine.h"
-#include "run/replicas.h"
 #include "graingas.h"
+#include "run/replicas.h"
 
 static const gg_stopping_criteria criteria = {
     .warmup = 20, .least = 150, .longest = 75000, .relative_error = 0.01, .find_steady = true};
@@ -29,7 +29,7 @@ static gg_window_test test_of(double scale, uint64_t window, double sure_at)
   return (gg_window_test){window, ratio, ratio <= 1, (double)window >= sure_at};
 }
 
-/* End of such a run by the rules of averaging.c, test after test. */
+/* End of a run with these errors, by the rules of averaging.c, test after test. */
 static double true_end(double scale, double sure_at)
 {
   bool exact = false;
@@ -42,7 +42,8 @@ static double true_end(double scale, double sure_at)
   }
 }
 
-/* Follow it; from a quarter on the end is told to within three tenths, once errors are as small as asked, exactly. */
+/* Follow such a run. After a quarter of it the estimated end is right within 30 %, and exactly once the errors are as
+ * small as requested. */
 static void follow(double scale, double sure_at, int *exactly)
 {
   gg_progress_estimate o = {0};
@@ -60,12 +61,13 @@ static void follow(double scale, double sure_at, int *exactly)
     if (window < 40) continue;
     gg_convergence c = errors_of(scale, window, sure_at);
     gg_run_progress_record_errors(&o, window, &c);
-    gg_expected_end told = gg_run_progress_end(&o, &criteria, &s);
-    assert_true(told.at >= (double)s.due);
+    gg_expected_end estimate = gg_run_progress_end(&o, &criteria, &s);
+    assert_true(estimate.at >= (double)s.due);
     if (window < (end - criteria.warmup) / 4) continue;
-    if (fabs(told.at / end - 1) > 0.3) fail_msg("%g: at %g of %g told %g", scale, (double)s.due, end, told.at);
+    if (fabs(estimate.at / end - 1) > 0.3)
+      fail_msg("%g: at %g of %g the estimate was %g", scale, (double)s.due, end, estimate.at);
     if (s.exact) {
-      assert_true(told.known && fabs(told.at - end) < 1e-9 * end);
+      assert_true(estimate.known && fabs(estimate.at - end) < 1e-9 * end);
       ++*exactly;
     }
   }
@@ -93,7 +95,7 @@ static void to_where_it_should_end(void **state)
   assert_int_equal(exactly, 0); /* it ends at the first test that it passes */
 }
 
-/* Without an error that is asked for the end is known from the start, and nothing else ends such a run. */
+/* Without a requested error the end is known from the start, and nothing else ends such a run. */
 static void so_many_collisions(void **state)
 {
   (void)state;
@@ -110,7 +112,7 @@ static void so_many_collisions(void **state)
   assert_true(gg_run_criteria_end(&p, 0, 75000)); /* out of reach */
 }
 
-/* A window that shows a trend will be given up; one that does not and cannot be trusted, go on. */
+/* A window with a trend will be given up; one without a trend whose errors are not trusted yet will be extended. */
 static void trends_and_trust(void **state)
 {
   (void)state;
@@ -148,13 +150,13 @@ static void the_pace_is_that_of_late_samples(void **state)
 
 typedef struct watcher {
   double fraction, left, limit_in;
-  int calls, known, falls, early, cut; /* cut: times that the limit was told to end the run first */
+  int calls, known, falls, early, cut; /* cut: number of reports by which the time limit ends the run first */
 } watcher;
 
 static void watch(void *context, const gg_progress *p)
 {
   watcher *w = context;
-  if (w->fraction == 1) w->early++; /* told to be over, and here it is again */
+  if (w->fraction == 1) w->early++; /* a report after the one that the run is over */
   if (p->fraction < w->fraction) w->falls++;
   assert_true(p->fraction >= 0 && p->fraction <= 1 && !(p->time_left < 0));
   if (isfinite(p->limit_in) && isfinite(p->time_left) && p->fraction < 1) w->cut += p->time_left > p->limit_in;
@@ -181,13 +183,13 @@ static void every_run(void **state)
     gg_run_callbacks callbacks = {.context = &w, .progress = watch};
     gg_result *r = NULL;
     gg_status status = gg_run_scene(&s, NULL, 2, &callbacks, &r, NULL);
-    assert_int_equal(status, k == TIME || k == BOTH ? GG_FAILED : GG_OK); /* fell short of the error */
-    /* How often a run that the clock ends is told of depends on the machine. */
+    assert_int_equal(status, k == TIME || k == BOTH ? GG_FAILED : GG_OK); /* GG_FAILED: error not reached */
+    /* The number of reports of a run that the time limit ends depends on the machine. */
     if (w.falls || w.early || w.fraction != 1 || w.left != 0 || w.calls < 5 || w.known < (k == TIME ? 1 : 3))
       fail_msg("%d: fell %d, early %d, ended %g %g, known %d of %d", k, w.falls, w.early, w.fraction, w.left, w.known,
                w.calls);
     assert_int_equal(w.cut > 0, k == TIME);
-    assert_true(k == TIME ? w.limit_in < 0.1 : isinf(w.limit_in)); /* it has run down */
+    assert_true(k == TIME ? w.limit_in < 0.1 : isinf(w.limit_in)); /* time left until the limit */
     gg_result_free(r);
   }
 }

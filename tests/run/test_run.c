@@ -12,8 +12,8 @@
 #include <time.h>
 
 #include "fake_engine.h"
-#include "run/run.h"
 #include "graingas.h"
+#include "run/run.h"
 
 static gg_result *run(const gg_scene *s, gg_status expected)
 {
@@ -153,8 +153,7 @@ static void arrest_share(void **state)
   }
 }
 
-/* Spins that need ten times longer than the rule says are noticed from the data: averaging starts anew until they
- * stand. */
+/* Spins that relax ten times slower than estimated show as a trend in the data: averaging restarts until it is gone. */
 static void slow_relaxation(void **state)
 {
   (void)state;
@@ -165,7 +164,7 @@ static void slow_relaxation(void **state)
   assert_int_equal(r->steadiness, GG_STEADY);
   within(r, GG_Q_TEMPERATURE_RATIO, 0.25);
   gg_result_free(r);
-  s.run.warmup = 10, s.run.collisions = 400; /* told not to wait: says what it is */
+  s.run.warmup = 10, s.run.collisions = 400; /* a fixed short window: the result reports the trend */
   s.run.relative_error = GG_AUTO;
   r = run(&s, GG_OK);
   assert_int_equal(r->steadiness, GG_NOT_STEADY);
@@ -173,7 +172,7 @@ static void slow_relaxation(void **state)
   gg_result_free(r);
 }
 
-/* beta near -1: the window must be long for the slow spins even before a trend can be told from noise. */
+/* beta near -1: a window shorter than the slow relaxation of spins is too short even if noise hides the trend. */
 static void nearly_smooth(void **state)
 {
   (void)state;
@@ -185,7 +184,7 @@ static void nearly_smooth(void **state)
   gg_result_free(r);
 }
 
-/* A temperature that never stops growing is not steady, whatever was asked. */
+/* A temperature that grows for ever is not steady. */
 static void endless_trend(void **state)
 {
   (void)state;
@@ -280,7 +279,7 @@ static gg_status count_frame(void *context, const gg_frame *frame, gg_error *err
   return GG_OK;
 }
 
-/* A run interrupted when the callback is asked for the `stop`th time, and resumed from its checkpoint. */
+/* Run, interrupted by the callback's call number `stop` + 1, and resumed from its checkpoint. NULL: it ended before. */
 static gg_result *in_two_parts(const gg_scene *s, int stop, gg_archive *archive)
 {
   keeper k = {.stop_at = stop};
@@ -288,13 +287,13 @@ static gg_result *in_two_parts(const gg_scene *s, int stop, gg_archive *archive)
   gg_result *r = NULL;
   gg_base_archive_clear(archive);
   if (gg_run_scene(s, NULL, 1, &callbacks, &r, NULL) == GG_INTERRUPTED) {
-    assert_non_null(r); /* what there is so far */
+    assert_non_null(r); /* the result so far */
     gg_result_free(r);
     assert_int_equal(gg_base_archive_unnest(archive, "x", &k.kept, NULL), GG_OK);
     assert_int_equal(gg_run_scene(s, archive, 1, NULL, &r, NULL), GG_OK);
   } else {
     gg_result_free(r);
-    r = NULL; /* it was over before */
+    r = NULL;
   }
   gg_base_archive_clear(&k.kept);
   return r;

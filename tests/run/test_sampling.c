@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves, with the real engines: a run that is told not to warm up does not; the temperature by which the sampling
- * interval is looked at is that of the grains as the engine has them; samples of a gas that cools or heats up for ever
- * are as many collisions a grain apart as they are said to be. */
+/* Proves, with the real engines: a gas that starts near its steady state needs no warm-up for its sampling interval. In
+ * a gas that cools or heats for ever the interval follows the temperature in the engine's units: samples are
+ * GG_SAMPLING_INTERVAL collisions per grain apart. Messages state the true number of collisions. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,10 +11,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "graingas.h"
 #include "run/replica.h"
 #include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
-#include "graingas.h"
 
 static void create(gg_replica *r, const char *yaml, gg_engine_kind engine)
 {
@@ -28,8 +28,8 @@ static void create(gg_replica *r, const char *yaml, gg_engine_kind engine)
     fail_msg("%s: %s", yaml, err.message);
 }
 
-/* The warm-up goes on for as long as the interval is not that of grains as fast as these are. */
-static void settled_at_the_start(void **state)
+/* The warm-up continues until the sampling interval fits the speed of the grains; it fits at the start here. */
+static void interval_fits_at_the_start(void **state)
 {
   (void)state;
   static const char *const scenes[] = {
@@ -41,7 +41,7 @@ static void settled_at_the_start(void **state)
     for (gg_engine_kind engine = 0; engine <= GG_DSMC; engine++) {
       gg_replica r;
       create(&r, scenes[k], engine);
-      if (!gg_run_replica_settled(&r)) fail_msg("%s: has to warm up", scenes[k]);
+      if (!gg_run_replica_interval_fits(&r)) fail_msg("%s: has to warm up", scenes[k]);
       gg_run_replica_clear(&r);
     }
 }
@@ -81,8 +81,8 @@ static void expect_two(const char *scene, int begin, int end)
   gg_run_replica_clear(&r);
 }
 
-/* Where the temperature never stands still, the rate changes from one interval to the next by as much as it falls in
- * two collisions a grain. */
+/* If the temperature changes for ever, intervals are two collisions per grain long up to the change of the collision
+ * rate within one interval. */
 static void two_collisions_apart(void **state)
 {
   (void)state;
@@ -97,7 +97,7 @@ static void two_collisions_apart(void **state)
   for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) expect_two(scenes[k], 20, 120);
 }
 
-/* Also where the temperature is below all numbers in units of the start. */
+/* The same after the temperature has underflowed in units of the start. */
 static void far_below(void **state)
 {
   (void)state;
@@ -105,8 +105,9 @@ static void far_below(void **state)
   expect_two("{flow: hcs, phi: 0.1, particles: 500, collision: {e: 0}, dsmc: {particles: 500}}", 3000, 3400);
 }
 
-/* The interval of a steady state is as uncertain as one count of few grains; what is told of it is what happened. */
-static void told_as_it_was(void **state)
+/* The interval of a steady state is as uncertain as one count of few grains. The message must state the number of
+ * collisions that happened, not intended ones. */
+static void true_number_is_reported(void **state)
 {
   (void)state;
   static const char yaml[] =
@@ -114,22 +115,22 @@ static void told_as_it_was(void **state)
   gg_scene s = gg_scene_defaults();
   gg_error err = {0};
   gg_result *result = NULL;
-  double told = 0;
+  double stated = 0;
   if (gg_scene_read(&s, yaml, strlen(yaml), "test", &err) != GG_OK || gg_scene_finish(&s, &err) != GG_OK ||
       gg_run_scene(&s, NULL, 1, NULL, &result, &err) != GG_OK)
     fail_msg("%s", err.message);
-  assert_int_equal(sscanf(result->steadiness_text, "no trend over %lf collisions", &told), 1);
+  assert_int_equal(sscanf(result->steadiness_text, "no trend over %lf collisions", &stated), 1);
   const double happened = 2 * (double)result->averaging.collisions / 50;
-  if (fabs(told - happened) > 0.51) fail_msg("%s, and there were %g", result->steadiness_text, happened);
+  if (fabs(stated - happened) > 0.51) fail_msg("%s, and there were %g", result->steadiness_text, happened);
   gg_result_free(result);
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(settled_at_the_start), cmocka_unit_test(sweeps_without_end),
-      cmocka_unit_test(two_collisions_apart), cmocka_unit_test(far_below),
-      cmocka_unit_test(told_as_it_was),
+      cmocka_unit_test(interval_fits_at_the_start), cmocka_unit_test(sweeps_without_end),
+      cmocka_unit_test(two_collisions_apart),       cmocka_unit_test(far_below),
+      cmocka_unit_test(true_number_is_reported),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

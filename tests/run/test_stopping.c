@@ -14,10 +14,10 @@
 #include <time.h>
 
 #include "common/rng.h"
+#include "graingas.h"
 #include "run/run.h"
 #include "run/z_scores.h"
 #include "scene/scene_reader.h"
-#include "graingas.h"
 
 typedef struct caller {
   gg_rng rng;
@@ -202,7 +202,7 @@ static void unlike_rough_grains(void **state)
   gg_result_free(r);
 }
 
-/* A box of a few diameters is told. */
+/* A box of a few diameters has a warning. */
 static void narrow_box(void **state)
 {
   (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves, with the real engines: how a run ends that cannot know what was asked of it, and what is told of its time. */
+/* Proves, with the real engines: how a run ends whose requested error cannot be known, and which times it reports. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -72,7 +72,7 @@ static void an_error_of_nothing_fails(void **state)
   gg_result_free(r);
 }
 
-/* A gas that cools by a law of restitution is never the same again: no error is waited for. */
+/* A gas that cools by a law of restitution has no scaling state: the run does not wait for a requested error. */
 static void cools_by_a_law(void **state)
 {
   (void)state;
@@ -85,7 +85,7 @@ static void cools_by_a_law(void **state)
   gg_result_free(r);
 }
 
-/* The engine's velocities are multiplied by 16 again and again; times are those of the start. */
+/* The engine rescales the velocities of a cooling gas by 16; reported times stay in units of the start. */
 static void time_of_the_start(void **state)
 {
   (void)state;
@@ -100,7 +100,7 @@ static void time_of_the_start(void **state)
   gg_result_free(r);
 }
 
-/* A viscosity that is a slope over the reduced shear rate wants a sweep of it. */
+/* A viscosity that is a slope over the reduced shear rate needs a whole sweep of it. */
 static void less_than_a_sweep(void **state)
 {
   (void)state;

@@ -23,7 +23,8 @@ static void same_estimate(const gg_result *r, const char *name, gg_quantity q, d
   assert_int_equal(mine->samples, ours->samples);
 }
 
-/* A quantity of one's own that is one of ours has its mean and its error, in either engine, smooth and rough. */
+/* A user-defined quantity with the definition of a built-in one has the same mean and error, in both engines, smooth
+ * and rough. */
 static void test_observable(void **state)
 {
   (void)state;

@@ -10,9 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "scene/ensemble_size.h"
 #include "common/model.h"
 #include "dsmc/time_step.h"
+#include "scene/ensemble_size.h"
 #include "scene/fields.h"
 #include "scene/model_of_scene.h"
 
@@ -60,7 +60,7 @@ static void between_walls(void **state)
   assert_true(fabs(gg_scene_ensemble_bias(&m) - 0.025) < 1e-12);
 }
 
-/* md has `particles`, whatever is asked. */
+/* md has `particles` grains, whatever error is requested. */
 static void what_is_given(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Keys that a scene gives and that have no effect are told, with the reason; those with an effect, those with their
- * defaults and those that nobody gave are not. */
+/* Keys of a scene that have no effect are reported, with the reason. Keys with an effect, with their default value or
+ * not in the scene are not. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -162,8 +162,8 @@ static void asked_errors(void **state)
   for (size_t i = 0; i < sizeof some / sizeof *some; i++) assert_line(some[i], GG_USE_DSMC, NULL);
 }
 
-/* A scene as results and checkpoints hold it gives every key, and is told of no more than the one that was typed. */
-static void defaults_are_not_told(void **state)
+/* A scene from a result or checkpoint has every key, but gets the same warnings as the user's scene. */
+static void defaults_are_not_reported(void **state)
 {
   (void)state;
   const char *scenes[] = {"{flow: hcs, phi: 0.1}", "{flow: equilibrium, phi: 0.1}", "{flow: hss, phi: 0}",
@@ -214,7 +214,7 @@ int main(void)
                                      cmocka_unit_test(keys_of_the_other_engine_have_no_effect),
                                      cmocka_unit_test(keys_of_other_grains_have_no_effect),
                                      cmocka_unit_test(asked_errors),
-                                     cmocka_unit_test(defaults_are_not_told),
+                                     cmocka_unit_test(defaults_are_not_reported),
                                      cmocka_unit_test(changes_without_effect_until_the_next_are_named)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Series whose statistics are known: synthetic FOLDER [--windows N] writes into the folder N (1000) windows of 600
- * correlation times each of every kind, one long series a kind. All have an integrated correlation time of about ten
- * rows. Exit code 0; 2: the command line is wrong; 3: a file could not be written. */
+/* Write synthetic series with known statistics: synthetic FOLDER [--windows N]. FOLDER gets one file per kind, with one
+ * series of N (1000) windows of 600 correlation times each. Integrated correlation time: about ten rows.
+ * Exit code: 0; 2: invalid command line; 3: a file could not be written. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,7 +24,7 @@ static const kind kinds[] = {
     {"exp half x", 1, ROWS, ROWS, 0.5}, {"exp x", 1, ROWS, ROWS, 1},
 };
 
-/* Of an autoregressive chain of this integrated time. */
+/* Coefficient of a first-order autoregressive series with this integrated correlation time. */
 static double memory(double time)
 {
   return (2 * time - 1) / (2 * time + 1);

@@ -5,12 +5,13 @@
   graingas run SCENE.yaml --engine md --set output.trajectory_every=6 --output usf.h5
   validation/figures/definitions.py usf.h5 [PARTS ALONG AN EDGE ...]
 
-flow: velocities less the imposed flow. bins, cells: less the mean of the slab across y, or of the cell, in which the
-grain is; lab: the mean of laboratory velocities, so that the shear within a part stays in C_x. N1 and N2 are of the
-whole stress (its collisional part as the run has it) and of the kinetic stress over the kinetic pressure; per cell:
-the mean over parts of each one's own kinetic ratio. Of all but `flow` what they are more than its own value on the same
-frames, which that is to be added to; in brackets the error of the last digits, jackknife over twenty blocks of frames.
-Needs numpy and h5py."""
+flow: velocities minus the imposed flow. bins, cells: these minus their mean in the grain's slab across y, or in its
+cell; lab: laboratory velocities minus their mean there, so that the shear within a part stays in C_x. Three kinds of
+N1 and N2 are printed: of the whole stress (collisional part from the run), of the kinetic stress over the kinetic
+pressure, and per cell (the mean over parts of each part's kinetic ratio).
+
+The row `flow` has values; the other rows have differences from it on the same frames. Brackets: standard error of the
+last digits, by jackknife over twenty blocks of frames. Needs numpy and h5py."""
 import sys
 
 import h5py

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the targets of files begin with: small runs of both engines, interrupted, with the archive that their
- * checkpoints hold. Made anew at every start: no files of one version are kept. */
+/* Starting points of the fuzz targets for files: small interrupted runs of both engines, with the archives of their
+ * checkpoints. They are made at every start, so that they always have the present format. */
 #ifndef GG_FUZZ_BASE_H
 #define GG_FUZZ_BASE_H
 
@@ -14,7 +14,7 @@ typedef struct fuzz_base {
   gg_archive archive; /* of a checkpoint after some samples */
 } fuzz_base;
 
-/* Ends the program if it cannot be made. */
+/* Aborts the program if the run fails. */
 const fuzz_base *fuzz_base_of(size_t which);
 
 #endif

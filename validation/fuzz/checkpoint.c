@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A checkpoint whose checksum is right, words of the file changed: the archive that comes out of it, and what `info`
- * says. What a run makes of archives: archive.c. The first byte chooses the run; the rest are records (patch.h). */
+/* Fuzz target: a checkpoint file with changed words and a valid checksum, read as `info` reads it. archive.c resumes
+ * from changed archives. The first byte selects the run; the others are records (patch.h). */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,8 +11,8 @@
 #include "graingas.h"
 #include "image.h"
 
-/* Numbers of an item, or eight times as many bytes: what `info` looks at is smaller. Items of the scene: of one kind.
- */
+/* Largest size of an item (numbers; bytes: eight times as many) and largest number of items of the scene. Small files
+ * make the target fast; `info` needs no more. */
 enum { LONGEST = 64, MOST_OF_SCENE = 4 };
 
 static void cut(gg_archive *a)
@@ -53,6 +53,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   gg_checkpoint_info about;
   gg_scene *scene = NULL;
   if (gg_checkpoint_about(path, &about, &scene, NULL) == GG_OK) gg_scene_free(scene);
-  fuzz_image_take_back(&images[which], data + 1, size - 1);
+  fuzz_image_restore(&images[which], data + 1, size - 1);
   return 0;
 }

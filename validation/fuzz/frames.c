@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The log of a trajectory beside a checkpoint, as it stands in a file, up to a mark that claims any number of frames
- * and bytes: the first sixteen bytes, and whose checksum is mended, as that of every record is. What is read goes into
- * a result's arrays. */
+/* Fuzz target: the frame log beside a checkpoint, replayed into the arrays of a result. Input: one byte that selects
+ * the model; the mark's number of frames and of bytes (8 bytes each); the log. Checksums of the mark and of all records
+ * are made valid. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,10 +12,14 @@
 #include "base/checksum.h"
 #include "files/frame_log.h"
 #include "files/h5/particles.h"
-#include "scene/model_of_scene.h"
 #include "fuzz.h"
+#include "scene/model_of_scene.h"
 
-enum { HEADER = 56, CHECKSUM = 48, BYTES = 8 }; /* of a record: its size, where its checksum and its bytes stand */
+enum {
+  HEADER = 56,
+  CHECKSUM = 48,
+  BYTES = 8
+}; /* header of a record: its size; offsets of its checksum and of its length */
 
 typedef struct place {
   const gg_model *model;
@@ -31,7 +35,7 @@ static gg_status take(void *context, const gg_frame *frame, gg_error *err)
   return gg_h5_status(&p->h, "frames", "written", err);
 }
 
-/* Every record's checksum, as far as they follow each other; returns the last. */
+/* Write the right checksum into every record that can be reached; returns the last checksum. */
 static uint64_t mend(uint8_t *log, size_t size)
 {
   uint64_t sum = GG_CHECKSUM_START, bytes;

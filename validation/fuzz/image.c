@@ -58,7 +58,7 @@ const char *fuzz_image_change(fuzz_image *image, const uint8_t *data, size_t siz
   return image->path;
 }
 
-void fuzz_image_take_back(fuzz_image *image, const uint8_t *data, size_t size)
+void fuzz_image_restore(fuzz_image *image, const uint8_t *data, size_t size)
 {
   fuzz_unpatch(image->changed, image->data, image->size, image->listed, image->words, data, size);
 }

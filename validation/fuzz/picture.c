@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The JSON document of a result (stored.h), to the pictures of it: the scripts that gnuplot would be given, which must
- * do nothing but draw. Its member `series` holds lists by quantity, `frame` the last frame of a trajectory: `position`,
- * `species`, `edge`. */
+/* Fuzz target: pictures of a result whose JSON document is the input (stored.h). The scripts for gnuplot must only draw
+ * (script.h). Member `series` of the document: a list per quantity; `frame`: the last frame of a trajectory, with
+ * `position`, `species`, `edge`. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -12,7 +12,7 @@
 #include "script.h"
 #include "stored.h"
 
-/* In the place of the library's, of which nothing is linked then. */
+/* Replaces the library's function of this name, as gg_plot_gnuplot_run does below. */
 gg_status gg_plot_gnuplot_is_there(gg_error *err)
 {
   (void)err;
@@ -28,7 +28,7 @@ gg_status gg_plot_gnuplot_run(const char *script, const char *over, const char *
 
 enum { MOST_NUMBERS = 300 };
 
-/* To be freed; NULL and 0: it is no list. */
+/* Numbers of a list, to be freed; NULL, with *n = 0, if it is not a list. */
 static double *numbers_of(const json_t *list, size_t *n)
 {
   *n = json_array_size(list);
@@ -55,7 +55,7 @@ static void add_series(gg_stored_engine *e, const json_t *all)
   }
 }
 
-/* Of the n grains that have a place and a species. */
+/* Add the last frame. Its grains are those that have both a position and a species. */
 static void add_frame(gg_stored_result *s, const json_t *frame)
 {
   size_t n_positions, n_edges;

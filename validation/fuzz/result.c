@@ -84,6 +84,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!is_read(fuzz_image_change(image, NULL, 0))) abort();
   }
   readers[data[0] / FILES % 3](fuzz_image_change(image, data + 1, size - 1));
-  fuzz_image_take_back(image, data + 1, size - 1);
+  fuzz_image_restore(image, data + 1, size - 1);
   return 0;
 }

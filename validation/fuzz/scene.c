@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A scene, from its text to what `info` says of it. What was accepted is written as YAML and as JSON, and must be
- * accepted again, as the same scene. */
+/* Fuzz target: the text of a scene, parsed, checked and described as by `info`. An accepted scene is written as YAML
+ * and as JSON; both must be accepted again, and the YAML must give the same scene. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +20,7 @@ static void fail(const char *what, const char *one, const char *other)
   abort();
 }
 
-/* Written and read again: the same text. */
+/* Write the scene, read it and write it again: the text must be the same. */
 static void go_round(const gg_scene *scene)
 {
   char *yaml = NULL, *again = NULL, *json = NULL;

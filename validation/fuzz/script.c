@@ -20,7 +20,7 @@ static bool begins(const char *line, const char *with)
   return strncmp(line, with, strlen(with)) == 0;
 }
 
-/* What a page, a panel and a curve are set up with, and nothing that takes a file or a command. */
+/* True for the commands that set up a page, a panel or a curve. None of them takes a file name or a shell command. */
 static bool is_known(const char *line)
 {
   static const char *const known[] = {
@@ -35,7 +35,7 @@ static bool is_known(const char *line)
   return false;
 }
 
-/* Behind the text that starts at `at`, which ends with the quote that it starts with. */
+/* Index after the quoted text that starts at `at`. */
 static size_t text_end(const char *line, size_t at, size_t length)
 {
   const char quote = line[at++];
@@ -50,8 +50,8 @@ static size_t text_end(const char *line, size_t at, size_t length)
   return at + 1;
 }
 
-/* In `plot` a text where data are expected is a file or a command; a word before it says that it is none. */
-static bool is_told(const char *line, size_t at)
+/* False if a quoted text in `plot` names data: a file or a shell command. After a word such as `title` it does not. */
+static bool follows_word(const char *line, size_t at)
 {
   while (at > 0 && line[at - 1] == ' ') at--;
   return at > 0 && isalpha((unsigned char)line[at - 1]) && !(at == 4 && begins(line, "plot"));
@@ -63,7 +63,7 @@ static void check_command(const char *line, size_t length)
   for (size_t at = 0; at < length;) {
     const char c = line[at];
     if (c == '\'' || c == '"') {
-      if (begins(line, "plot") && !is_told(line, at)) refuse("data from a file", line, length);
+      if (begins(line, "plot") && !follows_word(line, at)) refuse("data from a file", line, length);
       at = text_end(line, at, length);
     } else {
       if (c == '`' || c == '!' || c == ';' || c == '\\' || c == '#' || c == '<' || c == '@')
@@ -82,7 +82,7 @@ static void check_number(const char *line, size_t length)
 static void check_size(const char *line, size_t length)
 {
   const char *size = strstr(line, " size ");
-  double wide = 0, tall = 0; /* of PDF in inches */
+  double wide = 0, tall = 0; /* pixels; inches for PDF */
   if (!begins(line, "set terminal ")) return;
   if (!size || size > line + length || sscanf(size, " size %lf,%lf", &wide, &tall) != 2 || wide < 1 || tall < 1 ||
       wide > MOST_PIXELS || tall > MOST_PIXELS)

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Can a script for gnuplot do anything but draw? */
+/* Check of scripts for gnuplot: they may only draw. */
 #ifndef GG_FUZZ_SCRIPT_H
 #define GG_FUZZ_SCRIPT_H
 
-/* Prints the line that could and aborts. It may hold: `set`, `unset` and `plot` with words that set no file and run
- * nothing, texts that end on their line, and blocks of numbers that `plot` draws by name. */
+/* Abort if a line of the script can do anything else, and print that line. Allowed: `set`, `unset` and `plot` without
+ * file names and commands, quoted texts that end on their line, and blocks of numbers that `plot` draws by name. */
 void fuzz_check_script(const char *script);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What comes after --set, --vary and as the name of a key: lines KEY=VALUE, put into a scene, and again into a sweep as
- * what is set and as what is varied. */
+/* Fuzz target: arguments of --set and --vary. Every line KEY=VALUE of the input is set in a scene and in a sweep; up to
+ * two short ones are also varied in the sweep. */
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -9,7 +9,7 @@
 #include "sweep/sweep.h"
 #include "text.h"
 
-enum { MOST_POINTS = 12 }; /* that are checked here */
+enum { MOST_POINTS = 12 }; /* larger sweeps are not checked, to save time */
 
 static const char base[] = "{flow: usf, phi: 0.1, species: [{fraction: 0.5}, {fraction: 0.5}]}";
 
@@ -38,7 +38,7 @@ static void use(gg_scene *scene, gg_sweep *sweep)
   if (gg_sweep_to_json(sweep, NULL, &json, NULL) == GG_OK) free(json);
 }
 
-/* Ranges may have a hundred thousand values each, which take milliseconds. */
+/* True for a value with many ranges: each may have a hundred thousand values, which takes milliseconds. */
 static bool is_long(const char *value)
 {
   size_t marks = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A result with all that readers look at and little else: a tenth of the words, and of the time that they take. */
+/* A small result with all that readers read: a tenth of the words, so that an input takes a tenth of the time. */
 #include <hdf5.h>
 #include <jansson.h>
 #include <stdio.h>
@@ -11,7 +11,7 @@
 #include "files/h5/hdf5_writer.h"
 #include "image.h"
 
-/* Of a headline, of a flow that has none of it, of mixtures, without a mean. */
+/* Quantities of each kind that readers distinguish: headline, absent from some flows, of mixtures, without a mean. */
 static bool is_kept(const char *quantity)
 {
   static const char *const kept[] = {"temperature", "rotational_temperature", "temperature_2", "N1", "P_xy"};
@@ -28,7 +28,7 @@ static void thin_quantities(json_t *quantities)
   json_object_foreach_safe(quantities, next, name, one) if (!is_kept(name)) json_object_del(quantities, name);
 }
 
-/* All but the first so many. */
+/* Delete all members but the first `most`. */
 static void thin_map(json_t *map, size_t most)
 {
   const char *name;
@@ -42,7 +42,7 @@ static void thin_run(json_t *run)
 {
   json_t *warnings = json_object_get(run, "warnings");
   thin_quantities(json_object_get(run, "results"));
-  json_object_del(run, "scene"); /* which stands beside the document, too, and is read there */
+  json_object_del(run, "scene"); /* readers take it from /graingas/scene */
   while (json_array_size(warnings) > 1) json_array_remove(warnings, 1);
 }
 
@@ -72,7 +72,7 @@ static char *small_document(const char *path)
   return text;
 }
 
-/* What stands in the document, too, and is there for other programs. */
+/* Delete the copies of parts of the document, which are for other programs only. */
 static void cut_copies(const char *path)
 {
   static const char *const parts[] = {"", "/md", "/dsmc"}, *const copies[] = {"results", "curves"};
@@ -81,7 +81,7 @@ static void cut_copies(const char *path)
   for (size_t i = 0; i < 3; i++)
     for (size_t k = 0; k < 2; k++) {
       snprintf(name, sizeof name, "/graingas%s/%s", parts[i], copies[k]);
-      H5Ldelete(file, name, H5P_DEFAULT); /* where it is there */
+      H5Ldelete(file, name, H5P_DEFAULT); /* not all exist */
     }
   H5Ldelete(file, "/graingas/document", H5P_DEFAULT);
   H5Ldelete(file, "/graingas/theory", H5P_DEFAULT);
@@ -100,7 +100,7 @@ fuzz_image fuzz_small_result(const char *path, const char *scene, bool compresse
   gg_h5 h;
   size_t size = 0;
   char *document = small_document(path);
-  gg_h5_create_in_memory(&h); /* HDF5 prints no errors from here on */
+  gg_h5_create_in_memory(&h); /* also turns off HDF5's error messages */
   cut_copies(path);
   hid_t from = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
   if (!document || H5Literate(from, H5_INDEX_NAME, H5_ITER_NATIVE, NULL, copy, &h.file) < 0) abort();

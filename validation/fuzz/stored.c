@@ -9,11 +9,10 @@ static const char *const scenes[] = {"flow: usf\nphi: 0.2\nparticles: 12\ncollis
                                      "0.5}, {fraction: 0.5, mass: 2}]\ndsmc: {particles: 16}\n",
                                      "flow: couette\nphi: 0.1\nparticles: 20\nmeasure: [rheology, profiles]\n"};
 
-enum { QUICK = 1 }; /* the scene that theories take milliseconds for */
+enum { QUICK = 1 }; /* index of the scene for which theories take milliseconds */
 
-/* Without what theories said they are asked anew, of the scene, whatever else the file says: for some scenes in
- * seconds.
- */
+/* Give a document without theories an empty set of them. Otherwise readers evaluate the theories for the scene, which
+ * takes seconds for some. */
 static void spare_theories(json_t *document, size_t scene)
 {
   if (scene != QUICK && !json_is_object(json_object_get(document, "theory")))

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The JSON document of a result as a result file's reader leaves it, without the file. */
+/* Stored result made from a JSON document alone, as the reader of result files makes it. */
 #ifndef GG_FUZZ_STORED_H
 #define GG_FUZZ_STORED_H
 
@@ -7,8 +7,8 @@
 
 #include "files/h5/result_reader.h"
 
-/* The first byte chooses the scene beside it, the rest is its text. False: it is no JSON; to be cleared all the same
- * (gg_files_stored_result_clear). */
+/* Fill the result: the first byte selects its scene, the others are the text of its document. Returns false if that is
+ * not JSON; call gg_files_stored_result_clear in either case. */
 bool fuzz_stored(gg_stored_result *stored, const uint8_t *data, size_t size);
 
 #endif

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""kill -9 at random moments, and going on from what is left, until the result is the uninterrupted run's bit for bit.
+"""kill -9 at random times and resume, until the run ends: the result must equal the uninterrupted run's bit for bit.
 
     GRAINGAS=build/src/cli/graingas FAILING_WRITES=build/tests/faults/failing_writes.so \\
         validation/interruption/kills.py [KILLS] [SEED] [LOG]
 
-Each run is killed up to six times in a row, each time after a random part of its processor time, at least every tenth time
-inside a call that changes a file (before it, in its midst, after it), mostly of a checkpoint. After each kill what is
-there must be readable. In the end the result must have the bits of the run that was left alone, and nothing else may
-lie there. LOG keeps the tallies: the same command goes on with them. Files lie in TMPDIR. Needs h5py."""
+Each run is killed up to six times, each time after a random part of its processor time. At least every tenth kill is
+inside a call that changes a file (before, during or after the change), mostly of a checkpoint. After each kill all
+files must be readable. At the end only the result may remain. LOG keeps the counts: the same command continues them.
+Files are in TMPDIR. Needs h5py."""
 import json
 import os
 import random
@@ -61,11 +61,12 @@ def readable(path):
 
 
 def unreadable():
-    """What a kill left that cannot be read, of results and of checkpoints (with the one before)."""
+    """Results and checkpoints that cannot be read after a kill. If the latest checkpoint is missing, `info` reads the
+    one before it."""
     files = all_files()
-    looked_at = [f for f in files if f in results() or f.endswith(".checkpoint.h5")]
-    looked_at += [f[:-2] for f in files if f.endswith(".checkpoint.h5.1") and f[:-2] not in files]
-    return [f for f in looked_at if not readable(f)]
+    checked = [f for f in files if f in results() or f.endswith(".checkpoint.h5")]
+    checked += [f[:-2] for f in files if f.endswith(".checkpoint.h5.1") and f[:-2] not in files]
+    return [f for f in checked if not readable(f)]
 
 
 class Chain:

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Commands with less and less memory (the limit of the address space, as `ulimit -v` sets it): each ends well, or with an
-error that says so.
+"""Commands with less and less memory (limit of the address space, as `ulimit -v` sets it). Each must succeed or fail
+with an error that names memory.
 
     GRAINGAS=build/src/cli/graingas validation/interruption/limits.py [STEP in kB [COMMAND...]]
 
-COMMAND is one of the names below; all without."""
+COMMAND is a name of COMMANDS below; default: all."""
 import os
 import resource
 import subprocess
@@ -48,7 +48,7 @@ def clear():
 
 
 def least(command):
-    """Where it begins to start at all, and from where on it has enough."""
+    """Smallest limit in kB with which the command succeeds, by bisection."""
     low, enough = 0, 4000000
     while enough - low > 100:
         middle = (low + enough) // 2

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the canaries change of a model, in the mutants' tree alone. */
+/* Apply the canaries to a model. Compiled in the mutants' tree only. */
 #include <math.h>
 
 #include "common/model.h"
 
-/* The scan of the thesis has eta_2 = (1+beta)/K(1+K) where (1+beta)K/2(1+K) is right (eqs 2.7 and 2.17). */
+/* Factor of the misprint of the thesis: eta_2 = (1+beta)/K(1+K) instead of (1+beta)K/2(1+K) (eqs 2.7 and 2.17). */
 static double scanned(double inertia)
 {
   return 2 / (inertia * inertia);
@@ -19,8 +19,8 @@ static void change_pair(gg_model *m, int i, int j, double e_off, double as_scann
   if (as_scanned > 0 && rolls > 0) m->contact[i][j].jt *= scanned(m->inertia[i]);
 }
 
-/* `first`: the numbers of the canaries are first + 1 (e), + 2 (diameter), + 3 (eta_2), + 5 (chi). Nobody is told that a
- * canary was reached where it changes nothing. */
+/* `first`: the numbers of the canaries are first + 1 (e), + 2 (diameter), + 3 (eta_2), + 5 (chi). GG_MUTANT records
+ * that a canary was reached, so it is evaluated only if the canary changes this model. */
 void gg_canary_model(gg_model *m, int first)
 {
   bool spins = m->rule != GG_SMOOTH;

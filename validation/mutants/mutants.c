@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which mutant a process is, read before main; and which of them it reached, told when it ends. */
+/* Select the mutant of this process before main; write the mutants that it reached when it ends. */
 #include <stdio.h>
 #include <stdlib.h>
 
 int gg_mutant_now;
 unsigned char gg_mutant_reached[1024];
 
-static void tell(void)
+static void write_reached(void)
 {
   const char *path = getenv("GG_MUTANT_REACHED");
   FILE *file = path ? fopen(path, "a") : NULL;
@@ -20,5 +20,5 @@ __attribute__((constructor)) static void choose(void)
 {
   const char *word = getenv("GG_MUTANT");
   if (word) gg_mutant_now = atoi(word);
-  atexit(tell);
+  atexit(write_reached);
 }

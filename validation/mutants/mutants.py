@@ -27,7 +27,7 @@ import tree
 from canaries import NAMES
 
 TESTS = r"(common|scene|theory|md|dsmc|statistics|measure|run|physics|api)/(?!trajectory_O|soak|workers|files|thread_pool)"
-# What claims to validate physics, for the canaries; report.BLIND says of others why they cannot.
+# Tests that validate physics: they must detect the canaries. report.BLIND gives the reasons of the others.
 VALIDATIONS = (r"(theory/.*|compare/.*|physics/(?!wall_errors|stopping).*|md/(state_equation|flows)|common/(collision|model|restitution)"
                r"|dsmc/(collision_rate|cooling|mixture|shear|single|thermostat|conservation)"
                r"|measure/(rheology|pair_correlation|velocity_correlations|structure|cells|local_distributions|collisions|impact_speed"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What came of it: the two pages beside this file and the short tables of docs/appendix/mutants.md."""
+"""Write the results: the two pages beside this file and the short tables of docs/appendix/mutants.md."""
 import collections
 import json
 import os
@@ -9,7 +9,7 @@ from canaries import NAMES
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 # Not in the table of canaries.
-BLIND = """Not tried, as they cannot see what both sides of them share, or validate no physics:
+BLIND = """Not tried, because they compare two sides that share the error, or do not validate physics:
 
 - one path of an engine against another: dsmc/kernels, segments, splitting, threads, time_step, majorant; md/kernels,
   oracle, trajectory, invariance, queue; measure/blocks; run/own_law (a law of the user's that is a constant e);
@@ -17,11 +17,11 @@ BLIND = """Not tried, as they cannot see what both sides of them share, or valid
   physics/wall_errors (errors against scatter), all of run/ but own_law;
 - a state against what it was: md/conservation; how slow collisions are treated: md/contact_time;
 - the collision rule itself: common/collision; the tables of flows, species and walls: common/flow, species, surfaces;
-- planted numbers alone: measure/curves, local_frame; statistics/*; files, the door, the command line;
-- programs that print tables and judge nothing (validation/noise_free/shear_table, monte_carlo_bias, wall_errors, errors,
-  definitions.py, time_left.py), or hold a theory against itself (stated_errors); validation/figures, which hold both
-  engines and the theories against papers and take hours; validation/stress, fuzz, interruption and soak, which ask
-  whether the program holds.
+- synthetic numbers only: measure/curves, local_frame; statistics/*; files, api, the command line;
+- programs that print tables without a verdict (validation/noise_free/shear_table, monte_carlo_bias, wall_errors,
+  errors, definitions.py, time_left.py), or compare a theory with itself (stated_errors);
+- validation/figures, which compare engines and theories with papers and take hours;
+- tests of robustness: validation/stress, fuzz, interruption and soak.
 """
 FATES = ["killed", "equivalent", "survived", "does not compile"]
 
@@ -121,7 +121,7 @@ def canaries_page(folder):
         for test, line in lines:
             f.write(f"| {test} | " + " | ".join(line) + " |\n")
         f.write(f"\n{BLIND}")
-        f.write("\nWhere one passes, and why:\n\n| validation | canary | why |\n| --- | --- | --- |\n")
+        f.write("\nCanaries that a validation does not detect, and why:\n\n| validation | canary | why |\n| --- | --- | --- |\n")
         for note in notes:
             f.write("| " + " | ".join(note) + " |\n")
     print(dict(count))

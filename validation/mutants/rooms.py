@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which files hold physics, by room, and how many mutants each room gets. What only makes a run fast (sorting, memory,
-prefetching, the size of cells), reads, writes or describes is left out: no result depends on it."""
+"""Files with physics, by room, and the number of mutants of each room. Left out is code on which no result depends:
+code for speed alone (sorting, memory, prefetching, the size of cells), input, output and descriptions."""
 
 ROOMS = {
     "common": (40, """

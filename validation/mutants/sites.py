@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the physics could be wrong: every place of a file of rooms.py at which a slip of one of four kinds changes an
-expression, found in the syntax tree (libclang).
+"""Sites of mutants: every expression in a file of rooms.py that a slip of one of four kinds changes, found in the
+syntax tree (libclang).
 
   sign    + and - exchanged, of numbers and of vectors; a unary minus dropped; a cross product the other way round
   factor  a product or quotient without one of its factors, or by 2, 1/2 or 1.02; a root not taken
   index   another component, another index, the first of two partners for the second, a bound that is off by one
-  image   what images, wraps, offsets and shear add or take away: left out, or twice
+  image   the displacement by images, wraps, offsets or shear: left out, or twice
 
-A site says: replace the text from `start` to `end` by `new`, in which {id} stands for the mutant's number: both the
-right expression and the wrong one are compiled (mutants.h), and a word of the environment chooses."""
+A site replaces the text from `start` to `end` by `new`, in which {id} is the mutant's number. `new` has both the right
+expression and the wrong one (mutants.h); an environment variable selects one at run time."""
 import collections
 import os
 import re
@@ -24,7 +24,7 @@ PERIODIC = re.compile(r"^src/(md|dsmc|measure)/")
 REAL = (T.DOUBLE, T.FLOAT, T.VECTOR, T.LONGDOUBLE)
 CONSTANT = (K.CASE_STMT, K.ENUM_DECL, K.STATIC_ASSERT, K.CXX_UNARY_EXPR)
 VEC_SWAPS = [("_add", "_sub"), ("_sub", "_add")]
-# A wrong value where it only says how much memory there is, or when a search ends, is no slip of the physics.
+# Sizes of memory and ends of searches are not physics: a wrong value there is no mutant.
 NOT_PHYSICS = re.compile(r"malloc|calloc|realloc|sizeof|memcpy|memset|prefetch|GG_TRY|gg_base_fail|assert|memory|__builtin_expect")
 
 Site = collections.namedtuple("Site", "file start end kind new line old what")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""validation/reproduce: one figure, all, the list, the page."""
+"""The command validation/reproduce: one figure, all figures, their list, the page."""
 import argparse
 import os
 import sys
@@ -22,7 +22,7 @@ figures.sweep of the output folder and serve every figure that shows them; remov
 
 
 def figure_of(entry, arguments):
-    """One figure from the runs to its files. Returns whether every point met its criteria."""
+    """Run the points of a figure and write its files. Returns whether every point met its criteria."""
     base = os.path.join(arguments.output, entry.base)
     found, reasons = points.run(entry, arguments.quick, os.path.join(arguments.output, "figures.sweep"), arguments.threads,
                                 False if arguments.quiet else None)
@@ -36,11 +36,11 @@ def figure_of(entry, arguments):
         tables.write_numbers(base + "_numbers.csv", rows)
         written.append(base + "_numbers.csv")
     written += pictures.draw(entry, filled, arguments.quick, base, arguments.formats)
-    report(entry, arguments, written, rows, reasons, pictures.unsettled(filled))
+    report(entry, arguments, written, rows, reasons, pictures.unconverged(filled))
     return not reasons
 
 
-def report(entry, arguments, written, rows, reasons, unsettled):
+def report(entry, arguments, written, rows, reasons, unconverged):
     for reason in reasons:
         print(f"warning: {entry.figure}: {reason}", file=sys.stderr)
     if arguments.quiet:
@@ -50,8 +50,8 @@ def report(entry, arguments, written, rows, reasons, unsettled):
         if row.number.paper is not None and row.method in entries.ENGINES:
             print(f"{row.number.what} ({row.number.where}): paper {row.number.paper:.5g}, {row.method} "
                   f"{texts.format_number(*row.value[:2])} (z {row.z:+.1f})")
-    if unsettled:
-        print(f"{entry.figure}: not settled: {'; '.join(unsettled)}")
+    if unconverged:
+        print(f"{entry.figure}: {pictures.NOT_CONVERGED}: {'; '.join(unconverged)}")
 
 
 def _duration(seconds):

@@ -15,7 +15,7 @@ from . import curves
 from .formula import Formula
 
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "figures")
-VERDICTS = "agrees", "differs", "cannot be told", "open"
+VERDICTS = "agrees", "differs", "not comparable", "open"
 ENGINES = "md", "dsmc"
 FINDS = "value", "zero", "minimum", "maximum", "prefactor", "exponent"
 KINDS = "quantity", "number", "curve", "series", "frames", "snapshot"  # what a panel shows
@@ -121,7 +121,7 @@ class Reader:
 
 
 def _take(m):
-    """A place x, a range [from, to] or a word."""
+    """An abscissa, a range [from, to] or a word."""
     if "take" not in m or m["take"] in curves.WORDS:
         return m.get("take")
     try:
@@ -153,13 +153,13 @@ class Axis:
 
 @dataclass
 class Source:
-    """What a panel shows, or what a number of the text is of."""
+    """The source of a panel or of a number of the text."""
     kind: str
     names: list  # quantities, curves, or the plane of a snapshot
-    number: str = None  # of kind "number": which of the curve's
-    take: object = None  # of kind "curve" in a number: what of the curve, see curves.py
-    frame: int = 0  # of a snapshot, from the end
-    beside: bool = True  # of a curve: draw the law
+    number: str = None  # kind "number": name of the number of the curve
+    take: object = None  # kind "curve" in a number: abscissa, range or word, see curves.py
+    frame: int = 0  # kind "snapshot": number of the frame, from the end
+    beside: bool = True  # kind "curve": draw the law, too
     relative_to: dict = field(default_factory=dict)
     relative_theory: str = None
     formula: Formula = None
@@ -189,11 +189,11 @@ class Source:
 @dataclass
 class Panel:
     title: str
-    sweeps: list  # none: all
+    sweeps: list  # empty: all
     x: Axis
     y: Axis
-    key: str  # x is over this scene key,
-    x_number: str  # or over this number of the curve
+    key: str  # scene key on the x axis; None: see x_number
+    x_number: str  # number of the curve on the x axis
     source: Source
     lines: dict  # scene keys, one line for each of their values, with their labels
     line_formula: Formula
@@ -202,7 +202,7 @@ class Panel:
     where: dict
     engines: list
     theories: list
-    theories_at: dict  # scene keys that theories take instead
+    theories_at: dict  # scene keys with other values for theories
     guides: dict
 
     @classmethod
@@ -236,7 +236,7 @@ class Panel:
 
 @dataclass
 class Number:
-    """A number of the text: of the paper (then `paper`), or of the verdict (then `name`)."""
+    """A number of the paper's text (which has `paper`) or of the verdict (which has `name`)."""
     name: str
     what: str
     where: str
@@ -279,8 +279,8 @@ class Entry:
     path: str
     figure: str  # "thesis 3.5"
     shows: str
-    sweeps: dict  # name -> a Sweep, or the name of the figure that has it
-    quick: dict  # scene keys that take other values with --quick, `vary` among them
+    sweeps: dict  # name -> a Sweep, or the name of the figure whose sweep is used
+    quick: dict  # values of scene keys and of `vary` with --quick
     panels: list
     numbers: list
     verdict: str
@@ -298,7 +298,8 @@ class Sweep:
     keys: dict
 
     def quick(self, changes):
-        """The text with other values, and keys that vary less, which come last. Lists of maps are replaced as a whole."""
+        """The text with the values of `changes`. A map `vary` replaces values of single keys, which then come last;
+        lists of maps are replaced as a whole."""
         keys = copy.deepcopy(dict(self.keys))
         for key, value in changes.items():
             if key == "vary":

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers of the text: found among the points of a figure."""
+"""Numbers of the text, computed from the points of a figure."""
 import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from . import entry as entries
-from .points import NOTHING, Asked, Value, key_number, meets
+from .points import NOTHING, Query, Value, key_number, meets
 
 
 @dataclass
 class Row:
-    """A number of the paper or of the verdict by one method. at: values of its varied keys, for lists."""
+    """A number of the paper or of the verdict by one method; x: value of the key that it is over (NaN: none)."""
     number: entries.Number
     method: str
     x: float
@@ -25,7 +25,7 @@ class Row:
 
 
 def zero(x, y, e):
-    """Where the line through the points vanishes first."""
+    """First zero of the polygon through the points."""
     for i in range(len(x) - 1):
         if not (y[i] * y[i + 1] <= 0) or y[i] == y[i + 1]:
             continue
@@ -35,13 +35,13 @@ def zero(x, y, e):
 
 
 def _top(x, y):
-    """Of the parabola through three points."""
+    """Abscissa of the extremum of the parabola through three points."""
     a, b = (y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1])
     return 0.5 * (x[0] + x[1]) - a / (2 * (b - a) / (x[2] - x[0]))
 
 
 def extreme(x, y, e, least):
-    """Where y is least, or largest, by a parabola; over ln(x) where x is positive."""
+    """Abscissa of the least or largest y, by a parabola through it and its neighbours, in ln(x) if x is positive."""
     at = int(np.argmin(y) if least else np.argmax(y)) if len(y) else 0
     if len(x) < 3 or at in (0, len(x) - 1):
         return NOTHING
@@ -75,24 +75,24 @@ FIND = {"zero": zero, "minimum": lambda *of: extreme(*of, True), "maximum": lamb
 
 
 def _along(number, points, method):
-    """x and value of every point that the number takes, in the order of x."""
+    """(x, value) of every point that the number uses, by increasing x."""
     source, found = number.source, []
-    asked = Asked(points, source, source.names[0], *((method, None) if method in entries.ENGINES else (None, method)))
+    query = Query(points, source, source.names[0], *((method, None) if method in entries.ENGINES else (None, method)))
     for point in points:
         if (number.sweep is not None and point.sweep != number.sweep) or not meets(point.scene, number.at):
             continue
-        if asked.engine and asked.engine not in point.engines:
+        if query.engine and query.engine not in point.engines:
             continue
         x = key_number(point.scene, number.over) if number.over else 0.0
         x = number.x(x=x) if number.x else x
-        value = asked.at(point, x)
+        value = query.at(point, x)
         if math.isfinite(x) and math.isfinite(value.mean):
             found.append((x, value))
     return sorted(found, key=lambda one: one[0])
 
 
 def rows(entry, points):
-    """A Row for each number and method; of a number of the verdict over a key, one for each of its values."""
+    """One Row for each number and method; for a number over a key without `find`, one for each value of the key."""
     for number in entry.numbers:
         theories = number.theories if number.source.kind == "quantity" else []
         for method in [*entries.ENGINES, *theories]:

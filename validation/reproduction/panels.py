@@ -7,23 +7,23 @@ import graingas as gg
 import numpy as np
 
 from . import entry as entries
-from .points import Asked, Value, key_number, meets
+from .points import Query, Value, key_number, meets
 
 FINE = 33  # points of a smooth line
 SERIES_POINTS = 100  # of a time series
 SLABS, BLOCKS = 20, 10  # of a profile from frames
-BIN_TOO_COARSE = 0.67  # a point on a logarithmic axis whose error is more than this part of it is not shown
+BIN_TOO_COARSE = 0.67  # points on a logarithmic axis with a larger relative error are not shown
 
 
 @dataclass
 class Line:
     method: str  # an engine, a theory, a law, a guide
-    group: str  # "e = 0.9"; "" of the only one
+    group: str  # "e = 0.9"; "" if the panel has one only
     style: str  # "points", "band" or "line"
-    rows: list = field(default_factory=list)  # x, its error, y, its error, settled
+    rows: list = field(default_factory=list)  # x, its error, y, its error, is the point converged?
 
-    def put(self, x, y, error=math.nan, x_error=math.nan, settled=True):
-        self.rows.append((x, x_error, y, error, settled))
+    def put(self, x, y, error=math.nan, x_error=math.nan, converged=True):
+        self.rows.append((x, x_error, y, error, converged))
 
     def sort(self):
         self.rows.sort(key=lambda row: row[0])
@@ -34,12 +34,12 @@ class Line:
 
 
 class Table:
-    """What a panel shows."""
+    """The data of a panel."""
 
     def __init__(self, panel, points):
         self.of, self.points, self.lines = panel, points, []
         self.x_label = self.y_label = self.x_unit = self.y_unit = ""
-        self.unsettled = []  # (engine, point) that a panel shows
+        self.unconverged = []  # (engine, point)
         fill = {"quantity": self._over_points, "number": self._over_points, "curve": self._curves, "series": self._series,
                 "frames": self._frames, "snapshot": lambda: None}
         fill[panel.source.kind]()
@@ -64,12 +64,12 @@ class Table:
         for engine in entries.ENGINES:
             for point in self.points:
                 if engine in point.engines and (not self.of.engines or engine in self.of.engines) and self.takes(point):
-                    if not point.settled(engine):
-                        self.unsettled.append((engine, point))
+                    if not point.converged(engine):
+                        self.unconverged.append((engine, point))
                     yield engine, point
 
     def group(self, point, name):
-        """The line of a point: its name where the panel shows several, and the values of its scene keys."""
+        """Name of the line of a point: `name` if the panel has several sources, and the values of its scene keys."""
         parts = [name] if len(self.of.source.names) > 1 and name else []
         for key, label in self.of.lines.items():
             value = point.scene.text_of(key)
@@ -88,13 +88,13 @@ class Table:
                     raw, x_error, _ = point.curve_number(engine, name, self.of.x_number)
                     x_error *= abs(self.of.x.formula.slope("x", x=raw)) if self.of.x.formula else 1
                 x = self._x(raw)
-                y = Asked(self.points, source, name, engine).at(point, x)
+                y = Query(self.points, source, name, engine).at(point, x)
                 shown = symbol(name) if source.kind == "quantity" else curve_text(source, i, point, engine)
                 group = self.group(point, "" if self.of.x_number else shown)
                 if y.unit and not self.y_unit and not (source.formula or source.relative_to or source.relative_theory):
                     self.y_unit = y.unit
                 if math.isfinite(x) and math.isfinite(y.mean):
-                    self._add(engine, group, "points").put(x, y.mean, y.error, x_error, point.settled(engine))
+                    self._add(engine, group, "points").put(x, y.mean, y.error, x_error, point.converged(engine))
         for line in self.lines:
             line.sort()
         for theory in self.of.theories:
@@ -110,12 +110,13 @@ class Table:
                 self._theory_line(theory, name, group, points)
 
     def _theory_line(self, theory, name, group, points):
-        """At the points; a closed form smoothly, where they differ in the key alone."""
+        """Line of a theory through its values at the points. A theory in closed form is drawn as a smooth curve if the
+        points differ in the key alone."""
         line, source, at = self._add(theory, group, "line"), self.of.source, {k: v[0] for k, v in self.of.theories_at.items()}
         keys = [key_number(point.scene, self.of.key) for point in points]
         solved = theory.startswith("enskog_hermite")
         for point, x in zip(points, map(self._x, keys)):
-            y = Asked(self.points, source, name, theory=theory, changes=at).at(point, x)
+            y = Query(self.points, source, name, theory=theory, changes=at).at(point, x)
             solved |= y.error > 0
             self._put_theory(line, x, y)
         ends = [key for key in keys if math.isfinite(key)]
@@ -124,7 +125,7 @@ class Table:
             for key in fine(min(ends), max(ends), self.of.x.log):
                 changes = {self.of.key: f"{key:.15g}", **at}
                 x = self._x(key)
-                self._put_theory(line, x, Asked(self.points, source, name, theory=theory, changes=changes).at(points[0], x))
+                self._put_theory(line, x, Query(self.points, source, name, theory=theory, changes=changes).at(points[0], x))
         line.sort()
 
     @staticmethod
@@ -139,7 +140,7 @@ class Table:
         return Value(formula(x=x, y=mean, r=0), abs(formula.slope("y", x=x, y=mean, r=0)) * error)
 
     def _is_shown(self, x, y, counted):
-        """Logarithms of what was never counted say nothing, nor does a point known only to its own size."""
+        """False outside the axes, for bins without counts, on logarithmic axes for errors as large as the value."""
         if not (math.isfinite(x) and math.isfinite(y.mean) and counted):
             return False
         inside = not self.of.x.range or self.of.x.range[0] <= x <= self.of.x.range[1]
@@ -160,11 +161,11 @@ class Table:
                     x = self._x(x)
                     y = self._transformed(x, mean, error)
                     if self._is_shown(x, y, mean != 0 or math.isfinite(error)):
-                        line.put(x, *y[:2], settled=point.settled(engine))
+                        line.put(x, *y[:2], converged=point.converged(engine))
                 self._law(curve)
 
     def _law(self, curve):
-        """The law beside, once."""
+        """Add the curve's law, once per panel."""
         if curve.law is None or not self.of.source.beside or any(line.method == curve.law_label for line in self.lines):
             return
         line, (low, high) = self._add(curve.law_label, "", "line"), self.of.y.range or (-math.inf, math.inf)
@@ -193,12 +194,12 @@ class Table:
                         line.put(x, y.mean)
 
     def _frames(self):
-        """The laboratory velocity over rate times height, across a sheared box: means over slabs, errors from block to
-        block, since waves of the flow outlast the time between two frames."""
+        """Laboratory velocity over shear rate times box height, across a sheared box: means over slabs. Errors are from
+        the scatter of blocks of frames, because waves of the flow outlast the time between two frames."""
         for engine, point in self._each():
             line = self._add(engine, self.group(point, ""), "points")
             for k, (mean, error) in enumerate(zip(*_profile(gg.trajectory(point.file)))):
-                line.put((k + 0.5) / SLABS - 0.5, mean, error, settled=point.settled(engine))
+                line.put((k + 0.5) / SLABS - 0.5, mean, error, converged=point.converged(engine))
 
     def _guides(self):
         ends = [x for line in self.lines for x in line.columns[0].tolist()]
@@ -230,7 +231,7 @@ def symbol(name):
 
 
 def curve_text(source, i, point, engine):
-    """The i-th curve in few words: as its file calls it, where that tells it from the others; else its name."""
+    """Label of the i-th curve: the label or x_name of its file if that is unique among the curves, else its name."""
     curves = [point.curves(engine).get(name) for name in source.names]
     for attribute in "label", "x_name":
         texts = [getattr(curve, attribute, None) or "" for curve in curves]
@@ -246,7 +247,7 @@ def fine(low, high, log):
 
 
 def _differ_in(a, b, key):
-    """Do two points differ in the key alone? Their length is none of a theory's business."""
+    """Whether two points differ in the key alone, apart from keys of `run`, on which theories do not depend."""
     other = a.scene.copy()
     try:
         other[key] = b.scene.text_of(key)

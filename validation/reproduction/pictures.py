@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A figure as a picture, by matplotlib, in the style of graingas.plot: a colour and a symbol for each line, dashes for
-theories. Filled symbols are md, half-filled ones and broken lines of curves dsmc where both are shown, open ones points
-that are not settled."""
+theories. If both engines are shown, md has filled symbols and solid curves, dsmc half-filled symbols and broken curves.
+Open symbols: points that are not converged."""
 import io
 import os
 import re
@@ -23,16 +23,17 @@ from matplotlib.lines import Line2D  # noqa: E402
 
 MARKERS = "osD^vPX"
 BROKEN = (0, (4, 1.5))  # curves of dsmc
-COLUMNS, WIDTH, HEIGHT, BESIDE = 3, 3.0, 2.4, 1.1  # panels side by side; inches, of a legend beside a panel, too
+COLUMNS, WIDTH, HEIGHT, BESIDE = 3, 3.0, 2.4, 1.1  # panels side by side; their size and the width of a legend in inches
 MOST_SHOWN = 12  # snapshots
 LARGEST = 120_000  # bytes of an SVG; above it curves become pixels
 
 
+NOT_CONVERGED = "not settled"  # label in the published pictures
 MARK = r"[_^](?:\{[^{}]*\}|[^\W_])"  # a subscript or superscript
 
 
 def mathematics(label):
-    """C_x/σ, T_{cell}/T and G_{CC}^{xx} as matplotlib has them."""
+    """C_x/σ, T_{cell}/T and G_{CC}^{xx} in the notation of matplotlib."""
     def upright(found):
         marks = "".join(f"{mark[0]}{{\\rm {mark[1:].strip('{}')}}}" for mark in re.findall(MARK, found[2]))
         return f"${found[1]}{marks}$"
@@ -44,7 +45,7 @@ def _axis_label(label, unit):
 
 
 def method_label(method, panel):
-    """"lun1991" -> "Lun (1991)", with the values that it takes instead of the scene's."""
+    """"lun1991" -> "Lun (1991)", with values of scene keys that are the theory's alone."""
     if method not in THEORIES:
         return mathematics(method)
     words = re.fullmatch(r"([a-z_]+)(\d{4})", method)
@@ -63,7 +64,7 @@ class _Drawing:
         self.groups = list(dict.fromkeys(line.group for line in measured)) or [""]
         self.methods = list(dict.fromkeys(line.method for line in table.lines if line.method not in ENGINES and line.rows))
         self.both = len({line.method for line in measured}) == 2
-        self.unsettled = False
+        self.unconverged = False
 
     def _colour(self, group):
         return COLOURS[self.groups.index(group) % len(COLOURS)] if group in self.groups else "black"
@@ -89,10 +90,10 @@ class _Drawing:
         return self.legend()
 
     def _points(self, line):
-        settled, (x, x_error, y, error) = np.array([row[4] for row in line.rows]), line.columns
+        converged, (x, x_error, y, error) = np.array([row[4] for row in line.rows]), line.columns
         fill = "bottom" if self.both and line.method == "dsmc" else "full"
-        for some, style in (settled, fill), (~settled, "none"):
-            self.unsettled |= style == "none" and some.any()
+        for some, style in (converged, fill), (~converged, "none"):
+            self.unconverged |= style == "none" and some.any()
             if some.any():
                 self.ax.errorbar(x[some], y[some], np.nan_to_num(error[some]), np.nan_to_num(x_error[some]), linestyle="none",
                                  color=self._colour(line.group), marker=self._marker(line.group), fillstyle=style,
@@ -100,10 +101,10 @@ class _Drawing:
 
     def _band(self, line):
         x, _, y, error = line.columns
-        settled, colour = line.rows[0][4], self._colour(line.group)
-        self.unsettled |= not settled
+        converged, colour = line.rows[0][4], self._colour(line.group)
+        self.unconverged |= not converged
         solid = BROKEN if self.both and line.method == "dsmc" else "-"
-        self.ax.plot(x, y, color=colour, linestyle=solid if settled else (0, (1, 1)), rasterized=self.rasterized)
+        self.ax.plot(x, y, color=colour, linestyle=solid if converged else (0, (1, 1)), rasterized=self.rasterized)
         known = np.isfinite(error)
         if known.any():
             self.ax.fill_between(x[known], (y - error)[known], (y + error)[known], color=colour, alpha=0.25, linewidth=0,
@@ -115,7 +116,7 @@ class _Drawing:
         self.ax.plot(x, y, color=colour, linestyle=self._dash(line.method), zorder=1)
 
     def legend(self):
-        """What explains colours, symbols and dashes."""
+        """Entries of the legend for colours, symbols and dashes."""
         points = any(line.style == "points" for line in self.table.lines)
         found = [Line2D([], [], color=self._colour(group), label=mathematics(group),
                         **({"marker": self._marker(group), "linestyle": "none"} if points else {}))
@@ -129,14 +130,14 @@ class _Drawing:
         elif self.both:
             found += [Line2D([], [], label="md", color="black"),
                       Line2D([], [], label="dsmc", color="black", linestyle=BROKEN)]
-        if self.unsettled:
-            found.append(Line2D([], [], label="not settled", fillstyle="none", **mark) if points
-                         else Line2D([], [], label="not settled", color="black", linestyle=(0, (1, 1))))
+        if self.unconverged:
+            found.append(Line2D([], [], label=NOT_CONVERGED, fillstyle="none", **mark) if points
+                         else Line2D([], [], label=NOT_CONVERGED, color="black", linestyle=(0, (1, 1))))
         return found
 
 
 def _surface(ax, table):
-    """x and the key of the lines below, y above; md."""
+    """Surface y over x and the key of the lines; md only."""
     lines = {float(line.group.rpartition("= ")[2]): line.columns for line in table.lines if line.method == "md"}
     x, across = sorted({value for columns in lines.values() for value in columns[0]}), sorted(lines)
     height = np.array([[dict(zip(lines[b][0], lines[b][2])).get(a, np.nan) for a in x] for b in across])
@@ -175,7 +176,7 @@ def _snapshot(ax, table, point):
 
 
 def _covers(ax):
-    """Does the legend of a panel hide something that is drawn?"""
+    """Whether the legend of a panel covers a point or a line."""
     box = ax.get_legend().get_window_extent()
     for line in ax.lines:
         path = line.get_path().transformed(line.get_transform())
@@ -188,15 +189,15 @@ def _covers(ax):
 
 
 def _explain(figure, panels):
-    """The legends. One serves all panels that need no more: in the first that has a place for it, else beside the last
-    of the first's row."""
+    """Place the legends. Panels whose entries are part of another panel's share its legend. It is in the first of these
+    panels where it covers nothing, else beside the last panel of the first one's row."""
     shared = {}
     for ax, handles in sorted(panels, key=lambda panel: -len(panel[1])):
-        look = frozenset((one.get_label(), one.get_marker(), one.get_linestyle(), one.get_color()) for one in handles)
+        entries = frozenset((one.get_label(), one.get_marker(), one.get_linestyle(), one.get_color()) for one in handles)
         if handles:
-            host = next((other for other in shared if look <= other), look)
+            host = next((other for other in shared if entries <= other), entries)
             shared.setdefault(host, (handles, []))[1].append(ax)
-    figure.draw_without_rendering()  # the layout
+    figure.draw_without_rendering()  # computes the layout
     beside = 0
     for handles, axes in shared.values():
         axes.sort(key=lambda ax: ax.get_subplotspec().num1)
@@ -227,19 +228,19 @@ def _page(entry, tables, note, rasterized):
         else:
             panels.append((ax, _Drawing(ax, table, rasterized).draw()))
     figure.suptitle(entry.figure + note, fontsize=10)
-    still = unsettled(tables, key_label)
+    still = unconverged(tables, key_label)
     if still:
-        figure.supxlabel("\n".join(textwrap.wrap(f"not settled: {'; '.join(still)}", 45 * columns, max_lines=3, placeholder=" ...")),
+        figure.supxlabel("\n".join(textwrap.wrap(f"{NOT_CONVERGED}: {'; '.join(still)}", 45 * columns, max_lines=3, placeholder=" ...")),
                          fontsize=6)
     _explain(figure, panels)
     return figure
 
 
-def unsettled(tables, name=str):
-    """Points that are not settled, in words: "collision.e = 0.5, phi = 0.1 (md)"."""
+def unconverged(tables, name=str):
+    """Names of the points that are not converged: "collision.e = 0.5, phi = 0.1 (md)"."""
     found = {}
     for table in tables:
-        for engine, point in table.unsettled:
+        for engine, point in table.unconverged:
             keys = ", ".join(f"{name(key)} = {point.scene.text_of(key)}" for key in point.varied
                              if not key.startswith(("run.", "frame")))
             found.setdefault(f"{keys} ({engine})" if keys else engine)
@@ -247,7 +248,7 @@ def unsettled(tables, name=str):
 
 
 def _small(image, ending):
-    """SVG without what nobody sees, PNG with a palette: pictures are most of the repository."""
+    """The image in fewer bytes (small SVG, PNG with a palette), since pictures are most of the repository."""
     if ending == "svg":
         return small_svg(image.getvalue().decode()).encode()
     if ending == "png":

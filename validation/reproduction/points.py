@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The points of a figure: its sweeps run, their results, and what engines and theories say there."""
+"""The points of a figure: runs of its sweeps, their results, values of engines and theories at each point."""
 import functools
 import math
 import os
@@ -26,7 +26,7 @@ NOTHING = Value(math.nan, math.nan)
 
 
 def sweeps(entry, quick, folder):
-    """The sweeps of an entry by name, not run yet; those of another figure with its quick precision."""
+    """The sweeps of an entry by name, not run. A sweep of another figure has that figure's quick values."""
     found = {}
     for name, sweep in entry.sweeps.items():
         owner = entry
@@ -59,7 +59,7 @@ class Point:
     def curves(self, engine):
         return self.engines[engine].curves
 
-    def settled(self, engine):
+    def converged(self, engine):
         """Whether the run met its criteria in a steady state."""
         return not self.short and self.engines[engine].is_steady
 
@@ -72,7 +72,7 @@ class Point:
         return Value(found.mean, found.error, found.unit) if found else NOTHING
 
     def theory(self, name, quantity, changes):
-        """What a theory says, with other values of scene keys."""
+        """Value of a theory at this point, with `changes` of scene keys."""
         theory = self._theories.get(name) if not changes else None
         if theory is None or quantity not in theory:
             theory = _evaluated(self.scene, name, changes)
@@ -93,13 +93,13 @@ def _evaluated(scene, name, changes):
 
 
 def key_number(scene, key):
-    """The value of a scene key; NaN if it is no number."""
+    """The value of a scene key as a number; NaN if it is not one."""
     value = scene[key]
     return float(value) if isinstance(value, (int, float)) else math.nan
 
 
 def _is(scene, key, text):
-    """Has the key this value? Numbers as numbers, all else as the scene would hold the text."""
+    """Whether the key has this value. Numbers are compared as numbers, other values as the scene writes them."""
     try:
         here, wanted = key_number(scene, key), float(text)
     except ValueError:
@@ -119,7 +119,7 @@ def meets(scene, conditions):
 
 
 def run(entry, quick, folder, threads, say):
-    """Runs what is missing and reads every finished point. Returns the points, and why some fell short."""
+    """Run missing points and read every finished one. Returns the points and the reasons why some are incomplete."""
     points, reasons = [], []
     for name, sweep in sweeps(entry, quick, folder).items():
         with warnings.catch_warnings():
@@ -136,14 +136,14 @@ def run(entry, quick, folder, threads, say):
 
 
 @dataclass
-class Asked:
-    """What a panel or a number asks of every point. engine or theory: one of them."""
+class Query:
+    """Value that a panel or a number takes from every point, of one engine or of one theory."""
     points: list
     source: entries.Source
     name: str
     engine: str = None
     theory: str = None
-    changes: dict = None  # of scene keys, for a theory
+    changes: dict = None  # scene keys with other values for the theory
 
     def _raw(self, point, changes):
         if self.theory:
@@ -156,7 +156,7 @@ class Asked:
         return point.quantity(self.engine, self.name)
 
     def _other(self, point):
-        """The point that differs from this one in the keys of relative_to only."""
+        """The point with the values of relative_to that agrees with this one in all other keys."""
         free = self.source.relative_to
         for other in self.points:
             keys = {key for key in {*other.varied, *point.varied} - set(free) if not key.startswith("run.")}
@@ -174,7 +174,7 @@ class Asked:
         return self._raw(other, {key: value for key, value in changes.items() if key not in self.source.relative_to})
 
     def at(self, point, x):
-        """The value there, after `as` and relative to what the source names."""
+        """The value at a point, after the formula `as` and relative to the source's reference."""
         value, reference = self._raw(point, self.changes or {}), Value(0, 0)
         relative = bool(self.source.relative_theory or self.source.relative_to)
         formula = self.source.formula or (RATIO if relative else None)
@@ -187,5 +187,5 @@ class Asked:
         if relative:
             error = math.hypot(error, formula.slope("r", **at) * reference.error)
         if relative and value[:2] == reference[:2]:
-            error = 0.0  # relative to itself: one number
+            error = 0.0  # the reference itself
         return Value(formula(**at), error)

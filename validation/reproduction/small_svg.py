@@ -171,7 +171,7 @@ def _state_styles_once(root):
 
 
 def _share(element):
-    """What all children have is their parent's."""
+    """Move a style or clip path that all children have to their parent."""
     for name in "style", "clip-path":
         values = {child.get(name) for child in element}
         if len(element) > 1 and len(values) == 1 and None not in values and not element.get(name):

@@ -16,7 +16,7 @@ def _cell(value):
 
 
 def write(path, content):
-    """Appears whole or not at all."""
+    """Write the file atomically: whole or not at all."""
     binary = isinstance(content, bytes)
     with open(path + ".part", "wb" if binary else "w", **({} if binary else {"encoding": "utf-8", "newline": ""})) as file:
         file.write(content)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The texts of verdicts, whose numbers come from NAME_numbers.csv, and the page of all figures.
 
-{kurtosis: 3.51(1), 3.04(1)} in a text is what the table has under the name `kurtosis`, in the order of the key it is
-over. Words behind the name choose: an engine or theory; `at 0.5`; `range`, `min`, `max`; `bare` leaves errors out,
+{kurtosis: 3.51(1), 3.04(1)} in a text has the values of `kurtosis` in the table, in the order of the key that it is
+over. Words after the name select: an engine or theory; `at 0.5`; `range`, `min`, `max`; `bare` omits errors,
 `percent` is 100 times the number, `size` its absolute value, `z` the number over its error.
 """
 import math
@@ -20,7 +20,7 @@ CHOICES = "range", "min", "max", "bare", "percent", "size", "z", "at"
 
 
 def format_number(mean, error, bare=False):
-    """1.364, 0.021 -> "1.36(2)"; two digits of an error that begins with 1; an unknown one: three digits."""
+    """1.364, 0.021 -> "1.36(2)". Errors that begin with 1 have two digits. Unknown error: three digits of the mean."""
     if not error > 0:
         return f"{mean:.3g}"
     digits = -int(f"{error:.0e}".partition("e")[2])
@@ -32,7 +32,7 @@ def format_number(mean, error, bare=False):
 
 
 def _words(words):
-    """{"at 0.5 bare": ...} as method, choices and the value of `at`."""
+    """Parse "lun1991 at 0.5 bare": returns the method and a map of the choices."""
     parts, found, method = words.split(), {}, None
     while parts:
         word = parts.pop(0)
@@ -46,7 +46,7 @@ def _words(words):
 
 
 def filled(words, table):
-    """The text of one number. Raises KeyError if the table does not have it."""
+    """The text of one number. Raises KeyError if it is not in the table."""
     name, _, rest = words.partition(" ")
     method, choice = _words(rest)
     rows = [row for row in table if row["name"] == name]
@@ -67,18 +67,17 @@ def filled(words, table):
 
 
 def plain(text):
-    """The text with the numbers it has."""
+    """The text without the braces and names of its numbers."""
     return FILLED.sub(r"\2", text)
 
 
 def from_table(text, table):
-    """The text with the numbers of the table."""
+    """The text with its numbers replaced by those of the table."""
     return FILLED.sub(lambda m: f"{{{' '.join(m[1].split())}: {filled(' '.join(m[1].split()), table)}}}", text)
 
 
 def fill(entry, folder=PICTURES):
-    """Writes the numbers of FOLDER/NAME_numbers.csv into the verdict of an entry. False: there is no table, or nothing
-    to change."""
+    """Write the numbers of FOLDER/NAME_numbers.csv into the verdict of an entry. Returns whether the entry changed."""
     path = os.path.join(folder, entry.base + "_numbers.csv")
     if not os.path.exists(path):
         return False
@@ -101,7 +100,7 @@ def counts(all_entries):
 
 
 def page(folder=entries.FOLDER):
-    """docs/appendix/reproduction.md: its beginning, and a section for each figure."""
+    """The text of docs/appendix/reproduction.md: head.md and a section for each figure."""
     with open(os.path.join(folder, "head.md"), encoding="utf-8") as file:
         parts = [file.read()]
     found = [entries.read(path) for path in entries.files(folder)]

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How right is the time left that a run tells? By hand, on a machine that does nothing else:
+"""Accuracy of the time left that a run reports. To be run by hand, on an idle machine:
 
     taskset -c 0 validation/stability/time_left.py build/libgraingas.so [SEED [NAME ...]]
 
-Runs of every kind, each some seconds. From a quarter of each run on: how often a time is told at all, how often it is
-within 30 % of the truth, the worst (both of what is more than a twentieth of the run before its end), and whether the
-fraction ever fell. Of a comparison each engine is a run."""
+Runs of every kind, each some seconds. Reports between a quarter and 95 % of each run are judged: the fraction that
+has a time left, the fraction of those within 30 % of the true one, the worst ratio. FELL: the reported fraction of
+work decreased. In a comparison each engine counts as a run."""
 import ctypes as c
 import math
 import os
@@ -55,30 +55,31 @@ class Progress(c.Structure):
                 ("replicas", c.c_int64), ("next", c.c_char_p)]
 
 
-HEAR = c.CFUNCTYPE(c.c_int, c.c_void_p, c.POINTER(Progress))
+PROGRESS = c.CFUNCTYPE(c.c_int, c.c_void_p, c.POINTER(Progress))
 
 
 class Options(c.Structure):
     _fields_ = [("threads", c.c_int), ("output", c.c_char_p), ("checkpoint", c.c_char_p), ("resume", c.c_char_p),
-                ("command", c.c_char_p), ("context", c.c_void_p), ("progress", HEAR), ("stop", c.c_void_p),
+                ("command", c.c_char_p), ("context", c.c_void_p), ("progress", PROGRESS), ("stop", c.c_void_p),
                 ("stored", c.c_void_p), ("warn", c.c_void_p), ("spare", c.c_void_p * 8)]
 
 
 def watch(library, text, seed, compare=False, threads=1, **files):
-    """What is told: by engine a list of (clock, fraction, time left); stopped at files['until'] of the run."""
+    """Run a scene; returns its start and, by engine, a list of (clock, fraction, time left). files['until']: fraction
+    at which to interrupt it."""
     scene, what, message = c.c_void_p(), c.c_void_p(), c.create_string_buffer(2048)
     until = files.pop("until", 2)
-    told = {}
+    reports = {}
 
-    def hear(_, now):
+    def progress(_, now):
         n = now.contents
-        told.setdefault(n.engine.decode(), []).append((time.monotonic(), n.fraction, n.time_left))
+        reports.setdefault(n.engine.decode(), []).append((time.monotonic(), n.fraction, n.time_left))
         return n.fraction >= until
 
     if library.gg_scene_parse(("{%s}" % text).encode(), b"scene", c.byref(scene), message):
         sys.exit(message.raw[4:].split(b"\0")[0].decode())
     library.gg_scene_set(scene, b"run.seed", str(seed).encode(), None)
-    options = Options(threads=threads, progress=HEAR(hear), **files)
+    options = Options(threads=threads, progress=PROGRESS(progress), **files)
     call = library.gg_compare if compare else library.gg_run
     begun = time.monotonic()
     status = call(scene, c.byref(options), c.byref(what), message)
@@ -86,7 +87,7 @@ def watch(library, text, seed, compare=False, threads=1, **files):
         sys.exit(message.raw[4:].split(b"\0")[0].decode())
     (library.gg_comparison_free if compare else library.gg_result_free)(what)
     library.gg_scene_free(scene)
-    return begun, told
+    return begun, reports
 
 
 def judge(name, begun, lines):
@@ -101,7 +102,7 @@ def judge(name, begun, lines):
     quarter = next((f for t, f, _ in lines if t >= begun + 0.25 * whole), math.nan)
     print(f"{name:22} {whole:5.1f} s  known {100 * len(known) / max(1, len(late)):4.0f} %  within 30 %: "
           f"{100 * good / max(1, len(known)):4.0f} %  worst {worst:5.2f} of the truth, off by {100 * far:3.0f} % of the run"
-          f"  {100 * quarter:3.0f} % told at a quarter{'  FELL' if falls else ''}", flush=True)
+          f"  fraction {100 * quarter:3.0f} % at a quarter{'  FELL' if falls else ''}", flush=True)
     return len(known) and good == len(known), falls
 
 
@@ -117,10 +118,10 @@ def main():
             if name == "resumed":
                 watch(library, SCENES[name], seed, checkpoint=kept, until=0.4)
                 files = {"resume": kept}
-            begun, told = watch(library, SCENES[name], seed, compare, threads, **files)
-            for engine, lines in told.items():
+            begun, reports = watch(library, SCENES[name], seed, compare, threads, **files)
+            for engine, lines in reports.items():
                 if compare and threads == 1 and engine == "dsmc":
-                    begun = told["md"][-1][0]
+                    begun = reports["md"][-1][0]
                 ok, falls = judge(f"{name}: {engine}" if compare else name, begun, lines)
                 passed, fell, n = passed + bool(ok), fell + falls, n + 1
     print(f"{passed} of {n} within 30 % throughout; the fraction fell in {fell}")

@@ -6,7 +6,7 @@
 #include "common/thermostat.h"
 #include "rule.h"
 
-/* Work on the grains since `before`, which is exact where grains fly freely between. */
+/* Work of the shear on the grains since `before`. It is exact for md, whose grains fly freely between collisions. */
 static double work_of_shear(const gg_simulation *g, const sample *before, const sample *after)
 {
   const double rate = g->model.shear_rate, dt = after->state.time - before->state.time;
@@ -14,7 +14,7 @@ static double work_of_shear(const gg_simulation *g, const sample *before, const 
   return -rate * (before->xy * dt - 0.5 * rate * before->yy * dt * dt);
 }
 
-/* Grains that cross the box along x or z come in on the other side. */
+/* Work of gravity since `before`. Displacements along x and z are minimum images: grains may cross these faces. */
 static double work_of_gravity(const gg_simulation *g, const sample *before, const sample *after)
 {
   double work = 0;
@@ -27,7 +27,7 @@ static double work_of_gravity(const gg_simulation *g, const sample *before, cons
   return work;
 }
 
-/* Collisional work of the shear, work of the walls, and what was lost. */
+/* Collisional work of the shear and work of the walls, minus the losses in collisions. */
 static double gain_in_contacts(const gg_simulation *g, const gg_simulation_sums *sums)
 {
   const double per = g->model.volume * sums->time / g->model.stress_unit;
@@ -47,8 +47,8 @@ static void swap(sample *a, sample *b)
   *b = c;
 }
 
-/* What the work may be off by, squared, in one step. Monte Carlo collides in the midst of a step, and the work is taken
- * from its ends: a collision changes sum m C_x C_y by some T, at random. */
+/* Square of the error of the work in one step. dsmc collides in the middle of a step, but the work is computed from the
+ * samples at its ends; a collision changes sum m C_x C_y by about T, with either sign. */
 static double uncertainty(const gg_simulation *g, const sample *before, const sample *after)
 {
   const double strain = g->model.shear_rate * (after->state.time - before->state.time);
@@ -56,7 +56,8 @@ static double uncertainty(const gg_simulation *g, const sample *before, const sa
   return g->model.ensemble ? each * each : 0;
 }
 
-/* Monte Carlo's Gaussian thermostat returns in a step what collisions destroyed in the one before. */
+/* Allowed relative error of the energy. The Gaussian thermostat of dsmc returns in a step the energy that collisions
+ * lost in the step before. */
 static double rounding(const gg_simulation *g, int steps)
 {
   if (g->model.ensemble && gg_common_heat_of(&g->model) == GG_HEAT_SCALES) return 1 / sqrt((double)g->model.n);
@@ -91,8 +92,8 @@ gg_status budget_follow(gg_simulation *g, sample *before, sample *after, int ste
   b->energy_allowed = rounding(g, steps) + 6 * sqrt(off) / most;
   b->rule = watch.worst;
   const double change = before->translation + before->rotation - energy;
-  const bool slides =
-      g->model.gravity[0] != 0 || g->model.gravity[2] != 0; /* ways that grains with heights alone lack */
+  /* dsmc has no x and z, which the work of this gravity needs. */
+  const bool slides = g->model.gravity[0] != 0 || g->model.gravity[2] != 0;
   if (g->model.ensemble && slides)
     b->energy = NAN;
   else if (heat == GG_UNHEATED)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What must balance from collision to collision: energy against the losses, the work of shear, walls and gravity; and
- * each collision against the rule, momentum and angular momentum. */
+/* Balances from collision to collision: the energy against the losses and the work of shear, walls and gravity; each
+ * collision against the collision rule and the conservation of momentum and angular momentum. */
 #ifndef STRESS_BUDGET_H
 #define STRESS_BUDGET_H
 

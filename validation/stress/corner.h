@@ -9,24 +9,24 @@
 
 #include "api/simulation.h"
 
-/* In place of a reason: this engine does not run the corner. */
+/* Value of `md` or `dsmc`: the suite does not run the corner on this engine. */
 #define NOT_RUN ""
 
-/* QUICK: part of `stress --quick`. NIGHTLY: all other runs. ONLY_BY_NAME: takes minutes, runs if it is named. */
+/* QUICK: `stress --quick` and all other runs. NIGHTLY: other runs. ONLY_BY_NAME: runs if named, as it takes minutes. */
 typedef enum selection { QUICK, NIGHTLY, ONLY_BY_NAME } selection;
 
 typedef struct corner {
-  const char *subject;   /* begins a section of the table, all else is zero; NULL: a corner */
+  const char *subject;   /* title of a section of the table, all other members zero; NULL: a corner */
   const char *name;      /* NULL without a subject: end of the table */
-  const char *scene;     /* YAML; `engine` is filled in, and dsmc gets as many grains as md unless it says otherwise */
-  const char *refused;   /* part of the reason for which both engines refuse it; NULL: they run it, and are right */
-  const char *md, *dsmc; /* the same of one of them; or NOT_RUN */
-  double collisions;     /* a grain; 0: 60 */
-  double cools;          /* factor by which T must have changed at the end: 1e-12, 1e12; 0: not asked */
-  const char *agrees; /* a quantity whose means of both engines, and of Enskog's equation solved where it can be, must
-                       * agree in a comparison (four combined errors); NULL: none is made */
-  const char *apart;  /* with `agrees`: why md is another problem, so that only dsmc is held against the solution */
-  void (*start)(gg_simulation *simulation); /* puts the grains elsewhere first; NULL: as they are */
+  const char *scene;     /* YAML without `engine`; dsmc has as many grains as md unless the scene sets another number */
+  const char *refused;   /* part of the message with which both engines reject the scene; NULL: they must run it */
+  const char *md, *dsmc; /* part of the message with which this engine alone rejects it; or NOT_RUN */
+  double collisions;     /* per grain; 0: 60 */
+  double cools;          /* factor by which T must have changed at the end: 1e-12, 1e12; 0: not tested */
+  const char *agrees; /* quantity whose means must agree within four combined errors: of both engines and, where it can
+                       * be solved, of Enskog's equation; NULL: no comparison */
+  const char *apart; /* with `agrees`: why md solves another problem, so that only dsmc is compared with the solution */
+  void (*start)(gg_simulation *simulation); /* changes the initial state; NULL: the engine's */
   selection when;
 } corner;
 
@@ -35,30 +35,30 @@ extern const corner corners[];
 
 /* Result of one corner on one engine. */
 typedef struct finding {
-  bool refused, ended; /* the scene was refused; or the engine gave up on the way */
+  bool refused, ended; /* the scene was rejected; the engine stopped with an error */
   char reason[1024];
-  double collisions; /* in all */
-  double overlap;    /* worst, in contact distances; NAN where there are no places */
+  double collisions; /* total number */
+  double overlap;    /* largest, in contact distances; NAN without positions */
   double allowed_overlap;
   size_t escapes;
   double momentum, energy, rule; /* see sample.h, budget.h */
-  double drift;                  /* of the energy that nothing changes, over the whole course; in `energy`, too */
+  double drift;                  /* relative change of the energy over the run if it is conserved; part of `energy` */
   double energy_allowed, momentum_allowed;
-  bool monotone, numbers;         /* time and collisions never fell, and time got on; no number was NaN or infinite */
+  bool monotone, numbers;         /* time and collisions never fell, and time grew; all numbers were finite */
   double cooled;                  /* T at the end over T at the start */
-  int same_pairs, compared_pairs; /* md: first collisions that are those of the reference path; of so many */
+  int same_pairs, compared_pairs; /* md: number of first collisions equal to the reference path's, of those compared */
   double z, departure;            /* md - dsmc; engine - solution, in combined errors; NAN: not known */
   double seconds;
 } finding;
 
-/* Run it. false: out of memory or the suite itself is wrong (scene that does not parse ...), told in `reason`. */
+/* Run the corner on one engine. An error of the suite itself (memory, a scene that does not parse) is in `reason`. */
 void corner_run(const corner *c, const char *engine, finding *f);
-/* NULL: as it should be; else what is wrong. */
+/* Description of the first failed check, in `text`; NULL if all passed. */
 const char *corner_wrong(const corner *c, const char *engine, const finding *f, char text[256]);
 
-/* plain.c: the first collisions beside those of the reference path. */
+/* plain.c: compare the first collisions with those of the reference path. */
 void corner_compare_plain(const gg_scene *scene, finding *f);
-/* z_scores.c: a comparison of both engines and the solved equation; of each engine alone where the other refuses. */
+/* z_scores.c: compare means of both engines and the solved equation; of one engine if the other rejects the scene. */
 void corner_compare_means(const corner *c, finding *md, finding *dsmc);
 
 #endif

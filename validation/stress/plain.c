@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* md beside its reference path: plain cells, one pair at a time, from the same start. Rounding differs where the search
- * does, and grows from collision to collision, the faster the farther grains fly: compared are collisions that have few
- * others before them. */
+/* Compare md with its reference path (plain cells, one pair at a time) from the same initial state. Rounding differs
+ * between neighbour searches, and each collision amplifies it, by more if free paths are longer. So only collisions
+ * are compared that end short chains of collisions. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -27,7 +27,8 @@ static void note(void *context, const gg_collision_record *collision)
   c->pair[c->n++][1] = (size_t)collision->id[1];
 }
 
-/* As gg_md_ops.create makes it, but for the grid. Places in equilibrium were found by the engine: they are its own. */
+/* Make an engine as gg_md_ops.create does, but with another grid. Positions of an equilibrium start are copied from the
+ * first engine, which has found them by a simulation. */
 static gg_status make_reference(const gg_model *model, uint64_t seed, const gg_engine_grains *g, gg_md **engine,
                                 gg_error *err)
 {
@@ -57,13 +58,14 @@ static bool is_same(const size_t a[2], const size_t b[2])
   return (a[0] == b[0] && a[1] == b[1]) || (a[0] == b[1] && a[1] == b[0]);
 }
 
-/* How many collisions in a row leave rounding small: each makes it larger by some free paths over a diameter. */
+/* Longest chain of collisions after which rounding is still small: each amplifies it by about the mean free path over
+ * the diameter. */
 static int longest_chain(const gg_model *m)
 {
   return (int)fmax(1, 9 / log10(30 * (1 + 0.1 / m->phi)));
 }
 
-/* Of the first collisions, up to the first that is the end of a longer chain. */
+/* Number of collisions before the first one that ends a chain longer than longest_chain(). */
 static int in_short_chains(const course *c, const gg_model *m)
 {
   int *chain = calloc((size_t)m->n, sizeof *chain), k = 0;

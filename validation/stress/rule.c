@@ -22,13 +22,13 @@ static double length(gg_vec v)
   return sqrt(gg_dot(v, v));
 }
 
-/* NaN is as bad as it gets. */
+/* Keep the largest departure; NaN counts as infinite. */
 static void note(rule_watch *w, double departure)
 {
   if (!(departure <= w->worst)) w->worst = isnan(departure) ? INFINITY : departure;
 }
 
-/* A grain's flight to the collision, and what changed there; `sign`: of the impulse on it. */
+/* Check one grain: its velocity changes by the impulse alone, its spin by the impulse's torque. */
 static void check_grain(rule_watch *w, const sample *before, const sample *after, int which, double speed)
 {
   const gg_collision_event *e = &w->event;
@@ -44,11 +44,11 @@ static void check_grain(rule_watch *w, const sample *before, const sample *after
   const gg_vec spin = vector(before->spin + at), turn = gg_sub(vector(after->spin + at), spin);
   if (m->rule == GG_SMOOTH)
     note(w, length(turn) / speed);
-  else /* both spins turn the same way: what the pair's orbit about itself loses */
+  else /* same sign for both grains: J and its lever arm change sign together */
     note(w, length(gg_axpy(0.5 * d / inertia, kJ, turn)) * 0.5 * d / (speed + 0.5 * d * length(spin)));
 }
 
-/* The tangential impulse, of the velocity of the surfaces against each other: it sticks, or slides. */
+/* Check the tangential impulse against the relative velocity of the surfaces: sticking or sliding contact. */
 static void check_tangential(rule_watch *w, const sample *before, double speed)
 {
   const gg_collision_event *e = &w->event;
@@ -74,7 +74,7 @@ void rule_check(rule_watch *w, const sample *before, const sample *after)
   const gg_model *m = w->model;
   if (w->seen != 1) return;
   const int i = e->species[0], j = e->species[1];
-  /* What is lost in rounding is a share of the velocities in the box. */
+  /* Rounding errors scale with the largest velocities in the box. */
   const double flow = m->shear_rate * m->box[1], walls = m->n_surfaces ? length(m->surface[0].velocity) : 0;
   const double thermal = sqrt(after->translation / (double)after->n / fmin(m->mass[i], m->mass[j]));
   const double speed = length(vector(e->velocity)) + thermal + flow + walls;
@@ -83,7 +83,7 @@ void rule_check(rule_watch *w, const sample *before, const sample *after)
   const double treated = gg_dot(vector(e->k), vector(e->impulse)) * im - 2 * gn;
   const bool is_treated = m->contact_time > 0 && fabs(treated) < fabs(departure);
   if (!m->law.name) note(w, fabs(is_treated ? treated : departure) / speed);
-  if (gg_common_heat_of(m) != GG_UNHEATED || m->walled) return; /* others change velocities, too */
+  if (gg_common_heat_of(m) != GG_UNHEATED || m->walled) return; /* not only collisions change velocities */
   check_grain(w, before, after, 0, speed);
   check_grain(w, before, after, 1, speed);
   if (!is_treated && m->rule != GG_SMOOTH) check_tangential(w, before, speed);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A corner on one engine: refused, or run for a while with looks at the grains, then collision by collision. */
+/* A corner on one engine: rejected, or run with samples of the grains, then followed collision by collision. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -10,9 +10,9 @@
 #include "common/thermostat.h"
 #include "corner.h"
 
-enum { LOOKS = 30, LOOKS_OF_MANY = 2, MANY = 100000, STEPS = 400, STEPS_OF_MANY = 10 };
+enum { SAMPLES = 30, SAMPLES_OF_MANY = 2, MANY = 100000, STEPS = 400, STEPS_OF_MANY = 10 };
 
-/* A corner crawls that takes more processor time: seconds, and collisions in one of them. */
+/* A corner crawls (and fails) if it has used this much processor time and is slower: seconds, collisions per second. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define CRAWLS_AFTER 1200.0
 #else
@@ -33,7 +33,8 @@ static int is_crawling(void *context)
   return cpu_now() > *until;
 }
 
-/* Between walls all grains may be at rest at a time. */
+/* Departure of the momentum from the expected one, over sum m |C|; between walls over its largest value so far, since
+ * all grains may come to rest there. */
 static double momentum_of(const gg_simulation *g, const sample *s, const double expected[3], double *largest)
 {
   double off = 0;
@@ -42,8 +43,8 @@ static double momentum_of(const gg_simulation *g, const sample *s, const double 
   return off / *largest;
 }
 
-/* Kicks of the Monte Carlo engine's white noise are taken off now and then alone. Between walls each of its half
- * flights rounds what gravity gives. */
+/* Allowed departure of the momentum. dsmc removes the mean of its white-noise kicks only from time to time. Between
+ * walls each of its half flights rounds the momentum that gravity gives. */
 static double allowed_momentum(const gg_simulation *g)
 {
   const bool kicked = g->model.ensemble && gg_common_heat_of(&g->model) == GG_HEAT_KICKS;
@@ -51,7 +52,8 @@ static double allowed_momentum(const gg_simulation *g)
   return kicked ? 2 / sqrt((double)g->model.n) : g->model.single ? 1e-6 : 1e-11;
 }
 
-/* None, but between walls, where whole velocities have what walls and gravity gave. */
+/* Expected momentum: zero; between walls that of laboratory velocities, which gains the impulses of walls and gravity.
+ */
 static gg_status expect_momentum(gg_simulation *g, double expected[3], gg_error *err)
 {
   gg_simulation_sums sums;
@@ -71,20 +73,20 @@ static double collisions_of(const corner *c, const gg_simulation *g)
   return (c->collisions > 0 ? c->collisions : 60) * (double)g->model.n / 2;
 }
 
-/* Does nothing but collisions change the energy, and these not either? */
+/* True if the energy is conserved. */
 static bool keeps_energy(const gg_model *m)
 {
   return m->elastic && m->shear_rate == 0 && !m->walled && gg_common_heat_of(m) == GG_UNHEATED;
 }
 
-static void look_at(const gg_simulation *g, const sample *s, finding *f)
+static void inspect(const gg_simulation *g, const sample *s, finding *f)
 {
   f->numbers &= s->numbers;
   f->overlap = fmax(f->overlap, sample_overlap(s, g));
   f->escapes += sample_escapes(s, g);
 }
 
-/* What is saved is read as if anybody had made it: whatever state this is, a run can go on from it. */
+/* Save and restore the engine. Restoring validates the state, so every state that occurs must pass the validation. */
 static gg_status save_and_restore(const gg_simulation *g, gg_error *err)
 {
   gg_archive archive = {0};
@@ -99,22 +101,22 @@ static gg_status save_and_restore(const gg_simulation *g, gg_error *err)
 static gg_status go_through(gg_simulation *g, const corner *c, sample *s, sample *other, finding *f, gg_error *err)
 {
   const double n = (double)g->model.n, all = collisions_of(c, g);
-  const int looks = n < MANY ? LOOKS : LOOKS_OF_MANY;
+  const int samples = n < MANY ? SAMPLES : SAMPLES_OF_MANY;
   double expected[3], middle = 0, scale = 0;
   sample_take(s, g);
   for (int a = 0; a < 3; a++) expected[a] = g->model.walled ? s->momentum[a] : 0;
   const double first = s->state.temperature, energy = s->translation + s->rotation;
-  if (!g->model.ensemble) look_at(g, s, f);
-  for (int k = 0; k < looks && f->numbers; k++) {
+  if (!g->model.ensemble) inspect(g, s, f);
+  for (int k = 0; k < samples && f->numbers; k++) {
     const double time = s->state.time;
     const uint64_t collisions = s->state.collisions;
-    GG_TRY(gg_simulation_collide(g, (uint64_t)fmax(1, ceil(all / looks)), err));
+    GG_TRY(gg_simulation_collide(g, (uint64_t)fmax(1, ceil(all / samples)), err));
     GG_TRY(expect_momentum(g, expected, err));
     sample_take(s, g);
-    look_at(g, s, f);
+    inspect(g, s, f);
     if (f->numbers) GG_TRY(save_and_restore(g, err));
     f->monotone &= s->state.time >= time && s->state.collisions > collisions;
-    if (2 * k == looks) middle = s->state.time;
+    if (2 * k == samples) middle = s->state.time;
     f->momentum = fmax(f->momentum, momentum_of(g, s, expected, &scale));
     f->collisions = (double)s->state.collisions;
     f->cooled = s->state.temperature / first;

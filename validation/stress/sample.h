@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What can be read off the grains at one time, and what must be so at any: all are numbers, nobody overlaps, nobody has
- * left the box. */
+/* Sample of the grains at one time, and checks that must hold at any time: all numbers are finite, no grains overlap,
+ * no grain is outside the box. */
 #ifndef STRESS_SAMPLE_H
 #define STRESS_SAMPLE_H
 
@@ -9,7 +9,7 @@
 typedef struct sample {
   gg_simulation_state state;
   size_t n;
-  double *position, *velocity, *spin; /* three a grain; position NULL where there are none */
+  double *position, *velocity, *spin; /* three per grain; position NULL if the engine has none */
   int *species;
   double momentum[3], scale;    /* sum m C; sum m |C| */
   double translation, rotation; /* energies */

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where the hot and the cold state of a sheared suspension end (docs/howto/suspension.md), from tables of sweeps over
-bath.drag:
+"""Turning points: the drag at which the hot and the cold state of a sheared suspension end (docs/howto/suspension.md),
+from tables of sweeps over bath.drag:
 
     validation/suspension/turning_points.py TABLE.csv ... [--picture FILE.png]
 
-Near a turning point drag = d - c (ln T - ln T_c)^2. The fit has d, c and T_c from the five points of a state that are
-nearest to its end, and their errors from the middle
-two thirds of 200 draws of the points within theirs."""
+Near a turning point drag = d - c (ln T - ln T_c)^2. Fits to the five points of a state that are nearest to its end give
+d, c and T_c. Their errors are half the width of the middle two thirds of fits to 200 sets of points, drawn within the
+errors of the points."""
 import csv
 import sys
 

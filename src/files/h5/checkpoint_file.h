@@ -26,7 +26,7 @@ char *gg_files_checkpoint_before(const char *path);
 /* Remove FILE.1. */
 gg_status gg_files_checkpoint_remove_before(const char *path, gg_error *err);
 
-/* Is it FILE or FILE.1 of this path? Not for want of memory, which is noted. */
+/* True if `file` is FILE or FILE.1 of this path. False if out of memory, which is counted. */
 bool gg_files_checkpoint_is_of(const char *file, const char *path);
 
 #define GG_CHECKPOINTS_ARE "checkpoints take each other's place, and are files"

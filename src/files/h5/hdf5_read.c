@@ -157,7 +157,7 @@ uint64_t gg_h5_row_size(const gg_h5_space *s)
   return size;
 }
 
-/* Is the place before the chunk that the key names? */
+/* True if the place is before the chunk of this key. */
 static bool is_before(const gg_h5_array_in *a, const uint64_t *place, const unsigned char *key)
 {
   for (int i = 0; i < a->space.rank; i++) {

@@ -106,7 +106,7 @@ static void put(const number *n, gg_item_type type, unsigned char *to)
   }
 }
 
-/* Are they the same bits? */
+/* True if both types have the same bits. */
 static bool is_same(const gg_h5_type *from, gg_item_type type)
 {
   static const struct {

@@ -7,12 +7,12 @@
 #include <string.h>
 
 #include "base/build.h"
-#include "io/checked_json.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/h5/checkpoint_file.h"
 #include "files/h5/hdf5_reader.h"
 #include "files/result_document.h"
+#include "io/checked_json.h"
 
 /* Reject a checkpoint that this build cannot resume. States are saved as they are in memory: another layout cannot be
  * read. Another identity can, but the run would continue with other physics or another trajectory. */
@@ -248,7 +248,7 @@ const gg_stored_series *gg_files_stored_series_find(const gg_stored_engine *e, c
   return NULL;
 }
 
-/* Is the version that wrote it newer: "0.2.0+g123" than "0.1.0"? */
+/* True if the file's version is newer than this one: "0.2.0+g123" than "0.1.0". */
 static bool is_newer(const char *version)
 {
   int there[3] = {0}, here[3] = {0};
