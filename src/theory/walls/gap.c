@@ -49,10 +49,19 @@ static gg_status check_walls(const gg_model *m, const char *theory, gg_error *er
   return GG_OK;
 }
 
-gg_status gg_theory_gap_check(const gg_model *m, const char *theory, gg_error *err)
+static gg_status check_rough(const gg_model *m, const char *theory, gg_error *err)
+{
+  GG_TRY(gg_theory_require_constant_beta(m, theory, err));
+  for (int w = 0; w < m->n_surfaces; w++)
+    if (m->surface[w].accommodation < 1 && m->surface[w].contact[0].jt > 0 && isfinite(m->surface[w].contact[0].mu))
+      return gg_theory_reject(err, theory, "describes rough grains between walls of constant beta; walls have friction");
+  return GG_OK;
+}
+
+gg_status gg_theory_gap_check(const gg_model *m, const char *theory, bool rough, gg_error *err)
 {
   GG_TRY(gg_theory_require_one_species(m, theory, err));
-  GG_TRY(gg_theory_require_smooth(m, theory, err));
+  GG_TRY(rough ? check_rough(m, theory, err) : gg_theory_require_smooth(m, theory, err));
   GG_TRY(check_walls(m, theory, err));
   if (m->gravity[2] != 0) return gg_theory_reject(err, theory, "has no gravity along z; this scene has");
   const double mean = grains_per_area(m) / (m->box[1] - 2 * half_diameter(m)) * M_PI / 6;
@@ -203,33 +212,59 @@ static void put_wall(gg_gap_flow *flow, int w)
   to->heat = s * (v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U] + to->tau * to->slip);
 }
 
-/* Sums over the gap by Gauss's formula of three points in each interval, none of them one of the collocation. */
-static void put_sums(gg_gap_flow *flow)
+/* By Gauss's formula of three points in each interval, none of them one of the collocation. */
+void gg_theory_gap_sums(gg_gap_flow *flow, void (*add)(gg_gap_flow *flow, double y, double weight))
 {
   static const double place[] = {-0.774596669241483377, 0, 0.774596669241483377}, weight[] = {5. / 18, 4. / 9, 5. / 18};
-  gg_gap *g = &flow->gap;
   const gg_boundary_solution *s = &flow->solution;
-  double warm = 0;
+  flow->work = flow->loss = flow->normal = flow->shear = flow->temperature = flow->theta = 0;
   for (int i = 0; i + 1 < s->points; i++)
     for (int k = 0; k < 3; k++) {
       const double h = s->y[i + 1] - s->y[i];
-      double v[GG_GAP_FUNCTIONS];
-      gg_gap_local at;
-      gg_theory_boundary_at(s, GG_GAP_FUNCTIONS, s->y[i] + 0.5 * h * (1 + place[k]), v, NULL);
-      local_at(g, v, &at);
-      flow->loss += h * weight[k] * at.loss;
-      flow->work += h * weight[k] * at.n * g->model->gravity[0] * v[GG_GAP_U];
-      flow->normal += h * weight[k] * v[GG_GAP_P], flow->shear += h * weight[k] * v[GG_GAP_TAU];
-      warm += h * weight[k] * at.n * exp(v[GG_GAP_LOG_T]);
+      add(flow, s->y[i] + 0.5 * h * (1 + place[k]), h * weight[k]);
     }
+}
+
+static void add(gg_gap_flow *flow, double y, double weight)
+{
+  gg_gap *g = &flow->gap;
+  double v[GG_GAP_FUNCTIONS];
+  gg_gap_local at;
+  gg_theory_boundary_at(&flow->solution, GG_GAP_FUNCTIONS, y, v, NULL);
+  local_at(g, v, &at);
+  flow->loss += weight * at.loss;
+  flow->work += weight * at.n * g->model->gravity[0] * v[GG_GAP_U];
+  flow->normal += weight * v[GG_GAP_P], flow->shear += weight * v[GG_GAP_TAU];
+  flow->temperature += weight * at.n * exp(v[GG_GAP_LOG_T]);
+}
+
+void gg_theory_gap_finish(gg_gap_flow *flow)
+{
+  const gg_gap *g = &flow->gap;
   for (int w = 0; w < 2; w++) {
     const gg_gap_wall *wall = &flow->wall[w];
     const gg_surface *surface = &g->model->surface[w];
-    warm += wall->layer * wall->T;
+    flow->temperature += wall->layer * wall->T, flow->theta += wall->layer * wall->theta;
     flow->work += wall->layer * g->model->gravity[0] * (wall->slip + surface->velocity.x);
     flow->work -= surface->side * wall->tau * surface->velocity.x;
   }
-  flow->temperature = warm / g->grains;
+  flow->temperature /= g->grains, flow->theta /= g->grains;
+}
+
+static void profiles(const gg_gap_flow *flow, double y, double value[GG_GAP_PROFILES])
+{
+  const gg_gap *g = &flow->gap;
+  const double unit = g->model->stress_unit;
+  double v[GG_GAP_FUNCTIONS];
+  gg_gap_local at;
+  gg_theory_boundary_at(&flow->solution, GG_GAP_FUNCTIONS, y, v, NULL);
+  g->gas.local(g->gas.self, v[GG_GAP_P], v[GG_GAP_TAU], exp(v[GG_GAP_LOG_T]), &at);
+  value[GG_GAP_SOLID_FRACTION] = g->model->boltzmann ? at.n : at.phi; /* points: n over its mean */
+  value[GG_GAP_VELOCITY] = v[GG_GAP_U], value[GG_GAP_TEMPERATURE] = exp(v[GG_GAP_LOG_T]);
+  value[GG_GAP_P_XX] = unit * (v[GG_GAP_P] + at.xx), value[GG_GAP_P_YY] = unit * v[GG_GAP_P];
+  value[GG_GAP_P_ZZ] = unit * (v[GG_GAP_P] + at.zz);
+  value[GG_GAP_P_XY] = value[GG_GAP_P_YX] = unit * v[GG_GAP_TAU];
+  value[GG_GAP_HEAT] = unit * (v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U]);
 }
 
 static bool is_within(gg_gap *g, const gg_boundary_solution *s)
@@ -248,7 +283,6 @@ gg_status gg_theory_gap_solve(const gg_model *m, gg_gap_gas gas, const char *the
   gg_gap *g = &flow->gap;
   const double edge = half_diameter(m);
   const double T = g->T, P = g->P;
-  flow->work = flow->loss = flow->normal = flow->shear = 0;
   *g = (gg_gap){.model = m, .gas = gas, .low = edge, .high = m->box[1] - edge, .grains = grains_per_area(m)};
   g->T = T, g->P = P;
   if (flow->solution.points == 0) GG_TRY(start(flow, theory, err));
@@ -273,7 +307,9 @@ gg_status gg_theory_gap_solve(const gg_model *m, gg_gap_gas gas, const char *the
   if (!is_within(g, &flow->solution))
     return gg_theory_reject(err, theory, "has no solution here: the gas packs beyond its contact value");
   for (int w = 0; w < 2; w++) put_wall(flow, w);
-  put_sums(flow);
+  flow->profiles = profiles;
+  gg_theory_gap_sums(flow, add);
+  gg_theory_gap_finish(flow);
   return GG_OK;
 }
 
@@ -296,6 +332,10 @@ static void answer(const gg_gap_flow *flow, void *to)
     drag += drag_of(m, wall) * wall->side * w[k].tau, push += w[k].P, D_wall += w[k].heat;
   }
   a->value[GG_Q_TEMPERATURE] = flow->temperature;
+  if (flow->rough) {
+    a->value[GG_Q_ROTATIONAL_TEMPERATURE] = flow->theta;
+    a->value[GG_Q_TEMPERATURE_RATIO] = flow->theta / flow->temperature;
+  }
   a->value[GG_Q_P_YY] = per_volume * flow->normal, a->value[GG_Q_P_YX] = per_volume * flow->shear;
   a->value[GG_Q_WALL_FRICTION] = drag / push;
   if (flow->loss > 0) a->value[GG_Q_DISSIPATION] = per_volume * flow->loss;
@@ -310,7 +350,7 @@ static void answer(const gg_gap_flow *flow, void *to)
 gg_status gg_theory_gap_with_flow(const gg_gap_theory *theory, const gg_model *m, gg_gap_use *use, void *to,
                                   gg_error *err)
 {
-  GG_TRY(gg_theory_gap_check(m, theory->name, err));
+  GG_TRY(gg_theory_gap_check(m, theory->name, theory->rough && m->rule != GG_SMOOTH, err));
   void *gas = gg_base_array_new(1, theory->size, err);
   gg_gap_flow *flow = gg_base_array_new(1, sizeof *flow, err);
   const gg_status status = gas && flow ? theory->flow_of(m, gas, flow, err) : GG_FAILED;

@@ -36,7 +36,7 @@ static gg_status flow_of(const gg_model *m, void *memory, gg_gap_flow *flow, gg_
   return gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_gaussian_table_local, table}, name, flow, err);
 }
 
-static const gg_gap_theory theory = {name, sizeof(gg_gaussian_table), flow_of};
+static const gg_gap_theory theory = {name, false, sizeof(gg_gaussian_table), flow_of};
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {

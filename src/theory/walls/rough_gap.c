@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "theory/walls/rough_gap.h"
+
+#include <math.h>
+
+#include "theory/answer.h"
+#include "theory/walls/rough_wall.h"
+
+static const double tolerance = 1e-6; /* of the residual: balances close to 1e-8 */
+
+typedef struct rough_gap {
+  gg_gap *gap;
+  gg_rough_gas *gas;
+} rough_gap;
+
+static double temperature(double logarithm)
+{
+  return exp(fmin(fmax(logarithm, -200), 200));
+}
+
+static bool local_at(const gg_gap *g, gg_rough_gas *gas, const double v[], gg_rough_local *at)
+{
+  const gg_rough_state s = {.P = fmax(v[GG_GAP_P], 1e-9 * g->P),
+                            .tau = v[GG_GAP_TAU],
+                            .T = temperature(v[GG_GAP_LOG_T]),
+                            .theta = temperature(v[GG_ROUGH_LOG_THETA]),
+                            .omega = v[GG_ROUGH_OMEGA]};
+  return gg_theory_rough_gas_local(gas, &s, at);
+}
+
+static double heat_of(const double v[])
+{
+  return v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U];
+}
+static double rotational_heat_of(const double v[])
+{
+  return v[GG_ROUGH_R] - v[GG_ROUGH_M] * v[GG_ROUGH_OMEGA];
+}
+
+static void slope(void *self, const double v[], double f[])
+{
+  const rough_gap *r = self;
+  const double *gravity = r->gap->model->gravity, q[2] = {heat_of(v), rotational_heat_of(v)};
+  gg_rough_local at;
+  if (!local_at(r->gap, r->gas, v, &at)) r->gap->outside = true;
+  f[GG_GAP_P] = at.gas.n * gravity[1], f[GG_GAP_TAU] = at.gas.n * gravity[0], f[GG_GAP_N] = at.gas.n;
+  f[GG_GAP_U] = at.gas.shear;
+  f[GG_GAP_E] = at.gas.n * gravity[0] * v[GG_GAP_U] + at.gain[0];
+  f[GG_ROUGH_R] = at.gain[1];
+  f[GG_ROUGH_M] = at.torque;
+  f[GG_ROUGH_OMEGA] = -v[GG_ROUGH_M] / at.turning;
+  const double det = at.heat[0][0] * at.heat[1][1] - at.heat[0][1] * at.heat[1][0];
+  f[GG_GAP_LOG_T] = -(at.heat[1][1] * q[0] - at.heat[0][1] * q[1]) / det / temperature(v[GG_GAP_LOG_T]);
+  f[GG_ROUGH_LOG_THETA] = -(at.heat[0][0] * q[1] - at.heat[1][0] * q[0]) / det / temperature(v[GG_ROUGH_LOG_THETA]);
+}
+
+static bool floats(const gg_model *m)
+{
+  return !gg_theory_wall_grips(&m->surface[0]) && !gg_theory_wall_grips(&m->surface[1]);
+}
+
+static void at_wall(rough_gap *r, const gg_surface *wall, const double v[], double left[5])
+{
+  gg_gap *g = r->gap;
+  gg_rough_local at;
+  local_at(g, r->gas, v, &at);
+  const double s = wall->side, G = v[GG_GAP_U] - wall->velocity.x, layer = gg_theory_wall_layer(at.gas.phi);
+  const double speed = sqrt(g->T), energy = g->P * speed;
+  const gg_rough_arrival in = {.centres = {.gas = &at.gas,
+                                           .P = v[GG_GAP_P],
+                                           .T = temperature(v[GG_GAP_LOG_T]),
+                                           .slip = G,
+                                           .shear = s * v[GG_GAP_TAU],
+                                           .heat = s * heat_of(v)},
+                               .K = r->gas->grain.K,
+                               .theta = temperature(v[GG_ROUGH_LOG_THETA]),
+                               .omega = v[GG_ROUGH_OMEGA],
+                               .couple = s * v[GG_ROUGH_M],
+                               .heat = s * rotational_heat_of(v)};
+  const gg_rough_takes takes = gg_theory_rough_wall_takes(wall, &in);
+  left[0] = floats(g->model) && s > 0 ? v[GG_GAP_U] / speed : (in.centres.shear - takes.momentum) / g->P;
+  left[1] = (in.couple - takes.couple) / g->P;
+  left[2] = (in.centres.heat + in.centres.shear * G - takes.translation) / energy;
+  left[3] = (s * v[GG_ROUGH_R] - takes.rotation) / energy;
+  left[4] = (v[GG_GAP_N] - (s > 0 ? g->grains - layer : layer)) / g->grains;
+}
+
+static void lower(void *self, const double v[], double left[])
+{
+  rough_gap *r = self;
+  at_wall(r, &r->gap->model->surface[0], v, left);
+}
+static void upper(void *self, const double v[], double left[])
+{
+  rough_gap *r = self;
+  at_wall(r, &r->gap->model->surface[1], v, left);
+}
+
+/* From grains that roll with the flow, theta in proportion to T. */
+static void start(gg_gap_flow *flow, const gg_rough_gas *gas)
+{
+  gg_boundary_solution *s = &flow->solution;
+  const double ratio = gg_theory_lun_ratio(gas->grain);
+  for (int i = 0; i < s->points; i++) {
+    double *v = s->v[i];
+    v[GG_ROUGH_LOG_THETA] = v[GG_GAP_LOG_T] + log(ratio);
+    v[GG_ROUGH_OMEGA] = flow->gap.model->boltzmann ? 0 : -0.5 * s->f[i][GG_GAP_U];
+    v[GG_ROUGH_R] = v[GG_ROUGH_M] = 0;
+  }
+}
+
+static void put_wall(gg_gap_flow *flow, gg_rough_gas *gas, int w)
+{
+  const gg_model *m = flow->gap.model;
+  const gg_surface *wall = &m->surface[w];
+  const double *v = flow->solution.v[w ? flow->solution.points - 1 : 0], s = wall->side;
+  gg_gap_wall *to = &flow->wall[w];
+  gg_rough_local at;
+  local_at(&flow->gap, gas, v, &at);
+  to->gas = at.gas, to->layer = gg_theory_wall_layer(at.gas.phi);
+  to->P = v[GG_GAP_P] + s * to->layer * m->gravity[1], to->tau = v[GG_GAP_TAU] + s * to->layer * m->gravity[0];
+  to->slip = v[GG_GAP_U] - wall->velocity.x;
+  to->T = temperature(v[GG_GAP_LOG_T]), to->theta = temperature(v[GG_ROUGH_LOG_THETA]);
+  to->heat = s * (heat_of(v) + v[GG_ROUGH_R] + to->tau * to->slip);
+}
+
+/* What one height adds to the integrals over the gap, weighted. */
+static void add(gg_gap_flow *flow, double y, double weight)
+{
+  double v[GG_ROUGH_FUNCTIONS];
+  gg_rough_local at;
+  gg_rough_gas gas = *(const gg_rough_gas *)flow->rough;
+  gg_theory_boundary_at(&flow->solution, GG_ROUGH_FUNCTIONS, y, v, NULL);
+  local_at(&flow->gap, &gas, v, &at);
+  flow->loss -= weight * (at.gain[0] + at.gain[1]);
+  flow->work += weight * at.gas.n * flow->gap.model->gravity[0] * v[GG_GAP_U];
+  flow->normal += weight * v[GG_GAP_P], flow->shear += weight * v[GG_GAP_TAU];
+  flow->temperature += weight * at.gas.n * temperature(v[GG_GAP_LOG_T]);
+  flow->theta += weight * at.gas.n * temperature(v[GG_ROUGH_LOG_THETA]);
+}
+
+static void profiles(const gg_gap_flow *flow, double y, double value[GG_GAP_PROFILES])
+{
+  const double unit = flow->gap.model->stress_unit;
+  double v[GG_ROUGH_FUNCTIONS];
+  gg_rough_local at;
+  gg_rough_gas gas = *(const gg_rough_gas *)flow->rough;
+  gg_theory_boundary_at(&flow->solution, GG_ROUGH_FUNCTIONS, y, v, NULL);
+  local_at(&flow->gap, &gas, v, &at);
+  const double between[] = {
+      [GG_GAP_SOLID_FRACTION] = flow->gap.model->boltzmann ? at.gas.n : at.gas.phi,
+      [GG_GAP_VELOCITY] = v[GG_GAP_U],
+      [GG_GAP_TEMPERATURE] = temperature(v[GG_GAP_LOG_T]),
+      [GG_GAP_ROTATIONAL_TEMPERATURE] = temperature(v[GG_ROUGH_LOG_THETA]),
+      [GG_GAP_SPIN] = v[GG_ROUGH_OMEGA],
+      [GG_GAP_P_XX] = unit * (v[GG_GAP_P] + at.gas.xx),
+      [GG_GAP_P_YY] = unit * v[GG_GAP_P],
+      [GG_GAP_P_ZZ] = unit * (v[GG_GAP_P] + at.gas.zz),
+      [GG_GAP_P_XY] = unit * (v[GG_GAP_TAU] - (flow->gap.model->boltzmann ? 0 : at.torque)),
+      [GG_GAP_P_YX] = unit * v[GG_GAP_TAU],
+      [GG_GAP_HEAT] = unit * heat_of(v),
+      [GG_GAP_ROTATIONAL_HEAT] = unit * rotational_heat_of(v),
+      [GG_GAP_COUPLE_STRESS] = unit * v[GG_ROUGH_M],
+  };
+  for (int p = 0; p < GG_GAP_PROFILES; p++) value[p] = between[p];
+}
+
+gg_status gg_theory_rough_gap_solve(const gg_model *m, gg_rough_gas *gas, const char *theory, gg_gap_flow *flow,
+                                    gg_error *err)
+{
+  gg_gap *g = &flow->gap;
+  if (!flow->rough) {
+    GG_TRY(gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_rough_gas_rolling, gas}, theory, flow, err));
+    start(flow, gas);
+  }
+  rough_gap r = {g, gas};
+  const double speed = sqrt(g->T) + fabs(m->surface[1].velocity.x), energy = g->P * speed;
+  gg_boundary_problem problem = {.n = GG_ROUGH_FUNCTIONS,
+                                 .n_lower = 5,
+                                 .tolerance = tolerance,
+                                 .self = &r,
+                                 .stop = m->stop,
+                                 .slope = slope,
+                                 .lower = lower,
+                                 .upper = upper,
+                                 .scale = {[GG_GAP_LOG_T] = 1,
+                                           [GG_GAP_U] = speed,
+                                           [GG_GAP_E] = energy,
+                                           [GG_GAP_TAU] = g->P,
+                                           [GG_GAP_P] = g->P,
+                                           [GG_GAP_N] = g->grains,
+                                           [GG_ROUGH_LOG_THETA] = 1,
+                                           [GG_ROUGH_OMEGA] = speed,
+                                           [GG_ROUGH_R] = energy,
+                                           [GG_ROUGH_M] = g->P}};
+  gg_error why;
+  if (gg_theory_boundary_solve(&problem, &flow->solution, &why) != GG_OK)
+    return gg_theory_reject(err, theory, "has no solution here: %s", why.message);
+  g->outside = false;
+  for (int i = 0; i < flow->solution.points; i++) {
+    double f[GG_ROUGH_FUNCTIONS];
+    slope(&r, flow->solution.v[i], f);
+    g->outside |= !(flow->solution.v[i][GG_GAP_P] > 0);
+  }
+  if (g->outside)
+    return gg_theory_reject(err, theory, "has no solution here: the gas packs beyond its contact value");
+  flow->rough = gas, flow->profiles = profiles;
+  gg_theory_gap_sums(flow, add);
+  for (int w = 0; w < 2; w++) put_wall(flow, gas, w);
+  gg_theory_gap_finish(flow);
+  return GG_OK;
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Steady flow of one species of rough grains across the gap between flat walls. Beside the balances of gap.h there are
+ * those of spin and of rotational energy, theta its temperature and q_r its heat flux:
+ *   M' = torque,   R' = gain of rotation,   R = q_r + M omega,
+ *   E' = n g_x u + gain of translation,     E = q + tau u. */
+#ifndef GG_ROUGH_GAP_H
+#define GG_ROUGH_GAP_H
+
+#include "theory/walls/rough_gas.h"
+
+/* Unknown functions of y: first those of gap.h. */
+enum {
+  GG_ROUGH_LOG_THETA = GG_GAP_FUNCTIONS,
+  GG_ROUGH_OMEGA,
+  GG_ROUGH_R,
+  GG_ROUGH_M,
+  GG_ROUGH_FUNCTIONS
+};
+
+/* The flow of rough grains of constant beta, as gg_theory_gap_solve; the gas stays with *flow. */
+gg_status gg_theory_rough_gap_solve(const gg_model *model, gg_rough_gas *gas, const char *theory, gg_gap_flow *flow,
+                                    gg_error *err);
+
+#endif
