@@ -6,6 +6,7 @@
 #include "common/contact_value.h"
 #include "theory/theory_list.h"
 #include "theory/walls/gaussian_table.h"
+#include "theory/walls/rough_gap.h"
 
 static const char name[] = "moments";
 
@@ -27,6 +28,15 @@ static void densities(const gg_gap_flow *flow, double *low, double *high)
 
 static gg_status flow_of(const gg_model *m, void *memory, gg_gap_flow *flow, gg_error *err)
 {
+  if (m->rule != GG_SMOOTH) {
+    gg_rough_gas *gas = memory;
+    gg_theory_rough_gas_make(m, gas);
+    GG_TRY(gg_theory_rough_gap_solve(m, gas, name, flow, err));
+    static gg_rough_contacts c;
+    gg_theory_rough_contacts_make(m, &c);
+    gas->contacts = &c, gas->warm = false;
+    return gg_theory_rough_gap_solve(m, gas, name, flow, err);
+  }
   gg_gaussian_table *table = memory;
   double low, high;
   gg_theory_newtonian_gas_make(m, &table->gas);
@@ -36,7 +46,7 @@ static gg_status flow_of(const gg_model *m, void *memory, gg_gap_flow *flow, gg_
   return gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_gaussian_table_local, table}, name, flow, err);
 }
 
-static const gg_gap_theory theory = {name, false, sizeof(gg_gaussian_table), flow_of};
+static const gg_gap_theory theory = {name, true, sizeof(gg_gaussian_table), flow_of};
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
@@ -63,7 +73,7 @@ const gg_theory gg_theory_moments = {
     .title = "Non-Newtonian hydrodynamics of smooth grains between walls",
     .citation = "Stress: J.T. Jenkins and M.W. Richman, J. Fluid Mech. 192 (1988) 313; heat flux: H. Grad, Commun. "
                 "Pure Appl. Math. 2 (1949) 331; H. Struchtrup and M. Torrilhon, Phys. Fluids 15 (2003) 2668",
-    .answers = "temperature P_yy P_yx dissipation wall_dissipation wall_heat_flux wall_friction energy_balance",
+    .answers = "temperature rotational_temperature temperature_ratio P_yy P_yx dissipation wall_dissipation wall_heat_flux wall_friction energy_balance",
     .assumptions = "As navier_stokes, but with the stress of the Gaussian closure at the local shear rate and a heat "
                    "flux of 13 moments, two factors of which were chosen by comparison with Monte Carlo. Kn up to 0.3, "
                    "e from 0.7; best where shear heats the gas.",

@@ -14,6 +14,12 @@ static void set_density(gg_model *m, double n)
   gg_common_model_set_pairs(m);
 }
 
+void gg_theory_newtonian_gas_set(gg_newtonian_gas *g, double n)
+{
+  set_density(&g->model, n);
+  if (g->model.boltzmann) g->model.density = n;
+}
+
 void gg_theory_newtonian_gas_at(gg_newtonian_gas *g, double n)
 {
   set_density(&g->model, n);

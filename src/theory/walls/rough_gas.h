@@ -18,6 +18,7 @@
 
 #include "theory/lun1991.h"
 #include "theory/walls/newtonian_gas.h"
+#include "theory/walls/rough_contacts.h"
 
 /* State at one height. */
 typedef struct gg_rough_state {
@@ -35,6 +36,7 @@ typedef struct gg_rough_local {
 typedef struct gg_rough_gas {
   gg_newtonian_gas density; /* the gas at a density */
   gg_grain grain;
+  const gg_rough_contacts *contacts; double coefficient[GG_CONTACT_FUNCTIONS][GG_CONTACT_MONOMIALS]; double heat_rate, last[5]; bool warm;
 } gg_rough_gas;
 
 void gg_theory_rough_gas_make(const gg_model *model, gg_rough_gas *gas);

@@ -18,7 +18,7 @@ static sums arriving(const gg_surface *wall, const gg_rough_arrival *in)
   const double J = c->P / sqrt(2 * M_PI * gas->Tyy), G = c->slip, heat = h_heat * c->heat, s = 0.5 * in->omega;
   const double turns = 2 / in->K * h_heat * in->heat; /* of s^2, all three components */
   sums f = {.number = J, .spin = J * s + 2 / in->K * h_shear * in->couple};
-  f.momentum = J * G + h_shear * c->shear + J * gas->carried_x * c->heat / (5 * c->P);
+  f.momentum = J * G + h_shear * c->shear + wall->side * J * gas->carried_x * c->heat / (5 * c->P);
   f.normal = J * gas->Tyy + 0.6 * heat;
   f.tangential = J * (0.5 * (gas->Txx + gas->Tzz) - 0.5 * G * G) + 0.4 * heat + G * f.momentum;
   const double mean = 2 * s * f.spin - J * s * s;

@@ -32,7 +32,7 @@ gg_wall_takes gg_theory_wall_takes(const gg_surface *wall, const gg_arrival *in)
   const double h_shear = gg_theory_wall_share(wall, gas->phi, GG_WALL_LESS_SHEAR), h_heat = gg_theory_wall_share(wall, gas->phi, GG_WALL_LESS_HEAT);
   const double a = wall->accommodation, G = in->slip, heat = h_heat * in->heat;
   const double J = in->P / sqrt(2 * M_PI * gas->Tyy), across = 0.5 * (gas->Txx + gas->Tzz);
-  const double momentum = J * G + h_shear * in->shear + J * gas->carried_x * in->heat / (5 * in->P);
+  const double momentum = J * G + h_shear * in->shear + wall->side * J * gas->carried_x * in->heat / (5 * in->P);
   const double normal = J * gas->Tyy + 0.6 * heat;
   const double tangential = J * (across - 0.5 * G * G) + 0.4 * heat + G * momentum;
   gg_wall_takes rule;
