@@ -75,7 +75,7 @@ typedef struct gg_gap_flow {
   double theta;         /* likewise, of the spins of rough grains */
   double normal, shear; /* integrals of P_yy and P_yx over y */
   void (*profiles)(const struct gg_gap_flow *flow, double y, double value[GG_GAP_PROFILES]);
-  const void *rough; /* the gas of rough grains; NULL: of smooth ones, gap.gas */
+  void *rough; /* the gas of rough grains; NULL: of smooth ones, gap.gas */
   gg_boundary_solution solution;
 } gg_gap_flow;
 

@@ -7,6 +7,7 @@
 #include "theory/theory_list.h"
 #include "theory/walls/gaussian_table.h"
 #include "theory/walls/rough_gap.h"
+#include "theory/walls/rough_moments.h"
 
 static const char name[] = "moments";
 
@@ -26,17 +27,18 @@ static void densities(const gg_gap_flow *flow, double *low, double *high)
   *low *= below, *high = fmin(*high * above, gg_common_contact_value_limit(m->contact_value) * 6 / M_PI);
 }
 
+/* From the flow of navier_stokes. */
+static gg_status rough_flow_of(const gg_model *m, gg_rough_moments *gas, gg_gap_flow *flow, gg_error *err)
+{
+  gg_theory_rough_gas_make(m, &gas->gas);
+  GG_TRY(gg_theory_rough_gap_solve(m, &gas->gas, name, flow, err));
+  GG_TRY(gg_theory_rough_moments_make(m, gas, err));
+  return gg_theory_rough_gap_solve(m, &gas->gas, name, flow, err);
+}
+
 static gg_status flow_of(const gg_model *m, void *memory, gg_gap_flow *flow, gg_error *err)
 {
-  if (m->rule != GG_SMOOTH) {
-    gg_rough_gas *gas = memory;
-    gg_theory_rough_gas_make(m, gas);
-    GG_TRY(gg_theory_rough_gap_solve(m, gas, name, flow, err));
-    static gg_rough_contacts c;
-    gg_theory_rough_contacts_make(m, &c);
-    gas->contacts = &c, gas->warm = false;
-    return gg_theory_rough_gap_solve(m, gas, name, flow, err);
-  }
+  if (m->rule != GG_SMOOTH) return rough_flow_of(m, memory, flow, err);
   gg_gaussian_table *table = memory;
   double low, high;
   gg_theory_newtonian_gas_make(m, &table->gas);
@@ -46,7 +48,9 @@ static gg_status flow_of(const gg_model *m, void *memory, gg_gap_flow *flow, gg_
   return gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_gaussian_table_local, table}, name, flow, err);
 }
 
-static const gg_gap_theory theory = {name, true, sizeof(gg_gaussian_table), flow_of};
+enum { most_size = sizeof(gg_gaussian_table) > sizeof(gg_rough_moments) ? sizeof(gg_gaussian_table) : sizeof(gg_rough_moments) };
+
+static const gg_gap_theory theory = {name, true, most_size, flow_of};
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {

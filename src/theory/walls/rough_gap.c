@@ -25,7 +25,7 @@ static bool local_at(const gg_gap *g, gg_rough_gas *gas, const double v[], gg_ro
                             .T = temperature(v[GG_GAP_LOG_T]),
                             .theta = temperature(v[GG_ROUGH_LOG_THETA]),
                             .omega = v[GG_ROUGH_OMEGA]};
-  return gg_theory_rough_gas_local(gas, &s, at);
+  return gas->local(gas, &s, at);
 }
 
 static double heat_of(const double v[])
@@ -129,9 +129,8 @@ static void add(gg_gap_flow *flow, double y, double weight)
 {
   double v[GG_ROUGH_FUNCTIONS];
   gg_rough_local at;
-  gg_rough_gas gas = *(const gg_rough_gas *)flow->rough;
   gg_theory_boundary_at(&flow->solution, GG_ROUGH_FUNCTIONS, y, v, NULL);
-  local_at(&flow->gap, &gas, v, &at);
+  local_at(&flow->gap, flow->rough, v, &at);
   flow->loss -= weight * (at.gain[0] + at.gain[1]);
   flow->work += weight * at.gas.n * flow->gap.model->gravity[0] * v[GG_GAP_U];
   flow->normal += weight * v[GG_GAP_P], flow->shear += weight * v[GG_GAP_TAU];
@@ -144,9 +143,8 @@ static void profiles(const gg_gap_flow *flow, double y, double value[GG_GAP_PROF
   const double unit = flow->gap.model->stress_unit;
   double v[GG_ROUGH_FUNCTIONS];
   gg_rough_local at;
-  gg_rough_gas gas = *(const gg_rough_gas *)flow->rough;
   gg_theory_boundary_at(&flow->solution, GG_ROUGH_FUNCTIONS, y, v, NULL);
-  local_at(&flow->gap, &gas, v, &at);
+  local_at(&flow->gap, flow->rough, v, &at);
   const double between[] = {
       [GG_GAP_SOLID_FRACTION] = flow->gap.model->boltzmann ? at.gas.n : at.gas.phi,
       [GG_GAP_VELOCITY] = v[GG_GAP_U],
