@@ -52,9 +52,11 @@ static gg_status check_walls(const gg_model *m, const char *theory, gg_error *er
 static gg_status check_rough(const gg_model *m, const char *theory, gg_error *err)
 {
   GG_TRY(gg_theory_require_constant_beta(m, theory, err));
-  for (int w = 0; w < m->n_surfaces; w++)
-    if (m->surface[w].accommodation < 1 && m->surface[w].contact[0].jt > 0 && isfinite(m->surface[w].contact[0].mu))
+  for (int w = 0; w < m->n_surfaces; w++) {
+    const gg_contact *c = &m->surface[w].contact[0];
+    if (m->surface[w].accommodation < 1 && c->jt > 0 && isfinite(c->mu))
       return gg_theory_reject(err, theory, "describes rough grains between walls of constant beta; walls have friction");
+  }
   return GG_OK;
 }
 
@@ -212,59 +214,33 @@ static void put_wall(gg_gap_flow *flow, int w)
   to->heat = s * (v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U] + to->tau * to->slip);
 }
 
-/* By Gauss's formula of three points in each interval, none of them one of the collocation. */
-void gg_theory_gap_sums(gg_gap_flow *flow, void (*add)(gg_gap_flow *flow, double y, double weight))
+/* Sums over the gap by Gauss's formula of three points in each interval, none of them one of the collocation. */
+static void put_sums(gg_gap_flow *flow)
 {
   static const double place[] = {-0.774596669241483377, 0, 0.774596669241483377}, weight[] = {5. / 18, 4. / 9, 5. / 18};
+  gg_gap *g = &flow->gap;
   const gg_boundary_solution *s = &flow->solution;
-  flow->work = flow->loss = flow->normal = flow->shear = flow->temperature = flow->theta = 0;
+  double warm = 0;
   for (int i = 0; i + 1 < s->points; i++)
     for (int k = 0; k < 3; k++) {
       const double h = s->y[i + 1] - s->y[i];
-      add(flow, s->y[i] + 0.5 * h * (1 + place[k]), h * weight[k]);
+      double v[GG_GAP_FUNCTIONS];
+      gg_gap_local at;
+      gg_theory_boundary_at(s, GG_GAP_FUNCTIONS, s->y[i] + 0.5 * h * (1 + place[k]), v, NULL);
+      local_at(g, v, &at);
+      flow->loss += h * weight[k] * at.loss;
+      flow->work += h * weight[k] * at.n * g->model->gravity[0] * v[GG_GAP_U];
+      flow->normal += h * weight[k] * v[GG_GAP_P], flow->shear += h * weight[k] * v[GG_GAP_TAU];
+      warm += h * weight[k] * at.n * exp(v[GG_GAP_LOG_T]);
     }
-}
-
-static void add(gg_gap_flow *flow, double y, double weight)
-{
-  gg_gap *g = &flow->gap;
-  double v[GG_GAP_FUNCTIONS];
-  gg_gap_local at;
-  gg_theory_boundary_at(&flow->solution, GG_GAP_FUNCTIONS, y, v, NULL);
-  local_at(g, v, &at);
-  flow->loss += weight * at.loss;
-  flow->work += weight * at.n * g->model->gravity[0] * v[GG_GAP_U];
-  flow->normal += weight * v[GG_GAP_P], flow->shear += weight * v[GG_GAP_TAU];
-  flow->temperature += weight * at.n * exp(v[GG_GAP_LOG_T]);
-}
-
-void gg_theory_gap_finish(gg_gap_flow *flow)
-{
-  const gg_gap *g = &flow->gap;
   for (int w = 0; w < 2; w++) {
     const gg_gap_wall *wall = &flow->wall[w];
     const gg_surface *surface = &g->model->surface[w];
-    flow->temperature += wall->layer * wall->T, flow->theta += wall->layer * wall->theta;
+    warm += wall->layer * wall->T;
     flow->work += wall->layer * g->model->gravity[0] * (wall->slip + surface->velocity.x);
     flow->work -= surface->side * wall->tau * surface->velocity.x;
   }
-  flow->temperature /= g->grains, flow->theta /= g->grains;
-}
-
-static void profiles(const gg_gap_flow *flow, double y, double value[GG_GAP_PROFILES])
-{
-  const gg_gap *g = &flow->gap;
-  const double unit = g->model->stress_unit;
-  double v[GG_GAP_FUNCTIONS];
-  gg_gap_local at;
-  gg_theory_boundary_at(&flow->solution, GG_GAP_FUNCTIONS, y, v, NULL);
-  g->gas.local(g->gas.self, v[GG_GAP_P], v[GG_GAP_TAU], exp(v[GG_GAP_LOG_T]), &at);
-  value[GG_GAP_SOLID_FRACTION] = g->model->boltzmann ? at.n : at.phi; /* points: n over its mean */
-  value[GG_GAP_VELOCITY] = v[GG_GAP_U], value[GG_GAP_TEMPERATURE] = exp(v[GG_GAP_LOG_T]);
-  value[GG_GAP_P_XX] = unit * (v[GG_GAP_P] + at.xx), value[GG_GAP_P_YY] = unit * v[GG_GAP_P];
-  value[GG_GAP_P_ZZ] = unit * (v[GG_GAP_P] + at.zz);
-  value[GG_GAP_P_XY] = value[GG_GAP_P_YX] = unit * v[GG_GAP_TAU];
-  value[GG_GAP_HEAT] = unit * (v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U]);
+  flow->temperature = warm / g->grains;
 }
 
 static bool is_within(gg_gap *g, const gg_boundary_solution *s)
@@ -283,6 +259,7 @@ gg_status gg_theory_gap_solve(const gg_model *m, gg_gap_gas gas, const char *the
   gg_gap *g = &flow->gap;
   const double edge = half_diameter(m);
   const double T = g->T, P = g->P;
+  flow->work = flow->loss = flow->normal = flow->shear = 0;
   *g = (gg_gap){.model = m, .gas = gas, .low = edge, .high = m->box[1] - edge, .grains = grains_per_area(m)};
   g->T = T, g->P = P;
   if (flow->solution.points == 0) GG_TRY(start(flow, theory, err));
@@ -307,9 +284,7 @@ gg_status gg_theory_gap_solve(const gg_model *m, gg_gap_gas gas, const char *the
   if (!is_within(g, &flow->solution))
     return gg_theory_reject(err, theory, "has no solution here: the gas packs beyond its contact value");
   for (int w = 0; w < 2; w++) put_wall(flow, w);
-  flow->profiles = profiles;
-  gg_theory_gap_sums(flow, add);
-  gg_theory_gap_finish(flow);
+  put_sums(flow);
   return GG_OK;
 }
 

@@ -46,26 +46,8 @@ typedef struct gg_gap_wall {
   double slip;   /* velocity of the gas, continued to the wall, minus that of the wall */
   double T;      /* temperature of the gas, likewise */
   double layer;  /* grains per area in layers at the wall */
-  double theta;  /* rough grains: temperature of spins */
   gg_gap_local gas;
 } gg_gap_wall;
-
-typedef enum gg_gap_profile {
-  GG_GAP_SOLID_FRACTION,
-  GG_GAP_VELOCITY,
-  GG_GAP_TEMPERATURE,
-  GG_GAP_ROTATIONAL_TEMPERATURE,
-  GG_GAP_SPIN,
-  GG_GAP_P_XX,
-  GG_GAP_P_YY,
-  GG_GAP_P_ZZ,
-  GG_GAP_P_XY,
-  GG_GAP_P_YX,
-  GG_GAP_HEAT,
-  GG_GAP_ROTATIONAL_HEAT,
-  GG_GAP_COUPLE_STRESS,
-  GG_GAP_PROFILES
-} gg_gap_profile;
 
 typedef struct gg_gap_flow {
   gg_gap gap;
@@ -74,8 +56,7 @@ typedef struct gg_gap_flow {
   double temperature;   /* mean over grains */
   double theta;         /* likewise, of the spins of rough grains */
   double normal, shear; /* integrals of P_yy and P_yx over y */
-  void (*profiles)(const struct gg_gap_flow *flow, double y, double value[GG_GAP_PROFILES]);
-  void *rough; /* the gas of rough grains; NULL: of smooth ones, gap.gas */
+  struct gg_rough_gas *rough; /* the gas of rough grains (rough_gap.h); NULL: of smooth ones, gap.gas */
   gg_boundary_solution solution;
 } gg_gap_flow;
 
@@ -89,10 +70,6 @@ double gg_theory_gap_knudsen(const gg_model *model);
  * state exists; GG_FAILED without convergence. */
 gg_status gg_theory_gap_solve(const gg_model *model, gg_gap_gas gas, const char *theory, gg_gap_flow *flow,
                               gg_error *err);
-
-/* Sums over the gap of what one height adds, and then means, with layers and walls. */
-void gg_theory_gap_sums(gg_gap_flow *flow, void (*add)(gg_gap_flow *flow, double y, double weight));
-void gg_theory_gap_finish(gg_gap_flow *flow);
 
 /* A theory of this kind: bytes of its gas, and the flow of a model that passes the check. */
 typedef struct gg_gap_theory {

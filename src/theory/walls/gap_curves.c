@@ -6,50 +6,107 @@
 
 #include "base/memory.h"
 #include "measure/gap_slabs.h"
-#include "theory/walls/gap.h"
+#include "theory/walls/rough_gap.h"
+
+typedef enum profile {
+  SOLID_FRACTION,
+  VELOCITY,
+  TEMPERATURE,
+  P_XX,
+  P_YY,
+  P_ZZ,
+  P_XY,
+  P_YX,
+  HEAT,
+  THETA, /* from here on of rough grains */
+  RATIO,
+  SPIN,
+  ROTATIONAL_HEAT,
+  COUPLE_STRESS,
+  N_PROFILES
+} profile;
 
 static const struct {
   const char *name, *panel, *label, *unit;
   unsigned measure;
   gg_quantity like; /* of fluxes: a quantity of the same unit */
-} table[GG_GAP_PROFILES] = {
-    [GG_GAP_SOLID_FRACTION] = {"profile_solid_fraction", "solid fraction", "φ", "1", GG_MEASURE_PROFILES, 0},
-    [GG_GAP_VELOCITY] = {"profile_velocity", "flow velocity", "u_x", "velocity", GG_MEASURE_PROFILES, 0},
-    [GG_GAP_TEMPERATURE] = {"profile_temperature", "temperature", "T", "temperature", GG_MEASURE_PROFILES, 0},
-    [GG_GAP_ROTATIONAL_TEMPERATURE] = {"profile_rotational_temperature", "temperature", "θ", "temperature",
-                                       GG_MEASURE_PROFILES, 0},
-    [GG_GAP_SPIN] = {"profile_spin_z", "spin", "ω_z", "spin", GG_MEASURE_PROFILES, 0},
-    [GG_GAP_P_XX] = {"profile_P_xx", "P_{xx}", "P_{xx}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
-    [GG_GAP_P_YY] = {"profile_P_yy", "P_{yy}", "P_{yy}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
-    [GG_GAP_P_ZZ] = {"profile_P_zz", "P_{zz}", "P_{zz}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
-    [GG_GAP_P_XY] = {"profile_P_xy", "P_{xy}", "P_{xy}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
-    [GG_GAP_P_YX] = {"profile_P_yx", "P_{yx}", "P_{yx}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
-    [GG_GAP_HEAT] = {"profile_q_y", "q_y", "q_y", NULL, GG_MEASURE_FLUXES, GG_Q_WALL_HEAT_FLUX},
-    [GG_GAP_ROTATIONAL_HEAT] = {"profile_q_y_rotational", "q_y^r", "q_y^r", NULL, GG_MEASURE_FLUXES,
-                                GG_Q_WALL_HEAT_FLUX},
-    [GG_GAP_COUPLE_STRESS] = {"profile_M_yz", "M_{yz}", "M_{yz}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
+} table[N_PROFILES] = {
+    [SOLID_FRACTION] = {"profile_solid_fraction", "solid fraction", "φ", "1", GG_MEASURE_PROFILES, 0},
+    [VELOCITY] = {"profile_velocity", "flow velocity", "u_x", "velocity", GG_MEASURE_PROFILES, 0},
+    [TEMPERATURE] = {"profile_temperature", "temperature", "T", "temperature", GG_MEASURE_PROFILES, 0},
+    [P_XX] = {"profile_P_xx", "P_{xx}", "P_{xx}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
+    [P_YY] = {"profile_P_yy", "P_{yy}", "P_{yy}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
+    [P_ZZ] = {"profile_P_zz", "P_{zz}", "P_{zz}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
+    [P_XY] = {"profile_P_xy", "P_{xy}", "P_{xy}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
+    [P_YX] = {"profile_P_yx", "P_{yx}", "P_{yx}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
+    [HEAT] = {"profile_q_y", "q_y", "q_y", NULL, GG_MEASURE_FLUXES, GG_Q_WALL_HEAT_FLUX},
+    [THETA] = {"profile_rotational_temperature", "temperature", "θ", "temperature", GG_MEASURE_PROFILES, 0},
+    [RATIO] = {"profile_temperature_ratio", "ratio of temperatures", "θ/T", "1", GG_MEASURE_PROFILES, 0},
+    [SPIN] = {"profile_spin_z", "spin", "ω_z", "spin", GG_MEASURE_PROFILES, 0},
+    [ROTATIONAL_HEAT] = {"profile_q_y_rotational", "q_y^r", "q_y^r", NULL, GG_MEASURE_FLUXES, GG_Q_WALL_HEAT_FLUX},
+    [COUPLE_STRESS] = {"profile_M_yz", "M_{yz}", "M_{yz}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
 };
 
+static double value_of(const gg_gap *g, profile p, const double v[])
+{
+  const double unit = g->model->stress_unit;
+  gg_gap_local at;
+  g->gas.local(g->gas.self, v[GG_GAP_P], v[GG_GAP_TAU], exp(v[GG_GAP_LOG_T]), &at);
+  switch (p) {
+  case SOLID_FRACTION: return g->model->boltzmann ? at.n : at.phi; /* points: n over its mean */
+  case VELOCITY: return v[GG_GAP_U];
+  case TEMPERATURE: return exp(v[GG_GAP_LOG_T]);
+  case P_XX: return unit * (v[GG_GAP_P] + at.xx);
+  case P_YY: return unit * v[GG_GAP_P];
+  case P_ZZ: return unit * (v[GG_GAP_P] + at.zz);
+  case P_XY:
+  case P_YX: return unit * v[GG_GAP_TAU];
+  default: return unit * (v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U]);
+  }
+}
+
+static double rough_value_of(const gg_gap_flow *flow, profile p, double y)
+{
+  const double unit = flow->gap.model->stress_unit;
+  const gg_rough_height at = gg_theory_rough_gap_at(flow, y);
+  switch (p) {
+  case SOLID_FRACTION: return at.density;
+  case VELOCITY: return at.u;
+  case TEMPERATURE: return at.state.T;
+  case THETA: return at.state.theta;
+  case RATIO: return at.state.theta / at.state.T;
+  case SPIN: return at.state.omega;
+  case P_XX: return unit * (at.state.P + at.local.gas.xx);
+  case P_YY: return unit * at.state.P;
+  case P_ZZ: return unit * (at.state.P + at.local.gas.zz);
+  case P_XY: return unit * at.P_xy;
+  case P_YX: return unit * at.state.tau;
+  case HEAT: return unit * at.heat[0];
+  case ROTATIONAL_HEAT: return unit * at.heat[1];
+  default: return unit * at.couple;
+  }
+}
+
 /* The numbers of profiles: slip, jump, stress on walls; of fluxes the heat through walls. */
-static void put_numbers(const gg_gap_flow *flow, gg_gap_profile p, gg_curve *c)
+static void put_numbers(const gg_gap_flow *flow, profile p, gg_curve *c)
 {
   const gg_model *m = flow->gap.model;
   for (int w = 0; w < 2; w++) {
     const gg_surface *wall = &m->surface[w];
     const gg_gap_wall *at = &flow->wall[w];
     const struct {
-      gg_gap_profile p;
+      profile p;
       const char *what;
       double value;
       const char *unit;
       bool given;
     } number[] = {
-        {GG_GAP_VELOCITY, "slip", -at->slip, gg_measure_curve_unit(m, "velocity"), true},
-        {GG_GAP_VELOCITY, "wall_P_yy", m->stress_unit * at->P, gg_common_quantity_unit(GG_Q_PRESSURE, m), true},
-        {GG_GAP_VELOCITY, "wall_P_yx", m->stress_unit * at->tau, gg_common_quantity_unit(GG_Q_PRESSURE, m), true},
-        {GG_GAP_TEMPERATURE, "temperature_jump", wall->temperature - at->T, gg_measure_curve_unit(m, "temperature"),
+        {VELOCITY, "slip", -at->slip, gg_measure_curve_unit(m, "velocity"), true},
+        {VELOCITY, "wall_P_yy", m->stress_unit * at->P, gg_common_quantity_unit(GG_Q_PRESSURE, m), true},
+        {VELOCITY, "wall_P_yx", m->stress_unit * at->tau, gg_common_quantity_unit(GG_Q_PRESSURE, m), true},
+        {TEMPERATURE, "temperature_jump", wall->temperature - at->T, gg_measure_curve_unit(m, "temperature"),
          wall->accommodation > 0},
-        {GG_GAP_HEAT, "wall_q_y", wall->side * m->stress_unit * at->heat, gg_common_quantity_unit(GG_Q_WALL_HEAT_FLUX, m),
+        {HEAT, "wall_q_y", wall->side * m->stress_unit * at->heat, gg_common_quantity_unit(GG_Q_WALL_HEAT_FLUX, m),
          true},
     };
     for (size_t k = 0; k < sizeof number / sizeof *number; k++) {
@@ -61,7 +118,7 @@ static void put_numbers(const gg_gap_flow *flow, gg_gap_profile p, gg_curve *c)
   }
 }
 
-static void put(const gg_gap_flow *flow, gg_gap_profile p, gg_curves *list)
+static void put(const gg_gap_flow *flow, profile p, gg_curves *list)
 {
   const gg_gap *g = &flow->gap;
   const gg_model *m = g->model;
@@ -72,12 +129,12 @@ static void put(const gg_gap_flow *flow, gg_gap_profile p, gg_curves *list)
                         table[p].unit ? gg_measure_curve_unit(m, table[p].unit)
                                       : gg_common_quantity_unit(table[p].like, m));
   for (size_t i = 0; i < c->n; i++) {
-    double value[GG_GAP_PROFILES];
+    double v[GG_GAP_FUNCTIONS];
     c->x[i] = ((double)i + 0.5) * m->box[1] / slabs;
     c->value[i] = c->error[i] = NAN;
     if (c->x[i] < g->low || c->x[i] > g->high) continue;
-    flow->profiles(flow, c->x[i], value);
-    c->value[i] = value[p];
+    gg_theory_boundary_at(&flow->solution, GG_GAP_FUNCTIONS, c->x[i], v, NULL);
+    c->value[i] = flow->rough ? rough_value_of(flow, p, c->x[i]) : value_of(g, p, v);
     c->error[i] = fabs(c->value[i]) * flow->solution.residual;
   }
   put_numbers(flow, p, c);
@@ -88,17 +145,12 @@ typedef struct request {
   gg_curves *list;
 } request;
 
-static bool of_spins(int p)
-{
-  return p == GG_GAP_ROTATIONAL_TEMPERATURE || p == GG_GAP_SPIN || p == GG_GAP_ROTATIONAL_HEAT ||
-         p == GG_GAP_COUPLE_STRESS;
-}
-
 static void draw(const gg_gap_flow *flow, void *to)
 {
   const request *r = to;
-  for (int p = 0; p < GG_GAP_PROFILES; p++)
-    if (r->measure & table[p].measure && (flow->rough || !of_spins(p))) put(flow, (gg_gap_profile)p, r->list);
+  const int end = flow->rough ? N_PROFILES : THETA;
+  for (int p = 0; p < end; p++)
+    if (r->measure & table[p].measure) put(flow, (profile)p, r->list);
 }
 
 gg_status gg_theory_gap_curves(const gg_gap_theory *theory, const gg_model *m, unsigned measure, gg_curves *list,

@@ -18,13 +18,18 @@ static double temperature(double logarithm)
   return exp(fmin(fmax(logarithm, -200), 200));
 }
 
+static gg_rough_state state_of(const gg_gap *g, const double v[])
+{
+  return (gg_rough_state){.P = fmax(v[GG_GAP_P], 1e-9 * g->P),
+                          .tau = v[GG_GAP_TAU],
+                          .T = temperature(v[GG_GAP_LOG_T]),
+                          .theta = temperature(v[GG_ROUGH_LOG_THETA]),
+                          .omega = v[GG_ROUGH_OMEGA]};
+}
+
 static bool local_at(const gg_gap *g, gg_rough_gas *gas, const double v[], gg_rough_local *at)
 {
-  const gg_rough_state s = {.P = fmax(v[GG_GAP_P], 1e-9 * g->P),
-                            .tau = v[GG_GAP_TAU],
-                            .T = temperature(v[GG_GAP_LOG_T]),
-                            .theta = temperature(v[GG_ROUGH_LOG_THETA]),
-                            .omega = v[GG_ROUGH_OMEGA]};
+  const gg_rough_state s = state_of(g, v);
   return gas->local(gas, &s, at);
 }
 
@@ -96,11 +101,28 @@ static void upper(void *self, const double v[], double left[])
   at_wall(r, &r->gap->model->surface[1], v, left);
 }
 
-/* From grains that roll with the flow, theta in proportion to T. */
+/* theta/T of a uniform gas whose spins exchange energy with translation and with thermal walls. */
+static double start_ratio(const gg_gap *g, const gg_rough_gas *gas)
+{
+  const gg_model *m = &gas->density.model;
+  const double width = g->high - g->low, n = g->grains / width, J = g->P / sqrt(2 * M_PI * g->T);
+  gg_lun_state s = {n, m->boltzmann ? 0 : n * M_PI / 6, m->chi[0], gas->grain, 0};
+  const double gain = gg_theory_lun_functions_at(s).f5r;
+  s.ratio = 1;
+  const double fall = gain - gg_theory_lun_functions_at(s).f5r, contacts = width * g->T * sqrt(g->T);
+  double brings = contacts * gain, takes = contacts * fall;
+  for (int w = 0; w < 2; w++) {
+    const gg_surface *wall = &g->model->surface[w];
+    brings += 1.5 * J * wall->accommodation * wall->temperature, takes += 1.5 * J * wall->accommodation * g->T;
+  }
+  return brings / takes;
+}
+
+/* From the flow of grains that roll. */
 static void start(gg_gap_flow *flow, const gg_rough_gas *gas)
 {
   gg_boundary_solution *s = &flow->solution;
-  const double ratio = gg_theory_lun_ratio(gas->grain);
+  const double ratio = start_ratio(&flow->gap, gas);
   for (int i = 0; i < s->points; i++) {
     double *v = s->v[i];
     v[GG_ROUGH_LOG_THETA] = v[GG_GAP_LOG_T] + log(ratio);
@@ -109,58 +131,57 @@ static void start(gg_gap_flow *flow, const gg_rough_gas *gas)
   }
 }
 
-static void put_wall(gg_gap_flow *flow, gg_rough_gas *gas, int w)
+gg_rough_height gg_theory_rough_gap_at(const gg_gap_flow *flow, double y)
 {
-  const gg_model *m = flow->gap.model;
-  const gg_surface *wall = &m->surface[w];
+  const gg_gap *g = &flow->gap;
+  double v[GG_ROUGH_FUNCTIONS];
+  gg_theory_boundary_at(&flow->solution, GG_ROUGH_FUNCTIONS, y, v, NULL);
+  gg_rough_height at = {.state = state_of(g, v),
+                        .u = v[GG_GAP_U],
+                        .heat = {heat_of(v), rotational_heat_of(v)},
+                        .couple = v[GG_ROUGH_M]};
+  flow->rough->local(flow->rough, &at.state, &at.local);
+  at.density = g->model->boltzmann ? at.local.gas.n : at.local.gas.phi; /* points: n over its mean */
+  at.P_xy = at.state.tau - (g->model->boltzmann ? 0 : at.local.torque);
+  return at;
+}
+
+/* What layers at a wall hold, and the stress that bears them. */
+static void put_wall(gg_gap_flow *flow, int w)
+{
+  gg_gap *g = &flow->gap;
+  const double *gravity = g->model->gravity;
+  const gg_surface *wall = &g->model->surface[w];
   const double *v = flow->solution.v[w ? flow->solution.points - 1 : 0], s = wall->side;
   gg_gap_wall *to = &flow->wall[w];
   gg_rough_local at;
-  local_at(&flow->gap, gas, v, &at);
-  to->gas = at.gas, to->layer = gg_theory_wall_layer(at.gas.phi);
-  to->P = v[GG_GAP_P] + s * to->layer * m->gravity[1], to->tau = v[GG_GAP_TAU] + s * to->layer * m->gravity[0];
-  to->slip = v[GG_GAP_U] - wall->velocity.x;
-  to->T = temperature(v[GG_GAP_LOG_T]), to->theta = temperature(v[GG_ROUGH_LOG_THETA]);
+  local_at(g, flow->rough, v, &at);
+  const double layer = gg_theory_wall_layer(at.gas.phi), theta = temperature(v[GG_ROUGH_LOG_THETA]);
+  to->gas = at.gas, to->slip = v[GG_GAP_U] - wall->velocity.x, to->T = temperature(v[GG_GAP_LOG_T]);
+  to->P = v[GG_GAP_P] + s * layer * gravity[1], to->tau = v[GG_GAP_TAU] + s * layer * gravity[0];
   to->heat = s * (heat_of(v) + v[GG_ROUGH_R] + to->tau * to->slip);
+  flow->temperature += layer * to->T, flow->theta += layer * theta;
+  flow->work += layer * gravity[0] * v[GG_GAP_U] - s * to->tau * wall->velocity.x;
 }
 
-/* What one height adds to the integrals over the gap, weighted. */
-static void add(gg_gap_flow *flow, double y, double weight)
+/* Sums over the gap by Gauss's formula of three points in each interval, none of them one of the collocation. */
+static void put_sums(gg_gap_flow *flow)
 {
-  double v[GG_ROUGH_FUNCTIONS];
-  gg_rough_local at;
-  gg_theory_boundary_at(&flow->solution, GG_ROUGH_FUNCTIONS, y, v, NULL);
-  local_at(&flow->gap, flow->rough, v, &at);
-  flow->loss -= weight * (at.gain[0] + at.gain[1]);
-  flow->work += weight * at.gas.n * flow->gap.model->gravity[0] * v[GG_GAP_U];
-  flow->normal += weight * v[GG_GAP_P], flow->shear += weight * v[GG_GAP_TAU];
-  flow->temperature += weight * at.gas.n * temperature(v[GG_GAP_LOG_T]);
-  flow->theta += weight * at.gas.n * temperature(v[GG_ROUGH_LOG_THETA]);
-}
-
-static void profiles(const gg_gap_flow *flow, double y, double value[GG_GAP_PROFILES])
-{
-  const double unit = flow->gap.model->stress_unit;
-  double v[GG_ROUGH_FUNCTIONS];
-  gg_rough_local at;
-  gg_theory_boundary_at(&flow->solution, GG_ROUGH_FUNCTIONS, y, v, NULL);
-  local_at(&flow->gap, flow->rough, v, &at);
-  const double between[] = {
-      [GG_GAP_SOLID_FRACTION] = flow->gap.model->boltzmann ? at.gas.n : at.gas.phi,
-      [GG_GAP_VELOCITY] = v[GG_GAP_U],
-      [GG_GAP_TEMPERATURE] = temperature(v[GG_GAP_LOG_T]),
-      [GG_GAP_ROTATIONAL_TEMPERATURE] = temperature(v[GG_ROUGH_LOG_THETA]),
-      [GG_GAP_SPIN] = v[GG_ROUGH_OMEGA],
-      [GG_GAP_P_XX] = unit * (v[GG_GAP_P] + at.gas.xx),
-      [GG_GAP_P_YY] = unit * v[GG_GAP_P],
-      [GG_GAP_P_ZZ] = unit * (v[GG_GAP_P] + at.gas.zz),
-      [GG_GAP_P_XY] = unit * (v[GG_GAP_TAU] - (flow->gap.model->boltzmann ? 0 : at.torque)),
-      [GG_GAP_P_YX] = unit * v[GG_GAP_TAU],
-      [GG_GAP_HEAT] = unit * heat_of(v),
-      [GG_GAP_ROTATIONAL_HEAT] = unit * rotational_heat_of(v),
-      [GG_GAP_COUPLE_STRESS] = unit * v[GG_ROUGH_M],
-  };
-  for (int p = 0; p < GG_GAP_PROFILES; p++) value[p] = between[p];
+  static const double place[] = {-0.774596669241483377, 0, 0.774596669241483377}, weight[] = {5. / 18, 4. / 9, 5. / 18};
+  const gg_boundary_solution *s = &flow->solution;
+  flow->work = flow->loss = flow->normal = flow->shear = flow->temperature = flow->theta = 0;
+  for (int i = 0; i + 1 < s->points; i++)
+    for (int k = 0; k < 3; k++) {
+      const double h = s->y[i + 1] - s->y[i], part = h * weight[k];
+      const gg_rough_height at = gg_theory_rough_gap_at(flow, s->y[i] + 0.5 * h * (1 + place[k]));
+      const double grains = part * at.local.gas.n;
+      flow->loss -= part * (at.local.gain[0] + at.local.gain[1]);
+      flow->work += grains * flow->gap.model->gravity[0] * at.u;
+      flow->normal += part * at.state.P, flow->shear += part * at.state.tau;
+      flow->temperature += grains * at.state.T, flow->theta += grains * at.state.theta;
+    }
+  for (int w = 0; w < 2; w++) put_wall(flow, w);
+  flow->temperature /= flow->gap.grains, flow->theta /= flow->gap.grains;
 }
 
 gg_status gg_theory_rough_gap_solve(const gg_model *m, gg_rough_gas *gas, const char *theory, gg_gap_flow *flow,
@@ -202,9 +223,7 @@ gg_status gg_theory_rough_gap_solve(const gg_model *m, gg_rough_gas *gas, const 
   }
   if (g->outside)
     return gg_theory_reject(err, theory, "has no solution here: the gas packs beyond its contact value");
-  flow->rough = gas, flow->profiles = profiles;
-  gg_theory_gap_sums(flow, add);
-  for (int w = 0; w < 2; w++) put_wall(flow, gas, w);
-  gg_theory_gap_finish(flow);
+  flow->rough = gas;
+  put_sums(flow);
   return GG_OK;
 }

@@ -17,6 +17,15 @@ enum {
   GG_ROUGH_FUNCTIONS
 };
 
+/* The flow at one height: fluxes along y, of translation and rotation; what profiles call solid fraction. */
+typedef struct gg_rough_height {
+  gg_rough_state state;
+  gg_rough_local local;
+  double density, u, heat[2], couple, P_xy;
+} gg_rough_height;
+
+gg_rough_height gg_theory_rough_gap_at(const gg_gap_flow *flow, double y);
+
 /* The flow of rough grains of constant beta, as gg_theory_gap_solve; the gas stays with *flow. */
 gg_status gg_theory_rough_gap_solve(const gg_model *model, gg_rough_gas *gas, const char *theory, gg_gap_flow *flow,
                                     gg_error *err);

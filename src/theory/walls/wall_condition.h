@@ -20,13 +20,6 @@ typedef struct gg_wall_takes {
   double momentum, energy; /* along x; energy in the frame of the wall */
 } gg_wall_takes;
 
-/* Shares of the shear stress and of the heat flux that arriving grains carry. Half is Maxwell's. At a diffuse wall, of
- * a dilute gas, half less these give the slip 1.2540 and the jump 2.4001 sqrt(pi)/2 mean free paths of Boltzmann's
- * equation. */
-#define GG_WALL_LESS_SHEAR 0.0571
-#define GG_WALL_LESS_HEAT 0.0636
-double gg_theory_wall_share(const gg_surface *wall, double phi, double less);
-
 gg_wall_takes gg_theory_wall_takes(const gg_surface *wall, const gg_arrival *arrival);
 
 /* Grains per area that layers at a flat wall hold beyond the gas continued to it: D. Henderson & M. Plischke, Proc. R.
