@@ -55,7 +55,8 @@ static gg_status check_rough(const gg_model *m, const char *theory, gg_error *er
   for (int w = 0; w < m->n_surfaces; w++) {
     const gg_contact *c = &m->surface[w].contact[0];
     if (m->surface[w].accommodation < 1 && c->jt > 0 && isfinite(c->mu))
-      return gg_theory_reject(err, theory, "describes rough grains between walls of constant beta; walls have friction");
+      return gg_theory_reject(err, theory,
+                              "describes rough grains between walls of constant beta; walls have friction");
   }
   return GG_OK;
 }

@@ -53,7 +53,7 @@ void gg_theory_rough_contacts_integral(const gg_model *m, gg_rough_point p, doub
   const gg_gaussian *change = &r.change[0];
   f[GG_CONTACT_XX] = change->M.at[0][0], f[GG_CONTACT_YY] = change->M.at[1][1], f[GG_CONTACT_ZZ] = change->M.at[2][2];
   f[GG_CONTACT_P_XX] = r.Pc.at[0][0], f[GG_CONTACT_P_YY] = r.Pc.at[1][1], f[GG_CONTACT_P_ZZ] = r.Pc.at[2][2];
-  f[GG_CONTACT_SPINS] = gg_tensor_trace(change->Theta), f[GG_CONTACT_SPIN] = change->spin;
+  f[GG_CONTACT_LOSS] = r.loss, f[GG_CONTACT_SPIN] = change->spin;
   f[GG_CONTACT_XY] = change->M.at[0][1], f[GG_CONTACT_P_YX] = r.Pc.at[1][0];
 }
 

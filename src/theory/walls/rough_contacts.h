@@ -8,7 +8,7 @@
 
 #include "theory/theory.h"
 
-/* d<C_a C_b>/dt, collisional stress over n^2 chi, d<s^2>/dt and d<s_z>/dt. */
+/* d<C_a C_b>/dt, collisional stress over n^2 chi, energy lost over n^2 chi, and d<s_z>/dt. */
 enum {
   GG_CONTACT_XX,
   GG_CONTACT_YY,
@@ -16,7 +16,7 @@ enum {
   GG_CONTACT_P_XX,
   GG_CONTACT_P_YY,
   GG_CONTACT_P_ZZ,
-  GG_CONTACT_SPINS,
+  GG_CONTACT_LOSS,
   GG_CONTACT_XY, /* from here on odd in a */
   GG_CONTACT_P_YX,
   GG_CONTACT_SPIN,

@@ -64,13 +64,26 @@ static bool floats(const gg_model *m)
   return !gg_theory_wall_grips(&m->surface[0]) && !gg_theory_wall_grips(&m->surface[1]);
 }
 
+/* Grains in layers at a wall, per area, lose spin in contacts as those of the gas do: what they keep of the couple that
+ * the gas takes from the wall, and the heat that they make of it. */
+typedef struct layer {
+  double grains, couple, energy[2];
+} layer;
+
+static layer layer_of(const gg_rough_local *at, double omega)
+{
+  const double grains = gg_theory_wall_layer(at->gas.phi), part = grains / at->gas.n, couple = part * at->torque;
+  return (layer){grains, couple, {part * at->slides[0], couple * omega + part * at->slides[1]}};
+}
+
 static void at_wall(rough_gap *r, const gg_surface *wall, const double v[], double left[5])
 {
   gg_gap *g = r->gap;
   gg_rough_local at;
   local_at(g, r->gas, v, &at);
-  const double s = wall->side, G = v[GG_GAP_U] - wall->velocity.x, layer = gg_theory_wall_layer(at.gas.phi);
-  const double speed = sqrt(g->T), energy = g->P * speed;
+  const double s = wall->side, G = v[GG_GAP_U] - wall->velocity.x, speed = sqrt(g->T);
+  const double energy = g->P * speed;
+  const layer held = layer_of(&at, v[GG_ROUGH_OMEGA]);
   const gg_rough_arrival in = {.centres = {.gas = &at.gas,
                                            .P = v[GG_GAP_P],
                                            .T = temperature(v[GG_GAP_LOG_T]),
@@ -84,10 +97,10 @@ static void at_wall(rough_gap *r, const gg_surface *wall, const double v[], doub
                                .heat = s * rotational_heat_of(v)};
   const gg_rough_takes takes = gg_theory_rough_wall_takes(wall, &in);
   left[0] = floats(g->model) && s > 0 ? v[GG_GAP_U] / speed : (in.centres.shear - takes.momentum) / g->P;
-  left[1] = (in.couple - takes.couple) / g->P;
-  left[2] = (in.centres.heat + in.centres.shear * G - takes.translation) / energy;
-  left[3] = (s * v[GG_ROUGH_R] - takes.rotation) / energy;
-  left[4] = (v[GG_GAP_N] - (s > 0 ? g->grains - layer : layer)) / g->grains;
+  left[1] = (in.couple + held.couple - takes.couple) / g->P;
+  left[2] = (in.centres.heat + in.centres.shear * G + held.energy[0] - takes.translation) / energy;
+  left[3] = (s * v[GG_ROUGH_R] + held.energy[1] - takes.rotation) / energy;
+  left[4] = (v[GG_GAP_N] - (s > 0 ? g->grains - held.grains : held.grains)) / g->grains;
 }
 
 static void lower(void *self, const double v[], double left[])
@@ -136,10 +149,8 @@ gg_rough_height gg_theory_rough_gap_at(const gg_gap_flow *flow, double y)
   const gg_gap *g = &flow->gap;
   double v[GG_ROUGH_FUNCTIONS];
   gg_theory_boundary_at(&flow->solution, GG_ROUGH_FUNCTIONS, y, v, NULL);
-  gg_rough_height at = {.state = state_of(g, v),
-                        .u = v[GG_GAP_U],
-                        .heat = {heat_of(v), rotational_heat_of(v)},
-                        .couple = v[GG_ROUGH_M]};
+  gg_rough_height at = {
+      .state = state_of(g, v), .u = v[GG_GAP_U], .heat = {heat_of(v), rotational_heat_of(v)}, .couple = v[GG_ROUGH_M]};
   flow->rough->local(flow->rough, &at.state, &at.local);
   at.density = g->model->boltzmann ? at.local.gas.n : at.local.gas.phi; /* points: n over its mean */
   at.P_xy = at.state.tau - (g->model->boltzmann ? 0 : at.local.torque);
@@ -156,12 +167,14 @@ static void put_wall(gg_gap_flow *flow, int w)
   gg_gap_wall *to = &flow->wall[w];
   gg_rough_local at;
   local_at(g, flow->rough, v, &at);
-  const double layer = gg_theory_wall_layer(at.gas.phi), theta = temperature(v[GG_ROUGH_LOG_THETA]);
+  const layer held = layer_of(&at, v[GG_ROUGH_OMEGA]);
+  const double grains = held.grains, theta = temperature(v[GG_ROUGH_LOG_THETA]), made = held.energy[0] + held.energy[1];
   to->gas = at.gas, to->slip = v[GG_GAP_U] - wall->velocity.x, to->T = temperature(v[GG_GAP_LOG_T]);
-  to->P = v[GG_GAP_P] + s * layer * gravity[1], to->tau = v[GG_GAP_TAU] + s * layer * gravity[0];
-  to->heat = s * (heat_of(v) + v[GG_ROUGH_R] + to->tau * to->slip);
-  flow->temperature += layer * to->T, flow->theta += layer * theta;
-  flow->work += layer * gravity[0] * v[GG_GAP_U] - s * to->tau * wall->velocity.x;
+  to->P = v[GG_GAP_P] + s * grains * gravity[1], to->tau = v[GG_GAP_TAU] + s * grains * gravity[0];
+  to->heat = s * (heat_of(v) + v[GG_ROUGH_R] + to->tau * to->slip) + made;
+  flow->loss -= made;
+  flow->temperature += grains * to->T, flow->theta += grains * theta;
+  flow->work += grains * gravity[0] * v[GG_GAP_U] - s * to->tau * wall->velocity.x;
 }
 
 /* Sums over the gap by Gauss's formula of three points in each interval, none of them one of the collocation. */
@@ -181,6 +194,7 @@ static void put_sums(gg_gap_flow *flow)
       flow->temperature += grains * at.state.T, flow->theta += grains * at.state.theta;
     }
   for (int w = 0; w < 2; w++) put_wall(flow, w);
+  if (flow->gap.model->elastic_grains) flow->loss = 0; /* not its rounding */
   flow->temperature /= flow->gap.grains, flow->theta /= flow->gap.grains;
 }
 
@@ -221,8 +235,7 @@ gg_status gg_theory_rough_gap_solve(const gg_model *m, gg_rough_gas *gas, const 
     slope(&r, flow->solution.v[i], f);
     g->outside |= !(flow->solution.v[i][GG_GAP_P] > 0);
   }
-  if (g->outside)
-    return gg_theory_reject(err, theory, "has no solution here: the gas packs beyond its contact value");
+  if (g->outside) return gg_theory_reject(err, theory, "has no solution here: the gas packs beyond its contact value");
   flow->rough = gas;
   put_sums(flow);
   return GG_OK;

@@ -39,9 +39,10 @@ bool gg_theory_rough_gas_local(gg_rough_gas *g, const gg_rough_state *s, gg_roug
   const double mu_r = gg_theory_rough_gas_grip(g, s->T), of_flow = point ? 0 : mu_r;
   const double shear = at->gas.shear = -(s->tau + 2 * of_flow * s->omega) / (f.f2 * root + of_flow);
   const double w = s->omega + (point ? 0 : 0.5 * shear), taken = 4 * mu_r * w * w;
+  at->slides[0] = taken * h2, at->slides[1] = taken * h2 / g->grain.K;
   at->torque = -4 * mu_r * w, at->turning = gg_theory_rough_gas_turning(g, s->T, s->T);
-  at->gain[0] = -2 * of_flow * w * shear + taken * h2 - s->T * root * f.f5;
-  at->gain[1] = at->torque * s->omega + taken * h2 / g->grain.K + s->T * root * f.f5r;
+  at->gain[0] = -2 * of_flow * w * shear + at->slides[0] - s->T * root * f.f5;
+  at->gain[1] = at->torque * s->omega + at->slides[1] + s->T * root * f.f5r;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) at->heat[i][j] = root * f.f4[i][j];
   return within;

@@ -11,8 +11,8 @@
  *   D = (K/4) n T/nu_s,   nu_s = (4/3) sqrt(pi T) n chi (2 + e + beta),
  * whatever theta is. At the same order dense gases have a source of M from contacts, -16/5 phi chi e eta_2/K times that
  * of D, and a torque -0.4 mu_r omega''. Both are left out: spins relax within a diameter there, and an expansion in
- * gradients would grow without bound. In the limit phi = 0 spins s = omega/2 remain beside velocities, and u' is nothing
- * beside omega. */
+ * gradients would grow without bound. In the limit phi = 0 spins s = omega/2 remain beside velocities, and u' is
+ * nothing beside omega. */
 #ifndef GG_ROUGH_GAS_H
 #define GG_ROUGH_GAS_H
 
@@ -30,6 +30,7 @@ typedef struct gg_rough_local {
   double turning;    /* D */
   double heat[2][2]; /* conductivities of (T', theta') */
   double gain[2];    /* of energy of translation and of rotation, mean motion included; work of gravity not */
+  double slides[2];  /* heat that translation and rotation gain where grains do not roll */
 } gg_rough_local;
 
 typedef struct gg_rough_gas {

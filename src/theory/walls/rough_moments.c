@@ -127,23 +127,35 @@ static void put_heat(const gg_rough_moments *g, const gg_rough_state *s, const m
   at->gas.carried_x = now->xi / (1 + 0.8 * gg_theory_phi_chi(m) * (3 * grain.eta1 + 2 * grain.eta2));
 }
 
+/* Torque and gain of energy of grains that roll, and what those add that do not. Rotation gains what translation and
+ * the mean spin lose and contacts do not destroy, so that elastic grains keep their energy whatever the fit. */
+static void put_gains(const gg_rough_moments *g, const gg_rough_state *s, const moments *now, gg_rough_local *at)
+{
+  const gg_model *m = &g->gas.density.model;
+  const gg_grain grain = g->gas.grain;
+  const bool point = m->boltzmann;
+  const double n = m->density, T = s->T, rate = n * n * m->chi[0] * T, shear = at->gas.shear, *f = now->f;
+  const double w = s->omega + (point ? 0 : 0.5 * shear), grip = 4 * gg_theory_rough_gas_grip(&g->gas, T) * w;
+  const double torque = point ? 0 : 0.5 * grain.K * rate * f[GG_CONTACT_SPIN];
+  const double S = n * T * sqrt(T) * now->S, carried = point ? 0 : rate * f[GG_CONTACT_P_YX] * shear;
+  const double gain = S + n * T * g->x[GG_ROUGH_XY] * shear + carried;
+  at->torque = torque - grip;
+  at->slides[0] = grip * w * grain.eta2, at->slides[1] = at->slides[0] / grain.K;
+  at->gain[0] = s->tau * shear + S + at->slides[0];
+  at->gain[1] =
+      at->torque * s->omega + at->slides[1] - rate * sqrt(T) * f[GG_CONTACT_LOSS] - gain + 0.5 * torque * shear;
+}
+
 static bool local(gg_rough_gas *gas, const gg_rough_state *s, gg_rough_local *at)
 {
   gg_rough_moments *g = (gg_rough_moments *)gas;
-  const gg_model *m = &gas->density.model;
-  const gg_grain grain = gas->grain;
   moments now;
   const bool within = gg_theory_rough_gas_local(gas, s, at);
   gg_theory_rough_contacts_at(&g->contacts, s->theta / s->T, g->series);
-  g->heat_rate = gg_theory_heat_rates(grain, s->theta / s->T).at[0][0];
+  g->heat_rate = gg_theory_heat_rates(gas->grain, s->theta / s->T).at[0][0];
   const bool good = solve(g, s, &at->gas, &now);
-  put_stress(g, s, &now, at), put_heat(g, s, &now, at);
-  const double T = s->T, rate = m->density * m->density * m->chi[0] * T * 0.5 * grain.K, shear = at->gas.shear;
-  const double w = s->omega + (m->boltzmann ? 0 : 0.5 * shear), grip = 4 * gg_theory_rough_gas_grip(gas, T) * w;
-  at->torque = (m->boltzmann ? 0 : rate * now.f[GG_CONTACT_SPIN]) - grip;
-  at->turning = gg_theory_rough_gas_turning(gas, T, at->gas.Tyy);
-  at->gain[0] = s->tau * shear + m->density * T * sqrt(T) * now.S + grip * w * grain.eta2;
-  at->gain[1] = at->torque * s->omega + rate * sqrt(T) * now.f[GG_CONTACT_SPINS] + grip * w * grain.eta2 / grain.K;
+  put_stress(g, s, &now, at), put_heat(g, s, &now, at), put_gains(g, s, &now, at);
+  at->turning = gg_theory_rough_gas_turning(gas, s->T, at->gas.Tyy);
   return within && good;
 }
 

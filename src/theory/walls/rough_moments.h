@@ -4,7 +4,7 @@
  *   -(A M + M A^T) + contacts = w S/n,   w_xx = w_zz = 2/5,  w_yy = 6/5,  w_xy = 2/5 xi,   xi = q_x/q_y = -7/5 a/nu_q,
  * with the production of rough_contacts.h at the local n, shear rate and theta/T. S is the divergence of the heat flux
  * of translation. Spins are isotropic; where they do not roll, and for their couple stress, rough_gas.h holds with
- * <C_y^2>. Heat fluxes are those of lun1991: the factors of gaussian_table.h change no number by 3 % here. */
+ * <C_y^2>. Heat fluxes are those of lun1991: the factors of gaussian_table.h change numbers by up to 3 % here. */
 #ifndef GG_ROUGH_MOMENTS_H
 #define GG_ROUGH_MOMENTS_H
 
@@ -18,9 +18,9 @@ enum { GG_ROUGH_LOG_N, GG_ROUGH_SHEAR, GG_ROUGH_XX, GG_ROUGH_YY, GG_ROUGH_XY, GG
 typedef struct gg_rough_moments {
   gg_rough_gas gas; /* first: `local` is handed the gas */
   gg_rough_contacts contacts;
-  gg_contact_series series;             /* at the last theta/T */
-  double heat_rate;                     /* of the translational heat flux there, over nu_0 chi */
-  double x[GG_ROUGH_UNKNOWNS];          /* the last solution, a start for the next, and its derivatives */
+  gg_contact_series series;    /* at the last theta/T */
+  double heat_rate;            /* of the translational heat flux there, over nu_0 chi */
+  double x[GG_ROUGH_UNKNOWNS]; /* the last solution, a start for the next, and its derivatives */
   bool known;
   int pivot[GG_ROUGH_UNKNOWNS];
   double cell[GG_ROUGH_UNKNOWNS * (3 * GG_ROUGH_UNKNOWNS - 2)];
