@@ -85,14 +85,17 @@ static bool improve(gg_rough_moments *g, const gg_rough_state *s, double x[N], b
 }
 
 /* The moments of a state; else, from the Newtonian gas. */
-static bool solve(gg_rough_moments *g, const gg_rough_state *s, const gg_gap_local *newtonian, moments *at)
+static bool solve(gg_rough_moments *g, const gg_rough_state *s, moments *at)
 {
   double x[N];
   memcpy(x, g->x, sizeof x);
   bool good = g->known && improve(g, s, x, true, at);
   if (!good) {
+    gg_rough_local newtonian;
+    gg_theory_rough_gas_local(&g->gas, s, &newtonian);
     memset(x, 0, sizeof x);
-    x[GG_ROUGH_LOG_N] = log(newtonian->n), x[GG_ROUGH_SHEAR] = fmax(-1.5, fmin(1.5, newtonian->shear / sqrt(s->T)));
+    x[GG_ROUGH_LOG_N] = log(newtonian.gas.n);
+    x[GG_ROUGH_SHEAR] = fmax(-1.5, fmin(1.5, newtonian.gas.shear / sqrt(s->T)));
     good = improve(g, s, x, false, at);
   }
   g->known = good;
@@ -150,13 +153,12 @@ static bool local(gg_rough_gas *gas, const gg_rough_state *s, gg_rough_local *at
 {
   gg_rough_moments *g = (gg_rough_moments *)gas;
   moments now;
-  const bool within = gg_theory_rough_gas_local(gas, s, at);
   gg_theory_rough_contacts_at(&g->contacts, s->theta / s->T, g->series);
   g->heat_rate = gg_theory_heat_rates(gas->grain, s->theta / s->T).at[0][0];
-  const bool good = solve(g, s, &at->gas, &now);
+  const bool good = solve(g, s, &now);
   put_stress(g, s, &now, at), put_heat(g, s, &now, at), put_gains(g, s, &now, at);
   at->turning = gg_theory_rough_gas_turning(gas, s->T, at->gas.Tyy);
-  return within && good;
+  return good && (gas->density.model.boltzmann || gas->density.model.phi < gas->density.most);
 }
 
 gg_status gg_theory_rough_moments_make(const gg_model *m, gg_rough_moments *g, gg_error *err)
