@@ -295,7 +295,7 @@ static void reasons(void **state)
   m = model_between(couette), m.n_surfaces = 1, assert_refused(ns, &m, "open top");
   m = model_between(couette), m.gravity[2] = 1, assert_refused(ns, &m, "gravity along z");
   m = mixture_for(GG_COUETTE, 0.1, 0.9, -1, 2, 1, 1), assert_refused(ns, &m, "one species");
-  m = model_for(GG_COUETTE, 0.1, 0.9, 0.5), assert_refused(ns, &m, "smooth");
+  m = model_for(GG_COUETTE, 0.1, 0.9, 0.5), m.rule = GG_FRICTIONAL, assert_refused(ns, &m, "constant beta");
   m = model_for(GG_USF, 0.1, 0.9, -1), assert_refused(ns, &m, "shear between walls");
   x = couette, x.e = 1, x.e_wall = 1, x.beta_wall = 1, m = model_between(x);
   assert_refused(ns, &m, "nothing takes the heat");

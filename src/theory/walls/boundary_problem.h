@@ -9,7 +9,7 @@
 #include "base/cancellation.h"
 #include "base/error.h"
 
-enum { GG_BOUNDARY_FUNCTIONS = 6, GG_BOUNDARY_POINTS = 1601 };
+enum { GG_BOUNDARY_FUNCTIONS = 10, GG_BOUNDARY_POINTS = 1601 };
 
 typedef double gg_functions[GG_BOUNDARY_FUNCTIONS];
 

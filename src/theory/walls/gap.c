@@ -49,10 +49,22 @@ static gg_status check_walls(const gg_model *m, const char *theory, gg_error *er
   return GG_OK;
 }
 
-gg_status gg_theory_gap_check(const gg_model *m, const char *theory, gg_error *err)
+static gg_status check_rough(const gg_model *m, const char *theory, gg_error *err)
+{
+  GG_TRY(gg_theory_require_constant_beta(m, theory, err));
+  for (int w = 0; w < m->n_surfaces; w++) {
+    const gg_contact *c = &m->surface[w].contact[0];
+    if (m->surface[w].accommodation < 1 && c->jt > 0 && isfinite(c->mu))
+      return gg_theory_reject(err, theory,
+                              "describes rough grains between walls of constant beta; walls have friction");
+  }
+  return GG_OK;
+}
+
+gg_status gg_theory_gap_check(const gg_model *m, const char *theory, bool rough, gg_error *err)
 {
   GG_TRY(gg_theory_require_one_species(m, theory, err));
-  GG_TRY(gg_theory_require_smooth(m, theory, err));
+  GG_TRY(rough ? check_rough(m, theory, err) : gg_theory_require_smooth(m, theory, err));
   GG_TRY(check_walls(m, theory, err));
   if (m->gravity[2] != 0) return gg_theory_reject(err, theory, "has no gravity along z; this scene has");
   const double mean = grains_per_area(m) / (m->box[1] - 2 * half_diameter(m)) * M_PI / 6;
@@ -296,6 +308,10 @@ static void answer(const gg_gap_flow *flow, void *to)
     drag += drag_of(m, wall) * wall->side * w[k].tau, push += w[k].P, D_wall += w[k].heat;
   }
   a->value[GG_Q_TEMPERATURE] = flow->temperature;
+  if (flow->rough) {
+    a->value[GG_Q_ROTATIONAL_TEMPERATURE] = flow->theta;
+    a->value[GG_Q_TEMPERATURE_RATIO] = flow->theta / flow->temperature;
+  }
   a->value[GG_Q_P_YY] = per_volume * flow->normal, a->value[GG_Q_P_YX] = per_volume * flow->shear;
   a->value[GG_Q_WALL_FRICTION] = drag / push;
   if (flow->loss > 0) a->value[GG_Q_DISSIPATION] = per_volume * flow->loss;
@@ -310,7 +326,7 @@ static void answer(const gg_gap_flow *flow, void *to)
 gg_status gg_theory_gap_with_flow(const gg_gap_theory *theory, const gg_model *m, gg_gap_use *use, void *to,
                                   gg_error *err)
 {
-  GG_TRY(gg_theory_gap_check(m, theory->name, err));
+  GG_TRY(gg_theory_gap_check(m, theory->name, theory->rough && m->rule != GG_SMOOTH, err));
   void *gas = gg_base_array_new(1, theory->size, err);
   gg_gap_flow *flow = gg_base_array_new(1, sizeof *flow, err);
   const gg_status status = gas && flow ? theory->flow_of(m, gas, flow, err) : GG_FAILED;

@@ -51,15 +51,17 @@ typedef struct gg_gap_wall {
 
 typedef struct gg_gap_flow {
   gg_gap gap;
-  gg_gap_wall wall[2];  /* lower, upper */
-  double work, loss;    /* per area: of walls and gravity; of collisions */
-  double temperature;   /* mean over grains */
-  double normal, shear; /* integrals of P_yy and P_yx over y */
+  gg_gap_wall wall[2];        /* lower, upper */
+  double work, loss;          /* per area: of walls and gravity; of collisions */
+  double temperature;         /* mean over grains */
+  double theta;               /* likewise, of the spins of rough grains */
+  double normal, shear;       /* integrals of P_yy and P_yx over y */
+  struct gg_rough_gas *rough; /* the gas of rough grains (rough_gap.h); NULL: of smooth ones, gap.gas */
   gg_boundary_solution solution;
 } gg_gap_flow;
 
 /* Why no theory of this kind describes the scene: GG_BAD_INPUT with the reason. */
-gg_status gg_theory_gap_check(const gg_model *model, const char *theory, gg_error *err);
+gg_status gg_theory_gap_check(const gg_model *model, const char *theory, bool rough, gg_error *err);
 
 /* Mean free path at the mean density over the width that centres have. */
 double gg_theory_gap_knudsen(const gg_model *model);
@@ -72,6 +74,7 @@ gg_status gg_theory_gap_solve(const gg_model *model, gg_gap_gas gas, const char 
 /* A theory of this kind: bytes of its gas, and the flow of a model that passes the check. */
 typedef struct gg_gap_theory {
   const char *name;
+  bool rough; /* does it describe rough grains, too? */
   size_t size;
   gg_status (*flow_of)(const gg_model *model, void *gas, gg_gap_flow *flow, gg_error *err);
 } gg_gap_theory;

@@ -6,9 +6,25 @@
 
 #include "base/memory.h"
 #include "measure/gap_slabs.h"
-#include "theory/walls/gap.h"
+#include "theory/walls/rough_gap.h"
 
-typedef enum profile { SOLID_FRACTION, VELOCITY, TEMPERATURE, P_XX, P_YY, P_ZZ, P_XY, P_YX, HEAT, N_PROFILES } profile;
+typedef enum profile {
+  SOLID_FRACTION,
+  VELOCITY,
+  TEMPERATURE,
+  P_XX,
+  P_YY,
+  P_ZZ,
+  P_XY,
+  P_YX,
+  HEAT,
+  THETA, /* from here on of rough grains */
+  RATIO,
+  SPIN,
+  ROTATIONAL_HEAT,
+  COUPLE_STRESS,
+  N_PROFILES
+} profile;
 
 static const struct {
   const char *name, *panel, *label, *unit;
@@ -24,6 +40,11 @@ static const struct {
     [P_XY] = {"profile_P_xy", "P_{xy}", "P_{xy}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
     [P_YX] = {"profile_P_yx", "P_{yx}", "P_{yx}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
     [HEAT] = {"profile_q_y", "q_y", "q_y", NULL, GG_MEASURE_FLUXES, GG_Q_WALL_HEAT_FLUX},
+    [THETA] = {"profile_rotational_temperature", "temperature", "θ", "temperature", GG_MEASURE_PROFILES, 0},
+    [RATIO] = {"profile_temperature_ratio", "ratio of temperatures", "θ/T", "1", GG_MEASURE_PROFILES, 0},
+    [SPIN] = {"profile_spin_z", "spin", "ω_z", "spin", GG_MEASURE_PROFILES, 0},
+    [ROTATIONAL_HEAT] = {"profile_q_y_rotational", "q_y^r", "q_y^r", NULL, GG_MEASURE_FLUXES, GG_Q_WALL_HEAT_FLUX},
+    [COUPLE_STRESS] = {"profile_M_yz", "M_{yz}", "M_{yz}", NULL, GG_MEASURE_FLUXES, GG_Q_PRESSURE},
 };
 
 static double value_of(const gg_gap *g, profile p, const double v[])
@@ -41,6 +62,28 @@ static double value_of(const gg_gap *g, profile p, const double v[])
   case P_XY:
   case P_YX: return unit * v[GG_GAP_TAU];
   default: return unit * (v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U]);
+  }
+}
+
+static double rough_value_of(const gg_gap_flow *flow, profile p, double y)
+{
+  const double unit = flow->gap.model->stress_unit;
+  const gg_rough_height at = gg_theory_rough_gap_at(flow, y);
+  switch (p) {
+  case SOLID_FRACTION: return at.density;
+  case VELOCITY: return at.u;
+  case TEMPERATURE: return at.state.T;
+  case THETA: return at.state.theta;
+  case RATIO: return at.state.theta / at.state.T;
+  case SPIN: return at.state.omega;
+  case P_XX: return unit * (at.state.P + at.local.gas.xx);
+  case P_YY: return unit * at.state.P;
+  case P_ZZ: return unit * (at.state.P + at.local.gas.zz);
+  case P_XY: return unit * at.P_xy;
+  case P_YX: return unit * at.state.tau;
+  case HEAT: return unit * at.heat[0];
+  case ROTATIONAL_HEAT: return unit * at.heat[1];
+  default: return unit * at.couple;
   }
 }
 
@@ -91,7 +134,7 @@ static void put(const gg_gap_flow *flow, profile p, gg_curves *list)
     c->value[i] = c->error[i] = NAN;
     if (c->x[i] < g->low || c->x[i] > g->high) continue;
     gg_theory_boundary_at(&flow->solution, GG_GAP_FUNCTIONS, c->x[i], v, NULL);
-    c->value[i] = value_of(g, p, v);
+    c->value[i] = flow->rough ? rough_value_of(flow, p, c->x[i]) : value_of(g, p, v);
     c->error[i] = fabs(c->value[i]) * flow->solution.residual;
   }
   put_numbers(flow, p, c);
@@ -105,7 +148,8 @@ typedef struct request {
 static void draw(const gg_gap_flow *flow, void *to)
 {
   const request *r = to;
-  for (int p = 0; p < N_PROFILES; p++)
+  const int end = flow->rough ? N_PROFILES : THETA;
+  for (int p = 0; p < end; p++)
     if (r->measure & table[p].measure) put(flow, (profile)p, r->list);
 }
 

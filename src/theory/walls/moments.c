@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Non-Newtonian hydrodynamics of granular gases between walls: the stress of the Gaussian closure at the local shear
- * rate, with the heat flux of 13 moments (gaussian_table.h). It starts from the flow of navier_stokes. */
+ * rate, with the heat flux of 13 moments (gaussian_table.h); rough grains: rough_moments.h. It starts from the flow of
+ * navier_stokes. */
 #include <math.h>
 
 #include "common/contact_value.h"
 #include "theory/theory_list.h"
 #include "theory/walls/gaussian_table.h"
+#include "theory/walls/rough_gap.h"
+#include "theory/walls/rough_moments.h"
 
 static const char name[] = "moments";
 
@@ -25,8 +28,18 @@ static void densities(const gg_gap_flow *flow, double *low, double *high)
   *low *= below, *high = fmin(*high * above, gg_common_contact_value_limit(m->contact_value) * 6 / M_PI);
 }
 
+/* From the flow of navier_stokes. */
+static gg_status rough_flow_of(const gg_model *m, gg_rough_moments *gas, gg_gap_flow *flow, gg_error *err)
+{
+  gg_theory_rough_gas_make(m, &gas->gas);
+  GG_TRY(gg_theory_rough_gap_solve(m, &gas->gas, name, flow, err));
+  GG_TRY(gg_theory_rough_moments_make(m, gas, err));
+  return gg_theory_rough_gap_solve(m, &gas->gas, name, flow, err);
+}
+
 static gg_status flow_of(const gg_model *m, void *memory, gg_gap_flow *flow, gg_error *err)
 {
+  if (m->rule != GG_SMOOTH) return rough_flow_of(m, memory, flow, err);
   gg_gaussian_table *table = memory;
   double low, high;
   gg_theory_newtonian_gas_make(m, &table->gas);
@@ -36,7 +49,12 @@ static gg_status flow_of(const gg_model *m, void *memory, gg_gap_flow *flow, gg_
   return gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_gaussian_table_local, table}, name, flow, err);
 }
 
-static const gg_gap_theory theory = {name, sizeof(gg_gaussian_table), flow_of};
+typedef union closure {
+  gg_gaussian_table smooth;
+  gg_rough_moments rough;
+} closure;
+
+static const gg_gap_theory theory = {name, true, sizeof(closure), flow_of};
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
@@ -60,13 +78,15 @@ static const char *beyond(const gg_model *m)
 const gg_theory gg_theory_moments = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_COUETTE) | GG_FLOW_BIT(GG_POISEUILLE) | GG_FLOW_BIT(GG_CHUTE) | GG_FLOW_BIT(GG_FOURIER),
-    .title = "Non-Newtonian hydrodynamics of smooth grains between walls",
+    .title = "Non-Newtonian hydrodynamics between walls",
     .citation = "Stress: J.T. Jenkins and M.W. Richman, J. Fluid Mech. 192 (1988) 313; heat flux: H. Grad, Commun. "
                 "Pure Appl. Math. 2 (1949) 331; H. Struchtrup and M. Torrilhon, Phys. Fluids 15 (2003) 2668",
-    .answers = "temperature P_yy P_yx dissipation wall_dissipation wall_heat_flux wall_friction energy_balance",
-    .assumptions = "As navier_stokes, but with the stress of the Gaussian closure at the local shear rate and a heat "
-                   "flux of 13 moments, two factors of which were chosen by comparison with Monte Carlo. Kn up to 0.3, "
-                   "e from 0.7; best where shear heats the gas.",
+    .answers = "temperature rotational_temperature temperature_ratio P_yy P_yx dissipation wall_dissipation "
+               "wall_heat_flux wall_friction energy_balance",
+    .assumptions =
+        "As navier_stokes, but with the stress of the Gaussian closure at the local shear rate and, for "
+        "smooth grains, a heat flux of 13 moments, two factors of which were chosen by comparison with Monte "
+        "Carlo. Kn up to 0.3, e from 0.7; best where shear heats the gas.",
     .evaluate = evaluate,
     .beyond = beyond,
     .curves = curves,

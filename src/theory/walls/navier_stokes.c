@@ -1,17 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Navier-Stokes hydrodynamics of granular gases between walls: newtonian_gas.h. */
+/* Navier-Stokes hydrodynamics of granular gases between walls: newtonian_gas.h; rough grains: rough_gas.h. */
 #include "theory/theory_list.h"
-#include "theory/walls/newtonian_gas.h"
+#include "theory/walls/rough_gap.h"
 
 static const char name[] = "navier_stokes";
 
 static gg_status flow_of(const gg_model *m, void *gas, gg_gap_flow *flow, gg_error *err)
 {
+  if (m->rule != GG_SMOOTH) {
+    gg_theory_rough_gas_make(m, gas);
+    return gg_theory_rough_gap_solve(m, gas, name, flow, err);
+  }
   gg_theory_newtonian_gas_make(m, gas);
   return gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_newtonian_gas_local, gas}, name, flow, err);
 }
 
-static const gg_gap_theory theory = {name, sizeof(gg_newtonian_gas), flow_of};
+static const gg_gap_theory theory = {name, true, sizeof(gg_rough_gas), flow_of};
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
@@ -33,14 +37,17 @@ static const char *beyond(const gg_model *m)
 const gg_theory gg_theory_navier_stokes = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_COUETTE) | GG_FLOW_BIT(GG_POISEUILLE) | GG_FLOW_BIT(GG_CHUTE) | GG_FLOW_BIT(GG_FOURIER),
-    .title = "Hydrodynamics of smooth grains between walls",
-    .citation = "Coefficients: V. Garzo, A. Santos and J.M. Montanero, Physica A 376 (2007) 94; walls: J.C. Maxwell, "
-                "Phil. Trans. 170 (1879) 231",
-    .answers = "temperature P_yy P_yx dissipation wall_dissipation wall_heat_flux "
-               "wall_friction energy_balance",
-    .assumptions = "Smooth spheres of one species between flat walls, in steady flow without layers or waves: balances "
-                   "of mass, momentum and energy with the transport coefficients of the cooling gas, to first order in "
-                   "gradients, and half-range conditions at walls. Kn up to 0.3; e near 1.",
+    .title = "Hydrodynamics between walls",
+    .citation = "Coefficients: V. Garzo, A. Santos and J.M. Montanero, Physica A 376 (2007) 94; rough grains: C.K.K. "
+                "Lun, J. Fluid Mech. 233 (1991) 539; walls: J.C. Maxwell, Phil. Trans. 170 (1879) 231",
+    .answers =
+        "temperature rotational_temperature temperature_ratio P_yy P_yx dissipation wall_dissipation wall_heat_flux "
+        "wall_friction energy_balance",
+    .assumptions =
+        "Spheres of one species between flat walls, smooth or of constant beta, in steady flow without layers or "
+        "waves: "
+        "balances of mass, momentum, energy and spin, to first order in gradients, with the transport coefficients of "
+        "the cooling gas (rough: lun1991), and half-range conditions at walls. Kn up to 0.3; e near 1.",
     .evaluate = evaluate,
     .beyond = beyond,
     .curves = curves,

@@ -14,6 +14,12 @@ static void set_density(gg_model *m, double n)
   gg_common_model_set_pairs(m);
 }
 
+void gg_theory_newtonian_gas_set(gg_newtonian_gas *g, double n)
+{
+  set_density(&g->model, n);
+  if (g->model.boltzmann) g->model.density = n;
+}
+
 void gg_theory_newtonian_gas_at(gg_newtonian_gas *g, double n)
 {
   set_density(&g->model, n);
@@ -25,8 +31,8 @@ static double Z_of(const gg_model *m)
   return 1 + 2 * (1 + m->e[0]) * gg_theory_phi_chi(m);
 }
 
-/* The density at which n Z = x, by Newton's method: n Z is convex in n. */
-static bool find_density(gg_newtonian_gas *g, double x)
+/* By Newton's method: n Z is convex in n. */
+bool gg_theory_newtonian_gas_find(gg_newtonian_gas *g, double x)
 {
   const double most = g->most * 6 / M_PI;
   gg_model *m = &g->model;
@@ -50,7 +56,7 @@ bool gg_theory_newtonian_gas_local(void *self, double P, double tau, double T, g
   gg_newtonian_gas *g = self;
   const gg_model *m = &g->model;
   const double *v = g->answer.value, c0 = 5 / (16 * sqrt(M_PI)), root = sqrt(T);
-  const bool within = find_density(g, P / T);
+  const bool within = gg_theory_newtonian_gas_find(g, P / T);
   gg_theory_garzo_santos_montanero2007.evaluate(m, &g->answer, NULL);
   const double n = m->density, slope = m->boltzmann ? 1 : 1 + (Z_of(m) - 1) * (2 + m->chi_slope);
   const double viscosity = c0 * root * v[GG_Q_VISCOSITY_REDUCED];

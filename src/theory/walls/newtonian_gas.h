@@ -16,8 +16,11 @@ typedef struct gg_newtonian_gas {
 } gg_newtonian_gas;
 
 void gg_theory_newtonian_gas_make(const gg_model *model, gg_newtonian_gas *gas);
+void gg_theory_newtonian_gas_set(gg_newtonian_gas *gas, double n);
 /* Model and coefficients at the number density n. */
 void gg_theory_newtonian_gas_at(gg_newtonian_gas *gas, double n);
+/* Model at the density where P = x T; false beyond those of the contact value. */
+bool gg_theory_newtonian_gas_find(gg_newtonian_gas *gas, double x);
 /* For gg_gap_gas. */
 bool gg_theory_newtonian_gas_local(void *gas, double P, double tau, double T, gg_gap_local *at);
 
