@@ -6,11 +6,14 @@
 #include "common/quantity.h"
 #include "measure/curve.h"
 
+enum { GG_THEORY_REMARK = 480 };
+
 /* Answers of a theory: NaN where it has none. `error`: distance of a number from the solution of the theory's
  * equations, where these are solved numerically; else NaN. */
 typedef struct gg_theory_answer {
   double value[GG_MOST_QUANTITIES];
   double error[GG_MOST_QUANTITIES];
+  char remark[GG_THEORY_REMARK]; /* why the model is outside the theory's range, though it answers; "" within */
 } gg_theory_answer;
 
 /* Names of quantities, separated by blanks, for `answers`. */
@@ -36,7 +39,7 @@ typedef struct gg_theory {
    * this model. A theory that takes longer than a tenth of a second checks model->stop between its parts, and then
    * fails. */
   gg_status (*evaluate)(const gg_model *model, gg_theory_answer *answer, gg_error *err);
-  /* Why this model is outside the theory's range, though it answers; NULL (also the function) within the range. */
+  /* The remark of answers without one of their own; NULL (also the function) within the range. */
   const char *(*beyond)(const gg_model *model);
   /* Curves, under the names and at the abscissae of those of the observables in `measure` (GG_MEASURE_...); the
    * error of a point is its distance from the solution of the theory's equations. Only for models for which

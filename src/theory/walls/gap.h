@@ -69,6 +69,9 @@ double gg_theory_gap_knudsen(const gg_model *model);
 gg_status gg_theory_gap_solve(const gg_model *model, gg_gap_gas gas, const char *theory, gg_gap_flow *flow,
                               gg_error *err);
 
+/* Why the theory errs in this flow: Kn, slip, normal stress differences, heat; "" where none applies. */
+void gg_theory_gap_remark(const gg_gap_flow *flow, char text[GG_THEORY_REMARK]);
+
 /* A theory of this kind: bytes of its gas, and the flow of a model that passes the check. */
 typedef struct gg_gap_theory {
   const char *name;

@@ -48,15 +48,6 @@ static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg
   return gg_theory_gap_curves(&theory, m, measure, list, err);
 }
 
-static const char *beyond(const gg_model *m)
-{
-  if (gg_theory_gap_knudsen(m) > 0.1) return "Knudsen number above 0.1: walls are felt throughout the gap";
-  if (m->e[0] < 0.7) return "velocities are far from Gaussian below e = 0.7";
-  if (m->e[0] < 1 && m->flow == GG_FOURIER)
-    return "walls heat a gas that loses energy: closer is navier_stokes, which made no choice for this state";
-  return NULL;
-}
-
 const gg_theory gg_theory_moments = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_COUETTE) | GG_FLOW_BIT(GG_POISEUILLE) | GG_FLOW_BIT(GG_CHUTE) | GG_FLOW_BIT(GG_FOURIER),
@@ -68,6 +59,5 @@ const gg_theory gg_theory_moments = {
                    "flux of 13 moments, two factors of which were chosen by comparison with Monte Carlo. Kn up to 0.3, "
                    "e from 0.7; best where shear heats the gas.",
     .evaluate = evaluate,
-    .beyond = beyond,
     .curves = curves,
 };

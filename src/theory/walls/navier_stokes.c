@@ -23,13 +23,6 @@ static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg
   return gg_theory_gap_curves(&theory, m, measure, list, err);
 }
 
-static const char *beyond(const gg_model *m)
-{
-  if (gg_theory_gap_knudsen(m) > 0.1) return "Knudsen number above 0.1: walls are felt throughout the gap";
-  if (m->e[0] < 0.7) return "Navier-Stokes order: stress of grains that lose much is anisotropic";
-  return NULL;
-}
-
 const gg_theory gg_theory_navier_stokes = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_COUETTE) | GG_FLOW_BIT(GG_POISEUILLE) | GG_FLOW_BIT(GG_CHUTE) | GG_FLOW_BIT(GG_FOURIER),
@@ -42,6 +35,5 @@ const gg_theory gg_theory_navier_stokes = {
                    "of mass, momentum and energy with the transport coefficients of the cooling gas, to first order in "
                    "gradients, and half-range conditions at walls. Kn up to 0.3; e near 1.",
     .evaluate = evaluate,
-    .beyond = beyond,
     .curves = curves,
 };
