@@ -3,9 +3,9 @@
  * The whole public interface, for C99 and later and for C++. Rules for all functions:
  *
  * Status: every call that can fail returns a gg_status (its values are the exit codes of the graingas command; 0 is
- * success). It writes a message to its last argument, `err`, which may be NULL. Unless stated otherwise, outputs are written
- * only on success. A NULL argument that is needed gives GG_BAD_INPUT, never a crash; calls that return pointers or
- * numbers then return NULL or 0. The library never exits and never prints.
+ * success). It writes a message to its last argument, `err`, which may be NULL. Unless stated otherwise, outputs are
+ * written only on success. A NULL argument that is needed gives GG_BAD_INPUT, never a crash; calls that return pointers
+ * or numbers then return NULL or 0. The library never exits and never prints.
  *
  * Ownership: handles made by a call belong to the caller, who frees them with the matching `_free` (freeing NULL is
  * allowed). Texts returned through `char **` are freed with free(). Every other returned pointer is borrowed: it is
@@ -13,7 +13,9 @@
  *
  * Threads: there is no global state. One thread at a time may use a handle, several may use a `const` one. Simulations
  * and runs in different threads are independent. If HDF5 is not thread-safe (Debian's is), only one thread at a time
- * may read or write files. Unless stated otherwise, callbacks come on the calling thread.
+ * may read or write files. Unless stated otherwise, callbacks come on the calling thread. A `context` is passed to the
+ * callbacks of its call. A callback `stop` is polled several times a second and returns non-zero to interrupt; it may be
+ * NULL.
  *
  * Handles in use: while a call uses a simulation, session, trajectory or sweep, another call from its callback or from
  * a second thread returns GG_BAD_INPUT, and the call in progress is not affected. From a callback of a simulation,
@@ -200,7 +202,6 @@ GG_API gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, 
  * @param scene the scene
  * @param engine "md" or "dsmc"
  * @param line called with each line of text
- * @param context passed to the callback
  * @return GG_OK; GG_BAD_INPUT with the reason why the engine cannot run the scene
  */
 GG_API gg_status gg_scene_describe(const gg_scene *scene, const char *engine,
@@ -230,7 +231,6 @@ GG_API gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, g
  * @param scene the scene
  * @param use "md", "dsmc", "compare", or "theory" for what holds with either engine
  * @param line called with each reason
- * @param context passed to the callback
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_scene_warnings(const gg_scene *scene, const char *use,
@@ -289,7 +289,6 @@ GG_API gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t colli
  * interrupts gg_simulation_set() and gg_simulation_set_grains(), which then change nothing.
  * @param simulation the simulation
  * @param stop returns non-zero to interrupt; NULL: none
- * @param context passed to the callback
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_simulation_on_stop(gg_simulation *simulation, int (*stop)(void *context), void *context,
@@ -390,8 +389,6 @@ GG_API gg_status gg_simulation_set_grains(gg_simulation *simulation, const gg_gr
 /**
  * Copy a simulation. Both continue with the same bits. Callbacks are not copied.
  * @param simulation the simulation
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to the callback
  * @param copy receives the copy, to be freed by gg_simulation_free()
  * @return GG_OK; GG_FAILED if memory is insufficient; GG_INTERRUPTED by stop
  */
@@ -455,7 +452,6 @@ typedef void gg_on_collision(void *context, const gg_collision_event *event);
  * and Monte Carlo returns to its fast path within 20 mean free times.
  * @param simulation the simulation
  * @param callback called with each collision; NULL: none
- * @param context passed to the callback
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision *callback, void *context,
@@ -498,8 +494,6 @@ GG_API const gg_scene *gg_simulation_scene(const gg_simulation *simulation);
  * before is kept as path.1.
  * @param simulation the simulation
  * @param path file name
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to the callback
  * @return GG_OK; GG_BAD_FILE; GG_INTERRUPTED by stop: the files are as they were
  */
 GG_API gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, int (*stop)(void *context),
@@ -509,8 +503,6 @@ GG_API gg_status gg_simulation_save(const gg_simulation *simulation, const char 
  * Read a saved simulation. Callbacks have to be set again.
  * @param path file name
  * @param scene the scene that was saved (stopping criteria and output may differ); NULL: the stored one
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to the callback
  * @param simulation receives the simulation, to be freed by gg_simulation_free()
  * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT names a difference of the scene; GG_INTERRUPTED by stop
  */
@@ -520,8 +512,6 @@ GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, int
 /**
  * Save a simulation to memory: the bytes of the file that gg_simulation_save() writes.
  * @param simulation the simulation
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to the callback
  * @param bytes receives the bytes, to be freed with free()
  * @param size receives their number
  * @return GG_OK, or an error status; GG_INTERRUPTED by stop
@@ -534,8 +524,6 @@ GG_API gg_status gg_simulation_to_bytes(const gg_simulation *simulation, int (*s
  * @param bytes the bytes
  * @param size their number
  * @param scene as for gg_simulation_load(); may be NULL
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to the callback
  * @param simulation receives the simulation, to be freed by gg_simulation_free()
  * @return GG_OK; GG_BAD_FILE for bytes that are cut off or changed; GG_INTERRUPTED by stop
  */
@@ -899,8 +887,6 @@ GG_API gg_status gg_result_to_json(const gg_result *result, char **text, gg_erro
  * Write the HDF5 (H5MD) result file; it appears whole or not at all.
  * @param result the result
  * @param path file name
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to stop
  * @return GG_OK; GG_BAD_FILE; GG_INTERRUPTED by stop
  */
 GG_API gg_status gg_result_write(const gg_result *result, const char *path, int (*stop)(void *context), void *context,
@@ -1022,8 +1008,7 @@ GG_API gg_status gg_compare(const gg_scene *scene, const gg_run_options *options
  * noise-free solver up to three seconds. Theories that do not apply have a reason in gg_comparison_theory().
  * @param scene the scene; with a protocol, the gas after the last change
  * @param theory names of theories, separated by commas: "lun1991", "lun1991,grad"; NULL: all
- * @param stop polled several times a second, on this thread; returns non-zero to interrupt; may be NULL
- * @param context passed to the callback
+ * @param stop polled on this thread
  * @param comparison receives the answers, to be freed by gg_comparison_free()
  * @return GG_OK, also if none applies; GG_BAD_INPUT, also for an unknown name; GG_INTERRUPTED by stop
  */
@@ -1196,6 +1181,27 @@ GG_API gg_status gg_comparison_theory_curve(const gg_comparison *comparison, con
 GG_API gg_status gg_comparison_theory_curve_number(const gg_comparison *comparison, const char *theory, size_t i,
                                                    size_t k, gg_measurement *number, gg_error *err);
 
+/* State of a gas between walls at one height, and its stress, heat flux and loss of energy per volume and time there,
+ * in units of profiles. Slopes are along y. */
+typedef struct gg_local_state {
+  double solid_fraction, temperature, shear_rate, solid_fraction_slope, temperature_slope;
+} gg_local_state;
+typedef struct gg_local_fluxes {
+  double P_xx, P_yy, P_zz, P_yx, q_y, loss;
+} gg_local_fluxes;
+
+/**
+ * Stress and heat flux by the closure of a theory between walls at given states, such as measured ones.
+ * @param scene the scene: one species of smooth grains between walls
+ * @param theory "navier_stokes" or "moments"
+ * @param n number of states
+ * @param state n states
+ * @param fluxes receives n answers; NaN where the theory has none
+ * @return GG_OK; GG_BAD_INPUT for another theory or scene
+ */
+GG_API gg_status gg_theory_local_fluxes(const gg_scene *scene, const char *theory, size_t n,
+                                        const gg_local_state *state, gg_local_fluxes *fluxes, gg_error *err);
+
 typedef struct gg_remark { /* a difference larger than expected */
   const char *theory;      /* NULL: the difference of md and Enskog's equation or dsmc */
   const char *quantity;    /* quantity with the largest deviation; NULL for md and Enskog's equation */
@@ -1224,8 +1230,6 @@ GG_API gg_status gg_comparison_to_json(const gg_comparison *comparison, char **t
  * Write the HDF5 file of a comparison; it appears whole or not at all.
  * @param comparison the comparison
  * @param path file name
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to stop
  * @return GG_OK; GG_BAD_FILE; GG_INTERRUPTED by stop
  */
 GG_API gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, int (*stop)(void *context),
@@ -1472,7 +1476,6 @@ typedef struct gg_collect_options {
  * @param prefix beginning of the file names
  * @param options NULL: default options
  * @param written called with each file name; may be NULL
- * @param context passed to the callback
  * @return GG_OK; GG_FAILED if no point is finished or the picture fails
  */
 GG_API gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix,
@@ -1501,7 +1504,6 @@ typedef struct gg_validate_options {
  * @param folder folder of the results
  * @param options NULL: default options
  * @param written called with each file name; may be NULL
- * @param context passed to the callbacks
  * @param verdict receives counts and tables as Markdown or JSON, to be freed with free(); also with GG_FAILED, else
  * NULL
  * @return GG_OK; GG_FAILED if dsmc and the noise-free solution differ significantly (false alarm: one grid in 1000), if
@@ -1529,7 +1531,6 @@ GG_API const char *gg_standard_grid(int quick);
  * @param drawn called with each file name; may be NULL
  * @param stop polled between pictures and several times a second while theories are evaluated; returns non-zero to
  *   interrupt; may be NULL
- * @param context passed to the callbacks
  * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT if a picture is the result file; GG_INTERRUPTED by stop: pictures that were
  *   drawn stay
  */
@@ -1554,8 +1555,6 @@ enum {
  * @param parts a sum of GG_EXPORT_...
  * @param written called with each file name; may be NULL
  * @param progress called after each frame of a trajectory with the fraction that is written; may be NULL
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to the callbacks
  * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT if a file is the result, or the prefix is a device or pipe; GG_FAILED if
  *   the result has none of the parts; GG_INTERRUPTED by stop: no file is written or replaced
  */
@@ -1784,7 +1783,6 @@ typedef double gg_restitution(void *context, double normal_speed, int species_1,
  * @param scene the scene
  * @param name name of the law
  * @param law the law; NULL: back to collision.e
- * @param context passed to the callback
  * @return GG_OK; GG_BAD_INPUT, the scene is unchanged
  */
 GG_API gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitution *law, void *context,

@@ -80,6 +80,17 @@ gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, int (*
   return status;
 }
 
+gg_status gg_theory_local_fluxes(const gg_scene *scene, const char *theory, size_t n, const gg_local_state *state,
+                                 gg_local_fluxes *fluxes, gg_error *err)
+{
+  GG_NEED(scene, theory, state, fluxes);
+  gg_comparison *c;
+  GG_TRY(gg_theories_evaluate(scene, theory, NULL, NULL, &c, err));
+  const gg_status status = gg_theory_fluxes(c->theory[0].theory, &c->model, n, state, fluxes, err);
+  gg_comparison_free(c);
+  return status;
+}
+
 /* Whether the scenes differ only in the engine and in keys that may change on resume. */
 static bool same_scene(const gg_scene *one, gg_scene other)
 {

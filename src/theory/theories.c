@@ -112,3 +112,14 @@ gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsig
   if (status != GG_OK) gg_measure_curves_clear(list);
   return status;
 }
+
+gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_t n, const gg_local_state *state,
+                           gg_local_fluxes *fluxes, gg_error *err)
+{
+  if (!theory->fluxes)
+    return gg_theory_reject(err, theory->name, "gives no fluxes at single heights; navier_stokes and moments do");
+  GG_TRY(check_law(theory, model, err));
+  GG_TRY(check_flow(theory, model, err));
+  GG_TRY(check_bath(theory, model, err));
+  return theory->fluxes(model, n, state, fluxes, err);
+}

@@ -28,6 +28,10 @@ typedef struct gg_theory_answer {
 #define GG_ANSWERS_LENGTHS "clustering_length heat_mode_length "
 #define GG_ANSWERS_MIXTURE "temperature_1 temperature_2 partial_temperature_ratio "
 
+/* The public header defines these. */
+typedef struct gg_local_state gg_local_state;
+typedef struct gg_local_fluxes gg_local_fluxes;
+
 typedef struct gg_theory {
   const char *name;        /* "lun1991": the JSON key */
   const char *title;       /* one line for people */
@@ -46,6 +50,9 @@ typedef struct gg_theory {
    * `evaluate` answers. GG_OK also without any of these; GG_BAD_INPUT with the reason if this model has none. NULL:
    * no curves. */
   gg_status (*curves)(const gg_model *model, unsigned measure, gg_curves *list, gg_error *err);
+  /* Stress and heat flux of n given states of a gas between walls; NaN where the theory has none. NULL: no closure. */
+  gg_status (*fluxes)(const gg_model *model, size_t n, const gg_local_state *state, gg_local_fluxes *fluxes,
+                      gg_error *err);
   /* A theory of the user's program (user_theory.c), which replaces evaluate and beyond; else NULL. */
   const gg_theory_definition *own;
   const char
@@ -73,5 +80,9 @@ gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_
 /* The curves of a theory, if it has some, for a model that it describes; none after a failure. To be cleared. */
 gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
                            gg_error *err);
+
+/* Closures at given states of a model (gg_theory.fluxes). */
+gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_t n, const gg_local_state *state,
+                           gg_local_fluxes *fluxes, gg_error *err);
 
 #endif

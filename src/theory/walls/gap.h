@@ -77,6 +77,8 @@ typedef struct gg_gap_theory {
   const char *name;
   size_t size;
   gg_status (*flow_of)(const gg_model *model, void *gas, gg_gap_flow *flow, gg_error *err);
+  /* The gas for number densities from low to high. */
+  gg_status (*gas_of)(const gg_model *model, double low, double high, void *memory, gg_gap_gas *gas, gg_error *err);
 } gg_gap_theory;
 
 /* For gg_theory.evaluate: numbers of the flow under the common names. */
@@ -86,6 +88,10 @@ gg_status gg_theory_gap_evaluate(const gg_gap_theory *theory, const gg_model *mo
 /* For gg_theory.curves: profiles, as `profiles` and `fluxes` measure them. */
 gg_status gg_theory_gap_curves(const gg_gap_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
                                gg_error *err);
+
+/* For gg_theory.fluxes. */
+gg_status gg_theory_gap_fluxes(const gg_gap_theory *theory, const gg_model *model, size_t n,
+                               const gg_local_state *state, gg_local_fluxes *fluxes, gg_error *err);
 
 /* Pass the flow to a function, and free it. */
 typedef void gg_gap_use(const gg_gap_flow *flow, void *to);

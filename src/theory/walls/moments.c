@@ -36,7 +36,13 @@ static gg_status flow_of(const gg_model *m, void *memory, gg_gap_flow *flow, gg_
   return gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_gaussian_table_local, table}, name, flow, err);
 }
 
-static const gg_gap_theory theory = {name, sizeof(gg_gaussian_table), flow_of};
+static gg_status gas_of(const gg_model *m, double low, double high, void *memory, gg_gap_gas *gas, gg_error *err)
+{
+  *gas = (gg_gap_gas){gg_theory_gaussian_table_local, memory};
+  return gg_theory_gaussian_table_make(m, low, high, memory, err);
+}
+
+static const gg_gap_theory theory = {name, sizeof(gg_gaussian_table), flow_of, gas_of};
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
@@ -46,6 +52,11 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg_error *err)
 {
   return gg_theory_gap_curves(&theory, m, measure, list, err);
+}
+
+static gg_status fluxes(const gg_model *m, size_t n, const gg_local_state *state, gg_local_fluxes *to, gg_error *err)
+{
+  return gg_theory_gap_fluxes(&theory, m, n, state, to, err);
 }
 
 const gg_theory gg_theory_moments = {
@@ -60,4 +71,5 @@ const gg_theory gg_theory_moments = {
                    "e from 0.7; best where shear heats the gas.",
     .evaluate = evaluate,
     .curves = curves,
+    .fluxes = fluxes,
 };

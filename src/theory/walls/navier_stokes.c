@@ -11,7 +11,15 @@ static gg_status flow_of(const gg_model *m, void *gas, gg_gap_flow *flow, gg_err
   return gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_newtonian_gas_local, gas}, name, flow, err);
 }
 
-static const gg_gap_theory theory = {name, sizeof(gg_newtonian_gas), flow_of};
+static gg_status gas_of(const gg_model *m, double low, double high, void *memory, gg_gap_gas *gas, gg_error *err)
+{
+  (void)low, (void)high, (void)err;
+  gg_theory_newtonian_gas_make(m, memory);
+  *gas = (gg_gap_gas){gg_theory_newtonian_gas_local, memory};
+  return GG_OK;
+}
+
+static const gg_gap_theory theory = {name, sizeof(gg_newtonian_gas), flow_of, gas_of};
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
@@ -21,6 +29,11 @@ static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg_error *err)
 {
   return gg_theory_gap_curves(&theory, m, measure, list, err);
+}
+
+static gg_status fluxes(const gg_model *m, size_t n, const gg_local_state *state, gg_local_fluxes *to, gg_error *err)
+{
+  return gg_theory_gap_fluxes(&theory, m, n, state, to, err);
 }
 
 const gg_theory gg_theory_navier_stokes = {
@@ -36,4 +49,5 @@ const gg_theory gg_theory_navier_stokes = {
                    "gradients, and half-range conditions at walls. Kn up to 0.3; e near 1.",
     .evaluate = evaluate,
     .curves = curves,
+    .fluxes = fluxes,
 };
