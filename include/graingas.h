@@ -3,9 +3,9 @@
  * The whole public interface, for C99 and later and for C++. Rules for all functions:
  *
  * Status: every call that can fail returns a gg_status (its values are the exit codes of the graingas command; 0 is
- * success). It writes a message to its last argument, which may be NULL. Unless stated otherwise, outputs are written
- * only on success. A NULL argument that is needed gives GG_BAD_INPUT, never a crash; calls that return pointers or
- * numbers then return NULL or 0. The library never exits and never prints.
+ * success). It writes a message to its last argument, `err`, which may be NULL. Unless stated otherwise, outputs are
+ * written only on success. A NULL argument that is needed gives GG_BAD_INPUT, never a crash; calls that return pointers
+ * or numbers then return NULL or 0. The library never exits and never prints.
  *
  * Ownership: handles made by a call belong to the caller, who frees them with the matching `_free` (freeing NULL is
  * allowed). Texts returned through `char **` are freed with free(). Every other returned pointer is borrowed: it is
@@ -13,7 +13,9 @@
  *
  * Threads: there is no global state. One thread at a time may use a handle, several may use a `const` one. Simulations
  * and runs in different threads are independent. If HDF5 is not thread-safe (Debian's is), only one thread at a time
- * may read or write files. Unless stated otherwise, callbacks come on the calling thread.
+ * may read or write files. Unless stated otherwise, callbacks come on the calling thread. A `context` is passed to the
+ * callbacks of its call. A callback `stop` is polled several times a second and returns non-zero to interrupt; it may be
+ * NULL.
  *
  * Handles in use: while a call uses a simulation, session, trajectory or sweep, another call from its callback or from
  * a second thread returns GG_BAD_INPUT, and the call in progress is not affected. From a callback of a simulation,
@@ -117,7 +119,6 @@ typedef struct gg_scene gg_scene;
  * Read a scene from a YAML file.
  * @param path file name; "-" is standard input
  * @param scene receives the scene, to be freed by gg_scene_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT with line, key and allowed values; GG_BAD_FILE
  */
 GG_API gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err);
@@ -127,7 +128,6 @@ GG_API gg_status gg_scene_load(const char *path, gg_scene **scene, gg_error *err
  * @param yaml the text
  * @param name file name for messages; may be NULL
  * @param scene receives the scene, to be freed by gg_scene_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT with line, key and allowed values
  */
 GG_API gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **scene, gg_error *err);
@@ -136,7 +136,6 @@ GG_API gg_status gg_scene_parse(const char *yaml, const char *name, gg_scene **s
  * Copy a scene with the observables, theories and law registered with it.
  * @param scene the scene
  * @param copy receives the copy, to be freed by gg_scene_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_scene_copy(const gg_scene *scene, gg_scene **copy, gg_error *err);
@@ -152,7 +151,6 @@ GG_API void gg_scene_free(gg_scene *scene);
  * @param scene the scene
  * @param key "collision.e", "collision.e.12", "species.2.mass", "gravity"
  * @param value YAML in units of the scene: "0.9", "[0.01, 0, 0]"
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT with the allowed values
  */
 GG_API gg_status gg_scene_set(gg_scene *scene, const char *key, const char *value, gg_error *err);
@@ -163,7 +161,6 @@ GG_API gg_status gg_scene_set(gg_scene *scene, const char *key, const char *valu
  * @param key as for gg_scene_set()
  * @param text receives the text, cut to size bytes
  * @param size size of the buffer in bytes
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT for an unknown key
  */
 GG_API gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text, size_t size, gg_error *err);
@@ -171,7 +168,6 @@ GG_API gg_status gg_scene_get(const gg_scene *scene, const char *key, char *text
 /**
  * Check that the keys of a scene go together.
  * @param scene the scene
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT names what is missing or contradicts
  */
 GG_API gg_status gg_scene_check(const gg_scene *scene, gg_error *err);
@@ -180,7 +176,6 @@ GG_API gg_status gg_scene_check(const gg_scene *scene, gg_error *err);
  * Every key with the value in force, as YAML that gg_scene_parse() reads back, with the theories of its text.
  * @param scene the scene
  * @param text receives the text, to be freed with free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *err);
@@ -189,7 +184,6 @@ GG_API gg_status gg_scene_to_yaml(const gg_scene *scene, char **text, gg_error *
  * Every key with the value in force, as JSON that gg_scene_parse() reads back, with the theories of its text.
  * @param scene the scene
  * @param text receives the text, to be freed with free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *err);
@@ -199,7 +193,6 @@ GG_API gg_status gg_scene_to_json(const gg_scene *scene, char **text, gg_error *
  * @param scene the scene
  * @param text receives the text, cut to size bytes
  * @param size size of the buffer in bytes
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, gg_error *err);
@@ -209,8 +202,6 @@ GG_API gg_status gg_scene_title(const gg_scene *scene, char *text, size_t size, 
  * @param scene the scene
  * @param engine "md" or "dsmc"
  * @param line called with each line of text
- * @param context passed to the callback
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT with the reason why the engine cannot run the scene
  */
 GG_API gg_status gg_scene_describe(const gg_scene *scene, const char *engine,
@@ -231,7 +222,6 @@ typedef struct gg_scene_needs {
  * @param scene the scene
  * @param engine "md" or "dsmc"
  * @param needs receives the estimate: bytes, collisions per grain, seconds
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT if the engine cannot run the scene
  */
 GG_API gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, gg_scene_needs *needs, gg_error *err);
@@ -241,8 +231,6 @@ GG_API gg_status gg_scene_get_needs(const gg_scene *scene, const char *engine, g
  * @param scene the scene
  * @param use "md", "dsmc", "compare", or "theory" for what holds with either engine
  * @param line called with each reason
- * @param context passed to the callback
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_scene_warnings(const gg_scene *scene, const char *use,
@@ -268,7 +256,6 @@ typedef struct gg_start_options {
  * @param scene the scene
  * @param options NULL: default options
  * @param simulation receives the simulation, to be freed by gg_simulation_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT; GG_FAILED if memory is insufficient; GG_INTERRUPTED by options->stop
  */
 GG_API gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options *options, gg_simulation **simulation,
@@ -284,7 +271,6 @@ GG_API void gg_simulation_free(gg_simulation *simulation);
  * Advance by a time. Monte Carlo between walls with a given time step ends at the first end of a step beyond.
  * @param simulation the simulation
  * @param time duration in units of results
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED: inelastic collapse, or grains no longer collide; GG_INTERRUPTED by gg_simulation_on_stop()
  */
 GG_API gg_status gg_simulation_advance(gg_simulation *simulation, double time, gg_error *err);
@@ -293,7 +279,6 @@ GG_API gg_status gg_simulation_advance(gg_simulation *simulation, double time, g
  * Advance by a number of collisions between grains. Monte Carlo ends at the first end of a step beyond.
  * @param simulation the simulation
  * @param collisions number of collisions; each counts once
- * @param err receives the message on failure; may be NULL
  * @return as gg_simulation_advance()
  */
 GG_API gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t collisions, gg_error *err);
@@ -304,8 +289,6 @@ GG_API gg_status gg_simulation_collide(gg_simulation *simulation, uint64_t colli
  * interrupts gg_simulation_set() and gg_simulation_set_grains(), which then change nothing.
  * @param simulation the simulation
  * @param stop returns non-zero to interrupt; NULL: none
- * @param context passed to the callback
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_simulation_on_stop(gg_simulation *simulation, int (*stop)(void *context), void *context,
@@ -331,7 +314,6 @@ typedef struct gg_simulation_state {
  * Time, collisions, temperatures, stress and box of a simulation.
  * @param simulation the simulation
  * @param state receives the state, in units of results
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation_state *state, gg_error *err);
@@ -355,7 +337,6 @@ GG_API int gg_simulation_species(const gg_simulation *simulation);
  * @param simulation the simulation
  * @param species number from 0
  * @param state receives the values, in units of results
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT if there is no such species
  */
 GG_API gg_status gg_simulation_get_species(const gg_simulation *simulation, int species, gg_species_state *state,
@@ -374,7 +355,6 @@ typedef struct gg_grains {
  * Copy positions, velocities, spins and species of all grains.
  * @param simulation the simulation
  * @param into the caller's arrays for `grains` grains, 3 numbers a grain for vectors; NULL members are left out
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT if positions are requested from dsmc, which has none
  */
 GG_API gg_status gg_simulation_get_grains(const gg_simulation *simulation, const gg_grains *into, gg_error *err);
@@ -390,7 +370,6 @@ GG_API gg_status gg_simulation_get_grains(const gg_simulation *simulation, const
  * @param n number of grains
  * @param options as for gg_simulation_new()
  * @param simulation receives the simulation, to be freed by gg_simulation_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT names two grains that overlap, a number that is not finite, a place outside the box, a
  *   count that is not the scene's; GG_FAILED if memory is insufficient; GG_INTERRUPTED by options->stop
  */
@@ -403,7 +382,6 @@ GG_API gg_status gg_simulation_from_grains(const gg_scene *scene, const gg_grain
  * @param simulation the simulation
  * @param grains as for gg_simulation_from_grains()
  * @param n number of grains, that of the simulation
- * @param err receives the message on failure; may be NULL
  * @return as gg_simulation_from_grains()
  */
 GG_API gg_status gg_simulation_set_grains(gg_simulation *simulation, const gg_grains *grains, size_t n, gg_error *err);
@@ -411,10 +389,7 @@ GG_API gg_status gg_simulation_set_grains(gg_simulation *simulation, const gg_gr
 /**
  * Copy a simulation. Both continue with the same bits. Callbacks are not copied.
  * @param simulation the simulation
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to the callback
  * @param copy receives the copy, to be freed by gg_simulation_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED if memory is insufficient; GG_INTERRUPTED by stop
  */
 GG_API gg_status gg_simulation_copy(const gg_simulation *simulation, int (*stop)(void *context), void *context,
@@ -425,7 +400,6 @@ GG_API gg_status gg_simulation_copy(const gg_simulation *simulation, int (*stop)
  * Scene, seed and number of collisions give the same hash on every processor and in a browser.
  * @param simulation the simulation
  * @param hash receives the hash
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_simulation_hash(const gg_simulation *simulation, uint64_t *hash, gg_error *err);
@@ -457,7 +431,6 @@ typedef struct gg_simulation_sums { /* over the collisions since the last call, 
  * Collision sums since the last call or the start; resets them.
  * @param simulation the simulation
  * @param sums receives stress, dissipation and impulses, in units of results
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums *sums, gg_error *err);
@@ -479,8 +452,6 @@ typedef void gg_on_collision(void *context, const gg_collision_event *event);
  * and Monte Carlo returns to its fast path within 20 mean free times.
  * @param simulation the simulation
  * @param callback called with each collision; NULL: none
- * @param context passed to the callback
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_collision *callback, void *context,
@@ -493,7 +464,6 @@ GG_API gg_status gg_simulation_on_collision(gg_simulation *simulation, gg_on_col
  * @param events array of `capacity` events; NULL: stop storing
  * @param capacity number of events that the array holds
  * @param n set to 0 now, and to the number of stored events by advances; both have to stay while events are stored
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_event *events, size_t capacity, size_t *n,
@@ -508,7 +478,6 @@ GG_API gg_status gg_simulation_record(gg_simulation *simulation, gg_collision_ev
  * @param simulation the simulation
  * @param key as for gg_scene_set(), "collision.e"
  * @param value YAML in units of the scene
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT with what is allowed
  */
 GG_API gg_status gg_simulation_set(gg_simulation *simulation, const char *key, const char *value, gg_error *err);
@@ -525,9 +494,6 @@ GG_API const gg_scene *gg_simulation_scene(const gg_simulation *simulation);
  * before is kept as path.1.
  * @param simulation the simulation
  * @param path file name
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to the callback
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE; GG_INTERRUPTED by stop: the files are as they were
  */
 GG_API gg_status gg_simulation_save(const gg_simulation *simulation, const char *path, int (*stop)(void *context),
@@ -537,10 +503,7 @@ GG_API gg_status gg_simulation_save(const gg_simulation *simulation, const char 
  * Read a saved simulation. Callbacks have to be set again.
  * @param path file name
  * @param scene the scene that was saved (stopping criteria and output may differ); NULL: the stored one
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to the callback
  * @param simulation receives the simulation, to be freed by gg_simulation_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT names a difference of the scene; GG_INTERRUPTED by stop
  */
 GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, int (*stop)(void *context), void *context,
@@ -549,11 +512,8 @@ GG_API gg_status gg_simulation_load(const char *path, const gg_scene *scene, int
 /**
  * Save a simulation to memory: the bytes of the file that gg_simulation_save() writes.
  * @param simulation the simulation
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to the callback
  * @param bytes receives the bytes, to be freed with free()
  * @param size receives their number
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status; GG_INTERRUPTED by stop
  */
 GG_API gg_status gg_simulation_to_bytes(const gg_simulation *simulation, int (*stop)(void *context), void *context,
@@ -564,10 +524,7 @@ GG_API gg_status gg_simulation_to_bytes(const gg_simulation *simulation, int (*s
  * @param bytes the bytes
  * @param size their number
  * @param scene as for gg_simulation_load(); may be NULL
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to the callback
  * @param simulation receives the simulation, to be freed by gg_simulation_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE for bytes that are cut off or changed; GG_INTERRUPTED by stop
  */
 GG_API gg_status gg_simulation_from_bytes(const void *bytes, size_t size, const gg_scene *scene,
@@ -604,7 +561,6 @@ typedef struct gg_workers gg_workers;
  * @param messages message functions; copied
  * @param threads threads of each process, this one included
  * @param workers receives the workers, to be freed by gg_workers_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_workers_new(const gg_messages *messages, int threads, gg_workers **workers, gg_error *err);
@@ -625,7 +581,6 @@ GG_API int gg_workers_threads(const gg_workers *workers);
 /**
  * Other ranks: work until rank 0 has no more tasks.
  * @param messages message functions
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED if rank 0 is lost
  */
 GG_API gg_status gg_worker_run(const gg_messages *messages, gg_error *err);
@@ -681,7 +636,6 @@ typedef struct gg_result gg_result; /* of one engine's run */
  * @param scene the scene
  * @param options NULL: default options
  * @param result receives the result, to be freed by gg_result_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED: ended before the criteria, the result has what there is; GG_INTERRUPTED: a callback
  *   stopped it within half a second, results so far (none while a large system is placed), no output is written, the
  *   checkpoint can be resumed; GG_BAD_FILE: a checkpoint or the output could not be written
@@ -698,7 +652,6 @@ typedef struct gg_session gg_session;
  * Start a run of one replica in pieces.
  * @param scene the scene
  * @param session receives the session, to be freed by gg_session_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT if the scene has replicas
  */
 GG_API gg_status gg_session_new(const gg_scene *scene, gg_session **session, gg_error *err);
@@ -714,7 +667,6 @@ GG_API void gg_session_free(gg_session *session);
  * @param session the session
  * @param seconds wall-clock time, kept within a few milliseconds for some thousand grains
  * @param over receives whether the run has ended; may be NULL
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED, also in later calls: ended before the stopping criteria, or failed
  */
 GG_API gg_status gg_session_advance(gg_session *session, double seconds, int *over, gg_error *err);
@@ -723,7 +675,6 @@ GG_API gg_status gg_session_advance(gg_session *session, double seconds, int *ov
  * Progress of a session.
  * @param session the session
  * @param progress receives the progress
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_session_get_progress(const gg_session *session, gg_progress *progress, gg_error *err);
@@ -732,7 +683,6 @@ GG_API gg_status gg_session_get_progress(const gg_session *session, gg_progress 
  * Means, errors, history, curves and grains as of now. The session is not affected.
  * @param session the session
  * @param result receives the result, to be freed by gg_result_free(); missing means have a reason
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_session_result(gg_session *session, gg_result **result, gg_error *err);
@@ -756,7 +706,6 @@ typedef struct gg_checkpoint_info {
  * @param path file name
  * @param info receives the content
  * @param scene receives its scene, to be freed by gg_scene_free(); may be NULL
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE
  */
 GG_API gg_status gg_checkpoint_about(const char *path, gg_checkpoint_info *info, gg_scene **scene, gg_error *err);
@@ -780,7 +729,6 @@ typedef struct gg_measurement {
  * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
  * @param mean receives the mean in units of results; may be NULL
  * @param error receives the standard error; NaN if the run is too short; may be NULL
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT with the reason if there is none
  */
 GG_API gg_status gg_result_get(const gg_result *result, const char *quantity, double *mean, double *error,
@@ -791,7 +739,6 @@ GG_API gg_status gg_result_get(const gg_result *result, const char *quantity, do
  * @param result the result
  * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
  * @param found receives mean, error, unit, samples, reason
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT for an unknown name
  */
 GG_API gg_status gg_result_find(const gg_result *result, const char *quantity, gg_measurement *found, gg_error *err);
@@ -805,7 +752,6 @@ GG_API gg_status gg_result_find(const gg_result *result, const char *quantity, g
  * @param other name of a quantity; may be the same
  * @param covariance receives the covariance, in the product of the units of both; NaN, also on failure, if there is
  * none
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT for an unknown name, or with the reason why there is no covariance
  */
 GG_API gg_status gg_result_covariance(const gg_result *result, const char *quantity, const char *other,
@@ -816,7 +762,6 @@ GG_API gg_status gg_result_covariance(const gg_result *result, const char *quant
  * @param result the result
  * @param i index from 0
  * @param found as for gg_result_find()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT after the last one.
  */
 GG_API gg_status gg_result_at(const gg_result *result, size_t i, gg_measurement *found, gg_error *err);
@@ -857,7 +802,6 @@ typedef struct gg_result_info {
  * Verdict, window, effort and origin of a result.
  * @param result the result
  * @param info receives the information; times in units of results, effort in seconds
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_result_get_info(const gg_result *result, gg_result_info *info, gg_error *err);
@@ -885,7 +829,6 @@ GG_API const char *gg_result_warning(const gg_result *result, size_t i);
  * @param n receives the number of values
  * @param time receives n times; borrowed; may be NULL
  * @param value receives n values, NaN where there is none; borrowed
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT for other quantities
  */
 GG_API gg_status gg_result_history(const gg_result *result, const char *quantity, size_t *n, const double **time,
@@ -909,7 +852,6 @@ typedef struct gg_curve_data { /* a distribution, profile, correlation function,
  * @param result the result
  * @param i index from 0
  * @param curve receives the curve; its arrays are borrowed
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT after the last one
  */
 GG_API gg_status gg_result_curve(const gg_result *result, size_t i, gg_curve_data *curve, gg_error *err);
@@ -920,7 +862,6 @@ GG_API gg_status gg_result_curve(const gg_result *result, size_t i, gg_curve_dat
  * @param i index from 0
  * @param k number from 0
  * @param number receives value, error and unit
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT after the last one
  */
 GG_API gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg_measurement *number,
@@ -930,7 +871,6 @@ GG_API gg_status gg_result_curve_number(const gg_result *result, size_t i, size_
  * Last state of the grains of the first replica.
  * @param result the result
  * @param into as for gg_simulation_get_grains()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT if there are no positions
  */
 GG_API gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_error *err);
@@ -939,7 +879,6 @@ GG_API gg_status gg_result_grains(const gg_result *result, const gg_grains *into
  * The JSON document of `graingas run --json`.
  * @param result the result
  * @param text receives the text, to be freed with free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_result_to_json(const gg_result *result, char **text, gg_error *err);
@@ -948,9 +887,6 @@ GG_API gg_status gg_result_to_json(const gg_result *result, char **text, gg_erro
  * Write the HDF5 (H5MD) result file; it appears whole or not at all.
  * @param result the result
  * @param path file name
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to stop
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE; GG_INTERRUPTED by stop
  */
 GG_API gg_status gg_result_write(const gg_result *result, const char *path, int (*stop)(void *context), void *context,
@@ -960,7 +896,6 @@ GG_API gg_status gg_result_write(const gg_result *result, const char *path, int 
  * Read a result file. User-defined quantities keep their names, not their callbacks.
  * @param path file name
  * @param result receives the result, to be freed by gg_result_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE
  */
 GG_API gg_status gg_result_read(const char *path, gg_result **result, gg_error *err);
@@ -970,7 +905,6 @@ GG_API gg_status gg_result_read(const char *path, gg_result **result, gg_error *
  * @param result the result
  * @param bytes receives the bytes, to be freed with free()
  * @param size receives their number
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_result_to_bytes(const gg_result *result, void **bytes, size_t *size, gg_error *err);
@@ -980,7 +914,6 @@ GG_API gg_status gg_result_to_bytes(const gg_result *result, void **bytes, size_
  * @param bytes the bytes
  * @param size their number
  * @param result receives the result, to be freed by gg_result_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE for bytes that are cut off or changed
  */
 GG_API gg_status gg_result_from_bytes(const void *bytes, size_t size, gg_result **result, gg_error *err);
@@ -1001,7 +934,6 @@ typedef struct gg_trajectory gg_trajectory;
  * Open the trajectory of a result file; of a comparison, the trajectory of md.
  * @param path file name
  * @param trajectory receives the trajectory, to be freed by gg_trajectory_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE; GG_FAILED if it has no positions
  */
 GG_API gg_status gg_trajectory_open(const char *path, gg_trajectory **trajectory, gg_error *err);
@@ -1032,7 +964,6 @@ GG_API size_t gg_trajectory_frames(const gg_trajectory *trajectory);
  * @param k frame from 0
  * @param state receives the state; may be NULL
  * @param into the caller's arrays, as for gg_simulation_get_grains(); may be NULL
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT after the last frame; GG_BAD_FILE if it is damaged
  */
 GG_API gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation_state *state,
@@ -1043,7 +974,6 @@ GG_API gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_sim
  * @param trajectory the trajectory
  * @param species number from 0
  * @param state receives the values, in units of results
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT before the first frame and after the last species
  */
 GG_API gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int species, gg_species_state *state,
@@ -1054,7 +984,6 @@ GG_API gg_status gg_trajectory_get_species(const gg_trajectory *trajectory, int 
  * @param page the page to be copied; NULL: the installed page, or that of the build folder of the running program
  * @param scene scene that the page starts with; NULL: the page's default
  * @param path file name
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE if there is no page
  */
 GG_API gg_status gg_page_write(const char *page, const gg_scene *scene, const char *path, gg_error *err);
@@ -1069,7 +998,6 @@ typedef struct gg_comparison gg_comparison;
  * @param scene the scene
  * @param options NULL: default options
  * @param comparison receives the comparison, to be freed by gg_comparison_free()
- * @param err receives the message on failure; may be NULL
  * @return as gg_run(); GG_INTERRUPTED while theories are evaluated: no comparison, nothing to resume
  */
 GG_API gg_status gg_compare(const gg_scene *scene, const gg_run_options *options, gg_comparison **comparison,
@@ -1080,10 +1008,8 @@ GG_API gg_status gg_compare(const gg_scene *scene, const gg_run_options *options
  * noise-free solver up to three seconds. Theories that do not apply have a reason in gg_comparison_theory().
  * @param scene the scene; with a protocol, the gas after the last change
  * @param theory names of theories, separated by commas: "lun1991", "lun1991,grad"; NULL: all
- * @param stop polled several times a second, on this thread; returns non-zero to interrupt; may be NULL
- * @param context passed to the callback
+ * @param stop polled on this thread
  * @param comparison receives the answers, to be freed by gg_comparison_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, also if none applies; GG_BAD_INPUT, also for an unknown name; GG_INTERRUPTED by stop
  */
 GG_API gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, int (*stop)(void *context),
@@ -1099,7 +1025,6 @@ GG_API void gg_comparison_free(gg_comparison *comparison);
  * Add a result of the same scene to a comparison. It replaces the result of its engine.
  * @param comparison the comparison
  * @param result the result; owned by the comparison on success
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT if the scene is another
  */
 GG_API gg_status gg_comparison_take(gg_comparison *comparison, gg_result *result, gg_error *err);
@@ -1141,7 +1066,6 @@ GG_API const char *gg_comparison_warning(const gg_comparison *comparison, size_t
  * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
  * @param z receives (md - dsmc) over the combined standard error, NaN if unknown; may be NULL
  * @param beyond receives whether md differs from Enskog's equation by more than expected; may be NULL
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT for an unknown quantity
  */
 GG_API gg_status gg_comparison_agreement(const gg_comparison *comparison, const char *quantity, double *z, int *beyond,
@@ -1162,7 +1086,6 @@ typedef struct gg_departure {
  * @param engine "md" or "dsmc"
  * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
  * @param departure receives the differences; all NaN without a solution or a mean
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT for an unknown quantity
  */
 GG_API gg_status gg_comparison_departure(const gg_comparison *comparison, const char *engine, const char *quantity,
@@ -1181,7 +1104,6 @@ typedef struct gg_comparison_row {  /* one quantity; arrays: md, dsmc */
  * @param comparison the comparison
  * @param i index from 0
  * @param row receives means, errors and differences
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT after the last one
  */
 GG_API gg_status gg_comparison_at(const gg_comparison *comparison, size_t i, gg_comparison_row *row, gg_error *err);
@@ -1197,7 +1119,6 @@ typedef struct gg_theory_info {
  * @param comparison the comparison
  * @param i index from 0
  * @param theory receives name, source and reason
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT after the last one
  */
 GG_API gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_theory_info *theory, gg_error *err);
@@ -1210,7 +1131,6 @@ GG_API gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i,
  * @param value receives the answer in units of results; NaN: none
  * @param deviation receives theory/simulation - 1 against md, or dsmc without md; NaN if the simulation is 0 within
  *   its error; may be NULL
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT for unknown names
  */
 GG_API gg_status gg_comparison_theory_value(const gg_comparison *comparison, const char *theory, const char *quantity,
@@ -1222,7 +1142,6 @@ GG_API gg_status gg_comparison_theory_value(const gg_comparison *comparison, con
  * @param theory name of a theory
  * @param time time since the start, in units of results
  * @param temperature receives T, in units of results
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT without a rate, for another gas, or before the start
  */
 GG_API gg_status gg_comparison_theory_cooling(const gg_comparison *comparison, const char *theory, double time,
@@ -1234,7 +1153,6 @@ GG_API gg_status gg_comparison_theory_cooling(const gg_comparison *comparison, c
  * @param theory name of a theory
  * @param quantity name of a quantity (GG_CATALOGUE_QUANTITIES)
  * @param error receives the error; NaN: the answer is exact, or there is none
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT for unknown names
  */
 GG_API gg_status gg_comparison_theory_error(const gg_comparison *comparison, const char *theory, const char *quantity,
@@ -1246,11 +1164,43 @@ GG_API gg_status gg_comparison_theory_error(const gg_comparison *comparison, con
  * @param theory name of a theory
  * @param i index from 0
  * @param curve receives the curve; errors are numerical, values with too large errors NaN
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT after the last one
  */
 GG_API gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char *theory, size_t i,
                                             gg_curve_data *curve, gg_error *err);
+
+/**
+ * The k-th number of a theory's curve: slip, jump, stress on a wall.
+ * @param comparison the comparison
+ * @param theory name of a theory
+ * @param i index of the curve, from 0
+ * @param k number from 0
+ * @param number receives value and unit
+ * @return GG_OK; GG_BAD_INPUT after the last one
+ */
+GG_API gg_status gg_comparison_theory_curve_number(const gg_comparison *comparison, const char *theory, size_t i,
+                                                   size_t k, gg_measurement *number, gg_error *err);
+
+/* State of a gas between walls at one height, and its stress, heat flux and loss of energy per volume and time there,
+ * in units of profiles. Slopes are along y. */
+typedef struct gg_local_state {
+  double solid_fraction, temperature, shear_rate, solid_fraction_slope, temperature_slope;
+} gg_local_state;
+typedef struct gg_local_fluxes {
+  double P_xx, P_yy, P_zz, P_yx, q_y, loss;
+} gg_local_fluxes;
+
+/**
+ * Stress and heat flux by the closure of a theory between walls at given states, such as measured ones.
+ * @param scene the scene: one species of smooth grains between walls
+ * @param theory "navier_stokes" or "moments"
+ * @param n number of states
+ * @param state n states
+ * @param fluxes receives n answers; NaN where the theory has none
+ * @return GG_OK; GG_BAD_INPUT for another theory or scene
+ */
+GG_API gg_status gg_theory_local_fluxes(const gg_scene *scene, const char *theory, size_t n,
+                                        const gg_local_state *state, gg_local_fluxes *fluxes, gg_error *err);
 
 typedef struct gg_remark { /* a difference larger than expected */
   const char *theory;      /* NULL: the difference of md and Enskog's equation or dsmc */
@@ -1264,7 +1214,6 @@ typedef struct gg_remark { /* a difference larger than expected */
  * @param comparison the comparison
  * @param i index from 0
  * @param remark receives theory, quantity, deviation and cause
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT after the last one
  */
 GG_API gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_remark *remark, gg_error *err);
@@ -1273,7 +1222,6 @@ GG_API gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i,
  * The JSON document of `graingas compare --json`.
  * @param comparison the comparison
  * @param text receives the text, to be freed with free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_comparison_to_json(const gg_comparison *comparison, char **text, gg_error *err);
@@ -1282,9 +1230,6 @@ GG_API gg_status gg_comparison_to_json(const gg_comparison *comparison, char **t
  * Write the HDF5 file of a comparison; it appears whole or not at all.
  * @param comparison the comparison
  * @param path file name
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to stop
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE; GG_INTERRUPTED by stop
  */
 GG_API gg_status gg_comparison_write(const gg_comparison *comparison, const char *path, int (*stop)(void *context),
@@ -1294,7 +1239,6 @@ GG_API gg_status gg_comparison_write(const gg_comparison *comparison, const char
  * Read the file of a comparison, or of a run as a comparison of one.
  * @param path file name
  * @param comparison receives the comparison, to be freed by gg_comparison_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE
  */
 GG_API gg_status gg_comparison_read(const char *path, gg_comparison **comparison, gg_error *err);
@@ -1304,7 +1248,6 @@ GG_API gg_status gg_comparison_read(const char *path, gg_comparison **comparison
  * @param comparison the comparison
  * @param bytes receives the bytes, to be freed with free()
  * @param size receives their number
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_comparison_to_bytes(const gg_comparison *comparison, void **bytes, size_t *size, gg_error *err);
@@ -1314,7 +1257,6 @@ GG_API gg_status gg_comparison_to_bytes(const gg_comparison *comparison, void **
  * @param bytes the bytes
  * @param size their number
  * @param comparison receives the comparison, to be freed by gg_comparison_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE for bytes that are cut off or changed
  */
 GG_API gg_status gg_comparison_from_bytes(const void *bytes, size_t size, gg_comparison **comparison, gg_error *err);
@@ -1330,7 +1272,6 @@ typedef struct gg_sweep gg_sweep;
  * Read a sweep: a scene that may have the maps `vary` and `sweep`.
  * @param path file name; "-" is standard input; or the folder of a sweep, which holds the sweep that was run last
  * @param sweep receives the sweep, to be freed by gg_sweep_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT; GG_BAD_FILE
  */
 GG_API gg_status gg_sweep_load(const char *path, gg_sweep **sweep, gg_error *err);
@@ -1340,7 +1281,6 @@ GG_API gg_status gg_sweep_load(const char *path, gg_sweep **sweep, gg_error *err
  * @param yaml the text
  * @param name file name for messages; may be NULL
  * @param sweep receives the sweep, to be freed by gg_sweep_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT
  */
 GG_API gg_status gg_sweep_parse(const char *yaml, const char *name, gg_sweep **sweep, gg_error *err);
@@ -1356,7 +1296,6 @@ GG_API void gg_sweep_free(gg_sweep *sweep);
  * @param sweep the sweep
  * @param key key of a scene
  * @param value YAML
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT, also for a varied key or after gg_sweep_check()
  */
 GG_API gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *value, gg_error *err);
@@ -1366,7 +1305,6 @@ GG_API gg_status gg_sweep_set(gg_sweep *sweep, const char *key, const char *valu
  * @param sweep the sweep
  * @param key key of a scene
  * @param values "0.1:0.5:0.1" (first, last, step) or "md,dsmc"
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT, also after gg_sweep_check()
  */
 GG_API gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *values, gg_error *err);
@@ -1374,7 +1312,6 @@ GG_API gg_status gg_sweep_vary(gg_sweep *sweep, const char *key, const char *val
 /**
  * Check that every point can be simulated. Most calls below do this check first; afterwards the sweep is fixed.
  * @param sweep the sweep
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT names the first point that cannot be simulated
  */
 GG_API gg_status gg_sweep_check(gg_sweep *sweep, gg_error *err);
@@ -1405,7 +1342,6 @@ typedef struct gg_sweep_point {
  * @param sweep the sweep
  * @param i index from 0
  * @param point receives the values
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT after the last one
  */
 GG_API gg_status gg_sweep_at(const gg_sweep *sweep, size_t i, gg_sweep_point *point, gg_error *err);
@@ -1415,7 +1351,6 @@ GG_API gg_status gg_sweep_at(const gg_sweep *sweep, size_t i, gg_sweep_point *po
  * @param sweep the sweep
  * @param i index from 0
  * @param scene receives the scene, to be freed by gg_scene_free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT after the last one
  */
 GG_API gg_status gg_sweep_scene(const gg_sweep *sweep, size_t i, gg_scene **scene, gg_error *err);
@@ -1452,7 +1387,6 @@ typedef enum gg_point_state {
  * @param i index from 0
  * @param state receives the state
  * @param file receives the file name, to be freed; may be NULL
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t i, gg_point_state *state, char **file,
@@ -1463,7 +1397,6 @@ GG_API gg_status gg_sweep_find(const gg_sweep *sweep, const char *folder, size_t
  * @param sweep the sweep
  * @param folder folder of the results
  * @param text receives the text, to be freed with free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_sweep_to_json(const gg_sweep *sweep, const char *folder, char **text, gg_error *err);
@@ -1500,7 +1433,6 @@ typedef struct gg_sweep_options {
  * @param sweep the sweep
  * @param folder folder of the results
  * @param options NULL: default options
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED if points failed or ended before their criteria, also in an earlier call; GG_INTERRUPTED
  */
 GG_API gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_sweep_options *options, gg_error *err);
@@ -1511,7 +1443,6 @@ GG_API gg_status gg_sweep_run(gg_sweep *sweep, const char *folder, const gg_swee
  * @param folder folder of the results
  * @param i index from 0
  * @param options NULL: default options
- * @param err receives the message on failure; may be NULL
  * @return as gg_sweep_run()
  */
 GG_API gg_status gg_sweep_run_point(gg_sweep *sweep, const char *folder, size_t i, const gg_sweep_options *options,
@@ -1545,8 +1476,6 @@ typedef struct gg_collect_options {
  * @param prefix beginning of the file names
  * @param options NULL: default options
  * @param written called with each file name; may be NULL
- * @param context passed to the callback
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED if no point is finished or the picture fails
  */
 GG_API gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix,
@@ -1575,10 +1504,8 @@ typedef struct gg_validate_options {
  * @param folder folder of the results
  * @param options NULL: default options
  * @param written called with each file name; may be NULL
- * @param context passed to the callbacks
  * @param verdict receives counts and tables as Markdown or JSON, to be freed with free(); also with GG_FAILED, else
  * NULL
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_FAILED if dsmc and the noise-free solution differ significantly (false alarm: one grid in 1000), if
  *   no point has a steady dsmc and a noise-free solution, or if no point is finished; GG_BAD_INPUT if the sweep does
  * not compare; GG_INTERRUPTED by options->stop: there is no page, maps that were drawn stay
@@ -1604,8 +1531,6 @@ GG_API const char *gg_standard_grid(int quick);
  * @param drawn called with each file name; may be NULL
  * @param stop polled between pictures and several times a second while theories are evaluated; returns non-zero to
  *   interrupt; may be NULL
- * @param context passed to the callbacks
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT if a picture is the result file; GG_INTERRUPTED by stop: pictures that were
  *   drawn stay
  */
@@ -1630,9 +1555,6 @@ enum {
  * @param parts a sum of GG_EXPORT_...
  * @param written called with each file name; may be NULL
  * @param progress called after each frame of a trajectory with the fraction that is written; may be NULL
- * @param stop polled several times a second; returns non-zero to interrupt; may be NULL
- * @param context passed to the callbacks
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE; GG_BAD_INPUT if a file is the result, or the prefix is a device or pipe; GG_FAILED if
  *   the result has none of the parts; GG_INTERRUPTED by stop: no file is written or replaced
  */
@@ -1646,7 +1568,6 @@ GG_API gg_status gg_export(const char *result_file, const char *prefix, unsigned
  * @param result_file file name of a result
  * @param text receives one line, cut to size bytes; empty: nothing is unusual
  * @param size size of the buffer in bytes
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_FILE if the file cannot be read
  */
 GG_API gg_status gg_result_file_notice(const char *result_file, char *text, size_t size, gg_error *err);
@@ -1684,7 +1605,6 @@ typedef struct gg_entry { /* NULL or "": not in this table */
  * @param i index from 0
  * @param scene determines units, values and availability; NULL: defaults, and units of uniform shear
  * @param entry receives the entry; texts are borrowed
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT after the last one
  */
 GG_API gg_status gg_catalogue_entry(gg_catalogue list, size_t i, const gg_scene *scene, gg_entry *entry, gg_error *err);
@@ -1694,7 +1614,6 @@ GG_API gg_status gg_catalogue_entry(gg_catalogue list, size_t i, const gg_scene 
  * @param key key of a scene, "flow"
  * @param i index from 0
  * @param entry receives name and doc
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT after the last one
  */
 GG_API gg_status gg_catalogue_word(const char *key, size_t i, gg_entry *entry, gg_error *err);
@@ -1704,7 +1623,6 @@ GG_API gg_status gg_catalogue_word(const char *key, size_t i, gg_entry *entry, g
  * default.
  * @param flow "usf", or another word of the key flow
  * @param text receives the text, to be freed with free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT: there is no such flow
  */
 GG_API gg_status gg_scene_begin(const char *flow, char **text, gg_error *err);
@@ -1712,7 +1630,6 @@ GG_API gg_status gg_scene_begin(const char *flow, char **text, gg_error *err);
 /**
  * JSON Schema (draft 7) of scenes and sweeps. With it editors complete keys and mark errors.
  * @param text receives the text, to be freed with free()
- * @param err receives the message on failure; may be NULL
  * @return GG_OK, or an error status
  */
 GG_API gg_status gg_schema_to_json(char **text, gg_error *err);
@@ -1811,7 +1728,6 @@ typedef struct gg_observable_definition {
  * Register a user-defined observable with a scene; its quantities appear in results, files and pictures.
  * @param scene the scene
  * @param definition copied, except for context
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT, the scene is unchanged
  */
 GG_API gg_status gg_scene_add_observable(gg_scene *scene, const gg_observable_definition *definition, gg_error *err);
@@ -1852,7 +1768,6 @@ typedef struct gg_theory_definition {
  * Register a user-defined theory with a scene.
  * @param scene the scene
  * @param definition copied, except for context
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT, the scene is unchanged
  */
 GG_API gg_status gg_scene_add_theory(gg_scene *scene, const gg_theory_definition *definition, gg_error *err);
@@ -1868,8 +1783,6 @@ typedef double gg_restitution(void *context, double normal_speed, int species_1,
  * @param scene the scene
  * @param name name of the law
  * @param law the law; NULL: back to collision.e
- * @param context passed to the callback
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT, the scene is unchanged
  */
 GG_API gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_restitution *law, void *context,
@@ -1882,7 +1795,6 @@ GG_API gg_status gg_scene_set_restitution(gg_scene *scene, const char *name, gg_
  * @param n number of speeds, at least 1
  * @param speed n ascending speeds, in units of results
  * @param e n coefficients, 0 to 1
- * @param err receives the message on failure; may be NULL
  * @return GG_OK; GG_BAD_INPUT, the scene is unchanged
  */
 GG_API gg_status gg_scene_set_restitution_table(gg_scene *scene, const char *name, size_t n, const double *speed,

@@ -17,6 +17,7 @@ from .errors import BadFile, BadInput, Busy, GraingasError, NotFound, PartialRes
 from .estimate import Estimate
 from .extension import DoesNotApply, define_law, define_observable, define_theory
 from .grains import Grains
+from .hydrodynamics import LocalFluxes, local_fluxes
 from .relaxation import Relaxation, TimeSeries, relax
 from .result import Result, export
 from .run import compare, read, run
@@ -30,8 +31,8 @@ __version__ = text(_c.lib.gg_version())
 
 __all__ = [  # what help(graingas) shows
     "BadFile", "BadInput", "Busy", "catalogue", "compare", "Comparison", "Curve", "define_law", "define_observable",
-    "define_theory", "DoesNotApply", "Estimate", "export", "GraingasError", "Grains", "Grid", "NotFound",
-    "PartialResult", "plot", "read", "relax", "Relaxation", "Result", "run", "RunFailed", "scan", "Scene",
-    "Simulation", "Sweep", "sweep", "theories", "Theory", "theory", "TimeSeries", "Trajectory", "trajectory",
-    "validate", "Verdict",
+    "define_theory", "DoesNotApply", "Estimate", "export", "GraingasError", "Grains", "Grid", "local_fluxes",
+    "LocalFluxes", "NotFound", "PartialResult", "plot", "read", "relax", "Relaxation", "Result", "run", "RunFailed",
+    "scan", "Scene", "Simulation", "Sweep", "sweep", "theories", "Theory", "theory", "TimeSeries", "Trajectory",
+    "trajectory", "validate", "Verdict",
 ]

@@ -2,6 +2,7 @@
 """Comparisons: both engines and the theories on one scene."""
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Mapping
 from typing import Optional
@@ -65,9 +66,10 @@ class Theory(Mapping):
 
     @property
     def curves(self):
-        """Curves of the theory, with the names and abscissae of the measured ones."""
-        name = encode(self.name)
-        return curves_of(lambda i, data, e: lib.gg_comparison_theory_curve(self._comparison._pointer, name, i, data, e))
+        """Curves of the theory, with the names, abscissae and numbers of the measured ones."""
+        of = self._comparison._pointer, encode(self.name)
+        return curves_of(functools.partial(lib.gg_comparison_theory_curve, *of),
+                         functools.partial(lib.gg_comparison_theory_curve_number, *of))
 
     def __iter__(self):
         return (name for name in self._comparison._quantities() if name in self)

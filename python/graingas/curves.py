@@ -2,6 +2,8 @@
 """Curves of results: distributions, profiles, correlation functions, spectra."""
 from __future__ import annotations
 
+import functools
+
 from . import _c
 from .errors import ByName, lib, new_error
 from .estimate import Estimate
@@ -46,9 +48,9 @@ class Curve:
         return plot_curve(self, ax, **style)
 
 
-def _numbers(result, i, curve):
+def _numbers(get, result, curve):
     k, found, error = 0, new("gg_measurement"), new_error()
-    while lib.gg_result_curve_number(result._pointer, i, k, found, error) == lib.GG_OK:
+    while get(k, found, error) == lib.GG_OK:
         yield Estimate._of(found, result, curve)
         k += 1
 
@@ -57,16 +59,16 @@ def curves_by_name(curves):
     return ByName.of("curve", curves, "; add the observable to the scene's key measure")
 
 
-def curves_of(get, numbers_of=lambda i, curve: ()):
-    """All curves by name, from gg_result_curve and its like."""
+def curves_of(get, number, result=None):
+    """All curves by name, from gg_result_curve and gg_result_curve_number, and their like."""
     found, i, error, data = curves_by_name({}), 0, new_error(), new("gg_curve_data")
     while get(i, data, error) == lib.GG_OK:
-        curve = Curve(data, numbers_of(i, value(data.name)))
+        curve = Curve(data, _numbers(functools.partial(number, i), result, value(data.name)))
         found[curve.name] = curve
         i += 1
     return found
 
 
 def result_curves(result):
-    return curves_of(lambda i, data, error: lib.gg_result_curve(result._pointer, i, data, error),
-                     lambda i, curve: _numbers(result, i, curve))
+    return curves_of(functools.partial(lib.gg_result_curve, result._pointer),
+                     functools.partial(lib.gg_result_curve_number, result._pointer), result)

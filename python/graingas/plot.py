@@ -124,6 +124,23 @@ def plot_curve_set(curves, ax=None):
     return ax
 
 
+@styled
+def plot_local_fluxes(found, fluxes, axes=None):
+    """Measured fluxes as points, those of closures at the measured profiles as lines; a panel each."""
+    if axes is None:
+        from matplotlib import pyplot
+        axes = pyplot.subplots(1, len(fluxes), figsize=(3.2 * len(fluxes), 2.6), dpi=120, layout="constrained")[1]
+    axes = np.atleast_1d(axes)
+    for ax, flux in zip(axes, fluxes):
+        ax.errorbar(found.y, found.measured[flux], errors(found.error[flux]), fmt="o", mfc="none", color=COLOURS[0],
+                    label="measured")
+        for i, (name, answers) in enumerate(found.theory.items(), 1):
+            ax.plot(found.y, answers[flux], DASHES[i % 4], color=COLOURS[i % 7], label=name)
+        ax.set(xlabel=label("y", found.units["y"]), ylabel=label(flux, found.units[flux], re.sub("_(.+)", r"_{\1}", flux)))
+        legend(ax)
+    return axes
+
+
 def _main_quantities(comparison):
     return [name for name, row in comparison.items() if any(d.headline for d in row.departure.values())] or \
         [name for name in comparison if not np.isnan(_reference(comparison[name]).mean)][:10]

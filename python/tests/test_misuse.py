@@ -57,6 +57,7 @@ TYPES = [
     (lambda: gg.run(scene(), output=3), TypeError), (lambda: gg.run(scene(), resume="nowhere.h5"), gg.BadFile),
     (lambda: gg.run(scene(), output="/dev/full"), gg.BadFile), (lambda: gg.read(3), TypeError),
     (lambda: gg.run(scene())[3], TypeError), (lambda: gg.run(scene()).find(None), TypeError),
+    (lambda: gg.local_fluxes(3), TypeError), (lambda: gg.local_fluxes(gg.run(scene())), gg.BadInput),
     (lambda: gg.Simulation(None), gg.BadInput), (lambda: gg.Simulation(scene(), stream=-1), gg.BadInput),
     (lambda: gg.Simulation(scene(), stream=1.5), gg.BadInput),
     (lambda: gg.Simulation(scene(), stream=2**70), gg.BadInput),

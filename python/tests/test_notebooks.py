@@ -41,8 +41,8 @@ def execute(parts):
 
 
 def test_every_notebook_is_tried():
-    assert sorted(NOTEBOOKS) == ["friction", "haffs_law", "own_theory", "sweep_to_xarray", "three_questions", "trajectory",
-                                 "two_temperatures"]
+    assert sorted(NOTEBOOKS) == ["friction", "haffs_law", "hydrodynamics", "own_theory", "sweep_to_xarray", "three_questions",
+                                 "trajectory", "two_temperatures"]
 
 
 def test_friction():
@@ -62,6 +62,15 @@ def test_haffs_law():
     assert names["temperatures"][-1] < 0.03 * names["temperatures"][0]
     assert np.allclose(names["temperatures"], names["predicted"], rtol=0.15)
     assert abs(names["slope"] / names["expected"] - 1) < 0.05
+
+
+def test_hydrodynamics():
+    """Closures at measured profiles: moments has the stress; a Newtonian theory has too much of it and of heat flux."""
+    names = execute(cells("hydrodynamics"))
+    ns, moments, near = names["ratios"]["navier_stokes"], names["ratios"]["moments"], names["near"]
+    assert abs(moments["P_yx"] - 1) < 0.03 and abs(moments["P_xx"] - 1) < 0.03 and abs(moments["q_y"] - 1) < 0.15
+    assert 1.08 < ns["P_yx"] < 1.3 and 0.85 < ns["P_xx"] < 0.97
+    assert all(abs(near.ratio(name, "P_yx") - 1) < 0.05 for name in near.theory)
 
 
 def test_own_theory():

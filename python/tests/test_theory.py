@@ -135,3 +135,73 @@ def test_what_is_left_behind_stops(monkeypatch):
     threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):
         gg.compare(rough, progress=False)
+
+
+WALLED = dict(flow="couette", phi=0.1, e=0.9, particles=500, walls={"e": 0.9, "beta": 0, "speed": 1},
+              measure=["rheology", "profiles", "fluxes"], run={"collisions": 300, "warmup": 50})
+
+
+def test_profiles_of_theories():
+    """Profiles and their numbers without engines; beside a result, from its file, they are the same."""
+    scene = gg.Scene(WALLED, engine="dsmc")
+    found = gg.theories(scene)
+    for name in "navier_stokes", "moments":
+        theory = found.theories[name]
+        u, T, q = (theory.curves["profile_" + key] for key in ("velocity", "temperature", "q_y"))
+        inside = np.isfinite(u.value)
+        assert (np.diff(u.value[inside]) > 0).all() and T.value[inside].argmax() in (inside.sum() // 2 - 1, inside.sum() // 2)
+        stress = theory.curves["profile_P_yx"].value[inside]
+        assert np.allclose(stress, u.numbers["wall_P_yx_upper"].mean, rtol=1e-5)
+        slope = np.gradient(u.value[inside], u.x[inside])[inside.sum() // 2]
+        assert u.numbers["slope_middle"].mean == pytest.approx(slope, rel=0.01)
+        assert u.numbers["slip_upper"].unit == u.unit and math.isnan(u.numbers["slip_upper"].tau)
+        assert q.value[inside][-1] < q.numbers["wall_q_y_upper"].mean  # that has the work of the slip, too
+        assert "a wall takes heat" in theory.beyond
+    both = gg.compare(scene.copy(e=0.9), output="c.h5")
+    stored = gg.read("c.h5").theories["moments"]
+    assert stored.beyond == both.theories["moments"].beyond == found.theories["moments"].beyond
+    for name, curve in stored.curves.items():
+        assert np.array_equal(curve.value, found.theories["moments"].curves[name].value, equal_nan=True)
+        assert {n: e.mean for n, e in curve.numbers.items()} == \
+            {n: e.mean for n, e in found.theories["moments"].curves[name].numbers.items()}
+
+
+def test_closures_at_measured_profiles():
+    """navier_stokes at the state of a height, from the coefficients of the cooling gas there; moments has the stress of
+    a Monte Carlo run; states are parabolas through measured profiles."""
+    r = gg.run(gg.Scene(WALLED, engine="dsmc", run={"collisions": 1000}))
+    local = gg.local_fluxes(r)
+    c0 = 5 / (16 * math.sqrt(math.pi))
+    for i in range(0, len(local.y), 5):
+        phi, T, shear, phi_slope, T_slope = (float(values[i]) for values in local.state.values())
+        hcs = gg.theory(gg.Scene(flow="hcs", phi=phi, e=0.9), "garzo_santos_montanero2007")
+        n, chi = 6 * phi / math.pi, (1 - phi / 2) / (1 - phi) ** 3
+        ns = {name: values[i] * 6 / math.pi for name, values in local.theory["navier_stokes"].items()}
+        assert ns["P_yy"] == pytest.approx(n * T * (1 + 2 * 1.9 * phi * chi), rel=1e-6)
+        assert ns["P_yx"] == pytest.approx(-c0 * math.sqrt(T) * hcs["viscosity_reduced"] * shear, rel=1e-6)
+        kappa, mu = (3.75 * c0 * math.sqrt(T) * hcs[key] for key in ("thermal_conductivity_reduced",
+                                                                    "diffusive_heat_conductivity_reduced"))
+        assert ns["q_y"] == pytest.approx(-kappa * T_slope - mu * T / n * 6 / math.pi * phi_slope, rel=1e-6)
+        assert ns["loss"] == pytest.approx(1.5 * n**2 * T**1.5 * hcs["cooling_rate"] / c0, rel=1e-6)
+    u, T = r.curves["profile_velocity"], r.curves["profile_temperature"]
+    first = np.flatnonzero(np.isclose(u.x, local.y[0]))[0]
+    near = slice(first, first + 9)
+    fit = np.polyfit(u.x[near], u.value[near], 2, w=1 / u.error[near])
+    assert local.state["shear_rate"][0] == pytest.approx(np.polyval(np.polyder(fit), local.y[0]), rel=1e-6)
+    assert abs(local.state["temperature"] / T.value[first:first + len(local.y)] - 1).max() < 0.03
+    for flux in "P_yx", "P_xx", "P_yy", "P_zz":
+        assert abs(local.ratio("moments", flux) - 1) < 0.03, flux
+        assert np.array_equal(local.measured[flux], r.curves["profile_" + flux].value[first:first + len(local.y)])
+    assert local.ratio("navier_stokes", "P_yx") > 1.1 and abs(local.ratio("moments", "q_y") - 1) < 0.15
+    head, *rows, last = str(local).splitlines()[2:]
+    assert len(rows) == len(local.y) + 1 and head.split()[:5] == ["y", "phi", "T", "shear", "rate"]
+    assert float(rows[1].split()[0]) == pytest.approx(local.y[0], rel=1e-3)
+    assert f"{local.ratio('moments', 'P_yx'):.3f}" in last
+    with pytest.raises(gg.BadInput, match="navier_stokes and moments"):
+        gg.local_fluxes(r, "lun1991")
+    with pytest.raises(gg.NotFound):
+        gg.local_fluxes(r, "momenta")
+    for wrong in dict(measure=["rheology"]), dict(beta=0), dict(phi=0.3, particles=60):
+        short = gg.run(gg.Scene({**WALLED, "run": {"collisions": 5, "warmup": 5}, **wrong}))
+        with pytest.raises(gg.BadInput):
+            gg.local_fluxes(short)

@@ -49,8 +49,9 @@ typedef struct gg_api_request {
 } gg_api_request;
 bool gg_api_is_requested(void *request);
 
-/* result.c: a curve as the interface has it. */
+/* result.c: a curve, and its k-th number, as the interface has them; the unit is that of correlation times. */
 gg_curve_data gg_api_curve_view(const gg_curve *curve);
+gg_status gg_api_curve_number(const gg_curve *c, size_t k, const char *unit, gg_measurement *number, gg_error *err);
 
 /* result.c: the file of a run, or of a comparison (NULL: the run), on disk or in memory. The file's command is that of
  * the run, or the name of the function. */

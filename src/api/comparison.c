@@ -80,6 +80,17 @@ gg_status gg_theories_evaluate(const gg_scene *scene, const char *theory, int (*
   return status;
 }
 
+gg_status gg_theory_local_fluxes(const gg_scene *scene, const char *theory, size_t n, const gg_local_state *state,
+                                 gg_local_fluxes *fluxes, gg_error *err)
+{
+  GG_NEED(scene, theory, state, fluxes);
+  gg_comparison *c;
+  GG_TRY(gg_theories_evaluate(scene, theory, NULL, NULL, &c, err));
+  const gg_status status = gg_theory_fluxes(c->theory[0].theory, &c->model, n, state, fluxes, err);
+  gg_comparison_free(c);
+  return status;
+}
+
 /* Whether the scenes differ only in the engine and in keys that may change on resume. */
 static bool same_scene(const gg_scene *one, gg_scene other)
 {
@@ -183,13 +194,14 @@ gg_status gg_comparison_theory(const gg_comparison *comparison, size_t i, gg_the
   if (i >= (size_t)c->n_theories)
     return gg_base_fail(err, GG_BAD_INPUT, "this comparison has %d theories", c->n_theories);
   const gg_theory *t = c->theory[i].theory;
-  bool applies = c->theory[i].applies;
+  const bool applies = c->theory[i].applies;
+  const char *remark = c->theory[i].answer.remark;
   *theory = (gg_theory_info){.name = t->name,
                              .title = t->title,
                              .citation = t->citation,
                              .assumptions = t->assumptions,
                              .reason = applies ? NULL : c->theory[i].reason,
-                             .beyond = applies ? gg_theory_beyond(t, &c->model) : NULL};
+                             .beyond = applies && *remark ? remark : NULL};
   return GG_OK;
 }
 
@@ -255,16 +267,33 @@ gg_status gg_comparison_theory_error(const gg_comparison *comparison, const char
   return GG_OK;
 }
 
+static gg_status find_curve(const gg_comparison *c, const char *theory, size_t i, const gg_curve **curve, gg_error *err)
+{
+  int k;
+  GG_TRY(find_theory(c, theory, &k, err));
+  const gg_curves *curves = &c->theory[k].curves;
+  if (i >= (size_t)curves->n) return gg_base_fail(err, GG_BAD_INPUT, "%s has %d curves here", theory, curves->n);
+  *curve = &curves->curve[i];
+  return GG_OK;
+}
+
 gg_status gg_comparison_theory_curve(const gg_comparison *comparison, const char *theory, size_t i,
                                      gg_curve_data *curve, gg_error *err)
 {
   GG_NEED(comparison, theory, curve);
-  int k;
-  GG_TRY(find_theory(comparison, theory, &k, err));
-  const gg_curves *curves = &comparison->theory[k].curves;
-  if (i >= (size_t)curves->n) return gg_base_fail(err, GG_BAD_INPUT, "%s has %d curves here", theory, curves->n);
-  *curve = gg_api_curve_view(&curves->curve[i]);
+  const gg_curve *found;
+  GG_TRY(find_curve(comparison, theory, i, &found, err));
+  *curve = gg_api_curve_view(found);
   return GG_OK;
+}
+
+gg_status gg_comparison_theory_curve_number(const gg_comparison *comparison, const char *theory, size_t i, size_t k,
+                                            gg_measurement *number, gg_error *err)
+{
+  GG_NEED(comparison, theory, number);
+  const gg_curve *found;
+  GG_TRY(find_curve(comparison, theory, i, &found, err));
+  return gg_api_curve_number(found, k, "", number, err);
 }
 
 gg_status gg_comparison_remark(const gg_comparison *comparison, size_t i, gg_remark *remark, gg_error *err)

@@ -183,11 +183,8 @@ gg_status gg_result_curve(const gg_result *result, size_t i, gg_curve_data *curv
   return GG_OK;
 }
 
-gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg_measurement *number, gg_error *err)
+gg_status gg_api_curve_number(const gg_curve *c, size_t k, const char *unit, gg_measurement *number, gg_error *err)
 {
-  GG_NEED(result, number);
-  const gg_curve *c = curve_at(result, i, err);
-  if (!c) return GG_BAD_INPUT;
   if (k >= (size_t)c->n_numbers)
     return gg_base_fail(err, GG_BAD_INPUT, "%d numbers were derived from the curve %s", c->n_numbers, c->name);
   const gg_curve_number *p = &c->number[k];
@@ -198,8 +195,15 @@ gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg
                              .samples = c->samples,
                              .unit = p->unit,
                              .reason = isnan(p->value) ? "it cannot be derived from this curve" : NULL,
-                             .correlation_time_unit = result->correlation_time_unit};
+                             .correlation_time_unit = unit};
   return GG_OK;
+}
+
+gg_status gg_result_curve_number(const gg_result *result, size_t i, size_t k, gg_measurement *number, gg_error *err)
+{
+  GG_NEED(result, number);
+  const gg_curve *c = curve_at(result, i, err);
+  return c ? gg_api_curve_number(c, k, result->correlation_time_unit, number, err) : GG_BAD_INPUT;
 }
 
 gg_status gg_result_grains(const gg_result *result, const gg_grains *into, gg_error *err)

@@ -48,18 +48,21 @@ static bool next_shown(const gg_comparison *c, bool all, size_t *i, gg_compariso
   return false;
 }
 
-static void put_theory(gg_table *t, int row, int column, const gg_comparison *c, const char *theory,
-                       const char *quantity)
+void gg_cli_format_answer(double value, double deviation, bool beside, char *cell)
 {
-  double deviation = NAN, value = value_of(c, theory, quantity, &deviation);
-  char *cell = gg_cli_table_cell(t, row, column);
-  if (isnan(value)) return;
   if (isnan(deviation))
-    snprintf(cell, GG_TABLE_CELL, reference(c) ? "%.4g        " : "%.5g", value);
+    snprintf(cell, GG_TABLE_CELL, beside ? "%.4g        " : "%.5g", value);
   else if (fabs(deviation) < 9.995)
     snprintf(cell, GG_TABLE_CELL, "%.4g %+6.1f%%", value, 100 * deviation);
   else
     snprintf(cell, GG_TABLE_CELL, "%.4g %+6.0fx", value, deviation + 1);
+}
+
+static void put_theory(gg_table *t, int row, int column, const gg_comparison *c, const char *theory,
+                       const char *quantity)
+{
+  double deviation = NAN, value = value_of(c, theory, quantity, &deviation);
+  if (!isnan(value)) gg_cli_format_answer(value, deviation, reference(c), gg_cli_table_cell(t, row, column));
 }
 
 /* Column of each theory; -1 for theories without a printed value. */
@@ -240,8 +243,7 @@ void gg_cli_print_comparison(const gg_comparison *c, bool all)
   print_verdicts(c);
   print_causes(c, all);
   print_remarks(c);
-  gg_cli_print_numbers(gg_comparison_result(c, "md"), gg_comparison_result(c, "dsmc"), all);
-  if (both_ran(c)) gg_cli_print_profiles(gg_comparison_result(c, "md"), gg_comparison_result(c, "dsmc"), all);
+  gg_cli_print_curves(NULL, c, all);
   printf("\n");
   for (int k = 0; k < GG_CLI_ENGINES; k++) {
     const char *refusal = gg_comparison_refusal(c, gg_cli_engines[k]);
@@ -293,8 +295,7 @@ static void print_curves(const gg_comparison *c, const char *theory)
         strcmp(next.observable, curve.observable) == 0)
       continue;
     char text[240], known[80] = "";
-    if (isfinite(end))
-      snprintf(known, sizeof known, "; known up to %s = %.3g", curve.x_name, end);
+    if (isfinite(end)) snprintf(known, sizeof known, "; known up to %s = %.3g", curve.x_name, end);
     snprintf(text, sizeof text, "%d curves of %s (--json; compare and plot draw them)%s.", n, curve.observable, known);
     gg_cli_print_wrapped(stdout, "  Here: ", text);
     n = 0, end = INFINITY;
@@ -310,6 +311,7 @@ void gg_cli_print_theories(const gg_comparison *c, bool all)
   gg_cli_print_head(gg_comparison_scene(c));
   if (n_theories) gg_cli_table_print(t, stdout, 2);
   free(t);
+  gg_cli_print_curves(NULL, c, all);
   printf("\n");
   for (size_t i = 0; gg_comparison_theory(c, i, &theory, NULL) == GG_OK; i++) {
     if (theory.reason) continue;

@@ -266,7 +266,7 @@ static json_t *about_json(const gg_comparison *c)
   for (int i = 0; i < c->n_theories; i++) {
     const gg_theory *t = c->theory[i].theory;
     bool applies = c->theory[i].applies;
-    const char *beyond = applies ? gg_theory_beyond(t, &c->model) : NULL,
+    const char *remark = c->theory[i].answer.remark, *beyond = applies && *remark ? remark : NULL,
                *reason = applies ? NULL : c->theory[i].reason;
     json_object_set_new(all, t->name,
                         json_pack("{s:s, s:s, s:s, s:s?, s:s?}", "title", t->title, "citation", t->citation,

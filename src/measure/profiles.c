@@ -269,6 +269,7 @@ static void curves(const void *self, const double *mean, gg_curves *list)
       c->x[i] = ((double)i + 0.5) * height;
       c->value[i] = at[GRAINS] > 0 || table[t].of == solid_fraction ? table[t].of(at, volume) : NAN;
     }
+    gg_measure_gap_middle(m, c, table[t].of == velocity);
     if (table[t].of == temperature) put_jumps(m, bin, c);
     if (table[t].of == velocity) put_walls(m, bin, bin + d->slabs * SLAB, c);
   }

@@ -50,15 +50,20 @@ static void add_point(const gg_chart_panel *p, const gg_chart_point *at, extent 
   if (p->y.log ? at->y > 1.5 * dy : at->y > dy || at->y < 0) extend(y, at->y - dy, p->y.log);
 }
 
+/* Lines beside points of curves extend the axis of values by half of the points' span at most. */
 void gg_plot_axes_choose(gg_chart_panel *p)
 {
-  extent x = {INFINITY, -INFINITY}, y = x;
-  for (int lines = 0; lines < 2 && !(x.least <= x.most); lines++)
-    for (size_t k = 0; k < p->n; k++)
-      for (size_t i = 0; i < p->series[k]->n; i++)
-        if (!p->own_legend || lines || p->series[k]->look.style != GG_CHART_LINE)
-          add_point(p, &p->series[k]->point[i], &x, &y);
-  set_ends(&p->x, x), set_ends(&p->y, y);
+  const extent none = {INFINITY, -INFINITY};
+  extent x[2] = {none, none}, y[2] = {none, none};
+  for (size_t k = 0; k < p->n; k++) {
+    const int line = p->own_legend && p->series[k]->look.style == GG_CHART_LINE;
+    for (size_t i = 0; i < p->series[k]->n; i++) add_point(p, &p->series[k]->point[i], &x[line], &y[line]);
+  }
+  const bool points = x[0].least <= x[0].most;
+  const double room = p->y.log ? 0 : 0.5 * (y[0].most - y[0].least);
+  y[0].least = fmin(y[0].least, fmax(y[1].least, y[0].least - room));
+  y[0].most = fmax(y[0].most, fmin(y[1].most, y[0].most + room));
+  set_ends(&p->x, x[!points]), set_ends(&p->y, y[!points]);
 }
 
 /* The quotient of the ends may be more than a double holds. */

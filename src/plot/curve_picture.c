@@ -56,26 +56,30 @@ static void add_line(gg_chart *c, const char *method, const char *group, const j
     gg_plot_chart_point(c, s, (gg_chart_point){at(abscissae, "x", i), at(values, "value", i), NAN, NAN, false});
 }
 
-/* The curves of a panel, and the theory whose lines it has: the first one, since lines of several would be too many. */
+/* The curves of a panel, and the curves of theories. */
 typedef struct group {
-  const json_t *curve[MOST_IN_PANEL], *theory[MOST_IN_PANEL];
-  const char *name[MOST_IN_PANEL], *label[MOST_IN_PANEL], *title, *theory_name;
+  const json_t *curve[MOST_IN_PANEL], *theories;
+  const char *name[MOST_IN_PANEL], *label[MOST_IN_PANEL], *title;
   int n, n_left_out;
 } group;
 
-static void add_curve(group *g, const char *name, const json_t *curve, const json_t *theories)
+/* Lines of theories: of all beside a single curve; beside several curves those of the first theories up to the second
+ * line, since more could not be told apart. Returns whether there are any; a chart of NULL draws none. */
+static bool add_theories(gg_chart *c, const group *g)
 {
-  const char *theory, *label = gg_io_json_string(curve, "label");
+  int n = 0;
+  const char *theory;
   json_t *curves;
-  g->name[g->n] = name, g->curve[g->n] = curve, g->theory[g->n] = NULL, g->label[g->n] = *label ? label : NULL;
-  json_object_foreach((json_t *)(uintptr_t)theories, theory, curves)
+  json_object_foreach((json_t *)(uintptr_t)g->theories, theory, curves)
   {
-    const json_t *one = json_object_get(curves, name);
-    if (!one || (g->theory_name && strcmp(g->theory_name, theory) != 0)) continue;
-    g->theory[g->n] = one, g->theory_name = theory;
-    break;
+    if (n > 1 && g->n > 1) break;
+    for (int k = 0; k < g->n; k++) {
+      const json_t *one = json_object_get(curves, g->name[k]);
+      if (one && c) add_line(c, theory, g->label[k], one, one);
+      n += one != NULL;
+    }
   }
-  g->n++;
+  return n > 0;
 }
 
 static int list_groups(const json_t *document, const json_t *theories, const char *name, group *groups)
@@ -88,12 +92,14 @@ static int list_groups(const json_t *document, const json_t *theories, const cha
     const char *title = gg_io_json_string(curve, "panel");
     if (strcmp(gg_io_json_string(curve, "group"), name) != 0) continue;
     for (k = 0; k < n && strcmp(groups[k].title, title) != 0; k++) continue;
-    if (k == n && n < GG_CHART_PANELS) groups[n++] = (group){.title = title};
+    if (k == n && n < GG_CHART_PANELS) groups[n++] = (group){.title = title, .theories = theories};
     if (k == n) continue;
-    if (groups[k].n == MOST_IN_PANEL)
-      groups[k].n_left_out++;
+    group *g = &groups[k];
+    const char *label = gg_io_json_string(curve, "label");
+    if (g->n == MOST_IN_PANEL)
+      g->n_left_out++;
     else
-      add_curve(&groups[k], key, curve, theories);
+      g->name[g->n] = key, g->label[g->n] = *label ? label : NULL, g->curve[g->n++] = curve;
   }
   return n;
 }
@@ -130,11 +136,10 @@ static const char *agreement(gg_chart *c, const group *g, const json_t *other)
 static void fill_panel(gg_chart *c, gg_chart_panel *p, const group *g, const gg_stored_engine *engine,
                        const gg_stored_engine *other)
 {
-  for (int k = 0; k < g->n; k++) {
-    const int style = other || g->theory[k] ? GG_CHART_POINTS : GG_CHART_BAND;
+  const int style = other || add_theories(NULL, g) ? GG_CHART_POINTS : GG_CHART_BAND;
+  for (int k = 0; k < g->n; k++)
     add_measured(c, gg_plot_chart_series(c, engine->name, g->label[k], style), p->y.log, g->curve[k],
                  gg_plot_is_unsteady(engine));
-  }
   for (int k = 0; k < g->n && other; k++) {
     const json_t *curve = json_object_get(json_object_get(other->document, "curves"), g->name[k]);
     if (!curve || size_of(curve) != size_of(g->curve[k])) continue;
@@ -142,8 +147,7 @@ static void fill_panel(gg_chart *c, gg_chart_panel *p, const group *g, const gg_
                  gg_plot_is_unsteady(other));
     if (k == 0) p->title = agreement(c, g, curve);
   }
-  for (int k = 0; k < g->n; k++)
-    if (g->theory[k]) add_line(c, g->theory_name, g->label[k], g->theory[k], g->theory[k]);
+  add_theories(c, g);
   add_laws(c, g);
 }
 

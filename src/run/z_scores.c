@@ -126,20 +126,19 @@ static double unexpected(const gg_comparison *c, const gg_estimate *e, gg_quanti
 
 static const char no_cause[] = "no cause known: within the range that the theory was made for";
 
-const char *gg_run_theory_cause(const gg_theory *theory, const gg_model *model)
+const char *gg_run_theory_cause(const gg_theory_answer *answer)
 {
-  const char *beyond = gg_theory_beyond(theory, model);
-  return beyond ? beyond : no_cause;
+  return *answer->remark ? answer->remark : no_cause;
 }
 
 /* Cause of a theory's deviation. If the theory agrees with the noise-free solution or with dsmc, md itself differs from
  * Enskog's equation. */
-static const char *cause_of(const gg_comparison *c, const gg_run_theory_remark *r, double value)
+static const char *cause_of(const gg_comparison *c, const gg_run_theory_remark *r, const gg_theory_answer *answer)
 {
-  const char *beyond = gg_theory_beyond(r->theory, &c->model);
+  const double value = answer->value[r->quantity];
   const gg_result *md = c->by_engine[GG_MD], *dsmc = c->by_engine[GG_DSMC];
   gg_estimate enskog;
-  if (beyond) return beyond;
+  if (*answer->remark) return answer->remark;
   if (md && enskog_solution(c, r->quantity, &enskog) && isnan(unexpected(c, &enskog, r->quantity, value)))
     return "agrees with enskog_hermite: md differs from Enskog's equation (correlations, clustering or the number of "
            "grains)";
@@ -162,7 +161,7 @@ int gg_run_theory_remarks(const gg_comparison *c, gg_run_theory_remark remarks[G
       if (fabs(off) > fabs(r.deviation)) r.quantity = headline[k], r.deviation = off;
     }
     if (r.deviation == 0) continue;
-    r.cause = cause_of(c, &r, c->theory[i].answer.value[r.quantity]);
+    r.cause = cause_of(c, &r, &c->theory[i].answer);
     remarks[n++] = r;
   }
   return n;

@@ -38,8 +38,8 @@ bool gg_run_is_beyond(const gg_model *model, gg_quantity q, const gg_estimate *m
  * with the noise-free solution, else with dsmc. */
 bool gg_run_results_disagree(const gg_comparison *comparison, gg_quantity q);
 
-/* Why a theory is off where it is beyond what is expected; returns text that lasts. */
-const char *gg_run_theory_cause(const gg_theory *theory, const gg_model *model);
+/* Why a theory is off where it is beyond what is expected; the text lasts as long as the answer. */
+const char *gg_run_theory_cause(const gg_theory_answer *answer);
 
 /* Relative deviation of a theory from a simulation, theory/simulation - 1. NaN if the simulation is zero
  * within three standard errors. */

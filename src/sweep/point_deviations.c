@@ -23,10 +23,10 @@ static const char *join_causes(const gg_comparison *c, gg_quantity q, gg_string_
   return gg_base_string_list_at(texts, texts->n - 1);
 }
 
-static const gg_theory *theory_of(const gg_comparison *c, const char *name)
+static const gg_theory_answer *answer_of(const gg_comparison *c, const char *name)
 {
   for (int i = 0; i < c->n_theories; i++)
-    if (strcmp(c->theory[i].theory->name, name) == 0) return c->theory[i].theory;
+    if (strcmp(c->theory[i].theory->name, name) == 0) return &c->theory[i].answer;
   return NULL;
 }
 
@@ -44,10 +44,9 @@ static void set_deviation(gg_point_row *row, gg_quantity q, const gg_reference *
 /* The cause of a deviation: of md as in `compare`, of a theory its range. */
 static void set_cause(gg_point_row *row, const gg_comparison *c, gg_quantity q, gg_string_list *texts)
 {
-  const gg_theory *theory = row->theory ? theory_of(c, row->method) : NULL;
+  const gg_theory_answer *answer = row->theory ? answer_of(c, row->method) : NULL;
   if (row->theory) {
-    gg_base_string_list_add(texts, "%s",
-                            theory ? gg_run_theory_cause(theory, &c->model) : "a theory of the sweep's own");
+    gg_base_string_list_add(texts, "%s", answer ? gg_run_theory_cause(answer) : "a theory of the sweep's own");
     row->cause = gg_base_string_list_at(texts, texts->n - 1);
   } else if (strcmp(row->method, "md") == 0) {
     row->cause = join_causes(c, q, texts);

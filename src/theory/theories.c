@@ -63,6 +63,7 @@ static gg_status check_law(const gg_theory *theory, const gg_model *model, gg_er
 
 static void clear(gg_theory_answer *answer)
 {
+  answer->remark[0] = '\0';
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
 }
 
@@ -85,6 +86,8 @@ gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_
                                  : theory->evaluate(model, answer, err);
   gg_base_gsl_leave();
   status = finish(theory, model, status, err);
+  const char *beyond = status == GG_OK && !*answer->remark ? gg_theory_beyond(theory, model) : NULL;
+  if (beyond) snprintf(answer->remark, sizeof answer->remark, "%s", beyond);
   if (status == GG_INTERRUPTED) clear(answer);
   if (gg_base_memory_failures() != before) status = gg_base_out_of_memory(err);
   for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */
@@ -108,4 +111,15 @@ gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsig
   list->group = NULL; /* every curve has its own copy */
   if (status != GG_OK) gg_measure_curves_clear(list);
   return status;
+}
+
+gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_t n, const gg_local_state *state,
+                           gg_local_fluxes *fluxes, gg_error *err)
+{
+  if (!theory->fluxes)
+    return gg_theory_reject(err, theory->name, "gives no fluxes at single heights; navier_stokes and moments do");
+  GG_TRY(check_law(theory, model, err));
+  GG_TRY(check_flow(theory, model, err));
+  GG_TRY(check_bath(theory, model, err));
+  return theory->fluxes(model, n, state, fluxes, err);
 }

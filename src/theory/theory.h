@@ -6,11 +6,14 @@
 #include "common/quantity.h"
 #include "measure/curve.h"
 
+enum { GG_THEORY_REMARK = 480 };
+
 /* Answers of a theory: NaN where it has none. `error`: distance of a number from the solution of the theory's
  * equations, where these are solved numerically; else NaN. */
 typedef struct gg_theory_answer {
   double value[GG_MOST_QUANTITIES];
   double error[GG_MOST_QUANTITIES];
+  char remark[GG_THEORY_REMARK]; /* why the model is outside the theory's range, though it answers; "" within */
 } gg_theory_answer;
 
 /* Names of quantities, separated by blanks, for `answers`. */
@@ -25,6 +28,10 @@ typedef struct gg_theory_answer {
 #define GG_ANSWERS_LENGTHS "clustering_length heat_mode_length "
 #define GG_ANSWERS_MIXTURE "temperature_1 temperature_2 partial_temperature_ratio "
 
+/* The public header defines these. */
+typedef struct gg_local_state gg_local_state;
+typedef struct gg_local_fluxes gg_local_fluxes;
+
 typedef struct gg_theory {
   const char *name;        /* "lun1991": the JSON key */
   const char *title;       /* one line for people */
@@ -36,13 +43,16 @@ typedef struct gg_theory {
    * this model. A theory that takes longer than a tenth of a second checks model->stop between its parts, and then
    * fails. */
   gg_status (*evaluate)(const gg_model *model, gg_theory_answer *answer, gg_error *err);
-  /* Why this model is outside the theory's range, though it answers; NULL (also the function) within the range. */
+  /* The remark of answers without one of their own; NULL (also the function) within the range. */
   const char *(*beyond)(const gg_model *model);
   /* Curves, under the names and at the abscissae of those of the observables in `measure` (GG_MEASURE_...); the
    * error of a point is its distance from the solution of the theory's equations. Only for models for which
    * `evaluate` answers. GG_OK also without any of these; GG_BAD_INPUT with the reason if this model has none. NULL:
    * no curves. */
   gg_status (*curves)(const gg_model *model, unsigned measure, gg_curves *list, gg_error *err);
+  /* Stress and heat flux of n given states of a gas between walls; NaN where the theory has none. NULL: no closure. */
+  gg_status (*fluxes)(const gg_model *model, size_t n, const gg_local_state *state, gg_local_fluxes *fluxes,
+                      gg_error *err);
   /* A theory of the user's program (user_theory.c), which replaces evaluate and beyond; else NULL. */
   const gg_theory_definition *own;
   const char
@@ -70,5 +80,9 @@ gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_
 /* The curves of a theory, if it has some, for a model that it describes; none after a failure. To be cleared. */
 gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
                            gg_error *err);
+
+/* Closures at given states of a model (gg_theory.fluxes). */
+gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_t n, const gg_local_state *state,
+                           gg_local_fluxes *fluxes, gg_error *err);
 
 #endif

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The commands as interface: what they print, the keys of their JSON, their exit codes."""
 import concurrent.futures
+import itertools
 import json
 import os
 import re
@@ -197,6 +198,17 @@ def test_compare_table():
     check("results:" not in done.err, done.err)
 
 
+def cells_of(text, title):
+    """Row name -> cells by column of a table whose columns may continue in further blocks."""
+    table = {}
+    for block in re.split(rf"(?m)^{title} ", text)[1:]:
+        head, _, *lines = block.splitlines()
+        for line in itertools.takewhile(str.strip, lines):
+            table.setdefault(line.split()[0], {}).update(
+                zip(re.split(r"  +", head.strip()), re.findall(r"(\S+) +(\S+%) at +(\S+)", line)))
+    return table
+
+
 def test_compare_lists_profiles():
     """Profiles of both engines are at the same heights, also if fractions differ or Monte Carlo has more grains. They
     share a picture."""
@@ -204,14 +216,62 @@ def test_compare_lists_profiles():
         done = run("compare", "scene.yaml", "--quiet", "--picture", "c.svg",
                    scene="flow: couette\nparticles: 300\ndsmc: {particles: 5000}\ncollision: {e: 0.9}\n"
                          "measure: [rheology, profiles]\nrun: {collisions: 150, warmup: 20}\n" + more)
-        _, _, table = done.out.partition("profiles, md and dsmc")
+        table = cells_of(done.out, "profiles")
         for name in "solid_fraction", "velocity", "temperature":
-            check(f"profile_{name} " in table, more, name, done.out, done.err)
+            check("dsmc - md" in table[f"profile_{name}"], more, name, done.out, done.err)
         page = re.sub("<[^>]*>", "", open("c_profiles.svg").read())
-        squares = table.split("profile_velocity ")[1].split()[1]
+        squares = float(table["profile_velocity"]["dsmc - md"][0])
         told = re.search(r"flow velocity: chi\s*2\s*/points\s+([0-9.e+]+),\s+largest\s+z\s+[+-]", page)
         check(re.search(r"\bmd\b", page) and re.search(r"\bdsmc\b", page), page)
-        check(told and abs(float(told[1]) - float(squares)) < 0.01 * float(squares) + 0.01, page, squares)
+        check(told and abs(float(told[1]) - squares) < 0.01 * squares + 0.01, page, squares)
+
+
+def test_theories_between_walls():
+    """Columns of theories: numbers of walls, deviations of profiles from each engine without layers at walls, all
+    computed anew from the JSON document; remarks; lines in the picture. `theory` has the same without engines, and a
+    stored comparison the same remarks."""
+    scene = ("flow: couette\nphi: 0.1\nparticles: 300\ndsmc: {particles: 3000}\ncollision: {e: 0.7}\n"
+             "walls: {e: 0.9, beta: 0}\nmeasure: [rheology, profiles, fluxes]\nrun: {collisions: 150, warmup: 20}\n")
+    done = run("compare", "scene.yaml", "--quiet", "--output", "c.h5", "--picture", "c.svg", scene=scene, columns=400)
+    alone = run("theory", "scene.yaml", columns=400)
+    document = json.loads(run("compare", "scene.yaml", "--quiet", "--json", "--output", "d.h5", "--picture", "none").out)
+    solved = json.loads(run("theory", "scene.yaml", "--json").out)
+    table = cells_of(done.out, "profiles")
+    for theory in "navier_stokes", "moments":
+        curves = document["theory_curves"][theory]
+        check(curves == solved["theory_curves"][theory], theory)
+        remark = solved["theories"][theory]["beyond"]
+        check("a wall takes heat" in remark and document["theories"][theory]["beyond"] == remark, remark)
+        check(remark in alone.out and remark.count(";") == (theory == "navier_stokes"), alone.out)
+        check(theory == "moments" or f": {remark}" in done.out, done.out)
+        for engine in "md", "dsmc":
+            for name, measured in document[engine]["curves"].items():
+                if name not in curves:
+                    continue
+                low, high = (curves[name]["numbers"][end]["mean"] for end in ("core_from", "core_to"))
+                for layer in low, measured["x"][-1] + measured["x"][0] - high:
+                    check(2.499 < layer < 4, name, layer)
+                rows = [(y, m, s, t) for y, m, s, t in zip(measured["x"], measured["value"], measured["stderr"],
+                                                           curves[name]["value"]) if low <= y <= high]
+                y, m, s, t = map(list, zip(*rows))
+                squares = sum(((a - b) / c) ** 2 for a, b, c in zip(t, m, s)) / len(y)
+                offs = [100 * (a - b) / max(map(abs, m)) for a, b in zip(t, m)]
+                printed = table[name][f"{theory} - {engine}"]
+                check(abs(float(printed[0]) / squares - 1) < 0.01, name, theory, engine, printed, squares)
+                off, at = float(printed[1][:-1]), min(range(len(y)), key=lambda i: abs(y[i] - float(printed[2])))
+                check(abs(off - offs[at]) < 0.06 and abs(abs(off) - max(map(abs, offs))) < 0.06, name, printed, offs)
+        stress = curves["profile_velocity"]["numbers"]["wall_P_yx_upper"]["mean"]
+        ratio = stress / document["md"]["curves"]["profile_velocity"]["numbers"]["wall_P_yx_upper"]["mean"]
+        row = next(line for line in done.out.splitlines() if "wall_P_yx_upper [" in line)
+        check(f"{stress:.4g} {100 * (ratio - 1):+6.1f}%" in row, row, stress, ratio)
+        check(f"{stress:.5g}" in next(line for line in alone.out.splitlines() if "wall_P_yx_upper [" in line), alone.out)
+    page = re.sub("<[^>]*>", "", open("c_profiles.svg").read())
+    check("Navier &amp; Stokes" in page and "Moments" in page, page)
+    run("export", "c.h5", "--only", "curves")
+    with open("c_moments_profiles_profile_temperature.csv") as file:
+        stored = [float(line.split(",")[1] or "nan") for line in file.read().splitlines()[1:]]
+    given = [x for x in curves["profile_temperature"]["value"] if x is not None]
+    check([x for x in stored if x == x] == given, stored, given)
 
 
 SMOOTH = ("flow: usf\nphi: 0.3\nparticles: 1000\ncollision: {e: 0.9}\ndsmc: {particles: 5000}\n"

@@ -41,7 +41,8 @@ def test_reference_pages():
 
 
 def test_each_public_function_is_documented():
-    """Every function of the public header has a comment of its own in Doxygen form, which names its parameters."""
+    """Every function of the public header has a comment of its own in Doxygen form, which names its parameters. What is the
+    same for all functions is in the header's first comment: err, context, and a stop without more."""
     with open(os.path.join(SOURCE, "include", "graingas.h"), encoding="utf-8") as header:
         text = header.read()
     wrong, n = set(), 0
@@ -51,6 +52,7 @@ def test_each_public_function_is_documented():
         arguments = re.sub(r"\(\*(\w+)\)\([^()]*\)", r"\1", arguments)  # of functions their names alone
         names = [] if arguments == "void" else [re.findall(r"\w+", a)[-1] for a in arguments.split(",")]
         named = re.findall(r"@param (\w+)", comment or "")
+        names = [name for name in names if name in named or name not in ("err", "context", "stop")]
         if not comment or named != names or (returns.strip() != "void") != ("@return" in comment):
             wrong.add(f"{name}: @param of {names}, @return unless void")
     check(n > 90 and not wrong, n, "in include/graingas.h, without such a comment:\n" + "\n".join(sorted(wrong)))

@@ -67,6 +67,10 @@ static void planted_profiles(void **state)
   }
   gg_curve_number p = ct_number(ct_find(&list, "profile_velocity"), "slip_upper");
   ct_expect("slip", p.value, p.error, m.surface[1].velocity.x - (3 * (L - 0.5) / L - 1), 0.1);
+  p = ct_number(ct_find(&list, "profile_velocity"), "slope_middle");
+  ct_expect("slope", p.value, p.error, 3 / L, 0.02);
+  p = ct_number(ct_find(&list, "profile_temperature"), "middle");
+  ct_expect("T of the middle", p.value, p.error, warmth(0.5 * L, &L), 0.04);
   gg_measure_curves_clear(&list);
 }
 

@@ -287,9 +287,8 @@ gg_status gg_files_result_restore(const gg_stored_result *s, gg_engine_kind engi
 }
 
 /* Why a theory did not apply. */
-static void restore_refusal(const json_t *document, const char *theory, char *reason, size_t size)
+static void restore_refusal(const json_t *about, char *reason, size_t size)
 {
-  const json_t *about = json_object_get(json_object_get(document, "theories"), theory);
   const char *said = gg_io_json_string(about, "reason");
   snprintf(reason, size, "%s", *said ? said : "it is not in the file");
 }
@@ -307,15 +306,18 @@ static gg_status restore_theories(gg_comparison *c, const json_t *document, gg_e
   c->n_theories = 0;
   for (int i = 0; i < GG_MOST_THEORIES && (theory = gg_theory_of(&c->model, i)); i++, c->n_theories++) {
     const json_t *said = json_object_get(all, theory->name);
+    const json_t *about = json_object_get(json_object_get(document, "theories"), theory->name);
+    gg_theory_answer *answer = &c->theory[i].answer;
     c->theory[i].theory = theory;
     c->theory[i].applies = said != NULL;
-    if (!said) restore_refusal(document, theory->name, c->theory[i].reason, sizeof c->theory[i].reason);
-    for (int q = 0; q < GG_MOST_QUANTITIES; q++) c->theory[i].answer.value[q] = c->theory[i].answer.error[q] = NAN;
+    if (!said) restore_refusal(about, c->theory[i].reason, sizeof c->theory[i].reason);
+    for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
+    snprintf(answer->remark, sizeof answer->remark, "%s", gg_io_json_string(about, "beyond"));
     for (int k = 0; said && k < c->rows.n; k++) {
       const gg_quantity_row *row = &c->rows.row[k];
       const json_t *one = json_object_get(said, row->name);
-      c->theory[i].answer.value[row->quantity] = gg_io_json_number(one, "mean");
-      c->theory[i].answer.error[row->quantity] = gg_io_json_number(one, "error");
+      answer->value[row->quantity] = gg_io_json_number(one, "mean");
+      answer->error[row->quantity] = gg_io_json_number(one, "error");
     }
   }
   for (int i = 0; i < c->n_theories; i++) {

@@ -71,12 +71,17 @@ double gg_theory_gap_knudsen(const gg_model *model);
 gg_status gg_theory_gap_solve(const gg_model *model, gg_gap_gas gas, const char *theory, gg_gap_flow *flow,
                               gg_error *err);
 
+/* Why the theory errs in this flow: Kn, slip, normal stress differences, heat; "" where none applies. */
+void gg_theory_gap_remark(const gg_gap_flow *flow, char text[GG_THEORY_REMARK]);
+
 /* A theory of this kind: bytes of its gas, and the flow of a model that passes the check. */
 typedef struct gg_gap_theory {
   const char *name;
   bool rough; /* does it describe rough grains, too? */
   size_t size;
   gg_status (*flow_of)(const gg_model *model, void *gas, gg_gap_flow *flow, gg_error *err);
+  /* The gas for number densities from low to high. */
+  gg_status (*gas_of)(const gg_model *model, double low, double high, void *memory, gg_gap_gas *gas, gg_error *err);
 } gg_gap_theory;
 
 /* For gg_theory.evaluate: numbers of the flow under the common names. */
@@ -86,6 +91,10 @@ gg_status gg_theory_gap_evaluate(const gg_gap_theory *theory, const gg_model *mo
 /* For gg_theory.curves: profiles, as `profiles` and `fluxes` measure them. */
 gg_status gg_theory_gap_curves(const gg_gap_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
                                gg_error *err);
+
+/* For gg_theory.fluxes. */
+gg_status gg_theory_gap_fluxes(const gg_gap_theory *theory, const gg_model *model, size_t n,
+                               const gg_local_state *state, gg_local_fluxes *fluxes, gg_error *err);
 
 /* Pass the flow to a function, and free it. */
 typedef void gg_gap_use(const gg_gap_flow *flow, void *to);

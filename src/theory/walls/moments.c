@@ -54,7 +54,13 @@ typedef union closure {
   gg_rough_moments rough;
 } closure;
 
-static const gg_gap_theory theory = {name, true, sizeof(closure), flow_of};
+static gg_status gas_of(const gg_model *m, double low, double high, void *memory, gg_gap_gas *gas, gg_error *err)
+{
+  *gas = (gg_gap_gas){gg_theory_gaussian_table_local, memory};
+  return gg_theory_gaussian_table_make(m, low, high, memory, err);
+}
+
+static const gg_gap_theory theory = {name, true, sizeof(closure), flow_of, gas_of};
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
@@ -66,13 +72,9 @@ static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg
   return gg_theory_gap_curves(&theory, m, measure, list, err);
 }
 
-static const char *beyond(const gg_model *m)
+static gg_status fluxes(const gg_model *m, size_t n, const gg_local_state *state, gg_local_fluxes *to, gg_error *err)
 {
-  if (gg_theory_gap_knudsen(m) > 0.1) return "Knudsen number above 0.1: walls are felt throughout the gap";
-  if (m->e[0] < 0.7) return "velocities are far from Gaussian below e = 0.7";
-  if (m->e[0] < 1 && m->flow == GG_FOURIER)
-    return "walls heat a gas that loses energy: closer is navier_stokes, which made no choice for this state";
-  return NULL;
+  return gg_theory_gap_fluxes(&theory, m, n, state, to, err);
 }
 
 const gg_theory gg_theory_moments = {
@@ -88,6 +90,6 @@ const gg_theory gg_theory_moments = {
         "smooth grains, a heat flux of 13 moments, two factors of which were chosen by comparison with Monte "
         "Carlo. Kn up to 0.3, e from 0.7; best where shear heats the gas.",
     .evaluate = evaluate,
-    .beyond = beyond,
     .curves = curves,
+    .fluxes = fluxes,
 };

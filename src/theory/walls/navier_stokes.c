@@ -15,7 +15,15 @@ static gg_status flow_of(const gg_model *m, void *gas, gg_gap_flow *flow, gg_err
   return gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_newtonian_gas_local, gas}, name, flow, err);
 }
 
-static const gg_gap_theory theory = {name, true, sizeof(gg_rough_gas), flow_of};
+static gg_status gas_of(const gg_model *m, double low, double high, void *memory, gg_gap_gas *gas, gg_error *err)
+{
+  (void)low, (void)high, (void)err;
+  gg_theory_newtonian_gas_make(m, memory);
+  *gas = (gg_gap_gas){gg_theory_newtonian_gas_local, memory};
+  return GG_OK;
+}
+
+static const gg_gap_theory theory = {name, true, sizeof(gg_rough_gas), flow_of, gas_of};
 
 static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
@@ -27,11 +35,9 @@ static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg
   return gg_theory_gap_curves(&theory, m, measure, list, err);
 }
 
-static const char *beyond(const gg_model *m)
+static gg_status fluxes(const gg_model *m, size_t n, const gg_local_state *state, gg_local_fluxes *to, gg_error *err)
 {
-  if (gg_theory_gap_knudsen(m) > 0.1) return "Knudsen number above 0.1: walls are felt throughout the gap";
-  if (m->e[0] < 0.7) return "Navier-Stokes order: stress of grains that lose much is anisotropic";
-  return NULL;
+  return gg_theory_gap_fluxes(&theory, m, n, state, to, err);
 }
 
 const gg_theory gg_theory_navier_stokes = {
@@ -49,6 +55,6 @@ const gg_theory gg_theory_navier_stokes = {
         "balances of mass, momentum, energy and spin, to first order in gradients, with the transport coefficients of "
         "the cooling gas (rough: lun1991), and half-range conditions at walls. Kn up to 0.3; e near 1.",
     .evaluate = evaluate,
-    .beyond = beyond,
     .curves = curves,
+    .fluxes = fluxes,
 };
