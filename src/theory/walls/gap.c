@@ -98,7 +98,8 @@ static void at_wall(gg_gap *g, const gg_surface *wall, const double v[], double 
   local_at(g, v, &at);
   const double s = wall->side, G = v[GG_GAP_U] - wall->velocity.x, T = exp(v[GG_GAP_LOG_T]), P = v[GG_GAP_P];
   const double q = v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U], layer = gg_theory_wall_layer(at.phi);
-  const gg_arrival in = {.gas = &at, .P = P, .T = T, .slip = G, .shear = s * v[GG_GAP_TAU], .heat = s * q};
+  const gg_arrival in = {
+      .gas = &at, .P = P, .T = T, .slip = G, .shear = s * v[GG_GAP_TAU], .heat = s * q, .along = at.carried_x * q};
   const gg_wall_takes takes = gg_theory_wall_takes(wall, &in);
   left[0] = floats(g) && s > 0 ? v[GG_GAP_U] / sqrt(g->T) : (in.shear - takes.momentum) / g->P;
   left[1] = (in.heat + in.shear * G - takes.energy) / (g->P * sqrt(g->T));

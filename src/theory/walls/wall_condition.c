@@ -34,7 +34,7 @@ gg_wall_takes gg_theory_wall_takes(const gg_surface *wall, const gg_arrival *in)
   const double h_shear = share_of(wall, gas->phi, 0.0571), h_heat = share_of(wall, gas->phi, 0.0636);
   const double a = wall->accommodation, G = in->slip, heat = h_heat * in->heat;
   const double J = in->P / sqrt(2 * M_PI * gas->Tyy), across = 0.5 * (gas->Txx + gas->Tzz);
-  const double momentum = J * G + h_shear * in->shear + J * gas->carried_x * in->heat / (5 * in->P);
+  const double momentum = J * G + h_shear * in->shear + J * in->along / (5 * in->P);
   const double normal = J * gas->Tyy + 0.6 * heat;
   const double tangential = J * (across - 0.5 * G * G) + 0.4 * heat + G * momentum;
   gg_wall_takes rule;

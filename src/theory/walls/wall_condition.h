@@ -14,6 +14,7 @@ typedef struct gg_arrival {
   double P, T;
   double slip;        /* velocity of the gas minus that of the wall */
   double shear, heat; /* s tau, s q */
+  double along;       /* carried heat flux along x */
 } gg_arrival;
 
 typedef struct gg_wall_takes {
