@@ -92,17 +92,34 @@ static bool floats(const gg_gap *g)
   return !gg_theory_wall_grips(&g->model->surface[0]) && !gg_theory_wall_grips(&g->model->surface[1]);
 }
 
+/* The gas that reaches a wall, and what the wall takes from it. */
+typedef struct meeting {
+  gg_gap_local at;
+  gg_arrival in;
+  gg_wall_takes takes;
+} meeting;
+
+static void meet(gg_gap *g, const gg_surface *wall, const double v[], meeting *to)
+{
+  local_at(g, v, &to->at);
+  const double s = wall->side, q = v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U];
+  to->in = (gg_arrival){.gas = &to->at,
+                        .P = v[GG_GAP_P],
+                        .T = exp(v[GG_GAP_LOG_T]),
+                        .slip = v[GG_GAP_U] - wall->velocity.x,
+                        .shear = s * v[GG_GAP_TAU],
+                        .heat = s * q,
+                        .along = to->at.carried_x * q};
+  to->takes = gg_theory_wall_takes(wall, &to->in);
+}
+
 static void at_wall(gg_gap *g, const gg_surface *wall, const double v[], double left[3])
 {
-  gg_gap_local at;
-  local_at(g, v, &at);
-  const double s = wall->side, G = v[GG_GAP_U] - wall->velocity.x, T = exp(v[GG_GAP_LOG_T]), P = v[GG_GAP_P];
-  const double q = v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U], layer = gg_theory_wall_layer(at.phi);
-  const gg_arrival in = {
-      .gas = &at, .P = P, .T = T, .slip = G, .shear = s * v[GG_GAP_TAU], .heat = s * q, .along = at.carried_x * q};
-  const gg_wall_takes takes = gg_theory_wall_takes(wall, &in);
-  left[0] = floats(g) && s > 0 ? v[GG_GAP_U] / sqrt(g->T) : (in.shear - takes.momentum) / g->P;
-  left[1] = (in.heat + in.shear * G - takes.energy) / (g->P * sqrt(g->T));
+  meeting m;
+  meet(g, wall, v, &m);
+  const double s = wall->side, layer = m.takes.grains;
+  left[0] = floats(g) && s > 0 ? v[GG_GAP_U] / sqrt(g->T) : (m.in.shear - m.takes.momentum) / g->P;
+  left[1] = (m.in.heat + m.in.shear * m.in.slip - m.takes.energy) / (g->P * sqrt(g->T));
   left[2] = (v[GG_GAP_N] - (s > 0 ? g->grains - layer : layer)) / g->grains;
 }
 
@@ -193,15 +210,21 @@ static gg_status start(gg_gap_flow *flow, const char *theory, gg_error *err)
 static void put_wall(gg_gap_flow *flow, int w)
 {
   gg_gap *g = &flow->gap;
-  const gg_model *m = g->model;
-  const gg_surface *wall = &m->surface[w];
+  const double *gravity = g->model->gravity;
+  const gg_surface *wall = &g->model->surface[w];
   const double *v = flow->solution.v[w ? flow->solution.points - 1 : 0], s = wall->side;
+  meeting m;
+  meet(g, wall, v, &m);
   gg_gap_wall *to = &flow->wall[w];
-  local_at(g, v, &to->gas);
-  to->layer = gg_theory_wall_layer(to->gas.phi);
-  to->P = v[GG_GAP_P] + s * to->layer * m->gravity[1], to->tau = v[GG_GAP_TAU] + s * to->layer * m->gravity[0];
-  to->slip = v[GG_GAP_U] - wall->velocity.x, to->T = exp(v[GG_GAP_LOG_T]);
-  to->heat = s * (v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U] + to->tau * to->slip);
+  *to = (gg_gap_wall){.P = m.in.P + s * m.takes.grains * gravity[1],
+                      .tau = v[GG_GAP_TAU] + s * m.takes.grains * gravity[0],
+                      .slip = m.in.slip,
+                      .T = m.in.T,
+                      .grains = m.takes.grains,
+                      .warmth = m.takes.warmth,
+                      .loss = m.takes.loss,
+                      .gas = m.at};
+  to->heat = m.in.heat + s * to->tau * to->slip - to->loss;
 }
 
 /* Sums over the gap by Gauss's formula of three points in each interval, none of them one of the collocation. */
@@ -226,8 +249,8 @@ static void put_sums(gg_gap_flow *flow)
   for (int w = 0; w < 2; w++) {
     const gg_gap_wall *wall = &flow->wall[w];
     const gg_surface *surface = &g->model->surface[w];
-    warm += wall->layer * wall->T;
-    flow->work += wall->layer * g->model->gravity[0] * (wall->slip + surface->velocity.x);
+    warm += wall->warmth, flow->loss += wall->loss;
+    flow->work += wall->grains * g->model->gravity[0] * (wall->slip + surface->velocity.x);
     flow->work -= surface->side * wall->tau * surface->velocity.x;
   }
   flow->temperature = warm / g->grains;

@@ -22,6 +22,7 @@ typedef struct gg_gap_local {
   double Txx, Tyy, Tzz; /* <C_a^2> of grains that arrive at a wall */
   double xx, zz;        /* P_xx - P_yy, P_zz - P_yy */
   double carried_x;     /* carried heat flux along x, over the heat flux along y */
+  double path;          /* length of the layer in which the normal temperature relaxes at walls; 0: none */
 } gg_gap_local;
 
 /* A gas: what closes the balances. `local` returns false outside its densities. */
@@ -41,11 +42,11 @@ typedef struct gg_gap {
 
 /* The gas at a wall, and its action on the wall. */
 typedef struct gg_gap_wall {
-  double P, tau; /* stress on the wall, layers of grains at it included */
-  double heat;   /* that the wall takes, as it moves with it */
-  double slip;   /* velocity of the gas, continued to the wall, minus that of the wall */
-  double T;      /* temperature of the gas, likewise */
-  double layer;  /* grains per area in layers at the wall */
+  double P, tau;               /* stress on the wall, weight of layers included */
+  double heat;                 /* that the wall takes, as it moves with it */
+  double slip;                 /* velocity of the gas, continued to the wall, minus that of the wall */
+  double T;                    /* temperature of the gas, likewise */
+  double grains, warmth, loss; /* of layers at the wall (wall_condition.h) */
   gg_gap_local gas;
 } gg_gap_wall;
 

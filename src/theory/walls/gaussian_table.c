@@ -312,5 +312,6 @@ bool gg_theory_gaussian_table_local(void *self, double P, double tau, double T, 
   at->Txx = T * M[XX], at->Tyy = T * M[YY], at->Tzz = T * (3 - M[XX] - M[YY]);
   at->xx = n * T * f[GG_TABLE_XX], at->zz = n * T * f[GG_TABLE_ZZ];
   at->carried_x = sign * gg_theory_heat_ratio(M, W) * h;
+  at->path = sqrt(1.2) * c0() * v[GG_Q_VISCOSITY_REDUCED_KINETIC] / n;
   return p.within;
 }
