@@ -83,7 +83,9 @@ static void slope(void *self, const double v[], double f[])
   f[GG_GAP_P] = at.n * gravity[1], f[GG_GAP_TAU] = at.n * gravity[0], f[GG_GAP_N] = at.n;
   f[GG_GAP_U] = at.shear;
   f[GG_GAP_E] = at.n * gravity[0] * v[GG_GAP_U] - at.loss;
-  f[GG_GAP_LOG_T] = -(q + at.mu * at.n_P * f[GG_GAP_P]) / ((at.kappa + at.mu * at.n_T) * T);
+  const double turn = f[GG_GAP_TAU] - v[GG_GAP_TAU] / v[GG_GAP_P] * f[GG_GAP_P];
+  const double at_T = at.n_P * f[GG_GAP_P] + at.n_tau * turn; /* dn/dy but for the part of T' */
+  f[GG_GAP_LOG_T] = -(q + at.mu * at_T) / ((at.kappa + at.mu * at.n_T) * T);
 }
 
 /* True if no wall takes momentum along x: the velocity of the gas is then set to 0 at the upper wall. */

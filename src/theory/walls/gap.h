@@ -16,7 +16,8 @@ enum { GG_GAP_LOG_T, GG_GAP_U, GG_GAP_E, GG_GAP_TAU, GG_GAP_P, GG_GAP_N, GG_GAP_
 /* The gas at one height. */
 typedef struct gg_gap_local {
   double n, phi, shear; /* number density, solid fraction, du/dy */
-  double n_P, n_T;      /* derivatives of n(P, T) */
+  double n_P, n_T;      /* derivatives of n to P and T at constant tau/P, */
+  double n_tau;         /* and to tau at constant P and T */
   double kappa, mu;     /* heat flux -kappa T' - mu n' */
   double loss;          /* energy per volume and time */
   double Txx, Tyy, Tzz; /* <C_a^2> of grains that arrive at a wall */
