@@ -310,9 +310,8 @@ static double drag_of(const gg_model *m, const gg_surface *wall)
   return ahead > 0 ? 1 : -1;
 }
 
-static void answer(const gg_gap_flow *flow, void *to)
+static void put_numbers(const gg_gap_flow *flow, gg_theory_answer *a)
 {
-  gg_theory_answer *a = to;
   const gg_model *m = flow->gap.model;
   const gg_gap_wall *w = flow->wall;
   const double per_volume = m->stress_unit / m->box[1];
@@ -345,7 +344,24 @@ gg_status gg_theory_gap_with_flow(const gg_gap_theory *theory, const gg_model *m
   return status;
 }
 
-gg_status gg_theory_gap_evaluate(const gg_gap_theory *theory, const gg_model *m, gg_theory_answer *a, gg_error *err)
+typedef struct request {
+  gg_theory_answer *answer;
+  unsigned measure;
+  gg_curves *list;
+} request;
+
+static void put(const gg_gap_flow *flow, void *to)
 {
-  return gg_theory_gap_with_flow(theory, m, answer, a, err);
+  const request *r = to;
+  if (r->answer) put_numbers(flow, r->answer);
+  if (r->list) gg_theory_gap_profiles(flow, r->measure, r->list);
+}
+
+gg_status gg_theory_gap_answer(const gg_gap_theory *theory, const gg_model *m, gg_theory_answer *answer,
+                               unsigned measure, gg_curves *list, gg_error *err)
+{
+  request r = {answer, measure, list};
+  if (!answer && !(measure & (GG_MEASURE_PROFILES | GG_MEASURE_FLUXES))) return GG_OK;
+  GG_TRY(gg_theory_gap_with_flow(theory, m, put, &r, err));
+  return list && list->failed ? gg_base_out_of_memory(err) : GG_OK;
 }

@@ -78,13 +78,13 @@ typedef struct gg_gap_theory {
   gg_status (*flow_of)(const gg_model *model, void *gas, gg_gap_flow *flow, gg_error *err);
 } gg_gap_theory;
 
-/* For gg_theory.evaluate: numbers of the flow under the common names. */
-gg_status gg_theory_gap_evaluate(const gg_gap_theory *theory, const gg_model *model, gg_theory_answer *answer,
-                                 gg_error *err);
+/* Answer, numbers of the flow under the common names, and list, its profiles as `profiles` and `fluxes` measure them.
+ * Both from one solution; NULL: without these. */
+gg_status gg_theory_gap_answer(const gg_gap_theory *theory, const gg_model *model, gg_theory_answer *answer,
+                               unsigned measure, gg_curves *list, gg_error *err);
 
-/* For gg_theory.curves: profiles, as `profiles` and `fluxes` measure them. */
-gg_status gg_theory_gap_curves(const gg_gap_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
-                               gg_error *err);
+/* Profiles of a flow (gap_curves.c). */
+void gg_theory_gap_profiles(const gg_gap_flow *flow, unsigned measure, gg_curves *list);
 
 /* Pass the flow to a function, and free it. */
 typedef void gg_gap_use(const gg_gap_flow *flow, void *to);

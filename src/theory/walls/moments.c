@@ -46,16 +46,6 @@ static gg_status flow_of(const gg_model *m, void *table, gg_gap_flow *flow, gg_e
 
 static const gg_gap_theory theory = {name, sizeof(gg_gaussian_table), flow_of};
 
-static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
-{
-  return gg_theory_gap_evaluate(&theory, m, a, err);
-}
-
-static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg_error *err)
-{
-  return gg_theory_gap_curves(&theory, m, measure, list, err);
-}
-
 static const char *beyond(const gg_model *m)
 {
   if (gg_theory_gap_knudsen(m) > 0.1) return "Knudsen number above 0.1: walls are felt throughout the gap";
@@ -75,7 +65,6 @@ const gg_theory gg_theory_moments = {
     .assumptions = "As navier_stokes, but with the stress of the Gaussian closure at the local shear rate and a heat "
                    "flux of 13 moments, two factors of which were chosen by comparison with Monte Carlo. Kn up to 0.3, "
                    "e from 0.7; best where shear heats the gas.",
-    .evaluate = evaluate,
+    .gap = &theory,
     .beyond = beyond,
-    .curves = curves,
 };

@@ -13,16 +13,6 @@ static gg_status flow_of(const gg_model *m, void *gas, gg_gap_flow *flow, gg_err
 
 static const gg_gap_theory theory = {name, sizeof(gg_newtonian_gas), flow_of};
 
-static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
-{
-  return gg_theory_gap_evaluate(&theory, m, a, err);
-}
-
-static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg_error *err)
-{
-  return gg_theory_gap_curves(&theory, m, measure, list, err);
-}
-
 static const char *beyond(const gg_model *m)
 {
   if (gg_theory_gap_knudsen(m) > 0.1) return "Knudsen number above 0.1: walls are felt throughout the gap";
@@ -41,7 +31,6 @@ const gg_theory gg_theory_navier_stokes = {
     .assumptions = "Smooth spheres of one species between flat walls, in steady flow without layers or waves: balances "
                    "of mass, momentum and energy with the transport coefficients of the cooling gas, to first order in "
                    "gradients, and half-range conditions at walls. Kn up to 0.3; e near 1.",
-    .evaluate = evaluate,
+    .gap = &theory,
     .beyond = beyond,
-    .curves = curves,
 };
