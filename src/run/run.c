@@ -74,7 +74,7 @@ static gg_status draw_curves(gg_comparison *c, int i, gg_error *err)
 {
   gg_error why = {0};
   const gg_theory *theory = c->theory[i].theory;
-  if (!c->theory[i].applies) return GG_OK;
+  if (!c->theory[i].applies || theory->gap) return GG_OK;
   const unsigned before = gg_base_memory_failures();
   gg_status status = gg_theory_curves(theory, &c->model, c->scene->measure, &c->theory[i].curves, &why);
   if (status == GG_INTERRUPTED) return gg_base_fail(err, status, "%s", why.message);
@@ -99,7 +99,10 @@ static gg_status compare_theories(const gg_model *model, const bool *wanted, gg_
     }
     const int n = c->n_theories;
     const unsigned before = gg_base_memory_failures();
-    gg_status status = gg_theory_evaluate(theory, theory->own ? start : model, &c->theory[n].answer, &why);
+    gg_status status = theory->gap
+                           ? gg_theory_evaluate_gap(theory, &c->model, c->scene->measure, &c->theory[n].answer,
+                                                    &c->theory[n].curves, &why)
+                           : gg_theory_evaluate(theory, theory->own ? start : model, &c->theory[n].answer, &why);
     if (gg_base_memory_failures() != before)
       return gg_base_error_prefix(err, gg_base_out_of_memory(err), "%s", theory->name);
     if (status == GG_INTERRUPTED) return gg_base_fail(err, status, "%s", why.message);

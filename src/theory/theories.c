@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "theory/answer.h"
 #include "theory/theory_list.h"
+#include "theory/walls/gap.h"
 
 #define ENTRY(name) &gg_theory_##name,
 const gg_theory *const gg_theory_theories[] = {GG_THEORIES(ENTRY) NULL};
@@ -74,52 +75,73 @@ static gg_status finish(const gg_theory *theory, const gg_model *model, gg_statu
   return gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", theory->name);
 }
 
-gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
+/* What one call of a theory gives: answers, curves or both; NULL: without these. */
+typedef struct request {
+  gg_theory_answer *answer;
+  gg_curves *list;
+  unsigned measure;
+} request;
+
+static gg_status run(const gg_theory *theory, const gg_model *model, request r, gg_error *err)
 {
-  clear(answer);
+  if (theory->gap) return gg_theory_gap_answer(theory->gap, model, r.answer, r.measure, r.list, err);
+  if (r.list) return theory->curves(model, r.measure, r.list, err);
+  return theory->own ? gg_theory_user_theory_evaluate(theory->own, model, r.answer, err)
+                     : theory->evaluate(model, r.answer, err);
+}
+
+static gg_status checked(const gg_theory *theory, const gg_model *model, request r, gg_error *err)
+{
   GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
   GG_TRY(check_bath(theory, model, err));
   const unsigned before = gg_base_memory_failures();
   gg_base_gsl_enter();
-  gg_status status = theory->own ? gg_theory_user_theory_evaluate(theory->own, model, answer, err)
-                                 : theory->evaluate(model, answer, err);
+  gg_status status = run(theory, model, r, err);
   gg_base_gsl_leave();
   status = finish(theory, model, status, err);
-  const char *beyond = status == GG_OK && !*answer->remark ? gg_theory_beyond(theory, model) : NULL;
-  if (beyond) snprintf(answer->remark, sizeof answer->remark, "%s", beyond);
-  if (status == GG_INTERRUPTED) clear(answer);
-  if (gg_base_memory_failures() != before) status = gg_base_out_of_memory(err);
-  for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] += 0.0; /* no -0 */
+  const char *beyond = r.answer && status == GG_OK && !*r.answer->remark ? gg_theory_beyond(theory, model) : NULL;
+  if (beyond) snprintf(r.answer->remark, sizeof r.answer->remark, "%s", beyond);
+  return gg_base_memory_failures() != before ? gg_base_out_of_memory(err) : status;
+}
+
+static gg_status answers(const gg_theory *theory, const gg_model *model, request r, gg_error *err)
+{
+  if (r.answer) clear(r.answer);
+  if (r.list) *r.list = (gg_curves){.model = model};
+  if (r.list && !theory->curves && !theory->gap) return GG_OK;
+  const gg_status status = checked(theory, model, r, err);
+  if (r.answer && status == GG_INTERRUPTED) clear(r.answer);
+  for (int q = 0; r.answer && q < GG_MOST_QUANTITIES; q++) r.answer->value[q] += 0.0; /* no -0 */
+  if (r.list) r.list->group = NULL;                                                   /* every curve has its own copy */
+  if (r.list && status != GG_OK) gg_measure_curves_clear(r.list);
   return status;
+}
+
+gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_theory_answer *answer, gg_error *err)
+{
+  return answers(theory, model, (request){.answer = answer}, err);
 }
 
 gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
                            gg_error *err)
 {
-  *list = (gg_curves){.model = model};
-  if (!theory->curves) return GG_OK;
-  GG_TRY(check_law(theory, model, err));
-  GG_TRY(check_flow(theory, model, err));
-  GG_TRY(check_bath(theory, model, err));
-  const unsigned before = gg_base_memory_failures();
-  gg_base_gsl_enter();
-  gg_status status = theory->curves(model, measure, list, err);
-  gg_base_gsl_leave();
-  status = finish(theory, model, status, err);
-  if (gg_base_memory_failures() != before) status = gg_base_out_of_memory(err);
-  list->group = NULL; /* every curve has its own copy */
-  if (status != GG_OK) gg_measure_curves_clear(list);
-  return status;
+  return answers(theory, model, (request){.list = list, .measure = measure}, err);
+}
+
+gg_status gg_theory_evaluate_gap(const gg_theory *theory, const gg_model *model, unsigned measure,
+                                 gg_theory_answer *answer, gg_curves *list, gg_error *err)
+{
+  return answers(theory, model, (request){answer, list, measure}, err);
 }
 
 gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_t n, const gg_local_state *state,
                            gg_local_fluxes *fluxes, gg_error *err)
 {
-  if (!theory->fluxes)
+  if (!theory->gap || !theory->gap->gas_of)
     return gg_theory_reject(err, theory->name, "gives no fluxes at single heights; navier_stokes and moments do");
   GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
   GG_TRY(check_bath(theory, model, err));
-  return theory->fluxes(model, n, state, fluxes, err);
+  return gg_theory_gap_fluxes(theory->gap, model, n, state, fluxes, err);
 }

@@ -50,9 +50,8 @@ typedef struct gg_theory {
    * `evaluate` answers. GG_OK also without any of these; GG_BAD_INPUT with the reason if this model has none. NULL:
    * no curves. */
   gg_status (*curves)(const gg_model *model, unsigned measure, gg_curves *list, gg_error *err);
-  /* Stress and heat flux of n given states of a gas between walls; NaN where the theory has none. NULL: no closure. */
-  gg_status (*fluxes)(const gg_model *model, size_t n, const gg_local_state *state, gg_local_fluxes *fluxes,
-                      gg_error *err);
+  /* A flow between walls (walls/gap.h), which replaces evaluate and curves; else NULL. */
+  const struct gg_gap_theory *gap;
   /* A theory of the user's program (user_theory.c), which replaces evaluate and beyond; else NULL. */
   const gg_theory_definition *own;
   const char
@@ -81,8 +80,12 @@ gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_
 gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
                            gg_error *err);
 
-/* Closures at given states of a model (gg_theory.fluxes). */
+/* Stress and heat flux of n given states of a gas between walls; NaN where the theory has none. GG_BAD_INPUT from one
+ * without a gap. */
 gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_t n, const gg_local_state *state,
                            gg_local_fluxes *fluxes, gg_error *err);
+/* Both, from one solution, of a theory that has its gap. */
+gg_status gg_theory_evaluate_gap(const gg_theory *theory, const gg_model *model, unsigned measure,
+                                 gg_theory_answer *answer, gg_curves *list, gg_error *err);
 
 #endif

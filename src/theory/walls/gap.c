@@ -95,7 +95,9 @@ static void slope(void *self, const double v[], double f[])
   f[GG_GAP_P] = at.n * gravity[1], f[GG_GAP_TAU] = at.n * gravity[0], f[GG_GAP_N] = at.n;
   f[GG_GAP_U] = at.shear;
   f[GG_GAP_E] = at.n * gravity[0] * v[GG_GAP_U] - at.loss;
-  f[GG_GAP_LOG_T] = -(q + at.mu * at.n_P * f[GG_GAP_P]) / ((at.kappa + at.mu * at.n_T) * T);
+  const double turn = f[GG_GAP_TAU] - v[GG_GAP_TAU] / v[GG_GAP_P] * f[GG_GAP_P];
+  const double at_T = at.n_P * f[GG_GAP_P] + at.n_tau * turn; /* dn/dy but for the part of T' */
+  f[GG_GAP_LOG_T] = -(q + at.mu * at_T) / ((at.kappa + at.mu * at.n_T) * T);
 }
 
 /* True if no wall takes momentum along x: the velocity of the gas is then set to 0 at the upper wall. */
@@ -104,16 +106,34 @@ static bool floats(const gg_gap *g)
   return !gg_theory_wall_grips(&g->model->surface[0]) && !gg_theory_wall_grips(&g->model->surface[1]);
 }
 
+/* The gas that reaches a wall, and what the wall takes from it. */
+typedef struct meeting {
+  gg_gap_local at;
+  gg_arrival in;
+  gg_wall_takes takes;
+} meeting;
+
+static void meet(gg_gap *g, const gg_surface *wall, const double v[], meeting *to)
+{
+  local_at(g, v, &to->at);
+  const double s = wall->side, q = v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U];
+  to->in = (gg_arrival){.gas = &to->at,
+                        .P = v[GG_GAP_P],
+                        .T = exp(v[GG_GAP_LOG_T]),
+                        .slip = v[GG_GAP_U] - wall->velocity.x,
+                        .shear = s * v[GG_GAP_TAU],
+                        .heat = s * q,
+                        .along = to->at.carried_x * q};
+  to->takes = gg_theory_wall_takes(wall, &to->in);
+}
+
 static void at_wall(gg_gap *g, const gg_surface *wall, const double v[], double left[3])
 {
-  gg_gap_local at;
-  local_at(g, v, &at);
-  const double s = wall->side, G = v[GG_GAP_U] - wall->velocity.x, T = exp(v[GG_GAP_LOG_T]), P = v[GG_GAP_P];
-  const double q = v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U], layer = gg_theory_wall_layer(at.phi);
-  const gg_arrival in = {.gas = &at, .P = P, .T = T, .slip = G, .shear = s * v[GG_GAP_TAU], .heat = s * q};
-  const gg_wall_takes takes = gg_theory_wall_takes(wall, &in);
-  left[0] = floats(g) && s > 0 ? v[GG_GAP_U] / sqrt(g->T) : (in.shear - takes.momentum) / g->P;
-  left[1] = (in.heat + in.shear * G - takes.energy) / (g->P * sqrt(g->T));
+  meeting m;
+  meet(g, wall, v, &m);
+  const double s = wall->side, layer = m.takes.grains;
+  left[0] = floats(g) && s > 0 ? v[GG_GAP_U] / sqrt(g->T) : (m.in.shear - m.takes.momentum) / g->P;
+  left[1] = (m.in.heat + m.in.shear * m.in.slip - m.takes.energy) / (g->P * sqrt(g->T));
   left[2] = (v[GG_GAP_N] - (s > 0 ? g->grains - layer : layer)) / g->grains;
 }
 
@@ -204,15 +224,21 @@ static gg_status start(gg_gap_flow *flow, const char *theory, gg_error *err)
 static void put_wall(gg_gap_flow *flow, int w)
 {
   gg_gap *g = &flow->gap;
-  const gg_model *m = g->model;
-  const gg_surface *wall = &m->surface[w];
+  const double *gravity = g->model->gravity;
+  const gg_surface *wall = &g->model->surface[w];
   const double *v = flow->solution.v[w ? flow->solution.points - 1 : 0], s = wall->side;
+  meeting m;
+  meet(g, wall, v, &m);
   gg_gap_wall *to = &flow->wall[w];
-  local_at(g, v, &to->gas);
-  to->layer = gg_theory_wall_layer(to->gas.phi);
-  to->P = v[GG_GAP_P] + s * to->layer * m->gravity[1], to->tau = v[GG_GAP_TAU] + s * to->layer * m->gravity[0];
-  to->slip = v[GG_GAP_U] - wall->velocity.x, to->T = exp(v[GG_GAP_LOG_T]);
-  to->heat = s * (v[GG_GAP_E] - v[GG_GAP_TAU] * v[GG_GAP_U] + to->tau * to->slip);
+  *to = (gg_gap_wall){.P = m.in.P + s * m.takes.grains * gravity[1],
+                      .tau = v[GG_GAP_TAU] + s * m.takes.grains * gravity[0],
+                      .slip = m.in.slip,
+                      .T = m.in.T,
+                      .grains = m.takes.grains,
+                      .warmth = m.takes.warmth,
+                      .loss = m.takes.loss,
+                      .gas = m.at};
+  to->heat = m.in.heat + s * to->tau * to->slip - to->loss;
 }
 
 /* Sums over the gap by Gauss's formula of three points in each interval, none of them one of the collocation. */
@@ -237,8 +263,8 @@ static void put_sums(gg_gap_flow *flow)
   for (int w = 0; w < 2; w++) {
     const gg_gap_wall *wall = &flow->wall[w];
     const gg_surface *surface = &g->model->surface[w];
-    warm += wall->layer * wall->T;
-    flow->work += wall->layer * g->model->gravity[0] * (wall->slip + surface->velocity.x);
+    warm += wall->warmth, flow->loss += wall->loss;
+    flow->work += wall->grains * g->model->gravity[0] * (wall->slip + surface->velocity.x);
     flow->work -= surface->side * wall->tau * surface->velocity.x;
   }
   flow->temperature = warm / g->grains;
@@ -296,9 +322,8 @@ static double drag_of(const gg_model *m, const gg_surface *wall)
   return ahead > 0 ? 1 : -1;
 }
 
-static void answer(const gg_gap_flow *flow, void *to)
+static void put_numbers(const gg_gap_flow *flow, gg_theory_answer *a)
 {
-  gg_theory_answer *a = to;
   const gg_model *m = flow->gap.model;
   const gg_gap_wall *w = flow->wall;
   const double per_volume = m->stress_unit / m->box[1];
@@ -336,7 +361,24 @@ gg_status gg_theory_gap_with_flow(const gg_gap_theory *theory, const gg_model *m
   return status;
 }
 
-gg_status gg_theory_gap_evaluate(const gg_gap_theory *theory, const gg_model *m, gg_theory_answer *a, gg_error *err)
+typedef struct request {
+  gg_theory_answer *answer;
+  unsigned measure;
+  gg_curves *list;
+} request;
+
+static void put(const gg_gap_flow *flow, void *to)
 {
-  return gg_theory_gap_with_flow(theory, m, answer, a, err);
+  const request *r = to;
+  if (r->answer) put_numbers(flow, r->answer);
+  if (r->list) gg_theory_gap_profiles(flow, r->measure, r->list);
+}
+
+gg_status gg_theory_gap_answer(const gg_gap_theory *theory, const gg_model *m, gg_theory_answer *answer,
+                               unsigned measure, gg_curves *list, gg_error *err)
+{
+  request r = {answer, measure, list};
+  if (!answer && !(measure & (GG_MEASURE_PROFILES | GG_MEASURE_FLUXES))) return GG_OK;
+  GG_TRY(gg_theory_gap_with_flow(theory, m, put, &r, err));
+  return list && list->failed ? gg_base_out_of_memory(err) : GG_OK;
 }

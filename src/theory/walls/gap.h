@@ -16,12 +16,14 @@ enum { GG_GAP_LOG_T, GG_GAP_U, GG_GAP_E, GG_GAP_TAU, GG_GAP_P, GG_GAP_N, GG_GAP_
 /* The gas at one height. */
 typedef struct gg_gap_local {
   double n, phi, shear; /* number density, solid fraction, du/dy */
-  double n_P, n_T;      /* derivatives of n(P, T) */
+  double n_P, n_T;      /* derivatives of n to P and T at constant tau/P, */
+  double n_tau;         /* and to tau at constant P and T */
   double kappa, mu;     /* heat flux -kappa T' - mu n' */
   double loss;          /* energy per volume and time */
   double Txx, Tyy, Tzz; /* <C_a^2> of grains that arrive at a wall */
   double xx, zz;        /* P_xx - P_yy, P_zz - P_yy */
   double carried_x;     /* carried heat flux along x, over the heat flux along y */
+  double path;          /* length of the layer in which the normal temperature relaxes at walls; 0: none */
 } gg_gap_local;
 
 /* A gas: what closes the balances. `local` returns false outside its densities. */
@@ -41,11 +43,11 @@ typedef struct gg_gap {
 
 /* The gas at a wall, and its action on the wall. */
 typedef struct gg_gap_wall {
-  double P, tau; /* stress on the wall, layers of grains at it included */
-  double heat;   /* that the wall takes, as it moves with it */
-  double slip;   /* velocity of the gas, continued to the wall, minus that of the wall */
-  double T;      /* temperature of the gas, likewise */
-  double layer;  /* grains per area in layers at the wall */
+  double P, tau;               /* stress on the wall, weight of layers included */
+  double heat;                 /* that the wall takes, as it moves with it */
+  double slip;                 /* velocity of the gas, continued to the wall, minus that of the wall */
+  double T;                    /* temperature of the gas, likewise */
+  double grains, warmth, loss; /* of layers at the wall (wall_condition.h) */
   gg_gap_local gas;
 } gg_gap_wall;
 
@@ -84,13 +86,13 @@ typedef struct gg_gap_theory {
   gg_status (*gas_of)(const gg_model *model, double low, double high, void *memory, gg_gap_gas *gas, gg_error *err);
 } gg_gap_theory;
 
-/* For gg_theory.evaluate: numbers of the flow under the common names. */
-gg_status gg_theory_gap_evaluate(const gg_gap_theory *theory, const gg_model *model, gg_theory_answer *answer,
-                                 gg_error *err);
+/* Answer, numbers of the flow under the common names, and list, its profiles as `profiles` and `fluxes` measure them.
+ * Both from one solution; NULL: without these. */
+gg_status gg_theory_gap_answer(const gg_gap_theory *theory, const gg_model *model, gg_theory_answer *answer,
+                               unsigned measure, gg_curves *list, gg_error *err);
 
-/* For gg_theory.curves: profiles, as `profiles` and `fluxes` measure them. */
-gg_status gg_theory_gap_curves(const gg_gap_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
-                               gg_error *err);
+/* Profiles of a flow (gap_curves.c). */
+void gg_theory_gap_profiles(const gg_gap_flow *flow, unsigned measure, gg_curves *list);
 
 /* For gg_theory.fluxes. */
 gg_status gg_theory_gap_fluxes(const gg_gap_theory *theory, const gg_model *model, size_t n,

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "base/memory.h"
 #include "common/contact_value.h"
 #include "measure/gap_slabs.h"
 #include "theory/walls/rough_gap.h"
@@ -159,24 +158,9 @@ static void put(const gg_gap_flow *flow, profile p, gg_curves *list)
   put_core(flow, c);
 }
 
-typedef struct request {
-  unsigned measure;
-  gg_curves *list;
-} request;
-
-static void draw(const gg_gap_flow *flow, void *to)
+void gg_theory_gap_profiles(const gg_gap_flow *flow, unsigned measure, gg_curves *list)
 {
-  const request *r = to;
   const int end = flow->rough ? N_PROFILES : THETA;
   for (int p = 0; p < end; p++)
-    if (r->measure & table[p].measure) put(flow, (profile)p, r->list);
-}
-
-gg_status gg_theory_gap_curves(const gg_gap_theory *theory, const gg_model *m, unsigned measure, gg_curves *list,
-                               gg_error *err)
-{
-  request r = {measure, list};
-  if (!(measure & (GG_MEASURE_PROFILES | GG_MEASURE_FLUXES))) return GG_OK;
-  GG_TRY(gg_theory_gap_with_flow(theory, m, draw, &r, err));
-  return list->failed ? gg_base_out_of_memory(err) : GG_OK;
+    if (measure & table[p].measure) put(flow, (profile)p, list);
 }

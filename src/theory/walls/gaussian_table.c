@@ -157,11 +157,11 @@ static double density_at(const gg_gaussian_table *t, double x)
 }
 
 /* Largest shear rate of a density: twice that of uniform shear by Navier-Stokes, and at least half a collision time
- * over eta*. */
-static double most_rate(const gg_gaussian_table *t)
+ * over eta*, times `reach`. */
+static double most_rate(const gg_gaussian_table *t, double reach)
 {
   const double *v = t->gas.answer.value, n = t->gas.model.density, eta = v[GG_Q_VISCOSITY_REDUCED];
-  return 1.3 * n / c0() * sqrt(4 * 1.5 * v[GG_Q_COOLING_RATE] / eta + 0.25 / (eta * eta));
+  return 1.3 * reach * n / c0() * sqrt(4 * 1.5 * v[GG_Q_COOLING_RATE] / eta + 0.25 / (eta * eta));
 }
 
 /* Series of Chebyshev polynomials from values at the nodes, in place along one index. */
@@ -175,7 +175,8 @@ static void to_series(double *value, int n, int stride)
   for (int j = 0; j < n; j++) value[j * stride] = c[j];
 }
 
-gg_status gg_theory_gaussian_table_make(const gg_model *m, double low, double high, gg_gaussian_table *t, gg_error *err)
+gg_status gg_theory_gaussian_table_make(const gg_model *m, double low, double high, double reach, gg_gaussian_table *t,
+                                        gg_error *err)
 {
   gg_theory_newtonian_gas_make(m, &t->gas);
   t->low = low, t->high = high, t->densities = m->boltzmann ? 1 : GG_TABLE_DENSITIES;
@@ -183,7 +184,7 @@ gg_status gg_theory_gaussian_table_make(const gg_model *m, double low, double hi
     const double n = m->boltzmann ? 1 : density_at(t, node(i, t->densities));
     double x[UNKNOWNS];
     set_state(t, n, 0);
-    const double most = most_rate(t);
+    const double most = most_rate(t, reach);
     t->most[i] = log(most);
     for (int k = 0; k < GG_TABLE_RATES; k++) {
       GG_TRY(gg_stop_check(m->stop, err));
@@ -254,12 +255,17 @@ static with_slopes function_at(const gg_gaussian_table *t, int f, const place *p
   return (with_slopes){value, x * p->x_n + z * p->z_n, z * p->z_a};
 }
 
-/* Density and shear rate at which P/T = n exp(pressure) and |tau|/P = a exp(viscosity - pressure). Returns dn/d(P/T) at
- * constant tau/P. At phi = 0 n = 1 is a unit, and a alone is found. */
-static double invert(gg_gaussian_table *t, double x, double r)
+typedef struct density_slopes {
+  double x, r; /* dn/d(P/T) at constant |tau|/P, and dn/d(|tau|/P) at constant P/T */
+} density_slopes;
+
+/* Density and shear rate at which P/T = n exp(pressure) and |tau|/P = a exp(viscosity - pressure). At
+ * phi = 0 n = 1 is a unit, and a alone is found. Returns the derivatives of the density. */
+static density_slopes invert(gg_gaussian_table *t, double x, double r)
 {
   const bool dilute = t->densities == 1;
-  double n = t->n, a = t->a, slope = 1;
+  double n = t->n, a = t->a;
+  density_slopes slope = {0};
   for (int step = 0; step < 60; step++) {
     const place p = place_of(t, n, a);
     const with_slopes lp = function_at(t, GG_TABLE_PRESSURE, &p), le = function_at(t, GG_TABLE_VISCOSITY, &p);
@@ -267,7 +273,7 @@ static double invert(gg_gaussian_table *t, double x, double r)
     const double f = dilute ? 0 : n * weight - x, g = a * over - r;
     const double f_n = dilute ? 1 : weight * (1 + n * lp.n), f_a = dilute ? 0 : n * weight * lp.a;
     const double g_n = a * over * (le.n - lp.n), g_a = over * (1 + a * (le.a - lp.a)), det = f_n * g_a - f_a * g_n;
-    slope = dilute ? 1 / weight : g_a / det;
+    slope = (density_slopes){dilute ? 1 / weight : g_a / det, dilute ? -x / weight * lp.a / g_a : -f_a / det};
     const double dn = (f * g_a - g * f_a) / det, da = (g * f_n - f * g_n) / det;
     n = fmax(n - dn, 0.3 * n), a = fmax(a - da, 0);
     if (fabs(dn) <= 1e-13 * n && fabs(da) <= 1e-13 * (a + 1e-3 * n)) break;
@@ -293,7 +299,7 @@ bool gg_theory_gaussian_table_local(void *self, double P, double tau, double T, 
   gg_gaussian_table *t = self;
   const gg_model *m = &t->gas.model;
   const double *v = t->gas.answer.value, root = sqrt(T), sign = tau > 0 ? -1 : 1;
-  const double n_x = invert(t, P / T, fabs(tau) / P);
+  const density_slopes slope = invert(t, P / T, fabs(tau) / P);
   const place p = place_of(t, t->n, t->a);
   double f[GG_TABLE_FUNCTIONS];
   for (int k = 0; k < GG_TABLE_FUNCTIONS; k++) f[k] = function_at(t, k, &p).value;
@@ -306,11 +312,12 @@ bool gg_theory_gaussian_table_local(void *self, double P, double tau, double T, 
   const double y = gg_theory_phi_chi(m), e = m->e[0], h = kinetic / kappa, moving = kinetic * (1 + 1.2 * (1 + e) * y);
   const double factor = conductivity_factor(t, M, W, f[GG_TABLE_SOURCE], h), c = 3.75 * c0() * root;
   at->n = n, at->phi = n * M_PI / 6 * !dilute, at->shear = sign * t->a * unit * root;
-  at->n_P = n_x / T, at->n_T = -P / (T * T) * n_x;
+  at->n_P = slope.x / T, at->n_T = -P / (T * T) * slope.x, at->n_tau = -sign * slope.r / P;
   at->kappa = c * (kappa - moving + moving * factor), at->mu = c * T * v[GG_Q_DIFFUSIVE_HEAT_CONDUCTIVITY_REDUCED] / n;
   at->loss = -tau * at->shear - n * n * T * root * f[GG_TABLE_SOURCE];
   at->Txx = T * M[XX], at->Tyy = T * M[YY], at->Tzz = T * (3 - M[XX] - M[YY]);
   at->xx = n * T * f[GG_TABLE_XX], at->zz = n * T * f[GG_TABLE_ZZ];
   at->carried_x = sign * gg_theory_heat_ratio(M, W) * h;
+  at->path = sqrt(1.2) * c0() * v[GG_Q_VISCOSITY_REDUCED_KINETIC] / n;
   return p.within;
 }

@@ -35,9 +35,10 @@ typedef struct gg_gaussian_table {
   double n, a; /* the last state that was found: a start for the next */
 } gg_gaussian_table;
 
-/* Tabulate for densities from low to high. GG_BAD_INPUT, with the reason, if a state is not found. */
-gg_status gg_theory_gaussian_table_make(const gg_model *model, double low, double high, gg_gaussian_table *table,
-                                        gg_error *err);
+/* Tabulate for densities from low to high; reach: 1, or more for shear rates far above that of uniform shear.
+ * GG_BAD_INPUT, with the reason, if a state is not found. */
+gg_status gg_theory_gaussian_table_make(const gg_model *model, double low, double high, double reach,
+                                        gg_gaussian_table *table, gg_error *err);
 
 /* The moments of a density and shear rate, solved for. Returns the remaining residual. */
 double gg_theory_gaussian_state(gg_gaussian_table *table, double n, double a, double value[GG_TABLE_FUNCTIONS]);

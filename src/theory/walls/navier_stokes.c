@@ -25,21 +25,6 @@ static gg_status gas_of(const gg_model *m, double low, double high, void *memory
 
 static const gg_gap_theory theory = {name, true, sizeof(gg_rough_gas), flow_of, gas_of};
 
-static gg_status evaluate(const gg_model *m, gg_theory_answer *a, gg_error *err)
-{
-  return gg_theory_gap_evaluate(&theory, m, a, err);
-}
-
-static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg_error *err)
-{
-  return gg_theory_gap_curves(&theory, m, measure, list, err);
-}
-
-static gg_status fluxes(const gg_model *m, size_t n, const gg_local_state *state, gg_local_fluxes *to, gg_error *err)
-{
-  return gg_theory_gap_fluxes(&theory, m, n, state, to, err);
-}
-
 const gg_theory gg_theory_navier_stokes = {
     .name = name,
     .flows = GG_FLOW_BIT(GG_COUETTE) | GG_FLOW_BIT(GG_POISEUILLE) | GG_FLOW_BIT(GG_CHUTE) | GG_FLOW_BIT(GG_FOURIER),
@@ -54,7 +39,5 @@ const gg_theory gg_theory_navier_stokes = {
         "waves: "
         "balances of mass, momentum, energy and spin, to first order in gradients, with the transport coefficients of "
         "the cooling gas (rough: lun1991), and half-range conditions at walls. Kn up to 0.3; e near 1.",
-    .evaluate = evaluate,
-    .curves = curves,
-    .fluxes = fluxes,
+    .gap = &theory,
 };

@@ -14,10 +14,13 @@ typedef struct gg_arrival {
   double P, T;
   double slip;        /* velocity of the gas minus that of the wall */
   double shear, heat; /* s tau, s q */
+  double along;       /* carried heat flux along x */
 } gg_arrival;
 
 typedef struct gg_wall_takes {
-  double momentum, energy; /* along x; energy in the frame of the wall */
+  double momentum, energy;     /* along x; energy of the gas continued to the wall, in the frame of the wall */
+  double grains, warmth, loss; /* of layers at the wall, per area, beyond the gas continued to it: number, sum of
+                                  temperatures, energy lost by collisions */
 } gg_wall_takes;
 
 gg_wall_takes gg_theory_wall_takes(const gg_surface *wall, const gg_arrival *arrival);
