@@ -4,7 +4,8 @@
  *   -(A M + M A^T) + contacts = w S/n,   w_xx = w_zz = 2/5,  w_yy = 6/5,  w_xy = 2/5 xi,   xi = q_x/q_y = -7/5 a/nu_q,
  * with the production of rough_contacts.h at the local n, shear rate and theta/T. S is the divergence of the heat flux
  * of translation. Spins are isotropic; where they do not roll, and for their couple stress, rough_fluid.h holds with
- * <C_y^2>. Heat fluxes are those of lun1991: the factors of gaussian_table.h change numbers by up to 3 % here. */
+ * <C_y^2>. Heat fluxes are those of lun1991. The factors that gaussian_table.h has on them are left out: where shear
+ * heats the gas they change numbers by up to 3 %. */
 #ifndef GG_ROUGH_MOMENTS_H
 #define GG_ROUGH_MOMENTS_H
 
