@@ -109,11 +109,11 @@ static void couple_decay(void **state)
       gg_kick(GG_ROUGH, &contact, k, gg_impulse(GG_ROUGH, &contact, k, g, gg_dot(k, g)), &v[0], &s[0], &v[1], &s[1]);
       count(&change, -rate * (v[0].y * s[0].z - before));
     }
-    gg_rough_gas gas;
+    gg_rough_fluid gas;
     const gg_model m = model_for(GG_USF, 0.1, e, beta);
-    gg_theory_rough_gas_make(&m, &gas);
+    gg_theory_rough_fluid_make(&m, &gas);
     const double chi = gas.density.model.chi[0], n = m.density;
-    const double rate = 0.25 * K * n * T / gg_theory_rough_gas_turning(&gas, T, T) / (n * chi);
+    const double rate = 0.25 * K * n * T / gg_theory_rough_fluid_turning(&gas, T, T) / (n * chi);
     assert_mean(&change, 4 * M_PI / (part * T), rate);
     assert_close(rate, 4. / 3 * sqrt(M_PI * T) * (2 + e + beta), 1e-12);
   }
@@ -123,7 +123,8 @@ static void couple_decay(void **state)
 static void contacts(void **state)
 {
   (void)state;
-  const gg_rough_point at[] = {{0, 0, 0, 0}, {0.2, -0.1, -0.3, 0.8}, {0.1, -0.1, -0.2, 1.6}, {0.4, -0.25, -0.45, 0.5}};
+  const gg_contact_point at[] = {
+      {0, 0, 0, 0}, {0.2, -0.1, -0.3, 0.8}, {0.1, -0.1, -0.2, 1.6}, {0.4, -0.25, -0.45, 0.5}};
   for (int c = 0; c < 3; c++) {
     const double e = c ? 0.9 : 0.7, beta = c == 1 ? -0.4 : 0.8, r = 0.6;
     const gg_model m = model_for(GG_USF, 0.2, e, beta), one = gg_theory_rough_contacts_model(&m);
@@ -273,7 +274,7 @@ static void balances(void **state)
       if (theory)
         assert_int_equal(gg_theory_rough_moments_make(&m, gas, &err), GG_OK);
       else
-        memset(flow, 0, sizeof *flow), gg_theory_rough_gas_make(&m, &gas->gas);
+        memset(flow, 0, sizeof *flow), gg_theory_rough_fluid_make(&m, &gas->gas);
       if (gg_theory_rough_gap_solve(&m, &gas->gas, "test", flow, &err) != GG_OK) fail_msg("%s", err.message);
       const gg_gap_wall *w = flow->wall;
       const double weight = m.density * m.box[1], unit = fmax(flow->loss, fmax(fabs(flow->work), fabs(w[1].heat)));

@@ -53,12 +53,12 @@ typedef struct gg_gap_wall {
 
 typedef struct gg_gap_flow {
   gg_gap gap;
-  gg_gap_wall wall[2];        /* lower, upper */
-  double work, loss;          /* per area: of walls and gravity; of collisions */
-  double temperature;         /* mean over grains */
-  double theta;               /* likewise, of the spins of rough grains */
-  double normal, shear;       /* integrals of P_yy and P_yx over y */
-  struct gg_rough_gas *rough; /* the gas of rough grains (rough_gap.h); NULL: of smooth ones, gap.gas */
+  gg_gap_wall wall[2];          /* lower, upper */
+  double work, loss;            /* per area: of walls and gravity; of collisions */
+  double temperature;           /* mean over grains */
+  double theta;                 /* likewise, of the spins of rough grains */
+  double normal, shear;         /* integrals of P_yy and P_yx over y */
+  struct gg_rough_fluid *rough; /* the gas of rough grains (rough_gap.h); NULL: of smooth ones, gap.gas */
   gg_boundary_solution solution;
 } gg_gap_flow;
 

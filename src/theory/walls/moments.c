@@ -31,7 +31,7 @@ static void densities(const gg_gap_flow *flow, double *low, double *high)
 /* From the flow of navier_stokes. */
 static gg_status rough_flow_of(const gg_model *m, gg_rough_moments *gas, gg_gap_flow *flow, gg_error *err)
 {
-  gg_theory_rough_gas_make(m, &gas->gas);
+  gg_theory_rough_fluid_make(m, &gas->gas);
   GG_TRY(gg_theory_rough_gap_solve(m, &gas->gas, name, flow, err));
   GG_TRY(gg_theory_rough_moments_make(m, gas, err));
   return gg_theory_rough_gap_solve(m, &gas->gas, name, flow, err);

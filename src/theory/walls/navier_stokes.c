@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Navier-Stokes hydrodynamics of granular gases between walls: newtonian_gas.h; rough grains: rough_gas.h. */
+/* Navier-Stokes hydrodynamics of granular gases between walls: newtonian_gas.h; rough grains: rough_fluid.h. */
 #include "theory/theory_list.h"
 #include "theory/walls/rough_gap.h"
 
@@ -8,7 +8,7 @@ static const char name[] = "navier_stokes";
 static gg_status flow_of(const gg_model *m, void *gas, gg_gap_flow *flow, gg_error *err)
 {
   if (m->rule != GG_SMOOTH) {
-    gg_theory_rough_gas_make(m, gas);
+    gg_theory_rough_fluid_make(m, gas);
     return gg_theory_rough_gap_solve(m, gas, name, flow, err);
   }
   gg_theory_newtonian_gas_make(m, gas);
@@ -23,7 +23,7 @@ static gg_status gas_of(const gg_model *m, double low, double high, void *memory
   return GG_OK;
 }
 
-static const gg_gap_theory theory = {name, true, sizeof(gg_rough_gas), flow_of, gas_of};
+static const gg_gap_theory theory = {name, true, sizeof(gg_rough_fluid), flow_of, gas_of};
 
 const gg_theory gg_theory_navier_stokes = {
     .name = name,

@@ -14,7 +14,7 @@ enum { DEGREE = 4, SAMPLES = 200, MONOMIALS = GG_CONTACT_MONOMIALS };
 static const double most_shear = 2.5; /* of the fit */
 
 /* Monomials whose degree in xy and a together is even or odd; their number. */
-static int monomials(int odd, gg_rough_point p, double f[])
+static int monomials(int odd, gg_contact_point p, double f[])
 {
   const double v[4] = {p.xx, p.yy, p.xy, p.a};
   double x[4][DEGREE + 1];
@@ -39,7 +39,7 @@ gg_model gg_theory_rough_contacts_model(const gg_model *m)
   return one;
 }
 
-void gg_theory_rough_contacts_integral(const gg_model *m, gg_rough_point p, double ratio,
+void gg_theory_rough_contacts_integral(const gg_model *m, gg_contact_point p, double ratio,
                                        double f[GG_CONTACT_FUNCTIONS])
 {
   gg_model copy = *m;
@@ -66,9 +66,9 @@ static double part(int i, int base)
 }
 
 /* The next state of a gas with shear stress against the flow, mostly. */
-static gg_rough_point sample(int *i)
+static gg_contact_point sample(int *i)
 {
-  gg_rough_point p;
+  gg_contact_point p;
   do {
     ++*i;
     p.xx = part(*i, 2) - 0.2, p.yy = 0.65 * part(*i, 3) - 0.45;
@@ -78,7 +78,7 @@ static gg_rough_point sample(int *i)
 }
 
 typedef struct samples {
-  gg_rough_point at[SAMPLES];
+  gg_contact_point at[SAMPLES];
   double value[2][SAMPLES][GG_CONTACT_FUNCTIONS]; /* at theta = 0, and what theta = 1 adds */
 } samples;
 
@@ -129,7 +129,7 @@ void gg_theory_rough_contacts_at(const gg_rough_contacts *c, double ratio, gg_co
     for (int j = 0; j < MONOMIALS; j++) to[q][j] = c->smooth[q][j] + ratio * c->spins[q][j];
 }
 
-void gg_theory_rough_contacts_value(const gg_contact_series series, gg_rough_point p,
+void gg_theory_rough_contacts_value(const gg_contact_series series, gg_contact_point p,
                                     double value[GG_CONTACT_FUNCTIONS])
 {
   double x[2][MONOMIALS];

@@ -31,17 +31,17 @@ typedef struct gg_rough_contacts {
   gg_contact_series smooth, spins; /* the sum smooth + theta/T spins */
 } gg_rough_contacts;
 
-typedef struct gg_rough_point {
+typedef struct gg_contact_point {
   double xx, yy, xy, a; /* <CC> - 1; shear rate */
-} gg_rough_point;
+} gg_contact_point;
 
 gg_status gg_theory_rough_contacts_make(const gg_model *model, gg_rough_contacts *contacts, gg_error *err);
 /* The series at theta/T, and its values. */
 void gg_theory_rough_contacts_at(const gg_rough_contacts *contacts, double ratio, gg_contact_series series);
-void gg_theory_rough_contacts_value(const gg_contact_series series, gg_rough_point point,
+void gg_theory_rough_contacts_value(const gg_contact_series series, gg_contact_point point,
                                     double value[GG_CONTACT_FUNCTIONS]);
 /* The integrals themselves; the model has n = chi = 1 (gg_theory_rough_contacts_model). */
-void gg_theory_rough_contacts_integral(const gg_model *model, gg_rough_point point, double ratio,
+void gg_theory_rough_contacts_integral(const gg_model *model, gg_contact_point point, double ratio,
                                        double value[GG_CONTACT_FUNCTIONS]);
 gg_model gg_theory_rough_contacts_model(const gg_model *model);
 

@@ -10,7 +10,7 @@ static const double tolerance = 1e-6; /* of the residual: balances close to 1e-8
 
 typedef struct rough_gap {
   gg_gap *gap;
-  gg_rough_gas *gas;
+  gg_rough_fluid *gas;
 } rough_gap;
 
 static double temperature(double logarithm)
@@ -27,7 +27,7 @@ static gg_rough_state state_of(const gg_gap *g, const double v[])
                           .omega = v[GG_ROUGH_OMEGA]};
 }
 
-static bool local_at(const gg_gap *g, gg_rough_gas *gas, const double v[], gg_rough_local *at)
+static bool local_at(const gg_gap *g, gg_rough_fluid *gas, const double v[], gg_rough_local *at)
 {
   const gg_rough_state s = state_of(g, v);
   return gas->local(gas, &s, at);
@@ -115,7 +115,7 @@ static void upper(void *self, const double v[], double left[])
 }
 
 /* theta/T of a uniform gas whose spins exchange energy with translation and with thermal walls. */
-static double start_ratio(const gg_gap *g, const gg_rough_gas *gas)
+static double start_ratio(const gg_gap *g, const gg_rough_fluid *gas)
 {
   const gg_model *m = &gas->density.model;
   const double width = g->high - g->low, n = g->grains / width, J = g->P / sqrt(2 * M_PI * g->T);
@@ -132,7 +132,7 @@ static double start_ratio(const gg_gap *g, const gg_rough_gas *gas)
 }
 
 /* From the flow of grains that roll. */
-static void start(gg_gap_flow *flow, const gg_rough_gas *gas)
+static void start(gg_gap_flow *flow, const gg_rough_fluid *gas)
 {
   gg_boundary_solution *s = &flow->solution;
   const double ratio = start_ratio(&flow->gap, gas);
@@ -157,7 +157,7 @@ gg_rough_height gg_theory_rough_gap_at(const gg_gap_flow *flow, double y)
   return at;
 }
 
-/* What layers at a wall hold, and the stress that bears them. */
+/* Wall stress and heat, and the share of layers at the wall in the sums. */
 static void put_wall(gg_gap_flow *flow, int w)
 {
   gg_gap *g = &flow->gap;
@@ -198,12 +198,12 @@ static void put_sums(gg_gap_flow *flow)
   flow->temperature /= flow->gap.grains, flow->theta /= flow->gap.grains;
 }
 
-gg_status gg_theory_rough_gap_solve(const gg_model *m, gg_rough_gas *gas, const char *theory, gg_gap_flow *flow,
+gg_status gg_theory_rough_gap_solve(const gg_model *m, gg_rough_fluid *gas, const char *theory, gg_gap_flow *flow,
                                     gg_error *err)
 {
   gg_gap *g = &flow->gap;
   if (!flow->rough) {
-    GG_TRY(gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_rough_gas_rolling, gas}, theory, flow, err));
+    GG_TRY(gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_rough_fluid_rolling, gas}, theory, flow, err));
     start(flow, gas);
   }
   rough_gap r = {g, gas};

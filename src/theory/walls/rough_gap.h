@@ -9,7 +9,7 @@
 #ifndef GG_ROUGH_GAP_H
 #define GG_ROUGH_GAP_H
 
-#include "theory/walls/rough_gas.h"
+#include "theory/walls/rough_fluid.h"
 
 /* Unknown functions of y: first those of gap.h. */
 enum { GG_ROUGH_LOG_THETA = GG_GAP_FUNCTIONS, GG_ROUGH_OMEGA, GG_ROUGH_R, GG_ROUGH_M, GG_ROUGH_FUNCTIONS };
@@ -24,7 +24,7 @@ typedef struct gg_rough_height {
 gg_rough_height gg_theory_rough_gap_at(const gg_gap_flow *flow, double y);
 
 /* The flow of rough grains of constant beta, as gg_theory_gap_solve; the gas stays with *flow. */
-gg_status gg_theory_rough_gap_solve(const gg_model *model, gg_rough_gas *gas, const char *theory, gg_gap_flow *flow,
+gg_status gg_theory_rough_gap_solve(const gg_model *model, gg_rough_fluid *gas, const char *theory, gg_gap_flow *flow,
                                     gg_error *err);
 
 #endif

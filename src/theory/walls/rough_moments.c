@@ -29,7 +29,7 @@ static void equations(gg_rough_moments *g, const gg_rough_state *s, const double
   const double xx = x[GG_ROUGH_XX], yy = x[GG_ROUGH_YY], xy = x[GG_ROUGH_XY], carried = point ? 0 : n * rate;
   const double *f = to->f, w = s->omega + 0.5 * a * root;
   gg_theory_rough_contacts_value((const double(*)[GG_CONTACT_MONOMIALS])g->series,
-                                 (gg_rough_point){xx, yy, xy, point ? 0 : a}, to->f);
+                                 (gg_contact_point){xx, yy, xy, point ? 0 : a}, to->f);
   const double S = -a * xy + 0.5 * rate * (f[GG_CONTACT_XX] + f[GG_CONTACT_YY] + f[GG_CONTACT_ZZ]);
   const double xi = -1.4 * a / (rate_of(m) * g->heat_rate);
   to->left[0] = (-2 * a * xy - 0.4 * S) / rate + f[GG_CONTACT_XX];
@@ -37,7 +37,7 @@ static void equations(gg_rough_moments *g, const gg_rough_state *s, const double
   to->left[2] = (-a * (1 + yy) - 0.4 * xi * S) / rate + f[GG_CONTACT_XY];
   to->left[3] = T * (n * (1 + yy) + carried * f[GG_CONTACT_P_YY]) / s->P - 1;
   to->left[4] = T * (n * xy + carried * f[GG_CONTACT_P_YX]) - s->tau;
-  if (!point) to->left[4] -= 2 * gg_theory_rough_gas_grip(&g->gas, T) * w;
+  if (!point) to->left[4] -= 2 * gg_theory_rough_fluid_grip(&g->gas, T) * w;
   to->left[4] /= s->P;
   to->S = S, to->xi = xi;
 }
@@ -92,7 +92,7 @@ static bool solve(gg_rough_moments *g, const gg_rough_state *s, moments *at)
   bool good = g->known && improve(g, s, x, true, at);
   if (!good) {
     gg_rough_local newtonian;
-    gg_theory_rough_gas_local(&g->gas, s, &newtonian);
+    gg_theory_rough_fluid_local(&g->gas, s, &newtonian);
     memset(x, 0, sizeof x);
     x[GG_ROUGH_LOG_N] = log(newtonian.gas.n);
     x[GG_ROUGH_SHEAR] = fmax(-1.5, fmin(1.5, newtonian.gas.shear / sqrt(s->T)));
@@ -138,7 +138,7 @@ static void put_gains(const gg_rough_moments *g, const gg_rough_state *s, const 
   const gg_grain grain = g->gas.grain;
   const bool point = m->boltzmann;
   const double n = m->density, T = s->T, rate = n * n * m->chi[0] * T, shear = at->gas.shear, *f = now->f;
-  const double w = s->omega + (point ? 0 : 0.5 * shear), grip = 4 * gg_theory_rough_gas_grip(&g->gas, T) * w;
+  const double w = s->omega + (point ? 0 : 0.5 * shear), grip = 4 * gg_theory_rough_fluid_grip(&g->gas, T) * w;
   const double torque = point ? 0 : 0.5 * grain.K * rate * f[GG_CONTACT_SPIN];
   const double S = n * T * sqrt(T) * now->S, carried = point ? 0 : rate * f[GG_CONTACT_P_YX] * shear;
   const double gain = S + n * T * g->x[GG_ROUGH_XY] * shear + carried;
@@ -149,7 +149,7 @@ static void put_gains(const gg_rough_moments *g, const gg_rough_state *s, const 
       at->torque * s->omega + at->slides[1] - rate * sqrt(T) * f[GG_CONTACT_LOSS] - gain + 0.5 * torque * shear;
 }
 
-static bool local(gg_rough_gas *gas, const gg_rough_state *s, gg_rough_local *at)
+static bool local(gg_rough_fluid *gas, const gg_rough_state *s, gg_rough_local *at)
 {
   gg_rough_moments *g = (gg_rough_moments *)gas;
   moments now;
@@ -157,13 +157,13 @@ static bool local(gg_rough_gas *gas, const gg_rough_state *s, gg_rough_local *at
   g->heat_rate = gg_theory_heat_rates(gas->grain, s->theta / s->T).at[0][0];
   const bool good = solve(g, s, &now);
   put_stress(g, s, &now, at), put_heat(g, s, &now, at), put_gains(g, s, &now, at);
-  at->turning = gg_theory_rough_gas_turning(gas, s->T, at->gas.Tyy);
+  at->turning = gg_theory_rough_fluid_turning(gas, s->T, at->gas.Tyy);
   return good && (gas->density.model.boltzmann || gas->density.model.phi < gas->density.most);
 }
 
 gg_status gg_theory_rough_moments_make(const gg_model *m, gg_rough_moments *g, gg_error *err)
 {
-  gg_theory_rough_gas_make(m, &g->gas);
+  gg_theory_rough_fluid_make(m, &g->gas);
   GG_TRY(gg_theory_rough_contacts_make(m, &g->contacts, err));
   g->gas.local = local, g->known = false;
   return GG_OK;

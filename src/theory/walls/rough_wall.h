@@ -9,7 +9,7 @@
 #ifndef GG_ROUGH_WALL_H
 #define GG_ROUGH_WALL_H
 
-#include "theory/walls/rough_gas.h"
+#include "theory/walls/rough_fluid.h"
 #include "theory/walls/wall_condition.h"
 
 typedef struct gg_rough_arrival {

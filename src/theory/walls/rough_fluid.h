@@ -13,8 +13,8 @@
  * of D, and a torque -0.4 mu_r omega''. Both are left out: spins relax within a diameter there, and an expansion in
  * gradients would grow without bound. In the limit phi = 0 spins s = omega/2 remain beside velocities, and u' is
  * nothing beside omega. */
-#ifndef GG_ROUGH_GAS_H
-#define GG_ROUGH_GAS_H
+#ifndef GG_ROUGH_FLUID_H
+#define GG_ROUGH_FLUID_H
 
 #include "theory/lun1991.h"
 #include "theory/walls/newtonian_gas.h"
@@ -33,22 +33,22 @@ typedef struct gg_rough_local {
   double slides[2];  /* heat that translation and rotation gain where grains do not roll */
 } gg_rough_local;
 
-typedef struct gg_rough_gas {
+typedef struct gg_rough_fluid {
   gg_newtonian_gas density; /* the gas at a density */
   gg_grain grain;
   /* The closure; false outside its densities. */
-  bool (*local)(struct gg_rough_gas *gas, const gg_rough_state *state, gg_rough_local *at);
-} gg_rough_gas;
+  bool (*local)(struct gg_rough_fluid *gas, const gg_rough_state *state, gg_rough_local *at);
+} gg_rough_fluid;
 
 /* The gas of lun1991. */
-void gg_theory_rough_gas_make(const gg_model *model, gg_rough_gas *gas);
-bool gg_theory_rough_gas_local(gg_rough_gas *gas, const gg_rough_state *state, gg_rough_local *at);
+void gg_theory_rough_fluid_make(const gg_model *model, gg_rough_fluid *gas);
+bool gg_theory_rough_fluid_local(gg_rough_fluid *gas, const gg_rough_state *state, gg_rough_local *at);
 
 /* mu_r, and D where <C_y^2> = Tyy, at the density of the gas. */
-double gg_theory_rough_gas_grip(const gg_rough_gas *gas, double T);
-double gg_theory_rough_gas_turning(const gg_rough_gas *gas, double T, double Tyy);
+double gg_theory_rough_fluid_grip(const gg_rough_fluid *gas, double T);
+double gg_theory_rough_fluid_turning(const gg_rough_fluid *gas, double T, double Tyy);
 
 /* For gg_gap_gas: grains that roll, with theta/T of driven translation. */
-bool gg_theory_rough_gas_rolling(void *gas, double P, double tau, double T, gg_gap_local *at);
+bool gg_theory_rough_fluid_rolling(void *gas, double P, double tau, double T, gg_gap_local *at);
 
 #endif
