@@ -295,7 +295,7 @@ static void answer(const gg_gap_flow *flow, void *to)
     const gg_surface *wall = &m->surface[k];
     drag += drag_of(m, wall) * wall->side * w[k].tau, push += w[k].P, D_wall += w[k].heat;
   }
-  gg_theory_gap_remark(flow, a->remark);
+  gg_theory_gap_remark(flow, gg_theory_gap_knudsen(m), a->remark);
   a->value[GG_Q_TEMPERATURE] = flow->temperature;
   a->value[GG_Q_P_YY] = per_volume * flow->normal, a->value[GG_Q_P_YX] = per_volume * flow->shear;
   a->value[GG_Q_WALL_FRICTION] = drag / push;
