@@ -103,6 +103,35 @@ def test_a_figure_against_runs_of_its_own(folder):
     assert float(t["mean"]) == mean and float(t["z"]) == pytest.approx((mean - 0.5) / math.hypot(error, 0.005))
 
 
+def test_profiles_of_theories(tmp_path):
+    """A theory's profiles beside measured ones, where it answers: lines by the module alone."""
+    (tmp_path / "entries").mkdir()
+    (tmp_path / "entries" / "thesis-9.08.yaml").write_text("""figure: thesis 9.8
+shows: Profiles
+sweep:
+  flow: couette
+  engine: dsmc
+  phi: 0.1
+  particles: 200
+  measure: [rheology, profiles]
+  run: {collisions: 100, warmup: 20}
+  vary: {collision.e: [0.9, 0.7]}
+  sweep: {does: run}
+panels:
+  - {x: {label: y}, y: {curve: profile_temperature}, lines: {by: collision.e, label: e}, theories: [moments]}
+verdict: open
+because: Profiles.
+""", encoding="utf-8")
+    command.main(["9.8", "--entries", str(tmp_path / "entries"), "--output", "out", "--quiet", "--formats", "svg"])
+    rows = [row for row in rows_of("out/thesis-9.08.csv") if row["method"] == "moments"]
+    for e in 0.9, 0.7:
+        scene = gg.Scene(flow="couette", phi=0.1, e=e, particles=200, measure=["profiles"])
+        curve = gg.theory(scene, "moments").curves["profile_temperature"]
+        known = np.isfinite(curve.value)
+        mine = [(float(row["x"]), float(row["y"])) for row in rows if row["line"] == f"e = {e}"]
+        assert mine and np.allclose(mine, np.column_stack([curve.x, curve.value])[known], rtol=1e-9)
+
+
 def test_finished_runs_are_reused(folder):
     quick(folder)
     before = {path: os.stat(path).st_mtime_ns for path in glob.glob("out/figures.sweep/*.h5")}

@@ -18,9 +18,9 @@ bool gg_cli_is_followed(const gg_scene *scene);         /* whether the scene has
 const char *gg_cli_steadiness(const gg_result *result); /* printed before the verdict; "" for transient runs */
 void gg_cli_print_effort(const gg_result *result);
 void gg_cli_print_warnings(const gg_result *result, const char *reported);
-/* report_comparison.c: the answer of a theory in a table, beside a simulation with its deviation (NaN: none). */
+/* report_curves.c: the answer of a theory in a table, beside a simulation with its deviation (NaN: none). */
 void gg_cli_format_answer(double value, double deviation, bool beside, char *cell);
-/* report_curves.c: numbers derived from the curves of a run, or of engines and theories; profiles of the latter. */
+/* Numbers derived from the curves of a run, or of engines and theories; profiles of the latter. */
 void gg_cli_print_curves(const gg_result *run, const gg_comparison *comparison, bool all);
 
 #endif

@@ -48,16 +48,6 @@ static bool next_shown(const gg_comparison *c, bool all, size_t *i, gg_compariso
   return false;
 }
 
-void gg_cli_format_answer(double value, double deviation, bool beside, char *cell)
-{
-  if (isnan(deviation))
-    snprintf(cell, GG_TABLE_CELL, beside ? "%.4g        " : "%.5g", value);
-  else if (fabs(deviation) < 9.995)
-    snprintf(cell, GG_TABLE_CELL, "%.4g %+6.1f%%", value, 100 * deviation);
-  else
-    snprintf(cell, GG_TABLE_CELL, "%.4g %+6.0fx", value, deviation + 1);
-}
-
 static void put_theory(gg_table *t, int row, int column, const gg_comparison *c, const char *theory,
                        const char *quantity)
 {

@@ -8,6 +8,16 @@
 #include "cli/print.h"
 #include "cli/report.h"
 
+void gg_cli_format_answer(double value, double deviation, bool beside, char *cell)
+{
+  if (isnan(deviation))
+    snprintf(cell, GG_TABLE_CELL, beside ? "%.4g        " : "%.5g", value);
+  else if (fabs(deviation) < 9.995)
+    snprintf(cell, GG_TABLE_CELL, "%.4g %+6.1f%%", value, 100 * deviation);
+  else
+    snprintf(cell, GG_TABLE_CELL, "%.4g %+6.0fx", value, deviation + 1);
+}
+
 /* An engine's result, or a theory of a comparison (result NULL). */
 typedef struct source {
   const char *name;

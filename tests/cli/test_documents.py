@@ -41,8 +41,8 @@ def test_reference_pages():
 
 
 def test_each_public_function_is_documented():
-    """Every function of the public header has a comment of its own in Doxygen form, which names its parameters. What is the
-    same for all functions is in the header's first comment: err, context, and a stop without more."""
+    """Every function of the public header has a comment of its own in Doxygen form, which names its parameters. The
+    header's first comment explains err, context and stop, which are the same for all functions."""
     with open(os.path.join(SOURCE, "include", "graingas.h"), encoding="utf-8") as header:
         text = header.read()
     wrong, n = set(), 0

@@ -218,8 +218,8 @@ class Panel:
         over_key = source.kind == "quantity" or (source.kind == "number" and not (x and "number" in x))
         if over_key != bool(key):
             m.refuse("x", "needs the scene key that this is drawn over" if over_key else "has no scene key here")
-        if m.get("theories") and source.kind != "quantity":
-            m.refuse("theories", "give quantities alone")
+        if m.get("theories") and source.kind not in ("quantity", "curve"):
+            m.refuse("theories", "give quantities and curves alone")
         by = lines.texts("by") if lines else []
         labels = lines.texts("label") if lines and "label" in lines else [key_label(key) for key in by]
         if len(labels) != len(by) or not all(_scene_key(lines, key) for key in by):

@@ -163,6 +163,18 @@ class Table:
                     if self._is_shown(x, y, mean != 0 or math.isfinite(error)):
                         line.put(x, *y[:2], converged=point.converged(engine))
                 self._law(curve)
+        for theory in self.of.theories:
+            for point in filter(self.takes, self.points):
+                for name in self.of.source.names:
+                    if name in point.theory_curves(theory):
+                        self._theory_curve(theory, point, point.theory_curves(theory)[name])
+
+    def _theory_curve(self, theory, point, curve):
+        line = self._add(theory, self.group(point, curve.label or curve.name), "line")
+        for x, mean, error in zip(map(self._x, curve.x.tolist()), curve.value.tolist(), curve.error.tolist()):
+            y = self._transformed(x, mean, error)
+            if self._is_shown(x, y, True):
+                self._put_theory(line, x, y)
 
     def _law(self, curve):
         """Add the curve's law, once per panel."""

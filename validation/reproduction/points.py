@@ -71,6 +71,14 @@ class Point:
         found = self.curves(engine)[curve].numbers.get(name) if curve in self.curves(engine) else None
         return Value(found.mean, found.error, found.unit) if found else NOTHING
 
+    @functools.lru_cache(maxsize=None)
+    def theory_curves(self, name):
+        """Curves of a theory, as stored, or evaluated now; none where it does not apply."""
+        theory = self._theories.get(name)
+        if theory is None or not theory.curves:
+            theory = _evaluated(self.scene, name, {})
+        return theory.curves if theory is not None else {}
+
     def theory(self, name, quantity, changes):
         """Value of a theory at this point, with `changes` of scene keys."""
         theory = self._theories.get(name) if not changes else None

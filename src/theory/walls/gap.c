@@ -332,7 +332,7 @@ static void put_numbers(const gg_gap_flow *flow, gg_theory_answer *a)
     const gg_surface *wall = &m->surface[k];
     drag += drag_of(m, wall) * wall->side * w[k].tau, push += w[k].P, D_wall += w[k].heat;
   }
-  gg_theory_gap_remark(flow, a->remark);
+  gg_theory_gap_remark(flow, gg_theory_gap_knudsen(m), a->remark);
   a->value[GG_Q_TEMPERATURE] = flow->temperature;
   if (flow->rough) {
     a->value[GG_Q_ROTATIONAL_TEMPERATURE] = flow->theta;

@@ -74,7 +74,7 @@ gg_status gg_theory_gap_solve(const gg_model *model, gg_gap_gas gas, const char 
                               gg_error *err);
 
 /* Why the theory errs in this flow: Kn, slip, normal stress differences, heat; "" where none applies. */
-void gg_theory_gap_remark(const gg_gap_flow *flow, char text[GG_THEORY_REMARK]);
+void gg_theory_gap_remark(const gg_gap_flow *flow, double Kn, char text[GG_THEORY_REMARK]);
 
 /* A theory of this kind: bytes of its gas, and the flow of a model that passes the check. */
 typedef struct gg_gap_theory {

@@ -13,10 +13,9 @@ static const double many_paths = 0.1, thermal_speed = 1, least_e = 0.7, much_she
   (gg_base_text_append(text, GG_THEORY_REMARK, "%s", *(text) ? "; " : ""),                                             \
    gg_base_text_append(text, GG_THEORY_REMARK, __VA_ARGS__))
 
-void gg_theory_gap_remark(const gg_gap_flow *flow, char text[GG_THEORY_REMARK])
+void gg_theory_gap_remark(const gg_gap_flow *flow, double Kn, char text[GG_THEORY_REMARK])
 {
   const gg_model *m = flow->gap.model;
-  const double Kn = gg_theory_gap_knudsen(m);
   double shear = 0, slip = 0, heat = 0, given = 0;
   bool newtonian = true;
   for (int w = 0; w < 2; w++) {
