@@ -214,8 +214,8 @@ static void coefficients(void **state)
 }
 
 /* Grains that arrive at a wall at rest carry 1/(1+e_w) of the pressure: a balance on which no condition is put. With
- * the third moment 2 q_n of normal velocities they carry 1/2 + 2/3 q_n/(sqrt(2 pi) P sqrt(T_n)) of it. Where the heat
- * flux is 3:2 in normal and tangential energy they carry up to 0.6. */
+ * the third moment 2 q_n of normal velocities they carry 1/2 + 2/3 q_n/(sqrt(2 pi) P sqrt(T_n)) of it. This is up to
+ * 0.6 if the heat flux has normal and tangential energy as 3:2. */
 static void normal_momentum(void **state)
 {
   (void)state;

@@ -54,7 +54,7 @@ gg_status gg_theory_noise_free_gas_make(const gg_model *m, gg_noise_free_gas *g,
     if (m->boltzmann) return GG_OK;
     g->bulk = (v[GG_Q_VISCOSITY_REDUCED] - eta[i] * moving(&flat, 0.8)) / square;
     g->collisional = (v[GG_Q_THERMAL_CONDUCTIVITY_REDUCED] - kappa[i] * moving(&flat, 1.2)) / square;
-    GG_TRY(gg_hermite_conduct(&steep, &a, err));
+    GG_TRY(gg_theory_enskog_hermite_conduct(&steep, &a, err));
     steeper[i] = diffusive(&steep, &a) - mu[i];
   }
   line(eta, g->eta), line(kappa, g->kappa), line(mu, g->mu), line(steeper, g->mu + 2);
