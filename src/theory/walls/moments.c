@@ -62,9 +62,11 @@ const gg_theory gg_theory_moments = {
     .citation = "Stress: J.T. Jenkins and M.W. Richman, J. Fluid Mech. 192 (1988) 313; heat flux: H. Grad, Commun. "
                 "Pure Appl. Math. 2 (1949) 331; H. Struchtrup and M. Torrilhon, Phys. Fluids 15 (2003) 2668",
     .answers = "temperature P_yy P_yx dissipation wall_dissipation wall_heat_flux wall_friction energy_balance",
-    .assumptions = "As navier_stokes, but with the stress of the Gaussian closure at the local shear rate and a heat "
-                   "flux of 13 moments, two factors of which were chosen by comparison with Monte Carlo. Kn up to 0.3, "
-                   "e from 0.7; best where shear heats the gas.",
+    .assumptions =
+        "As navier_stokes, but with the stress of the Gaussian closure at the local shear rate and a heat "
+        "flux of 13 moments, two factors of which were chosen by comparison with Monte Carlo, and a layer at "
+        "walls that take normal and tangential energy unequally. Kn up to 0.3, e from 0.7; best where shear "
+        "heats the gas.",
     .gap = &theory,
     .beyond = beyond,
 };
