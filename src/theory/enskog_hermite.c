@@ -88,8 +88,8 @@ static gg_status answer_heat(const gg_model *m, const gg_hermite_isotropic *h, g
   return GG_OK;
 }
 
-/* Heat flux of the cooling state, degree after degree: its series needs all available degrees. */
-static gg_status conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
+/* Degree after degree: the series of the heat flux needs all available degrees. */
+gg_status gg_theory_enskog_hermite_conduct(const gg_model *m, gg_theory_answer *a, gg_error *err)
 {
   gg_hermite_convergence convergence = {.n = 0};
   const gg_quantity q[] = {GG_Q_THERMAL_CONDUCTIVITY_REDUCED, GG_Q_THERMAL_CONDUCTIVITY_REDUCED_KINETIC,
@@ -136,7 +136,7 @@ static gg_status homogeneous(const gg_model *m, gg_theory_answer *a, gg_error *e
   gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED, a);
   gg_hermite_convergence_take(&viscous, GG_Q_VISCOSITY_REDUCED_KINETIC, a);
   if (m->flow != GG_HCS) return GG_OK;
-  GG_TRY(conduct(m, a, err));
+  GG_TRY(gg_theory_enskog_hermite_conduct(m, a, err));
   gg_theory_answer_critical_lengths(m, 0, a);
   return GG_OK;
 }

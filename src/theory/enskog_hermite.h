@@ -10,6 +10,9 @@
 gg_status gg_hermite_shear_answer(const gg_model *model, gg_theory_answer *answer, gg_error *err);
 int gg_hermite_shear_last_degree(int n_species);
 
+/* Heat flux of one species of smooth grains that cools: the three conductivities alone. */
+gg_status gg_theory_enskog_hermite_conduct(const gg_model *model, gg_theory_answer *answer, gg_error *err);
+
 /* Several species of smooth grains, cooling or heated. */
 gg_status gg_hermite_mixture_answer(const gg_model *model, gg_theory_answer *answer, gg_error *err);
 

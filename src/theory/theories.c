@@ -75,7 +75,7 @@ static gg_status finish(const gg_theory *theory, const gg_model *model, gg_statu
   return gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", theory->name);
 }
 
-/* What one call of a theory gives: answers, curves or both; NULL: without these. */
+/* Results of one call of a theory: answers, curves or both; NULL: without these. */
 typedef struct request {
   gg_theory_answer *answer;
   gg_curves *list;

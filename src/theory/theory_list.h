@@ -31,6 +31,7 @@
   X(garzo_dufty_hrenya2007)                                                                                            \
   X(enskog)                                                                                                            \
   X(navier_stokes)                                                                                                     \
+  X(navier_stokes_hermite)                                                                                             \
   X(moments)                                                                                                           \
   X(carnahan_starling1969)                                                                                             \
   X(kolafa2004)                                                                                                        \

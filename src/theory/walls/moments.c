@@ -81,6 +81,7 @@ const gg_theory gg_theory_moments = {
     .assumptions =
         "As navier_stokes, but with the stress of the Gaussian closure at the local shear rate and, for "
         "smooth grains, a heat flux of 13 moments, two factors of which were chosen by comparison with Monte "
-        "Carlo. Kn up to 0.3, e from 0.7; best where shear heats the gas.",
+        "Carlo, and a layer at walls that take normal and tangential energy unequally. Kn up to 0.3, e from 0.7; best "
+        "where shear heats the gas.",
     .gap = &theory,
 };

@@ -20,10 +20,18 @@ void gg_theory_newtonian_gas_set(gg_newtonian_gas *g, double n)
   if (g->model.boltzmann) g->model.density = n;
 }
 
+static void put_coefficients(gg_newtonian_gas *g)
+{
+  if (g->noise_free)
+    gg_theory_noise_free_gas_at(&g->series, &g->model, &g->answer);
+  else
+    gg_theory_garzo_santos_montanero2007.evaluate(&g->model, &g->answer, NULL);
+}
+
 void gg_theory_newtonian_gas_at(gg_newtonian_gas *g, double n)
 {
   set_density(&g->model, n);
-  gg_theory_garzo_santos_montanero2007.evaluate(&g->model, &g->answer, NULL);
+  put_coefficients(g);
 }
 
 static double Z_of(const gg_model *m)
@@ -57,7 +65,7 @@ bool gg_theory_newtonian_gas_local(void *self, double P, double tau, double T, g
   const gg_model *m = &g->model;
   const double *v = g->answer.value, c0 = 5 / (16 * sqrt(M_PI)), root = sqrt(T);
   const bool within = gg_theory_newtonian_gas_find(g, P / T);
-  gg_theory_garzo_santos_montanero2007.evaluate(m, &g->answer, NULL);
+  put_coefficients(g);
   const double n = m->density, slope = m->boltzmann ? 1 : 1 + (Z_of(m) - 1) * (2 + m->chi_slope);
   const double viscosity = c0 * root * v[GG_Q_VISCOSITY_REDUCED];
   *at = (gg_gap_local){
@@ -80,5 +88,6 @@ void gg_theory_newtonian_gas_make(const gg_model *m, gg_newtonian_gas *g)
 {
   g->model = *m;
   g->model.flow = GG_HCS, g->model.temperature0 = 1, g->model.rule = GG_SMOOTH;
+  g->noise_free = false;
   g->most = gg_common_contact_value_limit(m->contact_value);
 }
