@@ -96,6 +96,7 @@ def interrupt_with_means(engines):
 
 @pytest.mark.parametrize("function", [gg.run, gg.compare])
 def test_interrupted_run_keeps_what_there_is(endless, function):
+    endless.particles, endless["dsmc.particles"] = 200, 500
     progress, sent = interrupt_with_means(1 if function is gg.run else 2)
     with pytest.warns(gg.PartialResult):
         result = function(endless, threads=2, progress=progress)
@@ -113,7 +114,7 @@ def test_interrupted_before_anything_is_there(endless):
 
 
 def test_interrupted_run_can_be_resumed(short):
-    short["run.collisions"] = 6000
+    short["run.collisions"] = 3000
     whole = means(gg.run(short))
     interrupt_after(0.3)
     with pytest.warns(gg.PartialResult):
@@ -163,6 +164,7 @@ def test_bar_is_shown_on_request(short, capsys):
     short["run.collisions"] = 2000
     gg.run(short, progress=True)
     assert "md" in capsys.readouterr().err
+    short["run.collisions"] = 300
     gg.run(short, progress=False)
     assert capsys.readouterr().err == ""
 

@@ -12,9 +12,10 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "simd/clones.h"
 #include "theory/contact_averages.h"
 
-enum { AZIMUTH = 16, POLAR = 4, MORE_POLAR = 10, MOST_POWER = 5 };
+enum { AZIMUTH = 16, POLAR = 4, MORE_POLAR = 10, MOST_RAYS = 24, SUMS = 2 + 3 + 2 * 9 };
 
 /* The Gaussian in axes k, t1, t2. */
 typedef struct local_gaussian {
@@ -27,11 +28,12 @@ typedef struct local_gaussian {
   double density; /* 1 over the norm of the Gaussian */
 } local_gaussian;
 
-/* <u+ ...> in these axes. */
+/* <u+ ...> in these axes: SUMS numbers. */
 typedef struct local_sums {
   double rate, loss, J[3];
   gg_tensor Jg, JJ;
 } local_sums;
+_Static_assert(sizeof(local_sums) == SUMS * sizeof(double), "numbers alone");
 
 static gg_tensor axes_of(gg_vec k)
 {
@@ -87,35 +89,56 @@ static local_gaussian local_of(const gg_contact_pair *p, gg_vec k)
   return x;
 }
 
-/* int_0^inf rho^p exp(-(A rho^2 - 2 B rho + C)/2) drho, p = 0 .. 5, by recursion. */
-static void ray_integrals(double A, double B, double C, double I[MOST_POWER + 1])
-{
-  const double x0 = B / A, root = sqrt(A / 2);
-  I[0] = sqrt(M_PI) / (2 * root) * (C == 0 ? 1 : exp((B * x0 - C) / 2) * erfc(-x0 * root));
-  I[1] = x0 * I[0] + exp(-C / 2) / A;
-  for (int p = 2; p <= MOST_POWER; p++) I[p] = x0 * I[p - 1] + (p - 1) * I[p - 2] / A;
-}
+/* Rays of one alpha, one a lane, so that the processor computes several at once; each has the operations of one alone.
+ * Lanes beyond the last ray hold any finite numbers. */
+typedef struct fan {
+  double v[3][MOST_RAYS], w[MOST_RAYS];           /* direction; solid angle */
+  double J[3][MOST_RAYS], along2[MOST_RAYS];      /* impulse over rho; loss over rho^2 */
+  double A[MOST_RAYS], x0[MOST_RAYS];             /* of exp(-(A rho^2 - 2 B rho + C)/2); B/A */
+  double exponent[MOST_RAYS], erfc_of[MOST_RAYS]; /* arguments of the functions in the integral of rho^0 */
+  double I0[MOST_RAYS], end;                      /* that integral without its factor; exp(-C/2) */
+  double add[SUMS][MOST_RAYS];                    /* what each ray adds to local_sums */
+} fan;
 
-/* One ray, of solid angle w in psi and alpha. */
-static void add_ray(const gg_contact_pair *p, const local_gaussian *x, const double v[3], double w, local_sums *f)
+/* Impulses, and the Gaussian along each ray. */
+GG_CLONES static void prepare(const gg_contact_pair *p, const local_gaussian *x, fan *f)
 {
   const gg_contact *c = p->contact;
-  const double along = sqrt(v[1] * v[1] + v[2] * v[2]), limit = c->mu * c->jn * v[0];
-  const bool sticks = c->jt * along <= limit;
-  const double j = sticks ? c->jt : limit / along, J[3] = {c->jn * v[0], j * v[1], j * v[2]};
-  const double lost = sticks ? p->loss_t : j * (1 - j * gg_inverse_mt(c) / 2);
-  double A = 0, B = 0, y[3] = {v[0], v[1], v[2]}, I[MOST_POWER + 1];
-  divide(&x->R, y);
-  for (int i = 0; i < 3; i++) A += y[i] * y[i], B += y[i] * x->y[i];
-  ray_integrals(A, B, x->C, I);
-  w *= v[0];
-  f->rate += w * I[3];
-  f->loss += w * I[5] * (p->loss_n * v[0] * v[0] + lost * along * along);
-  for (int i = 0; i < 3; i++) {
-    f->J[i] += w * I[4] * J[i];
-    for (int l = 0; l < 3; l++) {
-      f->Jg.at[i][l] += w * I[5] * J[i] * v[l];
-      f->JJ.at[i][l] += w * I[5] * J[i] * J[l];
+  const gg_tensor R = x->R;
+  const double jn = c->jn, jt = c->jt, steepest = c->mu * jn, inverse_mt = gg_inverse_mt(c);
+  for (int a = 0; a < MOST_RAYS; a++) {
+    const double v0 = f->v[0][a], v1 = f->v[1][a], v2 = f->v[2][a];
+    const double along = sqrt(v1 * v1 + v2 * v2), limit = steepest * v0, slides = limit / along;
+    const bool sticks = jt * along <= limit;
+    const double j = sticks ? jt : slides, slid = j * (1 - j * inverse_mt / 2), lost = sticks ? p->loss_t : slid;
+    f->J[0][a] = jn * v0, f->J[1][a] = j * v1, f->J[2][a] = j * v2;
+    f->along2[a] = p->loss_n * v0 * v0 + lost * along * along;
+    const double y0 = v0 / R.at[0][0], y1 = (v1 - R.at[1][0] * y0) / R.at[1][1],
+                 y2 = (v2 - R.at[2][0] * y0 - R.at[2][1] * y1) / R.at[2][2];
+    const double A = y0 * y0 + y1 * y1 + y2 * y2, B = y0 * x->y[0] + y1 * x->y[1] + y2 * x->y[2];
+    const double x0 = B / A, root = sqrt(A / 2);
+    f->A[a] = A, f->x0[a] = x0;
+    f->exponent[a] = (B * x0 - x->C) / 2, f->erfc_of[a] = -x0 * root;
+    f->I0[a] = sqrt(M_PI) / (2 * root);
+  }
+}
+
+/* int_0^inf rho^p exp(-(A rho^2 - 2 B rho + C)/2) drho, p = 0 .. 5, by recursion; then what the rays add. */
+GG_CLONES static void integrate(fan *f)
+{
+  for (int a = 0; a < MOST_RAYS; a++) {
+    const double A = f->A[a], x0 = f->x0[a], I0 = f->I0[a];
+    const double I1 = x0 * I0 + f->end / A, I2 = x0 * I1 + I0 / A, I3 = x0 * I2 + 2 * I1 / A, I4 = x0 * I3 + 3 * I2 / A,
+                 I5 = x0 * I4 + 4 * I3 / A;
+    const double w = f->w[a] * f->v[0][a], w4 = w * I4, w5 = w * I5;
+    f->add[0][a] = w * I3;
+    f->add[1][a] = w5 * f->along2[a];
+    for (int i = 0; i < 3; i++) {
+      f->add[2 + i][a] = w4 * f->J[i][a];
+      for (int l = 0; l < 3; l++) {
+        f->add[5 + 3 * i + l][a] = w5 * f->J[i][a] * f->v[l][a];
+        f->add[14 + 3 * i + l][a] = w5 * f->J[i][a] * f->J[l][a];
+      }
     }
   }
 }
@@ -132,20 +155,36 @@ static polar_rule rule_for(double part)
   return (polar_rule){n, gsl_integration_glfixed_table_alloc((size_t)n)};
 }
 
-/* Rays of one alpha, from an angle psi to another. */
-static void add_fan(const gg_contact_pair *p, const local_gaussian *x, const double t[2], const polar_rule *rule,
-                    double from, double to, double w, local_sums *f)
+/* Place rays of one alpha, from an angle psi to another, behind `n` others. Returns how many there are then. */
+static int place(const local_gaussian *x, const double t[2], const polar_rule *rule, double from, double to, double w,
+                 fan *f, int n)
 {
-  for (int a = 0; a < rule->n; a++) {
+  for (int a = 0; a < rule->n; a++, n++) {
     double psi, wa;
     gsl_integration_glfixed_point(from, to, (size_t)a, &psi, &wa, rule->table);
-    const double v[3] = {x->n * cos(psi), sin(psi) * t[0], sin(psi) * t[1]};
-    add_ray(p, x, v, w * wa * sin(psi), f);
+    f->v[0][n] = x->n * cos(psi), f->v[1][n] = sin(psi) * t[0], f->v[2][n] = sin(psi) * t[1];
+    f->w[n] = w * wa * sin(psi);
   }
+  return n;
 }
 
-static void add_all(const gg_contact_pair *p, const local_gaussian *x, local_sums *f)
+/* The rays of one alpha: contacts stick up to the angle `edge`, and slide beyond. */
+static void add_fan(const gg_contact_pair *p, const local_gaussian *x, const double t[2], const polar_rule *sticks,
+                    const polar_rule *slides, double edge, double w, fan *f, double sums[SUMS])
 {
+  int n = place(x, t, sticks, 0, edge, w, f, 0);
+  n = place(x, t, slides, edge, M_PI_2, w, f, n);
+  prepare(p, x, f);
+  for (int a = 0; a < n && x->C != 0; a++) f->I0[a] *= exp(f->exponent[a]) * erfc(f->erfc_of[a]);
+  integrate(f);
+  for (int q = 0; q < SUMS; q++)
+    for (int a = 0; a < n; a++) sums[q] += f->add[q][a];
+}
+
+static void add_all(const gg_contact_pair *p, const local_gaussian *x, double sums[SUMS])
+{
+  fan f = {.end = exp(-x->C / 2)};
+  for (int a = 0; a < MOST_RAYS; a++) f.v[0][a] = 1;
   const double *t = x->t, limit = p->contact->mu * p->contact->jn * x->n / p->contact->jt; /* of g_t at psi = 45 deg */
   const double middle = atan(limit / sqrt(t[0] * t[2]));
   if (!isfinite(middle)) return; /* no Gaussian */
@@ -155,8 +194,7 @@ static void add_all(const gg_contact_pair *p, const local_gaussian *x, local_sum
     const double alpha = 2 * M_PI * (b + 0.5) / azimuths, w = x->density * x->n * t[0] * t[2] * 2 * M_PI / azimuths;
     const double along[2] = {t[0] * cos(alpha), t[1] * cos(alpha) + t[2] * sin(alpha)};
     const double edge = atan(limit / hypot(along[0], along[1]));
-    add_fan(p, x, along, &sticks, 0, edge, w, f);
-    add_fan(p, x, along, &slides, edge, M_PI_2, w, f);
+    add_fan(p, x, along, &sticks, &slides, edge, w, &f, sums);
   }
   if (!sticks.table || !slides.table) gg_base_memory_lacked(); /* the caller of the theory reports it */
   if (sticks.table) gsl_integration_glfixed_table_free(sticks.table);
@@ -185,8 +223,10 @@ static gg_tensor regression(const local_gaussian *x, const local_sums *f)
 gg_contact_average gg_theory_contact_average_frictional(const gg_contact_pair *p, gg_vec k)
 {
   const local_gaussian x = local_of(p, k);
-  local_sums f = {.rate = 0};
-  add_all(p, &x, &f);
+  double sums[SUMS] = {0};
+  local_sums f;
+  add_all(p, &x, sums);
+  memcpy(&f, sums, sizeof f);
   /* Torques before axes turn: rounding of the normal impulse, much the larger one for small mu, must not enter. */
   const gg_tensor P = regression(&x, &f), kP = turned_tensor(x.axes, gg_tensor_product(torque, P));
   const gg_tensor kJkJ = gg_tensor_product(gg_tensor_product(torque, f.JJ), torque), X = gg_tensor_cross(k);

@@ -2,7 +2,7 @@
 /* Covariances of the means of a run: those of a quantity with itself and with its parts, and against many seeds. */
 #include "api_test.h"
 
-#define CHEAP "{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 100}, run: {collisions: 2000, seed: %d}}"
+#define CHEAP "{flow: usf, engine: dsmc, phi: 0.1, dsmc: {particles: 100}, run: {collisions: 1000, seed: %d}}"
 enum { SEEDS = 200, N = 3 };
 
 static gg_result *run_of(const char *yaml, const char *output)

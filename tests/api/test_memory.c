@@ -4,7 +4,7 @@
  * with GG_OK and the whole answer, or with an error that says so; nothing leaks; no file is left half-written. (Blocks
  * that HDF5 and FFTW keep for themselves are not called leaks: they keep them on success, too.)
  *
- * Here some k of each call, three times as many at night. By hand: MEMORY_TRIES=0 all, MEMORY_ONLY=word some calls,
+ * Here some k of each call, five times as many at night. By hand: MEMORY_TRIES=0 all, MEMORY_ONLY=word some calls,
  * MEMORY_AT=k one, MEMORY_LAST=1 all later ones fail, too, MEMORY_IN=library (failing_malloc.h), MEMORY_HERE=1 all in
  * this process, for a debugger. */
 #include <dirent.h>

@@ -73,7 +73,7 @@ static void in_pieces(void **state)
   assert_ok(gg_run(s, NULL, &whole, &err));
   assert_ok(gg_session_new(s, &session, &err));
   for (; !over; pieces++) {
-    assert_ok(gg_session_advance(session, 0.001, &over, &err));
+    assert_ok(gg_session_advance(session, 0.005, &over, &err));
     gg_result_free(now);
     assert_ok(gg_session_result(session, &now, &err));
   }

@@ -377,9 +377,12 @@ def written(path):
 
 
 def test_an_interrupted_protocol_resumes_to_the_same_bits():
-    """Interrupted before, between and after changes: the same bits."""
+    """Interrupted before, between and after changes: the same bits. Daily either engine has one of the two flows."""
     for engine in "md", "dsmc":
-        resumed(engine, (ELASTIC % engine).replace("{e: 1}", "{e: 0.9, beta: 0}"))
+        if engine == "dsmc" or "NIGHTLY" in os.environ:
+            resumed(engine, (ELASTIC % engine).replace("{e: 1}", "{e: 0.9, beta: 0}"))
+        if engine == "dsmc" and "NIGHTLY" not in os.environ:
+            continue
         sheared = "shear_rate: 2\n" + (ELASTIC % engine).replace("hss", "usf").replace("{at: 7,", "{at: 7, shear_rate: 1,")
         resumed(engine, sheared.replace("{e: 1}", "{e: 0.9, beta: 0}"))
 

@@ -112,7 +112,7 @@ def test_foreign_files_and_words():
 
 
 def test_points_are_collected_in_one_table():
-    write(SWEEP.replace("replicas: 2}", "replicas: 2}\nsweep: {does: compare}\ncollision: {beta: 0.5, mu: 0.3}"))
+    write(SWEEP.replace("replicas: 2}", "replicas: 2}\nsweep: {does: compare}\ncollision: {beta: 0.5}"))
     done = run("sweep", "s.yaml", "--quiet")
     check(done.code == 0 and not done.out and not done.err and done.new == ["s.sweep"], done.out, done.err)
     done = run("sweep", "s.yaml", "--collect", "--over", "collision.e", "--show", "N1,temperature")

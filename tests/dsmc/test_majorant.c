@@ -130,6 +130,7 @@ static void forced_overflows_change_no_mixture(void **state)
   shear(GG_DSMC_PLAIN, 0, 1, &plain);
   for (int i = 0; i < 4; i++) {
     mixed f = {0};
+    if (!getenv("NIGHTLY") && i % 3 == 0) continue; /* daily each path with another of the two */
     shear(i < 2 ? GG_DSMC_PLAIN : GG_DSMC_BLOCKS, forced[i % 2], 2 + (uint64_t)i, &f);
     const struct {
       const char *name;

@@ -136,7 +136,7 @@ static void pairs_of_segments_collide_at_the_same_rate(void **state)
   };
   gg_scene s = lab_scene(GG_EQUILIBRIUM, 0.1, 1, -1, PLANTED);
   gg_model m = lab_model(&s);
-  for (size_t i = 0; i < sizeof plans / sizeof *plans; i++) {
+  for (size_t i = getenv("NIGHTLY") ? 0 : 2; i < sizeof plans / sizeof *plans; i++) { /* daily those with most pairs */
     gg_engine *g = lab_engine(&m, 100 + i);
     gg_dsmc *d = (gg_dsmc *)g;
     lab_mean ratio = {0};

@@ -451,7 +451,8 @@ static void walls_carry_the_pressure(void **state)
   (void)state;
   equilibrium(0.01, 30, 15);
   equilibrium(0.2, 12, 30);
-  equilibrium(0.3, 18, 90); /* at 12 d layers at the walls reach into the core: 1.0029(3) over ten seeds */
+  if (getenv("NIGHTLY"))
+    equilibrium(0.3, 18, 90); /* at 12 d layers at the walls reach into the core: 1.0029(3) over ten seeds */
 }
 
 /* Sums over the collisions of a block whose first grain is in the core, which is `core` wide; `of` is by its slabs. */
@@ -556,7 +557,7 @@ static void columns_carry_their_weight(void **state)
   (void)state;
   column(0, 4, 0.5, 15);
   column(0.1, 15, 0.1, 10);
-  column(0.3, 12, 0.1, 50);
+  if (getenv("NIGHTLY")) column(0.3, 12, 0.1, 50);
 }
 
 /* Sums over the grains of the core, from 3/10 to 7/10 of the height: y, y^2, u = c_x, y u, and some by slab. */

@@ -2,7 +2,8 @@
 /* Proves: from the engine's own state after each event, a plain search over all images of all pairs and all walls finds
  * the same next collision (the same pair, and the same time to 10^-10 of a mean free time), and no two grains overlap.
  * Hundreds of random small systems: periodic, sheared, between walls, under gravity; each rule; one species and two;
- * dilute and dense; cubic and not; 10^4 events in a row; and after a long time. */
+ * dilute and dense; cubic and not; 10^4 events in a row; and after a long time. Daily a third of them. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "md_test.h"
@@ -11,6 +12,12 @@
 #include "scene/scene.h"
 
 enum { MOST = 160 };
+
+/* Number of systems, or of events: all nightly, a third daily. */
+static int share(int all)
+{
+  return getenv("NIGHTLY") ? all : (all + 2) / 3;
+}
 
 typedef struct collided {
   uint32_t counter[MOST];
@@ -138,7 +145,7 @@ static void many(gg_flow flow, bool mixture, int systems, uint64_t seed)
 {
   gg_rng rng = gg_common_rng_seed(seed, 7);
   gg_scene s;
-  for (int k = 0; k < systems;)
+  for (int k = 0; k < share(systems);)
     if (random_scene(&s, &rng, flow, mixture)) follow(&s, seed + (uint64_t)k++, 60, 40);
 }
 
@@ -174,7 +181,7 @@ static void events_at_ridges_are_found(void **state)
 {
   (void)state;
   static const double ridges[] = {0.5, 1, 1.7}, betas[] = {-1, 0.5, 0.4}, mus[] = {INFINITY, INFINITY, 0.3};
-  for (int k = 0; k < 24; k++) {
+  for (int k = 0; k < 24; k += getenv("NIGHTLY") ? 1 : 5) {
     gg_scene s = md_scene((md_case){k % 2 ? GG_CHUTE : GG_POISEUILLE, 40, 0.1, 0.8, betas[k % 3], mus[k % 3], {0}});
     s.md.contact_time = 1e-3;
     s.walls.ridges = ridges[k / 2 % 3], s.walls.beta = 0.5;
@@ -222,7 +229,8 @@ static void events_in_comoving_rows_are_found(void **state)
     if (k == 2) assert_int_equal(e->cells.n[0], GG_MD_FEWEST_COMOVING);
     md_destroy(e);
     gg_scene s = md_scene(all[k]);
-    for (uint64_t seed = 1; seed <= 4; seed++) follow_stretches(&s, seed, 60, 20, seed == 1 ? 24 : 6);
+    for (uint64_t seed = 1; seed <= (uint64_t)share(4); seed++)
+      follow_stretches(&s, seed, 60, 20, seed == 1 ? share(24) : 6);
     s.n_species = 2, s.species[0].fraction = s.species[1].fraction = 0.5, s.species[1].diameter = 0.8;
     follow_stretches(&s, 5, 60, 20, 6);
   }
@@ -244,7 +252,7 @@ static void events_in_overlapping_cells_are_found(void **state)
     if (k == 3) assert_int_equal(e->cells.n[0], 6);
     md_destroy(e);
   }
-  for (uint64_t seed = 1; seed <= 4; seed++) {
+  for (uint64_t seed = 1; seed <= (uint64_t)share(4); seed++) {
     one(still, seed, 900, 40);
     one(sheared, seed, 900, 40);
     one(wider, seed, 900, 40);
@@ -276,7 +284,7 @@ static void searches_between_walls_find_events(void **state)
 {
   (void)state;
   static const gg_flow flows[] = {GG_COUETTE, GG_FOURIER, GG_POISEUILLE, GG_CHUTE};
-  for (int k = 0; k < 32; k++) {
+  for (int k = 0; k < 32; k += getenv("NIGHTLY") ? 1 : 3) {     /* each flow, with lists and without */
     const bool lists = k % 2 && flows[k / 2 % 4] != GG_COUETTE; /* not in a flow along walls */
     gg_scene s =
         md_scene((md_case){flows[k / 2 % 4], 150, lists ? 0.42 : 0.01, 0.9, k % 3 ? 0 : -1, INFINITY, {1, 1.1, 1}});
@@ -319,7 +327,7 @@ static void events_of_few_grains_are_found(void **state)
     }
 }
 
-/* 10^4 events in a row, in small systems of every kind. */
+/* 10^4 events in a row (daily a third), in small systems of every kind. */
 static void ten_thousand_events_in_a_row_are_found(void **state)
 {
   (void)state;
@@ -334,11 +342,12 @@ static void ten_thousand_events_in_a_row_are_found(void **state)
       s.n_species = 2, s.species[0].fraction = s.species[1].fraction = 0.5;
       s.species[1].diameter = 0.8, s.species[1].mass = 0.4;
     }
-    follow(&s, 40 + (uint64_t)k, 40, 10000);
+    follow(&s, 40 + (uint64_t)k, 40, share(10000));
   }
 }
 
-/* The same after a long time, which two grains reach in a second; sheared images have then passed 2 x 10^5 times. */
+/* The same after a long time, which two grains reach in a second; sheared images have then passed 2 x 10^5 times
+ * (daily a third). */
 static void late_events_are_found(void **state)
 {
   (void)state;
@@ -347,7 +356,7 @@ static void late_events_are_found(void **state)
         (md_case){sheared ? GG_USF : GG_EQUILIBRIUM, 2, sheared ? 0.1 : 0.01, sheared ? 0.8 : 1, -1, INFINITY, {0}});
     gg_model m = md_model_of(&s);
     gg_md *e = md_create(&m, 1);
-    double time = sheared ? 2e5 : 1e6;
+    double time = share(sheared ? 200000 : 1000000);
     advance(e, time);
     assert_true(fabs(e->k.epoch_start + e->k.now - time) < 1e-6);
     for (int k = 0; k < 200; k++) check_next(e, 1);

@@ -8,8 +8,8 @@
 #include "md/md_operations.h"
 #include "md/parallel/slab.h"
 #include "md/row_motion.h"
-#include "scene/scene.h"
 #include "md_test.h"
+#include "scene/scene.h"
 
 enum { GRAINS = 40, CELLS = 27, COLLISIONS = 20000 };
 
@@ -162,6 +162,7 @@ static void small_cells_leave_all_bits_to_threads(void **state)
     gg_model m = model_of(k);
     uint64_t serial = 0;
     for (int threads = 1; threads <= 4; threads++) {
+      if (!getenv("NIGHTLY") && threads > 1 && threads != 2 + k % 3) continue; /* daily one number beside one */
       gg_md *e = create(&m, cases[k].width, true);
       gg_md_use_threads(e, threads, false);
       md_collide(e, 3 * COLLISIONS);

@@ -143,7 +143,7 @@ static void mean_square_gives_the_loss(void **state)
   gg_result_free(r);
 
   gg_scene s = scene_of(GG_HCS, GG_DSMC, e, 0);
-  s.dsmc.particles = 20000;
+  s.dsmc.particles = 20000, s.run.collisions = 6000;
   r = ct_run(s);
   square = ct_number(ct_find(&r->curves, "impact_speed"), "mean_square_impact_speed");
   double zeta = r->value[GG_Q_COOLING_RATE].mean, a2 = r->value[GG_Q_A2].mean; /* over nu_0; the rate at T = 1 */

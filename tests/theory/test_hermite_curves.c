@@ -185,7 +185,8 @@ static double mean_square(const gg_curve *c, const gg_curve *theory, double reac
   return sum / n;
 }
 
-/* Neighbouring bins have common errors of P(0) and sigma: the mean square of 41 bins scatters by up to .5 about 1. */
+/* Neighbouring bins have common errors of P(0) and sigma: the mean square of 41 bins scatters by up to .5 about 1. Of
+ * smooth sheared gases daily the dilute one, where Gaussians are furthest off. */
 static void those_of_the_engine(void **state)
 {
   (void)state;
@@ -207,7 +208,7 @@ static void those_of_the_engine(void **state)
       {measured(mixed, speeds), {"sonine_excess_1", "sonine_excess_2"}, 1.5, 3},
       {measured(rough, components), {"velocity_deviation_Wx", "velocity_deviation_Wz"}, 2, 3},
       {measured(sliding, components), {"velocity_deviation_Wx", "velocity_deviation_Wy"}, 2, 3}};
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+  for (size_t i = getenv("NIGHTLY") ? 0 : 1; i < sizeof cases / sizeof *cases; i++) {
     gg_result *r = run(cases[i].scene);
     gg_curves theory = curves_of(&r->model, cases[i].scene.measure);
     for (int k = 0; k < 3 && cases[i].name[k]; k++) {
