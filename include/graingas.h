@@ -1181,14 +1181,16 @@ GG_API gg_status gg_comparison_theory_curve(const gg_comparison *comparison, con
 GG_API gg_status gg_comparison_theory_curve_number(const gg_comparison *comparison, const char *theory, size_t i,
                                                    size_t k, gg_measurement *number, gg_error *err);
 
-/* State of a gas between walls at one height, and its stress, heat flux and loss of energy per volume and time there,
- * in units of profiles. Slopes are along y. */
+#ifndef GG_LOCAL_STATE_DEFINED /* the library's own files include these lines alone */
+#define GG_LOCAL_STATE_DEFINED
+/* A gas between walls at one height (slopes along y), and its fluxes and loss per volume there; units of profiles. */
 typedef struct gg_local_state {
   double solid_fraction, temperature, shear_rate, solid_fraction_slope, temperature_slope;
 } gg_local_state;
 typedef struct gg_local_fluxes {
   double P_xx, P_yy, P_zz, P_yx, q_y, loss;
 } gg_local_fluxes;
+#endif
 
 /**
  * Stress and heat flux by the closure of a theory between walls at given states, such as measured ones.

@@ -5,6 +5,7 @@
 
 #include "common/quantity.h"
 #include "measure/curve.h"
+#include "theory/local_state.h" /* made of the public header (src/theory/meson.build) */
 
 enum { GG_THEORY_REMARK = 480 };
 
@@ -27,10 +28,6 @@ typedef struct gg_theory_answer {
 #define GG_ANSWERS_EXPANSION "bulk_viscosity_reduced cooling_rate_transport "
 #define GG_ANSWERS_LENGTHS "clustering_length heat_mode_length "
 #define GG_ANSWERS_MIXTURE "temperature_1 temperature_2 partial_temperature_ratio "
-
-/* The public header defines these. */
-typedef struct gg_local_state gg_local_state;
-typedef struct gg_local_fluxes gg_local_fluxes;
 
 typedef struct gg_theory {
   const char *name;        /* "lun1991": the JSON key */

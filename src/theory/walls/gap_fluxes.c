@@ -7,7 +7,6 @@
 
 #include "base/memory.h"
 #include "common/contact_value.h"
-#include "graingas.h"
 #include "theory/answer.h"
 #include "theory/walls/gap.h"
 
