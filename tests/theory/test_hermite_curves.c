@@ -185,8 +185,8 @@ static double mean_square(const gg_curve *c, const gg_curve *theory, double reac
   return sum / n;
 }
 
-/* Neighbouring bins have common errors of P(0) and sigma: the mean square of 41 bins scatters by up to .5 about 1. Of
- * smooth sheared gases daily the dilute one, where Gaussians are furthest off. */
+/* Neighbouring bins have common errors of P(0) and sigma: the mean square of 41 bins scatters by up to .5 about 1. The
+ * dense smooth gas runs nightly: Gaussians are further off in the dilute one. */
 static void those_of_the_engine(void **state)
 {
   (void)state;
