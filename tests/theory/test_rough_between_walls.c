@@ -69,7 +69,7 @@ static void wall_rule(void **state)
     const double J = P / sqrt(2 * M_PI * T);
     mean momentum = {0}, couple = {0}, translation = {0}, rotation = {0};
     gg_rng rng = gg_common_rng_seed(7 + (uint64_t)w, 0);
-    for (int i = 0; i < 400000; i++) {
+    for (int i = 0; i < 200000; i++) {
       const gg_vec k = {0, wall.side, 0}, r = gg_common_rng_normal_vec(&rng);
       const double other = gg_common_rng_normal(&rng), normal = sqrt(T * (r.y * r.y + other * other));
       gg_vec v = {slip + sqrt(T) * r.x, wall.side * normal, sqrt(T) * r.z};
@@ -96,7 +96,7 @@ static void couple_decay(void **state)
     const gg_contact contact = gg_common_contact_make((gg_partner){1, K}, (gg_partner){1, K}, e, beta, INFINITY);
     mean change = {0};
     gg_rng rng = gg_common_rng_seed(11 + (uint64_t)c, 0);
-    for (int i = 0; i < 400000; i++) {
+    for (int i = 0; i < 200000; i++) {
       gg_vec v[2], s[2], k = gg_common_rng_normal_vec(&rng);
       k = gg_scale(1 / sqrt(gg_dot(k, k)), k);
       for (int j = 0; j < 2; j++) {
