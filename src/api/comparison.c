@@ -86,7 +86,10 @@ gg_status gg_theory_local_fluxes(const gg_scene *scene, const char *theory, size
   GG_NEED(scene, theory, state, fluxes);
   gg_comparison *c;
   GG_TRY(gg_theories_evaluate(scene, theory, NULL, NULL, &c, err));
-  const gg_status status = gg_theory_fluxes(c->theory[0].theory, &c->model, n, state, fluxes, err);
+  _Static_assert(sizeof *state == sizeof(gg_gap_state) && sizeof *fluxes == sizeof(gg_gap_fluxes), "the same members");
+  const gg_status status =
+      gg_theory_fluxes(c->theory[0].theory, &c->model, n, (const gg_gap_state *)(const void *)state,
+                       (gg_gap_fluxes *)(void *)fluxes, err);
   gg_comparison_free(c);
   return status;
 }

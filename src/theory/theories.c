@@ -113,8 +113,8 @@ gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsig
   return status;
 }
 
-gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_t n, const gg_local_state *state,
-                           gg_local_fluxes *fluxes, gg_error *err)
+gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_t n, const gg_gap_state *state,
+                           gg_gap_fluxes *fluxes, gg_error *err)
 {
   if (!theory->fluxes)
     return gg_theory_reject(err, theory->name, "gives no fluxes at single heights; navier_stokes and moments do");

@@ -28,9 +28,14 @@ typedef struct gg_theory_answer {
 #define GG_ANSWERS_LENGTHS "clustering_length heat_mode_length "
 #define GG_ANSWERS_MIXTURE "temperature_1 temperature_2 partial_temperature_ratio "
 
-/* The public header defines these. */
-typedef struct gg_local_state gg_local_state;
-typedef struct gg_local_fluxes gg_local_fluxes;
+/* State of a gas between walls at one height, and its fluxes: members as those of gg_local_state and gg_local_fluxes of
+ * the public header. */
+typedef struct gg_gap_state {
+  double solid_fraction, temperature, shear_rate, solid_fraction_slope, temperature_slope;
+} gg_gap_state;
+typedef struct gg_gap_fluxes {
+  double P_xx, P_yy, P_zz, P_yx, q_y, loss;
+} gg_gap_fluxes;
 
 typedef struct gg_theory {
   const char *name;        /* "lun1991": the JSON key */
@@ -51,8 +56,7 @@ typedef struct gg_theory {
    * no curves. */
   gg_status (*curves)(const gg_model *model, unsigned measure, gg_curves *list, gg_error *err);
   /* Stress and heat flux of n given states of a gas between walls; NaN where the theory has none. NULL: no closure. */
-  gg_status (*fluxes)(const gg_model *model, size_t n, const gg_local_state *state, gg_local_fluxes *fluxes,
-                      gg_error *err);
+  gg_status (*fluxes)(const gg_model *model, size_t n, const gg_gap_state *state, gg_gap_fluxes *fluxes, gg_error *err);
   /* A theory of the user's program (user_theory.c), which replaces evaluate and beyond; else NULL. */
   const gg_theory_definition *own;
   const char
@@ -82,7 +86,7 @@ gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsig
                            gg_error *err);
 
 /* Closures at given states of a model (gg_theory.fluxes). */
-gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_t n, const gg_local_state *state,
-                           gg_local_fluxes *fluxes, gg_error *err);
+gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_t n, const gg_gap_state *state,
+                           gg_gap_fluxes *fluxes, gg_error *err);
 
 #endif

@@ -4,8 +4,6 @@
  * momentum and energy to 1e-8; and of moments the limit of uniform shear, and the table that they are taken from. */
 #include "theory_test.h"
 
-#include "graingas.h"
-
 #include "common/contact_value.h"
 #include "theory/walls/gaussian_table.h"
 #include "theory/walls/half_range.h"
@@ -392,11 +390,11 @@ static void fluxes_at_states(void **state)
     const gg_curve *phi = find(&list, "profile_solid_fraction"), *u = find(&list, "profile_velocity");
     const gg_curve *T = find(&list, "profile_temperature"), *q = find(&list, "profile_q_y");
     enum { FROM = 4, N = 32 };
-    gg_local_state at[N + 2] = {{0}};
-    gg_local_fluxes f[N + 2];
+    gg_gap_state at[N + 2] = {{0}};
+    gg_gap_fluxes f[N + 2];
     for (size_t i = 0; i < N; i++) {
       const size_t s = FROM + i;
-      at[i] = (gg_local_state){phi->value[s], T->value[s], slope_at(u, s), slope_at(phi, s), slope_at(T, s)};
+      at[i] = (gg_gap_state){phi->value[s], T->value[s], slope_at(u, s), slope_at(phi, s), slope_at(T, s)};
     }
     at[N] = at[0], at[N].temperature = NAN, at[N + 1] = at[0], at[N + 1].solid_fraction = 0.9;
     gg_error err;

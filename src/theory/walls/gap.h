@@ -90,8 +90,8 @@ gg_status gg_theory_gap_curves(const gg_gap_theory *theory, const gg_model *mode
                                gg_error *err);
 
 /* For gg_theory.fluxes. */
-gg_status gg_theory_gap_fluxes(const gg_gap_theory *theory, const gg_model *model, size_t n,
-                               const gg_local_state *state, gg_local_fluxes *fluxes, gg_error *err);
+gg_status gg_theory_gap_fluxes(const gg_gap_theory *theory, const gg_model *model, size_t n, const gg_gap_state *state,
+                               gg_gap_fluxes *fluxes, gg_error *err);
 
 /* Pass the flow to a function, and free it. */
 typedef void gg_gap_use(const gg_gap_flow *flow, void *to);

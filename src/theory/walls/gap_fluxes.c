@@ -7,7 +7,6 @@
 
 #include "base/memory.h"
 #include "common/contact_value.h"
-#include "graingas.h"
 #include "theory/answer.h"
 #include "theory/walls/gap.h"
 
@@ -57,9 +56,9 @@ static bool find(const target *t, double x[2], gg_gap_local *at)
   return false;
 }
 
-static gg_local_fluxes fluxes_at(const gg_model *m, gg_gap_gas gas, const gg_local_state *s)
+static gg_gap_fluxes fluxes_at(const gg_model *m, gg_gap_gas gas, const gg_gap_state *s)
 {
-  const gg_local_fluxes none = {NAN, NAN, NAN, NAN, NAN, NAN};
+  const gg_gap_fluxes none = {NAN, NAN, NAN, NAN, NAN, NAN};
   const double n = number_density(m, s->solid_fraction), y = m->boltzmann ? 0 : s->solid_fraction;
   const target t = {gas, s->temperature, n, s->shear_rate};
   const double n_slope = number_density(m, s->solid_fraction_slope), unit = m->stress_unit;
@@ -69,16 +68,16 @@ static gg_local_fluxes fluxes_at(const gg_model *m, gg_gap_gas gas, const gg_loc
   double x[2] = {log(n * Z * s->temperature), 0};
   if (!find(&t, x, &at)) return none;
   const double P = exp(x[0]);
-  return (gg_local_fluxes){.P_xx = unit * (P + at.xx),
-                           .P_yy = unit * P,
-                           .P_zz = unit * (P + at.zz),
-                           .P_yx = unit * x[1] * P,
-                           .q_y = -unit * (at.kappa * s->temperature_slope + at.mu * n_slope),
-                           .loss = unit * at.loss};
+  return (gg_gap_fluxes){.P_xx = unit * (P + at.xx),
+                         .P_yy = unit * P,
+                         .P_zz = unit * (P + at.zz),
+                         .P_yx = unit * x[1] * P,
+                         .q_y = -unit * (at.kappa * s->temperature_slope + at.mu * n_slope),
+                         .loss = unit * at.loss};
 }
 
-gg_status gg_theory_gap_fluxes(const gg_gap_theory *theory, const gg_model *m, size_t n, const gg_local_state *state,
-                               gg_local_fluxes *fluxes, gg_error *err)
+gg_status gg_theory_gap_fluxes(const gg_gap_theory *theory, const gg_model *m, size_t n, const gg_gap_state *state,
+                               gg_gap_fluxes *fluxes, gg_error *err)
 {
   const double room = 0.02; /* of densities about those given */
   double low = INFINITY, high = 0;

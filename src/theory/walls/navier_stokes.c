@@ -31,7 +31,7 @@ static gg_status curves(const gg_model *m, unsigned measure, gg_curves *list, gg
   return gg_theory_gap_curves(&theory, m, measure, list, err);
 }
 
-static gg_status fluxes(const gg_model *m, size_t n, const gg_local_state *state, gg_local_fluxes *to, gg_error *err)
+static gg_status fluxes(const gg_model *m, size_t n, const gg_gap_state *state, gg_gap_fluxes *to, gg_error *err)
 {
   return gg_theory_gap_fluxes(&theory, m, n, state, to, err);
 }
