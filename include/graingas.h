@@ -1195,7 +1195,7 @@ typedef struct gg_local_fluxes {
 /**
  * Stress and heat flux by the closure of a theory between walls at given states, such as measured ones.
  * @param scene the scene: one species of smooth grains between walls
- * @param theory "navier_stokes" or "moments"
+ * @param theory "navier_stokes", "navier_stokes_hermite" or "moments"
  * @param n number of states
  * @param state n states
  * @param fluxes receives n answers; NaN where the theory has none

@@ -83,14 +83,14 @@ def _fit(x, values, errors, at, slabs):
 
 
 def _core(result, wanted):
-    """The heights without layers at walls, from a theory that answers; else two and a half diameters from the walls."""
+    """The heights without layers at walls, from the first theory that answers."""
     for name in wanted:
         curves = theory(result.scene, name).curves
         if "profile_velocity" in curves:
             numbers = curves["profile_velocity"].numbers
             return numbers["core_from"].mean, numbers["core_to"].mean
-    x = result.curves["profile_velocity"].x
-    return 3, x[0] + x[-1] - 3
+    raise BadInput(f"local_fluxes: none of the theories {', '.join(wanted)} answers for this scene, so the layers at its "
+                   "walls are not known")
 
 
 def _closure(scene, name, state):

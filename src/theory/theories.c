@@ -139,9 +139,15 @@ gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_
                            gg_local_fluxes *fluxes, gg_error *err)
 {
   if (!theory->gap || !theory->gap->gas_of)
-    return gg_theory_reject(err, theory->name, "gives no fluxes at single heights; navier_stokes and moments do");
+    return gg_theory_reject(err, theory->name,
+                            "gives no fluxes at single heights; navier_stokes, navier_stokes_hermite and moments do");
   GG_TRY(check_law(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
   GG_TRY(check_bath(theory, model, err));
-  return gg_theory_gap_fluxes(theory->gap, model, n, state, fluxes, err);
+  const unsigned before = gg_base_memory_failures();
+  gg_base_gsl_enter();
+  const gg_status status = gg_theory_gap_fluxes(theory->gap, model, n, state, fluxes, err);
+  gg_base_gsl_leave();
+  if (gg_base_memory_failures() != before) return gg_base_out_of_memory(err);
+  return finish(theory, model, status, err);
 }

@@ -77,12 +77,13 @@ gg_status gg_theory_evaluate(const gg_theory *theory, const gg_model *model, gg_
 gg_status gg_theory_curves(const gg_theory *theory, const gg_model *model, unsigned measure, gg_curves *list,
                            gg_error *err);
 
+/* Answer and curves from one solution, of a theory that has its gap. */
+gg_status gg_theory_evaluate_gap(const gg_theory *theory, const gg_model *model, unsigned measure,
+                                 gg_theory_answer *answer, gg_curves *list, gg_error *err);
+
 /* Stress and heat flux of n given states of a gas between walls; NaN where the theory has none. GG_BAD_INPUT from one
  * without a gap. */
 gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_t n, const gg_local_state *state,
                            gg_local_fluxes *fluxes, gg_error *err);
-/* Both, from one solution, of a theory that has its gap. */
-gg_status gg_theory_evaluate_gap(const gg_theory *theory, const gg_model *model, unsigned measure,
-                                 gg_theory_answer *answer, gg_curves *list, gg_error *err);
 
 #endif

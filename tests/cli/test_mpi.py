@@ -14,7 +14,7 @@ import time
 from tap import GRAINGAS, PATIENCE, SANITIZERS, Skip, check, main, run
 
 BARE = os.environ["GRAINGAS_WITHOUT_MPI"]
-BOUND = 100 * PATIENCE  # s
+BOUND = 200 * PATIENCE  # s
 SCENE = """{flow: usf, phi: 0.1, particles: 200, collision: {beta: 0}, run: {collisions: 200, replicas: 4},
 measure: [rheology, velocity_distributions], output: {checkpoint_every: 0}}"""
 LONG = ("--set", "run.collisions=1000", "--set", "output.checkpoint_every=0.1")

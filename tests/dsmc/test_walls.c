@@ -185,8 +185,11 @@ static void threads_leave_bits(gg_scene s)
   const gg_dsmc_channel *d = (gg_dsmc_channel *)one;
   printf("# %d slabs of %d cells, %d parts\n", d->slabs, d->cells.n, d->parts);
   assert_true(d->slabs >= 4 && d->parts > 1);
+  double reach = 0;
+  for (int p = 0; p < gg_pairs_of(m.n_species); p++) reach = fmax(reach, d->reach[p]);
   for (int k = 0; k < d->slabs; k++) /* slabs of one colour are further apart than partners reach */
-    assert_true((d->slab[k].end - d->slab[k].first) * d->cells.width > 2 * d->reach[0] + 2 * d->cells.width);
+    assert_true((d->slab[k].end - d->slab[k].first) * d->cells.width >
+                2 * reach + (d->cells.block + 2) * d->cells.width);
   advance(one, INFINITY, (uint64_t)(5 * m.n));
   for (int threads = 2; threads <= 3; threads++) {
     gg_engine *more = lab_engine(&m, 4);
@@ -373,10 +376,8 @@ static void a_shrunken_step_is_restored(void **state)
 }
 
 /* A checkpoint with a damaged bit is either rejected or restored to an engine that runs. */
-static void damaged_checkpoints_are_rejected_or_run(void **state)
+static void damaged_checkpoints(gg_scene s)
 {
-  (void)state;
-  gg_scene s = full_scene(60);
   gg_model m = lab_model(&s);
   gg_engine *g = lab_engine(&m, 8), *other;
   gg_archive a = {0};
@@ -403,6 +404,13 @@ static void damaged_checkpoints_are_rejected_or_run(void **state)
   assert_true(refused > 100);
   gg_base_archive_clear(&a);
   g->ops->destroy(g);
+}
+
+static void damaged_checkpoints_are_rejected_or_run(void **state)
+{
+  (void)state;
+  damaged_checkpoints(full_scene(60));
+  damaged_checkpoints(dense_scene(12, 60));
 }
 
 static double slab_mean(const view *v, int from, int to)

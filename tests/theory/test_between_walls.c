@@ -519,7 +519,7 @@ static void fluxes_at_states(void **state)
     }
     assert_true(isnan(f[N].P_yy) && isnan(f[N].q_y) && isnan(f[N + 1].P_yy));
     assert_int_equal(gg_theory_fluxes(&gg_theory_lun1991, &m, N, at, f, &err), GG_BAD_INPUT);
-    assert_non_null(strstr(err.message, "navier_stokes and moments"));
+    assert_non_null(strstr(err.message, "navier_stokes_hermite and moments"));
     gg_measure_curves_clear(&list);
   }
 }

@@ -99,9 +99,9 @@ static bool are_cells(const gg_dsmc_channel *d)
   if (!are_between(c->counted, n * species, 0, 1e300) || !are_between(c->mean, n * species, 0, grains * (1 + 1e-9)) ||
       !are_between(c->hits, n, 0, 1e300))
     return false;
-  /* Largest chi N g_n over the thermal speed, if one grain has all energy; with a larger one a step would take hours.
-   */
-  const double most = 1e4 * grains * sqrt(grains);
+  /* Largest chi N g_n (by blocks, g_n) over the thermal speed, if one grain has all energy; with a larger one a step
+   * would take hours. */
+  const double most = (c->block > 0 ? 10 : 1e4 * grains) * sqrt(grains);
   for (size_t k = 0; k < n * species * species; k++)
     if (!gg_dsmc_is_between(c->majorant[k].now, 0, most) || !gg_dsmc_is_between(c->majorant[k].before, 0, most))
       return false;

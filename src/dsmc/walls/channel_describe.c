@@ -58,6 +58,6 @@ void gg_dsmc_channel_describe(const gg_model *m, void (*line)(void *context, con
   snprintf(text, sizeof text, "step: %.2g mean free times where grains collide%s; flights are exact",
            gg_dsmc_channel_free_times(m), m->time_step > 0 ? "" : ", chosen");
   line(context, text);
-  line(context, "a majorant for each cell and pair of species");
+  line(context, "a majorant for each cell, or block of narrow cells, and pair of species");
   if (m->n >= GG_DSMC_CHANNEL_LEAST_SHARED) line(context, "threads share parts of the grains and slabs of cells");
 }

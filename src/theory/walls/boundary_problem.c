@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "theory/walls/band_matrix.h"
 
-enum { MOST = GG_BOUNDARY_FUNCTIONS, STEPS = 40, HALVINGS = 8, MESHES = 24 };
+enum { MOST = GG_BOUNDARY_FUNCTIONS, STEPS = 40, HALVINGS = 8, STUCK = 3, MESHES = 24 };
 
 /* Width of differences for derivatives, in units of a function's scale; step of Newton's method, likewise, below which
  * it has converged. */
@@ -144,12 +144,12 @@ static void accept(work *w)
   memcpy(w->s->f, w->f, bytes);
 }
 
-/* Damped steps on one mesh: each shortens the next one. */
+/* Damped steps on one mesh: each shortens the next one. After STUCK steps in a row that do not it gives up. */
 static bool newton(work *w)
 {
   const int N = unknowns(w);
   slopes(w->p, w->s->points, (const gg_functions *)w->s->v, w->s->f);
-  for (int step = 0; step < STEPS && !gg_stop_asked(w->p->stop); step++) {
+  for (int step = 0, stuck = 0; step < STEPS && stuck < STUCK && !gg_stop_asked(w->p->stop); step++) {
     if (!factor(w)) return false;
     leftover(w, (const gg_functions *)w->s->v, (const gg_functions *)w->s->f, w->step);
     gg_theory_band_solve(&w->A, w->step);
@@ -159,6 +159,7 @@ static bool newton(work *w)
     int halvings = 0;
     while (attempt(w, part) > (1 - 0.4 * part) * size && size > N * converged * converged && halvings++ < HALVINGS)
       part /= 2;
+    stuck = halvings > HALVINGS ? stuck + 1 : 0;
     accept(w);
     if (part == 1 && size <= N * converged * converged) return true;
   }

@@ -101,7 +101,7 @@ static void put_numbers(const gg_gap_flow *flow, profile p, gg_curve *c)
       const char *unit;
       bool given;
     } number[] = {
-        {VELOCITY, "slip", -at->slip, gg_measure_curve_unit(m, "velocity"), true},
+        {VELOCITY, "slip", 0 - at->slip, gg_measure_curve_unit(m, "velocity"), true},
         {VELOCITY, "wall_P_yy", m->stress_unit * at->P, gg_common_quantity_unit(GG_Q_PRESSURE, m), true},
         {VELOCITY, "wall_P_yx", m->stress_unit * at->tau, gg_common_quantity_unit(GG_Q_PRESSURE, m), true},
         {TEMPERATURE, "temperature_jump", wall->temperature - at->T, gg_measure_curve_unit(m, "temperature"),

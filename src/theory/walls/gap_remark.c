@@ -32,7 +32,7 @@ void gg_theory_gap_remark(const gg_gap_flow *flow, double Kn, char text[GG_THEOR
   if (m->e[0] < least_e) ADD(text, "e = %g: velocities are far from Gaussian", m->e[0]);
   if (slip > thermal_speed)
     ADD(text, "the slip is %.2g thermal speeds: grains that met a wall and others are two streams", slip);
-  if (m->e[0] < 1 && given > 0)
+  if (!m->elastic_grains && given > 0)
     ADD(text, "walls heat a gas that loses energy (%.0f %% of the loss): it is cold within mean free paths of them",
         100 * given / flow->loss);
   else if (heat > much_heat)

@@ -119,8 +119,10 @@ gg_status gg_theory_rough_contacts_make(const gg_model *m, gg_rough_contacts *c,
   if (good) take(&one, s);
   for (int q = 0; q < GG_CONTACT_FUNCTIONS && good; q++)
     good = fit(s, 0, q, M, c->smooth[q]) && fit(s, 1, q, M, c->spins[q]);
+  const bool room = s && M;
   free(s), free(M);
-  return good ? GG_OK : gg_base_out_of_memory(err);
+  if (!room) return gg_base_out_of_memory(err);
+  return good ? GG_OK : gg_base_fail(err, GG_FAILED, "averages over contacts have no polynomials here");
 }
 
 void gg_theory_rough_contacts_at(const gg_rough_contacts *c, double ratio, gg_contact_series to)

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { N = GG_ROUGH_UNKNOWNS, STEPS = 40 };
+enum { N = GG_ROUGH_UNKNOWNS, STEPS = 20 };
 
 static const double difference = 1e-6, converged = 1e-12;
 
