@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Messages between processes when one process is killed while messages to it are pending: the others still receive
- * theirs and end at once. cli/mpi starts this under mpirun --enable-recovery; rank 1 is killed. Rank 0 prints the
- * seconds that its end took. */
+/* Messages between processes when one process is killed while messages to it are pending, and one of its own is
+ * announced: the others still receive theirs, do not wait for its message, and end at once. cli/mpi starts this under
+ * mpirun --enable-recovery; rank 1 is killed. Rank 0 prints the seconds that its end took. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,11 +46,19 @@ int main(void)
 {
   gg_messages m;
   gg_error err;
+  int from;
+  void *block;
+  size_t size;
   if (gg_mpi_begin(&m, &err) != GG_OK) return 1;
-  if (m.rank == 1) raise(SIGKILL);
+  if (m.rank == 1) {
+    post(&m, 0, LARGE);
+    raise(SIGKILL);
+  }
   if (m.rank == 0) {
     for (int to = 1; to < m.size; to++) post(&m, to, LARGE), post(&m, to, 1);
     while (!m.lost(m.context, 1)) usleep(1000);
+    for (int k = 0; k < 100; k++)
+      if (m.receive(m.context, &from, &block, &size) != 0) return 1;
   } else if (await(&m) != LARGE || await(&m) != 1) {
     return 1;
   }

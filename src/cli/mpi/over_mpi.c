@@ -101,16 +101,38 @@ static int send(void *context, int to, void *block, size_t size)
   return 1;
 }
 
-static int receive_part(incoming *in, const MPI_Status *status)
+/* Whether a process is lost. This is known only for processes on the same machine. */
+static int is_lost(void *context, int rank)
 {
-  int count;
+  post *p = context;
+  const process *me = &p->process[p->rank], *other = &p->process[rank];
+  if (strcmp(me->machine, other->machine) == 0 && kill((pid_t)other->pid, 0) != 0 && errno == ESRCH)
+    p->lost[rank] = true;
+  return p->lost[rank];
+}
+
+/* Receive an announced part. 1: its sender was lost first; then the rest never comes, and MPI keeps the block, which it
+ * may still write. MPI_Recv would wait for ever. */
+static int receive_part(post *p, const MPI_Status *status)
+{
+  incoming *in = &p->from[status->MPI_SOURCE];
+  MPI_Request request;
+  int count, done = 0;
   MPI_Get_count(status, MPI_BYTE, &count);
   char *block = realloc(in->block, in->size + (size_t)count + 1);
   if (!block) return -1;
   in->block = block;
-  if (MPI_Recv(block + in->size, count, MPI_BYTE, status->MPI_SOURCE, status->MPI_TAG, MPI_COMM_WORLD,
-               MPI_STATUS_IGNORE) != MPI_SUCCESS)
+  if (MPI_Irecv(block + in->size, count, MPI_BYTE, status->MPI_SOURCE, status->MPI_TAG, MPI_COMM_WORLD, &request) !=
+      MPI_SUCCESS)
     return -1;
+  for (bool lost = false; !done;) {
+    if (MPI_Test(&request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS) return -1;
+    if (!done && lost) {
+      *in = (incoming){0};
+      return 1;
+    }
+    lost = is_lost(p, status->MPI_SOURCE);
+  }
   in->size += (size_t)count;
   return 0;
 }
@@ -125,23 +147,14 @@ static int receive(void *context, int *from, void **block, size_t *size)
     if (MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status) != MPI_SUCCESS) return -1;
     if (!there) return 0;
     incoming *in = &p->from[status.MPI_SOURCE];
-    if (receive_part(in, &status) != 0) return -1;
-    if (status.MPI_TAG == MORE_FOLLOWS) continue;
+    const int result = receive_part(p, &status);
+    if (result < 0) return -1;
+    if (result > 0 || status.MPI_TAG == MORE_FOLLOWS) continue;
     *from = status.MPI_SOURCE;
     *block = in->block, *size = in->size;
     *in = (incoming){0};
     return 1;
   }
-}
-
-/* Whether a process is lost. This is known only for processes on the same machine. */
-static int is_lost(void *context, int rank)
-{
-  post *p = context;
-  const process *me = &p->process[p->rank], *other = &p->process[rank];
-  if (strcmp(me->machine, other->machine) == 0 && kill((pid_t)other->pid, 0) != 0 && errno == ESRCH)
-    p->lost[rank] = true;
-  return p->lost[rank];
 }
 
 static void warn(void *context, const char *message)
