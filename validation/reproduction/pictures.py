@@ -23,6 +23,7 @@ from matplotlib.lines import Line2D  # noqa: E402
 
 MARKERS = "osD^vPX"
 BROKEN = (0, (4, 1.5))  # curves of dsmc
+DOTTED = (0, (1.2, 1.2)), (0, (4, 1, 1, 1))  # theories beside curves of engines
 COLUMNS, WIDTH, HEIGHT, BESIDE = 3, 3.0, 2.4, 1.1  # panels side by side; their size and the width of a legend in inches
 MOST_SHOWN = 12  # snapshots
 LARGEST = 120_000  # bytes of an SVG; above it curves become pixels
@@ -74,7 +75,11 @@ class _Drawing:
         return marks[self.groups.index(group) % len(marks)] if group in self.groups else "o"
 
     def _dash(self, method):
-        return DASHES[self.methods.index(method) % len(DASHES)]
+        """Theories in the colours of the curves of engines are neither solid nor broken."""
+        k = self.methods.index(method)
+        coloured = any(line.style == "line" and line.group for line in self.table.lines)
+        beside = coloured and any(line.style == "band" for line in self.table.lines)
+        return DOTTED[k % len(DOTTED)] if beside else DASHES[k % len(DASHES)]
 
     def draw(self):
         for line in filter(lambda line: line.rows, self.table.lines):
