@@ -3,6 +3,7 @@
  * closed form, the equations' own limits (gas at rest, its weight, free conduction, slip and jump), balances of mass,
  * momentum and energy to 1e-8; and of moments the limit of uniform shear, and the table that they are taken from. */
 #include "theory_test.h"
+#include "walls_test.h"
 
 #include "graingas.h"
 
@@ -77,32 +78,6 @@ static gg_model model_between(gap x)
         gg_common_contact_make((gg_partner){1, INFINITY}, (gg_partner){INFINITY, 1}, x.e_wall, x.beta_wall, INFINITY);
   }
   return m;
-}
-
-static gg_curves curves_of(const gg_theory *theory, const gg_model *m)
-{
-  gg_curves list;
-  gg_error err;
-  if (gg_theory_curves(theory, m, GG_MEASURE_PROFILES | GG_MEASURE_FLUXES, &list, &err) != GG_OK)
-    fail_msg("%s", err.message);
-  return list;
-}
-
-static const gg_curve *find(const gg_curves *list, const char *name)
-{
-  for (int i = 0; i < list->n; i++)
-    if (strcmp(list->curve[i].name, name) == 0) return &list->curve[i];
-  fail_msg("no curve %s", name);
-  return NULL;
-}
-
-static double number_of(const gg_curves *list, const char *curve, const char *name)
-{
-  const gg_curve *c = find(list, curve);
-  for (int i = 0; i < c->n_numbers; i++)
-    if (strcmp(c->number[i].name, name) == 0) return c->number[i].value;
-  fail_msg("no number %s", name);
-  return NAN;
 }
 
 static const gg_theory *const ns = &gg_theory_navier_stokes, *const moments = &gg_theory_moments,

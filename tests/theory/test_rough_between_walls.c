@@ -3,6 +3,7 @@
  * decay of the couple stress likewise; production by contacts against its integrals and two Maxwellians; limits
  * (equilibrium with equipartition, smooth elastic grains, spins that roll far from walls); balances to 1e-8. */
 #include "theory_test.h"
+#include "walls_test.h"
 
 #include "common/rng.h"
 #include "common/surface/collide.h"
@@ -144,32 +145,6 @@ static void contacts(void **state)
     assert_close(exact[GG_CONTACT_LOSS], lun.f5 - lun.f5r, 1e-10);
     free(f);
   }
-}
-
-static gg_curves curves_of(const gg_theory *theory, const gg_model *m)
-{
-  gg_curves list;
-  gg_error err;
-  if (gg_theory_curves(theory, m, GG_MEASURE_PROFILES | GG_MEASURE_FLUXES, &list, &err) != GG_OK)
-    fail_msg("%s", err.message);
-  return list;
-}
-
-static const gg_curve *find(const gg_curves *list, const char *name)
-{
-  for (int i = 0; i < list->n; i++)
-    if (strcmp(list->curve[i].name, name) == 0) return &list->curve[i];
-  fail_msg("no curve %s", name);
-  return NULL;
-}
-
-static double number_of(const gg_curves *list, const char *curve, const char *name)
-{
-  const gg_curve *c = find(list, curve);
-  for (int i = 0; i < c->n_numbers; i++)
-    if (strcmp(c->number[i].name, name) == 0) return c->number[i].value;
-  fail_msg("no number %s", name);
-  return NAN;
 }
 
 /* Elastic, perfectly rough grains between walls of their temperature: equipartition, Carnahan & Starling's pressure. */

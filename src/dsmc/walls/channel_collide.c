@@ -29,7 +29,10 @@
 #include "dsmc/walls/channel.h"
 #include "simd/eight.h"
 
-enum { SUMS = 4, MOST_BLOCKS = 2 * GG_DSMC_CHANNEL_MOST_FAR + 1 }; /* SUMS: that a processor adds to at once */
+enum {
+  SUMS = 4,
+  MOST_BLOCKS = 2 * GG_DSMC_CHANNEL_MOST_FAR + 1
+}; /* SUMS: partial sums, which do not wait for each other */
 
 /* Blocks of partners. */
 typedef struct partners {

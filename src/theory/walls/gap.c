@@ -100,12 +100,6 @@ static void slope(void *self, const double v[], double f[])
   f[GG_GAP_LOG_T] = -(q + at.mu * at_T) / ((at.kappa + at.mu * at.n_T) * T);
 }
 
-/* True if no wall takes momentum along x: the velocity of the gas is then set to 0 at the upper wall. */
-static bool floats(const gg_gap *g)
-{
-  return !gg_theory_wall_grips(&g->model->surface[0]) && !gg_theory_wall_grips(&g->model->surface[1]);
-}
-
 /* The gas that reaches a wall, and what the wall takes from it. */
 typedef struct meeting {
   gg_gap_local at;
@@ -132,7 +126,8 @@ static void at_wall(gg_gap *g, const gg_surface *wall, const double v[], double 
   meeting m;
   meet(g, wall, v, &m);
   const double s = wall->side, layer = m.takes.grains;
-  left[0] = floats(g) && s > 0 ? v[GG_GAP_U] / sqrt(g->T) : (m.in.shear - m.takes.momentum) / g->P;
+  left[0] =
+      s > 0 && !gg_theory_walls_grip(g->model) ? v[GG_GAP_U] / sqrt(g->T) : (m.in.shear - m.takes.momentum) / g->P;
   left[1] = (m.in.heat + m.in.shear * m.in.slip - m.takes.energy) / (g->P * sqrt(g->T));
   left[2] = (v[GG_GAP_N] - (s > 0 ? g->grains - layer : layer)) / g->grains;
 }

@@ -6,22 +6,23 @@
 
 static const char name[] = "navier_stokes";
 
-static gg_status flow_of(const gg_model *m, void *gas, gg_gap_flow *flow, gg_error *err)
-{
-  if (m->rule != GG_SMOOTH) {
-    gg_theory_rough_fluid_make(m, gas);
-    return gg_theory_rough_gap_solve(m, gas, name, flow, err);
-  }
-  gg_theory_newtonian_gas_make(m, gas);
-  return gg_theory_gap_solve(m, (gg_gap_gas){gg_theory_newtonian_gas_local, gas}, name, flow, err);
-}
-
 static gg_status gas_of(const gg_model *m, double low, double high, void *memory, gg_gap_gas *gas, gg_error *err)
 {
   (void)low, (void)high, (void)err;
   gg_theory_newtonian_gas_make(m, memory);
   *gas = (gg_gap_gas){gg_theory_newtonian_gas_local, memory};
   return GG_OK;
+}
+
+static gg_status flow_of(const gg_model *m, void *memory, gg_gap_flow *flow, gg_error *err)
+{
+  gg_gap_gas gas;
+  if (m->rule != GG_SMOOTH) {
+    gg_theory_rough_fluid_make(m, memory);
+    return gg_theory_rough_gap_solve(m, memory, name, flow, err);
+  }
+  GG_TRY(gas_of(m, 0, 0, memory, &gas, err));
+  return gg_theory_gap_solve(m, gas, name, flow, err);
 }
 
 static const gg_gap_theory theory = {name, true, sizeof(gg_rough_fluid), flow_of, gas_of};
@@ -37,8 +38,8 @@ const gg_theory gg_theory_navier_stokes = {
         "wall_friction energy_balance",
     .assumptions =
         "Spheres of one species between flat walls, smooth or of constant beta, in steady flow without layers or "
-        "waves: "
-        "balances of mass, momentum, energy and spin, to first order in gradients, with the transport coefficients of "
+        "waves: balances of mass, momentum, energy and spin, to first order in gradients, with the transport "
+        "coefficients of "
         "the cooling gas (rough: lun1991), and half-range conditions at walls. Kn up to 0.3; e near 1.",
     .gap = &theory,
 };

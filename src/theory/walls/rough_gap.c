@@ -59,11 +59,6 @@ static void slope(void *self, const double v[], double f[])
   f[GG_ROUGH_LOG_THETA] = -(at.heat[0][0] * q[1] - at.heat[1][0] * q[0]) / det / temperature(v[GG_ROUGH_LOG_THETA]);
 }
 
-static bool floats(const gg_model *m)
-{
-  return !gg_theory_wall_grips(&m->surface[0]) && !gg_theory_wall_grips(&m->surface[1]);
-}
-
 /* Grains in layers at a wall, per area, lose spin in contacts as those of the gas do: what they keep of the couple that
  * the gas takes from the wall, and the heat that they make of it. */
 typedef struct layer {
@@ -96,7 +91,7 @@ static void at_wall(rough_gap *r, const gg_surface *wall, const double v[], doub
                                .couple = s * v[GG_ROUGH_M],
                                .heat = s * rotational_heat_of(v)};
   const gg_rough_takes takes = gg_theory_rough_wall_takes(wall, &in);
-  left[0] = floats(g->model) && s > 0 ? v[GG_GAP_U] / speed : (in.centres.shear - takes.momentum) / g->P;
+  left[0] = s > 0 && !gg_theory_walls_grip(g->model) ? v[GG_GAP_U] / speed : (in.centres.shear - takes.momentum) / g->P;
   left[1] = (in.couple + held.couple - takes.couple) / g->P;
   left[2] = (in.centres.heat + in.centres.shear * G + held.energy[0] - takes.translation) / energy;
   left[3] = (s * v[GG_ROUGH_R] + held.energy[1] - takes.rotation) / energy;

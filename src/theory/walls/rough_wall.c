@@ -9,18 +9,12 @@ typedef struct sums {
   double number, momentum, spin, normal, tangential, vS, SS, ss;
 } sums;
 
-/* Half is Maxwell's share; at diffuse walls as wall_condition.c. */
-static double share_of(const gg_surface *wall, double phi, double less)
-{
-  return 0.5 - wall->accommodation * less / (1 + 50 * phi);
-}
-
 static sums arriving(const gg_surface *wall, const gg_rough_arrival *in)
 {
   const gg_arrival *c = &in->centres;
   const gg_gap_local *gas = c->gas;
-  const double h_shear = share_of(wall, gas->phi, 0.0571);
-  const double h_heat = share_of(wall, gas->phi, 0.0636);
+  const double h_shear = gg_theory_wall_share(wall, gas->phi, 0.0571);
+  const double h_heat = gg_theory_wall_share(wall, gas->phi, 0.0636);
   const double J = c->P / sqrt(2 * M_PI * gas->Tyy), G = c->slip, heat = h_heat * c->heat, s = 0.5 * in->omega;
   const double turns = 2 / in->K * h_heat * in->heat; /* of s^2, all three components */
   sums f = {.number = J, .spin = J * s + 2 / in->K * h_shear * in->couple};

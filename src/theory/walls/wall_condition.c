@@ -15,9 +15,7 @@ double gg_theory_wall_layer(double x)
   return slope * left * x / (1 + x * (4 + x * (4 + x * (x - 4))));
 }
 
-/* Share of the shear stress or of the heat flux that arriving grains carry: half is Maxwell's. `less` gives a diffuse
- * wall, in a dilute gas, the slip 1.2540 or the jump 2.4001 sqrt(pi)/2 mean free paths of Boltzmann's equation. */
-static double share_of(const gg_surface *wall, double phi, double less)
+double gg_theory_wall_share(const gg_surface *wall, double phi, double less)
 {
   return 0.5 - wall->accommodation * less / (1 + 50 * phi);
 }
@@ -28,15 +26,22 @@ bool gg_theory_wall_grips(const gg_surface *wall)
   return wall->accommodation > 0 || (c->jt > 0 && c->mu > 0);
 }
 
+bool gg_theory_walls_grip(const gg_model *m)
+{
+  return gg_theory_wall_grips(&m->surface[0]) || gg_theory_wall_grips(&m->surface[1]);
+}
+
 gg_wall_takes gg_theory_wall_takes(const gg_surface *wall, const gg_arrival *in)
 {
   const gg_gap_local *gas = in->gas;
   const gg_contact *c = &wall->contact[0];
-  const double h = share_of(wall, gas->phi, gas->path > 0 ? 0.0526 : 0.0636), a = wall->accommodation, e = c->jn - 1;
+  const double h = gg_theory_wall_share(wall, gas->phi, gas->path > 0 ? 0.0526 : 0.0636), a = wall->accommodation,
+               e = c->jn - 1;
   const gg_knudsen_layer layer = gg_theory_knudsen_layer(wall, in, h);
   const double G = in->slip + wall->side * layer.velocity, J = in->P / sqrt(2 * M_PI * layer.normal);
   const double heat = in->heat + in->shear * (in->slip - G) - layer.loss, carried = h * (heat - layer.heat);
-  const double momentum = J * G + share_of(wall, gas->phi, 0.0571) * in->shear + J * in->along / (5 * in->P);
+  const double momentum =
+      J * G + gg_theory_wall_share(wall, gas->phi, 0.0571) * in->shear + J * in->along / (5 * in->P);
   const double normal = J * layer.normal + h * layer.heat;
   const double tangential = J * (layer.tangential - 0.5 * G * G) + carried + G * momentum;
   double grip = c->jt, slides = c->jt * (2 - c->jt) * tangential;

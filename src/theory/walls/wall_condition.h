@@ -29,7 +29,13 @@ gg_wall_takes gg_theory_wall_takes(const gg_surface *wall, const gg_arrival *arr
  * Soc. A 410 (1987) 409. */
 double gg_theory_wall_layer(double phi);
 
-/* Can this wall take momentum along x? */
+/* Share of the shear stress or of the heat flux that arriving grains carry: half is Maxwell's. `less` gives a diffuse
+ * wall, in a dilute gas, the slip 1.2540 or the jump 2.4001 sqrt(pi)/2 mean free paths of Boltzmann's equation. */
+double gg_theory_wall_share(const gg_surface *wall, double phi, double less);
+
+/* Can this wall, or one of both walls, take momentum along x? Else the velocity of the gas is set to 0 at the upper
+ * one. */
 bool gg_theory_wall_grips(const gg_surface *wall);
+bool gg_theory_walls_grip(const gg_model *model);
 
 #endif
