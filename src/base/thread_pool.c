@@ -4,10 +4,11 @@
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
+
+#include "base/clock.h"
 
 #ifdef __APPLE__
 #include <mach/mach.h>
@@ -39,6 +40,8 @@ struct gg_thread_pool {
   pthread_mutex_t mutex;
   pthread_cond_t work, done;
   int n, most_polls;
+  unsigned jobs;
+  gg_crowding crowding;
   worker workers[MOST_THREADS];
 };
 
@@ -206,11 +209,56 @@ static void wait_for_all(gg_thread_pool *pool)
   }
 }
 
+/* Shared jobs of SPAN seconds decide. A caller that had less than ENOUGH of their wall time was displaced, or slept
+ * since another thread was. Between two attempts that find the processors crowded the pause doubles. */
+#define SPAN 0.02
+#define ENOUGH 0.75
+#define FIRST_PAUSE 0.1
+#define LONGEST_PAUSE 2
+
+bool gg_base_crowding_shares(const gg_crowding *c, double now)
+{
+  return now >= c->until;
+}
+
+void gg_base_crowding_learn(gg_crowding *c, double now, double wall, double cpu)
+{
+  c->wall += wall, c->cpu += cpu;
+  if (c->wall < SPAN) return;
+  if (c->cpu < ENOUGH * c->wall) {
+    c->pause = c->pause > 0 ? 2 * c->pause : FIRST_PAUSE;
+    if (c->pause > LONGEST_PAUSE) c->pause = LONGEST_PAUSE;
+    c->until = now + c->pause;
+  } else
+    c->pause = 0;
+  c->wall = c->cpu = 0;
+}
+
+bool gg_base_thread_pool_is_crowded(const gg_thread_pool *pool)
+{
+  return pool->crowding.pause > 0 && !gg_base_crowding_shares(&pool->crowding, gg_base_clock_wall());
+}
+
+static void share(gg_thread_pool *pool, int parts)
+{
+  atomic_store(&pool->finished, 0);
+  atomic_store(&pool->undone, parts);
+  uint64_t job = (atomic_load(&pool->open) >> 32) + 1;
+  atomic_store(&pool->open, job << 32 | ((UINT64_C(1) << parts) - 1));
+  if (atomic_load(&pool->asleep)) wake(pool);
+  work_off(pool, 0);
+  wait_for_all(pool);
+}
+
+/* One job in so many is measured: reading the clock of CPU time takes a third of a microsecond. */
+enum { JOBS_PER_MEASUREMENT = 4 };
+
 void gg_base_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, const uint32_t *need, gg_part *part,
                                 void *context)
 {
   const int parts = rounds * columns;
-  if (!pool || parts < 2 || parts > GG_MOST_PARTS) {
+  const double began = pool ? gg_base_clock_wall() : 0;
+  if (!pool || parts < 2 || parts > GG_MOST_PARTS || !gg_base_crowding_shares(&pool->crowding, began)) {
     for (int i = 0; i < parts; i++) part(context, i);
     return;
   }
@@ -219,13 +267,12 @@ void gg_base_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, c
   for (int i = 0; i < parts; i++) atomic_store_explicit(&pool->need[i], need ? need[i] : 0, memory_order_relaxed);
   atomic_store_explicit(&pool->rounds, rounds, memory_order_relaxed);
   atomic_store_explicit(&pool->columns, columns, memory_order_relaxed);
-  atomic_store(&pool->finished, 0);
-  atomic_store(&pool->undone, parts);
-  uint64_t job = (atomic_load(&pool->open) >> 32) + 1;
-  atomic_store(&pool->open, job << 32 | ((UINT64_C(1) << parts) - 1));
-  if (atomic_load(&pool->asleep)) wake(pool);
-  work_off(pool, 0);
-  wait_for_all(pool);
+  const bool measured = pool->jobs++ % JOBS_PER_MEASUREMENT == 0;
+  const double cpu = measured ? gg_base_clock_cpu() : 0;
+  share(pool, parts);
+  if (!measured) return;
+  const double now = gg_base_clock_wall();
+  gg_base_crowding_learn(&pool->crowding, now, now - began, gg_base_clock_cpu() - cpu);
 }
 
 void gg_base_thread_pool_for(gg_thread_pool *pool, int parts, gg_part *part, void *context)

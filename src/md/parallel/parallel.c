@@ -185,15 +185,19 @@ static bool choose_window(gg_md_parallel *p)
   return size >= FEWEST_BUCKETS && gg_md_measure_around(p);
 }
 
-/* Choose the faster way for the next span of events; once in a while the slower way, to compare. */
-static void begin_trial(gg_md_parallel *p)
+/* Choose the faster way for the next span of events; once in a while the slower way, to compare. Where other processes
+ * keep the processors busy, times are those of the scheduler, and events are serial. */
+static void begin_trial(gg_md_parallel *p, bool crowded)
 {
   gg_md_trial *t = &p->trial;
   const uint64_t events = p->engine->k.events;
   const double now = gg_base_clock_wall();
-  if (t->until > 0 && events > t->from) t->cost[t->serial] = (now - t->began) / (double)(events - t->from);
+  if (t->until > 0 && events > t->from && (t->serial || !crowded))
+    t->cost[t->serial] = (now - t->began) / (double)(events - t->from);
   const bool faster = t->cost[1] < FASTER * t->cost[0];
-  if (t->cost[1] == 0 || t->cost[0] == 0)
+  if (crowded)
+    t->serial = true;
+  else if (t->cost[1] == 0 || t->cost[0] == 0)
     t->serial = t->cost[0] > 0;
   else
     t->serial = ++t->number % TRIALS == 0 ? !faster : faster;
@@ -204,8 +208,19 @@ static void begin_trial(gg_md_parallel *p)
 
 static bool is_serial(gg_md_parallel *p)
 {
-  if (p->adapts && p->engine->k.events >= p->trial.until) begin_trial(p);
+  if (p->adapts) {
+    const bool over = p->engine->k.events >= p->trial.until;
+    if (over || !p->trial.serial) {
+      const bool crowded = gg_base_thread_pool_is_crowded(p->pool);
+      if (over || crowded) begin_trial(p, crowded);
+    }
+  }
   return p->trial.serial || p->engine->k.events < p->serial_until;
+}
+
+static bool is_over(const gg_md_parallel *p)
+{
+  return gg_stop_asked(p->engine->model.stop) || (p->adapts && gg_base_thread_pool_is_crowded(p->pool));
 }
 
 bool gg_md_run_windows(gg_md *e)
@@ -219,6 +234,6 @@ bool gg_md_run_windows(gg_md *e)
       p->serial_until = e->k.events + SERIAL_EVENTS;
       return false;
     }
-  } while (++k % WINDOWS_PER_POLL || !gg_stop_asked(e->model.stop) ? choose_window(p) : false);
+  } while (++k % WINDOWS_PER_POLL || !is_over(p) ? choose_window(p) : false);
   return true;
 }
