@@ -41,7 +41,7 @@ struct gg_thread_pool {
   pthread_cond_t work, done;
   int n, most_polls;
   unsigned jobs;
-  gg_crowding crowding;
+  gg_contention contention;
   worker workers[MOST_THREADS];
 };
 
@@ -210,18 +210,18 @@ static void wait_for_all(gg_thread_pool *pool)
 }
 
 /* Shared jobs of SPAN seconds decide. A caller that had less than ENOUGH of their wall time was displaced, or slept
- * since another thread was. Between two attempts that find the processors crowded the pause doubles. */
+ * since another thread was. Between two attempts that find contention, the pause doubles. */
 #define SPAN 0.02
 #define ENOUGH 0.75
 #define FIRST_PAUSE 0.1
 #define LONGEST_PAUSE 2
 
-bool gg_base_crowding_shares(const gg_crowding *c, double now)
+bool gg_base_contention_shares(const gg_contention *c, double now)
 {
   return now >= c->until;
 }
 
-void gg_base_crowding_learn(gg_crowding *c, double now, double wall, double cpu)
+void gg_base_contention_learn(gg_contention *c, double now, double wall, double cpu)
 {
   c->wall += wall, c->cpu += cpu;
   if (c->wall < SPAN) return;
@@ -234,9 +234,9 @@ void gg_base_crowding_learn(gg_crowding *c, double now, double wall, double cpu)
   c->wall = c->cpu = 0;
 }
 
-bool gg_base_thread_pool_is_crowded(const gg_thread_pool *pool)
+bool gg_base_thread_pool_is_contended(const gg_thread_pool *pool)
 {
-  return pool->crowding.pause > 0 && !gg_base_crowding_shares(&pool->crowding, gg_base_clock_wall());
+  return pool->contention.pause > 0 && !gg_base_contention_shares(&pool->contention, gg_base_clock_wall());
 }
 
 static void share(gg_thread_pool *pool, int parts)
@@ -258,7 +258,7 @@ void gg_base_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, c
 {
   const int parts = rounds * columns;
   const double began = pool ? gg_base_clock_wall() : 0;
-  if (!pool || parts < 2 || parts > GG_MOST_PARTS || !gg_base_crowding_shares(&pool->crowding, began)) {
+  if (!pool || parts < 2 || parts > GG_MOST_PARTS || !gg_base_contention_shares(&pool->contention, began)) {
     for (int i = 0; i < parts; i++) part(context, i);
     return;
   }
@@ -272,7 +272,7 @@ void gg_base_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, c
   share(pool, parts);
   if (!measured) return;
   const double now = gg_base_clock_wall();
-  gg_base_crowding_learn(&pool->crowding, now, now - began, gg_base_clock_cpu() - cpu);
+  gg_base_contention_learn(&pool->contention, now, now - began, gg_base_clock_cpu() - cpu);
 }
 
 void gg_base_thread_pool_for(gg_thread_pool *pool, int parts, gg_part *part, void *context)

@@ -34,21 +34,21 @@ void gg_base_thread_pool_for(gg_thread_pool *pool, int parts, gg_part *part, voi
 void gg_base_thread_pool_rounds(gg_thread_pool *pool, int rounds, int columns, const uint32_t *need, gg_part *part,
                                 void *context);
 
-/* Crowding: other processes take so much of the processors that threads wait for each other, and two are slower than
+/* Contention: other processes take so much of the processors that threads wait for each other, and two are slower than
  * one. The caller then does all parts itself and shares again from time to time. */
-typedef struct gg_crowding {
+typedef struct gg_contention {
   double wall, cpu; /* wall time of shared jobs since the last decision, and CPU time that the caller had in them */
   double until;     /* wall time up to which nothing is shared */
   double pause;     /* seconds to the next attempt */
-} gg_crowding;
+} gg_contention;
 
 /* True if the job that begins at wall time `now` is to be shared. */
-bool gg_base_crowding_shares(const gg_crowding *c, double now);
+bool gg_base_contention_shares(const gg_contention *c, double now);
 /* Take in a shared job that ended at wall time `now`. */
-void gg_base_crowding_learn(gg_crowding *c, double now, double wall, double cpu);
+void gg_base_contention_learn(gg_contention *c, double now, double wall, double cpu);
 
 /* True while the pool shares nothing for this reason. */
-bool gg_base_thread_pool_is_crowded(const gg_thread_pool *pool);
+bool gg_base_thread_pool_is_contended(const gg_thread_pool *pool);
 
 /* CPU time of the others so far, in seconds. */
 double gg_base_thread_pool_cpu(const gg_thread_pool *pool);

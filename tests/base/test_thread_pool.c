@@ -124,22 +124,22 @@ static void rounds_in_order(void **state)
 
 /* Shared jobs of 10 ms each, in which the caller has this fraction of the time, up to wall time `end`. Returns the
  * number of jobs that were shared. */
-static int jobs_until(gg_crowding *c, double *now, double end, double fraction)
+static int jobs_until(gg_contention *c, double *now, double end, double fraction)
 {
   int shared = 0;
   for (; *now < end; *now += 0.01) {
-    if (!gg_base_crowding_shares(c, *now)) continue;
+    if (!gg_base_contention_shares(c, *now)) continue;
     shared++;
-    gg_base_crowding_learn(c, *now + 0.01, 0.01, 0.01 * fraction);
+    gg_base_contention_learn(c, *now + 0.01, 0.01, 0.01 * fraction);
   }
   return shared;
 }
 
-/* On crowded processors two jobs of 10 ms decide, and the pauses are 0.1, 0.2, 0.4, 0.8, 1.6, 2, 2 ... seconds. */
-static void a_crowded_pool_seldom_shares(void **state)
+/* Under contention two jobs of 10 ms decide, and the pauses are 0.1, 0.2, 0.4, 0.8, 1.6, 2, 2 ... seconds. */
+static void a_pool_under_contention_seldom_shares(void **state)
 {
   (void)state;
-  gg_crowding c = {0};
+  gg_contention c = {0};
   double now = 0;
   assert_int_equal(jobs_until(&c, &now, 0.995, 1), 100);
   assert_int_equal(jobs_until(&c, &now, 101, 0.6), 2 * (5 + 48));
@@ -153,15 +153,15 @@ static void a_crowded_pool_seldom_shares(void **state)
 static void a_single_slow_job_does_not_count(void **state)
 {
   (void)state;
-  gg_crowding c = {0};
-  for (int k = 0; k < 1000; k++) gg_base_crowding_learn(&c, k * 1e-3, 1e-3, k % 10 ? 1e-3 : 0);
-  assert_true(gg_base_crowding_shares(&c, 1));
+  gg_contention c = {0};
+  for (int k = 0; k < 1000; k++) gg_base_contention_learn(&c, k * 1e-3, 1e-3, k % 10 ? 1e-3 : 0);
+  assert_true(gg_base_contention_shares(&c, 1));
 }
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(every_part_once), cmocka_unit_test(at_once),
-                                     cmocka_unit_test(rounds_in_order), cmocka_unit_test(a_crowded_pool_seldom_shares),
-                                     cmocka_unit_test(a_single_slow_job_does_not_count)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(every_part_once), cmocka_unit_test(at_once), cmocka_unit_test(rounds_in_order),
+      cmocka_unit_test(a_pool_under_contention_seldom_shares), cmocka_unit_test(a_single_slow_job_does_not_count)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

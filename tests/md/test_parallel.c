@@ -187,7 +187,7 @@ static void measured_times_change_no_bits(void **state)
   md_collide(shared, 40000);
   assert_int_equal(md_hash_all(serial), md_hash_all(shared));
   const gg_md_trial *t = &shared->parallel->trial;
-  /* On crowded processors parallel events are not timed. */
+  /* Under contention parallel events are not timed. */
   assert_true(t->cost[1] > 0 && shared->parallel->counts.events > 0);
   md_destroy(serial);
   md_destroy(shared);

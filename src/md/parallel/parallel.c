@@ -185,17 +185,17 @@ static bool choose_window(gg_md_parallel *p)
   return size >= FEWEST_BUCKETS && gg_md_measure_around(p);
 }
 
-/* Choose the faster way for the next span of events; once in a while the slower way, to compare. Where other processes
- * keep the processors busy, times are those of the scheduler, and events are serial. */
-static void begin_trial(gg_md_parallel *p, bool crowded)
+/* Choose the faster way for the next span of events; once in a while the slower way, to compare. Under contention for
+ * the processors events are serial, and the span is not timed. */
+static void begin_trial(gg_md_parallel *p, bool contended)
 {
   gg_md_trial *t = &p->trial;
   const uint64_t events = p->engine->k.events;
   const double now = gg_base_clock_wall();
-  if (t->until > 0 && events > t->from && (t->serial || !crowded))
+  if (t->until > 0 && events > t->from && (t->serial || !contended))
     t->cost[t->serial] = (now - t->began) / (double)(events - t->from);
   const bool faster = t->cost[1] < FASTER * t->cost[0];
-  if (crowded)
+  if (contended)
     t->serial = true;
   else if (t->cost[1] == 0 || t->cost[0] == 0)
     t->serial = t->cost[0] > 0;
@@ -211,8 +211,8 @@ static bool is_serial(gg_md_parallel *p)
   if (p->adapts) {
     const bool over = p->engine->k.events >= p->trial.until;
     if (over || !p->trial.serial) {
-      const bool crowded = gg_base_thread_pool_is_crowded(p->pool);
-      if (over || crowded) begin_trial(p, crowded);
+      const bool contended = gg_base_thread_pool_is_contended(p->pool);
+      if (over || contended) begin_trial(p, contended);
     }
   }
   return p->trial.serial || p->engine->k.events < p->serial_until;
@@ -220,7 +220,7 @@ static bool is_serial(gg_md_parallel *p)
 
 static bool is_over(const gg_md_parallel *p)
 {
-  return gg_stop_asked(p->engine->model.stop) || (p->adapts && gg_base_thread_pool_is_crowded(p->pool));
+  return gg_stop_asked(p->engine->model.stop) || (p->adapts && gg_base_thread_pool_is_contended(p->pool));
 }
 
 bool gg_md_run_windows(gg_md *e)
