@@ -26,9 +26,20 @@ static bool is_of_one_row(const gg_observable *o, const gg_function *f)
   return false;
 }
 
-/* Mean of a function of the channels of observable k over the sample `row` of all replicas, with the model of the
- * start: no followed quantity depends on keys that may change. NaN where memory fails, which run.c reports. */
-static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, int k, size_t row)
+/* Factor of a value that was computed with this model: of the followed quantities only the viscosity depends on a key
+ * that may change. The stress of a sample has the shear rate up to that time. */
+static double factor_of(const gg_replicas *all, const gg_model *m, gg_quantity q, size_t row)
+{
+  gg_scene now = all->scene;
+  const int changes = row > 0 ? gg_run_protocol_changes(&all->scene, row - 1) : 0;
+  if (q != GG_Q_SHEAR_VISCOSITY) return 1;
+  if (changes > 0 && gg_scene_protocol_apply(&all->scene, changes, &now, NULL) != GG_OK) return NAN;
+  return m->shear_rate / (all->model.shear_rate * now.shear_rate / all->scene.shear_rate);
+}
+
+/* Mean of a function of the channels of observable k over the sample `row` of all replicas, with their present
+ * model. NaN where memory fails, which run.c reports. */
+static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, int k, size_t row, gg_quantity q)
 {
   const size_t n = (size_t)all->n;
   const gg_replica *first = all->replica;
@@ -45,6 +56,8 @@ static gg_mean over_replicas(const gg_replicas *all, const gg_function *f, int k
   if (value && of)
     m = gg_statistics_estimate_over_runs(of, n, channels, one ? (gg_function){.of = itself} : *f, &first->model,
                                          value + n);
+  const double factor = factor_of(all, &first->model, q, row);
+  m.mean *= factor, m.error *= factor;
   free(of);
   free(value);
   return m;
@@ -56,7 +69,7 @@ gg_mean gg_run_time_course_end(const gg_replicas *all, gg_quantity q)
   const gg_replica *r = &all->replica[0];
   const int k = gg_run_replica_find_function(r, q, &f);
   if (k < 0 || r->series.n < 2) return (gg_mean){.mean = NAN, .error = NAN, .correlation_rows = NAN};
-  return over_replicas(all, &f, k, r->series.n - 1);
+  return over_replicas(all, &f, k, r->series.n - 1, q);
 }
 
 #define LITTLE 0.05 /* seconds of processor time, so that an interrupted run reports its result soon */
@@ -94,22 +107,20 @@ static gg_status integrate(const gg_replicas *all, gg_relaxing *at, gg_error *er
   return status;
 }
 
-/* Temperature of a species of a mixture; NaN: another quantity. */
-static double species_of(const gg_relaxing *x, gg_quantity q, const gg_model *m)
+static bool is_stress(gg_quantity q)
 {
-  const int i = (int)q - (int)GG_Q_PARTIAL_TEMPERATURE;
-  return i >= 0 && i < m->n_species ? m->mass[i] * gg_tensor_trace(x->of[i].M) / 3 : NAN;
+  static const gg_quantity stresses[] = {GG_Q_PRESSURE, GG_Q_P_XX, GG_Q_P_YY, GG_Q_P_ZZ,
+                                         GG_Q_P_XY,     GG_Q_N1,   GG_Q_N2,   GG_Q_SHEAR_VISCOSITY};
+  for (size_t k = 0; k < sizeof stresses / sizeof *stresses; k++)
+    if (q == stresses[k]) return true;
+  return false;
 }
 
-static double theory_of(const gg_relaxing *x, gg_quantity q, const gg_model *m)
+static bool is_shown(const gg_model *m, gg_quantity q)
 {
-  return q == GG_Q_TEMPERATURE              ? x->T
-         : q == GG_Q_ROTATIONAL_TEMPERATURE ? x->theta
-         : q == GG_Q_TEMPERATURE_RATIO      ? x->theta / x->T
-         : q == GG_Q_P_XY                   ? x->P_xy
-         : gg_theory_gaussian_relaxes(m)    ? species_of(x, q, m)
-         : m->rule == GG_SMOOTH             ? x->a2
-                                            : NAN;
+  if (m->shear_rate != 0 && (is_stress(q) || q == GG_Q_SPIN_Z || q == GG_Q_COS2_PSI)) return true;
+  return q == GG_Q_TEMPERATURE || q == GG_Q_ROTATIONAL_TEMPERATURE || q == GG_Q_TEMPERATURE_RATIO || q == GG_Q_A2 ||
+         (q >= GG_Q_PARTIAL_TEMPERATURE && q < GG_Q_PARTIAL_TEMPERATURE + GG_MAX_SPECIES);
 }
 
 /* From sample `first` on; `theory`: at every time; NULL: there is none. */
@@ -124,26 +135,20 @@ static void add_curve(const gg_replicas *all, const gg_quantity_row *row, const 
   gg_curve *c = gg_measure_curve_add(list, r->series.n - first, name, panel, "measured");
   gg_measure_curve_axes(c, "t", gg_measure_curve_unit(&all->model, "time"), symbol, row->unit);
   c->samples = (uint64_t)all->n;
-  const bool beside = theory && !isnan(theory_of(theory, row->quantity, &all->model));
+  const bool beside = theory && !isnan(gg_theory_relaxation_value(&all->model, theory, row->quantity));
   if (beside) gg_measure_curve_beside(c, gg_theory_relaxation_name(&all->model), gg_measure_curve_level, &(double){0});
   for (size_t i = 0; beside && c->reference && i < c->n; i++)
-    c->reference[i] = theory_of(&theory[first + i], row->quantity, &all->model);
+    c->reference[i] = factor_of(all, &all->model, row->quantity, first + i) *
+                      gg_theory_relaxation_value(&all->model, &theory[first + i], row->quantity);
   double least = INFINITY, most = -INFINITY;
   for (size_t i = 0; i < c->n; i++) {
-    const gg_mean m = over_replicas(all, f, 0, first + i);
-    const bool unknown = first + i == 0 && row->quantity == GG_Q_P_XY; /* the start has no collisions */
+    const gg_mean m = over_replicas(all, f, 0, first + i, row->quantity);
+    const bool unknown = first + i == 0 && is_stress(row->quantity); /* the start has no collisions */
     least = fmin(least, m.mean), most = fmax(most, m.mean);
     c->x[i] = gg_run_protocol_time(&all->scene, first + i);
     c->value[i] = unknown ? NAN : m.mean, c->error[i] = unknown ? NAN : m.error;
   }
   c->log_y = least > 0 && most > 30 * least;
-}
-
-static bool is_shown(const gg_model *m, gg_quantity q)
-{
-  return q == GG_Q_TEMPERATURE || q == GG_Q_ROTATIONAL_TEMPERATURE || q == GG_Q_TEMPERATURE_RATIO || q == GG_Q_A2 ||
-         (q >= GG_Q_PARTIAL_TEMPERATURE && q < GG_Q_PARTIAL_TEMPERATURE + GG_MAX_SPECIES) ||
-         (q == GG_Q_P_XY && m->shear_rate != 0);
 }
 
 /* The sample at which the last change was made; 0: there was none. */

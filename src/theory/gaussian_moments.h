@@ -28,7 +28,8 @@ void gg_theory_gaussian_changes_at(const gg_model *model, const gg_gaussian *sta
 /* gaussian_relaxation.c: does the closure describe the relaxation of this gas? */
 bool gg_theory_gaussian_relaxes(const gg_model *model);
 void gg_theory_gaussian_start(const gg_model *model, gg_gaussian state[]);
-double gg_theory_gaussian_shear_stress(const gg_model *model, const gg_gaussian state[]);
+/* Kinetic and collisional stress. */
+gg_tensor gg_theory_gaussian_stress(const gg_model *model, const gg_gaussian state[]);
 
 /* The steady state of uniform shear. Returns the largest remaining residual: changes per mean free time; the balance
  * of energy; and that of shear stresses, a thousandth of the relative ones, which small stresses do not hide (NaN:

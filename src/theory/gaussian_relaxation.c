@@ -174,11 +174,15 @@ void gg_theory_gaussian_relax(const gg_model *m, double time, gg_relaxing *x)
   }
 }
 
-double gg_theory_gaussian_shear_stress(const gg_model *m, const gg_gaussian state[])
+gg_tensor gg_theory_gaussian_stress(const gg_model *m, const gg_gaussian state[])
 {
   gg_gaussian_rates r;
   gg_theory_gaussian_rates_at(m, state, &r);
-  double stress = r.Pc.at[0][1];
-  for (int i = 0; i < m->n_species; i++) stress += m->number_density[i] * m->mass[i] * state[i].M.at[0][1];
-  return m->stress_unit * stress;
+  gg_tensor P = r.Pc;
+  for (int a = 0; a < 9; a++) {
+    double *at = &P.at[a / 3][a % 3];
+    for (int i = 0; i < m->n_species; i++) *at += m->number_density[i] * m->mass[i] * state[i].M.at[a / 3][a % 3];
+    *at *= m->stress_unit;
+  }
+  return P;
 }

@@ -29,16 +29,54 @@ gg_relaxing gg_theory_relaxation_start(const gg_model *m)
   if (!gg_theory_gaussian_relaxes(m)) return x;
   gg_base_gsl_enter();
   gg_theory_gaussian_start(m, x.of);
-  x.P_xy = m->shear_rate != 0 ? gg_theory_gaussian_shear_stress(m, x.of) : 0;
+  if (m->shear_rate != 0) x.P = gg_theory_gaussian_stress(m, x.of);
   gg_base_gsl_leave();
   return x;
 }
 
 gg_relaxing gg_theory_relaxation_lost(void)
 {
-  gg_relaxing x = {.T = NAN, .theta = NAN, .a2 = NAN, .P_xy = NAN, .collisions = NAN, .work = -1};
-  for (int i = 0; i < GG_MAX_SPECIES; i++) x.of[i].M.at[0][0] = NAN;
+  gg_relaxing x = {.T = NAN, .theta = NAN, .a2 = NAN, .collisions = NAN, .work = -1};
+  for (int i = 0; i < GG_MAX_SPECIES; i++) x.of[i].M.at[0][0] = x.of[i].spin = NAN;
+  for (int a = 0; a < 9; a++) x.P.at[a / 3][a % 3] = NAN;
   return x;
+}
+
+/* Mean spin; see GG_ROLLING_PHI. */
+static double spin_of(const gg_model *m, const gg_relaxing *x)
+{
+  double sum = 0;
+  for (int i = 0; i < m->n_species; i++) sum += m->fraction[i] * x->of[i].spin * 2 / m->diameter[i];
+  return m->rule != GG_SMOOTH && m->phi >= GG_ROLLING_PHI ? sum : NAN;
+}
+
+/* Stress of a sheared gas. */
+static double stress_value(const gg_model *m, const gg_tensor *P, gg_quantity q)
+{
+  const double p = gg_tensor_trace(*P) / 3;
+  switch (q) {
+  case GG_Q_PRESSURE: return p;
+  case GG_Q_P_XX: return P->at[0][0];
+  case GG_Q_P_YY: return P->at[1][1];
+  case GG_Q_P_ZZ: return P->at[2][2];
+  case GG_Q_P_XY: return P->at[0][1];
+  case GG_Q_N1: return (P->at[0][0] - P->at[1][1]) / p;
+  case GG_Q_N2: return (P->at[1][1] - P->at[2][2]) / p;
+  case GG_Q_SHEAR_VISCOSITY: return fabs(P->at[0][1]) / m->shear_rate;
+  default: return NAN;
+  }
+}
+
+double gg_theory_relaxation_value(const gg_model *m, const gg_relaxing *x, gg_quantity q)
+{
+  const int species = (int)q - (int)GG_Q_PARTIAL_TEMPERATURE;
+  if (q == GG_Q_TEMPERATURE) return x->T;
+  if (q == GG_Q_ROTATIONAL_TEMPERATURE) return x->theta;
+  if (q == GG_Q_TEMPERATURE_RATIO) return x->theta / x->T;
+  if (!gg_theory_gaussian_relaxes(m)) return q == GG_Q_A2 && m->rule == GG_SMOOTH ? x->a2 : NAN;
+  if (species >= 0 && species < m->n_species) return m->mass[species] * gg_tensor_trace(x->of[species].M) / 3;
+  if (m->shear_rate == 0) return NAN;
+  return q == GG_Q_SPIN_Z ? spin_of(m, x) : stress_value(m, &x->P, q);
 }
 
 static double noise_of(const gg_model *m)
@@ -98,7 +136,7 @@ static gg_relaxing step(const gg_model *m, gg_relaxing x, double dt)
 static void relax_moments(const gg_model *m, double time, gg_relaxing *x)
 {
   gg_theory_gaussian_relax(m, time, x);
-  x->P_xy = m->shear_rate != 0 ? gg_theory_gaussian_shear_stress(m, x->of) : 0;
+  if (m->shear_rate != 0) x->P = gg_theory_gaussian_stress(m, x->of);
   x->T = x->theta = 0;
   for (int i = 0; i < m->n_species; i++) {
     const double share = m->mass[i] * m->fraction[i];

@@ -258,6 +258,31 @@ static void start_decides(void **state)
   }
 }
 
+/* Stresses and mean spins in time end in the closure's steady state: rough grains, friction, a mixture. */
+static void stresses_end_in_the_steady_state(void **state)
+{
+  (void)state;
+  const gg_quantity all[] = {
+      GG_Q_TEMPERATURE, GG_Q_PRESSURE,        GG_Q_P_XX,  GG_Q_P_YY, GG_Q_P_ZZ, GG_Q_P_XY, GG_Q_N1,
+      GG_Q_N2,          GG_Q_SHEAR_VISCOSITY, GG_Q_SPIN_Z};
+  for (int k = 0; k < 3; k++) {
+    gg_scene s = bath(GG_USF, 0.2, 0.8, 0.3, 0.2, 0.5);
+    s.start.temperature = 3;
+    if (k == 1) s.collision.mu[0] = 0.3;
+    if (k == 2) {
+      s.n_species = 2;
+      s.dsmc.particles = 10000;
+      s.species[0] = (gg_species){0.4, 1, 1, 0.4, 1};
+      s.species[1] = (gg_species){0.6, 1.5, 2, 0.4, 1};
+    }
+    const gg_model m = model_of(&s);
+    gg_relaxing x = gg_theory_relaxation_start(&m);
+    gg_theory_relax(&m, 60, &x);
+    for (size_t q = 0; q < sizeof all / sizeof *all; q++)
+      assert_close(gg_theory_relaxation_value(&m, &x, all[q]), value_of(&gg_theory_gaussian_closure, &m, all[q]), 2e-5);
+  }
+}
+
 static bool loses_patience(void *bears)
 {
   return (*(int *)bears)-- <= 0;
@@ -335,6 +360,7 @@ int main(void)
       cmocka_unit_test(shear_without_drag_is_the_shear_flow),
       cmocka_unit_test(energy_from_the_bath_is_dissipated),
       cmocka_unit_test(equal_species_in_a_bath_are_one),
+      cmocka_unit_test(stresses_end_in_the_steady_state),
       cmocka_unit_test(relaxation_of_kicked_velocities_is_composed_of_steps),
       cmocka_unit_test(two_states),
       cmocka_unit_test(start_decides),
