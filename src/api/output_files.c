@@ -64,7 +64,7 @@ static gg_status for_pages(const gg_api_run_call *r, page_check *check, const vo
       const char *engine = r->comparison ? gg_common_engine_of(k)->name : "";
       if (!o->curves || !(r->scene.measure & o->flag)) continue;
       GG_TRY(check_page(picture, engine, o->name, &paper, check, context, err));
-      if (gg_plot_page_is_shared(o->name)) GG_TRY(check_page(picture, "", o->name, &paper, check, context, err));
+      if (r->comparison) GG_TRY(check_page(picture, "", o->name, &paper, check, context, err));
     }
   return GG_OK;
 }

@@ -8,7 +8,10 @@
 #include "io/checked_json.h"
 #include "plot/result_panels.h"
 
-enum { MOST_IN_PANEL = 8 }; /* more curves would not be distinguishable */
+enum {
+  MOST_IN_PANEL = 8, /* more curves would not be distinguishable */
+  MOST_POINTS = 60   /* of a single curve that is drawn as points */
+};
 
 int gg_plot_curve_groups(const json_t *document, const char **names, int most)
 {
@@ -126,25 +129,29 @@ static const char *agreement(gg_chart *c, const group *g, const json_t *other)
   for (size_t i = 0; i < size_of(other) && g->n == 1; i++) {
     const double z = (at(g->curve[0], "value", i) - at(other, "value", i)) /
                      hypot(at(g->curve[0], "stderr", i), at(other, "stderr", i));
-    if (!isfinite(z)) continue;
+    if (!isfinite(z) || at(g->curve[0], "x", i) != at(other, "x", i)) continue;
     squares += z * z, n++;
     if (fabs(z) > fabs(most)) most = z;
   }
   return n ? gg_plot_chart_text(c, "%s: chi^2/points %.3g, largest z %+.1f", g->title, squares / n, most) : g->title;
 }
 
-static void fill_panel(gg_chart *c, gg_chart_panel *p, const group *g, const gg_stored_engine *engine,
+/* Points beside another engine or a theory; a band where points would hide these. A single curve has the colour of its
+ * engine, several curves one colour each. */
+static void fill_panel(gg_chart *c, gg_chart_panel *p, group *g, const gg_stored_engine *engine,
                        const gg_stored_engine *other)
 {
-  const int style = other || add_theories(NULL, g) ? GG_CHART_POINTS : GG_CHART_BAND;
+  const bool beside = other || add_theories(NULL, g), dense = g->n == 1 && size_of(g->curve[0]) > MOST_POINTS;
+  if (other && g->n == 1) g->label[0] = NULL;
   for (int k = 0; k < g->n; k++)
-    add_measured(c, gg_plot_chart_series(c, engine->name, g->label[k], style), p->y.log, g->curve[k],
-                 gg_plot_is_unsteady(engine));
+    add_measured(c,
+                 gg_plot_chart_series(c, engine->name, g->label[k], beside && !dense ? GG_CHART_POINTS : GG_CHART_BAND),
+                 p->y.log, g->curve[k], gg_plot_is_unsteady(engine) && !dense);
   for (int k = 0; k < g->n && other; k++) {
     const json_t *curve = json_object_get(json_object_get(other->document, "curves"), g->name[k]);
     if (!curve || size_of(curve) != size_of(g->curve[k])) continue;
     add_measured(c, gg_plot_chart_series(c, other->name, g->label[k], GG_CHART_BAND), p->y.log, curve,
-                 gg_plot_is_unsteady(other));
+                 gg_plot_is_unsteady(other) && !dense);
     if (k == 0) p->title = agreement(c, g, curve);
   }
   add_theories(c, g);
@@ -162,7 +169,7 @@ void gg_plot_add_curves(gg_chart *c, const gg_stored_engine *engine, const gg_st
 {
   group groups[GG_CHART_PANELS];
   const int n = list_groups(engine->document, theories, name, groups);
-  for (const group *g = groups; g < groups + n; g++) {
+  for (group *g = groups; g < groups + n; g++) {
     gg_chart_panel *p = gg_plot_chart_panel(c);
     if (!p) return;
     p->title = g->n_left_out

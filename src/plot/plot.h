@@ -50,8 +50,6 @@ gg_status gg_plot_pages_check(const gg_stored_result *stored, const gg_plot_pape
 /* "usf.svg", "md", "profiles" -> "usf_md_profiles.svg"; engine: "" outside of comparisons. To be freed; NULL: out of
  * memory. */
 char *gg_plot_page_name(const char *picture, const char *engine, const char *group, const gg_plot_paper *paper);
-/* True if both engines of a comparison share the page of this observable. */
-bool gg_plot_page_is_shared(const char *group);
 #define GG_SNAPSHOT_PAGE "snapshot"
 #define GG_PAGE_BESIDE "a picture beside %s"
 

@@ -74,11 +74,6 @@ static void clear(page_list *pages)
   pages->n = 0;
 }
 
-bool gg_plot_page_is_shared(const char *group)
-{
-  return strcmp(group, "profiles") == 0 || strcmp(group, "fluxes") == 0;
-}
-
 static bool has_group(const gg_stored_engine *e, const char *group)
 {
   const char *groups[MOST_GROUPS];
@@ -100,7 +95,7 @@ static gg_status list(page_list *pages, const gg_stored_result *stored, const gg
     const char *groups[MOST_GROUPS], *engine = stored->comparison ? e->name : "";
     int n = e->name ? gg_plot_curve_groups(e->document, groups, MOST_GROUPS) : 0;
     for (int i = 0; i < n; i++) {
-      const bool both = stored->comparison && gg_plot_page_is_shared(groups[i]) && has_group(other, groups[i]);
+      const bool both = stored->comparison && has_group(other, groups[i]);
       if (both && k) continue;
       pages->page[pages->n++] =
           (page){gg_plot_page_name(picture, both ? "" : engine, groups[i], paper), groups[i], e, both ? other : NULL};

@@ -148,7 +148,8 @@ static void add_curve(const gg_replicas *all, const gg_quantity_row *row, const 
     c->x[i] = gg_run_protocol_time(&all->scene, first + i);
     c->value[i] = unknown ? NAN : m.mean, c->error[i] = unknown ? NAN : m.error;
   }
-  c->log_y = least > 0 && most > 30 * least;
+  const bool begins_at_0 = row->quantity == GG_Q_N1 || row->quantity == GG_Q_SHEAR_VISCOSITY;
+  c->log_y = least > 0 && most > 30 * least && !begins_at_0;
 }
 
 /* The sample at which the last change was made; 0: there was none. */

@@ -388,7 +388,7 @@ def test_pictures_of_many_species():
                          f"measure: [rheology, velocity_distributions]\nspecies: [{', '.join(['{}'] * n)}]\n")
         check(done.code == 0, done.err)
         check((">viscosity<" in open("scene.compare.svg").read()) == wordy, n)
-        page = open("scene.compare_dsmc_velocity_distributions.svg").read()
+        page = open("scene.compare_velocity_distributions.svg").read()
         told = f"the first {shown} of {3 * n} curves" in page
         check(told == (3 * n > shown) and ("the first" in page) == told, n)
 

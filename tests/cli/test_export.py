@@ -228,7 +228,7 @@ def test_curves_of_theory():
     same(table[80]["P/P(0)"], said["velocity_distribution_Cy"]["value"][80])
     done = run("plot", "r.h5")
     check(done.code == 0, done.err)
-    with open("r_dsmc_velocity_distributions.svg", encoding="utf-8") as f:
+    with open("r_velocity_distributions.svg", encoding="utf-8") as f:
         check("Enskog (Hermite)" in re.sub(r"<[^>]*>", "", f.read()))
     simulated(SMOOTH, "--engine", "dsmc", output="one.h5")  # has asked no theory: its picture does
     check(run("plot", "one.h5").code == 0)
