@@ -126,7 +126,7 @@ static const char *agreement(gg_chart *c, const group *g, const json_t *other)
 {
   double squares = 0, most = 0;
   int n = 0;
-  for (size_t i = 0; i < size_of(other) && g->n == 1; i++) {
+  for (size_t i = 0; i < size_of(other); i++) {
     const double z = (at(g->curve[0], "value", i) - at(other, "value", i)) /
                      hypot(at(g->curve[0], "stderr", i), at(other, "stderr", i));
     if (!isfinite(z) || at(g->curve[0], "x", i) != at(other, "x", i)) continue;
@@ -152,7 +152,7 @@ static void fill_panel(gg_chart *c, gg_chart_panel *p, group *g, const gg_stored
     if (!curve || size_of(curve) != size_of(g->curve[k])) continue;
     add_measured(c, gg_plot_chart_series(c, other->name, g->label[k], GG_CHART_BAND), p->y.log, curve,
                  gg_plot_is_unsteady(other) && !dense);
-    if (k == 0) p->title = agreement(c, g, curve);
+    if (g->n == 1) p->title = agreement(c, g, curve);
   }
   add_theories(c, g);
   add_laws(c, g);
