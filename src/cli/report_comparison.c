@@ -55,6 +55,12 @@ static void put_theory(gg_table *t, int row, int column, const gg_comparison *c,
   if (!isnan(value)) gg_cli_format_answer(value, deviation, reference(c), gg_cli_table_cell(t, row, column));
 }
 
+/* True if values are of one time, and those of theories of the steady state. */
+static bool is_in_time(const gg_comparison *c)
+{
+  return reference(c) && gg_cli_is_followed(gg_comparison_scene(c));
+}
+
 /* Column of each theory; -1 for theories without a printed value. */
 static int theory_columns(gg_table *t, const gg_comparison *c, bool all, int column[MOST_THEORIES])
 {
@@ -63,7 +69,7 @@ static int theory_columns(gg_table *t, const gg_comparison *c, bool all, int col
   for (size_t i = 0; i < MOST_THEORIES; i++) {
     gg_comparison_row row;
     column[i] = -1;
-    if (gg_comparison_theory(c, i, &theory, NULL) != GG_OK) continue;
+    if (is_in_time(c) || gg_comparison_theory(c, i, &theory, NULL) != GG_OK) continue;
     for (size_t k = 0; column[i] < 0 && next_shown(c, all, &k, &row);)
       if (!isnan(value_of(c, theory.name, row.name, NULL))) column[i] = gg_cli_table_column(t, theory.name, true), n++;
   }
@@ -212,13 +218,16 @@ static void print_legend(const gg_comparison *c, int n_theories)
 {
   gg_result_info against;
   char deviation[80] = "";
-  if (n_theories && !gg_cli_is_followed(gg_comparison_scene(c)) &&
-      gg_result_get_info(reference(c), &against, NULL) == GG_OK)
+  if (n_theories && gg_result_get_info(reference(c), &against, NULL) == GG_OK)
     snprintf(deviation, sizeof deviation, "; %%: deviation of a theory from %s", against.engine);
   printf("\n");
   gg_cli_print_paragraph(stdout, 0, "(..): standard error of the last digits%s%s",
                          both_ran(c) ? "; z: (md - dsmc) over their combined standard error" : "", deviation);
   if (reference(c)) gg_cli_print_headline(gg_comparison_scene(c));
+  if (is_in_time(c))
+    gg_cli_print_paragraph(stdout, 0,
+                           "values are those at the end; kinetic theory in time stands beside the curves of "
+                           "the results and their picture, that of the steady state in `graingas theory`");
 }
 
 void gg_cli_print_comparison(const gg_comparison *c, bool all)

@@ -416,5 +416,20 @@ def resumed(engine, scene):
         check(all(np.array_equal(a, b, equal_nan=True) for a, b in zip(one, other)), engine, name)
 
 
+def test_table_of_a_followed_gas():
+    """md is compared with dsmc of the same time, and no theory of the steady state stands beside. The picture has both
+    engines in one panel."""
+    scene = """{flow: hcs, phi: 0.4, collision: {e: 0.9, beta: 0}, particles: 500, dsmc: {particles: 20000},
+        start: {temperature: 1, rotational_temperature: 0.5}, run: {duration: 15, replicas: 8}}"""
+    done = run("compare", "scene.yaml", "--quiet", "--output", "t.h5", "--picture", "t.svg", scene=scene)
+    check(done.code == 0, done.err)
+    table = done.out.split("(..)")[0]
+    check(re.search(r"^temperature_ratio .*\+\d+\.\d!$", table, re.M), table)
+    check("enskog" not in table and "%" not in table and "  - the gas swirls" in done.out, done.out)
+    with open("t_relaxation.svg") as file:
+        words = re.sub("<[^>]*>", " ", file.read())
+    check("md" in words.split() and "dsmc" in words.split() and "points" in words and "not steady" not in words, words)
+
+
 if __name__ == "__main__":
     main(sys.modules[__name__])
