@@ -184,6 +184,32 @@ static const char *nearest_to(const char *word)
   return gg_nearest_word(word, known);
 }
 
+/* Words of the field, and the entries that explain them. */
+static const char *entry_of(const char *word)
+{
+  static const char *const words[][2] = {{"friction", "collision.mu"},
+                                         {"roughness", "collision.beta"},
+                                         {"restitution", "collision.e"},
+                                         {"inelasticity", "collision.e"},
+                                         {"volume_fraction", "phi"},
+                                         {"density", "phi"},
+                                         {"N", "particles"},
+                                         {"T", "temperature"},
+                                         {"p", "pressure"},
+                                         {"eta", "shear_viscosity"},
+                                         {"Lambda", "cos2_psi"},
+                                         {"Haff", "haff1983"},
+                                         {"Lun", "lun1991"},
+                                         {"Lees-Edwards", "shear_rate"},
+                                         {"shear", "shear_rate"},
+                                         {"dt", "dsmc.time_step"},
+                                         {"timestep", "dsmc.time_step"},
+                                         {"msd", "diffusion"}};
+  for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+    if (strcasecmp(word, words[i][0]) == 0) return words[i][1];
+  return word;
+}
+
 static bool has_ending(const char *word, const char *ending)
 {
   const size_t length = strlen(word), tail = strlen(ending);
@@ -193,6 +219,7 @@ static bool has_ending(const char *word, const char *ending)
 bool gg_cli_is_word(const char *input)
 {
   static const char *const endings[] = {".yaml", ".yml", ".h5", ".json", ".1"};
+  if (entry_of(input) != input) return true;
   if (!*input || strspn(input, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.") < strlen(input))
     return false;
   for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
@@ -205,7 +232,7 @@ int gg_cli_define(const char *word, bool all)
   const int most = all ? INT_MAX : 1;
   gg_catalogue list;
   gg_entry entry;
-  if (find(word, &list, &entry)) return define(list, &entry, most), GG_OK;
+  if (find(word, &list, &entry) || find(entry_of(word), &list, &entry)) return define(list, &entry, most), GG_OK;
   if (find_member(word, &entry)) return define(GG_CATALOGUE_KEYS, &entry, most), GG_OK;
   const char *nearest = nearest_to(word);
   if (nearest)

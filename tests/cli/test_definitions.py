@@ -41,6 +41,14 @@ def test_every_name():
         lines(name)
 
 
+def test_words_of_the_field():
+    """Words that people use lead to the entry."""
+    for word, entry in (("friction", "collision.mu: a key"), ("Roughness", "collision.beta: a key"), ("T", "temperature: a quantity"),
+                        ("Haff", "haff1983: "), ("lees-edwards", "shear_rate: a key"), ("Lambda", "cos2_psi: a quantity")):
+        done = run("info", word)
+        check(done.code == 0 and done.out.startswith(entry), word, done.out, done.err)
+
+
 def test_unknown_words():
     """An unknown word is an error with the nearest known one; what looks like a file is a file."""
     for word, nearest in (("templature", "temperature"), ("lun1919", "lun1991"), ("relativ_error", "relative_error"),
