@@ -79,8 +79,8 @@ def _finish(call, status, error, made):
     return made
 
 
-def _long_run(function, kind, engines, scene, threads, progress, accept_version, files):
-    scene = as_scene(scene).copy()
+def _long_run(function, kind, engines, scene, keys, threads, progress, accept_version, files):
+    scene = as_scene(scene).copy(**keys)
     call, error = calls.Call(), new_error()
     options = _options(call, threads, accept_version, {**files, "input": scene._file})
     made = ffi.new(kind + " **")
@@ -92,10 +92,11 @@ def _long_run(function, kind, engines, scene, threads, progress, accept_version,
 
 
 def run(scene, threads: Optional[int] = 1, output=None, checkpoint=None, resume=None,
-        progress: Union[bool, None, Callable] = None, accept_version: bool = False) -> Result:
+        progress: Union[bool, None, Callable] = None, accept_version: bool = False, **keys) -> Result:
     """Runs the scene's engine until its stopping criteria are met; returns a Result.
 
     scene        a Scene, a file name, YAML text, or a dict
+    keys         keys of the scene to change: run(s, e=0.8, phi=0.3)
     threads      for replicas and large Monte Carlo ensembles; None: all processors. Results do not depend on it.
     output       result file to write (HDF5); a run that Ctrl-C ends writes none: result.write(path) does
     checkpoint   file to keep checkpoints in; the run writes one when it is interrupted
@@ -108,14 +109,14 @@ def run(scene, threads: Optional[int] = 1, output=None, checkpoint=None, resume=
     PartialResult and `partial` set; a run that ends before its criteria likewise. Raises BadInput, BadFile,
     RunFailed, and exceptions of callbacks.
     """
-    return _long_run(lib.gg_run, "gg_result", 1, scene, threads, progress, accept_version,
+    return _long_run(lib.gg_run, "gg_result", 1, scene, keys, threads, progress, accept_version,
                      {"output": output, "checkpoint": checkpoint, "resume": resume})
 
 
 def compare(scene, threads: Optional[int] = 1, output=None, checkpoint=None, resume=None,
-            progress: Union[bool, None, Callable] = None, accept_version: bool = False) -> Comparison:
+            progress: Union[bool, None, Callable] = None, accept_version: bool = False, **keys) -> Comparison:
     """Runs both engines and evaluates every theory; returns a Comparison. Parameters and errors are those of run()."""
-    return _long_run(lib.gg_compare, "gg_comparison", 2, scene, threads, progress, accept_version,
+    return _long_run(lib.gg_compare, "gg_comparison", 2, scene, keys, threads, progress, accept_version,
                      {"output": output, "checkpoint": checkpoint, "resume": resume})
 
 

@@ -2,6 +2,7 @@
 """Scenes: descriptions of simulations."""
 from __future__ import annotations
 
+import html
 import json
 import os
 import re
@@ -320,6 +321,9 @@ class Scene(Mapping):
 
     def __repr__(self):
         return f"<graingas.Scene: {self.title}>"
+
+    def _repr_html_(self):
+        return f"<p>{html.escape(self.title)}</p><pre>{html.escape(self.to_yaml())}</pre>"
 
 
 def _restored(text, extensions, file):

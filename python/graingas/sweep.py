@@ -11,7 +11,7 @@ import warnings
 
 import numpy as np
 
-from . import _c, calls, yaml
+from . import _c, calls, tables, yaml
 from .errors import BadInput, NotFound, PartialResult, check, encode, exception, lib, new_error, owned_text, text
 from .handles import Handle
 from .result import Result
@@ -192,6 +192,10 @@ class Sweep:
     def __repr__(self):
         states = [point.state for point in self]
         return f"<sweep of {len(states)} points over {', '.join(self.axes)}: {states.count('missing')} missing>"
+
+    def _repr_html_(self):
+        return tables.as_html(repr(self)[1:-1], [*self.axes, "state"],
+                              [[*point.values.values(), point.state] for point in self])
 
 
 class Verdict(dict):

@@ -35,22 +35,22 @@ def _evaluate(scene, name=None):
         raise
 
 
-def theories(scene, *results) -> Comparison:
+def theories(scene, *results, **keys) -> Comparison:
     """Answers of all theories, as a Comparison without simulations, or with results of the same scene:
-    theories(r.scene, r). Raises BadInput if a result has another scene."""
-    found = _evaluate(as_scene(scene).copy())
+    theories(r.scene, r). Keys change the scene: theories(s, e=0.8). Raises BadInput if a result has another scene."""
+    found = _evaluate(as_scene(scene).copy(**keys))
     for result in results:
         found._take(result)
     return found
 
 
-def theory(scene, name) -> Theory:
-    """Answers of one theory: theory(s, "lun1991")["shear_viscosity"] is a number in units of results.
+def theory(scene, name, **keys) -> Theory:
+    """Answers of one theory: theory(s, "lun1991", e=0.8)["shear_viscosity"] is a number in units of results.
 
     name   of a theory, or one of define_theory(), which need not be added to the scene
     Raises NotFound for an unknown theory. A theory that does not apply has no answers and a `reason`.
     """
-    scene = as_scene(scene).copy()
+    scene = as_scene(scene).copy(**keys)
     if hasattr(name, "add_to"):
         if name not in scene._extensions:
             scene.add(name)

@@ -48,6 +48,18 @@ def test_numbers_are_those_of_the_command(short):
     assert means(gg.read("t.h5")) == means(gg.read("s.h5")) == means(result)
 
 
+def test_keys_change_the_scene(short):
+    """Keys of a call are those of a copy of the scene, which stays as it is."""
+    other = short.copy(e=0.7)
+    assert means(gg.run(short, e=0.7)) == means(gg.run(other)) != means(gg.run(short))
+    assert gg.compare(short, e=0.7)["temperature"].md.mean == gg.compare(other)["temperature"].md.mean
+    assert gg.theory(short, "gaussian_closure", e=0.7)["temperature"] == gg.theory(other, "gaussian_closure")["temperature"]
+    assert gg.theories(short, e=0.7)["temperature"].theory == gg.theories(other)["temperature"].theory
+    assert short.e != 0.7
+    with pytest.raises(gg.BadInput, match="no such key"):
+        gg.run(short, tempersture=1)
+
+
 def test_threads_and_seeds(short):
     short["run.replicas"] = 3
     one = means(gg.run(short))
