@@ -48,15 +48,14 @@ static void print(const fingerprint *f, bool json)
            f->title, f->engine, s->grains, f->seed, s->collisions, s->temperature, s->rotational_temperature, f->hash);
 }
 
-int gg_cli_fingerprint_main(const gg_command *command, int argc, char **argv)
+int gg_cli_fingerprint_main(const gg_options *o)
 {
-  gg_options o;
   gg_error err;
   gg_scene *scene;
   fingerprint found = {0};
-  int code = gg_cli_scene_begin(command, argc, argv, &o, &scene);
-  if (code != GG_CLI_GO_ON) return code;
-  gg_status status = fingerprint_of(scene, o.collisions ? o.collisions : COLLISIONS, &found, &err);
-  if (status == GG_OK) print(&found, o.json);
-  return gg_cli_scene_end(&o, scene, status, &err);
+  if (gg_cli_options_scene(o, &scene, &err) != GG_OK) return gg_cli_report(&err);
+  gg_status status = fingerprint_of(scene, o->collisions ? o->collisions : COLLISIONS, &found, &err);
+  if (status == GG_OK) print(&found, o->json);
+  gg_scene_free(scene);
+  return gg_cli_report_scene(o, status, &err);
 }

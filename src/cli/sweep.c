@@ -355,17 +355,14 @@ static int sweep_points(gg_cli_sweep_options *c)
   return o->json && code != GG_BAD_INPUT && print_json(c) != GG_OK ? GG_FAILED : code;
 }
 
-int gg_cli_sweep_main(const gg_command *command, int argc, char **argv)
+int gg_cli_sweep_main(const gg_options *o)
 {
-  gg_options o;
   gg_error err;
-  gg_cli_sweep_options c = {.options = &o};
-  int code = gg_cli_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON) code = check_together(&o);
-  if (code == GG_CLI_GO_ON && gg_cli_sweep_read(&o, NULL, NULL, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);
+  gg_cli_sweep_options c = {.options = o};
+  int code = check_together(o);
+  if (code == GG_CLI_GO_ON && gg_cli_sweep_read(o, NULL, NULL, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON) code = sweep_points(&c);
   gg_sweep_free(c.sweep);
   free(c.folder);
-  gg_cli_options_clear(&o);
   return code;
 }
