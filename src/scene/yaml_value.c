@@ -73,7 +73,7 @@ gg_status gg_scene_entry_key(const gg_scene_reader *r, const gg_scene_entry *e, 
   return GG_OK;
 }
 
-/* Is the word one of those, separated by blanks? */
+/* True if the word is one of those, separated by blanks. */
 static bool is_among(const char *words, const char *word)
 {
   size_t length = strlen(word);
