@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas bench observables: processor time that each observable adds to a run, at three sizes. */
-#include <gsl/gsl_sort.h>
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/clock.h"
 #include "bench/bench.h"
+#include "bench/throughput.h"
 #include "run/replica.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
@@ -14,22 +13,14 @@
 enum { MOST_REPEATS = 32, LEAST_CYCLE = 32 };
 
 typedef struct cost_of_observable {
-  double overhead, lowest,
-      highest;       /* added time over that of the run without it: median, least and largest of the repeats */
-  gg_bench_value ns; /* time of a collision in the run with the observable */
+  gg_bench_value over; /* added time over that of the run without it */
+  gg_bench_value ns;   /* time of a collision in the run with the observable */
 } cost_of_observable;
 
 typedef struct timed_run {
   gg_replica replica;
   bool bare; /* engine without sampling */
 } timed_run;
-
-static uint64_t collisions(const timed_run *c)
-{
-  gg_engine_state state;
-  c->replica.engine->ops->state(c->replica.engine, &state);
-  return state.collisions;
-}
 
 static gg_status go_on(timed_run *c, uint64_t samples, bool adapt, gg_error *err)
 {
@@ -59,10 +50,10 @@ static gg_status start(timed_run *c, const gg_scene *scene, unsigned measure, do
 /* Nanoseconds per collision, over a number of samples. */
 static gg_status time_stretch(timed_run *c, uint64_t samples, double *ns, gg_error *err)
 {
-  uint64_t before = collisions(c);
+  const uint64_t before = gg_engine_state_of(c->replica.engine).collisions;
   double began = gg_base_clock_cpu();
   GG_TRY(go_on(c, samples, false, err));
-  *ns = 1e9 * (gg_base_clock_cpu() - began) / (double)(collisions(c) - before);
+  *ns = 1e9 * (gg_base_clock_cpu() - began) / (double)(gg_engine_state_of(c->replica.engine).collisions - before);
   return GG_OK;
 }
 
@@ -91,13 +82,7 @@ static gg_status compare(timed_run c[2], int repeats, double seconds, cost_of_ob
     for (int k = 0; k < 2; k++) GG_TRY(time_stretch(&c[k], cycles * cycle, &ns[k][i], err));
     over[i] = ns[1][i] / ns[0][i] - 1;
   }
-  gsl_sort(over, 1, (size_t)repeats);
-  gsl_sort(ns[1], 1, (size_t)repeats);
-  *cost = (cost_of_observable){.overhead = gsl_stats_median_from_sorted_data(over, 1, (size_t)repeats),
-                               .lowest = over[0],
-                               .highest = over[repeats - 1],
-                               .ns = {"ns per collision", gsl_stats_median_from_sorted_data(ns[1], 1, (size_t)repeats),
-                                      ns[1][0], ns[1][repeats - 1], repeats, 1}};
+  *cost = (cost_of_observable){gg_bench_spread("", over, repeats), gg_bench_spread("ns per collision", ns[1], repeats)};
   return GG_OK;
 }
 
@@ -200,10 +185,11 @@ static gg_status measure(gg_bench *b, gg_bench_table *table, int row, int i, con
   if (!find_scene(b, &c, o, &scene)) return GG_OK;
   GG_TRY(measure_cost(&scene, o, b->options->quick ? 10 : 30, repeats_of(b, c.n),
                       gg_bench_seconds(b, b->options->quick ? 0.01 : 0.15), &cost, err));
-  gg_bench_table_put(table, row, 1 + i, "%.0f %% (%.0f - %.0f)", 100 * cost.overhead, 100 * cost.lowest,
-                     100 * cost.highest);
-  json_t *overhead = json_pack("{s:f, s:f, s:f}", "overhead", cost.overhead, "overhead_lowest", cost.lowest,
-                               "overhead_highest", cost.highest);
+  const gg_bench_value *over = &cost.over;
+  gg_bench_table_put(table, row, 1 + i, "%.0f %% (%.0f - %.0f)", 100 * over->value, 100 * over->lowest,
+                     100 * over->highest);
+  json_t *overhead = json_pack("{s:f, s:f, s:f}", "overhead", over->value, "overhead_lowest", over->lowest,
+                               "overhead_highest", over->highest);
   gg_bench_table_add(b, table, cost.ns, overhead, "{s:s, s:s, s:f, s:I}", "observable", o->name, "engine",
                      gg_common_engine_of(c.engine)->name, "phi", c.phi, "particles", (json_int_t)c.n);
   return GG_OK;

@@ -387,7 +387,7 @@ static gg_status open_target(job *j, size_t i, const char *path, gg_error *err)
     return gg_base_fail(err, GG_BAD_INPUT,
                         "%s: would be both the result and what is exported from it; choose another prefix", t->path);
   GG_TRY(look_at(j, i, err));
-  return gg_io_atomic_open(&t->file, t->path, err);
+  return gg_io_atomic_open(&t->file, t->path, false, err);
 }
 
 static gg_status open_all(job *j, const char *path, gg_error *err)
@@ -468,7 +468,7 @@ static gg_status write_all(job *j, gg_error *err)
   for (size_t i = 0; i < j->n && status == GG_OK; i++) status = write_target(j, &j->target[i], err);
   if (status == GG_OK) status = gg_stop_check(j->stop, err);
   if (status == GG_OK) status = check_replaced(j, err);
-  for (size_t i = 0; i < j->n && status == GG_OK; i++) status = gg_io_atomic_commit(&j->target[i].file, err);
+  for (size_t i = 0; i < j->n && status == GG_OK; i++) status = gg_io_atomic_commit(&j->target[i].file, GG_OK, err);
   return status;
 }
 

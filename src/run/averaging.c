@@ -59,8 +59,7 @@ static void check_arrest(gg_replicas *all)
   uint64_t collisions = 0, treated = 0;
   if (all->model.gravity[1] == 0) return;
   for (int i = 0; i < all->n; i++) {
-    gg_engine_state e;
-    all->replica[i].engine->ops->state(all->replica[i].engine, &e);
+    const gg_engine_state e = gg_engine_state_of(all->replica[i].engine);
     collisions += e.collisions, treated += e.treated;
   }
   uint64_t stretch = collisions - s->stretch_collisions;

@@ -55,9 +55,7 @@ void gg_run_replica_clear(gg_replica *r)
 
 static uint64_t collisions(const gg_replica *r)
 {
-  gg_engine_state state;
-  r->engine->ops->state(r->engine, &state);
-  return state.collisions;
+  return gg_engine_state_of(r->engine).collisions;
 }
 
 double gg_run_replica_collisions_per_grain(const gg_replica *r)
@@ -68,9 +66,7 @@ double gg_run_replica_collisions_per_grain(const gg_replica *r)
 /* Processor time of all threads that work for the replica. */
 static double cpu_used(const gg_replica *r)
 {
-  gg_engine_state state;
-  r->engine->ops->state(r->engine, &state);
-  return gg_base_clock_cpu() + state.others_cpu;
+  return gg_base_clock_cpu() + gg_engine_state_of(r->engine).others_cpu;
 }
 
 /* Largest number of collisions of an interval, which ends there whatever the time. While intervals adapt: 16 times the

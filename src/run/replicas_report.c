@@ -103,8 +103,7 @@ static void report_effort(const gg_replicas *all, gg_result *result)
   gg_engine_state *sum = &result->engine_state;
   for (int i = 0; i < all->n; i++) {
     const gg_replica *r = &all->replica[i];
-    gg_engine_state s;
-    r->engine->ops->state(r->engine, &s);
+    const gg_engine_state s = gg_engine_state_of(r->engine);
     if (i == 0) { /* in units of the start, whatever the engine's velocities have been multiplied by since */
       result->window_step = r->clock.window_collisions;
       sum->time = r->clock.time, sum->time_step_bias = s.time_step_bias;

@@ -139,20 +139,6 @@ static void read_last_frame(gg_h5_in *h, gg_stored_result *s)
   if (!h->failed && kinds != f->n) gg_h5_in_failed(h, "some of its grains are of an unknown species");
 }
 
-void gg_files_stored_scene_update_words(char *scene)
-{
-  static const char off[] = "\nsmall_shear: off\n", on[] = "\nsmall_shear: on\n", before[] = "flow: usf\n",
-                    now[] = "flow: small_shear\n";
-  char *key = scene ? strstr(scene, off) : NULL;
-  if (key) memmove(key + 1, key + sizeof off - 1, strlen(key + sizeof off - 1) + 1);
-  key = scene ? strstr(scene, on) : NULL;
-  if (!key || strncmp(scene, before, sizeof before - 1) != 0) return;
-  memmove(key + 1, key + sizeof on - 1, strlen(key + sizeof on - 1) + 1);
-  char *rest = scene + sizeof before - 1; /* the word is longer by less than the key that went was */
-  memmove(scene + sizeof now - 1, rest, strlen(rest) + 1);
-  memcpy(scene, now, sizeof now - 1);
-}
-
 /* It is shown to people. */
 static char *read_line(gg_h5_in *h, const char *path)
 {
@@ -182,7 +168,6 @@ static gg_status read_all(gg_stored_result *s, gg_h5_in *in, const char *path, g
   s->machine = read_line(in, "/graingas/machine");
   s->date = read_line(in, "/graingas/date");
   s->scene = gg_h5_read_text(in, "/graingas/scene");
-  gg_files_stored_scene_update_words(s->scene);
   const char *why = "out of memory";
   s->document = text ? gg_files_document_read(text, &why) : NULL;
   free(text);
