@@ -147,6 +147,7 @@ static setting setting_of(const gg_bench *b, int n_sizes, int i)
                    sizes_of(b)[i % n_sizes + N_SIZES - n_sizes]};
 }
 
+/* Find a scene for an observable: the usual flow, or the first other inelastic one that has the observable. */
 static bool find_scene_with(const gg_bench *b, const setting *c, const gg_observable *o, double beta, gg_scene *scene)
 {
   for (int k = -1; k < GG_N_FLOWS; k++) {
@@ -163,27 +164,14 @@ static bool find_scene_with(const gg_bench *b, const setting *c, const gg_observ
   return false;
 }
 
-/* Find a scene for an observable: the usual flow, or the first other inelastic one that has the observable; rough
- * grains, or smooth grains if the observable accepts no others. */
-static bool find_scene(const gg_bench *b, const setting *c, const gg_observable *o, gg_scene *scene)
-{
-  return find_scene_with(b, c, o, 0, scene) || find_scene_with(b, c, o, -1, scene);
-}
-
-/* Fewer repeats for large systems: their stretches are longer and scatter less. */
-static int repeats_of(const gg_bench *b, int64_t n)
-{
-  return n > 10000 || b->options->quick ? 3 : 15;
-}
-
 static gg_status measure(gg_bench *b, gg_bench_table *table, int row, int i, const gg_observable *o, gg_error *err)
 {
   gg_scene scene;
   cost_of_observable cost;
   setting c = setting_of(b, n_sizes_of(b), i);
   gg_bench_table_put(table, row, 1 + i, "-");
-  if (!find_scene(b, &c, o, &scene)) return GG_OK;
-  GG_TRY(measure_cost(&scene, o, b->options->quick ? 10 : 30, repeats_of(b, c.n),
+  if (!find_scene_with(b, &c, o, 0, &scene) && !find_scene_with(b, &c, o, -1, &scene)) return GG_OK;
+  GG_TRY(measure_cost(&scene, o, b->options->quick ? 10 : 30, c.n > 10000 || b->options->quick ? 3 : 15,
                       gg_bench_seconds(b, b->options->quick ? 0.01 : 0.15), &cost, err));
   const gg_bench_value *over = &cost.over;
   gg_bench_table_put(table, row, 1 + i, "%.0f %% (%.0f - %.0f)", 100 * over->value, 100 * over->lowest,

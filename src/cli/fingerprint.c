@@ -13,13 +13,6 @@ typedef struct fingerprint {
   uint64_t hash;
 } fingerprint;
 
-static gg_status take(gg_simulation *simulation, uint64_t collisions, fingerprint *f, gg_error *err)
-{
-  gg_status status = gg_simulation_collide(simulation, collisions, err);
-  if (status == GG_OK) status = gg_simulation_get_state(simulation, &f->state, err);
-  return status == GG_OK ? gg_simulation_hash(simulation, &f->hash, err) : status;
-}
-
 static gg_status fingerprint_of(const gg_scene *scene, uint64_t collisions, fingerprint *f, gg_error *err)
 {
   gg_simulation *simulation = NULL;
@@ -27,7 +20,9 @@ static gg_status fingerprint_of(const gg_scene *scene, uint64_t collisions, fing
   if (status == GG_OK) status = gg_scene_get(scene, "engine", f->engine, sizeof f->engine, err);
   if (status == GG_OK) status = gg_scene_get(scene, "run.seed", f->seed, sizeof f->seed, err);
   if (status == GG_OK) status = gg_simulation_new(scene, NULL, &simulation, err);
-  if (status == GG_OK) status = take(simulation, collisions, f, err);
+  if (status == GG_OK) status = gg_simulation_collide(simulation, collisions, err);
+  if (status == GG_OK) status = gg_simulation_get_state(simulation, &f->state, err);
+  if (status == GG_OK) status = gg_simulation_hash(simulation, &f->hash, err);
   gg_simulation_free(simulation);
   return status;
 }

@@ -150,13 +150,6 @@ static int take_number(const char *name, const char *value, bool whole, double l
                      name, value, whole ? "whole " : "", least, most);
 }
 
-static int take_vary(gg_options *o, const char *value)
-{
-  if (o->n_vary == GG_MAX_OVERRIDES) return gg_cli_fail(GG_BAD_INPUT, "more than %d keys to vary", GG_MAX_OVERRIDES);
-  o->vary[o->n_vary++] = value;
-  return GG_CLI_GO_ON;
-}
-
 static int take_theory(gg_options *o, const char *value)
 {
   char *all = NULL;
@@ -183,7 +176,11 @@ static int take(gg_options *o, const gg_option *t, const char *value)
     return code;
   default: break;
   }
-  if (!t->at) return take_vary(o, value);
+  if (!t->at) {
+    if (o->n_vary == GG_MAX_OVERRIDES) return gg_cli_fail(GG_BAD_INPUT, "more than %d keys to vary", GG_MAX_OVERRIDES);
+    o->vary[o->n_vary++] = value;
+    return GG_CLI_GO_ON;
+  }
   if (t->argument)
     *(const char **)((char *)o + t->at) = value;
   else

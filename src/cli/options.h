@@ -80,7 +80,6 @@ enum { GG_CLI_GO_ON = -1 };
 int gg_cli_options_parse(const gg_command *command, int argc, char **argv, gg_options *options);
 void gg_cli_options_clear(gg_options *options);
 
-/* Name of the input for messages. */
 const char *gg_cli_options_name(const gg_options *options);
 
 /* Read the scene of the input and apply the overrides; NULL on failure. */

@@ -44,12 +44,6 @@ static int show_progress(void *context, const gg_progress *progress)
   return 0;
 }
 
-static int is_interrupted(void *context)
-{
-  (void)context;
-  return gg_cli_interrupted();
-}
-
 static void note_checkpoint(void *context, const char *checkpoint)
 {
   (void)checkpoint;
@@ -140,7 +134,7 @@ int gg_cli_run_begin(gg_cli_run_options *r, const gg_options *o)
                             .command = o->command_line,
                             .context = r,
                             .progress = show_progress,
-                            .stop = is_interrupted,
+                            .stop = gg_cli_interrupted,
                             .stored = note_checkpoint,
                             .warn = warn};
   gg_cli_progress_start(&r->progress, o->quiet);
@@ -148,7 +142,6 @@ int gg_cli_run_begin(gg_cli_run_options *r, const gg_options *o)
   return GG_CLI_GO_ON;
 }
 
-/* Whether the result has means. */
 static bool has_means(const gg_result *result)
 {
   gg_measurement m;
@@ -195,20 +188,6 @@ static char *command_to_resume(const gg_cli_run_options *r)
   return again;
 }
 
-static void report_checkpoint(const gg_cli_run_options *r)
-{
-  char *again = command_to_resume(r);
-  fprintf(stderr, "continue with: %s\n", again ? again : "the same command and --resume");
-  free(again);
-}
-
-static void report_interruption(gg_cli_run_options *r)
-{
-  const char *hint = r->keeps_checkpoints ? "" : " (output.checkpoint_every above 0 keeps a checkpoint)";
-  snprintf(r->err.message, sizeof r->err.message, "interrupted; %s%s",
-           r->stored ? "a checkpoint is stored" : "nothing was stored", r->stored ? "" : hint);
-}
-
 typedef struct drawing {
   const gg_cli_run_options *of;
   bool replaced;
@@ -227,7 +206,8 @@ static gg_status draw(const gg_cli_run_options *r, gg_error *err)
 {
   if (!r->picture) return GG_OK;
   drawing d = {r, gg_cli_file_exists(r->picture)};
-  gg_status status = gg_plot(r->output, r->picture, NULL, r->options->width, report_picture, is_interrupted, &d, err);
+  gg_status status =
+      gg_plot(r->output, r->picture, NULL, r->options->width, report_picture, gg_cli_interrupted, &d, err);
   if (status != GG_FAILED || r->options->picture) return status;
   fprintf(stderr, "warning: no picture: %s\n", err->message);
   return GG_OK;
@@ -241,10 +221,17 @@ int gg_cli_run_end(gg_cli_run_options *r)
     gg_cli_report_written(r->options, "results", r->output, r->replaced);
     drawn = draw(r, &why);
   }
-  if (r->status == GG_INTERRUPTED) report_interruption(r);
+  if (r->status == GG_INTERRUPTED)
+    snprintf(r->err.message, sizeof r->err.message, "interrupted; %s%s",
+             r->stored ? "a checkpoint is stored" : "nothing was stored",
+             r->stored || r->keeps_checkpoints ? "" : " (output.checkpoint_every above 0 keeps a checkpoint)");
   const int code = gg_cli_report_scene(r->options, r->status, &r->err);
   if (drawn != GG_OK) gg_cli_report(&why);
-  if (r->stored && (r->status == GG_INTERRUPTED || (r->status == GG_FAILED && r->out_of_time))) report_checkpoint(r);
+  if (r->stored && (r->status == GG_INTERRUPTED || (r->status == GG_FAILED && r->out_of_time))) {
+    char *again = command_to_resume(r);
+    fprintf(stderr, "continue with: %s\n", again ? again : "the same command and --resume");
+    free(again);
+  }
   clear(r);
   return code != GG_OK ? code : (int)drawn;
 }

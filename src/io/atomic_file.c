@@ -236,7 +236,6 @@ static void sync_folder(const char *path)
   free(copy);
 }
 
-/* Owner and mode of the file stay when it is replaced. */
 static void keep_owner_and_mode(const gg_atomic_file *f)
 {
   const struct stat *was = &f->place.about;

@@ -189,14 +189,6 @@ static double temperature_now(const gg_replica *r)
   return exp(o->rows->log_temperature(row) + 2 * M_LN2 * (double)r->clock.power);
 }
 
-/* NaN never recovers: fail now. */
-static gg_status check_numbers(const gg_replica *r, gg_error *err)
-{
-  if (isfinite(r->clock.temperature)) return GG_OK;
-  return gg_base_fail(err, GG_FAILED, "%s: the temperature became NaN or infinite near time %g", r->engine->ops->name,
-                      r->clock.time);
-}
-
 gg_status gg_run_replica_collapsed(const gg_replica *r, gg_error *err)
 {
   const char *unit = gg_common_model_contact_unit(&r->model), *name = r->engine->ops->name;
@@ -274,7 +266,9 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   gg_run_replica_sample_row(r, elapsed);
   r->clock.temperature = temperature_now(r);
   r->clock.time += ldexp(elapsed, (int)r->clock.power);
-  GG_TRY(check_numbers(r, err));
+  if (!isfinite(r->clock.temperature)) /* NaN never recovers: fail now */
+    return gg_base_fail(err, GG_FAILED, "%s: the temperature became NaN or infinite near time %g", r->engine->ops->name,
+                        r->clock.time);
   GG_TRY(check_collapse(r, adapt, elapsed, happened, err));
   gg_statistics_series_add(&r->series, r->clock.time, r->row);
   r->clock.samples++;

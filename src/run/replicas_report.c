@@ -34,19 +34,12 @@ static const char *why_missing(const gg_replicas *all, gg_quantity q)
   return reason ? reason : "not measured in this scene";
 }
 
-/* Length of a row of the series, in the unit of correlation times. */
-static double row_length_of(const gg_replicas *all, const gg_series *s)
-{
-  size_t rows = gg_series_window_rows(s);
-  if (gg_run_quantity_counts_in_collisions(&all->model)) return (double)s->per_row * GG_SAMPLING_INTERVAL;
-  return rows > 1 ? (s->end_time[s->n - 1] - s->end_time[s->window]) / (double)(rows - 1) : NAN;
-}
-
 static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err)
 {
   const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s);
-  double row_length = row_length_of(all, s);
+  double row_length = rows > 1 ? (s->end_time[s->n - 1] - s->end_time[s->window]) / (double)(rows - 1) : NAN;
+  if (gg_run_quantity_counts_in_collisions(&all->model)) row_length = (double)s->per_row * GG_SAMPLING_INTERVAL;
   const bool followed = gg_scene_is_followed(&all->scene);
   for (int i = 0; i < result->rows.n; i++) {
     const gg_quantity q = result->rows.row[i].quantity;

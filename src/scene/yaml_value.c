@@ -164,7 +164,6 @@ static ptrdiff_t length_of(const yaml_node_t *node)
   return node->type == YAML_SEQUENCE_NODE ? node->data.sequence.items.top - node->data.sequence.items.start : 0;
 }
 
-/* The node as a message shows it. */
 static void show(const yaml_node_t *node, char *text, size_t size)
 {
   char word[41];

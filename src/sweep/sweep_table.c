@@ -17,6 +17,7 @@
 #include "files/h5/hdf5_writer.h"
 #include "files/h5/result_file.h"
 #include "files/result_document.h"
+#include "graingas.h"
 #include "io/checked_json.h"
 #include "io/file_writer.h"
 #include "run/result.h"
@@ -71,7 +72,6 @@ static double number(const json_t *object, const char *key)
   return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
-/* Add the quantities of a method that have a mean. */
 static gg_status add_quantities(gg_point_table *t, gg_point_row row, json_t *quantities, const char *error,
                                 gg_error *err)
 {
@@ -152,7 +152,7 @@ static gg_status add_document(gg_point_table *t, gg_point_row row, json_t *docum
 static gg_status read_document(const char *path, json_t **document, char **scene, gg_error *err)
 {
   gg_h5_in h;
-  gg_h5_open(&h, path);
+  gg_h5_open(&h, path, false);
   char *text = h.failed ? NULL : gg_h5_read_text(&h, "/graingas/document");
   const char *why = "out of memory";
   *document = text ? gg_files_document_read(text, &why) : NULL;

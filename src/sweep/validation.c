@@ -90,15 +90,6 @@ static gg_status write_page(const gg_validate_options *o, const gg_point_table *
   return gg_io_atomic_commit(&file, status, err);
 }
 
-static gg_status write_json(const gg_grid_view *view, const gg_agreement *agreement, const char *repeat, char **text,
-                            gg_error *err)
-{
-  json_t *document = gg_sweep_verdict_document(view, agreement, repeat);
-  *text = document ? gg_files_document_text(document) : NULL;
-  json_decref(document);
-  return *text ? GG_OK : gg_base_out_of_memory(err);
-}
-
 static gg_status print_verdict(const gg_grid_view *view, const gg_agreement *agreement, const char *repeat, char **text,
                                gg_error *err)
 {
@@ -138,7 +129,10 @@ static gg_status validate(validating *v, const gg_grid_view *view, const gg_poin
   GG_TRY(draw(v, view, t, *text, err));
   if (v->options->json) {
     free(*text);
-    GG_TRY(write_json(view, &agreement, v->options->repeat, text, err));
+    json_t *document = gg_sweep_verdict_document(view, &agreement, v->options->repeat);
+    *text = document ? gg_files_document_text(document) : NULL;
+    json_decref(document);
+    if (!*text) return gg_base_out_of_memory(err);
   }
   if (!agreement.n_values)
     return gg_base_fail(err, GG_FAILED,

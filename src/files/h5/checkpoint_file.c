@@ -157,7 +157,7 @@ static gg_status read_all(gg_h5_in *in, const char *path, bool any_build, gg_arc
 static gg_status read_file(const char *path, bool any_build, gg_archive *a, gg_error *err)
 {
   gg_h5_in in;
-  gg_h5_open(&in, path);
+  gg_h5_open(&in, path, false);
   return read_all(&in, path, any_build, a, err);
 }
 
@@ -216,7 +216,7 @@ char *gg_files_checkpoint_scene(const char *path, bool older)
   gg_h5_in h;
   char *before = NULL;
   if (older && asprintf(&before, "%s.1", path) < 0) return NULL;
-  gg_h5_open(&h, older ? before : path);
+  gg_h5_open(&h, older ? before : path, false);
   char *yaml = gg_h5_read_text(&h, "/checkpoint/scene");
   gg_h5_in_close(&h);
   free(before);

@@ -316,7 +316,6 @@ static void set_rows(gg_h5 *h, gg_h5_rows *rows, hsize_t n)
   rows->n = n;
 }
 
-/* Write row `at` (`write`), or read it. */
 static void move_row(gg_h5 *h, const gg_h5_rows *rows, hsize_t at, bool write, void *data)
 {
   const hsize_t from[3] = {at}, size[3] = {1, rows->row[0], rows->row[1]};
