@@ -14,8 +14,8 @@
  * Threads: there is no global state. One thread at a time may use a handle, several may use a `const` one. Simulations
  * and runs in different threads are independent. If HDF5 is not thread-safe (Debian's is), only one thread at a time
  * may read or write files. Unless stated otherwise, callbacks come on the calling thread. A `context` is passed to the
- * callbacks of its call. A callback `stop` is polled several times a second and returns non-zero to interrupt; it may be
- * NULL.
+ * callbacks of its call. A callback `stop` is polled several times a second and returns non-zero to interrupt; it may
+ * be NULL.
  *
  * Handles in use: while a call uses a simulation, session, trajectory or sweep, another call from its callback or from
  * a second thread returns GG_BAD_INPUT, and the call in progress is not affected. From a callback of a simulation,
@@ -1071,6 +1071,8 @@ GG_API const char *gg_comparison_warning(const gg_comparison *comparison, size_t
 GG_API gg_status gg_comparison_agreement(const gg_comparison *comparison, const char *quantity, double *z, int *beyond,
                                          gg_error *err);
 
+#ifndef GG_DEPARTURE_DEFINED /* the library's own files include these lines alone */
+#define GG_DEPARTURE_DEFINED
 /* Difference of an engine's mean and Enskog's equation solved without random numbers (theory enskog_hermite). */
 typedef struct gg_departure {
   double difference, error; /* engine - solution, in units of results; the error combines the engine's standard error
@@ -1079,6 +1081,15 @@ typedef struct gg_departure {
   double deviation, deviation_error; /* difference and error over the solution; NaN for numbers near 0: N1, N2, a2 */
   int headline;                      /* non-zero: one of the main quantities, those of a comparison's picture */
 } gg_departure;
+
+typedef struct gg_comparison_row {  /* one quantity; arrays: md, dsmc */
+  const char *name, *symbol, *unit; /* symbol: LaTeX; NULL if user-defined */
+  double mean[2], error[2];         /* standard errors; NaN: none */
+  double z;                         /* z and beyond: see gg_comparison_agreement() */
+  int beyond;
+  gg_departure departure[2];
+} gg_comparison_row;
+#endif
 
 /**
  * Difference of an engine's mean and Enskog's equation solved without random numbers (theory enskog_hermite).
@@ -1090,14 +1101,6 @@ typedef struct gg_departure {
  */
 GG_API gg_status gg_comparison_departure(const gg_comparison *comparison, const char *engine, const char *quantity,
                                          gg_departure *departure, gg_error *err);
-
-typedef struct gg_comparison_row {  /* one quantity; arrays: md, dsmc */
-  const char *name, *symbol, *unit; /* symbol: LaTeX; NULL if user-defined */
-  double mean[2], error[2];         /* standard errors; NaN: none */
-  double z;                         /* z and beyond: see gg_comparison_agreement() */
-  int beyond;
-  gg_departure departure[2];
-} gg_comparison_row;
 
 /**
  * The i-th quantity of a comparison, in the order of tables.
@@ -1374,6 +1377,8 @@ GG_API const char *gg_sweep_key(const gg_sweep *sweep, size_t k);
  */
 GG_API const char *gg_sweep_value(const gg_sweep *sweep, size_t i, size_t k);
 
+#ifndef GG_POINT_STATE_DEFINED /* likewise */
+#define GG_POINT_STATE_DEFINED
 typedef enum gg_point_state {
   GG_POINT_MISSING,
   GG_POINT_DONE,
@@ -1381,6 +1386,7 @@ typedef enum gg_point_state {
   GG_POINT_OTHER_BUILD, /* done by a build with other sources: gg_sweep_run repeats it, unless accept_version is set */
   GG_POINT_DAMAGED      /* the file is damaged: gg_sweep_run repeats the point */
 } gg_point_state;
+#endif
 
 /**
  * State of a point in a folder.

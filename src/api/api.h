@@ -12,7 +12,6 @@
 #include "measure/curve.h"
 #include "run/result.h"
 
-/* Return GG_BAD_INPUT if an argument is NULL. */
 #define GG_NEED(...) GG_CHECK_ARGUMENTS(#__VA_ARGS__, __VA_ARGS__)
 #define GG_NEED_CALLBACK(argument) GG_CHECK_ARGUMENTS(#argument, (argument) ? "" : NULL)
 #define GG_CHECK_ARGUMENTS(names, ...)                                                                                 \
@@ -35,7 +34,6 @@ gg_status gg_api_scene_finish(const gg_scene *scene, gg_scene *copy, gg_error *e
 /* text.c: GG_BAD_INPUT for an unknown quantity, with a spelling suggestion. */
 gg_status gg_api_no_quantity(const gg_quantity_rows *rows, const char *name, gg_error *err);
 
-/* text.c: an engine by its name. */
 gg_status gg_api_engine_find(const char *name, gg_engine_kind *kind, gg_error *err);
 /* text.c: a document as text; releases the document (NULL: out of memory). */
 gg_status gg_api_text_copy(json_t *document, char **text, gg_error *err);
@@ -48,6 +46,9 @@ typedef struct gg_api_request {
   bool made;
 } gg_api_request;
 bool gg_api_is_requested(void *request);
+
+/* result.c: the grains of a frame, in the order of their numbers. */
+void gg_api_frame_copy(const gg_frame *frame, const gg_grains *into);
 
 /* result.c: a curve, and its k-th number, as the interface has them; the unit is that of correlation times. */
 gg_curve_data gg_api_curve_view(const gg_curve *curve);

@@ -72,7 +72,6 @@ static gg_status species_key_entry(size_t i, gg_entry *entry, gg_error *err)
   return GG_OK;
 }
 
-/* The i-th word of a key of type choice or set. */
 static gg_status word_entry(const char *key, size_t i, gg_entry *entry, gg_error *err)
 {
   int id = gg_scene_field_find(key);

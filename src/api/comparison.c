@@ -24,7 +24,6 @@ void gg_comparison_free(gg_comparison *c)
   free(c);
 }
 
-/* Theories by their names, separated by commas. */
 static gg_status choose_theories(const gg_model *model, const char *names, bool wanted[GG_MOST_THEORIES], gg_error *err)
 {
   for (const char *at = names; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
@@ -212,7 +211,6 @@ static gg_status find_theory(const gg_comparison *c, const char *theory, int *i,
   return gg_base_fail(err, GG_BAD_INPUT, "there is no theory called '%.60s' here", theory);
 }
 
-/* Place of the theory, and the quantity, of an answer. */
 static gg_status find_answer(const gg_comparison *c, const char *theory, const char *quantity, int *i, gg_quantity *q,
                              gg_error *err)
 {

@@ -7,10 +7,10 @@
 #include <strings.h>
 
 #include "base/text.h"
-#include "scene/scene.h"
-#include "scene/fields.h"
-#include "theory/theory.h"
 #include "graingas.h"
+#include "scene/fields.h"
+#include "scene/scene.h"
+#include "theory/theory.h"
 
 enum { MOST_LETTERS = 40, MOST_TEXT = 500 };
 
@@ -64,17 +64,12 @@ static gg_status check_quantity(const gg_extension *x, const gg_observable_defin
   return taken ? gg_base_fail(err, GG_BAD_INPUT, "quantity: the name '%s' is taken", q->name) : GG_OK;
 }
 
-static bool is_word_of_measure(const char *name)
-{
-  return gg_scene_field_find_word(&gg_scene_fields[gg_scene_field_find("measure")], name).name != NULL;
-}
-
 static gg_status check_observable(const gg_extension *x, const gg_observable_definition *o, gg_error *err)
 {
   if (!o) return gg_base_fail(err, GG_BAD_INPUT, "observable: the definition is missing");
   GG_TRY(check_name("observable", o->name, err));
   GG_TRY(check_text(o->name, o->doc, MOST_TEXT, err));
-  bool taken = is_word_of_measure(o->name);
+  bool taken = gg_scene_field_find_word(&gg_scene_fields[gg_scene_field_find("measure")], o->name).name != NULL;
   for (int k = 0; k < gg_common_extension_observables(x); k++)
     taken |= strcmp(gg_common_extension_observable(x, k)->name, o->name) == 0;
   if (taken) return gg_base_fail(err, GG_BAD_INPUT, "observable: the name '%s' is taken", o->name);

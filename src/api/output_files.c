@@ -8,6 +8,7 @@
 #include "api/run.h"
 #include "base/memory.h"
 #include "common/engine.h"
+#include "files/h5/checkpoint_file.h"
 #include "measure/observable.h"
 #include "plot/plot.h"
 
@@ -15,7 +16,6 @@ typedef struct file {
   const char *path, *role, *option; /* option: the option that names the file; NULL: the file is only read */
 } file;
 
-/* A check of one of the pages beside the picture. */
 typedef gg_status page_check(const char *page, const char *picture, const void *context, gg_error *err);
 
 /* Whether two files may be the same: a checkpoint may replace the checkpoint that the run resumes from. */
@@ -32,13 +32,6 @@ static gg_status check_pairs(const file *all, int n, gg_error *err)
         return gg_base_fail(err, GG_BAD_INPUT, "%s: would be both %s and %s; choose another %s", all[i].path,
                             all[i].role, all[j].role, all[i].option);
   return GG_OK;
-}
-
-/* FILE.1, name of the previous checkpoint; to be freed. */
-static char *before(const char *path)
-{
-  char *name = NULL;
-  return path && asprintf(&name, "%s.1", path) >= 0 ? name : NULL;
 }
 
 static gg_status check_page(const char *picture, const char *engine, const char *group, const gg_plot_paper *paper,
@@ -124,7 +117,8 @@ gg_status gg_api_picture_check(const gg_api_run_call *r, gg_error *err)
 gg_status gg_api_files_check(const gg_api_run_call *r, gg_error *err)
 {
   const gg_run_options *o = &r->options;
-  char *second = before(o->checkpoint), *third = before(o->resume);
+  char *second = o->checkpoint ? gg_files_checkpoint_before(o->checkpoint) : NULL,
+       *third = o->resume ? gg_files_checkpoint_before(o->resume) : NULL;
   char *frames = o->checkpoint ? gg_files_frame_log_path(o->checkpoint) : NULL;
   const file all[] = {{o->output, "the result", "output"},
                       {o->picture, "the picture", "picture"},

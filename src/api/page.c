@@ -11,8 +11,8 @@
 
 #include "api/api.h"
 #include "api/page_places.h"
-#include "io/atomic_file.h"
 #include "base/memory.h"
+#include "io/atomic_file.h"
 
 /* Placeholder in the page for the scene that it starts with, as JSON; null: the default scene. */
 static const char *const marker = "\"@given@\"";
@@ -102,13 +102,11 @@ static gg_status write_parts(const char *path, const char *page, const char *sce
   const char *at = strstr(page, marker), *rest = at ? at + strlen(marker) : NULL;
   gg_atomic_file file = GG_ATOMIC_NONE;
   if (!at) return gg_base_fail(err, GG_BAD_FILE, "no page of graingas, or one that has a scene already");
-  GG_TRY(gg_io_atomic_open(&file, path, err));
+  GG_TRY(gg_io_atomic_open(&file, path, false, err));
   gg_status status = gg_io_atomic_write(&file, page, (size_t)(at - page), err);
   if (status == GG_OK) status = gg_io_atomic_write(&file, scene, strlen(scene), err);
   if (status == GG_OK) status = gg_io_atomic_write(&file, rest, strlen(rest), err);
-  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
-  gg_io_atomic_abandon(&file);
-  return status;
+  return gg_io_atomic_commit(&file, status, err);
 }
 
 gg_status gg_page_write(const char *page, const gg_scene *scene, const char *path, gg_error *err)

@@ -20,7 +20,6 @@ struct gg_trajectory {
   gg_moments last; /* moments of the last frame; last.model is NULL before the first frame */
 };
 
-/* Read the scene; fails if the file is not a result. */
 static gg_status read_scene(gg_trajectory *t, const char *path, gg_error *err)
 {
   gg_stored_result stored;
@@ -29,14 +28,6 @@ static gg_status read_scene(gg_trajectory *t, const char *path, gg_error *err)
     status = gg_files_stored_scene(&stored, gg_files_stored_first(&stored), &t->scene, &t->model, err);
   gg_files_stored_result_clear(&stored);
   return status;
-}
-
-static gg_status open_file(gg_trajectory *t, const char *path, gg_error *err)
-{
-  GG_TRY(read_scene(t, path, err));
-  GG_TRY(gg_files_stored_trajectory_open(&t->stored, path, err));
-  if (!t->stored.n_frames) return gg_base_fail(err, GG_FAILED, "%s: nothing to play: " GG_NO_POSITIONS, path);
-  return GG_OK;
 }
 
 static void destroy(void *trajectory)
@@ -52,7 +43,10 @@ gg_status gg_trajectory_open(const char *path, gg_trajectory **trajectory, gg_er
   gg_trajectory *t = gg_base_array_new(1, sizeof *t, err);
   if (!t) return GG_FAILED;
   gg_base_busy_init(&t->busy, "trajectory", destroy, t);
-  gg_status status = open_file(t, path, err);
+  gg_status status = read_scene(t, path, err);
+  if (status == GG_OK) status = gg_files_stored_trajectory_open(&t->stored, path, err);
+  if (status == GG_OK && !t->stored.n_frames)
+    status = gg_base_fail(err, GG_FAILED, "%s: nothing to play: " GG_NO_POSITIONS, path);
   if (status == GG_OK)
     *trajectory = t;
   else
@@ -109,16 +103,6 @@ static gg_status set_state(const gg_trajectory *t, const gg_frame *f, const doub
   return GG_OK;
 }
 
-static void copy_out(const gg_frame *f, const gg_grains *into)
-{
-  const size_t size = 3 * f->n * sizeof(double);
-  if (into->position) memcpy(into->position, f->position, size);
-  if (into->velocity) memcpy(into->velocity, f->velocity, size);
-  if (into->spin && f->spin) memcpy(into->spin, f->spin, size);
-  if (into->spin && !f->spin) memset(into->spin, 0, size);
-  for (size_t i = 0; into->species && i < f->n; i++) into->species[i] = f->species ? f->species[i] : 0;
-}
-
 gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation_state *state, const gg_grains *into,
                               gg_error *err)
 {
@@ -135,7 +119,7 @@ gg_status gg_trajectory_frame(gg_trajectory *trajectory, size_t k, gg_simulation
   gg_status status = gg_run_frame_check(&f, &t->model, err);
   if (status == GG_OK) sum_up(t, &f);
   if (status == GG_OK && state) status = set_state(t, &f, edges, state, err);
-  if (status == GG_OK && into) copy_out(&f, into);
+  if (status == GG_OK && into) gg_api_frame_copy(&f, into);
   f.species = NULL; /* belongs to the trajectory */
   gg_run_frame_free(&f);
   return status;

@@ -196,7 +196,6 @@ static void warn_if_dilute(gg_api_run_call *r)
       10 * round(ratio / 10));
 }
 
-/* Warn about keys that have no effect in this run. */
 static void warn_of_keys(gg_api_run_call *r)
 {
   const gg_engine_kind engine = r->scene.engine;
@@ -245,7 +244,8 @@ static void remove_checkpoints(gg_api_run_call *r)
 
 /* Write the results, commit them, and remove the checkpoints of a finished run. A point of a sweep is also finished if
  * it ended before its stopping criteria. */
-static gg_status finish(gg_api_run_call *r, gg_point_call *point, gg_status status, const gg_comparison *c, gg_error *err)
+static gg_status finish(gg_api_run_call *r, gg_point_call *point, gg_status status, const gg_comparison *c,
+                        gg_error *err)
 {
   const bool whole = c && (status == GG_OK || status == GG_FAILED), named = point && point->commit && whole;
   gg_status written = GG_OK;
@@ -271,8 +271,8 @@ static gg_status status_of(gg_status run, gg_status written, const gg_error *why
   return gg_base_fail(err, written, "%.500s; and %.500s", message, err ? err->message : "");
 }
 
-static gg_status simulate(gg_api_run_call *r, gg_point_call *point, const gg_scene *scene, const gg_run_options *options,
-                          bool comparison, gg_comparison **made, gg_error *err)
+static gg_status simulate(gg_api_run_call *r, gg_point_call *point, const gg_scene *scene,
+                          const gg_run_options *options, bool comparison, gg_comparison **made, gg_error *err)
 {
   gg_error why = {0};
   gg_comparison *c = gg_base_array_new(1, sizeof *c, err);

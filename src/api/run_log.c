@@ -39,12 +39,11 @@ static gg_status check_is_log(const gg_sample_log *log, gg_error *err)
   const ssize_t n = pread(log->fd, there, strlen(begins), 0);
   if (n < 0) return write_error(log, err);
   if (n == 0 || strcmp(there, begins) == 0) return GG_OK;
-  return gg_io_path_write_error(log->path, "it is there, and no log of a run: remove it, or choose another name",
-                                  err);
+  return gg_io_path_write_error(log->path, "it is there, and no log of a run: remove it, or choose another name", err);
 }
 
-/* Cut the file after the last complete row up to this sample; 0: cut everything. */
-static gg_status cut(const gg_sample_log *log, uint64_t sample, gg_error *err)
+/* Bytes of the complete rows up to this sample, and the number of rows of samples among them. */
+static off_t bytes_up_to(const gg_sample_log *log, uint64_t sample, uint64_t *rows)
 {
   char *line = NULL;
   size_t size = 0;
@@ -52,13 +51,20 @@ static gg_status cut(const gg_sample_log *log, uint64_t sample, gg_error *err)
   const int fd = sample ? dup(log->fd) : -1;
   FILE *in = fd >= 0 ? fdopen(fd, "r") : NULL;
   if (in) rewind(in);
-  for (ssize_t n; in && (n = getline(&line, &size, in)) > 0 && line[n - 1] == '\n';) {
-    if (sample_of(line, log->json) > sample) break;
-    end += n;
+  for (ssize_t n; in && (n = getline(&line, &size, in)) > 0 && line[n - 1] == '\n'; end += n) {
+    const uint64_t at = sample_of(line, log->json);
+    if (at > sample) break;
+    *rows += at > 0;
   }
   free(line);
   if (in) fclose(in);
-  return ftruncate(log->fd, end) == 0 ? GG_OK : write_error(log, err);
+  return end;
+}
+
+/* Cut the file after the last complete row up to this sample; 0: cut everything. */
+static gg_status cut(const gg_sample_log *log, uint64_t sample, gg_error *err)
+{
+  return ftruncate(log->fd, bytes_up_to(log, sample, &(uint64_t){0})) == 0 ? GG_OK : write_error(log, err);
 }
 
 static gg_status append(const gg_sample_log *log, const char *text, size_t size, gg_error *err)
@@ -191,25 +197,13 @@ gg_status gg_api_log_name(gg_api_run_call *r, gg_error *err)
   return r->samples.path ? GG_OK : gg_base_out_of_memory(err);
 }
 
-static uint64_t count_rows(const gg_sample_log *log)
-{
-  char *line = NULL;
-  size_t size = 0;
-  uint64_t n = 0;
-  const int fd = dup(log->fd);
-  FILE *in = fd >= 0 ? fdopen(fd, "r") : NULL;
-  while (in && getline(&line, &size, in) > 0) n += sample_of(line, log->json) > 0;
-  free(line);
-  if (in) fclose(in);
-  return n;
-}
-
 /* Warn before the rows of an earlier run are replaced, so that a command repeated by mistake can be stopped. */
 static void warn_of_replacing(const gg_api_run_call *r)
 {
   const gg_sample_log *log = &r->samples;
-  const uint64_t n = r->options.warn && log->state.sample == 0 ? count_rows(log) : 0;
+  uint64_t n = 0;
   char *text = NULL;
+  if (r->options.warn && log->state.sample == 0) bytes_up_to(log, UINT64_MAX, &n);
   if (n == 0) return;
   if (asprintf(&text, "%s holds %" PRIu64 " rows of an earlier run, and is replaced", log->path, n) < 0) return;
   gg_base_text_make_printable(text);

@@ -109,7 +109,6 @@ gg_status gg_scene_check(const gg_scene *scene, gg_error *err)
   return gg_api_scene_finish(scene, &copy, err);
 }
 
-/* Append the theories as JSON, which YAML contains. */
 static void append_theories(const gg_scene *scene, char **yaml)
 {
   json_t *theories = gg_api_scene_theories_json(scene);

@@ -9,9 +9,9 @@
 #include <sys/stat.h>
 
 #include "api/api.h"
-#include "io/checked_json.h"
 #include "base/memory.h"
 #include "base/printable.h"
+#include "io/checked_json.h"
 #include "scene/scene_reader.h"
 #include "theory/formula.h"
 
@@ -117,14 +117,10 @@ static gg_status read_points(const char *path, gg_points_theory **made, char ***
   if (stat(path, &about) == 0 && !S_ISREG(about.st_mode)) /* a pipe would block whoever reads the scene */
     return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: it is no file", path);
   GG_TRY(gg_scene_file_text(path, &text, &length, err));
-  gg_status status =
-      length > GG_SCENE_MAX_BYTES ? gg_base_fail(err, GG_BAD_INPUT, "%s: is larger than 1 MiB", path) : GG_OK;
-  char *ended = status == GG_OK ? gg_base_array_new(length + 1, 1, err) : NULL;
-  if (status == GG_OK && !ended) status = GG_FAILED;
-  if (ended) memcpy(ended, text, length);
+  const gg_status status = length > GG_SCENE_MAX_BYTES
+                               ? gg_base_fail(err, GG_BAD_INPUT, "%s: is larger than 1 MiB", path)
+                               : gg_theory_points_read(text, path, made, quantity, names, err);
   free(text);
-  if (status == GG_OK) status = gg_theory_points_read(ended, path, made, quantity, names, err);
-  free(ended);
   return status;
 }
 

@@ -113,13 +113,6 @@ gg_status gg_simulation_new(const gg_scene *scene, const gg_start_options *optio
   return gg_api_simulation_hand_over(s, status, simulation, err);
 }
 
-static uint64_t collisions(const gg_simulation *s)
-{
-  gg_engine_state state;
-  s->engine->ops->state(s->engine, &state);
-  return state.collisions;
-}
-
 /* Rescale the velocities once they have decreased fourfold. */
 static gg_status rescale_if_cold(gg_simulation *s, double T, gg_error *err)
 {
@@ -157,12 +150,11 @@ static gg_status advance_once(gg_simulation *s, double *time, uint64_t *most, gg
   double T = gg_api_simulation_temperature(s), unit = gg_api_simulation_unit(s), gone = 0;
   double free_time = 1 / gg_common_model_collision_rate(&s->model, T > 0 ? T : s->model.temperature0);
   double stretch = fmin(*time * unit, STRETCH * free_time);
-  gg_engine_state engine;
-  s->engine->ops->state(s->engine, &engine);
+  const gg_engine_state engine = gg_engine_state_of(s->engine);
   s->stretch_from = engine.time;
   uint64_t before = engine.collisions, pile = (uint64_t)(COLLAPSE * STRETCH * (double)s->model.n / 2) + 1000000;
   gg_status status = s->engine->ops->advance(s->engine, stretch, *most < pile ? *most : pile, &gone, err);
-  uint64_t happened = collisions(s) - before;
+  uint64_t happened = gg_engine_state_of(s->engine).collisions - before;
   s->clock.time += gone / unit;
   *time = gone >= *time * unit ? 0 : *time - gone / unit;
   *most = happened < *most ? *most - happened : 0;
@@ -246,8 +238,7 @@ static void report_collision(void *context, const gg_collision_record *collision
   gg_simulation *s = context;
   if (collision->wall || !is_observed(s) || gg_base_busy_is_freed(&s->busy)) return;
   double unit = gg_api_simulation_unit(s);
-  gg_engine_state engine;
-  s->engine->ops->state(s->engine, &engine);
+  const gg_engine_state engine = gg_engine_state_of(s->engine);
   gg_collision_event event = {.grain = {(size_t)collision->id[0], (size_t)collision->id[1]},
                               .species = {collision->species[0], collision->species[1]},
                               .normal_speed = gg_dot(collision->k, collision->c12) * unit,

@@ -72,7 +72,6 @@ typedef struct gg_moments {
   double spin[GG_MAX_SPECIES][3], spin2[GG_MAX_SPECIES]; /* sums of surface velocities s and of s.s */
 } gg_moments;
 
-/* Add the grains of a chunk (a gg_visit). */
 void gg_api_moments_add(void *moments, const gg_chunk *chunk);
 double gg_api_moments_temperature(const gg_moments *m);
 /* Set temperatures, stress, periodicity and, from state->collisions, collisions per grain. `unit`: velocities of the

@@ -50,8 +50,7 @@ gg_status gg_simulation_get_state(const gg_simulation *simulation, gg_simulation
   GG_USE_READING(simulation);
   const gg_model *model = &simulation->model;
   const gg_moments m = sum_up(simulation);
-  gg_engine_state engine;
-  simulation->engine->ops->state(simulation->engine, &engine);
+  const gg_engine_state engine = gg_engine_state_of(simulation->engine);
   *state = (gg_simulation_state){.time = simulation->clock.time,
                                  .collisions = engine.collisions,
                                  .strain = gg_api_simulation_strain(simulation),

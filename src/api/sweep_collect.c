@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "api/api.h"
-#include "io/atomic_file.h"
 #include "base/cancellation.h"
+#include "io/atomic_file.h"
 #include "sweep/sweep_table.h"
 
 typedef struct collecting {
@@ -34,14 +34,6 @@ static void warn_of_builds(const collecting *c)
            "sweep runs them again",
            c->table.n_other_builds, c->table.n_documents);
   c->options.warn(c->context, text);
-}
-
-/* Check that all files can be written, before the work. */
-static gg_status check_places(const collecting *c, gg_error *err)
-{
-  GG_TRY(gg_io_atomic_check_writable(c->csv, "tables are files", err));
-  GG_TRY(gg_io_atomic_check_writable(c->h5, "tables are files", err));
-  return c->picture ? gg_io_atomic_check_writable(c->picture, "pictures are files", err) : GG_OK;
 }
 
 /* Whether a failed picture is only a warning, e.g. because words have no axis: the tables are complete. */
@@ -113,7 +105,9 @@ static gg_status draw_picture(const collecting *c, const char *folder, gg_error 
 static gg_status write_all(collecting *c, const char *folder, gg_error *err)
 {
   const char *command = c->options.command ? c->options.command : "the graingas library";
-  GG_TRY(check_places(c, err));
+  GG_TRY(gg_io_atomic_check_writable(c->csv, "tables are files", err)); /* before the work */
+  GG_TRY(gg_io_atomic_check_writable(c->h5, "tables are files", err));
+  if (c->picture) GG_TRY(gg_io_atomic_check_writable(c->picture, "pictures are files", err));
   GG_TRY(gg_sweep_point_table_read(&c->table, c->sweep, folder, NULL, err));
   warn_of_builds(c);
   GG_TRY(gg_sweep_point_table_write_csv(&c->table, c->sweep, c->csv, err));
@@ -125,15 +119,6 @@ static gg_status write_all(collecting *c, const char *folder, gg_error *err)
   return status == GG_OK || !may_lack_picture(c, status, err) ? status : GG_OK;
 }
 
-static gg_status name_tables(collecting *c, const char *prefix, gg_error *err)
-{
-  snprintf(c->csv, PATH_MAX, "%s.csv", prefix);
-  snprintf(c->svg, PATH_MAX, "%s.svg", prefix);
-  return snprintf(c->h5, PATH_MAX, "%s.h5", prefix) < PATH_MAX - 1
-             ? GG_OK
-             : gg_io_path_write_error(prefix, strerror(ENAMETOOLONG), err);
-}
-
 gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *prefix, const gg_collect_options *options,
                            void (*written)(void *context, const char *file), void *context, gg_error *err)
 {
@@ -142,7 +127,10 @@ gg_status gg_sweep_collect(gg_sweep *sweep, const char *folder, const char *pref
   GG_USE_READING(sweep);
   collecting c = {.sweep = sweep, .written = written, .context = context};
   GG_COPY_OPTIONS(c.options, options);
-  GG_TRY(name_tables(&c, prefix, err));
+  snprintf(c.csv, PATH_MAX, "%s.csv", prefix);
+  snprintf(c.svg, PATH_MAX, "%s.svg", prefix);
+  if (snprintf(c.h5, PATH_MAX, "%s.h5", prefix) >= PATH_MAX - 1)
+    return gg_io_path_write_error(prefix, strerror(ENAMETOOLONG), err);
   c.picture = c.options.picture ? c.options.picture : c.svg;
   if (strcmp(c.picture, "none") == 0) c.picture = NULL;
   gg_status status = write_all(&c, folder, err);

@@ -47,7 +47,6 @@ typedef struct sweep_run {
   size_t warned; /* number of reported warnings */
 } sweep_run;
 
-/* A thread that runs one point after another. */
 typedef struct controller {
   gg_run_controller thread;
   sweep_run *all;
@@ -58,12 +57,6 @@ typedef struct controller {
 static uint64_t id_of(const controller *c)
 {
   return c->all->sweep->point[c->item->i].id;
-}
-
-/* Seconds between checks of a point of another process; longer for many points, to spare file servers. */
-static double check_every(size_t elsewhere)
-{
-  return elsewhere < 8 ? 0.5 : 0.0625 * (double)elsewhere;
 }
 
 static int note_progress(void *context, const gg_progress *progress)
@@ -222,7 +215,8 @@ static item *next_item(sweep_run *all, bool *any)
     if (!old || it->checked < old->checked) old = it;
   }
   *any = elsewhere > 0;
-  return old && gg_base_clock_wall() - old->checked > check_every(elsewhere) ? old : NULL;
+  const double every = fmax(0.5, 0.0625 * (double)elsewhere); /* seconds; spares file servers where there are many */
+  return old && gg_base_clock_wall() - old->checked > every ? old : NULL;
 }
 
 static void control(void *context)

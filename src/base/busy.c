@@ -48,15 +48,9 @@ static gg_status refuse(const gg_busy *busy, const char *function, gg_error *err
                       function, busy->what, busy->what);
 }
 
-/* A handle that calls only read is constant for them, but for the count of its users. */
-static gg_busy *counted(const gg_busy *busy)
-{
-  return (gg_busy *)(uintptr_t)busy;
-}
-
 gg_status gg_base_use_begin(gg_use *use, const gg_busy *handle, bool alone, const char *function, gg_error *err)
 {
-  gg_busy *busy = counted(handle);
+  gg_busy *busy = (gg_busy *)(uintptr_t)handle; /* calls that only read leave all but the count of users */
   unsigned users = 0;
   if (alone) {
     if (!atomic_compare_exchange_strong(&busy->users, &users, GG_BUSY_ALONE)) return refuse(busy, function, err);

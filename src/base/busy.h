@@ -26,9 +26,9 @@ enum { GG_BUSY_ALONE = 1 << 20, GG_BUSY_FREED = 1 << 21 };
 void gg_base_busy_init(gg_busy *busy, const char *what, void (*destroy)(void *handle), void *handle);
 /* Destroy the handle, now or when the last call returns. */
 void gg_base_busy_free(gg_busy *busy);
-/* Is the call in progress one of this thread, so that the present one comes from its callback? */
+/* True if the call in progress is one of this thread, so that the present one comes from its callback. */
 bool gg_base_busy_is_inside(const gg_busy *busy);
-/* Was the handle freed while a call uses it? */
+/* True if the handle was freed while a call uses it. */
 static inline bool gg_base_busy_is_freed(const gg_busy *busy)
 {
   return (atomic_load_explicit(&busy->users, memory_order_relaxed) & GG_BUSY_FREED) != 0;

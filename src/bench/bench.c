@@ -99,14 +99,6 @@ static json_t *origin(void)
                    gg_simd_instructions_name(gg_simd_instructions_best()), "time", date);
 }
 
-static void record(const gg_bench *b, const json_t *row)
-{
-  if (!b->options->record || gg_base_memory_failures() != b->failures) return;
-  char *line = gg_io_json_text(row, JSON_COMPACT | JSON_REAL_PRECISION(12));
-  if (line) b->options->record(b->options->context, line);
-  free(line);
-}
-
 void gg_bench_table_add(const gg_bench *b, gg_bench_table *s, gg_bench_value v, json_t *more, const char *format, ...)
 {
   char name[200];
@@ -121,7 +113,11 @@ void gg_bench_table_add(const gg_bench *b, gg_bench_table *s, gg_bench_value v, 
   json_object_update_new(row, members);
   if (more) json_object_update_new(row, more);
   json_object_update_new(row, origin());
-  record(b, row);
+  char *line = NULL;
+  if (b->options->record && gg_base_memory_failures() == b->failures)
+    line = gg_io_json_text(row, JSON_COMPACT | JSON_REAL_PRECISION(12));
+  if (line) b->options->record(b->options->context, line);
+  free(line);
   json_array_append_new(s->rows, row);
 }
 

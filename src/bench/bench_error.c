@@ -139,11 +139,6 @@ static int quickest(const gg_error_state *s, gg_engine_kind engine, int q, doubl
   return best;
 }
 
-static bool is_run(const gg_error_state *s, int engine)
-{
-  return engine == GG_DSMC || s->done[0];
-}
-
 static void put_first(gg_bench_table *table, int row, int column, const double first[2])
 {
   const int one = first[GG_MD] < first[GG_DSMC] ? GG_MD : GG_DSMC;
@@ -167,7 +162,7 @@ static void put_seconds(gg_bench_table *table, int row, const gg_error_state *s,
       const int column = 1 + engine * N_TARGETS + k;
       if (k == 0) first[engine] = t;
       if (way < 0)
-        gg_bench_table_put(table, row, column, "%s", isnan(t) ? "?" : is_run(s, engine) ? "never" : "-");
+        gg_bench_table_put(table, row, column, "%s", isnan(t) ? "?" : engine == GG_DSMC || s->done[0] ? "never" : "-");
       else
         gg_bench_table_put(table, row, column, "%.2g s, N %lld%s%s", t, (long long)gg_bench_error_methods[way].n,
                            gg_bench_error_methods[way].single     ? ", single"
@@ -183,7 +178,6 @@ static json_t *two(double x, double y)
   return json_pack("[o, o]", gg_bench_number(x), gg_bench_number(y));
 }
 
-/* Add a JSON row on a quantity in a state, measured by a method. */
 static void add_row(const gg_bench *b, gg_bench_table *table, const gg_error_state *s, int q, const char *by,
                     const char *unit, double value, int seeds, json_t *more)
 {

@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas bench observables: processor time that each observable adds to a run, at three sizes. */
-#include <gsl/gsl_sort.h>
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/clock.h"
 #include "bench/bench.h"
+#include "bench/throughput.h"
 #include "run/replica.h"
 #include "run/run.h"
 #include "scene/model_of_scene.h"
@@ -14,22 +13,14 @@
 enum { MOST_REPEATS = 32, LEAST_CYCLE = 32 };
 
 typedef struct cost_of_observable {
-  double overhead, lowest,
-      highest;       /* added time over that of the run without it: median, least and largest of the repeats */
-  gg_bench_value ns; /* time of a collision in the run with the observable */
+  gg_bench_value over; /* added time over that of the run without it */
+  gg_bench_value ns;   /* time of a collision in the run with the observable */
 } cost_of_observable;
 
 typedef struct timed_run {
   gg_replica replica;
   bool bare; /* engine without sampling */
 } timed_run;
-
-static uint64_t collisions(const timed_run *c)
-{
-  gg_engine_state state;
-  c->replica.engine->ops->state(c->replica.engine, &state);
-  return state.collisions;
-}
 
 static gg_status go_on(timed_run *c, uint64_t samples, bool adapt, gg_error *err)
 {
@@ -59,10 +50,10 @@ static gg_status start(timed_run *c, const gg_scene *scene, unsigned measure, do
 /* Nanoseconds per collision, over a number of samples. */
 static gg_status time_stretch(timed_run *c, uint64_t samples, double *ns, gg_error *err)
 {
-  uint64_t before = collisions(c);
+  const uint64_t before = gg_engine_state_of(c->replica.engine).collisions;
   double began = gg_base_clock_cpu();
   GG_TRY(go_on(c, samples, false, err));
-  *ns = 1e9 * (gg_base_clock_cpu() - began) / (double)(collisions(c) - before);
+  *ns = 1e9 * (gg_base_clock_cpu() - began) / (double)(gg_engine_state_of(c->replica.engine).collisions - before);
   return GG_OK;
 }
 
@@ -91,13 +82,7 @@ static gg_status compare(timed_run c[2], int repeats, double seconds, cost_of_ob
     for (int k = 0; k < 2; k++) GG_TRY(time_stretch(&c[k], cycles * cycle, &ns[k][i], err));
     over[i] = ns[1][i] / ns[0][i] - 1;
   }
-  gsl_sort(over, 1, (size_t)repeats);
-  gsl_sort(ns[1], 1, (size_t)repeats);
-  *cost = (cost_of_observable){.overhead = gsl_stats_median_from_sorted_data(over, 1, (size_t)repeats),
-                               .lowest = over[0],
-                               .highest = over[repeats - 1],
-                               .ns = {"ns per collision", gsl_stats_median_from_sorted_data(ns[1], 1, (size_t)repeats),
-                                      ns[1][0], ns[1][repeats - 1], repeats, 1}};
+  *cost = (cost_of_observable){gg_bench_spread("", over, repeats), gg_bench_spread("ns per collision", ns[1], repeats)};
   return GG_OK;
 }
 
@@ -162,6 +147,7 @@ static setting setting_of(const gg_bench *b, int n_sizes, int i)
                    sizes_of(b)[i % n_sizes + N_SIZES - n_sizes]};
 }
 
+/* Find a scene for an observable: the usual flow, or the first other inelastic one that has the observable. */
 static bool find_scene_with(const gg_bench *b, const setting *c, const gg_observable *o, double beta, gg_scene *scene)
 {
   for (int k = -1; k < GG_N_FLOWS; k++) {
@@ -178,32 +164,20 @@ static bool find_scene_with(const gg_bench *b, const setting *c, const gg_observ
   return false;
 }
 
-/* Find a scene for an observable: the usual flow, or the first other inelastic one that has the observable; rough
- * grains, or smooth grains if the observable accepts no others. */
-static bool find_scene(const gg_bench *b, const setting *c, const gg_observable *o, gg_scene *scene)
-{
-  return find_scene_with(b, c, o, 0, scene) || find_scene_with(b, c, o, -1, scene);
-}
-
-/* Fewer repeats for large systems: their stretches are longer and scatter less. */
-static int repeats_of(const gg_bench *b, int64_t n)
-{
-  return n > 10000 || b->options->quick ? 3 : 15;
-}
-
 static gg_status measure(gg_bench *b, gg_bench_table *table, int row, int i, const gg_observable *o, gg_error *err)
 {
   gg_scene scene;
   cost_of_observable cost;
   setting c = setting_of(b, n_sizes_of(b), i);
   gg_bench_table_put(table, row, 1 + i, "-");
-  if (!find_scene(b, &c, o, &scene)) return GG_OK;
-  GG_TRY(measure_cost(&scene, o, b->options->quick ? 10 : 30, repeats_of(b, c.n),
+  if (!find_scene_with(b, &c, o, 0, &scene) && !find_scene_with(b, &c, o, -1, &scene)) return GG_OK;
+  GG_TRY(measure_cost(&scene, o, b->options->quick ? 10 : 30, c.n > 10000 || b->options->quick ? 3 : 15,
                       gg_bench_seconds(b, b->options->quick ? 0.01 : 0.15), &cost, err));
-  gg_bench_table_put(table, row, 1 + i, "%.0f %% (%.0f - %.0f)", 100 * cost.overhead, 100 * cost.lowest,
-                     100 * cost.highest);
-  json_t *overhead = json_pack("{s:f, s:f, s:f}", "overhead", cost.overhead, "overhead_lowest", cost.lowest,
-                               "overhead_highest", cost.highest);
+  const gg_bench_value *over = &cost.over;
+  gg_bench_table_put(table, row, 1 + i, "%.0f %% (%.0f - %.0f)", 100 * over->value, 100 * over->lowest,
+                     100 * over->highest);
+  json_t *overhead = json_pack("{s:f, s:f, s:f}", "overhead", over->value, "overhead_lowest", over->lowest,
+                               "overhead_highest", over->highest);
   gg_bench_table_add(b, table, cost.ns, overhead, "{s:s, s:s, s:f, s:I}", "observable", o->name, "engine",
                      gg_common_engine_of(c.engine)->name, "phi", c.phi, "particles", (json_int_t)c.n);
   return GG_OK;

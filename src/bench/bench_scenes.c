@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* graingas bench, second table: single scenes that may be slow, and starts. */
-#include <gsl/gsl_sort.h>
-#include <gsl/gsl_statistics_double.h>
-
 #include "base/clock.h"
 #include "bench/bench.h"
 #include "bench/throughput.h"
@@ -63,9 +60,7 @@ static gg_status measure_start(const gg_scene *scene, int repeats, gg_bench_valu
   double ns[REPEATS];
   GG_TRY(gg_scene_model_make(scene, scene->engine, &model, err));
   for (int i = 0; i < repeats; i++) GG_TRY(time_start(scene, &model, &ns[i], err));
-  gsl_sort(ns, 1, (size_t)repeats);
-  *v = (gg_bench_value){
-      "ns per grain", gsl_stats_median_from_sorted_data(ns, 1, (size_t)repeats), ns[0], ns[repeats - 1], repeats, 1};
+  *v = gg_bench_spread("ns per grain", ns, repeats);
   return GG_OK;
 }
 

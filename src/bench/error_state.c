@@ -144,18 +144,14 @@ static gg_scene scene_of(const gg_bench *b, const gg_error_state *s, const gg_er
   return scene;
 }
 
-static bool by_itself(const gg_error_method *w)
-{
-  return w->step == 0 && !w->single;
-}
-
 /* Weighted straight line in 1/N; if error > 0, `at_limit` is a point at 1/N = 0. */
 static gg_by_size fit_size(const gg_error_state *s, gg_engine_kind engine, int q, double at_limit, double error)
 {
   double w = 0, wx = 0, wxx = 0, wy = 0, wxy = 0;
   if (error > 0) w = 1 / (error * error), wy = w * at_limit;
   for (int i = 0; i < GG_ERROR_METHODS; i++) {
-    if (!s->done[i] || gg_bench_error_methods[i].engine != engine || !by_itself(&gg_bench_error_methods[i])) continue;
+    const gg_error_method *way = &gg_bench_error_methods[i];
+    if (!s->done[i] || way->engine != engine || way->step != 0 || way->single) continue; /* not engines by themselves */
     const gg_course_end end = gg_bench_error_course_last(&s->course[i], q);
     const double x = 1 / (double)gg_bench_error_methods[i].n, g = 1 / (end.error * end.error);
     if (!(end.error > 0)) continue;
@@ -182,7 +178,6 @@ static void use_solution(gg_error_state *s, const gg_model *m)
   }
 }
 
-/* Errors of the theories against the reference values. */
 static void find_theories(gg_error_state *s, const gg_model *m)
 {
   const gg_theory *theory;

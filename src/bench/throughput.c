@@ -2,6 +2,7 @@
 #include "bench/throughput.h"
 
 #include <math.h>
+#include <string.h>
 
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
@@ -24,31 +25,22 @@ typedef struct timed {
   double rate[MOST_REPEATS];
 } timed;
 
-static uint64_t collisions(const gg_engine *e)
-{
-  gg_engine_state s;
-  e->ops->state(e, &s);
-  return s.collisions;
-}
-
 /* Advance by about `count` collisions; *done is their number. */
 static gg_status advance_by(gg_engine *e, uint64_t count, uint64_t *done, gg_error *err)
 {
-  uint64_t before = collisions(e);
+  const uint64_t before = gg_engine_state_of(e).collisions;
   double elapsed;
+  *done = 0;
   do {
-    uint64_t left = count - (collisions(e) - before);
-    GG_TRY(e->ops->advance(e, 1e300, left, &elapsed, err));
-  } while (collisions(e) - before < count);
-  *done = collisions(e) - before;
+    GG_TRY(e->ops->advance(e, 1e300, count - *done, &elapsed, err));
+    *done = gg_engine_state_of(e).collisions - before;
+  } while (*done < count);
   return GG_OK;
 }
 
 static double cpu_used(const gg_engine *e)
 {
-  gg_engine_state s;
-  e->ops->state(e, &s);
-  return gg_base_clock_cpu() + s.others_cpu;
+  return gg_base_clock_cpu() + gg_engine_state_of(e).others_cpu;
 }
 
 static double read_clock(const timed *r)
@@ -114,28 +106,27 @@ static gg_status start(const gg_timed_scene *c, double warmup, timed *r, gg_erro
   return advance_by(r->engine, (uint64_t)(warmup * (double)model.n / 2) + 1, &done, err);
 }
 
-static double median(double *values, int n)
+gg_bench_value gg_bench_spread(const char *unit, double *values, int n)
 {
   gsl_sort(values, 1, (size_t)n);
-  return gsl_stats_median_from_sorted_data(values, 1, (size_t)n);
+  return (gg_bench_value){unit, gsl_stats_median_from_sorted_data(values, 1, (size_t)n), values[0], values[n - 1], n,
+                          1};
 }
 
 static gg_throughput summary(const timed *r, int repeats)
 {
   double rate[MOST_REPEATS];
-  for (int i = 0; i < repeats; i++) rate[i] = r->rate[i];
-  double middle = median(rate, repeats);
-  return (gg_throughput){middle, rate[0], rate[repeats - 1], repeats, r->cpu / r->wall, r->timed};
+  memcpy(rate, r->rate, sizeof rate);
+  const gg_bench_value v = gg_bench_spread("", rate, repeats);
+  return (gg_throughput){v.value, v.lowest, v.highest, repeats, r->cpu / r->wall, r->timed};
 }
 
 static void compare(const timed *r, const timed *other, int repeats, gg_timing *out)
 {
   double ratio[MOST_REPEATS];
   for (int i = 0; i < repeats; i++) ratio[i] = r->rate[i] / other->rate[i];
-  out->own = summary(r, repeats);
-  out->ratio = median(ratio, repeats);
-  out->lowest = ratio[0];
-  out->highest = ratio[repeats - 1];
+  const gg_bench_value v = gg_bench_spread("", ratio, repeats);
+  *out = (gg_timing){summary(r, repeats), v.value, v.lowest, v.highest};
 }
 
 static gg_status time_all(const gg_timed_scene *c, int n, double warmup, int repeats, double seconds, timed *r,

@@ -19,6 +19,8 @@ typedef struct gg_throughput {
 gg_status gg_bench_throughput_measure(const gg_scene *scene, bool sums, double warmup, int repeats, double seconds,
                                       gg_throughput *out, gg_error *err);
 
+/* Median, least and largest of n numbers, which are sorted. */
+gg_bench_value gg_bench_spread(const char *unit, double *values, int n);
 extern const char gg_bench_wall_unit[]; /* unit of rows in wall time */
 /* Value of a row: the rate, or nanoseconds per collision. */
 gg_bench_value gg_bench_throughput_value(const gg_throughput *measured, bool time, const char *unit);

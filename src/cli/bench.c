@@ -86,11 +86,7 @@ static int measure(const gg_options *o)
   return code;
 }
 
-int gg_cli_bench_main(const gg_command *command, int argc, char **argv)
+int gg_cli_bench_main(const gg_options *o)
 {
-  gg_options o;
-  int code = gg_cli_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON) code = o.input && strcmp(o.input, "compare") == 0 ? compare(&o) : measure(&o);
-  gg_cli_options_clear(&o);
-  return code;
+  return o->input && strcmp(o->input, "compare") == 0 ? compare(o) : measure(o);
 }

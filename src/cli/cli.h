@@ -9,31 +9,26 @@
 
 #define GG_CLI_PRINTF(fmt, args) __attribute__((format(printf, fmt, args)))
 
+struct gg_options;
+/* The work of a subcommand; returns the exit code. main() parses its options before and frees them afterwards. */
+typedef int gg_command_main(const struct gg_options *options);
+
 typedef struct gg_command {
   const char *name;
   const char *arguments; /* "SCENE.yaml" */
   const char *summary;   /* one line */
   const char *help;      /* paragraphs for --help; NULL: none */
   unsigned options;      /* sum of the GG_OPT_... that the command takes */
-  int (*run)(const struct gg_command *command, int argc, char **argv);
+  gg_command_main *run;
 } gg_command;
 
 extern const gg_command gg_cli_commands[]; /* ends with a NULL name */
 /* Spelling suggestion: a command, --help or --version; NULL if none is near. */
 const char *gg_cli_nearest_command(const char *word);
 
-int gg_cli_compare_main(const gg_command *command, int argc, char **argv);
-int gg_cli_run_main(const gg_command *command, int argc, char **argv);
-int gg_cli_theory_main(const gg_command *command, int argc, char **argv);
-int gg_cli_sweep_main(const gg_command *command, int argc, char **argv);
-int gg_cli_validate_main(const gg_command *command, int argc, char **argv);
-int gg_cli_plot_main(const gg_command *command, int argc, char **argv);
-int gg_cli_export_main(const gg_command *command, int argc, char **argv);
-int gg_cli_info_main(const gg_command *command, int argc, char **argv);
-int gg_cli_fingerprint_main(const gg_command *command, int argc, char **argv);
-int gg_cli_init_main(const gg_command *command, int argc, char **argv);
-int gg_cli_page_main(const gg_command *command, int argc, char **argv);
-int gg_cli_bench_main(const gg_command *command, int argc, char **argv);
+gg_command_main gg_cli_compare_main, gg_cli_run_main, gg_cli_theory_main, gg_cli_sweep_main, gg_cli_validate_main,
+    gg_cli_plot_main, gg_cli_export_main, gg_cli_info_main, gg_cli_fingerprint_main, gg_cli_init_main, gg_cli_page_main,
+    gg_cli_bench_main;
 
 /* print.c: print "graingas: MESSAGE" on standard error; returns the exit code of the error. */
 int gg_cli_report(const gg_error *err);

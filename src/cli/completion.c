@@ -12,31 +12,25 @@ static void put_names(gg_catalogue list)
   for (size_t i = 0; gg_catalogue_entry(list, i, NULL, &e, NULL) == GG_OK; i++) printf("%s%s", i ? " " : "", e.name);
 }
 
-static void put_arguments(const gg_option *o)
+/* The words that an option's argument is one of, between two texts; nothing of a number or a file. */
+static void put_arguments(const gg_option *o, const char *before, const char *after)
 {
-  const char *a = o->argument;
-  if (strcmp(o->name, "theory") == 0 || strcmp(o->name, "theories") == 0)
-    put_names(GG_CATALOGUE_THEORIES);
-  else if (strcmp(o->name, "show") == 0)
-    put_names(GG_CATALOGUE_QUANTITIES);
-  else if (strcmp(o->name, "over") == 0 || strcmp(o->name, "set") == 0 || strcmp(o->name, "vary") == 0)
-    put_names(GG_CATALOGUE_KEYS);
-  else if (strcmp(o->name, "does") == 0)
-    fputs("run compare theory", stdout);
-  else if (strcmp(o->name, "only") == 0)
-    fputs("results curves trajectory", stdout);
-  else
-    for (; *a; a++) putchar(*a == '|' ? ' ' : *a); /* "md|dsmc" */
-}
-
-/* Whether the option's argument is one of known words, not a number or a file. */
-static bool has_words(const gg_option *o)
-{
-  static const char *const known[] = {"theory", "theories", "show", "over", "set", "vary", "does", "only"};
-  if (!o->argument) return false;
-  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-    if (strcmp(o->name, known[i]) == 0) return true;
-  return strchr(o->argument, '|') != NULL;
+  static const struct {
+    const char *option, *words; /* words: NULL: those of a list */
+    gg_catalogue list;
+  } known[] = {{"theory", NULL, GG_CATALOGUE_THEORIES}, {"theories", NULL, GG_CATALOGUE_THEORIES},
+               {"show", NULL, GG_CATALOGUE_QUANTITIES}, {"over", NULL, GG_CATALOGUE_KEYS},
+               {"set", NULL, GG_CATALOGUE_KEYS},        {"vary", NULL, GG_CATALOGUE_KEYS},
+               {"does", "run compare theory", 0},       {"only", "results curves trajectory", 0}};
+  const size_t n = sizeof known / sizeof *known;
+  size_t i = 0;
+  while (i < n && strcmp(o->name, known[i].option) != 0) i++;
+  if (!o->argument || (i == n && !strchr(o->argument, '|'))) return;
+  fputs(before, stdout);
+  for (const char *a = o->argument; i == n && *a; a++) putchar(*a == '|' ? ' ' : *a); /* "md|dsmc" */
+  if (i < n && known[i].words) fputs(known[i].words, stdout);
+  if (i < n && !known[i].words) put_names(known[i].list);
+  fputs(after, stdout);
 }
 
 static bool takes_file(const gg_option *o)
@@ -55,7 +49,6 @@ static void put_words(const gg_command *c)
   for (size_t i = 0; i < sizeof all / sizeof *all; i++) fputs(i ? " " : "", stdout), put_names(all[i]);
 }
 
-/* Endings of the files that a command reads. */
 static const char *endings_of(const gg_command *c)
 {
   if (strstr(c->arguments, "RESULT.h5")) return "h5";
@@ -78,7 +71,7 @@ static void print_bash(void)
     for (const gg_option *o = gg_cli_options_table; o->flag; o++) {
       if (!(c->options & o->flag) || !o->argument) continue;
       printf("    --%s) ", o->name);
-      if (has_words(o)) printf("COMPREPLY=($(compgen -W '"), put_arguments(o), printf("' -- \"$cur\"));");
+      put_arguments(o, "COMPREPLY=($(compgen -W '", "' -- \"$cur\"));");
       if (takes_file(o)) printf("COMPREPLY=($(compgen -f -- \"$cur\"));");
       printf(" return ;;\n");
     }
@@ -119,7 +112,7 @@ static void print_zsh(void)
       put_quoted(o->doc);
       printf("]");
       if (o->argument) printf(":"), put_quoted(o->argument), printf(":");
-      if (has_words(o)) printf("("), put_arguments(o), printf(")");
+      put_arguments(o, "(", ")");
       if (takes_file(o)) printf("_files");
       printf("'");
     }
@@ -147,7 +140,7 @@ static void print_fish(void)
              !o->argument    ? ""
              : takes_file(o) ? " -r"
                              : " -x");
-      if (has_words(o)) printf(" -a '"), put_arguments(o), printf("'");
+      put_arguments(o, " -a '", "'");
       printf(" -d '");
       put_quoted(o->doc);
       printf("'\n");

@@ -107,7 +107,7 @@ static void allow_many_files(void)
   setrlimit(RLIMIT_NOFILE, &files);
 }
 
-static int export_parts(const gg_options *o)
+int gg_cli_export_main(const gg_options *o)
 {
   gg_error err;
   unsigned parts;
@@ -125,14 +125,5 @@ static int export_parts(const gg_options *o)
   if (status == GG_OK && c.grains) print_if_heights(o->input);
   code = status == GG_OK ? GG_OK : gg_cli_report(&err);
   free(prefix);
-  return code;
-}
-
-int gg_cli_export_main(const gg_command *command, int argc, char **argv)
-{
-  gg_options o;
-  int code = gg_cli_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON) code = export_parts(&o);
-  gg_cli_options_clear(&o);
   return code;
 }

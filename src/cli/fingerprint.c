@@ -13,13 +13,6 @@ typedef struct fingerprint {
   uint64_t hash;
 } fingerprint;
 
-static gg_status take(gg_simulation *simulation, uint64_t collisions, fingerprint *f, gg_error *err)
-{
-  gg_status status = gg_simulation_collide(simulation, collisions, err);
-  if (status == GG_OK) status = gg_simulation_get_state(simulation, &f->state, err);
-  return status == GG_OK ? gg_simulation_hash(simulation, &f->hash, err) : status;
-}
-
 static gg_status fingerprint_of(const gg_scene *scene, uint64_t collisions, fingerprint *f, gg_error *err)
 {
   gg_simulation *simulation = NULL;
@@ -27,7 +20,9 @@ static gg_status fingerprint_of(const gg_scene *scene, uint64_t collisions, fing
   if (status == GG_OK) status = gg_scene_get(scene, "engine", f->engine, sizeof f->engine, err);
   if (status == GG_OK) status = gg_scene_get(scene, "run.seed", f->seed, sizeof f->seed, err);
   if (status == GG_OK) status = gg_simulation_new(scene, NULL, &simulation, err);
-  if (status == GG_OK) status = take(simulation, collisions, f, err);
+  if (status == GG_OK) status = gg_simulation_collide(simulation, collisions, err);
+  if (status == GG_OK) status = gg_simulation_get_state(simulation, &f->state, err);
+  if (status == GG_OK) status = gg_simulation_hash(simulation, &f->hash, err);
   gg_simulation_free(simulation);
   return status;
 }
@@ -48,15 +43,14 @@ static void print(const fingerprint *f, bool json)
            f->title, f->engine, s->grains, f->seed, s->collisions, s->temperature, s->rotational_temperature, f->hash);
 }
 
-int gg_cli_fingerprint_main(const gg_command *command, int argc, char **argv)
+int gg_cli_fingerprint_main(const gg_options *o)
 {
-  gg_options o;
   gg_error err;
   gg_scene *scene;
   fingerprint found = {0};
-  int code = gg_cli_scene_begin(command, argc, argv, &o, &scene);
-  if (code != GG_CLI_GO_ON) return code;
-  gg_status status = fingerprint_of(scene, o.collisions ? o.collisions : COLLISIONS, &found, &err);
-  if (status == GG_OK) print(&found, o.json);
-  return gg_cli_scene_end(&o, scene, status, &err);
+  if (gg_cli_options_scene(o, &scene, &err) != GG_OK) return gg_cli_report(&err);
+  gg_status status = fingerprint_of(scene, o->collisions ? o->collisions : COLLISIONS, &found, &err);
+  if (status == GG_OK) print(&found, o->json);
+  gg_scene_free(scene);
+  return gg_cli_report_scene(o, status, &err);
 }

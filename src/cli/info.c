@@ -265,7 +265,7 @@ static int print_schema(const gg_options *o)
   return GG_OK;
 }
 
-static int inform(const gg_options *o)
+int gg_cli_info_main(const gg_options *o)
 {
   struct stat about;
   const bool is_word = o->input && gg_cli_is_word(o->input) && stat(o->input, &about) != 0;
@@ -283,13 +283,4 @@ static int inform(const gg_options *o)
   if (o->json || o->n_overrides) return gg_cli_fail(GG_BAD_INPUT, "info needs a FILE with --set and --json");
   print_fields(NULL);
   return GG_OK;
-}
-
-int gg_cli_info_main(const gg_command *command, int argc, char **argv)
-{
-  gg_options o;
-  int code = gg_cli_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON) code = inform(&o);
-  gg_cli_options_clear(&o);
-  return code;
 }

@@ -23,19 +23,14 @@ static int write_scene(const gg_options *o, const char *path, const char *text)
   return gg_cli_fail(GG_BAD_FILE, "%s: cannot be written: %s", path, strerror(why));
 }
 
-int gg_cli_init_main(const gg_command *command, int argc, char **argv)
+int gg_cli_init_main(const gg_options *o)
 {
-  gg_options o;
   gg_error err;
   char path[256], *text = NULL;
-  int code = gg_cli_options_parse(command, argc, argv, &o);
-  const char *flow = o.input ? o.input : "usf";
-  if (code == GG_CLI_GO_ON && gg_scene_begin(flow, &text, &err) != GG_OK) code = gg_cli_report(&err);
-  if (code == GG_CLI_GO_ON) {
-    snprintf(path, sizeof path, "%s.yaml", flow);
-    code = write_scene(&o, o.output ? o.output : path, text);
-  }
+  const char *flow = o->input ? o->input : "usf";
+  if (gg_scene_begin(flow, &text, &err) != GG_OK) return gg_cli_report(&err);
+  snprintf(path, sizeof path, "%s.yaml", flow);
+  const int code = write_scene(o, o->output ? o->output : path, text);
   free(text);
-  gg_cli_options_clear(&o);
   return code;
 }

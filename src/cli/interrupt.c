@@ -16,8 +16,9 @@ static atomic_int caught;
 static_assert(ATOMIC_INT_LOCK_FREE == 2, "a signal handler must not take a lock");
 static atomic_bool lost; /* output has been dropped; later writes do not block */
 
-bool gg_cli_interrupted(void)
+int gg_cli_interrupted(void *context)
 {
+  (void)context;
   return atomic_load(&caught) != 0;
 }
 
@@ -44,7 +45,7 @@ static ssize_t write_to_reader(void *fd, const char *text, size_t size)
   size_t done = 0;
   while (done < size) {
     const int ready = poll(&out, 1, gg_cli_output_lost() ? 0 : TIMEOUT);
-    if (ready == 0 && gg_cli_interrupted()) {
+    if (ready == 0 && gg_cli_interrupted(NULL)) {
       atomic_store(&lost, true);
       errno = EINTR;
       break;

@@ -99,11 +99,20 @@ static int help(const char *name)
   return GG_OK;
 }
 
+static int execute(const gg_command *c, int argc, char **argv)
+{
+  gg_options o;
+  int code = gg_cli_options_parse(c, argc, argv, &o);
+  if (code == GG_CLI_GO_ON) code = c->run(&o);
+  gg_cli_options_clear(&o);
+  return code;
+}
+
 static int dispatch(int argc, char **argv)
 {
   const char *word = argc > 1 ? argv[1] : "";
   const gg_command *c = find(word);
-  if (c) return c->run(c, argc - 1, argv + 1);
+  if (c) return execute(c, argc - 1, argv + 1);
   if (argc < 2) return print_help(), GG_BAD_INPUT;
   if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 || strcmp(word, "help") == 0)
     return help(argc > 2 ? argv[2] : NULL);

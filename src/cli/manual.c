@@ -58,13 +58,6 @@ static void print_keys(gg_catalogue catalogue)
   }
 }
 
-static void print_quantities(void)
-{
-  gg_entry q;
-  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++)
-    item(q.name, NULL, q.doc);
-}
-
 static void print_theories(void)
 {
   gg_entry t;
@@ -156,7 +149,9 @@ void gg_cli_print_manual(void)
   printf(".SS Members of a species\n");
   print_keys(GG_CATALOGUE_SPECIES_KEYS);
   printf(".SH QUANTITIES\nThe names in tables, JSON documents and HDF5 files.\n");
-  print_quantities();
+  gg_entry q;
+  for (size_t i = 0; gg_catalogue_entry(GG_CATALOGUE_QUANTITIES, i, NULL, &q, NULL) == GG_OK; i++)
+    item(q.name, NULL, q.doc);
   printf(".SH THEORIES\n");
   print_theories();
   print_files();

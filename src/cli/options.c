@@ -11,63 +11,69 @@
 #include "cli/print.h"
 #include "cli/processes.h"
 
+#define AT(member) offsetof(gg_options, member)
 const gg_option gg_cli_options_table[] = {
-    {GG_OPT_ENGINE, "engine", "md|dsmc", "engine to run instead of the scene's"},
-    {GG_OPT_SET, "set", "KEY=VALUE", "override a key of the scene, e.g. collision.e=0.8; repeatable"},
-    {GG_OPT_THEORY, "theory", "NAME", "evaluate this theory only, or several: NAME,NAME; repeatable"},
-    {GG_OPT_COLLISIONS, "collisions", "N", "number of collisions between grains to simulate (default: 100000)"},
-    {GG_OPT_SEED, "seed", "N", "seed of the random streams (run.seed)"},
-    {GG_OPT_THREADS, "threads", "N",
+    {GG_OPT_ENGINE, "engine", "md|dsmc", 0, "engine to run instead of the scene's"},
+    {GG_OPT_SET, "set", "KEY=VALUE", 0, "override a key of the scene, e.g. collision.e=0.8; repeatable"},
+    {GG_OPT_THEORY, "theory", "NAME", 0, "evaluate this theory only, or several: NAME,NAME; repeatable"},
+    {GG_OPT_COLLISIONS, "collisions", "N", 0, "number of collisions between grains to simulate (default: 100000)"},
+    {GG_OPT_SEED, "seed", "N", 0, "seed of the random streams (run.seed)"},
+    {GG_OPT_THREADS, "threads", "N", 0,
      "threads to use; results do not depend on it (default: all processors; under mpirun one a process)"},
-    {GG_OPT_OUTPUT, "output", "FILE",
+    {GG_OPT_OUTPUT, "output", "FILE", AT(output),
      "file to write (default: NAME of the input, in the current folder: NAME.h5, of a comparison NAME.compare.h5)"},
-    {GG_OPT_PREFIX, "output", "PREFIX", "prefix of the file names (default: the input's name, in the current folder)"},
-    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "vary", "KEY=VALUES",
+    {GG_OPT_PREFIX, "output", "PREFIX", AT(output),
+     "prefix of the file names (default: the input's name, in the current folder)"},
+    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "vary", "KEY=VALUES", 0,
      "vary one more key, FIRST:LAST:STEP or v1,v2,..., e.g. phi=0.1:0.5:0.1; repeatable, every combination is a point"},
-    {GG_OPT_SWEEP, "does", "WHAT", "command for each point: run, compare or theory (sweep.does)"},
-    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "list", NULL, "list the points, their state and the expected time; run nothing"},
-    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "point", "K", "run only the K-th point of the list"},
-    {GG_OPT_SWEEP, "collect", NULL,
+    {GG_OPT_SWEEP, "does", "WHAT", AT(does), "command for each point: run, compare or theory (sweep.does)"},
+    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "list", NULL, AT(list),
+     "list the points, their state and the expected time; run nothing"},
+    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "point", "K", AT(point), "run only the K-th point of the list"},
+    {GG_OPT_SWEEP, "collect", NULL, AT(collect),
      "collect the results of all points: FOLDER.csv, FOLDER.h5 and the picture FOLDER.svg; run nothing"},
-    {GG_OPT_SWEEP, "over", "KEY",
+    {GG_OPT_SWEEP, "over", "KEY", AT(over),
      "with --collect: the key along the picture's axis (default: the one with most values)"},
-    {GG_OPT_SWEEP, "show", "QUANTITIES",
+    {GG_OPT_SWEEP, "show", "QUANTITIES", AT(show),
      "with --collect: quantities in the picture, separated by commas (default: the main ones)"},
-    {GG_OPT_SWEEP, "log", "AXES",
+    {GG_OPT_SWEEP, "log", "AXES", AT(log),
      "with --collect: logarithmic axes, x, y, xy or none (default: y where its values span more than a decade and a "
      "half)"},
-    {GG_OPT_SWEEP, "relative-to", "METHOD",
+    {GG_OPT_SWEEP, "relative-to", "METHOD", AT(relative_to),
      "with --collect: draw deviations from a method, md, dsmc or a theory, e.g. enskog_hermite"},
-    {GG_OPT_SWEEP, "theories", "THEORIES",
+    {GG_OPT_SWEEP, "theories", "THEORIES", AT(mapped),
      "with --collect: theories in the picture, separated by commas (default: all)"},
-    {GG_OPT_VALIDATE, "show", "QUANTITIES",
+    {GG_OPT_VALIDATE, "show", "QUANTITIES", AT(show),
      "quantities to map, separated by commas (default: temperature, temperature_ratio, pressure, shear_viscosity, N1, "
      "N2)"},
-    {GG_OPT_VALIDATE, "theories", "THEORIES",
+    {GG_OPT_VALIDATE, "theories", "THEORIES", AT(mapped),
      "theories in the maps, separated by commas (default: lun1991 and those of the file)"},
-    {GG_OPT_VALIDATE, "page", "FILE", "write maps, counts and tables as a page of Markdown"},
-    {GG_OPT_PAGE, "page", "FILE", "the page of a release, or one that was built (default: the installed one)"},
-    {GG_OPT_SWEEP, "slurm", NULL, "print a Slurm script for an array of tasks; run nothing"},
-    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "output", "FOLDER",
+    {GG_OPT_VALIDATE, "page", "FILE", AT(page), "write maps, counts and tables as a page of Markdown"},
+    {GG_OPT_PAGE, "page", "FILE", AT(page),
+     "the page of a release, or one that was built (default: the installed one)"},
+    {GG_OPT_SWEEP, "slurm", NULL, AT(slurm), "print a Slurm script for an array of tasks; run nothing"},
+    {GG_OPT_SWEEP | GG_OPT_VALIDATE, "output", "FOLDER", AT(output),
      "folder of the points' files (default: NAME.sweep, in the current folder)"},
-    {GG_OPT_ONLY, "only", "PARTS", "parts to write: results, curves, trajectory; separated by commas"},
-    {GG_OPT_PICTURE, "picture", "FILE",
+    {GG_OPT_ONLY, "only", "PARTS", AT(only), "parts to write: results, curves, trajectory; separated by commas"},
+    {GG_OPT_PICTURE, "picture", "FILE", AT(picture),
      "picture to draw, .svg, .png, .pdf or .gp (script for gnuplot), or none (default: .svg beside the output; bench: "
      "none)"},
-    {GG_OPT_PICTURE | GG_OPT_FORMAT, "width", "WIDTH",
+    {GG_OPT_PICTURE | GG_OPT_FORMAT, "width", "WIDTH", AT(width),
      "width of the picture on paper, e.g. 86mm: mm, cm, in or pt (default: as for a screen)"},
-    {GG_OPT_FORMAT, "format", "svg|png|pdf|gp", "format of the picture (default: from the output's name, else svg)"},
-    {GG_OPT_RESUME, "resume", "FILE", "resume from this checkpoint"},
-    {GG_OPT_ACCEPT, "accept-version", NULL,
+    {GG_OPT_FORMAT, "format", "svg|png|pdf|gp", AT(format),
+     "format of the picture (default: from the output's name, else svg)"},
+    {GG_OPT_RESUME, "resume", "FILE", AT(resume), "resume from this checkpoint"},
+    {GG_OPT_ACCEPT, "accept-version", NULL, AT(accept_version),
      "use checkpoints and points of sweeps of another build, whose numbers may differ"},
-    {GG_OPT_ALL, "all", NULL, "show everything: every quantity, not only the main ones; whole definitions"},
-    {GG_OPT_JSON, "json", NULL,
+    {GG_OPT_ALL, "all", NULL, AT(all), "show everything: every quantity, not only the main ones; whole definitions"},
+    {GG_OPT_JSON, "json", NULL, AT(json),
      "results as one JSON document on standard output, and nothing else there; bench: a line for each row"},
-    {GG_OPT_SCHEMA, "schema", NULL, "JSON Schema of scenes and sweeps, by which editors complete keys and mark errors"},
-    {GG_OPT_LIMIT, "limit", "PERCENT",
+    {GG_OPT_SCHEMA, "schema", NULL, AT(schema),
+     "JSON Schema of scenes and sweeps, by which editors complete keys and mark errors"},
+    {GG_OPT_LIMIT, "limit", "PERCENT", 0,
      "bench compare: exit code 1 if a row is slower by more than this beyond its spread (default: no limit)"},
-    {GG_OPT_QUICK, "quick", NULL, "fewer sizes and fewer repeats"},
-    {GG_OPT_QUIET, "quiet", NULL, "no progress"},
+    {GG_OPT_QUICK, "quick", NULL, AT(quick), "fewer sizes and fewer repeats"},
+    {GG_OPT_QUIET, "quiet", NULL, AT(quiet), "no progress"},
     {0},
 };
 
@@ -134,48 +140,14 @@ static int add_override(gg_options *o, const char *key, const char *value)
   return GG_CLI_GO_ON;
 }
 
-enum { MOST_THREADS = 4096 };
-
-static int take_threads(gg_options *o, const char *value)
+/* A number of an option: whole from `least` on, or of any kind. */
+static int take_number(const char *name, const char *value, bool whole, double least, double most, double *n)
 {
   char *end;
-  long n = strtol(value, &end, 10);
-  if (end == value || *end || n < 1 || n > MOST_THREADS)
-    return gg_cli_fail(GG_BAD_INPUT,
-                       "option '--threads': value '%s' is not allowed; allowed: a whole number from 1 to %d", value,
-                       MOST_THREADS);
-  o->threads = (int)n;
-  return GG_CLI_GO_ON;
-}
-
-#define MOST_COLLISIONS 1000000000000LL
-
-static int take_collisions(gg_options *o, const char *value)
-{
-  char *end;
-  long long n = strtoll(value, &end, 10);
-  if (end == value || *end || n < 1 || n > MOST_COLLISIONS)
-    return gg_cli_fail(GG_BAD_INPUT,
-                       "option '--collisions': value '%s' is not allowed; allowed: a whole number from 1 to %lld",
-                       value, MOST_COLLISIONS);
-  o->collisions = (uint64_t)n;
-  return GG_CLI_GO_ON;
-}
-
-static int take_limit(gg_options *o, const char *value)
-{
-  char *end;
-  o->limit = strtod(value, &end);
-  if (end != value && !*end && o->limit >= 0 && o->limit <= 1e6) return GG_CLI_GO_ON;
-  return gg_cli_fail(GG_BAD_INPUT, "option '--limit': value '%s' is not allowed; allowed: a number from 0 to 1000000",
-                     value);
-}
-
-static int take_vary(gg_options *o, const char *value)
-{
-  if (o->n_vary == GG_MAX_OVERRIDES) return gg_cli_fail(GG_BAD_INPUT, "more than %d keys to vary", GG_MAX_OVERRIDES);
-  o->vary[o->n_vary++] = value;
-  return GG_CLI_GO_ON;
+  *n = whole ? (double)strtoll(value, &end, 10) : strtod(value, &end);
+  if (end != value && !*end && *n >= least && *n <= most) return GG_CLI_GO_ON;
+  return gg_cli_fail(GG_BAD_INPUT, "option '--%s': value '%s' is not allowed; allowed: a %snumber from %.15g to %.15g",
+                     name, value, whole ? "whole " : "", least, most);
 }
 
 static int take_theory(gg_options *o, const char *value)
@@ -188,54 +160,31 @@ static int take_theory(gg_options *o, const char *value)
   return GG_CLI_GO_ON;
 }
 
-/* Set an option of sweep or validate, by its name. */
-static int take_sweep(gg_options *o, const char *name, const char *value)
+static int take(gg_options *o, const gg_option *t, const char *value)
 {
-  if (strcmp(name, "vary") == 0) return take_vary(o, value);
-  if (strcmp(name, "does") == 0) o->does = value;
-  if (strcmp(name, "point") == 0) o->point = value;
-  if (strcmp(name, "output") == 0) o->output = value;
-  if (strcmp(name, "over") == 0) o->over = value;
-  if (strcmp(name, "show") == 0) o->show = value;
-  if (strcmp(name, "log") == 0) o->log = value;
-  if (strcmp(name, "relative-to") == 0) o->relative_to = value;
-  if (strcmp(name, "theories") == 0) o->mapped = value;
-  if (strcmp(name, "page") == 0) o->page = value;
-  o->list |= strcmp(name, "list") == 0;
-  o->collect |= strcmp(name, "collect") == 0;
-  o->slurm |= strcmp(name, "slurm") == 0;
-  return GG_CLI_GO_ON;
-}
-
-static int take(gg_options *o, unsigned flag, const char *name, const char *value)
-{
-  switch (flag) {
+  double n = 0;
+  int code = GG_CLI_GO_ON;
+  switch (t->flag) {
   case GG_OPT_SET: return add_override(o, NULL, value);
   case GG_OPT_SEED: return add_override(o, "run.seed", value);
   case GG_OPT_ENGINE: return add_override(o, "engine", value);
-  case GG_OPT_THREADS: return take_threads(o, value);
-  case GG_OPT_COLLISIONS: return take_collisions(o, value);
   case GG_OPT_THEORY: return take_theory(o, value);
-  case GG_OPT_OUTPUT:
-  case GG_OPT_PREFIX: o->output = value; break;
-  case GG_OPT_LIMIT: return take_limit(o, value);
-  case GG_OPT_ONLY: o->only = value; break;
-  case GG_OPT_PICTURE | GG_OPT_FORMAT: o->width = value; break;
-  case GG_OPT_PICTURE: o->picture = value; break;
-  case GG_OPT_FORMAT: o->format = value; break;
-  case GG_OPT_RESUME: o->resume = value; break;
-  case GG_OPT_PAGE: o->page = value; break;
-  case GG_OPT_ACCEPT: o->accept_version = true; break;
-  case GG_OPT_ALL: o->all = true; break;
-  case GG_OPT_JSON: o->json = true; break;
-  case GG_OPT_QUICK: o->quick = true; break;
-  case GG_OPT_SCHEMA: o->schema = true; break;
-  case GG_OPT_QUIET: o->quiet = true; break;
-  case GG_OPT_SWEEP:
-  case GG_OPT_VALIDATE:
-  case GG_OPT_SWEEP | GG_OPT_VALIDATE: return take_sweep(o, name, value);
+  case GG_OPT_LIMIT: return take_number(t->name, value, false, 0, 1e6, &o->limit);
+  case GG_OPT_THREADS: code = take_number(t->name, value, true, 1, 4096, &n), o->threads = (int)n; return code;
+  case GG_OPT_COLLISIONS:
+    code = take_number(t->name, value, true, 1, 1e12, &n), o->collisions = (uint64_t)n;
+    return code;
   default: break;
   }
+  if (!t->at) {
+    if (o->n_vary == GG_MAX_OVERRIDES) return gg_cli_fail(GG_BAD_INPUT, "more than %d keys to vary", GG_MAX_OVERRIDES);
+    o->vary[o->n_vary++] = value;
+    return GG_CLI_GO_ON;
+  }
+  if (t->argument)
+    *(const char **)((char *)o + t->at) = value;
+  else
+    *(bool *)((char *)o + t->at) = true;
   return GG_CLI_GO_ON;
 }
 
@@ -274,7 +223,7 @@ static int take_words(const gg_command *c, const struct option *known, gg_option
       take_input(c, o, optarg);
     } else {
       const gg_option *t = &gg_cli_options_table[got - 256];
-      code = take(o, t->flag, t->name, optarg);
+      code = take(o, t, optarg);
       if (strcmp(t->name, "slurm") == 0) argv[at] = NULL;
     }
   }
@@ -302,7 +251,7 @@ static int check_words(const gg_command *c, const gg_options *o)
 int gg_cli_options_parse(const gg_command *c, int argc, char **argv, gg_options *o)
 {
   struct option known[sizeof gg_cli_options_table / sizeof *gg_cli_options_table + 1] = {{0}};
-  *o = (gg_options){.threads = gg_cli_default_threads(), .limit = -1, .words = {argc, argv, argc}};
+  *o = (gg_options){.command = c, .threads = gg_cli_default_threads(), .limit = -1, .words = {argc, argv, argc}};
   o->command_line = gg_cli_command_line_quote("graingas", &o->words, "");
   list_known(c, known);
   int code = take_words(c, known, o);
@@ -341,9 +290,11 @@ static gg_status set_scene(void *scene, const char *key, const char *value, gg_e
 
 gg_status gg_cli_options_scene(const gg_options *o, gg_scene **scene, gg_error *err)
 {
+  *scene = NULL;
   gg_status status = gg_scene_load(o->input, scene, err);
   for (int i = 0; i < o->n_overrides && status == GG_OK; i++)
     status = gg_cli_options_set("set", o->override[i], "collision.e=0.8", set_scene, *scene, err);
+  if (status != GG_OK) gg_scene_free(*scene), *scene = NULL;
   return status;
 }
 

@@ -33,7 +33,9 @@ enum {
 
 typedef struct gg_option {
   unsigned flag;
-  const char *name, *argument, *doc; /* argument: NULL if it takes none */
+  const char *name, *argument; /* argument: NULL if it takes none */
+  size_t at;                   /* place of its text or truth in gg_options; 0: the value is converted */
+  const char *doc;
 } gg_option;
 extern const gg_option gg_cli_options_table[]; /* ends with flag 0 */
 
@@ -47,6 +49,7 @@ typedef struct gg_command_line {
 enum { GG_MAX_OVERRIDES = 64, GG_MORE_INPUTS = 2 };
 
 typedef struct gg_options {
+  const gg_command *command;
   const char *input;                /* the argument: a scene or a result; NULL if optional and missing */
   const char *more[GG_MORE_INPUTS]; /* further arguments */
   const char *surplus;              /* first argument too many; NULL: none */
@@ -77,10 +80,9 @@ enum { GG_CLI_GO_ON = -1 };
 int gg_cli_options_parse(const gg_command *command, int argc, char **argv, gg_options *options);
 void gg_cli_options_clear(gg_options *options);
 
-/* Name of the input for messages. */
 const char *gg_cli_options_name(const gg_options *options);
 
-/* Read the scene of the input and apply the overrides. */
+/* Read the scene of the input and apply the overrides; NULL on failure. */
 gg_status gg_cli_options_scene(const gg_options *options, gg_scene **scene, gg_error *err);
 
 /* Apply a KEY=VALUE given after --OPTION; `example` is for the error message. */

@@ -13,7 +13,6 @@ char *gg_cli_options_beside(const gg_options *options, const char *suffix);
 /* Print "results: usf.h5", and whether an older file was replaced. */
 void gg_cli_report_written(const gg_options *options, const char *what, const char *path, bool replaced);
 bool gg_cli_file_exists(const char *path);
-/* Whether two paths are the same existing file. */
 bool gg_cli_file_is_same(const char *a, const char *b);
 /* Whether the path is a device or a pipe: no file is made there, or beside it. */
 bool gg_cli_file_is_device(const char *path);

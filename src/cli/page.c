@@ -20,17 +20,14 @@ static int write_page(const gg_options *o, const gg_scene *scene)
   return status == GG_BAD_INPUT && o->input ? gg_cli_report_of(gg_cli_options_name(o), &err) : gg_cli_report(&err);
 }
 
-int gg_cli_page_main(const gg_command *command, int argc, char **argv)
+int gg_cli_page_main(const gg_options *o)
 {
-  gg_options o;
   gg_error err;
   gg_scene *scene = NULL;
-  int code = gg_cli_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON && !o.input && o.n_overrides > 0)
-    code = gg_cli_fail(GG_BAD_INPUT, "--set and --seed are for a scene: graingas page SCENE.yaml");
-  if (code == GG_CLI_GO_ON && o.input && gg_cli_options_scene(&o, &scene, &err) != GG_OK) code = gg_cli_report(&err);
-  if (code == GG_CLI_GO_ON) code = write_page(&o, scene);
+  if (!o->input && o->n_overrides > 0)
+    return gg_cli_fail(GG_BAD_INPUT, "--set and --seed are for a scene: graingas page SCENE.yaml");
+  if (o->input && gg_cli_options_scene(o, &scene, &err) != GG_OK) return gg_cli_report(&err);
+  const int code = write_page(o, scene);
   gg_scene_free(scene);
-  gg_cli_options_clear(&o);
   return code;
 }

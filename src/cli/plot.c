@@ -14,9 +14,13 @@ static void print_file(void *context, const char *picture)
   if (!*(const bool *)context) gg_cli_print_name(stdout, "", picture, "\n");
 }
 
-static int draw(const gg_options *o)
+int gg_cli_plot_main(const gg_options *o)
 {
   gg_error err;
+  if (o->format && strcmp(o->format, "svg") != 0 && strcmp(o->format, "png") != 0 && strcmp(o->format, "pdf") != 0 &&
+      strcmp(o->format, "gp") != 0)
+    return gg_cli_fail(GG_BAD_INPUT, "option '--format': value '%s' is not allowed; allowed: svg, png, pdf, gp",
+                       o->format);
   bool quiet = o->quiet;
   char suffix[8];
   snprintf(suffix, sizeof suffix, ".%s", o->format ? o->format : "svg");
@@ -27,18 +31,5 @@ static int draw(const gg_options *o)
                  ? GG_OK
                  : gg_cli_report(&err);
   free(picture);
-  return code;
-}
-
-int gg_cli_plot_main(const gg_command *command, int argc, char **argv)
-{
-  gg_options o;
-  int code = gg_cli_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON && o.format && strcmp(o.format, "svg") != 0 && strcmp(o.format, "png") != 0 &&
-      strcmp(o.format, "pdf") != 0 && strcmp(o.format, "gp") != 0)
-    code =
-        gg_cli_fail(GG_BAD_INPUT, "option '--format': value '%s' is not allowed; allowed: svg, png, pdf, gp", o.format);
-  if (code == GG_CLI_GO_ON) code = draw(&o);
-  gg_cli_options_clear(&o);
   return code;
 }

@@ -116,7 +116,6 @@ static int width_of(const gg_table *t, int c)
   return (int)width;
 }
 
-/* Print a row, without blanks at its end. */
 static void print_line(const gg_table *t, FILE *out, const int *columns, int n, int row)
 {
   char line[GG_TABLE_COLUMNS * (GG_TABLE_CELL + GAP)];

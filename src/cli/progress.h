@@ -6,7 +6,6 @@
 #include <graingas.h>
 #include <stdbool.h>
 
-/* A progress line. */
 typedef struct gg_cli_line {
   bool quiet, terminal, live; /* live: a line is on the terminal */
   double shown;               /* wall time of the last line */
@@ -34,7 +33,7 @@ void gg_cli_progress_end(gg_cli_progress *p);
  * second signal ends the process at once. Writes to a stalled reader (a pager, a halted terminal) block; after a signal
  * for one second only, then the rest of the output is dropped. */
 void gg_cli_catch_interrupts(void);
-bool gg_cli_interrupted(void);
+int gg_cli_interrupted(void *context); /* as `stop` of a run; without a context */
 bool gg_cli_output_lost(void);
 
 #endif

@@ -99,14 +99,6 @@ void gg_cli_print_scene_page(void)
     if (takes_words(&f)) print_words(f.name);
 }
 
-/* The text after the plain formula: "(P_xx - P_yy)/p: first normal stress difference ...". */
-static const char *words_of(const char *doc)
-{
-  const char *colon = strstr(doc, ": ");
-  return colon ? colon + 2 : doc;
-}
-
-/* Unit of the i-th quantity in the scales of this scene. */
 static const char *unit_of(size_t i, const gg_scene *scene)
 {
   gg_entry q;
@@ -143,7 +135,8 @@ void gg_cli_print_quantities_page(void)
     char theories[1000];
     gg_cli_theories_of(q.name, theories, sizeof theories);
     printf("| `%s` | ", q.name);
-    put(words_of(q.doc));
+    const char *colon = strstr(q.doc, ": "); /* after the plain formula: "(P_xx - P_yy)/p: first normal stress ..." */
+    put(colon ? colon + 2 : q.doc);
     printf(" | $%s$ | ", q.formula);
     put(unit_of(i, scene[0]));
     printf(" | ");

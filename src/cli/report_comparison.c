@@ -48,13 +48,6 @@ static bool next_shown(const gg_comparison *c, bool all, size_t *i, gg_compariso
   return false;
 }
 
-static void put_theory(gg_table *t, int row, int column, const gg_comparison *c, const char *theory,
-                       const char *quantity)
-{
-  double deviation = NAN, value = value_of(c, theory, quantity, &deviation);
-  if (!isnan(value)) gg_cli_format_answer(value, deviation, reference(c), gg_cli_table_cell(t, row, column));
-}
-
 /* True if values are of one time, and those of theories of the steady state. */
 static bool is_in_time(const gg_comparison *c)
 {
@@ -107,8 +100,10 @@ static gg_table *tabulate(const gg_comparison *c, bool all, int *n_theories)
     snprintf(gg_cli_table_cell(t, at, 0), GG_TABLE_CELL, "%s", row.name);
     snprintf(gg_cli_table_cell(t, at, 1), GG_TABLE_CELL, "%s", row.unit);
     if (reference(c)) put_engines(t, at, c, &row);
-    for (size_t k = 0; k < MOST_THEORIES && gg_comparison_theory(c, k, &theory, NULL) == GG_OK; k++)
-      if (column[k] >= 0) put_theory(t, at, column[k], c, theory.name, row.name);
+    for (size_t k = 0; k < MOST_THEORIES && gg_comparison_theory(c, k, &theory, NULL) == GG_OK; k++) {
+      double deviation = NAN, value = column[k] < 0 ? NAN : value_of(c, theory.name, row.name, &deviation);
+      if (!isnan(value)) gg_cli_format_answer(value, deviation, reference(c), gg_cli_table_cell(t, at, column[k]));
+    }
   }
   return t;
 }
@@ -282,7 +277,6 @@ static double end_of(const gg_curve_data *curve)
   return n == curve->n ? INFINITY : n ? curve->x[n - 1] : NAN;
 }
 
-/* Print "Here: 6 curves of velocity_distributions ...". */
 static void print_curves(const gg_comparison *c, const char *theory)
 {
   gg_curve_data curve, next;

@@ -50,7 +50,6 @@ static bool find_curve(const source *s, const char *name, size_t *i, gg_curve_da
   return false;
 }
 
-/* Find a number of a curve by both names. */
 static bool find_number(const source *s, const char *curve, const char *name, gg_measurement *found)
 {
   size_t i;

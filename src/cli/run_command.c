@@ -11,24 +11,11 @@
 #include "cli/print.h"
 #include "cli/processes.h"
 
-int gg_cli_scene_begin(const gg_command *command, int argc, char **argv, gg_options *o, gg_scene **scene)
+int gg_cli_report_scene(const gg_options *o, gg_status status, const gg_error *err)
 {
-  gg_error err;
-  *scene = NULL;
-  int code = gg_cli_options_parse(command, argc, argv, o);
-  if (code == GG_CLI_GO_ON && gg_cli_options_scene(o, scene, &err) != GG_OK) code = gg_cli_report(&err);
-  if (code != GG_CLI_GO_ON) gg_cli_scene_end(o, *scene, GG_OK, NULL);
-  return code;
-}
-
-int gg_cli_scene_end(gg_options *o, gg_scene *scene, gg_status status, const gg_error *err)
-{
-  int code = status == GG_OK          ? GG_OK
-             : status == GG_BAD_INPUT ? gg_cli_report_of(gg_cli_options_name(o), err)
-                                      : gg_cli_report(err);
-  gg_scene_free(scene);
-  gg_cli_options_clear(o);
-  return code;
+  return status == GG_OK          ? GG_OK
+         : status == GG_BAD_INPUT ? gg_cli_report_of(gg_cli_options_name(o), err)
+                                  : gg_cli_report(err);
 }
 
 /* usf.h5 -> usf.checkpoint.h5; for a device by the scene's name, as without --output. */
@@ -45,7 +32,7 @@ static char *checkpoint_path(const gg_options *o, const char *output, bool compa
 /* File of a comparison's picture; NULL if no picture is drawn, or there is no result file. */
 static char *picture_path(const gg_cli_run_options *r, bool comparison)
 {
-  const char *chosen = r->options.picture;
+  const char *chosen = r->options->picture;
   if (!comparison || (chosen && strcmp(chosen, "none") == 0)) return NULL;
   if (chosen) return strdup(chosen);
   return gg_cli_file_is_device(r->output) ? NULL : gg_cli_path_with_suffix(r->output, ".svg");
@@ -55,12 +42,6 @@ static int show_progress(void *context, const gg_progress *progress)
 {
   gg_cli_progress_show(&((gg_cli_run_options *)context)->progress, progress);
   return 0;
-}
-
-static int is_interrupted(void *context)
-{
-  (void)context;
-  return gg_cli_interrupted();
 }
 
 static void note_checkpoint(void *context, const char *checkpoint)
@@ -113,9 +94,9 @@ static gg_status choose_files(gg_cli_run_options *r, bool comparison)
   char every[40] = "0";
   gg_scene_get(r->scene, "output.checkpoint_every", every, sizeof every, NULL);
   r->keeps_checkpoints = strtod(every, NULL) > 0;
-  r->output = gg_cli_options_output(&r->options, comparison ? ".compare.h5" : ".h5", &r->err);
+  r->output = gg_cli_options_output(r->options, comparison ? ".compare.h5" : ".h5", &r->err);
   if (!r->output) return r->err.status;
-  r->checkpoint = checkpoint_path(&r->options, r->output, comparison);
+  r->checkpoint = checkpoint_path(r->options, r->output, comparison);
   if (!r->checkpoint) return gg_cli_refuse(&r->err, GG_FAILED, "out of memory");
   r->picture = picture_path(r, comparison);
   r->replaced = gg_cli_file_exists(r->output) && !gg_cli_file_is_device(r->output);
@@ -129,26 +110,23 @@ static void clear(gg_cli_run_options *r)
   free(r->checkpoint);
   free(r->picture);
   free(r->reported);
-  gg_cli_scene_end(&r->options, r->scene, GG_OK, NULL);
+  gg_scene_free(r->scene);
 }
 
-int gg_cli_run_begin(gg_cli_run_options *r, const gg_command *command, int argc, char **argv)
+int gg_cli_run_begin(gg_cli_run_options *r, const gg_options *o)
 {
-  const gg_options *o = &r->options;
-  *r = (gg_cli_run_options){.status = GG_OK};
-  int code = gg_cli_scene_begin(command, argc, argv, &r->options, &r->scene);
-  if (code != GG_CLI_GO_ON) return code;
-  if (choose_files(r, command->options & GG_OPT_PICTURE) != GG_OK) {
-    code = gg_cli_report(&r->err);
+  *r = (gg_cli_run_options){.options = o};
+  if (gg_cli_options_scene(o, &r->scene, &r->err) != GG_OK ||
+      choose_files(r, o->command->options & GG_OPT_PICTURE) != GG_OK) {
     clear(r);
-    return code;
+    return gg_cli_report(&r->err);
   }
   r->run = (gg_run_options){.size = sizeof(gg_run_options),
                             .threads = o->threads,
                             .workers = gg_cli_workers(o->threads),
                             .input = o->input,
                             .picture = r->picture,
-                            .picture_width = r->options.width,
+                            .picture_width = r->options->width,
                             .output = r->output,
                             .checkpoint = r->keeps_checkpoints ? r->checkpoint : NULL,
                             .resume = o->resume,
@@ -156,7 +134,7 @@ int gg_cli_run_begin(gg_cli_run_options *r, const gg_command *command, int argc,
                             .command = o->command_line,
                             .context = r,
                             .progress = show_progress,
-                            .stop = is_interrupted,
+                            .stop = gg_cli_interrupted,
                             .stored = note_checkpoint,
                             .warn = warn};
   gg_cli_progress_start(&r->progress, o->quiet);
@@ -164,7 +142,6 @@ int gg_cli_run_begin(gg_cli_run_options *r, const gg_command *command, int argc,
   return GG_CLI_GO_ON;
 }
 
-/* Whether the result has means. */
 static bool has_means(const gg_result *result)
 {
   gg_measurement m;
@@ -193,36 +170,22 @@ bool gg_cli_run_has_output(gg_cli_run_options *r, const gg_result *md, const gg_
   gg_cli_progress_end(&r->progress);
   r->out_of_time = is_out_of_time(r, md) || is_out_of_time(r, dsmc);
   r->has_output = interrupted ? has_means(md) || has_means(dsmc) : md || dsmc;
-  if (interrupted && r->has_output && !r->options.json) puts("\ninterrupted: the results so far");
+  if (interrupted && r->has_output && !r->options->json) puts("\ninterrupted: the results so far");
   return r->has_output;
 }
 
 /* The command that resumes the run, with twice the time limit if the limit ended it. NULL: out of memory. */
 static char *command_to_resume(const gg_cli_run_options *r)
 {
-  const char *given = r->options.resume;
+  const char *given = r->options->resume;
   const bool named = given && strcmp(given, r->checkpoint) == 0;
   char limit[64] = "", *file = gg_cli_shell_quote(r->checkpoint), *added = NULL, *again = NULL;
   if (r->out_of_time) snprintf(limit, sizeof limit, " --set run.time_limit=%g", 2 * time_limit(r));
   if (file && asprintf(&added, "%s%s%s", named ? "" : " --resume ", named ? "" : file, limit) < 0) added = NULL;
-  if (added) again = gg_cli_command_line_quote(program_invocation_name, &r->options.words, added);
+  if (added) again = gg_cli_command_line_quote(program_invocation_name, &r->options->words, added);
   free(file);
   free(added);
   return again;
-}
-
-static void report_checkpoint(const gg_cli_run_options *r)
-{
-  char *again = command_to_resume(r);
-  fprintf(stderr, "continue with: %s\n", again ? again : "the same command and --resume");
-  free(again);
-}
-
-static void report_interruption(gg_cli_run_options *r)
-{
-  const char *hint = r->keeps_checkpoints ? "" : " (output.checkpoint_every above 0 keeps a checkpoint)";
-  snprintf(r->err.message, sizeof r->err.message, "interrupted; %s%s",
-           r->stored ? "a checkpoint is stored" : "nothing was stored", r->stored ? "" : hint);
 }
 
 typedef struct drawing {
@@ -234,7 +197,7 @@ typedef struct drawing {
 static void report_picture(void *context, const char *picture)
 {
   const drawing *d = context;
-  gg_cli_report_written(&d->of->options, "picture", picture, d->replaced && strcmp(picture, d->of->picture) == 0);
+  gg_cli_report_written(d->of->options, "picture", picture, d->replaced && strcmp(picture, d->of->picture) == 0);
 }
 
 /* Draw the picture. If it was not requested, a failure (e.g. no gnuplot) is only a warning, unless a file cannot be
@@ -243,8 +206,9 @@ static gg_status draw(const gg_cli_run_options *r, gg_error *err)
 {
   if (!r->picture) return GG_OK;
   drawing d = {r, gg_cli_file_exists(r->picture)};
-  gg_status status = gg_plot(r->output, r->picture, NULL, r->options.width, report_picture, is_interrupted, &d, err);
-  if (status != GG_FAILED || r->options.picture) return status;
+  gg_status status =
+      gg_plot(r->output, r->picture, NULL, r->options->width, report_picture, gg_cli_interrupted, &d, err);
+  if (status != GG_FAILED || r->options->picture) return status;
   fprintf(stderr, "warning: no picture: %s\n", err->message);
   return GG_OK;
 }
@@ -253,17 +217,21 @@ int gg_cli_run_end(gg_cli_run_options *r)
 {
   gg_error why;
   gg_status drawn = GG_OK;
-  int code = GG_OK;
   if (r->has_output && r->status != GG_BAD_FILE && r->status != GG_INTERRUPTED) {
-    gg_cli_report_written(&r->options, "results", r->output, r->replaced);
+    gg_cli_report_written(r->options, "results", r->output, r->replaced);
     drawn = draw(r, &why);
   }
-  if (r->status == GG_INTERRUPTED) report_interruption(r);
-  if (r->status != GG_OK)
-    code = r->status == GG_BAD_INPUT ? gg_cli_report_of(gg_cli_options_name(&r->options), &r->err)
-                                     : gg_cli_report(&r->err);
+  if (r->status == GG_INTERRUPTED)
+    snprintf(r->err.message, sizeof r->err.message, "interrupted; %s%s",
+             r->stored ? "a checkpoint is stored" : "nothing was stored",
+             r->stored || r->keeps_checkpoints ? "" : " (output.checkpoint_every above 0 keeps a checkpoint)");
+  const int code = gg_cli_report_scene(r->options, r->status, &r->err);
   if (drawn != GG_OK) gg_cli_report(&why);
-  if (r->stored && (r->status == GG_INTERRUPTED || (r->status == GG_FAILED && r->out_of_time))) report_checkpoint(r);
+  if (r->stored && (r->status == GG_INTERRUPTED || (r->status == GG_FAILED && r->out_of_time))) {
+    char *again = command_to_resume(r);
+    fprintf(stderr, "continue with: %s\n", again ? again : "the same command and --resume");
+    free(again);
+  }
   clear(r);
   return code != GG_OK ? code : (int)drawn;
 }

@@ -7,13 +7,11 @@
 #include "cli/options.h"
 #include "cli/progress.h"
 
-/* Read options and scene. GG_CLI_GO_ON, or the exit code. */
-int gg_cli_scene_begin(const gg_command *command, int argc, char **argv, gg_options *options, gg_scene **scene);
-/* Report the error unless the status is GG_OK, and free both; returns the exit code. */
-int gg_cli_scene_end(gg_options *options, gg_scene *scene, gg_status status, const gg_error *err);
+/* Report the error of work on the scene unless the status is GG_OK; returns the exit code. */
+int gg_cli_report_scene(const gg_options *options, gg_status status, const gg_error *err);
 
 typedef struct gg_cli_run_options {
-  gg_options options;
+  const gg_options *options;
   gg_scene *scene;
   gg_run_options run;                  /* ready for gg_run or gg_compare */
   char *output, *checkpoint, *picture; /* picture: NULL if none is drawn */
@@ -29,7 +27,7 @@ typedef struct gg_cli_run_options {
 } gg_cli_run_options;
 
 /* Prepare a run. GG_CLI_GO_ON, or the exit code. */
-int gg_cli_run_begin(gg_cli_run_options *r, const gg_command *command, int argc, char **argv);
+int gg_cli_run_begin(gg_cli_run_options *r, const gg_options *options);
 /* After the run: whether there is a result to print; of an interrupted run, whether it has means. Either may be NULL.
  */
 bool gg_cli_run_has_output(gg_cli_run_options *r, const gg_result *md, const gg_result *dsmc);

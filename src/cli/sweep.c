@@ -36,13 +36,6 @@ static widths measure(const gg_sweep *sweep)
   return w;
 }
 
-static void print_head(const gg_sweep *sweep, const widths *w)
-{
-  printf("%5s  ", "point");
-  for (size_t k = 0; k < w->n; k++) printf("%-*s  ", w->of[k], gg_sweep_key(sweep, k));
-  printf("%-16s  %-13s  %8s  %s\n", "file", "state", "replicas", "time");
-}
-
 /* Whether a point is done. Damaged points and points of other builds run again. */
 static bool is_done(const gg_cli_sweep_options *c, gg_point_state state)
 {
@@ -70,7 +63,9 @@ int gg_cli_sweep_list(const gg_cli_sweep_options *c)
   size_t done = 0, again = 0, n = gg_sweep_points(c->sweep);
   double seconds = 0;
   const widths w = measure(c->sweep);
-  print_head(c->sweep, &w);
+  printf("%5s  ", "point");
+  for (size_t k = 0; k < w.n; k++) printf("%-*s  ", w.of[k], gg_sweep_key(c->sweep, k));
+  printf("%-16s  %-13s  %8s  %s\n", "file", "state", "replicas", "time");
   for (size_t i = 0; i < n; i++) {
     gg_point_state state = GG_POINT_MISSING;
     gg_sweep_find(c->sweep, c->folder, i, &state, NULL, NULL);
@@ -177,13 +172,6 @@ gg_status gg_cli_sweep_read(const gg_options *o, const char *text, const char *n
   return status == GG_OK ? gg_sweep_check(*sweep, err) : status;
 }
 
-static int is_interrupted(void *context)
-{
-  (void)context;
-  return gg_cli_interrupted();
-}
-
-/* Print the error of a point that failed or ended before its stopping criteria. */
 static void print_point_end(void *context, size_t i, gg_status status, const char *file, const char *message)
 {
   gg_cli_sweep_options *c = context;
@@ -225,7 +213,7 @@ int gg_cli_sweep_work(gg_cli_sweep_options *c)
                                     .accept_version = o->accept_version,
                                     .context = c,
                                     .progress = show_progress,
-                                    .stop = is_interrupted,
+                                    .stop = gg_cli_interrupted,
                                     .ended = print_point_end,
                                     .warn = gg_cli_sweep_warn};
   int code = o->point ? take_point(c, &i) : GG_CLI_GO_ON;
@@ -270,7 +258,7 @@ int gg_cli_sweep_collect(gg_cli_sweep_options *c, const char *picture)
                                       .theories = o->mapped,
                                       .threads = o->threads,
                                       .progress = show_progress,
-                                      .stop = is_interrupted,
+                                      .stop = gg_cli_interrupted,
                                       .warn = gg_cli_sweep_warn};
   char *prefix = tables_of(c->folder);
   if (!prefix) return gg_cli_fail(GG_FAILED, "%s: no name can be made for the tables: %s", c->folder, strerror(errno));
@@ -289,15 +277,6 @@ static int print_json(const gg_cli_sweep_options *c)
   if (gg_sweep_to_json(c->sweep, c->folder, &text, &err) != GG_OK) return gg_cli_report(&err);
   gg_cli_print_text(text);
   return GG_OK;
-}
-
-/* Reject a scene without varied keys: probably a mistake. */
-static int check_varied(const gg_cli_sweep_options *c)
-{
-  if (gg_sweep_key(c->sweep, 0)) return GG_CLI_GO_ON;
-  return gg_cli_fail(GG_BAD_INPUT,
-                     "%s: no key is varied; give e.g. vary: {phi: [0.1, 0.2]} there, or --vary phi=0.1,0.2",
-                     gg_cli_options_name(c->options));
 }
 
 /* Reject options that contradict each other or would have no effect. */
@@ -346,26 +325,25 @@ static int sweep_points(gg_cli_sweep_options *c)
 {
   gg_error err;
   const gg_options *o = c->options;
-  int code = check_varied(c);
-  if (code != GG_CLI_GO_ON) return code;
+  if (!gg_sweep_key(c->sweep, 0))
+    return gg_cli_fail(GG_BAD_INPUT,
+                       "%s: no key is varied; give e.g. vary: {phi: [0.1, 0.2]} there, or --vary phi=0.1,0.2",
+                       gg_cli_options_name(o));
   if (gg_cli_sweep_find_folder(c, NULL, &err) != GG_OK) return gg_cli_report(&err);
   if (o->slurm) return print_slurm(c);
   if (o->list && !o->json) return gg_cli_sweep_list(c);
-  code = o->list ? GG_OK : o->collect ? gg_cli_sweep_collect(c, o->picture) : gg_cli_sweep_work(c);
+  const int code = o->list ? GG_OK : o->collect ? gg_cli_sweep_collect(c, o->picture) : gg_cli_sweep_work(c);
   return o->json && code != GG_BAD_INPUT && print_json(c) != GG_OK ? GG_FAILED : code;
 }
 
-int gg_cli_sweep_main(const gg_command *command, int argc, char **argv)
+int gg_cli_sweep_main(const gg_options *o)
 {
-  gg_options o;
   gg_error err;
-  gg_cli_sweep_options c = {.options = &o};
-  int code = gg_cli_options_parse(command, argc, argv, &o);
-  if (code == GG_CLI_GO_ON) code = check_together(&o);
-  if (code == GG_CLI_GO_ON && gg_cli_sweep_read(&o, NULL, NULL, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);
+  gg_cli_sweep_options c = {.options = o};
+  int code = check_together(o);
+  if (code == GG_CLI_GO_ON && gg_cli_sweep_read(o, NULL, NULL, &c.sweep, &err) != GG_OK) code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON) code = sweep_points(&c);
   gg_sweep_free(c.sweep);
   free(c.folder);
-  gg_cli_options_clear(&o);
   return code;
 }

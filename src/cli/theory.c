@@ -18,16 +18,15 @@ static gg_status print(const gg_options *o, const gg_comparison *c, gg_error *er
   return status;
 }
 
-int gg_cli_theory_main(const gg_command *command, int argc, char **argv)
+int gg_cli_theory_main(const gg_options *o)
 {
-  gg_options o;
   gg_error err;
   gg_scene *scene;
   gg_comparison *c = NULL;
-  int code = gg_cli_scene_begin(command, argc, argv, &o, &scene);
-  if (code != GG_CLI_GO_ON) return code;
-  gg_status status = gg_theories_evaluate(scene, o.theories, NULL, NULL, &c, &err);
-  if (status == GG_OK) status = print(&o, c, &err);
+  if (gg_cli_options_scene(o, &scene, &err) != GG_OK) return gg_cli_report(&err);
+  gg_status status = gg_theories_evaluate(scene, o->theories, NULL, NULL, &c, &err);
+  if (status == GG_OK) status = print(o, c, &err);
   gg_comparison_free(c);
-  return gg_cli_scene_end(&o, scene, status, &err);
+  gg_scene_free(scene);
+  return gg_cli_report_scene(o, status, &err);
 }

@@ -83,22 +83,19 @@ static int check_together(const gg_options *o)
   return GG_CLI_GO_ON;
 }
 
-int gg_cli_validate_main(const gg_command *command, int argc, char **argv)
+int gg_cli_validate_main(const gg_options *given)
 {
-  gg_options o;
   gg_error err;
+  gg_options o = *given;
   gg_cli_sweep_options c = {.options = &o};
-  int code = gg_cli_options_parse(command, argc, argv, &o);
-  const char *name = o.quick ? "grid_quick.sweep" : "grid.sweep";
-  if (code == GG_CLI_GO_ON) code = check_together(&o);
-  if (code == GG_CLI_GO_ON && !o.does) o.does = "compare";
+  int code = check_together(&o);
+  if (!o.does) o.does = "compare";
   if (code == GG_CLI_GO_ON &&
       (gg_cli_sweep_read(&o, gg_standard_grid(o.quick), "the standard grid", &c.sweep, &err) != GG_OK ||
-       gg_cli_sweep_find_folder(&c, name, &err) != GG_OK))
+       gg_cli_sweep_find_folder(&c, o.quick ? "grid_quick.sweep" : "grid.sweep", &err) != GG_OK))
     code = gg_cli_report(&err);
   if (code == GG_CLI_GO_ON) code = o.list ? gg_cli_sweep_list(&c) : validate(&c);
   gg_sweep_free(c.sweep);
   free(c.folder);
-  gg_cli_options_clear(&o);
   return code;
 }

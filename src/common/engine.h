@@ -112,7 +112,7 @@ typedef struct gg_engine_ops {
   const char *name; /* "md" */
   const char *doc;  /* one line */
   bool ensemble;    /* grains are samples of a distribution: their number is numerical, dsmc.particles */
-  /* Can it run this model? GG_BAD_INPUT with a message naming the scene key otherwise. */
+  /* GG_OK if it can run this model; GG_BAD_INPUT with a message naming the scene key otherwise. */
   gg_status (*accepts)(const gg_model *model, gg_error *err);
   /* Bytes that an engine of this model will take. */
   double (*bytes)(const gg_model *model);
@@ -169,6 +169,13 @@ struct gg_engine {
 #define GG_ENGINE_OPS(KIND, name, title) extern const gg_engine_ops gg_##name##_ops;
 GG_ENGINES(GG_ENGINE_OPS)
 #undef GG_ENGINE_OPS
+
+static inline gg_engine_state gg_engine_state_of(const gg_engine *engine)
+{
+  gg_engine_state state;
+  engine->ops->state(engine, &state);
+  return state;
+}
 
 /* engines.c: the engine of a kind. */
 const gg_engine_ops *gg_common_engine_of(int kind);

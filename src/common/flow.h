@@ -36,7 +36,7 @@ typedef enum gg_flow_frame {
 } gg_flow_frame;
 
 typedef enum gg_flow_walls { GG_NO_WALLS, GG_RESTING_WALLS, GG_MOVING_WALLS } gg_flow_walls;   /* at both ends of y */
-typedef enum gg_flow_falling { GG_NEVER_FALLS, GG_MAY_FALL, GG_ALWAYS_FALLS } gg_flow_falling; /* does gravity act? */
+typedef enum gg_flow_falling { GG_NEVER_FALLS, GG_MAY_FALL, GG_ALWAYS_FALLS } gg_flow_falling; /* gravity acts */
 
 typedef struct gg_flow_row {
   const char *word;  /* in scenes */
@@ -46,7 +46,7 @@ typedef struct gg_flow_row {
   gg_flow_frame frame;
   gg_flow_walls walls;
   gg_flow_falling falling;
-  bool may_be_open;     /* may the upper wall be left away? */
+  bool may_be_open;     /* the upper wall may be left away */
   bool conserves;       /* collisions must lose no energy */
   bool linear_response; /* shear so slow that it goes to zero (linear_response.h) */
   unsigned thermostats; /* allowed ones, a sum of 1u << gg_thermostat */
@@ -84,7 +84,7 @@ static inline bool gg_flow_has_moving_walls(gg_flow flow)
 {
   return gg_flow_of(flow)->walls == GG_MOVING_WALLS;
 }
-/* Is time counted in 1/gamma, gamma the shear rate imposed by the box or by walls? Else in d/v_0. */
+/* True if time is counted in 1/gamma, gamma the shear rate imposed by the box or by walls; else in d/v_0. */
 static inline bool gg_flow_is_timed_by_shear(gg_flow flow)
 {
   return gg_flow_is_sheared(flow) || gg_flow_has_moving_walls(flow);

@@ -23,7 +23,7 @@ gg_linear_response gg_common_linear_response_of(const gg_model *model);
 /* a* = rate/nu_0(T). */
 double gg_common_reduced_shear_rate(const gg_model *model, double T);
 
-/* Is a sweep at its end at this temperature? */
+/* True if a sweep is at its end at this temperature. */
 bool gg_common_linear_response_ends(const gg_model *model, double T);
 
 #endif

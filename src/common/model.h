@@ -111,7 +111,7 @@ typedef struct gg_model {
   double stress_unit; /* reported stress = stress_unit * (stress per volume in model units): pi/6, or 1 */
 } gg_model;
 
-/* Does the temperature stay what it is, in a steady state? Else sampling follows the collision rate, and what has a
+/* True if the temperature stays what it is, in a steady state. Else sampling follows the collision rate, and what has a
  * dimension of velocity or time has no mean. */
 static inline bool gg_model_keeps_temperature(const gg_model *model)
 {
@@ -155,13 +155,13 @@ void gg_common_model_at(gg_model *model, double T);
 /* Unit of contact times in words: under gravity the time of a fall, unless gravity is too weak (md/contact_time.c). */
 const char *gg_common_model_contact_unit(const gg_model *model);
 
-/* Does a wall of a temperature of its own warm or cool the gas? All walls have one, or none. */
+/* True if a wall of a temperature of its own warms or cools the gas. All walls have one, or none. */
 static inline bool gg_model_has_thermal_walls(const gg_model *m)
 {
   return m->n_surfaces > 0 && m->surface[0].accommodation > 0;
 }
 
-/* Do collisions of these two species destroy energy? */
+/* True if collisions of these two species destroy energy. */
 bool gg_common_pair_loses(const gg_model *model, int i, int j);
 
 /* Largest and smallest diameter of a species. */

@@ -45,7 +45,7 @@ typedef struct gg_law_table {
 } gg_law_table;
 double gg_common_law_from_table(void *table, double normal_speed, int species_1, int species_2);
 
-/* Is it a number from 0 to 1 at speeds of all sizes? */
+/* True if it is a number from 0 to 1 at speeds of all sizes. */
 gg_status gg_common_law_check(const gg_restitution_law *law, int n_species, gg_error *err);
 
 #endif

@@ -52,8 +52,8 @@ static void collide_pair(gg_dsmc *d, int i, int j, double dt, double strain, dou
   }
 }
 
-/* Does the ensemble collide in segments? Each species needs about a hundred blocks in a segment, and more if there are
- * many species, since substeps are shorter with more pairs of species. */
+/* True if the ensemble collides in segments. Each species needs about a hundred blocks in a segment, and more if there
+ * are many species, since substeps are shorter with more pairs of species. */
 static bool uses_segments(const gg_dsmc *d)
 {
   if (!d->schedule) return false;

@@ -58,7 +58,7 @@ static gg_status advance(gg_engine *engine, double dt, uint64_t max_collisions, 
   return go_on(engine, elapsed ? elapsed : &unused, err);
 }
 
-/* Is this a model for the engine in a channel (walls/channel.h)? Its engines have their own operations. */
+/* True of a model for the engine in a channel (walls/channel.h). Its engines have their own operations. */
 static bool is_walled(const gg_model *model)
 {
   return gg_flow_is_walled(model->flow);

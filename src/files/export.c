@@ -141,7 +141,6 @@ static void put_engine_head(gg_csv *csv, const char *engine)
   gg_io_csv_text(csv, text);
 }
 
-/* True if the theory has an error for any of its values. */
 static bool has_errors(json_t *theory)
 {
   const char *name;
@@ -167,11 +166,6 @@ static void put_comparison_head(gg_csv *csv, const gg_stored_result *stored)
   gg_io_csv_end_row(csv);
 }
 
-static const json_t *result_of(const gg_stored_engine *e, const char *quantity)
-{
-  return e->name ? json_object_get(json_object_get(e->document, "results"), quantity) : NULL;
-}
-
 static void put_comparison_row(gg_csv *csv, const gg_stored_result *stored, const json_t *row)
 {
   const char *quantity = json_string_value(json_object_get(row, "quantity")), *name;
@@ -181,7 +175,8 @@ static void put_comparison_row(gg_csv *csv, const gg_stored_result *stored, cons
   gg_io_csv_text(csv, quantity);
   gg_io_csv_json(csv, json_object_get(row, "unit"));
   for (int k = 0; k < GG_N_ENGINES; k++) {
-    const json_t *one = result_of(&stored->engine[k], quantity);
+    const gg_stored_engine *e = &stored->engine[k];
+    const json_t *one = e->name ? json_object_get(json_object_get(e->document, "results"), quantity) : NULL;
     put_members(csv, one, members, COUNT(members));
     gg_io_csv_json(csv, one ? json_object_get(stored->engine[k].document, "steady") : NULL);
     if (one) unit = json_object_get(one, "correlation_time_unit");
@@ -332,13 +327,6 @@ static void add_curves(job *j)
   if (put_curve_numbers(NULL, j->stored)) add(j, NUMBERS, NULL, (const char *const[]){"numbers", NULL, NULL}, ".csv");
 }
 
-static const char *lack(unsigned parts)
-{
-  return parts == GG_EXPORT_TRAJECTORY ? GG_NO_POSITIONS
-         : parts == GG_EXPORT_CURVES   ? "it holds no curves"
-                                       : "it holds neither curves nor positions of grains";
-}
-
 static gg_status plan(job *j, const char *path, unsigned parts, gg_error *err)
 {
   static const char *const nothing[3];
@@ -347,7 +335,11 @@ static gg_status plan(job *j, const char *path, unsigned parts, gg_error *err)
   if (parts & GG_EXPORT_TRAJECTORY) GG_TRY(gg_files_stored_trajectory_open(&j->trajectory, path, err));
   if (j->trajectory.n_frames) add(j, TRAJECTORY, NULL, nothing, ".xyz");
   if (j->failed) return gg_base_out_of_memory(err);
-  return j->n ? GG_OK : gg_base_fail(err, GG_FAILED, "%s: nothing to export: %s", path, lack(parts));
+  if (j->n) return GG_OK;
+  return gg_base_fail(err, GG_FAILED, "%s: nothing to export: %s", path,
+                      parts == GG_EXPORT_TRAJECTORY ? GG_NO_POSITIONS
+                      : parts == GG_EXPORT_CURVES   ? "it holds no curves"
+                                                    : "it holds neither curves nor positions of grains");
 }
 
 /* A device or a pipe gets everything, and no file is made beside it: in /dev it would remain. */
@@ -387,13 +379,7 @@ static gg_status open_target(job *j, size_t i, const char *path, gg_error *err)
     return gg_base_fail(err, GG_BAD_INPUT,
                         "%s: would be both the result and what is exported from it; choose another prefix", t->path);
   GG_TRY(look_at(j, i, err));
-  return gg_io_atomic_open(&t->file, t->path, err);
-}
-
-static gg_status open_all(job *j, const char *path, gg_error *err)
-{
-  for (size_t i = 0; i < j->n; i++) GG_TRY(open_target(j, i, path, err));
-  return GG_OK;
+  return gg_io_atomic_open(&t->file, t->path, false, err);
 }
 
 /* One line of a file, from 0, to be freed; NULL where it has not so many, or cannot be read. */
@@ -468,7 +454,7 @@ static gg_status write_all(job *j, gg_error *err)
   for (size_t i = 0; i < j->n && status == GG_OK; i++) status = write_target(j, &j->target[i], err);
   if (status == GG_OK) status = gg_stop_check(j->stop, err);
   if (status == GG_OK) status = check_replaced(j, err);
-  for (size_t i = 0; i < j->n && status == GG_OK; i++) status = gg_io_atomic_commit(&j->target[i].file, err);
+  for (size_t i = 0; i < j->n && status == GG_OK; i++) status = gg_io_atomic_commit(&j->target[i].file, GG_OK, err);
   return status;
 }
 
@@ -492,7 +478,7 @@ gg_status gg_files_export_result(const gg_stored_result *stored, const char *pat
   j->stored = stored, j->prefix = prefix, j->progress = progress, j->context = context, j->stop = stop;
   gg_status status = check_prefix(prefix, err);
   if (status == GG_OK) status = plan(j, path, parts, err);
-  if (status == GG_OK) status = open_all(j, path, err);
+  for (size_t i = 0; i < j->n && status == GG_OK; i++) status = open_target(j, i, path, err);
   if (status == GG_OK) status = write_all(j, err);
   for (size_t i = 0; i < j->n && status == GG_OK && written; i++) written(context, j->target[i].path);
   clear(j);

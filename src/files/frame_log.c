@@ -167,7 +167,6 @@ gg_status gg_files_frame_log_sync(const gg_frame_log *log, gg_error *err)
   return fdatasync(log->fd) == 0 ? GG_OK : cannot_write(log, err);
 }
 
-/* A reader that goes from frame to frame. */
 typedef struct reader {
   gg_frame_mark at; /* read so far */
   record *whole;    /* the latest */

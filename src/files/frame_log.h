@@ -42,7 +42,6 @@ gg_status gg_files_frame_log_put_in_place(gg_frame_log *log, gg_error *err);
  * GG_INTERRUPTED if `stop` is set meanwhile. */
 gg_status gg_files_frame_log_open_at(gg_frame_log *log, const char *path, const gg_frame_mark *mark,
                                      const gg_stop *stop, gg_error *err);
-/* True if `path` names the log's file. */
 bool gg_files_frame_log_is_at(const gg_frame_log *log, const char *path);
 /* Copy the frames of `from` before those of this log; nothing to do if both are one file. */
 gg_status gg_files_frame_log_take_over(gg_frame_log *log, const gg_frame_log *from, gg_error *err);

@@ -10,7 +10,6 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/curve_table.h"
-#include "graingas.h"
 #include "io/checked_json.h"
 #include "run/z_scores.h"
 #include "scene/fields.h"
@@ -173,12 +172,6 @@ static json_t *estimate_json(const gg_result *r, const gg_quantity_row *row, jso
   return json;
 }
 
-static json_t *effort_json(const gg_effort *effort)
-{
-  return json_pack("{s:I, s:o, s:o}", "collisions", (json_int_t)effort->collisions, "cpu_seconds",
-                   json_number(effort->cpu_seconds), "wall_seconds", json_number(effort->wall_seconds));
-}
-
 static json_t *engine_state_json(const gg_result *r)
 {
   const gg_engine_state *s = &r->engine_state;
@@ -207,12 +200,14 @@ static json_t *run_document(const gg_result *r)
     if (gg_files_quantity_is_measured(&r->value[row->quantity]))
       json_object_set_new(results, row->name, estimate_json(r, row, warnings));
   }
-  json_t *document = json_pack(
-      "{s:s, s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "graingas", gg_base_build_version, "build",
-      gg_base_build_identity, "scene", gg_scene_json(r->scene), "engine", r->engine, "steady",
-      gg_run_is_steady(r->steadiness), "verdict", r->steadiness_text, "particles", (json_int_t)r->model.n, "collisions",
-      (json_int_t)r->averaging.collisions, "cpu_seconds", json_number(r->averaging.cpu_seconds), "total",
-      effort_json(&r->total), "engine_state", engine_state_json(r), "results", results, "warnings", warnings);
+  json_t *document =
+      json_pack("{s:s, s:s, s:o, s:s, s:b, s:s, s:I, s:I, s:o, s:{s:I, s:o, s:o}, s:o, s:o, s:o}", "graingas",
+                gg_base_build_version, "build", gg_base_build_identity, "scene", gg_scene_json(r->scene), "engine",
+                r->engine, "steady", gg_run_is_steady(r->steadiness), "verdict", r->steadiness_text, "particles",
+                (json_int_t)r->model.n, "collisions", (json_int_t)r->averaging.collisions, "cpu_seconds",
+                json_number(r->averaging.cpu_seconds), "total", "collisions", (json_int_t)r->total.collisions,
+                "cpu_seconds", json_number(r->total.cpu_seconds), "wall_seconds", json_number(r->total.wall_seconds),
+                "engine_state", engine_state_json(r), "results", results, "warnings", warnings);
   if (r->steadiness == GG_METASTABLE) json_object_set_new(document, "metastable", json_true());
   if (isfinite(r->escape_rate)) json_object_set_new(document, "escape_rate", json_number(r->escape_rate));
   if (*r->ensemble_text) json_object_set_new(document, "particles_chosen", json_string(r->ensemble_text));

@@ -2,10 +2,10 @@
 #include "files/text_format.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "common/thermostat.h"
 #include "scene/fields.h"
 
@@ -46,26 +46,16 @@ void gg_files_estimate_format(double mean, double error, char *text, size_t size
   if (scientific && used < size) snprintf(text + used, size - used, "e%+03d", exponent);
 }
 
-static void add(char *text, size_t size, const char *format, ...) GG_PRINTF(3, 4);
-static void add(char *text, size_t size, const char *format, ...)
-{
-  size_t used = strlen(text);
-  va_list args;
-  va_start(args, format);
-  if (used < size) vsnprintf(text + used, size - used, format, args);
-  va_end(args);
-}
-
 static void add_pairs(char *text, size_t size, const char *name, const double *x, int n_species)
 {
   double least = x[GG_11], most = x[GG_11];
   for (int p = 0; p < gg_pairs_of(n_species); p++) least = fmin(least, x[p]), most = fmax(most, x[p]);
   if (least == most)
-    add(text, size, ", %s %g", name, least);
+    gg_base_text_append(text, size, ", %s %g", name, least);
   else if (n_species == 2)
-    add(text, size, ", %s %g/%g/%g", name, x[GG_11], x[GG_12], x[GG_22]);
+    gg_base_text_append(text, size, ", %s %g/%g/%g", name, x[GG_11], x[GG_12], x[GG_22]);
   else
-    add(text, size, ", %s %g to %g", name, least, most);
+    gg_base_text_append(text, size, ", %s %g to %g", name, least, most);
 }
 
 /* True if a key, or a member of it ("collision.e.12"), is in a list with commas. */
@@ -81,10 +71,11 @@ static void add_law(const gg_scene *s, const char *varied, char *text, size_t si
 {
   const gg_restitution_law law = gg_common_extension_law(s->extension);
   if (law.e)
-    add(text, size, ", law %s of e", law.name);
+    gg_base_text_append(text, size, ", law %s of e", law.name);
   else if (!has(varied, "collision.e"))
     add_pairs(text, size, "e", s->collision.e, s->n_species);
-  if (!law.e && s->collision.law != GG_LAW_CONSTANT) add(text, size, " (%s)", gg_common_law_name(s->collision.law));
+  if (!law.e && s->collision.law != GG_LAW_CONSTANT)
+    gg_base_text_append(text, size, " (%s)", gg_common_law_name(s->collision.law));
 }
 
 static void add_surface(const gg_scene *s, const char *varied, char *text, size_t size)
@@ -95,7 +86,7 @@ static void add_surface(const gg_scene *s, const char *varied, char *text, size_
     smooth &= s->collision.beta[p] == -1 || (s->collision.mu[p] == 0 && !any_mu);
     frictional |= isfinite(s->collision.mu[p]);
   }
-  if (smooth) add(text, size, ", smooth");
+  if (smooth) gg_base_text_append(text, size, ", smooth");
   if (!smooth && !any_beta) add_pairs(text, size, frictional ? "beta_0" : "beta", s->collision.beta, s->n_species);
   if (!smooth && frictional && !any_mu) add_pairs(text, size, "mu", s->collision.mu, s->n_species);
 }
@@ -106,15 +97,15 @@ void gg_files_scene_title(const gg_scene *s, const char *varied, char *text, siz
   const char *flow = has(varied, "flow") ? "several flows" : gg_flow_of(s->flow)->title;
   const bool optional = gg_flow_takes(s->flow, GG_NO_THERMOSTAT);
   snprintf(text, size, "%s%s", flow, optional ? gg_common_thermostats[s->thermostat].title : "");
-  if (!has(varied, "phi")) add(text, size, ", phi %g", s->phi);
+  if (!has(varied, "phi")) gg_base_text_append(text, size, ", phi %g", s->phi);
   add_law(s, varied, text, size);
   add_surface(s, varied, text, size);
   if (has(varied, "species")) return;
-  if (s->n_species > 2) add(text, size, "; %d species", s->n_species);
+  if (s->n_species > 2) gg_base_text_append(text, size, "; %d species", s->n_species);
   if (s->n_species == 2) {
     const gg_species *one = &s->species[0], *two = &s->species[1];
-    add(text, size, "; mixture %g:%g", one->fraction, two->fraction);
-    if (one->mass != two->mass) add(text, size, ", m_2/m_1 %g", two->mass / one->mass);
-    if (one->diameter != two->diameter) add(text, size, ", d_2/d_1 %g", two->diameter / one->diameter);
+    gg_base_text_append(text, size, "; mixture %g:%g", one->fraction, two->fraction);
+    if (one->mass != two->mass) gg_base_text_append(text, size, ", m_2/m_1 %g", two->mass / one->mass);
+    if (one->diameter != two->diameter) gg_base_text_append(text, size, ", d_2/d_1 %g", two->diameter / one->diameter);
   }
 }

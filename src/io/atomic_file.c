@@ -173,22 +173,12 @@ static gg_status begin(gg_atomic_file *f, const char *path, bool locked, gg_erro
   return open_temporary(f, err);
 }
 
-static gg_status open_it(gg_atomic_file *f, const char *path, bool locked, gg_error *err)
+gg_status gg_io_atomic_open(gg_atomic_file *f, const char *path, bool locked, gg_error *err)
 {
   *f = GG_ATOMIC_NONE;
   gg_status status = begin(f, path, locked, err);
   if (status != GG_OK) gg_io_atomic_abandon(f);
   return status;
-}
-
-gg_status gg_io_atomic_open(gg_atomic_file *f, const char *path, gg_error *err)
-{
-  return open_it(f, path, false, err);
-}
-
-gg_status gg_io_atomic_open_locked(gg_atomic_file *f, const char *path, gg_error *err)
-{
-  return open_it(f, path, true, err);
 }
 
 /* A pipe whose reader has gone is an error, not the end of the program that uses the library. */
@@ -246,7 +236,6 @@ static void sync_folder(const char *path)
   free(copy);
 }
 
-/* Owner and mode of the file stay when it is replaced. */
 static void keep_owner_and_mode(const gg_atomic_file *f)
 {
   const struct stat *was = &f->place.about;
@@ -265,14 +254,6 @@ static bool put_in_place(gg_atomic_file *f)
   return true;
 }
 
-/* Close a device or pipe, all of which is written. Some report failed writes only now. */
-static bool let_go(gg_atomic_file *f)
-{
-  int fd = f->fd;
-  f->fd = -1;
-  return close(fd) == 0;
-}
-
 /* Keep the temporary file after a failure, since it may be the only copy of hours of work. It gets a name that the next
  * writer does not remove, if it can be renamed. */
 static gg_status keep(gg_atomic_file *f, int number, gg_error *err)
@@ -288,10 +269,16 @@ static gg_status keep(gg_atomic_file *f, int number, gg_error *err)
   return status;
 }
 
-gg_status gg_io_atomic_commit(gg_atomic_file *f, gg_error *err)
+gg_status gg_io_atomic_commit(gg_atomic_file *f, gg_status status, gg_error *err)
 {
-  bool done = f->place.stream ? let_go(f) : put_in_place(f);
-  gg_status status = done ? GG_OK : f->temporary && !f->repeated ? keep(f, errno, err) : cannot(f, errno, err);
+  bool done = status != GG_OK;
+  if (!done && f->place.stream) {
+    done = close(f->fd) == 0; /* some devices and pipes report failed writes only now */
+    f->fd = -1;
+  } else if (!done) {
+    done = put_in_place(f);
+  }
+  if (!done) status = f->temporary && !f->repeated ? keep(f, errno, err) : cannot(f, errno, err);
   gg_io_atomic_abandon(f);
   return status;
 }
@@ -315,7 +302,7 @@ gg_status gg_io_atomic_check_writable(const char *path, const char *why_regular,
   bool stream = place.stream;
   gg_io_output_path_clear(&place);
   if (stream) return gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; %s", path, why_regular);
-  GG_TRY(gg_io_atomic_open(&file, path, err));
+  GG_TRY(gg_io_atomic_open(&file, path, false, err));
   gg_io_atomic_abandon(&file);
   return GG_OK;
 }

@@ -44,15 +44,13 @@ typedef struct gg_atomic_file {
 } gg_atomic_file;
 
 /* GG_BAD_FILE says why the file could not be written there, or which run is writing it. Temporary files that a dead run
- * left are removed. */
-gg_status gg_io_atomic_open(gg_atomic_file *file, const char *path, gg_error *err);
-/* The same of a file whose lock the caller holds. */
-gg_status gg_io_atomic_open_locked(gg_atomic_file *file, const char *path, gg_error *err);
-/* Append to it. */
+ * left are removed. `locked`: the caller holds its lock. */
+gg_status gg_io_atomic_open(gg_atomic_file *file, const char *path, bool locked, gg_error *err);
 gg_status gg_io_atomic_write(gg_atomic_file *file, const void *data, size_t size, gg_error *err);
-/* Flush, rename, and free; on failure the temporary file stays, unless `repeated`, and the message names it. A file
- * that is replaced leaves its mode, and its owner where the system allows it. */
-gg_status gg_io_atomic_commit(gg_atomic_file *file, gg_error *err);
+/* Flush, rename, and free, if `status`, that of the writing, is GG_OK; abandon the file otherwise. On failure the
+ * temporary file stays, unless `repeated`, and the message names it. A file that is replaced leaves its mode, and its
+ * owner where the system allows it. */
+gg_status gg_io_atomic_commit(gg_atomic_file *file, gg_status status, gg_error *err);
 /* Remove the temporary file and free; harmless after a commit. */
 void gg_io_atomic_abandon(gg_atomic_file *file);
 

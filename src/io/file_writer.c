@@ -85,25 +85,14 @@ void gg_io_csv_head(gg_csv *csv, const char *name, const char *unit)
   gg_io_csv_text(csv, text);
 }
 
-static void put_real(gg_csv *csv, double value)
-{
-  begin_cell(csv);
-  if (isfinite(value)) gg_io_file_writer_put_number(csv->out, value);
-}
-
-static void put_integer(gg_csv *csv, json_int_t value)
-{
-  char text[32];
-  snprintf(text, sizeof text, "%" JSON_INTEGER_FORMAT, value);
-  gg_io_csv_text(csv, text);
-}
-
 void gg_io_csv_json(gg_csv *csv, const json_t *value)
 {
+  char whole[32];
+  snprintf(whole, sizeof whole, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
   if (json_is_integer(value))
-    put_integer(csv, json_integer_value(value));
-  else if (json_is_real(value))
-    put_real(csv, json_real_value(value));
+    gg_io_csv_text(csv, whole);
+  else if (json_is_real(value) && isfinite(json_real_value(value)))
+    begin_cell(csv), gg_io_file_writer_put_number(csv->out, json_real_value(value));
   else if (json_is_boolean(value))
     gg_io_csv_text(csv, json_is_true(value) ? "true" : "false");
   else

@@ -22,7 +22,6 @@ gg_status gg_io_path_write_error(const char *path, const char *why, gg_error *er
   return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written: %s", path, why);
 }
 
-/* The folder of a path, to be freed. */
 static char *folder_of(const char *path)
 {
   char *copy = strdup(path), *folder = copy ? strdup(dirname(copy)) : NULL;

@@ -56,8 +56,8 @@ static void destroy(void *self)
   free(self);
 }
 
-/* Must all flights be followed: without positions, or if a fast grain may travel half the shortest edge between two
- * snapshots? The answer does not depend on the temperature, and so stays after every change of the model. */
+/* True if all flights must be followed: without positions, or if a fast grain may travel half the shortest edge between
+ * two snapshots. The answer does not depend on the temperature, and so stays after every change of the model. */
 static bool follows_flights(const gg_model *m)
 {
   if (m->homogeneous) return true;
@@ -106,7 +106,7 @@ static void *memory(void *self, size_t *bytes)
   return d->state;
 }
 
-/* Are all places valid indices? */
+/* True if all places are valid indices. */
 static bool is_memory(const void *self)
 {
   const diffusion *d = self;

@@ -57,9 +57,8 @@ static void gather(void *context, const gg_chunk *chunk)
 void gg_measure_snapshot_take(gg_snapshot *s, gg_engine *engine)
 {
   gathering g = {s, 0};
-  gg_engine_state state;
   engine->ops->snapshot(engine, s->r[0] != NULL, gather, &g);
-  engine->ops->state(engine, &state);
+  const gg_engine_state state = gg_engine_state_of(engine);
   s->offset = state.offset;
   s->time = state.time;
   s->collisions = state.collisions;

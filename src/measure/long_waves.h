@@ -18,7 +18,7 @@ typedef struct gg_long_waves {
   double matter_squares, squares[3];   /* sums of the grains' own squares: the expected values for random positions */
 } gg_long_waves;
 
-/* Does this model have them? A periodic box, no walls. */
+/* True if this model has them: a periodic box, no walls. */
 static inline bool gg_measure_has_long_waves(const gg_model *m)
 {
   return !m->homogeneous && !m->walled;

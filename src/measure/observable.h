@@ -109,12 +109,12 @@ typedef struct gg_observable {
   gg_observable_cost (*cost_of)(const gg_model *model); /* replaces `cost` if that depends on the model; else NULL */
 } gg_observable;
 
-/* Can this model have the observable? */
+/* True if this model can have the observable. */
 static inline bool gg_measure_observable_applies(const gg_observable *o, const gg_model *model)
 {
   return !o->refuses || !o->refuses(model);
 }
-/* Does the observable need the collisions of this model? */
+/* True if the observable needs the collisions of this model. */
 bool gg_measure_observable_wants_collisions(const gg_observable *o, const gg_model *model);
 
 /* The function of a quantity in a table of derived quantities; false if it has none. */

@@ -128,7 +128,7 @@ static gg_vec middle_to_middle(const gg_images *b, gg_vec d)
   return shortest;
 }
 
-/* Do two cells overlap along an axis, given the lengths across? */
+/* True if two cells overlap along an axis, given the lengths across. */
 static bool is_along(double one, double width_one, double two, double width_two)
 {
   return fabs(one) < width_one && fabs(two) < width_two;

@@ -16,7 +16,7 @@ int gg_measure_wall_modes(const gg_model *model);
 void gg_measure_wall_modes_take(const gg_model *model, const gg_slabs *slabs, double *row);
 /* "the centre of mass across the gap" */
 const char *gg_measure_wall_mode_name(int mode);
-/* Does it change its sign under the symmetry of the flow, so that its true mean is 0? */
+/* True if it changes its sign under the symmetry of the flow, so that its true mean is 0. */
 bool gg_measure_wall_mode_is_odd(const gg_model *model, int mode);
 
 /* The symmetry of a flow between walls: if the walls are alike, a flow along them has a mirror image. */

@@ -71,7 +71,6 @@ void gg_plot_chart_free(gg_chart *c)
   free(c);
 }
 
-/* Places on the page. */
 typedef struct layout {
   double page[2], legend, note; /* tops */
   gg_legend_entry entry[MOST_ENTRIES];
@@ -100,13 +99,6 @@ static void share_width(const gg_chart *c, double width, layout *l)
                                                                              : c->panel[i]->share);
 }
 
-/* Rows above a frame: title, legend, label of y. */
-static double head_of(const gg_chart_panel *p, const layout *l, size_t i, double wide)
-{
-  return ABOVE + gg_plot_page_rows(NULL, 0, 0, wide, "", p->title) +
-         gg_plot_page_legend(NULL, 0, 0, wide, l->panel[i].entry, l->panel[i].n) + Y_LABEL;
-}
-
 /* Panels of a row have one height, that of the narrowest. Returns the end of the row. */
 static double place_row(const gg_chart *c, layout *l, size_t from, size_t to, double top)
 {
@@ -114,7 +106,8 @@ static double place_row(const gg_chart *c, layout *l, size_t from, size_t to, do
   for (size_t i = from; i < to; i++) {
     const double wide = l->panel[i].frame.wide - LEFT - RIGHT;
     tall = fmin(tall, fmax(0.68 * wide, LEAST_TALL));
-    head = fmax(head, head_of(c->panel[i], l, i, wide + RIGHT));
+    head = fmax(head, ABOVE + gg_plot_page_rows(NULL, 0, 0, wide + RIGHT, "", c->panel[i]->title) + Y_LABEL +
+                          gg_plot_page_legend(NULL, 0, 0, wide + RIGHT, l->panel[i].entry, l->panel[i].n));
   }
   for (size_t i = from; i < to; i++) {
     const double column = l->panel[i].frame.wide;
@@ -160,13 +153,6 @@ static void print_data(FILE *s, const gg_chart_panel *p, size_t k, double offset
   fprintf(s, "EOD\n");
 }
 
-static bool has_such(const gg_chart_series *s, bool open)
-{
-  size_t i = 0;
-  while (i < s->n && s->point[i].open != open) i++;
-  return i < s->n;
-}
-
 static void print_series(const gg_page *page, const gg_chart_panel *p, size_t k)
 {
   const gg_chart_series *c = p->series[k];
@@ -182,7 +168,9 @@ static void print_series(const gg_page *page, const gg_chart_panel *p, size_t k)
   bool across = false;
   for (size_t i = 0; i < c->n; i++) across |= c->point[i].x_error > 0;
   for (int open = 0; open < 2 && c->look.style == GG_CHART_POINTS; open++) {
-    if (!has_such(c, open)) continue;
+    bool any = false;
+    for (size_t i = 0; i < c->n; i++) any |= c->point[i].open == open;
+    if (!any) continue;
     fprintf(s, ", $series%zu using 1:($7==%d?$2:NaN):%s ", k, open,
             across ? "3:4:5:6 with xyerrorbars" : "5:6 with yerrorbars");
     gg_plot_page_look(page, &c->look, open);
@@ -275,15 +263,6 @@ static void label_axis(const gg_page *page, const gg_chart_axis *a, double x, do
   gg_plot_page_text(page, x, y, style, text);
 }
 
-/* Title, common legend and note, in the first panel's plot. */
-static void draw_common(const gg_page *page, const gg_chart *c, const layout *l)
-{
-  const double middle = l->page[0] / 2;
-  gg_plot_page_rows(page, middle, MARGIN, l->page[0], "center noenhanced", c->title);
-  gg_plot_page_legend(page, LEFT, l->legend, l->page[0] - LEFT - RIGHT, l->entry, l->n);
-  gg_plot_page_rows(page, middle, l->note, l->page[0], "center noenhanced tc rgb '#444444'", c->note);
-}
-
 static void draw_panel(const gg_page *page, const gg_chart *c, const layout *l, size_t i)
 {
   const gg_chart_panel *p = c->panel[i];
@@ -291,7 +270,12 @@ static void draw_panel(const gg_page *page, const gg_chart *c, const layout *l, 
   size_t points = 0;
   double top = f.top - l->panel[i].head + ABOVE;
   gg_plot_page_panel(page, f, false);
-  if (i == 0) draw_common(page, c, l);
+  if (i == 0) { /* what belongs to the page */
+    const double middle = l->page[0] / 2;
+    gg_plot_page_rows(page, middle, MARGIN, l->page[0], "center noenhanced", c->title);
+    gg_plot_page_legend(page, LEFT, l->legend, l->page[0] - LEFT - RIGHT, l->entry, l->n);
+    gg_plot_page_rows(page, middle, l->note, l->page[0], "center noenhanced tc rgb '#444444'", c->note);
+  }
   top += gg_plot_page_rows(page, f.left, top, f.wide + RIGHT, "left", p->title);
   gg_plot_page_legend(page, f.left, top, f.wide + RIGHT, l->panel[i].entry, l->panel[i].n);
   label_axis(page, &p->y, f.left - LEFT + MARGIN, f.top - 15, "left tc rgb '#222222'");

@@ -59,7 +59,6 @@ static void add_line(gg_chart *c, const char *method, const char *group, const j
     gg_plot_chart_point(c, s, (gg_chart_point){at(abscissae, "x", i), at(values, "value", i), NAN, NAN, false});
 }
 
-/* The curves of a panel, and the curves of theories. */
 typedef struct group {
   const json_t *curve[MOST_IN_PANEL], *theories;
   const char *name[MOST_IN_PANEL], *label[MOST_IN_PANEL], *title;

@@ -14,9 +14,9 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "io/atomic_file.h"
 #include "base/clock.h"
 #include "base/memory.h"
+#include "io/atomic_file.h"
 #include "plot/plot.h"
 
 extern char **environ;
@@ -170,12 +170,10 @@ gg_status gg_plot_gnuplot_run(const char *script, const char *over, const char *
 {
   gg_atomic_file file;
   GG_TRY(gg_io_atomic_check_writable(picture, GG_PICTURES_ARE, err));
-  GG_TRY(gg_io_atomic_open(&file, picture, err));
+  GG_TRY(gg_io_atomic_open(&file, picture, false, err));
   gg_status status = draw(script, file.fd, err);
   if (status == GG_OK && over) status = put_over(&file, over, err);
   if (status == GG_OK && end_of(file.fd, "</svg>") < 0 && end_of(file.fd, "IEND") < 0 && end_of(file.fd, "%%EOF") < 0)
     status = gg_base_fail(err, GG_BAD_FILE, "%s: cannot be written whole: is the disk full?", picture);
-  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
-  gg_io_atomic_abandon(&file);
-  return status;
+  return gg_io_atomic_commit(&file, status, err);
 }

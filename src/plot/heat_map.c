@@ -53,7 +53,6 @@ static bool is_known(const gg_heat_cell *c)
   return isfinite(c->value);
 }
 
-/* Numbers are white on dark cells. */
 static void print_number(const heat_page *p, const gg_heat_cell *c, double x, double y)
 {
   char text[16];

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/file_writer.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "files/text_format.h"
+#include "io/file_writer.h"
 #include "scene/scene_reader.h"
 
 const unsigned gg_plot_colours[GG_PLOT_COLOURS] = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7,
@@ -69,10 +69,10 @@ static gg_status write_script(const char *script, const char *path, gg_error *er
   gg_file_writer out;
   char code[8];
   const char *slash = strrchr(path, '/');
-  GG_TRY(gg_io_atomic_open(&file, path, err));
+  GG_TRY(gg_io_atomic_open(&file, path, false, err));
   gg_io_file_writer_begin(&out, &file, err);
   gg_io_file_writer_put(&out, "# `gnuplot FILE.gp` draws FILE.svg. For PNG or PDF change `set terminal` and the name "
-                                "after `set output`.\nset output \"");
+                              "after `set output`.\nset output \"");
   for (const char *c = slash ? slash + 1 : path; *c && strcmp(c, ".gp") != 0; c++) {
     snprintf(code, sizeof code, strchr("_-.", *c) || isalnum((unsigned char)*c) ? "%c" : "\\%03o", (unsigned char)*c);
     gg_io_file_writer_put(&out, code);
@@ -80,9 +80,7 @@ static gg_status write_script(const char *script, const char *path, gg_error *er
   gg_io_file_writer_put(&out, ".svg\"\n");
   gg_io_file_writer_put(&out, script);
   const gg_status status = gg_io_file_writer_end(&out);
-  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
-  gg_io_atomic_abandon(&file);
-  return status;
+  return gg_io_atomic_commit(&file, status, err);
 }
 
 gg_status gg_plot_page_finish(gg_page *p, bool whole, const char *picture, gg_error *err)

@@ -19,7 +19,6 @@ static const char *unit_of(const gg_stored_engine *e, gg_quantity q)
   return unit ? unit : "1";
 }
 
-/* The unit of time that belongs to the unit of temperature. */
 static const char *time_unit(const gg_stored_engine *e)
 {
   if (strstr(unit_of(e, GG_Q_TEMPERATURE), "gamma")) return "1/γ";

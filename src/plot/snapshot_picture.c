@@ -91,14 +91,6 @@ static void read_species(const gg_stored_result *stored, grains *s)
   }
 }
 
-/* The height that holds all grains: less than the box for a gas under gravity. */
-static double top_of(const grains *s)
-{
-  double top = 0;
-  for (size_t i = 0; i < s->n; i++) top = fmax(top, s->position[3 * i + 1]);
-  return fmin(s->edge[1], top + 1);
-}
-
 /* False if the file holds no positions; those of Monte Carlo between walls are heights alone. */
 static bool find_grains(const gg_stored_result *stored, grains *s)
 {
@@ -112,7 +104,9 @@ static bool find_grains(const gg_stored_result *stored, grains *s)
     if (f->species[i] >= s->n_species) s->n_species = f->species[i] + 1;
   }
   if (!whole) return false;
-  s->top = top_of(s);
+  s->top = 0; /* the height that holds all grains: less than the box for a gas under gravity */
+  for (size_t i = 0; i < s->n; i++) s->top = fmax(s->top, s->position[3 * i + 1]);
+  s->top = fmin(s->edge[1], s->top + 1);
   read_species(stored, s);
   return true;
 }
@@ -171,14 +165,6 @@ static void print_discs(const snapshot *p, const grain_layer *layer)
           "EOD\nplot $grains using 1:2:3:4 with circles lc rgb variable lw 0.4 fs solid border lc rgb '" RIM "'\n");
 }
 
-/* Bytes that a disc takes. */
-static disc_cost cost_of(const snapshot *p)
-{
-  const gg_plot_paper *paper = p->page.paper;
-  if (paper->format == GG_PLOT_PNG) return (disc_cost){8, 7 * M_PI * gg_plot_page_scale(paper) * p->scale};
-  return (disc_cost){p->page.over ? 44 : 700, 0};
-}
-
 /* False: out of memory. */
 static bool draw_panel(const snapshot *p, int along, double left, double top)
 {
@@ -186,7 +172,9 @@ static bool draw_panel(const snapshot *p, int along, double left, double top)
   const gg_box f = {left, top, s->edge[along] * p->scale, s->top * p->scale};
   char depth[64];
   grain_layer layer;
-  if (!make_layer(&layer, s, along, cost_of(p))) return false;
+  const gg_plot_paper *paper = p->page.paper;
+  const disc_cost png = {8, 7 * M_PI * gg_plot_page_scale(paper) * p->scale}, other = {p->page.over ? 44 : 700, 0};
+  if (!make_layer(&layer, s, along, paper->format == GG_PLOT_PNG ? png : other)) return false;
   gg_plot_page_panel(&p->page, f, true);
   if (along == 0) {
     const double rows =

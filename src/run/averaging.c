@@ -13,14 +13,6 @@
 #include <malloc.h>
 #endif
 
-/* Return the memory of a checkpoint to the system: the C library may keep up to twice its size. */
-static void give_back(void)
-{
-#ifdef __GLIBC__
-  malloc_trim(0);
-#endif
-}
-
 gg_status gg_run_replicas_store(gg_replicas *all, gg_error *err)
 {
   gg_archive archive = {0};
@@ -28,15 +20,11 @@ gg_status gg_run_replicas_store(gg_replicas *all, gg_error *err)
   gg_status status = gg_run_replicas_save(all, &archive, err);
   if (status == GG_OK) status = all->callbacks->checkpoint(all->callbacks->context, &archive, err);
   gg_base_archive_clear(&archive);
-  give_back();
+#ifdef __GLIBC__
+  malloc_trim(0); /* the C library may keep up to twice the size of a checkpoint */
+#endif
   all->last_checkpoint = gg_base_clock_wall();
   return status;
-}
-
-/* Sampling intervals follow the collision rate during warm-up, and always if the temperature has no steady state. */
-static bool adapts(const gg_replicas *all)
-{
-  return !all->state.averaging || !gg_model_keeps_temperature(&all->model);
 }
 
 /* True if the run must end whatever was requested: time limit, grains at rest, or theta/T beyond use. */
@@ -59,8 +47,7 @@ static void check_arrest(gg_replicas *all)
   uint64_t collisions = 0, treated = 0;
   if (all->model.gravity[1] == 0) return;
   for (int i = 0; i < all->n; i++) {
-    gg_engine_state e;
-    all->replica[i].engine->ops->state(all->replica[i].engine, &e);
+    const gg_engine_state e = gg_engine_state_of(all->replica[i].engine);
     collisions += e.collisions, treated += e.treated;
   }
   uint64_t stretch = collisions - s->stretch_collisions;
@@ -117,7 +104,8 @@ static gg_status advance_to(gg_replicas *all, uint64_t due, gg_error *err)
 {
   while (all->state.due < due || !gg_run_replicas_are_level(all)) {
     if (gg_run_replicas_are_level(all)) all->state.due += step(all, due - all->state.due);
-    gg_status status = gg_run_replicas_advance(all, next_of(all), adapts(all), pauses_for_checkpoint, err);
+    const bool adapt = !all->state.averaging || !gg_model_keeps_temperature(&all->model);
+    gg_status status = gg_run_replicas_advance(all, next_of(all), adapt, pauses_for_checkpoint, err);
     if (status == GG_INTERRUPTED && is_over(all)) return GG_OK;
     if (status == GG_INTERRUPTED) GG_TRY(gg_run_replicas_store(all, err));
     if (status != GG_OK) return status;

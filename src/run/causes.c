@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "graingas.h"
 #include "run/default_size.h"
 #include "run/z_scores.h"
 #include "scene/scene.h"
@@ -227,7 +226,6 @@ static int add(gg_causes *causes, const char *text)
   return 1;
 }
 
-/* How many of the known causes apply. */
 static int add_known(const gg_comparison *c, gg_quantity q, gg_causes *causes)
 {
   char text[sizeof *causes->text];

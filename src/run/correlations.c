@@ -108,13 +108,6 @@ gg_status gg_run_replicas_correlations(const gg_replicas *replicas, gg_result *r
   return status;
 }
 
-static bool find(const gg_correlations *c, gg_quantity q, size_t *place)
-{
-  for (*place = 0; *place < c->n; ++*place)
-    if (c->quantity[*place] == q) return true;
-  return false;
-}
-
 double gg_run_result_covariance(const gg_result *r, gg_quantity one, gg_quantity other, const char **why)
 {
   const gg_quantity both[] = {one, other};
@@ -123,11 +116,12 @@ double gg_run_result_covariance(const gg_result *r, gg_quantity one, gg_quantity
   *why = NULL;
   for (int k = 0; k < 2 && !*why; k++) {
     const gg_estimate *e = &r->value[both[k]];
+    for (place[k] = 0; place[k] < c->n && c->quantity[place[k]] != both[k];) place[k]++;
     if (isnan(e->mean))
       *why = *e->reason ? e->reason : "not measured";
     else if (isnan(e->error))
       *why = "the run is too short to know its error";
-    else if (one != other && !find(c, both[k], &place[k]))
+    else if (one != other && place[k] == c->n)
       *why = c->n ? "not known" : "the file was written before graingas stored covariances";
   }
   if (*why) return NAN;

@@ -174,13 +174,6 @@ double gg_run_cost_of_theories(const gg_model *m)
   return n > MOST_VISCOUS ? 1 : 0.5 + 0.4 * n * n;
 }
 
-/* Rows of the series that a run fills. */
-static double bytes_of_series(const gg_cost_estimate *f, const gg_model *m)
-{
-  double rows = fmin(f->collisions / GG_SAMPLING_INTERVAL, GG_SERIES_ROWS);
-  return rows * 8 * (m->rule == GG_SMOOTH ? 120 : 200);
-}
-
 /* Means, series and the document, and frames: three numbers each for positions, velocities and spins. */
 static void plan_file(gg_cost_estimate *f, const gg_scene *scene, const gg_model *m)
 {
@@ -201,7 +194,7 @@ gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *m, 
                         .ns = engine == GG_MD ? pace_of_md(m) : pace_of_dsmc(m)};
   add_observables(&f, scene, m, engine);
   plan_time(&f, scene, m);
-  f.series = bytes_of_series(&f, m);
+  f.series = fmin(f.collisions / GG_SAMPLING_INTERVAL, GG_SERIES_ROWS) * 8 * (m->rule == GG_SMOOTH ? 120 : 200);
   double frame = (double)m->n * (24 + sizeof(gg_vec) * (1 + (m->rule != GG_SMOOTH) + !m->homogeneous));
   double replicas = (double)scene->run.replicas, each = f.engine + f.observables + f.series;
   f.writing = 3.5 * frame; /* the grains, the file's image as it grows, and the whole of it */

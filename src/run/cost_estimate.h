@@ -26,7 +26,6 @@ typedef struct gg_cost_estimate {
   } cost[GG_N_OBSERVABLES];
 } gg_cost_estimate;
 
-/* Estimate for a finished scene and the model of its engine. */
 gg_cost_estimate gg_run_cost_estimate(const gg_scene *scene, const gg_model *model, gg_engine_kind engine);
 
 /* Time of a collision in md over that in Monte Carlo, for scenes so dilute that Monte Carlo is exact, and of which it

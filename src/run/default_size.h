@@ -8,7 +8,6 @@
 
 #include "scene/scene.h"
 
-/* The number of grains of this scene if it gives none. */
 int64_t gg_run_default_size(const gg_scene *scene);
 /* Why a scene that gives none has so many: "automatic: ..."; "" where it has the usual number and that stays
  * homogeneous, or it is unknown. */

@@ -18,7 +18,6 @@ void gg_run_engine_grains_clear(gg_engine_grains *g);
 /* All of an engine of this model, into arrays that were made for it. */
 void gg_run_engine_grains_read(gg_engine *engine, const gg_model *model, gg_engine_grains *g);
 
-/* The same grains in the same box and units. */
 bool gg_run_is_same_gas(const gg_model *a, const gg_model *b);
 /* An engine of another model of the same gas, with its grains, clock, counts and random streams, that keeps sums. The
  * old one stays. */

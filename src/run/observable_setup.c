@@ -77,25 +77,19 @@ gg_status gg_run_unmeasured(const gg_scene *scene, const gg_model *model, void (
   return each_requested(scene, model, report_reason, &(reasons){line, context}, err);
 }
 
-static gg_status attach_all(gg_replica *r, const gg_scene *scene, size_t *width, gg_error *err)
-{
-  unsigned flags;
-  GG_TRY(gg_run_measured(scene, &r->model, &flags, err));
-  for (int i = 0; gg_measure_observables[i]; i++)
-    if (flags & gg_measure_observables[i]->flag) GG_TRY(attach_one(r, gg_measure_observables[i], width, err));
-  return GG_OK;
-}
-
 gg_status gg_run_replica_setup_observables(gg_replica *r, const gg_scene *scene, gg_error *err)
 {
   size_t width = 0;
   bool curves = false, positions = false;
+  unsigned flags;
   r->parts = 1;
   const gg_observable *own = gg_measure_user_observables(&r->model);
   if ((own || scene->measure & ~GG_MEASURE_RHEOLOGY) && !(scene->measure & GG_MEASURE_RHEOLOGY))
     return gg_base_fail(err, GG_BAD_INPUT,
                         "measure: add rheology: by it a run knows when the gas is steady and the run is done");
-  GG_TRY(attach_all(r, scene, &width, err));
+  GG_TRY(gg_run_measured(scene, &r->model, &flags, err));
+  for (int i = 0; gg_measure_observables[i]; i++)
+    if (flags & gg_measure_observables[i]->flag) GG_TRY(attach_one(r, gg_measure_observables[i], &width, err));
   for (int k = 0; k < r->n_observables; k++) {
     if (r->observable[k]->curves) curves = true;
     if (r->observable[k]->positions && !r->model.homogeneous) positions = true;

@@ -131,15 +131,6 @@ gg_expected_end gg_run_progress_end(const gg_progress_estimate *o, const gg_stop
   return (gg_expected_end){begins + end.at, end.known && !anew};
 }
 
-/* Fraction of the run that is done: the larger of the fractions of samples and of the time limit (NaN: no limit). It
- * never falls, and it is 1 only when the run is over. */
-static double fraction_of(gg_progress_estimate *o, double due, double end, double share_of_time)
-{
-  double done = fmax(end > 0 ? due / end : 0, share_of_time > 0 ? share_of_time : 0);
-  o->fraction = fmax(o->fraction, fmin(done, 0.99));
-  return o->fraction;
-}
-
 bool gg_run_replicas_checkpoint_is_due(const gg_replicas *all)
 {
   double every = all->scene.output.checkpoint_every;
@@ -214,8 +205,10 @@ void gg_run_replicas_report_progress(gg_replicas *all, bool over)
   gg_expected_end end = gg_run_progress_end(&all->progress, &all->criteria, &all->state);
   double limit = all->criteria.time_limit;
   double used = all->state.wall + now - all->started;
-  double done =
-      fraction_of(&all->progress, due, isfinite(end.at) ? end.at : usual_end(all), limit > 0 ? used / limit : NAN);
+  /* The larger share of samples and of the time limit; it never falls, and it is 1 only when the run is over. */
+  const double last = isfinite(end.at) ? end.at : usual_end(all);
+  double done = fmax(last > 0 ? due / last : 0, limit > 0 ? used / limit : 0);
+  done = all->progress.fraction = fmax(all->progress.fraction, fmin(done, 0.99));
   gg_progress p = {
       .engine = all->replica[0].engine->ops->name,
       .phase = all->state.averaging ? "averaging" : "warm-up",

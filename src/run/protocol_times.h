@@ -12,12 +12,10 @@ uint64_t gg_run_protocol_samples(const gg_scene *scene);
 /* Time of sample k, from 1 on, in units of results; 0: the start. */
 double gg_run_protocol_time(const gg_scene *scene, uint64_t k);
 
-/* Number of changes up to sample k. */
 int gg_run_protocol_changes(const gg_scene *scene, uint64_t k);
 /* The model after so many changes; GG_BAD_INPUT where a value needs another gas than `model`. */
 gg_status gg_run_protocol_model(const gg_scene *scene, const gg_model *model, int changes, gg_model *changed,
                                 gg_error *err);
-/* Check the models of all changes, before the run begins. */
 gg_status gg_run_protocol_check(const gg_scene *scene, const gg_model *model, gg_error *err);
 /* Estimated collisions per grain up to the end. */
 double gg_run_protocol_collisions(const gg_scene *scene, const gg_model *model);

@@ -55,9 +55,7 @@ void gg_run_replica_clear(gg_replica *r)
 
 static uint64_t collisions(const gg_replica *r)
 {
-  gg_engine_state state;
-  r->engine->ops->state(r->engine, &state);
-  return state.collisions;
+  return gg_engine_state_of(r->engine).collisions;
 }
 
 double gg_run_replica_collisions_per_grain(const gg_replica *r)
@@ -68,9 +66,7 @@ double gg_run_replica_collisions_per_grain(const gg_replica *r)
 /* Processor time of all threads that work for the replica. */
 static double cpu_used(const gg_replica *r)
 {
-  gg_engine_state state;
-  r->engine->ops->state(r->engine, &state);
-  return gg_base_clock_cpu() + state.others_cpu;
+  return gg_base_clock_cpu() + gg_engine_state_of(r->engine).others_cpu;
 }
 
 /* Largest number of collisions of an interval, which ends there whatever the time. While intervals adapt: 16 times the
@@ -193,14 +189,6 @@ static double temperature_now(const gg_replica *r)
   return exp(o->rows->log_temperature(row) + 2 * M_LN2 * (double)r->clock.power);
 }
 
-/* NaN never recovers: fail now. */
-static gg_status check_numbers(const gg_replica *r, gg_error *err)
-{
-  if (isfinite(r->clock.temperature)) return GG_OK;
-  return gg_base_fail(err, GG_FAILED, "%s: the temperature became NaN or infinite near time %g", r->engine->ops->name,
-                      r->clock.time);
-}
-
 gg_status gg_run_replica_collapsed(const gg_replica *r, gg_error *err)
 {
   const char *unit = gg_common_model_contact_unit(&r->model), *name = r->engine->ops->name;
@@ -278,7 +266,9 @@ static gg_status take_sample(gg_replica *r, bool adapt, gg_error *err)
   gg_run_replica_sample_row(r, elapsed);
   r->clock.temperature = temperature_now(r);
   r->clock.time += ldexp(elapsed, (int)r->clock.power);
-  GG_TRY(check_numbers(r, err));
+  if (!isfinite(r->clock.temperature)) /* NaN never recovers: fail now */
+    return gg_base_fail(err, GG_FAILED, "%s: the temperature became NaN or infinite near time %g", r->engine->ops->name,
+                        r->clock.time);
   GG_TRY(check_collapse(r, adapt, elapsed, happened, err));
   gg_statistics_series_add(&r->series, r->clock.time, r->row);
   r->clock.samples++;

@@ -89,12 +89,6 @@ gg_status gg_run_how_far(const gg_archive *a, gg_checkpoint_part *part, gg_error
   return GG_OK;
 }
 
-static bool out_of_time(const gg_replicas *all)
-{
-  return all->criteria.time_limit > 0 &&
-         all->state.wall + gg_base_clock_wall() - all->started > all->criteria.time_limit;
-}
-
 static bool is_interrupted(gg_replicas *all)
 {
   if (!all->callbacks || !all->callbacks->interrupted) return false;
@@ -131,9 +125,10 @@ static bool is_stopped(void *context)
   gg_replicas *all = context;
   report_start(all);
   if (atomic_load(&all->stopped) != GG_NOT_STOPPED || atomic_load(&all->tasks.stopping)) return true;
-  int why = is_interrupted(all) ? GG_STOP_REQUESTED
-            : out_of_time(all)  ? GG_OUT_OF_TIME
-                                : GG_NOT_STOPPED,
+  const double limit = all->criteria.time_limit;
+  int why = is_interrupted(all)                                                          ? GG_STOP_REQUESTED
+            : limit > 0 && all->state.wall + gg_base_clock_wall() - all->started > limit ? GG_OUT_OF_TIME
+                                                                                         : GG_NOT_STOPPED,
       before = GG_NOT_STOPPED;
   if (why != GG_NOT_STOPPED) atomic_compare_exchange_strong(&all->stopped, &before, why);
   return why != GG_NOT_STOPPED;

@@ -34,19 +34,12 @@ static const char *why_missing(const gg_replicas *all, gg_quantity q)
   return reason ? reason : "not measured in this scene";
 }
 
-/* Length of a row of the series, in the unit of correlation times. */
-static double row_length_of(const gg_replicas *all, const gg_series *s)
-{
-  size_t rows = gg_series_window_rows(s);
-  if (gg_run_quantity_counts_in_collisions(&all->model)) return (double)s->per_row * GG_SAMPLING_INTERVAL;
-  return rows > 1 ? (s->end_time[s->n - 1] - s->end_time[s->window]) / (double)(rows - 1) : NAN;
-}
-
 static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err)
 {
   const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s);
-  double row_length = row_length_of(all, s);
+  double row_length = rows > 1 ? (s->end_time[s->n - 1] - s->end_time[s->window]) / (double)(rows - 1) : NAN;
+  if (gg_run_quantity_counts_in_collisions(&all->model)) row_length = (double)s->per_row * GG_SAMPLING_INTERVAL;
   const bool followed = gg_scene_is_followed(&all->scene);
   for (int i = 0; i < result->rows.n; i++) {
     const gg_quantity q = result->rows.row[i].quantity;
@@ -103,8 +96,7 @@ static void report_effort(const gg_replicas *all, gg_result *result)
   gg_engine_state *sum = &result->engine_state;
   for (int i = 0; i < all->n; i++) {
     const gg_replica *r = &all->replica[i];
-    gg_engine_state s;
-    r->engine->ops->state(r->engine, &s);
+    const gg_engine_state s = gg_engine_state_of(r->engine);
     if (i == 0) { /* in units of the start, whatever the engine's velocities have been multiplied by since */
       result->window_step = r->clock.window_collisions;
       sum->time = r->clock.time, sum->time_step_bias = s.time_step_bias;

@@ -109,8 +109,7 @@ static void fill(void *context, const gg_chunk *chunk)
 gg_status gg_run_frame_take(gg_engine *engine, const gg_model *model, gg_frame *frame, gg_error *err)
 {
   size_t n = (size_t)model->n;
-  gg_engine_state state;
-  engine->ops->state(engine, &state);
+  const gg_engine_state state = gg_engine_state_of(engine);
   *frame = (gg_frame){.time = state.time, .step = state.collisions, .n = n};
   bool positions = !model->homogeneous, spins = model->rule != GG_SMOOTH, species = model->n_species > 1;
   if (positions) frame->position = gg_base_array_new(3 * n, sizeof(double), err);

@@ -249,20 +249,14 @@ void gg_run_tasks_close(gg_run_tasks *run)
   run->task = NULL;
 }
 
-/* Insert the task after all of the same priority. */
-static void enqueue(gg_run_scheduler *s, gg_run_task *t)
-{
-  gg_run_task **at = &s->queue;
-  while (*at && (*at)->priority >= t->priority) at = &(*at)->next;
-  t->next = *at, *at = t;
-}
-
 /* Queue a task. In one process the controller starts the work when it waits for its tasks (work_and_wait). */
 void gg_run_task_queue(gg_run_task *t)
 {
   gg_run_scheduler *s = t->run->scheduler;
   pthread_mutex_lock(&s->lock);
-  enqueue(s, t);
+  gg_run_task **at = &s->queue; /* after all of the same priority */
+  while (*at && (*at)->priority >= t->priority) at = &(*at)->next;
+  t->next = *at, *at = t;
   if (s->distributed) wake(s);
   pthread_mutex_unlock(&s->lock);
 }

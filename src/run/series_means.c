@@ -24,7 +24,6 @@ bool gg_run_replica_find_history(const gg_replica *r, gg_quantity q, gg_function
   return decays || gg_measure_derived_find(o->rows->derived, q, f);
 }
 
-/* Series of all replicas; to be freed. */
 static const gg_series **series_of(const gg_replicas *all, gg_error *err)
 {
   const gg_series **series = gg_base_array_new((size_t)all->n, sizeof *series, err);

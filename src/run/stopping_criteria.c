@@ -2,10 +2,10 @@
 /* How long to warm up and average: from the stopping criteria and how slowly the slowest quantity relaxes. */
 #include <math.h>
 
-#include "scene/ensemble_size.h"
 #include "common/linear_response.h"
 #include "run/protocol_times.h"
 #include "run/replicas.h"
+#include "scene/ensemble_size.h"
 
 /* Relaxation times of the slowest mode: before averaging, and at least while averaging. A start within a few tens of
  * per cent of the steady state leaves less than 0.1 % of it after the first. */
@@ -44,25 +44,6 @@ static void plan_linear_response(gg_stopping_criteria *p, const gg_scene *scene,
 
 /* Collisions a grain: no shorter window is called steady. */
 enum { SHORTEST_STEADY = 300 };
-/* No shorter one ends by its error. An ensemble collides so fast that it can afford to know its errors better: where
- * windows were as short as those of md, deviations were a fifth larger than the errors claimed. */
-static double shortest_window(const gg_model *m)
-{
-  return m->homogeneous ? 1000 : 300;
-}
-
-/* Heating, or cooling with a law of restitution, whose rate changes as the gas slows down. */
-static bool never_the_same(const gg_model *m)
-{
-  return !m->steady || (m->law.name && gg_flow_cools(m->flow));
-}
-
-static bool has_headline(const gg_model *m)
-{
-  gg_quantity list[GG_N_QUANTITIES];
-  return gg_run_headline_quantities(m, list) > 0;
-}
-
 static bool asks_for_quantities(const gg_scene *scene)
 {
   for (int q = 0; q < GG_N_QUANTITIES; q++)
@@ -90,7 +71,9 @@ gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *m
   double warmup = fmax(fmax(40, WARMUP_TIMES * slowest), WARMUP_GAP_TIMES * gap);
   p.warmup = samples_for(scene->run.warmup == GG_AUTO ? warmup : scene->run.warmup);
   double relaxed = fmax(WINDOW_TIMES * slowest, WINDOW_GAP_TIMES * gap);
-  p.least = samples_for(fmax(shortest_window(model), relaxed));
+  /* No shorter window ends by its error. An ensemble collides so fast that it can afford to know its errors better:
+   * where windows were as short as those of md, deviations were a fifth larger than the errors claimed. */
+  p.least = samples_for(fmax(model->homogeneous ? 1000 : 300, relaxed));
   p.least_steady = samples_for(fmax(SHORTEST_STEADY, relaxed));
   p.longest = p.least * MOST_WINDOWS;
   if (scene->run.collisions != GG_AUTO) p.most = samples_for(scene->run.collisions);
@@ -101,10 +84,11 @@ gg_stopping_criteria gg_run_criteria_of(const gg_scene *scene, const gg_model *m
     p.least = p.most = gg_run_protocol_samples(scene);
   } else if (model->linear_response) {
     plan_linear_response(&p, scene, model);
-  } else if (never_the_same(model)) { /* nothing to wait for; follow it for as long as requested, or for a while */
+  } else if (!model->steady || (model->law.name && gg_flow_cools(model->flow))) {
+    /* never the same: nothing to wait for; follow it for as long as requested, or for a while */
     p.relative_error = 0;
     if (!p.most) p.most = samples_for(model->steady ? GG_COLLISIONS_FOLLOWED : 1000);
-  } else if (!has_headline(model) &&
+  } else if (gg_run_headline_quantities(model, (gg_quantity[GG_N_QUANTITIES]){0}) == 0 &&
              !asks_for_quantities(scene)) { /* nothing with a requested error: the shortest window */
     p.relative_error = 0;
     if (!p.most) p.most = p.least;
@@ -131,22 +115,14 @@ bool gg_run_criteria_are_met(const gg_window_test *test, bool exact_before)
   return test->exact && (test->sure || exact_before);
 }
 
-/* Window at which the error, which falls as 1/sqrt(window), should be small enough; at most twice the present one,
- * since the error is an estimate.
- * */
-static uint64_t expected_end(const gg_window_test *t)
-{
-  double factor = fmin(fmax(1.1 * t->ratio * t->ratio, 1.1), 2);
-  return (uint64_t)ceil(factor * (double)t->window);
-}
-
 uint64_t gg_run_criteria_next_test(const gg_stopping_criteria *criteria, uint64_t restarts, const gg_window_test *last)
 {
   uint64_t next = criteria->least << restarts;
   if (last && last->window >= next)
-    next = last->exact                     ? last->window + last->window / 2
-           : last->sure && last->ratio > 0 ? expected_end(last)
-                                           : last->window + last->window / 4;
+    next = last->exact ? last->window + last->window / 2
+           : last->sure && last->ratio > 0
+               ? (uint64_t)ceil(fmin(fmax(1.1 * last->ratio * last->ratio, 1.1), 2) * (double)last->window)
+               : last->window + last->window / 4;
   return criteria->most && next > criteria->most ? criteria->most : next;
 }
 

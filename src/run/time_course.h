@@ -5,7 +5,6 @@
 
 #include "run/replicas.h"
 
-/* Mean over replicas at the last time. */
 gg_mean gg_run_time_course_end(const gg_replicas *all, gg_quantity q);
 /* Curves of all quantities with a history, beside the Gaussian closure's if it has an answer. */
 gg_status gg_run_time_course_curves(const gg_replicas *all, gg_result *result, gg_error *err);

@@ -4,7 +4,6 @@
 
 #include <math.h>
 
-#include "graingas.h"
 #include "scene/scene.h"
 
 double gg_run_z_score(const gg_estimate *a, const gg_estimate *b)

@@ -5,11 +5,8 @@
 #ifndef GG_Z_SCORES_H
 #define GG_Z_SCORES_H
 
+#include "run/departure.h" /* made of the public header (src/run/meson.build) */
 #include "run/run.h"
-
-/* The public header defines these. */
-typedef struct gg_departure gg_departure;
-typedef struct gg_comparison_row gg_comparison_row;
 
 /* (a - b) over their combined standard error; NaN where either is missing. */
 double gg_run_z_score(const gg_estimate *a, const gg_estimate *b);

@@ -34,7 +34,7 @@ static traits traits_of(const gg_scene *s)
   return t;
 }
 
-/* Does a wall act otherwise than by its temperature; and by that at all? */
+/* True if a wall acts otherwise than by its temperature; if it acts by that at all. */
 static bool walls_have_rule(const gg_scene *s)
 {
   return s->walls.temperature[0] == GG_AUTO || s->walls.accommodation < 1;
@@ -163,7 +163,7 @@ static gg_status check_contact_value(const gg_scene *s, gg_error *err)
                       most, s->phi);
 }
 
-/* Does the gas start as the scene says? Between walls and in sweeps of the shear rate the flow decides. */
+/* True if the gas starts as the scene says: between walls and in sweeps of the shear rate the flow decides. */
 static bool takes_start(gg_flow flow)
 {
   return !gg_flow_is_walled(flow) && !gg_flow_of(flow)->linear_response;
@@ -242,8 +242,8 @@ static bool uses_contact_value(const gg_scene *s, unsigned uses)
   return s->n_species == 1 && s->phi > 0 && ((uses & (GG_USE_DSMC | GG_USE_THEORY)) || heat == GG_HEAT_KICKS);
 }
 
-/* Is there a mean whose error can be reduced? Not in a gas that heats up for ever, nor in one that cools with a law of
- * restitution and is never the same again; and without losses there is no rate of loss. */
+/* True if there is a mean whose error can be reduced: not in a gas that heats up for ever, nor in one that cools with a
+ * law of restitution and is never the same again; and without losses there is no rate of loss. */
 static bool has_error(const gg_scene *s, unsigned uses)
 {
   const traits t = traits_of(s);
@@ -378,7 +378,7 @@ static void add_key(group *groups, const char *reason, const char *key)
   gg_base_text_append(g->keys, sizeof g->keys, "%s%s", *g->keys ? ", " : "", key);
 }
 
-/* Does the member have another value than by default? */
+/* True if the member has another value than by default. */
 static bool differs(const gg_field *f, const void *base, const gg_scene *scene, const void *default_base,
                     const gg_scene *defaults)
 {

@@ -11,7 +11,6 @@
 /* The relative error that ends a run; 0 where only collisions do. */
 double gg_scene_ensemble_requested_error(const gg_scene *scene);
 
-/* The relative error by which the size is chosen. */
 double gg_scene_ensemble_size_error(const gg_scene *scene);
 int64_t gg_scene_ensemble_size(const gg_scene *scene);
 /* Means of an ensemble of this model lie off by up to this share, as 1/N. */

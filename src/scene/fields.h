@@ -108,9 +108,9 @@ int gg_scene_field_find(const char *key);
 int gg_scene_key_find(const char *key, int n_species, gg_field *member);
 /* The key that gives the strength of a thermostat; NULL: it has none. */
 const gg_field *gg_scene_strength_of(gg_thermostat thermostat);
-/* Did the user give this key? */
+/* True if the user gave this key. */
 bool gg_scene_is_given(const gg_scene *scene, const char *key);
-/* Is it the first part of some dotted key ("collision")? */
+/* True if it is the first part of some dotted key ("collision"). */
 bool gg_scene_is_section(const char *name);
 
 /* How many values the member holds; of species and words 1. */
@@ -126,7 +126,7 @@ gg_word gg_scene_field_word_for(const gg_field *field, int value);
 void gg_scene_number_format(double value, char *text, size_t size);
 /* When the key has an effect: "flow couette; walls.beta is not -1"; "" if it always has. */
 void gg_scene_field_when(const gg_field *field, char *text, size_t size);
-/* Does a key belong to the flow, whatever else a scene says? */
+/* True if a key belongs to the flow, whatever else a scene says. */
 bool gg_scene_field_is_of(const gg_field *field, gg_flow flow);
 /* Values that a field takes, in words: "a number from 0 to 1", "one of md, dsmc". */
 void gg_scene_field_allowed(const gg_field *field, char *text, size_t size);

@@ -90,7 +90,7 @@ struct gg_scene {
     double e, beta, mu, speed, ridges;
     double temperature[2]; /* lower, upper, in the user's units; GG_AUTO: none */
     double accommodation;  /* share of contacts that leave with it */
-    gg_top top;            /* chute: is there an upper wall? */
+    gg_top top;            /* chute: what is above */
   } walls;
   double gravity[3];
   struct {
@@ -127,10 +127,10 @@ struct gg_scene {
   gg_scene_keys given; /* keys that the user gave */
 };
 
-/* Does a key of the thermostat give its strength, instead of the balance with the losses? */
+/* True if a key of the thermostat gives its strength, instead of the balance with the losses. */
 bool gg_scene_is_driven(const gg_scene *scene);
 
-/* Is the temperature of the start the only scale of velocities? Then it makes the unit v_0. */
+/* True if the temperature of the start is the only scale of velocities. Then it makes the unit v_0. */
 static inline bool gg_scene_scales_with_start(const gg_scene *s)
 {
   return !gg_scene_is_driven(s) && !gg_flow_is_sheared(s->flow) && !gg_flow_is_walled(s->flow);

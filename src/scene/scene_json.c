@@ -175,7 +175,6 @@ json_t *gg_scene_json(const gg_scene *scene)
   return gg_io_json_end(before, root);
 }
 
-/* A JSON value on one line, as YAML flow style. */
 static void print_flow_style(FILE *out, const json_t *value)
 {
   char text[GG_NUMBER_TEXT];

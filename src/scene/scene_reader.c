@@ -213,7 +213,7 @@ gg_status gg_scene_file_text(const char *path, char **out, size_t *length, gg_er
   bool standard = strcmp(path, "-") == 0;
   int fd = standard ? dup(STDIN_FILENO) : open(path, O_RDONLY | O_CLOEXEC);
   if (fd < 0) return gg_base_fail(err, GG_BAD_FILE, "%s: cannot be read: %s", path, strerror(errno));
-  char *text = gg_base_array_new(MAX_BYTES, 1, err);
+  char *text = gg_base_array_new(MAX_BYTES + 1, 1, err); /* ends with a zero */
   gg_status status = text ? read_text(fd, path, text, length, err) : GG_FAILED;
   close(fd);
   if (status == GG_OK)

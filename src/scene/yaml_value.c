@@ -73,7 +73,7 @@ gg_status gg_scene_entry_key(const gg_scene_reader *r, const gg_scene_entry *e, 
   return GG_OK;
 }
 
-/* Is the word one of those, separated by blanks? */
+/* True if the word is one of those, separated by blanks. */
 static bool is_among(const char *words, const char *word)
 {
   size_t length = strlen(word);
@@ -164,7 +164,6 @@ static ptrdiff_t length_of(const yaml_node_t *node)
   return node->type == YAML_SEQUENCE_NODE ? node->data.sequence.items.top - node->data.sequence.items.start : 0;
 }
 
-/* The node as a message shows it. */
 static void show(const yaml_node_t *node, char *text, size_t size)
 {
   char word[41];

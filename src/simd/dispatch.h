@@ -15,7 +15,7 @@ typedef enum gg_instructions {
   GG_INSTRUCTION_SETS
 } gg_instructions;
 
-/* Is this set compiled (meson option `instructions`), and does this processor have it? */
+/* True if this set is compiled (meson option `instructions`) and this processor has it. */
 bool gg_simd_instructions_run_here(gg_instructions set);
 /* The widest such set; GG_INSTRUCTION_SETS: none. */
 gg_instructions gg_simd_instructions_best(void);

@@ -48,7 +48,8 @@ gg_status gg_statistics_series_restore(gg_series *s, const gg_archive *archive, 
 
 /* Decimation factors: they double from 1 whenever a store of fixed size is full. */
 
-/* Is a number from a file a valid factor, with so many samples of the next entry pending? Also far from overflow. */
+/* True if a number from a file is a valid factor, with so many samples of the next entry pending, and far from
+ * overflow. */
 static inline bool gg_is_decimation_factor(uint64_t per, uint64_t pending)
 {
   return per > 0 && per < UINT64_C(1) << 48 && (per & (per - 1)) == 0 && pending < per;

@@ -90,8 +90,7 @@ static void name_rows(maps *m, bool difference)
 static gg_status draw_quantity(maps *m, const char *quantity, const char *picture, gg_error *err)
 {
   const gg_grid_view *v = m->view;
-  const gg_quantity q = gg_common_quantity_find(quantity);
-  const bool known = q < GG_N_QUANTITIES, difference = known && gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
+  const bool difference = gg_sweep_is_difference(quantity);
   fill(m, quantity, difference);
   name_rows(m, difference);
   snprintf(m->title, sizeof m->title, "%s: %s (graingas %s)", quantity,

@@ -14,8 +14,8 @@
 
 #include "base/build.h"
 #include "base/memory.h"
-#include "io/output_path.h"
 #include "files/h5/hdf5_reader.h"
+#include "io/output_path.h"
 
 void gg_sweep_point_name(uint64_t id, char name[GG_POINT_NAME])
 {
@@ -59,7 +59,7 @@ static gg_point_file check_file(const char *path, bool any_build)
   gg_h5_in h;
   gg_point_file found = GG_POINT_FILE_GOOD;
   const unsigned before = gg_base_memory_failures();
-  gg_h5_open(&h, path);
+  gg_h5_open(&h, path, false);
   char *build = !h.failed && gg_h5_exists(&h, "/graingas/build") ? gg_h5_read_text(&h, "/graingas/build") : NULL;
   if (h.failed)
     found = GG_POINT_FILE_DAMAGED;

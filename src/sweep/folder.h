@@ -4,7 +4,7 @@
 #define GG_SWEEP_FOLDER_H
 
 #include "io/atomic_file.h"
-#include "graingas.h"
+#include "sweep/point_state.h" /* made of the public header (src/sweep/meson.build) */
 #include "sweep/sweep.h"
 
 void gg_sweep_point_name(uint64_t id, char name[GG_POINT_NAME]);

@@ -25,7 +25,6 @@ gg_status gg_sweep_grid_view_make(gg_grid_view *view, const gg_point_table *tabl
                                   gg_error *err);
 void gg_sweep_grid_view_clear(gg_grid_view *view);
 
-/* The point of a cell of a panel. */
 size_t gg_sweep_grid_point(const gg_grid_view *view, size_t panel, size_t x, size_t y);
 /* The value of an axis, as in YAML; "" without an axis. */
 const char *gg_sweep_grid_value(const gg_grid_view *view, const gg_grid_key *axis, size_t i);
@@ -34,7 +33,6 @@ const char *gg_sweep_grid_value(const gg_grid_view *view, const gg_grid_key *axi
 void gg_sweep_grid_panel_name(const gg_grid_view *view, size_t panel, bool enhanced, char name[GG_PANEL_NAME]);
 /* The row of a method and a quantity at a point; NULL: none. */
 const gg_point_row *gg_sweep_grid_row(const gg_grid_view *view, size_t point, const char *method, const char *quantity);
-/* True if the point has a result. */
 bool gg_sweep_grid_has(const gg_grid_view *view, size_t point);
 
 #endif

@@ -41,7 +41,6 @@ gg_status gg_sweep_values_add(gg_values *v, const char *text, gg_error *err)
   return v->text[v->n] ? v->n++, GG_OK : gg_base_out_of_memory(err);
 }
 
-/* Read a number that is the whole text. */
 static bool is_number(const char *text, size_t length, double *value)
 {
   char word[40], *end;
@@ -171,7 +170,6 @@ bool gg_sweep_varies(const gg_sweep *sweep, const char *key)
   return false;
 }
 
-/* True if a value of the section names this member. */
 static bool names_member(const gg_varied *v, size_t k, const char *member)
 {
   for (size_t i = 0; i < v->n; i++)
@@ -243,18 +241,13 @@ gg_status gg_sweep_add_rows(gg_sweep *sweep, gg_values *lists, size_t n_keys, gg
   return add(sweep, &v, err);
 }
 
-static bool is_whole(const char *key)
-{
-  int id = gg_scene_field_find(key);
-  return id >= 0 && gg_scene_fields[id].type == GG_FIELD_INTEGER;
-}
-
 static char *draw(const gg_values *v, gg_rng *rng)
 {
   char text[40];
   double u = gg_rng_uniform(rng);
   if (!v->range) return strdup(v->text[(size_t)(u * (double)v->n)]);
-  if (is_whole(v->key))
+  const int id = gg_scene_field_find(v->key);
+  if (id >= 0 && gg_scene_fields[id].type == GG_FIELD_INTEGER)
     gg_scene_yaml_number(floor(v->low + u * (v->high - v->low + 1)), text);
   else
     snprintf(text, sizeof text, "%.6g", v->low + u * (v->high - v->low)); /* as many digits as people read */

@@ -10,7 +10,6 @@
 #include "files/h5/result_restore.h"
 #include "run/causes.h"
 #include "run/z_scores.h"
-#include "graingas.h"
 
 /* The causes of md's deviation in this quantity, in one line. */
 static const char *join_causes(const gg_comparison *c, gg_quantity q, gg_string_list *texts)

@@ -82,7 +82,6 @@ static uint64_t point_id(const gg_scene *scene, gg_does does)
   return mix(add_extension(sum, scene));
 }
 
-/* The value of a key in a scene as JSON. */
 static const json_t *value_in(const json_t *scene, const char *key)
 {
   char section[32];
@@ -191,13 +190,6 @@ static void name_point(const gg_sweep *sweep, size_t i, char *text, size_t size)
   gg_scene_quote(whole, text, size);
 }
 
-static gg_status set_values(const gg_sweep *sweep, size_t i, gg_scene *scene, gg_error *err)
-{
-  for (size_t k = 0; gg_sweep_column_key(sweep, k); k++)
-    GG_TRY(gg_scene_override(scene, gg_sweep_column_key(sweep, k), value_of(sweep, i, k), err));
-  return GG_OK;
-}
-
 /* Add the cost of one engine for a scene; GG_BAD_INPUT if it cannot run the scene. */
 static gg_status cost_of(const gg_scene *scene, gg_engine_kind engine, gg_cost_estimate *cost, double *warmup,
                          gg_error *err)
@@ -256,7 +248,8 @@ static gg_status estimate_point(const gg_sweep *sweep, gg_scene *scene, double *
 static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, double *seconds, gg_error *err)
 {
   *scene = *sweep->base;
-  GG_TRY(set_values(sweep, i, scene, err));
+  for (size_t k = 0; gg_sweep_column_key(sweep, k); k++)
+    GG_TRY(gg_scene_override(scene, gg_sweep_column_key(sweep, k), value_of(sweep, i, k), err));
   GG_TRY(gg_run_scene_finish(scene, err));
   GG_TRY(estimate_point(sweep, scene, seconds, err));
   if (sweep->settings.seeds == GG_SEEDS_INDEPENDENT && !gg_sweep_sets(sweep, "run.seed"))
@@ -264,7 +257,6 @@ static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, doubl
   return GG_OK;
 }
 
-/* Resolve a point, with messages that name it. */
 static gg_status resolve_named(const gg_sweep *sweep, size_t i, gg_scene *scene, double *seconds, gg_error *err)
 {
   char name[200];

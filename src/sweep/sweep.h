@@ -57,7 +57,6 @@ struct gg_sweep {
 gg_sweep_settings gg_sweep_settings_defaults(void);
 /* One key of the map `sweep`, "sweep.does", from YAML. */
 gg_status gg_sweep_settings_set(gg_sweep_settings *settings, const char *key, const char *value, gg_error *err);
-/* The map `sweep` as JSON Schema. */
 json_t *gg_sweep_settings_schema(void);
 /* Print the map as text that can be read again. */
 void gg_sweep_settings_print(FILE *out, const gg_sweep_settings *settings);
@@ -87,7 +86,6 @@ gg_status gg_sweep_add_rows(gg_sweep *sweep, gg_values *lists, size_t n_keys, gg
  * numbers). Each key has its own stream: more points or more keys leave the other draws as they are. */
 gg_status gg_sweep_add_draws(gg_sweep *sweep, const gg_values *lists, size_t n_keys, size_t n, uint64_t seed,
                              gg_error *err);
-/* True if the key is varied. */
 bool gg_sweep_varies(const gg_sweep *sweep, const char *key);
 /* The same, also as a member of its section: vary: {run: [{seed: 1}, {seed: 2}]} sets run.seed. */
 bool gg_sweep_sets(const gg_sweep *sweep, const char *key);

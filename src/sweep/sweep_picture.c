@@ -12,9 +12,8 @@
 #include "plot/chart.h"
 #include "run/result.h"
 #include "run/z_scores.h"
-#include "sweep/grid_view.h"
 #include "scene/model_of_scene.h"
-#include "graingas.h"
+#include "sweep/grid_view.h"
 
 enum { MOST_PANELS = 6 };
 
@@ -36,7 +35,6 @@ typedef struct drawing {
   bool crowded; /* there are more lines than a panel can have */
 } drawing;
 
-/* True if a word is in a list with commas. */
 static bool is_listed(const char *list, const char *word)
 {
   char other[64];
@@ -324,7 +322,8 @@ static gg_status write_title(drawing *d, gg_error *err)
   char varied[400] = "", title[240];
   const char *key;
   GG_TRY(gg_sweep_resolve(d->sweep, 0, &scene, err));
-  for (size_t k = 0; (key = gg_sweep_column_key(d->sweep, k)); k++) gg_base_text_append(varied, sizeof varied, "%s,", key);
+  for (size_t k = 0; (key = gg_sweep_column_key(d->sweep, k)); k++)
+    gg_base_text_append(varied, sizeof varied, "%s,", key);
   gg_files_scene_title(&scene, varied, title, sizeof title);
   d->chart->title = gg_plot_chart_text(d->chart, "%s", title);
   return GG_OK;

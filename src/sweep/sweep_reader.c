@@ -149,14 +149,10 @@ static gg_status place(const gg_scene_reader *r, const yaml_node_t *node, gg_sta
   return gg_base_error_prefix(r->err, status, "%s:%zu", r->name, node->start_mark.line + 1);
 }
 
-static bool is_plain(const yaml_node_t *node)
-{
-  return node->type == YAML_SCALAR_NODE && node->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
-}
-
 static gg_status read_item(const gg_scene_reader *r, const yaml_node_t *node, gg_values *values)
 {
-  if (!is_plain(node)) return add_node(r, values, node);
+  if (node->type != YAML_SCALAR_NODE || node->data.scalar.style != YAML_PLAIN_SCALAR_STYLE)
+    return add_node(r, values, node);
   return place(r, node, gg_sweep_values_parse(values, gg_scene_scalar(node), r->err));
 }
 
@@ -217,13 +213,6 @@ static gg_status add_zipped(const gg_scene_reader *r, gg_sweep *sweep, value_lis
   return l->n ? place(r, l->node[0], gg_sweep_add_rows(sweep, l->values, l->n, r->err)) : GG_OK;
 }
 
-static gg_status add_grid(const gg_scene_reader *r, gg_sweep *sweep, value_lists *l)
-{
-  GG_TRY(reject_range(r, l));
-  for (size_t k = 0; k < l->n; k++) GG_TRY(place(r, l->node[k], gg_sweep_add_rows(sweep, &l->values[k], 1, r->err)));
-  return GG_OK;
-}
-
 typedef struct draws {
   int64_t points, seed;
 } draws;
@@ -253,7 +242,9 @@ static gg_status add_map(const gg_scene_reader *r, gg_sweep *sweep, const yaml_n
           ? read_lists(r, "", map, &l)
           : gg_scene_reject(r, map, "vary", "keys with their values are expected: vary: {phi: [0.1, 0.2]}");
   if (status == GG_OK)
-    status = l.random ? add_random(r, sweep, &l) : zipped ? add_zipped(r, sweep, &l) : add_grid(r, sweep, &l);
+    status = l.random ? add_random(r, sweep, &l) : zipped ? add_zipped(r, sweep, &l) : reject_range(r, &l);
+  for (size_t k = 0; k < l.n && !l.random && !zipped && status == GG_OK; k++)
+    status = place(r, l.node[k], gg_sweep_add_rows(sweep, &l.values[k], 1, r->err));
   for (size_t k = 0; k < l.n; k++) gg_sweep_values_clear(&l.values[k]);
   return status;
 }

@@ -11,14 +11,15 @@
 #include <string.h>
 
 #include "base/build.h"
-#include "io/checked_json.h"
-#include "io/file_writer.h"
 #include "base/memory.h"
 #include "files/h5/checksum_trailer.h"
 #include "files/h5/hdf5_reader.h"
 #include "files/h5/hdf5_writer.h"
 #include "files/h5/result_file.h"
 #include "files/result_document.h"
+#include "graingas.h"
+#include "io/checked_json.h"
+#include "io/file_writer.h"
 #include "run/result.h"
 #include "scene/model_of_scene.h"
 #include "sweep/folder.h"
@@ -71,7 +72,6 @@ static double number(const json_t *object, const char *key)
   return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
-/* Add the quantities of a method that have a mean. */
 static gg_status add_quantities(gg_point_table *t, gg_point_row row, json_t *quantities, const char *error,
                                 gg_error *err)
 {
@@ -152,7 +152,7 @@ static gg_status add_document(gg_point_table *t, gg_point_row row, json_t *docum
 static gg_status read_document(const char *path, json_t **document, char **scene, gg_error *err)
 {
   gg_h5_in h;
-  gg_h5_open(&h, path);
+  gg_h5_open(&h, path, false);
   char *text = h.failed ? NULL : gg_h5_read_text(&h, "/graingas/document");
   const char *why = "out of memory";
   *document = text ? gg_files_document_read(text, &why) : NULL;
@@ -310,7 +310,7 @@ gg_status gg_sweep_point_table_write_csv(const gg_point_table *t, const gg_sweep
                                          gg_error *err)
 {
   gg_atomic_file file;
-  GG_TRY(gg_io_atomic_open(&file, path, err));
+  GG_TRY(gg_io_atomic_open(&file, path, false, err));
   gg_file_writer *out = gg_base_array_new(1, sizeof *out, err);
   if (!out) return gg_io_atomic_abandon(&file), GG_FAILED;
   const unsigned before = gg_base_memory_failures();
@@ -320,9 +320,7 @@ gg_status gg_sweep_point_table_write_csv(const gg_point_table *t, const gg_sweep
   for (size_t i = 0; i < t->n; i++) put_row(&csv, sweep, &t->row[i]);
   gg_status status = gg_base_memory_check(before, gg_io_file_writer_end(out), err);
   free(out);
-  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
-  gg_io_atomic_abandon(&file);
-  return status;
+  return gg_io_atomic_commit(&file, status, err);
 }
 
 /* Room for a column of each type. */
@@ -405,13 +403,11 @@ static gg_status write_image(gg_h5 *h, const char *path, gg_error *err)
   void *image = gg_h5_image(h, &size);
   gg_h5_close(h);
   gg_status status = gg_h5_status(h, path, "written", err);
-  if (status == GG_OK) status = gg_io_atomic_open(&file, path, err);
+  if (status == GG_OK) status = gg_io_atomic_open(&file, path, false, err);
   if (status != GG_OK) return free(image), status;
   status = gg_files_checksum_trailer_write(&file, image, size, NULL, err);
   free(image);
-  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
-  gg_io_atomic_abandon(&file);
-  return status;
+  return gg_io_atomic_commit(&file, status, err);
 }
 
 gg_status gg_sweep_point_table_write_h5(const gg_point_table *t, const gg_sweep *sweep, const char *path,
@@ -494,6 +490,6 @@ json_t *gg_sweep_document(const gg_sweep *sweep, const char *folder)
   json_t *points = json_array();
   for (size_t i = 0; i < sweep->n; i++) json_array_append_new(points, point_json(sweep, folder, i));
   return gg_io_json_end(before, json_pack("{s:s, s:s, s:o, s:o}", "graingas", gg_base_build_version, "does",
-                                            gg_sweep_does_words[sweep->settings.does], "folder", name_as_text(folder),
-                                            "points", points));
+                                          gg_sweep_does_words[sweep->settings.does], "folder", name_as_text(folder),
+                                          "points", points));
 }

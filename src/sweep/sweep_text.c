@@ -70,12 +70,10 @@ static bool holds(const char *path, const char *text)
 static gg_status write_text(const char *path, const char *text, gg_error *err)
 {
   gg_atomic_file file = GG_ATOMIC_NONE;
-  gg_status status = gg_io_atomic_open_locked(&file, path, err);
+  gg_status status = gg_io_atomic_open(&file, path, true, err);
   file.repeated = true;
   if (status == GG_OK) status = gg_io_atomic_write(&file, text, strlen(text), err);
-  if (status == GG_OK) status = gg_io_atomic_commit(&file, err);
-  gg_io_atomic_abandon(&file);
-  return status;
+  return gg_io_atomic_commit(&file, status, err);
 }
 
 gg_status gg_sweep_folder_note(const gg_sweep *sweep, const char *folder, gg_error *err)

@@ -11,13 +11,15 @@ void gg_sweep_text_row(gg_text_table *t)
   t->at = 0;
 }
 
-void gg_sweep_text_cell(gg_text_table *t, const char *format, ...)
+void gg_sweep_text_cells(gg_text_table *t, const char *format, ...)
 {
+  char text[8 * GG_TEXT_CELL];
   va_list arguments;
-  if (t->n_rows > GG_TEXT_ROWS || t->at == GG_TEXT_COLUMNS) return;
   va_start(arguments, format);
-  vsnprintf(t->cell[t->n_rows - 1][t->at++], GG_TEXT_CELL, format, arguments);
+  vsnprintf(text, sizeof text, format, arguments);
   va_end(arguments);
+  for (char *at = text, *cell; t->n_rows <= GG_TEXT_ROWS && t->at < GG_TEXT_COLUMNS && (cell = strsep(&at, "\t"));)
+    snprintf(t->cell[t->n_rows - 1][t->at++], GG_TEXT_CELL, "%s", cell);
   if (t->at > t->n_columns) t->n_columns = t->at;
 }
 
@@ -39,13 +41,6 @@ static int width_of(const gg_text_table *t, int rows, int column)
   return width;
 }
 
-static void print_rule(int width, FILE *out)
-{
-  fputc(' ', out);
-  while (width--) fputc('-', out);
-  fputs(" |", out);
-}
-
 void gg_sweep_text_print(gg_text_table *t, FILE *out)
 {
   const int rows = t->n_rows < GG_TEXT_ROWS ? t->n_rows : GG_TEXT_ROWS;
@@ -56,7 +51,11 @@ void gg_sweep_text_print(gg_text_table *t, FILE *out)
     fputc('\n', out);
     if (i) continue;
     fputc('|', out);
-    for (int k = 0; k < t->n_columns; k++) print_rule(width_of(t, rows, k), out);
+    for (int k = 0; k < t->n_columns; k++) {
+      fputc(' ', out);
+      for (int width = width_of(t, rows, k); width > 0; width--) fputc('-', out);
+      fputs(" |", out);
+    }
     fputc('\n', out);
   }
   if (t->n_rows > rows) fprintf(out, "\n%d more rows are left out.\n", t->n_rows - rows);

@@ -17,7 +17,8 @@ typedef struct gg_text_table {
 
 /* Begin a row; cells beyond the size of the table are left out. */
 void gg_sweep_text_row(gg_text_table *table);
-void gg_sweep_text_cell(gg_text_table *table, const char *format, ...) GG_PRINTF(2, 3);
+/* Cells of the row, with tabs between them. */
+void gg_sweep_text_cells(gg_text_table *table, const char *format, ...) GG_PRINTF(2, 3);
 /* Print the table and an empty line, and clear the table. */
 void gg_sweep_text_print(gg_text_table *table, FILE *out);
 

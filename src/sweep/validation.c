@@ -8,12 +8,12 @@
 #include <time.h>
 
 #include "base/build.h"
-#include "io/file_writer.h"
 #include "base/memory.h"
 #include "files/result_document.h"
+#include "graingas.h"
+#include "io/file_writer.h"
 #include "sweep/deviation_maps.h"
 #include "sweep/verdict.h"
-#include "graingas.h"
 
 typedef struct validating {
   const gg_validate_options *options;
@@ -72,34 +72,22 @@ static gg_status write_page(const gg_validate_options *o, const gg_point_table *
                             const char *verdict, gg_error *err)
 {
   gg_atomic_file file;
-  GG_TRY(gg_io_atomic_open(&file, o->page, err));
+  GG_TRY(gg_io_atomic_open(&file, o->page, false, err));
   gg_file_writer *out = gg_base_array_new(1, sizeof *out, err);
   if (!out) return gg_io_atomic_abandon(&file), GG_FAILED;
   gg_io_file_writer_begin(out, &file, err);
   put_head(out, t);
   gg_io_file_writer_put(out, verdict);
   if (*maps)
-    gg_io_file_writer_put(out,
-                            "## Maps\n\nRelative deviations at each point, in per cent; of N1 and N2 differences. "
-                            "Enskog is the noise-free solution, `enskog_hermite`. Lines between cells: 1 % "
-                            "(dashed), 5 %, 20 % (thick). Hatched: below two standard errors. Red: a cross where a "
-                            "run is not steady, a triangle where md is clustered or swirls, a diamond where it is "
-                            "collapsed. Panels marked \"against dsmc\" have no noise-free solution.\n\n");
+    gg_io_file_writer_put(out, "## Maps\n\nRelative deviations at each point, in per cent; of N1 and N2 differences. "
+                               "Enskog is the noise-free solution, `enskog_hermite`. Lines between cells: 1 % "
+                               "(dashed), 5 %, 20 % (thick). Hatched: below two standard errors. Red: a cross where a "
+                               "run is not steady, a triangle where md is clustered or swirls, a diamond where it is "
+                               "collapsed. Panels marked \"against dsmc\" have no noise-free solution.\n\n");
   gg_io_file_writer_put(out, maps);
   gg_status status = gg_io_file_writer_end(out);
   free(out);
-  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
-  gg_io_atomic_abandon(&file);
-  return status;
-}
-
-static gg_status write_json(const gg_grid_view *view, const gg_agreement *agreement, const char *repeat, char **text,
-                            gg_error *err)
-{
-  json_t *document = gg_sweep_verdict_document(view, agreement, repeat);
-  *text = document ? gg_files_document_text(document) : NULL;
-  json_decref(document);
-  return *text ? GG_OK : gg_base_out_of_memory(err);
+  return gg_io_atomic_commit(&file, status, err);
 }
 
 static gg_status print_verdict(const gg_grid_view *view, const gg_agreement *agreement, const char *repeat, char **text,
@@ -141,7 +129,10 @@ static gg_status validate(validating *v, const gg_grid_view *view, const gg_poin
   GG_TRY(draw(v, view, t, *text, err));
   if (v->options->json) {
     free(*text);
-    GG_TRY(write_json(view, &agreement, v->options->repeat, text, err));
+    json_t *document = gg_sweep_verdict_document(view, &agreement, v->options->repeat);
+    *text = document ? gg_files_document_text(document) : NULL;
+    json_decref(document);
+    if (!*text) return gg_base_out_of_memory(err);
   }
   if (!agreement.n_values)
     return gg_base_fail(err, GG_FAILED,

@@ -20,18 +20,20 @@ typedef struct writing {
   FILE *out;
 } writing;
 
+bool gg_sweep_is_difference(const char *quantity)
+{
+  const gg_quantity q = gg_common_quantity_find(quantity);
+  return q < GG_N_QUANTITIES && gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
+}
+
 double gg_sweep_deviation_of(const gg_point_row *row)
 {
-  const gg_quantity q = gg_common_quantity_find(row->quantity);
-  const bool difference = q < GG_N_QUANTITIES && gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
-  return difference ? row->difference : row->deviation;
+  return gg_sweep_is_difference(row->quantity) ? row->difference : row->deviation;
 }
 
 double gg_sweep_deviation_error_of(const gg_point_row *row)
 {
-  const gg_quantity q = gg_common_quantity_find(row->quantity);
-  const bool difference = q < GG_N_QUANTITIES && gg_common_quantity_mask(q) & GG_STRESS_DIFFERENCE;
-  return difference ? row->difference_error : row->deviation_error;
+  return gg_sweep_is_difference(row->quantity) ? row->difference_error : row->deviation_error;
 }
 
 /* True if a row deviates by more than `threshold` and by more than two errors. */
@@ -131,22 +133,15 @@ static void print_points(const writing *w)
 
 static void print_agreement_table(const writing *w)
 {
-  static const char *const head[] = {"quantity", "points", "mean of z", "allowed", "mean of z^2", "allowed", "largest"};
   gg_sweep_text_row(w->table);
-  for (size_t k = 0; k < sizeof head / sizeof *head; k++) gg_sweep_text_cell(w->table, "%s", head[k]);
+  gg_sweep_text_cells(w->table, "quantity\tpoints\tmean of z\tallowed\tmean of z^2\tallowed\tlargest");
   for (int i = 0; i < w->agreement->n; i++) {
     const gg_agreement_row *r = &w->agreement->row[i];
     gg_sweep_text_row(w->table);
-    gg_sweep_text_cell(w->table, "%s%s", r->quantity, r->fails ? " !" : "");
-    gg_sweep_text_cell(w->table, "%zu", r->n);
-    gg_sweep_text_cell(w->table, "%+.2f", r->mean);
-    gg_sweep_text_cell(w->table, "+-%.2f", r->most_mean);
-    gg_sweep_text_cell(w->table, "%.2f", r->variance);
-    if (isfinite(r->most_variance))
-      gg_sweep_text_cell(w->table, "%.2f", r->most_variance);
-    else
-      gg_sweep_text_cell(w->table, "-");
-    gg_sweep_text_cell(w->table, "%.1f", r->largest);
+    gg_sweep_text_cells(w->table, "%s%s\t%zu\t%+.2f\t+-%.2f\t%.2f", r->quantity, r->fails ? " !" : "", r->n, r->mean,
+                        r->most_mean, r->variance);
+    gg_sweep_text_cells(w->table, isfinite(r->most_variance) ? "%.2f" : "-", r->most_variance);
+    gg_sweep_text_cells(w->table, "%.1f", r->largest);
   }
   gg_sweep_text_print(w->table, w->out);
 }
@@ -207,25 +202,20 @@ static void print_worst_row(const writing *w, const gg_point_row *row)
   char name[GG_PANEL_NAME];
   name_point(w->view, row->point, name);
   gg_sweep_text_row(w->table);
-  gg_sweep_text_cell(w->table, "%+.1f", row->z);
-  gg_sweep_text_cell(w->table, "%s", row->quantity);
-  gg_sweep_text_cell(w->table, "%.5g", row->mean);
-  gg_sweep_text_cell(w->table, "%.2g", row->error);
-  gg_sweep_text_cell(w->table, "%.5g", row->reference_mean);
-  gg_sweep_text_cell(w->table, "%s", name);
-  if (w->repeat) gg_sweep_text_cell(w->table, "`%s %zu`", w->repeat, row->point + 1);
+  gg_sweep_text_cells(w->table, "%+.1f\t%s\t%.5g\t%.2g\t%.5g\t%s", row->z, row->quantity, row->mean, row->error,
+                      row->reference_mean, name);
+  if (w->repeat) gg_sweep_text_cells(w->table, "`%s %zu`", w->repeat, row->point + 1);
 }
 
 static gg_status print_worst(const writing *w, gg_error *err)
 {
-  static const char *const head[] = {"z", "quantity", "dsmc", "error", "enskog_hermite", "point", "repeat it"};
   const gg_point_row **found = gg_base_array_new(w->view->table->n + 1, sizeof(void *), err);
   if (!found) return GG_FAILED;
   const size_t n = gg_sweep_find_worst(w->view, found);
   if (n) {
     fprintf(w->out, "The largest z:\n\n");
     gg_sweep_text_row(w->table);
-    for (int k = 0; k < (w->repeat ? 7 : 6); k++) gg_sweep_text_cell(w->table, "%s", head[k]);
+    gg_sweep_text_cells(w->table, "z\tquantity\tdsmc\terror\tenskog_hermite\tpoint%s", w->repeat ? "\trepeat it" : "");
     for (size_t i = 0; i < n; i++) print_worst_row(w, found[i]);
     gg_sweep_text_print(w->table, w->out);
   }
@@ -250,11 +240,9 @@ gg_off_counts gg_sweep_count_off(const gg_grid_view *v, const char *method, cons
 static void head_of_counts(const writing *w, const char *what)
 {
   gg_sweep_text_row(w->table);
-  gg_sweep_text_cell(w->table, "%s", what);
-  gg_sweep_text_cell(w->table, "points");
-  for (int k = 0; k < GG_THRESHOLDS; k++) gg_sweep_text_cell(w->table, "beyond %g %%", 100 * gg_sweep_thresholds[k]);
-  gg_sweep_text_cell(w->table, "largest");
-  gg_sweep_text_cell(w->table, "where");
+  gg_sweep_text_cells(w->table, "%s\tpoints", what);
+  for (int k = 0; k < GG_THRESHOLDS; k++) gg_sweep_text_cells(w->table, "beyond %g %%", 100 * gg_sweep_thresholds[k]);
+  gg_sweep_text_cells(w->table, "largest\twhere");
 }
 
 static void row_of_counts(const writing *w, const char *name, const gg_off_counts *c)
@@ -263,11 +251,9 @@ static void row_of_counts(const writing *w, const char *name, const gg_off_count
   if (!c->n) return;
   if (c->where) name_point(w->view, c->where->point, where);
   gg_sweep_text_row(w->table);
-  gg_sweep_text_cell(w->table, "%s", name);
-  gg_sweep_text_cell(w->table, "%zu", c->n);
-  for (int k = 0; k < GG_THRESHOLDS; k++) gg_sweep_text_cell(w->table, "%zu", c->off[k]);
-  gg_sweep_text_cell(w->table, "%+.3g %%", 100 * c->largest);
-  gg_sweep_text_cell(w->table, "%s", where);
+  gg_sweep_text_cells(w->table, "%s\t%zu", name, c->n);
+  for (int k = 0; k < GG_THRESHOLDS; k++) gg_sweep_text_cells(w->table, "%zu", c->off[k]);
+  gg_sweep_text_cells(w->table, "%+.3g %%\t%s", 100 * c->largest, where);
 }
 
 /* Panels down, values of x across: for each threshold the largest y (of md's deviation; e) with one beyond it, or of a
@@ -279,14 +265,14 @@ static void print_over_panels(const writing *w, const char *method, cell_printer
   const gg_grid_view *v = w->view;
   char name[GG_PANEL_NAME];
   gg_sweep_text_row(w->table);
-  gg_sweep_text_cell(w->table, "%s", "");
+  gg_sweep_text_cells(w->table, "%s", "");
   for (size_t x = 0; x < v->x.n; x++)
-    gg_sweep_text_cell(w->table, "%s%s%.24s", v->x.key ? v->x.key : "", v->x.key ? " " : "",
-                       gg_sweep_grid_value(v, &v->x, x));
+    gg_sweep_text_cells(w->table, "%s%s%.24s", v->x.key ? v->x.key : "", v->x.key ? " " : "",
+                        gg_sweep_grid_value(v, &v->x, x));
   for (size_t p = 0; p < v->n_panels; p++) {
     gg_sweep_grid_panel_name(v, p, false, name);
     gg_sweep_text_row(w->table);
-    gg_sweep_text_cell(w->table, "%s", *name ? name : "all");
+    gg_sweep_text_cells(w->table, "%s", *name ? name : "all");
     for (size_t x = 0; x < v->x.n; x++) print(w, method, p, x);
   }
   gg_sweep_text_print(w->table, w->out);
@@ -310,7 +296,7 @@ static void print_leaving(const writing *w, const char *method, size_t panel, si
     }
     gg_base_text_append(text, sizeof text, "%s%.12s", k ? " / " : "", last);
   }
-  gg_sweep_text_cell(w->table, "%s", any ? text : "no reference");
+  gg_sweep_text_cells(w->table, "%s", any ? text : "no reference");
 }
 
 /* The least y from which on all that are known are within 5 %. */
@@ -325,12 +311,10 @@ static void print_within(const writing *w, const char *method, size_t panel, siz
     if (fabs(off) > gg_sweep_thresholds[1]) break;
     from = y;
   }
-  if (!known)
-    gg_sweep_text_cell(w->table, "no answer");
-  else if (from == w->view->y.n)
-    gg_sweep_text_cell(w->table, "nowhere");
+  if (known && from < w->view->y.n)
+    gg_sweep_text_cells(w->table, "e >= %.12s", gg_sweep_grid_value(w->view, &w->view->y, from));
   else
-    gg_sweep_text_cell(w->table, "%s >= %.12s", "e", gg_sweep_grid_value(w->view, &w->view->y, from));
+    gg_sweep_text_cells(w->table, known ? "nowhere" : "no answer");
 }
 
 static bool y_is_restitution(const gg_grid_view *v)

@@ -16,6 +16,8 @@ json_t *gg_sweep_verdict_document(const gg_grid_view *view, const gg_agreement *
 enum { GG_THRESHOLDS = 3 };
 extern const double gg_sweep_thresholds[GG_THRESHOLDS]; /* 0.01, 0.05, 0.2 */
 
+/* True of a quantity whose deviation is a difference, not a ratio. */
+bool gg_sweep_is_difference(const char *quantity);
 /* Deviation from the reference, of stress differences the difference itself; NaN where there is none. */
 double gg_sweep_deviation_of(const gg_point_row *row);
 double gg_sweep_deviation_error_of(const gg_point_row *row);

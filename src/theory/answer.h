@@ -23,7 +23,7 @@ gg_status gg_theory_require_one_species(const gg_model *model, const char *theor
 gg_status gg_theory_require_at_most_two_species(const gg_model *model, const char *theory, gg_error *err);
 gg_status gg_theory_require_smooth(const gg_model *model, const char *theory, gg_error *err);
 gg_status gg_theory_require_constant_beta(const gg_model *model, const char *theory, gg_error *err);
-/* Does every collision lose so little of its energy (10^-6) that rounding may hide a steady state? */
+/* True if every collision loses so little of its energy (10^-6) that rounding may hide a steady state. */
 bool gg_theory_is_nearly_elastic(const gg_model *model);
 gg_status gg_theory_require_dilute(const gg_model *model, const char *theory, gg_error *err);
 

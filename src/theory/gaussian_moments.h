@@ -25,7 +25,7 @@ void gg_theory_gaussian_rates_at(const gg_model *model, const gg_gaussian *state
 void gg_theory_gaussian_changes_at(const gg_model *model, const gg_gaussian *state, gg_gaussian_rates *rates,
                                    double flow[2]);
 
-/* gaussian_relaxation.c: does the closure describe the relaxation of this gas? */
+/* gaussian_relaxation.c: true if the closure describes the relaxation of this gas. */
 bool gg_theory_gaussian_relaxes(const gg_model *model);
 void gg_theory_gaussian_start(const gg_model *model, gg_gaussian state[]);
 /* Kinetic and collisional stress. */
@@ -36,7 +36,7 @@ gg_tensor gg_theory_gaussian_stress(const gg_model *model, const gg_gaussian sta
  * no memory). */
 double gg_theory_gaussian_steady(const gg_model *model, gg_gaussian *state);
 
-/* Does any collision of this species change its spin? */
+/* True if any collision of this species changes its spin. */
 bool gg_theory_species_spins(const gg_model *model, int species);
 
 #endif

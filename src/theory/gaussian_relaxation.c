@@ -123,7 +123,7 @@ static bool is_small(gg_tensor change, gg_tensor of, double time)
   return true;
 }
 
-/* Is the remaining change too small to be seen? */
+/* True if the remaining change is too small to be seen. */
 static bool is_steady(const gg_model *m, const gg_gaussian state[], const gg_gaussian_rates *r, double time)
 {
   for (int i = 0; i < m->n_species; i++)

@@ -9,7 +9,7 @@
 
 #include "theory/answer.h"
 
-/* Is this free cooling with finite friction? */
+/* True in free cooling with finite friction. */
 bool gg_theory_is_metastable(const gg_model *model);
 
 /* Fraction of grains that escape friction per collision a grain, from the metastable state of one species,

@@ -41,9 +41,9 @@ static void put(const char *path, const char *text)
 {
   gg_atomic_file f;
   gg_error err;
-  assert_int_equal(gg_io_atomic_open(&f, path, &err), GG_OK);
+  assert_int_equal(gg_io_atomic_open(&f, path, false, &err), GG_OK);
   assert_int_equal(gg_io_atomic_write(&f, text, strlen(text), &err), GG_OK);
-  assert_int_equal(gg_io_atomic_commit(&f, &err), GG_OK);
+  assert_int_equal(gg_io_atomic_commit(&f, GG_OK, &err), GG_OK);
 }
 
 static void assert_holds(const char *path, const char *text)
@@ -72,7 +72,7 @@ static void links_are_followed(void **state)
   assert_true(gg_io_path_is_same_file("b/new", "a/../b/new") && !gg_io_path_is_same_file("a/new", "b/new"));
   gg_atomic_file f;
   gg_error err;
-  assert_int_equal(gg_io_atomic_open(&f, "loop", &err), GG_BAD_FILE);
+  assert_int_equal(gg_io_atomic_open(&f, "loop", false, &err), GG_BAD_FILE);
   unlink("b/file"), unlink("b/link"), unlink("a/link"), unlink("loop"), rmdir("a"), rmdir("b");
 }
 
@@ -87,7 +87,7 @@ static void mode_is_kept(void **state)
   put("file", "two");
   assert_true(stat("file", &about) == 0 && (about.st_mode & 07777) == 0640);
   assert_int_equal(chmod("file", 0444), 0); /* root could write it, and does not */
-  assert_int_equal(gg_io_atomic_open(&f, "file", &err), GG_BAD_FILE);
+  assert_int_equal(gg_io_atomic_open(&f, "file", false, &err), GG_BAD_FILE);
   assert_string_equal(err.message, "file: cannot be written: it is write-protected");
   assert_holds("file", "two");
   unlink("file");
@@ -99,10 +99,10 @@ static void one_writer_at_a_time(void **state)
   gg_atomic_file one, two;
   gg_error err;
   char own[60];
-  assert_int_equal(gg_io_atomic_open(&one, "file", &err), GG_OK);
+  assert_int_equal(gg_io_atomic_open(&one, "file", false, &err), GG_OK);
   assert_int_equal(symlink("file", "link"), 0);
   snprintf(own, sizeof own, "another process is writing it (process %ld on ", (long)getpid());
-  assert_int_equal(gg_io_atomic_open(&two, "link", &err), GG_BAD_FILE);
+  assert_int_equal(gg_io_atomic_open(&two, "link", false, &err), GG_BAD_FILE);
   assert_non_null(strstr(err.message, own));
   gg_io_atomic_abandon(&one);
   put("link", "now");
@@ -125,14 +125,14 @@ static void without_locks(void **state)
   gg_atomic_file one, two;
   gg_error err;
   no_locks = true;
-  assert_int_equal(gg_io_atomic_open(&one, "file", &err), GG_OK);
+  assert_int_equal(gg_io_atomic_open(&one, "file", false, &err), GG_OK);
   assert_int_equal(gg_io_atomic_write(&one, "half", 4, &err), GG_OK);
-  assert_int_equal(gg_io_atomic_open(&two, "file", &err), GG_OK);
+  assert_int_equal(gg_io_atomic_open(&two, "file", false, &err), GG_OK);
   assert_int_equal(gg_io_atomic_write(&two, "other", 5, &err), GG_OK);
   assert_int_equal(gg_io_atomic_write(&one, "whole", 5, &err), GG_OK);
-  assert_int_equal(gg_io_atomic_commit(&one, &err), GG_OK);
+  assert_int_equal(gg_io_atomic_commit(&one, GG_OK, &err), GG_OK);
   assert_holds("file", "halfwhole");
-  assert_int_equal(gg_io_atomic_commit(&two, &err), GG_OK);
+  assert_int_equal(gg_io_atomic_commit(&two, GG_OK, &err), GG_OK);
   assert_holds("file", "other");
   no_locks = false;
   unlink("file");
@@ -146,13 +146,14 @@ static void what_the_dead_left(void **state)
   gg_error err;
   pid_t child = fork();
   if (child == 0) {
-    if (gg_io_atomic_open(&f, "file", &err) != GG_OK || gg_io_atomic_write(&f, "half", 4, &err) != GG_OK) _exit(1);
+    if (gg_io_atomic_open(&f, "file", false, &err) != GG_OK || gg_io_atomic_write(&f, "half", 4, &err) != GG_OK)
+      _exit(1);
     _exit(0); /* nothing is closed or removed */
   }
   int status;
   assert_true(waitpid(child, &status, 0) == child && status == 0);
   assert_true(access("file.graingas-tmp", F_OK) == 0 && access("file.graingas-lock", F_OK) == 0);
-  assert_int_equal(gg_io_atomic_open(&f, "file", &err), GG_OK);
+  assert_int_equal(gg_io_atomic_open(&f, "file", false, &err), GG_OK);
   gg_io_atomic_abandon(&f);
   assert_true(access("file.graingas-tmp", F_OK) != 0 && access("file.graingas-lock", F_OK) != 0);
 }
@@ -172,20 +173,20 @@ static void streams(void **state)
     unlink("null");
   }
   assert_int_equal(mkfifo("pipe", 0666), 0);
-  assert_int_equal(gg_io_atomic_open(&f, "pipe", &err), GG_BAD_FILE);
+  assert_int_equal(gg_io_atomic_open(&f, "pipe", false, &err), GG_BAD_FILE);
   assert_string_equal(err.message, "pipe: cannot be written: nobody reads from this pipe");
   int in = open("pipe", O_RDONLY | O_NONBLOCK);
   put("pipe", "through");
   assert_int_equal(read(in, got, sizeof got), 7);
   assert_memory_equal(got, "through", 7);
-  assert_int_equal(gg_io_atomic_open(&f, "pipe", &err), GG_OK);
+  assert_int_equal(gg_io_atomic_open(&f, "pipe", false, &err), GG_OK);
   close(in); /* the reader goes: no signal */
   assert_int_equal(gg_io_atomic_write(&f, "lost", 4, &err), GG_BAD_FILE);
   assert_string_equal(err.message, "pipe: cannot be written: Broken pipe");
   gg_io_atomic_abandon(&f);
   assert_int_equal(gg_io_atomic_check_writable("pipe", "pictures are files", &err), GG_BAD_FILE);
   assert_string_equal(err.message, "pipe: is a device or a pipe; pictures are files");
-  assert_int_equal(gg_io_atomic_open(&f, "", &err), GG_BAD_INPUT);
+  assert_int_equal(gg_io_atomic_open(&f, "", false, &err), GG_BAD_INPUT);
   unlink("pipe");
 }
 

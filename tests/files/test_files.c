@@ -57,7 +57,7 @@ static void run_round_trip(void **state)
   gg_files_stored_result_clear(&s);
 
   gg_h5_in h;
-  gg_h5_open(&h, "r.h5");
+  gg_h5_open(&h, "r.h5", false);
   assert_true(read_number(&h, "/graingas/results/pressure/mean") == 0.1 + 0.2);
   assert_true(read_number(&h, "/graingas/results/pressure/stderr") == 0.002);
   assert_true(read_number(&h, "/graingas/seed") == 1);
@@ -86,7 +86,7 @@ static void comparison_round_trip(void **state)
   for (int k = 0; k < 2; k++) assert_non_null(gg_files_stored_series_find(&s.engine[k], "pressure"));
   gg_files_stored_result_clear(&s);
   gg_h5_in h;
-  gg_h5_open(&h, "c.h5");
+  gg_h5_open(&h, "c.h5", false);
   assert_true(read_number(&h, "/graingas/dsmc/results/temperature/mean") == 1.0 / 3 - 0.01);
   double lun = c->theory[0].answer.value[GG_Q_TEMPERATURE];
   assert_true(read_number(&h, "/graingas/theory/lun1991/temperature/mean") == lun);
@@ -113,7 +113,7 @@ static void a_row_is_the_same_grain_in_every_frame(void **state)
   assert_int_equal(gg_files_result_file_finish_run(&f, r, &err),
                    GG_OK); /* the last state is frame 100 again: not doubled */
   gg_h5_in h;
-  gg_h5_open(&h, "t.h5");
+  gg_h5_open(&h, "t.h5", false);
   double *x = gg_h5_read_array(&h, "/particles/grains/position/value", GG_ITEM_F64, &n);
   assert_int_equal(n, 3 * 3 * PLANTED_GRAINS);
   for (size_t k = 0; k < 3; k++)
@@ -148,7 +148,7 @@ static void frames_of_the_window(void **state)
     }
     assert_int_equal(gg_files_result_file_finish_run(&f, r, &err), GG_OK);
     gg_h5_in h;
-    gg_h5_open(&h, "t.h5");
+    gg_h5_open(&h, "t.h5", false);
     double *x = gg_h5_read_array(&h, "/particles/grains/position/value", GG_ITEM_F64, &n);
     double *time = gg_h5_read_array(&h, "/particles/grains/box/edges/time", GG_ITEM_F64, &m);
     const size_t kept = window >= 50 ? 1 : 2; /* of 50 and 100; the last state is there in any case */

@@ -594,7 +594,7 @@ static void compare_arrays(const char *file, const gg_result *r)
 {
   char path[200];
   gg_h5_in h;
-  gg_h5_open(&h, file);
+  gg_h5_open(&h, file, false);
   for (int i = 0; i < r->rows.n; i++) {
     const gg_estimate *e = &r->value[r->rows.row[i].quantity];
     const struct {

@@ -9,9 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "files/h5/result_reader.h"
-#include "scene/scene_reader.h"
 #include "graingas.h"
+#include "scene/scene_reader.h"
 
 static gg_scene parse(const char *yaml)
 {
@@ -309,20 +308,6 @@ static void table_is_sound(void **state)
   assert_true(n <= GG_MAX_FIELDS);
 }
 
-/* Scenes that older files hold, whose linear response to shear was a key. */
-static void older_words(void **state)
-{
-  (void)state;
-  char off[] = "flow: hss\nphi: 0.1\nsmall_shear: off\nparticles: 123\n";
-  char on[] = "flow: usf\nphi: 0.1\nsmall_shear: on\nparticles: 123\n", today[] = "flow: usf\nphi: 0.1\n";
-  gg_files_stored_scene_update_words(off);
-  assert_string_equal(off, "flow: hss\nphi: 0.1\nparticles: 123\n");
-  gg_files_stored_scene_update_words(on);
-  assert_string_equal(on, "flow: small_shear\nphi: 0.1\nparticles: 123\n");
-  gg_files_stored_scene_update_words(today);
-  assert_string_equal(today, "flow: usf\nphi: 0.1\n");
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -334,7 +319,6 @@ int main(void)
       cmocka_unit_test(table_is_sound),
       cmocka_unit_test(fractions_are_weights),
       cmocka_unit_test(pairs_of_many_species),
-      cmocka_unit_test(older_words),
       cmocka_unit_test(names_of_files),
       cmocka_unit_test(texts_of_any_bytes),
       cmocka_unit_test(numbers_of_yaml_1_1),

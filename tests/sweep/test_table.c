@@ -186,7 +186,7 @@ static void hdf5(void **state)
   gg_error err = {0};
   gg_h5_in h;
   if (gg_sweep_point_table_write_h5(&table, sweep, "t.h5", "x", &err) != GG_OK) fail_msg("%s", err.message);
-  gg_h5_open(&h, "t.h5");
+  gg_h5_open(&h, "t.h5", false);
   for (size_t m = 0; m < MEMBERS; m++) {
     char path[64];
     size_t n = 0;

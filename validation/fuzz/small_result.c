@@ -61,7 +61,7 @@ static void thin_document(json_t *document)
 static char *small_document(const char *path)
 {
   gg_h5_in in;
-  gg_h5_open(&in, path);
+  gg_h5_open(&in, path, false);
   char *text = gg_h5_read_text(&in, "/graingas/document");
   gg_h5_in_close(&in);
   json_t *document = text ? json_loads(text, 0, NULL) : NULL;

@@ -45,12 +45,6 @@ typedef struct post {
   bool *lost;
 } post;
 
-static void release(sending *s)
-{
-  free(s->block);
-  free(s);
-}
-
 /* Whether an earlier part to the same process is still being sent. */
 static bool is_behind(const post *p, const sending *s)
 {
@@ -68,7 +62,8 @@ static void push(post *p)
     sending *s = *at;
     if (!is_behind(p, s) && (MPI_Test(&s->request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS || done)) {
       *at = s->next;
-      release(s);
+      free(s->block);
+      free(s);
     } else {
       at = &s->next;
     }

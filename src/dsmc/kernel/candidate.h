@@ -64,7 +64,8 @@ GG_INLINE bool gg_dsmc_needs_k(gg_dsmc_features features)
          features.law;
 }
 
-/* Is gg_dsmc_mirror_scale computed in the first stage? With shear between the centres the second stage is longer. */
+/* True if gg_dsmc_mirror_scale is computed in the first stage. With shear between the centres the second stage is
+ * longer. */
 GG_INLINE bool gg_dsmc_scales_early(gg_dsmc_features features)
 {
   return features.shear == GG_DSMC_SHEARED_DENSE;

@@ -129,7 +129,7 @@ GG_INLINE bool in_common(const gg_dsmc_block_pair *at, uint32_t one, uint32_t tw
   return (at->one == one) | (at->two == one) | (at->one == two) | (at->two == two);
 }
 
-/* Is the next block pair blocked by one in progress, because they have a block in common? */
+/* True if the next block pair is blocked by one in progress, because they have a block in common. */
 GG_INLINE bool is_blocked(const pipeline *line, const gg_dsmc_block_pairs *pairs)
 {
   const uint32_t one = (uint32_t)gg_dsmc_listed(pairs->one, pairs->at),

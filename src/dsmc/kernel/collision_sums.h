@@ -25,8 +25,8 @@ typedef struct gg_dsmc_sums {
       Jg[GG_DSMC_LANES], Jn2[GG_DSMC_LANES], J2[GG_DSMC_LANES];
 } gg_dsmc_sums;
 
-/* Is one term of the loss enough? With constant coefficients terms follow from each other (gg_dsmc_all_terms): for
- * smooth grains all from one, for rough grains the third. With a law of restitution all terms are summed. */
+/* True if one term of the loss is enough. With constant coefficients terms follow from each other (gg_dsmc_all_terms):
+ * for smooth grains all from one, for rough grains the third. With a law of restitution all terms are summed. */
 GG_INLINE bool gg_dsmc_sums_one(gg_dsmc_features features)
 {
   return features.rule == GG_SMOOTH && !features.law;

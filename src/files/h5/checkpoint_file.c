@@ -7,12 +7,12 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/atomic_file.h"
 #include "base/build.h"
 #include "base/memory.h"
 #include "files/h5/checksum_trailer.h"
 #include "files/h5/hdf5_reader.h"
 #include "files/h5/hdf5_writer.h"
+#include "io/atomic_file.h"
 #include "scene/fields.h"
 
 static const struct {
@@ -34,11 +34,6 @@ static hid_t type_of(gg_item_type type)
   case GG_ITEM_TYPES: break;
   }
   return H5T_NATIVE_UINT8;
-}
-
-static bool is_stopped(const gg_archive *a)
-{
-  return a->stop && gg_stop_asked(a->stop);
 }
 
 /* Items are numbered, so that they come back in order; their names are attributes. */
@@ -99,7 +94,7 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
 {
   gg_atomic_file file;
   size_t size = 0;
-  GG_TRY(locked ? gg_io_atomic_open_locked(&file, path, err) : gg_io_atomic_open(&file, path, err));
+  GG_TRY(gg_io_atomic_open(&file, path, locked, err));
   file.repeated = locked;
   void *image = NULL;
   gg_status status = make_image(path, a, scene, &image, &size, err);
@@ -107,11 +102,10 @@ static gg_status write_it(const char *path, bool locked, bool keep, const gg_arc
     status = gg_base_fail(err, GG_BAD_FILE, "%s: is a device or a pipe; " GG_CHECKPOINTS_ARE, path);
   if (status == GG_OK) status = gg_files_checksum_trailer_write(&file, image, size, a->stop, err);
   free(image);
-  if (status == GG_OK && is_stopped(a)) status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", path);
+  if (status == GG_OK && a->stop && gg_stop_asked(a->stop))
+    status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", path);
   if (status == GG_OK && keep) status = keep_before(&file, err);
-  if (status == GG_OK) return gg_io_atomic_commit(&file, err);
-  gg_io_atomic_abandon(&file);
-  return status;
+  return gg_io_atomic_commit(&file, status, err);
 }
 
 gg_status gg_files_checkpoint_write(const char *path, bool locked, const gg_archive *a, const gg_scene *scene,
@@ -163,7 +157,7 @@ static gg_status read_all(gg_h5_in *in, const char *path, bool any_build, gg_arc
 static gg_status read_file(const char *path, bool any_build, gg_archive *a, gg_error *err)
 {
   gg_h5_in in;
-  gg_h5_open(&in, path);
+  gg_h5_open(&in, path, false);
   return read_all(&in, path, any_build, a, err);
 }
 
@@ -222,7 +216,7 @@ char *gg_files_checkpoint_scene(const char *path, bool older)
   gg_h5_in h;
   char *before = NULL;
   if (older && asprintf(&before, "%s.1", path) < 0) return NULL;
-  gg_h5_open(&h, older ? before : path);
+  gg_h5_open(&h, older ? before : path, false);
   char *yaml = gg_h5_read_text(&h, "/checkpoint/scene");
   gg_h5_in_close(&h);
   free(before);

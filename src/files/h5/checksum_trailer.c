@@ -106,12 +106,6 @@ int gg_files_checksum_trailer_of_file(int fd, unsigned char trailer[GG_TRAILER_S
   return failed;
 }
 
-static bool has_trailer(int fd, off_t size, unsigned char there[GG_TRAILER_SIZE])
-{
-  return size >= 0 && pread(fd, there, GG_TRAILER_SIZE, size) == GG_TRAILER_SIZE &&
-         memcmp(there, mark, sizeof mark) == 0;
-}
-
 static const char *broken(int fd, uint64_t *size_of, unsigned char **block, bool *bare)
 {
   struct stat about;
@@ -121,7 +115,8 @@ static const char *broken(int fd, uint64_t *size_of, unsigned char **block, bool
   if (pread(fd, start, sizeof start, 0) != sizeof start || memcmp(start, hdf5, sizeof start) != 0)
     return "it is not an HDF5 file, or a damaged one";
   off_t size = about.st_size - GG_TRAILER_SIZE;
-  *bare = !has_trailer(fd, size, there);
+  *bare =
+      size < 0 || pread(fd, there, GG_TRAILER_SIZE, size) != GG_TRAILER_SIZE || memcmp(there, mark, sizeof mark) != 0;
   if (*bare) size = about.st_size;
   if (sum_up(fd, size, wanted, block) != 0) return strerror(errno);
   *size_of = (uint64_t)size;

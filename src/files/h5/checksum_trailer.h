@@ -14,7 +14,6 @@
 
 enum { GG_TRAILER_SIZE = 20, GG_TRAILER_SMALL = 1 << 20 };
 
-/* Trailer of bytes in memory. */
 void gg_files_checksum_trailer_of(const void *data, size_t size, unsigned char trailer[GG_TRAILER_SIZE]);
 /* Bytes in memory with their checksum into a file; `stop` (may be NULL) is polled for each megabyte. */
 gg_status gg_files_checksum_trailer_write(gg_atomic_file *file, const void *data, size_t size, const gg_stop *stop,

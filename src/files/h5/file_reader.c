@@ -88,7 +88,7 @@ static void read_superblock(gg_h5_in *in)
   if (in->changed && gg_h5_word(s + 40 + more, 8) != in->size) gg_h5_in_failed(in, cut_off);
 }
 
-static void open_file(gg_h5_in *in, const char *path, bool any)
+void gg_h5_open(gg_h5_in *in, const char *path, bool any)
 {
   memset(in, 0, sizeof *in);
   in->fd = -1;
@@ -100,16 +100,6 @@ static void open_file(gg_h5_in *in, const char *path, bool any)
     gg_h5_in_failed(in, broken);
   else
     read_superblock(in);
-}
-
-void gg_h5_open(gg_h5_in *in, const char *path)
-{
-  open_file(in, path, false);
-}
-
-void gg_h5_open_any(gg_h5_in *in, const char *path)
-{
-  open_file(in, path, true);
 }
 
 void gg_h5_open_bytes(gg_h5_in *in, const void *bytes, size_t size)

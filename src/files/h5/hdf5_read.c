@@ -50,25 +50,14 @@ size_t gg_h5_count_of(gg_h5_in *in, const char *path)
   return a.space.n;
 }
 
-/* `k`: which; NULL: the last. */
-static void *read_row(gg_h5_in *in, const char *path, const uint64_t *k, gg_item_type type, size_t items)
+void *gg_h5_read_row(gg_h5_in *in, const char *path, uint64_t k, gg_item_type type, size_t items)
 {
   gg_h5_array_in a;
   if (in->failed || !gg_h5_array_at(in, path, &a)) return NULL;
   const uint64_t rows = a.space.rank ? a.space.dims[0] : 0;
-  if (rows == 0 || (k && *k >= rows) || gg_h5_row_size(&a.space) != items)
+  if (rows == 0 || (k != GG_H5_LAST && k >= rows) || gg_h5_row_size(&a.space) != items)
     return gg_h5_refuse(in, path, "does not have the number of rows expected"), NULL;
-  return read_rows(in, path, &a, k ? *k : rows - 1, 1, type);
-}
-
-void *gg_h5_read_row(gg_h5_in *in, const char *path, uint64_t k, gg_item_type type, size_t items)
-{
-  return read_row(in, path, &k, type, items);
-}
-
-void *gg_h5_read_last_row(gg_h5_in *in, const char *path, gg_item_type type, size_t items)
-{
-  return read_row(in, path, NULL, type, items);
+  return read_rows(in, path, &a, k == GG_H5_LAST ? rows - 1 : k, 1, type);
 }
 
 /* The elements of arrays: in one piece, or in chunks that a tree finds. */
@@ -157,7 +146,6 @@ uint64_t gg_h5_row_size(const gg_h5_space *s)
   return size;
 }
 
-/* True if the place is before the chunk of this key. */
 static bool is_before(const gg_h5_array_in *a, const uint64_t *place, const unsigned char *key)
 {
   for (int i = 0; i < a->space.rank; i++) {
@@ -165,13 +153,6 @@ static bool is_before(const gg_h5_array_in *a, const uint64_t *place, const unsi
     if (place[i] != first) return place[i] < first;
   }
   return false;
-}
-
-static bool is_at(const gg_h5_array_in *a, const uint64_t *place, const unsigned char *key)
-{
-  for (int i = 0; i < a->space.rank; i++)
-    if (place[i] != gg_h5_word(key + 8 + 8 * i, 8)) return false;
-  return true;
 }
 
 /* The last child of a node whose key is not beyond the place: its key, and after it where it is. */
@@ -196,7 +177,6 @@ typedef struct stored_chunk {
   unsigned skipped;   /* filters, a bit each */
 } stored_chunk;
 
-/* The chunk that begins at this place. */
 static bool find_chunk(gg_h5_in *in, const gg_h5_array_in *a, const uint64_t *place, stored_chunk *found)
 {
   uint64_t at = a->at;
@@ -212,7 +192,9 @@ static bool find_chunk(gg_h5_in *in, const gg_h5_array_in *a, const uint64_t *pl
     at = gg_h5_word(key + 8 + 8 * (a->space.rank + 1), 8);
     if (level > 0) continue;
     *found = (stored_chunk){at, gg_h5_word(key, 4), (unsigned)gg_h5_word(key + 4, 4)};
-    return is_at(a, place, key);
+    for (int i = 0; i < a->space.rank; i++)
+      if (place[i] != gg_h5_word(key + 8 + 8 * i, 8)) return false;
+    return true;
   }
 }
 

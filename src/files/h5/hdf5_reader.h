@@ -42,10 +42,9 @@ typedef struct gg_h5_in {
   gg_h5_trail trail;
 } gg_h5_in;
 
-/* The file's checksum is checked first (checksum_trailer.h). To be closed, also after a failure. */
-void gg_h5_open(gg_h5_in *in, const char *path);
-/* Also a file that ends without one: another program has changed it, if it is as long as its superblock says. */
-void gg_h5_open_any(gg_h5_in *in, const char *path);
+/* The file's checksum is checked first (checksum_trailer.h). To be closed, also after a failure. `any`: also a file
+ * that ends without one: another program has changed it, if it is as long as its superblock says. */
+void gg_h5_open(gg_h5_in *in, const char *path, bool any);
 /* A file that is in memory, with its checksum; the bytes are borrowed. */
 void gg_h5_open_bytes(gg_h5_in *in, const void *bytes, size_t size);
 void gg_h5_in_close(gg_h5_in *in);
@@ -60,9 +59,9 @@ char *gg_h5_read_text(gg_h5_in *in, const char *path);
 void *gg_h5_read_array(gg_h5_in *in, const char *path, gg_item_type type, size_t *count);
 /* How many numbers an array has; 0: it is not there. */
 size_t gg_h5_count_of(gg_h5_in *in, const char *path);
-/* The k-th row (from 0) or the last one of an array that grows, `items` of them; to be freed, NULL on failure. */
+/* The k-th row (from 0) of an array that grows, `items` of them; to be freed, NULL on failure. */
+#define GG_H5_LAST UINT64_MAX
 void *gg_h5_read_row(gg_h5_in *in, const char *path, uint64_t k, gg_item_type type, size_t items);
-void *gg_h5_read_last_row(gg_h5_in *in, const char *path, gg_item_type type, size_t items);
 
 bool gg_h5_has_attribute(gg_h5_in *in, const char *object, const char *name);
 char *gg_h5_read_text_attribute(gg_h5_in *in, const char *object, const char *name);

@@ -76,11 +76,6 @@ static number number_of(const gg_h5_type *t, const unsigned char *at)
   return (number){.negative = negative, .whole = word};
 }
 
-static double as_real(const number *n)
-{
-  return n->real ? n->x : n->negative ? (double)(int64_t)n->whole : (double)n->whole;
-}
-
 static uint64_t as_count(const number *n, uint64_t most)
 {
   if (n->real) return !(n->x > 0) ? 0 : n->x >= (double)most ? most : (uint64_t)n->x;
@@ -95,7 +90,7 @@ static int64_t as_whole(const number *n)
 
 static void put(const number *n, gg_item_type type, unsigned char *to)
 {
-  const double x = as_real(n);
+  const double x = n->real ? n->x : n->negative ? (double)(int64_t)n->whole : (double)n->whole;
   switch (type) {
   case GG_ITEM_F64: memcpy(to, &x, sizeof x); return;
   case GG_ITEM_F32: memcpy(to, &(float){(float)x}, sizeof(float)); return;

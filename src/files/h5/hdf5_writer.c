@@ -184,6 +184,7 @@ static hid_t new_dataset(gg_h5 *h, const char *path, hid_t type, hid_t space, hi
 
 static void write_dataset(gg_h5 *h, const char *path, hid_t type, hid_t space, const void *data)
 {
+  if (!data) gg_h5_failed(h, "out of memory");
   hid_t dataset = is_over(h) ? -1 : new_dataset(h, path, type, space, H5P_DEFAULT);
   if (dataset >= 0) {
     if (H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) gg_h5_failed(h, path);
@@ -194,7 +195,7 @@ static void write_dataset(gg_h5 *h, const char *path, hid_t type, hid_t space, c
 
 void gg_h5_text(gg_h5 *h, const char *path, const char *text)
 {
-  hid_t type = text_type(strlen(text));
+  hid_t type = text_type(text ? strlen(text) : 0);
   write_dataset(h, path, type, H5Screate(H5S_SCALAR), text);
   H5Tclose(type);
 }
@@ -272,7 +273,6 @@ void gg_h5_texts(gg_h5 *h, const char *path, const char *const *texts, size_t n)
   size_t longest;
   const hsize_t count = n;
   char *packed = pack(h, texts, n, &longest);
-  if (!packed) return;
   hid_t type = text_type(longest);
   gg_h5_array(h, path, type, 1, &count, packed);
   H5Tclose(type);
@@ -316,7 +316,6 @@ static void set_rows(gg_h5 *h, gg_h5_rows *rows, hsize_t n)
   rows->n = n;
 }
 
-/* Write row `at` (`write`), or read it. */
 static void move_row(gg_h5 *h, const gg_h5_rows *rows, hsize_t at, bool write, void *data)
 {
   const hsize_t from[3] = {at}, size[3] = {1, rows->row[0], rows->row[1]};

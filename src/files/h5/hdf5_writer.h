@@ -13,7 +13,7 @@
 typedef struct gg_h5 {
   hid_t file;
   bool failed, interrupted, silenced; /* silenced: HDF5 prints no errors */
-  const gg_stop *stop; /* polled before each array and text; set after the file is made; NULL: never */
+  const gg_stop *stop;                /* polled before each array and text; set after the file is made; NULL: never */
   char why[256];
   char path[2][256]; /* of gg_h5_path */
   int last;
@@ -33,6 +33,7 @@ gg_status gg_h5_status(const gg_h5 *h, const char *path, const char *verb, gg_er
 /* A path in the file; the last two stay. */
 const char *gg_h5_path(gg_h5 *h, const char *format, ...) GG_PRINTF(2, 3);
 void gg_h5_group(gg_h5 *h, const char *path);
+/* Text or data that are NULL could not be had: the file fails, out of memory. */
 void gg_h5_text(gg_h5 *h, const char *path, const char *text);
 /* n texts as an array of the longest one's size. */
 void gg_h5_texts(gg_h5 *h, const char *path, const char *const *texts, size_t n);

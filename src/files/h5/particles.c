@@ -16,10 +16,7 @@ static void write_number_of_each(gg_h5 *h, const char *path, const double *of_sp
 {
   double *each = calloc(n, sizeof *each);
   for (size_t i = 0; each && i < n; i++) each[i] = of_species[species[i]];
-  if (each)
-    gg_h5_numbers(h, path, each, n, unit);
-  else
-    gg_h5_failed(h, "out of memory");
+  gg_h5_numbers(h, path, each, n, unit);
   free(each);
 }
 
@@ -33,11 +30,9 @@ static void write_kinds(gg_h5 *h, const gg_model *model, const gg_frame *frame, 
     id[i] = (int64_t)i;
     species[i] = frame->species ? frame->species[order[i]] : 0;
   }
-  if (!id || !species) {
-    gg_h5_failed(h, "out of memory");
-  } else {
-    gg_h5_array(h, GRAINS "/id", H5T_NATIVE_INT64, 1, &n, id);
-    gg_h5_array(h, GRAINS "/species", H5T_NATIVE_UINT8, 1, &n, species);
+  gg_h5_array(h, GRAINS "/id", H5T_NATIVE_INT64, 1, &n, id);
+  gg_h5_array(h, GRAINS "/species", H5T_NATIVE_UINT8, 1, &n, species);
+  if (species) {
     write_number_of_each(h, GRAINS "/mass", model->mass, species, n, "m");
     write_number_of_each(h, GRAINS "/diameter", model->diameter, species, n,
                          model->boltzmann ? "d" : gg_measure_curve_unit(model, "length"));
@@ -71,14 +66,6 @@ static void write_frame_of_reference(gg_h5 *h, bool boxed, const gg_model *model
               : "peculiar: relative to the flow at the one point that the ensemble stands for";
   gg_h5_text_attribute(h, GRAINS "/velocity", "frame", text);
   gg_h5_attribute(h, GRAINS "/velocity", "shear_rate", H5T_NATIVE_DOUBLE, &model->shear_rate, 0);
-}
-
-/* Write members that do not change in time, units and frame of reference. */
-static void write_grains(gg_h5 *h, bool boxed, const gg_model *model, const gg_frame *frame, const size_t *order)
-{
-  write_kinds(h, model, frame, order);
-  write_units(h, boxed, model, frame);
-  write_frame_of_reference(h, boxed, model);
 }
 
 /* The numbers in memory are doubles all the same. */
@@ -125,7 +112,9 @@ static void start(gg_h5 *h, gg_h5_particles *p, const gg_model *model, const gg_
   start_vectors(h, p, &p->position, "position", frame->position);
   start_vectors(h, p, &p->spin, "spin", frame->spin);
   start_box(h, p, model);
-  write_grains(h, p->boxed, model, frame, order);
+  write_kinds(h, model, frame, order); /* what does not change in time */
+  write_units(h, p->boxed, model, frame);
+  write_frame_of_reference(h, p->boxed, model);
 }
 
 /* Under shear the image above has slid by the strain times L_y (Lees & Edwards 1972): the second edge leans by as much,

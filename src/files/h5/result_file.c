@@ -60,10 +60,7 @@ static void write_header(gg_h5 *h, const char *command, const gg_scene *scene, c
   gg_h5_text(h, "/graingas/date", date);
   gg_h5_count(h, "/graingas/seed", scene->run.seed);
   char *yaml = gg_scene_yaml(scene);
-  if (yaml)
-    gg_h5_text(h, "/graingas/scene", yaml);
-  else
-    gg_h5_failed(h, "out of memory");
+  gg_h5_text(h, "/graingas/scene", yaml);
   free(yaml);
   gg_h5_text(h, "/graingas/document", document);
 }
@@ -97,10 +94,8 @@ static void write_correlations(gg_h5 *h, const char *group, const gg_result *r)
   FILE *out = gg_base_memory_stream_open(&names);
   for (size_t i = 0; out && i < c->n; i++) fprintf(out, "%s\n", gg_run_rows_at(&r->rows, c->quantity[i])->name);
   gg_h5_array(h, gg_h5_path(h, "%s/correlations/coefficients", group), H5T_NATIVE_DOUBLE, 2, size, c->coefficient);
-  if (gg_base_memory_stream_close(out, &names))
-    gg_h5_text(h, gg_h5_path(h, "%s/correlations/quantities", group), names);
-  else
-    gg_h5_failed(h, "out of memory");
+  gg_base_memory_stream_close(out, &names);
+  gg_h5_text(h, gg_h5_path(h, "%s/correlations/quantities", group), names);
   free(names);
 }
 
@@ -115,10 +110,7 @@ static void write_times(gg_h5 *h, const char *group, const gg_history *history)
   const hsize_t n = history->n;
   int64_t *step = malloc((history->n + 1) * sizeof *step);
   for (size_t i = 0; step && i < history->n; i++) step[i] = (int64_t)i + 1;
-  if (step)
-    gg_h5_array(h, gg_h5_path(h, "%s/step", group), H5T_NATIVE_INT64, 1, &n, step);
-  else
-    gg_h5_failed(h, "out of memory");
+  gg_h5_array(h, gg_h5_path(h, "%s/step", group), H5T_NATIVE_INT64, 1, &n, step);
   free(step);
   gg_h5_numbers(h, gg_h5_path(h, "%s/time", group), history->time, history->n, NULL);
 }
@@ -152,10 +144,8 @@ static void write_warnings(gg_h5 *h, const char *group, const gg_result *r)
   char *text = NULL;
   FILE *out = gg_base_memory_stream_open(&text);
   for (size_t i = 0; out && i < r->warnings.n; i++) fprintf(out, "%s\n", r->warnings.text[i]);
-  if (gg_base_memory_stream_close(out, &text))
-    gg_h5_text(h, gg_h5_path(h, "%s/warnings", group), text);
-  else
-    gg_h5_failed(h, "out of memory");
+  gg_base_memory_stream_close(out, &text);
+  gg_h5_text(h, gg_h5_path(h, "%s/warnings", group), text);
   free(text);
 }
 
@@ -252,7 +242,7 @@ typedef struct gg_result_writer {
 gg_status gg_files_result_file_open(gg_result_file *f, const char *path, const char *command, gg_error *err)
 {
   *f = (gg_result_file){.file = GG_ATOMIC_NONE, .command = command};
-  return gg_io_atomic_open(&f->file, path, err);
+  return gg_io_atomic_open(&f->file, path, false, err);
 }
 
 void gg_files_result_file_open_in_memory(gg_result_file *f, const char *command)
@@ -326,13 +316,6 @@ static gg_status append_trailer(gg_result_file *f, gg_error *err)
   return gg_io_atomic_write(&f->file, trailer, sizeof trailer, err);
 }
 
-static gg_status keep_bytes(gg_result_file *f, void *image, size_t size, gg_error *err)
-{
-  f->bytes = image ? gg_files_checksum_trailer_append(image, size, err) : NULL;
-  f->size = size + GG_TRAILER_SIZE;
-  return f->bytes ? GG_OK : GG_FAILED;
-}
-
 /* Close what was streamed, or write what was made in memory; then put it in place. */
 static gg_status finish(gg_result_file *f, gg_error *err)
 {
@@ -343,9 +326,10 @@ static gg_status finish(gg_result_file *f, gg_error *err)
   gg_h5_close(&w->h);
   gg_status status = gg_h5_status(&w->h, f->in_memory ? "the result" : f->file.path, "written", err);
   if (status == GG_OK && f->in_memory) {
-    status = keep_bytes(f, image, size, err);
+    f->bytes = image ? gg_files_checksum_trailer_append(image, size, err) : NULL;
+    f->size = size + GG_TRAILER_SIZE;
     forget(f);
-    return status;
+    return f->bytes ? GG_OK : GG_FAILED;
   }
   if (status == GG_OK)
     status =
@@ -354,18 +338,13 @@ static gg_status finish(gg_result_file *f, gg_error *err)
   forget(f);
   if (status == GG_OK && f->stop && gg_stop_asked(f->stop))
     status = gg_base_fail(err, GG_INTERRUPTED, "%s: interrupted", f->file.path);
-  if (status == GG_OK) return gg_io_atomic_commit(&f->file, err);
-  gg_io_atomic_abandon(&f->file);
-  return status;
+  return gg_io_atomic_commit(&f->file, status, err);
 }
 
 static void write_document(gg_result_file *f, const gg_scene *scene, json_t *document)
 {
   char *text = document ? gg_files_document_text(document) : NULL;
-  if (text)
-    write_header(&f->now->h, f->command, scene, text);
-  else
-    gg_h5_failed(&f->now->h, "out of memory");
+  write_header(&f->now->h, f->command, scene, text);
   free(text);
   json_decref(document);
 }

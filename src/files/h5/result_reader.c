@@ -97,24 +97,17 @@ static void read_engines(gg_h5_in *h, gg_stored_result *s)
   }
 }
 
-static size_t count_numbers(gg_h5_in *h, const char *path)
-{
-  size_t n = 0;
-  if (gg_h5_exists(h, path)) n = gg_h5_count_of(h, path);
-  return n;
-}
-
 static double *read_last_rows(gg_h5_in *h, const char *what, size_t n)
 {
   char path[80];
   snprintf(path, sizeof path, "/particles/grains/%s/value", what);
-  return gg_h5_exists(h, path) ? gg_h5_read_last_row(h, path, GG_ITEM_F64, 3 * n) : NULL;
+  return gg_h5_exists(h, path) ? gg_h5_read_row(h, path, GG_H5_LAST, GG_ITEM_F64, 3 * n) : NULL;
 }
 
 static void read_box(gg_h5_in *h, double edge[3])
 {
   static const char path[] = "/particles/grains/box/edges/value";
-  double *edges = gg_h5_exists(h, path) ? gg_h5_read_last_row(h, path, GG_ITEM_F64, 9) : NULL;
+  double *edges = gg_h5_exists(h, path) ? gg_h5_read_row(h, path, GG_H5_LAST, GG_ITEM_F64, 9) : NULL;
   for (int a = 0; edges && a < 3; a++) edge[a] = edges[4 * a];
   free(edges);
 }
@@ -125,8 +118,8 @@ static void read_last_frame(gg_h5_in *h, gg_stored_result *s)
   size_t kinds = 0;
   if (!s->n_frames || !s->n_grains) return;
   f->n = s->n_grains;
-  uint64_t *step = gg_h5_read_last_row(h, "/particles/grains/velocity/step", GG_ITEM_U64, 1);
-  double *time = gg_h5_read_last_row(h, "/particles/grains/velocity/time", GG_ITEM_F64, 1);
+  uint64_t *step = gg_h5_read_row(h, "/particles/grains/velocity/step", GG_H5_LAST, GG_ITEM_U64, 1);
+  double *time = gg_h5_read_row(h, "/particles/grains/velocity/time", GG_H5_LAST, GG_ITEM_F64, 1);
   if (step) f->step = *step;
   if (time) f->time = *time;
   free(step);
@@ -137,20 +130,6 @@ static void read_last_frame(gg_h5_in *h, gg_stored_result *s)
   f->spin = read_last_rows(h, "spin", f->n);
   f->species = gg_h5_read_array(h, "/particles/grains/species", GG_ITEM_U8, &kinds);
   if (!h->failed && kinds != f->n) gg_h5_in_failed(h, "some of its grains are of an unknown species");
-}
-
-void gg_files_stored_scene_update_words(char *scene)
-{
-  static const char off[] = "\nsmall_shear: off\n", on[] = "\nsmall_shear: on\n", before[] = "flow: usf\n",
-                    now[] = "flow: small_shear\n";
-  char *key = scene ? strstr(scene, off) : NULL;
-  if (key) memmove(key + 1, key + sizeof off - 1, strlen(key + sizeof off - 1) + 1);
-  key = scene ? strstr(scene, on) : NULL;
-  if (!key || strncmp(scene, before, sizeof before - 1) != 0) return;
-  memmove(key + 1, key + sizeof on - 1, strlen(key + sizeof on - 1) + 1);
-  char *rest = scene + sizeof before - 1; /* the word is longer by less than the key that went was */
-  memmove(scene + sizeof now - 1, rest, strlen(rest) + 1);
-  memcpy(scene, now, sizeof now - 1);
 }
 
 /* It is shown to people. */
@@ -182,7 +161,6 @@ static gg_status read_all(gg_stored_result *s, gg_h5_in *in, const char *path, g
   s->machine = read_line(in, "/graingas/machine");
   s->date = read_line(in, "/graingas/date");
   s->scene = gg_h5_read_text(in, "/graingas/scene");
-  gg_files_stored_scene_update_words(s->scene);
   const char *why = "out of memory";
   s->document = text ? gg_files_document_read(text, &why) : NULL;
   free(text);
@@ -190,8 +168,8 @@ static gg_status read_all(gg_stored_result *s, gg_h5_in *in, const char *path, g
   if (!in->failed) {
     s->comparison = json_object_get(s->document, "comparison") != NULL;
     read_engines(in, s);
-    s->n_frames = count_numbers(in, "/particles/grains/velocity/step");
-    s->n_grains = count_numbers(in, "/particles/grains/id");
+    s->n_frames = gg_h5_count_of(in, "/particles/grains/velocity/step");
+    s->n_grains = gg_h5_count_of(in, "/particles/grains/id");
     read_last_frame(in, s);
   }
   gg_h5_in_close(in);
@@ -203,7 +181,7 @@ static gg_status read_all(gg_stored_result *s, gg_h5_in *in, const char *path, g
 gg_status gg_files_stored_result_read(gg_stored_result *s, const char *path, gg_error *err)
 {
   gg_h5_in in;
-  gg_h5_open_any(&in, path);
+  gg_h5_open(&in, path, true);
   return read_all(s, &in, path, err);
 }
 
@@ -262,7 +240,7 @@ static bool is_newer(const char *version)
 gg_status gg_files_stored_result_notice(const char *path, char *text, size_t size, gg_error *err)
 {
   gg_h5_in h;
-  gg_h5_open_any(&h, path);
+  gg_h5_open(&h, path, true);
   char *version = gg_h5_exists(&h, "/graingas/version") ? read_line(&h, "/graingas/version") : NULL;
   *text = '\0';
   if (h.changed) gg_base_text_append(text, size, "another program has changed it since graingas wrote it");
@@ -275,14 +253,6 @@ gg_status gg_files_stored_result_notice(const char *path, char *text, size_t siz
 }
 
 #define GRAINS "/particles/grains"
-
-/* Three texts: "periodic" or "none". */
-static void read_boundary(gg_stored_trajectory *t)
-{
-  char letter[3] = "";
-  gg_h5_read_initials(&t->h, GRAINS "/box", "boundary", letter, 3);
-  for (size_t a = 0; a < 3; a++) t->periodic[a] = letter[a] == 'p';
-}
 
 static void *read_of_each(gg_stored_trajectory *t, const char *path, gg_item_type type)
 {
@@ -310,11 +280,13 @@ gg_status gg_files_stored_trajectory_open(gg_stored_trajectory *t, const char *p
 {
   *t = (gg_stored_trajectory){.path = strdup(path)};
   if (!t->path) return gg_base_out_of_memory(err);
-  gg_h5_open_any(&t->h, path);
+  gg_h5_open(&t->h, path, true);
   if (gg_h5_exists(&t->h, GRAINS "/position/value")) {
     t->n_frames = gg_h5_count_of(&t->h, GRAINS "/velocity/step");
     read_kinds(t);
-    read_boundary(t);
+    char letter[3] = ""; /* of "periodic" or "none" */
+    gg_h5_read_initials(&t->h, GRAINS "/box", "boundary", letter, 3);
+    for (size_t a = 0; a < 3; a++) t->periodic[a] = letter[a] == 'p';
   }
   return gg_h5_in_status(&t->h, path, err);
 }

@@ -22,7 +22,7 @@ typedef struct gg_stored_engine {
   const char *name;     /* "md", "dsmc"; NULL: not in the file */
   json_t *document;     /* as `run` prints it; owned by the result's document */
   double window[2];     /* averaging from .. to */
-  char *correlated;     /* names of quantities, a line each; NULL: an older version wrote the file */
+  char *correlated;     /* names of quantities, a line each; NULL: there are none */
   double *coefficients; /* correlation coefficients of their means, n_coefficients = number of names squared */
   size_t n_coefficients;
   int n_series;
@@ -34,21 +34,16 @@ typedef struct gg_stored_result {
   char *version, *command, *machine, *date, *scene; /* scene: YAML */
   json_t *document;
   gg_stored_engine engine[GG_N_ENGINES]; /* by gg_engine_kind */
-  size_t n_frames, n_grains;  /* stored under /particles/grains */
-  gg_frame last;              /* the last of them, rows in the order of the grains' numbers */
-  double edge[3];             /* of its box along x, y, z; 0 where there are no positions */
+  size_t n_frames, n_grains;             /* stored under /particles/grains */
+  gg_frame last;                         /* the last of them, rows in the order of the grains' numbers */
+  double edge[3];                        /* of its box along x, y, z; 0 where there are no positions */
 } gg_stored_result;
-
-/* A scene as files hold it, of the time when the flow small_shear was a key beside flow: usf, in the words of today; in
- * place. One that is of today stays as it is. */
-void gg_files_stored_scene_update_words(char *yaml);
 
 gg_status gg_files_stored_result_read(gg_stored_result *stored, const char *path, gg_error *err);
 /* Likewise from what gg_files_result_file_open_in_memory left. */
+gg_status gg_files_stored_result_from_bytes(gg_stored_result *stored, const void *bytes, size_t size, gg_error *err);
 /* The first engine that the file has. */
 gg_engine_kind gg_files_stored_first(const gg_stored_result *stored);
-
-gg_status gg_files_stored_result_from_bytes(gg_stored_result *stored, const void *bytes, size_t size, gg_error *err);
 /* One line on what is unusual about it; "" if nothing is. */
 gg_status gg_files_stored_result_notice(const char *path, char *text, size_t size, gg_error *err);
 void gg_files_stored_result_clear(gg_stored_result *stored);

@@ -91,37 +91,18 @@ static void restore_warnings(gg_result *r, const json_t *document)
       gg_run_result_warn(r, "%s", json_string_value(line));
 }
 
-/* "a, b are null: reason": what such a line says of `name`. */
-static void restore_reason(const gg_result *r, const char *name, char *reason, size_t size)
-{
-  size_t length = strlen(name);
-  for (size_t i = 0; i < r->warnings.n; i++) {
-    const char *line = r->warnings.text[i];
-    const char *end = strstr(line, " null: ");
-    for (const char *at = line; end && (at = strstr(at, name)) && at < end; at += length)
-      if ((at == line || at[-1] == ' ') && strchr(", ", at[length])) {
-        snprintf(reason, size, "%s", end + strlen(" null: "));
-        return;
-      }
-  }
-}
-
 static void restore_means(gg_result *r, const json_t *document)
 {
   const json_t *results = json_object_get(document, "results");
   for (int i = 0; i < r->rows.n; i++) {
-    const char *name = r->rows.row[i].name;
     gg_estimate *e = &r->value[r->rows.row[i].quantity];
-    const json_t *stored = json_object_get(results, name);
+    const json_t *stored = json_object_get(results, r->rows.row[i].name);
     *e = (gg_estimate){.mean = gg_io_json_number(stored, "mean"),
                        .error = gg_io_json_number(stored, "stderr"),
                        .correlation_time = gg_io_json_number(stored, "correlation_time"),
                        .samples = count(stored, "samples")};
     const char *reason = gg_io_json_string(stored, "reason");
-    if (stored && isnan(e->mean) && *reason)
-      snprintf(e->reason, sizeof e->reason, "%s", reason);
-    else if (stored && isnan(e->mean)) /* of an older file */
-      restore_reason(r, name, e->reason, sizeof e->reason);
+    if (stored && isnan(e->mean)) snprintf(e->reason, sizeof e->reason, "%s", reason);
   }
 }
 
@@ -260,8 +241,7 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
                   : r->model.steady || r->model.linear_response            ? GG_NOT_STEADY
                                                                            : GG_HEATING;
   snprintf(r->steadiness_text, sizeof r->steadiness_text, "%s", gg_io_json_string(e->document, "verdict"));
-  const char *chosen = gg_io_json_string(e->document, "particles_chosen");
-  snprintf(r->ensemble_text, sizeof r->ensemble_text, "%s", chosen ? chosen : "");
+  snprintf(r->ensemble_text, sizeof r->ensemble_text, "%s", gg_io_json_string(e->document, "particles_chosen"));
   restore_warnings(r, e->document);
   restore_means(r, e->document);
   GG_TRY(restore_correlations(r, e, err));
@@ -286,13 +266,6 @@ gg_status gg_files_result_restore(const gg_stored_result *s, gg_engine_kind engi
   return status;
 }
 
-/* Why a theory did not apply. */
-static void restore_refusal(const json_t *about, char *reason, size_t size)
-{
-  const char *said = gg_io_json_string(about, "reason");
-  snprintf(reason, size, "%s", *said ? said : "it is not in the file");
-}
-
 /* Restore the answers of theories as stored. They are not computed anew: theories may have changed, and a user's
  * restitution law is not in the stored scene. */
 static gg_status restore_theories(gg_comparison *c, const json_t *document, gg_error *err)
@@ -310,7 +283,9 @@ static gg_status restore_theories(gg_comparison *c, const json_t *document, gg_e
     gg_theory_answer *answer = &c->theory[i].answer;
     c->theory[i].theory = theory;
     c->theory[i].applies = said != NULL;
-    if (!said) restore_refusal(about, c->theory[i].reason, sizeof c->theory[i].reason);
+    const char *reason = gg_io_json_string(about, "reason");
+    if (!said)
+      snprintf(c->theory[i].reason, sizeof c->theory[i].reason, "%s", *reason ? reason : "it is not in the file");
     for (int q = 0; q < GG_MOST_QUANTITIES; q++) answer->value[q] = answer->error[q] = NAN;
     snprintf(answer->remark, sizeof answer->remark, "%s", gg_io_json_string(about, "beyond"));
     for (int k = 0; said && k < c->rows.n; k++) {

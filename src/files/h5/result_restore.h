@@ -9,7 +9,6 @@
 #include "common/extension.h"
 #include "files/h5/result_reader.h"
 
-/* The scene that was run, and its model. */
 gg_status gg_files_stored_scene(const gg_stored_result *stored, gg_engine_kind engine, gg_scene *scene, gg_model *model,
                                 gg_error *err);
 /* One engine's part; the caller frees it with gg_result_free. */

@@ -6,10 +6,10 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
+#include "graingas.h"
 #include "run/run.h"
 #include "run/workers/message.h"
 #include "scene/model_of_scene.h"
-#include "graingas.h"
 
 /* Seconds between reports of what is under way, and checks whether rank 0 lives. */
 static const double status_every = 0.5;
@@ -222,15 +222,6 @@ static gg_status once(worker_process *s, bool *any, gg_error *err)
   return alone ? gg_base_fail(err, GG_FAILED, "rank 0 is gone") : GG_OK;
 }
 
-static void register_worker(worker_process *s)
-{
-  gg_run_message m = {.kind = GG_MESSAGE_REGISTER};
-  size_t size;
-  gg_run_message_build(m.error.message, sizeof m.error.message);
-  void *block = gg_run_message_pack(&m, NULL, 0, &size);
-  send(s, block, size);
-}
-
 gg_status gg_worker_run(const gg_messages *messages, gg_error *err)
 {
   if (!messages || !messages->send || !messages->receive || messages->rank < 1)
@@ -239,7 +230,11 @@ gg_status gg_worker_run(const gg_messages *messages, gg_error *err)
   worker_process s = {.messages = messages, .reported = gg_base_clock_wall()};
   gg_status status = GG_OK;
   bool any = true;
-  register_worker(&s);
+  gg_run_message hello = {.kind = GG_MESSAGE_REGISTER};
+  size_t size;
+  gg_run_message_build(hello.error.message, sizeof hello.error.message);
+  void *block = gg_run_message_pack(&hello, NULL, 0, &size);
+  send(&s, block, size);
   for (int nap = 0; status == GG_OK && !s.over;) {
     status = once(&s, &any, err);
     nap = gg_run_message_nap(nap, any);

@@ -8,8 +8,8 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "run/workers/message.h"
 #include "graingas.h"
+#include "run/workers/message.h"
 
 /* Seconds: the longest silence of a rank that works, which sends its status twice a second; until all have registered;
  * between two checks which ranks are lost. */
@@ -61,11 +61,6 @@ gg_run_scheduler *gg_run_workers_scheduler(gg_workers *w)
   return w->scheduler;
 }
 
-static bool is_working(const gg_workers *w, int i)
-{
-  return w->rank[i].there && !w->rank[i].lost;
-}
-
 static void send_block(gg_workers *w, int to, void *block, size_t size)
 {
   if (block && w->messages.send(w->messages.context, to, block, size) != 0) w->rank[to].cut_off = true;
@@ -86,7 +81,7 @@ static void assign(distribution *d, int i)
   const gg_scene *scene = d->tasks->scene;
   bool stays = i == 0 && (scene->output.trajectory_every > 0 || *scene->output.log);
   for (int k = 1; k < w->messages.size && !stays; k++)
-    if (is_working(w, k) && w->rank[k].replicas < w->rank[owner].replicas) owner = k;
+    if (w->rank[k].there && !w->rank[k].lost && w->rank[k].replicas < w->rank[owner].replicas) owner = k;
   d->placed[i].owner = owner;
   d->placed[i].there = false;
   w->rank[owner].replicas++;

@@ -63,7 +63,7 @@ static bool factorise(gg_newton *w)
   return gsl_linalg_LU_decomp(&J.matrix, w->order, &sign) == GSL_SUCCESS;
 }
 
-/* Is A - fraction B positive definite? */
+/* True if A - fraction B is positive definite. */
 static bool above(double A[3][3], double fraction, double B[3][3])
 {
   double rest[3][3], ignored[3][3];

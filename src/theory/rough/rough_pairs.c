@@ -136,7 +136,8 @@ static int degree_of(const gg_rough_form *form, const gg_rough_functions *f, int
   return gg_rough_degree(f->function[form->function[q]]);
 }
 
-/* Is a function even by the parities of a shear flow; for an isotropic state also under reflection of any axis? */
+/* True if a function is even by the parities of a shear flow, in an isotropic state also under reflection of any axis.
+ */
 static bool belongs(gg_rough_index index, bool isotropic)
 {
   if (gg_rough_class(index) != 0) return false;
