@@ -49,7 +49,8 @@ bool gg_md_next_epoch(gg_md *e)
   double span = gg_md_queue_span(&e->queue), wait = earliest_event(e, 2 * span);
   if (!(wait < INFINITY)) return false; /* all grains are at rest, or move with their rows */
   if (gg_md_search_has_rows(e->search.kind) && e->search.rows.next_shift < wait) wait = e->search.rows.next_shift;
-  while (span < 0.5 * wait) span *= 2; /* skip a long time without events */
+  if (e->k.next_kick < wait) wait = e->k.next_kick; /* events that it predicts have times in the next epoch */
+  while (span < 0.5 * wait) span *= 2;              /* skip a long time without events */
   e->k.window_collisions += e->k.collisions - e->k.epoch_collisions;
   measure_mean_free_time(e, span);
   e->box.offset0 = gg_md_offset(&e->box, span);

@@ -14,7 +14,9 @@
 #include "md/search/neighbour_search.h"
 #include "md/search/simd_pairs.h"
 
-GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s)
+/* Replace the entry of a grain in the event queue, which is not deferred, by the result of a search. The new entry is
+ * deferred to the schedule of the next event: by then the line of its bucket has arrived. */
+GG_INLINE void gg_md_schedule_at(gg_md *e, gg_md_search *s, int place)
 {
   gg_md_node *node = &e->node[s->grain];
   if (IS_WALLED) gg_md_try_surfaces(e, s);
@@ -26,7 +28,13 @@ GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s)
   double crossing = gg_md_next_crossing(e, s, &node->face);
   gg_md_queue_remove(&e->queue, e->node, s->grain);
   node->time = s->collision < crossing ? s->collision : crossing;
-  gg_md_queue_insert(&e->queue, e->node, s->grain);
+  gg_md_queue_defer(&e->queue, e->node, s->grain, place);
+}
+
+GG_INLINE void gg_md_schedule(gg_md *e, gg_md_search *s)
+{
+  gg_md_queue_store_pending(&e->queue, e->node);
+  gg_md_schedule_at(e, s, 0);
 }
 
 /* Search from scratch for a grain whose record is at the present time. The record is not written: at a start several
@@ -69,7 +77,7 @@ GG_INLINE void gg_md_predict_two(gg_md *e, uint32_t i, uint32_t j)
   gg_md_search_anew(e, &one, i);
   gg_md_search_anew(e, &two, j);
   gg_md_schedule(e, &one);
-  gg_md_schedule(e, &two);
+  gg_md_schedule_at(e, &two, 1);
 }
 
 GG_INLINE void gg_md_collide(gg_md *e, uint32_t i, uint32_t j)
@@ -94,10 +102,12 @@ GG_INLINE void gg_md_hit_surface(gg_md *e, uint32_t i, int surface)
   if (gg_md_is_velocity(e, g)) gg_md_predict(e, i);
 }
 
-/* Prefetch the data of all events of a new bucket. */
+/* Prefetch the data of all events of a new bucket, and the nodes that the bucket after it names. */
 GG_INLINE void gg_md_prefetch_bucket(const gg_md *e)
 {
+  const gg_md_bucket *next = e->queue.bucket + e->queue.current + 1;
   if (e->n <= CACHED) return;
+  for (uint32_t k = 0; k < next->count; k++) __builtin_prefetch(&e->node[next->grain[k]]);
   for (uint32_t k = 0; k < e->queue.n_due; k++) {
     uint32_t i = e->queue.due[k].grain;
     __builtin_prefetch(&e->grain[i]);
@@ -157,6 +167,7 @@ GG_INLINE void gg_md_run_events(gg_md *e)
     else
       gg_md_collide(e, i, partner);
   }
+  gg_md_queue_store_pending(&e->queue, e->node);
 }
 
 #endif

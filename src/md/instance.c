@@ -16,6 +16,7 @@ static void run(gg_md *e)
 static void predict(gg_md *e, uint32_t from, uint32_t to)
 {
   for (uint32_t i = from; i < to; i++) gg_md_predict(e, i);
+  gg_md_queue_store_pending(&e->queue, e->node);
 }
 
 const gg_md_kernel JOIN(gg_md_kernel_, GG_INSTANCE) = {run, predict};

@@ -14,7 +14,7 @@ enum { FEWEST_BUCKETS = 64 };
 gg_status gg_md_queue_make(gg_md_queue *q, uint32_t n, gg_error *err)
 {
   *q = (gg_md_queue){.n_buckets = n > 4 * FEWEST_BUCKETS ? n / 4 : FEWEST_BUCKETS};
-  q->bucket = gg_md_new_lines(q->n_buckets, sizeof *q->bucket, err);
+  q->bucket = gg_md_new_lines(q->n_buckets + 1, sizeof *q->bucket, err);
   q->due = gg_base_array_new((size_t)n + GG_MD_BUCKET, sizeof *q->due, err);
   if (!q->bucket || !q->due) return GG_FAILED;
   gg_md_queue_reset(q, 1);
@@ -42,6 +42,7 @@ void gg_md_queue_reset(gg_md_queue *q, double width)
   q->inverse_width = 1 / width;
   q->current = 0;
   q->n_due = 0;
+  gg_md_queue_no_pending(q);
   for (uint32_t b = 0; b < q->n_buckets; b++) {
     q->bucket[b].chain = GG_MD_NONE;
     q->bucket[b].count = 0;
@@ -102,6 +103,7 @@ static void sort_due(gg_md_queue *q, uint32_t count)
 bool gg_md_queue_next_bucket(gg_md_queue *q, gg_md_node *node)
 {
   uint32_t b = q->current;
+  gg_md_queue_store_pending(q, node);
   while (q->n_due == 0) {
     if (++b >= q->n_buckets) return false;
     q->current = b;

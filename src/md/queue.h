@@ -3,7 +3,11 @@
  * Buckets of equal width cover the present epoch. A bucket is one cache line of unsorted grains; only the present
  * bucket is sorted. Insertion and removal cost O(1), access one cache line of a bucket and no other grain's node, and
  * have no unpredictable branch. A full bucket has an overflow list. Events beyond the epoch are not stored: at the end
- * of the epoch every grain is inserted again. */
+ * of the epoch every grain is inserted again.
+ *
+ * In large systems a random bucket is not in the cache. The event loop therefore defers insertions: a deferred grain
+ * waits in `pending` while the line of its bucket is fetched, until gg_md_queue_store_pending. That has no branch: an
+ * empty place names the bucket behind the last one, which is never read. */
 #ifndef GG_MD_QUEUE_H
 #define GG_MD_QUEUE_H
 
@@ -45,19 +49,27 @@ typedef struct gg_md_due {
 } gg_md_due;
 
 enum {
-  GG_MD_BUCKET = 14,    /* grains in a bucket without an overflow list */
-  GG_MD_BUCKET_MEAN = 6 /* mean number of grains */
+  GG_MD_BUCKET = 14,     /* grains in a bucket without an overflow list */
+  GG_MD_BUCKET_MEAN = 6, /* mean number of grains */
+  GG_MD_PENDING = 2      /* deferred insertions: an event makes one or two */
 };
 typedef struct gg_md_bucket {
   uint32_t chain, count, grain[GG_MD_BUCKET]; /* chain: first grain of the overflow list, or GG_MD_NONE */
 } __attribute__((aligned(64))) gg_md_bucket;
 
+/* Deferred insertion of a grain into a bucket. */
+typedef struct gg_md_pending {
+  gg_md_bucket *bucket;
+  uint32_t grain;
+} gg_md_pending;
+
 typedef struct gg_md_queue {
   double inverse_width, width;
   uint32_t n_buckets, current; /* events of buckets up to and including `current` are in `due` */
-  gg_md_bucket *bucket;
-  gg_md_due *due; /* latest first: the next event is the last entry */
+  gg_md_bucket *bucket;        /* and one behind the last, for events that are not stored */
+  gg_md_due *due;              /* latest first: the next event is the last entry */
   uint32_t n_due;
+  gg_md_pending pending[GG_MD_PENDING];
 } gg_md_queue;
 
 gg_status gg_md_queue_make(gg_md_queue *q, uint32_t n_grains, gg_error *err);
@@ -66,7 +78,7 @@ void gg_md_queue_free(gg_md_queue *q);
 double gg_md_bucket_width(double events_per_time);
 /* Empty the queue, at bucket 0, with buckets of this width. */
 void gg_md_queue_reset(gg_md_queue *q, double width);
-/* Sort the next non-empty bucket into `due`. False: the epoch is over. */
+/* Store deferred insertions, and sort the next non-empty bucket into `due`. False: the epoch is over. */
 bool gg_md_queue_next_bucket(gg_md_queue *q, gg_md_node *node);
 /* Multiply all times in the queue by a power of two. */
 void gg_md_queue_rescale(gg_md_queue *q, double factor);
@@ -134,6 +146,34 @@ GG_INLINE void gg_md_queue_insert(gg_md_queue *q, gg_md_node *node, uint32_t gra
     return;
   }
   if (b < q->n_buckets && !gg_md_bucket_add(&q->bucket[b], grain)) gg_md_queue_chain(&q->bucket[b], node, grain);
+}
+
+/* Insert a grain, at once into `due`, deferred into a later bucket. The place in `pending` must be empty. */
+GG_INLINE void gg_md_queue_defer(gg_md_queue *q, gg_md_node *node, uint32_t grain, int place)
+{
+  uint32_t b = gg_md_bucket_of(q, node[grain].time);
+  if (__builtin_expect(b <= q->current, 0)) {
+    gg_md_queue_insert_due(q, (gg_md_due){node[grain].time, grain});
+    return;
+  }
+  __builtin_prefetch(&q->bucket[b], 1);
+  q->pending[place] = (gg_md_pending){&q->bucket[b], grain};
+}
+
+GG_INLINE void gg_md_queue_no_pending(gg_md_queue *q)
+{
+  for (int k = 0; k < GG_MD_PENDING; k++) q->pending[k].bucket = &q->bucket[q->n_buckets];
+  q->bucket[q->n_buckets].count = 0;
+}
+
+/* Store deferred insertions. It precedes the removal of a grain that may be deferred, and anything that reads buckets.
+ */
+GG_INLINE void gg_md_queue_store_pending(gg_md_queue *q, gg_md_node *node)
+{
+  for (int k = 0; k < GG_MD_PENDING; k++)
+    if (__builtin_expect(!gg_md_bucket_add(q->pending[k].bucket, q->pending[k].grain), 0))
+      gg_md_queue_chain(q->pending[k].bucket, node, q->pending[k].grain);
+  gg_md_queue_no_pending(q);
 }
 
 GG_INLINE void gg_md_queue_remove(gg_md_queue *q, gg_md_node *node, uint32_t grain)

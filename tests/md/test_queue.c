@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Proves: over 10^7 random insertions, removals, re-schedulings and pops the event queue has the order of a sorted
- * list, with events in the current bucket, ties, events after the epoch, and events at infinity. The sorted list is an
- * array of all events with bisection, which shares nothing with the event queue. */
+/* Proves: over 10^7 random insertions, half of them deferred, removals, re-schedulings and pops the event queue has the
+ * order of a sorted list, with events in the current bucket, ties, events after the epoch, and events at infinity. The
+ * sorted list is an array of all events with bisection, which shares nothing with the event queue. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,6 +17,7 @@ typedef struct both {
   uint32_t n_sorted;
   gg_rng rng;
   double now;
+  int deferred; /* insertions that may not be stored yet */
 } both;
 
 static bool is_before(gg_md_due a, gg_md_due b)
@@ -62,16 +63,27 @@ static double random_time(both *b)
   return b->now + gg_rng_uniform(&b->rng) * (kind < 15 ? 0.3 : 300);
 }
 
+static void store(both *b)
+{
+  gg_md_queue_store_pending(&b->queue, b->node);
+  b->deferred = 0;
+}
+
 static void insert(both *b, uint32_t i)
 {
   b->node[i].time = random_time(b);
-  gg_md_queue_insert(&b->queue, b->node, i);
+  if (b->deferred == GG_MD_PENDING) store(b);
+  if (gg_rng_below(&b->rng, 2))
+    gg_md_queue_insert(&b->queue, b->node, i);
+  else
+    gg_md_queue_defer(&b->queue, b->node, i, b->deferred++);
   sorted_insert(b, (gg_md_due){b->node[i].time, i});
   b->there[i] = true;
 }
 
 static void take_out(both *b, uint32_t i)
 {
+  store(b);
   gg_md_queue_remove(&b->queue, b->node, i);
   sorted_remove(b, (gg_md_due){b->node[i].time, i});
   b->there[i] = false;
@@ -82,6 +94,7 @@ static void next_epoch(both *b)
 {
   double span = gg_md_queue_span(&b->queue);
   b->now = 0;
+  b->deferred = 0;
   b->n_sorted = 0;
   for (uint32_t i = 0; i < N; i++) b->node[i].time -= span;
   gg_md_queue_reset(&b->queue, b->queue.width);
