@@ -76,19 +76,49 @@ static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *tre
   return status;
 }
 
-static gg_status test_wandering(const gg_replicas *all, gg_convergence *c, gg_error *err)
+/* Largest part of a requested error that the square of an odd mode may make in a short window. */
+#define UNFELT (1 / 3.0)
+
+/* True if the square of an odd mode makes more of a requested error, or nobody knows. */
+static gg_status is_felt(const gg_replicas *all, int mode, double decay, const gg_quantity *list, int asked, bool *felt,
+                         gg_error *err)
+{
+  double most = -1;
+  for (int i = 0; i < asked; i++) {
+    gg_mean m;
+    double error = 0;
+    GG_TRY(gg_run_replicas_mean(all, list[i], &m, err));
+    if (!isfinite(m.mean)) continue;
+    GG_TRY(gg_run_replicas_error_by_square(all, mode, decay, list[i], &error, err));
+    most = fmax(most, error / fabs(m.mean) / gg_run_criteria_error_of(&all->scene, &all->model, list[i]));
+  }
+  *felt = most < 0 || most > UNFELT;
+  return GG_OK;
+}
+
+/* Find the mode that needs the longest window. */
+static gg_status test_wandering(const gg_replicas *all, const gg_quantity *list, int asked, gg_convergence *c,
+                                gg_error *err)
 {
   gg_slow_modes w;
+  const double sampled = (double)(all->state.due - all->state.window_at) * all->n;
   GG_TRY(gg_run_replicas_slow_modes(all, &w, err));
-  c->slow_mode = w.mode, c->slow_mode_time = w.mode_time, c->slow_mode_least = w.least;
-  double sampled = (double)(all->state.due - all->state.window_at) * all->n;
-  if (w.mode >= 0 && sampled < w.least * w.mode_time) c->trusted = false;
+  for (int k = 0; k < w.modes; k++) {
+    const bool odd = gg_measure_wall_mode_is_odd(&all->model, k);
+    int least = odd ? GG_LEAST_ODD_TIMES : GG_LEAST_SLOW_TIMES;
+    bool felt = true;
+    if (odd && sampled < least * w.decay[k]) GG_TRY(is_felt(all, k, w.decay[k], list, asked, &felt, err));
+    if (!felt) least = GG_LEAST_UNFELT_TIMES;
+    if (least * w.decay[k] > c->slow_mode_least * c->slow_mode_time)
+      c->slow_mode = k, c->slow_mode_time = w.decay[k], c->slow_mode_least = least;
+  }
+  if (sampled < c->slow_mode_least * c->slow_mode_time) c->trusted = false;
   return GG_OK;
 }
 
 gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_error *err)
 {
-  *c = (gg_convergence){.relative_error = 0, .trusted = true};
+  *c = (gg_convergence){.relative_error = 0, .trusted = true, .slow_mode = -1};
   gg_quantity list[GG_N_QUANTITIES];
   int asked, n = monitored(all, list, &asked);
   double per_row = (double)all->replica[0].series.per_row;
@@ -106,7 +136,7 @@ gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_er
       c->trend_z = t.z, c->trend_relative = t.relative, c->trend_share = t.share;
     }
   }
-  GG_TRY(test_wandering(all, c, err));
+  GG_TRY(test_wandering(all, list, asked, c, err));
   all->last = *c;
   return GG_OK;
 }

@@ -4,6 +4,7 @@
 #ifndef GG_REPLICAS_H
 #define GG_REPLICAS_H
 
+#include "measure/wall_modes.h"
 #include "run/progress_estimate.h"
 #include "run/scheduler.h"
 
@@ -19,9 +20,10 @@ typedef struct gg_stopping_criteria { /* stopping criteria, chosen before the ru
 /* A window of less than this many correlation times of the slowest quantity cannot be called steady. */
 enum { GG_LEAST_CORRELATION_TIMES = 20 };
 /* Nor can a window of less than this many decay times of a slow mode between walls. Short windows underestimate decay
- * times, by half at 20. Results depend on the square of an odd mode, whose decay time is half as long: fewer suffice.
+ * times, by half at 20. Results depend on the square of an odd mode, whose decay time is half as long: fewer suffice,
+ * and fewer still where that square makes a small part of the requested errors.
  */
-enum { GG_LEAST_SLOW_TIMES = 50, GG_LEAST_ODD_TIMES = 10 };
+enum { GG_LEAST_SLOW_TIMES = 50, GG_LEAST_ODD_TIMES = 10, GG_LEAST_UNFELT_TIMES = 3 };
 
 typedef struct gg_convergence { /* of the present averaging window */
   double relative_error;        /* of the worst quantity with a requested error; scaled so that it equals
@@ -144,9 +146,8 @@ gg_status gg_run_replicas_correlations(const gg_replicas *all, gg_result *result
 
 /* slow_modes.c: what moves slowly across the gap between walls, over the window. Times in samples. */
 typedef struct gg_slow_modes {
-  int mode;         /* the one that asks for the longest window (measure/wall_modes.h); -1 without walls */
-  double mode_time; /* over which it forgets */
-  int least;        /* of these times that a window has to have */
+  int modes; /* measure/wall_modes.h; 0 without walls */
+  double decay[GG_MOST_WALL_MODES];
   double time; /* the longest over which results remember a mode: half its decay time where they follow its square */
   double mean_time; /* that of all modes: the slowest of several estimates is mostly one that is too long */
   /* Walls alike: how far from the middle the centre of mass was on average, and that mean's share in the mean square.
@@ -154,6 +155,10 @@ typedef struct gg_slow_modes {
   double aside, aside_share;
 } gg_slow_modes;
 gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *slow, gg_error *err);
+/* Error of a quantity's mean from the square of an odd mode with that decay time: the scatter of what is proportional
+ * to the square, over the window. */
+gg_status gg_run_replicas_error_by_square(const gg_replicas *all, int mode, double decay, gg_quantity q, double *error,
+                                          gg_error *err);
 
 /* Everything needed to continue bit for bit. */
 gg_status gg_run_replicas_save(const gg_replicas *all, gg_archive *archive, gg_error *err);

@@ -7,70 +7,75 @@
  * too. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
+
+#include <gsl/gsl_statistics_double.h>
 
 #include "base/memory.h"
-#include "measure/wall_modes.h"
-#include "run/replicas.h"
+#include "run/series_means.h"
 #include "statistics/autocorrelation.h"
 
 /* Number of parts of the window over which modes are averaged: this removes the fast noise of sound waves and keeps the
  * slow decay. */
 enum { PARTS = 512 };
 
-/* Means of one mode over the parts of every replica's window; returns their mean. */
-static double gather(const gg_replicas *all, int mode, size_t parts, size_t per_part, double *y)
+/* Parts of the windows of all replicas. */
+typedef struct parts {
+  size_t rows, each, total; /* in one part; parts of a replica, of all */
+  double samples;           /* in one part */
+  double *y, *response;     /* a mode, a quantity */
+} parts;
+
+static gg_status parts_make(const gg_replicas *all, parts *p, gg_error *err)
 {
-  double mean = 0;
-  size_t total = parts * (size_t)all->n;
-  memset(y, 0, total * sizeof *y);
-  for (size_t i = 0; i < total; i++) {
-    const gg_replica *p = &all->replica[i / parts];
-    size_t first = p->series.window + (i % parts) * per_part;
-    for (size_t k = 0; k < per_part; k++)
-      y[i] += gg_series_row(&p->series, first + k)[p->wall_modes_at + (size_t)mode] / (double)per_part;
-    mean += y[i] / (double)total;
-  }
-  return mean;
+  const gg_series *s = &all->replica[0].series;
+  const size_t rows = gg_series_window_rows(s);
+  *p = (parts){.rows = (rows + PARTS - 1) / PARTS};
+  p->each = rows / p->rows, p->total = p->each * (size_t)all->n;
+  p->samples = (double)p->rows * (double)s->per_row;
+  p->y = gg_base_array_new(2 * p->total, sizeof *p->y, err);
+  p->response = p->y + p->total;
+  return p->y ? GG_OK : GG_FAILED;
 }
 
-static double mean_square(const double *y, size_t n)
+static void gather(const gg_replicas *all, int mode, const parts *p)
 {
-  double sum = 0;
-  for (size_t i = 0; i < n; i++) sum += y[i] * y[i] / (double)n;
-  return sum;
-}
-
-/* Record a mode's decay time: keep the mode that needs the longest window, and the longest memory of results. */
-static void note(gg_slow_modes *w, int mode, bool odd, double time)
-{
-  const int least = odd ? GG_LEAST_ODD_TIMES : GG_LEAST_SLOW_TIMES;
-  const double remembered = odd ? time / 2 : time;
-  if (least * time > w->least * w->mode_time) w->mode = mode, w->mode_time = time, w->least = least;
-  w->time = fmax(w->time, remembered);
-  w->mean_time += remembered;
+  for (int r = 0; r < all->n; r++)
+    gg_statistics_parts(&all->replica[r].series, all->replica[r].wall_modes_at + (size_t)mode, p->each, p->rows,
+                        p->y + (size_t)r * p->each);
 }
 
 gg_status gg_run_replicas_slow_modes(const gg_replicas *all, gg_slow_modes *w, gg_error *err)
 {
-  *w = (gg_slow_modes){.mode = -1};
-  const gg_series *s = &all->replica[0].series;
-  size_t rows = gg_series_window_rows(s), per_part = (rows + PARTS - 1) / PARTS;
-  int modes = all->state.averaging ? gg_measure_wall_modes(&all->model) : 0;
-  if (modes == 0 || rows < 4) return GG_OK;
-  size_t parts = rows / per_part;
-  double *y = gg_base_array_new(parts * (size_t)all->n, sizeof *y, err);
-  if (!y) return GG_FAILED;
-  const double part = (double)per_part * (double)s->per_row;
+  parts p;
+  const int modes = all->state.averaging ? gg_measure_wall_modes(&all->model) : 0;
+  *w = (gg_slow_modes){0};
+  if (modes == 0 || gg_series_window_rows(&all->replica[0].series) < 4) return GG_OK;
+  GG_TRY(parts_make(all, &p, err));
+  w->modes = modes;
   for (int k = 0; k < modes; k++) {
     const bool odd = gg_measure_wall_mode_is_odd(&all->model, k);
-    const double mean = gather(all, k, parts, per_part, y);
-    note(w, k, odd, gg_statistics_decay_time(y, parts, (size_t)all->n) * part);
+    gather(all, k, &p);
+    w->decay[k] = gg_statistics_decay_time(p.y, p.each, (size_t)all->n) * p.samples;
+    const double remembered = odd ? w->decay[k] / 2 : w->decay[k];
+    w->time = fmax(w->time, remembered), w->mean_time += remembered / modes;
     if (!odd || k != GG_WALL_CENTRE) continue;
-    const double squares = mean_square(y, parts * (size_t)all->n);
+    const double mean = gg_statistics_mean(p.y, p.total),
+                 squares = gsl_stats_tss_m(p.y, 1, p.total, 0) / (double)p.total;
     w->aside = mean, w->aside_share = squares > 0 ? mean * mean / squares : 0;
   }
-  w->mean_time /= modes;
-  free(y);
+  free(p.y);
   return GG_OK;
+}
+
+gg_status gg_run_replicas_error_by_square(const gg_replicas *all, int mode, double decay, gg_quantity q, double *error,
+                                          gg_error *err)
+{
+  parts p;
+  GG_TRY(parts_make(all, &p, err));
+  gather(all, mode, &p);
+  const gg_status status = gg_run_replicas_blocks(all, q, p.rows, p.response, err);
+  *error = gg_statistics_scatter_by_square(p.y, p.response, p.total);
+  *error *= sqrt(fmin(1, decay / (p.samples * (double)p.total)));
+  free(p.y);
+  return status;
 }

@@ -207,3 +207,23 @@ double gg_statistics_decay_time(const double *y, size_t n, size_t n_runs)
   }
   return (double)n;
 }
+
+void gg_statistics_parts(const gg_series *s, size_t channel, size_t parts, size_t rows, double *y)
+{
+  const size_t first = s->n - parts * rows;
+  for (size_t i = 0; i < parts; i++) {
+    y[i] = 0;
+    for (size_t k = 0; k < rows; k++) y[i] += gg_series_row(s, first + i * rows + k)[channel] / (double)rows;
+  }
+}
+
+double gg_statistics_scatter_by_square(const double *x, const double *y, size_t n)
+{
+  double square = 0, mean = 0, products = 0, squares = 0;
+  for (size_t i = 0; i < n; i++) square += x[i] * x[i] / (double)n, mean += y[i] / (double)n;
+  for (size_t i = 0; i < n; i++) {
+    const double d = x[i] * x[i] - square;
+    products += d * (y[i] - mean) / (double)n, squares += d * d / (double)n;
+  }
+  return squares > 0 ? fabs(products) / sqrt(squares) : 0;
+}

@@ -3,7 +3,7 @@
 #ifndef GG_AUTOCORRELATION_H
 #define GG_AUTOCORRELATION_H
 
-#include "base/error.h"
+#include "statistics/series.h"
 
 #include <stddef.h>
 
@@ -38,5 +38,11 @@ double gg_statistics_correlation_inflation(const gg_correlation *c, size_t lengt
  * which the correlation falls by a factor e from that at lag 1, corrected for the mean being that of the rows
  * themselves; 1/2 if neighbours are not correlated; n if the correlation never falls so far. */
 double gg_statistics_decay_time(const double *y, size_t n, size_t n_runs);
+
+/* Means of a channel over equal parts of a series' window, of `rows` each; rows that are left over are the first. */
+void gg_statistics_parts(const gg_series *s, size_t channel, size_t parts, size_t rows, double *y);
+
+/* Scatter of the part of y that is proportional to the square of x, both about their means. */
+double gg_statistics_scatter_by_square(const double *x, const double *y, size_t n);
 
 #endif

@@ -481,6 +481,67 @@ static void a_run_states_what_it_needs(void **state)
   assert_true(seconds[1] > 5 * seconds[0] && seconds[2] > 10 * seconds[0]);
 }
 
+static int at_a_third(void *context, const gg_progress *now)
+{
+  (void)context;
+  return now->overall > 0.33;
+}
+
+/* The text of a member of a JSON document, an object; to be freed. */
+static char *member_of(const gg_comparison *c, const char *name)
+{
+  char *text, *end;
+  gg_error err;
+  assert_ok(gg_comparison_to_json(c, &text, &err));
+  char *at = strstr(text, name);
+  assert_non_null(at);
+  int depth = 0;
+  for (end = strchr(at, '{'); *end && (depth += (*end == '{') - (*end == '}')) > 0;) end++;
+  *end = 0;
+  memmove(text, at, strlen(at) + 1);
+  return text;
+}
+
+/* Between walls, curves of theories do not depend on an interruption: in what is returned, in JSON, in the file. */
+static void a_resumed_comparison_has_the_curves_of_theories(void **state)
+{
+  (void)state;
+  gg_error err;
+  gg_scene *s = scene_of("{flow: couette, phi: 0.1, particles: 200, collision: {e: 0.9}, walls: {e: 0.9, beta: 0}, "
+                         "dsmc: {particles: 400}, measure: [rheology, profiles, fluxes], "
+                         "run: {collisions: 200, warmup: 20}}");
+  gg_comparison *c[4] = {NULL};
+  gg_run_options options = {.size = sizeof options, .output = "t_whole.h5"};
+  gg_compare(s, &options, &c[0], &err);
+  options = (gg_run_options){.size = sizeof options, .checkpoint = "t_walls.h5", .progress = at_a_third};
+  assert_int_equal(gg_compare(s, &options, &c[1], &err), GG_INTERRUPTED);
+  gg_comparison_free(c[1]);
+  options = (gg_run_options){.size = sizeof options, .resume = "t_walls.h5", .output = "t_resumed.h5"};
+  gg_compare(s, &options, &c[1], &err);
+  assert_ok(gg_comparison_read("t_whole.h5", &c[2], &err));
+  assert_ok(gg_comparison_read("t_resumed.h5", &c[3], &err));
+  char *json = member_of(c[0], "\"theory_curves\"");
+  assert_non_null(strstr(json, "\"moments\""));
+  assert_true(strlen(json) > 5000);
+  for (int k = 1; k < 4; k++) {
+    char *other = member_of(c[k], "\"theory_curves\"");
+    assert_string_equal(json, other);
+    free(other);
+  }
+  gg_curve_data a, b;
+  size_t n = 0;
+  for (; gg_comparison_theory_curve(c[0], "moments", n, &a, NULL) == GG_OK; n++) {
+    assert_ok(gg_comparison_theory_curve(c[3], "moments", n, &b, &err));
+    assert_string_equal(a.name, b.name);
+    assert_memory_equal(a.value, b.value, a.n * sizeof *a.value);
+  }
+  assert_true(n > 8);
+  same_means(gg_comparison_result(c[0], "md"), gg_comparison_result(c[3], "md"));
+  free(json);
+  for (int k = 0; k < 4; k++) gg_comparison_free(c[k]);
+  gg_scene_free(s);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -491,6 +552,7 @@ int main(void)
       cmocka_unit_test(missing_quantities),
       cmocka_unit_test(unwritable_output),
       cmocka_unit_test(a_comparison_is_read_back_whole),
+      cmocka_unit_test(a_resumed_comparison_has_the_curves_of_theories),
       cmocka_unit_test(part_comparisons),
       cmocka_unit_test(named_theories_alone_are_evaluated),
       cmocka_unit_test(theories_after_changes),

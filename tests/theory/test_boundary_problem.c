@@ -109,9 +109,56 @@ static void no_solution(void **state)
   free(s);
 }
 
+/* v'' = -rate exp(v), of which v < 1 alone counts as a value. A solution within is found from a start outside; without
+ * one, five steps outside are enough to give up. */
+typedef struct bounded {
+  double rate;
+  bool outside;
+  int calls;
+} bounded;
+
+static void bounded_slope(void *self, const double v[], double f[])
+{
+  bounded *b = self;
+  b->calls++;
+  f[0] = v[1], f[1] = -b->rate * exp(v[0]);
+  if (v[0] >= 1) b->outside = true;
+}
+
+static gg_status solve_bounded(bounded *b, bool tells)
+{
+  gg_error err;
+  gg_boundary_solution *s = uniform_points(21);
+  for (int i = 0; i < s->points; i++) s->v[i][0] = 2;
+  const gg_boundary_problem p = {.n = 2,
+                                 .n_lower = 1,
+                                 .scale = {1, 1},
+                                 .tolerance = 1e-6,
+                                 .self = b,
+                                 .outside = tells ? &b->outside : NULL,
+                                 .slope = bounded_slope,
+                                 .lower = ends_at_0,
+                                 .upper = ends_at_0};
+  const gg_status status = gg_theory_boundary_solve(&p, s, &err);
+  free(s);
+  return status;
+}
+
+static void outside(void **state)
+{
+  (void)state;
+  bounded within = {.rate = 1}, beyond = {.rate = 4}, untold = {.rate = 4};
+  assert_int_equal(solve_bounded(&within, true), GG_OK);
+  assert_false(within.outside);
+  assert_int_equal(solve_bounded(&beyond, true), GG_FAILED);
+  assert_int_equal(solve_bounded(&untold, false), GG_FAILED);
+  print_message("# %d calls until it gives up, %d if no step counts as outside\n", beyond.calls, untold.calls);
+  assert_true(beyond.calls < untold.calls);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(steep_layer), cmocka_unit_test(nonlinear),
-                                     cmocka_unit_test(no_solution)};
+                                     cmocka_unit_test(no_solution), cmocka_unit_test(outside)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "theory/walls/band_matrix.h"
 
-enum { MOST = GG_BOUNDARY_FUNCTIONS, STEPS = 40, HALVINGS = 8, STUCK = 3, MESHES = 24 };
+enum { MOST = GG_BOUNDARY_FUNCTIONS, STEPS = 40, HALVINGS = 8, STUCK = 3, LOST = 5, MESHES = 24 };
 
 /* Width of differences for derivatives, in units of a function's scale; step of Newton's method, likewise, below which
  * it has converged. */
@@ -144,14 +144,19 @@ static void accept(work *w)
   memcpy(w->s->f, w->f, bytes);
 }
 
-/* Damped steps on one mesh: each shortens the next one. After STUCK steps in a row that do not it gives up. */
+/* Damped steps on one mesh: each shortens the next one. It gives up after STUCK steps in a row that do not, or LOST in
+ * a row that start where the equations have no value. */
 static bool newton(work *w)
 {
   const int N = unknowns(w);
   slopes(w->p, w->s->points, (const gg_functions *)w->s->v, w->s->f);
-  for (int step = 0, stuck = 0; step < STEPS && stuck < STUCK && !gg_stop_asked(w->p->stop); step++) {
+  int stuck = 0, lost = 0;
+  for (int step = 0; step < STEPS && stuck < STUCK && lost < LOST && !gg_stop_asked(w->p->stop); step++) {
+    bool nowhere = false, *outside = w->p->outside ? w->p->outside : &nowhere;
+    *outside = false;
     if (!factor(w)) return false;
     leftover(w, (const gg_functions *)w->s->v, (const gg_functions *)w->s->f, w->step);
+    lost = *outside ? lost + 1 : 0;
     gg_theory_band_solve(&w->A, w->step);
     const double size = square_of(w->step, N);
     if (!isfinite(size)) return false;

@@ -9,6 +9,8 @@
 #include "base/cancellation.h"
 #include "base/error.h"
 
+#include <stdbool.h>
+
 enum { GG_BOUNDARY_FUNCTIONS = 10, GG_BOUNDARY_POINTS = 1601 };
 
 typedef double gg_functions[GG_BOUNDARY_FUNCTIONS];
@@ -19,6 +21,7 @@ typedef struct gg_boundary_problem {
   double tolerance;                    /* of the residual v' - f relative to f + scale/(length of the interval) */
   void *self;                          /* for the functions below */
   const gg_stop *stop;
+  bool *outside; /* set by `slope` where it has no value; NULL: it always has */
   void (*slope)(void *self, const double v[], double f[]);
   void (*lower)(void *self, const double v[], double g[]); /* left sides of conditions g = 0, of order 1 */
   void (*upper)(void *self, const double v[], double g[]);

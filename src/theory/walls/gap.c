@@ -291,6 +291,7 @@ gg_status gg_theory_gap_solve(const gg_model *m, gg_gap_gas gas, const char *the
                                  .tolerance = tolerance,
                                  .self = g,
                                  .stop = m->stop,
+                                 .outside = &g->outside,
                                  .slope = slope,
                                  .lower = lower,
                                  .upper = upper,

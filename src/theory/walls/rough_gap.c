@@ -208,6 +208,7 @@ gg_status gg_theory_rough_gap_solve(const gg_model *m, gg_rough_fluid *gas, cons
                                  .tolerance = tolerance,
                                  .self = &r,
                                  .stop = m->stop,
+                                 .outside = &g->outside,
                                  .slope = slope,
                                  .lower = lower,
                                  .upper = upper,
