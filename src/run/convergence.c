@@ -14,18 +14,13 @@
 /* ... unless it is too small to matter beside the requested error. */
 #define TREND_NEGLIGIBLE 1e-4
 
-static int find_function(const gg_replicas *all, gg_quantity q, gg_function *f)
-{
-  return gg_run_replica_find_function(&all->replica[0], q, f);
-}
-
 /* At the end of the list, unless it is there, or not measured. */
 static int append(const gg_replicas *all, gg_quantity q, gg_quantity *list, int n)
 {
   gg_function f;
   for (int i = 0; i < n; i++)
     if (list[i] == q) return n;
-  if (find_function(all, q, &f) >= 0) list[n++] = q;
+  if (gg_run_replica_find_function(&all->replica[0], q, &f) >= 0) list[n++] = q;
   return n;
 }
 
@@ -59,7 +54,7 @@ static void note_error(const gg_replicas *all, gg_quantity q, const gg_mean *m, 
 static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *trend, gg_error *err)
 {
   gg_function f;
-  const int k = find_function(all, q, &f);
+  const int k = gg_run_replica_find_function(&all->replica[0], q, &f);
   *trend = (gg_trend){.z = NAN, .relative = NAN, .correlation_rows = 0.5};
   size_t n = gg_series_window_rows(&all->replica[0].series);
   if (k < 0 || n < 24) return GG_OK;

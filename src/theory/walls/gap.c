@@ -13,7 +13,7 @@
 
 /* Knudsen number above which no hydrodynamics describes the gap; points of the start; residual, with which balances
  * close to 1e-8. */
-static const double most_knudsen = 0.3, tolerance = 1e-6;
+static const double most_knudsen = 0.3, tolerance = 1e-6, rounding = 1e-12; /* of the drag, to the pressure */
 enum { START_POINTS = 41 };
 
 static double half_diameter(const gg_model *m)
@@ -236,33 +236,42 @@ static void put_wall(gg_gap_flow *flow, int w)
   to->heat = m.in.heat + s * to->tau * to->slip - to->loss;
 }
 
-/* Sums over the gap by Gauss's formula of three points in each interval, none of them one of the collocation. */
-static void put_sums(gg_gap_flow *flow)
+void gg_theory_gap_integrate(gg_gap_flow *flow, gg_gap_add *add)
 {
   static const double place[] = {-0.774596669241483377, 0, 0.774596669241483377}, weight[] = {5. / 18, 4. / 9, 5. / 18};
-  gg_gap *g = &flow->gap;
   const gg_boundary_solution *s = &flow->solution;
-  double warm = 0;
+  flow->work = flow->loss = flow->normal = flow->shear = flow->temperature = flow->theta = 0;
   for (int i = 0; i + 1 < s->points; i++)
     for (int k = 0; k < 3; k++) {
       const double h = s->y[i + 1] - s->y[i];
-      double v[GG_GAP_FUNCTIONS];
-      gg_gap_local at;
-      gg_theory_boundary_at(s, GG_GAP_FUNCTIONS, s->y[i] + 0.5 * h * (1 + place[k]), v, NULL);
-      local_at(g, v, &at);
-      flow->loss += h * weight[k] * at.loss;
-      flow->work += h * weight[k] * at.n * g->model->gravity[0] * v[GG_GAP_U];
-      flow->normal += h * weight[k] * v[GG_GAP_P], flow->shear += h * weight[k] * v[GG_GAP_TAU];
-      warm += h * weight[k] * at.n * exp(v[GG_GAP_LOG_T]);
+      add(flow, s->y[i] + 0.5 * h * (1 + place[k]), h * weight[k]);
     }
+}
+
+static void add_slice(gg_gap_flow *flow, double y, double part)
+{
+  double v[GG_GAP_FUNCTIONS];
+  gg_gap_local at;
+  gg_theory_boundary_at(&flow->solution, GG_GAP_FUNCTIONS, y, v, NULL);
+  local_at(&flow->gap, v, &at);
+  flow->loss += part * at.loss;
+  flow->work += part * at.n * flow->gap.model->gravity[0] * v[GG_GAP_U];
+  flow->normal += part * v[GG_GAP_P], flow->shear += part * v[GG_GAP_TAU];
+  flow->temperature += part * at.n * exp(v[GG_GAP_LOG_T]);
+}
+
+static void put_sums(gg_gap_flow *flow)
+{
+  gg_gap *g = &flow->gap;
+  gg_theory_gap_integrate(flow, add_slice);
   for (int w = 0; w < 2; w++) {
     const gg_gap_wall *wall = &flow->wall[w];
     const gg_surface *surface = &g->model->surface[w];
-    warm += wall->warmth, flow->loss += wall->loss;
+    flow->temperature += wall->warmth, flow->loss += wall->loss;
     flow->work += wall->grains * g->model->gravity[0] * (wall->slip + surface->velocity.x);
     flow->work -= surface->side * wall->tau * surface->velocity.x;
   }
-  flow->temperature = warm / g->grains;
+  flow->temperature /= g->grains;
 }
 
 static bool is_within(gg_gap *g, const gg_boundary_solution *s)
@@ -281,7 +290,6 @@ gg_status gg_theory_gap_solve(const gg_model *m, gg_gap_gas gas, const char *the
   gg_gap *g = &flow->gap;
   const double edge = half_diameter(m);
   const double T = g->T, P = g->P;
-  flow->work = flow->loss = flow->normal = flow->shear = 0;
   *g = (gg_gap){.model = m, .gas = gas, .low = edge, .high = m->box[1] - edge, .grains = grains_per_area(m)};
   g->T = T, g->P = P;
   if (flow->solution.points == 0) GG_TRY(start(flow, theory, err));
@@ -335,7 +343,7 @@ static void put_numbers(const gg_gap_flow *flow, gg_theory_answer *a)
     a->value[GG_Q_TEMPERATURE_RATIO] = flow->theta / flow->temperature;
   }
   a->value[GG_Q_P_YY] = per_volume * flow->normal, a->value[GG_Q_P_YX] = per_volume * flow->shear;
-  a->value[GG_Q_WALL_FRICTION] = drag / push;
+  a->value[GG_Q_WALL_FRICTION] = fabs(drag) > rounding * push ? drag / push : 0;
   if (flow->loss > 0) a->value[GG_Q_DISSIPATION] = per_volume * flow->loss;
   a->value[GG_Q_WALL_DISSIPATION] = per_volume * D_wall;
   if (gg_wall_symmetry_of(m) == GG_NO_SYMMETRY)

@@ -73,6 +73,11 @@ double gg_theory_gap_knudsen(const gg_model *model);
 gg_status gg_theory_gap_solve(const gg_model *model, gg_gap_gas gas, const char *theory, gg_gap_flow *flow,
                               gg_error *err);
 
+/* Integrals over the gap by Gauss's formula of three points in each interval, none of them one of the collocation:
+ * `add` adds a slice at height y, of this thickness, to the sums of *flow, which begin at 0. */
+typedef void gg_gap_add(gg_gap_flow *flow, double y, double thickness);
+void gg_theory_gap_integrate(gg_gap_flow *flow, gg_gap_add *add);
+
 /* Why the theory errs in this flow: Kn, slip, normal stress differences, heat; "" where none applies. */
 void gg_theory_gap_remark(const gg_gap_flow *flow, double Kn, char text[GG_THEORY_REMARK]);
 

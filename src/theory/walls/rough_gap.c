@@ -172,22 +172,19 @@ static void put_wall(gg_gap_flow *flow, int w)
   flow->work += grains * gravity[0] * v[GG_GAP_U] - s * to->tau * wall->velocity.x;
 }
 
-/* Sums over the gap by Gauss's formula of three points in each interval, none of them one of the collocation. */
+static void add_slice(gg_gap_flow *flow, double y, double part)
+{
+  const gg_rough_height at = gg_theory_rough_gap_at(flow, y);
+  const double grains = part * at.local.gas.n;
+  flow->loss -= part * (at.local.gain[0] + at.local.gain[1]);
+  flow->work += grains * flow->gap.model->gravity[0] * at.u;
+  flow->normal += part * at.state.P, flow->shear += part * at.state.tau;
+  flow->temperature += grains * at.state.T, flow->theta += grains * at.state.theta;
+}
+
 static void put_sums(gg_gap_flow *flow)
 {
-  static const double place[] = {-0.774596669241483377, 0, 0.774596669241483377}, weight[] = {5. / 18, 4. / 9, 5. / 18};
-  const gg_boundary_solution *s = &flow->solution;
-  flow->work = flow->loss = flow->normal = flow->shear = flow->temperature = flow->theta = 0;
-  for (int i = 0; i + 1 < s->points; i++)
-    for (int k = 0; k < 3; k++) {
-      const double h = s->y[i + 1] - s->y[i], part = h * weight[k];
-      const gg_rough_height at = gg_theory_rough_gap_at(flow, s->y[i] + 0.5 * h * (1 + place[k]));
-      const double grains = part * at.local.gas.n;
-      flow->loss -= part * (at.local.gain[0] + at.local.gain[1]);
-      flow->work += grains * flow->gap.model->gravity[0] * at.u;
-      flow->normal += part * at.state.P, flow->shear += part * at.state.tau;
-      flow->temperature += grains * at.state.T, flow->theta += grains * at.state.theta;
-    }
+  gg_theory_gap_integrate(flow, add_slice);
   for (int w = 0; w < 2; w++) put_wall(flow, w);
   if (flow->gap.model->elastic_grains) flow->loss = 0; /* not its rounding */
   flow->temperature /= flow->gap.grains, flow->theta /= flow->gap.grains;
