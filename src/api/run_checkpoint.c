@@ -25,15 +25,6 @@ static gg_status describe_comparison(const gg_archive *a, gg_checkpoint_info *in
   return GG_OK;
 }
 
-static void describe_simulation(gg_simulation *s, gg_checkpoint_info *info)
-{
-  gg_simulation_state now;
-  info->kind = "simulation";
-  info->part[0] = (gg_checkpoint_part){.engine = s->engine->ops->name, .phase = "stepped"};
-  if (gg_simulation_get_state(s, &now, NULL) == GG_OK) info->part[0].collisions_per_grain = now.collisions_per_grain;
-  gg_simulation_free(s);
-}
-
 static gg_status describe(const gg_archive *a, const char *path, const gg_scene *scene, gg_checkpoint_info *info,
                           gg_error *err)
 {
@@ -46,7 +37,12 @@ static gg_status describe(const gg_archive *a, const char *path, const gg_scene 
     return gg_run_how_far(a, &info->part[0], err);
   }
   GG_TRY(gg_simulation_load(path, NULL, NULL, NULL, &simulation, err));
-  describe_simulation(simulation, info);
+  gg_simulation_state now;
+  info->kind = "simulation";
+  info->part[0] = (gg_checkpoint_part){.engine = simulation->engine->ops->name, .phase = "stepped"};
+  if (gg_simulation_get_state(simulation, &now, NULL) == GG_OK)
+    info->part[0].collisions_per_grain = now.collisions_per_grain;
+  gg_simulation_free(simulation);
   return GG_OK;
 }
 

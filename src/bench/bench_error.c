@@ -248,15 +248,6 @@ static gg_bench_table *new_seconds(gg_bench *b, const gg_error_state *s, bool fi
   return t;
 }
 
-static gg_bench_table *new_floors(gg_bench *b, gg_error *err)
-{
-  static const char *const head[] = {"state",    "quantity", "truth",    "its error", "from",
-                                     "1/N dsmc", "1/N md",   "step h^2", "order",     "single"};
-  gg_bench_table *t = gg_bench_table_new(b, "floors", floors_caption, 2, err);
-  for (size_t k = 0; t && k < sizeof head / sizeof *head; k++) gg_bench_table_column(t, k > 1 && k != 4, "%s", head[k]);
-  return t;
-}
-
 /* Add the table of seconds of a state. */
 static gg_status put_state(gg_bench *b, const gg_error_state *s, bool first, gg_error *err)
 {
@@ -310,8 +301,11 @@ static gg_status measure(gg_bench *b, gg_error_state *s, gg_error *err)
     GG_TRY(put_state(b, &s[i], i == 0, err));
     if (b->options->picture && drawn == GG_OK) drawn = draw(b, &s[i], err);
   }
-  gg_bench_table *floors = new_floors(b, err);
+  static const char *const head[] = {"state",    "quantity", "truth",    "its error", "from",
+                                     "1/N dsmc", "1/N md",   "step h^2", "order",     "single"};
+  gg_bench_table *floors = gg_bench_table_new(b, "floors", floors_caption, 2, err);
   if (!floors) return GG_FAILED;
+  for (size_t k = 0; k < sizeof head / sizeof *head; k++) gg_bench_table_column(floors, k > 1 && k != 4, "%s", head[k]);
   for (int i = 0; i < n; i++) put_state_floors(b, floors, &s[i]);
   b->measured = true;
   return drawn;

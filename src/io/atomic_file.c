@@ -53,14 +53,6 @@ static bool cannot_lock(int number)
   return number == ENOLCK || number == ENOSYS || number == EOPNOTSUPP || number == EINVAL;
 }
 
-static void clean_up(const char *target)
-{
-  char *temporary = NULL;
-  if (asprintf(&temporary, "%s" GG_TEMPORARY_SUFFIX, target) < 0) return;
-  unlink(temporary);
-  free(temporary);
-}
-
 /* Open the lock file. Another user's can only be opened for reading (*foreign), which is enough to lock it. */
 static int open_lock(const char *path, bool *foreign)
 {
@@ -100,7 +92,11 @@ gg_status gg_io_file_lock_take(gg_file_lock *l, const char *target, const char *
   while (status == GG_OK && l->fd < 0) status = try_once(l, path, &sure, err);
   if (status == GG_OK) {
     sign(l->fd);
-    if (sure) clean_up(target);
+    char *temporary = NULL;
+    if (sure && asprintf(&temporary, "%s" GG_TEMPORARY_SUFFIX, target) >= 0) {
+      unlink(temporary);
+      free(temporary);
+    }
     return GG_OK;
   }
   free(l->path);

@@ -156,15 +156,6 @@ static void print_svg_discs(const snapshot *p, const grain_layer *layer, gg_box 
   fprintf(p->page.over, "</g></svg>\n");
 }
 
-static void print_discs(const snapshot *p, const grain_layer *layer)
-{
-  fprintf(p->page.script, "$grains << EOD\n");
-  for (const grain_disc *d = layer->disc + layer->n; d-- > layer->disc;)
-    fprintf(p->page.script, "%.5g %.5g %.4g %u\n", d->x, d->y, p->gas->radius[d->species], fill_of(d->species));
-  fprintf(p->page.script,
-          "EOD\nplot $grains using 1:2:3:4 with circles lc rgb variable lw 0.4 fs solid border lc rgb '" RIM "'\n");
-}
-
 /* False: out of memory. */
 static bool draw_panel(const snapshot *p, int along, double left, double top)
 {
@@ -186,10 +177,16 @@ static bool draw_panel(const snapshot *p, int along, double left, double top)
   gg_plot_page_text(&p->page, f.left - LEFT + MARGIN, f.top - 10, "left", "y [d]");
   gg_plot_page_text(&p->page, f.left + f.wide / 2, f.top + f.tall + 40, "center", along == 0 ? "x [d]" : "z [d]");
   fprintf(p->page.script, "set xrange [0:%.9g]\nset yrange [0:%.9g]\n", s->edge[along], s->top);
-  if (p->page.over)
-    print_svg_discs(p, &layer, f), fprintf(p->page.script, "plot NaN\n");
-  else
-    print_discs(p, &layer);
+  if (p->page.over) {
+    print_svg_discs(p, &layer, f);
+    fprintf(p->page.script, "plot NaN\n");
+  } else {
+    fprintf(p->page.script, "$grains << EOD\n");
+    for (const grain_disc *d = layer.disc + layer.n; d-- > layer.disc;)
+      fprintf(p->page.script, "%.5g %.5g %.4g %u\n", d->x, d->y, s->radius[d->species], fill_of(d->species));
+    fprintf(p->page.script,
+            "EOD\nplot $grains using 1:2:3:4 with circles lc rgb variable lw 0.4 fs solid border lc rgb '" RIM "'\n");
+  }
   free(layer.disc);
   return true;
 }

@@ -149,13 +149,6 @@ static bool finished(gg_replicas *all, const gg_window_test *t)
   return gg_run_criteria_are_met(t, before);
 }
 
-static const gg_replica *first_with_bad_interval(const gg_replicas *all)
-{
-  for (int i = 0; i < all->n; i++)
-    if (!gg_run_replica_interval_fits(&all->replica[i])) return &all->replica[i];
-  return NULL;
-}
-
 /* Warm up. Averaging keeps the last sampling interval, so the warm-up is extended until the intervals fit the collision
  * rate: they do not after a burst of collisions. A resumed run tests at the same samples as an uninterrupted one. */
 static gg_status warm_up(gg_replicas *all, gg_error *err)
@@ -166,9 +159,10 @@ static gg_status warm_up(gg_replicas *all, gg_error *err)
   for (;; due += TEST_EVERY) {
     GG_TRY(advance_to(all, due, err));
     if (is_over(all)) return GG_OK;
-    const gg_replica *one = first_with_bad_interval(all);
-    if (!one) return GG_OK;
-    if (due >= all->criteria.warmup + MOST_MORE) return gg_run_replica_collapsed(one, err);
+    int bad = 0;
+    while (bad < all->n && gg_run_replica_interval_fits(&all->replica[bad])) bad++;
+    if (bad == all->n) return GG_OK;
+    if (due >= all->criteria.warmup + MOST_MORE) return gg_run_replica_collapsed(&all->replica[bad], err);
   }
 }
 

@@ -325,14 +325,6 @@ gg_status gg_run_replica_save(const gg_replica *r, gg_archive *a, gg_error *err)
   return gg_run_replica_save_observables(r, a, err);
 }
 
-/* A resumed run may request frames at other intervals: set the time of the next one. */
-static void resume_frames(gg_replica *r)
-{
-  if (r->clock.frame_every == r->trajectory_every) return;
-  r->clock.frame_every = r->trajectory_every;
-  if (r->trajectory_every > 0 && r->clock.samples > 0) r->clock.next_frame = next_frame(r);
-}
-
 /* Validate the restored clock. */
 static gg_status check_clock(const gg_replica *r, gg_error *err)
 {
@@ -375,7 +367,11 @@ gg_status gg_run_replica_restore(gg_replica *r, const gg_archive *a, const gg_sc
   if (status == GG_OK) status = gg_common_engine_of(scene->engine)->restore(&r->model, a, &r->engine, err);
   if (status == GG_OK) status = gg_statistics_series_restore(&r->series, a, err);
   if (status == GG_OK) status = gg_run_replica_restore_observables(r, a, err);
-  if (status == GG_OK) resume_frames(r);
+  if (status == GG_OK && r->clock.frame_every != r->trajectory_every) {
+    /* a resumed run may request frames at other intervals */
+    r->clock.frame_every = r->trajectory_every;
+    if (r->trajectory_every > 0 && r->clock.samples > 0) r->clock.next_frame = next_frame(r);
+  }
   if (status != GG_OK) gg_run_replica_clear(r);
   return status;
 }

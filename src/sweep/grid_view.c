@@ -23,14 +23,6 @@ static gg_grid_key find_key(const gg_sweep *s, const char *name, const gg_grid_k
   return found;
 }
 
-static void choose_axes(gg_grid_view *v)
-{
-  v->x = find_key(v->sweep, "phi", NULL);
-  v->y = find_key(v->sweep, "collision.e", &v->x);
-  if (!v->x.key) v->x = find_key(v->sweep, NULL, &v->y);
-  if (!v->y.key) v->y = find_key(v->sweep, NULL, &v->x);
-}
-
 static bool is_axis(const gg_grid_view *v, size_t varied)
 {
   return (v->x.key && v->x.varied == varied) || (v->y.key && v->y.varied == varied);
@@ -50,7 +42,10 @@ static void index_rows(gg_grid_view *v)
 gg_status gg_sweep_grid_view_make(gg_grid_view *v, const gg_point_table *table, const gg_sweep *sweep, gg_error *err)
 {
   *v = (gg_grid_view){.sweep = sweep, .table = table, .n_panels = 1};
-  choose_axes(v);
+  v->x = find_key(sweep, "phi", NULL);
+  v->y = find_key(sweep, "collision.e", &v->x);
+  if (!v->x.key) v->x = find_key(sweep, NULL, &v->y);
+  if (!v->y.key) v->y = find_key(sweep, NULL, &v->x);
   for (size_t f = 0; f < sweep->n_varied; f++)
     if (!is_axis(v, f)) v->n_panels *= sweep->varied[f].n;
   v->first = gg_base_array_new(sweep->n + 1, sizeof *v->first, err);

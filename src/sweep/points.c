@@ -180,16 +180,6 @@ const char *gg_sweep_column_value(const gg_sweep *sweep, size_t i, size_t k)
   return sweep && i < sweep->n ? value_of(sweep, i, k) : NULL;
 }
 
-/* "collision.e 0.5, phi 0.3" of point i. */
-static void name_point(const gg_sweep *sweep, size_t i, char *text, size_t size)
-{
-  char whole[400] = "";
-  for (size_t k = 0; gg_sweep_column_key(sweep, k); k++)
-    gg_base_text_append(whole, sizeof whole, "%s%s %s", *whole ? ", " : "", gg_sweep_column_key(sweep, k),
-                        value_of(sweep, i, k));
-  gg_scene_quote(whole, text, size);
-}
-
 /* Add the cost of one engine for a scene; GG_BAD_INPUT if it cannot run the scene. */
 static gg_status cost_of(const gg_scene *scene, gg_engine_kind engine, gg_cost_estimate *cost, double *warmup,
                          gg_error *err)
@@ -259,10 +249,13 @@ static gg_status resolve(const gg_sweep *sweep, size_t i, gg_scene *scene, doubl
 
 static gg_status resolve_named(const gg_sweep *sweep, size_t i, gg_scene *scene, double *seconds, gg_error *err)
 {
-  char name[200];
+  char whole[400] = "", name[200];
   gg_status status = resolve(sweep, i, scene, seconds, err);
   if (status == GG_OK || !sweep->n_varied) return status;
-  name_point(sweep, i, name, sizeof name);
+  for (size_t k = 0; gg_sweep_column_key(sweep, k); k++) /* "collision.e 0.5, phi 0.3" */
+    gg_base_text_append(whole, sizeof whole, "%s%s %s", *whole ? ", " : "", gg_sweep_column_key(sweep, k),
+                        value_of(sweep, i, k));
+  gg_scene_quote(whole, name, sizeof name);
   return gg_base_error_prefix(err, status, "%s: point %zu of %zu (%s)", sweep->name, i + 1, gg_sweep_count(sweep),
                               name);
 }

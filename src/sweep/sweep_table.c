@@ -288,15 +288,6 @@ static const char *plain_value(const char *yaml)
   return strcmp(yaml, ".inf") == 0 ? "inf" : yaml;
 }
 
-static void put_head(gg_csv *csv, const gg_sweep *sweep)
-{
-  const char *key;
-  gg_io_csv_text(csv, "point");
-  for (size_t k = 0; (key = gg_sweep_column_key(sweep, k)); k++) gg_io_csv_text(csv, key);
-  for (size_t c = 0; c < COLUMNS; c++) gg_io_csv_text(csv, columns[c].name);
-  gg_io_csv_end_row(csv);
-}
-
 static void put_row(gg_csv *csv, const gg_sweep *sweep, const gg_point_row *row)
 {
   put_count(csv, row->point + 1);
@@ -316,7 +307,10 @@ gg_status gg_sweep_point_table_write_csv(const gg_point_table *t, const gg_sweep
   const unsigned before = gg_base_memory_failures();
   gg_io_file_writer_begin(out, &file, err);
   gg_csv csv = {.out = out};
-  put_head(&csv, sweep);
+  gg_io_csv_text(&csv, "point");
+  for (size_t k = 0; gg_sweep_column_key(sweep, k); k++) gg_io_csv_text(&csv, gg_sweep_column_key(sweep, k));
+  for (size_t c = 0; c < COLUMNS; c++) gg_io_csv_text(&csv, columns[c].name);
+  gg_io_csv_end_row(&csv);
   for (size_t i = 0; i < t->n; i++) put_row(&csv, sweep, &t->row[i]);
   gg_status status = gg_base_memory_check(before, gg_io_file_writer_end(out), err);
   free(out);

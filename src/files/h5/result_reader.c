@@ -104,14 +104,6 @@ static double *read_last_rows(gg_h5_in *h, const char *what, size_t n)
   return gg_h5_exists(h, path) ? gg_h5_read_row(h, path, GG_H5_LAST, GG_ITEM_F64, 3 * n) : NULL;
 }
 
-static void read_box(gg_h5_in *h, double edge[3])
-{
-  static const char path[] = "/particles/grains/box/edges/value";
-  double *edges = gg_h5_exists(h, path) ? gg_h5_read_row(h, path, GG_H5_LAST, GG_ITEM_F64, 9) : NULL;
-  for (int a = 0; edges && a < 3; a++) edge[a] = edges[4 * a];
-  free(edges);
-}
-
 static void read_last_frame(gg_h5_in *h, gg_stored_result *s)
 {
   gg_frame *f = &s->last;
@@ -125,7 +117,10 @@ static void read_last_frame(gg_h5_in *h, gg_stored_result *s)
   free(step);
   free(time);
   f->position = read_last_rows(h, "position", f->n);
-  read_box(h, s->edge);
+  static const char box[] = "/particles/grains/box/edges/value";
+  double *edges = gg_h5_exists(h, box) ? gg_h5_read_row(h, box, GG_H5_LAST, GG_ITEM_F64, 9) : NULL;
+  for (int a = 0; edges && a < 3; a++) s->edge[a] = edges[4 * a];
+  free(edges);
   f->velocity = read_last_rows(h, "velocity", f->n);
   f->spin = read_last_rows(h, "spin", f->n);
   f->species = gg_h5_read_array(h, "/particles/grains/species", GG_ITEM_U8, &kinds);

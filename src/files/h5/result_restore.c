@@ -83,14 +83,6 @@ static uint64_t count(const json_t *object, const char *key)
   return (uint64_t)json_integer_value(json_object_get(object, key));
 }
 
-static void restore_warnings(gg_result *r, const json_t *document)
-{
-  size_t i;
-  json_t *line;
-  json_array_foreach(json_object_get(document, "warnings"), i, line) if (json_is_string(line))
-      gg_run_result_warn(r, "%s", json_string_value(line));
-}
-
 static void restore_means(gg_result *r, const json_t *document)
 {
   const json_t *results = json_object_get(document, "results");
@@ -242,7 +234,10 @@ static gg_status restore_all(gg_result *r, const gg_stored_result *s, gg_engine_
                                                                            : GG_HEATING;
   snprintf(r->steadiness_text, sizeof r->steadiness_text, "%s", gg_io_json_string(e->document, "verdict"));
   snprintf(r->ensemble_text, sizeof r->ensemble_text, "%s", gg_io_json_string(e->document, "particles_chosen"));
-  restore_warnings(r, e->document);
+  size_t i;
+  json_t *line;
+  json_array_foreach(json_object_get(e->document, "warnings"), i, line) if (json_is_string(line))
+      gg_run_result_warn(r, "%s", json_string_value(line));
   restore_means(r, e->document);
   GG_TRY(restore_correlations(r, e, err));
   restore_effort(r, e->document);
