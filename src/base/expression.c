@@ -11,10 +11,19 @@
 typedef struct function {
   const char *name;
   double (*of)(double);
+  double (*of_two)(double, double); /* NULL: of one */
 } function;
 
-static const function functions[] = {{"ln", log},   {"log10", log10}, {"exp", exp}, {"sqrt", sqrt},
-                                     {"abs", fabs}, {"sin", sin},     {"cos", cos}, {NULL, NULL}};
+static const function functions[] = {
+    {"ln", log, NULL},   {"log10", log10, NULL}, {"exp", exp, NULL},   {"sqrt", sqrt, NULL}, {"abs", fabs, NULL},
+    {"sin", sin, NULL},  {"cos", cos, NULL},     {"atan", atan, NULL}, {"tanh", tanh, NULL}, {"erf", erf, NULL},
+    {"min", NULL, fmin}, {"max", NULL, fmax},    {NULL, NULL, NULL}};
+
+/* Comparisons; those of two characters first. */
+static const struct {
+  const char *sign;
+  char code;
+} comparisons[] = {{"<=", 'l'}, {">=", 'g'}, {"==", '='}, {"<", '<'}, {">", '>'}, {NULL, 0}};
 
 typedef struct parser {
   const char *text, *at;
@@ -24,7 +33,7 @@ typedef struct parser {
   gg_error *err;
 } parser;
 
-static gg_status sum(parser *p);
+static gg_status conditional(parser *p);
 
 static gg_status refuse(const parser *p, const char *what)
 {
@@ -73,7 +82,11 @@ static gg_status word(parser *p)
     if (!is(name, length, functions[k].name)) continue;
     skip(p);
     if (*p->at++ != '(') return p->at--, refuse(p, "( is missing after a function");
-    GG_TRY(sum(p));
+    GG_TRY(conditional(p));
+    if (functions[k].of_two) {
+      if (*p->at++ != ',') return p->at--, refuse(p, "a comma and a second argument are missing");
+      GG_TRY(conditional(p));
+    }
     if (*p->at++ != ')') return p->at--, refuse(p, ") is missing");
     return add(p, 'f', k);
   }
@@ -87,7 +100,7 @@ static gg_status atom(parser *p)
   skip(p);
   if (*p->at == '(') {
     p->at++;
-    GG_TRY(sum(p));
+    GG_TRY(conditional(p));
     if (*p->at != ')') return refuse(p, ") is missing");
     p->at++;
   } else if (isdigit((unsigned char)*p->at) || *p->at == '.') {
@@ -144,11 +157,45 @@ static gg_status sum(parser *p)
   return GG_OK;
 }
 
+static gg_status comparison(parser *p)
+{
+  GG_TRY(sum(p));
+  for (int k = 0; comparisons[k].sign; k++) {
+    const size_t length = strlen(comparisons[k].sign);
+    if (strncmp(p->at, comparisons[k].sign, length) != 0) continue;
+    p->at += length;
+    GG_TRY(sum(p));
+    return add(p, comparisons[k].code, 0);
+  }
+  return GG_OK;
+}
+
+/* Go past this word, if it comes next. */
+static bool takes(parser *p, const char *word)
+{
+  const size_t length = strlen(word);
+  if (strncmp(p->at, word, length) != 0 || isalnum((unsigned char)p->at[length]) || p->at[length] == '_') return false;
+  p->at += length;
+  return true;
+}
+
+/* `a if b else c`, c from the right. */
+static gg_status conditional(parser *p)
+{
+  GG_TRY(comparison(p));
+  if (!takes(p, "if")) return GG_OK;
+  GG_TRY(comparison(p));
+  if (!takes(p, "else")) return refuse(p, "else is missing after if");
+  if (++p->depth > GG_EXPRESSION_STEPS) return refuse(p, "the formula is too deep");
+  GG_TRY(conditional(p));
+  return add(p, '?', 0);
+}
+
 gg_status gg_base_expression_parse(gg_expression *e, const char *text, const char *const *variables, gg_error *err)
 {
   parser p = {text, text, variables, e, 0, err};
   e->n = 0;
-  GG_TRY(sum(&p));
+  GG_TRY(conditional(&p));
   return *p.at ? refuse(&p, "not expected here") : GG_OK;
 }
 
@@ -159,8 +206,21 @@ static double combine(char code, double a, double b)
   case '-': return a - b;
   case '*': return a * b;
   case '/': return a / b;
+  case '<': return a < b;
+  case '>': return a > b;
+  case 'l': return a <= b;
+  case 'g': return a >= b;
+  case '=': return a == b;
   default: return pow(a, b);
   }
+}
+
+/* Put the value of a function in the place of its arguments; the new height of the stack. */
+static int call(const function *f, double *stack, int top)
+{
+  if (!f->of_two) return stack[top - 1] = f->of(stack[top - 1]), top;
+  stack[top - 2] = f->of_two(stack[top - 2], stack[top - 1]);
+  return top - 1;
 }
 
 double gg_base_expression_value(const gg_expression *e, const double *at)
@@ -173,7 +233,11 @@ double gg_base_expression_value(const gg_expression *e, const double *at)
     case 'n': stack[top++] = e->step[i].number; break;
     case 'p': stack[top++] = at[(int)e->step[i].number]; break;
     case '_': *last = -*last; break;
-    case 'f': *last = functions[(int)e->step[i].number].of(*last); break;
+    case 'f': top = call(&functions[(int)e->step[i].number], stack, top); break;
+    case '?':
+      top -= 2;
+      stack[top - 1] = isnan(stack[top]) ? NAN : stack[top] != 0 ? stack[top - 1] : stack[top + 1];
+      break;
     default: top--; stack[top - 1] = combine(e->step[i].code, stack[top - 1], stack[top]);
     }
   }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Small formulas, "y/(1+y)": + - * / ^, parentheses, numbers, pi, inf, functions of one argument, and variables that
- * the caller names. */
+/* Small formulas, "y/(1+y)" or "0.9 if v < 2 else 0.6": + - * / ^, comparisons, which are 1 or 0, parentheses, numbers,
+ * pi, inf, functions of one argument or two, and variables that the caller names. Both branches of a condition are
+ * computed; one is taken, and NaN as a condition takes NaN. */
 #ifndef GG_BASE_EXPRESSION_H
 #define GG_BASE_EXPRESSION_H
 
@@ -14,7 +15,7 @@ enum { GG_EXPRESSION_STEPS = 64 };
 typedef struct gg_expression {
   int n;
   struct {
-    char code;     /* 'n' a number, 'p' a variable, an operator, '_' the sign, 'f' a function */
+    char code;     /* 'n' a number, 'p' a variable, an operator, '_' the sign, 'f' a function, '?' a condition */
     double number; /* of 'p' and 'f' their index */
   } step[GG_EXPRESSION_STEPS];
 } gg_expression;

@@ -140,7 +140,7 @@ static gg_timed_scene timed_scene(const gg_bench *b, const engine_bench *e, int 
   if (!(has & MIXTURE)) return c;
   s->n_species = 2;
   s->species[0].fraction = 0.5;
-  s->species[1] = (gg_species){0.5, 1, 4, 0.4, 1};
+  s->species[1] = (gg_species){0.5, 1, 4, 0.4, 1, 0};
   return c;
 }
 

@@ -11,6 +11,13 @@ gg_contact gg_common_contact_make(gg_partner one, gg_partner two, double e, doub
   return c;
 }
 
+void gg_common_contact_set_kicks(gg_contact *c, bool spins, double normal, double tangential)
+{
+  if (!spins) c->ik1 = c->ik2 = 0;
+  c->kn = 2 * normal / gg_inverse_mr(c);
+  c->kt = 2 * tangential / gg_inverse_mt(c);
+}
+
 gg_rule gg_common_rule_select(double beta, double mu)
 {
   if (beta <= -1 || mu <= 0) return GG_SMOOTH;

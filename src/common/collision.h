@@ -13,12 +13,18 @@
  * thesis, eqs 2.3-2.17, where the printed eta_2 = (1+beta)/K(1+K) must read (1+beta)K/(2(1+K)).
  * A wall is a partner of infinite mass without spin: 1/m2 = 1/(K2 m2) = 0.
  *
+ * Kicks inject energy at contact: J gets the normal part 2 m_r D k more, so that the relative normal velocity after
+ * contact is -(e g_n + 2 D) (R. Brito, D. Risso & R. Soto, Phys. Rev. E 87 (2013) 022209), and the tangential part
+ * -2 m_t D_t k x z. Above 0, D_t turns the pair about z by the right hand. J_n of the Coulomb limit has its kick. Walls
+ * give none.
+ *
  * The rule itself is in common/collision_of.h, stated once for doubles (here) and for lanes (src/dsmc/kernel). Every
  * function inlines and takes `rule` as a constant, so that a smooth kernel holds no line of the others. */
 #ifndef GG_COLLISION_H
 #define GG_COLLISION_H
 
 #include <math.h>
+#include <stdbool.h>
 
 #include "common/vec.h"
 
@@ -36,6 +42,7 @@ typedef struct gg_contact {
   double mu;       /* friction coefficient; INFINITY: constant beta */
   double im1, im2; /* 1/m_i */
   double ik1, ik2; /* 1/(K_i m_i) */
+  double kn, kt;   /* kicks: 2 m_r D, 2 m_t D_t; 0: none */
 } gg_contact;
 
 /* One partner; a wall is {INFINITY, any}. */
@@ -44,6 +51,9 @@ typedef struct gg_partner {
 } gg_partner;
 
 gg_contact gg_common_contact_make(gg_partner one, gg_partner two, double e, double beta, double mu);
+
+/* Set the kicks of a contact, D and D_t above. Grains without spins have no inertia of rotation: m_t is m_r. */
+void gg_common_contact_set_kicks(gg_contact *contact, bool spins, double normal, double tangential);
 
 /* The simplest rule that does for these coefficients. */
 gg_rule gg_common_rule_select(double beta, double mu);
@@ -90,6 +100,16 @@ GG_INLINE double gg_energy_loss(const gg_contact *c, gg_vec k, gg_vec g, gg_vec 
 {
   double Jn = gg_dot(k, J);
   return gg_loss_of_terms(c, (gg_loss_terms){.Jg = gg_dot(J, g), .Jn2 = Jn * Jn, .J2 = gg_dot(J, J)});
+}
+
+/* A collision with kicks: the energy that its coefficients destroy, and the energy that its kicks give. */
+typedef struct gg_kicked_loss {
+  double loss, given;
+} gg_kicked_loss;
+GG_INLINE gg_kicked_loss gg_kicked_energy_loss(const gg_contact *c, gg_vec k, gg_vec g, gg_vec J)
+{
+  const double given = gg_kick_energy(c, k, g, gg_dot(k, g), J, gg_dot(k, J));
+  return (gg_kicked_loss){gg_energy_loss(c, k, g, J) + given, given};
 }
 
 /* Collisional stress: sigma k J. */

@@ -38,6 +38,30 @@ GG_INLINE GG_VECTOR GG_OF(impulse)(gg_rule rule, const GG_CONTACT *c, GG_VECTOR 
   return GG_OF(impulse_of)(rule, c, k, g, gn, c->jn * gn);
 }
 
+/* The impulse with the kicks of the contact, from the part Jn without them. */
+GG_INLINE GG_VECTOR GG_OF(kicked_impulse_of)(gg_rule rule, const GG_CONTACT *c, GG_VECTOR k, GG_VECTOR g, GG_NUMBER gn,
+                                             GG_NUMBER Jn)
+{
+  GG_VECTOR J = GG_OF(impulse_of)(rule, c, k, g, gn, Jn + GG_ALL(c->kn));
+  J.x = J.x - GG_ALL(c->kt) * k.y;
+  J.y = J.y + GG_ALL(c->kt) * k.x;
+  return J;
+}
+GG_INLINE GG_VECTOR GG_OF(kicked_impulse)(gg_rule rule, const GG_CONTACT *c, GG_VECTOR k, GG_VECTOR g, GG_NUMBER gn)
+{
+  return GG_OF(kicked_impulse_of)(rule, c, k, g, gn, GG_ALL(c->jn) * gn);
+}
+
+/* Energy that the kicks P give within the impulse J, whose normal part is Jn: that after J, less that after J - P. */
+GG_INLINE GG_NUMBER GG_OF(kick_energy)(const GG_CONTACT *c, GG_VECTOR k, GG_VECTOR g, GG_NUMBER gn, GG_VECTOR J,
+                                       GG_NUMBER Jn)
+{
+  GG_NUMBER kn = GG_ALL(c->kn), kt = GG_ALL(c->kt), imr = GG_ALL(c->im1) + GG_ALL(c->im2),
+            imt = imr + (GG_ALL(c->ik1) + GG_ALL(c->ik2));
+  GG_NUMBER along_J = k.x * J.y - k.y * J.x, along_g = k.x * g.y - k.y * g.x, square = k.x * k.x + k.y * k.y;
+  return kn * (imr * (Jn - 0.5 * kn) - gn) + kt * (imt * (along_J - 0.5 * kt * square) - along_g);
+}
+
 /* Give the impulse to both partners: to their centres, and to their spins. */
 GG_INLINE void GG_OF(kick_centres)(GG_NUMBER im1, GG_NUMBER im2, GG_VECTOR J, GG_VECTOR *c1, GG_VECTOR *c2)
 {

@@ -22,7 +22,8 @@ typedef struct gg_surface_sums {
 typedef struct gg_collision_sums {
   uint64_t collisions[GG_PAIRS];
   double stress[GG_PAIRS][3][3]; /* sigma k_a J_b of ab = xx, yy, zz, xy, yx (else 0); stress x volume x time */
-  double loss[GG_PAIRS];         /* energy destroyed */
+  double loss[GG_PAIRS];         /* energy destroyed, but for kicks */
+  double given[GG_PAIRS];        /* energy that kicks gave */
   gg_surface_sums surface[GG_MOST_SURFACES];
 } gg_collision_sums;
 

@@ -9,7 +9,8 @@ enum {
   UNHEATED = 1u << GG_NO_THERMOSTAT,
   GAUSSIAN = 1u << GG_GAUSSIAN,
   WHITE_NOISE = 1u << GG_WHITE_NOISE,
-  BATH = 1u << GG_BATH
+  BATH = 1u << GG_BATH,
+  INJECTION = 1u << GG_INJECTION
 };
 
 /* Headline quantities; a scene leaves out those that it lacks (gg_common_quantity_missing). */
@@ -48,10 +49,10 @@ const gg_flow_row gg_common_flows[GG_N_FLOWS] = {
                 .headline = BY_LOSS},
     [GG_HSS] = {.word = "hss",
                 .title = "Homogeneous heating",
-                .doc = "homogeneous gas heated by a thermostat, gaussian by default",
+                .doc = "homogeneous gas heated by a thermostat, gaussian by default, or by kicks and torques",
                 .state = "a homogeneously heated state",
                 .frame = GG_CENTRE_OF_MASS,
-                .thermostats = GAUSSIAN | WHITE_NOISE | BATH,
+                .thermostats = GAUSSIAN | WHITE_NOISE | BATH | INJECTION,
                 .thermostat = GG_GAUSSIAN,
                 .engines = IN_MD | IN_DSMC,
                 .headline = BY_LOSS,

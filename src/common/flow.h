@@ -24,7 +24,14 @@ typedef enum gg_flow {
 } gg_flow;
 
 /* Names; common/thermostat.c has their rows. */
-typedef enum gg_thermostat { GG_NO_THERMOSTAT, GG_GAUSSIAN, GG_WHITE_NOISE, GG_BATH, GG_N_THERMOSTATS } gg_thermostat;
+typedef enum gg_thermostat {
+  GG_NO_THERMOSTAT,
+  GG_GAUSSIAN,
+  GG_WHITE_NOISE,
+  GG_BATH,
+  GG_INJECTION,
+  GG_N_THERMOSTATS
+} gg_thermostat;
 
 /* The frame in which the gas is homogeneous or at rest. In all but the first the centre of mass is followed: what
  * rounding leaves of its velocity would grow relative to the thermal speed. */

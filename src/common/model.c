@@ -46,11 +46,17 @@ static double chi_slope_of(const gg_model *m)
          (2 * h);
 }
 
+static void set_kicks(const gg_model *m, int o, gg_contact *contact)
+{
+  if (m->kicks) gg_common_contact_set_kicks(contact, m->rule != GG_SMOOTH, m->normal_kick[o], m->tangential_kick[o]);
+}
+
 static void set_restitution(gg_model *m, int i, int j, double e)
 {
   int o = gg_pair(i, j);
   gg_partner one = {m->mass[i], m->inertia[i]}, two = {m->mass[j], m->inertia[j]};
   m->contact[i][j] = gg_common_contact_make(one, two, e, m->beta[o], m->mu[o]);
+  set_kicks(m, o, &m->contact[i][j]);
   m->e[o] = e;
 }
 
@@ -61,6 +67,25 @@ void gg_common_model_at(gg_model *m, double T)
       double speed = sqrt(M_PI / 2 * T * (1 / m->mass[i] + 1 / m->mass[j]));
       set_restitution(m, i, j, gg_common_law_at(&m->law, speed, i, j, NULL));
     }
+}
+
+/* Does friction with other grains, or the bath, hold the spin of a species? */
+static bool is_held(const gg_model *m, int i)
+{
+  bool held = m->bath.spin_drag[i] > 0;
+  for (int j = 0; j < m->n_species; j++)
+    held |= gg_common_rule_select(m->beta[gg_pair(i, j)], m->mu[gg_pair(i, j)]) != GG_SMOOTH;
+  return held;
+}
+
+bool gg_common_model_balances(const gg_model *m)
+{
+  bool loses = m->walled || m->bath.drag[0] > 0, held = true;
+  for (int i = 0; i < m->n_species; i++) {
+    held &= m->bath.torque[i] == 0 || is_held(m, i);
+    for (int j = 0; j < m->n_species; j++) loses |= gg_common_pair_loses(m, i, j);
+  }
+  return held && (loses || !(gg_flow_is_sheared(m->flow) || m->kicks || m->bath.turns));
 }
 
 static gg_rule later_rule(gg_rule a, gg_rule b)
@@ -78,13 +103,18 @@ bool gg_common_pair_loses(const gg_model *m, int i, int j)
 {
   const int o = gg_pair(i, j);
   const gg_rule rule = gg_common_rule_select(m->beta[o], m->mu[o]);
-  return m->e[o] < 1 || m->law.e || rule == GG_FRICTIONAL || (rule == GG_ROUGH && m->beta[o] < 1);
+  return m->e[o] != 1 || m->law.e || rule == GG_FRICTIONAL || (rule == GG_ROUGH && m->beta[o] < 1);
 }
 
 void gg_common_model_set_pairs(gg_model *m)
 {
   m->rule = GG_SMOOTH;
   m->elastic = true;
+  m->kicks = false;
+  for (int o = 0; o < gg_pairs_of(m->n_species); o++) {
+    m->rule = later_rule(m->rule, gg_common_rule_select(m->beta[o], m->mu[o]));
+    if (m->normal_kick[o] != 0 || m->tangential_kick[o] != 0) m->kicks = true, m->elastic = false;
+  }
   m->chi_slope = chi_slope_of(m);
   for (int i = 0; i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
@@ -95,7 +125,7 @@ void gg_common_model_set_pairs(gg_model *m)
           gg_common_contact_make(one, two, 1, gg_common_treated_beta(m, i, j), i == j ? m->mu[o] : INFINITY);
       m->sigma[o] = (m->diameter[i] + m->diameter[j]) / 2;
       m->chi[o] = chi_of(m, i, j);
-      m->rule = later_rule(m->rule, gg_common_rule_select(m->beta[o], m->mu[o]));
+      set_kicks(m, o, &m->treated[i][j]);
       if (gg_common_pair_loses(m, i, j)) m->elastic = false;
     }
 }
@@ -158,12 +188,13 @@ void gg_common_model_set_start(gg_model *m, double temperature)
   /* With a restitution law, temperature and mean impact speed depend on each other. */
   for (int round = 0; round < (m->law.name ? 5 : 1); round++) {
     m->temperature0 = guess_unbathed_temperature(m);
-    if (m->bath.on) m->temperature0 = gg_common_thermostat_balance(m, sheared ? m->temperature0 : 0);
+    if (m->bath.on || (m->kicks && !m->walled))
+      m->temperature0 = gg_common_thermostat_balance(m, sheared ? m->temperature0 : 0);
     if (temperature != GG_AUTO) m->temperature0 = temperature;
     gg_common_model_at(m, m->temperature0);
   }
   m->spin0 = 2 * gg_model_rolling(m, 0);
-  m->steady = !m->linear_response && !(m->elastic && sheared && !(m->bath.drag[0] > 0));
+  m->steady = !m->linear_response && gg_common_model_balances(m);
   m->stress_unit = m->boltzmann ? 1 : M_PI / 6;
 }
 

@@ -25,10 +25,12 @@
 #include "common/surface/surface.h"
 
 /* Drag and noise on every grain between collisions, relative to the imposed flow, by species (thermostat.h):
- *   dC = -drag C dt + sqrt(noise) dW,   ds = -spin_drag (s - rolling) dt + sqrt(spin_noise) dW. */
+ *   dC = -drag C dt + sqrt(noise) dW,   ds = -spin_drag (s - rolling) dt + torque z dt + sqrt(spin_noise) dW. */
 typedef struct gg_bath {
   bool on;
   double drag[GG_MAX_SPECIES], noise[GG_MAX_SPECIES], spin_drag[GG_MAX_SPECIES], spin_noise[GG_MAX_SPECIES];
+  bool turns;                    /* some species has a torque */
+  double torque[GG_MAX_SPECIES]; /* constant, about z: over moment of inertia and radius, an acceleration of s */
 } gg_bath;
 
 /* The units of the model in those of the scene. */
@@ -85,6 +87,8 @@ typedef struct gg_model {
   double chi_slope;               /* d ln chi/d ln phi of one species; 0 in the Boltzmann limit */
   gg_contact_value contact_value; /* which chi is, for other densities than phi */
   double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
+  double normal_kick[GG_PAIRS], tangential_kick[GG_PAIRS]; /* D and D_t of common/collision.h */
+  bool kicks;                                              /* some pair has a kick */
   /* Law of restitution between grains (name NULL: none). With one, `e` and `contact` are those at the mean impact speed
    * of some temperature (gg_common_model_at), for estimates, and engines evaluate the law at every collision. */
   gg_restitution_law law;
@@ -124,6 +128,24 @@ static inline double gg_model_part(const gg_model *m, double x, int i)
   return m->n_of[i] ? x * (double)m->n_of[i] / (double)m->n : x * m->fraction[i];
 }
 
+/* Do collisions have a speed of their own, by a law of restitution or kicks? Then nothing scales with sqrt(T). */
+static inline bool gg_model_has_speed(const gg_model *m)
+{
+  return m->law.name || m->kicks;
+}
+
+/* Do kicks at contact or torques give energy? */
+static inline bool gg_model_is_injected(const gg_model *m)
+{
+  return m->kicks || m->bath.turns;
+}
+
+/* Radius of a grain that turns a surface velocity into a spin; 1 in the Boltzmann limit. */
+static inline double gg_model_radius(const gg_model *m, int species)
+{
+  return m->boltzmann ? 1 : m->diameter[species] / 2;
+}
+
 /* Surface velocity of a grain that rolls with the imposed shear; 0 in the Boltzmann limit, beside thermal ones. */
 static inline double gg_model_rolling(const gg_model *m, int species)
 {
@@ -133,7 +155,7 @@ static inline double gg_model_rolling(const gg_model *m, int species)
 /* Mean surface velocity along z of the grains of a species at the start. */
 static inline double gg_model_starting_spin(const gg_model *m, int species)
 {
-  return m->spin0 * (m->boltzmann ? 1 : m->diameter[species] / 2);
+  return m->spin0 * gg_model_radius(m, species);
 }
 
 /* Density, volume and box, from n, n_species, n_of or fraction, diameter, and the relative edges of the box. */
@@ -160,6 +182,9 @@ static inline bool gg_model_has_thermal_walls(const gg_model *m)
 {
   return m->n_surfaces > 0 && m->surface[0].accommodation > 0;
 }
+
+/* True if the energy that collisions, drag and kicks exchange can be in balance, and the torque of every spin. */
+bool gg_common_model_balances(const gg_model *model);
 
 /* True if collisions of these two species destroy energy. */
 bool gg_common_pair_loses(const gg_model *model, int i, int j);

@@ -186,7 +186,9 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
   const bool smooth = m->rule == GG_SMOOTH, cools = gg_flow_cools(m->flow), heated = gg_flow_is_heated(m->flow);
   const bool rests = m->elastic && !m->walled && (cools || m->flow == GG_EQUILIBRIUM);
   const bool fluctuates = rests && !m->homogeneous;
-  const bool noisy = m->bath.on || gg_common_heat_of(m) == GG_HEAT_KICKS;
+  const bool noisy = m->bath.on || m->kicks || gg_common_heat_of(m) == GG_HEAT_KICKS;
+  bool turned = m->bath.turns;
+  for (int o = 0; o < gg_pairs_of(m->n_species); o++) turned |= m->tangential_kick[o] != 0;
   const bool alike = m->n_surfaces < 2 || m->surface[0].temperature == m->surface[1].temperature;
   const struct {
     unsigned need;
@@ -195,7 +197,8 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
   } rules[] = {
       {GG_NEEDS_SPINS, smooth, "smooth grains do not spin"},
       {GG_NEEDS_MEAN_SPIN, m->walled, "between walls it depends on y; see profile_spin_z"},
-      {GG_NEEDS_MEAN_SPIN, m->shear_rate == 0, "without shear there is no mean spin"},
+      {GG_NEEDS_MEAN_SPIN, m->shear_rate == 0 && m->spin0 == 0 && !turned,
+       "without shear, torque, tangential kicks or start.spin there is no mean spin"},
       {GG_NEEDS_MEAN_SPIN, m->boltzmann,
        "in the Boltzmann limit the mean spin, a share of thermal ones, is infinite in units of the shear rate"},
       {GG_NEEDS_TRANSFER, m->boltzmann, "no collisional transfer in the Boltzmann limit"},
@@ -246,12 +249,12 @@ const char *gg_common_quantity_when(gg_quantity q, char *text, size_t size)
       {GG_NEEDS_HEAT_FLUX, "dsmc with measure: conductivity, cooling or at rest; md of elastic grains with measure: "
                            "helfand (smooth grains); one species"},
       {GG_NEEDS_SPINS, "rough grains"},
-      {GG_NEEDS_MEAN_SPIN, "shear without walls, phi above 0"},
+      {GG_NEEDS_MEAN_SPIN, "shear, a torque, tangential kicks or start.spin, without walls, phi above 0"},
       {GG_NEEDS_SHEAR, "shear"},
       {GG_NEEDS_WALLS, "walls"},
       {GG_NEEDS_NO_WALLS, "no walls"},
       {GG_NEEDS_UNEQUAL_WALLS, "walls of two temperatures"},
-      {GG_NEEDS_WORK, "shear, walls, a bath or noise"},
+      {GG_NEEDS_WORK, "shear, walls, a bath, noise, kicks or torques"},
       {GG_NEEDS_NO_SHEAR, "no shear"},
       {GG_NEEDS_ONE_SPECIES, "one species"},
       {GG_NEEDS_MIXTURE, "mixtures"},

@@ -152,7 +152,7 @@ enum {
       "<Omega_z^3>/<Omega_z^2>^(3/2): skewness of the spin about z; 0 for a Gaussian",                                 \
       "\\frac{\\langle\\Omega_z^3\\rangle}{\\langle\\Omega_z^2\\rangle^{3/2}}")                                        \
   ONE(DISSIPATION, "dissipation", "D", "", POWER, GG_NEEDS_LOSS | GG_NEEDS_SCALE,                                      \
-      "sum of -Delta E/(V t): energy lost in collisions, per volume and time",                                         \
+      "sum of -Delta E/(V t): energy lost in collisions, but for what kicks give, per volume and time",                \
       "D = \\frac{1}{V t}\\sum_{\\mathrm{coll}}(-\\Delta E)")                                                          \
   ONE(WALL_DISSIPATION, "wall_dissipation", "D_w", "", POWER, GG_NEEDS_WALLS | GG_NEEDS_SCALE,                         \
       "sum of -Delta E_wall/(V t): energy lost in contacts with walls, per volume and time; below 0 where thermal "    \
@@ -166,8 +166,9 @@ enum {
       "F_x/F_y: force of the gas along the walls over that across them; walls.mu where every contact slides",          \
       "F_x/F_y")                                                                                                       \
   ONE(ENERGY_BALANCE, "energy_balance", "(W-dE/dt)/D", "", NONE, GG_NEEDS_WORK | GG_NEEDS_LOSS,                        \
-      "(W - dE/dt)/(D + D_w): work of shear, walls and gravity and what noise gives, less what drag takes and the "    \
-      "growth of the grains' energy, over dissipation: 1; between thermal walls (W - D_w - dE/dt)/D",                  \
+      "(W - dE/dt)/(D + D_w): work of shear, walls and gravity and what noise, kicks and torques give, less what "     \
+      "drag takes and the growth of the grains' energy, over dissipation: 1; between thermal walls "                   \
+      "(W - D_w - dE/dt)/D",                                                                                           \
       "(W - \\dot E)/(D + D_w)")                                                                                       \
   ONE(COOLING_RATE, "cooling_rate", "\\zeta^*", "cooling", NONE, GG_NEEDS_LOSS | GG_NEEDS_COOLING | GG_DRAWN_AS_RATIO, \
       "zeta/nu_0: rate of energy loss over the reference collision rate nu_0", "\\zeta^* = \\zeta/\\nu_0")             \

@@ -12,6 +12,9 @@ const gg_thermostat_row gg_common_thermostats[GG_N_THERMOSTATS] = {
     [GG_WHITE_NOISE] = {"white_noise", "random kicks of all grains", ", heated", GG_HEAT_KICKS},
     [GG_BATH] = {"bath", "drag and random kicks, as in a fluid of temperature bath.temperature", ", in a bath",
                  GG_HEAT_BATHES},
+    [GG_INJECTION] = {"injection",
+                      "no thermostat: kicks at contact or torques give the energy; the default with them in hss", "",
+                      GG_UNHEATED},
 };
 
 gg_heat gg_common_heat_of(const gg_model *m)
@@ -56,11 +59,41 @@ double gg_common_thermostat_kicks(const gg_model *m)
   return gg_common_heat_of(m) == GG_HEAT_KICKS ? gg_common_thermostat_noise(m) : 0;
 }
 
+/* Power that kicks and torques give, per grain, at a temperature: rates in terms of their values at T = 1. Only the
+ * order of magnitude of the friction of spins is known. */
+typedef struct injection {
+  double D, torque;            /* largest ones, for the scale of T */
+  double rate, steady, speedy; /* collisions per grain, what kicks give in each, and that over sqrt(T) */
+  double turning;
+} injection;
+
+static injection injection_of(const gg_model *m)
+{
+  static const double friction = 0.3; /* of a spin, per collision */
+  injection in = {.rate = gg_common_model_collision_rate(m, 1)};
+  for (int i = 0; i < m->n_species; i++) {
+    const double torque = m->bath.torque[i], Km = m->inertia[i] * m->mass[i];
+    in.torque = fmax(in.torque, Km * fabs(torque));
+    in.turning += m->fraction[i] * Km * torque * torque / (friction * in.rate);
+    for (int j = 0; j < m->n_species; j++) {
+      const int o = gg_pair(i, j);
+      const double mr = 1 / gg_inverse_mr(&m->contact[i][j]), D = m->normal_kick[o], Dt = m->tangential_kick[o];
+      const double part = 0.5 * m->fraction[i] * m->fraction[j];
+      in.D = fmax(in.D, fmax(D, fabs(Dt)));
+      in.steady += part * 2 * mr * (D * D + Dt * Dt);
+      in.speedy += part * 2 * mr * D * m->e[o] * sqrt(M_PI / (2 * mr));
+    }
+  }
+  return in;
+}
+
 /* A power of two near the temperature of the balance, so that bisection scales with the units, bit for bit: that of
- * shear, of drag against noise, or of heating against the loss. */
-static double temperature_near(double sheared, double noise, double drag, double loss)
+ * shear, of kicks, of a torque, of drag against noise, or of heating against the loss. */
+static double temperature_near(double sheared, const injection *in, double noise, double drag, double loss)
 {
   if (sheared > 0) return ldexp(1, ilogb(sheared));
+  if (in->D > 0) return ldexp(1, 2 * ilogb(in->D));
+  if (in->torque > 0) return ldexp(1, ilogb(in->torque));
   if (drag > 0 && noise > 0) return ldexp(1, ilogb(noise / drag));
   if (drag < 0 && loss > 0) return ldexp(1, 2 * ilogb(-drag / loss));
   return noise > 0 && loss > 0 ? ldexp(1, (int)floor(ilogb(noise / loss) * 2. / 3)) : 1;
@@ -76,11 +109,13 @@ double gg_common_thermostat_balance(const gg_model *m, double sheared)
     noise += 1.5 * share * m->mass[i] * m->bath.noise[i];
     drag += 3 * share * m->bath.drag[i];
   }
-  const double near = temperature_near(sheared, noise, drag, loss);
+  const injection in = injection_of(m);
+  const double near = temperature_near(sheared, &in, noise, drag, loss);
   double low = 1e-100 * near, high = 1e100 * near;
   for (int round = 0; round < 60; round++) {
-    const double T = sqrt(low) * sqrt(high);
-    if (noise + loss * sheared * sqrt(T) > (drag + loss * sqrt(T)) * T)
+    const double T = sqrt(low) * sqrt(high), root = sqrt(T);
+    const double given = in.rate * root * (in.steady + in.speedy * root) + in.turning / root;
+    if (noise + loss * sheared * root + given > (drag + loss * root) * T)
       low = T;
     else
       high = T;

@@ -28,7 +28,8 @@ extern const gg_thermostat_row gg_common_thermostats[GG_N_THERMOSTATS];
 gg_heat gg_common_heat_of(const gg_model *model);
 
 /* The temperature at which a bath, shear that alone would keep `sheared` (0: none) and the collisions of Maxwellians at
- * ratio0 are in balance: the loss goes as T^(3/2), the work of shear as T^(1/2). */
+ * ratio0 are in balance: the loss goes as T^(3/2), the work of shear as T^(1/2). Kicks at contact and torques add their
+ * power. */
 double gg_common_thermostat_balance(const gg_model *model, double sheared);
 
 /* Exact effect of a bath in a time dt: velocities shrink by `decay` and get kicks of variance `spread` x noise. Kicks

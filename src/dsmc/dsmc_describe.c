@@ -26,6 +26,8 @@ void gg_dsmc_describe(const gg_model *m, void (*line)(void *context, const char 
   line(context, gg_dsmc_rule_line(m->rule));
   if (m->law.e) line(context, "a restitution law: collisions one by one, without the block kernels");
   if (m->law.name && !m->law.e) line(context, "e follows from the speed of each collision, by a table");
+  if (m->kicks) line(context, "kicks at every contact between grains");
+  if (m->bath.turns) line(context, "torques act in the middle of each step");
   line(context, m->boltzmann ? "Boltzmann limit: no contact value, no collisional stress, neither is computed"
                              : "Enskog: contact value and collisional stress");
   if (m->shear_rate == 0)

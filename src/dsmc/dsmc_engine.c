@@ -268,7 +268,8 @@ static gg_status rescale(gg_engine *engine, int power, gg_error *err)
   d->now.centre = gg_scale(factor, d->now.centre);
   d->now.temperature *= factor * factor;
   d->now.step = gg_dsmc_time_step_choose(&d->model, d->now.temperature);
-  for (int p = 0; p < gg_pairs_of(d->model.n_species); p++) d->now.transfer.loss[p] *= factor * factor;
+  for (int p = 0; p < gg_pairs_of(d->model.n_species); p++)
+    d->now.transfer.loss[p] *= factor * factor, d->now.transfer.given[p] *= factor * factor;
   return GG_OK;
 }
 

@@ -148,10 +148,11 @@ void gg_dsmc_thermostat_bath(gg_dsmc_ensemble *e, const gg_model *m, const gg_ds
 {
   const gg_bath *b = &m->bath;
   const double rate = m->shear_rate;
-  kicking w = {.e = e, .strain = step->strain, .lanes = lanes, .spins = b->spin_drag[0] > 0};
+  kicking w = {.e = e, .strain = step->strain, .lanes = lanes, .spins = b->spin_drag[0] > 0 || b->turns};
   for (int i = 0; i < e->n_species; i++) {
     const gg_relaxation r = gg_common_relaxation(b->drag[i], step->dt),
                         s = gg_common_relaxation(b->spin_drag[i], step->dt);
+    const double turned = gg_common_relaxation(0.5 * b->spin_drag[i], step->dt).spread;
     w.centre[i] = (gg_dsmc_kick_map){.factor = r.decay,
                                      .size = sqrt(b->noise[i] * r.spread),
                                      .widening = sqrt(1 + rate * rate * r.width),
@@ -160,7 +161,7 @@ void gg_dsmc_thermostat_bath(gg_dsmc_ensemble *e, const gg_model *m, const gg_ds
     w.spin[i] = (gg_dsmc_kick_map){.factor = s.decay,
                                    .size = sqrt(b->spin_noise[i] * s.spread),
                                    .widening = 1,
-                                   .drift = {.z = (1 - s.decay) * gg_model_rolling(m, i)}};
+                                   .drift = {.z = (1 - s.decay) * gg_model_rolling(m, i) + b->torque[i] * turned}};
   }
   kick(&w);
   *centre = velocity_of_centre(&w);

@@ -12,7 +12,7 @@ gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
   if (m->shear_rate != 0) features.shear = m->boltzmann ? GG_DSMC_SHEARED_DILUTE : GG_DSMC_SHEARED_DENSE;
   if (d->heat == GG_HEAT_SCALES) features.sums = GG_DSMC_LOSS;
   if (d->now.sums) features.sums = m->boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
-  if (d->losses) features = gg_dsmc_features_by_law(features, m->boltzmann);
+  if (d->losses || m->kicks) features = gg_dsmc_features_of_own(features, m->boltzmann);
   return features;
 }
 
@@ -57,7 +57,8 @@ void gg_dsmc_add_pass(gg_dsmc *d, int pair, const gg_dsmc_pass *pass)
   s->transfer.collisions[pair] += pass->collisions;
   s->lost += pass->loss;
   if (!s->sums) return;
-  s->transfer.loss[pair] += pass->loss;
+  s->transfer.loss[pair] += pass->loss + pass->given;
+  s->transfer.given[pair] += pass->given;
   for (int a = 0; a < 3; a++)
     for (int b = 0; b < 3; b++) s->transfer.stress[pair][a][b] += pass->stress[a][b];
 }

@@ -17,6 +17,8 @@ static const double bias_of_drag = 1. / 18;
 /* Bath under shear, where drag alternates with collisions, which reduce anisotropy. Over the square of h gamma the bias
  * of T was .02 to .45 in eleven states, most if drag alone balances the work of shear (T_b = 0, phi = .3). If streaming
  * is split, too: over the square of h times the shear rate .005 to .33, most near a turning point. */
+/* Torques against the friction of rough grains: of the mean spin, and of the balance of its energy. */
+static const double bias_of_torque = 0.03;
 static const double bias_of_sheared_drag = 0.6, bias_of_sheared_bath = 0.3;
 
 /* Bias of the step as a fraction of the requested error. In a bath this limit holds without a requested error, too. */
@@ -48,7 +50,7 @@ static double alternation_of(const gg_model *m, double free_time)
 {
   const double loss = loss_of(m), drag = drag_of(m, free_time);
   const double sheared = m->shear_rate != 0 ? bias_of_sheared_drag * drag * drag : 0;
-  const double bath = bias_of_drag * loss * drag + sheared;
+  const double bath = bias_of_drag * loss * drag + sheared + (m->bath.turns ? bias_of_torque : 0);
   if (m->n_species > 1) return bias_of_alternation + bath;
   if (m->bath.on) return bias_of_thermostat * loss * loss + bath;
   return gg_common_heat_of(m) != GG_UNHEATED ? bias_of_thermostat * loss * loss : 0;

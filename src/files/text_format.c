@@ -91,6 +91,12 @@ static void add_surface(const gg_scene *s, const char *varied, char *text, size_
   if (!smooth && frictional && !any_mu) add_pairs(text, size, "mu", s->collision.mu, s->n_species);
 }
 
+static void add_injection(const gg_scene *s, char *text, size_t size)
+{
+  if (gg_scene_has_kicks(s)) add(text, size, ", kicks");
+  if (gg_scene_has_torque(s)) add(text, size, ", torque");
+}
+
 void gg_files_scene_title(const gg_scene *s, const char *varied, char *text, size_t size)
 {
   if (!size) return;
@@ -100,6 +106,7 @@ void gg_files_scene_title(const gg_scene *s, const char *varied, char *text, siz
   if (!has(varied, "phi")) gg_base_text_append(text, size, ", phi %g", s->phi);
   add_law(s, varied, text, size);
   add_surface(s, varied, text, size);
+  add_injection(s, text, size);
   if (has(varied, "species")) return;
   if (s->n_species > 2) gg_base_text_append(text, size, "; %d species", s->n_species);
   if (s->n_species == 2) {

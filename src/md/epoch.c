@@ -44,6 +44,12 @@ static void move_skins(gg_md *e, double span)
   gg_md_fill_grid(e);
 }
 
+void gg_md_turn_spins(gg_md *e, double span)
+{
+  if (!e->model.bath.turns) return;
+  for (uint32_t i = 0; i < e->n; i++) e->spin[i].z += e->model.bath.torque[gg_md_species_of(&e->grain[i])] * span;
+}
+
 bool gg_md_next_epoch(gg_md *e)
 {
   double span = gg_md_queue_span(&e->queue), wait = earliest_event(e, 2 * span);
@@ -70,6 +76,7 @@ bool gg_md_next_epoch(gg_md *e)
   e->k.now -= span;
   e->k.mark -= span;
   gg_md_kicks_move(e, span);
+  gg_md_turn_spins(e, span);
   e->k.stop -= span;
   if (gg_flow_of(e->model.flow)->frame != GG_LABORATORY) gg_md_kicks_follow(e, gg_md_follow_centre_of_mass(e));
   if (e->heat == GG_HEAT_SCALES) {

@@ -8,6 +8,13 @@
 /* epoch.c: start the next epoch: bring every grain to the end of the epoch, re-zero all times and tune the event queue.
  * False: no event will ever come. */
 bool gg_md_next_epoch(gg_md *e);
+/* Surface velocity that the torque of a species has added since the start of the epoch: spins are stored without it. */
+GG_INLINE double gg_md_turned(const gg_md *e, int species)
+{
+  return e->model.bath.torque[species] * e->k.now;
+}
+/* Add it to the stored spins, when times are re-zeroed after this span. */
+void gg_md_turn_spins(gg_md *e, double span);
 
 /* contact_time.c: temperature about the mean velocity, relative to the imposed shear; all grains at the same time. */
 double gg_md_temperature(const gg_md *e);

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "common/thermostat.h"
+#include "md/epoch.h"
 
 /* White noise adds at most this fraction of T to a grain from slot to slot, but slots of a grain are at least so many
  * mean free times apart, where it is up to 9 % (e = 0). */
@@ -182,8 +183,10 @@ static void relax(gg_md *e, const gg_md_kick_schedule *t, uint32_t i)
   g->v = gg_scale(t->keep, g->v);
   g->v.x += (1 - t->keep) * flow;
   if (!e->spin) return;
+  const double turned = gg_md_turned(e, (int)g->species);
+  e->spin[i].z += turned;
   e->spin[i] = gg_scale(t->spin_keep, e->spin[i]);
-  e->spin[i].z += (1 - t->spin_keep) * gg_model_rolling(&e->model, (int)g->species);
+  e->spin[i].z += (1 - t->spin_keep) * gg_model_rolling(&e->model, (int)g->species) - turned;
 }
 
 static void bathe(gg_md *e, const gg_md_kick_schedule *t, const uint32_t pair[2])

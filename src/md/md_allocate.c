@@ -62,7 +62,8 @@ gg_status gg_md_allocate(const gg_model *model, gg_md **engine, gg_error *err)
   e->falls = gg_dot(e->gravity, e->gravity) > 0;
   e->heat = gg_common_heat_of(model);
   e->noise = gg_common_thermostat_kicks(model);
-  if (model->bath.on && model->bath.drag[0] == 0) e->heat = GG_HEAT_KICKS, e->noise = model->bath.noise[0];
+  if (model->bath.on && model->bath.drag[0] == 0)
+    e->heat = model->bath.noise[0] > 0 ? GG_HEAT_KICKS : GG_UNHEATED, e->noise = model->bath.noise[0];
   gg_status status = gg_md_contacts_make(&e->contacts, model, err);
   if (status == GG_OK) status = allocate(e, err);
   if (status != GG_OK) {

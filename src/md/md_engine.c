@@ -216,6 +216,7 @@ static void bring_to_present(gg_md *e)
     g->r = gg_md_position(e, e->falls, g, now);
     g->t = 0;
   }
+  gg_md_turn_spins(e, now);
   k->epoch_start += now, k->mark -= now;
   k->now = k->window_time = 0;
   k->window_collisions = 0;

@@ -2,6 +2,8 @@
 /* Snapshot of the grains at the present time, with peculiar velocities, in chunks of a few hundred. */
 #include "md/md_operations.h"
 
+#include "md/epoch.h"
+
 enum { SHOWN = 256 }; /* grains of a chunk: they stay in the first cache until they have been sampled */
 
 typedef struct scratch {
@@ -34,6 +36,7 @@ static void show_grain(const gg_md *e, uint32_t i, size_t slot, bool positions, 
     out->c[a][slot] = gg_along(&c, a);
     if (e->spin) out->s[a][slot] = gg_along(&e->spin[i], a);
   }
+  if (e->model.bath.turns) out->s[2][slot] += gg_md_turned(e, gg_md_species_of(g));
   out->species[slot] = (uint8_t)gg_md_species_of(g);
   out->id[slot] = e->id[i];
 }

@@ -34,25 +34,27 @@ EACH_SURFACE(SURFACE)
 #define SURFACE_ENTRY(rule, timed, sums, spins, none) [rule][timed][sums][spins] = surface_##rule##timed##sums##spins,
 static gg_md_surface_resolution *const surface_resolutions[3][2][2][2] = {EACH_SURFACE(SURFACE_ENTRY)};
 
-/* One instance for each rule with a law of restitution: the law costs more than testing the other features. */
-#define BY_LAW(rule)                                                                                                   \
-  static void rule##_by_law(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)                                   \
+/* One instance for each rule with a law of restitution, kicks or torques, which cost more than testing the other
+ * features. */
+#define OWN(rule)                                                                                                      \
+  static void rule##_own(gg_md *e, uint32_t i, uint32_t j, gg_vec dr, gg_vec c12)                                      \
   {                                                                                                                    \
-    gg_md_resolve_features f = {rule, true, e->last != NULL, e->k.keeps_sums, e->heat == GG_HEAT_SCALES, .law = true}; \
+    gg_md_resolve_features f = {rule, true, e->last != NULL, e->k.keeps_sums, e->heat == GG_HEAT_SCALES, .own = true}; \
     gg_md_resolve_pair(e, f, i, j, dr, c12);                                                                           \
   }
-BY_LAW(GG_SMOOTH)
-BY_LAW(GG_ROUGH)
-BY_LAW(GG_FRICTIONAL)
-static gg_md_resolution *const resolutions_by_law[] = {GG_SMOOTH_by_law, GG_ROUGH_by_law, GG_FRICTIONAL_by_law};
+OWN(GG_SMOOTH)
+OWN(GG_ROUGH)
+OWN(GG_FRICTIONAL)
+static gg_md_resolution *const own_resolutions[] = {GG_SMOOTH_own, GG_ROUGH_own, GG_FRICTIONAL_own};
 
 void gg_md_select_resolution(gg_md *e)
 {
   bool mixture = e->model.n_species > 1, timed = e->last != NULL, sums = e->k.keeps_sums;
   gg_rule rule = e->model.rule;
   assert((rule != GG_SMOOTH) == (e->spin != NULL));
-  e->resolve =
-      e->model.law.name ? resolutions_by_law[rule] : resolutions[rule][timed][sums][mixture][e->heat == GG_HEAT_SCALES];
+  e->resolve = gg_model_has_speed(&e->model) || e->model.bath.turns
+                   ? own_resolutions[rule]
+                   : resolutions[rule][timed][sums][mixture][e->heat == GG_HEAT_SCALES];
   e->resolve_parted = e->resolve;
   if (gg_md_needs_parting(&e->model)) e->resolve = gg_md_resolve_parting;
   e->resolve_shown = e->resolve;

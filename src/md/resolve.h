@@ -8,14 +8,14 @@
 
 #include "common/surface/collide.h"
 #include "common/surface/shapes.h"
-#include "md/md_state.h"
+#include "md/epoch.h"
 
 typedef struct gg_md_resolve_features {
   gg_rule rule;
   bool mixture, contact_time, sums;
   bool gaussian; /* thermostat: lost energy is returned by a slower clock */
   bool spins;    /* at walls; without spins a wall acts on the centre */
-  bool law;      /* of restitution: e depends on the relative normal speed */
+  bool own; /* the contact is made at the collision: e depends on the relative normal speed, or kicks; or torques */
 } gg_md_resolve_features;
 
 /* Is this collision treated by the contact-time rule? A grain that collided less than t_c ago is still in contact and
@@ -29,10 +29,20 @@ GG_INLINE bool gg_md_is_treated(gg_md *e, uint32_t i, uint32_t j)
   return treated;
 }
 
-GG_INLINE void gg_md_sum_pair(gg_collision_sums *t, int pair, double sigma, gg_vec k, gg_vec J, double loss)
+GG_INLINE void gg_md_sum_pair(gg_collision_sums *t, int pair, double sigma, gg_vec k, gg_vec J, gg_kicked_loss energy)
 {
   gg_add_stress(t->stress[pair], sigma, k, J);
-  t->loss[pair] += loss;
+  t->loss[pair] += energy.loss;
+  t->given[pair] += energy.given;
+}
+
+/* Energy of a collision outside of the Gaussian thermostat. */
+GG_INLINE gg_kicked_loss gg_md_energy_loss(gg_md_resolve_features f, const gg_contact *c, gg_vec k, gg_vec g, gg_vec J,
+                                           double scale)
+{
+  if (!f.own) return (gg_kicked_loss){.loss = gg_energy_loss(c, k, g, J) * scale * scale};
+  const gg_kicked_loss inside = gg_kicked_energy_loss(c, k, g, J);
+  return (gg_kicked_loss){inside.loss * scale * scale, inside.given * scale * scale};
 }
 
 /* Return lost energy by the Gaussian thermostat: outside the kinetic energy is constant, velocities are larger by a
@@ -53,6 +63,15 @@ GG_INLINE gg_vec gg_md_spin_inside(gg_md_resolve_features f, double scale, gg_ve
   return f.gaussian ? gg_scale(1 / scale, spin) : spin;
 }
 
+/* Spins at contact, the effect of torques included. */
+GG_INLINE void gg_md_load_spins(const gg_md *e, gg_md_resolve_features f, double scale, const uint32_t at[2],
+                                const int species[2], gg_vec *s1, gg_vec *s2)
+{
+  *s1 = gg_md_spin_inside(f, scale, e->spin[at[0]]), *s2 = gg_md_spin_inside(f, scale, e->spin[at[1]]);
+  if (!f.own) return;
+  s1->z += gg_md_turned(e, species[0]), s2->z += gg_md_turned(e, species[1]);
+}
+
 /* Kinetic energy lost, from the velocities before and after. */
 GG_INLINE double gg_md_kinetic_loss(const gg_contact *c, gg_vec was1, gg_vec was2, gg_vec is1, gg_vec is2)
 {
@@ -60,11 +79,16 @@ GG_INLINE double gg_md_kinetic_loss(const gg_contact *c, gg_vec was1, gg_vec was
   return 0.5 * (one / c->im1 + two / c->im2);
 }
 
-/* Contact of a pair by the law of restitution. Its speed is outside, in units of the start. */
-GG_INLINE gg_contact gg_md_contact_by_law(gg_md *e, const gg_contact *contact, double gn, int a, int b, uint32_t number)
+/* Contact of a pair by the law of restitution, unless it is treated, and with kicks. Speeds of both are outside, in
+ * units of the start. */
+GG_INLINE gg_contact gg_md_own_contact(gg_md *e, const gg_contact *contact, bool treated, double gn, int a, int b,
+                                       uint32_t number)
 {
   gg_contact at = *contact;
   const gg_restitution_law *law = &e->model.law;
+  const double inside = ldexp(1 / e->k.scale, e->k.power);
+  at.kn *= inside, at.kt *= inside;
+  if (!law->name || treated) return at;
   double speed = ldexp(gn * e->k.scale, -e->k.power),
          restitution = law->e ? gg_common_law_at(law, speed, a, b, &e->k.clamped)
                               : 1 - gg_loss_at(e->losses->loss, law->scale[gg_pair(a, b)] * speed);
@@ -90,21 +114,18 @@ GG_INLINE void gg_md_resolve_pair(gg_md *e, gg_md_resolve_features f, uint32_t i
   gg_vec k = gg_md_contact_normal(contacts, pair, dr, r2, number);
   const double scale = f.gaussian ? e->k.scale : 1;
   gg_vec s1 = {0, 0, 0}, s2 = s1;
-  if (f.rule != GG_SMOOTH) s1 = gg_md_spin_inside(f, scale, e->spin[i]), s2 = gg_md_spin_inside(f, scale, e->spin[j]);
+  if (f.rule != GG_SMOOTH) gg_md_load_spins(e, f, scale, (const uint32_t[]){i, j}, (const int[]){a, b}, &s1, &s2);
   gg_vec g = gg_contact_velocity(f.rule, k, c12, s1, s2);
-  gg_contact by_law;
-  if (f.law && !treated) {
-    by_law = gg_md_contact_by_law(e, contact, gg_dot(k, g), a, b, number);
-    contact = &by_law;
-  }
-  gg_vec J = gg_impulse(f.rule, contact, k, g, gg_dot(k, g));
+  const double gn = gg_dot(k, g);
+  gg_contact own;
+  if (f.own) own = gg_md_own_contact(e, contact, treated, gn, a, b, number), contact = &own;
+  gg_vec J = f.own ? gg_kicked_impulse(f.rule, contact, k, g, gn) : gg_impulse(f.rule, contact, k, g, gn);
   gg_vec v1 = one->v, v2 = two->v;
   gg_kick_centres(contact->im1, contact->im2, J, &one->v, &two->v);
   if (f.rule != GG_SMOOTH) gg_kick_spins(contact->ik1 * scale, contact->ik2 * scale, k, J, &e->spin[i], &e->spin[j]);
   e->k.transfer.collisions[q]++;
   if (f.sums)
-    gg_md_sum_pair(&e->k.transfer, q, e->model.sigma[q] * scale, k, J,
-                   gg_energy_loss(contact, k, g, J) * scale * scale);
+    gg_md_sum_pair(&e->k.transfer, q, e->model.sigma[q] * scale, k, J, gg_md_energy_loss(f, contact, k, g, J, scale));
   if (f.gaussian) gg_md_return_energy(e, gg_md_kinetic_loss(contact, v1, v2, one->v, two->v));
 }
 

@@ -276,7 +276,7 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 static double first_sonine(const gg_model *m, int i, const double *bins)
 {
   double rate = m->bath.on ? m->bath.drag[i] : 0, T[GG_MAX_SPECIES] = {0}; /* <C_a^2> */
-  if (m->shear_rate != 0 || m->rule != GG_SMOOTH || m->law.name) return NAN;
+  if (m->shear_rate != 0 || m->rule != GG_SMOOTH || m->law.name || gg_model_is_injected(m)) return NAN;
   for (int k = 0; k < m->n_species; k++) {
     const double *bin = bins + k * GG_LAGS * GG_LAG_WIDTH;
     T[k] =

@@ -174,15 +174,16 @@ static void put_rates(const rheology *r, const gg_interval *in, gg_cooling_inter
 {
   const gg_model *m = r->model;
   const gg_collision_sums *t = in->transfer;
-  double collisions = 0, loss = 0, p[3][3] = {{0}};
+  double collisions = 0, loss = 0, given = 0, p[3][3] = {{0}};
   for (int q = 0; q < gg_pairs_of(r->model->n_species); q++) {
     collisions += (double)t->collisions[q];
-    loss += t->loss[q];
+    loss += t->loss[q], given += t->given[q];
     for (int a = 0; a < 3; a++)
       for (int b = 0; b < 3; b++) p[a][b] += t->stress[q][a][b];
   }
   row[CH_RATE] = 2 * collisions / ((double)m->n * h.root);
   row[CH_LOSS] = loss * m->stress_unit / (m->volume * in->elapsed);
+  row[CH_GIVEN] = given * m->stress_unit / (m->volume * in->elapsed);
   row[CH_ZETA] = 2 * h.growth / gg_common_model_nu0(m, 1);
   double unit = m->stress_unit / (m->volume * h.first);
   row[CH_PC_XX] = p[0][0] * unit, row[CH_PC_YY] = p[1][1] * unit, row[CH_PC_ZZ] = p[2][2] * unit;

@@ -8,10 +8,11 @@
 
 enum {
   /* of the interval */
-  CH_RATE, /* collisions per grain and time; each counts for both partners */
-  CH_LOSS, /* energy lost per volume and time, in stress units per time */
-  CH_ZETA, /* free cooling: zeta*, from the fall of T over the interval */
-  CH_LN_T, /* ln T of the sample, in units of the start, corrected for rescaled velocities */
+  CH_RATE,  /* collisions per grain and time; each counts for both partners */
+  CH_LOSS,  /* energy lost per volume and time, in stress units per time */
+  CH_GIVEN, /* the same, given by kicks */
+  CH_ZETA,  /* free cooling: zeta*, from the fall of T over the interval */
+  CH_LN_T,  /* ln T of the sample, in units of the start, corrected for rescaled velocities */
   CH_PC_XX,
   CH_PC_YY,
   CH_PC_ZZ,

@@ -137,6 +137,14 @@ static double wall_friction(const double *a, const gg_model *m)
   (void)m;
   return a[CH_WALL_DRAG] / a[CH_WALL_PUSH];
 }
+/* Power of torques, per volume and time: K m s' s for the surface velocity s. */
+static double power_of_torques(const double *a, const gg_model *m)
+{
+  double sum = 0;
+  for (int i = 0; i < m->n_species && m->bath.turns; i++)
+    sum += share(m, i) * m->inertia[i] * m->mass[i] * m->bath.torque[i] * of(a, m, i, CH_SPIN_Z);
+  return sum * m->density * m->stress_unit;
+}
 /* Power of the noise of a bath or thermostat, and of drag, per volume and time. Spins are dragged towards those that
  * roll with the shear. */
 static double power_of_noise(const gg_model *m)
@@ -161,13 +169,14 @@ static double power_of_drag(const double *a, const gg_model *m)
 }
 
 /* The energy of the grains changes from one end of a run to the other: minus that change, the balance holds at every
- * moment, and the remaining scatter is that of P_xy between samples. Heat from thermal walls is no loss. */
+ * moment, and the remaining scatter is that of P_yx between samples: shear does work on the flux along y of momentum
+ * along x, from which P_xy differs by torques. Heat from thermal walls is no loss. */
 static double energy_balance(const double *a, const gg_model *m)
 {
   double work = m->walled  ? a[CH_WALL_WORK]
-                : m->frame ? a[CH_WALL_WORK] - a[CH_PC_XY] * m->shear_rate
-                           : -total_xy(a, m) * m->shear_rate;
-  work += power_of_noise(m) - power_of_drag(a, m);
+                : m->frame ? a[CH_WALL_WORK] - a[CH_PC_YX] * m->shear_rate
+                           : -total_yx(a, m) * m->shear_rate;
+  work += power_of_noise(m) - power_of_drag(a, m) + power_of_torques(a, m) + a[CH_GIVEN];
   if (gg_model_has_thermal_walls(m)) return (work - a[CH_WALL_LOSS] - a[CH_GROWTH]) / a[CH_LOSS];
   return (work - a[CH_GROWTH]) / (a[CH_LOSS] + a[CH_WALL_LOSS]);
 }

@@ -48,6 +48,7 @@ static gg_status start_at_theory(gg_model *model, gg_error *err)
   if (!constant) return GG_FAILED;
   *constant = *model;
   constant->law = (gg_restitution_law){0};
+  constant->kicks = constant->bath.turns = false;
   if (model->n_species <= FEW) constant->stop = NULL;
   gg_status status = try_theories(model, constant, err);
   free(constant);

@@ -31,6 +31,7 @@ static traits traits_of(const gg_scene *s)
     t.beta |= beta != -1;
     t.friction |= mu != 0;
   }
+  t.lossy |= gg_scene_has_kicks(s);
   return t;
 }
 
@@ -67,7 +68,8 @@ void gg_scene_fill_in(gg_scene *s)
    * collisions. */
   if (s->collision.law != GG_LAW_CONSTANT && gg_flow_cools(s->flow) && s->run.collisions == GG_AUTO)
     s->run.collisions = GG_COLLISIONS_FOLLOWED;
-  if (!gg_scene_is_given(s, "thermostat")) s->thermostat = flow->thermostat;
+  if (!gg_scene_is_given(s, "thermostat"))
+    s->thermostat = gg_scene_is_injected(s) && gg_flow_takes(s->flow, GG_INJECTION) ? GG_INJECTION : flow->thermostat;
   if (!gg_scene_is_given(s, "gravity")) memcpy(s->gravity, flow->gravity, sizeof s->gravity);
   if (flow->wall_temperature[0] > 0 && !gg_scene_is_given(s, "walls.temperature"))
     memcpy(s->walls.temperature, flow->wall_temperature, sizeof s->walls.temperature);
@@ -90,6 +92,28 @@ static gg_status check_thermostat(const gg_scene *s, gg_error *err)
     if (gg_flow_takes(s->flow, (gg_thermostat)t))
       gg_base_text_append(text, sizeof text, "%s%s", *text ? " or " : "", gg_common_thermostats[t].word);
   return gg_base_fail(err, GG_BAD_INPUT, "flow: %s needs a thermostat: %s", flow, text);
+}
+
+/* Kicks and torques give energy: no gas cools freely with them, nor conserves energy, nor responds at a temperature of
+ * any size. A torque acts together with the drag and noise of a bath, of which other thermostats have none. */
+static gg_status check_injection(const gg_scene *s, gg_error *err)
+{
+  const gg_flow_row *flow = gg_flow_of(s->flow);
+  const bool torque = gg_scene_has_torque(s), injected = torque || gg_scene_has_kicks(s);
+  const char *key = torque ? "species.torque" : "collision.normal_kick and tangential_kick";
+  const gg_heat heat = gg_scene_is_driven(s) ? GG_HEAT_BATHES : gg_common_thermostats[s->thermostat].heat;
+  if (s->thermostat == GG_INJECTION && !injected)
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "thermostat: injection needs collision.normal_kick, collision.tangential_kick or a torque");
+  if (injected && (flow->conserves || flow->linear_response || gg_flow_cools(s->flow)))
+    return gg_base_fail(err, GG_BAD_INPUT, "%s: flow: %s takes no energy from kicks and torques; use flow: %s", key,
+                        flow->word, gg_flow_of(GG_HSS)->word);
+  if (torque && (heat == GG_HEAT_SCALES || heat == GG_HEAT_KICKS))
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "species.torque: does not go with a thermostat that balances the losses; give %s a value, or "
+                        "use thermostat: bath",
+                        gg_scene_strength_of(s->thermostat)->key);
+  return GG_OK;
 }
 
 static gg_status check_gravity(const gg_scene *s, gg_error *err)
@@ -137,6 +161,7 @@ static gg_status check_flow(const gg_scene *s, gg_error *err)
                         "flow: %s needs walls.temperature, e.g. [%g, %g], and walls.accommodation above 0", flow->word,
                         flow->wall_temperature[0], flow->wall_temperature[1]);
   GG_TRY(check_thermostat(s, err));
+  GG_TRY(check_injection(s, err));
   return check_gravity(s, err);
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "common/collision.h"
 #include "common/quantity.h"
 #include "common/thermostat.h"
 
@@ -137,6 +138,13 @@ const gg_field gg_scene_fields[] = {
     {"collision.mu", GG_FIELD_PAIRS, AT(collision.mu), 0, INFINITY, .by_default = INFINITY,
      .doc = "Coulomb friction coefficient; inf: beta is constant", .when = GG_BIT(GG_IF_BETA), .also = "friction",
      .on_the_way = true},
+    {"collision.normal_kick", GG_FIELD_PAIRS, AT(collision.normal_kick), 0, LARGE, .unit = "velocity",
+     .doc = "D of kicks at contact: two grains part with the relative normal velocity e g_n + 2 D", .on_the_way = true},
+    {"collision.tangential_kick", GG_FIELD_PAIRS, AT(collision.tangential_kick), -LARGE, LARGE, .unit = "velocity",
+     .doc = "D_t of kicks at contact: the surface of grain 1 gets 2 D_t k x z against that of grain 2, k from 1 to 2; "
+            "above "
+            "0 the pair turns about z by the right hand",
+     .on_the_way = true},
     {"collision.law", GG_FIELD_CHOICE, AT(collision.law), .words = laws,
      .doc = "dependence of e on the normal speed of a collision between grains", .also = "model", .on_the_way = true},
     {"collision.speed", GG_FIELD_NUMBER, AT(collision.speed), SMALL, LARGE, false, AUTO, .unit = "velocity",
@@ -250,6 +258,8 @@ const gg_field gg_scene_species_fields[] = {
      .doc = "K = 4I/(m d^2): 0.4 solid sphere, 2/3 hollow", .when = GG_BIT(GG_IF_ROUGH), .also = "K I"},
     {"drag", GG_FIELD_NUMBER, offsetof(gg_species, drag), SMALL, LARGE, .by_default = 1,
      .doc = "drag of the bath on this species, in units of bath.drag", .thermostat = GG_BATH},
+    {"torque", GG_FIELD_NUMBER, offsetof(gg_species, torque), -LARGE, LARGE, .unit = "mass velocity^2",
+     .doc = "constant torque about z on each grain", .when = GG_BIT(GG_IF_ROUGH) | GG_BIT(GG_IF_UNWALLED)},
     {0},
 };
 
@@ -338,6 +348,23 @@ bool gg_scene_is_driven(const gg_scene *s)
 {
   const gg_field *f = gg_scene_strength_of(s->thermostat);
   return f && *(const double *)(const void *)((const char *)s + f->offset) != GG_AUTO;
+}
+
+bool gg_scene_has_kicks(const gg_scene *s)
+{
+  bool yes = false;
+  for (int p = 0; p < gg_pairs_of(s->n_species); p++)
+    yes |= s->collision.normal_kick[p] != 0 || s->collision.tangential_kick[p] != 0;
+  return yes;
+}
+
+bool gg_scene_has_torque(const gg_scene *s)
+{
+  bool torque = false, rough = false;
+  for (int i = 0; i < s->n_species; i++) torque |= s->species[i].torque != 0;
+  for (int p = 0; p < gg_pairs_of(s->n_species); p++)
+    rough |= gg_common_rule_select(s->collision.beta[p], s->collision.mu[p]) != GG_SMOOTH;
+  return torque && rough && !gg_flow_is_walled(s->flow);
 }
 
 static int find_of_species(const char *member_key, int number, gg_field *member)

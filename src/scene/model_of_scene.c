@@ -188,12 +188,16 @@ static void (*const set_species[GG_N_THERMOSTATS])(gg_bath *, int i, const gg_mo
 static gg_status set_bath(gg_model *m, const gg_scene *s, gg_error *err)
 {
   double drag = 0, noise = 0;
-  m->bath.on = gg_scene_is_driven(s) && !m->linear_response;
+  m->bath.turns = gg_scene_has_torque(s);
+  m->bath.on = m->bath.turns || (gg_scene_is_driven(s) && !m->linear_response);
   for (int i = 0; i < m->n_species && m->bath.on; i++) {
-    set_species[s->thermostat](&m->bath, i, m, s);
+    if (gg_scene_is_driven(s)) set_species[s->thermostat](&m->bath, i, m, s);
+    if (m->bath.turns)
+      m->bath.torque[i] =
+          gg_units_temperature(m->unit, s->species[i].torque) / (m->inertia[i] * m->mass[i] * gg_model_radius(m, i));
     drag += m->bath.drag[i], noise += m->bath.noise[i];
   }
-  if (!m->bath.on || m->shear_rate != 0) return GG_OK;
+  if (!m->bath.on || m->shear_rate != 0 || gg_model_is_injected(m)) return GG_OK;
   if (drag > 0 && noise == 0)
     return gg_base_fail(
         err, GG_BAD_INPUT,
@@ -210,6 +214,10 @@ static void set_pairs(gg_model *m, const gg_scene *s)
 {
   for (int o = 0; o < gg_pairs_of(m->n_species); o++)
     m->e[o] = s->collision.e[o], m->beta[o] = s->collision.beta[o], m->mu[o] = s->collision.mu[o];
+  for (int o = 0; o < gg_pairs_of(m->n_species); o++) {
+    m->normal_kick[o] = gg_units_velocity(m->unit, s->collision.normal_kick[o]);
+    m->tangential_kick[o] = gg_units_velocity(m->unit, s->collision.tangential_kick[o]);
+  }
   m->contact_value = s->contact_value;
   gg_common_model_set_pairs(m);
 }

@@ -33,6 +33,7 @@ enum { GG_REPLICAS_FOLLOWED = 8 };
 typedef struct gg_species {
   double fraction, diameter, mass, inertia; /* mole fraction (as given: a weight); user's units; K = 4I/(m d^2) */
   double drag;                              /* of a bath, over bath.drag */
+  double torque;                            /* about z, user's units */
 } gg_species;
 
 /* At least GG_N_QUANTITIES, which only quantity.h knows. */
@@ -80,6 +81,7 @@ struct gg_scene {
   double aspect[3]; /* shape of the box, relative edges */
   struct {          /* by pair of species: gg_pair */
     double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
+    double normal_kick[GG_PAIRS], tangential_kick[GG_PAIRS]; /* user's units */
     gg_law_kind law;
     double speed; /* at which e is e, with a law; in the user's units, or GG_AUTO */
   } collision;
@@ -130,10 +132,19 @@ struct gg_scene {
 /* True if a key of the thermostat gives its strength, instead of the balance with the losses. */
 bool gg_scene_is_driven(const gg_scene *scene);
 
+/* True if kicks at contact or torques give energy. */
+bool gg_scene_has_kicks(const gg_scene *scene);
+bool gg_scene_has_torque(const gg_scene *scene);
+static inline bool gg_scene_is_injected(const gg_scene *s)
+{
+  return gg_scene_has_kicks(s) || gg_scene_has_torque(s);
+}
+
 /* True if the temperature of the start is the only scale of velocities. Then it makes the unit v_0. */
 static inline bool gg_scene_scales_with_start(const gg_scene *s)
 {
-  return !gg_scene_is_driven(s) && !gg_flow_is_sheared(s->flow) && !gg_flow_is_walled(s->flow);
+  return !gg_scene_is_driven(s) && !gg_scene_is_injected(s) && !gg_flow_is_sheared(s->flow) &&
+         !gg_flow_is_walled(s->flow);
 }
 
 /* Inverse of the model's unit of time in flows without moving walls: the shear rate; v_0/d with v_0^2 = 2 T/m of the

@@ -502,9 +502,10 @@ static gg_status read_species(const input *in)
     return gg_scene_reject(in->r, in->node, in->key, "%td species are given; allowed: 1 to %d", n, GG_MAX_SPECIES);
   for (int i = 0; i < n; i++) {
     const yaml_node_t *map = item_of(in, in->node->data.sequence.items.start[i]);
-    gg_species one = {1.0 / (double)n, 1, 1, 0.4, 1};
+    gg_species one = {1.0 / (double)n, 1, 1, 0.4, 1, 0};
     if (map->type != YAML_MAPPING_NODE)
-      return gg_scene_reject(in->r, map, in->key, "a species is a map with fraction, diameter, mass, inertia and drag");
+      return gg_scene_reject(in->r, map, in->key,
+                             "a species is a map with fraction, diameter, mass, inertia, drag and torque");
     GG_TRY(gg_scene_read_map(in->r, in->key, map, gg_scene_species_fields, NULL, &one));
     scene->species[i] = one;
   }

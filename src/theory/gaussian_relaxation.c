@@ -10,7 +10,7 @@
 
 bool gg_theory_gaussian_relaxes(const gg_model *m)
 {
-  const bool known = !m->walled && !m->law.name && !m->linear_response;
+  const bool known = !m->walled && !m->law.name && !gg_model_is_injected(m) && !m->linear_response;
   return known && (m->shear_rate != 0 || m->n_species > 1);
 }
 

@@ -17,7 +17,7 @@
 
 const char *gg_theory_relaxation_name(const gg_model *m)
 {
-  const bool known = m->n_species == 1 && m->shear_rate == 0 && !m->walled && !m->law.name;
+  const bool known = m->n_species == 1 && m->shear_rate == 0 && !m->walled && !m->law.name && !gg_model_is_injected(m);
   if (gg_theory_gaussian_relaxes(m)) return m->shear_rate != 0 ? "Gaussian closure" : "Maxwellians";
   return !known ? NULL : m->rule == GG_SMOOTH ? "first Sonine" : "two Maxwellians";
 }

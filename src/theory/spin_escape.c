@@ -185,7 +185,7 @@ bool gg_theory_is_metastable(const gg_model *m)
 
 double gg_theory_spin_escape(const gg_model *m)
 {
-  if (!gg_theory_is_metastable(m) || m->n_species > 1 || m->law.name) return NAN;
+  if (!gg_theory_is_metastable(m) || m->n_species > 1 || m->law.name || gg_model_is_injected(m)) return NAN;
   gas *g = calloc(1, sizeof *g);
   double rate = NAN;
   gg_base_gsl_enter();

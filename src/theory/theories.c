@@ -57,7 +57,11 @@ static gg_status check_bath(const gg_theory *theory, const gg_model *m, gg_error
 
 static gg_status check_law(const gg_theory *theory, const gg_model *model, gg_error *err)
 {
-  if (!model->law.name || theory->own) return GG_OK;
+  if (theory->own) return GG_OK;
+  if (gg_model_is_injected(model))
+    return gg_theory_reject(err, theory->name, "has no %s; this scene has",
+                            model->kicks ? "kicks at contact" : "torque");
+  if (!model->law.name) return GG_OK;
   return gg_base_fail(err, GG_BAD_INPUT, "%s describes grains of constant e; this scene has the restitution law '%s'",
                       theory->name, model->law.name);
 }

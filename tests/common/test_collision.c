@@ -256,6 +256,84 @@ static void equal_spheres(void **state)
   assert_true(norm(gg_sub(J, expected)) < 1e-15);
 }
 
+/* Kicks: momentum and angular momentum about the contact point are conserved, the relative normal velocity after
+ * contact is -(e g_n + 2 D), that of the surfaces along k x z has 2 D_t more, and the energy is lost and given as
+ * counted: what kicks give is the energy that the impulse has beyond that without them. */
+static void check_kicked(pair *p, gg_rule rule, double D, double Dt)
+{
+  collide(p, rule);
+  gg_contact c = p->contact;
+  gg_common_contact_set_kicks(&c, rule != GG_SMOOTH, D, Dt);
+  if (rule == GG_SMOOTH) p->s1 = p->s2 = (gg_vec){0, 0, 0};
+  const gg_vec J = gg_kicked_impulse(rule, &c, p->k, p->g, p->gn), z = {0, 0, 1};
+  const gg_vec kick = gg_axpy(-c.kt, gg_cross(p->k, z), gg_scale(c.kn, p->k)), rest = gg_sub(J, kick);
+  pair without = *p;
+  for (int kicked = 0; kicked < 2; kicked++) {
+    pair *q = kicked ? p : &without;
+    q->contact = c, q->J = kicked ? J : rest;
+    q->d1 = q->c1, q->d2 = q->c2, q->t1 = q->s1, q->t2 = q->s2;
+    gg_kick(rule, &c, q->k, q->J, &q->d1, &q->t1, &q->d2, &q->t2);
+  }
+  check_momentum(p);
+  if (rule != GG_SMOOTH) {
+    check_angular(p->one.inertia, p->k, -1, p->c1, p->s1, p->d1, p->t1);
+    check_angular(p->two.inertia, p->k, 1, p->c2, p->s2, p->d2, p->t2);
+  }
+  const double size = norm(p->g) + norm(p->d1) + norm(p->d2);
+  const gg_vec after = gg_contact_velocity(rule, p->k, gg_sub(p->d1, p->d2), p->t1, p->t2);
+  const gg_vec before = gg_contact_velocity(rule, p->k, gg_sub(without.d1, without.d2), without.t1, without.t2);
+  assert_true(fabs(gg_dot(p->k, after) + p->e * p->gn + 2 * D) <= 4e-14 * size);
+  const gg_vec more = gg_axpy(-2 * Dt, gg_cross(p->k, z), gg_axpy(2 * D, p->k, gg_sub(after, before)));
+  assert_true(norm(more) <= 1e-13 * (size + norm(p->t1) + norm(p->t2)));
+  const gg_kicked_loss counted = gg_kicked_energy_loss(&c, p->k, p->g, J);
+  const double E0 = energy(p, p->c1, p->c2, p->s1, p->s2), E1 = energy(p, p->d1, p->d2, p->t1, p->t2);
+  const double E2 = energy(p, without.d1, without.d2, without.t1, without.t2),
+               scale = E0 + E1 + E2 + fabs(counted.loss);
+  assert_true(fabs(counted.given - (E1 - E2)) <= 1e-13 * scale);
+  assert_true(fabs(counted.loss - (E0 - E2)) <= 1e-13 * scale);
+}
+
+static void kicks(void **state)
+{
+  (void)state;
+  gg_rng r = gg_common_rng_seed(1991, 10);
+  for (int i = 0; i < PAIRS / 2; i++) {
+    pair p = random_pair(&r, i, false);
+    const gg_rule rule = (gg_rule)(i % 3);
+    const double D = between(&r, 0, 2), Dt = between(&r, -2, 2);
+    if (rule == GG_SMOOTH) p.s1 = p.s2 = (gg_vec){0, 0, 0};
+    check_kicked(&p, rule, D, Dt);
+  }
+}
+
+/* Kicks by the right hand: grain 2 right of grain 1 is pushed up. Coulomb's limit has the kick of the normal part. */
+static void sides_of_kicks(void **state)
+{
+  (void)state;
+  gg_contact c = gg_common_contact_make((gg_partner){1, 0.4}, (gg_partner){1, 0.4}, 0.9, 0.4, 0.1);
+  gg_common_contact_set_kicks(&c, false, 0, 1);
+  const gg_vec k = {1, 0, 0};
+  assert_true(gg_kicked_impulse(GG_SMOOTH, &c, k, (gg_vec){1, 0, 0}, 1).y > 0);
+  gg_common_contact_set_kicks(&c, true, 3, 0);
+  const gg_vec J = gg_kicked_impulse(GG_FRICTIONAL, &c, k, (gg_vec){1, 100, 0}, 1);
+  assert_true(fabs(J.x - (0.5 * 1.9 + 3)) < 1e-15 && fabs(J.y - 0.1 * J.x) < 1e-15);
+}
+
+/* No kick: the same bits. */
+static void kicks_of_nothing(void **state)
+{
+  (void)state;
+  gg_rng r = gg_common_rng_seed(1991, 11);
+  for (int i = 0; i < PAIRS / 10; i++) {
+    pair p = random_pair(&r, i, i & 1);
+    const gg_rule rule = (gg_rule)(i % 3);
+    collide(&p, rule);
+    const gg_vec J = gg_kicked_impulse(rule, &p.contact, p.k, p.g, p.gn);
+    assert_true(J.x == p.J.x && J.y == p.J.y && J.z == p.J.z);
+    assert_true(gg_kicked_energy_loss(&p.contact, p.k, p.g, J).given == 0);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -270,6 +348,9 @@ int main(void)
       cmocka_unit_test(limits_of_mu_and_beta_are_the_simpler_rules),
       cmocka_unit_test(time_reversal),
       cmocka_unit_test(equal_spheres),
+      cmocka_unit_test(kicks),
+      cmocka_unit_test(sides_of_kicks),
+      cmocka_unit_test(kicks_of_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

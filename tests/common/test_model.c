@@ -53,8 +53,8 @@ static void a_mixture_has_its_fractions_and_contact_values(void **state)
   (void)state;
   gg_scene s = gg_scene_defaults();
   s.phi = 0.2, s.n_species = 2, s.particles = 1001;
-  s.species[0] = (gg_species){0.25, 2, 3, 0.4, 1};
-  s.species[1] = (gg_species){0.75, 1, 6, 0.4, 1};
+  s.species[0] = (gg_species){0.25, 2, 3, 0.4, 1, 0};
+  s.species[1] = (gg_species){0.75, 1, 6, 0.4, 1, 0};
   gg_model m = make(&s);
   assert_int_equal(m.n_of[0] + m.n_of[1], 1001);
   assert_int_equal(m.n_of[0], 250);
@@ -77,9 +77,9 @@ static void theories_have_no_grains(void **state)
   gg_model m, many;
   gg_error err = {0};
   s.phi = 0.2, s.n_species = 3;
-  s.species[0] = (gg_species){0.0005, 1, 1, 0.4, 1};
-  s.species[1] = (gg_species){1 / 3., 2, 3, 0.4, 1};
-  s.species[2] = (gg_species){1 - 0.0005 - 1 / 3., 1.5, 1, 0.4, 1};
+  s.species[0] = (gg_species){0.0005, 1, 1, 0.4, 1, 0};
+  s.species[1] = (gg_species){1 / 3., 2, 3, 0.4, 1, 0};
+  s.species[2] = (gg_species){1 - 0.0005 - 1 / 3., 1.5, 1, 0.4, 1, 0};
   assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, &err), GG_BAD_INPUT);
   assert_int_equal(gg_scene_model_for_theories(&s, &m, &err), GG_OK);
   double solid = 0;
@@ -102,8 +102,8 @@ static void gap_is_that_of_md(void **state)
   const double phi[] = {0.01, 0.123, 0.3};
   gg_scene s = gg_scene_defaults();
   s.flow = GG_COUETTE, s.walls.speed = 1;
-  s.species[0] = (gg_species){0.667, 1, 1, 0.4, 1};
-  s.species[1] = (gg_species){0.333, 1.5, 1, 0.4, 1};
+  s.species[0] = (gg_species){0.667, 1, 1, 0.4, 1, 0};
+  s.species[1] = (gg_species){0.333, 1.5, 1, 0.4, 1, 0};
   for (int k = 0; k < 12; k++) {
     s.phi = phi[k % 3], s.particles = 300 + 100 * k, s.dsmc.particles = 5000 + k, s.n_species = 1 + k % 2;
     s.engine = GG_MD;
@@ -170,7 +170,7 @@ static void sharing_of_energy(void **state)
   (void)state;
   gg_scene s = gg_scene_defaults();
   s.flow = GG_EQUILIBRIUM, s.phi = 0.1, s.n_species = 2, s.collision.e[0] = 1;
-  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
+  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
   for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = 1;
   gg_model m = make(&s);
   near(gg_common_model_relaxation(&m), 1.5, 1e-12);
@@ -179,7 +179,7 @@ static void sharing_of_energy(void **state)
   near(gg_common_model_relaxation(&m) / 1e8, 3 / 16.0 * (1 + sqrt(0.5)), 1e-3);
   const double two = gg_common_model_relaxation(&m);
   s.n_species = 4; /* the same grains; like ones share quickly, and the two kinds as slowly as before */
-  for (int k = 0; k < 4; k++) s.species[k] = (gg_species){0.25, 1, 1, 0.4, 1};
+  for (int k = 0; k < 4; k++) s.species[k] = (gg_species){0.25, 1, 1, 0.4, 1, 0};
   s.species[2].mass = s.species[3].mass = 1e8;
   m = make(&s);
   near(gg_common_model_relaxation(&m) / two, 1, 1e-6);
@@ -191,7 +191,7 @@ static void loss_to_others(void **state)
   (void)state;
   gg_scene s = gg_scene_defaults();
   s.flow = GG_USF, s.phi = 0.1, s.n_species = 2;
-  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
+  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
   for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = 1;
   s.collision.e[gg_pair(0, 1)] = 0.8;
   gg_model m = make(&s);
@@ -218,7 +218,7 @@ static void scaled_temperature(void **state)
   m = make(&s);
   near(gg_common_model_relaxation(&m), loss, 1e-9);
   s.flow = GG_HCS, s.thermostat = GG_NO_THERMOSTAT, s.n_species = 2;
-  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
+  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
   for (int o = 0; o < GG_PAIRS; o++) s.collision.e[o] = e;
   m = make(&s);
   near(gg_common_model_relaxation(&m), 1 / (1 / 1.5 + 1 / loss), 1e-9);
@@ -310,7 +310,7 @@ static void noise_replaces_losses(void **state)
   gg_scene s = gg_scene_defaults();
   s.flow = GG_HSS, s.thermostat = GG_WHITE_NOISE, s.phi = 0.2, s.particles = 1000;
   s.n_species = 2;
-  s.species[0] = (gg_species){0.3, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.7, 1.5, 4, 0.4, 1};
+  s.species[0] = (gg_species){0.3, 1, 1, 0.4, 1, 0}, s.species[1] = (gg_species){0.7, 1.5, 4, 0.4, 1, 0};
   for (int o = 0; o < 3; o++) s.collision.e[o] = 0.7 + 0.1 * o;
   gg_model m = make(&s);
   double T = m.temperature0, a[2] = {T / m.mass[0], T / m.mass[1]}, loss = 0, mass = 0;
@@ -338,12 +338,12 @@ static void units_of_rates(void **state)
   gg_model m = make(&s);
   near(gg_common_model_nu0(&m, 3), 16 * sqrt(M_PI) / 5 * m.density * sqrt(3), 1e-14);
   s.n_species = 2;
-  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.5, 2, 4, 0.4, 1};
+  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0}, s.species[1] = (gg_species){0.5, 2, 4, 0.4, 1, 0};
   m = make(&s);
   const double unit = sqrt(M_PI);
   near(gg_common_model_nu0(&m, 3), unit * m.density * 2.25 * sqrt(2 * 3 * 1.25), 1e-14);
   s.n_species = 3;
-  s.species[0].fraction = 0.2, s.species[1].fraction = 0.3, s.species[2] = (gg_species){0.5, 3, 9, 0.4, 1};
+  s.species[0].fraction = 0.2, s.species[1].fraction = 0.3, s.species[2] = (gg_species){0.5, 3, 9, 0.4, 1, 0};
   m = make(&s);
   double pair[] = {2.25 * sqrt(6 * 1.25), 4 * sqrt(6 * 10. / 9), 6.25 * sqrt(6 * 13. / 36)};
   double mean = (0.06 * pair[0] + 0.1 * pair[1] + 0.15 * pair[2]) / 0.31;
@@ -397,7 +397,7 @@ static void scales_beyond_doubles_are_rejected(void **state)
   s.start.temperature = 1.01e-12;
   assert_int_equal(gg_scene_model_make(&s, GG_DSMC, &m, &err), GG_OK);
   s.start.temperature = GG_AUTO, s.n_species = 2;
-  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
+  s.species[0] = s.species[1] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
   s.species[1].mass = 2e12;
   refused(&s, "values of mass in a ratio of 1 : 2e+12");
   s.species[1].mass = 1, s.species[1].diameter = 1e-7;

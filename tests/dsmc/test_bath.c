@@ -153,8 +153,8 @@ static void strong_drag_keeps_equilibrium(void **state)
   gg_scene s = lab_scene(GG_HSS, 0.02, 1, 1, GRAINS);
   s.thermostat = GG_BATH, s.bath.drag = 1, s.bath.temperature = 1, s.bath.rotation = 1;
   s.n_species = 2;
-  s.species[0] = (gg_species){0.6, 1, 1, 0.4, 1};
-  s.species[1] = (gg_species){0.4, 2, 3, 0.3, 3};
+  s.species[0] = (gg_species){0.6, 1, 1, 0.4, 1, 0};
+  s.species[1] = (gg_species){0.4, 2, 3, 0.3, 3, 0};
   const gg_model mixture = lab_model(&s);
   for (size_t i = 0; i < sizeof drags / sizeof *drags; i++) {
     check_equilibrium(&smooth, drags[i], GG_AUTO);
@@ -208,8 +208,8 @@ static void steady_states_are_those_of_theory(void **state)
   s = lab_scene(GG_USF, 0.2, 0.9, -1, 20000);
   s.thermostat = GG_BATH, s.bath.temperature = 3, s.bath.drag = 0.5;
   s.n_species = 2;
-  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1};
-  s.species[1] = (gg_species){0.5, 1.5, 1, 0.4, 0.25};
+  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
+  s.species[1] = (gg_species){0.5, 1.5, 1, 0.4, 0.25, 0};
   m = lab_model(&s);
   against_theory(&m, 0.02);
 }

@@ -116,8 +116,8 @@ static void every_pair_has_its_law(void **state)
     gg_scene s = lab_scene(GG_HCS, 0.1, 0.8, -1, 300);
     s.collision.law = GG_LAW_VISCOELASTIC;
     s.n_species = species;
-    s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1};
-    s.species[1] = (gg_species){0.5, 0.7, 2, 0.3, 1};
+    s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
+    s.species[1] = (gg_species){0.5, 0.7, 2, 0.3, 1, 0};
     gg_model m = lab_model(&s);
     gg_engine *g = lab_engine(&m, 17);
     gg_error err = {0};

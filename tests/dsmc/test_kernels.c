@@ -194,8 +194,8 @@ static void same_bits_in(gg_precision precision)
           if (flow == 3) s.thermostat = GG_WHITE_NOISE;
           s.dsmc.precision = precision;
           s.n_species = species;
-          s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1};
-          s.species[1] = (gg_species){0.5, 0.7, 2, 0.3, 1};
+          s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
+          s.species[1] = (gg_species){0.5, 0.7, 2, 0.3, 1, 0};
           gg_model m = lab_model(&s);
           same_bits_on(&m);
         }
@@ -321,8 +321,8 @@ static void rules_agree(gg_law_kind law)
       s.collision.law = law;
       if (friction) s.collision.mu[0] = s.collision.mu[1] = 0.2;
       s.n_species = species;
-      s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1};
-      s.species[1] = (gg_species){0.5, 0.7, 0.5, 0.3, 1};
+      s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
+      s.species[1] = (gg_species){0.5, 0.7, 0.5, 0.3, 1, 0};
       gg_model m = lab_model(&s);
       lab_flow f[2] = {{.T = {0}}, {.T = {0}}};
       for (int seed = 0; seed < 10; seed++)

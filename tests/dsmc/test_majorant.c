@@ -105,8 +105,8 @@ static void shear(gg_dsmc_path path, double forced, uint64_t seed, mixed *out)
 {
   gg_scene s = lab_scene(GG_USF, 0.2, 0.8, 0.2, 16000);
   s.n_species = 2;
-  s.species[0] = (gg_species){0.4, 1, 1, 0.4, 1};
-  s.species[1] = (gg_species){0.6, 0.6, 0.2, 0.4, 1};
+  s.species[0] = (gg_species){0.4, 1, 1, 0.4, 1, 0};
+  s.species[1] = (gg_species){0.6, 0.6, 0.2, 0.4, 1, 0};
   gg_model m = lab_model(&s);
   gg_engine *g = lab_engine(&m, seed);
   gg_dsmc *d = (gg_dsmc *)g;

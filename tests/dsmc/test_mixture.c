@@ -48,7 +48,7 @@ static void elastic_mixtures_are_in_equilibrium(void **state)
 {
   (void)state;
   gg_scene s =
-      mixture(GG_EQUILIBRIUM, 0.2, 1, -1, (gg_species){0.3, 1, 1, 0.4, 1}, (gg_species){0.7, 0.5, 0.1, 0.4, 1}, 20001);
+      mixture(GG_EQUILIBRIUM, 0.2, 1, -1, (gg_species){0.3, 1, 1, 0.4, 1, 0}, (gg_species){0.7, 0.5, 0.1, 0.4, 1, 0}, 20001);
   gg_model m = lab_model(&s);
   gg_engine *g = lab_engine(&m, 1);
   lab_view before = lab_snapshot(g);
@@ -69,7 +69,7 @@ static void each_pair_of_species_has_its_pressure(void **state)
 {
   (void)state;
   gg_scene s =
-      mixture(GG_EQUILIBRIUM, 0.3, 1, -1, (gg_species){0.4, 1, 1, 0.4, 1}, (gg_species){0.6, 0.5, 0.2, 0.4, 1}, 20000);
+      mixture(GG_EQUILIBRIUM, 0.3, 1, -1, (gg_species){0.4, 1, 1, 0.4, 1, 0}, (gg_species){0.6, 0.5, 0.2, 0.4, 1, 0}, 20000);
   gg_model m = lab_model(&s);
   gg_engine *g = lab_engine(&m, 8);
   lab_mean share[GG_PAIRS] = {0};
@@ -98,7 +98,7 @@ static void two_names_for_one_species_change_nothing(void **state)
   (void)state;
   gg_scene s = lab_scene(GG_USF, 0.2, 0.8, 0.2, 20000);
   gg_model one = lab_model(&s);
-  s = mixture(GG_USF, 0.2, 0.8, 0.2, (gg_species){0.25, 1, 1, 0.4, 1}, (gg_species){0.75, 1, 1, 0.4, 1}, 20000);
+  s = mixture(GG_USF, 0.2, 0.8, 0.2, (gg_species){0.25, 1, 1, 0.4, 1, 0}, (gg_species){0.75, 1, 1, 0.4, 1, 0}, 20000);
   gg_model two = lab_model(&s);
   lab_flow a = {0}, b = {0};
   gg_engine *ga = lab_engine(&one, 3), *gb = lab_engine(&two, 4);
@@ -128,7 +128,7 @@ static void cooling_mixtures_have_their_ratio(void **state)
   } cases[] = {{0, 0.5, 2, 1, 1, 1.362},  {0, 0.9, 2, 1, 1, 1.056},      {0, 0.5, 10, 1, 2, 3.801},
                {0, 0.9, 10, 1, 2, 1.437}, {0.3, 0.6, 2, 2, 0.5, 0.8894}, {0.1, 0.8, 2, 2, 0.5, 0.9548}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-    gg_species one = {cases[i].number, 1, 1, 0.4, 1}, two = {1, 1 / cases[i].size, 1 / cases[i].mass, 0.4, 1};
+    gg_species one = {cases[i].number, 1, 1, 0.4, 1, 0}, two = {1, 1 / cases[i].size, 1 / cases[i].mass, 0.4, 1, 0};
     gg_scene s = mixture(i % 2 ? GG_HSS : GG_HCS, cases[i].phi, cases[i].e, -1, one, two, 50000);
     gg_model m = lab_model(&s);
     ratios r = {0};
@@ -147,7 +147,7 @@ static void cooling_mixtures_have_their_ratio(void **state)
 static void viscosity_is_erpenbecks(void **state)
 {
   (void)state;
-  gg_species one = {0.5, 1, 1, 0.4, 1}, two = {0.5, 1, 0.1, 0.4, 1};
+  gg_species one = {0.5, 1, 1, 0.4, 1, 0}, two = {0.5, 1, 0.1, 0.4, 1, 0};
   gg_scene s = mixture(GG_USF, M_PI / 6 * sqrt(2) / 3, 1, -1, one, two, 100000);
   gg_model m = lab_model(&s);
   m.temperature0 = 15;

@@ -22,7 +22,7 @@ static void restart(gg_flow flow, double phi, double beta, int64_t n, int specie
 {
   gg_scene s = lab_scene(flow, phi, 0.8, beta, n);
   s.n_species = species;
-  for (int i = 0; i < species; i++) s.species[i] = (gg_species){1.0 / species, 1 - 0.1 * i, 1 + 0.3 * i, 0.4, 1};
+  for (int i = 0; i < species; i++) s.species[i] = (gg_species){1.0 / species, 1 - 0.1 * i, 1 + 0.3 * i, 0.4, 1, 0};
   s.dsmc.precision = precision;
   gg_model m = lab_model(&s);
   gg_engine *straight = lab_engine(&m, 11), *resumed = NULL;

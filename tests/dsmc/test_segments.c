@@ -253,8 +253,8 @@ static void segments_leave_no_bias(void **state)
   gg_scene s = lab_scene(GG_USF, 0.3, 0.8, 0.3, PLANTED);
   no_bias_in("rough, dense, sheared", &s, 5);
   s.n_species = 2;
-  s.species[0] = (gg_species){0.4, 1, 1, 0.4, 1};
-  s.species[1] = (gg_species){0.6, 0.7, 0.5, 0.3, 1};
+  s.species[0] = (gg_species){0.4, 1, 1, 0.4, 1, 0};
+  s.species[1] = (gg_species){0.6, 0.7, 0.5, 0.3, 1, 0};
   no_bias_in("two rough species, dense, sheared", &s, 5);
   s = lab_scene(GG_HSS, 0.1, 0.5, -1, PLANTED);
   no_bias_in("Gaussian thermostat", &s, 10);
@@ -270,8 +270,8 @@ static void a_small_species_is_not_cut(void **state)
     gg_scene s = lab_scene(GG_EQUILIBRIUM, 0.1, 1, -1, 100000);
     const double few = 0.02;
     s.n_species = 2;
-    s.species[0] = (gg_species){first ? few : 1 - few, 1, 1, 0.4, 1};
-    s.species[1] = (gg_species){first ? 1 - few : few, 1, 1, 0.4, 1};
+    s.species[0] = (gg_species){first ? few : 1 - few, 1, 1, 0.4, 1, 0};
+    s.species[1] = (gg_species){first ? 1 - few : few, 1, 1, 0.4, 1, 0};
     gg_model m = lab_model(&s);
     gg_engine *g = lab_engine(&m, 3);
     const gg_dsmc *d = (const gg_dsmc *)g;

@@ -141,7 +141,7 @@ static void flows_are_those_of_double(void **state)
         if (k == 3) s.thermostat = GG_WHITE_NOISE;
         s.n_species = cases[k].species;
         s.species[0].fraction = 0.5;
-        s.species[1] = (gg_species){0.5, 0.7, 0.5, 0.3, 1};
+        s.species[1] = (gg_species){0.5, 0.7, 0.5, 0.3, 1, 0};
         if (s.n_species == 1) s.species[0].fraction = 1;
         s.dsmc.precision = (gg_precision)p;
         gg_model m = lab_model(&s);
@@ -169,8 +169,8 @@ static void mixtures_are_those_of_double(void **state)
     for (uint64_t seed = 0; seed < 8; seed++) {
       gg_scene s = lab_scene(GG_HCS, 0.1, 0.7, -1, 20000);
       s.n_species = 2;
-      s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1};
-      s.species[1] = (gg_species){0.5, 1, 8, 0.4, 1};
+      s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
+      s.species[1] = (gg_species){0.5, 1, 8, 0.4, 1, 0};
       s.dsmc.precision = (gg_precision)p;
       gg_model m = lab_model(&s);
       gg_engine *g = lab_engine(&m, seed + 100 * (uint64_t)p);

@@ -51,7 +51,7 @@ static gg_model mixture(gg_flow flow)
   gg_scene s = lab_scene(flow, 0.2, 0.95, -1, 2000);
   s.n_species = 2;
   s.species[0].fraction = 0.5;
-  s.species[1] = (gg_species){0.5, 1, 4, 0.4, 1};
+  s.species[1] = (gg_species){0.5, 1, 4, 0.4, 1, 0};
   return lab_model(&s);
 }
 

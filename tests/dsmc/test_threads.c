@@ -64,8 +64,8 @@ static void threads_leave_the_same_bits_of_three_species(void **state)
     gg_scene s = lab_scene(flows[flow], 0.2, 0.8, flow == 1 ? 0.3 : -1, LARGE);
     s.n_species = 3;
     s.species[0].fraction = 0.4;
-    s.species[1] = (gg_species){0.3, 0.7, 2, 0.3, 1};
-    s.species[2] = (gg_species){0.3, 1.2, 0.5, 0.4, 1};
+    s.species[1] = (gg_species){0.3, 0.7, 2, 0.3, 1, 0};
+    s.species[2] = (gg_species){0.3, 1.2, 0.5, 0.4, 1, 0};
     gg_model m = lab_model(&s);
     same_bits_on(&m);
   }
@@ -87,8 +87,8 @@ static void threads_leave_the_same_bits(void **state)
           if (flow == 3) s.thermostat = GG_WHITE_NOISE;
           s.dsmc.precision = (rule + dense + flow + species) % 2 ? GG_SINGLE : GG_DOUBLE;
           s.n_species = species > 1 ? 2 : 1;
-          s.species[0] = (gg_species){species == 3 ? 0.03 : 0.4, 1, 1, 0.4, 1};
-          s.species[1] = (gg_species){species == 3 ? 0.97 : 0.6, 0.7, 2, 0.3, 1};
+          s.species[0] = (gg_species){species == 3 ? 0.03 : 0.4, 1, 1, 0.4, 1, 0};
+          s.species[1] = (gg_species){species == 3 ? 0.97 : 0.6, 0.7, 2, 0.3, 1, 0};
           gg_model m = lab_model(&s);
           same_bits_on(&m);
         }
@@ -134,7 +134,7 @@ static void resumes_with_other_threads(void **state)
   for (int species = 1; species <= 3; species++) {
     gg_scene s = lab_scene(GG_USF, 0.3, 0.8, 0.2, LARGE);
     s.n_species = species;
-    for (int i = 1; i < species; i++) s.species[i] = (gg_species){1, 0.7, 2.0 / i, 0.3, 1};
+    for (int i = 1; i < species; i++) s.species[i] = (gg_species){1, 0.7, 2.0 / i, 0.3, 1, 0};
     gg_model m = lab_model(&s);
     gg_engine *straight = lab_engine(&m, 11);
     gg_error err = {0};

@@ -120,7 +120,7 @@ static void automatic_step_is_fine(void **state)
   for (int i = 0; i < 4; i++) {
     gg_scene s = lab_scene(i < 2 ? GG_USF : GG_HSS, i % 2 ? 0.2 : 0, 0.5, -1, 1000);
     s.n_species = 1 + i % 2;
-    s.species[1] = (gg_species){1, 1, 3, 0.4, 1};
+    s.species[1] = (gg_species){1, 1, 3, 0.4, 1, 0};
     gg_model m = lab_model(&s);
     gg_engine *g = lab_engine(&m, 1);
     gg_engine_state state_now;

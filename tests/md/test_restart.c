@@ -27,8 +27,8 @@ static gg_model model_of(int k, bool mixture)
   if (mixture) {
     s.n_species = 3;
     s.species[0].fraction = 0.5;
-    s.species[1] = (gg_species){0.3, 0.8, 0.5, 0.4, 1};
-    s.species[2] = (gg_species){0.2, 1.2, 2, 0.3, 1};
+    s.species[1] = (gg_species){0.3, 0.8, 0.5, 0.4, 1, 0};
+    s.species[2] = (gg_species){0.2, 1.2, 2, 0.3, 1, 0};
   }
   return md_model_of(&s);
 }

@@ -26,8 +26,8 @@ static inline gg_model ct_model(gg_flow flow, double phi, double beta, int64_t n
   if (flow == GG_EQUILIBRIUM)
     for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = 1;
   if (species == 2) {
-    s.species[0] = (gg_species){0.6, 1, 1, 0.4, 1};
-    s.species[1] = (gg_species){0.4, 1.5, 3, 0.5, 1};
+    s.species[0] = (gg_species){0.6, 1, 1, 0.4, 1, 0};
+    s.species[1] = (gg_species){0.4, 1.5, 3, 0.5, 1, 0};
   }
   gg_model m;
   assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);

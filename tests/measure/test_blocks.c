@@ -18,8 +18,8 @@ static gg_model model_of(gg_flow flow, double beta, int species, gg_precision pr
   gg_scene s = gg_scene_defaults();
   s.engine = GG_DSMC, s.flow = flow, s.phi = 0.2, s.dsmc.particles = n, s.dsmc.precision = precision;
   s.n_species = species;
-  s.species[0] = (gg_species){species == 2 ? 0.4 : 1, 1, 1, 0.4, 1};
-  s.species[1] = (gg_species){0.6, 0.7, 2, 0.3, 1};
+  s.species[0] = (gg_species){species == 2 ? 0.4 : 1, 1, 1, 0.4, 1, 0};
+  s.species[1] = (gg_species){0.6, 0.7, 2, 0.3, 1, 0};
   for (int p = 0; p < GG_PAIRS; p++) s.collision.beta[p] = beta;
   gg_model m;
   gg_error err = {0};

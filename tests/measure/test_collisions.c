@@ -36,7 +36,7 @@ static gg_scene sheared(gg_engine_kind engine, int species, double phi)
   gg_scene s = gg_scene_defaults();
   s.engine = engine, s.phi = phi, s.n_species = species;
   s.particles = 500, s.dsmc.particles = 2000, s.md.contact_time = 0; /* a contact time would make some elastic */
-  if (species == 2) s.species[0] = (gg_species){0.6, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.4, 1.5, 3, 0.4, 1};
+  if (species == 2) s.species[0] = (gg_species){0.6, 1, 1, 0.4, 1, 0}, s.species[1] = (gg_species){0.4, 1.5, 3, 0.4, 1, 0};
   return s;
 }
 
@@ -288,7 +288,7 @@ static void unlike_grains(void **state)
 {
   (void)state;
   gg_scene s = sheared(GG_DSMC, 2, 0.05);
-  s.species[0] = (gg_species){0.9, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.1, 0.2, 100, 0.4, 1};
+  s.species[0] = (gg_species){0.9, 1, 1, 0.4, 1, 0}, s.species[1] = (gg_species){0.1, 0.2, 100, 0.4, 1, 0};
   s.flow = GG_EQUILIBRIUM, s.run.collisions = 12000, s.run.warmup = 100, s.measure |= GG_MEASURE_COLLISIONS;
   s.dsmc.time_step = 0.02; /* within a step pairs of species collide one after the other */
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;

@@ -219,8 +219,8 @@ static void box_shorter_than_free_paths(void **state)
   s.engine = GG_MD, s.flow = GG_EQUILIBRIUM, s.phi = 1e-3, s.particles = 200;
   for (int q = 0; q < GG_PAIRS; q++) s.collision.e[q] = 1;
   s.n_species = 2;
-  s.species[0] = (gg_species){0.95, 1, 1, 0.4, 1};
-  s.species[1] = (gg_species){0.05, 10, 1, 0.4, 1};
+  s.species[0] = (gg_species){0.95, 1, 1, 0.4, 1, 0};
+  s.species[1] = (gg_species){0.05, 10, 1, 0.4, 1, 0};
   s.run.collisions = 1500;
   s.measure |= GG_MEASURE_DIFFUSION;
   gg_model m;

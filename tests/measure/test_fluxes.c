@@ -104,7 +104,7 @@ static void balances_are_exact(void **state)
     for (int q = 0; q < GG_PAIRS; q++)
       s.collision.e[q] = k < 8 ? 0.8 : 1, s.collision.beta[q] = k % 2 == 0 ? -1 : k < 8 ? 0.3 : 1;
     if (k & 2)
-      s.n_species = 2, s.species[0] = (gg_species){0.6, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.4, 1.5, 3, 0.5, 1};
+      s.n_species = 2, s.species[0] = (gg_species){0.6, 1, 1, 0.4, 1, 0}, s.species[1] = (gg_species){0.4, 1.5, 3, 0.5, 1, 0};
     if (k & 4) s.walls.temperature[0] = s.walls.temperature[1] = 0.8, s.walls.accommodation = 0.7;
     check_conservation(&s);
   }

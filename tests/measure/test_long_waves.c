@@ -22,7 +22,7 @@ static gg_model model_of(int species)
   gg_scene s = gg_scene_defaults();
   gg_model m;
   s.flow = GG_HCS, s.phi = 0.2, s.particles = N, s.n_species = species;
-  if (species == 2) s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.5, 1.5, 3, 0.4, 1};
+  if (species == 2) s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0}, s.species[1] = (gg_species){0.5, 1.5, 3, 0.4, 1, 0};
   assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);
   m.box[1] *= 2, m.box[2] /= 2; /* edges of different lengths */
   return m;

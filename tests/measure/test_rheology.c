@@ -41,8 +41,8 @@ static gg_model model_of(gg_flow flow, double beta, int species)
   s.flow = flow, s.phi = 0.2, s.particles = N, s.n_species = species;
   for (int p = 0; p < GG_PAIRS; p++) s.collision.beta[p] = beta;
   if (species == 2) {
-    s.species[0] = (gg_species){333.0 / N, 1, 1, 0.4, 1};
-    s.species[1] = (gg_species){167.0 / N, 1.5, 3, 0.5, 1};
+    s.species[0] = (gg_species){333.0 / N, 1, 1, 0.4, 1, 0};
+    s.species[1] = (gg_species){167.0 / N, 1.5, 3, 0.5, 1, 0};
   }
   gg_model m;
   assert_int_equal(gg_scene_model_make(&s, GG_MD, &m, NULL), GG_OK);

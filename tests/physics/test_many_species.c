@@ -24,12 +24,12 @@ enum { TEN = sizeof diameters / sizeof *diameters };
 
 static gg_scene scene_of(gg_flow flow, int species, double phi, int64_t particles)
 {
-  static const gg_species three[] = {{0.5, 1, 1, 0.4, 1}, {0.3, 1.4, 2, 0.4, 1}, {0.2, 0.7, 0.5, 0.4, 1}};
+  static const gg_species three[] = {{0.5, 1, 1, 0.4, 1, 0}, {0.3, 1.4, 2, 0.4, 1, 0}, {0.2, 0.7, 0.5, 0.4, 1, 0}};
   gg_scene s = gg_scene_defaults();
   s.flow = flow, s.phi = phi, s.particles = particles, s.n_species = species;
   for (int i = 0; i < species; i++) {
     const double d = diameters[i % TEN];
-    s.species[i] = species == 3 ? three[i] : (gg_species){1.0 / TEN, d, d * d * d, 0.4, 1};
+    s.species[i] = species == 3 ? three[i] : (gg_species){1.0 / TEN, d, d * d * d, 0.4, 1, 0};
   }
   for (int p = 0; p < GG_PAIRS; p++) s.collision.e[p] = flow == GG_EQUILIBRIUM ? 1 : 0.9 - 0.02 * (p % 3);
   return s;

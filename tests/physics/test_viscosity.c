@@ -130,8 +130,8 @@ static void mixtures_have_the_viscosity_of_first_sonine_order(void **state)
   (void)state;
   gg_scene s = slow(0.8, 0.2, GG_GAUSSIAN);
   s.n_species = 2;
-  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1};
-  s.species[1] = (gg_species){0.5, 1, 0.25, 0.4, 1};
+  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
+  s.species[1] = (gg_species){0.5, 1, 0.25, 0.4, 1, 0};
   gg_result *r = run(&s);
   gg_theory_answer theory;
   assert_int_equal(gg_theory_evaluate(gg_theory_find("garzo_montanero2003"), &r->model, &theory, NULL), GG_OK);

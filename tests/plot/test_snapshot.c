@@ -124,7 +124,7 @@ static gg_result *result_with(gg_flow flow, const double place[GRAINS][3])
   gg_result *r = planted_result(GG_MD);
   gg_scene *s = r->scene;
   s->flow = flow, s->phi = 0.02, s->particles = GRAINS, s->n_species = 2;
-  s->species[0] = (gg_species){0.6, 1, 1, 0.4, 1}, s->species[1] = (gg_species){0.4, 1.5, 2, 0.4, 1};
+  s->species[0] = (gg_species){0.6, 1, 1, 0.4, 1, 0}, s->species[1] = (gg_species){0.4, 1.5, 2, 0.4, 1, 0};
   s->aspect[0] = 1, s->aspect[1] = 2, s->aspect[2] = 1.5;
   if (flow == GG_CHUTE) s->walls.top = GG_OPEN_TOP, s->gravity[1] = -1;
   gg_error err = {0};
@@ -238,8 +238,8 @@ static gg_result *gas_of(size_t n, double phi, bool mixed)
   gg_scene *s = r->scene;
   s->flow = GG_USF, s->phi = phi, s->particles = (int64_t)n;
   if (mixed)
-    s->n_species = 2, s->species[0] = (gg_species){0.5, 1, 1, 0.4, 1},
-    s->species[1] = (gg_species){0.5, 0.5, 1, 0.4, 1};
+    s->n_species = 2, s->species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0},
+    s->species[1] = (gg_species){0.5, 0.5, 1, 0.4, 1, 0};
   gg_error err = {0};
   if (gg_scene_model_make(s, GG_MD, &r->model, &err) != GG_OK) fail_msg("%s", err.message);
   gg_frame *f = &r->final;

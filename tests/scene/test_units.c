@@ -68,7 +68,9 @@ static gg_scene scaled(const gg_scene *scene, scaling by)
 {
   gg_scene s = *scene;
   for (const gg_field *f = gg_scene_fields; f->key; f++)
-    if (f->type == GG_FIELD_NUMBER || f->type == GG_FIELD_VECTOR || f->type == GG_FIELD_ENDS) scale_field(f, &s, by);
+    if (f->type == GG_FIELD_NUMBER || f->type == GG_FIELD_VECTOR || f->type == GG_FIELD_ENDS ||
+        f->type == GG_FIELD_PAIRS)
+      scale_field(f, &s, by);
   for (int i = 0; i < s.n_species; i++)
     for (const gg_field *f = gg_scene_species_fields; f->key; f++) scale_field(f, &s.species[i], by);
   for (gg_change *c = s.protocol; c < s.protocol + GG_MAX_CHANGES && *c->key; c++) {
@@ -92,6 +94,8 @@ static gg_scene reversed(const gg_scene *scene)
       s.collision.e[here] = scene->collision.e[there];
       s.collision.beta[here] = scene->collision.beta[there];
       s.collision.mu[here] = scene->collision.mu[there];
+      s.collision.normal_kick[here] = scene->collision.normal_kick[there];
+      s.collision.tangential_kick[here] = scene->collision.tangential_kick[there];
     }
   }
   return s;
@@ -132,10 +136,12 @@ static int physical(const gg_model *m, bool backward, double x[MOST], const char
     PUT("diameter", m->diameter[i] * L), PUT("mass", m->mass[i] * M), PUT("inertia", m->inertia[i]);
     PUT("grains", (double)m->n_of[i]);
     PUT("drag", m->bath.drag[i] / t), PUT("noise", m->bath.noise[i] * v * v / t);
+    PUT("torque", m->bath.torque[i] * v / t);
     PUT("spin_drag", m->bath.spin_drag[i] / t), PUT("spin_noise", m->bath.spin_noise[i] * v * v / t);
     for (int l = 0; l <= k; l++) {
       const int j = backward ? m->n_species - 1 - l : l, o = gg_pair(i, j);
       PUT("sigma", m->sigma[o] * L), PUT("chi", m->chi[o]), PUT("e", m->e[o]), PUT("beta", m->beta[o]);
+      PUT("kick", m->normal_kick[o] * v), PUT("kick", m->tangential_kick[o] * v);
       PUT("law", m->law.name ? m->law.scale[o] / v : 0);
     }
   }
@@ -161,6 +167,8 @@ static const char *unit_of(const char *name)
                                          {"mass", "mass"},
                                          {"drag", "1/time"},
                                          {"noise", "velocity^2/time"},
+                                         {"torque", "acceleration"},
+                                         {"kick", "velocity"},
                                          {"spin_drag", "1/time"},
                                          {"spin_noise", "velocity^2/time"},
                                          {"sigma", "length"},
@@ -194,6 +202,12 @@ static void compare_models(const gg_model *one, const gg_model *two, scaling by,
   "species: [{fraction: 0.5, diameter: 0.02, mass: 3, inertia: 0.3, drag: 2}, {fraction: 0.5, diameter: 0.03, mass: "  \
   "7}], "
 #define ROUGH "collision: {e: {11: 0.8, 12: 0.9, 22: 0.7}, beta: {11: 0.1, 12: 0.3, 22: -0.5}}, "
+#define SPINNERS                                                                                                       \
+  "species: [{fraction: 0.5, diameter: 0.02, mass: 3, torque: 0.3}, {fraction: 0.5, diameter: 0.03, mass: 7, torque: " \
+  "-0.2}], "
+#define KICKS                                                                                                          \
+  "collision: {e: 0.8, beta: {11: 0.1, 12: 0.3, 22: -0.5}, normal_kick: {11: 0.02, 12: 0.01, 22: 0.03}, "              \
+  "tangential_kick: {11: 0.01, other: -0.02}}, "
 #define COMMON "phi: 0.1, particles: 600, "
 static const char *const mixtures[] = {
     "{flow: equilibrium, " COMMON SPECIES "start: {temperature: 5}}",
@@ -209,6 +223,11 @@ static const char *const mixtures[] = {
     "{flow: hss, thermostat: bath, bath: {drag: 0.5, temperature: 3}, " COMMON SPECIES ROUGH
     "start: {temperature: 5, rotational_temperature: 1}}",
     "{flow: usf, shear_rate: 3, " COMMON SPECIES ROUGH "}",
+    "{flow: hss, " COMMON SPECIES KICKS "}",
+    "{flow: hss, " COMMON SPINNERS ROUGH "start: {spin: 4}}",
+    "{flow: usf, shear_rate: 3, " COMMON SPINNERS KICKS "}",
+    "{flow: hss, thermostat: bath, bath: {drag: 0.5, temperature: 3, rotation: 2}, " COMMON SPINNERS KICKS "}",
+    "{flow: couette, walls: {speed: 2}, " COMMON SPECIES KICKS "}",
     "{flow: usf, shear_rate: 3, " COMMON SPECIES ROUGH "start: {temperature: 0.1, rotational_temperature: 1, spin: 4}}",
     "{flow: usf, shear_rate: 3, thermostat: bath, bath: {drag: 0.5, temperature: 3}, " COMMON SPECIES ROUGH "}",
     "{flow: small_shear, shear_rate: 3, " COMMON SPECIES "collision: {e: 0.9}}",

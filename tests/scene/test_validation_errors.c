@@ -10,8 +10,8 @@
 #include <string.h>
 
 #include "base/spelling.h"
-#include "scene/scene_reader.h"
 #include "graingas.h"
+#include "scene/scene_reader.h"
 
 static gg_status read_and_finish(const char *yaml, gg_error *err)
 {
@@ -253,6 +253,16 @@ static void contradicting_keys_are_rejected(void **state)
   assert_refused("flow: equilibrium\nphi: 0.3\ncollision: {e: 0.9}\n", "lose no energy");
   assert_refused("flow: equilibrium\nphi: 0.3\ncollision: {beta: 0}\n", "lose no energy");
   assert_refused("flow: hss\nphi: 0.3\nthermostat: none\n", "hss needs a thermostat");
+  assert_refused("flow: hss\nphi: 0.3\nthermostat: injection\n", "injection needs collision.normal_kick, ");
+  assert_refused(
+      "flow: hcs\nphi: 0.3\ncollision: {normal_kick: 1}\n",
+      "collision.normal_kick and tangential_kick: flow: hcs takes no energy from kicks and torques; use flow: hss");
+  assert_refused("flow: equilibrium\nphi: 0.3\ncollision: {tangential_kick: -1}\n", "needs collisions that lose no");
+  assert_refused("flow: hss\nphi: 0.3\ncollision: {normal_kick: -1}\n", "allowed: a number from 0 to 1e+30");
+  assert_refused("flow: small_shear\nphi: 0.3\ncollision: {beta: 0}\nspecies: [{torque: 1}]\n",
+                 "species.torque: flow: small_shear takes no energy");
+  assert_refused("flow: hss\nphi: 0.3\nthermostat: gaussian\ncollision: {beta: 0}\nspecies: [{torque: 1}]\n",
+                 "give gaussian_rate a value, or use thermostat: bath");
   assert_refused("flow: hcs\nphi: 0.3\nthermostat: gaussian\n", "gaussian does not go with flow: hcs; use flow: ");
   assert_refused("flow: usf\nphi: 0.3\nthermostat: gaussian\n",
                  "gaussian does not go with flow: usf; use flow: hss or small_shear");

@@ -49,11 +49,11 @@ static void noise_free(void **state)
   (void)state;
   gg_scene mixed = scene_of(GG_HSS, 0.1, 0.6, -1);
   mixed.n_species = 2;
-  mixed.species[0] = (gg_species){0.5, 1, 1, 0.4, 1};
-  mixed.species[1] = (gg_species){0.5, 0.5, 0.5, 0.4, 1};
+  mixed.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
+  mixed.species[1] = (gg_species){0.5, 0.5, 0.5, 0.4, 1, 0};
   gg_scene sheared = mixed;
   sheared.flow = GG_USF, sheared.phi = 0.3;
-  sheared.species[1] = (gg_species){0.5, 0.5, 0.1, 0.4, 1};
+  sheared.species[1] = (gg_species){0.5, 0.5, 0.1, 0.4, 1, 0};
   const gg_scene scene[] = {scene_of(GG_USF, 0.3, 0.7, -1),
                             scene_of(GG_USF, 0, 0.6, -1),
                             scene_of(GG_HCS, 0.1, 0.5, -1),
@@ -117,8 +117,8 @@ static void cooling_states_agree_with_the_engine(void **state)
   gg_result_free(r);
   gg_scene s = scene_of(GG_HCS, 0, 0.5, -1);
   s.n_species = 2;
-  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1};
-  s.species[1] = (gg_species){0.5, 1, 0.5, 0.4, 1};
+  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
+  s.species[1] = (gg_species){0.5, 1, 0.5, 0.4, 1, 0};
   r = run(s);
   compare(r, &gg_theory_garzo_montanero2003, GG_Q_PARTIAL_TEMPERATURE_RATIO, 0.003, 0);
   compare(r, &gg_theory_garzo_montanero2003, GG_Q_COOLING_RATE, 0.003, 0);

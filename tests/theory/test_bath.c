@@ -195,7 +195,7 @@ static void equal_species_in_a_bath_are_one(void **state)
     const gg_flow f = flow ? GG_USF : GG_HSS;
     gg_scene one = bath(f, 0.2, 0.8, -1, 0.3, 2), two = one;
     two.n_species = 2;
-    two.species[0] = two.species[1] = (gg_species){0.5, 1, 1, 0.4, 1};
+    two.species[0] = two.species[1] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
     if (flow) assert_close(sheared_temperature(&two), sheared_temperature(&one), 1e-7);
     if (!flow || nightly())
       assert_close(solved(&two).value[GG_Q_TEMPERATURE], solved(&one).value[GG_Q_TEMPERATURE], flow ? 1e-5 : 1e-7);

@@ -278,7 +278,7 @@ static void refuses_what_it_does_not_describe(void **state)
   assert_refused(&gg_theory_enskog_hermite, &mixed, "describes smooth grains");
   gg_scene many = scene_of(GG_USF, 0.1, 0.9, -1);
   many.n_species = 9;
-  for (int i = 0; i < 9; i++) many.species[i] = (gg_species){1. / 9, 1, 1 + i, 0.4, 1};
+  for (int i = 0; i < 9; i++) many.species[i] = (gg_species){1. / 9, 1, 1 + i, 0.4, 1, 0};
   many.dsmc.particles = 90000;
   gg_model nine = model_of(&many);
   assert_refused(&gg_theory_enskog_hermite, &nine, "up to 8 species");

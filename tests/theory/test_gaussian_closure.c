@@ -31,7 +31,7 @@ static gg_model unlike(double phi, double e, double mass, double diameter)
 {
   gg_scene s = scene_of(GG_USF, phi, e, -1);
   s.n_species = 2;
-  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.5, diameter, mass, 0.4, 1};
+  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0}, s.species[1] = (gg_species){0.5, diameter, mass, 0.4, 1, 0};
   return model_of(&s);
 }
 
@@ -78,7 +78,7 @@ static void unlike_losses(void **state)
   (void)state;
   gg_scene s = scene_of(GG_USF, 0.416624, 0.9999881646604375, 1);
   s.n_species = 2;
-  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1}, s.species[1] = (gg_species){0.5, 0.36, 30, 0.2, 1};
+  s.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0}, s.species[1] = (gg_species){0.5, 0.36, 30, 0.2, 1, 0};
   s.collision.beta[gg_pair(0, 1)] = -0.6, s.collision.beta[gg_pair(1, 1)] = -1;
   gg_model m = model_of(&s);
   gg_gaussian g[2];

@@ -192,8 +192,8 @@ static void those_of_the_engine(void **state)
   (void)state;
   gg_scene mixed = scene_of(GG_HCS, 0, 0.4, -1);
   mixed.n_species = 2;
-  mixed.species[0] = (gg_species){0.5, 1, 1, 0.4, 1};
-  mixed.species[1] = (gg_species){0.5, 1, 3, 0.4, 1};
+  mixed.species[0] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
+  mixed.species[1] = (gg_species){0.5, 1, 3, 0.4, 1, 0};
   gg_scene sliding = scene_of(GG_HSS, 0, 0.8, 0), rough = scene_of(GG_HCS, 0.1, 0.9, 0.5);
   for (int p = 0; p < GG_PAIRS; p++) sliding.collision.mu[p] = 0.1;
   const unsigned components = GG_MEASURE_VELOCITY_DISTRIBUTIONS, speeds = GG_MEASURE_SONINE;

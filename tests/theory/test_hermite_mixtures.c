@@ -17,7 +17,7 @@ static gg_model three_of(gg_flow flow, double phi, double e)
 {
   gg_scene s = scene_of(flow, phi, e, -1);
   s.n_species = 3;
-  for (int i = 0; i < 3; i++) s.species[i] = (gg_species){1. / 3, 1, i == 1 ? 4 : 1, 0.4, 1};
+  for (int i = 0; i < 3; i++) s.species[i] = (gg_species){1. / 3, 1, i == 1 ? 4 : 1, 0.4, 1, 0};
   s.dsmc.particles = 300000;
   return model_of(&s);
 }
@@ -173,8 +173,8 @@ static gg_model drawn(int k)
   s.n_species = 2;
   for (int q = 0; q < 3; q++) s.collision.e[q] = 0.2 + 0.7 * u[1 + q];
   double x = 0.1 + 0.8 * u[4];
-  s.species[0] = (gg_species){x, 1, 1, 0.4, 1};
-  s.species[1] = (gg_species){1 - x, 0.5 + 1.5 * u[5], pow(8, 2 * u[6] - 1), 0.4, 1};
+  s.species[0] = (gg_species){x, 1, 1, 0.4, 1, 0};
+  s.species[1] = (gg_species){1 - x, 0.5 + 1.5 * u[5], pow(8, 2 * u[6] - 1), 0.4, 1, 0};
   s.dsmc.particles = 0;
   return model_of(&s);
 }
@@ -237,7 +237,7 @@ static void mixtures_in_white_noise(void **state)
   s.thermostat = GG_WHITE_NOISE;
   gg_model one = model_of(&s);
   s.n_species = 2;
-  for (int i = 0; i < 2; i++) s.species[i] = (gg_species){0.5, 1, 1, 0.4, 1};
+  for (int i = 0; i < 2; i++) s.species[i] = (gg_species){0.5, 1, 1, 0.4, 1, 0};
   gg_model two = model_of(&s);
   gg_theory_answer a = answer_of(&gg_theory_enskog_hermite, &one), b = answer_of(&gg_theory_enskog_hermite, &two);
   assert_close(b.value[GG_Q_PARTIAL_TEMPERATURE_RATIO], 1, 1e-9);

@@ -49,7 +49,7 @@ static void no_number_leaks(void **state)
           if (!gg_flow_takes(s.flow, (gg_thermostat)thermostat)) continue;
           s.thermostat = (gg_thermostat)thermostat;
           s.n_species = species;
-          s.species[1] = (gg_species){0.5, 1.5, 4, 0.4, 1};
+          s.species[1] = (gg_species){0.5, 1.5, 4, 0.4, 1, 0};
           if (flow == GG_COUETTE) s.walls.speed = 1;
           for (int p = 0; p < GG_PAIRS; p++) s.collision.mu[p] = mus[i / 75];
           gg_model m = model_of(&s);

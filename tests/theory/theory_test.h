@@ -55,8 +55,8 @@ static inline gg_model mixture_for(gg_flow flow, double phi, double e, double be
 {
   gg_scene s = scene_of(flow, phi, e, beta);
   s.n_species = 2;
-  s.species[0] = (gg_species){number / (1 + number), 1, 1, 0.4, 1};
-  s.species[1] = (gg_species){1 / (1 + number), 1 / size, 1 / mass, 0.4, 1};
+  s.species[0] = (gg_species){number / (1 + number), 1, 1, 0.4, 1, 0};
+  s.species[1] = (gg_species){1 / (1 + number), 1 / size, 1 / mass, 0.4, 1, 0};
   s.dsmc.particles = 600000; /* so that fractions in thirds and halves are exact */
   return model_of(&s);
 }

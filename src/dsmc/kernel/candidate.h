@@ -24,7 +24,7 @@ typedef struct gg_dsmc_pass_state {
   bool any_odd; /* a last block is not full: odd_one, odd_two; UINT32_MAX: none */
   gg_vu odd_one, odd_two, first_one, first_two, n_one, n_two; /* the same in all lanes */
   gg_dsmc_lane_contact contact;
-  const gg_real *losses;   /* table of a law of restitution */
+  const gg_real *losses;   /* table of a law of restitution; NULL: e is constant */
   gg_real loss_scale;      /* unit of its speeds over the present one */
   bool sorts;              /* lanes are exchanged by speed; false: at random */
   gg_real floor, majorant; /* layer of |C12| */
@@ -61,7 +61,7 @@ typedef struct gg_dsmc_candidate {
 GG_INLINE bool gg_dsmc_needs_k(gg_dsmc_features features)
 {
   return features.rule != GG_SMOOTH || features.shear == GG_DSMC_SHEARED_DENSE || features.sums == GG_DSMC_STRESS ||
-         features.law;
+         features.own;
 }
 
 /* True if gg_dsmc_mirror_scale is computed in the first stage. With shear between the centres the second stage is

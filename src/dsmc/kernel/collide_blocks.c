@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Collisions on blocks, a Monte Carlo pass: the lanes of a random block collide with the lanes of another one in a
  * random order, eight candidates at once (candidate.h). Compiled once for each collision rule (GG_RULE), with and
- * without a law of restitution (GG_LAW), set of instructions and precision (GG_SINGLE_LANES), into the table
+ * without a contact of its own (GG_OWN), set of instructions and precision (GG_SINGLE_LANES), into the table
  * GG_INSTANCES. All sets leave the same bits.
  *
  * There is no bias. Each lane of one block is paired with each lane of the other with probability 1/8, and every pair
@@ -81,10 +81,11 @@ GG_INLINE void start(gg_dsmc_features features, gg_dsmc_pass_state *state, const
       .root = (gg_real)(sqrt(pass->bound_scale) * (1 + 1e-6)),
       .per_scale = (gg_real)gg_dsmc_per_bound(pass->bound_scale)};
 #ifdef GG_SINGLE_LANES
-  if (features.law) state->losses = pass->losses->single;
+  if (features.own && pass->losses) state->losses = pass->losses->single;
 #else
-  if (features.law) state->losses = pass->losses->loss;
+  if (features.own && pass->losses) state->losses = pass->losses->loss;
 #endif
+  state->sums.kicks = pass->contact.kn != 0 || pass->contact.kt != 0;
   state->majorant = (gg_real)(pass->floor + pass->majorant - state->s0);
   state->correction_pass = pass->floor > 0;
   state->most = gg_all(state->majorant);
@@ -223,18 +224,18 @@ GG_INLINE void run(gg_dsmc_features features, gg_dsmc_pass *pass, gg_dsmc_rng_la
   gg_dsmc_lane_rng_save(&samples.rng, lanes);
 }
 
-/* Instances: shear and sums, for one or two species. No scene needs other combinations (gg_dsmc_features_by_law). */
+/* Instances: shear and sums, for one or two species. No scene needs other combinations (gg_dsmc_features_of_own). */
 #define EACH_SAME(X, shear, sums) X(shear, sums, 0) X(shear, sums, 1)
-#define EACH_WITH_LAW(X)                                                                                               \
+#define EACH_OWN(X)                                                                                                    \
   EACH_SAME(X, GG_DSMC_UNSHEARED, GG_DSMC_LOSS)                                                                        \
   EACH_SAME(X, GG_DSMC_UNSHEARED, GG_DSMC_STRESS)                                                                      \
   EACH_SAME(X, GG_DSMC_SHEARED_DILUTE, GG_DSMC_LOSS)                                                                   \
   EACH_SAME(X, GG_DSMC_SHEARED_DENSE, GG_DSMC_STRESS)
-#if GG_LAW
-#define EACH(X) EACH_WITH_LAW(X)
+#if GG_OWN
+#define EACH(X) EACH_OWN(X)
 #else
 #define EACH(X)                                                                                                        \
-  EACH_WITH_LAW(X)                                                                                                     \
+  EACH_OWN(X)                                                                                                          \
   EACH_SAME(X, GG_DSMC_UNSHEARED, GG_DSMC_NO_SUMS)                                                                     \
   EACH_SAME(X, GG_DSMC_SHEARED_DILUTE, GG_DSMC_NO_SUMS)                                                                \
   EACH_SAME(X, GG_DSMC_SHEARED_DENSE, GG_DSMC_NO_SUMS)                                                                 \
@@ -244,7 +245,7 @@ GG_INLINE void run(gg_dsmc_features features, gg_dsmc_pass *pass, gg_dsmc_rng_la
 #define INSTANCE(shear, sums, same)                                                                                    \
   static void run_##shear##_##sums##_##same(gg_dsmc_pass *pass, gg_dsmc_rng_lanes *lanes, gg_rng *rng)                 \
   {                                                                                                                    \
-    run((gg_dsmc_features){GG_RULE, shear, sums, same, GG_LAW}, pass, lanes, rng);                                     \
+    run((gg_dsmc_features){GG_RULE, shear, sums, same, GG_OWN}, pass, lanes, rng);                                     \
   }
 EACH(INSTANCE)
 

@@ -20,7 +20,7 @@ typedef struct gg_dsmc_instances {
 #define GG_DSMC_DECLARE_PRECISION(precision, name)                                                                     \
   extern const gg_dsmc_instances gg_dsmc_collide_##precision##_smooth_##name,                                          \
       gg_dsmc_collide_##precision##_rough_##name, gg_dsmc_collide_##precision##_frictional_##name,                     \
-      gg_dsmc_collide_##precision##_smooth_by_law_##name, gg_dsmc_collide_##precision##_frictional_by_law_##name;
+      gg_dsmc_collide_##precision##_smooth_own_##name, gg_dsmc_collide_##precision##_frictional_own_##name;
 #define GG_DSMC_DECLARE_COLLIDE(set, name)                                                                             \
   GG_DSMC_DECLARE_PRECISION(double, name) GG_DSMC_DECLARE_PRECISION(single, name)
 GG_EACH_COMPILED_SET(GG_DSMC_DECLARE_COLLIDE)

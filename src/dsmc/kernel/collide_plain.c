@@ -42,6 +42,7 @@ static void sums(gg_dsmc_features features, gg_dsmc_pass *pass, const gg_contact
 {
   if (features.sums == GG_DSMC_NO_SUMS) return;
   pass->loss += gg_energy_loss(contact, k, g, J);
+  if (features.own) pass->given += gg_kicked_energy_loss(contact, k, g, J).given;
   if (features.sums == GG_DSMC_LOSS) return;
   gg_add_stress(pass->stress, pass->sigma, k, J);
 }
@@ -73,7 +74,8 @@ static void collide(gg_dsmc_features features, gg_dsmc_pass *pass, grain_pair *p
   const gg_contact *contact = &pass->contact;
   if (pass->law || pass->losses) by_law = contact_at(pass, gn), contact = &by_law;
   gg_vec g = gg_contact_velocity(features.rule, k, c12, pair->sa, pair->sb),
-         J = gg_impulse(features.rule, contact, k, g, gn);
+         J = features.own ? gg_kicked_impulse(features.rule, contact, k, g, gn)
+                          : gg_impulse(features.rule, contact, k, g, gn);
   if (pass->callback) call_back(pass, pair, k, c12, J);
   sums(features, pass, contact, k, g, J);
   gg_kick(features.rule, contact, k, J, &pair->ca, &pair->sa, &pair->cb, &pair->sb);

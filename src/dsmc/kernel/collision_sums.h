@@ -14,26 +14,29 @@ enum { GG_DSMC_NOTES = 8 };
 typedef struct gg_dsmc_note {
   gg_vd3 k, J;      /* for the stress; the write-back reads them from here */
   gg_vd Jg, Jn, J2; /* terms of the loss that do not follow from k and J */
+  gg_vd given;      /* by kicks */
 } gg_dsmc_note;
 
 typedef struct gg_dsmc_sums {
   unsigned n; /* notes */
+  bool kicks; /* notes have what kicks give */
   gg_dsmc_note note[GG_DSMC_NOTES][GG_PARTS];
   /* Sums by lane, in double for both precisions: stress as in gg_collision_sums, and terms of the loss
    * (gg_dsmc_all_terms). */
   double xx[GG_DSMC_LANES], yy[GG_DSMC_LANES], zz[GG_DSMC_LANES], xy[GG_DSMC_LANES], yx[GG_DSMC_LANES],
-      Jg[GG_DSMC_LANES], Jn2[GG_DSMC_LANES], J2[GG_DSMC_LANES];
+      Jg[GG_DSMC_LANES], Jn2[GG_DSMC_LANES], J2[GG_DSMC_LANES], given[GG_DSMC_LANES];
 } gg_dsmc_sums;
 
 /* True if one term of the loss is enough. With constant coefficients terms follow from each other (gg_dsmc_all_terms):
- * for smooth grains all from one, for rough grains the third. With a law of restitution all terms are summed. */
+ * for smooth grains all from one, for rough grains the third. With a law of restitution or kicks all terms are
+ * summed. */
 GG_INLINE bool gg_dsmc_sums_one(gg_dsmc_features features)
 {
-  return features.rule == GG_SMOOTH && !features.law;
+  return features.rule == GG_SMOOTH && !features.own;
 }
 GG_INLINE bool gg_dsmc_sums_all(gg_dsmc_features features)
 {
-  return features.rule == GG_FRICTIONAL || features.law;
+  return features.rule == GG_FRICTIONAL || features.own;
 }
 
 /* Note the terms of the loss that do not follow from k and J. */
@@ -53,6 +56,15 @@ GG_INLINE void gg_dsmc_sums_add(double *sum, int part, gg_vd v)
   __builtin_memcpy(&s, sum + part * GG_WIDTH, sizeof s);
   s += __builtin_convertvector(v, gg_doubles);
   __builtin_memcpy(sum + part * GG_WIDTH, &s, sizeof s);
+}
+
+/* Sum the energy that kicks gave. */
+GG_INLINE void gg_dsmc_sums_collect_given(gg_dsmc_features features, gg_dsmc_sums *sums, int part)
+{
+  gg_vd given = gg_all(0);
+  if (!features.own || !sums->kicks) return;
+  for (unsigned i = 0; i < sums->n; i++) given += sums->note[i][part].given;
+  gg_dsmc_sums_add(sums->given, part, given);
 }
 
 /* Sum the notes of the loss alone. */
@@ -102,11 +114,13 @@ GG_INLINE void gg_dsmc_sums_collect_stress(gg_dsmc_features features, gg_dsmc_su
 
 GG_INLINE void gg_dsmc_sums_collect(gg_dsmc_features features, gg_dsmc_sums *sums)
 {
-  for (int part = 0; part < GG_PARTS; part++)
+  for (int part = 0; part < GG_PARTS; part++) {
     if (features.sums == GG_DSMC_STRESS)
       gg_dsmc_sums_collect_stress(features, sums, part);
     else
       gg_dsmc_sums_collect_loss(features, sums, part);
+    gg_dsmc_sums_collect_given(features, sums, part);
+  }
   sums->n = 0;
 }
 
@@ -135,6 +149,7 @@ GG_INLINE void gg_dsmc_sums_finish(gg_dsmc_features features, gg_dsmc_sums *sums
   if (features.sums == GG_DSMC_STRESS && gg_dsmc_sums_one(features)) terms.Jg = terms.Jn2 / pass->contact.jn;
   if (!gg_dsmc_sums_all(features)) terms = gg_dsmc_all_terms(features.rule, &pass->contact, terms);
   pass->loss += gg_loss_of_terms(&pass->contact, terms);
+  if (features.own) pass->given += mass * gg_dsmc_sum_of_lanes(sums->given);
   if (features.sums == GG_DSMC_LOSS) return;
   pass->stress[0][0] += stress * gg_dsmc_sum_of_lanes(sums->xx);
   pass->stress[1][1] += stress * gg_dsmc_sum_of_lanes(sums->yy);

@@ -8,8 +8,8 @@
     {&gg_dsmc_collide_##precision##_smooth_##name, &gg_dsmc_collide_##precision##_rough_##name,                        \
      &gg_dsmc_collide_##precision##_frictional_##name},                                                                \
     {                                                                                                                  \
-      [GG_SMOOTH] = &gg_dsmc_collide_##precision##_smooth_by_law_##name,                                               \
-      [GG_FRICTIONAL] = &gg_dsmc_collide_##precision##_frictional_by_law_##name                                        \
+      [GG_SMOOTH] = &gg_dsmc_collide_##precision##_smooth_own_##name,                                                  \
+      [GG_FRICTIONAL] = &gg_dsmc_collide_##precision##_frictional_own_##name                                           \
     }                                                                                                                  \
   }
 #ifdef GG_DOUBLE_ALONE
@@ -63,6 +63,6 @@ void gg_dsmc_collide_pass(const gg_dsmc_kernels *kernels, gg_dsmc_path path, gg_
   if (path == GG_DSMC_PLAIN)
     gg_dsmc_collide_plain(features, pass, rng);
   else
-    kernels->collide[pass->one->single][features.law][features.rule]->of[features.shear][features.sums][features.same](
+    kernels->collide[pass->one->single][features.own][features.rule]->of[features.shear][features.sums][features.same](
         pass, lanes, rng);
 }

@@ -7,7 +7,7 @@
 
 /* A gg_contact in the lanes' precision. */
 typedef struct gg_dsmc_lane_contact {
-  gg_real jn, jt, mu, im1, im2, ik1, ik2;
+  gg_real jn, jt, mu, im1, im2, ik1, ik2, kn, kt;
   gg_real mr;           /* 1/(1/m1 + 1/m2) */
   gg_real push1, push2; /* velocity changes from 2 g_n k */
 } gg_dsmc_lane_contact;
@@ -34,6 +34,8 @@ GG_INLINE gg_dsmc_lane_contact gg_dsmc_lane_contact_of(bool same, const gg_conta
                                 .im2 = (gg_real)(c->im2 * mass),
                                 .ik1 = (gg_real)(c->ik1 * mass),
                                 .ik2 = (gg_real)(c->ik2 * mass),
+                                .kn = (gg_real)(c->kn / mass),
+                                .kt = (gg_real)(c->kt / mass),
                                 .mr = (gg_real)(1 / (gg_inverse_mr(c) * mass)),
                                 .push1 = (gg_real)(0.5 * c->jn * c->im1),
                                 .push2 = (gg_real)(0.5 * c->jn * c->im2)};

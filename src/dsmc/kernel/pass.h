@@ -37,16 +37,16 @@ typedef struct gg_dsmc_features {
   gg_dsmc_shear shear;
   gg_dsmc_sums_kept sums;
   bool same; /* both grains of one species */
-  bool law;  /* a built-in law of restitution */
+  bool own;  /* the contact is made at the collision: a built-in law of restitution, or kicks */
 } gg_dsmc_features;
 
-/* Features with a law of restitution, which has fewer instances: rough grains use the frictional rule, and all sums are
- * computed. */
-GG_INLINE gg_dsmc_features gg_dsmc_features_by_law(gg_dsmc_features features, bool boltzmann)
+/* Features with a law of restitution or kicks, which have fewer instances: rough grains use the frictional rule, and
+ * all sums are computed. */
+GG_INLINE gg_dsmc_features gg_dsmc_features_of_own(gg_dsmc_features features, bool boltzmann)
 {
   if (features.rule == GG_ROUGH) features.rule = GG_FRICTIONAL;
   features.sums = boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
-  features.law = true;
+  features.own = true;
   return features;
 }
 
@@ -88,7 +88,8 @@ typedef struct gg_dsmc_pass {
   uint64_t tried; /* candidate pairs of grains */
   uint64_t collisions, overflows, clamped;
   double largest;            /* largest g_n of a candidate */
-  double stress[3][3], loss; /* if they are summed */
+  double stress[3][3], loss; /* if they are summed; loss: of all energy, kicks included */
+  double given;              /* by kicks */
 } gg_dsmc_pass;
 
 /* Eight random streams, one a lane. */

@@ -190,10 +190,10 @@ GG_INLINE void gg_dsmc_load(gg_dsmc_features features, gg_dsmc_pass_state *state
   }
 }
 
-/* Normal impulse J_n = m_r (1+e) g_n. */
+/* Normal impulse J_n = m_r (1+e) g_n, without kicks. */
 GG_INLINE gg_vd gg_dsmc_normal_impulse(gg_dsmc_features features, const gg_dsmc_pass_state *state, gg_vd gn)
 {
-  if (!features.law) return state->contact.jn * gn;
+  if (!features.own || !state->losses) return state->contact.jn * gn;
   return state->contact.mr * gn * (2 - gg_vd3_loss_at(state->losses, state->loss_scale * gn));
 }
 
@@ -212,16 +212,26 @@ GG_INLINE void gg_dsmc_accept_part(gg_dsmc_features features, gg_dsmc_pass_state
     candidate.g = gg_vd3_contact_velocity(features.rule, candidate.k, candidate.g, sa, at->sb[part]);
   }
   const gg_vd Jn = gg_dsmc_normal_impulse(features, state, candidate.gn);
-  gg_vd3 J = gg_dsmc_needs_k(features)
-                 ? gg_vd3_impulse_of(features.rule, &state->contact, candidate.k, candidate.g, candidate.gn, Jn)
-                 : candidate.gn_k;
+  const bool kicks = features.own && __builtin_expect(state->sums.kicks, 0);
+  gg_vd3 J;
+  if (kicks)
+    J = gg_vd3_kicked_impulse_of(features.rule, &state->contact, candidate.k, candidate.g, candidate.gn, Jn);
+  else
+    J = gg_dsmc_needs_k(features)
+            ? gg_vd3_impulse_of(features.rule, &state->contact, candidate.k, candidate.g, candidate.gn, Jn)
+            : candidate.gn_k;
   J = (gg_vd3){gg_where(candidate.hit, J.x), gg_where(candidate.hit, J.y), gg_where(candidate.hit, J.z)};
   if (gg_dsmc_needs_k(features)) *gg_dsmc_normals(features, at, part) = candidate.k;
   *gg_dsmc_impulses(features, at, part) = J;
   state->largest = gg_larger(state->largest, at->v2[part]);
   state->collisions += (unsigned)__builtin_popcount(gg_bits(candidate.hit));
   if (!gg_dsmc_needs_k(features)) J = gg_vd3_scale(gg_all(0.5 * state->contact.jn), J);
-  gg_dsmc_note_loss(features, &state->sums.note[state->sums.n][part], candidate.g, J, gg_where(candidate.hit, Jn));
+  gg_dsmc_note *note = &state->sums.note[state->sums.n][part];
+  const gg_vd Jn_kicked = kicks ? Jn + gg_all(state->contact.kn) : Jn;
+  gg_dsmc_note_loss(features, note, candidate.g, J, gg_where(candidate.hit, Jn_kicked));
+  if (kicks && features.sums != GG_DSMC_NO_SUMS)
+    note->given = gg_where(candidate.hit,
+                           gg_vd3_kick_energy(&state->contact, candidate.k, candidate.g, candidate.gn, J, Jn_kicked));
 }
 
 /* Sample directions in advance. */

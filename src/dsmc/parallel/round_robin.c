@@ -98,6 +98,7 @@ static void add(gg_dsmc_pass *sum, const gg_dsmc_pass *pass)
   sum->clamped += pass->clamped;
   sum->largest = fmax(sum->largest, pass->largest);
   sum->loss += pass->loss;
+  sum->given += pass->given;
   for (int a = 0; a < 3; a++)
     for (int b = 0; b < 3; b++) sum->stress[a][b] += pass->stress[a][b];
 }

@@ -99,7 +99,8 @@ GG_INLINE void collide(gg_dsmc_channel *d, const pass *p, double time, uint32_t 
   gg_contact by_law;
   const gg_contact *contact = &p->contact;
   if (d->model.law.name) by_law = contact_of(d, p, gn), contact = &by_law;
-  const gg_vec J = gg_impulse(rule, contact, k, v, gn);
+  const bool kicks = d->model.kicks;
+  const gg_vec J = kicks ? gg_kicked_impulse(rule, contact, k, v, gn) : gg_impulse(rule, contact, k, v, gn);
   gg_kick(rule, contact, k, J, &c1, &s1, &c2, &s2);
   if (d->callback) call_back(d, time, (const uint32_t[]){i, j}, k, before, J, (const gg_vec[]){s1, s2});
   g->at[i].c = c1, g->at[j].c = c2;
@@ -109,7 +110,9 @@ GG_INLINE void collide(gg_dsmc_channel *d, const pass *p, double time, uint32_t 
   t->collisions[p->pair]++;
   if (!d->now.keeps_sums) return;
   if (!d->model.boltzmann) gg_add_stress(t->stress[p->pair], d->model.sigma[p->pair], k, J);
-  t->loss[p->pair] += gg_energy_loss(contact, k, v, J);
+  const double given = kicks ? gg_kicked_energy_loss(contact, k, v, J).given : 0;
+  t->loss[p->pair] += gg_energy_loss(contact, k, v, J) + given;
+  t->given[p->pair] += given;
 }
 
 /* Candidates that are drawn at once. */
@@ -478,8 +481,9 @@ static void add_sums(gg_dsmc_channel *d, gg_dsmc_channel_slab *slab)
   for (int p = 0; p < gg_pairs_of(d->model.n_species); p++) {
     to->collisions[p] += from->collisions[p];
     to->loss[p] += from->loss[p];
+    to->given[p] += from->given[p];
     for (int k = 0; k < 9; k++) to->stress[p][k / 3][k % 3] += from->stress[p][k / 3][k % 3];
-    from->collisions[p] = 0, from->loss[p] = 0;
+    from->collisions[p] = 0, from->loss[p] = from->given[p] = 0;
     memset(from->stress[p], 0, sizeof from->stress[p]);
   }
 }

@@ -67,6 +67,7 @@ static void count(gg_md_counts *k, const gg_md_record *r, const gg_md_addend *a)
   stress[0][1] += a->stress[3];
   stress[1][0] += a->stress[4];
   k->transfer.loss[r->pair] += a->loss;
+  k->transfer.given[r->pair] += a->given;
 }
 
 static bool is_earlier(const gg_md_record *a, const gg_md_record *b)

@@ -56,7 +56,7 @@ static void clear_counts(gg_md *v, gg_md_record *r)
   r->pair = (uint16_t)gg_pair(gg_md_species_of(&v->grain[r->grain]), gg_md_species_of(&v->grain[r->partner]));
   if (!v->k.keeps_sums) return;
   memset(v->k.transfer.stress[r->pair], 0, sizeof v->k.transfer.stress[r->pair]);
-  v->k.transfer.loss[r->pair] = 0;
+  v->k.transfer.loss[r->pair] = v->k.transfer.given[r->pair] = 0;
 }
 
 static void keep_counts(gg_md_slab *s, gg_md_record *r)
@@ -70,6 +70,7 @@ static void keep_counts(gg_md_slab *s, gg_md_record *r)
   const double(*stress)[3] = k->transfer.stress[r->pair];
   *a = (gg_md_addend){{stress[0][0], stress[1][1], stress[2][2], stress[0][1], stress[1][0]},
                       k->transfer.loss[r->pair],
+                      k->transfer.given[r->pair],
                       k->worst_overlap};
 }
 

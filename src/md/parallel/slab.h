@@ -59,7 +59,7 @@ typedef struct gg_md_saved_more {
 
 /* Terms of a collision in the sums: stress xx, yy, zz, xy, yx; loss; overlap. */
 typedef struct gg_md_addend {
-  double stress[5], loss, overlap;
+  double stress[5], loss, given, overlap;
 } gg_md_addend;
 
 /* A neighbour list and its skin before an event. */
