@@ -93,8 +93,8 @@ static void add_surface(const gg_scene *s, const char *varied, char *text, size_
 
 static void add_injection(const gg_scene *s, char *text, size_t size)
 {
-  if (gg_scene_has_kicks(s)) add(text, size, ", kicks");
-  if (gg_scene_has_torque(s)) add(text, size, ", torque");
+  if (gg_scene_has_kicks(s)) gg_base_text_append(text, size, ", kicks");
+  if (gg_scene_has_torque(s)) gg_base_text_append(text, size, ", torque");
 }
 
 void gg_files_scene_title(const gg_scene *s, const char *varied, char *text, size_t size)

@@ -272,8 +272,8 @@ static void stresses_end_in_the_steady_state(void **state)
     if (k == 2) {
       s.n_species = 2;
       s.dsmc.particles = 10000;
-      s.species[0] = (gg_species){0.4, 1, 1, 0.4, 1};
-      s.species[1] = (gg_species){0.6, 1.5, 2, 0.4, 1};
+      s.species[0] = (gg_species){0.4, 1, 1, 0.4, 1, 0};
+      s.species[1] = (gg_species){0.6, 1.5, 2, 0.4, 1, 0};
     }
     const gg_model m = model_of(&s);
     gg_relaxing x = gg_theory_relaxation_start(&m);
