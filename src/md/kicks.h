@@ -11,8 +11,8 @@
 
 #include "md/md_state.h"
 
-/* Does the thermostat kick grains? In a slot of a bath both grains undergo the drag and noise of the whole interval (an
- * Ornstein-Uhlenbeck process, exact for a grain without collisions in between), with opposite Gaussian kicks. */
+/* Does the thermostat kick grains? In a slot of a bath both grains undergo the drag and noise of the whole interval,
+ * with opposite kicks. */
 static inline bool gg_md_has_kicks(const gg_md *e)
 {
   return e->heat == GG_HEAT_KICKS || e->heat == GG_HEAT_BATHES;

@@ -82,6 +82,7 @@ typedef struct gg_md_kick_schedule {
   uint32_t group;         /* grains that are kicked one after the other */
   uint32_t step;          /* from one group to the next, in groups */
   double interval;        /* mean time between slots of the species */
+  double chance;          /* fraction of slots with a kick; in a bath: with one of fixed length, others are Gaussian */
   double size;            /* change of velocity; in a bath its standard deviation along each axis */
   double keep, spin_keep; /* in a bath: factor of the velocity, of the spin */
   double spin_size;       /* in a bath: standard deviation of the change of spin along each axis */
@@ -105,6 +106,7 @@ typedef void gg_md_surface_resolution(gg_md *e, uint32_t i, int surface);
 typedef struct gg_md_kernel {
   void (*run)(gg_md *e);                                 /* run events until k.stop, k.collisions_left or e->look_at */
   void (*predict)(gg_md *e, uint32_t from, uint32_t to); /* predict the next events of these grains */
+  void (*predict_two)(gg_md *e, uint32_t i, uint32_t j);
 } gg_md_kernel;
 
 /* Plain data beside the arrays; a checkpoint holds its bytes. */

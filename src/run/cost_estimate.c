@@ -34,17 +34,15 @@ static double crowding(const gg_model *m)
   return pow(gg_common_model_widest(m), 3) / cubes;
 }
 
-/* White noise: each kick is half a collision's work, and there are more the more energy is lost (md/kicks.h). */
+/* A kick is nearly a collision's work, in a thin gas less, and there are more the more energy is lost (md/kicks.h). */
 static double cost_of_kicks(const gg_model *m)
 {
-  const double turns = m->shear_rate != 0 ? 25 : 10; /* of drag, in its own time */
-  if (m->bath.drag[0] != 0)
-    return 1 + 0.5 * fmax(1, turns * fabs(m->bath.drag[0]) / gg_common_model_collision_rate(m, m->temperature0));
-  if (gg_common_thermostats[m->thermostat].heat != GG_HEAT_KICKS) return 1;
+  const double slots = m->shear_rate != 0 ? 25 : 5, rate = gg_common_model_collision_rate(m, m->temperature0);
   double mass = 0;
   for (int i = 0; i < m->n_species; i++) mass += m->mass[i] * (double)m->n_of[i] / (double)m->n;
-  const double T = m->temperature0, loss = mass * gg_common_thermostat_noise(m) / T;
-  return 1 + 0.5 * fmin(50 * loss / gg_common_model_collision_rate(m, T), 4);
+  const double loss = mass * gg_common_thermostat_noise(m) / m->temperature0 / rate;
+  if (m->bath.drag[0] != 0) return 1 + fmax(fmin(8 * loss, 1), 0.4 * slots * fabs(m->bath.drag[0]) / rate);
+  return gg_common_thermostats[m->thermostat].heat == GG_HEAT_KICKS ? 1 + fmin(7 * loss, 1.1) : 1;
 }
 
 /* Nanoseconds a collision. The thinner the gas the more cells are crossed between two; out of cache beyond some
