@@ -19,12 +19,6 @@ static const function functions[] = {
     {"sin", sin, NULL},  {"cos", cos, NULL},     {"atan", atan, NULL}, {"tanh", tanh, NULL}, {"erf", erf, NULL},
     {"min", NULL, fmin}, {"max", NULL, fmax},    {NULL, NULL, NULL}};
 
-/* Comparisons; those of two characters first. */
-static const struct {
-  const char *sign;
-  char code;
-} comparisons[] = {{"<=", 'l'}, {">=", 'g'}, {"==", '='}, {"<", '<'}, {">", '>'}, {NULL, 0}};
-
 typedef struct parser {
   const char *text, *at;
   const char *const *variables;
@@ -160,14 +154,12 @@ static gg_status sum(parser *p)
 static gg_status comparison(parser *p)
 {
   GG_TRY(sum(p));
-  for (int k = 0; comparisons[k].sign; k++) {
-    const size_t length = strlen(comparisons[k].sign);
-    if (strncmp(p->at, comparisons[k].sign, length) != 0) continue;
-    p->at += length;
-    GG_TRY(sum(p));
-    return add(p, comparisons[k].code, 0);
-  }
-  return GG_OK;
+  const char sign = *p->at;
+  const bool equal = sign && p->at[1] == '=';
+  if (!sign || !strchr("<>=", sign) || (sign == '=' && !equal)) return GG_OK;
+  p->at += 1 + equal;
+  GG_TRY(sum(p));
+  return add(p, sign == '=' || !equal ? sign : sign == '<' ? 'l' : 'g', 0);
 }
 
 /* Go past this word, if it comes next. */
