@@ -82,11 +82,12 @@ static void rows_of_thermostats_are_complete(void **state)
     const gg_thermostat_row *row = &gg_common_thermostats[t];
     if (!row->word || !row->doc || !row->title) fail_msg("row %d lacks words", t);
     for (int u = 0; u < t; u++) assert_string_not_equal(row->word, gg_common_thermostats[u].word);
-    assert_int_equal(row->heat != GG_UNHEATED, t != GG_NO_THERMOSTAT);
+    const bool has_strength = t != GG_NO_THERMOSTAT && t != GG_INJECTION; /* collisions and torques inject */
+    assert_int_equal(row->heat != GG_UNHEATED, has_strength);
     gg_common_flows_taking((gg_thermostat)t, text, sizeof text);
     assert_true(*text);
     const gg_field *strength = gg_scene_strength_of((gg_thermostat)t);
-    assert_int_equal(strength != NULL, t != GG_NO_THERMOSTAT);
+    assert_int_equal(strength != NULL, has_strength);
     if (strength) assert_int_equal(strength->type, GG_FIELD_NUMBER);
   }
 }
@@ -96,10 +97,11 @@ static void each_flow_has_its_thermostats(void **state)
   (void)state;
   for (int f = 0; f < GG_N_FLOWS; f++)
     for (int t = 0; t < GG_N_THERMOSTATS; t++) {
-      char key[40];
+      char key[80];
       gg_error err = {0};
       snprintf(key, sizeof key, ", thermostat: %s", gg_common_thermostats[t].word);
       gg_scene s = scene_of(f, key);
+      if (t == GG_INJECTION) s.collision.normal_kick[0] = 0.1;
       gg_status status = gg_scene_finish(&s, &err);
       if (gg_flow_takes((gg_flow)f, (gg_thermostat)t) && status != GG_OK) fail_msg("%s", err.message);
       if (gg_flow_takes((gg_flow)f, (gg_thermostat)t)) continue;
