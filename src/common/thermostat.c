@@ -111,6 +111,7 @@ double gg_common_thermostat_balance(const gg_model *m, double sheared)
   }
   const injection in = injection_of(m);
   const double near = temperature_near(sheared, &in, noise, drag, loss);
+  if (gg_model_is_injected(m) && !(loss > 0) && !(drag > 0)) return near; /* it heats up for ever */
   double low = 1e-100 * near, high = 1e100 * near;
   for (int round = 0; round < 60; round++) {
     const double T = sqrt(low) * sqrt(high), root = sqrt(T);

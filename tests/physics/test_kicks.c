@@ -262,6 +262,9 @@ static void steady_states(void **state)
   assert_true(is_steady(0.9, 0, -1, 0.1, 0));
   assert_true(is_steady(1, 0, -1, 0.1, 0));
   assert_false(is_steady(1, 1, -1, 0.1, 0));
+  gg_scene hot = scene_of(GG_MD, 0.1, 1, 1, 1000); /* the start of a gas that heats up for ever is of the scale of D */
+  set_kicks(&hot, 0.1, 0);
+  assert_true(model_of(&hot).temperature0 < 1);
   gg_scene s = scene_of(GG_MD, 0.1, 0.9, -1, 1000);
   s.n_species = 2, s.species[0].fraction = s.species[1].fraction = 0.5;
   s.collision.beta[gg_pair(0, 0)] = 0, s.species[1].torque = 0.1; /* the second species is smooth */
