@@ -170,9 +170,13 @@ static int take(gg_options *o, const gg_option *t, const char *value)
   case GG_OPT_ENGINE: return add_override(o, "engine", value);
   case GG_OPT_THEORY: return take_theory(o, value);
   case GG_OPT_LIMIT: return take_number(t->name, value, false, 0, 1e6, &o->limit);
-  case GG_OPT_THREADS: code = take_number(t->name, value, true, 1, 4096, &n), o->threads = (int)n; return code;
+  case GG_OPT_THREADS:
+    code = take_number(t->name, value, true, 1, 4096, &n);
+    if (code == GG_CLI_GO_ON) o->threads = (int)n;
+    return code;
   case GG_OPT_COLLISIONS:
-    code = take_number(t->name, value, true, 1, 1e12, &n), o->collisions = (uint64_t)n;
+    code = take_number(t->name, value, true, 1, 1e12, &n);
+    if (code == GG_CLI_GO_ON) o->collisions = (uint64_t)n;
     return code;
   default: break;
   }

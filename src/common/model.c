@@ -69,7 +69,23 @@ void gg_common_model_at(gg_model *m, double T)
     }
 }
 
-/* Does friction with other grains, or the bath, hold the spin of a species? */
+bool gg_common_model_is_turned(const gg_model *m)
+{
+  bool turned = m->bath.turns;
+  for (int o = 0; o < gg_pairs_of(m->n_species); o++) turned |= m->tangential_kick[o] != 0;
+  return turned;
+}
+
+/* Spins of rough grains take up tangential kicks until friction cancels these, and no energy comes in; with Coulomb
+ * friction they may grow for ever. Normal kicks or another source of energy keep the gas warm. */
+static bool kicks_fade(const gg_model *m)
+{
+  bool fade = m->kicks && m->rule != GG_SMOOTH && m->shear_rate == 0 && !m->walled && !m->bath.on;
+  for (int o = 0; o < gg_pairs_of(m->n_species); o++) fade &= m->normal_kick[o] == 0;
+  return fade;
+}
+
+/* True if friction with other grains, or the bath, holds the spin of a species. */
 static bool is_held(const gg_model *m, int i)
 {
   bool held = m->bath.spin_drag[i] > 0;
@@ -85,7 +101,7 @@ bool gg_common_model_balances(const gg_model *m)
     held &= m->bath.torque[i] == 0 || is_held(m, i);
     for (int j = 0; j < m->n_species; j++) loses |= gg_common_pair_loses(m, i, j);
   }
-  return held && (loses || !(gg_flow_is_sheared(m->flow) || m->kicks || m->bath.turns));
+  return held && !kicks_fade(m) && (loses || !(gg_flow_is_sheared(m->flow) || m->kicks || m->bath.turns));
 }
 
 static gg_rule later_rule(gg_rule a, gg_rule b)

@@ -186,6 +186,9 @@ static inline bool gg_model_has_thermal_walls(const gg_model *m)
 /* True if the energy that collisions, drag and kicks exchange can be in balance, and the torque of every spin. */
 bool gg_common_model_balances(const gg_model *model);
 
+/* True if torques or tangential kicks single out the z axis. */
+bool gg_common_model_is_turned(const gg_model *model);
+
 /* True if collisions of these two species destroy energy. */
 bool gg_common_pair_loses(const gg_model *model, int i, int j);
 

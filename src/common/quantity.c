@@ -187,8 +187,7 @@ const char *gg_common_model_missing(const gg_model *m, unsigned needs)
   const bool rests = m->elastic && !m->walled && (cools || m->flow == GG_EQUILIBRIUM);
   const bool fluctuates = rests && !m->homogeneous;
   const bool noisy = m->bath.on || m->kicks || gg_common_heat_of(m) == GG_HEAT_KICKS;
-  bool turned = m->bath.turns;
-  for (int o = 0; o < gg_pairs_of(m->n_species); o++) turned |= m->tangential_kick[o] != 0;
+  const bool turned = gg_common_model_is_turned(m);
   const bool alike = m->n_surfaces < 2 || m->surface[0].temperature == m->surface[1].temperature;
   const struct {
     unsigned need;

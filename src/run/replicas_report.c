@@ -193,6 +193,7 @@ static void warn_if_structured(gg_result *result)
   for (gg_quantity q = gg_common_quantity_next(-1, GG_STRESS_DIFFERENCE); q < GG_N_QUANTITIES;
        q = gg_common_quantity_next(q, GG_STRESS_DIFFERENCE)) {
     const gg_estimate *e = &result->value[q];
+    if (q == GG_Q_N2 && gg_common_model_is_turned(&result->model)) continue; /* z is a direction of its own */
     if (!(fabs(e->mean) > 0.02 && fabs(e->mean) > 5 * e->error)) continue;
     gg_run_result_warn(
         result,

@@ -33,8 +33,9 @@ static gg_status parts_make(const gg_replicas *all, parts *p, gg_error *err)
   p->each = rows / p->rows, p->total = p->each * (size_t)all->n;
   p->samples = (double)p->rows * (double)s->per_row;
   p->y = gg_base_array_new(2 * p->total, sizeof *p->y, err);
+  if (!p->y) return GG_FAILED;
   p->response = p->y + p->total;
-  return p->y ? GG_OK : GG_FAILED;
+  return GG_OK;
 }
 
 static void gather(const gg_replicas *all, int mode, const parts *p)

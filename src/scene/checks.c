@@ -100,19 +100,20 @@ static gg_status check_injection(const gg_scene *s, gg_error *err)
 {
   const gg_flow_row *flow = gg_flow_of(s->flow);
   const bool torque = gg_scene_has_torque(s), injected = torque || gg_scene_has_kicks(s);
-  const char *key = torque ? "species.torque" : "collision.normal_kick and tangential_kick";
+  const char *key = torque ? "species.torque" : "kicks at contact";
   const gg_heat heat = gg_scene_is_driven(s) ? GG_HEAT_BATHES : gg_common_thermostats[s->thermostat].heat;
   if (s->thermostat == GG_INJECTION && !injected)
-    return gg_base_fail(err, GG_BAD_INPUT,
-                        "thermostat: injection needs collision.normal_kick, collision.tangential_kick or a torque");
+    return gg_base_fail(
+        err, GG_BAD_INPUT,
+        "thermostat: injection needs collision.normal_kick, collision.tangential_kick, or a torque on rough grains");
   if (injected && (flow->conserves || flow->linear_response || gg_flow_cools(s->flow)))
     return gg_base_fail(err, GG_BAD_INPUT, "%s: flow: %s takes no energy from kicks and torques; use flow: %s", key,
                         flow->word, gg_flow_of(GG_HSS)->word);
-  if (torque && (heat == GG_HEAT_SCALES || heat == GG_HEAT_KICKS))
+  if (injected && (heat == GG_HEAT_SCALES || heat == GG_HEAT_KICKS))
     return gg_base_fail(err, GG_BAD_INPUT,
-                        "species.torque: does not go with a thermostat that balances the losses; give %s a value, or "
+                        "%s: does not go with a thermostat that balances the losses; give %s a value, or "
                         "use thermostat: bath",
-                        gg_scene_strength_of(s->thermostat)->key);
+                        key, gg_scene_strength_of(s->thermostat)->key);
   return GG_OK;
 }
 
@@ -318,7 +319,7 @@ static const struct {
     [GG_IF_WALL_BETA] = {"while walls.beta is -1: smooth walls", NULL, "", "walls.beta is not -1"},
     [GG_IF_WALL_FRICTION] = {"while walls.mu is 0: smooth walls", NULL, "", "walls.mu is not 0"},
     [GG_IF_FRAMES] = {"while output.trajectory_every is 0", NULL, "", "output.trajectory_every is not 0"},
-    [GG_IF_UNWALLED] = {"between walls, where velocities are about the measured flow", NULL, "", "no walls"},
+    [GG_IF_UNWALLED] = {"between walls", NULL, "", "no walls"},
     [GG_IF_CELLS] = {"while frame is imposed", NULL, "", "frame is not imposed"},
     [GG_IF_HEATED] = {"but in flow: ", gg_flow_is_heated, "", NULL},
     [GG_IF_STARTED] = {"but in flow: ", takes_start, "", NULL},

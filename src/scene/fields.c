@@ -499,7 +499,7 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
              GG_MAX_CHANGES);
     return;
   case GG_FIELD_SPECIES:
-    snprintf(text, size, "a list of 1 to %d maps with fraction, diameter, mass, inertia and drag", GG_MAX_SPECIES);
+    snprintf(text, size, "a list of 1 to %d maps with fraction, diameter, mass, inertia, drag and torque", GG_MAX_SPECIES);
     return;
   }
 }
