@@ -126,7 +126,7 @@ static void describe(verdict v, const gg_replicas *all, const gg_convergence *c,
   switch (v) {
   case FOLLOWED: describe_followed(all, text, size); return;
   case WITHOUT_LOSS:
-    snprintf(text, size, "no steady state exists: collisions lose no energy and shear heats the gas");
+    snprintf(text, size, "no steady state exists: nothing takes what heats the gas or holds its spins");
     return;
   case ARRESTED:
     snprintf(text, size, "the grains have come to rest or nearly so: %.0f %% of collisions are contacts that last",
