@@ -112,7 +112,8 @@ static double in_bath(const gg_model *m, double loss)
 {
   double drag = INFINITY;
   for (int i = 0; i < m->n_species; i++) drag = fmin(drag, m->bath.drag[i]);
-  return 1 / ((loss > 0 ? 1.5 / loss : 0) + 2 * drag / gg_common_model_collision_rate(m, m->temperature0));
+  const double rate = (loss > 0 ? 1.5 / loss : 0) + 2 * drag / gg_common_model_collision_rate(m, m->temperature0);
+  return rate > 0 ? 1 / rate : 0; /* a torque alone, which nothing balances, never relaxes */
 }
 
 /* Scaled, T itself does not relax. Species lose energy at different rates, beside the exchange between them: the rates

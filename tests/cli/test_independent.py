@@ -369,7 +369,7 @@ def expected(store, flow, kind, replicas, C, W, followed):
         out["energy"] = mean(work_between_walls(store, flow) / (V * dt)) * STRESS - growth_rate
     elif flow == "usf":
         work = collisional + species_mean(store.velocity[..., :, None] * store.velocity[..., None, :], 2, m) * n * STRESS
-        out["energy_balance"] = (-work[0, 1] - growth_rate) / out["dissipation"]
+        out["energy_balance"] = (-work[1, 0] - growth_rate) / out["dissipation"]
     if cooling:  # nu_0 of two species: sqrt(pi) n sigma_12^2 v_0, v_0^2 = 2T(m_1 + m_2)/(m_1 m_2)
         out["cooling_rate"] = mean(2 * growth) / (STRESS * 6 / np.pi * np.pi ** 0.5 * n * d.mean() ** 2 * (2 / m).sum() ** 0.5)
     return out
