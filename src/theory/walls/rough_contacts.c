@@ -32,24 +32,21 @@ static int monomials(int odd, gg_contact_point p, double f[])
   return n;
 }
 
-gg_model gg_theory_rough_contacts_model(const gg_model *m)
+void gg_theory_rough_contacts_model(const gg_model *m, gg_model *one)
 {
-  gg_model one = *m;
-  one.boltzmann = false, one.density = one.number_density[0] = one.chi[0] = one.sigma[0] = 1;
-  return one;
+  *one = *m;
+  one->boltzmann = false, one->density = one->number_density[0] = one->chi[0] = one->sigma[0] = 1;
 }
 
-void gg_theory_rough_contacts_integral(const gg_model *m, gg_contact_point p, double ratio,
-                                       double f[GG_CONTACT_FUNCTIONS])
+void gg_theory_rough_contacts_integral(gg_model *m, gg_contact_point p, double ratio, double f[GG_CONTACT_FUNCTIONS])
 {
-  gg_model copy = *m;
   gg_gaussian_rates r;
   const double spin = ratio / m->inertia[0];
   const gg_gaussian s = {.M = {{{1 + p.xx, p.xy, 0}, {p.xy, 1 + p.yy, 0}, {0, 0, 1 - p.xx - p.yy}}},
                          .Theta = {{{spin, 0, 0}, {0, spin, 0}, {0, 0, spin}}},
                          .spin = -p.a / 4};
-  copy.shear_rate = p.a;
-  gg_theory_gaussian_rates_at(&copy, &s, &r);
+  m->shear_rate = p.a;
+  gg_theory_gaussian_rates_at(m, &s, &r);
   const gg_gaussian *change = &r.change[0];
   f[GG_CONTACT_XX] = change->M.at[0][0], f[GG_CONTACT_YY] = change->M.at[1][1], f[GG_CONTACT_ZZ] = change->M.at[2][2];
   f[GG_CONTACT_P_XX] = r.Pc.at[0][0], f[GG_CONTACT_P_YY] = r.Pc.at[1][1], f[GG_CONTACT_P_ZZ] = r.Pc.at[2][2];
@@ -82,7 +79,7 @@ typedef struct samples {
   double value[2][SAMPLES][GG_CONTACT_FUNCTIONS]; /* at theta = 0, and what theta = 1 adds */
 } samples;
 
-static void take(const gg_model *m, samples *s)
+static void take(gg_model *m, samples *s)
 {
   for (int k = 0, i = 0; k < SAMPLES; k++) {
     s->at[k] = sample(&i);
@@ -112,15 +109,15 @@ static bool fit(const samples *s, int r, int q, double *M, double to[MONOMIALS])
 
 gg_status gg_theory_rough_contacts_make(const gg_model *m, gg_rough_contacts *c, gg_error *err)
 {
-  const gg_model one = gg_theory_rough_contacts_model(m);
+  gg_model *one = gg_base_array_new(1, sizeof *one, err); /* too large for small stacks */
   samples *s = gg_base_array_new(1, sizeof *s, err);
   double *M = gg_theory_linear_new(MONOMIALS);
-  bool good = s && M;
-  if (good) take(&one, s);
+  bool good = one && s && M;
+  if (good) gg_theory_rough_contacts_model(m, one), take(one, s);
   for (int q = 0; q < GG_CONTACT_FUNCTIONS && good; q++)
     good = fit(s, 0, q, M, c->smooth[q]) && fit(s, 1, q, M, c->spins[q]);
-  const bool room = s && M;
-  free(s), free(M);
+  const bool room = one && s && M;
+  free(one), free(s), free(M);
   if (!room) return gg_base_out_of_memory(err);
   return good ? GG_OK : gg_base_fail(err, GG_FAILED, "averages over contacts have no polynomials here");
 }

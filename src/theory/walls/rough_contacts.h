@@ -40,9 +40,10 @@ gg_status gg_theory_rough_contacts_make(const gg_model *model, gg_rough_contacts
 void gg_theory_rough_contacts_at(const gg_rough_contacts *contacts, double ratio, gg_contact_series series);
 void gg_theory_rough_contacts_value(const gg_contact_series series, gg_contact_point point,
                                     double value[GG_CONTACT_FUNCTIONS]);
-/* The integrals themselves; the model has n = chi = 1 (gg_theory_rough_contacts_model). */
-void gg_theory_rough_contacts_integral(const gg_model *model, gg_contact_point point, double ratio,
+/* The integrals themselves; the model has n = chi = 1 (gg_theory_rough_contacts_model), and gets the
+ * shear rate of the point. */
+void gg_theory_rough_contacts_integral(gg_model *model, gg_contact_point point, double ratio,
                                        double value[GG_CONTACT_FUNCTIONS]);
-gg_model gg_theory_rough_contacts_model(const gg_model *model);
+void gg_theory_rough_contacts_model(const gg_model *model, gg_model *one);
 
 #endif
