@@ -100,7 +100,7 @@ static gg_status check_injection(const gg_scene *s, gg_error *err)
 {
   const gg_flow_row *flow = gg_flow_of(s->flow);
   const bool torque = gg_scene_has_torque(s), injected = torque || gg_scene_has_kicks(s);
-  const char *key = torque ? "species.torque" : "kicks at contact";
+  const char *key = torque ? "species.torque" : "collision.normal_kick or tangential_kick";
   const gg_heat heat = gg_scene_is_driven(s) ? GG_HEAT_BATHES : gg_common_thermostats[s->thermostat].heat;
   if (s->thermostat == GG_INJECTION && !injected)
     return gg_base_fail(

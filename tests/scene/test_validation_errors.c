@@ -256,7 +256,7 @@ static void contradicting_keys_are_rejected(void **state)
   assert_refused("flow: hss\nphi: 0.3\nthermostat: injection\n", "injection needs collision.normal_kick, ");
   assert_refused(
       "flow: hcs\nphi: 0.3\ncollision: {normal_kick: 1}\n",
-      "collision.normal_kick and tangential_kick: flow: hcs takes no energy from kicks and torques; use flow: hss");
+      "collision.normal_kick or tangential_kick: flow: hcs takes no energy from kicks and torques; use flow: hss");
   assert_refused("flow: equilibrium\nphi: 0.3\ncollision: {tangential_kick: -1}\n", "needs collisions that lose no");
   assert_refused("flow: hss\nphi: 0.3\ncollision: {normal_kick: -1}\n", "allowed: a number from 0 to 1e+30");
   assert_refused("flow: small_shear\nphi: 0.3\ncollision: {beta: 0}\nspecies: [{torque: 1}]\n",
