@@ -17,9 +17,9 @@ static const double bias_of_drag = 1. / 18;
 /* Bath under shear, where drag alternates with collisions, which reduce anisotropy. Over the square of h gamma the bias
  * of T was .02 to .45 in eleven states, most if drag alone balances the work of shear (T_b = 0, phi = .3). If streaming
  * is split, too: over the square of h times the shear rate .005 to .33, most near a turning point. */
+static const double bias_of_sheared_drag = 0.6, bias_of_sheared_bath = 0.3;
 /* Torques against the friction of rough grains: of the mean spin, and of the balance of its energy. */
 static const double bias_of_torque = 0.03;
-static const double bias_of_sheared_drag = 0.6, bias_of_sheared_bath = 0.3;
 
 /* Bias of the step as a fraction of the requested error. In a bath this limit holds without a requested error, too. */
 static const double fraction = 0.2, usual_error = 0.01;

@@ -15,7 +15,7 @@ static int upper_turns(long double exact, double *lower, double *upper)
   return (int)lrintl((exact - *lower) / ((long double)*upper - *lower) * GG_MD_DITHERS);
 }
 
-/* Does dither k round up, if `count` of all do, evenly distributed? */
+/* True if dither k rounds up, where `count` of all do, evenly distributed. */
 static bool rounds_up(int k, int count)
 {
   return (k + 1) * count / GG_MD_DITHERS > k * count / GG_MD_DITHERS;

@@ -53,14 +53,15 @@ static enum gg_md_boundary boundary_of(const gg_md *e)
   return e->model.walled ? GG_MD_WALLED : GG_MD_PERIODIC;
 }
 
-/* Are there four cells along each axis? Then the nearest image of every grain in the cells around is the image tried.
+/* True if there are four cells along each axis. Then the nearest image of every grain in the cells around is the image
+ * tried.
  */
 static bool is_wide_enough(const gg_md *e)
 {
   return e->cells.n[0] >= 4 && e->cells.n[1] >= 4 && e->cells.n[2] >= 4;
 }
 
-/* Does this engine use the reference path, one pair at a time? For tests, and for boxes of a few cells. */
+/* True if this engine uses the reference path, one pair at a time: for tests, and for boxes of a few cells. */
 static bool uses_plain_path(const gg_md *e, gg_md_search_kind kind)
 {
   if (kind == GG_MD_NEIGHBOUR_LISTS || gg_md_search_overlaps(kind)) return false;

@@ -11,8 +11,8 @@
 
 #include "md/md_state.h"
 
-/* Does the thermostat kick grains? In a slot of a bath both grains undergo the drag and noise of the whole interval,
- * with opposite kicks. */
+/* True if the thermostat kicks grains; kicks at contact are another thing (common/collision.h). In a slot of a bath
+ * both grains undergo the drag and noise of the whole interval, with opposite kicks. */
 static inline bool gg_md_has_kicks(const gg_md *e)
 {
   return e->heat == GG_HEAT_KICKS || e->heat == GG_HEAT_BATHES;

@@ -18,7 +18,7 @@ void gg_md_thermostat_fold(gg_md *e);
 /* Remove the velocity of the centre of mass, relative to the imposed shear; all grains at the same time. Returns the
  * temperature. */
 double gg_md_follow_centre_of_mass(gg_md *e);
-/* Is that velocity larger than rounding? */
+/* True if that velocity is larger than rounding. */
 bool gg_md_has_drift(const gg_md *e);
 
 /* Outside time since the present advance began. */

@@ -17,7 +17,7 @@ gg_md_surface_resolution gg_md_show_contact;
 gg_md_resolution gg_md_resolve_parting;
 /* The same in place of e->resolve, for a pair that collides again at the same time. */
 gg_md_resolution gg_md_resolve_again;
-/* Does this model need gg_md_resolve_parting at every collision? */
+/* True if this model needs gg_md_resolve_parting at every collision. */
 bool gg_md_needs_parting(const gg_model *model);
 
 #endif

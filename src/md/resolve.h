@@ -18,9 +18,9 @@ typedef struct gg_md_resolve_features {
   bool own; /* the contact is made at the collision: e depends on the relative normal speed, or kicks; or torques */
 } gg_md_resolve_features;
 
-/* Is this collision treated by the contact-time rule? A grain that collided less than t_c ago is still in contact and
- * collides with e = 1, so that an inelastic collapse ends in finite time (Luding & McNamara, Granular Matter 1 (1998)
- * 113). */
+/* True if this collision is treated by the contact-time rule. A grain that collided less than t_c ago is still in
+ * contact and collides with e = 1, so that an inelastic collapse ends in finite time (Luding & McNamara, Granular
+ * Matter 1 (1998) 113). */
 GG_INLINE bool gg_md_is_treated(gg_md *e, uint32_t i, uint32_t j)
 {
   double now = e->k.now, limit = e->k.contact_time;

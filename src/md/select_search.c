@@ -35,7 +35,8 @@ static double mean_diameter(const gg_model *m)
   return sum / (double)m->n;
 }
 
-/* Must cells not overlap? A ridge is searched in one cell; above an open top a cell holds any number of grains. */
+/* True if cells must not overlap. A ridge is searched in one cell; above an open top a cell holds any number of grains.
+ */
 static bool needs_plain_cells(const gg_model *m)
 {
   for (int w = 0; w < m->n_surfaces; w++)
@@ -43,7 +44,7 @@ static bool needs_plain_cells(const gg_model *m)
   return gg_common_surface_is_open_above(m);
 }
 
-/* Do moving walls, or gravity along walls, drive a flow? It would carry grains out of skins at rest. */
+/* True if moving walls, or gravity along walls, drive a flow. It would carry grains out of skins at rest. */
 static bool flows_along_walls(const gg_model *m)
 {
   for (int w = 0; w < m->n_surfaces; w++)

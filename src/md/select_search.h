@@ -12,7 +12,7 @@ gg_md_search_kind gg_md_search_select(const gg_model *model, double *radius, int
 /* Count the cells for the centres of lists. False: the box has fewer than three cells along an edge, or a pair of
  * listed grains could have two nearest images. */
 bool gg_md_fit_lists(const gg_model *model, double radius, int32_t n[3]);
-/* Does this search have small cells (cell_grid.h) for this model? */
+/* True if this search has small cells (cell_grid.h) for this model. */
 bool gg_md_has_small_cells(const gg_model *model, gg_md_search_kind kind);
 /* Cells that all grains together cross between two collisions, at the initial temperature. */
 double gg_md_crossings_per_collision(const gg_model *model);

@@ -161,8 +161,9 @@ const char *gg_md_wrong_grains(const gg_md *e)
   return NULL;
 }
 
-/* Are all components of both vectors finite? Collisions check the velocities that they set (search/neighbour_search.h);
- * gg_md_check_numbers inspects all grains, so that no run continues with NaN of any origin. */
+/* True if all components of both vectors are finite. Collisions check the velocities that they set
+ * (search/neighbour_search.h); gg_md_check_numbers inspects all grains, so that no run continues with NaN of any
+ * origin. */
 static bool is_number(gg_vec a, gg_vec b)
 {
   return fabs((a.x + a.y + a.z) + (b.x + b.y + b.z)) < INFINITY;

@@ -7,7 +7,7 @@
 
 #include "md/md_state.h"
 
-/* Is this the search, with this number of cells, that the model needs? */
+/* True if this is the search, with this number of cells, that the model needs. */
 bool gg_md_is_search_of(const gg_model *model, const int32_t cells[3], double skin_radius, bool overlapping,
                         bool comoving);
 /* Validate the counts, for a grid of so many cells. */

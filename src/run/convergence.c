@@ -74,7 +74,7 @@ static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *tre
 /* Largest part of a requested error that the square of an odd mode may make in a short window. */
 #define UNFELT (1 / 3.0)
 
-/* True if the square of an odd mode makes more of a requested error, or nobody knows. */
+/* True if the square of an odd mode makes more of a requested error, or if its part is unknown. */
 static gg_status is_felt(const gg_replicas *all, int mode, double decay, const gg_quantity *list, int asked, bool *felt,
                          gg_error *err)
 {

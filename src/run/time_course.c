@@ -30,10 +30,11 @@ static bool is_of_one_row(const gg_observable *o, const gg_function *f)
  * that may change. The stress of a sample has the shear rate up to that time. */
 static double factor_of(const gg_replicas *all, const gg_model *m, gg_quantity q, size_t row)
 {
-  gg_scene now = all->scene;
-  const int changes = row > 0 ? gg_run_protocol_changes(&all->scene, row - 1) : 0;
   if (q != GG_Q_SHEAR_VISCOSITY) return 1;
-  if (changes > 0 && gg_scene_protocol_apply(&all->scene, changes, &now, NULL) != GG_OK) return NAN;
+  gg_scene now;
+  const int changes = row > 0 ? gg_run_protocol_changes(&all->scene, row - 1) : 0;
+  if (changes == 0) return m->shear_rate / all->model.shear_rate;
+  if (gg_scene_protocol_apply(&all->scene, changes, &now, NULL) != GG_OK) return NAN;
   return m->shear_rate / (all->model.shear_rate * now.shear_rate / all->scene.shear_rate);
 }
 

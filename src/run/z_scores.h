@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Deviations of molecular dynamics from the Enskog equation and of theories from both, with remarks on their causes.
- * A gas that is followed in time is compared with dsmc, not with theories of the
- * steady state. */
+ * A gas that is followed in time is compared with dsmc, not with theories of the steady state. */
 #ifndef GG_Z_SCORES_H
 #define GG_Z_SCORES_H
 

@@ -142,8 +142,7 @@ const gg_field gg_scene_fields[] = {
      .doc = "D of kicks at contact: two grains part with the relative normal velocity e g_n + 2 D", .on_the_way = true},
     {"collision.tangential_kick", GG_FIELD_PAIRS, AT(collision.tangential_kick), -LARGE, LARGE, .unit = "velocity",
      .doc = "D_t of kicks at contact: the surface of grain 1 gets 2 D_t k x z against that of grain 2, k from 1 to 2; "
-            "above "
-            "0 the pair turns about z by the right hand",
+            "above 0 the pair turns about z by the right hand",
      .on_the_way = true},
     {"collision.law", GG_FIELD_CHOICE, AT(collision.law), .words = laws,
      .doc = "dependence of e on the normal speed of a collision between grains", .also = "model", .on_the_way = true},
@@ -499,7 +498,8 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
              GG_MAX_CHANGES);
     return;
   case GG_FIELD_SPECIES:
-    snprintf(text, size, "a list of 1 to %d maps with fraction, diameter, mass, inertia, drag and torque", GG_MAX_SPECIES);
+    snprintf(text, size, "a list of 1 to %d maps with fraction, diameter, mass, inertia, drag and torque",
+             GG_MAX_SPECIES);
     return;
   }
 }

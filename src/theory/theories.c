@@ -55,12 +55,12 @@ static gg_status check_bath(const gg_theory *theory, const gg_model *m, gg_error
   return gg_theory_reject(err, theory->name, "has no bath, nor heating of a given strength; this scene has");
 }
 
-static gg_status check_law(const gg_theory *theory, const gg_model *model, gg_error *err)
+static gg_status check_collisions(const gg_theory *theory, const gg_model *model, gg_error *err)
 {
   if (theory->own) return GG_OK;
   if (gg_model_is_injected(model))
-    return gg_theory_reject(err, theory->name, "has no %s; this scene has",
-                            model->kicks ? "kicks at contact" : "torque");
+    return gg_theory_reject(err, theory->name, "does not describe %s, which this scene has",
+                            model->kicks ? "kicks at contact" : "torques");
   if (!model->law.name) return GG_OK;
   return gg_base_fail(err, GG_BAD_INPUT, "%s describes grains of constant e; this scene has the restitution law '%s'",
                       theory->name, model->law.name);
@@ -96,7 +96,7 @@ static gg_status run(const gg_theory *theory, const gg_model *model, request r, 
 
 static gg_status checked(const gg_theory *theory, const gg_model *model, request r, gg_error *err)
 {
-  GG_TRY(check_law(theory, model, err));
+  GG_TRY(check_collisions(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
   GG_TRY(check_bath(theory, model, err));
   const unsigned before = gg_base_memory_failures();
@@ -145,7 +145,7 @@ gg_status gg_theory_fluxes(const gg_theory *theory, const gg_model *model, size_
   if (!theory->gap || !theory->gap->gas_of)
     return gg_theory_reject(err, theory->name,
                             "gives no fluxes at single heights; navier_stokes, navier_stokes_hermite and moments do");
-  GG_TRY(check_law(theory, model, err));
+  GG_TRY(check_collisions(theory, model, err));
   GG_TRY(check_flow(theory, model, err));
   GG_TRY(check_bath(theory, model, err));
   const unsigned before = gg_base_memory_failures();

@@ -256,9 +256,9 @@ static void equal_spheres(void **state)
   assert_true(norm(gg_sub(J, expected)) < 1e-15);
 }
 
-/* Kicks: momentum and angular momentum about the contact point are conserved, the relative normal velocity after
- * contact is -(e g_n + 2 D), that of the surfaces along k x z has 2 D_t more, and the energy is lost and given as
- * counted: what kicks give is the energy that the impulse has beyond that without them. */
+/* Kicks conserve momentum and angular momentum about the contact point. The relative normal velocity after contact is
+ * -(e g_n + 2 D), that of the surfaces along k x z has 2 D_t more. Energy is lost and given as counted: kicks give what
+ * the impulse with them has beyond the one without. */
 static void check_kicked(pair *p, gg_rule rule, double D, double Dt)
 {
   collide(p, rule);

@@ -115,9 +115,9 @@ static void energy_is_counted(void **state)
 }
 
 /* zeta = 0 and d<v^4>/dt = 0 in the first Sonine approximation, linear in a2, for d = 3 and D in units of v_0 =
- * sqrt(2T/m). With x = k.g_12/v_0 and A = (1+e) x/2 + D a collision changes v_1 by -A k, so that <x (A^2 - A x)> = 0
- * and <x Delta(v_1^4 + v_2^4)> = 0 over x > 0 (the model of J.J. Brey, M.I. Garcia de Soria & P. Maynar, Phys. Rev. E
- * 87 (2013) 052201, and V. Garzo, R. Brito & R. Soto, Phys. Rev. E 98 (2018) 052904, in three dimensions): */
+ * sqrt(2T/m). With x = k.g_12/v_0 and A = (1+e) x/2 + D a collision changes v_1 by -A k. So <x (A^2 - A x)> = 0 and
+ * <x Delta(v_1^4 + v_2^4)> = 0 over x > 0. (The model of J.J. Brey, M.I. Garcia de Soria & P. Maynar, Phys. Rev. E
+ * 87 (2013) 052201, and V. Garzo, R. Brito & R. Soto, Phys. Rev. E 98 (2018) 052904, in three dimensions.) */
 static double energy_residue(double e, double D, double a2)
 {
   const double root = sqrt(2 * M_PI);
@@ -243,6 +243,13 @@ static void friction_and_torque_change_the_mean_spin(void **state)
   }
 }
 
+static bool is_steady_with(double beta, double D, double D_t)
+{
+  gg_scene s = scene_of(GG_DSMC, 0.1, 0.8, beta, 1000);
+  set_kicks(&s, D, D_t);
+  return model_of(&s).steady;
+}
+
 static bool is_steady(double e, double beta, double rotation, double torque, double D)
 {
   gg_scene s = scene_of(GG_DSMC, 0.1, e, beta, 1000);
@@ -262,6 +269,9 @@ static void steady_states(void **state)
   assert_true(is_steady(0.9, 0, -1, 0.1, 0));
   assert_true(is_steady(1, 0, -1, 0.1, 0));
   assert_false(is_steady(1, 1, -1, 0.1, 0));
+  assert_true(is_steady_with(-1, 0, 0.1));
+  assert_true(is_steady_with(0, 0.1, 0.1));
+  assert_false(is_steady_with(0, 0, 0.1));         /* spins take up the kicks */
   gg_scene hot = scene_of(GG_MD, 0.1, 1, 1, 1000); /* the start of a gas that heats up for ever is of the scale of D */
   set_kicks(&hot, 0.1, 0);
   assert_true(model_of(&hot).temperature0 < 1);

@@ -110,9 +110,10 @@ GG_INLINE void collide(gg_dsmc_channel *d, const pass *p, double time, uint32_t 
   t->collisions[p->pair]++;
   if (!d->now.keeps_sums) return;
   if (!d->model.boltzmann) gg_add_stress(t->stress[p->pair], d->model.sigma[p->pair], k, J);
-  const double given = kicks ? gg_kicked_energy_loss(contact, k, v, J).given : 0;
-  t->loss[p->pair] += gg_energy_loss(contact, k, v, J) + given;
-  t->given[p->pair] += given;
+  const gg_kicked_loss energy =
+      kicks ? gg_kicked_energy_loss(contact, k, v, J) : (gg_kicked_loss){.loss = gg_energy_loss(contact, k, v, J)};
+  t->loss[p->pair] += energy.loss;
+  t->given[p->pair] += energy.given;
 }
 
 /* Candidates that are drawn at once. */

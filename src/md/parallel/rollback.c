@@ -7,8 +7,8 @@
 #include "md/parallel/slab.h"
 #include "md/search/list_update.h"
 
-/* Has an event of equal or later time run here in an earlier phase? The queue orders events of equal times, once both
- * are in it. */
+/* True if an event of equal or later time has run here in an earlier phase. The queue orders events of equal times,
+ * once both are in it. */
 static bool is_straggler_in(const gg_md_slab *s, float time, const uint32_t *cells, int n)
 {
   for (int k = 0; k < n; k++) {
@@ -44,7 +44,8 @@ static gg_md_saved_cell *saved_cells_of(const gg_md_log *log, const gg_md_record
   return (gg_md_saved_cell *)log->part[GG_MD_LOG_CELLS].item + r->cells;
 }
 
-/* Does the footprint of the record include a marked cell of this slab? Marks of other slabs may change meanwhile. */
+/* True if the footprint of the record includes a marked cell of this slab. Marks of other slabs may change meanwhile.
+ */
 static bool is_marked(const gg_md_slab *s, const gg_md_log *log, const gg_md_record *r)
 {
   const gg_md_saved_cell *cell = saved_cells_of(log, r);
@@ -53,7 +54,7 @@ static bool is_marked(const gg_md_slab *s, const gg_md_log *log, const gg_md_rec
   return false;
 }
 
-/* Do the footprint and the cells around it belong to this slab? */
+/* True if the footprint and the cells around it belong to this slab. */
 static bool is_inside(const gg_md_slab *s, const gg_md_log *log, const gg_md_record *r)
 {
   const gg_md_saved_cell *cell = saved_cells_of(log, r);

@@ -218,8 +218,8 @@ int gg_md_cells_around(const gg_md_parallel *p, uint32_t cell, uint32_t index[GG
 /* Set p->from and p->to for a new window. False: a grain may reach too many cells. */
 bool gg_md_measure_around(gg_md_parallel *p);
 
-/* rollback.c: is this event a straggler, that is, has an event beside it with a later or nearly the same time run in an
- * earlier phase? */
+/* rollback.c: true if this event is a straggler: an event beside it with a later or nearly the same time has run in an
+ * earlier phase. */
 bool gg_md_is_straggler(const gg_md_slab *s, double time, const gg_md_footprint *footprint);
 typedef enum gg_md_rollback_status {
   GG_MD_NO_ROLLBACK,      /* no event depends on the straggler */

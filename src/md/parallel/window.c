@@ -112,7 +112,7 @@ GG_INLINE void prefetch(const gg_md_slab *s)
   if (left > AHEAD) prefetch_states(s, due[AHEAD].grain);
 }
 
-/* Must the serial loop take over? For full cells or lists, NaN, and lack of memory. */
+/* True if the serial loop must take over: for full cells or lists, NaN, and lack of memory. */
 static bool is_over(const gg_md_slab *s)
 {
   return s->out_of_memory | s->local->out_of_memory | s->local->no_number | s->local->lists_are_full;
@@ -274,7 +274,7 @@ static void cancel(gg_md_parallel *p)
   qsort(q->due, q->n_due, sizeof *q->due, latest_first);
 }
 
-/* Did memory lack in a slab? Then the window cannot be rolled back, and the run ends. */
+/* True if memory lacked in a slab. Then the window cannot be rolled back, and the run ends. */
 static bool lacks_memory(const gg_md_parallel *p)
 {
   for (int k = 0; k < p->n_slabs; k++) p->engine->out_of_memory |= p->slab[k].out_of_memory;

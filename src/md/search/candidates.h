@@ -69,7 +69,7 @@ GG_INLINE bool gg_md_keep_gathered(gg_md_search *s, const gg_md_gathered *g)
   return true;
 }
 
-/* Is there room for the grains of so many full cells? */
+/* True if there is room for the grains of so many full cells. */
 GG_INLINE bool gg_md_has_room(const gg_md *e, int cells)
 {
   return (uint32_t)cells * e->cells.stride <= GG_MD_MOST_CANDIDATES;

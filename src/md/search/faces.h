@@ -7,7 +7,7 @@
 #include "simd/axes.h"
 #include "simd/eight.h"
 
-/* Is the upper face of this cell a wall, which is not crossed? */
+/* True if the upper face of this cell is a wall, which is not crossed. */
 GG_INLINE bool gg_md_is_wall_above(const gg_md *e, const int32_t *cell)
 {
   return IS_WALLED && cell[1] == e->cells.n[1] - 1;

@@ -43,7 +43,7 @@ GG_INLINE void gg_md_check_memory(gg_md *e, bool good)
   e->k.collisions_left = 0;
 }
 
-/* Is the velocity after a contact finite? NaN never recovers: the run ends. */
+/* True if the velocity after a contact is finite. NaN never recovers: the run ends. */
 GG_INLINE bool gg_md_is_velocity(gg_md *e, const gg_md_grain *g)
 {
   if (__builtin_expect(fabs(g->v.x + g->v.y + g->v.z) < INFINITY, 1)) return true;

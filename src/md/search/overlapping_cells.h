@@ -60,7 +60,7 @@ GG_INLINE void gg_md_store_cell(gg_md_node *node, gg_indices cell)
   *(gg_indices_there *)node->cell = cell;
 }
 
-/* Is the upper or only cell of the grain the last one below a wall? */
+/* True if the upper or only cell of the grain is the last one below a wall. */
 GG_INLINE bool gg_md_is_below_wall(const gg_md *e, const gg_md_node *node)
 {
   return IS_WALLED && node->cell[1] + (int32_t)(node->neighbours >> 1 & 1) == e->cells.n[1] - 1;

@@ -92,7 +92,7 @@ GG_INLINE void gg_md_scan_moving_rows(const gg_md *e, gg_md_search *s)
   if (y == 0) gg_md_scan_moving_row(e, s, -1);
 }
 
-/* Are all cells around in the same image of the box? */
+/* True if all cells around are in the same image of the box. */
 GG_INLINE bool gg_md_is_inside(const gg_md *e, const int32_t at[3])
 {
   const int32_t *n = e->cells.n;

@@ -47,7 +47,7 @@ void gg_md_place_lattice(const gg_md_box *box, uint32_t n, gg_rng *rng, gg_vec *
 double gg_md_place_margin(double phi);
 /* Push overlapping grains apart in at most so many sweeps. *free: no overlap remains. Positions are in the box. */
 gg_status gg_md_place_relax(gg_md_packing *p, double margin, int most_sweeps, bool *free, gg_error *err);
-/* relax_lists.c: is this a large periodic box, for gg_md_place_relax_lists? */
+/* relax_lists.c: true of a large periodic box, for gg_md_place_relax_lists. */
 bool gg_md_place_has_lists(const gg_md_packing *p);
 /* The same as gg_md_place_relax, faster and with other positions. */
 gg_status gg_md_place_relax_lists(gg_md_packing *p, double margin, int most_sweeps, bool *free, gg_error *err);

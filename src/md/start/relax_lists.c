@@ -123,7 +123,7 @@ static gg_status sweep(relaxation *x, int number, bool pushing, gg_error *err)
   return GG_OK;
 }
 
-/* Are the lists complete, that is, has no grain moved so far that a pair may be missing? */
+/* True if the lists are complete: no grain has moved so far that a pair may be missing. */
 static bool are_complete(const relaxation *x)
 {
   return x->farthest2 <= 0.25 * x->lists.skin * x->lists.skin;
