@@ -47,9 +47,11 @@ static gg_status warm_up(gg_replicas *all, gg_error *err)
 
 static gg_status note(const gg_replicas *all, gg_course *c, int mark, int seed, gg_error *err)
 {
+  gg_slow_modes slow;
+  GG_TRY(gg_run_replicas_slow_modes(all, &slow, err));
   for (int q = 0; q < GG_COURSE_QUANTITIES; q++) {
     gg_mean m;
-    GG_TRY(gg_run_replicas_mean(all, gg_bench_error_quantities(all->scene.flow)[q], &m, err));
+    GG_TRY(gg_run_replicas_mean(all, gg_bench_error_quantities(all->scene.flow)[q], slow.time, &m, err));
     c->mean[q][mark][seed] = m.mean;
     if (seed == 0) c->error[q] = m.error;
   }

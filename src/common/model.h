@@ -196,24 +196,13 @@ bool gg_common_pair_loses(const gg_model *model, int i, int j);
 double gg_common_model_widest(const gg_model *model);
 double gg_common_model_narrowest(const gg_model *model);
 
-/* Collisions per grain that the slowest of T, theta, mean spin needs to relax by a factor 1/e, estimated from two-
- * Maxwellian kinetics (Huthmann & Zippelius 1997): 3/(4A), 3/(4C); and, where T is scaled or conserved and so does not
- * relax, the temperatures of the species. At least 1. */
-double gg_common_model_relaxation(const gg_model *model);
-/* The same of a gas that cools: the larger of 3/(4A) and 3/(4C), be T scaled or not. */
-double gg_common_model_cooling(const gg_model *model);
-/* The same of the temperatures of elastic species, if nothing else went on; 0 of one species. */
-double gg_common_model_sharing(const gg_model *model);
-
-/* Collisions per grain that momentum needs to diffuse across the gap between walls, the slowest wave of it by a factor
- * 1/e: (H/pi)^2/nu, nu the kinematic viscosity of elastic Enskog theory (Chapman & Cowling 1970, 16.41). A dense core
- * takes up to some times as long to form. 0 without walls. */
-double gg_common_model_gap_relaxation(const gg_model *model);
-
 /* Tangential restitution of contacts that the contact-time rule treats, whose e is 1. Unlike grains lose nothing at
  * all: smooth, or perfectly rough where they are. (With friction left a light grain is rolled to rest between heavy
  * ones, by collisions without end: masses 1:100 did, at any contact time.) */
 double gg_common_treated_beta(const gg_model *model, int i, int j);
+
+/* Collisions per unit time of `share` grains of species i with grains of j, at temperature T = m <c^2>/3. */
+double gg_common_model_pair_rate(const gg_model *model, double share, int i, int j, double T);
 
 /* Boltzmann-Enskog collision rate per grain at temperature T: 4 n d^2 chi sqrt(pi T) for one species. */
 double gg_common_model_collision_rate(const gg_model *model, double T);

@@ -75,16 +75,16 @@ static gg_status test_trend(const gg_replicas *all, gg_quantity q, gg_trend *tre
 #define UNFELT (1 / 3.0)
 
 /* True if the square of an odd mode makes more of a requested error, or if its part is unknown. */
-static gg_status is_felt(const gg_replicas *all, int mode, double decay, const gg_quantity *list, int asked, bool *felt,
-                         gg_error *err)
+static gg_status is_felt(const gg_replicas *all, const gg_slow_modes *w, int mode, const gg_quantity *list, int asked,
+                         bool *felt, gg_error *err)
 {
   double most = -1;
   for (int i = 0; i < asked; i++) {
     gg_mean m;
     double error = 0;
-    GG_TRY(gg_run_replicas_mean(all, list[i], &m, err));
+    GG_TRY(gg_run_replicas_mean(all, list[i], w->time, &m, err));
     if (!isfinite(m.mean)) continue;
-    GG_TRY(gg_run_replicas_error_by_square(all, mode, decay, list[i], &error, err));
+    GG_TRY(gg_run_replicas_error_by_square(all, mode, w->decay[mode], list[i], &error, err));
     most = fmax(most, error / fabs(m.mean) / gg_run_criteria_error_of(&all->scene, &all->model, list[i]));
   }
   *felt = most < 0 || most > UNFELT;
@@ -92,20 +92,18 @@ static gg_status is_felt(const gg_replicas *all, int mode, double decay, const g
 }
 
 /* Find the mode that needs the longest window. */
-static gg_status test_wandering(const gg_replicas *all, const gg_quantity *list, int asked, gg_convergence *c,
-                                gg_error *err)
+static gg_status test_wandering(const gg_replicas *all, const gg_slow_modes *w, const gg_quantity *list, int asked,
+                                gg_convergence *c, gg_error *err)
 {
-  gg_slow_modes w;
   const double sampled = (double)(all->state.due - all->state.window_at) * all->n;
-  GG_TRY(gg_run_replicas_slow_modes(all, &w, err));
-  for (int k = 0; k < w.modes; k++) {
+  for (int k = 0; k < w->modes; k++) {
     const bool odd = gg_measure_wall_mode_is_odd(&all->model, k);
     int least = odd ? GG_LEAST_ODD_TIMES : GG_LEAST_SLOW_TIMES;
     bool felt = true;
-    if (odd && sampled < least * w.decay[k]) GG_TRY(is_felt(all, k, w.decay[k], list, asked, &felt, err));
+    if (odd && sampled < least * w->decay[k]) GG_TRY(is_felt(all, w, k, list, asked, &felt, err));
     if (!felt) least = GG_LEAST_UNFELT_TIMES;
-    if (least * w.decay[k] > c->slow_mode_least * c->slow_mode_time)
-      c->slow_mode = k, c->slow_mode_time = w.decay[k], c->slow_mode_least = least;
+    if (least * w->decay[k] > c->slow_mode_least * c->slow_mode_time)
+      c->slow_mode = k, c->slow_mode_time = w->decay[k], c->slow_mode_least = least;
   }
   if (sampled < c->slow_mode_least * c->slow_mode_time) c->trusted = false;
   return GG_OK;
@@ -117,9 +115,11 @@ gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_er
   gg_quantity list[GG_N_QUANTITIES];
   int asked, n = monitored(all, list, &asked);
   double per_row = (double)all->replica[0].series.per_row;
+  gg_slow_modes slow;
+  GG_TRY(gg_run_replicas_slow_modes(all, &slow, err));
   for (int i = 0; i < n; i++) {
     gg_mean m;
-    GG_TRY(gg_run_replicas_mean(all, list[i], &m, err));
+    GG_TRY(gg_run_replicas_mean(all, list[i], slow.time, &m, err));
     c->slowest = fmax(c->slowest, m.correlation_rows * per_row);
     if (i < asked) note_error(all, list[i], &m, c);
     if (all->model.linear_response) continue;
@@ -131,7 +131,7 @@ gg_status gg_run_replicas_convergence(gg_replicas *all, gg_convergence *c, gg_er
       c->trend_z = t.z, c->trend_relative = t.relative, c->trend_share = t.share;
     }
   }
-  GG_TRY(test_wandering(all, list, asked, c, err));
+  GG_TRY(test_wandering(all, &slow, list, asked, c, err));
   all->last = *c;
   return GG_OK;
 }

@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "common/linear_response.h"
+#include "common/relaxation_times.h"
 #include "common/thermostat.h"
 #include "measure/observable.h"
 #include "run/protocol_times.h"

@@ -34,7 +34,7 @@ static const char *why_missing(const gg_replicas *all, gg_quantity q)
   return reason ? reason : "not measured in this scene";
 }
 
-static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err)
+static gg_status report_means(gg_replicas *all, double memory, gg_result *result, gg_error *err)
 {
   const gg_series *s = &all->replica[0].series;
   size_t rows = gg_series_window_rows(s);
@@ -55,7 +55,7 @@ static gg_status report_means(gg_replicas *all, gg_result *result, gg_error *err
     if (followed)
       m = gg_run_time_course_end(all, q);
     else if (all->state.averaging)
-      GG_TRY(gg_run_replicas_mean(all, q, &m, err));
+      GG_TRY(gg_run_replicas_mean(all, q, memory, &m, err));
     if (!isfinite(m.mean)) {
       snprintf(e->reason, sizeof e->reason, "%s", why_missing(all, q));
       continue;
@@ -352,15 +352,13 @@ static void warn_of_unmeasured(void *result, const char *text)
   gg_run_result_warn(result, "%s", text);
 }
 
-static gg_status report_curves(const gg_replicas *all, gg_result *result, gg_error *err)
+static gg_status report_curves(const gg_replicas *all, const gg_slow_modes *slow, gg_result *result, gg_error *err)
 {
   result->curves = (gg_curves){.model = &result->model};
   GG_TRY(gg_run_unmeasured(&all->scene, &all->model, warn_of_unmeasured, result, err));
-  gg_slow_modes slow;
-  GG_TRY(gg_run_replicas_slow_modes(all, &slow, err));
   for (int k = 0; k < all->replica[0].n_observables; k++)
-    if (all->replica[0].observable[k]->curves) GG_TRY(report_one(all, k, slow.mean_time, result, err));
-  warn_of_one_side(&slow, result);
+    if (all->replica[0].observable[k]->curves) GG_TRY(report_one(all, k, slow->mean_time, result, err));
+  warn_of_one_side(slow, result);
   return gg_scene_is_followed(&all->scene) ? gg_run_time_course_curves(all, result, err) : GG_OK;
 }
 
@@ -373,8 +371,10 @@ gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *
   result->model.stop = NULL; /* it ends with the run */
   result->engine = all->replica[0].engine->ops->name;
   gg_run_result_label(result);
+  gg_slow_modes slow;
+  GG_TRY(gg_run_replicas_slow_modes(all, &slow, err));
   GG_TRY(gg_run_replicas_convergence(all, &c, err));
-  GG_TRY(report_means(all, result, err));
+  GG_TRY(report_means(all, slow.time, result, err));
   GG_TRY(report_history(all, result, err));
   report_effort(all, result);
   gg_run_replicas_report_steadiness(all, &c, result);
@@ -383,7 +383,7 @@ gg_status gg_run_replicas_report(gg_replicas *all, gg_result *result, gg_error *
   else
     gg_run_default_size_reason(&all->scene, result->ensemble_text, sizeof result->ensemble_text);
   report_warnings(all, &c, result);
-  GG_TRY(report_curves(all, result, err));
+  GG_TRY(report_curves(all, &slow, result, err));
   GG_TRY(gg_run_frame_take(all->replica[0].engine, &all->model, &result->final, err));
   gg_run_replica_date_frame(&all->replica[0], &result->final);
   return GG_OK;

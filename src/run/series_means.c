@@ -31,20 +31,18 @@ static const gg_series **series_of(const gg_replicas *all, gg_error *err)
   return series;
 }
 
-gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err)
+gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, double memory, gg_mean *mean, gg_error *err)
 {
   *mean = (gg_mean){.mean = NAN, .error = NAN, .correlation_rows = 0.5};
   gg_function f;
   const int k = gg_run_replica_find_function(&all->replica[0], q, &f);
   if (k < 0) return GG_OK;
-  gg_slow_modes slow;
-  GG_TRY(gg_run_replicas_slow_modes(all, &slow, err));
   const gg_series **series = series_of(all, err);
   if (!series) return GG_FAILED;
   const gg_replica *first = &all->replica[0];
   gg_status status = gg_statistics_estimate_mean(series, (size_t)all->n, first->series.window, first->series.n,
                                                  first->offset[k], first->observable[k]->rows->width(&all->model), f,
-                                                 &all->model, slow.time / (double)first->series.per_row, mean, err);
+                                                 &all->model, memory / (double)first->series.per_row, mean, err);
   free(series);
   double rows = (double)gg_series_window_rows(&first->series) * all->n;
   mean->error *= gg_run_criteria_margin(&all->criteria, mean->correlation_rows, rows);

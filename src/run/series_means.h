@@ -11,8 +11,9 @@ int gg_run_replica_find_function(const gg_replica *r, gg_quantity q, gg_function
  * has no mean. */
 bool gg_run_replica_find_history(const gg_replica *r, gg_quantity q, gg_function *f);
 
-/* Mean over the window of all replicas; NaN if no observable here has the quantity. */
-gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, gg_mean *mean, gg_error *err);
+/* Mean over the window of all replicas; NaN if no observable here has the quantity. Its error allows for a memory of so
+ * many samples, as slow modes between walls have it (gg_slow_modes.time); 0: what the series itself shows. */
+gg_status gg_run_replicas_mean(const gg_replicas *all, gg_quantity q, double memory, gg_mean *mean, gg_error *err);
 
 /* Means of the linear response of a quantity that has a mean, over blocks of so many rows (statistics/estimator.h). */
 gg_status gg_run_replicas_blocks(const gg_replicas *all, gg_quantity q, size_t length, double *blocks, gg_error *err);

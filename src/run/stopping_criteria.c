@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "common/linear_response.h"
+#include "common/relaxation_times.h"
 #include "run/protocol_times.h"
 #include "run/replicas.h"
 #include "scene/ensemble_size.h"

@@ -12,6 +12,7 @@
 #include "base/archive.h"
 #include "common/contact_value.h"
 #include "common/quantity.h"
+#include "common/relaxation_times.h"
 #include "common/rng.h"
 #include "common/thermostat.h"
 #include "scene/model_of_scene.h"

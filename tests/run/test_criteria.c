@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "common/relaxation_times.h"
 #include "run/replicas.h"
 #include "scene/model_of_scene.h"
 #include "scene/scene_reader.h"
