@@ -17,7 +17,7 @@ static const char text[] =
     "\"a key that is longer than the first room of a text\": [1, 2.5, null, true, \"carnahan_starling\"]}";
 
 /* jansson lost letters so ("averaged ovr"), and called the document read. */
-static void reading(void **state)
+static void a_document_is_read_whole_or_refused_without_memory(void **state)
 {
   (void)state;
   json_t *whole = gg_io_json_read(text, NULL);
@@ -39,7 +39,7 @@ static void reading(void **state)
   json_decref(whole);
 }
 
-static void writing(void **state)
+static void a_document_is_written_whole_or_refused_without_memory(void **state)
 {
   (void)state;
   json_t *whole = gg_io_json_read(text, NULL);
@@ -60,7 +60,8 @@ static void writing(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(reading), cmocka_unit_test(writing)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_document_is_read_whole_or_refused_without_memory),
+                                     cmocka_unit_test(a_document_is_written_whole_or_refused_without_memory)};
   cmocka_set_message_output(CM_OUTPUT_TAP);
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,7 +20,7 @@ static double value(const char *text, double v, double e)
   return gg_base_expression_value(&x, (const double[]){v, e});
 }
 
-static void values(void **state)
+static void formulas_have_the_values_of_c(void **state)
 {
   (void)state;
   const double v = 1.7, e = 0.8;
@@ -54,7 +54,7 @@ static void values(void **state)
 }
 
 /* The step of a comparison is between two neighbouring numbers, on the side that the sign says. */
-static void steps(void **state)
+static void a_step_is_between_two_neighbouring_numbers(void **state)
 {
   (void)state;
   assert_true(value("1 if v < 2 else 0", nextafter(2, 0), 0) == 1 && value("1 if v < 2 else 0", 2, 0) == 0);
@@ -101,8 +101,8 @@ static void depth_is_bounded(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(values),
-      cmocka_unit_test(steps),
+      cmocka_unit_test(formulas_have_the_values_of_c),
+      cmocka_unit_test(a_step_is_between_two_neighbouring_numbers),
       cmocka_unit_test(errors_name_the_character),
       cmocka_unit_test(depth_is_bounded),
   };

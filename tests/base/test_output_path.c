@@ -159,7 +159,7 @@ static void what_the_dead_left(void **state)
 }
 
 /* Devices and pipes receive the bytes and remain. */
-static void streams(void **state)
+static void devices_and_pipes_receive_the_bytes_and_remain(void **state)
 {
   (void)state;
   struct stat about;
@@ -229,7 +229,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(links_are_followed),       cmocka_unit_test(mode_is_kept),
       cmocka_unit_test(one_writer_at_a_time),     cmocka_unit_test(without_locks),
-      cmocka_unit_test(what_the_dead_left),       cmocka_unit_test(streams),
+      cmocka_unit_test(what_the_dead_left),       cmocka_unit_test(devices_and_pipes_receive_the_bytes_and_remain),
       cmocka_unit_test(replaced_while_looked_at),
   };
   return cmocka_run_group_tests(tests, enter, leave);

@@ -175,7 +175,7 @@ static void check_scenes(const gg_bench_table *s)
   }
 }
 
-static void overview(void **state)
+static void the_overview_has_every_engine_density_and_size(void **state)
 {
   (void)state;
   gg_bench b;
@@ -192,7 +192,7 @@ static void overview(void **state)
   }
 }
 
-static void md(void **state)
+static void md_has_its_rows_and_ratios(void **state)
 {
   (void)state;
   static const char *const scenes[] = {
@@ -210,7 +210,7 @@ static void md(void **state)
   }
 }
 
-static void dsmc(void **state)
+static void dsmc_has_its_rows_and_ratios(void **state)
 {
   (void)state;
   gg_bench b;
@@ -229,7 +229,7 @@ static void dsmc(void **state)
 }
 
 /* A row for each observable, engine, density and size that can have it: each a filled cell; "-" where none can. */
-static void observables(void **state)
+static void every_observable_has_its_cost_or_a_dash(void **state)
 {
   (void)state;
   static const char *const md_alone[] = {"pair_correlation",    "velocity_correlations",      "structure", "cells",
@@ -295,7 +295,7 @@ static void check_state(const gg_bench_table *seconds, const char *title, int ro
   }
 }
 
-static void error(void **state)
+static void every_state_has_time_against_error_and_a_picture(void **state)
 {
   (void)state;
   static const char *const pictures[] = {"error_phi-0.01-e-0.9-rough-shear.svg", "error_phi-0.3-e-0.9-rough-shear.svg",
@@ -338,7 +338,7 @@ static void refuse(const char *subject, gg_bench_options o, const char *said)
   gg_bench_clear(&b);
 }
 
-static void refused(void **state)
+static void bad_options_are_refused(void **state)
 {
   (void)state;
   static const char *const bad[] = {"run.seed=-1"};
@@ -354,10 +354,17 @@ int main(int argc, char **argv)
 {
   full_too = !(argc > 1 && strcmp(argv[1], "quick") == 0);
   char folder[] = "/tmp/graingas-bench-XXXXXX";
-  const struct CMUnitTest quick[] = {cmocka_unit_test(overview), cmocka_unit_test(md), cmocka_unit_test(dsmc),
-                                     cmocka_unit_test(observables), cmocka_unit_test(refused)},
-                          full[] = {cmocka_unit_test(overview),    cmocka_unit_test(md),    cmocka_unit_test(dsmc),
-                                    cmocka_unit_test(observables), cmocka_unit_test(error), cmocka_unit_test(refused)};
+  const struct CMUnitTest quick[] = {cmocka_unit_test(the_overview_has_every_engine_density_and_size),
+                                     cmocka_unit_test(md_has_its_rows_and_ratios),
+                                     cmocka_unit_test(dsmc_has_its_rows_and_ratios),
+                                     cmocka_unit_test(every_observable_has_its_cost_or_a_dash),
+                                     cmocka_unit_test(bad_options_are_refused)},
+                          full[] = {cmocka_unit_test(the_overview_has_every_engine_density_and_size),
+                                    cmocka_unit_test(md_has_its_rows_and_ratios),
+                                    cmocka_unit_test(dsmc_has_its_rows_and_ratios),
+                                    cmocka_unit_test(every_observable_has_its_cost_or_a_dash),
+                                    cmocka_unit_test(every_state_has_time_against_error_and_a_picture),
+                                    cmocka_unit_test(bad_options_are_refused)};
   if (!mkdtemp(folder) || chdir(folder) != 0) return 1;
   int failed = full_too ? cmocka_run_group_tests(full, NULL, NULL) : cmocka_run_group_tests(quick, NULL, NULL);
   if (chdir("/") != 0 || rmdir(folder) != 0) return 1;

@@ -293,7 +293,7 @@ static void check_kicked(pair *p, gg_rule rule, double D, double Dt)
   assert_true(fabs(counted.loss - (E0 - E2)) <= 1e-13 * scale);
 }
 
-static void kicks(void **state)
+static void kicks_conserve_momentum_and_give_their_energy(void **state)
 {
   (void)state;
   gg_rng r = gg_common_rng_seed(1991, 10);
@@ -348,7 +348,7 @@ int main(void)
       cmocka_unit_test(limits_of_mu_and_beta_are_the_simpler_rules),
       cmocka_unit_test(time_reversal),
       cmocka_unit_test(equal_spheres),
-      cmocka_unit_test(kicks),
+      cmocka_unit_test(kicks_conserve_momentum_and_give_their_energy),
       cmocka_unit_test(sides_of_kicks),
       cmocka_unit_test(kicks_of_nothing),
   };

@@ -247,7 +247,7 @@ static void laws_beside_bands(void **state)
 }
 
 /* Labels of tics stay short, and round; those of a long logarithmic axis are powers. */
-static void tics(void **state)
+static void labels_of_tics_are_short_and_round(void **state)
 {
   (void)state;
   static const struct {
@@ -300,7 +300,7 @@ static void axes_have_room(void **state)
   assert_true(a.log && a.from > 0 && a.from < 1e-3 && a.to > 1);
 }
 
-static void keys(void **state)
+static void keys_have_symbols_and_units(void **state)
 {
   (void)state;
   static const char *const cases[][3] = {{"collision.beta", "β", "1"},
@@ -325,7 +325,7 @@ static gg_chart *empty_chart(void)
   return chart;
 }
 
-static void refused(void **state)
+static void bad_formats_and_folders_are_refused(void **state)
 {
   (void)state;
   gg_error err;
@@ -364,7 +364,7 @@ static void kinds_of_pictures(void **state)
   }
 }
 
-static void widths(void **state)
+static void widths_are_lengths_of_paper(void **state)
 {
   (void)state;
   static const char *const bad[] = {"", "86", "mm", "86 km", "-86mm", "nanmm", "infmm", "1mm", "2000mm", "86mm "};
@@ -436,7 +436,7 @@ static void check_theories(const double *second, const char *names, int dashed)
 }
 
 /* Theories have the names that people use. Theories that coincide are drawn once, under both names. */
-static void theories(void **state)
+static void theories_have_the_names_that_people_use(void **state)
 {
   (void)state;
   static const char *const names[][2] = {{"garzo_dufty1999", "Garzó & Dufty 1999"},
@@ -480,13 +480,13 @@ int main(void)
       cmocka_unit_test(looks_follow_from_names),
       cmocka_unit_test(few_looks_are_listed_one_by_one),
       cmocka_unit_test(laws_beside_bands),
-      cmocka_unit_test(tics),
+      cmocka_unit_test(labels_of_tics_are_short_and_round),
       cmocka_unit_test(axes_have_room),
-      cmocka_unit_test(keys),
-      cmocka_unit_test(refused),
-      cmocka_unit_test(widths),
+      cmocka_unit_test(keys_have_symbols_and_units),
+      cmocka_unit_test(bad_formats_and_folders_are_refused),
+      cmocka_unit_test(widths_are_lengths_of_paper),
       cmocka_unit_test(width_on_paper),
-      cmocka_unit_test(theories),
+      cmocka_unit_test(theories_have_the_names_that_people_use),
       cmocka_unit_test(units_keep_their_space),
   };
   return cmocka_run_group_tests(tests, enter, leave);

@@ -37,7 +37,7 @@ static int leave(void **state)
   return chdir("/") == 0 ? rmdir(folder) : -1; /* fails if another file is left */
 }
 
-static void hangs(void **state)
+static void a_gnuplot_that_hangs_is_ended(void **state)
 {
   (void)state;
   gg_error err;
@@ -53,6 +53,6 @@ static void hangs(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(hangs)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(a_gnuplot_that_hangs_is_ended)};
   return cmocka_run_group_tests(tests, enter, leave);
 }

@@ -97,7 +97,7 @@ static void of_a_resumed_run(void **state)
 }
 
 /* Steps between which a thermostat acts: a fifth of the asked error is what their bias may be. */
-static void steps(void **state)
+static void the_bias_of_a_thermostat_step_is_a_fifth_of_the_error(void **state)
 {
   (void)state;
   gg_model m;
@@ -115,8 +115,11 @@ static void steps(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(by_the_asked_error), cmocka_unit_test(between_walls), cmocka_unit_test(what_is_given),
-      cmocka_unit_test(of_a_resumed_run),   cmocka_unit_test(steps),
+      cmocka_unit_test(by_the_asked_error),
+      cmocka_unit_test(between_walls),
+      cmocka_unit_test(what_is_given),
+      cmocka_unit_test(of_a_resumed_run),
+      cmocka_unit_test(the_bias_of_a_thermostat_step_is_a_fifth_of_the_error),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

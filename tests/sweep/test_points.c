@@ -40,7 +40,7 @@ static void check_values(const char *yaml, const char *expected)
   gg_sweep_free(sweep);
 }
 
-static void grids(void **state)
+static void lists_and_ranges_make_a_grid(void **state)
 {
   (void)state;
   check_values(SCENE "vary: {collision.e: [0.7, 0.9], phi: 0.1:0.3:0.1}",
@@ -53,7 +53,7 @@ static void grids(void **state)
   check_values(SCENE "vary: {measure: [[rheology], [rheology, cells]]}", "[rheology]|[rheology, cells]");
 }
 
-static void zipped(void **state)
+static void keys_of_one_item_vary_together(void **state)
 {
   (void)state;
   check_values(SCENE "vary: [{collision.e: [0.7, 0.9], phi: [0.1, 0.2]}, {particles: [100, 200]}]",
@@ -77,7 +77,7 @@ static void drawn_apart(void **state)
 }
 
 /* More points, or another key, do not change the other draws. */
-static void drawn(void **state)
+static void a_draw_does_not_depend_on_other_keys_or_points(void **state)
 {
   (void)state;
   gg_sweep *few = sweep_of(SCENE "vary: {random: {points: 20, seed: 7}, phi: 0.1..0.2, particles: 50..60}");
@@ -121,7 +121,7 @@ static void check_name(const char *yaml, bool same)
 
 /* The name does not depend on the order of keys, on defaults that are written out, on where a value is given, or on
  * keys that change no number. */
-static void names(void **state)
+static void a_name_depends_on_what_changes_numbers_alone(void **state)
 {
   (void)state;
   check_name("vary: {collision.e: [0.8, 0.9]}\nparticles: 1.0e2\nphi: 0.10\nflow: usf", true);
@@ -171,7 +171,7 @@ static void seeds_of_lengths(void **state)
 }
 
 /* Seeds: one for each point, the same if only length or engine differ; or that of the scene for all. */
-static void seeds(void **state)
+static void each_point_has_a_seed_of_its_own(void **state)
 {
   (void)state;
   gg_sweep_point a, b;
@@ -189,7 +189,7 @@ static void seeds(void **state)
 }
 
 /* Long points are divided among replicas, unless the scene gives their number. */
-static void replicas(void **state)
+static void long_points_are_divided_among_replicas(void **state)
 {
   (void)state;
   gg_sweep_point a;
@@ -214,7 +214,7 @@ static void check_combination(const char *yaml, size_t i, size_t first, const ch
 #define LONG "rheology, velocity_distributions, pair_correlation, "
 
 /* Names of the rows of the keys beside the second one. */
-static void combinations(void **state)
+static void a_row_is_named_by_the_values_of_its_keys(void **state)
 {
   (void)state;
   const char *three = SCENE "vary: {collision.e: [0.7, 0.9], particles: [100, 200], phi: [0.1, 0.2, 0.3]}";
@@ -269,7 +269,7 @@ static void check_refused(const char *yaml, const char *key, const char *values,
   gg_sweep_free(sweep);
 }
 
-static void refusals(void **state)
+static void bad_points_are_refused_with_key_and_value(void **state)
 {
   (void)state;
   const char *five = SCENE "vary: {phi: [0.1, 0.2, 0.7, 0.3, 0.4]}";
@@ -341,7 +341,7 @@ static void values_in_json(void **state)
 }
 
 /* A comparison leaves out an engine that cannot run the scene. */
-static void engines(void **state)
+static void an_engine_that_cannot_run_the_scene_is_left_out(void **state)
 {
   (void)state;
   gg_sweep *sweep = sweep_of("flow: usf\nvary: {phi: [0, 0.1]}\nsweep: {does: compare}");
@@ -353,18 +353,18 @@ static void engines(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(grids),
-      cmocka_unit_test(zipped),
-      cmocka_unit_test(drawn),
-      cmocka_unit_test(names),
-      cmocka_unit_test(seeds),
+      cmocka_unit_test(lists_and_ranges_make_a_grid),
+      cmocka_unit_test(keys_of_one_item_vary_together),
+      cmocka_unit_test(a_draw_does_not_depend_on_other_keys_or_points),
+      cmocka_unit_test(a_name_depends_on_what_changes_numbers_alone),
+      cmocka_unit_test(each_point_has_a_seed_of_its_own),
       cmocka_unit_test(drawn_apart),
-      cmocka_unit_test(replicas),
-      cmocka_unit_test(refusals),
-      cmocka_unit_test(engines),
+      cmocka_unit_test(long_points_are_divided_among_replicas),
+      cmocka_unit_test(bad_points_are_refused_with_key_and_value),
+      cmocka_unit_test(an_engine_that_cannot_run_the_scene_is_left_out),
       cmocka_unit_test(too_many_keys),
       cmocka_unit_test(values_in_json),
-      cmocka_unit_test(combinations),
+      cmocka_unit_test(a_row_is_named_by_the_values_of_its_keys),
       cmocka_unit_test(theories_take_time),
       cmocka_unit_test(seeds_of_lengths),
   };

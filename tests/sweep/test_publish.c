@@ -56,7 +56,7 @@ static void without_memory(void **state)
 }
 
 /* Something else has the name: the only copy stays. */
-static void refused(void **state)
+static void a_folder_of_the_same_name_keeps_the_only_copy(void **state)
 {
   (void)state;
   gg_error err;
@@ -70,6 +70,7 @@ static void refused(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(without_memory), cmocka_unit_test(refused)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(without_memory),
+                                     cmocka_unit_test(a_folder_of_the_same_name_keeps_the_only_copy)};
   return cmocka_run_group_tests(tests, enter, leave);
 }

@@ -148,7 +148,7 @@ static void rest_goes_on(void **state)
 }
 
 /* A point of theories: a comparison without engines. */
-static void theories(void **state)
+static void points_of_theories_run_without_engines(void **state)
 {
   (void)state;
   double value;
@@ -167,7 +167,7 @@ static int at_once(void *context)
   return 1;
 }
 
-static void stopped(void **state)
+static void a_stopped_sweep_leaves_no_file(void **state)
 {
   (void)state;
   gg_error err;
@@ -187,6 +187,7 @@ static void stopped(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(same_bits), cmocka_unit_test(rest_goes_on),
-                                     cmocka_unit_test(theories), cmocka_unit_test(stopped)};
+                                     cmocka_unit_test(points_of_theories_run_without_engines),
+                                     cmocka_unit_test(a_stopped_sweep_leaves_no_file)};
   return cmocka_run_group_tests(tests, enter, leave);
 }

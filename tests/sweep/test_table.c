@@ -135,7 +135,7 @@ static const char *cell_of(const char *line, int column, char cell[64])
   return cell;
 }
 
-static void csv(void **state)
+static void csv_has_every_member_of_the_rows(void **state)
 {
   (void)state;
   const gg_point_table table = {.n = ROWS, .row = rows};
@@ -179,7 +179,7 @@ static void compare_texts(const char *file, const char *path, size_t m)
   H5Fclose(in);
 }
 
-static void hdf5(void **state)
+static void hdf5_has_every_member_of_the_rows(void **state)
 {
   (void)state;
   const gg_point_table table = {.n = ROWS, .row = rows};
@@ -212,8 +212,8 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(members_are_complete),
-      cmocka_unit_test(csv),
-      cmocka_unit_test(hdf5),
+      cmocka_unit_test(csv_has_every_member_of_the_rows),
+      cmocka_unit_test(hdf5_has_every_member_of_the_rows),
   };
   H5dont_atexit();
   return cmocka_run_group_tests(tests, enter, leave);

@@ -46,7 +46,7 @@ static double tension(double x)
   return 9 * x * x * (1 + 44. / 35 * x - 0.8 * x * x) / (2 * M_PI * pow(1 - x, 3));
 }
 
-static void layers(void **state)
+static void adsorption_follows_from_the_wall_tension(void **state)
 {
   (void)state;
   for (double x = 0.05; x < 0.5; x += 0.1) {
@@ -107,7 +107,7 @@ static void at_rest(void **state)
 }
 
 /* Elastic grains under gravity: T stays uniform, and the lower wall carries the weight of all. */
-static void hydrostatic(void **state)
+static void the_lower_wall_carries_the_weight(void **state)
 {
   (void)state;
   const gg_model m = model_between((gap){GG_CHUTE, 0.1, 1, 28, 0, {1, 1}, 1, -0.5, {0, -0.05}});
@@ -162,14 +162,14 @@ static void slip_of(const gg_theory *theory, double ratio)
   gg_measure_curves_clear(&list);
 }
 
-static void slip(void **state)
+static void elastic_slip_is_that_of_kinetic_theory(void **state)
 {
   (void)state;
   slip_of(ns, 1), slip_of(moments, 1), slip_of(noise_free, 1.0161);
 }
 
 /* Coefficients of all densities from four solutions: those of a fifth, by its own solution. */
-static void coefficients(void **state)
+static void coefficients_of_four_densities_give_those_of_a_fifth(void **state)
 {
   (void)state;
   const gg_quantity all[] = {GG_Q_COOLING_RATE,
@@ -211,7 +211,7 @@ static void normal_momentum(void **state)
 
 /* Flow that is alike at both walls: slips, stresses and heat are, in moments, too, where heat flows along x. Shear
  * heats the middle; walls that heat a gas which loses energy leave it coldest. */
-static void symmetry(void **state)
+static void like_walls_have_like_slips_stresses_and_heat(void **state)
 {
   (void)state;
   const gap driven = {GG_COUETTE, 0.1, 0.9, 17.36, 8.68, {0, 0}, 0.9, 0, {0, 0}},
@@ -292,7 +292,7 @@ static void balances_of(const gg_theory *theory)
   }
 }
 
-static void balances(void **state)
+static void mass_momentum_and_energy_balance(void **state)
 {
   (void)state;
   balances_of(ns), balances_of(noise_free), balances_of(moments);
@@ -366,7 +366,7 @@ static void table_of_moments(void **state)
 }
 
 /* A scene outside of what the theory describes gives the reason. */
-static void reasons(void **state)
+static void scenes_beyond_the_theory_get_the_reason(void **state)
 {
   (void)state;
   const gap couette = flows[0];
@@ -394,7 +394,7 @@ static void remark_of(const gg_theory *theory, const gg_model *m, char remark[GG
 }
 
 /* Each remark is made where its cause is there, and only there: an elastic gas that is sheared slowly has none. */
-static void remarks(void **state)
+static void a_remark_is_made_where_its_cause_is(void **state)
 {
   (void)state;
   const gap calm = {GG_COUETTE, 0.3, 1, 20, 0.3, {1, 1}, 1, -1, {0, 0}};
@@ -502,20 +502,20 @@ static void fluxes_at_states(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {cmocka_unit_test(friction_at_walls),
-                                     cmocka_unit_test(layers),
+                                     cmocka_unit_test(adsorption_follows_from_the_wall_tension),
                                      cmocka_unit_test(at_rest),
-                                     cmocka_unit_test(hydrostatic),
+                                     cmocka_unit_test(the_lower_wall_carries_the_weight),
                                      cmocka_unit_test(free_conduction),
-                                     cmocka_unit_test(slip),
-                                     cmocka_unit_test(balances),
-                                     cmocka_unit_test(coefficients),
+                                     cmocka_unit_test(elastic_slip_is_that_of_kinetic_theory),
+                                     cmocka_unit_test(mass_momentum_and_energy_balance),
+                                     cmocka_unit_test(coefficients_of_four_densities_give_those_of_a_fifth),
                                      cmocka_unit_test(normal_momentum),
-                                     cmocka_unit_test(symmetry),
+                                     cmocka_unit_test(like_walls_have_like_slips_stresses_and_heat),
                                      cmocka_unit_test(uniform_temperature),
                                      cmocka_unit_test(uniform_shear),
                                      cmocka_unit_test(table_of_moments),
-                                     cmocka_unit_test(reasons),
-                                     cmocka_unit_test(remarks),
+                                     cmocka_unit_test(scenes_beyond_the_theory_get_the_reason),
+                                     cmocka_unit_test(a_remark_is_made_where_its_cause_is),
                                      cmocka_unit_test(middle_and_core),
                                      cmocka_unit_test(fluxes_at_states)};
   return cmocka_run_group_tests(tests, NULL, NULL);

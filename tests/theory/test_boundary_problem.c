@@ -63,7 +63,7 @@ static void bratu_slope(void *self, const double v[], double f[])
   f[0] = v[1], f[1] = -exp(v[0]);
 }
 
-static void nonlinear(void **state)
+static void bratus_problem_has_its_exact_solution(void **state)
 {
   (void)state;
   gg_error err;
@@ -144,7 +144,7 @@ static gg_status solve_bounded(bounded *b, bool tells)
   return status;
 }
 
-static void outside(void **state)
+static void a_step_that_ends_outside_gives_up_early(void **state)
 {
   (void)state;
   bounded within = {.rate = 1}, beyond = {.rate = 4}, untold = {.rate = 4};
@@ -158,7 +158,8 @@ static void outside(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(steep_layer), cmocka_unit_test(nonlinear),
-                                     cmocka_unit_test(no_solution), cmocka_unit_test(outside)};
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(steep_layer), cmocka_unit_test(bratus_problem_has_its_exact_solution),
+      cmocka_unit_test(no_solution), cmocka_unit_test(a_step_that_ends_outside_gives_up_early)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -121,7 +121,7 @@ static void couple_decay(void **state)
 }
 
 /* The fitted series against the integrals; and, at rest, two Maxwellians. */
-static void contacts(void **state)
+static void fitted_contacts_are_the_integrals(void **state)
 {
   (void)state;
   const gg_contact_point at[] = {
@@ -150,7 +150,7 @@ static void contacts(void **state)
 }
 
 /* Elastic, perfectly rough grains between walls of their temperature: equipartition, Carnahan & Starling's pressure. */
-static void equilibrium(void **state)
+static void elastic_rough_gases_have_equipartition(void **state)
 {
   (void)state;
   const gg_theory *const theory[] = {ns, moments};
@@ -187,7 +187,7 @@ static void smooth_limit(void **state)
 }
 
 /* Far from walls spins roll with the flow. Both walls act alike. */
-static void rolling(void **state)
+static void spins_roll_with_the_flow_far_from_walls(void **state)
 {
   (void)state;
   const gg_model m = model_between((gap){GG_COUETTE, 0.2, 0.95, 0.5, 30, 15, {0, 0}, 0.9, 0.2, {0, 0}});
@@ -238,7 +238,7 @@ static const gap flows[] = {
 };
 
 /* Energy, momentum along x and across, and angular momentum of spins: 1e-8. Rough walls: M = -s P_yx/2. */
-static void balances(void **state)
+static void energy_momentum_and_spin_balance(void **state)
 {
   (void)state;
   const size_t all = sizeof flows / sizeof *flows;
@@ -268,7 +268,7 @@ static void balances(void **state)
   free(gas), free(flow);
 }
 
-static void reasons(void **state)
+static void scenes_beyond_the_theory_get_the_reason(void **state)
 {
   (void)state;
   gg_model m = model_between(flows[0]);
@@ -280,9 +280,13 @@ static void reasons(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(wall_rule),    cmocka_unit_test(couple_decay),
-                                     cmocka_unit_test(contacts),     cmocka_unit_test(equilibrium),
-                                     cmocka_unit_test(smooth_limit), cmocka_unit_test(rolling),
-                                     cmocka_unit_test(balances),     cmocka_unit_test(reasons)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(wall_rule),
+                                     cmocka_unit_test(couple_decay),
+                                     cmocka_unit_test(fitted_contacts_are_the_integrals),
+                                     cmocka_unit_test(elastic_rough_gases_have_equipartition),
+                                     cmocka_unit_test(smooth_limit),
+                                     cmocka_unit_test(spins_roll_with_the_flow_far_from_walls),
+                                     cmocka_unit_test(energy_momentum_and_spin_balance),
+                                     cmocka_unit_test(scenes_beyond_the_theory_get_the_reason)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,7 +32,7 @@ static void rates_of_monte_carlo(void **state)
 
 /* The rate is per collision: the density does not enter. No grain escapes from strong friction, none from constant
  * beta; where theta/T has no steady value there is no rate. */
-static void limits(void **state)
+static void the_rate_of_escape_has_its_limits(void **state)
 {
   (void)state;
   gg_model dilute = gas(0.8, 0, 0.5, 0), dense = gas(0.8, 0, 0.5, 0.3);
@@ -60,7 +60,7 @@ static void limits(void **state)
 }
 
 /* A theory answers for the metastable state, with a remark, where grains seldom escape; elsewhere it rejects. */
-static void theories(void **state)
+static void theories_answer_metastable_gases_with_a_remark(void **state)
 {
   (void)state;
   const gg_theory *theory = &gg_theory_huthmann_zippelius1997;
@@ -75,7 +75,8 @@ static void theories(void **state)
 
 int main(void)
 {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(rates_of_monte_carlo), cmocka_unit_test(limits),
-                                     cmocka_unit_test(theories)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(rates_of_monte_carlo),
+                                     cmocka_unit_test(the_rate_of_escape_has_its_limits),
+                                     cmocka_unit_test(theories_answer_metastable_gases_with_a_remark)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
