@@ -46,12 +46,7 @@ void gg_cli_print_notice(const char *result_file);
 /* Print a text from the library on standard output and free it. */
 void gg_cli_print_text(char *text);
 
-/* The manual page, from the tables of commands, options, scene keys and quantities. */
-void gg_cli_print_manual(void);
-/* The page of scene keys, docs/reference/scene.md. */
-void gg_cli_print_scene_page(void);
-/* The pages of quantities and of commands, docs/reference/quantities.md and commands.md. */
-void gg_cli_print_quantities_page(void);
-void gg_cli_print_commands_page(void);
+/* The tables of commands, options, scene keys, quantities and theories, as JSON. */
+void gg_cli_print_tables(void);
 
 #endif

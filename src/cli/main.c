@@ -118,10 +118,7 @@ static int dispatch(int argc, char **argv)
     return help(argc > 2 ? argv[2] : NULL);
   if (strcmp(word, "--version") == 0) return printf("graingas %s\n", gg_version()), GG_OK;
   if (strcmp(word, "--completion") == 0) return gg_cli_print_completion(argc > 2 ? argv[2] : NULL);
-  if (strcmp(word, "--manual") == 0) return gg_cli_print_manual(), GG_OK;
-  if (strcmp(word, "--quantities-page") == 0) return gg_cli_print_quantities_page(), GG_OK;
-  if (strcmp(word, "--commands-page") == 0) return gg_cli_print_commands_page(), GG_OK;
-  if (strcmp(word, "--scene-page") == 0) return gg_cli_print_scene_page(), GG_OK;
+  if (strcmp(word, "--tables") == 0) return gg_cli_print_tables(), GG_OK;
   return unknown(word);
 }
 

@@ -44,6 +44,16 @@ def run(*args, scene=None, name="scene.yaml", limit=None, timeout=100, columns=N
     return Done(done.returncode, done.stdout, done.stderr, sorted(set(os.listdir(".")) - before))
 
 
+def page(name):
+    """A page of docs/reference or the manual page, made of the program's tables."""
+    tables = run("--tables")
+    check(tables.code == 0 and not tables.err, tables.err)
+    with open("tables.json", "w", encoding="utf-8") as out:
+        out.write(tables.out)
+    script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "reference-pages")
+    return subprocess.run([sys.executable, script, name, "tables.json"], capture_output=True, check=True, encoding="utf-8").stdout
+
+
 def check(condition, *what):
     if not condition:
         raise AssertionError(" ".join(str(w) for w in what))

@@ -10,7 +10,7 @@ import subprocess
 import sys
 import tempfile
 
-from tap import GRAINGAS, SANITIZERS, Skip, check, main, run
+from tap import GRAINGAS, SANITIZERS, Skip, check, main, page, run
 
 ROUGH = ("flow: usf\nphi: 0.2\nparticles: 200\ncollision: {e: 0.9, beta: 0}\ndsmc: {particles: 1000}\n"
          "run: {collisions: 200, warmup: 30}\n")
@@ -63,19 +63,19 @@ def test_help_and_version():
 
 def test_manual_is_whole():
     """Every paragraph of help, option, key and theory stands in the manual page to its end."""
-    page = " ".join(run("--manual").out.replace("\\-", "-").replace("\\&", "").replace("\n.br\n", "\n").split())
+    manual = " ".join(page("manual").replace("\\-", "-").replace("\\&", "").replace("\n.br\n", "\n").split())
     for command in "compare", "run", "theory", "plot", "export", "info", "bench":
         text = run(command, "--help", columns=1000).out
         summary, *paragraphs = text.split("\n\n")[1:]
         for paragraph in [summary] + paragraphs[:-1]:
-            check(" ".join(paragraph.split()) in page, command, paragraph)
+            check(" ".join(paragraph.split()) in manual, command, paragraph)
         for line in text.split("Options:")[1].splitlines()[1:-1]:
-            check(line.split("  ")[-1].strip() + ". Taken by:" in page, line)
+            check(line.split("  ")[-1].strip() + ". Taken by:" in manual, line)
     for key in json.loads(run("info", "scene.yaml", "--json", scene=ROUGH).out):
-        check(f".B {key}" in page, key)
+        check(f".B {key}" in manual, key)
     about = json.loads(run("theory", "scene.yaml", "--json").out)["theories"]
     for theory in about.values():
-        check(f'{theory["title"]}. {theory["citation"]}. {theory["assumptions"]}' in page, theory)
+        check(f'{theory["title"]}. {theory["citation"]}. {theory["assumptions"]}' in manual, theory)
 
 
 def test_closed_pipe():

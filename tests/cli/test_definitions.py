@@ -2,7 +2,7 @@
 """graingas info WORD: a quantity, a theory, a scene key, a flow, an observable in five lines; the nearest word otherwise."""
 import sys
 
-from tap import check, main, run
+from tap import check, main, page, run
 
 
 def lines(word):
@@ -34,7 +34,7 @@ def test_each_kind_of_word_has_entries():
 
 def test_every_name():
     """Whatever the tables name has a definition."""
-    names = [row.split("`")[1] for page in ("--scene-page", "--quantities-page") for row in run(page).out.splitlines()
+    names = [row.split("`")[1] for name in ("scene", "quantities") for row in page(name).splitlines()
              if row.startswith("| `")]
     check(len(names) > 80, names)
     for name in names[::5]:

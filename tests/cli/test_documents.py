@@ -7,7 +7,7 @@ import os
 import re
 import sys
 
-from tap import check, main, run
+from tap import check, main, page, run
 
 SOURCE = os.environ["SOURCE"]
 ROOMS = "src|tests|docs|examples|include|validation|scripts|web|python|site|debian|subprojects"
@@ -23,21 +23,13 @@ def none(missing):
     check(not missing, "named in documents, but not there:\n" + "\n".join(sorted(missing)))
 
 
-def test_scene_page():
-    """A new key is a new line there: graingas --scene-page > docs/reference/scene.md"""
-    page = run("--scene-page")
-    check(page.code == 0 and not page.err and "collision.beta" in page.out)
-    check(page.out == documents()["docs/reference/scene.md"], "docs/reference/scene.md is not what `graingas --scene-page` prints: redirect "
-          "it there")
-
-
 def test_reference_pages():
-    """Quantities and commands, from the program's tables: graingas --quantities-page > docs/reference/quantities.md"""
-    for name in "quantities", "commands":
-        page = run(f"--{name}-page")
-        check(page.code == 0 and not page.err and len(page.out) > 5000, page.err)
-        check(page.out == documents()[f"docs/reference/{name}.md"], f"docs/reference/{name}.md is not what `graingas "
-              f"--{name}-page` prints: redirect it there")
+    """Keys, quantities and commands, from the program's tables: a new key is a new line there."""
+    for name in "scene", "quantities", "commands":
+        text = page(name)
+        check(len(text) > 5000, name)
+        check(text == documents()[f"docs/reference/{name}.md"], f"docs/reference/{name}.md is not what the program's tables say: "
+              "scripts/reference-pages --write")
 
 
 def test_each_public_function_is_documented():
@@ -208,7 +200,7 @@ def test_signposts_name_the_file_that_defines_what_follows():
 
 def test_commands_shown_are_valid():
     """graingas COMMAND --option --set key=value, wherever documents show it."""
-    page, helps, wrong = run("--scene-page").out, {}, set()
+    keys, helps, wrong = page("scene"), {}, set()
     for name, text in documents().items():
         text = text.replace("\\\n", " ")
         blocks = re.findall(r"^```.*?^```", text, re.MULTILINE | re.DOTALL)
@@ -224,7 +216,7 @@ def test_commands_shown_are_valid():
                 if option not in helps[command].out:
                     wrong.add(f"{name}: graingas {command} {option}")
             for key in re.findall(r"--set \"?([\w.]+)=", shown):
-                if f"| `{key}` |" not in page:
+                if f"| `{key}` |" not in keys:
                     wrong.add(f"{name}: --set {key}")
     check(not wrong, "shown in documents, but not so:\n" + "\n".join(sorted(wrong)))
 
@@ -232,7 +224,7 @@ def test_commands_shown_are_valid():
 def names_of(kind):
     """From the program itself: the words of `measure`, the theories that a scene is shown, those that refuse it too."""
     if kind == "observables":
-        words = run("--scene-page").out.split("### `measure`")[1].split("###")[0]
+        words = page("scene").split("### `measure`")[1].split("###")[0]
         return re.findall(r"^- `(\w+)`: \S", words, re.MULTILINE), words.count("\n- ")
     about = json.loads(run("theory", "-", "--json", typed="flow: usf\nphi: 0.1\ncollision: {beta: 0}\n").out)["theories"]
     return list(about), sum(all(t[k] for k in ("title", "citation", "assumptions")) for t in about.values())

@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import sys
 
-from tap import GRAINGAS, PATIENCE, SANITIZERS, Skip, check, main
+from tap import GRAINGAS, PATIENCE, SANITIZERS, Skip, check, main, page
 
 SOURCE, BUILD = os.environ["SOURCE"], os.environ["BUILD"]
 
@@ -115,9 +115,9 @@ def test_example_scenes():
         values = json.loads(sh(GRAINGAS, "info", scene, "--json"))
         flows.add(values["flow"])
         measured.update(values["measure"])
-    page = sh(GRAINGAS, "--scene-page")
+    scene_page = page("scene")
     for shown, key in (flows, "flow"), (measured, "measure"):
-        words = set(re.findall(r"^- `(\w+)`", page.split(f"### `{key}`")[1].split("###")[0], re.MULTILINE))
+        words = set(re.findall(r"^- `(\w+)`", scene_page.split(f"### `{key}`")[1].split("###")[0], re.MULTILINE))
         check(len(words) >= 7 and shown == words, key, "without an example:", words - shown)
 
 

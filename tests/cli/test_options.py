@@ -6,7 +6,7 @@ import os
 import re
 import sys
 
-from tap import GRAINGAS, check, main, run
+from tap import GRAINGAS, check, main, page, run
 
 SCENE = ("flow: usf\nphi: 0.1\nparticles: 200\ncollision: {e: 0.9, beta: 0}\ndsmc: {particles: 500}\n"
          "measure: [rheology, velocity_distributions, orientation]\nrun: {collisions: 60, warmup: 10}\n")
@@ -136,7 +136,7 @@ def test_command_line_is_kept():
 def test_exit_codes():
     """Mistakes print nothing on standard output, also with --json. Each exit code of a command is in the
     manual (1 and 130 are met in test_commands.py and test_files.py)."""
-    manual = run("--manual").out.split(".SH EXIT STATUS")[1].split(".SH")[0]
+    manual = page("manual").split(".SH EXIT STATUS")[1].split(".SH")[0]
     check(re.findall(r"^\.B (\d+)", manual, re.M) == ["0", "1", "2", "3", "130"], manual)
     for command in "compare", "run", "theory", "info":
         for args, code in ((("none.yaml",), 3), ((".",), 3), (("scene.yaml", "--set", "phi=2"), 2),

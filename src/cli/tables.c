@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The tables of commands, options and names as one JSON document, of which scripts/reference-pages makes the manual
+ * page and the pages of docs/reference. */
+#include <jansson.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/options.h"
+
+static json_t *words_of(const char *key)
+{
+  json_t *words = json_array();
+  gg_entry w;
+  for (size_t i = 0; gg_catalogue_word(key, i, &w, NULL) == GG_OK; i++)
+    json_array_append_new(words, json_pack("{s:s, s:s}", "name", w.name, "doc", w.doc));
+  return words;
+}
+
+static json_t *entries(gg_catalogue list, const gg_scene *scene)
+{
+  json_t *all = json_array();
+  gg_entry e;
+  for (size_t i = 0; gg_catalogue_entry(list, i, scene, &e, NULL) == GG_OK; i++) {
+    json_t *one =
+        json_pack("{s:s, s:s?, s:s?, s:s?, s:s?, s:s?, s:s, s:s, s:s?, s:s?, s:s}", "name", e.name, "doc", e.doc,
+                  "unit", e.unit, "citation", e.citation, "assumptions", e.assumptions, "type", e.type, "allowed",
+                  e.allowed, "value", e.value, "formula", e.formula, "answers", e.answers, "when", e.when);
+    if (list == GG_CATALOGUE_KEYS) json_object_set_new(one, "words", words_of(e.name));
+    json_array_append_new(all, one);
+  }
+  return all;
+}
+
+static json_t *entries_in(gg_catalogue list, const char *yaml)
+{
+  gg_scene *scene = NULL;
+  gg_scene_parse(yaml, NULL, &scene, NULL);
+  json_t *all = entries(list, scene);
+  gg_scene_free(scene);
+  return all;
+}
+
+static json_t *commands_with(unsigned option)
+{
+  json_t *names = json_array();
+  for (const gg_command *c = gg_cli_commands; c->name; c++)
+    if (c->options & option) json_array_append_new(names, json_string(c->name));
+  return names;
+}
+
+static json_t *options_of(unsigned taken)
+{
+  json_t *all = json_array();
+  for (const gg_option *o = gg_cli_options_table; o->flag; o++)
+    if (taken & o->flag)
+      json_array_append_new(all, json_pack("{s:s, s:s?, s:s, s:o}", "name", o->name, "argument", o->argument, "doc",
+                                           o->doc, "commands", commands_with(o->flag)));
+  return all;
+}
+
+static json_t *commands(void)
+{
+  json_t *all = json_array();
+  for (const gg_command *c = gg_cli_commands; c->name; c++)
+    json_array_append_new(all, json_pack("{s:s, s:s, s:s, s:s?, s:o}", "name", c->name, "arguments", c->arguments,
+                                         "summary", c->summary, "help", c->help, "options", options_of(c->options)));
+  return all;
+}
+
+void gg_cli_print_tables(void)
+{
+  json_t *all = json_pack("{s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "version", gg_version(), "commands", commands(),
+                          "options", options_of(~0u), "keys", entries(GG_CATALOGUE_KEYS, NULL), "species_keys",
+                          entries(GG_CATALOGUE_SPECIES_KEYS, NULL), "quantities",
+                          entries_in(GG_CATALOGUE_QUANTITIES, "{flow: usf, phi: 0.1}"), "quantities_without_shear",
+                          entries_in(GG_CATALOGUE_QUANTITIES, "{flow: hss, phi: 0.1}"), "theories",
+                          entries(GG_CATALOGUE_THEORIES, NULL));
+  json_dumpf(all, stdout, JSON_INDENT(1));
+  putchar('\n');
+  json_decref(all);
+}
