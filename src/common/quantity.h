@@ -30,6 +30,7 @@ enum {
   GG_NEEDS_UNEQUAL_WALLS = 1u << 25, /* of two temperatures */
   GG_NEEDS_HEAT_FLUX = 1u << 24,     /* of linear response: one species; dsmc or fluctuations of smooth grains */
   GG_NEEDS_FLUCTUATIONS = 1u << 26,  /* whose decay is that of linear response: elastic grains at rest, in md */
+  GG_NEEDS_LAG = 1u << 27,           /* a torque keeps the mean spin from that of the flow, in one species */
 
   GG_KEPT_HEATING = 1u << 15,      /* free of the temperature's scale: has a meaning as a mean in a gas that heats up */
   GG_MONITORED = 1u << 16,         /* relaxes slowly: a run is not steady while it has a trend */
@@ -224,9 +225,11 @@ enum {
       "rotational heat flux along -grad theta", "\\mathbf q_r = -\\kappa_r\\nabla T - \\kappa_{rh}\\nabla\\theta")     \
   ONE(BULK_VISCOSITY, "bulk_viscosity", "\\xi", "", VISCOSITY, GG_NEEDS_THEORY | GG_NEEDS_TRANSFER,                    \
       "pressure lost per rate of expansion, of collisions alone", "p - \\xi\\,\\nabla\\cdot\\mathbf u")                \
-  ONE(ROTATIONAL_VISCOSITY, "rotational_viscosity", "\\mu_r", "", VISCOSITY, GG_HEAT_OF_SPINS | GG_NEEDS_TRANSFER,     \
-      "antisymmetric stress over what the mean spin lacks of the flow's rotation",                                     \
-      "\\Psi = -2\\mu_r(2\\boldsymbol\\omega - \\nabla\\times\\mathbf u)")                                             \
+  ONE(ROTATIONAL_VISCOSITY, "rotational_viscosity", "\\mu_r", "", VISCOSITY,                                           \
+      GG_NEEDS_SPINS | GG_NEEDS_TRANSFER | GG_NEEDS_SCALE | GG_NEEDS_LAG,                                              \
+      "(P_xy - P_yx)/(2(2 omega_z + gamma)): antisymmetric stress over what the mean spin has beyond the flow's "      \
+      "rotation",                                                                                                      \
+      "\\Psi = P_{yx} - P_{xy} = -2\\mu_r(2\\omega_z - (\\nabla\\times\\mathbf u)_z)")                                   \
   ONE(DIFFUSION_REDUCED, "diffusion_reduced", "D^*", "", NONE, GG_NEEDS_THEORY | GG_NEEDS_MIXTURE,                     \
       "mass flux of species 1 along -grad x_1; j_1 = -(nT/nu_0)(D* grad x_1 + D_p* grad ln p + D'* grad ln T)",        \
       "D^* = \\frac{m_1 m_2\\nu_0}{\\rho T}D")                                                                         \

@@ -120,6 +120,12 @@ static double N2(const double *a, const gg_model *m)
   return (total_yy(a, m) - total_zz(a, m)) / pressure(a, m);
 }
 
+/* Collisions pass the torque on from the spins to the flow, by the antisymmetric part of the stress. */
+static double rotational_viscosity(const double *a, const gg_model *m)
+{
+  return (collisional_xy(a, m) - collisional_yx(a, m)) / (2 * (2 * spin_z(a, m) + m->shear_rate));
+}
+
 COLLISIONAL(collision_rate, CH_RATE)
 static double mean_free_path(const double *a, const gg_model *m)
 {
@@ -278,6 +284,7 @@ const gg_derived gg_measure_rheology_derived[] = {
     {GG_Q_PRESSURE, .of = pressure},
     {GG_Q_COMPRESSIBILITY, .of = compressibility},
     {GG_Q_SHEAR_VISCOSITY, .of = shear_viscosity},
+    {GG_Q_ROTATIONAL_VISCOSITY, .of = rotational_viscosity},
     {GG_Q_N1, .of = N1},
     {GG_Q_N2, .of = N2},
     {GG_Q_P_XX, .of = total_xx},

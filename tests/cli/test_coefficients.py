@@ -156,6 +156,27 @@ def test_lun_has_its_published_coefficients():
         check((beta > -1) == ("rotational_viscosity" in a) == ("rotational_conductivity" in a), sorted(a))
 
 
+def test_spinners_have_luns_rotational_viscosity():
+    """Collisions pass on the whole torque. Lun's formula is for Gaussian grains: these are colder where they spin."""
+    N, phi, e, beta = 0.3, 0.1, 0.95, 0.3
+    scene = {"flow": "hss", "phi": phi, "thermostat": "bath", "bath": {"drag": 0.3, "temperature": 1, "rotation": 0},
+             "collision": {"e": e, "beta": beta}, "species": [{"torque": N}], "run": {"relative_error": 0.02, "seed": 2}}
+    n, chi, eta2 = 6 * phi / math.pi, (1 - phi / 2) / (1 - phi) ** 3, (1 + beta) * K / 2 / (1 + K)
+    for engine in "md", "dsmc":
+        done = run("run", "s.yaml", "--engine", engine, "--json", "--quiet", scene=json.dumps(scene), name="s.yaml")
+        check(done.code == 0, done.err)
+        r = json.loads(done.out)["results"]
+        found, T = r["rotational_viscosity"], r["temperature"]["mean"]
+        close(r["P_xy"]["mean"] - r["P_yx"]["mean"], phi * N, engine, "torque", within=1e-3)
+        close(4 * found["mean"] * r["spin_z"]["mean"], phi * N, engine, "balance of spin", within=1e-3)
+        lun = math.pi / 6 * eta2 * n * n * chi * math.sqrt(math.pi * T) / 3
+        check(abs(found["mean"] / lun - 1.005) < 0.005 + 3 * found["stderr"] / lun, engine, found, lun)
+        spin = r["spin_z"]["stderr"] / r["spin_z"]["mean"]  # the torque has no error
+        check(0.7 < found["stderr"] / found["mean"] / spin < 1.4 and spin < 0.01, engine, found, spin)
+    a = theory("lun1991", {"flow": "usf", "phi": phi, "collision": {"e": e, "beta": beta}})
+    close(a["rotational_viscosity"] / math.sqrt(a["temperature"]), lun / math.sqrt(T), "Lun")
+
+
 def test_rough_cooling():
     """Fluxes along grad T and grad n decay by collisions and grow, in units of the falling temperature, by cooling."""
     nu0 = 16 / 5 * math.sqrt(math.pi)
