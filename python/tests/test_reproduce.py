@@ -4,12 +4,18 @@ resumption, texts.
 """
 import csv
 import glob
+import io
 import math
 import os
+import shutil
+import subprocess
 import sys
+import types
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from PIL import Image
 from conftest import SOURCE
 
 import graingas as gg
@@ -17,7 +23,7 @@ import graingas as gg
 pytest.importorskip("matplotlib")
 pytest.importorskip("yaml")
 sys.path.insert(0, os.path.join(SOURCE, "validation"))
-from reproduction import command, curves, numbers, pictures, points, texts  # noqa: E402
+from reproduction import command, curves, numbers, parameters, pictures, points, small_svg, texts  # noqa: E402
 from reproduction import entry as entries  # noqa: E402
 from reproduction.formula import Formula  # noqa: E402
 
@@ -89,7 +95,7 @@ def test_a_figure_against_runs_of_its_own(folder):
     assert set(md) == {1 - 0.7**2, 1 - 0.9**2} and {row["y_unit"] for row in two} == {"d^2 gamma^2"}
     assert float(md[1 - 0.9**2]["y"]) == runs[-1, 0.9]["temperature"].mean
     lun = [row for row in two if row["method"] == "lun1991"]
-    assert len(lun) == 33
+    assert len(lun) == 41
     for row in lun[::8]:
         scene = gg.Scene(flow="usf", phi=0.1, e=math.sqrt(1 - float(row["x"])))
         assert float(row["y"]) == pytest.approx(gg.theory(scene, "lun1991")["temperature"], rel=1e-9)
@@ -314,6 +320,51 @@ def test_numbers_taken_from_curves():
     assert curves.take(Curve, "deviation")[0] == pytest.approx(1, abs=2e-3) and abs(curves.take(Curve, "skewness")[0]) < 1e-12
     assert curves.take(Curve, [-1.05, 1.05])[0] == pytest.approx(100 * math.erf(1.05 / math.sqrt(2)), abs=0.1)
     assert curves.take(Curve, "first")[0] == pytest.approx(math.exp(-8))
+
+
+def rsvg(svg):
+    return subprocess.run(["rsvg-convert", "-z", "4", "-b", "white"], input=svg, capture_output=True, check=True).stdout
+
+
+def cairo(svg):
+    return pytest.importorskip("cairosvg").svg2png(svg, scale=4, background_color="white")
+
+
+@pytest.mark.parametrize("render", [rsvg, cairo])
+@pytest.mark.parametrize("font", ["DejaVu Sans", "DejaVu Serif", "DejaVu Sans Mono"])
+def test_formulas_in_any_font(render, font):
+    """Pieces of a formula stand side by side, whatever the font and the program."""
+    if render is rsvg and not shutil.which("rsvg-convert"):
+        pytest.skip("no rsvg-convert")
+    with pictures.matplotlib.rc_context({**pictures.STYLE, "savefig.bbox": None}):
+        figure, image = pictures.pyplot.figure(figsize=(7, 1)), io.BytesIO()
+        figure.text(0.02, 0.4, pictures.mathematics("|G_{CC}^{xx}| of C_x about cells, T_{cell}/T"), fontsize=12)
+        figure.savefig(image, format="svg")
+        pictures.pyplot.close(figure)
+    root = ElementTree.fromstring(small_svg.small_svg(image.getvalue().decode()).replace("'DejaVu Sans',Verdana,sans-serif", f"'{font}'"))
+    (text,) = (text for text in root.iter(f"{{{small_svg.SVG}}}text"))
+    assert "".join("".join(text.itertext()).split()) in ("|GCCxx|ofCxaboutcells,Tcell/T", "|GxxCC|ofCxaboutcells,Tcell/T")
+    ends = []
+    for piece in text:
+        for other in text:
+            other.set("fill-opacity", "1" if other is piece else "0")
+        ink = np.asarray(Image.open(io.BytesIO(render(ElementTree.tostring(root)))).convert("L")).min(0) < 128
+        ends.append((ink.argmax(), len(ink) - ink[::-1].argmax()))
+    over = [end - start for (_, end), (start, _) in zip(ends, ends[1:])]
+    assert max(over) <= 3, (over, ends)
+    assert ends[-1][1] - ends[0][0] > 4 * 12 * 10  # long enough to have been drawn
+
+
+def test_layouts_and_titles():
+    assert [pictures.layout(n) for n in (1, 2, 3, 4, 5, 6, 8, 9)] == [(1, 1), (1, 2), (1, 3), (2, 2), (2, 3), (2, 3), (4, 2), (3, 3)]
+    entry = entries.read(entries.find("thesis 3.15"))
+    at = [types.SimpleNamespace(sweep=name, scene=point.scene) for name, sweep in points.sweeps(entry, False, None).items() for point in sweep]
+    assert parameters.titles(entry, at) == ("thesis 3.15: φ = 0.01", ["constant β, N = 8000", "μ = 0.1, N = 2000", "μ = 1, N = 2000"])
+    for path in entries.files():
+        entry = entries.read(path)
+        if not entry.figure.startswith("review"):
+            at = [types.SimpleNamespace(sweep=name, scene=point.scene) for name, sweep in points.sweeps(entry, False, None).items() for point in sweep]
+            assert "φ =" in (" ".join([(said := parameters.titles(entry, at))[0], *said[1]])) or any(panel.key == "phi" for panel in entry.panels), path
 
 
 def test_labels_become_mathematics():

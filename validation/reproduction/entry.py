@@ -121,13 +121,15 @@ class Reader:
 
 
 def _take(m):
-    """An abscissa, a range [from, to] or a word."""
+    """An abscissa, a range [from, to], a law of decay with its range, or a word."""
     if "take" not in m or m["take"] in curves.WORDS:
         return m.get("take")
     try:
+        if isinstance(m["take"], list) and m["take"][0] in curves.DECAYS and len(m["take"]) == 3:
+            return [m["take"][0], float(m["take"][1]), float(m["take"][2])]
         return [float(end) for end in m["take"]] if isinstance(m["take"], list) else float(m["take"])
     except ValueError:
-        m.refuse("take", f"is an abscissa, a range [from, to], or one of {', '.join(curves.WORDS)}")
+        m.refuse("take", f"is an abscissa, a range [from, to], a law [{'|'.join(curves.DECAYS)}, from, to], or one of {', '.join(curves.WORDS)}")
 
 
 def _scene_key(of, key):

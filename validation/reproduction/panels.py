@@ -9,7 +9,9 @@ import numpy as np
 from . import entry as entries
 from .points import Query, Value, key_number, meets
 
-FINE = 33  # points of a smooth line
+FINE = 41  # points of a smooth line
+NODES, MISS = 9, 0.005  # of an interpolated line; what it may miss, over its rise
+WORDS = {("collision.mu", "inf"): "∞", ("thermostat", "none"): "HCS", ("thermostat", "gaussian"): "HSS"}  # of lines
 SERIES_POINTS = 100  # of a time series
 SLABS, BLOCKS = 20, 10  # of a profile from frames
 BIN_TOO_COARSE = 0.67  # points on a logarithmic axis with a larger relative error are not shown
@@ -75,7 +77,7 @@ class Table:
             value = point.scene.text_of(key)
             if self.of.line_formula:
                 value = f"{self.of.line_formula(v=key_number(point.scene, key)):.6g}"
-            value = "∞" if value == "inf" else value
+            value = WORDS.get((key, value), value)
             parts.append(f"{label} = {value}" if label else value)
         return ", ".join(parts)
 
@@ -110,22 +112,27 @@ class Table:
                 self._theory_line(theory, name, group, points)
 
     def _theory_line(self, theory, name, group, points):
-        """Line of a theory through its values at the points. A theory in closed form is drawn as a smooth curve if the
-        points differ in the key alone."""
+        """Curve of a theory with abscissae of its own if the points differ in the key alone, else through its values at
+        the points."""
         line, source, at = self._add(theory, group, "line"), self.of.source, {k: v[0] for k, v in self.of.theories_at.items()}
+
+        def value(key, point=points[0], changes=at):
+            return Query(self.points, source, name, theory=theory, changes=changes).at(point, self._x(key))
+
+        def elsewhere(key):
+            return value(key, changes={self.of.key: f"{key:.15g}", **at})
+
         keys = [key_number(point.scene, self.of.key) for point in points]
-        solved = theory.startswith("enskog_hermite")
-        for point, x in zip(points, map(self._x, keys)):
-            y = Query(self.points, source, name, theory=theory, changes=at).at(point, x)
-            solved |= y.error > 0
-            self._put_theory(line, x, y)
-        ends = [key for key in keys if math.isfinite(key)]
-        if not solved and ends and min(ends) < max(ends) and all(_differ_in(points[0], p, self.of.key) for p in points):
-            line.rows.clear()
-            for key in fine(min(ends), max(ends), self.of.x.log):
-                changes = {self.of.key: f"{key:.15g}", **at}
-                x = self._x(key)
-                self._put_theory(line, x, Query(self.points, source, name, theory=theory, changes=changes).at(points[0], x))
+        here = [value(key, point) for key, point in zip(keys, points)]
+        found = zip(keys, here)
+        known = [key for key, y in zip(keys, here) if math.isfinite(key) and math.isfinite(y.mean)]
+        if known and min(known) < max(known) and all(_differ_in(points[0], p, self.of.key) for p in points):
+            solved = theory.startswith("enskog_hermite") or any(y.error > 0 for y in here)
+            ends = min(known), max(known)
+            found = solved and interpolated(elsewhere, *ends, self.of.x.log, zip(keys, here)) or [
+                (key, elsewhere(key)) for key in fine(*ends, self.of.x.log)]
+        for key, y in found:
+            self._put_theory(line, self._x(key), y)
         line.sort()
 
     @staticmethod
@@ -256,6 +263,23 @@ def fine(low, high, log):
     for i in range(FINE):
         u = i / (FINE - 1)
         yield low * (high / low) ** u if log and low > 0 else low + u * (high - low)
+
+
+def interpolated(value, low, high, log, known):
+    """A solution that takes seconds a point, on a smooth curve: the polynomial through its values at NODES abscissae of
+    Chebyshev. None where it misses the values that are known."""
+    def unit(key):
+        return (math.log(key / low) / math.log(high / low) if log and low > 0 else (key - low) / (high - low)) * 2 - 1
+
+    nodes = -np.cos(np.pi * np.arange(NODES) / (NODES - 1))
+    keys = [low * (high / low) ** u if log and low > 0 else low + u * (high - low) for u in (nodes + 1) / 2]
+    y = np.array([value(key).mean for key in keys])
+    if not np.isfinite(y).all():
+        return None
+    series = np.polynomial.Chebyshev.fit(nodes, y, NODES - 1, domain=[-1, 1])
+    if any(abs(series(unit(key)) - v.mean) > MISS * (y.max() - y.min()) for key, v in known if math.isfinite(v.mean)):
+        return None
+    return [(key, Value(float(series(unit(key))), math.nan)) for key in fine(low, high, log)]
 
 
 def _differ_in(a, b, key):

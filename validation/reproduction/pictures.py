@@ -14,22 +14,26 @@ from PIL import Image
 from graingas.plot import COLOURS, DASHES, STYLE
 
 from .entry import ENGINES, THEORIES, key_label
+from .parameters import titles
 from .small_svg import small_svg
 from .tables import write
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
+from matplotlib import ticker  # noqa: E402
 from matplotlib.lines import Line2D  # noqa: E402
 
 MARKERS = "osD^vPX"
 BROKEN = (0, (4, 1.5))  # curves of dsmc
 DOTTED = (0, (1.2, 1.2)), (0, (4, 1, 1, 1))  # theories beside curves of engines
-COLUMNS, WIDTH, HEIGHT, BESIDE = 3, 3.0, 2.4, 1.1  # panels side by side; their size and the width of a legend in inches
+WIDTH, HEIGHT, BESIDE = 3.0, 2.4, 1.1  # size of a panel and width of a legend in inches
 MOST_SHOWN = 12  # snapshots
 LARGEST = 120_000  # bytes of an SVG; above it curves become pixels
 
 
 NOT_CONVERGED = "not settled"  # label in the published pictures
+WORDS = {"md": "MD", "dsmc": "DSMC", "enskog_hermite": "Enskog", "gaussian_closure": "Gaussian closure",
+         "navier_stokes": "Navier-Stokes", "newtonian_gas": "Newtonian gas"}  # in legends
 MARK = r"[_^](?:\{[^{}]*\}|[^\W_])"  # a subscript or superscript
 
 
@@ -38,7 +42,27 @@ def mathematics(label):
     def upright(found):
         marks = "".join(f"{mark[0]}{{\\rm {mark[1:].strip('{}')}}}" for mark in re.findall(MARK, found[2]))
         return f"${found[1]}{marks}$"
-    return re.sub(rf"([^\W_]+)((?:{MARK})+)", upright, label.replace("\\_", "_"))
+    return re.sub(rf"([^\W_]+\*?)((?:{MARK})+)", upright, label.replace("\\_", "_"))
+
+
+def formatted(title, width=44):
+    """A title in lines of at most this width."""
+    return "\n".join(mathematics(line) for line in textwrap.wrap(title, width, break_long_words=False))
+
+
+def layout(panels):
+    """Rows and columns of panels with the fewest holes; at most three side by side."""
+    columns = min((3, 2), key=lambda n: -panels % n) if panels > 3 else panels
+    return -(-panels // columns), columns
+
+
+def label_narrow_axis(axis):
+    """Label 2 and 5 times powers of ten, too, where a logarithmic axis has fewer than two of these powers."""
+    low, high = sorted(axis.get_view_interval())
+    if low > 0 and high < 100 * low:
+        axis.set_major_locator(ticker.LogLocator(subs=(1, 2, 5) if high > 3 * low else (1, 1.5, 2, 3, 5, 7)))
+        axis.set_major_formatter(ticker.FormatStrFormatter("%g"))
+        axis.set_minor_formatter(ticker.NullFormatter())
 
 
 def _axis_label(label, unit):
@@ -47,10 +71,10 @@ def _axis_label(label, unit):
 
 def method_label(method, panel):
     """"lun1991" -> "Lun (1991)", with values of scene keys that are the theory's alone."""
-    if method not in THEORIES:
+    if method not in THEORIES and method not in WORDS:
         return mathematics(method)
     words = re.fullmatch(r"([a-z_]+)(\d{4})", method)
-    name = f"{words[1].title().replace('_', ', ')} ({words[2]})" if words else method.replace("_", " ")
+    name = f"{words[1].title().replace('_', ', ')} ({words[2]})" if words else WORDS.get(method, method.replace("_", " "))
     instead = ["constant β" if (key, value) == ("collision.mu", ["inf"]) else f"{key_label(key)} = {value[0]}"
                for key, value in panel.theories_at.items()]
     return ", ".join([name, *instead])
@@ -86,8 +110,10 @@ class _Drawing:
             {"points": self._points, "band": self._band, "line": self._line}[line.style](line)
         of = self.of
         self.ax.set(xlabel=_axis_label(self.table.x_label, self.table.x_unit),
-                    ylabel=_axis_label(self.table.y_label, self.table.y_unit), title=mathematics(of.title or ""),
+                    ylabel=_axis_label(self.table.y_label, self.table.y_unit), title=formatted(self.table.title),
                     xscale="log" if of.x.log else "linear", yscale="log" if of.y.log else "linear")
+        for axis in [self.ax.xaxis] * of.x.log + [self.ax.yaxis] * of.y.log:
+            label_narrow_axis(axis)
         if of.x.range:
             self.ax.set_xlim(of.x.range)
         if of.y.range:
@@ -130,11 +156,11 @@ class _Drawing:
                   for method in self.methods]
         mark = {"color": "black", "marker": "o", "linestyle": "none"}
         if self.both and points:
-            found += [Line2D([], [], label="md", **mark),
-                      Line2D([], [], label="dsmc", fillstyle="bottom", markerfacecoloralt="white", **mark)]
+            found += [Line2D([], [], label=WORDS["md"], **mark),
+                      Line2D([], [], label=WORDS["dsmc"], fillstyle="bottom", markerfacecoloralt="white", **mark)]
         elif self.both:
-            found += [Line2D([], [], label="md", color="black"),
-                      Line2D([], [], label="dsmc", color="black", linestyle=BROKEN)]
+            found += [Line2D([], [], label=WORDS["md"], color="black"),
+                      Line2D([], [], label=WORDS["dsmc"], color="black", linestyle=BROKEN)]
         if self.unconverged:
             found.append(Line2D([], [], label=NOT_CONVERGED, fillstyle="none", **mark) if points
                          else Line2D([], [], label=NOT_CONVERGED, color="black", linestyle=(0, (1, 1))))
@@ -149,8 +175,7 @@ def _surface(ax, table):
     if height.ndim == 2:
         ax.plot_surface(*np.meshgrid(x, across), height, cmap="viridis", edgecolor="black", linewidth=0.3)
     label = next(iter(table.of.lines.values()))
-    ax.set(xlabel=mathematics(table.x_label), ylabel=mathematics(label), title=mathematics(table.of.title or ""))
-    ax.set_title(mathematics(f"{table.of.title}: {table.y_label}"))
+    ax.set(xlabel=mathematics(table.x_label), ylabel=mathematics(label), title=formatted(f"{table.title}: {table.y_label}"))
     ax.view_init(25, -130)
     ax.tick_params(pad=0)
 
@@ -174,7 +199,7 @@ def _snapshot(ax, table, point):
     x, y = (frame.grains.position[:, a] % box[a] for a in (across, 1))
     ax.plot(x, y, ",", color=COLOURS[0], rasterized=True) if len(x) > 20000 else ax.scatter(
         x, y, s=3, color=COLOURS[0], linewidths=0, rasterized=True)
-    words = [word for word in (table.of.title, table.group(point, "")) if word]
+    words = [word for word in (table.title, table.group(point, "")) if word]
     words.append(f"{frame.state.collisions_per_grain:.0f} collisions per grain")
     ax.set(xlim=(0, box[across]), ylim=(0, box[1]), aspect="equal", xlabel="z [d]" if across else "x [d]", ylabel="y [d]")
     ax.set_title(mathematics(", ".join(words)), fontsize=8)
@@ -215,13 +240,15 @@ def _explain(figure, panels):
             row = [ax for ax in axes if ax.get_subplotspec().rowspan == axes[0].get_subplotspec().rowspan]
             row[-1].legend(handles=handles, handlelength=1.6, loc="upper left", bbox_to_anchor=(1.02, 1), borderaxespad=0)
             beside += 1
-    figure.set_size_inches(figure.get_figwidth() + BESIDE * min(beside, COLUMNS), figure.get_figheight())
+    figure.set_size_inches(figure.get_figwidth() + BESIDE * min(beside, 3), figure.get_figheight())
 
 
 def _page(entry, tables, note, rasterized):
+    title, titles_of_panels = titles(entry, tables[0].points)
+    for table, its in zip(tables, titles_of_panels):
+        table.title = its
     shown = _shown(tables)
-    columns = min(COLUMNS, len(shown))
-    rows = -(-len(shown) // columns)
+    rows, columns = layout(len(shown))
     figure = pyplot.figure(figsize=(columns * WIDTH, rows * HEIGHT + 0.4), dpi=150, layout="constrained")
     panels = []
     for k, (table, point) in enumerate(shown, 1):
@@ -232,10 +259,10 @@ def _page(entry, tables, note, rasterized):
             _surface(ax, table)
         else:
             panels.append((ax, _Drawing(ax, table, rasterized).draw()))
-    figure.suptitle(entry.figure + note, fontsize=10)
+    figure.suptitle(formatted(title + note, 32 * columns), fontsize=10)
     still = unconverged(tables, key_label)
     if still:
-        figure.supxlabel("\n".join(textwrap.wrap(f"{NOT_CONVERGED}: {'; '.join(still)}", 45 * columns, max_lines=3, placeholder=" ...")),
+        figure.supxlabel("\n".join(textwrap.wrap(f"{NOT_CONVERGED}: {'; '.join(still)}", 45 * columns)),
                          fontsize=6)
     _explain(figure, panels)
     return figure

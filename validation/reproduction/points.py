@@ -50,6 +50,7 @@ class Point:
         found = [self.result.md, self.result.dsmc] if both else [self.result]
         self.engines = {result.engine: result for result in found if result is not None}
         self.short = point.state == "short"
+        self.evaluated = {}  # theories by name and changes of keys
 
     @functools.cached_property
     def _theories(self):
@@ -83,7 +84,10 @@ class Point:
         """Value of a theory at this point, with `changes` of scene keys."""
         theory = self._theories.get(name) if not changes else None
         if theory is None or quantity not in theory:
-            theory = _evaluated(self.scene, name, changes)
+            key = name, *changes.items()
+            if key not in self.evaluated:
+                self.evaluated[key] = _evaluated(self.scene, name, changes)
+            theory = self.evaluated[key]
         if theory is None or quantity not in theory:
             return NOTHING
         error = theory.error(quantity)

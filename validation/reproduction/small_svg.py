@@ -122,35 +122,43 @@ def _advance(character, font):
     return face.load_char(ord(character), flags=LOAD_NO_HINTING).linearHoriAdvance / 65536 / 100
 
 
-def _runs(span):
-    """Characters that follow each other on one line, with one place. matplotlib gives each character its own place, which
-    not every program reads."""
-    xs, ys, text, font = span.get("x", "").split(), span.get("y", "").split(), span.text or "", span.get("style", "")
-    size = re.search(r"([\d.]+)px", font)
-    if not size or len(xs) != len(text) or len(ys) not in (1, len(text)) or len(text) < 2:
-        return [span]
-    size, ends = float(size[1]), {}  # of the last run of each line: the run, and where it ends
-    runs = []
-    for character, x, y in zip(text, xs, ys if len(ys) > 1 else ys * len(text)):
-        run, end = ends.get(y, (None, 0.0))
-        if run is None or abs(float(x) - end) > 0.1 * size:
-            run = ElementTree.Element(span.tag, {**span.attrib, "x": x, "y": y})
-            run.text = ""
-            runs.append(run)
-        run.text += character
-        if run.text.isspace():  # SVG leaves out blanks at the start
-            runs.remove(run)
-            run = None
-        ends[y] = run, float(x) + size * _advance(character, font)
-    for run in runs:
-        run.text = run.text.rstrip()
-    return runs
+def _pieces_of_text(span):
+    """Characters of a span that follow each other on one line: [left, height, end, size, text]. matplotlib gives each
+    character a place of its own."""
+    xs, ys, text, font = span.get("x", "0").split(), span.get("y", "0").split(), span.text or "", span.get("style", "")
+    size = float(re.search(r"([\d.]+)px", font)[1])
+    xs = xs if len(xs) == len(text) else [None] * len(text) if len(xs) != 1 else xs + [None] * (len(text) - 1)
+    ys, found, last = ys if len(ys) == len(text) else ys[:1] * len(text), [], {}
+    for character, x, y in zip(text, xs, map(float, ys)):  # by x: subscripts among superscripts
+        piece = last.get(y)
+        x = float(x) if x is not None else piece[2] if piece else 0.0
+        if piece is None or abs(x - piece[2]) > 0.1 * size:
+            piece = last[y] = [x, y, x, size, ""]
+            found.append(piece)
+        piece[2], piece[4] = x + size * _advance(character, font), piece[4] + character
+    return [piece for piece in found if piece[4].strip()]
 
 
-def _in_reading_order(text):
-    """The pieces of a formula from left to right."""
-    if len(text) and all(span.tag == SPAN for span in text):
-        text[:] = sorted((run for span in text for run in _runs(span)), key=lambda run: float(run.get("x", "0").split()[0]))
+def _as_one_line(text):
+    """A formula as pieces that follow each other, with steps up and down. Pieces with places of their own would lie over
+    one another in other fonts than matplotlib's."""
+    if not len(text) or any(span.tag != SPAN or span.get("dy") for span in text):
+        return
+    pieces = sorted(((piece, span) for span in text for piece in _pieces_of_text(span)), key=lambda one: one[0][0])
+    if not pieces:
+        return
+    start, height = end, _ = pieces[0][0][:2]
+    text[:] = []
+    text.attrib.update({"x": _number(start, 2), "y": _number(height, 2)})
+    for (left, y, right, size, characters), span in pieces:
+        run = ElementTree.SubElement(text, SPAN, {"style": span.get("style", "")})
+        run.text = characters.strip()
+        left += size * _advance(" ", "") * (len(characters) - len(characters.lstrip()))
+        if left - end > 0.15 * size:  # some programs leave out blanks at the start of a piece
+            run.set("dx", _number(left - end, 2))
+        if abs(y - height) > 0.01:
+            run.set("dy", _number(y - height, 2))
+        height, end = y, max(end, right)
 
 
 def _properties(element):
@@ -229,7 +237,7 @@ def small_svg(text):
     root.set("style", FONTS)
     _caps_as_paths(root)
     for label in root.iter(f"{{{SVG}}}text"):
-        _in_reading_order(label)
+        _as_one_line(label)
     referenced = set(re.findall(r'(?:href="|url\()#([^")]+)', text))
     short = {name: f"{'' if k < 26 else k // 26}{chr(97 + k % 26)}"[::-1] for k, name in enumerate(sorted(referenced))}
     for element in root.iter():
