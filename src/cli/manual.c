@@ -79,13 +79,11 @@ static void print_files(void)
   } files[] = {
       {"RESULT.h5", NULL,
        "HDF5 in the layout of H5MD 1.1, written whole or not at all. A comparison holds both engines: what stands "
-       "under "
-       "/graingas/results in a run is under /graingas/md/results and /graingas/dsmc/results there, and its series are "
-       "called md_... and dsmc_..."},
+       "under /graingas/results in a run is under /graingas/md/results and /graingas/dsmc/results there, and its "
+       "series are called md_... and dsmc_..."},
       {"/particles/grains", NULL,
        "box, position, velocity (peculiar), spin, species, mass, diameter, id: the last state, or every "
-       "output.trajectory_every "
-       "collisions per grain. Edges of a sheared box lean with its sliding images."},
+       "output.trajectory_every collisions per grain. Edges of a sheared box lean with its sliding images."},
       {"/observables", "QUANTITY", "step, time and value from the start of the run."},
       {"/graingas/results", "QUANTITY", "mean, stderr, unit, samples, correlation_time (its unit an attribute)."},
       {"/graingas/theory", "NAME/QUANTITY", "mean and unit."},
@@ -106,9 +104,8 @@ static void print_files(void)
       {"Checksum", NULL,
        "Results and checkpoints end with \"gg-crc32\", the size of the HDF5 file (8 bytes) and its CRC-32 (4 bytes), "
        "lowest byte first. A result without them is one that another program has changed: it is read with a warning. "
-       "To vouch for it, "
-       "in Python: data = open(FILE, \"rb\").read(); open(FILE, \"ab\").write(struct.pack(\"<8sQI\", b\"gg-crc32\", "
-       "len(data), zlib.crc32(data)))"},
+       "To vouch for it, in Python: data = open(FILE, \"rb\").read(); open(FILE, \"ab\").write(struct.pack(\"<8sQI\", "
+       "b\"gg-crc32\", len(data), zlib.crc32(data)))"},
   };
   printf(".SH FILES\n");
   for (size_t i = 0; i < sizeof files / sizeof *files; i++) item(files[i].name, files[i].argument, files[i].text);

@@ -77,8 +77,7 @@ void gg_cli_print_scene_page(void)
       "`graingas --scene-page` prints this page from the table that reads scenes; a test keeps both equal.\n\n"
       "A scene is a YAML file. Only `flow` and `phi` are required. A dot separates section and key: `collision.e` is "
       "`e` under `collision:` in the file and `--set collision.e=0.8` on the command line. Lengths, masses and times "
-      "are in any consistent units; a key without a unit is a pure number. `graingas info SCENE.yaml` prints every "
-      "key "
+      "are in any consistent units; a key without a unit is a pure number. `graingas info SCENE.yaml` prints every key "
       "with its value; `graingas info KEY` prints one row of this page.\n\n");
   print_keys(GG_CATALOGUE_KEYS, true);
   printf(
@@ -149,8 +148,7 @@ void gg_cli_print_quantities_page(void)
   }
   printf("\n`c_i` and `temperature_i` exist for each species of a mixture.\n\n"
          "In the Boltzmann limit (phi = 0) lengths are in 1/(n d^2), stresses in n m times a velocity squared; there "
-         "is no "
-         "collisional transfer.\n");
+         "is no collisional transfer.\n");
   for (int k = 0; k < 2; k++) gg_scene_free(scene[k]);
 }
 
