@@ -251,6 +251,16 @@ def test_theories_of_the_text_stay(way):
     assert gg.theory(t, "mine")["temperature"] == pytest.approx(0.09) and gg.theory(t, "table")["temperature"] == 3.5
 
 
+def test_formulas_that_use_each_other():
+    """Names in any order; intermediate values are no answers; the text stays."""
+    formulas = {"temperature": "2*w", "w": "phi + v", "v": "e"}
+    s = gg.Scene(flow="usf", phi=0.1, e=0.9, theories={"mine": formulas})
+    assert dict(gg.theory(s, "mine")) == {"temperature": 2 * (0.1 + 0.9)}
+    assert gg.Scene(s.to_yaml()).theories == {"mine": formulas}
+    with pytest.raises(gg.BadInput, match="depends on itself: w uses v uses w"):
+        gg.Scene(flow="usf", phi=0.1, theories={"mine": {**formulas, "v": "w"}})
+
+
 def test_theories_as_keys():
     """Theories as keyword, in a dict, beside other texts; equality compares them."""
     keyword, table = gg.Scene(flow="usf", phi=0.1, theories=MINE), gg.Scene({"flow": "usf", "phi": 0.1, "theories": MINE})

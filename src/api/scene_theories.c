@@ -9,13 +9,10 @@
 #include <sys/stat.h>
 
 #include "api/api.h"
-#include "base/memory.h"
 #include "base/printable.h"
 #include "io/checked_json.h"
 #include "scene/scene_reader.h"
 #include "theory/formula.h"
-
-enum { MOST_FORMULAS = 64 };
 
 typedef struct theories_reader {
   gg_scene_reader reader; /* the first member: callbacks get a pointer to it */
@@ -51,20 +48,22 @@ static json_t *source_of(const gg_scene_reader *r, const yaml_node_t *map)
   return source;
 }
 
-static gg_status read_formulas(const theories_reader *t, const char *key, const yaml_node_t *map,
-                               gg_formula_theory *made, const char **quantity)
+typedef struct formulas {
+  int n;
+  const char *name[GG_THEORY_FORMULAS], *text[GG_THEORY_FORMULAS];
+  const yaml_node_t *node[GG_THEORY_FORMULAS];
+} formulas;
+
+static gg_status list_formulas(const theories_reader *t, const char *key, const yaml_node_t *map, formulas *f)
 {
-  gg_error why;
+  f->n = 0;
   for (gg_scene_entry e = {0}; gg_scene_entry_next(&t->reader, map, &e);) {
-    const char *formula = gg_scene_scalar(e.value);
-    if (!e.word || !formula)
+    if (!e.word || !gg_scene_scalar(e.value))
       return gg_scene_reject(&t->reader, e.name, key,
                              "a quantity with its formula is expected: temperature: \"phi*e\"");
-    if (made->n == MOST_FORMULAS)
-      return gg_scene_reject(&t->reader, e.name, key, "has more than %d formulas", MOST_FORMULAS);
-    if (gg_base_expression_parse(&made->of[made->n], formula, gg_theory_parameters, &why) != GG_OK)
-      return reject(&t->reader, e.value, key, &why);
-    quantity[made->n++] = e.word;
+    if (f->n == GG_THEORY_FORMULAS)
+      return gg_scene_reject(&t->reader, e.name, key, "has more than %d formulas", GG_THEORY_FORMULAS);
+    f->name[f->n] = e.word, f->text[f->n] = gg_scene_scalar(e.value), f->node[f->n++] = e.value;
   }
   return GG_OK;
 }
@@ -72,21 +71,23 @@ static gg_status read_formulas(const theories_reader *t, const char *key, const 
 static gg_status add_formulas(const theories_reader *t, const char *key, const char *name, const yaml_node_t *map)
 {
   gg_error why;
-  const char *quantity[MOST_FORMULAS];
-  gg_formula_theory *made = gg_base_array_new(1, sizeof *made + MOST_FORMULAS * sizeof(gg_expression), t->reader.err);
-  if (!made) return GG_FAILED;
-  made->n = 0;
-  gg_status status = read_formulas(t, key, map, made, quantity);
+  int failed;
+  formulas f;
+  const char *quantity[GG_THEORY_FORMULAS];
+  gg_formula_theory *made;
+  GG_TRY(list_formulas(t, key, map, &f));
+  if (gg_theory_formulas_read(f.n, f.name, f.text, &made, quantity, &failed, &why) != GG_OK)
+    return reject(&t->reader, f.n ? f.node[failed] : map, key, &why);
   const gg_theory_definition definition = {.name = name,
                                            .title = "formulas of the scene",
                                            .assumptions = "Written in the scene, under theories.",
-                                           .n_quantities = made->n,
+                                           .n_quantities = made->n_quantities,
                                            .quantities = quantity,
                                            .evaluate = gg_theory_formula_evaluate,
                                            .context = made};
-  if (status == GG_OK && add(t->scene, &definition, source_of(&t->reader, map), &why) != GG_OK)
-    status = reject(&t->reader, map, key, &why);
-  if (status != GG_OK) free(made);
+  gg_status status = GG_OK;
+  if (add(t->scene, &definition, source_of(&t->reader, map), &why) != GG_OK)
+    free(made), status = reject(&t->reader, map, key, &why);
   return status;
 }
 

@@ -163,8 +163,7 @@ static gg_status advance_once(gg_simulation *s, double *time, uint64_t *most, gg
   if (happened >= pile) {
     gg_base_fail(
         err, GG_FAILED,
-        "%s: inelastic collapse near time %g: collisions accumulate without end; give md.contact_time a larger "
-        "value",
+        "%s: inelastic collapse near time %g: collisions accumulate without end; give md.contact_time a larger value",
         s->engine->ops->name, s->clock.time);
     if (err) err->cause = GG_CAUSE_COLLAPSE;
     return GG_FAILED;

@@ -54,12 +54,21 @@ static bool is(const char *name, size_t length, const char *word)
 
 static gg_status refuse_word(const parser *p)
 {
-  char known[400] = "";
+  char known[600] = "";
   for (int k = 0; p->variables[k]; k++) gg_base_text_append(known, sizeof known, "%s, ", p->variables[k]);
   gg_base_text_append(known, sizeof known, "pi, inf");
   for (int k = 0; functions[k].name; k++) gg_base_text_append(known, sizeof known, ", %s", functions[k].name);
   return gg_base_fail(p->err, GG_BAD_INPUT, "'%.200s' at character %td: not known; there are %s", p->text,
                       p->at - p->text + 1, known);
+}
+
+bool gg_base_expression_knows(const char *word)
+{
+  static const char *const words[] = {"pi", "inf", "if", "else"};
+  bool known = false;
+  for (size_t k = 0; k < sizeof words / sizeof *words; k++) known |= strcmp(words[k], word) == 0;
+  for (int k = 0; functions[k].name; k++) known |= strcmp(functions[k].name, word) == 0;
+  return known;
 }
 
 static gg_status word(parser *p)

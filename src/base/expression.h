@@ -22,6 +22,8 @@ typedef struct gg_expression {
 
 /* `variables` ends with NULL. GG_BAD_INPUT says what is wrong and at which character. */
 gg_status gg_base_expression_parse(gg_expression *e, const char *text, const char *const *variables, gg_error *err);
+/* Whether formulas have the word: a constant, a function, if, else. */
+bool gg_base_expression_knows(const char *word);
 /* With the values of all variables, in their order. */
 double gg_base_expression_value(const gg_expression *e, const double *at);
 

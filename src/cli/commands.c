@@ -62,8 +62,7 @@ const gg_command gg_cli_commands[] = {
     {"info", "[FILE|WORD]", "Contents of a result or checkpoint, meaning of a scene, definition of a word",
      "FILE is a scene, a result or a checkpoint. WORD is a scene key, a quantity, a theory, a flow or an observable: "
      "graingas info N1 prints its definition in five lines, --all in full. Without an argument: every scene key with "
-     "its "
-     "default and range.",
+     "its default and range.",
      GG_OPT_SET | GG_OPT_JSON | GG_OPT_ALL | GG_OPT_SCHEMA | GG_OPT_QUIET, gg_cli_info_main},
     {"init", "[FLOW]", "A scene to begin with: FLOW.yaml, with every key of the flow",
      "Writes a scene of the flow (usf without an argument) that runs as it is. Its other keys are comments with their "

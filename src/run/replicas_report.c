@@ -172,8 +172,7 @@ static void warn_if_unbalanced(gg_result *result)
   if (!(off > LEAST_IMBALANCE && off > MOST_ERRORS * e->error)) return;
   gg_run_result_warn(
       result,
-      "energy is not balanced: energy_balance is %.4g +- %.2g where it must be 1, %.1f errors off; means "
-      "are biased%s",
+      "energy is not balanced: energy_balance is %.4g +- %.2g where it must be 1, %.1f errors off; means are biased%s",
       e->mean, e->error, off / e->error,
       result->model.ensemble ? "; give dsmc.time_step a smaller value or dsmc.particles a larger one" : "");
 }

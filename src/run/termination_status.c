@@ -35,8 +35,7 @@ static gg_status check_error(const gg_replicas *all, const char *engine, gg_erro
   const uint64_t window = window_of(all);
   if (all->replica[0].n_observables == 0)
     return gg_base_fail(err, GG_FAILED,
-                        "%s: nothing is measured: it is unknown whether the requested relative error %g is "
-                        "reached",
+                        "%s: nothing is measured: it is unknown whether the requested relative error %g is reached",
                         engine, criteria->relative_error);
   const bool cut = out_of_time(all) || (criteria->most && window >= criteria->most);
   if (cut && (window < criteria->least || !c->trusted))
@@ -83,8 +82,7 @@ gg_status gg_run_replicas_check_end(const gg_replicas *all, gg_error *err)
   if (all->state.runaway > 0)
     return gg_base_fail(err, GG_FAILED,
                         "%s: stopped, as theta/T has come to %.1g: grains that spin fast have escaped friction, and "
-                        "the metastable state "
-                        "is over; average over fewer collisions (run.collisions) of more grains",
+                        "the metastable state is over; average over fewer collisions (run.collisions) of more grains",
                         engine, all->state.runaway);
   gg_status status = check_goal(all, engine, err);
   if (status == GG_OK || !out_of_time(all) || !(all->state.wall > all->criteria.time_limit)) return status;

@@ -309,8 +309,7 @@ static const struct {
          "one species and phi above 0, in theories, dsmc and white noise"},
     [GG_IF_LOSSY] = {"where no collision loses energy", NULL, "", "collisions lose energy"},
     [GG_IF_ERROR] = {"but on the ensemble's size, in a gas without such means: elastic and sheared, elastic and alone, "
-                     "or cooling by a "
-                     "law",
+                     "or cooling by a law",
                      NULL, "", "the flow has headline quantities"},
     [GG_IF_ROUGH] = {"on smooth grains, which do not spin", NULL, "", "rough grains"},
     [GG_IF_LAW] = {"while collision.law is constant", NULL, "", "collision.law is not constant"},

@@ -63,21 +63,23 @@ static bool is_of_second(int parameter)
 static bool names_second(const gg_expression *e)
 {
   bool any = false;
-  for (int i = 0; i < e->n; i++) any |= e->step[i].code == 'p' && is_of_second((int)e->step[i].number);
+  for (int i = 0; i < e->n; i++)
+    any |= e->step[i].code == 'p' && e->step[i].number < GG_THEORY_PARAMETERS && is_of_second((int)e->step[i].number);
   return any;
 }
 
 const char *gg_theory_formula_evaluate(void *theory, const gg_facts *facts, double *values)
 {
   const gg_formula_theory *t = theory;
-  double at[GG_THEORY_PARAMETERS];
+  double at[GG_THEORY_PARAMETERS + GG_THEORY_FORMULAS], *value = at + GG_THEORY_PARAMETERS;
   bool second = false;
   for (int k = 0; k < t->n; k++) second |= names_second(&t->of[k]);
   if (facts->n_species > 2) return "is a formula for one or two species";
   if (facts->n_species > 1 && !second) return "is a formula for one species: it names no parameter of the second";
   if (facts->n_species == 1 && second) return "is a formula for two species";
   read_parameters(facts, at);
-  for (int k = 0; k < t->n; k++) values[k] = gg_base_expression_value(&t->of[k], at);
+  for (int k = 0; k < t->n; k++) value[t->order[k]] = gg_base_expression_value(&t->of[t->order[k]], at);
+  for (int k = 0; k < t->n_quantities; k++) values[k] = value[t->answer[k]];
   return NULL;
 }
 

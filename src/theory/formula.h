@@ -12,11 +12,21 @@ typedef struct gg_facts gg_facts; /* of the public header */
 extern const char *const gg_theory_parameters[];
 enum { GG_THEORY_PARAMETERS = 27 };
 
-/* A theory as the context of its definition: one allocation, from malloc. */
+enum { GG_THEORY_FORMULAS = 64 };
+
+/* A theory as the context of its definition: one allocation, from malloc. Formulas read parameters and the values of
+ * other formulas, whose index follows those of the parameters. */
 typedef struct gg_formula_theory {
-  int n; /* quantities */
+  int n, order[GG_THEORY_FORMULAS];             /* formulas; their order of evaluation */
+  int n_quantities, answer[GG_THEORY_FORMULAS]; /* the formula of each quantity; the others are intermediate values */
   gg_expression of[];
 } gg_formula_theory;
+
+/* Read `n` formulas, up to GG_THEORY_FORMULAS, in any order. A name that is no quantity and that another formula uses
+ * is an intermediate value. `quantity` gets the names of the quantities. On failure *failed is the index of the formula
+ * at fault. *theory is to be freed. */
+gg_status gg_theory_formulas_read(int n, const char *const *name, const char *const *text, gg_formula_theory **theory,
+                                  const char **quantity, int *failed, gg_error *err);
 
 typedef struct gg_points_theory {
   size_t n_rows;

@@ -53,6 +53,15 @@ static void formulas_have_the_values_of_c(void **state)
   assert_true(isnan(value("1 if ln(-v) else 2", v, e)));
 }
 
+static void words_of_formulas_are_known(void **state)
+{
+  (void)state;
+  const char *const known[] = {"pi", "inf", "if", "else", "ln", "atan", "min", "erf"};
+  for (size_t k = 0; k < sizeof known / sizeof *known; k++) assert_true(gg_base_expression_knows(known[k]));
+  const char *const unknown[] = {"", "p", "pie", "v", "log", "Ln"};
+  for (size_t k = 0; k < sizeof unknown / sizeof *unknown; k++) assert_false(gg_base_expression_knows(unknown[k]));
+}
+
 /* The step of a comparison is between two neighbouring numbers, on the side that the sign says. */
 static void a_step_is_between_two_neighbouring_numbers(void **state)
 {
@@ -102,6 +111,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(formulas_have_the_values_of_c),
+      cmocka_unit_test(words_of_formulas_are_known),
       cmocka_unit_test(a_step_is_between_two_neighbouring_numbers),
       cmocka_unit_test(errors_name_the_character),
       cmocka_unit_test(depth_is_bounded),

@@ -2,6 +2,7 @@
 """Theories of a scene's own, `theories`: formulas and tables answer like the others, in theory, compare and sweeps, where
 a changed formula needs no new run; what is wrong is named with its line."""
 import csv
+import itertools
 import json
 import math
 import os
@@ -127,6 +128,58 @@ def test_wrong_grammar():
         check(done.code == 2 and "theories.t" in done.err, repr(text), done.code, done.err)
 
 
+USED = ("N1: a*w - N2", "w: 2*a", "a: 1 + e", "N2: a/w^2 if a > w else w")
+
+
+def test_formulas_use_each_other():
+    """In each of the 24 orders the same bits; intermediate values are no answers. A second species may stand behind a name."""
+    one = "phi: 0.1\nflow: usf\ncollision: {e: 0.9}\n"
+    for lines in itertools.permutations(USED):
+        done = run("theory", "-", "--json", "--theory", "t", typed=one + "theories:\n  t:\n" + "".join(f"    {line}\n" for line in lines))
+        said = json.loads(done.out)["theory"]["t"]
+        a = 1 + 0.9
+        w = 2 * a
+        check({name: entry["mean"] for name, entry in said.items()} == {"N1": a * w - w, "N2": w}, lines, said)
+    done = run("theory", "-", "--json", "--theory", "t", typed=MIXTURE + "theories: {t: {N1: 2*ratio, ratio: m_2/m_1}}\n")
+    check(json.loads(done.out)["theory"]["t"]["N1"]["mean"] == 5, done.out[-900:])
+    long = ", ".join(f"a{k}: {'1' if k == 62 else f'a{k + 1} + 1'}" for k in range(63))
+    done = run("theory", "-", "--json", "--theory", "t", typed=one + f"theories: {{t: {{N1: a0, {long}}}}}\n")
+    check(json.loads(done.out)["theory"]["t"]["N1"]["mean"] == 63, done.err)
+    done = run("theory", "-", typed=one + f"theories: {{t: {{N1: a0, N2: a0, {long}}}}}\n")
+    check(done.code == 2 and "has more than 64 formulas" in done.err, done.err)
+
+
+def test_formulas_that_cannot_use_each_other():
+    """Line, name, character; of a cycle its members."""
+    for lines, line, words in (
+            (("N1: a", "a: w + 1", "w: 2*v", "v: a"), 6, "the formula of 'a' depends on itself: a uses w uses v uses a"),
+            (("N1: N1 + 1",), 5, "the formula of 'N1' depends on itself: N1 uses N1"),
+            (("N1: a", "a: 2", "w: a"), 5, "t: there is no quantity called 'w'"),
+            (("N1: a", "a: 2*(e + v)"), 6, "'2*(e + v)' at character 8: not known; there are phi, n, gamma"),
+            (("N1: a", "a: 2*e w"), 6, "'2*e w' at character 5: not expected here"),
+            (("N1: e", "e: 2"), 6, "the name 'e' is taken: it is a parameter of formulas"),
+            (("N1: e", "sqrt: 2"), 6, "the name 'sqrt' is taken: it is a word of formulas"),
+            (("N1: e", "else: 2"), 6, "the name 'else' is taken: it is a word of formulas"),
+            (("N1: e", "a-b: 2"), 6, "'a-b' is not a valid name"),
+            (("N1: a", "a: 2", "a: 3"), 7, "the name 'a' is given twice"),
+            (("a: 2*w", "w: a"), 5, "the formula of 'a' depends on itself: a uses w uses a")):
+        done = run("theory", "scene.yaml", scene="flow: usf\nphi: 0.1\ntheories:\n  t:\n" + "".join(f"    {x}\n" for x in lines))
+        check(done.code == 2 and f"scene.yaml:{line}: key 'theories.t': {words}" in done.err and not done.out, done.err, lines)
+
+
+def test_published_theory_of_the_documents():
+    """The example of extend.md is the theory of graingas, to rounding, wherever it is evaluated."""
+    with open(os.path.join(os.environ["SOURCE"], "docs", "howto", "extend.md"), encoding="utf-8") as file:
+        scene = re.search(r"<!-- file: friction.yaml -->\n```yaml\n(.*?)^```", file.read(), re.MULTILINE | re.DOTALL)[1]
+    for phi, e, beta, mu, inertia in (0.2, 0.95, 0, 0.1, 0.4), (0.01, 0.99, 0.5, 0.05, 0.4), (0.4, 0.8, -0.3, 0.2, 0.3):
+        text = scene.replace("phi: 0.2", f"phi: {phi}").replace("{e: 0.95, beta: 0, mu: 0.1}", f"{{e: {e}, beta: {beta}, mu: {mu}}}")
+        done = run("theory", "-", "--json", "--theory", "friction,jenkins_zhang2002", typed=text + f"species: [{{inertia: {inertia}}}]\n")
+        mine, theirs = (json.loads(done.out)["theory"][name] for name in ("friction", "jenkins_zhang2002"))
+        check(len(mine) == 4, mine)
+        for name, value in mine.items():
+            check(abs(value["mean"] / theirs[name]["mean"] - 1) < 1e-12 and value["unit"] == theirs[name]["unit"], name, value, theirs[name])
+
+
 def test_theories_have_no_grains():
     """A fraction of half a grain in a thousand, also in a sweep: exact, and no number of grains changes an answer."""
     scene = "flow: usf\nphi: 0.1\nspecies: [{fraction: 0.0005}, {fraction: 0.9995, mass: 2}]\ntheories: {x: {N1: x_1, N2: x_2}}\n"
@@ -184,7 +237,7 @@ def test_invalid_theories_are_rejected():
                             ("mine:", "grad:", "scene.yaml:7: key 'theories.grad': theory: the name 'grad' is taken"),
                             ("points.csv", "none.csv", "scene.yaml:8: key 'theories.table': none.csv: cannot be read"),
                             ("points.csv", "[1]", "scene.yaml:8: key 'theories.table': formulas are expected"),
-                            ("N1:", "temperature:", "scene.yaml:7: key 'theories.mine': mine: the quantity 'temperature' is given"),
+                            ("N1:", "temperature:", "scene.yaml:7: key 'theories.mine': the quantity 'temperature' is given twice"),
                             ("  table: points.csv", "  mine: points.csv", "'mine' is taken")):
         done = theories(SCENE.replace(old, new))
         check(done.code == 2 and words in done.err and not done.out, done.code, done.err, words)
