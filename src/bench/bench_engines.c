@@ -19,7 +19,8 @@ enum {
   GRAVITY = 64,
   COUETTE = 128,
   NOISE = 256,
-  NEARLY = 512
+  NEARLY = 512,
+  IN_BATH = 1024
 };
 
 /* A scene with a feature, and the scene it is compared with; the first row is compared with itself. */
@@ -42,6 +43,8 @@ static const feature md_features[] = {
     {"moving walls, rough", "sheared rough", SHEARED | ROUGH | COUETTE},
     {"white noise, e = 0.99", "smooth", NOISE | NEARLY},
     {"white noise, e = 0.9", "smooth", NOISE},
+    {"bath, e = 0.9", "smooth", NOISE | IN_BATH},
+    {"bath, rough, e = 0.9", "bath, e = 0.9", NOISE | IN_BATH | ROUGH},
 };
 static const feature dsmc_features[] = {
     {"smooth", "smooth", 0},
@@ -56,6 +59,7 @@ static const feature dsmc_features[] = {
     {"sheared frictional, stress measured", "sheared rough, stress measured", SHEARED | SUMS | FRICTIONAL},
     {"sheared, two species, stress measured", "sheared smooth, stress measured", SHEARED | SUMS | MIXTURE},
 };
+static const feature dsmc_wall_features[] = {{"moving walls", "moving walls", SHEARED | COUETTE}};
 
 /* Parameters of the bench of an engine. With --quick only the first sizes. */
 typedef struct engine_bench {
@@ -75,7 +79,7 @@ static const engine_bench md = {
     "median (slowest - fastest) of repeats, time per collision",
     "Cost of a scene's features: collisions between grains per CPU-second over that of the scene in column `against`, "
     "timed in turn; median (least - largest) of repeats. Elastic, smooth and periodic unless the row names another "
-    "case. Sheared, moving walls: e = 0.9; rough among them: beta = 0; frictional: mu = 0.123",
+    "case. Sheared, moving walls: e = 0.9; rough among them: beta = 0; frictional: mu = 0.123. Bath: drag 0.1",
     "collisions per CPU-second",
     md_features,
     COUNT(md_features),
@@ -107,6 +111,21 @@ static const engine_bench dsmc = {
     10000,
     0.4};
 
+static const engine_bench dsmc_walls = {
+    .engine = GG_DSMC,
+    .rates = "walls",
+    .rates_caption =
+        "Smooth spheres, e = 0.9, between moving walls, nothing measured: nanoseconds per accepted collision, flights, "
+        "contacts with walls and order by height included, CPU time of one core, median (least - largest) of repeats",
+    .unit = "ns per collision",
+    .features = dsmc_wall_features,
+    .n_features = 1,
+    .n_densities = 3,
+    .n_sizes = 2,
+    .quick_sizes = 1,
+    .densities = {0.01, 0.3, 0.5},
+    .sizes = {5000, 100000}};
+
 static int find(const engine_bench *e, const char *name)
 {
   int k = 0;
@@ -130,7 +149,8 @@ static gg_timed_scene timed_scene(const gg_bench *b, const engine_bench *e, int 
   gg_scene *s = &c.scene;
   c.against = find(e, e->features[kind].against);
   s->flow = has & COUETTE ? GG_COUETTE : has & SHEARED ? GG_USF : has & NOISE ? GG_HSS : GG_EQUILIBRIUM;
-  if (has & NOISE) s->thermostat = GG_WHITE_NOISE;
+  if (has & NOISE) s->thermostat = has & IN_BATH ? GG_BATH : GG_WHITE_NOISE;
+  if (has & IN_BATH) s->bath.drag = 0.1, s->bath.temperature = 1;
   for (int p = 0; p < GG_PAIRS; p++) {
     s->collision.e[p] = has & NEARLY ? 0.99 : has & (SHEARED | NOISE) ? 0.9 : 1;
     s->collision.beta[p] = has & FRICTIONAL ? 0.4 : !(has & ROUGH) ? -1 : has & SHEARED ? 0 : 1;
@@ -411,6 +431,7 @@ gg_status gg_bench_md(gg_bench *b, gg_error *err)
 gg_status gg_bench_dsmc(gg_bench *b, gg_error *err)
 {
   GG_TRY(measure_rates(b, &dsmc, err));
+  GG_TRY(measure_rates(b, &dsmc_walls, err));
   GG_TRY(measure_ratios(b, &dsmc, err));
   GG_TRY(measure_two(b, &precision, 1, err));
   GG_TRY(measure_two(b, &paths, 1, err));

@@ -196,7 +196,8 @@ static void md_has_its_rows_and_ratios(void **state)
 {
   (void)state;
   static const char *const scenes[] = {
-      "smooth", "rough", "two species", "walls", "walls, gravity", "sheared frictional", "white noise, e = 0.9"};
+      "smooth",       "rough", "two species", "walls", "walls, gravity", "sheared frictional", "white noise, e = 0.9",
+      "bath, e = 0.9"};
   gg_bench b;
   for (int quick = !full_too; quick < 2; quick++) {
     gg_bench_options o = {.quick = quick, .smaller = 1000};
@@ -219,10 +220,11 @@ static void dsmc_has_its_rows_and_ratios(void **state)
       gg_bench_options o = {.quick = quick, .smaller = 1000, .threads = threads, .tell = report};
       begin(&b, &o, "dsmc");
       assert_whole(table_of(&b, "times"), NULL);
+      assert_whole(table_of(&b, "walls"), NULL);
       assert_beside(table_of(&b, "ratios"), "ns per collision");
       assert_whole(table_of(&b, "precision"), "ratio");
       assert_whole(table_of(&b, "paths"), "ratio");
-      assert_int_equal(b.n_tables, threads > 1 ? 5 : 4);
+      assert_int_equal(b.n_tables, threads > 1 ? 6 : 5);
       if (threads > 1) assert_whole(table_of(&b, "threads"), "ratio");
       end(&b);
     }
