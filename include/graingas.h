@@ -425,6 +425,7 @@ typedef struct gg_simulation_sums { /* over the collisions since the last call, 
   double wall_impulse[GG_WALLS][3]; /* on each wall: m times velocity */
   double wall_loss;                 /* energy lost in collisions with walls, or taken by thermal walls */
   double wall_heat[GG_WALLS];       /* as wall_loss, of each wall */
+  double injection;                 /* energy given by kicks at contact, in the units of dissipation */
 } gg_simulation_sums;
 
 /**

@@ -295,7 +295,7 @@ class Simulation:
 
     def take_sums(self) -> Record:
         """Collision sums since the last call or the start, and resets them: time, collisions, wall_collisions,
-        collisional_stress (3, 3), dissipation, wall_impulse, wall_loss, wall_heat."""
+        collisional_stress (3, 3), dissipation, wall_impulse, wall_loss, wall_heat, injection."""
         sums = new("gg_simulation_sums")
         with self._handle.held() as pointer:
             check(lib.gg_simulation_take_sums, pointer, sums)

@@ -117,6 +117,7 @@ void gg_api_simulation_collect(gg_simulation *s)
   for (int p = 0; p < gg_pairs_of(s->model.n_species); p++) {
     sums->collisions += t.collisions[p];
     sums->dissipation += t.loss[p] * unit * unit;
+    sums->injection += t.given[p] * unit * unit;
     for (int a = 0; a < 3; a++)
       for (int b = 0; b < 3; b++) sums->collisional_stress[a][b] += t.stress[p][a][b] * unit;
   }
@@ -140,7 +141,7 @@ gg_status gg_simulation_take_sums(gg_simulation *simulation, gg_simulation_sums 
   double per = sums->time > 0 ? simulation->model.stress_unit / (simulation->model.volume * sums->time) : 0;
   for (int a = 0; a < 3; a++)
     for (int b = 0; b < 3; b++) sums->collisional_stress[a][b] *= per;
-  sums->dissipation *= per;
+  sums->dissipation *= per, sums->injection *= per;
   clock->sums = (gg_simulation_sums){.time = clock->time}; /* time of this call */
   return GG_OK;
 }

@@ -225,6 +225,27 @@ static void energy_balance(void **state)
   gg_simulation_free(m);
 }
 
+/* The energy changes by what kicks at contact give less what collisions destroy. */
+static void kicks_are_counted(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    gg_error err;
+    gg_simulation_sums sums;
+    gg_simulation *m =
+        simulation_of(k ? "{flow: hss, engine: md, phi: 0.1, particles: 200, collision: {e: 0.8, normal_kick: 0.2}}"
+                        : "{flow: hss, engine: dsmc, phi: 0.1, particles: 200, collision: {e: 0.8, normal_kick: 0.2}}");
+    assert_ok(gg_simulation_take_sums(m, &sums, &err));
+    const double before = state_of(m).temperature;
+    assert_ok(gg_simulation_advance(m, 10, &err));
+    assert_ok(gg_simulation_take_sums(m, &sums, &err));
+    const double more = 1.5 * 0.1 * (state_of(m).temperature - before);
+    assert_true(sums.injection * sums.time > 0.05 * before);
+    assert_true(fabs((sums.injection - sums.dissipation) * sums.time - more) < 1e-9 * sums.injection * sums.time);
+    gg_simulation_free(m);
+  }
+}
+
 /* Free cooling over many decades stays in the units of the start: T falls as Haff's law has it, and time goes on. */
 static void cooling_over_decades(void **state)
 {
@@ -494,6 +515,7 @@ int main(void)
       cmocka_unit_test(collisions_of_md),
       cmocka_unit_test(collisions_of_dsmc),
       cmocka_unit_test(energy_balance),
+      cmocka_unit_test(kicks_are_counted),
       cmocka_unit_test(cooling_over_decades),
       cmocka_unit_test(saved_and_loaded),
       cmocka_unit_test(streams_of_one_seed_differ),
