@@ -436,28 +436,20 @@ gg_word gg_scene_field_word_for(const gg_field *f, int value)
   return gg_scene_field_word(f, i);
 }
 
-void gg_scene_number_format(double value, char *text, size_t size)
-{
-  for (int digits = 15; digits <= 17; digits++) {
-    snprintf(text, size, "%.*g", digits, value);
-    if (strtod(text, NULL) == value) return;
-  }
-}
-
 /* Whole numbers in full; the largest of 64 bits is none of those that a double can be. */
-static void format_limit(const gg_field *f, double value, char *text, size_t size)
+static void format_limit(const gg_field *f, double value, char text[GG_NUMBER_TEXT])
 {
   if (f->type == GG_FIELD_INTEGER && isfinite(value))
-    snprintf(text, size, "%" PRId64, value >= 0x1p63 ? INT64_MAX : (int64_t)value);
+    snprintf(text, GG_NUMBER_TEXT, "%" PRId64, value >= 0x1p63 ? INT64_MAX : (int64_t)value);
   else
-    gg_scene_number_format(value, text, size);
+    gg_io_number_format(value, text);
 }
 
 static void number_allowed(const gg_field *f, const char *what, char *text, size_t size)
 {
-  char min[32], max[32];
-  format_limit(f, f->min, min, sizeof min);
-  format_limit(f, f->max, max, sizeof max);
+  char min[GG_NUMBER_TEXT], max[GG_NUMBER_TEXT];
+  format_limit(f, f->min, min);
+  format_limit(f, f->max, max);
   if (f->max == INFINITY)
     snprintf(text, size, "%s of at least %s, or inf", what, min);
   else if (f->above_min)

@@ -122,8 +122,6 @@ gg_word gg_scene_field_find_word(const gg_field *field, const char *name);
 /* The word that stands for that value; its name is NULL if there is none. */
 gg_word gg_scene_field_word_for(const gg_field *field, int value);
 
-/* A number in the fewest digits that read back as the same number. */
-void gg_scene_number_format(double value, char *text, size_t size);
 /* When the key has an effect: "flow couette; walls.beta is not -1"; "" if it always has. */
 void gg_scene_field_when(const gg_field *field, char *text, size_t size);
 /* True if a key belongs to the flow, whatever else a scene says. */

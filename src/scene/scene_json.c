@@ -12,9 +12,9 @@
 
 static json_t *number_json(const gg_field *f, double value)
 {
-  char text[40];
+  char text[GG_NUMBER_TEXT];
   if (f->special && value == f->special_value) return json_string(f->special);
-  if (!isfinite(value)) return gg_scene_number_format(value, text, sizeof text), json_string(text);
+  if (!isfinite(value)) return gg_io_number_format(value, text), json_string(text);
   if (value == floor(value) && fabs(value) < 1e15) return json_integer((json_int_t)value);
   return json_real(value);
 }
