@@ -322,6 +322,18 @@ def test_numbers_taken_from_curves():
     assert curves.take(Curve, "first")[0] == pytest.approx(math.exp(-8))
 
 
+def test_laws_of_decay():
+    """Slopes within their errors, which hold for scattered points; the misfit tells which law it is."""
+    rng, x = np.random.default_rng(5), np.geomspace(1, 20, 60)
+    for law, slope, other, y in ("power", -2.5, "exponential", x**-2.5), ("exponential", -0.4, "power", np.exp(-0.4 * x)):
+        error = 0.02 * y
+        curve = types.SimpleNamespace(x=x, value=y + error * rng.standard_normal(60), error=error)
+        mean, sigma = curves.take(curve, [law, 2, 20])
+        assert abs(mean - slope) < 4 * sigma < 0.2 * abs(slope)
+        assert curves.take(curve, ["misfit of " + law, 2, 20])[0] < 0.03 < 0.3 < curves.take(curve, ["misfit of " + other, 2, 20])[0]
+    assert math.isnan(curves.take(curve, ["power", 30, 300])[0])
+
+
 def rsvg(svg):
     return subprocess.run(["rsvg-convert", "-z", "4", "-b", "white"], input=svg, capture_output=True, check=True).stdout
 

@@ -69,8 +69,9 @@ typedef struct gg_model {
   double number_density[GG_MAX_SPECIES]; /* n_i d_1^3 */
   double diameter[GG_MAX_SPECIES], mass[GG_MAX_SPECIES], inertia[GG_MAX_SPECIES]; /* inertia: K = 4I/(m d^2) */
 
-  gg_frame_kind frame; /* of peculiar velocities; imposed where there are walls, or no box */
-  int frame_cells;     /* along each edge */
+  gg_frame_kind frame;                      /* of peculiar velocities; imposed where there are walls, or no box */
+  int frame_cells;                          /* along each edge, or slabs along y */
+  double local_density[GG_LOCAL_DENSITIES]; /* of local_distributions, up to a 0; none: multiples of phi */
 
   double phi, density;   /* density: n d_1^3, 1 in the Boltzmann limit */
   double box[3], volume; /* edges, volume = n/density */

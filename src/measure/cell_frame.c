@@ -90,7 +90,8 @@ gg_cell_grid gg_measure_cell_grid_of(const gg_model *m)
 gg_cell_grid gg_measure_frame_grid_of(const gg_model *m)
 {
   gg_cell_grid g = gg_measure_cell_grid_of(m);
-  for (int a = 0; a < 3 && m->frame != GG_FRAME_IMPOSED; a++) g.n[a] = m->frame_cells;
+  for (int a = 0; a < 3 && m->frame != GG_FRAME_IMPOSED; a++)
+    g.n[a] = a == 1 || !gg_frame_has_slabs(m->frame) ? m->frame_cells : 1;
   return g;
 }
 
@@ -162,7 +163,7 @@ static gg_vec mean_spin(const gg_cell_frame *f)
 void gg_measure_framed_take(gg_framed *f, const gg_snapshot *whole)
 {
   const gg_model *m = whole->model;
-  const bool laboratory = m->frame == GG_FRAME_CELLS_LABORATORY;
+  const bool laboratory = gg_frame_is_laboratory(m->frame);
   f->snapshot = *whole;
   f->snapshot.whole = whole;
   for (int a = 0; a < 3; a++) f->snapshot.c[a] = f->c[a], f->snapshot.s[a] = f->s[a];

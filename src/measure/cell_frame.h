@@ -13,7 +13,7 @@ typedef struct gg_cell_grid {
 } gg_cell_grid;
 
 gg_cell_grid gg_measure_cell_grid_of(const gg_model *model);
-/* The cells of the scene's frame; the cells above if the frame is the imposed flow. */
+/* The cells or slabs of the scene's frame; the cells above if the frame is the imposed flow. */
 gg_cell_grid gg_measure_frame_grid_of(const gg_model *model);
 size_t gg_measure_cell_grid_cells(const gg_cell_grid *grid);
 /* The cell of grain i; x runs fastest. */
@@ -34,10 +34,11 @@ void gg_measure_cell_frame_take(gg_cell_frame *f, const gg_snapshot *s);
 gg_vec gg_measure_cell_frame_velocity(const gg_cell_frame *f, const gg_snapshot *s, size_t i);
 gg_vec gg_measure_cell_frame_spin(const gg_cell_frame *f, const gg_snapshot *s, size_t i);
 
-/* The scene's frame, if it is made of cells: snapshots with velocities about the means of cells, spins about those
- * plus the mean of the box. With `frame: cells` the fraction m_i/M_c of the variance that a mean takes away is
- * restored, so that uncorrelated grains have the temperatures that they have about the imposed flow, grains alone in
- * their cell included. With `cells_laboratory` it is not restored, and the flow across the cell remains. */
+/* The scene's frame, if it is made of cells or slabs: snapshots with velocities about the means of cells, spins about
+ * those plus the mean of the box. With `frame: cells` or `slabs` the fraction m_i/M_c of the variance that a mean takes
+ * away is restored, so that uncorrelated grains have the temperatures that they have about the imposed flow, grains
+ * alone in their cell included. With `cells_laboratory` or `slabs_laboratory` it is not restored, and the flow across
+ * the cell remains. */
 typedef struct gg_framed {
   gg_cell_frame cells;
   double *c[3], *s[3];

@@ -3,7 +3,7 @@
  * tenth of a chosen one (Gayen's thesis, section 4.1), and of the grains of all cells. Cells have about eight
  * grains. Velocities are about the mean of the cell; with the fraction m_i/M_c of the variance restored that a mean
  * over few grains takes away they are, for Gaussian grains, Gaussian again. If the scene's frame is made of cells,
- * cells and velocities are those of the frame. */
+ * cells and velocities are those of the frame; if it is made of slabs, velocities alone. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,8 +14,8 @@
 #include "measure/histogram.h"
 #include "measure/observable.h"
 
-enum { DENSITIES = 5, ALL = DENSITIES, CLASSES, VECTORS = 2 };
-static const double centre[DENSITIES] = {0.5, 0.75, 1, 1.25, 1.5}; /* of the mean solid fraction */
+enum { VECTORS = 2 };
+static const double usual[] = {0.5, 0.75, 1, 1.25, 1.5}; /* of the mean solid fraction */
 #define TOLERANCE 0.1
 
 typedef struct cell {
@@ -26,6 +26,9 @@ typedef struct local {
   const gg_model *model;
   gg_cell_grid grid;
   int vectors;
+  int densities;                     /* the class after them has all cells */
+  bool given;                        /* by the scene */
+  double centre[GG_LOCAL_DENSITIES]; /* of the mean solid fraction */
   cell *cell;
   uint32_t *at;           /* the cell of each grain */
   double *value[VECTORS]; /* of each grain, about its cell's mean */
@@ -40,13 +43,23 @@ static void destroy(void *self)
   free(d);
 }
 
+static void choose_densities(local *d)
+{
+  const gg_model *m = d->model;
+  d->given = m->local_density[0] > 0;
+  const int most = d->given ? GG_LOCAL_DENSITIES : (int)(sizeof usual / sizeof *usual);
+  for (int j = 0; j < most && (!d->given || m->local_density[j] > 0); j++, d->densities++)
+    d->centre[j] = d->given ? m->local_density[j] / m->phi : usual[j];
+}
+
 static void *create(const gg_model *m, gg_error *err)
 {
   local *d = gg_base_array_new(1, sizeof *d, err);
   if (!d) return NULL;
   d->model = m;
   d->vectors = m->rule == GG_SMOOTH ? 1 : VECTORS;
-  d->grid = gg_measure_frame_grid_of(m);
+  d->grid = gg_frame_has_slabs(m->frame) ? gg_measure_cell_grid_of(m) : gg_measure_frame_grid_of(m);
+  choose_densities(d);
   d->cell = gg_base_array_new(gg_measure_cell_grid_cells(&d->grid), sizeof *d->cell, err);
   d->at = gg_base_array_new((size_t)m->n, sizeof *d->at, err);
   bool whole = d->cell && d->at;
@@ -60,12 +73,12 @@ static void *create(const gg_model *m, gg_error *err)
 static size_t bins(const void *self)
 {
   const local *d = self;
-  return (size_t)(d->model->n_species * d->vectors * CLASSES) * GG_HISTOGRAM;
+  return (size_t)(d->model->n_species * d->vectors * (d->densities + 1)) * GG_HISTOGRAM;
 }
 
 static double *histogram_of(const local *d, double *bin, int species, int vector, int class)
 {
-  return bin + ((species * d->vectors + vector) * CLASSES + class) * GG_HISTOGRAM;
+  return bin + ((species * d->vectors + vector) * (d->densities + 1) + class) * GG_HISTOGRAM;
 }
 
 static double weight_of(const gg_model *m, int species, int vector)
@@ -119,9 +132,9 @@ static void take_values(local *d, const gg_snapshot *s, int v, gg_scale_of scale
   }
 }
 
-static bool belongs(double density, int class)
+static bool belongs(const local *d, double density, int class)
 {
-  return class == ALL || fabs(density / centre[class] - 1) <= TOLERANCE + 1e-9;
+  return class == d->densities || fabs(density / d->centre[class] - 1) <= TOLERANCE + 1e-9;
 }
 
 static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
@@ -137,8 +150,8 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
       double density = d->cell[d->at[i]].volume / mean;
       int k = gg_snapshot_species(s, i);
       if (!isfinite(d->value[v][i])) continue;
-      for (int j = 0; j < CLASSES; j++)
-        if (belongs(density, j))
+      for (int j = 0; j <= d->densities; j++)
+        if (belongs(d, density, j))
           gg_histogram_add(histogram_of(d, bin, k, v, j), (d->value[v][i] - scale[k].mean) / scale[k].sigma);
     }
   }
@@ -147,16 +160,17 @@ static void add_snapshot(void *self, const gg_snapshot *s, double *bin)
 static void put(const local *d, gg_curves *list, int species, int vector, int j, const double *bin)
 {
   static const char *const plain[] = {"Cx", "Wz"}, *const written[] = {"C_x", "Ω_z"};
-  char name[48], panel[48], label[24], argument[24], class[16] = "all", tail[16] = "", of[24] = "";
-  double phi = d->model->phi * (j == ALL ? 1 : centre[j]);
+  char name[64], panel[48], label[24], argument[24], class[24] = "all", tail[16] = "", of[24] = "";
+  const bool all = j == d->densities;
+  const double phi = all ? d->model->phi : d->given ? d->model->local_density[j] : d->model->phi * d->centre[j];
   if (d->model->n_species > 1) {
     snprintf(tail, sizeof tail, "_%d", species + 1);
     snprintf(of, sizeof of, " of species %d", species + 1);
   }
-  if (j != ALL) snprintf(class, sizeof class, "%g", centre[j]);
+  if (!all) snprintf(class, sizeof class, d->given ? "phi_%.9g" : "%g", d->given ? phi : d->centre[j]);
   snprintf(name, sizeof name, "local_distribution_%s%s_%s", plain[vector], tail, class);
   snprintf(panel, sizeof panel, "%s%s, by local density", written[vector], of);
-  snprintf(label, sizeof label, j == ALL ? "all cells" : "φ %.3g", phi);
+  snprintf(label, sizeof label, all ? "all cells" : "φ %.3g", phi);
   snprintf(argument, sizeof argument, "%s/σ", written[vector]);
   double sigma = gg_measure_histogram_sigma(bin); /* NaN if no cell ever had this density */
   gg_curve *c = gg_measure_histogram_put(list, name, panel, label, bin, sigma, (double)list->samples);
@@ -170,7 +184,7 @@ static void curves(const void *self, const double *bin, gg_curves *list)
   const local *d = self;
   for (int k = 0; k < d->model->n_species; k++)
     for (int v = 0; v < d->vectors; v++)
-      for (int j = 0; j < CLASSES; j++, bin += GG_HISTOGRAM) put(d, list, k, v, j, bin);
+      for (int j = 0; j <= d->densities; j++, bin += GG_HISTOGRAM) put(d, list, k, v, j, bin);
 }
 
 const gg_observable gg_measure_local_distributions = {

@@ -136,13 +136,13 @@ static gg_status check_gravity(const gg_scene *s, gg_error *err)
 enum { LEAST_OF_CELL = 4 };
 static gg_status check_cells(const gg_scene *s, gg_error *err)
 {
-  const long long n = (long long)s->frame_cells;
-  if (s->frame == GG_FRAME_IMPOSED || gg_flow_is_walled(s->flow) || LEAST_OF_CELL * n * n * n <= s->particles)
-    return GG_OK;
-  return gg_base_fail(
-      err, GG_BAD_INPUT,
-      "key 'frame_cells': %lld x %lld x %lld cells of %lld grains hold %.2g each; at least %d are needed", n, n, n,
-      (long long)s->particles, (double)s->particles / (double)(n * n * n), LEAST_OF_CELL);
+  const bool slabs = gg_frame_has_slabs(s->frame);
+  const long long n = (long long)s->frame_cells, across = slabs ? 1 : n, cells = n * across * across;
+  if (s->frame == GG_FRAME_IMPOSED || gg_flow_is_walled(s->flow) || LEAST_OF_CELL * cells <= s->particles) return GG_OK;
+  return gg_base_fail(err, GG_BAD_INPUT,
+                      "key 'frame_cells': %lld x %lld x %lld %s of %lld grains hold %.2g each; at least %d are needed",
+                      across, n, across, slabs ? "slabs" : "cells", (long long)s->particles,
+                      (double)s->particles / (double)cells, LEAST_OF_CELL);
 }
 
 static gg_status check_flow(const gg_scene *s, gg_error *err)
@@ -320,6 +320,7 @@ static const struct {
     [GG_IF_FRAMES] = {"while output.trajectory_every is 0", NULL, "", "output.trajectory_every is not 0"},
     [GG_IF_UNWALLED] = {"between walls", NULL, "", "no walls"},
     [GG_IF_CELLS] = {"while frame is imposed", NULL, "", "frame is not imposed"},
+    [GG_IF_LOCAL] = {"without measure: [local_distributions]", NULL, "", "measure has local_distributions"},
     [GG_IF_HEATED] = {"but in flow: ", gg_flow_is_heated, "", NULL},
     [GG_IF_STARTED] = {"but in flow: ", takes_start, "", NULL},
     [GG_IF_THERMAL_WALLS] = {"while walls.temperature is none", NULL, "", "walls.temperature is given"},
@@ -384,6 +385,7 @@ static bool holds(gg_condition condition, const gg_scene *s, unsigned uses)
   case GG_IF_FOLLOWED: return gg_scene_is_followed(s);
   case GG_IF_UNWALLED: return !gg_flow_is_walled(s->flow);
   case GG_IF_CELLS: return s->frame != GG_FRAME_IMPOSED;
+  case GG_IF_LOCAL: return s->measure & GG_MEASURE_LOCAL_DISTRIBUTIONS;
   default: return true;
   }
 }

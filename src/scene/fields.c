@@ -65,6 +65,8 @@ static const gg_word frames[] = {
      "the mean of the cell, the imposed flow taken off first; the share of the mean is put back"},
     {"cells_laboratory", GG_FRAME_CELLS_LABORATORY,
      "the mean laboratory velocity of the cell: the shear within it stays in, the share of the mean is not put back"},
+    {"slabs", GG_FRAME_SLABS, "as cells, of slabs across y"},
+    {"slabs_laboratory", GG_FRAME_SLABS_LABORATORY, "as cells_laboratory, of slabs across y"},
     {0}};
 #define WORD(FLAG, word, description) {#word, GG_MEASURE_##FLAG, description},
 static const gg_word observables[] = {GG_OBSERVABLES(WORD){0}};
@@ -224,8 +226,12 @@ const gg_field gg_scene_fields[] = {
      .doc = "what peculiar velocities and spins are relative to, in means and distributions",
      .when = GG_BIT(GG_IF_MD) | GG_BIT(GG_IF_UNWALLED)},
     {"frame_cells", GG_FIELD_INTEGER, AT(frame_cells), 1, 400, .by_default = 5,
-     .doc = "cells along each edge of the box; at least 4 grains per cell",
+     .doc = "cells along each edge of the box, or slabs along y; at least 4 grains in each",
      .when = GG_BIT(GG_IF_MD) | GG_BIT(GG_IF_UNWALLED) | GG_BIT(GG_IF_CELLS)},
+    {"local_densities", GG_FIELD_LIST, AT(local_densities), 0, 0.74, true, .special = "auto",
+     .doc = "solid fractions of the cells of local_distributions, each within a tenth; auto: 0.5, 0.75, 1, 1.25, 1.5 "
+            "times phi",
+     .when = GG_BIT(GG_IF_MD) | GG_BIT(GG_IF_UNWALLED) | GG_BIT(GG_IF_LOCAL)},
     {"output.checkpoint_every", GG_FIELD_NUMBER, AT(output.checkpoint_every), 0, 1e9, .unit = "s",
      .doc = "wall-clock time between checkpoints; 0: none", .may_change = true},
     {"output.trajectory_every", GG_FIELD_NUMBER, AT(output.trajectory_every), 0, 1e15, .unit = "collisions per grain",
@@ -319,6 +325,7 @@ size_t gg_scene_field_count(const gg_field *f)
   case GG_FIELD_PAIRS: return GG_PAIRS;
   case GG_FIELD_ERRORS: return GG_MAX_UNTIL;
   case GG_FIELD_VECTOR: return 3;
+  case GG_FIELD_LIST: return GG_LOCAL_DENSITIES;
   case GG_FIELD_ENDS: return 2;
   default: return 1;
   }
@@ -468,6 +475,7 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
   case GG_FIELD_INTEGER: number_allowed(f, "a whole number", text, size); return;
   case GG_FIELD_VECTOR: number_allowed(f, "a list of three numbers", text, size); return;
   case GG_FIELD_ENDS: number_allowed(f, "a number or [lower, upper], each", text, size); return;
+  case GG_FIELD_LIST: number_allowed(f, "a list of up to 8 different numbers, each", text, size); return;
   case GG_FIELD_PAIRS:
     number_allowed(f, "a number", text, size);
     gg_base_text_append(text, size, ", or a map of them by pair of species: {11: , 12: , other: }");

@@ -21,6 +21,7 @@ typedef enum gg_field_type {
   GG_FIELD_PAIRS,   /* double[GG_PAIRS]: a number, or a map by pair: {11: , 12: , other: } */
   GG_FIELD_VECTOR,  /* double[3] */
   GG_FIELD_ENDS,    /* double[2], lower and upper wall: a number for both, or a list of two */
+  GG_FIELD_LIST,    /* double[GG_LOCAL_DENSITIES]: a list of different numbers, up to a 0; the special word: none */
   GG_FIELD_ERRORS,  /* double[GG_MAX_UNTIL]: a map by quantity: {N1: 0.01} */
   GG_FIELD_FILE,    /* char[GG_FILE_NAME]: the name of a file with one of the endings `words`; "": none */
   GG_FIELD_CHANGES, /* gg_change[GG_MAX_CHANGES]: a list of maps {at: TIME, KEY: VALUE, ...} */
@@ -57,6 +58,7 @@ typedef enum gg_condition {
   GG_IF_FRAMES,
   GG_IF_UNWALLED,
   GG_IF_CELLS,
+  GG_IF_LOCAL,
   GG_IF_HEATED,
   GG_IF_STARTED,
   GG_IF_THERMAL_WALLS,

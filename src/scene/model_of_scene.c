@@ -2,6 +2,7 @@
 #include "scene/model_of_scene.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "common/engine.h"
 #include "scene/ensemble_size.h"
@@ -274,6 +275,7 @@ static void set_engine(gg_model *m, const gg_scene *s)
   m->asked_error = gg_scene_ensemble_requested_error(s);
   if (!m->ensemble && !gg_flow_is_walled(s->flow)) m->frame = s->frame;
   m->frame_cells = (int)s->frame_cells;
+  memcpy(m->local_density, s->local_densities, sizeof m->local_density);
   m->single = m->ensemble && s->dsmc.precision == GG_SINGLE;
 }
 

@@ -114,7 +114,8 @@ struct gg_scene {
   gg_change protocol[GG_MAX_CHANGES]; /* in the order of times; ends with an empty key */
   unsigned measure;                   /* GG_MEASURE_... */
   gg_frame_kind frame;
-  int64_t frame_cells; /* along each edge of the box */
+  int64_t frame_cells;                        /* along each edge of the box, or slabs along y */
+  double local_densities[GG_LOCAL_DENSITIES]; /* solid fractions, up to a 0; none: multiples of phi */
   struct {
     double checkpoint_every; /* seconds, 0: none */
     double trajectory_every; /* collisions per particle, 0: none */

@@ -83,14 +83,18 @@ static json_t *errors_json(const gg_field *f, const double *x)
   return json_string(f->special);
 }
 
-static json_t *vector_json(const gg_field *f, const double *x)
+static json_t *numbers_json(const gg_field *f, const double *x, size_t n)
 {
-  return json_pack("[o, o, o]", number_json(f, x[0]), number_json(f, x[1]), number_json(f, x[2]));
+  json_t *list = json_array();
+  for (size_t i = 0; i < n; i++) json_array_append_new(list, number_json(f, x[i]));
+  return list;
 }
 
-static json_t *ends_json(const gg_field *f, const double *x)
+static json_t *list_json(const gg_field *f, const double *x)
 {
-  return x[0] == x[1] ? number_json(f, x[0]) : json_pack("[o, o]", number_json(f, x[0]), number_json(f, x[1]));
+  size_t n = 0;
+  while (n < gg_scene_field_count(f) && x[n] > 0) n++;
+  return n ? numbers_json(f, x, n) : json_string(f->special);
 }
 
 static json_t *species_json(const gg_scene *scene)
@@ -129,9 +133,12 @@ static json_t *value_json(const gg_field *f, const void *base, const gg_scene *s
   case GG_FIELD_SET: return set_json(f, *(const unsigned *)at);
   case GG_FIELD_PAIRS: return pairs_json(f, at, scene);
   case GG_FIELD_ERRORS: return errors_json(f, at);
-  case GG_FIELD_VECTOR: return vector_json(f, at);
+  case GG_FIELD_VECTOR: return numbers_json(f, at, 3);
+  case GG_FIELD_LIST: return list_json(f, at);
   case GG_FIELD_FILE: return json_string(*(const char *)at ? at : f->special);
-  case GG_FIELD_ENDS: return ends_json(f, at);
+  case GG_FIELD_ENDS:
+    return memcmp(at, (const double *)at + 1, sizeof(double)) ? numbers_json(f, at, 2)
+                                                              : number_json(f, *(const double *)at);
   case GG_FIELD_CHANGES: return changes_json(scene);
   case GG_FIELD_SPECIES: return species_json(scene);
   }

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/checked_json.h"
 #include "common/quantity.h"
+#include "io/checked_json.h"
 #include "scene/fields.h"
 
 /* JSON has no infinity: a limit that is none is left out. */
@@ -52,9 +52,10 @@ static json_t *errors_schema(const gg_field *f)
   return json_pack("{s:s, s:o, s:b}", "type", "object", "properties", names, "additionalProperties", 0);
 }
 
-static json_t *list_schema(const gg_field *f, int n)
+static json_t *list_schema(const gg_field *f, int least, int most)
 {
-  return json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", number_schema(f), "minItems", n, "maxItems", n);
+  return json_pack("{s:s, s:o, s:i, s:i}", "type", "array", "items", number_schema(f), "minItems", least, "maxItems",
+                   most);
 }
 
 /* Keys of changes are checked by the reader. */
@@ -74,8 +75,9 @@ static json_t *value_schema(const gg_field *f)
   case GG_FIELD_SET: return json_pack("{s:s, s:o, s:b}", "type", "array", "items", word_schema(f), "uniqueItems", 1);
   case GG_FIELD_PAIRS: return pairs_schema(f);
   case GG_FIELD_ERRORS: return errors_schema(f);
-  case GG_FIELD_VECTOR: return list_schema(f, 3);
-  case GG_FIELD_ENDS: return json_pack("{s:[o, o]}", "anyOf", number_schema(f), list_schema(f, 2));
+  case GG_FIELD_VECTOR: return list_schema(f, 3, 3);
+  case GG_FIELD_ENDS: return json_pack("{s:[o, o]}", "anyOf", number_schema(f), list_schema(f, 2, 2));
+  case GG_FIELD_LIST: return list_schema(f, 1, GG_LOCAL_DENSITIES);
   case GG_FIELD_FILE: return json_pack("{s:s}", "type", "string");
   case GG_FIELD_CHANGES: return changes_schema();
   case GG_FIELD_SPECIES:

@@ -324,12 +324,16 @@ static gg_status read_file_name(const input *in, char *value)
   return snprintf(value, GG_FILE_NAME, "%s", text), GG_OK;
 }
 
-static gg_status read_vector(const input *in, double *value)
+/* A special word is not among the numbers. */
+static gg_status read_numbers(const input *in, double *value, ptrdiff_t least, ptrdiff_t most)
 {
-  if (length_of(in->node) != 3) return reject_value(in);
-  for (int a = 0; a < 3; a++) {
-    const input item = at(in, item_of(in, in->node->data.sequence.items.start[a]));
-    GG_TRY(read_number(&item, &value[a]));
+  gg_field number = *in->f;
+  number.special = NULL;
+  const ptrdiff_t n = length_of(in->node);
+  if (n < least || n > most) return reject_value(in);
+  for (ptrdiff_t i = 0; i < n; i++) {
+    const input item = {in->r, &number, in->key, item_of(in, in->node->data.sequence.items.start[i])};
+    GG_TRY(read_number(&item, &value[i]));
   }
   return GG_OK;
 }
@@ -337,18 +341,21 @@ static gg_status read_vector(const input *in, double *value)
 /* A special word is for both. */
 static gg_status read_ends(const input *in, double *value)
 {
-  gg_field number = *in->f;
-  number.special = NULL;
-  if (in->node->type != YAML_SEQUENCE_NODE) {
-    GG_TRY(read_number(in, &value[0]));
-    return value[1] = value[0], GG_OK;
-  }
-  if (length_of(in->node) != 2) return reject_value(in);
-  for (int w = 0; w < 2; w++) {
-    const input item = {in->r, &number, in->key, item_of(in, in->node->data.sequence.items.start[w])};
-    GG_TRY(read_number(&item, &value[w]));
-  }
-  return GG_OK;
+  if (in->node->type == YAML_SEQUENCE_NODE) return read_numbers(in, value, 2, 2);
+  GG_TRY(read_number(in, &value[0]));
+  return value[1] = value[0], GG_OK;
+}
+
+static gg_status read_list(const input *in, double *value)
+{
+  const char *word = gg_scene_scalar(in->node);
+  double x[GG_LOCAL_DENSITIES] = {0};
+  if (!word || strcmp(word, in->f->special) != 0) GG_TRY(read_numbers(in, x, 1, GG_LOCAL_DENSITIES));
+  for (int i = 0; i < GG_LOCAL_DENSITIES; i++)
+    for (int j = 0; j < i; j++)
+      if (x[i] > 0 && fabs(x[i] - x[j]) < 1e-8)
+        return gg_scene_reject(in->r, in->node, in->key, "has %g twice; allowed: different numbers", x[i]);
+  return memcpy(value, x, sizeof x), GG_OK;
 }
 
 /* As the program writes the value: 2.0 and 2 are one to whatever compares scenes. */
@@ -525,7 +532,8 @@ gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *f, const
   case GG_FIELD_SET: return read_set(&in, value);
   case GG_FIELD_PAIRS: return read_pairs(&in, value);
   case GG_FIELD_ERRORS: return read_errors(&in, value);
-  case GG_FIELD_VECTOR: return read_vector(&in, value);
+  case GG_FIELD_VECTOR: return read_numbers(&in, value, 3, 3);
+  case GG_FIELD_LIST: return read_list(&in, value);
   case GG_FIELD_FILE: return read_file_name(&in, value);
   case GG_FIELD_ENDS: return read_ends(&in, value);
   case GG_FIELD_CHANGES: return read_changes(&in, value);

@@ -66,12 +66,6 @@ static gg_status add_row(gg_point_table *t, const gg_point_row *row, gg_error *e
   return GG_OK;
 }
 
-static double number(const json_t *object, const char *key)
-{
-  const json_t *value = json_object_get(object, key);
-  return json_is_number(value) ? json_number_value(value) : NAN;
-}
-
 static gg_status add_quantities(gg_point_table *t, gg_point_row row, json_t *quantities, const char *error,
                                 gg_error *err)
 {
@@ -81,8 +75,8 @@ static gg_status add_quantities(gg_point_table *t, gg_point_row row, json_t *qua
   {
     row.quantity = name;
     row.unit = json_string_value(json_object_get(one, "unit"));
-    row.mean = number(one, "mean");
-    row.error = number(one, error);
+    row.mean = gg_io_json_number(one, "mean");
+    row.error = gg_io_json_number(one, error);
     if (!isnan(row.mean)) GG_TRY(add_row(t, &row, err));
   }
   return GG_OK;
@@ -93,8 +87,8 @@ static gg_status add_run(gg_point_table *t, gg_point_row row, json_t *document, 
   if (!json_is_object(document)) return GG_OK; /* an engine that could not run the scene */
   row.method = json_string_value(json_object_get(document, "engine"));
   row.steady = json_is_true(json_object_get(document, "steady"));
-  row.seconds = number(json_object_get(document, "total"), "cpu_seconds");
-  row.contact_time = number(json_object_get(document, "engine_state"), "contact_time");
+  row.seconds = gg_io_json_number(json_object_get(document, "total"), "cpu_seconds");
+  row.contact_time = gg_io_json_number(json_object_get(document, "engine_state"), "contact_time");
   return row.method ? add_quantities(t, row, json_object_get(document, "results"), "stderr", err) : GG_OK;
 }
 

@@ -243,6 +243,51 @@ def test_each_observable_is_described():
     none({f"examples: a scene that measures {name}" for name in names if not re.search(rf"\b{name}\b", scenes)})
 
 
+def test_sizes_of_pictures():
+    """Pictures are most of what a clone loads."""
+    sizes = {path: os.path.getsize(path) for path in glob.glob(os.path.join(SOURCE, "docs", "images", "**", "*.*"), recursive=True)}
+    check(len(sizes) > 100)
+    none({f"{os.path.basename(path)}: {size} bytes, 500000 allowed" for path, size in sizes.items() if size > 500_000})
+    check(sum(sizes.values()) < 8_000_000, "docs/images has", sum(sizes.values()), "bytes, 8000000 allowed")
+
+
+# Scenes for each condition under which the table of observables leaves one out: the conditions that hold in it.
+GASES = {"flow: usf": "smooth grains, shear, collisions that lose energy", "flow: usf\ncollision: {beta: 0}": "shear, collisions that lose energy",
+         "flow: hcs": "smooth grains, free cooling, collisions that lose energy",
+         "flow: hcs\ncollision: {beta: 0}": "free cooling, collisions that lose energy",
+         "flow: hcs\ncollision: {beta: 0, mu: 0.3}": "free cooling, friction, collisions that lose energy",
+         "flow: hcs\nspecies: [{fraction: 0.5}, {fraction: 0.5, mass: 2}]": "smooth grains, mixtures, free cooling, collisions that lose energy",
+         "flow: hss": "smooth grains, heating, collisions that lose energy", "flow: hss\ncollision: {beta: 0}": "heating, collisions that lose energy",
+         "flow: equilibrium": "smooth grains", "flow: equilibrium\ncollision: {beta: 1}": "",
+         "flow: small_shear": "smooth grains, shear, `small_shear`, collisions that lose energy",
+         "flow: couette": "smooth grains, walls, collisions that lose energy", "flow: couette\ncollision: {beta: 0}": "walls, collisions that lose energy",
+         "flow: fourier": "smooth grains, walls, collisions that lose energy", "flow: chute": "smooth grains, walls, collisions that lose energy"}
+
+
+def test_the_table_of_observables():
+    """The engines and conditions of the table are those of the program: what each engine measures in each of GASES."""
+    names, _ = names_of("observables")
+    rows = dict((name, (engines.split(", "), set(filter(None, without.split(", "))))) for name, engines, without in re.findall(
+        r"^\| \[?`(\w+)`\]?[^|]*\| [^|]* \| ([^|]*) \| ([^|]*?) ?\|", documents()["docs/reference/observables.md"], re.MULTILINE) if name in names)
+    check(set(rows) == set(names), set(names) ^ set(rows))
+    known = set(", ".join(GASES.values()).split(", ")) | {"flows without walls", "other flows than `small_shear`"}
+    none({f"condition of no scene here: {word}" for _, without in rows.values() for word in without - known})
+    wrong = set()
+    for gas, its in GASES.items():
+        holds = set(its.split(", ")) | ({"flows without walls"} if "walls" not in its else set())
+        holds |= {"other flows than `small_shear`"} if "`small_shear`" not in its else set()
+        for engine in "md", "dsmc":
+            done = run("run", "-", "--engine", engine, "--quiet", "--json", "--set", f"measure=[{', '.join(names)}]",
+                       "--set", "particles=300", "--set", "dsmc.particles=300", "--set", "run.collisions=4", "--set", "run.warmup=1",
+                       typed=gas + "\nphi: 0.1\n")
+            check(done.code in (0, 1), gas, engine, done.err)
+            out = set(re.findall(r"(\w+) is not measured", " ".join(json.loads(done.out)["warnings"])))
+            for name, (engines, without) in rows.items():
+                if (engine in engines and not without & holds) != (name not in out):
+                    wrong.add(f"{name}: {'not ' * (name in out)}measured by {engine} in {gas!r}")
+    none(wrong)
+
+
 def test_each_theory_is_described():
     """Every theory describes itself, stands in the table of theories, and is spoken of below it."""
     names, described = names_of("theories")

@@ -58,6 +58,17 @@ def test_share_of_the_mean_is_put_back():
     check(abs(share / imposed["temperature"]["mean"] - (1 - 8 / 108) / (1 - 1 / 108)) < 0.005, "share", share)
 
 
+def test_slabs():
+    """Means of large slabs take less of the fluctuations away than those of small cells. What stays of the flow within a
+    slab is (h gamma)^2/12 in the mean square of C_x."""
+    T = {frame: document(f"frame={frame}", "frame_cells=3")["results"]["temperature"]["mean"] for frame in
+         ("imposed", "cells", "slabs", "slabs_laboratory")}
+    check(T["cells"] < 0.995 * T["slabs"] and abs(T["slabs"] / T["imposed"] - 1) < 0.005, T)
+    height = (500 * 3.14159265 / 6 / 0.3) ** (1 / 3) / 3
+    share = T["slabs_laboratory"] - T["slabs"] * (1 - 3 / 500) / (1 - 1 / 500)
+    check(abs(share / (height ** 2 / 36) - 1) < 0.1, share, height ** 2 / 36)  # test_independent.py has it exactly
+
+
 def test_where_it_has_no_effect():
     both = "frame=cells", "frame_cells=3"
     dsmc, plain = document("engine=dsmc", *both), document("engine=dsmc")
@@ -72,6 +83,27 @@ def test_where_it_has_no_effect():
 def test_cells_of_few_grains_are_rejected():
     done = run("run", "scene.yaml", "--set", "frame=cells", "--set", "frame_cells=6", scene=SCENE)
     check(done.code != 0 and "6 x 6 x 6 cells of 500 grains hold 2.3 each; at least 4" in done.err, done.code, done.err)
+    check(run("run", "scene.yaml", "--quiet", "--set", "frame=slabs", "--set", "frame_cells=125", scene=SCENE).code != 2)
+    done = run("run", "scene.yaml", "--set", "frame=slabs", "--set", "frame_cells=126", scene=SCENE)
+    check(done.code == 2 and "1 x 126 x 1 slabs of 500 grains hold 4 each; at least 4" in done.err, done.code, done.err)
+
+
+def test_local_densities():
+    """Solid fractions in place of multiples of the mean: the same classes, the same curves under other names."""
+    few = "measure=[rheology, local_distributions]"
+    usual, given = document(few)["curves"], document(few, "local_densities=[0.3, 0.225]")["curves"]
+    check({name for name in given if name.startswith("local")} == {f"local_distribution_{of}_{part}" for of in ("Cx", "Wz")
+                                                                   for part in ("phi_0.3", "phi_0.225", "all")}, list(given))
+    for of in "Cx", "Wz":
+        for mine, theirs in ("phi_0.3", "1"), ("phi_0.225", "0.75"), ("all", "all"):
+            one, other = given[f"local_distribution_{of}_{mine}"], usual[f"local_distribution_{of}_{theirs}"]
+            check(all(one[key] == other[key] for key in ("x", "value", "stderr")), of, mine)
+            check(abs(one["numbers"]["solid_fraction"]["mean"] - other["numbers"]["solid_fraction"]["mean"]) < 1e-12, of, mine)
+    for value, said in ("[0.2, 0.2]", "has 0.2 twice"), ("[0.75]", "at most 0.74"), ("[0]", "above 0"), ("[]", "a list of up to 8"), ("0.3", "a list of up to 8"):
+        done = run("run", "scene.yaml", "--set", few, "--set", f"local_densities={value}", scene=SCENE)
+        check(done.code == 2 and "local_densities" in done.err and said in done.err, value, done.err)
+    done = run("run", "scene.yaml", "--set", "local_densities=[0.3]", scene=SCENE)
+    check("local_densities has no effect without measure: [local_distributions]" in done.err, done.err)
 
 
 if __name__ == "__main__":

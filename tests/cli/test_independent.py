@@ -49,8 +49,9 @@ def by_pair(values):
     return dict(zip(("11", "12", "22"), values))
 
 
-# Frames other than the imposed flow: cells, two along each edge.
-FRAMES = {("usf", "smooth"): ["cells"], ("usf", "rough"): ["cells", "cells_laboratory"], ("hcs", "frictional"): ["cells"]}
+# Frames other than the imposed flow: cells, two along each edge, or two slabs.
+FRAMES = {("usf", "smooth"): ["cells", "slabs"], ("usf", "rough"): ["cells", "cells_laboratory", "slabs_laboratory"],
+          ("hcs", "frictional"): ["cells"]}
 
 
 def scene_of(flow, kind, frame="imposed"):
@@ -230,9 +231,9 @@ def about_flow(store, window, flow):
 
 
 def about_cells(store, flow, frame):
-    """Velocities about the mean of their cell, weighted by mass; spins about that, weighted by moment of inertia, plus the
-    same mean of the box. In `cells` what a mean takes out of variances is put back."""
-    laboratory = frame == "cells_laboratory"
+    """Velocities about the mean of their cell, or slab across y, weighted by mass; spins about that, weighted by moment of
+    inertia, plus the same mean of the box. In `cells` and `slabs` what a mean takes out of variances is put back."""
+    laboratory, steps = frame.endswith("_laboratory"), [0, 1, 0] if frame.startswith("slabs") else [1, 2, 4]
     inertia, mass = (K * m * d * d / 4)[store.species], m[store.species]
     box = np.array(box_of(store, flow))
     C, W = np.zeros_like(store.velocity), np.zeros_like(store.spin)
@@ -240,7 +241,7 @@ def about_cells(store, flow, frame):
         v, w = store.velocity[t].copy(), store.spin[t]
         if laboratory and flow == "usf":
             v[:, 0] += store.position[t][:, 1] - box[1] / 2
-        place = np.clip(np.floor(2 * store.position[t] / box), 0, 1).astype(int) @ [1, 2, 4]
+        place = np.clip(np.floor(2 * store.position[t] / box), 0, 1).astype(int) @ steps
         alone = np.bincount(place, minlength=8)[place] == 1
         for k in range(8):
             here = place == k
@@ -649,12 +650,15 @@ def hold_correlations(store, flow, kind, curves, replicas, C, W):
             close(found, right, flow, kind, "correlation", letter, a)
 
 
-def hold_local(store, flow, kind, curves, replicas, C, W):
-    """C_x and Omega_z in the cells of the frame, all and by solid fraction, about the mean of their species over its sigma."""
+def hold_local(store, flow, kind, curves, replicas, C, W, frame):
+    """C_x and Omega_z in the cells of the frame, all and by solid fraction, about the mean of their species over its sigma.
+    Where the frame has slabs: in cells of about eight grains, at least three along an edge."""
     rows = np.where(window_of(store, replicas) & (store.index % 4 == 0))[0]  # every 4th sample
-    place = np.clip(np.floor(2 * store.position[rows] / np.array(box_of(store, flow))), 0, 1).astype(int) @ [1, 2, 4]
-    volume = np.array([np.bincount(p, d[store.species] ** 3, 8) for p in place])
-    density = np.take_along_axis(volume, place, 1) / (d[store.species] ** 3).sum() * 8
+    box = np.array(box_of(store, flow))
+    n = np.maximum(3, np.round(box / (8 * box.prod() / N) ** (1 / 3))).astype(int) if frame.startswith("slabs") else np.full(3, 2)
+    place = np.clip(np.floor(n * store.position[rows] / box), 0, n - 1).astype(int) @ [1, n[0], n[0] * n[1]]
+    volume = np.array([np.bincount(p, d[store.species] ** 3, n.prod()) for p in place])
+    density = np.take_along_axis(volume, place, 1) / (d[store.species] ** 3).sum() * n.prod()
     for letter, field in ({"C": C[..., 0]} if kind == "smooth" else {"C": C[..., 0], "W": W[..., 2]}).items():
         for k in 0, 1:
             of = store.species == k
@@ -670,7 +674,7 @@ def hold_local(store, flow, kind, curves, replicas, C, W):
                     close(curve["numbers"][name]["mean"], value, flow, kind, "local", letter, k, class_, name)
 
 
-def hold_curves(store, flow, kind, curves, replicas, C, W, followed):
+def hold_curves(store, flow, kind, curves, replicas, C, W, followed, frame):
     rows = window_of(store, replicas) & (store.index % 2 == 0)  # every 2nd sample
     hold_collisions(store, flow, curves, window_of(store, replicas))
     if "profiles" in FLOWS[flow]["measure"]:
@@ -683,7 +687,7 @@ def hold_curves(store, flow, kind, curves, replicas, C, W, followed):
         hold_flights(store, flow, curves, replicas, followed)
     if "velocity_correlation_Cx" in curves:
         hold_correlations(store, flow, kind, curves, replicas, C, W)
-        hold_local(store, flow, kind, curves, replicas, C, W)
+        hold_local(store, flow, kind, curves, replicas, C, W, frame)
     if kind != "smooth" and "profiles" not in FLOWS[flow]["measure"]:
         hold_peculiar_orientation(store, curves, rows, C, W)
     if kind != "smooth":
@@ -915,7 +919,7 @@ def row(flow, kind, frame):
         check(document["results"]["N1"]["samples"] == window_of(store, replicas).sum(), "samples")
         hold_numbers(document["results"], expected(store, flow, kind, replicas, C, W, followed), flow, f"{flow} {kind} {replicas}")
         hold_units(document["results"], flow)
-        hold_curves(store, flow, kind, document["curves"], replicas, C, W, followed)
+        hold_curves(store, flow, kind, document["curves"], replicas, C, W, followed, frame)
         hold_file(f"r{replicas}.h5", document, store, flow, kind)
         hold_export(f"r{replicas}", document, store, flow, kind)
     with open("result.json") as f:
@@ -1162,7 +1166,7 @@ def test_helfand_moments_are_those_of_samples():
 
 
 # Rows that ./check runs: each kind of grain and of frame occurs. NIGHTLY runs all rows.
-DAILY = {"usf": ["rough_cells_laboratory", "frictional"], "hcs": ["frictional_cells"],
+DAILY = {"usf": ["rough_cells_laboratory", "smooth_slabs", "rough_slabs_laboratory", "frictional"], "hcs": ["frictional_cells"],
          "couette": ["frictional"], "poiseuille": ["smooth"], "fourier": ["rough"]}
 
 for _flow in FLOWS:

@@ -130,6 +130,28 @@ static void planted_halves(void **state)
   gg_measure_curves_clear(&list);
 }
 
+/* Classes given as solid fractions are the same classes under other names. */
+static void given_densities(void **state)
+{
+  (void)state;
+  static const double phi[] = {0.15, 0.05, 0.1};
+  static const char *const same[][2] = {{"phi_0.15", "1.5"}, {"phi_0.05", "0.5"}, {"phi_0.1", "1"}, {"all", "all"}};
+  gg_model m = ct_model(GG_HCS, 0.1, -1, 4096, 1);
+  gg_curves usual = ct_curves(&gg_measure_local_distributions, &m, 8, two_halves, 72);
+  memcpy(m.local_density, phi, sizeof phi);
+  gg_curves given = ct_curves(&gg_measure_local_distributions, &m, 8, two_halves, 72);
+  assert_int_equal(given.n, 4);
+  for (int k = 0; k < 4; k++) {
+    char name[2][64];
+    for (int i = 0; i < 2; i++) snprintf(name[i], sizeof name[i], "local_distribution_Cx_%s", same[k][i]);
+    const gg_curve *one = ct_find(&given, name[0]), *other = ct_find(&usual, name[1]);
+    assert_memory_equal(one->value, other->value, one->n * sizeof *one->value);
+    assert_true(ct_number(one, "solid_fraction").value == (k < 3 ? phi[k] : 0.1));
+  }
+  gg_measure_curves_clear(&usual);
+  gg_measure_curves_clear(&given);
+}
+
 static gg_result *engine(double e, double phi)
 {
   gg_scene s = gg_scene_defaults();
@@ -164,11 +186,9 @@ static void elastic_grains_have_one_maxwellian_at_every_density(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(gaussian_cells),
-      cmocka_unit_test(mixed_cells),
-      cmocka_unit_test(two_sizes),
-      cmocka_unit_test(planted_halves),
-      cmocka_unit_test(elastic_grains_have_one_maxwellian_at_every_density),
+      cmocka_unit_test(gaussian_cells),  cmocka_unit_test(mixed_cells),
+      cmocka_unit_test(two_sizes),       cmocka_unit_test(planted_halves),
+      cmocka_unit_test(given_densities), cmocka_unit_test(elastic_grains_have_one_maxwellian_at_every_density),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
