@@ -62,7 +62,7 @@ static gg_status read_formulas(const theories_reader *t, const char *key, const 
                              "a quantity with its formula is expected: temperature: \"phi*e\"");
     if (made->n == MOST_FORMULAS)
       return gg_scene_reject(&t->reader, e.name, key, "has more than %d formulas", MOST_FORMULAS);
-    if (gg_base_expression_parse(&made->of[made->n], formula, gg_theory_parameters, &why) != GG_OK)
+    if (gg_common_expression_parse(&made->of[made->n], formula, gg_theory_parameters, &why) != GG_OK)
       return reject(&t->reader, e.value, key, &why);
     quantity[made->n++] = e.word;
   }
