@@ -78,7 +78,7 @@ const char *gg_theory_formula_evaluate(void *theory, const gg_facts *facts, doub
   if (facts->n_species > 1 && !second) return "is a formula for one species: it names no parameter of the second";
   if (facts->n_species == 1 && second) return "is a formula for two species";
   read_parameters(facts, at);
-  for (int k = 0; k < t->n; k++) value[t->order[k]] = gg_base_expression_value(&t->of[t->order[k]], at);
+  for (int k = 0; k < t->n; k++) value[t->order[k]] = gg_common_expression_value(&t->of[t->order[k]], at);
   for (int k = 0; k < t->n_quantities; k++) values[k] = value[t->answer[k]];
   return NULL;
 }

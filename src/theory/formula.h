@@ -3,7 +3,7 @@
 #ifndef GG_THEORY_FORMULA_H
 #define GG_THEORY_FORMULA_H
 
-#include "base/expression.h"
+#include "common/expression.h"
 
 typedef struct gg_facts gg_facts; /* of the public header */
 

@@ -37,7 +37,7 @@ static gg_status check_name(const formula_reader *r, int index)
   if (!gg_base_text_is_name(name, 40))
     return gg_base_fail(r->err, GG_BAD_INPUT,
                         "'%.60s' is not a valid name: use a letter, then letters, digits and _, at most 40", name);
-  if (is_parameter(name) || gg_base_expression_knows(name))
+  if (is_parameter(name) || gg_common_expression_knows(name))
     return gg_base_fail(r->err, GG_BAD_INPUT, "the name '%s' is taken: it is a %s of formulas", name,
                         is_parameter(name) ? "parameter" : "word");
   for (int k = 0; k < index; k++)
@@ -89,7 +89,7 @@ static gg_status parse(const formula_reader *r)
   }
   for (int k = 0; k < r->n; k++) {
     *r->failed = k;
-    GG_TRY(gg_base_expression_parse(&r->theory->of[k], r->text[k], variable, r->err));
+    GG_TRY(gg_common_expression_parse(&r->theory->of[k], r->text[k], variable, r->err));
   }
   return GG_OK;
 }

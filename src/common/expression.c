@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "base/expression.h"
+#include "common/expression.h"
 
 #include <ctype.h>
 #include <math.h>
@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "common/portable_functions.h"
 
 typedef struct function {
   const char *name;
@@ -14,10 +15,19 @@ typedef struct function {
   double (*of_two)(double, double); /* NULL: of one */
 } function;
 
-static const function functions[] = {
-    {"ln", log, NULL},   {"log10", log10, NULL}, {"exp", exp, NULL},   {"sqrt", sqrt, NULL}, {"abs", fabs, NULL},
-    {"sin", sin, NULL},  {"cos", cos, NULL},     {"atan", atan, NULL}, {"tanh", tanh, NULL}, {"erf", erf, NULL},
-    {"min", NULL, fmin}, {"max", NULL, fmax},    {NULL, NULL, NULL}};
+static const function functions[] = {{"ln", gg_portable_ln, NULL},
+                                     {"log10", gg_portable_log10, NULL},
+                                     {"exp", gg_portable_exp, NULL},
+                                     {"sqrt", sqrt, NULL},
+                                     {"abs", fabs, NULL},
+                                     {"sin", gg_portable_sin, NULL},
+                                     {"cos", gg_portable_cos, NULL},
+                                     {"atan", gg_portable_atan, NULL},
+                                     {"tanh", gg_portable_tanh, NULL},
+                                     {"erf", gg_portable_erf, NULL},
+                                     {"min", NULL, fmin},
+                                     {"max", NULL, fmax},
+                                     {NULL, NULL, NULL}};
 
 typedef struct parser {
   const char *text, *at;
@@ -62,7 +72,7 @@ static gg_status refuse_word(const parser *p)
                       p->at - p->text + 1, known);
 }
 
-bool gg_base_expression_knows(const char *word)
+bool gg_common_expression_knows(const char *word)
 {
   static const char *const words[] = {"pi", "inf", "if", "else"};
   bool known = false;
@@ -192,7 +202,7 @@ static gg_status conditional(parser *p)
   return add(p, '?', 0);
 }
 
-gg_status gg_base_expression_parse(gg_expression *e, const char *text, const char *const *variables, gg_error *err)
+gg_status gg_common_expression_parse(gg_expression *e, const char *text, const char *const *variables, gg_error *err)
 {
   parser p = {text, text, variables, e, 0, err};
   e->n = 0;
@@ -212,7 +222,7 @@ static double combine(char code, double a, double b)
   case 'l': return a <= b;
   case 'g': return a >= b;
   case '=': return a == b;
-  default: return pow(a, b);
+  default: return gg_portable_pow(a, b);
   }
 }
 
@@ -224,10 +234,16 @@ static int call(const function *f, double *stack, int top)
   return top - 1;
 }
 
-double gg_base_expression_value(const gg_expression *e, const double *at)
+static bool compares(char code)
+{
+  return strchr("<>lg=", code) != NULL;
+}
+
+double gg_common_expression_branch(const gg_expression *e, const double *at, uint64_t *branch)
 {
   double stack[GG_EXPRESSION_STEPS];
   int top = 0;
+  *branch = 0;
   for (int i = 0; i < e->n; i++) {
     double *last = stack + (top ? top - 1 : 0);
     switch (e->step[i].code) {
@@ -237,10 +253,20 @@ double gg_base_expression_value(const gg_expression *e, const double *at)
     case 'f': top = call(&functions[(int)e->step[i].number], stack, top); break;
     case '?':
       top -= 2;
+      *branch = 2 * *branch + (stack[top] != 0);
       stack[top - 1] = isnan(stack[top]) ? NAN : stack[top] != 0 ? stack[top - 1] : stack[top + 1];
       break;
-    default: top--; stack[top - 1] = combine(e->step[i].code, stack[top - 1], stack[top]);
+    default:
+      top--;
+      stack[top - 1] = combine(e->step[i].code, stack[top - 1], stack[top]);
+      if (compares(e->step[i].code)) *branch = 2 * *branch + (stack[top - 1] != 0);
     }
   }
   return top ? stack[0] : NAN;
+}
+
+double gg_common_expression_value(const gg_expression *e, const double *at)
+{
+  uint64_t branch;
+  return gg_common_expression_branch(e, at, &branch);
 }

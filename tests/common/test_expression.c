@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-#include "base/expression.h"
+#include "common/expression.h"
 
 static const char *const names[] = {"v", "e", NULL};
 
@@ -16,8 +16,8 @@ static double value(const char *text, double v, double e)
 {
   gg_expression x;
   gg_error err = {0};
-  if (gg_base_expression_parse(&x, text, names, &err) != GG_OK) fail_msg("%s", err.message);
-  return gg_base_expression_value(&x, (const double[]){v, e});
+  if (gg_common_expression_parse(&x, text, names, &err) != GG_OK) fail_msg("%s", err.message);
+  return gg_common_expression_value(&x, (const double[]){v, e});
 }
 
 static void formulas_have_the_values_of_c(void **state)
@@ -57,9 +57,9 @@ static void words_of_formulas_are_known(void **state)
 {
   (void)state;
   const char *const known[] = {"pi", "inf", "if", "else", "ln", "atan", "min", "erf"};
-  for (size_t k = 0; k < sizeof known / sizeof *known; k++) assert_true(gg_base_expression_knows(known[k]));
+  for (size_t k = 0; k < sizeof known / sizeof *known; k++) assert_true(gg_common_expression_knows(known[k]));
   const char *const unknown[] = {"", "p", "pie", "v", "log", "Ln"};
-  for (size_t k = 0; k < sizeof unknown / sizeof *unknown; k++) assert_false(gg_base_expression_knows(unknown[k]));
+  for (size_t k = 0; k < sizeof unknown / sizeof *unknown; k++) assert_false(gg_common_expression_knows(unknown[k]));
 }
 
 /* The step of a comparison is between two neighbouring numbers, on the side that the sign says. */
@@ -88,7 +88,7 @@ static void errors_name_the_character(void **state)
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     gg_expression x;
     gg_error err = {0};
-    assert_int_equal(gg_base_expression_parse(&x, cases[i][0], names, &err), GG_BAD_INPUT);
+    assert_int_equal(gg_common_expression_parse(&x, cases[i][0], names, &err), GG_BAD_INPUT);
     if (!strstr(err.message, cases[i][1])) fail_msg("%s: %s", cases[i][0], err.message);
   }
 }
@@ -102,9 +102,9 @@ static void depth_is_bounded(void **state)
   gg_error err = {0};
   for (int i = 0; i < 100; i++) strcat(text, "1 if v else ");
   strcat(text, "0");
-  assert_int_equal(gg_base_expression_parse(&x, text, names, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_common_expression_parse(&x, text, names, &err), GG_BAD_INPUT);
   memset(text, '(', 1000), text[1000] = 0;
-  assert_int_equal(gg_base_expression_parse(&x, text, names, &err), GG_BAD_INPUT);
+  assert_int_equal(gg_common_expression_parse(&x, text, names, &err), GG_BAD_INPUT);
 }
 
 int main(void)
