@@ -248,7 +248,12 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
     gg_run_result_warn(result, "collision.e was not in force, but " GG_OWN_LAW " '%s'", all->model.law.name);
   else if (all->model.law.e)
     gg_run_result_warn(result, "in force was " GG_OWN_LAW " '%s'", all->model.law.name);
-  if (s->clamped)
+  if (s->clamped && !all->model.law.e)
+    gg_run_result_warn(result,
+                       "formulas of the speed have no allowed value at the speeds of %llu collisions (%.2g %%), which "
+                       "took the nearest allowed one (NaN: the least)",
+                       (unsigned long long)s->clamped, 100 * (double)s->clamped / (double)s->collisions);
+  else if (s->clamped)
     gg_run_result_warn(
         result,
         GG_OWN_LAW " '%s' gave no number from 0 to 1 at the speeds of %llu collisions (%.2g %%), which took the "
