@@ -121,9 +121,21 @@ static bool is_held(const gg_model *m, int i)
   return held;
 }
 
+/* True if some wall takes energy: one of a temperature, or whose contacts are not elastic. */
+static bool walls_lose(const gg_model *m)
+{
+  bool lose = gg_model_has_thermal_walls(m);
+  for (int w = 0; w < m->n_surfaces; w++) {
+    const gg_contact *c = &m->surface[w].contact[0];
+    const double normal = c->jn * gg_inverse_mr(c), tangential = c->jt * gg_inverse_mt(c); /* 1 + e, 1 + beta */
+    lose |= normal < 2 - 1e-12 || (tangential > 0 && (tangential < 2 - 1e-12 || isfinite(c->mu)));
+  }
+  return lose;
+}
+
 bool gg_common_model_balances(const gg_model *m)
 {
-  bool loses = m->walled || m->bath.drag[0] > 0, held = true;
+  bool loses = walls_lose(m) || m->bath.drag[0] > 0, held = true;
   for (int i = 0; i < m->n_species; i++) {
     held &= m->bath.torque[i] == 0 || is_held(m, i);
     for (int j = 0; j < m->n_species; j++) loses |= gg_common_pair_loses(m, i, j);
