@@ -50,13 +50,11 @@ static void add_pairs(char *text, size_t size, const gg_scene *s, const char *na
                       const double *x)
 {
   const int n_species = s->n_species;
-  if (gg_common_speed_laws_have(&s->collision.by_speed, of, gg_pairs_of(n_species))) {
-    gg_base_text_append(text, size, ", %s(v)", name);
-    return;
-  }
   double least = x[GG_11], most = x[GG_11];
   for (int p = 0; p < gg_pairs_of(n_species); p++) least = fmin(least, x[p]), most = fmax(most, x[p]);
-  if (least == most)
+  if (gg_common_speed_laws_have(&s->collision.by_speed, of, gg_pairs_of(n_species)))
+    gg_base_text_append(text, size, ", %s(v)", name);
+  else if (least == most)
     gg_base_text_append(text, size, ", %s %g", name, least);
   else if (n_species == 2)
     gg_base_text_append(text, size, ", %s %g/%g/%g", name, x[GG_11], x[GG_12], x[GG_22]);

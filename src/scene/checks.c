@@ -243,24 +243,19 @@ static gg_status check_duration(const gg_scene *s, gg_error *err)
                       gg_flow_of(s->flow)->word, flows);
 }
 
-/* Formulas and tables replace collision.law. */
+/* Formulas and tables replace collision.law, and a law of the program. */
 static gg_status check_laws(const gg_scene *s, gg_error *err)
 {
-  const int pairs = gg_pairs_of(s->n_species);
-  for (int c = 0; c < GG_N_COEFFICIENTS; c++) {
-    if (!gg_common_speed_laws_have(&s->collision.by_speed, (gg_contact_coefficient)c, pairs)) continue;
-    const char *name = gg_common_coefficient_name((gg_contact_coefficient)c);
-    if (s->collision.law != GG_LAW_CONSTANT)
-      return gg_base_fail(err, GG_BAD_INPUT,
-                          "key 'collision.law': %s does not go with collision.%s as a formula or table of the speed; "
-                          "leave one of them out",
-                          gg_common_law_name(s->collision.law), name);
-    if (gg_common_extension_law(s->extension).e)
-      return gg_base_fail(err, GG_BAD_INPUT,
-                          "key 'collision.%s': a formula or table of the speed does not go with the calling program's "
-                          "restitution law '%s'",
-                          name, gg_common_extension_law(s->extension).name);
-  }
+  const bool named = s->collision.law != GG_LAW_CONSTANT,
+             user_defined = gg_common_extension_law(s->extension).e != NULL;
+  for (int c = 0; (named || user_defined) && c < GG_N_COEFFICIENTS; c++)
+    if (gg_common_speed_laws_have(&s->collision.by_speed, (gg_contact_coefficient)c, gg_pairs_of(s->n_species)))
+      return gg_base_fail(
+          err, GG_BAD_INPUT,
+          "%s does not go with key 'collision.%s' as a formula or table of the speed; leave one of them "
+          "out",
+          named ? "key 'collision.law'" : "a restitution law of the calling program",
+          gg_common_coefficient_name((gg_contact_coefficient)c));
   return GG_OK;
 }
 

@@ -130,8 +130,7 @@ const gg_field gg_scene_fields[] = {
     {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .by_default = 1,
      .doc = "shape of the box: ratio of its edges x : y : z", .when = GG_BIT(GG_IF_BOXED), .also = "box"},
     {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .by_default = 0.9,
-     .doc = "coefficient of normal restitution; in equilibrium the default is 1. A formula or a table may give more "
-            "than 1",
+     .doc = "coefficient of normal restitution; in equilibrium the default is 1; a formula or table may exceed 1",
      .also = "restitution alpha normal_restitution e_n en", .on_the_way = true, .by_speed = 1 + GG_OF_E},
     {"collision.beta", GG_FIELD_PAIRS, AT(collision.beta), -1, 1, .by_default = -1,
      .doc = "coefficient of tangential restitution: -1 smooth, 1 perfectly rough; with finite mu, of sticking contacts",

@@ -13,7 +13,6 @@
 #include "base/spelling.h"
 #include "common/quantity.h"
 #include "scene/scene_reader.h"
-#include "scene/speed_table.h"
 
 const char *gg_scene_scalar(const yaml_node_t *node)
 {
@@ -478,9 +477,8 @@ static gg_status read_table(const input *in, const yaml_node_t *table, char law[
     if (length_of(row) != 2) return gg_scene_reject(in->r, row, in->key, "a row of a table is [speed, value]");
     for (int k = 0; k < 2; k++)
       GG_TRY(read_number(&(input){in->r, &number, in->key, item_of(in, row->data.sequence.items.start[k])}, &at[k]));
-    if (!gg_scene_speed_table_add(at[0], at[1], law))
-      return gg_scene_reject(in->r, row, in->key, "a table has at most %d rows, and %d characters", GG_LAW_ROWS,
-                             GG_LAWS_TEXT);
+    if (gg_scene_speed_table_add(at[0], at[1], law, &why) != GG_OK)
+      return gg_scene_reject(in->r, row, in->key, "%s", why.message);
   }
   return *law ? GG_OK : gg_scene_reject(in->r, table, in->key, "a table is a file, or rows [[speed, value], ...]");
 }
@@ -532,23 +530,14 @@ static gg_status put(const input *in, const coefficient *c, double *value, int p
   return GG_OK;
 }
 
-static gg_status put_all(const input *in, const coefficient *c, double *value, const bool *except)
-{
-  for (int p = 0; p < GG_PAIRS; p++)
-    if (!except || !except[p]) GG_TRY(put(in, c, value, p));
-  return GG_OK;
-}
-
 /* Pairs that a map leaves out take `other`; where a single key is overridden, they stay what they are. */
 static gg_status read_pairs(const input *in, double *value)
 {
   coefficient c, other;
-  if (in->node->type != YAML_MAPPING_NODE || (in->f->by_speed && table_of(in))) {
-    GG_TRY(read_coefficient(in, &other));
-    return put_all(in, &other, value, NULL);
-  }
-  bool given[GG_PAIRS] = {false}, others = false;
-  for (gg_scene_entry e = {0}; gg_scene_entry_next(in->r, in->node, &e);) {
+  bool given[GG_PAIRS] = {false}, others = in->node->type != YAML_MAPPING_NODE || (in->f->by_speed && table_of(in));
+  const bool all = others;
+  if (all) GG_TRY(read_coefficient(in, &other));
+  for (gg_scene_entry e = {0}; !all && gg_scene_entry_next(in->r, in->node, &e);) {
     bool rest = e.word && strcmp(e.word, "other") == 0;
     int p = e.word && !rest ? gg_common_pair_find(e.word) : -1;
     if ((!rest && p < 0) || (rest ? others : given[p]))
@@ -559,7 +548,10 @@ static gg_status read_pairs(const input *in, double *value)
     GG_TRY(read_coefficient(&one, rest ? &other : &c));
     if (!rest) GG_TRY(put(&one, &c, value, p));
   }
-  return others ? put_all(in, &other, value, given) : check_pairs(in, given);
+  if (!others) return check_pairs(in, given);
+  for (int p = 0; p < GG_PAIRS; p++)
+    if (!given[p]) GG_TRY(put(in, &other, value, p));
+  return GG_OK;
 }
 
 static gg_status read_one(const input *in, double *value)

@@ -141,7 +141,7 @@ def test_invalid_laws():
                          ("{e: {table: [[0, -0.9]]}}", "row 1: e = -0.9"),
                          ("{e: '1.5'}", "allowed: a number from 0 to 1"),
                          ("{e: 0.9 if sin(50*v) > 0 else 0.8}", "more than 16 steps"),
-                         ("{law: viscoelastic, e: 1 - 0.1*v}", "key 'collision.law'", "collision.e"),
+                         ("{law: viscoelastic, e: 1 - 0.1*v}", "key 'collision.law'", "key 'collision.e'"),
                          ("{mu: 0.1 + v}", "key 'collision.mu'", "collision.beta"),
                          ("{beta: 0.1 + v, e: 0.9}\nwalls: {e: 1 - v}", "key 'walls.e'", "allowed: a number")):
         done = run("info", "scene.yaml", scene=GAS + f"collision: {value}\n")
