@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "common/engine.h"
 #include "common/extension.h"
+#include "common/laws/coefficient_tables.h"
 #include "files/text_format.h"
 #include "io/checked_json.h"
 #include "run/cost_estimate.h"
@@ -186,6 +187,7 @@ gg_status gg_scene_describe(const gg_scene *scene, const char *engine, void (*li
   GG_TRY(make_model(scene, engine, &finished, &model, &kind, err));
   gg_extension *held = gg_common_extension_hold(finished.extension); /* the callback may free the scene */
   gg_common_engine_of(kind)->describe(&model, line, context);
+  gg_common_coefficients_describe(&model, line, context);
   char chosen[200] = "";
   if (model.ensemble)
     gg_scene_ensemble_size_reason(&finished, chosen, sizeof chosen);

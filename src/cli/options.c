@@ -295,7 +295,14 @@ static gg_status set_scene(void *scene, const char *key, const char *value, gg_e
 gg_status gg_cli_options_scene(const gg_options *o, gg_scene **scene, gg_error *err)
 {
   *scene = NULL;
+  gg_checkpoint_info about;
   gg_status status = gg_scene_load(o->input, scene, err);
+  /* A checkpoint has the tables of its scene, whose files may be gone. */
+  if (status != GG_OK && o->resume && strstr(err->message, ": cannot be read: ") &&
+      gg_checkpoint_about(o->resume, &about, scene, NULL) == GG_OK) {
+    fprintf(stderr, "warning: %s; the scene is that of %s\n", err->message, o->resume);
+    status = GG_OK;
+  }
   for (int i = 0; i < o->n_overrides && status == GG_OK; i++)
     status = gg_cli_options_set("set", o->override[i], "collision.e=0.8", set_scene, *scene, err);
   if (status != GG_OK) gg_scene_free(*scene), *scene = NULL;

@@ -46,7 +46,7 @@ typedef struct gg_engine_state {
   uint64_t events;       /* md: everything taken from the queue; dsmc: candidate pairs */
   uint64_t treated;      /* md: collisions treated by the contact-time rule */
   uint64_t wall_treated; /* the same for contacts with walls, which `collisions` does not count; dsmc: held up there */
-  uint64_t clamped;      /* collisions at whose speed a user's law gives no number from 0 to 1 */
+  uint64_t clamped;      /* collisions at whose speed a law has no allowed value: a user's, or a formula */
   uint64_t overflows;    /* dsmc: candidates whose rate exceeded the majorant */
   double overfilled;     /* dsmc between walls: share of grains where they fill more space than there is */
   double offset;         /* md, sheared: displacement along x of the image of the box above; else 0 */

@@ -60,12 +60,40 @@ static void set_restitution(gg_model *m, int i, int j, double e)
   m->e[o] = e;
 }
 
+void gg_common_model_name_law(gg_model *m)
+{
+  static const char *const names[GG_N_COEFFICIENTS] = {"e(v)", "beta(v)", "mu(v)"};
+  for (int c = GG_N_COEFFICIENTS - 1; c >= 0; c--)
+    if (gg_common_speed_laws_have(&m->by_speed, (gg_contact_coefficient)c, gg_pairs_of(m->n_species)))
+      m->law.name = names[c];
+}
+
+/* Set the coefficients of a pair that depend on the speed. */
+static void set_by_speed(gg_model *m, int i, int j, double speed)
+{
+  const int o = gg_pair(i, j);
+  double *const coefficient[GG_N_COEFFICIENTS] = {&m->e[o], &m->beta[o], &m->mu[o]};
+  gg_speed_law law;
+  for (int c = 0; c < GG_N_COEFFICIENTS; c++) {
+    const char *text = gg_speed_law_text(&m->by_speed, (gg_contact_coefficient)c, o);
+    if (text && gg_common_speed_law_parse(&law, (gg_contact_coefficient)c, text, NULL) == GG_OK)
+      *coefficient[c] = gg_common_speed_law_value(&law, m->speed_unit * speed, NULL);
+  }
+  /* Estimates and starts of theories divide by the friction, which is none at some speeds alone. */
+  if (m->by_speed.at[GG_OF_BETA][o]) m->beta[o] = fmax(m->beta[o], -1 + 1e-6);
+  if (m->by_speed.at[GG_OF_MU][o]) m->mu[o] = fmax(m->mu[o], 1e-6);
+  set_restitution(m, i, j, m->e[o]);
+}
+
 void gg_common_model_at(gg_model *m, double T)
 {
   for (int i = 0; m->law.name && i < m->n_species; i++)
     for (int j = 0; j < m->n_species; j++) {
       double speed = sqrt(M_PI / 2 * T * (1 / m->mass[i] + 1 / m->mass[j]));
-      set_restitution(m, i, j, gg_common_law_at(&m->law, speed, i, j, NULL));
+      if (m->law.e || m->law.kind != GG_LAW_CONSTANT)
+        set_restitution(m, i, j, gg_common_law_at(&m->law, speed, i, j, NULL));
+      else
+        set_by_speed(m, i, j, speed);
     }
 }
 
@@ -89,19 +117,30 @@ static bool kicks_fade(const gg_model *m)
 static bool is_held(const gg_model *m, int i)
 {
   bool held = m->bath.spin_drag[i] > 0;
-  for (int j = 0; j < m->n_species; j++)
-    held |= gg_common_rule_select(m->beta[gg_pair(i, j)], m->mu[gg_pair(i, j)]) != GG_SMOOTH;
+  for (int j = 0; j < m->n_species; j++) held |= gg_model_pair_rule(m, gg_pair(i, j)) != GG_SMOOTH;
   return held;
+}
+
+/* True if some wall takes energy: one of a temperature, or whose contacts are not elastic. */
+static bool walls_lose(const gg_model *m)
+{
+  bool lose = gg_model_has_thermal_walls(m);
+  for (int w = 0; w < m->n_surfaces; w++) {
+    const gg_contact *c = &m->surface[w].contact[0];
+    const double normal = c->jn * gg_inverse_mr(c), tangential = c->jt * gg_inverse_mt(c); /* 1 + e, 1 + beta */
+    lose |= normal < 2 - 1e-12 || (tangential > 0 && (tangential < 2 - 1e-12 || isfinite(c->mu)));
+  }
+  return lose;
 }
 
 bool gg_common_model_balances(const gg_model *m)
 {
-  bool loses = m->walled || m->bath.drag[0] > 0, held = true;
+  bool loses = walls_lose(m) || m->bath.drag[0] > 0, held = true;
   for (int i = 0; i < m->n_species; i++) {
     held &= m->bath.torque[i] == 0 || is_held(m, i);
     for (int j = 0; j < m->n_species; j++) loses |= gg_common_pair_loses(m, i, j);
   }
-  return held && !kicks_fade(m) && (loses || !(gg_flow_is_sheared(m->flow) || m->kicks || m->bath.turns));
+  return held && !kicks_fade(m) && (loses || !(gg_flow_is_sheared(m->flow) || gg_model_is_injected(m)));
 }
 
 static gg_rule later_rule(gg_rule a, gg_rule b)
@@ -118,8 +157,10 @@ double gg_common_treated_beta(const gg_model *m, int i, int j)
 bool gg_common_pair_loses(const gg_model *m, int i, int j)
 {
   const int o = gg_pair(i, j);
-  const gg_rule rule = gg_common_rule_select(m->beta[o], m->mu[o]);
-  return m->e[o] != 1 || m->law.e || rule == GG_FRICTIONAL || (rule == GG_ROUGH && m->beta[o] < 1);
+  const gg_rule rule = gg_model_pair_rule(m, o);
+  const bool loses = m->by_speed.at[GG_OF_E][o] ? m->by_speed.loses : m->e[o] != 1;
+  return loses || m->law.e || rule == GG_FRICTIONAL ||
+         (rule == GG_ROUGH && (m->by_speed.at[GG_OF_BETA][o] || m->beta[o] < 1));
 }
 
 void gg_common_model_set_pairs(gg_model *m)
@@ -128,7 +169,8 @@ void gg_common_model_set_pairs(gg_model *m)
   m->elastic = true;
   m->kicks = false;
   for (int o = 0; o < gg_pairs_of(m->n_species); o++) {
-    m->rule = later_rule(m->rule, gg_common_rule_select(m->beta[o], m->mu[o]));
+    m->rule = later_rule(m->rule, gg_model_pair_rule(m, o));
+    if (m->by_speed.at[GG_OF_E][o]) m->elastic = false;
     if (m->normal_kick[o] != 0 || m->tangential_kick[o] != 0) m->kicks = true, m->elastic = false;
   }
   m->chi_slope = chi_slope_of(m);

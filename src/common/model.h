@@ -19,6 +19,7 @@
 #include "common/extension.h"
 #include "common/flow.h"
 #include "common/kinds.h"
+#include "common/laws/speed_laws.h"
 #include "common/observables.h"
 #include "common/restitution.h"
 #include "common/species.h"
@@ -90,9 +91,12 @@ typedef struct gg_model {
   double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
   double normal_kick[GG_PAIRS], tangential_kick[GG_PAIRS]; /* D and D_t of common/collision.h */
   bool kicks;                                              /* some pair has a kick */
-  /* Law of restitution between grains (name NULL: none). With one, `e` and `contact` are those at the mean impact speed
-   * of some temperature (gg_common_model_at), for estimates, and engines evaluate the law at every collision. */
+  /* Law of restitution between grains (name NULL: none), or formulas and tables by_speed of e, beta and mu, whose name
+   * is "e(v)". With one, `e`, `beta`, `mu` and `contact` are those at the mean impact speed of some temperature
+   * (gg_common_model_at), for estimates, and engines evaluate the law at every collision. */
   gg_restitution_law law;
+  gg_speed_laws by_speed;
+  double speed_unit; /* a speed in the units of by_speed, those of the scene, over that of the model */
 
   bool walled;       /* there are surfaces: the box is closed along y, and no flow is imposed */
   gg_rule wall_rule; /* of smooth grains, too, whose spins it leaves alone */
@@ -135,10 +139,22 @@ static inline bool gg_model_has_speed(const gg_model *m)
   return m->law.name || m->kicks;
 }
 
-/* Do kicks at contact or torques give energy? */
+/* Do kicks at contact, torques, or an e above 1 at some speed give energy? */
 static inline bool gg_model_is_injected(const gg_model *m)
 {
-  return m->kicks || m->bath.turns;
+  return m->kicks || m->bath.turns || m->by_speed.gains;
+}
+
+/* The collision rule of a pair of species at all speeds. */
+static inline gg_rule gg_model_pair_rule(const gg_model *m, int pair)
+{
+  return gg_common_speed_laws_rule(&m->by_speed, pair, m->beta[pair], m->mu[pair]);
+}
+
+/* True if tangential coefficients of a pair depend on the speed. */
+static inline bool gg_model_friction_by_speed(const gg_model *m, int pair)
+{
+  return m->by_speed.at[GG_OF_BETA][pair] || m->by_speed.at[GG_OF_MU][pair];
 }
 
 /* Radius of a grain that turns a surface velocity into a spin; 1 in the Boltzmann limit. */
@@ -172,8 +188,12 @@ gg_status gg_common_model_set_walls(gg_model *model, const gg_walls *walls, gg_e
  * the caller may improve before an engine is made; and the rest of the model: is it steady, its unit of stress. */
 void gg_common_model_set_start(gg_model *model, double temperature);
 
-/* With a restitution law: e and contacts at the mean normal speed at impact of Maxwellians at temperature T. */
+/* With a restitution law: e, beta, mu and contacts at the mean normal speed at impact of Maxwellians at temperature T.
+ */
 void gg_common_model_at(gg_model *model, double T);
+
+/* Name the law of a model that has formulas or tables of the speed: "e(v)". */
+void gg_common_model_name_law(gg_model *model);
 
 /* Unit of contact times in words: under gravity the time of a fall, unless gravity is too weak (md/contact_time.c). */
 const char *gg_common_model_contact_unit(const gg_model *model);

@@ -20,7 +20,7 @@ static void add_shares(const gg_model *m, int i, int j, double *A, double *C)
   double exchange = eta2 / K * (1 - eta2 / K);
   /* Sliding weakens the exchange with the spins by about mu over the friction that sticking would need. */
   if (rule == GG_FRICTIONAL) exchange *= fmin(1, m->mu[o] * eta1 / eta2);
-  *A += share * (eta1 * (1 - eta1) + eta2 * (1 - eta2));
+  *A += share * (fabs(eta1 * (1 - eta1)) + eta2 * (1 - eta2));
   *C += share * exchange;
 }
 
@@ -31,6 +31,8 @@ static void slowest_of(const gg_model *m, double *loss, double *spins)
   for (int i = 0; i < m->n_species; i++) {
     double A = 0, C = 0;
     for (int j = 0; j < m->n_species; j++) add_shares(m, i, j, &A, &C);
+    /* With e above and below 1 the mean e is near 1; its slope brings the temperature back. */
+    if (m->by_speed.gains) A = fmax(A, 0.02);
     if (A > 0 && !m->elastic) *loss = fmax(*loss, 0.75 / A);
     if (C > 0) *spins = fmax(*spins, 0.75 / C);
   }

@@ -109,6 +109,7 @@ double gg_common_thermostat_balance(const gg_model *m, double sheared)
     noise += 1.5 * share * m->mass[i] * m->bath.noise[i];
     drag += 3 * share * m->bath.drag[i];
   }
+  loss = fmax(loss, 0); /* of an e above 1 at this temperature, by its law: not at all temperatures */
   const injection in = injection_of(m);
   const double near = temperature_near(sheared, &in, noise, drag, loss);
   if (gg_model_is_injected(m) && !(loss > 0) && !(drag > 0)) return near; /* it heats up for ever */

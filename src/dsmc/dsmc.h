@@ -4,7 +4,7 @@
 #define GG_DSMC_DSMC_H
 
 #include "common/engine.h"
-#include "common/laws/loss_table.h"
+#include "common/laws/coefficient_tables.h"
 #include "common/thermostat.h"
 #include "dsmc/advance.h"
 #include "dsmc/ensemble.h"
@@ -41,9 +41,9 @@ typedef struct gg_dsmc {
   gg_engine base;
   gg_model model;
   gg_dsmc_ensemble ensemble;
-  gg_loss_table *losses;       /* of a built-in law of restitution; NULL: none */
-  gg_dsmc_schedule *schedule;  /* NULL if the ensemble is one segment */
-  gg_dsmc_rounds_room *rounds; /* likewise */
+  gg_coefficient_tables *tables; /* of coefficients that depend on the speed; NULL: none */
+  gg_dsmc_schedule *schedule;    /* NULL if the ensemble is one segment */
+  gg_dsmc_rounds_room *rounds;   /* likewise */
   gg_dsmc_path path[GG_PAIRS];
   gg_heat heat;
   double noise; /* xi^2 of the white noise */

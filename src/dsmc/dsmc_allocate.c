@@ -8,7 +8,8 @@
 
 gg_dsmc_path gg_dsmc_path_of(const gg_dsmc *d, int i, int j)
 {
-  return d->model.law.e ? GG_DSMC_PLAIN : gg_dsmc_choose_path(&d->ensemble.of[i], &d->ensemble.of[j]);
+  const bool plain = d->model.law.e || gg_model_friction_by_speed(&d->model, gg_pair(i, j));
+  return plain ? GG_DSMC_PLAIN : gg_dsmc_choose_path(&d->ensemble.of[i], &d->ensemble.of[j]);
 }
 
 void gg_dsmc_take_paths(gg_dsmc *d)
@@ -31,7 +32,7 @@ gg_status gg_dsmc_allocate(const gg_model *model, gg_dsmc **d, gg_error *err)
     made->rounds = gg_dsmc_rounds_room_new(model->n_species, made->ensemble.segments, err);
     if (!made->schedule || !made->rounds) status = GG_FAILED;
   }
-  if (status == GG_OK) status = gg_common_loss_table_new(model->law.kind, &made->losses, err);
+  if (status == GG_OK) status = gg_common_coefficient_tables_new(model, &made->tables, err);
   if (status != GG_OK) {
     gg_dsmc_destroy(&made->base);
     return status;
@@ -46,7 +47,7 @@ void gg_dsmc_destroy(gg_engine *engine)
   gg_dsmc *d = (gg_dsmc *)engine;
   if (!d) return;
   gg_dsmc_ensemble_free(&d->ensemble);
-  free(d->losses);
+  gg_common_coefficient_tables_free(d->tables);
   free(d->schedule);
   gg_dsmc_rounds_room_free(d->rounds);
   for (int i = 0; i < GG_MAX_SPECIES; i++) free(d->callback.last[i]);

@@ -5,14 +5,13 @@
 gg_dsmc_features gg_dsmc_features_of(const gg_dsmc *d, int i, int j)
 {
   const gg_model *m = &d->model;
-  gg_dsmc_features features = {.rule = gg_common_rule_select(m->beta[gg_pair(i, j)], m->mu[gg_pair(i, j)]),
-                               .same = i == j};
+  gg_dsmc_features features = {.rule = gg_model_pair_rule(m, gg_pair(i, j)), .same = i == j};
   /* With spins, even a smooth pair needs a kernel that moves spins together with velocities. */
   if (m->rule != GG_SMOOTH && features.rule == GG_SMOOTH) features.rule = GG_ROUGH;
   if (m->shear_rate != 0) features.shear = m->boltzmann ? GG_DSMC_SHEARED_DILUTE : GG_DSMC_SHEARED_DENSE;
   if (d->heat == GG_HEAT_SCALES) features.sums = GG_DSMC_LOSS;
   if (d->now.sums) features.sums = m->boltzmann ? GG_DSMC_LOSS : GG_DSMC_STRESS;
-  if (d->losses || m->kicks) features = gg_dsmc_features_of_own(features, m->boltzmann);
+  if (d->tables || m->kicks) features = gg_dsmc_features_of_own(features, m->boltzmann);
   return features;
 }
 
@@ -29,8 +28,9 @@ gg_dsmc_pass gg_dsmc_pass_of(gg_dsmc *d, int i, int j)
                         .law = m->law.e ? &m->law : NULL,
                         .law_unit = ldexp(1, -d->now.power),
                         .bound_margin = 1,
-                        .losses = d->losses,
-                        .loss_scale = ldexp(m->law.scale[o], -d->now.power),
+                        .tables = d->tables,
+                        .losses = d->tables ? d->tables->of[GG_OF_E][o] : NULL,
+                        .loss_scale = d->tables ? ldexp(d->tables->scale[o], -d->now.power) : 0,
                         .sigma = m->sigma[o],
                         .shift = m->boltzmann ? 0 : m->sigma[o] * m->shear_rate};
 }

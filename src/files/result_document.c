@@ -187,7 +187,8 @@ static json_t *engine_state_json(const gg_result *r)
     json_object_set_new(state, "time_step_bias", json_number(s->time_step_bias));
     json_object_set_new(state, "particles_bias", json_number(s->particles_bias));
   }
-  if (r->model.law.e) json_object_set_new(state, "law_clamped", json_integer((json_int_t)s->clamped));
+  if (r->model.law.name && r->model.law.kind == GG_LAW_CONSTANT)
+    json_object_set_new(state, "law_clamped", json_integer((json_int_t)s->clamped));
   return state;
 }
 

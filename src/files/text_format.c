@@ -46,11 +46,15 @@ void gg_files_estimate_format(double mean, double error, char *text, size_t size
   if (scientific && used < size) snprintf(text + used, size - used, "e%+03d", exponent);
 }
 
-static void add_pairs(char *text, size_t size, const char *name, const double *x, int n_species)
+static void add_pairs(char *text, size_t size, const gg_scene *s, const char *name, gg_contact_coefficient of,
+                      const double *x)
 {
+  const int n_species = s->n_species;
   double least = x[GG_11], most = x[GG_11];
   for (int p = 0; p < gg_pairs_of(n_species); p++) least = fmin(least, x[p]), most = fmax(most, x[p]);
-  if (least == most)
+  if (gg_common_speed_laws_have(&s->collision.by_speed, of, gg_pairs_of(n_species)))
+    gg_base_text_append(text, size, ", %s(v)", name);
+  else if (least == most)
     gg_base_text_append(text, size, ", %s %g", name, least);
   else if (n_species == 2)
     gg_base_text_append(text, size, ", %s %g/%g/%g", name, x[GG_11], x[GG_12], x[GG_22]);
@@ -73,7 +77,7 @@ static void add_law(const gg_scene *s, const char *varied, char *text, size_t si
   if (law.e)
     gg_base_text_append(text, size, ", law %s of e", law.name);
   else if (!has(varied, "collision.e"))
-    add_pairs(text, size, "e", s->collision.e, s->n_species);
+    add_pairs(text, size, s, "e", GG_OF_E, s->collision.e);
   if (!law.e && s->collision.law != GG_LAW_CONSTANT)
     gg_base_text_append(text, size, " (%s)", gg_common_law_name(s->collision.law));
 }
@@ -83,12 +87,12 @@ static void add_surface(const gg_scene *s, const char *varied, char *text, size_
   const bool any_beta = has(varied, "collision.beta"), any_mu = has(varied, "collision.mu");
   bool smooth = !any_beta, frictional = any_mu;
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) {
-    smooth &= s->collision.beta[p] == -1 || (s->collision.mu[p] == 0 && !any_mu);
-    frictional |= isfinite(s->collision.mu[p]);
+    smooth &= gg_scene_pair_rule(s, p) == GG_SMOOTH && (s->collision.beta[p] == -1 || !any_mu);
+    frictional |= isfinite(s->collision.mu[p]) || s->collision.by_speed.at[GG_OF_MU][p];
   }
   if (smooth) gg_base_text_append(text, size, ", smooth");
-  if (!smooth && !any_beta) add_pairs(text, size, frictional ? "beta_0" : "beta", s->collision.beta, s->n_species);
-  if (!smooth && frictional && !any_mu) add_pairs(text, size, "mu", s->collision.mu, s->n_species);
+  if (!smooth && !any_beta) add_pairs(text, size, s, frictional ? "beta_0" : "beta", GG_OF_BETA, s->collision.beta);
+  if (!smooth && frictional && !any_mu) add_pairs(text, size, s, "mu", GG_OF_MU, s->collision.mu);
 }
 
 static void add_injection(const gg_scene *s, char *text, size_t size)

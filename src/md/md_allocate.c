@@ -30,7 +30,7 @@ static gg_status allocate(gg_md *e, gg_error *err)
   if (!e->grain || !e->node || !e->id || !e->candidates) return GG_FAILED;
   e->grain[e->n].r = (gg_vec){NAN, NAN, NAN};
   if (m->rule != GG_SMOOTH && !(e->spin = gg_base_array_new(e->n, sizeof *e->spin, err))) return GG_FAILED;
-  GG_TRY(gg_common_loss_table_new(m->law.kind, &e->losses, err));
+  GG_TRY(gg_common_coefficient_tables_new(m, &e->tables, err));
   if (m->contact_time > 0) GG_TRY(gg_md_allocate_last(e, err));
   return gg_md_queue_make(&e->queue, e->n, err);
 }
@@ -96,7 +96,7 @@ void gg_md_free(gg_md *e)
   free(e->grain);
   free(e->node);
   free(e->spin);
-  free(e->losses);
+  gg_common_coefficient_tables_free(e->tables);
   free(e->last);
   free(e->id);
   free(e->candidates);

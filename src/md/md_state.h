@@ -11,7 +11,7 @@
 #define GG_MD_STATE_H
 
 #include "common/engine.h"
-#include "common/laws/loss_table.h"
+#include "common/laws/coefficient_tables.h"
 #include "common/rng.h"
 #include "common/thermostat.h"
 #include "md/box.h"
@@ -146,10 +146,10 @@ struct gg_md {
   gg_md_contacts contacts;
   gg_md_grain *grain; /* n grains, and one at position NaN, which meets none, to fill up lists */
   gg_md_node *node;
-  gg_vec *spin;          /* surface velocities, outside of a Gaussian thermostat; NULL: smooth grains */
-  gg_loss_table *losses; /* of a built-in law of restitution; NULL: none */
-  double *last;          /* times of last collisions, for the contact-time rule or a callback; NULL: neither */
-  uint32_t *id;          /* number of each grain in results; in memory grains follow a space-filling curve */
+  gg_vec *spin;                  /* surface velocities, outside of a Gaussian thermostat; NULL: smooth grains */
+  gg_coefficient_tables *tables; /* of coefficients that depend on the speed; NULL: none */
+  double *last;                  /* times of last collisions, for the contact-time rule or a callback; NULL: neither */
+  uint32_t *id;                  /* number of each grain in results; in memory grains follow a space-filling curve */
   uint32_t n;
   gg_vec gravity;
   bool falls; /* gravity is not zero */

@@ -89,10 +89,17 @@ GG_INLINE gg_contact gg_md_own_contact(gg_md *e, const gg_contact *contact, bool
   const double inside = ldexp(1 / e->k.scale, e->k.power);
   at.kn *= inside, at.kt *= inside;
   if (!law->name || treated) return at;
-  double speed = ldexp(gn * e->k.scale, -e->k.power),
-         restitution = law->e ? gg_common_law_at(law, speed, a, b, &e->k.clamped)
-                              : 1 - gg_loss_at(e->losses->loss, law->scale[gg_pair(a, b)] * speed);
-  at.jn = gg_md_contact_normal_coefficient(contact, restitution, number);
+  const int pair = gg_pair(a, b);
+  const double speed = ldexp(gn * e->k.scale, -e->k.power), u = law->e ? 0 : e->tables->scale[pair] * speed;
+  const gg_loss_table *table = law->e ? NULL : e->tables->of[GG_OF_E][pair];
+  if (law->e || table) {
+    const double restitution =
+        law->e ? gg_common_law_at(law, speed, a, b, &e->k.clamped) : 1 - gg_law_table_at(table, u);
+    at.jn = gg_md_contact_normal_coefficient(contact, restitution, number);
+  }
+  if (law->e) return at;
+  gg_coefficients_set_friction(e->tables, pair, u, &at);
+  e->k.clamped += gg_coefficients_clamp(e->tables, pair, u);
   return at;
 }
 

@@ -59,7 +59,8 @@ static double pace_of_md(const gg_model *m)
 static double pace_of_pair(const gg_model *m, int i, int j)
 {
   enum { FEWEST_IN_BLOCKS = 793 }; /* a hundred blocks */
-  const bool blocks = m->n_of[i] >= FEWEST_IN_BLOCKS && m->n_of[j] >= FEWEST_IN_BLOCKS && !m->law.e;
+  const bool blocks = m->n_of[i] >= FEWEST_IN_BLOCKS && m->n_of[j] >= FEWEST_IN_BLOCKS && !m->law.e &&
+                      !gg_model_friction_by_speed(m, gg_pair(i, j));
   return blocks ? (m->rule == GG_SMOOTH ? 12 : 18) * (1 + 0.5 * exp(-(double)m->n / 1000)) : 330;
 }
 

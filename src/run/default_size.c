@@ -37,7 +37,7 @@ static double stable_size(const gg_scene *s)
   usual.particles = gg_scene_defaults().particles;
   const bool sheared = gg_flow_is_sheared(s->flow) && !responds(s);
   if (sheared || gg_flow_is_walled(s->flow) || !(s->phi > 0)) return NAN;
-  if (s->collision.law != GG_LAW_CONSTANT || gg_common_extension_law(s->extension).e) return NAN;
+  if (gg_scene_has_law(s) || gg_common_extension_law(s->extension).e) return NAN;
   return gg_scene_model_make(&usual, GG_MD, &m, NULL) == GG_OK ? gg_theory_stable_grains(&m) : NAN;
 }
 

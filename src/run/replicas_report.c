@@ -250,9 +250,10 @@ static void report_warnings(const gg_replicas *all, const gg_convergence *c, gg_
   if (s->clamped)
     gg_run_result_warn(
         result,
-        GG_OWN_LAW " '%s' gave no number from 0 to 1 at the speeds of %llu collisions (%.2g %%), which took the "
-                   "nearer of 0 and 1 (NaN: 0)",
-        all->model.law.name, (unsigned long long)s->clamped, 100 * (double)s->clamped / (double)s->collisions);
+        "%s '%s' has no allowed value at the speeds of %llu collisions (%.2g %%), which took the nearest "
+        "allowed one (NaN: the least)",
+        all->model.law.e ? GG_OWN_LAW : "the formula", all->model.law.name, (unsigned long long)s->clamped,
+        100 * (double)s->clamped / (double)s->collisions);
   if (!gg_run_is_steady(result->steadiness) && !gg_scene_is_followed(&all->scene))
     gg_run_result_warn(result, "not a steady mean: %s", result->steadiness_text);
   if (gg_run_is_steady(result->steadiness) && !c->trusted)

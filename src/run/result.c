@@ -28,7 +28,8 @@ int gg_run_headline_quantities(const gg_model *m, gg_quantity list[GG_N_QUANTITI
 {
   const gg_flow_row *flow = gg_flow_of(m->flow);
   int n = 0;
-  for (const int *q = (m->bath.on || m->kicks) && flow->headline_in_bath ? flow->headline_in_bath : flow->headline;
+  for (const int *q = (m->bath.on || gg_model_is_injected(m)) && flow->headline_in_bath ? flow->headline_in_bath
+                                                                                        : flow->headline;
        *q != GG_N_QUANTITIES; q++)
     if (!gg_common_quantity_missing(m, (gg_quantity)*q)) list[n++] = (gg_quantity)*q;
   return n;

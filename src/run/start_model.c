@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/memory.h"
 #include "common/linear_response.h"
@@ -48,6 +49,7 @@ static gg_status start_at_theory(gg_model *model, gg_error *err)
   if (!constant) return GG_FAILED;
   *constant = *model;
   constant->law = (gg_restitution_law){0};
+  memset(&constant->by_speed, 0, sizeof constant->by_speed);
   constant->kicks = constant->bath.turns = false;
   if (model->n_species <= FEW) constant->stop = NULL;
   gg_status status = try_theories(model, constant, err);

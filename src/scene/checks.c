@@ -15,9 +15,8 @@ typedef struct traits {
   bool lossy, rough, beta, friction; /* some pair of its species loses energy; spins; has beta above -1; mu above 0 */
 } traits;
 
-static bool loses_energy(double e, double beta, double mu)
+static bool loses_energy(gg_rule rule, double e, double beta)
 {
-  gg_rule rule = gg_common_rule_select(beta, mu);
   return e < 1 || rule == GG_FRICTIONAL || (rule == GG_ROUGH && beta < 1);
 }
 
@@ -26,11 +25,13 @@ static traits traits_of(const gg_scene *s)
   traits t = {0};
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) {
     const double e = s->collision.e[p], beta = s->collision.beta[p], mu = s->collision.mu[p];
-    t.lossy |= loses_energy(e, beta, mu);
-    t.rough |= gg_common_rule_select(beta, mu) != GG_SMOOTH;
-    t.beta |= beta != -1;
-    t.friction |= mu != 0;
+    const gg_rule rule = gg_scene_pair_rule(s, p);
+    t.lossy |= loses_energy(rule, e, beta);
+    t.rough |= rule != GG_SMOOTH;
+    t.beta |= beta != -1 || s->collision.by_speed.at[GG_OF_BETA][p];
+    t.friction |= mu != 0 || s->collision.by_speed.at[GG_OF_MU][p];
   }
+  t.lossy |= gg_speed_laws_any(&s->collision.by_speed, gg_pairs_of(s->n_species));
   t.lossy |= gg_scene_has_kicks(s);
   return t;
 }
@@ -66,7 +67,7 @@ void gg_scene_fill_in(gg_scene *s)
   }
   /* With a law a cooling gas has no steady cooling rate, whose error could end the run: its length is a number of
    * collisions. */
-  if (s->collision.law != GG_LAW_CONSTANT && gg_flow_cools(s->flow) && s->run.collisions == GG_AUTO)
+  if (gg_scene_has_law(s) && gg_flow_cools(s->flow) && s->run.collisions == GG_AUTO)
     s->run.collisions = GG_COLLISIONS_FOLLOWED;
   if (!gg_scene_is_given(s, "thermostat"))
     s->thermostat = gg_scene_is_injected(s) && gg_flow_takes(s->flow, GG_INJECTION) ? GG_INJECTION : flow->thermostat;
@@ -99,16 +100,20 @@ static gg_status check_thermostat(const gg_scene *s, gg_error *err)
 static gg_status check_injection(const gg_scene *s, gg_error *err)
 {
   const gg_flow_row *flow = gg_flow_of(s->flow);
-  const bool torque = gg_scene_has_torque(s), injected = torque || gg_scene_has_kicks(s);
-  const char *key = torque ? "species.torque" : "collision.normal_kick or tangential_kick";
+  const bool torque = gg_scene_has_torque(s), injected = gg_scene_is_injected(s);
+  const char *key = torque                  ? "species.torque"
+                    : gg_scene_has_kicks(s) ? "collision.normal_kick or tangential_kick"
+                                            : "key 'collision.e': above 1 at some speed";
   const gg_heat heat = gg_scene_is_driven(s) ? GG_HEAT_BATHES : gg_common_thermostats[s->thermostat].heat;
   if (s->thermostat == GG_INJECTION && !injected)
     return gg_base_fail(
         err, GG_BAD_INPUT,
-        "thermostat: injection needs collision.normal_kick, collision.tangential_kick, or a torque on rough grains");
+        "thermostat: injection needs collision.normal_kick, collision.tangential_kick, a torque on rough grains, or a "
+        "formula of collision.e above 1");
   if (injected && (flow->conserves || flow->linear_response || gg_flow_cools(s->flow)))
-    return gg_base_fail(err, GG_BAD_INPUT, "%s: flow: %s takes no energy from kicks and torques; use flow: %s", key,
-                        flow->word, gg_flow_of(GG_HSS)->word);
+    return gg_base_fail(err, GG_BAD_INPUT,
+                        "%s: flow: %s takes no energy from kicks, torques and contacts; use flow: %s", key, flow->word,
+                        gg_flow_of(GG_HSS)->word);
   if (injected && (heat == GG_HEAT_SCALES || heat == GG_HEAT_KICKS))
     return gg_base_fail(err, GG_BAD_INPUT,
                         "%s: does not go with a thermostat that balances the losses; give %s a value, or "
@@ -171,7 +176,7 @@ static gg_status check_friction(const gg_scene *s, gg_error *err)
 {
   if (gg_scene_is_given(s, "collision.beta")) return GG_OK;
   for (int p = 0; p < gg_pairs_of(s->n_species); p++)
-    if (s->collision.mu[p] > 0 && s->collision.mu[p] < INFINITY)
+    if ((s->collision.mu[p] > 0 && s->collision.mu[p] < INFINITY) || s->collision.by_speed.at[GG_OF_MU][p])
       return gg_base_fail(
           err, GG_BAD_INPUT,
           "key 'collision.mu': has no effect without collision.beta, whose default -1 is smooth grains; give "
@@ -238,6 +243,22 @@ static gg_status check_duration(const gg_scene *s, gg_error *err)
                       gg_flow_of(s->flow)->word, flows);
 }
 
+/* Formulas and tables replace collision.law, and a law of the program. */
+static gg_status check_laws(const gg_scene *s, gg_error *err)
+{
+  const bool named = s->collision.law != GG_LAW_CONSTANT,
+             user_defined = gg_common_extension_law(s->extension).e != NULL;
+  for (int c = 0; (named || user_defined) && c < GG_N_COEFFICIENTS; c++)
+    if (gg_common_speed_laws_have(&s->collision.by_speed, (gg_contact_coefficient)c, gg_pairs_of(s->n_species)))
+      return gg_base_fail(
+          err, GG_BAD_INPUT,
+          "%s does not go with key 'collision.%s' as a formula or table of the speed; leave one of them "
+          "out",
+          named ? "key 'collision.law'" : "a restitution law of the calling program",
+          gg_common_coefficient_name((gg_contact_coefficient)c));
+  return GG_OK;
+}
+
 gg_status gg_scene_finish(gg_scene *s, gg_error *err)
 {
   if (!gg_scene_is_given(s, "flow")) return gg_base_fail(err, GG_BAD_INPUT, "flow is missing, e.g. flow: usf");
@@ -247,6 +268,7 @@ gg_status gg_scene_finish(gg_scene *s, gg_error *err)
     return gg_base_fail(err, GG_BAD_INPUT,
                         "key 'output.fields': velocity is missing, which frames always hold; add it to the list");
   gg_scene_fill_in(s);
+  GG_TRY(check_laws(s, err));
   GG_TRY(check_friction(s, err));
   GG_TRY(check_contact_value(s, err));
   GG_TRY(check_start(s, err));
@@ -274,8 +296,7 @@ static bool has_error(const gg_scene *s, unsigned uses)
 {
   const traits t = traits_of(s);
   const bool user_defined = gg_common_extension_law(s->extension).e != NULL, lossy = user_defined || t.lossy;
-  if (uses == GG_USE_THEORY || lossy)
-    return !(gg_flow_cools(s->flow) && (user_defined || s->collision.law != GG_LAW_CONSTANT));
+  if (uses == GG_USE_THEORY || lossy) return !(gg_flow_cools(s->flow) && (user_defined || gg_scene_has_law(s)));
   if (gg_common_thermostats[s->thermostat].heat == GG_HEAT_BATHES) return true;
   if (gg_flow_is_sheared(s->flow)) return gg_flow_of(s->flow)->linear_response;
   const bool shares = s->n_species > 1 || t.rough; /* temperatures, whose ratio is known */
@@ -369,7 +390,8 @@ static bool holds(gg_condition condition, const gg_scene *s, unsigned uses)
   case GG_IF_CONTACT_VALUE: return uses_contact_value(s, uses);
   case GG_IF_LOSSY:
     return gg_common_extension_law(s->extension).e || traits_of(s).lossy ||
-           (gg_flow_is_walled(s->flow) && walls_have_rule(s) && loses_energy(s->walls.e, s->walls.beta, s->walls.mu));
+           (gg_flow_is_walled(s->flow) && walls_have_rule(s) &&
+            loses_energy(gg_common_rule_select(s->walls.beta, s->walls.mu), s->walls.e, s->walls.beta));
   case GG_IF_ERROR: return has_error(s, uses);
   case GG_IF_ROUGH: return traits_of(s).rough;
   case GG_IF_LAW: return s->collision.law != GG_LAW_CONSTANT;

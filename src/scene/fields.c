@@ -132,14 +132,15 @@ const gg_field gg_scene_fields[] = {
     {"aspect", GG_FIELD_VECTOR, AT(aspect), 0.01, 100, .by_default = 1,
      .doc = "shape of the box: ratio of its edges x : y : z", .when = GG_BIT(GG_IF_BOXED), .also = "box"},
     {"collision.e", GG_FIELD_PAIRS, AT(collision.e), 0, 1, .by_default = 0.9,
-     .doc = "coefficient of normal restitution; in equilibrium the default is 1",
-     .also = "restitution alpha normal_restitution e_n en", .on_the_way = true},
+     .doc = "coefficient of normal restitution; in equilibrium the default is 1; a formula or table may exceed 1",
+     .also = "restitution alpha normal_restitution e_n en", .on_the_way = true, .by_speed = 1 + GG_OF_E},
     {"collision.beta", GG_FIELD_PAIRS, AT(collision.beta), -1, 1, .by_default = -1,
      .doc = "coefficient of tangential restitution: -1 smooth, 1 perfectly rough; with finite mu, of sticking contacts",
-     .when = GG_BIT(GG_IF_FRICTION), .also = "tangential_restitution e_t et", .on_the_way = true},
+     .when = GG_BIT(GG_IF_FRICTION), .also = "tangential_restitution e_t et", .on_the_way = true,
+     .by_speed = 1 + GG_OF_BETA},
     {"collision.mu", GG_FIELD_PAIRS, AT(collision.mu), 0, INFINITY, .by_default = INFINITY,
      .doc = "Coulomb friction coefficient; inf: beta is constant", .when = GG_BIT(GG_IF_BETA), .also = "friction",
-     .on_the_way = true},
+     .on_the_way = true, .by_speed = 1 + GG_OF_MU},
     {"collision.normal_kick", GG_FIELD_PAIRS, AT(collision.normal_kick), 0, LARGE, .unit = "velocity",
      .doc = "D of kicks at contact: two grains part with the relative normal velocity e g_n + 2 D", .on_the_way = true},
     {"collision.tangential_kick", GG_FIELD_PAIRS, AT(collision.tangential_kick), -LARGE, LARGE, .unit = "velocity",
@@ -368,9 +369,21 @@ bool gg_scene_has_torque(const gg_scene *s)
 {
   bool torque = false, rough = false;
   for (int i = 0; i < s->n_species; i++) torque |= s->species[i].torque != 0;
-  for (int p = 0; p < gg_pairs_of(s->n_species); p++)
-    rough |= gg_common_rule_select(s->collision.beta[p], s->collision.mu[p]) != GG_SMOOTH;
+  for (int p = 0; p < gg_pairs_of(s->n_species); p++) rough |= gg_scene_pair_rule(s, p) != GG_SMOOTH;
   return torque && rough && !gg_flow_is_walled(s->flow);
+}
+
+int gg_scene_field_pair(const gg_field *f)
+{
+  static const size_t first[] = {AT(collision.e), AT(collision.beta), AT(collision.mu)};
+  return f->by_speed ? (int)((f->offset - first[f->by_speed - 1]) / sizeof(double)) : 0;
+}
+
+const char *gg_scene_field_law(const gg_field *f, const gg_scene *s, int past)
+{
+  if (!f->by_speed) return NULL;
+  return gg_speed_law_text(&s->collision.by_speed, (gg_contact_coefficient)(f->by_speed - 1),
+                           gg_scene_field_pair(f) + past);
 }
 
 static int find_of_species(const char *member_key, int number, gg_field *member)
@@ -478,6 +491,7 @@ void gg_scene_field_allowed(const gg_field *f, char *text, size_t size)
   case GG_FIELD_LIST: number_allowed(f, "a list of up to 8 different numbers, each", text, size); return;
   case GG_FIELD_PAIRS:
     number_allowed(f, "a number", text, size);
+    if (f->by_speed) gg_base_text_append(text, size, ", a formula of the normal speed v, {table: FILE}");
     gg_base_text_append(text, size, ", or a map of them by pair of species: {11: , 12: , other: }");
     return;
   case GG_FIELD_ERRORS: snprintf(text, size, "a map of quantities: {N1: 0.01}, or none"); return;

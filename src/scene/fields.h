@@ -90,7 +90,8 @@ typedef struct gg_field {
   const char *also;    /* what others call it, for messages: words separated by blanks */
   const char *older;   /* earlier spelling, which is accepted; NULL: none */
   bool may_change;     /* between the parts of a run that is resumed: it touches neither trajectory nor means */
-  bool on_the_way;     /* may change during a run (protocol): it touches neither units nor box nor grains */
+  int by_speed;    /* of pairs: 1 plus the gg_contact_coefficient that may be a formula or a table; 0: numbers alone */
+  bool on_the_way; /* may change during a run (protocol): it touches neither units nor box nor grains */
   /* The thermostat that has this key; GG_NO_THERMOSTAT: none. The first key of a thermostat is its strength; auto:
    * the strength that balances the losses. */
   gg_thermostat thermostat;
@@ -124,6 +125,10 @@ gg_word gg_scene_field_find_word(const gg_field *field, const char *name);
 /* The word that stands for that value; its name is NULL if there is none. */
 gg_word gg_scene_field_word_for(const gg_field *field, int value);
 
+/* The formula or table that stands in the place of the `past`-th number of a field; NULL: a number. */
+const char *gg_scene_field_law(const gg_field *field, const gg_scene *scene, int past);
+/* Number of the pair of the field's first number; 0 but for a member "collision.e.12". */
+int gg_scene_field_pair(const gg_field *field);
 /* When the key has an effect: "flow couette; walls.beta is not -1"; "" if it always has. */
 void gg_scene_field_when(const gg_field *field, char *text, size_t size);
 /* True if a key belongs to the flow, whatever else a scene says. */

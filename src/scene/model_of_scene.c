@@ -137,6 +137,7 @@ static gg_status check_start(const gg_model *m, const gg_scene *s, gg_error *err
 
 static void set_reference_speed(gg_model *m, const gg_scene *s)
 {
+  m->speed_unit = 1 / gg_units_velocity(m->unit, 1);
   if (s->collision.speed == GG_AUTO) return;
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) m->law.scale[p] /= gg_units_velocity(m->unit, s->collision.speed);
 }
@@ -146,7 +147,9 @@ static void set_reference_speed(gg_model *m, const gg_scene *s)
 static gg_status set_law(gg_model *m, const gg_scene *s, gg_error *err)
 {
   m->law = gg_common_extension_law(s->extension);
-  if (m->law.e || s->collision.law == GG_LAW_CONSTANT) return GG_OK;
+  m->by_speed = s->collision.by_speed;
+  m->n_species = s->n_species;
+  if (m->law.e || s->collision.law == GG_LAW_CONSTANT) return gg_common_model_name_law(m), GG_OK;
   m->law.kind = s->collision.law;
   m->law.name = gg_common_law_name(m->law.kind);
   for (int p = 0; p < gg_pairs_of(s->n_species); p++) {

@@ -27,7 +27,7 @@ static const struct {
 
 static const char number_of_species[] = "scene/species.n", extension_item[] = "scene/extension";
 static const char ensemble_item[] = "scene/chosen_for", raised_item[] = "scene/contact_time_raised",
-                  clock_item[] = "scene/clock_rate";
+                  clock_item[] = "scene/clock_rate", laws_item[] = "scene/by_speed";
 enum { SIGNATURE = 2048 };
 
 static const char *item_of(const gg_field *f, char name[64])
@@ -52,6 +52,8 @@ gg_status gg_scene_resumption_put(const gg_scene *scene, gg_archive *a, gg_error
     GG_TRY(gg_base_archive_put(a, raised_item, GG_ITEM_F64, &scene->fixed.contact_time, 1, err));
   if (scene->fixed.clock_rate != GG_AUTO)
     GG_TRY(gg_base_archive_put(a, clock_item, GG_ITEM_F64, &scene->fixed.clock_rate, 1, err));
+  const gg_speed_laws *laws = &scene->collision.by_speed;
+  if (gg_speed_laws_any(laws, GG_PAIRS)) GG_TRY(gg_base_archive_put(a, laws_item, GG_ITEM_U8, laws, sizeof *laws, err));
   gg_common_extension_signature(scene->extension, signature, sizeof signature);
   return gg_base_archive_put(a, extension_item, GG_ITEM_U8, signature, sizeof signature, err);
 }
@@ -86,7 +88,9 @@ static gg_status same(const char *key, const char *name, const gg_scene *there, 
   char one[256] = "", two[256] = "";
   if (gg_scene_key_find(key, GG_MAX_SPECIES, &f) < 0) return GG_OK;
   const size_t bytes = kept[f.type].count * gg_base_archive_item_size(kept[f.type].type);
-  if (memcmp((const char *)there + f.offset, (const char *)here + f.offset, bytes) == 0) return GG_OK;
+  const char *law = gg_scene_field_law(&f, there, 0), *law_here = gg_scene_field_law(&f, here, 0);
+  const bool laws_differ = law && law_here ? strcmp(law, law_here) != 0 : law != law_here;
+  if (!laws_differ && memcmp((const char *)there + f.offset, (const char *)here + f.offset, bytes) == 0) return GG_OK;
   show(&f, there, one, sizeof one);
   show(&f, here, two, sizeof two);
   return reject(name, one, two, err);
@@ -155,6 +159,9 @@ gg_status gg_scene_resumption_check(const gg_scene *scene, const gg_archive *a, 
   GG_TRY(same_extension(scene, a, err));
   GG_TRY(gg_base_archive_get(a, number_of_species, GG_ITEM_I64, &n, 1, err));
   there.n_species = (int)n;
+  memset(&there.collision.by_speed, 0, sizeof there.collision.by_speed);
+  if (gg_base_archive_find(a, laws_item))
+    GG_TRY(gg_base_archive_get(a, laws_item, GG_ITEM_U8, &there.collision.by_speed, sizeof(gg_speed_laws), err));
   for (const gg_field *f = gg_scene_fields; f->key; f++) {
     char *at = (char *)&there + f->offset;
     if (f->may_change) continue;

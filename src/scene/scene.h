@@ -13,6 +13,7 @@
 #include "common/flow.h"
 #include "common/kinds.h"
 #include "common/laws/laws.h"
+#include "common/laws/speed_laws.h"
 #include "common/observables.h"
 #include "common/species.h"
 
@@ -82,6 +83,7 @@ struct gg_scene {
   struct {          /* by pair of species: gg_pair */
     double e[GG_PAIRS], beta[GG_PAIRS], mu[GG_PAIRS];
     double normal_kick[GG_PAIRS], tangential_kick[GG_PAIRS]; /* user's units */
+    gg_speed_laws by_speed; /* e, beta and mu that depend on the speed; e[] and so on are their values at 1 */
     gg_law_kind law;
     double speed; /* at which e is e, with a law; in the user's units, or GG_AUTO */
   } collision;
@@ -133,12 +135,24 @@ struct gg_scene {
 /* True if a key of the thermostat gives its strength, instead of the balance with the losses. */
 bool gg_scene_is_driven(const gg_scene *scene);
 
-/* True if kicks at contact or torques give energy. */
+/* True if kicks at contact, torques, or an e above 1 at some speed give energy. */
 bool gg_scene_has_kicks(const gg_scene *scene);
 bool gg_scene_has_torque(const gg_scene *scene);
 static inline bool gg_scene_is_injected(const gg_scene *s)
 {
-  return gg_scene_has_kicks(s) || gg_scene_has_torque(s);
+  return gg_scene_has_kicks(s) || gg_scene_has_torque(s) || s->collision.by_speed.gains;
+}
+
+/* True if a coefficient depends on the speed by collision.law, a formula or a table. */
+static inline bool gg_scene_has_law(const gg_scene *s)
+{
+  return s->collision.law != GG_LAW_CONSTANT || gg_speed_laws_any(&s->collision.by_speed, gg_pairs_of(s->n_species));
+}
+
+/* The collision rule of a pair at all speeds. */
+static inline gg_rule gg_scene_pair_rule(const gg_scene *s, int pair)
+{
+  return gg_common_speed_laws_rule(&s->collision.by_speed, pair, s->collision.beta[pair], s->collision.mu[pair]);
 }
 
 /* True if the temperature of the start is the only scale of velocities. Then it makes the unit v_0. */

@@ -41,15 +41,38 @@ static json_t *set_json(const gg_field *f, unsigned set)
   return list;
 }
 
-/* The commonest value of pairs, written as `other`; on a tie the last pair's. */
-static double commonest(const double *x)
+/* A formula, or a table as its rows. */
+static json_t *law_json(const char *text)
 {
-  double best = x[GG_PAIRS - 1];
-  int most = 0;
+  double v, x;
+  int used;
+  if (sscanf(text, "table %lf %lf;%n", &v, &x, &used) != 2) return json_string(text);
+  json_t *rows = json_array();
+  for (text += strlen("table "); sscanf(text, "%lf %lf;%n", &v, &x, &used) == 2; text += used)
+    json_array_append_new(rows, json_pack("[f, f]", v, x));
+  return json_pack("{s:o}", "table", rows);
+}
+
+/* One of the numbers of a field, or what stands in its place. */
+static json_t *one_json(const gg_field *f, const double *x, const gg_scene *scene, int p)
+{
+  const char *law = gg_scene_field_law(f, scene, p);
+  return law ? law_json(law) : number_json(f, x[p]);
+}
+
+static bool are_same(const gg_field *f, const double *x, const gg_scene *scene, int p, int q)
+{
+  return x[p] == x[q] && gg_scene_field_law(f, scene, p) == gg_scene_field_law(f, scene, q);
+}
+
+/* A pair with the commonest value, written as `other`; on a tie the last pair. */
+static int commonest(const gg_field *f, const double *x, const gg_scene *scene)
+{
+  int most = 0, best = GG_PAIRS - 1;
   for (int p = GG_PAIRS - 1; p >= 0 && 2 * most < GG_PAIRS; p--) {
     int n = 0;
-    for (int q = 0; q < GG_PAIRS; q++) n += x[q] == x[p];
-    if (n > most) most = n, best = x[p];
+    for (int q = 0; q < GG_PAIRS; q++) n += are_same(f, x, scene, p, q);
+    if (n > most) most = n, best = p;
   }
   return best;
 }
@@ -58,19 +81,22 @@ static double commonest(const double *x)
 static json_t *pairs_json(const gg_field *f, const double *x, const gg_scene *scene)
 {
   const gg_scene defaults = gg_scene_defaults();
-  const double rest = commonest(x), usual = *(const double *)(const void *)((const char *)&defaults + f->offset);
+  const double usual = *(const double *)(const void *)((const char *)&defaults + f->offset);
+  const int rest = commonest(f, x, scene);
   const int used = gg_pairs_of(scene->n_species > 2 ? scene->n_species : 2), shown = scene->n_species > 2 ? 0 : used;
   bool alike = true;
   json_t *map = json_object();
   for (int p = 0; p < GG_PAIRS; p++) {
     char name[GG_PAIR_NAME];
-    alike = alike && (p >= used || x[p] == x[GG_11]);
-    if (p < shown || x[p] != rest) json_object_set_new(map, gg_common_pair_name(p, name), number_json(f, x[p]));
+    alike = alike && (p >= used || are_same(f, x, scene, p, GG_11));
+    if (p < shown || !are_same(f, x, scene, p, rest))
+      json_object_set_new(map, gg_common_pair_name(p, name), one_json(f, x, scene, p));
   }
-  if (rest != usual || json_object_size(map) < (size_t)used) json_object_set_new(map, "other", number_json(f, rest));
+  if (x[rest] != usual || gg_scene_field_law(f, scene, rest) || json_object_size(map) < (size_t)used)
+    json_object_set_new(map, "other", one_json(f, x, scene, rest));
   if (!alike) return map;
   json_decref(map);
-  return number_json(f, x[GG_11]);
+  return one_json(f, x, scene, GG_11);
 }
 
 static json_t *errors_json(const gg_field *f, const double *x)
@@ -127,7 +153,7 @@ static json_t *value_json(const gg_field *f, const void *base, const gg_scene *s
 {
   const void *at = (const char *)base + f->offset;
   switch (f->type) {
-  case GG_FIELD_NUMBER: return number_json(f, *(const double *)at);
+  case GG_FIELD_NUMBER: return one_json(f, at, scene, 0);
   case GG_FIELD_INTEGER: return integer_json(f, *(const int64_t *)at);
   case GG_FIELD_CHOICE: return choice_json(f, at);
   case GG_FIELD_SET: return set_json(f, *(const unsigned *)at);
@@ -222,7 +248,7 @@ void gg_scene_flow_style_text(const json_t *value, char *text, size_t size)
 static bool is_pairs(const json_t *value)
 {
   const char *key = json_object_iter_key(json_object_iter((json_t *)(uintptr_t)value));
-  return key && (gg_common_pair_find(key) >= 0 || strcmp(key, "other") == 0);
+  return key && (gg_common_pair_find(key) >= 0 || strcmp(key, "other") == 0 || strcmp(key, "table") == 0);
 }
 
 static void print_line(FILE *out, const char *indent, const char *key, const json_t *value)

@@ -43,6 +43,12 @@ gg_status gg_scene_with_value(gg_scene_reader *r, const char *key, const char *v
 /* A whole scene; `key` is "". */
 gg_status gg_scene_read_root(gg_scene_reader *r, const char *key, const yaml_node_t *root);
 
+/* speed_table.c: append a row to a table of the normal speed; append the rows of a file, two columns separated by blanks
+ * or a comma, without lines that begin with # and a first line of words. A relative path is relative to the folder of
+ * the file `beside` (NULL: the current one). */
+gg_status gg_scene_speed_table_add(double speed, double value, char text[GG_LAWS_TEXT], gg_error *err);
+gg_status gg_scene_speed_table_read(const char *file, const char *beside, char text[GG_LAWS_TEXT], gg_error *err);
+
 /* yaml_value.c */
 
 /* Entries of a map, one after another: start with {0}; false after the last. */

@@ -36,12 +36,20 @@ static json_t *word_schema(const gg_field *f)
   return json_pack("{s:o}", "oneOf", list);
 }
 
+/* A number, or where the row says so a formula or a table. */
+static json_t *one_schema(const gg_field *f)
+{
+  if (!f->by_speed) return number_schema(f);
+  return json_pack("{s:[o, {s:s}, {s:s, s:[s]}]}", "anyOf", number_schema(f), "type", "string", "type", "object",
+                   "required", "table");
+}
+
 /* Names in a map, as a pattern or as a list of properties, each with a number. */
 static json_t *pairs_schema(const gg_field *f)
 {
   json_t *map = json_pack("{s:s, s:{s:o}, s:b}", "type", "object", "patternProperties",
-                          "^([1-9][0-9]|[0-9]+-[0-9]+|other)$", number_schema(f), "additionalProperties", 0);
-  return json_pack("{s:[o, o]}", "anyOf", number_schema(f), map);
+                          "^([1-9][0-9]|[0-9]+-[0-9]+|other)$", one_schema(f), "additionalProperties", 0);
+  return json_pack("{s:[o, o]}", "anyOf", one_schema(f), map);
 }
 
 static json_t *errors_schema(const gg_field *f)

@@ -456,17 +456,95 @@ static gg_status check_pairs(const input *in, const bool *given)
   return GG_OK;
 }
 
+/* A number, or the text of a formula or a table of the speed and its value at the speed 1. */
+typedef struct coefficient {
+  double x;
+  char law[GG_LAWS_TEXT]; /* "": a number */
+} coefficient;
+
+/* The value of {table: ...}; NULL: the node is none. */
+static const yaml_node_t *table_of(const input *in)
+{
+  gg_scene_entry e = {0};
+  if (in->node->type != YAML_MAPPING_NODE || !gg_scene_entry_next(in->r, in->node, &e)) return NULL;
+  return e.word && strcmp(e.word, "table") == 0 ? e.value : NULL;
+}
+
+/* A file, or rows: [[0, 0.9], [2, 0.8]]. */
+static gg_status read_table(const input *in, const yaml_node_t *table, char law[GG_LAWS_TEXT])
+{
+  gg_error why;
+  const char *file = gg_scene_scalar(table);
+  if (file && gg_scene_speed_table_read(file, in->r->lines ? in->r->name : NULL, law, &why) != GG_OK)
+    return gg_scene_reject(in->r, table, in->key, "%.600s", why.message);
+  for (ptrdiff_t i = 0; !file && i < length_of(table); i++) {
+    static const gg_field number = {.type = GG_FIELD_NUMBER, .min = -1e30, .max = 1e30};
+    const yaml_node_t *row = item_of(in, table->data.sequence.items.start[i]);
+    double at[2];
+    if (length_of(row) != 2) return gg_scene_reject(in->r, row, in->key, "a row of a table is [speed, value]");
+    for (int k = 0; k < 2; k++)
+      GG_TRY(read_number(&(input){in->r, &number, in->key, item_of(in, row->data.sequence.items.start[k])}, &at[k]));
+    if (gg_scene_speed_table_add(at[0], at[1], law, &why) != GG_OK)
+      return gg_scene_reject(in->r, row, in->key, "%s", why.message);
+  }
+  return *law ? GG_OK : gg_scene_reject(in->r, table, in->key, "a table is a file, or rows [[speed, value], ...]");
+}
+
+/* A law that is the same at all speeds is a number, within its limits. */
+static gg_status take_law(const input *in, coefficient *c)
+{
+  gg_error why;
+  gg_speed_law law;
+  bool above = false, below = false;
+  gg_status status = gg_common_speed_law_parse(&law, (gg_contact_coefficient)(in->f->by_speed - 1), c->law, &why);
+  if (status == GG_OK) status = gg_common_speed_law_check(&law, &above, &below, &why);
+  if (status != GG_OK) return gg_scene_reject(in->r, in->node, in->key, "%.600s", why.message);
+  c->x = fmin(gg_common_speed_law_value(&law, 1, NULL), in->f->max);
+  if (!gg_common_speed_law_is_constant(&law)) return GG_OK;
+  uint64_t branch;
+  const double exact = law.formula.n ? gg_common_expression_value(&law.formula, &c->x) : law.value[0];
+  gg_common_speed_law_value(&law, 1, &branch);
+  if (branch & 1 || exact > in->f->max) return reject_value(in);
+  c->x = exact, *c->law = '\0';
+  return GG_OK;
+}
+
+/* A plain word is a formula if it has the letter v: others are mistyped numbers. */
+static gg_status read_coefficient(const input *in, coefficient *c)
+{
+  const char *text = gg_scene_scalar(in->node);
+  const yaml_node_t *table = in->f->by_speed ? table_of(in) : NULL;
+  *c->law = '\0';
+  const bool quoted = text && *text && in->node->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
+  const bool formula = in->f->by_speed && text && (quoted || (strchr(text, 'v') && text[strspn(text, "v0123456789")]));
+  if (!table && !formula) return read_number(in, &c->x);
+  if (table) GG_TRY(read_table(in, table, c->law));
+  if (formula && snprintf(c->law, GG_LAWS_TEXT, "%s", text) >= GG_LAWS_TEXT)
+    return gg_scene_reject(in->r, in->node, in->key, "the formula has more than %d characters", GG_LAWS_TEXT);
+  return take_law(in, c);
+}
+
+/* Put a coefficient in place of number `p` of a field, whose first number is `value`. */
+static gg_status put(const input *in, const coefficient *c, double *value, int p)
+{
+  gg_error why;
+  value[p] = c->x;
+  if (!in->f->by_speed) return GG_OK;
+  gg_speed_laws *laws = &in->r->scene->collision.by_speed;
+  if (gg_common_speed_laws_set(laws, (gg_contact_coefficient)(in->f->by_speed - 1), gg_scene_field_pair(in->f) + p,
+                               *c->law ? c->law : NULL, &why) != GG_OK)
+    return gg_scene_reject(in->r, in->node, in->key, "%s", why.message);
+  return GG_OK;
+}
+
 /* Pairs that a map leaves out take `other`; where a single key is overridden, they stay what they are. */
 static gg_status read_pairs(const input *in, double *value)
 {
-  double other;
-  if (in->node->type != YAML_MAPPING_NODE) {
-    GG_TRY(read_number(in, &other));
-    for (int p = 0; p < GG_PAIRS; p++) value[p] = other;
-    return GG_OK;
-  }
-  bool given[GG_PAIRS] = {false}, others = false;
-  for (gg_scene_entry e = {0}; gg_scene_entry_next(in->r, in->node, &e);) {
+  coefficient c, other;
+  bool given[GG_PAIRS] = {false}, others = in->node->type != YAML_MAPPING_NODE || (in->f->by_speed && table_of(in));
+  const bool all = others;
+  if (all) GG_TRY(read_coefficient(in, &other));
+  for (gg_scene_entry e = {0}; !all && gg_scene_entry_next(in->r, in->node, &e);) {
     bool rest = e.word && strcmp(e.word, "other") == 0;
     int p = e.word && !rest ? gg_common_pair_find(e.word) : -1;
     if ((!rest && p < 0) || (rest ? others : given[p]))
@@ -474,12 +552,20 @@ static gg_status read_pairs(const input *in, double *value)
                              "a map by pairs of species has keys like 11, 12 or 1-10, or other, each pair once");
     const input one = at(in, e.value);
     *(rest ? &others : &given[p]) = true;
-    GG_TRY(read_number(&one, rest ? &other : &value[p]));
+    GG_TRY(read_coefficient(&one, rest ? &other : &c));
+    if (!rest) GG_TRY(put(&one, &c, value, p));
   }
   if (!others) return check_pairs(in, given);
   for (int p = 0; p < GG_PAIRS; p++)
-    if (!given[p]) value[p] = other;
+    if (!given[p]) GG_TRY(put(in, &other, value, p));
   return GG_OK;
+}
+
+static gg_status read_one(const input *in, double *value)
+{
+  coefficient c;
+  GG_TRY(read_coefficient(in, &c));
+  return put(in, &c, value, 0);
 }
 
 gg_status gg_scene_read_map(const gg_scene_reader *r, const char *section, const yaml_node_t *map,
@@ -526,11 +612,11 @@ gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *f, const
   const input in = {r, f, key, node};
   void *value = (char *)base + f->offset;
   switch (f->type) {
-  case GG_FIELD_NUMBER: return read_number(&in, value);
+  case GG_FIELD_NUMBER: GG_TRY(f->by_speed ? read_one(&in, value) : read_number(&in, value)); break;
   case GG_FIELD_INTEGER: return read_integer(&in, value);
   case GG_FIELD_CHOICE: return read_choice(&in, value);
   case GG_FIELD_SET: return read_set(&in, value);
-  case GG_FIELD_PAIRS: return read_pairs(&in, value);
+  case GG_FIELD_PAIRS: GG_TRY(read_pairs(&in, value)); break;
   case GG_FIELD_ERRORS: return read_errors(&in, value);
   case GG_FIELD_VECTOR: return read_numbers(&in, value, 3, 3);
   case GG_FIELD_LIST: return read_list(&in, value);
@@ -539,5 +625,6 @@ gg_status gg_scene_read_value(const gg_scene_reader *r, const gg_field *f, const
   case GG_FIELD_CHANGES: return read_changes(&in, value);
   case GG_FIELD_SPECIES: return read_species(&in);
   }
+  if (f->by_speed) gg_common_speed_laws_classify(&r->scene->collision.by_speed);
   return GG_OK;
 }

@@ -3,12 +3,14 @@
  *   f_i = n_i N(C; 0, M_i) N(s; s_i z, Theta_i),
  * for one direction k from grain 1 to grain 2, weighted with the rate of collisions u+ = max(k.g, 0), g the contact
  * velocity: how often grains collide, and what momentum, energy and spin a collision carries over. Constant beta
- * (contact_averages.c) is exact; Coulomb friction (contact_friction.c) is a quadrature to about 1e-6. Spins are
- * surface velocities s = (d/2) omega. */
+ * (contact_averages.c) is exact, with an e that depends on the normal speed a quadrature over that speed; Coulomb
+ * friction (contact_friction.c) is a quadrature to about 1e-6, with coefficients that depend on the normal speed
+ * another one (contact_speed.c). Spins are surface velocities s = (d/2) omega. */
 #ifndef GG_CONTACT_AVERAGES_H
 #define GG_CONTACT_AVERAGES_H
 
 #include "common/collision.h"
+#include "common/laws/speed_laws.h"
 #include "theory/tensor.h"
 
 typedef struct gg_gaussian {
@@ -23,6 +25,8 @@ typedef struct gg_contact_pair {
   const gg_contact *contact;
   double shear;          /* sigma * shear rate; 0 in the Boltzmann limit */
   double loss_n, loss_t; /* energy lost over g_n^2, and over g_t^2 where the contact does not slide */
+  const gg_speed_law *law[GG_N_COEFFICIENTS]; /* of the normal speed, in place of `contact`; NULL: constant */
+  double speed_unit;                          /* a speed in their units over that of the velocities */
 } gg_contact_pair;
 
 /* <u+ ...> of the impulse J and of its torque k x J. The torque is kept separately: the normal impulse, much the
@@ -36,6 +40,30 @@ typedef struct gg_contact_average {
 } gg_contact_average;
 
 gg_contact_average gg_theory_contact_average(const gg_contact_pair *pair, gg_vec k);
+
+/* Sums over contacts of one direction, <u+ ...>, in axes k, t1, t2 with two tangents: g is Gaussian with mean m and
+ * covariance S. */
+typedef struct gg_local_sums {
+  double rate, loss, J[3];
+  gg_tensor Jg, JJ;
+} gg_local_sums;
+
+/* contact_speed.c: with coefficients that depend on the normal speed, by quadratures over it and over the direction of
+ * g_t. */
+void gg_theory_contact_sums_by_speed(const gg_contact_pair *pair, const double m[3], const gg_tensor *S,
+                                     gg_local_sums *sums);
+/* The speeds from `from` to `to` in panels without a step of a law within: their ends from the first on, at most
+ * GG_SPEED_PANELS; returns how many panels. */
+enum { GG_SPEED_PANELS = 16 * (1 + 3 * GG_LAW_STEPS) };
+int gg_theory_speed_panels(const gg_contact_pair *pair, double to, int panels, double end[GG_SPEED_PANELS + 1]);
+/* Gauss's rule of six points on a panel. */
+void gg_theory_panel_point(double from, double to, int a, double *u, double *weight);
+/* A coefficient at the normal speed u, `constant` if it has no law. */
+static inline double gg_theory_coefficient_at(const gg_contact_pair *p, gg_contact_coefficient of, double constant,
+                                              double u)
+{
+  return p->law[of] ? gg_common_speed_law_value(p->law[of], p->speed_unit * u, NULL) : constant;
+}
 
 /* contact_friction.c: the same for a finite friction coefficient. */
 gg_contact_average gg_theory_contact_average_frictional(const gg_contact_pair *pair, gg_vec k);

@@ -28,12 +28,7 @@ typedef struct local_gaussian {
   double density; /* 1 over the norm of the Gaussian */
 } local_gaussian;
 
-/* <u+ ...> in these axes: SUMS numbers. */
-typedef struct local_sums {
-  double rate, loss, J[3];
-  gg_tensor Jg, JJ;
-} local_sums;
-_Static_assert(sizeof(local_sums) == SUMS * sizeof(double), "numbers alone");
+_Static_assert(sizeof(gg_local_sums) == SUMS * sizeof(double), "numbers alone");
 
 static gg_tensor axes_of(gg_vec k)
 {
@@ -97,7 +92,7 @@ typedef struct fan {
   double A[MOST_RAYS], x0[MOST_RAYS];             /* of exp(-(A rho^2 - 2 B rho + C)/2); B/A */
   double exponent[MOST_RAYS], erfc_of[MOST_RAYS]; /* arguments of the functions in the integral of rho^0 */
   double I0[MOST_RAYS], end;                      /* that integral without its factor; exp(-C/2) */
-  double add[SUMS][MOST_RAYS];                    /* what each ray adds to local_sums */
+  double add[SUMS][MOST_RAYS];                    /* what each ray adds to gg_local_sums */
 } fan;
 
 /* Impulses, and the Gaussian along each ray. */
@@ -205,7 +200,7 @@ static void add_all(const gg_contact_pair *p, const local_gaussian *x, double su
 static const gg_tensor torque = {{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}}};
 
 /* <u+ J (g - m)^T> S^-1, in these axes. */
-static gg_tensor regression(const local_gaussian *x, const local_sums *f)
+static gg_tensor regression(const local_gaussian *x, const gg_local_sums *f)
 {
   gg_tensor out;
   for (int i = 0; i < 3; i++) {
@@ -224,9 +219,14 @@ gg_contact_average gg_theory_contact_average_frictional(const gg_contact_pair *p
 {
   const local_gaussian x = local_of(p, k);
   double sums[SUMS] = {0};
-  local_sums f;
-  add_all(p, &x, sums);
-  memcpy(&f, sums, sizeof f);
+  gg_local_sums f;
+  if (p->law[GG_OF_E] || p->law[GG_OF_BETA] || p->law[GG_OF_MU]) {
+    const gg_tensor S = gg_tensor_product(x.R, gg_tensor_transposed(x.R));
+    gg_theory_contact_sums_by_speed(p, x.m, &S, &f);
+  } else {
+    add_all(p, &x, sums);
+    memcpy(&f, sums, sizeof f);
+  }
   /* Torques before axes turn: rounding of the normal impulse, much the larger one for small mu, must not enter. */
   const gg_tensor P = regression(&x, &f), kP = turned_tensor(x.axes, gg_tensor_product(torque, P));
   const gg_tensor kJkJ = gg_tensor_product(gg_tensor_product(torque, f.JJ), torque), X = gg_tensor_cross(k);

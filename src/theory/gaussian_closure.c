@@ -81,7 +81,7 @@ const gg_theory gg_theory_gaussian_closure = {
         "N1 N2 " GG_ANSWERS_STRESS GG_ANSWERS_TRANSFER GG_ANSWERS_RATES "dissipation " GG_ANSWERS_MIXTURE,
     .assumptions =
         "Steady uniform shear at any density, any number of species, smooth, of constant beta or with Coulomb "
-        "friction. "
+        "friction; coefficients may depend on the normal speed. "
         "Within 1 % of "
         "Enskog's equation in T, p and viscosity for e from 0.9 (1.6 % low in dilute gases as e -> 1, 4 % for dilute, "
         "half-rough or frictional grains), N2 within 15 %; in a sheared bath a quarter off at worst. Molecular chaos; "
@@ -89,6 +89,7 @@ const gg_theory gg_theory_gaussian_closure = {
         "spins are Gaussian and independent, which "
         "leaves out a part of the mean spin that grows as 1/phi: spin_z has values from phi = 0.01 on.",
     .baths = true,
+    .by_speed = true,
     .evaluate = evaluate,
     .beyond = gg_theory_beyond_gaussian,
 };

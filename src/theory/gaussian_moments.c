@@ -39,7 +39,13 @@ static void add_pair(const gg_model *m, const gg_gaussian *state, int i, int j, 
                        &m->contact[i][j],
                        .shear = m->boltzmann ? 0 : sigma * m->shear_rate,
                        .loss_n = 0.5 * (1 - m->e[o]) * (1 + m->e[o]) / gg_inverse_mr(&m->contact[i][j]),
-                       .loss_t = 0.5 * (1 - m->beta[o]) * (1 + m->beta[o]) / gg_inverse_mt(&m->contact[i][j])};
+                       .loss_t = 0.5 * (1 - m->beta[o]) * (1 + m->beta[o]) / gg_inverse_mt(&m->contact[i][j]),
+                       .speed_unit = m->speed_unit};
+  gg_speed_law law[GG_N_COEFFICIENTS];
+  for (int c = 0; m->law.name && c < GG_N_COEFFICIENTS; c++) {
+    const char *text = gg_speed_law_text(&m->by_speed, (gg_contact_coefficient)c, o);
+    if (text && gg_common_speed_law_parse(&law[c], (gg_contact_coefficient)c, text, NULL) == GG_OK) p.law[c] = &law[c];
+  }
   gg_contact_average f = gg_theory_contact_average(&p, k);
   w *= m->number_density[j] * m->chi[o] * sigma * sigma;
   r->frequency[i] += w * f.rate;

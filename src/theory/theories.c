@@ -58,10 +58,15 @@ static gg_status check_bath(const gg_theory *theory, const gg_model *m, gg_error
 static gg_status check_collisions(const gg_theory *theory, const gg_model *model, gg_error *err)
 {
   if (theory->own) return GG_OK;
-  if (gg_model_is_injected(model))
+  if (model->kicks || model->bath.turns)
     return gg_theory_reject(err, theory->name, "does not describe %s, which this scene has",
                             model->kicks ? "kicks at contact" : "torques");
-  if (!model->law.name) return GG_OK;
+  const bool by_speed = gg_speed_laws_any(&model->by_speed, gg_pairs_of(model->n_species));
+  if (!model->law.name || (by_speed && theory->by_speed)) return GG_OK;
+  if (by_speed)
+    return gg_theory_reject(err, theory->name,
+                            "describes constant coefficients; in this scene %.*s depends on the speed",
+                            (int)strcspn(model->law.name, "("), model->law.name);
   return gg_base_fail(err, GG_BAD_INPUT, "%s describes grains of constant e; this scene has the restitution law '%s'",
                       theory->name, model->law.name);
 }

@@ -36,6 +36,7 @@ typedef struct gg_theory {
   const char *assumptions; /* and range, one or two sentences */
   unsigned flows;          /* the flows that it describes, a sum of GG_FLOW_BIT; 0: it checks by itself */
   bool baths;              /* it describes gases in a bath, too */
+  bool by_speed;           /* coefficients that depend on the normal speed, too */
   /* For those flows alone: GG_OK with the answer, or GG_BAD_INPUT with the reason why the theory does not apply to
    * this model. A theory that takes longer than a tenth of a second checks model->stop between its parts, and then
    * fails. */

@@ -6,7 +6,8 @@ ROOMS = {
     "common": (40, """
         src/common/collision.c src/common/collision.h src/common/collision_of.h src/common/contact_value.c
         src/common/model.c src/common/model_rates.c src/common/restitution.c src/common/species.h src/common/thermostat.c
-        src/common/laws/loss_table.h src/common/laws/loss_at_of.h
+        src/common/laws/loss_table.h src/common/laws/loss_at_of.h src/common/laws/coefficient_tables.c
+        src/common/laws/coefficient_tables.h src/common/laws/speed_laws.c
         src/common/laws/viscoelastic.c src/common/vec.h src/common/vec_of.h src/common/rng.c src/common/rng.h
         src/common/surface/plane.h src/common/surface/ridges.h src/common/surface/shapes.h
         src/common/surface/surfaces.c"""),

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A built-in law as a table of 1 - e, linear between nodes that are 1/256 of an octave of speed apart: within 1e-7 of
- * the law, and as fast for one law as for another. Speeds are in the law's units; beyond the table they count as its
- * ends: below 10^-30 nothing is lost, above 3 10^8 as much as there. */
+/* A law as a table, linear between nodes that are 1/256 of an octave of speed apart: within 1e-7 of a built-in law, and
+ * as fast for one law as for another. Speeds are in the law's units; beyond the table they count as its ends. Of
+ * built-in laws the table has 1 - e: below 10^-30 nothing is lost, above 3 10^8 as much as there. Of laws by formulas
+ * and tables (speed_laws.h) it has 1 - e, 1 + beta or mu without their steps, which are added where they are. */
 #ifndef GG_LOSS_TABLE_H
 #define GG_LOSS_TABLE_H
 
@@ -10,6 +11,7 @@
 
 #include "base/error.h"
 #include "common/laws/laws.h"
+#include "common/laws/speed_laws.h"
 #include "common/vec.h"
 
 /* The first node is at 2^FIRST. */
@@ -18,12 +20,19 @@ enum { GG_LOSS_BITS = 8, GG_LOSS_FIRST = -100, GG_LOSS_OCTAVES = 128, GG_LOSS_NO
 #define GG_LOSS_HIGHEST 0x1p28
 
 typedef struct gg_loss_table {
+  int n_steps, n_invalid;
+  double at[GG_LAW_STEPS], height[GG_LAW_STEPS];       /* from this speed on, so much more */
+  double from[GG_LAW_STEPS + 1], to[GG_LAW_STEPS + 1]; /* speeds at which the law itself has no allowed value */
   double loss[GG_LOSS_NODES];
   float single[GG_LOSS_NODES];
 } gg_loss_table;
 
 /* NULL for a constant e. From malloc. */
 gg_status gg_common_loss_table_new(gg_law_kind kind, gg_loss_table **table, gg_error *err);
+/* The table of a law by a formula or a table, whose unit of speed is 2^GG_LAW_OCTAVES of the scene's: speeds of the
+ * scene from 10^-19 to 10^19 are within. From malloc. */
+enum { GG_LAW_OCTAVES = 36 };
+gg_status gg_common_law_table_new(gg_contact_coefficient of, const char *text, gg_loss_table **table, gg_error *err);
 
 GG_INLINE uint64_t gg_bits_of_double(double x)
 {
@@ -51,5 +60,21 @@ GG_INLINE double gg_double_of_bits(uint64_t bits)
 #define GG_FROM_BITS(w) gg_double_of_bits(w)
 #define GG_LOOK_UP(table, at) (table)[at]
 #include "common/laws/loss_at_of.h"
+
+/* The same with the steps of the law. */
+GG_INLINE double gg_law_table_at(const gg_loss_table *table, double u)
+{
+  double x = gg_loss_at(table->loss, u);
+  for (int k = 0; k < table->n_steps; k++) x += u >= table->at[k] ? table->height[k] : 0;
+  return x;
+}
+
+/* True if the law itself has no allowed value at this speed. */
+GG_INLINE bool gg_law_table_clamps(const gg_loss_table *table, double u)
+{
+  bool clamps = false;
+  for (int k = 0; k < table->n_invalid; k++) clamps |= u >= table->from[k] && u < table->to[k];
+  return clamps;
+}
 
 #endif

@@ -24,10 +24,11 @@ typedef struct gg_dsmc_pass_state {
   bool any_odd; /* a last block is not full: odd_one, odd_two; UINT32_MAX: none */
   gg_vu odd_one, odd_two, first_one, first_two, n_one, n_two; /* the same in all lanes */
   gg_dsmc_lane_contact contact;
-  const gg_real *losses;   /* table of a law of restitution; NULL: e is constant */
-  gg_real loss_scale;      /* unit of its speeds over the present one */
-  bool sorts;              /* lanes are exchanged by speed; false: at random */
-  gg_real floor, majorant; /* layer of |C12| */
+  const gg_real *losses;    /* table of a law of restitution; NULL: e is constant */
+  const gg_loss_table *law; /* its steps */
+  gg_real loss_scale;       /* unit of its speeds over the present one */
+  bool sorts;               /* lanes are exchanged by speed; false: at random */
+  gg_real floor, majorant;  /* layer of |C12| */
   gg_real s0, shift;
   gg_real lowest;          /* lower end of t: floor - s0 */
   bool from_zero;          /* lowest is 0 */
@@ -37,7 +38,7 @@ typedef struct gg_dsmc_pass_state {
   double scale;            /* of the speed bounds, at the next draw */
   double margin;           /* of new speed bounds; above 1: the scale is constant */
   gg_real root, per_scale; /* square root and inverse of the scale at the last draws */
-  uint64_t block_pairs, collisions, overflows;
+  uint64_t block_pairs, collisions, overflows, clamped;
   gg_vd largest; /* largest C12^2 */
   gg_dsmc_sums sums;
 } gg_dsmc_pass_state;

@@ -80,6 +80,7 @@ GG_INLINE void start(gg_dsmc_features features, gg_dsmc_pass_state *state, const
       .margin = pass->bound_margin,
       .root = (gg_real)(sqrt(pass->bound_scale) * (1 + 1e-6)),
       .per_scale = (gg_real)gg_dsmc_per_bound(pass->bound_scale)};
+  state->law = pass->losses;
 #ifdef GG_SINGLE_LANES
   if (features.own && pass->losses) state->losses = pass->losses->single;
 #else
@@ -102,6 +103,7 @@ GG_INLINE void finish(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_d
   pass->tried += state->block_pairs * GG_DSMC_LANES;
   pass->collisions += state->collisions;
   pass->overflows += state->overflows;
+  pass->clamped += state->clamped;
   for (int l = 0; l < GG_WIDTH; l++) pass->largest = fmax(pass->largest, state->s0 + sqrt(state->largest[l]));
   gg_dsmc_sums_finish(features, &state->sums, pass);
 }

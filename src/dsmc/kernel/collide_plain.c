@@ -47,14 +47,21 @@ static void sums(gg_dsmc_features features, gg_dsmc_pass *pass, const gg_contact
   gg_add_stress(pass->stress, pass->sigma, k, J);
 }
 
-/* Contact at this normal speed, by the law of restitution. */
+/* Contact at this normal speed, by the law of restitution or the tables. */
 static gg_contact contact_at(gg_dsmc_pass *pass, double gn)
 {
   gg_contact c = pass->contact;
-  double e = pass->law
-                 ? gg_common_law_at(pass->law, gn * pass->law_unit, pass->species[0], pass->species[1], &pass->clamped)
-                 : 1 - gg_loss_at(pass->losses->loss, gn * pass->loss_scale);
-  c.jn = (1 + e) / gg_inverse_mr(&c);
+  const double u = gn * pass->loss_scale;
+  if (pass->law || pass->losses) {
+    const double e =
+        pass->law ? gg_common_law_at(pass->law, gn * pass->law_unit, pass->species[0], pass->species[1], &pass->clamped)
+                  : 1 - gg_law_table_at(pass->losses, u);
+    c.jn = (1 + e) / gg_inverse_mr(&c);
+  }
+  if (!pass->tables) return c;
+  const int pair = gg_pair(pass->species[0], pass->species[1]);
+  gg_coefficients_set_friction(pass->tables, pair, u, &c);
+  pass->clamped += gg_coefficients_clamp(pass->tables, pair, u);
   return c;
 }
 
@@ -72,7 +79,7 @@ static void collide(gg_dsmc_features features, gg_dsmc_pass *pass, grain_pair *p
   }
   gg_contact by_law;
   const gg_contact *contact = &pass->contact;
-  if (pass->law || pass->losses) by_law = contact_at(pass, gn), contact = &by_law;
+  if (pass->law || pass->losses || pass->tables) by_law = contact_at(pass, gn), contact = &by_law;
   gg_vec g = gg_contact_velocity(features.rule, k, c12, pair->sa, pair->sb),
          J = features.own ? gg_kicked_impulse(features.rule, contact, k, g, gn)
                           : gg_impulse(features.rule, contact, k, g, gn);

@@ -14,7 +14,7 @@
 #define GG_DSMC_PASS_H
 
 #include "common/engine.h"
-#include "common/laws/loss_table.h"
+#include "common/laws/coefficient_tables.h"
 #include "common/rng.h"
 #include "dsmc/block.h"
 
@@ -37,7 +37,7 @@ typedef struct gg_dsmc_features {
   gg_dsmc_shear shear;
   gg_dsmc_sums_kept sums;
   bool same; /* both grains of one species */
-  bool own;  /* the contact is made at the collision: a built-in law of restitution, or kicks */
+  bool own;  /* the contact is made at the collision: coefficients by the speed, but for a callback; or kicks */
 } gg_dsmc_features;
 
 /* Features with a law of restitution or kicks, which have fewer instances: rough grains use the frictional rule, and
@@ -71,14 +71,15 @@ typedef struct gg_dsmc_pass {
   gg_dsmc_population *one, *two;
   gg_dsmc_range blocks[2]; /* of `one` and `two`; the plain path uses all grains */
   gg_contact contact;
-  const gg_restitution_law *law; /* for the plain path; NULL: constant `contact` */
-  double law_unit;               /* speed in units of the start over the present one */
-  const gg_loss_table *losses;   /* of a built-in law; NULL: constant `contact` */
-  double loss_scale;             /* speed in units of the table over the present one */
-  double shift;                  /* sigma x rate */
-  double sigma;                  /* for the stress */
-  double floor, majorant;        /* layer of g_n */
-  double strain, strain_step;    /* rate x time of the first candidate, and between two candidates */
+  const gg_restitution_law *law;       /* for the plain path; NULL: constant `contact` */
+  double law_unit;                     /* speed in units of the start over the present one */
+  const gg_coefficient_tables *tables; /* NULL: constant `contact` */
+  const gg_loss_table *losses;         /* that of e; NULL: constant e */
+  double loss_scale;                   /* speed in units of the table over the present one */
+  double shift;                        /* sigma x rate */
+  double sigma;                        /* for the stress */
+  double floor, majorant;              /* layer of g_n */
+  double strain, strain_step;          /* rate x time of the first candidate, and between two candidates */
   uint64_t candidates;
   /* Scale of the speed bounds of both species: at the strain where the interval begins; on return where it ends. With a
    * margin above 1 the scale is valid at all strains of the interval and constant; new bounds are larger by the margin.

@@ -191,10 +191,20 @@ GG_INLINE void gg_dsmc_load(gg_dsmc_features features, gg_dsmc_pass_state *state
 }
 
 /* Normal impulse J_n = m_r (1+e) g_n, without kicks. */
-GG_INLINE gg_vd gg_dsmc_normal_impulse(gg_dsmc_features features, const gg_dsmc_pass_state *state, gg_vd gn)
+GG_INLINE gg_vd gg_dsmc_normal_impulse(gg_dsmc_features features, gg_dsmc_pass_state *state, gg_mask hit, gg_vd gn)
 {
   if (!features.own || !state->losses) return state->contact.jn * gn;
-  return state->contact.mr * gn * (2 - gg_vd3_loss_at(state->losses, state->loss_scale * gn));
+  const gg_vd u = state->loss_scale * gn;
+  const gg_loss_table *law = state->law;
+  gg_vd loss = gg_vd3_loss_at(state->losses, u);
+  for (int k = 0; k < law->n_steps; k++)
+    loss += gg_select(gg_less(u, gg_all((gg_real)law->at[k])), gg_all(0), gg_all((gg_real)law->height[k]));
+  for (int k = 0; k < law->n_invalid; k++) {
+    const unsigned below = gg_bits(gg_less(u, gg_all((gg_real)law->from[k])));
+    state->clamped +=
+        (unsigned)__builtin_popcount(gg_bits(hit) & ~below & gg_bits(gg_less(u, gg_all((gg_real)law->to[k]))));
+  }
+  return state->contact.mr * gn * (2 - loss);
 }
 
 /* Second stage of a part: accept candidates, and compute their directions and impulses. */
@@ -211,7 +221,7 @@ GG_INLINE void gg_dsmc_accept_part(gg_dsmc_features features, gg_dsmc_pass_state
     gg_vd3 sa = gg_dsmc_lanes_load(&state->spin_one[at->one], part * GG_WIDTH);
     candidate.g = gg_vd3_contact_velocity(features.rule, candidate.k, candidate.g, sa, at->sb[part]);
   }
-  const gg_vd Jn = gg_dsmc_normal_impulse(features, state, candidate.gn);
+  const gg_vd Jn = gg_dsmc_normal_impulse(features, state, candidate.hit, candidate.gn);
   const bool kicks = features.own && __builtin_expect(state->sums.kicks, 0);
   gg_vd3 J;
   if (kicks)

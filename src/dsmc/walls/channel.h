@@ -9,7 +9,7 @@
 
 #include "base/thread_pool.h"
 #include "common/engine.h"
-#include "common/laws/loss_table.h"
+#include "common/laws/coefficient_tables.h"
 #include "common/rng.h"
 #include "dsmc/advance.h"
 #include "dsmc/kernel/pass.h"
@@ -114,7 +114,7 @@ typedef struct gg_dsmc_channel {
   gg_vec gravity;
   gg_rule wall_rule; /* rule of contacts with walls; without spins a wall acts on the centre */
   gg_dsmc_channel_cells cells;
-  gg_loss_table *losses;
+  gg_coefficient_tables *tables;
   int parts, slabs;
   gg_dsmc_channel_slab *slab;
   gg_thread_pool *pool; /* NULL: one thread does all */

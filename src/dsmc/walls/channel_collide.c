@@ -64,9 +64,15 @@ static gg_contact contact_of(const gg_dsmc_channel *d, const pass *p, double gn)
 {
   gg_contact c = p->contact;
   const gg_restitution_law *law = &d->model.law;
-  const double e = law->e ? gg_common_law_at(law, gn, p->one, p->two, &p->slab->clamped)
-                          : 1 - gg_loss_at(d->losses->loss, law->scale[p->pair] * gn);
-  c.jn = (1 + e) / gg_inverse_mr(&c);
+  const double u = law->e ? 0 : d->tables->scale[p->pair] * gn;
+  const gg_loss_table *table = law->e ? NULL : d->tables->of[GG_OF_E][p->pair];
+  if (law->e || table)
+    c.jn =
+        (1 + (law->e ? gg_common_law_at(law, gn, p->one, p->two, &p->slab->clamped) : 1 - gg_law_table_at(table, u))) /
+        gg_inverse_mr(&c);
+  if (law->e) return c;
+  gg_coefficients_set_friction(d->tables, p->pair, u, &c);
+  p->slab->clamped += gg_coefficients_clamp(d->tables, p->pair, u);
   return c;
 }
 

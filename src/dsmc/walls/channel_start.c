@@ -68,7 +68,7 @@ gg_status gg_dsmc_channel_allocate(const gg_model *model, gg_dsmc_channel **made
   if (status == GG_OK) status = allocate_grains(&d->sorted, n, spins, err);
   if (status == GG_OK && !(d->place = gg_base_array_new(n, sizeof *d->place, err))) status = GG_FAILED;
   if (status == GG_OK) status = gg_dsmc_channel_cells_new(d, err);
-  if (status == GG_OK) status = gg_common_loss_table_new(model->law.kind, &d->losses, err);
+  if (status == GG_OK) status = gg_common_coefficient_tables_new(model, &d->tables, err);
   if (status != GG_OK) {
     gg_dsmc_channel_destroy(&d->base);
     return status;
@@ -103,7 +103,7 @@ void gg_dsmc_channel_destroy(gg_engine *engine)
   gg_dsmc_channel_cells_free(&d->cells);
   gg_base_thread_pool_free(d->pool);
   free(d->slab);
-  free(d->losses);
+  gg_common_coefficient_tables_free(d->tables);
   free(d);
 }
 

@@ -59,6 +59,7 @@ static void count(gg_md_counts *k, const gg_md_record *r, const gg_md_addend *a)
   k->collisions++;
   k->collisions_left--;
   k->treated += r->treated;
+  k->clamped += r->clamped;
   k->worst_overlap = fmax(k->worst_overlap, a->overlap);
   k->transfer.collisions[r->pair]++;
   if (!k->keeps_sums) return;

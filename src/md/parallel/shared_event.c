@@ -50,7 +50,7 @@ static gg_md_record *begin_record(gg_md_slab *s, gg_md_due due, const gg_md_foot
 /* Reset the counts of the local engine: they are of this event alone. */
 static void clear_counts(gg_md *v, gg_md_record *r)
 {
-  v->k.events = v->k.collisions = v->k.treated = 0;
+  v->k.events = v->k.collisions = v->k.treated = v->k.clamped = 0;
   v->k.worst_overlap = 0;
   if (r->partner == GG_MD_NONE) return;
   r->pair = (uint16_t)gg_pair(gg_md_species_of(&v->grain[r->grain]), gg_md_species_of(&v->grain[r->partner]));
@@ -64,7 +64,7 @@ static void keep_counts(gg_md_slab *s, gg_md_record *r)
   const gg_md_counts *k = &s->local->k;
   if (r->partner == GG_MD_NONE) return;
   gg_md_addend *a = gg_md_append(s, &s->log[s->phase - 1].part[GG_MD_LOG_ADDENDS], sizeof *a);
-  r->treated = k->treated > 0;
+  r->treated = k->treated > 0, r->clamped = k->clamped > 0;
   a->overlap = k->worst_overlap;
   if (!k->keeps_sums) return;
   const double(*stress)[3] = k->transfer.stress[r->pair];

@@ -82,7 +82,7 @@ typedef struct gg_md_record {
   uint32_t cells, n_cells; /* its footprint */
   uint32_t beside;         /* of a collision its addend; of a new skin the saved list */
   uint16_t pair;           /* of species */
-  bool crosses, wide, rolled_back, treated;
+  bool crosses, wide, rolled_back, treated, clamped;
 } gg_md_record;
 
 /* Log of a phase. */

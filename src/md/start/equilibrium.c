@@ -35,6 +35,7 @@ static void make_elastic(gg_model *m)
   m->thermostat = GG_NO_THERMOSTAT;
   m->bath = (gg_bath){0};
   m->law = (gg_restitution_law){0};
+  m->by_speed = (gg_speed_laws){0};
   m->extension = NULL;
   m->rule = GG_SMOOTH;
   m->elastic = m->elastic_grains = true;
