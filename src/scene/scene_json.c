@@ -130,6 +130,10 @@ static json_t *value_json(const gg_field *f, const void *base, const gg_scene *s
   case GG_FIELD_PAIRS: return pairs_json(f, at, scene);
   case GG_FIELD_ERRORS: return errors_json(f, at);
   case GG_FIELD_VECTOR: return vector_json(f, at);
+  case GG_FIELD_RATE: {
+    const char *formula = (const char *)at + sizeof(double);
+    return *formula ? json_string(formula) : number_json(f, *(const double *)at);
+  }
   case GG_FIELD_FILE: return json_string(*(const char *)at ? at : f->special);
   case GG_FIELD_ENDS: return ends_json(f, at);
   case GG_FIELD_CHANGES: return changes_json(scene);

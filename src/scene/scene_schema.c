@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "io/checked_json.h"
 #include "common/quantity.h"
+#include "io/checked_json.h"
 #include "scene/fields.h"
 
 /* JSON has no infinity: a limit that is none is left out. */
@@ -76,6 +76,7 @@ static json_t *value_schema(const gg_field *f)
   case GG_FIELD_ERRORS: return errors_schema(f);
   case GG_FIELD_VECTOR: return list_schema(f, 3);
   case GG_FIELD_ENDS: return json_pack("{s:[o, o]}", "anyOf", number_schema(f), list_schema(f, 2));
+  case GG_FIELD_RATE: return json_pack("{s:[o, {s:s}]}", "anyOf", number_schema(f), "type", "string");
   case GG_FIELD_FILE: return json_pack("{s:s}", "type", "string");
   case GG_FIELD_CHANGES: return changes_schema();
   case GG_FIELD_SPECIES:
